@@ -1,0 +1,33 @@
+#pragma once
+// The two kinds of mesh. Plain data: no invariants beyond what check_tets() (quality.hpp) makes sure of.
+#include <array>
+#include <heml/math/types.hpp>
+#include <string>
+#include <vector>
+
+namespace heml {
+
+using Tet = std::array<int, 4>;
+using Triangle = std::array<int, 3>;
+
+/// A tetrahedral body as its file has it.
+struct TetMesh {
+  std::vector<Vec3> nodes;   ///< #V×3, metres, in the file's order (orphans included)
+  std::vector<Tet> tets;     ///< #T×4, into nodes, from 0; positive volume after check_tets()
+  std::vector<int> regions;  ///< #T, the file's integer tag; 0 where it gives none
+  std::string source;        ///< file or generator it came from, for messages
+};
+
+/// A triangulated surface.
+struct SurfaceMesh {
+  std::vector<Vec3> nodes;          ///< #V×3, metres
+  std::vector<Triangle> triangles;  ///< #F×3, into nodes, outward by the right-hand rule
+  std::string source;
+};
+
+/// Signed volume of a tetrahedron, m³; positive when (x1−x0, x2−x0, x3−x0) is right-handed.
+inline double signed_volume(const Vec3& x0, const Vec3& x1, const Vec3& x2, const Vec3& x3) {
+  return (x1 - x0).cross(x2 - x0).dot(x3 - x0) / 6.0;
+}
+
+}  // namespace heml

@@ -1,0 +1,55 @@
+#pragma once
+// The engine thread: steps a world at a fixed rate of simulated against wall time, takes commands through a queue, publishes
+// immutable frames. Neither side waits for the other:
+//
+//    window thread                                    engine thread
+//    ─────────────                                    ─────────────
+//    post(command) ──────► queue ───────────────────► at the start of a tick: record, apply
+//                                                     tick, tick, tick … at 1/rate seconds each
+//    latest() ◄────────── three frames, swapped ◄──── publish, when the viewer has taken the last one
+//                         by one atomic
+//
+// When the engine cannot keep up it slows simulated time, says so in Frame::pace, and never runs a burst to catch up.
+#include <heml/scenario/scene.hpp>
+#include <heml/session/frame.hpp>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace heml {
+
+struct SessionOptions {
+  std::optional<std::filesystem::path> record;  ///< JSON Lines file every command and checkpoint is appended to
+  bool start_paused = false;
+  std::function<void()> on_frame;  ///< called on the engine thread after a frame is published (to wake a sleeping viewer)
+  std::function<void()> before_tick;  ///< tests: called on the engine thread before each tick
+};
+
+class Session {
+ public:
+  /// Builds the world of a scene and starts its thread. Throws InputError as load_world() does.
+  Session(const Scene& scene, SessionOptions options);
+  ~Session();  ///< stops the thread and closes the recording
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  const Skin& skin() const;
+
+  // From any one thread (the window's); none of these waits for a step.
+  void post(Command command);
+  void play();
+  void pause();
+  void step_once();            ///< one tick, then pause
+  void show(Field field);      ///< which scalars frames carry from now on
+  const Frame& latest();       ///< the newest frame; stays as it is until the next call
+  bool frame_waiting() const;  ///< true when latest() would return a newer one
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace heml

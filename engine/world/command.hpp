@@ -1,0 +1,50 @@
+#pragma once
+// What a person or a script can do to a running world: one struct an action. Commands enter at the start of a tick, at one
+// door (World::apply), where sessions record them; a replay sends the same commands at the same ticks.
+#include <heml/materials/material.hpp>
+#include <heml/math/types.hpp>
+#include <heml/world/setup.hpp>
+#include <optional>
+#include <string>
+#include <variant>
+
+namespace heml {
+
+/// Takes hold of the surface nodes within `radius` of a node, by a critically damped spring to a tool that starts where the
+/// node is now. Replaces what was grasped before.
+struct Grasp {
+  int node = 0;       ///< mesh-file order
+  double radius = 0;  ///< m, rest shape; 0: that node alone
+};
+/// Moves the tool of the grasp.
+struct MoveTool {
+  Vec3 target = Vec3::Zero();  ///< m
+};
+/// Lets go.
+struct Release {};
+/// Switches the material of a region (none: of the default entry, or the only one). Positions and velocities are kept.
+struct SetMaterial {
+  std::optional<int> region;
+  Material material;
+};
+struct SetDamping {
+  double damping = 0;  ///< 1/s
+};
+struct SetGravity {
+  Vec3 gravity = Vec3::Zero();  ///< m/s²
+};
+struct SetIntegrator {
+  Integrator integrator = Integrator::verlet;
+};
+/// Back to the initial state at time 0; ticks go on counting. Materials, damping and the like stay as they are.
+struct Reset {};
+
+using Command = std::variant<Grasp, MoveTool, Release, SetMaterial, SetDamping, SetGravity, SetIntegrator, Reset>;
+
+/// A command and the tick at whose start it takes effect (the first tick is 0).
+struct Event {
+  long tick = 0;
+  Command command;
+};
+
+}  // namespace heml

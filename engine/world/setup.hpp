@@ -1,0 +1,76 @@
+#pragma once
+// All that makes a world, with every file read and every selection resolved to node numbers. Scenes become this
+// (scenario/), tests write it by hand; make_world() turns it into something that steps.
+#include <heml/materials/material.hpp>
+#include <heml/mesh/tet_mesh.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace heml {
+
+/// A material and the region it applies to; no region: the default.
+struct RegionMaterial {
+  std::optional<int> region;
+  Material material;
+};
+
+/// Nodes held or moved. A moved node goes to rotate(X − origin) + origin + translate of its rest position X, translation and
+/// angle ramped linearly over `over` seconds from t = 0, then held. Of several on one node the last wins.
+struct Boundary {
+  std::vector<int> nodes;                ///< mesh-file order
+  Vec3 translate = Vec3::Zero();         ///< m
+  Vec3 axis = Vec3(0, 0, 1);             ///< unit
+  Vec3 origin = Vec3::Zero();            ///< m
+  double degrees = 0;                    ///< right-handed about axis
+  double over = 0;                       ///< s; 0: at once
+};
+
+/// A load on selected nodes, ramped linearly over `over` seconds from t = 0.
+struct Load {
+  enum class Kind {
+    force,     ///< N in all, shared equally by the nodes
+    traction,  ///< Pa on the boundary faces whose three nodes are selected: rest area, dead load
+    pressure   ///< Pa on the same faces, along the inward normal of the deformed surface
+  };
+  Kind kind = Kind::force;
+  std::vector<int> nodes;      ///< mesh-file order
+  Vec3 vector = Vec3::Zero();  ///< N for force, Pa for traction
+  double pressure = 0;         ///< Pa for pressure
+  double over = 0;             ///< s; 0: at once
+};
+
+enum class Integrator { symplectic_euler, verlet };
+
+/// The names scene files use, in the order of the enum.
+const char* integrator_name(Integrator integrator);
+std::optional<Integrator> find_integrator(const std::string& name);
+
+struct SolverSettings {
+  Integrator integrator = Integrator::verlet;
+  bool single_precision = false;  ///< float instead of double
+  std::optional<double> step;     ///< s; given: obeyed exactly, one step a tick. Not given: live stable substeps of a tick
+  double rate = 1000;             ///< Hz of the engine's ticks where no step is given
+  double duration = 1;            ///< s, for `heml solve`
+  double damping = 0;             ///< mass-proportional, 1/s
+  int threads = 0;                ///< 0: all cores. Never changes a bit of the result
+  bool continuation = false;      ///< continue each law past its range instead of stopping there
+  double tick() const { return step ? *step : 1.0 / rate; }  ///< s
+};
+
+struct WorldSetup {
+  TetMesh mesh;  ///< checked by check_tets(): positive volumes
+  std::vector<RegionMaterial> materials;
+  std::vector<Boundary> boundary;
+  std::vector<Load> loads;
+  Vec3 gravity = Vec3::Zero();  ///< m/s²
+  SolverSettings solver;
+  Vec3 initial_velocity = Vec3::Zero();  ///< m/s, of every free node
+  std::vector<Vec3> initial_positions;   ///< #V or empty (rest shape), mesh-file order
+};
+
+/// One entry of `materials` per element: index into setup.materials.
+/// Throws InputError for a region without material and for two entries of one region; warns of an entry that matches nothing.
+std::vector<int> material_of_elements(const TetMesh& mesh, const std::vector<RegionMaterial>& materials);
+
+}  // namespace heml

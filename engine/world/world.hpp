@@ -1,0 +1,97 @@
+#pragma once
+// A body that lives: an immutable model and its mutable state behind one small interface, the same for float and double and
+// for every mix of laws. One thread at a time; results are the same bits for any number of threads inside.
+//
+// Everything goes in and comes out in the mesh file's node and element order; inside both are reordered for locality.
+#include <cstdint>
+#include <heml/mesh/tet_mesh.hpp>
+#include <heml/world/command.hpp>
+#include <heml/world/setup.hpp>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace heml {
+
+/// J.
+struct Energies {
+  double kinetic = 0;
+  double elastic = 0;
+  double potential = 0;  ///< of gravity, 0 at the rest shape
+};
+
+/// Why a world will not step on. The state is the last valid one.
+struct Halt {
+  enum class Cause { out_of_range, unstable };
+  Cause cause;
+  int element = -1;     ///< the first element out of range, mesh-file order; -1: none to name
+  int node = -1;        ///< the first node that ran away, mesh-file order; -1: none to name
+  std::string message;  ///< one sentence for people, with what to do
+};
+
+/// Scalars a viewer may ask for, one a node (element values averaged by volume).
+enum class Field {
+  none,
+  displacement,  ///< m, distance from the rest position
+  stretch,       ///< largest principal stretch, 1 at rest
+  von_mises,     ///< Pa, of the Cauchy stress
+  volume_ratio   ///< J, 1 at rest
+};
+
+/// The tool as the world sees it.
+struct ToolState {
+  bool active = false;
+  int node = -1;               ///< grasped node, mesh-file order
+  Vec3 target = Vec3::Zero();  ///< m, where the tool is
+  Vec3 grip = Vec3::Zero();    ///< m, where the grasped patch is (mass-weighted mean)
+  Vec3 force = Vec3::Zero();   ///< N, of the tool on the tissue
+};
+
+class World {
+ public:
+  virtual ~World() = default;
+
+  /// Takes one command, before the next tick. Returns what is wrong with it, or nothing; a wrong one changes nothing.
+  virtual std::optional<std::string> apply(const Command& command) = 0;
+
+  /// Advances one tick (solver.step, or 1/rate in as many equal substeps as stability asks). Does nothing once halted.
+  virtual void tick() = 0;
+
+  /// Advances to a time within the coming tick, by shortened steps; the next tick() then ends where it would have.
+  virtual void advance_within_tick(double time) = 0;
+
+  virtual const std::optional<Halt>& halt() const = 0;
+
+  virtual long ticks() const = 0;           ///< whole ticks done, not reset by Reset
+  virtual double time() const = 0;          ///< s since start or the last Reset
+  virtual long steps() const = 0;           ///< integration steps done, substeps counted
+  virtual int substeps() const = 0;         ///< of the last tick
+  virtual double stable_step() const = 0;   ///< s, the live limit (safety included)
+
+  virtual std::vector<Vec3> positions() const = 0;   ///< #V×3, m
+  virtual std::vector<Vec3> velocities() const = 0;  ///< #V×3, m/s
+  /// Writes positions of given nodes as float; no allocation when `out` has the size. `ahead`: s of extrapolation by velocity.
+  virtual void write_positions(std::span<const int> nodes, double ahead, std::vector<Vec3f>& out) const = 0;
+  /// Writes a field at given nodes.
+  virtual void write_field(Field field, std::span<const int> nodes, std::vector<float>& out) = 0;
+
+  virtual Energies energies() = 0;
+  virtual std::vector<double> volume_ratios() = 0;     ///< #T, J of each element, mesh-file order
+  virtual std::vector<Vec3> reactions() = 0;           ///< one per setup.boundary, N: the support's force on the body
+  virtual ToolState tool() const = 0;
+
+  /// Hash of positions and velocities, bit for bit, in mesh-file order.
+  virtual std::uint64_t state_hash() const = 0;
+  /// 16-bit hash of each node's position and velocity, mesh-file order: lets a replay name the node that differs.
+  virtual std::vector<std::uint16_t> node_hashes() const = 0;
+
+  /// As it is now: materials, damping, gravity and integrator follow the commands applied.
+  virtual const WorldSetup& setup() const = 0;
+};
+
+/// Builds a world. Throws InputError for what check_tets() and material_of_elements() refuse.
+std::unique_ptr<World> make_world(WorldSetup setup);
+
+}  // namespace heml
