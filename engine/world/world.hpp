@@ -62,6 +62,9 @@ class World {
   /// Advances to a time within the coming tick, by shortened steps; the next tick() then ends where it would have.
   virtual void advance_within_tick(double time) = 0;
 
+  /// From any thread: a tick under way ends after its current step. For stopping a program; the tick is left unfinished.
+  virtual void interrupt() = 0;
+
   virtual const std::optional<Halt>& halt() const = 0;
 
   virtual long ticks() const = 0;           ///< whole ticks done, not reset by Reset

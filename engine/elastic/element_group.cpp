@@ -1,0 +1,77 @@
+#include <Eigen/Eigenvalues>
+#include <heml/elastic/element_group.hpp>
+
+namespace heml {
+
+template <class Real>
+ElementGroup<Real> make_group(const TetMesh& mesh, const std::vector<int>& elements) {
+  ElementGroup<Real> group;
+  group.element = elements;
+  constexpr std::size_t lanes = ElementGroup<Real>::lanes;
+  const std::size_t padded = (elements.size() + lanes - 1) / lanes * lanes;
+  for (auto& list : group.node) list.resize(padded);
+  for (auto& list : group.A) list.resize(padded);
+  group.volume.resize(padded);
+  group.gamma.resize(elements.size());
+  for (std::size_t s = 0; s < padded; ++s) {
+    const std::size_t source = std::min(s, elements.size() - 1);
+    const Tet& tet = mesh.tets[static_cast<std::size_t>(elements[source])];
+    std::array<Vec3, 4> X;
+    for (std::size_t c = 0; c < 4; ++c) {
+      group.node[c][s] = tet[c];
+      X[c] = mesh.nodes[static_cast<std::size_t>(tet[c])];
+    }
+    Mat3 Dm;
+    Dm << X[1] - X[0], X[2] - X[0], X[3] - X[0];
+    const Mat3 g = Dm.inverse();  // row a−1 is g_a, a = 1..3
+    const Mat3 A = g * g.transpose();
+    const double entries[6] = {A(0, 0), A(1, 1), A(2, 2), A(0, 1), A(0, 2), A(1, 2)};
+    for (std::size_t i = 0; i < 6; ++i) group.A[i][s] = static_cast<Real>(entries[i]);
+    group.volume[s] = static_cast<Real>(signed_volume(X[0], X[1], X[2], X[3]));
+    if (s < elements.size()) {
+      const Vec3 g0 = -g.colwise().sum().transpose();
+      const Mat3 sum = g.transpose() * g + g0 * g0.transpose();
+      group.gamma[s] = static_cast<Real>(Eigen::SelfAdjointEigenSolver<Mat3>(sum, Eigen::EigenvaluesOnly).eigenvalues()[2]);
+    }
+  }
+  return group;
+}
+
+template <class Real>
+CornerMap map_corners(std::vector<ElementGroup<Real>*> groups, std::size_t nodes) {
+  CornerMap map;
+  map.start.assign(nodes + 1, 0);
+  std::size_t next = 0;
+  for (auto* group : groups) {
+    group->first_corner = next;
+    next += 4 * group->volume.size();
+    for (std::size_t s = 0; s < group->size(); ++s)
+      for (const auto& list : group->node) ++map.start[static_cast<std::size_t>(list[s]) + 1];
+  }
+  for (std::size_t n = 0; n < nodes; ++n) map.start[n + 1] += map.start[n];
+  map.corners.resize(map.start[nodes]);
+  std::vector<std::size_t> fill(map.start.begin(), map.start.end() - 1);
+  for (const auto* group : groups)
+    for (std::size_t s = 0; s < group->size(); ++s)
+      for (std::size_t c = 0; c < 4; ++c)
+        map.corners[fill[static_cast<std::size_t>(group->node[c][s])]++] = group->first_corner + 4 * s + c;
+  return map;
+}
+
+template <class Real>
+std::size_t corner_count(const std::vector<ElementGroup<Real>*>& groups) {
+  std::size_t count = 0;
+  for (const auto* group : groups) count += 4 * group->volume.size();
+  return count;
+}
+
+template struct ElementGroup<float>;
+template struct ElementGroup<double>;
+template ElementGroup<float> make_group(const TetMesh&, const std::vector<int>&);
+template ElementGroup<double> make_group(const TetMesh&, const std::vector<int>&);
+template CornerMap map_corners(std::vector<ElementGroup<float>*>, std::size_t);
+template CornerMap map_corners(std::vector<ElementGroup<double>*>, std::size_t);
+template std::size_t corner_count(const std::vector<ElementGroup<float>*>&);
+template std::size_t corner_count(const std::vector<ElementGroup<double>*>&);
+
+}  // namespace heml

@@ -1,0 +1,59 @@
+#pragma once
+// Neo-Hookean with a logarithmic volume term: W = μ/2 (I1−3) − μ ln J + λ/2 (ln J)², J signed.
+// (The paper's row of Table 1, K1 I1, is not free of stress at rest; the logarithm puts that right.)
+//
+// Defined for J > 0. `continued` replaces ln J and (ln J)² below J0 by their second-order Taylor polynomials there: C2, and
+// finite and restoring through J = 0 and beyond; off reproduces the formula.
+#include <heml/materials/law.hpp>
+#include <heml/math/elementary.hpp>
+
+namespace heml {
+
+template <class Real, bool continued>
+struct NeoHookean {
+  Real lambda, mu;
+
+  static constexpr std::string_view name = "neo_hookean";
+  static constexpr std::string_view title = "Neo-Hookean";
+  static constexpr ParameterInfo parameters[] = {
+      {"lambda", "λ", "Pa", "first Lamé parameter: resistance to change of volume"},
+      {"mu", "μ", "Pa", "shear modulus (second Lamé parameter)"},
+  };
+  static constexpr bool uses_I2 = false;
+  static constexpr bool uses_J = true;
+  static constexpr bool always_valid = continued;
+  static constexpr Real J0 = Real(0.3);
+
+  bool valid(const Invariants<Real>& at) const { return continued || at.J > Real(1e-30); }
+
+  Real energy(const Invariants<Real>& at) const {
+    const auto [d, l, c] = point(at.J);
+    const Real log_J = l + (d / c) * (1 - d / c / 2);
+    const Real log_J_squared = l * l + (d / c) * (2 * l + (1 - l) * (d / c));
+    return mu / 2 * (at.I1 - 3) - mu * log_J + lambda / 2 * log_J_squared;
+  }
+
+  Slopes<Real> slopes(const Invariants<Real>& at) const {
+    const auto [d, l, c] = point(at.J);
+    return {mu / 2, 0, (lambda * (l + (1 - l) * (d / c)) - mu * (1 - d / c)) / c};
+  }
+
+  Curvatures<Real> curvatures(const Invariants<Real>& at) const {
+    const auto [d, l, c] = point(at.J);
+    return {0, 0, 0, 0, 0, (lambda * (1 - l) + mu) / (c * c)};
+  }
+
+ private:
+  struct Point {
+    Real beyond;  ///< J − c, zero unless continued
+    Real log_c;   ///< ln c
+    Real c;       ///< where the polynomials are taken: J itself, or J0
+  };
+  static Point point(Real J) {
+    if constexpr (!continued) return {0, natural_log(J), J};
+    const Real c = J > J0 ? J : J0;
+    return {J - c, natural_log(c), c};
+  }
+};
+
+}  // namespace heml

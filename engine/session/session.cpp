@@ -1,0 +1,181 @@
+#include <atomic>
+#include <condition_variable>
+#include <fmt/format.h>
+#include <heml/base/log.hpp>
+#include <heml/scenario/recorder.hpp>
+#include <heml/session/mailbox.hpp>
+#include <heml/session/pacer.hpp>
+#include <heml/session/session.hpp>
+#include <heml/session/skin.hpp>
+#include <mutex>
+#include <thread>
+
+namespace heml {
+namespace {
+constexpr auto frame_interval = std::chrono::milliseconds(8);  // no viewer looks more often
+constexpr long checkpoint_interval = 500;                      // ticks
+}  // namespace
+
+class Session::Impl {
+ public:
+  Impl(const Scene& scene, SessionOptions options)
+      : options_(std::move(options)), world_(load_world(scene)), skin_(make_skin(world_->setup())), field_(scene.view.field),
+        playing_(!options_.start_paused), pacer_(world_->setup().solver.tick()) {
+    if (options_.record) recorder_.emplace(*options_.record, scene, *world_);
+    script_ = scene.events;
+    publish();
+    thread_ = std::thread([this] { run(); });
+  }
+
+  ~Impl() {
+    stopping_ = true;
+    world_->interrupt();
+    wake_.notify_all();
+    thread_.join();
+    if (recorder_) recorder_->end(*world_);
+  }
+
+  // Any of these from the viewer's thread.
+  void post(Command command) {
+    {
+      std::lock_guard lock(mutex_);
+      queue_.push_back(std::move(command));
+    }
+    wake_.notify_all();
+  }
+  void set_playing(bool playing, long steps = 0) {
+    {
+      std::lock_guard lock(mutex_);
+      playing_ = playing;
+      single_steps_ += steps;
+    }
+    wake_.notify_all();
+  }
+  void show(Field field) {
+    field_ = field;
+    show_now_ = true;
+    wake_.notify_all();
+  }
+
+  Mailbox<Frame> frames_;
+  const Skin& skin() const { return skin_; }
+
+ private:
+  // The engine thread.
+  void run() {
+    pacer_.restart(Pacer::Clock::now());
+    while (!stopping_) {
+      wait_until_due();
+      if (stopping_) return;
+      take_commands();
+      if (may_tick()) one_tick();
+      const auto now = Pacer::Clock::now();
+      if (show_now_.exchange(false) || now - published_ >= std::max<Pacer::Clock::duration>(frame_interval, 4 * publish_cost_))
+        publish();
+    }
+  }
+
+  /// Sleeps until the next tick is due, or, while paused, until somebody wants something.
+  void wait_until_due() {
+    std::unique_lock lock(mutex_);
+    const auto wanted = [this] { return stopping_ || show_now_ || !queue_.empty() || single_steps_ > 0; };
+    if (playing_ && !world_->halt()) {
+      wake_.wait_until(lock, pacer_.due(), [this] { return stopping_ || !playing_; });
+      return;
+    }
+    if (!wanted() && !frames_published_since_pause_) {
+      lock.unlock();
+      publish();
+      frames_published_since_pause_ = true;
+      lock.lock();
+    }
+    wake_.wait(lock, [&] { return wanted() || (playing_ && !world_->halt()); });
+    frames_published_since_pause_ = false;
+    if (playing_) pacer_.restart(Pacer::Clock::now());
+  }
+
+  bool may_tick() {
+    std::lock_guard lock(mutex_);
+    if (world_->halt()) return false;
+    if (playing_) return Pacer::Clock::now() >= pacer_.due();
+    if (single_steps_ == 0) return false;
+    --single_steps_;
+    return true;
+  }
+
+  void take_commands() {
+    {
+      std::lock_guard lock(mutex_);
+      taken_.swap(queue_);
+    }
+    // Where the mouse was between two ticks is of no consequence: only the last of several moves counts.
+    for (std::size_t i = 0; i < taken_.size(); ++i) {
+      const bool overtaken = i + 1 < taken_.size() && std::holds_alternative<MoveTool>(taken_[i]) &&
+                             std::holds_alternative<MoveTool>(taken_[i + 1]);
+      if (!overtaken) carry_out(taken_[i]);
+    }
+    if (!taken_.empty()) show_now_ = true;
+    taken_.clear();
+  }
+
+  void carry_out(const Command& command) {
+    if (const auto problem = world_->apply(command)) return warn("{}", *problem);
+    if (recorder_) recorder_->event({world_->ticks(), command});
+  }
+
+  void one_tick() {
+    const auto began = Pacer::Clock::now();
+    if (options_.before_tick) options_.before_tick();
+    while (next_event_ < script_.size() && script_[next_event_].tick <= world_->ticks())
+      carry_out(script_[next_event_++].command);
+    world_->tick();
+    if (recorder_ && world_->ticks() % checkpoint_interval == 0) recorder_->checkpoint(*world_);
+    if (world_->halt()) show_now_ = true;
+    pacer_.book(began, Pacer::Clock::now());
+  }
+
+  void publish() {
+    const auto began = Pacer::Clock::now();
+    Frame& frame = frames_.back();
+    fill_frame(*world_, skin_, field_, 0, frame);
+    frame.pace = pacer_.pace(began);
+    frame.paused = !playing_;
+    frames_.publish();
+    published_ = Pacer::Clock::now();
+    publish_cost_ = published_ - began;
+    if (options_.on_frame) options_.on_frame();
+  }
+
+  SessionOptions options_;
+  std::unique_ptr<World> world_;
+  Skin skin_;
+  std::optional<Recorder> recorder_;
+  std::vector<Event> script_;  ///< the scene's own events, ascending
+  std::size_t next_event_ = 0;
+
+  std::mutex mutex_;  ///< of queue_ and single_steps_; held for a swap at most
+  std::condition_variable wake_;
+  std::vector<Command> queue_, taken_;
+  long single_steps_ = 0;
+  std::atomic<Field> field_;
+  std::atomic<bool> playing_, stopping_{false}, show_now_{false};
+
+  Pacer pacer_;
+  bool frames_published_since_pause_ = false;
+  Pacer::Time published_{};
+  Pacer::Clock::duration publish_cost_{};
+  std::thread thread_;
+};
+
+Session::Session(const Scene& scene, SessionOptions options) : impl_(std::make_unique<Impl>(scene, std::move(options))) {}
+Session::~Session() = default;
+const Skin& Session::skin() const { return impl_->skin(); }
+void Session::post(Command command) { impl_->post(std::move(command)); }
+void Session::play() { impl_->set_playing(true); }
+void Session::pause() { impl_->set_playing(false); }
+void Session::step_once() { impl_->set_playing(false, 1); }
+void Session::show(Field field) { impl_->show(field); }
+const Frame& Session::latest() { return impl_->frames_.front(); }
+bool Session::frame_waiting() const { return impl_->frames_.waiting(); }
+
+}  // namespace heml

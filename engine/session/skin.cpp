@@ -1,0 +1,50 @@
+#include <algorithm>
+#include <heml/mesh/surface.hpp>
+#include <heml/session/skin.hpp>
+
+namespace heml {
+
+Skin make_skin(const WorldSetup& setup) {
+  Skin skin;
+  const BoundaryFaces faces = boundary_of(setup.mesh);
+  std::vector<int> index(setup.mesh.nodes.size(), -1);
+  for (const Triangle& face : faces.triangles)
+    for (const int n : face) index[static_cast<std::size_t>(n)] = 0;
+  for (std::size_t n = 0; n < index.size(); ++n)
+    if (index[n] == 0) {
+      index[n] = static_cast<int>(skin.nodes.size());
+      skin.nodes.push_back(static_cast<int>(n));
+      skin.rest.push_back(setup.mesh.nodes[n].cast<float>());
+    }
+  for (std::size_t k = 0; k < faces.triangles.size(); ++k) {
+    Triangle face = faces.triangles[k];
+    for (int& n : face) n = index[static_cast<std::size_t>(n)];
+    skin.triangles.push_back(face);
+    skin.regions.push_back(setup.mesh.regions[static_cast<std::size_t>(faces.tets[k])]);
+  }
+  for (const Boundary& entry : setup.boundary)
+    for (const int n : entry.nodes)
+      if (index[static_cast<std::size_t>(n)] >= 0) skin.held.push_back(index[static_cast<std::size_t>(n)]);
+  std::sort(skin.held.begin(), skin.held.end());
+  skin.held.erase(std::unique(skin.held.begin(), skin.held.end()), skin.held.end());
+  return skin;
+}
+
+void fill_frame(World& world, const Skin& skin, Field field, double ahead, Frame& frame) {
+  frame.tick = world.ticks();
+  frame.time = world.time() + ahead;
+  world.write_positions(skin.nodes, ahead, frame.positions);
+  frame.field = field;
+  world.write_field(field, skin.nodes, frame.values);
+  frame.energies = world.energies();
+  const std::vector<double> J = world.volume_ratios();
+  const auto [low, high] = std::minmax_element(J.begin(), J.end());
+  frame.min_J = *low;
+  frame.max_J = *high;
+  frame.tool = world.tool();
+  frame.substeps = world.substeps();
+  frame.stable_step = world.stable_step();
+  frame.halted = world.halt() ? world.halt()->message : std::string();
+}
+
+}  // namespace heml

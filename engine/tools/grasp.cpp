@@ -1,0 +1,67 @@
+#include <cmath>
+#include <heml/tools/grasp.hpp>
+
+namespace heml {
+
+template <class Real>
+GraspSpring<Real>::GraspSpring(int center, Real radius, std::span<const int> nodes, const std::vector<Vec3>& rest,
+                               const Real* x, const std::vector<Real>& inverse_mass, Real omega)
+    : center_(center), omega_(omega) {
+  const auto at = [x](int n) { return Vec3(Eigen::Map<const Vector3<Real>>(x + 3 * n).template cast<double>()); };
+  target_ = at(center);
+  const auto take = [&](int n, Real weight) {
+    const Real m = inverse_mass[static_cast<std::size_t>(n)];
+    if (m == 0) return;
+    nodes_.push_back(n);
+    offset_.push_back(at(n) - target_);
+    stiffness_.push_back(weight * omega * omega / m);
+    damping_.push_back(2 * std::sqrt(weight) * omega / m);
+  };
+  for (const int n : nodes) {
+    if (n == center) {
+      take(n, 1);
+      continue;
+    }
+    const double distance = (rest[static_cast<std::size_t>(n)] - rest[static_cast<std::size_t>(center)]).norm();
+    if (!(distance < static_cast<double>(radius))) continue;
+    const Real inside = Real(1) - static_cast<Real>(distance * distance) / (radius * radius);
+    take(n, inside * inside);
+  }
+}
+
+template <class Real>
+Vector3<Real> GraspSpring<Real>::node_force(std::size_t k, const Real* x, const Real* v) const {
+  const int n = nodes_[k];
+  const Vector3<Real> goal = (target_ + offset_[k]).template cast<Real>();
+  return stiffness_[k] * (goal - Eigen::Map<const Vector3<Real>>(x + 3 * n)) -
+         damping_[k] * Eigen::Map<const Vector3<Real>>(v + 3 * n);
+}
+
+template <class Real>
+void GraspSpring<Real>::add_forces(const Real* x, const Real* v, Real* f) const {
+  for (std::size_t k = 0; k < nodes_.size(); ++k) Eigen::Map<Vector3<Real>>(f + 3 * nodes_[k]) += node_force(k, x, v);
+}
+
+template <class Real>
+Vec3 GraspSpring<Real>::grip(const Real* x) const {
+  Vec3 sum = Vec3::Zero();
+  double weight = 0;
+  for (std::size_t k = 0; k < nodes_.size(); ++k) {
+    const double w = static_cast<double>(stiffness_[k]);
+    sum += w * (Vec3(Eigen::Map<const Vector3<Real>>(x + 3 * nodes_[k]).template cast<double>()) - offset_[k]);
+    weight += w;
+  }
+  return weight > 0 ? Vec3(sum / weight) : target_;
+}
+
+template <class Real>
+Vec3 GraspSpring<Real>::force(const Real* x, const Real* v) const {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t k = 0; k < nodes_.size(); ++k) sum += node_force(k, x, v).template cast<double>();
+  return sum;
+}
+
+template class GraspSpring<float>;
+template class GraspSpring<double>;
+
+}  // namespace heml

@@ -1,0 +1,46 @@
+#pragma once
+// Grasp: a patch of nodes tied to a tool by critically damped springs, like tissue held by forceps.
+//
+// Node i of the patch gets k_i = w_i ω² m_i and c_i = 2 √w_i ω m_i, with w falling smoothly to 0 at the rim and ω a fraction
+// of the body's highest frequency: stiff for a hand, and never what limits the step.
+#include <heml/math/types.hpp>
+#include <span>
+#include <vector>
+
+namespace heml {
+
+template <class Real>
+class GraspSpring {
+ public:
+  /// x: 3 #V positions now; rest: 3 #V; nodes: candidates (inner numbers, ascending), those within `radius` of `center` at rest
+  /// are taken, and `center` always. inverse_mass 0: held, not taken. omega: 1/s.
+  GraspSpring(int center, Real radius, std::span<const int> nodes, const std::vector<Vec3>& rest, const Real* x,
+              const std::vector<Real>& inverse_mass, Real omega);
+
+  bool empty() const { return nodes_.empty(); }
+  Real omega() const { return omega_; }
+  int center() const { return center_; }
+
+  void move(const Vec3& target) { target_ = target; }
+  const Vec3& target() const { return target_; }
+
+  /// Adds the springs' forces to f (3 #V, N).
+  void add_forces(const Real* x, const Real* v, Real* f) const;
+
+  /// Mean position of the patch, weighted by stiffness, m.
+  Vec3 grip(const Real* x) const;
+  /// Force of the tool on the tissue, N.
+  Vec3 force(const Real* x, const Real* v) const;
+
+ private:
+  Vector3<Real> node_force(std::size_t k, const Real* x, const Real* v) const;
+
+  int center_;
+  Real omega_;
+  Vec3 target_;                ///< m
+  std::vector<int> nodes_;
+  std::vector<Vec3> offset_;   ///< of each node from the tool when it was taken, m
+  std::vector<Real> stiffness_, damping_;  ///< N/m, N s/m
+};
+
+}  // namespace heml

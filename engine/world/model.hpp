@@ -1,0 +1,34 @@
+#pragma once
+// What does not change while a body moves, in inner order (mesh/reorder.hpp).
+#include <heml/dynamics/motion.hpp>
+#include <heml/elastic/loads.hpp>
+#include <heml/mesh/reorder.hpp>
+#include <heml/world/setup.hpp>
+#include <vector>
+
+namespace heml {
+
+/// A node with a boundary condition; entry: which of setup.boundary won.
+struct HeldNode {
+  int node;
+  int entry;
+};
+
+template <class Real>
+struct Model {
+  Reordering order;
+  TetMesh mesh;                      ///< inner order
+  std::vector<int> material_of;      ///< #T
+  std::vector<int> surface_nodes;    ///< ascending
+  std::vector<HeldNode> held;        ///< ascending in node
+  std::vector<Motion> motions;       ///< one per setup.boundary
+  std::vector<DeadLoad<Real>> dead;
+  std::vector<Pressure<Real>> pressures;
+  double diagonal = 0;               ///< m, of the rest bounding box
+};
+
+/// Reorders, resolves boundary and loads. Throws InputError as material_of_elements().
+template <class Real>
+Model<Real> make_model(const WorldSetup& setup);
+
+}  // namespace heml

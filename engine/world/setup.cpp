@@ -1,0 +1,57 @@
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <heml/base/error.hpp>
+#include <heml/base/log.hpp>
+#include <heml/world/setup.hpp>
+#include <set>
+
+namespace heml {
+namespace {
+constexpr std::array names = {"symplectic_euler", "verlet"};
+}
+
+const char* integrator_name(Integrator integrator) { return names[static_cast<std::size_t>(integrator)]; }
+
+std::optional<Integrator> find_integrator(const std::string& name) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) return std::nullopt;
+  return static_cast<Integrator>(found - names.begin());
+}
+
+std::vector<int> material_of_elements(const TetMesh& mesh, const std::vector<RegionMaterial>& materials) {
+  int fallback = -1;
+  for (std::size_t m = 0; m < materials.size(); ++m) {
+    if (!materials[m].region) fallback = static_cast<int>(m);
+    for (std::size_t other = 0; other < m; ++other)
+      if (materials[other].region == materials[m].region)
+        throw InputError(mesh.source, fmt::format("materials[{}]", m),
+                         materials[m].region ? fmt::format("a second entry for region {}", *materials[m].region)
+                                             : std::string("a second entry without region"),
+                         fmt::format("the first is materials[{}]: one entry a region", other));
+  }
+  const std::set<int> tags(mesh.regions.begin(), mesh.regions.end());
+  std::vector<int> result(mesh.tets.size());
+  std::vector<bool> used(materials.size(), false);
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    const auto own = std::find_if(materials.begin(), materials.end(),
+                                  [&](const RegionMaterial& entry) { return entry.region == mesh.regions[t]; });
+    result[t] = own != materials.end() ? static_cast<int>(own - materials.begin()) : fallback;
+    if (result[t] < 0)
+      throw InputError(mesh.source, "materials",
+                       fmt::format("region {} (element {}) has no material and there is no default", mesh.regions[t], t),
+                       fmt::format("add an entry without 'region', or one with \"region\": {}", mesh.regions[t]));
+    used[static_cast<std::size_t>(result[t])] = true;
+  }
+  for (std::size_t m = 0; m < materials.size(); ++m)
+    if (!used[m]) {
+      if (materials[m].region)
+        warn("materials[{}]: no element carries region {}; the mesh has {}", m, *materials[m].region, fmt::join(tags, ", "));
+      else
+        warn("materials[{}]: the default applies to no element: every region has an entry of its own", m);
+    }
+  return result;
+}
+
+}  // namespace heml

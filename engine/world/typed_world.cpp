@@ -1,0 +1,220 @@
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <heml/dynamics/explicit.hpp>
+#include <heml/world/typed_world.hpp>
+
+namespace heml {
+namespace {
+
+constexpr double safety = 0.9;          // of the live limit; the bound is taken anew every few steps
+constexpr int steps_between_bounds = 4;
+constexpr double smallest_step = 1e-9;  // s; below it a body is not soft tissue but a mistake
+constexpr std::size_t node_grain = 4096;
+
+std::vector<Material> materials_of(const WorldSetup& setup) {
+  std::vector<Material> materials;
+  for (const RegionMaterial& entry : setup.materials) materials.push_back(entry.material);
+  return materials;
+}
+
+}  // namespace
+
+template <class Real>
+TypedWorld<Real>::TypedWorld(WorldSetup setup)
+    : setup_(std::move(setup)),
+      model_(make_model<Real>(setup_)),
+      body_(model_.mesh, model_.material_of, materials_of(setup_), setup_.solver.continuation),
+      team_(setup_.solver.threads) {
+  const FlushDenormals flush;
+  take_masses();
+  start();
+}
+
+template <class Real>
+void TypedWorld<Real>::take_masses() {
+  mass_ = body_.masses();
+  inverse_mass_.resize(mass_.size());
+  for (std::size_t n = 0; n < mass_.size(); ++n) inverse_mass_[n] = mass_[n] > 0 ? 1 / mass_[n] : Real(0);
+  for (const HeldNode& held : model_.held) inverse_mass_[static_cast<std::size_t>(held.node)] = 0;
+}
+
+template <class Real>
+void TypedWorld<Real>::start() {
+  const std::size_t nodes = model_.mesh.nodes.size();
+  state_.x.resize(3 * nodes);
+  state_.v.assign(3 * nodes, 0);
+  state_.f.assign(3 * nodes, 0);
+  state_.time = 0;
+  for (std::size_t n = 0; n < nodes; ++n)
+    for (std::size_t i = 0; i < 3; ++i) state_.x[3 * n + i] = static_cast<Real>(model_.mesh.nodes[n][static_cast<int>(i)]);
+  rest_frequency_ = std::sqrt(body_.frequency_bound(state_.x.data(), team_));
+  for (std::size_t n = 0; n < nodes; ++n)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto file = static_cast<std::size_t>(model_.order.file_node[n]);
+      const int axis = static_cast<int>(i);
+      if (!setup_.initial_positions.empty()) state_.x[3 * n + i] = static_cast<Real>(setup_.initial_positions[file][axis]);
+      if (inverse_mass_[n] > 0) state_.v[3 * n + i] = static_cast<Real>(setup_.initial_velocity[axis]);
+    }
+  halt_.reset();
+  grasps_.clear();
+  origin_tick_ = ticks_;
+  move_held();
+  last_valid_ = state_;
+  if (!take_forces()) restore_last_valid(Halt::Cause::out_of_range);
+  last_valid_ = state_;
+  find_stable_step();
+  limit_at_start_ = stable_step_;
+}
+
+template <class Real>
+void TypedWorld<Real>::tick() {
+  if (halt_) return;
+  const FlushDenormals flush;
+  substeps_ = 0;
+  advance(static_cast<double>(ticks_ - origin_tick_ + 1) * setup_.solver.tick());
+  if (!halt_ && !interrupted_) ++ticks_;
+}
+
+template <class Real>
+void TypedWorld<Real>::advance_within_tick(double time) {
+  if (halt_) return;
+  const FlushDenormals flush;
+  advance(time);
+}
+
+template <class Real>
+void TypedWorld<Real>::advance(double until) {
+  while (state_.time < until && !halt_ && !interrupted_) {
+    const double h = choose_step(until);
+    if (halt_) return;
+    const bool last = state_.time + 1.5 * h > until;
+    const double after = last ? until : state_.time + h;
+    step(static_cast<Real>(after - state_.time), after);
+    ++substeps_;
+  }
+}
+
+/// The given step, or an equal share of what is left at the live limit.
+template <class Real>
+double TypedWorld<Real>::choose_step(double until) {
+  const double left = until - state_.time;
+  if (setup_.solver.step) return left;
+  if (++steps_since_bound_ >= steps_between_bounds) find_stable_step();
+  if (!(stable_step_ > smallest_step)) {
+    halt_ = Halt{Halt::Cause::unstable, -1, -1,
+                 fmt::format("stopped at t = {:.6g} s: an explicit method would need steps of {:.3g} s; "
+                             "soften the material or improve the mesh's worst element",
+                             state_.time, stable_step_)};
+    return left;
+  }
+  return left / std::ceil(left / stable_step_);
+}
+
+template <class Real>
+void TypedWorld<Real>::step(Real h, double time_after) {
+  switch (setup_.solver.integrator) {
+    case Integrator::symplectic_euler: return step_with<SymplecticEuler<Real>>(h, time_after);
+    case Integrator::verlet: return step_with<Verlet<Real>>(h, time_after);
+  }
+}
+
+template <class Real>
+template <class Method>
+void TypedWorld<Real>::step_with(Real h, double time_after) {
+  State<Real>& s = state_;
+  const Real damping = static_cast<Real>(setup_.solver.damping);
+  const Real* inverse_mass = inverse_mass_.data();
+  last_valid_.x = s.x;
+  last_valid_.v = s.v;
+  last_valid_.time = s.time;
+
+  team_.for_ranges(inverse_mass_.size(), node_grain, [&](std::size_t begin, std::size_t end) {
+    Method::first_half(h, damping, inverse_mass, s.f.data(), s.x.data(), s.v.data(), begin, end);
+  });
+  s.time = time_after;
+  move_held();
+  if (!take_forces()) return restore_last_valid(Halt::Cause::out_of_range);
+  // Ten times its own size in a step, or not a number: no tissue does that.
+  const Real fastest = static_cast<Real>(10 * (model_.diagonal / h + setup_.initial_velocity.norm()));
+  std::atomic<bool> sane{true};
+  team_.for_ranges(inverse_mass_.size(), node_grain, [&](std::size_t begin, std::size_t end) {
+    Method::second_half(h, damping, inverse_mass, s.f.data(), s.v.data(), begin, end);
+    bool slow = true;
+    for (std::size_t i = 3 * begin; i < 3 * end; ++i) slow = slow & (std::abs(s.v[i]) <= fastest);
+    if (!slow) sane.store(false, std::memory_order_relaxed);
+  });
+  if (!sane) return restore_last_valid(Halt::Cause::unstable);
+  ++steps_;
+}
+
+template <class Real>
+void TypedWorld<Real>::move_held() {
+  for (const HeldNode& held : model_.held) {
+    const auto at = model_.motions[static_cast<std::size_t>(held.entry)](model_.mesh.nodes[static_cast<std::size_t>(held.node)],
+                                                                         state_.time);
+    Eigen::Map<Vector3<Real>>(&state_.x[3 * static_cast<std::size_t>(held.node)]) = at.x.template cast<Real>();
+    Eigen::Map<Vector3<Real>>(&state_.v[3 * static_cast<std::size_t>(held.node)]) = at.v.template cast<Real>();
+  }
+}
+
+/// Forces from all sides but supports at the present positions. Returns whether every law is defined there.
+template <class Real>
+bool TypedWorld<Real>::take_forces() {
+  const Real* x = state_.x.data();
+  Real* f = state_.f.data();
+  const bool valid = body_.forces(x, f, team_);
+  const Vector3<Real> g = setup_.gravity.template cast<Real>();
+  if (!g.isZero(0))
+    for (std::size_t n = 0; n < mass_.size(); ++n)
+      for (std::size_t i = 0; i < 3; ++i) f[3 * n + i] += mass_[n] * g[static_cast<int>(i)];
+  for (const auto& load : model_.dead) add_load(load, state_.time, f);
+  for (const auto& load : model_.pressures) add_load(load, state_.time, x, f);
+  for (const auto& grasp : grasps_) grasp.add_forces(x, state_.v.data(), f);
+  return valid;
+}
+
+/// h with h²λ + 2h c < 4: elastic bound λ and, where something is grasped, its ω² and the lagged damping c = 2ω.
+template <class Real>
+void TypedWorld<Real>::find_stable_step() {
+  double lambda = static_cast<double>(body_.frequency_bound(state_.x.data(), team_)), omega = 0;
+  for (const auto& grasp : grasps_) omega = std::max(omega, static_cast<double>(grasp.omega()));
+  lambda += omega * omega;
+  stable_step_ = safety * 2 / (omega + std::sqrt(omega * omega + lambda));
+  steps_since_bound_ = 0;
+}
+
+template <class Real>
+void TypedWorld<Real>::restore_last_valid(Halt::Cause cause) {
+  Halt halt{cause, -1, -1, {}};
+  const double reached = state_.time, h = state_.time - last_valid_.time;
+  if (cause == Halt::Cause::out_of_range) {
+    halt.element = model_.order.file_tet[static_cast<std::size_t>(body_.first_invalid(state_.x.data()))];
+    halt.message = fmt::format(
+        "element {} left the range of its law at t = {:.6g} s: it was pressed flat or turned inside out "
+        "(set solver.continuation to true, take a smaller step, or load more gently)",
+        halt.element, reached);
+  } else {
+    const auto wild = std::find_if(state_.v.begin(), state_.v.end(), [&](Real v) {
+      return !(std::abs(v) <= 10 * (model_.diagonal / h + setup_.initial_velocity.norm()));
+    });
+    if (wild != state_.v.end()) halt.node = model_.order.file_node[static_cast<std::size_t>(wild - state_.v.begin()) / 3];
+    halt.message = fmt::format("unstable at t = {:.6g} s: node {} ran away with steps of {:.3g} s; at the start the limit was {:.3g} s",
+                               reached, halt.node, h, limit_at_start_);
+  }
+  state_.x = last_valid_.x;
+  state_.v = last_valid_.v;
+  state_.time = last_valid_.time;
+  take_forces();
+  halt_ = halt;
+}
+
+std::unique_ptr<World> make_world(WorldSetup setup) {
+  if (setup.solver.single_precision) return std::make_unique<TypedWorld<float>>(std::move(setup));
+  return std::make_unique<TypedWorld<double>>(std::move(setup));
+}
+
+template class TypedWorld<float>;
+template class TypedWorld<double>;
+
+}  // namespace heml

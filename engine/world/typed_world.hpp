@@ -1,0 +1,88 @@
+#pragma once
+// A world of one scalar type: the step, and everything people ask of it.
+#include <atomic>
+#include <heml/base/thread_team.hpp>
+#include <heml/dynamics/state.hpp>
+#include <heml/elastic/body.hpp>
+#include <heml/tools/grasp.hpp>
+#include <heml/world/model.hpp>
+#include <heml/world/world.hpp>
+
+namespace heml {
+
+template <class Real>
+class TypedWorld final : public World {
+ public:
+  explicit TypedWorld(WorldSetup setup);
+
+  std::optional<std::string> apply(const Command& command) override;
+  void tick() override;
+  void advance_within_tick(double time) override;
+  void interrupt() override { interrupted_ = true; }
+  const std::optional<Halt>& halt() const override { return halt_; }
+  long ticks() const override { return ticks_; }
+  double time() const override { return state_.time; }
+  long steps() const override { return steps_; }
+  int substeps() const override { return substeps_; }
+  double stable_step() const override { return stable_step_; }
+  std::vector<Vec3> positions() const override { return in_file_order(state_.x); }
+  std::vector<Vec3> velocities() const override { return in_file_order(state_.v); }
+  void write_positions(std::span<const int> nodes, double ahead, std::vector<Vec3f>& out) const override;
+  void write_field(Field field, std::span<const int> nodes, std::vector<float>& out) override;
+  Energies energies() override;
+  std::vector<double> volume_ratios() override;
+  std::vector<Vec3> reactions() override;
+  ToolState tool() const override;
+  std::uint64_t state_hash() const override;
+  std::vector<std::uint16_t> node_hashes() const override;
+  const WorldSetup& setup() const override { return setup_; }
+
+ private:
+  // typed_world.cpp: stepping
+  void advance(double until);
+  double choose_step(double until);
+  void step(Real h, double time_after);
+  template <class Method>
+  void step_with(Real h, double time_after);
+  void move_held();
+  bool take_forces();
+  void find_stable_step();
+  void restore_last_valid(Halt::Cause cause);
+  void start();
+  void take_masses();
+
+  // world_commands.cpp: what people do
+  std::optional<std::string> take(const Grasp& command);
+  std::optional<std::string> take(const MoveTool& command);
+  std::optional<std::string> take(const Release& command);
+  std::optional<std::string> take(const SetMaterial& command);
+  std::optional<std::string> take(const SetDamping& command);
+  std::optional<std::string> take(const SetGravity& command);
+  std::optional<std::string> take(const SetIntegrator& command);
+  std::optional<std::string> take(const Reset& command);
+
+  // world_queries.cpp: what people ask
+  std::vector<Vec3> in_file_order(const std::vector<Real>& values) const;
+  std::uint64_t node_hash(std::size_t file_node) const;
+
+  WorldSetup setup_;
+  Model<Real> model_;
+  ElasticBody<Real> body_;
+  ThreadTeam team_;
+  std::vector<GraspSpring<Real>> grasps_;  ///< none or one: an empty list costs nothing
+
+  std::vector<Real> mass_;          ///< #V, kg
+  std::vector<Real> inverse_mass_;  ///< #V, 1/kg; 0 for held nodes and nodes of no element
+  State<Real> state_, last_valid_;
+
+  Real rest_frequency_ = 0;   ///< 1/s, bound of the highest at rest: scales the tools
+  double stable_step_ = 0, limit_at_start_ = 0;  ///< s
+  int steps_since_bound_ = 0;
+  long ticks_ = 0, origin_tick_ = 0, steps_ = 0;
+  int substeps_ = 0;
+  std::optional<Halt> halt_;
+  std::atomic<bool> interrupted_{false};
+  std::vector<ElementState<Real>> element_states_;  ///< scratch of queries
+};
+
+}  // namespace heml

@@ -1,0 +1,101 @@
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <heml/world/typed_world.hpp>
+
+namespace heml {
+namespace {
+constexpr double tool_stiffness = 0.25;  // ω of a grasp, as a fraction of the body's highest frequency at rest
+
+bool finite(const Vec3& v) { return v.allFinite(); }
+}  // namespace
+
+template <class Real>
+std::optional<std::string> TypedWorld<Real>::apply(const Command& command) {
+  const FlushDenormals flush;
+  auto problem = std::visit([this](const auto& c) { return take(c); }, command);
+  if (!problem && !halt_) {
+    if (!take_forces()) restore_last_valid(Halt::Cause::out_of_range);
+    find_stable_step();
+  }
+  return problem;
+}
+
+template <class Real>
+std::optional<std::string> TypedWorld<Real>::take(const Grasp& command) {
+  const int nodes = static_cast<int>(mass_.size());
+  if (command.node < 0 || command.node >= nodes)
+    return fmt::format("grasp: node {} does not exist; the body has nodes 0 to {}", command.node, nodes - 1);
+  if (!(command.radius >= 0) || !std::isfinite(command.radius))
+    return fmt::format("grasp: radius must be 0 m or more, is {}", command.radius);
+  const int center = model_.order.new_node[static_cast<std::size_t>(command.node)];
+  std::vector<int> candidates = model_.surface_nodes;
+  if (!std::binary_search(candidates.begin(), candidates.end(), center))
+    candidates.insert(std::lower_bound(candidates.begin(), candidates.end(), center), center);
+  GraspSpring<Real> grasp(center, static_cast<Real>(command.radius), candidates, model_.mesh.nodes, state_.x.data(),
+                          inverse_mass_, static_cast<Real>(tool_stiffness) * rest_frequency_);
+  if (grasp.empty()) return fmt::format("grasp: node {} is held, or belongs to no element", command.node);
+  grasps_.assign(1, std::move(grasp));
+  return std::nullopt;
+}
+
+template <class Real>
+std::optional<std::string> TypedWorld<Real>::take(const MoveTool& command) {
+  if (grasps_.empty()) return "move: nothing is grasped";
+  if (!finite(command.target)) return "move: the target is not finite";
+  grasps_.front().move(command.target);
+  return std::nullopt;
+}
+
+template <class Real>
+std::optional<std::string> TypedWorld<Real>::take(const Release&) {
+  grasps_.clear();
+  return std::nullopt;
+}
+
+template <class Real>
+std::optional<std::string> TypedWorld<Real>::take(const SetMaterial& command) {
+  const auto entry = std::find_if(setup_.materials.begin(), setup_.materials.end(),
+                                  [&](const RegionMaterial& m) { return m.region == command.region; });
+  if (entry == setup_.materials.end())
+    return command.region ? fmt::format("material: no entry for region {}", *command.region)
+                          : std::string("material: there is no default entry; name a region");
+  if (const auto problem = material_problem(command.material))
+    return fmt::format("material.{}: {}", problem->first, problem->second);
+  entry->material = command.material;
+  body_.set_material(static_cast<std::size_t>(entry - setup_.materials.begin()), command.material);
+  take_masses();
+  return std::nullopt;
+}
+
+template <class Real>
+std::optional<std::string> TypedWorld<Real>::take(const SetDamping& command) {
+  if (!(command.damping >= 0) || !std::isfinite(command.damping))
+    return fmt::format("damping: must be 0 1/s or more, is {}", command.damping);
+  setup_.solver.damping = command.damping;
+  return std::nullopt;
+}
+
+template <class Real>
+std::optional<std::string> TypedWorld<Real>::take(const SetGravity& command) {
+  if (!finite(command.gravity)) return "gravity: not finite";
+  setup_.gravity = command.gravity;
+  return std::nullopt;
+}
+
+template <class Real>
+std::optional<std::string> TypedWorld<Real>::take(const SetIntegrator& command) {
+  setup_.solver.integrator = command.integrator;
+  return std::nullopt;
+}
+
+template <class Real>
+std::optional<std::string> TypedWorld<Real>::take(const Reset&) {
+  start();
+  return std::nullopt;
+}
+
+template class TypedWorld<float>;
+template class TypedWorld<double>;
+
+}  // namespace heml

@@ -1,0 +1,134 @@
+#include <algorithm>
+#include <heml/base/hash.hpp>
+#include <heml/world/typed_world.hpp>
+
+namespace heml {
+
+template <class Real>
+std::vector<Vec3> TypedWorld<Real>::in_file_order(const std::vector<Real>& values) const {
+  std::vector<Vec3> result(mass_.size());
+  for (std::size_t file = 0; file < result.size(); ++file) {
+    const Real* value = &values[3 * static_cast<std::size_t>(model_.order.new_node[file])];
+    result[file] = Vec3(value[0], value[1], value[2]);
+  }
+  return result;
+}
+
+template <class Real>
+void TypedWorld<Real>::write_positions(std::span<const int> nodes, double ahead, std::vector<Vec3f>& out) const {
+  out.resize(nodes.size());
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    const std::size_t n = 3 * static_cast<std::size_t>(model_.order.new_node[static_cast<std::size_t>(nodes[k])]);
+    for (std::size_t i = 0; i < 3; ++i)
+      out[k][static_cast<int>(i)] = static_cast<float>(state_.x[n + i] + static_cast<Real>(ahead) * state_.v[n + i]);
+  }
+}
+
+template <class Real>
+void TypedWorld<Real>::write_field(Field field, std::span<const int> nodes, std::vector<float>& out) {
+  if (field == Field::none) return out.clear();
+  out.resize(nodes.size());
+  const auto inner = [&](int file) { return static_cast<std::size_t>(model_.order.new_node[static_cast<std::size_t>(file)]); };
+  if (field == Field::displacement) {
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      const std::size_t n = inner(nodes[k]);
+      const Vec3 x = Eigen::Map<const Vector3<Real>>(&state_.x[3 * n]).template cast<double>();
+      out[k] = static_cast<float>((x - model_.mesh.nodes[n]).norm());
+    }
+    return;
+  }
+  body_.states(state_.x.data(), element_states_);
+  std::vector<double> sum(mass_.size(), 0.0), weight(mass_.size(), 0.0);
+  for (std::size_t t = 0; t < model_.mesh.tets.size(); ++t) {
+    const Tet& tet = model_.mesh.tets[t];
+    const auto X = [&](std::size_t c) -> const Vec3& { return model_.mesh.nodes[static_cast<std::size_t>(tet[c])]; };
+    const double volume = signed_volume(X(0), X(1), X(2), X(3));
+    const auto& s = element_states_[t];
+    const Real value = field == Field::stretch ? s.stretch : field == Field::von_mises ? s.von_mises : s.J;
+    for (const int n : tet) {
+      sum[static_cast<std::size_t>(n)] += volume * static_cast<double>(value);
+      weight[static_cast<std::size_t>(n)] += volume;
+    }
+  }
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    const std::size_t n = inner(nodes[k]);
+    out[k] = weight[n] > 0 ? static_cast<float>(sum[n] / weight[n]) : 0.0f;
+  }
+}
+
+template <class Real>
+Energies TypedWorld<Real>::energies() {
+  Energies e;
+  for (std::size_t n = 0; n < mass_.size(); ++n) {
+    const double m = static_cast<double>(mass_[n]);
+    const Vec3 v = Eigen::Map<const Vector3<Real>>(&state_.v[3 * n]).template cast<double>();
+    const Vec3 x = Eigen::Map<const Vector3<Real>>(&state_.x[3 * n]).template cast<double>();
+    e.kinetic += m / 2 * v.squaredNorm();
+    e.potential -= m * setup_.gravity.dot(x - model_.mesh.nodes[n]);
+  }
+  e.elastic = body_.energy(state_.x.data());
+  return e;
+}
+
+template <class Real>
+std::vector<double> TypedWorld<Real>::volume_ratios() {
+  body_.states(state_.x.data(), element_states_);
+  std::vector<double> result(element_states_.size());
+  for (std::size_t t = 0; t < result.size(); ++t)
+    result[static_cast<std::size_t>(model_.order.file_tet[t])] = static_cast<double>(element_states_[t].J);
+  return result;
+}
+
+/// A support gives what the node's motion asks for and nothing else does: m (a + α v) − f.
+template <class Real>
+std::vector<Vec3> TypedWorld<Real>::reactions() {
+  std::vector<Vec3> result(setup_.boundary.size(), Vec3::Zero());
+  for (const HeldNode& held : model_.held) {
+    const auto n = static_cast<std::size_t>(held.node);
+    const auto at = model_.motions[static_cast<std::size_t>(held.entry)](model_.mesh.nodes[n], state_.time);
+    const Vec3 f = Eigen::Map<const Vector3<Real>>(&state_.f[3 * n]).template cast<double>();
+    result[static_cast<std::size_t>(held.entry)] +=
+        static_cast<double>(mass_[n]) * (at.a + setup_.solver.damping * at.v) - f;
+  }
+  return result;
+}
+
+template <class Real>
+ToolState TypedWorld<Real>::tool() const {
+  ToolState tool;
+  if (grasps_.empty()) return tool;
+  const auto& grasp = grasps_.front();
+  tool.active = true;
+  tool.node = model_.order.file_node[static_cast<std::size_t>(grasp.center())];
+  tool.target = grasp.target();
+  tool.grip = grasp.grip(state_.x.data());
+  tool.force = grasp.force(state_.x.data(), state_.v.data());
+  return tool;
+}
+
+template <class Real>
+std::uint64_t TypedWorld<Real>::node_hash(std::size_t file_node) const {
+  const std::size_t n = 3 * static_cast<std::size_t>(model_.order.new_node[file_node]);
+  std::uint64_t hash = 0;
+  for (std::size_t i = 0; i < 3; ++i) hash = mix(mix(hash, state_.x[n + i]), state_.v[n + i]);
+  return hash;
+}
+
+template <class Real>
+std::uint64_t TypedWorld<Real>::state_hash() const {
+  std::uint64_t hash = 0;
+  for (std::size_t n = 0; n < mass_.size(); ++n) hash = mix(hash, node_hash(n));
+  return hash;
+}
+
+template <class Real>
+std::vector<std::uint16_t> TypedWorld<Real>::node_hashes() const {
+  std::vector<std::uint16_t> hashes(mass_.size());
+  for (std::size_t n = 0; n < hashes.size(); ++n) hashes[n] = static_cast<std::uint16_t>(node_hash(n));
+  return hashes;
+}
+
+template class TypedWorld<float>;
+template class TypedWorld<double>;
+
+}  // namespace heml
