@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <heml/base/log.hpp>
 #include <heml/scenario/recorder.hpp>
+#include <heml/scenario/schedule.hpp>
 #include <heml/session/mailbox.hpp>
 #include <heml/session/pacer.hpp>
 #include <heml/session/session.hpp>
@@ -13,16 +14,14 @@
 namespace heml {
 namespace {
 constexpr auto frame_interval = std::chrono::milliseconds(8);  // no viewer looks more often
-constexpr long checkpoint_interval = 500;                      // ticks
 }  // namespace
 
 class Session::Impl {
  public:
   Impl(const Scene& scene, SessionOptions options)
-      : options_(std::move(options)), world_(load_world(scene)), skin_(make_skin(world_->setup())), field_(scene.view.field),
-        playing_(!options_.start_paused), pacer_(world_->setup().solver.tick()) {
-    if (options_.record) recorder_.emplace(*options_.record, scene, *world_);
-    script_ = scene.events;
+      : options_(std::move(options)), world_(load_world(scene)), skin_(make_skin(world_->setup())),
+        schedule_(scene, world_->setup().mesh), field_(scene.view.field), playing_(!options_.start_paused), pacer_(world_->setup().solver.tick()) {
+    if (options_.record) recorder_.emplace(*options_.record, without_events(scene), *world_);
     publish();
     thread_ = std::thread([this] { run(); });
   }
@@ -32,7 +31,7 @@ class Session::Impl {
     world_->interrupt();
     wake_.notify_all();
     thread_.join();
-    if (recorder_) recorder_->end(*world_);
+    if (recorder_ && !world_->unfinished()) recorder_->end(*world_);
   }
 
   // Any of these from the viewer's thread.
@@ -120,16 +119,23 @@ class Session::Impl {
 
   void carry_out(const Command& command) {
     if (const auto problem = world_->apply(command)) return warn("{}", *problem);
-    if (recorder_) recorder_->event({world_->ticks(), command});
+    if (recorder_) recorder_->command(*world_, command);
+  }
+
+  /// What the scene's own script does is recorded like what the user does: each once.
+  static Scene without_events(Scene scene) {
+    scene.events.clear();
+    scene.checkpoints.clear();
+    scene.recorded_ticks = 0;
+    return scene;
   }
 
   void one_tick() {
     const auto began = Pacer::Clock::now();
     if (options_.before_tick) options_.before_tick();
-    while (next_event_ < script_.size() && script_[next_event_].tick <= world_->ticks())
-      carry_out(script_[next_event_++].command);
+    for (const Event& event : schedule_.due(world_->ticks())) carry_out(event.command);
     world_->tick();
-    if (recorder_ && world_->ticks() % checkpoint_interval == 0) recorder_->checkpoint(*world_);
+    if (recorder_) recorder_->ticked(*world_);
     if (world_->halt()) show_now_ = true;
     pacer_.book(began, Pacer::Clock::now());
   }
@@ -150,9 +156,7 @@ class Session::Impl {
   std::unique_ptr<World> world_;
   Skin skin_;
   std::optional<Recorder> recorder_;
-  std::vector<Event> script_;  ///< the scene's own events, ascending
-  std::size_t next_event_ = 0;
-
+  Schedule schedule_;  ///< the scene's own events
   std::mutex mutex_;  ///< of queue_ and single_steps_; held for a swap at most
   std::condition_variable wake_;
   std::vector<Command> queue_, taken_;

@@ -72,8 +72,11 @@ void TypedWorld<Real>::tick() {
   if (halt_) return;
   const FlushDenormals flush;
   substeps_ = 0;
-  advance(static_cast<double>(ticks_ - origin_tick_ + 1) * setup_.solver.tick());
-  if (!halt_ && !interrupted_) ++ticks_;
+  const double until = static_cast<double>(ticks_ - origin_tick_ + 1) * setup_.solver.tick();
+  advance(until);
+  if (halt_) return;
+  unfinished_ = state_.time < until;
+  if (!unfinished_) ++ticks_;
 }
 
 template <class Real>

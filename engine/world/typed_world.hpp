@@ -19,6 +19,7 @@ class TypedWorld final : public World {
   void tick() override;
   void advance_within_tick(double time) override;
   void interrupt() override { interrupted_ = true; }
+  bool unfinished() const override { return unfinished_; }
   const std::optional<Halt>& halt() const override { return halt_; }
   long ticks() const override { return ticks_; }
   double time() const override { return state_.time; }
@@ -82,6 +83,7 @@ class TypedWorld final : public World {
   int substeps_ = 0;
   std::optional<Halt> halt_;
   std::atomic<bool> interrupted_{false};
+  bool unfinished_ = false;
   std::vector<ElementState<Real>> element_states_;  ///< scratch of queries
 };
 

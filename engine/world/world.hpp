@@ -64,6 +64,8 @@ class World {
 
   /// From any thread: a tick under way ends after its current step. For stopping a program; the tick is left unfinished.
   virtual void interrupt() = 0;
+  /// Whether interrupt() left a tick unfinished: the state is then of no whole tick.
+  virtual bool unfinished() const = 0;
 
   virtual const std::optional<Halt>& halt() const = 0;
 

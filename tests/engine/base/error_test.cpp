@@ -1,0 +1,17 @@
+#include <doctest/doctest.h>
+#include <heml/base/error.hpp>
+#include <heml/base/hash.hpp>
+
+using namespace heml;
+
+TEST_CASE("an input error is one line: file, place, problem and remedy") {
+  CHECK(std::string(InputError("a.json", "gravity[1]", "is not a number", "write metres per second squared").what()) ==
+        "a.json: gravity[1]: is not a number (write metres per second squared)");
+  CHECK(std::string(InputError("a.json", "", "is empty").what()) == "a.json: is empty");
+}
+
+TEST_CASE("a hash sees the last bit and the sign of zero, and the order") {
+  CHECK(mix(0, 1.0) != mix(0, 1.0000000000000002));
+  CHECK(mix(0, 0.0) != mix(0, -0.0));
+  CHECK(mix(mix(0, 1.0), 2.0) != mix(mix(0, 2.0), 1.0));
+}

@@ -1,0 +1,71 @@
+#include <cmath>
+#include <doctest/doctest.h>
+#include <heml/dynamics/explicit.hpp>
+#include <heml/dynamics/motion.hpp>
+#include <numbers>
+
+using namespace heml;
+
+namespace {
+
+/// One mass on a spring, x'' = −ω²x − αx', released at 1 from rest: position and velocity at t = 1 after n steps.
+template <class Method>
+std::pair<double, double> oscillator(double omega, double damping, int n) {
+  const double h = 1.0 / n, inverse_mass = 1;
+  double x[3] = {1, 0, 0}, v[3] = {0, 0, 0}, f[3] = {-omega * omega, 0, 0};
+  for (int k = 0; k < n; ++k) {
+    Method::first_half(h, damping, &inverse_mass, f, x, v, 0, 1);
+    f[0] = -omega * omega * x[0];
+    Method::second_half(h, damping, &inverse_mass, f, v, 0, 1);
+  }
+  return {x[0], v[0]};
+}
+
+std::pair<double, double> exact(double omega, double damping) {
+  const double a = damping / 2, w = std::sqrt(omega * omega - a * a), e = std::exp(-a);
+  return {e * (std::cos(w) + a / w * std::sin(w)), -e * (omega * omega / w) * std::sin(w)};
+}
+
+template <class Method>
+double order(double omega, double damping) {
+  const auto error = [&](int n) {
+    const auto [x, v] = oscillator<Method>(omega, damping, n);
+    const auto [X, V] = exact(omega, damping);
+    return std::hypot(x - X, (v - V) / omega);
+  };
+  return std::log2(error(400) / error(800));
+}
+
+}  // namespace
+
+TEST_CASE("symplectic Euler is of first order and Verlet of second, damped or not") {
+  for (const double damping : {0.0, 3.0}) {
+    CHECK(order<SymplecticEuler<double>>(7, damping) == doctest::Approx(1).epsilon(0.05));
+    CHECK(order<Verlet<double>>(7, damping) == doctest::Approx(2).epsilon(0.02));
+  }
+}
+
+TEST_CASE("both methods are stable up to 2/omega, with heavy damping too, and not beyond") {
+  const int n = 5000;
+  for (const double damping : {0.0, 50.0}) {
+    CHECK(std::abs(oscillator<SymplecticEuler<double>>(1.99 * n, damping, n).first) < 1e3);
+    CHECK(std::abs(oscillator<Verlet<double>>(1.99 * n, damping, n).first) < 1e3);
+  }
+  CHECK_FALSE(std::abs(oscillator<SymplecticEuler<double>>(2.01 * n, 0, n).first) < 1e10);
+  CHECK_FALSE(std::abs(oscillator<Verlet<double>>(2.01 * n, 0, n).first) < 1e10);
+}
+
+TEST_CASE("a moved node is where the contract says, and its velocity and acceleration are the derivatives") {
+  const Motion motion{Vec3(0.05, 0, 0.01), Vec3(1, 0, 0), Vec3(0, 0.1, 0), std::numbers::pi / 2, 2.0};
+  const Vec3 X(0.3, 0.2, 0);
+  CHECK((motion(X, 0).x - X).norm() <= 1e-15);
+  // Arm (0.3, 0.1, 0) turned 90° about x: (0.3, 0, 0.1), then origin and translation.
+  CHECK((motion(X, 2).x - Vec3(0.35, 0.1, 0.11)).norm() <= 1e-15);
+  CHECK((motion(X, 9).x - motion(X, 2).x).norm() == 0);
+  CHECK(motion(X, 9).v.norm() == 0);
+  const double t = 0.7, h = 1e-5;
+  CHECK((motion(X, t).v - (motion(X, t + h).x - motion(X, t - h).x) / (2 * h)).norm() <= 1e-9);
+  CHECK((motion(X, t).a - (motion(X, t + h).v - motion(X, t - h).v) / (2 * h)).norm() <= 1e-9);
+  const Motion at_once{Vec3(1, 0, 0), Vec3(0, 0, 1), Vec3::Zero(), 0, 0};
+  CHECK((at_once(X, 0).x - X - Vec3(1, 0, 0)).norm() == 0);
+}

@@ -1,0 +1,166 @@
+#include <chrono>
+#include <doctest/doctest.h>
+#include <filesystem>
+#include <fstream>
+#include <heml/scenario/replay.hpp>
+#include <heml/session/session.hpp>
+#include <thread>
+#include <unistd.h>
+
+using namespace heml;
+using namespace std::chrono_literals;
+
+namespace {
+
+/// A small block held at one end; enough to step at 1 kHz on anything.
+Scene small_scene() {
+  Scene scene;
+  scene.file = "small";
+  scene.mesh.box = MeshSpec::Box{Vec3(0.1, 0.02, 0.02), Vec3::Zero(), {6, 2, 2}};
+  const Lame lame = lame_from(1e4, 0.3);
+  scene.materials = {{std::nullopt, {"neo_hookean", {lame.lambda, lame.mu}, 1000}}};
+  BoundaryEntry held;
+  held.where.box = {Vec3(-1, -1, -1), Vec3(1e-6, 1, 1)};
+  scene.boundary.push_back(held);
+  scene.gravity = Vec3(0, -9.81, 0);
+  scene.solver.threads = 1;
+  scene.solver.continuation = true;
+  return scene;
+}
+
+/// Looks at frames until one is as wanted, for ten seconds at most.
+template <class Wanted>
+const Frame& wait_for(Session& session, const Wanted& wanted) {
+  for (int i = 0; i < 2000; ++i) {
+    if (wanted(session.latest())) return session.latest();
+    std::this_thread::sleep_for(5ms);
+  }
+  FAIL("the frame waited for never came");
+  return session.latest();
+}
+
+struct TemporaryFolder {
+  std::filesystem::path path = std::filesystem::temp_directory_path() / ("heml-session-test-" + std::to_string(getpid()));
+  TemporaryFolder() { std::filesystem::create_directories(path); }
+  ~TemporaryFolder() { std::filesystem::remove_all(path); }
+};
+
+}  // namespace
+
+TEST_CASE("a session steps by itself and publishes what a viewer needs") {
+  Session session(small_scene(), {});
+  CHECK(session.skin().nodes.size() > 50);
+  CHECK(session.skin().held.size() == 9);
+  const Frame& frame = wait_for(session, [](const Frame& f) { return f.tick > 100; });
+  CHECK(frame.positions.size() == session.skin().nodes.size());
+  CHECK(frame.time == doctest::Approx(static_cast<double>(frame.tick) * 1e-3));
+  CHECK(frame.energies.potential < 0);
+  CHECK(frame.values.empty());
+  session.show(Field::displacement);
+  const Frame& shown = wait_for(session, [](const Frame& f) { return f.field == Field::displacement; });
+  CHECK(shown.values.size() == session.skin().nodes.size());
+  CHECK(*std::max_element(shown.values.begin(), shown.values.end()) > 1e-4f);
+}
+
+TEST_CASE("a viewer that stalls for 50 ms does not stall the engine") {
+  Session session(small_scene(), {});
+  wait_for(session, [](const Frame& f) { return f.tick > 20; });
+  for (int stall = 0; stall < 5; ++stall) {
+    const long before = session.latest().tick;
+    std::this_thread::sleep_for(50ms);  // drawing that hangs
+    const long after = session.latest().tick;
+    CHECK(after - before >= 20);
+  }
+}
+
+TEST_CASE("steps that are too slow slow simulated time, and the figures say so") {
+  SessionOptions options;
+  std::atomic<bool> slow{true};
+  options.before_tick = [&] {
+    if (slow) std::this_thread::sleep_for(5ms);
+  };
+  Session session(small_scene(), options);
+  const auto began = std::chrono::steady_clock::now();
+  const Frame& frame = wait_for(session, [](const Frame& f) { return f.tick >= 200; });
+  const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  CHECK(wall >= 200 * 0.005);
+  CHECK(frame.pace.slowdown >= 4);
+  CHECK_FALSE(frame.pace.keeping_up);
+  CHECK(frame.pace.missed >= 100);
+  CHECK(frame.pace.p50 >= 0.005);
+  // Once steps are fast again, no burst makes up for what was lost: the 150 owed beyond patience are forgotten.
+  slow = false;
+  const long before = session.latest().tick;
+  std::this_thread::sleep_for(200ms);
+  CHECK(session.latest().tick - before <= 200 + 60 + 40);
+}
+
+TEST_CASE("pause holds the body, one step is one tick, and commands are taken while paused") {
+  SessionOptions options;
+  options.start_paused = true;
+  Session session(small_scene(), options);
+  CHECK(wait_for(session, [](const Frame& f) { return f.paused; }).tick == 0);
+  session.step_once();
+  wait_for(session, [](const Frame& f) { return f.tick == 1; });
+  std::this_thread::sleep_for(30ms);
+  CHECK(session.latest().tick == 1);
+  session.post(Grasp{30, 0.01});
+  CHECK(wait_for(session, [](const Frame& f) { return f.tool.active; }).tool.node == 30);
+  session.play();
+  wait_for(session, [](const Frame& f) { return f.tick > 50 && !f.paused; });
+  session.pause();
+  wait_for(session, [](const Frame& f) { return f.paused; });
+  session.post(Reset{});
+  CHECK(wait_for(session, [](const Frame& f) { return f.time == 0; }).tick > 50);
+}
+
+TEST_CASE("a recorded session replays to the same hashes, with one thread and with two") {
+  TemporaryFolder folder;
+  const auto file = folder.path / "session.jsonl";
+  {
+    SessionOptions options;
+    options.record = file;
+    Session session(small_scene(), options);
+    wait_for(session, [](const Frame& f) { return f.tick > 100; });
+    session.post(Grasp{20, 0.012});
+    for (int i = 0; i < 20; ++i) {
+      session.post(MoveTool{Vec3(0.05 + 0.001 * i, 0.01, 0.01)});
+      std::this_thread::sleep_for(10ms);
+    }
+    session.post(SetMaterial{std::nullopt, {"stvk", {6e3, 4e3}, 900}});
+    session.post(SetDamping{3});
+    session.post(SetIntegrator{Integrator::symplectic_euler});
+    const long now = session.latest().tick;
+    wait_for(session, [&](const Frame& f) { return f.tick > now + 600; });
+    session.post(Release{});
+    session.post(Reset{});
+    wait_for(session, [&](const Frame& f) { return f.tick > now + 900; });
+  }
+  for (const int threads : {1, 2}) {
+    Scene scene = read_scene(file);
+    CHECK(scene.events.size() >= 8);
+    CHECK(scene.checkpoints.size() >= 3);
+    scene.solver.threads = threads;
+    const auto world = load_world(scene);
+    const ReplayResult result = replay(scene, *world);
+    CHECK(result.checkpoints >= 3);
+    CHECK_FALSE(result.difference);
+    CHECK_FALSE(result.halt);
+  }
+  // And a replay can fail: another material, another motion.
+  Scene changed = read_scene(file);
+  changed.materials[0].material.parameters[1] *= 1.0000001;
+  const auto world = load_world(changed);
+  CHECK(replay(changed, *world).difference);
+}
+
+TEST_CASE("a session that cannot go on says why and lives on to be reset") {
+  Scene scene = small_scene();
+  scene.solver.continuation = false;
+  scene.solver.step = 0.02;  // far beyond the limit
+  Session session(scene, {});
+  CHECK(wait_for(session, [](const Frame& f) { return !f.halted.empty(); }).halted.find(" at t = ") != std::string::npos);
+  session.pause();
+  session.post(Reset{});
+  CHECK(wait_for(session, [](const Frame& f) { return f.halted.empty(); }).time == 0);
+}

@@ -1,0 +1,49 @@
+#include <cmath>
+#include <doctest/doctest.h>
+#include <heml/tools/grasp.hpp>
+
+using namespace heml;
+
+namespace {
+const std::vector<Vec3> rest = {{0, 0, 0}, {0.01, 0, 0}, {0.05, 0, 0}, {0, 0.01, 0}};
+const std::vector<double> x = {0, 0, 0, 0.01, 0, 0, 0.05, 0, 0, 0, 0.01, 0};
+const std::vector<double> still(12, 0.0);
+const std::vector<int> all = {0, 1, 2, 3};
+}  // namespace
+
+TEST_CASE("a grasp takes the free nodes within its radius and pulls nothing before it is moved") {
+  GraspSpring<double> grasp(0, 0.02, all, rest, x.data(), {1, 1, 1, 0}, 100);  // node 3 is held
+  CHECK_FALSE(grasp.empty());
+  CHECK(grasp.force(x.data(), still.data()).norm() <= 1e-12);
+  CHECK(grasp.grip(x.data()).norm() <= 1e-15);
+  grasp.move(Vec3(0, 0, 0.001));
+  std::vector<double> f(12, 0.0);
+  grasp.add_forces(x.data(), still.data(), f.data());
+  CHECK(f[2] == doctest::Approx(100 * 100 * 0.001));
+  CHECK(f[5] == doctest::Approx(100 * 100 * 0.001 * 0.75 * 0.75));  // (1 − (1/2)²)²
+  CHECK(f[8] == 0);
+  CHECK(f[11] == 0);
+  CHECK(grasp.force(x.data(), still.data()).z() == doctest::Approx(f[2] + f[5]));
+}
+
+TEST_CASE("a grasp of held nodes alone is empty") {
+  CHECK(GraspSpring<double>(3, 0.001, all, rest, x.data(), {1, 1, 1, 0}, 100).empty());
+}
+
+TEST_CASE("a grasped mass follows the tool without overshoot") {
+  const double omega = 50, h = 1e-4;
+  std::vector<double> at = {0, 0, 0}, v = {0, 0, 0};
+  GraspSpring<double> grasp(0, 0, std::vector<int>{0}, {Vec3::Zero()}, at.data(), {2.0}, omega);
+  grasp.move(Vec3(1, 0, 0));
+  double largest = 0;
+  for (int k = 0; k < 5000; ++k) {
+    std::vector<double> f(3, 0.0);
+    grasp.add_forces(at.data(), v.data(), f.data());
+    v[0] += h * 2.0 * f[0];
+    at[0] += h * v[0];
+    largest = std::max(largest, at[0]);
+    if (k == 999) CHECK(at[0] == doctest::Approx(1 - (1 + omega * 0.1) * std::exp(-omega * 0.1)).epsilon(0.01));
+  }
+  CHECK(largest <= 1 + 1e-9);
+  CHECK(at[0] == doctest::Approx(1).epsilon(1e-6));
+}

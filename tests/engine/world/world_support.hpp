@@ -1,0 +1,36 @@
+#pragma once
+#include <heml/mesh/generate.hpp>
+#include <heml/world/world.hpp>
+
+namespace heml::test {
+
+inline Material soft(const char* law = "neo_hookean", double young = 1e4, double poisson = 0.3) {
+  const Lame lame = lame_from(young, poisson);
+  return {law, {lame.lambda, lame.mu}, 1000};
+}
+
+/// Nodes of a mesh that a predicate takes.
+template <class Take>
+std::vector<int> nodes_where(const TetMesh& mesh, const Take& take) {
+  std::vector<int> nodes;
+  for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
+    if (take(mesh.nodes[n])) nodes.push_back(static_cast<int>(n));
+  return nodes;
+}
+
+/// A block 0.1 × 0.02 × 0.02 m along x, held at x = 0, under gravity in −y.
+inline WorldSetup cantilever(const char* law = "neo_hookean", double young = 1e4) {
+  WorldSetup setup;
+  setup.mesh = make_box(Vec3(0.1, 0.02, 0.02), {10, 2, 2});
+  setup.materials = {{std::nullopt, soft(law, young)}};
+  setup.boundary.push_back({nodes_where(setup.mesh, [](const Vec3& X) { return X.x() < 1e-9; })});
+  setup.gravity = Vec3(0, -9.81, 0);
+  setup.solver.threads = 1;
+  return setup;
+}
+
+inline void run_until(World& world, double time) {
+  while (!world.halt() && world.time() < time - 1e-9) world.tick();
+}
+
+}  // namespace heml::test
