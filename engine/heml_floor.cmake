@@ -8,27 +8,36 @@ if(HEML_SANITIZE)
   target_compile_options(heml_options INTERFACE -fsanitize=${HEML_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   target_link_options(heml_options INTERFACE -fsanitize=${HEML_SANITIZE})
 endif()
+if(HEML_FUZZ)
+  target_compile_options(heml_options INTERFACE -fsanitize=fuzzer-no-link)
+endif()
 
-# heml_floor(NAME DEPENDS floors... LIBRARIES others... PRIVATE others...)
+# heml_floor(NAME DEPENDS floors... LIBRARIES others...)
 #
 # One floor of the engine: every .cpp of its folder, as target heml::NAME. Its headers are seen as <heml/NAME/...>, and only
 # by targets that name the floor: each floor has an include root of its own, a folder in the build tree that holds a link
 #   include/NAME/heml/NAME -> engine/NAME
 # so an include of a floor that is not among DEPENDS does not compile.
 function(heml_floor name)
-  cmake_parse_arguments(FLOOR "" "" "DEPENDS;LIBRARIES;PRIVATE" ${ARGN})
+  cmake_parse_arguments(FLOOR "" "" "DEPENDS;LIBRARIES" ${ARGN})
   set(source ${PROJECT_SOURCE_DIR}/engine/${name})
   set(root ${PROJECT_BINARY_DIR}/include/${name})
   file(MAKE_DIRECTORY ${root}/heml)
   file(CREATE_LINK ${source} ${root}/heml/${name} SYMBOLIC)
   file(GLOB sources CONFIGURE_DEPENDS ${source}/*.cpp)
-  add_library(heml_${name} STATIC ${sources})
+  set(kind STATIC)
+  set(public PUBLIC)
+  if(NOT sources)  # headers alone
+    set(kind INTERFACE)
+    set(public INTERFACE)
+  endif()
+  add_library(heml_${name} ${kind} ${sources})
   add_library(heml::${name} ALIAS heml_${name})
-  set_target_properties(heml_${name} PROPERTIES EXPORT_NAME ${name} LINKER_LANGUAGE CXX)
-  target_include_directories(heml_${name} PUBLIC
+  set_target_properties(heml_${name} PROPERTIES EXPORT_NAME ${name})
+  target_include_directories(heml_${name} ${public}
     $<BUILD_INTERFACE:${root}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   list(TRANSFORM FLOOR_DEPENDS PREPEND heml::)
-  target_link_libraries(heml_${name} PUBLIC heml::options ${FLOOR_DEPENDS} ${FLOOR_LIBRARIES} PRIVATE ${FLOOR_PRIVATE})
+  target_link_libraries(heml_${name} ${public} heml::options ${FLOOR_DEPENDS} ${FLOOR_LIBRARIES})
   install(TARGETS heml_${name} EXPORT heml ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
   install(DIRECTORY ${source}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/heml/${name} FILES_MATCHING PATTERN "*.hpp")
 endfunction()

@@ -9,7 +9,7 @@ namespace heml {
 struct QualityReport {
   int nodes = 0, tets = 0, regions = 0;
   double volume = 0;           ///< m³
-  Vec3 low, high;              ///< m, bounding box
+  Vec3 low, high;              ///< m, bounding box of the tetrahedra
   int rewound = 0;             ///< tetrahedra whose winding was repaired
   int slivers = 0;             ///< with a smallest dihedral angle under 5°
   int worst_tet = -1;          ///< file order
@@ -23,7 +23,8 @@ struct QualityReport {
 };
 
 /// Checks a mesh and repairs winding in place. Throws InputError for what cannot be repaired: no tetrahedra, an index
-/// outside the nodes, a coordinate that is not finite, a node twice in one element, a volume of zero; it names the element.
+/// outside the nodes, a coordinate that is not finite, a node twice in one element, a volume of zero; it names the
+/// element.
 QualityReport check_tets(TetMesh& mesh);
 
 /// The report as lines for a person.

@@ -5,8 +5,8 @@
 
 namespace heml {
 
-/// .msh (Gmsh 2.2), .mesh (Medit), .vtk (legacy ASCII), .vtu (ASCII), .node (+ .ele beside it); 17 significant digits, regions
-/// kept. Throws InputError when the ending is another or the file cannot be written.
+/// .msh (Gmsh 2.2), .mesh (Medit), .vtk (legacy ASCII), .vtu (ASCII), .node (+ .ele beside it); 17 significant digits,
+/// regions kept. Throws InputError when the ending is another or the file cannot be written.
 void write_tet_mesh(const std::filesystem::path& path, const TetMesh& mesh);
 
 }  // namespace heml

@@ -1,0 +1,137 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fmt/format.h>
+#include <fstream>
+#include <heml/base/error.hpp>
+#include <heml/base/log.hpp>
+#include <heml/mesh/from_surface.hpp>
+#include <heml/mesh/helper.hpp>
+#include <heml/mesh/scanner.hpp>
+#include <heml/mesh/shells.hpp>
+#include <iterator>
+#include <numeric>
+
+namespace heml {
+namespace {
+
+// What is exchanged with the helper: "#nodes #rows [#holes]", then x y z a node, then indices a row, then x y z a hole.
+
+std::string contents_of(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+void write_request(const std::filesystem::path& path, const SurfaceMesh& surface, const std::vector<Vec3>& holes) {
+  fmt::memory_buffer text;
+  const auto out = std::back_inserter(text);
+  const auto add = [&](const Vec3& x) { fmt::format_to(out, "{:.17g} {:.17g} {:.17g}\n", x[0], x[1], x[2]); };
+  fmt::format_to(out, "{} {} {}\n", surface.nodes.size(), surface.triangles.size(), holes.size());
+  for (const Vec3& x : surface.nodes) add(x);
+  for (const Triangle& t : surface.triangles) fmt::format_to(out, "{} {} {}\n", t[0], t[1], t[2]);
+  for (const Vec3& x : holes) add(x);
+  std::ofstream file(path, std::ios::binary);
+  file.write(text.data(), static_cast<std::streamsize>(text.size()));
+  if (!file.flush()) throw InputError(path.string(), "", "cannot be written", "set TMPDIR to a folder with room");
+}
+
+template <std::size_t N>
+void read_answer(const std::string& subject, const std::filesystem::path& path, std::vector<Vec3>& nodes,
+                 std::vector<std::array<int, N>>& rows) {
+  const std::string text = contents_of(path);
+  Scanner in(subject, text);
+  nodes.resize(in.count("the number of nodes", 3));
+  rows.resize(in.count("the number of elements", N));
+  for (Vec3& node : nodes) node = in.point("a coordinate");
+  for (auto& row : rows)
+    for (int& node : row) node = static_cast<int>(in.integer("a node", 0, static_cast<long long>(nodes.size()) - 1));
+}
+
+bool before(const Vec3& a, const Vec3& b) {
+  return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+}
+
+// Joins nodes at the very same place (files of triangles repeat them), drops those of no triangle and triangles that
+// lose a corner by it. Nodes keep the order of their first use.
+SurfaceMesh joined(const SurfaceMesh& surface) {
+  std::vector<int> order(surface.nodes.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](int a, int b) {
+    const Vec3 &x = surface.nodes[a], &y = surface.nodes[b];
+    return before(x, y) || (!before(y, x) && a < b);
+  });
+  std::vector<int> same(surface.nodes.size());
+  for (std::size_t i = 0; i < order.size(); ++i)
+    same[order[i]] = i > 0 && surface.nodes[order[i]] == surface.nodes[order[i - 1]] ? same[order[i - 1]] : order[i];
+  SurfaceMesh result;
+  result.source = surface.source;
+  std::vector<int> number(surface.nodes.size(), -1);
+  for (Triangle triangle : surface.triangles) {
+    for (int& node : triangle) node = same[node];
+    if (triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0]) continue;
+    for (int& node : triangle) {
+      if (number[node] < 0) {
+        number[node] = static_cast<int>(result.nodes.size());
+        result.nodes.push_back(surface.nodes[node]);
+      }
+      node = number[node];
+    }
+    result.triangles.push_back(triangle);
+  }
+  return result;
+}
+
+void check_options(const SurfaceMesh& surface, const TetgenOptions& options) {
+  if (!(options.radius_edge_ratio >= 1) || !std::isfinite(options.radius_edge_ratio))
+    throw InputError(surface.source, "tetgen.radius_edge_ratio", fmt::format("is {}", options.radius_edge_ratio),
+                     "a number from 1, e.g. 1.4");
+  if (options.max_volume && (!(*options.max_volume > 0) || !std::isfinite(*options.max_volume)))
+    throw InputError(surface.source, "tetgen.max_volume", fmt::format("is {}", *options.max_volume),
+                     "a volume in m³ greater than 0");
+}
+
+}  // namespace
+
+SurfaceMesh read_surface(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) throw InputError(path.string(), "", "there is no such file");
+  if (!std::filesystem::is_regular_file(path, error)) throw InputError(path.string(), "", "is not a plain file");
+  const ScratchFolder folder;
+  run_helper(path.string(), {"read", std::filesystem::absolute(path).string(), (folder / "surface").string()}, {});
+  SurfaceMesh surface;
+  surface.source = path.string();
+  read_answer(surface.source, folder / "surface", surface.nodes, surface.triangles);
+  return joined(surface);
+}
+
+TetMesh tetrahedralize(const SurfaceMesh& surface, const TetgenOptions& options) {
+  check_options(surface, options);
+  SurfaceMesh checked = surface;
+  check_surface(checked);
+  const ScratchFolder folder;
+  write_request(folder / "surface", checked, cavity_points(checked, turn_alike(checked)));
+  run_helper(surface.source,
+             {"fill", (folder / "surface").string(), (folder / "tets").string(),
+              fmt::format("{:.17g}", options.radius_edge_ratio),
+              options.max_volume ? fmt::format("{:.17g}", *options.max_volume) : "none"},
+             {options.time_limit, options.memory_limit});
+  TetMesh mesh;
+  mesh.source = surface.source;
+  read_answer(mesh.source, folder / "tets", mesh.nodes, mesh.tets);
+  if (mesh.tets.empty() || mesh.nodes.size() < surface.nodes.size())
+    throw InputError(surface.source, "", "TetGen filled nothing", "repair or simplify the surface");
+  std::copy(checked.nodes.begin(), checked.nodes.end(), mesh.nodes.begin());
+  std::size_t too_large = 0;
+  for (auto& [a, b, c, d] : mesh.tets) {
+    const double volume = signed_volume(mesh.nodes[a], mesh.nodes[b], mesh.nodes[c], mesh.nodes[d]);
+    if (volume < 0) std::swap(c, d);
+    too_large += options.max_volume && std::abs(volume) > 1.001 * *options.max_volume;
+  }
+  if (too_large > 0)
+    warn("{}: {} of {} tetrahedra are larger than max_volume: the surface's triangles are kept and too large for it",
+         mesh.source, too_large, mesh.tets.size());
+  mesh.regions.assign(mesh.tets.size(), 0);
+  return mesh;
+}
+
+}  // namespace heml

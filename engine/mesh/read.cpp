@@ -1,0 +1,80 @@
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <fmt/format.h>
+#include <fstream>
+#include <heml/base/error.hpp>
+#include <heml/base/log.hpp>
+#include <heml/mesh/read.hpp>
+#include <heml/mesh/readers.hpp>
+
+namespace heml {
+namespace {
+
+constexpr std::uintmax_t largest = 4'000'000'000;  // bytes: nodes, and faces of tetrahedra, are counted in 32 bits
+
+std::string ending_of(const std::filesystem::path& path) {
+  std::string ending = path.extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return ending;
+}
+
+// Only plain files: a device or a pipe could go on for ever.
+std::string contents_of(const std::filesystem::path& path) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status)) throw InputError(path.string(), "", "there is no such file");
+  if (!std::filesystem::is_regular_file(status)) throw InputError(path.string(), "", "is not a plain file");
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (error) throw InputError(path.string(), "", "cannot be read: " + error.message());
+  if (size > largest) throw InputError(path.string(), "", fmt::format("has {} bytes", size), "too large for a mesh");
+  std::ifstream in(path, std::ios::binary);
+  std::string text(size, '\0');
+  in.read(text.data(), static_cast<std::streamsize>(size));
+  if (!in) throw InputError(path.string(), "", "cannot be read", "check the file's permissions");
+  return text;
+}
+
+ReadMesh read_by_ending(const std::filesystem::path& path) {
+  const std::string ending = ending_of(path);
+  if (ending == ".node" || ending == ".ele") {
+    auto node = path, ele = path;
+    node.replace_extension(".node");
+    ele.replace_extension(".ele");
+    for (const auto& file : {node, ele})
+      if (std::error_code error; !std::filesystem::exists(file, error))
+        throw InputError(file.string(), "", "there is no such file", "TetGen's .node and .ele stand side by side");
+    return read_tetgen(node.string(), contents_of(node), ele.string(), contents_of(ele));
+  }
+  const std::string text = contents_of(path);
+  if (ending == ".msh") return read_gmsh(path.string(), text);
+  if (ending == ".mesh") return read_medit(path.string(), text);
+  if (ending == ".vtk") return read_vtk(path.string(), text);
+  return read_vtu(path.string(), text);
+}
+
+}  // namespace
+
+bool is_tet_mesh_file(const std::filesystem::path& path) {
+  constexpr std::array endings{".msh", ".mesh", ".vtk", ".vtu", ".node", ".ele"};
+  return std::find(endings.begin(), endings.end(), ending_of(path)) != endings.end();
+}
+
+TetMesh read_tet_mesh(const std::filesystem::path& path) {
+  if (!is_tet_mesh_file(path))
+    throw InputError(path.string(), "", "is no mesh of tetrahedra this program knows",
+                     ".msh, .mesh, .vtk, .vtu, or .node with .ele");
+  ReadMesh read = read_by_ending(path);
+  read.mesh.source = path.string();
+  if (read.mesh.tets.empty())
+    throw InputError(path.string(), "",
+                     fmt::format("holds {} nodes but no linear tetrahedra, and {} other cells with a volume",
+                                 read.mesh.nodes.size(), read.ignored),
+                     "a surface is filled by heml mesh");
+  if (read.real_regions) warn("{}: the cell array 'region' is not of integers and was ignored", path.string());
+  if (read.ignored > 0)
+    warn("{}: {} cells with a volume are not linear tetrahedra and were ignored", path.string(), read.ignored);
+  return std::move(read.mesh);
+}
+
+}  // namespace heml

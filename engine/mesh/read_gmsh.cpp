@@ -1,0 +1,208 @@
+// Gmsh: https://gmsh.info/doc/texinfo/gmsh.html, "Gmsh file formats": MSH file format, and its versions 1 and 2
+// (legacy).
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <heml/mesh/readers.hpp>
+#include <map>
+
+namespace heml {
+namespace {
+
+constexpr int gmsh_tetrahedron = 4;
+
+// Hexahedra, prisms, pyramids, and everything with a volume of higher order.
+bool is_other_volume(long long type) {
+  constexpr std::array volumes{5, 6, 7, 11, 12, 13, 14, 17, 18, 19, 29, 30, 31, 71, 79, 90, 91, 92, 93, 106, 118};
+  return std::find(volumes.begin(), volumes.end(), type) != volumes.end();
+}
+
+class GmshReader {
+ public:
+  GmshReader(std::string file, std::string_view text) : in_(std::move(file), text, 0, true) {}
+
+  ReadMesh read() {
+    bool any_section = false;
+    while (in_.next_line()) {
+      const std::string name(in_.word("a section"));
+      if (name[0] != '$' || name.starts_with("$End"))
+        in_.fail("a section should begin here, found " + quoted(name), "$MeshFormat, $Nodes, $Elements, ...");
+      any_section = true;
+      section(name);
+    }
+    if (!any_section) in_.fail("the file is empty");
+    return std::move(read_);
+  }
+
+ private:
+  void section(const std::string& name) {
+    if (name == "$MeshFormat") {
+      format();
+    } else if (name == "$NOD" || name == "$Nodes") {
+      if (has_nodes_) in_.fail("a second section " + name);
+      has_nodes_ = true;
+      name == "$NOD" || version_ < 4 ? nodes() : nodes_4();
+      numbers_.close(in_);
+    } else if (name == "$ELM" || name == "$Elements") {
+      if (!has_nodes_) in_.fail(name + " before the nodes");
+      name == "$ELM" ? elements(1) : version_ < 4 ? elements(2) : elements_4();
+    } else if (name == "$Entities" && version_ >= 4) {
+      entities_4();
+    } else {
+      return skip(name);
+    }
+    end(name);
+  }
+
+  static std::string closing(const std::string& name) {
+    if (name == "$NOD" || name == "$ELM") return "$END" + name.substr(1);
+    return "$End" + name.substr(1);
+  }
+
+  void end(const std::string& name) {
+    in_.need_line(closing(name));
+    const std::string_view found = in_.word(closing(name));
+    if (found != closing(name))
+      in_.fail(fmt::format("{} should end here, found {}", name, quoted(found)), closing(name));
+  }
+
+  void skip(const std::string& name) {
+    const std::string mark = closing(name);
+    do in_.need_line(mark);
+    while (in_.peek() != mark);
+  }
+
+  void format() {
+    in_.need_line("the version");
+    version_ = in_.number("the version");
+    if (version_ != 2 && version_ != 2.1 && version_ != 2.2 && version_ != 4.1)
+      in_.fail(fmt::format("version {} is not read", version_), "save as Gmsh 2.2 or 4.1, ASCII");
+    if (in_.integer("the file type") != 0) in_.fail("the file is binary", "save as ASCII");
+  }
+
+  // Versions 1 and 2: "number x y z".
+  void nodes() {
+    in_.need_line("the number of nodes");
+    const std::size_t count = in_.count("the number of nodes", 4);
+    reserve_nodes(count);
+    for (std::size_t n = 0; n < count; ++n) {
+      in_.need_line("a node");
+      numbers_.add(in_.wide_integer("a node number"));
+      read_.mesh.nodes.push_back(in_.point("a coordinate"));
+      in_.end_line("the node");
+    }
+  }
+
+  // Version 1: "number type physical elementary #nodes node ...". Version 2: "number type #tags physical ... node ...".
+  void elements(int version) {
+    in_.need_line("the number of elements");
+    const std::size_t count = in_.count("the number of elements", 4);
+    for (std::size_t e = 0; e < count; ++e) {
+      in_.need_line("an element");
+      in_.wide_integer("an element number");
+      const long long type = in_.integer("an element type");
+      read_.ignored += is_other_volume(type);
+      if (type != gmsh_tetrahedron) continue;
+      int region = 0;
+      if (version == 1) {
+        region = static_cast<int>(in_.integer("a physical tag"));
+        in_.wide_integer("an elementary tag");
+        in_.integer("the number of nodes of a tetrahedron", 4, 4);
+      } else {
+        const long long tags = in_.integer("a number of tags", 0);
+        if (tags > 0) region = static_cast<int>(in_.integer("a physical tag"));
+        for (long long t = 1; t < tags; ++t) in_.wide_integer("a tag");
+      }
+      tetrahedron(region);
+    }
+  }
+
+  void entities_4() {
+    in_.need_line("the numbers of entities");
+    std::array<std::size_t, 4> counts;
+    for (std::size_t& count : counts) count = in_.count("a number of entities", 1);
+    for (std::size_t e = 0; e < counts[0] + counts[1] + counts[2]; ++e) in_.need_line("an entity");
+    for (std::size_t e = 0; e < counts[3]; ++e) {
+      in_.need_line("a volume");
+      const long long tag = in_.integer("a volume's tag");
+      for (int i = 0; i < 6; ++i) in_.number("a volume's bound");
+      if (in_.integer("a number of physical tags", 0) > 0)
+        volume_region_[tag] = static_cast<int>(in_.integer("a physical tag"));
+    }
+  }
+
+  // Blocks "dimension entity parametric #nodes", then all numbers, then all coordinates.
+  void nodes_4() {
+    in_.need_line("the numbers of node blocks and nodes");
+    const std::size_t blocks = in_.count("a number of blocks", 4), count = in_.count("the number of nodes", 4);
+    reserve_nodes(count);
+    for (std::size_t b = 0; b < blocks; ++b) {
+      in_.need_line("a block of nodes");
+      for (const char* what : {"a dimension", "an entity", "the parametric flag"}) in_.integer(what);
+      const std::size_t in_block = in_.count("the number of nodes in the block", 4);
+      for (std::size_t n = 0; n < in_block; ++n) {
+        in_.need_line("a node number");
+        numbers_.add(in_.wide_integer("a node number"));
+        in_.end_line("the node number");
+      }
+      for (std::size_t n = 0; n < in_block; ++n) {
+        in_.need_line("a node's coordinates");
+        read_.mesh.nodes.push_back(in_.point("a coordinate"));
+      }
+    }
+    if (read_.mesh.nodes.size() != count)
+      in_.fail(fmt::format("{} nodes announced, {} in the blocks", count, read_.mesh.nodes.size()));
+  }
+
+  // Blocks "dimension entity type #elements", then lines "number node ...".
+  void elements_4() {
+    in_.need_line("the numbers of element blocks and elements");
+    const std::size_t blocks = in_.count("a number of blocks", 4), count = in_.count("the number of elements", 2);
+    std::size_t found = 0;
+    for (std::size_t b = 0; b < blocks; ++b) {
+      in_.need_line("a block of elements");
+      in_.integer("a dimension");
+      const long long entity = in_.integer("an entity"), type = in_.integer("an element type");
+      const std::size_t in_block = in_.count("the number of elements in the block", 2);
+      found += in_block;
+      if (is_other_volume(type)) read_.ignored += static_cast<long>(in_block);
+      const auto region = volume_region_.find(entity);
+      for (std::size_t e = 0; e < in_block; ++e) {
+        in_.need_line("an element");
+        if (type != gmsh_tetrahedron) continue;
+        in_.wide_integer("an element number");
+        tetrahedron(region == volume_region_.end() ? 0 : region->second);
+      }
+    }
+    if (found != count) in_.fail(fmt::format("{} elements announced, {} in the blocks", count, found));
+  }
+
+  void tetrahedron(int region) {
+    Tet tet;
+    for (int& node : tet) {
+      const long long number = in_.wide_integer("a node number");
+      node = numbers_.find(number, in_);
+    }
+    in_.end_line("a tetrahedron's four nodes");
+    read_.mesh.tets.push_back(tet);
+    read_.mesh.regions.push_back(region);
+  }
+
+  void reserve_nodes(std::size_t count) {
+    read_.mesh.nodes.reserve(count);
+    numbers_.reserve(count);
+  }
+
+  Scanner in_;
+  ReadMesh read_;
+  NodeNumbers numbers_;
+  double version_ = 1;
+  bool has_nodes_ = false;
+  std::map<long long, int> volume_region_;  ///< version 4: first physical tag of each volume entity
+};
+
+}  // namespace
+
+ReadMesh read_gmsh(std::string file, std::string_view text) { return GmshReader(std::move(file), text).read(); }
+
+}  // namespace heml

@@ -1,0 +1,65 @@
+// TetGen: H. Si, TetGen user's manual 1.5, section 5.2, files .node and .ele.
+#include <cmath>
+#include <fmt/format.h>
+#include <heml/mesh/readers.hpp>
+
+namespace heml {
+namespace {
+
+constexpr long long most_values = 1000;  // attributes a line
+
+// "number x y z attribute ... [marker]"
+NodeNumbers read_nodes(Scanner& in, std::vector<Vec3>& nodes) {
+  in.need_line("the number of nodes");
+  const std::size_t count = in.count("the number of nodes", 4);
+  if (in.has_word()) in.integer("the dimension", 3, 3);
+  NodeNumbers numbers;
+  numbers.reserve(count);
+  nodes.reserve(count);
+  for (std::size_t n = 0; n < count; ++n) {
+    in.need_line("a node");
+    numbers.add(in.integer("a node number"));
+    nodes.push_back(in.point("a coordinate"));
+  }
+  numbers.close(in);
+  if (in.next_line()) in.fail(fmt::format("lines go on after {} nodes", count));
+  return numbers;
+}
+
+// TetGen writes region attributes as reals.
+int read_region(Scanner& in) {
+  const double region = in.number("a region attribute");
+  if (region != std::nearbyint(region) || std::abs(region) > 2e9)
+    in.fail(fmt::format("a region attribute is {}", region), "an integer");
+  return static_cast<int>(region);
+}
+
+}  // namespace
+
+ReadMesh read_tetgen(std::string node_file, std::string_view nodes, std::string ele_file, std::string_view tets) {
+  ReadMesh read;
+  Scanner node_lines(std::move(node_file), nodes, '#', true);
+  const NodeNumbers numbers = read_nodes(node_lines, read.mesh.nodes);
+  Scanner in(std::move(ele_file), tets, '#', true);
+  in.need_line("the number of tetrahedra");
+  const std::size_t count = in.count("the number of tetrahedra", 5);
+  if (in.has_word()) in.integer("the nodes a tetrahedron", 4, 4);
+  const bool has_region = in.has_word() && in.integer("the attributes a tetrahedron", 0, most_values) > 0;
+  read.mesh.tets.reserve(count);
+  read.mesh.regions.reserve(count);
+  for (std::size_t t = 0; t < count; ++t) {
+    in.need_line("a tetrahedron");
+    in.integer("a tetrahedron's number");
+    Tet tet;
+    for (int& node : tet) {
+      const long long number = in.integer("a node number");
+      node = numbers.find(number, in);
+    }
+    read.mesh.tets.push_back(tet);
+    read.mesh.regions.push_back(has_region ? read_region(in) : 0);
+  }
+  if (in.next_line()) in.fail(fmt::format("lines go on after {} tetrahedra", count));
+  return read;
+}
+
+}  // namespace heml

@@ -1,0 +1,36 @@
+#pragma once
+// Whatever bytes as a mesh file of every format: for fuzzing.
+#include <algorithm>
+#include <array>
+#include <heml/base/error.hpp>
+#include <heml/mesh/quality.hpp>
+#include <heml/mesh/readers.hpp>
+#include <string_view>
+
+namespace heml {
+
+inline constexpr std::array formats{"msh", "mesh", "vtk", "vtu", "tetgen"};
+
+/// Reads a text held in memory as formats[format] and checks the mesh. TetGen's two files stand one after the other, a
+/// zero byte between. Returns whether there was a mesh fit for simulation; InputError is the other allowed outcome, and
+/// all else leaves through here.
+inline bool read_and_check(std::size_t format, std::string_view text) {
+  try {
+    ReadMesh read;
+    const std::size_t zero = std::min(text.find('\0'), text.size());
+    switch (format) {
+      case 0: read = read_gmsh("fuzz", text); break;
+      case 1: read = read_medit("fuzz", text); break;
+      case 2: read = read_vtk("fuzz", text); break;
+      case 3: read = read_vtu("fuzz", text); break;
+      default:
+        read = read_tetgen("fuzz.node", text.substr(0, zero), "fuzz.ele", text.substr(std::min(zero + 1, text.size())));
+    }
+    check_tets(read.mesh);
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+}  // namespace heml

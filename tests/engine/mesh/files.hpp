@@ -1,0 +1,54 @@
+#pragma once
+// Files for tests: a folder that goes away, and texts in it.
+#include <filesystem>
+#include <fstream>
+#include <heml/base/error.hpp>
+#include <string>
+#include <stdlib.h>
+
+namespace heml {
+
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "heml-test-XXXXXX").string();
+    path_ = mkdtemp(name.data());
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+
+  /// Writes a text and returns where.
+  std::filesystem::path file(const std::string& name, const std::string& text) const {
+    std::ofstream(path_ / name, std::ios::binary) << text;
+    return path_ / name;
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// What an InputError says; empty when none is thrown.
+template <class Action>
+std::string refusal(Action action) {
+  try {
+    action();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+/// Meshes made by others, beside the source tree; empty when they are not there.
+inline std::filesystem::path shared_data(const std::string& name) {
+  const std::filesystem::path path = std::filesystem::path(HEML_SOURCE_DIR) / "../shared/data" / name;
+  std::error_code ignored;
+  return std::filesystem::exists(path, ignored) ? path : std::filesystem::path();
+}
+
+}  // namespace heml

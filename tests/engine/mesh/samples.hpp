@@ -1,0 +1,250 @@
+#pragma once
+// Two tetrahedra in every format: nodes 0..4, elements {0,1,2,3} of region 7 and {1,2,3,4} of region −3, written by
+// hand from the descriptions of the formats, with the oddities files have (gaps in numbering, comments, other cells
+// between).
+#include <string>
+#include <vector>
+
+namespace heml::samples {
+
+inline const std::string gmsh_1 = R"($NOD
+5
+10 0 0 0
+20 1 0 0
+21 0 1 0
+33 0 0 1
+40 1 1 1.5
+$ENDNOD
+$ELM
+3
+1 2 1 1 3 10 20 21
+2 4 7 1 4 10 20 21 33
+3 4 -3 2 4 20 21 33 40
+$ENDELM
+)";
+
+inline const std::string gmsh_2 = R"($MeshFormat
+2.2 0 8
+$EndMeshFormat
+$PhysicalNames
+1
+3 7 "left lobe"
+$EndPhysicalNames
+$Nodes
+5
+40 0 0 0
+20 1 0 0
+21 0 1 0
+33 0 0 1
+10 1 1 1.5
+$EndNodes
+$Elements
+4
+1 15 2 0 1 40
+2 4 2 7 1 40 20 21 33
+
+3 2 0 40 20 21
+4 4 3 -3 2 5 20 21 33 10
+$EndElements
+)";
+
+inline const std::string gmsh_4 = R"($MeshFormat
+4.1 0 8
+$EndMeshFormat
+$Entities
+1 0 1 2
+1 0 0 0 0
+1 0 0 0 1 1 0 0 0
+1 0 0 0 1 1 1 1 7 1 1
+2 0 0 0 1 1 1 2 -3 9 0
+$EndEntities
+$Nodes
+2 5 1 6
+0 1 0 1
+1
+0 0 0
+3 1 0 4
+2
+3
+5
+6
+1 0 0
+0 1 0
+0 0 1
+1 1 1.5
+$EndNodes
+$Elements
+3 3 1 3
+2 1 2 1
+1 1 2 3
+3 1 4 1
+2 1 2 3 5
+3 2 4 1
+3 2 3 5 6
+$EndElements
+)";
+
+inline const std::string medit = R"(MeshVersionFormatted 2 # a comment
+
+Dimension
+3
+
+# nodes
+Vertices
+5
+0 0 0 0
+1 0 0 0   # the second
+0 1 0 0
+0 0 1 0
+
+1 1 1.5 12
+Triangles
+1
+1 2 3 5
+Tetrahedra
+2
+1 2 3 4 7
+2 3 4 5 -3
+End
+)";
+
+inline const std::string vtk = R"(# vtk DataFile Version 3.0
+two tetrahedra
+ASCII
+DATASET UNSTRUCTURED_GRID
+POINTS 5 float
+0 0 0  1 0 0  0 1 0
+0 0 1  1 1 1.5
+CELLS 3 14
+3 0 1 2
+4 0 1 2 3
+4 1 2 3 4
+CELL_TYPES 3
+5 10 10
+POINT_DATA 5
+VECTORS displacement double
+0 0 0 0 0 0 0 0 0 0 0 0 0 0 0
+CELL_DATA 3
+SCALARS quality float
+LOOKUP_TABLE default
+1 1 0.5
+FIELD FieldData 2
+other 2 3 int
+1 2 3 4 5 6
+region 1 3 int
+9 7 -3
+)";
+
+inline const std::string vtk_5 = R"(# vtk DataFile Version 5.1
+two tetrahedra
+ASCII
+DATASET UNSTRUCTURED_GRID
+POINTS 5 double
+0 0 0 1 0 0 0 1 0 0 0 1 1 1 1.5
+METADATA
+INFORMATION 0
+
+CELLS 3 8
+OFFSETS vtktypeint64
+0 4 8
+CONNECTIVITY vtktypeint64
+0 1 2 3 1 2 3 4
+CELL_TYPES 2
+10 10
+CELL_DATA 2
+SCALARS region int
+LOOKUP_TABLE default
+7 -3
+)";
+
+inline const std::string vtu = R"(<?xml version="1.0"?>
+<!-- two <tetrahedra> -->
+<VTKFile type="UnstructuredGrid" version="0.1" byte_order="LittleEndian">
+  <UnstructuredGrid>
+    <Piece NumberOfPoints="5" NumberOfCells="3">
+      <PointData><DataArray type="Float32" Name="region" format="ascii">1 1 1 1 1</DataArray></PointData>
+      <CellData Scalars="region">
+        <DataArray type="Int32" Name="region" format="ascii">9 7 -3</DataArray>
+      </CellData>
+      <Points>
+        <DataArray type="Float64" Name="Points" NumberOfComponents="3" format="ascii">
+          0 0 0 1 0 0 0 1 0 0 0 1 1 1 1.5</DataArray>
+      </Points>
+      <Cells>
+        <DataArray type="Int64" Name="connectivity" format="ascii">0 1 2  0 1 2 3  1 2 3 4</DataArray>
+        <DataArray type="Int64" Name="offsets" format="ascii">3 7 11</DataArray>
+        <DataArray type="UInt8" Name="types" format="ascii">5 10 10</DataArray>
+      </Cells>
+    </Piece>
+  </UnstructuredGrid>
+</VTKFile>
+)";
+
+inline const std::string node = R"(# nodes
+5 3 1 1
+1 0 0 0 0.5 0
+2 1 0 0 0.5 0
+3 0 1 0 0.5 0
+4 0 0 1 0.5 1
+5 1 1 1.5 0.5 1
+# end
+)";
+
+inline const std::string ele = R"(2 4 1
+1 1 2 3 4 7
+2 2 3 4 5 -3.0
+)";
+
+/// The legacy VTK sample in binary; big-endian, as the format has it.
+class BinaryVtk {
+ public:
+  BinaryVtk& text(const std::string& text) {
+    bytes_ += text;
+    return *this;
+  }
+  template <class Integer>
+  BinaryVtk& integers(const std::vector<long long>& values) {
+    for (long long value : values)
+      for (int byte = sizeof(Integer) - 1; byte >= 0; --byte)
+        bytes_ += static_cast<char>(static_cast<unsigned long long>(value) >> (8 * byte) & 0xff);
+    return *this;
+  }
+  BinaryVtk& floats(const std::vector<float>& values) {
+    for (float value : values) integers<int>({static_cast<long long>(__builtin_bit_cast(unsigned, value))});
+    return *this;
+  }
+  operator std::string() const { return bytes_; }
+
+ private:
+  std::string bytes_;
+};
+
+inline const std::string vtk_binary =
+    BinaryVtk()
+        .text("# vtk DataFile Version 2.0\ntwo tetrahedra\nBINARY\nDATASET UNSTRUCTURED_GRID\nPOINTS 5 float\n")
+        .floats({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1.5})
+        .text("\nCELLS 2 10\n")
+        .integers<int>({4, 0, 1, 2, 3, 4, 1, 2, 3, 4})
+        .text("\nCELL_TYPES 2\n")
+        .integers<int>({10, 10})
+        .text("\nCELL_DATA 2\nSCALARS region short\nLOOKUP_TABLE default\n")
+        .integers<short>({7, -3})
+        .text("\n");
+
+inline const std::string vtk_5_binary =
+    BinaryVtk()
+        .text("# vtk DataFile Version 5.1\ntwo tetrahedra\nBINARY\nDATASET UNSTRUCTURED_GRID\nPOINTS 5 float\n")
+        .floats({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1.5})
+        .text("\nCELLS 3 8\nOFFSETS vtktypeint64\n")
+        .integers<long long>({0, 4, 8})
+        .text("\nCONNECTIVITY vtktypeint64\n")
+        .integers<long long>({0, 1, 2, 3, 1, 2, 3, 4})
+        .text("\nCELL_TYPES 2\n")
+        .integers<int>({10, 10})
+        .text("\nCELL_DATA 2\nFIELD FieldData 2\nheat 1 2 float\n")
+        .floats({1, 2})
+        .text("\nMETADATA\nINFORMATION 0\n\nregion 1 2 vtktypeint64\n")
+        .integers<long long>({7, -3})
+        .text("\n");
+
+}  // namespace heml::samples

@@ -1,0 +1,47 @@
+#pragma once
+// Closed surfaces for tests.
+#include <heml/mesh/generate.hpp>
+#include <heml/mesh/surface.hpp>
+#include <vector>
+
+namespace heml {
+
+/// The sides of a box, outward; every node is on it.
+inline SurfaceMesh box_surface(const Vec3& size, int cells, const Vec3& origin = Vec3::Zero()) {
+  const TetMesh box = make_box(size, {cells, cells, cells}, origin);
+  SurfaceMesh surface;
+  surface.source = "box";
+  std::vector<int> number(box.nodes.size(), -1);
+  for (Triangle triangle : boundary_of(box).triangles) {
+    for (int& node : triangle) {
+      if (number[node] < 0) {
+        number[node] = static_cast<int>(surface.nodes.size());
+        surface.nodes.push_back(box.nodes[node]);
+      }
+      node = number[node];
+    }
+    surface.triangles.push_back(triangle);
+  }
+  return surface;
+}
+
+inline SurfaceMesh cube(double size, const Vec3& centre) {
+  return box_surface(Vec3::Constant(size), 2, centre - Vec3::Constant(size / 2));
+}
+
+inline SurfaceMesh together(SurfaceMesh a, const SurfaceMesh& b) {
+  const int first = static_cast<int>(a.nodes.size());
+  a.nodes.insert(a.nodes.end(), b.nodes.begin(), b.nodes.end());
+  for (const auto& [i, j, k] : b.triangles) a.triangles.push_back({i + first, j + first, k + first});
+  return a;
+}
+
+/// Volume on the side the triangles face away from, m³.
+inline double enclosed_volume(const SurfaceMesh& surface) {
+  double volume = 0;
+  for (const auto& [a, b, c] : surface.triangles)
+    volume += surface.nodes[a].dot(surface.nodes[b].cross(surface.nodes[c])) / 6;
+  return volume;
+}
+
+}  // namespace heml

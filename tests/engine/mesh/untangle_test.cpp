@@ -1,0 +1,36 @@
+#include <doctest/doctest.h>
+#include <heml/mesh/untangle.hpp>
+
+#include "engine/mesh/solids.hpp"
+
+using namespace heml;
+
+namespace {
+// A box with a dent in its top and the node beside it pushed through a wall of the dent.
+SurfaceMesh creased_box() {
+  SurfaceMesh surface = box_surface(Vec3(1, 1, 1), 12);
+  for (Vec3& x : surface.nodes) {
+    if ((x - Vec3(0.5, 0.5, 1)).norm() < 1e-9) x += Vec3(0.14, 0.01, -0.05);
+    if ((x - Vec3(7.0 / 12, 0.5, 1)).norm() < 1e-9) x += Vec3(0, 0, -0.1);
+  }
+  return surface;
+}
+}  // namespace
+
+TEST_CASE("smooths a crease apart and leaves all nodes away from it as they were") {
+  SurfaceMesh surface = creased_box();
+  const SurfaceMesh before = surface;
+  const Intersections found = self_intersections(surface);
+  REQUIRE(found.pairs > 0);
+  CHECK(untangle(surface, found));
+  CHECK(self_intersections(surface).pairs == 0);
+  for (std::size_t n = 0; n < surface.nodes.size(); ++n)
+    if ((before.nodes[n] - Vec3(0.5, 0.5, 1)).norm() > 0.5) CHECK(surface.nodes[n] == before.nodes[n]);
+}
+
+TEST_CASE("leaves bodies that cross as they were") {
+  SurfaceMesh surface = together(cube(1, Vec3(0, 0, 0)), cube(1, Vec3(0.3, 0.31, 0.32)));
+  const std::vector<Vec3> before = surface.nodes;
+  CHECK_FALSE(untangle(surface, self_intersections(surface)));
+  CHECK(surface.nodes == before);
+}
