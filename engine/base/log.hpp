@@ -1,6 +1,7 @@
 #pragma once
 // Messages for people, on stderr: "heml: warning: ...". Results go to files and stdout, never through here.
 #include <fmt/format.h>
+
 #include <string>
 #include <utility>
 

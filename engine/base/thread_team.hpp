@@ -1,7 +1,7 @@
 #pragma once
-// A few threads that share loops. Ranges are split by position alone and each item writes its own result, so the number of
-// threads never changes a bit of it. Workers sleep between loops: on a small machine a spinning worker steals the core from
-// drawing.
+// A few threads that share loops. Ranges are split by position alone and each item writes its own result, so the number
+// of threads never changes a bit of it. Workers sleep between loops: on a small machine a spinning worker steals the
+// core from drawing.
 #include <algorithm>
 #include <condition_variable>
 #include <cstddef>
@@ -21,8 +21,8 @@ class ThreadTeam {
 
   int size() const { return static_cast<int>(workers_.size()) + 1; }
 
-  /// Calls body(begin, end) on contiguous pieces that together cover [0, count), each at least `grain` long, and returns when
-  /// all are done. One caller at a time. body must not throw.
+  /// Calls body(begin, end) on contiguous pieces that together cover [0, count), each at least `grain` long, and
+  /// returns when all are done. One caller at a time. body must not throw.
   template <class Body>
   void for_ranges(std::size_t count, std::size_t grain, const Body& body) {
     const std::size_t pieces = std::min<std::size_t>(workers_.size() + 1, grain ? count / grain : count);
@@ -30,8 +30,8 @@ class ThreadTeam {
       if (count) body(std::size_t{0}, count);
       return;
     }
-    run(Loop{[](const void* b, std::size_t first, std::size_t last) { (*static_cast<const Body*>(b))(first, last); }, &body,
-             count, pieces});
+    run(Loop{[](const void* b, std::size_t first, std::size_t last) { (*static_cast<const Body*>(b))(first, last); },
+             &body, count, pieces});
   }
 
  private:

@@ -4,11 +4,12 @@
 
 namespace heml {
 
-/// rotate(X − origin) + origin + translate, translation and angle ramped linearly over `over` seconds from t = 0, then held.
+/// rotate(X − origin) + origin + translate, translation and angle ramped linearly over `over` seconds from t = 0, then
+/// held.
 struct Motion {
   Vec3 translate, axis, origin;  ///< m; axis unit
   double radians = 0;
-  double over = 0;               ///< s; 0: at once
+  double over = 0;  ///< s; 0: at once
 
   struct At {
     Vec3 x, v, a;  ///< m, m/s, m/s²

@@ -31,7 +31,8 @@ ElementGroup<Real> make_group(const TetMesh& mesh, const std::vector<int>& eleme
     if (s < elements.size()) {
       const Vec3 g0 = -g.colwise().sum().transpose();
       const Mat3 sum = g.transpose() * g + g0 * g0.transpose();
-      group.gamma[s] = static_cast<Real>(Eigen::SelfAdjointEigenSolver<Mat3>(sum, Eigen::EigenvaluesOnly).eigenvalues()[2]);
+      group.gamma[s] =
+          static_cast<Real>(Eigen::SelfAdjointEigenSolver<Mat3>(sum, Eigen::EigenvaluesOnly).eigenvalues()[2]);
     }
   }
   return group;

@@ -33,11 +33,13 @@ class LawLoops final : public GroupLaw<Real> {
  public:
   explicit LawLoops(const L& law) : law_(law) {}
 
-  bool forces(const ElementGroup<Real>& group, const Real* x, std::size_t begin, std::size_t end, Real* corner) const override {
+  bool forces(const ElementGroup<Real>& group, const Real* x, std::size_t begin, std::size_t end,
+              Real* corner) const override {
     return group_forces<Real>(law_, group, x, begin, end, corner);
   }
 
-  Real frequency_bound(const ElementGroup<Real>& group, const Real* x, std::size_t begin, std::size_t end) const override {
+  Real frequency_bound(const ElementGroup<Real>& group, const Real* x, std::size_t begin,
+                       std::size_t end) const override {
     Real largest = 0;
     for_each_link(group, x, begin, end, [&](std::size_t s, const Real* A, const Link<Real>& link) {
       const Real bound = element_frequency_bound(law_, link, A, group.volume[s], group.gamma[s], group.density);
@@ -76,7 +78,8 @@ class LawLoops final : public GroupLaw<Real> {
 template <class Real>
 std::unique_ptr<GroupLaw<Real>> make_group_law(const Material& material, bool continuation) {
   std::unique_ptr<GroupLaw<Real>> loops;
-  with_law<Real>(material, continuation, [&]<class L>(const L& law) { loops = std::make_unique<LawLoops<Real, L>>(law); });
+  with_law<Real>(material, continuation,
+                 [&]<class L>(const L& law) { loops = std::make_unique<LawLoops<Real, L>>(law); });
   return loops;
 }
 

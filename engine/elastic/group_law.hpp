@@ -23,7 +23,8 @@ class GroupLaw {
   virtual bool forces(const ElementGroup<Real>& group, const Real* x, std::size_t begin, std::size_t end,
                       Real* corner) const = 0;
   /// Largest element_frequency_bound() of slots [begin, end), 1/s².
-  virtual Real frequency_bound(const ElementGroup<Real>& group, const Real* x, std::size_t begin, std::size_t end) const = 0;
+  virtual Real frequency_bound(const ElementGroup<Real>& group, const Real* x, std::size_t begin,
+                               std::size_t end) const = 0;
   /// Σ V W over the group, J, summed in the order of slots.
   virtual double energy(const ElementGroup<Real>& group, const Real* x) const = 0;
   /// First slot where the law is not defined, or group.size().

@@ -1,6 +1,6 @@
 #pragma once
-// The loops over a group of elements. Each is written once for every law and scalar; the law is a value of its own type, so
-// what a law does not use is not in the loop.
+// The loops over a group of elements. Each is written once for every law and scalar; the law is a value of its own
+// type, so what a law does not use is not in the loop.
 #include <heml/elastic/element_group.hpp>
 #include <heml/elastic/step_bound.hpp>
 #include <heml/elastic/tension.hpp>
@@ -13,10 +13,14 @@ template <class Real>
 struct SlotNodes {
   const Real *x0, *x1, *x2, *x3;
   SlotNodes(const ElementGroup<Real>& group, const Real* x, std::size_t s)
-      : x0(x + 3 * group.node[0][s]), x1(x + 3 * group.node[1][s]), x2(x + 3 * group.node[2][s]), x3(x + 3 * group.node[3][s]) {}
+      : x0(x + 3 * group.node[0][s]),
+        x1(x + 3 * group.node[1][s]),
+        x2(x + 3 * group.node[2][s]),
+        x3(x + 3 * group.node[3][s]) {}
 };
 
-/// Corner forces of packets [begin, end) into corner (3 reals a corner). Returns whether the law is defined in all of them.
+/// Corner forces of packets [begin, end) into corner (3 reals a corner). Returns whether the law is defined in all of
+/// them.
 template <class Real, Law<Real> L>
 bool group_forces(const L& law, const ElementGroup<Real>& group, const Real* x, std::size_t begin, std::size_t end,
                   Real* corner) {
@@ -50,7 +54,8 @@ bool group_forces(const L& law, const ElementGroup<Real>& group, const Real* x, 
 
 /// Calls visit(element, Link) for every element of the group, in order, with all invariants.
 template <class Real, class Visit>
-void for_each_link(const ElementGroup<Real>& group, const Real* x, std::size_t begin, std::size_t end, const Visit& visit) {
+void for_each_link(const ElementGroup<Real>& group, const Real* x, std::size_t begin, std::size_t end,
+                   const Visit& visit) {
   for (std::size_t s = begin; s < end; ++s) {
     const SlotNodes<Real> n(group, x, s);
     const Real A[6] = {group.A[0][s], group.A[1][s], group.A[2][s], group.A[3][s], group.A[4][s], group.A[5][s]};

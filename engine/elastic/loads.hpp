@@ -10,9 +10,9 @@ inline double ramp(double time, double over) { return over > 0 && time < over ? 
 
 template <class Real>
 struct DeadLoad {
-  std::vector<int> nodes;     ///< inner numbers, ascending
-  std::vector<Real> forces;   ///< 3 a node, N
-  double over = 0;            ///< s
+  std::vector<int> nodes;    ///< inner numbers, ascending
+  std::vector<Real> forces;  ///< 3 a node, N
+  double over = 0;           ///< s
 };
 
 template <class Real>
@@ -27,7 +27,8 @@ template <class Real>
 void add_load(const DeadLoad<Real>& load, double time, Real* f) {
   const Real part = static_cast<Real>(ramp(time, load.over));
   for (std::size_t k = 0; k < load.nodes.size(); ++k)
-    for (std::size_t i = 0; i < 3; ++i) f[3 * static_cast<std::size_t>(load.nodes[k]) + i] += part * load.forces[3 * k + i];
+    for (std::size_t i = 0; i < 3; ++i)
+      f[3 * static_cast<std::size_t>(load.nodes[k]) + i] += part * load.forces[3 * k + i];
 }
 
 template <class Real>

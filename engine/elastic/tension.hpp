@@ -1,13 +1,15 @@
 #pragma once
 // HEML in tension form (Goulette & Chendeb 2006, Eq. 2): forces of one law on a group of elements.
 //
-// With edges e_a = x_a − x_0 and their Gram matrix G (squared lengths in another basis: l_0a = G_aa, l_ab = G_aa + G_bb −
-// 2 G_ab), everything an isotropic law needs of C is in G and the constant A = Dm⁻¹Dm⁻ᵀ:
+// With edges e_a = x_a − x_0 and their Gram matrix G (squared lengths in another basis: l_0a = G_aa, l_ab = G_aa + G_bb
+// − 2 G_ab), everything an isotropic law needs of C is in G and the constant A = Dm⁻¹Dm⁻ᵀ:
 //     I1 = A:G,   tr C² = (AGA):G,   J = e_1·(e_2×e_3) / 6V.
-// The tensions are T_ab = V g_a·S g_b = V [2 (w1 + w2 I1) A − 2 w2 AGA]_ab, one scalar a link (a link 0a has −Σ_b T_ab), and
+// The tensions are T_ab = V g_a·S g_b = V [2 (w1 + w2 I1) A − 2 w2 AGA]_ab, one scalar a link (a link 0a has −Σ_b
+// T_ab), and
 //     f_a = −Σ_b T_ab e_b − V wJ ∂J/∂x_a,   f_0 = −(f_1 + f_2 + f_3);
-// F is never formed. Departures from the paper: Table 1 drops the factor 2 of the quadratic forms and leaves V implicit; the
-// volume term uses the signed J, whose gradient is a cross product of edges, since squared lengths do not see a mirror image.
+// F is never formed. Departures from the paper: Table 1 drops the factor 2 of the quadratic forms and leaves V
+// implicit; the volume term uses the signed J, whose gradient is a cross product of edges, since squared lengths do not
+// see a mirror image.
 #include <cmath>
 #include <heml/elastic/element_group.hpp>
 #include <heml/materials/law.hpp>
@@ -17,9 +19,9 @@ namespace heml {
 /// What the force loop and its kin read of one element.
 template <class Real>
 struct Link {
-  Real e[3][3];    ///< edges from node 0, m
-  Real G[6];       ///< Gram matrix 11 22 33 12 13 23, m²
-  Real AG[3][3];   ///< A G
+  Real e[3][3];   ///< edges from node 0, m
+  Real G[6];      ///< Gram matrix 11 22 33 12 13 23, m²
+  Real AG[3][3];  ///< A G
   Invariants<Real> at;
   Real cross[3][3];  ///< 6V ∂J/∂x_a, a = 1..3, m²
 };
@@ -82,8 +84,8 @@ template <class Real>
 
 /// Corner forces of one element into out[12] ([corner][xyz], N). Returns whether the law is defined there.
 template <class Real, Law<Real> L>
-[[gnu::always_inline]] inline bool corner_forces(const L& law, const Real* x0, const Real* x1, const Real* x2, const Real* x3,
-                                                 const Real A[6], Real volume, Real out[12]) {
+[[gnu::always_inline]] inline bool corner_forces(const L& law, const Real* x0, const Real* x1, const Real* x2,
+                                                 const Real* x3, const Real A[6], Real volume, Real out[12]) {
   const Link<Real> link = read_link<L::uses_I2, L::uses_J>(x0, x1, x2, x3, A, volume);
   const Slopes<Real> s = law.slopes(link.at);
   const Real pull = 2 * volume * (s.w1 + (L::uses_I2 ? s.w2 * link.at.I1 : Real(0)));

@@ -1,6 +1,6 @@
 #pragma once
-// A law seen from a deformation gradient: energy, first Piola–Kirchhoff stress, and its differential. The engine itself works
-// in tension form (elastic/); this form serves `heml probe`, fields for viewers, and checks.
+// A law seen from a deformation gradient: energy, first Piola–Kirchhoff stress, and its differential. The engine itself
+// works in tension form (elastic/); this form serves `heml probe`, fields for viewers, and checks.
 #include <heml/materials/law.hpp>
 #include <heml/math/types.hpp>
 

@@ -30,8 +30,8 @@ void use_law(const Material& material, const Use& use) {
 }
 }  // namespace detail
 
-/// Calls use(law) with the material's law as a struct of Real, continued or not: the one place where a name becomes a type.
-/// The material must be one that material_problem() has nothing against.
+/// Calls use(law) with the material's law as a struct of Real, continued or not: the one place where a name becomes a
+/// type. The material must be one that material_problem() has nothing against.
 template <class Real, class Use>
 void with_law(const Material& material, bool continuation, const Use& use) {
   const auto attempt = [&]<class Tag>(Tag) {

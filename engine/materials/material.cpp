@@ -1,5 +1,6 @@
-#include <cmath>
 #include <fmt/format.h>
+
+#include <cmath>
 #include <heml/materials/laws.hpp>
 #include <heml/materials/material.hpp>
 

@@ -1,6 +1,6 @@
 #pragma once
-// A material as people write it: the name of a law, its parameters, a density. The engine turns it into a law's struct once,
-// when a body is built or the law is switched (world/make_world.cpp).
+// A material as people write it: the name of a law, its parameters, a density. The engine turns it into a law's struct
+// once, when a body is built or the law is switched (world/make_world.cpp).
 #include <heml/materials/law.hpp>
 #include <optional>
 #include <span>

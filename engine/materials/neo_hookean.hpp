@@ -2,8 +2,8 @@
 // Neo-Hookean with a logarithmic volume term: W = μ/2 (I1−3) − μ ln J + λ/2 (ln J)², J signed.
 // (The paper's row of Table 1, K1 I1, is not free of stress at rest; the logarithm puts that right.)
 //
-// Defined for J > 0. `continued` replaces ln J and (ln J)² below J0 by their second-order Taylor polynomials there: C2, and
-// finite and restoring through J = 0 and beyond; off reproduces the formula.
+// Defined for J > 0. `continued` replaces ln J and (ln J)² below J0 by their second-order Taylor polynomials there: C2,
+// and finite and restoring through J = 0 and beyond; off reproduces the formula.
 #include <heml/materials/law.hpp>
 #include <heml/math/elementary.hpp>
 

@@ -1,14 +1,14 @@
 #pragma once
-// Elementary functions of our own: the C library picks other code on other processors (with or without FMA), whose last bits
-// differ, and a replay must not.
+// Elementary functions of our own: the C library picks other code on other processors (with or without FMA), whose last
+// bits differ, and a replay must not.
 #include <bit>
 #include <cstdint>
 #include <type_traits>
 
 namespace heml {
 
-/// Natural logarithm of a normal positive number, within 2 ulp. x = m 2^k with m in [√½, √2): ln x = 2 artanh s + k ln 2,
-/// s = (m−1)/(m+1), |s| < 0.172. No branches: loops over it vectorise.
+/// Natural logarithm of a normal positive number, within 2 ulp. x = m 2^k with m in [√½, √2): ln x = 2 artanh s + k ln
+/// 2, s = (m−1)/(m+1), |s| < 0.172. No branches: loops over it vectorise.
 template <class Real>
 inline Real natural_log(Real x) {
   if constexpr (std::is_same_v<Real, double>) {
@@ -19,8 +19,12 @@ inline Real natural_log(Real x) {
     const double s = (m - 1) / (m + 1);
     const double z = s * s;
     const double tail =
-        z * (1.0 / 3 + z * (1.0 / 5 + z * (1.0 / 7 + z * (1.0 / 9 + z * (1.0 / 11 + z * (1.0 / 13 + z * (1.0 / 15 +
-        z * (1.0 / 17 + z * (1.0 / 19 + z * (1.0 / 21))))))))));
+        z * (1.0 / 3 +
+             z * (1.0 / 5 +
+                  z * (1.0 / 7 +
+                       z * (1.0 / 9 + z * (1.0 / 11 +
+                                           z * (1.0 / 13 +
+                                                z * (1.0 / 15 + z * (1.0 / 17 + z * (1.0 / 19 + z * (1.0 / 21))))))))));
     // ln 2 in two parts, the first with enough trailing zeros that k times it is exact.
     const double n = static_cast<double>(static_cast<std::int32_t>(k));
     return n * 0x1.62e42fefap-1 + (n * 0x1.cf79abc9e3b3ap-40 + (2 * s + 2 * s * tail));

@@ -10,7 +10,8 @@ constexpr std::size_t marks_kept = 16, durations_kept = 1000;
 Pacer::Pacer(double tick) : tick_(tick) { durations_.reserve(durations_kept); }
 
 Pacer::Time Pacer::at(long tick) const {
-  return base_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(static_cast<double>(tick) * tick_));
+  return base_ +
+         std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(static_cast<double>(tick) * tick_));
 }
 
 void Pacer::restart(Time now) {

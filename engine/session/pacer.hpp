@@ -1,5 +1,6 @@
 #pragma once
-// Keeps simulated time against wall time and the account of it. Knows no thread: given the time of day, it says what is due.
+// Keeps simulated time against wall time and the account of it. Knows no thread: given the time of day, it says what is
+// due.
 #include <chrono>
 #include <heml/session/frame.hpp>
 #include <vector>
@@ -31,16 +32,16 @@ class Pacer {
 
   double tick_;
   Time base_{};
-  long done_ = 0;                    ///< ticks since base_
+  long done_ = 0;  ///< ticks since base_
   long missed_ = 0;
   struct Mark {
     Time wall;
     long ticks;
   };
-  std::vector<Mark> marks_;          ///< a ring of one mark every 1/16 window: ticks done so far by the wall clock
+  std::vector<Mark> marks_;  ///< a ring of one mark every 1/16 window: ticks done so far by the wall clock
   std::size_t next_mark_ = 0;
   long total_ = 0;
-  std::vector<float> durations_;     ///< s, a ring of the last 1000
+  std::vector<float> durations_;  ///< s, a ring of the last 1000
   std::size_t next_duration_ = 0;
 };
 

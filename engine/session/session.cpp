@@ -1,6 +1,7 @@
+#include <fmt/format.h>
+
 #include <atomic>
 #include <condition_variable>
-#include <fmt/format.h>
 #include <heml/base/log.hpp>
 #include <heml/scenario/recorder.hpp>
 #include <heml/scenario/schedule.hpp>
@@ -19,8 +20,13 @@ constexpr auto frame_interval = std::chrono::milliseconds(8);  // no viewer look
 class Session::Impl {
  public:
   Impl(const Scene& scene, SessionOptions options)
-      : options_(std::move(options)), world_(load_world(scene)), skin_(make_skin(world_->setup())),
-        schedule_(scene, world_->setup().mesh), field_(scene.view.field), playing_(!options_.start_paused), pacer_(world_->setup().solver.tick()) {
+      : options_(std::move(options)),
+        world_(load_world(scene)),
+        skin_(make_skin(world_->setup())),
+        schedule_(scene, world_->setup().mesh),
+        field_(scene.view.field),
+        playing_(!options_.start_paused),
+        pacer_(world_->setup().solver.tick()) {
     if (options_.record) recorder_.emplace(*options_.record, without_events(scene), *world_);
     publish();
     thread_ = std::thread([this] { run(); });
@@ -69,7 +75,8 @@ class Session::Impl {
       take_commands();
       if (may_tick()) one_tick();
       const auto now = Pacer::Clock::now();
-      if (show_now_.exchange(false) || now - published_ >= std::max<Pacer::Clock::duration>(frame_interval, 4 * publish_cost_))
+      if (show_now_.exchange(false) ||
+          now - published_ >= std::max<Pacer::Clock::duration>(frame_interval, 4 * publish_cost_))
         publish();
     }
   }
@@ -157,7 +164,7 @@ class Session::Impl {
   Skin skin_;
   std::optional<Recorder> recorder_;
   Schedule schedule_;  ///< the scene's own events
-  std::mutex mutex_;  ///< of queue_ and single_steps_; held for a swap at most
+  std::mutex mutex_;   ///< of queue_ and single_steps_; held for a swap at most
   std::condition_variable wake_;
   std::vector<Command> queue_, taken_;
   long single_steps_ = 0;
@@ -171,7 +178,8 @@ class Session::Impl {
   std::thread thread_;
 };
 
-Session::Session(const Scene& scene, SessionOptions options) : impl_(std::make_unique<Impl>(scene, std::move(options))) {}
+Session::Session(const Scene& scene, SessionOptions options)
+    : impl_(std::make_unique<Impl>(scene, std::move(options))) {}
 Session::~Session() = default;
 const Skin& Session::skin() const { return impl_->skin(); }
 void Session::post(Command command) { impl_->post(std::move(command)); }

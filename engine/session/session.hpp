@@ -1,6 +1,6 @@
 #pragma once
-// The engine thread: steps a world at a fixed rate of simulated against wall time, takes commands through a queue, publishes
-// immutable frames. Neither side waits for the other:
+// The engine thread: steps a world at a fixed rate of simulated against wall time, takes commands through a queue,
+// publishes immutable frames. Neither side waits for the other:
 //
 //    window thread                                    engine thread
 //    ─────────────                                    ─────────────
@@ -10,10 +10,10 @@
 //                         by one atomic
 //
 // When the engine cannot keep up it slows simulated time, says so in Frame::pace, and never runs a burst to catch up.
-#include <heml/scenario/scene.hpp>
-#include <heml/session/frame.hpp>
 #include <filesystem>
 #include <functional>
+#include <heml/scenario/scene.hpp>
+#include <heml/session/frame.hpp>
 #include <memory>
 #include <optional>
 #include <string>
@@ -24,7 +24,8 @@ namespace heml {
 struct SessionOptions {
   std::optional<std::filesystem::path> record;  ///< JSON Lines file every command and checkpoint is appended to
   bool start_paused = false;
-  std::function<void()> on_frame;  ///< called on the engine thread after a frame is published (to wake a sleeping viewer)
+  std::function<void()>
+      on_frame;  ///< called on the engine thread after a frame is published (to wake a sleeping viewer)
   std::function<void()> before_tick;  ///< tests: called on the engine thread before each tick
 };
 

@@ -7,8 +7,8 @@ namespace heml {
 /// Boundary of the mesh, its held nodes and regions.
 Skin make_skin(const WorldSetup& setup);
 
-/// Fills a frame with what the world is now. `ahead`: seconds of extrapolation by velocity, for pictures between two ticks.
-/// Pace and paused are left as they are.
+/// Fills a frame with what the world is now. `ahead`: seconds of extrapolation by velocity, for pictures between two
+/// ticks. Pace and paused are left as they are.
 void fill_frame(World& world, const Skin& skin, Field field, double ahead, Frame& frame);
 
 }  // namespace heml

@@ -1,8 +1,8 @@
 #pragma once
 // Grasp: a patch of nodes tied to a tool by critically damped springs, like tissue held by forceps.
 //
-// Node i of the patch gets k_i = w_i ω² m_i and c_i = 2 √w_i ω m_i, with w falling smoothly to 0 at the rim and ω a fraction
-// of the body's highest frequency: stiff for a hand, and never what limits the step.
+// Node i of the patch gets k_i = w_i ω² m_i and c_i = 2 √w_i ω m_i, with w falling smoothly to 0 at the rim and ω a
+// fraction of the body's highest frequency: stiff for a hand, and never what limits the step.
 #include <heml/math/types.hpp>
 #include <span>
 #include <vector>
@@ -12,8 +12,8 @@ namespace heml {
 template <class Real>
 class GraspSpring {
  public:
-  /// x: 3 #V positions now; rest: 3 #V; nodes: candidates (inner numbers, ascending), those within `radius` of `center` at rest
-  /// are taken, and `center` always. inverse_mass 0: held, not taken. omega: 1/s.
+  /// x: 3 #V positions now; rest: 3 #V; nodes: candidates (inner numbers, ascending), those within `radius` of `center`
+  /// at rest are taken, and `center` always. inverse_mass 0: held, not taken. omega: 1/s.
   GraspSpring(int center, Real radius, std::span<const int> nodes, const std::vector<Vec3>& rest, const Real* x,
               const std::vector<Real>& inverse_mass, Real omega);
 
@@ -37,9 +37,9 @@ class GraspSpring {
 
   int center_;
   Real omega_;
-  Vec3 target_;                ///< m
+  Vec3 target_;  ///< m
   std::vector<int> nodes_;
-  std::vector<Vec3> offset_;   ///< of each node from the tool when it was taken, m
+  std::vector<Vec3> offset_;               ///< of each node from the tool when it was taken, m
   std::vector<Real> stiffness_, damping_;  ///< N/m, N s/m
 };
 

@@ -1,6 +1,6 @@
 #pragma once
-// What a person or a script can do to a running world: one struct an action. Commands enter at the start of a tick, at one
-// door (World::apply), where sessions record them; a replay sends the same commands at the same ticks.
+// What a person or a script can do to a running world: one struct an action. Commands enter at the start of a tick, at
+// one door (World::apply), where sessions record them; a replay sends the same commands at the same ticks.
 #include <heml/materials/material.hpp>
 #include <heml/math/types.hpp>
 #include <heml/world/setup.hpp>
@@ -10,8 +10,8 @@
 
 namespace heml {
 
-/// Takes hold of the surface nodes within `radius` of a node, by a critically damped spring to a tool that starts where the
-/// node is now. Replaces what was grasped before.
+/// Takes hold of the surface nodes within `radius` of a node, by a critically damped spring to a tool that starts where
+/// the node is now. Replaces what was grasped before.
 struct Grasp {
   int node = 0;       ///< mesh-file order
   double radius = 0;  ///< m, rest shape; 0: that node alone

@@ -24,7 +24,8 @@ std::vector<Triangle> faces_within(const BoundaryFaces& faces, const std::vector
 }
 
 template <class Real>
-DeadLoad<Real> dead_load(const Load& load, const std::vector<int>& nodes, const TetMesh& mesh, const BoundaryFaces& faces) {
+DeadLoad<Real> dead_load(const Load& load, const std::vector<int>& nodes, const TetMesh& mesh,
+                         const BoundaryFaces& faces) {
   std::vector<Vec3> force(nodes.size(), Vec3::Zero());
   if (load.kind == Load::Kind::force) {
     for (Vec3& f : force) f = load.vector / static_cast<double>(nodes.size());
@@ -59,8 +60,8 @@ void add_boundary(const WorldSetup& setup, Model<Real>& model) {
   std::vector<int> winner(model.mesh.nodes.size(), -1);
   for (std::size_t b = 0; b < setup.boundary.size(); ++b) {
     const Boundary& entry = setup.boundary[b];
-    model.motions.push_back({entry.translate, entry.axis.normalized(), entry.origin,
-                             entry.degrees * std::numbers::pi / 180, entry.over});
+    model.motions.push_back(
+        {entry.translate, entry.axis.normalized(), entry.origin, entry.degrees * std::numbers::pi / 180, entry.over});
     for (const int n : inner(entry.nodes, model.order)) winner[static_cast<std::size_t>(n)] = static_cast<int>(b);
   }
   for (std::size_t n = 0; n < winner.size(); ++n)
@@ -80,7 +81,8 @@ Model<Real> make_model(const WorldSetup& setup) {
   for (const Triangle& face : faces.triangles)
     model.surface_nodes.insert(model.surface_nodes.end(), face.begin(), face.end());
   std::sort(model.surface_nodes.begin(), model.surface_nodes.end());
-  model.surface_nodes.erase(std::unique(model.surface_nodes.begin(), model.surface_nodes.end()), model.surface_nodes.end());
+  model.surface_nodes.erase(std::unique(model.surface_nodes.begin(), model.surface_nodes.end()),
+                            model.surface_nodes.end());
   add_boundary(setup, model);
   add_loads(setup, faces, model);
   Eigen::AlignedBox3d box;

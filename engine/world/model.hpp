@@ -17,14 +17,14 @@ struct HeldNode {
 template <class Real>
 struct Model {
   Reordering order;
-  TetMesh mesh;                      ///< inner order
-  std::vector<int> material_of;      ///< #T
-  std::vector<int> surface_nodes;    ///< ascending
-  std::vector<HeldNode> held;        ///< ascending in node
-  std::vector<Motion> motions;       ///< one per setup.boundary
+  TetMesh mesh;                    ///< inner order
+  std::vector<int> material_of;    ///< #T
+  std::vector<int> surface_nodes;  ///< ascending
+  std::vector<HeldNode> held;      ///< ascending in node
+  std::vector<Motion> motions;     ///< one per setup.boundary
   std::vector<DeadLoad<Real>> dead;
   std::vector<Pressure<Real>> pressures;
-  double diagonal = 0;               ///< m, of the rest bounding box
+  double diagonal = 0;  ///< m, of the rest bounding box
 };
 
 /// Reorders, resolves boundary and loads. Throws InputError as material_of_elements().

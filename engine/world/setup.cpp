@@ -1,7 +1,8 @@
-#include <algorithm>
-#include <array>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
 #include <heml/base/error.hpp>
 #include <heml/base/log.hpp>
 #include <heml/world/setup.hpp>
@@ -39,15 +40,17 @@ std::vector<int> material_of_elements(const TetMesh& mesh, const std::vector<Reg
                                   [&](const RegionMaterial& entry) { return entry.region == mesh.regions[t]; });
     result[t] = own != materials.end() ? static_cast<int>(own - materials.begin()) : fallback;
     if (result[t] < 0)
-      throw InputError(mesh.source, "materials",
-                       fmt::format("region {} (element {}) has no material and there is no default", mesh.regions[t], t),
-                       fmt::format("add an entry without 'region', or one with \"region\": {}", mesh.regions[t]));
+      throw InputError(
+          mesh.source, "materials",
+          fmt::format("region {} (element {}) has no material and there is no default", mesh.regions[t], t),
+          fmt::format("add an entry without 'region', or one with \"region\": {}", mesh.regions[t]));
     used[static_cast<std::size_t>(result[t])] = true;
   }
   for (std::size_t m = 0; m < materials.size(); ++m)
     if (!used[m]) {
       if (materials[m].region)
-        warn("materials[{}]: no element carries region {}; the mesh has {}", m, *materials[m].region, fmt::join(tags, ", "));
+        warn("materials[{}]: no element carries region {}; the mesh has {}", m, *materials[m].region,
+             fmt::join(tags, ", "));
       else
         warn("materials[{}]: the default applies to no element: every region has an entry of its own", m);
     }

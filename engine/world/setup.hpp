@@ -15,15 +15,16 @@ struct RegionMaterial {
   Material material;
 };
 
-/// Nodes held or moved. A moved node goes to rotate(X − origin) + origin + translate of its rest position X, translation and
-/// angle ramped linearly over `over` seconds from t = 0, then held. Of several on one node the last wins.
+/// Nodes held or moved. A moved node goes to rotate(X − origin) + origin + translate of its rest position X,
+/// translation and angle ramped linearly over `over` seconds from t = 0, then held. Of several on one node the last
+/// wins.
 struct Boundary {
-  std::vector<int> nodes;                ///< mesh-file order
-  Vec3 translate = Vec3::Zero();         ///< m
-  Vec3 axis = Vec3(0, 0, 1);             ///< unit
-  Vec3 origin = Vec3::Zero();            ///< m
-  double degrees = 0;                    ///< right-handed about axis
-  double over = 0;                       ///< s; 0: at once
+  std::vector<int> nodes;         ///< mesh-file order
+  Vec3 translate = Vec3::Zero();  ///< m
+  Vec3 axis = Vec3(0, 0, 1);      ///< unit
+  Vec3 origin = Vec3::Zero();     ///< m
+  double degrees = 0;             ///< right-handed about axis
+  double over = 0;                ///< s; 0: at once
 };
 
 /// A load on selected nodes, ramped linearly over `over` seconds from t = 0.
@@ -49,12 +50,12 @@ std::optional<Integrator> find_integrator(const std::string& name);
 struct SolverSettings {
   Integrator integrator = Integrator::verlet;
   bool single_precision = false;  ///< float instead of double
-  std::optional<double> step;     ///< s; given: obeyed exactly, one step a tick. Not given: live stable substeps of a tick
-  double rate = 1000;             ///< Hz of the engine's ticks where no step is given
-  double duration = 1;            ///< s, for `heml solve`
-  double damping = 0;             ///< mass-proportional, 1/s
-  int threads = 0;                ///< 0: all cores. Never changes a bit of the result
-  bool continuation = false;      ///< continue each law past its range instead of stopping there
+  std::optional<double> step;  ///< s; given: obeyed exactly, one step a tick. Not given: live stable substeps of a tick
+  double rate = 1000;          ///< Hz of the engine's ticks where no step is given
+  double duration = 1;         ///< s, for `heml solve`
+  double damping = 0;          ///< mass-proportional, 1/s
+  int threads = 0;             ///< 0: all cores. Never changes a bit of the result
+  bool continuation = false;   ///< continue each law past its range instead of stopping there
   double tick() const { return step ? *step : 1.0 / rate; }  ///< s
 };
 
@@ -70,7 +71,8 @@ struct WorldSetup {
 };
 
 /// One entry of `materials` per element: index into setup.materials.
-/// Throws InputError for a region without material and for two entries of one region; warns of an entry that matches nothing.
+/// Throws InputError for a region without material and for two entries of one region; warns of an entry that matches
+/// nothing.
 std::vector<int> material_of_elements(const TetMesh& mesh, const std::vector<RegionMaterial>& materials);
 
 }  // namespace heml

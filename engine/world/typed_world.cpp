@@ -1,13 +1,14 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <heml/dynamics/explicit.hpp>
 #include <heml/world/typed_world.hpp>
 
 namespace heml {
 namespace {
 
-constexpr double safety = 0.9;          // of the live limit; the bound is taken anew every few steps
+constexpr double safety = 0.9;  // of the live limit; the bound is taken anew every few steps
 constexpr int steps_between_bounds = 4;
 constexpr double smallest_step = 1e-9;  // s; below it a body is not soft tissue but a mistake
 constexpr std::size_t node_grain = 4096;
@@ -47,13 +48,15 @@ void TypedWorld<Real>::start() {
   state_.f.assign(3 * nodes, 0);
   state_.time = 0;
   for (std::size_t n = 0; n < nodes; ++n)
-    for (std::size_t i = 0; i < 3; ++i) state_.x[3 * n + i] = static_cast<Real>(model_.mesh.nodes[n][static_cast<int>(i)]);
+    for (std::size_t i = 0; i < 3; ++i)
+      state_.x[3 * n + i] = static_cast<Real>(model_.mesh.nodes[n][static_cast<int>(i)]);
   rest_frequency_ = std::sqrt(body_.frequency_bound(state_.x.data(), team_));
   for (std::size_t n = 0; n < nodes; ++n)
     for (std::size_t i = 0; i < 3; ++i) {
       const auto file = static_cast<std::size_t>(model_.order.file_node[n]);
       const int axis = static_cast<int>(i);
-      if (!setup_.initial_positions.empty()) state_.x[3 * n + i] = static_cast<Real>(setup_.initial_positions[file][axis]);
+      if (!setup_.initial_positions.empty())
+        state_.x[3 * n + i] = static_cast<Real>(setup_.initial_positions[file][axis]);
       if (inverse_mass_[n] > 0) state_.v[3 * n + i] = static_cast<Real>(setup_.initial_velocity[axis]);
     }
   halt_.reset();
@@ -117,8 +120,10 @@ double TypedWorld<Real>::choose_step(double until) {
 template <class Real>
 void TypedWorld<Real>::step(Real h, double time_after) {
   switch (setup_.solver.integrator) {
-    case Integrator::symplectic_euler: return step_with<SymplecticEuler<Real>>(h, time_after);
-    case Integrator::verlet: return step_with<Verlet<Real>>(h, time_after);
+    case Integrator::symplectic_euler:
+      return step_with<SymplecticEuler<Real>>(h, time_after);
+    case Integrator::verlet:
+      return step_with<Verlet<Real>>(h, time_after);
   }
 }
 
@@ -154,8 +159,8 @@ void TypedWorld<Real>::step_with(Real h, double time_after) {
 template <class Real>
 void TypedWorld<Real>::move_held() {
   for (const HeldNode& held : model_.held) {
-    const auto at = model_.motions[static_cast<std::size_t>(held.entry)](model_.mesh.nodes[static_cast<std::size_t>(held.node)],
-                                                                         state_.time);
+    const auto at = model_.motions[static_cast<std::size_t>(held.entry)](
+        model_.mesh.nodes[static_cast<std::size_t>(held.node)], state_.time);
     Eigen::Map<Vector3<Real>>(&state_.x[3 * static_cast<std::size_t>(held.node)]) = at.x.template cast<Real>();
     Eigen::Map<Vector3<Real>>(&state_.v[3 * static_cast<std::size_t>(held.node)]) = at.v.template cast<Real>();
   }
@@ -201,9 +206,11 @@ void TypedWorld<Real>::restore_last_valid(Halt::Cause cause) {
     const auto wild = std::find_if(state_.v.begin(), state_.v.end(), [&](Real v) {
       return !(std::abs(v) <= 10 * (model_.diagonal / h + setup_.initial_velocity.norm()));
     });
-    if (wild != state_.v.end()) halt.node = model_.order.file_node[static_cast<std::size_t>(wild - state_.v.begin()) / 3];
-    halt.message = fmt::format("unstable at t = {:.6g} s: node {} ran away with steps of {:.3g} s; at the start the limit was {:.3g} s",
-                               reached, halt.node, h, limit_at_start_);
+    if (wild != state_.v.end())
+      halt.node = model_.order.file_node[static_cast<std::size_t>(wild - state_.v.begin()) / 3];
+    halt.message = fmt::format(
+        "unstable at t = {:.6g} s: node {} ran away with steps of {:.3g} s; at the start the limit was {:.3g} s",
+        reached, halt.node, h, limit_at_start_);
   }
   state_.x = last_valid_.x;
   state_.v = last_valid_.v;

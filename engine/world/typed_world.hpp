@@ -76,7 +76,7 @@ class TypedWorld final : public World {
   std::vector<Real> inverse_mass_;  ///< #V, 1/kg; 0 for held nodes and nodes of no element
   State<Real> state_, last_valid_;
 
-  Real rest_frequency_ = 0;   ///< 1/s, bound of the highest at rest: scales the tools
+  Real rest_frequency_ = 0;                      ///< 1/s, bound of the highest at rest: scales the tools
   double stable_step_ = 0, limit_at_start_ = 0;  ///< s
   int steps_since_bound_ = 0;
   long ticks_ = 0, origin_tick_ = 0, steps_ = 0;

@@ -1,6 +1,6 @@
 #pragma once
-// A body that lives: an immutable model and its mutable state behind one small interface, the same for float and double and
-// for every mix of laws. One thread at a time; results are the same bits for any number of threads inside.
+// A body that lives: an immutable model and its mutable state behind one small interface, the same for float and double
+// and for every mix of laws. One thread at a time; results are the same bits for any number of threads inside.
 //
 // Everything goes in and comes out in the mesh file's node and element order; inside both are reordered for locality.
 #include <cstdint>
@@ -62,29 +62,31 @@ class World {
   /// Advances to a time within the coming tick, by shortened steps; the next tick() then ends where it would have.
   virtual void advance_within_tick(double time) = 0;
 
-  /// From any thread: a tick under way ends after its current step. For stopping a program; the tick is left unfinished.
+  /// From any thread: a tick under way ends after its current step. For stopping a program; the tick is left
+  /// unfinished.
   virtual void interrupt() = 0;
   /// Whether interrupt() left a tick unfinished: the state is then of no whole tick.
   virtual bool unfinished() const = 0;
 
   virtual const std::optional<Halt>& halt() const = 0;
 
-  virtual long ticks() const = 0;           ///< whole ticks done, not reset by Reset
-  virtual double time() const = 0;          ///< s since start or the last Reset
-  virtual long steps() const = 0;           ///< integration steps done, substeps counted
-  virtual int substeps() const = 0;         ///< of the last tick
-  virtual double stable_step() const = 0;   ///< s, the live limit (safety included)
+  virtual long ticks() const = 0;          ///< whole ticks done, not reset by Reset
+  virtual double time() const = 0;         ///< s since start or the last Reset
+  virtual long steps() const = 0;          ///< integration steps done, substeps counted
+  virtual int substeps() const = 0;        ///< of the last tick
+  virtual double stable_step() const = 0;  ///< s, the live limit (safety included)
 
   virtual std::vector<Vec3> positions() const = 0;   ///< #V×3, m
   virtual std::vector<Vec3> velocities() const = 0;  ///< #V×3, m/s
-  /// Writes positions of given nodes as float; no allocation when `out` has the size. `ahead`: s of extrapolation by velocity.
+  /// Writes positions of given nodes as float; no allocation when `out` has the size. `ahead`: s of extrapolation by
+  /// velocity.
   virtual void write_positions(std::span<const int> nodes, double ahead, std::vector<Vec3f>& out) const = 0;
   /// Writes a field at given nodes.
   virtual void write_field(Field field, std::span<const int> nodes, std::vector<float>& out) = 0;
 
   virtual Energies energies() = 0;
-  virtual std::vector<double> volume_ratios() = 0;     ///< #T, J of each element, mesh-file order
-  virtual std::vector<Vec3> reactions() = 0;           ///< one per setup.boundary, N: the support's force on the body
+  virtual std::vector<double> volume_ratios() = 0;  ///< #T, J of each element, mesh-file order
+  virtual std::vector<Vec3> reactions() = 0;        ///< one per setup.boundary, N: the support's force on the body
   virtual ToolState tool() const = 0;
 
   /// Hash of positions and velocities, bit for bit, in mesh-file order.

@@ -28,7 +28,9 @@ template <class Real>
 void TypedWorld<Real>::write_field(Field field, std::span<const int> nodes, std::vector<float>& out) {
   if (field == Field::none) return out.clear();
   out.resize(nodes.size());
-  const auto inner = [&](int file) { return static_cast<std::size_t>(model_.order.new_node[static_cast<std::size_t>(file)]); };
+  const auto inner = [&](int file) {
+    return static_cast<std::size_t>(model_.order.new_node[static_cast<std::size_t>(file)]);
+  };
   if (field == Field::displacement) {
     for (std::size_t k = 0; k < nodes.size(); ++k) {
       const std::size_t n = inner(nodes[k]);

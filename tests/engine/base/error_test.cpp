@@ -1,4 +1,5 @@
 #include <doctest/doctest.h>
+
 #include <heml/base/error.hpp>
 #include <heml/base/hash.hpp>
 

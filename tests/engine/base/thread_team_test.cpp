@@ -1,4 +1,5 @@
 #include <doctest/doctest.h>
+
 #include <heml/base/thread_team.hpp>
 #include <vector>
 

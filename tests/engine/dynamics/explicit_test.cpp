@@ -1,5 +1,6 @@
-#include <cmath>
 #include <doctest/doctest.h>
+
+#include <cmath>
 #include <heml/dynamics/explicit.hpp>
 #include <heml/dynamics/motion.hpp>
 #include <numbers>

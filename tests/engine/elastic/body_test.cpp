@@ -1,5 +1,6 @@
-#include <Eigen/Eigenvalues>
 #include <doctest/doctest.h>
+
+#include <Eigen/Eigenvalues>
 #include <heml/elastic/body.hpp>
 #include <heml/materials/continuum.hpp>
 #include <heml/materials/laws.hpp>
@@ -82,7 +83,8 @@ TEST_CASE("tension form equals the form with deformation gradients") {
     for (const Tet& tet : fixture.mesh.tets) {
       Mat3 Dm, Ds;
       for (int a = 0; a < 3; ++a) {
-        const auto n = static_cast<std::size_t>(tet[static_cast<std::size_t>(a) + 1]), o = static_cast<std::size_t>(tet[0]);
+        const auto n = static_cast<std::size_t>(tet[static_cast<std::size_t>(a) + 1]),
+                   o = static_cast<std::size_t>(tet[0]);
         Dm.col(a) = fixture.mesh.nodes[n] - fixture.mesh.nodes[o];
         Ds.col(a) = Eigen::Map<const Vec3>(&fixture.x[3 * n]) - Eigen::Map<const Vec3>(&fixture.x[3 * o]);
       }
@@ -158,10 +160,12 @@ TEST_CASE("the frequency bound is never below the highest frequency, and near it
   std::mt19937_64 random(17);
   for (const char* law : law_names)
     for (const double noise : {-1.0, 0.0, 0.1, 0.5}) {
-      Fixture fixture(random, std::max(noise, 0.0), noise > 0.2 ? test::random_gradient(random, 0.4, 2) : Mat3::Identity());
+      Fixture fixture(random, std::max(noise, 0.0),
+                      noise > 0.2 ? test::random_gradient(random, 0.4, 2) : Mat3::Identity());
       if (noise < 0) {  // regular, at rest
         fixture.mesh = make_box(Vec3(0.09, 0.06, 0.06), {3, 2, 2});
-        for (std::size_t n = 0; n < fixture.mesh.nodes.size(); ++n) Eigen::Map<Vec3>(&fixture.x[3 * n]) = fixture.mesh.nodes[n];
+        for (std::size_t n = 0; n < fixture.mesh.nodes.size(); ++n)
+          Eigen::Map<Vec3>(&fixture.x[3 * n]) = fixture.mesh.nodes[n];
       }
       auto body = fixture.body(law, true);
       const auto mass = body.masses();
@@ -179,7 +183,8 @@ TEST_CASE("the frequency bound is never below the highest frequency, and near it
           K(j, i) = (b[k] - a[k]) / (2 * h) / std::sqrt(mass[k / 3] * mass[static_cast<std::size_t>(i) / 3]);
         }
       }
-      const double highest = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>((K + K.transpose()) / 2).eigenvalues().maxCoeff();
+      const double highest =
+          Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>((K + K.transpose()) / 2).eigenvalues().maxCoeff();
       ThreadTeam team(2);
       const double bound = body.frequency_bound(fixture.x.data(), team);
       CHECK(bound >= highest);
@@ -205,7 +210,9 @@ TEST_CASE("an element out of its law's range is found") {
   CHECK_FALSE(body.forces(fixture.x.data(), f.data(), team));
   for (int t = 0; t < first; ++t) {
     const Tet& before = fixture.mesh.tets[static_cast<std::size_t>(t)];
-    const auto at = [&](std::size_t c) { return Vec3(Eigen::Map<const Vec3>(&fixture.x[3 * static_cast<std::size_t>(before[c])])); };
+    const auto at = [&](std::size_t c) {
+      return Vec3(Eigen::Map<const Vec3>(&fixture.x[3 * static_cast<std::size_t>(before[c])]));
+    };
     CHECK(signed_volume(at(0), at(1), at(2), at(3)) > 0);
   }
 }

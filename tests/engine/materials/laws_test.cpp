@@ -1,4 +1,5 @@
 #include <doctest/doctest.h>
+
 #include <cmath>
 #include <heml/materials/continuum.hpp>
 #include <heml/materials/laws.hpp>
@@ -38,7 +39,8 @@ TEST_CASE("energies agree with the formulas as written") {
     const Mat3 F = random_gradient(random, 0.8, 5);
     for (const bool continued : {false, true})
       for_each_law(continued, [&](const auto& law) {
-        CHECK(law.energy(invariants_of(F)) == doctest::Approx(static_cast<double>(written(law.name, F))).epsilon(1e-12));
+        CHECK(law.energy(invariants_of(F)) ==
+              doctest::Approx(static_cast<double>(written(law.name, F))).epsilon(1e-12));
       });
   }
 }
@@ -59,7 +61,8 @@ TEST_CASE("without continuation the formula holds down to flat, and says where i
   CHECK(StVK<double, false>{lambda, mu}.valid(inverted));
 }
 
-TEST_CASE("stress is the gradient of the energy, and its differential that of the stress, inverted too when continued") {
+TEST_CASE(
+    "stress is the gradient of the energy, and its differential that of the stress, inverted too when continued") {
   std::mt19937_64 random(5);
   for (const bool continued : {false, true})
     for (int i = 0; i < 200; ++i) {

@@ -1,5 +1,6 @@
-#include <cmath>
 #include <doctest/doctest.h>
+
+#include <cmath>
 #include <heml/math/elementary.hpp>
 #include <limits>
 

@@ -1,5 +1,6 @@
-#include <atomic>
 #include <doctest/doctest.h>
+
+#include <atomic>
 #include <heml/session/mailbox.hpp>
 #include <thread>
 

@@ -1,4 +1,5 @@
 #include <doctest/doctest.h>
+
 #include <heml/session/pacer.hpp>
 
 using namespace heml;

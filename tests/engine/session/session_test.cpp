@@ -1,11 +1,12 @@
-#include <chrono>
 #include <doctest/doctest.h>
+#include <unistd.h>
+
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <heml/scenario/replay.hpp>
 #include <heml/session/session.hpp>
 #include <thread>
-#include <unistd.h>
 
 using namespace heml;
 using namespace std::chrono_literals;
@@ -40,7 +41,8 @@ const Frame& wait_for(Session& session, const Wanted& wanted) {
 }
 
 struct TemporaryFolder {
-  std::filesystem::path path = std::filesystem::temp_directory_path() / ("heml-session-test-" + std::to_string(getpid()));
+  std::filesystem::path path =
+      std::filesystem::temp_directory_path() / ("heml-session-test-" + std::to_string(getpid()));
   TemporaryFolder() { std::filesystem::create_directories(path); }
   ~TemporaryFolder() { std::filesystem::remove_all(path); }
 };
@@ -159,7 +161,8 @@ TEST_CASE("a session that cannot go on says why and lives on to be reset") {
   scene.solver.continuation = false;
   scene.solver.step = 0.02;  // far beyond the limit
   Session session(scene, {});
-  CHECK(wait_for(session, [](const Frame& f) { return !f.halted.empty(); }).halted.find(" at t = ") != std::string::npos);
+  CHECK(wait_for(session, [](const Frame& f) { return !f.halted.empty(); }).halted.find(" at t = ") !=
+        std::string::npos);
   session.pause();
   session.post(Reset{});
   CHECK(wait_for(session, [](const Frame& f) { return f.halted.empty(); }).time == 0);

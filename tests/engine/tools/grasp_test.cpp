@@ -1,5 +1,6 @@
-#include <cmath>
 #include <doctest/doctest.h>
+
+#include <cmath>
 #include <heml/tools/grasp.hpp>
 
 using namespace heml;

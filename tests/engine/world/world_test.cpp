@@ -1,5 +1,6 @@
-#include <cmath>
 #include <doctest/doctest.h>
+
+#include <cmath>
 #include <heml/base/error.hpp>
 
 #include "support.hpp"
@@ -38,7 +39,8 @@ TEST_CASE("a cantilever converges at the order of each integrator") {
     const auto reference = fallen(Integrator::verlet, 1e-5, velocities);
     for (const auto& [integrator, order] : {std::pair{Integrator::symplectic_euler, 1.0}, {Integrator::verlet, 2.0}}) {
       std::vector<double> error;
-      for (const double step : {4e-4, 2e-4, 1e-4}) error.push_back(rms_difference(fallen(integrator, step, velocities), reference));
+      for (const double step : {4e-4, 2e-4, 1e-4})
+        error.push_back(rms_difference(fallen(integrator, step, velocities), reference));
       CHECK(std::log2(error[0] / error[1]) == doctest::Approx(order).epsilon(0.1));
       CHECK(std::log2(error[1] / error[2]) == doctest::Approx(order).epsilon(0.1));
     }
@@ -279,7 +281,8 @@ TEST_CASE("loads in all add up to what was asked, and reactions to all that is c
   setup.boundary[0].nodes = nodes_where(setup.mesh, [](const Vec3&) { return true; });
   const auto held = make_world(setup);
   const double weight = 1000 * 0.1 * 0.02 * 0.02 * 9.81, area = 0.02 * 0.02;
-  const Vec3 expected = -(Vec3(0.001, 0.002, -0.003) + area * Vec3(5, -20, 0) + area * 10 * Vec3(-1, 0, 0)) + Vec3(0, weight, 0);
+  const Vec3 expected =
+      -(Vec3(0.001, 0.002, -0.003) + area * Vec3(5, -20, 0) + area * 10 * Vec3(-1, 0, 0)) + Vec3(0, weight, 0);
   CHECK((held->reactions()[0] - expected).norm() <= 1e-14);
 }
 

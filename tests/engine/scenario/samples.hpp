@@ -1,0 +1,32 @@
+#pragma once
+// Scenes for tests, as text.
+#include <heml/scenario/json_text.hpp>
+#include <heml/scenario/scene.hpp>
+#include <string>
+
+namespace heml::test {
+
+/// A small valid scene: a box of 2×1×1 cells, held at x = 0.
+inline Json small_scene() {
+  return Json::parse(R"({
+    "schema_version": 1,
+    "mesh": {"box": {"size": [0.2, 0.1, 0.1], "cells": [2, 1, 1]}},
+    "materials": [{"law": "stvk", "young": 1e4, "poisson": 0.3}],
+    "boundary": [{"box": [[0, -1, -1], [0, 1, 1]], "fix": true}],
+    "solver": {"rate": 100, "duration": 0.1}
+  })");
+}
+
+/// The small scene with parts added or replaced (JSON merge patch, RFC 7396: null takes a key away).
+inline std::string scene_with(const std::string& patch) {
+  Json scene = small_scene();
+  scene.merge_patch(Json::parse(patch));
+  return scene.dump();
+}
+
+/// Whether a message has a part.
+inline bool says(const std::string& message, const std::string& part) { return message.find(part) != message.npos; }
+
+inline Scene small_scene_with(const std::string& patch) { return parse_scene(scene_with(patch), "folder/scene.json"); }
+
+}  // namespace heml::test

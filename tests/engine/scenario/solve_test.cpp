@@ -1,0 +1,138 @@
+#include <doctest/doctest.h>
+#include <cmath>
+#include <engine/mesh/files.hpp>
+#include <engine/scenario/samples.hpp>
+#include <fstream>
+#include <heml/scenario/positions_csv.hpp>
+#include <heml/scenario/solve.hpp>
+#include <heml/scenario/text_file.hpp>
+#include <utility>
+#include <vector>
+
+namespace heml {
+namespace {
+
+constexpr double g = 9.81, step = 1e-3;
+
+/// A body that falls freely: no force but gravity, so every node moves as one point does.
+std::string falling(const std::string& patch) {
+  Json scene = test::small_scene();
+  scene.merge_patch(Json::parse(R"({
+    "boundary": null, "gravity": [0, -9.81, 0], "materials": [{"law": "stvk", "young": 100, "poisson": 0.3}],
+    "solver": {"integrator": "symplectic_euler", "rate": null, "step": 1e-3, "duration": 0.0104}})"));
+  scene.merge_patch(Json::parse(patch));
+  return scene.dump();
+}
+
+/// Symplectic Euler in closed form, step by step: fall and speed after steps of these lengths.
+struct Fall {
+  double y = 0, v = 0;
+};
+Fall fall_through(const std::vector<double>& steps, double gravity = g) {
+  Fall fall;
+  for (const double h : steps) {
+    fall.v -= gravity * h;
+    fall.y += fall.v * h;
+  }
+  return fall;
+}
+
+Json report_in(const TemporaryFolder& folder) { return Json::parse(read_text_file(folder / "report.json")); }
+
+void check_fallen(const std::filesystem::path& csv, const Scene& scene, double y) {
+  const std::vector<Vec3> rest = load_setup(scene).mesh.nodes;
+  const std::vector<Vec3> positions = read_positions_csv(csv, static_cast<int>(rest.size()));
+  for (std::size_t i = 0; i < rest.size(); ++i) CHECK((positions[i] - rest[i] - Vec3(0, y, 0)).norm() < 1e-15);
+}
+
+}  // namespace
+
+TEST_CASE("lands on output times and on the duration by shortened steps") {
+  const TemporaryFolder folder;
+  const Scene scene = parse_scene(falling(R"({"outputs": {"times": [0.0025, 0.001, 0.0027]}})"), "fall.json");
+  double last = 0;
+  const auto progress = [&](double fraction) { CHECK(fraction > std::exchange(last, fraction)); };
+  const SolveResult result = solve(scene, folder / "", progress);
+  CHECK(!result.halt);
+  CHECK(result.time == doctest::Approx(0.0104).epsilon(1e-12));
+  const double h = step;
+  check_fallen(folder / "positions_1.csv", scene, fall_through({h}).y);
+  check_fallen(folder / "positions_0.csv", scene, fall_through({h, h, h / 2}).y);
+  check_fallen(folder / "positions_2.csv", scene, fall_through({h, h, h / 2, 0.0002}).y);
+  const Fall end = fall_through({h, h, h / 2, 0.0002, 0.0003, h, h, h, h, h, h, h, 0.0004});
+  check_fallen(folder / "positions.csv", scene, end.y);
+
+  const Json report = report_in(folder);
+  const double mass = 1000 * 0.2 * 0.1 * 0.1;
+  CHECK(report["converged"] == true);
+  CHECK(report["load"] == 1);
+  CHECK(report["steps"] == 13);
+  CHECK(report["kinetic_energy"].get<double>() == doctest::Approx(mass * end.v * end.v / 2).epsilon(1e-9));
+  CHECK(report["potential_energy"].get<double>() == doctest::Approx(mass * g * end.y).epsilon(1e-9));
+  CHECK(std::abs(report["elastic_energy"].get<double>()) < 1e-15);
+  CHECK(report["min_J"].get<double>() == doctest::Approx(1).epsilon(1e-9));
+  CHECK(report["max_J"].get<double>() == doctest::Approx(1).epsilon(1e-9));
+  CHECK(report["inverted"] == 0);
+  CHECK(report["reaction"] == Json::array());
+  CHECK(report["nodes"] == 12);
+  CHECK(report["tets"] == 10);
+  CHECK(report["state_hash"].get<std::string>().size() == 16);
+  CHECK(report["wall_seconds"].get<double>() >= 0);
+  for (const char* key : {"iterations", "residual"}) CHECK(report.contains(key));
+}
+
+TEST_CASE("plays the scene's events while it solves") {
+  const TemporaryFolder folder;
+  const Scene scene = parse_scene(
+      falling(R"({"solver": {"duration": 0.01}, "events": [{"at": 0.004, "gravity": [0, 0, 0]}]})"), "fall.json");
+  solve(scene, folder / "");
+  const Fall before = fall_through(std::vector<double>(4, step));
+  check_fallen(folder / "positions.csv", scene, before.y + 6 * step * before.v);
+}
+
+TEST_CASE("gives the state at time 0 and the last state when they are asked for as outputs") {
+  const TemporaryFolder folder;
+  const char* patch = R"({"solver": {"duration": 0.01}, "outputs": {"times": [0, 0.01], "vtu": true}})";
+  const Scene scene = parse_scene(falling(patch), "fall.json");
+  solve(scene, folder / "");
+  check_fallen(folder / "positions_0.csv", scene, 0);
+  CHECK(read_text_file(folder / "positions_1.csv") == read_text_file(folder / "positions.csv"));
+  for (const char* name : {"positions.vtu", "positions_0.vtu", "positions_1.vtu"})
+    CHECK(std::filesystem::exists(folder / name));
+}
+
+TEST_CASE("writes what was reached when a step is unstable, and leaves no output of an earlier run") {
+  const TemporaryFolder folder;
+  folder.file("positions_1.csv", "of an earlier run");
+  const Scene scene = test::small_scene_with(R"({"gravity": [0, -9.81, 0], "materials": [{"law": "stvk", "young": 1e7,
+    "poisson": 0.3}], "solver": {"rate": null, "step": 0.05, "duration": 100}, "outputs": {"times": [0, 100]}})");
+  const SolveResult result = solve(scene, folder / "");
+  REQUIRE(result.halt);
+  CHECK(result.time < 100);
+  const Json report = report_in(folder);
+  CHECK(report["converged"] == false);
+  CHECK(report["halt"]["message"] == result.halt->message);
+  for (const Vec3& x : read_positions_csv(folder / "positions.csv", 12)) CHECK(x.allFinite());
+  CHECK(std::filesystem::exists(folder / "positions_0.csv"));
+  CHECK(!std::filesystem::exists(folder / "positions_1.csv"));
+}
+
+TEST_CASE("gives the support's reaction of a held body under its weight") {
+  const TemporaryFolder folder;
+  const Scene scene = test::small_scene_with(
+      R"({"gravity": [0, -9.81, 0], "solver": {"damping": 20, "duration": 3}, "materials": [{"law": "neo_hookean",
+      "young": 1e5, "poisson": 0.3}]})");
+  CHECK(!solve(scene, folder / "").halt);
+  const Json reaction = report_in(folder)["reaction"];
+  REQUIRE(reaction.size() == 1);
+  CHECK(reaction[0][1].get<double>() == doctest::Approx(2 * g).epsilon(1e-4));  // 2 kg
+}
+
+TEST_CASE("refuses an output folder that is a file") {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.file("out", "");
+  CHECK(test::says(refusal([&] { solve(test::small_scene_with("{}"), file); }), "out: cannot be made"));
+  CHECK(test::says(refusal([&] { solve(test::small_scene_with("{}"), file / "in"); }), "cannot be made"));
+}
+
+}  // namespace heml
