@@ -1,0 +1,211 @@
+"""The program from outside: exit codes, messages, files. HEML_BINARY names it."""
+import csv
+import json
+import math
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+BINARY = os.environ["HEML_BINARY"]
+SOURCE = pathlib.Path(__file__).resolve().parents[2]
+SHARED = SOURCE.parent / "shared" / "data"
+
+
+def heml(*arguments, cwd=None, env=None):
+    """Runs the program without a display; returns what it did."""
+    environment = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
+    environment.update(env or {})
+    return subprocess.run([BINARY, *map(str, arguments)], cwd=cwd, env=environment, capture_output=True, text=True, timeout=280)
+
+
+def cantilever(**changes):
+    scene = {
+        "schema_version": 1,
+        "name": "cantilever",
+        "mesh": {"box": {"size": [0.1, 0.02, 0.02], "cells": [10, 2, 2], "origin": [0, 0, 0]}},
+        "materials": [{"law": "neo_hookean", "young": 1e4, "poisson": 0.3, "density": 1000}],
+        "boundary": [{"box": [[-1, -1, -1], [1e-6, 1, 1]], "fix": True}],
+        "gravity": [0, -9.81, 0],
+        "solver": {"integrator": "verlet", "duration": 0.1, "damping": 2},
+    }
+    scene.update(changes)
+    return scene
+
+
+class CommandLine(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def write(self, name, content):
+        path = self.folder / name
+        path.write_text(content if isinstance(content, str) else json.dumps(content))
+        return path
+
+    def positions(self, scene):
+        out = self.folder / "out"
+        done = heml("solve", self.write("scene.json", scene), "--out", out)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with open(out / "positions.csv") as file:
+            rows = list(csv.reader(file))
+        self.assertEqual(rows[0], ["node", "x", "y", "z"])
+        return [tuple(map(float, row[1:])) for row in rows[1:]]
+
+    def assert_refused(self, done, code, *words):
+        self.assertEqual(done.returncode, code, done.stderr)
+        errors = [line for line in done.stderr.splitlines() if "error" in line]
+        self.assertEqual(len(errors), 1, done.stderr)
+        for word in words:
+            self.assertIn(word, errors[0])
+
+    def test_solve_converges_at_the_order_of_each_integrator(self):
+        def run(integrator, step):
+            return self.positions(cantilever(solver={"integrator": integrator, "duration": 0.1, "damping": 2, "step": step}))
+
+        def difference(a, b):
+            return math.sqrt(sum((p - q) ** 2 for x, y in zip(a, b) for p, q in zip(x, y)) / len(a))
+
+        reference = run("verlet", 1e-5)
+        for integrator, order in (("symplectic_euler", 1), ("verlet", 2)):
+            errors = [difference(run(integrator, step), reference) for step in (4e-4, 2e-4, 1e-4)]
+            self.assertAlmostEqual(math.log2(errors[0] / errors[1]), order, delta=0.2)
+            self.assertAlmostEqual(math.log2(errors[1] / errors[2]), order, delta=0.2)
+
+    def test_solve_writes_what_the_contract_lists(self):
+        scene = cantilever(outputs={"times": [0.03, 0.0712345], "positions": True})
+        out = self.folder / "out"
+        done = heml("solve", self.write("scene.json", scene), "--out", out)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        report = json.loads((out / "report.json").read_text())
+        for key in ("converged load steps iterations residual wall_seconds kinetic_energy elastic_energy potential_energy "
+                    "min_J max_J inverted reaction nodes tets state_hash").split():
+            self.assertIn(key, report)
+        self.assertTrue(report["converged"])
+        self.assertEqual((report["nodes"], report["tets"]), (99, 200))
+        self.assertEqual(len(report["reaction"]), 1)
+        self.assertTrue((out / "positions_0.csv").exists() and (out / "positions_1.csv").exists())
+        again = self.folder / "again"
+        heml("solve", self.folder / "scene.json", "--out", again)
+        self.assertEqual(report["state_hash"], json.loads((again / "report.json").read_text())["state_hash"])
+
+    def test_an_unstable_step_is_exit_4_and_what_was_reached_is_written(self):
+        scene = cantilever(solver={"step": 0.01, "duration": 5})
+        scene["materials"][0]["young"] = 1e6
+        out = self.folder / "out"
+        self.assert_refused(heml("solve", self.write("scene.json", scene), "--out", out), 4)
+        self.assertFalse(json.loads((out / "report.json").read_text())["converged"])
+        self.assertTrue((out / "positions.csv").exists())
+
+    def test_leaving_the_range_of_a_law_is_exit_4_and_names_the_element(self):
+        scene = cantilever()
+        scene["boundary"].append({"box": [[0.0999, -1, -1], [1, 1, 1]], "translate": [-0.15, 0, 0], "over": 0.1})
+        scene["solver"]["duration"] = 0.2
+        self.assert_refused(heml("solve", self.write("scene.json", scene), "--out", self.folder / "out"), 4, "element ")
+
+    def test_probe_agrees_with_the_formula(self):
+        material = self.write("m.json", {"law": "neo_hookean", "lambda": 3e4, "mu": 4e3})
+        table = self.write("F.csv", "F11,F12,F13,F21,F22,F23,F31,F32,F33\n1.2,0,0,0,0.9,0,0,0,0.95\n-1,0,0,0,1,0,0,0,1\n")
+        out = self.folder / "P.csv"
+        done = heml("probe", material, "--F", table, "--out", out)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stderr.count("warning"), 1)
+        rows = list(csv.reader(out.read_text().splitlines()))
+        self.assertEqual(rows[0][:3], ["W", "P11", "P12"])
+        log_J = math.log(1.2 * 0.9 * 0.95)
+        W = 2e3 * (1.2**2 + 0.9**2 + 0.95**2 - 3) - 4e3 * log_J + 1.5e4 * log_J**2
+        self.assertAlmostEqual(float(rows[1][0]) / W, 1, delta=1e-12)
+        self.assertAlmostEqual(float(rows[1][1]) / (4e3 * 1.2 + (3e4 * log_J - 4e3) / 1.2), 1, delta=1e-12)
+        self.assertTrue(all(math.isnan(float(cell)) for cell in rows[2]))
+
+    def test_a_script_replays_and_its_hash_is_that_of_solve(self):
+        scene = cantilever(events=[
+            {"step": 5, "grasp": {"node": 98, "radius": 0.01}},
+            {"at": 0.02, "move": [0.12, 0.03, 0.03]},
+            {"step": 60, "release": True},
+        ])
+        path = self.write("session.json", scene)
+        done = heml("replay", path)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("100 ticks", done.stdout)
+        heml("solve", path, "--out", self.folder / "out")
+        report = json.loads((self.folder / "out" / "report.json").read_text())
+        self.assertIn(report["state_hash"], done.stdout)
+        for threads in (1, 2):
+            self.assertIn(report["state_hash"], heml("replay", path, "--threads", threads).stdout)
+
+    def test_verify_names_step_and_node_that_differ(self):
+        scene = cantilever(checkpoints=[{"step": 10, "checkpoint": "0123456789abcdef", "nodes": "0000" * 99}])
+        done = heml("replay", self.write("session.json", scene), "--verify")
+        self.assert_refused(done, 1, "10", "node")
+        nothing = heml("replay", self.write("session.json", cantilever()), "--verify")
+        self.assert_refused(nothing, 1, "no checkpoint")
+
+    def test_capture_needs_no_display_and_run_falls_back_to_it(self):
+        scene = self.write("scene.json", cantilever())
+        out = self.folder / "frames"
+        done = heml("capture", scene, "--out", out, "--frames", 3, "--size", "320x180")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(sorted(p.name for p in out.iterdir()), [f"frame_0000{k}.png" for k in range(3)])
+        header = (out / "frame_00000.png").read_bytes()[:24]
+        self.assertEqual((int.from_bytes(header[16:20], "big"), int.from_bytes(header[20:24], "big")), (320, 180))
+        fallback = heml("run", scene, cwd=self.folder)
+        self.assertEqual(fallback.returncode, 0, fallback.stderr)
+        self.assertEqual(len(list((self.folder / "heml-frames").iterdir())), 60)
+        self.assertIn("heml-frames", fallback.stderr)
+
+    def test_wrong_usage_is_exit_2(self):
+        scene = self.write("scene.json", cantilever())
+        for arguments in (["capture", scene], ["bogus"], ["solve", scene], ["capture", scene, "--out", "x", "--size", "big"],
+                          ["capture", scene, "--out", "x", "--frames", "0"], ["probe"], ["mesh", "a.obj", "--out", "a.txt"],
+                          ["replay", scene, "--fps", "-3"]):
+            self.assertEqual(heml(*arguments, cwd=self.folder).returncode, 2, arguments)
+        self.assertEqual(heml("--help").returncode, 0)
+
+    def test_bad_input_is_one_message_and_exit_3(self):
+        def changed(**changes):
+            return json.dumps(cantilever(**changes))
+
+        material = cantilever()["materials"][0]
+        tet = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 {x} 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n$Elements\n{e}$EndElements\n"
+        whole = "1\n1 4 2 5 5 1 2 3 4\n"
+        self.write("nan.msh", tet.format(x="nan", e=whole))
+        self.write("empty.msh", tet.format(x="1", e="0\n"))
+        self.write("one.msh", tet.format(x="0.1", e=whole))
+        self.write("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        table = [
+            ("no such file", None, ["missing.json"]),
+            ("broken JSON", '{"schema_version": 1,', ["line 1"]),
+            ("unknown key", changed(gravitation=[0, 0, 0]), ["gravitation", "gravity"]),
+            ("NaN coordinate", changed(mesh={"file": "nan.msh"}), ["nan.msh", "line 7"]),
+            ("open surface", changed(mesh={"surface": "open.obj"}), ["open.obj", "open"]),
+            ("zero tetrahedra", changed(mesh={"file": "empty.msh"}), ["empty.msh", "tetrahedra"]),
+            ("region without material", changed(mesh={"file": "one.msh"}, boundary=[], materials=[dict(material, region=1)]),
+             ["region 5"]),
+            ("negative density", changed(materials=[dict(material, density=-1)]), ["materials[0].density"]),
+            ("Poisson 0.5", changed(materials=[dict(material, poisson=0.5)]), ["materials[0].poisson", "0.49"]),
+            ("no such law", changed(materials=[{"law": "steel"}]), ["materials[0].law", "stvk"]),
+            ("empty selection", changed(boundary=[{"box": [[5, 5, 5], [6, 6, 6]], "fix": True}]), ["boundary[0]"]),
+            ("node that is not there", changed(boundary=[{"nodes": [100000], "fix": True}]), ["boundary[0]"]),
+        ]
+        for name, text, words in table:
+            with self.subTest(name):
+                path = self.folder / "missing.json" if text is None else self.write("scene.json", text)
+                for command in ("solve", "capture"):
+                    done = heml(command, path, "--out", self.folder / "out")
+                    self.assert_refused(done, 3, *words)
+                    self.assertFalse((self.folder / "out").exists(), "no surprise files")
+
+    def test_from_a_surface_to_frames_in_one_command(self):
+        liver = SHARED / "liver2.obj"
+        if not liver.exists():
+            self.skipTest("no surfaces by others here")
+        done = heml("capture", liver, "--out", self.folder / "frames", "--frames", 2, "--size", "320x180")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(len(list((self.folder / "frames").iterdir())), 2)
+
+
+if __name__ == "__main__":
+    unittest.main()
