@@ -1,8 +1,9 @@
 # Flags every target of the project is built with. No contraction of a*b+c: a build gives the same bits wherever it runs.
+# Nobody reads errno or floating-point exceptions, which lets loops with a choice in them be vectorised.
 add_library(heml_options INTERFACE)
 add_library(heml::options ALIAS heml_options)
 target_compile_features(heml_options INTERFACE cxx_std_20)
-target_compile_options(heml_options INTERFACE -ffp-contract=off
+target_compile_options(heml_options INTERFACE -ffp-contract=off -fno-trapping-math -fno-math-errno
   $<BUILD_INTERFACE:-Wall -Wextra -Wpedantic -Wshadow -Wno-psabi>)
 if(HEML_SANITIZE)
   target_compile_options(heml_options INTERFACE -fsanitize=${HEML_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)

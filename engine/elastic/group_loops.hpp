@@ -19,35 +19,36 @@ struct SlotNodes {
         x3(x + 3 * group.node[3][s]) {}
 };
 
-/// Corner forces of packets [begin, end) into corner (3 reals a corner). Returns whether the law is defined in all of
-/// them.
+/// Corner forces of packets [begin, end) into corner (3 reals a corner). Returns whether the law is defined in all of them.
 template <class Real, Law<Real> L>
-bool group_forces(const L& law, const ElementGroup<Real>& group, const Real* x, std::size_t begin, std::size_t end,
-                  Real* corner) {
+[[gnu::always_inline]] inline bool group_forces(const L& law, const ElementGroup<Real>& group, const Real* x,
+                                                std::size_t begin, std::size_t end, Real* corner) {
   constexpr std::size_t lanes = ElementGroup<Real>::lanes;
   bool valid = true;
   for (std::size_t p = begin; p < end; ++p) {
     const std::size_t first = p * lanes;
     // Gather, compute and scatter apart, so that the compiler can vectorise the middle one.
-    Real in[12][lanes], out[12][lanes];
-    for (std::size_t c = 0; c < 4; ++c)
-      for (std::size_t l = 0; l < lanes; ++l)
+    Real in[12][lanes], out[12][lanes], A[6][lanes], volume[lanes], defined[lanes];
+    for (std::size_t l = 0; l < lanes; ++l) {
+      for (std::size_t c = 0; c < 4; ++c)
         for (std::size_t i = 0; i < 3; ++i) in[3 * c + i][l] = x[3 * group.node[c][first + l] + static_cast<int>(i)];
-    int outside = 0;
+      for (std::size_t i = 0; i < 6; ++i) A[i][l] = group.A[i][first + l];
+      volume[l] = group.volume[first + l];
+    }
+#pragma GCC ivdep
     for (std::size_t l = 0; l < lanes; ++l) {
       const Real x0[3] = {in[0][l], in[1][l], in[2][l]}, x1[3] = {in[3][l], in[4][l], in[5][l]},
                  x2[3] = {in[6][l], in[7][l], in[8][l]}, x3[3] = {in[9][l], in[10][l], in[11][l]};
-      const Real A[6] = {group.A[0][first + l], group.A[1][first + l], group.A[2][first + l],
-                         group.A[3][first + l], group.A[4][first + l], group.A[5][first + l]};
+      const Real a[6] = {A[0][l], A[1][l], A[2][l], A[3][l], A[4][l], A[5][l]};
       Real f[12];
-      const bool defined = corner_forces(law, x0, x1, x2, x3, A, group.volume[first + l], f);
+      defined[l] = corner_forces(law, x0, x1, x2, x3, a, volume[l], f) ? Real(1) : Real(0);
       for (int i = 0; i < 12; ++i) out[i][l] = f[i];
-      outside += defined ? 0 : 1;
     }
     Real* to = corner + 3 * (group.first_corner + 4 * first);
     for (std::size_t l = 0; l < lanes; ++l)
       for (std::size_t i = 0; i < 12; ++i) to[12 * l + i] = out[i][l];
-    if constexpr (!L::always_valid) valid = valid && outside == 0;
+    if constexpr (!L::always_valid)
+      for (std::size_t l = 0; l < lanes; ++l) valid = valid && defined[l] == 1;
   }
   return valid;
 }

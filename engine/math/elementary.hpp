@@ -12,10 +12,12 @@ namespace heml {
 template <class Real>
 inline Real natural_log(Real x) {
   if constexpr (std::is_same_v<Real, double>) {
-    const auto bits = std::bit_cast<std::int64_t>(x);
-    constexpr std::int64_t offset = 0x3fe6a09e667f3bcdll;  // √½
-    const std::int64_t k = (bits - offset) >> 52;
-    const double m = std::bit_cast<double>(bits - (k << 52));
+    // d = bits(x) − bits(√½): its upper 12 bits are k, the rest what m is above √½. Logical shifts and a conversion by the
+    // exponent of 2⁵² (Hacker's Delight), since those vectorise everywhere.
+    constexpr std::uint64_t offset = 0x3fe6a09e667f3bcdull, mantissa = 0x000fffffffffffffull;
+    const std::uint64_t d = std::bit_cast<std::uint64_t>(x) - offset;
+    const double m = std::bit_cast<double>((d & mantissa) + offset);
+    const double n = std::bit_cast<double>(((d + (1024ull << 52)) >> 52) | 0x4330000000000000ull) - (0x1p52 + 1024);
     const double s = (m - 1) / (m + 1);
     const double z = s * s;
     const double tail =
@@ -26,7 +28,6 @@ inline Real natural_log(Real x) {
                                            z * (1.0 / 13 +
                                                 z * (1.0 / 15 + z * (1.0 / 17 + z * (1.0 / 19 + z * (1.0 / 21))))))))));
     // ln 2 in two parts, the first with enough trailing zeros that k times it is exact.
-    const double n = static_cast<double>(static_cast<std::int32_t>(k));
     return n * 0x1.62e42fefap-1 + (n * 0x1.cf79abc9e3b3ap-40 + (2 * s + 2 * s * tail));
   } else {
     const auto bits = std::bit_cast<std::int32_t>(x);

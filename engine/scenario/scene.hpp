@@ -1,13 +1,26 @@
 #pragma once
-// A scene file as data (contract: "Scene file", "Recording / script"), and how it becomes a world.
-// Reading checks everything that can be checked without the mesh; load_world() resolves the rest.
+// A scene file as data, and how it becomes a world. Reading checks everything that can be checked without the mesh;
+// load_setup() does the rest:
+//
+//   soft.json ──► read_scene ──► Scene ──► load_setup ──► WorldSetup ──► make_world ──► World
+//   rec.jsonl ──►    (JSON)        ▲       (mesh, node      (all resolved)
+//   liver.obj ──► scene_around ────┘        numbers)
+//
+// Paths inside a scene are relative to the scene's file. A recording (recorder.hpp) writes the path of a mesh below its
+// own folder relative to that folder, so both can be moved together, and any other as absolute, so it can be written
+// anywhere; if that file is gone by the time of the replay, one of the same name beside the recording is taken, with a
+// warning. What was recorded of the mesh (MeshIdentity) makes sure that it is the same.
+#include <cstdint>
 #include <filesystem>
-#include <heml/world/setup.hpp>
 #include <heml/world/command.hpp>
+#include <heml/world/setup.hpp>
 #include <heml/world/world.hpp>
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
-#include <variant>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace heml {
@@ -21,7 +34,7 @@ struct MeshSpec {
   std::filesystem::path file;     ///< tetrahedra, absolute or relative to the working directory
   std::filesystem::path surface;  ///< closed surface for TetGen
   double radius_edge_ratio = 1.4;
-  std::optional<double> max_volume;  ///< m³
+  std::optional<double> max_volume;  ///< m³ of one tetrahedron, in the body as scaled
   std::optional<Box> box;
   std::string asset;  ///< "kidney", ...
   double scale = 1;
@@ -32,14 +45,14 @@ struct MeshSpec {
 
 /// Nodes chosen in a boundary or load entry: by number, box or sphere (rest positions, closed sets).
 struct Selection {
-  std::vector<int> nodes;
+  std::vector<int> nodes;  ///< mesh-file order
   std::optional<std::array<Vec3, 2>> box;
-  std::optional<std::pair<Vec3, double>> sphere;
+  std::optional<std::pair<Vec3, double>> sphere;  ///< centre, radius
 };
 
 struct BoundaryEntry {
   Selection where;
-  Boundary motion;  ///< its nodes are filled by load_world()
+  Boundary motion;  ///< its nodes are filled by load_setup()
 };
 struct LoadEntry {
   Selection where;
@@ -54,10 +67,18 @@ struct View {
   bool wireframe = false;
 };
 
+/// State of a recorded world after `tick` ticks, before the commands of the next.
 struct Checkpoint {
   long tick = 0;
-  std::uint64_t hash = 0;
+  std::uint64_t hash = 0;            ///< state_hash()
   std::vector<std::uint16_t> nodes;  ///< node_hashes(); may be empty
+};
+
+/// Says whether a mesh is the one a recording was made with. Hash: of positions (as placed), elements and regions.
+struct MeshIdentity {
+  int nodes = 0, tets = 0;
+  std::uint64_t hash = 0;
+  bool operator==(const MeshIdentity&) const = default;
 };
 
 struct Scene {
@@ -69,19 +90,24 @@ struct Scene {
   std::vector<LoadEntry> loads;
   Vec3 gravity = Vec3::Zero();
   SolverSettings solver;
-  std::vector<double> output_times;  ///< s, ascending
+  std::vector<double> output_times;  ///< s, as listed
   bool output_positions = true, output_vtu = false;
   Vec3 initial_velocity = Vec3::Zero();
   std::filesystem::path initial_positions;
   View view;
-  std::vector<Event> events;            ///< ascending in tick
-  std::vector<Checkpoint> checkpoints;  ///< of a recording
-  long recorded_ticks = 0;              ///< of a recording: how far it went
+  std::vector<Event> events;                   ///< ascending in tick
+  std::map<std::size_t, Vec3> grasp_points;    ///< index of a grasp in `events` to a place in space instead of a node
+  std::vector<Checkpoint> checkpoints;         ///< of a recording, ascending in tick
+  std::optional<long> recorded_ticks;          ///< of a recording: how far it went, as far as is known
+  std::optional<MeshIdentity> recorded_mesh;   ///< of a recording
 };
 
 /// Reads a scene, a recording (either form), or puts the default scene round a bare mesh or surface file.
 /// Throws InputError.
 Scene read_scene(const std::filesystem::path& path);
+
+/// A scene or recording from text, with paths and messages as if it stood in that file. Throws InputError.
+Scene parse_scene(std::string_view text, const std::filesystem::path& as_if_from);
 
 /// The scene `heml` opens without arguments.
 Scene default_scene();
@@ -95,8 +121,11 @@ WorldSetup load_setup(const Scene& scene);
 /// make_world(load_setup(scene)).
 std::unique_ptr<World> load_world(const Scene& scene);
 
-/// Scene, event and checkpoint as JSON text on one line each, as recordings hold them; 17 significant digits.
-std::string scene_line(const Scene& scene);
+/// Scene, event and checkpoint as JSON text on one line each (no line end), as recordings hold them; 17 significant
+/// digits.
+/// The scene goes without its events and checkpoints, which have lines of their own, and reads back to the same world
+/// from a file in `folder`; no folder: from anywhere on this machine.
+std::string scene_line(const Scene& scene, const std::filesystem::path& folder = {});
 std::string event_line(const Event& event);
 std::string checkpoint_line(const Checkpoint& checkpoint);
 

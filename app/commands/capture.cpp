@@ -1,0 +1,56 @@
+#include <fmt/format.h>
+
+#include <app/commands/commands.hpp>
+#include <app/commands/photographer.hpp>
+#include <app/commands/progress.hpp>
+#include <charconv>
+#include <cmath>
+#include <heml/base/error.hpp>
+#include <heml/base/log.hpp>
+#include <heml/scenario/schedule.hpp>
+
+namespace heml {
+
+PictureSize parse_size(const std::string& text) {
+  PictureSize size{0, 0};
+  const char* end = text.data() + text.size();
+  const auto width = std::from_chars(text.data(), end, size.width);
+  const bool cross = width.ec == std::errc() && width.ptr < end && *width.ptr == 'x';
+  const auto height = cross ? std::from_chars(width.ptr + 1, end, size.height) : width;
+  if (!cross || height.ec != std::errc() || height.ptr != end || size.width < 16 || size.height < 16 ||
+      size.width > 8192 || size.height > 8192)
+    throw UsageError(fmt::format("--size {}: write WIDTHxHEIGHT in pixels, 16 to 8192 each, e.g. 1280x720", text));
+  return size;
+}
+
+int capture(const CaptureArguments& arguments) {
+  if (arguments.frames < 1) throw UsageError(fmt::format("--frames must be 1 or more, is {}", arguments.frames));
+  if (!(arguments.fps > 0) || !std::isfinite(arguments.fps))
+    throw UsageError(fmt::format("--fps must be greater than 0, is {}", arguments.fps));
+  const Scene scene = arguments.scene.empty() ? default_scene() : read_scene(arguments.scene);
+  const auto world = load_world(scene);
+  Schedule schedule(scene, world->setup().mesh);
+  Photographer photographer(scene, *world, arguments.size, arguments.panel, arguments.out);
+  const double tick = world->setup().solver.tick();
+  Progress progress("capturing frames");
+  for (int k = 0; k < arguments.frames && !world->halt(); ++k) {
+    // Whole ticks up to the frame's time, so that a capture passes through the states a replay does; what is left of
+    // the time, less than a tick, is extrapolated for the picture alone.
+    const double time = k / arguments.fps;
+    while (!world->halt() && static_cast<double>(world->ticks() + 1) * tick <= time * (1 + 1e-12)) {
+      schedule.apply(*world);
+      world->tick();
+    }
+    photographer.take(*world, world->halt() ? 0.0 : time - static_cast<double>(world->ticks()) * tick, 1 / arguments.fps);
+    progress.show((k + 1.0) / arguments.frames);
+  }
+  if (world->halt()) {
+    log_line("error", fmt::format("{}: {}; {} of {} frames are in {}", scene.file, world->halt()->message,
+                                  photographer.taken(), arguments.frames, arguments.out.string()));
+    return exit_not_solved;
+  }
+  fmt::print("{} frames in {}\n", arguments.frames, arguments.out.string());
+  return exit_done;
+}
+
+}  // namespace heml

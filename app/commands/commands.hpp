@@ -1,0 +1,74 @@
+#pragma once
+// What the program's commands do once their arguments are read (contract: "Commands"). Each returns the exit code; bad
+// input leaves as InputError, wrong usage as UsageError (main.cpp turns them into messages and codes).
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace heml {
+
+/// Contract: "Exit codes".
+enum ExitCode {
+  exit_done = 0,
+  exit_check_failed = 1,
+  exit_usage = 2,
+  exit_input = 3,
+  exit_not_solved = 4,
+  exit_internal = 5
+};
+
+struct PictureSize {
+  int width = 1280, height = 720;
+};
+/// "1280x720". Throws UsageError.
+PictureSize parse_size(const std::string& text);
+
+struct CaptureArguments {
+  std::string scene;  ///< empty: the default scene
+  std::filesystem::path out = "heml-frames";
+  int frames = 60;
+  PictureSize size;
+  double fps = 30;
+  bool panel = false;
+};
+int capture(const CaptureArguments& arguments);
+
+struct RunArguments {
+  std::string scene;  ///< empty: the default scene
+  std::optional<std::filesystem::path> record;
+  PictureSize size;
+  double exit_after = 0;  ///< s; 0: when the window is closed
+  double draw_stall = 0;  ///< ms added to every drawing
+};
+int run(const RunArguments& arguments);
+
+struct ReplayArguments {
+  std::filesystem::path recording;
+  bool verify = false;
+  std::optional<std::filesystem::path> frames;
+  PictureSize size;
+  double fps = 30;
+  int threads = 0;  ///< 0: as the recording says
+};
+int replay_recording(const ReplayArguments& arguments);
+
+struct SolveArguments {
+  std::string scene;
+  std::filesystem::path out;
+};
+int solve_scene(const SolveArguments& arguments);
+
+struct ProbeArguments {
+  std::filesystem::path material, gradients, out;
+};
+int probe(const ProbeArguments& arguments);
+
+struct MeshArguments {
+  std::filesystem::path surface, out;
+  double radius_edge_ratio = 1.4;
+  std::optional<double> max_volume;  ///< m³
+  double scale = 1;
+};
+int mesh_surface(const MeshArguments& arguments);
+
+}  // namespace heml

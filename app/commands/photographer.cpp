@@ -1,0 +1,60 @@
+#include <fmt/format.h>
+
+#include <app/commands/photographer.hpp>
+#include <app/panel/eye.hpp>
+#include <app/panel/legend.hpp>
+#include <app/render/png.hpp>
+#include <heml/base/error.hpp>
+#include <heml/session/skin.hpp>
+
+namespace heml {
+
+Photographer::Photographer(const Scene& scene, const World& world, PictureSize size, bool panel,
+                           std::filesystem::path folder)
+    : folder_(std::move(folder)),
+      size_{size.width, size.height},
+      context_(size_),
+      skin_(make_skin(world.setup())),
+      view_(scene.view) {
+  std::error_code failed;
+  std::filesystem::create_directories(folder_, failed);
+  if (failed) throw InputError(folder_.string(), "", "cannot be made: " + failed.message(), "name another folder");
+  renderer_.set_skin(skin_);
+  if (panel || view_.field != Field::none) interface_.emplace(panel::Interface::suitable_scale(size_));
+  if (panel) panel_.emplace(scene, skin_);
+}
+
+void Photographer::take(World& world, double ahead, double seconds) {
+  fill_frame(world, skin_, view_.field, ahead, frame_);
+  frame_.pace.rate = 1 / world.setup().solver.tick();
+  if (panel_)
+    draw_beside_panel(static_cast<float>(seconds));
+  else
+    draw_alone(static_cast<float>(seconds));
+  render::write_png(folder_ / fmt::format("frame_{:05}.png", taken_), render::read_pixels(size_));
+  ++taken_;
+}
+
+void Photographer::draw_beside_panel(float seconds) {
+  panel_->take(frame_, seconds);
+  panel::Eye eye;
+  eye.fit(view_, skin_, size_, panel_->insets({static_cast<float>(size_.width), static_cast<float>(size_.height)}));
+  renderer_.draw(frame_, eye.camera(), panel_->drawing(), size_);
+  interface_->begin(size_, seconds);
+  panel_->draw(frame_);
+  interface_->end();
+}
+
+void Photographer::draw_alone(float seconds) {
+  render::DrawOptions options;
+  options.wireframe = view_.wireframe;
+  if (interface_) options.range = colours_.update(frame_.field, frame_.values, seconds);
+  renderer_.draw(frame_, render::camera_for(view_, skin_, size_), options, size_);
+  if (!interface_) return;
+  interface_->begin(size_, seconds);
+  panel::draw_legend(frame_.field, *options.range,
+                     {{0, 0}, {static_cast<float>(size_.width), static_cast<float>(size_.height)}});
+  interface_->end();
+}
+
+}  // namespace heml

@@ -1,0 +1,121 @@
+#include <fmt/format.h>
+#include <fmt/os.h>
+
+#include <app/commands/commands.hpp>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <heml/base/error.hpp>
+#include <heml/base/log.hpp>
+#include <heml/materials/continuum.hpp>
+#include <heml/materials/laws.hpp>
+#include <heml/scenario/scene.hpp>
+#include <limits>
+#include <sstream>
+
+namespace heml {
+namespace {
+
+struct Row {
+  Mat3 F, dF;
+};
+struct Table {
+  std::vector<Row> rows;
+  bool has_dF = false;
+};
+
+std::vector<std::string> split(const std::string& line) {
+  std::vector<std::string> cells;
+  std::stringstream stream(line);
+  for (std::string cell; std::getline(stream, cell, ',');) {
+    const auto first = cell.find_first_not_of(" \t\r"), last = cell.find_last_not_of(" \t\r");
+    cells.push_back(first == std::string::npos ? "" : cell.substr(first, last - first + 1));
+  }
+  return cells;
+}
+
+std::string header(bool with_dF) {
+  std::string text;
+  for (const char* prefix : {"F", "dF"}) {
+    if (prefix[0] == 'd' && !with_dF) break;
+    for (int r = 1; r <= 3; ++r)
+      for (int c = 1; c <= 3; ++c) text += fmt::format("{}{}{}{}", text.empty() ? "" : ",", prefix, r, c);
+  }
+  return text;
+}
+
+Table read_table(const std::filesystem::path& path) {
+  std::ifstream in(path);
+  if (!in) throw InputError(path.string(), "", "cannot be read", "a CSV file with the header " + header(false));
+  std::string line;
+  std::getline(in, line);
+  std::string names;
+  for (const std::string& cell : split(line)) names += (names.empty() ? "" : ",") + cell;
+  Table table;
+  table.has_dF = names == header(true);
+  if (!table.has_dF && names != header(false))
+    throw InputError(path.string(), "line 1", fmt::format("the header is '{}'", names.substr(0, 80)),
+                     "it must be " + header(false) + ", optionally followed by dF11 to dF33");
+  const std::size_t wanted = table.has_dF ? 18 : 9;
+  for (int number = 2; std::getline(in, line); ++number) {
+    const auto cells = split(line);
+    if (cells.empty()) continue;
+    const std::string place = fmt::format("line {}", number);
+    if (cells.size() != wanted)
+      throw InputError(path.string(), place, fmt::format("{} values", cells.size()),
+                       fmt::format("{} are wanted", wanted));
+    Row row;
+    for (std::size_t i = 0; i < wanted; ++i) {
+      double value = 0;
+      const auto [end, error] = std::from_chars(cells[i].data(), cells[i].data() + cells[i].size(), value);
+      if (error != std::errc() || end != cells[i].data() + cells[i].size() || !std::isfinite(value))
+        throw InputError(path.string(), place, fmt::format("'{}' is not a finite number", cells[i].substr(0, 40)));
+      (i < 9 ? row.F : row.dF)(static_cast<Eigen::Index>(i % 9 / 3), static_cast<Eigen::Index>(i % 3)) = value;
+    }
+    table.rows.push_back(row);
+  }
+  return table;
+}
+
+std::string cells_of(const Mat3& matrix) {
+  std::string text;
+  for (int r = 0; r < 3; ++r)
+    for (int c = 0; c < 3; ++c) text += fmt::format(",{:.17g}", matrix(r, c));
+  return text;
+}
+
+}  // namespace
+
+int probe(const ProbeArguments& arguments) {
+  const Material material = read_material(arguments.material);
+  const Table table = read_table(arguments.gradients);
+  std::ofstream out(arguments.out);
+  if (!out) throw InputError(arguments.out.string(), "", "cannot be written");
+  std::string names = "W";
+  for (const char* prefix : {"P", "dP"}) {
+    if (prefix[0] == 'd' && !table.has_dF) break;
+    for (int i = 0; i < 9; ++i) names += fmt::format(",{}{}{}", prefix, i / 3 + 1, i % 3 + 1);
+  }
+  out << names << '\n';
+  int outside = 0;
+  with_law<double>(material, false, [&](const auto& law) {
+    const Mat3 nan = Mat3::Constant(std::numeric_limits<double>::quiet_NaN());
+    for (const Row& row : table.rows) {
+      const auto at = invariants_of(row.F);
+      const bool valid = law.valid(at) && std::isfinite(law.energy(at));
+      outside += valid ? 0 : 1;
+      out << fmt::format("{:.17g}", valid ? law.energy(at) : nan(0, 0))
+          << cells_of(valid ? first_piola(law, row.F) : nan);
+      if (table.has_dF) out << cells_of(valid ? first_piola_differential(law, row.F, row.dF) : nan);
+      out << '\n';
+    }
+  });
+  out.flush();
+  if (!out) throw InputError(arguments.out.string(), "", "could not be written to its end", "is the disk full?");
+  if (outside > 0)
+    warn("{}: {} of {} states are outside the range of {}: nan in their rows", arguments.gradients.string(), outside,
+         table.rows.size(), material.law);
+  return exit_done;
+}
+
+}  // namespace heml

@@ -1,0 +1,25 @@
+#pragma once
+// "heml: capturing 12/60" on one line of a terminal that is overwritten; nothing where stderr is a file.
+#include <string>
+
+namespace heml {
+
+class Progress {
+ public:
+  /// what: "capturing frames".
+  explicit Progress(std::string what);
+  ~Progress();  ///< clears the line
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  /// fraction: 0 to 1. Prints ten times a second at most.
+  void show(double fraction);
+
+ private:
+  std::string what_;
+  bool terminal_;
+  double last_ = -1;  ///< s, when it last printed
+  bool printed_ = false;
+};
+
+}  // namespace heml

@@ -1,0 +1,30 @@
+#include <fmt/format.h>
+
+#include <app/commands/commands.hpp>
+#include <heml/base/log.hpp>
+#if HEML_WINDOW
+#include <app/window/window.hpp>
+#endif
+
+namespace heml {
+
+int run(const RunArguments& arguments) {
+  std::string reason = "this build has no window";
+#if HEML_WINDOW
+  const Scene scene = arguments.scene.empty() ? default_scene() : read_scene(arguments.scene);
+  WindowOptions options;
+  options.record = arguments.record;
+  options.size = {arguments.size.width, arguments.size.height};
+  options.exit_after = arguments.exit_after;
+  options.draw_stall = arguments.draw_stall;
+  const auto outcome = run_window(scene, options);
+  if (!outcome) return exit_done;
+  reason = *outcome;
+#endif
+  CaptureArguments instead;
+  instead.scene = arguments.scene;
+  inform("no window ({}): capturing {} frames into ./{} instead", reason, instead.frames, instead.out.string());
+  return capture(instead);
+}
+
+}  // namespace heml

@@ -1,0 +1,134 @@
+// The command line. Every command is a file in commands/.
+#include <CLI/CLI.hpp>
+#include <app/commands/commands.hpp>
+#include <exception>
+#include <heml/base/error.hpp>
+#include <heml/base/log.hpp>
+
+namespace heml {
+namespace {
+
+int run_program(int argc, char** argv) {
+  CLI::App program{"heml: interactive real-time simulation of hyperelastic soft tissue"};
+  program.set_version_flag("--version", HEML_VERSION);
+  program.footer(
+      "Without a command the default scene opens.\n"
+      "SCENE is a scene file (.json), a recording (.jsonl), or a mesh or surface file (.msh .mesh .vtk .vtu .node .obj "
+      ".stl .ply).\n"
+      "Examples:\n"
+      "  heml run liver.obj                                 grasp your own organ\n"
+      "  heml capture scene.json --out frames --frames 90   pictures without a display\n"
+      "  heml run --record session.jsonl                    record what you do ...\n"
+      "  heml replay session.jsonl --verify                 ... and check that it plays the same\n"
+      "Exit codes: 0 done, 1 a check failed, 2 wrong usage, 3 bad input, 4 not converged or unstable, 5 internal "
+      "error.");
+  program.require_subcommand(0, 1);
+  program.fallthrough(false);
+  int code = exit_done;
+  const std::string size_help = "size of pictures, pixels";
+
+  RunArguments run_arguments;
+  std::string run_size = "1280x720";
+  auto* run_command = program.add_subcommand("run", "open the window (headless: capture frames instead)");
+  run_command->add_option("SCENE", run_arguments.scene, "scene, recording, mesh or surface; none: the default scene");
+  run_command->add_option("--record", run_arguments.record, "append every action to this recording (.jsonl)");
+  run_command->add_option("--size", run_size, "size of the window, pixels")->capture_default_str();
+  run_command->add_option("--exit-after", run_arguments.exit_after, "close by itself after so many seconds");
+  run_command->add_option("--draw-stall", run_arguments.draw_stall,
+                          "hold every drawing up by so many milliseconds (for tests)");
+
+  CaptureArguments capture_arguments;
+  std::string capture_size = "1280x720";
+  auto* capture_command = program.add_subcommand("capture", "write frames as PNG; needs no display");
+  capture_command->add_option("SCENE", capture_arguments.scene,
+                              "scene, recording, mesh or surface; none: the default scene");
+  capture_command->add_option("--out", capture_arguments.out, "folder for frame_00000.png ...")->required();
+  capture_command->add_option("--frames", capture_arguments.frames, "how many")->capture_default_str();
+  capture_command->add_option("--size", capture_size, size_help)->capture_default_str();
+  capture_command->add_option("--fps", capture_arguments.fps, "frames a simulated second")->capture_default_str();
+  capture_command->add_flag("--panel", capture_arguments.panel, "draw the panel too");
+
+  ReplayArguments replay_arguments;
+  std::string replay_size = "1280x720";
+  auto* replay_command = program.add_subcommand("replay", "play a recorded or hand-written session headless");
+  replay_command
+      ->add_option("RECORDING", replay_arguments.recording, "what `heml run --record` wrote, or a scene with events")
+      ->required();
+  replay_command->add_flag("--verify", replay_arguments.verify,
+                           "compare the state with every checkpoint; exit 1 where it differs");
+  replay_command->add_option("--frames", replay_arguments.frames, "write frames into this folder");
+  replay_command->add_option("--size", replay_size, size_help)->capture_default_str();
+  replay_command->add_option("--fps", replay_arguments.fps, "frames a simulated second")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  replay_command->add_option("--threads", replay_arguments.threads, "instead of the recording's; never changes a bit")
+      ->check(CLI::NonNegativeNumber);
+
+  SolveArguments solve_arguments;
+  auto* solve_command =
+      program.add_subcommand("solve", "run a scene without drawing and write positions.csv and report.json");
+  solve_command->add_option("SCENE", solve_arguments.scene, "scene, recording, mesh or surface")->required();
+  solve_command->add_option("--out", solve_arguments.out, "folder for the results")->required();
+
+  ProbeArguments probe_arguments;
+  auto* probe_command = program.add_subcommand("probe", "evaluate a law at given deformation gradients");
+  probe_command->add_option("MATERIAL", probe_arguments.material, "JSON: one entry of a scene's `materials`")
+      ->required();
+  probe_command->add_option("--F", probe_arguments.gradients, "CSV: F11 ... F33 [dF11 ... dF33]")->required();
+  probe_command->add_option("--out", probe_arguments.out, "CSV: W, P11 ... P33 [dP11 ... dP33], Pa")->required();
+
+  MeshArguments mesh_arguments;
+  auto* mesh_command =
+      program.add_subcommand("mesh", "fill a closed surface with tetrahedra (or convert a tetrahedral mesh)");
+  mesh_command->add_option("SURFACE", mesh_arguments.surface, "surface (.obj .stl .ply ...) or tetrahedral mesh")
+      ->required();
+  mesh_command->add_option("--out", mesh_arguments.out, ".msh, .mesh, .vtk, .vtu or .node")->required();
+  mesh_command->add_option("--scale", mesh_arguments.scale, "multiplies coordinates: 0.001 for a file in millimetres")
+      ->capture_default_str();
+  mesh_command->add_option("--radius-edge-ratio", mesh_arguments.radius_edge_ratio, "shape: smaller is better and more")
+      ->capture_default_str()
+      ->check(CLI::Range(1.0, 100.0));
+  mesh_command->add_option("--max-volume", mesh_arguments.max_volume, "of one tetrahedron, m³")
+      ->check(CLI::PositiveNumber);
+
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return program.exit(error) == 0 ? exit_done : exit_usage;
+  }
+  if (*capture_command) {
+    capture_arguments.size = parse_size(capture_size);
+    code = capture(capture_arguments);
+  } else if (*replay_command) {
+    replay_arguments.size = parse_size(replay_size);
+    code = replay_recording(replay_arguments);
+  } else if (*solve_command) {
+    code = solve_scene(solve_arguments);
+  } else if (*probe_command) {
+    code = probe(probe_arguments);
+  } else if (*mesh_command) {
+    code = mesh_surface(mesh_arguments);
+  } else {
+    run_arguments.size = parse_size(run_size);
+    code = run(run_arguments);
+  }
+  return code;
+}
+
+}  // namespace
+}  // namespace heml
+
+int main(int argc, char** argv) {
+  try {
+    return heml::run_program(argc, argv);
+  } catch (const heml::InputError& error) {
+    heml::log_line("error", error.what());
+    return heml::exit_input;
+  } catch (const heml::UsageError& error) {
+    heml::log_line("error", error.what());
+    return heml::exit_usage;
+  } catch (const std::exception& error) {
+    heml::log_line("internal error", error.what());
+    return heml::exit_internal;
+  }
+}

@@ -1,0 +1,38 @@
+#pragma once
+// What goes out of the panel. The panel knows no session: whoever draws it carries these out.
+#include <heml/world/command.hpp>
+#include <heml/world/world.hpp>
+#include <optional>
+#include <vector>
+
+namespace heml::panel {
+
+/// What a key or a button asks the panel for.
+enum class Action {
+  toggle_play,
+  step,
+  reset,
+  fit,
+  wireframe,
+  show_tissue,
+  show_displacement,
+  show_stretch,
+  show_von_mises,
+  show_volume_ratio,
+  screenshot,
+  hide,
+  help,
+  release,
+  quit
+};
+
+/// What the panel asks its owner for.
+enum class Request { play, pause, step, fit, screenshot, release, quit };
+
+struct PanelActions {
+  std::vector<Command> commands;  ///< for the world, in order
+  std::vector<Request> requests;
+  std::optional<Field> show;  ///< the field that frames should carry from now on
+};
+
+}  // namespace heml::panel

@@ -1,0 +1,28 @@
+#pragma once
+// The camera beside a panel: the body stays in the middle of what the panel leaves free.
+#include <app/panel/area.hpp>
+#include <app/render/scene_camera.hpp>
+
+namespace heml::panel {
+
+class Eye {
+ public:
+  /// Looks at the body as the scene's view says, so that it fits between what is covered.
+  void fit(const View& view, const Skin& skin, render::Size size, const Insets& covered);
+  /// The picture or the panel changed: the body stays as large as it is.
+  void resize(render::Size size, const Insets& covered);
+
+  void orbit(float right, float down);  ///< by pixels of mouse travel: the body turns with the mouse
+  void pan(float right, float down);    ///< by pixels: the body goes with the mouse
+  void zoom(float notches);             ///< of the wheel; up: nearer
+
+  render::Camera camera() const;  ///< to draw and to pick with
+  render::Size size() const { return size_; }
+
+ private:
+  render::Camera centred_;  ///< as if nothing were covered
+  render::Size size_;       ///< pixels
+  Insets covered_;
+};
+
+}  // namespace heml::panel

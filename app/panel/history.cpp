@@ -1,0 +1,21 @@
+#include <app/panel/history.hpp>
+
+namespace heml::panel {
+
+void History::take(const Frame& frame) {
+  constexpr double spacing = span / 240;
+  if (!readings_.empty() && frame.time < readings_.back().time) readings_.clear();
+  if (!readings_.empty() && frame.time < readings_.back().time + spacing) return;
+  Reading reading;
+  reading.time = frame.time;
+  reading.energies = frame.energies;
+  reading.force = frame.tool.active ? frame.tool.force.norm() : 0.0;
+  reading.typical_tick = frame.pace.p50;
+  reading.slow_tick = frame.pace.p99;
+  reading.min_J = frame.min_J;
+  reading.max_J = frame.max_J;
+  readings_.push_back(reading);
+  while (readings_.front().time < frame.time - span) readings_.pop_front();
+}
+
+}  // namespace heml::panel

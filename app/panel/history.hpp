@@ -1,0 +1,31 @@
+#pragma once
+// The last seconds of what is plotted.
+#include <deque>
+#include <heml/session/frame.hpp>
+
+namespace heml::panel {
+
+/// One frame's numbers.
+struct Reading {
+  double time = 0;                         ///< s, simulated
+  Energies energies;                       ///< J
+  double force = 0;                        ///< N, of the tool
+  double typical_tick = 0, slow_tick = 0;  ///< s of computing a tick: median and 99th percentile
+  double min_J = 1, max_J = 1;
+  double total() const { return energies.kinetic + energies.elastic + energies.potential; }
+};
+
+/// Readings against simulated time, evenly spaced at least `span`/240 apart. A step back in time (a reset) starts
+/// afresh.
+class History {
+ public:
+  static constexpr double span = 8;  ///< s
+
+  void take(const Frame& frame);
+  const std::deque<Reading>& readings() const { return readings_; }  ///< ascending in time
+
+ private:
+  std::deque<Reading> readings_;
+};
+
+}  // namespace heml::panel

@@ -1,0 +1,52 @@
+#include <app/panel/icons.hpp>
+#include <app/panel/theme.hpp>
+#include <cmath>
+#include <numbers>
+
+namespace heml::panel {
+namespace {
+
+void triangle_right(ImDrawList& list, float left, float right, float middle, float half, ImU32 colour) {
+  list.AddTriangleFilled({left, middle - half}, {right, middle}, {left, middle + half}, colour);
+}
+
+void bar(ImDrawList& list, float left, float right, float middle, float half, ImU32 colour) {
+  list.AddRectFilled({left, middle - half}, {right, middle + half}, colour, (right - left) * 0.25f);
+}
+
+}  // namespace
+
+void draw_play(ImDrawList& list, ImVec2 c, float half, ImU32 colour) {
+  triangle_right(list, c.x - half * 0.7f, c.x + half, c.y, half, colour);
+}
+
+void draw_pause(ImDrawList& list, ImVec2 c, float half, ImU32 colour) {
+  bar(list, c.x - half * 0.8f, c.x - half * 0.2f, c.y, half, colour);
+  bar(list, c.x + half * 0.2f, c.x + half * 0.8f, c.y, half, colour);
+}
+
+void draw_step(ImDrawList& list, ImVec2 c, float half, ImU32 colour) {
+  bar(list, c.x - half * 0.95f, c.x - half * 0.5f, c.y, half, colour);
+  triangle_right(list, c.x - half * 0.3f, c.x + half, c.y, half, colour);
+}
+
+void draw_reset(ImDrawList& list, ImVec2 c, float half, ImU32 colour) {
+  constexpr float pi = std::numbers::pi_v<float>, start = -0.25f * pi, end = 1.3f * pi;
+  const float radius = half * 0.88f;
+  list.PathArcTo(c, radius, start, end, 24);
+  list.PathStroke(colour, ImDrawFlags_None, half * 0.3f);
+  // The arrow's head at the end of the arc that points back.
+  const ImVec2 tip(c.x + radius * std::cos(start), c.y + radius * std::sin(start));
+  const ImVec2 along(std::sin(start), -std::cos(start)), across(std::cos(start), std::sin(start));
+  const float s = half * 0.55f;
+  list.AddTriangleFilled({tip.x + along.x * s * 1.3f, tip.y + along.y * s * 1.3f},
+                         {tip.x - across.x * s, tip.y - across.y * s}, {tip.x + across.x * s, tip.y + across.y * s},
+                         colour);
+}
+
+void draw_question(ImDrawList& list, ImVec2 c, float, ImU32 colour) {
+  const ImVec2 size = ImGui::CalcTextSize("?");
+  list.AddText({c.x - size.x / 2, c.y - size.y / 2}, colour, "?");
+}
+
+}  // namespace heml::panel

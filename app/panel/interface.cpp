@@ -1,0 +1,43 @@
+#include <imgui.h>
+
+#include <algorithm>
+#include <app/panel/interface.hpp>
+#include <app/panel/theme.hpp>
+#include <cstdint>
+
+namespace heml::panel {
+namespace {
+
+/// Puts the fonts of the theme into the texture of those the renderer began with.
+void upload_fonts(ImTextureID texture) {
+  ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
+  unsigned char* pixels = nullptr;
+  int width = 0, height = 0;
+  fonts.GetTexDataAsRGBA32(&pixels, &width, &height);
+  glBindTexture(GL_TEXTURE_2D, static_cast<GLuint>(reinterpret_cast<std::uintptr_t>(texture)));
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, pixels);
+  fonts.SetTexID(texture);  // making the fonts forgot it
+  fonts.ClearTexData();
+}
+
+}  // namespace
+
+Interface::Interface(float scale) : renderer_(scale) {
+  ImGui::GetIO().ConfigWindowsMoveFromTitleBarOnly = true;
+  set_scale(scale);
+}
+
+float Interface::suitable_scale(render::Size size) {
+  const float ratio = std::min(static_cast<float>(size.width) / 1280, static_cast<float>(size.height) / 720);
+  return std::clamp(ratio, 0.72f, 1.0f);
+}
+
+void Interface::set_scale(float scale) {
+  if (scale == scale_) return;
+  scale_ = scale;
+  const ImTextureID texture = ImGui::GetIO().Fonts->TexID;
+  apply_theme(scale);
+  upload_fonts(texture);
+}
+
+}  // namespace heml::panel

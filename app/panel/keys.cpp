@@ -1,0 +1,34 @@
+#include <app/panel/keys.hpp>
+
+namespace heml::panel {
+namespace {
+constexpr KeyBinding bindings[] = {
+    {' ', false, Action::toggle_play, "Space", "play or pause"},
+    {'.', false, Action::step, ".", "one tick, then pause"},
+    {'R', false, Action::reset, "R", "reset to the initial state"},
+    {'F', false, Action::fit, "F", "fit the body into view"},
+    {'1', false, Action::show_tissue, "1", "tissue"},
+    {'2', false, Action::show_displacement, "2", "colours: displacement"},
+    {'3', false, Action::show_stretch, "3", "colours: stretch"},
+    {'4', false, Action::show_von_mises, "4", "colours: von Mises stress"},
+    {'5', false, Action::show_volume_ratio, "5", "colours: volume ratio"},
+    {'W', false, Action::wireframe, "W", "edges of the mesh"},
+    {'P', false, Action::screenshot, "P, F12", "save a picture"},
+    {key_f12, false, Action::screenshot, "", ""},
+    {key_tab, false, Action::hide, "Tab", "hide or show the panel"},
+    {'H', false, Action::help, "H, F1", "this page"},
+    {key_f1, false, Action::help, "", ""},
+    {key_escape, false, Action::release, "Esc", "let go; close messages"},
+    {'Q', true, Action::quit, "Ctrl+Q", "quit"},
+};
+}  // namespace
+
+std::span<const KeyBinding> key_bindings() { return bindings; }
+
+std::optional<Action> action_of(int key, bool control) {
+  for (const KeyBinding& binding : bindings)
+    if (binding.key == key && binding.control == control) return binding.action;
+  return std::nullopt;
+}
+
+}  // namespace heml::panel

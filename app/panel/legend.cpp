@@ -1,0 +1,53 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <app/panel/legend.hpp>
+#include <app/panel/theme.hpp>
+
+namespace heml::panel {
+namespace {
+
+constexpr int colour_steps = 48;
+
+ImU32 colour_at(Field field, float place) {
+  const Vec3f c = render::map_colour(field, place);
+  return ImGui::ColorConvertFloat4ToU32({c.x(), c.y(), c.z(), 1});
+}
+
+void draw_bar(ImDrawList& list, Field field, const Area& bar) {
+  for (int i = 0; i < colour_steps; ++i) {
+    const float a = static_cast<float>(i) / colour_steps, b = static_cast<float>(i + 1) / colour_steps;
+    const ImU32 left = colour_at(field, a), right = colour_at(field, b);
+    list.AddRectFilledMultiColor({bar.from.x + a * bar.width(), bar.from.y}, {bar.from.x + b * bar.width(), bar.to.y},
+                                 left, right, right, left);
+  }
+}
+
+void centred(ImDrawList& list, float x, float y, ImU32 colour, const std::string& text) {
+  list.AddText({x - ImGui::CalcTextSize(text.c_str()).x / 2, y}, colour, text.c_str());
+}
+
+}  // namespace
+
+void draw_legend(Field field, const render::Range& range, const Area& free) {
+  if (field == Field::none) return;
+  const UseFont small(Font::small);
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  const render::FieldLabel label = render::field_label(field, range);
+  const float width = std::min(em(20), free.width() - em(3)), middle = (free.from.x + free.to.x) / 2;
+  const float line = ImGui::GetTextLineHeight(), bottom = free.to.y - em(0.9f);
+  const Area bar{{middle - width / 2, bottom - line - em(0.75f)}, {middle + width / 2, bottom - line - em(0.2f)}};
+  const float pad = em(0.8f);
+  list.AddRectFilled({bar.from.x - pad * 1.4f, bar.from.y - line - pad}, {bar.to.x + pad * 1.4f, bottom + pad * 0.5f},
+                     colours::background, em(0.5f));
+  const std::string title = label.unit.empty() ? label.title : fmt::format("{}, {}", label.title, label.unit);
+  centred(list, middle, bar.from.y - line - em(0.25f), colours::text, title);
+  draw_bar(list, field, bar);
+  for (const float tick : render::ticks({range.low * label.scale, range.high * label.scale})) {
+    const float x = bar.from.x + (tick / label.scale - range.low) / (range.high - range.low) * width;
+    list.AddLine({x, bar.to.y}, {x, bar.to.y + em(0.15f)}, colours::muted);
+    centred(list, x, bar.to.y + em(0.15f), colours::muted, fmt::format("{:g}", tick));
+  }
+}
+
+}  // namespace heml::panel

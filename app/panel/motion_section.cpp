@@ -1,0 +1,93 @@
+#include <fmt/format.h>
+
+#include <app/panel/motion_section.hpp>
+#include <array>
+
+namespace heml::panel {
+namespace {
+
+/// How an integrator is called in the panel, of those a scene may name. What this build cannot do is left out.
+struct IntegratorChoice {
+  const char* name;
+  const char* title;
+};
+constexpr IntegratorChoice integrator_choices[] = {
+    {"symplectic_euler", "Symplectic Euler"},
+    {"verlet", "Verlet"},
+    {"backward_euler", "Backward Euler"},
+    {"bdf2", "BDF2"},
+    {"tr_bdf2", "TR-BDF2"},
+};
+
+struct Direction {
+  const char* name;
+  Vec3 vector;
+};
+const std::array<Direction, 6>& directions() {
+  static const std::array<Direction, 6> all{{{"down (−y)", {0, -1, 0}},
+                                             {"up (+y)", {0, 1, 0}},
+                                             {"left (−x)", {-1, 0, 0}},
+                                             {"right (+x)", {1, 0, 0}},
+                                             {"back (−z)", {0, 0, -1}},
+                                             {"front (+z)", {0, 0, 1}}}};
+  return all;
+}
+
+}  // namespace
+
+MotionSection::MotionSection(const Vec3& gravity, const SolverSettings& solver)
+    : damping_(solver.damping), integrator_(solver.integrator), rate_(1 / solver.tick()) {
+  follow(SetGravity{gravity});
+}
+
+void MotionSection::follow(const SetGravity& command) {
+  strength_ = command.gravity.norm();
+  if (strength_ > 0) direction_ = command.gravity / strength_;
+}
+
+void MotionSection::draw(Rows& rows, PanelActions& out) {
+  draw_gravity(rows, out);
+  if (rows.slider({"Damping", "Slows every motion in proportion to mass, 1/s. 0 lets the body swing freely."}, damping_,
+                  {0, 20, "%.2f 1/s", false}))
+    out.commands.emplace_back(SetDamping{damping_});
+  draw_integrator(rows, out);
+  rows.value({"Rate", "Ticks of the engine a simulated second, Hz. The scene fixes it (solver.rate or solver.step)."},
+             fmt::format("{:.4g} Hz", rate_));
+}
+
+void MotionSection::draw_gravity(Rows& rows, PanelActions& out) {
+  bool changed = rows.slider({"Gravity", "Acceleration that pulls at the whole body, m/s². On Earth 9.81."}, strength_,
+                             {0, 20, "%.2f m/s²", false});
+  std::array<std::string, 7> names;
+  int chosen = 6;
+  for (int i = 0; i < 6; ++i) {
+    names[i] = directions()[i].name;
+    if ((directions()[i].vector - direction_).norm() < 1e-9) chosen = i;
+  }
+  names[6] = "as in the scene";
+  const std::span<const std::string> offered(names.data(), chosen == 6 ? 7 : 6);
+  if (rows.choice({"Towards", "Where gravity pulls."}, chosen, offered)) {
+    direction_ = directions()[chosen].vector;
+    changed = true;
+  }
+  if (changed) out.commands.emplace_back(SetGravity{strength_ * direction_});
+}
+
+void MotionSection::draw_integrator(Rows& rows, PanelActions& out) {
+  std::vector<std::string> titles;
+  std::vector<Integrator> integrators;
+  int chosen = -1;
+  for (const auto& [name, title] : integrator_choices)
+    if (const auto integrator = find_integrator(name)) {
+      if (*integrator == integrator_) chosen = static_cast<int>(titles.size());
+      titles.emplace_back(title);
+      integrators.push_back(*integrator);
+    }
+  if (!rows.choice({"Integrator", "How a step in time is taken. Verlet is the more accurate of the two explicit ones."},
+                   chosen, titles))
+    return;
+  integrator_ = integrators[static_cast<std::size_t>(chosen)];
+  out.commands.emplace_back(SetIntegrator{integrator_});
+}
+
+}  // namespace heml::panel

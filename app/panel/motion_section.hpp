@@ -1,0 +1,30 @@
+#pragma once
+// Gravity, damping, the integrator and the engine's rate.
+#include <app/panel/actions.hpp>
+#include <app/panel/rows.hpp>
+
+namespace heml::panel {
+
+class MotionSection {
+ public:
+  MotionSection(const Vec3& gravity, const SolverSettings& solver);
+
+  void draw(Rows& rows, PanelActions& out);
+
+  // Show what was set elsewhere.
+  void follow(const SetGravity& command);
+  void follow(const SetDamping& command) { damping_ = command.damping; }
+  void follow(const SetIntegrator& command) { integrator_ = command.integrator; }
+
+ private:
+  void draw_gravity(Rows& rows, PanelActions& out);
+  void draw_integrator(Rows& rows, PanelActions& out);
+
+  double strength_ = 0;              ///< of gravity, m/s²
+  Vec3 direction_ = Vec3(0, -1, 0);  ///< of gravity, unit; kept while the strength is 0
+  double damping_;                   ///< 1/s
+  Integrator integrator_;
+  double rate_;  ///< Hz
+};
+
+}  // namespace heml::panel

@@ -1,0 +1,76 @@
+#include <algorithm>
+#include <app/panel/notices.hpp>
+
+namespace heml::panel {
+namespace {
+constexpr float shown_for = 3.5f, fading = 0.5f;  // s
+constexpr ImGuiWindowFlags plain_window = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
+                                          ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoFocusOnAppearing |
+                                          ImGuiWindowFlags_NoNav;
+}  // namespace
+
+void Notices::say(std::string text) {
+  said_ = std::move(text);
+  said_for_ = 0;
+}
+
+bool Notices::close() {
+  const bool open = !failure_.empty();
+  failure_.clear();
+  return open;
+}
+
+bool Notices::covers(float x, float y) const {
+  return std::any_of(places_.begin(), places_.end(), [&](const Area& place) { return place.contains(x, y); });
+}
+
+bool Notices::draw(Rows& rows, const Area& free, const std::optional<Banner>& banner, float seconds) {
+  places_.clear();
+  if (!failure_.empty() &&
+      draw_banner(rows, "failure", free, {"Could not be opened", failure_, "Close", colours::danger}))
+    failure_.clear();
+  const bool pressed = banner && draw_banner(rows, "banner", free, *banner);
+  if (!said_.empty()) draw_said(free, seconds);
+  return pressed;
+}
+
+bool Notices::draw_banner(Rows& rows, const char* id, const Area& free, const Banner& banner) {
+  const float margin = em(0.8f), width = std::min(free.width() - 2 * margin, em(34));
+  const float top = places_.empty() ? free.from.y + margin : places_.back().to.y + margin / 2;
+  ImGui::SetNextWindowPos({(free.from.x + free.to.x) / 2, top}, ImGuiCond_Always, {0.5f, 0});
+  ImGui::SetNextWindowSizeConstraints({0, 0}, {width, free.height() * 0.7f});
+  ImGui::PushStyleColor(ImGuiCol_Border, (banner.colour & 0x00ffffff) | 0x90000000);
+  bool pressed = false;
+  if (ImGui::Begin(id, nullptr, plain_window)) {
+    ImGui::PushTextWrapPos(width - 2 * ImGui::GetStyle().WindowPadding.x);
+    ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(banner.colour), "%s", banner.title.c_str());
+    if (!banner.text.empty()) {
+      const UseFont small(Font::small);
+      ImGui::TextUnformatted(banner.text.c_str());
+    }
+    ImGui::PopTextWrapPos();
+    if (!banner.button.empty()) pressed = rows.button({banner.button, ""});
+  }
+  const ImVec2 from = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+  places_.push_back({from, {from.x + size.x, from.y + size.y}});
+  ImGui::End();
+  ImGui::PopStyleColor();
+  return pressed;
+}
+
+void Notices::draw_said(const Area& free, float seconds) {
+  said_for_ += seconds;
+  if (said_for_ > shown_for) return said_.clear();
+  const float opacity = std::clamp((shown_for - said_for_) / fading, 0.0f, 1.0f);
+  ImGui::SetNextWindowPos({(free.from.x + free.to.x) / 2, free.to.y - em(4.2f)}, ImGuiCond_Always, {0.5f, 1});
+  ImGui::PushStyleVar(ImGuiStyleVar_Alpha, opacity);
+  if (ImGui::Begin("said", nullptr, plain_window | ImGuiWindowFlags_NoInputs)) {
+    ImGui::PushTextWrapPos(free.width() * 0.8f);
+    ImGui::TextUnformatted(said_.c_str());
+    ImGui::PopTextWrapPos();
+  }
+  ImGui::End();
+  ImGui::PopStyleVar();
+}
+
+}  // namespace heml::panel

@@ -1,0 +1,238 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <app/panel/help.hpp>
+#include <app/panel/icons.hpp>
+#include <app/panel/legend.hpp>
+#include <app/panel/panel.hpp>
+#include <app/panel/readings.hpp>
+#include <app/render/bounds.hpp>
+
+namespace heml::panel {
+namespace {
+
+constexpr float controls_width = 18.5f, readings_width = 16.0f, margin = 0.7f, two_columns_from = 66;  // em
+constexpr double first_grasp = 0.12, most_grasp = 0.5;  // of the body's radius
+
+constexpr float patience = 1;  // s of being late before it is said aloud
+
+constexpr ImGuiWindowFlags column_flags =
+    ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
+    ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoBringToFrontOnFocus;
+
+bool two_columns(ImVec2 picture) { return picture.x >= em(two_columns_from); }
+
+}  // namespace
+
+Panel::Panel(const Scene& scene, const Skin& skin)
+    : title_(!scene.title.empty() ? scene.title : scene.name),
+      description_(scene.description),
+      largest_grasp_(most_grasp * static_cast<double>(render::ball_around(skin.rest).radius)),
+      grasp_radius_(largest_grasp_ * first_grasp / most_grasp),
+      material_(scene.materials),
+      motion_(scene.gravity, scene.solver),
+      view_(scene.view) {}
+
+void Panel::take(const Frame& frame, float seconds) {
+  history_.take(frame);
+  late_for_ = frame.paused || frame.pace.keeping_up ? 0 : late_for_ + seconds;
+  range_ = colour_range_.update(frame.field, frame.values, seconds);
+  view_.set_range(range_);
+}
+
+void Panel::perform(Action action) { pressed_.push_back(action); }
+
+void Panel::follow(const Command& command) {
+  if (const auto* material = std::get_if<SetMaterial>(&command)) material_.follow(*material);
+  if (const auto* gravity = std::get_if<SetGravity>(&command)) motion_.follow(*gravity);
+  if (const auto* damping = std::get_if<SetDamping>(&command)) motion_.follow(*damping);
+  if (const auto* integrator = std::get_if<SetIntegrator>(&command)) motion_.follow(*integrator);
+}
+
+Insets Panel::insets(ImVec2 picture) const {
+  if (hidden_) return {};
+  return {em(controls_width + margin), two_columns(picture) ? em(readings_width + margin) : 0};
+}
+
+bool Panel::covers(float x, float y) const {
+  constexpr ImGuiPopupFlags any = ImGuiPopupFlags_AnyPopup;
+  return notices_.covers(x, y) || ImGui::IsPopupOpen("", any) ||
+         std::any_of(places_.begin(), places_.end(), [&](const Area& place) { return place.contains(x, y); });
+}
+
+void Panel::carry_out(Action action, const Frame& frame, PanelActions& out) {
+  const auto ask = [&](Request request) { out.requests.push_back(request); };
+  switch (action) {
+    case Action::toggle_play:
+      return ask(frame.paused ? Request::play : Request::pause);
+    case Action::step:
+      return ask(Request::step);
+    case Action::reset:
+      out.commands.emplace_back(Reset{});
+      return;
+    case Action::fit:
+      return ask(Request::fit);
+    case Action::wireframe:
+      return view_.toggle_wireframe();
+    case Action::show_tissue:
+      return view_.show(Field::none, out);
+    case Action::show_displacement:
+      return view_.show(Field::displacement, out);
+    case Action::show_stretch:
+      return view_.show(Field::stretch, out);
+    case Action::show_von_mises:
+      return view_.show(Field::von_mises, out);
+    case Action::show_volume_ratio:
+      return view_.show(Field::volume_ratio, out);
+    case Action::screenshot:
+      return ask(Request::screenshot);
+    case Action::hide:
+      hidden_ = !hidden_;
+      return;
+    case Action::help:
+      helping_ = !helping_;
+      return;
+    case Action::release:
+      if (helping_ || notices_.close()) helping_ = false;
+      return ask(Request::release);
+    case Action::quit:
+      return ask(Request::quit);
+  }
+}
+
+PanelActions Panel::draw(const Frame& frame) {
+  PanelActions out;
+  rows_.new_frame();
+  places_.clear();
+  const ImVec2 picture = ImGui::GetIO().DisplaySize;
+  const Insets taken = insets(picture);
+  const Area free{{taken.left, 0}, {picture.x - taken.right, picture.y}};
+  draw_legend(frame.field, range_, free);
+  if (!hidden_) {
+    draw_controls(frame, !two_columns(picture), out);
+    if (two_columns(picture)) draw_readings(frame);
+  }
+  if (notices_.draw(rows_, free, banner_for(frame), ImGui::GetIO().DeltaTime)) pressed_.push_back(Action::reset);
+  if (helping_) {
+    Area place;
+    helping_ = draw_help(picture, place);
+    places_.push_back(place);
+  }
+  for (const Action action : std::exchange(pressed_, {})) carry_out(action, frame, out);
+  return out;
+}
+
+void Panel::remember_place() {
+  const ImVec2 from = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+  places_.push_back({from, {from.x + size.x, from.y + size.y}});
+}
+
+std::optional<Banner> Panel::banner_for(const Frame& frame) const {
+  if (!frame.halted.empty())
+    return Banner{
+        "The simulation stopped",
+        frame.halted + "\nReset goes back to the start. A gentler pull or more damping may get past this point.",
+        "Reset (R)", colours::danger};
+  if (late_for_ > patience)
+    return Banner{fmt::format("{:.1f}× slower than real time", frame.pace.slowdown),
+                  "The engine cannot keep up. A softer or denser material, a lower Poisson's ratio or a coarser mesh "
+                  "allows longer steps.",
+                  "", colours::warning};
+  return std::nullopt;
+}
+
+void Panel::draw_controls(const Frame& frame, bool with_readings, PanelActions& out) {
+  const ImVec2 picture = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({em(margin), em(margin)});
+  ImGui::SetNextWindowSize({em(controls_width), std::min(controls_height_, picture.y - em(2 * margin))});
+  if (ImGui::Begin("controls", nullptr,
+                   column_flags | ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse)) {
+    remember_place();
+    draw_header(frame);
+    const float header_height = ImGui::GetCursorPosY();
+    ImGui::BeginChild("sections", {0, 0}, false, ImGuiWindowFlags_NoNav);
+    if (rows_.section("Material")) material_.draw(rows_, out);
+    if (rows_.section("Motion")) motion_.draw(rows_, out);
+    if (rows_.section("Tool")) draw_grasp();
+    if (with_readings) {
+      if (rows_.section("Tool force")) draw_force(rows_, frame, history_);
+      if (rows_.section("Energy")) draw_energies(rows_, frame, history_);
+      if (rows_.section("Volume")) draw_volume(rows_, frame, history_);
+      if (rows_.section("Engine")) draw_engine(rows_, frame, history_);
+    }
+    if (rows_.section("View")) view_.draw(rows_, pressed_, out);
+    controls_height_ = header_height + ImGui::GetCursorPosY() + ImGui::GetStyle().WindowPadding.y;
+    ImGui::EndChild();
+  }
+  ImGui::End();
+}
+
+void Panel::draw_header(const Frame& frame) {
+  {
+    const UseFont large(Font::title);
+    ImGui::TextUnformatted(shortened(title_, ImGui::GetContentRegionAvail().x).c_str());
+  }
+  rows_.explain({"Title", description_.empty() ? title_ : title_ + "\n\n" + description_});
+  const float size = em(2.1f);
+  const auto button = [&](const char* name, const char* hint, bool strong, Action action, const Rows::Icon& icon) {
+    if (rows_.icon_button({name, hint}, size, strong, icon)) pressed_.push_back(action);
+    ImGui::SameLine(0, em(0.35f));
+  };
+  if (frame.paused)
+    button("Play", "Lets time run (Space).", true, Action::toggle_play, draw_play);
+  else
+    button("Pause", "Holds time (Space).", true, Action::toggle_play, draw_pause);
+  button("Step", "One tick of the engine, then pause (. key).", false, Action::step, draw_step);
+  button("Reset", "Back to the initial state at time 0; materials and the like stay (R).", false, Action::reset,
+         draw_reset);
+  button("Help", "Mouse and keys (H).", false, Action::help, draw_question);
+  ImGui::BeginGroup();
+  text_at_right(fmt::format("{:.2f} s", frame.time), colours::text);
+  {
+    const UseFont small(Font::small);
+    text_at_right(fmt::format("tick {}", frame.tick), colours::muted);
+  }
+  ImGui::EndGroup();
+  rows_.explain({"Time", "Simulated time, s, since the start or the last reset; ticks of the engine since the start."});
+  draw_pace(frame);
+  ImGui::Separator();
+}
+
+void Panel::draw_pace(const Frame& frame) {
+  const bool halted = !frame.halted.empty(), late = !frame.pace.keeping_up && !frame.paused;
+  const ImU32 colour = halted         ? colours::danger
+                       : late         ? colours::warning
+                       : frame.paused ? colours::muted
+                                      : colours::accent;
+  const std::string text = halted         ? "stopped"
+                           : frame.paused ? "paused"
+                           : late         ? fmt::format("{:.1f}× slower than real time", frame.pace.slowdown)
+                                          : "real time";
+  const UseFont small(Font::small);
+  rows_.value({"Pace", "Whether simulated time keeps up with the clock on the wall."}, text, colour, colour);
+}
+
+void Panel::draw_grasp() {
+  double millimetres = grasp_radius_ * 1e3;
+  if (rows_.slider({"Grasp radius",
+                    "Surface nodes within this distance of where you take hold go with the tool, mm, measured on the "
+                    "rest shape. 0: one node alone."},
+                   millimetres, {0, largest_grasp_ * 1e3, "%.1f mm", false}))
+    grasp_radius_ = millimetres * 1e-3;
+}
+
+void Panel::draw_readings(const Frame& frame) {
+  const ImVec2 picture = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({picture.x - em(margin), em(margin)}, ImGuiCond_Always, {1, 0});
+  ImGui::SetNextWindowSizeConstraints({em(readings_width), 0}, {em(readings_width), picture.y - em(2 * margin)});
+  if (ImGui::Begin("readings", nullptr, column_flags | ImGuiWindowFlags_AlwaysAutoResize)) {
+    remember_place();
+    if (rows_.section("Tool force")) draw_force(rows_, frame, history_);
+    if (rows_.section("Energy")) draw_energies(rows_, frame, history_);
+    if (rows_.section("Volume")) draw_volume(rows_, frame, history_);
+    if (rows_.section("Engine")) draw_engine(rows_, frame, history_);
+  }
+  ImGui::End();
+}
+
+}  // namespace heml::panel

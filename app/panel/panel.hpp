@@ -1,0 +1,78 @@
+#pragma once
+// The panel beside the body: shows a Frame's numbers and hands out what the user wants of the world. It knows no
+// session and no window, so that the window, headless capture and tests draw the same one. Wide pictures have two
+// columns, others one:
+//
+//    ┌──────────┐                       ┌──────────┐        ┌──────────┐
+//    │ title    │        banner         │ force    │        │ title    │   banner
+//    │ ▶ ▸| ↺   │                       │ energies │        │ ▶ ▸| ↺   │
+//    │ material │         body          │ volume   │        │ material │    body
+//    │ motion   │                       │ engine   │        │ ...      │
+//    │ tool …   │        legend         │          │        │ force …  │   legend
+//    └──────────┘                       └──────────┘        └──────────┘
+//
+// A frame: take(frame), draw the body with drawing(), then between Interface::begin() and end(): draw(frame).
+#include <app/panel/actions.hpp>
+#include <app/panel/area.hpp>
+#include <app/panel/history.hpp>
+#include <app/panel/material_section.hpp>
+#include <app/panel/motion_section.hpp>
+#include <app/panel/notices.hpp>
+#include <app/panel/view_section.hpp>
+#include <heml/scenario/scene.hpp>
+
+namespace heml::panel {
+
+class Panel {
+ public:
+  /// What it shows at first is what the scene says.
+  Panel(const Scene& scene, const Skin& skin);
+
+  /// Takes a frame's numbers, before the body is drawn. seconds: wall time since the last call.
+  void take(const Frame& frame, float seconds);
+
+  /// Draws the panel into the current ImGui frame and returns what the user did with it and with the keys since.
+  PanelActions draw(const Frame& frame);
+
+  void perform(Action action);                                     ///< a key; takes effect in the next draw()
+  void follow(const Command& command);                             ///< shows what was changed elsewhere
+  void say(std::string text) { notices_.say(std::move(text)); }    ///< in passing
+  void fail(std::string text) { notices_.fail(std::move(text)); }  ///< a file that could not be opened
+
+  const render::DrawOptions& drawing() const { return view_.drawing(); }
+  double grasp_radius() const { return grasp_radius_; }  ///< m
+  Insets insets(ImVec2 picture) const;                   ///< that draw() takes in a picture of a size, pixels
+  bool covers(float x,
+              float y) const;  ///< whether a point is on the panel, as last drawn: the mouse is then not on the body
+  bool animating() const { return notices_.animating(); }         ///< whether it changes by itself
+  const std::string& hovered() const { return rows_.hovered(); }  ///< label of the row under the mouse; empty: none
+
+ private:
+  void carry_out(Action action, const Frame& frame, PanelActions& out);
+  void draw_controls(const Frame& frame, bool with_readings, PanelActions& out);
+  void draw_header(const Frame& frame);
+  void draw_pace(const Frame& frame);
+  void draw_readings(const Frame& frame);
+  void draw_grasp();
+  std::optional<Banner> banner_for(const Frame& frame) const;
+  void remember_place();
+
+  std::string title_, description_;  ///< of the scene
+  double largest_grasp_;             ///< m
+  double grasp_radius_;              ///< m
+  MaterialSection material_;
+  MotionSection motion_;
+  ViewSection view_;
+  Notices notices_;
+  Rows rows_;
+  History history_;
+  render::ColourRange colour_range_;
+  render::Range range_;
+  std::vector<Action> pressed_;   ///< since the last draw()
+  std::vector<Area> places_;      ///< of windows in the last draw()
+  float controls_height_ = 1e9f;  ///< pixels that all open sections take, as last drawn
+  float late_for_ = 0;            ///< s of wall time that the engine has not kept up
+  bool hidden_ = false, helping_ = false;
+};
+
+}  // namespace heml::panel

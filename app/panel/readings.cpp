@@ -1,0 +1,80 @@
+#include <fmt/format.h>
+
+#include <app/panel/plot.hpp>
+#include <app/panel/quantity.hpp>
+#include <app/panel/readings.hpp>
+
+namespace heml::panel {
+namespace {
+constexpr ImU32 total_colour = colours::text;
+}
+
+void draw_force(Rows& rows, const Frame& frame, const History& history) {
+  const bool active = frame.tool.active;
+  ImGui::BeginGroup();
+  {
+    const UseFont number(Font::number);
+    ImGui::PushStyleColor(ImGuiCol_Text, active ? colours::accent : colours::faint);
+    ImGui::TextUnformatted(newtons(active ? frame.tool.force.norm() : 0).c_str());
+    ImGui::PopStyleColor();
+  }
+  ImGui::EndGroup();
+  rows.explain({"Force", "What the tool feels: the size of the force between tool and tissue, N (newton)."});
+  const Curve curves[] = {{"Force", colours::accent, [](const Reading& r) { return r.force; }}};
+  plot("force plot", history, curves, {"N", 0, 1e-3, 3.6f});
+}
+
+void draw_energies(Rows& rows, const Frame& frame, const History& history) {
+  const Energies& now = frame.energies;
+  rows.value({"Kinetic", "Energy of motion, J: ½ m v² over all nodes."}, quantity(now.kinetic, "J"), colours::kinetic);
+  rows.value({"Elastic", "Energy stored in the deformed tissue, J."}, quantity(now.elastic, "J"), colours::elastic);
+  rows.value({"Gravity energy", "Potential energy of gravity, J; 0 at the rest shape."}, quantity(now.potential, "J"),
+             colours::potential);
+  rows.value({"Total", "Sum of the three, J. It stays the same when nothing damps and no tool pulls."},
+             quantity(now.kinetic + now.elastic + now.potential, "J"), total_colour);
+  const Curve curves[] = {
+      {"Total", total_colour, [](const Reading& r) { return r.total(); }},
+      {"Gravity", colours::potential, [](const Reading& r) { return r.energies.potential; }},
+      {"Elastic", colours::elastic, [](const Reading& r) { return r.energies.elastic; }},
+      {"Kinetic", colours::kinetic, [](const Reading& r) { return r.energies.kinetic; }},
+  };
+  plot("energy plot", history, curves, {"J", 0, 1e-9, 5.2f});
+}
+
+void draw_volume(Rows& rows, const Frame& frame, const History& history) {
+  const bool inverted = !(frame.min_J > 0);
+  rows.value({"Least J", "The most compressed tetrahedron: its volume relative to rest. 0 or less: turned inside out."},
+             fmt::format("{:.3f}", frame.min_J), colours::potential, inverted ? colours::danger : colours::text);
+  rows.value({"Greatest J", "The most expanded tetrahedron: its volume relative to rest."},
+             fmt::format("{:.3f}", frame.max_J), colours::kinetic);
+  const Curve curves[] = {
+      {"Least", colours::potential, [](const Reading& r) { return r.min_J; }},
+      {"Greatest", colours::kinetic, [](const Reading& r) { return r.max_J; }},
+  };
+  plot("volume plot", history, curves, {"", 1, 0.01, 3.4f});
+}
+
+void draw_engine(Rows& rows, const Frame& frame, const History& history) {
+  const Pace& pace = frame.pace;
+  const auto time_of = [](double seconds) { return seconds > 0 ? quantity(seconds, "s") : std::string("–"); };
+  const double steps = frame.substeps > 0 ? frame.substeps : 1;
+  rows.value({"Time per step", "Wall time of computing one integration step, s: median of the last 1000 ticks."},
+             time_of(pace.p50 / steps), 0);
+  rows.value({"Time per tick", "Wall time of computing one tick, s: median of the last 1000."}, time_of(pace.p50),
+             colours::accent);
+  rows.value({"Slowest 1 %", "99 of 100 ticks take less than this, s."}, time_of(pace.p99), colours::warning);
+  rows.value({"Steps per tick", "Equal integration steps that a tick is divided into for stability."},
+             fmt::format("{}", frame.substeps));
+  rows.value({"Stable step",
+              "Longest step that stays stable now, s, with a margin. Stiffer, lighter or finer makes it shorter."},
+             time_of(frame.stable_step));
+  rows.value({"Missed deadlines", "Ticks that ended later than real time asked, since the start."},
+             counted(pace.missed), 0, pace.missed > 0 && !pace.keeping_up ? colours::warning : colours::text);
+  const Curve curves[] = {
+      {"Slowest", colours::warning, [](const Reading& r) { return r.slow_tick; }},
+      {"Typical", colours::accent, [](const Reading& r) { return r.typical_tick; }},
+  };
+  plot("tick plot", history, curves, {"s", 0, 1e-6, 3.4f});
+}
+
+}  // namespace heml::panel

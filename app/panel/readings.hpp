@@ -1,0 +1,13 @@
+#pragma once
+// What the body and the engine say of themselves: force, energies, volume, time.
+#include <app/panel/history.hpp>
+#include <app/panel/rows.hpp>
+
+namespace heml::panel {
+
+void draw_force(Rows& rows, const Frame& frame, const History& history);
+void draw_energies(Rows& rows, const Frame& frame, const History& history);
+void draw_volume(Rows& rows, const Frame& frame, const History& history);
+void draw_engine(Rows& rows, const Frame& frame, const History& history);
+
+}  // namespace heml::panel

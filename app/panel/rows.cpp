@@ -1,0 +1,194 @@
+#include <algorithm>
+#include <app/panel/rows.hpp>
+#include <cmath>
+
+namespace heml::panel {
+namespace {
+
+constexpr float label_width = 6.4f;  // em
+
+/// Where a value is on a slider, 0 to 1.
+float place_of(double value, const SliderRange& range) {
+  const auto scaled = [&](double v) { return range.logarithmic ? std::log(v) : v; };
+  const double place = (scaled(value) - scaled(range.low)) / (scaled(range.high) - scaled(range.low));
+  return static_cast<float>(std::clamp(place, 0.0, 1.0));
+}
+
+/// A track that is filled up to the value, under a slider drawn without background.
+void draw_track(float place) {
+  const ImVec2 from = ImGui::GetCursorScreenPos();
+  const ImVec2 to(from.x + ImGui::CalcItemWidth(), from.y + ImGui::GetFrameHeight());
+  const float grab = ImGui::GetStyle().GrabMinSize, rounding = ImGui::GetStyle().FrameRounding;
+  const float filled = from.x + 2 + grab / 2 + place * (to.x - from.x - 4 - grab);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const bool hovered =
+      ImGui::IsMouseHoveringRect(from, to) && ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem);
+  list.AddRectFilled(from, to, hovered ? colours::track_hovered : colours::track, rounding);
+  if (filled > from.x + rounding)
+    list.AddRectFilled(from, {filled, to.y}, colours::fill, rounding, ImDrawFlags_RoundCornersLeft);
+}
+
+/// A small arrow head that points down, or to the right.
+void draw_chevron(ImVec2 at, bool down, ImU32 colour) {
+  const float half = em(0.24f), depth = half * 0.55f;
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  if (down) {
+    list.PathLineTo({at.x - half, at.y - depth});
+    list.PathLineTo({at.x, at.y + depth});
+    list.PathLineTo({at.x + half, at.y - depth});
+  } else {
+    list.PathLineTo({at.x - depth, at.y - half});
+    list.PathLineTo({at.x + depth, at.y});
+    list.PathLineTo({at.x - depth, at.y + half});
+  }
+  list.PathStroke(colour, ImDrawFlags_None, em(0.11f));
+}
+
+}  // namespace
+
+std::string shortened(const std::string& text, float width) {
+  if (ImGui::CalcTextSize(text.c_str()).x <= width) return text;
+  std::string result = text;
+  while (!result.empty() && ImGui::CalcTextSize((result + "…").c_str()).x > width) {
+    while (!result.empty() && (static_cast<unsigned char>(result.back()) & 0xc0) == 0x80) result.pop_back();
+    if (!result.empty()) result.pop_back();
+  }
+  return result + "…";
+}
+
+void text_at_right(const std::string& text, ImU32 colour) {
+  const float width = ImGui::CalcTextSize(text.c_str()).x;
+  ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(0.0f, ImGui::GetContentRegionAvail().x - width));
+  ImGui::PushStyleColor(ImGuiCol_Text, colour);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopStyleColor();
+}
+
+void Rows::explain(const Label& label) {
+  if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+  hovered_ = label.text;
+  if (label.hint.empty() || ImGui::IsAnyMouseDown()) return;
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(em(19));
+  ImGui::TextUnformatted(label.hint.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+}
+
+void Rows::begin(const Label& label) {
+  ImGui::AlignTextToFramePadding();
+  ImGui::PushStyleColor(ImGuiCol_Text, colours::muted);
+  const float left = ImGui::GetCursorPosX();
+  ImGui::TextUnformatted(shortened(label.text, em(label_width) - ImGui::GetStyle().ItemSpacing.x).c_str());
+  ImGui::PopStyleColor();
+  explain(label);
+  ImGui::SameLine(left + em(label_width));
+  ImGui::SetNextItemWidth(-1);
+}
+
+bool Rows::section(const char* title, bool open_at_first) {
+  ImGui::Dummy({0, em(0.1f)});
+  bool* open = ImGui::GetStateStorage()->GetBoolRef(ImGui::GetID(title), open_at_first);
+  const ImVec2 from = ImGui::GetCursorScreenPos(), size(ImGui::GetContentRegionAvail().x, em(1.45f));
+  if (ImGui::InvisibleButton(title, size)) *open = !*open;
+  const bool hovered = ImGui::IsItemHovered();
+  if (hovered) hovered_ = title;
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddText({from.x, from.y + (size.y - ImGui::GetFontSize()) / 2}, hovered ? colours::text : colours::accent,
+               title);
+  draw_chevron({from.x + size.x - em(0.8f), from.y + size.y / 2}, *open, hovered ? colours::text : colours::faint);
+  return *open;
+}
+
+bool Rows::slider(const Label& label, double& value, const SliderRange& asked) {
+  SliderRange range = asked;
+  range.low = std::min(range.low, value);
+  range.high = std::max(range.high, value);
+  range.logarithmic = range.logarithmic && range.low > 0;
+  begin(label);
+  draw_track(place_of(value, range));
+  for (const auto which : {ImGuiCol_FrameBg, ImGuiCol_FrameBgHovered, ImGuiCol_FrameBgActive})
+    ImGui::PushStyleColor(which, 0);
+  const ImGuiSliderFlags flags = ImGuiSliderFlags_AlwaysClamp | (range.logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
+  double edited = value;
+  ImGui::PushID(label.text.c_str());
+  const bool changed =
+      ImGui::SliderScalar("##value", ImGuiDataType_Double, &edited, &range.low, &range.high, range.format, flags);
+  ImGui::PopID();
+  ImGui::PopStyleColor(3);
+  explain({label.text, label.hint + "\n\nCtrl+click to type a number."});
+  if (!changed || edited == value || !std::isfinite(edited)) return false;
+  value = edited;
+  return true;
+}
+
+bool Rows::choice(const Label& label, int& index, std::span<const std::string> names) {
+  begin(label);
+  ImGui::PushID(label.text.c_str());
+  bool changed = false;
+  const std::string shown = index >= 0 && index < std::ssize(names) ? names[index] : "–";
+  const bool open = ImGui::BeginCombo("##choice", shown.c_str(), ImGuiComboFlags_NoArrowButton);
+  explain(label);
+  if (!open) {
+    const ImVec2 from = ImGui::GetItemRectMin(), to = ImGui::GetItemRectMax();
+    draw_chevron({to.x - em(0.8f), (from.y + to.y) / 2}, true, colours::muted);
+  }
+  if (open) {
+    int chosen = index;
+    for (int i = 0; i < std::ssize(names); ++i) {
+      if (ImGui::Selectable(names[i].c_str(), i == index)) chosen = i;
+      if (ImGui::IsItemHovered()) hovered_ = names[i];
+    }
+    changed = chosen != index;
+    index = chosen;
+    ImGui::EndCombo();
+  }
+  ImGui::PopID();
+  return changed;
+}
+
+bool Rows::check(const Label& label, bool& value) {
+  const bool changed = ImGui::Checkbox(label.text.c_str(), &value);
+  explain(label);
+  return changed;
+}
+
+void Rows::value(const Label& label, const std::string& shown, ImU32 dot, ImU32 colour) {
+  const UseFont small(Font::small);
+  ImGui::BeginGroup();
+  if (dot) {
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float height = ImGui::GetTextLineHeight();
+    ImGui::GetWindowDrawList()->AddCircleFilled({at.x + height * 0.3f, at.y + height * 0.52f}, height * 0.27f, dot, 12);
+    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + height * 0.95f);
+  }
+  ImGui::PushStyleColor(ImGuiCol_Text, colours::muted);
+  ImGui::TextUnformatted(label.text.c_str());
+  ImGui::PopStyleColor();
+  ImGui::SameLine();
+  text_at_right(shown, colour);
+  ImGui::EndGroup();
+  explain(label);
+}
+
+bool Rows::button(const Label& label, float width) {
+  const bool pressed = ImGui::Button(label.text.c_str(), {width, 0});
+  explain(label);
+  return pressed;
+}
+
+bool Rows::icon_button(const Label& label, float size, bool strong, const Icon& icon) {
+  const ImVec2 from = ImGui::GetCursorScreenPos();
+  const bool pressed = ImGui::InvisibleButton(label.text.c_str(), {size, size});
+  const bool hovered = ImGui::IsItemHovered(), held = ImGui::IsItemActive();
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ImU32 calm = strong ? colours::fill : colours::track;
+  const ImU32 warm = strong ? colours::rgba(0x397a73) : colours::rgba(0x3b484c);
+  list.AddRectFilled(from, {from.x + size, from.y + size}, hovered || held ? warm : calm,
+                     ImGui::GetStyle().FrameRounding * 1.4f);
+  icon(list, {from.x + size / 2, from.y + size / 2}, size * 0.24f, held ? colours::accent : colours::text);
+  explain(label);
+  return pressed;
+}
+
+}  // namespace heml::panel

@@ -1,0 +1,154 @@
+#include "app/render/body_mesh.hpp"
+
+#include <app/render/ambient_occlusion.hpp>
+#include <app/render/palette.hpp>
+#include <app/render/sphere_map.hpp>
+#include <cmath>
+#include <cstddef>
+
+namespace heml::render {
+namespace {
+
+constexpr float occlusion_reach = 0.7f;  // in body radii
+
+std::uint8_t byte(float value) { return static_cast<std::uint8_t>(std::lround(255 * std::clamp(value, 0.0f, 1.0f))); }
+
+float mean_edge(const Skin& skin) {
+  double sum = 0;
+  for (const auto& [a, b, c] : skin.triangles)
+    sum += (skin.rest[a] - skin.rest[b]).norm() + (skin.rest[b] - skin.rest[c]).norm() +
+           (skin.rest[c] - skin.rest[a]).norm();
+  return skin.triangles.empty() ? 0 : static_cast<float>(sum / (3.0 * static_cast<double>(skin.triangles.size())));
+}
+
+// Mean tint of the triangles at each corner: regions pass softly into each other.
+std::vector<Vec3f> corner_tints(const Skin& skin, const SurfaceTopology& topology) {
+  std::vector<Vec3f> tints(topology.corner_nodes.size(), Vec3f::Zero());
+  std::vector<float> counts(tints.size(), 0);
+  for (std::size_t t = 0; t < topology.triangles.size(); ++t)
+    for (const int corner : topology.triangles[t]) {
+      tints[corner] += tissue_tint(t < skin.regions.size() ? skin.regions[t] : 0);
+      counts[corner] += 1;
+    }
+  for (std::size_t c = 0; c < tints.size(); ++c) tints[c] /= counts[c];
+  return tints;
+}
+
+std::vector<float> openness(const Skin& skin, const SmoothSurface& surface, float radius) {
+  std::vector<Vec3f> normals(skin.rest.size(), Vec3f::Zero());
+  const std::vector<int>& nodes = surface.topology().corner_nodes;
+  for (std::size_t c = 0; c < nodes.size(); ++c) normals[nodes[c]] += surface.normals()[c];
+  for (Vec3f& normal : normals) normal.normalize();
+  return ambient_occlusion(skin, normals, occlusion_reach * radius);
+}
+
+}  // namespace
+
+BodyMesh::BodyMesh(const Skin& skin)
+    : surface_(skin, SmoothSurface::suitable_segments(skin.triangles.size())),
+      nodes_(skin.rest.size()),
+      rest_(ball_around(skin.rest)),
+      bead_radius_(std::min(0.4f * mean_edge(skin), 0.022f * rest_.radius)),
+      outline_(surface_.triangles(), surface_.positions()) {
+  describe_vertices();
+  upload_fixed(skin);
+  upload_indices(skin);
+}
+
+void BodyMesh::describe_vertices() {
+  const auto moving = [](std::size_t stride) {
+    vertex_attribute(0, 3, GL_FLOAT, stride, offsetof(Moving, position));
+    vertex_attribute(1, 3, GL_FLOAT, stride, offsetof(Moving, normal));
+    vertex_attribute(2, 1, GL_FLOAT, stride, offsetof(Moving, value));
+  };
+  const auto fixed = [](std::size_t stride, std::size_t offset) {
+    vertex_attribute(3, 3, GL_FLOAT, stride, offset + offsetof(Fixed, rest));
+    vertex_attribute(4, 3, GL_FLOAT, stride, offset + offsetof(Fixed, on_sphere));
+    vertex_attribute(5, 4, GL_UNSIGNED_BYTE, stride, offset + offsetof(Fixed, surface));
+  };
+  glBindVertexArray(array_);
+  glBindBuffer(GL_ARRAY_BUFFER, moving_buffer_);
+  moving(sizeof(Moving));
+  glBindBuffer(GL_ARRAY_BUFFER, fixed_buffer_);
+  fixed(sizeof(Fixed), 0);
+  glBindVertexArray(strip_array_);
+  glBindBuffer(GL_ARRAY_BUFFER, strip_buffer_);
+  moving(sizeof(Strip));
+  fixed(sizeof(Strip), offsetof(Strip, fixed));
+  vertex_attribute(6, 3, GL_FLOAT, sizeof(Strip), offsetof(Strip, strip));
+}
+
+void BodyMesh::upload_indices(const Skin& skin) {
+  glBindVertexArray(array_);
+  const auto fill = [](Indices& indices, const std::vector<std::uint32_t>& values) {
+    upload(GL_ELEMENT_ARRAY_BUFFER, indices.buffer, std::span(values), GL_STATIC_DRAW);
+    indices.count = static_cast<GLsizei>(values.size());
+  };
+  fill(triangles_, surface_.triangles());
+  fill(lines_, surface_.lines());
+  std::vector<std::uint32_t> flat, held;
+  for (const Triangle& corners : surface_.topology().triangles) flat.insert(flat.end(), corners.begin(), corners.end());
+  fill(flat_, flat);
+  std::vector<char> is_held(skin.rest.size(), 0);
+  for (const int node : skin.held) is_held[node] = 1;
+  const std::vector<int>& corner_nodes = surface_.topology().corner_nodes;
+  for (std::size_t c = 0; c < corner_nodes.size(); ++c)
+    if (std::exchange(is_held[corner_nodes[c]], 0)) held.push_back(static_cast<std::uint32_t>(c));
+  fill(held_, held);
+}
+
+void BodyMesh::upload_fixed(const Skin& skin) {
+  const std::vector<Vec3f> tints = corner_tints(skin, surface_.topology());
+  std::vector<Vec3f> rest, on_sphere;
+  std::vector<float> open;
+  surface_.spread(std::span<const Vec3f>(skin.rest), rest);
+  surface_.spread(std::span<const Vec3f>(sphere_map(skin)), on_sphere);
+  surface_.spread(std::span<const float>(openness(skin, surface_, rest_.radius)), open);
+  fixed_.resize(rest.size());
+  for (std::size_t p = 0; p < fixed_.size(); ++p) {
+    const auto& [c, w] = surface_.blends()[p];
+    const Vec3f tint = (w[0] * tints[c[0]] + w[1] * tints[c[1]] + w[2] * tints[c[2]]).cwiseSqrt();
+    fixed_[p] = {(rest[p] - rest_.centre) / rest_.radius,
+                 on_sphere[p],
+                 {byte(tint.x()), byte(tint.y()), byte(tint.z()), byte(open[p])}};
+  }
+  upload(GL_ARRAY_BUFFER, fixed_buffer_, std::span<const Fixed>(fixed_), GL_STATIC_DRAW);
+}
+
+void BodyMesh::update(const Frame& frame, const Range& range) {
+  surface_.update(frame.positions);
+  moving_.resize(surface_.positions().size());
+  const bool has_values = frame.values.size() == nodes_;
+  if (has_values) surface_.spread(std::span<const float>(frame.values), values_);
+  const float scale = 1 / std::max(range.high - range.low, 1e-30f);
+  for (std::size_t p = 0; p < moving_.size(); ++p)
+    moving_[p] = {surface_.positions()[p], surface_.normals()[p], has_values ? (values_[p] - range.low) * scale : 0};
+  upload(GL_ARRAY_BUFFER, moving_buffer_, std::span<const Moving>(moving_), GL_STREAM_DRAW);
+}
+
+void BodyMesh::update_outline(const Vec3f& eye, const Mat4f& view_projection, Size size) {
+  strips_.clear();
+  Outline::for_each_corner(outline_.find(surface_.positions(), eye, view_projection, size),
+                           [&](std::uint32_t vertex, const Vec2f& outward, float cover) {
+                             strips_.push_back({moving_[vertex], fixed_[vertex], {outward.x(), outward.y(), cover}});
+                           });
+  upload(GL_ARRAY_BUFFER, strip_buffer_, std::span<const Strip>(strips_), GL_STREAM_DRAW);
+}
+
+void BodyMesh::draw_outline() const {
+  glBindVertexArray(strip_array_);
+  glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(strips_.size()));
+}
+
+void BodyMesh::draw(GLenum mode, const Indices& indices) const {
+  glBindVertexArray(array_);
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices.buffer);
+  glDrawElements(mode, indices.count, GL_UNSIGNED_INT, nullptr);
+}
+
+void BodyMesh::draw_surface() const { draw(GL_TRIANGLES, triangles_); }
+void BodyMesh::draw_flat() const { draw(GL_TRIANGLES, flat_); }
+void BodyMesh::draw_edges() const { draw(GL_LINES, lines_); }
+void BodyMesh::draw_held() const { draw(GL_POINTS, held_); }
+
+}  // namespace heml::render

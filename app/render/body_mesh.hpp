@@ -1,0 +1,73 @@
+#pragma once
+// The body on the graphics card: its smooth surface, the true edges on it, and the held nodes.
+#include <app/render/bounds.hpp>
+#include <app/render/field_colours.hpp>
+#include <app/render/gl_objects.hpp>
+#include <app/render/outline.hpp>
+#include <app/render/smooth_surface.hpp>
+
+namespace heml::render {
+
+class BodyMesh {
+ public:
+  explicit BodyMesh(const Skin& skin);
+
+  /// Takes a frame's positions and, when it has them, its values over a range.
+  void update(const Frame& frame, const Range& range);
+
+  /// Finds the outline as an eye (m) sees it, for draw_outline().
+  void update_outline(const Vec3f& eye, const Mat4f& view_projection, Size size);
+
+  void draw_surface() const;
+  void draw_outline() const;  ///< strips that fade outwards, see outline.hpp
+  void draw_flat() const;  ///< the real triangles, for shadows
+  void draw_edges() const;
+  void draw_held() const;  ///< points
+
+  const Ball& rest() const { return rest_; }
+  float bead_radius() const { return bead_radius_; }  ///< m, for held nodes
+  bool has_triangles() const { return !surface_.triangles().empty(); }
+  std::size_t node_count() const { return nodes_; }
+
+ private:
+  // Follows the body, each frame.
+  struct Moving {
+    Vec3f position, normal;
+    float value;  // 0..1 over the range
+  };
+  // Stays with the tissue.
+  struct Fixed {
+    Vec3f rest;       // in body radii about the body's centre
+    Vec3f on_sphere;  // sphere_map.hpp
+    std::array<std::uint8_t, 4> surface;
+  };
+  struct Strip {
+    Moving moving;
+    Fixed fixed;
+    Vec3f strip;  // clip offset, cover
+  };
+  struct Indices {
+    Buffer buffer;
+    GLsizei count = 0;
+  };
+
+  void describe_vertices();
+  void upload_fixed(const Skin& skin);
+  void upload_indices(const Skin& skin);
+  void draw(GLenum mode, const Indices& indices) const;
+
+  SmoothSurface surface_;
+  std::size_t nodes_;
+  Ball rest_;
+  float bead_radius_ = 0;
+  std::vector<float> values_;
+  Outline outline_;
+  std::vector<Moving> moving_;
+  std::vector<Fixed> fixed_;
+  std::vector<Strip> strips_;
+  VertexArray array_, strip_array_;
+  Buffer moving_buffer_, fixed_buffer_, strip_buffer_;
+  Indices triangles_, flat_, lines_, held_;
+};
+
+}  // namespace heml::render

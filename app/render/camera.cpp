@@ -1,0 +1,94 @@
+#include "app/render/camera.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace heml::render {
+namespace {
+
+constexpr float degree = std::numbers::pi_v<float> / 180;
+constexpr float field_of_view = 30 * degree;  // vertical; narrow, as a portrait lens
+constexpr float margin = 1.22f;               // air round the fitted ball
+
+}  // namespace
+
+void Camera::fit(const Vec3f& centre, float radius, Size size) {
+  target_ = centre;
+  radius_ = std::max(radius, 1e-6f);
+  azimuth_ = 24 * degree;
+  elevation_ = 20 * degree;
+  const float half_height = std::tan(field_of_view / 2);
+  const float half_angle = std::atan(half_height * std::min(1.0f, size.aspect()));
+  distance_ = margin * radius_ / std::sin(half_angle);
+}
+
+void Camera::look(float azimuth, float elevation) {
+  azimuth_ = elevation_ = 0;
+  orbit(azimuth, elevation);
+}
+
+void Camera::orbit(float azimuth, float elevation) {
+  azimuth_ = std::remainder(azimuth_ + azimuth, 360 * degree);
+  elevation_ = std::clamp(elevation_ + elevation, -89 * degree, 89 * degree);
+}
+
+void Camera::pan(float right_fraction, float up_fraction) {
+  const float visible_height = 2 * distance_ * std::tan(field_of_view / 2);
+  target_ += visible_height * (right_fraction * right() + up_fraction * up());
+}
+
+void Camera::zoom(float factor) { distance_ = std::clamp(distance_ * factor, 0.2f * radius_, 50 * radius_); }
+
+Vec3f Camera::backward() const {
+  return {std::cos(elevation_) * std::sin(azimuth_), std::sin(elevation_), std::cos(elevation_) * std::cos(azimuth_)};
+}
+
+Vec3f Camera::eye() const { return target_ + distance_ * backward(); }
+
+Vec3f Camera::right() const { return {std::cos(azimuth_), 0, -std::sin(azimuth_)}; }
+
+Vec3f Camera::up() const { return backward().cross(right()); }
+
+Mat4f Camera::view() const {
+  Mat4f matrix = Mat4f::Identity();
+  matrix.block<1, 3>(0, 0) = right().transpose();
+  matrix.block<1, 3>(1, 0) = up().transpose();
+  matrix.block<1, 3>(2, 0) = backward().transpose();
+  matrix.block<3, 1>(0, 3) = -matrix.block<3, 3>(0, 0) * eye();
+  return matrix;
+}
+
+Mat4f Camera::projection(Size size) const {
+  const float near = 0.05f * distance_;
+  const float far = distance_ + 40 * radius_;
+  const float cotangent = 1 / std::tan(field_of_view / 2);
+  Mat4f matrix = Mat4f::Zero();
+  matrix(0, 0) = cotangent / size.aspect();
+  matrix(1, 1) = cotangent;
+  matrix(2, 2) = (far + near) / (near - far);
+  matrix(2, 3) = 2 * far * near / (near - far);
+  matrix(3, 2) = -1;
+  return matrix;
+}
+
+Ray Camera::ray(float x, float y, Size size) const {
+  const float half_height = std::tan(field_of_view / 2);
+  const float across = (2 * x / static_cast<float>(size.width) - 1) * half_height * size.aspect();
+  const float upward = (1 - 2 * y / static_cast<float>(size.height)) * half_height;
+  return {eye(), (across * right() + upward * up() - backward()).normalized()};
+}
+
+Vec2f Camera::pixel(const Vec3f& point, Size size) const {
+  const Eigen::Vector4f clip = projection(size) * view() * point.homogeneous();
+  return {(clip.x() / clip.w() + 1) / 2 * static_cast<float>(size.width),
+          (1 - clip.y() / clip.w()) / 2 * static_cast<float>(size.height)};
+}
+
+Vec3f Camera::drag(float x, float y, Size size, const Vec3f& point) const {
+  const Ray through = ray(x, y, size);
+  const float depth = (point - through.origin).dot(backward()) / through.direction.dot(backward());
+  return through.origin + depth * through.direction;
+}
+
+}  // namespace heml::render

@@ -1,0 +1,121 @@
+#pragma once
+// OpenGL names that delete themselves, and a shader program with its uniforms. All need a current context, at their end
+// too.
+#include <glad/gl.h>
+
+#include <app/render/image.hpp>
+#include <heml/math/types.hpp>
+#include <initializer_list>
+#include <span>
+#include <string>
+#include <utility>
+
+namespace heml::render {
+
+using Mat4f = Eigen::Matrix4f;
+using Vec2f = Eigen::Vector2f;
+using Vec4f = Eigen::Vector4f;
+
+/// Owns one OpenGL name; Traits::make and Traits::drop create and delete it.
+template <class Traits>
+class Handle {
+ public:
+  Handle() : name_(Traits::make()) {}
+  ~Handle() {
+    if (name_) Traits::drop(name_);
+  }
+  Handle(Handle&& other) noexcept : name_(std::exchange(other.name_, 0)) {}
+  Handle& operator=(Handle&& other) noexcept {
+    std::swap(name_, other.name_);
+    return *this;
+  }
+  operator GLuint() const { return name_; }
+
+ private:
+  GLuint name_;
+};
+
+// clang-format off
+struct BufferTraits {
+  static GLuint make() { GLuint name; glGenBuffers(1, &name); return name; }
+  static void drop(GLuint name) { glDeleteBuffers(1, &name); }
+};
+struct VertexArrayTraits {
+  static GLuint make() { GLuint name; glGenVertexArrays(1, &name); return name; }
+  static void drop(GLuint name) { glDeleteVertexArrays(1, &name); }
+};
+struct TextureTraits {
+  static GLuint make() { GLuint name; glGenTextures(1, &name); return name; }
+  static void drop(GLuint name) { glDeleteTextures(1, &name); }
+};
+struct RenderbufferTraits {
+  static GLuint make() { GLuint name; glGenRenderbuffers(1, &name); return name; }
+  static void drop(GLuint name) { glDeleteRenderbuffers(1, &name); }
+};
+struct FramebufferTraits {
+  static GLuint make() { GLuint name; glGenFramebuffers(1, &name); return name; }
+  static void drop(GLuint name) { glDeleteFramebuffers(1, &name); }
+};
+struct ProgramTraits {
+  static GLuint make() { return glCreateProgram(); }
+  static void drop(GLuint name) { glDeleteProgram(name); }
+};
+// clang-format on
+
+using Buffer = Handle<BufferTraits>;
+using VertexArray = Handle<VertexArrayTraits>;
+using Texture = Handle<TextureTraits>;
+using Renderbuffer = Handle<RenderbufferTraits>;
+using Framebuffer = Handle<FramebufferTraits>;
+
+/// A linked pair of shaders out of the embedded files (resources.hpp), "common.glsl" put before each.
+class Program {
+ public:
+  /// defines: names defined in both shaders. Throws std::logic_error with the compiler's log when they do not build.
+  Program(const char* vertex, const char* fragment, std::initializer_list<const char*> defines = {});
+
+  void use() const { glUseProgram(name_); }
+
+  // Of the program in use. Names the compiler dropped as unused are ignored.
+  void set(const char* name, int value) const { glUniform1i(place(name), value); }
+  void set(const char* name, float value) const { glUniform1f(place(name), value); }
+  void set(const char* name, const Vec2f& value) const { glUniform2fv(place(name), 1, value.data()); }
+  void set(const char* name, const Vec3f& value) const { glUniform3fv(place(name), 1, value.data()); }
+  void set(const char* name, const Vec4f& value) const { glUniform4fv(place(name), 1, value.data()); }
+  void set(const char* name, const Mat4f& value) const {
+    glUniformMatrix4fv(place(name), 1, GL_FALSE, value.data());
+  }
+
+ private:
+  GLint place(const char* name) const { return glGetUniformLocation(name_, name); }
+  Handle<ProgramTraits> name_;
+};
+
+/// Replaces what a buffer holds. usage: GL_STATIC_DRAW or GL_STREAM_DRAW.
+template <class Value>
+void upload(GLenum target, const Buffer& buffer, std::span<const Value> values, GLenum usage) {
+  glBindBuffer(target, buffer);
+  glBufferData(target, static_cast<GLsizeiptr>(values.size_bytes()), values.data(), usage);
+}
+
+/// One attribute of the bound vertex array, read from the bound array buffer. Bytes are normalised to 0..1.
+void vertex_attribute(GLuint index, int components, GLenum type, std::size_t stride, std::size_t offset);
+
+/// Storage and linear filtering for a texture that is drawn into.
+void allocate_texture(const Texture& texture, GLint internal_format, GLenum format, GLenum type, Size size);
+
+/// Colour and depth of a size of its own to draw a picture into.
+class Canvas {
+ public:
+  explicit Canvas(Size size);
+  void bind() const { glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_); }
+  void stretch_to_screen(Size size) const;  ///< over all of framebuffer 0, which is then bound
+  Size size() const { return size_; }
+
+ private:
+  Size size_;
+  Framebuffer framebuffer_;
+  Renderbuffer colour_, depth_;
+};
+
+}  // namespace heml::render

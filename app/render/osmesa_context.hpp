@@ -1,0 +1,25 @@
+#pragma once
+// OpenGL in memory, by Mesa's software renderer: needs no display and no graphics card.
+#include <app/render/context.hpp>
+#include <memory>
+
+namespace heml::render {
+
+class OsMesaContext final : public GraphicsContext {
+ public:
+  /// A context of a fixed size, current on the calling thread.
+  /// Throws std::runtime_error when libOSMesa is not installed or gives no OpenGL 3.3 core context.
+  explicit OsMesaContext(Size size);
+  ~OsMesaContext() override;
+
+  void make_current() override;
+  Size size() const override;
+  void present() override {}
+  GLADloadfunc loader() const override;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace heml::render

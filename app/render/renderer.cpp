@@ -1,0 +1,240 @@
+#include "app/render/renderer.hpp"
+
+#include <app/render/body_mesh.hpp>
+#include <app/render/shadows.hpp>
+#include <app/render/tissue_texture.hpp>
+#include <app/render/tool_drawing.hpp>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+namespace heml::render {
+namespace {
+
+const Vec3f key_direction = Vec3f(-0.50f, 0.78f, 0.38f).normalized();  // towards the lamp
+constexpr float ground_extent = 7;                                      // in body radii
+constexpr int ground_grid = 36;                                         // squares a side, as ground.vert has it
+constexpr float ground_gap = 0.05f;                                     // under the body, in body radii
+
+// A colour map as a picture one pixel high; square roots, because bytes are coarse for dark linear colours.
+void upload_map(const Texture& texture, Field field) {
+  std::array<std::uint8_t, 3 * 256> pixels;
+  for (int i = 0; i < 256; ++i) {
+    const Vec3f colour = map_colour(field, static_cast<float>(i) / 255);
+    for (int k = 0; k < 3; ++k)
+      pixels[3 * i + k] = static_cast<std::uint8_t>(std::lround(255 * std::pow(colour[k], 1.1f)));
+  }
+  allocate_texture(texture, GL_RGB8, GL_RGB, GL_UNSIGNED_BYTE, {256, 1});
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, 256, 1, GL_RGB, GL_UNSIGNED_BYTE, pixels.data());
+}
+
+void upload_detail(const Texture& texture) {
+  constexpr int side = 768;
+  allocate_texture(texture, GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, {side, side});
+  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, side, side, GL_RGBA, GL_UNSIGNED_BYTE, tissue_texture(side).data());
+  // A few smaller pictures against glitter; not all, because the map's folds would show in the smallest.
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 2);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
+  glGenerateMipmap(GL_TEXTURE_2D);
+}
+
+}  // namespace
+
+class Renderer::Impl {
+ public:
+  Impl() { upload_detail(detail_); }
+  void set_skin(const Skin& skin) { body_.emplace(skin); }
+  void draw(const Frame& frame, const Camera& camera, const DrawOptions& options, Size size);
+
+ private:
+  const Canvas* canvas(const DrawOptions& options, Size size);
+  void draw_picture(const Shot& shot, const Frame& frame, const DrawOptions& options);
+  void prepare_body(const Shot& shot, const Program& program) const;
+  void draw_shadows(const Shot& shot, const Frame& frame, const DrawOptions& options);
+  void draw_edges(const Shot& shot) const;
+  void draw_held(const Shot& shot) const;
+  void draw_ground(const Shot& shot) const;
+  void draw_backdrop(const Shot& shot) const;
+
+  Program tissue_{"tissue.vert", "tissue.frag"};
+  Program field_{"tissue.vert", "tissue.frag", {"FIELD"}};
+  Program tissue_strip_{"tissue.vert", "tissue.frag", {"OUTLINE"}};
+  Program field_strip_{"tissue.vert", "tissue.frag", {"FIELD", "OUTLINE"}};
+  Program line_{"line.vert", "line.frag"};
+  Program bead_{"bead.vert", "bead.frag"};
+  Program ground_{"ground.vert", "ground.frag"};
+  Program backdrop_{"screen.vert", "backdrop.frag"};
+  VertexArray nothing_;  // for shapes made of vertex numbers alone
+  Texture map_, detail_;
+  std::optional<Canvas> canvas_;
+  std::optional<BodyMesh> body_;
+  ShadowMap shadow_map_;
+  Footprint footprint_;
+  ToolDrawing tool_;
+  Vec3f ground_centre_ = Vec3f::Zero();
+};
+
+const Canvas* Renderer::Impl::canvas(const DrawOptions& options, Size size) {
+  const float scale = std::clamp(options.resolution, 0.25f, 1.0f);
+  const Size wanted{std::max(1, static_cast<int>(std::lround(scale * static_cast<float>(size.width)))),
+                    std::max(1, static_cast<int>(std::lround(scale * static_cast<float>(size.height))))};
+  if (wanted == size) return nullptr;
+  if (!canvas_ || !(canvas_->size() == wanted)) canvas_.emplace(wanted);
+  return &*canvas_;
+}
+
+void Renderer::Impl::draw(const Frame& frame, const Camera& camera, const DrawOptions& options, Size size) {
+  if (body_ && frame.positions.size() != body_->node_count())
+    throw std::invalid_argument("Renderer::draw: the frame has another number of nodes than the skin");
+  const Canvas* scaled = canvas(options, size);
+  const Size drawn = scaled ? scaled->size() : size;
+  const Mat4f sight = camera.view(), projection = camera.projection(drawn);
+  const Shot shot{camera, drawn, sight, projection, projection * sight, key_direction,
+                  body_ ? body_->rest().radius : 1};
+
+  glDisable(GL_BLEND);
+  glDisable(GL_SCISSOR_TEST);
+  glDisable(GL_CULL_FACE);
+  glEnable(GL_PROGRAM_POINT_SIZE);
+  tool_.place(options.tool ? frame.tool : ToolState{}, shot);
+  if (body_) {
+    body_->update(frame, options.range.value_or(natural_range(frame.field, frame.values)));
+    body_->update_outline(camera.eye(), shot.view_projection, drawn);
+    draw_shadows(shot, frame, options);
+  }
+  if (scaled) {
+    scaled->bind();
+  } else {
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  }
+  glViewport(0, 0, drawn.width, drawn.height);
+  draw_picture(shot, frame, options);
+  if (scaled) scaled->stretch_to_screen(size);
+}
+
+void Renderer::Impl::draw_picture(const Shot& shot, const Frame& frame, const DrawOptions& options) {
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LEQUAL);
+  glClear(GL_DEPTH_BUFFER_BIT);
+  const bool shows_field = frame.field != Field::none && body_ && frame.values.size() == body_->node_count();
+  if (shows_field) upload_map(map_, frame.field);
+  if (body_) {
+    prepare_body(shot, shows_field ? field_ : tissue_);
+    if (frame.min_J > 0) glEnable(GL_CULL_FACE);  // the inside shows only where elements are turned inside out
+    body_->draw_surface();
+    glDisable(GL_CULL_FACE);
+    if (options.wireframe) draw_edges(shot);
+    if (options.held) draw_held(shot);
+    tool_.draw(shot);
+    if (options.ground && shot.camera.eye().y() > ground_centre_.y()) draw_ground(shot);
+  }
+  draw_backdrop(shot);
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  glDepthMask(GL_FALSE);
+  if (body_) {
+    prepare_body(shot, shows_field ? field_strip_ : tissue_strip_);
+    body_->draw_outline();
+  }
+  tool_.draw_outline(shot);
+  glDepthMask(GL_TRUE);
+  glDisable(GL_BLEND);
+  glDisable(GL_DEPTH_TEST);
+}
+
+void Renderer::Impl::draw_shadows(const Shot& shot, const Frame& frame, const DrawOptions& options) {
+  const Ball ball = ball_around(frame.positions);
+  const Ball& rest = body_->rest();
+  // The drape gives way to a body that sinks lower than it stood.
+  const float ground = std::min(rest.lowest - ground_gap * rest.radius, ball.lowest - 0.02f * rest.radius);
+  ground_centre_ = Vec3f(rest.centre.x(), ground, rest.centre.z());
+  shadow_map_.draw(ball, key_direction, [&](const Program& program) {
+    program.set("model", Mat4f(Mat4f::Identity()));
+    body_->draw_flat();
+    tool_.cast(program);
+  });
+  if (!options.ground) return;
+  footprint_.draw(rest.centre, rest.radius, ground, shot.key_direction, [&](const Program& program) {
+    program.set("model", Mat4f(Mat4f::Identity()));
+    body_->draw_flat();
+    tool_.cast(program);
+  });
+}
+
+void Renderer::Impl::prepare_body(const Shot& shot, const Program& program) const {
+  program.use();
+  program.set("view_projection", shot.view_projection);
+  program.set("shadow_matrix", shadow_map_.matrix());
+  program.set("eye", shot.camera.eye());
+  program.set("key_direction", shot.key_direction);
+  // Behind the body as the eye sees it, high on the side away from the key light.
+  const Vec3f right = shot.camera.right(), up = shot.camera.up();
+  program.set("rim_direction", Vec3f((0.75f * right + 0.55f * up - 0.6f * right.cross(up)).normalized()));
+  const Vec3f lamp_right = shot.key_direction.cross(Vec3f::UnitZ()).normalized();
+  program.set("lamp_right", lamp_right);
+  program.set("lamp_up", Vec3f(lamp_right.cross(shot.key_direction)));
+  const auto bind = [&](int unit, const char* name, const Texture& texture) {
+    program.set(name, unit);
+    glActiveTexture(GL_TEXTURE0 + unit);
+    glBindTexture(GL_TEXTURE_2D, texture);
+  };
+  bind(2, "shadow_map", shadow_map_.texture());
+  bind(1, "colour_map", map_);
+  bind(0, "detail_map", detail_);
+}
+
+void Renderer::Impl::draw_edges(const Shot& shot) const {
+  line_.use();
+  line_.set("view_projection", shot.view_projection);
+  line_.set("tint", Vec4f(0.03f, 0.02f, 0.02f, 0.55f));
+  glEnable(GL_LINE_SMOOTH);
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  body_->draw_edges();
+  glDisable(GL_BLEND);
+  glDisable(GL_LINE_SMOOTH);
+}
+
+void Renderer::Impl::draw_held(const Shot& shot) const {
+  bead_.use();
+  bead_.set("view", shot.view);
+  bead_.set("projection", shot.projection);
+  bead_.set("bead_radius", body_->bead_radius());
+  bead_.set("height", static_cast<float>(shot.size.height));
+  bead_.set("key_direction", shot.key_direction);
+  bead_.set("tint", Vec3f(0.62f, 0.70f, 0.74f));
+  body_->draw_held();
+}
+
+void Renderer::Impl::draw_ground(const Shot& shot) const {
+  ground_.use();
+  ground_.set("view_projection", shot.view_projection);
+  ground_.set("centre", ground_centre_);
+  ground_.set("radius", shot.radius);
+  ground_.set("extent", ground_extent);
+  ground_.set("footprint_extent", Footprint::extent);
+  ground_.set("aspect", shot.size.aspect());
+  ground_.set("key_direction", shot.key_direction);
+  ground_.set("footprint", 0);
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, footprint_.texture());
+  glBindVertexArray(nothing_);
+  glDrawArrays(GL_TRIANGLES, 0, 6 * ground_grid * ground_grid);
+}
+
+void Renderer::Impl::draw_backdrop(const Shot& shot) const {
+  backdrop_.use();
+  backdrop_.set("aspect", shot.size.aspect());
+  glBindVertexArray(nothing_);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+Renderer::Renderer() : impl_(std::make_unique<Impl>()) {}
+Renderer::~Renderer() = default;
+void Renderer::set_skin(const Skin& skin) { impl_->set_skin(skin); }
+void Renderer::draw(const Frame& frame, const Camera& camera, const DrawOptions& options, Size size) {
+  impl_->draw(frame, camera, options, size);
+}
+
+}  // namespace heml::render

@@ -1,0 +1,49 @@
+#pragma once
+// Two cheap shadows: a depth map for the key light's shadow on body and tool, and a blurred footprint on the ground.
+#include <app/render/bounds.hpp>
+#include <app/render/gl_objects.hpp>
+#include <functional>
+
+namespace heml::render {
+
+/// Draws everything that casts a shadow with the program in use; sets its uniform `model` for each part.
+using DrawCasters = std::function<void(const Program&)>;
+
+/// What the key light sees.
+class ShadowMap {
+ public:
+  ShadowMap();
+  /// Everything within the ball casts and takes shadows.
+  void draw(const Ball& ball, const Vec3f& key_direction, const DrawCasters& draw_casters);
+  const Mat4f& matrix() const { return matrix_; }  ///< world to the map's clip space
+  const Texture& texture() const { return depth_; }  ///< for a sampler2DShadow
+
+ private:
+  Program program_{"depth.vert", "depth.frag"};
+  Texture depth_;
+  Framebuffer framebuffer_;
+  Mat4f matrix_ = Mat4f::Identity();
+};
+
+/// What the ground sees of the body, blurred. r: key light hidden; g: nearness, for the soft dark where they almost touch.
+class Footprint {
+ public:
+  static constexpr float extent = 3.4f;  ///< half the side of the square covered, in radii
+
+  Footprint();
+  /// ground: y, m. radius: length unit of the square round centre, m.
+  void draw(const Vec3f& centre, float radius, float ground, const Vec3f& key_direction,
+            const DrawCasters& draw_casters);
+  const Texture& texture() const { return pictures_[0]; }
+
+ private:
+  void blur(int from, int to, const Vec2f& texel) const;
+
+  Program program_{"depth.vert", "footprint.frag"};
+  Program blur_{"screen.vert", "blur.frag"};
+  VertexArray nothing_;
+  std::array<Texture, 2> pictures_;
+  std::array<Framebuffer, 2> framebuffers_;
+};
+
+}  // namespace heml::render

@@ -1,0 +1,70 @@
+#pragma once
+// The deformed surface as the eye expects it: smooth normals, and every triangle bent into a curved patch that goes
+// through the real nodes (PN triangles: Vlachos, Peters, Boyd and Mitchell, "Curved PN triangles", I3D 2001). Each
+// triangle becomes `segments`² small ones; a patch meets its neighbours exactly, because the vertices along an edge belong
+// to the edge.
+//
+// Vertices are numbered: corners (surface_topology.hpp), then those inside edges, then those inside triangles.
+#include <app/render/surface_topology.hpp>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace heml::render {
+
+class SmoothSurface {
+ public:
+  /// A vertex as a mean of three corners: exact for what varies linearly over a triangle.
+  struct Blend {
+    Triangle corners;
+    std::array<float, 3> weights;
+  };
+
+  /// segments: parts every edge is cut into; 1 leaves the triangles flat.
+  SmoothSurface(const Skin& skin, int segments);
+
+  /// Segments that suit a surface of so many triangles: at most 20,000 small ones where it is coarse.
+  static int suitable_segments(std::size_t triangles);
+
+  /// Follows the nodes: positions and normals. nodes: #S×3, m. Never throws; no allocation after the first call.
+  void update(std::span<const Vec3f> nodes);
+
+  const std::vector<Vec3f>& positions() const { return positions_; }  ///< #P×3, m
+  const std::vector<Vec3f>& normals() const { return normals_; }      ///< #P×3, unit (zero where undefined)
+  const std::vector<Blend>& blends() const { return blends_; }        ///< #P
+  const SurfaceTopology& topology() const { return topology_; }
+
+  const std::vector<std::uint32_t>& triangles() const { return triangles_; }  ///< 3 a small triangle
+  const std::vector<std::uint32_t>& lines() const { return lines_; }          ///< 2 a piece of a real edge
+
+  /// Values at nodes (#S) as values at vertices (#P), linear over each triangle.
+  template <class Value>
+  void spread(std::span<const Value> nodes, std::vector<Value>& vertices) const {
+    vertices.resize(blends_.size());
+    for (std::size_t p = 0; p < blends_.size(); ++p) {
+      const auto& [c, w] = blends_[p];
+      vertices[p] = w[0] * nodes[topology_.corner_nodes[c[0]]] + w[1] * nodes[topology_.corner_nodes[c[1]]] +
+                    w[2] * nodes[topology_.corner_nodes[c[2]]];
+    }
+  }
+
+ private:
+  void number_edges();
+  void number_triangles();
+  std::uint32_t edge_vertex(int triangle, int side, int step) const;
+  void update_corner_normals();
+  void update_edges(std::span<const Vec3f> nodes);
+  void update_interiors(std::span<const Vec3f> nodes);
+
+  SurfaceTopology topology_;
+  int segments_;
+  std::vector<std::vector<std::uint32_t>> edge_first_;  // #E × sides: first of the segments−1 vertices
+  std::uint32_t interior_first_ = 0;
+  std::vector<Blend> blends_;
+  std::vector<std::uint32_t> triangles_, lines_;
+  std::vector<std::array<Vec3f, 2>> controls_;  // #E: Bézier control points near `from` and `to`
+  std::vector<Vec3f> positions_, normals_;
+};
+
+}  // namespace heml::render

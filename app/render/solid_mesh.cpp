@@ -1,0 +1,103 @@
+#include "app/render/solid_mesh.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+namespace heml::render {
+namespace {
+
+constexpr int sides = 14;
+
+std::vector<Vec3f> positions_of(const SolidShape& shape) {
+  std::vector<Vec3f> positions;
+  for (const SolidShape::Vertex& vertex : shape.vertices) positions.push_back(vertex.position);
+  return positions;
+}
+
+}  // namespace
+
+void add_tube(SolidShape& shape, const std::vector<Ring>& rings, const Vec3f& depth_axis) {
+  const auto first = static_cast<std::uint32_t>(shape.vertices.size());
+  const std::size_t last = rings.size() - 1;
+  for (std::size_t i = 0; i <= last; ++i) {
+    const Vec3f along = (rings[std::min(i + 1, last)].centre - rings[i > 0 ? i - 1 : 0].centre).normalized();
+    const Vec3f across = along.cross(depth_axis).normalized();
+    for (int k = 0; k < sides; ++k) {
+      const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(k) / sides;
+      const float c = std::cos(angle), s = std::sin(angle);
+      const Vec3f offset = rings[i].width * c * across + rings[i].depth * s * depth_axis;
+      const Vec3f normal = rings[i].depth * c * across + rings[i].width * s * depth_axis;  // of an ellipse
+      const Vec3f cap = i == 0 ? Vec3f(-along) : i == last ? along : Vec3f(Vec3f::Zero());
+      shape.vertices.push_back({rings[i].centre + offset, (normal.normalized() + 0.7f * cap).normalized()});
+    }
+  }
+  const auto vertex = [&](std::size_t ring, int k) {
+    return first + static_cast<std::uint32_t>(ring * sides + k % sides);
+  };
+  for (std::size_t i = 0; i < last; ++i)
+    for (int k = 0; k < sides; ++k)
+      shape.triangles.insert(shape.triangles.end(), {vertex(i, k), vertex(i, k + 1), vertex(i + 1, k), vertex(i, k + 1),
+                                                     vertex(i + 1, k + 1), vertex(i + 1, k)});
+  for (const std::size_t ring : {std::size_t{0}, last})
+    for (int k = 1; k + 1 < sides; ++k)
+      shape.triangles.insert(shape.triangles.end(), {vertex(ring, 0), vertex(ring, k), vertex(ring, k + 1)});
+}
+
+SolidShape rod() {
+  SolidShape shape;
+  add_tube(shape, {{Vec3f::Zero(), 1, 1}, {Vec3f::UnitY(), 1, 1}}, Vec3f::UnitZ());
+  return shape;
+}
+
+SolidShape forceps() {
+  SolidShape shape;
+  for (const float side : {-1.0f, 1.0f}) {
+    std::vector<Ring> rings;
+    constexpr int steps = 28;
+    for (int i = 0; i <= steps; ++i) {
+      const float t = static_cast<float>(i) / steps;
+      const float bow = std::pow(std::sin(std::numbers::pi_v<float> * std::pow(t, 0.8f)), 1.2f);
+      const float swell = std::sin(0.5f * std::numbers::pi_v<float> * std::min(1.0f, 1.6f * t));
+      rings.push_back({Vec3f(side * (0.006f + 0.052f * bow), t, 0), 0.006f + 0.004f * t,
+                       0.007f + 0.020f * std::pow(swell, 1.5f)});
+    }
+    add_tube(shape, rings, Vec3f::UnitZ());
+  }
+  add_tube(shape, {{Vec3f(0, 0.93f, 0), 0.012f, 0.024f}, {Vec3f(0, 1.03f, 0), 0.014f, 0.022f}}, Vec3f::UnitZ());
+  return shape;
+}
+
+SolidMesh::SolidMesh(SolidShape shape)
+    : shape_(std::move(shape)), positions_(positions_of(shape_)), outline_(shape_.triangles, positions_) {
+  const auto describe = [](std::size_t stride) {
+    vertex_attribute(0, 3, GL_FLOAT, stride, offsetof(SolidShape::Vertex, position));
+    vertex_attribute(1, 3, GL_FLOAT, stride, offsetof(SolidShape::Vertex, normal));
+  };
+  glBindVertexArray(array_);
+  upload(GL_ARRAY_BUFFER, vertices_, std::span<const SolidShape::Vertex>(shape_.vertices), GL_STATIC_DRAW);
+  upload(GL_ELEMENT_ARRAY_BUFFER, triangles_, std::span<const std::uint32_t>(shape_.triangles), GL_STATIC_DRAW);
+  describe(sizeof(SolidShape::Vertex));
+  glBindVertexArray(strip_array_);
+  glBindBuffer(GL_ARRAY_BUFFER, strip_buffer_);
+  describe(sizeof(Strip));
+  vertex_attribute(2, 3, GL_FLOAT, sizeof(Strip), offsetof(Strip, strip));
+}
+
+void SolidMesh::draw() const {
+  glBindVertexArray(array_);
+  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(shape_.triangles.size()), GL_UNSIGNED_INT, nullptr);
+}
+
+void SolidMesh::draw_outline(const Vec3f& eye, const Mat4f& to_clip, Size size) {
+  strips_.clear();
+  Outline::for_each_corner(outline_.find(positions_, eye, to_clip, size),
+                           [&](std::uint32_t vertex, const Vec2f& outward, float cover) {
+                             strips_.push_back({shape_.vertices[vertex], {outward.x(), outward.y(), cover}});
+                           });
+  upload(GL_ARRAY_BUFFER, strip_buffer_, std::span<const Strip>(strips_), GL_STREAM_DRAW);
+  glBindVertexArray(strip_array_);
+  glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(strips_.size()));
+}
+
+}  // namespace heml::render

@@ -1,0 +1,47 @@
+#include "app/render/sphere_map.hpp"
+
+#include <app/render/bounds.hpp>
+
+namespace heml::render {
+namespace {
+
+constexpr int rounds = 200;
+
+void normalize_all(std::vector<Vec3f>& places, const Vec3f& centre) {
+  for (Vec3f& place : places) {
+    const Vec3f direction = place - centre;
+    const float length = direction.norm();
+    if (length > 1e-6f) {
+      place = direction / length;
+    } else {
+      place = Vec3f::UnitY();
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Vec3f> sphere_map(const Skin& skin) {
+  std::vector<Vec3f> places = skin.rest;
+  normalize_all(places, ball_around(skin.rest).centre);
+  std::vector<Vec3f> sums(places.size());
+  for (int round = 0; round < rounds; ++round) {
+    for (std::size_t i = 0; i < places.size(); ++i) sums[i] = 0.5f * places[i];
+    Vec3f mean = Vec3f::Zero();
+    float area = 0;
+    for (const auto& [a, b, c] : skin.triangles) {
+      const float weight = (skin.rest[b] - skin.rest[a]).cross(skin.rest[c] - skin.rest[a]).norm();
+      const Vec3f sum = places[a] + places[b] + places[c];
+      mean += weight * sum / 3;
+      area += weight;
+      for (const int node : {a, b, c}) sums[node] += sum - places[node];
+    }
+    places = sums;
+    normalize_all(places, Vec3f::Zero());
+    // Keeps the pattern from sliding to one side: the map of the whole surface stays centred.
+    if (area > 0) normalize_all(places, 0.5f * mean / area);
+  }
+  return places;
+}
+
+}  // namespace heml::render

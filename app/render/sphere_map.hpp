@@ -1,0 +1,12 @@
+#pragma once
+// A body's surface laid over the unit sphere, so that patterns made for the sphere lie on it evenly.
+#include <heml/session/frame.hpp>
+#include <vector>
+
+namespace heml::render {
+
+/// #S×3, unit: starts from each node's direction from the body's centre, then lets neighbours pull (Laplacian smoothing
+/// on the sphere), which spreads what a hollow would squeeze together. The same for the same skin.
+std::vector<Vec3f> sphere_map(const Skin& skin);
+
+}  // namespace heml::render

@@ -1,0 +1,178 @@
+#define GLFW_INCLUDE_NONE  // glad has the OpenGL functions
+#include <GLFW/glfw3.h>
+#include <backends/imgui_impl_glfw.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <app/panel/keys.hpp>
+#include <app/window/glfw_window.hpp>
+#include <cctype>
+#include <cstdlib>
+
+namespace heml::window {
+namespace {
+
+std::string last_error(const char* otherwise) {
+  const char* text = nullptr;
+  glfwGetError(&text);
+  return text ? text : otherwise;
+}
+
+/// The key as the panel counts them: by what is printed on it, not by where it is.
+int panel_key(int key, int scancode) {
+  switch (key) {
+    case GLFW_KEY_ESCAPE:
+      return panel::key_escape;
+    case GLFW_KEY_TAB:
+      return panel::key_tab;
+    case GLFW_KEY_F1:
+      return panel::key_f1;
+    case GLFW_KEY_F12:
+      return panel::key_f12;
+    case GLFW_KEY_KP_DECIMAL:
+      return '.';
+    default:
+      break;
+  }
+  const char* name = glfwGetKeyName(key, scancode);
+  const int printed = name && name[0] && !name[1] ? std::toupper(static_cast<unsigned char>(name[0])) : key;
+  return panel::action_of(printed, false) || panel::action_of(printed, true) ? printed : key;
+}
+
+}  // namespace
+
+GlfwWindow& GlfwWindow::self(GLFWwindow* window) { return *static_cast<GlfwWindow*>(glfwGetWindowUserPointer(window)); }
+WindowEvents* GlfwWindow::events_of(GLFWwindow* window) { return self(window).events_; }
+
+GlfwWindow::GlfwWindow(const std::string& title, render::Size size) {
+  // Mesa's software renderer takes one core, so that the engine has the others.
+  setenv("LP_NUM_THREADS", "1", 0);
+  if (!glfwInit()) throw NoDisplay(last_error("no display"));
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+  glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+  glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+  glfwWindowHint(GLFW_DEPTH_BITS, 24);
+  glfwWindowHint(GLFW_SAMPLES, 0);  // the renderer smooths outlines by itself
+  glfwWindowHintString(GLFW_X11_CLASS_NAME, "heml");
+  window_ = glfwCreateWindow(size.width, size.height, title.c_str(), nullptr, nullptr);
+  if (!window_) {
+    const std::string reason = last_error("no OpenGL 3.3");
+    glfwTerminate();
+    throw NoDisplay(reason);
+  }
+  glfwSetWindowUserPointer(window_, this);
+  glfwMakeContextCurrent(window_);
+  try {
+    load_functions();
+  } catch (const std::runtime_error& error) {
+    glfwTerminate();
+    throw NoDisplay(error.what());
+  }
+  glfwSwapInterval(1);
+  install_callbacks();
+}
+
+GlfwWindow::~GlfwWindow() {
+  send_events_to(nullptr);
+  glfwDestroyWindow(window_);
+  glfwTerminate();
+}
+
+void GlfwWindow::make_current() { glfwMakeContextCurrent(window_); }
+
+render::Size GlfwWindow::size() const {
+  render::Size size;
+  glfwGetFramebufferSize(window_, &size.width, &size.height);
+  return size;
+}
+
+void GlfwWindow::present() { glfwSwapBuffers(window_); }
+GLADloadfunc GlfwWindow::loader() const { return glfwGetProcAddress; }
+
+void GlfwWindow::send_events_to(WindowEvents* events) {
+  if (events_) ImGui_ImplGlfw_Shutdown();
+  events_ = events;
+  if (events_) ImGui_ImplGlfw_InitForOpenGL(window_, false);
+}
+
+void GlfwWindow::prepare_imgui() {
+  ImGui_ImplGlfw_NewFrame();
+  ImVec2& mouse = ImGui::GetIO().MousePos;
+  if (!ImGui::IsMousePosValid(&mouse)) return;
+  mouse = {mouse.x * pixel_ratio(), mouse.y * pixel_ratio()};
+}
+
+void GlfwWindow::set_title(const std::string& title) { glfwSetWindowTitle(window_, title.c_str()); }
+bool GlfwWindow::closed() const { return glfwWindowShouldClose(window_); }
+bool GlfwWindow::visible() const {
+  return size().width > 0 && size().height > 0 && !glfwGetWindowAttrib(window_, GLFW_ICONIFIED);
+}
+
+float GlfwWindow::content_scale() const {
+  float x = 1, y = 1;
+  glfwGetWindowContentScale(window_, &x, &y);
+  return std::clamp(std::max(x, y), 1.0f, 4.0f);
+}
+
+float GlfwWindow::pixel_ratio() const {
+  int width = 0, height = 0;
+  glfwGetWindowSize(window_, &width, &height);
+  return width > 0 ? static_cast<float>(size().width) / static_cast<float>(width) : 1.0f;
+}
+
+void GlfwWindow::wait(double seconds) {
+  if (seconds > 0)
+    glfwWaitEventsTimeout(seconds);
+  else
+    glfwPollEvents();
+}
+
+void GlfwWindow::wake() { glfwPostEmptyEvent(); }
+
+void GlfwWindow::install_callbacks() {
+  glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int scancode, int action, int mods) {
+    if (!events_of(w)) return;
+    ImGui_ImplGlfw_KeyCallback(w, key, scancode, action, mods);
+    if (action != GLFW_RELEASE)
+      events_of(w)->key(panel_key(key, scancode), mods & GLFW_MOD_CONTROL, action == GLFW_REPEAT);
+  });
+  glfwSetCharCallback(window_, [](GLFWwindow* w, unsigned character) {
+    if (events_of(w)) ImGui_ImplGlfw_CharCallback(w, character);
+  });
+  glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int mods) {
+    if (!events_of(w)) return;
+    ImGui_ImplGlfw_MouseButtonCallback(w, button, action, mods);
+    if (button > GLFW_MOUSE_BUTTON_MIDDLE) return;
+    constexpr MouseButton buttons[] = {MouseButton::left, MouseButton::right, MouseButton::middle};
+    events_of(w)->button(buttons[button], action == GLFW_PRESS, mods & GLFW_MOD_SHIFT);
+  });
+  glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double x, double y) {
+    if (events_of(w))
+      events_of(w)->mouse(self(w).pixel_ratio() * render::Vec2f(static_cast<float>(x), static_cast<float>(y)));
+  });
+  glfwSetCursorEnterCallback(window_, [](GLFWwindow* w, int entered) {
+    if (!events_of(w)) return;
+    ImGui_ImplGlfw_CursorEnterCallback(w, entered);
+    events_of(w)->changed();
+  });
+  glfwSetScrollCallback(window_, [](GLFWwindow* w, double x, double y) {
+    if (!events_of(w)) return;
+    ImGui_ImplGlfw_ScrollCallback(w, x, y);
+    events_of(w)->wheel(static_cast<float>(y));
+  });
+  glfwSetWindowFocusCallback(window_, [](GLFWwindow* w, int focused) {
+    if (events_of(w)) ImGui_ImplGlfw_WindowFocusCallback(w, focused);
+  });
+  glfwSetDropCallback(window_, [](GLFWwindow* w, int count, const char** paths) {
+    if (events_of(w) && count > 0) events_of(w)->dropped(paths[0]);
+  });
+  glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* w, int, int) {
+    if (events_of(w)) events_of(w)->changed();
+  });
+  glfwSetWindowRefreshCallback(window_, [](GLFWwindow* w) {
+    if (events_of(w)) events_of(w)->changed();
+  });
+}
+
+}  // namespace heml::window

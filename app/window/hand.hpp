@@ -1,0 +1,44 @@
+#pragma once
+// What the mouse does to the body and to the eye. Pixels from the top left corner of the picture.
+#include <app/panel/eye.hpp>
+#include <app/render/pick.hpp>
+#include <heml/session/frame.hpp>
+#include <heml/world/command.hpp>
+#include <optional>
+#include <vector>
+
+namespace heml::window {
+
+enum class MouseButton { left, right, middle };
+
+class Hand {
+ public:
+  enum class Doing { nothing, grasping, orbiting, panning };
+
+  explicit Hand(panel::Eye& eye) : eye_(eye) {}
+
+  /// A button went down at a place off the panel. Left on the body takes hold of it, with a radius in m. Returns true
+  /// when the body is there but cannot be taken, because the scene holds it.
+  bool press(MouseButton button, const render::Vec2f& at, bool shift, const Frame& frame, const Skin& skin,
+             double radius, std::vector<Command>& out);
+  void move(const render::Vec2f& at, std::vector<Command>& out);
+  void release(MouseButton button, std::vector<Command>& out);
+  /// Ends whatever the hand does.
+  void let_go(std::vector<Command>& out);
+
+  Doing doing() const { return doing_; }
+  /// The part of the body under a point of the picture.
+  std::optional<render::Hit> under(const render::Vec2f& at, const Frame& frame, const Skin& skin) const;
+
+ private:
+  bool grasp(const render::Hit& hit, const Frame& frame, const Skin& skin, double radius, std::vector<Command>& out);
+
+  panel::Eye& eye_;
+  Doing doing_ = Doing::nothing;
+  MouseButton button_ = MouseButton::left;      // that began it
+  render::Vec2f last_ = render::Vec2f::Zero();  // where the mouse was
+  Vec3f held_point_ = Vec3f::Zero();            // m, of the surface, where it was taken
+  Vec3f node_offset_ = Vec3f::Zero();           // m, from there to the node that was taken
+};
+
+}  // namespace heml::window

@@ -1,0 +1,42 @@
+#include <fmt/format.h>
+
+#include <app/window/glfw_window.hpp>
+#include <app/window/opening.hpp>
+#include <chrono>
+
+namespace heml::window {
+
+OpenScene start(Scene scene, const std::optional<std::filesystem::path>& record, int number) {
+  SessionOptions options;
+  options.record = record;
+  if (record && number > 1)
+    options.record->replace_filename(
+        fmt::format("{}-{}{}", record->stem().string(), number, record->extension().string()));
+  options.on_frame = [] { GlfwWindow::wake(); };
+  OpenScene result{std::move(scene), nullptr};
+  result.session = std::make_unique<Session>(result.scene, options);
+  return result;
+}
+
+void Opening::begin(const std::filesystem::path& path, const std::optional<std::filesystem::path>& record) {
+  if (under_way()) return;
+  result_ = std::async(std::launch::async, [path, record, number = number_ + 1] {
+    struct Wake {
+      ~Wake() { GlfwWindow::wake(); }
+    } wake_at_end;
+    return start(read_scene(path), record, number);
+  });
+}
+
+std::optional<std::variant<OpenScene, std::string>> Opening::take() {
+  if (!under_way() || result_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return std::nullopt;
+  try {
+    OpenScene opened = result_.get();
+    ++number_;
+    return opened;
+  } catch (const std::exception& error) {
+    return std::string(error.what());
+  }
+}
+
+}  // namespace heml::window

@@ -1,0 +1,53 @@
+#include <imgui.h>
+
+#include <algorithm>
+#include <app/panel/quantity.hpp>
+#include <app/panel/theme.hpp>
+#include <app/window/overlay.hpp>
+#include <cmath>
+#include <numbers>
+
+namespace heml::window {
+
+void draw_ring(const render::Hit& hit, const Frame& frame, const Skin& skin, const panel::Eye& eye, double radius) {
+  const Triangle& triangle = skin.triangles[static_cast<std::size_t>(hit.triangle)];
+  const auto corner = [&](int k) {
+    return frame.positions[static_cast<std::size_t>(triangle[static_cast<std::size_t>(k)])];
+  };
+  const Vec3f normal = (corner(1) - corner(0)).cross(corner(2) - corner(0)).normalized();
+  const Vec3f across = normal.unitOrthogonal(), along = normal.cross(across);
+  const render::Camera camera = eye.camera();
+  const render::Vec2f middle = camera.pixel(hit.point, eye.size());
+  const bool held = std::binary_search(skin.held.begin(), skin.held.end(), hit.node);
+  const ImU32 colour = held ? panel::colours::danger : panel::colours::text;
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  constexpr int pieces = 40;
+  float widest = 0;
+  for (int i = 0; i < pieces; ++i) {
+    const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(i) / pieces;
+    const Vec3f point = hit.point + static_cast<float>(radius) * (std::cos(angle) * across + std::sin(angle) * along);
+    const render::Vec2f pixel = camera.pixel(point, eye.size());
+    widest = std::max(widest, (pixel - middle).norm());
+    list.PathLineTo({pixel.x(), pixel.y()});
+  }
+  if (widest > panel::em(0.4f) && std::isfinite(widest))
+    list.PathStroke((colour & 0x00ffffffu) | 0xb0000000u, ImDrawFlags_Closed, panel::em(0.11f));
+  else
+    list.PathClear();
+  list.AddCircleFilled({middle.x(), middle.y()}, panel::em(0.16f), colour, 12);
+}
+
+void draw_force(const Frame& frame, const panel::Eye& eye) {
+  if (!frame.tool.active) return;
+  const render::Vec2f at = eye.camera().pixel(frame.tool.target.cast<float>(), eye.size());
+  if (!at.allFinite()) return;
+  const std::string text = panel::newtons(frame.tool.force.norm());
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+  const ImVec2 from(at.x() + panel::em(1.4f), at.y() - size.y / 2), pad(panel::em(0.5f), panel::em(0.25f));
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  list.AddRectFilled({from.x - pad.x, from.y - pad.y}, {from.x + size.x + pad.x, from.y + size.y + pad.y},
+                     panel::colours::background, panel::em(0.4f));
+  list.AddText(from, panel::colours::accent, text.c_str());
+}
+
+}  // namespace heml::window

@@ -1,0 +1,15 @@
+#pragma once
+// Marks over the picture, under the panel: what would be grasped, and how hard the tool pulls.
+#include <app/panel/eye.hpp>
+#include <app/render/pick.hpp>
+
+namespace heml::window {
+
+/// A ring on the surface round the point under the mouse, of the grasp's radius (m); red where the body cannot be
+/// taken.
+void draw_ring(const render::Hit& hit, const Frame& frame, const Skin& skin, const panel::Eye& eye, double radius);
+
+/// The force in newtons beside the tool; nothing while nothing is grasped.
+void draw_force(const Frame& frame, const panel::Eye& eye);
+
+}  // namespace heml::window

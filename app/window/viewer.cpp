@@ -1,0 +1,205 @@
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <app/panel/keys.hpp>
+#include <app/window/overlay.hpp>
+#include <app/window/screenshot.hpp>
+#include <app/window/viewer.hpp>
+#include <heml/base/error.hpp>
+#include <thread>
+
+namespace heml::window {
+namespace {
+constexpr auto double_click_time = std::chrono::milliseconds(350);
+constexpr float double_click_distance = 6;  // pixels
+
+std::string window_title(const Scene& scene) {
+  const std::string& title = !scene.title.empty() ? scene.title : scene.name;
+  return title.empty() ? "heml" : title + " – heml";
+}
+}  // namespace
+
+Viewer::Viewer(GlfwWindow& window, const Scene& scene, const WindowOptions& options)
+    : window_(window),
+      options_(options),
+      interface_(panel::Interface::suitable_scale(window.size()) * window.content_scale()) {
+  adopt(start(scene, options.record, 1));
+  window_.send_events_to(this);
+}
+
+Viewer::~Viewer() { window_.send_events_to(nullptr); }
+
+void Viewer::adopt(OpenScene opened) {
+  std::vector<Command> last;
+  hand_.let_go(last);
+  open_ = std::move(opened);
+  panel_.emplace(open_.scene, open_.session->skin());
+  frame_ = &open_.session->latest();
+  next_event_ = 0;
+  renderer_.set_skin(open_.session->skin());
+  window_.set_title(window_title(open_.scene));
+  fit();
+}
+
+void Viewer::fit() {
+  const render::Size size = window_.size();
+  eye_.fit(open_.scene.view, open_.session->skin(), size,
+           panel_->insets({static_cast<float>(size.width), static_cast<float>(size.height)}));
+}
+
+bool Viewer::wants_drawing() const {
+  return window_.visible() &&
+         (pictures_wanted_ > 0 || open_.session->frame_waiting() || panel_->animating() || opening_.under_way());
+}
+
+void Viewer::draw() {
+  const auto now = std::chrono::steady_clock::now();
+  const float seconds = drawn_ ? std::chrono::duration<float>(now - drawn_at_).count() : 1.0f / 60;
+  drawn_at_ = now;
+  if (pictures_wanted_ > 0) --pictures_wanted_;
+  take_opened();
+  frame_ = &open_.session->latest();
+  follow_script();
+  panel_->take(*frame_, seconds);
+  const render::Size size = window_.size();
+  interface_.set_scale(panel::Interface::suitable_scale(size) * window_.content_scale());
+  eye_.resize(size, panel_->insets({static_cast<float>(size.width), static_cast<float>(size.height)}));
+  renderer_.draw(*frame_, eye_.camera(), panel_->drawing(), size);
+  draw_interface(seconds);
+  std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(options_.draw_stall));
+  window_.present();
+  ++drawn_;
+}
+
+void Viewer::draw_interface(float seconds) {
+  window_.prepare_imgui();
+  interface_.begin(eye_.size(), seconds);
+  draw_marks();
+  const panel::PanelActions actions = panel_->draw(*frame_);
+  interface_.end();
+  carry_out(actions);
+}
+
+void Viewer::draw_marks() {
+  draw_force(*frame_, eye_);
+  if (hand_.doing() == Hand::Doing::grasping) return ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeAll);
+  const bool free = hand_.doing() == Hand::Doing::nothing && !ImGui::IsAnyItemActive() && ImGui::IsMousePosValid();
+  if (!free || panel_->covers(mouse_.x(), mouse_.y())) return;
+  if (const auto hit = hand_.under(mouse_, *frame_, open_.session->skin())) {
+    draw_ring(*hit, *frame_, open_.session->skin(), eye_, panel_->grasp_radius());
+    ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
+  }
+}
+
+void Viewer::follow_script() {
+  const std::vector<Event>& events = open_.scene.events;
+  for (; next_event_ < events.size() && events[next_event_].tick < frame_->tick; ++next_event_)
+    panel_->follow(events[next_event_].command);
+}
+
+void Viewer::take_opened() {
+  auto result = opening_.take();
+  if (!result) return;
+  if (auto* problem = std::get_if<std::string>(&*result)) return panel_->fail(*problem);
+  adopt(std::move(std::get<OpenScene>(*result)));
+}
+
+void Viewer::post(std::vector<Command>& commands) {
+  for (Command& command : commands) open_.session->post(std::move(command));
+  commands.clear();
+}
+
+void Viewer::carry_out(const panel::PanelActions& actions) {
+  std::vector<Command> commands = actions.commands;
+  // What is reset is let go of first: the hand would pull a body that starts anew.
+  for (const Command& command : actions.commands)
+    if (std::holds_alternative<Reset>(command)) {
+      std::vector<Command> release;
+      hand_.let_go(release);
+      post(release);
+    }
+  post(commands);
+  if (actions.show) open_.session->show(*actions.show);
+  for (const panel::Request request : actions.requests) carry_out(request);
+  if (!actions.commands.empty() || !actions.requests.empty() || actions.show) changed();
+}
+
+void Viewer::carry_out(panel::Request request) {
+  switch (request) {
+    case panel::Request::play:
+      return open_.session->play();
+    case panel::Request::pause:
+      return open_.session->pause();
+    case panel::Request::step:
+      return open_.session->step_once();
+    case panel::Request::fit:
+      return fit();
+    case panel::Request::screenshot:
+      return save_screenshot();
+    case panel::Request::release: {
+      std::vector<Command> commands;
+      hand_.let_go(commands);
+      return post(commands);
+    }
+    case panel::Request::quit:
+      quits_ = true;
+      return;
+  }
+}
+
+void Viewer::save_screenshot() {
+  try {
+    const auto path = save_picture(render::read_pixels(eye_.size()), open_.scene.name);
+    panel_->say("Saved " + path.string());
+  } catch (const InputError& error) {
+    panel_->say(error.what());
+  }
+}
+
+void Viewer::key(int key, bool control, bool repeated) {
+  changed();
+  const auto action = panel::action_of(key, control);
+  if (!action || ImGui::GetIO().WantTextInput || (repeated && *action != panel::Action::step)) return;
+  panel_->perform(*action);
+}
+
+void Viewer::button(MouseButton button, bool down, bool shift) {
+  changed();
+  std::vector<Command> commands;
+  if (!down) {
+    hand_.release(button, commands);
+    return post(commands);
+  }
+  if (panel_->covers(mouse_.x(), mouse_.y())) return;
+  if (hand_.press(button, mouse_, shift, *frame_, open_.session->skin(), panel_->grasp_radius(), commands))
+    panel_->say("The scene holds this part; take another.");
+  post(commands);
+  if (button != MouseButton::left || hand_.doing() != Hand::Doing::orbiting) return;
+  const auto now = std::chrono::steady_clock::now();
+  const bool twice = now - pressed_at_ < double_click_time && (mouse_ - pressed_where_).norm() < double_click_distance;
+  pressed_at_ = twice ? std::chrono::steady_clock::time_point{} : now;
+  pressed_where_ = mouse_;
+  if (twice) panel_->perform(panel::Action::fit);
+}
+
+void Viewer::mouse(const render::Vec2f& at) {
+  changed();
+  mouse_ = at;
+  std::vector<Command> commands;
+  hand_.move(at, commands);
+  post(commands);
+}
+
+void Viewer::wheel(float notches) {
+  changed();
+  if (!panel_->covers(mouse_.x(), mouse_.y())) eye_.zoom(notches);
+}
+
+void Viewer::dropped(const std::filesystem::path& path) {
+  changed();
+  if (opening_.under_way()) return panel_->say("Another file is still being opened.");
+  panel_->say("Opening " + path.filename().string() + " …");
+  opening_.begin(path, options_.record);
+}
+
+}  // namespace heml::window

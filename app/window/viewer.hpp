@@ -1,0 +1,72 @@
+#pragma once
+// What is in the window: the body of a session, the panel, and the hand that joins them.
+//
+//    events ──► hand ──► commands ─┐
+//       └─────► panel ──► actions ─┴─► session ──► frames ──► draw()
+#include <app/panel/interface.hpp>
+#include <app/panel/panel.hpp>
+#include <app/render/renderer.hpp>
+#include <app/window/glfw_window.hpp>
+#include <app/window/hand.hpp>
+#include <app/window/opening.hpp>
+#include <app/window/window.hpp>
+#include <chrono>
+
+namespace heml::window {
+
+class Viewer final : public WindowEvents {
+ public:
+  /// Starts the session. Throws InputError as Session does. The window must outlive it.
+  Viewer(GlfwWindow& window, const Scene& scene, const WindowOptions& options);
+  ~Viewer() override;
+
+  /// Whether a picture would differ from the last one.
+  bool wants_drawing() const;
+  void draw();
+
+  bool quits() const { return quits_; }
+  long drawn() const { return drawn_; }           ///< pictures so far
+  const Frame& frame() const { return *frame_; }  ///< the one drawn last
+
+  void key(int key, bool control, bool repeated) override;
+  void button(MouseButton button, bool down, bool shift) override;
+  void mouse(const render::Vec2f& at) override;
+  void wheel(float notches) override;
+  void dropped(const std::filesystem::path& path) override;
+  void changed() override { pictures_wanted_ = settling_pictures; }
+
+ private:
+  static constexpr int settling_pictures = 3;  ///< that Dear ImGui may take to settle after something was done
+
+  void adopt(OpenScene opened);
+  void take_opened();
+  void follow_script();
+  void fit();
+  void draw_interface(float seconds);
+  void draw_marks();
+  void carry_out(const panel::PanelActions& actions);
+  void carry_out(panel::Request request);
+  void post(std::vector<Command>& commands);
+  void save_screenshot();
+
+  GlfwWindow& window_;
+  WindowOptions options_;
+  render::Renderer renderer_;
+  panel::Interface interface_;
+  panel::Eye eye_;
+  Hand hand_{eye_};
+  Opening opening_;
+  OpenScene open_;
+  std::optional<panel::Panel> panel_;
+  const Frame* frame_ = nullptr;
+
+  std::size_t next_event_ = 0;  ///< of the scene's script that the panel has not seen
+  render::Vec2f mouse_{-1, -1};
+  std::chrono::steady_clock::time_point drawn_at_{}, pressed_at_{};
+  render::Vec2f pressed_where_{-1, -1};
+  int pictures_wanted_ = settling_pictures;
+  long drawn_ = 0;
+  bool quits_ = false;
+};
+
+}  // namespace heml::window

@@ -1,0 +1,66 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <app/window/viewer.hpp>
+#include <app/window/window.hpp>
+#include <chrono>
+
+namespace heml {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+double seconds(Clock::duration d) { return std::chrono::duration<double>(d).count(); }
+
+/// When the next picture may be drawn: 60 a second at most, and with rests as long as drawing took, because drawing
+/// without a graphics card takes a core that the engine may need; longer rests while the engine is late.
+class DrawingPace {
+ public:
+  bool due(Clock::time_point now) const { return now >= next_; }
+  double until_due(Clock::time_point now) const { return std::max(0.0, seconds(next_ - now)); }
+  void drew(Clock::time_point began, Clock::time_point ended, bool engine_keeps_up) {
+    const double cost = seconds(ended - began), rest = engine_keeps_up ? 1 : 3;
+    const double interval = std::max(shortest, cost * (1 + rest));
+    next_ =
+        began + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(std::min(interval, longest)));
+  }
+
+ private:
+  static constexpr double shortest = 1.0 / 60, longest = 0.25;  // s
+  Clock::time_point next_{};
+};
+
+void show(window::GlfwWindow& window, window::Viewer& viewer, double exit_after) {
+  constexpr double longest_sleep = 1;  // s
+  const auto began = Clock::now();
+  DrawingPace pace;
+  while (!window.closed() && !viewer.quits()) {
+    const auto now = Clock::now();
+    const double left = exit_after > 0 ? exit_after - seconds(now - began) : longest_sleep;
+    if (left <= 0) return;
+    if (!viewer.wants_drawing() || !pace.due(now)) {
+      window.wait(std::min({left, longest_sleep, viewer.wants_drawing() ? pace.until_due(now) : longest_sleep}));
+      continue;
+    }
+    window.wait(0);
+    viewer.draw();
+    pace.drew(now, Clock::now(), viewer.frame().pace.keeping_up);
+  }
+}
+
+}  // namespace
+
+std::optional<std::string> run_window(const Scene& scene, const WindowOptions& options) {
+  try {
+    window::GlfwWindow window("heml", options.size);
+    window::Viewer viewer(window, scene, options);
+    show(window, viewer, options.exit_after);
+    const Frame& last = viewer.frame();
+    fmt::print("{} pictures drawn, {} ticks, {} missed deadlines, {:.3g} wall seconds a simulated second\n",
+               viewer.drawn(), last.tick, last.pace.missed, last.pace.slowdown);
+    return std::nullopt;
+  } catch (const window::NoDisplay& reason) {
+    return reason.what();
+  }
+}
+
+}  // namespace heml

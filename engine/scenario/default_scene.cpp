@@ -1,0 +1,95 @@
+// Scenes the program makes by itself: the one it opens with, and the one round a bare mesh or surface.
+#include <cmath>
+#include <cstdlib>
+#include <fmt/format.h>
+#include <heml/base/error.hpp>
+#include <heml/base/log.hpp>
+#include <heml/mesh/from_surface.hpp>
+#include <heml/mesh/quality.hpp>
+#include <heml/mesh/read.hpp>
+#include <heml/scenario/scene.hpp>
+#include <heml/scenario/selection.hpp>
+
+namespace heml {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double held_part = 0.08;      // of the height, from the top
+constexpr double sensible_size = 0.2;   // m, longest side of a body whose own size cannot be meant
+constexpr double wanted_tets = 1000;    // of a filled surface by volume; its triangles, which are kept, ask for more
+
+/// Places of a body before the scene scales it.
+struct Extent {
+  Vec3 low, high;
+};
+
+Extent extent_of_mesh(Scene& scene, const fs::path& path) {
+  scene.mesh.file = path;
+  TetMesh mesh = read_tet_mesh(path);
+  const QualityReport report = check_tets(mesh);
+  return {report.low, report.high};
+}
+
+double volume_of(const SurfaceMesh& surface, const Vec3& inside) {
+  double volume = 0;
+  for (const Triangle& t : surface.triangles)
+    volume += signed_volume(inside, surface.nodes[t[0]], surface.nodes[t[1]], surface.nodes[t[2]]);
+  return std::abs(volume);
+}
+
+Extent extent_of_surface(Scene& scene, const fs::path& path) {
+  scene.mesh.surface = path;
+  SurfaceMesh surface = read_surface(path);
+  check_surface(surface);
+  const auto [low, high] = bounds_of(surface.nodes);
+  scene.mesh.max_volume = volume_of(surface, low) / wanted_tets;
+  return {low, high};
+}
+
+/// A body that is metres long, or a speck, was not drawn in metres: unless a scene says better it gets an organ's size.
+void settle_size(Scene& scene, const Extent& extent) {
+  const std::string odd = unit_suspicion(extent.low, extent.high);
+  if (odd.empty()) return;
+  scene.mesh.scale = sensible_size / (extent.high - extent.low).maxCoeff();
+  if (scene.mesh.max_volume) *scene.mesh.max_volume *= std::pow(scene.mesh.scale, 3);
+  warn("{}: {}", scene.file, odd);
+  warn("{}: scaled by {:.6g} to {} m in this default scene; give it a scene file with mesh.scale to choose", scene.file,
+       scene.mesh.scale, sensible_size);
+}
+
+}  // namespace
+
+Scene scene_around(const fs::path& path) {
+  Scene scene;
+  scene.file = path.string();
+  scene.name = path.stem().string();
+  Extent extent = is_tet_mesh_file(path) ? extent_of_mesh(scene, path) : extent_of_surface(scene, path);
+  settle_size(scene, extent);
+  extent.low *= scene.mesh.scale;
+  extent.high *= scene.mesh.scale;
+
+  const Lame lame = lame_from(1.0e4, 0.45);
+  scene.materials = {{std::nullopt, {"neo_hookean", {lame.lambda, lame.mu}, 1000.0}}};
+  const Vec3 size = extent.high - extent.low;
+  Vec3 low = extent.low - size, high = extent.high + size;
+  low.y() = extent.high.y() - held_part * size.y();
+  scene.boundary.push_back({{{}, std::array{low, high}, std::nullopt}, {}});
+  scene.gravity = Vec3(0, -9.81, 0);
+  scene.solver.continuation = true;
+  scene.solver.damping = 1;
+  return scene;
+}
+
+Scene default_scene() { return read_scene(assets_folder() / "scenes" / "kidney_grasp.json"); }
+
+fs::path assets_folder() {
+  if (const char* given = std::getenv("HEML_ASSETS"); given && *given) return given;
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  const fs::path installed = program.parent_path().parent_path() / "share" / "heml";
+  if (!error && fs::is_directory(installed, error)) return installed;
+  return HEML_SOURCE_ASSETS;
+}
+
+}  // namespace heml

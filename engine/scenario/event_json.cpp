@@ -1,0 +1,131 @@
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fmt/format.h>
+#include <heml/scenario/event_json.hpp>
+#include <heml/scenario/material_json.hpp>
+#include <heml/scenario/solver_json.hpp>
+#include <heml/scenario/vector_json.hpp>
+#include <limits>
+
+namespace heml {
+namespace {
+
+constexpr long last_tick = 1'000'000'000'000;
+
+long tick_from(const Key& key, double tick_length) {
+  if (key.only_one_of({"step", "at"}) == "step") return key["step"].integer(0, last_tick);
+  const double tick = std::round(key["at"].non_negative() / tick_length);
+  if (!(tick <= static_cast<double>(last_tick))) key["at"].refuse(fmt::format("must be at most {} ticks", last_tick));
+  return static_cast<long>(tick);
+}
+
+Grasp grasp_from(const Key& key, std::optional<Vec3>& point) {
+  key.allow({"node", "point", "radius"});
+  Grasp grasp;
+  if (key.only_one_of({"node", "point"}) == "node")
+    grasp.node = static_cast<int>(key["node"].integer(0, std::numeric_limits<int>::max()));
+  else
+    point = key["point"].vector();
+  if (const auto radius = key.find("radius")) grasp.radius = radius->non_negative();
+  return grasp;
+}
+
+void expect_true(const Key& key) {
+  if (!key.flag()) key.refuse("must be true, or leave the entry out");
+}
+
+std::vector<std::uint16_t> node_hashes_from(const Key& key) {
+  const std::string digits = key.text();
+  std::vector<std::uint16_t> hashes(digits.size() / 4);
+  bool right = digits.size() % 4 == 0;
+  for (std::size_t i = 0; i < hashes.size() && right; ++i) {
+    const char* begin = digits.data() + 4 * i;
+    right = std::from_chars(begin, begin + 4, hashes[i], 16).ptr == begin + 4;
+  }
+  if (!right) key.refuse("must be 4 hexadecimal digits a node");
+  return hashes;
+}
+
+/// The command an action of that name stands for.
+Command command_from(const Key& key, const std::string& action, std::optional<Vec3>& point) {
+  const Key value = key[action];
+  if (action == "grasp") return grasp_from(value, point);
+  if (action == "move") return MoveTool{value.vector()};
+  if (action == "damping") return SetDamping{value.non_negative()};
+  if (action == "gravity") return SetGravity{value.vector()};
+  if (action == "integrator") return SetIntegrator{integrator_from(value)};
+  if (action == "material") {
+    const RegionMaterial entry = material_from(value);
+    return SetMaterial{entry.region, entry.material};
+  }
+  expect_true(value);
+  if (action == "release") return Release{};
+  return Reset{};
+}
+
+Json command_json(const Grasp& grasp) { return {{"grasp", {{"node", grasp.node}, {"radius", grasp.radius}}}}; }
+Json command_json(const MoveTool& move) { return {{"move", vector_json(move.target)}}; }
+Json command_json(const Release&) { return {{"release", true}}; }
+Json command_json(const SetMaterial& set) { return {{"material", material_json({set.region, set.material})}}; }
+Json command_json(const SetDamping& set) { return {{"damping", set.damping}}; }
+Json command_json(const SetGravity& set) { return {{"gravity", vector_json(set.gravity)}}; }
+Json command_json(const SetIntegrator& set) { return {{"integrator", integrator_name(set.integrator)}}; }
+Json command_json(const Reset&) { return {{"reset", true}}; }
+
+}  // namespace
+
+void read_script_entry(const Key& key, double tick_length, Script& script) {
+  key.allow({"step", "at", "grasp", "move", "release", "material", "damping", "gravity", "integrator", "reset",
+             "checkpoint", "nodes", "end"});
+  const long tick = tick_from(key, tick_length);
+  const std::string action = key.only_one_of(
+      {"grasp", "move", "release", "material", "damping", "gravity", "integrator", "reset", "checkpoint", "end"});
+  if (action != "checkpoint" && key.has("nodes")) key["nodes"].fail("stands without a checkpoint", "take it away");
+  if (action == "checkpoint") {
+    const auto nodes = key.find("nodes");
+    script.checkpoints.push_back(
+        {tick, key["checkpoint"].hash(), nodes ? node_hashes_from(*nodes) : std::vector<std::uint16_t>()});
+  } else if (action == "end") {
+    expect_true(key["end"]);
+    if (script.end) key.fail("a second end", "keep one of them");
+    script.end = tick;
+  } else {
+    Script::Entry entry;
+    entry.event = {tick, command_from(key, action, entry.point)};
+    script.entries.push_back(std::move(entry));
+  }
+}
+
+void install_script(Script script, Scene& scene) {
+  std::stable_sort(script.entries.begin(), script.entries.end(),
+                   [](const Script::Entry& a, const Script::Entry& b) { return a.event.tick < b.event.tick; });
+  std::stable_sort(script.checkpoints.begin(), script.checkpoints.end(),
+                   [](const Checkpoint& a, const Checkpoint& b) { return a.tick < b.tick; });
+  for (const Script::Entry& entry : script.entries) {
+    if (entry.point) scene.grasp_points[scene.events.size()] = *entry.point;
+    scene.events.push_back(entry.event);
+  }
+  scene.recorded_ticks = script.end;
+  if (!script.end && !script.checkpoints.empty()) {  // ended by a crash: as far as its lines go
+    const long event_end = scene.events.empty() ? 0 : scene.events.back().tick + 1;
+    scene.recorded_ticks = std::max(script.checkpoints.back().tick, event_end);
+  }
+  scene.checkpoints = std::move(script.checkpoints);
+}
+
+std::string event_line(const Event& event) {
+  Json json = {{"step", event.tick}};
+  json.update(std::visit([](const auto& command) { return command_json(command); }, event.command));
+  return json_text(json, "");
+}
+
+std::string checkpoint_line(const Checkpoint& checkpoint) {
+  Json json = {{"step", checkpoint.tick}, {"checkpoint", fmt::format("{:016x}", checkpoint.hash)}};
+  std::string digits;
+  for (const std::uint16_t hash : checkpoint.nodes) fmt::format_to(std::back_inserter(digits), "{:04x}", hash);
+  if (!digits.empty()) json["nodes"] = digits;
+  return json_text(json, "");
+}
+
+}  // namespace heml

@@ -1,0 +1,38 @@
+#pragma once
+// Events and checkpoints between JSON and data. One entry, in the lists `events` and `checkpoints` of a document or on
+// a line of a recording, is one of
+//
+//   {"step": 12, "grasp": {"node": 3, "radius": 0.01}}      take hold; or "point": [x, y, z], for the surface
+//                                                         node nearest to it at rest
+//   {"step": 13, "move": [0.1, 0, 0]}                       the tool
+//   {"step": 40, "release": true}
+//   {"step": 50, "material": {"region": 2, "law": ...}}     as an entry of `materials`
+//   {"step": 60, "damping": 2}   {"step": 60, "gravity": [0, -9.81, 0]}   {"step": 60, "integrator": "verlet"}
+//   {"step": 70, "reset": true}
+//   {"step": 80, "checkpoint": "0123456789abcdef", "nodes": "12ab..."}    state hash; 4 hexadecimal digits a node
+//   {"step": 90, "end": true}                               how far a recording went
+//
+// with "at": seconds instead of "step" where that is easier: it means the nearest tick.
+#include <heml/scenario/key.hpp>
+#include <heml/scenario/scene.hpp>
+
+namespace heml {
+
+/// What entries of a script amount to, before sorting.
+struct Script {
+  struct Entry {
+    Event event;
+    std::optional<Vec3> point;  ///< of a grasp given by its place
+  };
+  std::vector<Entry> entries;
+  std::vector<Checkpoint> checkpoints;
+  std::optional<long> end;
+};
+
+/// Adds one entry. tick_length: s. Throws InputError naming the key.
+void read_script_entry(const Key& key, double tick_length, Script& script);
+
+/// Hands a script to a scene, in ascending order of ticks; entries of one tick keep their order.
+void install_script(Script script, Scene& scene);
+
+}  // namespace heml

@@ -1,0 +1,56 @@
+// From a scene to a world: files read, selections resolved, and what only the mesh can tell checked.
+#include <algorithm>
+#include <fmt/format.h>
+#include <heml/base/error.hpp>
+#include <heml/mesh/surface.hpp>
+#include <heml/scenario/load_mesh.hpp>
+#include <heml/scenario/positions_csv.hpp>
+#include <heml/scenario/scene.hpp>
+#include <heml/scenario/selection.hpp>
+
+namespace heml {
+namespace {
+
+/// Tractions and pressures act on faces: a selection without a whole face would be no load at all.
+void expect_a_face(const std::vector<int>& nodes, const BoundaryFaces& faces, const std::string& file,
+                   const std::string& place) {
+  const auto selected = [&](int node) { return std::binary_search(nodes.begin(), nodes.end(), node); };
+  const bool any = std::any_of(faces.triangles.begin(), faces.triangles.end(), [&](const Triangle& face) {
+    return selected(face[0]) && selected(face[1]) && selected(face[2]);
+  });
+  if (!any)
+    throw InputError(file, place, fmt::format("its {} nodes hold no face of the surface", nodes.size()),
+                     "select all three nodes of at least one boundary face");
+}
+
+}  // namespace
+
+WorldSetup load_setup(const Scene& scene) {
+  WorldSetup setup;
+  setup.mesh = load_mesh(scene);
+  setup.materials = scene.materials;
+  for (std::size_t i = 0; i < scene.boundary.size(); ++i) {
+    Boundary boundary = scene.boundary[i].motion;
+    boundary.nodes = select_nodes(scene.boundary[i].where, setup.mesh, scene.file, fmt::format("boundary[{}]", i));
+    setup.boundary.push_back(std::move(boundary));
+  }
+  const BoundaryFaces faces = scene.loads.empty() ? BoundaryFaces{} : boundary_of(setup.mesh);
+  for (std::size_t i = 0; i < scene.loads.size(); ++i) {
+    const std::string place = fmt::format("loads[{}]", i);
+    Load load = scene.loads[i].load;
+    load.nodes = select_nodes(scene.loads[i].where, setup.mesh, scene.file, place);
+    if (load.kind != Load::Kind::force) expect_a_face(load.nodes, faces, scene.file, place);
+    setup.loads.push_back(std::move(load));
+  }
+  setup.gravity = scene.gravity;
+  setup.solver = scene.solver;
+  setup.initial_velocity = scene.initial_velocity;
+  if (!scene.initial_positions.empty())
+    setup.initial_positions = read_positions_csv(find_file(scene, "initial.positions", scene.initial_positions),
+                                                 static_cast<int>(setup.mesh.nodes.size()));
+  return setup;
+}
+
+std::unique_ptr<World> load_world(const Scene& scene) { return make_world(load_setup(scene)); }
+
+}  // namespace heml

@@ -1,0 +1,102 @@
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <heml/base/error.hpp>
+#include <heml/base/hash.hpp>
+#include <heml/base/log.hpp>
+#include <heml/mesh/from_surface.hpp>
+#include <heml/mesh/generate.hpp>
+#include <heml/mesh/quality.hpp>
+#include <heml/mesh/read.hpp>
+#include <heml/scenario/load_mesh.hpp>
+#include <heml/scenario/placement.hpp>
+#include <heml/scenario/selection.hpp>
+
+namespace heml {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> asset_names(const fs::path& folder) {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
+    if (entry.path().extension() == ".mesh") names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+TetMesh asset_mesh(const Scene& scene) {
+  const fs::path folder = assets_folder() / "meshes", path = folder / (scene.mesh.asset + ".mesh");
+  std::error_code error;
+  if (!fs::exists(path, error))
+    throw InputError(scene.file, "mesh.asset", fmt::format("'{}' is not in {}", scene.mesh.asset, folder.string()),
+                     fmt::format("there are: {}", fmt::join(asset_names(folder), ", ")));
+  return read_tet_mesh(path);
+}
+
+TetMesh filled_surface(const Scene& scene) {
+  SurfaceMesh surface = read_surface(find_file(scene, "mesh.surface", scene.mesh.surface));
+  check_surface(surface);
+  TetgenOptions options;
+  options.radius_edge_ratio = scene.mesh.radius_edge_ratio;
+  // TetGen sees the file's own units, the scene speaks of the body as scaled.
+  if (scene.mesh.max_volume) options.max_volume = *scene.mesh.max_volume / std::pow(scene.mesh.scale, 3);
+  return tetrahedralize(surface, options);
+}
+
+TetMesh raw_mesh(const Scene& scene) {
+  if (!scene.mesh.file.empty()) return read_tet_mesh(find_file(scene, "mesh.file", scene.mesh.file));
+  if (!scene.mesh.surface.empty()) return filled_surface(scene);
+  if (scene.mesh.box) return make_box(scene.mesh.box->size, scene.mesh.box->cells, scene.mesh.box->origin);
+  return asset_mesh(scene);
+}
+
+void expect_recorded_mesh(const Scene& scene, const TetMesh& mesh) {
+  const MeshIdentity now = identity_of(mesh), then = *scene.recorded_mesh;
+  if (now == then) return;
+  const std::string problem =
+      fmt::format("was recorded on a mesh of {} nodes and {} tetrahedra (hash {:016x}); {} gives {} and {} ({:016x})",
+                  then.nodes, then.tets, then.hash, mesh.source, now.nodes, now.tets, now.hash);
+  throw InputError(scene.file, "recorded", problem, "replay it on the mesh it was recorded with");
+}
+
+}  // namespace
+
+fs::path find_file(const Scene& scene, const std::string& key, const fs::path& path) {
+  std::error_code error;
+  if (fs::exists(path, error)) return path;
+  const fs::path beside = fs::path(scene.file).parent_path() / path.filename();
+  if (scene.recorded_mesh && fs::exists(beside, error)) {
+    warn("{}: {}: '{}' is gone; taking '{}' beside the recording", scene.file, key, path.string(), beside.string());
+    return beside;
+  }
+  throw InputError(scene.file, key, fmt::format("there is no file '{}'", path.string()),
+                   "paths are relative to the scene file");
+}
+
+MeshIdentity identity_of(const TetMesh& mesh) {
+  std::uint64_t hash = 0;
+  for (const Vec3& node : mesh.nodes)
+    for (const double coordinate : node) hash = mix(hash, coordinate);
+  const auto number = [](int value) { return static_cast<std::uint64_t>(static_cast<std::uint32_t>(value)); };
+  for (const Tet& tet : mesh.tets)
+    for (const int node : tet) hash = mix(hash, number(node));
+  for (const int region : mesh.regions) hash = mix(hash, number(region));
+  return {static_cast<int>(mesh.nodes.size()), static_cast<int>(mesh.tets.size()), hash};
+}
+
+TetMesh load_mesh(const Scene& scene) {
+  TetMesh mesh = raw_mesh(scene);
+  const Placement placement(scene.mesh);
+  for (Vec3& node : mesh.nodes) node = placement(node);
+  const QualityReport report = check_tets(mesh);
+  for (const std::string& warning : report.warnings) warn("{}: {}", mesh.source, warning);
+  if (!scene.mesh.box)
+    if (const std::string odd = unit_suspicion(report.low, report.high); !odd.empty()) warn("{}: {}", mesh.source, odd);
+  if (scene.recorded_mesh) expect_recorded_mesh(scene, mesh);
+  return mesh;
+}
+
+}  // namespace heml

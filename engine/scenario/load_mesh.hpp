@@ -1,0 +1,18 @@
+#pragma once
+// The mesh of a scene, put where the scene wants it.
+#include <heml/mesh/tet_mesh.hpp>
+#include <heml/scenario/scene.hpp>
+
+namespace heml {
+
+/// Reads or makes the mesh, scales, rotates and moves it, and checks it; what is odd about it goes to warn().
+/// Throws InputError, also when the scene was recorded with another mesh.
+TetMesh load_mesh(const Scene& scene);
+
+MeshIdentity identity_of(const TetMesh& mesh);
+
+/// Where a file of the scene is: the path, or, for a recording whose file is gone, one of the same name beside the
+/// recording. Throws InputError naming the key when there is none.
+std::filesystem::path find_file(const Scene& scene, const std::string& key, const std::filesystem::path& path);
+
+}  // namespace heml

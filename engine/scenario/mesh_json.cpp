@@ -1,0 +1,111 @@
+#include <algorithm>
+#include <fmt/format.h>
+#include <heml/scenario/mesh_json.hpp>
+#include <heml/scenario/vector_json.hpp>
+
+namespace heml {
+namespace {
+
+constexpr double most_cells = 2e6;  // ten million tetrahedra
+
+MeshSpec::Box box_from(const Key& key) {
+  key.allow({"size", "cells", "origin"});
+  MeshSpec::Box box{key["size"].vector(), Vec3::Zero(), {}};
+  if (!(box.size.minCoeff() > 0)) key["size"].refuse("must be greater than 0 along x, y and z");
+  const Key cells = key["cells"];
+  if (cells.size() != 3) cells.refuse("must be three whole numbers [nx, ny, nz]");
+  double product = 1;
+  for (std::size_t i = 0; i < 3; ++i) {
+    box.cells[i] = static_cast<int>(cells[i].integer(1, static_cast<long>(most_cells)));
+    product *= box.cells[i];
+  }
+  if (product > most_cells) cells.refuse(fmt::format("must be at most {} cells in all", most_cells));
+  if (const auto origin = key.find("origin")) box.origin = origin->vector();
+  return box;
+}
+
+void read_tetgen(const Key& key, MeshSpec& mesh) {
+  key.allow({"radius_edge_ratio", "max_volume"});
+  if (const auto ratio = key.find("radius_edge_ratio")) mesh.radius_edge_ratio = ratio->between(1, 100);
+  if (const auto volume = key.find("max_volume")) mesh.max_volume = volume->positive();
+}
+
+/// The name of a file in the assets' folder of meshes, and not a way out of it.
+std::string asset_from(const Key& key) {
+  const std::string name = key.text();
+  const bool plain = std::all_of(name.begin(), name.end(), [](unsigned char c) {
+    return (c < 0x80 && std::isalnum(c)) || c == '_' || c == '-';
+  });
+  if (name.empty() || !plain) key.refuse("must be the name of a mesh that comes with the program, like \"kidney\"");
+  return name;
+}
+
+}  // namespace
+
+std::filesystem::path path_from(const Key& key, const std::filesystem::path& folder) {
+  const std::string text = key.text();
+  if (text.empty() || text.find('\0') != std::string::npos) key.refuse("must be the path of a file");
+  return folder / text;  // an absolute path stays what it is
+}
+
+std::string path_text(const std::filesystem::path& path, const std::filesystem::path& folder) {
+  std::error_code ignored;
+  const std::filesystem::path whole = std::filesystem::absolute(path, ignored).lexically_normal();
+  if (folder.empty()) return whole.string();
+  const std::filesystem::path relative =
+      whole.lexically_relative(std::filesystem::absolute(folder, ignored).lexically_normal());
+  return relative.empty() || *relative.begin() == ".." ? whole.string() : relative.string();
+}
+
+MeshSpec mesh_from(const Key& key, const std::filesystem::path& folder) {
+  key.allow({"file", "surface", "tetgen", "box", "asset", "scale", "rotate", "translate"});
+  MeshSpec mesh;
+  const std::string kind = key.only_one_of({"file", "surface", "box", "asset"});
+  if (kind == "file") mesh.file = path_from(key["file"], folder);
+  if (kind == "surface") mesh.surface = path_from(key["surface"], folder);
+  if (kind == "box") mesh.box = box_from(key["box"]);
+  if (kind == "asset") mesh.asset = asset_from(key["asset"]);
+  if (const auto tetgen = key.find("tetgen")) {
+    if (kind != "surface") tetgen->fail("goes with a surface", "take it away, or give mesh.surface");
+    read_tetgen(*tetgen, mesh);
+  }
+  if (const auto scale = key.find("scale")) mesh.scale = scale->positive();
+  if (const auto rotate = key.find("rotate"))
+    read_rotation(*rotate, mesh.rotate_axis, mesh.rotate_origin, mesh.rotate_degrees);
+  if (const auto translate = key.find("translate")) mesh.translate = translate->vector();
+  return mesh;
+}
+
+Json mesh_json(const MeshSpec& mesh, const std::filesystem::path& folder) {
+  Json json;
+  if (!mesh.file.empty()) {
+    json["file"] = path_text(mesh.file, folder);
+  } else if (!mesh.surface.empty()) {
+    json["surface"] = path_text(mesh.surface, folder);
+    json["tetgen"] = {{"radius_edge_ratio", mesh.radius_edge_ratio}};
+    if (mesh.max_volume) json["tetgen"]["max_volume"] = *mesh.max_volume;
+  } else if (mesh.box) {
+    json["box"] = {{"size", vector_json(mesh.box->size)},
+                   {"cells", mesh.box->cells},
+                   {"origin", vector_json(mesh.box->origin)}};
+  } else {
+    json["asset"] = mesh.asset;
+  }
+  json["scale"] = mesh.scale;
+  json["rotate"] = rotation_json(mesh.rotate_axis, mesh.rotate_origin, mesh.rotate_degrees);
+  json["translate"] = vector_json(mesh.translate);
+  return json;
+}
+
+void read_rotation(const Key& key, Vec3& axis, Vec3& origin, double& degrees) {
+  key.allow({"axis", "origin", "degrees"});
+  axis = key["axis"].direction();
+  degrees = key["degrees"].number();
+  if (const auto given = key.find("origin")) origin = given->vector();
+}
+
+Json rotation_json(const Vec3& axis, const Vec3& origin, double degrees) {
+  return {{"axis", vector_json(axis)}, {"origin", vector_json(origin)}, {"degrees", degrees}};
+}
+
+}  // namespace heml

@@ -1,0 +1,29 @@
+#pragma once
+// Where a scene puts its mesh.
+#include <heml/scenario/scene.hpp>
+#include <numbers>
+
+namespace heml {
+
+/// x -> rotate(scale x − origin) + origin + translate. What a scene leaves out changes no bit.
+class Placement {
+ public:
+  explicit Placement(const MeshSpec& mesh)
+      : scale_(mesh.scale), turns_(mesh.rotate_degrees != 0), origin_(mesh.rotate_origin), translate_(mesh.translate) {
+    if (turns_) rotation_ = Eigen::AngleAxisd(mesh.rotate_degrees * std::numbers::pi / 180, mesh.rotate_axis);
+  }
+
+  Vec3 operator()(const Vec3& x) const {
+    const Vec3 scaled = scale_ * x;
+    const Vec3 turned = turns_ ? Vec3(rotation_ * (scaled - origin_) + origin_) : scaled;
+    return turned + translate_;
+  }
+
+ private:
+  double scale_;
+  bool turns_;
+  Mat3 rotation_ = Mat3::Identity();
+  Vec3 origin_, translate_;
+};
+
+}  // namespace heml

@@ -1,0 +1,83 @@
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fmt/format.h>
+#include <heml/base/error.hpp>
+#include <heml/scenario/json_text.hpp>
+#include <heml/scenario/positions_csv.hpp>
+#include <heml/scenario/text_file.hpp>
+#include <string>
+#include <string_view>
+
+namespace heml {
+namespace {
+
+constexpr std::string_view header = "node,x,y,z";
+
+/// Takes the next line off a text, without its end.
+std::string_view take_line(std::string_view& text) {
+  const std::size_t end = text.find('\n');
+  std::string_view line = text.substr(0, end);
+  text.remove_prefix(end == text.npos ? text.size() : end + 1);
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  return line;
+}
+
+/// Takes the next number off a line, with the comma behind it; false when there is none.
+template <class Number>
+bool take_number(std::string_view& line, Number& number) {
+  const std::size_t comma = line.find(',');
+  std::string_view cell = line.substr(0, comma);
+  line.remove_prefix(comma == line.npos ? line.size() : comma + 1);
+  cell.remove_prefix(std::min(cell.find_first_not_of(' '), cell.size()));
+  cell = cell.substr(0, cell.find_last_not_of(' ') + 1);
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
+  return error == std::errc() && end == cell.data() + cell.size();
+}
+
+}  // namespace
+
+std::vector<Vec3> read_positions_csv(const std::filesystem::path& path, int nodes) {
+  const std::string content = read_text_file(path);
+  std::string_view text = content;
+  const auto fail = [&](long line, const std::string& problem, const std::string& remedy) {
+    throw InputError(path.string(), fmt::format("line {}", line), problem, remedy);
+  };
+  if (const std::string_view first = take_line(text); first != header)
+    fail(1, fmt::format("is '{}'", shown(first)), fmt::format("must be the header {}", header));
+  std::vector<Vec3> positions(static_cast<std::size_t>(nodes), Vec3::Zero());
+  std::vector<bool> given(positions.size(), false);
+  int count = 0;
+  for (long line = 2; !text.empty(); ++line) {
+    const std::string_view entry = take_line(text);
+    if (is_blank(entry)) continue;
+    std::string_view rest = entry;
+    int node = -1;
+    Vec3 x;
+    const bool read =
+        take_number(rest, node) && take_number(rest, x[0]) && take_number(rest, x[1]) && take_number(rest, x[2]);
+    if (!read || !rest.empty() || !x.allFinite())
+      fail(line, fmt::format("is '{}'", shown(entry)), "must be node,x,y,z: four numbers");
+    if (node < 0 || node >= nodes)
+      fail(line, fmt::format("is of node {}", node), fmt::format("the mesh has nodes 0 to {}", nodes - 1));
+    if (given[node]) fail(line, fmt::format("is of node {} once more", node), "give every node once");
+    given[node] = true;
+    positions[node] = x;
+    ++count;
+  }
+  if (count != nodes)
+    throw InputError(path.string(), "", fmt::format("gives {} of {} nodes", count, nodes), "give every node");
+  return positions;
+}
+
+void write_positions_csv(const std::filesystem::path& path, const std::vector<Vec3>& positions) {
+  fmt::memory_buffer text;
+  fmt::format_to(std::back_inserter(text), "{}\n", header);
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    const Vec3& x = positions[i];
+    fmt::format_to(std::back_inserter(text), "{},{:.17g},{:.17g},{:.17g}\n", i, x.x(), x.y(), x.z());
+  }
+  write_text_file(path, std::string_view(text.data(), text.size()));
+}
+
+}  // namespace heml

@@ -1,0 +1,168 @@
+// A scene from JSON text: one document, or JSON Lines (first line the scene, then one entry of its script a line).
+#include <algorithm>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <heml/base/error.hpp>
+#include <heml/base/log.hpp>
+#include <heml/mesh/read.hpp>
+#include <heml/scenario/entries_json.hpp>
+#include <heml/scenario/event_json.hpp>
+#include <heml/scenario/material_json.hpp>
+#include <heml/scenario/mesh_json.hpp>
+#include <heml/scenario/scene.hpp>
+#include <heml/scenario/solver_json.hpp>
+#include <heml/scenario/text_file.hpp>
+#include <heml/scenario/view_json.hpp>
+#include <limits>
+
+namespace heml {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr long schema_version = 1;
+constexpr std::string_view surface_endings[] = {".obj", ".stl", ".ply",  ".off", ".dae",
+                                                ".fbx", ".gltf", ".glb", ".3ds"};
+
+void check_version(const Key& scene) {
+  if (!scene.json().is_object()) scene.refuse("must be a scene: an object { ... }");
+  const auto version = scene.find("schema_version");
+  if (!version) scene.fail("'schema_version' is missing", "add \"schema_version\": 1");
+  if (!version->json().is_number_integer() || version->json() != schema_version)
+    version->refuse("this build reads version 1");
+}
+
+std::vector<RegionMaterial> materials_from(const Key& key) {
+  std::vector<RegionMaterial> materials;
+  key.each([&](const Key& entry) {
+    RegionMaterial material = material_from(entry);
+    for (std::size_t i = 0; i < materials.size(); ++i) {
+      if (materials[i].region != material.region) continue;
+      const std::string region = material.region ? fmt::format("region {}", *material.region) : "no region";
+      entry.fail(fmt::format("is for {}, like materials[{}]", region, i), "keep one, or give it another region");
+    }
+    materials.push_back(std::move(material));
+  });
+  if (materials.empty()) key.fail("is empty", "give at least one material");
+  return materials;
+}
+
+void read_outputs(const Key& key, Scene& scene) {
+  key.allow({"times", "positions", "vtu"});
+  if (const auto times = key.find("times")) {
+    times->each([&](const Key& time) {
+      scene.output_times.push_back(time.non_negative());
+      if (time.number() > scene.solver.duration)
+        time.refuse(fmt::format("must be at most solver.duration, {} s", scene.solver.duration));
+    });
+  }
+  if (const auto positions = key.find("positions")) scene.output_positions = positions->flag();
+  if (const auto vtu = key.find("vtu")) scene.output_vtu = vtu->flag();
+}
+
+void read_initial(const Key& key, const fs::path& folder, Scene& scene) {
+  key.allow({"velocity", "positions"});
+  if (const auto velocity = key.find("velocity")) scene.initial_velocity = velocity->vector();
+  if (const auto positions = key.find("positions")) scene.initial_positions = path_from(*positions, folder);
+}
+
+MeshIdentity identity_from(const Key& key) {
+  key.allow({"nodes", "tets", "mesh"});
+  constexpr long most = std::numeric_limits<int>::max();
+  return {static_cast<int>(key["nodes"].integer(0, most)), static_cast<int>(key["tets"].integer(0, most)),
+          key["mesh"].hash()};
+}
+
+/// Everything but the script.
+Scene scene_from(const Key& key, const fs::path& folder) {
+  check_version(key);
+  key.allow({"schema_version", "name", "title", "description", "mesh", "materials", "boundary", "loads", "gravity",
+             "solver", "outputs", "initial", "view", "events", "checkpoints", "recorded"});
+  Scene scene;
+  scene.file = key.file();
+  if (const auto name = key.find("name")) scene.name = name->text();
+  if (const auto title = key.find("title")) scene.title = title->text();
+  if (const auto description = key.find("description")) scene.description = description->text();
+  scene.mesh = mesh_from(key["mesh"], folder);
+  scene.materials = materials_from(key["materials"]);
+  if (const auto boundary = key.find("boundary"))
+    boundary->each([&](const Key& entry) { scene.boundary.push_back(boundary_from(entry)); });
+  if (const auto loads = key.find("loads"))
+    loads->each([&](const Key& entry) { scene.loads.push_back(load_from(entry)); });
+  if (const auto gravity = key.find("gravity")) scene.gravity = gravity->vector();
+  if (const auto solver = key.find("solver")) scene.solver = solver_from(*solver);
+  if (const auto outputs = key.find("outputs")) read_outputs(*outputs, scene);
+  if (const auto initial = key.find("initial")) read_initial(*initial, folder, scene);
+  if (const auto view = key.find("view")) scene.view = view_from(*view);
+  if (const auto recorded = key.find("recorded")) scene.recorded_mesh = identity_from(*recorded);
+  return scene;
+}
+
+/// The script that stands in the scene's own object.
+void read_lists(const Key& key, double tick_length, Script& script) {
+  for (const std::string_view name : {"events", "checkpoints"})
+    if (const auto entries = key.find(name))
+      entries->each([&](const Key& entry) { read_script_entry(entry, tick_length, script); });
+}
+
+/// The lines after the first. A last line cut off is what a crash in the middle of writing leaves: it is dropped.
+void read_lines(std::string_view text, const std::string& file, double tick_length, Script& script) {
+  for (long line = 2; !text.empty(); ++line) {
+    const std::size_t end = text.find('\n');
+    const std::string_view entry = text.substr(0, end);
+    text.remove_prefix(end == text.npos ? text.size() : end + 1);
+    if (is_blank(entry)) continue;
+    if (end == text.npos && !Json::accept(entry)) {
+      warn("{}: line {}: cut off in the middle; the recording is read up to there", file, line);
+      return;
+    }
+    const Json json = parse_json(entry, file, line);
+    read_script_entry(Key(json, file, fmt::format("line {}", line)), tick_length, script);
+  }
+}
+
+/// Whether a text is JSON Lines: its first line is a value by itself and something follows.
+bool is_json_lines(std::string_view text) {
+  const std::size_t end = text.find('\n');
+  return end != text.npos && !is_blank(text.substr(end)) && Json::accept(text.substr(0, end));
+}
+
+bool looks_like_json(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t\r\n\xef\xbb\xbf");
+  return first != text.npos && text[first] == '{';
+}
+
+}  // namespace
+
+Scene parse_scene(std::string_view text, const fs::path& as_if_from) {
+  const std::string file = as_if_from.string();
+  const std::size_t end = is_json_lines(text) ? text.find('\n') : text.size();
+  const Json document = parse_json(text.substr(0, end), file);
+  const Key key(document, file);
+  Scene scene = scene_from(key, as_if_from.parent_path());
+  Script script;
+  read_lists(key, scene.solver.tick(), script);
+  if (end < text.size()) read_lines(text.substr(end + 1), file, scene.solver.tick(), script);
+  install_script(std::move(script), scene);
+  return scene;
+}
+
+Scene read_scene(const fs::path& path) {
+  const std::string ending = lower_case(path.extension().string());
+  const auto surface = std::find(std::begin(surface_endings), std::end(surface_endings), ending);
+  if (surface != std::end(surface_endings) || is_tet_mesh_file(path)) return scene_around(path);
+  const std::string text = read_text_file(path);
+  if (ending != ".json" && ending != ".jsonl" && !looks_like_json(text))
+    throw InputError(path.string(), "", "is not a kind of file this program opens",
+                     fmt::format("a scene (.json), a recording (.jsonl), tetrahedra (.msh .mesh .vtk .vtu .node .ele) "
+                                 "or a surface ({})",
+                                 fmt::join(surface_endings, " ")));
+  return parse_scene(text, path);
+}
+
+Material read_material(const fs::path& path) {
+  const Json document = parse_json(read_text_file(path), path.string());
+  return material_from(Key(document, path.string())).material;
+}
+
+}  // namespace heml

@@ -1,0 +1,57 @@
+#include <algorithm>
+#include <fmt/format.h>
+#include <heml/mesh/write.hpp>
+#include <heml/scenario/json_text.hpp>
+#include <heml/scenario/positions_csv.hpp>
+#include <heml/scenario/report.hpp>
+#include <heml/scenario/text_file.hpp>
+#include <heml/scenario/vector_json.hpp>
+
+namespace heml {
+namespace {
+
+Json halt_json(const Halt& halt) {
+  Json json = {{"cause", halt.cause == Halt::Cause::unstable ? "unstable" : "out_of_range"}, {"message", halt.message}};
+  if (halt.element >= 0) json["element"] = halt.element;
+  if (halt.node >= 0) json["node"] = halt.node;
+  return json;
+}
+
+}  // namespace
+
+void write_report(const std::filesystem::path& path, World& world, const SolveFacts& facts) {
+  const Energies energies = world.energies();
+  const std::vector<double> J = world.volume_ratios();
+  Json report = {{"converged", facts.converged},
+                 {"load", facts.load},
+                 {"time", world.time()},
+                 {"ticks", world.ticks()},
+                 {"steps", world.steps()},
+                 {"iterations", facts.iterations},
+                 {"residual", facts.residual},
+                 {"wall_seconds", facts.wall_seconds},
+                 {"kinetic_energy", energies.kinetic},
+                 {"elastic_energy", energies.elastic},
+                 {"potential_energy", energies.potential},
+                 {"min_J", *std::min_element(J.begin(), J.end())},
+                 {"max_J", *std::max_element(J.begin(), J.end())},
+                 {"inverted", std::count_if(J.begin(), J.end(), [](double ratio) { return !(ratio > 0); })}};
+  report["reaction"] = Json::array();
+  for (const Vec3& force : world.reactions()) report["reaction"].push_back(vector_json(force));
+  report["nodes"] = world.setup().mesh.nodes.size();
+  report["tets"] = world.setup().mesh.tets.size();
+  report["state_hash"] = fmt::format("{:016x}", world.state_hash());
+  if (facts.halt) report["halt"] = halt_json(*facts.halt);
+  write_text_file(path, json_text(report, path.string(), true) + "\n");
+}
+
+void write_state(const std::filesystem::path& folder, const std::string& stem, const World& world, bool csv, bool vtu) {
+  const std::vector<Vec3> positions = world.positions();
+  if (csv) write_positions_csv(folder / (stem + ".csv"), positions);
+  if (!vtu) return;
+  TetMesh mesh = world.setup().mesh;
+  mesh.nodes = positions;
+  write_tet_mesh(folder / (stem + ".vtu"), mesh);
+}
+
+}  // namespace heml

@@ -1,0 +1,26 @@
+#pragma once
+// What `heml solve` writes about the state it reached.
+#include <filesystem>
+#include <heml/world/world.hpp>
+#include <optional>
+#include <string>
+
+namespace heml {
+
+/// What is known of a solve besides the world's state.
+struct SolveFacts {
+  bool converged = true;
+  double load = 1;            ///< fraction of the load reached (static); 1 for dynamics
+  long iterations = 0;        ///< of implicit and static solves
+  double residual = 0;        ///< likewise, last one
+  double wall_seconds = 0;
+  std::optional<Halt> halt;
+};
+
+/// report.json. Throws InputError when it cannot be written.
+void write_report(const std::filesystem::path& path, World& world, const SolveFacts& facts);
+
+/// FOLDER/STEM.csv and, where asked for, FOLDER/STEM.vtu of the positions now. Throws InputError likewise.
+void write_state(const std::filesystem::path& folder, const std::string& stem, const World& world, bool csv, bool vtu);
+
+}  // namespace heml

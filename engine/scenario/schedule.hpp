@@ -1,0 +1,29 @@
+#pragma once
+// The events of a scene, handed out tick by tick.
+#include <heml/scenario/scene.hpp>
+#include <heml/world/world.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace heml {
+
+class Schedule {
+ public:
+  /// Resolves grasps given by a place to the surface node nearest at rest. mesh: as the world has it.
+  /// Throws InputError for a grasp of a node the mesh does not have.
+  Schedule(const Scene& scene, const TetMesh& mesh);
+
+  /// The events up to a tick that were not handed out before. Valid while the schedule lives.
+  std::span<const Event> due(long tick);
+
+  /// Applies the events due at the world's coming tick. Throws InputError when the world refuses one.
+  void apply(World& world);
+
+ private:
+  std::string file_;
+  std::vector<Event> events_;  ///< ascending in tick
+  std::size_t next_ = 0;
+};
+
+}  // namespace heml

@@ -1,0 +1,24 @@
+#pragma once
+// Runs a scene to its end without drawing, and writes what it reached.
+#include <filesystem>
+#include <functional>
+#include <heml/scenario/scene.hpp>
+#include <heml/world/world.hpp>
+#include <optional>
+
+namespace heml {
+
+struct SolveResult {
+  std::optional<Halt> halt;  ///< why it stopped early; what was reached is written all the same
+  long ticks = 0, steps = 0;
+  double time = 0;          ///< s, simulated
+  double wall_seconds = 0;  ///< of stepping
+};
+
+/// Dynamics with the scene's events up to its duration. Writes into `out` (made when missing) positions.csv and
+/// report.json, and for outputs.times, in the order listed, positions_<k>.csv; .vtu beside them where asked for.
+/// progress: called now and then with the fraction done. Throws InputError.
+SolveResult solve(const Scene& scene, const std::filesystem::path& out,
+                  const std::function<void(double)>& progress = {});
+
+}  // namespace heml

@@ -1,0 +1,73 @@
+#include <algorithm>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <heml/scenario/solver_json.hpp>
+
+namespace heml {
+namespace {
+
+/// Integrators of the scene format, whether or not this build has them.
+constexpr std::string_view known_integrators[] = {"symplectic_euler", "verlet", "backward_euler", "bdf2",
+                                                  "tr_bdf2",          "static", "auto"};
+constexpr double most_ticks = 1e12;
+constexpr double fastest_rate = 1e6;  // Hz
+constexpr long most_threads = 256;
+
+void check_element(const Key& key) {
+  constexpr std::string_view names[] = {"p1", "nodal_pressure"};
+  if (key.one_of(names) != 0) key.fail("the element 'nodal_pressure' is not part of this build", "available: p1");
+}
+
+}  // namespace
+
+Integrator integrator_from(const Key& key) {
+  const std::string name = key.text();
+  if (const auto integrator = find_integrator(name)) return *integrator;
+  std::vector<std::string_view> available;
+  std::copy_if(std::begin(known_integrators), std::end(known_integrators), std::back_inserter(available),
+               [](std::string_view known) { return find_integrator(std::string(known)).has_value(); });
+  if (std::find(std::begin(known_integrators), std::end(known_integrators), name) == std::end(known_integrators))
+    key.one_of(available);  // throws: unknown altogether
+  key.fail(fmt::format("the integrator '{}' is not part of this build", name),
+           fmt::format("available: {}", fmt::join(available, ", ")));
+}
+
+SolverSettings solver_from(const Key& key) {
+  key.allow({"integrator", "step", "rate", "duration", "damping", "precision", "threads", "element", "continuation",
+             "tolerance"});
+  SolverSettings solver;
+  if (const auto integrator = key.find("integrator")) solver.integrator = integrator_from(*integrator);
+  if (key.has("step") && key.has("rate")) key.fail("holds step and rate", "give one: a step is one tick");
+  if (const auto step = key.find("step")) solver.step = step->positive();
+  if (const auto rate = key.find("rate")) solver.rate = rate->between(1, fastest_rate);
+  if (const auto duration = key.find("duration")) solver.duration = duration->non_negative();
+  if (!(solver.duration / solver.tick() <= most_ticks))
+    key.fail(fmt::format("a duration of {} s is too many steps of {} s", solver.duration, solver.tick()),
+             fmt::format("at most {} steps", most_ticks));
+  if (const auto damping = key.find("damping")) solver.damping = damping->non_negative();
+  if (const auto precision = key.find("precision")) {
+    constexpr std::string_view names[] = {"double", "float"};
+    solver.single_precision = precision->one_of(names) == 1;
+  }
+  if (const auto threads = key.find("threads")) solver.threads = static_cast<int>(threads->integer(0, most_threads));
+  if (const auto element = key.find("element")) check_element(*element);
+  if (const auto continuation = key.find("continuation")) solver.continuation = continuation->flag();
+  if (const auto tolerance = key.find("tolerance")) tolerance->positive();
+  return solver;
+}
+
+Json solver_json(const SolverSettings& solver) {
+  Json json = {{"integrator", integrator_name(solver.integrator)}};
+  if (solver.step)
+    json["step"] = *solver.step;
+  else
+    json["rate"] = solver.rate;
+  json["duration"] = solver.duration;
+  json["damping"] = solver.damping;
+  json["precision"] = solver.single_precision ? "float" : "double";
+  json["threads"] = solver.threads;
+  json["continuation"] = solver.continuation;
+  return json;
+}
+
+}  // namespace heml

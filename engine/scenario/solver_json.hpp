@@ -1,0 +1,16 @@
+#pragma once
+// The `solver` object of a scene between JSON and data.
+#include <heml/scenario/key.hpp>
+#include <heml/world/setup.hpp>
+
+namespace heml {
+
+/// The integrator a value names. Throws InputError for one that is unknown or not part of this build.
+Integrator integrator_from(const Key& key);
+
+/// Throws InputError naming the key. `element` and `tolerance` are checked; neither changes what this build runs.
+SolverSettings solver_from(const Key& key);
+
+Json solver_json(const SolverSettings& solver);
+
+}  // namespace heml

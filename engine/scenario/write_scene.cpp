@@ -1,0 +1,44 @@
+#include <fmt/format.h>
+#include <heml/scenario/entries_json.hpp>
+#include <heml/scenario/material_json.hpp>
+#include <heml/scenario/mesh_json.hpp>
+#include <heml/scenario/scene.hpp>
+#include <heml/scenario/solver_json.hpp>
+#include <heml/scenario/vector_json.hpp>
+#include <heml/scenario/view_json.hpp>
+
+namespace heml {
+namespace {
+
+void put_text(Json& json, const char* key, const std::string& text) {
+  if (!text.empty()) json[key] = text;
+}
+
+}  // namespace
+
+std::string scene_line(const Scene& scene, const std::filesystem::path& folder) {
+  Json json = {{"schema_version", 1}};
+  put_text(json, "name", scene.name);
+  put_text(json, "title", scene.title);
+  put_text(json, "description", scene.description);
+  json["mesh"] = mesh_json(scene.mesh, folder);
+  json["materials"] = Json::array();
+  for (const RegionMaterial& material : scene.materials) json["materials"].push_back(material_json(material));
+  json["boundary"] = Json::array();
+  for (const BoundaryEntry& entry : scene.boundary) json["boundary"].push_back(boundary_json(entry));
+  json["loads"] = Json::array();
+  for (const LoadEntry& entry : scene.loads) json["loads"].push_back(load_json(entry));
+  json["gravity"] = vector_json(scene.gravity);
+  json["solver"] = solver_json(scene.solver);
+  json["outputs"] = {{"times", scene.output_times}, {"positions", scene.output_positions}, {"vtu", scene.output_vtu}};
+  json["initial"] = {{"velocity", vector_json(scene.initial_velocity)}};
+  if (!scene.initial_positions.empty()) json["initial"]["positions"] = path_text(scene.initial_positions, folder);
+  json["view"] = view_json(scene.view);
+  if (scene.recorded_mesh)
+    json["recorded"] = {{"nodes", scene.recorded_mesh->nodes},
+                        {"tets", scene.recorded_mesh->tets},
+                        {"mesh", fmt::format("{:016x}", scene.recorded_mesh->hash)}};
+  return json_text(json, scene.file);
+}
+
+}  // namespace heml

@@ -1,0 +1,5 @@
+// What the ground sees of the body. r: whether it hides the key light; g: how near it is.
+in float v_height;
+out vec4 colour;
+
+void main() { colour = vec4(1.0, exp(-5.0 * max(v_height, 0.0)), 0.0, 1.0); }

@@ -1,0 +1,9 @@
+// Edges of the mesh, drawn a little nearer than the surface they lie on.
+layout(location = 0) in vec3 a_position;
+
+uniform mat4 view_projection;
+
+void main() {
+  gl_Position = view_projection * vec4(a_position, 1.0);
+  gl_Position.z -= 0.0006 * gl_Position.w;
+}

@@ -1,0 +1,94 @@
+// Wet tissue, or (FIELD) the same surface carrying a colour map; or (OUTLINE) the strip that fades it out.
+in vec3 v_normal;
+in vec3 v_on_sphere;
+in vec3 v_slope;
+in vec3 v_view;
+in vec4 v_surface;
+in float v_visible;
+in float v_value;
+#ifdef OUTLINE
+in float v_cover;
+#else
+const float v_cover = 1.0;
+#endif
+
+uniform vec3 key_direction;
+uniform vec3 lamp_right, lamp_up;  // across the lamp, unit
+uniform vec3 rim_direction;
+uniform sampler2D colour_map;
+uniform sampler2D detail_map;  // octahedral: rgb: slope of fine bumps, a: vessels
+
+out vec4 colour;
+
+const float fine_bumps = 0.42;
+
+// Where a direction lies on the octahedral map.
+vec2 octahedral(vec3 d) {
+  vec3 p = d / (abs(d.x) + abs(d.y) + abs(d.z));
+  vec2 folded = (1.0 - abs(p.yx)) * vec2(p.x < 0.0 ? -1.0 : 1.0, p.y < 0.0 ? -1.0 : 1.0);
+  return 0.5 + 0.5 * (p.z < 0.0 ? folded : p.xy);
+}
+
+// What a mirror on the body would show: a soft box where the key light is, a strip behind, a dim room.
+vec3 reflected(vec3 r) {
+  float ahead = dot(r, key_direction);
+  vec2 box = abs(vec2(dot(r, lamp_right), dot(r, lamp_up)));
+  float lamp = (1.0 - smoothstep(0.12, 0.42, box.x)) * (1.0 - smoothstep(0.08, 0.36, box.y)) * step(0.0, ahead);
+  float strip = smoothstep(0.80, 0.97, dot(r, rim_direction));
+  float room = smoothstep(-0.3, 1.0, r.y);
+  return vec3(0.03, 0.05, 0.055) + 0.35 * room * sky_colour + 6.0 * lamp * key_colour + 1.8 * strip * sky_colour;
+}
+
+void main() {
+#ifdef OUTLINE
+  vec3 smooth_n = normalize(v_normal);  // a strip has no sides
+#else
+  vec3 smooth_n = normalize(gl_FrontFacing ? v_normal : -v_normal);
+#endif
+  vec3 v = normalize(v_view);
+  float open = v_surface.a;
+
+#ifdef FIELD
+  vec3 n = smooth_n, wet_n = smooth_n;
+  vec3 albedo = texture(colour_map, vec2(v_value, 0.5)).rgb;
+  albedo *= 0.85 * albedo;
+  const vec3 wrap = vec3(0.25);
+  const float wet = 0.30;
+  vec3 hollow = vec3(open);
+  vec3 shade = vec3(v_visible);
+#else
+  vec4 detail = texture(detail_map, octahedral(v_on_sphere));
+  // Bumps: the slope of a height field over the rest shape, laid on the deformed one. How that has turned is left out:
+  // a random field looks the same either way.
+  vec3 slope = v_slope + fine_bumps * open * open * (detail.rgb - 0.5);
+  vec3 tilt = slope - dot(slope, smooth_n) * smooth_n;
+  vec3 n = normalize(smooth_n - 0.7 * tilt), wet_n = normalize(smooth_n - tilt);
+  float blush = min(2.0 * detail.a, 1.0), vessel = max(2.0 * detail.a - 1.0, 0.0);
+  vec3 albedo = v_surface.rgb * mix(vec3(1.0), vec3(1.02, 0.72, 0.70), 0.55 * blush);
+  albedo *= mix(vec3(1.0), vec3(0.55, 0.25, 0.34), 0.85 * vessel);
+  const vec3 wrap = vec3(0.45, 0.16, 0.12);
+  const float wet = 1.0;
+  vec3 hollow = vec3(open, open * open, open * open);
+  vec3 shade = vec3(sqrt(v_visible), v_visible, v_visible);
+#endif
+
+  // Light that enters the tissue leaves it redder and further on: red wraps round the shadow line and skips the bumps.
+  vec3 facing = vec3(dot(smooth_n, key_direction), vec2(dot(n, key_direction)));
+  vec3 lit = clamp((facing + wrap) / (1.0 + wrap), 0.0, 1.0);
+  vec3 ambient = mix(bounce_colour, sky_colour, 0.5 + 0.5 * n.y) * hollow;
+#ifdef OUTLINE
+  float nv = 0.2;  // as the pixels beside the strip, not the glare of its very edge
+#else
+  float nv = clamp(dot(wet_n, v), 0.0, 1.0);
+#endif
+  float grazing = square(square(1.0 - nv)) * (1.0 - nv);
+  float rim = clamp(dot(n, rim_direction) * 0.6 + 0.4, 0.0, 1.0) * square(1.0 - nv);
+  vec3 radiance = albedo * (lit * shade * key_colour + ambient + 1.2 * rim * sky_colour);
+
+  float fresnel = 0.03 + 0.55 * grazing;
+  float nh = clamp(dot(n, normalize(key_direction + v)), 0.0, 1.0);
+  float broad = 0.05 * square(square(square(square(nh)))) * clamp(4.0 * facing.y, 0.0, 1.0) * v_visible;
+  radiance += wet * (fresnel * mix(0.35, 1.0, v_visible) * open * reflected(reflect(-v, wet_n)) +
+                     broad * vec3(1.0, 0.72, 0.66) * key_colour);
+  colour = vec4(to_screen(radiance, gl_FragCoord.xy), v_cover);
+}

@@ -1,0 +1,54 @@
+layout(location = 0) in vec3 a_position;  // m
+layout(location = 1) in vec3 a_normal;
+layout(location = 2) in float a_value;    // of the field shown, 0..1 over its range
+layout(location = 3) in vec3 a_rest;      // rest position in body radii about the body's centre
+layout(location = 4) in vec3 a_on_sphere; // place on the map of fine detail
+layout(location = 5) in vec4 a_surface;   // rgb: square root of the tint, a: openness to the sky
+#ifdef OUTLINE
+layout(location = 6) in vec3 a_strip;     // xy: away from the shape in clip units, z: cover
+#endif
+
+uniform mat4 view_projection;
+uniform mat4 shadow_matrix;
+uniform vec3 key_direction;
+uniform vec3 eye;
+uniform sampler2DShadow shadow_map;
+
+out vec3 v_normal;
+out vec3 v_on_sphere;
+out vec3 v_slope;     // of broad bumps, in rest coordinates
+out vec3 v_view;      // towards the eye
+out vec4 v_surface;
+out float v_visible;  // share of the key light that arrives
+out float v_value;
+#ifdef OUTLINE
+out float v_cover;
+#endif
+
+// The lamp is wide, so its shadow is soft enough to be worked out once a vertex.
+float key_visibility() {
+  vec3 at = (shadow_matrix * vec4(a_position, 1.0)).xyz * 0.5 + 0.5;
+  at.z -= 0.012 + 0.02 * (1.0 - clamp(dot(a_normal, key_direction), 0.0, 1.0));
+  float sum = 0.0;
+  for (int i = 0; i < 12; ++i) {  // a sunflower's disc
+    float angle = 2.39996 * float(i), r = 0.030 * sqrt((float(i) + 0.5) / 12.0);
+    sum += texture(shadow_map, at + vec3(r * cos(angle), r * sin(angle), 0.0));
+  }
+  return sum / 12.0;
+}
+
+void main() {
+  gl_Position = view_projection * vec4(a_position, 1.0);
+#ifdef OUTLINE
+  gl_Position.xyz += vec3(a_strip.xy, -strip_lift) * gl_Position.w;
+  v_cover = a_strip.z;
+#endif
+  v_view = normalize(eye - a_position);
+  v_normal = a_normal;
+  v_on_sphere = a_on_sphere;
+  vec4 broad = noise(a_rest * 4.1 + 3.7);
+  v_slope = 0.10 * broad.xyz;
+  v_surface = vec4(a_surface.rgb * a_surface.rgb * (0.72 + 0.56 * broad.w), a_surface.a);
+  v_visible = key_visibility();
+  v_value = a_value;
+}

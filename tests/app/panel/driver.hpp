@@ -1,0 +1,113 @@
+#pragma once
+// A panel without a window: a mouse and keys that tests move, and what the panel asked for.
+#include <doctest/doctest.h>
+#include <imgui.h>
+
+#include <app/panel/panel.hpp>
+#include <app/panel/theme.hpp>
+#include <string>
+
+namespace heml::test {
+
+class ImguiContext {
+ public:
+  ImguiContext(float width, float height, float scale) : context_(ImGui::CreateContext()) {
+    ImGuiIO& io = ImGui::GetIO();
+    io.IniFilename = nullptr;
+    io.DisplaySize = {width, height};
+    io.DeltaTime = 1.0f / 60;
+    panel::apply_theme(scale);
+    io.Fonts->Build();
+  }
+  ~ImguiContext() { ImGui::DestroyContext(context_); }
+  ImguiContext(const ImguiContext&) = delete;
+  ImguiContext& operator=(const ImguiContext&) = delete;
+
+ private:
+  ImGuiContext* context_;
+};
+
+/// One tetrahedron of soft tissue, with another material in region 2.
+inline Scene small_scene() {
+  Scene scene;
+  scene.name = "small";
+  const Lame lame = lame_from(1e4, 0.3);
+  scene.materials = {{std::nullopt, {"neo_hookean", {lame.lambda, lame.mu}, 1000}}, {2, {"stvk", {2e4, 1e4}, 1100}}};
+  scene.gravity = Vec3(0, -9.81, 0);
+  return scene;
+}
+
+inline Skin small_skin() {
+  Skin skin;
+  skin.nodes = {10, 11, 12, 13};
+  skin.rest = {{0, 0, 0}, {0.1f, 0, 0}, {0, 0.1f, 0}, {0, 0, 0.1f}};
+  skin.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+  skin.regions = {0, 0, 0, 0};
+  return skin;
+}
+
+class Driver {
+ public:
+  explicit Driver(const Scene& scene = small_scene(), float width = 1280, float height = 720, float scale = 1)
+      : context_(width, height, scale), panel(scene, small_skin()) {
+    frame.positions = small_skin().rest;
+    away();
+    for (int k = 0; k < 3; ++k) draw();
+  }
+
+  panel::PanelActions draw() {
+    panel.take(frame, 1.0f / 60);
+    ImGui::NewFrame();
+    panel::PanelActions actions = panel.draw(frame);
+    ImGui::Render();
+    return actions;
+  }
+
+  void move(ImVec2 to) { ImGui::GetIO().MousePos = to; }
+  void away() { move({640, 700}); }
+  void hold(bool down) { ImGui::GetIO().MouseDown[0] = down; }
+
+  /// Moves the mouse down a column of the picture until it is on a row or an entry of that label.
+  ImVec2 find(const std::string& label, float x = 200) {
+    for (float y = 2; y < ImGui::GetIO().DisplaySize.y; y += 4) {
+      move({x, y});
+      draw();
+      if (panel.hovered() == label) return {x, y};
+    }
+    FAIL("no row called ", label);
+    return {};
+  }
+
+  /// Presses and lets go where the mouse is; everything the panel asked for on the way.
+  panel::PanelActions click() {
+    hold(true);
+    panel::PanelActions all = draw();
+    hold(false);
+    for (int k = 0; k < 2; ++k) {
+      const panel::PanelActions more = draw();
+      all.commands.insert(all.commands.end(), more.commands.begin(), more.commands.end());
+      all.requests.insert(all.requests.end(), more.requests.begin(), more.requests.end());
+      if (more.show) all.show = more.show;
+    }
+    return all;
+  }
+  panel::PanelActions click(const std::string& label, float x = 200) {
+    find(label, x);
+    return click();
+  }
+
+  /// Opens a choice and takes one of its entries.
+  panel::PanelActions choose(const std::string& label, const std::string& entry) {
+    click(label);
+    return click(entry);
+  }
+
+ private:
+  ImguiContext context_;
+
+ public:
+  panel::Panel panel;
+  Frame frame;
+};
+
+}  // namespace heml::test

@@ -1,0 +1,57 @@
+#include <app/panel/eye.hpp>
+
+#include "driver.hpp"
+
+using namespace heml;
+using namespace heml::test;
+
+namespace {
+const render::Size size{640, 360};
+const Skin skin = small_skin();
+const Vec3f centre(0.05f, 0.05f, 0.05f);  // of the body's box
+}  // namespace
+
+TEST_CASE("the body is in the middle of what the panel leaves free") {
+  panel::Eye eye;
+  eye.fit({}, skin, size, {200, 0});
+  const render::Vec2f at = eye.camera().pixel(centre, size);
+  CHECK(at.x() == doctest::Approx(200 + 440 / 2.0).epsilon(0.005));
+  CHECK(at.y() == doctest::Approx(180).epsilon(0.005));
+  eye.resize(size, {});
+  CHECK(eye.camera().pixel(centre, size).x() == doctest::Approx(320).epsilon(0.005));
+}
+
+TEST_CASE("the body stays in the middle while it is turned, and fits between the columns") {
+  panel::Eye eye;
+  eye.fit({}, skin, size, {200, 150});
+  for (int k = 0; k < 10; ++k) {
+    eye.orbit(37, -11);
+    CHECK(eye.camera().pixel(centre, size).x() == doctest::Approx(200 + 290 / 2.0).epsilon(0.005));
+    for (const Vec3f& node : skin.rest) {
+      const render::Vec2f at = eye.camera().pixel(node, size);
+      CHECK(at.x() > 195);
+      CHECK(at.x() < 495);
+    }
+  }
+}
+
+TEST_CASE("panning moves the body with the mouse") {
+  panel::Eye eye;
+  eye.fit({}, skin, size, {});
+  const render::Vec2f before = eye.camera().pixel(centre, size);
+  eye.pan(30, 20);
+  const render::Vec2f after = eye.camera().pixel(centre, size);
+  CHECK(after.x() - before.x() == doctest::Approx(30).epsilon(0.02));
+  CHECK(after.y() - before.y() == doctest::Approx(20).epsilon(0.02));
+}
+
+TEST_CASE("the wheel brings the body nearer") {
+  panel::Eye eye;
+  eye.fit({}, skin, size, {});
+  const auto extent = [&] {
+    return (eye.camera().pixel(skin.rest[1], size) - eye.camera().pixel(skin.rest[2], size)).norm();
+  };
+  const float before = extent();
+  eye.zoom(2);
+  CHECK(extent() > 1.15f * before);
+}

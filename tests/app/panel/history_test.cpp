@@ -1,0 +1,47 @@
+#include <doctest/doctest.h>
+
+#include <app/panel/history.hpp>
+
+using namespace heml;
+using panel::History;
+
+namespace {
+Frame at(double time, double kinetic = 0) {
+  Frame frame;
+  frame.time = time;
+  frame.energies.kinetic = kinetic;
+  return frame;
+}
+}  // namespace
+
+TEST_CASE("history keeps the last seconds and no more points than a plot can show") {
+  History history;
+  for (int k = 0; k <= 30000; ++k) history.take(at(0.001 * k, k));
+  const auto& readings = history.readings();
+  CHECK(readings.size() <= 241);
+  CHECK(readings.size() > 200);
+  CHECK(readings.front().time >= readings.back().time - History::span);
+  CHECK(readings.back().time > 30 - History::span / 100);
+  for (std::size_t i = 1; i < readings.size(); ++i) CHECK(readings[i].time > readings[i - 1].time);
+}
+
+TEST_CASE("history starts afresh after a reset") {
+  History history;
+  history.take(at(1, 5));
+  history.take(at(2, 6));
+  history.take(at(0, 7));
+  REQUIRE(history.readings().size() == 1);
+  CHECK(history.readings().front().energies.kinetic == 7);
+}
+
+TEST_CASE("history takes no force from a tool that holds nothing") {
+  History history;
+  Frame frame = at(1);
+  frame.tool.force = Vec3(3, 4, 0);
+  history.take(frame);
+  CHECK(history.readings().back().force == 0);
+  frame.time = 2;
+  frame.tool.active = true;
+  history.take(frame);
+  CHECK(history.readings().back().force == 5);
+}

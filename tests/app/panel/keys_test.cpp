@@ -1,0 +1,29 @@
+#include <doctest/doctest.h>
+
+#include <app/panel/keys.hpp>
+#include <set>
+#include <utility>
+
+using namespace heml::panel;
+
+TEST_CASE("keys mean what the help page says") {
+  CHECK(action_of(' ', false) == Action::toggle_play);
+  CHECK(action_of('.', false) == Action::step);
+  CHECK(action_of('R', false) == Action::reset);
+  CHECK(action_of('4', false) == Action::show_von_mises);
+  CHECK(action_of(key_f12, false) == Action::screenshot);
+  CHECK(action_of('Q', true) == Action::quit);
+  CHECK_FALSE(action_of('Q', false));
+  CHECK_FALSE(action_of('R', true));
+  CHECK_FALSE(action_of('Z', false));
+}
+
+TEST_CASE("no key is bound twice, and every action has one") {
+  std::set<std::pair<int, bool>> keys;
+  std::set<Action> actions;
+  for (const KeyBinding& binding : key_bindings()) {
+    CHECK(keys.insert({binding.key, binding.control}).second);
+    actions.insert(binding.action);
+  }
+  CHECK(actions.size() == static_cast<std::size_t>(Action::quit) + 1);
+}

@@ -1,0 +1,252 @@
+#include <algorithm>
+
+#include "driver.hpp"
+
+using namespace heml;
+using namespace heml::test;
+using panel::Action;
+using panel::Request;
+
+namespace {
+panel::PanelActions after(Driver& driver, Action action) {
+  driver.panel.perform(action);
+  return driver.draw();
+}
+}  // namespace
+
+TEST_CASE("the play key pauses a running body and lets a paused one run") {
+  Driver driver;
+  CHECK(after(driver, Action::toggle_play).requests == std::vector{Request::pause});
+  driver.frame.paused = true;
+  CHECK(after(driver, Action::toggle_play).requests == std::vector{Request::play});
+  CHECK(after(driver, Action::step).requests == std::vector{Request::step});
+  CHECK(driver.draw().requests.empty());
+}
+
+TEST_CASE("the reset key sends a reset") {
+  Driver driver;
+  const auto actions = after(driver, Action::reset);
+  REQUIRE(actions.commands.size() == 1);
+  CHECK(std::holds_alternative<Reset>(actions.commands.front()));
+}
+
+TEST_CASE("buttons do what their keys do") {
+  Driver driver;
+  CHECK(driver.click("Pause", 38).requests == std::vector{Request::pause});
+  CHECK(driver.click("Step", 75).requests == std::vector{Request::step});
+  const auto reset = driver.click("Reset", 112);
+  REQUIRE(reset.commands.size() == 1);
+  CHECK(std::holds_alternative<Reset>(reset.commands.front()));
+  CHECK(driver.click("Save picture", 230).requests == std::vector{Request::screenshot});
+  CHECK(driver.click("Fit view", 60).requests == std::vector{Request::fit});
+}
+
+TEST_CASE("colour keys and the colour choice ask for fields") {
+  Driver driver;
+  CHECK(after(driver, Action::show_von_mises).show == Field::von_mises);
+  CHECK(after(driver, Action::show_tissue).show == Field::none);
+  CHECK(driver.choose("Colours", "Stretch").show == Field::stretch);
+}
+
+TEST_CASE("the wireframe key and its box change how the body is drawn") {
+  Driver driver;
+  after(driver, Action::wireframe);
+  CHECK(driver.panel.drawing().wireframe);
+  driver.click("Wireframe", 40);
+  CHECK_FALSE(driver.panel.drawing().wireframe);
+}
+
+TEST_CASE("the colour range follows the frame's values") {
+  Driver driver;
+  driver.frame.field = Field::displacement;
+  driver.frame.values = {0, 0.01f, 0.02f, 0.04f};
+  driver.draw();
+  REQUIRE(driver.panel.drawing().range);
+  CHECK(driver.panel.drawing().range->high == doctest::Approx(0.04f));
+}
+
+TEST_CASE("gravity, damping and the integrator are sent when changed") {
+  Driver driver;
+  const auto drag = [&](const char* label) {
+    const ImVec2 at = driver.find(label);
+    driver.hold(true);
+    driver.draw();
+    driver.move({at.x + 10, at.y});
+    const auto actions = driver.draw();
+    driver.hold(false);
+    driver.draw();
+    return actions;
+  };
+  const auto gravity = drag("Gravity");
+  REQUIRE(gravity.commands.size() == 1);
+  const Vec3 g = std::get<SetGravity>(gravity.commands.front()).gravity;
+  CHECK(g.x() == 0);
+  CHECK(g.y() < -9.81);
+  CHECK(g.z() == 0);
+  const auto damping = drag("Damping");
+  REQUIRE(damping.commands.size() == 1);
+  CHECK(std::get<SetDamping>(damping.commands.front()).damping > 0);
+  const auto integrator = driver.choose("Integrator", "Symplectic Euler");
+  REQUIRE(integrator.commands.size() == 1);
+  CHECK(std::get<SetIntegrator>(integrator.commands.front()).integrator == Integrator::symplectic_euler);
+  const auto direction = driver.choose("Towards", "right (+x)");
+  REQUIRE(direction.commands.size() == 1);
+  CHECK(std::get<SetGravity>(direction.commands.front()).gravity.x() == doctest::Approx(g.norm()));
+}
+
+TEST_CASE("a gravity along no axis keeps its direction") {
+  Scene scene = small_scene();
+  scene.gravity = Vec3(3, -4, 0);
+  Driver driver(scene);
+  const ImVec2 at = driver.find("Gravity");
+  driver.hold(true);
+  driver.draw();
+  driver.move({at.x + 15, at.y});
+  const auto actions = driver.draw();
+  REQUIRE(actions.commands.size() == 1);
+  const Vec3 g = std::get<SetGravity>(actions.commands.front()).gravity;
+  CHECK(g.x() / g.norm() == doctest::Approx(0.6));
+  CHECK(g.y() / g.norm() == doctest::Approx(-0.8));
+}
+
+TEST_CASE("the grasp radius is the panel's to tell") {
+  Driver driver;
+  const double before = driver.panel.grasp_radius();
+  CHECK(before > 0);
+  const ImVec2 at = driver.find("Grasp radius");
+  driver.hold(true);
+  driver.draw();
+  driver.move({at.x + 40, at.y});
+  CHECK(driver.draw().commands.empty());
+  CHECK(driver.panel.grasp_radius() > before);
+}
+
+TEST_CASE("a stopped body is said with a way out") {
+  Driver driver;
+  CHECK_FALSE(driver.panel.covers(640, 40));
+  driver.frame.halted = "element 7 left the range of its law";
+  for (int k = 0; k < 3; ++k) driver.draw();
+  CHECK(driver.panel.covers(640, 40));
+  bool found = false;
+  for (float y = 10; y < 140 && !found; y += 4)
+    for (float x = 420; x < 640 && !found; x += 12) {
+      driver.move({x, y});
+      driver.draw();
+      found = driver.panel.hovered() == "Reset (R)";
+    }
+  REQUIRE(found);
+  const auto actions = driver.click();
+  REQUIRE(actions.commands.size() == 1);
+  CHECK(std::holds_alternative<Reset>(actions.commands.front()));
+}
+
+TEST_CASE("an engine that stays late is said, a moment of it is not") {
+  Driver driver;
+  driver.frame.pace.keeping_up = false;
+  driver.frame.pace.slowdown = 2.5;
+  for (int k = 0; k < 10; ++k) driver.draw();
+  CHECK_FALSE(driver.panel.covers(640, 40));
+  for (int k = 0; k < 90; ++k) driver.draw();
+  CHECK(driver.panel.covers(640, 40));
+  driver.frame.pace.keeping_up = true;
+  for (int k = 0; k < 3; ++k) driver.draw();
+  CHECK_FALSE(driver.panel.covers(640, 40));
+}
+
+TEST_CASE("a file that could not be opened is said until Esc") {
+  Driver driver;
+  driver.panel.fail("liver.obj: line 3: no number");
+  for (int k = 0; k < 300; ++k) driver.draw();
+  CHECK(driver.panel.covers(640, 30));
+  after(driver, Action::release);
+  for (int k = 0; k < 2; ++k) driver.draw();
+  CHECK_FALSE(driver.panel.covers(640, 30));
+}
+
+TEST_CASE("what is said in passing goes by itself") {
+  Driver driver;
+  driver.panel.say("Saved picture.png");
+  driver.draw();
+  CHECK(driver.panel.animating());
+  for (int k = 0; k < 400; ++k) driver.draw();
+  CHECK_FALSE(driver.panel.animating());
+}
+
+TEST_CASE("the mouse is on the panel over its columns alone, and nowhere when it is hidden") {
+  Driver driver;
+  CHECK(driver.panel.covers(100, 100));
+  CHECK(driver.panel.covers(1200, 100));
+  CHECK_FALSE(driver.panel.covers(640, 360));
+  after(driver, Action::hide);
+  driver.draw();
+  CHECK_FALSE(driver.panel.covers(100, 100));
+  CHECK(driver.panel.insets({1280, 720}) == panel::Insets{});
+}
+
+TEST_CASE("an open choice keeps the mouse to itself") {
+  Driver driver;
+  driver.click("Law");
+  CHECK(driver.panel.covers(640, 360));
+  driver.away();
+  driver.click();
+  CHECK_FALSE(driver.panel.covers(640, 360));
+}
+
+TEST_CASE("a small picture keeps most of its width for the body, and scrolls to every section") {
+  Driver driver(small_scene(), 640, 360, 0.72f);
+  const panel::Insets insets = driver.panel.insets({640, 360});
+  CHECK(insets.right == 0);
+  CHECK(insets.left < 0.36f * 640);
+  driver.move({100, 250});
+  for (int k = 0; k < 60; ++k) {
+    ImGui::GetIO().MouseWheel = -1;
+    driver.draw();
+  }
+  driver.find("Wireframe", 30);
+  CHECK(driver.panel.hovered() == "Wireframe");
+}
+
+TEST_CASE("the help page opens and closes with its key and with Esc") {
+  Driver driver;
+  after(driver, Action::help);
+  for (int k = 0; k < 3; ++k) driver.draw();
+  CHECK(driver.panel.covers(640, 360));
+  after(driver, Action::release);
+  driver.draw();
+  CHECK_FALSE(driver.panel.covers(640, 360));
+}
+
+TEST_CASE("numbers that are not finite do not break the panel") {
+  Driver driver;
+  const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+  driver.frame.energies = {nan, infinity, -infinity};
+  driver.frame.min_J = nan;
+  driver.frame.tool.active = true;
+  driver.frame.tool.force = Vec3(nan, 0, 0);
+  driver.frame.field = Field::stretch;
+  driver.frame.values = {std::numeric_limits<float>::quiet_NaN(), 1, 1, 1};
+  for (int k = 0; k < 20; ++k) {
+    driver.frame.time += 0.1;
+    driver.draw();
+  }
+  CHECK(driver.draw().commands.empty());
+}
+
+TEST_CASE("the font has every letter that laws and units need") {
+  Driver driver;
+  std::string text = "λμνκγαρ·×²³°−–…";
+  for (const LawInfo& law : laws()) {
+    text += law.title;
+    for (const ParameterInfo& info : law.parameters)
+      text += std::string(info.symbol) + std::string(info.unit) + std::string(info.meaning);
+  }
+  const char* at = text.c_str();
+  while (*at) {
+    unsigned code = static_cast<unsigned char>(*at++);
+    const int more = code >= 0xe0 ? 2 : code >= 0xc0 ? 1 : 0;
+    if (more) code &= more == 2 ? 0x0f : 0x1f;
+    for (int k = 0; k < more; ++k) code = code << 6 | (static_cast<unsigned char>(*at++) & 0x3f);
+    CAPTURE(code);
+    CHECK(panel::font(panel::Font::text)->FindGlyphNoFallback(static_cast<ImWchar>(code)));
+  }
+}

@@ -1,0 +1,41 @@
+#include "app/render/pick.hpp"
+
+#include <doctest/doctest.h>
+
+#include "shapes.hpp"
+
+using namespace heml;
+using namespace heml::render;
+
+TEST_CASE("the pixel of a node in front picks that node, on the deformed body") {
+  const Size size{640, 360};
+  const Skin skin = ball_skin(2, 0.05f);
+  Frame frame = frame_at_rest(skin);
+  for (Vec3f& node : frame.positions) node = Vec3f(1.3f * node.x(), 0.8f * node.y() + 0.01f, node.z());
+  Camera camera;
+  camera.fit(Vec3f::Zero(), 0.06f, size);
+  int tried = 0;
+  for (std::size_t i = 0; i < skin.rest.size(); ++i) {
+    const Vec3f outward = skin.rest[i].cwiseQuotient(Vec3f(1.3f, 0.8f, 1)).normalized();
+    const Vec3f to_eye = (camera.eye() - frame.positions[i]).normalized();
+    if (outward.dot(to_eye) < 0.4f) continue;
+    const Vec2f pixel = camera.pixel(frame.positions[i], size);
+    // A hair towards the middle, so that the ray does not slip along an edge.
+    const auto hit = pick(frame, skin, camera.ray(pixel.x() * 0.9999f + 0.032f, pixel.y() * 0.9999f + 0.018f, size));
+    REQUIRE(hit);
+    CHECK(hit->node == static_cast<int>(i));
+    CHECK((hit->point - frame.positions[i]).norm() < 1e-3f);
+    ++tried;
+  }
+  CHECK(tried > 30);
+}
+
+TEST_CASE("a ray beside the body picks nothing, one through it the near side") {
+  const Skin skin = ball_skin(2, 1);
+  const Frame frame = frame_at_rest(skin);
+  CHECK_FALSE(pick(frame, skin, {Vec3f(0, 1.5f, 5), Vec3f(0, 0, -1)}));
+  CHECK_FALSE(pick(frame, skin, {Vec3f(0.1f, 0.2f, 5), Vec3f(0, 0, 1)}));
+  const auto hit = pick(frame, skin, {Vec3f(0.1f, 0.2f, 5), Vec3f(0, 0, -1)});
+  REQUIRE(hit);
+  CHECK(hit->point.z() == doctest::Approx(std::sqrt(1 - 0.05)).epsilon(0.02));
+}

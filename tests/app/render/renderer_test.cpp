@@ -1,0 +1,221 @@
+#include "app/render/renderer.hpp"
+
+#include <doctest/doctest.h>
+#include <imgui.h>
+
+#include <app/render/imgui_renderer.hpp>
+#include <app/render/legend.hpp>
+#include <app/render/osmesa_context.hpp>
+#include <app/render/pick.hpp>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "shapes.hpp"
+
+using namespace heml;
+using namespace heml::render;
+
+namespace {
+
+constexpr Size size{320, 180};
+
+// A ball of 5 cm on a headless renderer.
+struct Stage {
+  OsMesaContext context{size};
+  Renderer renderer;
+  Skin skin = ball_skin(3, 0.05f);
+  Frame frame = frame_at_rest(skin);
+  Camera camera;
+  DrawOptions options;
+
+  Stage() {
+    renderer.set_skin(skin);
+    const Ball ball = ball_around(skin.rest);
+    camera.fit(ball.centre, ball.radius, size);
+  }
+  // Pixels from the middle to the edge of the ball: radius r at distance d appears at the angle asin(r/d).
+  double rim() const {
+    const double sine = 0.05 / (camera.eye() - camera.target()).norm();
+    return std::tan(std::asin(sine)) * camera.projection(size)(1, 1) * size.height / 2;
+  }
+  Image draw() {
+    renderer.draw(frame, camera, options, size);
+    return read_pixels(size);
+  }
+};
+
+double from_middle(int x, int y) { return std::hypot(x + 0.5 - size.width / 2.0, y + 0.5 - size.height / 2.0); }
+
+bool same(const Image& a, const Image& b, int x, int y) { return std::equal(a.at(x, y), a.at(x, y) + 3, b.at(x, y)); }
+
+int count_different(const Image& a, const Image& b) {
+  int count = 0;
+  for (int y = 0; y < size.height; ++y)
+    for (int x = 0; x < size.width; ++x) count += !same(a, b, x, y);
+  return count;
+}
+
+}  // namespace
+
+TEST_CASE("a drawn ball covers the pixels a ball covers") {
+  Stage stage;
+  stage.options.ground = false;
+  const Image with_body = stage.draw();
+  const Image without = [&] {
+    Renderer empty;
+    empty.draw(Frame{}, stage.camera, stage.options, size);
+    return read_pixels(size);
+  }();
+  const double rim = stage.rim();
+  const int covered = count_different(with_body, without);
+  CHECK(covered > 0.995 * std::numbers::pi * rim * rim);
+  CHECK(covered < 1.005 * std::numbers::pi * (rim + 1) * (rim + 1));  // its edge fades out over one pixel
+
+  int inside = 0;
+  for (int y = 0; y < size.height; ++y)
+    for (int x = 0; x < size.width; ++x) {
+      const double away = from_middle(x, y);
+      if (away < rim - 1) inside += same(with_body, without, x, y);
+      if (away > rim + 2) CHECK(same(with_body, without, x, y));
+    }
+  CHECK(inside == 0);
+}
+
+TEST_CASE("the first picture has many colours and the body is red") {
+  Stage stage;
+  const Image image = stage.draw();
+  std::set<std::array<int, 3>> colours;
+  for (int y = 0; y < size.height; ++y)
+    for (int x = 0; x < size.width; ++x) colours.insert({image.at(x, y)[0], image.at(x, y)[1], image.at(x, y)[2]});
+  CHECK(colours.size() > 2000);
+  const std::uint8_t* middle = image.at(size.width / 2, size.height / 2);
+  CHECK(middle[0] > 60);
+  CHECK(middle[0] > 2 * middle[1]);
+  CHECK(middle[0] > 2 * middle[2]);
+}
+
+TEST_CASE("the same frame gives the same bytes, also after other frames and in another context") {
+  Stage stage;
+  const Image first = stage.draw();
+  stage.frame.positions[0] *= 1.5f;
+  const Image other = stage.draw();
+  stage.frame.positions = stage.skin.rest;
+  const Image again = stage.draw();
+  CHECK(first.pixels == again.pixels);
+  CHECK(first.pixels != other.pixels);
+  Stage second;
+  CHECK(second.draw().pixels == first.pixels);
+}
+
+TEST_CASE("a field colours the body by its values over the range") {
+  Stage stage;
+  stage.options.ground = false;
+  const Image tissue = stage.draw();
+  stage.frame.field = Field::von_mises;
+  stage.frame.values.assign(stage.skin.rest.size(), 0);
+  stage.options.range = Range{0, 100};
+  const Image low = stage.draw();
+  stage.frame.values.assign(stage.skin.rest.size(), 100);
+  const Image high = stage.draw();
+  CHECK(rms_difference(tissue, low) > 5);
+  const int x = size.width / 2, y = size.height / 2;
+  CHECK(low.at(x, y)[2] > low.at(x, y)[1]);    // viridis begins violet
+  CHECK(high.at(x, y)[0] > high.at(x, y)[2]);  // and ends yellow
+  CHECK(high.at(x, y)[1] > high.at(x, y)[2]);
+}
+
+TEST_CASE("edges, held nodes and the tool show when asked for") {
+  Stage stage;
+  const Image plain = stage.draw();
+  stage.options.wireframe = true;
+  CHECK(count_different(plain, stage.draw()) > 500);
+  stage.options.wireframe = false;
+
+  Skin pinned = stage.skin;
+  for (int i = 0; i < static_cast<int>(pinned.rest.size()); i += 7) pinned.held.push_back(i);
+  stage.renderer.set_skin(pinned);
+  CHECK(count_different(plain, stage.draw()) > 100);
+  stage.options.held = false;
+  CHECK(stage.draw().pixels == plain.pixels);
+
+  stage.frame.tool.active = true;
+  stage.frame.tool.target = Vec3(0, 0.06, 0.03);
+  stage.frame.tool.grip = Vec3(0, 0.04, 0.03);
+  CHECK(count_different(plain, stage.draw()) > 100);
+  stage.options.tool = false;
+  CHECK(stage.draw().pixels == plain.pixels);
+}
+
+TEST_CASE("what a pixel shows is what it picks") {
+  Stage stage;
+  stage.options.ground = false;
+  const Image image = stage.draw();
+  Renderer empty;
+  empty.draw(Frame{}, stage.camera, stage.options, size);
+  const Image background = read_pixels(size);
+  int wrong = 0, body = 0;
+  for (int y = 0; y < size.height; y += 3)
+    for (int x = 0; x < size.width; x += 3) {
+      if (std::abs(from_middle(x, y) - stage.rim()) < 2) continue;  // the fading edge, and what curved patches add
+      const bool shown = !same(image, background, x, y);
+      const bool hit = pick(stage.frame, stage.skin, stage.camera.ray(x + 0.5f, y + 0.5f, size)).has_value();
+      wrong += shown != hit;
+      body += hit;
+    }
+  CHECK(body > 1000);
+  CHECK(wrong == 0);
+}
+
+TEST_CASE("half resolution gives nearly the same picture") {
+  Stage stage;
+  const Image whole = stage.draw();
+  stage.options.resolution = 0.5f;
+  const double difference = rms_difference(whole, stage.draw());
+  CHECK(difference > 0);
+  CHECK(difference < 8);
+}
+
+TEST_CASE("the ground gives way to a body that sinks") {
+  Stage stage;
+  const Image before = stage.draw();
+  for (Vec3f& node : stage.frame.positions) node.y() -= 0.04f;
+  stage.camera.pan(0, -0.4f);
+  const Image after = stage.draw();
+  CHECK(rms_difference(before, after) > 2);
+  const Vec2f bottom = stage.camera.pixel(Vec3f(0, -0.04f, 0.049f), size);
+  const std::uint8_t* pixel = after.at(static_cast<int>(bottom.x()), static_cast<int>(bottom.y()));
+  CHECK(pixel[0] > pixel[2]);  // the body, not the drape
+}
+
+TEST_CASE("refuses a frame of another body") {
+  Stage stage;
+  stage.frame.positions.pop_back();
+  CHECK_THROWS_AS(stage.draw(), std::invalid_argument);
+}
+
+TEST_CASE("survives frames with positions that are not finite") {
+  Stage stage;
+  for (Vec3f& node : stage.frame.positions) node.setConstant(std::nanf(""));
+  CHECK_NOTHROW(stage.draw());
+}
+
+TEST_CASE("the legend is drawn at the right and nowhere else") {
+  Stage stage;
+  const Image plain = stage.draw();
+  ImguiRenderer interface;
+  interface.begin_frame(size, 0.1f);
+  draw_legend(*ImGui::GetForegroundDrawList(), Field::stretch, {0.5f, 1.5f}, size);
+  interface.end_frame();
+  const Image with_legend = read_pixels(size);
+  int left = 0, right = 0;
+  for (int y = 0; y < size.height; ++y)
+    for (int x = 0; x < size.width; ++x) (x < size.width / 2 ? left : right) += !same(plain, with_legend, x, y);
+  CHECK(left == 0);
+  CHECK(right > 3000);
+
+  interface.begin_frame(size, 0.1f);
+  draw_legend(*ImGui::GetForegroundDrawList(), Field::none, {0, 1}, size);
+  interface.end_frame();
+  CHECK(read_pixels(size).pixels == with_legend.pixels);
+}

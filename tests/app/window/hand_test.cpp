@@ -1,0 +1,114 @@
+#include <doctest/doctest.h>
+
+#include <app/window/hand.hpp>
+
+using namespace heml;
+using namespace heml::window;
+
+namespace {
+
+const render::Size size{640, 360};
+
+/// A square of two triangles that faces the eye at +z; node 3 is held.
+struct Sheet {
+  Skin skin;
+  Frame frame;
+  panel::Eye eye;
+  Hand hand{eye};
+  std::vector<Command> commands;
+
+  Sheet() {
+    skin.nodes = {20, 21, 22, 23};
+    skin.rest = {{-0.1f, -0.1f, 0}, {0.1f, -0.1f, 0}, {0.1f, 0.1f, 0}, {-0.1f, 0.1f, 0}};
+    skin.triangles = {{0, 1, 2}, {0, 2, 3}};
+    skin.held = {3};
+    frame.positions = skin.rest;
+    View view;
+    view.azimuth = view.elevation = 0;
+    eye.fit(view, skin, size, {});
+  }
+  render::Vec2f pixel(const Vec3f& point) const { return eye.camera().pixel(point, size); }
+  bool press(MouseButton button, const render::Vec2f& at, bool shift = false) {
+    return hand.press(button, at, shift, frame, skin, 0.01, commands);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("the left button on the body takes its nearest node and pulls it in the plane that faces the eye") {
+  Sheet sheet;
+  const Vec3f point(0.08f, -0.09f, 0);
+  CHECK_FALSE(sheet.press(MouseButton::left, sheet.pixel(point)));
+  REQUIRE(sheet.commands.size() == 1);
+  const Grasp grasp = std::get<Grasp>(sheet.commands[0]);
+  CHECK(grasp.node == 21);
+  CHECK(grasp.radius == 0.01);
+  CHECK(sheet.hand.doing() == Hand::Doing::grasping);
+
+  const Vec3f pulled = point + Vec3f(0.03f, 0.02f, 0);
+  sheet.hand.move(sheet.pixel(pulled), sheet.commands);
+  REQUIRE(sheet.commands.size() == 2);
+  const Vec3 target = std::get<MoveTool>(sheet.commands[1]).target;
+  // The node goes as far as the point under the mouse: no jump when it is taken off its centre.
+  CHECK((target - Vec3(0.13, -0.08, 0)).norm() < 1e-5);
+
+  sheet.hand.release(MouseButton::left, sheet.commands);
+  REQUIRE(sheet.commands.size() == 3);
+  CHECK(std::holds_alternative<Release>(sheet.commands[2]));
+  CHECK(sheet.hand.doing() == Hand::Doing::nothing);
+}
+
+TEST_CASE("a held node is not taken, its free neighbour is") {
+  Sheet sheet;
+  CHECK_FALSE(sheet.press(MouseButton::left, sheet.pixel({-0.09f, 0.09f, 0})));
+  REQUIRE(sheet.commands.size() == 1);
+  CHECK(std::get<Grasp>(sheet.commands[0]).node != 23);
+}
+
+TEST_CASE("where all is held nothing is taken and the hand says so") {
+  Sheet sheet;
+  sheet.skin.held = {0, 1, 2, 3};
+  CHECK(sheet.press(MouseButton::left, sheet.pixel({0, 0.01f, 0})));
+  CHECK(sheet.commands.empty());
+  CHECK(sheet.hand.doing() == Hand::Doing::nothing);
+}
+
+TEST_CASE("buttons beside the body turn and move the eye and send nothing") {
+  Sheet sheet;
+  const render::Vec2f beside(5, 5);
+  struct Case {
+    MouseButton button;
+    bool shift;
+    Hand::Doing doing;
+  };
+  for (const auto& [button, shift, doing] :
+       {Case{MouseButton::left, false, Hand::Doing::orbiting}, Case{MouseButton::right, false, Hand::Doing::orbiting},
+        Case{MouseButton::middle, false, Hand::Doing::panning}, Case{MouseButton::right, true, Hand::Doing::panning}}) {
+    const Vec3f eye = sheet.eye.camera().eye();
+    sheet.press(button, beside, shift);
+    CHECK(sheet.hand.doing() == doing);
+    sheet.hand.move({25, 15}, sheet.commands);
+    CHECK((sheet.eye.camera().eye() - eye).norm() > 1e-3f);
+    sheet.hand.release(button, sheet.commands);
+    CHECK(sheet.hand.doing() == Hand::Doing::nothing);
+  }
+  CHECK(sheet.commands.empty());
+}
+
+TEST_CASE("the right button on the body turns the eye") {
+  Sheet sheet;
+  sheet.press(MouseButton::right, sheet.pixel({0, 0, 0}));
+  CHECK(sheet.hand.doing() == Hand::Doing::orbiting);
+  CHECK(sheet.commands.empty());
+}
+
+TEST_CASE("another button does not end a grasp, and a resting mouse sends nothing") {
+  Sheet sheet;
+  const render::Vec2f at = sheet.pixel({0.08f, -0.09f, 0});
+  sheet.press(MouseButton::left, at);
+  sheet.press(MouseButton::middle, at);
+  sheet.hand.release(MouseButton::middle, sheet.commands);
+  CHECK(sheet.hand.doing() == Hand::Doing::grasping);
+  sheet.hand.move(at, sheet.commands);
+  CHECK(sheet.commands.size() == 1);
+}

@@ -1,0 +1,73 @@
+#include <doctest/doctest.h>
+
+#include <app/window/opening.hpp>
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
+#include <thread>
+
+using namespace heml;
+using namespace heml::window;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A folder that goes with its contents.
+struct Folder {
+  fs::path path;
+  Folder() {
+    std::string name = (fs::temp_directory_path() / "heml-opening-XXXXXX").string();
+    REQUIRE(mkdtemp(name.data()));
+    path = name;
+  }
+  ~Folder() { fs::remove_all(path); }
+};
+
+const char* const box = R"({"schema_version": 1, "name": "box",
+  "mesh": {"box": {"size": [0.1, 0.1, 0.1], "cells": [1, 1, 1], "origin": [0, 0, 0]}},
+  "materials": [{"law": "stvk", "young": 1e4, "poisson": 0.3}]})";
+
+fs::path write(const Folder& folder, const char* name, const char* text) {
+  std::ofstream(folder.path / name) << text;
+  return folder.path / name;
+}
+
+std::variant<OpenScene, std::string> wait_for(Opening& opening) {
+  for (int k = 0; k < 3000; ++k) {
+    if (auto result = opening.take()) return std::move(*result);
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return std::string("nothing came of it");
+}
+
+}  // namespace
+
+TEST_CASE("a dropped scene becomes a running session, recorded beside the first one") {
+  const Folder folder;
+  Opening opening;
+  opening.begin(write(folder, "box.json", box), folder.path / "out.jsonl");
+  CHECK(opening.under_way());
+  auto result = wait_for(opening);
+  auto* opened = std::get_if<OpenScene>(&result);
+  REQUIRE(opened);
+  CHECK(opened->scene.name == "box");
+  CHECK(opened->session->skin().nodes.size() == 8);
+  CHECK_FALSE(opening.under_way());
+  CHECK(fs::exists(folder.path / "out-2.jsonl"));
+  CHECK_FALSE(fs::exists(folder.path / "out.jsonl"));
+}
+
+TEST_CASE("a dropped file that is no scene says what is wrong with it, and another may follow") {
+  const Folder folder;
+  Opening opening;
+  opening.begin(write(folder, "bad.json", R"({"schema_version": 1, "mash": {}})"), std::nullopt);
+  const auto result = wait_for(opening);
+  const auto* problem = std::get_if<std::string>(&result);
+  REQUIRE(problem);
+  CHECK(problem->find("bad.json") != std::string::npos);
+  CHECK(problem->find("mash") != std::string::npos);
+  opening.begin(folder.path / "missing.msh", std::nullopt);
+  CHECK(std::holds_alternative<std::string>(wait_for(opening)));
+  opening.begin(write(folder, "box.json", box), std::nullopt);
+  CHECK(std::holds_alternative<OpenScene>(wait_for(opening)));
+}

@@ -1,0 +1,115 @@
+// The committed meshes and scenes are what assets/README.md says of them.
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <heml/mesh/quality.hpp>
+#include <heml/mesh/read.hpp>
+#include <heml/mesh/surface.hpp>
+#include <heml/scenario/scene.hpp>
+#include <map>
+#include <set>
+#include <string>
+
+namespace {
+
+using namespace heml;
+
+const std::filesystem::path assets = std::filesystem::path(HEML_SOURCE_DIR) / "assets";
+
+TetMesh asset(const std::string& name) { return read_tet_mesh(assets / "meshes" / (name + ".mesh")); }
+
+/// V − E + F of the boundary; every edge must have one face on either side.
+int euler_characteristic(const TetMesh& mesh) {
+  const BoundaryFaces boundary = boundary_of(mesh);
+  std::map<std::pair<int, int>, int> sides;
+  std::set<int> nodes;
+  for (const Triangle& t : boundary.triangles)
+    for (int i = 0; i < 3; ++i) {
+      nodes.insert(t[i]);
+      ++sides[{t[i], t[(i + 1) % 3]}];
+    }
+  int unpaired = 0;
+  for (const auto& [edge, count] : sides) {
+    const auto other = sides.find({edge.second, edge.first});
+    if (count != 1 || other == sides.end() || other->second != 1) ++unpaired;
+  }
+  CHECK(unpaired == 0);
+  return int(nodes.size()) - int(sides.size()) / 2 + int(boundary.triangles.size());
+}
+
+/// What holds for every mesh; `dihedral`: degrees that the README promises.
+QualityReport check_sound(TetMesh mesh, double dihedral) {
+  const QualityReport report = check_tets(mesh);
+  CHECK(report.rewound == 0);
+  CHECK(report.orphans == 0);
+  CHECK(report.duplicates == 0);
+  CHECK(report.components == 1);
+  CHECK(report.nonmanifold_edges == 0);
+  CHECK(report.worst_dihedral >= dihedral);
+  CHECK(euler_characteristic(mesh) == 2);
+  return report;
+}
+
+std::set<int> regions_of(const TetMesh& mesh) { return {mesh.regions.begin(), mesh.regions.end()}; }
+
+bool inside(const TetMesh& mesh, const Vec3& p) {
+  for (const auto& [a, b, c, d] : mesh.tets) {
+    const Vec3 &x0 = mesh.nodes[a], &x1 = mesh.nodes[b], &x2 = mesh.nodes[c], &x3 = mesh.nodes[d];
+    if (signed_volume(p, x1, x2, x3) >= 0 && signed_volume(x0, p, x2, x3) >= 0 && signed_volume(x0, x1, p, x3) >= 0 &&
+        signed_volume(x0, x1, x2, p) >= 0)
+      return true;
+  }
+  return false;
+}
+
+// The paper's meshes are not public; ours are of the same size within 3 %.
+void check_size(const TetMesh& mesh, int nodes, int tets) {
+  CHECK(double(mesh.nodes.size()) == doctest::Approx(nodes).epsilon(0.03));
+  CHECK(double(mesh.tets.size()) == doctest::Approx(tets).epsilon(0.03));
+}
+
+}  // namespace
+
+TEST_CASE("the kidney has the paper's size, two regions and no slivers") {
+  const TetMesh mesh = asset("kidney");
+  check_size(mesh, 829, 2053);
+  const QualityReport report = check_sound(mesh, 14);
+  CHECK(regions_of(mesh) == std::set{1, 2});
+  CHECK(report.volume > 130e-6);
+  CHECK(report.volume < 160e-6);
+  CHECK((report.high - report.low).maxCoeff() == doctest::Approx(0.108).epsilon(0.02));
+}
+
+TEST_CASE("the uterus has the paper's size, three regions, a cavity and no slivers") {
+  const TetMesh mesh = asset("uterus");
+  check_size(mesh, 4362, 11445);
+  check_sound(mesh, 9);
+  CHECK(regions_of(mesh) == std::set{1, 2, 3});
+  CHECK_FALSE(inside(mesh, {0, 0.026, 0.0078}));   // in the cavity
+  CHECK_FALSE(inside(mesh, {0, -0.018, 0.0004}));  // in the canal
+  CHECK(inside(mesh, {0, 0.026, 0.0200}));         // in the front wall
+}
+
+TEST_CASE("the irregular cube has exactly the paper's size and fills a decimetre") {
+  const TetMesh mesh = asset("irregular_cube");
+  CHECK(mesh.nodes.size() == 151);
+  CHECK(mesh.tets.size() == 407);
+  const QualityReport report = check_sound(mesh, 20);
+  CHECK(report.volume == doctest::Approx(1e-3).epsilon(1e-6));
+}
+
+TEST_CASE("every scene can be read, and runs for a quarter of a second") {
+  int scenes = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(assets / "scenes")) {
+    CAPTURE(entry.path().filename().string());
+    const Scene scene = read_scene(entry.path());
+    CHECK_FALSE(scene.title.empty());
+    CHECK_FALSE(scene.description.empty());
+    CHECK(scene.name == entry.path().stem().string());
+    const auto world = load_world(scene);
+    while (world->time() < 0.25 && !world->halt()) world->tick();
+    CHECK_FALSE(world->halt().has_value());
+    ++scenes;
+  }
+  CHECK(scenes == 6);
+}

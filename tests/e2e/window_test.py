@@ -1,0 +1,247 @@
+"""The window as people use it: a display (Xvfb), a real mouse and keyboard (xdotool). HEML_BINARY names the program."""
+import json
+import mmap
+import os
+import pathlib
+import re
+import shutil
+import statistics
+import struct
+import subprocess
+import tempfile
+import time
+import unittest
+
+BINARY = os.environ["HEML_BINARY"]
+MISSING = [tool for tool in ("Xvfb", "xdotool") if not shutil.which(tool)]
+if MISSING:
+    print("skipped: not installed:", ", ".join(MISSING))
+
+
+class Display:
+    """A screen without a monitor, whose pixels are in a file."""
+
+    def __init__(self, folder, width, height):
+        read, write = os.pipe()
+        self.server = subprocess.Popen(
+            ["Xvfb", "-displayfd", str(write), "-screen", "0", f"{width}x{height}x24", "-fbdir", str(folder), "-nolisten", "tcp"],
+            pass_fds=(write,), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        os.close(write)
+        with os.fdopen(read) as pipe:
+            self.name = ":" + pipe.readline().strip()
+        self.file = folder / "Xvfb_screen0"
+
+    def close(self):
+        self.server.terminate()
+        self.server.wait()
+
+    def picture(self):
+        """What is on the screen. The file is an X window dump: 25 big-endian words, a name, colours of 12 bytes, pixels."""
+        with open(self.file, "rb") as file, mmap.mmap(file.fileno(), 0, prot=mmap.PROT_READ) as dump:
+            words = struct.unpack(">25I", dump[:100])
+            width, height, stride, start = words[4], words[5], words[12], words[0] + 12 * words[19]
+            return Picture(width, height, stride, dump[start:start + stride * height])
+
+
+class Picture:
+    """Rows of blue, green, red, nothing."""
+
+    def __init__(self, width, height, stride, data):
+        self.width, self.height, self.stride, self.data = width, height, stride, data
+
+    def pixel(self, x, y):
+        blue, green, red = self.data[y * self.stride + 4 * x:][:3]
+        return red, green, blue
+
+    def places(self, left, right, step=4):
+        return [(x, y) for y in range(0, self.height, step) for x in range(left, right, step)]
+
+    def colours(self):
+        return len({self.pixel(x, y) for x, y in self.places(0, self.width)})
+
+    def change(self, other, left, right):
+        """Mean difference of a channel, 0 to 255, between two columns."""
+        places = self.places(left, right)
+        return sum(abs(a - b) for p in places for a, b in zip(self.pixel(*p), other.pixel(*p))) / (3 * len(places))
+
+    def tissue(self, left, right):
+        """A place in the middle of what is red."""
+        red = [(x, y) for x, y in self.places(left, right) if self.pixel(x, y)[0] > 90 and self.pixel(x, y)[0] > 1.7 * self.pixel(x, y)[1]]
+        middle = statistics.median(x for x, _ in red), statistics.median(y for _, y in red)
+        return min(red, key=lambda p: (p[0] - middle[0]) ** 2 + (p[1] - middle[1]) ** 2)
+
+
+def light_scene():
+    return {
+        "schema_version": 1,
+        "name": "light",
+        "mesh": {"box": {"size": [0.1, 0.1, 0.1], "cells": [2, 2, 2], "origin": [0, 0, 0]}},
+        "materials": [{"law": "neo_hookean", "young": 5e3, "poisson": 0.3, "density": 1000}],
+        "boundary": [{"box": [[-1, 0.0999, -1], [1, 1, 1]], "fix": True}],
+        "gravity": [0, -9.81, 0],
+        "solver": {"step": 0.002, "damping": 1, "threads": 1},
+    }
+
+
+@unittest.skipIf(MISSING, "Xvfb and xdotool are needed")
+class Window(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def open_display(self, width, height):
+        self.display = Display(self.folder, width, height)
+        self.addCleanup(self.display.close)
+        self.environment = dict(os.environ, DISPLAY=self.display.name)
+
+    def start(self, *arguments):
+        self.program = subprocess.Popen([BINARY, "run", *map(str, arguments)], cwd=self.folder, env=self.environment,
+                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(self.program.kill)
+
+    def finish(self):
+        out, errors = self.program.communicate(timeout=60)
+        self.assertEqual(self.program.returncode, 0, errors)
+        numbers = re.fullmatch(r"(\d+) pictures drawn, (\d+) ticks, (\d+) missed deadlines, (\S+) wall seconds .*\n", out)
+        self.assertTrue(numbers, out)
+        return int(numbers[1]), int(numbers[2])
+
+    def xdo(self, *words):
+        subprocess.run(["xdotool", *map(str, words)], env=self.environment, check=True, stdout=subprocess.DEVNULL)
+
+    def wait_for(self, what, reached, seconds=60):
+        end = time.monotonic() + seconds
+        while not reached():
+            self.assertIsNone(self.program.poll(), "the program ended early")
+            self.assertLess(time.monotonic(), end, f"{what}: not within {seconds} s")
+            time.sleep(0.1)
+
+    def drag(self, start, by, steps=8, held=lambda: None):
+        self.xdo("mousemove", *start)
+        time.sleep(0.4)
+        self.xdo("mousedown", 1)
+        time.sleep(0.3)
+        for k in range(1, steps + 1):
+            self.xdo("mousemove", start[0] + by[0] * k // steps, start[1] + by[1] * k // steps)
+            time.sleep(0.06)
+        time.sleep(0.5)
+        held()
+        self.xdo("mouseup", 1)
+        time.sleep(0.3)
+
+    def events(self):
+        """The recording so far, without the scene and a line that is still being written."""
+        lines = (self.folder / "out.jsonl").read_text().split("\n")[1:-1]
+        return [json.loads(line) for line in lines]
+
+    def seen(self, key):
+        return [event[key] for event in self.events() if key in event]
+
+    def steady(self):
+        """A picture after which nothing changes any more; of a paused body."""
+        last = [self.display.picture()]
+
+        def same():
+            time.sleep(0.5)
+            picture = self.display.picture()
+            equal = picture.data == last[0].data
+            last[0] = picture
+            return equal
+
+        self.wait_for("a still picture", same)
+        return last[0]
+
+    def play_a_session(self, width, height):
+        left, right = (300, 1010) if width >= 1000 else (220, width)  # between the panel's columns
+        scale = 1 if width >= 1000 else 0.74
+        self.open_display(width, height)
+        self.start("--record", "out.jsonl", "--size", f"{width}x{height}")
+        self.wait_for("a picture", lambda: self.display.picture().colours() > 500)
+        time.sleep(1)
+
+        before, dragged = self.display.picture(), []
+        self.drag(before.tissue(left, right), (width // 20, height // 12), held=lambda: dragged.append(self.display.picture()))
+        self.wait_for("a release", lambda: self.seen("release"))
+        self.assertGreater(dragged[0].change(before, left, right), 1, "the picture does not follow the drag")
+        self.assertGreaterEqual(len(self.seen("move")), 3)
+
+        law = json.loads((self.folder / "out.jsonl").read_text().split("\n")[0])["materials"][0]["law"]
+        for row in range(10):
+            self.drag((int(scale * 170), int(scale * (140 + 13 * row))), (int(scale * 24), 0), steps=4)
+            self.xdo("key", "Escape")
+            if any(material["law"] == law for material in self.seen("material")):
+                break
+        self.wait_for("a material", lambda: self.seen("material"), 10)
+
+        self.xdo("mousemove", width - 30, height - 5, "key", "space")
+        paused = self.steady()
+        self.xdo("key", "3")
+        self.wait_for("other colours", lambda: self.display.picture().change(paused, left, right) > 3)
+        self.xdo("key", "Tab")
+        coloured = self.display.picture()
+        self.wait_for("a hidden panel", lambda: self.display.picture().change(coloured, 0, int(scale * 250)) > 3)
+        self.xdo("key", "p")
+        self.wait_for("a saved picture", lambda: list(self.folder.glob("heml-*.png")))
+        self.xdo("key", "r", "key", "space")
+        self.wait_for("a reset", lambda: self.seen("reset"))
+        time.sleep(0.5)
+        self.xdo("key", "ctrl+q")
+        drawn, ticks = self.finish()
+        self.assertGreater(drawn, 10)
+        self.assertGreater(ticks, 100)
+
+        order = [key for event in self.events() for key in ("grasp", "move", "release", "material", "reset") if key in event]
+        self.assertLess(order.index("grasp"), order.index("move"))
+        self.assertLess(order.index("move"), order.index("release"))
+        self.assertTrue(self.seen("end"))
+        replayed = subprocess.run([BINARY, "replay", "out.jsonl", "--verify"], cwd=self.folder, capture_output=True, text=True, timeout=400)
+        self.assertEqual(replayed.returncode, 0, replayed.stdout + replayed.stderr)
+        [saved] = self.folder.glob("heml-*.png")
+        head = saved.read_bytes()[:24]
+        self.assertEqual(head[:8], b"\x89PNG\r\n\x1a\n")
+        self.assertEqual(struct.unpack(">2I", head[16:]), (width, height))
+
+    def test_a_session_with_mouse_and_keys_is_recorded_and_replays(self):
+        self.play_a_session(1280, 720)
+
+    def test_a_small_window_is_as_usable(self):
+        self.play_a_session(640, 360)
+
+    def test_slow_drawing_does_not_hold_up_the_engine(self):
+        self.open_display(640, 360)
+        scene = self.folder / "light.json"
+        scene.write_text(json.dumps(light_scene()))
+        rates = {}
+        for stall in (0, 50):
+            self.start(scene, "--size", "320x180", "--exit-after", 6, "--draw-stall", stall)
+            drawn, ticks = self.finish()
+            rates[stall] = ticks / 6
+            self.assertGreater(drawn, 5)
+            if stall:
+                self.assertLess(drawn, 6 / 0.05, "the stall was not there")
+        self.assertGreater(rates[50], 0.9 * rates[0])
+
+    def test_a_paused_window_draws_nothing(self):
+        self.open_display(640, 360)
+        scene = self.folder / "light.json"
+        scene.write_text(json.dumps(light_scene()))
+        self.start(scene, "--size", "640x360")
+        self.wait_for("a picture", lambda: self.display.picture().colours() > 200)
+        self.xdo("mousemove", 600, 350, "key", "space")
+        self.steady()
+        stat = pathlib.Path(f"/proc/{self.program.pid}/stat")
+
+        def processor_time():
+            fields = stat.read_text().rsplit(")", 1)[1].split()
+            return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+        before = processor_time()
+        time.sleep(3)
+        self.assertLess(processor_time() - before, 0.15)
+        self.xdo("key", "ctrl+q")
+        self.finish()
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

@@ -1,0 +1,25 @@
+// mesh_seeds FOLDER: the hand-written samples as mesh_fuzz takes them, a byte for the format in front.
+#include <filesystem>
+#include <fstream>
+
+#include "engine/mesh/samples.hpp"
+
+int main(int argc, char** argv) {
+  if (argc != 2) return 2;
+  const std::filesystem::path folder = argv[1];
+  std::filesystem::create_directories(folder);
+  using namespace heml::samples;
+  const auto write = [&](const char* name, char format, const std::string& text) {
+    std::ofstream(folder / name, std::ios::binary) << format << text;
+  };
+  write("gmsh_1", 0, gmsh_1);
+  write("gmsh_2", 0, gmsh_2);
+  write("gmsh_4", 0, gmsh_4);
+  write("medit", 1, medit);
+  write("vtk", 2, vtk);
+  write("vtk_5", 2, vtk_5);
+  write("vtk_binary", 2, vtk_binary);
+  write("vtk_5_binary", 2, vtk_5_binary);
+  write("vtu", 3, vtu);
+  write("tetgen", 4, node + '\0' + ele);
+}

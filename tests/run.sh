@@ -1,0 +1,40 @@
+#!/usr/bin/env bash
+# Installs what is missing, builds heml and tests it. Ends with how many tests passed and failed.
+#   bash tests/run.sh           all: release; address, undefined behaviour and thread sanitizers; engine alone; fuzzers
+#   bash tests/run.sh --quick   release alone
+#   bash tests/run.sh --long    all, five minutes a fuzzer
+set -euo pipefail
+top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+cd "$top"
+source app/packages.sh
+
+presets=(release address thread smallest fuzz)
+fuzz_seconds=20
+case "${1:-}" in
+  '') ;;
+  --quick) presets=(release) ;;
+  --long) fuzz_seconds=300 ;;
+  *) fail "usage: bash tests/run.sh [--quick | --long]" ;;
+esac
+
+install_missing "${build_packages[@]}" "${run_packages[@]}" "${test_packages[@]}"
+results=()
+for preset in "${presets[@]}"; do
+  build "$preset" || fail "building $preset failed"
+  say "testing $preset"
+  results+=("build/$preset/results.xml")
+  rm -f "${results[-1]}"
+  HEML_FUZZ_SECONDS=$fuzz_seconds ctest --preset "$preset" -j "$(nproc)" --output-junit results.xml || true
+done
+
+# The head of each result file: <testsuite name="..." tests="120" failures="1" disabled="0" skipped="2" ...>
+say "${presets[*]} in $((SECONDS / 60)) min $((SECONDS % 60)) s"
+awk -F '"' '
+  /<testcase/  { nextfile }
+  /tests="/    { tests += $2 }
+  /failures="/ { failed += $2 }
+  /skipped="/  { skipped += $2 }
+  END {
+    printf "%d passed, %d failed, %d skipped\n", tests - failed - skipped, failed, skipped
+    exit failed > 0 || tests == 0
+  }' "${results[@]}"
