@@ -14,6 +14,11 @@ void Notices::say(std::string text) {
   said_for_ = 0;
 }
 
+void Notices::fail(std::string text) {
+  failure_ = std::move(text);
+  said_.clear();
+}
+
 bool Notices::close() {
   const bool open = !failure_.empty();
   failure_.clear();

@@ -15,9 +15,9 @@ struct Banner {
 
 class Notices {
  public:
-  void say(std::string text);                                  ///< shown for some seconds
-  void fail(std::string text) { failure_ = std::move(text); }  ///< shown until it is closed
-  bool close();                                                ///< true when a failure was open
+  void say(std::string text);   ///< shown for some seconds
+  void fail(std::string text);  ///< shown until it is closed
+  bool close();                 ///< true when a failure was open
 
   /// Draws what there is and the banner of the moment, if any, within the free part of the picture; true when the
   /// banner's button was pressed. seconds: since the last frame.

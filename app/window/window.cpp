@@ -11,21 +11,20 @@ namespace {
 using Clock = std::chrono::steady_clock;
 double seconds(Clock::duration d) { return std::chrono::duration<double>(d).count(); }
 
-/// When the next picture may be drawn: 60 a second at most, and with rests as long as drawing took, because drawing
-/// without a graphics card takes a core that the engine may need; longer rests while the engine is late.
+/// When the next picture may be drawn: 60 a second at most, and with rests between, because drawing without a graphics
+/// card takes a core that the engine may need: a quarter as long as drawing took, or as long while the engine is late.
 class DrawingPace {
  public:
   bool due(Clock::time_point now) const { return now >= next_; }
   double until_due(Clock::time_point now) const { return std::max(0.0, seconds(next_ - now)); }
   void drew(Clock::time_point began, Clock::time_point ended, bool engine_keeps_up) {
-    const double cost = seconds(ended - began), rest = engine_keeps_up ? 1 : 3;
-    const double interval = std::max(shortest, cost * (1 + rest));
-    next_ =
-        began + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(std::min(interval, longest)));
+    const double cost = seconds(ended - began), rest = std::min(engine_keeps_up ? cost / 4 : cost, longest_rest);
+    next_ = began +
+            std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(std::max(shortest, cost + rest)));
   }
 
  private:
-  static constexpr double shortest = 1.0 / 60, longest = 0.25;  // s
+  static constexpr double shortest = 1.0 / 60, longest_rest = 0.1;  // s
   Clock::time_point next_{};
 };
 

@@ -17,8 +17,8 @@ struct Quality {
 /// Where node n may go when it is asked to go to p; p itself: anywhere.
 using Constraint = std::function<Vec3(int n, const Vec3& p)>;
 
-/// Moves nodes, one at a time and in their order, so that the worst element round each gets better, until it is `enough`.
-/// Returns the number of moves.
+/// Moves nodes, one at a time and in their order, so that the worst element round each gets better, until it is
+/// `enough`. Returns the number of moves.
 int smooth(TetMesh& mesh, const Quality& quality, const Constraint& constraint, double enough, int rounds);
 
 }  // namespace heml::make

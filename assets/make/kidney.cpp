@@ -54,14 +54,14 @@ Organ kidney() {
   organ.region = [](const Vec3& p) { return parenchyma(p) < vessels(p) ? 1 : 2; };
   organ.detail = [](const Vec3& p) {
     const double away = std::clamp((vessels(p) - 0.002) / 0.012, 0.0, 1.0);
-    return std::lerp(0.72, 1.0, away);
+    return std::lerp(0.8, 1.0, away);
   };
   organ.low = Vec3(-0.050, -0.075, -0.040);
   organ.high = Vec3(0.100, 0.075, 0.040);
-  organ.edge = 0.00592;
+  organ.edge = 0.00575;
   organ.depth = 0.008;
   organ.spacing = 0.020;
-  organ.enough = 0.25;
+  organ.enough = 0.3;
   return organ;
 }
 

@@ -70,8 +70,8 @@ Organ uterus() {
   organ.high = Vec3(0.070, 0.060, 0.050);
   organ.edge = 0.00214;
   organ.depth = 0.004;
-  organ.spacing = 0.0095;
-  organ.enough = 0.25;
+  organ.spacing = 0.0085;
+  organ.enough = 0.3;
   return organ;
 }
 

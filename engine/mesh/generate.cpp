@@ -41,7 +41,7 @@ TetMesh make_box(const Vec3& size, const std::array<int, 3>& cells, const Vec3& 
   for (int k = 0; k < nz; ++k)
     for (int j = 0; j < ny; ++j)
       for (int i = 0; i < nx; ++i) {
-        const auto node = [&](int c) {
+        const auto node = [i, j, k, nx = nx, ny = ny](int c) {
           return i + (c & 1) + (nx + 1) * (j + (c >> 1 & 1) + (ny + 1) * (k + (c >> 2 & 1)));
         };
         if ((i + j + k) % 2 == 0) {

@@ -5,8 +5,8 @@ namespace heml {
 
 template <class Real>
 GraspSpring<Real>::GraspSpring(int center, Real radius, std::span<const int> nodes, const std::vector<Vec3>& rest,
-                               const Real* x, const std::vector<Real>& inverse_mass, Real omega)
-    : center_(center), omega_(omega) {
+                               const Real* x, const std::vector<Real>& inverse_mass, Real omega, double reach)
+    : center_(center), omega_(omega), reach_(reach) {
   const auto at = [x](int n) { return Vec3(Eigen::Map<const Vector3<Real>>(x + 3 * n).template cast<double>()); };
   target_ = at(center);
   const auto take = [&](int n, Real weight) {
@@ -30,16 +30,25 @@ GraspSpring<Real>::GraspSpring(int center, Real radius, std::span<const int> nod
 }
 
 template <class Real>
-Vector3<Real> GraspSpring<Real>::node_force(std::size_t k, const Real* x, const Real* v) const {
+Vec3 GraspSpring<Real>::felt_target(const Real* x) const {
+  const Vec3 from = grip(x), pull = target_ - from;
+  const double length = pull.norm();
+  return length > reach_ ? Vec3(from + reach_ / length * pull) : target_;
+}
+
+template <class Real>
+Vector3<Real> GraspSpring<Real>::node_force(std::size_t k, const Vec3& target, const Real* x, const Real* v) const {
   const int n = nodes_[k];
-  const Vector3<Real> goal = (target_ + offset_[k]).template cast<Real>();
+  const Vector3<Real> goal = (target + offset_[k]).template cast<Real>();
   return stiffness_[k] * (goal - Eigen::Map<const Vector3<Real>>(x + 3 * n)) -
          damping_[k] * Eigen::Map<const Vector3<Real>>(v + 3 * n);
 }
 
 template <class Real>
 void GraspSpring<Real>::add_forces(const Real* x, const Real* v, Real* f) const {
-  for (std::size_t k = 0; k < nodes_.size(); ++k) Eigen::Map<Vector3<Real>>(f + 3 * nodes_[k]) += node_force(k, x, v);
+  const Vec3 target = felt_target(x);
+  for (std::size_t k = 0; k < nodes_.size(); ++k)
+    Eigen::Map<Vector3<Real>>(f + 3 * nodes_[k]) += node_force(k, target, x, v);
 }
 
 template <class Real>
@@ -56,8 +65,9 @@ Vec3 GraspSpring<Real>::grip(const Real* x) const {
 
 template <class Real>
 Vec3 GraspSpring<Real>::force(const Real* x, const Real* v) const {
+  const Vec3 target = felt_target(x);
   Vec3 sum = Vec3::Zero();
-  for (std::size_t k = 0; k < nodes_.size(); ++k) sum += node_force(k, x, v).template cast<double>();
+  for (std::size_t k = 0; k < nodes_.size(); ++k) sum += node_force(k, target, x, v).template cast<double>();
   return sum;
 }
 

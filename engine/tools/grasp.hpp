@@ -2,7 +2,8 @@
 // Grasp: a patch of nodes tied to a tool by critically damped springs, like tissue held by forceps.
 //
 // Node i of the patch gets k_i = w_i ω² m_i and c_i = 2 √w_i ω m_i, with w falling smoothly to 0 at the rim and ω a
-// fraction of the body's highest frequency: stiff for a hand, and never what limits the step.
+// fraction of the body's highest frequency: stiff for a hand, and never what limits the step. Pulled further than
+// `reach`, the springs grow no longer: the grip slips, and the force stays what it is.
 #include <heml/math/types.hpp>
 #include <span>
 #include <vector>
@@ -13,9 +14,9 @@ template <class Real>
 class GraspSpring {
  public:
   /// x: 3 #V positions now; rest: 3 #V; nodes: candidates (inner numbers, ascending), those within `radius` of `center`
-  /// at rest are taken, and `center` always. inverse_mass 0: held, not taken. omega: 1/s.
+  /// at rest are taken, and `center` always. inverse_mass 0: held, not taken. omega: 1/s. reach: m.
   GraspSpring(int center, Real radius, std::span<const int> nodes, const std::vector<Vec3>& rest, const Real* x,
-              const std::vector<Real>& inverse_mass, Real omega);
+              const std::vector<Real>& inverse_mass, Real omega, double reach);
 
   bool empty() const { return nodes_.empty(); }
   Real omega() const { return omega_; }
@@ -33,11 +34,13 @@ class GraspSpring {
   Vec3 force(const Real* x, const Real* v) const;
 
  private:
-  Vector3<Real> node_force(std::size_t k, const Real* x, const Real* v) const;
+  Vec3 felt_target(const Real* x) const;  // the target, brought within reach
+  Vector3<Real> node_force(std::size_t k, const Vec3& target, const Real* x, const Real* v) const;
 
   int center_;
   Real omega_;
-  Vec3 target_;  ///< m
+  double reach_;  ///< m
+  Vec3 target_;   ///< m
   std::vector<int> nodes_;
   std::vector<Vec3> offset_;               ///< of each node from the tool when it was taken, m
   std::vector<Real> stiffness_, damping_;  ///< N/m, N s/m

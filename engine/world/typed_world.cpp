@@ -9,7 +9,8 @@ namespace heml {
 namespace {
 
 constexpr double safety = 0.9;  // of the live limit; the bound is taken anew every few steps
-constexpr int steps_between_bounds = 4;
+constexpr int steps_between_bounds = 8;
+constexpr int steps_between_bounds_when_pulled = 2;  // a hand can do much to a body in little time
 constexpr double smallest_step = 1e-9;  // s; below it a body is not soft tissue but a mistake
 constexpr std::size_t node_grain = 4096;
 
@@ -106,7 +107,8 @@ template <class Real>
 double TypedWorld<Real>::choose_step(double until) {
   const double left = until - state_.time;
   if (setup_.solver.step) return left;
-  if (++steps_since_bound_ >= steps_between_bounds) find_stable_step();
+  const int patience = grasps_.empty() ? steps_between_bounds : steps_between_bounds_when_pulled;
+  if (++steps_since_bound_ >= patience) find_stable_step();
   if (!(stable_step_ > smallest_step)) {
     halt_ = Halt{Halt::Cause::unstable, -1, -1,
                  fmt::format("stopped at t = {:.6g} s: an explicit method would need steps of {:.3g} s; "

@@ -2,11 +2,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <heml/materials/laws.hpp>
 #include <heml/world/typed_world.hpp>
 
 namespace heml {
 namespace {
-constexpr double tool_stiffness = 0.25;  // ω of a grasp, as a fraction of the body's highest frequency at rest
+constexpr double grip_reach = 0.25;  // of the body's size: how far a spring of a grasp can be drawn out before it slips
+
+/// ω of a grasp, 1/s: about as stiff as the patch of tissue it holds, whose own frequency is √(μ/ρ)/radius, and never
+/// so stiff that it shortens the step much.
+double tool_frequency(const WorldSetup& setup, double radius, double highest) {
+  double speed = 0;  // of shear waves, m/s
+  for (const RegionMaterial& entry : setup.materials)
+    with_law<double>(entry.material, setup.solver.continuation, [&](const auto& law) {
+      const Slopes<double> rest = law.slopes({3, 3, 1});
+      speed = std::max(speed, std::sqrt(2 * (rest.w1 + rest.w2) / entry.material.density));
+    });
+  return std::min(2 * speed / std::max(radius, 0.005), 0.25 * highest);
+}
 
 bool finite(const Vec3& v) { return v.allFinite(); }
 }  // namespace
@@ -33,8 +46,10 @@ std::optional<std::string> TypedWorld<Real>::take(const Grasp& command) {
   std::vector<int> candidates = model_.surface_nodes;
   if (!std::binary_search(candidates.begin(), candidates.end(), center))
     candidates.insert(std::lower_bound(candidates.begin(), candidates.end(), center), center);
-  GraspSpring<Real> grasp(center, static_cast<Real>(command.radius), candidates, model_.mesh.nodes, state_.x.data(),
-                          inverse_mass_, static_cast<Real>(tool_stiffness) * rest_frequency_);
+  GraspSpring<Real> grasp(
+      center, static_cast<Real>(command.radius), candidates, model_.mesh.nodes, state_.x.data(), inverse_mass_,
+      static_cast<Real>(tool_frequency(setup_, command.radius, static_cast<double>(rest_frequency_))),
+      grip_reach * model_.diagonal);
   if (grasp.empty()) return fmt::format("grasp: node {} is held, or belongs to no element", command.node);
   grasps_.assign(1, std::move(grasp));
   return std::nullopt;

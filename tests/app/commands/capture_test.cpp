@@ -1,0 +1,91 @@
+#include <doctest/doctest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <app/render/png.hpp>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+using namespace heml;
+
+namespace {
+
+const std::filesystem::path golden = std::filesystem::path(HEML_SOURCE_DIR) / "tests" / "golden";
+constexpr double limit = 3.0;  // of 255, per-pixel rms: drivers round differently, bodies do not move
+
+struct TemporaryFolder {
+  std::filesystem::path path =
+      std::filesystem::temp_directory_path() / ("heml-capture-test-" + std::to_string(getpid()));
+  TemporaryFolder() { std::filesystem::create_directories(path); }
+  ~TemporaryFolder() { std::filesystem::remove_all(path); }
+};
+
+/// Frames of a scene as the program captures them, 320 × 180.
+render::Image captured(const std::filesystem::path& scene, int frame, const TemporaryFolder& folder,
+                       const std::string& more = "") {
+  const auto out = folder.path / "frames";
+  const std::string command = std::string(HEML_BINARY) + " capture '" + scene.string() + "' --out '" + out.string() +
+                              "' --size 320x180 --fps 10 --frames " + std::to_string(frame + 1) + more + " >/dev/null";
+  REQUIRE(std::system(command.c_str()) == 0);
+  return render::read_png(out / ("frame_0000" + std::to_string(frame) + ".png"));
+}
+
+std::filesystem::path scene(const char* name) {
+  return std::filesystem::path(HEML_SOURCE_DIR) / "assets" / "scenes" / (std::string(name) + ".json");
+}
+
+/// Share of pixels that are clearly redder than they are green: the tissue.
+double coverage(const render::Image& image) {
+  int count = 0;
+  for (int y = 0; y < image.size.height; ++y)
+    for (int x = 0; x < image.size.width; ++x) count += image.at(x, y)[0] > 1.4 * image.at(x, y)[1];
+  return count / static_cast<double>(image.size.width * image.size.height);
+}
+
+}  // namespace
+
+TEST_CASE("captured frames are those committed, and show the body") {
+  const TemporaryFolder folder;
+  for (const char* name : {"kidney_pull", "uterus"}) {
+    const render::Image frame = captured(scene(name), 5, folder);
+    const auto file = golden / (std::string(name) + "_5.png");
+    if (std::getenv("HEML_UPDATE_GOLDEN")) render::write_png(file, frame);
+    const double rms = render::rms_difference(frame, render::read_png(file));
+    MESSAGE(std::string(name) << ": rms " << rms << ", coverage " << coverage(frame));
+    CHECK(rms <= limit);
+    CHECK(coverage(frame) > 0.08);
+    CHECK(coverage(frame) < 0.6);
+  }
+}
+
+TEST_CASE("the comparison can fail: a later frame differs by more than the limit") {
+  const TemporaryFolder folder;
+  CHECK(render::rms_difference(captured(scene("kidney_pull"), 8, folder), render::read_png(golden / "kidney_pull_5.png")) >
+        limit);
+}
+
+TEST_CASE("a colour map brings its legend, at the bottom; the panel brings its columns") {
+  const TemporaryFolder folder;
+  const auto plain = captured(scene("irregular_cube"), 0, folder), with_panel = captured(scene("irregular_cube"), 0, folder, " --panel");
+  int left = 0;
+  for (int y = 0; y < 180; ++y)
+    for (int x = 0; x < 60; ++x) left += !std::equal(plain.at(x, y), plain.at(x, y) + 3, with_panel.at(x, y));
+  CHECK(left > 60 * 180 / 2);
+  // The same scene as tissue and as displacement: the bottom of the picture, where no body is, differs by the legend.
+  std::ifstream in(scene("cube"));
+  std::string text((std::istreambuf_iterator<char>(in)), {});
+  const auto at = text.find("\"field\": \"");
+  REQUIRE(at != std::string::npos);
+  const auto end = text.find('"', at + 10);
+  const auto changed = [&](const char* field) {
+    std::ofstream(folder.path / "scene.json") << text.substr(0, at + 10) << field << text.substr(end);
+    return captured(folder.path / "scene.json", 1, folder);
+  };
+  const auto tissue = changed("none"), coloured = changed("displacement");
+  int legend = 0;
+  for (int y = 166; y < 180; ++y)
+    for (int x = 100; x < 220; ++x) legend += !std::equal(tissue.at(x, y), tissue.at(x, y) + 3, coloured.at(x, y));
+  CHECK(legend > 200);
+}
