@@ -63,5 +63,5 @@ build() {
   local preset=$1
   shift
   say "building $preset in build/$preset"
-  cmake --preset "$preset" --log-level=WARNING && cmake --build --preset "$preset" "$@"
+  cmake --preset "$preset" >/dev/null && cmake --build --preset "$preset" "$@"
 }

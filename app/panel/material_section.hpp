@@ -17,8 +17,6 @@ class MaterialSection {
   /// Shows what was set elsewhere.
   void follow(const SetMaterial& command);
 
-  const std::vector<RegionMaterial>& materials() const { return materials_; }
-
  private:
   void draw_region(Rows& rows);
   bool draw_law(Rows& rows, Material& material);

@@ -56,7 +56,7 @@ Real ElasticBody<Real>::frequency_bound(const Real* x, ThreadTeam& team) {
   Real largest = 0;
   std::mutex mutex;  // a maximum does not depend on the order it is taken in
   for (const Part& part : parts_)
-    team.for_ranges(part.group.size(), grain_, [&](std::size_t begin, std::size_t end) {
+    team.for_ranges(part.group.packets(), grain_ / ElementGroup<Real>::lanes, [&](std::size_t begin, std::size_t end) {
       const Real bound = part.law->frequency_bound(part.group, x, begin, end);
       std::lock_guard lock(mutex);
       largest = bound > largest || std::isnan(bound) ? bound : largest;

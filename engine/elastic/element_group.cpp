@@ -12,7 +12,7 @@ ElementGroup<Real> make_group(const TetMesh& mesh, const std::vector<int>& eleme
   for (auto& list : group.node) list.resize(padded);
   for (auto& list : group.A) list.resize(padded);
   group.volume.resize(padded);
-  group.gamma.resize(elements.size());
+  group.gamma.resize(padded);
   for (std::size_t s = 0; s < padded; ++s) {
     const std::size_t source = std::min(s, elements.size() - 1);
     const Tet& tet = mesh.tets[static_cast<std::size_t>(elements[source])];
@@ -28,12 +28,10 @@ ElementGroup<Real> make_group(const TetMesh& mesh, const std::vector<int>& eleme
     const double entries[6] = {A(0, 0), A(1, 1), A(2, 2), A(0, 1), A(0, 2), A(1, 2)};
     for (std::size_t i = 0; i < 6; ++i) group.A[i][s] = static_cast<Real>(entries[i]);
     group.volume[s] = static_cast<Real>(signed_volume(X[0], X[1], X[2], X[3]));
-    if (s < elements.size()) {
-      const Vec3 g0 = -g.colwise().sum().transpose();
-      const Mat3 sum = g.transpose() * g + g0 * g0.transpose();
-      group.gamma[s] =
-          static_cast<Real>(Eigen::SelfAdjointEigenSolver<Mat3>(sum, Eigen::EigenvaluesOnly).eigenvalues()[2]);
-    }
+    const Vec3 g0 = -g.colwise().sum().transpose();
+    const Mat3 sum = g.transpose() * g + g0 * g0.transpose();
+    group.gamma[s] =
+        static_cast<Real>(Eigen::SelfAdjointEigenSolver<Mat3>(sum, Eigen::EigenvaluesOnly).eigenvalues()[2]);
   }
   return group;
 }

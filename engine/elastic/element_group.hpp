@@ -22,9 +22,9 @@ struct ElementGroup {
   std::array<std::vector<int>, 4> node;  ///< 4 × padded #S
   std::array<std::vector<Real>, 6> A;    ///< 6 × padded #S, 1/m²
   std::vector<Real> volume;              ///< padded #S, m³, at rest
-  std::vector<Real> gamma;               ///< #S, 1/m²: largest eigenvalue of Σ_a g_a g_aᵀ, for the stable step
-  Real density = 1000;                   ///< kg/m³
-  std::size_t first_corner = 0;          ///< of slot 0, in the body's list of corners
+  std::vector<Real> gamma;       ///< padded #S, 1/m²: largest eigenvalue of Σ_a g_a g_aᵀ, for the stable step
+  Real density = 1000;           ///< kg/m³
+  std::size_t first_corner = 0;  ///< of slot 0, in the body's list of corners
 
   std::size_t size() const { return element.size(); }
   std::size_t packets() const { return volume.size() / lanes; }

@@ -22,7 +22,7 @@ class GroupLaw {
   /// See group_forces(). Any number of threads on disjoint ranges.
   virtual bool forces(const ElementGroup<Real>& group, const Real* x, std::size_t begin, std::size_t end,
                       Real* corner) const = 0;
-  /// Largest element_frequency_bound() of slots [begin, end), 1/s².
+  /// Largest element_frequency_bound() of packets [begin, end), 1/s².
   virtual Real frequency_bound(const ElementGroup<Real>& group, const Real* x, std::size_t begin,
                                std::size_t end) const = 0;
   /// Σ V W over the group, J, summed in the order of slots.
