@@ -30,13 +30,13 @@ inline Real natural_log(Real x) {
     // ln 2 in two parts, the first with enough trailing zeros that k times it is exact.
     return n * 0x1.62e42fefap-1 + (n * 0x1.cf79abc9e3b3ap-40 + (2 * s + 2 * s * tail));
   } else {
-    const auto bits = std::bit_cast<std::int32_t>(x);
-    const std::int32_t k = (bits - 0x3f3504f3) >> 23;
-    const float m = std::bit_cast<float>(bits - (k << 23));
+    constexpr std::uint32_t offset = 0x3f3504f3u, mantissa = 0x007fffffu;
+    const std::uint32_t d = std::bit_cast<std::uint32_t>(x) - offset;
+    const float m = std::bit_cast<float>((d & mantissa) + offset);
+    const float n = std::bit_cast<float>(((d + (128u << 23)) >> 23) | 0x4b000000u) - (0x1p23f + 128);
     const float s = (m - 1) / (m + 1);
     const float z = s * s;
     const float tail = z * (1.0f / 3 + z * (1.0f / 5 + z * (1.0f / 7 + z * (1.0f / 9 + z * (1.0f / 11)))));
-    const float n = static_cast<float>(k);
     return n * 0x1.62e4p-1f + (n * 0x1.7f7d1cp-20f + (2 * s + 2 * s * tail));
   }
 }

@@ -29,13 +29,18 @@ class Session::Impl {
         pacer_(world_->setup().solver.tick()) {
     if (options_.record) recorder_.emplace(*options_.record, without_events(scene), *world_);
     publish();
-    thread_ = std::thread([this] { run(); });
+    thread_ = std::thread([this] {
+      run();
+      finished_ = true;
+    });
   }
 
   ~Impl() {
     stopping_ = true;
-    world_->interrupt();
     wake_.notify_all();
+    // The tick under way may end, so that the recording has its end; one that takes far too long may not.
+    for (int wait = 0; wait < 100 && !finished_; ++wait) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    world_->interrupt();
     thread_.join();
     if (recorder_ && !world_->unfinished()) recorder_->end(*world_);
   }
@@ -169,7 +174,7 @@ class Session::Impl {
   std::vector<Command> queue_, taken_;
   long single_steps_ = 0;
   std::atomic<Field> field_;
-  std::atomic<bool> playing_, stopping_{false}, show_now_{false};
+  std::atomic<bool> playing_, stopping_{false}, finished_{false}, show_now_{false};
 
   Pacer pacer_;
   bool frames_published_since_pause_ = false;

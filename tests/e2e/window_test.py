@@ -37,7 +37,7 @@ class Display:
         self.server.wait()
 
     def picture(self):
-        """What is on the screen. The file is an X window dump: 25 big-endian words, a name, colours of 12 bytes, pixels."""
+        """The screen. The file is an X window dump: 25 big-endian words, a name, colours of 12 bytes, pixels."""
         with open(self.file, "rb") as file, mmap.mmap(file.fileno(), 0, prot=mmap.PROT_READ) as dump:
             words = struct.unpack(">25I", dump[:100])
             width, height, stride, start = words[4], words[5], words[12], words[0] + 12 * words[19]
@@ -109,7 +109,8 @@ class Window(unittest.TestCase):
     def finish(self):
         out, errors = self.program.communicate(timeout=60)
         self.assertEqual(self.program.returncode, 0, errors)
-        numbers = re.fullmatch(r"(\d+) pictures drawn, (\d+) ticks, (\d+) missed deadlines, (\S+) wall seconds .*\n", out)
+        line = r"(\d+) pictures drawn, (\d+) ticks, (\d+) missed deadlines, (\S+) wall seconds .*\n"
+        numbers = re.fullmatch(line, out)
         self.assertTrue(numbers, out)
         return int(numbers[1]), int(numbers[2])
 
