@@ -230,6 +230,29 @@ class Window(unittest.TestCase):
                 self.assertLess(drawn, 6 / 0.05, "the stall was not there")
         self.assertGreater(rates[50], 0.9 * rates[0])
 
+    @unittest.skipUnless(shutil.which("compare"), "imagemagick is needed")
+    def test_the_window_shows_what_is_captured_without_a_display(self):
+        self.open_display(640, 360)
+        scene = self.folder / "still.json"
+        scene.write_text(json.dumps(dict(light_scene(), gravity=[0, 0, 0])))
+        self.start(scene, "--size", "640x360")
+        self.wait_for("a picture", lambda: self.display.picture().colours() > 200)
+        self.xdo("mousemove", 638, 358)
+        self.xdo("key", "Tab")
+        time.sleep(1)
+        self.xdo("key", "p")
+        self.wait_for("a screenshot", lambda: list(self.folder.glob("heml-*.png")))
+        time.sleep(1)
+        self.xdo("key", "ctrl+q")
+        self.finish()
+        subprocess.run([BINARY, "capture", scene, "--out", "frames", "--frames", "1", "--size", "640x360"], cwd=self.folder,
+                       check=True, stdout=subprocess.DEVNULL)
+        shot = next(self.folder.glob("heml-*.png"))
+        done = subprocess.run(["compare", "-metric", "RMSE", shot, self.folder / "frames/frame_00000.png", "null:"],
+                              stderr=subprocess.PIPE, text=True)
+        normalised = float(done.stderr.split("(")[1].split(")")[0])
+        self.assertLess(normalised * 255, 3.0)  # the limit of committed frames
+
     def test_a_paused_window_draws_nothing(self):
         self.open_display(640, 360)
         scene = self.folder / "light.json"
