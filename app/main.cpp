@@ -91,6 +91,30 @@ int run_program(int argc, char** argv) {
   mesh_command->add_option("--max-volume", mesh_arguments.max_volume, "of one tetrahedron, m³")
       ->check(CLI::PositiveNumber);
 
+  MaterialsArguments materials_arguments;
+  auto* materials_command = program.add_subcommand("materials", "every law, its parameters, and tissues with sources");
+  materials_command->add_flag("--json", materials_arguments.json, "for programs: numbers with 17 digits");
+
+  BenchTestArguments bench_arguments;
+  auto* bench_command =
+      program.add_subcommand("bench-test", "the curve of a material test, and parameters fitted to a measured one");
+  bench_command
+      ->add_option("MATERIAL", bench_arguments.material, "JSON: one entry of a scene's `materials`; or a preset's name")
+      ->required();
+  bench_command->add_option("--test", bench_arguments.test, "uniaxial, equibiaxial, planar, shear or relaxation")
+      ->capture_default_str();
+  bench_command->add_option("--out", bench_arguments.out, "CSV of the curve; with --data also NAME.json: the fit")
+      ->required();
+  bench_command->add_option("--plot", bench_arguments.plot, "PNG of the curve");
+  bench_command->add_option("--data", bench_arguments.data,
+                            "measured CSV to fit: stretch,stress (gamma,stress; time,stress), nominal stress in Pa");
+  bench_command->add_option("--from", bench_arguments.from, "first stretch, shear or time");
+  bench_command->add_option("--to", bench_arguments.to, "last one");
+  bench_command->add_option("--points", bench_arguments.points, "of the curve")->capture_default_str();
+  bench_command->add_option("--step-stretch", bench_arguments.step_stretch, "held in a relaxation test")
+      ->capture_default_str();
+  bench_command->add_flag("--fit-all", bench_arguments.fit_all, "fit the bulk modulus (kappa, lambda) too");
+
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -108,6 +132,10 @@ int run_program(int argc, char** argv) {
     code = probe(probe_arguments);
   } else if (*mesh_command) {
     code = mesh_surface(mesh_arguments);
+  } else if (*materials_command) {
+    code = materials(materials_arguments);
+  } else if (*bench_command) {
+    code = bench_test(bench_arguments);
   } else {
     run_arguments.size = parse_size(run_size);
     code = run(run_arguments);

@@ -18,6 +18,7 @@ run_packages=(
 test_packages=(
   clang libclang-rt-14-dev                           # fuzzing
   imagemagick python3 xauth xdotool xvfb             # a window with a mouse in it
+  calculix-ccx python3-mpmath python3-numpy          # results to compare with
 )
 
 # say TEXT...: a line of ours, told apart from what the tools print.

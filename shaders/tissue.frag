@@ -1,4 +1,5 @@
-// Wet tissue, or (FIELD) the same surface carrying a colour map; or (OUTLINE) the strip that fades it out.
+// Wet tissue, or (FIELD) the same surface carrying a colour map; (HATCH) with stripes where numbers are not to be relied
+// on; or (OUTLINE) the strip that fades it out.
 in vec3 v_normal;
 in vec3 v_on_sphere;
 in vec3 v_slope;
@@ -6,6 +7,9 @@ in vec3 v_view;
 in vec4 v_surface;
 in float v_visible;
 in float v_value;
+#ifdef HATCH
+in float v_beyond;
+#endif
 #ifdef OUTLINE
 in float v_cover;
 #else
@@ -28,6 +32,18 @@ vec2 octahedral(vec3 d) {
   vec2 folded = (1.0 - abs(p.yx)) * vec2(p.x < 0.0 ? -1.0 : 1.0, p.y < 0.0 ? -1.0 : 1.0);
   return 0.5 + 0.5 * (p.z < 0.0 ? folded : p.xy);
 }
+
+#ifdef HATCH
+uniform float hatch_period;  // pixels
+
+// Cover of diagonal stripes, as draughtsmen hatch: 0 to 0.8, with soft edges.
+float hatching() {
+  float across = abs(fract((gl_FragCoord.x + gl_FragCoord.y) / hatch_period) - 0.5) * hatch_period;
+  float stripe = 1.0 - smoothstep(0.14 * hatch_period - 0.7, 0.14 * hatch_period + 0.7, across);
+  float soft = max(fwidth(v_beyond), 1e-6);
+  return 0.8 * stripe * smoothstep(0.0, soft, v_beyond);
+}
+#endif
 
 // What a mirror on the body would show: a soft box where the key light is, a strip behind, a dim room.
 vec3 reflected(vec3 r) {
@@ -91,4 +107,12 @@ void main() {
   radiance += wet * (fresnel * mix(0.35, 1.0, v_visible) * open * reflected(reflect(-v, wet_n)) +
                      broad * vec3(1.0, 0.72, 0.66) * key_colour);
   colour = vec4(to_screen(radiance, gl_FragCoord.xy), v_cover);
+#ifdef HATCH
+#ifdef FIELD
+  const vec3 hatch_colour = vec3(0.05, 0.06, 0.07);
+#else
+  const vec3 hatch_colour = vec3(0.93, 0.76, 0.44);
+#endif
+  colour.rgb = mix(colour.rgb, hatch_colour, hatching());
+#endif
 }

@@ -4,6 +4,9 @@ layout(location = 2) in float a_value;    // of the field shown, 0..1 over its r
 layout(location = 3) in vec3 a_rest;      // rest position in body radii about the body's centre
 layout(location = 4) in vec3 a_on_sphere; // place on the map of fine detail
 layout(location = 5) in vec4 a_surface;   // rgb: square root of the tint, a: openness to the sky
+#ifdef HATCH
+layout(location = 7) in float a_beyond;   // above 0: hatched
+#endif
 #ifdef OUTLINE
 layout(location = 6) in vec3 a_strip;     // xy: away from the shape in clip units, z: cover
 #endif
@@ -21,6 +24,9 @@ out vec3 v_view;      // towards the eye
 out vec4 v_surface;
 out float v_visible;  // share of the key light that arrives
 out float v_value;
+#ifdef HATCH
+out float v_beyond;
+#endif
 #ifdef OUTLINE
 out float v_cover;
 #endif
@@ -51,4 +57,7 @@ void main() {
   v_surface = vec4(a_surface.rgb * a_surface.rgb * (0.72 + 0.56 * broad.w), a_surface.a);
   v_visible = key_visibility();
   v_value = a_value;
+#ifdef HATCH
+  v_beyond = a_beyond;
+#endif
 }

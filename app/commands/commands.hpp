@@ -63,6 +63,23 @@ struct ProbeArguments {
 };
 int probe(const ProbeArguments& arguments);
 
+struct MaterialsArguments {
+  bool json = false;
+};
+int materials(const MaterialsArguments& arguments);
+
+struct BenchTestArguments {
+  std::string material;           ///< a file with one entry of a scene's `materials`, or a preset's name
+  std::string test = "uniaxial";  ///< one of bench_test_names(), or "relaxation"
+  std::filesystem::path out;
+  std::optional<std::filesystem::path> plot, data;
+  std::optional<double> from, to;  ///< stretch, γ, or s
+  int points = 201;
+  double step_stretch = 1.1;  ///< of a relaxation test
+  bool fit_all = false;
+};
+int bench_test(const BenchTestArguments& arguments);
+
 struct MeshArguments {
   std::filesystem::path surface, out;
   double radius_edge_ratio = 1.4;

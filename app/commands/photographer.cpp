@@ -25,7 +25,7 @@ Photographer::Photographer(const Scene& scene, const World& world, PictureSize s
 }
 
 void Photographer::take(World& world, double ahead, double seconds) {
-  fill_frame(world, skin_, view_.field, ahead, frame_);
+  fill_frame(world, skin_, view_.field, ahead, frame_, panel_ && panel_->wants_stretches());
   frame_.pace.rate = 1 / world.setup().solver.tick();
   if (panel_)
     draw_beside_panel(static_cast<float>(seconds));

@@ -7,8 +7,7 @@
 #include <fstream>
 #include <heml/base/error.hpp>
 #include <heml/base/log.hpp>
-#include <heml/materials/continuum.hpp>
-#include <heml/materials/laws.hpp>
+#include <heml/materials/point.hpp>
 #include <heml/scenario/scene.hpp>
 #include <limits>
 #include <sstream>
@@ -88,6 +87,11 @@ std::string cells_of(const Mat3& matrix) {
 
 int probe(const ProbeArguments& arguments) {
   const Material material = read_material(arguments.material);
+  if (!find_law(material.law)->is_continuum)
+    throw UsageError(
+        fmt::format("{}: '{}' has no energy of a deformation gradient to probe: its forces are those of "
+                    "edges",
+                    arguments.material.string(), material.law));
   const Table table = read_table(arguments.gradients);
   std::ofstream out(arguments.out);
   if (!out) throw InputError(arguments.out.string(), "", "cannot be written");
@@ -98,18 +102,16 @@ int probe(const ProbeArguments& arguments) {
   }
   out << names << '\n';
   int outside = 0;
-  with_law<double>(material, false, [&](const auto& law) {
-    const Mat3 nan = Mat3::Constant(std::numeric_limits<double>::quiet_NaN());
-    for (const Row& row : table.rows) {
-      const auto at = invariants_of(row.F);
-      const bool valid = law.valid(at) && std::isfinite(law.energy(at));
-      outside += valid ? 0 : 1;
-      out << fmt::format("{:.17g}", valid ? law.energy(at) : nan(0, 0))
-          << cells_of(valid ? first_piola(law, row.F) : nan);
-      if (table.has_dF) out << cells_of(valid ? first_piola_differential(law, row.F, row.dF) : nan);
-      out << '\n';
-    }
-  });
+  const auto point = make_material_point(material, false);
+  const Mat3 nan = Mat3::Constant(std::numeric_limits<double>::quiet_NaN());
+  for (const Row& row : table.rows) {
+    const bool valid = point->valid(row.F);
+    outside += valid ? 0 : 1;
+    out << fmt::format("{:.17g}", valid ? point->energy(row.F) : nan(0, 0))
+        << cells_of(valid ? point->first_piola(row.F) : nan);
+    if (table.has_dF) out << cells_of(valid ? point->first_piola_differential(row.F, row.dF) : nan);
+    out << '\n';
+  }
   out.flush();
   if (!out) throw InputError(arguments.out.string(), "", "could not be written to its end", "is the disk full?");
   if (outside > 0)

@@ -19,8 +19,10 @@ int solve_scene(const SolveArguments& arguments) {
                                   arguments.out.string()));
     return exit_not_solved;
   }
-  fmt::print("{} s in {} steps, {:.3g} s of computing; results in {}\n", result.time, result.steps, result.wall_seconds,
-             arguments.out.string());
+  const bool at_rest = scene.solver.integrator == Integrator::static_equilibrium;
+  fmt::print("{} in {} {}, {:.3g} s of computing; results in {}\n",
+             at_rest ? std::string("equilibrium") : fmt::format("{} s", result.time), result.steps,
+             at_rest ? "increments of the load" : "steps", result.wall_seconds, arguments.out.string());
   return exit_done;
 }
 

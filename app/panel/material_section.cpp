@@ -2,30 +2,25 @@
 
 #include <algorithm>
 #include <app/panel/material_section.hpp>
+#include <app/panel/parameter_rows.hpp>
+#include <app/panel/quantity.hpp>
 #include <app/panel/same_stiffness.hpp>
+#include <app/panel/tissue_choice.hpp>
+#include <cmath>
 
 namespace heml::panel {
 namespace {
 
-/// A parameter in the unit the panel shows it in.
-struct Shown {
-  double factor;  ///< shown value = factor × SI value
-  std::string format;
-  SliderRange range;
-};
-
-Shown shown_as(std::string_view unit, double value) {
-  if (unit == "Pa") return {1e-3, "%.4g kPa", {value > 0 ? 0.01 : 0, 1e5, nullptr, true}};
-  if (unit.empty()) return {1, "%.3g", {value > 0 ? 0.01 : -10, 100, nullptr, value > 0}};
-  return {1, fmt::format("%.3g {}", unit), {value > 0 ? 0.001 : 0, 1e5, nullptr, true}};
-}
+constexpr float tall_picture = 54;  // em: from there on the curve is open at first
 
 std::string name_of(const RegionMaterial& entry) {
   return entry.region ? fmt::format("Region {}", *entry.region) : std::string("Everywhere else");
 }
 
-bool is_name(std::string_view text) {
-  return std::all_of(text.begin(), text.end(), [](unsigned char c) { return c < 128; });
+void warn_in_panel(const std::string& text) {
+  ImGui::PushStyleColor(ImGuiCol_Text, colours::warning);
+  ImGui::TextWrapped("%s", text.c_str());
+  ImGui::PopStyleColor();
 }
 
 }  // namespace
@@ -33,40 +28,30 @@ bool is_name(std::string_view text) {
 void MaterialSection::follow(const SetMaterial& command) {
   for (RegionMaterial& entry : materials_)
     if (entry.region == command.region) entry.material = command.material;
+  ++changes_;
 }
 
-void MaterialSection::draw(Rows& rows, PanelActions& out) {
+void MaterialSection::draw(Rows& rows, double stretched, PanelActions& out) {
   if (materials_.empty()) return;
   if (materials_.size() > 1) draw_region(rows);
   RegionMaterial& entry = materials_[static_cast<std::size_t>(chosen_)];
   Material edited = entry.material;
-  bool changed = draw_law(rows, edited);
+  bool changed = choose_tissue(rows, edited);
+  changed |= draw_law(rows, edited);
   const LawInfo* law = find_law(edited.law);
   if (!law) return;
-  if (law->takes_young_poisson) {
-    static const std::string ways[] = {"E and ν", "λ and μ"};
-    int way = engineering_ ? 0 : 1;
-    rows.choice(
-        {"Given as", "Young's modulus and Poisson's ratio, or the two Lamé parameters: the same material either way."},
-        way, ways);
-    engineering_ = way == 0;
-  }
-  changed |=
-      law->takes_young_poisson && engineering_ ? draw_engineering(rows, edited) : draw_parameters(rows, edited, *law);
-  changed |= rows.slider({"Density", "Mass per volume at rest, kg/m³. Water has 1000."}, edited.density,
-                         {100, 10000, "%.0f kg/m³", true});
+  changed |= draw_numbers(rows, edited, *law);
   if (changed) {
     const auto problem = material_problem(edited);
     problem_ = problem ? fmt::format("{} {}", problem->first, problem->second) : std::string();
     if (!problem) {
       entry.material = edited;
+      ++changes_;
       out.commands.emplace_back(SetMaterial{entry.region, edited});
     }
   }
-  if (problem_.empty()) return;
-  ImGui::PushStyleColor(ImGuiCol_Text, colours::warning);
-  ImGui::TextWrapped("%s", problem_.c_str());
-  ImGui::PopStyleColor();
+  draw_outcome(rows, entry.material, stretched);
+  if (!problem_.empty()) warn_in_panel(problem_);
 }
 
 void MaterialSection::draw_region(Rows& rows) {
@@ -79,58 +64,57 @@ void MaterialSection::draw_region(Rows& rows) {
 }
 
 bool MaterialSection::draw_law(Rows& rows, Material& material) {
-  std::vector<std::string> titles;
+  std::vector<std::string> titles, hints;
   int chosen = -1;
   for (const LawInfo& law : laws()) {
     if (law.name == material.law) chosen = static_cast<int>(titles.size());
     titles.emplace_back(law.title);
+    hints.push_back(fmt::format("W = {}\n\n{}", law.formula, law.source));
   }
   const LawInfo* before = find_law(material.law);
   const bool changed =
       rows.choice({"Law",
                    "How stress follows from strain. Switching keeps the shape, the motion and the stiffness "
                    "under small strains."},
-                  chosen, titles);
+                  chosen, titles, hints);
   if (!changed || !before) return false;
   material = same_stiffness(material, *before, laws()[static_cast<std::size_t>(chosen)]);
   return true;
 }
 
-bool MaterialSection::draw_parameters(Rows& rows, Material& material, const LawInfo& law) {
-  bool changed = false;
-  for (std::size_t i = 0; i < law.parameters.size(); ++i) {
-    const ParameterInfo& info = law.parameters[i];
-    const Shown shown = shown_as(info.unit, material.parameters[i]);
-    SliderRange range = shown.range;
-    range.format = shown.format.c_str();
-    double value = shown.factor * material.parameters[i];
-    const std::string label(info.symbol.empty() ? info.name : info.symbol);
-    const std::string key = is_name(label) ? std::string() : fmt::format(" ({} in scenes)", info.name);
-    const std::string unit = info.unit.empty() ? std::string("no unit") : std::string(info.unit);
-    if (!rows.slider({label, fmt::format("{}{}, {}.", info.meaning, key, unit)}, value, range)) continue;
-    material.parameters[i] = value / shown.factor;
-    changed = true;
+bool MaterialSection::draw_numbers(Rows& rows, Material& material, const LawInfo& law) {
+  const bool has_pair = law.takes_young_poisson && material.fields.empty();
+  if (has_pair) {
+    static const std::string ways[] = {"E and ν", "λ and μ"};
+    int way = engineering_ ? 0 : 1;
+    rows.choice(
+        {"Given as", "Young's modulus and Poisson's ratio, or the two Lamé parameters: the same material either way."},
+        way, ways);
+    engineering_ = way == 0;
   }
+  bool changed = has_pair && engineering_ ? engineering_rows(rows, material) : parameter_rows(rows, material, law);
+  if (law.has_fibre) changed |= fibre_rows(rows, material);
+  changed |= rows.slider({"Density", "Mass per volume at rest, kg/m³. Water has 1000."}, material.density,
+                         {100, 10000, "%.0f kg/m³", true});
   return changed;
 }
 
-bool MaterialSection::draw_engineering(Rows& rows, Material& material) {
-  const Engineering now = engineering_from({material.parameters[0], material.parameters[1]});
-  double young = now.young * 1e-3, poisson = now.poisson;
-  bool changed =
-      rows.slider({"Young's E",
-                   "Young's modulus E: stress per strain when pulled along one direction, kPa. Brain has about "
-                   "1, liver 5, muscle 20."},
-                  young, {0.01, 1e5, "%.4g kPa", true});
-  changed |=
-      rows.slider({"Poisson's ν",
-                   "Poisson's ratio ν: how much the body narrows when it is pulled, no unit. Towards 0.5 it keeps "
-                   "its volume, and steps must be shorter."},
-                  poisson, {0, 0.495, "%.3f", false});
-  if (!changed) return false;
-  const Lame lame = lame_from(young * 1e3, poisson);
-  material.parameters = {lame.lambda, lame.mu};
-  return true;
+void MaterialSection::draw_outcome(Rows& rows, const Material& material, double stretched) {
+  const GroundState rest = ground_state(material);
+  const bool tall = ImGui::GetIO().DisplaySize.y >= em(tall_picture);
+  const std::string hint = fmt::format(
+      "Shear stress per shear strain under small strains, Pa; across the fibres where there are any. Bulk "
+      "modulus: {}.\n\nPress for the curve of a pull.",
+      quantity(rest.bulk, "Pa"));
+  if (rest.shear > 0 && rows.folding_value({"Shear modulus at rest", hint}, quantity(rest.shear, "Pa"), tall)) {
+    curve_.draw(material);
+    rows.explain({"Curve",
+                  "Nominal stress (force per area at rest) against the stretch of a bar that is pulled or pressed, "
+                  "its sides free. Shaded: where a tissue's numbers were measured."});
+  }
+  if (stretched > 0)
+    warn_in_panel(fmt::format("{:.0f} % of the surface (hatched) is stretched further than this tissue was measured.",
+                              std::max(1.0, std::round(100 * stretched))));
 }
 
 }  // namespace heml::panel

@@ -30,14 +30,26 @@ Panel::Panel(const Scene& scene, const Skin& skin)
       largest_grasp_(most_grasp * static_cast<double>(render::ball_around(skin.rest).radius)),
       grasp_radius_(largest_grasp_ * first_grasp / most_grasp),
       material_(scene.materials),
+      watch_(skin),
       motion_(scene.gravity, scene.solver),
-      view_(scene.view) {}
+      view_(scene.view) {
+  watch_stretches();
+}
+
+void Panel::watch_stretches() {
+  if (watched_changes_ == material_.changes()) return;
+  watched_changes_ = material_.changes();
+  watch_.set(material_.materials());
+}
 
 void Panel::take(const Frame& frame, float seconds) {
   history_.take(frame);
   late_for_ = frame.paused || frame.pace.keeping_up ? 0 : late_for_ + seconds;
   range_ = colour_range_.update(frame.field, frame.values, seconds);
   view_.set_range(range_);
+  watch_stretches();
+  watch_.take(frame);
+  view_.set_beyond(watch_.beyond());
 }
 
 void Panel::perform(Action action) { pressed_.push_back(action); }
@@ -151,7 +163,7 @@ void Panel::draw_controls(const Frame& frame, bool with_readings, PanelActions& 
     draw_header(frame);
     const float header_height = ImGui::GetCursorPosY();
     ImGui::BeginChild("sections", {0, 0}, false, ImGuiWindowFlags_NoNav);
-    if (rows_.section("Material")) material_.draw(rows_, out);
+    if (rows_.section("Material")) material_.draw(rows_, watch_.share(), out);
     if (rows_.section("Motion")) motion_.draw(rows_, out);
     if (rows_.section("Tool")) draw_grasp();
     if (with_readings) {

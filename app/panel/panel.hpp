@@ -18,6 +18,7 @@
 #include <app/panel/material_section.hpp>
 #include <app/panel/motion_section.hpp>
 #include <app/panel/notices.hpp>
+#include <app/panel/stretch_watch.hpp>
 #include <app/panel/view_section.hpp>
 #include <heml/scenario/scene.hpp>
 
@@ -40,8 +41,9 @@ class Panel {
   void fail(std::string text) { notices_.fail(std::move(text)); }  ///< a file that could not be opened
 
   const render::DrawOptions& drawing() const { return view_.drawing(); }
-  double grasp_radius() const { return grasp_radius_; }  ///< m
-  Insets insets(ImVec2 picture) const;                   ///< that draw() takes in a picture of a size, pixels
+  bool wants_stretches() const { return watch_.active(); }  ///< whether frames should carry Frame::stretches
+  double grasp_radius() const { return grasp_radius_; }     ///< m
+  Insets insets(ImVec2 picture) const;                      ///< that draw() takes in a picture of a size, pixels
   bool covers(float x,
               float y) const;  ///< whether a point is on the panel, as last drawn: the mouse is then not on the body
   bool animating() const { return notices_.animating(); }         ///< whether it changes by itself
@@ -54,6 +56,7 @@ class Panel {
   void draw_pace(const Frame& frame);
   void draw_readings(const Frame& frame);
   void draw_grasp();
+  void watch_stretches();
   std::optional<Banner> banner_for(const Frame& frame) const;
   void remember_place();
 
@@ -61,6 +64,8 @@ class Panel {
   double largest_grasp_;             ///< m
   double grasp_radius_;              ///< m
   MaterialSection material_;
+  StretchWatch watch_;
+  int watched_changes_ = -1;  ///< MaterialSection::changes() that the watch knows of
   MotionSection motion_;
   ViewSection view_;
   Notices notices_;

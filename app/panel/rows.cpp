@@ -87,7 +87,7 @@ void Rows::begin(const Label& label) {
 }
 
 bool Rows::section(const char* title, bool open_at_first) {
-  ImGui::Dummy({0, em(0.1f)});
+  ImGui::SetCursorPosY(ImGui::GetCursorPosY() + em(0.1f));
   bool* open = ImGui::GetStateStorage()->GetBoolRef(ImGui::GetID(title), open_at_first);
   const ImVec2 from = ImGui::GetCursorScreenPos(), size(ImGui::GetContentRegionAvail().x, em(1.45f));
   if (ImGui::InvisibleButton(title, size)) *open = !*open;
@@ -117,17 +117,22 @@ bool Rows::slider(const Label& label, double& value, const SliderRange& asked) {
   ImGui::PopID();
   ImGui::PopStyleColor(3);
   explain({label.text, label.hint + "\n\nCtrl+click to type a number."});
-  if (!changed || edited == value || !std::isfinite(edited)) return false;
+  // A value that was converted on its way here and back is still the same one.
+  const bool same = std::abs(edited - value) <= 1e-9 * std::max(std::abs(edited), std::abs(value));
+  if (!changed || same || !std::isfinite(edited)) return false;
   value = edited;
   return true;
 }
 
-bool Rows::choice(const Label& label, int& index, std::span<const std::string> names) {
+bool Rows::choice(const Label& label, int& index, std::span<const std::string> names,
+                  std::span<const std::string> hints) {
   begin(label);
   ImGui::PushID(label.text.c_str());
   bool changed = false;
-  const std::string shown = index >= 0 && index < std::ssize(names) ? names[index] : "–";
-  const bool open = ImGui::BeginCombo("##choice", shown.c_str(), ImGuiComboFlags_NoArrowButton);
+  const float room = ImGui::CalcItemWidth() - em(1.3f) - 2 * ImGui::GetStyle().FramePadding.x;
+  const std::string shown = index >= 0 && index < std::ssize(names) ? shortened(names[index], room) : "–";
+  const bool open =
+      ImGui::BeginCombo("##choice", shown.c_str(), ImGuiComboFlags_NoArrowButton | ImGuiComboFlags_HeightLarge);
   explain(label);
   if (!open) {
     const ImVec2 from = ImGui::GetItemRectMin(), to = ImGui::GetItemRectMax();
@@ -137,7 +142,7 @@ bool Rows::choice(const Label& label, int& index, std::span<const std::string> n
     int chosen = index;
     for (int i = 0; i < std::ssize(names); ++i) {
       if (ImGui::Selectable(names[i].c_str(), i == index)) chosen = i;
-      if (ImGui::IsItemHovered()) hovered_ = names[i];
+      explain({names[i], i < std::ssize(hints) ? hints[i] : std::string()});
     }
     changed = chosen != index;
     index = chosen;
@@ -169,6 +174,19 @@ void Rows::value(const Label& label, const std::string& shown, ImU32 dot, ImU32 
   text_at_right(shown, colour);
   ImGui::EndGroup();
   explain(label);
+}
+
+bool Rows::folding_value(const Label& label, const std::string& shown, bool open_at_first) {
+  bool* open = ImGui::GetStateStorage()->GetBoolRef(ImGui::GetID(label.text.c_str()), open_at_first);
+  const ImVec2 from = ImGui::GetCursorScreenPos();
+  value(label, shown);
+  if (ImGui::IsItemClicked()) *open = !*open;
+  const ImVec2 size = ImGui::GetItemRectSize();
+  const UseFont small(Font::small);
+  const float name = ImGui::CalcTextSize(label.text.c_str()).x;
+  draw_chevron({from.x + name + em(0.7f), from.y + size.y / 2}, *open,
+               ImGui::IsItemHovered() ? colours::text : colours::faint);
+  return *open;
 }
 
 bool Rows::button(const Label& label, float width) {

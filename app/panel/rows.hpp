@@ -28,11 +28,16 @@ class Rows {
 
   /// True when the user changed the value.
   bool slider(const Label& label, double& value, const SliderRange& range);
-  bool choice(const Label& label, int& index, std::span<const std::string> names);
+  /// hints: what each name means, or nothing. An index outside the names shows "–".
+  bool choice(const Label& label, int& index, std::span<const std::string> names,
+              std::span<const std::string> hints = {});
   bool check(const Label& label, bool& value);
 
   /// A number with its name; a dot before it when a colour is given.
   void value(const Label& label, const std::string& shown, ImU32 dot = 0, ImU32 colour = colours::text);
+
+  /// A number with its name that shows more below it when pressed; true while open.
+  bool folding_value(const Label& label, const std::string& shown, bool open_at_first);
 
   /// True when pressed. width: pixels, 0: as the text asks.
   bool button(const Label& label, float width = 0);

@@ -1,35 +1,61 @@
-#include <algorithm>
 #include <app/panel/same_stiffness.hpp>
-#include <map>
+#include <heml/materials/parameter_slots.hpp>
 
 namespace heml::panel {
+namespace {
 
-SmallStrain small_strain(const LawInfo& law, const std::vector<double>& parameters) {
-  std::map<std::string_view, double> by_name;
-  for (std::size_t i = 0; i < law.parameters.size() && i < parameters.size(); ++i)
-    by_name[law.parameters[i].name] = parameters[i];
-  const auto get = [&](std::string_view name) { return by_name.count(name) ? by_name[name] : 0.0; };
-  const double shear = get("mu") + 2 * (get("K1") + get("K2"));
-  return {shear, by_name.count("kappa") ? get("kappa") : get("lambda") + 2 * shear / 3};
+constexpr double spring_length = 0.01;  // m
+
+GroundState moduli_of(const Material& material, const LawInfo& law) {
+  if (law.is_continuum) return ground_state(material);
+  const Lame lame = lame_from(material.parameters.front() / spring_length, 0.25);
+  return {lame.mu, lame.lambda + 2 * lame.mu / 3};
 }
 
+/// What a parameter begins with; moduli are scaled afterwards.
+double first_value(std::string_view name) {
+  if (name == "K2") return 0.25;  // of K1: usually about a fifth of a soft tissue's stiffness
+  if (name == "alpha") return 2;  // neo-Hookean
+  if (name == "C20" || name == "C30") return 0;
+  if (name == "Jm") return 30;  // locks at a stretch of about 5
+  return 1;
+}
+
+}  // namespace
+
 Material same_stiffness(const Material& material, const LawInfo& from, const LawInfo& to) {
-  const SmallStrain moduli = small_strain(from, material.parameters);
-  const bool two_terms =
-      std::any_of(to.parameters.begin(), to.parameters.end(), [](const auto& p) { return p.name == "K2"; });
-  // Mooney and Rivlin's second term usually carries about a fifth of a soft tissue's stiffness.
-  const double first_share = two_terms ? 0.8 : 1.0;
-  const auto value = [&](std::string_view name) {
-    if (name == "mu") return moduli.shear;
-    if (name == "lambda") return moduli.bulk - 2 * moduli.shear / 3;
-    if (name == "kappa") return moduli.bulk;
-    if (name == "K1") return first_share * moduli.shear / 2;
-    if (name == "K2") return (1 - first_share) * moduli.shear / 2;
-    if (name == "k1") return moduli.shear;
-    return 1.0;
-  };
-  Material result{std::string(to.name), {}, material.density};
-  for (const ParameterInfo& parameter : to.parameters) result.parameters.push_back(value(parameter.name));
+  const GroundState wanted = moduli_of(material, from);
+  Material result = material;
+  result.law = to.name;
+  result.parameters.clear();
+  result.fields.clear();
+  for (const ParameterInfo& info : to.parameters) result.parameters.push_back(first_value(info.name));
+  if (!to.has_fibre) {
+    result.fibre = Vec3::Zero();
+    result.fibre_field.clear();
+  } else if (result.fibre_field.empty() && result.fibre.isZero()) {
+    result.fibre = Vec3::UnitX();
+  }
+  if (!to.has_volume_term) {
+    result.volume_term = VolumeTerm::quadratic;
+    result.relaxation.clear();
+    result.plasticity.reset();
+  }
+  if (to.has_fibre) result.plasticity.reset();
+  if (!to.is_continuum) {
+    const Lame lame{wanted.bulk - 2 * wanted.shear / 3, wanted.shear};
+    result.parameters = {engineering_from(lame).young * spring_length};
+    result.viscosity = result.bulk_viscosity = 0;
+    return result;
+  }
+  // Both moduli are linear in the parameters that are moduli: shear does not know the volume's, which bulk has alone
+  // (and laws with stress at rest beside others).
+  const std::size_t volume = *volume_slot(result, to);
+  const std::vector<ParameterSlot> slots = parameter_slots(result, to);
+  const double factor = wanted.shear / ground_state(result).shear;
+  for (std::size_t i = 0; i < slots.size(); ++i)
+    if (i != volume && slots[i].info->unit == "Pa") result.parameters[i] *= factor;
+  result.parameters[volume] += wanted.bulk - ground_state(result).bulk;
   return result;
 }
 

@@ -4,15 +4,10 @@
 
 namespace heml::panel {
 
-/// Moduli under small strains, Pa.
-struct SmallStrain {
-  double shear, bulk;
-};
-
-/// From parameters by their names in scene files. Names it does not know are left out of account.
-SmallStrain small_strain(const LawInfo& law, const std::vector<double>& parameters);
-
-/// The material with another law: the same density, shear and bulk modulus; exponents start moderate.
+/// The material with another law: the same density, shear and bulk modulus at rest (ground_state()); exponents and
+/// powers start moderate, and a fibre along x where the law needs one and there was none. What the law cannot have
+/// beside it (relaxation, plasticity, a volume term, fields of the mesh) is dropped. A net of springs has no modulus of
+/// its own: it is taken as 1 cm long springs, Young's modulus times that length, with Poisson's ratio 1/4.
 Material same_stiffness(const Material& material, const LawInfo& from, const LawInfo& to);
 
 }  // namespace heml::panel

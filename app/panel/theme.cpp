@@ -8,7 +8,8 @@ namespace {
 constexpr float text_size = 15, small_size = 12.5f, title_size = 19, number_size = 30;
 
 void load_fonts(float scale) {
-  static constexpr ImWchar letters[] = {0x20, 0xff, 0x391, 0x3c9, 0x2010, 0x2026, 0x2080, 0x2089, 0x2202, 0x2265, 0};
+  static constexpr ImWchar letters[] = {0x20,   0x17f,  0x300,  0x304,  0x391,  0x3c9, 0x2010,
+                                        0x2026, 0x2080, 0x2089, 0x2202, 0x2265, 0};
   const std::string_view file = render::resource("Roboto-Medium.ttf");
   ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
   atlas.Clear();

@@ -17,6 +17,7 @@ class ViewSection {
   void show(Field field, PanelActions& out);
   void toggle_wireframe() { drawing_.wireframe = !drawing_.wireframe; }
   void set_range(const render::Range& range) { drawing_.range = range; }
+  void set_beyond(std::span<const float> beyond) { drawing_.beyond = beyond; }
 
   Field field() const { return field_; }
   const render::DrawOptions& drawing() const { return drawing_; }

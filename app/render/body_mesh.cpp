@@ -126,6 +126,14 @@ void BodyMesh::update(const Frame& frame, const Range& range) {
   upload(GL_ARRAY_BUFFER, moving_buffer_, std::span<const Moving>(moving_), GL_STREAM_DRAW);
 }
 
+void BodyMesh::update_hatching(std::span<const float> beyond) {
+  glBindVertexArray(array_);
+  if (beyond.empty()) return glDisableVertexAttribArray(7);
+  surface_.spread(beyond, beyond_);
+  upload(GL_ARRAY_BUFFER, beyond_buffer_, std::span<const float>(beyond_), GL_STREAM_DRAW);
+  vertex_attribute(7, 1, GL_FLOAT, sizeof(float), 0);
+}
+
 void BodyMesh::update_outline(const Vec3f& eye, const Mat4f& view_projection, Size size) {
   strips_.clear();
   Outline::for_each_corner(outline_.find(surface_.positions(), eye, view_projection, size),

@@ -5,6 +5,7 @@
 #include <app/render/gl_objects.hpp>
 #include <app/render/outline.hpp>
 #include <app/render/smooth_surface.hpp>
+#include <span>
 
 namespace heml::render {
 
@@ -15,12 +16,15 @@ class BodyMesh {
   /// Takes a frame's positions and, when it has them, its values over a range.
   void update(const Frame& frame, const Range& range);
 
+  /// Values above 0 are hatched by programs that do so; #S, or empty for none.
+  void update_hatching(std::span<const float> beyond);
+
   /// Finds the outline as an eye (m) sees it, for draw_outline().
   void update_outline(const Vec3f& eye, const Mat4f& view_projection, Size size);
 
   void draw_surface() const;
   void draw_outline() const;  ///< strips that fade outwards, see outline.hpp
-  void draw_flat() const;  ///< the real triangles, for shadows
+  void draw_flat() const;     ///< the real triangles, for shadows
   void draw_edges() const;
   void draw_held() const;  ///< points
 
@@ -60,13 +64,13 @@ class BodyMesh {
   std::size_t nodes_;
   Ball rest_;
   float bead_radius_ = 0;
-  std::vector<float> values_;
+  std::vector<float> values_, beyond_;
   Outline outline_;
   std::vector<Moving> moving_;
   std::vector<Fixed> fixed_;
   std::vector<Strip> strips_;
   VertexArray array_, strip_array_;
-  Buffer moving_buffer_, fixed_buffer_, strip_buffer_;
+  Buffer moving_buffer_, fixed_buffer_, strip_buffer_, beyond_buffer_;
   Indices triangles_, flat_, lines_, held_;
 };
 

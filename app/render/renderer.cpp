@@ -12,9 +12,10 @@ namespace heml::render {
 namespace {
 
 const Vec3f key_direction = Vec3f(-0.50f, 0.78f, 0.38f).normalized();  // towards the lamp
-constexpr float ground_extent = 7;                                      // in body radii
-constexpr int ground_grid = 36;                                         // squares a side, as ground.vert has it
-constexpr float ground_gap = 0.05f;                                     // under the body, in body radii
+constexpr float ground_extent = 7;                                     // in body radii
+constexpr int ground_grid = 36;                                        // squares a side, as ground.vert has it
+constexpr float hatch_period = 11;                                     // pixels in a picture 720 high
+constexpr float ground_gap = 0.05f;                                    // under the body, in body radii
 
 // A colour map as a picture one pixel high; square roots, because bytes are coarse for dark linear colours.
 void upload_map(const Texture& texture, Field field) {
@@ -50,6 +51,7 @@ class Renderer::Impl {
  private:
   const Canvas* canvas(const DrawOptions& options, Size size);
   void draw_picture(const Shot& shot, const Frame& frame, const DrawOptions& options);
+  const Program& surface_program(bool shows_field, bool hatched);
   void prepare_body(const Shot& shot, const Program& program) const;
   void draw_shadows(const Shot& shot, const Frame& frame, const DrawOptions& options);
   void draw_edges(const Shot& shot) const;
@@ -61,6 +63,7 @@ class Renderer::Impl {
   Program field_{"tissue.vert", "tissue.frag", {"FIELD"}};
   Program tissue_strip_{"tissue.vert", "tissue.frag", {"OUTLINE"}};
   Program field_strip_{"tissue.vert", "tissue.frag", {"FIELD", "OUTLINE"}};
+  std::optional<Program> hatched_tissue_, hatched_field_;  // made when first asked for
   Program line_{"line.vert", "line.frag"};
   Program bead_{"bead.vert", "bead.frag"};
   Program ground_{"ground.vert", "ground.frag"};
@@ -87,11 +90,13 @@ const Canvas* Renderer::Impl::canvas(const DrawOptions& options, Size size) {
 void Renderer::Impl::draw(const Frame& frame, const Camera& camera, const DrawOptions& options, Size size) {
   if (body_ && frame.positions.size() != body_->node_count())
     throw std::invalid_argument("Renderer::draw: the frame has another number of nodes than the skin");
+  if (body_ && !options.beyond.empty() && options.beyond.size() != body_->node_count())
+    throw std::invalid_argument("Renderer::draw: `beyond` has another number of nodes than the skin");
   const Canvas* scaled = canvas(options, size);
   const Size drawn = scaled ? scaled->size() : size;
   const Mat4f sight = camera.view(), projection = camera.projection(drawn);
-  const Shot shot{camera, drawn, sight, projection, projection * sight, key_direction,
-                  body_ ? body_->rest().radius : 1};
+  const Shot shot{
+      camera, drawn, sight, projection, projection * sight, key_direction, body_ ? body_->rest().radius : 1};
 
   glDisable(GL_BLEND);
   glDisable(GL_SCISSOR_TEST);
@@ -100,6 +105,7 @@ void Renderer::Impl::draw(const Frame& frame, const Camera& camera, const DrawOp
   tool_.place(options.tool ? frame.tool : ToolState{}, shot);
   if (body_) {
     body_->update(frame, options.range.value_or(natural_range(frame.field, frame.values)));
+    body_->update_hatching(options.beyond);
     body_->update_outline(camera.eye(), shot.view_projection, drawn);
     draw_shadows(shot, frame, options);
   }
@@ -120,7 +126,9 @@ void Renderer::Impl::draw_picture(const Shot& shot, const Frame& frame, const Dr
   const bool shows_field = frame.field != Field::none && body_ && frame.values.size() == body_->node_count();
   if (shows_field) upload_map(map_, frame.field);
   if (body_) {
-    prepare_body(shot, shows_field ? field_ : tissue_);
+    const Program& program = surface_program(shows_field, !options.beyond.empty());
+    prepare_body(shot, program);
+    program.set("hatch_period", hatch_period * static_cast<float>(shot.size.height) / 720);
     if (frame.min_J > 0) glEnable(GL_CULL_FACE);  // the inside shows only where elements are turned inside out
     body_->draw_surface();
     glDisable(GL_CULL_FACE);
@@ -141,6 +149,15 @@ void Renderer::Impl::draw_picture(const Shot& shot, const Frame& frame, const Dr
   glDepthMask(GL_TRUE);
   glDisable(GL_BLEND);
   glDisable(GL_DEPTH_TEST);
+}
+
+const Program& Renderer::Impl::surface_program(bool shows_field, bool hatched) {
+  if (!hatched) return shows_field ? field_ : tissue_;
+  std::optional<Program>& program = shows_field ? hatched_field_ : hatched_tissue_;
+  if (!program && shows_field)
+    program.emplace("tissue.vert", "tissue.frag", std::initializer_list<const char*>{"FIELD", "HATCH"});
+  if (!program) program.emplace("tissue.vert", "tissue.frag", std::initializer_list<const char*>{"HATCH"});
+  return *program;
 }
 
 void Renderer::Impl::draw_shadows(const Shot& shot, const Frame& frame, const DrawOptions& options) {

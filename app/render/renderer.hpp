@@ -8,16 +8,18 @@
 #include <heml/session/frame.hpp>
 #include <memory>
 #include <optional>
+#include <span>
 
 namespace heml::render {
 
 struct DrawOptions {
-  bool wireframe = false;      ///< the mesh's true edges over the surface
-  bool ground = true;          ///< the drape and the shadow on it
-  bool held = true;            ///< beads on nodes with a boundary condition
-  bool tool = true;            ///< forceps and spring while something is grasped
-  std::optional<Range> range;  ///< of the colour map; none: what the frame's values ask for
-  float resolution = 1;        ///< of the picture before it is scaled to its size, 0.25 to 1: speed for sharpness
+  bool wireframe = false;         ///< the mesh's true edges over the surface
+  bool ground = true;             ///< the drape and the shadow on it
+  bool held = true;               ///< beads on nodes with a boundary condition
+  bool tool = true;               ///< forceps and spring while something is grasped
+  std::optional<Range> range;     ///< of the colour map; none: what the frame's values ask for
+  std::span<const float> beyond;  ///< #S, hatched where above 0; empty: no hatching, which then costs nothing
+  float resolution = 1;           ///< of the picture before it is scaled to its size, 0.25 to 1: speed for sharpness
 };
 
 /// Belongs to the context that was current when it was made, and needs it current in every call.
@@ -33,7 +35,7 @@ class Renderer {
   void set_skin(const Skin& skin);
 
   /// Draws over all of framebuffer 0, which is of this size and has depth. The picture depends on the arguments and the
-  /// skin alone. Throws std::invalid_argument for a frame with another number of positions than the skin.
+  /// skin alone. Throws std::invalid_argument for a frame or a `beyond` with another number of nodes than the skin.
   void draw(const Frame& frame, const Camera& camera, const DrawOptions& options, Size size);
 
  private:

@@ -61,6 +61,7 @@ void Viewer::draw() {
   frame_ = &open_.session->latest();
   follow_script();
   panel_->take(*frame_, seconds);
+  open_.session->carry_stretches(panel_->wants_stretches());
   const render::Size size = window_.size();
   interface_.set_scale(panel::Interface::suitable_scale(size) * window_.content_scale());
   eye_.resize(size, panel_->insets({static_cast<float>(size.width), static_cast<float>(size.height)}));

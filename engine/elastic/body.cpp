@@ -2,35 +2,95 @@
 #include <atomic>
 #include <cmath>
 #include <heml/elastic/body.hpp>
+#include <heml/materials/parameter_slots.hpp>
+#include <mutex>
 
 namespace heml {
+namespace {
+
+/// J σ = F S Fᵀ + wJ J I; von Mises and the largest stretch are the same in any frame, so √C may stand for F.
+template <class Real>
+ElementState<Real> state_of(const StressSum<Real>& stress, const Real C[6], Real J) {
+  const auto e = eigen3(C);
+  const Real largest = std::max({e.value[0], e.value[1], e.value[2]});
+  Real root[3], U[6], T[6];
+  for (int i = 0; i < 3; ++i) root[i] = std::sqrt(std::max(e.value[i], Real(0)));
+  assemble3(e, root, U);
+  const Real M[3][3] = {{U[0], U[3], U[4]}, {U[3], U[1], U[5]}, {U[4], U[5], U[2]}};
+  congruent3(M, stress.S, T);
+  const Real mean = (T[0] + T[1] + T[2]) / 3;
+  for (int i = 0; i < 3; ++i) T[i] -= mean;
+  return {J, std::sqrt(std::max(largest, Real(0))), std::sqrt(Real(1.5) * contract3(T, T)) / std::abs(J)};
+}
+
+}  // namespace
 
 template <class Real>
 ElasticBody<Real>::ElasticBody(const TetMesh& mesh, const std::vector<int>& material_of,
-                               const std::vector<Material>& materials, bool continuation)
-    : continuation_(continuation) {
-  for (std::size_t m = 0; m < materials.size(); ++m) {
-    std::vector<int> elements;
-    for (std::size_t t = 0; t < material_of.size(); ++t)
-      if (material_of[t] == static_cast<int>(m)) elements.push_back(static_cast<int>(t));
-    if (elements.empty()) continue;
-    parts_.push_back({m, make_group<Real>(mesh, elements), make_group_law<Real>(materials[m], continuation)});
-    parts_.back().group.density = static_cast<Real>(materials[m].density);
-  }
-  std::vector<ElementGroup<Real>*> groups;
-  for (Part& part : parts_) groups.push_back(&part.group);
-  corners_ = map_corners(groups, mesh.nodes.size());
-  corner_.assign(3 * corner_count(groups), Real(0));
+                               const std::vector<Material>& materials, BodyOptions options)
+    : mesh_(mesh),
+      material_of_(material_of),
+      materials_(materials),
+      options_(options),
+      springs_(mesh, std::vector<double>(mesh.tets.size(), 0.0)) {
+  make_parts();
+  make_shared();
+  std::vector<Real> x;
+  for (const Vec3& X : mesh_.nodes)
+    for (const double value : X) x.push_back(static_cast<Real>(value));
+  forget(x.data());
 }
 
 template <class Real>
-bool ElasticBody<Real>::forces(const Real* x, Real* f, ThreadTeam& team) {
-  constexpr std::size_t lanes = ElementGroup<Real>::lanes;
-  std::atomic<bool> valid{true};
-  for (const Part& part : parts_)
-    team.for_ranges(part.group.packets(), grain_ / lanes, [&](std::size_t begin, std::size_t end) {
-      if (!part.law->forces(part.group, x, begin, end, corner_.data())) valid.store(false, std::memory_order_relaxed);
-    });
+void ElasticBody<Real>::make_parts() {
+  for (std::size_t m = 0; m < materials_.size(); ++m) {
+    std::vector<int> elements;
+    for (std::size_t t = 0; t < material_of_.size(); ++t)
+      if (material_of_[t] == static_cast<int>(m)) elements.push_back(static_cast<int>(t));
+    if (elements.empty()) continue;
+    parts_.push_back({m, make_group<Real>(mesh_, elements, materials_[m]),
+                      make_terms<Real>(materials_[m], options_.continuation, options_.nodal_pressure), nullptr});
+    Part& part = parts_.back();
+    part.group.density = static_cast<Real>(materials_[m].density);
+    part.flow = make_flow<Real>(materials_[m], options_.continuation, part.group);
+  }
+  std::vector<ElementGroup<Real>*> groups;
+  for (Part& part : parts_) groups.push_back(&part.group);
+  corners_ = map_corners(groups, mesh_.nodes.size());
+  corner_.assign(3 * corner_count(groups), Real(0));
+}
+
+/// What belongs to no element alone.
+template <class Real>
+void ElasticBody<Real>::make_shared() {
+  std::vector<double> stiffness(mesh_.tets.size(), 0.0);
+  for (std::size_t t = 0; t < stiffness.size(); ++t) {
+    const Material& material = materials_[static_cast<std::size_t>(material_of_[t])];
+    if (!find_law(material.law)->is_continuum) stiffness[t] = material.parameters[0];
+  }
+  for (const Part& part : parts_)  // stiffness from a field
+    if (!find_law(materials_[part.material].law)->is_continuum && !part.group.parameters.empty())
+      for (std::size_t s = 0; s < part.group.size(); ++s)
+        stiffness[static_cast<std::size_t>(part.group.element[s])] = static_cast<double>(part.group.parameters[0][s]);
+  springs_ = Springs<Real>(mesh_, stiffness);
+  pressure_.reset();
+  if (!options_.nodal_pressure) return;
+  std::vector<const ElementGroup<Real>*> groups;
+  std::vector<std::vector<Real>> kappa;
+  for (const Part& part : parts_) {
+    const Material& material = materials_[part.material];
+    groups.push_back(&part.group);
+    const std::size_t slot = *volume_slot(material, *find_law(material.law));
+    kappa.emplace_back(part.group.volume.size(), static_cast<Real>(material.parameters[slot]));
+    for (std::size_t k = 0; k < material.fields.size(); ++k)
+      if (material.fields[k].parameter == slot) kappa.back() = part.group.parameters[k];
+  }
+  const VolumeTerm term = materials_[parts_.front().material].volume_term;
+  pressure_ = std::make_unique<NodalPressure<Real>>(std::move(groups), corners_, kappa, term, options_.continuation);
+}
+
+template <class Real>
+void ElasticBody<Real>::gather_corners(Real* f, ThreadTeam& team) const {
   team.for_ranges(nodes(), grain_ / 4, [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n) {
       Real sum[3] = {0, 0, 0};
@@ -41,59 +101,163 @@ bool ElasticBody<Real>::forces(const Real* x, Real* f, ThreadTeam& team) {
       for (std::size_t i = 0; i < 3; ++i) f[3 * n + i] = sum[i];
     }
   });
+}
+
+template <class Real>
+bool ElasticBody<Real>::forces(const Real* x, Real* f, ThreadTeam& team) {
+  std::atomic<bool> valid{true};
+  for (const Part& part : parts_)
+    for (std::size_t k = 0; k < part.terms.size(); ++k)
+      team.for_ranges(part.group.packets(), grain_ / part.group.lanes, [&](std::size_t begin, std::size_t end) {
+        if (!part.terms[k]->forces(part.group, x, begin, end, corner_.data(), k > 0))
+          valid.store(false, std::memory_order_relaxed);
+      });
+  if (pressure_ && !pressure_->add_forces(x, corner_.data(), team)) valid = false;
+  gather_corners(f, team);
+  if (!springs_.empty()) springs_.add_forces(x, f, team);
   return valid;
 }
 
 template <class Real>
-double ElasticBody<Real>::energy(const Real* x) const {
+void ElasticBody<Real>::force_change(const Real* x, const Real* dx, Real* out, ThreadTeam& team) {
+  for (const Part& part : parts_)
+    for (std::size_t k = 0; k < part.terms.size(); ++k)
+      team.for_ranges(part.group.packets(), grain_ / part.group.lanes, [&](std::size_t begin, std::size_t end) {
+        part.terms[k]->force_change(part.group, x, dx, begin, end, corner_.data(), k > 0);
+      });
+  if (pressure_) pressure_->add_force_change(x, dx, corner_.data(), team);
+  gather_corners(out, team);
+  if (!springs_.empty()) springs_.add_force_change(x, dx, out, team);
+}
+
+template <class Real>
+void ElasticBody<Real>::element_stiffness(std::size_t p, const Real* x, std::size_t s, ElementMatrix<Real>& K) {
+  for (const auto& term : parts_[p].terms) term->add_stiffness(parts_[p].group, x, s, K);
+  if (pressure_) pressure_->add_stiffness(p, x, s, K);
+}
+
+template <class Real>
+double ElasticBody<Real>::sum_energies(const Real* x, bool stored) const {
   double sum = 0;
-  for (const Part& part : parts_) sum += part.law->energy(part.group, x);
+  each_slot(x, [&](const Part& part, std::size_t s, const Link<Real>& link, const RestShape<Real>& rest) {
+    for (const auto& term : part.terms)
+      if (term->stores() == stored) sum += term->energy(part.group, s, link, rest);
+  });
   return sum;
 }
 
 template <class Real>
-Real ElasticBody<Real>::frequency_bound(const Real* x, ThreadTeam& team) {
-  Real largest = 0;
+double ElasticBody<Real>::energy(const Real* x) {
+  double sum = springs_.energy(x) + sum_energies(x, true);
+  if (pressure_) sum += pressure_->energy(x);
+  return sum;
+}
+
+template <class Real>
+double ElasticBody<Real>::potential(const Real* x) {
+  return energy(x) + (has_memory() ? sum_energies(x, false) : 0.0);
+}
+
+/// Largest of a part's bounds, summed over its terms; then of all parts.
+template <class Real>
+template <class Bound>
+Real ElasticBody<Real>::largest_bound(ThreadTeam& team, const Bound& bound) const {
+  Real of_all = 0;
   std::mutex mutex;  // a maximum does not depend on the order it is taken in
-  for (const Part& part : parts_)
-    team.for_ranges(part.group.packets(), grain_ / ElementGroup<Real>::lanes, [&](std::size_t begin, std::size_t end) {
-      const Real bound = part.law->frequency_bound(part.group, x, begin, end);
-      std::lock_guard lock(mutex);
-      largest = bound > largest || std::isnan(bound) ? bound : largest;
-    });
-  return largest;
+  for (const Part& part : parts_) {
+    Real of_part = 0;
+    for (const auto& term : part.terms) {
+      Real largest = 0;
+      team.for_ranges(part.group.packets(), grain_ / part.group.lanes, [&](std::size_t begin, std::size_t end) {
+        const Real value = bound(*term, part.group, begin, end);
+        std::lock_guard lock(mutex);
+        largest = value > largest || std::isnan(value) ? value : largest;
+      });
+      of_part += largest;
+    }
+    of_all = of_part > of_all || std::isnan(of_part) ? of_part : of_all;
+  }
+  return of_all;
+}
+
+template <class Real>
+Real ElasticBody<Real>::frequency_bound(const Real* x, ThreadTeam& team) {
+  Real bound = largest_bound(team, [x](const auto& term, const auto& group, std::size_t begin, std::size_t end) {
+    return term.frequency_bound(group, x, begin, end);
+  });
+  if (pressure_) bound += pressure_->frequency_bound(x, team);
+  if (!springs_.empty()) bound += springs_.frequency_bound(masses());
+  return bound;
+}
+
+template <class Real>
+Real ElasticBody<Real>::damping_bound(const Real* x, ThreadTeam& team) {
+  if (!has_memory()) return 0;
+  return largest_bound(team, [x](const auto& term, const auto& group, std::size_t begin, std::size_t end) {
+    return term.damping_bound(group, x, begin, end);
+  });
 }
 
 template <class Real>
 int ElasticBody<Real>::first_invalid(const Real* x) const {
   int first = -1;
-  for (const Part& part : parts_) {
-    const std::size_t s = part.law->first_invalid(part.group, x);
-    if (s < part.group.size() && (first < 0 || part.group.element[s] < first)) first = part.group.element[s];
-  }
+  each_slot(x, [&](const Part& part, std::size_t s, const Link<Real>& link, const RestShape<Real>&) {
+    for (const auto& term : part.terms)
+      if (!term->valid(part.group, s, link) && (first < 0 || part.group.element[s] < first))
+        first = part.group.element[s];
+  });
   return first;
 }
 
 template <class Real>
 void ElasticBody<Real>::states(const Real* x, std::vector<ElementState<Real>>& out) const {
-  std::size_t count = 0;
-  for (const Part& part : parts_) count += part.group.size();
-  out.resize(count);
-  std::vector<ElementState<Real>> of_part;
-  for (const Part& part : parts_) {
-    of_part.resize(part.group.size());
-    part.law->states(part.group, x, of_part.data());
-    for (std::size_t s = 0; s < of_part.size(); ++s) out[static_cast<std::size_t>(part.group.element[s])] = of_part[s];
+  out.resize(mesh_.tets.size());
+  each_slot(x, [&](const Part& part, std::size_t s, const Link<Real>& link, const RestShape<Real>& rest) {
+    StressSum<Real> stress;
+    for (const auto& term : part.terms) stress.add(term->tensions(part.group, s, link, rest), rest);
+    Real factor[3][3], C[6];
+    cholesky3(rest.A, factor);
+    into_rest_frame(factor, link.G, C);
+    out[static_cast<std::size_t>(part.group.element[s])] = state_of(stress, C, link.at.J);
+  });
+}
+
+template <class Real>
+void ElasticBody<Real>::set_material(std::size_t index, const Material& material, const Real* x) {
+  materials_[index] = material;
+  parts_.clear();
+  make_parts();
+  make_shared();
+  forget(x);
+}
+
+template <class Real>
+bool ElasticBody<Real>::has_memory() const {
+  return std::any_of(parts_.begin(), parts_.end(),
+                     [&](const Part& part) { return materials_[part.material].has_memory(); });
+}
+
+template <class Real>
+void ElasticBody<Real>::begin_step(Real h) {
+  for (Part& part : parts_)
+    for (const auto& term : part.terms) term->begin_step(h);
+}
+
+template <class Real>
+void ElasticBody<Real>::commit(const Real* x) {
+  for (Part& part : parts_) {
+    for (const auto& term : part.terms) term->commit(part.group, x);
+    if (part.flow) plastic_work_ += part.flow->flow(part.group, x);
   }
 }
 
 template <class Real>
-void ElasticBody<Real>::set_material(std::size_t index, const Material& material) {
-  for (Part& part : parts_)
-    if (part.material == index) {
-      part.law = make_group_law<Real>(material, continuation_);
-      part.group.density = static_cast<Real>(material.density);
-    }
+void ElasticBody<Real>::forget(const Real* x) {
+  plastic_work_ = 0;
+  for (Part& part : parts_) {
+    if (part.flow) part.flow->reset(part.group);
+    for (const auto& term : part.terms) term->forget(part.group, x);
+  }
 }
 
 template <class Real>

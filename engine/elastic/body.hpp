@@ -1,29 +1,74 @@
 #pragma once
-// The elastic part of a body: its groups of elements, each with its law, and the sum of their forces at the nodes.
+// The elastic part of a body: its groups of elements, each with the terms of its material, and what is not of one
+// element alone (springs along edges, averaged nodal pressure); and the sum of their forces at the nodes.
+//
+//   forces(x):  terms of every group ──► corner forces ──► gathered at nodes ──► + springs
+//               nodal pressure ──────────────┘
 #include <heml/base/thread_team.hpp>
 #include <heml/elastic/element_group.hpp>
-#include <heml/elastic/group_law.hpp>
+#include <heml/elastic/group_term.hpp>
+#include <heml/elastic/nodal_pressure.hpp>
+#include <heml/elastic/plastic_flow.hpp>
+#include <heml/elastic/springs.hpp>
 #include <heml/mesh/tet_mesh.hpp>
 #include <memory>
 #include <vector>
 
 namespace heml {
 
+/// What a viewer may want to know of an element.
+template <class Real>
+struct ElementState {
+  Real J;
+  Real stretch;    ///< largest principal stretch
+  Real von_mises;  ///< Pa, of the Cauchy stress
+};
+
+/// How a body is made of its materials.
+struct BodyOptions {
+  bool continuation = false;
+  bool nodal_pressure = false;  ///< needs laws with a volume term, the same one in all materials
+};
+
 template <class Real>
 class ElasticBody {
  public:
-  /// mesh: in inner order. material_of: #T, index into materials. Materials no element has get no group.
+  /// mesh: in inner order. material_of: #T, index into materials. Materials no element has get no group. The body is at
+  /// rest, and what it remembers begins there.
   ElasticBody(const TetMesh& mesh, const std::vector<int>& material_of, const std::vector<Material>& materials,
-              bool continuation);
+              BodyOptions options);
+  ElasticBody(const ElasticBody&) = delete;
+  ElasticBody& operator=(const ElasticBody&) = delete;
 
   /// Forces at positions x (3 #V) into f (3 #V, overwritten), N. Returns whether every law is defined there.
   bool forces(const Real* x, Real* f, ThreadTeam& team);
 
-  /// J.
-  double energy(const Real* x) const;
+  /// −K dx into out (3 #V, overwritten), N: change of the forces with a change dx of the positions, K = ∂²U/∂x² at x.
+  void force_change(const Real* x, const Real* dx, Real* out, ThreadTeam& team);
+
+  /// Calls visit(nodes (4 inner numbers), K) for the stiffness of every element in turn. With nodal pressure its part
+  /// is an approximation of the element alone.
+  template <class Visit>
+  void each_stiffness(const Real* x, const Visit& visit) {
+    for (std::size_t p = 0; p < parts_.size(); ++p)
+      for (std::size_t s = 0; s < parts_[p].group.size(); ++s) {
+        ElementMatrix<Real> K = {};
+        element_stiffness(p, x, s, K);
+        const auto& node = parts_[p].group.node;
+        visit(std::array<int, 4>{node[0][s], node[1][s], node[2][s], node[3][s]}, K);
+      }
+  }
+  const Springs<Real>& springs() const { return springs_; }
+
+  /// Stored elastic energy, J (contract: W of every element).
+  double energy(const Real* x);
+  /// What forces() is minus the gradient of, J: with the incremental potential of what remembers, for the step begun.
+  double potential(const Real* x);
 
   /// Upper bound of ω², 1/s², of small vibrations about x; not a number where a law is not defined.
   Real frequency_bound(const Real* x, ThreadTeam& team);
+  /// The same of the damping matrix, 1/s: viscosity.
+  Real damping_bound(const Real* x, ThreadTeam& team);
 
   /// First element (inner number) out of its law's range; −1: none.
   int first_invalid(const Real* x) const;
@@ -31,26 +76,60 @@ class ElasticBody {
   /// #T in inner order.
   void states(const Real* x, std::vector<ElementState<Real>>& out) const;
 
-  /// Puts another law on the elements of one material.
-  void set_material(std::size_t index, const Material& material);
+  /// Puts another law on the elements of one material, and forgets what they remember.
+  void set_material(std::size_t index, const Material& material, const Real* x);
+
+  // What remembers (viscosity, relaxation, plasticity), if anything does: a step of length h begins (0: none; infinite:
+  // all has relaxed); the positions it reached are kept; all is forgotten.
+  bool has_memory() const;
+  void begin_step(Real h);
+  void commit(const Real* x);
+  void forget(const Real* x);
+  double plastic_work() const { return plastic_work_; }  ///< J, since forget()
 
   /// Lumped masses (#V, kg): each tetrahedron's density × volume / 4 on its nodes.
   std::vector<Real> masses() const;
 
   std::size_t nodes() const { return corners_.start.size() - 1; }
+  std::size_t elements() const { return mesh_.tets.size(); }
 
  private:
   struct Part {
     std::size_t material;
     ElementGroup<Real> group;
-    std::unique_ptr<GroupLaw<Real>> law;
+    std::vector<std::unique_ptr<GroupTerm<Real>>> terms;
+    std::unique_ptr<PlasticFlow<Real>> flow;
   };
   static constexpr std::size_t grain_ = 2048;  ///< elements below which waking a thread costs more than it brings
 
+  void make_parts();
+  void make_shared();
+  void gather_corners(Real* f, ThreadTeam& team) const;
+  double sum_energies(const Real* x, bool stored) const;
+  void element_stiffness(std::size_t part, const Real* x, std::size_t s, ElementMatrix<Real>& K);
+  template <class Bound>
+  Real largest_bound(ThreadTeam& team, const Bound& bound) const;
+
+  /// Calls visit(part, slot, whole link, rest shape) for every element.
+  template <class Visit>
+  void each_slot(const Real* x, const Visit& visit) const {
+    for (const Part& part : parts_)
+      for (std::size_t s = 0; s < part.group.size(); ++s) {
+        const auto rest = rest_shape(part.group, s);
+        visit(part, s, whole_link(part.group, x, s, rest), rest);
+      }
+  }
+
+  TetMesh mesh_;  ///< inner order
+  std::vector<int> material_of_;
+  std::vector<Material> materials_;
+  BodyOptions options_;
   std::vector<Part> parts_;
   CornerMap corners_;
+  Springs<Real> springs_;
+  std::unique_ptr<NodalPressure<Real>> pressure_;
   std::vector<Real> corner_;  ///< 3 a corner, written and read within forces()
-  bool continuation_;
+  double plastic_work_ = 0;
 };
 
 }  // namespace heml

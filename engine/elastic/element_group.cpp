@@ -1,10 +1,22 @@
 #include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cassert>
 #include <heml/elastic/element_group.hpp>
 
 namespace heml {
 
+namespace {
+const std::vector<double>& field_values(const TetMesh& mesh, const std::string& name, std::size_t components) {
+  const auto found = std::find_if(mesh.fields.begin(), mesh.fields.end(), [&](const ElementField& field) {
+    return field.name == name && field.components == components;
+  });
+  assert(found != mesh.fields.end());
+  return found->values;
+}
+}  // namespace
+
 template <class Real>
-ElementGroup<Real> make_group(const TetMesh& mesh, const std::vector<int>& elements) {
+ElementGroup<Real> make_group(const TetMesh& mesh, const std::vector<int>& elements, const Material& material) {
   ElementGroup<Real> group;
   group.element = elements;
   constexpr std::size_t lanes = ElementGroup<Real>::lanes;
@@ -13,9 +25,15 @@ ElementGroup<Real> make_group(const TetMesh& mesh, const std::vector<int>& eleme
   for (auto& list : group.A) list.resize(padded);
   group.volume.resize(padded);
   group.gamma.resize(padded);
+  const bool has_fibre = find_law(material.law)->has_fibre;
+  if (has_fibre)
+    for (auto& list : group.fibre) list.resize(padded);
+  const std::vector<double>* directions =
+      has_fibre && !material.fibre_field.empty() ? &field_values(mesh, material.fibre_field, 3) : nullptr;
+  group.parameters.assign(material.fields.size(), std::vector<Real>(padded));
   for (std::size_t s = 0; s < padded; ++s) {
-    const std::size_t source = std::min(s, elements.size() - 1);
-    const Tet& tet = mesh.tets[static_cast<std::size_t>(elements[source])];
+    const auto element = static_cast<std::size_t>(elements[std::min(s, elements.size() - 1)]);
+    const Tet& tet = mesh.tets[element];
     std::array<Vec3, 4> X;
     for (std::size_t c = 0; c < 4; ++c) {
       group.node[c][s] = tet[c];
@@ -27,6 +45,13 @@ ElementGroup<Real> make_group(const TetMesh& mesh, const std::vector<int>& eleme
     const Mat3 A = g * g.transpose();
     const double entries[6] = {A(0, 0), A(1, 1), A(2, 2), A(0, 1), A(0, 2), A(1, 2)};
     for (std::size_t i = 0; i < 6; ++i) group.A[i][s] = static_cast<Real>(entries[i]);
+    if (has_fibre) {
+      Vec3 fibre = material.fibre;
+      if (directions) fibre = Eigen::Map<const Vec3>(&(*directions)[3 * element]).normalized();
+      for (std::size_t i = 0; i < 3; ++i) group.fibre[i][s] = static_cast<Real>(g.row(static_cast<int>(i)).dot(fibre));
+    }
+    for (std::size_t k = 0; k < material.fields.size(); ++k)
+      group.parameters[k][s] = static_cast<Real>(field_values(mesh, material.fields[k].field, 1)[element]);
     group.volume[s] = static_cast<Real>(signed_volume(X[0], X[1], X[2], X[3]));
     const Vec3 g0 = -g.colwise().sum().transpose();
     const Mat3 sum = g.transpose() * g + g0 * g0.transpose();
@@ -66,8 +91,8 @@ std::size_t corner_count(const std::vector<ElementGroup<Real>*>& groups) {
 
 template struct ElementGroup<float>;
 template struct ElementGroup<double>;
-template ElementGroup<float> make_group(const TetMesh&, const std::vector<int>&);
-template ElementGroup<double> make_group(const TetMesh&, const std::vector<int>&);
+template ElementGroup<float> make_group(const TetMesh&, const std::vector<int>&, const Material&);
+template ElementGroup<double> make_group(const TetMesh&, const std::vector<int>&, const Material&);
 template CornerMap map_corners(std::vector<ElementGroup<float>*>, std::size_t);
 template CornerMap map_corners(std::vector<ElementGroup<double>*>, std::size_t);
 template std::size_t corner_count(const std::vector<ElementGroup<float>*>&);

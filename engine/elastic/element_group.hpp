@@ -1,13 +1,17 @@
 #pragma once
 // The elements of one material, laid out for the force loop, and what they share with the nodes they pull at.
 //
-//   slot s:   0 1 2 3 4 5 6 7 | 8 9 …            elements of one material, in locality order, padded to whole packets
-//   by node[4]:  . . . . . . . . |                  repeating the last one A[6]:     . . . . . . . . | A = Dm⁻¹ Dm⁻ᵀ:
-//   A_ab = g_a·g_b, a, b = 1..3, as 11 22 33 12 13 23 volume:   . . . . . . . . |
+//   slot s:      0 1 2 3 4 5 6 7 | 8 9 ...       elements of one material in locality order, padded to whole packets by
+//   node[4]:     . . . . . . . . |               repeating the last one
+//   A[6]:        . . . . . . . . |               A = Dm⁻¹Dm⁻ᵀ, A_ab = g_a·g_b, a, b = 1..3, as 11 22 33 12 13 23
+//   volume:      . . . . . . . . |
+//   fibre[3]:    . . . . . . . . |               m = Dm⁻¹a0 where the law has a fibre, else empty
+//   parameters:  . . . . . . . . |               of those that differ from element to element, else empty
 //
 //   corner forces: 12 numbers a slot, [slot][corner][xyz], written by the force loop,
 //   summed at each node in ascending order of corner (CornerMap): no sum depends on which thread came first.
 #include <Eigen/Dense>
+#include <heml/materials/material.hpp>
 #include <heml/mesh/tet_mesh.hpp>
 #include <span>
 #include <vector>
@@ -19,20 +23,23 @@ struct ElementGroup {
   static constexpr std::size_t lanes = 8;  ///< elements a packet
 
   std::vector<int> element;              ///< #S inner numbers of the elements, without padding
-  std::array<std::vector<int>, 4> node;  ///< 4 × padded #S
+  std::array<std::vector<int>, 4> node;  ///< 4 × padded #S, inner numbers
   std::array<std::vector<Real>, 6> A;    ///< 6 × padded #S, 1/m²
   std::vector<Real> volume;              ///< padded #S, m³, at rest
-  std::vector<Real> gamma;       ///< padded #S, 1/m²: largest eigenvalue of Σ_a g_a g_aᵀ, for the stable step
-  Real density = 1000;           ///< kg/m³
-  std::size_t first_corner = 0;  ///< of slot 0, in the body's list of corners
+  std::vector<Real> gamma;  ///< padded #S, 1/m²: largest eigenvalue of Σ_a g_a g_aᵀ, for the stable step
+  std::array<std::vector<Real>, 3> fibre;     ///< 3 × padded #S, 1/m, or empty
+  std::vector<std::vector<Real>> parameters;  ///< of each FieldParameter of the material, padded #S
+  Real density = 1000;                        ///< kg/m³
+  std::size_t first_corner = 0;               ///< of slot 0, in the body's list of corners
 
   std::size_t size() const { return element.size(); }
   std::size_t packets() const { return volume.size() / lanes; }
 };
 
-/// Lays out the given elements (inner numbers) of a mesh in inner order; positive volumes.
+/// Lays out the given elements (inner numbers) of a mesh in inner order; positive volumes. The fields that the material
+/// names must be among the mesh's.
 template <class Real>
-ElementGroup<Real> make_group(const TetMesh& mesh, const std::vector<int>& elements);
+ElementGroup<Real> make_group(const TetMesh& mesh, const std::vector<int>& elements, const Material& material);
 
 /// Which corners meet at each node: corners[start[n] .. start[n+1]), ascending.
 struct CornerMap {

@@ -8,7 +8,7 @@
 
 namespace heml {
 
-/// The elements of one slot's nodes in an array of positions x (3 #V).
+/// The positions of one slot's nodes in an array x (3 #V).
 template <class Real>
 struct SlotNodes {
   const Real *x0, *x1, *x2, *x3;
@@ -19,11 +19,27 @@ struct SlotNodes {
         x3(x + 3 * group.node[3][s]) {}
 };
 
-/// What the loops read of one packet, gathered apart so that the compiler can vectorise what is computed from it.
 template <class Real>
+RestShape<Real> rest_shape(const ElementGroup<Real>& group, std::size_t s) {
+  RestShape<Real> rest;
+  for (std::size_t i = 0; i < 6; ++i) rest.A[i] = group.A[i][s];
+  rest.volume = group.volume[s];
+  if (!group.fibre[0].empty())
+    for (std::size_t i = 0; i < 3; ++i) rest.fibre[i] = group.fibre[i][s];
+  return rest;
+}
+
+template <class Real>
+Link<Real> whole_link(const ElementGroup<Real>& group, const Real* x, std::size_t s, const RestShape<Real>& rest) {
+  const SlotNodes<Real> n(group, x, s);
+  return read_whole_link(n.x0, n.x1, n.x2, n.x3, rest);
+}
+
+/// What the loops read of one packet, gathered apart so that the compiler can vectorise what is computed from it.
+template <class Real, bool with_fibre>
 struct Packet {
   static constexpr std::size_t lanes = ElementGroup<Real>::lanes;
-  Real x[12][lanes], A[6][lanes], volume[lanes];
+  Real x[12][lanes], A[6][lanes], volume[lanes], fibre[3][lanes];
 
   [[gnu::always_inline]] inline Packet(const ElementGroup<Real>& group, const Real* positions, std::size_t first) {
     for (std::size_t l = 0; l < lanes; ++l) {
@@ -32,45 +48,93 @@ struct Packet {
           x[3 * c + i][l] = positions[3 * group.node[c][first + l] + static_cast<int>(i)];
       for (std::size_t i = 0; i < 6; ++i) A[i][l] = group.A[i][first + l];
       volume[l] = group.volume[first + l];
+      if constexpr (with_fibre)
+        for (std::size_t i = 0; i < 3; ++i) fibre[i][l] = group.fibre[i][first + l];
     }
   }
-};
 
-/// One lane of a packet, as the functions of one element take it.
-template <class Real>
-struct Lane {
-  Real x[4][3], A[6];
-  [[gnu::always_inline]] inline Lane(const Packet<Real>& packet, std::size_t l) {
-    for (std::size_t i = 0; i < 12; ++i) x[i / 3][i % 3] = packet.x[i][l];
-    for (std::size_t i = 0; i < 6; ++i) A[i] = packet.A[i][l];
+  [[gnu::always_inline]] inline RestShape<Real> rest(std::size_t l) const {
+    RestShape<Real> r;
+    for (std::size_t i = 0; i < 6; ++i) r.A[i] = A[i][l];
+    r.volume = volume[l];
+    if constexpr (with_fibre)
+      for (std::size_t i = 0; i < 3; ++i) r.fibre[i] = fibre[i][l];
+    return r;
   }
 };
 
-/// Corner forces of packets [begin, end) into corner (3 reals a corner). Returns whether the law is defined in all of
-/// them.
+/// Four corners of one lane.
+template <class Real>
+struct Corners {
+  Real x[4][3];
+  template <std::size_t lanes>
+  [[gnu::always_inline]] inline Corners(const Real (&packet)[12][lanes], std::size_t l) {
+    for (std::size_t i = 0; i < 12; ++i) x[i / 3][i % 3] = packet[i][l];
+  }
+};
+
+/// Writes or adds the corner forces of one packet.
+template <class Real, std::size_t lanes>
+[[gnu::always_inline]] inline void put_corners(const Real (&out)[12][lanes], Real* to, bool add) {
+  if (add)
+    for (std::size_t l = 0; l < lanes; ++l)
+      for (std::size_t i = 0; i < 12; ++i) to[12 * l + i] += out[i][l];
+  else
+    for (std::size_t l = 0; l < lanes; ++l)
+      for (std::size_t i = 0; i < 12; ++i) to[12 * l + i] = out[i][l];
+}
+
+/// Corner forces of packets [begin, end) into corner (3 reals a corner), overwritten or added to. Returns whether the
+/// law is defined in all of them.
 template <class Real, Law<Real> L>
 [[gnu::always_inline]] inline bool group_forces(const L& law, const ElementGroup<Real>& group, const Real* x,
-                                                std::size_t begin, std::size_t end, Real* corner) {
+                                                std::size_t begin, std::size_t end, Real* corner, bool add) {
   constexpr std::size_t lanes = ElementGroup<Real>::lanes;
   bool valid = true;
   for (std::size_t p = begin; p < end; ++p) {
-    const Packet<Real> packet(group, x, p * lanes);
+    const Packet<Real, L::uses_I4> packet(group, x, p * lanes);
     Real out[12][lanes], defined[lanes];
 #pragma GCC ivdep
     for (std::size_t l = 0; l < lanes; ++l) {
-      const Lane<Real> in(packet, l);
+      const Corners<Real> at(packet.x, l);
       Real f[12];
-      const bool is_defined = corner_forces(law, in.x[0], in.x[1], in.x[2], in.x[3], in.A, packet.volume[l], f);
+      const bool is_defined = corner_forces(law, at.x[0], at.x[1], at.x[2], at.x[3], packet.rest(l), f);
       defined[l] = is_defined ? Real(1) : Real(0);
       for (int i = 0; i < 12; ++i) out[i][l] = f[i];
     }
-    Real* to = corner + 3 * (group.first_corner + 4 * p * lanes);
-    for (std::size_t l = 0; l < lanes; ++l)
-      for (std::size_t i = 0; i < 12; ++i) to[12 * l + i] = out[i][l];
+    put_corners(out, corner + 3 * (group.first_corner + 4 * p * lanes), add);
     if constexpr (!L::always_valid)
       for (std::size_t l = 0; l < lanes; ++l) valid = valid && defined[l] == 1;
   }
   return valid;
+}
+
+/// Change −K dx of the corner forces with a change dx of the positions (3 #V), likewise.
+template <class Real, Law<Real> L>
+[[gnu::always_inline]] inline void group_force_change(const L& law, const ElementGroup<Real>& group, const Real* x,
+                                                      const Real* dx, std::size_t begin, std::size_t end, Real* corner,
+                                                      bool add) {
+  constexpr std::size_t lanes = ElementGroup<Real>::lanes;
+  for (std::size_t p = begin; p < end; ++p) {
+    const Packet<Real, L::uses_I4> packet(group, x, p * lanes);
+    Real moved[12][lanes], out[12][lanes];
+    for (std::size_t l = 0; l < lanes; ++l)
+      for (std::size_t c = 0; c < 4; ++c)
+        for (std::size_t i = 0; i < 3; ++i)
+          moved[3 * c + i][l] = dx[3 * group.node[c][p * lanes + l] + static_cast<int>(i)];
+#pragma GCC ivdep
+    for (std::size_t l = 0; l < lanes; ++l) {
+      const Corners<Real> at(packet.x, l), d(moved, l);
+      const RestShape<Real> rest = packet.rest(l);
+      const auto link = read_link<true, true, L::uses_I4>(at.x[0], at.x[1], at.x[2], at.x[3], rest);
+      Real de[3][3], f[12];
+      for (int a = 0; a < 3; ++a)
+        for (int i = 0; i < 3; ++i) de[a][i] = d.x[a + 1][i] - d.x[0][i];
+      corner_force_change(law, link, rest, de, f);
+      for (int i = 0; i < 12; ++i) out[i][l] = f[i];
+    }
+    put_corners(out, corner + 3 * (group.first_corner + 4 * p * lanes), add);
+  }
 }
 
 /// Largest element_frequency_bound() of packets [begin, end), 1/s²; not a number where one is not.
@@ -80,28 +144,37 @@ template <class Real, Law<Real> L>
   constexpr std::size_t lanes = ElementGroup<Real>::lanes;
   Real largest = 0;
   for (std::size_t p = begin; p < end; ++p) {
-    const Packet<Real> packet(group, x, p * lanes);
+    const Packet<Real, L::uses_I4> packet(group, x, p * lanes);
     Real bound[lanes];
 #pragma GCC ivdep
     for (std::size_t l = 0; l < lanes; ++l) {
-      const Lane<Real> in(packet, l);
-      const auto link = read_link<true, true>(in.x[0], in.x[1], in.x[2], in.x[3], in.A, packet.volume[l]);
-      bound[l] = element_frequency_bound(law, link, in.A, packet.volume[l], group.gamma[p * lanes + l], group.density);
+      const Corners<Real> at(packet.x, l);
+      const RestShape<Real> rest = packet.rest(l);
+      const auto link = read_link<true, true, L::uses_I4>(at.x[0], at.x[1], at.x[2], at.x[3], rest);
+      bound[l] = element_frequency_bound(law, link, rest, group.gamma[p * lanes + l], group.density);
     }
     for (std::size_t l = 0; l < lanes; ++l) largest = bound[l] > largest || std::isnan(bound[l]) ? bound[l] : largest;
   }
   return largest;
 }
 
-/// Calls visit(element, Link) for every element of the group, in order, with all invariants.
-template <class Real, class Visit>
-void for_each_link(const ElementGroup<Real>& group, const Real* x, std::size_t begin, std::size_t end,
-                   const Visit& visit) {
-  for (std::size_t s = begin; s < end; ++s) {
-    const SlotNodes<Real> n(group, x, s);
-    const Real A[6] = {group.A[0][s], group.A[1][s], group.A[2][s], group.A[3][s], group.A[4][s], group.A[5][s]};
-    visit(s, A, read_link<true, true>(n.x0, n.x1, n.x2, n.x3, A, group.volume[s]));
-  }
+/// A 12×12 element stiffness, row after row; corner after corner, xyz.
+template <class Real>
+using ElementMatrix = Real[12][12];
+
+/// Adds K = −∂f/∂x made of nine changes of the edges: change(de, out[12]) gives the corner forces' change.
+template <class Real, class Change>
+void add_stiffness(const Change& change, ElementMatrix<Real>& K) {
+  for (std::size_t a = 0; a < 3; ++a)
+    for (std::size_t i = 0; i < 3; ++i) {
+      Real de[3][3] = {}, f[12];
+      de[a][i] = 1;
+      change(de, f);
+      for (std::size_t row = 0; row < 12; ++row) {
+        K[row][3 * (a + 1) + i] -= f[row];
+        K[row][i] += f[row];  // moving corner 0 moves all edges back
+      }
+    }
 }
 
 }  // namespace heml

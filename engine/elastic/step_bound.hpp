@@ -3,10 +3,11 @@
 // motion because it is taken at the deformed state.
 //
 // xᵀK x = Σ_t x_tᵀK_t x_t ≤ max_t λ_max(M_t⁻¹K_t) · xᵀM x with M_t = ρV/4 on each corner, whatever the signs of the
-// rest of the spectrum. K_t/V is the quadratic form of ∂²W/∂F² in dF = Σ_a u_a ⊗ g_a, bounded here term by term:
-//   |dF|² ≤ γ|u|²,   γ = λ_max(Σ g_a g_aᵀ);      |dC|² ≤ 4 σ1² |dF|²
-//   (dI1)² ≤ n1 |u|², n1 = 4 Σ|F g_a|²;  (dI2)² ≤ (σ2²+σ3²)² n1-like ≤ I1² n1;  (dJ)² ≤ nJ |u|², nJ = Σ|∂J/∂x_a|²
-//   d²I2 = (dI1)² + 2 I1 |dF|² − |dC|² − 2 C:dFᵀdF
+// rest of the spectrum. K_t/V is the quadratic form of ∂²W/∂F² in dF = Σ_a u_a ⊗ g_a, in two parts. What curves W with
+// the invariants is Σ H_αβ dI_α dI_β, H the curvatures of W: at most λ_max(H N) |u|², N_αβ = Σ_a ∂I_α/∂x_a·∂I_β/∂x_a,
+// exact for the pair I1, J. What curves the invariants themselves is bounded term by term:
+//   |dF|² ≤ γ|u|²,   γ = λ_max(Σ g_a g_aᵀ);      |dC|² ≤ 4 σ1² |dF|²;      d²I4 = 2 |dF a0|² ≤ 2 Σ m_a² |u|²
+//   d²I2 = (dI1)² + 2 I1 |dF|² − |dC|² − 2 C:dFᵀdF, the first of them counted with H
 //   −√2 σ1 |dF|² ≤ d²J ≤ 2 σ1 |dF|², and for J > 0: d²J = ((dJ)² − tr((F⁻¹dF J)²))/J, which is sharper near rest.
 // σ1 ≥ σ2 ≥ σ3: principal stretches, bounded by mean and spread of the eigenvalues of C (Wolkowicz & Styan 1980).
 #include <algorithm>
@@ -15,47 +16,188 @@
 
 namespace heml {
 
-/// A bound on λ_max(M_t⁻¹K_t), 1/s², of an element whose Link has all invariants.
-template <class Real, Law<Real> L>
-[[gnu::always_inline]] inline Real element_frequency_bound(const L& law, const Link<Real>& link, const Real A[6],
-                                                           Real volume, Real gamma, Real density) {
-  const Slopes<Real> s = law.slopes(link.at);
-  const Curvatures<Real> c = law.curvatures(link.at);
-  const auto& [I1, I2, J] = link.at;
-  const auto positive = [](Real value) { return std::max(value, Real(0)); };
+/// Sums over an element's four corners that bounds are made of.
+template <class Real>
+struct CornerSums {
+  Real n1;  ///< (dI1)² ≤ n1 |u|²
+  Real nJ;  ///< (dJ)² ≤ nJ |u|²
+  Real m;   ///< Σ m_a²
+};
 
-  // Eigenvalues of C: at most mean + √2 spread and, the middle one, mean + spread/√2.
-  const Real mean = I1 / 3, spread = std::sqrt(positive((I1 * I1 - 2 * I2) / 3 - mean * mean));
-  const Real largest = mean + Real(1.4142136) * spread, middle = mean + Real(0.70710678) * spread;
-  const Real sigma1 = std::sqrt(largest);
-
+template <class Real>
+[[gnu::always_inline]] inline CornerSums<Real> corner_sums(const Link<Real>& link, const RestShape<Real>& rest) {
   // Σ_a |F g_a|² = tr(AGA) + 1ᵀAGA 1.
   Real AGA[6];
-  product_AGA(A, link.AG, AGA);
-  const Real n1 = 4 * (2 * (AGA[0] + AGA[1] + AGA[2]) + 2 * (AGA[3] + AGA[4] + AGA[5]));
-  Real nJ = 0;
+  product_AGA(rest.A, link.AG, AGA);
+  CornerSums<Real> sums{4 * (2 * (AGA[0] + AGA[1] + AGA[2]) + 2 * (AGA[3] + AGA[4] + AGA[5])), 0, 0};
   for (int i = 0; i < 3; ++i) {
     Real sum = 0;
     for (int a = 0; a < 3; ++a) {
-      nJ += link.cross[a][i] * link.cross[a][i];
+      sums.nJ += link.cross[a][i] * link.cross[a][i];
       sum += link.cross[a][i];
     }
-    nJ += sum * sum;
+    sums.nJ += sum * sum;
   }
-  nJ /= 36 * volume * volume;
-  const Real n2 = I1 * I1 * n1;
+  sums.nJ /= 36 * rest.volume * rest.volume;
+  const Real total = rest.fibre[0] + rest.fibre[1] + rest.fibre[2];
+  for (const Real m : rest.fibre) sums.m += m * m;
+  sums.m += total * total;
+  return sums;
+}
 
-  // S:(dFᵀdF) with S = 2 (w1 + I1 w2) I − 2 w2 C, and the curvature of W in C.
+/// Upper bounds of the largest and the middle eigenvalue of C.
+template <class Real>
+struct LargestStretches {
+  Real largest, middle;
+};
+template <class Real>
+[[gnu::always_inline]] inline LargestStretches<Real> largest_stretches(const Invariants<Real>& at) {
+  const Real mean = at.I1 / 3;
+  const Real spread = std::sqrt(std::max((at.I1 * at.I1 - 2 * at.I2) / 3 - mean * mean, Real(0)));
+  return {mean + Real(1.4142136) * spread, mean + Real(0.70710678) * spread};
+}
+
+/// Symmetric in the invariants a law uses, of which I1 always is the first. Plain numbers, so that loops vectorise.
+template <class Real>
+struct InvariantMatrix {
+  Real n11 = 0, n12 = 0, n22 = 0, n1J = 0, n2J = 0, nJJ = 0, n14 = 0, n4J = 0, n44 = 0;
+};
+
+/// Products N_αβ = Σ_a ∂I_α/∂x_a·∂I_β/∂x_a over an element's corners.
+template <class L, class Real>
+[[gnu::always_inline]] inline InvariantMatrix<Real> gradient_products(const Link<Real>& link,
+                                                                      const RestShape<Real>& rest,
+                                                                      const CornerSums<Real>& sums) {
+  const Real* A = rest.A;
+  const auto over_corners = [](const Real S[6]) { return 2 * (S[0] + S[1] + S[2] + S[3] + S[4] + S[5]); };
+  const auto& [I1, I2, J, I4] = link.at;
+  const Real q0 = over_corners(A), q1 = sums.n1 / 4;  // Σ_a g_a·Cᵏ g_a
+  InvariantMatrix<Real> N;
+  N.n11 = sums.n1;
+  N.n1J = 2 * J * q0;
+  N.nJJ = sums.nJ;
+  if constexpr (L::uses_I2) {
+    Real AGA[6];
+    product_AGA(A, link.AG, AGA);
+    const auto& m = link.AG;
+    const Real B[3][3] = {{AGA[0], AGA[3], AGA[4]}, {AGA[3], AGA[1], AGA[5]}, {AGA[4], AGA[5], AGA[2]}};
+    const auto entry = [&](int r, int c) { return m[r][0] * B[0][c] + m[r][1] * B[1][c] + m[r][2] * B[2][c]; };
+    const Real AGAGA[6] = {entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(0, 2), entry(1, 2)};
+    const Real q2 = over_corners(AGAGA), q3 = I1 * q2 - I2 * q1 + J * J * q0;  // Cayley and Hamilton
+    N.n12 = 4 * (I1 * q1 - q2);
+    N.n22 = 4 * (I1 * I1 * q1 - 2 * I1 * q2 + q3);
+    N.n2J = 2 * J * (I1 * q0 - q1);
+  }
+  if constexpr (L::uses_I4) {
+    const Real *m = rest.fibre, *G = link.G;
+    const Real Gm[3] = {G[0] * m[0] + G[3] * m[1] + G[4] * m[2], G[3] * m[0] + G[1] * m[1] + G[5] * m[2],
+                        G[4] * m[0] + G[5] * m[1] + G[2] * m[2]};
+    const Real AGm[3] = {A[0] * Gm[0] + A[3] * Gm[1] + A[4] * Gm[2], A[3] * Gm[0] + A[1] * Gm[1] + A[5] * Gm[2],
+                         A[4] * Gm[0] + A[5] * Gm[1] + A[2] * Gm[2]};
+    // Σ_a m_a g_a·C a0; corner 0 has minus the sums.
+    N.n14 = 4 * (m[0] * AGm[0] + m[1] * AGm[1] + m[2] * AGm[2] + (m[0] + m[1] + m[2]) * (AGm[0] + AGm[1] + AGm[2]));
+    N.n4J = 2 * J * sums.m;
+    N.n44 = 4 * I4 * sums.m;
+  }
+  return N;
+}
+
+/// An upper bound of the largest eigenvalue of H N (real, since N is positive semidefinite) from its traces (Wolkowicz
+/// & Styan 1980); exact for rank 2. Both given by the upper triangle 11 12 13 22 23 33; a third that is not used is
+/// zero.
+template <int rank, class Real>
+[[gnu::always_inline]] inline Real largest_eigenvalue(const Real H[6], const Real N[6]) {
+  const Real p00 = H[0] * N[0] + H[1] * N[1] + H[2] * N[2], p01 = H[0] * N[1] + H[1] * N[3] + H[2] * N[4];
+  const Real p02 = H[0] * N[2] + H[1] * N[4] + H[2] * N[5], p10 = H[1] * N[0] + H[3] * N[1] + H[4] * N[2];
+  const Real p11 = H[1] * N[1] + H[3] * N[3] + H[4] * N[4], p12 = H[1] * N[2] + H[3] * N[4] + H[4] * N[5];
+  const Real p20 = H[2] * N[0] + H[4] * N[1] + H[5] * N[2], p21 = H[2] * N[1] + H[4] * N[3] + H[5] * N[4];
+  const Real p22 = H[2] * N[2] + H[4] * N[4] + H[5] * N[5];
+  const Real trace = p00 + p11 + p22;
+  const Real square = p00 * p00 + p11 * p11 + p22 * p22 + 2 * (p01 * p10 + p02 * p20 + p12 * p21);
+  const Real mean = trace / rank, spread = std::max(square / rank - mean * mean, Real(0));
+  return std::max(mean + std::sqrt((rank - 1) * spread), Real(0));
+}
+template <class Real>
+[[gnu::always_inline]] inline Real largest_eigenvalue2(Real H11, Real H12, Real H22, Real N11, Real N12, Real N22) {
+  const Real trace = H11 * N11 + 2 * H12 * N12 + H22 * N22;
+  const Real det = (H11 * H22 - H12 * H12) * (N11 * N22 - N12 * N12);
+  return std::max((trace + std::sqrt(std::max(trace * trace - 4 * det, Real(0)))) / 2, Real(0));
+}
+
+/// The same for the invariants a law uses: I1 and two of I2, J, I4 at most.
+template <class L, class Real>
+[[gnu::always_inline]] inline Real largest_curvature(const InvariantMatrix<Real>& H, const InvariantMatrix<Real>& N) {
+  static_assert(!(L::uses_I2 && L::uses_I4));
+  if constexpr (L::uses_I2 && L::uses_J) {
+    const Real h[6] = {H.n11, H.n12, H.n1J, H.n22, H.n2J, H.nJJ}, n[6] = {N.n11, N.n12, N.n1J, N.n22, N.n2J, N.nJJ};
+    return largest_eigenvalue<3>(h, n);
+  } else if constexpr (L::uses_I4) {
+    const Real h[6] = {H.n11, H.n14, H.n1J, H.n44, H.n4J, H.nJJ}, n[6] = {N.n11, N.n14, N.n1J, N.n44, N.n4J, N.nJJ};
+    return largest_eigenvalue<3>(h, n);
+  } else if constexpr (L::uses_I2) {
+    return largest_eigenvalue2(H.n11, H.n12, H.n22, N.n11, N.n12, N.n22);
+  } else {
+    return largest_eigenvalue2(H.n11, H.n1J, H.nJJ, N.n11, N.n1J, N.nJJ);
+  }
+}
+
+/// A bound on λ_max(M_t⁻¹K_t), 1/s², of an element whose Link is whole.
+template <class Real, InvariantLaw<Real> L>
+[[gnu::always_inline]] inline Real element_frequency_bound(const L& law, const Link<Real>& link,
+                                                           const RestShape<Real>& rest, Real gamma, Real density) {
+  const Slopes<Real> s = law.slopes(link.at);
+  const Curvatures<Real> c = law.curvatures(link.at);
+  const Real I1 = link.at.I1, J = link.at.J;
+  const auto positive = [](Real value) { return std::max(value, Real(0)); };
+  const auto [largest, middle] = largest_stretches(link.at);
+  const Real sigma1 = std::sqrt(largest);
+  const CornerSums<Real> sums = corner_sums(link, rest);
+
+  // S:(dFᵀdF) with S = 2 (w1 + I1 w2) I − 2 w2 C + 2 w4 a0 a0ᵀ, and −w2 |dC|².
   Real bound = positive(2 * (s.w1 + I1 * s.w2) + 2 * positive(-s.w2) * largest) * gamma;
-  bound += positive(c.w11 + s.w2) * n1 + positive(-s.w2) * 4 * largest * gamma + positive(c.w22) * n2;
-  bound += 2 * (std::abs(c.w12) * std::sqrt(n1 * n2) + std::abs(c.w1J) * std::sqrt(n1 * nJ) +
-                std::abs(c.w2J) * std::sqrt(n2 * nJ));
+  bound += positive(-s.w2) * 4 * largest * gamma;
+  if constexpr (L::uses_I4) bound += 2 * positive(s.w4) * sums.m;
 
-  // The volume term: wJJ (dJ)² + wJ d²J.
-  Real volume_term = positive(c.wJJ) * nJ + (s.wJ > 0 ? 2 * s.wJ : Real(-1.4142136) * s.wJ) * sigma1 * gamma;
-  const Real sharper = positive(c.wJJ + s.wJ / J) * nJ + std::abs(s.wJ) * (largest * middle / J) * gamma;
-  volume_term = J > 0 && sharper < volume_term ? sharper : volume_term;  // chosen, not branched: the loop vectorises
-  return 4 / density * (bound + volume_term);
+  const InvariantMatrix<Real> N = gradient_products<L>(link, rest, sums);
+  InvariantMatrix<Real> H{c.w11 + s.w2, c.w12, c.w22, c.w1J, c.w2J, c.wJJ, c.w14, c.w4J, c.w44};
+  const Real plain = largest_curvature<L>(H, N) + (s.wJ > 0 ? 2 * s.wJ : Real(-1.4142136) * s.wJ) * sigma1 * gamma;
+  H.nJJ += s.wJ / J;
+  const Real sharper = largest_curvature<L>(H, N) + std::abs(s.wJ) * (largest * middle / J) * gamma;
+  const Real curved = J > 0 && sharper < plain ? sharper : plain;  // chosen, not branched: the loop vectorises
+  return 4 / density * (bound + curved);
+}
+
+/// The same for a law of principal stretches: d²W = dH:dC̄ + H:d²C̄ + ψ'' (dJ)² + ψ' d²J term by term, with
+/// d²C̄ = 2p dFᵀdF + 2p' dJ dC + (p'' (dJ)² + p' d²J) C. In the eigenvectors' frame |dC_ij|² ≤ (σi² + σj²)(X_ij² +
+/// X_ji²), X = dF there: what is compressed hard counts only with its own small σ.
+template <class Real, PrincipalLaw<Real> L>
+Real element_frequency_bound(const L& law, const Link<Real>& link, const RestShape<Real>& rest, Real gamma,
+                             Real density) {
+  Real factor[3][3], C[6];
+  cholesky3(rest.A, factor);
+  into_rest_frame(factor, link.G, C);
+  const auto at = principal_state<L::is_continued>(law, C, link.at.J);
+  const Real* c = at.e.value;
+  const auto [n1, nJ, m] = corner_sums(link, rest);
+  const Real sigma1 = std::sqrt(std::max({c[0], c[1], c[2]})), p = at.v.p, p1 = std::abs(at.v.p1);
+  Real most = 0, square = 0, HC = 0, shape = 0, volume = 0;
+  for (int i = 0; i < 3; ++i) {
+    most = std::max(most, at.h1[i]);
+    square += at.h1[i] * at.h1[i];
+    HC += at.h1[i] * c[i];
+    for (int j = i; j < 3; ++j) {
+      const Real slope = std::max(law.divided(p * c[i], p * c[j]), Real(0));
+      shape = std::max(shape, 2 * slope * (c[i] + c[j]));
+      if (i == j) volume += slope * c[i] * c[i];
+    }
+  }
+  const Real change = p * std::sqrt(shape * gamma) + p1 * std::sqrt(volume * nJ);
+  Real bound = change * change + 2 * p * most * gamma;
+  bound += 4 * p1 * sigma1 * std::sqrt(square * nJ * gamma) + std::max(at.v.p2 * HC, Real(0)) * nJ;
+  bound += 2 * std::abs(at.v.p1 * HC) * sigma1 * gamma;
+  const auto volume_value = law.volume(link.at.J);
+  bound += volume_value.w2 * nJ + 2 * std::abs(volume_value.w1) * sigma1 * gamma;
+  return 4 / density * bound;
 }
 
 }  // namespace heml

@@ -1,18 +1,22 @@
 #pragma once
-// HEML in tension form (Goulette & Chendeb 2006, Eq. 2): forces of one law on a group of elements.
+// HEML in tension form (Goulette & Chendeb 2006, Eq. 2): forces of one law on one element.
 //
 // With edges e_a = x_a − x_0 and their Gram matrix G (squared lengths in another basis: l_0a = G_aa, l_ab = G_aa + G_bb
-// − 2 G_ab), everything an isotropic law needs of C is in G and the constant A = Dm⁻¹Dm⁻ᵀ:
-//     I1 = A:G,   tr C² = (AGA):G,   J = e_1·(e_2×e_3) / 6V.
-// The tensions are T_ab = V g_a·S g_b = V [2 (w1 + w2 I1) A − 2 w2 AGA]_ab, one scalar a link (a link 0a has −Σ_b
-// T_ab), and
+// − 2 G_ab), everything a law needs of C is in G and constants of the rest shape, A = Dm⁻¹Dm⁻ᵀ and m = Dm⁻¹a0:
+//     I1 = A:G,   tr C² = (AGA):G,   J = e_1·(e_2×e_3) / 6V,   I4 = m·Gm.
+// The tensions are T_ab = V g_a·S g_b = V [2 (w1 + w2 I1) A − 2 w2 AGA + 2 w4 m mᵀ]_ab, one scalar a link (a link 0a
+// has −Σ_b T_ab), and
 //     f_a = −Σ_b T_ab e_b − V wJ ∂J/∂x_a,   f_0 = −(f_1 + f_2 + f_3);
-// F is never formed. Departures from the paper: Table 1 drops the factor 2 of the quadratic forms and leaves V
-// implicit; the volume term uses the signed J, whose gradient is a cross product of edges, since squared lengths do not
-// see a mirror image.
+// F is never formed. A law of principal stretches needs C itself, up to a rotation: LᵀGL with A = LLᵀ (Cholesky) has
+// its eigenvalues, and T = V L S Lᵀ. Departures from the paper: Table 1 drops the factor 2 of the quadratic forms and
+// leaves V implicit; the volume term uses the signed J, whose gradient is a cross product of edges, since squared
+// lengths do not see a mirror image.
+//
+// Stiffness is the change of all that with the edges (K = L(k) ⊗ I + Gᵀ 4V W_ll G in the paper's terms).
 #include <cmath>
 #include <heml/elastic/element_group.hpp>
 #include <heml/materials/law.hpp>
+#include <heml/materials/principal.hpp>
 
 namespace heml {
 
@@ -26,10 +30,56 @@ struct Link {
   Real cross[3][3];  ///< 6V ∂J/∂x_a, a = 1..3, m²
 };
 
-/// Reads an element's nodes and makes its invariants. I2 and J only where the law asks for them.
-template <bool need_I2, bool need_J, class Real>
+/// The constants of one element's rest shape.
+template <class Real>
+struct RestShape {
+  Real A[6];                  ///< 1/m²
+  Real volume;                ///< m³
+  Real fibre[3] = {0, 0, 0};  ///< m = Dm⁻¹a0, 1/m; zero: none
+};
+
+/// What the links of an element bear: T_ab (N/m) and wJ (Pa); or the change of both.
+template <class Real>
+struct Tensions {
+  Real T[6], wJ;
+};
+
+/// Cross products of edges, 6V ∂J/∂x_a.
+template <class Real>
+[[gnu::always_inline]] inline void cross_edges(const Real e[3][3], Real cross[3][3]) {
+  for (int a = 0; a < 3; ++a) {
+    const Real* p = e[(a + 1) % 3];
+    const Real* q = e[(a + 2) % 3];
+    cross[a][0] = p[1] * q[2] - p[2] * q[1];
+    cross[a][1] = p[2] * q[0] - p[0] * q[2];
+    cross[a][2] = p[0] * q[1] - p[1] * q[0];
+  }
+}
+
+/// A lower Cholesky factor of A.
+template <class Real>
+[[gnu::always_inline]] inline void cholesky3(const Real A[6], Real L[3][3]) {
+  using std::sqrt;  // a scalar type of its own brings its own
+  L[0][1] = L[0][2] = L[1][2] = 0;
+  L[0][0] = sqrt(A[0]);
+  L[1][0] = A[3] / L[0][0];
+  L[2][0] = A[4] / L[0][0];
+  L[1][1] = sqrt(A[1] - L[1][0] * L[1][0]);
+  L[2][1] = (A[5] - L[2][0] * L[1][0]) / L[1][1];
+  L[2][2] = sqrt(A[2] - L[2][0] * L[2][0] - L[2][1] * L[2][1]);
+}
+
+/// LᵀGL: a symmetric six in the orthonormal frame of the rest shape that L stands for.
+template <class Real>
+[[gnu::always_inline]] inline void into_rest_frame(const Real L[3][3], const Real G[6], Real C[6]) {
+  const Real Lt[3][3] = {{L[0][0], L[1][0], L[2][0]}, {L[0][1], L[1][1], L[2][1]}, {L[0][2], L[1][2], L[2][2]}};
+  congruent3(Lt, G, C);
+}
+
+/// Reads an element's nodes and makes its invariants. I2, J and I4 only where the law asks for them.
+template <bool need_I2, bool need_J, bool need_I4, class Real>
 [[gnu::always_inline]] inline Link<Real> read_link(const Real* x0, const Real* x1, const Real* x2, const Real* x3,
-                                                   const Real A[6], Real volume) {
+                                                   const RestShape<Real>& rest) {
   Link<Real> link;
   for (int i = 0; i < 3; ++i) {
     link.e[0][i] = x1[i] - x0[i];
@@ -37,6 +87,7 @@ template <bool need_I2, bool need_J, class Real>
     link.e[2][i] = x3[i] - x0[i];
   }
   const auto& e = link.e;
+  const Real* A = rest.A;
   const auto dot = [](const Real* a, const Real* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
   link.G[0] = dot(e[0], e[0]);
   link.G[1] = dot(e[1], e[1]);
@@ -45,9 +96,10 @@ template <bool need_I2, bool need_J, class Real>
   link.G[4] = dot(e[0], e[2]);
   link.G[5] = dot(e[1], e[2]);
   const Real* G = link.G;
-  link.at.I1 = A[0] * G[0] + A[1] * G[1] + A[2] * G[2] + 2 * (A[3] * G[3] + A[4] * G[4] + A[5] * G[5]);
+  link.at.I1 = contract3(A, G);
   link.at.I2 = 0;
   link.at.J = 1;
+  link.at.I4 = 1;
   if constexpr (need_I2) {
     const Real a[3][3] = {{A[0], A[3], A[4]}, {A[3], A[1], A[5]}, {A[4], A[5], A[2]}};
     const Real g[3][3] = {{G[0], G[3], G[4]}, {G[3], G[1], G[5]}, {G[4], G[5], G[2]}};
@@ -59,16 +111,18 @@ template <bool need_I2, bool need_J, class Real>
     link.at.I2 = (link.at.I1 * link.at.I1 - trace_C2) / 2;
   }
   if constexpr (need_J) {
-    for (int a = 0; a < 3; ++a) {
-      const Real* p = e[(a + 1) % 3];
-      const Real* q = e[(a + 2) % 3];
-      link.cross[a][0] = p[1] * q[2] - p[2] * q[1];
-      link.cross[a][1] = p[2] * q[0] - p[0] * q[2];
-      link.cross[a][2] = p[0] * q[1] - p[1] * q[0];
-    }
-    link.at.J = dot(e[0], link.cross[0]) / (6 * volume);
+    cross_edges(e, link.cross);
+    link.at.J = dot(e[0], link.cross[0]) / (6 * rest.volume);
   }
+  if constexpr (need_I4) link.at.I4 = between3(rest.fibre, G, rest.fibre);
   return link;
+}
+
+/// Everything at once: for what is not done every step.
+template <class Real>
+[[gnu::always_inline]] inline Link<Real> read_whole_link(const Real* x0, const Real* x1, const Real* x2, const Real* x3,
+                                                         const RestShape<Real>& rest) {
+  return read_link<true, true, true>(x0, x1, x2, x3, rest);
 }
 
 /// AGA as 11 22 33 12 13 23.
@@ -82,32 +136,153 @@ template <class Real>
   out[5] = AG[1][0] * A[4] + AG[1][1] * A[5] + AG[1][2] * A[2];
 }
 
-/// Corner forces of one element into out[12] ([corner][xyz], N). Returns whether the law is defined there.
+/// A symmetric pair's outer product, m mᵀ.
+template <class Real>
+[[gnu::always_inline]] inline void outer3(const Real m[3], Real out[6]) {
+  out[0] = m[0] * m[0], out[1] = m[1] * m[1], out[2] = m[2] * m[2];
+  out[3] = m[0] * m[1], out[4] = m[0] * m[2], out[5] = m[1] * m[2];
+}
+
+/// Tensions and wJ of a law at an element.
 template <class Real, Law<Real> L>
-[[gnu::always_inline]] inline bool corner_forces(const L& law, const Real* x0, const Real* x1, const Real* x2,
-                                                 const Real* x3, const Real A[6], Real volume, Real out[12]) {
-  const Link<Real> link = read_link<L::uses_I2, L::uses_J>(x0, x1, x2, x3, A, volume);
-  const Slopes<Real> s = law.slopes(link.at);
-  const Real pull = 2 * volume * (s.w1 + (L::uses_I2 ? s.w2 * link.at.I1 : Real(0)));
-  Real T[6];
-  for (int i = 0; i < 6; ++i) T[i] = pull * A[i];
-  if constexpr (L::uses_I2) {
-    Real AGA[6];
-    product_AGA(A, link.AG, AGA);
-    for (int i = 0; i < 6; ++i) T[i] -= 2 * volume * s.w2 * AGA[i];
+[[gnu::always_inline]] inline Tensions<Real> tensions(const L& law, const Link<Real>& link,
+                                                      const RestShape<Real>& rest) {
+  Tensions<Real> t;
+  if constexpr (PrincipalLaw<L, Real>) {
+    Real factor[3][3], C[6];
+    cholesky3(rest.A, factor);
+    into_rest_frame(factor, link.G, C);
+    const auto stress = principal_stress(law, principal_state<L::is_continued>(law, C, link.at.J), link.at.J);
+    congruent3(factor, stress.S, t.T);
+    for (Real& value : t.T) value *= rest.volume;
+    t.wJ = stress.wJ;
+  } else {
+    const Slopes<Real> s = law.slopes(link.at);
+    const Real pull = 2 * rest.volume * (s.w1 + (L::uses_I2 ? s.w2 * link.at.I1 : Real(0)));
+    for (int i = 0; i < 6; ++i) t.T[i] = pull * rest.A[i];
+    if constexpr (L::uses_I2) {
+      Real AGA[6];
+      product_AGA(rest.A, link.AG, AGA);
+      for (int i = 0; i < 6; ++i) t.T[i] -= 2 * rest.volume * s.w2 * AGA[i];
+    }
+    if constexpr (L::uses_I4) {
+      Real mm[6];
+      outer3(rest.fibre, mm);
+      for (int i = 0; i < 6; ++i) t.T[i] += 2 * rest.volume * s.w4 * mm[i];
+    }
+    t.wJ = s.wJ;
   }
-  const Real t[3][3] = {{T[0], T[3], T[4]}, {T[3], T[1], T[5]}, {T[4], T[5], T[2]}};
+  return t;
+}
+
+/// Change of G and J with a change de of the edges.
+template <class Real>
+struct LinkChange {
+  Real G[6], J;
+};
+template <class Real>
+[[gnu::always_inline]] inline LinkChange<Real> link_change(const Link<Real>& link, const Real de[3][3], Real volume) {
+  const auto dot = [](const Real* a, const Real* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
+  const auto& e = link.e;
+  return {{2 * dot(e[0], de[0]), 2 * dot(e[1], de[1]), 2 * dot(e[2], de[2]), dot(e[0], de[1]) + dot(e[1], de[0]),
+           dot(e[0], de[2]) + dot(e[2], de[0]), dot(e[1], de[2]) + dot(e[2], de[1])},
+          (dot(link.cross[0], de[0]) + dot(link.cross[1], de[1]) + dot(link.cross[2], de[2])) / (6 * volume)};
+}
+
+/// Change of the tensions and of wJ. The link must be whole.
+template <class Real, Law<Real> L>
+[[gnu::always_inline]] inline Tensions<Real> tension_change(const L& law, const Link<Real>& link,
+                                                            const RestShape<Real>& rest, const LinkChange<Real>& d) {
+  Tensions<Real> t;
+  if constexpr (PrincipalLaw<L, Real>) {
+    Real factor[3][3], C[6], dC[6];
+    cholesky3(rest.A, factor);
+    into_rest_frame(factor, link.G, C);
+    into_rest_frame(factor, d.G, dC);
+    const auto change = principal_change(law, principal_state<L::is_continued>(law, C, link.at.J), dC, link.at.J, d.J);
+    congruent3(factor, change.S, t.T);
+    for (Real& value : t.T) value *= rest.volume;
+    t.wJ = change.wJ;
+  } else {
+    const Slopes<Real> s = law.slopes(link.at);
+    const Curvatures<Real> c = law.curvatures(link.at);
+    Real AGA[6], dAGA[6];
+    const Real* A = rest.A;
+    const Real a[3][3] = {{A[0], A[3], A[4]}, {A[3], A[1], A[5]}, {A[4], A[5], A[2]}};
+    product_AGA(A, link.AG, AGA);
+    const Real dI1 = contract3(A, d.G), dI2 = link.at.I1 * dI1 - contract3(AGA, d.G);
+    const Real dI4 = L::uses_I4 ? between3(rest.fibre, d.G, rest.fibre) : Real(0);
+    const Real dw1 = c.w11 * dI1 + c.w12 * dI2 + c.w1J * d.J + c.w14 * dI4;
+    const Real dw2 = c.w12 * dI1 + c.w22 * dI2 + c.w2J * d.J + c.w24 * dI4;
+    const Real pull = dw1 + dw2 * link.at.I1 + s.w2 * dI1;
+    for (int i = 0; i < 6; ++i) t.T[i] = 2 * rest.volume * pull * A[i];
+    if constexpr (L::uses_I2) {
+      congruent3(a, d.G, dAGA);
+      for (int i = 0; i < 6; ++i) t.T[i] -= 2 * rest.volume * (dw2 * AGA[i] + s.w2 * dAGA[i]);
+    }
+    t.wJ = c.w1J * dI1 + c.w2J * dI2 + c.wJJ * d.J;
+    if constexpr (L::uses_I4) {
+      Real mm[6];
+      outer3(rest.fibre, mm);
+      const Real dw4 = c.w14 * dI1 + c.w24 * dI2 + c.w4J * d.J + c.w44 * dI4;
+      for (int i = 0; i < 6; ++i) t.T[i] += 2 * rest.volume * dw4 * mm[i];
+      t.wJ += c.w4J * dI4;
+    }
+  }
+  return t;
+}
+
+/// Corner forces −Σ_b T_ab e_b − (wJ/6) cross_a into out[12] ([corner][xyz], N).
+template <bool with_J, class Real>
+[[gnu::always_inline]] inline void pull_corners(const Tensions<Real>& t, const Real e[3][3], const Real cross[3][3],
+                                                Real out[12]) {
+  const Real T[3][3] = {{t.T[0], t.T[3], t.T[4]}, {t.T[3], t.T[1], t.T[5]}, {t.T[4], t.T[5], t.T[2]}};
   for (int i = 0; i < 3; ++i) {
     Real sum = 0;
     for (int a = 0; a < 3; ++a) {
-      Real f = t[a][0] * link.e[0][i] + t[a][1] * link.e[1][i] + t[a][2] * link.e[2][i];
-      if constexpr (L::uses_J) f += s.wJ / 6 * link.cross[a][i];
+      Real f = T[a][0] * e[0][i] + T[a][1] * e[1][i] + T[a][2] * e[2][i];
+      if constexpr (with_J) f += t.wJ / 6 * cross[a][i];
       out[3 * (a + 1) + i] = -f;
       sum += f;
     }
     out[i] = sum;
   }
+}
+
+/// Corner forces of one element. Returns whether the law is defined there.
+template <class Real, Law<Real> L>
+[[gnu::always_inline]] inline bool corner_forces(const L& law, const Real* x0, const Real* x1, const Real* x2,
+                                                 const Real* x3, const RestShape<Real>& rest, Real out[12]) {
+  const Link<Real> link = read_link<L::uses_I2, L::uses_J, L::uses_I4>(x0, x1, x2, x3, rest);
+  pull_corners<L::uses_J>(tensions(law, link, rest), link.e, link.cross, out);
   return law.valid(link.at);
+}
+
+/// Change of the corner forces with a change de of the edges, given the tensions and their change: −K dx.
+template <class Real>
+[[gnu::always_inline]] inline void pull_change(const Tensions<Real>& t, const Tensions<Real>& dt,
+                                               const Link<Real>& link, const Real de[3][3], Real out[12]) {
+  Real dcross[3][3];
+  for (int a = 0; a < 3; ++a) {
+    const Real *p = link.e[(a + 1) % 3], *q = link.e[(a + 2) % 3];
+    const Real *dp = de[(a + 1) % 3], *dq = de[(a + 2) % 3];
+    for (int i = 0; i < 3; ++i) {
+      const int j = (i + 1) % 3, k = (i + 2) % 3;
+      dcross[a][i] = dp[j] * q[k] - dp[k] * q[j] + p[j] * dq[k] - p[k] * dq[j];
+    }
+  }
+  Real other[12];
+  pull_corners<true>(t, de, dcross, out);
+  pull_corners<true>(dt, link.e, link.cross, other);
+  for (int i = 0; i < 12; ++i) out[i] += other[i];
+}
+
+/// The same for one law.
+template <class Real, Law<Real> L>
+[[gnu::always_inline]] inline void corner_force_change(const L& law, const Link<Real>& link,
+                                                       const RestShape<Real>& rest, const Real de[3][3], Real out[12]) {
+  pull_change(tensions(law, link, rest), tension_change(law, link, rest, link_change(link, de, rest.volume)), link, de,
+              out);
 }
 
 }  // namespace heml

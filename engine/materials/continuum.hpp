@@ -1,49 +1,108 @@
 #pragma once
-// A law seen from a deformation gradient: energy, first Piola–Kirchhoff stress, and its differential. The engine itself
-// works in tension form (elastic/); this form serves `heml probe`, fields for viewers, and checks.
-#include <heml/materials/law.hpp>
+// Any law seen from a deformation gradient: P = F S + wJ cof F with S = 2 ∂W/∂C at fixed J. The engine works in tension
+// form (elastic/tension.hpp); this form serves `heml probe`, the test bench, fields for viewers, and checks.
+#include <heml/materials/principal.hpp>
 #include <heml/math/types.hpp>
 
 namespace heml {
 
+/// C (six numbers), J and the fibre, all a law may ask for.
 template <class Real>
-Invariants<Real> invariants_of(const Matrix3<Real>& F) {
-  const Matrix3<Real> C = F.transpose() * F;
-  const Real I1 = C.trace();
-  return {I1, (I1 * I1 - C.squaredNorm()) / 2, F.col(0).dot(F.col(1).cross(F.col(2)))};
+struct Strain {
+  Real C[6];
+  Real J;
+  Vector3<Real> fibre = Vector3<Real>::Zero();  ///< unit at rest; zero: none
+
+  Invariants<Real> invariants() const {
+    const Real I1 = C[0] + C[1] + C[2];
+    return {I1, (I1 * I1 - contract3(C, C)) / 2, J, between3(fibre.data(), C, fibre.data())};
+  }
+};
+
+template <class Real>
+void to_six(const Matrix3<Real>& S, Real out[6]) {
+  out[0] = S(0, 0), out[1] = S(1, 1), out[2] = S(2, 2), out[3] = S(0, 1), out[4] = S(0, 2), out[5] = S(1, 2);
+}
+template <class Real>
+Matrix3<Real> from_six(const Real S[6]) {
+  Matrix3<Real> M;
+  M << S[0], S[3], S[4], S[3], S[1], S[5], S[4], S[5], S[2];
+  return M;
 }
 
-/// P = ∂W/∂F, Pa: 2 (w1 + w2 I1) F − 2 w2 F C + wJ cof F.
-template <class Real, Law<Real> L>
-Matrix3<Real> first_piola(const L& law, const Matrix3<Real>& F) {
-  const Invariants<Real> at = invariants_of(F);
-  const Slopes<Real> s = law.slopes(at);
-  Matrix3<Real> P = 2 * (s.w1 + s.w2 * at.I1) * F;
-  if constexpr (L::uses_I2) P -= 2 * s.w2 * F * (F.transpose() * F);
-  if constexpr (L::uses_J) P += s.wJ * cofactor(F);
-  return P;
+template <class Real>
+Strain<Real> strain_of(const Matrix3<Real>& F, const Vector3<Real>& fibre) {
+  Strain<Real> strain;
+  to_six<Real>(F.transpose() * F, strain.C);
+  strain.J = F.col(0).dot(F.col(1).cross(F.col(2)));
+  strain.fibre = fibre;
+  return strain;
 }
 
-/// ∂P/∂F : dF, Pa.
 template <class Real, Law<Real> L>
-Matrix3<Real> first_piola_differential(const L& law, const Matrix3<Real>& F, const Matrix3<Real>& dF) {
-  const Invariants<Real> at = invariants_of(F);
-  const Slopes<Real> s = law.slopes(at);
-  const Curvatures<Real> c = law.curvatures(at);
-  const Matrix3<Real> C = F.transpose() * F, dC = dF.transpose() * F + F.transpose() * dF;
-  const Matrix3<Real> cof = cofactor(F);
-  const Real dI1 = dC.trace(), dI2 = at.I1 * dI1 - C.cwiseProduct(dC).sum(), dJ = cof.cwiseProduct(dF).sum();
-  const Real dw1 = c.w11 * dI1 + c.w12 * dI2 + c.w1J * dJ;
-  const Real dw2 = c.w12 * dI1 + c.w22 * dI2 + c.w2J * dJ;
-  const Real dwJ = c.w1J * dI1 + c.w2J * dI2 + c.wJJ * dJ;
-  // d(cof F): each column is a cross product of two others.
-  Matrix3<Real> dcof;
+Real energy_density(const L& law, const Strain<Real>& at) {
+  if constexpr (PrincipalLaw<L, Real>)
+    return principal_energy<L::is_continued>(law, at.C, at.J);
+  else
+    return law.energy(at.invariants());
+}
+
+template <class Real, Law<Real> L>
+Stress<Real> stress_of(const L& law, const Strain<Real>& at) {
+  if constexpr (PrincipalLaw<L, Real>) {
+    return principal_stress(law, principal_state<L::is_continued>(law, at.C, at.J), at.J);
+  } else {
+    const auto i = at.invariants();
+    const Slopes<Real> s = law.slopes(i);
+    const Matrix3<Real> S = 2 * (s.w1 + s.w2 * i.I1) * Matrix3<Real>::Identity() - 2 * s.w2 * from_six(at.C) +
+                            2 * s.w4 * at.fibre * at.fibre.transpose();
+    Stress<Real> stress;
+    to_six(S, stress.S);
+    stress.wJ = s.wJ;
+    return stress;
+  }
+}
+
+/// Change of S and wJ with dC and dJ.
+template <class Real, Law<Real> L>
+Stress<Real> stress_change(const L& law, const Strain<Real>& at, const Real dC[6], Real dJ) {
+  if constexpr (PrincipalLaw<L, Real>) {
+    return principal_change(law, principal_state<L::is_continued>(law, at.C, at.J), dC, at.J, dJ);
+  } else {
+    const auto i = at.invariants();
+    const Slopes<Real> s = law.slopes(i);
+    const Curvatures<Real> c = law.curvatures(i);
+    const Real dI1 = dC[0] + dC[1] + dC[2], dI2 = i.I1 * dI1 - contract3(at.C, dC);
+    const Real dI4 = between3(at.fibre.data(), dC, at.fibre.data());
+    const Real dw1 = c.w11 * dI1 + c.w12 * dI2 + c.w1J * dJ + c.w14 * dI4;
+    const Real dw2 = c.w12 * dI1 + c.w22 * dI2 + c.w2J * dJ + c.w24 * dI4;
+    const Real dw4 = c.w14 * dI1 + c.w24 * dI2 + c.w4J * dJ + c.w44 * dI4;
+    const Matrix3<Real> dS = 2 * (dw1 + dw2 * i.I1 + s.w2 * dI1) * Matrix3<Real>::Identity() -
+                             2 * (dw2 * from_six(at.C) + s.w2 * from_six(dC)) +
+                             2 * dw4 * at.fibre * at.fibre.transpose();
+    Stress<Real> change;
+    to_six(dS, change.S);
+    change.wJ = c.w1J * dI1 + c.w2J * dI2 + c.wJJ * dJ + c.w4J * dI4;
+    return change;
+  }
+}
+
+/// P = ∂W/∂F, Pa.
+template <class Real>
+Matrix3<Real> first_piola(const Stress<Real>& stress, const Matrix3<Real>& F) {
+  return F * from_six(stress.S) + stress.wJ * cofactor(F);
+}
+
+/// ∂P/∂F : dF, Pa, from the stress there and its change.
+template <class Real>
+Matrix3<Real> first_piola_change(const Stress<Real>& stress, const Stress<Real>& change, const Matrix3<Real>& F,
+                                 const Matrix3<Real>& dF) {
+  Matrix3<Real> dcof;  // each column is a cross product of two others
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3, k = (i + 2) % 3;
     dcof.col(i) = dF.col(j).cross(F.col(k)) + F.col(j).cross(dF.col(k));
   }
-  return 2 * (s.w1 + s.w2 * at.I1) * dF - 2 * s.w2 * (dF * C + F * dC) + s.wJ * dcof +
-         2 * (dw1 + dw2 * at.I1 + s.w2 * dI1) * F - 2 * dw2 * F * C + dwJ * cof;
+  return dF * from_six(stress.S) + F * from_six(change.S) + stress.wJ * dcof + change.wJ * cofactor(F);
 }
 
 }  // namespace heml

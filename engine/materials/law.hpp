@@ -1,35 +1,37 @@
 #pragma once
-// What a hyperelastic law is to the rest of the program: an energy W(I1, I2, J) per unit rest volume and its
-// derivatives.
+// What a hyperelastic law is to the rest of the program: an energy W per unit rest volume and its derivatives, by the
+// invariants of C = FᵀF. Two kinds of law, told apart by concepts:
 //
-//   edges ──► C = FᵀF ──► I1, I2 ─┐
-//                                 ├─► law ──► W, its slopes (forces), its curvatures (stiffness, stable step)
-//   triple product ──► J (signed)─┘
+//   edges ──► C = FᵀF ──► I1, I2, (I4) ─┐
+//                                       ├─► InvariantLaw ──► W(I1, I2, J, I4), its slopes and curvatures
+//   triple product ──► J (signed) ──────┤
+//                                       └─► PrincipalLaw ──► Σ h(c̄_i) + volume term, c̄_i: eigenvalues of J^(−2/3) C
 //
-// I1 and I2 are functions of squared edge lengths alone (paper, Appendix); J is the signed det F, since squared lengths
-// do not see a mirror image. How slopes become tensions of links is in elastic/.
+// I1, I2 and I4 are functions of squared edge lengths alone (paper, Appendix); J is the signed det F, since squared
+// lengths do not see a mirror image. How slopes become tensions of links is in elastic/tension.hpp.
 #include <concepts>
 #include <span>
 #include <string_view>
 
 namespace heml {
 
-/// Invariants of C = FᵀF and the signed volume ratio. I1 = tr C, I2 = ½(tr²C − tr C²), J = det F.
+/// Invariants of C = FᵀF and the signed volume ratio. I1 = tr C, I2 = ½(tr²C − tr C²), J = det F, I4 = a0·C a0 with the
+/// fibre's unit direction a0 at rest.
 template <class Real>
 struct Invariants {
-  Real I1, I2, J;
+  Real I1, I2, J, I4 = Real(1);
 };
 
 /// First derivatives of W, Pa.
 template <class Real>
 struct Slopes {
-  Real w1, w2, wJ;
+  Real w1, w2, wJ, w4 = Real(0);
 };
 
 /// Second derivatives of W, Pa.
 template <class Real>
 struct Curvatures {
-  Real w11, w12, w22, w1J, w2J, wJJ;
+  Real w11, w12, w22, w1J, w2J, wJJ, w14 = Real(0), w24 = Real(0), w4J = Real(0), w44 = Real(0);
 };
 
 /// One number a law takes from the user: what the scene file calls it, and what the panel says of it.
@@ -38,20 +40,54 @@ struct ParameterInfo {
   std::string_view symbol;   ///< as shown in the panel
   std::string_view unit;     ///< "Pa", "" for a ratio
   std::string_view meaning;  ///< one line
+  bool list = false;         ///< any number of values; all lists of a law have the same length
 };
 
-/// A law is a struct of its parameters (#P members of type Real, in the order of `parameters`) that answers these
-/// calls. `valid` says whether W is defined at a state; the others may return anything where it is not.
-template <class L, class Real>
-concept Law = requires(const L law, Invariants<Real> at) {
+/// What every law says of itself. A law is a struct of its parameters (of type Real, in the order of `parameters`).
+/// `valid` says whether W is defined at a state; other calls may return anything where it is not.
+template <class L>
+concept AnyLaw = requires {
   { L::name } -> std::convertible_to<std::string_view>;
+  { L::title } -> std::convertible_to<std::string_view>;
+  { L::formula } -> std::convertible_to<std::string_view>;
+  { L::source } -> std::convertible_to<std::string_view>;
   {std::span<const ParameterInfo>(L::parameters)};
+  { L::has_volume_term } -> std::convertible_to<bool>;  ///< has a member kappa; kappa = 0 leaves the isochoric part
+  { L::always_valid } -> std::convertible_to<bool>;
   { L::uses_I2 } -> std::convertible_to<bool>;  ///< false: slopes never need I2, and w2 = 0
   { L::uses_J } -> std::convertible_to<bool>;   ///< false: W does not depend on J: wJ = 0
+  { L::uses_I4 } -> std::convertible_to<bool>;  ///< false: no fibre
+};
+
+template <class L, class Real>
+concept InvariantLaw = AnyLaw<L> && requires(const L law, Invariants<Real> at) {
   { law.valid(at) } -> std::same_as<bool>;
   { law.energy(at) } -> std::same_as<Real>;
   { law.slopes(at) } -> std::same_as<Slopes<Real>>;
   { law.curvatures(at) } -> std::same_as<Curvatures<Real>>;
 };
+
+/// h and its first two derivatives at one eigenvalue c̄ of J^(−2/3) C, Pa.
+template <class Real>
+struct Principal {
+  Real h, h1, h2;
+};
+
+/// ψ and its first two derivatives, Pa.
+template <class Real>
+struct VolumeValue {
+  Real w, w1, w2;
+};
+
+/// A law of principal stretches: W = Σ_i h(c̄_i) + ψ(J). See materials/principal.hpp for its calculus.
+template <class L, class Real>
+concept PrincipalLaw = AnyLaw<L> && requires(const L law, Real c) {
+  { law.principal(c) } -> std::same_as<Principal<Real>>;
+  { law.divided(c, c) } -> std::same_as<Real>;  ///< (h1(a) − h1(b)) / (a − b), with its limit
+  { law.volume(c) } -> std::same_as<VolumeValue<Real>>;
+};
+
+template <class L, class Real>
+concept Law = InvariantLaw<L, Real> || PrincipalLaw<L, Real>;
 
 }  // namespace heml

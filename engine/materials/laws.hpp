@@ -1,9 +1,16 @@
 #pragma once
 // The one list of laws. Adding a law is its header and a line in LawList.
 #include <cassert>
+#include <heml/materials/as_printed.hpp>
+#include <heml/materials/gent.hpp>
+#include <heml/materials/hgo.hpp>
 #include <heml/materials/material.hpp>
+#include <heml/materials/mooney_rivlin.hpp>
 #include <heml/materials/neo_hookean.hpp>
+#include <heml/materials/ogden.hpp>
 #include <heml/materials/stvk.hpp>
+#include <heml/materials/veronda_westmann.hpp>
+#include <heml/materials/yeoh.hpp>
 #include <tuple>
 
 namespace heml {
@@ -15,34 +22,58 @@ struct LawTag {
   using Law = L<Real, continued>;
 };
 
-using LawList = std::tuple<LawTag<NeoHookean>, LawTag<StVK>>;
+/// In the order people see them.
+using LawList =
+    std::tuple<LawTag<NeoHookean>, LawTag<StVK>, LawTag<NeoHookeanIso>, LawTag<MooneyRivlin>, LawTag<FungDemiray>,
+               LawTag<Ogden>, LawTag<Hgo>, LawTag<Yeoh>, LawTag<Gent>, LawTag<VerondaWestmann>, LawTag<PaperNeoHookean>,
+               LawTag<PaperMooneyRivlin>, LawTag<PaperFungDemiray>>;
 
-namespace detail {
-template <class Real, class L, class Use>
-void use_law(const Material& material, const Use& use) {
-  static_assert(Law<L, Real>);
-  assert(material.parameters.size() == std::size(L::parameters));
-  L law;
-  static_assert(sizeof(L) == sizeof(Real) * std::size(L::parameters), "a law holds its parameters and nothing else");
-  Real* member = reinterpret_cast<Real*>(&law);
-  for (std::size_t i = 0; i < material.parameters.size(); ++i) member[i] = static_cast<Real>(material.parameters[i]);
-  use(law);
+/// A law's struct from its parameters' values (contract order; lists one after the other).
+template <class L, class Real>
+L law_from(std::span<const double> values) {
+  if constexpr (requires { L::from(values); }) {
+    return L::from(values);
+  } else {
+    static_assert(sizeof(L) == sizeof(Real) * std::size(L::parameters), "a law holds its parameters and nothing else");
+    assert(values.size() == std::size(L::parameters));
+    L law;
+    Real* member = reinterpret_cast<Real*>(&law);
+    for (std::size_t i = 0; i < values.size(); ++i) member[i] = static_cast<Real>(values[i]);
+    return law;
+  }
 }
-}  // namespace detail
 
-/// Calls use(law) with the material's law as a struct of Real, continued or not: the one place where a name becomes a
-/// type. The material must be one that material_problem() has nothing against.
+/// Calls use(law) with the material's law as a struct of Real, continued or not: where a name becomes a type. Laws of
+/// which `wanted(index in LawList)` is false are not even instantiated. Returns whether the law was found.
+/// The material must be one that material_problem() has nothing against.
+template <class Real, class Wanted, class Use>
+bool with_law_among(const Wanted&, const Material& material, bool continuation, const Use& use) {
+  const auto attempt = [&]<std::size_t k>(std::integral_constant<std::size_t, k>) {
+    if constexpr (Wanted{}(k)) {
+      using Tag = std::tuple_element_t<k, LawList>;
+      using Plain = typename Tag::template Law<Real, false>;
+      using Continued = typename Tag::template Law<Real, true>;
+      static_assert(Law<Plain, Real> && Law<Continued, Real>);
+      if (material.law != Plain::name) return false;
+      if (continuation)
+        use(law_from<Continued, Real>(material.parameters));
+      else
+        use(law_from<Plain, Real>(material.parameters));
+      return true;
+    }
+    return false;
+  };
+  return [&]<std::size_t... k>(std::index_sequence<k...>) {
+    return (attempt(std::integral_constant<std::size_t, k>{}) || ...);
+  }
+  (std::make_index_sequence<std::tuple_size_v<LawList>>{});
+}
+
+/// The same among all laws, one of which it must be (mass_spring is not a law of an element).
 template <class Real, class Use>
 void with_law(const Material& material, bool continuation, const Use& use) {
-  const auto attempt = [&]<class Tag>(Tag) {
-    if (material.law != Tag::template Law<Real, false>::name) return false;
-    if (continuation)
-      detail::use_law<Real, typename Tag::template Law<Real, true>>(material, use);
-    else
-      detail::use_law<Real, typename Tag::template Law<Real, false>>(material, use);
-    return true;
-  };
-  [[maybe_unused]] const bool found = std::apply([&](auto... tag) { return (attempt(tag) || ...); }, LawList{});
+  const auto all = [](std::size_t) { return true; };
+  [[maybe_unused]] const bool found = with_law_among<Real>(all, material, continuation, use);
   assert(found);
 }
 

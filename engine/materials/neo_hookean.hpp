@@ -15,12 +15,15 @@ struct NeoHookean {
 
   static constexpr std::string_view name = "neo_hookean";
   static constexpr std::string_view title = "Neo-Hookean";
+  static constexpr std::string_view formula = "μ/2 (I1−3) − μ ln J + λ/2 (ln J)²";
+  static constexpr std::string_view source = "Bonet & Wood 2008, 6.4.3";
   static constexpr ParameterInfo parameters[] = {
       {"lambda", "λ", "Pa", "first Lamé parameter: resistance to change of volume"},
       {"mu", "μ", "Pa", "shear modulus (second Lamé parameter)"},
   };
   static constexpr bool uses_I2 = false;
   static constexpr bool uses_J = true;
+  static constexpr bool uses_I4 = false, has_volume_term = false;
   static constexpr bool always_valid = continued;
   static constexpr Real J0 = Real(0.3);
 

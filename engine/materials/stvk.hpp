@@ -16,12 +16,15 @@ struct StVK {
 
   static constexpr std::string_view name = "stvk";
   static constexpr std::string_view title = "Saint Venant-Kirchhoff";
+  static constexpr std::string_view formula = "λ/2 tr(E)² + μ tr(E²), E = (C − I)/2";
+  static constexpr std::string_view source = "Goulette & Chendeb 2006, Table 1";
   static constexpr ParameterInfo parameters[] = {
       {"lambda", "λ", "Pa", "first Lamé parameter: resistance to change of volume"},
       {"mu", "μ", "Pa", "shear modulus (second Lamé parameter)"},
   };
   static constexpr bool uses_I2 = true;
   static constexpr bool uses_J = continued;
+  static constexpr bool uses_I4 = false, has_volume_term = false;
   static constexpr bool always_valid = true;
   static constexpr Real J1 = Real(0.57735026918962576);
 

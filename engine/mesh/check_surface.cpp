@@ -1,6 +1,7 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <heml/base/error.hpp>
 #include <heml/mesh/from_surface.hpp>
 #include <heml/mesh/intersections.hpp>
@@ -88,11 +89,11 @@ void check_intersections(SurfaceMesh& surface) {
   const Intersections found = self_intersections(surface);
   if (found.pairs == 0 || untangle(surface, found)) return;
   const Triangle& first = surface.triangles[found.first];
-  throw InputError(surface.source, triangle_place(found.first),
-                   fmt::format("meets triangle {} near {}; the surface runs through itself in {}{} pairs of triangles",
-                               found.second, shown(surface.nodes[first[0]]),
-                               found.pairs >= most_pairs ? "at least " : "", found.pairs),
-                   "separate or unite the parts");
+  throw InputError(
+      surface.source, triangle_place(found.first),
+      fmt::format("meets triangle {} near {}; the surface runs through itself in {}{} pairs of triangles", found.second,
+                  shown(surface.nodes[first[0]]), found.pairs >= most_pairs ? "at least " : "", found.pairs),
+      "separate or unite the parts");
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
-#include <cmath>
 #include <fmt/format.h>
+
+#include <cmath>
 #include <heml/base/error.hpp>
 #include <heml/mesh/generate.hpp>
 

@@ -148,8 +148,9 @@ void run_helper(const std::string& subject, const std::vector<std::string>& argu
     throw InputError(subject, "", fmt::format("filling or reading it takes longer than {} s", limits.seconds),
                      "a coarser surface, a larger radius_edge_ratio or max_volume");
   if (WIFSIGNALED(ending.status))
-    throw InputError(subject, "", fmt::format("the mesher cannot handle it (signal {}, {})", WTERMSIG(ending.status),
-                                              strsignal(WTERMSIG(ending.status))),
+    throw InputError(subject, "",
+                     fmt::format("the mesher cannot handle it (signal {}, {})", WTERMSIG(ending.status),
+                                 strsignal(WTERMSIG(ending.status))),
                      "repair or simplify the surface");
   if (WEXITSTATUS(ending.status) == cannot_start)
     throw InputError(subject, "", fmt::format("the helper {} cannot be started", helper.string()),

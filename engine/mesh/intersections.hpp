@@ -7,7 +7,7 @@
 namespace heml {
 
 struct Intersections {
-  std::size_t pairs = 0;  ///< of triangles; counting stops at `most_pairs`
+  std::size_t pairs = 0;        ///< of triangles; counting stops at `most_pairs`
   int first = -1, second = -1;  ///< the lowest pair found
   std::vector<int> triangles;   ///< all that are in a pair, ascending
 };

@@ -1,6 +1,7 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <heml/base/error.hpp>
 #include <heml/mesh/faces.hpp>
 #include <heml/mesh/quality.hpp>
@@ -35,11 +36,15 @@ void check_nodes(const TetMesh& mesh) {
 }
 
 void check_indices(const TetMesh& mesh) {
-  if (mesh.tets.empty())
-    throw InputError(mesh.source, "", "has no tetrahedra", "a surface is filled by heml mesh");
+  if (mesh.tets.empty()) throw InputError(mesh.source, "", "has no tetrahedra", "a surface is filled by heml mesh");
   if (mesh.regions.size() != mesh.tets.size())
     throw InputError(mesh.source, "",
                      fmt::format("has {} regions for {} tetrahedra", mesh.regions.size(), mesh.tets.size()));
+  for (const ElementField& field : mesh.fields)
+    if ((field.components != 1 && field.components != 3) || field.values.size() != field.components * mesh.tets.size())
+      throw InputError(mesh.source, fmt::format("field '{}'", field.name),
+                       fmt::format("has {} values of {} components for {} tetrahedra", field.values.size(),
+                                   field.components, mesh.tets.size()));
   const int nodes = static_cast<int>(mesh.nodes.size());
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
     const Tet& tet = mesh.tets[t];
@@ -65,8 +70,7 @@ void repair_winding(TetMesh& mesh, QualityReport& report) {
       size = std::max(size, mesh.nodes[tet[a]].cwiseAbs().maxCoeff());
       for (int b = 0; b < a; ++b) edge = std::max(edge, (mesh.nodes[tet[a]] - mesh.nodes[tet[b]]).norm());
     }
-    const double volume =
-        signed_volume(mesh.nodes[tet[0]], mesh.nodes[tet[1]], mesh.nodes[tet[2]], mesh.nodes[tet[3]]);
+    const double volume = signed_volume(mesh.nodes[tet[0]], mesh.nodes[tet[1]], mesh.nodes[tet[2]], mesh.nodes[tet[3]]);
     if (!(std::abs(volume) > 4 * epsilon * edge * edge * (edge + size)))
       throw InputError(mesh.source, element(t), fmt::format("has no volume: {:.3g} m³ (nodes {})", volume, shown(tet)),
                        "remove it or move one of its nodes");
@@ -172,12 +176,11 @@ std::string counted(int count, const char* one, const char* many) {
 void add_warnings(const TetMesh& mesh, QualityReport& report) {
   const QualityReport& r = report;
   const auto say = [&](std::string sentence) { report.warnings.push_back(std::move(sentence)); };
-  if (r.rewound > 0)
-    say(fmt::format("{} of {} tetrahedra inside out by their winding; repaired", r.rewound, r.tets));
+  if (r.rewound > 0) say(fmt::format("{} of {} tetrahedra inside out by their winding; repaired", r.rewound, r.tets));
   if (r.slivers > 0)
     say(fmt::format("{} (a dihedral angle under {}°); the worst, element {} (nodes {}), has {:.3g}°",
-                    counted(r.slivers, "sliver", "slivers"), sliver_degrees, r.worst_tet,
-                    shown(mesh.tets[r.worst_tet]), r.worst_dihedral));
+                    counted(r.slivers, "sliver", "slivers"), sliver_degrees, r.worst_tet, shown(mesh.tets[r.worst_tet]),
+                    r.worst_dihedral));
   if (r.orphans > 0) say(counted(r.orphans, "node", "nodes") + " of no tetrahedron: at rest for good");
   if (r.duplicates > 0)
     say(counted(r.duplicates, "node", "nodes") + " at the very place of another: never merged, the body is open there");
@@ -185,8 +188,7 @@ void add_warnings(const TetMesh& mesh, QualityReport& report) {
   if (r.nonmanifold_edges > 0)
     say(counted(r.nonmanifold_edges, "boundary edge", "boundary edges") +
         " of more than two boundary faces: parts hang together by an edge alone");
-  if (count_crowded_faces(mesh) > 0)
-    say("faces of more than two tetrahedra: elements overlap or are given twice");
+  if (count_crowded_faces(mesh) > 0) say("faces of more than two tetrahedra: elements overlap or are given twice");
 }
 
 }  // namespace

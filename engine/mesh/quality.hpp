@@ -8,18 +8,18 @@ namespace heml {
 
 struct QualityReport {
   int nodes = 0, tets = 0, regions = 0;
-  double volume = 0;           ///< m³
-  Vec3 low, high;              ///< m, bounding box of the tetrahedra
-  int rewound = 0;             ///< tetrahedra whose winding was repaired
-  int slivers = 0;             ///< with a smallest dihedral angle under 5°
-  int worst_tet = -1;          ///< file order
-  double worst_dihedral = 0;   ///< degrees, of worst_tet
+  double volume = 0;                           ///< m³
+  Vec3 low, high;                              ///< m, bounding box of the tetrahedra
+  int rewound = 0;                             ///< tetrahedra whose winding was repaired
+  int slivers = 0;                             ///< with a smallest dihedral angle under 5°
+  int worst_tet = -1;                          ///< file order
+  double worst_dihedral = 0;                   ///< degrees, of worst_tet
   double shortest_edge = 0, longest_edge = 0;  ///< m
-  int orphans = 0;             ///< nodes of no tetrahedron
-  int duplicates = 0;          ///< nodes at the very place of another
-  int components = 0;          ///< bodies not connected by a node
-  int nonmanifold_edges = 0;   ///< of the boundary
-  std::vector<std::string> warnings;  ///< sentences, one each for what is worth a person's attention
+  int orphans = 0;                             ///< nodes of no tetrahedron
+  int duplicates = 0;                          ///< nodes at the very place of another
+  int components = 0;                          ///< bodies not connected by a node
+  int nonmanifold_edges = 0;                   ///< of the boundary
+  std::vector<std::string> warnings;           ///< sentences, one each for what is worth a person's attention
 };
 
 /// Checks a mesh and repairs winding in place. Throws InputError for what cannot be repaired: no tetrahedra, an index

@@ -1,7 +1,8 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <fmt/format.h>
 #include <fstream>
 #include <heml/base/error.hpp>
 #include <heml/base/log.hpp>
@@ -72,6 +73,7 @@ TetMesh read_tet_mesh(const std::filesystem::path& path) {
                                  read.mesh.nodes.size(), read.ignored),
                      "a surface is filled by heml mesh");
   if (read.real_regions) warn("{}: the cell array 'region' is not of integers and was ignored", path.string());
+  if (read.more_steps) warn("{}: holds fields for several time steps; the first was taken", path.string());
   if (read.ignored > 0)
     warn("{}: {} cells with a volume are not linear tetrahedra and were ignored", path.string(), read.ignored);
   return std::move(read.mesh);

@@ -1,9 +1,10 @@
 // Gmsh: https://gmsh.info/doc/texinfo/gmsh.html, "Gmsh file formats": MSH file format, and its versions 1 and 2
 // (legacy).
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
-#include <fmt/format.h>
-#include <heml/mesh/readers.hpp>
+#include <heml/mesh/gmsh_data.hpp>
 #include <map>
 
 namespace heml {
@@ -31,6 +32,7 @@ class GmshReader {
       section(name);
     }
     if (!any_section) in_.fail("the file is empty");
+    data_.put(tet_numbers_, in_, read_);
     return std::move(read_);
   }
 
@@ -48,6 +50,8 @@ class GmshReader {
       name == "$ELM" ? elements(1) : version_ < 4 ? elements(2) : elements_4();
     } else if (name == "$Entities" && version_ >= 4) {
       entities_4();
+    } else if (name == "$ElementData") {
+      data_.read(in_, read_);
     } else {
       return skip(name);
     }
@@ -99,7 +103,7 @@ class GmshReader {
     const std::size_t count = in_.count("the number of elements", 4);
     for (std::size_t e = 0; e < count; ++e) {
       in_.need_line("an element");
-      in_.wide_integer("an element number");
+      const long long number = in_.wide_integer("an element number");
       const long long type = in_.integer("an element type");
       read_.ignored += is_other_volume(type);
       if (type != gmsh_tetrahedron) continue;
@@ -113,7 +117,7 @@ class GmshReader {
         if (tags > 0) region = static_cast<int>(in_.integer("a physical tag"));
         for (long long t = 1; t < tags; ++t) in_.wide_integer("a tag");
       }
-      tetrahedron(region);
+      tetrahedron(number, region);
     }
   }
 
@@ -170,20 +174,21 @@ class GmshReader {
       for (std::size_t e = 0; e < in_block; ++e) {
         in_.need_line("an element");
         if (type != gmsh_tetrahedron) continue;
-        in_.wide_integer("an element number");
-        tetrahedron(region == volume_region_.end() ? 0 : region->second);
+        const long long number = in_.wide_integer("an element number");
+        tetrahedron(number, region == volume_region_.end() ? 0 : region->second);
       }
     }
     if (found != count) in_.fail(fmt::format("{} elements announced, {} in the blocks", count, found));
   }
 
-  void tetrahedron(int region) {
+  void tetrahedron(long long number, int region) {
     Tet tet;
     for (int& node : tet) {
-      const long long number = in_.wide_integer("a node number");
-      node = numbers_.find(number, in_);
+      const long long node_number = in_.wide_integer("a node number");
+      node = numbers_.find(node_number, in_);
     }
     in_.end_line("a tetrahedron's four nodes");
+    tet_numbers_.push_back({number, static_cast<int>(read_.mesh.tets.size())});
     read_.mesh.tets.push_back(tet);
     read_.mesh.regions.push_back(region);
   }
@@ -196,6 +201,8 @@ class GmshReader {
   Scanner in_;
   ReadMesh read_;
   NodeNumbers numbers_;
+  std::vector<GmshElement> tet_numbers_;
+  GmshData data_;
   double version_ = 1;
   bool has_nodes_ = false;
   std::map<long long, int> volume_region_;  ///< version 4: first physical tag of each volume entity

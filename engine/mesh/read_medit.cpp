@@ -1,6 +1,7 @@
 // Medit: P. Frey, MEDIT: an interactive mesh visualization software, INRIA RT-0253 (2001), section 7.2.
-#include <cctype>
 #include <fmt/format.h>
+
+#include <cctype>
 #include <heml/mesh/readers.hpp>
 
 namespace heml {

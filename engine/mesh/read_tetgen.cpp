@@ -1,6 +1,8 @@
-// TetGen: H. Si, TetGen user's manual 1.5, section 5.2, files .node and .ele.
-#include <cmath>
+// TetGen: H. Si, TetGen user's manual 1.5, section 5.2, files .node and .ele. The first attribute of a tetrahedron is
+// its region; those after it, which have no names, become the fields "attribute1", "attribute2", ...
 #include <fmt/format.h>
+
+#include <cmath>
 #include <heml/mesh/readers.hpp>
 
 namespace heml {
@@ -44,7 +46,8 @@ ReadMesh read_tetgen(std::string node_file, std::string_view nodes, std::string 
   in.need_line("the number of tetrahedra");
   const std::size_t count = in.count("the number of tetrahedra", 5);
   if (in.has_word()) in.integer("the nodes a tetrahedron", 4, 4);
-  const bool has_region = in.has_word() && in.integer("the attributes a tetrahedron", 0, most_values) > 0;
+  const long long attributes = in.has_word() ? in.integer("the attributes a tetrahedron", 0, most_values) : 0;
+  for (long long a = 1; a < attributes; ++a) field_in(read.mesh, fmt::format("attribute{}", a), 1, in);
   read.mesh.tets.reserve(count);
   read.mesh.regions.reserve(count);
   for (std::size_t t = 0; t < count; ++t) {
@@ -56,7 +59,8 @@ ReadMesh read_tetgen(std::string node_file, std::string_view nodes, std::string 
       node = numbers.find(number, in);
     }
     read.mesh.tets.push_back(tet);
-    read.mesh.regions.push_back(has_region ? read_region(in) : 0);
+    read.mesh.regions.push_back(attributes > 0 ? read_region(in) : 0);
+    for (ElementField& field : read.mesh.fields) field.values.push_back(in.any_number("an attribute"));
   }
   if (in.next_line()) in.fail(fmt::format("lines go on after {} tetrahedra", count));
   return read;

@@ -1,11 +1,13 @@
 // VTK legacy files: https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html ("Simple Legacy Formats"), of
 // versions up to 4 (cells as "#nodes node ...") and 5 (offsets and connectivity). Binary data is big-endian.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cctype>
+#include <charconv>
 #include <cmath>
-#include <fmt/format.h>
 #include <heml/mesh/readers.hpp>
 
 namespace heml {
@@ -59,6 +61,22 @@ long long integer_value(std::string_view bytes, Type::Kind kind) {
   const std::uint64_t high = big_endian(bytes) << shift;
   return kind == Type::signed_integer ? static_cast<std::int64_t>(high) >> shift
                                       : static_cast<long long>(high >> shift);
+}
+
+// Names have %XX in the place of blanks and what else would end a word.
+std::string decoded(std::string_view name) {
+  std::string text;
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    unsigned char code = 0;
+    const char* digits = name.data() + i + 1;
+    if (name[i] == '%' && i + 2 < name.size() && std::from_chars(digits, digits + 2, code, 16).ptr == digits + 2) {
+      text += static_cast<char>(code);
+      i += 2;
+    } else {
+      text += name[i];
+    }
+  }
+  return text;
 }
 
 class VtkReader {
@@ -166,8 +184,8 @@ class VtkReader {
   void cells_by_offsets(Scanner& line) {
     const std::size_t offsets = counted(line, "the number of offsets"), size = counted(line, "the size of the cells");
     if (offsets == 0) line.fail("the number of offsets is 0", "one more than cells");
-    for (auto [name, count, values] : {std::tuple("offsets", offsets, &cells_.offsets),
-                                       std::tuple("connectivity", size, &cells_.connectivity)}) {
+    for (auto [name, count, values] :
+         {std::tuple("offsets", offsets, &cells_.offsets), std::tuple("connectivity", size, &cells_.connectivity)}) {
       Scanner array = header_line();
       if (const auto found = array.word(name); lower(found) != name)
         array.fail(fmt::format("{} should begin here, found {}", name, quoted(found)));
@@ -200,14 +218,14 @@ class VtkReader {
     } else if (keyword == "vectors" || keyword == "normals") {
       values_of(name, 3, tuples_, type_of(line));
     } else if (keyword == "tensors" || keyword == "tensors6") {
-      values_of(name, keyword == "tensors" ? 9 : 6, tuples_, type_of(line));
+      skip((keyword == "tensors" ? 9 : 6) * tuples_, type_of(line));
     } else if (keyword == "texture_coordinates") {
       const std::size_t components = counted(line, "the number of components");
-      values_of(name, components, tuples_, type_of(line));
+      skip(components * tuples_, type_of(line));
     } else if (keyword == "global_ids" || keyword == "pedigree_ids") {
       values_of(name, 1, tuples_, type_of(line));
     } else if (keyword == "color_scalars") {
-      values_of(name, counted(line, "the number of components"), tuples_, byte_type);
+      skip(counted(line, "the number of components") * tuples_, byte_type);
     } else if (keyword == "lookup_table") {
       skip(4 * counted(line, "the size of the table"), byte_type);
     } else {
@@ -215,8 +233,15 @@ class VtkReader {
     }
   }
 
+  // Of an array that may be a field: `region`, or numbers of cells.
   void values_of(std::string_view name, std::size_t components, std::size_t tuples, const Type& type) {
-    if (!of_cells_ || lower(name) != "region" || components != 1) return skip(components * tuples, type);
+    if (!of_cells_ || (components != 1 && components != 3)) return skip(components * tuples, type);
+    if (lower(name) != "region" || components != 1) {
+      need(components * tuples, type);
+      ElementField field{decoded(name), components, std::vector<double>(components * tuples)};
+      for (double& value : field.values) value = any_real(type);
+      return add_cell_field(std::move(field), in_, cells_);
+    }
     if (type.kind != Type::real) {
       cells_.regions = integers(tuples, type);
       return;
@@ -231,8 +256,10 @@ class VtkReader {
     if (count > most) in_.fail(fmt::format("{} values should follow, the file ends too early for them", count));
   }
 
-  double real(const Type& type) {
-    if (!binary_) return in_.number("a value");
+  double real(const Type& type) { return binary_ ? any_real(type) : in_.number("a value"); }
+
+  double any_real(const Type& type) {
+    if (!binary_) return in_.any_number("a value");
     const std::string_view bytes = in_.bytes(type.bytes);
     return type.kind == Type::real ? real_value(bytes) : static_cast<double>(integer_value(bytes, type.kind));
   }

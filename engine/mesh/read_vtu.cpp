@@ -1,6 +1,8 @@
 // VTK XML files of unstructured grids, arrays as text: docs.vtk.org, "VTK XML Formats". The little of XML they need:
 // tags are taken one after the other, attributes are looked up in a tag's text.
 #include <fmt/format.h>
+
+#include <algorithm>
 #include <heml/mesh/readers.hpp>
 #include <limits>
 
@@ -21,6 +23,20 @@ std::string_view attribute(std::string_view tag, std::string_view key) {
     if (close != std::string_view::npos) return tag.substr(open + 1, close - open - 1);
   }
   return {};
+}
+
+std::string unescaped(std::string_view value) {
+  constexpr std::pair<std::string_view, char> entities[] = {
+      {"&lt;", '<'}, {"&gt;", '>'}, {"&quot;", '"'}, {"&apos;", '\''}, {"&amp;", '&'}};
+  std::string text;
+  while (!value.empty()) {
+    const auto entity = std::find_if(std::begin(entities), std::end(entities),
+                                     [&](const auto& known) { return value.starts_with(known.first); });
+    const bool found = entity != std::end(entities);
+    text += found ? entity->second : value[0];
+    value.remove_prefix(found ? entity->first.size() : 1);
+  }
+  return text;
 }
 
 class VtuReader {
@@ -83,7 +99,7 @@ class VtuReader {
     points_ = counted(tag, "NumberOfPoints");
     count_ = counted(tag, "NumberOfCells");
     first_node_ = read_.mesh.nodes.size();
-    cells_ = VtkCells{{0}, {}, {}, {}};
+    cells_ = VtkCells{{0}, {}, {}, {}, {}};
     if (tag.ends_with('/')) end_piece();
   }
 
@@ -110,11 +126,24 @@ class VtuReader {
       integers(tag, cells_.offsets);
     } else if (section_ == "Cells" && name == "types") {
       integers(tag, cells_.types);
-    } else if (section_ == "CellData" && name == "region") {
-      if (attribute(tag, "type").find("Int") != std::string_view::npos)
-        integers(tag, cells_.regions);
-      else
-        read_.real_regions = true;
+    } else if (section_ == "CellData" && !name.empty()) {
+      cell_data(name, tag);
+    }
+  }
+
+  // Arrays of other kinds than numbers in text are passed over: they need not be wanted.
+  void cell_data(std::string_view name, std::string_view tag) {
+    const std::string_view components = attribute(tag, "NumberOfComponents"), type = attribute(tag, "type");
+    const bool integer = type.find("Int") != std::string_view::npos, scalar = components.empty() || components == "1";
+    if (name == "region" && scalar) {
+      if (integer) return integers(tag, cells_.regions);
+      read_.real_regions = true;
+    } else if ((scalar || components == "3") && (integer || type.starts_with("Float")) &&
+               attribute(tag, "format") == "ascii") {
+      ElementField field{unescaped(name), scalar ? 1u : 3u, {}};
+      Scanner values = text_of(tag);
+      while (values.has_word()) field.values.push_back(values.any_number("a value"));
+      add_cell_field(std::move(field), in_, cells_);
     }
   }
 
@@ -127,8 +156,7 @@ class VtuReader {
 
   void integers(std::string_view tag, std::vector<long long>& to) {
     Scanner values = text_of(tag);
-    while (values.has_word())
-      to.push_back(values.wide_integer("a value"));
+    while (values.has_word()) to.push_back(values.wide_integer("a value"));
   }
 
   Scanner in_;

@@ -1,5 +1,6 @@
-#include <algorithm>
 #include <fmt/format.h>
+
+#include <algorithm>
 #include <heml/mesh/readers.hpp>
 #include <limits>
 
@@ -7,6 +8,12 @@ namespace heml {
 namespace {
 
 constexpr int vtk_tetra = 10;
+constexpr std::size_t most_fields = 1000;  // finding one is linear in their number
+constexpr std::size_t most_values = 4;     // of fields, a byte of the file: some may leave out most of the tetrahedra
+
+void check_count(std::size_t fields, const Scanner& in) {
+  if (fields > most_fields) in.fail(fmt::format("more than {} fields of elements", most_fields), "save fewer");
+}
 
 // Cells of VTK with a volume, other than the linear tetrahedron (vtkCellType.h).
 bool is_other_volume(long long type) {
@@ -14,7 +21,85 @@ bool is_other_volume(long long type) {
          type == 37 || type == 42 || (type >= 71 && type <= 74) || (type >= 78 && type <= 81);
 }
 
+Tet tet_of(const VtkCells& cells, std::size_t c, int first_node, const Scanner& in, const TetMesh& mesh) {
+  const long long begin = cells.offsets[c], end = cells.offsets[c + 1];
+  if (end - begin != 4) in.fail(fmt::format("cell {} is a tetrahedron of {} nodes", c, end - begin), "4");
+  const long long nodes = static_cast<long long>(mesh.nodes.size()) - first_node;
+  Tet tet;
+  for (int a = 0; a < 4; ++a) {
+    const long long node = cells.connectivity[static_cast<std::size_t>(begin + a)];
+    if (node < 0 || node >= nodes) in.fail(fmt::format("cell {} names node {}, there are {}", c, node, nodes));
+    tet[a] = first_node + static_cast<int>(node);
+  }
+  return tet;
+}
+
+int region_of(const VtkCells& cells, std::size_t c, const Scanner& in) {
+  const long long region = cells.regions.empty() ? 0 : cells.regions[c];
+  if (region < std::numeric_limits<int>::min() || region > std::numeric_limits<int>::max())
+    in.fail(fmt::format("region of cell {} is {}", c, region), "a 32-bit integer");
+  return static_cast<int>(region);
+}
+
+void check_sizes(const VtkCells& cells, const Scanner& in) {
+  const std::size_t count = cells.types.size();
+  if (cells.offsets.size() != count + 1)
+    in.fail(fmt::format("{} cells have {} cell types", cells.offsets.size() - 1, count));
+  if (!cells.regions.empty() && cells.regions.size() != count)
+    in.fail(fmt::format("{} cells have {} values of 'region'", count, cells.regions.size()));
+  for (const ElementField& field : cells.fields)
+    if (field.values.size() != field.components * count)
+      in.fail(fmt::format("{} cells have {} values of {}", count, field.values.size(), quoted(field.name)),
+              fmt::format("{} a cell", field.components));
+}
+
+// Puts the cells' values into the mesh's fields. tet_cells: the cells that became the mesh's last tetrahedra.
+void add_fields(const VtkCells& cells, const std::vector<std::size_t>& tet_cells, const Scanner& in, TetMesh& mesh) {
+  for (const ElementField& field : cells.fields) field_in(mesh, field.name, field.components, in);
+  pad_fields(mesh, in);
+  const std::size_t first_tet = mesh.tets.size() - tet_cells.size();
+  for (const ElementField& field : cells.fields) {
+    double* to = field_in(mesh, field.name, field.components, in).values.data() + field.components * first_tet;
+    for (const std::size_t c : tet_cells)
+      to = std::copy_n(field.values.data() + field.components * c, field.components, to);
+  }
+}
+
 }  // namespace
+
+ElementField& field_in(TetMesh& mesh, std::string_view name, std::size_t components, const Scanner& in) {
+  std::string plain(name);
+  for (char& c : plain)
+    if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = ' ';  // so that every format can hold it on a line
+  const auto found = std::find_if(mesh.fields.begin(), mesh.fields.end(),
+                                  [&](const ElementField& field) { return field.name == plain; });
+  if (found == mesh.fields.end()) {
+    check_count(mesh.fields.size() + 1, in);
+    return mesh.fields.emplace_back(ElementField{plain, components, {}});
+  }
+  if (found->components != components)
+    in.fail(fmt::format("{} has {} components here and {} before", quoted(plain), components, found->components));
+  return *found;
+}
+
+void pad_fields(TetMesh& mesh, const Scanner& in) {
+  std::size_t components = 0;
+  for (const ElementField& field : mesh.fields) components += field.components;
+  if (mesh.fields.empty() || components <= most_values * in.size() / std::max<std::size_t>(mesh.tets.size(), 1)) {
+    for (ElementField& field : mesh.fields)
+      field.values.resize(field.components * mesh.tets.size(), std::numeric_limits<double>::quiet_NaN());
+    return;
+  }
+  in.fail(
+      fmt::format("{} fields leave most of the {} tetrahedra without a value", mesh.fields.size(), mesh.tets.size()),
+      "save fewer fields, or values for all tetrahedra");
+}
+
+void add_cell_field(ElementField field, const Scanner& in, VtkCells& cells) {
+  std::erase_if(cells.fields, [&](const ElementField& other) { return other.name == field.name; });
+  cells.fields.push_back(std::move(field));
+  check_count(cells.fields.size(), in);
+}
 
 void NodeNumbers::close(const Scanner& in) {
   const auto less = [](const Entry& a, const Entry& b) { return a.number < b.number; };
@@ -36,32 +121,20 @@ int NodeNumbers::find(long long number, const Scanner& in) const {
 }
 
 void add_vtk_cells(const VtkCells& cells, int first_node, const Scanner& in, ReadMesh& read) {
-  const std::size_t count = cells.types.size();
-  if (cells.offsets.size() != count + 1)
-    in.fail(fmt::format("{} cells have {} cell types", cells.offsets.size() - 1, count));
-  if (!cells.regions.empty() && cells.regions.size() != count)
-    in.fail(fmt::format("{} cells have {} values of 'region'", count, cells.regions.size()));
-  const long long nodes = static_cast<long long>(read.mesh.nodes.size()) - first_node;
-  for (std::size_t c = 0; c < count; ++c) {
+  check_sizes(cells, in);
+  std::vector<std::size_t> tet_cells;
+  for (std::size_t c = 0; c < cells.types.size(); ++c) {
     const long long begin = cells.offsets[c], end = cells.offsets[c + 1];
     if (begin < 0 || begin > end || end > static_cast<long long>(cells.connectivity.size()))
       in.fail(fmt::format("offsets of cell {} are {} and {}", c, begin, end),
               fmt::format("ascending, up to {}", cells.connectivity.size()));
     read.ignored += is_other_volume(cells.types[c]);
     if (cells.types[c] != vtk_tetra) continue;
-    if (end - begin != 4) in.fail(fmt::format("cell {} is a tetrahedron of {} nodes", c, end - begin), "4");
-    Tet tet;
-    for (int a = 0; a < 4; ++a) {
-      const long long node = cells.connectivity[begin + a];
-      if (node < 0 || node >= nodes) in.fail(fmt::format("cell {} names node {}, there are {}", c, node, nodes));
-      tet[a] = first_node + static_cast<int>(node);
-    }
-    const long long region = cells.regions.empty() ? 0 : cells.regions[c];
-    if (region < std::numeric_limits<int>::min() || region > std::numeric_limits<int>::max())
-      in.fail(fmt::format("region of cell {} is {}", c, region), "a 32-bit integer");
-    read.mesh.tets.push_back(tet);
-    read.mesh.regions.push_back(static_cast<int>(region));
+    read.mesh.tets.push_back(tet_of(cells, c, first_node, in, read.mesh));
+    read.mesh.regions.push_back(region_of(cells, c, in));
+    tet_cells.push_back(c);
   }
+  add_fields(cells, tet_cells, in, read.mesh);
 }
 
 }  // namespace heml

@@ -96,6 +96,13 @@ TetMesh reordered(const TetMesh& mesh, const Reordering& order) {
     result.tets.push_back(tet);
     result.regions.push_back(mesh.regions[t]);
   }
+  for (const ElementField& field : mesh.fields) {
+    ElementField& inner = result.fields.emplace_back(ElementField{field.name, field.components, {}});
+    inner.values.reserve(field.values.size());
+    for (int t : order.file_tet)
+      for (std::size_t i = 0; i < field.components; ++i)
+        inner.values.push_back(field.values[field.components * static_cast<std::size_t>(t) + i]);
+  }
   return result;
 }
 

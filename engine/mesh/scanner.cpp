@@ -1,7 +1,8 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fmt/format.h>
 #include <heml/base/error.hpp>
 #include <heml/mesh/scanner.hpp>
 
@@ -87,15 +88,22 @@ std::string_view Scanner::word(std::string_view what) {
   return found;
 }
 
-double Scanner::number(std::string_view what) {
+double Scanner::any_number(std::string_view what) {
   const std::string_view found = word(what);
   const std::string_view digits = found.starts_with('+') ? found.substr(1) : found;
   double value = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (error == std::errc::result_out_of_range && is_tiny(digits)) return 0;
   if (error == std::errc::invalid_argument || end != digits.data() + digits.size())
     fail(fmt::format("{} should be a number, is {}", what, quoted(found)));
-  if (error != std::errc() || !std::isfinite(value)) fail(fmt::format("{} is not finite: {}", what, quoted(found)));
+  if (error != std::errc::result_out_of_range) return value;
+  if (is_tiny(digits)) return 0;
+  return digits.starts_with('-') ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::infinity();
+}
+
+double Scanner::number(std::string_view what) {
+  const double value = any_number(what);
+  if (!std::isfinite(value))
+    fail(fmt::format("{} is not finite: {}", what, quoted(text_.substr(last_, position_ - last_))));
   return value;
 }
 

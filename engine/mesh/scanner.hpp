@@ -24,6 +24,7 @@ class Scanner {
   std::string_view peek();                       ///< the next word, not consumed; empty: none
   std::string_view word(std::string_view what);  ///< `what` it should be: for messages
   double number(std::string_view what);          ///< finite
+  double any_number(std::string_view what);      ///< nan and inf too
   Vec3 point(std::string_view what);             ///< three numbers
   long long integer(std::string_view what, long long low = std::numeric_limits<int>::min(),
                     long long high = std::numeric_limits<int>::max());
@@ -35,6 +36,7 @@ class Scanner {
   std::string_view rest_of_line();        ///< and moves behind it
   std::string_view bytes(std::size_t n);  ///< raw; throws when fewer are left
   std::size_t left() const { return text_.size() - position_; }
+  std::size_t size() const { return text_.size(); }
 
   std::string_view rest() const { return text_.substr(position_); }
 

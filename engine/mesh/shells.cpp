@@ -1,6 +1,7 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <heml/base/error.hpp>
 #include <heml/mesh/shells.hpp>
 #include <limits>

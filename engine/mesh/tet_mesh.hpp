@@ -1,8 +1,10 @@
 #pragma once
 // The two kinds of mesh. Plain data: no invariants beyond what check_tets() (quality.hpp) makes sure of.
+#include <algorithm>
 #include <array>
 #include <heml/math/types.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace heml {
@@ -10,13 +12,29 @@ namespace heml {
 using Tet = std::array<int, 4>;
 using Triangle = std::array<int, 3>;
 
+/// Numbers a file gives for every tetrahedron under a name: 1 (scalars) or 3 (vectors) of them each. Not a number where
+/// it gives none; whatever uses a field checks its values.
+struct ElementField {
+  std::string name;
+  std::size_t components;      ///< 1 or 3
+  std::vector<double> values;  ///< components × #T, tetrahedron after tetrahedron
+};
+
 /// A tetrahedral body as its file has it.
 struct TetMesh {
-  std::vector<Vec3> nodes;   ///< #V×3, metres, in the file's order (orphans included)
-  std::vector<Tet> tets;     ///< #T×4, into nodes, from 0; positive volume after check_tets()
-  std::vector<int> regions;  ///< #T, the file's integer tag; 0 where it gives none
-  std::string source;        ///< file or generator it came from, for messages
+  std::vector<Vec3> nodes;                ///< #V×3, metres, in the file's order (orphans included)
+  std::vector<Tet> tets;                  ///< #T×4, into nodes, from 0; positive volume after check_tets()
+  std::vector<int> regions;               ///< #T, the file's integer tag; 0 where it gives none
+  std::string source;                     ///< file or generator it came from, for messages
+  std::vector<ElementField> fields = {};  ///< in the file's order
 };
+
+/// The field of that name; nullptr: there is none.
+inline const ElementField* find_field(const TetMesh& mesh, std::string_view name) {
+  const auto found = std::find_if(mesh.fields.begin(), mesh.fields.end(),
+                                  [&](const ElementField& field) { return field.name == name; });
+  return found == mesh.fields.end() ? nullptr : &*found;
+}
 
 /// A triangulated surface.
 struct SurfaceMesh {

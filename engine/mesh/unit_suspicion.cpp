@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+
 #include <heml/mesh/from_surface.hpp>
 
 namespace heml {

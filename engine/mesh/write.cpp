@@ -1,6 +1,8 @@
-#include <cstdio>
 #include <fmt/format.h>
+
+#include <cstdio>
 #include <heml/base/error.hpp>
+#include <heml/base/log.hpp>
 #include <heml/mesh/write.hpp>
 #include <iterator>
 
@@ -18,6 +20,10 @@ class Text {
   void add_nodes(const Tet& tet, int first) {
     add("{} {} {} {}", tet[0] + first, tet[1] + first, tet[2] + first, tet[3] + first);
   }
+  void add_values(const ElementField& field, std::size_t tet) {
+    for (std::size_t i = 0; i < field.components; ++i)
+      add("{:.17g}{}", field.values[field.components * tet + i], i + 1 < field.components ? ' ' : '\n');
+  }
 
   void save(const std::filesystem::path& path) const {
     std::FILE* file = std::fopen(path.c_str(), "wb");
@@ -28,6 +34,22 @@ class Text {
  private:
   fmt::memory_buffer text_;
 };
+
+// A name in an XML attribute.
+std::string escaped(const std::string& name) {
+  std::string text;
+  for (const char c : name)
+    text += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '"' ? "&quot;" : c == '&' ? "&amp;" : std::string(1, c);
+  return text;
+}
+// A name as one word, as VTK's own writer has it: %XX in the place of what would end it.
+std::string encoded(const std::string& name) {
+  std::string text;
+  for (const char c : name)
+    text += c <= ' ' || c > '~' || c == '%' || c == '"' ? fmt::format("%{:02X}", static_cast<unsigned char>(c))
+                                                        : std::string(1, c);
+  return text;
+}
 
 Text gmsh(const TetMesh& mesh) {
   Text out;
@@ -44,6 +66,14 @@ Text gmsh(const TetMesh& mesh) {
     out.add("\n");
   }
   out.add("$EndElements\n");
+  for (const ElementField& field : mesh.fields) {
+    out.add("$ElementData\n1\n\"{}\"\n1\n0\n3\n0\n{}\n{}\n", field.name, field.components, mesh.tets.size());
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+      out.add("{} ", t + 1);
+      out.add_values(field, t);
+    }
+    out.add("$EndElementData\n");
+  }
   return out;
 }
 
@@ -81,6 +111,11 @@ Text vtk(const TetMesh& mesh) {
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) out.add("10\n");
   out.add("CELL_DATA {}\nSCALARS region int 1\nLOOKUP_TABLE default\n", mesh.tets.size());
   for (int region : mesh.regions) out.add("{}\n", region);
+  if (!mesh.fields.empty()) out.add("FIELD FieldData {}\n", mesh.fields.size());
+  for (const ElementField& field : mesh.fields) {
+    out.add("{} {} {} double\n", encoded(field.name), field.components, mesh.tets.size());
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t) out.add_values(field, t);
+  }
   return out;
 }
 
@@ -105,7 +140,14 @@ Text vtu(const TetMesh& mesh) {
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) out.add("10\n");
   out.add("</DataArray>\n</Cells>\n<CellData>\n<DataArray type=\"Int32\" Name=\"region\" format=\"ascii\">\n");
   for (int region : mesh.regions) out.add("{}\n", region);
-  out.add("</DataArray>\n</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
+  out.add("</DataArray>\n");
+  for (const ElementField& field : mesh.fields) {
+    out.add("<DataArray type=\"Float64\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"ascii\">\n",
+            escaped(field.name), field.components);
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t) out.add_values(field, t);
+    out.add("</DataArray>\n");
+  }
+  out.add("</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
   return out;
 }
 
@@ -118,6 +160,13 @@ Text tetgen_nodes(const TetMesh& mesh) {
     out.add("\n");
   }
   return out;
+}
+
+void warn_of_fields(const std::filesystem::path& path, const TetMesh& mesh) {
+  if (mesh.fields.empty()) return;
+  std::string names;
+  for (const ElementField& field : mesh.fields) names += (names.empty() ? "" : ", ") + field.name;
+  warn("{}: this format has no place for fields of elements; left out: {}", path.string(), names.substr(0, 200));
 }
 
 Text tetgen_tets(const TetMesh& mesh) {
@@ -135,6 +184,7 @@ Text tetgen_tets(const TetMesh& mesh) {
 
 void write_tet_mesh(const std::filesystem::path& path, const TetMesh& mesh) {
   const std::string ending = path.extension().string();
+  if (ending == ".mesh" || ending == ".node") warn_of_fields(path, mesh);
   if (ending == ".msh") return gmsh(mesh).save(path);
   if (ending == ".mesh") return medit(mesh).save(path);
   if (ending == ".vtk") return vtk(mesh).save(path);

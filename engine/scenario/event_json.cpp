@@ -1,7 +1,8 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fmt/format.h>
 #include <heml/scenario/event_json.hpp>
 #include <heml/scenario/material_json.hpp>
 #include <heml/scenario/solver_json.hpp>
@@ -57,6 +58,7 @@ Command command_from(const Key& key, const std::string& action, std::optional<Ve
   if (action == "integrator") return SetIntegrator{integrator_from(value)};
   if (action == "material") {
     const RegionMaterial entry = material_from(value);
+    if (takes_fields(entry.material)) value.fail("takes a field of the mesh", "a material switched to takes numbers");
     return SetMaterial{entry.region, entry.material};
   }
   expect_true(value);

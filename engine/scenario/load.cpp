@@ -1,9 +1,11 @@
 // From a scene to a world: files read, selections resolved, and what only the mesh can tell checked.
-#include <algorithm>
 #include <fmt/format.h>
+
+#include <algorithm>
 #include <heml/base/error.hpp>
 #include <heml/mesh/surface.hpp>
 #include <heml/scenario/load_mesh.hpp>
+#include <heml/scenario/material_fields.hpp>
 #include <heml/scenario/positions_csv.hpp>
 #include <heml/scenario/scene.hpp>
 #include <heml/scenario/selection.hpp>
@@ -29,6 +31,8 @@ WorldSetup load_setup(const Scene& scene) {
   WorldSetup setup;
   setup.mesh = load_mesh(scene);
   setup.materials = scene.materials;
+  take_fields(scene.file, setup);
+  expect_recorded_mesh(scene, setup.mesh);
   for (std::size_t i = 0; i < scene.boundary.size(); ++i) {
     Boundary boundary = scene.boundary[i].motion;
     boundary.nodes = select_nodes(scene.boundary[i].where, setup.mesh, scene.file, fmt::format("boundary[{}]", i));

@@ -1,7 +1,8 @@
-#include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
 #include <heml/base/error.hpp>
 #include <heml/base/hash.hpp>
 #include <heml/base/log.hpp>
@@ -53,15 +54,6 @@ TetMesh raw_mesh(const Scene& scene) {
   return asset_mesh(scene);
 }
 
-void expect_recorded_mesh(const Scene& scene, const TetMesh& mesh) {
-  const MeshIdentity now = identity_of(mesh), then = *scene.recorded_mesh;
-  if (now == then) return;
-  const std::string problem =
-      fmt::format("was recorded on a mesh of {} nodes and {} tetrahedra (hash {:016x}); {} gives {} and {} ({:016x})",
-                  then.nodes, then.tets, then.hash, mesh.source, now.nodes, now.tets, now.hash);
-  throw InputError(scene.file, "recorded", problem, "replay it on the mesh it was recorded with");
-}
-
 }  // namespace
 
 fs::path find_file(const Scene& scene, const std::string& key, const fs::path& path) {
@@ -84,6 +76,10 @@ MeshIdentity identity_of(const TetMesh& mesh) {
   for (const Tet& tet : mesh.tets)
     for (const int node : tet) hash = mix(hash, number(node));
   for (const int region : mesh.regions) hash = mix(hash, number(region));
+  for (const ElementField& field : mesh.fields) {
+    for (const char c : field.name) hash = mix(hash, number(c));
+    for (const double value : field.values) hash = mix(hash, value);
+  }
   return {static_cast<int>(mesh.nodes.size()), static_cast<int>(mesh.tets.size()), hash};
 }
 
@@ -91,12 +87,26 @@ TetMesh load_mesh(const Scene& scene) {
   TetMesh mesh = raw_mesh(scene);
   const Placement placement(scene.mesh);
   for (Vec3& node : mesh.nodes) node = placement(node);
+  for (ElementField& field : mesh.fields)
+    for (std::size_t i = 0; field.components == 3 && i < field.values.size(); i += 3) {
+      Eigen::Map<Vec3> vector(&field.values[i]);
+      vector = placement.direction(vector);
+    }
   const QualityReport report = check_tets(mesh);
   for (const std::string& warning : report.warnings) warn("{}: {}", mesh.source, warning);
   if (!scene.mesh.box)
     if (const std::string odd = unit_suspicion(report.low, report.high); !odd.empty()) warn("{}: {}", mesh.source, odd);
-  if (scene.recorded_mesh) expect_recorded_mesh(scene, mesh);
   return mesh;
+}
+
+void expect_recorded_mesh(const Scene& scene, const TetMesh& mesh) {
+  if (!scene.recorded_mesh) return;
+  const MeshIdentity now = identity_of(mesh), then = *scene.recorded_mesh;
+  if (now == then) return;
+  const std::string problem =
+      fmt::format("was recorded on a mesh of {} nodes and {} tetrahedra (hash {:016x}); {} gives {} and {} ({:016x})",
+                  then.nodes, then.tets, then.hash, mesh.source, now.nodes, now.tets, now.hash);
+  throw InputError(scene.file, "recorded", problem, "replay it on the mesh it was recorded with");
 }
 
 }  // namespace heml

@@ -5,11 +5,15 @@
 
 namespace heml {
 
-/// Reads or makes the mesh, scales, rotates and moves it, and checks it; what is odd about it goes to warn().
-/// Throws InputError, also when the scene was recorded with another mesh.
+/// Reads or makes the mesh, scales, rotates and moves it (fields of vectors are rotated with it), and checks it; what
+/// is odd about it goes to warn(). Throws InputError.
 TetMesh load_mesh(const Scene& scene);
 
+/// mesh: as load_setup() leaves it, with the fields that materials use and no others.
 MeshIdentity identity_of(const TetMesh& mesh);
+
+/// Throws InputError when the scene was recorded with another mesh.
+void expect_recorded_mesh(const Scene& scene, const TetMesh& mesh);
 
 /// Where a file of the scene is: the path, or, for a recording whose file is gone, one of the same name beside the
 /// recording. Throws InputError naming the key when there is none.

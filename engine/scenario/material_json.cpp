@@ -1,94 +1,198 @@
-#include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <heml/materials/parameter_slots.hpp>
 #include <heml/scenario/material_json.hpp>
+#include <heml/scenario/presets.hpp>
+#include <heml/scenario/vector_json.hpp>
+#include <heml/scenario/young_poisson.hpp>
 #include <limits>
-#include <stdexcept>
 
 namespace heml {
 namespace {
 
-/// Laws of the scene format, whether or not this build can run them.
-constexpr std::string_view known_laws[] = {"stvk",         "neo_hookean", "neo_hookean_iso", "mooney_rivlin",
-                                           "fung_demiray", "ogden",       "hgo",             "mass_spring"};
+/// Keys beside the parameters that some laws take and others do not.
+struct ParticularKey {
+  std::string_view name;
+  bool (*taken_by)(const LawInfo&);
+};
+constexpr ParticularKey particular_keys[] = {
+    {"fibre", [](const LawInfo& law) { return law.has_fibre; }},
+    {"volume_term", [](const LawInfo& law) { return law.has_volume_term; }},
+    {"viscosity", [](const LawInfo& law) { return law.is_continuum; }},
+    {"bulk_viscosity", [](const LawInfo& law) { return law.is_continuum; }},
+    {"relaxation", [](const LawInfo& law) { return law.has_volume_term; }},
+    {"plasticity", [](const LawInfo& law) { return law.has_volume_term && !law.has_fibre; }},
+};
 
 const LawInfo& law_from(const Key& key) {
-  const std::string name = key.text();
-  if (const LawInfo* info = find_law(name)) return *info;
-  std::vector<std::string_view> available;
-  for (const LawInfo& info : laws()) available.push_back(info.name);
-  if (std::find(std::begin(known_laws), std::end(known_laws), name) != std::end(known_laws))
-    key.fail(fmt::format("the law '{}' is not part of this build", name),
-             fmt::format("available: {}", fmt::join(available, ", ")));
-  key.one_of(available);  // always throws: the name is none of them
-  throw std::logic_error("find_law and laws disagree");
+  std::vector<std::string_view> names;
+  for (const LawInfo& law : laws()) names.push_back(law.name);
+  return laws()[key.one_of(names)];
 }
 
-double poisson_from(const Key& key) {
-  const double value = key.number();
-  if (value == 0.5) key.refuse("incompressible has no finite lambda: use a value close to it, like 0.49");
-  if (!(value > -1 && value < 0.5)) key.refuse("must be greater than -1 and less than 0.5");
-  return value;
+/// Refuses what does not go with the law: keys of other laws, and keys of none.
+void allow_keys_of(const LawInfo& law, const Key& entry) {
+  std::vector<std::string_view> names = {"law", "region", "density", "preset"};
+  if (law.takes_young_poisson) names.insert(names.end(), {"young", "poisson"});
+  for (const ParameterInfo& info : law.parameters) names.push_back(info.name);
+  for (const ParticularKey& key : particular_keys) {
+    if (key.taken_by(law)) {
+      names.push_back(key.name);
+    } else if (const auto given = entry.find(key.name)) {
+      std::vector<std::string_view> others;
+      for (const LawInfo& other : laws())
+        if (key.taken_by(other)) others.push_back(other.name);
+      given->fail(fmt::format("does not go with the law '{}'", law.name),
+                  fmt::format("it goes with {}", fmt::join(others, ", ")));
+    }
+  }
+  entry.allow(names);
 }
 
-/// λ and μ from whichever of the two pairs is given.
-Lame lame_of(const Key& entry) {
+void add_scalar(const Quantity& quantity, Material& material) {
+  if (!quantity.field.empty()) material.fields.push_back({material.parameters.size(), quantity.field});
+  material.parameters.push_back(quantity.value);
+}
+
+/// λ and μ from young and poisson, by fields made of them where one of the two is a field.
+void add_young_poisson(const YoungPoisson& pair, Material& material) {
+  if (pair.young.field.empty() && pair.poisson.field.empty()) {
+    const Lame lame = lame_from(pair.young.value, pair.poisson.value);
+    material.parameters = {lame.lambda, lame.mu};
+  } else {
+    for (const char* parameter : {"lambda", "mu"}) add_scalar({1, lame_field(parameter, pair)}, material);
+  }
+}
+
+/// Whether the entry gives young and poisson rather than lambda and mu.
+bool is_engineering(const Key& entry) {
   const bool engineering = entry.has("young") || entry.has("poisson");
   const bool lame = entry.has("lambda") || entry.has("mu");
   if (engineering && lame) entry.fail("mixes young, poisson with lambda, mu", "give one pair only");
   if (!engineering && !lame) entry.fail("'young' is missing", "give young and poisson, or lambda and mu");
-  if (lame) return {entry["lambda"].number(), entry["mu"].number()};
-  return lame_from(entry["young"].positive(), poisson_from(entry["poisson"]));
+  return engineering;
 }
 
-std::vector<double> parameters_from(const Key& entry, const LawInfo& law) {
-  const bool elastic_pair = law.takes_young_poisson;
-  const Lame lame = elastic_pair ? lame_of(entry) : Lame{};
-  std::vector<double> parameters;
+void read_parameters(const Key& entry, const LawInfo& law, Material& material) {
+  if (law.takes_young_poisson && is_engineering(entry)) return add_young_poisson(young_poisson_from(entry), material);
+  const ParameterInfo* first_list = nullptr;
   for (const ParameterInfo& info : law.parameters) {
-    if (elastic_pair && info.name == "lambda")
-      parameters.push_back(lame.lambda);
-    else if (elastic_pair && info.name == "mu")
-      parameters.push_back(lame.mu);
-    else
-      parameters.push_back(entry[info.name].number());
+    const Key key = entry[info.name];
+    if (!info.list) {
+      add_scalar(quantity_from(key), material);
+      continue;
+    }
+    if (!first_list) first_list = &info;
+    if (key.size() == 0) key.fail("is empty", "give one number a term");
+    if (const std::size_t length = entry[first_list->name].size(); key.size() != length)
+      key.fail(fmt::format("has {} numbers, '{}' has {}", key.size(), first_list->name, length),
+               "give as many of each");
+    key.each([&](const Key& number) { material.parameters.push_back(number.number()); });
   }
-  return parameters;
+}
+
+void read_fibre(const Key& key, Material& material) {
+  if (key.json().is_object())
+    material.fibre_field = quantity_from(key).field;
+  else
+    material.fibre = key.direction();
+}
+
+/// What acts beside elasticity.
+void read_memory(const Key& entry, Material& material) {
+  if (const auto viscosity = entry.find("viscosity")) material.viscosity = viscosity->non_negative();
+  if (const auto viscosity = entry.find("bulk_viscosity")) material.bulk_viscosity = viscosity->non_negative();
+  if (const auto relaxation = entry.find("relaxation"))
+    relaxation->each([&](const Key& term) {
+      term.allow({"gamma", "tau"});
+      material.relaxation.push_back({term["gamma"].positive(), term["tau"].positive()});
+    });
+  if (const auto plasticity = entry.find("plasticity")) {
+    plasticity->allow({"yield", "hardening"});
+    material.plasticity = {(*plasticity)["yield"].positive(), 0};
+    if (const auto hardening = plasticity->find("hardening"))
+      material.plasticity->hardening = hardening->non_negative();
+  }
+}
+
+/// What can be wrong with the numbers together. Of fields, that is seen when the mesh is there.
+void check_values(const Key& entry, const Material& material) {
+  if (!material.fields.empty()) return;
+  for (const double value : material.parameters)
+    if (!std::isfinite(value)) entry.fail("its parameters overflow", "use smaller values");
+  if (const auto problem = material_problem(material)) {
+    if (const auto key = entry.find(problem->first)) key->fail(problem->second, "");
+    entry.fail(fmt::format("{}: {}", problem->first, problem->second), "");
+  }
+}
+
+Json parameters_json(const Material& material, const LawInfo& law) {
+  std::vector<Quantity> quantities;
+  for (const double value : material.parameters) quantities.push_back({value, ""});
+  for (const FieldParameter& field : material.fields) quantities.at(field.parameter).field = field.field;
+  Json json = Json::object();
+  const std::vector<ParameterSlot> slots = parameter_slots(material, law);
+  if (law.takes_young_poisson)
+    if (const auto pair = young_poisson_behind(quantities.at(0).field))
+      if (lame_field("lambda", *pair) == quantities.at(0).field && lame_field("mu", *pair) == quantities.at(1).field)
+        return {{"young", quantity_json(pair->young)}, {"poisson", quantity_json(pair->poisson)}};
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    Json& value = json[std::string(slots[i].info->name)];
+    if (slots[i].info->list)
+      value.push_back(quantities.at(i).value);
+    else
+      value = quantity_json(quantities.at(i));
+  }
+  return json;
 }
 
 }  // namespace
 
-RegionMaterial material_from(const Key& entry) {
-  RegionMaterial result;
-  const LawInfo& law = law_from(entry["law"]);
-  std::vector<std::string_view> names = {"law", "region", "density"};
-  if (law.takes_young_poisson) names.insert(names.end(), {"young", "poisson"});
-  for (const ParameterInfo& info : law.parameters) names.push_back(info.name);
-  entry.allow(names);
+bool takes_fields(const Material& material) { return !material.fields.empty() || !material.fibre_field.empty(); }
 
+RegionMaterial material_from(const Key& entry) {
+  if (entry.has("preset")) return preset_entry(entry);
+  RegionMaterial result;
+  Material& material = result.material;
+  const LawInfo& law = law_from(entry["law"]);
+  allow_keys_of(law, entry);
+  material.law = law.name;
   if (const auto region = entry.find("region"))
     result.region = static_cast<int>(region->integer(std::numeric_limits<int>::min(), std::numeric_limits<int>::max()));
-  if (const auto density = entry.find("density")) result.material.density = density->positive();
-  result.material.law = law.name;
-  result.material.parameters = parameters_from(entry, law);
-  for (const double value : result.material.parameters)
-    if (!std::isfinite(value)) entry.fail("its parameters overflow", "use smaller values");
-  if (const auto problem = material_problem(result.material)) {
-    if (const auto key = entry.find(problem->first)) key->fail(problem->second, "");
-    entry.fail(fmt::format("{}: {}", problem->first, problem->second), "");
-  }
+  if (const auto density = entry.find("density")) material.density = density->positive();
+  read_parameters(entry, law, material);
+  if (law.has_fibre) read_fibre(entry["fibre"], material);
+  if (const auto term = entry.find("volume_term"))
+    material.volume_term = static_cast<VolumeTerm>(term->one_of(volume_term_names()));
+  read_memory(entry, material);
+  check_values(entry, material);
   return result;
 }
 
 Json material_json(const RegionMaterial& entry) {
+  const Material& material = entry.material;
   Json json;
   if (entry.region) json["region"] = *entry.region;
-  json["law"] = entry.material.law;
-  const LawInfo* law = find_law(entry.material.law);
-  for (std::size_t i = 0; law && i < law->parameters.size(); ++i)
-    json[std::string(law->parameters[i].name)] = entry.material.parameters.at(i);
-  json["density"] = entry.material.density;
+  json["law"] = material.law;
+  if (const LawInfo* law = find_law(material.law)) {
+    json.update(parameters_json(material, *law));
+    if (!material.fibre_field.empty())
+      json["fibre"] = {{"field", material.fibre_field}};
+    else if (law->has_fibre)
+      json["fibre"] = vector_json(material.fibre);
+  }
+  if (material.volume_term != VolumeTerm::quadratic)
+    json["volume_term"] = volume_term_names()[static_cast<std::size_t>(material.volume_term)];
+  if (material.viscosity > 0) json["viscosity"] = material.viscosity;
+  if (material.bulk_viscosity > 0) json["bulk_viscosity"] = material.bulk_viscosity;
+  for (const PronyTerm& term : material.relaxation)
+    json["relaxation"].push_back({{"gamma", term.gamma}, {"tau", term.tau}});
+  if (material.plasticity)
+    json["plasticity"] = {{"yield", material.plasticity->yield}, {"hardening", material.plasticity->hardening}};
+  json["density"] = material.density;
   return json;
 }
 

@@ -5,8 +5,12 @@
 
 namespace heml {
 
-/// Throws InputError naming the key: unknown law or key, missing parameter, value out of range.
+/// Throws InputError naming the key: unknown law or key, missing parameter, value out of range. Where a field of the
+/// mesh stands for a number, 1 does until load_setup().
 RegionMaterial material_from(const Key& entry);
+
+/// Whether anything in it comes from fields of the mesh.
+bool takes_fields(const Material& material);
 
 Json material_json(const RegionMaterial& material);
 

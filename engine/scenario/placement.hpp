@@ -5,7 +5,8 @@
 
 namespace heml {
 
-/// x -> rotate(scale x − origin) + origin + translate. What a scene leaves out changes no bit.
+/// x -> rotate(scale x − origin) + origin + translate; directions are turned alone. What a scene leaves out changes no
+/// bit.
 class Placement {
  public:
   explicit Placement(const MeshSpec& mesh)
@@ -18,6 +19,8 @@ class Placement {
     const Vec3 turned = turns_ ? Vec3(rotation_ * (scaled - origin_) + origin_) : scaled;
     return turned + translate_;
   }
+
+  Vec3 direction(const Vec3& d) const { return turns_ ? Vec3(rotation_ * d) : d; }
 
  private:
   double scale_;

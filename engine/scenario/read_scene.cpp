@@ -1,7 +1,8 @@
 // A scene from JSON text: one document, or JSON Lines (first line the scene, then one entry of its script a line).
-#include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
+#include <algorithm>
 #include <heml/base/error.hpp>
 #include <heml/base/log.hpp>
 #include <heml/mesh/read.hpp>
@@ -21,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr long schema_version = 1;
-constexpr std::string_view surface_endings[] = {".obj", ".stl", ".ply",  ".off", ".dae",
+constexpr std::string_view surface_endings[] = {".obj", ".stl",  ".ply", ".off", ".dae",
                                                 ".fbx", ".gltf", ".glb", ".3ds"};
 
 void check_version(const Key& scene) {
@@ -98,6 +99,36 @@ Scene scene_from(const Key& key, const fs::path& folder) {
   return scene;
 }
 
+/// Plastic flow depends on the way taken, which statics does not follow.
+void check_static(const Scene& scene) {
+  if (!scene.solver.is_static()) return;
+  for (std::size_t m = 0; m < scene.materials.size(); ++m)
+    if (scene.materials[m].material.plasticity)
+      throw InputError(scene.file, fmt::format("materials[{}].plasticity", m), "does not go with solver.integrator static",
+                       "use backward_euler with loads ramped over a time");
+}
+
+/// Averaged nodal pressure takes the volume terms of all materials together.
+void check_nodal_pressure(const Scene& scene) {
+  if (!scene.solver.nodal_pressure) return;
+  const VolumeTerm first = scene.materials.front().material.volume_term;
+  const auto check = [&](const Material& material, const std::string& place) {
+    if (!find_law(material.law)->has_volume_term)
+      throw InputError(
+          scene.file, place + ".law",
+          fmt::format("'{}' has no volume term of its own, which solver.element nodal_pressure needs", material.law),
+          "take another law, or \"element\": \"p1\"");
+    if (material.volume_term != first)
+      throw InputError(scene.file, place + ".volume_term", "differs from that of materials[0]",
+                       "solver.element nodal_pressure needs the same in all materials");
+  };
+  for (std::size_t i = 0; i < scene.materials.size(); ++i)
+    check(scene.materials[i].material, fmt::format("materials[{}]", i));
+  for (const Event& event : scene.events)
+    if (const SetMaterial* set = std::get_if<SetMaterial>(&event.command))
+      check(set->material, fmt::format("events: step {}: material", event.tick));
+}
+
 /// The script that stands in the scene's own object.
 void read_lists(const Key& key, double tick_length, Script& script) {
   for (const std::string_view name : {"events", "checkpoints"})
@@ -144,6 +175,8 @@ Scene parse_scene(std::string_view text, const fs::path& as_if_from) {
   read_lists(key, scene.solver.tick(), script);
   if (end < text.size()) read_lines(text.substr(end + 1), file, scene.solver.tick(), script);
   install_script(std::move(script), scene);
+  check_nodal_pressure(scene);
+  check_static(scene);
   return scene;
 }
 
@@ -162,7 +195,10 @@ Scene read_scene(const fs::path& path) {
 
 Material read_material(const fs::path& path) {
   const Json document = parse_json(read_text_file(path), path.string());
-  return material_from(Key(document, path.string())).material;
+  const Material material = material_from(Key(document, path.string())).material;
+  if (takes_fields(material))
+    throw InputError(path.string(), "", "takes a field of a mesh, and there is no mesh here", "give numbers");
+  return material;
 }
 
 }  // namespace heml

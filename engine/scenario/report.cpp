@@ -11,7 +11,8 @@ namespace heml {
 namespace {
 
 Json halt_json(const Halt& halt) {
-  Json json = {{"cause", halt.cause == Halt::Cause::unstable ? "unstable" : "out_of_range"}, {"message", halt.message}};
+  constexpr const char* causes[] = {"out_of_range", "unstable", "not_converged"};
+  Json json = {{"cause", causes[static_cast<std::size_t>(halt.cause)]}, {"message", halt.message}};
   if (halt.element >= 0) json["element"] = halt.element;
   if (halt.node >= 0) json["node"] = halt.node;
   return json;
@@ -21,14 +22,15 @@ Json halt_json(const Halt& halt) {
 
 void write_report(const std::filesystem::path& path, World& world, const SolveFacts& facts) {
   const Energies energies = world.energies();
+  const SolverWork work = world.solver_work();
   const std::vector<double> J = world.volume_ratios();
   Json report = {{"converged", facts.converged},
-                 {"load", facts.load},
+                 {"load", work.load},
                  {"time", world.time()},
                  {"ticks", world.ticks()},
                  {"steps", world.steps()},
-                 {"iterations", facts.iterations},
-                 {"residual", facts.residual},
+                 {"iterations", work.iterations},
+                 {"residual", work.residual},
                  {"wall_seconds", facts.wall_seconds},
                  {"kinetic_energy", energies.kinetic},
                  {"elastic_energy", energies.elastic},

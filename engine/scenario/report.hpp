@@ -10,9 +10,6 @@ namespace heml {
 /// What is known of a solve besides the world's state.
 struct SolveFacts {
   bool converged = true;
-  double load = 1;            ///< fraction of the load reached (static); 1 for dynamics
-  long iterations = 0;        ///< of implicit and static solves
-  double residual = 0;        ///< likewise, last one
   double wall_seconds = 0;
   std::optional<Halt> halt;
 };

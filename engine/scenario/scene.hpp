@@ -74,7 +74,8 @@ struct Checkpoint {
   std::vector<std::uint16_t> nodes;  ///< node_hashes(); may be empty
 };
 
-/// Says whether a mesh is the one a recording was made with. Hash: of positions (as placed), elements and regions.
+/// Says whether a mesh is the one a recording was made with. Hash: of positions (as placed), elements, regions
+/// and the fields that materials use.
 struct MeshIdentity {
   int nodes = 0, tets = 0;
   std::uint64_t hash = 0;
@@ -95,11 +96,11 @@ struct Scene {
   Vec3 initial_velocity = Vec3::Zero();
   std::filesystem::path initial_positions;
   View view;
-  std::vector<Event> events;                   ///< ascending in tick
-  std::map<std::size_t, Vec3> grasp_points;    ///< index of a grasp in `events` to a place in space instead of a node
-  std::vector<Checkpoint> checkpoints;         ///< of a recording, ascending in tick
-  std::optional<long> recorded_ticks;          ///< of a recording: how far it went, as far as is known
-  std::optional<MeshIdentity> recorded_mesh;   ///< of a recording
+  std::vector<Event> events;                  ///< ascending in tick
+  std::map<std::size_t, Vec3> grasp_points;   ///< index of a grasp in `events` to a place in space instead of a node
+  std::vector<Checkpoint> checkpoints;        ///< of a recording, ascending in tick
+  std::optional<long> recorded_ticks;         ///< of a recording: how far it went, as far as is known
+  std::optional<MeshIdentity> recorded_mesh;  ///< of a recording
 };
 
 /// Reads a scene, a recording (either form), or puts the default scene round a bare mesh or surface file.
@@ -115,7 +116,7 @@ Scene default_scene();
 /// The default scene round a bare mesh or surface: soft tissue, held at its top, under gravity.
 Scene scene_around(const std::filesystem::path& mesh_or_surface);
 
-/// Reads the mesh, resolves selections, checks what needs the mesh. Throws InputError.
+/// Reads the mesh, resolves selections and fields, checks what needs the mesh. Throws InputError.
 WorldSetup load_setup(const Scene& scene);
 
 /// make_world(load_setup(scene)).
@@ -129,7 +130,8 @@ std::string scene_line(const Scene& scene, const std::filesystem::path& folder =
 std::string event_line(const Event& event);
 std::string checkpoint_line(const Checkpoint& checkpoint);
 
-/// One entry of `materials` (contract), e.g. the file `heml probe` takes; `density` accepted. Throws InputError.
+/// One entry of `materials` (contract), e.g. the file `heml probe` takes; `density` accepted. Throws InputError, also
+/// for fields, as there is no mesh.
 Material read_material(const std::filesystem::path& path);
 
 /// Folder that holds scenes, meshes and fonts: $HEML_ASSETS, else the installed one, else the source tree's.

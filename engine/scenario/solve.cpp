@@ -15,19 +15,25 @@ namespace fs = std::filesystem;
 
 constexpr double same_tick = 1e-6;  // of a tick: a time this close to its end is meant to be its end
 
-/// A time the run has to land on, and the file its state goes to.
-struct Stop {
+/// A time the run has to land on, or in a static scene a fraction of the load, and the file its state goes to.
+struct Landing {
   double time;  ///< s
   std::string stem;
 };
 
 /// In ascending order of time, the end last.
-std::vector<Stop> stops_of(const Scene& scene) {
-  std::vector<Stop> stops;
-  for (const double time : scene.output_times) stops.push_back({time, fmt::format("positions_{}", stops.size())});
-  std::stable_sort(stops.begin(), stops.end(), [](const Stop& a, const Stop& b) { return a.time < b.time; });
-  stops.push_back({scene.solver.duration, "positions"});
-  return stops;
+std::vector<Landing> landings_of(const Scene& scene) {
+  const bool is_static = scene.solver.is_static();
+  std::vector<Landing> landings;
+  for (const double time : scene.output_times) {
+    if (is_static && !(time >= 0 && time <= 1))
+      throw InputError(scene.file, fmt::format("outputs.times[{}]", landings.size()), fmt::format("is {}", time),
+                       "in a static scene times are fractions of the load, 0 to 1");
+    landings.push_back({time, fmt::format("positions_{}", landings.size())});
+  }
+  std::stable_sort(landings.begin(), landings.end(), [](const Landing& a, const Landing& b) { return a.time < b.time; });
+  landings.push_back({is_static ? 1 : scene.solver.duration, "positions"});
+  return landings;
 }
 
 /// Advances a world through its ticks, events included, to times between them.
@@ -37,6 +43,10 @@ class Run {
       : world_(world), schedule_(scene, world.setup().mesh), tick_(scene.solver.tick()) {}
 
   void to(double time, const std::function<void()>& on_tick) {
+    if (world_.setup().solver.is_static()) {
+      begin_tick();
+      return world_.load_to(time);
+    }
     const double ticks = time / tick_, nearest = std::round(ticks);
     const bool at_tick = std::abs(ticks - nearest) < same_tick;
     const long whole = static_cast<long>(at_tick ? nearest : std::floor(ticks));
@@ -75,32 +85,32 @@ void make_folder(const fs::path& folder) {
 }
 
 /// Of an earlier solve: a run that stops early must not leave them standing as its own.
-void remove_outputs(const fs::path& folder, const std::vector<Stop>& stops) {
+void remove_outputs(const fs::path& folder, const std::vector<Landing>& landings) {
   std::error_code ignored;
   fs::remove(folder / "report.json", ignored);
-  for (const Stop& stop : stops)
-    for (const char* ending : {".csv", ".vtu"}) fs::remove(folder / (stop.stem + ending), ignored);
+  for (const Landing& landing : landings)
+    for (const char* ending : {".csv", ".vtu"}) fs::remove(folder / (landing.stem + ending), ignored);
 }
 
 }  // namespace
 
 SolveResult solve(const Scene& scene, const fs::path& out, const std::function<void(double)>& progress) {
+  const std::vector<Landing> landings = landings_of(scene);
   const std::unique_ptr<World> world = load_world(scene);
-  const std::vector<Stop> stops = stops_of(scene);
   make_folder(out);
-  remove_outputs(out, stops);
+  remove_outputs(out, landings);
 
   Run run(scene, *world);
   const auto on_tick = [&] {
     if (progress) progress(static_cast<double>(world->ticks()) * scene.solver.tick() / scene.solver.duration);
   };
   double seconds = 0;
-  for (const Stop& stop : stops) {
+  for (const Landing& landing : landings) {
     const auto begin = std::chrono::steady_clock::now();
-    run.to(stop.time, on_tick);
+    run.to(landing.time, on_tick);
     seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    const bool last = &stop == &stops.back();
-    if (last || !world->halt()) write_state(out, stop.stem, *world, last || scene.output_positions, scene.output_vtu);
+    const bool last = &landing == &landings.back();
+    if (last || !world->halt()) write_state(out, landing.stem, *world, last || scene.output_positions, scene.output_vtu);
   }
   SolveFacts facts;
   facts.halt = world->halt();

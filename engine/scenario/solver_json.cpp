@@ -1,21 +1,32 @@
-#include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
+#include <algorithm>
 #include <heml/scenario/solver_json.hpp>
 
 namespace heml {
 namespace {
 
 /// Integrators of the scene format, whether or not this build has them.
-constexpr std::string_view known_integrators[] = {"symplectic_euler", "verlet", "backward_euler", "bdf2",
-                                                  "tr_bdf2",          "static", "auto"};
+constexpr std::string_view known_integrators[] = {"symplectic_euler", "verlet", "backward_euler", "bdf2", "tr_bdf2",
+                                                  "static",           "auto"};
+constexpr std::string_view elements[] = {"p1", "nodal_pressure"};
 constexpr double most_ticks = 1e12;
 constexpr double fastest_rate = 1e6;  // Hz
 constexpr long most_threads = 256;
 
-void check_element(const Key& key) {
-  constexpr std::string_view names[] = {"p1", "nodal_pressure"};
-  if (key.one_of(names) != 0) key.fail("the element 'nodal_pressure' is not part of this build", "available: p1");
+/// Hz. A step of an implicit method costs as much as dozens of explicit ones and need not be short for stability.
+double default_rate(Integrator integrator) {
+  switch (integrator) {
+    case Integrator::backward_euler:
+    case Integrator::bdf2:
+    case Integrator::tr_bdf2:
+      return 100;
+    case Integrator::static_equilibrium:
+      return 30;  // increments of the load a viewer sees
+    default:
+      return SolverSettings{}.rate;
+  }
 }
 
 }  // namespace
@@ -39,6 +50,7 @@ SolverSettings solver_from(const Key& key) {
   if (const auto integrator = key.find("integrator")) solver.integrator = integrator_from(*integrator);
   if (key.has("step") && key.has("rate")) key.fail("holds step and rate", "give one: a step is one tick");
   if (const auto step = key.find("step")) solver.step = step->positive();
+  solver.rate = default_rate(solver.integrator);
   if (const auto rate = key.find("rate")) solver.rate = rate->between(1, fastest_rate);
   if (const auto duration = key.find("duration")) solver.duration = duration->non_negative();
   if (!(solver.duration / solver.tick() <= most_ticks))
@@ -50,9 +62,9 @@ SolverSettings solver_from(const Key& key) {
     solver.single_precision = precision->one_of(names) == 1;
   }
   if (const auto threads = key.find("threads")) solver.threads = static_cast<int>(threads->integer(0, most_threads));
-  if (const auto element = key.find("element")) check_element(*element);
+  if (const auto element = key.find("element")) solver.nodal_pressure = element->one_of(elements) == 1;
   if (const auto continuation = key.find("continuation")) solver.continuation = continuation->flag();
-  if (const auto tolerance = key.find("tolerance")) tolerance->positive();
+  if (const auto tolerance = key.find("tolerance")) solver.tolerance = tolerance->positive();
   return solver;
 }
 
@@ -66,7 +78,9 @@ Json solver_json(const SolverSettings& solver) {
   json["damping"] = solver.damping;
   json["precision"] = solver.single_precision ? "float" : "double";
   json["threads"] = solver.threads;
+  json["element"] = elements[solver.nodal_pressure ? 1 : 0];
   json["continuation"] = solver.continuation;
+  if (solver.tolerance) json["tolerance"] = *solver.tolerance;
   return json;
 }
 

@@ -8,7 +8,7 @@ namespace heml {
 /// The integrator a value names. Throws InputError for one that is unknown or not part of this build.
 Integrator integrator_from(const Key& key);
 
-/// Throws InputError naming the key. `element` and `tolerance` are checked; neither changes what this build runs.
+/// Throws InputError naming the key.
 SolverSettings solver_from(const Key& key);
 
 Json solver_json(const SolverSettings& solver);

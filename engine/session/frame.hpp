@@ -29,7 +29,8 @@ struct Frame {
   double time = 0;               ///< s, simulated
   std::vector<Vec3f> positions;  ///< #S×3, m, in the order of Skin::nodes
   Field field = Field::none;
-  std::vector<float> values;  ///< #S in the field's unit; empty for Field::none
+  std::vector<float> values;     ///< #S in the field's unit; empty for Field::none
+  std::vector<float> stretches;  ///< #S, largest principal stretch; empty unless asked for
   Energies energies;
   double min_J = 1, max_J = 1;
   ToolState tool;

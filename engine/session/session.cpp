@@ -61,6 +61,11 @@ class Session::Impl {
     }
     wake_.notify_all();
   }
+  void carry_stretches(bool wanted) {
+    if (stretches_.exchange(wanted) == wanted) return;
+    show_now_ = true;
+    wake_.notify_all();
+  }
   void show(Field field) {
     field_ = field;
     show_now_ = true;
@@ -155,7 +160,7 @@ class Session::Impl {
   void publish() {
     const auto began = Pacer::Clock::now();
     Frame& frame = frames_.back();
-    fill_frame(*world_, skin_, field_, 0, frame);
+    fill_frame(*world_, skin_, field_, 0, frame, stretches_);
     frame.pace = pacer_.pace(began);
     frame.paused = !playing_;
     frames_.publish();
@@ -174,7 +179,7 @@ class Session::Impl {
   std::vector<Command> queue_, taken_;
   long single_steps_ = 0;
   std::atomic<Field> field_;
-  std::atomic<bool> playing_, stopping_{false}, finished_{false}, show_now_{false};
+  std::atomic<bool> playing_, stopping_{false}, finished_{false}, show_now_{false}, stretches_{false};
 
   Pacer pacer_;
   bool frames_published_since_pause_ = false;
@@ -192,6 +197,7 @@ void Session::play() { impl_->set_playing(true); }
 void Session::pause() { impl_->set_playing(false); }
 void Session::step_once() { impl_->set_playing(false, 1); }
 void Session::show(Field field) { impl_->show(field); }
+void Session::carry_stretches(bool wanted) { impl_->carry_stretches(wanted); }
 const Frame& Session::latest() { return impl_->frames_.front(); }
 bool Session::frame_waiting() const { return impl_->frames_.waiting(); }
 

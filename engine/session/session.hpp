@@ -43,10 +43,11 @@ class Session {
   void post(Command command);
   void play();
   void pause();
-  void step_once();            ///< one tick, then pause
-  void show(Field field);      ///< which scalars frames carry from now on
-  const Frame& latest();       ///< the newest frame; stays as it is until the next call
-  bool frame_waiting() const;  ///< true when latest() would return a newer one
+  void step_once();                   ///< one tick, then pause
+  void show(Field field);             ///< which scalars frames carry from now on
+  void carry_stretches(bool wanted);  ///< whether Frame::stretches is filled from now on
+  const Frame& latest();              ///< the newest frame; stays as it is until the next call
+  bool frame_waiting() const;         ///< true when latest() would return a newer one
 
  private:
   class Impl;

@@ -30,12 +30,16 @@ Skin make_skin(const WorldSetup& setup) {
   return skin;
 }
 
-void fill_frame(World& world, const Skin& skin, Field field, double ahead, Frame& frame) {
+void fill_frame(World& world, const Skin& skin, Field field, double ahead, Frame& frame, bool with_stretches) {
   frame.tick = world.ticks();
   frame.time = world.time() + ahead;
   world.write_positions(skin.nodes, ahead, frame.positions);
   frame.field = field;
   world.write_field(field, skin.nodes, frame.values);
+  if (with_stretches && field == Field::stretch)
+    frame.stretches = frame.values;
+  else
+    world.write_field(with_stretches ? Field::stretch : Field::none, skin.nodes, frame.stretches);
   frame.energies = world.energies();
   const std::vector<double> J = world.volume_ratios();
   const auto [low, high] = std::minmax_element(J.begin(), J.end());

@@ -8,7 +8,7 @@ namespace heml {
 Skin make_skin(const WorldSetup& setup);
 
 /// Fills a frame with what the world is now. `ahead`: seconds of extrapolation by velocity, for pictures between two
-/// ticks. Pace and paused are left as they are.
-void fill_frame(World& world, const Skin& skin, Field field, double ahead, Frame& frame);
+/// ticks. Pace and paused are left as they are; stretches are filled only when asked for.
+void fill_frame(World& world, const Skin& skin, Field field, double ahead, Frame& frame, bool with_stretches = false);
 
 }  // namespace heml

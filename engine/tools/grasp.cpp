@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <heml/tools/grasp.hpp>
 
@@ -49,6 +50,20 @@ void GraspSpring<Real>::add_forces(const Real* x, const Real* v, Real* f) const 
   const Vec3 target = felt_target(x);
   for (std::size_t k = 0; k < nodes_.size(); ++k)
     Eigen::Map<Vector3<Real>>(f + 3 * nodes_[k]) += node_force(k, target, x, v);
+}
+
+/// About the grip each spring has its own energy; the grip's pull on the tool grows linearly beyond reach.
+template <class Real>
+double GraspSpring<Real>::energy(const Real* x) const {
+  const Vec3 from = grip(x);
+  double sum = 0, total = 0;
+  for (std::size_t k = 0; k < nodes_.size(); ++k) {
+    const Vec3 at = Eigen::Map<const Vector3<Real>>(x + 3 * nodes_[k]).template cast<double>();
+    sum += static_cast<double>(stiffness_[k]) / 2 * (at - offset_[k] - from).squaredNorm();
+    total += static_cast<double>(stiffness_[k]);
+  }
+  const double length = (target_ - from).norm(), held = std::min(length, reach_);
+  return sum + total * held * (length - held / 2);
 }
 
 template <class Real>

@@ -28,6 +28,15 @@ class GraspSpring {
   /// Adds the springs' forces to f (3 #V, N).
   void add_forces(const Real* x, const Real* v, Real* f) const;
 
+  /// Energy of the springs, J: what their forces, damping aside, are minus the gradient of.
+  double energy(const Real* x) const;
+  /// Calls visit(node, stiffness N/m, damping N s/m) for every node of the patch. The stiffness is exact within reach,
+  /// an upper bound beyond.
+  template <class Visit>
+  void each_stiffness(const Visit& visit) const {
+    for (std::size_t k = 0; k < nodes_.size(); ++k) visit(nodes_[k], stiffness_[k], damping_[k]);
+  }
+
   /// Mean position of the patch, weighted by stiffness, m.
   Vec3 grip(const Real* x) const;
   /// Force of the tool on the tissue, N.

@@ -68,6 +68,14 @@ void add_boundary(const WorldSetup& setup, Model<Real>& model) {
     if (winner[n] >= 0) model.held.push_back({static_cast<int>(n), winner[n]});
 }
 
+/// In a static world everything is ramped together, over the duration.
+template <class Real>
+void ramp_together(double duration, Model<Real>& model) {
+  for (Motion& motion : model.motions) motion.over = duration;
+  for (DeadLoad<Real>& load : model.dead) load.over = duration;
+  for (Pressure<Real>& load : model.pressures) load.over = duration;
+}
+
 }  // namespace
 
 template <class Real>
@@ -85,6 +93,7 @@ Model<Real> make_model(const WorldSetup& setup) {
                             model.surface_nodes.end());
   add_boundary(setup, model);
   add_loads(setup, faces, model);
+  if (setup.solver.is_static()) ramp_together(setup.solver.load_duration(), model);
   Eigen::AlignedBox3d box;
   for (const Vec3& X : model.mesh.nodes) box.extend(X);
   model.diagonal = box.diagonal().norm();

@@ -27,6 +27,13 @@ struct Model {
   double diagonal = 0;  ///< m, of the rest bounding box
 };
 
+/// Where a held node is at time t, s.
+template <class Real>
+Motion::At held_at(const Model<Real>& model, const HeldNode& held, double time) {
+  return model.motions[static_cast<std::size_t>(held.entry)](model.mesh.nodes[static_cast<std::size_t>(held.node)],
+                                                             time);
+}
+
 /// Reorders, resolves boundary and loads. Throws InputError as material_of_elements().
 template <class Real>
 Model<Real> make_model(const WorldSetup& setup);

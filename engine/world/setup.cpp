@@ -10,7 +10,7 @@
 
 namespace heml {
 namespace {
-constexpr std::array names = {"symplectic_euler", "verlet"};
+constexpr std::array names = {"symplectic_euler", "verlet", "backward_euler", "bdf2", "tr_bdf2", "static", "auto"};
 }
 
 const char* integrator_name(Integrator integrator) { return names[static_cast<std::size_t>(integrator)]; }

@@ -41,7 +41,17 @@ struct Load {
   double over = 0;             ///< s; 0: at once
 };
 
-enum class Integrator { symplectic_euler, verlet };
+enum class Integrator {
+  symplectic_euler,
+  verlet,
+  backward_euler,
+  bdf2,
+  tr_bdf2,
+  static_equilibrium,  ///< "static"
+  automatic            ///< "auto"
+};
+
+inline bool is_explicit(Integrator integrator) { return integrator <= Integrator::verlet; }
 
 /// The names scene files use, in the order of the enum.
 const char* integrator_name(Integrator integrator);
@@ -56,6 +66,11 @@ struct SolverSettings {
   double damping = 0;          ///< mass-proportional, 1/s
   int threads = 0;             ///< 0: all cores. Never changes a bit of the result
   bool continuation = false;   ///< continue each law past its range instead of stopping there
+  bool nodal_pressure = false;  ///< averaged nodal pressure instead of one a tetrahedron (elastic/nodal_pressure.hpp)
+  std::optional<double> tolerance;  ///< of implicit and static solves, relative to the forces at work (contract)
+  bool is_static() const { return integrator == Integrator::static_equilibrium; }
+  double load_duration() const { return duration > 0 ? duration : 1; }  ///< s, that a static world's ticks load over
+  double relative_tolerance() const { return tolerance.value_or(single_precision ? 1e-4 : 1e-8); }
   double tick() const { return step ? *step : 1.0 / rate; }  ///< s
 };
 

@@ -11,7 +11,7 @@ namespace {
 constexpr double safety = 0.9;  // of the live limit; the bound is taken anew every few steps
 constexpr int steps_between_bounds = 8;
 constexpr int steps_between_bounds_when_pulled = 2;  // a hand can do much to a body in little time
-constexpr double smallest_step = 1e-9;  // s; below it a body is not soft tissue but a mistake
+constexpr double smallest_step = 1e-9;               // s; below it a body is not soft tissue but a mistake
 constexpr std::size_t node_grain = 4096;
 
 std::vector<Material> materials_of(const WorldSetup& setup) {
@@ -26,7 +26,8 @@ template <class Real>
 TypedWorld<Real>::TypedWorld(WorldSetup setup)
     : setup_(std::move(setup)),
       model_(make_model<Real>(setup_)),
-      body_(model_.mesh, model_.material_of, materials_of(setup_), setup_.solver.continuation),
+      body_(model_.mesh, model_.material_of, materials_of(setup_),
+            {setup_.solver.continuation, setup_.solver.nodal_pressure}),
       team_(setup_.solver.threads) {
   const FlushDenormals flush;
   take_masses();
@@ -35,6 +36,7 @@ TypedWorld<Real>::TypedWorld(WorldSetup setup)
 
 template <class Real>
 void TypedWorld<Real>::take_masses() {
+  remembers_ = body_.has_memory();
   mass_ = body_.masses();
   inverse_mass_.resize(mass_.size());
   for (std::size_t n = 0; n < mass_.size(); ++n) inverse_mass_[n] = mass_[n] > 0 ? 1 / mass_[n] : Real(0);
@@ -62,13 +64,16 @@ void TypedWorld<Real>::start() {
     }
   halt_.reset();
   grasps_.clear();
+  implicit_.reset();
   origin_tick_ = ticks_;
   move_held();
+  body_.forget(state_.x.data());
   last_valid_ = state_;
   if (!take_forces()) restore_last_valid(Halt::Cause::out_of_range);
   last_valid_ = state_;
   find_stable_step();
   limit_at_start_ = stable_step_;
+  method_ = choose_method();
 }
 
 template <class Real>
@@ -92,6 +97,12 @@ void TypedWorld<Real>::advance_within_tick(double time) {
 
 template <class Real>
 void TypedWorld<Real>::advance(double until) {
+  if (setup_.solver.is_static()) {
+    load_to(ramp(until, setup_.solver.load_duration()));
+    if (!halt_ && !interrupted_) state_.time = until;
+    return;
+  }
+  if (!is_explicit(method_)) return advance_implicit(until);
   while (state_.time < until && !halt_ && !interrupted_) {
     const double h = choose_step(until);
     if (halt_) return;
@@ -121,10 +132,10 @@ double TypedWorld<Real>::choose_step(double until) {
 
 template <class Real>
 void TypedWorld<Real>::step(Real h, double time_after) {
-  switch (setup_.solver.integrator) {
+  switch (method_) {
     case Integrator::symplectic_euler:
       return step_with<SymplecticEuler<Real>>(h, time_after);
-    case Integrator::verlet:
+    default:
       return step_with<Verlet<Real>>(h, time_after);
   }
 }
@@ -144,6 +155,7 @@ void TypedWorld<Real>::step_with(Real h, double time_after) {
   });
   s.time = time_after;
   move_held();
+  if (remembers_) body_.begin_step(h);
   if (!take_forces()) return restore_last_valid(Halt::Cause::out_of_range);
   // Ten times its own size in a step, or not a number: no tissue does that.
   const Real fastest = static_cast<Real>(10 * (model_.diagonal / h + setup_.initial_velocity.norm()));
@@ -155,17 +167,26 @@ void TypedWorld<Real>::step_with(Real h, double time_after) {
     if (!slow) sane.store(false, std::memory_order_relaxed);
   });
   if (!sane) return restore_last_valid(Halt::Cause::unstable);
+  if (remembers_) {
+    body_.commit(s.x.data());
+    body_.begin_step(0);
+  }
   ++steps_;
 }
 
 template <class Real>
 void TypedWorld<Real>::move_held() {
   for (const HeldNode& held : model_.held) {
-    const auto at = model_.motions[static_cast<std::size_t>(held.entry)](
-        model_.mesh.nodes[static_cast<std::size_t>(held.node)], state_.time);
+    const Motion::At at = held_at(model_, held, state_.time);
     Eigen::Map<Vector3<Real>>(&state_.x[3 * static_cast<std::size_t>(held.node)]) = at.x.template cast<Real>();
     Eigen::Map<Vector3<Real>>(&state_.v[3 * static_cast<std::size_t>(held.node)]) = at.v.template cast<Real>();
   }
+}
+
+/// In a static world gravity is ramped with everything else.
+template <class Real>
+Vec3 TypedWorld<Real>::gravity_now() const {
+  return (setup_.solver.is_static() ? ramp(state_.time, setup_.solver.load_duration()) : 1) * setup_.gravity;
 }
 
 /// Forces from all sides but supports at the present positions. Returns whether every law is defined there.
@@ -174,7 +195,7 @@ bool TypedWorld<Real>::take_forces() {
   const Real* x = state_.x.data();
   Real* f = state_.f.data();
   const bool valid = body_.forces(x, f, team_);
-  const Vector3<Real> g = setup_.gravity.template cast<Real>();
+  const Vector3<Real> g = gravity_now().template cast<Real>();
   if (!g.isZero(0))
     for (std::size_t n = 0; n < mass_.size(); ++n)
       for (std::size_t i = 0; i < 3; ++i) f[3 * n + i] += mass_[n] * g[static_cast<int>(i)];
@@ -184,13 +205,15 @@ bool TypedWorld<Real>::take_forces() {
   return valid;
 }
 
-/// h with h²λ + 2h c < 4: elastic bound λ and, where something is grasped, its ω² and the lagged damping c = 2ω.
+/// h with h²λ + 2h c < 4: elastic bound λ and, where something is grasped, its ω²; damping that lags half a step
+/// behind, c = 2ω of a grasp and what viscosity adds.
 template <class Real>
 void TypedWorld<Real>::find_stable_step() {
   double lambda = static_cast<double>(body_.frequency_bound(state_.x.data(), team_)), omega = 0;
   for (const auto& grasp : grasps_) omega = std::max(omega, static_cast<double>(grasp.omega()));
   lambda += omega * omega;
-  stable_step_ = safety * 2 / (omega + std::sqrt(omega * omega + lambda));
+  const double half = omega + (remembers_ ? static_cast<double>(body_.damping_bound(state_.x.data(), team_)) / 2 : 0);
+  stable_step_ = safety * 2 / (half + std::sqrt(half * half + lambda));
   steps_since_bound_ = 0;
 }
 
@@ -217,6 +240,7 @@ void TypedWorld<Real>::restore_last_valid(Halt::Cause cause) {
   state_.x = last_valid_.x;
   state_.v = last_valid_.v;
   state_.time = last_valid_.time;
+  if (remembers_) body_.begin_step(0);
   take_forces();
   halt_ = halt;
 }

@@ -2,9 +2,11 @@
 // A world of one scalar type: the step, and everything people ask of it.
 #include <atomic>
 #include <heml/base/thread_team.hpp>
+#include <heml/dynamics/implicit_stage.hpp>
 #include <heml/dynamics/state.hpp>
 #include <heml/elastic/body.hpp>
 #include <heml/tools/grasp.hpp>
+#include <heml/world/implicit_parts.hpp>
 #include <heml/world/model.hpp>
 #include <heml/world/world.hpp>
 
@@ -18,6 +20,7 @@ class TypedWorld final : public World {
   std::optional<std::string> apply(const Command& command) override;
   void tick() override;
   void advance_within_tick(double time) override;
+  void load_to(double fraction) override;
   void interrupt() override { interrupted_ = true; }
   bool unfinished() const override { return unfinished_; }
   const std::optional<Halt>& halt() const override { return halt_; }
@@ -26,6 +29,7 @@ class TypedWorld final : public World {
   long steps() const override { return steps_; }
   int substeps() const override { return substeps_; }
   double stable_step() const override { return stable_step_; }
+  SolverWork solver_work() const override;
   std::vector<Vec3> positions() const override { return in_file_order(state_.x); }
   std::vector<Vec3> velocities() const override { return in_file_order(state_.v); }
   void write_positions(std::span<const int> nodes, double ahead, std::vector<Vec3f>& out) const override;
@@ -51,6 +55,22 @@ class TypedWorld final : public World {
   void restore_last_valid(Halt::Cause cause);
   void start();
   void take_masses();
+  Vec3 gravity_now() const;
+
+  // method_choice.cpp
+  Integrator choose_method();
+  double lowest_frequency();
+
+  // implicit_steps.cpp, static_load.cpp: what solves
+  void advance_implicit(double until);
+  bool implicit_step(double h, double time_after);
+  bool solve_stage(const Stage& stage, double h, double time, Vector& x, Vector& v);
+  Vector stage_start(const Stage& stage, double time, const Vector& x);
+  Stop stage_stop();
+  bool is_balanced_enough(const Stage& stage, const Vector& r);
+  void halt_unsolved(const std::string& message);
+  ImplicitParts<Real>& implicit();
+  void take_state(const Vector& x, const Vector& v, double time);
 
   // world_commands.cpp: what people do
   std::optional<std::string> take(const Grasp& command);
@@ -72,6 +92,7 @@ class TypedWorld final : public World {
   ThreadTeam team_;
   std::vector<GraspSpring<Real>> grasps_;  ///< none or one: an empty list costs nothing
 
+  bool remembers_ = false;          ///< whether a material has viscosity, relaxation or plasticity
   std::vector<Real> mass_;          ///< #V, kg
   std::vector<Real> inverse_mass_;  ///< #V, 1/kg; 0 for held nodes and nodes of no element
   State<Real> state_, last_valid_;
@@ -84,6 +105,9 @@ class TypedWorld final : public World {
   std::optional<Halt> halt_;
   std::atomic<bool> interrupted_{false};
   bool unfinished_ = false;
+  std::unique_ptr<ImplicitParts<Real>> implicit_;  ///< none until an implicit or static method needs it
+  SolverWork work_;
+  Integrator method_ = Integrator::verlet;  ///< in use: what "auto" has chosen, else the scene's
   std::vector<ElementState<Real>> element_states_;  ///< scratch of queries
 };
 

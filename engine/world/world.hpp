@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <heml/mesh/tet_mesh.hpp>
 #include <heml/world/command.hpp>
+#include <heml/world/solver_work.hpp>
 #include <heml/world/setup.hpp>
 #include <memory>
 #include <optional>
@@ -24,7 +25,7 @@ struct Energies {
 
 /// Why a world will not step on. The state is the last valid one.
 struct Halt {
-  enum class Cause { out_of_range, unstable };
+  enum class Cause { out_of_range, unstable, not_converged };
   Cause cause;
   int element = -1;     ///< the first element out of range, mesh-file order; -1: none to name
   int node = -1;        ///< the first node that ran away, mesh-file order; -1: none to name
@@ -56,11 +57,17 @@ class World {
   /// Takes one command, before the next tick. Returns what is wrong with it, or nothing; a wrong one changes nothing.
   virtual std::optional<std::string> apply(const Command& command) = 0;
 
-  /// Advances one tick (solver.step, or 1/rate in as many equal substeps as stability asks). Does nothing once halted.
+  /// Advances one tick (solver.step, or 1/rate in as many equal substeps as stability asks; implicit methods take one,
+  /// or halves where one does not converge). A static world is loaded further by tick / duration. Does nothing once
+  /// halted.
   virtual void tick() = 0;
 
   /// Advances to a time within the coming tick, by shortened steps; the next tick() then ends where it would have.
   virtual void advance_within_tick(double time) = 0;
+
+  /// Static worlds alone: goes on to a fraction of all motions, loads and gravity, 0 to 1, never back, in increments of
+  /// its own choice. Halts where no equilibrium is found.
+  virtual void load_to(double fraction) = 0;
 
   /// From any thread: a tick under way ends after its current step. For stopping a program; the tick is left
   /// unfinished.
@@ -75,6 +82,7 @@ class World {
   virtual long steps() const = 0;          ///< integration steps done, substeps counted
   virtual int substeps() const = 0;        ///< of the last tick
   virtual double stable_step() const = 0;  ///< s, the live limit (safety included)
+  virtual SolverWork solver_work() const = 0;
 
   virtual std::vector<Vec3> positions() const = 0;   ///< #V×3, m
   virtual std::vector<Vec3> velocities() const = 0;  ///< #V×3, m/s

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <heml/materials/laws.hpp>
+#include <heml/materials/material.hpp>
 #include <heml/world/typed_world.hpp>
 
 namespace heml {
@@ -14,10 +14,8 @@ constexpr double grip_reach = 0.25;  // of the body's size: how far a spring of 
 double tool_frequency(const WorldSetup& setup, double radius, double highest) {
   double speed = 0;  // of shear waves, m/s
   for (const RegionMaterial& entry : setup.materials)
-    with_law<double>(entry.material, setup.solver.continuation, [&](const auto& law) {
-      const Slopes<double> rest = law.slopes({3, 3, 1});
-      speed = std::max(speed, std::sqrt(2 * (rest.w1 + rest.w2) / entry.material.density));
-    });
+    speed = std::max(speed, std::sqrt(ground_state(entry.material).shear / entry.material.density));
+  if (speed == 0) return 0.25 * highest;  // a net of springs: no continuum to ask
   return std::min(2 * speed / std::max(radius, 0.005), 0.25 * highest);
 }
 
@@ -27,6 +25,7 @@ bool finite(const Vec3& v) { return v.allFinite(); }
 template <class Real>
 std::optional<std::string> TypedWorld<Real>::apply(const Command& command) {
   const FlushDenormals flush;
+  if (implicit_ && implicit_->equilibrium) implicit_->equilibrium->disturb();
   auto problem = std::visit([this](const auto& c) { return take(c); }, command);
   if (!problem && !halt_) {
     if (!take_forces()) restore_last_valid(Halt::Cause::out_of_range);
@@ -76,11 +75,22 @@ std::optional<std::string> TypedWorld<Real>::take(const SetMaterial& command) {
   if (entry == setup_.materials.end())
     return command.region ? fmt::format("material: no entry for region {}", *command.region)
                           : std::string("material: there is no default entry; name a region");
+  const LawInfo* law = find_law(command.material.law);
+  if (setup_.solver.nodal_pressure && law && !law->has_volume_term)
+    return fmt::format("material.law: '{}' has no separate volume term, which nodal pressure needs", law->name);
+  for (const RegionMaterial& other : setup_.materials)
+    if (setup_.solver.nodal_pressure && &other != &*entry && other.material.volume_term != command.material.volume_term)
+      return "material.volume_term: with nodal pressure it must be that of the other materials";
+  if (!command.material.fields.empty() || !command.material.fibre_field.empty())
+    return "material: a switched material takes numbers, not fields";
   if (const auto problem = material_problem(command.material))
     return fmt::format("material.{}: {}", problem->first, problem->second);
   entry->material = command.material;
-  body_.set_material(static_cast<std::size_t>(entry - setup_.materials.begin()), command.material);
+  body_.set_material(static_cast<std::size_t>(entry - setup_.materials.begin()), command.material, state_.x.data());
   take_masses();
+  implicit_.reset();
+  find_stable_step();
+  method_ = choose_method();
   return std::nullopt;
 }
 
@@ -101,7 +111,11 @@ std::optional<std::string> TypedWorld<Real>::take(const SetGravity& command) {
 
 template <class Real>
 std::optional<std::string> TypedWorld<Real>::take(const SetIntegrator& command) {
+  if ((command.integrator == Integrator::static_equilibrium) != setup_.solver.is_static())
+    return "integrator: a scene is static from its start or not at all";
   setup_.solver.integrator = command.integrator;
+  implicit_.reset();
+  method_ = choose_method();
   return std::nullopt;
 }
 

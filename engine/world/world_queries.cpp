@@ -61,12 +61,13 @@ void TypedWorld<Real>::write_field(Field field, std::span<const int> nodes, std:
 template <class Real>
 Energies TypedWorld<Real>::energies() {
   Energies e;
+  const Vec3 gravity = gravity_now();
   for (std::size_t n = 0; n < mass_.size(); ++n) {
     const double m = static_cast<double>(mass_[n]);
     const Vec3 v = Eigen::Map<const Vector3<Real>>(&state_.v[3 * n]).template cast<double>();
     const Vec3 x = Eigen::Map<const Vector3<Real>>(&state_.x[3 * n]).template cast<double>();
     e.kinetic += m / 2 * v.squaredNorm();
-    e.potential -= m * setup_.gravity.dot(x - model_.mesh.nodes[n]);
+    e.potential -= m * gravity.dot(x - model_.mesh.nodes[n]);
   }
   e.elastic = body_.energy(state_.x.data());
   return e;
@@ -81,16 +82,17 @@ std::vector<double> TypedWorld<Real>::volume_ratios() {
   return result;
 }
 
-/// A support gives what the node's motion asks for and nothing else does: m (a + α v) − f.
+/// A support gives what the node's motion asks for and nothing else does: m (a + α v) − f, at rest −f.
 template <class Real>
 std::vector<Vec3> TypedWorld<Real>::reactions() {
   std::vector<Vec3> result(setup_.boundary.size(), Vec3::Zero());
+  const double inertia = setup_.solver.is_static() ? 0 : 1;
   for (const HeldNode& held : model_.held) {
     const auto n = static_cast<std::size_t>(held.node);
-    const auto at = model_.motions[static_cast<std::size_t>(held.entry)](model_.mesh.nodes[n], state_.time);
+    const Motion::At at = held_at(model_, held, state_.time);
     const Vec3 f = Eigen::Map<const Vector3<Real>>(&state_.f[3 * n]).template cast<double>();
     result[static_cast<std::size_t>(held.entry)] +=
-        static_cast<double>(mass_[n]) * (at.a + setup_.solver.damping * at.v) - f;
+        inertia * static_cast<double>(mass_[n]) * (at.a + setup_.solver.damping * at.v) - f;
   }
   return result;
 }
@@ -106,6 +108,16 @@ ToolState TypedWorld<Real>::tool() const {
   tool.grip = grasp.grip(state_.x.data());
   tool.force = grasp.force(state_.x.data(), state_.v.data());
   return tool;
+}
+
+template <class Real>
+SolverWork TypedWorld<Real>::solver_work() const {
+  SolverWork work = work_;
+  work.integrator = integrator_name(method_);
+  if (!implicit_) return work;
+  work.preconditioner = preconditioner_name(implicit_->linear.preconditioner());
+  work.linear = implicit_->linear.counts();
+  return work;
 }
 
 template <class Real>

@@ -111,5 +111,5 @@ TEST_CASE("every scene can be read, and runs for a quarter of a second") {
     CHECK_FALSE(world->halt().has_value());
     ++scenes;
   }
-  CHECK(scenes == 6);
+  CHECK(scenes == 7);
 }

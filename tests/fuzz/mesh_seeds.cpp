@@ -15,6 +15,8 @@ int main(int argc, char** argv) {
   write("gmsh_1", 0, gmsh_1);
   write("gmsh_2", 0, gmsh_2);
   write("gmsh_4", 0, gmsh_4);
+  write("gmsh_2_data", 0, gmsh_2_data);
+  write("gmsh_4_data", 0, gmsh_4_data);
   write("medit", 1, medit);
   write("vtk", 2, vtk);
   write("vtk_5", 2, vtk_5);
@@ -22,4 +24,5 @@ int main(int argc, char** argv) {
   write("vtk_5_binary", 2, vtk_5_binary);
   write("vtu", 3, vtu);
   write("tetgen", 4, node + '\0' + ele);
+  write("tetgen_attributes", 4, node + '\0' + ele_attributes);
 }

@@ -66,7 +66,7 @@ TEST_CASE("the comparison can fail: a later frame differs by more than the limit
         limit);
 }
 
-TEST_CASE("a colour map brings its legend, at the bottom; the panel brings its columns") {
+TEST_CASE("a colour map brings its legend, at the bottom, the panel brings its columns") {
   const TemporaryFolder folder;
   const auto plain = captured(scene("irregular_cube"), 0, folder), with_panel = captured(scene("irregular_cube"), 0, folder, " --panel");
   int left = 0;

@@ -1,7 +1,38 @@
+#include <heml/scenario/presets.hpp>
+
 #include "driver.hpp"
 
 using namespace heml;
 using namespace heml::test;
+
+namespace {
+
+Material material_of(const panel::PanelActions& actions) {
+  REQUIRE(actions.commands.size() == 1);
+  return std::get<SetMaterial>(actions.commands.front()).material;
+}
+
+/// The small scene with one material everywhere.
+Scene scene_of(const Material& material) {
+  Scene scene = small_scene();
+  scene.materials = {{std::nullopt, material}};
+  return scene;
+}
+
+/// Drags a slider by pixels to the right.
+panel::PanelActions drag(Driver& driver, const std::string& label, float pixels) {
+  const ImVec2 at = driver.find(label);
+  driver.hold(true);
+  driver.draw();
+  driver.draw();
+  driver.move({at.x + pixels, at.y});
+  const auto actions = driver.draw();
+  driver.hold(false);
+  driver.draw();
+  return actions;
+}
+
+}  // namespace
 
 TEST_CASE("dragging a slider sends the material with the new value, once a frame") {
   Driver driver;
@@ -119,4 +150,71 @@ TEST_CASE("a slider typed into takes the number in the unit shown") {
   REQUIRE(!actions.commands.empty());
   const auto& parameters = std::get<SetMaterial>(actions.commands.back()).material.parameters;
   CHECK(engineering_from({parameters[0], parameters[1]}).young == doctest::Approx(25e3));
+}
+
+TEST_CASE("a tissue brings its law and parameters, and keeps the density") {
+  Driver driver;
+  const Preset& preset = *find_preset("liver_human");
+  const Material material = material_of(driver.choose("Tissue", preset.title));
+  CHECK(material.law == preset.material.law);
+  CHECK(material.parameters == preset.material.parameters);
+  CHECK(material.density == 1000);
+  driver.find("Source");  // and says where it is from
+  CHECK(driver.choose("Tissue", preset.title).commands.empty());
+}
+
+TEST_CASE("a tissue with fibres keeps the direction that was there") {
+  Material fibres = find_preset("myocardium_hgo")->material;
+  fibres.fibre = Vec3::UnitZ();
+  fibres.parameters[0] = 40;
+  Driver driver(scene_of(fibres));
+  const Material material = material_of(driver.choose("Tissue", find_preset("myocardium_hgo")->title));
+  CHECK(material.fibre == Vec3::UnitZ());
+  CHECK(material.parameters == find_preset("myocardium_hgo")->material.parameters);
+}
+
+TEST_CASE("terms of a sum have sliders of their own and can be added without changing the law") {
+  Driver driver(scene_of(find_preset("brain_ogden")->material));
+  const Material one = material_of(drag(driver, "α1", 4));
+  CHECK(one.parameters[1] != -19);
+  CHECK(one.parameters[1] < 0);
+  const Material two = material_of(driver.click("Add term", 80));
+  REQUIRE(two.parameters.size() == 5);
+  CHECK(two.parameters[0] == two.parameters[1]);
+  CHECK(two.parameters[2] == two.parameters[3]);
+  CHECK(ground_state(two).shear == doctest::Approx(ground_state(one).shear).epsilon(1e-12));
+  CHECK(ground_state(two).bulk == ground_state(one).bulk);
+  driver.find("μ2");
+  CHECK(material_of(driver.click("Remove term")).parameters.size() == 3);
+  CHECK(driver.click("Remove term").commands.empty());  // the last one stays
+}
+
+TEST_CASE("the fibre turns by its angle") {
+  Driver driver(scene_of(find_preset("myocardium_hgo")->material));
+  const Material turned = material_of(drag(driver, "Fibre turn", 20));
+  CHECK(turned.fibre.norm() == doctest::Approx(1));
+  CHECK(turned.fibre.y() == doctest::Approx(0));
+  CHECK(std::abs(turned.fibre.x() - 1) > 1e-3);
+}
+
+TEST_CASE("what comes from the mesh is named, not slid") {
+  Material material;
+  material.law = "neo_hookean";
+  material.parameters = {4e3, 1e3};
+  material.fields = {{1, "stiffness"}};
+  Driver driver(scene_of(material));
+  CHECK(drag(driver, "λ", 20).commands.size() == 1);
+  CHECK(drag(driver, "μ", 20).commands.empty());
+}
+
+TEST_CASE("every law can be chosen and drawn") {
+  for (const LawInfo& law : laws()) {
+    CAPTURE(law.name);
+    Driver driver;
+    if (law.name == "neo_hookean") continue;
+    const Material material = material_of(driver.choose("Law", std::string(law.title)));
+    CHECK(material.law == law.name);
+    driver.draw();
+    if (law.is_continuum) driver.find("Shear modulus at rest");
+  }
 }

@@ -146,6 +146,34 @@ TEST_CASE("edges, held nodes and the tool show when asked for") {
   CHECK(stage.draw().pixels == plain.pixels);
 }
 
+TEST_CASE("what is beyond is hatched, on tissue and on a colour map, nothing else changes") {
+  Stage stage;
+  stage.options.ground = false;
+  std::vector<float> beyond(stage.skin.rest.size());
+  for (std::size_t n = 0; n < beyond.size(); ++n) beyond[n] = stage.skin.rest[n].dot(stage.camera.right());
+  for (const bool field : {false, true}) {
+    CAPTURE(field);
+    if (field) {
+      stage.frame.field = Field::von_mises;
+      stage.frame.values.assign(stage.skin.rest.size(), 50);
+      stage.options.range = Range{0, 100};
+    }
+    stage.options.beyond = {};
+    const Image plain = stage.draw();
+    stage.options.beyond = beyond;
+    const Image hatched = stage.draw();
+    int left = 0, right = 0;
+    for (int y = 0; y < size.height; ++y)
+      for (int x = 0; x < size.width; ++x) (x < size.width / 2 - 3 ? left : right) += !same(plain, hatched, x, y);
+    CHECK(left == 0);
+    const double half_disc = std::numbers::pi * stage.rim() * stage.rim() / 2;
+    CHECK(right > 0.15 * half_disc);
+    CHECK(right < 0.8 * half_disc);
+    stage.options.beyond = {};
+    CHECK(stage.draw().pixels == plain.pixels);
+  }
+}
+
 TEST_CASE("what a pixel shows is what it picks") {
   Stage stage;
   stage.options.ground = false;
@@ -190,6 +218,13 @@ TEST_CASE("the ground gives way to a body that sinks") {
 TEST_CASE("refuses a frame of another body") {
   Stage stage;
   stage.frame.positions.pop_back();
+  CHECK_THROWS_AS(stage.draw(), std::invalid_argument);
+}
+
+TEST_CASE("refuses to hatch another body") {
+  Stage stage;
+  const float one = 1;
+  stage.options.beyond = std::span(&one, 1);
   CHECK_THROWS_AS(stage.draw(), std::invalid_argument);
 }
 

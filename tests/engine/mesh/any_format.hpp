@@ -19,10 +19,18 @@ inline bool read_and_check(std::size_t format, std::string_view text) {
     ReadMesh read;
     const std::size_t zero = std::min(text.find('\0'), text.size());
     switch (format) {
-      case 0: read = read_gmsh("fuzz", text); break;
-      case 1: read = read_medit("fuzz", text); break;
-      case 2: read = read_vtk("fuzz", text); break;
-      case 3: read = read_vtu("fuzz", text); break;
+      case 0:
+        read = read_gmsh("fuzz", text);
+        break;
+      case 1:
+        read = read_medit("fuzz", text);
+        break;
+      case 2:
+        read = read_vtk("fuzz", text);
+        break;
+      case 3:
+        read = read_vtu("fuzz", text);
+        break;
       default:
         read = read_tetgen("fuzz.node", text.substr(0, zero), "fuzz.ele", text.substr(std::min(zero + 1, text.size())));
     }

@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
+
 #include <heml/mesh/from_surface.hpp>
 #include <limits>
 
@@ -50,10 +51,9 @@ TEST_CASE("refuses an open surface: how many edges, and where one is") {
 }
 
 TEST_CASE("refuses edges of more than two triangles") {
-  const SurfaceMesh surface{
-      {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}},
-      {{0, 2, 1}, {0, 3, 2}, {1, 2, 3}, {0, 1, 3}, {0, 4, 1}, {0, 5, 4}, {1, 4, 5}, {0, 1, 5}},
-      ""};
+  const SurfaceMesh surface{{{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}},
+                            {{0, 2, 1}, {0, 3, 2}, {1, 2, 3}, {0, 1, 3}, {0, 4, 1}, {0, 5, 4}, {1, 4, 5}, {0, 1, 5}},
+                            ""};
   CHECK(has(refusal_of(surface), "1 edges have more than two triangles"));
 }
 
@@ -67,10 +67,10 @@ TEST_CASE("refuses triangles given twice, in any order of corners") {
 
 TEST_CASE("refuses a surface of one side only") {
   // The projective plane of six vertices (half an icosahedron), in general position.
-  SurfaceMesh surface{{{0, 0, 0}, {1, 0.1, 0}, {0.2, 1, 0.1}, {0.1, 0.3, 1}, {1, 0.9, 0.4}, {0.7, 0.2, 1.1}},
-                      {{0, 1, 2}, {0, 1, 3}, {0, 2, 4}, {0, 3, 5}, {0, 4, 5},
-                       {1, 2, 5}, {1, 3, 4}, {1, 4, 5}, {2, 3, 4}, {2, 3, 5}},
-                      ""};
+  SurfaceMesh surface{
+      {{0, 0, 0}, {1, 0.1, 0}, {0.2, 1, 0.1}, {0.1, 0.3, 1}, {1, 0.9, 0.4}, {0.7, 0.2, 1.1}},
+      {{0, 1, 2}, {0, 1, 3}, {0, 2, 4}, {0, 3, 5}, {0, 4, 5}, {1, 2, 5}, {1, 3, 4}, {1, 4, 5}, {2, 3, 4}, {2, 3, 5}},
+      ""};
   CHECK(has(refusal_of(surface), "one side only"));
 }
 

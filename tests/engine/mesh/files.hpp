@@ -1,10 +1,11 @@
 #pragma once
 // Files for tests: a folder that goes away, and texts in it.
+#include <stdlib.h>
+
 #include <filesystem>
 #include <fstream>
 #include <heml/base/error.hpp>
 #include <string>
-#include <stdlib.h>
 
 namespace heml {
 

@@ -1,7 +1,8 @@
 #include <doctest/doctest.h>
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdlib>
-#include <fmt/format.h>
 #include <heml/mesh/from_surface.hpp>
 #include <heml/mesh/intersections.hpp>
 #include <heml/mesh/quality.hpp>
@@ -32,8 +33,9 @@ class Environment {
 // Whether this build has the helper with both libraries; says so when not.
 bool can_mesh() {
   const TemporaryFolder folder;
-  const std::string said = refusal([&] { read_surface(folder.file("a.obj", "")); }) +
-                           refusal([] { tetrahedralize(cube(1, {0, 0, 0})); });
+  const std::string said = refusal([&] { read_surface(folder.file("a.obj", "")); }) + refusal([] {
+                             tetrahedralize(cube(1, {0, 0, 0}));
+                           });
   const bool missing = has(said, "HEML_ASSIMP") || has(said, "HEML_TETGEN");
   if (missing) MESSAGE("skipped: ", said);
   return !missing;

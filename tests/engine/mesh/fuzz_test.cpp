@@ -1,5 +1,6 @@
 // Small valid files, damaged in thousands of ways; the same ways on every machine.
 #include <doctest/doctest.h>
+
 #include <random>
 #include <string>
 
@@ -17,8 +18,9 @@ bool is_digit(char c) { return (c >= '0' && c <= '9') || c == '-' || c == '.'; }
 // Puts something else in the place of a number.
 void replace_number(std::string& text, std::mt19937& random) {
   static const std::array<std::string, 14> others{
-      "nan", "inf", "1e999",      "-1",          "0",                   "99999999999999999999", "1e-9",
-      "1",   "2",   "2147483647", "-2147483648", "9223372036854775807", "",                     "x"};
+      "nan",  "inf", "1e999", "-1",         "0",           "99999999999999999999",
+      "1e-9", "1",   "2",     "2147483647", "-2147483648", "9223372036854775807",
+      "",     "x"};
   std::size_t begin = random() % text.size();
   while (begin < text.size() && !is_digit(text[begin])) ++begin;
   while (begin > 0 && begin < text.size() && is_digit(text[begin - 1])) --begin;
@@ -31,12 +33,23 @@ std::string damaged(std::string text, std::mt19937& random) {
   for (unsigned left = 1 + random() % 3; left > 0 && !text.empty(); --left) {
     const std::size_t at = random() % text.size(), length = random() % 20;
     switch (random() % 6) {
-      case 0: text[at] = static_cast<char>(text[at] ^ (1 << random() % 8)); break;
-      case 1: text[at] = static_cast<char>(random()); break;
-      case 2: text.resize(at); break;
-      case 3: text.erase(at, length); break;
-      case 4: text.insert(at, text.substr(random() % text.size(), length)); break;
-      default: replace_number(text, random);
+      case 0:
+        text[at] = static_cast<char>(text[at] ^ (1 << random() % 8));
+        break;
+      case 1:
+        text[at] = static_cast<char>(random());
+        break;
+      case 2:
+        text.resize(at);
+        break;
+      case 3:
+        text.erase(at, length);
+        break;
+      case 4:
+        text.insert(at, text.substr(random() % text.size(), length));
+        break;
+      default:
+        replace_number(text, random);
     }
   }
   return text;
@@ -57,6 +70,8 @@ TEST_CASE("damaged Gmsh files give a mesh or one clear error") {
   CHECK(count_survivors(0, samples::gmsh_1, 1) > 0);
   CHECK(count_survivors(0, samples::gmsh_2, 2) > 0);
   CHECK(count_survivors(0, samples::gmsh_4, 3) > 0);
+  CHECK(count_survivors(0, samples::gmsh_2_data, 11) > 0);
+  CHECK(count_survivors(0, samples::gmsh_4_data, 12) > 0);
 }
 TEST_CASE("damaged Medit files give a mesh or one clear error") { CHECK(count_survivors(1, samples::medit, 4) > 0); }
 TEST_CASE("damaged VTK files give a mesh or one clear error") {
@@ -68,4 +83,5 @@ TEST_CASE("damaged VTK files give a mesh or one clear error") {
 TEST_CASE("damaged VTK XML files give a mesh or one clear error") { CHECK(count_survivors(3, samples::vtu, 9) > 0); }
 TEST_CASE("damaged TetGen files give a mesh or one clear error") {
   CHECK(count_survivors(4, samples::node + '\0' + samples::ele, 10) > 0);
+  CHECK(count_survivors(4, samples::node + '\0' + samples::ele_attributes, 13) > 0);
 }

@@ -1,4 +1,5 @@
 #include <doctest/doctest.h>
+
 #include <heml/base/error.hpp>
 #include <heml/mesh/generate.hpp>
 #include <heml/mesh/quality.hpp>

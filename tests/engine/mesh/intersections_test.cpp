@@ -1,4 +1,5 @@
 #include <doctest/doctest.h>
+
 #include <heml/mesh/intersections.hpp>
 
 #include "engine/mesh/solids.hpp"
@@ -47,7 +48,7 @@ TEST_CASE("triangles at one corner: spread, one through the other, one on the ot
   CHECK_FALSE(meets_at_corner({-1, 0, 0}, {0, -1, 0}));
   CHECK_FALSE(meets_at_corner({0.5, 0.5, 1}, {0.5, 0.4, 1}));
   CHECK(meets_at_corner({0.5, 0.4, 0.1}, {0.5, 0.4, -0.1}));
-  CHECK(meets_at_corner({2, 1, 0}, {1, 2, 0}));    // beyond the opposite edge, in the plane
+  CHECK(meets_at_corner({2, 1, 0}, {1, 2, 0}));      // beyond the opposite edge, in the plane
   CHECK(meets_at_corner({0.2, 0.1, 0}, {1, 1, 5}));  // an edge within the other triangle
 }
 

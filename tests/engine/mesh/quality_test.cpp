@@ -1,4 +1,5 @@
 #include <doctest/doctest.h>
+
 #include <cmath>
 #include <heml/base/error.hpp>
 #include <heml/mesh/generate.hpp>
@@ -75,10 +76,8 @@ TEST_CASE("finds the worst of the slivers") {
 }
 
 TEST_CASE("counts boundary edges where parts hang together by the edge alone") {
-  TetMesh mesh{{{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}},
-               {{0, 2, 3, 1}, {0, 4, 5, 1}},
-               {0, 0},
-               ""};
+  TetMesh mesh{
+      {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}}, {{0, 2, 3, 1}, {0, 4, 5, 1}}, {0, 0}, ""};
   CHECK(check_tets(mesh).nonmanifold_edges == 1);
 }
 

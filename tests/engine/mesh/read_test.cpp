@@ -1,4 +1,5 @@
 #include <doctest/doctest.h>
+
 #include <heml/mesh/quality.hpp>
 #include <heml/mesh/read.hpp>
 #include <heml/mesh/readers.hpp>
@@ -84,9 +85,10 @@ TEST_CASE("reads TetGen by either name, numbered from 1 or from 0") {
 }
 
 TEST_CASE("reads lines that end as on Windows, a byte order mark, and endings in capitals") {
-  for (const auto& [name, text] :
-       {std::pair{"A.MSH", samples::gmsh_2}, {"a.mesh", samples::medit}, {"a.vtk", samples::vtk_5},
-        {"a.Vtu", samples::vtu}}) {
+  for (const auto& [name, text] : {std::pair{"A.MSH", samples::gmsh_2},
+                                   {"a.mesh", samples::medit},
+                                   {"a.vtk", samples::vtk_5},
+                                   {"a.Vtu", samples::vtu}}) {
     std::string windows;
     for (char c : text) windows += c == '\n' ? std::string("\r\n") : std::string(1, c);
     check_sample(from_text(name, windows));
@@ -136,7 +138,10 @@ TEST_CASE("refuses broken Gmsh files by line") {
   CHECK(says(told("Nodes\n5", "Nodes\n4"), {"line 14", "$EndNodes"}));
   CHECK(says(told("Nodes\n5", "Nodes\n-5"), {"line 9", "-5"}));
   CHECK(says(told("$EndElements\n", ""), {"ends where $EndElements"}));
-  CHECK(says(refusal_of("a.msh", "\x7f" "ELF\x01\x02\x03"), {"line 1", "section"}));
+  CHECK(says(refusal_of("a.msh",
+                        "\x7f"
+                        "ELF\x01\x02\x03"),
+             {"line 1", "section"}));
   CHECK(says(refusal_of("a.msh", ""), {"line 1", "empty"}));
 }
 

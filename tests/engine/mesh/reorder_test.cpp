@@ -1,4 +1,5 @@
 #include <doctest/doctest.h>
+
 #include <algorithm>
 #include <heml/mesh/generate.hpp>
 #include <heml/mesh/reorder.hpp>
@@ -62,6 +63,27 @@ TEST_CASE("a reordered mesh is the same body: positions, corners in order, regio
     const int at = order.new_tet[t];
     CHECK(inner.regions[at] == mesh.regions[t]);
     for (int a = 0; a < 4; ++a) CHECK(inner.nodes[inner.tets[at][a]] == mesh.nodes[mesh.tets[t][a]]);
+  }
+}
+
+TEST_CASE("a reordered mesh carries its fields along") {
+  TetMesh mesh = shuffled_box(4, 6);
+  mesh.fields = {{"region", 1, {}}, {"centre", 3, {}}};
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    mesh.fields[0].values.push_back(mesh.regions[t]);
+    Vec3 sum = Vec3::Zero();
+    for (int node : mesh.tets[t]) sum += mesh.nodes[node];
+    mesh.fields[1].values.insert(mesh.fields[1].values.end(), sum.begin(), sum.end());
+  }
+  const TetMesh inner = reordered(mesh, locality_order(mesh));
+  REQUIRE(inner.fields.size() == 2);
+  CHECK(inner.fields[1].name == "centre");
+  REQUIRE(inner.fields[1].values.size() == 3 * mesh.tets.size());
+  for (std::size_t t = 0; t < inner.tets.size(); ++t) {
+    CHECK(inner.fields[0].values[t] == inner.regions[t]);
+    Vec3 sum = Vec3::Zero();
+    for (int node : inner.tets[t]) sum += inner.nodes[node];
+    for (int i = 0; i < 3; ++i) CHECK(inner.fields[1].values[3 * t + static_cast<std::size_t>(i)] == sum[i]);
   }
 }
 

@@ -84,6 +84,69 @@ $Elements
 $EndElements
 )";
 
+/// Data of elements a (region 7) and b (region −3): stiffness 2.5 and 4; fibre (1, 0, 0) and (0, −0.6, 0.8); a later
+/// time step of the stiffness; nine numbers an element; and data of a cell that is no tetrahedron.
+inline std::string gmsh_data(const std::string& a, const std::string& b) {
+  return R"($ElementData
+1
+"stiffness"
+1
+0.0
+3
+0
+1
+3
+1 9
+)" + a + " 2.5\n" +
+         b + R"( 4
+$EndElementData
+$ElementData
+2
+"fibre direction"
+"scheme"
+0
+4
+0 3 2 0
+)" + b + " 0 -0.6 0.8\n" +
+         a + R"( 1 0 0
+$EndElementData
+$ElementData
+1
+"stiffness"
+1
+0.5
+3
+1
+1
+1
+)" + a + R"( 77
+$EndElementData
+$ElementData
+1
+"stress"
+0
+3
+0
+9
+1
+)" + a + R"( 1 2 3 4 5 6 7 8 9
+$EndElementData
+$ElementData
+1
+"of another cell"
+0
+3
+0
+1
+1
+1 5
+$EndElementData
+)";
+}
+
+inline const std::string gmsh_2_data = gmsh_2 + gmsh_data("2", "4");
+inline const std::string gmsh_4_data = gmsh_4 + gmsh_data("2", "3");
+
 inline const std::string medit = R"(MeshVersionFormatted 2 # a comment
 
 Dimension
@@ -133,6 +196,14 @@ other 2 3 int
 1 2 3 4 5 6
 region 1 3 int
 9 7 -3
+VECTORS fibre%20direction float
+7 7 7 1 0 0 0 -0.6 0.8
+SCALARS stiffness double 1
+LOOKUP_TABLE default
+nan 2.5 4
+SCALARS pair double 2
+LOOKUP_TABLE default
+1 2 3 4 5 6
 )";
 
 inline const std::string vtk_5 = R"(# vtk DataFile Version 5.1
@@ -175,6 +246,13 @@ inline const std::string vtu = R"(<?xml version="1.0"?>
         <DataArray type="Int64" Name="offsets" format="ascii">3 7 11</DataArray>
         <DataArray type="UInt8" Name="types" format="ascii">5 10 10</DataArray>
       </Cells>
+      <CellData>
+        <DataArray type="Float64" Name="stiffness" format="ascii">nan 2.5 4</DataArray>
+        <DataArray type="Float32" Name="fibre direction" format="ascii" NumberOfComponents="3">
+          7 7 7 1 0 0 0 -0.6 0.8</DataArray>
+        <DataArray type="Int8" Name="a &lt;&quot;&amp;&apos;&gt; b" format="ascii">1 2 3</DataArray>
+        <DataArray type="Float64" Name="packed" format="binary">AAAA</DataArray>
+      </CellData>
     </Piece>
   </UnstructuredGrid>
 </VTKFile>
@@ -193,6 +271,12 @@ inline const std::string node = R"(# nodes
 inline const std::string ele = R"(2 4 1
 1 1 2 3 4 7
 2 2 3 4 5 -3.0
+)";
+
+/// The same with two further attributes.
+inline const std::string ele_attributes = R"(2 4 3
+1 1 2 3 4 7 2.5 -1
+2 2 3 4 5 -3.0 4 inf
 )";
 
 /// The legacy VTK sample in binary; big-endian, as the format has it.
@@ -245,6 +329,10 @@ inline const std::string vtk_5_binary =
         .floats({1, 2})
         .text("\nMETADATA\nINFORMATION 0\n\nregion 1 2 vtktypeint64\n")
         .integers<long long>({7, -3})
+        .text("\nVECTORS fibre%20direction float\n")
+        .floats({1, 0, 0, 0, -0.5f, 0.75f})
+        .text("\nSCALARS count unsigned_char\nLOOKUP_TABLE default\n")
+        .integers<char>({200, 3})
         .text("\n");
 
 }  // namespace heml::samples

@@ -1,4 +1,5 @@
 #include <doctest/doctest.h>
+
 #include <algorithm>
 #include <heml/mesh/generate.hpp>
 #include <heml/mesh/surface.hpp>

@@ -1,4 +1,5 @@
 #include <doctest/doctest.h>
+
 #include <heml/mesh/untangle.hpp>
 
 #include "engine/mesh/solids.hpp"

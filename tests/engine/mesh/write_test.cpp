@@ -1,7 +1,10 @@
 #include <doctest/doctest.h>
+
+#include <cmath>
 #include <heml/mesh/generate.hpp>
 #include <heml/mesh/read.hpp>
 #include <heml/mesh/write.hpp>
+#include <limits>
 
 #include "engine/mesh/files.hpp"
 
@@ -20,6 +23,44 @@ TEST_CASE("every format gives back nodes to the bit, tetrahedra and regions") {
     CHECK(std::signbit(back.nodes.back()[1]));
     CHECK(back.tets == mesh.tets);
     CHECK(back.regions == mesh.regions);
+  }
+}
+
+TEST_CASE("Gmsh, VTK and VTU give back fields to the bit, their names and places without a number") {
+  TetMesh mesh = make_box(Vec3(1, 1, 1), {1, 1, 1});
+  mesh.fields = {{"young's modulus 100% <\"E\" & µ>", 1, {1.0 / 3, 4.9e-324, -0.0, 1e308, 5}},
+                 {"fibre", 3, {}},
+                 {"a  b", 1, std::vector<double>(5, 2)}};
+  for (int i = 0; i < 15; ++i) mesh.fields[1].values.push_back(std::sin(i));
+  mesh.fields[1].values[7] = std::numeric_limits<double>::quiet_NaN();
+  mesh.fields[1].values[8] = -std::numeric_limits<double>::infinity();
+  const TemporaryFolder folder;
+  for (const char* name : {"a.msh", "a.vtk", "a.vtu"}) {
+    CAPTURE(name);
+    write_tet_mesh(folder / name, mesh);
+    const TetMesh back = read_tet_mesh(folder / name);
+    REQUIRE(back.fields.size() == 3);
+    for (std::size_t f = 0; f < 3; ++f) {
+      CHECK(back.fields[f].name == mesh.fields[f].name);
+      CHECK(back.fields[f].components == mesh.fields[f].components);
+      for (std::size_t i = 0; i < mesh.fields[f].values.size(); ++i) {
+        const double expected = mesh.fields[f].values[i], got = back.fields[f].values[i];
+        CHECK(
+            (std::isnan(expected) ? std::isnan(got) : got == expected && std::signbit(got) == std::signbit(expected)));
+      }
+    }
+  }
+}
+
+TEST_CASE("Medit and TetGen files leave fields out and keep the mesh") {
+  TetMesh mesh = make_box(Vec3(1, 1, 1), {1, 1, 1});
+  mesh.fields = {{"E", 1, {1, 2, 3, 4, 5}}};
+  const TemporaryFolder folder;
+  for (const char* name : {"a.mesh", "a.node"}) {
+    write_tet_mesh(folder / name, mesh);
+    const TetMesh back = read_tet_mesh(folder / name);
+    CHECK(back.tets == mesh.tets);
+    CHECK(back.fields.empty());
   }
 }
 

@@ -179,3 +179,26 @@ TEST_CASE("refuses any other broken line with its number") {
 }
 
 }  // namespace heml
+
+TEST_CASE("a scene may name a tissue instead of a law, with what it says beside it") {
+  const heml::Scene scene = heml::parse_scene(R"({
+    "schema_version": 1, "mesh": {"box": {"size": [1, 1, 1], "cells": [1, 1, 1]}},
+    "materials": [{"preset": "brain_ogden_swine", "region": 3, "density": 1040, "viscosity": 0.5}]})",
+                                  "tissue.json");
+  CHECK(scene.materials[0].region == 3);
+  CHECK(scene.materials[0].material.law == "ogden");
+  CHECK(scene.materials[0].material.viscosity == 0.5);
+  CHECK_THROWS_WITH(heml::parse_scene(R"({
+    "schema_version": 1, "mesh": {"box": {"size": [1, 1, 1], "cells": [1, 1, 1]}},
+    "materials": [{"preset": "brian"}]})",
+                                "tissue.json"),
+                    doctest::Contains("materials[0].preset"));
+}
+
+TEST_CASE("refuses plasticity in statics, which has no way to follow") {
+  CHECK_THROWS_WITH(heml::parse_scene(R"({
+    "schema_version": 1, "mesh": {"box": {"size": [1, 1, 1], "cells": [1, 1, 1]}}, "solver": {"integrator": "static"},
+    "materials": [{"law": "neo_hookean_iso", "K1": 500, "kappa": 1e4, "plasticity": {"yield": 50}}]})",
+                                      "clay.json"),
+                    doctest::Contains("materials[0].plasticity: does not go with solver.integrator static"));
+}

@@ -128,6 +128,91 @@ TEST_CASE("gives the support's reaction of a held body under its weight") {
   CHECK(reaction[0][1].get<double>() == doctest::Approx(2 * g).epsilon(1e-4));  // 2 kg
 }
 
+namespace {
+
+/// A bar that is drawn out by half, statically.
+std::string drawn_out(const std::string& patch) {
+  Json scene = test::small_scene();
+  scene.merge_patch(Json::parse(R"({
+    "boundary": [{"box": [[0, -1, -1], [0, 1, 1]], "fix": true},
+                 {"box": [[0.2, -1, -1], [0.2, 1, 1]], "translate": [0.1, 0, 0], "over": 7}],
+    "solver": {"integrator": "static", "tolerance": 1e-10, "rate": null, "duration": 3}})"));
+  scene.merge_patch(Json::parse(patch));
+  return scene.dump();
+}
+
+}  // namespace
+
+TEST_CASE("solves a static scene and lands on fractions of its load") {
+  const TemporaryFolder folder;
+  const Scene scene = parse_scene(drawn_out(R"({"outputs": {"times": [0.5, 0, 1]}})"), "draw.json");
+  CHECK(!solve(scene, folder / "").halt);
+  const std::vector<Vec3> rest = load_setup(scene).mesh.nodes;
+  const auto far_x = [&](const char* name) {
+    const std::vector<Vec3> x = read_positions_csv(folder / name, static_cast<int>(rest.size()));
+    for (std::size_t n = 0; n < rest.size(); ++n)
+      if (rest[n].x() > 0.199) return x[n].x();
+    return 0.0;
+  };
+  CHECK(far_x("positions_0.csv") == doctest::Approx(0.25).epsilon(1e-14));
+  CHECK(far_x("positions_1.csv") == doctest::Approx(0.2).epsilon(1e-14));
+  CHECK(far_x("positions_2.csv") == doctest::Approx(0.3).epsilon(1e-14));
+  CHECK(read_text_file(folder / "positions_2.csv") == read_text_file(folder / "positions.csv"));
+  const Json report = report_in(folder);
+  CHECK(report["converged"] == true);
+  CHECK(report["load"] == 1);
+  CHECK(report["residual"].get<double>() <= 1e-10);
+  CHECK(report["iterations"].get<int>() > 0);
+  CHECK(report["steps"].get<int>() >= 3);
+  CHECK(report["kinetic_energy"] == 0);
+  CHECK(report["inverted"] == 0);
+  CHECK(report["reaction"][1][0].get<double>() > 0);
+  CHECK(report["reaction"][0][0].get<double>() == doctest::Approx(-report["reaction"][1][0].get<double>()).epsilon(1e-8));
+}
+
+TEST_CASE("writes the last equilibrium and the fraction of the load where a static scene has no other") {
+  const TemporaryFolder folder;
+  const Scene scene = parse_scene(
+      drawn_out(R"({"boundary": [{"box": [[0, -1, -1], [0, 1, 1]], "fix": true},
+                                 {"box": [[0.2, -1, -1], [0.2, 1, 1]], "translate": [-0.19, 0, 0]}],
+                    "outputs": {"times": [0.01, 1]}})"),
+      "crush.json");
+  const SolveResult result = solve(scene, folder / "");
+  REQUIRE(result.halt);
+  const Json report = report_in(folder);
+  CHECK(report["converged"] == false);
+  CHECK(report["halt"]["cause"] == "not_converged");
+  CHECK(report["load"].get<double>() > 0.01);
+  CHECK(report["load"].get<double>() < 1);
+  CHECK(report["residual"].get<double>() <= 1e-10);
+  CHECK(report["min_J"].get<double>() > 0);
+  CHECK(std::filesystem::exists(folder / "positions_0.csv"));
+  CHECK(!std::filesystem::exists(folder / "positions_1.csv"));
+}
+
+TEST_CASE("refuses output times that are no fractions of a static load") {
+  const TemporaryFolder folder;
+  for (const char* times : {"1.5", "2"}) {
+    const std::string patch = std::string(R"({"outputs": {"times": [0.5, )") + times + "]}}";
+    CHECK(test::says(refusal([&] { solve(parse_scene(drawn_out(patch), "draw.json"), folder / ""); }),
+                     "fractions of the load"));
+  }
+}
+
+TEST_CASE("runs a scene by each implicit method") {
+  for (const char* integrator : {"backward_euler", "bdf2", "tr_bdf2", "auto"}) {
+    const TemporaryFolder folder;
+    const Scene scene = test::small_scene_with(std::string(R"({"gravity": [0, -9.81, 0], "solver": {"rate": null,
+      "step": 0.02, "duration": 0.1, "integrator": ")") + integrator + "\"}}");
+    CHECK(!solve(scene, folder / "").halt);
+    const Json report = report_in(folder);
+    CHECK(report["time"].get<double>() == doctest::Approx(0.1));
+    CHECK(report["steps"] == 5);
+    CHECK(report["iterations"].get<int>() >= 5);
+    CHECK(report["potential_energy"].get<double>() < 0);
+  }
+}
+
 TEST_CASE("refuses an output folder that is a file") {
   const TemporaryFolder folder;
   const std::filesystem::path file = folder.file("out", "");

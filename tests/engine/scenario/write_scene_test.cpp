@@ -1,4 +1,5 @@
 #include <doctest/doctest.h>
+
 #include <bit>
 #include <engine/mesh/files.hpp>
 #include <engine/scenario/samples.hpp>
@@ -38,14 +39,15 @@ Scene scene_of_everything() {
   scene.mesh.rotate_degrees = number();
   scene.mesh.translate = vector();
   scene.materials = {{std::nullopt, {"stvk", {number(), number()}, number()}},
-                     {-3, {"neo_hookean", {number(), number()}, number()}}};
+                     {-3, {"neo_hookean_iso", {number(), number()}, number()}}};
   scene.boundary.push_back({{{1, 2}, {}, {}}, {{}, vector(), vector().normalized(), vector(), number(), number()}});
   scene.boundary.push_back({{{}, std::array{Vec3(-1, -1, -1), Vec3(1, 2, number())}, {}}, {}});
   scene.loads.push_back({{{}, {}, std::pair{vector(), number()}}, {Load::Kind::force, {}, vector(), 0, number()}});
   scene.loads.push_back({{{4}, {}, {}}, {Load::Kind::traction, {}, vector(), 0, 0}});
   scene.loads.push_back({{{4}, {}, {}}, {Load::Kind::pressure, {}, Vec3::Zero(), -number(), 0}});
   scene.gravity = vector();
-  scene.solver = {Integrator::symplectic_euler, true, std::nullopt, 100 * number(), number(), number(), 3, true};
+  scene.solver = {Integrator::symplectic_euler, true, std::nullopt, 100 * number(), number(), number(), 3, true,
+                  false, number()};
   scene.output_times = {0.05, 0.01};
   scene.output_positions = false;
   scene.output_vtu = true;
@@ -104,6 +106,8 @@ TEST_CASE("writes a scene on one line that reads back bit for bit") {
   CHECK(same_bits(back.solver.damping, scene.solver.damping));
   CHECK(back.solver.threads == 3);
   CHECK(back.solver.continuation);
+  CHECK(!back.solver.nodal_pressure);
+  CHECK(same_bits(back.solver.tolerance.value(), *scene.solver.tolerance));
   CHECK(back.output_times == scene.output_times);
   CHECK(!back.output_positions);
   CHECK(back.output_vtu);
@@ -115,6 +119,13 @@ TEST_CASE("writes a scene on one line that reads back bit for bit") {
   CHECK(back.view.field == Field::von_mises);
   CHECK(back.view.wireframe);
   CHECK(back.recorded_mesh == scene.recorded_mesh);
+}
+
+TEST_CASE("keeps the element") {
+  const Scene scene = test::small_scene_with(R"({"solver": {"element": "nodal_pressure"},
+      "materials": [{"law": "neo_hookean_iso", "K1": 500, "kappa": 5e4}]})");
+  CHECK(scene.solver.nodal_pressure);
+  CHECK(parse_scene(scene_line(scene), "recording.jsonl").solver.nodal_pressure);
 }
 
 TEST_CASE("keeps a step bit for bit, and the parts of a surface") {
@@ -180,7 +191,7 @@ TEST_CASE("writes checkpoints so that they read back") {
 
 TEST_CASE("refuses to write what is not UTF-8") {
   Scene scene = test::small_scene_with("{}");
-  scene.name = "\xff";
+  scene.name = std::string("\xff");
   CHECK(test::says(refusal([&] { scene_line(scene); }), "not UTF-8"));
 }
 

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -48,6 +49,21 @@ struct TemporaryFolder {
 };
 
 }  // namespace
+
+TEST_CASE("frames carry stretches while somebody wants them") {
+  Session session(small_scene(), {});
+  wait_for(session, [](const Frame& f) { return f.tick > 20 && f.stretches.empty(); });
+  session.carry_stretches(true);
+  const Frame& frame = wait_for(session, [](const Frame& f) { return f.tick > 100 && !f.stretches.empty(); });
+  CHECK(frame.stretches.size() == session.skin().nodes.size());
+  CHECK(*std::max_element(frame.stretches.begin(), frame.stretches.end()) > 1.0001f);  // it hangs from one end
+  CHECK(frame.values.empty());
+  session.show(Field::stretch);
+  const Frame& both = wait_for(session, [](const Frame& f) { return !f.values.empty(); });
+  CHECK(both.stretches == both.values);
+  session.carry_stretches(false);
+  wait_for(session, [](const Frame& f) { return f.stretches.empty() && !f.values.empty(); });
+}
 
 TEST_CASE("a session steps by itself and publishes what a viewer needs") {
   Session session(small_scene(), {});

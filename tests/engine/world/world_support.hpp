@@ -1,4 +1,5 @@
 #pragma once
+#include <cmath>
 #include <heml/mesh/generate.hpp>
 #include <heml/world/world.hpp>
 
@@ -28,6 +29,14 @@ inline WorldSetup cantilever(const char* law = "neo_hookean", double young = 1e4
   setup.solver.threads = 1;
   return setup;
 }
+
+inline double rms_difference(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]).squaredNorm();
+  return std::sqrt(sum / static_cast<double>(a.size()));
+}
+
+inline double total(const Energies& e) { return e.kinetic + e.elastic + e.potential; }
 
 inline void run_until(World& world, double time) {
   while (!world.halt() && world.time() < time - 1e-9) world.tick();

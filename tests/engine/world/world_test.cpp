@@ -11,14 +11,6 @@ using namespace heml::test;
 
 namespace {
 
-double rms_difference(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]).squaredNorm();
-  return std::sqrt(sum / static_cast<double>(a.size()));
-}
-
-double total(const Energies& e) { return e.kinetic + e.elastic + e.potential; }
-
 /// State of the falling cantilever at 0.1 s with a given step.
 std::vector<Vec3> fallen(Integrator integrator, double step, bool velocities = false) {
   WorldSetup setup = cantilever();
@@ -190,7 +182,7 @@ TEST_CASE("a step that is too long is reported as unstable and the last valid st
   CHECK(world->time() == 0);
 }
 
-TEST_CASE("leaving the range of a law stops at the last valid state and names the element; continued, it goes on") {
+TEST_CASE("leaving the range of a law stops at the last valid state and names the element, continued, it goes on") {
   WorldSetup setup = cantilever();
   setup.gravity.setZero();
   // The far end pushed through the held one.

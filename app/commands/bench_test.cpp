@@ -1,0 +1,268 @@
+// `heml bench-test`: curves of material tests, and parameters from measured ones.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <app/commands/chart_picture.hpp>
+#include <app/commands/commands.hpp>
+#include <app/commands/progress.hpp>
+#include <app/panel/quantity.hpp>
+#include <app/panel/theme.hpp>
+#include <cmath>
+#include <heml/base/error.hpp>
+#include <heml/base/log.hpp>
+#include <heml/materials/parameter_slots.hpp>
+#include <heml/scenario/curve_csv.hpp>
+#include <heml/scenario/material_json.hpp>
+#include <heml/scenario/presets.hpp>
+#include <heml/scenario/scene.hpp>
+#include <heml/scenario/text_file.hpp>
+
+namespace heml {
+namespace {
+
+constexpr ImU32 law_colour = panel::colours::rgba(0x2a8578), given_colour = panel::colours::rgba(0xb4bcbb),
+                data_colour = panel::colours::rgba(0xc2552d);
+constexpr int most_points = 100000;
+
+/// What is tested, and under which name it is shown.
+struct Specimen {
+  Material material;
+  std::string title;
+  std::optional<StretchRange> stretch_range;  ///< of a preset
+};
+
+Specimen specimen_of(const std::string& name) {
+  std::error_code error;
+  const bool is_file = std::filesystem::exists(name, error);
+  const Preset* preset = is_file ? nullptr : find_preset(name);
+  if (preset) return {preset->material, fmt::format("{} ({})", preset->title, preset->name), preset->stretch_range};
+  if (!is_file && std::filesystem::path(name).extension() != ".json") {
+    std::vector<std::string_view> names;
+    for (const Preset& known : presets()) names.push_back(known.name);
+    throw InputError(name, "", "is neither a file nor a preset",
+                     names.empty() ? "give a JSON file with one entry of a scene's `materials`"
+                                   : fmt::format("did you mean '{}'? Presets: {}", nearest_name(name, names),
+                                                 fmt::join(names, ", ")));
+  }
+  const Material material = read_material(name);
+  const LawInfo& law = *find_law(material.law);
+  if (!law.is_continuum)
+    throw UsageError(fmt::format("{}: {} is no law of a material: it has no curve of its own", name, law.name));
+  if (!material.fields.empty() || !material.fibre_field.empty())
+    throw InputError(name, "", "takes numbers from the fields of a mesh, and a test has none", "give numbers");
+  return {material, fmt::format("{} ({})", law.title, std::filesystem::path(name).filename().string()), std::nullopt};
+}
+
+MeasuredTest test_of(const BenchTestArguments& arguments) {
+  if (arguments.test == "relaxation") {
+    if (!(arguments.step_stretch > 0) || !std::isfinite(arguments.step_stretch))
+      throw UsageError(fmt::format("--step-stretch must be greater than 0, is {}", arguments.step_stretch));
+    return Relaxation{arguments.step_stretch};
+  }
+  const auto names = bench_test_names();
+  const auto found = std::find(names.begin(), names.end(), arguments.test);
+  if (found == names.end())
+    throw UsageError(fmt::format("--test {}: must be {} or relaxation", arguments.test, fmt::join(names, ", ")));
+  return static_cast<BenchTest>(found - names.begin());
+}
+
+/// What the curve runs over.
+StretchRange range_of(const BenchTestArguments& arguments, const MeasuredTest& test, const Specimen& specimen,
+                      const std::optional<Measured>& data) {
+  StretchRange range{0.7, 1.5};
+  if (const auto* bench = std::get_if<BenchTest>(&test)) {
+    if (*bench == BenchTest::shear)
+      range = {-0.5, 0.5};
+    else if (specimen.stretch_range)
+      range = *specimen.stretch_range;
+  } else {
+    double longest = 0;
+    for (const PronyTerm& term : specimen.material.relaxation) longest = std::max(longest, term.tau);
+    range = {0, longest > 0 ? 5 * longest : 1};
+  }
+  if (data) {
+    const auto [low, high] = std::minmax_element(data->amount.begin(), data->amount.end());
+    const double rest =
+        std::holds_alternative<Relaxation>(test) || std::get<BenchTest>(test) == BenchTest::shear ? 0 : 1;
+    range = {std::min(rest, *low), std::max(rest, *high)};
+  }
+  range = {arguments.from.value_or(range.low), arguments.to.value_or(range.high)};
+  const bool stretches = amount_name(test) == "stretch";
+  if (!(range.low < range.high) || !std::isfinite(range.low) || !std::isfinite(range.high) ||
+      (stretches && !(range.low > 0)) || (amount_name(test) == "time" && !(range.low >= 0)))
+    throw UsageError(fmt::format("--from {} --to {}: must be finite{}, the first below the second", range.low,
+                                 range.high, stretches ? " stretches above 0" : ""));
+  return range;
+}
+
+/// The curve of a material as rows of numbers; the first two are amount and nominal stress.
+struct CurveTable {
+  std::vector<std::array<double, 5>> rows;
+  std::vector<double> missed;
+};
+
+CurveTable curve_of(const Material& material, const MeasuredTest& test, const std::vector<double>& amounts) {
+  const auto law = make_material_point(material, false);
+  CurveTable table;
+  if (const auto* step = std::get_if<Relaxation>(&test)) {
+    const BenchCurve held = run_bench(*law, BenchTest::uniaxial, std::span(&step->stretch, 1));
+    if (!held.missed.empty()) return {{}, amounts};
+    const BenchPoint& p = held.points.front();
+    for (const double time : amounts) {
+      const double factor = relaxation_factor(material.relaxation, time);
+      table.rows.push_back({time, factor * p.nominal, factor * p.cauchy, p.F(1, 1), p.F(2, 2)});
+    }
+    return table;
+  }
+  const BenchCurve curve = run_bench(*law, std::get<BenchTest>(test), amounts);
+  for (const BenchPoint& p : curve.points) table.rows.push_back({p.amount, p.nominal, p.cauchy, p.F(1, 1), p.F(2, 2)});
+  table.missed = curve.missed;
+  return table;
+}
+
+void write_curve(const std::filesystem::path& path, const CurveTable& table, const MeasuredTest& test) {
+  const std::string_view amount = amount_name(test);
+  std::string text = fmt::format("{}{},nominal_stress_Pa,cauchy_stress_Pa,stretch_y,stretch_z\n", amount,
+                                 amount == "time" ? "_s" : "");
+  for (const auto& row : table.rows) {
+    for (std::size_t i = 0; i < row.size(); ++i) text += fmt::format("{}{:.17g}", i ? "," : "", row[i]);
+    text += '\n';
+  }
+  write_text_file(path, text);
+}
+
+panel::ChartSeries line_of(std::string name, const CurveTable& table, ImU32 colour, float thickness) {
+  panel::ChartSeries series{std::move(name), {}, colour, false, thickness};
+  for (const auto& row : table.rows) series.points.push_back({row[0], row[1]});
+  return series;
+}
+
+/// "Ogden: μ1 −358 Pa, α1 −4.7, κ 41.8 kPa".
+std::string parameters_text(const Material& material) {
+  const LawInfo& law = *find_law(material.law);
+  const std::vector<ParameterSlot> slots = parameter_slots(material, law);
+  std::string text = fmt::format("{}:", law.title);
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    const double value = material.parameters[i];
+    text += fmt::format("{} {} {}{}", i ? "," : "", slots[i].symbol(), value < 0 ? "−" : "",
+                        slots[i].info->unit.empty() ? fmt::format("{:.3g}", std::abs(value))
+                                                    : panel::quantity(std::abs(value), slots[i].info->unit));
+  }
+  return text;
+}
+
+panel::Chart chart_of(const Specimen& specimen, const MeasuredTest& test, const BenchTestArguments& arguments) {
+  panel::Chart chart;
+  chart.title = specimen.title;
+  chart.y_quantity = "Nominal stress";
+  chart.y_unit = "Pa";
+  const std::string_view amount = amount_name(test);
+  chart.x_label = amount == "time" ? "Time, s" : amount == "gamma" ? "Shear γ" : "Stretch λ";
+  if (specimen.stretch_range && amount == "stretch")
+    chart.band = {specimen.stretch_range->low, specimen.stretch_range->high, "measured range"};
+  const std::string name =
+      amount == "time" ? fmt::format("relaxation at a stretch of {:g}", arguments.step_stretch) : arguments.test;
+  chart.subtitle = fmt::format("{} · {}", name, parameters_text(specimen.material));
+  return chart;
+}
+
+/// The curve, and beside it where a fit began and what was measured.
+void add_curves(panel::Chart& chart, const CurveTable& given, const CurveTable& curve, const std::optional<Fit>& fit,
+                const std::optional<Measured>& data) {
+  if (fit) chart.series.push_back(line_of("start", given, given_colour, 0.8f));
+  chart.series.push_back(
+      line_of(fit ? fmt::format("fitted, R² {:.4g}", fit->r_squared) : "nominal stress", curve, law_colour, 1));
+  if (!data) return;
+  panel::ChartSeries dots{"measured", {}, data_colour, true};
+  for (std::size_t i = 0; i < data->amount.size(); ++i) dots.points.push_back({data->amount[i], data->stress[i]});
+  chart.series.push_back(std::move(dots));
+}
+
+void print_fit(const Fit& fit) {
+  fmt::print("{:<24} {:>14}   {}\n", "parameter", "value", "standard error");
+  for (const FittedParameter& p : fit.parameters) {
+    const std::string error = std::isinf(p.standard_error) ? "not determined by these data"
+                              : p.determined
+                                  ? fmt::format("{:.3g} {}", p.standard_error, p.unit)
+                                  : fmt::format("{:.3g} {}: hardly determined by these data", p.standard_error, p.unit);
+    fmt::print("{:<24} {:>14.6g}   {}\n", p.unit.empty() ? p.name : p.name + ", " + p.unit, p.value, error);
+  }
+  fmt::print("rms {:.4g} Pa, R² {:.6f}, {} iterations\n", fit.rms, fit.r_squared, fit.iterations);
+}
+
+/// Fits, prints, and writes the entry for scenes.
+Fit fit_to(const BenchTestArguments& arguments, const MeasuredTest& test, const Measured& data,
+           const Specimen& specimen) {
+  const FitOptions options{arguments.fit_all};
+  if (const std::string problem = fit_problem(specimen.material, test, data, options); !problem.empty())
+    throw InputError(arguments.data->string(), "", problem);
+  const Fit fit = [&] {
+    Progress progress("fitting");
+    return fit_material(specimen.material, test, data, options, [&](double share) { progress.show(share); });
+  }();
+  print_fit(fit);
+  std::filesystem::path entry = arguments.out;
+  entry.replace_extension(".json");
+  write_text_file(entry, json_text(material_json({std::nullopt, fit.material}), entry.string(), true) + "\n");
+  fmt::print("an entry for `materials` is in {}\n", entry.string());
+  const GroundState rest = ground_state(fit.material);
+  if (!arguments.fit_all && rest.bulk < 10 * rest.shear)
+    warn(
+        "the bulk modulus was held at {:.4g} Pa, only {:.3g} times the fitted shear modulus: the tissue is not nearly "
+        "incompressible any more; start from a larger one",
+        rest.bulk, rest.bulk / rest.shear);
+  return fit;
+}
+
+}  // namespace
+
+int bench_test(const BenchTestArguments& arguments) {
+  const MeasuredTest test = test_of(arguments);
+  if (arguments.points < 2 || arguments.points > most_points)
+    throw UsageError(fmt::format("--points must be from 2 to {}, is {}", most_points, arguments.points));
+  if (arguments.data && arguments.out.extension() == ".json")
+    throw UsageError("--out must not end in .json: the fitted material is written under that name");
+  Specimen specimen = specimen_of(arguments.material);
+  const std::optional<Measured> data =
+      arguments.data ? std::make_optional(read_curve_csv(*arguments.data, test)) : std::nullopt;
+  if (std::holds_alternative<Relaxation>(test) && specimen.material.relaxation.empty())
+    throw InputError(arguments.material, "", "the material does not relax",
+                     "add \"relaxation\": [{\"gamma\": .., \"tau\": ..}]");
+  const StretchRange range = range_of(arguments, test, specimen, data);
+  const std::vector<double> amounts = evenly_spaced(range.low, range.high, arguments.points);
+
+  CurveTable given;
+  std::optional<Fit> fit;
+  if (data) {
+    given = curve_of(specimen.material, test, amounts);
+    fit = fit_to(arguments, test, *data, specimen);
+    specimen.material = fit->material;
+  }
+  const CurveTable curve = curve_of(specimen.material, test, amounts);
+  write_curve(arguments.out, curve, test);
+  if (arguments.plot) {
+    panel::Chart chart = chart_of(specimen, test, arguments);
+    add_curves(chart, given, curve, fit, data);
+    write_chart(*arguments.plot, chart);
+  }
+  if (curve.rows.empty()) {
+    log_line("error",
+             fmt::format("{}: the law has no value anywhere from {} to {}", arguments.material, range.low, range.high));
+    return exit_not_solved;
+  }
+  if (!curve.missed.empty())
+    warn(
+        "{}: the curve runs from {:.6g} to {:.6g} only: past that the law has no value, or the free faces find no "
+        "balance",
+        arguments.material, curve.rows.front()[0], curve.rows.back()[0]);
+  if (fit && !fit->converged) {
+    log_line("error",
+             fmt::format("{}: the fit did not converge; what was reached is written", arguments.data->string()));
+    return exit_not_solved;
+  }
+  fmt::print("{} points in {}\n", curve.rows.size(), arguments.out.string());
+  return exit_done;
+}
+
+}  // namespace heml

@@ -1,0 +1,229 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <app/panel/chart.hpp>
+#include <app/panel/theme.hpp>
+#include <app/render/field_colours.hpp>
+#include <cmath>
+#include <limits>
+
+namespace heml::panel {
+namespace {
+
+/// The prefix that suits the largest value, and what to multiply values with.
+struct Prefix {
+  const char* text;
+  double factor;
+};
+Prefix prefix_for(double largest) {
+  if (largest < 1e-3) return {"µ", 1e6};
+  if (largest < 1) return {"m", 1e3};
+  if (largest < 1e3) return {"", 1};
+  return largest < 1e6 ? Prefix{"k", 1e-3} : Prefix{"M", 1e-6};
+}
+
+struct Span {
+  double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
+  void take(double value) {
+    if (!std::isfinite(value)) return;
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  double size() const { return high - low; }
+};
+
+/// What the axes show: x and y as given, y already in its unit with prefix.
+struct Axes {
+  Span x, y;
+  Prefix prefix;
+};
+
+Axes axes_of(const Chart& chart) {
+  Axes axes{{}, {}, {"", 1}};
+  for (const ChartSeries& series : chart.series)
+    for (const ChartPoint& p : series.points)
+      if (std::isfinite(p.x) && std::isfinite(p.y)) axes.x.take(p.x), axes.y.take(p.y);
+  if (axes.x.low > axes.x.high) axes.x = {0, 1}, axes.y = {0, 1};
+  axes.y.take(0);
+  axes.prefix = prefix_for(std::max(std::abs(axes.y.low), std::abs(axes.y.high)));
+  axes.y.low *= axes.prefix.factor, axes.y.high *= axes.prefix.factor;
+  if (!(axes.y.size() > 0)) axes.y.high = axes.y.low + 1;
+  if (!(axes.x.size() > 0)) axes.x.high = axes.x.low + 1;
+  const double margin = 0.04 * axes.y.size();
+  if (axes.y.low < 0) axes.y.low -= margin;
+  if (axes.y.high > 0) axes.y.high += margin;
+  return axes;
+}
+
+class Drawing {
+ public:
+  Drawing(ImDrawList& list, const Chart& chart, const ChartColours& colours)
+      : list_(list), chart_(chart), colours_(colours), axes_(axes_of(chart)) {}
+
+  void draw(const Area& area) {
+    list_.AddRectFilled(area.from, area.to, colours_.paper, chart_.small ? ImGui::GetStyle().FrameRounding : 0);
+    plot_ = chart_.small ? small_plot(area) : large_plot(area);
+    draw_band();
+    draw_ticks();
+    list_.PushClipRect({plot_.from.x - em(0.3f), plot_.from.y - em(0.3f)},
+                       {plot_.to.x + em(0.3f), plot_.to.y + em(0.3f)}, true);
+    for (const ChartSeries& series : chart_.series) draw_series(series);
+    list_.PopClipRect();
+  }
+
+ private:
+  static std::vector<float> ticks(const Span& span) {
+    return render::ticks({static_cast<float>(span.low), static_cast<float>(span.high)});
+  }
+  static std::string number(float value) {
+    return fmt::format("{}{:.5g}", value < -1e-30f ? "−" : "", std::abs(value) < 1e-30f ? 0.0f : std::abs(value));
+  }
+  std::string y_unit() const { return axes_.prefix.text + chart_.y_unit; }
+
+  void text(float x, float y, ImU32 colour, const std::string& words) {
+    list_.AddText({std::round(x), std::round(y)}, colour, words.c_str());
+  }
+
+  Area small_plot(const Area& area) {
+    const UseFont font(Font::small);
+    const float line = ImGui::GetTextLineHeight();
+    text(area.from.x + em(0.4f), area.from.y + em(0.15f), colours_.muted,
+         fmt::format("{}, {}", chart_.y_quantity, y_unit()));
+    float widest = 0;
+    for (const float tick : ticks(axes_.y)) widest = std::max(widest, ImGui::CalcTextSize(number(tick).c_str()).x);
+    return {{area.from.x + em(0.6f) + widest, area.from.y + line + em(0.55f)},
+            {area.to.x - em(0.7f), area.to.y - line - em(0.3f)}};
+  }
+
+  Area large_plot(const Area& area) {
+    const float margin = em(1.4f);
+    float y = area.from.y + em(1.0f);
+    {
+      const UseFont font(Font::title);
+      text(area.from.x + margin, y, colours_.text, chart_.title);
+      y += ImGui::GetTextLineHeight() + em(0.15f);
+    }
+    if (!chart_.subtitle.empty()) {
+      text(area.from.x + margin, y, colours_.muted, shorten(chart_.subtitle, area.width() - 2 * margin));
+      y += ImGui::GetTextLineHeight() + em(0.3f);
+    }
+    draw_legend(area.from.x + margin, y + em(0.2f));
+    y += ImGui::GetTextLineHeight() + em(1.0f);
+    float widest = 0;
+    for (const float tick : ticks(axes_.y)) widest = std::max(widest, ImGui::CalcTextSize(number(tick).c_str()).x);
+    text(area.from.x + margin, y, colours_.muted, fmt::format("{}, {}", chart_.y_quantity, y_unit()));
+    y += ImGui::GetTextLineHeight() + em(0.5f);
+    const Area plot{{area.from.x + margin + widest + em(0.6f), y},
+                    {area.to.x - margin, area.to.y - 2 * ImGui::GetTextLineHeight() - em(1.9f)}};
+    const float label = ImGui::CalcTextSize(chart_.x_label.c_str()).x;
+    text((plot.from.x + plot.to.x - label) / 2, area.to.y - ImGui::GetTextLineHeight() - em(0.7f), colours_.muted,
+         chart_.x_label);
+    return plot;
+  }
+
+  static std::string shorten(std::string words, float width) {
+    while (ImGui::CalcTextSize((words + "…").c_str()).x > width && ImGui::CalcTextSize(words.c_str()).x > width) {
+      const std::size_t space = words.find_last_of(' ');
+      if (space == std::string::npos) break;
+      words = words.substr(0, space) + " …";
+      if (space < 4) break;
+      words = words.substr(0, space);
+    }
+    return words;
+  }
+
+  void draw_legend(float x, float y) {
+    const float middle = y + ImGui::GetTextLineHeight() / 2, length = em(1.7f);
+    for (const ChartSeries& series : chart_.series) {
+      if (series.name.empty()) continue;
+      if (series.dots)
+        dot({x + length / 2, middle}, series.colour);
+      else
+        list_.AddLine({x, middle}, {x + length, middle}, series.colour, em(0.15f) * series.thickness);
+      x += length + em(0.5f);
+      text(x, y, colours_.text, series.name);
+      x += ImGui::CalcTextSize(series.name.c_str()).x + em(1.6f);
+    }
+    if (!chart_.band || chart_.band->name.empty()) return;
+    list_.AddRectFilled({x, middle - em(0.4f)}, {x + length, middle + em(0.4f)}, colours_.band);
+    text(x + length + em(0.5f), y, colours_.text, chart_.band->name);
+  }
+
+  ImVec2 place(double x, double y) const {
+    const double u = (x - axes_.x.low) / axes_.x.size(), v = (y - axes_.y.low) / axes_.y.size();
+    return {plot_.from.x + static_cast<float>(u) * plot_.width(), plot_.to.y - static_cast<float>(v) * plot_.height()};
+  }
+
+  void draw_band() {
+    if (!chart_.band) return;
+    const double from = std::clamp(chart_.band->from, axes_.x.low, axes_.x.high);
+    const double to = std::clamp(chart_.band->to, axes_.x.low, axes_.x.high);
+    if (from < to) list_.AddRectFilled({place(from, 0).x, plot_.from.y}, {place(to, 0).x, plot_.to.y}, colours_.band);
+  }
+
+  void draw_ticks() {
+    std::optional<UseFont> font;
+    if (chart_.small) font.emplace(Font::small);
+    const float line = ImGui::GetTextLineHeight();
+    const bool every_other = chart_.small;
+    int count = 0;
+    for (const float tick : ticks(axes_.y)) {
+      const float y = std::round(place(axes_.x.low, tick).y) + 0.5f;
+      if (!chart_.small) list_.AddLine({plot_.from.x, y}, {plot_.to.x, y}, colours_.grid);
+      if (every_other && count++ % 2 && tick != 0) continue;
+      const std::string label = number(tick);
+      text(plot_.from.x - em(0.35f) - ImGui::CalcTextSize(label.c_str()).x, y - line / 2, colours_.muted, label);
+    }
+    for (const float tick : ticks(axes_.x)) {
+      const float x = std::round(place(tick, 0).x) + 0.5f;
+      if (!chart_.small) list_.AddLine({x, plot_.from.y}, {x, plot_.to.y}, colours_.grid);
+      const std::string label = number(tick);
+      text(x - ImGui::CalcTextSize(label.c_str()).x / 2, plot_.to.y + em(chart_.small ? 0.1f : 0.35f), colours_.muted,
+           label);
+    }
+    const float zero = std::round(place(0, 0).y) + 0.5f;
+    list_.AddLine({plot_.from.x, zero}, {plot_.to.x, zero}, colours_.axis, chart_.small ? 1 : em(0.07f));
+  }
+
+  void dot(ImVec2 at, ImU32 colour) {
+    list_.AddCircleFilled(at, em(0.28f), colour, 20);
+    list_.AddCircle(at, em(0.28f), colours_.paper, 20, em(0.06f));
+  }
+
+  void draw_series(const ChartSeries& series) {
+    std::vector<ImVec2> line;
+    for (const ChartPoint& p : series.points) {
+      if (!std::isfinite(p.x) || !std::isfinite(p.y)) continue;
+      const ImVec2 at = place(p.x, p.y * axes_.prefix.factor);
+      if (series.dots)
+        dot(at, series.colour);
+      else
+        line.push_back(at);
+    }
+    list_.AddPolyline(line.data(), static_cast<int>(line.size()), series.colour, ImDrawFlags_None,
+                      em(chart_.small ? 0.1f : 0.15f) * series.thickness);
+  }
+
+  ImDrawList& list_;
+  const Chart& chart_;
+  const ChartColours& colours_;
+  Axes axes_;
+  Area plot_{};
+};
+
+}  // namespace
+
+const ChartColours light_chart = {colours::rgba(0xfcfbf9), colours::rgba(0x1d2527, 26), colours::rgba(0x8d9494),
+                                  colours::rgba(0x1d2527), colours::rgba(0x5a6567),     colours::rgba(0xdfeeeb)};
+const ChartColours dark_chart = {colours::rgba(0x0e1213, 150),
+                                 colours::rgba(0x566164, 60),
+                                 colours::rgba(0x566164, 140),
+                                 colours::text,
+                                 colours::faint,
+                                 colours::rgba(0x2f6660, 90)};
+
+void draw_chart(ImDrawList& list, const Area& area, const Chart& chart, const ChartColours& colours) {
+  Drawing(list, chart, colours).draw(area);
+}
+
+}  // namespace heml::panel

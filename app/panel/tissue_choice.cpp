@@ -1,0 +1,55 @@
+#include <fmt/format.h>
+
+#include <app/panel/quantity.hpp>
+#include <app/panel/tissue_choice.hpp>
+#include <heml/scenario/presets.hpp>
+
+namespace heml::panel {
+namespace {
+
+std::string hint_of(const Preset& preset) {
+  std::string text = preset.species.empty() ? preset.tissue : fmt::format("{}, {}", preset.tissue, preset.species);
+  text += fmt::format("\nMeasured in: {}.", preset.test);
+  text += fmt::format("\nShear modulus at rest: {}.", quantity(preset.shear_modulus, "Pa"));
+  if (preset.stretch_range)
+    text += fmt::format("\nStretches from {:.3g} to {:.3g}.", preset.stretch_range->low, preset.stretch_range->high);
+  else
+    text += "\nThe range of stretches is not known.";
+  text += "\n\n" + to_text(preset.source);
+  text += preset.verified ? "\n\nCompared with the source." : "\n\nNumbers not verified at the source.";
+  if (!preset.note.empty()) text += "\n" + preset.note;
+  return text;
+}
+
+Material with_preset(const Material& material, const Preset& preset) {
+  Material result = preset.material;
+  result.density = material.density;
+  if (!find_law(result.law)->has_fibre) return result;
+  if (!material.fibre.isZero()) result.fibre = material.fibre;
+  result.fibre_field = material.fibre_field;
+  return result;
+}
+
+}  // namespace
+
+bool choose_tissue(Rows& rows, Material& material) {
+  if (presets().empty()) return false;
+  std::vector<std::string> titles, hints;
+  const Preset* now = preset_of(material);
+  int chosen = now ? static_cast<int>(now - presets().data()) : -1;
+  for (const Preset& preset : presets()) {
+    titles.push_back(preset.title);
+    hints.push_back(hint_of(preset));
+  }
+  const bool changed =
+      rows.choice({"Tissue", "Published numbers for a tissue: law and parameters. None: numbers of your own."}, chosen,
+                  titles, hints);
+  if (changed) material = with_preset(material, presets()[static_cast<std::size_t>(chosen)]);
+  if (const Preset* preset = preset_of(material))
+    rows.value({"Source", hint_of(*preset)},
+               fmt::format("{}, {}", short_text(preset->source), preset->verified ? "verified" : "not verified"), 0,
+               preset->verified ? colours::text : colours::warning);
+  return changed;
+}
+
+}  // namespace heml::panel

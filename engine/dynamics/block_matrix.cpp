@@ -1,0 +1,79 @@
+#include <algorithm>
+#include <heml/dynamics/block_matrix.hpp>
+
+namespace heml {
+
+FreeNodes::FreeNodes(const std::vector<bool>& take) : number(take.size(), -1) {
+  for (std::size_t n = 0; n < take.size(); ++n)
+    if (take[n]) {
+      number[n] = static_cast<int>(node.size());
+      node.push_back(static_cast<int>(n));
+    }
+}
+
+BlockMatrix::BlockMatrix(const FreeNodes& free, const std::vector<Tet>& tets) : free_(free) {
+  const std::size_t count = free.node.size();
+  std::vector<std::vector<int>> above(count);
+  for (const Tet& tet : tets)
+    for (const int a : tet)
+      for (const int b : tet) {
+        const int row = free.number[static_cast<std::size_t>(a)], column = free.number[static_cast<std::size_t>(b)];
+        if (column >= 0 && row > column) above[static_cast<std::size_t>(column)].push_back(row);
+      }
+  start_.assign(1, 0);
+  for (auto& list : above) {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+    neighbour_.insert(neighbour_.end(), list.begin(), list.end());
+    start_.push_back(neighbour_.size());
+  }
+  const auto size = static_cast<Eigen::Index>(3 * count);
+  matrix_.resize(size, size);
+  matrix_.resizeNonZeros(static_cast<Eigen::Index>(6 * count + 9 * neighbour_.size()));
+  int next = 0;
+  for (std::size_t c = 0; c < count; ++c)
+    for (int j = 0; j < 3; ++j) {
+      matrix_.outerIndexPtr()[3 * c + static_cast<std::size_t>(j)] = next;
+      for (int i = j; i < 3; ++i) matrix_.innerIndexPtr()[next++] = 3 * static_cast<int>(c) + i;
+      for (std::size_t k = start_[c]; k < start_[c + 1]; ++k)
+        for (int i = 0; i < 3; ++i) matrix_.innerIndexPtr()[next++] = 3 * neighbour_[k] + i;
+    }
+  matrix_.outerIndexPtr()[3 * count] = next;
+  set_zero();
+}
+
+void BlockMatrix::set_zero() { std::fill_n(matrix_.valuePtr(), matrix_.nonZeros(), 0.0); }
+
+/// Where row 3 row_block of a number column would be; of the diagonal block, rows j and on are there.
+double* BlockMatrix::column_entry(int row_block, int column_block, int j) {
+  double* column = matrix_.valuePtr() + matrix_.outerIndexPtr()[3 * column_block + j];
+  if (row_block == column_block) return column - j;
+  const auto c = static_cast<std::size_t>(column_block);
+  const auto begin = neighbour_.begin() + static_cast<std::ptrdiff_t>(start_[c]);
+  const auto end = neighbour_.begin() + static_cast<std::ptrdiff_t>(start_[c + 1]);
+  return column + (3 - j) + 3 * (std::lower_bound(begin, end, row_block) - begin);
+}
+
+void BlockMatrix::add_pair(int a, int b, const Mat3& B) {
+  const int row = free_.number[static_cast<std::size_t>(a)], column = free_.number[static_cast<std::size_t>(b)];
+  if (row < 0 || column < 0) return;
+  for (int j = 0; j < 3; ++j) {
+    double* entry = column_entry(std::max(row, column), std::min(row, column), j);
+    for (int i = 0; i < 3; ++i) entry[i] += row > column ? B(i, j) : B(j, i);
+  }
+}
+
+void BlockMatrix::add_node(int node, const Mat3& B) {
+  const int n = free_.number[static_cast<std::size_t>(node)];
+  if (n < 0) return;
+  for (int j = 0; j < 3; ++j)
+    for (int i = j; i < 3; ++i) column_entry(n, n, j)[i] += B(i, j);
+}
+
+void BlockMatrix::add_diagonal(int node, double k) {
+  const int n = free_.number[static_cast<std::size_t>(node)];
+  if (n < 0) return;
+  for (int j = 0; j < 3; ++j) column_entry(n, n, j)[j] += k;
+}
+
+}  // namespace heml

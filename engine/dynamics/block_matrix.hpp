@@ -1,0 +1,66 @@
+#pragma once
+// The stiffness of a mesh between its free nodes: a symmetric sparse matrix of 3×3 blocks, one a node and one an edge,
+// of which the lower half is kept, as a sparse matrix of numbers.
+//
+//   block column c:  [c, c]  [n1, c]  [n2, c] ...        n1 < n2 < ... : free neighbours above c
+//   number column 3c+j:  rows 3c+j .. 3c+2, then three rows a neighbour
+#include <Eigen/SparseCore>
+#include <heml/mesh/tet_mesh.hpp>
+#include <vector>
+
+namespace heml {
+
+/// Which nodes a solve may move, and their numbers among the unknowns.
+struct FreeNodes {
+  std::vector<int> number;  ///< #V: −1 where not free
+  std::vector<int> node;    ///< of each unknown, ascending
+
+  /// take: #V.
+  explicit FreeNodes(const std::vector<bool>& take);
+};
+
+class BlockMatrix {
+ public:
+  /// free must outlive the matrix.
+  BlockMatrix(const FreeNodes& free, const std::vector<Tet>& tets);
+
+  void set_zero();
+  /// Adds K(row, column), 12×12, of an element with these nodes: corner after corner, xyz.
+  template <class Entry>
+  void add_element(const Tet& nodes, const Entry& K);
+  /// Adds B to the block (a, b) of two nodes of one element, and Bᵀ to (b, a).
+  void add_pair(int a, int b, const Mat3& B);
+  /// Adds a symmetric B to the block of a node.
+  void add_node(int node, const Mat3& B);
+  /// Adds k to the three diagonal entries of a node.
+  void add_diagonal(int node, double k);
+
+  /// 3 #free square; the lower half alone.
+  const Eigen::SparseMatrix<double>& lower() const { return matrix_; }
+  const FreeNodes& free() const { return free_; }
+
+ private:
+  double* column_entry(int row_block, int column_block, int j);
+
+  const FreeNodes& free_;
+  std::vector<std::size_t> start_;  ///< of each block column's neighbours
+  std::vector<int> neighbour_;
+  Eigen::SparseMatrix<double> matrix_;
+};
+
+template <class Entry>
+void BlockMatrix::add_element(const Tet& nodes, const Entry& K) {
+  for (std::size_t a = 0; a < 4; ++a)
+    for (std::size_t b = 0; b < 4; ++b) {
+      const int row = free_.number[static_cast<std::size_t>(nodes[a])];
+      const int column = free_.number[static_cast<std::size_t>(nodes[b])];
+      if (row < column || column < 0) continue;
+      for (int j = 0; j < 3; ++j) {
+        double* entry = column_entry(row, column, j);
+        for (int i = row == column ? j : 0; i < 3; ++i)
+          entry[i] += K(3 * static_cast<int>(a) + i, 3 * static_cast<int>(b) + j);
+      }
+    }
+}
+
+}  // namespace heml

@@ -1,0 +1,111 @@
+#include <algorithm>
+#include <cmath>
+#include <heml/dynamics/equilibrium.hpp>
+#include <heml/dynamics/incremental_potential.hpp>
+
+namespace heml {
+namespace {
+
+constexpr double shortest = 1.0 / 1024;  // increment, below which Newton is given up
+constexpr double relaxing = 1.0 / 64;    // increment that relaxation is tried with
+constexpr NewtonOptions newton_options{40, 1e-3};
+constexpr int quick = 8;  // iterations up to which increments grow
+constexpr NewtonOptions relaxation_options{8, 1e-2};
+constexpr int most_relaxation_steps = 80;
+
+}  // namespace
+
+Equilibrium::Equilibrium(LoadedObjective& body, LinearSolver& linear, const Vector& mass, const FreeNodes& free,
+                         double tolerance, Vector start)
+    : body_(body),
+      linear_(linear),
+      mass_(mass),
+      free_(free),
+      stop_{[&body](const Vector& r) { return body.imbalance(r); }, tolerance},
+      x_(std::move(start)) {}
+
+bool Equilibrium::load_to(double fraction, const std::atomic<bool>& stop) {
+  linear_.set_inertia(0);
+  if (!solved_ && fraction <= load_) return increment(load_) || relax(load_);
+  while (load_ < fraction) {
+    if (stop) return false;
+    const double next = load_ + step_ * (1 + 1e-9) >= fraction ? fraction : load_ + step_;
+    if (increment(next)) {
+      if (last_iterations_ <= quick) step_ *= 2;
+      continue;
+    }
+    step_ = (next - load_) / 2;
+    if (step_ >= shortest) continue;
+    if (!relax(std::min(fraction, load_ + relaxing))) return false;
+    step_ = relaxing;
+  }
+  return true;
+}
+
+bool Equilibrium::increment(double next) {
+  Vector x = predict(next);
+  return solve(x) && keep(next, x);
+}
+
+/// Along the tangent at the present state: K Δx = change of the loads − what the held nodes' motion stretches.
+Vector Equilibrium::predict(double next) {
+  Vector moved = x_, r, stretched, d;
+  body_.place_held(next, moved);
+  body_.set_load(next);
+  const Vector motion = moved - x_;
+  if (!body_.residual(x_, r)) return moved;
+  body_.product(x_, motion, stretched);
+  r -= stretched;
+  if (r.norm() == 0 || !linear_.solve(body_, x_, r, newton_options.linear_tolerance, d)) return moved;
+  const Vector predicted = moved + d;
+  Vector unused;
+  if (!body_.residual(predicted, unused) || !unused.allFinite()) return moved;
+  if (!body_.residual(moved, unused) || !unused.allFinite()) return predicted;
+  const auto with = body_.value(predicted), without = body_.value(moved);
+  return with && !(*with < *without) ? moved : predicted;
+}
+
+bool Equilibrium::solve(Vector& x) {
+  const NewtonResult newton = minimise(body_, linear_, stop_, newton_options, x);
+  iterations_ += newton.iterations;
+  last_iterations_ = newton.iterations;
+  return newton.converged();
+}
+
+bool Equilibrium::keep(double next, const Vector& x) {
+  if (!body_.acceptable(x)) return false;
+  Vector r;
+  body_.residual(x, r);
+  imbalance_ = body_.imbalance(r);
+  x_ = x;
+  load_ = next;
+  solved_ = true;
+  ++increments_;
+  body_.accept(x_);
+  return true;
+}
+
+bool Equilibrium::relax(double next) {
+  Vector x = predict(next), r, Kr;
+  if (!body_.residual(x, r)) return false;
+  if (r.norm() == 0) return solve(x) && keep(next, x);
+  // Inertia that matches the stiffness along the residual, then ever less.
+  const Vector push = (mass_.array() > 0).select(r.array() / mass_.array(), 0);
+  body_.product(x, push, Kr);
+  double a = std::abs(push.dot(Kr)) / push.dot(r);
+  IncrementalPotential inert(body_, mass_, free_);
+  bool reached = false;
+  for (int k = 0; k < most_relaxation_steps && !reached && std::isfinite(a) && a > 0; ++k) {
+    inert.set(a, x);
+    linear_.set_inertia(a);
+    const NewtonResult newton = minimise(inert, linear_, stop_, relaxation_options, x);
+    iterations_ += newton.iterations;
+    body_.residual(x, r);
+    reached = body_.imbalance(r) <= stop_.limit;
+    a *= newton.end == NewtonResult::End::converged ? 1.0 / 8 : newton.end == NewtonResult::End::stalled ? 16 : 1.0 / 2;
+  }
+  linear_.set_inertia(0);
+  return reached && keep(next, x);
+}
+
+}  // namespace heml

@@ -1,0 +1,69 @@
+#pragma once
+// Static equilibrium of a body whose motions and loads are ramped together from 0 to 1, in increments of its own
+// choice:
+//
+//   whole load at once ──► Newton ──► reached, longer increments
+//                            │ fails: half the increment
+//                            └ ... too short: relaxation in pseudo-time, Φ = a/2 ‖x − y‖²_M + U with falling a, which
+//                              walks through a snap to the next stable state; fails: no equilibrium, last good state
+//                              kept
+#include <atomic>
+#include <heml/dynamics/newton.hpp>
+
+namespace heml {
+
+/// An objective that depends on the fraction of a load.
+class LoadedObjective : public Objective {
+ public:
+  /// Every call after it is for that fraction, 0 to 1.
+  virtual void set_load(double fraction) = 0;
+  /// Puts the held nodes of x where they are at a fraction.
+  virtual void place_held(double fraction, Vector& x) const = 0;
+  /// How far the last state residual() saw, with its residual r, is from equilibrium: relative to what the body
+  /// carries.
+  virtual double imbalance(const Vector& r) const = 0;
+  /// Whether an equilibrium is one the load leads to: no element turned inside out.
+  virtual bool acceptable(const Vector& x) const = 0;
+  /// Keeps an equilibrium: what remembers goes on from it.
+  virtual void accept(const Vector& x) = 0;
+};
+
+class Equilibrium {
+ public:
+  /// start: 3 #V, the state at load 0. mass: 3 #V, kg, 0 where not free. All must outlive this.
+  Equilibrium(LoadedObjective& body, LinearSolver& linear, const Vector& mass, const FreeNodes& free, double tolerance,
+              Vector start);
+
+  /// Goes on to a fraction of the load. Returns false where no equilibrium is found, or when told to stop: load() and
+  /// x() are then the last ones found.
+  bool load_to(double fraction, const std::atomic<bool>& stop);
+
+  /// What acts on the body has changed: the next load_to() solves anew, even where it is.
+  void disturb() { solved_ = false; }
+
+  const Vector& x() const { return x_; }
+  double load() const { return load_; }
+  double imbalance() const { return imbalance_; }  ///< of x()
+  long increments() const { return increments_; }
+  long iterations() const { return iterations_; }  ///< of Newton, those of failed increments too
+
+ private:
+  bool increment(double next);
+  Vector predict(double next);
+  bool solve(Vector& x);
+  bool relax(double next);
+  bool keep(double next, const Vector& x);
+
+  LoadedObjective& body_;
+  LinearSolver& linear_;
+  const Vector& mass_;
+  const FreeNodes& free_;
+  Stop stop_;
+  Vector x_;
+  double load_ = 0, step_ = 1, imbalance_ = 0;
+  bool solved_ = false;  ///< whether x_ is an equilibrium at load_
+  int last_iterations_ = 0;
+  long increments_ = 0, iterations_ = 0;
+};
+
+}  // namespace heml

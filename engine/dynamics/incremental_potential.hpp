@@ -1,0 +1,49 @@
+#pragma once
+// Φ(x) = a/2 ‖x − y‖²_M + U(x): what one step of an implicit method minimises, whatever the method
+// (implicit_stage.hpp).
+#include <heml/dynamics/objective.hpp>
+
+namespace heml {
+
+class IncrementalPotential final : public Objective {
+ public:
+  /// potential: U. mass: 3 #V, kg (each node's three times), 0 at nodes that are not free. Both must outlive this.
+  IncrementalPotential(Objective& potential, const Vector& mass, const FreeNodes& free)
+      : potential_(potential), mass_(mass), free_(free) {}
+
+  /// a: 1/s². y: 3 #V, m.
+  void set(double a, Vector y) {
+    a_ = a;
+    y_ = std::move(y);
+  }
+
+  bool residual(const Vector& x, Vector& r) override {
+    const bool defined = potential_.residual(x, r);
+    r.array() -= a_ * mass_.array() * (x - y_).array();
+    return defined;
+  }
+  std::optional<double> value(const Vector& x) override {
+    const auto U = potential_.value(x);
+    if (!U) return U;
+    return *U + a_ / 2 * (mass_.array() * (x - y_).array().square()).sum();
+  }
+  double value_noise() const override { return potential_.value_noise(); }
+  void product(const Vector& x, const Vector& dx, Vector& out) override {
+    potential_.product(x, dx, out);
+    out.array() += a_ * mass_.array() * dx.array();
+  }
+  bool symmetric() const override { return potential_.symmetric(); }
+  void add_stiffness(const Vector& x, Projection projection, BlockMatrix& matrix) override {
+    potential_.add_stiffness(x, projection, matrix);
+    for (const int n : free_.node) matrix.add_diagonal(n, a_ * mass_[3 * n]);
+  }
+
+ private:
+  Objective& potential_;
+  const Vector& mass_;
+  const FreeNodes& free_;
+  double a_ = 0;
+  Vector y_;
+};
+
+}  // namespace heml

@@ -1,0 +1,192 @@
+#include <algorithm>
+#include <cmath>
+#include <heml/dynamics/linear_solver.hpp>
+
+namespace heml {
+namespace {
+constexpr int most_iterations = 500;
+constexpr double changed_a_lot = 3;  // a factor of aM + L serves while a is within this of its own
+// Free nodes up to which a sparse factor a Newton iteration costs less than some tens of products.
+constexpr std::size_t small_in_motion = 400, small_at_rest = 40000;
+}  // namespace
+
+const char* preconditioner_name(Preconditioner preconditioner) {
+  constexpr const char* names[] = {"cholesky", "scalar", "block_jacobi"};
+  return names[static_cast<std::size_t>(preconditioner)];
+}
+
+Preconditioner choose_preconditioner(std::size_t free_nodes, bool static_solve) {
+  const bool small = free_nodes <= (static_solve ? small_at_rest : small_in_motion);
+  return small ? Preconditioner::cholesky : Preconditioner::scalar;
+}
+
+LinearSolver::LinearSolver(const FreeNodes& free, const TetMesh& mesh, const std::vector<double>& modulus,
+                           const Vector& mass, Preconditioner preconditioner)
+    : free_(free), mesh_(mesh), mass_(mass), preconditioner_(preconditioner), modulus_(modulus) {}
+
+void LinearSolver::set_inertia(double a) { a_ = a; }
+
+LinearSolver::Sign LinearSolver::assemble_and_factor(Objective& objective, const Vector& x, Projection projection,
+                                                     double shift) {
+  if (!matrix_) matrix_ = std::make_unique<BlockMatrix>(free_, mesh_.tets);
+  matrix_->set_zero();
+  objective.add_stiffness(x, projection, *matrix_);
+  if (shift > 0)
+    for (const int n : free_.node) matrix_->add_diagonal(n, shift);
+  if (!cholesky_) {
+    cholesky_ = std::make_unique<Cholesky>();
+    cholesky_->analyzePattern(matrix_->lower());
+  }
+  cholesky_->factorize(matrix_->lower());
+  ++counts_.factorisations;
+  if (cholesky_->info() != Eigen::Success || !cholesky_->vectorD().allFinite()) return Sign::none;
+  const double smallest = 1e-12 * cholesky_->vectorD().cwiseAbs().maxCoeff();
+  pivots_ = cholesky_->vectorD().cwiseAbs().cwiseMax(smallest);
+  return cholesky_->vectorD().minCoeff() > 0 ? Sign::positive : Sign::mixed;
+}
+
+void LinearSolver::invert_blocks() {
+  inverse_blocks_.resize(free_.node.size());
+  for (std::size_t k = 0; k < inverse_blocks_.size(); ++k) {
+    Mat3 block;
+    for (int j = 0; j < 3; ++j)
+      for (int i = j; i < 3; ++i) {
+        const int row = 3 * static_cast<int>(k) + i, column = 3 * static_cast<int>(k) + j;
+        block(i, j) = block(j, i) = matrix_->lower().coeff(row, column);
+      }
+    inverse_blocks_[k] = block.inverse();
+  }
+}
+
+LinearSolver::Sign LinearSolver::prepare(Objective& objective, const Vector& x) {
+  switch (preconditioner_) {
+    case Preconditioner::cholesky:
+      return assemble_and_factor(objective, x, Projection::none, 0);
+    case Preconditioner::block_jacobi:
+      if (!matrix_) matrix_ = std::make_unique<BlockMatrix>(free_, mesh_.tets);
+      matrix_->set_zero();
+      objective.add_stiffness(x, Projection::none, *matrix_);
+      invert_blocks();
+      return Sign::positive;
+    case Preconditioner::scalar:
+      if (!scalar_) scalar_ = std::make_unique<ScalarFactor>(free_, mesh_, modulus_);
+      if (factored_a_ >= 0 && a_ <= changed_a_lot * factored_a_ && factored_a_ <= changed_a_lot * a_)
+        return Sign::positive;
+      ++counts_.factorisations;
+      factored_a_ = a_;
+      if (scalar_->factor(a_, mass_)) return Sign::positive;
+      factored_a_ = -1;
+      return Sign::none;
+  }
+  return Sign::none;
+}
+
+void LinearSolver::apply_factor(const Vector& r, Vector& z) {
+  Vector packed(3 * static_cast<Eigen::Index>(free_.node.size()));
+  for (std::size_t k = 0; k < free_.node.size(); ++k)
+    packed.segment<3>(3 * static_cast<int>(k)) = r.segment<3>(3 * free_.node[k]);
+  packed = (cholesky_->permutationP() * packed).eval();
+  cholesky_->matrixL().solveInPlace(packed);
+  packed.array() /= pivots_.array();
+  cholesky_->matrixU().solveInPlace(packed);
+  packed = (cholesky_->permutationPinv() * packed).eval();
+  z.setZero(r.size());
+  for (std::size_t k = 0; k < free_.node.size(); ++k)
+    z.segment<3>(3 * free_.node[k]) = packed.segment<3>(3 * static_cast<int>(k));
+}
+
+void LinearSolver::apply(const Vector& r, Vector& z) {
+  if (preconditioner_ == Preconditioner::cholesky) return apply_factor(r, z);
+  if (preconditioner_ == Preconditioner::scalar) return scalar_->apply(r, z);
+  z.setZero(r.size());
+  for (std::size_t k = 0; k < free_.node.size(); ++k)
+    z.segment<3>(3 * free_.node[k]) = inverse_blocks_[k] * r.segment<3>(3 * free_.node[k]);
+}
+
+bool LinearSolver::solve(Objective& objective, const Vector& x, const Vector& r, double tolerance, Vector& d) {
+  d.setZero(r.size());
+  const Sign sign = prepare(objective, x);
+  if (sign == Sign::none) return false;
+  ++counts_.solves;
+  const double enough = tolerance * r.norm();
+  if (!objective.symmetric()) return biconjugate_gradients(objective, x, r, enough, d);
+  if (sign == Sign::positive) return conjugate_gradients(objective, x, r, enough, d);
+  apply_factor(r, d);
+  return false;
+}
+
+bool LinearSolver::conjugate_gradients(Objective& objective, const Vector& x, const Vector& r, double enough,
+                                       Vector& d) {
+  Vector left = r, z, q;
+  apply(left, z);
+  Vector p = z;
+  double progress = left.dot(z);
+  for (int k = 0; k < most_iterations; ++k) {
+    objective.product(x, p, q);
+    ++counts_.iterations;
+    const double curvature = p.dot(q);
+    if (!(curvature > 0) || !(progress > 0)) {
+      if (k == 0) d = p;
+      return false;
+    }
+    const double step = progress / curvature;
+    d += step * p;
+    left -= step * q;
+    if (left.norm() <= enough) break;
+    apply(left, z);
+    const double next = left.dot(z);
+    p = z + next / progress * p;
+    progress = next;
+  }
+  return true;
+}
+
+/// van der Vorst 1992, right preconditioned. Where it breaks down, d is the best so far.
+bool LinearSolver::biconjugate_gradients(Objective& objective, const Vector& x, const Vector& r, double enough,
+                                         Vector& d) {
+  Vector left = r, p = Vector::Zero(r.size()), q = p, z, t;
+  double rho = 1, alpha = 1, omega = 1, least = r.norm();
+  Vector best;
+  apply(r, best);  // at the least a direction of the symmetric part
+  for (int k = 0; k < most_iterations && left.norm() > enough; ++k) {
+    const double rho_now = r.dot(left), beta = rho_now / rho * alpha / omega;
+    rho = rho_now;
+    p = left + beta * (p - omega * q);
+    apply(p, z);
+    objective.product(x, z, q);
+    alpha = rho / r.dot(q);
+    d += alpha * z;
+    left -= alpha * q;
+    apply(left, z);
+    objective.product(x, z, t);
+    omega = t.dot(left) / t.squaredNorm();
+    d += omega * z;
+    left -= omega * t;
+    counts_.iterations += 2;
+    if (!std::isfinite(left.norm())) break;
+    if (left.norm() < least) {
+      least = left.norm();
+      best = d;
+    }
+  }
+  d = best;
+  return true;
+}
+
+void LinearSolver::solve_projected(Objective& objective, const Vector& x, const Vector& r, Vector& d) {
+  ++counts_.solves;
+  double shift = 0;
+  while (assemble_and_factor(objective, x, Projection::clamp, shift) != Sign::positive) {
+    double mean = 0;
+    for (Eigen::Index k = 0; k < matrix_->lower().rows(); ++k) mean += std::abs(matrix_->lower().coeff(k, k));
+    mean /= static_cast<double>(matrix_->lower().rows());
+    shift = shift > 0 ? 10 * shift : 1e-8 * mean;
+    if (!(shift < 1e6 * mean)) {  // not a number somewhere
+      d = r;
+      return;
+    }
+  }
+  apply_factor(r, d);
+}
+
+}  // namespace heml

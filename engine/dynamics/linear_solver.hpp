@@ -1,0 +1,74 @@
+#pragma once
+// K d = r by conjugate gradients (by BiCGSTAB where K is not symmetric) on products of the stiffness, with one of three
+// preconditioners. With the Cholesky factor of the assembled stiffness they end after one iteration, or after a few
+// where the assembled matrix is an approximation.
+#include <Eigen/SparseCholesky>
+#include <heml/dynamics/objective.hpp>
+#include <heml/dynamics/scalar_factor.hpp>
+#include <memory>
+
+namespace heml {
+
+enum class Preconditioner {
+  cholesky,     ///< of the assembled stiffness, anew each time: small bodies, and equilibrium to the last digit
+  scalar,       ///< of aM + Laplacian, once: large bodies in motion
+  block_jacobi  ///< 3×3 diagonal blocks: bodies whose mesh changes every step
+};
+const char* preconditioner_name(Preconditioner preconditioner);
+
+/// The choice for a body of that size, by a fixed model of cost, never by a clock.
+Preconditioner choose_preconditioner(std::size_t free_nodes, bool static_solve);
+
+/// What was done so far.
+struct LinearCounts {
+  long factorisations = 0, solves = 0, iterations = 0;
+};
+
+class LinearSolver {
+ public:
+  /// free, mass (3 #V, kg) must outlive this. mesh: rest shape. modulus: #T, Pa, for the scalar matrix.
+  LinearSolver(const FreeNodes& free, const TetMesh& mesh, const std::vector<double>& modulus, const Vector& mass,
+               Preconditioner preconditioner);
+
+  /// Tells the a of Φ = a/2 ‖x − y‖²_M + U. The scalar matrix is factored again where it has changed a lot.
+  void set_inertia(double a);
+
+  /// d = K⁻¹ r at x, to a residual of tolerance ‖r‖. Returns whether the curvature met was positive all along;
+  /// if not, d still leads downhill: what was found before, or with a factor L D Lᵀ of mixed signs L⁻ᵀ |D|⁻¹ L⁻¹ r,
+  /// which near a buckling load serves far better than positive elements do. 0 where nothing exists.
+  bool solve(Objective& objective, const Vector& x, const Vector& r, double tolerance, Vector& d);
+
+  /// The same with every element's stiffness made positive and, where that is not enough, a shifted diagonal: d always
+  /// leads downhill.
+  void solve_projected(Objective& objective, const Vector& x, const Vector& r, Vector& d);
+
+  Preconditioner preconditioner() const { return preconditioner_; }
+  const LinearCounts& counts() const { return counts_; }
+
+ private:
+  enum class Sign { positive, mixed, none };  ///< of a factor's pivots; none: no factor
+  Sign assemble_and_factor(Objective& objective, const Vector& x, Projection projection, double shift);
+  Sign prepare(Objective& objective, const Vector& x);
+  void apply(const Vector& r, Vector& z);
+  void apply_factor(const Vector& r, Vector& z);
+  void invert_blocks();
+  bool conjugate_gradients(Objective& objective, const Vector& x, const Vector& r, double enough, Vector& d);
+  bool biconjugate_gradients(Objective& objective, const Vector& x, const Vector& r, double enough, Vector& d);
+
+  using Cholesky = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower>;
+
+  const FreeNodes& free_;
+  const TetMesh& mesh_;
+  const Vector& mass_;
+  Preconditioner preconditioner_;
+  std::unique_ptr<BlockMatrix> matrix_;  ///< made when first needed, like the rest
+  std::unique_ptr<Cholesky> cholesky_;
+  Vector pivots_;  ///< |D|, in the factor's order
+  std::unique_ptr<ScalarFactor> scalar_;
+  std::vector<Mat3> inverse_blocks_;  ///< #free
+  std::vector<double> modulus_;
+  double a_ = 0, factored_a_ = -1;
+  LinearCounts counts_;
+};
+
+}  // namespace heml

@@ -1,0 +1,36 @@
+#pragma once
+// What an implicit or static solve makes stationary: a function Φ of all positions (3 numbers a node), seen through its
+// residual −∇Φ, its stiffness ∂²Φ/∂x², and, where the forces have one, its value. Solvers know nothing else of a body,
+// so tests solve small functions of their own. All in double, whatever a body computes in.
+#include <Eigen/Core>
+#include <heml/dynamics/block_matrix.hpp>
+#include <optional>
+
+namespace heml {
+
+using Vector = Eigen::VectorXd;  ///< 3 #V: node after node
+
+/// What is done to a stiffness before it is factored.
+enum class Projection {
+  none,   ///< exact
+  clamp,  ///< negative eigenvalues of every element's stiffness to 0
+};
+
+class Objective {
+ public:
+  virtual ~Objective() = default;
+  /// r = −∇Φ at x, N; 0 at nodes that are not free. Returns whether Φ is defined there.
+  virtual bool residual(const Vector& x, Vector& r) = 0;
+  /// Φ at x, J; differences alone matter. None where the forces have no potential.
+  virtual std::optional<double> value(const Vector& x) = 0;
+  /// Up to what difference values are round-off, J.
+  virtual double value_noise() const = 0;
+  /// out = K dx, K = −∂r/∂x at x; 0 at nodes that are not free. dx may move those.
+  virtual void product(const Vector& x, const Vector& dx, Vector& out) = 0;
+  /// Whether K is: it is where the forces have a potential.
+  virtual bool symmetric() const { return true; }
+  /// Adds the blocks of K between free nodes, its symmetric part, or an approximation of it.
+  virtual void add_stiffness(const Vector& x, Projection projection, BlockMatrix& matrix) = 0;
+};
+
+}  // namespace heml

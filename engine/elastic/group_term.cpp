@@ -1,0 +1,94 @@
+#include <cmath>
+#include <heml/elastic/memory_term.hpp>
+#include <heml/elastic/term_parts.hpp>
+
+namespace heml {
+
+template <class Real>
+void StressSum<Real>::add(const Tensions<Real>& t, const RestShape<Real>& rest) {
+  Real L[3][3], more[6];
+  cholesky3(rest.A, L);
+  const Real i0 = 1 / L[0][0], i1 = 1 / L[1][1], i2 = 1 / L[2][2];
+  const Real low = -L[1][0] * i0 * i1;
+  const Real inverse[3][3] = {{i0, 0, 0}, {low, i1, 0}, {-(L[2][0] * i0 + L[2][1] * low) * i2, -L[2][1] * i1 * i2, i2}};
+  congruent3(inverse, t.T, more);
+  for (int i = 0; i < 6; ++i) S[i] += more[i] / rest.volume;
+  wJ += t.wJ;
+}
+
+template <class Real>
+bool GroupTerm<Real>::forces(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real* corner,
+                             bool add) const {
+  bool all_valid = true;
+  for (std::size_t s = begin * Group::lanes; s < end * Group::lanes; ++s) {
+    const auto rest = rest_shape(group, s);
+    const auto link = whole_link(group, x, s, rest);
+    Real f[12];
+    pull_corners<true>(tensions(group, s, link, rest), link.e, link.cross, f);
+    put_slot(f, group, s, corner, add);
+    all_valid &= valid(group, s, link);
+  }
+  return all_valid;
+}
+
+template <class Real>
+void GroupTerm<Real>::force_change(const Group& group, const Real* x, const Real* dx, std::size_t begin,
+                                   std::size_t end, Real* corner, bool add) const {
+  for (std::size_t s = begin * Group::lanes; s < end * Group::lanes; ++s) {
+    const auto rest = rest_shape(group, s);
+    const auto link = whole_link(group, x, s, rest);
+    Real de[3][3], f[12];
+    edge_change(group, dx, s, de);
+    const auto change = tension_change(group, s, link, rest, link_change(link, de, rest.volume));
+    pull_change(tensions(group, s, link, rest), change, link, de, f);
+    put_slot(f, group, s, corner, add);
+  }
+}
+
+template <class Real>
+Real GroupTerm<Real>::frequency_bound(const Group& group, const Real* x, std::size_t begin, std::size_t end) const {
+  Real largest = 0;
+  for (std::size_t s = begin * Group::lanes; s < end * Group::lanes; ++s) {
+    const auto rest = rest_shape(group, s);
+    const Real bound = slot_bound(group, s, whole_link(group, x, s, rest), rest);
+    largest = bound > largest || std::isnan(bound) ? bound : largest;
+  }
+  return largest;
+}
+
+/// Nine changes of the edges, one unit vector each; moving corner 0 moves all edges back.
+template <class Real>
+void GroupTerm<Real>::add_stiffness(const Group& group, const Real* x, std::size_t s, ElementMatrix<Real>& K) const {
+  const auto rest = rest_shape(group, s);
+  const auto link = whole_link(group, x, s, rest);
+  const auto t = tensions(group, s, link, rest);
+  heml::add_stiffness<Real>(
+      [&](const Real(&de)[3][3], Real* f) {
+        pull_change(t, tension_change(group, s, link, rest, link_change(link, de, rest.volume)), link, de, f);
+      },
+      K);
+}
+
+template <class Real>
+std::vector<std::unique_ptr<GroupTerm<Real>>> make_terms(const Material& material, bool continuation,
+                                                         bool without_volume) {
+  std::vector<std::unique_ptr<GroupTerm<Real>>> terms;
+  const LawInfo& info = *find_law(material.law);
+  if (!info.is_continuum) return terms;
+  const bool own_volume_term = material.volume_term == VolumeTerm::quadratic && !without_volume;
+  terms.push_back(make_law_term<Real>(material, continuation, !own_volume_term));
+  if (!own_volume_term && !without_volume) terms.push_back(make_volume_term<Real>(material, continuation));
+  if (material.viscosity > 0 || material.bulk_viscosity > 0 || !material.relaxation.empty())
+    terms.push_back(std::make_unique<MemoryTerm<Real>>(
+        make_law_term<Real>(material, continuation, info.has_volume_term), material));
+  return terms;
+}
+
+template struct StressSum<float>;
+template struct StressSum<double>;
+template class GroupTerm<float>;
+template class GroupTerm<double>;
+template std::vector<std::unique_ptr<GroupTerm<float>>> make_terms(const Material&, bool, bool);
+template std::vector<std::unique_ptr<GroupTerm<double>>> make_terms(const Material&, bool, bool);
+
+}  // namespace heml

@@ -1,0 +1,91 @@
+#pragma once
+// One term of the energy of a group of elements, with its type erased. A material is a list of them: its law; a volume
+// term where not the law's own; its memory (viscosity, relaxation).
+//
+// Loops over many elements are one virtual call; those of a uniform law are the vectorised ones of group_loops.hpp.
+// What is asked of one slot at a time (parameters that differ between elements, assembly, memory) goes through the
+// functions of a slot, from which the loops here are made.
+#include <heml/elastic/group_loops.hpp>
+#include <heml/materials/material.hpp>
+#include <memory>
+#include <vector>
+
+namespace heml {
+
+/// Sum over terms of S = 2 ∂W/∂C in the rest frame of the Cholesky factor of A (elastic/tension.hpp), and of wJ, Pa.
+template <class Real>
+struct StressSum {
+  Real S[6] = {0, 0, 0, 0, 0, 0}, wJ = 0;
+
+  /// S = L⁻¹ T L⁻ᵀ / V.
+  void add(const Tensions<Real>& t, const RestShape<Real>& rest);
+};
+
+template <class Real>
+class GroupTerm {
+ public:
+  using Group = ElementGroup<Real>;
+  virtual ~GroupTerm() = default;
+
+  // Of one slot, whose link is whole.
+  virtual Tensions<Real> tensions(const Group& group, std::size_t s, const Link<Real>& link,
+                                  const RestShape<Real>& rest) const = 0;
+  virtual Tensions<Real> tension_change(const Group& group, std::size_t s, const Link<Real>& link,
+                                        const RestShape<Real>& rest, const LinkChange<Real>& change) const = 0;
+  /// A bound on λ_max(M_t⁻¹K_t), 1/s².
+  virtual Real slot_bound(const Group& group, std::size_t s, const Link<Real>& link,
+                          const RestShape<Real>& rest) const = 0;
+  /// V W, J.
+  virtual double energy(const Group& group, std::size_t s, const Link<Real>& link,
+                        const RestShape<Real>& rest) const = 0;
+  /// Whether that energy is stored elastically, or the incremental potential of what remembers.
+  virtual bool stores() const { return true; }
+  virtual bool valid(const Group& group, std::size_t s, const Link<Real>& link) const = 0;
+  /// Deviatoric principal Kirchhoff stresses at eigenvalues c of C, Pa.
+  virtual void deviator(const Group& group, std::size_t s, const Real c[3], Real J, Real tau[3]) const = 0;
+
+  // Of packets [begin, end). Any number of threads on disjoint ranges.
+  /// See group_forces().
+  virtual bool forces(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real* corner,
+                      bool add) const;
+  /// See group_force_change().
+  virtual void force_change(const Group& group, const Real* x, const Real* dx, std::size_t begin, std::size_t end,
+                            Real* corner, bool add) const;
+  /// Largest slot_bound().
+  virtual Real frequency_bound(const Group& group, const Real* x, std::size_t begin, std::size_t end) const;
+  /// The same of λ_max(M_t⁻¹D_t), 1/s, D the damping matrix of the term.
+  virtual Real damping_bound(const Group&, const Real*, std::size_t, std::size_t) const { return 0; }
+
+  /// Adds the stiffness of one slot.
+  void add_stiffness(const Group& group, const Real* x, std::size_t s, ElementMatrix<Real>& K) const;
+
+  // Terms that remember: a step of length h from what was committed last begins; what it reached is kept; all is
+  // forgotten, the state x being one that has lasted.
+  virtual void begin_step(Real) {}
+  virtual void commit(const Group&, const Real*) {}
+  virtual void forget(const Group&, const Real*) {}
+};
+
+/// Change of the edges of one slot with a change dx of positions (3 #V).
+template <class Real>
+void edge_change(const ElementGroup<Real>& group, const Real* dx, std::size_t s, Real de[3][3]) {
+  const SlotNodes<Real> d(group, dx, s);
+  const Real* moved[3] = {d.x1, d.x2, d.x3};
+  for (int a = 0; a < 3; ++a)
+    for (int i = 0; i < 3; ++i) de[a][i] = moved[a][i] - d.x0[i];
+}
+
+/// Writes or adds one slot's corner forces.
+template <class Real>
+void put_slot(const Real f[12], const ElementGroup<Real>& group, std::size_t s, Real* corner, bool add) {
+  Real* to = corner + 3 * (group.first_corner + 4 * s);
+  for (int i = 0; i < 12; ++i) to[i] = add ? to[i] + f[i] : f[i];
+}
+
+/// The terms of a material. without_volume: the isochoric part alone (elastic/nodal_pressure.hpp has the rest).
+/// The material must be one that material_problem() has nothing against; none for a law that is no continuum.
+template <class Real>
+std::vector<std::unique_ptr<GroupTerm<Real>>> make_terms(const Material& material, bool continuation,
+                                                         bool without_volume);
+
+}  // namespace heml

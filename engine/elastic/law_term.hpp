@@ -1,0 +1,114 @@
+#pragma once
+// A law as a term of a group's energy.
+#include <heml/elastic/group_term.hpp>
+#include <heml/elastic/law_source.hpp>
+
+namespace heml {
+
+// The vectorised loops, for AVX2 where the compiler's own target is older x86. A processor without it takes the loops
+// of GroupTerm: the same operations in the same order and none contracted, so the same bits.
+#if defined(__x86_64__) && !defined(__AVX2__)
+#define HEML_WIDE [[gnu::target("avx2")]]
+inline bool has_wide() {
+  static const bool has = __builtin_cpu_supports("avx2");
+  return has;
+}
+#else
+#define HEML_WIDE
+inline bool has_wide() { return true; }
+#endif
+
+template <class Real, class L>
+HEML_WIDE bool wide_forces(const L& law, const ElementGroup<Real>& group, const Real* x, std::size_t begin,
+                           std::size_t end, Real* corner, bool add) {
+  return group_forces<Real>(law, group, x, begin, end, corner, add);
+}
+template <class Real, class L>
+HEML_WIDE void wide_force_change(const L& law, const ElementGroup<Real>& group, const Real* x, const Real* dx,
+                                 std::size_t begin, std::size_t end, Real* corner, bool add) {
+  group_force_change<Real>(law, group, x, dx, begin, end, corner, add);
+}
+template <class Real, class L>
+HEML_WIDE Real wide_frequency_bound(const L& law, const ElementGroup<Real>& group, const Real* x, std::size_t begin,
+                                    std::size_t end) {
+  return group_frequency_bound<Real>(law, group, x, begin, end);
+}
+#undef HEML_WIDE
+
+template <class Real, Law<Real> L>
+class LawTerm final : public GroupTerm<Real> {
+ public:
+  using Group = ElementGroup<Real>;
+  explicit LawTerm(LawSource<Real, L> source) : source_(std::move(source)) {}
+
+  Tensions<Real> tensions(const Group& group, std::size_t s, const Link<Real>& link,
+                          const RestShape<Real>& rest) const override {
+    return heml::tensions(source_.at(group, s), link, rest);
+  }
+
+  Tensions<Real> tension_change(const Group& group, std::size_t s, const Link<Real>& link, const RestShape<Real>& rest,
+                                const LinkChange<Real>& change) const override {
+    return heml::tension_change(source_.at(group, s), link, rest, change);
+  }
+
+  Real slot_bound(const Group& group, std::size_t s, const Link<Real>& link,
+                  const RestShape<Real>& rest) const override {
+    return element_frequency_bound(source_.at(group, s), link, rest, group.gamma[s], group.density);
+  }
+
+  double energy(const Group& group, std::size_t s, const Link<Real>& link, const RestShape<Real>& rest) const override {
+    const L law = source_.at(group, s);
+    Real W;
+    if constexpr (PrincipalLaw<L, Real>) {
+      Real factor[3][3], C[6];
+      cholesky3(rest.A, factor);
+      into_rest_frame(factor, link.G, C);
+      W = principal_energy<L::is_continued>(law, C, link.at.J);
+    } else {
+      W = law.energy(link.at);
+    }
+    return static_cast<double>(rest.volume) * static_cast<double>(W);
+  }
+
+  bool valid(const Group& group, std::size_t s, const Link<Real>& link) const override {
+    return L::always_valid || source_.at(group, s).valid(link.at);
+  }
+
+  void deviator(const Group& group, std::size_t s, const Real c[3], Real J, Real tau[3]) const override {
+    const L law = source_.at(group, s);
+    if constexpr (PrincipalLaw<L, Real>) {
+      const Real p = volume_powers<L::is_continued>(J).p;
+      for (int i = 0; i < 3; ++i) tau[i] = 2 * p * c[i] * law.principal(p * c[i]).h1;
+    } else {
+      const Real I1 = c[0] + c[1] + c[2], I2 = c[0] * c[1] + c[0] * c[2] + c[1] * c[2];
+      const Slopes<Real> slopes = law.slopes({I1, I2, J});
+      for (int i = 0; i < 3; ++i) tau[i] = 2 * c[i] * (slopes.w1 + slopes.w2 * (I1 - c[i]));
+    }
+    const Real mean = (tau[0] + tau[1] + tau[2]) / 3;
+    for (int i = 0; i < 3; ++i) tau[i] -= mean;
+  }
+
+  bool forces(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real* corner,
+              bool add) const override {
+    if (!is_wide()) return GroupTerm<Real>::forces(group, x, begin, end, corner, add);
+    return wide_forces<Real>(source_.uniform_law(), group, x, begin, end, corner, add);
+  }
+
+  void force_change(const Group& group, const Real* x, const Real* dx, std::size_t begin, std::size_t end, Real* corner,
+                    bool add) const override {
+    if (!is_wide()) return GroupTerm<Real>::force_change(group, x, dx, begin, end, corner, add);
+    wide_force_change<Real>(source_.uniform_law(), group, x, dx, begin, end, corner, add);
+  }
+
+  Real frequency_bound(const Group& group, const Real* x, std::size_t begin, std::size_t end) const override {
+    if (!is_wide()) return GroupTerm<Real>::frequency_bound(group, x, begin, end);
+    return wide_frequency_bound<Real>(source_.uniform_law(), group, x, begin, end);
+  }
+
+ private:
+  bool is_wide() const { return source_.uniform() && has_wide(); }
+
+  LawSource<Real, L> source_;
+};
+
+}  // namespace heml

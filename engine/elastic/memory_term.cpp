@@ -1,0 +1,172 @@
+#include <algorithm>
+#include <cmath>
+#include <heml/elastic/memory_term.hpp>
+
+namespace heml {
+
+template <class Real>
+MemoryTerm<Real>::MemoryTerm(std::unique_ptr<GroupTerm<Real>> law, const Material& material)
+    : law_(std::move(law)),
+      eta_(static_cast<Real>(material.viscosity)),
+      zeta_(static_cast<Real>(material.bulk_viscosity)) {
+  for (const PronyTerm& term : material.relaxation) {
+    branches_.push_back({static_cast<Real>(term.gamma), static_cast<Real>(term.tau), 1, 0});
+    total_gamma_ += branches_.back().gamma;
+  }
+  stride_ = 12 + 6 * branches_.size();
+  begin_step(0);
+}
+
+template <class Real>
+void MemoryTerm<Real>::begin_step(Real h) {
+  per_step_ = h > 0 ? 1 / h : 0;
+  weight_ = 0;
+  for (Branch& branch : branches_) {
+    branch.decay = natural_exp(-h / branch.tau);
+    branch.gain = branch.gamma * natural_exp(-h / (2 * branch.tau));
+    weight_ += branch.gain;
+  }
+}
+
+template <class Real>
+void MemoryTerm<Real>::forget(const Group& group, const Real* x) {
+  kept_.assign(stride_ * group.volume.size(), 0);
+  for (std::size_t s = 0; s < group.volume.size(); ++s)
+    std::copy_n(whole_link(group, x, s, rest_shape(group, s)).G, 6, &kept_[stride_ * s]);
+}
+
+template <class Real>
+void MemoryTerm<Real>::commit(const Group& group, const Real* x) {
+  for (std::size_t s = 0; s < group.volume.size(); ++s) {
+    const auto rest = rest_shape(group, s);
+    const auto link = whole_link(group, x, s, rest);
+    Real* kept = &kept_[stride_ * s];
+    std::copy_n(link.G, 6, kept);
+    if (branches_.empty()) continue;
+    Real T[6];
+    whole_tensions(group, s, link, rest, T);
+    for (std::size_t b = 0; b < branches_.size(); ++b) {
+      Real* Q = kept + 12 + 6 * b;
+      for (int i = 0; i < 6; ++i) Q[i] = branches_[b].decay * Q[i] + branches_[b].gain * (T[i] - kept[6 + i]);
+    }
+    std::copy_n(T, 6, kept + 6);
+  }
+}
+
+template <class Real>
+void MemoryTerm<Real>::strain_change(std::size_t s, const Link<Real>& link, Real dG[6]) const {
+  for (std::size_t i = 0; i < 6; ++i) dG[i] = link.G[i] - kept_[stride_ * s + i];
+}
+
+/// Σ_branches (decay Q − gain T_iso) of what was committed: what does not change within a step.
+template <class Real>
+Tensions<Real> MemoryTerm<Real>::fixed_tensions(std::size_t s) const {
+  Tensions<Real> t{};
+  const Real* kept = &kept_[stride_ * s];
+  for (std::size_t b = 0; b < branches_.size(); ++b)
+    for (std::size_t i = 0; i < 6; ++i)
+      t.T[i] += branches_[b].decay * kept[12 + 6 * b + i] - branches_[b].gain * kept[6 + i];
+  return t;
+}
+
+/// V (η A dG A + ζ/2 (A:dG) A) / h.
+template <class Real>
+void MemoryTerm<Real>::add_viscous(const Real dG[6], const RestShape<Real>& rest, Real T[6]) const {
+  const Real* A = rest.A;
+  const Real a[3][3] = {{A[0], A[3], A[4]}, {A[3], A[1], A[5]}, {A[4], A[5], A[2]}};
+  Real AdGA[6];
+  congruent3(a, dG, AdGA);
+  const Real bulk = zeta_ / 2 * contract3(A, dG), scale = rest.volume * per_step_;
+  for (int i = 0; i < 6; ++i) T[i] += scale * (eta_ * AdGA[i] + bulk * A[i]);
+}
+
+template <class Real>
+Tensions<Real> MemoryTerm<Real>::tensions(const Group& group, std::size_t s, const Link<Real>& link,
+                                          const RestShape<Real>& rest) const {
+  Tensions<Real> t = fixed_tensions(s);
+  if (!branches_.empty()) {
+    const auto law = law_->tensions(group, s, link, rest);
+    for (int i = 0; i < 6; ++i) t.T[i] += weight_ * law.T[i];
+    t.wJ = weight_ * law.wJ;
+  }
+  Real dG[6];
+  strain_change(s, link, dG);
+  add_viscous(dG, rest, t.T);
+  return t;
+}
+
+template <class Real>
+Tensions<Real> MemoryTerm<Real>::tension_change(const Group& group, std::size_t s, const Link<Real>& link,
+                                                const RestShape<Real>& rest, const LinkChange<Real>& change) const {
+  Tensions<Real> dt{};
+  if (!branches_.empty()) {
+    dt = law_->tension_change(group, s, link, rest, change);
+    for (Real& value : dt.T) value *= weight_;
+    dt.wJ *= weight_;
+  }
+  add_viscous(change.G, rest, dt.T);
+  return dt;
+}
+
+template <class Real>
+Real MemoryTerm<Real>::slot_bound(const Group& group, std::size_t s, const Link<Real>& link,
+                                  const RestShape<Real>& rest) const {
+  if (branches_.empty()) return 0;
+  StressSum<Real> fixed;
+  fixed.add(fixed_tensions(s), rest);
+  return total_gamma_ * law_->slot_bound(group, s, link, rest) +
+         4 / group.density * std::sqrt(contract3(fixed.S, fixed.S)) * group.gamma[s];
+}
+
+/// uᵀDu = V/2 (η |dC|² + ζ/2 (tr dC)²).
+template <class Real>
+Real MemoryTerm<Real>::damping_bound(const Group& group, const Real* x, std::size_t begin, std::size_t end) const {
+  Real largest = 0;
+  for (std::size_t s = begin * Group::lanes; s < end * Group::lanes; ++s) {
+    const auto rest = rest_shape(group, s);
+    const auto link = whole_link(group, x, s, rest);
+    const Real bound =
+        4 / group.density *
+        (2 * eta_ * largest_stretches(link.at).largest * group.gamma[s] + zeta_ / 4 * corner_sums(link, rest).n1);
+    largest = bound > largest || std::isnan(bound) ? bound : largest;
+  }
+  return largest;
+}
+
+template <class Real>
+double MemoryTerm<Real>::energy(const Group& group, std::size_t s, const Link<Real>& link,
+                                const RestShape<Real>& rest) const {
+  Real dG[6], dC[6], factor[3][3];
+  strain_change(s, link, dG);
+  cholesky3(rest.A, factor);
+  into_rest_frame(factor, dG, dC);
+  const Real trace = dC[0] + dC[1] + dC[2];
+  const Real viscous = rest.volume * per_step_ * (eta_ / 4 * contract3(dC, dC) + zeta_ / 8 * trace * trace);
+  const Real fixed = contract3(fixed_tensions(s).T, link.G) / 2;
+  const double law = branches_.empty() ? 0 : law_->energy(group, s, link, rest);
+  return static_cast<double>(viscous + fixed) + static_cast<double>(weight_) * law;
+}
+
+template <class Real>
+void MemoryTerm<Real>::deviator(const Group&, std::size_t, const Real[3], Real, Real tau[3]) const {
+  std::fill_n(tau, 3, Real(0));
+}
+
+/// Tensions of the isochoric law with its wJ in them too: t_ab = wJ (cross_a·cross_b) / (36 V J). A crushed element's
+/// memory is that of one at J = 0.05.
+template <class Real>
+void MemoryTerm<Real>::whole_tensions(const Group& group, std::size_t s, const Link<Real>& link,
+                                      const RestShape<Real>& rest, Real T[6]) const {
+  const auto t = law_->tensions(group, s, link, rest);
+  const Real scale = t.wJ / (36 * rest.volume * std::max(link.at.J, Real(0.05)));
+  constexpr int row[6] = {0, 1, 2, 0, 0, 1}, col[6] = {0, 1, 2, 1, 2, 2};
+  for (int k = 0; k < 6; ++k) {
+    const Real *p = link.cross[row[k]], *q = link.cross[col[k]];
+    T[k] = t.T[k] + scale * (p[0] * q[0] + p[1] * q[1] + p[2] * q[2]);
+  }
+}
+
+template class MemoryTerm<float>;
+template class MemoryTerm<double>;
+
+}  // namespace heml

@@ -1,0 +1,208 @@
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <heml/elastic/nodal_pressure.hpp>
+#include <heml/materials/volume.hpp>
+#include <mutex>
+
+namespace heml {
+namespace {
+constexpr std::size_t slot_grain = 2048, node_grain = 4096;
+
+template <class Real>
+Link<Real> volume_link(const ElementGroup<Real>& group, const Real* x, std::size_t s, RestShape<Real>& rest) {
+  rest = rest_shape(group, s);
+  const SlotNodes<Real> n(group, x, s);
+  return read_link<false, true, false>(n.x0, n.x1, n.x2, n.x3, rest);
+}
+}  // namespace
+
+template <class Real>
+NodalPressure<Real>::NodalPressure(std::vector<const ElementGroup<Real>*> groups, const CornerMap& corners,
+                                   const std::vector<std::vector<Real>>& kappa, VolumeTerm term, bool continuation)
+    : groups_(std::move(groups)), corners_(corners), kappa_(kappa), term_(term), continuation_(continuation) {
+  std::size_t count = 0;
+  for (const auto* group : groups_) count += 4 * group->volume.size();
+  of_corner_.assign(count, 0);
+  ThreadTeam alone(1);
+  gather(node_volume_, alone,
+         [](const ElementGroup<Real>& group, std::size_t, std::size_t s) { return group.volume[s]; });
+  gather(node_kappa_, alone,
+         [&](const ElementGroup<Real>& group, std::size_t g, std::size_t s) { return group.volume[s] * kappa_[g][s]; });
+  for (std::size_t n = 0; n < node_volume_.size(); ++n)
+    if (node_volume_[n] > 0) node_kappa_[n] /= node_volume_[n];
+}
+
+/// Sums a value of every element at its four nodes, in ascending order of corner.
+template <class Real>
+template <class OfSlot>
+void NodalPressure<Real>::gather(std::vector<Real>& node_sums, ThreadTeam& team, const OfSlot& of_slot) {
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    const ElementGroup<Real>& group = *groups_[g];
+    team.for_ranges(group.size(), slot_grain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t s = begin; s < end; ++s)
+        std::fill_n(&of_corner_[group.first_corner + 4 * s], 4, of_slot(group, g, s));
+    });
+  }
+  const std::size_t nodes = corners_.start.size() - 1;
+  node_sums.resize(nodes);
+  team.for_ranges(nodes, node_grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t n = begin; n < end; ++n) {
+      Real sum = 0;
+      for (std::size_t k = corners_.start[n]; k < corners_.start[n + 1]; ++k) sum += of_corner_[corners_.corners[k]];
+      node_sums[n] = sum;
+    }
+  });
+}
+
+template <class Real>
+typename NodalPressure<Real>::Value NodalPressure<Real>::psi(Real J) const {
+  if (term_ == VolumeTerm::quadratic) return {(J - 1) * (J - 1) / 2, J - 1, 1};
+  const auto of = [J](const auto& law) {
+    return Value{law.energy({3, 3, J}), law.slopes({3, 3, J}).wJ, law.curvatures({3, 3, J}).wJJ};
+  };
+  if (term_ == VolumeTerm::simo_taylor)
+    return continuation_ ? of(VolumeLaw<Real, true, true>{1}) : of(VolumeLaw<Real, false, true>{1});
+  return continuation_ ? of(VolumeLaw<Real, true, false>{1}) : of(VolumeLaw<Real, false, false>{1});
+}
+
+template <class Real>
+void NodalPressure<Real>::average(const Real* x, ThreadTeam& team) {
+  gather(ratio_, team, [&](const ElementGroup<Real>& group, std::size_t, std::size_t s) {
+    RestShape<Real> rest;
+    return group.volume[s] * volume_link(group, x, s, rest).at.J;
+  });
+  pressure_.resize(ratio_.size());
+  for (std::size_t n = 0; n < ratio_.size(); ++n) {
+    ratio_[n] = node_volume_[n] > 0 ? ratio_[n] / node_volume_[n] : Real(1);
+    pressure_[n] = node_kappa_[n] * psi(ratio_[n]).w1;
+  }
+}
+
+template <class Real>
+Real NodalPressure<Real>::pressure(std::size_t g, std::size_t s) const {
+  const ElementGroup<Real>& group = *groups_[g];
+  Real sum = 0;
+  for (const auto& list : group.node) sum += pressure_[static_cast<std::size_t>(list[s])];
+  return sum / 4;
+}
+
+template <class Real>
+bool NodalPressure<Real>::add_forces(const Real* x, Real* corner, ThreadTeam& team) {
+  average(x, team);
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    const ElementGroup<Real>& group = *groups_[g];
+    team.for_ranges(group.size(), slot_grain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t s = begin; s < end; ++s) {
+        RestShape<Real> rest;
+        const auto link = volume_link(group, x, s, rest);
+        Real f[12];
+        pull_corners<true>(Tensions<Real>{{}, pressure(g, s)}, link.e, link.cross, f);
+        Real* to = corner + 3 * (group.first_corner + 4 * s);
+        for (int i = 0; i < 12; ++i) to[i] += f[i];
+      }
+    });
+  }
+  if (continuation_ || term_ == VolumeTerm::quadratic) return true;
+  return std::all_of(ratio_.begin(), ratio_.end(), [](Real J) { return J > smallest_ratio<Real>; });
+}
+
+template <class Real>
+void NodalPressure<Real>::add_force_change(const Real* x, const Real* dx, Real* corner, ThreadTeam& team) {
+  average(x, team);
+  const auto change = [&](const ElementGroup<Real>& group, std::size_t s, const Link<Real>& link, Real(&de)[3][3]) {
+    const SlotNodes<Real> d(group, dx, s);
+    const Real* moved[3] = {d.x1, d.x2, d.x3};
+    for (int a = 0; a < 3; ++a)
+      for (int i = 0; i < 3; ++i) de[a][i] = moved[a][i] - d.x0[i];
+    return link_change(link, de, group.volume[s]).J;
+  };
+  std::vector<Real> dp;
+  gather(dp, team, [&](const ElementGroup<Real>& group, std::size_t, std::size_t s) {
+    RestShape<Real> rest;
+    Real de[3][3];
+    return group.volume[s] * change(group, s, volume_link(group, x, s, rest), de);
+  });
+  for (std::size_t n = 0; n < dp.size(); ++n)
+    dp[n] = node_volume_[n] > 0 ? node_kappa_[n] * psi(ratio_[n]).w2 * dp[n] / node_volume_[n] : Real(0);
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    const ElementGroup<Real>& group = *groups_[g];
+    team.for_ranges(group.size(), slot_grain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t s = begin; s < end; ++s) {
+        RestShape<Real> rest;
+        const auto link = volume_link(group, x, s, rest);
+        Real de[3][3], f[12], mean = 0;
+        change(group, s, link, de);
+        for (const auto& list : group.node) mean += dp[static_cast<std::size_t>(list[s])] / 4;
+        pull_change(Tensions<Real>{{}, pressure(g, s)}, Tensions<Real>{{}, mean}, link, de, f);
+        Real* to = corner + 3 * (group.first_corner + 4 * s);
+        for (int i = 0; i < 12; ++i) to[i] += f[i];
+      }
+    });
+  }
+}
+
+template <class Real>
+double NodalPressure<Real>::energy(const Real* x) {
+  ThreadTeam alone(1);
+  average(x, alone);
+  double sum = 0;
+  for (std::size_t n = 0; n < ratio_.size(); ++n)
+    sum += static_cast<double>(node_volume_[n] / 4 * node_kappa_[n]) * static_cast<double>(psi(ratio_[n]).w);
+  return sum;
+}
+
+/// (Σ w dJ)² ≤ Σ w (dJ)² at every node, so the averaged form is at most the one per element with κ ψ'' the largest of
+/// its corners; and p_t d²J with |d²J| ≤ 2 σ1 |dF|².
+template <class Real>
+Real NodalPressure<Real>::frequency_bound(const Real* x, ThreadTeam& team) {
+  average(x, team);
+  std::vector<Real> stiffness(ratio_.size());
+  for (std::size_t n = 0; n < stiffness.size(); ++n)
+    stiffness[n] = node_kappa_[n] * std::max(psi(ratio_[n]).w2, Real(0));
+  Real largest = 0;
+  std::mutex mutex;  // a maximum does not depend on the order it is taken in
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    const ElementGroup<Real>& group = *groups_[g];
+    team.for_ranges(group.size(), slot_grain, [&](std::size_t begin, std::size_t end) {
+      Real most = 0;
+      for (std::size_t s = begin; s < end; ++s) {
+        const auto rest = rest_shape(group, s);
+        const auto link = whole_link(group, x, s, rest);
+        Real kappa = 0;
+        for (const auto& list : group.node) kappa = std::max(kappa, stiffness[static_cast<std::size_t>(list[s])]);
+        const Real bound =
+            4 / group.density *
+            (kappa * corner_sums(link, rest).nJ +
+             2 * std::abs(pressure(g, s)) * std::sqrt(largest_stretches(link.at).largest) * group.gamma[s]);
+        most = bound > most || std::isnan(bound) ? bound : most;
+      }
+      std::lock_guard lock(mutex);
+      largest = most > largest || std::isnan(most) ? most : largest;
+    });
+  }
+  return largest;
+}
+
+template <class Real>
+void NodalPressure<Real>::add_stiffness(std::size_t g, const Real* x, std::size_t s, ElementMatrix<Real>& K) const {
+  const ElementGroup<Real>& group = *groups_[g];
+  RestShape<Real> rest;
+  const auto link = volume_link(group, x, s, rest);
+  Real stiffness = 0;
+  for (const auto& list : group.node) {
+    const auto n = static_cast<std::size_t>(list[s]);
+    stiffness += node_kappa_[n] * psi(ratio_[n]).w2 / 4;
+  }
+  const Tensions<Real> t{{}, pressure(g, s)};
+  heml::add_stiffness<Real>(
+      [&](const Real(&de)[3][3], Real* f) {
+        pull_change(t, Tensions<Real>{{}, stiffness * link_change(link, de, rest.volume).J}, link, de, f);
+      },
+      K);
+}
+
+template class NodalPressure<float>;
+template class NodalPressure<double>;
+
+}  // namespace heml

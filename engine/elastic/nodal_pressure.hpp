@@ -1,0 +1,53 @@
+#pragma once
+// Averaged nodal pressure against locking (Bonet & Burton 1998; Joldes, Wittek & Miller 2009): the volume term is taken
+// of the mean volume ratio round each node, the rest per tetrahedron.
+//     J̄_a = Σ V_t J_t / ΣV_t,  E = Σ_a V_a κ_a ψ(J̄_a),  V_a = ΣV_t/4,  κ_a = ΣV_t κ_t / ΣV_t  (t: the elements at a)
+//     p_a = κ_a ψ'(J̄_a),  f = −Σ_t V_t p_t ∇J_t,  p_t = ¼ Σ_a p_a: the exact gradient of E.
+//
+//   per slot and corner (body's list of corners):  V_t J_t, then gathered to nodes in ascending order
+#include <heml/base/thread_team.hpp>
+#include <heml/elastic/group_loops.hpp>
+#include <span>
+#include <vector>
+
+namespace heml {
+
+template <class Real>
+class NodalPressure {
+ public:
+  /// kappa: Pa, one per slot (padded) of each group. All groups share the volume term.
+  NodalPressure(std::vector<const ElementGroup<Real>*> groups, const CornerMap& corners,
+                const std::vector<std::vector<Real>>& kappa, VolumeTerm term, bool continuation);
+
+  /// Adds to the corner forces of all groups (3 a corner). Returns whether ψ is defined at every node.
+  bool add_forces(const Real* x, Real* corner, ThreadTeam& team);
+  /// Adds −K dx likewise.
+  void add_force_change(const Real* x, const Real* dx, Real* corner, ThreadTeam& team);
+  double energy(const Real* x);  ///< J
+  /// A bound of λ_max(M⁻¹K) of these terms, 1/s².
+  Real frequency_bound(const Real* x, ThreadTeam& team);
+  /// Adds one slot's share of the stiffness, its pressure held and κ_t its own: for preconditioners.
+  void add_stiffness(std::size_t group, const Real* x, std::size_t s, ElementMatrix<Real>& K) const;
+  /// Mean pressure p_t of a slot after add_forces(), Pa.
+  Real pressure(std::size_t group, std::size_t s) const;
+
+ private:
+  struct Value {
+    Real w, w1, w2;  ///< ψ and its derivatives
+  };
+  Value psi(Real J) const;
+  void average(const Real* x, ThreadTeam& team);
+  template <class OfSlot>
+  void gather(std::vector<Real>& node_sums, ThreadTeam& team, const OfSlot& of_slot);
+
+  std::vector<const ElementGroup<Real>*> groups_;
+  const CornerMap& corners_;
+  std::vector<std::vector<Real>> kappa_;
+  VolumeTerm term_;
+  bool continuation_;
+  std::vector<Real> node_volume_, node_kappa_;  ///< #V: ΣV_t; κ_a
+  std::vector<Real> ratio_, pressure_;          ///< #V: J̄_a; p_a
+  std::vector<Real> of_corner_;                 ///< one a corner
+};
+
+}  // namespace heml

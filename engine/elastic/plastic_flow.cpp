@@ -1,0 +1,120 @@
+#include <algorithm>
+#include <cmath>
+#include <heml/elastic/plastic_flow.hpp>
+#include <heml/elastic/term_parts.hpp>
+
+namespace heml {
+namespace {
+
+constexpr double flattest = 0.05;                 // J below which nothing flows: the logarithm has no meaning there
+constexpr double equivalent = 0.816496580927726;  // √(2/3)
+
+template <class Real>
+Real mises(const Real tau[3]) {
+  return std::sqrt(Real(1.5) * (tau[0] * tau[0] + tau[1] * tau[1] + tau[2] * tau[2]));
+}
+
+/// A = L N exp(−2 Δγ n) Nᵀ Lᵀ, and gamma = λ_max of Σ_a g_a g_aᵀ = Lᵀ(I + 1 1ᵀ)L up to a rotation.
+template <class Real>
+void replace_rest_shape(ElementGroup<Real>& group, std::size_t s, const Real factor[3][3], const Eigen3<Real>& e,
+                        Real gamma, const Real n[3]) {
+  Real shrink[3], R[6], A[6], L[3][3], sum[6];
+  for (int i = 0; i < 3; ++i) shrink[i] = natural_exp(-2 * gamma * n[i]);
+  assemble3(e, shrink, R);
+  congruent3(factor, R, A);
+  for (std::size_t i = 0; i < 6; ++i) group.A[i][s] = A[i];
+  cholesky3(A, L);
+  const Real ones[6] = {2, 2, 2, 1, 1, 1};
+  into_rest_frame(L, ones, sum);
+  const auto spread = eigen3(sum);
+  group.gamma[s] = std::max({spread.value[0], spread.value[1], spread.value[2]});
+}
+
+/// Deviator of the logarithmic strain at eigenvalues c of C, made a unit direction. Returns its length.
+template <class Real>
+Real flow_direction(const Real c[3], Real n[3]) {
+  Real mean = 0, length = 0;
+  for (int i = 0; i < 3; ++i) {
+    n[i] = natural_log(c[i]) / 2;
+    mean += n[i] / 3;
+  }
+  for (int i = 0; i < 3; ++i) length += (n[i] - mean) * (n[i] - mean);
+  length = std::sqrt(length);
+  for (int i = 0; i < 3; ++i) n[i] = (n[i] - mean) / length;
+  return length;
+}
+
+}  // namespace
+
+template <class Real>
+PlasticFlow<Real>::PlasticFlow(std::unique_ptr<GroupTerm<Real>> law, const Plasticity& plasticity, const Group& group)
+    : law_(std::move(law)),
+      yield_(static_cast<Real>(plasticity.yield)),
+      hardening_(static_cast<Real>(plasticity.hardening)),
+      rest_A_(group.A),
+      rest_gamma_(group.gamma),
+      strain_(group.volume.size(), 0) {}
+
+template <class Real>
+double PlasticFlow<Real>::flow(Group& group, const Real* x) {
+  double work = 0;
+  for (std::size_t s = 0; s < group.volume.size(); ++s) {
+    const double of_slot = flow_slot(group, x, s);
+    if (s < group.size()) work += of_slot;  // the rest is padding
+  }
+  return work;
+}
+
+template <class Real>
+void PlasticFlow<Real>::reset(Group& group) {
+  group.A = rest_A_;
+  group.gamma = rest_gamma_;
+  std::fill(strain_.begin(), strain_.end(), Real(0));
+}
+
+template <class Real>
+double PlasticFlow<Real>::flow_slot(Group& group, const Real* x, std::size_t s) {
+  const auto rest = rest_shape(group, s);
+  const auto link = whole_link(group, x, s, rest);
+  if (!(link.at.J > Real(flattest))) return 0;
+  Real factor[3][3], C[6], tau[3], n[3];
+  cholesky3(rest.A, factor);
+  into_rest_frame(factor, link.G, C);
+  const auto e = eigen3(C);
+  law_->deviator(group, s, e.value, link.at.J, tau);
+  if (!(mises(tau) > yield_ + hardening_ * strain_[s])) return 0;
+
+  const Real length = flow_direction(e.value, n);
+  const auto beyond = [&](Real gamma) {  // of yield, after a flow of gamma; leaves the stress there in tau
+    Real c[3];
+    for (int i = 0; i < 3; ++i) c[i] = e.value[i] * natural_exp(-2 * gamma * n[i]);
+    law_->deviator(group, s, c, link.at.J, tau);
+    return mises(tau) - yield_ - hardening_ * (strain_[s] + Real(equivalent) * gamma);
+  };
+  Real low = 0, high = length;  // nothing is left of the deviator at the upper end
+  for (int i = 0; i < 60 && high - low > Real(1e-14) * length; ++i) {
+    const Real middle = (low + high) / 2;
+    (beyond(middle) > 0 ? low : high) = middle;
+  }
+  beyond(high);
+  double power = 0;
+  for (int i = 0; i < 3; ++i) power += static_cast<double>(tau[i] * n[i]);
+  strain_[s] += Real(equivalent) * high;
+  replace_rest_shape(group, s, factor, e, high, n);
+  return static_cast<double>(rest.volume) * power * static_cast<double>(high);
+}
+
+template <class Real>
+std::unique_ptr<PlasticFlow<Real>> make_flow(const Material& material, bool continuation,
+                                             const ElementGroup<Real>& group) {
+  if (!material.plasticity) return nullptr;
+  return std::make_unique<PlasticFlow<Real>>(make_law_term<Real>(material, continuation, false), *material.plasticity,
+                                             group);
+}
+
+template class PlasticFlow<float>;
+template class PlasticFlow<double>;
+template std::unique_ptr<PlasticFlow<float>> make_flow(const Material&, bool, const ElementGroup<float>&);
+template std::unique_ptr<PlasticFlow<double>> make_flow(const Material&, bool, const ElementGroup<double>&);
+
+}  // namespace heml

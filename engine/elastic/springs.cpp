@@ -1,0 +1,117 @@
+#include <array>
+#include <cmath>
+#include <heml/elastic/springs.hpp>
+#include <map>
+#include <set>
+
+namespace heml {
+namespace {
+constexpr std::size_t grain = 2048;
+constexpr int ends[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
+}  // namespace
+
+template <class Real>
+Springs<Real>::Springs(const TetMesh& mesh, const std::vector<double>& stiffness) {
+  // Which different stiffnesses meet at an edge: regions, not elements, are averaged.
+  std::map<std::array<int, 2>, std::set<double>> edges;
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    if (stiffness[t] == 0) continue;
+    for (const auto& end : ends) {
+      const int p = mesh.tets[t][static_cast<std::size_t>(end[0])], q = mesh.tets[t][static_cast<std::size_t>(end[1])];
+      edges[{std::min(p, q), std::max(p, q)}].insert(stiffness[t]);
+    }
+  }
+  start_.assign(mesh.nodes.size() + 1, 0);
+  for (const auto& [edge, values] : edges) {
+    double mean = 0;
+    for (const double k : values) mean += k / static_cast<double>(values.size());
+    const auto a = static_cast<std::size_t>(edge[0]), b = static_cast<std::size_t>(edge[1]);
+    springs_.push_back(
+        {edge[0], edge[1], static_cast<Real>(mean), static_cast<Real>((mesh.nodes[b] - mesh.nodes[a]).norm())});
+    ++start_[a + 1];
+    ++start_[b + 1];
+  }
+  for (std::size_t n = 0; n + 1 < start_.size(); ++n) start_[n + 1] += start_[n];
+  of_node_.resize(start_.back());
+  std::vector<std::size_t> fill(start_.begin(), start_.end() - 1);
+  for (std::size_t s = 0; s < springs_.size(); ++s)
+    for (const int n : {springs_[s].a, springs_[s].b}) of_node_[fill[static_cast<std::size_t>(n)]++] = s;
+}
+
+template <class Real>
+void Springs<Real>::add_forces(const Real* x, Real* f, ThreadTeam& team) const {
+  team.for_ranges(start_.size() - 1, grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t n = begin; n < end; ++n)
+      for (std::size_t k = start_[n]; k < start_[n + 1]; ++k) {
+        const Spring& spring = springs_[of_node_[k]];
+        const auto other = static_cast<std::size_t>(spring.a) == n ? spring.b : spring.a;
+        const Real* p = x + 3 * n;
+        const Real* q = x + 3 * other;
+        const Real d[3] = {q[0] - p[0], q[1] - p[1], q[2] - p[2]};
+        const Real length = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+        const Real tension = length > 0 ? spring.k * (1 - spring.length / length) : Real(0);
+        for (std::size_t i = 0; i < 3; ++i) f[3 * n + i] += tension * d[i];
+      }
+  });
+}
+
+/// k d dᵀ/ℓ² + k (1 − L/ℓ) (I − d dᵀ/ℓ²).
+template <class Real>
+void Springs<Real>::block(const Spring& spring, const Real* x, Real B[3][3]) const {
+  Real d[3], square = 0;
+  for (int i = 0; i < 3; ++i) {
+    d[i] = x[3 * spring.b + i] - x[3 * spring.a + i];
+    square += d[i] * d[i];
+  }
+  const Real tension = square > 0 ? spring.k * (1 - spring.length / std::sqrt(square)) : Real(0);
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      B[i][j] = (i == j ? tension : Real(0)) + (square > 0 ? (spring.k - tension) * d[i] * d[j] / square : Real(0));
+}
+
+template <class Real>
+void Springs<Real>::add_force_change(const Real* x, const Real* dx, Real* out, ThreadTeam& team) const {
+  team.for_ranges(start_.size() - 1, grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t n = begin; n < end; ++n)
+      for (std::size_t k = start_[n]; k < start_[n + 1]; ++k) {
+        const Spring& spring = springs_[of_node_[k]];
+        const auto other = static_cast<std::size_t>(spring.a) == n ? spring.b : spring.a;
+        Real B[3][3];
+        block(spring, x, B);
+        for (std::size_t i = 0; i < 3; ++i)
+          for (std::size_t j = 0; j < 3; ++j)
+            out[3 * n + i] += B[i][j] * (dx[3 * static_cast<std::size_t>(other) + j] - dx[3 * n + j]);
+      }
+  });
+}
+
+template <class Real>
+double Springs<Real>::energy(const Real* x) const {
+  double sum = 0;
+  for (const Spring& spring : springs_) {
+    double square = 0;
+    for (int i = 0; i < 3; ++i) {
+      const double d = static_cast<double>(x[3 * spring.b + i]) - static_cast<double>(x[3 * spring.a + i]);
+      square += d * d;
+    }
+    const double stretch = std::sqrt(square) - static_cast<double>(spring.length);
+    sum += static_cast<double>(spring.k) / 2 * stretch * stretch;
+  }
+  return sum;
+}
+
+template <class Real>
+Real Springs<Real>::frequency_bound(const std::vector<Real>& mass) const {
+  Real largest = 0;
+  for (std::size_t n = 0; n + 1 < start_.size(); ++n) {
+    Real sum = 0;
+    for (std::size_t k = start_[n]; k < start_[n + 1]; ++k) sum += springs_[of_node_[k]].k;
+    if (sum > 0) largest = std::max(largest, 2 * sum / mass[n]);
+  }
+  return largest;
+}
+
+template class Springs<float>;
+template class Springs<double>;
+
+}  // namespace heml

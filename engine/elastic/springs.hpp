@@ -1,0 +1,47 @@
+#pragma once
+// The degenerate case of HEML: a mass-spring net. Every edge of the mesh, once, is a spring of k/2 (ℓ − L)², whose
+// tension per length k (1 − L/ℓ) depends on its own length alone; an edge shared by regions takes the mean k.
+//
+//   spring e:  node[2] k L          of node n: springs[start[n] .. start[n+1]), ascending, so sums have a fixed order
+#include <heml/base/thread_team.hpp>
+#include <heml/mesh/tet_mesh.hpp>
+#include <vector>
+
+namespace heml {
+
+template <class Real>
+class Springs {
+ public:
+  /// stiffness: #T, N/m; 0 where an element has no springs.
+  Springs(const TetMesh& mesh, const std::vector<double>& stiffness);
+
+  bool empty() const { return springs_.empty(); }
+  /// Each adds to f, out (3 #V): forces, N; −K dx, N.
+  void add_forces(const Real* x, Real* f, ThreadTeam& team) const;
+  void add_force_change(const Real* x, const Real* dx, Real* out, ThreadTeam& team) const;
+  double energy(const Real* x) const;  ///< J
+  /// max_n 2 Σ k / m_n, 1/s²: holds at any length.
+  Real frequency_bound(const std::vector<Real>& mass) const;
+
+  /// Calls visit(node a, node b, 3×3 block B) for every spring: its stiffness is [B −B; −B B].
+  template <class Visit>
+  void each_stiffness(const Real* x, const Visit& visit) const {
+    for (const Spring& spring : springs_) {
+      Real B[3][3];
+      block(spring, x, B);
+      visit(spring.a, spring.b, B);
+    }
+  }
+
+ private:
+  struct Spring {
+    int a, b;
+    Real k, length;
+  };
+  void block(const Spring& spring, const Real* x, Real B[3][3]) const;
+
+  std::vector<Spring> springs_;
+  std::vector<std::size_t> start_, of_node_;
+};
+
+}  // namespace heml

@@ -1,0 +1,54 @@
+#pragma once
+// Fung & Demiray: W = μ/(2γ) (exp(γ(Ī1−3)) − 1) + κ/2 (J−1)². (The paper's Table 1 prints exp(γ(I1−3) − 1), which is
+// too small by a factor e.)
+//
+// The exponential overflows in large stretches. `continued` goes on above γ(Ī1−3) = Q0 with its second-order Taylor
+// polynomial: C2, and the tangent stays below 1e4 times that at rest.
+#include <heml/materials/isochoric.hpp>
+
+namespace heml {
+
+template <class Real>
+struct ExponentialValue {
+  Real less_one, slope, curvature;  ///< of exp
+};
+
+/// exp and two derivatives at Q, continued above Q0 = ln 1e4 by its Taylor polynomial.
+template <bool continued, class Real>
+[[gnu::always_inline]] inline ExponentialValue<Real> bounded_exp(Real Q) {
+  constexpr Real Q0 = Real(9.210340371976184);
+  const Real c = continued ? (Q < Q0 ? Q : Q0) : Q;
+  const Real less_one = natural_expm1(c), e = less_one + 1;
+  if constexpr (!continued) return {less_one, e, e};
+  const Real d = Q - c;
+  return {less_one + e * d * (1 + d / 2), e * (1 + d), e};
+}
+
+template <class Real, bool continued>
+struct FungDemiray : IsochoricLaw<FungDemiray<Real, continued>, Real, continued> {
+  using Base = IsochoricLaw<FungDemiray, Real, continued>;
+  Real mu, gamma, kappa;
+
+  static constexpr std::string_view name = "fung_demiray";
+  static constexpr std::string_view title = "Fung & Demiray";
+  static constexpr std::string_view formula = "μ/(2γ) (exp(γ(Ī1−3)) − 1) + κ/2 (J−1)²";
+  static constexpr std::string_view source = "Fung 1967; Demiray 1972; Goulette & Chendeb 2006, Table 1";
+  static constexpr ParameterInfo parameters[] = {
+      {"mu", "μ", "Pa", "shear modulus at rest"},
+      {"gamma", "γ", "", "how fast the tissue stiffens when stretched"},
+      {"kappa", "κ", "Pa", "bulk modulus: resistance to change of volume"},
+  };
+  static constexpr bool uses_I2 = false;
+
+  bool valid(const Invariants<Real>& at) const {
+    return Base::valid(at) && (continued || gamma * (volume_powers<continued>(at.J).p * at.I1 - 3) <
+                                                exponent_in_range<Real>);  // stress and stiffness must fit too
+  }
+
+  IsochoricPart<Real> part(Real a, Real) const {
+    const auto e = bounded_exp<continued>(gamma * (a - 3));
+    return {mu / (2 * gamma) * e.less_one, mu / 2 * e.slope, 0, mu / 2 * gamma * e.curvature};
+  }
+};
+
+}  // namespace heml

@@ -1,0 +1,48 @@
+#pragma once
+// The general type of the paper (Table 1, first row): a law given as nothing but its energy W(I1, I2, J). Slopes and
+// curvatures come by forward-mode differentiation (math/jet.hpp).
+//
+//   template <class Real, bool continued>
+//   struct Mine : GeneralLaw<Mine<Real, continued>, Real, continued> {
+//     Real c, kappa;
+//     ... name, title, formula, source, parameters ...
+//     template <class T>
+//     T density(const Invariants<T>& at) const {
+//       const auto bar = isochoric<continued>(at);
+//       return T(c) * (bar.I1 - T(3)) + T(kappa / 2) * (at.J - T(1)) * (at.J - T(1));
+//     }
+//   };
+//
+// and a line in LawList (laws.hpp).
+#include <heml/materials/volume.hpp>
+#include <heml/math/jet.hpp>
+
+namespace heml {
+
+template <class Self, class Real, bool continued>
+struct GeneralLaw {
+  static constexpr bool has_volume_term = true, uses_I2 = true, uses_J = true, uses_I4 = false;
+  static constexpr bool always_valid = continued;
+
+  bool valid(const Invariants<Real>& at) const {
+    return continued || at.J > smallest_ratio<Real> || at.J < -smallest_ratio<Real>;
+  }
+  Real energy(const Invariants<Real>& at) const { return self().density(at); }
+  Slopes<Real> slopes(const Invariants<Real>& at) const {
+    const auto w = differentiated(at);
+    return {w.slope[0], w.slope[1], w.slope[2]};
+  }
+  Curvatures<Real> curvatures(const Invariants<Real>& at) const {
+    const auto w = differentiated(at);
+    return {w.curvature(0, 0), w.curvature(0, 1), w.curvature(1, 1),
+            w.curvature(0, 2), w.curvature(1, 2), w.curvature(2, 2)};
+  }
+
+ private:
+  const Self& self() const { return static_cast<const Self&>(*this); }
+  Jet<Real, 3> differentiated(const Invariants<Real>& at) const {
+    return self().density(Invariants<Jet<Real, 3>>{variable<3>(at.I1, 0), variable<3>(at.I2, 1), variable<3>(at.J, 2)});
+  }
+};
+
+}  // namespace heml

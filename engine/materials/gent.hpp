@@ -1,0 +1,35 @@
+#pragma once
+// Gent, whose chains lock: W = −μ Jm/2 ln(1 − (Ī1−3)/Jm) + κ/2 (J−1)², defined for Ī1 − 3 < Jm. `continued` goes on
+// from 0.95 Jm with the second-order Taylor polynomial: C2.
+#include <heml/materials/general.hpp>
+
+namespace heml {
+
+template <class Real, bool continued>
+struct Gent : GeneralLaw<Gent<Real, continued>, Real, continued> {
+  using Base = GeneralLaw<Gent, Real, continued>;
+  Real mu, Jm, kappa;
+
+  static constexpr std::string_view name = "gent";
+  static constexpr std::string_view title = "Gent";
+  static constexpr std::string_view formula = "−μ Jm/2 ln(1 − (Ī1−3)/Jm) + κ/2 (J−1)²";
+  static constexpr std::string_view source = "Gent 1996";
+  static constexpr ParameterInfo parameters[] = {
+      {"mu", "μ", "Pa", "shear modulus at rest"},
+      {"Jm", "Jm", "", "value of Ī1−3 where the chains are straight and no further stretch is possible"},
+      {"kappa", "κ", "Pa", "bulk modulus: resistance to change of volume"},
+  };
+
+  bool valid(const Invariants<Real>& at) const {
+    return Base::valid(at) && (continued || isochoric<continued>(at).I1 - 3 < Real(0.999999) * Jm);
+  }
+
+  template <class T>
+  T density(const Invariants<T>& at) const {
+    const T s = (isochoric<continued>(at).I1 - T(3)) / T(Jm), s0(0.95), dJ = at.J - T(1);
+    const T c = continued && s > s0 ? s0 : s, room = T(1) - c, d = (s - c) / room;
+    return T(mu * Jm / 2) * (d * (T(1) + d * T(0.5)) - natural_log(room)) + T(kappa / 2) * dJ * dJ;
+  }
+};
+
+}  // namespace heml

@@ -1,0 +1,72 @@
+#pragma once
+// One family of fibres in a neo-Hookean matrix, after Holzapfel, Gasser and Ogden: W = K1 (Ī1−3) + κ/2 (J−1)² +
+// k1/(2 k2) (exp(k2 (Ī4−1)²) − 1) where Ī4 > 1; Ī4 = J^(−2/3) a0·C a0. Fibres bear no compression.
+#include <heml/materials/fung_demiray.hpp>
+#include <heml/materials/neo_hookean_iso.hpp>
+#include <limits>
+
+namespace heml {
+
+template <class Real, bool continued>
+struct Hgo {
+  Real K1, kappa, k1, k2;
+
+  static constexpr std::string_view name = "hgo";
+  static constexpr std::string_view title = "Holzapfel-Gasser-Ogden fibres";
+  static constexpr std::string_view formula = "K1 (Ī1−3) + κ/2 (J−1)² + k1/(2 k2) (exp(k2 (Ī4−1)²) − 1) where Ī4 > 1";
+  static constexpr std::string_view source = "Holzapfel, Gasser & Ogden 2000";
+  static constexpr ParameterInfo parameters[] = {
+      {"K1", "K1", "Pa", "half the shear modulus of the matrix"},
+      {"kappa", "κ", "Pa", "bulk modulus: resistance to change of volume"},
+      {"k1", "k1", "Pa", "stiffness of the fibres"},
+      {"k2", "k2", "", "how fast the fibres stiffen"},
+  };
+  static constexpr bool has_volume_term = true, uses_I2 = false, uses_J = true, uses_I4 = true;
+  static constexpr bool always_valid = continued;
+
+  bool valid(const Invariants<Real>& at) const {
+    if (!matrix().valid(at)) return false;
+    const Real stretch = volume_powers<continued>(at.J).p * at.I4 - 1;
+    return continued || !(stretch > 0 && k2 * stretch * stretch > exponent_in_range<Real>);
+  }
+
+  Real energy(const Invariants<Real>& at) const {
+    return matrix().energy(at) + fibre(volume_powers<continued>(at.J).p * at.I4).w;
+  }
+
+  Slopes<Real> slopes(const Invariants<Real>& at) const {
+    Slopes<Real> s = matrix().slopes(at);
+    const auto v = volume_powers<continued>(at.J);
+    const auto f = fibre(v.p * at.I4);
+    s.wJ += f.w1 * v.p1 * at.I4;
+    s.w4 = f.w1 * v.p;
+    return s;
+  }
+
+  Curvatures<Real> curvatures(const Invariants<Real>& at) const {
+    Curvatures<Real> c = matrix().curvatures(at);
+    const auto v = volume_powers<continued>(at.J);
+    const auto f = fibre(v.p * at.I4);
+    c.w44 = f.w2 * v.p * v.p;
+    c.w4J = f.w1 * v.p1 + f.w2 * v.p * v.p1 * at.I4;
+    c.wJJ += f.w1 * v.p2 * at.I4 + f.w2 * v.p1 * at.I4 * v.p1 * at.I4;
+    return c;
+  }
+
+ private:
+  NeoHookeanIso<Real, continued> matrix() const { return {{}, K1, kappa}; }
+
+  struct Fibre {
+    Real w, w1, w2;  ///< by Ī4
+  };
+  Fibre fibre(Real i4) const {
+    // At Ī4 = 1 it does not, whatever a rounding of the invariant says.
+    const bool bears = i4 > 1 + 32 * std::numeric_limits<Real>::epsilon();
+    const Real s = bears ? i4 - 1 : Real(0);  // all of it is zero there, curvature apart
+    const auto e = bounded_exp<continued>(k2 * s * s);
+    const Real on = bears ? k1 : Real(0);
+    return {k1 / (2 * k2) * e.less_one, k1 * s * e.slope, on * (e.slope + 2 * k2 * s * s * e.curvature)};
+  }
+};
+
+}  // namespace heml

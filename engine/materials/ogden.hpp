@@ -1,0 +1,108 @@
+#pragma once
+// Ogden with any number of terms: W = Σ_p μp/αp (λ̄1^αp + λ̄2^αp + λ̄3^αp − 3) + κ/2 (J−1)²; the shear modulus at rest
+// is Σ μp αp / 2. In c̄ = λ̄²: h(c̄) = Σ_p μp/αp (c̄^(αp/2) − 1).
+//
+// `continued` goes on with second-order Taylor polynomials in c̄ where a power would leave [0.001, 1000] on its steep
+// side, and below λ̄ = 0.2: C2, and smooth through c̄ = 0. (A polynomial in λ̄ itself would have a kink there as a
+// function of C.) What depends on C alone is the same for an element and its mirror image, so a term of negative power
+// has a hill at J = 0 that would hold an inverted element down: below J0 a quartic in J0 − J, as strong as the hill is
+// steep, is added.
+#include <algorithm>
+#include <heml/materials/principal.hpp>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace heml {
+
+template <class Real>
+struct OgdenTerm {
+  Real mu, alpha;
+  Real low, high;  ///< of c̄, between which the power stands
+};
+
+template <class Real, bool continued>
+struct Ogden {
+  std::shared_ptr<const std::vector<OgdenTerm<Real>>> terms;
+  Real steepness = 1;  ///< max |α/2 − 1| + 1
+  Real kappa = 0;
+  Real upright = 0;  ///< Pa, strength of the quartic below J0
+
+  static constexpr std::string_view name = "ogden";
+  static constexpr std::string_view title = "Ogden";
+  static constexpr std::string_view formula = "Σ μp/αp (λ̄1^αp + λ̄2^αp + λ̄3^αp − 3) + κ/2 (J−1)²";
+  static constexpr std::string_view source = "Ogden 1972";
+  static constexpr ParameterInfo parameters[] = {
+      {"mu", "μ", "Pa", "strength of each term; the shear modulus at rest is Σ μ α / 2", true},
+      {"alpha", "α", "", "power of each term; negative ones stiffen in compression", true},
+      {"kappa", "κ", "Pa", "bulk modulus: resistance to change of volume"},
+  };
+  static constexpr bool has_volume_term = true, uses_I2 = true, uses_J = true, uses_I4 = false;
+  static constexpr bool always_valid = continued;
+  static constexpr bool is_continued = continued;
+
+  /// values: all μ, all α, κ.
+  static Ogden from(std::span<const double> values) {
+    using std::abs;  // a scalar type of its own brings its own
+    const std::size_t count = (values.size() - 1) / 2;
+    auto list = std::make_shared<std::vector<OgdenTerm<Real>>>();
+    Ogden law;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Real mu = static_cast<Real>(values[i]), alpha = static_cast<Real>(values[count + i]), s = alpha / 2;
+      constexpr Real far = Real(6.907755278982137);  // ln 1000
+      const Real low = std::max(Real(0.04), s < 0 ? natural_exp(far / s) : Real(0));
+      const Real high = s > 0 ? natural_exp(std::min(far / s, Real(80))) : std::numeric_limits<Real>::max();
+      list->push_back({mu, alpha, low, high});
+      // The slope of h at c̄ = 0, continued, where the hill is steepest.
+      if (continued && s < 0) law.upright += abs(mu / 2 * (2 - s) * power(low, s - 1));
+      law.steepness = std::max(law.steepness, abs(s - 1) + 1);
+    }
+    law.terms = std::move(list);
+    law.kappa = static_cast<Real>(values.back());
+    return law;
+  }
+
+  bool valid(const Invariants<Real>& at) const {
+    if (continued) return true;
+    if (!(at.J > smallest_ratio<Real> || at.J < -smallest_ratio<Real>)) return false;
+    // Powers of eigenvalues between I3/I1² and I1 must fit; seen from a bound, since valid() has no eigenvalues.
+    const Real p = volume_powers<continued>(at.J).p, most = p * at.I1, least = Real(4) / (p * p * at.I1 * at.I1);
+    return steepness * natural_log(most) < exponent_in_range<Real> &&
+           -steepness * natural_log(least) < exponent_in_range<Real>;
+  }
+
+  Principal<Real> principal(Real c) const {
+    Principal<Real> sum{0, 0, 0};
+    for (const OgdenTerm<Real>& term : *terms) {
+      const Real s = term.alpha / 2;
+      const Real at = continued ? std::clamp(c, term.low, term.high) : c;
+      const Real less_one = natural_expm1(s * natural_log(at)), x = less_one + 1;
+      const Real h = term.mu / term.alpha * less_one, h1 = term.mu / 2 * x / at, h2 = h1 * (s - 1) / at, d = c - at;
+      sum.h += h + d * (h1 + d / 2 * h2);
+      sum.h1 += h1 + d * h2;
+      sum.h2 += h2;
+    }
+    return sum;
+  }
+
+  VolumeValue<Real> volume(Real J) const {
+    VolumeValue<Real> v{kappa / 2 * (J - 1) * (J - 1), kappa * (J - 1), kappa};
+    if constexpr (continued) {
+      constexpr Real J0 = continuation_start<Real>;
+      const Real d = J < J0 ? J0 - J : Real(0), k = upright / (J0 * J0);
+      v.w += k * d * d * d * d / 4, v.w1 -= k * d * d * d, v.w2 += 3 * k * d * d;
+    }
+    return v;
+  }
+
+  /// Close to one another by three Gauss points of the mean of h2 between them, whose error is below 1e-12 there.
+  Real divided(Real a, Real b) const {
+    const Real apart = a - b, middle = (a + b) / 2;
+    if (std::abs(apart) * steepness > Real(0.1) * middle) return (principal(a).h1 - principal(b).h1) / apart;
+    if (apart == 0) return principal(middle).h2;
+    const Real reach = apart / 2 * Real(0.7745966692414834);
+    return (5 * (principal(middle - reach).h2 + principal(middle + reach).h2) + 8 * principal(middle).h2) / 18;
+  }
+};
+
+}  // namespace heml

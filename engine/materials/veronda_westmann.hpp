@@ -1,0 +1,38 @@
+#pragma once
+// Veronda & Westmann, made for skin: W = c1 (exp(β(Ī1−3)) − 1) − c1 β/2 (Ī2−3) + κ/2 (J−1)². The exponent goes on as
+// in fung_demiray.hpp where `continued`.
+#include <heml/materials/general.hpp>
+
+namespace heml {
+
+template <class Real, bool continued>
+struct VerondaWestmann : GeneralLaw<VerondaWestmann<Real, continued>, Real, continued> {
+  using Base = GeneralLaw<VerondaWestmann, Real, continued>;
+  Real c1, beta, kappa;
+
+  static constexpr std::string_view name = "veronda_westmann";
+  static constexpr std::string_view title = "Veronda-Westmann";
+  static constexpr std::string_view formula = "c1 (exp(β(Ī1−3)) − 1) − c1 β/2 (Ī2−3) + κ/2 (J−1)²";
+  static constexpr std::string_view source = "Veronda & Westmann 1970";
+  static constexpr ParameterInfo parameters[] = {
+      {"c1", "c1", "Pa", "stiffness; the shear modulus at rest is c1 β"},
+      {"beta", "β", "", "how fast the tissue stiffens when stretched"},
+      {"kappa", "κ", "Pa", "bulk modulus: resistance to change of volume"},
+  };
+
+  bool valid(const Invariants<Real>& at) const {
+    return Base::valid(at) && (continued || beta * (isochoric<continued>(at).I1 - 3) < exponent_in_range<Real>);
+  }
+
+  template <class T>
+  T density(const Invariants<T>& at) const {
+    const auto bar = isochoric<continued>(at);
+    const T Q = T(beta) * (bar.I1 - T(3)), Q0(9.210340371976184), dJ = at.J - T(1);
+    const T c = continued && Q > Q0 ? Q0 : Q, d = Q - c;
+    const T less_one = natural_expm1(c);
+    return T(c1) * (less_one + (less_one + T(1)) * d * (T(1) + d * T(0.5))) - T(c1 * beta / 2) * (bar.I2 - T(3)) +
+           T(kappa / 2) * dJ * dJ;
+  }
+};
+
+}  // namespace heml

@@ -1,0 +1,89 @@
+#pragma once
+// What laws with a separate volume term share: powers of J in the isochoric invariants Ī1 = J^(−2/3) I1 and
+// Ī2 = J^(−4/3) I2, and the volume terms themselves.
+//
+// `continued` replaces the powers and the logarithm below J0 by their second-order Taylor polynomials there: C2, finite
+// and smooth through J = 0. Off, J^(−2/3) of an inverted element is that of |J|, as the cube root of 1/J² gives it; at
+// J = 0 there is no value.
+#include <cmath>
+#include <heml/materials/law.hpp>
+#include <heml/math/elementary.hpp>
+
+namespace heml {
+
+/// Where continuations in J begin.
+template <class Real>
+inline constexpr Real continuation_start = Real(0.3);
+
+/// Smallest |J| where powers of J are taken as defined.
+template <class Real>
+inline constexpr Real smallest_ratio = Real(1e-12);
+
+/// p = J^(−2/3) and q = J^(−4/3) with two derivatives each.
+template <class Real>
+struct VolumePowers {
+  Real p, p1, p2, q, q1, q2;
+};
+
+template <bool continued, class Real>
+[[gnu::always_inline]] inline VolumePowers<Real> volume_powers(Real J) {
+  const Real magnitude = J < 0 ? -J : J;
+  const Real c = continued ? (J > continuation_start<Real> ? J : continuation_start<Real>) : J;
+  const Real p = natural_exp(Real(-2.0 / 3) * natural_log(continued ? c : magnitude)), q = p * p;
+  const Real i = 1 / c;
+  // Derivatives at c; a power of |J| has them with the sign of J in 1/J.
+  const Real p1 = Real(-2.0 / 3) * p * i, p2 = Real(10.0 / 9) * p * i * i;
+  const Real q1 = Real(-4.0 / 3) * q * i, q2 = Real(28.0 / 9) * q * i * i;
+  if constexpr (!continued) return {p, p1, p2, q, q1, q2};
+  const Real d = J - c;
+  return {p + d * (p1 + d / 2 * p2), p1 + d * p2, p2, q + d * (q1 + d / 2 * q2), q1 + d * q2, q2};
+}
+
+/// Ī1 and Ī2 of any scalar, jets included: for laws given by their energy alone.
+template <bool continued, class T>
+Invariants<T> isochoric(const Invariants<T>& at) {
+  const T start(0.3);
+  const T magnitude = at.J < T(0) ? -at.J : at.J;
+  const T c = continued ? (at.J > start ? at.J : start) : magnitude;
+  const T p = natural_exp(T(-2.0 / 3) * natural_log(c));
+  if constexpr (!continued) return {p * at.I1, p * p * at.I2, at.J};
+  const T d = (at.J - c) / c;  // zero, and without slope, unless continued
+  return {p * (T(1) - d * T(2.0 / 3) + d * d * T(5.0 / 9)) * at.I1,
+          p * p * (T(1) - d * T(4.0 / 3) + d * d * T(14.0 / 9)) * at.I2, at.J};
+}
+
+/// Volume terms other than the contract's κ/2 (J−1)², which stands in the laws themselves. As a law of its own, added
+/// to the isochoric part of another.
+template <class Real, bool continued, bool simo_taylor>
+struct VolumeLaw {
+  Real kappa;
+
+  static constexpr std::string_view name = simo_taylor ? "simo_taylor" : "logarithmic";
+  static constexpr std::string_view title = "volume term";
+  static constexpr std::string_view formula = simo_taylor ? "κ/4 (J² − 1 − 2 ln J)" : "κ/2 (ln J)²";
+  static constexpr std::string_view source = "Simo & Taylor 1982";
+  static constexpr ParameterInfo parameters[] = {{"kappa", "κ", "Pa", "bulk modulus"}};
+  static constexpr bool has_volume_term = true, uses_I2 = false, uses_J = true, uses_I4 = false;
+  static constexpr bool always_valid = continued;
+
+  bool valid(const Invariants<Real>& at) const { return continued || at.J > smallest_ratio<Real>; }
+  Real energy(const Invariants<Real>& at) const { return value(at.J).w; }
+  Slopes<Real> slopes(const Invariants<Real>& at) const { return {0, 0, value(at.J).w1}; }
+  Curvatures<Real> curvatures(const Invariants<Real>& at) const { return {0, 0, 0, 0, 0, value(at.J).w2}; }
+
+ private:
+  struct Value {
+    Real w, w1, w2;
+  };
+  Value value(Real J) const {
+    const Real c = continued ? (J > continuation_start<Real> ? J : continuation_start<Real>) : J;
+    const Real l = natural_log(c), i = 1 / c, d = J - c;
+    const Real w = simo_taylor ? kappa / 4 * (c * c - 1 - 2 * l) : kappa / 2 * l * l;
+    const Real w1 = simo_taylor ? kappa / 2 * (c - i) : kappa * l * i;
+    const Real w2 = simo_taylor ? kappa / 2 * (1 + i * i) : kappa * (1 - l) * i * i;
+    if constexpr (!continued) return {w, w1, w2};
+    return {w + d * (w1 + d / 2 * w2), w1 + d * w2, w2};
+  }
+};
+
+}  // namespace heml

@@ -1,0 +1,108 @@
+// Gmsh: https://gmsh.info/doc/texinfo/gmsh.html, "MSH file format", $ElementData: the same in versions 2 and 4.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <heml/mesh/gmsh_data.hpp>
+
+namespace heml {
+namespace {
+
+constexpr long long most_tags = 1000;
+
+bool by_number(const GmshElement& a, const GmshElement& b) { return a.number < b.number; }
+
+// Moves to the next word, on this line or a later one.
+void ahead(Scanner& in, std::string_view what) {
+  if (!in.has_word()) in.need_line(what);
+}
+
+std::size_t tag_count(Scanner& in, std::string_view what) {
+  ahead(in, what);
+  return static_cast<std::size_t>(in.integer(what, 0, most_tags));
+}
+
+// A line of text without its quotes; what follows on it is left for need_line().
+std::string name_from(Scanner& in) {
+  in.need_line("the name of the data");
+  std::string_view line = in.rest().substr(0, in.rest().find('\n'));
+  line = line.substr(0, line.find_last_not_of(" \t\r") + 1);
+  if (line.size() >= 2 && line.front() == '"' && line.back() == '"') line = line.substr(1, line.size() - 2);
+  return std::string(line);
+}
+
+}  // namespace
+
+void GmshData::read(Scanner& in, ReadMesh& read) {
+  Section section = header(in);
+  const std::size_t components = section.components;
+  bool wanted = (components == 1 || components == 3) && !section.name.empty();
+  if (wanted && first_step_.try_emplace(section.name, section.step).first->second != section.step) {
+    read.more_steps = true;
+    wanted = false;
+  }
+  for (std::size_t e = 0; e < section.count; ++e) {
+    in.need_line("an element's data");
+    if (!wanted) continue;
+    section.elements.push_back(in.wide_integer("an element number"));
+    for (std::size_t i = 0; i < components; ++i) section.values.push_back(in.any_number("a value"));
+    in.end_line("the element's data");
+  }
+  if (wanted) sections_.push_back(std::move(section));
+}
+
+GmshData::Section GmshData::header(Scanner& in) {
+  Section section;
+  const std::size_t texts = tag_count(in, "the number of string tags");
+  for (std::size_t i = 0; i < texts; ++i) {
+    const std::string text = name_from(in);
+    if (i == 0) section.name = text;
+  }
+  if (texts > 0) in.need_line("the number of real tags");
+  for (std::size_t left = tag_count(in, "the number of real tags"); left > 0; --left) {
+    ahead(in, "a real tag");
+    in.any_number("a real tag");
+  }
+  const std::size_t integers = tag_count(in, "the number of integer tags");
+  if (integers < 3) in.fail(fmt::format("{} integer tags", integers), "time step, components, number of elements");
+  ahead(in, "the time step");
+  section.step = in.integer("the time step");
+  ahead(in, "the number of components");
+  section.components = static_cast<std::size_t>(in.integer("the number of components", 0, most_tags));
+  ahead(in, "the number of elements");
+  section.count = in.count("the number of elements", 1 + section.components);
+  for (std::size_t i = 3; i < integers; ++i) {
+    ahead(in, "an integer tag");
+    in.wide_integer("an integer tag");
+  }
+  return section;
+}
+
+void GmshData::put(std::vector<GmshElement> tets, const Scanner& in, ReadMesh& read) const {
+  if (!std::is_sorted(tets.begin(), tets.end(), by_number)) std::sort(tets.begin(), tets.end(), by_number);
+  const auto tets_of = [&](long long number) {
+    return std::equal_range(tets.begin(), tets.end(), GmshElement{number, 0}, by_number);
+  };
+  const auto names_a_tet = [&](const Section& section) {
+    return std::any_of(section.elements.begin(), section.elements.end(), [&](long long number) {
+      const auto [begin, end] = tets_of(number);
+      return begin != end;
+    });
+  };
+  for (const Section& section : sections_)
+    if (names_a_tet(section)) field_in(read.mesh, section.name, section.components, in);
+  pad_fields(read.mesh, in);
+  for (const Section& section : sections_) {
+    if (!names_a_tet(section)) continue;
+    ElementField& field = field_in(read.mesh, section.name, section.components, in);
+    const double* value = section.values.data();
+    for (const long long number : section.elements) {
+      const auto [begin, end] = tets_of(number);
+      for (auto element = begin; element != end; ++element)
+        std::copy_n(value, section.components,
+                    &field.values[section.components * static_cast<std::size_t>(element->tet)]);
+      value += section.components;
+    }
+  }
+}
+
+}  // namespace heml

@@ -1,0 +1,273 @@
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <heml/materials/material.hpp>
+#include <heml/world/body_objective.hpp>
+#include <limits>
+
+namespace heml {
+namespace {
+
+constexpr double nothing = 1e-12;  // N: forces below vanish (contract, "tolerance")
+
+/// Negative eigenvalues to 0.
+template <class Matrix>
+void clamp(Matrix& K) {
+  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(K);
+  if (eigen.eigenvalues()[0] >= 0) return;
+  const auto& Q = eigen.eigenvectors();
+  K = Q * eigen.eigenvalues().cwiseMax(0).asDiagonal() * Q.transpose();
+}
+
+Mat3 cross_matrix(const Vec3& w) {
+  Mat3 result;
+  result << 0, -w.z(), w.y(), w.z(), 0, -w.x(), -w.y(), w.x(), 0;
+  return result;
+}
+
+Vec3 at(const Vector& x, int node) { return x.segment<3>(3 * node); }
+
+}  // namespace
+
+template <class Real>
+BodyObjective<Real>::BodyObjective(ElasticBody<Real>& body, const Model<Real>& model, const std::vector<Real>& mass,
+                                   const FreeNodes& free, const std::vector<GraspSpring<Real>>& grasps,
+                                   ThreadTeam& team)
+    : body_(body), model_(model), mass_(mass), free_(free), grasps_(grasps), team_(team) {
+  find_noise();
+}
+
+/// From the forces at rest, which are nothing but round-off, within bounds from the stiffness: some laws have a stress
+/// at rest, and some meshes numbers without round-off.
+template <class Real>
+void BodyObjective<Real>::find_noise() {
+  Vector rest(3 * static_cast<Eigen::Index>(model_.mesh.nodes.size())), r;
+  for (std::size_t n = 0; n < model_.mesh.nodes.size(); ++n)
+    rest.segment<3>(3 * static_cast<int>(n)) = model_.mesh.nodes[n];
+  residual(rest, r);
+  double at_rest = 0, inertia = 0;
+  for (std::size_t n = 0; n < mass_.size(); ++n) {
+    const double m = static_cast<double>(mass_[n]);
+    inertia += m;
+    if (m > 0) at_rest = std::max(at_rest, (forces_ - external_).segment<3>(3 * static_cast<int>(n)).norm() / m);
+  }
+  // An energy density is found as a difference of numbers of the size of a modulus: ω² m L² in all.
+  constexpr double epsilon = std::numeric_limits<Real>::epsilon(), safety = 4;
+  const double bound = static_cast<double>(body_.frequency_bound(x_.data(), team_));
+  const double spacing = model_.diagonal / std::cbrt(static_cast<double>(std::max<std::size_t>(1, mass_.size())));
+  noise_ = epsilon * bound * inertia * spacing * spacing;
+  const double worst = epsilon * bound * model_.diagonal;
+  acceleration_noise_ = std::clamp(safety * at_rest, worst / 10, worst);
+}
+
+template <class Real>
+const Real* BodyObjective<Real>::as_real(const Vector& x, std::vector<Real>& scratch) const {
+  scratch.resize(static_cast<std::size_t>(x.size()));
+  for (std::size_t i = 0; i < scratch.size(); ++i) scratch[i] = static_cast<Real>(x[static_cast<Eigen::Index>(i)]);
+  return scratch.data();
+}
+
+template <class Real>
+void BodyObjective<Real>::set_time(double time, const Vec3& gravity) {
+  time_ = time;
+  gravity_ = gravity;
+}
+
+template <class Real>
+void BodyObjective<Real>::set_velocity(double d, const Vector& x_bar) {
+  d_ = d;
+  x_bar_ = x_bar;
+}
+
+template <class Real>
+void BodyObjective<Real>::begin_static(double duration, const Vec3& gravity, const Vector& start) {
+  duration_ = duration;
+  full_gravity_ = gravity;
+  d_ = 0;
+  inverted_at_start_ = count_inverted(start);
+}
+
+template <class Real>
+void BodyObjective<Real>::set_load(double fraction) {
+  set_time(fraction * duration_, fraction * full_gravity_);
+}
+
+template <class Real>
+void BodyObjective<Real>::place_held(double fraction, Vector& x) const {
+  for (const HeldNode& held : model_.held) x.segment<3>(3 * held.node) = held_at(model_, held, fraction * duration_).x;
+}
+
+template <class Real>
+double BodyObjective<Real>::imbalance(const Vector& r) const {
+  double reactions = 0;
+  for (const HeldNode& held : model_.held) reactions += forces_.segment<3>(3 * held.node).squaredNorm();
+  const double carried = std::max(std::sqrt(reactions), external_.norm());
+  const double left = r.norm();
+  if (carried <= nothing) return left <= nothing ? 0 : left / nothing;
+  return left / carried;
+}
+
+template <class Real>
+double BodyObjective<Real>::unbalanced() const {
+  Vec3 sum = Vec3::Zero();
+  double sizes = 0;
+  for (const int n : free_.node) {
+    sum += at(external_, n);
+    sizes += at(external_, n).norm();
+  }
+  return sizes > nothing ? sum.norm() / sizes : 0;
+}
+
+template <class Real>
+int BodyObjective<Real>::count_inverted(const Vector& x) const {
+  return static_cast<int>(std::count_if(model_.mesh.tets.begin(), model_.mesh.tets.end(), [&](const Tet& tet) {
+    return !(signed_volume(at(x, tet[0]), at(x, tet[1]), at(x, tet[2]), at(x, tet[3])) > 0);
+  }));
+}
+
+template <class Real>
+bool BodyObjective<Real>::acceptable(const Vector& x) const {
+  return count_inverted(x) <= inverted_at_start_;
+}
+
+template <class Real>
+void BodyObjective<Real>::accept(const Vector& x) {
+  if (body_.has_memory()) body_.commit(as_real(x, x_));
+}
+
+template <class Real>
+void BodyObjective<Real>::add_external(const Real* x, const Vector& x_double) {
+  f_.assign(f_.size(), Real(0));
+  for (const auto& load : model_.dead) add_load(load, time_, f_.data());
+  for (const auto& load : model_.pressures) add_load(load, time_, x, f_.data());
+  if (!grasps_.empty()) {
+    v_.assign(f_.size(), Real(0));
+    if (d_ > 0)
+      for (std::size_t i = 0; i < v_.size(); ++i) {
+        const auto k = static_cast<Eigen::Index>(i);
+        v_[i] = static_cast<Real>((x_double[k] - x_bar_[k]) / d_);
+      }
+    for (const auto& grasp : grasps_) grasp.add_forces(x, v_.data(), f_.data());
+  }
+  external_.resize(x_double.size());
+  for (std::size_t n = 0; n < mass_.size(); ++n)
+    for (std::size_t i = 0; i < 3; ++i)
+      external_[static_cast<Eigen::Index>(3 * n + i)] =
+          static_cast<double>(f_[3 * n + i]) + static_cast<double>(mass_[n]) * gravity_[static_cast<int>(i)];
+}
+
+template <class Real>
+bool BodyObjective<Real>::residual(const Vector& x, Vector& r) {
+  const Real* at_x = as_real(x, x_);
+  f_.resize(x_.size());
+  const bool defined = body_.forces(at_x, f_.data(), team_);
+  forces_.resize(x.size());
+  for (std::size_t i = 0; i < f_.size(); ++i) forces_[static_cast<Eigen::Index>(i)] = static_cast<double>(f_[i]);
+  add_external(at_x, x);
+  forces_ += external_;
+  r.setZero(x.size());
+  for (const int n : free_.node) r.segment<3>(3 * n) = forces_.segment<3>(3 * n);
+  return defined;
+}
+
+template <class Real>
+std::optional<double> BodyObjective<Real>::value(const Vector& x) {
+  if (!model_.pressures.empty()) return std::nullopt;
+  const Real* at_x = as_real(x, x_);
+  double sum = body_.potential(at_x);
+  for (std::size_t n = 0; n < mass_.size(); ++n)
+    sum -= static_cast<double>(mass_[n]) * gravity_.dot(at(x, static_cast<int>(n)) - model_.mesh.nodes[n]);
+  for (const auto& load : model_.dead)
+    for (std::size_t k = 0; k < load.nodes.size(); ++k) {
+      const Vec3 moved = at(x, load.nodes[k]) - model_.mesh.nodes[static_cast<std::size_t>(load.nodes[k])];
+      for (int i = 0; i < 3; ++i)
+        sum -=
+            ramp(time_, load.over) * static_cast<double>(load.forces[3 * k + static_cast<std::size_t>(i)]) * moved[i];
+    }
+  for (const auto& grasp : grasps_) {
+    sum += grasp.energy(at_x);
+    if (d_ > 0)
+      grasp.each_stiffness([&](int n, Real, Real damping) {
+        sum += static_cast<double>(damping) / (2 * d_) * (at(x, n) - at(x_bar_, n)).squaredNorm();
+      });
+  }
+  return sum;
+}
+
+/// Pressure pushes each node of a face by q = p (b−a)×(c−a), p a sixth of the pressure inward, so that
+/// ∂q/∂x_j = p [w_j]×, w the opposite edges. Calls visit(face, p, w).
+template <class Real>
+template <class Visit>
+void BodyObjective<Real>::each_pressed_face(const Vector& x, const Visit& visit) const {
+  for (const auto& load : model_.pressures) {
+    const double p = -static_cast<double>(load.pascal) * ramp(time_, load.over) / 6;
+    for (const Triangle& face : load.faces) {
+      const Vec3 a = at(x, face[0]), b = at(x, face[1]), c = at(x, face[2]);
+      visit(face, p, std::array<Vec3, 3>{c - b, a - c, b - a});
+    }
+  }
+}
+
+template <class Real>
+void BodyObjective<Real>::product(const Vector& x, const Vector& dx, Vector& out) {
+  const Real* at_x = as_real(x, x_);
+  const Real* change = as_real(dx, dx_);
+  f_.resize(x_.size());
+  body_.force_change(at_x, change, f_.data(), team_);
+  out.setZero(x.size());
+  for (const int n : free_.node)
+    for (int i = 0; i < 3; ++i)
+      out[3 * n + i] = -static_cast<double>(f_[static_cast<std::size_t>(3 * n + i)]) +
+                       anchor_ * static_cast<double>(mass_[static_cast<std::size_t>(n)]) * dx[3 * n + i];
+  const auto add = [&](int n, const Vec3& force) {
+    if (free_.number[static_cast<std::size_t>(n)] >= 0) out.segment<3>(3 * n) += force;
+  };
+  each_pressed_face(x, [&](const Triangle& face, double p, const std::array<Vec3, 3>& w) {
+    Vec3 push = Vec3::Zero();
+    for (std::size_t j = 0; j < 3; ++j) push += p * w[j].cross(at(dx, face[j]));
+    for (const int n : face) add(n, -push);
+  });
+  for (const auto& grasp : grasps_)
+    grasp.each_stiffness([&](int n, Real k, Real damping) {
+      add(n, (static_cast<double>(k) + (d_ > 0 ? static_cast<double>(damping) / d_ : 0)) * at(dx, n));
+    });
+}
+
+template <class Real>
+void BodyObjective<Real>::add_stiffness(const Vector& x, Projection projection, BlockMatrix& matrix) {
+  using Matrix12 = Eigen::Matrix<double, 12, 12, Eigen::RowMajor>;
+  const Real* at_x = as_real(x, x_);
+  body_.each_stiffness(at_x, [&](const Tet& nodes, const ElementMatrix<Real>& K) {
+    Matrix12 exact = Eigen::Map<const Eigen::Matrix<Real, 12, 12, Eigen::RowMajor>>(&K[0][0]).template cast<double>();
+    if (projection == Projection::clamp && exact.allFinite()) clamp(exact);
+    matrix.add_element(nodes, exact);
+  });
+  body_.springs().each_stiffness(at_x, [&](int a, int b, const Real(&block)[3][3]) {
+    Mat3 B;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) B(i, j) = static_cast<double>(block[i][j]);
+    if (projection == Projection::clamp) clamp(B);
+    matrix.add_node(a, B);
+    matrix.add_node(b, B);
+    matrix.add_pair(a, b, -B);
+  });
+  if (projection == Projection::none)  // of −p [w_j]× in row i: p/2 ([w_i]× − [w_j]×)
+    each_pressed_face(x, [&](const Triangle& face, double p, const std::array<Vec3, 3>& w) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t j = (i + 1) % 3;
+        matrix.add_pair(face[i], face[j], p / 2 * cross_matrix(w[i] - w[j]));
+      }
+    });
+  for (const auto& grasp : grasps_)
+    grasp.each_stiffness([&](int n, Real k, Real damping) {
+      matrix.add_diagonal(n, static_cast<double>(k) + (d_ > 0 ? static_cast<double>(damping) / d_ : 0));
+    });
+  if (anchor_ > 0)
+    for (const int n : free_.node)
+      matrix.add_diagonal(n, anchor_ * static_cast<double>(mass_[static_cast<std::size_t>(n)]));
+}
+
+template class BodyObjective<float>;
+template class BodyObjective<double>;
+
+}  // namespace heml

@@ -1,0 +1,75 @@
+#pragma once
+// A body with all that acts on it, as solvers see it (dynamics/objective.hpp): elastic energy and what remembers,
+// gravity, dead loads, pressure, grasps. Inertia comes on top (dynamics/incremental_potential.hpp).
+//
+// Pressure follows the surface and has no potential in general: with it value() has nothing to say, products are not
+// symmetric, and the assembled stiffness has the symmetric part of pressure's.
+#include <heml/base/thread_team.hpp>
+#include <heml/dynamics/equilibrium.hpp>
+#include <heml/elastic/body.hpp>
+#include <heml/tools/grasp.hpp>
+#include <heml/world/model.hpp>
+
+namespace heml {
+
+template <class Real>
+class BodyObjective final : public LoadedObjective {
+ public:
+  /// mass: #V, kg. All must outlive this.
+  BodyObjective(ElasticBody<Real>& body, const Model<Real>& model, const std::vector<Real>& mass, const FreeNodes& free,
+                const std::vector<GraspSpring<Real>>& grasps, ThreadTeam& team);
+
+  /// Loads as at time t, s. gravity: m/s².
+  void set_time(double time, const Vec3& gravity);
+  /// Velocities are (x − x_bar)/d, for what is damped; d = 0: no velocity.
+  void set_velocity(double d, const Vector& x_bar);
+  /// Adds a · mass to the stiffness, not to the residual, a in 1/s²: holds what nothing else does while it is solved.
+  void set_anchor(double a) { anchor_ = a; }
+
+  // Static worlds: the load is the fraction of a duration, s; start: the state at load 0.
+  void begin_static(double duration, const Vec3& gravity, const Vector& start);
+  void set_load(double fraction) override;
+  void place_held(double fraction, Vector& x) const override;
+  double imbalance(const Vector& r) const override;
+  bool acceptable(const Vector& x) const override;
+  void accept(const Vector& x) override;
+
+  bool residual(const Vector& x, Vector& r) override;
+  std::optional<double> value(const Vector& x) override;
+  double value_noise() const override { return noise_; }
+  void product(const Vector& x, const Vector& dx, Vector& out) override;
+  bool symmetric() const override { return model_.pressures.empty(); }
+  void add_stiffness(const Vector& x, Projection projection, BlockMatrix& matrix) override;
+
+  /// Force of all loads and gravity together at the last residual(), as a part of their sizes' sum: 0 where they
+  /// balance.
+  double unbalanced() const;
+  /// Forces from all sides but supports at the last residual(), 3 #V, N.
+  const Vector& forces() const { return forces_; }
+  /// Round-off of forces, as an acceleration, m/s²: the largest at any node.
+  double acceleration_noise() const { return acceleration_noise_; }
+
+ private:
+  const Real* as_real(const Vector& x, std::vector<Real>& scratch) const;
+  void find_noise();
+  void add_external(const Real* x, const Vector& x_double);
+  template <class Visit>
+  void each_pressed_face(const Vector& x, const Visit& visit) const;
+  int count_inverted(const Vector& x) const;
+
+  ElasticBody<Real>& body_;
+  const Model<Real>& model_;
+  const std::vector<Real>& mass_;
+  const FreeNodes& free_;
+  const std::vector<GraspSpring<Real>>& grasps_;
+  ThreadTeam& team_;
+  double time_ = 0, duration_ = 0, d_ = 0, anchor_ = 0;
+  Vec3 gravity_ = Vec3::Zero(), full_gravity_ = Vec3::Zero();
+  Vector x_bar_;
+  double noise_ = 0, acceleration_noise_ = 0;
+  int inverted_at_start_ = 0;
+  Vector forces_, external_;
+  std::vector<Real> x_, dx_, f_, v_;  ///< scratch
+};
+
+}  // namespace heml

@@ -1,0 +1,39 @@
+#pragma once
+// What implicit and static methods keep of a body between steps: the free nodes, the body as an objective, a linear
+// solver with its factors, the step before. Made when first needed, and anew when the material changes.
+#include <heml/dynamics/equilibrium.hpp>
+#include <heml/dynamics/incremental_potential.hpp>
+#include <heml/dynamics/linear_solver.hpp>
+#include <heml/world/body_objective.hpp>
+#include <optional>
+
+namespace heml {
+
+template <class Real>
+struct ImplicitParts {
+  FreeNodes free;
+  Vector mass;  ///< 3 #V, kg; 0 where not free
+  BodyObjective<Real> body;
+  LinearSolver linear;
+  IncrementalPotential step;
+  Vector x, v;                ///< 3 #V, the state in double
+  Vector x_before, v_before;  ///< one step earlier, for BDF2
+  double h_before = 0;        ///< s; 0: there was none
+  std::optional<Equilibrium> equilibrium;
+
+  /// inverse_mass: #V, 0 where not free. modulus: #T, Pa. All references must outlive this.
+  ImplicitParts(ElasticBody<Real>& elastic, const Model<Real>& model, const std::vector<Real>& masses,
+                const std::vector<Real>& inverse_mass, const std::vector<double>& modulus,
+                const std::vector<GraspSpring<Real>>& grasps, ThreadTeam& team, bool is_static);
+  ImplicitParts(const ImplicitParts&) = delete;
+  ImplicitParts& operator=(const ImplicitParts&) = delete;
+};
+
+/// Modulus of each element at rest that the scalar matrix of a linear solver stands for, Pa. material_of: #T.
+std::vector<double> preconditioner_moduli(const TetMesh& mesh, const std::vector<int>& material_of,
+                                          const std::vector<RegionMaterial>& materials);
+
+/// Whether every connected part of the mesh has three held nodes that are not on a line.
+bool well_held(const TetMesh& mesh, const std::vector<HeldNode>& held);
+
+}  // namespace heml

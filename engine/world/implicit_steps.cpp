@@ -1,0 +1,181 @@
+// Steps of the implicit methods: each is one or two stages (dynamics/implicit_stage.hpp), each stage one minimisation.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <heml/world/typed_world.hpp>
+
+namespace heml {
+namespace {
+constexpr double smallest_share = 1.0 / 64;  // of a tick: shorter steps are not tried
+constexpr double slack_of_motion = 1e-3;     // of gravity's acceleration: what a step may leave unbalanced
+constexpr double earth = 9.81;               // m/s²
+
+/// ‖M⁻¹r‖_∞, m/s².
+double largest_acceleration(const Vector& mass, const Vector& r) {
+  return (mass.array() > 0).select(r.array() / mass.array(), 0).abs().maxCoeff();
+}
+}  // namespace
+
+template <class Real>
+ImplicitParts<Real>& TypedWorld<Real>::implicit() {
+  if (!implicit_)
+    implicit_ = std::make_unique<ImplicitParts<Real>>(
+        body_, model_, mass_, inverse_mass_, preconditioner_moduli(model_.mesh, model_.material_of, setup_.materials),
+        grasps_, team_, setup_.solver.is_static());
+  return *implicit_;
+}
+
+/// A given step is obeyed; without one, a tick is halved where its step does not converge.
+template <class Real>
+void TypedWorld<Real>::advance_implicit(double until) {
+  const double whole = until - state_.time;
+  double longest = whole;
+  while (state_.time < until && !halt_ && !interrupted_) {
+    const bool last = state_.time + 1.5 * longest > until;
+    const double after = last ? until : state_.time + longest;
+    if (implicit_step(after - state_.time, after)) {
+      ++substeps_;
+      continue;
+    }
+    longest /= 2;
+    if (setup_.solver.step || longest < smallest_share * whole)
+      halt_unsolved(
+          fmt::format("did not converge at t = {:.6g} s: {:.3g} of the forces is left unbalanced (take a "
+                      "smaller step{})",
+                      state_.time, work_.residual, setup_.solver.tolerance ? " or a larger tolerance" : ""));
+  }
+}
+
+template <class Real>
+void TypedWorld<Real>::halt_unsolved(const std::string& message) {
+  if (remembers_) body_.begin_step(0);
+  take_forces();
+  halt_ = Halt{Halt::Cause::not_converged, -1, -1, message};
+}
+
+template <class Real>
+bool TypedWorld<Real>::implicit_step(double h, double time_after) {
+  ImplicitParts<Real>& parts = implicit();
+  const auto size = static_cast<Eigen::Index>(state_.x.size());
+  using Numbers = Eigen::Map<const Eigen::Matrix<Real, Eigen::Dynamic, 1>>;
+  parts.x = Numbers(state_.x.data(), size).template cast<double>();
+  parts.v = Numbers(state_.v.data(), size).template cast<double>();
+  Vector x = parts.x, v = parts.v;
+  bool done = false;
+  if (method_ == Integrator::backward_euler) {
+    done = solve_stage(backward_euler_stage(x, v, h), h, time_after, x, v);
+  } else if (method_ == Integrator::bdf2 && parts.h_before > 0) {
+    done = solve_stage(bdf2_stage(x, v, parts.x_before, parts.v_before, h, parts.h_before), h, time_after, x, v);
+  } else {
+    const Vector f = Numbers(state_.f.data(), size).template cast<double>();
+    const Vector push = (parts.mass.array() > 0).select(f.array() / parts.mass.array(), 0);
+    const Stage first = tr_bdf2::first_stage(x, v, push - setup_.solver.damping * v, h);
+    const double middle = tr_bdf2::gamma * h;
+    done = solve_stage(first, middle, state_.time + middle, x, v) &&
+           solve_stage(tr_bdf2::second_stage(parts.x, parts.v, x, v, h), h, time_after, x, v);
+  }
+  if (!done) {
+    if (remembers_) body_.begin_step(0);
+    return false;
+  }
+  parts.x_before = parts.x;
+  parts.v_before = parts.v;
+  parts.h_before = h;
+  take_state(x, v, time_after);
+  if (remembers_) {
+    body_.commit(state_.x.data());
+    body_.begin_step(0);
+  }
+  ++steps_;
+  return true;
+}
+
+/// Keeps what a solve has reached; forces are those the objective saw last.
+template <class Real>
+void TypedWorld<Real>::take_state(const Vector& x, const Vector& v, double time) {
+  const Vector& f = implicit().body.forces();
+  for (std::size_t i = 0; i < state_.x.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    state_.x[i] = static_cast<Real>(x[k]);
+    state_.v[i] = static_cast<Real>(v[k]);
+    state_.f[i] = static_cast<Real>(f[k]);
+  }
+  state_.time = time;
+  last_valid_ = state_;
+}
+
+/// From x (the start of the step or of the stage) to the end of a stage, in x and v. h: s since the start of the step.
+template <class Real>
+bool TypedWorld<Real>::solve_stage(const Stage& stage, double h, double time, Vector& x, Vector& v) {
+  ImplicitParts<Real>& parts = implicit();
+  const double damping = setup_.solver.damping;
+  if (remembers_) body_.begin_step(static_cast<Real>(h));
+  parts.body.set_time(time, setup_.gravity);
+  parts.body.set_velocity(stage.d, stage.x_bar);
+  parts.step.set(stage.a(damping), stage.y(damping));
+  parts.linear.set_inertia(stage.a(damping));
+  x = stage_start(stage, time, x);
+  NewtonOptions options;
+  const NewtonResult newton = minimise(parts.step, parts.linear, stage_stop(), options, x);
+  work_.iterations += newton.iterations;
+  Vector r;
+  parts.step.residual(x, r);
+  work_.residual = parts.body.imbalance(r);
+  if (!newton.converged() && !(newton.end != NewtonResult::End::undefined && is_balanced_enough(stage, r))) return false;
+  v = stage.velocity(x);
+  for (const HeldNode& held : model_.held) v.segment<3>(3 * held.node) = held_at(model_, held, time).v;
+  return true;
+}
+
+/// Of where the body is and where it would fly: the one with the lower Φ (without this guard, methods of few iterations
+/// gain energy without bound); where held nodes move so far that neither is possible, along the tangent.
+template <class Real>
+Vector TypedWorld<Real>::stage_start(const Stage& stage, double time, const Vector& x) {
+  ImplicitParts<Real>& parts = implicit();
+  const auto place_held = [&](Vector& to) {
+    for (const HeldNode& held : model_.held) to.segment<3>(3 * held.node) = held_at(model_, held, time).x;
+  };
+  Vector stay = x, fly = stage.y(setup_.solver.damping), r_stay, r_fly;
+  for (Eigen::Index i = 0; i < fly.size(); ++i)
+    if (!(parts.mass[i] > 0)) fly[i] = x[i];
+  place_held(stay);
+  place_held(fly);
+  const bool can_stay = parts.step.residual(stay, r_stay) && r_stay.allFinite();
+  const bool can_fly = parts.step.residual(fly, r_fly) && r_fly.allFinite();
+  if (can_stay && can_fly) {
+    const auto staying = parts.step.value(stay), flying = parts.step.value(fly);
+    return (staying ? *flying < *staying : r_fly.norm() < r_stay.norm()) ? fly : stay;
+  }
+  if (can_stay) return stay;
+  if (can_fly) return fly;
+  Vector r, stretched, d;
+  if (!parts.step.residual(x, r)) return stay;
+  parts.step.product(x, stay - x, stretched);
+  r -= stretched;
+  return parts.linear.solve(parts.step, x, r, 1e-2, d) ? Vector(stay + d) : stay;
+}
+
+/// Contract: "tolerance".
+template <class Real>
+Stop TypedWorld<Real>::stage_stop() {
+  ImplicitParts<Real>& parts = implicit();
+  return {[&parts](const Vector& r) { return parts.body.imbalance(r); },
+          setup_.solver.relative_tolerance()};
+}
+
+/// Whether a step may end where Newton's method can do no more: a tolerance that was given decides alone; without one, by
+/// what is left of acceleration, since an imbalance relative to small loads is beyond a stiff body's round-off.
+template <class Real>
+bool TypedWorld<Real>::is_balanced_enough(const Stage& stage, const Vector& r) {
+  if (setup_.solver.tolerance) return false;
+  ImplicitParts<Real>& parts = implicit();
+  const double noise = parts.body.acceleration_noise() + 0x1p-52 * stage.a(setup_.solver.damping) * model_.diagonal;
+  return largest_acceleration(parts.mass, r) <=
+         std::max(slack_of_motion * std::max(setup_.gravity.norm(), earth), 10 * noise);
+}
+
+template class TypedWorld<float>;
+template class TypedWorld<double>;
+
+}  // namespace heml

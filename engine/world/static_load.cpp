@@ -1,0 +1,63 @@
+// Static worlds: the body is at rest at every fraction of its load (dynamics/equilibrium.hpp).
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <heml/world/typed_world.hpp>
+#include <limits>
+
+namespace heml {
+namespace {
+constexpr double anchor = 1e-9;  // of the highest ω²: what holds a body that nothing else holds, while it is solved
+
+/// Whether the loads on a body that nothing holds have a sum. x: positions, 3 #V.
+template <class Real>
+bool pushed_away(BodyObjective<Real>& body, const Vector& x, double fraction) {
+  Vector r;
+  body.set_load(fraction);
+  body.residual(x, r);
+  return body.unbalanced() > 1e-6;
+}
+}  // namespace
+
+template <class Real>
+void TypedWorld<Real>::load_to(double fraction) {
+  if (halt_) return;
+  const FlushDenormals flush;
+  ImplicitParts<Real>& parts = implicit();
+  const double duration = setup_.solver.load_duration();
+  if (remembers_) body_.begin_step(std::numeric_limits<Real>::infinity());  // at rest for long: all has relaxed
+  const auto size = static_cast<Eigen::Index>(state_.x.size());
+  const Vector start =
+      Eigen::Map<const Eigen::Matrix<Real, Eigen::Dynamic, 1>>(state_.x.data(), size).template cast<double>();
+  parts.body.begin_static(duration, setup_.gravity, start);
+  if (!parts.equilibrium) {
+    if (!well_held(model_.mesh, model_.held))
+      parts.body.set_anchor(anchor * static_cast<double>(rest_frequency_ * rest_frequency_));
+    parts.equilibrium.emplace(parts.body, parts.linear, parts.mass, parts.free,
+                              setup_.solver.relative_tolerance(), start);
+  }
+  Equilibrium& equilibrium = *parts.equilibrium;
+  work_.load = equilibrium.load();
+  if (model_.held.empty() && pushed_away(parts.body, equilibrium.x(), fraction))
+    return halt_unsolved("no equilibrium: nothing holds the body and its loads do not balance (add a boundary entry)");
+  const bool reached = equilibrium.load_to(fraction, interrupted_);
+  work_.load = equilibrium.load();
+  work_.iterations = equilibrium.iterations();
+  work_.residual = equilibrium.imbalance();
+  steps_ = equilibrium.increments();
+  parts.body.set_load(equilibrium.load());
+  Vector r;
+  parts.body.residual(equilibrium.x(), r);
+  take_state(equilibrium.x(), Vector::Zero(equilibrium.x().size()), equilibrium.load() * duration);
+  if (!reached && !interrupted_)
+    halt_unsolved(fmt::format(
+        "no equilibrium found beyond {:.4g} of the load ({}): what is written is the last one", equilibrium.load(),
+        well_held(model_.mesh, model_.held)
+            ? "the body may snap, collapse or be crushed there, or leave the range of its law"
+            : "it is not held against every rigid motion: then loads must balance, in force and moment"));
+}
+
+template class TypedWorld<float>;
+template class TypedWorld<double>;
+
+}  // namespace heml

@@ -1,0 +1,77 @@
+#include <app/panel/chart.hpp>
+#include <cmath>
+#include <limits>
+
+#include "driver.hpp"
+
+using namespace heml;
+using namespace heml::panel;
+
+namespace {
+
+const Area place{{100, 50}, {700, 450}};
+constexpr ImU32 ink = colours::rgba(0xff00ff);
+
+/// Corners of what is drawn in a colour.
+std::vector<ImVec2> drawn(const Chart& chart, ImU32 colour = ink) {
+  test::ImguiContext context(1280, 720, 1);
+  ImGui::NewFrame();
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  draw_chart(list, place, chart, light_chart);
+  std::vector<ImVec2> corners;
+  for (const ImDrawVert& v : list.VtxBuffer) {
+    CHECK(std::isfinite(v.pos.x));
+    CHECK(std::isfinite(v.pos.y));
+    if (v.col == colour) corners.push_back(v.pos);
+  }
+  ImGui::Render();
+  return corners;
+}
+
+Chart chart_of(std::vector<ChartPoint> points, bool dots = false) {
+  Chart chart;
+  chart.title = "A title";
+  chart.subtitle = "and what is under it";
+  chart.x_label = "Stretch";
+  chart.y_quantity = "Stress";
+  chart.y_unit = "Pa";
+  chart.series.push_back({"", std::move(points), ink, dots, 1});
+  return chart;
+}
+
+}  // namespace
+
+TEST_CASE("curves stay within the area, the right way up") {
+  for (const bool small : {false, true}) {
+    Chart chart = chart_of({{0.8, -2e3}, {1, 0}, {1.3, 9e3}});
+    chart.small = small;
+    const auto corners = drawn(chart);
+    REQUIRE(corners.size() >= 6);
+    ImVec2 left = corners.front(), right = left;
+    for (const ImVec2& c : corners) {
+      CHECK(place.contains(c.x, c.y));
+      if (c.x < left.x) left = c;
+      if (c.x > right.x) right = c;
+    }
+    CHECK(left.y > right.y + 100);  // the larger stress is higher up
+    CHECK(right.x - left.x > 400);
+  }
+}
+
+TEST_CASE("what is not finite is left out, and nothing at all is an empty chart") {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinite = std::numeric_limits<double>::infinity();
+  CHECK(drawn(chart_of({{1, nan}, {infinite, 2}})).empty());
+  CHECK(drawn(chart_of({})).empty());
+  CHECK_FALSE(drawn(chart_of({{1, 2}, {nan, 3}, {2, 5}})).empty());
+  CHECK_FALSE(drawn(chart_of({{1, 0}, {1, 0}}, true)).empty());  // no extent
+}
+
+TEST_CASE("a band is drawn where it meets the axis, cut to it") {
+  Chart chart = chart_of({{1, 0}, {2, 1}});
+  chart.band = {1.5, 9, ""};
+  const auto corners = drawn(chart, light_chart.band);
+  REQUIRE_FALSE(corners.empty());
+  for (const ImVec2& c : corners) CHECK(place.contains(c.x, c.y));
+  chart.band = {5, 9, ""};
+  CHECK(drawn(chart, light_chart.band).empty());
+}

@@ -1,0 +1,196 @@
+"""Energies of the laws as formulas, and their derivatives, in 70 digits.
+
+Written from the invariants and stretches of F, as in the documentation of the laws; this knows nothing of how the
+program computes. Stresses and stiffnesses are differences of the energy, which in so many digits are exact to 30.
+"""
+from mpmath import mp, mpf
+
+mp.dps = 70
+STEP = mpf(10) ** -20  # of differences: truncated after its square, rounded at 1e-70 / 1e-40
+
+
+# ---- The formulas. F: nine mpf, row by row. ----
+
+def determinant(F):
+    return (F[0] * (F[4] * F[8] - F[5] * F[7]) - F[1] * (F[3] * F[8] - F[5] * F[6]) +
+            F[2] * (F[3] * F[7] - F[4] * F[6]))
+
+
+def right_cauchy_green(F):
+    return [sum(F[3 * k + i] * F[3 * k + j] for k in range(3)) for i in range(3) for j in range(3)]
+
+
+def product(A, B):
+    return [sum(A[3 * i + k] * B[3 * k + j] for k in range(3)) for i in range(3) for j in range(3)]
+
+
+def trace(A):
+    return A[0] + A[4] + A[8]
+
+
+def invariants(F):
+    """I1, I2, J."""
+    C = right_cauchy_green(F)
+    I1 = trace(C)
+    return I1, (I1 * I1 - trace(product(C, C))) / 2, determinant(F)
+
+
+def isochoric(F):
+    """Ī1, Ī2, J; of an inverted F with the cube root of 1/J²."""
+    I1, I2, J = invariants(F)
+    p = mp.cbrt(1 / (J * J))
+    return p * I1, p * p * I2, J
+
+
+def squared_stretches(C):
+    """Eigenvalues of C: the roots of its characteristic cubic by their cosines (O. K. Smith 1961)."""
+    mean = trace(C) / 3
+    B = [c - (mean if i % 4 == 0 else 0) for i, c in enumerate(C)]
+    size = mp.sqrt(trace(product(B, B)) / 6)
+    if size < mpf(10) ** -60:
+        return [mean] * 3
+    cosine = max(-1, min(1, determinant(B) / (2 * size**3)))
+    angle = mp.acos(cosine) / 3
+    first, last = mean + 2 * size * mp.cos(angle), mean + 2 * size * mp.cos(angle + 2 * mp.pi / 3)
+    return [first, 3 * mean - first - last, last]
+
+
+def quadratic(m, J):
+    return m["kappa"] / 2 * (J - 1) ** 2
+
+
+def stvk(m, F):
+    E = [(c - (1 if i % 4 == 0 else 0)) / 2 for i, c in enumerate(right_cauchy_green(F))]
+    return m["lambda"] / 2 * trace(E) ** 2 + m["mu"] * trace(product(E, E))
+
+
+def neo_hookean(m, F):
+    I1, _, J = invariants(F)
+    return m["mu"] / 2 * (I1 - 3) - m["mu"] * mp.log(J) + m["lambda"] / 2 * mp.log(J) ** 2
+
+
+def neo_hookean_iso(m, F):
+    I1, _, J = isochoric(F)
+    return m["K1"] * (I1 - 3) + quadratic(m, J)
+
+
+def mooney_rivlin(m, F):
+    I1, I2, J = isochoric(F)
+    return m["K1"] * (I1 - 3) + m["K2"] * (I2 - 3) + quadratic(m, J)
+
+
+def fung_demiray(m, F):
+    I1, _, J = isochoric(F)
+    return m["mu"] / (2 * m["gamma"]) * (mp.exp(m["gamma"] * (I1 - 3)) - 1) + quadratic(m, J)
+
+
+def ogden(m, F):
+    J = determinant(F)
+    p = mp.cbrt(1 / (J * J))
+    logarithms = [mp.log(p * c) / 2 for c in squared_stretches(right_cauchy_green(F))]
+    W = quadratic(m, J)
+    for mu, alpha in zip(m["mu"], m["alpha"]):
+        W += mu / alpha * (sum(mp.exp(alpha * x) for x in logarithms) - 3)
+    return W
+
+
+def fibre_stretch(m, F):
+    """Ī4, of a0 normalised."""
+    a = m["fibre"]
+    J = determinant(F)
+    stretched = [sum(F[3 * i + j] * a[j] for j in range(3)) for i in range(3)]
+    return mp.cbrt(1 / (J * J)) * sum(x * x for x in stretched) / sum(x * x for x in a)
+
+
+def hgo(m, F, bears):
+    """bears: whether the fibre bears load, Ī4 > 1. Decided once a state, so that differences stay on one side."""
+    W = neo_hookean_iso(m, F)
+    if bears:
+        W += m["k1"] / (2 * m["k2"]) * (mp.exp(m["k2"] * (fibre_stretch(m, F) - 1) ** 2) - 1)
+    return W
+
+
+def yeoh(m, F):
+    I1, _, J = isochoric(F)
+    return m["C10"] * (I1 - 3) + m["C20"] * (I1 - 3) ** 2 + m["C30"] * (I1 - 3) ** 3 + quadratic(m, J)
+
+
+def gent(m, F):
+    I1, _, J = isochoric(F)
+    return -m["mu"] * m["Jm"] / 2 * mp.log(1 - (I1 - 3) / m["Jm"]) + quadratic(m, J)
+
+
+def veronda_westmann(m, F):
+    I1, I2, J = isochoric(F)
+    return m["c1"] * (mp.exp(m["beta"] * (I1 - 3)) - 1) - m["c1"] * m["beta"] / 2 * (I2 - 3) + quadratic(m, J)
+
+
+def paper_neo_hookean(m, F):
+    I1, _, J = invariants(F)
+    return m["K1"] * (I1 - 3) + quadratic(m, J)
+
+
+def paper_mooney_rivlin(m, F):
+    I1, I2, J = invariants(F)
+    return m["K1"] * (I1 - 3) + m["K2"] * (I2 - 3) + quadratic(m, J)
+
+
+def paper_fung_demiray(m, F):
+    I1, _, J = invariants(F)
+    return m["mu"] / (2 * m["gamma"]) * (mp.exp(m["gamma"] * (I1 - 3)) - 1) + quadratic(m, J)
+
+
+VOLUME_TERMS = {  # what replaces κ/2 (J−1)²
+    "logarithmic": lambda kappa, J: kappa / 2 * mp.log(J) ** 2,
+    "simo_taylor": lambda kappa, J: kappa / 4 * (J * J - 1 - 2 * mp.log(J)),
+}
+
+
+def numbers(material):
+    """The material with mpf for its numbers, as the formulas take it."""
+    return {key: value if isinstance(value, str) else [mpf(x) for x in value] if isinstance(value, list) else mpf(value)
+            for key, value in material.items()}
+
+
+def energy_of(material):
+    """W(F) in mpf, and which side of a fibre's kink each state is on."""
+    m = numbers(material)
+    formula = globals()[material["law"]]
+    term = VOLUME_TERMS.get(material.get("volume_term"))
+
+    def W(F, bears=False):
+        value = formula(m, F, bears) if material["law"] == "hgo" else formula(m, F)
+        if term:
+            J = determinant(F)
+            value += term(m["kappa"], J) - quadratic(m, J)
+        return value
+
+    def bears(F):
+        # Where Ī4 is 1 but for rounding (rest, rotations, all stretches equal), the side is that of 1: bearing nothing.
+        return material["law"] == "hgo" and fibre_stretch(m, F) > 1 + mpf(10) ** -14
+
+    return W, bears
+
+
+def shifted(F, dF, size):
+    return [f + size * d for f, d in zip(F, dF)]
+
+
+def reference(material, F, dF):
+    """W, P (9) and dP (9) of F and dF given in floating point."""
+    W_at, bears = energy_of(material)
+    F, dF = [mpf(f) for f in F], [mpf(d) for d in dF]
+    side = bears(F)
+    W = lambda at: W_at(at, side)
+    forward, back = shifted(F, dF, STEP), shifted(F, dF, -STEP)
+    P, dP = [], []
+    for k in range(9):
+        unit = [mpf(k == i) for i in range(9)]
+        P.append((W(shifted(F, unit, STEP)) - W(shifted(F, unit, -STEP))) / (2 * STEP))
+        dP.append((W(shifted(forward, unit, STEP)) - W(shifted(forward, unit, -STEP)) -
+                   W(shifted(back, unit, STEP)) + W(shifted(back, unit, -STEP))) / (4 * STEP**2))
+    return W(F), P, dP
+
+
+def norm(values):
+    return mp.sqrt(sum(mpf(v) ** 2 for v in values))

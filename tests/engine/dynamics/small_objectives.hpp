@@ -1,0 +1,82 @@
+#pragma once
+// Functions that solvers can be tried on without a body.
+#include <heml/dynamics/linear_solver.hpp>
+#include <heml/mesh/generate.hpp>
+
+namespace heml::test {
+
+/// Σ over nodes of w(x_n) of one node's three numbers, and springs along the edges of a mesh: U = Σ_n w + Σ k/2
+/// |x_a−x_b|².
+class NodesAndSprings : public Objective {
+ public:
+  NodesAndSprings(const TetMesh& mesh, const FreeNodes& free, double k) : mesh_(mesh), free_(free), k_(k) {}
+
+  bool residual(const Vector& x, Vector& r) override {
+    r.setZero(x.size());
+    each_edge([&](int a, int b) {
+      const Vec3 pull = k_ * (x.segment<3>(3 * b) - x.segment<3>(3 * a));
+      if (free_.number[static_cast<std::size_t>(a)] >= 0) r.segment<3>(3 * a) += pull;
+      if (free_.number[static_cast<std::size_t>(b)] >= 0) r.segment<3>(3 * b) -= pull;
+    });
+    for (const int n : free_.node)
+      for (int i = 0; i < 3; ++i) r[3 * n + i] -= slope(x[3 * n + i]);
+    return true;
+  }
+  std::optional<double> value(const Vector& x) override {
+    double sum = 0;
+    each_edge([&](int a, int b) { sum += k_ / 2 * (x.segment<3>(3 * b) - x.segment<3>(3 * a)).squaredNorm(); });
+    for (const int n : free_.node)
+      for (int i = 0; i < 3; ++i) sum += well(x[3 * n + i]);
+    return sum;
+  }
+  double value_noise() const override { return 1e-14; }
+  void product(const Vector& x, const Vector& dx, Vector& out) override {
+    out.setZero(x.size());
+    each_edge([&](int a, int b) {
+      const Vec3 pull = k_ * (dx.segment<3>(3 * b) - dx.segment<3>(3 * a));
+      if (free_.number[static_cast<std::size_t>(a)] >= 0) out.segment<3>(3 * a) -= pull;
+      if (free_.number[static_cast<std::size_t>(b)] >= 0) out.segment<3>(3 * b) += pull;
+    });
+    for (const int n : free_.node)
+      for (int i = 0; i < 3; ++i) out[3 * n + i] += curvature(x[3 * n + i]) * dx[3 * n + i];
+  }
+  void add_stiffness(const Vector& x, Projection projection, BlockMatrix& matrix) override {
+    each_edge([&](int a, int b) {
+      matrix.add_node(a, k_ * Mat3::Identity());
+      matrix.add_node(b, k_ * Mat3::Identity());
+      matrix.add_pair(a, b, -k_ * Mat3::Identity());
+    });
+    for (const int n : free_.node) {
+      Vec3 diagonal;
+      for (int i = 0; i < 3; ++i) diagonal[i] = curvature(x[3 * n + i]);
+      if (projection == Projection::clamp) diagonal = diagonal.cwiseMax(0);
+      matrix.add_node(n, diagonal.asDiagonal().toDenseMatrix());
+    }
+  }
+
+  virtual double well(double) const { return 0; }
+  virtual double slope(double) const { return 0; }
+  virtual double curvature(double) const { return 0; }
+
+ private:
+  template <class Visit>
+  void each_edge(const Visit& visit) const {
+    for (const Tet& tet : mesh_.tets)
+      for (std::size_t a = 0; a < 4; ++a)
+        for (std::size_t b = a + 1; b < 4; ++b) visit(tet[a], tet[b]);
+  }
+  const TetMesh& mesh_;
+  const FreeNodes& free_;
+  double k_;
+};
+
+/// A double well at every node: (x² − 1)²/4 each axis, concave round 0.
+class Wells final : public NodesAndSprings {
+ public:
+  using NodesAndSprings::NodesAndSprings;
+  double well(double x) const override { return (x * x - 1) * (x * x - 1) / 4; }
+  double slope(double x) const override { return x * (x * x - 1); }
+  double curvature(double x) const override { return 3 * x * x - 1; }
+};
+
+}  // namespace heml::test

@@ -1,0 +1,95 @@
+// What a material may say beside its law: parameters and fibres of each element, other volume terms, mixes of laws.
+#include <doctest/doctest.h>
+
+#include <heml/materials/point.hpp>
+
+#include "small_body.hpp"
+
+using namespace heml;
+using test::forces_of;
+using test::largest;
+using test::sample_material;
+using test::SmallBody;
+
+TEST_CASE("parameters from a field act as one material an element") {
+  std::mt19937_64 random(31);
+  for (const auto law : test::law_names()) {
+    CAPTURE(std::string(law));
+    SmallBody small(random, 0.1);
+    const Material sample = sample_material(law);
+    const std::size_t varied = law == "ogden" ? sample.parameters.size() - 1 : 0;
+    // Every element its own material ...
+    std::vector<Material> materials;
+    std::vector<int> material_of;
+    ElementField field{"stiffness", 1, {}};
+    for (std::size_t t = 0; t < small.mesh.tets.size(); ++t) {
+      materials.push_back(sample);
+      materials.back().parameters[varied] *= test::uniform(random, 0.5, 2);
+      field.values.push_back(materials.back().parameters[varied]);
+      material_of.push_back(static_cast<int>(t));
+    }
+    ElasticBody<double> each(small.mesh, material_of, materials, {});
+    // ... is one material with a field.
+    small.mesh.fields.push_back(field);
+    Material with_field = sample;
+    with_field.fields = {{varied, "stiffness"}};
+    auto body = small.of(with_field, false);
+    const auto f = forces_of(*body, small.x), expected = forces_of(each, small.x);
+    for (std::size_t i = 0; i < f.size(); ++i) CHECK(std::abs(f[i] - expected[i]) <= 1e-12 * largest(expected));
+    CHECK(test::stiffness_error(*body, small.x, random) <= 1e-5);
+    ThreadTeam team(1);
+    CHECK(body->frequency_bound(small.x.data(), team) >= each.frequency_bound(small.x.data(), team) * (1 - 1e-12));
+  }
+}
+
+TEST_CASE("fibres of each element come from a field") {
+  std::mt19937_64 random(32);
+  SmallBody small(random, 0.1);
+  std::vector<Material> materials;
+  std::vector<int> material_of;
+  ElementField field{"fibre", 3, {}};
+  for (std::size_t t = 0; t < small.mesh.tets.size(); ++t) {
+    materials.push_back(sample_material("hgo"));
+    materials.back().fibre = test::random_vector(random, 1).normalized();
+    for (const double value : Vec3(2 * materials.back().fibre)) field.values.push_back(value);  // of any length
+    material_of.push_back(static_cast<int>(t));
+  }
+  ElasticBody<double> each(small.mesh, material_of, materials, {});
+  small.mesh.fields.push_back(field);
+  Material with_field = sample_material("hgo");
+  with_field.fibre_field = "fibre";
+  auto body = small.of(with_field, false);
+  const auto f = forces_of(*body, small.x), expected = forces_of(each, small.x);
+  for (std::size_t i = 0; i < f.size(); ++i) CHECK(std::abs(f[i] - expected[i]) <= 1e-12 * largest(expected));
+}
+
+TEST_CASE("other volume terms: forces and stiffness are derivatives, values the formulas'") {
+  std::mt19937_64 random(33);
+  for (const VolumeTerm term : {VolumeTerm::logarithmic, VolumeTerm::simo_taylor})
+    for (const bool continuation : {false, true}) {
+      SmallBody small(random, continuation ? 0.6 : 0.08);
+      Material material = sample_material("mooney_rivlin");
+      material.volume_term = term;
+      auto body = small.of(material, continuation);
+      CHECK(test::gradient_error(*body, small.x) <= 1e-6);
+      CHECK(test::stiffness_error(*body, small.x, random) <= 1e-5);
+      const double J = 1.3, s = std::cbrt(J), kappa = material.parameters.back();
+      const double W = make_material_point(material, continuation)->energy(s * Mat3::Identity());
+      const double l = std::log(J);
+      CHECK(W == doctest::Approx(term == VolumeTerm::logarithmic ? kappa / 2 * l * l : kappa / 4 * (J * J - 1 - 2 * l))
+                     .epsilon(1e-12));
+    }
+}
+
+TEST_CASE("laws may be mixed in one body, and share its nodes") {
+  std::mt19937_64 random(34);
+  SmallBody small(random, 0.08);
+  std::vector<Material> materials;
+  for (const auto law : test::law_names(true)) materials.push_back(sample_material(law));
+  std::vector<int> material_of;
+  for (std::size_t t = 0; t < small.mesh.tets.size(); ++t)
+    material_of.push_back(static_cast<int>(t % materials.size()));
+  ElasticBody<double> body(small.mesh, material_of, materials, {});
+  CHECK(test::gradient_error(body, small.x) <= 1e-6);
+  CHECK(test::stiffness_error(body, small.x, random) <= 1e-5);
+}

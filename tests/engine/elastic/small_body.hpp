@@ -1,0 +1,98 @@
+#pragma once
+// A small irregular body of one material, moved from rest.
+#include <heml/elastic/body.hpp>
+#include <heml/mesh/generate.hpp>
+
+#include "engine/materials/sample_materials.hpp"
+#include "support.hpp"
+
+namespace heml::test {
+
+/// Names of the laws that are continua, or all.
+inline std::vector<std::string_view> law_names(bool with_springs = false) {
+  std::vector<std::string_view> names;
+  for (const LawInfo& law : laws())
+    if (law.is_continuum || with_springs) names.push_back(law.name);
+  return names;
+}
+
+/// A small irregular body, its nodes moved by `noise` of an edge from rest, stretched by F.
+struct SmallBody {
+  TetMesh mesh = make_box(Vec3(0.1, 0.08, 0.06), {3, 2, 2});
+  std::vector<double> x;
+
+  SmallBody(std::mt19937_64& random, double noise, const Mat3& F = Mat3::Identity(), const Vec3& shift = Vec3::Zero()) {
+    for (Vec3& X : mesh.nodes) X += random_vector(random, 0.004);
+    for (const Vec3& X : mesh.nodes) {
+      const Vec3 moved = F * X + shift + random_vector(random, noise * 0.03);
+      x.insert(x.end(), {moved.x(), moved.y(), moved.z()});
+    }
+  }
+
+  std::vector<double> rest() const {
+    std::vector<double> result;
+    for (const Vec3& X : mesh.nodes) result.insert(result.end(), {X.x(), X.y(), X.z()});
+    return result;
+  }
+
+  template <class Real = double>
+  std::unique_ptr<ElasticBody<Real>> of(const Material& material, bool continuation,
+                                        bool nodal_pressure = false) const {
+    return std::make_unique<ElasticBody<Real>>(mesh, std::vector<int>(mesh.tets.size(), 0), std::vector{material},
+                                               BodyOptions{continuation, nodal_pressure});
+  }
+  template <class Real = double>
+  std::unique_ptr<ElasticBody<Real>> of(std::string_view law, bool continuation) const {
+    return of<Real>(sample_material(law), continuation);
+  }
+};
+
+inline std::vector<double> forces_of(ElasticBody<double>& body, const std::vector<double>& x, int threads = 1) {
+  ThreadTeam team(threads);
+  std::vector<double> f(x.size());
+  body.forces(x.data(), f.data(), team);
+  return f;
+}
+
+inline double largest(const std::vector<double>& values) {
+  double result = 0;
+  for (const double v : values) result = std::max(result, std::abs(v));
+  return result;
+}
+
+/// How far −∂U/∂x by fourth-order differences is from the forces, relative to the largest.
+inline double gradient_error(ElasticBody<double>& body, const std::vector<double>& at, double h = 2e-7) {
+  const auto f = forces_of(body, at);
+  double worst = 0;
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    const auto U = [&](double by) {
+      auto x = at;
+      x[i] += by;
+      return body.potential(x.data());
+    };
+    const double slope = (8 * (U(h) - U(-h)) - (U(2 * h) - U(-2 * h))) / (12 * h);
+    worst = std::max(worst, std::abs(f[i] + slope));
+  }
+  return worst / largest(f);
+}
+
+/// How far −K dx is from differences of the forces along a random dx, relative to its largest entry.
+inline double stiffness_error(ElasticBody<double>& body, const std::vector<double>& at, std::mt19937_64& random) {
+  std::vector<double> dx(at.size()), change(at.size());
+  for (double& d : dx) d = uniform(random, -1, 1);
+  ThreadTeam team(1);
+  body.force_change(at.data(), dx.data(), change.data(), team);
+  const double h = 1e-7;
+  const auto along = [&](double by) {
+    auto x = at;
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] += by * dx[i];
+    return forces_of(body, x);
+  };
+  const auto a = along(h), b = along(-h), c = along(2 * h), d = along(-2 * h);
+  double worst = 0;
+  for (std::size_t i = 0; i < at.size(); ++i)
+    worst = std::max(worst, std::abs(change[i] - (8 * (a[i] - b[i]) - (c[i] - d[i])) / (12 * h)));
+  return worst / largest(change);
+}
+
+}  // namespace heml::test

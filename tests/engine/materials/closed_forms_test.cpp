@@ -1,0 +1,299 @@
+#include <doctest/doctest.h>
+
+#include <array>
+#include <cmath>
+#include <functional>
+#include <heml/materials/test_bench.hpp>
+#include <map>
+#include <string>
+
+#include "sample_materials.hpp"
+
+// Every law against its textbook stress by principal stretches (Ogden 1984; Holzapfel 2000, chapter 6), in long double
+// and written here by hand:
+//
+//   λi Pi = 2 w1 (λ̄i² − Ī1/3) − 2 w2 (λ̄i^−2 − Ī1'/3) + κ J (J−1),  Ī1' = Σ λ̄j^−2 = Ī2,  w1 = ∂w/∂Ī1, w2 = ∂w/∂Ī2
+//
+// Free stretches are found by bisection of the closed form.
+
+using namespace heml;
+using test::sample_material;
+
+namespace {
+
+using Long = long double;
+using Stretches = std::array<Long, 3>;
+using Stress = std::array<Long, 3>;
+
+Long product(const Stretches& s) { return s[0] * s[1] * s[2]; }
+
+/// Principal stretches without their change of volume.
+Stretches isochoric(const Stretches& s) {
+  const Long size = std::cbrt(product(s));
+  return {s[0] / size, s[1] / size, s[2] / size};
+}
+
+Long sum_of_powers(const Stretches& s, Long power) {
+  return std::pow(s[0], power) + std::pow(s[1], power) + std::pow(s[2], power);
+}
+
+/// Nominal stress from w1, w2 (functions of Ī1 − 3) and κ.
+using Slope = std::function<Long(Long)>;
+Stress split(const Stretches& s, const Slope& w1, Long w2, Long kappa) {
+  const Stretches bar = isochoric(s);
+  const Long I1 = sum_of_powers(bar, 2), I2 = sum_of_powers(bar, -2), J = product(s);
+  Stress P;
+  for (int i = 0; i < 3; ++i)
+    P[i] = (2 * w1(I1 - 3) * (bar[i] * bar[i] - I1 / 3) - 2 * w2 * (1 / (bar[i] * bar[i]) - I2 / 3) +
+            kappa * J * (J - 1)) /
+           s[i];
+  return P;
+}
+
+/// The paper's laws as printed: λi Pi = 2 w1 λi² + 2 w2 λi² (I1 − λi²) + κ J (J−1).
+Stress printed(const Stretches& s, const Slope& w1, Long w2, Long kappa) {
+  const Long I1 = sum_of_powers(s, 2), J = product(s);
+  Stress P;
+  for (int i = 0; i < 3; ++i) P[i] = 2 * s[i] * (w1(I1 - 3) + w2 * (I1 - s[i] * s[i])) + kappa * J * (J - 1) / s[i];
+  return P;
+}
+
+Slope constant(Long value) {
+  return [value](Long) { return value; };
+}
+Slope exponential(Long factor, Long rate) {
+  return [factor, rate](Long e) { return factor * std::exp(rate * e); };
+}
+
+using ClosedForm = std::function<Stress(const Stretches&, const std::vector<double>&)>;
+
+const std::map<std::string, ClosedForm, std::less<>>& closed_forms() {
+  using S = Stretches;
+  using V = std::vector<double>;
+  static const std::map<std::string, ClosedForm, std::less<>> table = {
+      {"stvk",  // λi (λ tr E + 2 μ Ei), 2 Ei = λi² − 1
+       [](const S& s, const V& v) {
+         const Long trace = (sum_of_powers(s, 2) - 3) / 2;
+         Stress P;
+         for (int i = 0; i < 3; ++i) P[i] = s[i] * (v[0] * trace + v[1] * (s[i] * s[i] - 1));
+         return P;
+       }},
+      {"neo_hookean",  // μ (λi − 1/λi) + λ ln J / λi
+       [](const S& s, const V& v) {
+         Stress P;
+         for (int i = 0; i < 3; ++i) P[i] = v[1] * (s[i] - 1 / s[i]) + v[0] * std::log(product(s)) / s[i];
+         return P;
+       }},
+      {"neo_hookean_iso", [](const S& s, const V& v) { return split(s, constant(v[0]), 0, v[1]); }},
+      {"mooney_rivlin", [](const S& s, const V& v) { return split(s, constant(v[0]), v[1], v[2]); }},
+      {"fung_demiray", [](const S& s, const V& v) { return split(s, exponential(v[0] / 2, v[1]), 0, v[2]); }},
+      {"yeoh",
+       [](const S& s, const V& v) {
+         return split(
+             s, [&](Long e) { return v[0] + 2 * v[1] * e + 3 * v[2] * e * e; }, 0, v[3]);
+       }},
+      {"gent",
+       [](const S& s, const V& v) {
+         return split(
+             s, [&](Long e) { return v[0] / 2 * v[1] / (v[1] - e); }, 0, v[2]);
+       }},
+      {"veronda_westmann",
+       [](const S& s, const V& v) { return split(s, exponential(v[0] * v[1], v[1]), -v[0] * v[1] / 2, v[2]); }},
+      {"ogden",  // λi Pi = Σ μp (λ̄i^αp − ⅓ Σj λ̄j^αp) + κ J (J−1)
+       [](const S& s, const V& v) {
+         const std::size_t terms = (v.size() - 1) / 2;
+         Stress P = split(s, constant(0), 0, v.back());
+         const Stretches bar = isochoric(s);
+         for (std::size_t p = 0; p < terms; ++p)
+           for (int i = 0; i < 3; ++i)
+             P[i] += v[p] * (std::pow(bar[i], v[terms + p]) - sum_of_powers(bar, v[terms + p]) / 3) / s[i];
+         return P;
+       }},
+      {"hgo",  // fibre along the first axis: λi Pi gets 2 w4 λ̄1² (δi1 − ⅓), w4 = k1 (Ī4−1) exp(k2 (Ī4−1)²)
+       [](const S& s, const V& v) {
+         Stress P = split(s, constant(v[0]), 0, v[1]);
+         const Long I4 = isochoric(s)[0] * isochoric(s)[0], e = std::max<Long>(I4 - 1, 0);
+         for (int i = 0; i < 3; ++i) P[i] += 2 * v[2] * e * std::exp(v[3] * e * e) * I4 * ((i == 0) - 1 / 3.0L) / s[i];
+         return P;
+       }},
+      {"paper_neo_hookean", [](const S& s, const V& v) { return printed(s, constant(v[0]), 0, v[1]); }},
+      {"paper_mooney_rivlin", [](const S& s, const V& v) { return printed(s, constant(v[0]), v[1], v[2]); }},
+      {"paper_fung_demiray", [](const S& s, const V& v) { return printed(s, exponential(v[0] / 2, v[1]), 0, v[2]); }},
+  };
+  return table;
+}
+
+Stress closed_form(const Material& material, const Stretches& s) {
+  const auto found = closed_forms().find(material.law);
+  REQUIRE_MESSAGE(found != closed_forms().end(), "no closed form of the law ", material.law);
+  return found->second(s, material.parameters);
+}
+
+/// Calls check(material, law at a point).
+template <class Check>
+void for_every_law(const Check& check) {
+  for (const LawInfo& law : laws()) {
+    if (!law.is_continuum) continue;
+    CAPTURE(law.name);
+    const Material material = sample_material(law.name);
+    check(material, *make_material_point(material, false));
+  }
+}
+
+/// The free stretch s at which the third principal stress of stretches(s) is zero.
+template <class Shape>
+Stretches free_of_stress(const Material& material, const Shape& stretches) {
+  Long low = 0.2L, high = 5;
+  while (closed_form(material, stretches(low))[2] > 0) {
+    REQUIRE(low > 0.02L);
+    low /= 2;
+  }
+  REQUIRE(closed_form(material, stretches(high))[2] > 0);
+  for (int i = 0; i < 100; ++i) {
+    const Long middle = (low + high) / 2;
+    (closed_form(material, stretches(middle))[2] > 0 ? high : low) = middle;
+  }
+  return stretches((low + high) / 2);
+}
+
+/// The law at these stretches, in the frame of the axes; and that the test bench finds the same state by itself.
+void compare(const Material& material, const MaterialPoint& point, BenchTest test, const Stretches& s) {
+  const Stress expected = closed_form(material, s);
+  const Mat3 F = Vec3(static_cast<double>(s[0]), static_cast<double>(s[1]), static_cast<double>(s[2])).asDiagonal();
+  const Mat3 P = point.first_piola(F);
+  const double scale = static_cast<double>(std::abs(expected[0]));
+  for (int i = 0; i < 3; ++i) CHECK(std::abs(P(i, i) - static_cast<double>(expected[i])) <= 1e-8 * scale);
+  CHECK((P - Mat3(P.diagonal().asDiagonal())).norm() <= 1e-12 * scale);
+
+  const BenchCurve curve = run_bench(point, test, std::array{F(0, 0)});
+  REQUIRE(curve.points.size() == 1);
+  CHECK(std::abs(curve.points[0].nominal - static_cast<double>(expected[0])) <= 1e-8 * scale);
+  CHECK((curve.points[0].F - F).norm() <= 1e-8);
+}
+
+/// Stretches within which StVK, which softens, still has a free lateral stretch.
+std::vector<double> pulls(const Material& material) {
+  if (material.law == "stvk") return {0.75, 0.9, 1.1, 1.25};
+  return {0.5, 0.8, 1.2, 2.0};
+}
+
+}  // namespace
+
+TEST_CASE("uniaxial stress of every law is its closed form") {
+  for_every_law([](const Material& material, const MaterialPoint& point) {
+    for (const double pull : pulls(material)) {
+      CAPTURE(pull);
+      compare(material, point, BenchTest::uniaxial, free_of_stress(material, [&](Long s) {
+                return Stretches{pull, s, s};
+              }));
+    }
+  });
+}
+
+TEST_CASE("equibiaxial stress of every law is its closed form") {
+  for_every_law([](const Material& material, const MaterialPoint& point) {
+    if (material.law == "hgo") return;  // its fibre lies along one of the two pulls: planar, not equibiaxial stress
+    for (const double pull : pulls(material)) {
+      CAPTURE(pull);
+      compare(material, point, BenchTest::equibiaxial, free_of_stress(material, [&](Long s) {
+                return Stretches{pull, pull, s};
+              }));
+    }
+  });
+}
+
+TEST_CASE("planar stress of every law is its closed form") {
+  for_every_law([](const Material& material, const MaterialPoint& point) {
+    for (const double pull : pulls(material)) {
+      CAPTURE(pull);
+      compare(material, point, BenchTest::planar, free_of_stress(material, [&](Long s) {
+                return Stretches{pull, 1, s};
+              }));
+    }
+  });
+}
+
+// Stretches a, 1/a, 1 with a − 1/a = γ, along (a, 1, 0), (−1, a, 0) and z in the sheared body; there the Cauchy stress
+// is λi Pi (J = 1), and P = σ F⁻ᵀ.
+TEST_CASE("stress in simple shear of every law is its closed form") {
+  for_every_law([](const Material& material, const MaterialPoint& point) {
+    if (material.law == "hgo") return;  // below
+    for (const double gamma : {-1.0, 0.2, 0.7, 1.5}) {
+      CAPTURE(gamma);
+      const Long g = gamma, a = g / 2 + std::sqrt(1 + g * g / 4);
+      const Stress P = closed_form(material, {a, 1 / a, 1});
+      const Long major = a * P[0], minor = P[1] / a, n = 1 + a * a;
+      const Long s11 = (a * a * major + minor) / n, s22 = (major + a * a * minor) / n, s12 = a * (major - minor) / n;
+      Mat3 expected = Mat3::Zero();
+      expected(0, 0) = static_cast<double>(s11 - g * s12), expected(0, 1) = static_cast<double>(s12);
+      expected(1, 0) = static_cast<double>(s12 - g * s22), expected(1, 1) = static_cast<double>(s22);
+      expected(2, 2) = static_cast<double>(P[2]);
+      const Mat3 F = Mat3::Identity() + gamma * Vec3::UnitX() * Vec3::UnitY().transpose();
+      CHECK((point.first_piola(F) - expected).norm() <= 1e-8 * expected.norm());
+    }
+  });
+}
+
+// A fibre across the shear is turned and stretched: F a0 = (γ, 1, 0), Ī4 = 1 + γ², and bears 2 w4 dev(F a0 ⊗ F a0).
+TEST_CASE("a fibre in simple shear pulls along where it has turned, and one along the shear bears nothing") {
+  Material fibres = sample_material("hgo"), matrix = sample_material("neo_hookean_iso");
+  matrix.parameters = {fibres.parameters[0], fibres.parameters[1]};
+  const auto plain = make_material_point(matrix, false), along = make_material_point(fibres, false);
+  fibres.fibre = Vec3::UnitY();
+  const auto across = make_material_point(fibres, false);
+  const double k1 = fibres.parameters[2], k2 = fibres.parameters[3];
+  for (const double gamma : {-0.8, 0.3, 1.0}) {
+    CAPTURE(gamma);
+    const Mat3 F = Mat3::Identity() + gamma * Vec3::UnitX() * Vec3::UnitY().transpose();
+    const Vec3 turned(gamma, 1, 0);
+    const double e = gamma * gamma, w4 = k1 * e * std::exp(k2 * e * e);
+    Mat3 inverse_transposed = Mat3::Identity();
+    inverse_transposed(1, 0) = -gamma;
+    const Mat3 pull = 2 * w4 * (turned * turned.transpose() - (1 + e) / 3 * Mat3::Identity()) * inverse_transposed;
+    const Mat3 expected = plain->first_piola(F) + pull;
+    CHECK((across->first_piola(F) - expected).norm() <= 1e-12 * expected.norm());
+    CHECK((along->first_piola(F) - plain->first_piola(F)).norm() <= 1e-12 * expected.norm());
+  }
+}
+
+TEST_CASE("constants at rest are the textbook's") {
+  struct Rest {
+    std::string_view law;
+    std::function<double(const std::vector<double>&)> shear;
+  };
+  const Rest table[] = {
+      {"stvk", [](const auto& v) { return v[1]; }},
+      {"neo_hookean", [](const auto& v) { return v[1]; }},
+      {"neo_hookean_iso", [](const auto& v) { return 2 * v[0]; }},
+      {"mooney_rivlin", [](const auto& v) { return 2 * (v[0] + v[1]); }},
+      {"fung_demiray", [](const auto& v) { return v[0]; }},
+      {"ogden", [](const auto& v) { return (v[0] * v[2] + v[1] * v[3]) / 2; }},
+      {"hgo", [](const auto& v) { return 2 * v[0]; }},  // fibres are slack until pulled
+      {"yeoh", [](const auto& v) { return 2 * v[0]; }},
+      {"gent", [](const auto& v) { return v[0]; }},
+      {"veronda_westmann", [](const auto& v) { return v[0] * v[1]; }},
+  };
+  for (const auto& [law, shear] : table) {
+    CAPTURE(law);
+    const Material material = sample_material(law);
+    const auto& v = material.parameters;
+    const LawInfo& info = *find_law(law);
+    const double kappa = info.takes_young_poisson ? v[0] + 2 * v[1] / 3 : v[info.has_fibre ? 1 : v.size() - 1];
+    CHECK(ground_state(material).shear == doctest::Approx(shear(v)).epsilon(1e-12));
+    CHECK(ground_state(material).bulk == doctest::Approx(kappa).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("whichever the volume term, constants at rest are the same") {
+  for (const LawInfo& law : laws()) {
+    if (!law.has_volume_term) continue;
+    CAPTURE(law.name);
+    Material material = sample_material(law.name);
+    const GroundState expected = ground_state(material);
+    for (const VolumeTerm term : {VolumeTerm::logarithmic, VolumeTerm::simo_taylor}) {
+      material.volume_term = term;
+      CHECK(ground_state(material).shear == doctest::Approx(expected.shear).epsilon(1e-12));
+      CHECK(ground_state(material).bulk == doctest::Approx(expected.bulk).epsilon(1e-12));
+    }
+  }
+}

@@ -1,0 +1,42 @@
+#pragma once
+// What the tests of every law share.
+#include <heml/materials/point.hpp>
+
+#include "sample_materials.hpp"
+#include "support.hpp"
+
+namespace heml::test {
+
+inline const Vec3 askew = Vec3(2, -1, 2) / 3;
+
+/// A sample of every law that is a continuum, fibres askew, and the two other volume terms.
+inline std::vector<Material> samples() {
+  std::vector<Material> list;
+  for (const LawInfo& law : laws()) {
+    if (!law.is_continuum) continue;
+    list.push_back(sample_material(law.name));
+    if (law.has_fibre) list.back().fibre = askew;
+  }
+  for (const VolumeTerm term : {VolumeTerm::logarithmic, VolumeTerm::simo_taylor}) {
+    list.push_back(sample_material("mooney_rivlin"));
+    list.back().volume_term = term;
+  }
+  return list;
+}
+
+/// Of norm 1.
+inline Mat3 random_direction(std::mt19937_64& random) {
+  Mat3 dF;
+  for (double& d : dF.reshaped()) d = uniform(random, -1, 1);
+  return dF / dF.norm();
+}
+
+inline double inner(const Mat3& A, const Mat3& B) { return A.cwiseProduct(B).sum(); }
+
+/// Stress too small to be measured against, Pa.
+inline double least_stress(const Material& material) {
+  const auto [shear, bulk] = ground_state(material);
+  return 1e-3 * (shear + bulk);
+}
+
+}  // namespace heml::test

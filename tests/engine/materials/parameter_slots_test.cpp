@@ -1,0 +1,37 @@
+#include <heml/materials/parameter_slots.hpp>
+
+#include "sample_materials.hpp"
+
+using namespace heml;
+using heml::test::sample_material;
+
+TEST_CASE("lists come apart into one slot a term, scalars stay whole") {
+  const Material ogden = sample_material("ogden");
+  const auto slots = parameter_slots(ogden, *find_law("ogden"));
+  REQUIRE(slots.size() == ogden.parameters.size());
+  std::string keys, symbols;
+  for (const ParameterSlot& slot : slots) {
+    keys += slot.key() + ' ';
+    symbols += slot.symbol() + ' ';
+  }
+  CHECK(keys == "mu[0] mu[1] alpha[0] alpha[1] kappa ");
+  CHECK(symbols == "μ1 μ2 α1 α2 κ ");
+}
+
+TEST_CASE("every law has as many slots as parameters, and knows what keeps its volume") {
+  for (const LawInfo& law : laws()) {
+    CAPTURE(law.name);
+    const Material material = sample_material(law.name);
+    CHECK(parameter_slots(material, law).size() == material.parameters.size());
+    const auto volume = volume_slot(material, law);
+    if (!law.is_continuum) {
+      CHECK_FALSE(volume);
+      continue;
+    }
+    REQUIRE(volume);
+    Material stiffer = material;
+    stiffer.parameters[*volume] *= 2;
+    CHECK(ground_state(stiffer).bulk > 1.2 * ground_state(material).bulk);
+    CHECK(ground_state(stiffer).shear == doctest::Approx(ground_state(material).shear));
+  }
+}

@@ -1,0 +1,184 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "support.hpp"
+#include "world_support.hpp"
+
+using namespace heml;
+using namespace heml::test;
+
+namespace {
+
+/// A cantilever that falls from rest.
+WorldSetup falling(Integrator integrator, double step) {
+  WorldSetup setup = cantilever();
+  setup.solver.integrator = integrator;
+  setup.solver.step = step;
+  return setup;
+}
+
+std::unique_ptr<World> run(const WorldSetup& setup, double until) {
+  auto world = make_world(setup);
+  run_until(*world, until);
+  if (world->halt()) FAIL(world->halt()->message);
+  return world;
+}
+
+}  // namespace
+
+TEST_CASE("implicit: each method converges at its order on a falling beam, in positions and velocities") {
+  // Under a load that grows, with damping: of what its start sets swinging, the stiff modes that no step here resolves
+  // are gone by the end.
+  constexpr double end = 0.25;
+  WorldSetup smooth = falling(Integrator::verlet, 5e-5);
+  smooth.solver.damping = 60;
+  smooth.loads.push_back({});
+  smooth.gravity.setZero();
+  smooth.loads[0].nodes = nodes_where(smooth.mesh, [](const Vec3&) { return true; });
+  smooth.loads[0].vector = Vec3(0, -0.4, 0);
+  smooth.loads[0].over = 0.4;
+  const auto exact = run(smooth, end);
+  for (const auto& [integrator, order] :
+       {std::pair{Integrator::backward_euler, 1.0}, {Integrator::bdf2, 2.0}, {Integrator::tr_bdf2, 2.0}}) {
+    CAPTURE(std::string(integrator_name(integrator)));
+    std::vector<double> x_error, v_error;
+    for (const double step : {0.01, 0.005, 0.0025}) {
+      WorldSetup setup = smooth;
+      setup.solver.integrator = integrator;
+      setup.solver.step = step;
+      setup.solver.tolerance = 1e-9;
+      const auto world = run(setup, end);
+      x_error.push_back(rms_difference(world->positions(), exact->positions()));
+      v_error.push_back(rms_difference(world->velocities(), exact->velocities()));
+    }
+    CHECK(std::log2(x_error[1] / x_error[2]) == doctest::Approx(order).epsilon(0.05));
+    CHECK(std::log2(v_error[1] / v_error[2]) == doctest::Approx(order).epsilon(0.05));
+  }
+}
+
+TEST_CASE("implicit: backward Euler never gains energy, TR-BDF2 loses a few percent in a second") {
+  const auto euler = make_world(falling(Integrator::backward_euler, 0.01));
+  double before = total(euler->energies());
+  for (int k = 0; k < 100; ++k) {
+    euler->tick();
+    REQUIRE_FALSE(euler->halt());
+    const double now = total(euler->energies());
+    CHECK(now <= before + 1e-6);
+    before = now;
+  }
+  double swing = 0;
+  const auto accurate = make_world(falling(Integrator::tr_bdf2, 0.005));
+  for (int k = 0; k < 200; ++k) {
+    accurate->tick();
+    REQUIRE_FALSE(accurate->halt());
+    swing = std::max(swing, std::abs(accurate->energies().potential));
+  }
+  const double lost = -total(accurate->energies()) / swing;
+  MESSAGE("TR-BDF2 at 5 ms lost " << lost << " of what swings in a second");
+  CHECK(lost > 0);
+  CHECK(lost < 0.05);
+}
+
+TEST_CASE("implicit: long steps of a stiff body settle on its equilibrium") {
+  WorldSetup setup = falling(Integrator::backward_euler, 0.02);
+  setup.materials[0].material = soft("neo_hookean", 1e7);
+  const auto world = run(setup, 2);
+  setup.solver.integrator = Integrator::static_equilibrium;
+  const auto rest = make_world(setup);
+  rest->load_to(1);
+  CHECK(rms_difference(world->positions(), rest->positions()) <=
+        0.01 * rms_difference(rest->positions(), setup.mesh.nodes));
+}
+
+TEST_CASE("implicit: follows held nodes that are yanked at ten metres a second, and a grasp") {
+  for (const Integrator integrator : {Integrator::backward_euler, Integrator::bdf2, Integrator::tr_bdf2}) {
+    WorldSetup setup = falling(integrator, 0.005);
+    Boundary end{nodes_where(setup.mesh, [](const Vec3& X) { return X.x() > 0.0999; })};
+    end.translate = Vec3(0.1, 0, 0);
+    end.over = 0.01;
+    setup.boundary.push_back(end);
+    const auto world = run(setup, 0.1);
+    for (const double J : world->volume_ratios()) CHECK(J > 0);
+
+    WorldSetup held = falling(integrator, 0.01);
+    held.gravity.setZero();
+    held.solver.damping = 20;
+    const auto grasped = make_world(held);
+    const int tip = nodes_where(held.mesh, [](const Vec3& X) { return (X - Vec3(0.1, 0.02, 0.02)).norm() < 1e-9; })[0];
+    CHECK_FALSE(grasped->apply(Grasp{tip, 0.015}));
+    CHECK_FALSE(grasped->apply(MoveTool{Vec3(0.1, 0.03, 0.02)}));
+    run_until(*grasped, 1.0);
+    REQUIRE_FALSE(grasped->halt());
+    // At rest the tool pulls with what the clamp holds.
+    CHECK((grasped->tool().force + grasped->reactions()[0]).norm() <= 0.01 * grasped->tool().force.norm());
+    CHECK(grasped->tool().grip.y() > 0.021);
+  }
+}
+
+TEST_CASE("implicit: without a step given, a tick is one step") {
+  WorldSetup setup = falling(Integrator::tr_bdf2, 0);
+  setup.solver.step.reset();
+  setup.solver.rate = 100;
+  const auto world = run(setup, 0.1);
+  CHECK(world->ticks() == 10);
+  CHECK(world->steps() == 10);
+}
+
+TEST_CASE("implicit: a tolerance out of reach ends in a message, with the last good state") {
+  WorldSetup setup = falling(Integrator::backward_euler, 0.01);
+  setup.solver.tolerance = 1e-30;
+  const auto world = make_world(setup);
+  world->tick();
+  CHECK(world->ticks() == 0);
+  REQUIRE(world->halt());
+  CHECK(world->halt()->cause == Halt::Cause::not_converged);
+  CHECK(world->time() == 0);
+  CHECK(world->positions() == setup.mesh.nodes);
+}
+
+TEST_CASE("implicit: viscosity slows a swing like it does in small explicit steps") {
+  const auto setup = [](Integrator integrator, double step) {
+    WorldSetup result = falling(integrator, step);
+    result.materials[0].material.viscosity = 50;
+    return result;
+  };
+  const auto reference = run(setup(Integrator::verlet, 2e-5), 0.2);
+  for (const Integrator integrator : {Integrator::backward_euler, Integrator::bdf2, Integrator::tr_bdf2}) {
+    CAPTURE(std::string(integrator_name(integrator)));
+    WorldSetup implicit = setup(integrator, 5e-4);
+    const auto world = run(implicit, 0.2);
+    CHECK(rms_difference(world->positions(), reference->positions()) <=
+          0.03 * rms_difference(reference->positions(), implicit.mesh.nodes));
+  }
+}
+
+TEST_CASE("implicit: the same bits on every run, with any number of threads, in double and float") {
+  for (const bool single : {false, true})
+    for (const Integrator integrator : {Integrator::backward_euler, Integrator::tr_bdf2}) {
+      std::vector<std::uint64_t> hashes;
+      for (const int threads : {1, 2, 1}) {
+        WorldSetup setup = falling(integrator, 0.01);
+        setup.mesh = make_box(Vec3(0.1, 0.02, 0.02), {30, 6, 6});
+        setup.boundary[0].nodes = nodes_where(setup.mesh, [](const Vec3& X) { return X.x() < 1e-9; });
+        setup.solver.threads = threads;
+        setup.solver.single_precision = single;
+        hashes.push_back(run(setup, 0.05)->state_hash());
+      }
+      CHECK(hashes[0] == hashes[1]);
+      CHECK(hashes[0] == hashes[2]);
+    }
+}
+
+TEST_CASE("auto: explicit where that is fast enough, implicit where it is not") {
+  const auto chosen = [](double young, std::optional<double> step) {
+    WorldSetup setup = cantilever("neo_hookean", young);
+    setup.solver.integrator = Integrator::automatic;
+    setup.solver.step = step;
+    return std::string(make_world(setup)->solver_work().integrator);
+  };
+  CHECK(chosen(1e4, std::nullopt) == "verlet");
+  CHECK(chosen(1e4, 1e-5) == "verlet");
+  CHECK(chosen(1e4, 0.005) == "tr_bdf2");
+  CHECK(chosen(1e9, 0.02) == "backward_euler");
+}
