@@ -54,9 +54,10 @@ Vector Equilibrium::predict(double next) {
   body_.set_load(next);
   const Vector motion = moved - x_;
   if (!body_.residual(x_, r)) return moved;
-  body_.product(x_, motion, stretched);
+  body_.linearise(x_);
+  body_.product(motion, stretched);
   r -= stretched;
-  if (r.norm() == 0 || !linear_.solve(body_, x_, r, newton_options.linear_tolerance, d)) return moved;
+  if (r.norm() == 0 || !linear_.solve(body_, r, newton_options.linear_tolerance, d)) return moved;
   const Vector predicted = moved + d;
   Vector unused;
   if (!body_.residual(predicted, unused) || !unused.allFinite()) return moved;
@@ -91,7 +92,8 @@ bool Equilibrium::relax(double next) {
   if (r.norm() == 0) return solve(x) && keep(next, x);
   // Inertia that matches the stiffness along the residual, then ever less.
   const Vector push = (mass_.array() > 0).select(r.array() / mass_.array(), 0);
-  body_.product(x, push, Kr);
+  body_.linearise(x);
+  body_.product(push, Kr);
   double a = std::abs(push.dot(Kr)) / push.dot(r);
   IncrementalPotential inert(body_, mass_, free_);
   bool reached = false;

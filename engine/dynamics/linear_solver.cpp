@@ -26,11 +26,11 @@ LinearSolver::LinearSolver(const FreeNodes& free, const TetMesh& mesh, const std
 
 void LinearSolver::set_inertia(double a) { a_ = a; }
 
-LinearSolver::Sign LinearSolver::assemble_and_factor(Objective& objective, const Vector& x, Projection projection,
+LinearSolver::Sign LinearSolver::assemble_and_factor(Objective& objective, Projection projection,
                                                      double shift) {
   if (!matrix_) matrix_ = std::make_unique<BlockMatrix>(free_, mesh_.tets);
   matrix_->set_zero();
-  objective.add_stiffness(x, projection, *matrix_);
+  objective.add_stiffness(projection, *matrix_);
   if (shift > 0)
     for (const int n : free_.node) matrix_->add_diagonal(n, shift);
   if (!cholesky_) {
@@ -58,14 +58,14 @@ void LinearSolver::invert_blocks() {
   }
 }
 
-LinearSolver::Sign LinearSolver::prepare(Objective& objective, const Vector& x) {
+LinearSolver::Sign LinearSolver::prepare(Objective& objective) {
   switch (preconditioner_) {
     case Preconditioner::cholesky:
-      return assemble_and_factor(objective, x, Projection::none, 0);
+      return assemble_and_factor(objective, Projection::none, 0);
     case Preconditioner::block_jacobi:
       if (!matrix_) matrix_ = std::make_unique<BlockMatrix>(free_, mesh_.tets);
       matrix_->set_zero();
-      objective.add_stiffness(x, Projection::none, *matrix_);
+      objective.add_stiffness(Projection::none, *matrix_);
       invert_blocks();
       return Sign::positive;
     case Preconditioner::scalar:
@@ -103,26 +103,26 @@ void LinearSolver::apply(const Vector& r, Vector& z) {
     z.segment<3>(3 * free_.node[k]) = inverse_blocks_[k] * r.segment<3>(3 * free_.node[k]);
 }
 
-bool LinearSolver::solve(Objective& objective, const Vector& x, const Vector& r, double tolerance, Vector& d) {
+bool LinearSolver::solve(Objective& objective, const Vector& r, double tolerance, Vector& d) {
   d.setZero(r.size());
-  const Sign sign = prepare(objective, x);
+  const Sign sign = prepare(objective);
   if (sign == Sign::none) return false;
   ++counts_.solves;
   const double enough = tolerance * r.norm();
-  if (!objective.symmetric()) return biconjugate_gradients(objective, x, r, enough, d);
-  if (sign == Sign::positive) return conjugate_gradients(objective, x, r, enough, d);
+  if (!objective.symmetric()) return biconjugate_gradients(objective, r, enough, d);
+  if (sign == Sign::positive) return conjugate_gradients(objective, r, enough, d);
   apply_factor(r, d);
   return false;
 }
 
-bool LinearSolver::conjugate_gradients(Objective& objective, const Vector& x, const Vector& r, double enough,
+bool LinearSolver::conjugate_gradients(Objective& objective, const Vector& r, double enough,
                                        Vector& d) {
   Vector left = r, z, q;
   apply(left, z);
   Vector p = z;
   double progress = left.dot(z);
   for (int k = 0; k < most_iterations; ++k) {
-    objective.product(x, p, q);
+    objective.product(p, q);
     ++counts_.iterations;
     const double curvature = p.dot(q);
     if (!(curvature > 0) || !(progress > 0)) {
@@ -142,7 +142,7 @@ bool LinearSolver::conjugate_gradients(Objective& objective, const Vector& x, co
 }
 
 /// van der Vorst 1992, right preconditioned. Where it breaks down, d is the best so far.
-bool LinearSolver::biconjugate_gradients(Objective& objective, const Vector& x, const Vector& r, double enough,
+bool LinearSolver::biconjugate_gradients(Objective& objective, const Vector& r, double enough,
                                          Vector& d) {
   Vector left = r, p = Vector::Zero(r.size()), q = p, z, t;
   double rho = 1, alpha = 1, omega = 1, least = r.norm();
@@ -153,12 +153,12 @@ bool LinearSolver::biconjugate_gradients(Objective& objective, const Vector& x, 
     rho = rho_now;
     p = left + beta * (p - omega * q);
     apply(p, z);
-    objective.product(x, z, q);
+    objective.product(z, q);
     alpha = rho / r.dot(q);
     d += alpha * z;
     left -= alpha * q;
     apply(left, z);
-    objective.product(x, z, t);
+    objective.product(z, t);
     omega = t.dot(left) / t.squaredNorm();
     d += omega * z;
     left -= omega * t;
@@ -173,10 +173,10 @@ bool LinearSolver::biconjugate_gradients(Objective& objective, const Vector& x, 
   return true;
 }
 
-void LinearSolver::solve_projected(Objective& objective, const Vector& x, const Vector& r, Vector& d) {
+void LinearSolver::solve_projected(Objective& objective, const Vector& r, Vector& d) {
   ++counts_.solves;
   double shift = 0;
-  while (assemble_and_factor(objective, x, Projection::clamp, shift) != Sign::positive) {
+  while (assemble_and_factor(objective, Projection::clamp, shift) != Sign::positive) {
     double mean = 0;
     for (Eigen::Index k = 0; k < matrix_->lower().rows(); ++k) mean += std::abs(matrix_->lower().coeff(k, k));
     mean /= static_cast<double>(matrix_->lower().rows());

@@ -33,27 +33,27 @@ class LinearSolver {
   /// Tells the a of Φ = a/2 ‖x − y‖²_M + U. The scalar matrix is factored again where it has changed a lot.
   void set_inertia(double a);
 
-  /// d = K⁻¹ r at x, to a residual of tolerance ‖r‖. Returns whether the curvature met was positive all along;
+  /// d = K⁻¹ r, to a residual of tolerance ‖r‖, K where the objective was linearised last. Returns whether the curvature met was positive all along;
   /// if not, d still leads downhill: what was found before, or with a factor L D Lᵀ of mixed signs L⁻ᵀ |D|⁻¹ L⁻¹ r,
   /// which near a buckling load serves far better than positive elements do. 0 where nothing exists.
-  bool solve(Objective& objective, const Vector& x, const Vector& r, double tolerance, Vector& d);
+  bool solve(Objective& objective, const Vector& r, double tolerance, Vector& d);
 
   /// The same with every element's stiffness made positive and, where that is not enough, a shifted diagonal: d always
   /// leads downhill.
-  void solve_projected(Objective& objective, const Vector& x, const Vector& r, Vector& d);
+  void solve_projected(Objective& objective, const Vector& r, Vector& d);
 
   Preconditioner preconditioner() const { return preconditioner_; }
   const LinearCounts& counts() const { return counts_; }
 
  private:
   enum class Sign { positive, mixed, none };  ///< of a factor's pivots; none: no factor
-  Sign assemble_and_factor(Objective& objective, const Vector& x, Projection projection, double shift);
-  Sign prepare(Objective& objective, const Vector& x);
+  Sign assemble_and_factor(Objective& objective, Projection projection, double shift);
+  Sign prepare(Objective& objective);
   void apply(const Vector& r, Vector& z);
   void apply_factor(const Vector& r, Vector& z);
   void invert_blocks();
-  bool conjugate_gradients(Objective& objective, const Vector& x, const Vector& r, double enough, Vector& d);
-  bool biconjugate_gradients(Objective& objective, const Vector& x, const Vector& r, double enough, Vector& d);
+  bool conjugate_gradients(Objective& objective, const Vector& r, double enough, Vector& d);
+  bool biconjugate_gradients(Objective& objective, const Vector& r, double enough, Vector& d);
 
   using Cholesky = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower>;
 

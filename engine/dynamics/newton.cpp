@@ -66,10 +66,11 @@ NewtonResult minimise(Objective& objective, LinearSolver& linear, const Stop& st
     const double tolerance =
         std::clamp(options.linear_tolerance * at.r.norm() / first, options.tightest_linear, options.linear_tolerance);
     const double before = at.r.norm();
-    const bool positive = linear.solve(objective, at.x, at.r, tolerance, d);
+    objective.linearise(at.x);
+    const bool positive = linear.solve(objective, at.r, tolerance, d);
     if (!positive && by_elements) {
       ++result.projected;
-      linear.solve_projected(objective, at.x, at.r, d);
+      linear.solve_projected(objective, at.r, d);
     }
     if (search_line(objective, d, at)) {
       if (!positive && at.r.norm() > slow * before) by_elements = !by_elements;
@@ -77,7 +78,7 @@ NewtonResult minimise(Objective& objective, LinearSolver& linear, const Stop& st
     }
     if (!positive && by_elements) return finish(NewtonResult::End::stalled);
     ++result.projected;
-    linear.solve_projected(objective, at.x, at.r, d);
+    linear.solve_projected(objective, at.r, d);
     if (search_line(objective, d, at)) continue;
     return finish(NewtonResult::End::stalled);
   }

@@ -25,12 +25,14 @@ class Objective {
   virtual std::optional<double> value(const Vector& x) = 0;
   /// Up to what difference values are round-off, J.
   virtual double value_noise() const = 0;
-  /// out = K dx, K = −∂r/∂x at x; 0 at nodes that are not free. dx may move those.
-  virtual void product(const Vector& x, const Vector& dx, Vector& out) = 0;
+  /// Finds K = −∂r/∂x at x, which the calls below are about until the next one.
+  virtual void linearise(const Vector& x) = 0;
+  /// out = K dx; 0 at nodes that are not free. dx may move those.
+  virtual void product(const Vector& dx, Vector& out) = 0;
   /// Whether K is: it is where the forces have a potential.
   virtual bool symmetric() const { return true; }
   /// Adds the blocks of K between free nodes, its symmetric part, or an approximation of it.
-  virtual void add_stiffness(const Vector& x, Projection projection, BlockMatrix& matrix) = 0;
+  virtual void add_stiffness(Projection projection, BlockMatrix& matrix) = 0;
 };
 
 }  // namespace heml

@@ -2,6 +2,7 @@
 #include <atomic>
 #include <cmath>
 #include <heml/elastic/body.hpp>
+#include <heml/elastic/stiffness_product.hpp>
 #include <heml/materials/parameter_slots.hpp>
 #include <mutex>
 
@@ -49,7 +50,7 @@ void ElasticBody<Real>::make_parts() {
       if (material_of_[t] == static_cast<int>(m)) elements.push_back(static_cast<int>(t));
     if (elements.empty()) continue;
     parts_.push_back({m, make_group<Real>(mesh_, elements, materials_[m]),
-                      make_terms<Real>(materials_[m], options_.continuation, options_.nodal_pressure), nullptr});
+                      make_terms<Real>(materials_[m], options_.continuation, options_.nodal_pressure), nullptr, {}});
     Part& part = parts_.back();
     part.group.density = static_cast<Real>(materials_[m].density);
     part.flow = make_flow<Real>(materials_[m], options_.continuation, part.group);
@@ -119,43 +120,65 @@ bool ElasticBody<Real>::forces(const Real* x, Real* f, ThreadTeam& team) {
 }
 
 template <class Real>
-void ElasticBody<Real>::force_change(const Real* x, const Real* dx, Real* out, ThreadTeam& team) {
-  for (const Part& part : parts_)
+void ElasticBody<Real>::linearise(const Real* x, ThreadTeam& team) {
+  linearised_at_.assign(x, x + 3 * nodes());
+  for (Part& part : parts_) {
+    part.stiffness.resize(edge_entries * part.group.volume.size());
     for (std::size_t k = 0; k < part.terms.size(); ++k)
-      team.for_ranges(part.group.packets(), grain_ / part.group.lanes, [&](std::size_t begin, std::size_t end) {
-        part.terms[k]->force_change(part.group, x, dx, begin, end, corner_.data(), k > 0);
+      team.for_ranges(part.group.packets(), grain_ / 4 / part.group.lanes, [&](std::size_t begin, std::size_t end) {
+        part.terms[k]->stiffness(part.group, x, begin, end, part.stiffness.data(), k > 0);
       });
+  }
+}
+
+template <class Real>
+void ElasticBody<Real>::force_change(const Real* dx, Real* out, ThreadTeam& team) {
+  for (const Part& part : parts_)
+    team.for_ranges(part.group.packets(), grain_ / part.group.lanes, [&](std::size_t begin, std::size_t end) {
+      multiply_stiffness(part.stiffness.data(), part.group, dx, begin, end, corner_.data());
+    });
+  const Real* x = linearised_at_.data();
   if (pressure_) pressure_->add_force_change(x, dx, corner_.data(), team);
   gather_corners(out, team);
   if (!springs_.empty()) springs_.add_force_change(x, dx, out, team);
 }
 
 template <class Real>
-void ElasticBody<Real>::element_stiffness(std::size_t p, const Real* x, std::size_t s, ElementMatrix<Real>& K) {
-  for (const auto& term : parts_[p].terms) term->add_stiffness(parts_[p].group, x, s, K);
-  if (pressure_) pressure_->add_stiffness(p, x, s, K);
+void ElasticBody<Real>::element_stiffness(std::size_t p, std::size_t s, ElementMatrix<Real>& K) const {
+  const Part& part = parts_[p];
+  Real k[edge_entries];
+  for (std::size_t i = 0; i < edge_entries; ++i)
+    k[i] = part.stiffness[part.group.lanes * (edge_entries * (s / part.group.lanes) + i) + s % part.group.lanes];
+  if (pressure_) pressure_->add_stiffness(p, linearised_at_.data(), s, k);
+  expand_edges(k, K);
 }
 
+/// In fixed order: packets one after the other, whoever summed them.
 template <class Real>
-double ElasticBody<Real>::sum_energies(const Real* x, bool stored) const {
+double ElasticBody<Real>::sum_energies(const Real* x, bool stored, ThreadTeam& team) {
   double sum = 0;
-  each_slot(x, [&](const Part& part, std::size_t s, const Link<Real>& link, const RestShape<Real>& rest) {
+  for (const Part& part : parts_) {
+    packet_energy_.assign(part.group.packets(), 0.0);
     for (const auto& term : part.terms)
-      if (term->stores() == stored) sum += term->energy(part.group, s, link, rest);
-  });
+      if (term->stores() == stored)
+        team.for_ranges(part.group.packets(), grain_ / part.group.lanes, [&](std::size_t begin, std::size_t end) {
+          term->energies(part.group, x, begin, end, packet_energy_.data(), true);
+        });
+    for (const double of_packet : packet_energy_) sum += of_packet;
+  }
   return sum;
 }
 
 template <class Real>
-double ElasticBody<Real>::energy(const Real* x) {
-  double sum = springs_.energy(x) + sum_energies(x, true);
+double ElasticBody<Real>::energy(const Real* x, ThreadTeam& team) {
+  double sum = springs_.energy(x) + sum_energies(x, true, team);
   if (pressure_) sum += pressure_->energy(x);
   return sum;
 }
 
 template <class Real>
-double ElasticBody<Real>::potential(const Real* x) {
-  return energy(x) + (has_memory() ? sum_energies(x, false) : 0.0);
+double ElasticBody<Real>::potential(const Real* x, ThreadTeam& team) {
+  return energy(x, team) + (has_memory() ? sum_energies(x, false, team) : 0.0);
 }
 
 /// Largest of a part's bounds, summed over its terms; then of all parts.

@@ -43,27 +43,33 @@ class ElasticBody {
   /// Forces at positions x (3 #V) into f (3 #V, overwritten), N. Returns whether every law is defined there.
   bool forces(const Real* x, Real* f, ThreadTeam& team);
 
-  /// −K dx into out (3 #V, overwritten), N: change of the forces with a change dx of the positions, K = ∂²U/∂x² at x.
-  void force_change(const Real* x, const Real* dx, Real* out, ThreadTeam& team);
+  /// Finds the stiffness K = ∂²U/∂x² at x, once for all products with it.
+  void linearise(const Real* x, ThreadTeam& team);
+  /// −K dx into out (3 #V, overwritten), N: change of the forces with a change dx of the positions.
+  void force_change(const Real* dx, Real* out, ThreadTeam& team);
 
-  /// Calls visit(nodes (4 inner numbers), K) for the stiffness of every element in turn. With nodal pressure its part
-  /// is an approximation of the element alone.
+  /// Calls visit(nodes (4 inner numbers), K) for every element's part of K in turn. With nodal pressure its part is an
+  /// approximation of the element alone.
   template <class Visit>
-  void each_stiffness(const Real* x, const Visit& visit) {
+  void each_stiffness(const Visit& visit) {
     for (std::size_t p = 0; p < parts_.size(); ++p)
       for (std::size_t s = 0; s < parts_[p].group.size(); ++s) {
         ElementMatrix<Real> K = {};
-        element_stiffness(p, x, s, K);
+        element_stiffness(p, s, K);
         const auto& node = parts_[p].group.node;
         visit(std::array<int, 4>{node[0][s], node[1][s], node[2][s], node[3][s]}, K);
       }
   }
-  const Springs<Real>& springs() const { return springs_; }
+  /// Calls visit(node a, node b, 3×3 block B) for every spring: its part of K is [B −B; −B B].
+  template <class Visit>
+  void each_spring_stiffness(const Visit& visit) const {
+    springs_.each_stiffness(linearised_at_.data(), visit);
+  }
 
   /// Stored elastic energy, J (contract: W of every element).
-  double energy(const Real* x);
+  double energy(const Real* x, ThreadTeam& team);
   /// What forces() is minus the gradient of, J: with the incremental potential of what remembers, for the step begun.
-  double potential(const Real* x);
+  double potential(const Real* x, ThreadTeam& team);
 
   /// Upper bound of ω², 1/s², of small vibrations about x; not a number where a law is not defined.
   Real frequency_bound(const Real* x, ThreadTeam& team);
@@ -99,14 +105,15 @@ class ElasticBody {
     ElementGroup<Real> group;
     std::vector<std::unique_ptr<GroupTerm<Real>>> terms;
     std::unique_ptr<PlasticFlow<Real>> flow;
+    std::vector<Real> stiffness;  ///< of every element (edge_stiffness.hpp), once it was asked for
   };
   static constexpr std::size_t grain_ = 2048;  ///< elements below which waking a thread costs more than it brings
 
   void make_parts();
   void make_shared();
   void gather_corners(Real* f, ThreadTeam& team) const;
-  double sum_energies(const Real* x, bool stored) const;
-  void element_stiffness(std::size_t part, const Real* x, std::size_t s, ElementMatrix<Real>& K);
+  double sum_energies(const Real* x, bool stored, ThreadTeam& team);
+  void element_stiffness(std::size_t part, std::size_t s, ElementMatrix<Real>& K) const;
   template <class Bound>
   Real largest_bound(ThreadTeam& team, const Bound& bound) const;
 
@@ -129,6 +136,8 @@ class ElasticBody {
   Springs<Real> springs_;
   std::unique_ptr<NodalPressure<Real>> pressure_;
   std::vector<Real> corner_;  ///< 3 a corner, written and read within forces()
+  std::vector<Real> linearised_at_;    ///< 3 #V
+  std::vector<double> packet_energy_;  ///< written and read within energy()
   double plastic_work_ = 0;
 };
 

@@ -1,6 +1,8 @@
 #pragma once
 // The loops over a group of elements. Each is written once for every law and scalar; the law is a value of its own
 // type, so what a law does not use is not in the loop.
+#include <algorithm>
+#include <heml/elastic/edge_stiffness.hpp>
 #include <heml/elastic/element_group.hpp>
 #include <heml/elastic/step_bound.hpp>
 #include <heml/elastic/tension.hpp>
@@ -109,31 +111,51 @@ template <class Real, Law<Real> L>
   return valid;
 }
 
-/// Change −K dx of the corner forces with a change dx of the positions (3 #V), likewise.
+/// Stiffness of packets [begin, end) at x into K (elastic/edge_stiffness.hpp), overwritten or added to.
 template <class Real, Law<Real> L>
-[[gnu::always_inline]] inline void group_force_change(const L& law, const ElementGroup<Real>& group, const Real* x,
-                                                      const Real* dx, std::size_t begin, std::size_t end, Real* corner,
-                                                      bool add) {
+[[gnu::always_inline]] inline void group_stiffness(const L& law, const ElementGroup<Real>& group, const Real* x,
+                                                   std::size_t begin, std::size_t end, Real* K, bool add) {
   constexpr std::size_t lanes = ElementGroup<Real>::lanes;
   for (std::size_t p = begin; p < end; ++p) {
     const Packet<Real, L::uses_I4> packet(group, x, p * lanes);
-    Real moved[12][lanes], out[12][lanes];
-    for (std::size_t l = 0; l < lanes; ++l)
-      for (std::size_t c = 0; c < 4; ++c)
-        for (std::size_t i = 0; i < 3; ++i)
-          moved[3 * c + i][l] = dx[3 * group.node[c][p * lanes + l] + static_cast<int>(i)];
+    Real out[edge_entries][lanes];
 #pragma GCC ivdep
     for (std::size_t l = 0; l < lanes; ++l) {
-      const Corners<Real> at(packet.x, l), d(moved, l);
+      const Corners<Real> at(packet.x, l);
       const RestShape<Real> rest = packet.rest(l);
       const auto link = read_link<true, true, L::uses_I4>(at.x[0], at.x[1], at.x[2], at.x[3], rest);
-      Real de[3][3], f[12];
-      for (int a = 0; a < 3; ++a)
-        for (int i = 0; i < 3; ++i) de[a][i] = d.x[a + 1][i] - d.x[0][i];
-      corner_force_change(law, link, rest, de, f);
-      for (int i = 0; i < 12; ++i) out[i][l] = f[i];
+      Real k[edge_entries] = {};
+      add_edge_stiffness(law, link, rest, k);
+      for (int i = 0; i < edge_entries; ++i) out[i][l] = k[i];
     }
-    put_corners(out, corner + 3 * (group.first_corner + 4 * p * lanes), add);
+    Real* to = K + edge_entries * lanes * p;
+    if (add)
+      for (std::size_t i = 0; i < edge_entries * lanes; ++i) to[i] += out[i / lanes][i % lanes];
+    else
+      for (std::size_t i = 0; i < edge_entries * lanes; ++i) to[i] = out[i / lanes][i % lanes];
+  }
+}
+
+/// Energies of the law of packets [begin, end), J, in double, into of_packet, overwritten or added to.
+template <class Real, Law<Real> L>
+[[gnu::always_inline]] inline void group_energy(const L& law, const ElementGroup<Real>& group, const Real* x,
+                                                std::size_t begin, std::size_t end, double* of_packet, bool add) {
+  constexpr std::size_t lanes = ElementGroup<Real>::lanes;
+  for (std::size_t p = begin; p < end; ++p) {
+    const Packet<Real, L::uses_I4> packet(group, x, p * lanes);
+    Real density[lanes];
+#pragma GCC ivdep
+    for (std::size_t l = 0; l < lanes; ++l) {
+      const Corners<Real> at(packet.x, l);
+      const RestShape<Real> rest = packet.rest(l);
+      const auto link = read_link<true, true, L::uses_I4>(at.x[0], at.x[1], at.x[2], at.x[3], rest);
+      density[l] = law_energy(law, link, rest);
+    }
+    double sum = add ? of_packet[p] : 0.0;
+    const std::size_t used = std::min(lanes, group.size() - p * lanes);  // padding repeats the last element
+    for (std::size_t l = 0; l < used; ++l)
+      sum += static_cast<double>(packet.volume[l]) * static_cast<double>(density[l]);
+    of_packet[p] = sum;
   }
 }
 
@@ -156,25 +178,6 @@ template <class Real, Law<Real> L>
     for (std::size_t l = 0; l < lanes; ++l) largest = bound[l] > largest || std::isnan(bound[l]) ? bound[l] : largest;
   }
   return largest;
-}
-
-/// A 12×12 element stiffness, row after row; corner after corner, xyz.
-template <class Real>
-using ElementMatrix = Real[12][12];
-
-/// Adds K = −∂f/∂x made of nine changes of the edges: change(de, out[12]) gives the corner forces' change.
-template <class Real, class Change>
-void add_stiffness(const Change& change, ElementMatrix<Real>& K) {
-  for (std::size_t a = 0; a < 3; ++a)
-    for (std::size_t i = 0; i < 3; ++i) {
-      Real de[3][3] = {}, f[12];
-      de[a][i] = 1;
-      change(de, f);
-      for (std::size_t row = 0; row < 12; ++row) {
-        K[row][3 * (a + 1) + i] -= f[row];
-        K[row][i] += f[row];  // moving corner 0 moves all edges back
-      }
-    }
 }
 
 }  // namespace heml

@@ -32,16 +32,32 @@ bool GroupTerm<Real>::forces(const Group& group, const Real* x, std::size_t begi
 }
 
 template <class Real>
-void GroupTerm<Real>::force_change(const Group& group, const Real* x, const Real* dx, std::size_t begin,
-                                   std::size_t end, Real* corner, bool add) const {
+void GroupTerm<Real>::stiffness(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real* K,
+                                bool add) const {
   for (std::size_t s = begin * Group::lanes; s < end * Group::lanes; ++s) {
     const auto rest = rest_shape(group, s);
     const auto link = whole_link(group, x, s, rest);
-    Real de[3][3], f[12];
-    edge_change(group, dx, s, de);
-    const auto change = tension_change(group, s, link, rest, link_change(link, de, rest.volume));
-    pull_change(tensions(group, s, link, rest), change, link, de, f);
-    put_slot(f, group, s, corner, add);
+    const auto t = tensions(group, s, link, rest);
+    Real k[edge_entries] = {};
+    add_columns(
+        [&](const Real(&de)[3][3], Real* f) {
+          pull_change(t, tension_change(group, s, link, rest, link_change(link, de, rest.volume)), link, de, f);
+        },
+        k);
+    put_edges(k, s, K, add);
+  }
+}
+
+template <class Real>
+void GroupTerm<Real>::energies(const Group& group, const Real* x, std::size_t begin, std::size_t end,
+                               double* of_packet, bool add) const {
+  for (std::size_t p = begin; p < end; ++p) {
+    double sum = add ? of_packet[p] : 0.0;
+    for (std::size_t s = p * Group::lanes; s < std::min((p + 1) * Group::lanes, group.size()); ++s) {
+      const auto rest = rest_shape(group, s);
+      sum += energy(group, s, whole_link(group, x, s, rest), rest);
+    }
+    of_packet[p] = sum;
   }
 }
 
@@ -54,19 +70,6 @@ Real GroupTerm<Real>::frequency_bound(const Group& group, const Real* x, std::si
     largest = bound > largest || std::isnan(bound) ? bound : largest;
   }
   return largest;
-}
-
-/// Nine changes of the edges, one unit vector each; moving corner 0 moves all edges back.
-template <class Real>
-void GroupTerm<Real>::add_stiffness(const Group& group, const Real* x, std::size_t s, ElementMatrix<Real>& K) const {
-  const auto rest = rest_shape(group, s);
-  const auto link = whole_link(group, x, s, rest);
-  const auto t = tensions(group, s, link, rest);
-  heml::add_stiffness<Real>(
-      [&](const Real(&de)[3][3], Real* f) {
-        pull_change(t, tension_change(group, s, link, rest, link_change(link, de, rest.volume)), link, de, f);
-      },
-      K);
 }
 
 template <class Real>

@@ -48,16 +48,16 @@ class GroupTerm {
   /// See group_forces().
   virtual bool forces(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real* corner,
                       bool add) const;
-  /// See group_force_change().
-  virtual void force_change(const Group& group, const Real* x, const Real* dx, std::size_t begin, std::size_t end,
-                            Real* corner, bool add) const;
+  /// See group_stiffness().
+  virtual void stiffness(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real* K,
+                         bool add) const;
+  /// Sums of energy() over each packet into of_packet (#packets), overwritten or added to.
+  virtual void energies(const Group& group, const Real* x, std::size_t begin, std::size_t end, double* of_packet,
+                        bool add) const;
   /// Largest slot_bound().
   virtual Real frequency_bound(const Group& group, const Real* x, std::size_t begin, std::size_t end) const;
   /// The same of λ_max(M_t⁻¹D_t), 1/s, D the damping matrix of the term.
   virtual Real damping_bound(const Group&, const Real*, std::size_t, std::size_t) const { return 0; }
-
-  /// Adds the stiffness of one slot.
-  void add_stiffness(const Group& group, const Real* x, std::size_t s, ElementMatrix<Real>& K) const;
 
   // Terms that remember: a step of length h from what was committed last begins; what it reached is kept; all is
   // forgotten, the state x being one that has lasted.
@@ -66,20 +66,19 @@ class GroupTerm {
   virtual void forget(const Group&, const Real*) {}
 };
 
-/// Change of the edges of one slot with a change dx of positions (3 #V).
-template <class Real>
-void edge_change(const ElementGroup<Real>& group, const Real* dx, std::size_t s, Real de[3][3]) {
-  const SlotNodes<Real> d(group, dx, s);
-  const Real* moved[3] = {d.x1, d.x2, d.x3};
-  for (int a = 0; a < 3; ++a)
-    for (int i = 0; i < 3; ++i) de[a][i] = moved[a][i] - d.x0[i];
-}
-
 /// Writes or adds one slot's corner forces.
 template <class Real>
 void put_slot(const Real f[12], const ElementGroup<Real>& group, std::size_t s, Real* corner, bool add) {
   Real* to = corner + 3 * (group.first_corner + 4 * s);
   for (int i = 0; i < 12; ++i) to[i] = add ? to[i] + f[i] : f[i];
+}
+
+/// Writes or adds one slot's stiffness (elastic/edge_stiffness.hpp).
+template <class Real>
+void put_edges(const Real k[edge_entries], std::size_t s, Real* K, bool add) {
+  constexpr std::size_t lanes = ElementGroup<Real>::lanes;
+  Real* to = K + edge_entries * lanes * (s / lanes) + s % lanes;
+  for (std::size_t i = 0; i < edge_entries; ++i) to[lanes * i] = add ? to[lanes * i] + k[i] : k[i];
 }
 
 /// The terms of a material. without_volume: the isochoric part alone (elastic/nodal_pressure.hpp has the rest).

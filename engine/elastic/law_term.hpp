@@ -2,38 +2,31 @@
 // A law as a term of a group's energy.
 #include <heml/elastic/group_term.hpp>
 #include <heml/elastic/law_source.hpp>
+#include <heml/elastic/wide.hpp>
 
 namespace heml {
 
-// The vectorised loops, for AVX2 where the compiler's own target is older x86. A processor without it takes the loops
-// of GroupTerm: the same operations in the same order and none contracted, so the same bits.
-#if defined(__x86_64__) && !defined(__AVX2__)
-#define HEML_WIDE [[gnu::target("avx2")]]
-inline bool has_wide() {
-  static const bool has = __builtin_cpu_supports("avx2");
-  return has;
-}
-#else
-#define HEML_WIDE
-inline bool has_wide() { return true; }
-#endif
-
+// The vectorised loops.
 template <class Real, class L>
 HEML_WIDE bool wide_forces(const L& law, const ElementGroup<Real>& group, const Real* x, std::size_t begin,
                            std::size_t end, Real* corner, bool add) {
   return group_forces<Real>(law, group, x, begin, end, corner, add);
 }
 template <class Real, class L>
-HEML_WIDE void wide_force_change(const L& law, const ElementGroup<Real>& group, const Real* x, const Real* dx,
-                                 std::size_t begin, std::size_t end, Real* corner, bool add) {
-  group_force_change<Real>(law, group, x, dx, begin, end, corner, add);
+HEML_WIDE void wide_stiffness(const L& law, const ElementGroup<Real>& group, const Real* x, std::size_t begin,
+                              std::size_t end, Real* K, bool add) {
+  group_stiffness<Real>(law, group, x, begin, end, K, add);
+}
+template <class Real, class L>
+HEML_WIDE void wide_energy(const L& law, const ElementGroup<Real>& group, const Real* x, std::size_t begin,
+                           std::size_t end, double* of_packet, bool add) {
+  group_energy<Real>(law, group, x, begin, end, of_packet, add);
 }
 template <class Real, class L>
 HEML_WIDE Real wide_frequency_bound(const L& law, const ElementGroup<Real>& group, const Real* x, std::size_t begin,
                                     std::size_t end) {
   return group_frequency_bound<Real>(law, group, x, begin, end);
 }
-#undef HEML_WIDE
 
 template <class Real, Law<Real> L>
 class LawTerm final : public GroupTerm<Real> {
@@ -57,17 +50,7 @@ class LawTerm final : public GroupTerm<Real> {
   }
 
   double energy(const Group& group, std::size_t s, const Link<Real>& link, const RestShape<Real>& rest) const override {
-    const L law = source_.at(group, s);
-    Real W;
-    if constexpr (PrincipalLaw<L, Real>) {
-      Real factor[3][3], C[6];
-      cholesky3(rest.A, factor);
-      into_rest_frame(factor, link.G, C);
-      W = principal_energy<L::is_continued>(law, C, link.at.J);
-    } else {
-      W = law.energy(link.at);
-    }
-    return static_cast<double>(rest.volume) * static_cast<double>(W);
+    return static_cast<double>(rest.volume) * static_cast<double>(law_energy(source_.at(group, s), link, rest));
   }
 
   bool valid(const Group& group, std::size_t s, const Link<Real>& link) const override {
@@ -94,10 +77,21 @@ class LawTerm final : public GroupTerm<Real> {
     return wide_forces<Real>(source_.uniform_law(), group, x, begin, end, corner, add);
   }
 
-  void force_change(const Group& group, const Real* x, const Real* dx, std::size_t begin, std::size_t end, Real* corner,
-                    bool add) const override {
-    if (!is_wide()) return GroupTerm<Real>::force_change(group, x, dx, begin, end, corner, add);
-    wide_force_change<Real>(source_.uniform_law(), group, x, dx, begin, end, corner, add);
+  void stiffness(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real* K,
+                 bool add) const override {
+    if (is_wide()) return wide_stiffness<Real>(source_.uniform_law(), group, x, begin, end, K, add);
+    for (std::size_t s = begin * Group::lanes; s < end * Group::lanes; ++s) {
+      const auto rest = rest_shape(group, s);
+      Real k[edge_entries] = {};
+      add_edge_stiffness(source_.at(group, s), whole_link(group, x, s, rest), rest, k);
+      put_edges(k, s, K, add);
+    }
+  }
+
+  void energies(const Group& group, const Real* x, std::size_t begin, std::size_t end, double* of_packet,
+                bool add) const override {
+    if (!is_wide()) return GroupTerm<Real>::energies(group, x, begin, end, of_packet, add);
+    wide_energy<Real>(source_.uniform_law(), group, x, begin, end, of_packet, add);
   }
 
   Real frequency_bound(const Group& group, const Real* x, std::size_t begin, std::size_t end) const override {

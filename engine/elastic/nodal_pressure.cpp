@@ -185,7 +185,7 @@ Real NodalPressure<Real>::frequency_bound(const Real* x, ThreadTeam& team) {
 }
 
 template <class Real>
-void NodalPressure<Real>::add_stiffness(std::size_t g, const Real* x, std::size_t s, ElementMatrix<Real>& K) const {
+void NodalPressure<Real>::add_stiffness(std::size_t g, const Real* x, std::size_t s, Real K[edge_entries]) const {
   const ElementGroup<Real>& group = *groups_[g];
   RestShape<Real> rest;
   const auto link = volume_link(group, x, s, rest);
@@ -194,12 +194,10 @@ void NodalPressure<Real>::add_stiffness(std::size_t g, const Real* x, std::size_
     const auto n = static_cast<std::size_t>(list[s]);
     stiffness += node_kappa_[n] * psi(ratio_[n]).w2 / 4;
   }
-  const Tensions<Real> t{{}, pressure(g, s)};
-  heml::add_stiffness<Real>(
-      [&](const Real(&de)[3][3], Real* f) {
-        pull_change(t, Tensions<Real>{{}, stiffness * link_change(link, de, rest.volume).J}, link, de, f);
-      },
-      K);
+  Real gradient[1][9];  // of J
+  for (int r = 0; r < 9; ++r) gradient[0][r] = link.cross[r / 3][r % 3] / (6 * rest.volume);
+  add_outer_products<1>(gradient, {{stiffness}}, rest.volume, K);
+  add_pull(Tensions<Real>{{}, pressure(g, s)}, link.e, K);
 }
 
 template class NodalPressure<float>;

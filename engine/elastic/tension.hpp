@@ -175,6 +175,19 @@ template <class Real, Law<Real> L>
   return t;
 }
 
+/// W of a law at an element, Pa. The link must be whole.
+template <class Real, Law<Real> L>
+[[gnu::always_inline]] inline Real law_energy(const L& law, const Link<Real>& link, const RestShape<Real>& rest) {
+  if constexpr (PrincipalLaw<L, Real>) {
+    Real factor[3][3], C[6];
+    cholesky3(rest.A, factor);
+    into_rest_frame(factor, link.G, C);
+    return principal_energy<L::is_continued>(law, C, link.at.J);
+  } else {
+    return law.energy(link.at);
+  }
+}
+
 /// Change of G and J with a change de of the edges.
 template <class Real>
 struct LinkChange {
@@ -275,14 +288,6 @@ template <class Real>
   pull_corners<true>(t, de, dcross, out);
   pull_corners<true>(dt, link.e, link.cross, other);
   for (int i = 0; i < 12; ++i) out[i] += other[i];
-}
-
-/// The same for one law.
-template <class Real, Law<Real> L>
-[[gnu::always_inline]] inline void corner_force_change(const L& law, const Link<Real>& link,
-                                                       const RestShape<Real>& rest, const Real de[3][3], Real out[12]) {
-  pull_change(tensions(law, link, rest), tension_change(law, link, rest, link_change(link, de, rest.volume)), link, de,
-              out);
 }
 
 }  // namespace heml

@@ -174,7 +174,7 @@ template <class Real>
 std::optional<double> BodyObjective<Real>::value(const Vector& x) {
   if (!model_.pressures.empty()) return std::nullopt;
   const Real* at_x = as_real(x, x_);
-  double sum = body_.potential(at_x);
+  double sum = body_.potential(at_x, team_);
   for (std::size_t n = 0; n < mass_.size(); ++n)
     sum -= static_cast<double>(mass_[n]) * gravity_.dot(at(x, static_cast<int>(n)) - model_.mesh.nodes[n]);
   for (const auto& load : model_.dead)
@@ -209,12 +209,17 @@ void BodyObjective<Real>::each_pressed_face(const Vector& x, const Visit& visit)
 }
 
 template <class Real>
-void BodyObjective<Real>::product(const Vector& x, const Vector& dx, Vector& out) {
-  const Real* at_x = as_real(x, x_);
+void BodyObjective<Real>::linearise(const Vector& x) {
+  body_.linearise(as_real(x, x_), team_);
+  if (!model_.pressures.empty()) linearised_at_ = x;
+}
+
+template <class Real>
+void BodyObjective<Real>::product(const Vector& dx, Vector& out) {
   const Real* change = as_real(dx, dx_);
-  f_.resize(x_.size());
-  body_.force_change(at_x, change, f_.data(), team_);
-  out.setZero(x.size());
+  f_.resize(dx_.size());
+  body_.force_change(change, f_.data(), team_);
+  out.setZero(dx.size());
   for (const int n : free_.node)
     for (int i = 0; i < 3; ++i)
       out[3 * n + i] = -static_cast<double>(f_[static_cast<std::size_t>(3 * n + i)]) +
@@ -222,7 +227,7 @@ void BodyObjective<Real>::product(const Vector& x, const Vector& dx, Vector& out
   const auto add = [&](int n, const Vec3& force) {
     if (free_.number[static_cast<std::size_t>(n)] >= 0) out.segment<3>(3 * n) += force;
   };
-  each_pressed_face(x, [&](const Triangle& face, double p, const std::array<Vec3, 3>& w) {
+  each_pressed_face(linearised_at_, [&](const Triangle& face, double p, const std::array<Vec3, 3>& w) {
     Vec3 push = Vec3::Zero();
     for (std::size_t j = 0; j < 3; ++j) push += p * w[j].cross(at(dx, face[j]));
     for (const int n : face) add(n, -push);
@@ -234,15 +239,14 @@ void BodyObjective<Real>::product(const Vector& x, const Vector& dx, Vector& out
 }
 
 template <class Real>
-void BodyObjective<Real>::add_stiffness(const Vector& x, Projection projection, BlockMatrix& matrix) {
+void BodyObjective<Real>::add_stiffness(Projection projection, BlockMatrix& matrix) {
   using Matrix12 = Eigen::Matrix<double, 12, 12, Eigen::RowMajor>;
-  const Real* at_x = as_real(x, x_);
-  body_.each_stiffness(at_x, [&](const Tet& nodes, const ElementMatrix<Real>& K) {
+  body_.each_stiffness([&](const Tet& nodes, const ElementMatrix<Real>& K) {
     Matrix12 exact = Eigen::Map<const Eigen::Matrix<Real, 12, 12, Eigen::RowMajor>>(&K[0][0]).template cast<double>();
     if (projection == Projection::clamp && exact.allFinite()) clamp(exact);
     matrix.add_element(nodes, exact);
   });
-  body_.springs().each_stiffness(at_x, [&](int a, int b, const Real(&block)[3][3]) {
+  body_.each_spring_stiffness([&](int a, int b, const Real(&block)[3][3]) {
     Mat3 B;
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) B(i, j) = static_cast<double>(block[i][j]);
@@ -252,7 +256,7 @@ void BodyObjective<Real>::add_stiffness(const Vector& x, Projection projection, 
     matrix.add_pair(a, b, -B);
   });
   if (projection == Projection::none)  // of −p [w_j]× in row i: p/2 ([w_i]× − [w_j]×)
-    each_pressed_face(x, [&](const Triangle& face, double p, const std::array<Vec3, 3>& w) {
+    each_pressed_face(linearised_at_, [&](const Triangle& face, double p, const std::array<Vec3, 3>& w) {
       for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t j = (i + 1) % 3;
         matrix.add_pair(face[i], face[j], p / 2 * cross_matrix(w[i] - w[j]));

@@ -151,9 +151,10 @@ Vector TypedWorld<Real>::stage_start(const Stage& stage, double time, const Vect
   if (can_fly) return fly;
   Vector r, stretched, d;
   if (!parts.step.residual(x, r)) return stay;
-  parts.step.product(x, stay - x, stretched);
+  parts.step.linearise(x);
+  parts.step.product(stay - x, stretched);
   r -= stretched;
-  return parts.linear.solve(parts.step, x, r, 1e-2, d) ? Vector(stay + d) : stay;
+  return parts.linear.solve(parts.step, r, 1e-2, d) ? Vector(stay + d) : stay;
 }
 
 /// Contract: "tolerance".

@@ -32,11 +32,12 @@ double TypedWorld<Real>::lowest_frequency() {
   for (std::size_t n = 0; n < model_.mesh.nodes.size(); ++n)
     rest.template segment<3>(3 * static_cast<int>(n)) = model_.mesh.nodes[n];
   double least = 0;
+  parts.body.linearise(rest);
   for (int axis = 0; axis < 3; ++axis) {
     Vector weight = Vector::Zero(parts.mass.size());
     for (Eigen::Index n = 0; n < weight.size() / 3; ++n) weight[3 * n + axis] = parts.mass[3 * n + axis];
     parts.linear.set_inertia(0);
-    if (!parts.linear.solve(parts.body, rest, weight, 1e-2, shape)) return 0;
+    if (!parts.linear.solve(parts.body, weight, 1e-2, shape)) return 0;
     const double square = shape.dot(weight) / (parts.mass.array() * shape.array().square()).sum();
     if (axis == 0 || square < least) least = square;
   }

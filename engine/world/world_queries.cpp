@@ -69,7 +69,7 @@ Energies TypedWorld<Real>::energies() {
     e.kinetic += m / 2 * v.squaredNorm();
     e.potential -= m * gravity.dot(x - model_.mesh.nodes[n]);
   }
-  e.elastic = body_.energy(state_.x.data());
+  e.elastic = body_.energy(state_.x.data(), team_);
   return e;
 }
 

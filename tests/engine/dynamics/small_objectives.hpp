@@ -30,17 +30,18 @@ class NodesAndSprings : public Objective {
     return sum;
   }
   double value_noise() const override { return 1e-14; }
-  void product(const Vector& x, const Vector& dx, Vector& out) override {
-    out.setZero(x.size());
+  void linearise(const Vector& x) override { at_ = x; }
+  void product(const Vector& dx, Vector& out) override {
+    out.setZero(dx.size());
     each_edge([&](int a, int b) {
       const Vec3 pull = k_ * (dx.segment<3>(3 * b) - dx.segment<3>(3 * a));
       if (free_.number[static_cast<std::size_t>(a)] >= 0) out.segment<3>(3 * a) -= pull;
       if (free_.number[static_cast<std::size_t>(b)] >= 0) out.segment<3>(3 * b) += pull;
     });
     for (const int n : free_.node)
-      for (int i = 0; i < 3; ++i) out[3 * n + i] += curvature(x[3 * n + i]) * dx[3 * n + i];
+      for (int i = 0; i < 3; ++i) out[3 * n + i] += curvature(at_[3 * n + i]) * dx[3 * n + i];
   }
-  void add_stiffness(const Vector& x, Projection projection, BlockMatrix& matrix) override {
+  void add_stiffness(Projection projection, BlockMatrix& matrix) override {
     each_edge([&](int a, int b) {
       matrix.add_node(a, k_ * Mat3::Identity());
       matrix.add_node(b, k_ * Mat3::Identity());
@@ -48,7 +49,7 @@ class NodesAndSprings : public Objective {
     });
     for (const int n : free_.node) {
       Vec3 diagonal;
-      for (int i = 0; i < 3; ++i) diagonal[i] = curvature(x[3 * n + i]);
+      for (int i = 0; i < 3; ++i) diagonal[i] = curvature(at_[3 * n + i]);
       if (projection == Projection::clamp) diagonal = diagonal.cwiseMax(0);
       matrix.add_node(n, diagonal.asDiagonal().toDenseMatrix());
     }
@@ -68,6 +69,7 @@ class NodesAndSprings : public Objective {
   const TetMesh& mesh_;
   const FreeNodes& free_;
   double k_;
+  Vector at_;
 };
 
 /// A double well at every node: (x² − 1)²/4 each axis, concave round 0.

@@ -42,27 +42,23 @@ TEST_CASE("stiffness is minus the gradient of the forces, through inversion too 
     }
 }
 
-TEST_CASE("element stiffnesses add up to the stiffness, and are symmetric") {
+TEST_CASE("element stiffnesses add up to the stiffness") {
   std::mt19937_64 random(22);
+  ThreadTeam team(1);
   for (const auto law : law_names()) {
     CAPTURE(std::string(law));
     SmallBody small(random, 0.1);
     auto body = small.of(law, true);
     std::vector<double> dx(small.x.size()), sum(small.x.size(), 0.0), change(small.x.size());
     for (double& d : dx) d = test::uniform(random, -1, 1);
-    double asymmetry = 0, size = 0;
-    body->each_stiffness(small.x.data(), [&](const std::array<int, 4>& node, const ElementMatrix<double>& K) {
+    body->linearise(small.x.data(), team);
+    body->each_stiffness([&](const std::array<int, 4>& node, const ElementMatrix<double>& K) {
       for (std::size_t r = 0; r < 12; ++r)
-        for (std::size_t c = 0; c < 12; ++c) {
-          asymmetry = std::max(asymmetry, std::abs(K[r][c] - K[c][r]));
-          size = std::max(size, std::abs(K[r][c]));
+        for (std::size_t c = 0; c < 12; ++c)
           sum[3 * static_cast<std::size_t>(node[r / 3]) + r % 3] -=
               K[r][c] * dx[3 * static_cast<std::size_t>(node[c / 3]) + c % 3];
-        }
     });
-    CHECK(asymmetry <= 1e-12 * size);
-    ThreadTeam team(1);
-    body->force_change(small.x.data(), dx.data(), change.data(), team);
+    body->force_change(dx.data(), change.data(), team);
     for (std::size_t i = 0; i < sum.size(); ++i) CHECK(std::abs(sum[i] - change[i]) <= 1e-11 * largest(change));
   }
 }

@@ -63,12 +63,13 @@ inline double largest(const std::vector<double>& values) {
 /// How far −∂U/∂x by fourth-order differences is from the forces, relative to the largest.
 inline double gradient_error(ElasticBody<double>& body, const std::vector<double>& at, double h = 2e-7) {
   const auto f = forces_of(body, at);
+  ThreadTeam team(1);
   double worst = 0;
   for (std::size_t i = 0; i < at.size(); ++i) {
     const auto U = [&](double by) {
       auto x = at;
       x[i] += by;
-      return body.potential(x.data());
+      return body.potential(x.data(), team);
     };
     const double slope = (8 * (U(h) - U(-h)) - (U(2 * h) - U(-2 * h))) / (12 * h);
     worst = std::max(worst, std::abs(f[i] + slope));
@@ -81,7 +82,8 @@ inline double stiffness_error(ElasticBody<double>& body, const std::vector<doubl
   std::vector<double> dx(at.size()), change(at.size());
   for (double& d : dx) d = uniform(random, -1, 1);
   ThreadTeam team(1);
-  body.force_change(at.data(), dx.data(), change.data(), team);
+  body.linearise(at.data(), team);
+  body.force_change(dx.data(), change.data(), team);
   const double h = 1e-7;
   const auto along = [&](double by) {
     auto x = at;

@@ -1,0 +1,156 @@
+#pragma once
+// The stiffness of elements at one state, found once and multiplied many times: an implicit step asks for ten to a
+// hundred products with the stiffness of one state, and none of them needs the law again.
+//
+// The forces of an element depend on its edges e_a = x_a − x_0 alone, so its 12×12 stiffness is a symmetric 9×9 one in
+// them, ∂²U/∂e_a∂e_b, of which the lower half is kept:
+//     f_a = −Σ_b K_ab de_b,   f_0 = −(f_1 + f_2 + f_3),   a, b = 1..3
+//   packet p:  [45][lanes]     entry (r, c) of the lower half at r(r+1)/2 + c, r = 3(a−1) + i
+//
+// By invariants it is a few outer products of their gradients and multiples of small blocks (the paper's K = L(k) ⊗ I +
+// Gᵀ 4V W_ll G, with J beside the squared lengths).
+#include <heml/elastic/tension.hpp>
+
+namespace heml {
+
+inline constexpr int edge_entries = 45;
+constexpr int edge_entry(int r, int c) { return r >= c ? r * (r + 1) / 2 + c : c * (c + 1) / 2 + r; }
+
+/// A 12×12 element stiffness, row after row; corner after corner, xyz.
+template <class Real>
+using ElementMatrix = Real[12][12];
+
+/// Adds V Σ_kl w_kl p_k p_lᵀ, p_k the gradient of an invariant by the nine coordinates of the edges.
+template <int count, class Real>
+[[gnu::always_inline]] inline void add_outer_products(const Real (&p)[count][9], const Real (&w)[count][count],
+                                                      Real volume, Real K[edge_entries]) {
+  Real q[count][9];
+  for (int k = 0; k < count; ++k)
+    for (int r = 0; r < 9; ++r) {
+      Real sum = w[k][0] * p[0][r];
+      for (int l = 1; l < count; ++l) sum += w[k][l] * p[l][r];
+      q[k][r] = volume * sum;
+    }
+  for (int r = 0, at = 0; r < 9; ++r)
+    for (int c = 0; c <= r; ++c, ++at)
+      for (int k = 0; k < count; ++k) K[at] += p[k][r] * q[k][c];
+}
+
+/// What a law of invariants adds beyond its tensions' T_ab I.
+template <class Real, InvariantLaw<Real> L>
+[[gnu::always_inline]] inline void add_curvature(const L& law, const Link<Real>& link, const RestShape<Real>& rest,
+                                                 Real K[edge_entries]) {
+  const Slopes<Real> s = law.slopes(link.at);
+  const Curvatures<Real> c = law.curvatures(link.at);
+  const Real* A = rest.A;
+  const Real a[3][3] = {{A[0], A[3], A[4]}, {A[3], A[1], A[5]}, {A[4], A[5], A[2]}};
+  const auto& e = link.e;
+  Real u[3][3];  // u_a = Σ_b A_ab e_b: half of ∂I1/∂e_a
+  for (int k = 0; k < 3; ++k)
+    for (int i = 0; i < 3; ++i) u[k][i] = a[k][0] * e[0][i] + a[k][1] * e[1][i] + a[k][2] * e[2][i];
+  constexpr int count = 2 + (L::uses_I2 ? 1 : 0) + (L::uses_I4 ? 1 : 0), I2 = 2, I4 = count - 1;
+  Real p[count][9], w[count][count] = {{c.w11, c.w1J}, {c.w1J, c.wJJ}};
+  for (int k = 0; k < 3; ++k)
+    for (int i = 0; i < 3; ++i) {
+      p[0][3 * k + i] = 2 * u[k][i];
+      p[1][3 * k + i] = link.cross[k][i] / (6 * rest.volume);
+    }
+  if constexpr (L::uses_I2) {
+    // ∂I2/∂e_a = 2 (I1 u_a − y_a), y = AGA e; ∂²I2 = 4 u_a u_bᵀ − 2 u_b u_aᵀ − 2 A_ab FFᵀ and what is in the tensions.
+    Real FF[6] = {0, 0, 0, 0, 0, 0};
+    constexpr int row[6] = {0, 1, 2, 0, 0, 1}, column[6] = {0, 1, 2, 1, 2, 2};
+    for (int k = 0; k < 3; ++k) {
+      for (int i = 0; i < 3; ++i) {
+        const Real y = link.AG[k][0] * u[0][i] + link.AG[k][1] * u[1][i] + link.AG[k][2] * u[2][i];
+        p[I2][3 * k + i] = 2 * (link.at.I1 * u[k][i] - y);
+      }
+      for (int m = 0; m < 6; ++m) FF[m] += u[k][row[m]] * e[k][column[m]];
+    }
+    w[0][I2] = w[I2][0] = c.w12;
+    w[1][I2] = w[I2][1] = c.w2J;
+    w[I2][I2] = c.w22;
+    w[0][0] += s.w2;
+    const Real twice = 2 * rest.volume * s.w2;
+    const Real B[3][3] = {{FF[0], FF[3], FF[4]}, {FF[3], FF[1], FF[5]}, {FF[4], FF[5], FF[2]}};
+    for (int r = 0, at = 0; r < 9; ++r)
+      for (int col = 0; col <= r; ++col, ++at) {
+        const int k = r / 3, i = r % 3, l = col / 3, j = col % 3;
+        K[at] -= twice * (a[k][l] * B[i][j] + u[l][i] * u[k][j]);
+      }
+  }
+  if constexpr (L::uses_I4) {
+    const Real* m = rest.fibre;
+    for (int i = 0; i < 3; ++i) {
+      const Real along = m[0] * e[0][i] + m[1] * e[1][i] + m[2] * e[2][i];
+      for (int k = 0; k < 3; ++k) p[I4][3 * k + i] = 2 * m[k] * along;
+    }
+    w[0][I4] = w[I4][0] = c.w14;
+    w[1][I4] = w[I4][1] = c.w4J;
+    if constexpr (L::uses_I2) w[I2][I4] = w[I4][I2] = c.w24;
+    w[I4][I4] = c.w44;
+  }
+  add_outer_products(p, w, rest.volume, K);
+}
+
+/// Adds T_ab I and wJ ∂²J/∂e_a∂e_b: a triple product's second derivatives are edges.
+template <class Real>
+[[gnu::always_inline]] inline void add_pull(const Tensions<Real>& t, const Real e[3][3], Real K[edge_entries]) {
+  constexpr int pair[3][3] = {{0, 3, 4}, {3, 1, 5}, {4, 5, 2}};
+  for (int k = 0; k < 3; ++k)
+    for (int l = 0; l <= k; ++l)
+      for (int i = 0; i < 3; ++i) K[edge_entry(3 * k + i, 3 * l + i)] += t.T[pair[k][l]];
+  const Real h = t.wJ / 6;
+  for (int k = 1; k < 3; ++k)
+    for (int l = 0; l < k; ++l) {
+      const int other = 3 - k - l;
+      const Real sign = other == 1 ? -h : h;  // of [e_other]×
+      for (int i = 0; i < 3; ++i) {
+        const int j = (i + 1) % 3, m = (i + 2) % 3;
+        K[edge_entry(3 * k + m, 3 * l + j)] += sign * e[other][i];
+        K[edge_entry(3 * k + j, 3 * l + m)] -= sign * e[other][i];
+      }
+    }
+}
+
+/// Adds the stiffness made of nine changes of the edges: change(de, out[12]) gives the corner forces' change.
+template <class Real, class Change>
+[[gnu::always_inline]] inline void add_columns(const Change& change, Real K[edge_entries]) {
+  for (int c = 0; c < 9; ++c) {
+    Real de[3][3] = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}}, f[12];
+    de[c / 3][c % 3] = 1;
+    change(de, f);
+    for (int r = c; r < 9; ++r) K[edge_entry(r, c)] -= f[r + 3];
+  }
+}
+
+/// Adds the stiffness of a law at an element, whose link must be whole.
+template <class Real, Law<Real> L>
+[[gnu::always_inline]] inline void add_edge_stiffness(const L& law, const Link<Real>& link, const RestShape<Real>& rest,
+                                                      Real K[edge_entries]) {
+  const Tensions<Real> t = tensions(law, link, rest);
+  if constexpr (PrincipalLaw<L, Real>) {
+    add_columns(
+        [&](const Real(&de)[3][3], Real* f) {
+          pull_change(t, tension_change(law, link, rest, link_change(link, de, rest.volume)), link, de, f);
+        },
+        K);
+  } else {
+    add_curvature(law, link, rest, K);
+    add_pull(t, link.e, K);
+  }
+}
+
+/// The 12×12 form. Moving corner 0 moves all edges back.
+template <class Real>
+void expand_edges(const Real K[edge_entries], ElementMatrix<Real>& out) {
+  for (std::size_t r = 0; r < 9; ++r)
+    for (std::size_t c = 0; c < 9; ++c)
+      out[3 + r][3 + c] = K[edge_entry(static_cast<int>(r), static_cast<int>(c))];
+  for (std::size_t r = 3; r < 12; ++r)
+    for (std::size_t i = 0; i < 3; ++i)
+      out[r][i] = out[i][r] = -(out[r][3 + i] + out[r][6 + i] + out[r][9 + i]);
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) out[i][j] = -(out[3 + i][j] + out[6 + i][j] + out[9 + i][j]);
+}
+
+}  // namespace heml
