@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <heml/dynamics/linear_solver.hpp>
 
@@ -69,16 +70,27 @@ LinearSolver::Sign LinearSolver::prepare(Objective& objective) {
       invert_blocks();
       return Sign::positive;
     case Preconditioner::scalar:
-      if (!scalar_) scalar_ = std::make_unique<ScalarFactor>(free_, mesh_, modulus_);
-      if (factored_a_ >= 0 && a_ <= changed_a_lot * factored_a_ && factored_a_ <= changed_a_lot * a_)
-        return Sign::positive;
-      ++counts_.factorisations;
-      factored_a_ = a_;
-      if (scalar_->factor(a_, mass_)) return Sign::positive;
-      factored_a_ = -1;
-      return Sign::none;
+      return factor_scalar() ? Sign::positive : Sign::none;
   }
   return Sign::none;
+}
+
+/// Of aM + L, where it has changed a lot.
+bool LinearSolver::factor_scalar() {
+  if (!scalar_) scalar_ = std::make_unique<ScalarFactor>(free_, mesh_, modulus_);
+  if (factored_a_ >= 0 && a_ <= changed_a_lot * factored_a_ && factored_a_ <= changed_a_lot * a_)
+    return true;
+  ++counts_.factorisations;
+  const bool done = scalar_->factor(a_, mass_);
+  factored_a_ = done ? a_ : -1;
+  return done;
+}
+
+bool LinearSolver::precondition(const Vector& r, Vector& z) {
+  assert(preconditioner_ == Preconditioner::scalar);
+  if (!factor_scalar()) return false;
+  scalar_->apply(r, z);
+  return true;
 }
 
 void LinearSolver::apply_factor(const Vector& r, Vector& z) {

@@ -38,6 +38,10 @@ class LinearSolver {
   /// which near a buckling load serves far better than positive elements do. 0 where nothing exists.
   bool solve(Objective& objective, const Vector& r, double tolerance, Vector& d);
 
+  /// z = what stands for K⁻¹, times r. Returns false where there is none. Not for `block_jacobi` and `cholesky`, which
+  /// are of a state.
+  bool precondition(const Vector& r, Vector& z);
+
   /// The same with every element's stiffness made positive and, where that is not enough, a shifted diagonal: d always
   /// leads downhill.
   void solve_projected(Objective& objective, const Vector& r, Vector& d);
@@ -49,6 +53,7 @@ class LinearSolver {
   enum class Sign { positive, mixed, none };  ///< of a factor's pivots; none: no factor
   Sign assemble_and_factor(Objective& objective, Projection projection, double shift);
   Sign prepare(Objective& objective);
+  bool factor_scalar();
   void apply(const Vector& r, Vector& z);
   void apply_factor(const Vector& r, Vector& z);
   void invert_blocks();

@@ -1,0 +1,35 @@
+#include <cmath>
+#include <heml/dynamics/line_search.hpp>
+
+namespace heml {
+namespace {
+constexpr double armijo = 1e-4;
+constexpr int most_cuts = 24;
+constexpr double flatter = 0.95;  // of the slope at the start: a step at round-off must make it at least this flat
+}  // namespace
+
+bool search_line(Objective& objective, const Vector& d, SearchPoint& at) {
+  const double slope = d.dot(at.r);  // −dΦ/ds
+  if (!(slope > 0) && at.value) return false;
+  SearchPoint trial;
+  double s = 1;
+  for (int cut = 0; cut <= most_cuts; ++cut, s /= 2) {
+    trial.x = at.x + s * d;
+    if (!objective.residual(trial.x, trial.r) || !trial.r.allFinite()) continue;
+    const double slope_there = d.dot(trial.r);
+    const bool is_flatter = std::abs(slope_there) <= flatter * slope;
+    if (!at.value) {
+      if (!is_flatter && !(trial.r.norm() <= (1 - armijo * s) * at.r.norm())) continue;
+    } else {
+      trial.value = objective.value(trial.x);
+      const double noise = objective.value_noise() + 1e-15 * std::abs(*at.value);
+      if (!(*trial.value <= *at.value - armijo * s * slope + noise)) continue;
+      if (s * slope < 8 * noise && !is_flatter) continue;  // values cannot tell
+    }
+    std::swap(at, trial);
+    return true;
+  }
+  return false;
+}
+
+}  // namespace heml
