@@ -9,21 +9,24 @@ constexpr int most_iterations = 500;
 constexpr double changed_a_lot = 3;  // a factor of aM + L serves while a is within this of its own
 // Free nodes up to which a sparse factor a Newton iteration costs less than some tens of products.
 constexpr std::size_t small_in_motion = 400, small_at_rest = 40000;
+// and up to which one factor of the scalar matrix costs less than cycles over levels.
+constexpr std::size_t middling = 1000;
 }  // namespace
 
 const char* preconditioner_name(Preconditioner preconditioner) {
-  constexpr const char* names[] = {"cholesky", "scalar", "block_jacobi"};
+  constexpr const char* names[] = {"cholesky", "scalar", "multilevel", "block_jacobi"};
   return names[static_cast<std::size_t>(preconditioner)];
 }
 
 Preconditioner choose_preconditioner(std::size_t free_nodes, bool static_solve) {
   const bool small = free_nodes <= (static_solve ? small_at_rest : small_in_motion);
-  return small ? Preconditioner::cholesky : Preconditioner::scalar;
+  if (small) return Preconditioner::cholesky;
+  return free_nodes <= middling ? Preconditioner::scalar : Preconditioner::multilevel;
 }
 
 LinearSolver::LinearSolver(const FreeNodes& free, const TetMesh& mesh, const std::vector<double>& modulus,
-                           const Vector& mass, Preconditioner preconditioner)
-    : free_(free), mesh_(mesh), mass_(mass), preconditioner_(preconditioner), modulus_(modulus) {}
+                           const Vector& mass, Preconditioner preconditioner, ThreadTeam& team)
+    : free_(free), mesh_(mesh), mass_(mass), preconditioner_(preconditioner), team_(team), modulus_(modulus) {}
 
 void LinearSolver::set_inertia(double a) { a_ = a; }
 
@@ -70,6 +73,7 @@ LinearSolver::Sign LinearSolver::prepare(Objective& objective) {
       invert_blocks();
       return Sign::positive;
     case Preconditioner::scalar:
+    case Preconditioner::multilevel:
       return factor_scalar() ? Sign::positive : Sign::none;
   }
   return Sign::none;
@@ -77,17 +81,19 @@ LinearSolver::Sign LinearSolver::prepare(Objective& objective) {
 
 /// Of aM + L, where it has changed a lot.
 bool LinearSolver::factor_scalar() {
-  if (!scalar_) scalar_ = std::make_unique<ScalarFactor>(free_, mesh_, modulus_);
-  if (factored_a_ >= 0 && a_ <= changed_a_lot * factored_a_ && factored_a_ <= changed_a_lot * a_)
-    return true;
+  if (!scalar_) {
+    const bool levels = preconditioner_ == Preconditioner::multilevel;
+    scalar_ = std::make_unique<Multilevel>(free_, mesh_, modulus_, mass_, levels ? middling : free_.node.size(), team_);
+  }
+  if (factored_a_ >= 0 && a_ <= changed_a_lot * factored_a_ && factored_a_ <= changed_a_lot * a_) return true;
   ++counts_.factorisations;
-  const bool done = scalar_->factor(a_, mass_);
+  const bool done = scalar_->set_inertia(a_);
   factored_a_ = done ? a_ : -1;
   return done;
 }
 
 bool LinearSolver::precondition(const Vector& r, Vector& z) {
-  assert(preconditioner_ == Preconditioner::scalar);
+  assert(preconditioner_ == Preconditioner::scalar || preconditioner_ == Preconditioner::multilevel);
   if (!factor_scalar()) return false;
   scalar_->apply(r, z);
   return true;
@@ -109,7 +115,7 @@ void LinearSolver::apply_factor(const Vector& r, Vector& z) {
 
 void LinearSolver::apply(const Vector& r, Vector& z) {
   if (preconditioner_ == Preconditioner::cholesky) return apply_factor(r, z);
-  if (preconditioner_ == Preconditioner::scalar) return scalar_->apply(r, z);
+  if (scalar_) return scalar_->apply(r, z);
   z.setZero(r.size());
   for (std::size_t k = 0; k < free_.node.size(); ++k)
     z.segment<3>(3 * free_.node[k]) = inverse_blocks_[k] * r.segment<3>(3 * free_.node[k]);

@@ -1,17 +1,18 @@
 #pragma once
-// K d = r by conjugate gradients (by BiCGSTAB where K is not symmetric) on products of the stiffness, with one of three
+// K d = r by conjugate gradients (by BiCGSTAB where K is not symmetric) on products of the stiffness, with one of four
 // preconditioners. With the Cholesky factor of the assembled stiffness they end after one iteration, or after a few
 // where the assembled matrix is an approximation.
 #include <Eigen/SparseCholesky>
+#include <heml/dynamics/multilevel.hpp>
 #include <heml/dynamics/objective.hpp>
-#include <heml/dynamics/scalar_factor.hpp>
 #include <memory>
 
 namespace heml {
 
 enum class Preconditioner {
   cholesky,     ///< of the assembled stiffness, anew each time: small bodies, and equilibrium to the last digit
-  scalar,       ///< of aM + Laplacian, once: large bodies in motion
+  scalar,       ///< of aM + Laplacian, once: bodies in motion
+  multilevel,   ///< of the same, by coarser and coarser copies of it: large bodies
   block_jacobi  ///< 3×3 diagonal blocks: bodies whose mesh changes every step
 };
 const char* preconditioner_name(Preconditioner preconditioner);
@@ -26,9 +27,9 @@ struct LinearCounts {
 
 class LinearSolver {
  public:
-  /// free, mass (3 #V, kg) must outlive this. mesh: rest shape. modulus: #T, Pa, for the scalar matrix.
+  /// free, mass (3 #V, kg), team must outlive this. mesh: rest shape. modulus: #T, Pa, for the scalar matrix.
   LinearSolver(const FreeNodes& free, const TetMesh& mesh, const std::vector<double>& modulus, const Vector& mass,
-               Preconditioner preconditioner);
+               Preconditioner preconditioner, ThreadTeam& team);
 
   /// Tells the a of Φ = a/2 ‖x − y‖²_M + U. The scalar matrix is factored again where it has changed a lot.
   void set_inertia(double a);
@@ -66,10 +67,11 @@ class LinearSolver {
   const TetMesh& mesh_;
   const Vector& mass_;
   Preconditioner preconditioner_;
+  ThreadTeam& team_;
   std::unique_ptr<BlockMatrix> matrix_;  ///< made when first needed, like the rest
   std::unique_ptr<Cholesky> cholesky_;
   Vector pivots_;  ///< |D|, in the factor's order
-  std::unique_ptr<ScalarFactor> scalar_;
+  std::unique_ptr<Multilevel> scalar_;
   std::vector<Mat3> inverse_blocks_;  ///< #free
   std::vector<double> modulus_;
   double a_ = 0, factored_a_ = -1;

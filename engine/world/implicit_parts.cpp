@@ -29,7 +29,7 @@ ImplicitParts<Real>::ImplicitParts(ElasticBody<Real>& elastic, const Model<Real>
     : free(nonzero(inverse_mass)),
       mass(thrice(free, masses)),
       body(elastic, model, masses, free, grasps, team),
-      linear(free, model.mesh, modulus, mass, choose_preconditioner(free.node.size(), is_static)),
+      linear(free, model.mesh, modulus, mass, choose_preconditioner(free.node.size(), is_static), team),
       step(body, mass, free) {}
 
 template struct ImplicitParts<float>;

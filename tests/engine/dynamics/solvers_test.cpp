@@ -18,6 +18,7 @@ struct Fixture {
   TetMesh mesh = make_box(Vec3(1, 1, 1), {2, 2, 2});
   FreeNodes free;
   Vector mass;
+  mutable ThreadTeam team{1};
   explicit Fixture(int held = 3) : free(take(mesh.nodes.size(), held)), mass(Vector::Zero(size())) {
     for (const int n : free.node) mass.segment<3>(3 * n).setConstant(0.5);
   }
@@ -34,8 +35,13 @@ struct Fixture {
     for (const int n : free.node) x.segment<3>(3 * n) = random_vector(engine, size_of_noise) + around * Vec3::Ones();
     return x;
   }
-  LinearSolver solver(Preconditioner preconditioner) const { return {free, mesh, moduli(), mass, preconditioner}; }
+  LinearSolver solver(Preconditioner preconditioner) const {
+    return {free, mesh, moduli(), mass, preconditioner, team};
+  }
 };
+
+constexpr Preconditioner every_preconditioner[] = {Preconditioner::cholesky, Preconditioner::scalar,
+                                                   Preconditioner::multilevel, Preconditioner::block_jacobi};
 
 Stop small_residual(double limit) {
   return {[](const Vector& r) { return r.norm(); }, limit};
@@ -66,7 +72,7 @@ TEST_CASE("every preconditioner gives the same solution, the exact factor in one
   IncrementalPotential objective(springs, f.mass, f.free);
   objective.set(3, Vector::Zero(f.size()));
   const Vector x = Vector::Zero(f.size()), r = f.random(0, 1);
-  for (const Preconditioner p : {Preconditioner::cholesky, Preconditioner::scalar, Preconditioner::block_jacobi}) {
+  for (const Preconditioner p : every_preconditioner) {
     LinearSolver solver = f.solver(p);
     solver.set_inertia(3);
     Vector d, back;
@@ -98,7 +104,7 @@ TEST_CASE("Newton finds the minimum of a quadratic in one iteration and converge
 
 TEST_CASE("from a concave start Newton goes downhill to a minimum, with any preconditioner") {
   const Fixture f;
-  for (const Preconditioner p : {Preconditioner::cholesky, Preconditioner::scalar, Preconditioner::block_jacobi}) {
+  for (const Preconditioner p : every_preconditioner) {
     LinearSolver solver = f.solver(p);
     Wells wells(f.mesh, f.free, 0.01);
     Vector x = f.random(0, 0.3);
