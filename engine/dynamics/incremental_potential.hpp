@@ -28,14 +28,16 @@ class IncrementalPotential final : public Objective {
     return *U + a_ / 2 * (mass_.array() * (x - y_).array().square()).sum();
   }
   double value_noise() const override { return potential_.value_noise(); }
-  void linearise(const Vector& x) override { potential_.linearise(x); }
+  void linearise(const Vector& x, Projection projection = Projection::none) override {
+    potential_.linearise(x, projection);
+  }
   void product(const Vector& dx, Vector& out) override {
     potential_.product(dx, out);
     out.array() += a_ * mass_.array() * dx.array();
   }
   bool symmetric() const override { return potential_.symmetric(); }
-  void add_stiffness(Projection projection, BlockMatrix& matrix) override {
-    potential_.add_stiffness(projection, matrix);
+  void add_stiffness(BlockMatrix& matrix) override {
+    potential_.add_stiffness(matrix);
     for (const int n : free_.node) matrix.add_diagonal(n, a_ * mass_[3 * n]);
   }
 

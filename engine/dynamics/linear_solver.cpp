@@ -6,17 +6,14 @@
 namespace heml {
 namespace {
 constexpr int most_iterations = 500;
+constexpr double first_shift = 1e-4;          // of the stiffness along the residual
+constexpr double projected_tolerance = 1e-2;  // an approximation need not be solved exactly
 constexpr double changed_a_lot = 3;  // a factor of aM + L serves while a is within this of its own
 // Free nodes up to which a sparse factor a Newton iteration costs less than some tens of products.
 constexpr std::size_t small_in_motion = 400, small_at_rest = 40000;
 // and up to which one factor of the scalar matrix costs less than cycles over levels.
 constexpr std::size_t middling = 1000;
 }  // namespace
-
-const char* preconditioner_name(Preconditioner preconditioner) {
-  constexpr const char* names[] = {"cholesky", "scalar", "multilevel", "block_jacobi"};
-  return names[static_cast<std::size_t>(preconditioner)];
-}
 
 Preconditioner choose_preconditioner(std::size_t free_nodes, bool static_solve) {
   const bool small = free_nodes <= (static_solve ? small_at_rest : small_in_motion);
@@ -25,18 +22,21 @@ Preconditioner choose_preconditioner(std::size_t free_nodes, bool static_solve) 
 }
 
 LinearSolver::LinearSolver(const FreeNodes& free, const TetMesh& mesh, const std::vector<double>& modulus,
-                           const Vector& mass, Preconditioner preconditioner, ThreadTeam& team)
-    : free_(free), mesh_(mesh), mass_(mass), preconditioner_(preconditioner), team_(team), modulus_(modulus) {}
+                           const Vector& mass, Preconditioner preconditioner, Projection projection,
+                           ThreadTeam& team)
+    : free_(free), mesh_(mesh), mass_(mass), preconditioner_(preconditioner), projection_(projection), team_(team), modulus_(modulus) {}
 
 void LinearSolver::set_inertia(double a) { a_ = a; }
 
-LinearSolver::Sign LinearSolver::assemble_and_factor(Objective& objective, Projection projection,
-                                                     double shift) {
+void LinearSolver::assemble(Objective& objective) {
   if (!matrix_) matrix_ = std::make_unique<BlockMatrix>(free_, mesh_.tets);
   matrix_->set_zero();
-  objective.add_stiffness(projection, *matrix_);
-  if (shift > 0)
-    for (const int n : free_.node) matrix_->add_diagonal(n, shift);
+  objective.add_stiffness(*matrix_);
+  if (shift_ > 0)
+    for (const int n : free_.node) matrix_->add_diagonal(n, shift_);
+}
+
+LinearSolver::Sign LinearSolver::factor() {
   if (!cholesky_) {
     cholesky_ = std::make_unique<Cholesky>();
     cholesky_->analyzePattern(matrix_->lower());
@@ -65,11 +65,10 @@ void LinearSolver::invert_blocks() {
 LinearSolver::Sign LinearSolver::prepare(Objective& objective) {
   switch (preconditioner_) {
     case Preconditioner::cholesky:
-      return assemble_and_factor(objective, Projection::none, 0);
+      assemble(objective);
+      return factor();
     case Preconditioner::block_jacobi:
-      if (!matrix_) matrix_ = std::make_unique<BlockMatrix>(free_, mesh_.tets);
-      matrix_->set_zero();
-      objective.add_stiffness(Projection::none, *matrix_);
+      assemble(objective);
       invert_blocks();
       return Sign::positive;
     case Preconditioner::scalar:
@@ -141,6 +140,7 @@ bool LinearSolver::conjugate_gradients(Objective& objective, const Vector& r, do
   double progress = left.dot(z);
   for (int k = 0; k < most_iterations; ++k) {
     objective.product(p, q);
+    if (shift_ > 0) q += shift_ * p;
     ++counts_.iterations;
     const double curvature = p.dot(q);
     if (!(curvature > 0) || !(progress > 0)) {
@@ -191,20 +191,19 @@ bool LinearSolver::biconjugate_gradients(Objective& objective, const Vector& r, 
   return true;
 }
 
-void LinearSolver::solve_projected(Objective& objective, const Vector& r, Vector& d) {
-  ++counts_.solves;
-  double shift = 0;
-  while (assemble_and_factor(objective, Projection::clamp, shift) != Sign::positive) {
-    double mean = 0;
-    for (Eigen::Index k = 0; k < matrix_->lower().rows(); ++k) mean += std::abs(matrix_->lower().coeff(k, k));
-    mean /= static_cast<double>(matrix_->lower().rows());
-    shift = shift > 0 ? 10 * shift : 1e-8 * mean;
-    if (!(shift < 1e6 * mean)) {  // not a number somewhere
-      d = r;
-      return;
-    }
+void LinearSolver::solve_projected(Objective& objective, const Vector& x, const Vector& r, Vector& d) {
+  objective.linearise(x, projection_);
+  Vector Kr;
+  objective.product(r, Kr);
+  const double scale = Kr.norm() / r.norm();
+  shift_ = projection_ == Projection::shift ? first_shift * scale : 0;
+  while (!solve(objective, r, projected_tolerance, d)) {
+    shift_ = std::max(10 * shift_, first_shift * scale);
+    if (shift_ < 1e6 * scale) continue;
+    d = r;  // not a number somewhere
+    break;
   }
-  apply_factor(r, d);
+  shift_ = 0;
 }
 
 }  // namespace heml

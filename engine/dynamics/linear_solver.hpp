@@ -9,14 +9,6 @@
 
 namespace heml {
 
-enum class Preconditioner {
-  cholesky,     ///< of the assembled stiffness, anew each time: small bodies, and equilibrium to the last digit
-  scalar,       ///< of aM + Laplacian, once: bodies in motion
-  multilevel,   ///< of the same, by coarser and coarser copies of it: large bodies
-  block_jacobi  ///< 3×3 diagonal blocks: bodies whose mesh changes every step
-};
-const char* preconditioner_name(Preconditioner preconditioner);
-
 /// The choice for a body of that size, by a fixed model of cost, never by a clock.
 Preconditioner choose_preconditioner(std::size_t free_nodes, bool static_solve);
 
@@ -29,13 +21,13 @@ class LinearSolver {
  public:
   /// free, mass (3 #V, kg), team must outlive this. mesh: rest shape. modulus: #T, Pa, for the scalar matrix.
   LinearSolver(const FreeNodes& free, const TetMesh& mesh, const std::vector<double>& modulus, const Vector& mass,
-               Preconditioner preconditioner, ThreadTeam& team);
+               Preconditioner preconditioner, Projection projection, ThreadTeam& team);
 
   /// Tells the a of Φ = a/2 ‖x − y‖²_M + U. The scalar matrix is factored again where it has changed a lot.
   void set_inertia(double a);
 
-  /// d = K⁻¹ r, to a residual of tolerance ‖r‖, K where the objective was linearised last. Returns whether the curvature met was positive all along;
-  /// if not, d still leads downhill: what was found before, or with a factor L D Lᵀ of mixed signs L⁻ᵀ |D|⁻¹ L⁻¹ r,
+  /// d = K⁻¹ r, to a residual of tolerance ‖r‖, K where the objective was linearised last. Returns whether the
+  /// curvature met was positive all along; if not, d still leads downhill: what was found before, or with a factor L D Lᵀ of mixed signs L⁻ᵀ |D|⁻¹ L⁻¹ r,
   /// which near a buckling load serves far better than positive elements do. 0 where nothing exists.
   bool solve(Objective& objective, const Vector& r, double tolerance, Vector& d);
 
@@ -43,16 +35,17 @@ class LinearSolver {
   /// are of a state.
   bool precondition(const Vector& r, Vector& z);
 
-  /// The same with every element's stiffness made positive and, where that is not enough, a shifted diagonal: d always
-  /// leads downhill.
-  void solve_projected(Objective& objective, const Vector& r, Vector& d);
+  /// The same with the stiffness projected and, where that is not enough, a shifted diagonal: d always leads downhill.
+  void solve_projected(Objective& objective, const Vector& x, const Vector& r, Vector& d);
 
   Preconditioner preconditioner() const { return preconditioner_; }
+  Projection projection() const { return projection_; }
   const LinearCounts& counts() const { return counts_; }
 
  private:
   enum class Sign { positive, mixed, none };  ///< of a factor's pivots; none: no factor
-  Sign assemble_and_factor(Objective& objective, Projection projection, double shift);
+  void assemble(Objective& objective);
+  Sign factor();
   Sign prepare(Objective& objective);
   bool factor_scalar();
   void apply(const Vector& r, Vector& z);
@@ -67,6 +60,8 @@ class LinearSolver {
   const TetMesh& mesh_;
   const Vector& mass_;
   Preconditioner preconditioner_;
+  Projection projection_;
+  double shift_ = 0;  ///< N/m, added to every diagonal entry of K
   ThreadTeam& team_;
   std::unique_ptr<BlockMatrix> matrix_;  ///< made when first needed, like the rest
   std::unique_ptr<Cholesky> cholesky_;

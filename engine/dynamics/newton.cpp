@@ -14,7 +14,8 @@ NewtonResult minimise(Objective& objective, LinearSolver& linear, const Stop& st
   if (!objective.residual(at.x, at.r) || !at.r.allFinite()) return result;
   at.value = objective.value(at.x);
   Vector d;
-  bool by_elements = linear.preconditioner() == Preconditioner::cholesky;
+  const bool may_project = linear.projection() != Projection::none;
+  bool by_projection = may_project && linear.preconditioner() == Preconditioner::cholesky;
   const double first = at.r.norm();
   const auto finish = [&](NewtonResult::End end) {
     x = at.x;
@@ -32,17 +33,17 @@ NewtonResult minimise(Objective& objective, LinearSolver& linear, const Stop& st
     const double before = at.r.norm();
     objective.linearise(at.x);
     const bool positive = linear.solve(objective, at.r, tolerance, d);
-    if (!positive && by_elements) {
+    if (!positive && by_projection) {
       ++result.projected;
-      linear.solve_projected(objective, at.r, d);
+      linear.solve_projected(objective, at.x, at.r, d);
     }
     if (search_line(objective, d, at)) {
-      if (!positive && at.r.norm() > slow * before) by_elements = !by_elements;
+      if (!positive && at.r.norm() > slow * before) by_projection = may_project && !by_projection;
       continue;
     }
-    if (!positive && by_elements) return finish(NewtonResult::End::stalled);
+    if (!may_project || (!positive && by_projection)) return finish(NewtonResult::End::stalled);
     ++result.projected;
-    linear.solve_projected(objective, at.r, d);
+    linear.solve_projected(objective, at.x, at.r, d);
     if (search_line(objective, d, at)) continue;
     return finish(NewtonResult::End::stalled);
   }

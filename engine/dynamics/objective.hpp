@@ -4,17 +4,12 @@
 // so tests solve small functions of their own. All in double, whatever a body computes in.
 #include <Eigen/Core>
 #include <heml/dynamics/block_matrix.hpp>
+#include <heml/dynamics/solver_options.hpp>
 #include <optional>
 
 namespace heml {
 
 using Vector = Eigen::VectorXd;  ///< 3 #V: node after node
-
-/// What is done to a stiffness before it is factored.
-enum class Projection {
-  none,   ///< exact
-  clamp,  ///< negative eigenvalues of every element's stiffness to 0
-};
 
 class Objective {
  public:
@@ -25,14 +20,14 @@ class Objective {
   virtual std::optional<double> value(const Vector& x) = 0;
   /// Up to what difference values are round-off, J.
   virtual double value_noise() const = 0;
-  /// Finds K = −∂r/∂x at x, which the calls below are about until the next one.
-  virtual void linearise(const Vector& x) = 0;
+  /// Finds K = −∂r/∂x at x, or its projection, which the calls below are about until the next one.
+  virtual void linearise(const Vector& x, Projection projection = Projection::none) = 0;
   /// out = K dx; 0 at nodes that are not free. dx may move those.
   virtual void product(const Vector& dx, Vector& out) = 0;
   /// Whether K is: it is where the forces have a potential.
   virtual bool symmetric() const { return true; }
   /// Adds the blocks of K between free nodes, its symmetric part, or an approximation of it.
-  virtual void add_stiffness(Projection projection, BlockMatrix& matrix) = 0;
+  virtual void add_stiffness(BlockMatrix& matrix) = 0;
 };
 
 }  // namespace heml

@@ -122,6 +122,7 @@ bool ElasticBody<Real>::forces(const Real* x, Real* f, ThreadTeam& team) {
 template <class Real>
 void ElasticBody<Real>::linearise(const Real* x, ThreadTeam& team) {
   linearised_at_.assign(x, x + 3 * nodes());
+  projected_ = false;
   for (Part& part : parts_) {
     part.stiffness.resize(edge_entries * part.group.volume.size());
     for (std::size_t k = 0; k < part.terms.size(); ++k)
@@ -129,6 +130,33 @@ void ElasticBody<Real>::linearise(const Real* x, ThreadTeam& team) {
         part.terms[k]->stiffness(part.group, x, begin, end, part.stiffness.data(), k > 0);
       });
   }
+}
+
+template <class Real>
+void ElasticBody<Real>::project(Projection projection, ThreadTeam& team) {
+  if (projection != Projection::element && projection != Projection::tension) return;
+  projected_ = true;
+  for (Part& part : parts_)
+    team.for_ranges(part.group.volume.size(), grain_ / 16, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t s = begin; s < end; ++s) {
+        Real k[edge_entries];
+        take_edges(part.stiffness.data(), s, k);
+        if (projection == Projection::element) {
+          clamp_element(k);
+        } else {
+          const auto rest = rest_shape(part.group, s);
+          const auto link = whole_link(part.group, linearised_at_.data(), s, rest);
+          Tensions<Real> sum{};
+          for (const auto& term : part.terms) {
+            const Tensions<Real> t = term->tensions(part.group, s, link, rest);
+            for (int i = 0; i < 6; ++i) sum.T[i] += t.T[i];
+            sum.wJ += t.wJ;
+          }
+          clamp_tension(sum, link, rest, k);
+        }
+        put_edges(k, s, part.stiffness.data(), false);
+      }
+    });
 }
 
 template <class Real>
@@ -140,15 +168,14 @@ void ElasticBody<Real>::force_change(const Real* dx, Real* out, ThreadTeam& team
   const Real* x = linearised_at_.data();
   if (pressure_) pressure_->add_force_change(x, dx, corner_.data(), team);
   gather_corners(out, team);
-  if (!springs_.empty()) springs_.add_force_change(x, dx, out, team);
+  if (!springs_.empty()) springs_.add_force_change(x, dx, out, projected_, team);
 }
 
 template <class Real>
 void ElasticBody<Real>::element_stiffness(std::size_t p, std::size_t s, ElementMatrix<Real>& K) const {
   const Part& part = parts_[p];
   Real k[edge_entries];
-  for (std::size_t i = 0; i < edge_entries; ++i)
-    k[i] = part.stiffness[part.group.lanes * (edge_entries * (s / part.group.lanes) + i) + s % part.group.lanes];
+  take_edges(part.stiffness.data(), s, k);
   if (pressure_) pressure_->add_stiffness(p, linearised_at_.data(), s, k);
   expand_edges(k, K);
 }

@@ -9,6 +9,7 @@
 #include <heml/elastic/group_term.hpp>
 #include <heml/elastic/nodal_pressure.hpp>
 #include <heml/elastic/plastic_flow.hpp>
+#include <heml/elastic/projection.hpp>
 #include <heml/elastic/springs.hpp>
 #include <heml/mesh/tet_mesh.hpp>
 #include <memory>
@@ -45,6 +46,9 @@ class ElasticBody {
 
   /// Finds the stiffness K = ∂²U/∂x² at x, once for all products with it.
   void linearise(const Real* x, ThreadTeam& team);
+  /// Makes every element's part of K positive, in the way named (projection.hpp; none and shift: nothing). Averaged nodal
+  /// pressure keeps its own.
+  void project(Projection projection, ThreadTeam& team);
   /// −K dx into out (3 #V, overwritten), N: change of the forces with a change dx of the positions.
   void force_change(const Real* dx, Real* out, ThreadTeam& team);
 
@@ -63,7 +67,7 @@ class ElasticBody {
   /// Calls visit(node a, node b, 3×3 block B) for every spring: its part of K is [B −B; −B B].
   template <class Visit>
   void each_spring_stiffness(const Visit& visit) const {
-    springs_.each_stiffness(linearised_at_.data(), visit);
+    springs_.each_stiffness(linearised_at_.data(), projected_, visit);
   }
 
   /// Stored elastic energy, J (contract: W of every element).
@@ -137,6 +141,7 @@ class ElasticBody {
   std::unique_ptr<NodalPressure<Real>> pressure_;
   std::vector<Real> corner_;  ///< 3 a corner, written and read within forces()
   std::vector<Real> linearised_at_;    ///< 3 #V
+  bool projected_ = false;             ///< whether what was found there has been made positive
   std::vector<double> packet_energy_;  ///< written and read within energy()
   double plastic_work_ = 0;
 };

@@ -81,6 +81,14 @@ void put_edges(const Real k[edge_entries], std::size_t s, Real* K, bool add) {
   for (std::size_t i = 0; i < edge_entries; ++i) to[lanes * i] = add ? to[lanes * i] + k[i] : k[i];
 }
 
+/// Reads it back.
+template <class Real>
+void take_edges(const Real* K, std::size_t s, Real k[edge_entries]) {
+  constexpr std::size_t lanes = ElementGroup<Real>::lanes;
+  const Real* from = K + edge_entries * lanes * (s / lanes) + s % lanes;
+  for (std::size_t i = 0; i < edge_entries; ++i) k[i] = from[lanes * i];
+}
+
 /// The terms of a material. without_volume: the isochoric part alone (elastic/nodal_pressure.hpp has the rest).
 /// The material must be one that material_problem() has nothing against; none for a law that is no continuum.
 template <class Real>

@@ -57,27 +57,29 @@ void Springs<Real>::add_forces(const Real* x, Real* f, ThreadTeam& team) const {
 
 /// k d dᵀ/ℓ² + k (1 − L/ℓ) (I − d dᵀ/ℓ²).
 template <class Real>
-void Springs<Real>::block(const Spring& spring, const Real* x, Real B[3][3]) const {
+void Springs<Real>::block(const Spring& spring, const Real* x, bool positive, Real B[3][3]) const {
   Real d[3], square = 0;
   for (int i = 0; i < 3; ++i) {
     d[i] = x[3 * spring.b + i] - x[3 * spring.a + i];
     square += d[i] * d[i];
   }
-  const Real tension = square > 0 ? spring.k * (1 - spring.length / std::sqrt(square)) : Real(0);
+  Real tension = square > 0 ? spring.k * (1 - spring.length / std::sqrt(square)) : Real(0);
+  if (positive) tension = std::max(tension, Real(0));
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j)
       B[i][j] = (i == j ? tension : Real(0)) + (square > 0 ? (spring.k - tension) * d[i] * d[j] / square : Real(0));
 }
 
 template <class Real>
-void Springs<Real>::add_force_change(const Real* x, const Real* dx, Real* out, ThreadTeam& team) const {
+void Springs<Real>::add_force_change(const Real* x, const Real* dx, Real* out, bool positive,
+                                     ThreadTeam& team) const {
   team.for_ranges(start_.size() - 1, grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n)
       for (std::size_t k = start_[n]; k < start_[n + 1]; ++k) {
         const Spring& spring = springs_[of_node_[k]];
         const auto other = static_cast<std::size_t>(spring.a) == n ? spring.b : spring.a;
         Real B[3][3];
-        block(spring, x, B);
+        block(spring, x, positive, B);
         for (std::size_t i = 0; i < 3; ++i)
           for (std::size_t j = 0; j < 3; ++j)
             out[3 * n + i] += B[i][j] * (dx[3 * static_cast<std::size_t>(other) + j] - dx[3 * n + j]);

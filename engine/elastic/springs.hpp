@@ -16,19 +16,19 @@ class Springs {
   Springs(const TetMesh& mesh, const std::vector<double>& stiffness);
 
   bool empty() const { return springs_.empty(); }
-  /// Each adds to f, out (3 #V): forces, N; −K dx, N.
+  /// Each adds to f, out (3 #V): forces, N; −K dx, N. positive: a spring that is pushed has no stiffness across itself.
   void add_forces(const Real* x, Real* f, ThreadTeam& team) const;
-  void add_force_change(const Real* x, const Real* dx, Real* out, ThreadTeam& team) const;
+  void add_force_change(const Real* x, const Real* dx, Real* out, bool positive, ThreadTeam& team) const;
   double energy(const Real* x) const;  ///< J
   /// max_n 2 Σ k / m_n, 1/s²: holds at any length.
   Real frequency_bound(const std::vector<Real>& mass) const;
 
   /// Calls visit(node a, node b, 3×3 block B) for every spring: its stiffness is [B −B; −B B].
   template <class Visit>
-  void each_stiffness(const Real* x, const Visit& visit) const {
+  void each_stiffness(const Real* x, bool positive, const Visit& visit) const {
     for (const Spring& spring : springs_) {
       Real B[3][3];
-      block(spring, x, B);
+      block(spring, x, positive, B);
       visit(spring.a, spring.b, B);
     }
   }
@@ -38,7 +38,7 @@ class Springs {
     int a, b;
     Real k, length;
   };
-  void block(const Spring& spring, const Real* x, Real B[3][3]) const;
+  void block(const Spring& spring, const Real* x, bool positive, Real B[3][3]) const;
 
   std::vector<Spring> springs_;
   std::vector<std::size_t> start_, of_node_;

@@ -13,6 +13,7 @@ namespace heml {
 namespace {
 
 constexpr long last_tick = 1'000'000'000'000;
+constexpr long most_iterations = 1000;  // of a stage
 
 long tick_from(const Key& key, double tick_length) {
   if (key.only_one_of({"step", "at"}) == "step") return key["step"].integer(0, last_tick);
@@ -56,6 +57,8 @@ Command command_from(const Key& key, const std::string& action, std::optional<Ve
   if (action == "damping") return SetDamping{value.non_negative()};
   if (action == "gravity") return SetGravity{value.vector()};
   if (action == "integrator") return SetIntegrator{integrator_from(value)};
+  if (action == "budget") return SetBudget{static_cast<int>(value.integer(1, most_iterations))};
+  if (action == "step_cost") return SetStepCost{value.positive()};
   if (action == "material") {
     const RegionMaterial entry = material_from(value);
     if (takes_fields(entry.material)) value.fail("takes a field of the mesh", "a material switched to takes numbers");
@@ -73,16 +76,19 @@ Json command_json(const SetMaterial& set) { return {{"material", material_json({
 Json command_json(const SetDamping& set) { return {{"damping", set.damping}}; }
 Json command_json(const SetGravity& set) { return {{"gravity", vector_json(set.gravity)}}; }
 Json command_json(const SetIntegrator& set) { return {{"integrator", integrator_name(set.integrator)}}; }
+Json command_json(const SetBudget& set) { return {{"budget", set.iterations}}; }
+Json command_json(const SetStepCost& set) { return {{"step_cost", set.nanoseconds}}; }
 Json command_json(const Reset&) { return {{"reset", true}}; }
 
 }  // namespace
 
 void read_script_entry(const Key& key, double tick_length, Script& script) {
-  key.allow({"step", "at", "grasp", "move", "release", "material", "damping", "gravity", "integrator", "reset",
-             "checkpoint", "nodes", "end"});
+  key.allow({"step", "at", "grasp", "move", "release", "material", "damping", "gravity", "integrator", "budget",
+             "step_cost", "reset", "checkpoint", "nodes", "end"});
   const long tick = tick_from(key, tick_length);
   const std::string action = key.only_one_of(
-      {"grasp", "move", "release", "material", "damping", "gravity", "integrator", "reset", "checkpoint", "end"});
+      {"grasp", "move", "release", "material", "damping", "gravity", "integrator", "budget", "step_cost", "reset",
+       "checkpoint", "end"});
   if (action != "checkpoint" && key.has("nodes")) key["nodes"].fail("stands without a checkpoint", "take it away");
   if (action == "checkpoint") {
     const auto nodes = key.find("nodes");

@@ -15,6 +15,18 @@ constexpr double most_ticks = 1e12;
 constexpr double fastest_rate = 1e6;  // Hz
 constexpr long most_threads = 256;
 
+constexpr long most_iterations = 1000;  // of a stage
+
+Budget budget_from(const Key& key) {
+  key.allow({"iterations", "milliseconds"});
+  Budget budget;
+  if (key.only_one_of({"iterations", "milliseconds"}) == "iterations")
+    budget.iterations = static_cast<int>(key["iterations"].integer(1, most_iterations));
+  else
+    budget.milliseconds = key["milliseconds"].positive();
+  return budget;
+}
+
 /// Hz. A step of an implicit method costs as much as dozens of explicit ones and need not be short for stability.
 double default_rate(Integrator integrator) {
   switch (integrator) {
@@ -45,7 +57,7 @@ Integrator integrator_from(const Key& key) {
 
 SolverSettings solver_from(const Key& key) {
   key.allow({"integrator", "step", "rate", "duration", "damping", "precision", "threads", "element", "continuation",
-             "tolerance"});
+             "tolerance", "budget", "minimiser", "projection", "preconditioner"});
   SolverSettings solver;
   if (const auto integrator = key.find("integrator")) solver.integrator = integrator_from(*integrator);
   if (key.has("step") && key.has("rate")) key.fail("holds step and rate", "give one: a step is one tick");
@@ -65,6 +77,11 @@ SolverSettings solver_from(const Key& key) {
   if (const auto element = key.find("element")) solver.nodal_pressure = element->one_of(elements) == 1;
   if (const auto continuation = key.find("continuation")) solver.continuation = continuation->flag();
   if (const auto tolerance = key.find("tolerance")) solver.tolerance = tolerance->positive();
+  if (const auto budget = key.find("budget")) solver.budget = budget_from(*budget);
+  if (const auto name = key.find("minimiser")) solver.minimiser = static_cast<Minimiser>(name->one_of(minimiser_names));
+  if (const auto name = key.find("projection")) solver.projection = static_cast<Projection>(name->one_of(projection_names));
+  if (const auto name = key.find("preconditioner"))
+    solver.preconditioner = static_cast<Preconditioner>(name->one_of(preconditioner_names));
   return solver;
 }
 
@@ -81,6 +98,14 @@ Json solver_json(const SolverSettings& solver) {
   json["element"] = elements[solver.nodal_pressure ? 1 : 0];
   json["continuation"] = solver.continuation;
   if (solver.tolerance) json["tolerance"] = *solver.tolerance;
+  if (solver.budget)
+    json["budget"] = solver.budget->milliseconds > 0 ? Json{{"milliseconds", solver.budget->milliseconds}}
+                                                     : Json{{"iterations", solver.budget->iterations}};
+  const SolverSettings usual;
+  if (solver.minimiser != usual.minimiser) json["minimiser"] = minimiser_names[static_cast<std::size_t>(solver.minimiser)];
+  if (solver.projection != usual.projection)
+    json["projection"] = projection_names[static_cast<std::size_t>(solver.projection)];
+  if (solver.preconditioner) json["preconditioner"] = preconditioner_names[static_cast<std::size_t>(*solver.preconditioner)];
   return json;
 }
 

@@ -5,6 +5,8 @@
 #include <heml/base/log.hpp>
 #include <heml/scenario/recorder.hpp>
 #include <heml/scenario/schedule.hpp>
+#include <heml/session/budget_keeper.hpp>
+#include <heml/session/cost_keeper.hpp>
 #include <heml/session/mailbox.hpp>
 #include <heml/session/pacer.hpp>
 #include <heml/session/session.hpp>
@@ -28,6 +30,10 @@ class Session::Impl {
         playing_(!options_.start_paused),
         pacer_(world_->setup().solver.tick()) {
     if (options_.record) recorder_.emplace(*options_.record, without_events(scene), *world_);
+    const auto& budget = world_->setup().solver.budget;
+    if (budget && budget->milliseconds > 0) budget_keeper_.emplace(budget->milliseconds);
+    if (world_->setup().solver.integrator == Integrator::automatic)
+      cost_keeper_.emplace(world_->setup().mesh.tets.size());
     publish();
     thread_ = std::thread([this] {
       run();
@@ -153,8 +159,19 @@ class Session::Impl {
     for (const Event& event : schedule_.due(world_->ticks())) carry_out(event.command);
     world_->tick();
     if (recorder_) recorder_->ticked(*world_);
+    learn(std::chrono::duration<double>(Pacer::Clock::now() - began).count());
     if (world_->halt()) show_now_ = true;
     pacer_.book(began, Pacer::Clock::now());
+  }
+
+  /// What was chosen by the clock becomes a command. seconds: that the tick took.
+  void learn(double seconds) {
+    if (budget_keeper_)
+      if (const auto iterations = budget_keeper_->after(seconds, world_->solver_work()))
+        carry_out(SetBudget{*iterations});
+    if (cost_keeper_ && find_integrator(world_->solver_work().integrator) == Integrator::verlet)
+      if (const auto nanoseconds = cost_keeper_->after(seconds, world_->substeps()))
+        carry_out(SetStepCost{*nanoseconds});
   }
 
   void publish() {
@@ -181,6 +198,8 @@ class Session::Impl {
   std::atomic<Field> field_;
   std::atomic<bool> playing_, stopping_{false}, finished_{false}, show_now_{false}, stretches_{false};
 
+  std::optional<BudgetKeeper> budget_keeper_;  ///< where the scene's budget is in milliseconds
+  std::optional<CostKeeper> cost_keeper_;      ///< where the scene leaves the method to the engine
   Pacer pacer_;
   bool frames_published_since_pause_ = false;
   Pacer::Time published_{};

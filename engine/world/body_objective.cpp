@@ -1,4 +1,3 @@
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <heml/materials/material.hpp>
@@ -9,15 +8,6 @@ namespace heml {
 namespace {
 
 constexpr double nothing = 1e-12;  // N: forces below vanish (contract, "tolerance")
-
-/// Negative eigenvalues to 0.
-template <class Matrix>
-void clamp(Matrix& K) {
-  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(K);
-  if (eigen.eigenvalues()[0] >= 0) return;
-  const auto& Q = eigen.eigenvectors();
-  K = Q * eigen.eigenvalues().cwiseMax(0).asDiagonal() * Q.transpose();
-}
 
 Mat3 cross_matrix(const Vec3& w) {
   Mat3 result;
@@ -199,6 +189,7 @@ std::optional<double> BodyObjective<Real>::value(const Vector& x) {
 template <class Real>
 template <class Visit>
 void BodyObjective<Real>::each_pressed_face(const Vector& x, const Visit& visit) const {
+  if (x.size() == 0) return;
   for (const auto& load : model_.pressures) {
     const double p = -static_cast<double>(load.pascal) * ramp(time_, load.over) / 6;
     for (const Triangle& face : load.faces) {
@@ -209,9 +200,11 @@ void BodyObjective<Real>::each_pressed_face(const Vector& x, const Visit& visit)
 }
 
 template <class Real>
-void BodyObjective<Real>::linearise(const Vector& x) {
+void BodyObjective<Real>::linearise(const Vector& x, Projection projection) {
   body_.linearise(as_real(x, x_), team_);
-  if (!model_.pressures.empty()) linearised_at_ = x;
+  body_.project(projection, team_);
+  const bool with_pressure = !model_.pressures.empty() && projection == Projection::none;
+  linearised_at_ = with_pressure ? x : Vector();
 }
 
 template <class Real>
@@ -239,29 +232,27 @@ void BodyObjective<Real>::product(const Vector& dx, Vector& out) {
 }
 
 template <class Real>
-void BodyObjective<Real>::add_stiffness(Projection projection, BlockMatrix& matrix) {
-  using Matrix12 = Eigen::Matrix<double, 12, 12, Eigen::RowMajor>;
+void BodyObjective<Real>::add_stiffness(BlockMatrix& matrix) {
   body_.each_stiffness([&](const Tet& nodes, const ElementMatrix<Real>& K) {
-    Matrix12 exact = Eigen::Map<const Eigen::Matrix<Real, 12, 12, Eigen::RowMajor>>(&K[0][0]).template cast<double>();
-    if (projection == Projection::clamp && exact.allFinite()) clamp(exact);
-    matrix.add_element(nodes, exact);
+    matrix.add_element(nodes, [&](int row, int column) {
+      return static_cast<double>(K[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)]);
+    });
   });
   body_.each_spring_stiffness([&](int a, int b, const Real(&block)[3][3]) {
     Mat3 B;
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) B(i, j) = static_cast<double>(block[i][j]);
-    if (projection == Projection::clamp) clamp(B);
     matrix.add_node(a, B);
     matrix.add_node(b, B);
     matrix.add_pair(a, b, -B);
   });
-  if (projection == Projection::none)  // of −p [w_j]× in row i: p/2 ([w_i]× − [w_j]×)
-    each_pressed_face(linearised_at_, [&](const Triangle& face, double p, const std::array<Vec3, 3>& w) {
-      for (std::size_t i = 0; i < 3; ++i) {
-        const std::size_t j = (i + 1) % 3;
-        matrix.add_pair(face[i], face[j], p / 2 * cross_matrix(w[i] - w[j]));
-      }
-    });
+  // Of −p [w_j]× in row i: p/2 ([w_i]× − [w_j]×).
+  each_pressed_face(linearised_at_, [&](const Triangle& face, double p, const std::array<Vec3, 3>& w) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t j = (i + 1) % 3;
+      matrix.add_pair(face[i], face[j], p / 2 * cross_matrix(w[i] - w[j]));
+    }
+  });
   for (const auto& grasp : grasps_)
     grasp.each_stiffness([&](int n, Real k, Real damping) {
       matrix.add_diagonal(n, static_cast<double>(k) + (d_ > 0 ? static_cast<double>(damping) / d_ : 0));

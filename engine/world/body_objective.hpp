@@ -37,10 +37,10 @@ class BodyObjective final : public LoadedObjective {
   bool residual(const Vector& x, Vector& r) override;
   std::optional<double> value(const Vector& x) override;
   double value_noise() const override { return noise_; }
-  void linearise(const Vector& x) override;
+  void linearise(const Vector& x, Projection projection = Projection::none) override;
   void product(const Vector& dx, Vector& out) override;
-  bool symmetric() const override { return model_.pressures.empty(); }
-  void add_stiffness(Projection projection, BlockMatrix& matrix) override;
+  bool symmetric() const override { return linearised_at_.size() == 0; }
+  void add_stiffness(BlockMatrix& matrix) override;
 
   /// Force of all loads and gravity together at the last residual(), as a part of their sizes' sum: 0 where they
   /// balance.
@@ -70,7 +70,7 @@ class BodyObjective final : public LoadedObjective {
   double noise_ = 0, acceleration_noise_ = 0;
   int inverted_at_start_ = 0;
   Vector forces_, external_;
-  Vector linearised_at_;  ///< 3 #V, where pressure follows the surface, else empty
+  Vector linearised_at_;  ///< 3 #V, where pressure that follows the surface is part of K, else empty
   std::vector<Real> x_, dx_, f_, v_;  ///< scratch
 };
 

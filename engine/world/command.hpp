@@ -36,10 +36,20 @@ struct SetGravity {
 struct SetIntegrator {
   Integrator integrator = Integrator::verlet;
 };
+/// How many iterations each stage of an implicit step may take from now on. Sessions send it where a scene's budget is in
+/// milliseconds, by what they measure.
+struct SetBudget {
+  int iterations = 1;
+};
+/// What an explicit step costs, for "auto" to choose by. Sessions send what they measure.
+struct SetStepCost {
+  double nanoseconds = 40;  ///< an element
+};
 /// Back to the initial state at time 0; ticks go on counting. Materials, damping and the like stay as they are.
 struct Reset {};
 
-using Command = std::variant<Grasp, MoveTool, Release, SetMaterial, SetDamping, SetGravity, SetIntegrator, Reset>;
+using Command = std::variant<Grasp, MoveTool, Release, SetMaterial, SetDamping, SetGravity, SetIntegrator, SetBudget,
+                             SetStepCost, Reset>;
 
 /// A command and the tick at whose start it takes effect (the first tick is 0).
 struct Event {

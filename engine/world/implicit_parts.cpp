@@ -19,30 +19,43 @@ Vector thrice(const FreeNodes& free, const auto& masses) {
   return result;
 }
 
+/// The scene's, or the body's size's; L-BFGS needs one that is made once.
+Preconditioner preconditioner_of(const SolverSettings& solver, std::size_t free_nodes) {
+  const bool once = solver.minimiser == Minimiser::lbfgs && !solver.is_static();
+  if (solver.preconditioner) {
+    const bool is_once =
+        *solver.preconditioner == Preconditioner::scalar || *solver.preconditioner == Preconditioner::multilevel;
+    if (!once || is_once) return *solver.preconditioner;
+  }
+  const Preconditioner by_size = choose_preconditioner(free_nodes, solver.is_static());
+  return once && by_size == Preconditioner::cholesky ? Preconditioner::scalar : by_size;
+}
+
 }  // namespace
 
 template <class Real>
 ImplicitParts<Real>::ImplicitParts(ElasticBody<Real>& elastic, const Model<Real>& model,
                                    const std::vector<Real>& masses, const std::vector<Real>& inverse_mass,
                                    const std::vector<double>& modulus, const std::vector<GraspSpring<Real>>& grasps,
-                                   ThreadTeam& team, bool is_static)
+                                   ThreadTeam& team, const SolverSettings& solver)
     : free(nonzero(inverse_mass)),
       mass(thrice(free, masses)),
       body(elastic, model, masses, free, grasps, team),
-      linear(free, model.mesh, modulus, mass, choose_preconditioner(free.node.size(), is_static), team),
+      linear(free, model.mesh, modulus, mass, preconditioner_of(solver, free.node.size()), solver.projection, team),
       step(body, mass, free) {}
 
 template struct ImplicitParts<float>;
 template struct ImplicitParts<double>;
 
 std::vector<double> preconditioner_moduli(const TetMesh& mesh, const std::vector<int>& material_of,
-                                          const std::vector<RegionMaterial>& materials) {
+                                          const std::vector<RegionMaterial>& materials, Minimiser minimiser) {
   std::vector<double> moduli;
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
     const Material& material = materials[static_cast<std::size_t>(material_of[t])].material;
-    const double shear = ground_state(material).shear;
-    if (shear > 0) {
-      moduli.push_back(shear);
+    const GroundState rest = ground_state(material);
+    if (rest.shear > 0) {
+      // Conjugate gradients weigh directions for themselves; the steps of L-BFGS are as long as this says.
+      moduli.push_back(minimiser == Minimiser::lbfgs ? rest.bulk + 4 * rest.shear / 3 : rest.shear);
       continue;
     }
     // A net of springs: k over a length is a modulus.

@@ -24,14 +24,14 @@ struct ImplicitParts {
   /// inverse_mass: #V, 0 where not free. modulus: #T, Pa. All references must outlive this.
   ImplicitParts(ElasticBody<Real>& elastic, const Model<Real>& model, const std::vector<Real>& masses,
                 const std::vector<Real>& inverse_mass, const std::vector<double>& modulus,
-                const std::vector<GraspSpring<Real>>& grasps, ThreadTeam& team, bool is_static);
+                const std::vector<GraspSpring<Real>>& grasps, ThreadTeam& team, const SolverSettings& solver);
   ImplicitParts(const ImplicitParts&) = delete;
   ImplicitParts& operator=(const ImplicitParts&) = delete;
 };
 
 /// Modulus of each element at rest that the scalar matrix of a linear solver stands for, Pa. material_of: #T.
 std::vector<double> preconditioner_moduli(const TetMesh& mesh, const std::vector<int>& material_of,
-                                          const std::vector<RegionMaterial>& materials);
+                                          const std::vector<RegionMaterial>& materials, Minimiser minimiser);
 
 /// Whether every connected part of the mesh has three held nodes that are not on a line.
 bool well_held(const TetMesh& mesh, const std::vector<HeldNode>& held);

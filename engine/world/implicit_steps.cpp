@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <heml/dynamics/quasi_newton.hpp>
 #include <heml/world/typed_world.hpp>
 
 namespace heml {
@@ -10,6 +11,7 @@ namespace {
 constexpr double smallest_share = 1.0 / 64;  // of a tick: shorter steps are not tried
 constexpr double slack_of_motion = 1e-3;     // of gravity's acceleration: what a step may leave unbalanced
 constexpr double earth = 9.81;               // m/s²
+constexpr int quasi_patience = 5;            // iterations of L-BFGS for one of Newton's: then Newton's go on
 
 /// ‖M⁻¹r‖_∞, m/s².
 double largest_acceleration(const Vector& mass, const Vector& r) {
@@ -21,8 +23,9 @@ template <class Real>
 ImplicitParts<Real>& TypedWorld<Real>::implicit() {
   if (!implicit_)
     implicit_ = std::make_unique<ImplicitParts<Real>>(
-        body_, model_, mass_, inverse_mass_, preconditioner_moduli(model_.mesh, model_.material_of, setup_.materials),
-        grasps_, team_, setup_.solver.is_static());
+        body_, model_, mass_, inverse_mass_,
+        preconditioner_moduli(model_.mesh, model_.material_of, setup_.materials, setup_.solver.minimiser), grasps_, team_,
+        setup_.solver);
   return *implicit_;
 }
 
@@ -79,6 +82,7 @@ bool TypedWorld<Real>::implicit_step(double h, double time_after) {
     if (remembers_) body_.begin_step(0);
     return false;
   }
+  if (setup_.solver.budget) limit_energy(h, time_after, x, v);
   parts.x_before = parts.x;
   parts.v_before = parts.v;
   parts.h_before = h;
@@ -116,16 +120,30 @@ bool TypedWorld<Real>::solve_stage(const Stage& stage, double h, double time, Ve
   parts.step.set(stage.a(damping), stage.y(damping));
   parts.linear.set_inertia(stage.a(damping));
   x = stage_start(stage, time, x);
-  NewtonOptions options;
-  const NewtonResult newton = minimise(parts.step, parts.linear, stage_stop(), options, x);
-  work_.iterations += newton.iterations;
+  const NewtonResult result = minimise_stage(x);
+  work_.iterations += result.iterations;
   Vector r;
   parts.step.residual(x, r);
   work_.residual = parts.body.imbalance(r);
-  if (!newton.converged() && !(newton.end != NewtonResult::End::undefined && is_balanced_enough(stage, r))) return false;
+  if (result.end == NewtonResult::End::undefined) return false;
+  if (!result.converged() && !setup_.solver.budget && !is_balanced_enough(stage, r)) return false;
   v = stage.velocity(x);
   for (const HeldNode& held : model_.held) v.segment<3>(3 * held.node) = held_at(model_, held, time).v;
   return true;
+}
+
+template <class Real>
+NewtonResult TypedWorld<Real>::minimise_stage(Vector& x) {
+  ImplicitParts<Real>& parts = implicit();
+  const int most = setup_.solver.budget ? stage_iterations() : NewtonOptions{}.most_iterations;
+  if (setup_.solver.minimiser == Minimiser::lbfgs) {
+    const int patience = setup_.solver.budget ? most : quasi_patience * most;
+    const NewtonResult result = minimise_quasi(parts.step, parts.linear, stage_stop(), patience, x);
+    if (result.converged() || setup_.solver.budget || result.end == NewtonResult::End::undefined) return result;
+  }
+  NewtonOptions options;
+  options.most_iterations = most;
+  return minimise(parts.step, parts.linear, stage_stop(), options, x);
 }
 
 /// Of where the body is and where it would fly: the one with the lower Φ (without this guard, methods of few iterations

@@ -1,25 +1,55 @@
-// What `"integrator": "auto"` becomes, by a fixed model of cost and never by a clock, so that a scene gives the same
-// bits on every machine: explicit where that is fast enough, or the given step stable; else the accurate implicit
-// method where steps resolve the motion; else the one that damps what they do not.
+// What `"integrator": "auto"` becomes, at the start and from tick to tick, by a fixed model of cost and never by a clock, so
+// that a scene gives the same bits on every machine: explicit where that is fast enough, or the given step stable; else
+// the accurate implicit method where steps resolve the motion; else the one that damps what they do not. A body that is
+// crushed or stretched needs shorter explicit steps: the choice follows it, with a margin so that it does not flutter.
+//
+// What a step costs may be told (SetStepCost): sessions measure it and record what they found as a command.
 #include <cmath>
 #include <heml/world/typed_world.hpp>
 
 namespace heml {
 namespace {
-constexpr double seconds_an_element = 40e-9;  // of an explicit step, one core (measured: 1,600 to 12,800 elements)
-constexpr double bound_share = 1.25;          // with the live limit's share
-constexpr double enough = 0.6;                // of real time
-constexpr double resolved = 0.3;              // h ω of a motion that steps of h follow
+constexpr double bound_share = 1.25;  // with the live limit's share
+constexpr double enough = 0.6;        // of real time
+constexpr double margin = 1.5;        // by which it may be exceeded before a method in use is left
+constexpr double resolved = 0.3;      // h ω of a motion that steps of h follow
 }  // namespace
 
 template <class Real>
 Integrator TypedWorld<Real>::choose_method() {
   const SolverSettings& solver = setup_.solver;
   if (solver.integrator != Integrator::automatic || halt_) return solver.integrator;
-  const double cost = bound_share * seconds_an_element * static_cast<double>(model_.mesh.tets.size());  // s
-  const bool is_explicit_best = solver.step ? *solver.step <= stable_step_ : cost / stable_step_ <= enough;
-  if (is_explicit_best) return Integrator::verlet;
-  return solver.tick() * lowest_frequency() < resolved ? Integrator::tr_bdf2 : Integrator::backward_euler;
+  if (explicit_load() <= 1) return Integrator::verlet;
+  if (!lowest_frequency_) lowest_frequency_ = lowest_frequency();
+  return solver.tick() * *lowest_frequency_ < resolved ? Integrator::tr_bdf2 : Integrator::backward_euler;
+}
+
+/// At the start of a tick.
+template <class Real>
+void TypedWorld<Real>::reconsider_method() {
+  find_stable_step();
+  const bool keep = is_explicit(method_) ? explicit_load() <= margin : explicit_load() > 1 / margin;
+  if (keep) return;
+  method_ = choose_method();
+  if (implicit_) implicit_->h_before = 0;  // BDF2 starts anew
+}
+
+/// What an explicit method asks for now, 1 being the most it may: of the time there is, or, where a step is given, of the
+/// stable one.
+template <class Real>
+double TypedWorld<Real>::explicit_load() const {
+  const SolverSettings& solver = setup_.solver;
+  if (solver.step) return *solver.step / stable_step_;
+  const double cost = bound_share * step_cost_ * static_cast<double>(model_.mesh.tets.size());  // s
+  return cost / stable_step_ / enough;
+}
+
+template <class Real>
+std::optional<std::string> TypedWorld<Real>::take(const SetStepCost& command) {
+  if (!(command.nanoseconds > 0) || !std::isfinite(command.nanoseconds))
+    return "step_cost: must be more than 0 ns an element";
+  step_cost_ = 1e-9 * command.nanoseconds;
+  return std::nullopt;
 }
 
 /// Rayleigh's quotient of how the body gives way at rest to a field of gravity along each axis, 1/s; 0 where it is

@@ -1,6 +1,7 @@
 #pragma once
 // All that makes a world, with every file read and every selection resolved to node numbers. Scenes become this
 // (scenario/), tests write it by hand; make_world() turns it into something that steps.
+#include <heml/dynamics/solver_options.hpp>
 #include <heml/materials/material.hpp>
 #include <heml/mesh/tet_mesh.hpp>
 #include <optional>
@@ -57,6 +58,14 @@ inline bool is_explicit(Integrator integrator) { return integrator <= Integrator
 const char* integrator_name(Integrator integrator);
 std::optional<Integrator> find_integrator(const std::string& name);
 
+/// How much an implicit stage may take, for those who must be on time: at the end of it the body is where it is, never
+/// worse off than at the start, with the energy it may have (world/budget.cpp). A scene gives one of
+/// the two.
+struct Budget {
+  int iterations = 0;       ///< of the minimiser, a stage; 0: what the time allows
+  double milliseconds = 0;  ///< a tick; 0: none given
+};
+
 struct SolverSettings {
   Integrator integrator = Integrator::verlet;
   bool single_precision = false;  ///< float instead of double
@@ -68,6 +77,10 @@ struct SolverSettings {
   bool continuation = false;   ///< continue each law past its range instead of stopping there
   bool nodal_pressure = false;  ///< averaged nodal pressure instead of one a tetrahedron (elastic/nodal_pressure.hpp)
   std::optional<double> tolerance;  ///< of implicit and static solves, relative to the forces at work (contract)
+  std::optional<Budget> budget;                   ///< none: every stage is solved to its tolerance
+  Minimiser minimiser = Minimiser::newton;        ///< of implicit steps; statics are Newton's
+  Projection projection = Projection::element;    ///< of a stiffness that is seen not to be positive
+  std::optional<Preconditioner> preconditioner;   ///< none: by the body's size
   bool is_static() const { return integrator == Integrator::static_equilibrium; }
   double load_duration() const { return duration > 0 ? duration : 1; }  ///< s, that a static world's ticks load over
   double relative_tolerance() const { return tolerance.value_or(single_precision ? 1e-4 : 1e-8); }

@@ -9,7 +9,8 @@ struct SolverWork {
   double load = 1;              ///< fraction of motions, loads and gravity reached; below 1 in static worlds alone
   long iterations = 0;          ///< of Newton, over all steps or increments
   double residual = 0;  ///< of the last step or increment, relative to the forces carried (contract, "tolerance")
-  const char* preconditioner = "";  ///< preconditioner_name(); "" before the first step
+  int budget = 0;       ///< iterations a stage may take now; 0: as many as it needs
+  std::string_view preconditioner;  ///< scene name; "" before the first step
   LinearCounts linear;
 };
 

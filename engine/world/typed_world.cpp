@@ -81,6 +81,7 @@ void TypedWorld<Real>::tick() {
   if (halt_) return;
   const FlushDenormals flush;
   substeps_ = 0;
+  if (setup_.solver.integrator == Integrator::automatic) reconsider_method();
   const double until = static_cast<double>(ticks_ - origin_tick_ + 1) * setup_.solver.tick();
   advance(until);
   if (halt_) return;

@@ -59,18 +59,27 @@ class TypedWorld final : public World {
 
   // method_choice.cpp
   Integrator choose_method();
+  void reconsider_method();
+  double explicit_load() const;
+  std::optional<std::string> take(const SetStepCost& command);
   double lowest_frequency();
 
   // implicit_steps.cpp, static_load.cpp: what solves
   void advance_implicit(double until);
   bool implicit_step(double h, double time_after);
   bool solve_stage(const Stage& stage, double h, double time, Vector& x, Vector& v);
+  NewtonResult minimise_stage(Vector& x);
   Vector stage_start(const Stage& stage, double time, const Vector& x);
   Stop stage_stop();
   bool is_balanced_enough(const Stage& stage, const Vector& r);
   void halt_unsolved(const std::string& message);
   ImplicitParts<Real>& implicit();
   void take_state(const Vector& x, const Vector& v, double time);
+
+  // budget.cpp
+  int stage_iterations() const;
+  void limit_energy(double h, double time, Vector& x, Vector& v);
+  std::optional<std::string> take(const SetBudget& command);
 
   // world_commands.cpp: what people do
   std::optional<std::string> take(const Grasp& command);
@@ -108,6 +117,8 @@ class TypedWorld final : public World {
   std::unique_ptr<ImplicitParts<Real>> implicit_;  ///< none until an implicit or static method needs it
   SolverWork work_;
   Integrator method_ = Integrator::verlet;  ///< in use: what "auto" has chosen, else the scene's
+  double step_cost_ = 40e-9;                ///< s an element: an explicit step, one core
+  std::optional<double> lowest_frequency_;  ///< 1/s, at rest; none until somebody asks
   std::vector<ElementState<Real>> element_states_;  ///< scratch of queries
 };
 

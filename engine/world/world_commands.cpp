@@ -89,6 +89,7 @@ std::optional<std::string> TypedWorld<Real>::take(const SetMaterial& command) {
   body_.set_material(static_cast<std::size_t>(entry - setup_.materials.begin()), command.material, state_.x.data());
   take_masses();
   implicit_.reset();
+  lowest_frequency_.reset();
   find_stable_step();
   method_ = choose_method();
   return std::nullopt;

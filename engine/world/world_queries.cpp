@@ -114,8 +114,9 @@ template <class Real>
 SolverWork TypedWorld<Real>::solver_work() const {
   SolverWork work = work_;
   work.integrator = integrator_name(method_);
+  if (setup_.solver.budget) work.budget = stage_iterations();
   if (!implicit_) return work;
-  work.preconditioner = preconditioner_name(implicit_->linear.preconditioner());
+  work.preconditioner = preconditioner_names[static_cast<std::size_t>(implicit_->linear.preconditioner())];
   work.linear = implicit_->linear.counts();
   return work;
 }

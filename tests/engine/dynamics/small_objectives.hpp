@@ -30,7 +30,10 @@ class NodesAndSprings : public Objective {
     return sum;
   }
   double value_noise() const override { return 1e-14; }
-  void linearise(const Vector& x) override { at_ = x; }
+  void linearise(const Vector& x, Projection projection = Projection::none) override {
+    at_ = x;
+    projected_ = projection == Projection::element;
+  }
   void product(const Vector& dx, Vector& out) override {
     out.setZero(dx.size());
     each_edge([&](int a, int b) {
@@ -39,9 +42,9 @@ class NodesAndSprings : public Objective {
       if (free_.number[static_cast<std::size_t>(b)] >= 0) out.segment<3>(3 * b) += pull;
     });
     for (const int n : free_.node)
-      for (int i = 0; i < 3; ++i) out[3 * n + i] += curvature(at_[3 * n + i]) * dx[3 * n + i];
+      for (int i = 0; i < 3; ++i) out[3 * n + i] += bend(at_[3 * n + i]) * dx[3 * n + i];
   }
-  void add_stiffness(Projection projection, BlockMatrix& matrix) override {
+  void add_stiffness(BlockMatrix& matrix) override {
     each_edge([&](int a, int b) {
       matrix.add_node(a, k_ * Mat3::Identity());
       matrix.add_node(b, k_ * Mat3::Identity());
@@ -49,8 +52,7 @@ class NodesAndSprings : public Objective {
     });
     for (const int n : free_.node) {
       Vec3 diagonal;
-      for (int i = 0; i < 3; ++i) diagonal[i] = curvature(at_[3 * n + i]);
-      if (projection == Projection::clamp) diagonal = diagonal.cwiseMax(0);
+      for (int i = 0; i < 3; ++i) diagonal[i] = bend(at_[3 * n + i]);
       matrix.add_node(n, diagonal.asDiagonal().toDenseMatrix());
     }
   }
@@ -60,6 +62,7 @@ class NodesAndSprings : public Objective {
   virtual double curvature(double) const { return 0; }
 
  private:
+  double bend(double x) const { return projected_ ? std::max(curvature(x), 0.0) : curvature(x); }
   template <class Visit>
   void each_edge(const Visit& visit) const {
     for (const Tet& tet : mesh_.tets)
@@ -70,6 +73,7 @@ class NodesAndSprings : public Objective {
   const FreeNodes& free_;
   double k_;
   Vector at_;
+  bool projected_ = false;
 };
 
 /// A double well at every node: (x² − 1)²/4 each axis, concave round 0.

@@ -36,7 +36,7 @@ struct Fixture {
     return x;
   }
   LinearSolver solver(Preconditioner preconditioner) const {
-    return {free, mesh, moduli(), mass, preconditioner, team};
+    return {free, mesh, moduli(), mass, preconditioner, Projection::element, team};
   }
 };
 
@@ -55,7 +55,7 @@ TEST_CASE("the assembled matrix is the one its products are of") {
   const Vector x = f.random(0.2, 1), dx = f.random(0, 1);
   BlockMatrix matrix(f.free, f.mesh.tets);
   objective.linearise(x);
-  objective.add_stiffness(Projection::none, matrix);
+  objective.add_stiffness(matrix);
   Eigen::MatrixXd full = Eigen::MatrixXd(matrix.lower()).selfadjointView<Eigen::Lower>();
   Vector out, packed(3 * static_cast<Eigen::Index>(f.free.node.size()));
   objective.product(dx, out);

@@ -33,7 +33,7 @@ TEST_CASE("an edge between regions takes the mean stiffness of the regions, not 
   std::vector<double> x;
   for (const Vec3& X : mesh.nodes) x.insert(x.end(), {X.x(), X.y(), X.z()});
   double along = 0;
-  springs.each_stiffness(x.data(), [&](int a, int b, const double(&B)[3][3]) {
+  springs.each_stiffness(x.data(), false, [&](int a, int b, const double(&B)[3][3]) {
     if (a == 0 && b == 2) along = B[1][1];
   });
   CHECK(along == doctest::Approx(20.0).epsilon(1e-14));
