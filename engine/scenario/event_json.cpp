@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <heml/scenario/entries_json.hpp>
 #include <heml/scenario/event_json.hpp>
 #include <heml/scenario/material_json.hpp>
 #include <heml/scenario/solver_json.hpp>
@@ -56,6 +57,7 @@ Command command_from(const Key& key, const std::string& action, std::optional<Ve
   if (action == "damping") return SetDamping{value.non_negative()};
   if (action == "gravity") return SetGravity{value.vector()};
   if (action == "integrator") return SetIntegrator{integrator_from(value)};
+  if (action == "remove") return RemoveElements{elements_from(value)};
   if (action == "material") {
     const RegionMaterial entry = material_from(value);
     if (takes_fields(entry.material)) value.fail("takes a field of the mesh", "a material switched to takes numbers");
@@ -73,16 +75,17 @@ Json command_json(const SetMaterial& set) { return {{"material", material_json({
 Json command_json(const SetDamping& set) { return {{"damping", set.damping}}; }
 Json command_json(const SetGravity& set) { return {{"gravity", vector_json(set.gravity)}}; }
 Json command_json(const SetIntegrator& set) { return {{"integrator", integrator_name(set.integrator)}}; }
+Json command_json(const RemoveElements& remove) { return {{"remove", elements_json(remove.which)}}; }
 Json command_json(const Reset&) { return {{"reset", true}}; }
 
 }  // namespace
 
 void read_script_entry(const Key& key, double tick_length, Script& script) {
-  key.allow({"step", "at", "grasp", "move", "release", "material", "damping", "gravity", "integrator", "reset",
-             "checkpoint", "nodes", "end"});
+  key.allow({"step", "at", "grasp", "move", "release", "material", "damping", "gravity", "integrator", "remove",
+             "reset", "checkpoint", "nodes", "end"});
   const long tick = tick_from(key, tick_length);
-  const std::string action = key.only_one_of(
-      {"grasp", "move", "release", "material", "damping", "gravity", "integrator", "reset", "checkpoint", "end"});
+  const std::string action = key.only_one_of({"grasp", "move", "release", "material", "damping", "gravity",
+                                              "integrator", "remove", "reset", "checkpoint", "end"});
   if (action != "checkpoint" && key.has("nodes")) key["nodes"].fail("stands without a checkpoint", "take it away");
   if (action == "checkpoint") {
     const auto nodes = key.find("nodes");
