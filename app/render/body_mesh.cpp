@@ -47,8 +47,8 @@ std::vector<float> openness(const Skin& skin, const SmoothSurface& surface, floa
 BodyMesh::BodyMesh(const Skin& skin)
     : surface_(skin, SmoothSurface::suitable_segments(skin.triangles.size())),
       nodes_(skin.rest.size()),
-      rest_(ball_around(skin.rest)),
-      bead_radius_(std::min(0.4f * mean_edge(skin), 0.022f * rest_.radius)),
+      rest_(ball_around(whole_of(skin).rest)),
+      bead_radius_(std::min(0.4f * mean_edge(whole_of(skin)), 0.022f * rest_.radius)),
       outline_(surface_.triangles(), surface_.positions()) {
   describe_vertices();
   upload_fixed(skin);

@@ -28,7 +28,7 @@ class BodyMesh {
   void draw_edges() const;
   void draw_held() const;  ///< points
 
-  const Ball& rest() const { return rest_; }
+  const Ball& rest() const { return rest_; }  ///< of the whole body: what is removed moves neither ground nor light
   float bead_radius() const { return bead_radius_; }  ///< m, for held nodes
   bool has_triangles() const { return !surface_.triangles().empty(); }
   std::size_t node_count() const { return nodes_; }
