@@ -5,13 +5,14 @@
 #include <app/render/gl_objects.hpp>
 #include <app/render/outline.hpp>
 #include <app/render/smooth_surface.hpp>
+#include <app/render/tissue_look.hpp>
 #include <span>
 
 namespace heml::render {
 
 class BodyMesh {
  public:
-  explicit BodyMesh(const Skin& skin);
+  BodyMesh(const Skin& skin, const TissueLook& look);
 
   /// Takes a frame's positions and, when it has them, its values over a range.
   void update(const Frame& frame, const Range& range);
@@ -56,7 +57,7 @@ class BodyMesh {
   };
 
   void describe_vertices();
-  void upload_fixed(const Skin& skin);
+  void upload_fixed(const Skin& skin, const TissueLook& look);
   void upload_indices(const Skin& skin);
   void draw(GLenum mode, const Indices& indices) const;
 

@@ -71,7 +71,9 @@ class Renderer::Impl {
   VertexArray nothing_;  // for shapes made of vertex numbers alone
   Texture map_, detail_;
   std::optional<Canvas> canvas_;
-  std::shared_ptr<const Skin> skin_;  // that body_ is of
+  std::shared_ptr<const Skin> skin_;   // that body_ is of
+  std::shared_ptr<const Skin> whole_;  // of the body before it lost a part
+  TissueLook whole_look_;
   std::optional<BodyMesh> body_;
   ShadowMap shadow_map_;
   Footprint footprint_;
@@ -92,7 +94,14 @@ void Renderer::Impl::take_skin(const Frame& frame) {
   if (frame.skin == skin_) return;
   skin_ = frame.skin;
   body_.reset();
-  if (skin_) body_.emplace(*skin_);
+  if (!skin_) return;
+  const auto& whole = skin_->whole ? skin_->whole : skin_;
+  if (whole != whole_) whole_look_ = tissue_look(*whole, nullptr);
+  whole_ = whole;
+  if (skin_->whole)
+    body_.emplace(*skin_, tissue_look(*skin_, &whole_look_));
+  else
+    body_.emplace(*skin_, whole_look_);
 }
 
 void Renderer::Impl::draw(const Frame& frame, const Camera& camera, const DrawOptions& options, Size size) {

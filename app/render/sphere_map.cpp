@@ -1,6 +1,5 @@
 #include "app/render/sphere_map.hpp"
 
-#include <algorithm>
 #include <app/render/bounds.hpp>
 
 namespace heml::render {
@@ -20,27 +19,12 @@ void normalize_all(std::vector<Vec3f>& places, const Vec3f& centre) {
   }
 }
 
-/// Where nodes that the whole body's surface had keep the place it gave them: what is removed does not move the pattern
-/// of the rest. Returns which those are.
-std::vector<bool> keep_places(const Skin& skin, std::vector<Vec3f>& places) {
-  std::vector<bool> kept(skin.nodes.size(), false);
-  if (!skin.whole) return kept;
-  const std::vector<Vec3f> before = sphere_map(*skin.whole);
-  const std::vector<int>& nodes = skin.whole->nodes;  // ascending
-  for (std::size_t i = 0; i < kept.size(); ++i) {
-    const auto at = std::lower_bound(nodes.begin(), nodes.end(), skin.nodes[i]);
-    kept[i] = at != nodes.end() && *at == skin.nodes[i];
-    if (kept[i]) places[i] = before[static_cast<std::size_t>(at - nodes.begin())];
-  }
-  return kept;
-}
-
 }  // namespace
 
-std::vector<Vec3f> sphere_map(const Skin& skin) {
+std::vector<Vec3f> sphere_map(const Skin& skin, std::span<const std::optional<Vec3f>> known) {
   std::vector<Vec3f> places = skin.rest;
   normalize_all(places, ball_around(whole_of(skin).rest).centre);
-  const std::vector<bool> kept = keep_places(skin, places);
+  for (std::size_t i = 0; i < known.size(); ++i) places[i] = known[i].value_or(places[i]);
   std::vector<Vec3f> sums(places.size());
   for (int round = 0; round < rounds; ++round) {
     for (std::size_t i = 0; i < places.size(); ++i) sums[i] = 0.5f * places[i];
@@ -53,11 +37,11 @@ std::vector<Vec3f> sphere_map(const Skin& skin) {
       area += weight;
       for (const int node : {a, b, c}) sums[node] += sum - places[node];
     }
-    for (std::size_t i = 0; i < places.size(); ++i)
-      if (!kept[i]) places[i] = sums[i];
+    places = sums;
+    for (std::size_t i = 0; i < known.size(); ++i) places[i] = known[i].value_or(places[i]);
     normalize_all(places, Vec3f::Zero());
     // Keeps the pattern from sliding to one side: the map of the whole surface stays centred.
-    if (area > 0 && !skin.whole) normalize_all(places, 0.5f * mean / area);
+    if (area > 0 && known.empty()) normalize_all(places, 0.5f * mean / area);
   }
   return places;
 }

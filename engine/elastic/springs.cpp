@@ -29,7 +29,8 @@ Springs<Real>::Springs(const TetMesh& mesh, const std::vector<double>& stiffness
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   start_.assign(mesh.nodes.size() + 1, 0);
   for (auto first = edges.begin(); first != edges.end();) {
-    const auto end = std::find_if(first, edges.end(), [&](const Edge& e) { return e.a != first->a || e.b != first->b; });
+    const auto end =
+        std::find_if(first, edges.end(), [&](const Edge& e) { return e.a != first->a || e.b != first->b; });
     double mean = 0;
     for (auto edge = first; edge != end; ++edge) mean += edge->k / static_cast<double>(end - first);
     const auto a = static_cast<std::size_t>(first->a), b = static_cast<std::size_t>(first->b);

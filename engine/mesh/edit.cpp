@@ -45,7 +45,7 @@ std::string nothing_chosen(const ElementSelection& which, const TetMesh& mesh, c
   if (which.region) {
     std::set<int> regions;
     for (const int t : topology.elements) regions.insert(mesh.regions[static_cast<std::size_t>(t)]);
-    return fmt::format("no element of region {} is there; those that are have {}", *which.region,
+    return fmt::format("no element of region {} is there; the regions that are: {}", *which.region,
                        fmt::join(regions, ", "));
   }
   Eigen::AlignedBox3d centroids;

@@ -63,7 +63,7 @@ TEST_CASE("a removal that makes no sense is refused in words") {
   CHECK(says(problem_of(tets({3, -1}), topology), "element -1 does not exist"));
   CHECK(problem_of(tets({4, 5}), topology) == "element 5 was removed before");
   CHECK(says(problem_of(tets({}), topology), "names no element"));
-  CHECK(problem_of({{}, 9, {}, {}}, topology) == "no element of region 9 is there; those that are have 3, 8");
+  CHECK(problem_of({{}, 9, {}, {}}, topology) == "no element of region 9 is there; the regions that are: 3, 8");
   CHECK(says(problem_of({{}, {}, std::array{Vec3(1, 1, 1), Vec3(2, 2, 2)}, {}}, topology),
              "the box holds no centroid of an element; at rest they lie from ["));
   CHECK(says(problem_of({{}, {}, {}, std::pair{Vec3(0, 0, 0), 1e-6}}, topology), "the sphere holds no centroid"));

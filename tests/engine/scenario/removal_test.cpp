@@ -20,7 +20,7 @@ const char* const removals = R"({
   "events": [
     {"step": 2, "remove": {"tets": [12, 3]}},
     {"step": 4, "remove": {"box": [[0.15, 0.05, 0], [0.2, 0.1, 0.05]]}},
-    {"at": 0.06, "remove": {"sphere": [[0.1, 0.05, 0.05], 0.02]}},
+    {"at": 0.06, "remove": {"sphere": [[0.1, 0.05, 0.05], 0.05]}},
     {"step": 8, "remove": {"region": 0}}
   ]})";
 
@@ -42,7 +42,7 @@ TEST_CASE("a removal reads the same from what it is written as") {
   REQUIRE(scene.events.size() == 4);
   CHECK(std::get<RemoveElements>(scene.events[0].command).which.tets == std::vector<int>{12, 3});
   CHECK(scene.events[2].tick == 6);
-  CHECK(std::get<RemoveElements>(scene.events[2].command).which.sphere->second == 0.02);
+  CHECK(std::get<RemoveElements>(scene.events[2].command).which.sphere->second == 0.05);
   CHECK(std::get<RemoveElements>(scene.events[3].command).which.region == 0);
   for (const Event& event : scene.events) {
     const std::string line = event_line(event);
