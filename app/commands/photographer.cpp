@@ -14,17 +14,17 @@ Photographer::Photographer(const Scene& scene, const World& world, PictureSize s
     : folder_(std::move(folder)),
       size_{size.width, size.height},
       context_(size_),
-      skin_(make_skin(world.setup())),
+      skin_(skin_of(world)),
       view_(scene.view) {
   std::error_code failed;
   std::filesystem::create_directories(folder_, failed);
   if (failed) throw InputError(folder_.string(), "", "cannot be made: " + failed.message(), "name another folder");
-  renderer_.set_skin(skin_);
   if (panel || view_.field != Field::none) interface_.emplace(panel::Interface::suitable_scale(size_));
-  if (panel) panel_.emplace(scene, skin_);
+  if (panel) panel_.emplace(scene, *skin_);
 }
 
 void Photographer::take(World& world, double ahead, double seconds) {
+  skin_ = skin_of(world, std::move(skin_));
   fill_frame(world, skin_, view_.field, ahead, frame_, panel_ && panel_->wants_stretches());
   frame_.pace.rate = 1 / world.setup().solver.tick();
   if (panel_)
@@ -38,7 +38,8 @@ void Photographer::take(World& world, double ahead, double seconds) {
 void Photographer::draw_beside_panel(float seconds) {
   panel_->take(frame_, seconds);
   panel::Eye eye;
-  eye.fit(view_, skin_, size_, panel_->insets({static_cast<float>(size_.width), static_cast<float>(size_.height)}));
+  eye.fit(view_, whole_of(*skin_), size_,
+          panel_->insets({static_cast<float>(size_.width), static_cast<float>(size_.height)}));
   renderer_.draw(frame_, eye.camera(), panel_->drawing(), size_);
   interface_->begin(size_, seconds);
   panel_->draw(frame_);
@@ -49,7 +50,7 @@ void Photographer::draw_alone(float seconds) {
   render::DrawOptions options;
   options.wireframe = view_.wireframe;
   if (interface_) options.range = colours_.update(frame_.field, frame_.values, seconds);
-  renderer_.draw(frame_, render::camera_for(view_, skin_, size_), options, size_);
+  renderer_.draw(frame_, render::camera_for(view_, whole_of(*skin_), size_), options, size_);
   if (!interface_) return;
   interface_->begin(size_, seconds);
   panel::draw_legend(frame_.field, *options.range,

@@ -31,7 +31,7 @@ class Photographer {
   render::Size size_;
   render::OsMesaContext context_;
   render::Renderer renderer_;
-  Skin skin_;
+  std::shared_ptr<const Skin> skin_;  ///< of the last picture
   View view_;
   Frame frame_;
   render::ColourRange colours_;

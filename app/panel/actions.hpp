@@ -23,11 +23,12 @@ enum class Action {
   hide,
   help,
   release,
+  remove,
   quit
 };
 
 /// What the panel asks its owner for.
-enum class Request { play, pause, step, fit, screenshot, release, quit };
+enum class Request { play, pause, step, fit, screenshot, release, remove, quit };
 
 struct PanelActions {
   std::vector<Command> commands;  ///< for the world, in order

@@ -19,6 +19,7 @@ constexpr KeyBinding bindings[] = {
     {'H', false, Action::help, "H, F1", "this page"},
     {key_f1, false, Action::help, "", ""},
     {key_escape, false, Action::release, "Esc", "let go; close messages"},
+    {key_delete, false, Action::remove, "Del", "remove the tissue under the ring"},
     {'Q', true, Action::quit, "Ctrl+Q", "quit"},
 };
 }  // namespace

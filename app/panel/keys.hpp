@@ -6,7 +6,7 @@
 namespace heml::panel {
 
 /// Printable keys are their own character, letters in upper case; the rest have numbers past ASCII.
-enum Key : int { key_escape = 256, key_tab, key_f1, key_f12 };
+enum Key : int { key_escape = 256, key_tab, key_f1, key_f12, key_delete };
 
 struct KeyBinding {
   int key;

@@ -31,6 +31,7 @@ Panel::Panel(const Scene& scene, const Skin& skin)
       grasp_radius_(largest_grasp_ * first_grasp / most_grasp),
       material_(scene.materials),
       watch_(skin),
+      skin_version_(skin.version),
       motion_(scene.gravity, scene.solver),
       view_(scene.view) {
   watch_stretches();
@@ -42,11 +43,19 @@ void Panel::watch_stretches() {
   watch_.set(material_.materials());
 }
 
+void Panel::take_skin(const Frame& frame) {
+  if (!frame.skin || frame.skin->version == skin_version_) return;
+  skin_version_ = frame.skin->version;
+  watch_ = StretchWatch(*frame.skin);
+  watched_changes_ = -1;
+}
+
 void Panel::take(const Frame& frame, float seconds) {
   history_.take(frame);
   late_for_ = frame.paused || frame.pace.keeping_up ? 0 : late_for_ + seconds;
   range_ = colour_range_.update(frame.field, frame.values, seconds);
   view_.set_range(range_);
+  take_skin(frame);
   watch_stretches();
   watch_.take(frame);
   view_.set_beyond(watch_.beyond());
@@ -107,6 +116,8 @@ void Panel::carry_out(Action action, const Frame& frame, PanelActions& out) {
     case Action::release:
       if (helping_ || notices_.close()) helping_ = false;
       return ask(Request::release);
+    case Action::remove:
+      return ask(Request::remove);
     case Action::quit:
       return ask(Request::quit);
   }
@@ -228,7 +239,7 @@ void Panel::draw_grasp() {
   double millimetres = grasp_radius_ * 1e3;
   if (rows_.slider({"Grasp radius",
                     "Surface nodes within this distance of where you take hold go with the tool, mm, measured on the "
-                    "rest shape. 0: one node alone."},
+                    "rest shape. 0: one node alone. Delete (Del) takes out the tissue within it, one element deep."},
                    millimetres, {0, largest_grasp_ * 1e3, "%.1f mm", false}))
     grasp_radius_ = millimetres * 1e-3;
 }

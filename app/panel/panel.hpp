@@ -56,6 +56,7 @@ class Panel {
   void draw_pace(const Frame& frame);
   void draw_readings(const Frame& frame);
   void draw_grasp();
+  void take_skin(const Frame& frame);
   void watch_stretches();
   std::optional<Banner> banner_for(const Frame& frame) const;
   void remember_place();
@@ -65,6 +66,7 @@ class Panel {
   double grasp_radius_;              ///< m
   MaterialSection material_;
   StretchWatch watch_;
+  long skin_version_;         ///< that the watch is of
   int watched_changes_ = -1;  ///< MaterialSection::changes() that the watch knows of
   MotionSection motion_;
   ViewSection view_;

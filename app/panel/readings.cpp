@@ -47,6 +47,9 @@ void draw_volume(Rows& rows, const Frame& frame, const History& history) {
              fmt::format("{:.3f}", frame.min_J), colours::potential, inverted ? colours::danger : colours::text);
   rows.value({"Greatest J", "The most expanded tetrahedron: its volume relative to rest."},
              fmt::format("{:.3f}", frame.max_J), colours::kinetic);
+  if (frame.removed > 0)
+    rows.value({"Removed", "Tetrahedra taken out of the body, of all it had. Reset brings them back."},
+               fmt::format("{} of {}", frame.removed, frame.elements));
   const Curve curves[] = {
       {"Least", colours::potential, [](const Reading& r) { return r.min_J; }},
       {"Greatest", colours::kinetic, [](const Reading& r) { return r.max_J; }},

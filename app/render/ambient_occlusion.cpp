@@ -112,13 +112,15 @@ void smooth(const Skin& skin, std::vector<float>& values) {
 
 }  // namespace
 
-std::vector<float> ambient_occlusion(const Skin& skin, const std::vector<Vec3f>& normals, float reach) {
+std::vector<float> ambient_occlusion(const Skin& skin, const std::vector<Vec3f>& normals, float reach,
+                                     std::span<const std::optional<float>> known) {
   const Occluder occluder(skin);
   const std::vector<Vec3f> rays = directions(skin.rest.size() < 10000 ? 10 : 5, 20010301);
   std::vector<float> open(skin.rest.size(), 1);
   for (std::size_t i = 0; i < open.size(); ++i) {
     const Vec3f n = normals[i];
-    if (n.isZero()) continue;
+    if (!known.empty() && known[i]) open[i] = *known[i];
+    if (n.isZero() || (!known.empty() && known[i])) continue;
     const Eigen::Quaternionf turn = Eigen::Quaternionf::FromTwoVectors(Vec3f::UnitZ(), n);
     const Vec3f origin = skin.rest[i] + 1e-3f * reach * n;
     int blocked = 0;
@@ -127,6 +129,7 @@ std::vector<float> ambient_occlusion(const Skin& skin, const std::vector<Vec3f>&
   }
   smooth(skin, open);
   smooth(skin, open);
+  for (std::size_t i = 0; i < known.size(); ++i) open[i] = known[i].value_or(open[i]);
   return open;
 }
 

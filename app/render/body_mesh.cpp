@@ -1,15 +1,11 @@
 #include "app/render/body_mesh.hpp"
 
-#include <app/render/ambient_occlusion.hpp>
 #include <app/render/palette.hpp>
-#include <app/render/sphere_map.hpp>
 #include <cmath>
 #include <cstddef>
 
 namespace heml::render {
 namespace {
-
-constexpr float occlusion_reach = 0.7f;  // in body radii
 
 std::uint8_t byte(float value) { return static_cast<std::uint8_t>(std::lround(255 * std::clamp(value, 0.0f, 1.0f))); }
 
@@ -34,24 +30,16 @@ std::vector<Vec3f> corner_tints(const Skin& skin, const SurfaceTopology& topolog
   return tints;
 }
 
-std::vector<float> openness(const Skin& skin, const SmoothSurface& surface, float radius) {
-  std::vector<Vec3f> normals(skin.rest.size(), Vec3f::Zero());
-  const std::vector<int>& nodes = surface.topology().corner_nodes;
-  for (std::size_t c = 0; c < nodes.size(); ++c) normals[nodes[c]] += surface.normals()[c];
-  for (Vec3f& normal : normals) normal.normalize();
-  return ambient_occlusion(skin, normals, occlusion_reach * radius);
-}
-
 }  // namespace
 
-BodyMesh::BodyMesh(const Skin& skin)
+BodyMesh::BodyMesh(const Skin& skin, const TissueLook& look)
     : surface_(skin, SmoothSurface::suitable_segments(skin.triangles.size())),
       nodes_(skin.rest.size()),
-      rest_(ball_around(skin.rest)),
-      bead_radius_(std::min(0.4f * mean_edge(skin), 0.022f * rest_.radius)),
+      rest_(ball_around(whole_of(skin).rest)),
+      bead_radius_(std::min(0.4f * mean_edge(whole_of(skin)), 0.022f * rest_.radius)),
       outline_(surface_.triangles(), surface_.positions()) {
   describe_vertices();
-  upload_fixed(skin);
+  upload_fixed(skin, look);
   upload_indices(skin);
 }
 
@@ -97,13 +85,13 @@ void BodyMesh::upload_indices(const Skin& skin) {
   fill(held_, held);
 }
 
-void BodyMesh::upload_fixed(const Skin& skin) {
+void BodyMesh::upload_fixed(const Skin& skin, const TissueLook& look) {
   const std::vector<Vec3f> tints = corner_tints(skin, surface_.topology());
   std::vector<Vec3f> rest, on_sphere;
   std::vector<float> open;
   surface_.spread(std::span<const Vec3f>(skin.rest), rest);
-  surface_.spread(std::span<const Vec3f>(sphere_map(skin)), on_sphere);
-  surface_.spread(std::span<const float>(openness(skin, surface_, rest_.radius)), open);
+  surface_.spread(std::span<const Vec3f>(look.on_sphere), on_sphere);
+  surface_.spread(std::span<const float>(look.openness), open);
   fixed_.resize(rest.size());
   for (std::size_t p = 0; p < fixed_.size(); ++p) {
     const auto& [c, w] = surface_.blends()[p];

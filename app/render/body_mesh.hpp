@@ -5,13 +5,14 @@
 #include <app/render/gl_objects.hpp>
 #include <app/render/outline.hpp>
 #include <app/render/smooth_surface.hpp>
+#include <app/render/tissue_look.hpp>
 #include <span>
 
 namespace heml::render {
 
 class BodyMesh {
  public:
-  explicit BodyMesh(const Skin& skin);
+  BodyMesh(const Skin& skin, const TissueLook& look);
 
   /// Takes a frame's positions and, when it has them, its values over a range.
   void update(const Frame& frame, const Range& range);
@@ -28,7 +29,7 @@ class BodyMesh {
   void draw_edges() const;
   void draw_held() const;  ///< points
 
-  const Ball& rest() const { return rest_; }
+  const Ball& rest() const { return rest_; }  ///< of the whole body: what is removed moves neither ground nor light
   float bead_radius() const { return bead_radius_; }  ///< m, for held nodes
   bool has_triangles() const { return !surface_.triangles().empty(); }
   std::size_t node_count() const { return nodes_; }
@@ -56,7 +57,7 @@ class BodyMesh {
   };
 
   void describe_vertices();
-  void upload_fixed(const Skin& skin);
+  void upload_fixed(const Skin& skin, const TissueLook& look);
   void upload_indices(const Skin& skin);
   void draw(GLenum mode, const Indices& indices) const;
 

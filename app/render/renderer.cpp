@@ -45,10 +45,10 @@ void upload_detail(const Texture& texture) {
 class Renderer::Impl {
  public:
   Impl() { upload_detail(detail_); }
-  void set_skin(const Skin& skin) { body_.emplace(skin); }
   void draw(const Frame& frame, const Camera& camera, const DrawOptions& options, Size size);
 
  private:
+  void take_skin(const Frame& frame);
   const Canvas* canvas(const DrawOptions& options, Size size);
   void draw_picture(const Shot& shot, const Frame& frame, const DrawOptions& options);
   const Program& surface_program(bool shows_field, bool hatched);
@@ -71,6 +71,9 @@ class Renderer::Impl {
   VertexArray nothing_;  // for shapes made of vertex numbers alone
   Texture map_, detail_;
   std::optional<Canvas> canvas_;
+  std::shared_ptr<const Skin> skin_;   // that body_ is of
+  std::shared_ptr<const Skin> whole_;  // of the body before it lost a part
+  TissueLook whole_look_;
   std::optional<BodyMesh> body_;
   ShadowMap shadow_map_;
   Footprint footprint_;
@@ -87,7 +90,22 @@ const Canvas* Renderer::Impl::canvas(const DrawOptions& options, Size size) {
   return &*canvas_;
 }
 
+void Renderer::Impl::take_skin(const Frame& frame) {
+  if (frame.skin == skin_) return;
+  skin_ = frame.skin;
+  body_.reset();
+  if (!skin_) return;
+  const auto& whole = skin_->whole ? skin_->whole : skin_;
+  if (whole != whole_) whole_look_ = tissue_look(*whole, nullptr);
+  whole_ = whole;
+  if (skin_->whole)
+    body_.emplace(*skin_, tissue_look(*skin_, &whole_look_));
+  else
+    body_.emplace(*skin_, whole_look_);
+}
+
 void Renderer::Impl::draw(const Frame& frame, const Camera& camera, const DrawOptions& options, Size size) {
+  take_skin(frame);
   if (body_ && frame.positions.size() != body_->node_count())
     throw std::invalid_argument("Renderer::draw: the frame has another number of nodes than the skin");
   if (body_ && !options.beyond.empty() && options.beyond.size() != body_->node_count())
@@ -249,7 +267,6 @@ void Renderer::Impl::draw_backdrop(const Shot& shot) const {
 
 Renderer::Renderer() : impl_(std::make_unique<Impl>()) {}
 Renderer::~Renderer() = default;
-void Renderer::set_skin(const Skin& skin) { impl_->set_skin(skin); }
 void Renderer::draw(const Frame& frame, const Camera& camera, const DrawOptions& options, Size size) {
   impl_->draw(frame, camera, options, size);
 }

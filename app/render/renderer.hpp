@@ -31,11 +31,10 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  /// The body from now on. Takes as long as its ambient occlusion: about a second for 50,000 nodes.
-  void set_skin(const Skin& skin);
-
-  /// Draws over all of framebuffer 0, which is of this size and has depth. The picture depends on the arguments and the
-  /// skin alone. Throws std::invalid_argument for a frame or a `beyond` with another number of nodes than the skin.
+  /// Draws over all of framebuffer 0, which is of this size and has depth. The picture depends on the arguments alone.
+  /// A frame without a skin has no body. A skin that the frame before did not have is taken up first, which takes as
+  /// long as its ambient occlusion: about a second for 50,000 nodes, far less where a body has lost a part. Throws
+  /// std::invalid_argument for a frame or a `beyond` with another number of nodes than the skin.
   void draw(const Frame& frame, const Camera& camera, const DrawOptions& options, Size size);
 
  private:

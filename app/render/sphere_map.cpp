@@ -1,5 +1,6 @@
 #include "app/render/sphere_map.hpp"
 
+#include <algorithm>
 #include <app/render/bounds.hpp>
 
 namespace heml::render {
@@ -21,15 +22,19 @@ void normalize_all(std::vector<Vec3f>& places, const Vec3f& centre) {
 
 }  // namespace
 
-std::vector<Vec3f> sphere_map(const Skin& skin) {
+std::vector<Vec3f> sphere_map(const Skin& skin, std::span<const std::optional<Vec3f>> known) {
   std::vector<Vec3f> places = skin.rest;
-  normalize_all(places, ball_around(skin.rest).centre);
+  normalize_all(places, ball_around(whole_of(skin).rest).centre);
+  for (std::size_t i = 0; i < known.size(); ++i) places[i] = known[i].value_or(places[i]);
+  std::vector<Triangle> triangles = skin.triangles;  // that pull at what is not known
+  const auto is_known = [&](int node) { return !known.empty() && known[node].has_value(); };
+  std::erase_if(triangles, [&](const Triangle& t) { return std::all_of(t.begin(), t.end(), is_known); });
   std::vector<Vec3f> sums(places.size());
   for (int round = 0; round < rounds; ++round) {
     for (std::size_t i = 0; i < places.size(); ++i) sums[i] = 0.5f * places[i];
     Vec3f mean = Vec3f::Zero();
     float area = 0;
-    for (const auto& [a, b, c] : skin.triangles) {
+    for (const auto& [a, b, c] : triangles) {
       const float weight = (skin.rest[b] - skin.rest[a]).cross(skin.rest[c] - skin.rest[a]).norm();
       const Vec3f sum = places[a] + places[b] + places[c];
       mean += weight * sum / 3;
@@ -37,9 +42,10 @@ std::vector<Vec3f> sphere_map(const Skin& skin) {
       for (const int node : {a, b, c}) sums[node] += sum - places[node];
     }
     places = sums;
+    for (std::size_t i = 0; i < known.size(); ++i) places[i] = known[i].value_or(places[i]);
     normalize_all(places, Vec3f::Zero());
     // Keeps the pattern from sliding to one side: the map of the whole surface stays centred.
-    if (area > 0) normalize_all(places, 0.5f * mean / area);
+    if (area > 0 && known.empty()) normalize_all(places, 0.5f * mean / area);
   }
   return places;
 }

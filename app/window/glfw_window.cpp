@@ -29,6 +29,8 @@ int panel_key(int key, int scancode) {
       return panel::key_f1;
     case GLFW_KEY_F12:
       return panel::key_f12;
+    case GLFW_KEY_DELETE:
+      return panel::key_delete;
     case GLFW_KEY_KP_DECIMAL:
       return '.';
     default:

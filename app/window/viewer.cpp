@@ -3,6 +3,7 @@
 
 #include <app/panel/keys.hpp>
 #include <app/window/overlay.hpp>
+#include <app/window/patch.hpp>
 #include <app/window/screenshot.hpp>
 #include <app/window/viewer.hpp>
 #include <heml/base/error.hpp>
@@ -33,17 +34,16 @@ void Viewer::adopt(OpenScene opened) {
   std::vector<Command> last;
   hand_.let_go(last);
   open_ = std::move(opened);
-  panel_.emplace(open_.scene, open_.session->skin());
   frame_ = &open_.session->latest();
+  panel_.emplace(open_.scene, *frame_->skin);
   next_event_ = 0;
-  renderer_.set_skin(open_.session->skin());
   window_.set_title(window_title(open_.scene));
   fit();
 }
 
 void Viewer::fit() {
   const render::Size size = window_.size();
-  eye_.fit(open_.scene.view, open_.session->skin(), size,
+  eye_.fit(open_.scene.view, *frame_->skin, size,
            panel_->insets({static_cast<float>(size.width), static_cast<float>(size.height)}));
 }
 
@@ -86,8 +86,8 @@ void Viewer::draw_marks() {
   if (hand_.doing() == Hand::Doing::grasping) return ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeAll);
   const bool free = hand_.doing() == Hand::Doing::nothing && !ImGui::IsAnyItemActive() && ImGui::IsMousePosValid();
   if (!free || panel_->covers(mouse_.x(), mouse_.y())) return;
-  if (const auto hit = hand_.under(mouse_, *frame_, open_.session->skin())) {
-    draw_ring(*hit, *frame_, open_.session->skin(), eye_, panel_->grasp_radius());
+  if (const auto hit = hand_.under(mouse_, *frame_, *frame_->skin)) {
+    draw_ring(*hit, *frame_, *frame_->skin, eye_, panel_->grasp_radius());
     ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
   }
 }
@@ -142,10 +142,24 @@ void Viewer::carry_out(panel::Request request) {
       hand_.let_go(commands);
       return post(commands);
     }
+    case panel::Request::remove:
+      return remove_tissue();
     case panel::Request::quit:
       quits_ = true;
       return;
   }
+}
+
+/// Under the ring; where nothing is pointed at, what the hand holds.
+void Viewer::remove_tissue() {
+  const Skin& skin = *frame_->skin;
+  const bool points = hand_.doing() == Hand::Doing::nothing && !panel_->covers(mouse_.x(), mouse_.y());
+  const auto hit = points ? hand_.under(mouse_, *frame_, skin) : std::nullopt;
+  const int node = hit ? skin.nodes[static_cast<std::size_t>(hit->node)] : frame_->tool.active ? frame_->tool.node : -1;
+  ElementSelection which;
+  which.tets = elements_round(node, skin, panel_->grasp_radius());
+  if (which.tets.empty()) return panel_->say("Point at the tissue to remove, or hold it.");
+  open_.session->post(RemoveElements{which});
 }
 
 void Viewer::save_screenshot() {
@@ -172,7 +186,7 @@ void Viewer::button(MouseButton button, bool down, bool shift) {
     return post(commands);
   }
   if (panel_->covers(mouse_.x(), mouse_.y())) return;
-  if (hand_.press(button, mouse_, shift, *frame_, open_.session->skin(), panel_->grasp_radius(), commands))
+  if (hand_.press(button, mouse_, shift, *frame_, *frame_->skin, panel_->grasp_radius(), commands))
     panel_->say("The scene holds this part; take another.");
   post(commands);
   if (button != MouseButton::left || hand_.doing() != Hand::Doing::orbiting) return;

@@ -47,6 +47,7 @@ class Viewer final : public WindowEvents {
   void carry_out(const panel::PanelActions& actions);
   void carry_out(panel::Request request);
   void post(std::vector<Command>& commands);
+  void remove_tissue();
   void save_screenshot();
 
   GlfwWindow& window_;

@@ -35,15 +35,20 @@ ElasticBody<Real>::ElasticBody(const TetMesh& mesh, const std::vector<int>& mate
       options_(options),
       springs_(mesh, std::vector<double>(mesh.tets.size(), 0.0)) {
   make_parts();
-  make_shared();
+  forget(at_rest().data());
+}
+
+template <class Real>
+std::vector<Real> ElasticBody<Real>::at_rest() const {
   std::vector<Real> x;
   for (const Vec3& X : mesh_.nodes)
     for (const double value : X) x.push_back(static_cast<Real>(value));
-  forget(x.data());
+  return x;
 }
 
 template <class Real>
 void ElasticBody<Real>::make_parts() {
+  parts_.clear();
   for (std::size_t m = 0; m < materials_.size(); ++m) {
     std::vector<int> elements;
     for (std::size_t t = 0; t < material_of_.size(); ++t)
@@ -55,10 +60,17 @@ void ElasticBody<Real>::make_parts() {
     part.group.density = static_cast<Real>(materials_[m].density);
     part.flow = make_flow<Real>(materials_[m], options_.continuation, part.group);
   }
+  join_parts();
+}
+
+/// What depends on all parts together.
+template <class Real>
+void ElasticBody<Real>::join_parts() {
   std::vector<ElementGroup<Real>*> groups;
   for (Part& part : parts_) groups.push_back(&part.group);
   corners_ = map_corners(groups, mesh_.nodes.size());
   corner_.assign(3 * corner_count(groups), Real(0));
+  make_shared();
 }
 
 /// What belongs to no element alone.
@@ -275,10 +287,42 @@ void ElasticBody<Real>::states(const Real* x, std::vector<ElementState<Real>>& o
 template <class Real>
 void ElasticBody<Real>::set_material(std::size_t index, const Material& material, const Real* x) {
   materials_[index] = material;
-  parts_.clear();
   make_parts();
-  make_shared();
   forget(x);
+}
+
+template <class Real>
+void ElasticBody<Real>::set_mesh(const TetMesh& mesh, const std::vector<int>& material_of) {
+  mesh_ = mesh;
+  material_of_ = material_of;
+  make_parts();
+  forget(at_rest().data());
+}
+
+template <class Real>
+void ElasticBody<Real>::keep_elements(const std::vector<int>& elements) {
+  std::vector<int> number(mesh_.tets.size(), -1);  // that an element has from now on
+  for (std::size_t k = 0; k < elements.size(); ++k) number[static_cast<std::size_t>(elements[k])] = static_cast<int>(k);
+  for (Part& part : parts_) {
+    std::vector<std::size_t> slots;
+    for (std::size_t s = 0; s < part.group.size(); ++s) {
+      int& element = part.group.element[s];
+      element = number[static_cast<std::size_t>(element)];
+      if (element >= 0) slots.push_back(s);
+    }
+    if (slots.size() == part.group.size()) continue;
+    if (slots.empty()) {
+      part.group.element.clear();
+      continue;
+    }
+    const std::vector<std::size_t> from = keep_slots(part.group, slots);
+    for (const auto& term : part.terms) term->take_slots(from);
+    if (part.flow) part.flow->take_slots(from);
+  }
+  std::erase_if(parts_, [](const Part& part) { return part.group.size() == 0; });
+  mesh_ = with_elements(mesh_, elements);
+  material_of_ = with_elements(material_of_, elements);
+  join_parts();
 }
 
 template <class Real>

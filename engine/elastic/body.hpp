@@ -11,6 +11,7 @@
 #include <heml/elastic/plastic_flow.hpp>
 #include <heml/elastic/projection.hpp>
 #include <heml/elastic/springs.hpp>
+#include <heml/mesh/edit.hpp>
 #include <heml/mesh/tet_mesh.hpp>
 #include <memory>
 #include <vector>
@@ -89,6 +90,12 @@ class ElasticBody {
   /// Puts another law on the elements of one material, and forgets what they remember.
   void set_material(std::size_t index, const Material& material, const Real* x);
 
+  /// Leaves the given elements (inner numbers, ascending; at least one), numbered anew in that order. What they
+  /// remember stays with them; forces are the bits of a body made of them alone.
+  void keep_elements(const std::vector<int>& elements);
+  /// Another mesh of the same nodes, at rest: what keep_elements() took away is there again. As in the constructor.
+  void set_mesh(const TetMesh& mesh, const std::vector<int>& material_of);
+
   // What remembers (viscosity, relaxation, plasticity), if anything does: a step of length h begins (0: none; infinite:
   // all has relaxed); the positions it reached are kept; all is forgotten.
   bool has_memory() const;
@@ -113,7 +120,9 @@ class ElasticBody {
   };
   static constexpr std::size_t grain_ = 2048;  ///< elements below which waking a thread costs more than it brings
 
+  std::vector<Real> at_rest() const;
   void make_parts();
+  void join_parts();
   void make_shared();
   void gather_corners(Real* f, ThreadTeam& team) const;
   double sum_energies(const Real* x, bool stored, ThreadTeam& team);

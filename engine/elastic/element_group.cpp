@@ -62,6 +62,21 @@ ElementGroup<Real> make_group(const TetMesh& mesh, const std::vector<int>& eleme
 }
 
 template <class Real>
+std::vector<std::size_t> keep_slots(ElementGroup<Real>& group, const std::vector<std::size_t>& slots) {
+  take_slots(group.element, slots);
+  std::vector<std::size_t> from = slots;
+  while (from.size() % ElementGroup<Real>::lanes != 0) from.push_back(slots.back());
+  for (auto& list : group.node) take_slots(list, from);
+  for (auto& list : group.A) take_slots(list, from);
+  take_slots(group.volume, from);
+  take_slots(group.gamma, from);
+  if (!group.fibre[0].empty())
+    for (auto& list : group.fibre) take_slots(list, from);
+  for (auto& list : group.parameters) take_slots(list, from);
+  return from;
+}
+
+template <class Real>
 CornerMap map_corners(std::vector<ElementGroup<Real>*> groups, std::size_t nodes) {
   CornerMap map;
   map.start.assign(nodes + 1, 0);
@@ -93,6 +108,8 @@ template struct ElementGroup<float>;
 template struct ElementGroup<double>;
 template ElementGroup<float> make_group(const TetMesh&, const std::vector<int>&, const Material&);
 template ElementGroup<double> make_group(const TetMesh&, const std::vector<int>&, const Material&);
+template std::vector<std::size_t> keep_slots(ElementGroup<float>&, const std::vector<std::size_t>&);
+template std::vector<std::size_t> keep_slots(ElementGroup<double>&, const std::vector<std::size_t>&);
 template CornerMap map_corners(std::vector<ElementGroup<float>*>, std::size_t);
 template CornerMap map_corners(std::vector<ElementGroup<double>*>, std::size_t);
 template std::size_t corner_count(const std::vector<ElementGroup<float>*>&);

@@ -41,6 +41,24 @@ struct ElementGroup {
 template <class Real>
 ElementGroup<Real> make_group(const TetMesh& mesh, const std::vector<int>& elements, const Material& material);
 
+/// An edit of a group: slot s takes what slot from[s] had, `each` values a slot. So what elements remember stays with
+/// them when others go.
+template <class Value>
+void take_slots(std::vector<Value>& of_slots, std::span<const std::size_t> from, std::size_t each = 1) {
+  std::vector<Value> taken;
+  taken.reserve(each * from.size());
+  for (const std::size_t s : from) {
+    const auto first = of_slots.begin() + static_cast<std::ptrdiff_t>(each * s);
+    taken.insert(taken.end(), first, first + static_cast<std::ptrdiff_t>(each));
+  }
+  of_slots = std::move(taken);
+}
+
+/// Leaves the given slots of a group, in that order; at least one. Returns the `from` of its padded lists, for what
+/// else has a value a slot.
+template <class Real>
+std::vector<std::size_t> keep_slots(ElementGroup<Real>& group, const std::vector<std::size_t>& slots);
+
 /// Which corners meet at each node: corners[start[n] .. start[n+1]), ascending.
 struct CornerMap {
   std::vector<std::size_t> start;    ///< #V+1

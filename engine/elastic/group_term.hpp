@@ -64,6 +64,8 @@ class GroupTerm {
   virtual void begin_step(Real) {}
   virtual void commit(const Group&, const Real*) {}
   virtual void forget(const Group&, const Real*) {}
+  /// An edit of the group: what slot from[s] remembered is slot s's from now on.
+  virtual void take_slots(std::span<const std::size_t>) {}
 };
 
 /// Writes or adds one slot's corner forces.

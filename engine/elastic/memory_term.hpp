@@ -40,6 +40,7 @@ class MemoryTerm final : public GroupTerm<Real> {
   void begin_step(Real h) override;
   void commit(const Group& group, const Real* x) override;
   void forget(const Group& group, const Real* x) override;
+  void take_slots(std::span<const std::size_t> from) override { heml::take_slots(kept_, from, stride_); }
 
  private:
   struct Branch {

@@ -73,6 +73,13 @@ void PlasticFlow<Real>::reset(Group& group) {
 }
 
 template <class Real>
+void PlasticFlow<Real>::take_slots(std::span<const std::size_t> from) {
+  for (auto& list : rest_A_) heml::take_slots(list, from);
+  heml::take_slots(rest_gamma_, from);
+  heml::take_slots(strain_, from);
+}
+
+template <class Real>
 double PlasticFlow<Real>::flow_slot(Group& group, const Real* x, std::size_t s) {
   const auto rest = rest_shape(group, s);
   const auto link = whole_link(group, x, s, rest);

@@ -22,6 +22,8 @@ class PlasticFlow {
   double flow(Group& group, const Real* x);
   /// Back to the rest shape as made.
   void reset(Group& group);
+  /// An edit of the group: what slot from[s] was is slot s's from now on.
+  void take_slots(std::span<const std::size_t> from);
   const std::vector<Real>& plastic_strain() const { return strain_; }  ///< padded #S, equivalent
 
  private:

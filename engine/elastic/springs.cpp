@@ -1,8 +1,7 @@
-#include <array>
+#include <algorithm>
 #include <cmath>
+#include <compare>
 #include <heml/elastic/springs.hpp>
-#include <map>
-#include <set>
 
 namespace heml {
 namespace {
@@ -13,23 +12,33 @@ constexpr int ends[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
 template <class Real>
 Springs<Real>::Springs(const TetMesh& mesh, const std::vector<double>& stiffness) {
   // Which different stiffnesses meet at an edge: regions, not elements, are averaged.
-  std::map<std::array<int, 2>, std::set<double>> edges;
+  struct Edge {
+    int a, b;
+    double k;
+    auto operator<=>(const Edge&) const = default;
+  };
+  std::vector<Edge> edges;
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
     if (stiffness[t] == 0) continue;
     for (const auto& end : ends) {
       const int p = mesh.tets[t][static_cast<std::size_t>(end[0])], q = mesh.tets[t][static_cast<std::size_t>(end[1])];
-      edges[{std::min(p, q), std::max(p, q)}].insert(stiffness[t]);
+      edges.push_back({std::min(p, q), std::max(p, q), stiffness[t]});
     }
   }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   start_.assign(mesh.nodes.size() + 1, 0);
-  for (const auto& [edge, values] : edges) {
+  for (auto first = edges.begin(); first != edges.end();) {
+    const auto end =
+        std::find_if(first, edges.end(), [&](const Edge& e) { return e.a != first->a || e.b != first->b; });
     double mean = 0;
-    for (const double k : values) mean += k / static_cast<double>(values.size());
-    const auto a = static_cast<std::size_t>(edge[0]), b = static_cast<std::size_t>(edge[1]);
+    for (auto edge = first; edge != end; ++edge) mean += edge->k / static_cast<double>(end - first);
+    const auto a = static_cast<std::size_t>(first->a), b = static_cast<std::size_t>(first->b);
     springs_.push_back(
-        {edge[0], edge[1], static_cast<Real>(mean), static_cast<Real>((mesh.nodes[b] - mesh.nodes[a]).norm())});
+        {first->a, first->b, static_cast<Real>(mean), static_cast<Real>((mesh.nodes[b] - mesh.nodes[a]).norm())});
     ++start_[a + 1];
     ++start_[b + 1];
+    first = end;
   }
   for (std::size_t n = 0; n + 1 < start_.size(); ++n) start_[n + 1] += start_[n];
   of_node_.resize(start_.back());

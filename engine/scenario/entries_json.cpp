@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <heml/scenario/entries_json.hpp>
 #include <heml/scenario/mesh_json.hpp>
 #include <heml/scenario/vector_json.hpp>
@@ -6,13 +8,14 @@
 namespace heml {
 namespace {
 
-std::vector<int> nodes_from(const Key& key) {
-  std::vector<int> nodes;
-  key.each([&](const Key& node) {
-    nodes.push_back(static_cast<int>(node.integer(0, std::numeric_limits<int>::max())));
+/// what: "node" or "element".
+std::vector<int> numbers_from(const Key& key, const char* what) {
+  std::vector<int> numbers;
+  key.each([&](const Key& number) {
+    numbers.push_back(static_cast<int>(number.integer(0, std::numeric_limits<int>::max())));
   });
-  if (nodes.empty()) key.fail("is empty", "name at least one node, from 0");
-  return nodes;
+  if (numbers.empty()) key.fail("is empty", fmt::format("name at least one {}, from 0", what));
+  return numbers;
 }
 
 std::array<Vec3, 2> box_from(const Key& key) {
@@ -30,15 +33,19 @@ std::pair<Vec3, double> sphere_from(const Key& key) {
 Selection selection_from(const Key& key) {
   Selection selection;
   const std::string kind = key.only_one_of({"nodes", "box", "sphere"});
-  if (kind == "nodes") selection.nodes = nodes_from(key["nodes"]);
+  if (kind == "nodes") selection.nodes = numbers_from(key["nodes"], "node");
   if (kind == "box") selection.box = box_from(key["box"]);
   if (kind == "sphere") selection.sphere = sphere_from(key["sphere"]);
   return selection;
 }
 
+Json box_json(const std::array<Vec3, 2>& box) { return {vector_json(box[0]), vector_json(box[1])}; }
+
+Json sphere_json(const std::pair<Vec3, double>& sphere) { return {vector_json(sphere.first), sphere.second}; }
+
 Json selection_json(const Selection& where) {
-  if (where.box) return {{"box", {vector_json((*where.box)[0]), vector_json((*where.box)[1])}}};
-  if (where.sphere) return {{"sphere", {vector_json(where.sphere->first), where.sphere->second}}};
+  if (where.box) return {{"box", box_json(*where.box)}};
+  if (where.sphere) return {{"sphere", sphere_json(*where.sphere)}};
   return {{"nodes", where.nodes}};
 }
 
@@ -100,6 +107,26 @@ Json load_json(const LoadEntry& entry) {
   }
   json["over"] = entry.load.over;
   return json;
+}
+
+ElementSelection elements_from(const Key& key) {
+  key.allow({"tets", "region", "box", "sphere"});
+  ElementSelection which;
+  const std::string kind = key.only_one_of({"tets", "region", "box", "sphere"});
+  if (kind == "tets") which.tets = numbers_from(key["tets"], "element");
+  if (kind == "region")
+    which.region =
+        static_cast<int>(key["region"].integer(std::numeric_limits<int>::min(), std::numeric_limits<int>::max()));
+  if (kind == "box") which.box = box_from(key["box"]);
+  if (kind == "sphere") which.sphere = sphere_from(key["sphere"]);
+  return which;
+}
+
+Json elements_json(const ElementSelection& which) {
+  if (which.region) return {{"region", *which.region}};
+  if (which.box) return {{"box", box_json(*which.box)}};
+  if (which.sphere) return {{"sphere", sphere_json(*which.sphere)}};
+  return {{"tets", which.tets}};
 }
 
 }  // namespace heml

@@ -1,5 +1,5 @@
 #pragma once
-// Entries of `boundary` and `loads`, and the selections in them, between JSON and data.
+// Entries of `boundary` and `loads`, and the selections in them and in events, between JSON and data.
 #include <heml/scenario/key.hpp>
 #include <heml/scenario/scene.hpp>
 
@@ -11,5 +11,9 @@ LoadEntry load_from(const Key& key);
 
 Json boundary_json(const BoundaryEntry& entry);
 Json load_json(const LoadEntry& entry);
+
+/// {"tets": [3, 4]}, {"region": 2}, {"box": [[..], [..]]} or {"sphere": [[x, y, z], r]}. Throws likewise.
+ElementSelection elements_from(const Key& key);
+Json elements_json(const ElementSelection& which);
 
 }  // namespace heml

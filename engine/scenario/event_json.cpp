@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <heml/scenario/entries_json.hpp>
 #include <heml/scenario/event_json.hpp>
 #include <heml/scenario/material_json.hpp>
 #include <heml/scenario/solver_json.hpp>
@@ -59,6 +60,7 @@ Command command_from(const Key& key, const std::string& action, std::optional<Ve
   if (action == "integrator") return SetIntegrator{integrator_from(value)};
   if (action == "budget") return SetBudget{static_cast<int>(value.integer(1, most_iterations))};
   if (action == "step_cost") return SetStepCost{value.positive()};
+  if (action == "remove") return RemoveElements{elements_from(value)};
   if (action == "material") {
     const RegionMaterial entry = material_from(value);
     if (takes_fields(entry.material)) value.fail("takes a field of the mesh", "a material switched to takes numbers");
@@ -78,17 +80,18 @@ Json command_json(const SetGravity& set) { return {{"gravity", vector_json(set.g
 Json command_json(const SetIntegrator& set) { return {{"integrator", integrator_name(set.integrator)}}; }
 Json command_json(const SetBudget& set) { return {{"budget", set.iterations}}; }
 Json command_json(const SetStepCost& set) { return {{"step_cost", set.nanoseconds}}; }
+Json command_json(const RemoveElements& remove) { return {{"remove", elements_json(remove.which)}}; }
 Json command_json(const Reset&) { return {{"reset", true}}; }
 
 }  // namespace
 
 void read_script_entry(const Key& key, double tick_length, Script& script) {
   key.allow({"step", "at", "grasp", "move", "release", "material", "damping", "gravity", "integrator", "budget",
-             "step_cost", "reset", "checkpoint", "nodes", "end"});
+             "step_cost", "remove", "reset", "checkpoint", "nodes", "end"});
   const long tick = tick_from(key, tick_length);
-  const std::string action = key.only_one_of(
-      {"grasp", "move", "release", "material", "damping", "gravity", "integrator", "budget", "step_cost", "reset",
-       "checkpoint", "end"});
+  const std::string action =
+      key.only_one_of({"grasp", "move", "release", "material", "damping", "gravity", "integrator", "budget",
+                       "step_cost", "remove", "reset", "checkpoint", "end"});
   if (action != "checkpoint" && key.has("nodes")) key["nodes"].fail("stands without a checkpoint", "take it away");
   if (action == "checkpoint") {
     const auto nodes = key.find("nodes");

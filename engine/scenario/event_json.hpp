@@ -8,6 +8,9 @@
 //   {"step": 40, "release": true}
 //   {"step": 50, "material": {"region": 2, "law": ...}}     as an entry of `materials`
 //   {"step": 60, "damping": 2}   {"step": 60, "gravity": [0, -9.81, 0]}   {"step": 60, "integrator": "verlet"}
+//   {"step": 65, "remove": {"tets": [3, 4]}}               elements by number; or "region": 2; or "box": [[..], [..]]
+//   or
+//                                                         "sphere": [[x, y, z], r], of centroids at rest
 //   {"step": 70, "reset": true}
 //   {"step": 80, "checkpoint": "0123456789abcdef", "nodes": "12ab..."}    state hash; 4 hexadecimal digits a node
 //   {"step": 90, "end": true}                               how far a recording went

@@ -18,6 +18,18 @@ Json halt_json(const Halt& halt) {
   return json;
 }
 
+Json energies_json(const Energies& energies) {
+  return {{"kinetic", energies.kinetic}, {"elastic", energies.elastic}, {"potential", energies.potential}};
+}
+
+Json edit_json(const EditReport& edit) {
+  return {{"step", edit.tick},
+          {"removed", edit.removed},
+          {"mass", edit.mass},
+          {"energy_before", energies_json(edit.before)},
+          {"energy_after", energies_json(edit.after)}};
+}
+
 }  // namespace
 
 void write_report(const std::filesystem::path& path, World& world, const SolveFacts& facts) {
@@ -42,6 +54,9 @@ void write_report(const std::filesystem::path& path, World& world, const SolveFa
   for (const Vec3& force : world.reactions()) report["reaction"].push_back(vector_json(force));
   report["nodes"] = world.setup().mesh.nodes.size();
   report["tets"] = world.setup().mesh.tets.size();
+  report["removed"] = world.setup().mesh.tets.size() - world.topology()->elements.size();
+  report["edits"] = Json::array();
+  for (const EditReport& edit : world.edits()) report["edits"].push_back(edit_json(edit));
   report["state_hash"] = fmt::format("{:016x}", world.state_hash());
   if (facts.halt) report["halt"] = halt_json(*facts.halt);
   write_text_file(path, json_text(report, path.string(), true) + "\n");
@@ -51,7 +66,7 @@ void write_state(const std::filesystem::path& folder, const std::string& stem, c
   const std::vector<Vec3> positions = world.positions();
   if (csv) write_positions_csv(folder / (stem + ".csv"), positions);
   if (!vtu) return;
-  TetMesh mesh = world.setup().mesh;
+  TetMesh mesh = with_elements(world.setup().mesh, world.topology()->elements);
   mesh.nodes = positions;
   write_tet_mesh(folder / (stem + ".vtu"), mesh);
 }

@@ -8,12 +8,18 @@ namespace heml {
 Schedule::Schedule(const Scene& scene, const TetMesh& mesh) : file_(scene.file), events_(scene.events) {
   for (const auto& [index, point] : scene.grasp_points)
     std::get<Grasp>(events_.at(index).command).node = nearest_surface_node(mesh, point);
-  for (const Event& event : events_)
-    if (const Grasp* grasp = std::get_if<Grasp>(&event.command))
-      if (grasp->node < 0 || static_cast<std::size_t>(grasp->node) >= mesh.nodes.size())
-        throw InputError(file_, fmt::format("events: step {}: grasp.node", event.tick),
-                         fmt::format("is {}", grasp->node),
-                         fmt::format("the mesh has nodes 0 to {}", mesh.nodes.size() - 1));
+  for (const Event& event : events_) {
+    const auto expect = [&](int number, std::size_t count, const std::string& key, const char* kind) {
+      if (number >= 0 && static_cast<std::size_t>(number) < count) return;
+      throw InputError(file_, fmt::format("events: step {}: {}", event.tick, key), fmt::format("is {}", number),
+                       fmt::format("the mesh has {} 0 to {}", kind, count - 1));
+    };
+    if (const auto* grasp = std::get_if<Grasp>(&event.command))
+      expect(grasp->node, mesh.nodes.size(), "grasp.node", "nodes");
+    if (const auto* remove = std::get_if<RemoveElements>(&event.command))
+      for (std::size_t k = 0; k < remove->which.tets.size(); ++k)
+        expect(remove->which.tets[k], mesh.tets.size(), fmt::format("remove.tets[{}]", k), "elements");
+  }
 }
 
 std::span<const Event> Schedule::due(long tick) {

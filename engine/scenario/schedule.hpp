@@ -11,7 +11,7 @@ namespace heml {
 class Schedule {
  public:
   /// Resolves grasps given by a place to the surface node nearest at rest. mesh: as the world has it.
-  /// Throws InputError for a grasp of a node the mesh does not have.
+  /// Throws InputError for a node or an element the mesh does not have.
   Schedule(const Scene& scene, const TetMesh& mesh);
 
   /// The events up to a tick that were not handed out before. Valid while the schedule lives.

@@ -1,19 +1,27 @@
 #pragma once
 // What the engine publishes for eyes: a picture of the body at one tick. Immutable once published.
 #include <heml/world/world.hpp>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace heml {
 
-/// The part of the body that is drawn; fixed while the topology is. Indices are into Skin::nodes.
+/// The part of the body that is drawn, of one topology. Immutable: frames share it, an edit of the mesh makes another
+/// one, and whoever draws takes up what it keeps of a skin when a frame comes with one of another version. Indices are
+/// into Skin::nodes.
 struct Skin {
+  long version = 0;                 ///< Topology::version
   std::vector<int> nodes;           ///< #S: mesh-file numbers of the surface's nodes
   std::vector<Vec3f> rest;          ///< #S×3, m
   std::vector<Triangle> triangles;  ///< #F×3, outward
   std::vector<int> regions;         ///< #F: region of the element behind each triangle
+  std::vector<int> elements;        ///< #F: its mesh-file number
   std::vector<int> held;            ///< indices of nodes with a boundary condition
+  std::shared_ptr<const Skin> whole = nullptr;  ///< of the body before anything was removed; none: this is it
 };
+
+inline const Skin& whole_of(const Skin& skin) { return skin.whole ? *skin.whole : skin; }
 
 /// How well the engine keeps up with the wall clock.
 struct Pace {
@@ -25,6 +33,7 @@ struct Pace {
 };
 
 struct Frame {
+  std::shared_ptr<const Skin> skin;
   long tick = 0;
   double time = 0;               ///< s, simulated
   std::vector<Vec3f> positions;  ///< #S×3, m, in the order of Skin::nodes
@@ -33,6 +42,7 @@ struct Frame {
   std::vector<float> stretches;  ///< #S, largest principal stretch; empty unless asked for
   Energies energies;
   double min_J = 1, max_J = 1;
+  std::size_t elements = 0, removed = 0;  ///< of the mesh; of them no longer there
   ToolState tool;
   Pace pace;
   int substeps = 1;

@@ -24,7 +24,6 @@ class Session::Impl {
   Impl(const Scene& scene, SessionOptions options)
       : options_(std::move(options)),
         world_(load_world(scene)),
-        skin_(make_skin(world_->setup())),
         schedule_(scene, world_->setup().mesh),
         field_(scene.view.field),
         playing_(!options_.start_paused),
@@ -79,7 +78,6 @@ class Session::Impl {
   }
 
   Mailbox<Frame> frames_;
-  const Skin& skin() const { return skin_; }
 
  private:
   // The engine thread.
@@ -177,6 +175,7 @@ class Session::Impl {
   void publish() {
     const auto began = Pacer::Clock::now();
     Frame& frame = frames_.back();
+    skin_ = skin_of(*world_, std::move(skin_));
     fill_frame(*world_, skin_, field_, 0, frame, stretches_);
     frame.pace = pacer_.pace(began);
     frame.paused = !playing_;
@@ -188,7 +187,7 @@ class Session::Impl {
 
   SessionOptions options_;
   std::unique_ptr<World> world_;
-  Skin skin_;
+  std::shared_ptr<const Skin> skin_;  ///< of the last frame
   std::optional<Recorder> recorder_;
   Schedule schedule_;  ///< the scene's own events
   std::mutex mutex_;   ///< of queue_ and single_steps_; held for a swap at most
@@ -210,7 +209,6 @@ class Session::Impl {
 Session::Session(const Scene& scene, SessionOptions options)
     : impl_(std::make_unique<Impl>(scene, std::move(options))) {}
 Session::~Session() = default;
-const Skin& Session::skin() const { return impl_->skin(); }
 void Session::post(Command command) { impl_->post(std::move(command)); }
 void Session::play() { impl_->set_playing(true); }
 void Session::pause() { impl_->set_playing(false); }

@@ -37,8 +37,6 @@ class Session {
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  const Skin& skin() const;
-
   // From any one thread (the window's); none of these waits for a step.
   void post(Command command);
   void play();

@@ -4,11 +4,13 @@
 
 namespace heml {
 
-/// Boundary of the mesh, its held nodes and regions.
-Skin make_skin(const WorldSetup& setup);
+/// Boundary of what is there of the mesh, its held nodes and regions. last: what was returned before for the same
+/// world, if anything; it is returned again while the topology is the same.
+std::shared_ptr<const Skin> skin_of(const World& world, std::shared_ptr<const Skin> last = nullptr);
 
-/// Fills a frame with what the world is now. `ahead`: seconds of extrapolation by velocity, for pictures between two
-/// ticks. Pace and paused are left as they are; stretches are filled only when asked for.
-void fill_frame(World& world, const Skin& skin, Field field, double ahead, Frame& frame, bool with_stretches = false);
+/// Fills a frame with what the world is now. skin: skin_of(world). `ahead`: seconds of extrapolation by velocity, for
+/// pictures between two ticks. Pace and paused are left as they are; stretches are filled only when asked for.
+void fill_frame(World& world, std::shared_ptr<const Skin> skin, Field field, double ahead, Frame& frame,
+                bool with_stretches = false);
 
 }  // namespace heml

@@ -11,12 +11,10 @@ GraspSpring<Real>::GraspSpring(int center, Real radius, std::span<const int> nod
   const auto at = [x](int n) { return Vec3(Eigen::Map<const Vector3<Real>>(x + 3 * n).template cast<double>()); };
   target_ = at(center);
   const auto take = [&](int n, Real weight) {
-    const Real m = inverse_mass[static_cast<std::size_t>(n)];
-    if (m == 0) return;
+    if (inverse_mass[static_cast<std::size_t>(n)] == 0) return;
     nodes_.push_back(n);
     offset_.push_back(at(n) - target_);
-    stiffness_.push_back(weight * omega * omega / m);
-    damping_.push_back(2 * std::sqrt(weight) * omega / m);
+    weight_.push_back(weight);
   };
   for (const int n : nodes) {
     if (n == center) {
@@ -27,6 +25,18 @@ GraspSpring<Real>::GraspSpring(int center, Real radius, std::span<const int> nod
     if (!(distance < static_cast<double>(radius))) continue;
     const Real inside = Real(1) - static_cast<Real>(distance * distance) / (radius * radius);
     take(n, inside * inside);
+  }
+  take_masses(inverse_mass);
+}
+
+template <class Real>
+void GraspSpring<Real>::take_masses(const std::vector<Real>& inverse_mass) {
+  stiffness_.resize(nodes_.size());
+  damping_.resize(nodes_.size());
+  for (std::size_t k = 0; k < nodes_.size(); ++k) {
+    const Real m = inverse_mass[static_cast<std::size_t>(nodes_[k])];
+    stiffness_[k] = m > 0 ? weight_[k] * omega_ * omega_ / m : Real(0);
+    damping_[k] = m > 0 ? 2 * std::sqrt(weight_[k]) * omega_ / m : Real(0);
   }
 }
 

@@ -25,6 +25,10 @@ class GraspSpring {
   void move(const Vec3& target) { target_ = target; }
   const Vec3& target() const { return target_; }
 
+  /// Masses have changed: each spring keeps its frequency. A node without mass is held no longer; a grasp may come to
+  /// hold nothing.
+  void take_masses(const std::vector<Real>& inverse_mass);
+
   /// Adds the springs' forces to f (3 #V, N).
   void add_forces(const Real* x, const Real* v, Real* f) const;
 
@@ -52,6 +56,7 @@ class GraspSpring {
   Vec3 target_;   ///< m
   std::vector<int> nodes_;
   std::vector<Vec3> offset_;               ///< of each node from the tool when it was taken, m
+  std::vector<Real> weight_;               ///< w
   std::vector<Real> stiffness_, damping_;  ///< N/m, N s/m
 };
 

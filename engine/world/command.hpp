@@ -3,6 +3,7 @@
 // one door (World::apply), where sessions record them; a replay sends the same commands at the same ticks.
 #include <heml/materials/material.hpp>
 #include <heml/math/types.hpp>
+#include <heml/mesh/edit.hpp>
 #include <heml/world/setup.hpp>
 #include <optional>
 #include <string>
@@ -45,11 +46,17 @@ struct SetBudget {
 struct SetStepCost {
   double nanoseconds = 40;  ///< an element
 };
-/// Back to the initial state at time 0; ticks go on counting. Materials, damping and the like stay as they are.
+/// Takes elements out of the body, with their mass, their energy and their share of loads. The rest goes on from where
+/// it is, as fast as it is, and remembers what it did. Nodes that lose all elements stay where they are.
+struct RemoveElements {
+  ElementSelection which;  ///< of those that are there, mesh-file order
+};
+/// Back to the initial state at time 0, with all elements there again; ticks go on counting. Materials, damping and the
+/// like stay as they are.
 struct Reset {};
 
 using Command = std::variant<Grasp, MoveTool, Release, SetMaterial, SetDamping, SetGravity, SetIntegrator, SetBudget,
-                             SetStepCost, Reset>;
+                             SetStepCost, RemoveElements, Reset>;
 
 /// A command and the tick at whose start it takes effect (the first tick is 0).
 struct Event {

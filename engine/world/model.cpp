@@ -1,5 +1,5 @@
 #include <algorithm>
-#include <heml/mesh/surface.hpp>
+#include <heml/mesh/edit.hpp>
 #include <heml/world/model.hpp>
 #include <numbers>
 
@@ -23,9 +23,17 @@ std::vector<Triangle> faces_within(const BoundaryFaces& faces, const std::vector
   return result;
 }
 
+/// Whether an element has the node: loads push nothing else.
+std::vector<bool> used_nodes(const TetMesh& mesh) {
+  std::vector<bool> used(mesh.nodes.size(), false);
+  for (const Tet& tet : mesh.tets)
+    for (const int n : tet) used[static_cast<std::size_t>(n)] = true;
+  return used;
+}
+
 template <class Real>
 DeadLoad<Real> dead_load(const Load& load, const std::vector<int>& nodes, const TetMesh& mesh,
-                         const BoundaryFaces& faces) {
+                         const BoundaryFaces& faces, const std::vector<bool>& used) {
   std::vector<Vec3> force(nodes.size(), Vec3::Zero());
   if (load.kind == Load::Kind::force) {
     for (Vec3& f : force) f = load.vector / static_cast<double>(nodes.size());
@@ -38,21 +46,39 @@ DeadLoad<Real> dead_load(const Load& load, const std::vector<int>& nodes, const 
             area / 3 * load.vector;
     }
   }
-  DeadLoad<Real> result{nodes, {}, load.over};
-  for (const Vec3& f : force)
-    for (int i = 0; i < 3; ++i) result.forces.push_back(static_cast<Real>(f[i]));
+  DeadLoad<Real> result{{}, {}, load.over};
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    if (!used[static_cast<std::size_t>(nodes[k])]) continue;
+    result.nodes.push_back(nodes[k]);
+    for (int i = 0; i < 3; ++i) result.forces.push_back(static_cast<Real>(force[k][i]));
+  }
   return result;
 }
 
+/// In a static world everything is ramped together, over the duration.
 template <class Real>
-void add_loads(const WorldSetup& setup, const BoundaryFaces& faces, Model<Real>& model) {
+void make_loads(const WorldSetup& setup, Model<Real>& model) {
+  model.dead.clear();
+  model.pressures.clear();
+  const std::vector<bool> used = used_nodes(model.mesh);
   for (const Load& load : setup.loads) {
     const std::vector<int> nodes = inner(load.nodes, model.order);
     if (load.kind == Load::Kind::pressure)
-      model.pressures.push_back({faces_within(faces, nodes), static_cast<Real>(load.pressure), load.over});
+      model.pressures.push_back({faces_within(model.loaded_faces, nodes), static_cast<Real>(load.pressure), load.over});
     else
-      model.dead.push_back(dead_load<Real>(load, nodes, model.mesh, faces));
+      model.dead.push_back(dead_load<Real>(load, nodes, model.mesh, model.loaded_faces, used));
   }
+  if (!setup.solver.is_static()) return;
+  const double duration = setup.solver.load_duration();
+  for (DeadLoad<Real>& load : model.dead) load.over = duration;
+  for (Pressure<Real>& load : model.pressures) load.over = duration;
+}
+
+std::vector<int> chosen_nodes(const std::vector<bool>& chosen) {
+  std::vector<int> nodes;
+  for (std::size_t n = 0; n < chosen.size(); ++n)
+    if (chosen[n]) nodes.push_back(static_cast<int>(n));
+  return nodes;
 }
 
 template <class Real>
@@ -60,20 +86,13 @@ void add_boundary(const WorldSetup& setup, Model<Real>& model) {
   std::vector<int> winner(model.mesh.nodes.size(), -1);
   for (std::size_t b = 0; b < setup.boundary.size(); ++b) {
     const Boundary& entry = setup.boundary[b];
+    const double over = setup.solver.is_static() ? setup.solver.load_duration() : entry.over;
     model.motions.push_back(
-        {entry.translate, entry.axis.normalized(), entry.origin, entry.degrees * std::numbers::pi / 180, entry.over});
+        {entry.translate, entry.axis.normalized(), entry.origin, entry.degrees * std::numbers::pi / 180, over});
     for (const int n : inner(entry.nodes, model.order)) winner[static_cast<std::size_t>(n)] = static_cast<int>(b);
   }
   for (std::size_t n = 0; n < winner.size(); ++n)
     if (winner[n] >= 0) model.held.push_back({static_cast<int>(n), winner[n]});
-}
-
-/// In a static world everything is ramped together, over the duration.
-template <class Real>
-void ramp_together(double duration, Model<Real>& model) {
-  for (Motion& motion : model.motions) motion.over = duration;
-  for (DeadLoad<Real>& load : model.dead) load.over = duration;
-  for (Pressure<Real>& load : model.pressures) load.over = duration;
 }
 
 }  // namespace
@@ -85,22 +104,50 @@ Model<Real> make_model(const WorldSetup& setup) {
   model.order = locality_order(setup.mesh);
   model.mesh = reordered(setup.mesh, model.order);
   for (const int t : model.order.file_tet) model.material_of.push_back(file_materials[static_cast<std::size_t>(t)]);
-  const BoundaryFaces faces = boundary_of(model.mesh);
-  for (const Triangle& face : faces.triangles)
-    model.surface_nodes.insert(model.surface_nodes.end(), face.begin(), face.end());
-  std::sort(model.surface_nodes.begin(), model.surface_nodes.end());
-  model.surface_nodes.erase(std::unique(model.surface_nodes.begin(), model.surface_nodes.end()),
-                            model.surface_nodes.end());
+  model.loaded_faces = boundary_of(model.mesh);
+  std::vector<bool> on_surface(model.mesh.nodes.size(), false);
+  for (const Triangle& face : model.loaded_faces.triangles)
+    for (const int n : face) on_surface[static_cast<std::size_t>(n)] = true;
+  model.surface_nodes = chosen_nodes(on_surface);
   add_boundary(setup, model);
-  add_loads(setup, faces, model);
-  if (setup.solver.is_static()) ramp_together(setup.solver.load_duration(), model);
+  make_loads(setup, model);
   Eigen::AlignedBox3d box;
   for (const Vec3& X : model.mesh.nodes) box.extend(X);
   model.diagonal = box.diagonal().norm();
   return model;
 }
 
+template <class Real>
+void keep_elements(const WorldSetup& setup, const std::vector<int>& elements, Model<Real>& model) {
+  std::vector<int> number(model.mesh.tets.size(), -1);  // that an element has from now on
+  for (std::size_t k = 0; k < elements.size(); ++k) number[static_cast<std::size_t>(elements[k])] = static_cast<int>(k);
+  std::vector<bool> on_surface(model.mesh.nodes.size(), false);  // as before, and what an element leaves bare
+  for (const int n : model.surface_nodes) on_surface[static_cast<std::size_t>(n)] = true;
+  for (std::size_t t = 0; t < number.size(); ++t)
+    if (number[t] < 0)
+      for (const int n : model.mesh.tets[t]) on_surface[static_cast<std::size_t>(n)] = true;
+  model.mesh = with_elements(model.mesh, elements);
+  model.material_of = with_elements(model.material_of, elements);
+  model.order.file_tet = with_elements(model.order.file_tet, elements);
+  for (int& t : model.order.new_tet)
+    if (t >= 0) t = number[static_cast<std::size_t>(t)];
+  BoundaryFaces left;
+  for (std::size_t k = 0; k < model.loaded_faces.tets.size(); ++k) {
+    const int t = number[static_cast<std::size_t>(model.loaded_faces.tets[k])];
+    if (t < 0) continue;
+    left.triangles.push_back(model.loaded_faces.triangles[k]);
+    left.tets.push_back(t);
+  }
+  model.loaded_faces = std::move(left);
+  const std::vector<bool> used = used_nodes(model.mesh);
+  for (std::size_t n = 0; n < used.size(); ++n) on_surface[n] = on_surface[n] && used[n];
+  model.surface_nodes = chosen_nodes(on_surface);
+  make_loads(setup, model);
+}
+
 template Model<float> make_model(const WorldSetup&);
 template Model<double> make_model(const WorldSetup&);
+template void keep_elements(const WorldSetup&, const std::vector<int>&, Model<float>&);
+template void keep_elements(const WorldSetup&, const std::vector<int>&, Model<double>&);
 
 }  // namespace heml

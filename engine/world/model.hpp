@@ -1,8 +1,10 @@
 #pragma once
-// What does not change while a body moves, in inner order (mesh/reorder.hpp).
+// What does not change while a body moves, in inner order (mesh/reorder.hpp). An edit of the mesh changes it: inside
+// there are only the elements that are left, so that no loop asks which those are.
 #include <heml/dynamics/motion.hpp>
 #include <heml/elastic/loads.hpp>
 #include <heml/mesh/reorder.hpp>
+#include <heml/mesh/surface.hpp>
 #include <heml/world/setup.hpp>
 #include <vector>
 
@@ -16,9 +18,10 @@ struct HeldNode {
 
 template <class Real>
 struct Model {
-  Reordering order;
+  Reordering order;                ///< new_tet: −1 for an element that is gone
   TetMesh mesh;                    ///< inner order
   std::vector<int> material_of;    ///< #T
+  BoundaryFaces loaded_faces;      ///< the surface as first made, of elements that are left: what loads act on
   std::vector<int> surface_nodes;  ///< ascending
   std::vector<HeldNode> held;      ///< ascending in node
   std::vector<Motion> motions;     ///< one per setup.boundary
@@ -37,5 +40,9 @@ Motion::At held_at(const Model<Real>& model, const HeldNode& held, double time) 
 /// Reorders, resolves boundary and loads. Throws InputError as material_of_elements().
 template <class Real>
 Model<Real> make_model(const WorldSetup& setup);
+
+/// Leaves the given elements (inner numbers, ascending), numbered anew in that order.
+template <class Real>
+void keep_elements(const WorldSetup& setup, const std::vector<int>& elements, Model<Real>& model);
 
 }  // namespace heml

@@ -28,7 +28,8 @@ struct Boundary {
   double over = 0;                ///< s; 0: at once
 };
 
-/// A load on selected nodes, ramped linearly over `over` seconds from t = 0.
+/// A load on selected nodes, ramped linearly over `over` seconds from t = 0. What is removed of the body takes its
+/// share of a load along: faces that go with their element, nodes that lose all elements. Faces laid bare carry none.
 struct Load {
   enum class Kind {
     force,     ///< N in all, shared equally by the nodes

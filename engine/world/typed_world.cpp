@@ -26,6 +26,7 @@ template <class Real>
 TypedWorld<Real>::TypedWorld(WorldSetup setup)
     : setup_(std::move(setup)),
       model_(make_model<Real>(setup_)),
+      topology_(std::make_shared<const Topology>(whole(setup_.mesh))),
       body_(model_.mesh, model_.material_of, materials_of(setup_),
             {setup_.solver.continuation, setup_.solver.nodal_pressure}),
       team_(setup_.solver.threads) {
@@ -41,6 +42,7 @@ void TypedWorld<Real>::take_masses() {
   inverse_mass_.resize(mass_.size());
   for (std::size_t n = 0; n < mass_.size(); ++n) inverse_mass_[n] = mass_[n] > 0 ? 1 / mass_[n] : Real(0);
   for (const HeldNode& held : model_.held) inverse_mass_[static_cast<std::size_t>(held.node)] = 0;
+  for (auto& grasp : grasps_) grasp.take_masses(inverse_mass_);
 }
 
 template <class Real>

@@ -40,6 +40,8 @@ class TypedWorld final : public World {
   ToolState tool() const override;
   std::uint64_t state_hash() const override;
   std::vector<std::uint16_t> node_hashes() const override;
+  std::shared_ptr<const Topology> topology() const override { return topology_; }
+  const std::vector<EditReport>& edits() const override { return edits_; }
   const WorldSetup& setup() const override { return setup_; }
 
  private:
@@ -91,12 +93,20 @@ class TypedWorld final : public World {
   std::optional<std::string> take(const SetIntegrator& command);
   std::optional<std::string> take(const Reset& command);
 
+  // world_edits.cpp: other elements
+  std::optional<std::string> take(const RemoveElements& command);
+  void carry_out(const MeshEdit& edit);
+  void undo_edits();
+
   // world_queries.cpp: what people ask
   std::vector<Vec3> in_file_order(const std::vector<Real>& values) const;
   std::uint64_t node_hash(std::size_t file_node) const;
 
   WorldSetup setup_;
   Model<Real> model_;
+  std::unique_ptr<const Model<Real>> whole_model_;  ///< before the first edit; none: there was none
+  std::shared_ptr<const Topology> topology_;
+  std::vector<EditReport> edits_;
   ElasticBody<Real> body_;
   ThreadTeam team_;
   std::vector<GraspSpring<Real>> grasps_;  ///< none or one: an empty list costs nothing

@@ -4,10 +4,10 @@
 //
 // Everything goes in and comes out in the mesh file's node and element order; inside both are reordered for locality.
 #include <cstdint>
-#include <heml/mesh/tet_mesh.hpp>
+#include <heml/mesh/edit.hpp>
 #include <heml/world/command.hpp>
-#include <heml/world/solver_work.hpp>
 #include <heml/world/setup.hpp>
+#include <heml/world/solver_work.hpp>
 #include <memory>
 #include <optional>
 #include <span>
@@ -21,6 +21,14 @@ struct Energies {
   double kinetic = 0;
   double elastic = 0;
   double potential = 0;  ///< of gravity, 0 at the rest shape
+};
+
+/// What an edit of the mesh has taken from a body.
+struct EditReport {
+  long tick = 0;            ///< at whose start
+  std::size_t removed = 0;  ///< elements
+  double mass = 0;          ///< kg that went
+  Energies before, after;   ///< of the whole body
 };
 
 /// Why a world will not step on. The state is the last valid one.
@@ -93,7 +101,7 @@ class World {
   virtual void write_field(Field field, std::span<const int> nodes, std::vector<float>& out) = 0;
 
   virtual Energies energies() = 0;
-  virtual std::vector<double> volume_ratios() = 0;  ///< #T, J of each element, mesh-file order
+  virtual std::vector<double> volume_ratios() = 0;  ///< J of each element of topology(), in its order
   virtual std::vector<Vec3> reactions() = 0;        ///< one per setup.boundary, N: the support's force on the body
   virtual ToolState tool() const = 0;
 
@@ -102,7 +110,13 @@ class World {
   /// 16-bit hash of each node's position and velocity, mesh-file order: lets a replay name the node that differs.
   virtual std::vector<std::uint16_t> node_hashes() const = 0;
 
-  /// As it is now: materials, damping, gravity and integrator follow the commands applied.
+  /// Which elements of the mesh are there. Shared, and another one after every edit or Reset of one.
+  virtual std::shared_ptr<const Topology> topology() const = 0;
+  /// Edits since the start or the last Reset.
+  virtual const std::vector<EditReport>& edits() const = 0;
+
+  /// As it is now: materials, damping, gravity and integrator follow the commands applied. The mesh is
+  /// the whole one.
   virtual const WorldSetup& setup() const = 0;
 };
 

@@ -122,6 +122,7 @@ std::optional<std::string> TypedWorld<Real>::take(const SetIntegrator& command) 
 
 template <class Real>
 std::optional<std::string> TypedWorld<Real>::take(const Reset&) {
+  undo_edits();
   start();
   return std::nullopt;
 }

@@ -76,9 +76,11 @@ Energies TypedWorld<Real>::energies() {
 template <class Real>
 std::vector<double> TypedWorld<Real>::volume_ratios() {
   body_.states(state_.x.data(), element_states_);
-  std::vector<double> result(element_states_.size());
-  for (std::size_t t = 0; t < result.size(); ++t)
-    result[static_cast<std::size_t>(model_.order.file_tet[t])] = static_cast<double>(element_states_[t].J);
+  std::vector<double> result;
+  for (const int file : topology_->elements) {
+    const auto t = static_cast<std::size_t>(model_.order.new_tet[static_cast<std::size_t>(file)]);
+    result.push_back(static_cast<double>(element_states_[t].J));
+  }
   return result;
 }
 

@@ -184,6 +184,14 @@ class Window(unittest.TestCase):
 
         self.xdo("mousemove", width - 30, height - 5, "key", "space")
         paused = self.steady()
+        self.xdo("mousemove", *paused.tissue(left, right))
+        time.sleep(0.4)
+        self.xdo("key", "Delete")
+        self.wait_for("a removal", lambda: self.seen("remove"))
+        self.xdo("mousemove", width - 30, height - 5)
+        cut = self.steady()
+        self.assertGreater(cut.change(paused, left, right), 0.05, "what was removed is still shown")
+        paused = cut
         self.xdo("key", "3")
         self.wait_for("other colours", lambda: self.display.picture().change(paused, left, right) > 3)
         self.xdo("key", "Tab")

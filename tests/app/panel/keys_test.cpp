@@ -12,6 +12,7 @@ TEST_CASE("keys mean what the help page says") {
   CHECK(action_of('R', false) == Action::reset);
   CHECK(action_of('4', false) == Action::show_von_mises);
   CHECK(action_of(key_f12, false) == Action::screenshot);
+  CHECK(action_of(key_delete, false) == Action::remove);
   CHECK(action_of('Q', true) == Action::quit);
   CHECK_FALSE(action_of('Q', false));
   CHECK_FALSE(action_of('R', true));

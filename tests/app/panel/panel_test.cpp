@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <heml/scenario/presets.hpp>
 
 #include "driver.hpp"
 
@@ -119,6 +120,36 @@ TEST_CASE("the grasp radius is the panel's to tell") {
   driver.move({at.x + 40, at.y});
   CHECK(driver.draw().commands.empty());
   CHECK(driver.panel.grasp_radius() > before);
+}
+
+TEST_CASE("Del asks for the tissue under the ring to go, and what has gone is told") {
+  Driver driver;
+  driver.panel.perform(panel::Action::remove);
+  CHECK(driver.draw().requests == std::vector{panel::Request::remove});
+  driver.find("Grasp radius");
+  driver.frame.elements = 7;
+  driver.frame.removed = 3;
+  driver.find("Removed", 1180);
+}
+
+TEST_CASE("another skin has its own nodes to watch") {
+  Scene scene = small_scene();
+  scene.materials = {{std::nullopt, find_preset("brain_ogden_swine")->material}};
+  Driver driver(scene);
+  driver.frame.stretches.assign(4, 2);
+  driver.draw();
+  CHECK(driver.panel.drawing().beyond.size() == 4);
+  Skin smaller = small_skin();
+  smaller.version = 1;
+  smaller.nodes.pop_back();
+  smaller.rest.pop_back();
+  smaller.triangles = {{0, 2, 1}};
+  smaller.regions = {0};
+  driver.frame.skin = std::make_shared<const Skin>(smaller);
+  driver.frame.positions = smaller.rest;
+  driver.frame.stretches.assign(3, 2);
+  driver.draw();
+  CHECK(driver.panel.drawing().beyond.size() == 3);
 }
 
 TEST_CASE("a stopped body is said with a way out") {

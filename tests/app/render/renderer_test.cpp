@@ -29,7 +29,6 @@ struct Stage {
   DrawOptions options;
 
   Stage() {
-    renderer.set_skin(skin);
     const Ball ball = ball_around(skin.rest);
     camera.fit(ball.centre, ball.radius, size);
   }
@@ -133,7 +132,7 @@ TEST_CASE("edges, held nodes and the tool show when asked for") {
 
   Skin pinned = stage.skin;
   for (int i = 0; i < static_cast<int>(pinned.rest.size()); i += 7) pinned.held.push_back(i);
-  stage.renderer.set_skin(pinned);
+  stage.frame.skin = std::make_shared<const Skin>(pinned);
   CHECK(count_different(plain, stage.draw()) > 100);
   stage.options.held = false;
   CHECK(stage.draw().pixels == plain.pixels);
@@ -144,6 +143,29 @@ TEST_CASE("edges, held nodes and the tool show when asked for") {
   CHECK(count_different(plain, stage.draw()) > 100);
   stage.options.tool = false;
   CHECK(stage.draw().pixels == plain.pixels);
+}
+
+TEST_CASE("a skin that lost a piece is taken up with its frame, and the rest of the picture stays") {
+  Stage stage;
+  stage.options.ground = false;
+  const Image before = stage.draw();
+  const auto whole = stage.frame.skin;
+  Skin cut = *whole;  // open where it was cut: a picture does not mind
+  cut.version = 1;
+  cut.whole = whole;
+  const Vec3f right = stage.camera.right();
+  std::erase_if(cut.triangles, [&](const Triangle& t) { return whole->rest[t[0]].dot(right) > 0.04f; });
+  cut.regions.resize(cut.triangles.size());
+  stage.frame.skin = std::make_shared<const Skin>(cut);
+  const Image after = stage.draw();
+  int left = 0, gone = 0;
+  for (int y = 0; y < size.height; ++y)
+    for (int x = 0; x < size.width; ++x)
+      if (!same(before, after, x, y)) ++(x < size.width / 2 ? left : gone);
+  CHECK(gone > 30);
+  CHECK(left == 0);
+  stage.frame.skin = whole;
+  CHECK(stage.draw().pixels == before.pixels);
 }
 
 TEST_CASE("what is beyond is hatched, on tissue and on a colour map, nothing else changes") {

@@ -57,6 +57,7 @@ inline Skin cube_skin() {
 
 inline Frame frame_at_rest(const Skin& skin) {
   Frame frame;
+  frame.skin = std::make_shared<const Skin>(skin);
   frame.positions = skin.rest;
   return frame;
 }

@@ -51,7 +51,7 @@ TEST_CASE("a dropped scene becomes a running session, recorded beside the first 
   auto* opened = std::get_if<OpenScene>(&result);
   REQUIRE(opened);
   CHECK(opened->scene.name == "box");
-  CHECK(opened->session->skin().nodes.size() == 8);
+  CHECK(opened->session->latest().skin->nodes.size() == 8);
   CHECK_FALSE(opening.under_way());
   CHECK(fs::exists(folder.path / "out-2.jsonl"));
   CHECK_FALSE(fs::exists(folder.path / "out.jsonl"));

@@ -105,6 +105,7 @@ TEST_CASE("Newton finds the minimum of a quadratic in one iteration and converge
 TEST_CASE("from a concave start Newton goes downhill to a minimum, with any preconditioner") {
   const Fixture f;
   for (const Preconditioner p : every_preconditioner) {
+    CAPTURE(std::string(preconditioner_names[static_cast<std::size_t>(p)]));
     LinearSolver solver = f.solver(p);
     Wells wells(f.mesh, f.free, 0.01);
     Vector x = f.random(0, 0.3);

@@ -55,7 +55,7 @@ TEST_CASE("frames carry stretches while somebody wants them") {
   wait_for(session, [](const Frame& f) { return f.tick > 20 && f.stretches.empty(); });
   session.carry_stretches(true);
   const Frame& frame = wait_for(session, [](const Frame& f) { return f.tick > 100 && !f.stretches.empty(); });
-  CHECK(frame.stretches.size() == session.skin().nodes.size());
+  CHECK(frame.stretches.size() == frame.skin->nodes.size());
   CHECK(*std::max_element(frame.stretches.begin(), frame.stretches.end()) > 1.0001f);  // it hangs from one end
   CHECK(frame.values.empty());
   session.show(Field::stretch);
@@ -67,16 +67,16 @@ TEST_CASE("frames carry stretches while somebody wants them") {
 
 TEST_CASE("a session steps by itself and publishes what a viewer needs") {
   Session session(small_scene(), {});
-  CHECK(session.skin().nodes.size() > 50);
-  CHECK(session.skin().held.size() == 9);
+  CHECK(session.latest().skin->nodes.size() > 50);
+  CHECK(session.latest().skin->held.size() == 9);
   const Frame& frame = wait_for(session, [](const Frame& f) { return f.tick > 100; });
-  CHECK(frame.positions.size() == session.skin().nodes.size());
+  CHECK(frame.positions.size() == frame.skin->nodes.size());
   CHECK(frame.time == doctest::Approx(static_cast<double>(frame.tick) * 1e-3));
   CHECK(frame.energies.potential < 0);
   CHECK(frame.values.empty());
   session.show(Field::displacement);
   const Frame& shown = wait_for(session, [](const Frame& f) { return f.field == Field::displacement; });
-  CHECK(shown.values.size() == session.skin().nodes.size());
+  CHECK(shown.values.size() == shown.skin->nodes.size());
   CHECK(*std::max_element(shown.values.begin(), shown.values.end()) > 1e-4f);
 }
 
@@ -132,6 +132,29 @@ TEST_CASE("pause holds the body, one step is one tick, and commands are taken wh
   wait_for(session, [](const Frame& f) { return f.paused; });
   session.post(Reset{});
   CHECK(wait_for(session, [](const Frame& f) { return f.time == 0; }).tick > 50);
+}
+
+TEST_CASE("what is removed leaves the frames' skin, and a reset brings it back") {
+  SessionOptions options;
+  options.start_paused = true;
+  Session session(small_scene(), options);
+  const auto whole = session.latest().skin;
+  session.post(RemoveElements{{{}, {}, std::array{Vec3(0.08, -1, -1), Vec3(1, 1, 1)}, {}}});
+  const Frame& frame = wait_for(session, [&](const Frame& f) { return f.skin != whole; });
+  CHECK(frame.skin->nodes.size() == whole->nodes.size() - 9 + 1);  // the end's; the one laid bare inside
+  CHECK(frame.positions.size() == frame.skin->nodes.size());
+  CHECK(frame.removed == 20);
+  CHECK(frame.skin->whole == whole);
+  for (const Vec3f& X : frame.skin->rest) CHECK(X.x() < 0.085f);
+  for (const auto& triangle : frame.skin->triangles)
+    for (const int n : triangle) CHECK(static_cast<std::size_t>(n) < frame.skin->nodes.size());
+  const long version = frame.skin->version;
+  session.post(Reset{});
+  const Frame& after = wait_for(session, [&](const Frame& f) { return f.skin->version > version; });
+  CHECK(after.skin->nodes == whole->nodes);
+  CHECK(after.skin->triangles == whole->triangles);
+  CHECK_FALSE(after.skin->whole);
+  CHECK(after.removed == 0);
 }
 
 TEST_CASE("a recorded session replays to the same hashes, with one thread and with two") {

@@ -1,0 +1,64 @@
+#include <algorithm>
+#include <app/render/ambient_occlusion.hpp>
+#include <app/render/bounds.hpp>
+#include <app/render/smooth_surface.hpp>
+#include <app/render/sphere_map.hpp>
+#include <app/render/tissue_look.hpp>
+#include <cassert>
+#include <limits>
+
+namespace heml::render {
+namespace {
+
+constexpr float occlusion_reach = 0.7f;  // in body radii
+
+/// Index among the whole body's nodes; −1: laid bare since. Both lists are ascending.
+std::vector<int> places_in_whole(const Skin& skin) {
+  std::vector<int> places(skin.nodes.size(), -1);
+  const std::vector<int>& nodes = skin.whole->nodes;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const auto at = std::lower_bound(nodes.begin(), nodes.end(), skin.nodes[i]);
+    if (at != nodes.end() && *at == skin.nodes[i]) places[i] = static_cast<int>(at - nodes.begin());
+  }
+  return places;
+}
+
+std::vector<int> triangle_counts(const Skin& skin) {
+  std::vector<int> counts(skin.nodes.size(), 0);
+  for (const Triangle& triangle : skin.triangles)
+    for (const int node : triangle) ++counts[node];
+  return counts;
+}
+
+std::vector<Vec3f> node_normals(const Skin& skin) {
+  const SmoothSurface surface(skin, 1);
+  std::vector<Vec3f> normals(skin.rest.size(), Vec3f::Zero());
+  const std::vector<int>& nodes = surface.topology().corner_nodes;
+  for (std::size_t c = 0; c < nodes.size(); ++c) normals[nodes[c]] += surface.normals()[c];
+  for (Vec3f& normal : normals) normal.normalize();
+  return normals;
+}
+
+}  // namespace
+
+TissueLook tissue_look(const Skin& skin, const TissueLook* whole) {
+  assert((whole != nullptr) == (skin.whole != nullptr));
+  std::vector<std::optional<Vec3f>> on_sphere;
+  std::vector<std::optional<float>> openness;
+  if (whole) {
+    const std::vector<int> place = places_in_whole(skin);
+    const std::vector<int> now = triangle_counts(skin), before = triangle_counts(*skin.whole);
+    on_sphere.resize(place.size());
+    openness.resize(place.size());
+    for (std::size_t i = 0; i < place.size(); ++i) {
+      if (place[i] < 0) continue;
+      on_sphere[i] = whole->on_sphere[place[i]];
+      if (now[i] == before[place[i]]) openness[i] = whole->openness[place[i]];  // else it is on the rim
+    }
+  }
+  const Ball ball = ball_around(whole_of(skin).rest);
+  return {sphere_map(skin, on_sphere),
+          ambient_occlusion(skin, node_normals(skin), occlusion_reach * ball.radius, openness)};
+}
+
+}  // namespace heml::render

@@ -1,0 +1,64 @@
+#pragma once
+// Edits of a mesh's topology, as values: tools make them, a world carries them out, whoever draws follows.
+//
+// Numbers outlive edits. Nodes and elements are called what the mesh file calls them for as long as a body lives;
+// what is gone leaves a gap:
+//
+//     file          0 1 2 3 4 5 6 7
+//     MeshEdit        ×     ×             removed {1, 4}
+//     Topology      0   2 3   5 6 7       elements; version 1
+#include <heml/mesh/tet_mesh.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace heml {
+
+/// What is to become of a mesh.
+struct MeshEdit {
+  std::vector<int> removed;  ///< elements that go, ascending, each once
+};
+
+/// Which elements are there. Never changes: an edit makes another one, and all who draw or write share it.
+struct Topology {
+  long version = 0;           ///< grows with every change, never comes back
+  std::vector<int> elements;  ///< ascending
+};
+
+/// All of a mesh.
+Topology whole(const TetMesh& mesh, long version = 0);
+
+/// What an edit leaves. Everything it removes must be there.
+Topology edited(const Topology& topology, const MeshEdit& edit);
+
+/// Elements chosen in one of four ways, by numbers or by what they are at rest; closed sets.
+struct ElementSelection {
+  std::vector<int> tets;  ///< where none of the others is given
+  std::optional<int> region;
+  std::optional<std::array<Vec3, 2>> box;         ///< of centroids, lower and upper corner, m
+  std::optional<std::pair<Vec3, double>> sphere;  ///< of centroids, centre and radius, m
+};
+
+/// The edit that removes what is chosen of what is there; or what is wrong with it, in words: an element that there is
+/// not or no more, nothing chosen, nothing left. mesh: at rest.
+std::optional<std::string> make_removal(const ElementSelection& which, const TetMesh& mesh, const Topology& topology,
+                                        MeshEdit& edit);
+
+/// The mesh with the given elements alone, in that order, and all its nodes and fields.
+TetMesh with_elements(const TetMesh& mesh, const std::vector<int>& elements);
+
+/// The same of one value an element, or of `each` values.
+template <class Value>
+std::vector<Value> with_elements(const std::vector<Value>& values, const std::vector<int>& elements,
+                                 std::size_t each = 1) {
+  std::vector<Value> taken;
+  taken.reserve(each * elements.size());
+  for (const int t : elements) {
+    const auto first = values.begin() + static_cast<std::ptrdiff_t>(each * static_cast<std::size_t>(t));
+    taken.insert(taken.end(), first, first + static_cast<std::ptrdiff_t>(each));
+  }
+  return taken;
+}
+
+}  // namespace heml

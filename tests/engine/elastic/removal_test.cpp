@@ -1,0 +1,150 @@
+// Elements taken out of a body: what is left is a body that was made without them, and remembers what it did.
+#include <doctest/doctest.h>
+
+#include <heml/mesh/edit.hpp>
+
+#include "small_body.hpp"
+
+using namespace heml;
+using namespace heml::test;
+
+namespace {
+
+/// What bodies of the small mesh are made of.
+struct Made {
+  std::vector<Material> materials;
+  BodyOptions options;
+};
+
+std::unique_ptr<ElasticBody<double>> body_of(const TetMesh& mesh, const std::vector<int>& material_of,
+                                             const Made& made) {
+  return std::make_unique<ElasticBody<double>>(mesh, material_of, made.materials, made.options);
+}
+
+/// Everything a body answers at x, as one list of numbers.
+std::vector<double> answers(ElasticBody<double>& body, const std::vector<double>& x) {
+  ThreadTeam team(1);
+  std::vector<double> all = forces_of(body, x), change(x.size()), dx(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) dx[i] = 1e-3 * std::sin(static_cast<double>(i));
+  body.force_change(x.data(), dx.data(), change.data(), team);
+  all.insert(all.end(), change.begin(), change.end());
+  for (const double mass : body.masses()) all.push_back(mass);
+  std::vector<ElementState<double>> states;
+  body.states(x.data(), states);
+  for (const auto& s : states) all.insert(all.end(), {s.J, s.stretch, s.von_mises});
+  all.insert(all.end(), {body.energy(x.data()), body.potential(x.data()), body.frequency_bound(x.data(), team),
+                         body.damping_bound(x.data(), team)});
+  body.each_stiffness(x.data(), [&](const Tet&, const ElementMatrix<double>& K) {
+    for (const auto& row : K) all.insert(all.end(), row, row + 12);
+  });
+  return all;
+}
+
+/// Every second or third element and all of the last few.
+std::vector<int> most_of(const TetMesh& mesh) {
+  std::vector<int> kept;
+  for (int t = 0; t + 4 < static_cast<int>(mesh.tets.size()); ++t)
+    if (t % 2 != 0 || t % 3 == 0) kept.push_back(t);
+  return kept;
+}
+
+}  // namespace
+
+TEST_CASE("what is left of a body gives the bits of a body made of it alone, in every law") {
+  std::mt19937_64 random(5);
+  const SmallBody small(random, 0.1, Mat3(Vec3(1.1, 0.95, 1).asDiagonal()));
+  const std::vector<int> kept = most_of(small.mesh);
+  for (const std::string_view law : law_names(true)) {
+    CAPTURE(std::string(law));
+    for (const bool nodal : {false, true}) {
+      if (nodal && !find_law(law)->has_volume_term) continue;
+      Material other = sample_material(law);
+      other.density = 1300;
+      const Made made{{sample_material(law), other}, {true, nodal}};
+      std::vector<int> material_of(small.mesh.tets.size());
+      for (std::size_t t = 0; t < material_of.size(); ++t) material_of[t] = t % 5 == 0 ? 1 : 0;
+      const auto cut = body_of(small.mesh, material_of, made);
+      cut->keep_elements(kept);
+      const auto built = body_of(with_elements(small.mesh, kept), with_elements(material_of, kept), made);
+      CHECK(answers(*cut, small.x) == answers(*built, small.x));
+      cut->set_mesh(small.mesh, material_of);
+      CHECK(answers(*cut, small.x) == answers(*body_of(small.mesh, material_of, made), small.x));
+    }
+  }
+}
+
+TEST_CASE("a material may lose all its elements, and be set anew all the same") {
+  std::mt19937_64 random(6);
+  const SmallBody small(random, 0.05);
+  std::vector<int> material_of(small.mesh.tets.size(), 0), kept;
+  for (std::size_t t = 0; t < material_of.size(); ++t)
+    if (t < 7)
+      material_of[t] = 1;
+    else
+      kept.push_back(static_cast<int>(t));
+  const Made made{{sample_material("stvk"), sample_material("ogden")}, {}};
+  const auto body = body_of(small.mesh, material_of, made);
+  body->keep_elements(kept);
+  CHECK(body->elements() == kept.size());
+  const auto before = answers(*body, small.x);
+  body->set_material(1, sample_material("yeoh"), small.x.data());
+  CHECK(answers(*body, small.x) == before);
+}
+
+TEST_CASE("fields of elements and fibres go with them") {
+  std::mt19937_64 random(7);
+  SmallBody small(random, 0.1);
+  ElementField stiffness{"stiffness", 1, {}}, direction{"direction", 3, {}};
+  for (std::size_t t = 0; t < small.mesh.tets.size(); ++t) {
+    stiffness.values.push_back(uniform(random, 300, 900));
+    const Vec3 fibre = random_vector(random, 1) + Vec3(2, 0, 0);
+    direction.values.insert(direction.values.end(), {fibre.x(), fibre.y(), fibre.z()});
+  }
+  small.mesh.fields = {stiffness, direction};
+  Material material = sample_material("hgo");
+  material.fields = {{0, "stiffness"}};
+  material.fibre_field = "direction";
+  const Made made{{material}, {true}};
+  const std::vector<int> all(small.mesh.tets.size(), 0), kept = most_of(small.mesh);
+  const auto cut = body_of(small.mesh, all, made);
+  cut->keep_elements(kept);
+  const auto built = body_of(with_elements(small.mesh, kept), with_elements(all, kept), made);
+  CHECK(answers(*cut, small.x) == answers(*built, small.x));
+}
+
+TEST_CASE("viscosity, relaxation and plastic set of what is left go on as if the rest had never been") {
+  for (const std::string_view law : law_names()) {
+    CAPTURE(std::string(law));
+    if (law.starts_with("paper_")) continue;
+    Material material = sample_material(law);
+    material.viscosity = 3;
+    material.relaxation = {{0.4, 0.02}, {0.3, 0.2}};
+    if (!find_law(law)->has_fibre) material.plasticity = Plasticity{50, 20};
+    if (material_problem(material)) continue;  // not one that relaxes
+    std::mt19937_64 random(8);
+    const SmallBody small(random, 0.15, Mat3(Vec3(1.15, 0.9, 1).asDiagonal()));
+    const std::vector<int> all(small.mesh.tets.size(), 0), kept = most_of(small.mesh);
+    const Made made{{material}, {true}};
+    const auto cut = body_of(small.mesh, all, made);
+    const auto built = body_of(with_elements(small.mesh, kept), with_elements(all, kept), made);
+    const auto live = [&](ElasticBody<double>& body, double share) {
+      auto x = small.rest();
+      for (std::size_t i = 0; i < x.size(); ++i) x[i] += share * (small.x[i] - x[i]);
+      body.begin_step(0.01);
+      body.commit(x.data());
+      body.begin_step(0.01);
+    };
+    for (const double share : {0.5, 1.0, 1.2}) {
+      live(*cut, share);
+      live(*built, share);
+    }
+    cut->keep_elements(kept);
+    CHECK(answers(*cut, small.x) == answers(*built, small.x));
+    live(*cut, 0.8);
+    live(*built, 0.8);
+    CHECK(answers(*cut, small.x) == answers(*built, small.x));
+    cut->forget(small.x.data());
+    built->forget(small.x.data());
+    CHECK(answers(*cut, small.x) == answers(*built, small.x));
+  }
+}
