@@ -14,11 +14,12 @@ namespace heml {
 /// Belongs to the thread that made it.
 class Photographer {
  public:
-  /// Makes the folder. panel: the window's panel beside the body; without it a legend alone where there is a colour map.
-  /// Throws InputError when it cannot.
+  /// Makes the folder. panel: the window's panel beside the body; without it a legend alone where there is a colour
+  /// map. Throws InputError when it cannot.
   Photographer(const Scene& scene, const World& world, PictureSize size, bool panel, std::filesystem::path folder);
 
-  /// Draws the world `ahead` seconds after its present state and writes frame_<number>.png. seconds: since the last frame.
+  /// Draws the world `ahead` seconds after its present state and writes frame_<number>.png. seconds: since the last
+  /// frame.
   void take(World& world, double ahead, double seconds);
 
   int taken() const { return taken_; }

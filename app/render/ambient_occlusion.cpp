@@ -70,9 +70,8 @@ class Occluder {
     Eigen::Index axis = 0;
     centres.sizes().maxCoeff(&axis);
     const int middle = (first + last) / 2;
-    std::nth_element(order_.begin() + first, order_.begin() + middle, order_.begin() + last, [&](int a, int b) {
-      return std::pair(centre(a)[axis], a) < std::pair(centre(b)[axis], b);
-    });
+    std::nth_element(order_.begin() + first, order_.begin() + middle, order_.begin() + last,
+                     [&](int a, int b) { return std::pair(centre(a)[axis], a) < std::pair(centre(b)[axis], b); });
     build(first, middle);
     nodes_[self].right = static_cast<int>(nodes_.size());
     build(middle, last);

@@ -1,7 +1,7 @@
 #pragma once
 // How far to go along a direction: halved until Armijo's rule holds for Φ, with slack for round-off, where the slope
-// along the step decides instead (Hager & Zhang 2005, "approximate Wolfe"); where forces have no potential, by that slope
-// or by ‖r‖. States where Φ is not defined are stepped back from like any other bad one.
+// along the step decides instead (Hager & Zhang 2005, "approximate Wolfe"); where forces have no potential, by that
+// slope or by ‖r‖. States where Φ is not defined are stepped back from like any other bad one.
 #include <heml/dynamics/objective.hpp>
 
 namespace heml {

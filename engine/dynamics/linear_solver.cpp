@@ -1,3 +1,4 @@
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -8,7 +9,7 @@ namespace {
 constexpr int most_iterations = 500;
 constexpr double first_shift = 1e-4;          // of the stiffness along the residual
 constexpr double projected_tolerance = 1e-2;  // an approximation need not be solved exactly
-constexpr double changed_a_lot = 3;  // a factor of aM + L serves while a is within this of its own
+constexpr double changed_a_lot = 3;           // a factor of aM + L serves while a is within this of its own
 // Free nodes up to which a sparse factor a Newton iteration costs less than some tens of products.
 constexpr std::size_t small_in_motion = 400, small_at_rest = 40000;
 // and up to which one factor of the scalar matrix costs less than cycles over levels.
@@ -22,9 +23,14 @@ Preconditioner choose_preconditioner(std::size_t free_nodes, bool static_solve) 
 }
 
 LinearSolver::LinearSolver(const FreeNodes& free, const TetMesh& mesh, const std::vector<double>& modulus,
-                           const Vector& mass, Preconditioner preconditioner, Projection projection,
-                           ThreadTeam& team)
-    : free_(free), mesh_(mesh), mass_(mass), preconditioner_(preconditioner), projection_(projection), team_(team), modulus_(modulus) {}
+                           const Vector& mass, Preconditioner preconditioner, Projection projection, ThreadTeam& team)
+    : free_(free),
+      mesh_(mesh),
+      mass_(mass),
+      preconditioner_(preconditioner),
+      projection_(projection),
+      team_(team),
+      modulus_(modulus) {}
 
 void LinearSolver::set_inertia(double a) { a_ = a; }
 
@@ -58,7 +64,11 @@ void LinearSolver::invert_blocks() {
         const int row = 3 * static_cast<int>(k) + i, column = 3 * static_cast<int>(k) + j;
         block(i, j) = block(j, i) = matrix_->lower().coeff(row, column);
       }
-    inverse_blocks_[k] = block.inverse();
+    // A preconditioner has to be positive, or negative curvature goes unseen.
+    const Eigen::SelfAdjointEigenSolver<Mat3> eigen(block);
+    const Vec3 sizes = eigen.eigenvalues().cwiseAbs();
+    const Vec3 inverse = sizes.cwiseMax(1e-6 * sizes.maxCoeff()).cwiseInverse();
+    inverse_blocks_[k] = eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
   }
 }
 
@@ -132,8 +142,7 @@ bool LinearSolver::solve(Objective& objective, const Vector& r, double tolerance
   return false;
 }
 
-bool LinearSolver::conjugate_gradients(Objective& objective, const Vector& r, double enough,
-                                       Vector& d) {
+bool LinearSolver::conjugate_gradients(Objective& objective, const Vector& r, double enough, Vector& d) {
   Vector left = r, z, q;
   apply(left, z);
   Vector p = z;
@@ -160,8 +169,7 @@ bool LinearSolver::conjugate_gradients(Objective& objective, const Vector& r, do
 }
 
 /// van der Vorst 1992, right preconditioned. Where it breaks down, d is the best so far.
-bool LinearSolver::biconjugate_gradients(Objective& objective, const Vector& r, double enough,
-                                         Vector& d) {
+bool LinearSolver::biconjugate_gradients(Objective& objective, const Vector& r, double enough, Vector& d) {
   Vector left = r, p = Vector::Zero(r.size()), q = p, z, t;
   double rho = 1, alpha = 1, omega = 1, least = r.norm();
   Vector best;

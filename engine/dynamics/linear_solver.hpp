@@ -27,8 +27,9 @@ class LinearSolver {
   void set_inertia(double a);
 
   /// d = K⁻¹ r, to a residual of tolerance ‖r‖, K where the objective was linearised last. Returns whether the
-  /// curvature met was positive all along; if not, d still leads downhill: what was found before, or with a factor L D Lᵀ of mixed signs L⁻ᵀ |D|⁻¹ L⁻¹ r,
-  /// which near a buckling load serves far better than positive elements do. 0 where nothing exists.
+  /// curvature met was positive all along; if not, d still leads downhill: what was found before, or with a factor L D
+  /// Lᵀ of mixed signs L⁻ᵀ |D|⁻¹ L⁻¹ r, which near a buckling load serves far better than positive elements do. 0 where
+  /// nothing exists.
   bool solve(Objective& objective, const Vector& r, double tolerance, Vector& d);
 
   /// z = what stands for K⁻¹, times r. Returns false where there is none. Not for `block_jacobi` and `cholesky`, which

@@ -28,8 +28,7 @@ bool apply_inverse(LinearSolver& linear, const std::deque<Pair>& pairs, const Ve
     linear.precondition(pairs.back().y, z);
     d *= pairs.back().sy / pairs.back().y.dot(z);
   }
-  for (std::size_t k = 0; k < pairs.size(); ++k)
-    d += (alpha[k] - pairs[k].y.dot(d) / pairs[k].sy) * pairs[k].s;
+  for (std::size_t k = 0; k < pairs.size(); ++k) d += (alpha[k] - pairs[k].y.dot(d) / pairs[k].sy) * pairs[k].s;
   return true;
 }
 
@@ -46,9 +45,12 @@ NewtonResult minimise_quasi(Objective& objective, LinearSolver& linear, const St
   Vector d;
   while (true) {
     result.measure = stop.measure(at.r);
-    if (result.measure <= stop.limit) result.end = End::converged;
-    else if (result.iterations >= most_iterations) result.end = End::out_of_iterations;
-    else result.end = End::stalled;
+    if (result.measure <= stop.limit)
+      result.end = End::converged;
+    else if (result.iterations >= most_iterations)
+      result.end = End::out_of_iterations;
+    else
+      result.end = End::stalled;
     if (result.end != End::stalled) break;
     ++result.iterations;
     const Vector x_before = at.x, r_before = at.r;

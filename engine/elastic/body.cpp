@@ -54,8 +54,11 @@ void ElasticBody<Real>::make_parts() {
     for (std::size_t t = 0; t < material_of_.size(); ++t)
       if (material_of_[t] == static_cast<int>(m)) elements.push_back(static_cast<int>(t));
     if (elements.empty()) continue;
-    parts_.push_back({m, make_group<Real>(mesh_, elements, materials_[m]),
-                      make_terms<Real>(materials_[m], options_.continuation, options_.nodal_pressure), nullptr, {}});
+    parts_.push_back({m,
+                      make_group<Real>(mesh_, elements, materials_[m]),
+                      make_terms<Real>(materials_[m], options_.continuation, options_.nodal_pressure),
+                      nullptr,
+                      {}});
     Part& part = parts_.back();
     part.group.density = static_cast<Real>(materials_[m].density);
     part.flow = make_flow<Real>(materials_[m], options_.continuation, part.group);

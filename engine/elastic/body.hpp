@@ -47,8 +47,8 @@ class ElasticBody {
 
   /// Finds the stiffness K = ∂²U/∂x² at x, once for all products with it.
   void linearise(const Real* x, ThreadTeam& team);
-  /// Makes every element's part of K positive, in the way named (projection.hpp; none and shift: nothing). Averaged nodal
-  /// pressure keeps its own.
+  /// Makes every element's part of K positive, in the way named (projection.hpp; none and shift: nothing). Averaged
+  /// nodal pressure keeps its own.
   void project(Projection projection, ThreadTeam& team);
   /// −K dx into out (3 #V, overwritten), N: change of the forces with a change dx of the positions.
   void force_change(const Real* dx, Real* out, ThreadTeam& team);
@@ -148,7 +148,7 @@ class ElasticBody {
   CornerMap corners_;
   Springs<Real> springs_;
   std::unique_ptr<NodalPressure<Real>> pressure_;
-  std::vector<Real> corner_;  ///< 3 a corner, written and read within forces()
+  std::vector<Real> corner_;           ///< 3 a corner, written and read within forces()
   std::vector<Real> linearised_at_;    ///< 3 #V
   bool projected_ = false;             ///< whether what was found there has been made positive
   std::vector<double> packet_energy_;  ///< written and read within energy()

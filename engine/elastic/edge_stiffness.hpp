@@ -144,11 +144,9 @@ template <class Real, Law<Real> L>
 template <class Real>
 void expand_edges(const Real K[edge_entries], ElementMatrix<Real>& out) {
   for (std::size_t r = 0; r < 9; ++r)
-    for (std::size_t c = 0; c < 9; ++c)
-      out[3 + r][3 + c] = K[edge_entry(static_cast<int>(r), static_cast<int>(c))];
+    for (std::size_t c = 0; c < 9; ++c) out[3 + r][3 + c] = K[edge_entry(static_cast<int>(r), static_cast<int>(c))];
   for (std::size_t r = 3; r < 12; ++r)
-    for (std::size_t i = 0; i < 3; ++i)
-      out[r][i] = out[i][r] = -(out[r][3 + i] + out[r][6 + i] + out[r][9 + i]);
+    for (std::size_t i = 0; i < 3; ++i) out[r][i] = out[i][r] = -(out[r][3 + i] + out[r][6 + i] + out[r][9 + i]);
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j) out[i][j] = -(out[3 + i][j] + out[6 + i][j] + out[9 + i][j]);
 }

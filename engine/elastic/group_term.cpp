@@ -49,8 +49,8 @@ void GroupTerm<Real>::stiffness(const Group& group, const Real* x, std::size_t b
 }
 
 template <class Real>
-void GroupTerm<Real>::energies(const Group& group, const Real* x, std::size_t begin, std::size_t end,
-                               double* of_packet, bool add) const {
+void GroupTerm<Real>::energies(const Group& group, const Real* x, std::size_t begin, std::size_t end, double* of_packet,
+                               bool add) const {
   for (std::size_t p = begin; p < end; ++p) {
     double sum = add ? of_packet[p] : 0.0;
     for (std::size_t s = p * Group::lanes; s < std::min((p + 1) * Group::lanes, group.size()); ++s) {

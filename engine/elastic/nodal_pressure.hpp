@@ -26,7 +26,8 @@ class NodalPressure {
   double energy(const Real* x);  ///< J
   /// A bound of λ_max(M⁻¹K) of these terms, 1/s².
   Real frequency_bound(const Real* x, ThreadTeam& team);
-  /// Adds one slot's share of the stiffness (elastic/edge_stiffness.hpp), its pressure held and κ_t its own: for preconditioners.
+  /// Adds one slot's share of the stiffness (elastic/edge_stiffness.hpp), its pressure held and κ_t its own: for
+  /// preconditioners.
   void add_stiffness(std::size_t group, const Real* x, std::size_t s, Real K[edge_entries]) const;
   /// Mean pressure p_t of a slot after add_forces(), Pa.
   Real pressure(std::size_t group, std::size_t s) const;

@@ -101,9 +101,15 @@ Json boundary_json(const BoundaryEntry& entry) {
 Json load_json(const LoadEntry& entry) {
   Json json = selection_json(entry.where);
   switch (entry.load.kind) {
-    case Load::Kind::force: json["force"] = vector_json(entry.load.vector); break;
-    case Load::Kind::traction: json["traction"] = vector_json(entry.load.vector); break;
-    case Load::Kind::pressure: json["pressure"] = entry.load.pressure; break;
+    case Load::Kind::force:
+      json["force"] = vector_json(entry.load.vector);
+      break;
+    case Load::Kind::traction:
+      json["traction"] = vector_json(entry.load.vector);
+      break;
+    case Load::Kind::pressure:
+      json["pressure"] = entry.load.pressure;
+      break;
   }
   json["over"] = entry.load.over;
   return json;

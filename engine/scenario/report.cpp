@@ -1,5 +1,6 @@
-#include <algorithm>
 #include <fmt/format.h>
+
+#include <algorithm>
 #include <heml/mesh/write.hpp>
 #include <heml/scenario/json_text.hpp>
 #include <heml/scenario/positions_csv.hpp>

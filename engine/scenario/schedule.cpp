@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+
 #include <heml/base/error.hpp>
 #include <heml/scenario/schedule.hpp>
 #include <heml/scenario/selection.hpp>

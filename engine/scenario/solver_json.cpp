@@ -79,7 +79,8 @@ SolverSettings solver_from(const Key& key) {
   if (const auto tolerance = key.find("tolerance")) solver.tolerance = tolerance->positive();
   if (const auto budget = key.find("budget")) solver.budget = budget_from(*budget);
   if (const auto name = key.find("minimiser")) solver.minimiser = static_cast<Minimiser>(name->one_of(minimiser_names));
-  if (const auto name = key.find("projection")) solver.projection = static_cast<Projection>(name->one_of(projection_names));
+  if (const auto name = key.find("projection"))
+    solver.projection = static_cast<Projection>(name->one_of(projection_names));
   if (const auto name = key.find("preconditioner"))
     solver.preconditioner = static_cast<Preconditioner>(name->one_of(preconditioner_names));
   return solver;
@@ -102,10 +103,12 @@ Json solver_json(const SolverSettings& solver) {
     json["budget"] = solver.budget->milliseconds > 0 ? Json{{"milliseconds", solver.budget->milliseconds}}
                                                      : Json{{"iterations", solver.budget->iterations}};
   const SolverSettings usual;
-  if (solver.minimiser != usual.minimiser) json["minimiser"] = minimiser_names[static_cast<std::size_t>(solver.minimiser)];
+  if (solver.minimiser != usual.minimiser)
+    json["minimiser"] = minimiser_names[static_cast<std::size_t>(solver.minimiser)];
   if (solver.projection != usual.projection)
     json["projection"] = projection_names[static_cast<std::size_t>(solver.projection)];
-  if (solver.preconditioner) json["preconditioner"] = preconditioner_names[static_cast<std::size_t>(*solver.preconditioner)];
+  if (solver.preconditioner)
+    json["preconditioner"] = preconditioner_names[static_cast<std::size_t>(*solver.preconditioner)];
   return json;
 }
 

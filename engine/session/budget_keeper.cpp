@@ -3,8 +3,8 @@
 
 namespace heml {
 namespace {
-constexpr double share = 0.9;       // of the time that is filled on purpose
-constexpr double smoothing = 0.1;   // weight of the last tick
+constexpr double share = 0.9;      // of the time that is filled on purpose
+constexpr double smoothing = 0.1;  // weight of the last tick
 constexpr int most_iterations = 60;
 constexpr int ticks_to_raise = 10;  // lowered at once, raised when the time has been there for a while
 }  // namespace

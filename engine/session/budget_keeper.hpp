@@ -11,12 +11,12 @@ class BudgetKeeper {
   /// milliseconds: of a tick.
   explicit BudgetKeeper(double milliseconds) : target_(milliseconds / 1000) {}
 
-  /// After each tick. seconds: it took. Returns how many iterations a stage should be allowed from now on, where that is
-  /// not what it is.
+  /// After each tick. seconds: it took. Returns how many iterations a stage should be allowed from now on, where that
+  /// is not what it is.
   std::optional<int> after(double seconds, const SolverWork& work);
 
  private:
-  double target_;           ///< s
+  double target_;            ///< s
   double an_iteration_ = 0;  ///< s, with its share of all else; smoothed
   long iterations_before_ = 0;
   int patience_ = 0;

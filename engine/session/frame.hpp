@@ -11,13 +11,13 @@ namespace heml {
 /// one, and whoever draws takes up what it keeps of a skin when a frame comes with one of another version. Indices are
 /// into Skin::nodes.
 struct Skin {
-  long version = 0;                 ///< Topology::version
-  std::vector<int> nodes;           ///< #S: mesh-file numbers of the surface's nodes
-  std::vector<Vec3f> rest;          ///< #S×3, m
-  std::vector<Triangle> triangles;  ///< #F×3, outward
-  std::vector<int> regions;         ///< #F: region of the element behind each triangle
-  std::vector<int> elements;        ///< #F: its mesh-file number
-  std::vector<int> held;            ///< indices of nodes with a boundary condition
+  long version = 0;                             ///< Topology::version
+  std::vector<int> nodes;                       ///< #S: mesh-file numbers of the surface's nodes
+  std::vector<Vec3f> rest;                      ///< #S×3, m
+  std::vector<Triangle> triangles;              ///< #F×3, outward
+  std::vector<int> regions;                     ///< #F: region of the element behind each triangle
+  std::vector<int> elements;                    ///< #F: its mesh-file number
+  std::vector<int> held;                        ///< indices of nodes with a boundary condition
   std::shared_ptr<const Skin> whole = nullptr;  ///< of the body before anything was removed; none: this is it
 };
 

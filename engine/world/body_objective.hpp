@@ -70,7 +70,7 @@ class BodyObjective final : public LoadedObjective {
   double noise_ = 0, acceleration_noise_ = 0;
   int inverted_at_start_ = 0;
   Vector forces_, external_;
-  Vector linearised_at_;  ///< 3 #V, where pressure that follows the surface is part of K, else empty
+  Vector linearised_at_;              ///< 3 #V, where pressure that follows the surface is part of K, else empty
   std::vector<Real> x_, dx_, f_, v_;  ///< scratch
 };
 

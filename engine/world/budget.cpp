@@ -1,5 +1,5 @@
-// Implicit steps that must be on time: their stages end after a number of iterations, wherever they are. A lower Φ does not
-// bound the energy, so what was cut short is looked at once more.
+// Implicit steps that must be on time: their stages end after a number of iterations, wherever they are. A lower Φ does
+// not bound the energy, so what was cut short is looked at once more.
 #include <algorithm>
 #include <cmath>
 #include <heml/world/typed_world.hpp>

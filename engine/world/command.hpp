@@ -37,8 +37,8 @@ struct SetGravity {
 struct SetIntegrator {
   Integrator integrator = Integrator::verlet;
 };
-/// How many iterations each stage of an implicit step may take from now on. Sessions send it where a scene's budget is in
-/// milliseconds, by what they measure.
+/// How many iterations each stage of an implicit step may take from now on. Sessions send it where a scene's budget is
+/// in milliseconds, by what they measure.
 struct SetBudget {
   int iterations = 1;
 };

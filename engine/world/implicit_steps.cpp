@@ -24,8 +24,8 @@ ImplicitParts<Real>& TypedWorld<Real>::implicit() {
   if (!implicit_)
     implicit_ = std::make_unique<ImplicitParts<Real>>(
         body_, model_, mass_, inverse_mass_,
-        preconditioner_moduli(model_.mesh, model_.material_of, setup_.materials, setup_.solver.minimiser), grasps_, team_,
-        setup_.solver);
+        preconditioner_moduli(model_.mesh, model_.material_of, setup_.materials, setup_.solver.minimiser), grasps_,
+        team_, setup_.solver);
   return *implicit_;
 }
 
@@ -179,12 +179,11 @@ Vector TypedWorld<Real>::stage_start(const Stage& stage, double time, const Vect
 template <class Real>
 Stop TypedWorld<Real>::stage_stop() {
   ImplicitParts<Real>& parts = implicit();
-  return {[&parts](const Vector& r) { return parts.body.imbalance(r); },
-          setup_.solver.relative_tolerance()};
+  return {[&parts](const Vector& r) { return parts.body.imbalance(r); }, setup_.solver.relative_tolerance()};
 }
 
-/// Whether a step may end where Newton's method can do no more: a tolerance that was given decides alone; without one, by
-/// what is left of acceleration, since an imbalance relative to small loads is beyond a stiff body's round-off.
+/// Whether a step may end where Newton's method can do no more: a tolerance that was given decides alone; without one,
+/// by what is left of acceleration, since an imbalance relative to small loads is beyond a stiff body's round-off.
 template <class Real>
 bool TypedWorld<Real>::is_balanced_enough(const Stage& stage, const Vector& r) {
   if (setup_.solver.tolerance) return false;

@@ -1,7 +1,8 @@
-// What `"integrator": "auto"` becomes, at the start and from tick to tick, by a fixed model of cost and never by a clock, so
-// that a scene gives the same bits on every machine: explicit where that is fast enough, or the given step stable; else
-// the accurate implicit method where steps resolve the motion; else the one that damps what they do not. A body that is
-// crushed or stretched needs shorter explicit steps: the choice follows it, with a margin so that it does not flutter.
+// What `"integrator": "auto"` becomes, at the start and from tick to tick, by a fixed model of cost and never by a
+// clock, so that a scene gives the same bits on every machine: explicit where that is fast enough, or the given step
+// stable; else the accurate implicit method where steps resolve the motion; else the one that damps what they do not. A
+// body that is crushed or stretched needs shorter explicit steps: the choice follows it, with a margin so that it does
+// not flutter.
 //
 // What a step costs may be told (SetStepCost): sessions measure it and record what they found as a command.
 #include <cmath>
@@ -34,8 +35,8 @@ void TypedWorld<Real>::reconsider_method() {
   if (implicit_) implicit_->h_before = 0;  // BDF2 starts anew
 }
 
-/// What an explicit method asks for now, 1 being the most it may: of the time there is, or, where a step is given, of the
-/// stable one.
+/// What an explicit method asks for now, 1 being the most it may: of the time there is, or, where a step is given, of
+/// the stable one.
 template <class Real>
 double TypedWorld<Real>::explicit_load() const {
   const SolverSettings& solver = setup_.solver;

@@ -78,10 +78,10 @@ struct SolverSettings {
   bool continuation = false;   ///< continue each law past its range instead of stopping there
   bool nodal_pressure = false;  ///< averaged nodal pressure instead of one a tetrahedron (elastic/nodal_pressure.hpp)
   std::optional<double> tolerance;  ///< of implicit and static solves, relative to the forces at work (contract)
-  std::optional<Budget> budget;                   ///< none: every stage is solved to its tolerance
-  Minimiser minimiser = Minimiser::newton;        ///< of implicit steps; statics are Newton's
-  Projection projection = Projection::element;    ///< of a stiffness that is seen not to be positive
-  std::optional<Preconditioner> preconditioner;   ///< none: by the body's size
+  std::optional<Budget> budget;     ///< none: every stage is solved to its tolerance
+  Minimiser minimiser = Minimiser::newton;       ///< of implicit steps; statics are Newton's
+  Projection projection = Projection::element;   ///< of a stiffness that is seen not to be positive
+  std::optional<Preconditioner> preconditioner;  ///< none: by the body's size
   bool is_static() const { return integrator == Integrator::static_equilibrium; }
   double load_duration() const { return duration > 0 ? duration : 1; }  ///< s, that a static world's ticks load over
   double relative_tolerance() const { return tolerance.value_or(single_precision ? 1e-4 : 1e-8); }

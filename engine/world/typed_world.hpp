@@ -126,9 +126,9 @@ class TypedWorld final : public World {
   bool unfinished_ = false;
   std::unique_ptr<ImplicitParts<Real>> implicit_;  ///< none until an implicit or static method needs it
   SolverWork work_;
-  Integrator method_ = Integrator::verlet;  ///< in use: what "auto" has chosen, else the scene's
-  double step_cost_ = 40e-9;                ///< s an element: an explicit step, one core
-  std::optional<double> lowest_frequency_;  ///< 1/s, at rest; none until somebody asks
+  Integrator method_ = Integrator::verlet;          ///< in use: what "auto" has chosen, else the scene's
+  double step_cost_ = 40e-9;                        ///< s an element: an explicit step, one core
+  std::optional<double> lowest_frequency_;          ///< 1/s, at rest; none until somebody asks
   std::vector<ElementState<Real>> element_states_;  ///< scratch of queries
 };
 

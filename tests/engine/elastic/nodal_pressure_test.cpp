@@ -32,8 +32,7 @@ TEST_CASE("where every element has the same volume ratio, nodal pressure changes
   const auto f = forces_of(*plain, small.x), g = forces_of(*averaged, small.x);
   for (std::size_t i = 0; i < f.size(); ++i) CHECK(std::abs(f[i] - g[i]) <= 1e-12 * largest(f));
   ThreadTeam team(1);
-  CHECK(averaged->energy(small.x.data(), team) ==
-        doctest::Approx(plain->energy(small.x.data(), team)).epsilon(1e-13));
+  CHECK(averaged->energy(small.x.data(), team) == doctest::Approx(plain->energy(small.x.data(), team)).epsilon(1e-13));
 }
 
 TEST_CASE("several materials share nodes: the bulk moduli are averaged there and the forces stay a gradient") {

@@ -26,15 +26,16 @@ std::vector<double> answers(ElasticBody<double>& body, const std::vector<double>
   ThreadTeam team(1);
   std::vector<double> all = forces_of(body, x), change(x.size()), dx(x.size());
   for (std::size_t i = 0; i < x.size(); ++i) dx[i] = 1e-3 * std::sin(static_cast<double>(i));
-  body.force_change(x.data(), dx.data(), change.data(), team);
+  body.linearise(x.data(), team);
+  body.force_change(dx.data(), change.data(), team);
   all.insert(all.end(), change.begin(), change.end());
   for (const double mass : body.masses()) all.push_back(mass);
   std::vector<ElementState<double>> states;
   body.states(x.data(), states);
   for (const auto& s : states) all.insert(all.end(), {s.J, s.stretch, s.von_mises});
-  all.insert(all.end(), {body.energy(x.data()), body.potential(x.data()), body.frequency_bound(x.data(), team),
-                         body.damping_bound(x.data(), team)});
-  body.each_stiffness(x.data(), [&](const Tet&, const ElementMatrix<double>& K) {
+  all.insert(all.end(), {body.energy(x.data(), team), body.potential(x.data(), team),
+                         body.frequency_bound(x.data(), team), body.damping_bound(x.data(), team)});
+  body.each_stiffness([&](const Tet&, const ElementMatrix<double>& K) {
     for (const auto& row : K) all.insert(all.end(), row, row + 12);
   });
   return all;

@@ -1,4 +1,5 @@
 #include <doctest/doctest.h>
+
 #include <cmath>
 #include <engine/mesh/files.hpp>
 #include <engine/scenario/samples.hpp>
@@ -27,11 +28,13 @@ TEST_CASE("reads a scene with every key of the format") {
     ],
     "gravity": [0, -9.81, 0],
     "solver": {"integrator": "symplectic_euler", "step": 1e-4, "duration": 0.5, "damping": 2, "precision": "float",
-               "threads": 2, "element": "p1", "continuation": true, "tolerance": 1e-10},
+               "threads": 2, "element": "p1", "continuation": true, "tolerance": 1e-10,
+               "budget": {"iterations": 2}},
     "outputs": {"times": [0.1, 0.05], "positions": false, "vtu": true},
     "initial": {"velocity": [1, 0, 0], "positions": "start.csv"},
     "view": {"azimuth": 30, "elevation": -20, "zoom": 1.5, "field": "J", "wireframe": true}
-  })", "folder/scene.json");
+  })",
+                                  "folder/scene.json");
   CHECK(scene.name == "cantilever");
   CHECK(scene.mesh.file == "folder/box.msh");
   CHECK(scene.mesh.scale == 0.001);
@@ -67,6 +70,7 @@ TEST_CASE("reads a scene with every key of the format") {
   CHECK(scene.solver.step == 1e-4);
   CHECK(scene.solver.duration == 0.5);
   CHECK(scene.solver.damping == 2);
+  CHECK(scene.solver.budget.value().iterations == 2);
   CHECK(scene.solver.single_precision);
   CHECK(scene.solver.threads == 2);
   CHECK(scene.solver.continuation);
@@ -133,8 +137,7 @@ TEST_CASE("reads every kind of event, in ascending order of ticks, equal ticks a
 TEST_CASE("reads the document and the JSON Lines form of a recording as the same") {
   const std::string entries[] = {R"({"step": 0, "checkpoint": "00000000000000ff", "nodes": "00ffabcd"})",
                                  R"({"step": 4, "move": [0.1, 0, 0]})",
-                                 R"({"step": 9, "checkpoint": "0123456789ABCDEF"})",
-                                 R"({"step": 10, "end": true})"};
+                                 R"({"step": 9, "checkpoint": "0123456789ABCDEF"})", R"({"step": 10, "end": true})"};
   const std::string checkpoints = entries[0] + "," + entries[2] + "," + entries[3];
   const std::string document =
       test::scene_with("{\"events\": [" + entries[1] + "], \"checkpoints\": [" + checkpoints + "]}");
@@ -184,14 +187,14 @@ TEST_CASE("a scene may name a tissue instead of a law, with what it says beside 
   const heml::Scene scene = heml::parse_scene(R"({
     "schema_version": 1, "mesh": {"box": {"size": [1, 1, 1], "cells": [1, 1, 1]}},
     "materials": [{"preset": "brain_ogden_swine", "region": 3, "density": 1040, "viscosity": 0.5}]})",
-                                  "tissue.json");
+                                              "tissue.json");
   CHECK(scene.materials[0].region == 3);
   CHECK(scene.materials[0].material.law == "ogden");
   CHECK(scene.materials[0].material.viscosity == 0.5);
   CHECK_THROWS_WITH(heml::parse_scene(R"({
     "schema_version": 1, "mesh": {"box": {"size": [1, 1, 1], "cells": [1, 1, 1]}},
     "materials": [{"preset": "brian"}]})",
-                                "tissue.json"),
+                                      "tissue.json"),
                     doctest::Contains("materials[0].preset"));
 }
 

@@ -46,8 +46,20 @@ Scene scene_of_everything() {
   scene.loads.push_back({{{4}, {}, {}}, {Load::Kind::traction, {}, vector(), 0, 0}});
   scene.loads.push_back({{{4}, {}, {}}, {Load::Kind::pressure, {}, Vec3::Zero(), -number(), 0}});
   scene.gravity = vector();
-  scene.solver = {Integrator::symplectic_euler, true, std::nullopt, 100 * number(), number(), number(), 3, true,
-                  false, number()};
+  scene.solver = {Integrator::symplectic_euler,
+                  true,
+                  std::nullopt,
+                  100 * number(),
+                  number(),
+                  number(),
+                  3,
+                  true,
+                  false,
+                  number(),
+                  Budget{0, 7.5},
+                  Minimiser::lbfgs,
+                  Projection::tension,
+                  Preconditioner::multilevel};
   scene.output_times = {0.05, 0.01};
   scene.output_positions = false;
   scene.output_vtu = true;
@@ -108,6 +120,10 @@ TEST_CASE("writes a scene on one line that reads back bit for bit") {
   CHECK(back.solver.continuation);
   CHECK(!back.solver.nodal_pressure);
   CHECK(same_bits(back.solver.tolerance.value(), *scene.solver.tolerance));
+  CHECK(same_bits(back.solver.budget.value().milliseconds, scene.solver.budget->milliseconds));
+  CHECK(back.solver.minimiser == scene.solver.minimiser);
+  CHECK(back.solver.projection == scene.solver.projection);
+  CHECK(back.solver.preconditioner.value() == *scene.solver.preconditioner);
   CHECK(back.output_times == scene.output_times);
   CHECK(!back.output_positions);
   CHECK(back.output_vtu);
@@ -165,6 +181,8 @@ TEST_CASE("writes every kind of event so that it reads back bit for bit") {
     CHECK(same_bits(reread<MoveTool>({0, MoveTool{v}}).target, v));
     CHECK(same_bits(reread<SetGravity>({999999999999, SetGravity{v}}).gravity, v));
   }
+  CHECK(reread<SetBudget>({5, SetBudget{17}}).iterations == 17);
+  CHECK(same_bits(reread<SetStepCost>({5, SetStepCost{0.1 / 3}}).nanoseconds, 0.1 / 3));
   const Grasp grasp = reread<Grasp>({5, Grasp{12, 0.1 / 3}});
   CHECK(grasp.node == 12);
   CHECK(same_bits(grasp.radius, 0.1 / 3));

@@ -22,9 +22,9 @@ TEST_CASE("a budget in milliseconds settles on the iterations that fit, and foll
   BudgetKeeper keeper(10);
   SolverWork work;
   work.budget = 12;
-  CHECK(settle(keeper, work, 1e-3, 5) == 4);      // 4 × 2 × 1 ms fill 9 of 10 ms best
+  CHECK(settle(keeper, work, 1e-3, 5) == 4);       // 4 × 2 × 1 ms fill 9 of 10 ms best
   CHECK(settle(keeper, work, 0.4e-3, 200) == 11);  // raised step by step where the machine is free again
-  CHECK(settle(keeper, work, 1, 50) == 1);        // never less than one
+  CHECK(settle(keeper, work, 1, 50) == 1);         // never less than one
 }
 
 TEST_CASE("the cost of a step is told once when it is far from what was thought, by the quietest tick") {
