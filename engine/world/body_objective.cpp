@@ -61,12 +61,14 @@ template <class Real>
 void BodyObjective<Real>::set_time(double time, const Vec3& gravity) {
   time_ = time;
   gravity_ = gravity;
+  forget_answers();
 }
 
 template <class Real>
 void BodyObjective<Real>::set_velocity(double d, const Vector& x_bar) {
   d_ = d;
   x_bar_ = x_bar;
+  forget_answers();
 }
 
 template <class Real>
@@ -147,22 +149,43 @@ void BodyObjective<Real>::add_external(const Real* x, const Vector& x_double) {
 }
 
 template <class Real>
+void BodyObjective<Real>::forget_answers() {
+  forces_at_.resize(0);
+  value_at_.resize(0);
+}
+
+template <class Real>
 bool BodyObjective<Real>::residual(const Vector& x, Vector& r) {
+  if (forces_at_.size() == 0 || forces_at_ != x) find_forces(x);
+  r.setZero(x.size());
+  for (const int n : free_.node) r.segment<3>(3 * n) = forces_.segment<3>(3 * n);
+  return is_defined_;
+}
+
+template <class Real>
+void BodyObjective<Real>::find_forces(const Vector& x) {
   const Real* at_x = as_real(x, x_);
   f_.resize(x_.size());
-  const bool defined = body_.forces(at_x, f_.data(), team_);
+  is_defined_ = body_.forces(at_x, f_.data(), team_);
   forces_.resize(x.size());
   for (std::size_t i = 0; i < f_.size(); ++i) forces_[static_cast<Eigen::Index>(i)] = static_cast<double>(f_[i]);
   add_external(at_x, x);
   forces_ += external_;
-  r.setZero(x.size());
-  for (const int n : free_.node) r.segment<3>(3 * n) = forces_.segment<3>(3 * n);
-  return defined;
+  forces_at_ = x;
 }
 
 template <class Real>
 std::optional<double> BodyObjective<Real>::value(const Vector& x) {
   if (!model_.pressures.empty()) return std::nullopt;
+  if (value_at_.size() == 0 || value_at_ != x) {
+    value_ = find_value(x);
+    value_at_ = x;
+  }
+  return value_;
+}
+
+template <class Real>
+double BodyObjective<Real>::find_value(const Vector& x) {
   const Real* at_x = as_real(x, x_);
   double sum = body_.potential(at_x, team_);
   for (std::size_t n = 0; n < mass_.size(); ++n)

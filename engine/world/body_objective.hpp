@@ -53,6 +53,9 @@ class BodyObjective final : public LoadedObjective {
  private:
   const Real* as_real(const Vector& x, std::vector<Real>& scratch) const;
   void find_noise();
+  void forget_answers();
+  void find_forces(const Vector& x);
+  double find_value(const Vector& x);
   void add_external(const Real* x, const Vector& x_double);
   template <class Visit>
   void each_pressed_face(const Vector& x, const Visit& visit) const;
@@ -70,6 +73,10 @@ class BodyObjective final : public LoadedObjective {
   double noise_ = 0, acceleration_noise_ = 0;
   int inverted_at_start_ = 0;
   Vector forces_, external_;
+  // Solvers ask again where they have just been; both are empty where time, loads or memory have changed since.
+  Vector forces_at_, value_at_;
+  bool is_defined_ = true;
+  double value_ = 0;
   Vector linearised_at_;              ///< 3 #V, where pressure that follows the surface is part of K, else empty
   std::vector<Real> x_, dx_, f_, v_;  ///< scratch
 };
