@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t grain = 2048;    // rows below which waking a thread costs more than it brings
 constexpr double shrinks = 0.7;        // a level larger than this of the one above is not worth having
-constexpr double smoothed_from = 0.1;  // of the spectrum: eigenvalues from here to 1 are the smoother's, the rest the
+constexpr double smoothed_from = 0.2;  // of the spectrum: eigenvalues from here to 1 are the smoother's, the rest the
                                        // coarser levels'
 /// Steps x += w D⁻¹(b − Ax) that together are Chebyshev's polynomial on [smoothed_from, 1].
 const std::array<float, 2> weights = [] {
