@@ -113,10 +113,4 @@ void Multilevel::apply(const Vector& r, Vector& z) {
     z.segment<3>(place(k)) = scale * top.x[k].head<3>().cast<double>().matrix();
 }
 
-std::size_t Multilevel::entries() const {
-  std::size_t count = bottom_.entries();
-  for (const Level& level : levels_) count += static_cast<std::size_t>(level.A.nonZeros());
-  return count;
-}
-
 }  // namespace heml

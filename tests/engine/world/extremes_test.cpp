@@ -133,6 +133,7 @@ TEST_CASE("extremes: one half a million times stiffer than the other moves as a 
     if (world->halt()) FAIL(world->halt()->message);
     CHECK(world->solver_work().residual <= 1e-8);
   }
+  MESSAGE(a->solver_work().iterations << " iterations at rest");
   const double moved = rms_difference(b->positions(), rigid.mesh.nodes);
   CHECK(rms_difference(a->positions(), b->positions()) <= 1e-4 * moved);
   CHECK((a->reactions()[0] - b->reactions()[0]).norm() <= 1e-4 * b->reactions()[0].norm());
@@ -141,7 +142,7 @@ TEST_CASE("extremes: one half a million times stiffer than the other moves as a 
   split_in_halves(falling, soft("neo_hookean", 1e10));
   make_backward_euler(falling, 0.005);
   const auto world = make_world(falling);
-  run_until(*world, 0.3);
+  run_until(*world, 0.2);
   if (world->halt()) FAIL(world->halt()->message);
   const auto x = world->positions();
   for (std::size_t t = 0; t < falling.mesh.tets.size(); ++t) {
