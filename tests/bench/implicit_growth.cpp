@@ -1,7 +1,8 @@
 // How the cost of an implicit step grows with the mesh: a cube of 10 cm, 10 kPa, held at one side, falls by backward
 // Euler in steps of 1/60 s. One line a mesh; regular ones, and one whose inner nodes are shaken.
 //
-//   ninja -C build/release implicit_growth && build/release/tests/implicit_growth [LARGEST=1000000] [POISSON=0.3]
+//   ninja -C build/release bench_implicit_growth
+//   build/release/tests/bench_implicit_growth [LARGEST=1000000] [POISSON=0.3]
 //
 // Beside each step a naive evaluation of the same forces is timed in turn (F = Ds Dm⁻¹, P = F S, scattered, double, one
 // thread, the nodes in the mesh's own order): times alone say little on a shared machine, their ratio does.
@@ -140,9 +141,10 @@ void measure(int cells, bool shaken, double poisson) {
   const SolverWork end = world->solver_work();
   if (world->halt()) std::printf("%s\n", world->halt()->message.c_str());
   const double each = 1.0 / timed_steps, least = *std::min_element(steps.begin(), steps.end());
-  std::printf("%8zu%s %8zu %-10s %9.0f %9.0f %9.1f %9.1f %7.1f %7.1f %8.0f %8.0f\n", setup.mesh.tets.size(),
-              shaken ? "*" : " ", setup.mesh.nodes.size(), end.preconditioner, made - before, first - made,
-              median(steps), least, each * static_cast<double>(end.iterations - start.iterations),
+  std::printf("%8zu%s %8zu %-10.*s %9.0f %9.0f %9.1f %9.1f %7.1f %7.1f %8.0f %8.0f\n", setup.mesh.tets.size(),
+              shaken ? "*" : " ", setup.mesh.nodes.size(), static_cast<int>(end.preconditioner.size()),
+              end.preconditioner.data(), made - before, first - made, median(steps), least,
+              each * static_cast<double>(end.iterations - start.iterations),
               each * static_cast<double>(end.linear.iterations - start.linear.iterations), megabytes_at_most(),
               least / *std::min_element(naive.begin(), naive.end()));
   std::fflush(stdout);
@@ -153,7 +155,7 @@ void measure(int cells, bool shaken, double poisson) {
 int main(int count, char** arguments) {
   const double largest = count > 1 ? std::atof(arguments[1]) : 1e6, poisson = count > 2 ? std::atof(arguments[2]) : 0.3;
   if (!(largest > 0) || !(poisson > -1 && poisson < 0.5)) {
-    std::fprintf(stderr, "usage: implicit_growth [LARGEST NUMBER OF TETRAHEDRA] [POISSON'S RATIO]\n");
+    std::fprintf(stderr, "usage: bench_implicit_growth [LARGEST NUMBER OF TETRAHEDRA] [POISSON'S RATIO]\n");
     return 2;
   }
   if (!naive_agrees(lame_from(young, poisson))) {

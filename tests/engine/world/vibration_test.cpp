@@ -48,7 +48,9 @@ std::vector<Mode> lowest_modes(const WorldSetup& setup, int wanted) {
   for (const int n : setup.boundary[0].nodes) take[static_cast<std::size_t>(n)] = false;
   const FreeNodes free(take);
   BlockMatrix stiffness(free, mesh.tets);
-  body.each_stiffness(mesh.nodes[0].data(), [&](const Tet& nodes, const ElementMatrix<double>& K) {
+  ThreadTeam team(1);
+  body.linearise(mesh.nodes[0].data(), team);
+  body.each_stiffness([&](const Tet& nodes, const ElementMatrix<double>& K) {
     stiffness.add_element(nodes, [&](int i, int j) { return K[i][j]; });
   });
   const auto masses = body.masses();
