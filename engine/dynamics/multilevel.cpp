@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t grain = 2048;    // rows below which waking a thread costs more than it brings
 constexpr double shrinks = 0.7;        // a level larger than this of the one above is not worth having
-constexpr double smoothed_from = 0.1;  // of the spectrum: eigenvalues from here to 1 are the smoother's, the rest the
+constexpr double smoothed_from = 0.2;  // of the spectrum: eigenvalues from here to 1 are the smoother's, the rest the
                                        // coarser levels'
 /// Steps x += w D⁻¹(b − Ax) that together are Chebyshev's polynomial on [smoothed_from, 1].
 const std::array<float, 2> weights = [] {
@@ -111,12 +111,6 @@ void Multilevel::apply(const Vector& r, Vector& z) {
   z.setZero(r.size());
   for (std::size_t k = 0; k < top.x.size(); ++k)
     z.segment<3>(place(k)) = scale * top.x[k].head<3>().cast<double>().matrix();
-}
-
-std::size_t Multilevel::entries() const {
-  std::size_t count = bottom_.entries();
-  for (const Level& level : levels_) count += static_cast<std::size_t>(level.A.nonZeros());
-  return count;
 }
 
 }  // namespace heml

@@ -33,8 +33,6 @@ class Multilevel {
   void apply(const Vector& r, Vector& z);
 
   std::size_t levels() const { return levels_.size(); }
-  /// Entries kept of all matrices and of the factor.
-  std::size_t entries() const;
 
  private:
   using Rows = Eigen::SparseMatrix<float, Eigen::RowMajor>;

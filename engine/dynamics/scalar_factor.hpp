@@ -12,8 +12,6 @@ class ScalarFactor {
   /// b = A⁻¹ b for each axis.
   void solve(Triples& b) const;
 
-  std::size_t entries() const { return value_.size() + inverse_diagonal_.size(); }
-
  private:
   std::vector<int> order_;        ///< unknown eliminated k-th
   std::vector<int> start_, row_;  ///< by columns, diagonal left out

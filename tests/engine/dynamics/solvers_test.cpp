@@ -84,6 +84,14 @@ TEST_CASE("every preconditioner gives the same solution, the exact factor in one
   }
 }
 
+TEST_CASE("the preconditioner goes by the size of the body: a full factor, one of the scalar matrix, levels of it") {
+  CHECK(choose_preconditioner(100, false) == Preconditioner::cholesky);
+  CHECK(choose_preconditioner(800, false) == Preconditioner::scalar);
+  CHECK(choose_preconditioner(6000, false) == Preconditioner::multilevel);
+  CHECK(choose_preconditioner(6000, true) == Preconditioner::cholesky);
+  CHECK(choose_preconditioner(60000, true) == Preconditioner::multilevel);
+}
+
 TEST_CASE("Newton finds the minimum of a quadratic in one iteration and converges quadratically at a well") {
   const Fixture f;
   LinearSolver solver = f.solver(Preconditioner::cholesky);
