@@ -4,6 +4,7 @@
 #include <heml/elastic/body.hpp>
 #include <heml/elastic/stiffness_product.hpp>
 #include <heml/materials/parameter_slots.hpp>
+#include <limits>
 #include <mutex>
 
 namespace heml {
@@ -58,7 +59,8 @@ void ElasticBody<Real>::make_parts() {
                       make_group<Real>(mesh_, elements, materials_[m]),
                       make_terms<Real>(materials_[m], options_.continuation, options_.nodal_pressure),
                       nullptr,
-                      {}});
+                      {},
+                      false});
     Part& part = parts_.back();
     part.group.density = static_cast<Real>(materials_[m].density);
     part.flow = make_flow<Real>(materials_[m], options_.continuation, part.group);
@@ -73,7 +75,34 @@ void ElasticBody<Real>::join_parts() {
   for (Part& part : parts_) groups.push_back(&part.group);
   corners_ = map_corners(groups, mesh_.nodes.size());
   corner_.assign(3 * corner_count(groups), Real(0));
+  make_fans();
   make_shared();
+}
+
+/// Elements whose law is all there is to them go to the fast kernels.
+template <class Real>
+void ElasticBody<Real>::make_fans() {
+  std::vector<FanPart> parts;
+  for (Part& part : parts_) {
+    const Material& material = materials_[part.material];
+    part.in_fans = part.terms.size() == 1 && material.fields.empty() && !part.flow && !options_.nodal_pressure;
+    if (part.in_fans) parts.push_back({&part.group.element, &material});
+  }
+  fans_ = {};
+  if (!parts.empty()) fans_ = FanForces<Real>(mesh_, parts, options_.continuation, options_.instruction_set);
+
+  force_corners_ = {{0}, {}};
+  const auto is_in_fans = [&](std::size_t corner) {
+    return std::any_of(parts_.begin(), parts_.end(), [&](const Part& part) {
+      const std::size_t first = part.group.first_corner;
+      return part.in_fans && corner >= first && corner < first + 4 * part.group.volume.size();
+    });
+  };
+  for (std::size_t n = 0; n < nodes(); ++n) {
+    for (std::size_t k = corners_.start[n]; k < corners_.start[n + 1]; ++k)
+      if (!is_in_fans(corners_.corners[k])) force_corners_.corners.push_back(corners_.corners[k]);
+    force_corners_.start.push_back(force_corners_.corners.size());
+  }
 }
 
 /// What belongs to no element alone.
@@ -106,15 +135,15 @@ void ElasticBody<Real>::make_shared() {
 }
 
 template <class Real>
-void ElasticBody<Real>::gather_corners(Real* f, ThreadTeam& team) const {
+void ElasticBody<Real>::gather_corners(const CornerMap& corners, Real* f, bool add, ThreadTeam& team) const {
   team.for_ranges(nodes(), grain_ / 4, [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n) {
       Real sum[3] = {0, 0, 0};
-      for (std::size_t k = corners_.start[n]; k < corners_.start[n + 1]; ++k) {
-        const Real* corner = &corner_[3 * corners_.corners[k]];
+      for (std::size_t k = corners.start[n]; k < corners.start[n + 1]; ++k) {
+        const Real* corner = &corner_[3 * corners.corners[k]];
         for (int i = 0; i < 3; ++i) sum[i] += corner[i];
       }
-      for (std::size_t i = 0; i < 3; ++i) f[3 * n + i] = sum[i];
+      for (std::size_t i = 0; i < 3; ++i) f[3 * n + i] = add ? f[3 * n + i] + sum[i] : sum[i];
     }
   });
 }
@@ -122,16 +151,30 @@ void ElasticBody<Real>::gather_corners(Real* f, ThreadTeam& team) const {
 template <class Real>
 bool ElasticBody<Real>::forces(const Real* x, Real* f, ThreadTeam& team) {
   std::atomic<bool> valid{true};
+  if (!fans_.empty()) valid = fans_.forces(x, f, team);
   for (const Part& part : parts_)
-    for (std::size_t k = 0; k < part.terms.size(); ++k)
+    for (std::size_t k = 0; !part.in_fans && k < part.terms.size(); ++k)
       team.for_ranges(part.group.packets(), grain_ / part.group.lanes, [&](std::size_t begin, std::size_t end) {
         if (!part.terms[k]->forces(part.group, x, begin, end, corner_.data(), k > 0))
           valid.store(false, std::memory_order_relaxed);
       });
   if (pressure_ && !pressure_->add_forces(x, corner_.data(), team)) valid = false;
-  gather_corners(f, team);
+  if (fans_.empty() || !force_corners_.corners.empty()) gather_corners(force_corners_, f, !fans_.empty(), team);
   if (!springs_.empty()) springs_.add_forces(x, f, team);
   return valid;
+}
+
+template <class Real>
+std::vector<KernelInfo> ElasticBody<Real>::kernels() const {
+  std::vector<KernelInfo> result;
+  // Of the loops: a packet's constants and nodes, corner forces written and gathered, positions and forces.
+  const double corners = 4 * sizeof(int) + 7 * sizeof(Real) + 4 * (6 * sizeof(Real) + sizeof(std::size_t)) +
+                         static_cast<double>(6 * sizeof(Real) * nodes()) / static_cast<double>(elements());
+  for (const Part& part : parts_)
+    result.push_back({materials_[part.material].law, part.in_fans ? "fans" : "corners",
+                      part.in_fans ? name_of(fans_.instruction_set()) : "", part.group.size(),
+                      part.in_fans ? fans_.bytes_per_tet() : corners * static_cast<double>(part.terms.size())});
+  return result;
 }
 
 template <class Real>
@@ -182,7 +225,7 @@ void ElasticBody<Real>::force_change(const Real* dx, Real* out, ThreadTeam& team
     });
   const Real* x = linearised_at_.data();
   if (pressure_) pressure_->add_force_change(x, dx, corner_.data(), team);
-  gather_corners(out, team);
+  gather_corners(corners_, out, false, team);
   if (!springs_.empty()) springs_.add_force_change(x, dx, out, projected_, team);
 }
 
@@ -265,13 +308,15 @@ Real ElasticBody<Real>::damping_bound(const Real* x, ThreadTeam& team) {
 
 template <class Real>
 int ElasticBody<Real>::first_invalid(const Real* x) const {
-  int first = -1;
+  int first = -1, flattest = 0;
+  Real least = std::numeric_limits<Real>::max();
   each_slot(x, [&](const Part& part, std::size_t s, const Link<Real>& link, const RestShape<Real>&) {
     for (const auto& term : part.terms)
       if (!term->valid(part.group, s, link) && (first < 0 || part.group.element[s] < first))
         first = part.group.element[s];
+    if (link.at.J < least) least = link.at.J, flattest = part.group.element[s];
   });
-  return first;
+  return first < 0 ? flattest : first;
 }
 
 template <class Real>

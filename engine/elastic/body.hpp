@@ -2,10 +2,12 @@
 // The elastic part of a body: its groups of elements, each with the terms of its material, and what is not of one
 // element alone (springs along edges, averaged nodal pressure); and the sum of their forces at the nodes.
 //
-//   forces(x):  terms of every group ──► corner forces ──► gathered at nodes ──► + springs
+//   forces(x):  elements of a uniform law and nothing else ──► fans ──► nodes ──► + springs
+//               terms of other groups ──► corner forces ──► added at nodes ─┘
 //               nodal pressure ──────────────┘
 #include <heml/base/thread_team.hpp>
 #include <heml/elastic/element_group.hpp>
+#include <heml/elastic/fan_forces.hpp>
 #include <heml/elastic/group_term.hpp>
 #include <heml/elastic/nodal_pressure.hpp>
 #include <heml/elastic/plastic_flow.hpp>
@@ -30,6 +32,16 @@ struct ElementState {
 struct BodyOptions {
   bool continuation = false;
   bool nodal_pressure = false;  ///< needs laws with a volume term, the same one in all materials
+  InstructionSet instruction_set = InstructionSet::best;  ///< of the fast kernels; must be one this processor has
+};
+
+/// What runs the forces of the elements of one material.
+struct KernelInfo {
+  std::string law;
+  std::string kernel;             ///< "fans", or "corners": the loops of the material's terms
+  std::string_view instructions;  ///< of fans: "portable", "avx2", "avx512"
+  std::size_t elements;
+  double bytes_per_tet;  ///< read and written in one evaluation, each array once
 };
 
 template <class Real>
@@ -44,6 +56,9 @@ class ElasticBody {
 
   /// Forces at positions x (3 #V) into f (3 #V, overwritten), N. Returns whether every law is defined there.
   bool forces(const Real* x, Real* f, ThreadTeam& team);
+
+  /// What forces() runs, a line a material that has elements. Nodal pressure and springs are not among it.
+  std::vector<KernelInfo> kernels() const;
 
   /// Finds the stiffness K = ∂²U/∂x² at x, once for all products with it.
   void linearise(const Real* x, ThreadTeam& team);
@@ -81,7 +96,8 @@ class ElasticBody {
   /// The same of the damping matrix, 1/s: viscosity.
   Real damping_bound(const Real* x, ThreadTeam& team);
 
-  /// First element (inner number) out of its law's range; −1: none.
+  /// First element (inner number) out of its law's range; where forces() saw one only by its own rounding, the
+  /// flattest.
   int first_invalid(const Real* x) const;
 
   /// #T in inner order.
@@ -117,14 +133,16 @@ class ElasticBody {
     std::vector<std::unique_ptr<GroupTerm<Real>>> terms;
     std::unique_ptr<PlasticFlow<Real>> flow;
     std::vector<Real> stiffness;  ///< of every element (edge_stiffness.hpp), once it was asked for
+    bool in_fans;                 ///< its forces are run by fans_, not by its terms
   };
   static constexpr std::size_t grain_ = 2048;  ///< elements below which waking a thread costs more than it brings
 
   std::vector<Real> at_rest() const;
   void make_parts();
   void join_parts();
+  void make_fans();
   void make_shared();
-  void gather_corners(Real* f, ThreadTeam& team) const;
+  void gather_corners(const CornerMap& corners, Real* f, bool add, ThreadTeam& team) const;
   double sum_energies(const Real* x, bool stored, ThreadTeam& team);
   void element_stiffness(std::size_t part, std::size_t s, ElementMatrix<Real>& K) const;
   template <class Bound>
@@ -145,7 +163,9 @@ class ElasticBody {
   std::vector<Material> materials_;
   BodyOptions options_;
   std::vector<Part> parts_;
-  CornerMap corners_;
+  FanForces<Real> fans_;
+  CornerMap corners_;        ///< of all parts
+  CornerMap force_corners_;  ///< of those that are not in fans
   Springs<Real> springs_;
   std::unique_ptr<NodalPressure<Real>> pressure_;
   std::vector<Real> corner_;           ///< 3 a corner, written and read within forces()

@@ -13,7 +13,7 @@ struct AsPrinted {
   static constexpr bool has_volume_term = true, uses_J = true, uses_I4 = false;
   static constexpr bool always_valid = true;
 
-  bool valid(const Invariants<Real>&) const { return true; }
+  Truth<Real> valid(const Invariants<Real>&) const { return true; }
   Real energy(const Invariants<Real>& at) const {
     return self().part(at.I1, at.I2).w + self().kappa / 2 * (at.J - 1) * (at.J - 1);
   }
@@ -73,7 +73,9 @@ struct PaperFungDemiray : AsPrinted<PaperFungDemiray<Real, continued>, Real, con
       {"kappa", "κ", "Pa", "penalty of a change of volume"},
   };
   static constexpr bool uses_I2 = false, always_valid = continued;
-  bool valid(const Invariants<Real>& at) const { return continued || gamma * (at.I1 - 3) < exponent_in_range<Real>; }
+  Truth<Real> valid(const Invariants<Real>& at) const {
+    return continued || gamma * (at.I1 - 3) < exponent_in_range<Real>;
+  }
   IsochoricPart<Real> part(Real I1, Real) const {
     const auto e = bounded_exp<continued>(gamma * (I1 - 3));
     return {mu / (2 * gamma) * e.less_one, mu / 2 * e.slope, 0, mu / 2 * gamma * e.curvature};

@@ -17,7 +17,7 @@ struct ExponentialValue {
 template <bool continued, class Real>
 [[gnu::always_inline]] inline ExponentialValue<Real> bounded_exp(Real Q) {
   constexpr Real Q0 = Real(9.210340371976184);
-  const Real c = continued ? (Q < Q0 ? Q : Q0) : Q;
+  const Real c = continued ? select(Q < Q0, Q, Q0) : Q;
   const Real less_one = natural_expm1(c), e = less_one + 1;
   if constexpr (!continued) return {less_one, e, e};
   const Real d = Q - c;
@@ -40,7 +40,7 @@ struct FungDemiray : IsochoricLaw<FungDemiray<Real, continued>, Real, continued>
   };
   static constexpr bool uses_I2 = false;
 
-  bool valid(const Invariants<Real>& at) const {
+  Truth<Real> valid(const Invariants<Real>& at) const {
     return Base::valid(at) && (continued || gamma * (volume_powers<continued>(at.J).p * at.I1 - 3) <
                                                 exponent_in_range<Real>);  // stress and stiffness must fit too
   }

@@ -24,24 +24,26 @@ struct GeneralLaw {
   static constexpr bool has_volume_term = true, uses_I2 = true, uses_J = true, uses_I4 = false;
   static constexpr bool always_valid = continued;
 
-  bool valid(const Invariants<Real>& at) const {
+  Truth<Real> valid(const Invariants<Real>& at) const {
     return continued || at.J > smallest_ratio<Real> || at.J < -smallest_ratio<Real>;
   }
   Real energy(const Invariants<Real>& at) const { return self().density(at); }
   Slopes<Real> slopes(const Invariants<Real>& at) const {
-    const auto w = differentiated(at);
+    const auto w = differentiated<1>(at);
     return {w.slope[0], w.slope[1], w.slope[2]};
   }
   Curvatures<Real> curvatures(const Invariants<Real>& at) const {
-    const auto w = differentiated(at);
+    const auto w = differentiated<2>(at);
     return {w.curvature(0, 0), w.curvature(0, 1), w.curvature(1, 1),
             w.curvature(0, 2), w.curvature(1, 2), w.curvature(2, 2)};
   }
 
  private:
   const Self& self() const { return static_cast<const Self&>(*this); }
-  Jet<Real, 3> differentiated(const Invariants<Real>& at) const {
-    return self().density(Invariants<Jet<Real, 3>>{variable<3>(at.I1, 0), variable<3>(at.I2, 1), variable<3>(at.J, 2)});
+  template <int order>
+  [[gnu::always_inline]] Jet<Real, 3, order> differentiated(const Invariants<Real>& at) const {
+    return self().density(Invariants<Jet<Real, 3, order>>{variable<3, order>(at.I1, 0), variable<3, order>(at.I2, 1),
+                                                          variable<3, order>(at.J, 2)});
   }
 };
 

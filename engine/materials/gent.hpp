@@ -20,14 +20,14 @@ struct Gent : GeneralLaw<Gent<Real, continued>, Real, continued> {
       {"kappa", "κ", "Pa", "bulk modulus: resistance to change of volume"},
   };
 
-  bool valid(const Invariants<Real>& at) const {
+  Truth<Real> valid(const Invariants<Real>& at) const {
     return Base::valid(at) && (continued || isochoric<continued>(at).I1 - 3 < Real(0.999999) * Jm);
   }
 
   template <class T>
   T density(const Invariants<T>& at) const {
     const T s = (isochoric<continued>(at).I1 - T(3)) / T(Jm), s0(0.95), dJ = at.J - T(1);
-    const T c = continued && s > s0 ? s0 : s, room = T(1) - c, d = (s - c) / room;
+    const T c = continued ? select(s > s0, s0, s) : s, room = T(1) - c, d = (s - c) / room;
     return T(mu * Jm / 2) * (d * (T(1) + d * T(0.5)) - natural_log(room)) + T(kappa / 2) * dJ * dJ;
   }
 };

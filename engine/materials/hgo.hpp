@@ -24,10 +24,10 @@ struct Hgo {
   static constexpr bool has_volume_term = true, uses_I2 = false, uses_J = true, uses_I4 = true;
   static constexpr bool always_valid = continued;
 
-  bool valid(const Invariants<Real>& at) const {
-    if (!matrix().valid(at)) return false;
+  Truth<Real> valid(const Invariants<Real>& at) const {
+    if constexpr (continued) return true;
     const Real stretch = volume_powers<continued>(at.J).p * at.I4 - 1;
-    return continued || !(stretch > 0 && k2 * stretch * stretch > exponent_in_range<Real>);
+    return matrix().valid(at) && !(stretch > 0 && k2 * stretch * stretch > exponent_in_range<Real>);
   }
 
   Real energy(const Invariants<Real>& at) const {
@@ -61,10 +61,10 @@ struct Hgo {
   };
   Fibre fibre(Real i4) const {
     // At Ī4 = 1 it does not, whatever a rounding of the invariant says.
-    const bool bears = i4 > 1 + 32 * std::numeric_limits<Real>::epsilon();
-    const Real s = bears ? i4 - 1 : Real(0);  // all of it is zero there, curvature apart
+    const Truth<Real> bears = i4 > 1 + 32 * std::numeric_limits<Real>::epsilon();
+    const Real s = select(bears, i4 - 1, Real(0));  // all of it is zero there, curvature apart
     const auto e = bounded_exp<continued>(k2 * s * s);
-    const Real on = bears ? k1 : Real(0);
+    const Real on = select(bears, k1, Real(0));
     return {k1 / (2 * k2) * e.less_one, k1 * s * e.slope, on * (e.slope + 2 * k2 * s * s * e.curvature)};
   }
 };

@@ -18,7 +18,7 @@ struct IsochoricLaw {
   static constexpr bool has_volume_term = true, uses_J = true, uses_I4 = false;
   static constexpr bool always_valid = continued;
 
-  bool valid(const Invariants<Real>& at) const {
+  Truth<Real> valid(const Invariants<Real>& at) const {
     return continued || at.J > smallest_ratio<Real> || at.J < -smallest_ratio<Real>;
   }
 

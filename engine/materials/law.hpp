@@ -10,6 +10,7 @@
 // I1, I2 and I4 are functions of squared edge lengths alone (paper, Appendix); J is the signed det F, since squared
 // lengths do not see a mirror image. How slopes become tensions of links is in elastic/tension.hpp.
 #include <concepts>
+#include <heml/math/scalar.hpp>
 #include <span>
 #include <string_view>
 
@@ -61,7 +62,7 @@ concept AnyLaw = requires {
 
 template <class L, class Real>
 concept InvariantLaw = AnyLaw<L> && requires(const L law, Invariants<Real> at) {
-  { law.valid(at) } -> std::same_as<bool>;
+  { law.valid(at) } -> std::same_as<Truth<Real>>;
   { law.energy(at) } -> std::same_as<Real>;
   { law.slopes(at) } -> std::same_as<Slopes<Real>>;
   { law.curvatures(at) } -> std::same_as<Curvatures<Real>>;

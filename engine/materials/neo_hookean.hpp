@@ -27,7 +27,7 @@ struct NeoHookean {
   static constexpr bool always_valid = continued;
   static constexpr Real J0 = Real(0.3);
 
-  bool valid(const Invariants<Real>& at) const { return continued || at.J > Real(1e-30); }
+  Truth<Real> valid(const Invariants<Real>& at) const { return continued || at.J > Real(1e-30); }
 
   Real energy(const Invariants<Real>& at) const {
     const auto [d, l, c] = point(at.J);
@@ -54,7 +54,7 @@ struct NeoHookean {
   };
   static Point point(Real J) {
     if constexpr (!continued) return {0, natural_log(J), J};
-    const Real c = J > J0 ? J : J0;
+    const Real c = select(J > J0, J, J0);
     return {J - c, natural_log(c), c};
   }
 };

@@ -11,6 +11,7 @@
 #include <heml/materials/principal.hpp>
 #include <memory>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 namespace heml {
@@ -21,12 +22,18 @@ struct OgdenTerm {
   Real low, high;  ///< of c̄, between which the power stands
 };
 
+/// Stands for the owner of the terms where a law borrows them.
+struct NoOwner {};
+
 template <class Real, bool continued>
 struct Ogden {
-  std::shared_ptr<const std::vector<OgdenTerm<Real>>> terms;
+  using Term = OgdenTerm<Lane<Real>>;
+  const Term* terms = nullptr;
+  std::size_t count = 0;
   Real steepness = 1;  ///< max |α/2 − 1| + 1
   Real kappa = 0;
   Real upright = 0;  ///< Pa, strength of the quartic below J0
+  std::conditional_t<std::is_same_v<Real, Lane<Real>>, std::shared_ptr<const std::vector<Term>>, NoOwner> owner = {};
 
   static constexpr std::string_view name = "ogden";
   static constexpr std::string_view title = "Ogden";
@@ -57,27 +64,37 @@ struct Ogden {
       if (continued && s < 0) law.upright += abs(mu / 2 * (2 - s) * power(low, s - 1));
       law.steepness = std::max(law.steepness, abs(s - 1) + 1);
     }
-    law.terms = std::move(list);
+    law.terms = list->data();
+    law.count = list->size();
+    law.owner = std::move(list);
     law.kappa = static_cast<Real>(values.back());
     return law;
   }
 
-  bool valid(const Invariants<Real>& at) const {
-    if (continued) return true;
-    if (!(at.J > smallest_ratio<Real> || at.J < -smallest_ratio<Real>)) return false;
+  /// The same law for many lanes; lives as long as this one.
+  template <class Pack>
+  Ogden<Pack, continued> broadcast() const {
+    return {terms, count, steepness, kappa, upright};
+  }
+
+  Truth<Real> valid(const Invariants<Real>& at) const {
+    if constexpr (continued) return true;
     // Powers of eigenvalues between I3/I1² and I1 must fit; seen from a bound, since valid() has no eigenvalues.
     const Real p = volume_powers<continued>(at.J).p, most = p * at.I1, least = Real(4) / (p * p * at.I1 * at.I1);
-    return steepness * natural_log(most) < exponent_in_range<Real> &&
+    const Truth<Real> has_volume = at.J > smallest_ratio<Real> || at.J < -smallest_ratio<Real>;
+    return has_volume && steepness * natural_log(most) < exponent_in_range<Real> &&
            -steepness * natural_log(least) < exponent_in_range<Real>;
   }
 
   Principal<Real> principal(Real c) const {
     Principal<Real> sum{0, 0, 0};
-    for (const OgdenTerm<Real>& term : *terms) {
-      const Real s = term.alpha / 2;
-      const Real at = continued ? std::clamp(c, term.low, term.high) : c;
+    for (const Term *end = terms + count, *each = terms; each != end; ++each) {
+      const Term& term = *each;
+      const Real s = term.alpha / 2, low = term.low, high = term.high;
+      const Real at = continued ? select(c < low, low, select(c > high, high, c)) : c;
       const Real less_one = natural_expm1(s * natural_log(at)), x = less_one + 1;
-      const Real h = term.mu / term.alpha * less_one, h1 = term.mu / 2 * x / at, h2 = h1 * (s - 1) / at, d = c - at;
+      const Real h = Real(term.mu / term.alpha) * less_one, h1 = Real(term.mu / 2) * x / at, h2 = h1 * (s - 1) / at,
+                 d = c - at;
       sum.h += h + d * (h1 + d / 2 * h2);
       sum.h1 += h1 + d * h2;
       sum.h2 += h2;
@@ -89,7 +106,7 @@ struct Ogden {
     VolumeValue<Real> v{kappa / 2 * (J - 1) * (J - 1), kappa * (J - 1), kappa};
     if constexpr (continued) {
       constexpr Real J0 = continuation_start<Real>;
-      const Real d = J < J0 ? J0 - J : Real(0), k = upright / (J0 * J0);
+      const Real d = select(J < J0, J0 - J, Real(0)), k = upright / (J0 * J0);
       v.w += k * d * d * d * d / 4, v.w1 -= k * d * d * d, v.w2 += 3 * k * d * d;
     }
     return v;

@@ -28,24 +28,24 @@ struct StVK {
   static constexpr bool always_valid = true;
   static constexpr Real J1 = Real(0.57735026918962576);
 
-  bool valid(const Invariants<Real>&) const { return true; }
+  Truth<Real> valid(const Invariants<Real>&) const { return true; }
 
   Real energy(const Invariants<Real>& at) const {
     const Real e = at.I1 - 3;
     const Real W = lambda / 8 * e * e + mu / 4 * (at.I1 * at.I1 - 2 * at.I2 - 2 * at.I1 + 3);
     if constexpr (!continued) return W;
     const Real depth = J1 - at.J;
-    return W + (depth > 0 ? (lambda + 2 * mu) / 2 * depth * depth : Real(0));
+    return W + select(depth > 0, (lambda + 2 * mu) / 2 * depth * depth, Real(0));
   }
 
   Slopes<Real> slopes(const Invariants<Real>& at) const {
     const Real depth = J1 - at.J;
     return {lambda / 4 * (at.I1 - 3) + mu / 2 * (at.I1 - 1), -mu / 2,
-            continued && depth > 0 ? -(lambda + 2 * mu) * depth : Real(0)};
+            continued ? select(depth > 0, -(lambda + 2 * mu) * depth, Real(0)) : Real(0)};
   }
 
   Curvatures<Real> curvatures(const Invariants<Real>& at) const {
-    return {lambda / 4 + mu / 2, 0, 0, 0, 0, continued && at.J < J1 ? lambda + 2 * mu : Real(0)};
+    return {lambda / 4 + mu / 2, 0, 0, 0, 0, continued ? select(at.J < J1, lambda + 2 * mu, Real(0)) : Real(0)};
   }
 };
 

@@ -20,7 +20,7 @@ struct VerondaWestmann : GeneralLaw<VerondaWestmann<Real, continued>, Real, cont
       {"kappa", "κ", "Pa", "bulk modulus: resistance to change of volume"},
   };
 
-  bool valid(const Invariants<Real>& at) const {
+  Truth<Real> valid(const Invariants<Real>& at) const {
     return Base::valid(at) && (continued || beta * (isochoric<continued>(at).I1 - 3) < exponent_in_range<Real>);
   }
 
@@ -28,7 +28,7 @@ struct VerondaWestmann : GeneralLaw<VerondaWestmann<Real, continued>, Real, cont
   T density(const Invariants<T>& at) const {
     const auto bar = isochoric<continued>(at);
     const T Q = T(beta) * (bar.I1 - T(3)), Q0(9.210340371976184), dJ = at.J - T(1);
-    const T c = continued && Q > Q0 ? Q0 : Q, d = Q - c;
+    const T c = continued ? select(Q > Q0, Q0, Q) : Q, d = Q - c;
     const T less_one = natural_expm1(c);
     return T(c1) * (less_one + (less_one + T(1)) * d * (T(1) + d * T(0.5))) - T(c1 * beta / 2) * (bar.I2 - T(3)) +
            T(kappa / 2) * dJ * dJ;

@@ -27,8 +27,8 @@ struct VolumePowers {
 
 template <bool continued, class Real>
 [[gnu::always_inline]] inline VolumePowers<Real> volume_powers(Real J) {
-  const Real magnitude = J < 0 ? -J : J;
-  const Real c = continued ? (J > continuation_start<Real> ? J : continuation_start<Real>) : J;
+  const Real magnitude = select(J < 0, -J, J);
+  const Real start = continuation_start<Real>, c = continued ? select(J > start, J, start) : J;
   const Real p = natural_exp(Real(-2.0 / 3) * natural_log(continued ? c : magnitude)), q = p * p;
   const Real i = 1 / c;
   // Derivatives at c; a power of |J| has them with the sign of J in 1/J.
@@ -43,8 +43,8 @@ template <bool continued, class Real>
 template <bool continued, class T>
 Invariants<T> isochoric(const Invariants<T>& at) {
   const T start(0.3);
-  const T magnitude = at.J < T(0) ? -at.J : at.J;
-  const T c = continued ? (at.J > start ? at.J : start) : magnitude;
+  const T magnitude = select(at.J < T(0), -at.J, at.J);
+  const T c = continued ? select(at.J > start, at.J, start) : magnitude;
   const T p = natural_exp(T(-2.0 / 3) * natural_log(c));
   if constexpr (!continued) return {p * at.I1, p * p * at.I2, at.J};
   const T d = (at.J - c) / c;  // zero, and without slope, unless continued
@@ -66,7 +66,7 @@ struct VolumeLaw {
   static constexpr bool has_volume_term = true, uses_I2 = false, uses_J = true, uses_I4 = false;
   static constexpr bool always_valid = continued;
 
-  bool valid(const Invariants<Real>& at) const { return continued || at.J > smallest_ratio<Real>; }
+  Truth<Real> valid(const Invariants<Real>& at) const { return continued || at.J > smallest_ratio<Real>; }
   Real energy(const Invariants<Real>& at) const { return value(at.J).w; }
   Slopes<Real> slopes(const Invariants<Real>& at) const { return {0, 0, value(at.J).w1}; }
   Curvatures<Real> curvatures(const Invariants<Real>& at) const { return {0, 0, 0, 0, 0, value(at.J).w2}; }
@@ -76,7 +76,7 @@ struct VolumeLaw {
     Real w, w1, w2;
   };
   Value value(Real J) const {
-    const Real c = continued ? (J > continuation_start<Real> ? J : continuation_start<Real>) : J;
+    const Real start = continuation_start<Real>, c = continued ? select(J > start, J, start) : J;
     const Real l = natural_log(c), i = 1 / c, d = J - c;
     const Real w = simo_taylor ? kappa / 4 * (c * c - 1 - 2 * l) : kappa / 2 * l * l;
     const Real w1 = simo_taylor ? kappa / 2 * (c - i) : kappa * l * i;

@@ -2,24 +2,27 @@
 // Elementary functions of our own: the C library picks other code on other processors (with or without FMA), whose last
 // bits differ, and a replay must not. No branches: loops over them vectorise. For float and double; a scalar type of
 // another kind (math/jet.hpp, a counting scalar) brings its own overloads.
-#include <bit>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 
 namespace heml {
 
-/// Natural logarithm of a normal positive number, within 2 ulp. x = m 2^k with m in [√½, √2): ln x = 2 artanh s + k ln
-/// 2, s = (m−1)/(m+1), |s| < 0.172.
-inline double natural_log(double x) {
+namespace detail {
+// The cores, for one number (Bits an unsigned integer) or for a vector of them (Bits a vector of unsigned integers);
+// the last argument says of what.
+
+template <class Bits, class V>
+[[gnu::always_inline]] inline V logarithm(V x, double) {
   // d = bits(x) − bits(√½): its upper 12 bits are k, the rest what m is above √½. Logical shifts and a conversion by
   // the exponent of 2⁵² (Hacker's Delight), since those vectorise everywhere.
   constexpr std::uint64_t offset = 0x3fe6a09e667f3bcdull, mantissa = 0x000fffffffffffffull;
-  const std::uint64_t d = std::bit_cast<std::uint64_t>(x) - offset;
-  const double m = std::bit_cast<double>((d & mantissa) + offset);
-  const double n = std::bit_cast<double>(((d + (1024ull << 52)) >> 52) | 0x4330000000000000ull) - (0x1p52 + 1024);
-  const double s = (m - 1) / (m + 1);
-  const double z = s * s;
-  const double tail =
+  const Bits d = __builtin_bit_cast(Bits, x) - offset;
+  const V m = __builtin_bit_cast(V, (d & mantissa) + offset);
+  const V n = __builtin_bit_cast(V, ((d + (1024ull << 52)) >> 52) | 0x4330000000000000ull) - (0x1p52 + 1024);
+  const V s = (m - 1) / (m + 1);
+  const V z = s * s;
+  const V tail =
       z * (1.0 / 3 +
            z * (1.0 / 5 +
                 z * (1.0 / 7 +
@@ -30,30 +33,31 @@ inline double natural_log(double x) {
   return n * 0x1.62e42fefap-1 + (n * 0x1.cf79abc9e3b3ap-40 + (2 * s + 2 * s * tail));
 }
 
-inline float natural_log(float x) {
+template <class Bits, class V>
+[[gnu::always_inline]] inline V logarithm(V x, float) {
   constexpr std::uint32_t offset = 0x3f3504f3u, mantissa = 0x007fffffu;
-  const std::uint32_t d = std::bit_cast<std::uint32_t>(x) - offset;
-  const float m = std::bit_cast<float>((d & mantissa) + offset);
-  const float n = std::bit_cast<float>(((d + (128u << 23)) >> 23) | 0x4b000000u) - (0x1p23f + 128);
-  const float s = (m - 1) / (m + 1);
-  const float z = s * s;
-  const float tail = z * (1.0f / 3 + z * (1.0f / 5 + z * (1.0f / 7 + z * (1.0f / 9 + z * (1.0f / 11)))));
+  const Bits d = __builtin_bit_cast(Bits, x) - offset;
+  const V m = __builtin_bit_cast(V, (d & mantissa) + offset);
+  const V n = __builtin_bit_cast(V, ((d + (128u << 23)) >> 23) | 0x4b000000u) - (0x1p23f + 128);
+  const V s = (m - 1) / (m + 1);
+  const V z = s * s;
+  const V tail = z * (1.0f / 3 + z * (1.0f / 5 + z * (1.0f / 7 + z * (1.0f / 9 + z * (1.0f / 11)))));
   return n * 0x1.62e4p-1f + (n * 0x1.7f7d1cp-20f + (2 * s + 2 * s * tail));
 }
 
-namespace detail {
 /// e^x = scale (1 + rest): scale a power of two, |rest| < 0.42. x within what `scale` can hold.
-template <class Real>
+template <class V>
 struct Exponential {
-  Real scale, rest;
+  V scale, rest;
 };
 
-inline Exponential<double> exponential(double x) {
+template <class Bits, class V>
+[[gnu::always_inline]] inline Exponential<V> exponential(V x, double) {
   // n = x / ln 2 to the nearest whole number, by adding what leaves no room for a fraction.
-  const double shifted = x * 0x1.71547652b82fep+0 + 0x1.8p52;
-  const double n = shifted - 0x1.8p52;
-  const double r = (x - n * 0x1.62e42fefap-1) - n * 0x1.cf79abc9e3b3ap-40;
-  const double rest =
+  const V shifted = x * 0x1.71547652b82fep+0 + 0x1.8p52;
+  const V n = shifted - 0x1.8p52;
+  const V r = (x - n * 0x1.62e42fefap-1) - n * 0x1.cf79abc9e3b3ap-40;
+  const V rest =
       r +
       r * r *
           (1.0 / 2 +
@@ -66,21 +70,27 @@ inline Exponential<double> exponential(double x) {
                                                                             r * (1.0 / 39916800 +
                                                                                  r * (1.0 / 479001600 +
                                                                                       r * (1.0 / 6227020800))))))))))));
-  const std::uint64_t power = (std::bit_cast<std::uint64_t>(shifted) + 1023) << 52;
-  return {std::bit_cast<double>(power), rest};
+  const Bits power = (__builtin_bit_cast(Bits, shifted) + 1023ull) << 52;
+  return {__builtin_bit_cast(V, power), rest};
 }
 
-inline Exponential<float> exponential(float x) {
-  const float shifted = x * 0x1.715476p+0f + 0x1.8p23f;
-  const float n = shifted - 0x1.8p23f;
-  const float r = (x - n * 0x1.62e4p-1f) - n * 0x1.7f7d1cp-20f;
-  const float rest =
+template <class Bits, class V>
+[[gnu::always_inline]] inline Exponential<V> exponential(V x, float) {
+  const V shifted = x * 0x1.715476p+0f + 0x1.8p23f;
+  const V n = shifted - 0x1.8p23f;
+  const V r = (x - n * 0x1.62e4p-1f) - n * 0x1.7f7d1cp-20f;
+  const V rest =
       r +
       r * r * (1.0f / 2 + r * (1.0f / 6 + r * (1.0f / 24 + r * (1.0f / 120 + r * (1.0f / 720 + r * (1.0f / 5040))))));
-  const std::uint32_t power = (std::bit_cast<std::uint32_t>(shifted) + 127) << 23;
-  return {std::bit_cast<float>(power), rest};
+  const Bits power = (__builtin_bit_cast(Bits, shifted) + 127u) << 23;
+  return {__builtin_bit_cast(V, power), rest};
 }
 }  // namespace detail
+
+/// Natural logarithm of a normal positive number, within 2 ulp. x = m 2^k with m in [√½, √2): ln x = 2 artanh s + k ln
+/// 2, s = (m−1)/(m+1), |s| < 0.172.
+inline double natural_log(double x) { return detail::logarithm<std::uint64_t>(x, x); }
+inline float natural_log(float x) { return detail::logarithm<std::uint32_t>(x, x); }
 
 /// Where e^x ends: beyond, it counts as infinite (or 0).
 template <class Real>
@@ -90,12 +100,15 @@ inline constexpr Real largest_exponent = std::numeric_limits<Real>::digits == 24
 template <class Real>
 inline constexpr Real exponent_in_range = largest_exponent<Real> * Real(0.9);
 
+template <class Real>
+using UnsignedOf = std::conditional_t<sizeof(Real) == 4, std::uint32_t, std::uint64_t>;
+
 /// e^x, within 2 ulp; infinite above largest_exponent, 0 below its negative.
 template <class Real>
 requires std::numeric_limits<Real>::is_iec559 inline Real natural_exp(Real x) {
   constexpr Real most = largest_exponent<Real>;
   const Real inside = x < most ? (x > -most ? x : -most) : most;
-  const auto [scale, rest] = detail::exponential(inside);
+  const auto [scale, rest] = detail::exponential<UnsignedOf<Real>>(inside, inside);
   const Real value = scale + scale * rest;
   return x > most ? std::numeric_limits<Real>::infinity() : (x < -most ? Real(0) : value);
 }
@@ -105,7 +118,7 @@ template <class Real>
 requires std::numeric_limits<Real>::is_iec559 inline Real natural_expm1(Real x) {
   constexpr Real most = largest_exponent<Real>;
   const Real inside = x < most ? (x > -most ? x : -most) : most;
-  const auto [scale, rest] = detail::exponential(inside);
+  const auto [scale, rest] = detail::exponential<UnsignedOf<Real>>(inside, inside);
   const Real value = scale * rest + (scale - 1);
   return x > most ? std::numeric_limits<Real>::infinity() : value;
 }

@@ -1,6 +1,6 @@
 #pragma once
-// Forward-mode differentiation: a number that carries its first and second derivatives by N variables. Whatever is
-// computed from jets with + − × ÷ and the functions below has exact derivatives, with no formula written twice.
+// Forward-mode differentiation: a number that carries its first and (order 2) second derivatives by N variables. What
+// is computed from jets with + − × ÷ and the functions below has exact derivatives, with no formula written twice.
 //
 //   Jet<double, 2> x = variable<2>(3.0, 0), y = variable<2>(4.0, 1);
 //   (x * x * y).slope[0] == 24;  (x * x * y).curvature(0, 1) == 6
@@ -8,14 +8,15 @@
 #include <cmath>
 #include <cstddef>
 #include <heml/math/elementary.hpp>
+#include <heml/math/scalar.hpp>
 
 namespace heml {
 
-template <class Real, std::size_t N>
+template <class Real, std::size_t N, int order = 2>
 struct Jet {
   Real value{};
   std::array<Real, N> slope{};
-  std::array<Real, N*(N + 1) / 2> second{};  ///< upper triangle, row after row
+  std::array<Real, order == 2 ? N*(N + 1) / 2 : 0> second{};  ///< upper triangle, row after row
 
   Jet() = default;
   Jet(Real constant) : value(constant) {}  // NOLINT: numbers are jets
@@ -29,57 +30,71 @@ struct Jet {
     Jet r;
     r.value = f;
     for (std::size_t i = 0; i < N; ++i) r.slope[i] = df * slope[i];
-    for (std::size_t i = 0; i < N; ++i)
-      for (std::size_t j = i; j < N; ++j) r.second[at(i, j)] = df * second[at(i, j)] + ddf * slope[i] * slope[j];
+    if constexpr (order == 2)
+      for (std::size_t i = 0; i < N; ++i)
+        for (std::size_t j = i; j < N; ++j) r.second[at(i, j)] = df * second[at(i, j)] + ddf * slope[i] * slope[j];
     return r;
   }
 
-  friend Jet operator+(Jet a, const Jet& b) {
+  [[gnu::always_inline]] friend inline Jet operator+(Jet a, const Jet& b) {
     a.value += b.value;
     for (std::size_t i = 0; i < N; ++i) a.slope[i] += b.slope[i];
     for (std::size_t i = 0; i < a.second.size(); ++i) a.second[i] += b.second[i];
     return a;
   }
-  friend Jet operator-(const Jet& a) { return a.through(-a.value, -1, 0); }
-  friend Jet operator-(const Jet& a, const Jet& b) { return a + -b; }
-  friend Jet operator*(const Jet& a, const Jet& b) {
+  [[gnu::always_inline]] friend inline Jet operator-(const Jet& a) { return a.through(-a.value, -1, 0); }
+  [[gnu::always_inline]] friend inline Jet operator-(const Jet& a, const Jet& b) { return a + -b; }
+  [[gnu::always_inline]] friend inline Jet operator*(const Jet& a, const Jet& b) {
     Jet r;
     r.value = a.value * b.value;
     for (std::size_t i = 0; i < N; ++i) r.slope[i] = a.slope[i] * b.value + a.value * b.slope[i];
-    for (std::size_t i = 0; i < N; ++i)
-      for (std::size_t j = i; j < N; ++j)
-        r.second[at(i, j)] = a.second[at(i, j)] * b.value + a.value * b.second[at(i, j)] + a.slope[i] * b.slope[j] +
-                             a.slope[j] * b.slope[i];
+    if constexpr (order == 2)
+      for (std::size_t i = 0; i < N; ++i)
+        for (std::size_t j = i; j < N; ++j)
+          r.second[at(i, j)] = a.second[at(i, j)] * b.value + a.value * b.second[at(i, j)] + a.slope[i] * b.slope[j] +
+                               a.slope[j] * b.slope[i];
     return r;
   }
-  friend Jet operator/(const Jet& a, const Jet& b) {
+  [[gnu::always_inline]] friend inline Jet operator/(const Jet& a, const Jet& b) {
     const Real inverse = 1 / b.value;
     return a * b.through(inverse, -inverse * inverse, 2 * inverse * inverse * inverse);
   }
-  friend bool operator<(const Jet& a, const Jet& b) { return a.value < b.value; }
-  friend bool operator>(const Jet& a, const Jet& b) { return a.value > b.value; }
+  friend Truth<Real> operator<(const Jet& a, const Jet& b) { return a.value < b.value; }
+  friend Truth<Real> operator>(const Jet& a, const Jet& b) { return a.value > b.value; }
 };
 
-template <class Real, std::size_t N>
-Jet<Real, N> natural_log(const Jet<Real, N>& x) {
+template <class Real, std::size_t N, int order>
+[[gnu::always_inline]] inline Jet<Real, N, order> natural_log(const Jet<Real, N, order>& x) {
   const Real inverse = 1 / x.value;
   return x.through(natural_log(x.value), inverse, -inverse * inverse);
 }
-template <class Real, std::size_t N>
-Jet<Real, N> natural_exp(const Jet<Real, N>& x) {
+template <class Real, std::size_t N, int order>
+[[gnu::always_inline]] inline Jet<Real, N, order> natural_exp(const Jet<Real, N, order>& x) {
   const Real e = natural_exp(x.value);
   return x.through(e, e, e);
 }
-template <class Real, std::size_t N>
-Jet<Real, N> natural_expm1(const Jet<Real, N>& x) {
+template <class Real, std::size_t N, int order>
+[[gnu::always_inline]] inline Jet<Real, N, order> natural_expm1(const Jet<Real, N, order>& x) {
   const Real e = natural_exp(x.value);
   return x.through(natural_expm1(x.value), e, e);
 }
 
+/// Lane by lane, of jets of packs.
+template <class Mask, class Real, std::size_t N, int order>
+requires(!std::is_same_v<Mask, bool>)
+    [[gnu::always_inline]] inline Jet<Real, N, order> select(Mask condition, const Jet<Real, N, order>& a,
+                                                             const Jet<Real, N, order>& b) {
+  Jet<Real, N, order> r;
+  r.value = select(condition, a.value, b.value);
+  for (std::size_t i = 0; i < N; ++i) r.slope[i] = select(condition, a.slope[i], b.slope[i]);
+  for (std::size_t i = 0; i < r.second.size(); ++i) r.second[i] = select(condition, a.second[i], b.second[i]);
+  return r;
+}
+
 /// The i-th of N variables.
-template <std::size_t N, class Real>
-Jet<Real, N> variable(Real value, std::size_t i) {
-  Jet<Real, N> x(value);
+template <std::size_t N, int order = 2, class Real>
+[[gnu::always_inline]] inline Jet<Real, N, order> variable(Real value, std::size_t i) {
+  Jet<Real, N, order> x(value);
   x.slope[i] = 1;
   return x;
 }

@@ -3,6 +3,7 @@
 // that loops over elements can be vectorised, and accurate for equal eigenvalues too.
 #include <array>
 #include <cmath>
+#include <heml/math/scalar.hpp>
 
 namespace heml {
 
@@ -24,8 +25,8 @@ template <class Real>
       const int p = pair[0], q = pair[1], r = 3 - p - q;
       const Real difference = a[q][q] - a[p][p], twice = 2 * a[p][q];
       const Real root = sqrt(difference * difference + twice * twice);
-      const Real below = difference + (difference < 0 ? -root : root);
-      const Real t = below == 0 ? Real(twice == 0 ? 0 : 1) : twice / below;
+      const Real below = difference + select(difference < 0, -root, root);
+      const Real t = select(below == 0, select(twice == 0, Real(0), Real(1)), twice / below);
       const Real c = 1 / sqrt(1 + t * t), s = t * c;
       const Real apq = a[p][q], arp = a[r][p], arq = a[r][q];
       a[p][p] -= t * apq;

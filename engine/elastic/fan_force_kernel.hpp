@@ -1,0 +1,186 @@
+#pragma once
+// The force kernel of every law and instruction set.
+//
+// Forces are those of elastic/tension.hpp with k = 1/6V, A* = 6V A: no division is left, and V is no constant of its
+// own. Each fan is gone through three times, so that one pass has little in registers and consecutive turns of it do
+// not wait for one another:
+//
+//   nodes ──► spokes b, b·b, a·b ──► tensions of each tetrahedron ──► pulls of each ring node ──► nodes
+//
+// Links that tetrahedra of a fan share have one tension there: f_i = −((t_ii + t'_ii) b_i + (t_ia + t'_ia) a + …).
+#include <heml/elastic/fan_parts.hpp>
+
+namespace heml::fan {
+
+template <class P, PrincipalLaw<P> L>
+[[gnu::always_inline]] inline FanTensions<P> fan_tensions(const L& law, const FanRest<P>& rest, const FanGram<P>& G,
+                                                          P J, Truth<P>& valid) {
+  const P la = rest.p, l00 = rest.q00, l10 = rest.q01, l11 = rest.q11;  // of the Cholesky factor
+  const P w00 = G.b00 * l00 + G.b01 * l10, w10 = G.b01 * l00 + G.b11 * l10, w01 = G.b01 * l11, w11 = G.b11 * l11;
+  P C[6] = {la * la * G.aa,    l00 * w00 + l10 * w10, l11 * w11, la * (G.a0 * l00 + G.a1 * l10),
+            la * (G.a1 * l11), l00 * w01 + l10 * w11};
+  for (P& entry : C) entry *= rest.k;
+  const auto stress = principal_stress(law, principal_state<L::is_continued>(law, C, J), J);
+  if constexpr (!L::always_valid) valid = valid && law.valid(Invariants<P>{C[0] + C[1] + C[2], P(0), J});
+  const P sixth = 1.0 / 6, la6 = la * sixth, l006 = l00 * sixth, l106 = l10 * sixth, l116 = l11 * sixth;
+  const P* S = stress.S;
+  const P r10 = l10 * S[1] + l11 * S[5], r11 = l10 * S[5] + l11 * S[2];
+  return {
+      la6 * la * S[0], l006 * l00 * S[1], l106 * r10 + l116 * r11, la6 * (l00 * S[3]), la6 * (l10 * S[3] + l11 * S[4]),
+      l006 * r10,      stress.wJ * sixth};
+}
+
+template <class P, InvariantLaw<P> L>
+[[gnu::always_inline]] inline FanTensions<P> fan_tensions(const L& law, const FanRest<P>& rest, const FanGram<P>& G,
+                                                          P J, Truth<P>& valid) {
+  const auto& [p, q00, q11, q01, k, m] = rest;
+  const P third = 1.0 / 3, y = p * G.aa;
+  Invariants<P> at{P(0), P(0), J, P(1)};
+  P w00, w01, w10, w11, v0, v1;  // of A*G
+  if constexpr (L::uses_I2) {
+    w00 = q00 * G.b00 + q01 * G.b01, w01 = q00 * G.b01 + q01 * G.b11;
+    w10 = q01 * G.b00 + q11 * G.b01, w11 = q01 * G.b01 + q11 * G.b11;
+    v0 = q00 * G.a0 + q01 * G.a1, v1 = q01 * G.a0 + q11 * G.a1;
+    at.I1 = k * (y + (w00 + w11));
+    const P square = y * y + P(2) * (p * (G.a0 * v0 + G.a1 * v1) + w01 * w10) + w00 * w00 + w11 * w11;
+    at.I2 = (at.I1 * at.I1 - k * k * square) * P(0.5);
+  } else {
+    at.I1 = k * (y + (q00 * G.b00 + q11 * G.b11) + P(2) * (q01 * G.b01));
+  }
+  P mm[6];
+  if constexpr (L::uses_I4) {
+    mm[0] = m[0] * m[0], mm[1] = m[1] * m[1], mm[2] = m[2] * m[2];
+    mm[3] = m[0] * m[1], mm[4] = m[0] * m[2], mm[5] = m[1] * m[2];
+    at.I4 = k * (mm[0] * G.aa + mm[1] * G.b00 + mm[2] * G.b11 + P(2) * (mm[3] * G.a0 + mm[4] * G.a1 + mm[5] * G.b01));
+  }
+  if constexpr (!L::always_valid) valid = valid && law.valid(at);
+
+  const Slopes<P> s = law.slopes(at);
+  FanTensions<P> t;
+  if constexpr (L::uses_I2) {
+    const P c = -(s.w2 * third) * k, pull = (s.w1 + s.w2 * at.I1) * third, cp = c * p;
+    const P z00 = c * w00 + pull, z01 = c * w01, z10 = c * w10, z11 = c * w11 + pull;
+    t = {(c * y + pull) * p,
+         z00 * q00 + z01 * q01,
+         z10 * q01 + z11 * q11,
+         cp * v0,
+         cp * v1,
+         z00 * q01 + z01 * q11,
+         P(0)};
+  } else {
+    const P pull = s.w1 * third;
+    t = {pull * p, pull * q00, pull * q11, P(0), P(0), pull * q01, P(0)};
+  }
+  if constexpr (L::uses_I4) {
+    const P w4 = s.w4 * third;
+    t.aa += w4 * mm[0], t.b00 += w4 * mm[1], t.b11 += w4 * mm[2];
+    t.a0 += w4 * mm[3], t.a1 += w4 * mm[4], t.b01 += w4 * mm[5];
+  }
+  t.u = s.wJ * P(1.0 / 6);
+  return t;
+}
+
+template <class Real, class Isa, class L>
+struct ForceKernel {
+  using P = typename Isa::template pack<Real>;
+  static constexpr std::size_t constants = fan_constants(L::uses_I4);
+
+  struct Work {
+    Spoke<P> spoke[longest_fan + 3];           ///< [1 .. m+1]
+    FanTensions<P> tensions[longest_fan + 2];  ///< [1 .. m]; those before and after are zero
+  };
+
+  /// The forces of one group of fans of length m.
+  [[gnu::always_inline]] static inline void group(const L& law, std::size_t m, const std::uint16_t* index,
+                                                  const Real* shape, Real* records, Work& work, Truth<P>& valid) {
+    constexpr std::size_t lanes = P::lanes;
+    P p[3], a[3];
+    read_axis<Isa>(records, index, p, a);
+    const P aa = dot(a, a);
+    const Real* foot = shape;
+    for (std::size_t i = 0; i <= m; ++i) {
+      Spoke<P>& spoke = work.spoke[i + 1];
+      read_spoke<Isa>(records, index + (i + 2) * lanes, pack_at<P>(foot + i * lanes), p, a, spoke.b);
+      spoke.bb = dot(spoke.b, spoke.b);
+      spoke.ab = dot(spoke.b, a);
+      if constexpr (L::uses_J) cross(spoke.b, a, spoke.c);
+    }
+
+    P t_aa = 0;
+    shape += (m + 1) * lanes;
+    for (std::size_t i = 1; i <= m; ++i, shape += constants * lanes) {
+      const Spoke<P>&from = work.spoke[i], &to = work.spoke[i + 1];
+      const FanRest<P> rest = read_rest<P, constants>(shape);
+      const FanGram<P> G{aa, from.bb, to.bb, from.ab, to.ab, dot(from.b, to.b)};
+      const P J = L::uses_J ? rest.k * dot(from.b, to.c) : P(1);
+      work.tensions[i] = fan_tensions<P>(law, rest, G, J, valid);
+      t_aa += work.tensions[i].aa;
+    }
+    work.tensions[m + 1] = {};
+
+    P at_p[3] = {0, 0, 0}, at_q[3] = {0, 0, 0};
+    const std::uint16_t* ring = index + 2 * lanes;
+    for (std::size_t i = 1; i <= m + 1; ++i, ring += lanes, foot += lanes) {
+      const Spoke<P>&before = work.spoke[i - 1], &spoke = work.spoke[i], &after = work.spoke[i + 1];
+      const FanTensions<P>&s = work.tensions[i - 1], &t = work.tensions[i];
+      const P t_bb = s.b11 + t.b00, t_ab = s.a1 + t.a0;
+      P f[3];
+      for (int j = 0; j < 3; ++j) {
+        f[j] = t_bb * spoke.b[j] + (s.b01 * before.b[j] + t.b01 * after.b[j]);
+        if constexpr (has_coupling<L, P>) {
+          f[j] += t_ab * a[j];
+          at_q[j] += t_ab * spoke.b[j];
+        }
+        if constexpr (L::uses_J) {
+          const int k = (j + 1) % 3, l = (j + 2) % 3;
+          f[j] += t.u * after.c[j] - s.u * before.c[j];
+          at_q[j] += t.u * (spoke.b[k] * after.b[l] - spoke.b[l] * after.b[k]);
+        }
+        at_p[j] += f[j];
+        at_q[j] -= pack_at<P>(foot) * f[j];
+      }
+      Isa::subtract(records + 4, ring, f);
+    }
+    for (int i = 0; i < 3; ++i) {
+      at_q[i] += t_aa * a[i];
+      at_p[i] = -(at_p[i] + at_q[i]);
+    }
+    Isa::subtract(records + 4, index + lanes, at_q);
+    Isa::subtract(records + 4, index, at_p);
+  }
+
+  static bool block(const L& law, const FanBlock<Real>& block, const Real* x, Real* f) {
+    alignas(64) Real records[8 * most_block_nodes];
+    read_records(block, x, records);
+    const std::uint16_t* index = block.index;
+    const Real* shape = block.shape;
+    Truth<P> valid = true;
+    Work work;
+    for (Spoke<P>& spoke : work.spoke) spoke = {};
+    work.tensions[0] = {};
+    for (std::size_t g = 0; g < block.groups; ++g) {
+      const std::size_t m = block.length[g];
+      group(law, m, index, shape, records, work, valid);
+      index += (m + 3) * P::lanes;
+      shape += (m + 1 + m * constants) * P::lanes;
+    }
+
+    write_forces(block, records + 4, f);
+    return valid.all();
+  }
+};
+
+/// Of the law with that index in LawList, continued or not.
+template <class Real, class Isa>
+FanKernel<Real> force_kernel(std::size_t law, bool continued) {
+  using P = typename Isa::template pack<Real>;
+  return for_law<FanKernel<Real>>(law, continued, [](auto tag, auto with) -> FanKernel<Real> {
+    using One = typename decltype(tag)::template Law<Real, decltype(with)::value>;
+    using Many = typename decltype(tag)::template Law<P, decltype(with)::value>;
+    return [](const void* scalar, const FanBlock<Real>& block, const Real* x, Real* f) {
+      return ForceKernel<Real, Isa, Many>::block(broadcast<Many, P>(*static_cast<const One*>(scalar)), block, x, f);
+    };
+  });
+}
+
+}  // namespace heml::fan

@@ -1,0 +1,82 @@
+#include <atomic>
+#include <heml/elastic/fan_forces.hpp>
+#include <heml/materials/laws.hpp>
+
+namespace heml {
+namespace {
+
+std::size_t index_in_list(std::string_view law) {
+  return [&]<std::size_t... k>(std::index_sequence<k...>) {
+    std::size_t found = 0;
+    ((std::tuple_element_t<k, LawList>::template Law<double, false>::name == law ? void(found = k) : void()), ...);
+    return found;
+  }
+  (std::make_index_sequence<std::tuple_size_v<LawList>>{});
+}
+
+FanElements elements_of(const TetMesh& mesh, const FanPart& part, FanShape shape) {
+  FanElements result{*part.elements, shape, {}};
+  if (shape != FanShape::fibre) return result;
+  const std::string& field = part.material->fibre_field;
+  const std::vector<double>* values = field.empty() ? nullptr : &find_field(mesh, field)->values;
+  for (const int t : result.elements)
+    result.fibre.push_back(values ? Eigen::Map<const Vec3>(&(*values)[3 * static_cast<std::size_t>(t)]).normalized()
+                                  : part.material->fibre);
+  return result;
+}
+
+}  // namespace
+
+template <class Real>
+FanForces<Real>::FanForces(const TetMesh& mesh, const std::vector<FanPart>& parts, bool continuation,
+                           InstructionSet isa)
+    : isa_(chosen(isa)) {
+  std::vector<FanElements> elements;
+  for (const FanPart& part : parts)
+    with_law<Real>(*part.material, continuation, [&]<class L>(const L& law) {
+      elements.push_back(elements_of(mesh, part,
+                                     PrincipalLaw<L, Real> ? FanShape::principal
+                                     : L::uses_I4          ? FanShape::fibre
+                                                           : FanShape::plain));
+      laws_.push_back({fan_kernel<Real>(isa_, index_in_list(L::name), continuation), std::make_shared<const L>(law)});
+    });
+  layout_ = FanLayout<Real>(mesh, elements, lanes_of<Real>(isa_));
+  shared_force_.resize(3 * layout_.shared_slots);
+}
+
+template <class Real>
+bool FanForces<Real>::forces(const Real* x, Real* f, ThreadTeam& team) {
+  const FanLayout<Real>& fans = layout_;
+  std::atomic<bool> valid{true};
+  const std::size_t blocks_a_thread = 1 + grain_ * fans.blocks.size() / (fans.elements + 1);
+  team.for_ranges(fans.blocks.size(), blocks_a_thread, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) {
+      const auto& at = fans.blocks[b];
+      const Law& law = laws_[at.part];
+      const FanBlock<Real> block{&fans.length[at.group],
+                                 at.groups,
+                                 &fans.index[at.index],
+                                 &fans.shape[at.shape],
+                                 &fans.node[at.node],
+                                 at.own,
+                                 at.nodes,
+                                 shared_force_.data() + 3 * at.shared_slot};
+      if (!law.kernel(law.law.get(), block, x, f)) valid.store(false, std::memory_order_relaxed);
+    }
+  });
+  team.for_ranges(fans.shared_node.size(), grain_ / 2, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      Real sum[3] = {0, 0, 0};
+      for (std::size_t s = fans.shared_start[k]; s < fans.shared_start[k + 1]; ++s)
+        for (std::size_t i = 0; i < 3; ++i) sum[i] += shared_force_[3 * fans.shared_slot[s] + i];
+      Real* to = f + 3 * fans.shared_node[k];
+      for (std::size_t i = 0; i < 3; ++i) to[i] = sum[i];
+    }
+  });
+  return valid;
+}
+
+template class FanForces<float>;
+template class FanForces<double>;
+
+}  // namespace heml

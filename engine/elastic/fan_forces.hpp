@@ -1,0 +1,50 @@
+#pragma once
+// The forces of elements that have a uniform law and nothing else: blocks of fans (elastic/fan_block.hpp), each run by
+// the kernel of its law.
+//
+//   blocks ──► forces of their own nodes ──► f
+//         └──► those of shared nodes ──► summed in the order of blocks ──► f
+#include <heml/base/thread_team.hpp>
+#include <heml/elastic/fan_kernels.hpp>
+#include <heml/elastic/fan_layout.hpp>
+#include <heml/materials/material.hpp>
+#include <memory>
+
+namespace heml {
+
+/// Elements (inner numbers, in locality order) of one material without fields, memory or another volume term.
+struct FanPart {
+  const std::vector<int>* elements;
+  const Material* material;
+};
+
+template <class Real>
+class FanForces {
+ public:
+  FanForces() = default;
+  /// mesh: in inner order. No parts: no element has forces.
+  FanForces(const TetMesh& mesh, const std::vector<FanPart>& parts, bool continuation, InstructionSet isa);
+
+  bool empty() const { return layout_.blocks.empty(); }
+
+  /// Forces at positions x (3 #V) into f (3 #V, overwritten; zero at nodes of no such element), N. Returns whether
+  /// every law is defined there.
+  bool forces(const Real* x, Real* f, ThreadTeam& team);
+
+  InstructionSet instruction_set() const { return isa_; }
+  double bytes_per_tet() const { return layout_.bytes_per_tet(); }
+
+ private:
+  static constexpr std::size_t grain_ = 4096;  ///< elements below which waking a thread costs more than it brings
+
+  struct Law {
+    FanKernel<Real> kernel;
+    std::shared_ptr<const void> law;
+  };
+  InstructionSet isa_ = InstructionSet::portable;
+  FanLayout<Real> layout_;
+  std::vector<Law> laws_;           ///< of each part
+  std::vector<Real> shared_force_;  ///< 3 a shared slot, written and read within forces()
+};
+
+}  // namespace heml

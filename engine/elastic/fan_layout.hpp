@@ -1,0 +1,63 @@
+#pragma once
+// Elements cut into blocks of fans (elastic/fan_block.hpp), and which nodes blocks share. Depends on the mesh and the
+// number of lanes alone, so that threads may take any blocks and sums come out the same.
+#include <heml/elastic/fan_block.hpp>
+#include <heml/mesh/tet_mesh.hpp>
+#include <new>
+#include <vector>
+
+namespace heml {
+
+/// Puts data where a cache line begins.
+template <class T>
+struct CacheAligned {
+  using value_type = T;
+  CacheAligned() = default;
+  template <class U>
+  CacheAligned(const CacheAligned<U>&) {}  // NOLINT: as allocators do
+  T* allocate(std::size_t n) { return static_cast<T*>(::operator new (n * sizeof(T), std::align_val_t{64})); }
+  void deallocate(T* p, std::size_t) { ::operator delete (p, std::align_val_t{64}); }
+  bool operator==(const CacheAligned&) const { return true; }
+};
+
+/// What the constants of a law's elements are.
+enum class FanShape { plain, fibre, principal };
+
+/// The elements of one law.
+struct FanElements {
+  std::vector<int> elements;  ///< inner numbers, in locality order
+  FanShape shape = FanShape::plain;
+  std::vector<Vec3> fibre = {};  ///< a0 of each element, FanShape::fibre only
+};
+
+template <class Real>
+struct FanLayout {
+  /// Where a block's data begin in the lists below.
+  struct Block {
+    std::size_t part;  ///< index into the list of FanElements
+    std::size_t group, index, shape, node, shared_slot;
+    std::size_t groups, own, nodes;
+  };
+  std::vector<Block> blocks;  ///< part after part
+  std::vector<std::uint8_t> length;
+  std::vector<std::uint16_t> index;
+  std::vector<Real, CacheAligned<Real>> shape;
+  std::vector<int> node;
+
+  // Nodes that are no block's own: those of several blocks, and those of none.
+  std::vector<int> shared_node;           ///< inner numbers, ascending
+  std::vector<std::size_t> shared_start;  ///< one more than those
+  std::vector<std::size_t> shared_slot;   ///< of the k-th: shared_start[k] .. shared_start[k+1], ascending by block
+  std::size_t shared_slots = 0;
+
+  std::size_t elements = 0;
+
+  FanLayout() = default;
+  /// mesh: in inner order, positive volumes. lanes: of the kernel that will run.
+  FanLayout(const TetMesh& mesh, const std::vector<FanElements>& parts, std::size_t lanes);
+
+  /// What one evaluation of the forces reads and writes, each array once, positions and forces included.
+  double bytes_per_tet() const;
+};
+
+}  // namespace heml

@@ -1,0 +1,161 @@
+#pragma once
+// What the kernels of fans share: reading a block and its fans, a law as packs, and the choice of a law.
+//
+// Isa says how wide a pack is and how it reads and writes records:
+//
+//   Isa::pack<Real>                        a Pack
+//   Isa::read(records, index, x)           x[3] of the nodes a pack's lanes point at
+//   Isa::subtract(records, index, f)       f[3] from those records, one lane after the other
+#include <heml/elastic/fan_block.hpp>
+#include <heml/materials/law_list.hpp>
+#include <heml/math/pack.hpp>
+
+namespace heml::fan {
+
+template <class P>
+[[gnu::always_inline]] inline P dot(const P a[3], const P b[3]) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+template <class P>
+[[gnu::always_inline]] inline P pack_at(const Lane<P>* from) {
+  typename P::Vector v;
+  __builtin_memcpy(&v, from, sizeof v);
+  return P(v);
+}
+
+template <class P>
+[[gnu::always_inline]] inline void cross(const P a[3], const P b[3], P out[3]) {
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    out[i] = a[j] * b[k] - a[k] * b[j];
+  }
+}
+
+/// A ring node as the tetrahedra on both its sides see it.
+template <class P>
+struct Spoke {
+  P b[3];    ///< from the axis, m
+  P bb, ab;  ///< b·b, a·b
+  P c[3];    ///< b × a, m²
+};
+
+/// The constants of one tetrahedron's rest shape (elastic/fan_block.hpp).
+template <class P>
+struct FanRest {
+  P p, q00, q11, q01, k, m[3];
+};
+
+/// Products of the edges a, b0, b1 of a tetrahedron.
+template <class P>
+struct FanGram {
+  P aa, b00, b11, a0, a1, b01;
+};
+
+/// Tensions of one tetrahedron, N/m, and u = wJ/6, of pull u ∂(6V J)/∂x.
+template <class P>
+struct FanTensions {
+  P aa, b00, b11, a0, a1, b01, u;
+};
+
+/// Whether a law couples the axis to the ring at all: the rest shape does not.
+template <class L, class P>
+inline constexpr bool has_coupling = L::uses_I2 || L::uses_I4 || PrincipalLaw<L, P>;
+
+/// p and a = q − p.
+template <class Isa, class Real, class P>
+[[gnu::always_inline]] inline void read_axis(const Real* records, const std::uint16_t* index, P p[3], P a[3]) {
+  Isa::read(records, index, p);
+  Isa::read(records, index + P::lanes, a);
+  for (int i = 0; i < 3; ++i) a[i] -= p[i];
+}
+
+/// b = r − p − φ a.
+template <class Isa, class Real, class P>
+[[gnu::always_inline]] inline void read_spoke(const Real* records, const std::uint16_t* index, P foot, const P p[3],
+                                              const P a[3], P b[3]) {
+  Isa::read(records, index, b);
+  for (int i = 0; i < 3; ++i) b[i] = b[i] - p[i] - foot * a[i];
+}
+
+template <class P, std::size_t constants>
+[[gnu::always_inline]] inline FanRest<P> read_rest(const Lane<P>* shape) {
+  FanRest<P> rest;
+  P* constant[] = {&rest.p, &rest.q00, &rest.q11, &rest.q01, &rest.k, rest.m, rest.m + 1, rest.m + 2};
+  for (std::size_t i = 0; i < constants; ++i) *constant[i] = pack_at<P>(shape + i * P::lanes);
+  return rest;
+}
+
+/// Copies nodes into records, four numbers at once, the last of them the next node's; but of the last node, which may
+/// have none after it.
+template <class Real>
+[[gnu::always_inline]] inline void read_nodes(const int* node, std::size_t count, const Real* x, Real* record) {
+  typedef Real Four [[gnu::vector_size(4 * sizeof(Real))]];
+  const auto put = [&](Four position) {
+    const Four zero = {};
+    __builtin_memcpy(record, &position, sizeof position);
+    __builtin_memcpy(record + 4, &zero, sizeof zero);
+    record += 8;
+  };
+  for (std::size_t n = 0; n + 1 < count; ++n) {
+    Four position;
+    __builtin_memcpy(&position, x + 3 * node[n], sizeof position);
+    put(position);
+  }
+  if (count == 0) return;
+  const Real* last = x + 3 * node[count - 1];
+  put(Four{last[0], last[1], last[2], 0});
+}
+
+/// The records of a block's nodes, and of the corner where lanes without a fan are.
+template <class Real>
+[[gnu::always_inline]] inline void read_records(const FanBlock<Real>& block, const Real* x, Real* records) {
+  read_nodes(block.node, block.own, x, records);
+  read_nodes(block.node + block.own, block.nodes - block.own, x, records + 8 * block.own);
+  Real* record = records + 8 * block.nodes;
+  for (int corner = 0; corner < 4; ++corner, record += 8)
+    for (int i = 0; i < 8; ++i) record[i] = corner == i + 1 ? Real(1) : Real(0);
+}
+
+/// Three numbers of each record to where they belong.
+template <class Real>
+[[gnu::always_inline]] inline void write_forces(const FanBlock<Real>& block, const Real* record, Real* f) {
+  for (std::size_t n = 0; n < block.own; ++n, record += 8) {
+    Real* to = f + 3 * block.node[n];
+    to[0] = record[0], to[1] = record[1], to[2] = record[2];
+  }
+  Real* to = block.shared_force;
+  for (std::size_t n = block.own; n < block.nodes; ++n, record += 8, to += 3)
+    to[0] = record[0], to[1] = record[1], to[2] = record[2];
+}
+
+/// A law's struct of packs from that of numbers.
+template <class PackLaw, class P, class L>
+[[gnu::always_inline]] inline PackLaw broadcast(const L& law) {
+  if constexpr (requires { law.template broadcast<P>(); }) {
+    return law.template broadcast<P>();
+  } else {
+    static_assert(sizeof(PackLaw) / sizeof(P) == sizeof(L) / sizeof(Lane<P>));
+    PackLaw packs;
+    P* to = reinterpret_cast<P*>(&packs);
+    const Lane<P>* from = reinterpret_cast<const Lane<P>*>(&law);
+    for (std::size_t i = 0; i < sizeof(L) / sizeof(Lane<P>); ++i) to[i] = from[i];
+    return packs;
+  }
+}
+
+/// What make(tag, continued) gives for one law of LawList, both known when compiled.
+template <class Kernel, class Make>
+Kernel for_law(std::size_t law, bool continued, const Make& make) {
+  return [&]<std::size_t... each>(std::index_sequence<each...>) {
+    Kernel found = nullptr;
+    ((each == law ? void(found = continued ? make(std::tuple_element_t<each, LawList>{}, std::true_type{})
+                                           : make(std::tuple_element_t<each, LawList>{}, std::false_type{}))
+                  : void()),
+     ...);
+    return found;
+  }
+  (std::make_index_sequence<std::tuple_size_v<LawList>>{});
+}
+
+}  // namespace heml::fan

@@ -1,0 +1,30 @@
+#pragma once
+// Packs of 16 bytes, which every processor has, and no intrinsics.
+#include <heml/elastic/fan_force_kernel.hpp>
+#include <heml/elastic/fan_kernels.hpp>
+
+namespace heml {
+namespace {  // no other file may share what is compiled from this
+
+struct Portable {
+  template <class Real>
+  using pack = Pack<Real, 16 / sizeof(Real), Portable>;
+
+  template <class Real>
+  [[gnu::always_inline]] static inline void read(const Real* records, const std::uint16_t* index, pack<Real> x[3]) {
+    constexpr int lanes = pack<Real>::lanes;
+    Real column[3][lanes];
+    for (int l = 0; l < lanes; ++l)
+      for (int i = 0; i < 3; ++i) column[i][l] = records[index[l] + i];
+    for (int i = 0; i < 3; ++i) x[i] = fan::pack_at<pack<Real>>(column[i]);
+  }
+
+  template <class Real>
+  [[gnu::always_inline]] static inline void subtract(Real* records, const std::uint16_t* index, const pack<Real> f[3]) {
+    for (int l = 0; l < pack<Real>::lanes; ++l)
+      for (int i = 0; i < 3; ++i) records[index[l] + i] -= f[i].v[l];
+  }
+};
+
+}  // namespace
+}  // namespace heml

@@ -1,0 +1,116 @@
+#pragma once
+// Numbers side by side in one register, as a scalar type: a law, or any code generic in its scalar, run on a pack runs
+// on all its lanes at once. Built on the compiler's vector types; what is generic stays free of intrinsics.
+//
+// Family: a type of the file that uses packs, so that files compiled for different instruction sets share no code.
+#include <cmath>
+#include <concepts>
+#include <cstdint>
+#include <heml/math/elementary.hpp>
+#include <heml/math/scalar.hpp>
+#include <limits>
+
+namespace heml {
+
+template <class Real>
+struct BitsOf;
+template <>
+struct BitsOf<float> {
+  using Unsigned = std::uint32_t;
+  using Signed = std::int32_t;
+};
+template <>
+struct BitsOf<double> {
+  using Unsigned = std::uint64_t;
+  using Signed = std::int64_t;
+};
+
+/// Of a comparison: all bits of a lane set, or none.
+template <class Real, int lanes, class Family>
+struct Mask {
+  using Signed = typename BitsOf<Real>::Signed;
+  typedef Signed Vector [[gnu::vector_size(lanes * sizeof(Real))]];
+  Vector bits;
+
+  Mask() = default;
+  [[gnu::always_inline]] Mask(bool all) : bits(Vector{} - Signed{all}) {}  // NOLINT: a truth is one of all lanes
+  [[gnu::always_inline]] explicit Mask(Vector b) : bits(b) {}
+
+  [[gnu::always_inline]] friend Mask operator&&(Mask a, Mask b) { return Mask(a.bits & b.bits); }
+  [[gnu::always_inline]] friend Mask operator||(Mask a, Mask b) { return Mask(a.bits | b.bits); }
+  [[gnu::always_inline]] friend Mask operator!(Mask a) { return Mask(~a.bits); }
+  [[gnu::always_inline]] bool all() const {
+    Signed every = -1;
+    for (int l = 0; l < lanes; ++l) every &= bits[l];
+    return every != 0;
+  }
+};
+
+template <class Real, int n, class Family>
+struct Pack {
+  static constexpr int lanes = n;
+  typedef Real Vector [[gnu::vector_size(n * sizeof(Real))]];
+  typedef typename BitsOf<Real>::Unsigned Bits [[gnu::vector_size(n * sizeof(Real))]];
+  using Truth = Mask<Real, n, Family>;
+  Vector v;
+
+  Pack() = default;
+  template <class Number>
+  requires std::integral<Number> || std::floating_point<Number>
+  [[gnu::always_inline]] constexpr Pack(Number all) : v(static_cast<Real>(all) - Vector{}) {}  // NOLINT: as jets
+  [[gnu::always_inline]] constexpr explicit Pack(Vector vector) : v(vector) {}
+
+  [[gnu::always_inline]] friend constexpr Pack operator+(Pack a, Pack b) { return Pack(a.v + b.v); }
+  [[gnu::always_inline]] friend constexpr Pack operator-(Pack a, Pack b) { return Pack(a.v - b.v); }
+  [[gnu::always_inline]] friend constexpr Pack operator*(Pack a, Pack b) { return Pack(a.v * b.v); }
+  [[gnu::always_inline]] friend constexpr Pack operator/(Pack a, Pack b) { return Pack(a.v / b.v); }
+  [[gnu::always_inline]] friend constexpr Pack operator-(Pack a) { return Pack(-a.v); }
+  [[gnu::always_inline]] Pack& operator+=(Pack b) { return v += b.v, *this; }
+  [[gnu::always_inline]] Pack& operator-=(Pack b) { return v -= b.v, *this; }
+  [[gnu::always_inline]] Pack& operator*=(Pack b) { return v *= b.v, *this; }
+  [[gnu::always_inline]] friend Truth operator<(Pack a, Pack b) { return Truth(a.v < b.v); }
+  [[gnu::always_inline]] friend Truth operator>(Pack a, Pack b) { return Truth(a.v > b.v); }
+  [[gnu::always_inline]] friend Truth operator==(Pack a, Pack b) { return Truth(a.v == b.v); }
+
+  [[gnu::always_inline]] friend Pack select(Truth condition, Pack a, Pack b) {
+    return Pack(condition.bits ? a.v : b.v);
+  }
+  [[gnu::always_inline]] friend Pack sqrt(Pack a) {
+    Pack root;
+    for (int l = 0; l < n; ++l) root.v[l] = std::sqrt(a.v[l]);
+    return root;
+  }
+  [[gnu::always_inline]] friend Pack natural_log(Pack a) { return Pack(detail::logarithm<Bits>(a.v, Real{})); }
+  [[gnu::always_inline]] friend Pack natural_exp(Pack a) {
+    const Pack most = largest_exponent<Real>;
+    const auto [scale, rest] = detail::exponential<Bits>(within(a, most).v, Real{});
+    return select(a > most, Pack(std::numeric_limits<Real>::infinity()),
+                  select(a < -most, Pack(0), Pack(scale + scale * rest)));
+  }
+  [[gnu::always_inline]] friend Pack natural_expm1(Pack a) {
+    const Pack most = largest_exponent<Real>;
+    const auto [scale, rest] = detail::exponential<Bits>(within(a, most).v, Real{});
+    return select(a > most, Pack(std::numeric_limits<Real>::infinity()), Pack(scale * rest + (scale - Real(1))));
+  }
+
+ private:
+  [[gnu::always_inline]] static Pack within(Pack a, Pack most) {
+    return select(a < most, select(a > -most, a, -most), most);
+  }
+};
+
+template <class Real, int n, class Family>
+struct LaneOf<Pack<Real, n, Family>> {
+  using type = Real;
+};
+template <class Real, int n, class Family>
+inline constexpr Real largest_exponent<Pack<Real, n, Family>> = largest_exponent<Real>;
+template <class Real, int n, class Family>
+inline constexpr Real exponent_in_range<Pack<Real, n, Family>> = exponent_in_range<Real>;
+
+}  // namespace heml
+
+template <class Real, int n, class Family>
+struct std::numeric_limits<heml::Pack<Real, n, Family>> : std::numeric_limits<Real> {
+  static constexpr bool is_iec559 = false;
+};

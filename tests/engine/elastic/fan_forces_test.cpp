@@ -1,0 +1,236 @@
+// The fast kernels: every law, instruction set and precision against the scalar code of one element in double.
+#include <doctest/doctest.h>
+
+#include <heml/elastic/fan_cut.hpp>
+#include <heml/elastic/fan_forces.hpp>
+#include <heml/elastic/tension.hpp>
+#include <heml/materials/laws.hpp>
+#include <heml/mesh/reorder.hpp>
+#include <numeric>
+
+#include "small_body.hpp"
+
+using namespace heml;
+using test::law_names;
+using test::sample_material;
+
+namespace {
+
+/// A box of irregular tetrahedra in inner order.
+TetMesh irregular_box(std::mt19937_64& random, const std::array<int, 3>& cells) {
+  TetMesh mesh = make_box(Vec3(0.1, 0.08, 0.06), cells);
+  for (Vec3& X : mesh.nodes) X += test::random_vector(random, 0.012 / cells[0]);
+  return reordered(mesh, locality_order(mesh));
+}
+
+std::vector<int> all_of(const TetMesh& mesh) {
+  std::vector<int> elements(mesh.tets.size());
+  std::iota(elements.begin(), elements.end(), 0);
+  return elements;
+}
+
+/// One element after the other, by the scalar code.
+template <class Real = double>
+std::vector<double> reference(const TetMesh& mesh, const Material& material, bool continuation,
+                              const std::vector<double>& at) {
+  const std::vector<Real> x(at.begin(), at.end());
+  std::vector<double> f(x.size(), 0.0);
+  with_law<Real>(material, continuation, [&](const auto& law) {
+    for (const Tet& tet : mesh.tets) {
+      const auto X = [&](std::size_t c) { return mesh.nodes[static_cast<std::size_t>(tet[c])]; };
+      Mat3 Dm;
+      Dm << X(1) - X(0), X(2) - X(0), X(3) - X(0);
+      const Mat3 g = Dm.inverse(), A = g * g.transpose();
+      const Vec3 m = g * material.fibre;
+      const double entries[6] = {A(0, 0), A(1, 1), A(2, 2), A(0, 1), A(0, 2), A(1, 2)};
+      RestShape<Real> rest;
+      for (int i = 0; i < 6; ++i) rest.A[i] = static_cast<Real>(entries[i]);
+      for (int i = 0; i < 3; ++i) rest.fibre[i] = static_cast<Real>(m[i]);
+      rest.volume = static_cast<Real>(Dm.determinant() / 6);
+      Real out[12];
+      const auto corner = [&](std::size_t c) { return &x[3 * static_cast<std::size_t>(tet[c])]; };
+      corner_forces(law, corner(0), corner(1), corner(2), corner(3), rest, out);
+      for (std::size_t i = 0; i < 12; ++i)
+        f[3 * static_cast<std::size_t>(tet[i / 3]) + i % 3] += static_cast<double>(out[i]);
+    }
+  });
+  return f;
+}
+
+template <class Real>
+std::vector<Real> run(FanForces<Real>& fans, const std::vector<double>& at, int threads) {
+  ThreadTeam team(threads);
+  const std::vector<Real> x(at.begin(), at.end());
+  std::vector<Real> f(x.size(), Real(7));
+  CHECK(fans.forces(x.data(), f.data(), team));
+  return f;
+}
+
+/// Largest difference relative to the largest force.
+template <class Number>
+double difference(const std::vector<Number>& f, const std::vector<double>& expected) {
+  double worst = 0;
+  for (std::size_t i = 0; i < f.size(); ++i) {
+    const double d = std::abs(static_cast<double>(f[i]) - expected[i]);
+    if (!(d <= worst)) worst = d;  // not a number counts
+  }
+  return worst / test::largest(expected);
+}
+
+/// Positions that are floats too, so that rounding them is no error of a kernel.
+std::vector<double> moved(const TetMesh& mesh, std::mt19937_64& random, double noise, const Mat3& F) {
+  std::vector<double> x;
+  for (const Vec3& X : mesh.nodes) {
+    const Vec3 to = F * X + test::random_vector(random, noise * 0.03);
+    for (int i = 0; i < 3; ++i) x.push_back(static_cast<double>(static_cast<float>(to[i])));
+  }
+  return x;
+}
+
+struct Pose {
+  std::string name;
+  bool continuation;
+  double noise;
+  Mat3 F;
+};
+
+std::vector<Pose> poses() {
+  const auto stretch = [](double a, double b, double c) { return Mat3(Vec3(a, b, c).asDiagonal()); };
+  return {{"shaken", false, 0.06, stretch(1, 1, 1)},
+          {"stretched", false, 0.01, stretch(1.6, 0.8, 0.9)},
+          {"turned inside out", true, 0.8, stretch(1, 1, 1)},
+          {"mirrored", true, 0.05, stretch(-1, 1, 1)},
+          {"flat", true, 0, stretch(1, 1, 0)},
+          {"a line", true, 0, stretch(1.5, 0, 0)},
+          {"three times as long", true, 0.05, stretch(3, 1, 0.5)}};
+}
+
+template <class Real>
+void check_kernels(InstructionSet isa, double tolerance) {
+  std::mt19937_64 random(31);
+  const TetMesh mesh = irregular_box(random, {3, 2, 2});
+  const std::vector<int> elements = all_of(mesh);
+  for (const auto law : law_names())
+    for (const Pose& pose : poses()) {
+      CAPTURE(std::string(law));
+      CAPTURE(std::string(name_of(isa)));
+      CAPTURE(pose.name);
+      const Material material = sample_material(law);
+      const auto x = moved(mesh, random, pose.noise, pose.F);
+      FanForces<Real> fans(mesh, {{&elements, &material}}, pose.continuation, isa);
+      const auto expected = reference(mesh, material, pose.continuation, x);
+      // What the scalar code of the same precision loses is the law's doing: Ogden's of a flat body, say.
+      const double scalar = difference(reference<Real>(mesh, material, pose.continuation, x), expected);
+      CHECK(difference(run(fans, x, 1), expected) <= tolerance + 3 * scalar);
+    }
+}
+
+}  // namespace
+
+TEST_CASE("fast kernels in double give the forces of the scalar code, in extreme states too") {
+  for (const InstructionSet isa : instruction_sets()) check_kernels<double>(isa, 1e-11);
+}
+
+TEST_CASE("fast kernels in float give the forces of the scalar code to float's precision") {
+  for (const InstructionSet isa : instruction_sets()) check_kernels<float>(isa, 2e-5);
+}
+
+TEST_CASE("fast kernels give the same bits for any number of threads") {
+  std::mt19937_64 random(32);
+  const TetMesh mesh = irregular_box(random, {18, 17, 12});
+  const std::vector<int> elements = all_of(mesh);
+  const auto x = moved(mesh, random, 0.01, Mat3::Identity());
+  const auto check = [&]<class Real>(Real) {
+    for (const auto law : {"stvk", "mooney_rivlin"})
+      for (const InstructionSet isa : instruction_sets()) {
+        const Material material = sample_material(law);
+        FanForces<Real> fans(mesh, {{&elements, &material}}, true, isa);
+        const auto one = run(fans, x, 1);
+        CHECK(difference(one, reference(mesh, material, true, x)) <= (sizeof(Real) == 4 ? 1e-4 : 1e-11));
+        for (const int threads : {2, 3, 16}) CHECK(run(fans, x, threads) == one);
+      }
+  }
+};
+check(float{});
+check(double{});
+}
+
+TEST_CASE("a kernel says when its law is not defined") {
+  std::mt19937_64 random(33);
+  const TetMesh mesh = irregular_box(random, {3, 2, 2});
+  const std::vector<int> elements = all_of(mesh);
+  const auto upright = moved(mesh, random, 0.02, Mat3::Identity());
+  const auto mirrored = moved(mesh, random, 0, Vec3(1, 1, -1).asDiagonal());
+  const Material material = sample_material("neo_hookean");
+  ThreadTeam team(1);
+  std::vector<double> f(upright.size());
+  for (const InstructionSet isa : instruction_sets()) {
+    FanForces<double> fans(mesh, {{&elements, &material}}, false, isa);
+    CHECK(fans.forces(upright.data(), f.data(), team));
+    CHECK_FALSE(fans.forces(mirrored.data(), f.data(), team));
+    auto nowhere = upright;
+    nowhere[0] = std::nan("");
+    CHECK_FALSE(fans.forces(nowhere.data(), f.data(), team));
+  }
+}
+
+TEST_CASE("fans hold every tetrahedron once, upright, in groups of one length") {
+  std::mt19937_64 random(34);
+  const auto check = [](const TetMesh& mesh, std::size_t lanes) {
+    const auto fans = cut_into_fans(mesh.tets, lanes);
+    CHECK(fans.size() % lanes == 0);
+    std::vector<int> seen(mesh.tets.size(), 0);
+    std::size_t unused = 0;
+    for (std::size_t k = 0; k < fans.size(); ++k) {
+      const Fan& fan = fans[k];
+      CHECK(fan.ring.size() == fans[k / lanes * lanes].ring.size());
+      CHECK(fan.ring.size() <= longest_fan + 1);
+      if (fan.tets.empty()) ++unused;
+      for (std::size_t i = 0; i < fan.tets.size(); ++i) {
+        ++seen[fan.tets[i]];
+        Tet corners{fan.p, fan.q, fan.ring[i], fan.ring[i + 1]}, expected = mesh.tets[fan.tets[i]];
+        const auto X = [&](std::size_t c) { return mesh.nodes[static_cast<std::size_t>(corners[c])]; };
+        CHECK(signed_volume(X(0), X(1), X(2), X(3)) > 0);
+        std::sort(corners.begin(), corners.end());
+        std::sort(expected.begin(), expected.end());
+        CHECK(corners == expected);
+      }
+    }
+    CHECK(unused < lanes);
+    CHECK(std::all_of(seen.begin(), seen.end(), [](int times) { return times == 1; }));
+  };
+  const TetMesh box = irregular_box(random, {4, 3, 3});
+  for (const std::size_t lanes : {2, 4, 8, 16}) check(box, lanes);
+
+  TetMesh one = box;
+  one.tets.resize(1);
+  check(one, 8);
+
+  TetMesh wheel;  // more round one edge than a fan may hold
+  wheel.nodes = {{0, 0, 0}, {0, 0, 1}};
+  for (int k = 0; k < 19; ++k) {
+    wheel.nodes.push_back({std::cos(k * 2 * M_PI / 19), std::sin(k * 2 * M_PI / 19), 0.5});
+    wheel.tets.push_back({0, 1, k + 2, (k + 1) % 19 + 2});
+  }
+  for (const std::size_t lanes : {1, 4}) check(wheel, lanes);
+}
+
+TEST_CASE("fast kernels take elements that share no node, and nodes of no element") {
+  std::mt19937_64 random(35);
+  const TetMesh box = irregular_box(random, {6, 6, 5});
+  TetMesh shards;
+  for (const Tet& tet : box.tets) {
+    const int first = static_cast<int>(shards.nodes.size());
+    for (const int n : tet) shards.nodes.push_back(box.nodes[static_cast<std::size_t>(n)]);
+    shards.tets.push_back({first, first + 1, first + 2, first + 3});
+    if (shards.tets.size() % 7 == 0) shards.nodes.push_back(Vec3::Zero());
+  }
+  const std::vector<int> elements = all_of(shards);
+  const Material material = sample_material("mooney_rivlin");
+  const auto x = moved(shards, random, 0.01, Mat3::Identity());
+  for (const InstructionSet isa : instruction_sets()) {
+    FanForces<double> fans(shards, {{&elements, &material}}, true, isa);
+    CHECK(difference(run(fans, x, 2), reference(shards, material, true, x)) <= 1e-11);
+    CHECK(fans.bytes_per_tet() > 7 * sizeof(double));
+  }
+}
