@@ -24,7 +24,8 @@ bool search_line(Objective& objective, const Vector& d, SearchPoint& at) {
       trial.value = objective.value(trial.x);
       const double noise = objective.value_noise() + 1e-15 * std::abs(*at.value);
       if (!(*trial.value <= *at.value - armijo * s * slope + noise)) continue;
-      if (s * slope < 8 * noise && !is_flatter) continue;  // values cannot tell
+      trial.at_noise = s * slope < 8 * noise;
+      if (trial.at_noise && !is_flatter) continue;  // values cannot tell
     }
     std::swap(at, trial);
     return true;

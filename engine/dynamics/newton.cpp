@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <heml/dynamics/line_search.hpp>
 #include <heml/dynamics/newton.hpp>
+#include <limits>
 
 namespace heml {
 namespace {
 constexpr double slow = 0.5;  // of ‖r‖ left by an iteration without positive curvature: the other remedy is tried next
+constexpr int patience = 3;  // iterations at round-off that bring nothing
 }  // namespace
 
 NewtonResult minimise(Objective& objective, LinearSolver& linear, const Stop& stop, const NewtonOptions& options,
@@ -17,6 +19,8 @@ NewtonResult minimise(Objective& objective, LinearSolver& linear, const Stop& st
   const bool may_project = linear.projection() != Projection::none;
   bool by_projection = may_project && linear.preconditioner() == Preconditioner::cholesky;
   const double first = at.r.norm();
+  double least = std::numeric_limits<double>::infinity();
+  int idle = 0;
   const auto finish = [&](NewtonResult::End end) {
     x = at.x;
     if (end == NewtonResult::End::stalled) objective.residual(x, at.r);  // what it saw last is where it stays
@@ -26,6 +30,10 @@ NewtonResult minimise(Objective& objective, LinearSolver& linear, const Stop& st
   while (true) {
     result.measure = stop.measure(at.r);
     if (result.measure <= stop.limit) return finish(NewtonResult::End::converged);
+    // Where Φ no longer tells steps apart, the measure has to fall, or this is as near as round-off lets it come.
+    idle = at.at_noise && result.measure > 0.9 * least ? idle + 1 : 0;
+    least = std::min(least, result.measure);
+    if (idle == patience) return finish(NewtonResult::End::stalled);
     if (result.iterations >= options.most_iterations) return finish(NewtonResult::End::out_of_iterations);
     ++result.iterations;
     const double tolerance =
