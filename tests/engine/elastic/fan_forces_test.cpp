@@ -135,24 +135,25 @@ TEST_CASE("fast kernels in float give the forces of the scalar code to float's p
   for (const InstructionSet isa : instruction_sets()) check_kernels<float>(isa, 2e-5);
 }
 
-TEST_CASE("fast kernels give the same bits for any number of threads") {
+template <class Real>
+void check_threads(double tolerance) {
   std::mt19937_64 random(32);
   const TetMesh mesh = irregular_box(random, {18, 17, 12});
   const std::vector<int> elements = all_of(mesh);
   const auto x = moved(mesh, random, 0.01, Mat3::Identity());
-  const auto check = [&]<class Real>(Real) {
-    for (const auto law : {"stvk", "mooney_rivlin"})
-      for (const InstructionSet isa : instruction_sets()) {
-        const Material material = sample_material(law);
-        FanForces<Real> fans(mesh, {{&elements, &material}}, true, isa);
-        const auto one = run(fans, x, 1);
-        CHECK(difference(one, reference(mesh, material, true, x)) <= (sizeof(Real) == 4 ? 1e-4 : 1e-11));
-        for (const int threads : {2, 3, 16}) CHECK(run(fans, x, threads) == one);
-      }
-  }
-};
-check(float{});
-check(double{});
+  for (const auto law : {"stvk", "mooney_rivlin"})
+    for (const InstructionSet isa : instruction_sets()) {
+      const Material material = sample_material(law);
+      FanForces<Real> fans(mesh, {{&elements, &material}}, true, isa);
+      const auto one = run(fans, x, 1);
+      CHECK(difference(one, reference(mesh, material, true, x)) <= tolerance);
+      for (const int threads : {2, 3, 16}) CHECK(run(fans, x, threads) == one);
+    }
+}
+
+TEST_CASE("fast kernels give the same bits for any number of threads") {
+  check_threads<double>(1e-11);
+  check_threads<float>(1e-4);
 }
 
 TEST_CASE("a kernel says when its law is not defined") {
@@ -232,5 +233,26 @@ TEST_CASE("fast kernels take elements that share no node, and nodes of no elemen
     FanForces<double> fans(shards, {{&elements, &material}}, true, isa);
     CHECK(difference(run(fans, x, 2), reference(shards, material, true, x)) <= 1e-11);
     CHECK(fans.bytes_per_tet() > 7 * sizeof(double));
+  }
+}
+
+TEST_CASE("fast kernels stand beside the loops of other materials, and a body says which runs what") {
+  std::mt19937_64 random(36);
+  test::SmallBody small(random, 0.05);
+  Material plain = sample_material("neo_hookean"), other = sample_material("mooney_rivlin");
+  other.volume_term = VolumeTerm::logarithmic;
+  std::vector<int> material_of;
+  for (std::size_t t = 0; t < small.mesh.tets.size(); ++t) material_of.push_back(static_cast<int>(t % 3));
+  for (const InstructionSet isa : instruction_sets()) {
+    ElasticBody<double> body(small.mesh, material_of, {plain, other, sample_material("mass_spring")},
+                             {true, false, isa});
+    CHECK(test::gradient_error(body, small.x) <= 1e-6);
+    const auto kernels = body.kernels();
+    REQUIRE(kernels.size() == 3);
+    CHECK(kernels[0].kernel == "fans");
+    CHECK(kernels[0].instructions == name_of(isa));
+    CHECK(kernels[0].elements == small.mesh.tets.size() / 3);
+    CHECK(kernels[1].kernel == "corners");
+    CHECK(kernels[1].bytes_per_tet > kernels[0].bytes_per_tet / 2);
   }
 }
