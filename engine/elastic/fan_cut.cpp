@@ -11,6 +11,7 @@ constexpr std::size_t longest = longest_fan;
 struct Sector {
   int p, q, from, to;
   std::size_t tet;
+  std::uint64_t edge() const { return static_cast<std::uint64_t>(p) << 32 | static_cast<std::uint64_t>(q); }
 };
 
 std::vector<Sector> sectors_by_edge(const std::vector<Tet>& tets) {
@@ -25,7 +26,7 @@ std::vector<Sector> sectors_by_edge(const std::vector<Tet>& tets) {
       sectors.push_back(s);
     }
   std::sort(sectors.begin(), sectors.end(), [](const Sector& a, const Sector& b) {
-    return a.p != b.p ? a.p < b.p : a.q != b.q ? a.q < b.q : a.tet < b.tet;
+    return a.edge() != b.edge() ? a.edge() < b.edge() : a.tet < b.tet;
   });
   return sectors;
 }
@@ -45,7 +46,7 @@ class LongestChain {
     const auto try_from = [&](const Sector* first) {
       std::vector<const Sector*> chain;
       for (const Sector* s = first; s && chain.size() < longest; s = follows(s->to)) {
-        if (!chain.empty() && s == first) break;
+        if (std::find(chain.begin(), chain.end(), s) != chain.end()) break;  // round, or overlapping tetrahedra
         chain.push_back(s);
       }
       if (chain.size() > best.size()) best = chain;
@@ -75,7 +76,7 @@ std::vector<std::vector<Fan>> greedy_fans(const std::vector<Tet>& tets) {
   const std::vector<Sector> sectors = sectors_by_edge(tets);
   std::vector<std::pair<std::size_t, std::size_t>> edges;  // range of sectors
   for (std::size_t i = 0, j; i < sectors.size(); i = j) {
-    for (j = i; j < sectors.size() && sectors[j].p == sectors[i].p && sectors[j].q == sectors[i].q;) ++j;
+    for (j = i; j < sectors.size() && sectors[j].edge() == sectors[i].edge();) ++j;
     edges.push_back({i, j});
   }
   std::vector<std::vector<std::size_t>> waiting(longest + 1);  // edges by a bound on their longest chain

@@ -12,6 +12,7 @@
 
 namespace heml::fan {
 
+/// C = k LᵀGL and T = ⅙ L S Lᵀ, L the Cholesky factor of A*.
 template <class P, PrincipalLaw<P> L>
 [[gnu::always_inline]] inline FanTensions<P> fan_tensions(const L& law, const FanRest<P>& rest, const FanGram<P>& G,
                                                           P J, Truth<P>& valid) {
@@ -30,6 +31,7 @@ template <class P, PrincipalLaw<P> L>
       l006 * r10,      stress.wJ * sixth};
 }
 
+/// T = ⅓ [(w1 + w2 I1) A* − w2 k A*GA* + w4 m* m*ᵀ] with I1 = k A*:G, tr C² = k² tr(A*G)², I4 = k m*·G m*.
 template <class P, InvariantLaw<P> L>
 [[gnu::always_inline]] inline FanTensions<P> fan_tensions(const L& law, const FanRest<P>& rest, const FanGram<P>& G,
                                                           P J, Truth<P>& valid) {
@@ -83,52 +85,59 @@ template <class P, InvariantLaw<P> L>
 template <class Real, class Isa, class L>
 struct ForceKernel {
   using P = typename Isa::template pack<Real>;
-  static constexpr std::size_t constants = fan_constants(L::uses_I4);
+  static constexpr std::size_t constants = fan_constants(L::uses_I4), lanes = P::lanes;
 
   struct Work {
     Spoke<P> spoke[longest_fan + 3];           ///< [1 .. m+1]
     FanTensions<P> tensions[longest_fan + 2];  ///< [1 .. m]; those before and after are zero
   };
 
-  /// The forces of one group of fans of length m.
-  [[gnu::always_inline]] static inline void group(const L& law, std::size_t m, const std::uint16_t* index,
-                                                  const Real* shape, Real* records, Work& work, Truth<P>& valid) {
-    constexpr std::size_t lanes = P::lanes;
-    P p[3], a[3];
-    read_axis<Isa>(records, index, p, a);
-    const P aa = dot(a, a);
-    const Real* foot = shape;
-    for (std::size_t i = 0; i <= m; ++i) {
-      Spoke<P>& spoke = work.spoke[i + 1];
-      read_spoke<Isa>(records, index + (i + 2) * lanes, pack_at<P>(foot + i * lanes), p, a, spoke.b);
-      spoke.bb = dot(spoke.b, spoke.b);
-      spoke.ab = dot(spoke.b, a);
-      if constexpr (L::uses_J) cross(spoke.b, a, spoke.c);
-    }
+  /// Where a group's nodes and constants are, and its axis.
+  struct Group {
+    std::size_t m;
+    const std::uint16_t* ring;
+    const Real *foot, *rest;
+    P p[3], a[3], aa;
+  };
 
-    P t_aa = 0;
-    shape += (m + 1) * lanes;
-    for (std::size_t i = 1; i <= m; ++i, shape += constants * lanes) {
+  [[gnu::always_inline]] static inline void read_ring(const Group& group, const Real* records, Work& work) {
+    for (std::size_t i = 0; i <= group.m; ++i) {
+      Spoke<P>& spoke = work.spoke[i + 1];
+      read_spoke<Isa>(records, group.ring + i * lanes, pack_at<P>(group.foot + i * lanes), group.p, group.a, spoke.b);
+      spoke.bb = dot(spoke.b, spoke.b);
+      spoke.ab = dot(spoke.b, group.a);
+      if constexpr (L::uses_J) cross(spoke.b, group.a, spoke.c);
+    }
+  }
+
+  /// Returns the tension of the axis.
+  [[gnu::always_inline]] static inline P tighten(const L& law, const Group& group, Work& work, Truth<P>& valid) {
+    P axis = 0;
+    const Real* constant = group.rest;
+    for (std::size_t i = 1; i <= group.m; ++i, constant += constants * lanes) {
       const Spoke<P>&from = work.spoke[i], &to = work.spoke[i + 1];
-      const FanRest<P> rest = read_rest<P, constants>(shape);
-      const FanGram<P> G{aa, from.bb, to.bb, from.ab, to.ab, dot(from.b, to.b)};
+      const FanRest<P> rest = read_rest<P, constants>(constant);
+      const FanGram<P> G{group.aa, from.bb, to.bb, from.ab, to.ab, dot(from.b, to.b)};
       const P J = L::uses_J ? rest.k * dot(from.b, to.c) : P(1);
       work.tensions[i] = fan_tensions<P>(law, rest, G, J, valid);
-      t_aa += work.tensions[i].aa;
+      axis += work.tensions[i].aa;
     }
-    work.tensions[m + 1] = {};
+    work.tensions[group.m + 1] = {};
+    return axis;
+  }
 
-    P at_p[3] = {0, 0, 0}, at_q[3] = {0, 0, 0};
-    const std::uint16_t* ring = index + 2 * lanes;
-    for (std::size_t i = 1; i <= m + 1; ++i, ring += lanes, foot += lanes) {
+  /// Draws the ring's nodes, and says what is left to p and q.
+  [[gnu::always_inline]] static inline void pull_ring(const Group& group, const Work& work, Real* records, P at_p[3],
+                                                      P at_q[3]) {
+    for (std::size_t i = 1; i <= group.m + 1; ++i) {
       const Spoke<P>&before = work.spoke[i - 1], &spoke = work.spoke[i], &after = work.spoke[i + 1];
       const FanTensions<P>&s = work.tensions[i - 1], &t = work.tensions[i];
-      const P t_bb = s.b11 + t.b00, t_ab = s.a1 + t.a0;
+      const P t_bb = s.b11 + t.b00, t_ab = s.a1 + t.a0, foot = pack_at<P>(group.foot + (i - 1) * lanes);
       P f[3];
       for (int j = 0; j < 3; ++j) {
         f[j] = t_bb * spoke.b[j] + (s.b01 * before.b[j] + t.b01 * after.b[j]);
         if constexpr (has_coupling<L, P>) {
-          f[j] += t_ab * a[j];
+          f[j] += t_ab * group.a[j];
           at_q[j] += t_ab * spoke.b[j];
         }
         if constexpr (L::uses_J) {
@@ -137,12 +146,24 @@ struct ForceKernel {
           at_q[j] += t.u * (spoke.b[k] * after.b[l] - spoke.b[l] * after.b[k]);
         }
         at_p[j] += f[j];
-        at_q[j] -= pack_at<P>(foot) * f[j];
+        at_q[j] -= foot * f[j];
       }
-      Isa::subtract(records + 4, ring, f);
+      Isa::subtract(records + 4, group.ring + (i - 1) * lanes, f);
     }
+  }
+
+  /// The forces of one group of fans of length m.
+  [[gnu::always_inline]] static inline void run(const L& law, std::size_t m, const std::uint16_t* index,
+                                                const Real* shape, Real* records, Work& work, Truth<P>& valid) {
+    Group group{m, index + 2 * lanes, shape, shape + (m + 1) * lanes, {}, {}, {}};
+    read_axis<Isa>(static_cast<const Real*>(records), index, group.p, group.a);
+    group.aa = dot(group.a, group.a);
+    read_ring(group, records, work);
+    const P axis = tighten(law, group, work, valid);
+    P at_p[3] = {0, 0, 0}, at_q[3] = {0, 0, 0};
+    pull_ring(group, work, records, at_p, at_q);
     for (int i = 0; i < 3; ++i) {
-      at_q[i] += t_aa * a[i];
+      at_q[i] += axis * group.a[i];
       at_p[i] = -(at_p[i] + at_q[i]);
     }
     Isa::subtract(records + 4, index + lanes, at_q);
@@ -160,9 +181,9 @@ struct ForceKernel {
     work.tensions[0] = {};
     for (std::size_t g = 0; g < block.groups; ++g) {
       const std::size_t m = block.length[g];
-      group(law, m, index, shape, records, work, valid);
-      index += (m + 3) * P::lanes;
-      shape += (m + 1 + m * constants) * P::lanes;
+      run(law, m, index, shape, records, work, valid);
+      index += (m + 3) * lanes;
+      shape += (m + 1 + m * constants) * lanes;
     }
 
     write_forces(block, records + 4, f);

@@ -1,5 +1,5 @@
-#include <algorithm>
 #include <array>
+#include <cassert>
 #include <heml/elastic/fan_kernels.hpp>
 
 namespace heml {
@@ -32,7 +32,11 @@ std::span<const InstructionSet> instruction_sets() {
   return {all.data(), count};
 }
 
-InstructionSet chosen(InstructionSet isa) { return isa == InstructionSet::best ? instruction_sets().back() : isa; }
+InstructionSet chosen(InstructionSet isa) {
+  if (isa == InstructionSet::best) return instruction_sets().back();
+  assert(isa <= instruction_sets().back());
+  return isa;
+}
 
 template <class Real>
 FanKernel<Real> fan_kernel(InstructionSet isa, std::size_t law, bool continued) {

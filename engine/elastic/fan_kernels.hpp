@@ -19,7 +19,7 @@ std::string_view name_of(InstructionSet isa);
 /// What this build and this processor have, `best` not among them; the last is the best.
 std::span<const InstructionSet> instruction_sets();
 
-/// isa, or what the best is.
+/// isa, which this processor must have; the best there is for `best`.
 InstructionSet chosen(InstructionSet isa);
 
 /// Lanes of a pack.

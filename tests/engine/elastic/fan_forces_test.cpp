@@ -235,3 +235,24 @@ TEST_CASE("fast kernels take elements that share no node, and nodes of no elemen
     CHECK(fans.bytes_per_tet() > 7 * sizeof(double));
   }
 }
+
+TEST_CASE("fast kernels stand beside the loops of other materials, and a body says which runs what") {
+  std::mt19937_64 random(36);
+  test::SmallBody small(random, 0.05);
+  Material plain = sample_material("neo_hookean"), other = sample_material("mooney_rivlin");
+  other.volume_term = VolumeTerm::logarithmic;
+  std::vector<int> material_of;
+  for (std::size_t t = 0; t < small.mesh.tets.size(); ++t) material_of.push_back(static_cast<int>(t % 3));
+  for (const InstructionSet isa : instruction_sets()) {
+    ElasticBody<double> body(small.mesh, material_of, {plain, other, sample_material("mass_spring")},
+                             {true, false, isa});
+    CHECK(test::gradient_error(body, small.x) <= 1e-6);
+    const auto kernels = body.kernels();
+    REQUIRE(kernels.size() == 3);
+    CHECK(kernels[0].kernel == "fans");
+    CHECK(kernels[0].instructions == name_of(isa));
+    CHECK(kernels[0].elements == small.mesh.tets.size() / 3);
+    CHECK(kernels[1].kernel == "corners");
+    CHECK(kernels[1].bytes_per_tet > kernels[0].bytes_per_tet / 2);
+  }
+}
