@@ -113,7 +113,7 @@ template <class Real>
 }
 
 /// Adds the stiffness made of nine changes of the edges: change(de, out[12]) gives the corner forces' change.
-template <class Real, class Change>
+template <class Change, class Real>
 [[gnu::always_inline]] inline void add_columns(const Change& change, Real K[edge_entries]) {
   for (int c = 0; c < 9; ++c) {
     Real de[3][3] = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}}, f[12];
@@ -129,11 +129,10 @@ template <class Real, Law<Real> L>
                                                       Real K[edge_entries]) {
   const Tensions<Real> t = tensions(law, link, rest);
   if constexpr (PrincipalLaw<L, Real>) {
-    add_columns(
-        [&](const Real(&de)[3][3], Real* f) {
-          pull_change(t, tension_change(law, link, rest, link_change(link, de, rest.volume)), link, de, f);
-        },
-        K);
+    const PrincipalTangent<Real, L> tangent(law, link, rest);
+    add_columns([&](const Real(&de)[3][3],
+                    Real* f) { pull_change(t, tangent(link_change(link, de, rest.volume)), link, de, f); },
+                K);
   } else {
     add_curvature(law, link, rest, K);
     add_pull(t, link.e, K);

@@ -8,7 +8,7 @@
 //   Isa::subtract(records, index, f)       f[3] from those records, one lane after the other
 #include <heml/elastic/fan_block.hpp>
 #include <heml/materials/law_list.hpp>
-#include <heml/math/pack.hpp>
+#include <heml/materials/law_packs.hpp>
 
 namespace heml::fan {
 
@@ -127,21 +127,6 @@ template <class Real>
   Real* to = block.shared_force;
   for (std::size_t n = block.own; n < block.nodes; ++n, record += 8, to += 3)
     to[0] = record[0], to[1] = record[1], to[2] = record[2];
-}
-
-/// A law's struct of packs from that of numbers.
-template <class PackLaw, class P, class L>
-[[gnu::always_inline]] inline PackLaw broadcast(const L& law) {
-  if constexpr (requires { law.template broadcast<P>(); }) {
-    return law.template broadcast<P>();
-  } else {
-    static_assert(sizeof(PackLaw) / sizeof(P) == sizeof(L) / sizeof(Lane<P>));
-    PackLaw packs;
-    P* to = reinterpret_cast<P*>(&packs);
-    const Lane<P>* from = reinterpret_cast<const Lane<P>*>(&law);
-    for (std::size_t i = 0; i < sizeof(L) / sizeof(Lane<P>); ++i) to[i] = from[i];
-    return packs;
-  }
 }
 
 /// What make(tag, continued) gives for one law of LawList, both known when compiled.

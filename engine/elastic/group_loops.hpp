@@ -7,6 +7,7 @@
 #include <heml/elastic/step_bound.hpp>
 #include <heml/elastic/tension.hpp>
 #include <heml/materials/law.hpp>
+#include <heml/materials/law_packs.hpp>
 
 namespace heml {
 
@@ -111,45 +112,69 @@ template <class Real, Law<Real> L>
   return valid;
 }
 
-/// Stiffness of packets [begin, end) at x into K (elastic/edge_stiffness.hpp), overwritten or added to.
-template <class Real, Law<Real> L>
-[[gnu::always_inline]] inline void group_stiffness(const L& law, const ElementGroup<Real>& group, const Real* x,
-                                                   std::size_t begin, std::size_t end, Real* K, bool add) {
-  constexpr std::size_t lanes = ElementGroup<Real>::lanes;
+/// The lanes of one register out of a packet, as packs: what a law is asked about, all of them at once.
+template <class P, bool with_fibre>
+struct PackedElements {
+  P x[4][3];
+  RestShape<P> rest;
+
+  [[gnu::always_inline]] inline PackedElements(const Packet<Lane<P>, with_fibre>& packet, std::size_t first) {
+    const auto load = [first](const Lane<P>* lanes) {
+      typename P::Vector v;
+      __builtin_memcpy(&v, lanes + first, sizeof v);
+      return P(v);
+    };
+    for (std::size_t i = 0; i < 12; ++i) x[i / 3][i % 3] = load(packet.x[i]);
+    for (std::size_t i = 0; i < 6; ++i) rest.A[i] = load(packet.A[i]);
+    rest.volume = load(packet.volume);
+    for (std::size_t i = 0; i < 3; ++i) rest.fibre[i] = with_fibre ? load(packet.fibre[i]) : P(0);
+  }
+};
+
+/// Stiffness of packets [begin, end) at x into K (elastic/edge_stiffness.hpp), overwritten or added to. P: a pack of
+/// lanes.
+template <class P, class L>
+[[gnu::always_inline]] inline void group_stiffness(const L& law, const ElementGroup<Lane<P>>& group, const Lane<P>* x,
+                                                   std::size_t begin, std::size_t end, Lane<P>* K, bool add) {
+  using Real = Lane<P>;
+  using Many = typename Rebound<L, P>::Law;
+  constexpr std::size_t lanes = ElementGroup<Real>::lanes, width = P::lanes;
+  const Many many = broadcast<Many, P>(law);
   for (std::size_t p = begin; p < end; ++p) {
     const Packet<Real, L::uses_I4> packet(group, x, p * lanes);
-    Real out[edge_entries][lanes];
-#pragma GCC ivdep
-    for (std::size_t l = 0; l < lanes; ++l) {
-      const Corners<Real> at(packet.x, l);
-      const RestShape<Real> rest = packet.rest(l);
-      const auto link = read_link<true, true, L::uses_I4>(at.x[0], at.x[1], at.x[2], at.x[3], rest);
-      Real k[edge_entries] = {};
-      add_edge_stiffness(law, link, rest, k);
-      for (int i = 0; i < edge_entries; ++i) out[i][l] = k[i];
+    for (std::size_t first = 0; first < lanes; first += width) {
+      const PackedElements<P, L::uses_I4> at(packet, first);
+      const auto link = read_link<true, true, L::uses_I4>(at.x[0], at.x[1], at.x[2], at.x[3], at.rest);
+      P k[edge_entries];
+      for (P& entry : k) entry = P(0);
+      add_edge_stiffness<P>(many, link, at.rest, k);
+      Real* to = K + edge_entries * lanes * p + first;
+      for (std::size_t i = 0; i < edge_entries; ++i) {
+        typename P::Vector before;
+        __builtin_memcpy(&before, to + lanes * i, sizeof before);
+        const typename P::Vector sum = add ? k[i].v + before : k[i].v;
+        __builtin_memcpy(to + lanes * i, &sum, sizeof sum);
+      }
     }
-    Real* to = K + edge_entries * lanes * p;
-    if (add)
-      for (std::size_t i = 0; i < edge_entries * lanes; ++i) to[i] += out[i / lanes][i % lanes];
-    else
-      for (std::size_t i = 0; i < edge_entries * lanes; ++i) to[i] = out[i / lanes][i % lanes];
   }
 }
 
 /// Energies of the law of packets [begin, end), J, in double, into of_packet, overwritten or added to.
-template <class Real, Law<Real> L>
-[[gnu::always_inline]] inline void group_energy(const L& law, const ElementGroup<Real>& group, const Real* x,
+template <class P, class L>
+[[gnu::always_inline]] inline void group_energy(const L& law, const ElementGroup<Lane<P>>& group, const Lane<P>* x,
                                                 std::size_t begin, std::size_t end, double* of_packet, bool add) {
-  constexpr std::size_t lanes = ElementGroup<Real>::lanes;
+  using Real = Lane<P>;
+  using Many = typename Rebound<L, P>::Law;
+  constexpr std::size_t lanes = ElementGroup<Real>::lanes, width = P::lanes;
+  const Many many = broadcast<Many, P>(law);
   for (std::size_t p = begin; p < end; ++p) {
     const Packet<Real, L::uses_I4> packet(group, x, p * lanes);
     Real density[lanes];
-#pragma GCC ivdep
-    for (std::size_t l = 0; l < lanes; ++l) {
-      const Corners<Real> at(packet.x, l);
-      const RestShape<Real> rest = packet.rest(l);
-      const auto link = read_link<true, true, L::uses_I4>(at.x[0], at.x[1], at.x[2], at.x[3], rest);
-      density[l] = law_energy(law, link, rest);
+    for (std::size_t first = 0; first < lanes; first += width) {
+      const PackedElements<P, L::uses_I4> at(packet, first);
+      const auto link = read_link<true, true, L::uses_I4>(at.x[0], at.x[1], at.x[2], at.x[3], at.rest);
+      const P W = law_energy<P>(many, link, at.rest);
+      __builtin_memcpy(density + first, &W.v, sizeof W.v);
     }
     double sum = add ? of_packet[p] : 0.0;
     const std::size_t used = std::min(lanes, group.size() - p * lanes);  // padding repeats the last element

@@ -6,7 +6,11 @@
 
 namespace heml {
 
-// The vectorised loops.
+// The vectorised loops. Code on packs is the file's own (math/pack.hpp): no other is compiled for the same processor.
+struct WideFamily {};
+template <class Real>
+using WidePack = Pack<Real, static_cast<int>(32 / sizeof(Real)), WideFamily>;
+
 template <class Real, class L>
 HEML_WIDE bool wide_forces(const L& law, const ElementGroup<Real>& group, const Real* x, std::size_t begin,
                            std::size_t end, Real* corner, bool add) {
@@ -15,12 +19,12 @@ HEML_WIDE bool wide_forces(const L& law, const ElementGroup<Real>& group, const 
 template <class Real, class L>
 HEML_WIDE void wide_stiffness(const L& law, const ElementGroup<Real>& group, const Real* x, std::size_t begin,
                               std::size_t end, Real* K, bool add) {
-  group_stiffness<Real>(law, group, x, begin, end, K, add);
+  group_stiffness<WidePack<Real>>(law, group, x, begin, end, K, add);
 }
 template <class Real, class L>
 HEML_WIDE void wide_energy(const L& law, const ElementGroup<Real>& group, const Real* x, std::size_t begin,
                            std::size_t end, double* of_packet, bool add) {
-  group_energy<Real>(law, group, x, begin, end, of_packet, add);
+  group_energy<WidePack<Real>>(law, group, x, begin, end, of_packet, add);
 }
 template <class Real, class L>
 HEML_WIDE Real wide_frequency_bound(const L& law, const ElementGroup<Real>& group, const Real* x, std::size_t begin,

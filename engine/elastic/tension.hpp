@@ -202,20 +202,44 @@ template <class Real>
           (dot(link.cross[0], de[0]) + dot(link.cross[1], de[1]) + dot(link.cross[2], de[2])) / (6 * volume)};
 }
 
+/// What all changes of the tensions of a law of principal stretches have in common at one element.
+template <class Real, class L>
+class PrincipalTangent {
+ public:
+  [[gnu::always_inline]] PrincipalTangent(const L& law, const Link<Real>& link, const RestShape<Real>& rest)
+      : law_(law), J_(link.at.J), volume_(rest.volume) {
+    Real C[6];
+    cholesky3(rest.A, factor_);
+    into_rest_frame(factor_, link.G, C);
+    state_ = principal_state<L::is_continued>(law, C, J_);
+    divided_differences(law, state_, divided_);
+  }
+
+  [[gnu::always_inline]] Tensions<Real> operator()(const LinkChange<Real>& d) const {
+    Real dC[6];
+    into_rest_frame(factor_, d.G, dC);
+    const auto change = principal_change(law_, state_, divided_, dC, J_, d.J);
+    Tensions<Real> t;
+    congruent3(factor_, change.S, t.T);
+    for (Real& value : t.T) value *= volume_;
+    t.wJ = change.wJ;
+    return t;
+  }
+
+ private:
+  const L& law_;
+  Real J_, volume_;
+  Real factor_[3][3], divided_[6];
+  PrincipalState<Real> state_;
+};
+
 /// Change of the tensions and of wJ. The link must be whole.
 template <class Real, Law<Real> L>
 [[gnu::always_inline]] inline Tensions<Real> tension_change(const L& law, const Link<Real>& link,
                                                             const RestShape<Real>& rest, const LinkChange<Real>& d) {
   Tensions<Real> t;
   if constexpr (PrincipalLaw<L, Real>) {
-    Real factor[3][3], C[6], dC[6];
-    cholesky3(rest.A, factor);
-    into_rest_frame(factor, link.G, C);
-    into_rest_frame(factor, d.G, dC);
-    const auto change = principal_change(law, principal_state<L::is_continued>(law, C, link.at.J), dC, link.at.J, d.J);
-    congruent3(factor, change.S, t.T);
-    for (Real& value : t.T) value *= rest.volume;
-    t.wJ = change.wJ;
+    t = PrincipalTangent<Real, L>(law, link, rest)(d);
   } else {
     const Slopes<Real> s = law.slopes(link.at);
     const Curvatures<Real> c = law.curvatures(link.at);

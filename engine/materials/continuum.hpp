@@ -67,7 +67,10 @@ Stress<Real> stress_of(const L& law, const Strain<Real>& at) {
 template <class Real, Law<Real> L>
 Stress<Real> stress_change(const L& law, const Strain<Real>& at, const Real dC[6], Real dJ) {
   if constexpr (PrincipalLaw<L, Real>) {
-    return principal_change(law, principal_state<L::is_continued>(law, at.C, at.J), dC, at.J, dJ);
+    const auto state = principal_state<L::is_continued>(law, at.C, at.J);
+    Real divided[6];
+    divided_differences(law, state, divided);
+    return principal_change(law, state, divided, dC, at.J, dJ);
   } else {
     const auto i = at.invariants();
     const Slopes<Real> s = law.slopes(i);

@@ -115,10 +115,10 @@ struct Ogden {
   /// Close to one another by three Gauss points of the mean of h2 between them, whose error is below 1e-12 there.
   Real divided(Real a, Real b) const {
     const Real apart = a - b, middle = (a + b) / 2;
-    if (std::abs(apart) * steepness > Real(0.1) * middle) return (principal(a).h1 - principal(b).h1) / apart;
-    if (apart == 0) return principal(middle).h2;
-    const Real reach = apart / 2 * Real(0.7745966692414834);
-    return (5 * (principal(middle - reach).h2 + principal(middle + reach).h2) + 8 * principal(middle).h2) / 18;
+    const Real distance = select(apart < 0, -apart, apart), reach = apart / 2 * Real(0.7745966692414834);
+    const Real mean =
+        (5 * (principal(middle - reach).h2 + principal(middle + reach).h2) + 8 * principal(middle).h2) / 18;
+    return select(distance * steepness > Real(0.1) * middle, (principal(a).h1 - principal(b).h1) / apart, mean);
   }
 };
 

@@ -40,10 +40,17 @@ template <class Real, PrincipalLaw<Real> L>
   return stress;
 }
 
+/// h1[c̄_i, c̄_j] for 11 22 33 12 13 23: all that changes of the stress at one state have in common.
+template <class Real, PrincipalLaw<Real> L>
+[[gnu::always_inline]] inline void divided_differences(const L& law, const PrincipalState<Real>& at, Real divided[6]) {
+  constexpr int row[6] = {0, 1, 2, 0, 0, 1}, col[6] = {0, 1, 2, 1, 2, 2};
+  for (int k = 0; k < 6; ++k) divided[k] = law.divided(at.v.p * at.e.value[row[k]], at.v.p * at.e.value[col[k]]);
+}
+
 /// Change of S and wJ with dC (six numbers) and dJ.
 template <class Real, PrincipalLaw<Real> L>
 [[gnu::always_inline]] inline Stress<Real> principal_change(const L& law, const PrincipalState<Real>& at,
-                                                            const Real dC[6], Real J, Real dJ) {
+                                                            const Real divided[6], const Real dC[6], Real J, Real dJ) {
   const auto& [p, p1, p2, q, q1, q2] = at.v;
   constexpr int row[6] = {0, 1, 2, 0, 0, 1}, col[6] = {0, 1, 2, 1, 2, 2};
   // dC̄ in the eigenvectors' frame, then dH there.
@@ -57,7 +64,7 @@ template <class Real, PrincipalLaw<Real> L>
       HdC += at.h1[i] * c;
       HC += at.h1[i] * at.e.value[i];
     }
-    dH[k] = law.divided(p * at.e.value[i], p * at.e.value[j]) * m;
+    dH[k] = divided[k] * m;
     if (i == j) dHC += dH[k] * at.e.value[i];
   }
   const Real N[3][3] = {{at.e.vector[0][0], at.e.vector[1][0], at.e.vector[2][0]},
