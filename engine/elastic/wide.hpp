@@ -5,7 +5,8 @@
 namespace heml {
 
 #if defined(__x86_64__) && !defined(__AVX2__)
-#define HEML_WIDE [[gnu::target("avx2")]]
+// Flat: what is called is inlined, since a function for other processors takes packs in other registers.
+#define HEML_WIDE [[gnu::target("avx2"), gnu::flatten]]
 inline bool has_wide() {
   static const bool has = __builtin_cpu_supports("avx2");
   return has;
