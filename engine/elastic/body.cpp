@@ -4,7 +4,6 @@
 #include <heml/elastic/body.hpp>
 #include <heml/elastic/stiffness_product.hpp>
 #include <heml/materials/parameter_slots.hpp>
-#include <limits>
 #include <mutex>
 
 namespace heml {
@@ -308,15 +307,13 @@ Real ElasticBody<Real>::damping_bound(const Real* x, ThreadTeam& team) {
 
 template <class Real>
 int ElasticBody<Real>::first_invalid(const Real* x) const {
-  int first = -1, flattest = 0;
-  Real least = std::numeric_limits<Real>::max();
+  int first = -1;
   each_slot(x, [&](const Part& part, std::size_t s, const Link<Real>& link, const RestShape<Real>&) {
     for (const auto& term : part.terms)
       if (!term->valid(part.group, s, link) && (first < 0 || part.group.element[s] < first))
         first = part.group.element[s];
-    if (link.at.J < least) least = link.at.J, flattest = part.group.element[s];
   });
-  return first < 0 ? flattest : first;
+  return first;
 }
 
 template <class Real>

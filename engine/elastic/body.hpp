@@ -96,8 +96,7 @@ class ElasticBody {
   /// The same of the damping matrix, 1/s: viscosity.
   Real damping_bound(const Real* x, ThreadTeam& team);
 
-  /// First element (inner number) out of its law's range; where forces() saw one only by its own rounding, the
-  /// flattest.
+  /// First element (inner number) out of its law's range; −1: none, also where forces() saw one by its own rounding.
   int first_invalid(const Real* x) const;
 
   /// #T in inner order.

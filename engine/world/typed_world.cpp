@@ -225,11 +225,12 @@ void TypedWorld<Real>::restore_last_valid(Halt::Cause cause) {
   Halt halt{cause, -1, -1, {}};
   const double reached = state_.time, h = state_.time - last_valid_.time;
   if (cause == Halt::Cause::out_of_range) {
-    halt.element = model_.order.file_tet[static_cast<std::size_t>(body_.first_invalid(state_.x.data()))];
+    const int element = body_.first_invalid(state_.x.data());
+    if (element >= 0) halt.element = model_.order.file_tet[static_cast<std::size_t>(element)];
     halt.message = fmt::format(
-        "element {} left the range of its law at t = {:.6g} s: it was pressed flat or turned inside out "
+        "{} left the range of its law at t = {:.6g} s: it was pressed flat or turned inside out "
         "(set solver.continuation to true, take a smaller step, or load more gently)",
-        halt.element, reached);
+        element < 0 ? "an element" : fmt::format("element {}", halt.element), reached);
   } else {
     const auto wild = std::find_if(state_.v.begin(), state_.v.end(), [&](Real v) {
       return !(std::abs(v) <= 10 * (model_.diagonal / h + setup_.initial_velocity.norm()));
