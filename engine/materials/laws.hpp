@@ -8,6 +8,7 @@
 #include <heml/materials/mooney_rivlin.hpp>
 #include <heml/materials/neo_hookean.hpp>
 #include <heml/materials/ogden.hpp>
+#include <heml/materials/stable_neo_hookean.hpp>
 #include <heml/materials/stvk.hpp>
 #include <heml/materials/veronda_westmann.hpp>
 #include <heml/materials/yeoh.hpp>
@@ -25,8 +26,8 @@ struct LawTag {
 /// In the order people see them.
 using LawList =
     std::tuple<LawTag<NeoHookean>, LawTag<StVK>, LawTag<NeoHookeanIso>, LawTag<MooneyRivlin>, LawTag<FungDemiray>,
-               LawTag<Ogden>, LawTag<Hgo>, LawTag<Yeoh>, LawTag<Gent>, LawTag<VerondaWestmann>, LawTag<PaperNeoHookean>,
-               LawTag<PaperMooneyRivlin>, LawTag<PaperFungDemiray>>;
+               LawTag<Ogden>, LawTag<Hgo>, LawTag<Yeoh>, LawTag<Gent>, LawTag<VerondaWestmann>,
+               LawTag<StableNeoHookean>, LawTag<PaperNeoHookean>, LawTag<PaperMooneyRivlin>, LawTag<PaperFungDemiray>>;
 
 /// A law's struct from its parameters' values (contract order; lists one after the other).
 template <class L, class Real>
