@@ -7,6 +7,7 @@
 #include <app/panel/panel.hpp>
 #include <app/panel/readings.hpp>
 #include <app/render/bounds.hpp>
+#include <cctype>
 
 namespace heml::panel {
 namespace {
@@ -14,11 +15,17 @@ namespace {
 constexpr float controls_width = 18.5f, readings_width = 16.0f, margin = 0.7f, two_columns_from = 66;  // em
 constexpr double first_grasp = 0.12, most_grasp = 0.5;  // of the body's radius
 
-constexpr float patience = 1;  // s of being late before it is said aloud
+constexpr float patience = 1;   // s of being late before it is said aloud
+constexpr float shown_for = 5;  // s that a recovery is spoken of after its end
 
 constexpr ImGuiWindowFlags column_flags =
     ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
     ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoBringToFrontOnFocus;
+
+std::string capitalised(std::string text) {
+  if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text;
+}
 
 bool two_columns(ImVec2 picture) { return picture.x >= em(two_columns_from); }
 
@@ -52,6 +59,12 @@ void Panel::take_skin(const Frame& frame) {
 
 void Panel::take(const Frame& frame, float seconds) {
   history_.take(frame);
+  since_recovery_ += seconds;
+  if (!frame.recovery) since_recovery_ = shown_for;
+  if (frame.recovery && (!frame.recovery->ended || frame.recovery->tick != recovery_seen_)) {
+    recovery_seen_ = frame.recovery->tick;
+    since_recovery_ = 0;
+  }
   late_for_ = frame.paused || frame.pace.keeping_up ? 0 : late_for_ + seconds;
   range_ = colour_range_.update(frame.field, frame.values, seconds);
   view_.set_range(range_);
@@ -60,6 +73,8 @@ void Panel::take(const Frame& frame, float seconds) {
   watch_.take(frame);
   view_.set_beyond(watch_.beyond());
 }
+
+bool Panel::shows_recovery() const { return since_recovery_ < shown_for; }
 
 void Panel::perform(Action action) { pressed_.push_back(action); }
 
@@ -156,6 +171,9 @@ std::optional<Banner> Panel::banner_for(const Frame& frame) const {
         "The simulation stopped",
         frame.halted + "\nReset goes back to the start. A gentler pull or more damping may get past this point.",
         "Reset (R)", colours::danger};
+  if (frame.recovery && shows_recovery())
+    return Banner{frame.recovery->ended ? "The tissue was brought back" : "Bringing the tissue back",
+                  capitalised(frame.recovery->message) + ".", "", colours::warning};
   if (late_for_ > patience)
     return Banner{fmt::format("{:.1f}× slower than real time", frame.pace.slowdown),
                   "The engine cannot keep up. A softer or denser material, a lower Poisson's ratio or a coarser mesh "

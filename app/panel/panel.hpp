@@ -46,6 +46,7 @@ class Panel {
   Insets insets(ImVec2 picture) const;                      ///< that draw() takes in a picture of a size, pixels
   bool covers(float x,
               float y) const;  ///< whether a point is on the panel, as last drawn: the mouse is then not on the body
+  bool shows_recovery() const;                                    ///< one goes on, or has ended a moment ago
   bool animating() const { return notices_.animating(); }         ///< whether it changes by itself
   const std::string& hovered() const { return rows_.hovered(); }  ///< label of the row under the mouse; empty: none
 
@@ -79,6 +80,8 @@ class Panel {
   std::vector<Area> places_;      ///< of windows in the last draw()
   float controls_height_ = 1e9f;  ///< pixels that all open sections take, as last drawn
   float late_for_ = 0;            ///< s of wall time that the engine has not kept up
+  long recovery_seen_ = -1;       ///< Recovery::tick of the last one
+  float since_recovery_ = 1e9f;   ///< s of wall time since it went on
   bool hidden_ = false, helping_ = false;
 };
 

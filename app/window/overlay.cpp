@@ -50,4 +50,17 @@ void draw_force(const Frame& frame, const panel::Eye& eye) {
   list.AddText(from, panel::colours::accent, text.c_str());
 }
 
+void draw_bad_element(const Frame& frame, const panel::Eye& eye) {
+  if (!frame.recovery || frame.recovery->element < 0) return;
+  std::array<render::Vec2f, 4> at;
+  for (std::size_t c = 0; c < 4; ++c) {
+    at[c] = eye.camera().pixel(frame.recovered_element[c], eye.size());
+    if (!at[c].allFinite()) return;
+  }
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  for (std::size_t a = 0; a < 4; ++a)
+    for (std::size_t b = 0; b < a; ++b)
+      list.AddLine({at[a].x(), at[a].y()}, {at[b].x(), at[b].y()}, panel::colours::danger, panel::em(0.14f));
+}
+
 }  // namespace heml::window

@@ -12,4 +12,7 @@ void draw_ring(const render::Hit& hit, const Frame& frame, const Skin& skin, con
 /// The force in newtons beside the tool; nothing while nothing is grasped.
 void draw_force(const Frame& frame, const panel::Eye& eye);
 
+/// The edges of the first bad element of a frame's recovery, over everything that hides it.
+void draw_bad_element(const Frame& frame, const panel::Eye& eye);
+
 }  // namespace heml::window

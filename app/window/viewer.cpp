@@ -83,6 +83,7 @@ void Viewer::draw_interface(float seconds) {
 
 void Viewer::draw_marks() {
   draw_force(*frame_, eye_);
+  if (panel_->shows_recovery()) draw_bad_element(*frame_, eye_);
   if (hand_.doing() == Hand::Doing::grasping) return ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeAll);
   const bool free = hand_.doing() == Hand::Doing::nothing && !ImGui::IsAnyItemActive() && ImGui::IsMousePosValid();
   if (!free || panel_->covers(mouse_.x(), mouse_.y())) return;

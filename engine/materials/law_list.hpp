@@ -6,6 +6,7 @@
 #include <heml/materials/mooney_rivlin.hpp>
 #include <heml/materials/neo_hookean.hpp>
 #include <heml/materials/ogden.hpp>
+#include <heml/materials/stable_neo_hookean.hpp>
 #include <heml/materials/stvk.hpp>
 #include <heml/materials/veronda_westmann.hpp>
 #include <heml/materials/yeoh.hpp>
@@ -23,7 +24,7 @@ struct LawTag {
 /// In the order people see them.
 using LawList =
     std::tuple<LawTag<NeoHookean>, LawTag<StVK>, LawTag<NeoHookeanIso>, LawTag<MooneyRivlin>, LawTag<FungDemiray>,
-               LawTag<Ogden>, LawTag<Hgo>, LawTag<Yeoh>, LawTag<Gent>, LawTag<VerondaWestmann>, LawTag<PaperNeoHookean>,
-               LawTag<PaperMooneyRivlin>, LawTag<PaperFungDemiray>>;
+               LawTag<Ogden>, LawTag<Hgo>, LawTag<Yeoh>, LawTag<Gent>, LawTag<VerondaWestmann>,
+               LawTag<StableNeoHookean>, LawTag<PaperNeoHookean>, LawTag<PaperMooneyRivlin>, LawTag<PaperFungDemiray>>;
 
 }  // namespace heml

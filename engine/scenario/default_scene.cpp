@@ -76,7 +76,7 @@ Scene scene_around(const fs::path& path) {
   low.y() = extent.high.y() - held_part * size.y();
   scene.boundary.push_back({{{}, std::array{low, high}, std::nullopt}, {}});
   scene.gravity = Vec3(0, -9.81, 0);
-  scene.solver.continuation = true;
+  scene.solver.continuation = scene.solver.recovery = true;
   scene.solver.damping = 1;
   return scene;
 }

@@ -31,6 +31,19 @@ Json edit_json(const EditReport& edit) {
           {"energy_after", energies_json(edit.after)}};
 }
 
+/// Energies are null where a law has none.
+Json switch_json(const LawSwitch& at) {
+  return {{"time", at.time}, {"before", energies_json(at.before)}, {"after", energies_json(at.after)}};
+}
+
+Json recovery_json(const Recovery& recovery) {
+  Json json = {{"message", recovery.message}, {"step", recovery.tick},         {"steps", recovery.steps},
+               {"least_J", recovery.least_J}, {"inverted", recovery.inverted}, {"begun", switch_json(recovery.begun)}};
+  if (recovery.element >= 0) json["element"] = recovery.element;
+  if (recovery.ended) json["ended"] = switch_json(*recovery.ended);
+  return json;
+}
+
 }  // namespace
 
 void write_report(const std::filesystem::path& path, World& world, const SolveFacts& facts) {
@@ -59,6 +72,8 @@ void write_report(const std::filesystem::path& path, World& world, const SolveFa
   report["edits"] = Json::array();
   for (const EditReport& edit : world.edits()) report["edits"].push_back(edit_json(edit));
   report["state_hash"] = fmt::format("{:016x}", world.state_hash());
+  report["recoveries"] = world.recoveries();
+  if (const Recovery* recovery = world.recovery()) report["recovery"] = recovery_json(*recovery);
   if (facts.halt) report["halt"] = halt_json(*facts.halt);
   write_text_file(path, json_text(report, path.string(), true) + "\n");
 }

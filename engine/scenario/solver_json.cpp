@@ -57,7 +57,7 @@ Integrator integrator_from(const Key& key) {
 
 SolverSettings solver_from(const Key& key) {
   key.allow({"integrator", "step", "rate", "duration", "damping", "precision", "threads", "element", "continuation",
-             "tolerance", "budget", "minimiser", "projection", "preconditioner"});
+             "recovery", "tolerance", "budget", "minimiser", "projection", "preconditioner"});
   SolverSettings solver;
   if (const auto integrator = key.find("integrator")) solver.integrator = integrator_from(*integrator);
   if (key.has("step") && key.has("rate")) key.fail("holds step and rate", "give one: a step is one tick");
@@ -76,6 +76,7 @@ SolverSettings solver_from(const Key& key) {
   if (const auto threads = key.find("threads")) solver.threads = static_cast<int>(threads->integer(0, most_threads));
   if (const auto element = key.find("element")) solver.nodal_pressure = element->one_of(elements) == 1;
   if (const auto continuation = key.find("continuation")) solver.continuation = continuation->flag();
+  if (const auto recovery = key.find("recovery")) solver.recovery = recovery->flag();
   if (const auto tolerance = key.find("tolerance")) solver.tolerance = tolerance->positive();
   if (const auto budget = key.find("budget")) solver.budget = budget_from(*budget);
   if (const auto name = key.find("minimiser")) solver.minimiser = static_cast<Minimiser>(name->one_of(minimiser_names));
@@ -98,6 +99,7 @@ Json solver_json(const SolverSettings& solver) {
   json["threads"] = solver.threads;
   json["element"] = elements[solver.nodal_pressure ? 1 : 0];
   json["continuation"] = solver.continuation;
+  json["recovery"] = solver.recovery;
   if (solver.tolerance) json["tolerance"] = *solver.tolerance;
   if (solver.budget)
     json["budget"] = solver.budget->milliseconds > 0 ? Json{{"milliseconds", solver.budget->milliseconds}}

@@ -1,7 +1,9 @@
 #pragma once
 // What the engine publishes for eyes: a picture of the body at one tick. Immutable once published.
+#include <array>
 #include <heml/world/world.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -48,7 +50,9 @@ struct Frame {
   int substeps = 1;
   double stable_step = 0;  ///< s
   bool paused = false;
-  std::string halted;  ///< why the world will not step on; empty while it does
+  std::optional<Recovery> recovery;        ///< the last one, going on or ended
+  std::array<Vec3f, 4> recovered_element;  ///< m, corners of its first bad element, where there is one to name
+  std::string halted;                      ///< why the world will not step on; empty while it does
 };
 
 }  // namespace heml

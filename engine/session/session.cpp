@@ -159,6 +159,7 @@ class Session::Impl {
     if (recorder_) recorder_->ticked(*world_);
     learn(std::chrono::duration<double>(Pacer::Clock::now() - began).count());
     if (world_->halt()) show_now_ = true;
+    tell_of_recovery();
     pacer_.book(began, Pacer::Clock::now());
   }
 
@@ -170,6 +171,21 @@ class Session::Impl {
     if (cost_keeper_ && find_integrator(world_->solver_work().integrator) == Integrator::verlet)
       if (const auto nanoseconds = cost_keeper_->after(seconds, world_->substeps()))
         carry_out(SetStepCost{*nanoseconds});
+  }
+
+  /// A line as a recovery begins, with where to find it again, and one as it ends.
+  void tell_of_recovery() {
+    const Recovery* recovery = world_->recovery();
+    if (world_->recoveries() != recoveries_ && recovery) {
+      warn("{}", recovery->message);
+      if (options_.record) inform("{} holds it, from step {}", options_.record->string(), recovery->tick);
+    }
+    recoveries_ = world_->recoveries();
+    const bool goes_on = recovery && !recovery->ended;
+    if (was_recovering_ && !goes_on && recovery)
+      inform("the body came back after {} steps, {:.3g} s", recovery->steps,
+             recovery->ended->time - recovery->begun.time);
+    was_recovering_ = goes_on;
   }
 
   void publish() {
@@ -190,7 +206,9 @@ class Session::Impl {
   std::shared_ptr<const Skin> skin_;  ///< of the last frame
   std::optional<Recorder> recorder_;
   Schedule schedule_;  ///< the scene's own events
-  std::mutex mutex_;   ///< of queue_ and single_steps_; held for a swap at most
+  long recoveries_ = 0;
+  bool was_recovering_ = false;
+  std::mutex mutex_;  ///< of queue_ and single_steps_; held for a swap at most
   std::condition_variable wake_;
   std::vector<Command> queue_, taken_;
   long single_steps_ = 0;

@@ -70,6 +70,16 @@ void fill_frame(World& world, std::shared_ptr<const Skin> skin, Field field, dou
   frame.tool = world.tool();
   frame.substeps = world.substeps();
   frame.stable_step = world.stable_step();
+  frame.recovery.reset();
+  if (const Recovery* recovery = world.recovery()) {
+    frame.recovery = *recovery;
+    if (recovery->element >= 0) {
+      const Tet& corners = world.setup().mesh.tets[static_cast<std::size_t>(recovery->element)];
+      std::vector<Vec3f> at;
+      world.write_positions(corners, ahead, at);
+      std::copy(at.begin(), at.end(), frame.recovered_element.begin());
+    }
+  }
   frame.halted = world.halt() ? world.halt()->message : std::string();
   frame.skin = std::move(skin);
 }

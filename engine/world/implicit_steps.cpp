@@ -34,7 +34,7 @@ template <class Real>
 void TypedWorld<Real>::advance_implicit(double until) {
   const double whole = until - state_.time;
   double longest = whole;
-  while (state_.time < until && !halt_ && !interrupted_) {
+  while (state_.time < until && !halt_ && !recovering() && !interrupted_) {
     const bool last = state_.time + 1.5 * longest > until;
     const double after = last ? until : state_.time + longest;
     if (implicit_step(after - state_.time, after)) {
@@ -54,16 +54,14 @@ template <class Real>
 void TypedWorld<Real>::halt_unsolved(const std::string& message) {
   if (remembers_) body_.begin_step(0);
   take_forces();
-  halt_ = Halt{Halt::Cause::not_converged, -1, -1, message};
+  stop(Halt{Halt::Cause::not_converged, -1, -1, message});
 }
 
 template <class Real>
 bool TypedWorld<Real>::implicit_step(double h, double time_after) {
   ImplicitParts<Real>& parts = implicit();
-  const auto size = static_cast<Eigen::Index>(state_.x.size());
-  using Numbers = Eigen::Map<const Eigen::Matrix<Real, Eigen::Dynamic, 1>>;
-  parts.x = Numbers(state_.x.data(), size).template cast<double>();
-  parts.v = Numbers(state_.v.data(), size).template cast<double>();
+  parts.x = as_vector(state_.x);
+  parts.v = as_vector(state_.v);
   Vector x = parts.x, v = parts.v;
   bool done = false;
   if (method_ == Integrator::backward_euler) {
@@ -71,7 +69,7 @@ bool TypedWorld<Real>::implicit_step(double h, double time_after) {
   } else if (method_ == Integrator::bdf2 && parts.h_before > 0) {
     done = solve_stage(bdf2_stage(x, v, parts.x_before, parts.v_before, h, parts.h_before), h, time_after, x, v);
   } else {
-    const Vector f = Numbers(state_.f.data(), size).template cast<double>();
+    const Vector f = as_vector(state_.f);
     const Vector push = (parts.mass.array() > 0).select(f.array() / parts.mass.array(), 0);
     const Stage first = tr_bdf2::first_stage(x, v, push - setup_.solver.damping * v, h);
     const double middle = tr_bdf2::gamma * h;
@@ -95,10 +93,17 @@ bool TypedWorld<Real>::implicit_step(double h, double time_after) {
   return true;
 }
 
+template <class Real>
+Vector TypedWorld<Real>::as_vector(const std::vector<Real>& values) {
+  return Eigen::Map<const Eigen::Matrix<Real, Eigen::Dynamic, 1>>(values.data(),
+                                                                  static_cast<Eigen::Index>(values.size()))
+      .template cast<double>();
+}
+
 /// Keeps what a solve has reached; forces are those the objective saw last.
 template <class Real>
 void TypedWorld<Real>::take_state(const Vector& x, const Vector& v, double time) {
-  const Vector& f = implicit().body.forces();
+  const Vector& f = (recovering() ? recovery_->stand_in->parts : implicit()).body.forces();
   for (std::size_t i = 0; i < state_.x.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
     state_.x[i] = static_cast<Real>(x[k]);

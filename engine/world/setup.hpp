@@ -76,6 +76,7 @@ struct SolverSettings {
   double damping = 0;          ///< mass-proportional, 1/s
   int threads = 0;             ///< 0: all cores. Never changes a bit of the result
   bool continuation = false;   ///< continue each law past its range instead of stopping there
+  bool recovery = false;  ///< bring a collapsed or wild body back instead of stopping (recovery.hpp); dynamics alone
   bool nodal_pressure = false;  ///< averaged nodal pressure instead of one a tetrahedron (elastic/nodal_pressure.hpp)
   std::optional<double> tolerance;  ///< of implicit and static solves, relative to the forces at work (contract)
   std::optional<Budget> budget;     ///< none: every stage is solved to its tolerance

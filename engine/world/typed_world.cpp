@@ -11,7 +11,6 @@ namespace {
 constexpr double safety = 0.9;  // of the live limit; the bound is taken anew every few steps
 constexpr int steps_between_bounds = 8;
 constexpr int steps_between_bounds_when_pulled = 2;  // a hand can do much to a body in little time
-constexpr double smallest_step = 1e-9;               // s; below it a body is not soft tissue but a mistake
 constexpr std::size_t node_grain = 4096;
 
 std::vector<Material> materials_of(const WorldSetup& setup) {
@@ -71,8 +70,10 @@ void TypedWorld<Real>::start() {
   move_held();
   body_.forget(state_.x.data());
   last_valid_ = state_;
+  expect_recoveries();
   if (!take_forces()) restore_last_valid(Halt::Cause::out_of_range);
   last_valid_ = state_;
+  if (watches()) watch();
   find_stable_step();
   limit_at_start_ = stable_step_;
   method_ = choose_method();
@@ -105,10 +106,22 @@ void TypedWorld<Real>::advance(double until) {
     if (!halt_ && !interrupted_) state_.time = until;
     return;
   }
-  if (!is_explicit(method_)) return advance_implicit(until);
   while (state_.time < until && !halt_ && !interrupted_) {
+    if (recovering())
+      recover(until);
+    else if (is_explicit(method_))
+      advance_explicit(until);
+    else
+      advance_implicit(until);
+    if (watches()) watch();
+  }
+}
+
+template <class Real>
+void TypedWorld<Real>::advance_explicit(double until) {
+  while (state_.time < until && !halt_ && !recovering() && !interrupted_) {
     const double h = choose_step(until);
-    if (halt_) return;
+    if (halt_ || recovering()) return;
     const bool last = state_.time + 1.5 * h > until;
     const double after = last ? until : state_.time + h;
     step(static_cast<Real>(after - state_.time), after);
@@ -124,10 +137,10 @@ double TypedWorld<Real>::choose_step(double until) {
   const int patience = grasps_.empty() ? steps_between_bounds : steps_between_bounds_when_pulled;
   if (++steps_since_bound_ >= patience) find_stable_step();
   if (!(stable_step_ > smallest_step)) {
-    halt_ = Halt{Halt::Cause::unstable, -1, -1,
-                 fmt::format("stopped at t = {:.6g} s: an explicit method would need steps of {:.3g} s; "
-                             "soften the material or improve the mesh's worst element",
-                             state_.time, stable_step_)};
+    stop(Halt{Halt::Cause::unstable, -1, -1,
+              fmt::format("stopped at t = {:.6g} s: an explicit method would need steps of {:.3g} s; "
+                          "soften the material or improve the mesh's worst element",
+                          state_.time, stable_step_)});
     return left;
   }
   return left / std::ceil(left / stable_step_);
@@ -197,7 +210,7 @@ template <class Real>
 bool TypedWorld<Real>::take_forces() {
   const Real* x = state_.x.data();
   Real* f = state_.f.data();
-  const bool valid = body_.forces(x, f, team_);
+  const bool valid = acting_body().forces(x, f, team_);
   const Vector3<Real> g = gravity_now().template cast<Real>();
   if (!g.isZero(0))
     for (std::size_t n = 0; n < mass_.size(); ++n)
@@ -212,10 +225,11 @@ bool TypedWorld<Real>::take_forces() {
 /// behind, c = 2ω of a grasp and what viscosity adds.
 template <class Real>
 void TypedWorld<Real>::find_stable_step() {
-  double lambda = static_cast<double>(body_.frequency_bound(state_.x.data(), team_)), omega = 0;
+  ElasticBody<Real>& body = acting_body();
+  double lambda = static_cast<double>(body.frequency_bound(state_.x.data(), team_)), omega = 0;
   for (const auto& grasp : grasps_) omega = std::max(omega, static_cast<double>(grasp.omega()));
   lambda += omega * omega;
-  const double half = omega + (remembers_ ? static_cast<double>(body_.damping_bound(state_.x.data(), team_)) / 2 : 0);
+  const double half = omega + (remembers_ ? static_cast<double>(body.damping_bound(state_.x.data(), team_)) / 2 : 0);
   stable_step_ = safety * 2 / (half + std::sqrt(half * half + lambda));
   steps_since_bound_ = 0;
 }
@@ -246,7 +260,21 @@ void TypedWorld<Real>::restore_last_valid(Halt::Cause cause) {
   state_.time = last_valid_.time;
   if (remembers_) body_.begin_step(0);
   take_forces();
-  halt_ = halt;
+  stop(halt);
+}
+
+/// The world goes no further as it is: halted, or brought back where the scene asks for that.
+template <class Real>
+void TypedWorld<Real>::stop(const Halt& halt) {
+  if (!can_recover(halt)) {
+    halt_ = halt;
+    return;
+  }
+  Condition seen = recovery_->look(model_.mesh, state_, mass_);
+  const auto& file_tet = model_.order.file_tet;
+  if (halt.element >= 0)
+    seen.worst = static_cast<int>(std::find(file_tet.begin(), file_tet.end(), halt.element) - file_tet.begin());
+  begin_recovery(seen);
 }
 
 std::unique_ptr<World> make_world(WorldSetup setup) {

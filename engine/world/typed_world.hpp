@@ -8,9 +8,13 @@
 #include <heml/tools/grasp.hpp>
 #include <heml/world/implicit_parts.hpp>
 #include <heml/world/model.hpp>
+#include <heml/world/recovery_cause.hpp>
+#include <heml/world/recovery_parts.hpp>
 #include <heml/world/world.hpp>
 
 namespace heml {
+
+inline constexpr double smallest_step = 1e-9;  ///< s; below it a body is not soft tissue but a mistake
 
 template <class Real>
 class TypedWorld final : public World {
@@ -24,6 +28,8 @@ class TypedWorld final : public World {
   void interrupt() override { interrupted_ = true; }
   bool unfinished() const override { return unfinished_; }
   const std::optional<Halt>& halt() const override { return halt_; }
+  const Recovery* recovery() const override { return recovery_ && recovery_->last ? &*recovery_->last : nullptr; }
+  long recoveries() const override { return recovery_ ? recovery_->count : 0; }
   long ticks() const override { return ticks_; }
   double time() const override { return state_.time; }
   long steps() const override { return steps_; }
@@ -47,6 +53,7 @@ class TypedWorld final : public World {
  private:
   // typed_world.cpp: stepping
   void advance(double until);
+  void advance_explicit(double until);
   double choose_step(double until);
   void step(Real h, double time_after);
   template <class Method>
@@ -55,6 +62,7 @@ class TypedWorld final : public World {
   bool take_forces();
   void find_stable_step();
   void restore_last_valid(Halt::Cause cause);
+  void stop(const Halt& halt);
   void start();
   void take_masses();
   Vec3 gravity_now() const;
@@ -77,6 +85,26 @@ class TypedWorld final : public World {
   void halt_unsolved(const std::string& message);
   ImplicitParts<Real>& implicit();
   void take_state(const Vector& x, const Vector& v, double time);
+  static Vector as_vector(const std::vector<Real>& values);
+
+  // recovery_steps.cpp: bringing a body back
+  bool recovering() const { return recovery_ && recovery_->stand_in; }
+  bool watches() const { return recovery_ && !recovery_->stand_in && !halt_; }
+  ElasticBody<Real>& acting_body() { return recovering() ? recovery_->stand_in->body : body_; }
+  void expect_recoveries();
+  double fastest_waves() const;
+  double shear_waves() const;
+  void watch();
+  bool is_step_hopeless() const;
+  bool can_recover(const Halt& halt);
+  void begin_recovery(const Condition& seen);
+  Suspects suspect(const Condition& seen) const;
+  void stand_in();
+  void set_apart();
+  void recover(double until);
+  void step_stand_in(double until);
+  void unfold(double part);
+  void end_recovery();
 
   // budget.cpp
   int stage_iterations() const;
@@ -125,6 +153,7 @@ class TypedWorld final : public World {
   std::atomic<bool> interrupted_{false};
   bool unfinished_ = false;
   std::unique_ptr<ImplicitParts<Real>> implicit_;  ///< none until an implicit or static method needs it
+  std::unique_ptr<RecoveryParts<Real>> recovery_;  ///< none unless the scene asks for it
   SolverWork work_;
   Integrator method_ = Integrator::verlet;          ///< in use: what "auto" has chosen, else the scene's
   double step_cost_ = 40e-9;                        ///< s an element: an explicit step, one core

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <heml/mesh/edit.hpp>
 #include <heml/world/command.hpp>
+#include <heml/world/recovery.hpp>
 #include <heml/world/setup.hpp>
 #include <heml/world/solver_work.hpp>
 #include <memory>
@@ -15,13 +16,6 @@
 #include <vector>
 
 namespace heml {
-
-/// J.
-struct Energies {
-  double kinetic = 0;
-  double elastic = 0;
-  double potential = 0;  ///< of gravity, 0 at the rest shape
-};
 
 /// What an edit of the mesh has taken from a body.
 struct EditReport {
@@ -84,6 +78,11 @@ class World {
   virtual bool unfinished() const = 0;
 
   virtual const std::optional<Halt>& halt() const = 0;
+
+  /// The last recovery since the start or the last Reset, if there was any (setup().solver.recovery), and how many
+  /// there were.
+  virtual const Recovery* recovery() const = 0;
+  virtual long recoveries() const = 0;
 
   virtual long ticks() const = 0;          ///< whole ticks done, not reset by Reset
   virtual double time() const = 0;         ///< s since start or the last Reset

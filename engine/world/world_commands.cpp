@@ -90,6 +90,7 @@ std::optional<std::string> TypedWorld<Real>::take(const SetMaterial& command) {
   take_masses();
   implicit_.reset();
   lowest_frequency_.reset();
+  if (recovering()) stand_in();
   find_stable_step();
   method_ = choose_method();
   return std::nullopt;

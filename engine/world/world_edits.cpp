@@ -35,6 +35,8 @@ void TypedWorld<Real>::carry_out(const MeshEdit& edit) {
   for (std::size_t n = 0; n < mass_.size(); ++n)
     if (mass_[n] == 0) Eigen::Map<Vector3<Real>>(&state_.v[3 * n]).setZero();
   move_held();  // nodes of no element too
+  if (recovery_) recovery_->set_mesh(model_.mesh, mass_);
+  if (recovering()) stand_in();
   implicit_.reset();
   lowest_frequency_.reset();
 }

@@ -39,7 +39,7 @@ void TypedWorld<Real>::write_field(Field field, std::span<const int> nodes, std:
     }
     return;
   }
-  body_.states(state_.x.data(), element_states_);
+  acting_body().states(state_.x.data(), element_states_);
   std::vector<double> sum(mass_.size(), 0.0), weight(mass_.size(), 0.0);
   for (std::size_t t = 0; t < model_.mesh.tets.size(); ++t) {
     const Tet& tet = model_.mesh.tets[t];
@@ -69,13 +69,13 @@ Energies TypedWorld<Real>::energies() {
     e.kinetic += m / 2 * v.squaredNorm();
     e.potential -= m * gravity.dot(x - model_.mesh.nodes[n]);
   }
-  e.elastic = body_.energy(state_.x.data(), team_);
+  e.elastic = acting_body().energy(state_.x.data(), team_);
   return e;
 }
 
 template <class Real>
 std::vector<double> TypedWorld<Real>::volume_ratios() {
-  body_.states(state_.x.data(), element_states_);
+  acting_body().states(state_.x.data(), element_states_);
   std::vector<double> result;
   for (const int file : topology_->elements) {
     const auto t = static_cast<std::size_t>(model_.order.new_tet[static_cast<std::size_t>(file)]);

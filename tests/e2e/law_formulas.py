@@ -125,6 +125,15 @@ def veronda_westmann(m, F):
     return m["c1"] * (mp.exp(m["beta"] * (I1 - 3)) - 1) - m["c1"] * m["beta"] / 2 * (I2 - 3) + quadratic(m, J)
 
 
+def stable_neo_hookean(m, F):
+    """Smith, De Goes & Kim 2018, Eq. 14, less its value at rest."""
+    I1, _, J = invariants(F)
+    mu, lame = m["mu"] * 4 / 3, m["lambda"] + m["mu"] * 5 / 6
+    alpha = 1 + mu / lame - mu / (4 * lame)
+    at = lambda I1, J: mu / 2 * (I1 - 3) + lame / 2 * (J - alpha) ** 2 - mu / 2 * mp.log(I1 + 1)
+    return at(I1, J) - at(mpf(3), mpf(1))
+
+
 def paper_neo_hookean(m, F):
     I1, _, J = invariants(F)
     return m["K1"] * (I1 - 3) + quadratic(m, J)

@@ -40,6 +40,7 @@ PARAMETERS = {
     "yeoh": {"C10": uniform(200, 2e3), "C20": uniform(-50, 50), "C30": uniform(0, 20), "kappa": uniform(1e3, 1e5)},
     "gent": {"mu": uniform(200, 2e3), "Jm": uniform(10, 100), "kappa": uniform(1e3, 1e5)},
     "veronda_westmann": {"c1": uniform(20, 300), "beta": uniform(0.3, 3), "kappa": uniform(1e3, 1e5)},
+    "stable_neo_hookean": {"lambda": uniform(-300, 2e4), "mu": uniform(500, 5e3)},
     "paper_neo_hookean": {"K1": uniform(200, 2e3), "kappa": uniform(1e3, 1e5)},
     "paper_mooney_rivlin": {"K1": uniform(200, 2e3), "K2": uniform(-50, 500), "kappa": uniform(1e3, 1e5)},
     "paper_fung_demiray": {"mu": uniform(200, 2e3), "gamma": uniform(0.05, 1), "kappa": uniform(1e3, 1e5)},

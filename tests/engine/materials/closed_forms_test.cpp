@@ -116,6 +116,14 @@ const std::map<std::string, ClosedForm, std::less<>>& closed_forms() {
          for (int i = 0; i < 3; ++i) P[i] += 2 * v[2] * e * std::exp(v[3] * e * e) * I4 * ((i == 0) - 1 / 3.0L) / s[i];
          return P;
        }},
+      {"stable_neo_hookean",  // μ' (1 − 1/(I1+1)) λi + λ' (J − α) J/λi, with the publication's own constants
+       [](const S& s, const V& v) {
+         const Long mu = 4 * v[1] / 3.0L, lambda = v[0] + 5 * v[1] / 6.0L, alpha = 1 + 3 * mu / (4 * lambda);
+         const Long J = product(s), I1 = sum_of_powers(s, 2);
+         Stress P;
+         for (int i = 0; i < 3; ++i) P[i] = mu * (1 - 1 / (I1 + 1)) * s[i] + lambda * (J - alpha) * J / s[i];
+         return P;
+       }},
       {"paper_neo_hookean", [](const S& s, const V& v) { return printed(s, constant(v[0]), 0, v[1]); }},
       {"paper_mooney_rivlin", [](const S& s, const V& v) { return printed(s, constant(v[0]), v[1], v[2]); }},
       {"paper_fung_demiray", [](const S& s, const V& v) { return printed(s, exponential(v[0] / 2, v[1]), 0, v[2]); }},
@@ -272,6 +280,7 @@ TEST_CASE("constants at rest are the textbook's") {
       {"yeoh", [](const auto& v) { return 2 * v[0]; }},
       {"gent", [](const auto& v) { return v[0]; }},
       {"veronda_westmann", [](const auto& v) { return v[0] * v[1]; }},
+      {"stable_neo_hookean", [](const auto& v) { return v[1]; }},
   };
   for (const auto& [law, shear] : table) {
     CAPTURE(law);

@@ -22,6 +22,7 @@ inline Material sample_material(std::string_view law) {
       {"yeoh", {500, -50, 80, 5e4}},
       {"gent", {1e3, 20, 5e4}},
       {"veronda_westmann", {300, 3, 5e4}},
+      {"stable_neo_hookean", {4e3, 1e3}},
       {"mass_spring", {10}},
       {"paper_neo_hookean", {500, 5e4}},
       {"paper_mooney_rivlin", {400, 100, 5e4}},

@@ -1,0 +1,46 @@
+#include <fmt/format.h>
+
+#include <heml/world/recovery_cause.hpp>
+
+namespace heml {
+namespace {
+
+constexpr double sliver = 0.05;        // of least height over longest edge
+constexpr double incompressible = 50;  // κ/μ, at ν = 0.49
+constexpr double fast = 1;             // of the speed of shear waves
+
+std::string what(const Suspects& s) {
+  if (s.element < 0) return fmt::format("a node ran away at t = {:.4g} s", s.time);
+  const std::string state = s.least_J > 0 ? "was pressed out of the range of its law" : "was flat or inside out";
+  const std::string others = s.inverted > 1 ? fmt::format(", with {} in all inverted", s.inverted) : "";
+  return fmt::format("element {} {} at t = {:.4g} s (J = {:.3g}{})", s.element, state, s.time, s.least_J, others);
+}
+
+/// The cause and what to do about it, from the surest to the most general.
+std::string why(const Suspects& s) {
+  if (s.from_start) return "the body starts so: give it other initial positions if that is not meant";
+  if (s.step > s.limit)
+    return fmt::format(
+        "the step of {:.3g} s is longer than the {:.3g} s that are stable now: take a shorter one, or none", s.step,
+        s.limit);
+  if (s.tool_speed > fast * s.wave_speed)
+    return fmt::format(
+        "the tool moves at {:.2g} m/s and waves in this tissue at {:.2g} m/s: move it more slowly, or grasp more "
+        "tissue",
+        s.tool_speed, s.wave_speed);
+  if (s.thinness < sliver)
+    return fmt::format("it is a sliver ({:.2g} high for a longest edge of 1): improve the mesh there", s.thinness);
+  if (s.stiffness_ratio > incompressible)
+    return fmt::format(
+        "its volume resists {:.0f} times as much as its shape: a lower Poisson's ratio or kappa, or nodal pressure, "
+        "bears more",
+        s.stiffness_ratio);
+  if (s.pulled) return "the tool pulls or presses harder than the law bears: do so more gently, or grasp more tissue";
+  return "loads or moved supports deform it more than the law bears: load it more gently, or take a stiffer material";
+}
+
+}  // namespace
+
+std::string likely_cause(const Suspects& s) { return what(s) + "; most likely " + why(s); }
+
+}  // namespace heml

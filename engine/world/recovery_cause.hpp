@@ -1,0 +1,25 @@
+#pragma once
+// Why a body most likely went wrong, for people.
+#include <string>
+
+namespace heml {
+
+/// What is known when a recovery begins.
+struct Suspects {
+  double time = 0;             ///< s
+  int element = -1;            ///< the first bad element, mesh-file order; −1: none
+  double least_J = 1;          ///< its J
+  int inverted = 0;            ///< elements with J ≤ 0
+  bool from_start = false;     ///< the body was so when it was set up
+  double step = 0, limit = 0;  ///< s: a given step of an explicit method and the live limit; 0: no step was given
+  double tool_speed = 0;       ///< m/s, lately; 0: no tool
+  double wave_speed = 0;       ///< m/s, of shear waves
+  double thinness = 1;         ///< of the element at rest: its least height over its longest edge
+  double stiffness_ratio = 0;  ///< κ/μ of its material; 0: no continuum
+  bool pulled = false;         ///< a tool holds the body
+};
+
+/// One sentence: what happened, the likely cause, the remedy.
+std::string likely_cause(const Suspects& s);
+
+}  // namespace heml

@@ -1,0 +1,19 @@
+#pragma once
+// The body that a recovery goes on with in place of the scene's: the same mesh, loads and grasps, every material
+// replaced by a stable Neo-Hookean as stiff in shear at rest (materials/stable_neo_hookean.hpp), which no state ends.
+#include <heml/world/implicit_parts.hpp>
+
+namespace heml {
+
+template <class Real>
+struct StandIn {
+  ElasticBody<Real> body;
+  ImplicitParts<Real> parts;
+
+  /// materials: the scene's, one per index in model.material_of. masses, inverse_mass: #V, as the world's. All must
+  /// outlive this.
+  StandIn(const Model<Real>& model, const std::vector<RegionMaterial>& materials, const std::vector<Real>& masses,
+          const std::vector<Real>& inverse_mass, const std::vector<GraspSpring<Real>>& grasps, ThreadTeam& team);
+};
+
+}  // namespace heml

@@ -1,0 +1,336 @@
+#include <doctest/doctest.h>
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <heml/world/recovery_cause.hpp>
+#include <map>
+
+#include "support.hpp"
+#include "world_support.hpp"
+
+using namespace heml;
+using namespace heml::test;
+
+namespace {
+
+constexpr double side = 0.1;  // m
+
+/// Parameters of a law from its moduli at rest, Pa.
+Material with_moduli(const std::string& law, double mu, double kappa) {
+  const std::map<std::string, std::vector<double>> parameters = {
+      {"stvk", {kappa - 2 * mu / 3, mu}},
+      {"neo_hookean", {kappa - 2 * mu / 3, mu}},
+      {"stable_neo_hookean", {kappa - 2 * mu / 3, mu}},
+      {"neo_hookean_iso", {mu / 2, kappa}},
+      {"mooney_rivlin", {0.4 * mu, 0.1 * mu, kappa}},
+      {"fung_demiray", {mu, 1.5, kappa}},
+      {"ogden", {6 * mu / 17, -4 * mu / 17, 3, -4, kappa}},
+      {"hgo", {mu / 2, kappa, 0.8 * mu, 2}},
+      {"yeoh", {mu / 2, -0.05 * mu, 0.08 * mu, kappa}},
+      {"gent", {mu, 20, kappa}},
+      {"veronda_westmann", {mu / 3, 3, kappa}},
+  };
+  Material material;
+  material.law = law;
+  material.parameters = parameters.at(law);
+  if (find_law(law)->has_fibre) material.fibre = Vec3::UnitX();
+  REQUIRE_FALSE(material_problem(material));
+  REQUIRE(ground_state(material).shear == doctest::Approx(mu));
+  return material;
+}
+
+/// Every law but those with stress at rest.
+std::vector<std::string> law_names() {
+  std::vector<std::string> names;
+  for (const LawInfo& law : laws())
+    if (law.is_continuum && !law.name.starts_with("paper_")) names.emplace_back(law.name);
+  return names;
+}
+
+/// A cube of 10 kPa, held at x = 0, stepped by backward Euler.
+WorldSetup cube(const std::string& law, double poisson) {
+  WorldSetup setup;
+  setup.mesh = make_box(Vec3(side, side, side), {2, 2, 2});
+  setup.materials = {{std::nullopt, with_moduli(law, 1e4 / (2 + 2 * poisson), 1e4 / (3 - 6 * poisson))}};
+  setup.boundary.push_back({nodes_where(setup.mesh, [](const Vec3& X) { return X.x() < 1e-9; })});
+  setup.solver.integrator = Integrator::backward_euler;
+  setup.solver.step = 1.0 / 60;
+  setup.solver.threads = 1;
+  setup.solver.recovery = true;
+  return setup;
+}
+
+using Place = std::function<Vec3(const Vec3&)>;
+
+const Vec3 middle = Vec3::Constant(side / 2);
+Vec3 to_point(const Vec3&) { return middle; }
+Vec3 to_line(const Vec3& X) { return {X.x(), middle.y(), middle.z()}; }
+Vec3 to_plane(const Vec3& X) { return {X.x(), X.y(), middle.z()}; }
+Vec3 mirrored(const Vec3& X) { return {X.x() > side / 2 ? side - X.x() : X.x(), X.y(), X.z()}; }
+Place scattered(std::uint64_t seed) {
+  return [random = std::mt19937_64(seed)](const Vec3&) mutable {
+    return Vec3(uniform(random, 0, side), uniform(random, 0, side), uniform(random, 0, side));
+  };
+}
+
+WorldSetup starting_at(WorldSetup setup, Place place) {
+  for (const Vec3& X : setup.mesh.nodes) setup.initial_positions.push_back(place(X));
+  return setup;
+}
+
+/// Rms distance from the rest shape, turned and moved as fits best, over the diagonal.
+double away_from_rest(const std::vector<Vec3>& x, const std::vector<Vec3>& rest) {
+  const auto mean = [](const std::vector<Vec3>& points) {
+    Vec3 sum = Vec3::Zero();
+    for (const Vec3& point : points) sum += point;
+    return Vec3(sum / static_cast<double>(points.size()));
+  };
+  const Vec3 of_x = mean(x), of_rest = mean(rest);
+  Mat3 moment = Mat3::Zero();
+  for (std::size_t n = 0; n < x.size(); ++n) moment += (rest[n] - of_rest) * (x[n] - of_x).transpose();
+  const Eigen::JacobiSVD<Mat3> svd(moment, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Vec3 signs(1, 1, (svd.matrixV() * svd.matrixU().transpose()).determinant() < 0 ? -1 : 1);
+  const Mat3 R = svd.matrixV() * signs.asDiagonal() * svd.matrixU().transpose();
+  double sum = 0;
+  for (std::size_t n = 0; n < x.size(); ++n) sum += (x[n] - of_x - R * (rest[n] - of_rest)).squaredNorm();
+  return std::sqrt(sum / static_cast<double>(x.size())) / (std::sqrt(3.0) * side);
+}
+
+int inverted(World& world) {
+  const std::vector<double> J = world.volume_ratios();
+  return static_cast<int>(std::count_if(J.begin(), J.end(), [](double ratio) { return !(ratio > 0); }));
+}
+
+/// The step from which on the body is at rest to 0.1 %, none inverted; 0 when 60 do not suffice.
+int steps_to_rest(World& world) {
+  int since = 0;
+  for (int step = 1; step <= 60 && !world.halt(); ++step) {
+    world.tick();
+    const bool at_rest = away_from_rest(world.positions(), world.setup().mesh.nodes) <= 1e-3 && inverted(world) == 0;
+    if (!at_rest) since = 0;
+    if (at_rest && since == 0) since = step;
+    if (since > 0 && step >= since + 2) break;
+  }
+  return world.halt() ? 0 : since;
+}
+
+void comes_back_from(const Place& place) {
+  for (const std::string& law : law_names())
+    for (const double poisson : {0.3, 0.49, 0.499}) {
+      CAPTURE(law);
+      CAPTURE(poisson);
+      const auto world = make_world(starting_at(cube(law, poisson), place));
+      REQUIRE(world->recovery());
+      const int steps = steps_to_rest(*world);
+      CAPTURE(away_from_rest(world->positions(), world->setup().mesh.nodes));
+      CAPTURE(inverted(*world));
+      CHECK(steps > 0);
+      CHECK(world->recoveries() == 1);
+      REQUIRE(world->recovery()->ended);
+    }
+}
+
+}  // namespace
+
+TEST_CASE("recovery: from a point, every law, to Poisson's ratio 0.499") { comes_back_from(to_point); }
+TEST_CASE("recovery: from a line, every law, to Poisson's ratio 0.499") { comes_back_from(to_line); }
+TEST_CASE("recovery: from a plane, every law, to Poisson's ratio 0.499") { comes_back_from(to_plane); }
+TEST_CASE("recovery: from random scatter, every law, to Poisson's ratio 0.499") { comes_back_from(scattered(1)); }
+TEST_CASE("recovery: with one half mirrored, every law, to Poisson's ratio 0.499") { comes_back_from(mirrored); }
+
+TEST_CASE("recovery: a body that nothing holds comes back too, and from ten other scatters, and in float") {
+  int slowest = 0;
+  for (const Place& place : {Place(to_point), Place(to_line), Place(to_plane), scattered(2)}) {
+    WorldSetup setup = starting_at(cube("neo_hookean", 0.49), place);
+    setup.boundary.clear();
+    const int steps = steps_to_rest(*make_world(setup));
+    CHECK(steps > 0);
+    slowest = std::max(slowest, steps);
+  }
+  for (std::uint64_t seed = 10; seed < 20; ++seed) {
+    CAPTURE(seed);
+    WorldSetup setup = starting_at(cube("neo_hookean_iso", 0.49), scattered(seed));
+    setup.solver.single_precision = seed % 2;
+    const int steps = steps_to_rest(*make_world(setup));
+    CHECK(steps > 0);
+    slowest = std::max(slowest, steps);
+  }
+  MESSAGE("the slowest took " << slowest << " steps");
+}
+
+TEST_CASE(
+    "recovery: positions go on from tick to tick, held nodes keep to their motion, an explicit method takes over") {
+  WorldSetup setup = starting_at(cube("neo_hookean", 0.45), scattered(3));
+  setup.boundary[0].translate = Vec3(0, 0.02, 0);
+  setup.boundary[0].over = 0.1;
+  setup.solver.integrator = Integrator::verlet;
+  setup.solver.step.reset();
+  setup.solver.rate = 1000;
+  setup.solver.damping = 20;
+  const auto world = make_world(setup);
+  auto before = world->positions();
+  double largest = 0;
+  for (int tick = 1; tick <= 400; ++tick) {
+    world->tick();
+    REQUIRE_FALSE(world->halt());
+    CHECK(world->time() == doctest::Approx(1e-3 * tick));
+    const auto now = world->positions();
+    for (std::size_t n = 0; n < now.size(); ++n) largest = std::max(largest, (now[n] - before[n]).norm());
+    for (const int n : setup.boundary[0].nodes) {
+      const Vec3 target = setup.mesh.nodes[n] + std::min(1.0, tick / 100.0) * setup.boundary[0].translate;
+      CHECK((now[n] - target).norm() <= 1e-12);
+    }
+    before = now;
+  }
+  CHECK(largest <= 0.3 * side);
+  REQUIRE(world->recovery()->ended);
+  CHECK(world->recoveries() == 1);
+  CHECK(away_from_rest(world->positions(), setup.mesh.nodes) <= 1e-3);
+}
+
+TEST_CASE("recovery: energies either side of each switch are those of the state there") {
+  const auto world = make_world(starting_at(cube("neo_hookean", 0.45), mirrored));
+  const Recovery& recovery = *world->recovery();
+  CHECK(std::isnan(recovery.begun.before.elastic));  // ln J
+  CHECK(recovery.begun.after.elastic == world->energies().elastic);
+  CHECK(recovery.begun.after.elastic > 0);
+  CHECK_FALSE(recovery.ended);
+  CHECK(recovery.inverted > 0);
+  CHECK(recovery.least_J == doctest::Approx(-1));
+  CHECK(recovery.message.find("the body starts so") != std::string::npos);
+  double before = total(world->energies());
+  while (!world->recovery()->ended) {
+    world->tick();
+    REQUIRE(world->ticks() < 60);
+    const Recovery& now = *world->recovery();
+    const double stand_in = now.ended ? total(now.ended->before) : total(world->energies());
+    CHECK(stand_in <= before * (1 + 1e-9));  // the stand-in never gains
+    before = stand_in;
+  }
+  CHECK(world->recovery()->ended->time == world->time());
+  CHECK(total(world->recovery()->ended->after) == total(world->energies()));
+}
+
+TEST_CASE("recovery: off, and on where nothing is wrong, are the same bits, and off stops where the law ends") {
+  WorldSetup setup = cantilever();
+  setup.solver.duration = 0.05;
+  const auto off = make_world(setup);
+  setup.solver.recovery = true;
+  const auto on = make_world(setup);
+  run_until(*off, 0.05);
+  run_until(*on, 0.05);
+  CHECK(on->state_hash() == off->state_hash());
+  CHECK(on->recoveries() == 0);
+  CHECK_FALSE(on->recovery());
+
+  WorldSetup collapsed = starting_at(cube("neo_hookean", 0.3), to_plane);
+  collapsed.solver.recovery = false;
+  const auto stopped = make_world(collapsed);
+  REQUIRE(stopped->halt());
+  CHECK(stopped->halt()->cause == Halt::Cause::out_of_range);
+}
+
+TEST_CASE("recovery: the same bits on every run, with any number of threads") {
+  std::vector<std::uint64_t> hashes;
+  for (const int threads : {1, 2, 1}) {
+    WorldSetup setup = starting_at(cube("mooney_rivlin", 0.49), scattered(5));
+    setup.solver.threads = threads;
+    const auto world = make_world(setup);
+    for (int k = 0; k < 20; ++k) world->tick();
+    hashes.push_back(world->state_hash());
+  }
+  CHECK(hashes[0] == hashes[1]);
+  CHECK(hashes[0] == hashes[2]);
+}
+
+TEST_CASE("recovery: a body thrown against its support is whole again afterwards") {
+  for (const bool continuation : {false, true}) {
+    CAPTURE(continuation);
+    WorldSetup setup = cantilever("neo_hookean", 1e4);
+    setup.gravity.setZero();
+    setup.initial_velocity = Vec3(-10, 0, 0);
+    setup.solver.damping = 20;
+    setup.solver.continuation = continuation;
+    const auto halted = make_world(setup);
+    run_until(*halted, 0.05);
+    CHECK(halted->halt());
+    setup.solver.recovery = true;
+    const auto world = make_world(setup);
+    run_until(*world, 1);
+    REQUIRE_FALSE(world->halt());
+    REQUIRE(world->recovery());
+    CHECK(world->recovery()->element >= 0);
+    CHECK(world->recovery()->message.find("element " + std::to_string(world->recovery()->element)) == 0);
+    MESSAGE(world->recoveries() << ": " << world->recovery()->message);
+    REQUIRE(world->recovery()->ended);
+    CHECK(inverted(*world) == 0);
+    CHECK(rms_difference(world->positions(), setup.mesh.nodes) <= 1e-3 * 0.1);
+  }
+}
+
+TEST_CASE("recovery: the likely cause is the surest that fits, with its remedy") {
+  Suspects s;
+  s.element = 7;
+  s.least_J = -0.3;
+  s.inverted = 4;
+  s.wave_speed = 2;
+  const auto says = [&](const char* part) { return likely_cause(s).find(part) != std::string::npos; };
+  CHECK(says("element 7 was flat or inside out"));
+  CHECK(says("with 4 in all inverted"));
+  CHECK(says("loads or moved supports"));
+  s.pulled = true;
+  CHECK(says("the tool pulls or presses"));
+  s.stiffness_ratio = 500;
+  CHECK(says("its volume resists 500 times as much as its shape"));
+  s.thinness = 0.01;
+  CHECK(says("sliver"));
+  s.tool_speed = 3;
+  CHECK(says("the tool moves at 3 m/s and waves in this tissue at 2 m/s"));
+  s.step = 2e-3, s.limit = 1e-3;
+  CHECK(says("the step of 0.002 s is longer than the 0.001 s"));
+  s.from_start = true;
+  CHECK(says("the body starts so"));
+}
+
+TEST_CASE("recovery: a step too long for the body even at rest still stops as unstable") {
+  WorldSetup setup = cantilever();
+  setup.solver.recovery = true;
+  setup.solver.step = 0.01;
+  const auto world = make_world(setup);
+  run_until(*world, 1);
+  REQUIRE(world->halt());
+}
+
+TEST_CASE("recovery: material, grasp and reset are taken while it goes on") {
+  const auto world = make_world(starting_at(cube("neo_hookean", 0.3), scattered(6)));
+  world->tick();
+  REQUIRE_FALSE(world->recovery()->ended);
+  CHECK_FALSE(world->apply(SetMaterial{std::nullopt, with_moduli("ogden", 8e3, 1e6)}));
+  CHECK_FALSE(world->apply(Grasp{26, 0.01}));
+  CHECK_FALSE(world->apply(Release{}));
+  world->tick();
+  CHECK_FALSE(world->apply(Reset{}));
+  CHECK(world->time() == 0);
+  CHECK(world->recoveries() == 1);  // it starts scattered again
+  CHECK(steps_to_rest(*world) > 0);
+}
+
+TEST_CASE("a flattened body of StVK with continuation pushes back, ever harder") {
+  double before = 0;
+  for (const double height : {0.5, 0.3, 0.1, 0.0, -0.2}) {
+    CAPTURE(height);
+    WorldSetup setup = cube("stvk", 0.3);
+    setup.solver.recovery = false;
+    setup.solver.continuation = true;
+    setup.boundary[0].nodes = nodes_where(setup.mesh, [](const Vec3& X) { return X.y() < 1e-9; });
+    setup.boundary.push_back({nodes_where(setup.mesh, [](const Vec3& X) { return X.y() > side - 1e-9; })});
+    setup.boundary[1].translate = Vec3(0, (height - 1) * side, 0);
+    const auto world =
+        make_world(starting_at(setup, [&](const Vec3& X) { return Vec3(X.x(), height * X.y(), X.z()); }));
+    const double pushed = -world->reactions()[1].y();  // of the body on the upper support
+    CHECK(pushed > before);
+    before = pushed;
+  }
+}
