@@ -25,7 +25,7 @@ struct StableNeoHookean {
   static constexpr bool uses_I2 = false, uses_J = true, uses_I4 = false, has_volume_term = false;
   static constexpr bool always_valid = true;
 
-  bool valid(const Invariants<Real>&) const { return true; }
+  Truth<Real> valid(const Invariants<Real>&) const { return true; }
 
   Real energy(const Invariants<Real>& at) const {
     const Real dJ = at.J - 1;
