@@ -99,7 +99,8 @@ class ElasticBody {
   /// The same of the damping matrix, 1/s: viscosity.
   Real damping_bound(const Real* x, ThreadTeam& team);
 
-  /// The part of that bound which each element's own terms have, #T in inner order, 1/s²: not nodal pressure, not springs.
+  /// The part of that bound which each element's own terms have, #T in inner order, 1/s²: not nodal pressure, not
+  /// springs.
   std::vector<Real> element_bounds(const Real* x) const;
 
   /// Of all that is kept.
