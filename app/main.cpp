@@ -70,6 +70,14 @@ int run_program(int argc, char** argv) {
   solve_command->add_option("SCENE", solve_arguments.scene, "scene, recording, mesh or surface")->required();
   solve_command->add_option("--out", solve_arguments.out, "folder for the results")->required();
 
+  ExplainArguments explain_arguments;
+  auto* explain_command =
+      program.add_subcommand("explain", "what a scene makes the engine run, what it leaves out, and why");
+  explain_command->add_option("SCENE", explain_arguments.scene, "scene, recording, mesh or surface")->required();
+  explain_command->add_flag("--json", explain_arguments.json, "for programs: numbers with 17 digits");
+  explain_command->add_flag("--measure", explain_arguments.measure,
+                            "run each feature on and off: what it costs, and the error of leaving it out");
+
   ProbeArguments probe_arguments;
   auto* probe_command = program.add_subcommand("probe", "evaluate a law at given deformation gradients");
   probe_command->add_option("MATERIAL", probe_arguments.material, "JSON: one entry of a scene's `materials`")
@@ -128,6 +136,8 @@ int run_program(int argc, char** argv) {
     code = replay_recording(replay_arguments);
   } else if (*solve_command) {
     code = solve_scene(solve_arguments);
+  } else if (*explain_command) {
+    code = explain_scene(explain_arguments);
   } else if (*probe_command) {
     code = probe(probe_arguments);
   } else if (*mesh_command) {

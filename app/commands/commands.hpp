@@ -58,6 +58,13 @@ struct SolveArguments {
 };
 int solve_scene(const SolveArguments& arguments);
 
+struct ExplainArguments {
+  std::string scene;
+  bool json = false;
+  bool measure = false;
+};
+int explain_scene(const ExplainArguments& arguments);
+
 struct ProbeArguments {
   std::filesystem::path material, gradients, out;
 };

@@ -5,6 +5,7 @@
 //   block column c:  [c, c]  [n1, c]  [n2, c] ...        n1 < n2 < ... : free neighbours above c
 //   number column 3c+j:  rows 3c+j .. 3c+2, then three rows a neighbour
 #include <Eigen/SparseCore>
+#include <heml/math/bytes.hpp>
 #include <heml/mesh/tet_mesh.hpp>
 #include <vector>
 
@@ -38,6 +39,7 @@ class BlockMatrix {
   /// 3 #free square; the lower half alone.
   const Eigen::SparseMatrix<double>& lower() const { return matrix_; }
   const FreeNodes& free() const { return free_; }
+  std::size_t bytes() const { return bytes_of(matrix_) + bytes_of(start_, neighbour_); }
 
  private:
   double* column_entry(int row_block, int column_block, int j);

@@ -10,17 +10,11 @@ constexpr int most_iterations = 500;
 constexpr double first_shift = 1e-4;          // of the stiffness along the residual
 constexpr double projected_tolerance = 1e-2;  // an approximation need not be solved exactly
 constexpr double changed_a_lot = 3;           // a factor of aM + L serves while a is within this of its own
-// Free nodes up to which a sparse factor a Newton iteration costs less than some tens of products.
-constexpr std::size_t small_in_motion = 400, small_at_rest = 40000;
-// ... up to which a factor of the scalar matrix costs less than levels of it, which need one or two iterations more: a
-// cycle takes as long as back-solves at 1,200 nodes, a quarter at 6,500, an eighth at 21,000.
-constexpr std::size_t middling = 1000;
 }  // namespace
 
 Preconditioner choose_preconditioner(std::size_t free_nodes, bool static_solve) {
-  const bool small = free_nodes <= (static_solve ? small_at_rest : small_in_motion);
-  if (small) return Preconditioner::cholesky;
-  return free_nodes <= middling ? Preconditioner::scalar : Preconditioner::multilevel;
+  if (free_nodes <= most_factored_each_time(static_solve)) return Preconditioner::cholesky;
+  return free_nodes <= most_factored_once ? Preconditioner::scalar : Preconditioner::multilevel;
 }
 
 LinearSolver::LinearSolver(const FreeNodes& free, const TetMesh& mesh, const std::vector<double>& modulus,
@@ -89,11 +83,21 @@ LinearSolver::Sign LinearSolver::prepare(Objective& objective) {
   return Sign::none;
 }
 
+std::size_t LinearSolver::bytes() const {
+  std::size_t sum = bytes_of(pivots_) + bytes_of(inverse_blocks_, modulus_);
+  if (matrix_) sum += matrix_->bytes();
+  if (cholesky_ && cholesky_->info() == Eigen::Success)
+    sum += bytes_of(cholesky_->matrixL().nestedExpression()) + bytes_of(cholesky_->vectorD()) +
+           2 * sizeof(int) * static_cast<std::size_t>(cholesky_->rows());  // and its permutation, both ways
+  if (scalar_) sum += scalar_->bytes();
+  return sum;
+}
+
 /// Of aM + L, where it has changed a lot.
 bool LinearSolver::factor_scalar() {
   if (!scalar_) {
     const bool levels = preconditioner_ == Preconditioner::multilevel;
-    scalar_ = std::make_unique<Multilevel>(free_, mesh_, modulus_, mass_, levels ? middling : free_.node.size(), team_);
+    scalar_ = std::make_unique<Multilevel>(free_, mesh_, modulus_, mass_, levels ? most_factored_once : free_.node.size(), team_);
   }
   if (factored_a_ >= 0 && a_ <= changed_a_lot * factored_a_ && factored_a_ <= changed_a_lot * a_) return true;
   ++counts_.factorisations;

@@ -113,4 +113,12 @@ void Multilevel::apply(const Vector& r, Vector& z) {
     z.segment<3>(place(k)) = scale * top.x[k].head<3>().cast<double>().matrix();
 }
 
+std::size_t Multilevel::bytes() const {
+  std::size_t sum = bottom_.bytes();
+  for (const Level& level : levels_)
+    sum += bytes_of(level.L, level.M, level.A, level.P, level.R) +
+           bytes_of(level.inverse_D, level.b, level.x, level.scratch);
+  return sum;
+}
+
 }  // namespace heml

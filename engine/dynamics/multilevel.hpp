@@ -33,6 +33,7 @@ class Multilevel {
   void apply(const Vector& r, Vector& z);
 
   std::size_t levels() const { return levels_.size(); }
+  std::size_t bytes() const;
 
  private:
   using Rows = Eigen::SparseMatrix<float, Eigen::RowMajor>;

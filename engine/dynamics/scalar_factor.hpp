@@ -1,6 +1,7 @@
 #pragma once
 // A Cholesky factor of a symmetric sparse matrix, kept in float, whose back-solves run three right-hand sides at once.
 #include <heml/dynamics/scalar_matrix.hpp>
+#include <heml/math/bytes.hpp>
 
 namespace heml {
 
@@ -11,6 +12,8 @@ class ScalarFactor {
 
   /// b = A⁻¹ b for each axis.
   void solve(Triples& b) const;
+
+  std::size_t bytes() const { return bytes_of(order_, start_, row_, value_, inverse_diagonal_, work_); }
 
  private:
   std::vector<int> order_;        ///< unknown eliminated k-th

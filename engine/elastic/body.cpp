@@ -2,7 +2,9 @@
 #include <atomic>
 #include <cmath>
 #include <heml/elastic/body.hpp>
+#include <heml/elastic/memory_term.hpp>
 #include <heml/elastic/stiffness_product.hpp>
+#include <heml/elastic/wide.hpp>
 #include <heml/materials/parameter_slots.hpp>
 #include <mutex>
 
@@ -22,6 +24,14 @@ ElementState<Real> state_of(const StressSum<Real>& stress, const Real C[6], Real
   const Real mean = (T[0] + T[1] + T[2]) / 3;
   for (int i = 0; i < 3; ++i) T[i] -= mean;
   return {J, std::sqrt(std::max(largest, Real(0))), std::sqrt(Real(1.5) * contract3(T, T)) / std::abs(J)};
+}
+
+/// What the vectorised loops run as here.
+std::string_view wide_instructions() {
+#if defined(__x86_64__)
+  if (has_wide()) return "avx2";
+#endif
+  return "portable";
 }
 
 }  // namespace
@@ -165,14 +175,25 @@ bool ElasticBody<Real>::forces(const Real* x, Real* f, ThreadTeam& team) {
 
 template <class Real>
 std::vector<KernelInfo> ElasticBody<Real>::kernels() const {
-  std::vector<KernelInfo> result;
   // Of the loops: a packet's constants and nodes, corner forces written and gathered, positions and forces.
   const double corners = 4 * sizeof(int) + 7 * sizeof(Real) + 4 * (6 * sizeof(Real) + sizeof(std::size_t)) +
                          static_cast<double>(6 * sizeof(Real) * nodes()) / static_cast<double>(elements());
-  for (const Part& part : parts_)
-    result.push_back({materials_[part.material].law, part.in_fans ? "fans" : "corners",
-                      part.in_fans ? name_of(fans_.instruction_set()) : "", part.group.size(),
-                      part.in_fans ? fans_.bytes_per_tet() : corners * static_cast<double>(part.terms.size())});
+  std::vector<KernelInfo> result;
+  for (const Part& part : parts_) {
+    const Material& material = materials_[part.material];
+    KernelInfo info{part.material, material.law, "corners", "portable", part.group.size(),
+                    corners * static_cast<double>(part.terms.size())};
+    if (part.terms.empty()) {
+      info.kernel = "springs";
+    } else if (part.in_fans) {
+      info.kernel = "fans";
+      info.instructions = name_of(fans_.instruction_set());
+      info.bytes_per_tet = fans_.bytes_per_tet();
+    } else if (material.fields.empty()) {
+      info.instructions = wide_instructions();  // elastic/law_term.hpp
+    }
+    result.push_back(std::move(info));
+  }
   return result;
 }
 
@@ -303,6 +324,31 @@ Real ElasticBody<Real>::damping_bound(const Real* x, ThreadTeam& team) {
   return largest_bound(team, [x](const auto& term, const auto& group, std::size_t begin, std::size_t end) {
     return term.damping_bound(group, x, begin, end);
   });
+}
+
+template <class Real>
+std::vector<Real> ElasticBody<Real>::element_bounds(const Real* x) const {
+  std::vector<Real> bounds(mesh_.tets.size(), Real(0));
+  each_slot(x, [&](const Part& part, std::size_t s, const Link<Real>& link, const RestShape<Real>& rest) {
+    for (const auto& term : part.terms)
+      bounds[static_cast<std::size_t>(part.group.element[s])] += term->slot_bound(part.group, s, link, rest);
+  });
+  return bounds;
+}
+
+template <class Real>
+std::size_t ElasticBody<Real>::bytes() const {
+  std::size_t sum = bytes_of(mesh_.nodes, mesh_.tets, mesh_.regions, material_of_);
+  for (const ElementField& field : mesh_.fields) sum += bytes_of(field.values);
+  sum += bytes_of(corners_.start, corners_.corners, force_corners_.start, force_corners_.corners, corner_, linearised_at_, packet_energy_);
+  for (const Part& part : parts_) {
+    const ElementGroup<Real>& group = part.group;
+    sum += bytes_of(group.element, group.node, group.A, group.volume, group.gamma, group.fibre, group.parameters);
+    sum += bytes_of(part.stiffness) + (part.flow ? part.flow->bytes() : 0);
+    for (const auto& term : part.terms)  // laws keep nothing of an element
+      if (const auto* memory = dynamic_cast<const MemoryTerm<Real>*>(term.get())) sum += memory->bytes();
+  }
+  return sum + fans_.bytes() + springs_.bytes() + (pressure_ ? pressure_->bytes() : 0);
 }
 
 template <class Real>

@@ -16,6 +16,8 @@
 #include <heml/mesh/edit.hpp>
 #include <heml/mesh/tet_mesh.hpp>
 #include <memory>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace heml {
@@ -37,11 +39,12 @@ struct BodyOptions {
 
 /// What runs the forces of the elements of one material.
 struct KernelInfo {
+  std::size_t material;  ///< index into the body's materials
   std::string law;
-  std::string kernel;             ///< "fans", or "corners": the loops of the material's terms
-  std::string_view instructions;  ///< of fans: "portable", "avx2", "avx512"
+  std::string kernel;             ///< "fans"; "corners": the loops of the material's terms; "springs": along edges
+  std::string_view instructions;  ///< "portable", "avx2", "avx512"
   std::size_t elements;
-  double bytes_per_tet;  ///< read and written in one evaluation, each array once
+  double bytes_per_tet;  ///< read and written in one evaluation, each array once; 0 of springs
 };
 
 template <class Real>
@@ -95,6 +98,13 @@ class ElasticBody {
   Real frequency_bound(const Real* x, ThreadTeam& team);
   /// The same of the damping matrix, 1/s: viscosity.
   Real damping_bound(const Real* x, ThreadTeam& team);
+
+  /// The part of that bound which each element's own terms have, #T in inner order, 1/s²: not nodal pressure, not
+  /// springs.
+  std::vector<Real> element_bounds(const Real* x) const;
+
+  /// Of all that is kept.
+  std::size_t bytes() const;
 
   /// First element (inner number) out of its law's range; −1: none, also where forces() saw one by its own rounding.
   int first_invalid(const Real* x) const;

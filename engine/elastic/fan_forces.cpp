@@ -1,6 +1,7 @@
 #include <atomic>
 #include <heml/elastic/fan_forces.hpp>
 #include <heml/materials/laws.hpp>
+#include <heml/math/bytes.hpp>
 
 namespace heml {
 namespace {
@@ -74,6 +75,12 @@ bool FanForces<Real>::forces(const Real* x, Real* f, ThreadTeam& team) {
     }
   });
   return valid;
+}
+
+template <class Real>
+std::size_t FanForces<Real>::bytes() const {
+  return bytes_of(layout_.blocks, layout_.length, layout_.index, layout_.shape, layout_.node, layout_.shared_node,
+                  layout_.shared_start, layout_.shared_slot, shared_force_);
 }
 
 template class FanForces<float>;

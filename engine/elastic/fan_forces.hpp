@@ -33,6 +33,8 @@ class FanForces {
 
   InstructionSet instruction_set() const { return isa_; }
   double bytes_per_tet() const { return layout_.bytes_per_tet(); }
+  /// Of all that is kept.
+  std::size_t bytes() const;
 
  private:
   static constexpr std::size_t grain_ = 4096;  ///< elements below which waking a thread costs more than it brings

@@ -12,6 +12,7 @@
 //
 //   slot s:  G0[6] T0[6] Q0[6] Q1[6] ...   as committed last
 #include <heml/elastic/group_term.hpp>
+#include <heml/math/bytes.hpp>
 
 namespace heml {
 
@@ -40,6 +41,7 @@ class MemoryTerm final : public GroupTerm<Real> {
   void begin_step(Real h) override;
   void commit(const Group& group, const Real* x) override;
   void forget(const Group& group, const Real* x) override;
+  std::size_t bytes() const { return bytes_of(kept_); }
   void take_slots(std::span<const std::size_t> from) override { heml::take_slots(kept_, from, stride_); }
 
  private:

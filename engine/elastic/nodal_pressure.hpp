@@ -7,6 +7,7 @@
 //   per slot and corner (body's list of corners):  V_t J_t, then gathered to nodes in ascending order
 #include <heml/base/thread_team.hpp>
 #include <heml/elastic/group_loops.hpp>
+#include <heml/math/bytes.hpp>
 #include <span>
 #include <vector>
 
@@ -31,6 +32,7 @@ class NodalPressure {
   void add_stiffness(std::size_t group, const Real* x, std::size_t s, Real K[edge_entries]) const;
   /// Mean pressure p_t of a slot after add_forces(), Pa.
   Real pressure(std::size_t group, std::size_t s) const;
+  std::size_t bytes() const { return bytes_of(kappa_, node_volume_, node_kappa_, ratio_, pressure_, of_corner_); }
 
  private:
   struct Value {

@@ -4,6 +4,7 @@
 //
 //   spring e:  node[2] k L          of node n: springs[start[n] .. start[n+1]), ascending, so sums have a fixed order
 #include <heml/base/thread_team.hpp>
+#include <heml/math/bytes.hpp>
 #include <heml/mesh/tet_mesh.hpp>
 #include <vector>
 
@@ -16,6 +17,8 @@ class Springs {
   Springs(const TetMesh& mesh, const std::vector<double>& stiffness);
 
   bool empty() const { return springs_.empty(); }
+  std::size_t size() const { return springs_.size(); }
+  std::size_t bytes() const { return bytes_of(springs_, start_, of_node_); }
   /// Each adds to f, out (3 #V): forces, N; −K dx, N. positive: a spring that is pushed has no stiffness across itself.
   void add_forces(const Real* x, Real* f, ThreadTeam& team) const;
   void add_force_change(const Real* x, const Real* dx, Real* out, bool positive, ThreadTeam& team) const;

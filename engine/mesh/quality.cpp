@@ -82,19 +82,6 @@ void repair_winding(TetMesh& mesh, QualityReport& report) {
   }
 }
 
-double smallest_dihedral(const std::array<Vec3, 4>& x) {
-  std::array<Vec3, 4> outward;
-  for (int f = 0; f < 4; ++f) {
-    const auto& [a, b, c] = tet_faces[f];
-    outward[f] = (x[b] - x[a]).cross(x[c] - x[a]);
-  }
-  double smallest = std::numbers::pi;
-  for (int f = 0; f < 4; ++f)
-    for (int g = 0; g < f; ++g)
-      smallest = std::min(smallest, std::atan2(outward[f].cross(outward[g]).norm(), -outward[f].dot(outward[g])));
-  return smallest * 180 / std::numbers::pi;
-}
-
 void measure_shape(const TetMesh& mesh, QualityReport& report) {
   report.shortest_edge = std::numeric_limits<double>::infinity();
   report.worst_dihedral = 180;
@@ -192,6 +179,19 @@ void add_warnings(const TetMesh& mesh, QualityReport& report) {
 }
 
 }  // namespace
+
+double smallest_dihedral(const std::array<Vec3, 4>& x) {
+  std::array<Vec3, 4> outward;
+  for (int f = 0; f < 4; ++f) {
+    const auto& [a, b, c] = tet_faces[f];
+    outward[f] = (x[b] - x[a]).cross(x[c] - x[a]);
+  }
+  double smallest = std::numbers::pi;
+  for (int f = 0; f < 4; ++f)
+    for (int g = 0; g < f; ++g)
+      smallest = std::min(smallest, std::atan2(outward[f].cross(outward[g]).norm(), -outward[f].dot(outward[g])));
+  return smallest * 180 / std::numbers::pi;
+}
 
 QualityReport check_tets(TetMesh& mesh) {
   check_indices(mesh);

@@ -22,6 +22,9 @@ struct QualityReport {
   std::vector<std::string> warnings;           ///< sentences, one each for what is worth a person's attention
 };
 
+/// The smallest angle between two faces of a tetrahedron, degrees.
+double smallest_dihedral(const std::array<Vec3, 4>& x);
+
 /// Checks a mesh and repairs winding in place. Throws InputError for what cannot be repaired: no tetrahedra, an index
 /// outside the nodes, a coordinate that is not finite, a node twice in one element, a volume of zero; it names the
 /// element.

@@ -27,9 +27,11 @@ void expect_a_face(const std::vector<int>& nodes, const BoundaryFaces& faces, co
 
 }  // namespace
 
-WorldSetup load_setup(const Scene& scene) {
+WorldSetup load_setup(const Scene& scene) { return load_setup(scene, load_mesh(scene)); }
+
+WorldSetup load_setup(const Scene& scene, TetMesh mesh) {
   WorldSetup setup;
-  setup.mesh = load_mesh(scene);
+  setup.mesh = std::move(mesh);
   setup.materials = scene.materials;
   take_fields(scene.file, setup);
   expect_recorded_mesh(scene, setup.mesh);

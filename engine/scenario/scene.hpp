@@ -118,6 +118,8 @@ Scene scene_around(const std::filesystem::path& mesh_or_surface);
 
 /// Reads the mesh, resolves selections and fields, checks what needs the mesh. Throws InputError.
 WorldSetup load_setup(const Scene& scene);
+/// The same with the scene's mesh as load_mesh() (load_mesh.hpp) gives it.
+WorldSetup load_setup(const Scene& scene, TetMesh mesh);
 
 /// make_world(load_setup(scene)).
 std::unique_ptr<World> load_world(const Scene& scene);

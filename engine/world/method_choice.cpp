@@ -25,6 +25,20 @@ Integrator TypedWorld<Real>::choose_method() {
   return solver.tick() * *lowest_frequency_ < resolved ? Integrator::tr_bdf2 : Integrator::backward_euler;
 }
 
+template <class Real>
+MethodFacts TypedWorld<Real>::method_facts() {
+  MethodFacts facts;
+  facts.asked = setup_.solver.integrator;
+  facts.used = method_;
+  facts.step_cost = step_cost_;
+  facts.explicit_share = explicit_share();
+  facts.enough = enough;
+  if (!is_explicit(method_) && !implicit_ && !halt_) lowest_frequency_ = lowest_frequency();
+  facts.lowest_frequency = lowest_frequency_;
+  facts.resolved = resolved;
+  return facts;
+}
+
 /// At the start of a tick.
 template <class Real>
 void TypedWorld<Real>::reconsider_method() {
@@ -40,9 +54,12 @@ void TypedWorld<Real>::reconsider_method() {
 template <class Real>
 double TypedWorld<Real>::explicit_load() const {
   const SolverSettings& solver = setup_.solver;
-  if (solver.step) return *solver.step / stable_step_;
-  const double cost = bound_share * step_cost_ * static_cast<double>(model_.mesh.tets.size());  // s
-  return cost / stable_step_ / enough;
+  return solver.step ? *solver.step / stable_step_ : explicit_share() / enough;
+}
+
+template <class Real>
+double TypedWorld<Real>::explicit_share() const {
+  return bound_share * step_cost_ * static_cast<double>(model_.mesh.tets.size()) / stable_step_;
 }
 
 template <class Real>

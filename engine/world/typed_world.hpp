@@ -6,6 +6,7 @@
 #include <heml/dynamics/state.hpp>
 #include <heml/elastic/body.hpp>
 #include <heml/tools/grasp.hpp>
+#include <heml/world/facts.hpp>
 #include <heml/world/implicit_parts.hpp>
 #include <heml/world/model.hpp>
 #include <heml/world/recovery_cause.hpp>
@@ -48,6 +49,7 @@ class TypedWorld final : public World {
   std::vector<std::uint16_t> node_hashes() const override;
   std::shared_ptr<const Topology> topology() const override { return topology_; }
   const std::vector<EditReport>& edits() const override { return edits_; }
+  WorldFacts facts() override;
   const WorldSetup& setup() const override { return setup_; }
 
  private:
@@ -71,8 +73,10 @@ class TypedWorld final : public World {
   Integrator choose_method();
   void reconsider_method();
   double explicit_load() const;
+  double explicit_share() const;
   std::optional<std::string> take(const SetStepCost& command);
   double lowest_frequency();
+  MethodFacts method_facts();
 
   // implicit_steps.cpp, static_load.cpp: what solves
   void advance_implicit(double until);
@@ -125,6 +129,11 @@ class TypedWorld final : public World {
   std::optional<std::string> take(const RemoveElements& command);
   void carry_out(const MeshEdit& edit);
   void undo_edits();
+
+  // facts.cpp: what it runs
+  StepFacts step_facts();
+  std::optional<SolverFacts> solver_facts();
+  std::vector<MemoryFacts> memory_facts() const;
 
   // world_queries.cpp: what people ask
   std::vector<Vec3> in_file_order(const std::vector<Real>& values) const;

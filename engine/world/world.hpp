@@ -52,6 +52,8 @@ struct ToolState {
   Vec3 force = Vec3::Zero();   ///< N, of the tool on the tissue
 };
 
+struct WorldFacts;  // facts.hpp
+
 class World {
  public:
   virtual ~World() = default;
@@ -113,6 +115,10 @@ class World {
   virtual std::shared_ptr<const Topology> topology() const = 0;
   /// Edits since the start or the last Reset.
   virtual const std::vector<EditReport>& edits() const = 0;
+
+  /// What this world runs now and what that rests on, for people to read (facts.hpp). Implicit and static worlds that
+  /// have not stepped yet factor their matrix for it. Steps after it are the same bits as without.
+  virtual WorldFacts facts() = 0;
 
   /// As it is now: materials, damping, gravity and integrator follow the commands applied. The mesh is
   /// the whole one.

@@ -156,11 +156,67 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(len(list((self.folder / "heml-frames").iterdir())), 60)
         self.assertIn("heml-frames", fallback.stderr)
 
+    def test_explain_speaks_to_people_and_to_programs(self):
+        scene = self.write("scene.json", cantilever())
+        text = heml("explain", scene)
+        self.assertEqual(text.returncode, 0, text.stderr)
+        for word in ("99 nodes", "200 tetrahedra", "neo_hookean", "verlet", "stable step", "Left out", "viscosity", "Memory"):
+            self.assertIn(word, text.stdout)
+        done = heml("explain", scene, "--json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        told = json.loads(done.stdout)
+        for key in "scene name body materials method limit solver memory startup left_out warnings measured".split():
+            self.assertIn(key, told)
+        self.assertEqual((told["body"]["tets"], told["body"]["held_nodes"]), (200, 9))
+        self.assertEqual([term["name"] for term in told["materials"][0]["terms"]], ["law"])
+        self.assertEqual(told["method"]["integrator"], "verlet")
+        self.assertIsNone(told["solver"])
+        self.assertIsNone(told["measured"])
+        self.assertEqual(told["memory"]["all"], sum(v for k, v in told["memory"].items() if k != "all"))
+        measured = json.loads(heml("explain", scene, "--json", "--measure").stdout)["measured"]
+        self.assertEqual(measured["changes"][0]["feature"], "as it is")
+        self.assertIn("precision", [change["feature"] for change in measured["changes"]])
+        self.assertIn("rms mm", heml("explain", scene, "--measure").stdout)
+
+    def test_every_shipped_scene_is_explained(self):
+        scenes = sorted((SOURCE / "assets" / "scenes").glob("*.json"))
+        self.assertGreater(len(scenes), 3)
+        for path in scenes:
+            with self.subTest(path.name):
+                done = heml("explain", path, "--json")
+                self.assertEqual(done.returncode, 0, done.stderr)
+                told = json.loads(done.stdout)
+                self.assertEqual(told["name"], path.stem)
+                self.assertNotIn("halted", [warning["about"] for warning in told["warnings"]])
+
+    def test_a_tetrahedral_scene_is_solved_without_drawing_or_meshing_libraries(self):
+        """The loader's own record of what was mapped, helpers included."""
+        def loaded(*arguments):
+            record = self.folder / "record"
+            record.mkdir(exist_ok=True)
+            done = heml(*arguments, env={"LD_DEBUG": "files", "LD_DEBUG_OUTPUT": str(record / "ld")})
+            self.assertEqual(done.returncode, 0, done.stderr)
+            text = "".join(path.read_text(errors="replace") for path in record.iterdir())
+            for path in record.iterdir():
+                path.unlink()
+            return text
+
+        scene = self.write("scene.json", cantilever())
+        drawing = loaded("capture", scene, "--out", self.folder / "frames", "--frames", 1, "--size", "64x64")
+        if "libc.so" not in drawing:
+            self.skipTest("this loader keeps no record")
+        self.assertIn("libOSMesa", drawing, "the record would show it")
+        for arguments in (["solve", scene, "--out", self.folder / "out"], ["explain", scene], ["replay", scene]):
+            record = loaded(*arguments)
+            self.assertIn("libc.so", record)
+            for library in ("libOSMesa", "libGL.", "libGLX", "libEGL", "libassimp", "libtet", "libLLVM"):
+                self.assertNotIn(library, record, arguments)
+
     def test_wrong_usage_is_exit_2(self):
         scene = self.write("scene.json", cantilever())
         for arguments in (["capture", scene], ["bogus"], ["solve", scene], ["capture", scene, "--out", "x", "--size", "big"],
                           ["capture", scene, "--out", "x", "--frames", "0"], ["probe"], ["mesh", "a.obj", "--out", "a.txt"],
-                          ["replay", scene, "--fps", "-3"]):
+                          ["replay", scene, "--fps", "-3"], ["explain"]):
             self.assertEqual(heml(*arguments, cwd=self.folder).returncode, 2, arguments)
         self.assertEqual(heml("--help").returncode, 0)
 
@@ -193,8 +249,9 @@ class CommandLine(unittest.TestCase):
         for name, text, words in table:
             with self.subTest(name):
                 path = self.folder / "missing.json" if text is None else self.write("scene.json", text)
-                for command in ("solve", "capture"):
-                    done = heml(command, path, "--out", self.folder / "out")
+                for command in (["solve", path, "--out", self.folder / "out"], ["capture", path, "--out", self.folder / "out"],
+                                ["explain", path]):
+                    done = heml(*command)
                     self.assert_refused(done, 3, *words)
                     self.assertFalse((self.folder / "out").exists(), "no surprise files")
 
