@@ -4,7 +4,7 @@
 #include <app/commands/commands.hpp>
 #include <app/commands/explanation_json.hpp>
 #include <app/commands/progress.hpp>
-#include <cmath>
+#include <numbers>
 
 namespace heml {
 namespace {
@@ -37,8 +37,8 @@ void print_materials(const Explanation& explained) {
   print_head("Elements");
   for (const MaterialFacts& material : explained.materials) {
     const KernelInfo& kernel = material.kernel;
-    print_line(material.region ? fmt::format("region {}", *material.region) : "default", "{} tetrahedra, kernel {} ({})",
-               kernel.elements, kernel.kernel, kernel.instructions);
+    print_line(material.region ? fmt::format("region {}", *material.region) : "default",
+               "{} tetrahedra, kernel {} ({})", kernel.elements, kernel.kernel, kernel.instructions);
     for (const TermFacts& term : material.terms) print_line("  " + term.name, "{}", term.detail);
     if (material.rest.shear > 0)
       print_line("  at rest", "shear modulus {:.4g} Pa, bulk {:.4g} Pa, Poisson's ratio {:.4g}", material.rest.shear,
@@ -51,11 +51,12 @@ void print_choice(const Explanation& explained) {
   const MethodFacts& method = explained.world.method;
   const StepFacts& step = explained.world.step;
   if (method.asked != Integrator::automatic) return;
-  if (explained.solver.step)
+  if (explained.setup.solver.step)
     print_line("why", "the given step of {:.3g} ms is {:.3g} of the stable one; explicit up to 1", 1e3 * step.tick,
                step.tick / step.stable);
   else
-    print_line("why", "explicit steps would take {:.3g} of real time ({:.0f} ns an element and step); explicit up to {}",
+    print_line("why",
+               "explicit steps would take {:.3g} of real time ({:.0f} ns an element and step); explicit up to {}",
                method.explicit_share, 1e9 * method.step_cost, method.enough);
   if (method.lowest_frequency && !is_explicit(method.used))
     print_line("", "tick × lowest frequency = {:.3g}; tr_bdf2 below {}, else backward_euler",
@@ -69,16 +70,17 @@ void print_method(const Explanation& explained) {
   print_head("Motion");
   print_line("integrator", "{}{}, {} precision, {} thread{}", integrator_name(world.method.used),
              world.method.asked == Integrator::automatic ? " (auto)" : "",
-             explained.solver.single_precision ? "float" : "double", world.threads, world.threads == 1 ? "" : "s");
+             explained.setup.solver.single_precision ? "float" : "double", world.threads,
+             world.threads == 1 ? "" : "s");
   print_choice(explained);
-  if (explained.solver.is_static())
+  if (explained.setup.solver.is_static())
     print_line("load", "in increments of its own choice");
   else
     print_line("tick", "{:.4g} ms, {} step{}", 1e3 * step.tick, step.steps_a_tick, step.steps_a_tick == 1 ? "" : "s");
   print_line("stable step", "{:.4g} ms for explicit methods now; {:.3g} of real time by the model of cost",
              1e3 * step.stable, world.method.explicit_share);
   if (world.method.lowest_frequency)
-    print_line("slowest motion", "{:.3g} Hz at rest", *world.method.lowest_frequency / (2 * M_PI));
+    print_line("slowest motion", "{:.3g} Hz at rest", *world.method.lowest_frequency / (2 * std::numbers::pi));
   if (limit.element < 0) return;
   constexpr const char* causes[] = {"no element stands out", "a sliver", "small", "stiff for its mass"};
   print_line("limited by", "element {}: {}; {:.3g} times the median's stiffness for its mass", limit.element,
@@ -90,7 +92,7 @@ void print_method(const Explanation& explained) {
 void print_solver(const Explanation& explained) {
   if (!explained.world.solver) return;
   const SolverFacts& solver = *explained.world.solver;
-  const bool at_rest = explained.solver.is_static();
+  const bool at_rest = explained.setup.solver.is_static();
   print_head("Solver");
   print_line("minimiser", "{}, to {:.3g} of the forces", minimiser_names[static_cast<std::size_t>(solver.minimiser)],
              solver.tolerance);
@@ -105,9 +107,9 @@ void print_solver(const Explanation& explained) {
   print_line("projection", "{}, where the stiffness is seen not to be positive",
              projection_names[static_cast<std::size_t>(solver.projection)]);
   if (solver.budget)
-    print_line("budget", "{}", solver.budget->iterations
-                                   ? fmt::format("{} iterations a stage", solver.budget->iterations)
-                                   : fmt::format("{:.3g} ms a tick", solver.budget->milliseconds));
+    print_line("budget", "{}",
+               solver.budget->iterations ? fmt::format("{} iterations a stage", solver.budget->iterations)
+                                         : fmt::format("{:.3g} ms a tick", solver.budget->milliseconds));
 }
 
 void print_costs(const Explanation& explained) {
@@ -127,12 +129,13 @@ void print_rest(const Explanation& explained) {
   print_head("Left out");
   for (const LeftOut& left : explained.left_out) fmt::print("  {:<28}{}\n", left.feature, left.why);
   print_head("Warnings");
-  for (const Advice& advice : explained.advice) fmt::print("  {}: {}\n    → {}\n", advice.about, advice.text, advice.remedy);
+  for (const Advice& advice : explained.advice)
+    fmt::print("  {}: {}\n    → {}\n", advice.about, advice.text, advice.remedy);
   if (explained.advice.empty()) fmt::print("  none\n");
 }
 
 void print_measured(const Explanation& explained, const Measurement& measured) {
-  const bool at_rest = explained.solver.is_static();
+  const bool at_rest = explained.setup.solver.is_static();
   print_head("Measured");
   fmt::print("  {:.4g} {}; least of {} turns; the body moved by {:.4g} mm\n", measured.stretch,
              at_rest ? "of the load" : "s of simulated time", measured.turns,
@@ -145,8 +148,8 @@ void print_measured(const Explanation& explained, const Measurement& measured) {
     if (change.from.empty())
       fmt::print("{:>11}{:>10.3g}", "", change.steps);
     else
-      fmt::print("{:>11.3g}{:>10.3g}{:>13.3g}", measured.changes.front().milliseconds - change.milliseconds, change.steps,
-                 1e3 * change.error);
+      fmt::print("{:>11.3g}{:>10.3g}{:>13.3g}", measured.changes.front().milliseconds - change.milliseconds,
+                 change.steps, 1e3 * change.error);
     fmt::print("{}\n", change.halted.empty() ? "" : "  ended early");
   }
 }
@@ -159,7 +162,7 @@ int explain_scene(const ExplainArguments& arguments) {
   std::optional<Measurement> measured;
   if (arguments.measure) {
     Progress progress("measuring");
-    measured = measure_features(scene, [&](double fraction) { progress.show(fraction); });
+    measured = measure_features(scene, explained.setup, [&](double fraction) { progress.show(fraction); });
   }
   if (arguments.json) {
     fmt::print("{}\n", json_text(explanation_json(explained, measured), scene.file, true));

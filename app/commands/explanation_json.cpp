@@ -45,7 +45,7 @@ Json materials_json(const Explanation& explained) {
 Json method_json(const Explanation& explained) {
   const MethodFacts& method = explained.world.method;
   const StepFacts& step = explained.world.step;
-  const SolverSettings& solver = explained.solver;
+  const SolverSettings& solver = explained.setup.solver;
   return {{"asked", integrator_name(method.asked)},
           {"integrator", integrator_name(method.used)},
           {"precision", solver.single_precision ? "float" : "double"},
@@ -59,8 +59,7 @@ Json method_json(const Explanation& explained) {
           {"explicit_share", method.explicit_share},
           {"explicit_enough", method.enough},
           {"lowest_frequency", method.lowest_frequency ? Json(*method.lowest_frequency) : Json()},
-          {"tick_times_frequency",
-           method.lowest_frequency ? Json(step.tick * *method.lowest_frequency) : Json()},
+          {"tick_times_frequency", method.lowest_frequency ? Json(step.tick * *method.lowest_frequency) : Json()},
           {"resolved_below", method.resolved}};
 }
 

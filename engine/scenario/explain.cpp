@@ -42,7 +42,8 @@ std::vector<TermFacts> terms_of(const Material& material, bool nodal_pressure) {
   else if (material.volume_term != VolumeTerm::quadratic)
     terms.push_back({"volume_term", volume + ": a second pass"});
   if (material.viscosity > 0 || material.bulk_viscosity > 0)
-    terms.push_back({"viscosity", fmt::format("{:.4g} Pa s, bulk {:.4g} Pa s", material.viscosity, material.bulk_viscosity)});
+    terms.push_back(
+        {"viscosity", fmt::format("{:.4g} Pa s, bulk {:.4g} Pa s", material.viscosity, material.bulk_viscosity)});
   if (!material.relaxation.empty())
     terms.push_back({"relaxation", fmt::format("Prony series of {}", material.relaxation.size())});
   if (material.plasticity)
@@ -54,8 +55,12 @@ std::vector<MaterialFacts> materials_of(const WorldSetup& setup, const WorldFact
   std::vector<MaterialFacts> result;
   for (const KernelInfo& kernel : facts.kernels) {
     const RegionMaterial& entry = setup.materials[kernel.material];
-    MaterialFacts material{entry.region, kernel, terms_of(entry.material, setup.solver.nodal_pressure),
-                           entry.material.density, ground_state(entry.material), 0};
+    MaterialFacts material{entry.region,
+                           kernel,
+                           terms_of(entry.material, setup.solver.nodal_pressure),
+                           entry.material.density,
+                           ground_state(entry.material),
+                           0};
     const auto [shear, bulk] = material.rest;
     if (shear > 0) material.poisson = (3 * bulk - 2 * shear) / (2 * (3 * bulk + shear));
     result.push_back(std::move(material));
@@ -99,7 +104,7 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-constexpr double stands_out = 4;    // of the median element's bound of ω²: half its step
+constexpr double stands_out = 4;  // of the median element's bound of ω²: half its step
 constexpr double flat_degrees = 15;
 
 LimitFacts limit_of(const WorldSetup& setup, const StepFacts& step) {
@@ -135,23 +140,24 @@ const char* name_of(LimitFacts::Cause cause) {
 Explanation explain(const Scene& scene) {
   Explanation result;
   TetMesh mesh = timed(result.startup, mesh_work(scene.mesh), [&] { return load_mesh(scene); });
-  const WorldSetup setup = timed(result.startup, "selections and fields resolved",
-                                 [&] { return load_setup(scene, std::move(mesh)); });
-  const auto world = timed(result.startup, "mesh reordered, elements laid out, first forces and step bound",
-                           [&] { return make_world(setup); });
-  const bool solves = !is_explicit(setup.solver.integrator);
-  result.world = timed(result.startup, solves ? "matrix factored, lowest frequency found" : "facts gathered",
-                       [&] { return world->facts(); });
-  if (!solves) result.startup.pop_back();
+  result.setup =
+      timed(result.startup, "selections and fields resolved", [&] { return load_setup(scene, std::move(mesh)); });
+  const WorldSetup& setup = result.setup;
+  const bool chooses = setup.solver.integrator == Integrator::automatic;
+  const auto world = timed(
+      result.startup,
+      fmt::format("mesh reordered, elements laid out, first forces, {}", chooses ? "method chosen" : "stable step"),
+      [&] { return make_world(setup); });
+  result.world = timed(result.startup, "matrix factored, lowest frequency found", [&] { return world->facts(); });
+  if (chooses || !result.world.solver) result.startup.pop_back();
   result.file = scene.file;
   result.name = scene.name;
-  result.solver = setup.solver;
   TetMesh checked = setup.mesh;
   result.quality = check_tets(checked);
   result.materials = materials_of(setup, result.world);
   result.limit = limit_of(setup, result.world.step);
   result.left_out = left_out_of(scene, setup, result.world);
-  result.advice = advice_on(setup, result);
+  result.advice = advice_on(result);
   if (world->halt()) result.advice.push_back({"halted", world->halt()->message, "no step can be taken"});
   return result;
 }

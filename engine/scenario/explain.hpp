@@ -33,10 +33,10 @@ struct MaterialFacts {
 struct LimitFacts {
   enum class Cause { none, sliver, small, stiff };  ///< none: no element stands out
   Cause cause = Cause::none;
-  int element = -1;                                ///< mesh-file order; −1: springs
-  double dihedral = 0;                             ///< degrees, its smallest
-  double height = 0, median_height = 0;            ///< m, smallest: 3 V over the largest face
-  double wave_speed = 0, median_wave_speed = 0;    ///< m/s, of pressure waves at rest
+  int element = -1;                              ///< mesh-file order; −1: springs
+  double dihedral = 0;                           ///< degrees, its smallest
+  double height = 0, median_height = 0;          ///< m, smallest: 3 V over the largest face
+  double wave_speed = 0, median_wave_speed = 0;  ///< m/s, of pressure waves at rest
 };
 /// "none", "sliver", "small", "stiff".
 const char* name_of(LimitFacts::Cause cause);
@@ -59,7 +59,7 @@ struct Advice {
 
 struct Explanation {
   std::string file, name;
-  SolverSettings solver;
+  WorldSetup setup;  ///< what the world was made of
   QualityReport quality;
   WorldFacts world;
   std::vector<MaterialFacts> materials;
@@ -75,6 +75,6 @@ Explanation explain(const Scene& scene);
 
 /// The parts of it that follow from the rest.
 std::vector<LeftOut> left_out_of(const Scene& scene, const WorldSetup& setup, const WorldFacts& facts);
-std::vector<Advice> advice_on(const WorldSetup& setup, const Explanation& explained);
+std::vector<Advice> advice_on(const Explanation& explained);
 
 }  // namespace heml

@@ -8,10 +8,9 @@
 namespace heml {
 namespace {
 
-constexpr double locks = 0.45;          // Poisson's ratio from which linear tetrahedra visibly lock
-constexpr double bulky = 100;           // κ/μ from which pressure waves alone set the explicit step
-constexpr double flat_degrees = 5;      // a dihedral angle below which a tetrahedron is a sliver (mesh/quality.hpp)
-constexpr double waste = 1.5;           // over the longest stable step
+constexpr double locks = 0.45;  // Poisson's ratio from which linear tetrahedra visibly lock
+constexpr double bulky = 100;   // κ/μ from which pressure waves alone set the explicit step
+constexpr double waste = 1.5;   // over the longest stable step
 
 /// Computing time over simulated time of an explicit method, by the model of "auto".
 double explicit_share(const WorldFacts& world, const SolverSettings& solver) {
@@ -19,14 +18,16 @@ double explicit_share(const WorldFacts& world, const SolverSettings& solver) {
   return world.method.explicit_share * (solver.step ? std::max(stable / *solver.step, 1.0) : 1.0);
 }
 
-void advise_on_locking(const WorldSetup& setup, const MaterialFacts& material, std::vector<Advice>& advice) {
-  if (setup.solver.nodal_pressure || material.poisson < locks) return;
+void advise_on_locking(const SolverSettings& solver, const MaterialFacts& material, std::vector<Advice>& advice) {
+  if (solver.nodal_pressure || material.poisson < locks) return;
   const LawInfo& law = *find_law(material.kernel.law);
-  const std::string text = fmt::format("{}: Poisson's ratio is {:.4g} at rest, and linear tetrahedra (\"p1\") are too "
-                                       "stiff from {} on",
-                                       law.name, material.poisson, locks);
+  const std::string text = fmt::format(
+      "{}: Poisson's ratio is {:.4g} at rest, and linear tetrahedra (\"p1\") are too "
+      "stiff from {} on",
+      law.name, material.poisson, locks);
   if (law.has_volume_term)
-    advice.push_back({"locking", text, "\"element\": \"nodal_pressure\" in solver: two more passes a force evaluation"});
+    advice.push_back(
+        {"locking", text, "\"element\": \"nodal_pressure\" in solver: two more passes a force evaluation"});
   else
     advice.push_back({"locking", text,
                       "a law with a volume term of its own (neo_hookean_iso, ...) and \"element\": "
@@ -52,16 +53,16 @@ void advise_on_mesh(const Explanation& explained, std::vector<Advice>& advice) {
                                   limit.element, std::sqrt(explained.world.step.median_ratio)),
                       limit.cause == LimitFacts::Cause::stiff ? "soften its material, or an implicit method"
                                                               : "improve the mesh there, or an implicit method"});
-  if (explained.quality.worst_dihedral < flat_degrees)
-    advice.push_back({"sliver",
-                      fmt::format("{} tetrahedra have a dihedral angle under {}°; the worst, element {}, {:.3g}°",
-                                  explained.quality.slivers, flat_degrees, explained.quality.worst_tet,
-                                  explained.quality.worst_dihedral),
-                      "mesh the body anew: heml mesh says how good a mesh is"});
+  if (explained.quality.slivers > 0)
+    advice.push_back(
+        {"sliver",
+         fmt::format("{} tetrahedra have a dihedral angle under 5°; the worst, element {}, {:.3g}°",
+                     explained.quality.slivers, explained.quality.worst_tet, explained.quality.worst_dihedral),
+         "mesh the body anew: heml mesh says how good a mesh is"});
 }
 
-void advise_on_method(const WorldSetup& setup, const Explanation& explained, std::vector<Advice>& advice) {
-  const SolverSettings& solver = setup.solver;
+void advise_on_method(const Explanation& explained, std::vector<Advice>& advice) {
+  const SolverSettings& solver = explained.setup.solver;
   const WorldFacts& world = explained.world;
   if (solver.is_static()) return;
   const double share = explicit_share(world, solver);
@@ -90,15 +91,15 @@ void advise_on_method(const WorldSetup& setup, const Explanation& explained, std
 
 }  // namespace
 
-std::vector<Advice> advice_on(const WorldSetup& setup, const Explanation& explained) {
+std::vector<Advice> advice_on(const Explanation& explained) {
   std::vector<Advice> advice;
   for (const MaterialFacts& material : explained.materials) {
-    advise_on_locking(setup, material, advice);
+    advise_on_locking(explained.setup.solver, material, advice);
     advise_on_volume(explained, material, advice);
   }
   advise_on_mesh(explained, advice);
-  advise_on_method(setup, explained, advice);
-  if (explained.world.held_nodes == 0 && !setup.gravity.isZero(0))
+  advise_on_method(explained, advice);
+  if (explained.world.held_nodes == 0 && !explained.setup.gravity.isZero(0))
     advice.push_back({"free_fall", "nothing holds the body, and gravity pulls at it", "a `boundary` entry"});
   return advice;
 }
@@ -109,9 +110,8 @@ std::vector<LeftOut> left_out_of(const Scene& scene, const WorldSetup& setup, co
     if (unused) left.push_back({feature, std::move(why)});
   };
   const auto none = [&](const auto& asks) {
-    return std::none_of(facts.kernels.begin(), facts.kernels.end(), [&](const KernelInfo& kernel) {
-      return asks(setup.materials[kernel.material].material);
-    });
+    return std::none_of(facts.kernels.begin(), facts.kernels.end(),
+                        [&](const KernelInfo& kernel) { return asks(setup.materials[kernel.material].material); });
   };
   const SolverSettings& solver = setup.solver;
   const char* unasked = "no material asks for it";
@@ -121,7 +121,8 @@ std::vector<LeftOut> left_out_of(const Scene& scene, const WorldSetup& setup, co
   leave(none([](const Material& m) { return !m.fields.empty(); }), "parameters of each element",
         "uniform materials run the vectorised loops");
   leave(none([](const Material& m) { return find_law(m.law)->has_fibre; }), "fibres", "no law has them");
-  leave(none([](const Material& m) { return !find_law(m.law)->is_continuum; }), "springs", "no material is mass_spring");
+  leave(none([](const Material& m) { return !find_law(m.law)->is_continuum; }), "springs",
+        "no material is mass_spring");
   leave(!solver.nodal_pressure, "nodal pressure", "\"element\" is \"p1\": pressure is of each tetrahedron");
   leave(!solver.continuation, "continuation", "off: a state outside a law's range ends the run (exit code 4)");
   leave(!facts.solver.has_value(), "linear solver",
@@ -132,7 +133,8 @@ std::vector<LeftOut> left_out_of(const Scene& scene, const WorldSetup& setup, co
   leave(solver.damping == 0, "mass damping", "0");
   leave(setup.gravity.isZero(0), "gravity", "0");
   leave(setup.loads.empty(), "loads", "none: an empty list");
-  leave(scene.events.empty(), "tools and edits", "no events: grasps are an empty list, no loop asks which elements live");
+  leave(scene.events.empty(), "tools and edits",
+        "no events: grasps are an empty list, no loop asks which elements live");
   leave(facts.threads == 1, "worker threads", "one thread");
   leave(true, "contact", "this version has none");
   leave(scene.mesh.surface.empty(), "surface mesher", "the mesh has tetrahedra: assimp and TetGen were not started");

@@ -10,10 +10,10 @@ namespace heml {
 namespace {
 
 constexpr int turns = 5;
-constexpr double wanted = 0.2;              // s of computing a run of the scene as it is
+constexpr double wanted = 0.2;  // s of computing a run of the scene as it is
 constexpr long least_ticks = 2, most_ticks = 2000;
-constexpr double static_stretch = 0.1;      // of the load
-constexpr double frames_a_second = 60;      // of a viewer that draws stretches
+constexpr double static_stretch = 0.1;  // of the load
+constexpr double frames_a_second = 60;  // of a viewer that draws stretches
 
 /// A scene with one thing changed.
 struct Change {
@@ -25,6 +25,14 @@ struct Change {
 bool any_material(const WorldSetup& setup, bool (*has)(const Material&)) {
   return std::any_of(setup.materials.begin(), setup.materials.end(),
                      [&](const RegionMaterial& entry) { return has(entry.material); });
+}
+
+/// Every world made would warn of them again.
+void drop_unused_materials(WorldSetup& setup) {
+  std::erase_if(setup.materials, [&](const RegionMaterial& entry) {
+    const auto& regions = setup.mesh.regions;
+    return entry.region && std::find(regions.begin(), regions.end(), *entry.region) == regions.end();
+  });
 }
 
 template <class Make>
@@ -47,7 +55,8 @@ std::vector<Change> changes_of(const Scene& scene, const WorldSetup& setup) {
     changes.push_back({feature, on ? "on" : "off", on ? "off" : "on", [=](WorldSetup& s) { s.solver.*member = !on; }});
   };
   if (any_material(setup, [](const Material& m) { return m.viscosity > 0 || m.bulk_viscosity > 0; }))
-    changes.push_back({"viscosity", "on", "off", in_materials([](Material& m) { m.viscosity = m.bulk_viscosity = 0; })});
+    changes.push_back(
+        {"viscosity", "on", "off", in_materials([](Material& m) { m.viscosity = m.bulk_viscosity = 0; })});
   if (any_material(setup, [](const Material& m) { return !m.relaxation.empty(); }))
     changes.push_back({"relaxation", "on", "off", in_materials([](Material& m) { m.relaxation.clear(); })});
   if (any_material(setup, [](const Material& m) { return m.plasticity.has_value(); }))
@@ -134,8 +143,8 @@ long ticks_for(const Scene& scene, const WorldSetup& setup) {
 
 }  // namespace
 
-Measurement measure_features(const Scene& scene, const std::function<void(double)>& progress) {
-  const WorldSetup setup = load_setup(scene);
+Measurement measure_features(const Scene& scene, WorldSetup setup, const std::function<void(double)>& progress) {
+  if (!switches_material(scene)) drop_unused_materials(setup);
   const std::vector<Change> changes = changes_of(scene, setup);
   const long ticks = ticks_for(scene, setup);
   Measurement measured;
@@ -157,8 +166,9 @@ Measurement measure_features(const Scene& scene, const std::function<void(double
       if (k == 0) as_it_is = done.positions;
       change.error = rms_distance(done.positions, as_it_is);
       change.largest_motion = largest_distance(setup.mesh.nodes, as_it_is);
-      if (progress) progress(static_cast<double>(turn * static_cast<int>(changes.size()) + static_cast<int>(k) + 1) /
-                             static_cast<double>(turns * static_cast<int>(changes.size())));
+      if (progress)
+        progress(static_cast<double>(turn * static_cast<int>(changes.size()) + static_cast<int>(k) + 1) /
+                 static_cast<double>(turns * static_cast<int>(changes.size())));
     }
   return measured;
 }

@@ -10,13 +10,14 @@ namespace heml {
 
 /// A scene with one thing changed, beside the scene as it is.
 struct MeasuredChange {
-  std::string feature;       ///< "as it is" first, then continuation, element, precision, ...
-  std::string from, to;      ///< scene words: "double", "float"
-  double milliseconds = 0;   ///< a tick (of a static scene: of the whole stretch), the least of all turns
-  double steps = 0;          ///< a tick
-  double error = 0;          ///< m, rms distance of the nodes from where they are in the scene as it is, at the end
-  double largest_motion = 0; ///< m, of a node of the scene as it is over the stretch: what the error is to be held against
-  std::string halted;        ///< why it ended early; empty: it did not
+  std::string feature;      ///< "as it is" first, then continuation, element, precision, ...
+  std::string from, to;     ///< scene words: "double", "float"
+  double milliseconds = 0;  ///< a tick (of a static scene: of the whole stretch), the least of all turns
+  double steps = 0;         ///< a tick
+  double error = 0;         ///< m, rms distance of the nodes from where they are in the scene as it is, at the end
+  double largest_motion =
+      0;               ///< m, of a node of the scene as it is over the stretch: what the error is to be held against
+  std::string halted;  ///< why it ended early; empty: it did not
 };
 
 struct Measurement {
@@ -25,7 +26,8 @@ struct Measurement {
   std::vector<MeasuredChange> changes;
 };
 
-/// Takes some seconds. progress: called with the fraction done. Throws InputError as load_world().
-Measurement measure_features(const Scene& scene, const std::function<void(double)>& progress = {});
+/// Takes some seconds. setup: load_setup(scene). progress: called with the fraction done. Throws InputError when a
+/// world refuses an event.
+Measurement measure_features(const Scene& scene, WorldSetup setup, const std::function<void(double)>& progress = {});
 
 }  // namespace heml

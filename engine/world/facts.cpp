@@ -88,7 +88,8 @@ std::vector<MemoryFacts> TypedWorld<Real>::memory_facts() const {
   std::size_t mesh = bytes_of_mesh(setup_.mesh) + bytes_of_model(model_) + bytes_of(topology_->elements);
   if (whole_model_) mesh += bytes_of_model(*whole_model_);
   facts.push_back({"mesh", mesh});
-  facts.push_back({"state", of_state(state_) + of_state(last_valid_) + bytes_of(mass_, inverse_mass_, element_states_)});
+  facts.push_back(
+      {"state", of_state(state_) + of_state(last_valid_) + bytes_of(mass_, inverse_mass_, element_states_)});
   if (!implicit_) return facts;
   const ImplicitParts<Real>& parts = *implicit_;
   facts.push_back({"factors", parts.linear.bytes()});

@@ -13,7 +13,7 @@ namespace heml {
 /// How the integrator was chosen; of a given one the numbers are told all the same, where they cost nothing.
 struct MethodFacts {
   Integrator asked = Integrator::verlet, used = Integrator::verlet;
-  double step_cost = 0;      ///< s an element and explicit step, one core: what the model of cost assumes
+  double step_cost = 0;       ///< s an element and explicit step, one core: what the model of cost assumes
   double explicit_share = 0;  ///< computing time over simulated time of explicit steps at the stable length, by it
   double enough = 0;          ///< share up to which "auto" is explicit; where a step is given, up to the stable one
   std::optional<double> lowest_frequency;  ///< 1/s, at rest, 0 of a body that is free; none: nobody needed it
@@ -46,8 +46,8 @@ struct MemoryFacts {
 };
 
 struct WorldFacts {
-  std::size_t nodes = 0, tets = 0;     ///< of the mesh file
-  std::size_t live_tets = 0;           ///< of them that are there
+  std::size_t nodes = 0, tets = 0;        ///< of the mesh file
+  std::size_t live_tets = 0;              ///< of them that are there
   std::size_t held_nodes = 0, faces = 0;  ///< faces: of the surface as first made
   int threads = 1;
   std::vector<KernelInfo> kernels;  ///< in the order of the materials that have elements

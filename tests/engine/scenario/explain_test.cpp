@@ -26,8 +26,8 @@ bool leaves_out(const Explanation& of, const std::string& feature) {
 }
 
 const Advice* advice_about(const Explanation& of, const std::string& about) {
-  const auto found = std::find_if(of.advice.begin(), of.advice.end(),
-                                  [&](const Advice& advice) { return advice.about == about; });
+  const auto found =
+      std::find_if(of.advice.begin(), of.advice.end(), [&](const Advice& advice) { return advice.about == about; });
   return found == of.advice.end() ? nullptr : &*found;
 }
 
@@ -85,8 +85,9 @@ TEST_CASE("terms of a material are those the scene asks for, and what is no term
 
 TEST_CASE("of auto the choice is told with the numbers it was made by") {
   const auto with_young = [](const char* young) {
-    return explained(R"({"mesh": {"box": {"cells": [8, 4, 4]}}, "materials": [{"law": "neo_hookean", "poisson": 0.3, "young": )" +
-                     std::string(young) + R"(}], "solver": {"integrator": "auto"}})");
+    return explained(
+        R"({"mesh": {"box": {"cells": [8, 4, 4]}}, "materials": [{"law": "neo_hookean", "poisson": 0.3, "young": )" +
+        std::string(young) + R"(}], "solver": {"integrator": "auto"}})");
   };
   const Explanation soft = with_young("1e4"), stiff = with_young("1e10");
   CHECK(soft.world.method.asked == Integrator::automatic);
@@ -103,7 +104,8 @@ TEST_CASE("of auto the choice is told with the numbers it was made by") {
 
 TEST_CASE("the preconditioner follows the size of the body, or the scene") {
   const auto with_cells = [](const std::string& cells, const std::string& solver) {
-    return explained(R"({"mesh": {"box": {"cells": )" + cells + R"(}}, "solver": {)" + solver + "}}").world.solver.value();
+    return explained(R"({"mesh": {"box": {"cells": )" + cells + R"(}}, "solver": {)" + solver + "}}")
+        .world.solver.value();
   };
   const std::string moving = R"("integrator": "backward_euler")";
   CHECK(with_cells("[4, 4, 4]", moving).preconditioner == Preconditioner::cholesky);
@@ -163,7 +165,8 @@ TEST_CASE("memory grows with the body, shrinks in float, and counts the factor")
   CHECK(bytes("[8, 4, 4]", R"("precision": "float")") < 0.8 * small);
   // Every element has at least its nodes, its constants and its corner forces.
   CHECK(small > 8 * 4 * 4 * 5 * (4 * 4 + 7 * 8 + 12 * 8));
-  const Explanation implicit = explained(R"({"mesh": {"box": {"cells": [8, 4, 4]}}, "solver": {"integrator": "static"}})");
+  const Explanation implicit =
+      explained(R"({"mesh": {"box": {"cells": [8, 4, 4]}}, "solver": {"integrator": "static"}})");
   const auto& memory = implicit.world.memory;
   const auto factors = std::find_if(memory.begin(), memory.end(),
                                     [](const MemoryFacts& facts) { return std::string(facts.what) == "factors"; });
@@ -173,7 +176,8 @@ TEST_CASE("memory grows with the body, shrinks in float, and counts the factor")
 
 TEST_CASE("locking is warned of, with a remedy the law allows, and not where nodal pressure is on") {
   const auto advice = [](const std::string& material, const std::string& element) {
-    const Explanation of = explained(R"({"materials": [)" + material + R"(], "solver": {"element": ")" + element + "\"}}");
+    const Explanation of =
+        explained(R"({"materials": [)" + material + R"(], "solver": {"element": ")" + element + "\"}}");
     const Advice* locking = advice_about(of, "locking");
     return locking ? locking->remedy : "";
   };
@@ -200,7 +204,8 @@ TEST_CASE("asking a world for its facts changes no bit of what follows") {
   for (const char* integrator : {"verlet", "backward_euler", "tr_bdf2", "auto", "static"}) {
     CAPTURE(integrator);
     const Scene scene = test::small_scene_with(R"({"gravity": [0, -9.81, 0], "mesh": {"box": {"cells": [4, 2, 2]}},
-      "solver": {"integrator": ")" + std::string(integrator) + "\"}}");
+      "solver": {"integrator": ")" + std::string(integrator) +
+                                               "\"}}");
     const auto asked = load_world(scene), silent = load_world(scene);
     asked->facts();
     for (int k = 0; k < 3; ++k) {
@@ -229,8 +234,9 @@ TEST_CASE("what is switched off by name gives the bits of a scene that does not 
 }
 
 TEST_CASE("features are measured beside the scene as it is") {
-  const Measurement measured = measure_features(test::small_scene_with(R"({"gravity": [0, -9.81, 0],
-    "materials": [{"law": "neo_hookean_iso", "K1": 1e3, "kappa": 1e4, "viscosity": 5}], "solver": {"duration": 0.05}})"));
+  const Scene scene = test::small_scene_with(R"({"gravity": [0, -9.81, 0],
+    "materials": [{"law": "neo_hookean_iso", "K1": 1e3, "kappa": 1e4, "viscosity": 5}], "solver": {"duration": 0.05}})");
+  const Measurement measured = measure_features(scene, load_setup(scene));
   REQUIRE(!measured.changes.empty());
   CHECK(measured.changes[0].feature == "as it is");
   CHECK(measured.changes[0].error == 0);
