@@ -138,8 +138,7 @@ void print_measured(const Explanation& explained, const Measurement& measured) {
   const bool at_rest = explained.setup.solver.is_static();
   print_head("Measured");
   fmt::print("  {:.4g} {}; least of {} turns; the body moved by {:.4g} mm\n", measured.stretch,
-             at_rest ? "of the load" : "s of simulated time", measured.turns,
-             1e3 * measured.changes.front().largest_motion);
+             at_rest ? "of the load" : "s of simulated time", measured.turns, 1e3 * measured.largest_motion);
   fmt::print("  {:<20}{:<26}{:>11}{:>11}{:>10}{:>13}\n", "feature", "changed", at_rest ? "ms" : "ms a tick", "saved",
              "steps", "rms mm");
   for (const MeasuredChange& change : measured.changes) {

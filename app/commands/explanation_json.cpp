@@ -107,7 +107,7 @@ Json measurement_json(const Measurement& measured) {
                        {"halted", change.halted.empty() ? Json() : Json(change.halted)}});
   return {{"stretch", measured.stretch},
           {"turns", measured.turns},
-          {"largest_motion", measured.changes.front().largest_motion},
+          {"largest_motion", measured.largest_motion},
           {"changes", changes}};
 }
 

@@ -97,7 +97,8 @@ std::size_t LinearSolver::bytes() const {
 bool LinearSolver::factor_scalar() {
   if (!scalar_) {
     const bool levels = preconditioner_ == Preconditioner::multilevel;
-    scalar_ = std::make_unique<Multilevel>(free_, mesh_, modulus_, mass_, levels ? most_factored_once : free_.node.size(), team_);
+    scalar_ = std::make_unique<Multilevel>(free_, mesh_, modulus_, mass_,
+                                           levels ? most_factored_once : free_.node.size(), team_);
   }
   if (factored_a_ >= 0 && a_ <= changed_a_lot * factored_a_ && factored_a_ <= changed_a_lot * a_) return true;
   ++counts_.factorisations;

@@ -181,16 +181,16 @@ std::vector<KernelInfo> ElasticBody<Real>::kernels() const {
   std::vector<KernelInfo> result;
   for (const Part& part : parts_) {
     const Material& material = materials_[part.material];
-    KernelInfo info{part.material, material.law, "corners", "portable", part.group.size(),
-                    corners * static_cast<double>(part.terms.size())};
+    KernelInfo info{part.material, material.law, "corners", "portable", part.group.size(), 0};
     if (part.terms.empty()) {
       info.kernel = "springs";
     } else if (part.in_fans) {
       info.kernel = "fans";
       info.instructions = name_of(fans_.instruction_set());
       info.bytes_per_tet = fans_.bytes_per_tet();
-    } else if (material.fields.empty()) {
-      info.instructions = wide_instructions();  // elastic/law_term.hpp
+    } else {
+      if (material.fields.empty()) info.instructions = wide_instructions();  // elastic/law_term.hpp
+      info.bytes_per_tet = corners * static_cast<double>(part.terms.size());
     }
     result.push_back(std::move(info));
   }
@@ -340,7 +340,8 @@ template <class Real>
 std::size_t ElasticBody<Real>::bytes() const {
   std::size_t sum = bytes_of(mesh_.nodes, mesh_.tets, mesh_.regions, material_of_);
   for (const ElementField& field : mesh_.fields) sum += bytes_of(field.values);
-  sum += bytes_of(corners_.start, corners_.corners, force_corners_.start, force_corners_.corners, corner_, linearised_at_, packet_energy_);
+  sum += bytes_of(corners_.start, corners_.corners, force_corners_.start, force_corners_.corners, corner_,
+                  linearised_at_, packet_energy_);
   for (const Part& part : parts_) {
     const ElementGroup<Real>& group = part.group;
     sum += bytes_of(group.element, group.node, group.A, group.volume, group.gamma, group.fibre, group.parameters);

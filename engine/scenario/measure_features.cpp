@@ -165,11 +165,11 @@ Measurement measure_features(const Scene& scene, WorldSetup setup, const std::fu
       change.halted = done.halted;
       if (k == 0) as_it_is = done.positions;
       change.error = rms_distance(done.positions, as_it_is);
-      change.largest_motion = largest_distance(setup.mesh.nodes, as_it_is);
       if (progress)
         progress(static_cast<double>(turn * static_cast<int>(changes.size()) + static_cast<int>(k) + 1) /
                  static_cast<double>(turns * static_cast<int>(changes.size())));
     }
+  measured.largest_motion = largest_distance(setup.mesh.nodes, as_it_is);
   return measured;
 }
 

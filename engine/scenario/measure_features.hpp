@@ -15,13 +15,12 @@ struct MeasuredChange {
   double milliseconds = 0;  ///< a tick (of a static scene: of the whole stretch), the least of all turns
   double steps = 0;         ///< a tick
   double error = 0;         ///< m, rms distance of the nodes from where they are in the scene as it is, at the end
-  double largest_motion =
-      0;               ///< m, of a node of the scene as it is over the stretch: what the error is to be held against
-  std::string halted;  ///< why it ended early; empty: it did not
+  std::string halted = {};  ///< why it ended early; empty: it did not
 };
 
 struct Measurement {
-  double stretch = 0;  ///< s of simulated time; of a static scene, the fraction of the load
+  double stretch = 0;         ///< s of simulated time; of a static scene, the fraction of the load
+  double largest_motion = 0;  ///< m, of a node of the scene as it is: what errors are to be held against
   int turns = 0;
   std::vector<MeasuredChange> changes;
 };
