@@ -1,5 +1,25 @@
 #pragma once
-// What `heml explain --json` prints: one object, whose keys stay (SI units; times in s but for "milliseconds").
+// What `heml explain --json` prints. Keys may be added and never change; SI units, times in s but for "milliseconds" and
+// "saved"; null where there is nothing to tell.
+//
+//   scene, name    file and name
+//   body           nodes, tets, live_tets, regions, components, held_nodes, boundary_faces, volume, shortest_edge,
+//                  longest_edge, worst_dihedral (degrees), worst_tet, slivers
+//   materials[]    region, law, tets, kernel, instructions, bytes_per_tet, terms[] (name, detail), density,
+//                  shear_modulus, bulk_modulus, poisson
+//   method         asked, integrator, precision, element, threads, tick, step_given, steps_a_tick, stable_step; what
+//                  "auto" goes by: step_cost, explicit_share, explicit_enough, lowest_frequency (1/s),
+//                  tick_times_frequency, resolved_below
+//   limit          the element that limits explicit steps: element, cause (none, sliver, small, stiff), share (of the
+//                  bound of ω²), over_median, dihedral, height, median_height, wave_speed, median_wave_speed
+//   solver         minimiser, preconditioner, chosen_by_size, free_nodes, levels, projection, tolerance,
+//                  budget_iterations, budget_milliseconds; null of an explicit method
+//   memory         bytes: elements, mesh, state, factors, solver vectors, all
+//   startup[]      what, seconds
+//   left_out[]     feature, why
+//   warnings[]     about (a word that stays), text, remedy
+//   measured       stretch, turns, largest_motion, changes[] (feature, from, to, milliseconds a tick, saved, steps,
+//                  error in m, halted); null without --measure
 #include <heml/scenario/explain.hpp>
 #include <heml/scenario/json_text.hpp>
 #include <heml/scenario/measure_features.hpp>
