@@ -14,7 +14,7 @@
 //                  bound of ω²), over_median, dihedral, height, median_height, wave_speed, median_wave_speed
 //   solver         minimiser, preconditioner, chosen_by_size, free_nodes, levels, projection, tolerance,
 //                  budget_iterations, budget_milliseconds; null of an explicit method
-//   memory         bytes: elements, mesh, state, factors, solver vectors, all
+//   memory         bytes: elements, mesh, state, recovery, factors, solver vectors, all
 //   startup[]      what, seconds
 //   left_out[]     feature, why
 //   warnings[]     about (a word that stays), text, remedy

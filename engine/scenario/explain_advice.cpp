@@ -125,6 +125,7 @@ std::vector<LeftOut> left_out_of(const Scene& scene, const WorldSetup& setup, co
         "no material is mass_spring");
   leave(!solver.nodal_pressure, "nodal pressure", "\"element\" is \"p1\": pressure is of each tetrahedron");
   leave(!solver.continuation, "continuation", "off: a state outside a law's range ends the run (exit code 4)");
+  leave(!solver.recovery, "recovery", "off: a body that collapses or runs away ends the run (exit code 4)");
   leave(!facts.solver.has_value(), "linear solver",
         fmt::format("{} solves nothing: no matrix, no factor", integrator_name(facts.method.used)));
   leave(facts.solver && !solver.budget, "budget", "none: every stage is solved to its tolerance");

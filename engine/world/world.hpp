@@ -123,6 +123,10 @@ class World {
   /// As it is now: materials, damping, gravity and integrator follow the commands applied. The mesh is
   /// the whole one.
   virtual const WorldSetup& setup() const = 0;
+
+  /// What this world runs now and what that rests on, for people to read (facts.hpp). Implicit and static worlds that
+  /// have not stepped yet factor their matrix for it. Steps after it are the same bits as without.
+  virtual WorldFacts facts() = 0;
 };
 
 /// Builds a world. Throws InputError for what check_tets() and material_of_elements() refuse.
