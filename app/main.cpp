@@ -95,6 +95,22 @@ int run_program(int argc, char** argv) {
   auto* materials_command = program.add_subcommand("materials", "every law, its parameters, and tissues with sources");
   materials_command->add_flag("--json", materials_arguments.json, "for programs: numbers with 17 digits");
 
+  BenchArguments speed_arguments;
+  auto* speed_command = program.add_subcommand("bench", "measure speed on this machine, against a naive loop");
+  speed_command->add_option(
+      "SUITE", speed_arguments.suite,
+      "paper: the five bodies of the paper, HEML and Mass-Tensor; kernel: one force evaluation, every "
+      "law; step: whole steps; roofline: what the machine could do. None: all");
+  speed_command->add_option("--json", speed_arguments.json, "write the rows into this file too");
+  speed_command->add_option("--out", speed_arguments.out, "draw pictures into this folder (suites kernel and paper)");
+  speed_command->add_flag("--quick", speed_arguments.quick, "less than a minute: few and small bodies");
+  speed_command->footer(
+      "Close other programs first: ratios are of times taken in turn and survive a busy machine, times do not.\n"
+      "Examples:\n"
+      "  heml bench --quick                            a first impression\n"
+      "  heml bench kernel --json rows.json            all laws, 320 to a million tetrahedra; takes a while\n"
+      "  heml bench paper --out pictures               the paper's tables, printed and measured");
+
   BenchTestArguments bench_arguments;
   auto* bench_command =
       program.add_subcommand("bench-test", "the curve of a material test, and parameters fitted to a measured one");
@@ -134,6 +150,8 @@ int run_program(int argc, char** argv) {
     code = mesh_surface(mesh_arguments);
   } else if (*materials_command) {
     code = materials(materials_arguments);
+  } else if (*speed_command) {
+    code = bench(speed_arguments);
   } else if (*bench_command) {
     code = bench_test(bench_arguments);
   } else {

@@ -68,6 +68,14 @@ struct MaterialsArguments {
 };
 int materials(const MaterialsArguments& arguments);
 
+struct BenchArguments {
+  std::string suite;                          ///< one of bench_suites(); empty: all
+  std::optional<std::filesystem::path> json;  ///< the rows
+  std::optional<std::filesystem::path> out;   ///< folder for pictures
+  bool quick = false;
+};
+int bench(const BenchArguments& arguments);
+
 struct BenchTestArguments {
   std::string material;           ///< a file with one entry of a scene's `materials`, or a preset's name
   std::string test = "uniaxial";  ///< one of bench_test_names(), or "relaxation"

@@ -12,13 +12,13 @@ Progress::~Progress() {
   if (printed_) std::fprintf(stderr, "\r\033[K");
 }
 
-void Progress::show(double fraction) {
+void Progress::show(double fraction, const std::string& doing) {
   if (!terminal_) return;
   const double now = std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
   if (now - last_ < 0.1) return;
   last_ = now;
   printed_ = true;
-  std::fprintf(stderr, "\rheml: %s %3.0f %%", what_.c_str(), 100 * fraction);
+  std::fprintf(stderr, "\r\033[Kheml: %s %3.0f %% %s", what_.c_str(), 100 * fraction, doing.c_str());
   std::fflush(stderr);
 }
 

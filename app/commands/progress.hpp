@@ -1,5 +1,5 @@
 #pragma once
-// "heml: capturing 12/60" on one line of a terminal that is overwritten; nothing where stderr is a file.
+// "heml: capturing 20 %" on one line of a terminal that is overwritten; nothing where stderr is a file.
 #include <string>
 
 namespace heml {
@@ -12,8 +12,8 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// fraction: 0 to 1. Prints ten times a second at most.
-  void show(double fraction);
+  /// fraction: 0 to 1. doing: what just now, behind it. Prints ten times a second at most.
+  void show(double fraction, const std::string& doing = "");
 
  private:
   std::string what_;

@@ -32,13 +32,28 @@ struct Span {
   double size() const { return high - low; }
 };
 
-/// What the axes show: x and y as given, y already in its unit with prefix.
+/// What the axes show: x and y as given, y already in its unit with prefix; or their logarithms.
 struct Axes {
   Span x, y;
   Prefix prefix;
 };
 
+/// From decade to decade, so that there are ticks.
+Axes logarithmic_axes(const Chart& chart) {
+  Axes axes{{}, {}, {"", 1}};
+  for (const ChartSeries& series : chart.series)
+    for (const ChartPoint& p : series.points)
+      if (p.x > 0 && p.y > 0) axes.x.take(std::log10(p.x)), axes.y.take(std::log10(p.y));
+  if (axes.x.low > axes.x.high) axes.x = {0, 1}, axes.y = {0, 1};
+  for (Span* span : {&axes.x, &axes.y}) {
+    span->low = std::floor(span->low + 1e-9), span->high = std::ceil(span->high - 1e-9);
+    if (!(span->size() > 0)) span->high = span->low + 1;
+  }
+  return axes;
+}
+
 Axes axes_of(const Chart& chart) {
+  if (chart.logarithmic) return logarithmic_axes(chart);
   Axes axes{{}, {}, {"", 1}};
   for (const ChartSeries& series : chart.series)
     for (const ChartPoint& p : series.points)
@@ -72,13 +87,24 @@ class Drawing {
   }
 
  private:
-  static std::vector<float> ticks(const Span& span) {
-    return render::ticks({static_cast<float>(span.low), static_cast<float>(span.high)});
+  std::vector<float> ticks(const Span& span) const {
+    if (!chart_.logarithmic) return render::ticks({static_cast<float>(span.low), static_cast<float>(span.high)});
+    std::vector<float> decades;
+    const int every = span.size() > 12 ? 3 : 1;
+    for (int d = static_cast<int>(span.low); d <= static_cast<int>(span.high); ++d)
+      if (d % every == 0) decades.push_back(static_cast<float>(d));
+    return decades;
   }
-  static std::string number(float value) {
+  std::string number(float value) const {
+    if (chart_.logarithmic)
+      return std::abs(value) < 3 ? fmt::format("{:g}", std::pow(10.0, value)) : fmt::format("1e{:g}", value);
     return fmt::format("{}{:.5g}", value < -1e-30f ? "−" : "", std::abs(value) < 1e-30f ? 0.0f : std::abs(value));
   }
-  std::string y_unit() const { return axes_.prefix.text + chart_.y_unit; }
+  /// "Stress, kPa".
+  std::string y_label() const {
+    const std::string unit = axes_.prefix.text + chart_.y_unit;
+    return unit.empty() ? chart_.y_quantity : chart_.y_quantity + ", " + unit;
+  }
 
   void text(float x, float y, ImU32 colour, const std::string& words) {
     list_.AddText({std::round(x), std::round(y)}, colour, words.c_str());
@@ -87,8 +113,7 @@ class Drawing {
   Area small_plot(const Area& area) {
     const UseFont font(Font::small);
     const float line = ImGui::GetTextLineHeight();
-    text(area.from.x + em(0.4f), area.from.y + em(0.15f), colours_.muted,
-         fmt::format("{}, {}", chart_.y_quantity, y_unit()));
+    text(area.from.x + em(0.4f), area.from.y + em(0.15f), colours_.muted, y_label());
     float widest = 0;
     for (const float tick : ticks(axes_.y)) widest = std::max(widest, ImGui::CalcTextSize(number(tick).c_str()).x);
     return {{area.from.x + em(0.6f) + widest, area.from.y + line + em(0.55f)},
@@ -111,7 +136,7 @@ class Drawing {
     y += ImGui::GetTextLineHeight() + em(1.0f);
     float widest = 0;
     for (const float tick : ticks(axes_.y)) widest = std::max(widest, ImGui::CalcTextSize(number(tick).c_str()).x);
-    text(area.from.x + margin, y, colours_.muted, fmt::format("{}, {}", chart_.y_quantity, y_unit()));
+    text(area.from.x + margin, y, colours_.muted, y_label());
     y += ImGui::GetTextLineHeight() + em(0.5f);
     const Area plot{{area.from.x + margin + widest + em(0.6f), y},
                     {area.to.x - margin, area.to.y - 2 * ImGui::GetTextLineHeight() - em(1.9f)}};
@@ -149,6 +174,7 @@ class Drawing {
     text(x + length + em(0.5f), y, colours_.text, chart_.band->name);
   }
 
+  /// x and y as the axes have them.
   ImVec2 place(double x, double y) const {
     const double u = (x - axes_.x.low) / axes_.x.size(), v = (y - axes_.y.low) / axes_.y.size();
     return {plot_.from.x + static_cast<float>(u) * plot_.width(), plot_.to.y - static_cast<float>(v) * plot_.height()};
@@ -181,7 +207,7 @@ class Drawing {
       text(x - ImGui::CalcTextSize(label.c_str()).x / 2, plot_.to.y + em(chart_.small ? 0.1f : 0.35f), colours_.muted,
            label);
     }
-    const float zero = std::round(place(0, 0).y) + 0.5f;
+    const float zero = std::round(place(0, chart_.logarithmic ? axes_.y.low : 0).y) + 0.5f;
     list_.AddLine({plot_.from.x, zero}, {plot_.to.x, zero}, colours_.axis, chart_.small ? 1 : em(0.07f));
   }
 
@@ -194,7 +220,9 @@ class Drawing {
     std::vector<ImVec2> line;
     for (const ChartPoint& p : series.points) {
       if (!std::isfinite(p.x) || !std::isfinite(p.y)) continue;
-      const ImVec2 at = place(p.x, p.y * axes_.prefix.factor);
+      if (chart_.logarithmic && !(p.x > 0 && p.y > 0)) continue;
+      const ImVec2 at =
+          chart_.logarithmic ? place(std::log10(p.x), std::log10(p.y)) : place(p.x, p.y * axes_.prefix.factor);
       if (series.dots)
         dot(at, series.colour);
       else

@@ -31,7 +31,8 @@ struct Chart {
   std::string y_unit;               ///< "Pa": shown with the prefix that suits
   std::vector<ChartSeries> series;
   std::optional<ChartBand> band;
-  bool small = false;  ///< for the panel: fewer numbers, no grid, no legend
+  bool logarithmic = false;  ///< both axes: points that are not greater than 0 are left out
+  bool small = false;        ///< for the panel: fewer numbers, no grid, no legend
 };
 
 struct ChartColours {

@@ -1,0 +1,134 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <heml/studies/bench.hpp>
+#include <heml/studies/machine.hpp>
+
+namespace heml {
+namespace {
+
+struct Suite {
+  std::string_view name;
+  std::vector<BenchRow> (*run)(const BenchOptions&);
+  std::string_view title;
+};
+constexpr Suite suites[] = {{"paper", paper_suite, "The bodies of Goulette & Chendeb 2006"},
+                            {"kernel", kernel_suite, "One force evaluation"},
+                            {"step", step_suite, "Whole steps"},
+                            {"roofline", roofline_suite, "What the machine has, and what of it is used"}};
+
+const Suite& suite_named(std::string_view name) {
+  const auto found = std::find_if(std::begin(suites), std::end(suites), [&](const Suite& s) { return s.name == name; });
+  assert(found != std::end(suites));
+  return *found;
+}
+
+std::string number(double value) {
+  if (value == 0) return "0";
+  const double size = std::abs(value);
+  if (size >= 1000) return fmt::format("{:.0f}", value);
+  return size >= 100   ? fmt::format("{:.1f}", value)
+         : size >= 10  ? fmt::format("{:.2f}", value)
+         : size >= 0.1 ? fmt::format("{:.3f}", value)
+                       : fmt::format("{:.3g}", value);
+}
+
+using Cells = std::vector<std::string>;
+
+/// Characters, not bytes: names have Greek letters in them.
+std::size_t width_of(const std::string& text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
+}
+
+std::string aligned(const std::vector<Cells>& rows, std::size_t first_number) {
+  std::vector<std::size_t> width(rows.front().size(), 3);
+  for (const Cells& row : rows)
+    for (std::size_t c = 0; c < row.size(); ++c) width[c] = std::max(width[c], width_of(row[c]));
+  std::string text;
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    for (std::size_t c = 0; c < rows[r].size(); ++c) {
+      const std::string space(width[c] - width_of(rows[r][c]), ' ');
+      text += c < first_number ? "| " + rows[r][c] + space + " " : "| " + space + rows[r][c] + " ";
+    }
+    text += "|\n";
+    if (r > 0) continue;
+    for (std::size_t c = 0; c < width.size(); ++c)
+      text += "|" + std::string(width[c] + 1, '-') + (c < first_number ? "-" : ":");
+    text += "|\n";
+  }
+  return text;
+}
+
+/// Notes a row carries, said once each.
+std::string notes_of(std::span<const BenchRow> rows) {
+  std::vector<std::string> said;
+  std::string text;
+  for (const BenchRow& row : rows) {
+    if (!row.more.contains("note")) continue;
+    const std::string note = row.more["note"];
+    if (std::find(said.begin(), said.end(), note) != said.end()) continue;
+    said.push_back(note);
+    text += fmt::format("- {}: {}\n", row.name, note);
+  }
+  return text.empty() ? text : "\n" + text;
+}
+
+std::string table_of(std::span<const BenchRow> rows) {
+  std::vector<Cells> cells = {
+      {"what", "mesh", "law", "precision", "isa", "tets", "threads", "median", "min", "unit", "naive/ours"}};
+  for (const BenchRow& row : rows)
+    cells.push_back({row.name, row.mesh, row.law, row.precision, row.isa, row.tets ? std::to_string(row.tets) : "",
+                     std::to_string(row.threads), number(row.median), number(row.min), row.unit,
+                     row.ratio_to_naive ? fmt::format("{:.2f}", *row.ratio_to_naive) : ""});
+  return aligned(cells, 5) + notes_of(rows);
+}
+
+}  // namespace
+
+std::span<const std::string_view> bench_suites() {
+  static const auto names = [] {
+    std::array<std::string_view, std::size(suites)> result;
+    for (std::size_t i = 0; i < result.size(); ++i) result[i] = suites[i].name;
+    return result;
+  }();
+  return names;
+}
+
+std::vector<BenchRow> run_bench(std::string_view suite, const BenchOptions& options) {
+  auto rows = suite_named(suite).run(options);
+  for (BenchRow& row : rows) row.suite = suite;
+  return rows;
+}
+
+Json to_json(const std::vector<BenchRow>& rows) {
+  const Json machine = to_json(this_machine());
+  Json list = Json::array();
+  for (const BenchRow& row : rows) {
+    Json json = {{"suite", row.suite},         {"name", row.name}, {"mesh", row.mesh},
+                 {"nodes", row.nodes},         {"tets", row.tets}, {"law", row.law},
+                 {"precision", row.precision}, {"isa", row.isa},   {"threads", row.threads},
+                 {"median", row.median},       {"min", row.min},   {"unit", row.unit}};
+    if (row.ratio_to_naive) json["ratio_to_naive"] = *row.ratio_to_naive;
+    json.update(row.more);
+    json["machine"] = machine;
+    list.push_back(std::move(json));
+  }
+  return list;
+}
+
+std::string bench_table(const std::vector<BenchRow>& rows) {
+  const Machine machine = this_machine();
+  std::string text = fmt::format("heml {}, {}, {} cores, {}, {}; naive loops with {}\n", machine.version, machine.cpu,
+                                 machine.cores, machine.compiler, machine.flags, machine.naive_flags);
+  for (auto first = rows.begin(); first != rows.end();) {
+    const auto last = std::find_if(first, rows.end(), [&](const BenchRow& row) { return row.suite != first->suite; });
+    text += fmt::format("\n## {}: {}\n\n", first->suite, suite_named(first->suite).title);
+    text += table_of({first, last});
+    first = last;
+  }
+  return text;
+}
+
+}  // namespace heml

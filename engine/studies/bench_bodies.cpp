@@ -1,0 +1,88 @@
+#include <fmt/format.h>
+
+#include <cassert>
+#include <cmath>
+#include <heml/base/hash.hpp>
+#include <heml/elastic/wide.hpp>
+#include <heml/mesh/generate.hpp>
+#include <heml/mesh/reorder.hpp>
+#include <heml/studies/bench_bodies.hpp>
+#include <thread>
+
+namespace heml {
+namespace {
+
+/// Uniform in [−1, 1], of a place in a sequence.
+double noise(std::uint64_t place) { return static_cast<double>(mix(1, place) >> 11) * 0x1p-52 - 1; }
+
+void jitter(TetMesh& mesh, int n, double size) {
+  const double reach = 0.2 * size / n, edge = 1e-9 * size;
+  for (std::size_t k = 0; k < mesh.nodes.size(); ++k)
+    for (int i = 0; i < 3; ++i) {
+      double& X = mesh.nodes[k][i];
+      if (X > edge && X < size - edge) X += reach * noise(3 * k + static_cast<std::size_t>(i));
+    }
+}
+
+}  // namespace
+
+BenchBody bench_body(std::string name, const TetMesh& mesh) {
+  BenchBody body{std::move(name), reordered(mesh, locality_order(mesh)), {}};
+  Vec3 low = body.mesh.nodes.front(), high = low;
+  for (const Vec3& X : body.mesh.nodes) low = low.cwiseMin(X), high = high.cwiseMax(X);
+  const double size = (high - low).maxCoeff();
+  for (const Vec3& X : body.mesh.nodes) {
+    const Vec3 at = (X - low) / size;
+    const Vec3 bend(0.02 * std::sin(3 * at.y()), 0.02 * std::sin(3 * at.z()), 0.02 * std::sin(3 * at.x()));
+    const Vec3 moved = X + size * (bend + Vec3(0.03 * at.x(), -0.02 * at.y(), 0.01 * at.z()));
+    body.x.insert(body.x.end(), {moved.x(), moved.y(), moved.z()});
+  }
+  return body;
+}
+
+BenchBody bench_cube(int n, bool irregular) {
+  constexpr double size = 0.1;
+  TetMesh mesh = make_box(Vec3(size, size, size), {n, n, n});
+  if (irregular) jitter(mesh, n, size);
+  return bench_body(fmt::format("{} cube {}", irregular ? "irregular" : "regular", n), mesh);
+}
+
+std::vector<Material> bench_materials() {
+  const auto material = [](const char* law, std::vector<double> parameters) {
+    Material m;
+    m.law = law;
+    m.parameters = std::move(parameters);
+    if (find_law(law)->has_fibre) m.fibre = Vec3(2, -1, 2) / 3;
+    return m;
+  };
+  return {material("stvk", {1.5e3, 1e3}),
+          material("neo_hookean", {4e3, 1e3}),
+          material("neo_hookean_iso", {500, 5e4}),
+          material("mooney_rivlin", {400, 100, 5e4}),
+          material("fung_demiray", {1e3, 1.5, 5e4}),
+          material("ogden", {300, -200, 3, -4, 5e4}),
+          material("hgo", {500, 5e4, 800, 2}),
+          material("yeoh", {500, -50, 80, 5e4}),
+          material("gent", {1e3, 20, 5e4}),
+          material("veronda_westmann", {300, 3, 5e4}),
+          material("paper_neo_hookean", {500, 5e4}),
+          material("paper_mooney_rivlin", {400, 100, 5e4}),
+          material("paper_fung_demiray", {1e3, 1.5, 5e4}),
+          material("mass_spring", {10})};
+}
+
+Material bench_material(std::string_view law) {
+  for (const Material& material : bench_materials())
+    if (material.law == law) return material;
+  assert(false);
+  return {};
+}
+
+std::vector<KernelVariant> kernel_variants() { return {{has_wide() ? "avx2" : "portable", {}}}; }
+
+std::vector<int> bench_threads() {
+  const int cores = static_cast<int>(std::thread::hardware_concurrency());
+  return cores > 1 ? std::vector<int>{1, cores} : std::vector<int>{1};
+}
+
+}  // namespace heml

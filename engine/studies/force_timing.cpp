@@ -1,0 +1,99 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <heml/studies/force_timing.hpp>
+#include <heml/studies/naive.hpp>
+#include <memory>
+#include <stdexcept>
+
+namespace heml {
+namespace {
+
+/// ‖f − reference‖ / ‖reference‖.
+template <class Real>
+double distance(const std::vector<Real>& f, const std::vector<double>& reference) {
+  double apart = 0, size = 0;
+  for (std::size_t i = 0; i < f.size(); ++i) {
+    const double d = static_cast<double>(f[i]) - reference[i];
+    apart += d * d;
+    size += reference[i] * reference[i];
+  }
+  return std::sqrt(apart / size);
+}
+
+/// Works of one body in one precision, and what they measure.
+struct Contest {
+  const BenchBody& body;
+  const Material& material;
+  const std::vector<double>& reference;
+  std::vector<std::function<void()>> works;
+  std::vector<ForceTiming> entries;
+
+  template <class Real>
+  void enter(const char* precision, double most_apart) {
+    const auto x = std::make_shared<std::vector<Real>>(as_reals<Real>(body.x));
+    const auto f = std::make_shared<std::vector<Real>>(x->size());
+    for (const KernelVariant& variant : kernel_variants()) {
+      const auto elastic = std::make_shared<ElasticBody<Real>>(body.mesh, std::vector<int>(body.mesh.tets.size(), 0),
+                                                               std::vector{material}, variant.options);
+      for (const int threads : bench_threads()) {
+        const auto team = std::make_shared<ThreadTeam>(threads);
+        elastic->forces(x->data(), f->data(), *team);
+        if (const double apart = distance(*f, reference); !(apart < most_apart))
+          throw std::logic_error(fmt::format("forces of {} ({}, {}) are {:.1e} off the naive loop's", material.law,
+                                             precision, variant.isa, apart));
+        works.push_back([=] { elastic->forces(x->data(), f->data(), *team); });
+        entries.push_back(
+            {material.law, precision, variant.isa, threads, false, {}, bytes_per_tet(body, sizeof(Real)), 1});
+      }
+    }
+  }
+
+  /// Of the loops by corners: nodes, A and V of an element, its corner forces written and read, where they meet.
+  static double bytes_per_tet(const BenchBody& body, std::size_t real) {
+    const double nodes = static_cast<double>(body.mesh.nodes.size()) / static_cast<double>(body.mesh.tets.size());
+    return 4 * sizeof(int) + 4 * sizeof(std::size_t) + static_cast<double>(real) * (7 + 2 * 12 + nodes * 6) +
+           nodes * sizeof(std::size_t);
+  }
+};
+
+}  // namespace
+
+std::vector<ForceTiming> time_forces(const BenchBody& body, const Material& material, const RoundLimits& limits) {
+  const FlushDenormals flush;
+  const NaiveForces naive(body.mesh, material);
+  std::vector<double> reference(body.x.size()), f(body.x.size());
+  naive(body.x.data(), reference.data());
+  Contest contest{body, material, reference, {}, {}};
+  contest.works.push_back([&] { naive(body.x.data(), f.data()); });
+  contest.entries.push_back({material.law, "double", "native", 1, true, {}, 0, 1});
+  contest.enter<double>("double", 1e-10);
+  contest.enter<float>("float", 1e-2);
+  const auto times = time_in_turn(contest.works, limits);
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    contest.entries[k].time = times[k];
+    contest.entries[k].ratio_to_naive = times[0].min / times[k].min;
+  }
+  return contest.entries;
+}
+
+BenchRow force_row(const ForceTiming& timing, const BenchBody& body) {
+  const double tets = static_cast<double>(body.mesh.tets.size());
+  BenchRow row;
+  row.name = timing.naive ? "naive force" : "force";
+  row.mesh = body.name;
+  row.nodes = body.mesh.nodes.size();
+  row.tets = body.mesh.tets.size();
+  row.law = timing.law;
+  row.precision = timing.precision;
+  row.isa = timing.isa;
+  row.threads = timing.threads;
+  row.median = 1e9 * timing.time.median / tets;
+  row.min = 1e9 * timing.time.min / tets;
+  row.unit = "ns/tet";
+  if (!timing.naive) row.ratio_to_naive = timing.ratio_to_naive;
+  row.more = {{"spread", timing.time.spread}, {"samples", timing.time.samples}};
+  return row;
+}
+
+}  // namespace heml

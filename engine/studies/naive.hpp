@@ -1,0 +1,29 @@
+#pragma once
+// What people write first: for every tetrahedron F = Ds Dm⁻¹, P = F S, and −V P Dm⁻ᵀ added to its nodes, one after the
+// other, in double. The laws are written out from their textbook stresses, apart from those of the engine: a yardstick
+// of its speed, and a second opinion on its forces.
+#include <heml/materials/material.hpp>
+#include <heml/mesh/tet_mesh.hpp>
+#include <heml/studies/naive_loops.hpp>
+#include <vector>
+
+namespace heml {
+
+class NaiveForces {
+ public:
+  /// mesh: positive volumes. material: a law alone, the same everywhere, as its formula says (no continuation).
+  NaiveForces(const TetMesh& mesh, const Material& material);
+  NaiveForces(const NaiveForces&) = delete;
+  NaiveForces& operator=(const NaiveForces&) = delete;
+
+  /// Forces at positions x (3 #V, metres) into f (3 #V, overwritten), N. One thread.
+  void operator()(const double* x, double* f) const { loop_(body_, x, f); }
+
+ private:
+  std::vector<int> corners_, ends_;
+  std::vector<double> Dm_inverse_, volume_, length_, parameters_;
+  NaiveBody body_{};
+  NaiveLoop loop_;
+};
+
+}  // namespace heml

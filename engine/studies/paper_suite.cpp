@@ -1,0 +1,171 @@
+#include <fmt/format.h>
+
+#include <heml/mesh/generate.hpp>
+#include <heml/mesh/read.hpp>
+#include <heml/scenario/scene.hpp>
+#include <heml/studies/bench.hpp>
+#include <heml/studies/carried.hpp>
+#include <heml/studies/force_timing.hpp>
+#include <heml/studies/mass_tensor.hpp>
+#include <heml/studies/naive.hpp>
+#include <heml/studies/operation_count.hpp>
+
+namespace heml {
+namespace {
+
+/// A column of the paper's Tables 2 and 3.
+struct PaperBody {
+  const char *name, *asset;  ///< asset: empty for the regular cubes
+  int cells;                 ///< of a regular cube
+  double milliseconds;       ///< Pentium 4, 3.2 GHz
+  double mass_tensor, heml;  ///< operations
+};
+constexpr PaperBody paper_bodies[] = {{"Reg. Cube1", "", 4, 0.25, 2999e3, 70e3},
+                                      {"Reg. Cube2", "", 9, 3.5, 36198e3, 787e3},
+                                      {"Irreg. Cube", "irregular_cube", 0, 0.34, 3935e3, 89e3},
+                                      {"Kidney", "kidney", 0, 2.1, 96292e3, 449e3},
+                                      {"Uterus", "uterus", 0, 20.0, 318707e3, 2500e3}};
+
+constexpr const char* heml_note =
+    "fewer operations than printed: three edges and their Gram matrix stand for six squared lengths and the four "
+    "matrices";
+constexpr const char* printed_sums_note =
+    "equation (3) over all neighbours, U_k·U_j taken once for all l; the count goes with the cube of the neighbours, "
+    "so "
+    "with the mesh: the paper's kidney and uterus are not public, and their nodes must have had more neighbours";
+constexpr const char* careful_sums_note =
+    "equation (3) without the coefficients that are zero because their nodes share no tetrahedron";
+
+TetMesh mesh_of(const PaperBody& body) {
+  if (body.cells > 0) return make_box(Vec3(0.1, 0.1, 0.1), {body.cells, body.cells, body.cells});
+  return read_tet_mesh(assets_folder() / "meshes" / (std::string(body.asset) + ".mesh"));
+}
+
+BenchRow row_of(const BenchBody& body, std::string name, const std::string& precision) {
+  BenchRow row;
+  row.name = std::move(name);
+  row.mesh = body.name;
+  row.nodes = body.mesh.nodes.size();
+  row.tets = body.mesh.tets.size();
+  row.law = "stvk";
+  row.precision = precision;
+  return row;
+}
+
+BenchRow count_row(const BenchBody& body, std::string name, const Operations& operations, double printed,
+                   const char* note) {
+  BenchRow row = row_of(body, std::move(name), "");
+  row.median = row.min = static_cast<double>(operations.multiplications_and_additions());
+  row.unit = "operations";
+  row.more = {{"multiplications", operations.multiplications},
+              {"additions", operations.additions},
+              {"divisions", operations.others}};
+  if (printed > 0) row.more["printed"] = printed;
+  row.more["note"] = note;
+  return row;
+}
+
+BenchRow time_row(const BenchBody& body, std::string name, const std::string& precision, const Timing& time) {
+  BenchRow row = row_of(body, std::move(name), precision);
+  row.median = 1e3 * time.median;
+  row.min = 1e3 * time.min;
+  row.unit = "ms";
+  row.more = {{"spread", time.spread}, {"samples", time.samples}};
+  return row;
+}
+
+Operations mass_tensor_operations(const BenchBody& body, double lambda, double mu, MassTensorSums sums) {
+  const MassTensor<Counted> method(body.mesh, lambda, mu, sums);
+  const std::vector<Counted> x(body.x.begin(), body.x.end());
+  std::vector<Counted> f(x.size());
+  return operations_of([&] { method.forces(x.data(), f.data()); });
+}
+
+std::vector<BenchRow> count_rows(const BenchBody& body, const PaperBody& paper, const Material& material) {
+  const double lambda = material.parameters[0], mu = material.parameters[1];
+  return {count_row(body, "HEML", force_operations(body.mesh, material, body.x.data()), paper.heml, heml_note),
+          count_row(body, "Mass-Tensor", mass_tensor_operations(body, lambda, mu, MassTensorSums::as_printed),
+                    paper.mass_tensor, printed_sums_note),
+          count_row(body, "Mass-Tensor, no zeros",
+                    mass_tensor_operations(body, lambda, mu, MassTensorSums::without_zeros), 0, careful_sums_note)};
+}
+
+/// The naive loop, HEML and Mass-Tensor in both precisions, in turn, on one thread.
+template <class Real>
+void add_mass_tensor(const BenchBody& body, const Material& material, std::vector<std::function<void()>>& works) {
+  for (const MassTensorSums sums : {MassTensorSums::as_printed, MassTensorSums::without_zeros}) {
+    const auto method =
+        std::make_shared<MassTensor<Real>>(body.mesh, material.parameters[0], material.parameters[1], sums);
+    const auto x = std::make_shared<std::vector<Real>>(as_reals<Real>(body.x));
+    const auto f = std::make_shared<std::vector<Real>>(x->size());
+    works.push_back([=] { method->forces(x->data(), f->data()); });
+  }
+}
+
+std::vector<BenchRow> time_rows(const BenchBody& body, const PaperBody& paper, const Material& material,
+                                const RoundLimits& limits) {
+  std::vector<BenchRow> rows;
+  for (const ForceTiming& timing : time_forces(body, material, limits)) {
+    BenchRow row = time_row(body, timing.naive ? "naive" : "HEML", timing.precision, timing.time);
+    row.isa = timing.isa;
+    row.threads = timing.threads;
+    if (!timing.naive) {
+      row.ratio_to_naive = timing.ratio_to_naive;
+      row.more["printed"] = paper.milliseconds;
+      row.more["note"] = "the paper's were measured on a Pentium 4 of 3.2 GHz, without optimisation (its section 3.1)";
+    }
+    rows.push_back(std::move(row));
+  }
+  const NaiveForces naive(body.mesh, material);
+  std::vector<double> f(body.x.size());
+  std::vector<std::function<void()>> works = {[&] { naive(body.x.data(), f.data()); }};
+  add_mass_tensor<double>(body, material, works);
+  add_mass_tensor<float>(body, material, works);
+  const auto times = time_in_turn(works, limits);
+  for (std::size_t k = 1; k < times.size(); ++k) {
+    BenchRow row =
+        time_row(body, k % 2 ? "Mass-Tensor" : "Mass-Tensor, no zeros", k < 3 ? "double" : "float", times[k]);
+    row.isa = "portable";
+    row.ratio_to_naive = times[0].min / times[k].min;
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+/// What becomes of the forces of both when a body is carried away: beside the times of one thread.
+template <class Real>
+void add_carried_error(const BenchBody& body, const Material& material, const char* precision,
+                       std::vector<BenchRow>& rows) {
+  const auto points = carried_errors<Real>(body, material);
+  for (BenchRow& row : rows) {
+    if (row.unit != "ms" || row.precision != precision || row.threads != 1) continue;
+    const bool is_heml = row.name == "HEML";
+    if (!is_heml && row.name != "Mass-Tensor") continue;
+    Json list = Json::array();
+    for (const CarriedError& at : points) list.push_back({at.sizes, is_heml ? at.heml : at.mass_tensor});
+    row.more["error_when_carried"] = list;
+  }
+}
+
+}  // namespace
+
+std::vector<BenchRow> paper_suite(const BenchOptions& options) {
+  std::vector<BenchRow> rows;
+  const Material material = bench_material("stvk");
+  double done = 0;
+  for (const PaperBody& paper : paper_bodies) {
+    options.progress(fmt::format("paper: {}", paper.name), done++ / std::size(paper_bodies));
+    const BenchBody body = bench_body(paper.name, mesh_of(paper));
+    RoundLimits limits;
+    limits.seconds = options.quick ? 0.4 : 3;
+    limits.fewest = 3;
+    std::vector<BenchRow> of_body = count_rows(body, paper, material);
+    for (BenchRow& row : time_rows(body, paper, material, limits)) of_body.push_back(std::move(row));
+    add_carried_error<double>(body, material, "double", of_body);
+    add_carried_error<float>(body, material, "float", of_body);
+    rows.insert(rows.end(), of_body.begin(), of_body.end());
+  }
+  return rows;
+}
+
+}  // namespace heml

@@ -1,0 +1,147 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <heml/studies/bench.hpp>
+#include <heml/studies/force_timing.hpp>
+#include <heml/studies/machine.hpp>
+#include <heml/studies/operation_count.hpp>
+#include <heml/studies/peak.hpp>
+
+namespace heml {
+namespace {
+
+/// Best figure over threads and instruction sets: what a kernel's is held against.
+struct Peaks {
+  std::vector<BenchRow> arithmetic, bandwidth;
+
+  double operations_per_ns(const ForceTiming& timing) const {
+    for (const BenchRow& row : arithmetic)
+      if (row.isa == timing.isa && row.precision == timing.precision && row.threads == timing.threads)
+        return row.more["best"];
+    return NAN;
+  }
+  double bytes_per_ns(const std::string& level, int threads) const {
+    for (const BenchRow& row : bandwidth)
+      if (row.name == "triad " + level && row.threads == threads) return row.more["best"];
+    return NAN;
+  }
+};
+
+RoundLimits limits_of(const BenchOptions& options) {
+  RoundLimits limits;
+  limits.seconds = options.quick ? 0.05 : 0.5;
+  limits.fewest = 3;
+  return limits;
+}
+
+/// `amount` of something (operations, bytes) a run, as 1e9 a second.
+BenchRow rate_row(std::string name, const Timing& time, double amount, const char* unit, int threads) {
+  BenchRow row;
+  row.name = std::move(name);
+  row.threads = threads;
+  row.median = 1e-9 * amount / time.median;
+  row.min = row.median / (1 + time.spread);
+  row.unit = unit;
+  row.more = {{"best", 1e-9 * amount / time.min}, {"spread", time.spread}, {"samples", time.samples}};
+  return row;
+}
+
+std::vector<BenchRow> arithmetic_rows(const BenchOptions& options) {
+  constexpr long turns = 100000;
+  std::vector<BenchRow> rows;
+  for (const int threads : bench_threads()) {
+    ThreadTeam team(threads);
+    for (const PeakLoop& loop : peak_loops()) {
+      const auto work = [&] {
+        team.for_ranges(static_cast<std::size_t>(threads), 1, [&](std::size_t, std::size_t) { loop.run(turns); });
+      };
+      const Timing time = time_in_turn({work}, limits_of(options)).front();
+      BenchRow row = rate_row("peak arithmetic", time, threads * turns * loop.operations_a_turn, "GFLOP/s", threads);
+      row.isa = loop.isa;
+      row.precision = loop.precision;
+      rows.push_back(std::move(row));
+    }
+  }
+  return rows;
+}
+
+std::vector<BenchRow> bandwidth_rows(const BenchOptions& options) {
+  const Machine machine = this_machine();
+  const struct {
+    const char* level;
+    std::size_t bytes;  ///< of one thread; of all in what all share
+    bool shared;
+  } sizes[] = {{"L1", machine.L1 / 2, false},
+               {"L2", machine.L2 / 2, false},
+               {"L3", machine.L3 / 2, true},
+               {"DRAM", std::max<std::size_t>(4 * machine.L3, std::size_t{1} << 28), true}};
+  std::vector<BenchRow> rows;
+  for (const auto& size : sizes) {
+    if (size.bytes < 4096) continue;  // no such cache, or its size is not known
+    for (const int threads : bench_threads()) {
+      ThreadTeam team(threads);
+      Triad triad(size.bytes * static_cast<std::size_t>(size.shared ? 1 : threads));
+      const long turns = std::max(1L, static_cast<long>(1e7 / triad.bytes()));
+      const Timing time = time_in_turn({[&] { triad.run(team, turns); }}, limits_of(options)).front();
+      BenchRow row = rate_row(fmt::format("triad {}", size.level), time, static_cast<double>(turns) * triad.bytes(),
+                              "GB/s", threads);
+      row.precision = "double";
+      row.more["bytes"] = triad.bytes();
+      rows.push_back(std::move(row));
+    }
+  }
+  return rows;
+}
+
+/// The smallest level that holds what a kernel goes over.
+std::string level_of(double bytes, const Machine& machine, int threads) {
+  if (bytes < static_cast<double>(machine.L1) * threads) return "L1";
+  if (bytes < static_cast<double>(machine.L2) * threads) return "L2";
+  return bytes < static_cast<double>(machine.L3) ? "L3" : "DRAM";
+}
+
+BenchRow reached_row(const ForceTiming& timing, const BenchBody& body, double operations, const Peaks& peaks) {
+  const double tets = static_cast<double>(body.mesh.tets.size());
+  BenchRow row = force_row(timing, body);
+  const double best = 1e9 * timing.time.min / tets;  // ns/tet
+  const std::string level = level_of(timing.bytes_per_tet * tets, this_machine(), timing.threads);
+  row.unit = "GFLOP/s";
+  row.median = operations / row.median;
+  row.min = row.median / (1 + timing.time.spread);
+  row.more["operations_per_tet"] = operations;
+  row.more["bytes_per_tet"] = timing.bytes_per_tet;
+  row.more["ns_per_tet"] = best;
+  row.more["memory_level"] = level;
+  row.more["fraction_of_arithmetic"] = operations / best / peaks.operations_per_ns(timing);
+  row.more["fraction_of_bandwidth"] = timing.bytes_per_tet / best / peaks.bytes_per_ns(level, timing.threads);
+  return row;
+}
+
+}  // namespace
+
+std::vector<BenchRow> roofline_suite(const BenchOptions& options) {
+  options.progress("roofline: arithmetic and bandwidth", 0);
+  const Peaks peaks{arithmetic_rows(options), bandwidth_rows(options)};
+  std::vector<BenchRow> rows = peaks.arithmetic;
+  rows.insert(rows.end(), peaks.bandwidth.begin(), peaks.bandwidth.end());
+  const std::vector<int> cubes = options.quick ? std::vector<int>{9} : std::vector<int>{9, 27};
+  const auto materials = bench_materials();
+  double done = 0;
+  for (const int n : cubes) {
+    const BenchBody body = bench_cube(n, false);
+    for (const Material& material : materials) {
+      options.progress(fmt::format("roofline: {}, {}", body.name, material.law),
+                       done++ / static_cast<double>(cubes.size() * materials.size()));
+      if (!find_law(material.law)->is_continuum) continue;
+      const Operations operations = force_operations(body.mesh, material, body.x.data());
+      const double a_tet = static_cast<double>(operations.multiplications_and_additions() + operations.others) /
+                           static_cast<double>(body.mesh.tets.size());
+      for (const ForceTiming& timing : time_forces(body, material, limits_of(options)))
+        if (!timing.naive) rows.push_back(reached_row(timing, body, a_tet, peaks));
+    }
+  }
+  return rows;
+}
+
+}  // namespace heml

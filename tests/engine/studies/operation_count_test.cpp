@@ -1,0 +1,92 @@
+// The element's code is generic over its scalar: run on one that counts, it says how many operations a law takes.
+#include <doctest/doctest.h>
+
+#include <heml/elastic/tension.hpp>
+#include <heml/mesh/generate.hpp>
+#include <heml/studies/operation_count.hpp>
+
+#include "engine/materials/sample_materials.hpp"
+
+using namespace heml;
+
+namespace {
+
+const Vec3 rest_nodes[4] = {{0, 0, 0}, {0.1, 0.01, 0}, {0.02, 0.12, 0}, {0.01, 0.03, 0.09}};
+
+/// Corner forces of one stretched element with any scalar.
+template <class Real, class L>
+std::array<double, 12> forces(const L& law) {
+  Mat3 Dm;
+  Dm << rest_nodes[1] - rest_nodes[0], rest_nodes[2] - rest_nodes[0], rest_nodes[3] - rest_nodes[0];
+  const Mat3 g = Dm.inverse(), A = g * g.transpose();
+  const Vec3 m = g * Vec3::UnitX();
+  RestShape<Real> rest;
+  const double entries[6] = {A(0, 0), A(1, 1), A(2, 2), A(0, 1), A(0, 2), A(1, 2)};
+  for (int i = 0; i < 6; ++i) rest.A[i] = Real(entries[i]);
+  for (int i = 0; i < 3; ++i) rest.fibre[i] = Real(m[i]);
+  rest.volume = Real(Dm.determinant() / 6);
+  Real x[4][3], out[12];
+  for (int a = 0; a < 4; ++a)
+    for (int i = 0; i < 3; ++i) x[a][i] = Real(rest_nodes[a][i] * (i == 0 ? 1.2 : 0.9));
+  corner_forces(law, x[0], x[1], x[2], x[3], rest, out);
+  std::array<double, 12> result;
+  for (std::size_t i = 0; i < 12; ++i) result[i] = static_cast<double>(out[i]);
+  return result;
+}
+
+template <class L>
+Operations operations_of_law(const Material& material) {
+  const L law = law_from<L, Counted>(material.parameters);
+  return operations_of([&] { forces<Counted>(law); });
+}
+
+}  // namespace
+
+TEST_CASE("every law runs on a counting scalar, gives the same forces, and says what it costs") {
+  std::apply(
+      [](auto... tag) {
+        (
+            [](auto one) {
+              using Plain = typename decltype(one)::template Law<double, false>;
+              using Counting = typename decltype(one)::template Law<Counted, false>;
+              const Material material = test::sample_material(Plain::name);
+              const auto expected = forces<double>(law_from<Plain, double>(material.parameters));
+              const auto counted = forces<Counted>(law_from<Counting, Counted>(material.parameters));
+              for (std::size_t i = 0; i < 12; ++i) CHECK(counted[i] == expected[i]);
+              const Operations c = operations_of_law<Counting>(material);
+              MESSAGE(std::string(Plain::name) << ": " << c.multiplications << " multiplications, " << c.additions
+                                               << " additions, " << c.others << " others");
+              CHECK(c.multiplications > 50);
+              CHECK(operations_of_law<Counting>(material) == c);
+            }(tag),
+            ...);
+      },
+      LawList{});
+}
+
+TEST_CASE("one more multiplication is one more counted") {
+  struct Dearer : StVK<Counted, false> {
+    Slopes<Counted> slopes(const Invariants<Counted>& at) const {
+      auto s = StVK<Counted, false>::slopes(at);
+      s.w1 = s.w1 * Counted(1);
+      return s;
+    }
+  };
+  const StVK<Counted, false> plain{1e3, 1e3};
+  const Operations before = operations_of([&] { forces<Counted>(plain); });
+  const Operations after = operations_of([&] { forces<Counted>(Dearer{plain}); });
+  CHECK(after.multiplications == before.multiplications + 1);
+  CHECK(after.additions == before.additions);
+}
+
+TEST_CASE("a body takes what its elements take, and twelve additions each to sum at nodes") {
+  const TetMesh mesh = make_box(Vec3(0.1, 0.1, 0.1), {2, 2, 2});
+  std::vector<double> x;
+  for (const Vec3& X : mesh.nodes) x.insert(x.end(), {1.1 * X.x(), X.y(), X.z()});
+  const Material material = test::sample_material("stvk");
+  const Operations element = operations_of_law<StVK<Counted, false>>(material);
+  const Operations body = force_operations(mesh, material, x.data());
+  const long tets = static_cast<long>(mesh.tets.size());
+  CHECK(body.multiplications == tets * element.multiplications);
+  CHECK(body.additions == tets * (element.additions + 12));
+}
