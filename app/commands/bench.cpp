@@ -6,6 +6,7 @@
 #include <app/commands/bench_pictures.hpp>
 #include <app/commands/commands.hpp>
 #include <app/commands/progress.hpp>
+#include <fstream>
 #include <heml/base/error.hpp>
 #include <heml/base/log.hpp>
 #include <heml/scenario/text_file.hpp>
@@ -22,6 +23,11 @@ std::vector<std::string_view> chosen_suites(const std::string& suite) {
   return {suite};
 }
 
+void expect_writable(const std::filesystem::path& path) {
+  if (!std::ofstream(path, std::ios::app))
+    throw InputError(path.string(), "", "cannot be written", "give another --json");
+}
+
 void write_json(const std::filesystem::path& path, const std::vector<BenchRow>& rows) {
   write_text_file(path, json_text(to_json(rows), path.string(), true) + "\n");
 }
@@ -30,7 +36,7 @@ void write_json(const std::filesystem::path& path, const std::vector<BenchRow>& 
 
 int bench(const BenchArguments& arguments) {
   const auto suites = chosen_suites(arguments.suite);
-  if (arguments.json) write_json(*arguments.json, {});  // what cannot be written is said now, not minutes later
+  if (arguments.json) expect_writable(*arguments.json);  // said now, not minutes later
   if (arguments.out) make_picture_folder(*arguments.out);
   std::vector<BenchRow> rows;
   {
@@ -43,11 +49,11 @@ int bench(const BenchArguments& arguments) {
     };
     for (const std::string_view suite : suites) {
       for (BenchRow& row : run_bench(suite, options)) rows.push_back(std::move(row));
+      if (arguments.json) write_json(*arguments.json, rows);
       ++done;
     }
   }
   fmt::print("{}", bench_table(rows));
-  if (arguments.json) write_json(*arguments.json, rows);
   if (arguments.out)
     for (const auto& picture : write_bench_pictures(*arguments.out, rows)) inform("wrote {}", picture.string());
   return exit_done;

@@ -41,7 +41,7 @@ BenchRow rate_row(std::string name, const Timing& time, double amount, const cha
   row.name = std::move(name);
   row.threads = threads;
   row.median = 1e-9 * amount / time.median;
-  row.min = row.median / (1 + time.spread);
+  row.min = 1e-9 * amount / time.max;
   row.unit = unit;
   row.more = {{"best", 1e-9 * amount / time.min}, {"spread", time.spread}, {"samples", time.samples}};
   return row;
@@ -108,7 +108,7 @@ BenchRow reached_row(const ForceTiming& timing, const BenchBody& body, double op
   const std::string level = level_of(timing.bytes_per_tet * tets, this_machine(), timing.threads);
   row.unit = "GFLOP/s";
   row.median = operations / row.median;
-  row.min = row.median / (1 + timing.time.spread);
+  row.min = operations * tets / (1e9 * timing.time.max);
   row.more["operations_per_tet"] = operations;
   row.more["bytes_per_tet"] = timing.bytes_per_tet;
   row.more["ns_per_tet"] = best;

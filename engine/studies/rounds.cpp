@@ -30,7 +30,7 @@ Timing summary(std::vector<double> samples) {
   std::sort(samples.begin(), samples.end());
   const std::size_t count = samples.size();
   const double median = (samples[(count - 1) / 2] + samples[count / 2]) / 2;
-  return {median, samples.front(), (samples[3 * (count - 1) / 4] - samples[(count - 1) / 4]) / median,
+  return {median, samples.front(), samples.back(), (samples[3 * (count - 1) / 4] - samples[(count - 1) / 4]) / median,
           static_cast<int>(count)};
 }
 

@@ -10,8 +10,8 @@
 namespace heml {
 
 struct Timing {
-  double median = 0, min = 0;  ///< s of one run
-  double spread = 0;           ///< (upper − lower quartile) / median
+  double median = 0, min = 0, max = 0;  ///< s of one run
+  double spread = 0;                    ///< (upper − lower quartile) / median
   int samples = 0;
 };
 

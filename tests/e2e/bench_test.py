@@ -1,0 +1,96 @@
+"""`heml bench` from outside: rows, table, pictures, refusals. No figure is compared with another. HEML_BINARY names it."""
+import json
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+BINARY = os.environ["HEML_BINARY"]
+FIELDS = "suite name mesh nodes tets law precision isa threads median min unit".split()
+UNITS = {"paper": {"ms", "operations"}, "kernel": {"ns/tet"}, "step": {"ms"}, "roofline": {"GB/s", "GFLOP/s"}}
+
+
+def bench(*arguments):
+    return subprocess.run([BINARY, "bench", *map(str, arguments)], capture_output=True, text=True, timeout=280)
+
+
+class Bench(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def rows_of(self, suite, *more):
+        done = bench(suite, "--quick", "--json", self.folder / "rows.json", *more)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        rows = json.loads((self.folder / "rows.json").read_text())
+        self.assertTrue(rows)
+        for row in rows:
+            for field in FIELDS:
+                self.assertIn(field, row)
+            self.assertEqual(row["suite"], suite)
+            self.assertIn(row["unit"], UNITS[suite])
+            self.assertGreater(row["min"], 0)
+            self.assertLessEqual(row["min"], row["median"])
+        table = [line for line in done.stdout.splitlines() if line.startswith("|")]
+        self.assertEqual(len(table), len(rows) + 2, "a line a row, under a heading")
+        self.assertEqual(len({len(line) for line in table}), 1, "columns are aligned")
+        return rows
+
+    def test_kernel_has_every_law_in_every_way_and_the_naive_loop(self):
+        rows = self.rows_of("kernel", "--out", self.folder / "pictures")
+        laws = json.loads(subprocess.run([BINARY, "materials", "--json"], capture_output=True, text=True).stdout)["laws"]
+        self.assertEqual({row["law"] for row in rows}, {law["name"] for law in laws})
+        for row in rows:
+            self.assertEqual("ratio_to_naive" in row, row["name"] == "force")
+        naive = {(row["mesh"], row["law"]): row["min"] for row in rows if row["name"] == "naive force"}
+        for row in rows:
+            if row["name"] == "force":
+                self.assertAlmostEqual(row["ratio_to_naive"] * row["min"] / naive[row["mesh"], row["law"]], 1, delta=1e-9)
+        self.assertEqual({row["precision"] for row in rows}, {"double", "float"})
+        self.assertTrue((self.folder / "pictures" / "ratios.png").read_bytes().startswith(b"\x89PNG"))
+
+    def test_paper_stands_beside_what_was_printed(self):
+        rows = self.rows_of("paper", "--out", self.folder / "pictures")
+        printed = {(row["mesh"], row["name"]): row["printed"] for row in rows if row["unit"] == "operations" and "printed" in row}
+        self.assertEqual(printed["Uterus", "Mass-Tensor"], 318707e3)
+        self.assertEqual(printed["Reg. Cube1", "HEML"], 70e3)
+        sizes = {row["mesh"]: (row["nodes"], row["tets"]) for row in rows}
+        self.assertEqual(sizes["Reg. Cube1"], (125, 320))
+        self.assertEqual(sizes["Reg. Cube2"], (1000, 3645))
+        counts = {(row["mesh"], row["name"]): row["median"] for row in rows if row["unit"] == "operations"}
+        for mesh in sizes:
+            self.assertGreater(counts[mesh, "Mass-Tensor"], counts[mesh, "Mass-Tensor, no zeros"])
+            self.assertGreater(counts[mesh, "Mass-Tensor, no zeros"], counts[mesh, "HEML"])
+        carried = [row for row in rows if "error_when_carried" in row]
+        self.assertEqual({(row["name"], row["precision"]) for row in carried},
+                         {(name, precision) for name in ("HEML", "Mass-Tensor") for precision in ("double", "float")})
+        self.assertTrue((self.folder / "pictures" / "carried.png").read_bytes().startswith(b"\x89PNG"))
+
+    def test_step_and_roofline_say_what_they_reach(self):
+        for row in self.rows_of("step"):
+            self.assertGreater(row["naive_evaluations"], 0)
+            self.assertNotIn("halted", row)
+        rows = self.rows_of("roofline")
+        self.assertTrue({"peak arithmetic", "triad DRAM", "force"} <= {row["name"] for row in rows})
+        for row in rows:
+            if row["name"] == "force":
+                self.assertGreater(row["bytes_per_tet"], 0)
+                self.assertGreater(row["operations_per_tet"], 0)
+
+    def test_wrong_usage_and_what_cannot_be_written(self):
+        done = bench("kernels")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("roofline", done.stderr)
+        self.assertEqual(bench("kernel", "step").returncode, 2)
+        for option, place in (("--json", "nowhere/rows.json"), ("--out", "file/pictures")):
+            (self.folder / "file").write_text("")
+            done = bench("step", "--quick", option, self.folder / place)
+            self.assertEqual(done.returncode, 3, done.stderr)
+            self.assertIn(str(self.folder / place), done.stderr)
+            self.assertEqual(done.stdout, "", "nothing was measured first")
+
+
+if __name__ == "__main__":
+    unittest.main()
