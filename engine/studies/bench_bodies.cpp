@@ -3,7 +3,6 @@
 #include <cassert>
 #include <cmath>
 #include <heml/base/hash.hpp>
-#include <heml/elastic/wide.hpp>
 #include <heml/mesh/generate.hpp>
 #include <heml/mesh/reorder.hpp>
 #include <heml/studies/bench_bodies.hpp>
@@ -65,6 +64,7 @@ std::vector<Material> bench_materials() {
           material("yeoh", {500, -50, 80, 5e4}),
           material("gent", {1e3, 20, 5e4}),
           material("veronda_westmann", {300, 3, 5e4}),
+          material("stable_neo_hookean", {4e3, 1e3}),
           material("paper_neo_hookean", {500, 5e4}),
           material("paper_mooney_rivlin", {400, 100, 5e4}),
           material("paper_fung_demiray", {1e3, 1.5, 5e4}),
@@ -78,7 +78,11 @@ Material bench_material(std::string_view law) {
   return {};
 }
 
-std::vector<KernelVariant> kernel_variants() { return {{has_wide() ? "avx2" : "portable", {}}}; }
+std::vector<InstructionSet> kernels_of(const Material& material) {
+  if (!find_law(material.law)->is_continuum) return {InstructionSet::portable};  // springs have no kernels
+  const auto sets = instruction_sets();
+  return {sets.begin(), sets.end()};
+}
 
 std::vector<int> bench_threads() {
   const int cores = static_cast<int>(std::thread::hardware_concurrency());

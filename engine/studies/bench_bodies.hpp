@@ -26,12 +26,8 @@ std::vector<Material> bench_materials();
 /// Of that law; which has to be one.
 Material bench_material(std::string_view law);
 
-/// The kernels a body can run, by instruction set.
-struct KernelVariant {
-  std::string isa;
-  BodyOptions options;
-};
-std::vector<KernelVariant> kernel_variants();
+/// The instruction sets whose kernels this processor can run for a material, the best last.
+std::vector<InstructionSet> kernels_of(const Material& material);
 
 /// {1} or {1, all cores}.
 std::vector<int> bench_threads();

@@ -33,27 +33,23 @@ struct Contest {
   void enter(const char* precision, double most_apart) {
     const auto x = std::make_shared<std::vector<Real>>(as_reals<Real>(body.x));
     const auto f = std::make_shared<std::vector<Real>>(x->size());
-    for (const KernelVariant& variant : kernel_variants()) {
+    for (const InstructionSet isa : kernels_of(material)) {
+      BodyOptions options;
+      options.instruction_set = isa;
+      const std::string name(name_of(isa));
       const auto elastic = std::make_shared<ElasticBody<Real>>(body.mesh, std::vector<int>(body.mesh.tets.size(), 0),
-                                                               std::vector{material}, variant.options);
+                                                               std::vector{material}, options);
+      const double bytes = elastic->kernels().front().bytes_per_tet;
       for (const int threads : bench_threads()) {
         const auto team = std::make_shared<ThreadTeam>(threads);
         elastic->forces(x->data(), f->data(), *team);
         if (const double apart = distance(*f, reference); !(apart < most_apart))
           throw std::logic_error(fmt::format("forces of {} ({}, {}) are {:.1e} off the naive loop's", material.law,
-                                             precision, variant.isa, apart));
+                                             precision, name, apart));
         works.push_back([=] { elastic->forces(x->data(), f->data(), *team); });
-        entries.push_back(
-            {material.law, precision, variant.isa, threads, false, {}, bytes_per_tet(body, sizeof(Real)), 1});
+        entries.push_back({material.law, precision, name, threads, false, {}, bytes, 1});
       }
     }
-  }
-
-  /// Of the loops by corners: nodes, A and V of an element, its corner forces written and read, where they meet.
-  static double bytes_per_tet(const BenchBody& body, std::size_t real) {
-    const double nodes = static_cast<double>(body.mesh.nodes.size()) / static_cast<double>(body.mesh.tets.size());
-    return 4 * sizeof(int) + 4 * sizeof(std::size_t) + static_cast<double>(real) * (7 + 2 * 12 + nodes * 6) +
-           nodes * sizeof(std::size_t);
   }
 };
 

@@ -213,6 +213,14 @@ struct VerondaWestmann {
   }
 };
 
+struct StableNeoHookean {
+  static Matrix stress(const Strain& at, const NaiveBody& body) {
+    const double lambda = body.parameter[0], mu = body.parameter[1];
+    const double wJ = (lambda + 5 * mu / 6) * (at.J - 1) - mu;
+    return sum(4 * mu / 3 * at.I1 / (at.I1 + 1), wJ * at.J, at.C_inverse);
+  }
+};
+
 /// S of w(I1) + κ/2 (J−1)².
 Matrix printed_stress(const Strain& at, double w1, double kappa) {
   return sum(2 * w1, kappa * (at.J - 1) * at.J, at.C_inverse);
@@ -293,6 +301,7 @@ constexpr struct {
              {"yeoh", element_loop<Yeoh>},
              {"gent", element_loop<Gent>},
              {"veronda_westmann", element_loop<VerondaWestmann>},
+             {"stable_neo_hookean", element_loop<StableNeoHookean>},
              {"paper_neo_hookean", element_loop<PaperNeoHookean>},
              {"paper_mooney_rivlin", element_loop<PaperMooneyRivlin>},
              {"paper_fung_demiray", element_loop<PaperFungDemiray>},

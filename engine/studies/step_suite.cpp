@@ -76,7 +76,7 @@ BenchRow measure(const TetMesh& mesh, const std::string& name, const Case& which
   row.tets = mesh.tets.size();
   row.law = "neo_hookean";
   row.precision = which.single ? "float" : "double";
-  row.isa = kernel_variants().back().isa;
+  row.isa = name_of(instruction_sets().back());
   row.threads = which.threads;
   row.median = 1e3 * tick.median / a_tick;
   row.min = 1e3 * tick.min / a_tick;
