@@ -116,10 +116,6 @@ class World {
   /// Edits since the start or the last Reset.
   virtual const std::vector<EditReport>& edits() const = 0;
 
-  /// What this world runs now and what that rests on, for people to read (facts.hpp). Implicit and static worlds that
-  /// have not stepped yet factor their matrix for it. Steps after it are the same bits as without.
-  virtual WorldFacts facts() = 0;
-
   /// As it is now: materials, damping, gravity and integrator follow the commands applied. The mesh is
   /// the whole one.
   virtual const WorldSetup& setup() const = 0;
