@@ -46,20 +46,21 @@ Scene scene_of_everything() {
   scene.loads.push_back({{{4}, {}, {}}, {Load::Kind::traction, {}, vector(), 0, 0}});
   scene.loads.push_back({{{4}, {}, {}}, {Load::Kind::pressure, {}, Vec3::Zero(), -number(), 0}});
   scene.gravity = vector();
-  scene.solver = {Integrator::symplectic_euler,
-                  true,
-                  std::nullopt,
-                  100 * number(),
-                  number(),
-                  number(),
-                  3,
-                  true,
-                  false,
-                  number(),
-                  Budget{0, 7.5},
-                  Minimiser::lbfgs,
-                  Projection::tension,
-                  Preconditioner::multilevel};
+  scene.solver = {.integrator = Integrator::symplectic_euler,
+                  .single_precision = true,
+                  .step = std::nullopt,
+                  .rate = 100 * number(),
+                  .duration = number(),
+                  .damping = number(),
+                  .threads = 3,
+                  .continuation = true,
+                  .recovery = true,
+                  .nodal_pressure = false,
+                  .tolerance = number(),
+                  .budget = Budget{0, 7.5},
+                  .minimiser = Minimiser::lbfgs,
+                  .projection = Projection::tension,
+                  .preconditioner = Preconditioner::multilevel};
   scene.output_times = {0.05, 0.01};
   scene.output_positions = false;
   scene.output_vtu = true;
@@ -121,6 +122,7 @@ TEST_CASE("writes a scene on one line that reads back bit for bit") {
   CHECK(!back.solver.nodal_pressure);
   CHECK(same_bits(back.solver.tolerance.value(), *scene.solver.tolerance));
   CHECK(same_bits(back.solver.budget.value().milliseconds, scene.solver.budget->milliseconds));
+  CHECK(back.solver.recovery == scene.solver.recovery);
   CHECK(back.solver.minimiser == scene.solver.minimiser);
   CHECK(back.solver.projection == scene.solver.projection);
   CHECK(back.solver.preconditioner.value() == *scene.solver.preconditioner);
