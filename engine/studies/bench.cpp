@@ -50,12 +50,12 @@ std::string aligned(const std::vector<Cells>& rows, std::size_t first_number) {
   for (std::size_t r = 0; r < rows.size(); ++r) {
     for (std::size_t c = 0; c < rows[r].size(); ++c) {
       const std::string space(width[c] - width_of(rows[r][c]), ' ');
-      text += c < first_number ? "| " + rows[r][c] + space + " " : "| " + space + rows[r][c] + " ";
+      text += c < first_number ? fmt::format("| {}{} ", rows[r][c], space) : fmt::format("| {}{} ", space, rows[r][c]);
     }
     text += "|\n";
     if (r > 0) continue;
     for (std::size_t c = 0; c < width.size(); ++c)
-      text += "|" + std::string(width[c] + 1, '-') + (c < first_number ? "-" : ":");
+      text += fmt::format("|{:-<{}}{}", "", width[c] + 1, c < first_number ? '-' : ':');
     text += "|\n";
   }
   return text;
@@ -72,7 +72,7 @@ std::string notes_of(std::span<const BenchRow> rows) {
     said.push_back(note);
     text += fmt::format("- {}: {}\n", row.name, note);
   }
-  return text.empty() ? text : "\n" + text;
+  return text.empty() ? text : fmt::format("\n{}", text);
 }
 
 std::string table_of(std::span<const BenchRow> rows) {

@@ -75,3 +75,26 @@ TEST_CASE("a band is drawn where it meets the axis, cut to it") {
   chart.band = {5, 9, ""};
   CHECK(drawn(chart, light_chart.band).empty());
 }
+
+TEST_CASE("equal factors are equal lengths on logarithmic axes, and what has no logarithm is left out") {
+  Chart chart = chart_of({{0, 1}, {1, -1}, {1, 1e-15}, {1e3, 1e-9}, {1e6, 1e-3}}, true);
+  chart.logarithmic = true;
+  chart.y_unit.clear();
+  const auto corners = drawn(chart);
+  std::vector<ImVec2> centres;  // dots are far apart
+  std::vector<int> count;
+  for (const ImVec2& corner : corners) {
+    std::size_t k = 0;
+    while (k < centres.size() &&
+           std::hypot(centres[k].x / float(count[k]) - corner.x, centres[k].y / float(count[k]) - corner.y) > 30)
+      ++k;
+    if (k == centres.size()) centres.push_back({0, 0}), count.push_back(0);
+    centres[k].x += corner.x, centres[k].y += corner.y, ++count[k];
+  }
+  REQUIRE(centres.size() == 3);
+  for (std::size_t k = 0; k < 3; ++k) centres[k].x /= float(count[k]), centres[k].y /= float(count[k]);
+  CHECK(centres[1].x - centres[0].x == doctest::Approx(centres[2].x - centres[1].x).epsilon(0.02));
+  CHECK(centres[1].y - centres[0].y == doctest::Approx(centres[2].y - centres[1].y).epsilon(0.02));
+  CHECK(centres[2].x > centres[0].x);
+  CHECK(centres[2].y < centres[0].y);
+}
