@@ -53,9 +53,11 @@ std::optional<panel::Chart> carried_chart(const std::vector<BenchRow>& rows) {
   chart.logarithmic = true;
   for (const BenchRow& row : rows) {
     if (row.mesh != mesh || !row.more.contains("error_when_carried")) continue;
+    const std::string name = row.name + ", " + row.precision;
+    if (!chart.series.empty() && chart.series.back().name == name) continue;  // of another instruction set
     const bool is_double = row.precision == "double", is_heml = row.name == "HEML";
     panel::ChartSeries& series = chart.series.emplace_back();
-    series.name = row.name + ", " + row.precision;
+    series.name = name;
     series.colour = is_heml ? (is_double ? double_colour : float_colour) : (is_double ? pale_double : pale_float);
     series.thickness = is_heml ? 1.6f : 1.2f;
     for (const Json& point : row.more["error_when_carried"]) series.points.push_back({point[0], point[1]});

@@ -27,6 +27,7 @@ struct BenchRow {
   std::string unit;                      ///< "ns/tet", "ms", "GB/s", "GFLOP/s", "operations"
   std::optional<double> ratio_to_naive;  ///< of minima: naive/ours
   Json more = Json::object();            ///< further fields
+  std::string beside;                    ///< for the table alone: the most telling of them, in words
 };
 
 struct BenchOptions {
@@ -44,7 +45,8 @@ std::vector<BenchRow> run_bench(std::string_view suite, const BenchOptions& opti
 /// The contract's list, each row with what it was measured on (`machine`).
 Json to_json(const std::vector<BenchRow>& rows);
 
-/// For people: Markdown, aligned, a heading a suite.
+/// For people: Markdown, aligned, a heading a suite. Of the kernels a line a law and mesh, with the fastest instruction
+/// set's figures.
 std::string bench_table(const std::vector<BenchRow>& rows);
 
 // One a suite; run_bench() calls them.

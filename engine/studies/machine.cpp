@@ -1,8 +1,7 @@
-#include <unistd.h>
-
 #include <fstream>
 #include <heml/studies/machine.hpp>
 #include <heml/studies/naive_loops.hpp>
+#include <sstream>
 #include <thread>
 
 namespace heml {
@@ -18,12 +17,22 @@ std::string cpu_model() {
   return "unknown";
 }
 
-std::size_t cache_size([[maybe_unused]] int level) {
-#ifdef _SC_LEVEL1_DCACHE_SIZE
-  const int names[] = {_SC_LEVEL1_DCACHE_SIZE, _SC_LEVEL2_CACHE_SIZE, _SC_LEVEL3_CACHE_SIZE};
-  const long size = sysconf(names[level - 1]);
-  if (size > 0) return static_cast<std::size_t>(size);
-#endif
+/// Data cache of a level, bytes, as Linux tells it; 0: it does not.
+std::size_t cache_size(int level) {
+  const auto word = [](int index, const char* what) {
+    std::ifstream file("/sys/devices/system/cpu/cpu0/cache/index" + std::to_string(index) + "/" + what);
+    std::string text;
+    file >> text;
+    return text;
+  };
+  for (int index = 0; index < 8; ++index) {
+    if (word(index, "level") != std::to_string(level) || word(index, "type") == "Instruction") continue;
+    std::istringstream size(word(index, "size"));
+    std::size_t count = 0;
+    char unit = ' ';
+    size >> count >> unit;
+    return count << (unit == 'K' ? 10 : unit == 'M' ? 20 : 0);
+  }
   return 0;
 }
 

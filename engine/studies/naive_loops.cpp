@@ -73,8 +73,9 @@ struct Strain {
   at.I1 = trace(at.C);
   at.I2 = (at.I1 * at.I1 - trace(product(at.C, at.C))) / 2;
   at.C_inverse = cofactor(at.C);
+  const double by = 1 / (at.J * at.J);
   for (auto& row : at.C_inverse.m)
-    for (double& entry : row) entry /= at.J * at.J;
+    for (double& entry : row) entry *= by;
   return at;
 }
 

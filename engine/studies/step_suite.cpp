@@ -86,9 +86,14 @@ BenchRow measure(const TetMesh& mesh, const std::string& name, const Case& which
               {"step_seconds", setup.solver.tick() / a_tick},
               {"seconds_per_simulated_second", tick.median / setup.solver.tick()},
               {"naive_evaluations", tick.min / a_tick / times[1].min}};
-  if (!is_explicit(which.integrator))
-    row.more["iterations_per_step"] = static_cast<double>(world->solver_work().iterations - work_before) / steps;
-  if (world->halt()) row.more["halted"] = world->halt()->message;
+  row.beside = fmt::format("{:.2g} naive force evaluations; {:.2g} s a simulated second",
+                           row.more["naive_evaluations"].get<double>(), tick.median / setup.solver.tick());
+  if (!is_explicit(which.integrator)) {
+    const double iterations = static_cast<double>(world->solver_work().iterations - work_before) / steps;
+    row.more["iterations_per_step"] = iterations;
+    row.beside += fmt::format("; {:.1f} iterations", iterations);
+  }
+  if (world->halt()) row.more["halted"] = row.beside = world->halt()->message;
   return row;
 }
 

@@ -34,7 +34,8 @@ class Bench(unittest.TestCase):
             self.assertGreater(row["min"], 0)
             self.assertLessEqual(row["min"], row["median"])
         table = [line for line in done.stdout.splitlines() if line.startswith("|")]
-        self.assertEqual(len(table), len(rows) + 2, "a line a row, under a heading")
+        lines = len({(row["mesh"], row["law"]) for row in rows}) if suite == "kernel" else len(rows)
+        self.assertEqual(len(table), lines + 2, "under a heading")
         self.assertEqual(len({len(line) for line in table}), 1, "columns are aligned")
         return rows
 
