@@ -4,7 +4,8 @@ add_library(heml_options INTERFACE)
 add_library(heml::options ALIAS heml_options)
 target_compile_features(heml_options INTERFACE cxx_std_20)
 target_compile_options(heml_options INTERFACE -ffp-contract=off -fno-trapping-math -fno-math-errno
-  $<BUILD_INTERFACE:-Wall -Wextra -Wpedantic -Wshadow -Wno-psabi>)
+  $<BUILD_INTERFACE:-Wall -Wextra -Wpedantic -Wshadow -Wno-psabi
+    $<$<CXX_COMPILER_ID:Clang>:-Wno-unknown-pragmas>>)
 if(HEML_SANITIZE)
   target_compile_options(heml_options INTERFACE -fsanitize=${HEML_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   target_link_options(heml_options INTERFACE -fsanitize=${HEML_SANITIZE})

@@ -56,8 +56,20 @@ struct Counted {
   friend Counted natural_log(Counted a) { return ++operations_done.others, Counted(heml::natural_log(a.value)); }
   friend Counted natural_exp(Counted a) { return ++operations_done.others, Counted(heml::natural_exp(a.value)); }
   friend Counted natural_expm1(Counted a) { return ++operations_done.others, Counted(heml::natural_expm1(a.value)); }
-  friend Counted power(Counted a, Counted s) { return natural_exp(s * natural_log(a)); }
 };
+
+}  // namespace heml
+
+template <>
+struct std::numeric_limits<heml::Counted> : std::numeric_limits<double> {
+  static constexpr bool is_iec559 = false;
+  static heml::Counted max() { return heml::Counted(std::numeric_limits<double>::max()); }
+  static heml::Counted epsilon() { return heml::Counted(std::numeric_limits<double>::epsilon()); }
+};
+
+namespace heml {
+
+inline Counted power(Counted a, Counted s) { return natural_exp(s * natural_log(a)); }
 
 // What the laws ask of a scalar type.
 template <>
@@ -70,10 +82,3 @@ template <>
 inline const Counted smallest_ratio<Counted> = Counted(1e-12);
 
 }  // namespace heml
-
-template <>
-struct std::numeric_limits<heml::Counted> : std::numeric_limits<double> {
-  static constexpr bool is_iec559 = false;
-  static heml::Counted max() { return heml::Counted(std::numeric_limits<double>::max()); }
-  static heml::Counted epsilon() { return heml::Counted(std::numeric_limits<double>::epsilon()); }
-};
