@@ -65,12 +65,23 @@ Topology whole(const TetMesh& mesh, long version) {
   return topology;
 }
 
-Topology edited(const Topology& topology, const MeshEdit& edit) {
+Topology edited(const Topology& topology, const MeshEdit& edit, int elements) {
   Topology result{topology.version + 1, {}};
   std::set_difference(topology.elements.begin(), topology.elements.end(), edit.removed.begin(), edit.removed.end(),
                       std::back_inserter(result.elements));
   assert(result.elements.size() + edit.removed.size() == topology.elements.size());
+  for (std::size_t k = 0; k < edit.added.size(); ++k) result.elements.push_back(elements + static_cast<int>(k));
   return result;
+}
+
+void append(const MeshEdit& edit, TetMesh& mesh) {
+  append(edit, mesh.nodes);
+  mesh.tets.insert(mesh.tets.end(), edit.added.begin(), edit.added.end());
+  for (const int parent : edit.parents) mesh.regions.push_back(mesh.regions[static_cast<std::size_t>(parent)]);
+  for (ElementField& field : mesh.fields)
+    for (const int parent : edit.parents)
+      for (std::size_t c = 0; c < field.components; ++c)
+        field.values.push_back(field.values[field.components * static_cast<std::size_t>(parent) + c]);
 }
 
 std::optional<std::string> make_removal(const ElementSelection& which, const TetMesh& mesh, const Topology& topology,

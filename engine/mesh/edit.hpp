@@ -5,8 +5,8 @@
 // what is gone leaves a gap:
 //
 //     file          0 1 2 3 4 5 6 7
-//     MeshEdit        ×     ×             removed {1, 4}
-//     Topology      0   2 3   5 6 7       elements; version 1
+//     MeshEdit        ×     ×       + +   removed {1, 4}, added {8, 9}
+//     Topology      0   2 3   5 6 7 8 9   elements; version 1
 #include <heml/mesh/tet_mesh.hpp>
 #include <optional>
 #include <string>
@@ -15,9 +15,18 @@
 
 namespace heml {
 
-/// What is to become of a mesh.
+/// A node that an edit adds, on the edge between two that were there; from == to: a copy of that one.
+struct NewNode {
+  int from, to;
+  double at;  ///< 0 at from, 1 at to; at rest and now
+};
+
+/// What is to become of a mesh of #V nodes and #T elements.
 struct MeshEdit {
-  std::vector<int> removed;  ///< elements that go, ascending, each once
+  std::vector<int> removed;    ///< elements that go, ascending, each once
+  std::vector<NewNode> nodes;  ///< numbers #V, #V + 1, …
+  std::vector<Tet> added;      ///< numbers #T, #T + 1, …; into old and new nodes
+  std::vector<int> parents;    ///< of each added, one of the removed, whose part it is; ascending
 };
 
 /// Which elements are there. Never changes: an edit makes another one, and all who draw or write share it.
@@ -29,8 +38,23 @@ struct Topology {
 /// All of a mesh.
 Topology whole(const TetMesh& mesh, long version = 0);
 
-/// What an edit leaves. Everything it removes must be there.
-Topology edited(const Topology& topology, const MeshEdit& edit);
+/// What an edit leaves of a topology of a mesh of #T elements. Everything it removes must be there.
+Topology edited(const Topology& topology, const MeshEdit& edit, int elements);
+
+/// Adds an edit's nodes and elements to a mesh: at rest between those they come from, of their parent's region and
+/// fields. What it removes stays, as a gap in the topology.
+void append(const MeshEdit& edit, TetMesh& mesh);
+
+/// Values of nodes (each × #V) continued on an edit's nodes.
+template <class Value>
+void append(const MeshEdit& edit, std::vector<Value>& values, std::size_t each = 1) {
+  for (const NewNode& node : edit.nodes)
+    for (std::size_t c = 0; c < each; ++c) {
+      const Value from = values[each * static_cast<std::size_t>(node.from) + c];
+      const Value to = values[each * static_cast<std::size_t>(node.to) + c];
+      values.push_back(node.from == node.to ? from : Value(from + (to - from) * node.at));
+    }
+}
 
 /// Elements chosen in one of four ways, by numbers or by what they are at rest; closed sets.
 struct ElementSelection {

@@ -28,7 +28,7 @@ void TypedWorld<Real>::carry_out(const MeshEdit& edit) {
   for (std::size_t t = 0; t < stays.size(); ++t)
     if (stays[t]) elements.push_back(static_cast<int>(t));
 
-  topology_ = std::make_shared<const Topology>(edited(*topology_, edit));
+  topology_ = std::make_shared<const Topology>(edited(*topology_, edit, static_cast<int>(setup_.mesh.tets.size())));
   keep_elements(setup_, elements, model_);
   body_.keep_elements(elements);
   take_masses();

@@ -33,7 +33,7 @@ TEST_CASE("an edit leaves the numbers of what stays") {
   MeshEdit edit;
   REQUIRE_FALSE(make_removal(tets({7, 2, 2, 19}), mesh, all, edit));
   CHECK(edit.removed == std::vector<int>{2, 7, 19});
-  const Topology rest = edited(all, edit);
+  const Topology rest = edited(all, edit, 20);
   CHECK(rest.version == 1);
   CHECK(rest.elements == std::vector<int>{0, 1, 3, 4, 5, 6, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18});
   const TetMesh left = with_elements(mesh, rest.elements);
@@ -50,7 +50,7 @@ TEST_CASE("elements are chosen by region, and by box or sphere of their centroid
   CHECK(edit.removed == std::vector<int>{0, 1, 2, 3, 4});
   REQUIRE_FALSE(make_removal({{}, {}, std::array{Vec3(0.3, -1, -1), Vec3(1, 1, 1)}, {}}, mesh, topology, edit));
   CHECK(edit.removed == std::vector<int>{15, 16, 17, 18, 19});
-  topology = edited(topology, edit);
+  topology = edited(topology, edit, 20);
   REQUIRE_FALSE(make_removal({{}, {}, std::array{Vec3(0.2, -1, -1), Vec3(1, 1, 1)}, {}}, mesh, topology, edit));
   CHECK(edit.removed == std::vector<int>{10, 11, 12, 13, 14});
   REQUIRE_FALSE(make_removal({{}, {}, {}, std::pair{Vec3(0.05, 0.05, 0.05), 0.06}}, mesh, topology, edit));
@@ -58,7 +58,7 @@ TEST_CASE("elements are chosen by region, and by box or sphere of their centroid
 }
 
 TEST_CASE("a removal that makes no sense is refused in words") {
-  Topology topology = edited(whole(block()), {{5, 6}});
+  Topology topology = edited(whole(block()), {{5, 6}, {}, {}, {}}, 20);
   CHECK(problem_of(tets({20}), topology) == "element 20 does not exist; the mesh has elements 0 to 19");
   CHECK(says(problem_of(tets({3, -1}), topology), "element -1 does not exist"));
   CHECK(problem_of(tets({4, 5}), topology) == "element 5 was removed before");

@@ -1,0 +1,346 @@
+#include <algorithm>
+#include <heml/mesh/cut.hpp>
+#include <heml/mesh/faces.hpp>
+#include <heml/mesh/quality.hpp>
+#include <map>
+#include <numeric>
+
+namespace heml {
+namespace {
+
+constexpr std::array<std::array<int, 2>, 6> tet_edges{{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
+
+constexpr double thin = 10;  // degrees: a smallest angle that pieces should not be under
+
+using Edge = std::pair<int, int>;  // lower number first
+
+Edge edge_of(const Tet& tet, const std::array<int, 2>& local) {
+  const int a = tet[static_cast<std::size_t>(local[0])], b = tet[static_cast<std::size_t>(local[1])];
+  return {std::min(a, b), std::max(a, b)};
+}
+
+/// An element, or a part of one, that touches the cut.
+struct Piece {
+  Tet tet;  ///< nodes of its place: copies do not count
+  int parent;
+  std::array<int, 4> neighbour{-1, -1, -1, -1};  ///< piece across each face; −1: none that touches the cut
+  std::array<bool, 4> comes_apart{};             ///< from that neighbour
+  bool is_new = false;                           ///< its parent was split
+};
+
+/// Where the sweep goes through an edge.
+struct Crossing {
+  double where;   ///< 0 at the edge's first node, 1 at its second
+  int node = -1;  ///< that halves it there; −1: it counts as going through an end
+
+  int end(const Edge& edge) const { return where < 0.5 ? edge.first : edge.second; }  ///< the nearer one
+  /// At rest, m.
+  double to_end(const TetMesh& mesh, const Edge& edge) const {
+    const Vec3& a = mesh.nodes[static_cast<std::size_t>(edge.first)];
+    return std::min(where, 1 - where) * (mesh.nodes[static_cast<std::size_t>(edge.second)] - a).norm();
+  }
+};
+
+class Cutter {
+ public:
+  Cutter(const SweptSurface& surface, const TetMesh& mesh, const std::vector<Vec3>& x, const Topology& topology)
+      : surface_(surface), mesh_(mesh), x_(x), topology_(topology), in_cut_(mesh.nodes.size(), false) {}
+
+  /// Step 1. False: the sweep meets no edge.
+  bool find_crossings(double snap, const std::vector<int>& stroke) {
+    for (const int t : topology_.elements) {
+      const Tet& tet = mesh_.tets[static_cast<std::size_t>(t)];
+      Eigen::AlignedBox3d box;
+      for (const int n : tet) box.extend(at(n));
+      if (!box.intersects(surface_.box())) continue;
+      for (const auto& local : tet_edges) {
+        const Edge edge = edge_of(tet, local);
+        if (crossings_.contains(edge)) continue;
+        if (const auto where = surface_.crossing(at(edge.first), at(edge.second))) crossings_[edge] = {*where, -1};
+      }
+    }
+    for (const auto& [edge, crossing] : crossings_)
+      if (crossing.to_end(mesh_, edge) < 0.4 * snap) enter(crossing.end(edge));
+    newly_in_cut_ = in_cut_;
+    for (const int n : stroke) enter(n);
+    return !crossings_.empty();
+  }
+
+  /// Step 2. Pieces that are thin, and thinner than what they are of, make more crossings go through an end.
+  void split(double snap) {
+    do {
+      halve_edges();
+      split_elements();
+    } while (snap_thin_pieces(snap));
+  }
+
+  /// Step 3. The area that came apart, m².
+  double part() {
+    match_faces();
+    double area = 0;
+    for (Piece& piece : pieces_)
+      for (std::size_t f = 0; f < 4; ++f) {
+        const int other = piece.neighbour[f];
+        if (other < 0 || &piece > &pieces_[static_cast<std::size_t>(other)]) continue;
+        if (!is_parted(piece, f)) continue;
+        const auto [a, b, c] = face(piece, f);
+        area += (at(b) - at(a)).cross(at(c) - at(a)).norm() / 2;
+        piece.comes_apart[f] = true;
+        Piece& across = pieces_[static_cast<std::size_t>(other)];
+        across.comes_apart[facing(across, &piece)] = true;
+      }
+    copy_nodes();
+    return area;
+  }
+
+  void write(Cut& cut) {
+    for (std::size_t p = 0; p < pieces_.size(); ++p) {
+      const Piece& piece = pieces_[p];
+      if (!piece.is_new && final_[p] == piece.tet) continue;
+      if (cut.edit.removed.empty() || cut.edit.removed.back() != piece.parent) cut.edit.removed.push_back(piece.parent);
+      cut.edit.added.push_back(final_[p]);
+      cut.edit.parents.push_back(piece.parent);
+    }
+    cut.edit.nodes = std::move(new_nodes_);
+    for (std::size_t n = 0; n < in_cut_.size(); ++n)
+      if (in_cut_[n]) cut.nodes.push_back(static_cast<int>(n));
+  }
+
+ private:
+  const Vec3& at(int n) const { return x_[static_cast<std::size_t>(n)]; }
+  const Vec3& rest(int n) const { return mesh_.nodes[static_cast<std::size_t>(n)]; }
+  bool is_in_cut(int n) const { return in_cut_[static_cast<std::size_t>(n)]; }
+  void enter(int n) { in_cut_[static_cast<std::size_t>(n)] = true; }
+
+  /// The nodes of a face.
+  static std::array<int, 3> face(const Piece& piece, std::size_t f) {
+    std::array<int, 3> nodes;
+    for (std::size_t k = 0; k < 3; ++k) nodes[k] = piece.tet[static_cast<std::size_t>(tet_faces[f][k])];
+    return nodes;
+  }
+
+  std::size_t facing(const Piece& piece, const Piece* to) const {
+    const auto number = static_cast<int>(to - pieces_.data());
+    return static_cast<std::size_t>(std::find(piece.neighbour.begin(), piece.neighbour.end(), number) -
+                                    piece.neighbour.begin());
+  }
+
+  /// Gives crossed edges with both ends outside the cut a node each, anew.
+  void halve_edges() {
+    x_.resize(mesh_.nodes.size());
+    in_cut_.resize(x_.size());
+    newly_in_cut_.resize(x_.size());
+    new_nodes_.clear();
+    for (auto& [edge, crossing] : crossings_) {
+      crossing.node = -1;
+      if (is_in_cut(edge.first) || is_in_cut(edge.second)) continue;
+      crossing.node = static_cast<int>(x_.size());
+      new_nodes_.push_back({edge.first, edge.second, crossing.where});
+      x_.push_back(at(edge.first) + crossing.where * (at(edge.second) - at(edge.first)));
+      in_cut_.push_back(true);
+      newly_in_cut_.push_back(true);
+    }
+  }
+
+  /// Elements that have a node in the cut, those with halved edges in pieces.
+  void split_elements() {
+    pieces_.clear();
+    for (const int t : topology_.elements) {
+      const Tet& tet = mesh_.tets[static_cast<std::size_t>(t)];
+      std::vector<std::pair<Edge, int>> halved;
+      for (const auto& local : tet_edges)
+        if (const auto found = crossings_.find(edge_of(tet, local));
+            found != crossings_.end() && found->second.node >= 0)
+          halved.emplace_back(found->first, found->second.node);
+      if (halved.empty() && std::none_of(tet.begin(), tet.end(), [this](int n) { return is_in_cut(n); })) continue;
+      std::sort(halved.begin(), halved.end());
+      const std::size_t first = pieces_.size();
+      pieces_.push_back({tet, t});
+      pieces_.back().is_new = !halved.empty();
+      for (const auto& [edge, middle] : halved) halve(first, edge, middle);
+    }
+  }
+
+  /// False: there are none, or their edges are halved too far from an end.
+  bool snap_thin_pieces(double snap) {
+    std::vector<int> entering;
+    for (const Piece& piece : pieces_) {
+      if (!piece.is_new) continue;
+      const double angle = smallest_angle(piece.tet);
+      if (angle >= thin || angle >= smallest_angle(mesh_.tets[static_cast<std::size_t>(piece.parent)])) continue;
+      int end = -1;
+      double nearest = snap;
+      for (const int n : piece.tet) {
+        if (n < static_cast<int>(mesh_.nodes.size())) continue;
+        const NewNode& node = new_nodes_[static_cast<std::size_t>(n) - mesh_.nodes.size()];
+        const Crossing& crossing = crossings_.at({node.from, node.to});
+        const double distance = crossing.to_end(mesh_, {node.from, node.to});
+        if (distance >= nearest) continue;
+        nearest = distance;
+        end = crossing.end({node.from, node.to});
+      }
+      if (end >= 0) entering.push_back(end);
+    }
+    for (const int n : entering) {
+      enter(n);
+      newly_in_cut_[static_cast<std::size_t>(n)] = true;
+    }
+    return !entering.empty();
+  }
+
+  /// Of a piece at rest, degrees.
+  double smallest_angle(const Tet& tet) const {
+    std::array<Vec3, 4> X;
+    for (std::size_t a = 0; a < 4; ++a) {
+      const auto n = static_cast<std::size_t>(tet[a]);
+      if (n < mesh_.nodes.size()) {
+        X[a] = mesh_.nodes[n];
+      } else {
+        const NewNode& node = new_nodes_[n - mesh_.nodes.size()];
+        X[a] = rest(node.from) + node.at * (rest(node.to) - rest(node.from));
+      }
+    }
+    return smallest_dihedral(X);
+  }
+
+  /// Splits those of the pieces from `first` on that have the edge.
+  void halve(std::size_t first, const Edge& edge, int middle) {
+    for (std::size_t p = first, end = pieces_.size(); p < end; ++p) {
+      Tet& tet = pieces_[p].tet;
+      const auto a = std::find(tet.begin(), tet.end(), edge.first), b = std::find(tet.begin(), tet.end(), edge.second);
+      if (a == tet.end() || b == tet.end()) continue;
+      Piece other = pieces_[p];
+      *b = middle;
+      other.tet[static_cast<std::size_t>(a - tet.begin())] = middle;
+      pieces_.push_back(other);
+    }
+  }
+
+  void match_faces() {
+    struct Side {
+      std::array<int, 3> nodes;
+      int piece;
+      std::size_t face;
+    };
+    std::vector<Side> sides;
+    for (std::size_t p = 0; p < pieces_.size(); ++p)
+      for (std::size_t f = 0; f < 4; ++f) {
+        sides.push_back({face(pieces_[p], f), static_cast<int>(p), f});
+        std::sort(sides.back().nodes.begin(), sides.back().nodes.end());
+      }
+    std::sort(sides.begin(), sides.end(),
+              [](const Side& a, const Side& b) { return std::tie(a.nodes, a.piece) < std::tie(b.nodes, b.piece); });
+    for (std::size_t k = 1; k < sides.size(); ++k) {
+      const Side &one = sides[k - 1], &two = sides[k];
+      if (one.nodes != two.nodes) continue;
+      pieces_[static_cast<std::size_t>(one.piece)].neighbour[one.face] = two.piece;
+      pieces_[static_cast<std::size_t>(two.piece)].neighbour[two.face] = one.piece;
+    }
+  }
+
+  /// Whether a piece and its neighbour across a face lie on two sides of the cut, and the face in it. Of a face all of
+  /// whose nodes an earlier sweep of the stroke has met that sweep has decided.
+  bool is_parted(const Piece& piece, std::size_t f) const {
+    const std::array<int, 3> nodes = face(piece, f);
+    if (!std::all_of(nodes.begin(), nodes.end(), [this](int n) { return is_in_cut(n); })) return false;
+    if (std::none_of(nodes.begin(), nodes.end(), [this](int n) { return newly_in_cut_[static_cast<std::size_t>(n)]; }))
+      return false;
+    const auto nearest = surface_.nearest((at(nodes[0]) + at(nodes[1]) + at(nodes[2])) / 3);
+    const Piece& other = pieces_[static_cast<std::size_t>(piece.neighbour[f])];
+    return is_above(piece, f, nearest) != is_above(other, facing(other, &piece), nearest);
+  }
+
+  /// The side of a piece is that of its node opposite the face; of one that lies in the cut whole, its centroid's.
+  bool is_above(const Piece& piece, std::size_t f, const SweptSurface::Nearest& plane) const {
+    Vec3 point = at(piece.tet[f]);
+    if (is_in_cut(piece.tet[f]))
+      point = (at(piece.tet[0]) + at(piece.tet[1]) + at(piece.tet[2]) + at(piece.tet[3])) / 4;
+    return (point - plane.point).dot(plane.normal) > 0;
+  }
+
+  /// Gives each node in the cut a copy for every group of its pieces but the first.
+  void copy_nodes() {
+    final_.reserve(pieces_.size());
+    for (const Piece& piece : pieces_) final_.push_back(piece.tet);
+    std::vector<std::pair<int, int>> uses;  // node, piece
+    for (std::size_t p = 0; p < pieces_.size(); ++p)
+      for (const int n : pieces_[p].tet)
+        if (is_in_cut(n)) uses.emplace_back(n, static_cast<int>(p));
+    std::sort(uses.begin(), uses.end());
+    for (auto begin = uses.begin(); begin != uses.end();) {
+      const auto end = std::find_if(begin, uses.end(), [&](const auto& use) { return use.first != begin->first; });
+      bool is_first = true;
+      for (auto use = begin; use != end; ++use) {
+        if (use->second < 0) continue;
+        copy_for_group(use->first, std::span(begin, end), use->second, std::exchange(is_first, false));
+      }
+      begin = end;
+    }
+  }
+
+  /// Takes the pieces that hang together with one round a node out of the node's uses (their number becomes −1).
+  void copy_for_group(int node, std::span<std::pair<int, int>> uses, int piece, bool keeps) {
+    int number = node;
+    if (!keeps) {
+      number = static_cast<int>(in_cut_.size());
+      const auto known = static_cast<std::size_t>(node);
+      new_nodes_.push_back(known < mesh_.nodes.size() ? NewNode{node, node, 0}
+                                                      : new_nodes_[known - mesh_.nodes.size()]);
+      in_cut_.push_back(true);
+    }
+    std::vector<int> reached{piece};
+    const auto take = [&](int p) {
+      const auto use = std::find(uses.begin(), uses.end(), std::pair(node, p));
+      if (use == uses.end()) return false;
+      use->second = -1;
+      return true;
+    };
+    take(piece);
+    for (std::size_t k = 0; k < reached.size(); ++k) {
+      const Piece& at = pieces_[static_cast<std::size_t>(reached[k])];
+      for (std::size_t f = 0; f < 4; ++f) {
+        if (at.tet[f] == node)
+          final_[static_cast<std::size_t>(reached[k])][f] = number;
+        else if (at.neighbour[f] >= 0 && !at.comes_apart[f] && take(at.neighbour[f]))
+          reached.push_back(at.neighbour[f]);
+      }
+    }
+  }
+
+  const SweptSurface& surface_;
+  const TetMesh& mesh_;
+  std::vector<Vec3> x_;  ///< of old nodes and new ones of crossed edges, m
+  const Topology& topology_;
+  std::vector<bool> in_cut_, newly_in_cut_;
+  std::map<Edge, Crossing> crossings_;
+  std::vector<NewNode> new_nodes_;
+  std::vector<Piece> pieces_;
+  std::vector<Tet> final_;  ///< of each piece, with copies
+};
+
+}  // namespace
+
+double snapping_distance(const TetMesh& mesh) {
+  double sum = 0;
+  for (const Tet& tet : mesh.tets)
+    for (const auto& local : tet_edges) {
+      const auto [a, b] = edge_of(tet, local);
+      sum += (mesh.nodes[static_cast<std::size_t>(b)] - mesh.nodes[static_cast<std::size_t>(a)]).norm();
+    }
+  return 0.5 * sum / static_cast<double>(6 * mesh.tets.size());
+}
+
+std::optional<std::string> make_cut(const Sweep& sweep, const TetMesh& mesh, const std::vector<Vec3>& x,
+                                    const Topology& topology, double snap, const std::vector<int>& stroke, Cut& cut) {
+  const SweptSurface surface(sweep);
+  if (surface.empty()) return "the blade sweeps no area; give its two ends at two or more moments, in different places";
+  Cutter cutter(surface, mesh, x, topology);
+  if (!cutter.find_crossings(snap, stroke)) return "the blade meets no edge of an element";
+  cutter.split(snap);
+  cut = {};
+  cut.area = cutter.part();
+  cutter.write(cut);
+  return std::nullopt;
+}
+
+}  // namespace heml

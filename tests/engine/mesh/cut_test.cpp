@@ -1,0 +1,273 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <heml/mesh/cut.hpp>
+#include <heml/mesh/faces.hpp>
+#include <heml/mesh/generate.hpp>
+#include <heml/mesh/quality.hpp>
+#include <map>
+#include <numeric>
+#include <random>
+#include <set>
+
+using namespace heml;
+
+namespace {
+
+/// A body and all that cuts have made of it.
+struct Body {
+  TetMesh mesh;
+  std::vector<Vec3> x;
+  Topology topology;
+
+  explicit Body(TetMesh given) : mesh(std::move(given)), x(mesh.nodes), topology(whole(mesh)) {}
+
+  /// "": done.
+  std::string cut(const Sweep& sweep, Cut& made, const std::vector<int>& stroke = {}) {
+    if (const auto problem = make_cut(sweep, mesh, x, topology, snap, stroke, made)) return *problem;
+    topology = edited(topology, made.edit, static_cast<int>(mesh.tets.size()));
+    append(made.edit, mesh);
+    append(made.edit, x);
+    return "";
+  }
+  std::string cut(const Sweep& sweep) {
+    Cut made;
+    return cut(sweep, made);
+  }
+
+  std::vector<Tet> tets() const { return with_elements(mesh.tets, topology.elements); }
+
+  double volume(const Tet& t) const {
+    const auto at = [&](int n) { return mesh.nodes[static_cast<std::size_t>(n)]; };
+    return signed_volume(at(t[0]), at(t[1]), at(t[2]), at(t[3]));
+  }
+  double volume() const {
+    double sum = 0;
+    for (const Tet& t : tets()) sum += volume(t);
+    return sum;
+  }
+
+  /// Pieces that hang together through faces.
+  int components() const {
+    const std::vector<Tet> all = tets();
+    std::vector<int> root(all.size());
+    std::iota(root.begin(), root.end(), 0);
+    const auto find = [&](int k) {
+      while (root[static_cast<std::size_t>(k)] != k) k = root[static_cast<std::size_t>(k)];
+      return k;
+    };
+    std::map<std::array<int, 3>, int> seen;
+    int count = static_cast<int>(all.size());
+    for (std::size_t t = 0; t < all.size(); ++t)
+      for (const auto& f : tet_faces) {
+        std::array<int, 3> nodes;
+        for (std::size_t k = 0; k < 3; ++k) nodes[k] = all[t][static_cast<std::size_t>(f[k])];
+        std::sort(nodes.begin(), nodes.end());
+        const auto [other, fresh] = seen.emplace(nodes, static_cast<int>(t));
+        if (fresh) continue;
+        const int a = find(static_cast<int>(t)), b = find(other->second);
+        if (a == b) continue;
+        root[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+        --count;
+      }
+    return count;
+  }
+
+  /// Area of the boundary at rest; checks that it is closed: every edge as often one way as the other, no face of more
+  /// than two.
+  double closed_area() const {
+    const std::vector<Tet> all = tets();
+    const auto counts = face_counts(all, static_cast<int>(mesh.nodes.size()));
+    std::map<std::pair<int, int>, int> turns;
+    double area = 0;
+    for (std::size_t t = 0; t < all.size(); ++t)
+      for (std::size_t f = 0; f < 4; ++f) {
+        CHECK(counts[4 * t + f] <= 2);
+        if (counts[4 * t + f] != 1) continue;
+        std::array<int, 3> n;
+        for (std::size_t k = 0; k < 3; ++k) n[k] = all[t][static_cast<std::size_t>(tet_faces[f][k])];
+        for (std::size_t k = 0; k < 3; ++k) {
+          const int a = n[k], b = n[(k + 1) % 3];
+          turns[{std::min(a, b), std::max(a, b)}] += a < b ? 1 : -1;
+        }
+        const auto at = [&](int node) { return mesh.nodes[static_cast<std::size_t>(node)]; };
+        area += (at(n[1]) - at(n[0])).cross(at(n[2]) - at(n[0])).norm() / 2;
+      }
+    for (const auto& [edge, turn] : turns) CHECK(turn == 0);
+    return area;
+  }
+
+  double snap = 0;
+};
+
+/// A cube of 1 m, its inner nodes moved by up to an eighth of a cell.
+Body cube(int cells, unsigned seed = 1) {
+  TetMesh mesh = make_box(Vec3(1, 1, 1), {cells, cells, cells});
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> jitter(-0.125 / cells, 0.125 / cells);
+  for (Vec3& X : mesh.nodes) {
+    const Vec3 move(jitter(random), jitter(random), jitter(random));
+    if ((X.array() > 1e-9).all() && (X.array() < 1 - 1e-9).all()) X += move;
+  }
+  Body body(std::move(mesh));
+  body.snap = snapping_distance(body.mesh);
+  return body;
+}
+
+/// A blade along z that goes from one place of the plane z = 0 to another.
+Sweep along(const Vec3& from, const Vec3& to, double low = -1, double high = 2) {
+  const Vec3 below(0, 0, low), above(0, 0, high);
+  return {{{from + below, from + above}, {to + below, to + above}}};
+}
+
+double worst_angle(const Body& body, std::size_t from = 0) {
+  double worst = 180;
+  for (std::size_t k = from; k < body.topology.elements.size(); ++k) {
+    std::array<Vec3, 4> x;
+    for (std::size_t a = 0; a < 4; ++a)
+      x[a] =
+          body.mesh
+              .nodes[static_cast<std::size_t>(body.mesh.tets[static_cast<std::size_t>(body.topology.elements[k])][a])];
+    worst = std::min(worst, smallest_dihedral(x));
+  }
+  return worst;
+}
+
+}  // namespace
+
+TEST_CASE("cut: a blade through all of a body makes two, and loses nothing") {
+  for (const int cells : {1, 2, 5}) {
+    CAPTURE(cells);
+    Body body = cube(cells);
+    Cut made;
+    REQUIRE(body.cut(along(Vec3(-1, 0.43, 0), Vec3(2, 0.52, 0)), made) == "");
+    CHECK(body.components() == 2);
+    CHECK(std::abs(body.volume() - 1) <= 1e-12);
+    for (const Tet& t : body.tets()) CHECK(body.volume(t) > 0);
+    const double area = body.closed_area();
+    CHECK(area == doctest::Approx(6 + 2 * made.area).epsilon(1e-9));
+    CHECK(made.area >= 0.9);
+    CHECK(made.area <= 1.3);  // snapped, it is not flat
+  }
+}
+
+TEST_CASE("cut: with hardly any snapping the cut is the plane itself") {
+  Body body = cube(4);
+  body.snap = 1e-9;
+  Cut made;
+  REQUIRE(body.cut(along(Vec3(-1, 0.43, 0), Vec3(2, 0.52, 0)), made) == "");
+  const double slope = 0.09 / 3;
+  CHECK(made.area == doctest::Approx(std::sqrt(1 + slope * slope)).epsilon(1e-9));
+  CHECK(body.components() == 2);
+  for (const int n : made.nodes) {
+    const Vec3& X = body.mesh.nodes[static_cast<std::size_t>(n)];
+    CHECK(std::abs(X.y() - 0.43 - slope * (X.x() + 1)) <= 1e-9);
+  }
+}
+
+TEST_CASE("cut: a blade that stops inside leaves one body, parted as far as it went") {
+  Body body = cube(8);
+  Cut made;
+  REQUIRE(body.cut(along(Vec3(-1, 0.45, 0), Vec3(0.5, 0.45, 0)), made) == "");
+  CHECK(body.components() == 1);
+  CHECK(made.area >= 0.35);
+  CHECK(made.area <= 0.65);
+  CHECK(std::abs(body.volume() - 1) <= 1e-12);
+  body.closed_area();
+  // Nodes on both sides of the slit, at one place, far from its end: they are different ones.
+  int pairs = 0;
+  std::set<std::array<int, 2>> places;
+  for (const NewNode& node : made.edit.nodes)
+    pairs += node.from == node.to || !places.insert({node.from, node.to}).second;
+  CHECK(pairs > 0);
+  // The body goes on beyond: nothing there is a copy.
+  for (const int n : made.nodes) CHECK(body.mesh.nodes[static_cast<std::size_t>(n)].x() <= 0.5 + 1.0 / 8 + body.snap);
+}
+
+TEST_CASE("cut: it lies within the snapping distance of the sweep, and leaves no sliver") {
+  Body body = cube(6, 3);
+  const double before = worst_angle(body);
+  Cut made;
+  const Sweep sweep{{{Vec3(-0.2, 0.3, -1), Vec3(-0.2, 0.5, 2)},
+                     {Vec3(0.5, 0.5, -1), Vec3(0.5, 0.6, 2)},
+                     {Vec3(1.2, 0.3, -1), Vec3(1.2, 0.8, 2)}}};
+  REQUIRE(body.cut(sweep, made) == "");
+  const SweptSurface surface(sweep);
+  for (const int n : made.nodes)
+    CHECK(surface.nearest(body.mesh.nodes[static_cast<std::size_t>(n)]).distance <= body.snap);
+  CHECK(body.components() == 2);
+  const double after = worst_angle(body);
+  MESSAGE("smallest dihedral angle " << before << "° before, " << after << "° after");
+  CHECK(after >= 4);
+}
+
+TEST_CASE("cut: 200 random sweeps, one after the other, lose nothing and turn nothing inside out") {
+  Body body = cube(6, 5);
+  const double side = body.snap;
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> place(-0.3, 1.3);
+  int done = 0;
+  double shortest = 1;
+  for (int k = 0; k < 200; ++k) {
+    CAPTURE(k);
+    const auto point = [&] { return Vec3(place(random), place(random), place(random)); };
+    Sweep sweep;
+    const Vec3 start = point(), way = (point() - start) / 3, blade = 0.4 * (point() - start);
+    for (int moment = 0; moment < 4; ++moment)
+      sweep.blades.push_back({start + moment * way, start + moment * way + blade});
+    done += body.cut(sweep) == "";
+    REQUIRE(std::abs(body.volume() - 1) <= 1e-12);
+    for (const Tet& t : body.tets()) {
+      if (!(body.volume(t) > 0)) FAIL("an element is flat or inside out");
+      for (int a = 0; a < 4; ++a)
+        for (int b = a + 1; b < 4; ++b)
+          shortest = std::min(shortest, (body.mesh.nodes[static_cast<std::size_t>(t[a])] -
+                                         body.mesh.nodes[static_cast<std::size_t>(t[b])])
+                                            .norm());
+    }
+  }
+  CHECK(done > 100);
+  body.closed_area();
+  MESSAGE(done << " cuts, " << body.topology.elements.size() << " elements, " << body.components()
+               << " pieces, shortest edge " << shortest << " of snapping distance " << side << ", smallest angle "
+               << worst_angle(body) << "°");
+}
+
+TEST_CASE("cut: a stroke in many sweeps parts what one sweep does") {
+  Body one = cube(6), many = cube(6);
+  Cut made;
+  REQUIRE(one.cut(along(Vec3(-0.1, 0.43, 0), Vec3(1.1, 0.52, 0)), made) == "");
+  CHECK(one.components() == 2);
+  std::vector<int> stroke;
+  const int sweeps = 24;
+  for (int k = 0; k < sweeps; ++k) {
+    const auto at = [&](int m) { return Vec3(-0.1 + 1.2 * m / sweeps, 0.43 + 0.09 * m / sweeps, 0); };
+    Cut part;
+    if (many.cut(along(at(k), at(k + 1)), part, stroke) == "") stroke = part.nodes;
+  }
+  CHECK(many.components() == 2);
+  CHECK(std::abs(many.volume() - 1) <= 1e-12);
+}
+
+TEST_CASE("cut: a deformed body is cut where it is, and splits are the same at rest") {
+  Body body = cube(5);
+  for (Vec3& x : body.x) x = Vec3(x.x() + 0.3 * x.y() * x.y(), 1.5 * x.y(), x.z()) + Vec3(10, 0, 0);
+  Cut made;
+  REQUIRE(body.cut(along(Vec3(9, 0.7, 0), Vec3(12, 0.7, 0)), made) == "");
+  CHECK(body.components() == 2);
+  CHECK(std::abs(body.volume() - 1) <= 1e-12);
+  for (const int n : made.nodes) {
+    const auto k = static_cast<std::size_t>(n);
+    CHECK(std::abs(body.mesh.nodes[k].y() - 0.7 / 1.5) <= body.snap);
+    CHECK(std::abs(body.x[k].y() - 0.7) <= 2 * body.snap);
+  }
+}
+
+TEST_CASE("cut: what misses the body, or sweeps no area, says so") {
+  Body body = cube(2);
+  CHECK(body.cut(along(Vec3(3, 0, 0), Vec3(3, 1, 0))).find("meets no edge") != std::string::npos);
+  CHECK(body.cut(along(Vec3(0, 0, 0), Vec3(0, 0, 0))).find("sweeps no area") != std::string::npos);
+  CHECK(body.cut({{{Vec3::Zero(), Vec3::Ones()}}}).find("sweeps no area") != std::string::npos);
+  CHECK(body.cut({}).find("sweeps no area") != std::string::npos);
+}
