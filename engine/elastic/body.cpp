@@ -384,40 +384,6 @@ void ElasticBody<Real>::set_material(std::size_t index, const Material& material
 }
 
 template <class Real>
-void ElasticBody<Real>::set_mesh(const TetMesh& mesh, const std::vector<int>& material_of) {
-  mesh_ = mesh;
-  material_of_ = material_of;
-  make_parts();
-  forget(at_rest().data());
-}
-
-template <class Real>
-void ElasticBody<Real>::keep_elements(const std::vector<int>& elements) {
-  std::vector<int> number(mesh_.tets.size(), -1);  // that an element has from now on
-  for (std::size_t k = 0; k < elements.size(); ++k) number[static_cast<std::size_t>(elements[k])] = static_cast<int>(k);
-  for (Part& part : parts_) {
-    std::vector<std::size_t> slots;
-    for (std::size_t s = 0; s < part.group.size(); ++s) {
-      int& element = part.group.element[s];
-      element = number[static_cast<std::size_t>(element)];
-      if (element >= 0) slots.push_back(s);
-    }
-    if (slots.size() == part.group.size()) continue;
-    if (slots.empty()) {
-      part.group.element.clear();
-      continue;
-    }
-    const std::vector<std::size_t> from = keep_slots(part.group, slots);
-    for (const auto& term : part.terms) term->take_slots(from);
-    if (part.flow) part.flow->take_slots(from);
-  }
-  std::erase_if(parts_, [](const Part& part) { return part.group.size() == 0; });
-  mesh_ = with_elements(mesh_, elements);
-  material_of_ = with_elements(material_of_, elements);
-  join_parts();
-}
-
-template <class Real>
 bool ElasticBody<Real>::has_memory() const {
   return std::any_of(parts_.begin(), parts_.end(),
                      [&](const Part& part) { return materials_[part.material].has_memory(); });

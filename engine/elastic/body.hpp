@@ -118,6 +118,9 @@ class ElasticBody {
   /// Leaves the given elements (inner numbers, ascending; at least one), numbered anew in that order. What they
   /// remember stays with them; forces are the bits of a body made of them alone.
   void keep_elements(const std::vector<int>& elements);
+  /// Another mesh, of the same nodes and further ones: element t is what origins[t] was or a piece of it, and
+  /// remembers what that did. Materials as theirs.
+  void take_pieces(const TetMesh& mesh, const std::vector<int>& material_of, const std::vector<int>& origins);
   /// Another mesh of the same nodes, at rest: what keep_elements() took away is there again. As in the constructor.
   void set_mesh(const TetMesh& mesh, const std::vector<int>& material_of);
 

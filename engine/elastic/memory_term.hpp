@@ -12,6 +12,7 @@
 //
 //   slot s:  G0[6] T0[6] Q0[6] Q1[6] ...   as committed last
 #include <heml/elastic/group_term.hpp>
+#include <heml/elastic/reshape.hpp>
 #include <heml/math/bytes.hpp>
 
 namespace heml {
@@ -43,6 +44,9 @@ class MemoryTerm final : public GroupTerm<Real> {
   void forget(const Group& group, const Real* x) override;
   std::size_t bytes() const { return bytes_of(kept_); }
   void take_slots(std::span<const std::size_t> from) override { heml::take_slots(kept_, from, stride_); }
+  /// Slot s is one of a piece, reshaped so, of what slot from[s] of another term is of.
+  void take_pieces(const MemoryTerm& other, std::span<const std::size_t> from,
+                   const std::vector<Reshape<Real>>& reshapes);
 
  private:
   struct Branch {

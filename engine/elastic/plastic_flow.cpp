@@ -14,20 +14,27 @@ Real mises(const Real tau[3]) {
   return std::sqrt(Real(1.5) * (tau[0] * tau[0] + tau[1] * tau[1] + tau[2] * tau[2]));
 }
 
-/// A = L N exp(−2 Δγ n) Nᵀ Lᵀ, and gamma = λ_max of Σ_a g_a g_aᵀ = Lᵀ(I + 1 1ᵀ)L up to a rotation.
+/// A = L Lᵀ, and gamma = λ_max of Σ_a g_a g_aᵀ = Lᵀ(I + 1 1ᵀ)L up to a rotation.
 template <class Real>
-void replace_rest_shape(ElementGroup<Real>& group, std::size_t s, const Real factor[3][3], const Eigen3<Real>& e,
-                        Real gamma, const Real n[3]) {
-  Real shrink[3], R[6], A[6], L[3][3], sum[6];
-  for (int i = 0; i < 3; ++i) shrink[i] = natural_exp(-2 * gamma * n[i]);
-  assemble3(e, shrink, R);
-  congruent3(factor, R, A);
+void put_rest_shape(ElementGroup<Real>& group, std::size_t s, const Real A[6]) {
+  Real L[3][3], sum[6];
   for (std::size_t i = 0; i < 6; ++i) group.A[i][s] = A[i];
   cholesky3(A, L);
   const Real ones[6] = {2, 2, 2, 1, 1, 1};
   into_rest_frame(L, ones, sum);
   const auto spread = eigen3(sum);
   group.gamma[s] = std::max({spread.value[0], spread.value[1], spread.value[2]});
+}
+
+/// A = L N exp(−2 Δγ n) Nᵀ Lᵀ.
+template <class Real>
+void replace_rest_shape(ElementGroup<Real>& group, std::size_t s, const Real factor[3][3], const Eigen3<Real>& e,
+                        Real gamma, const Real n[3]) {
+  Real shrink[3], R[6], A[6];
+  for (int i = 0; i < 3; ++i) shrink[i] = natural_exp(-2 * gamma * n[i]);
+  assemble3(e, shrink, R);
+  congruent3(factor, R, A);
+  put_rest_shape(group, s, A);
 }
 
 /// Deviator of the logarithmic strain at eigenvalues c of C, made a unit direction. Returns its length.
@@ -77,6 +84,19 @@ void PlasticFlow<Real>::take_slots(std::span<const std::size_t> from) {
   for (auto& list : rest_A_) heml::take_slots(list, from);
   heml::take_slots(rest_gamma_, from);
   heml::take_slots(strain_, from);
+}
+
+template <class Real>
+void PlasticFlow<Real>::take_pieces(const PlasticFlow& other, const Group& of_other, std::span<const std::size_t> from,
+                                    const std::vector<Reshape<Real>>& reshapes, Group& group) {
+  for (std::size_t s = 0; s < from.size(); ++s) {
+    strain_[s] = other.strain_[from[s]];
+    if (strain_[s] == 0) continue;
+    Real A[6];
+    for (std::size_t i = 0; i < 6; ++i) A[i] = of_other.A[i][from[s]];
+    reshapes[s].metric(A);
+    put_rest_shape(group, s, A);
+  }
 }
 
 template <class Real>

@@ -50,6 +50,18 @@ std::vector<std::uint16_t> node_hashes_from(const Key& key) {
   return hashes;
 }
 
+CutTissue cut_from(const Key& key) {
+  key.allow({"sweep", "goes_on"});
+  CutTissue cut;
+  key["sweep"].each([&](const Key& blade) {
+    if (blade.size() != 2) blade.refuse("must be the two ends of the blade, [[x, y, z], [x, y, z]]");
+    cut.sweep.blades.push_back({blade[0].vector(), blade[1].vector()});
+  });
+  if (cut.sweep.blades.size() < 2) key["sweep"].refuse("must have the blade at two moments at least");
+  if (const auto goes_on = key.find("goes_on")) cut.goes_on = goes_on->flag();
+  return cut;
+}
+
 /// The command an action of that name stands for.
 Command command_from(const Key& key, const std::string& action, std::optional<Vec3>& point) {
   const Key value = key[action];
@@ -61,6 +73,7 @@ Command command_from(const Key& key, const std::string& action, std::optional<Ve
   if (action == "budget") return SetBudget{static_cast<int>(value.integer(1, most_iterations))};
   if (action == "step_cost") return SetStepCost{value.positive()};
   if (action == "remove") return RemoveElements{elements_from(value)};
+  if (action == "cut") return cut_from(value);
   if (action == "material") {
     const RegionMaterial entry = material_from(value);
     if (takes_fields(entry.material)) value.fail("takes a field of the mesh", "a material switched to takes numbers");
@@ -68,6 +81,7 @@ Command command_from(const Key& key, const std::string& action, std::optional<Ve
   }
   expect_true(value);
   if (action == "release") return Release{};
+  if (action == "undo") return Undo{};
   return Reset{};
 }
 
@@ -81,17 +95,25 @@ Json command_json(const SetIntegrator& set) { return {{"integrator", integrator_
 Json command_json(const SetBudget& set) { return {{"budget", set.iterations}}; }
 Json command_json(const SetStepCost& set) { return {{"step_cost", set.nanoseconds}}; }
 Json command_json(const RemoveElements& remove) { return {{"remove", elements_json(remove.which)}}; }
+Json command_json(const CutTissue& cut) {
+  Json sweep = Json::array();
+  for (const auto& [tip, end] : cut.sweep.blades) sweep.push_back({vector_json(tip), vector_json(end)});
+  Json json = {{"sweep", std::move(sweep)}};
+  if (cut.goes_on) json["goes_on"] = true;
+  return {{"cut", std::move(json)}};
+}
+Json command_json(const Undo&) { return {{"undo", true}}; }
 Json command_json(const Reset&) { return {{"reset", true}}; }
 
 }  // namespace
 
 void read_script_entry(const Key& key, double tick_length, Script& script) {
   key.allow({"step", "at", "grasp", "move", "release", "material", "damping", "gravity", "integrator", "budget",
-             "step_cost", "remove", "reset", "checkpoint", "nodes", "end"});
+             "step_cost", "remove", "cut", "undo", "reset", "checkpoint", "nodes", "end"});
   const long tick = tick_from(key, tick_length);
   const std::string action =
       key.only_one_of({"grasp", "move", "release", "material", "damping", "gravity", "integrator", "budget",
-                       "step_cost", "remove", "reset", "checkpoint", "end"});
+                       "step_cost", "remove", "cut", "undo", "reset", "checkpoint", "end"});
   if (action != "checkpoint" && key.has("nodes")) key["nodes"].fail("stands without a checkpoint", "take it away");
   if (action == "checkpoint") {
     const auto nodes = key.find("nodes");

@@ -11,6 +11,9 @@
 //   {"step": 65, "remove": {"tets": [3, 4]}}               elements by number; or "region": 2; or "box": [[..], [..]]
 //   or
 //                                                         "sphere": [[x, y, z], r], of centroids at rest
+//   {"step": 66, "cut": {"sweep": [[tip, end], [tip, end], …]}}   where the blade is, moment after moment; "goes_on":
+//                                                         true: of one stroke with the cut before
+//   {"step": 67, "undo": true}                             the last removal or stroke
 //   {"step": 70, "reset": true}
 //   {"step": 80, "checkpoint": "0123456789abcdef", "nodes": "12ab..."}    state hash; 4 hexadecimal digits a node
 //   {"step": 90, "end": true}                               how far a recording went

@@ -1,5 +1,4 @@
 #include <heml/scenario/json_text.hpp>
-#include <heml/scenario/load_mesh.hpp>
 #include <heml/scenario/recovery_watch.hpp>
 #include <heml/scenario/text_file.hpp>
 
@@ -7,10 +6,8 @@ namespace heml {
 
 void write_replay(const std::filesystem::path& path, const Scene& scene, std::span<const Event> events,
                   const World& world) {
-  Scene recorded = scene;
-  recorded.recorded_mesh = identity_of(world.setup().mesh);
   const std::filesystem::path folder = path.parent_path();
-  std::string text = scene_line(recorded, folder.empty() ? "." : folder) + '\n';
+  std::string text = scene_line(scene, folder.empty() ? "." : folder) + '\n';
   for (const Event& event : events) text += event_line(event) + '\n';
   text += checkpoint_line({world.ticks(), world.state_hash(), world.node_hashes()}) + '\n';
   text += json_text({{"step", world.ticks()}, {"end", true}}, path.string()) + '\n';

@@ -24,11 +24,20 @@ Json energies_json(const Energies& energies) {
 }
 
 Json edit_json(const EditReport& edit) {
-  return {{"step", edit.tick},
-          {"removed", edit.removed},
-          {"mass", edit.mass},
-          {"energy_before", energies_json(edit.before)},
-          {"energy_after", energies_json(edit.after)}};
+  Json json = {{"step", edit.tick},
+               {"removed", edit.removed},
+               {"mass", edit.mass},
+               {"energy_before", energies_json(edit.before)},
+               {"energy_after", energies_json(edit.after)},
+               {"stable_step_before", edit.step_before},
+               {"stable_step_after", edit.step_after}};
+  if (edit.split > 0) {
+    json["split"] = edit.split;
+    json["pieces"] = edit.pieces;
+    json["area"] = edit.area;
+    json["smallest_angle"] = edit.smallest_angle;
+  }
+  return json;
 }
 
 /// Energies are null where a law has none.
@@ -67,8 +76,9 @@ void write_report(const std::filesystem::path& path, World& world, const SolveFa
   report["reaction"] = Json::array();
   for (const Vec3& force : world.reactions()) report["reaction"].push_back(vector_json(force));
   report["nodes"] = world.setup().mesh.nodes.size();
-  report["tets"] = world.setup().mesh.tets.size();
-  report["removed"] = world.setup().mesh.tets.size() - world.topology()->elements.size();
+  const std::size_t removed = removed_of(world);
+  report["tets"] = world.topology()->elements.size() + removed;
+  report["removed"] = removed;
   report["edits"] = Json::array();
   for (const EditReport& edit : world.edits()) report["edits"].push_back(edit_json(edit));
   report["state_hash"] = fmt::format("{:016x}", world.state_hash());

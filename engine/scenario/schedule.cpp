@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <heml/base/error.hpp>
 #include <heml/scenario/schedule.hpp>
 #include <heml/scenario/selection.hpp>
@@ -9,7 +10,11 @@ namespace heml {
 Schedule::Schedule(const Scene& scene, const TetMesh& mesh) : file_(scene.file), events_(scene.events) {
   for (const auto& [index, point] : scene.grasp_points)
     std::get<Grasp>(events_.at(index).command).node = nearest_surface_node(mesh, point);
+  // Cuts add nodes and elements: the world tells whether those are there.
+  const bool cuts = std::any_of(events_.begin(), events_.end(),
+                                [](const Event& event) { return std::holds_alternative<CutTissue>(event.command); });
   for (const Event& event : events_) {
+    if (cuts) break;
     const auto expect = [&](int number, std::size_t count, const std::string& key, const char* kind) {
       if (number >= 0 && static_cast<std::size_t>(number) < count) return;
       throw InputError(file_, fmt::format("events: step {}: {}", event.tick, key), fmt::format("is {}", number),

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <heml/base/error.hpp>
 #include <heml/base/log.hpp>
+#include <heml/scenario/load_mesh.hpp>
 #include <heml/scenario/recovery_watch.hpp>
 #include <heml/scenario/report.hpp>
 #include <heml/scenario/schedule.hpp>
@@ -109,10 +110,12 @@ SolveResult solve(const Scene& scene, const fs::path& out, const std::function<v
   remove_outputs(out, landings);
 
   Run run(scene, *world);
+  Scene recorded = scene;
+  if (scene.solver.recovery) recorded.recorded_mesh = identity_of(world->setup().mesh);
   RecoveryWatch watch;
   const auto on_tick = [&] {
     const auto news = watch.after_tick(*world);
-    if (news != RecoveryWatch::News::none) write_replay(out / recovery_file, scene, run.past_events(), *world);
+    if (news != RecoveryWatch::News::none) write_replay(out / recovery_file, recorded, run.past_events(), *world);
     if (news == RecoveryWatch::News::began)
       warn("{}; {} shows it again", world->recovery()->message, (out / recovery_file).string());
     if (progress) progress(static_cast<double>(world->ticks()) * scene.solver.tick() / scene.solver.duration);

@@ -65,8 +65,8 @@ void fill_frame(World& world, std::shared_ptr<const Skin> skin, Field field, dou
   const auto [low, high] = std::minmax_element(J.begin(), J.end());
   frame.min_J = *low;
   frame.max_J = *high;
-  frame.elements = world.setup().mesh.tets.size();
-  frame.removed = frame.elements - J.size();
+  frame.removed = removed_of(world);
+  frame.elements = J.size() + frame.removed;
   frame.tool = world.tool();
   frame.substeps = world.substeps();
   frame.stable_step = world.stable_step();

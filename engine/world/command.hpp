@@ -4,6 +4,7 @@
 #include <heml/materials/material.hpp>
 #include <heml/math/types.hpp>
 #include <heml/mesh/edit.hpp>
+#include <heml/mesh/sweep.hpp>
 #include <heml/world/setup.hpp>
 #include <optional>
 #include <string>
@@ -51,12 +52,21 @@ struct SetStepCost {
 struct RemoveElements {
   ElementSelection which;  ///< of those that are there, mesh-file order
 };
+/// Cuts the tissue along what a blade sweeps. Elements are split there and come apart; nothing is lost, nothing moves
+/// but by its own tension. A blade that meets nothing does nothing.
+struct CutTissue {
+  Sweep sweep;           ///< where the blade is, m, in space as the tissue lies now
+  bool goes_on = false;  ///< with the last cut: one stroke, and one edit to undo
+};
+/// Takes back the last removal or stroke: elements and positions are what they were before it, what happened since is
+/// forgotten, time goes on.
+struct Undo {};
 /// Back to the initial state at time 0, with all elements there again; ticks go on counting. Materials, damping and the
 /// like stay as they are.
 struct Reset {};
 
 using Command = std::variant<Grasp, MoveTool, Release, SetMaterial, SetDamping, SetGravity, SetIntegrator, SetBudget,
-                             SetStepCost, RemoveElements, Reset>;
+                             SetStepCost, RemoveElements, CutTissue, Undo, Reset>;
 
 /// A command and the tick at whose start it takes effect (the first tick is 0).
 struct Event {

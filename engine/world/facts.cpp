@@ -81,13 +81,24 @@ std::optional<SolverFacts> TypedWorld<Real>::solver_facts() {
 }
 
 template <class Real>
+std::size_t TypedWorld<Real>::bytes_to_undo() const {
+  const auto of = [](const Saved& saved) {
+    return bytes_of_mesh(saved.mesh) + bytes_of_model(saved.model) +
+           bytes_of(saved.topology->elements, saved.x, saved.v);
+  };
+  std::size_t sum = of(*whole_);
+  for (const auto& saved : saved_) sum += of(*saved);
+  return sum;
+}
+
+template <class Real>
 std::vector<MemoryFacts> TypedWorld<Real>::memory_facts() const {
   const auto of_state = [](const State<Real>& state) { return bytes_of(state.x, state.v, state.f); };
   std::vector<MemoryFacts> facts;
   facts.push_back({"elements", body_.bytes()});
   std::size_t mesh = bytes_of_mesh(setup_.mesh) + bytes_of_model(model_) + bytes_of(topology_->elements);
-  if (whole_model_) mesh += bytes_of_model(*whole_model_);
   facts.push_back({"mesh", mesh});
+  if (whole_) facts.push_back({"undo", bytes_to_undo()});
   facts.push_back(
       {"state", of_state(state_) + of_state(last_valid_) + bytes_of(mass_, inverse_mass_, element_states_)});
   if (recovery_) facts.push_back({"recovery", of_state(recovery_->good)});

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <heml/mesh/edit.hpp>
+#include <heml/mesh/faces.hpp>
 #include <heml/world/model.hpp>
 #include <numbers>
 
@@ -145,6 +146,56 @@ void keep_elements(const WorldSetup& setup, const std::vector<int>& elements, Mo
   make_loads(setup, model);
 }
 
+namespace {
+
+/// The faces of an edit's pieces that lie in a face of the element they are of.
+std::vector<Triangle> faces_in(const Triangle& face, const Tet& piece, const MeshEdit& edit, int old_nodes) {
+  const auto in_face = [&](int n) {
+    const auto has = [&](int old) { return std::find(face.begin(), face.end(), old) != face.end(); };
+    if (n < old_nodes) return has(n);
+    const NewNode& node = edit.nodes[static_cast<std::size_t>(n - old_nodes)];
+    return has(node.from) && has(node.to);
+  };
+  std::vector<Triangle> found;
+  for (const auto& corners : tet_faces) {
+    Triangle triangle;
+    for (std::size_t c = 0; c < 3; ++c) triangle[c] = piece[static_cast<std::size_t>(corners[c])];
+    if (std::all_of(triangle.begin(), triangle.end(), in_face)) found.push_back(triangle);
+  }
+  return found;
+}
+
+}  // namespace
+
+template <class Real>
+void append(const WorldSetup& setup, const MeshEdit& edit, Model<Real>& model) {
+  const auto nodes = static_cast<int>(model.mesh.nodes.size()), tets = static_cast<int>(model.mesh.tets.size());
+  for (std::size_t k = 0; k < edit.nodes.size(); ++k) {
+    model.order.file_node.push_back(static_cast<int>(model.order.new_node.size()));
+    model.order.new_node.push_back(nodes + static_cast<int>(k));
+  }
+  BoundaryFaces& faces = model.loaded_faces;
+  const std::size_t loaded = faces.tets.size();
+  for (std::size_t k = 0; k < edit.added.size(); ++k) {
+    const int element = tets + static_cast<int>(k);
+    model.order.file_tet.push_back(static_cast<int>(model.order.new_tet.size()));
+    model.order.new_tet.push_back(element);
+    model.material_of.push_back(model.material_of[static_cast<std::size_t>(edit.parents[k])]);
+    for (std::size_t f = 0; f < loaded; ++f)
+      if (faces.tets[f] == edit.parents[k])
+        for (const Triangle& face : faces_in(faces.triangles[f], edit.added[k], edit, nodes)) {
+          faces.triangles.push_back(face);
+          faces.tets.push_back(element);
+        }
+  }
+  append(edit, model.mesh);
+  model.held.clear();
+  model.motions.clear();
+  add_boundary(setup, model);
+}
+
+template void append(const WorldSetup&, const MeshEdit&, Model<float>&);
+template void append(const WorldSetup&, const MeshEdit&, Model<double>&);
 template Model<float> make_model(const WorldSetup&);
 template Model<double> make_model(const WorldSetup&);
 template void keep_elements(const WorldSetup&, const std::vector<int>&, Model<float>&);

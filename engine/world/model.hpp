@@ -3,6 +3,7 @@
 // there are only the elements that are left, so that no loop asks which those are.
 #include <heml/dynamics/motion.hpp>
 #include <heml/elastic/loads.hpp>
+#include <heml/mesh/edit.hpp>
 #include <heml/mesh/reorder.hpp>
 #include <heml/mesh/surface.hpp>
 #include <heml/world/setup.hpp>
@@ -44,5 +45,10 @@ Model<Real> make_model(const WorldSetup& setup);
 /// Leaves the given elements (inner numbers, ascending), numbered anew in that order.
 template <class Real>
 void keep_elements(const WorldSetup& setup, const std::vector<int>& elements, Model<Real>& model);
+
+/// Adds nodes and elements of an edit, in the mesh's own numbers: nodes after all others, elements too; what it removes
+/// is still there. setup: with the edit's nodes in its mesh, boundary and loads.
+template <class Real>
+void append(const WorldSetup& setup, const MeshEdit& edit, Model<Real>& model);
 
 }  // namespace heml

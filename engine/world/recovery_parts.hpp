@@ -2,6 +2,7 @@
 // What a world keeps to bring its body back: the last state nothing was wrong with, and, while a recovery goes on, the
 // body that stands in for the scene's. Made when a scene asks for it ("recovery"); worlds without it pay nothing.
 #include <heml/dynamics/state.hpp>
+#include <heml/mesh/edit.hpp>
 #include <heml/world/recovery.hpp>
 #include <heml/world/stand_in.hpp>
 #include <memory>
@@ -23,7 +24,12 @@ class RecoveryParts {
   /// fastest: m/s, that no node can be if all is well.
   RecoveryParts(const TetMesh& mesh, const std::vector<Real>& masses, double fastest, const State<Real>& start);
 
-  /// Other elements of the same nodes.
+  /// Further nodes, where the last good state has them.
+  void append(const MeshEdit& edit) {
+    heml::append(edit, good.x, 3);
+    heml::append(edit, good.v, 3);
+  }
+  /// Other elements.
   void set_mesh(const TetMesh& mesh, const std::vector<Real>& masses);
 
   Condition look(const TetMesh& mesh, const State<Real>& state, const std::vector<Real>& masses) const;

@@ -126,14 +126,31 @@ class TypedWorld final : public World {
   std::optional<std::string> take(const Reset& command);
 
   // world_edits.cpp: other elements
+  /// What an edit may be taken back to.
+  struct Saved {
+    TetMesh mesh;
+    std::vector<Boundary> boundary;
+    std::vector<Load> loads;
+    Model<Real> model;
+    std::shared_ptr<const Topology> topology;
+    std::vector<Real> x, v;  ///< m, m/s
+  };
   std::optional<std::string> take(const RemoveElements& command);
+  std::optional<std::string> take(const CutTissue& command);
+  std::optional<std::string> take(const Undo& command);
+  EditReport begin_report();
+  void end_report(EditReport& report);
   void carry_out(const MeshEdit& edit);
+  void take_edited();
+  void save();
+  void restore(const Saved& saved);
   void undo_edits();
 
   // facts.cpp: what it runs
   StepFacts step_facts();
   std::optional<SolverFacts> solver_facts();
   std::vector<MemoryFacts> memory_facts() const;
+  std::size_t bytes_to_undo() const;
 
   // world_queries.cpp: what people ask
   std::vector<Vec3> in_file_order(const std::vector<Real>& values) const;
@@ -141,9 +158,13 @@ class TypedWorld final : public World {
 
   WorldSetup setup_;
   Model<Real> model_;
-  std::unique_ptr<const Model<Real>> whole_model_;  ///< before the first edit; none: there was none
   std::shared_ptr<const Topology> topology_;
   std::vector<EditReport> edits_;
+  std::unique_ptr<const Saved> whole_;               ///< before the first edit; none: there was none
+  std::vector<std::unique_ptr<const Saved>> saved_;  ///< before each of the last edits
+  std::vector<int> stroke_;                          ///< nodes in the last cut, mesh-file order
+  bool in_stroke_ = false;                           ///< whether it was saved before it
+  double snap_ = 0;                                  ///< m, of cuts; 0: nothing was cut yet
   ElasticBody<Real> body_;
   ThreadTeam team_;
   std::vector<GraspSpring<Real>> grasps_;  ///< none or one: an empty list costs nothing

@@ -17,12 +17,18 @@
 
 namespace heml {
 
-/// What an edit of the mesh has taken from a body.
+/// What an edit of the mesh has done to a body: a removal, or the sweeps of a stroke.
 struct EditReport {
-  long tick = 0;            ///< at whose start
-  std::size_t removed = 0;  ///< elements
-  double mass = 0;          ///< kg that went
-  Energies before, after;   ///< of the whole body
+  long tick = 0;                           ///< at whose start it began
+  std::size_t removed = 0;                 ///< elements that are lost
+  double mass = 0;                         ///< kg that went
+  Energies before, after;                  ///< of the whole body
+  double step_before = 0, step_after = 0;  ///< s, stable steps
+  // Of a cut:
+  std::size_t split = 0;      ///< elements, into
+  std::size_t pieces = 0;     ///< so many
+  double area = 0;            ///< m², of one side of the cut, as the body was
+  double smallest_angle = 0;  ///< degrees, dihedral, of the worst piece at rest
 };
 
 /// Why a world will not step on. The state is the last valid one.
@@ -113,17 +119,20 @@ class World {
 
   /// Which elements of the mesh are there. Shared, and another one after every edit or Reset of one.
   virtual std::shared_ptr<const Topology> topology() const = 0;
-  /// Edits since the start or the last Reset.
+  /// Edits since the start or the last Reset, without those taken back.
   virtual const std::vector<EditReport>& edits() const = 0;
 
-  /// As it is now: materials, damping, gravity and integrator follow the commands applied. The mesh is
-  /// the whole one.
+  /// As it is now: materials, damping, gravity and integrator follow the commands applied. The mesh
+  /// is the whole one, with what cuts have added; topology() says what of it is there.
   virtual const WorldSetup& setup() const = 0;
 
   /// What this world runs now and what that rests on, for people to read (facts.hpp). Implicit and static worlds that
   /// have not stepped yet factor their matrix for it. Steps after it are the same bits as without.
   virtual WorldFacts facts() = 0;
 };
+
+/// Elements that removals have taken, and nobody has taken back.
+std::size_t removed_of(const World& world);
 
 /// Builds a world. Throws InputError for what check_tets() and material_of_elements() refuse.
 std::unique_ptr<World> make_world(WorldSetup setup);

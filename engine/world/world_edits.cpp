@@ -1,36 +1,170 @@
 // Edits of the mesh in a running world: what is inside is laid out anew, what people hold and know stays as it is.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <heml/mesh/cut.hpp>
+#include <heml/mesh/quality.hpp>
 #include <heml/world/typed_world.hpp>
 #include <numeric>
 
 namespace heml {
+namespace {
+
+constexpr std::size_t most_undone = 20;  // edits; what was before them is forgotten, but for the start
+
+/// Nodes that an edit adds between two of a list are of it too, and copies of its nodes.
+void follow(const MeshEdit& edit, int nodes, std::vector<int>& list) {
+  std::vector<int> sorted = list;
+  std::sort(sorted.begin(), sorted.end());
+  const auto has = [&](int n) { return std::binary_search(sorted.begin(), sorted.end(), n); };
+  for (std::size_t k = 0; k < edit.nodes.size(); ++k)
+    if (has(edit.nodes[k].from) && has(edit.nodes[k].to)) list.push_back(nodes + static_cast<int>(k));
+}
+
+/// An edit in other numbers of nodes and elements; new ones keep their order, after all old ones.
+MeshEdit in_numbers(MeshEdit edit, const std::vector<int>& node, const std::vector<int>& tet) {
+  for (int& t : edit.removed) t = tet[static_cast<std::size_t>(t)];
+  for (int& t : edit.parents) t = tet[static_cast<std::size_t>(t)];
+  for (NewNode& n : edit.nodes)
+    n = {node[static_cast<std::size_t>(n.from)], node[static_cast<std::size_t>(n.to)], n.at};
+  for (Tet& added : edit.added)
+    for (int& n : added)
+      if (n < static_cast<int>(node.size())) n = node[static_cast<std::size_t>(n)];
+  return edit;
+}
+
+double worst_angle(const MeshEdit& edit, const TetMesh& mesh) {
+  double worst = 180;
+  for (const Tet& tet : edit.added) {
+    std::array<Vec3, 4> X;
+    for (std::size_t c = 0; c < 4; ++c) X[c] = mesh.nodes[static_cast<std::size_t>(tet[c])];
+    worst = std::min(worst, smallest_dihedral(X));
+  }
+  return worst;
+}
+
+}  // namespace
 
 template <class Real>
 std::optional<std::string> TypedWorld<Real>::take(const RemoveElements& command) {
   MeshEdit edit;
   if (const auto problem = make_removal(command.which, setup_.mesh, *topology_, edit)) return "remove: " + *problem;
+  save();
+  stroke_.clear();
   const auto mass = [this] { return std::accumulate(mass_.begin(), mass_.end(), 0.0); };
-  EditReport report{ticks_, edit.removed.size(), mass(), energies(), {}};
+  EditReport& report = edits_.emplace_back(begin_report());
+  report.removed = edit.removed.size();
+  report.mass = mass();
   carry_out(edit);
   report.mass -= mass();
-  report.after = energies();
-  edits_.push_back(report);
+  end_report(report);
   return std::nullopt;
 }
 
-/// Positions and velocities are left alone, but for nodes of no element, which rest.
+template <class Real>
+std::optional<std::string> TypedWorld<Real>::take(const CutTissue& command) {
+  for (const auto& [tip, end] : command.sweep.blades)
+    if (!tip.allFinite() || !end.allFinite()) return "cut: a place of the blade is not finite";
+  if (command.sweep.blades.size() < 2) return "cut: the sweep needs the blade at two moments at least";
+  const bool goes_on = command.goes_on && !stroke_.empty();
+  if (snap_ == 0) snap_ = snapping_distance(setup_.mesh);
+  Cut cut;
+  if (make_cut(command.sweep, setup_.mesh, positions(), *topology_, snap_, goes_on ? stroke_ : std::vector<int>(), cut))
+    return std::nullopt;  // through the air
+  stroke_ = cut.nodes;
+  if (cut.edit.removed.empty()) return std::nullopt;
+  if (!goes_on || !in_stroke_) {
+    save();
+    edits_.push_back(begin_report());
+    edits_.back().smallest_angle = 180;
+  }
+  in_stroke_ = true;
+  carry_out(cut.edit);
+  EditReport& report = edits_.back();
+  report.split += cut.edit.removed.size();
+  report.pieces += cut.edit.added.size();
+  report.area += cut.area;
+  report.smallest_angle = std::min(report.smallest_angle, worst_angle(cut.edit, setup_.mesh));
+  end_report(report);
+  return std::nullopt;
+}
+
+template <class Real>
+std::optional<std::string> TypedWorld<Real>::take(const Undo&) {
+  if (edits_.empty()) return "undo: nothing was cut or removed";
+  if (saved_.empty()) return fmt::format("undo: only the last {} edits can be taken back", most_undone);
+  restore(*saved_.back());
+  saved_.pop_back();
+  edits_.pop_back();
+  return std::nullopt;
+}
+
+template <class Real>
+EditReport TypedWorld<Real>::begin_report() {
+  EditReport report;
+  report.tick = ticks_;
+  report.before = energies();
+  report.step_before = stable_step_;
+  return report;
+}
+
+template <class Real>
+void TypedWorld<Real>::end_report(EditReport& report) {
+  find_stable_step();
+  report.after = energies();
+  report.step_after = stable_step_;
+}
+
+/// Keeps what an edit may be taken back to.
+template <class Real>
+void TypedWorld<Real>::save() {
+  auto saved = std::make_unique<const Saved>(
+      Saved{setup_.mesh, setup_.boundary, setup_.loads, model_, topology_, state_.x, state_.v});
+  if (!whole_) {
+    whole_ = std::make_unique<const Saved>(*saved);
+  } else if (saved_.size() == most_undone) {
+    saved_.erase(saved_.begin());
+  }
+  saved_.push_back(std::move(saved));
+  in_stroke_ = false;
+}
+
+/// Nodes of what is cut lie where they lay, and are as fast as they were; nodes of no element rest.
 template <class Real>
 void TypedWorld<Real>::carry_out(const MeshEdit& edit) {
-  if (!whole_model_) whole_model_ = std::make_unique<const Model<Real>>(model_);
+  const auto file_nodes = static_cast<int>(setup_.mesh.nodes.size()),
+             file_tets = static_cast<int>(setup_.mesh.tets.size());
+  const MeshEdit inner = in_numbers(edit, model_.order.new_node, model_.order.new_tet);
+  topology_ = std::make_shared<const Topology>(edited(*topology_, edit, file_tets));
+  const std::size_t before = model_.mesh.tets.size();
+  if (!edit.added.empty()) {
+    append(edit, setup_.mesh);
+    for (Boundary& entry : setup_.boundary) follow(edit, file_nodes, entry.nodes);
+    for (Load& load : setup_.loads) follow(edit, file_nodes, load.nodes);
+    append(setup_, inner, model_);
+    for (auto* values : {&state_.x, &state_.v, &last_valid_.x, &last_valid_.v}) append(inner, *values, 3);
+    state_.f.resize(state_.x.size());
+    if (recovery_) recovery_->append(inner);
+  }
   std::vector<bool> stays(model_.mesh.tets.size(), true);
-  for (const int file : edit.removed)
-    stays[static_cast<std::size_t>(model_.order.new_tet[static_cast<std::size_t>(file)])] = false;
-  std::vector<int> elements;
-  for (std::size_t t = 0; t < stays.size(); ++t)
-    if (stays[t]) elements.push_back(static_cast<int>(t));
-
-  topology_ = std::make_shared<const Topology>(edited(*topology_, edit, static_cast<int>(setup_.mesh.tets.size())));
+  for (const int t : inner.removed) stays[static_cast<std::size_t>(t)] = false;
+  std::vector<int> elements, origins;
+  for (std::size_t t = 0; t < stays.size(); ++t) {
+    if (!stays[t]) continue;
+    elements.push_back(static_cast<int>(t));
+    origins.push_back(t < before ? static_cast<int>(t) : inner.parents[t - before]);
+  }
   keep_elements(setup_, elements, model_);
-  body_.keep_elements(elements);
+  if (edit.added.empty())
+    body_.keep_elements(elements);
+  else
+    body_.take_pieces(model_.mesh, model_.material_of, origins);
+  take_edited();
+}
+
+/// What follows from other elements.
+template <class Real>
+void TypedWorld<Real>::take_edited() {
   take_masses();
   for (std::size_t n = 0; n < mass_.size(); ++n)
     if (mass_[n] == 0) Eigen::Map<Vector3<Real>>(&state_.v[3 * n]).setZero();
@@ -42,16 +176,36 @@ void TypedWorld<Real>::carry_out(const MeshEdit& edit) {
 }
 
 template <class Real>
+void TypedWorld<Real>::restore(const Saved& saved) {
+  setup_.mesh = saved.mesh;
+  setup_.boundary = saved.boundary;
+  setup_.loads = saved.loads;
+  model_ = saved.model;
+  topology_ = std::make_shared<const Topology>(Topology{topology_->version + 1, saved.topology->elements});
+  state_.x = last_valid_.x = saved.x;
+  state_.v = last_valid_.v = saved.v;
+  state_.f.resize(saved.x.size());
+  if (recovery_) recovery_->good = state_;
+  grasps_.clear();
+  stroke_.clear();
+  in_stroke_ = false;
+  body_.set_mesh(model_.mesh, model_.material_of);
+  body_.forget(state_.x.data());
+  take_edited();
+}
+
+template <class Real>
 void TypedWorld<Real>::undo_edits() {
   edits_.clear();
-  if (!whole_model_) return;
-  implicit_.reset();
-  lowest_frequency_.reset();
-  model_ = *whole_model_;
-  whole_model_.reset();
-  topology_ = std::make_shared<const Topology>(whole(setup_.mesh, topology_->version + 1));
-  body_.set_mesh(model_.mesh, model_.material_of);
-  take_masses();
+  saved_.clear();
+  if (whole_) restore(*whole_);
+  whole_.reset();
+}
+
+std::size_t removed_of(const World& world) {
+  std::size_t removed = 0;
+  for (const EditReport& edit : world.edits()) removed += edit.removed;
+  return removed;
 }
 
 template class TypedWorld<float>;
