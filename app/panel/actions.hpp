@@ -24,7 +24,20 @@ enum class Action {
   help,
   release,
   remove,
+  take_grasper,
+  take_scalpel,
+  undo,
   quit
+};
+
+/// What the left button does to the body.
+enum class Tool { grasper, scalpel };
+
+/// A tool as the user has set it.
+struct ToolInHand {
+  Tool tool = Tool::grasper;
+  double radius = 0;  ///< m, of a grasp
+  double depth = 0;   ///< m, that the scalpel reaches below the surface
 };
 
 /// What the panel asks its owner for.

@@ -20,6 +20,9 @@ constexpr KeyBinding bindings[] = {
     {key_f1, false, Action::help, "", ""},
     {key_escape, false, Action::release, "Esc", "let go; close messages"},
     {key_delete, false, Action::remove, "Del", "remove the tissue under the ring"},
+    {'G', false, Action::take_grasper, "G", "grasp with the left button"},
+    {'C', false, Action::take_scalpel, "C", "cut with the left button"},
+    {'Z', true, Action::undo, "Ctrl+Z", "take back the last cut or removal"},
     {'Q', true, Action::quit, "Ctrl+Q", "quit"},
 };
 }  // namespace

@@ -13,7 +13,7 @@ namespace heml::panel {
 namespace {
 
 constexpr float controls_width = 18.5f, readings_width = 16.0f, margin = 0.7f, two_columns_from = 66;  // em
-constexpr double first_grasp = 0.12, most_grasp = 0.5;  // of the body's radius
+constexpr double first_grasp = 0.12, most_grasp = 0.5, first_depth = 0.35, most_depth = 2;  // of the body's radius
 
 constexpr float patience = 1;   // s of being late before it is said aloud
 constexpr float shown_for = 5;  // s that a recovery is spoken of after its end
@@ -34,8 +34,8 @@ bool two_columns(ImVec2 picture) { return picture.x >= em(two_columns_from); }
 Panel::Panel(const Scene& scene, const Skin& skin)
     : title_(!scene.title.empty() ? scene.title : scene.name),
       description_(scene.description),
-      largest_grasp_(most_grasp * static_cast<double>(render::ball_around(skin.rest).radius)),
-      grasp_radius_(largest_grasp_ * first_grasp / most_grasp),
+      body_radius_(static_cast<double>(render::ball_around(skin.rest).radius)),
+      tool_{Tool::grasper, first_grasp * body_radius_, first_depth * body_radius_},
       material_(scene.materials),
       watch_(skin),
       skin_version_(skin.version),
@@ -59,6 +59,7 @@ void Panel::take_skin(const Frame& frame) {
 
 void Panel::take(const Frame& frame, float seconds) {
   history_.take(frame);
+  tell_refusal(frame);
   since_recovery_ += seconds;
   if (!frame.recovery) since_recovery_ = shown_for;
   if (frame.recovery && (!frame.recovery->ended || frame.recovery->tick != recovery_seen_)) {
@@ -72,6 +73,12 @@ void Panel::take(const Frame& frame, float seconds) {
   watch_stretches();
   watch_.take(frame);
   view_.set_beyond(watch_.beyond());
+}
+
+void Panel::tell_refusal(const Frame& frame) {
+  if (frame.refusals == refusals_) return;
+  refusals_ = frame.refusals;
+  say(capitalised(frame.refusal) + ".");
 }
 
 bool Panel::shows_recovery() const { return since_recovery_ < shown_for; }
@@ -133,6 +140,15 @@ void Panel::carry_out(Action action, const Frame& frame, PanelActions& out) {
       return ask(Request::release);
     case Action::remove:
       return ask(Request::remove);
+    case Action::take_grasper:
+      tool_.tool = Tool::grasper;
+      return;
+    case Action::take_scalpel:
+      tool_.tool = Tool::scalpel;
+      return;
+    case Action::undo:
+      out.commands.emplace_back(Undo{});
+      return;
     case Action::quit:
       return ask(Request::quit);
   }
@@ -196,7 +212,7 @@ void Panel::draw_controls(const Frame& frame, bool with_readings, PanelActions& 
     ImGui::BeginChild("sections", {0, 0}, false, ImGuiWindowFlags_NoNav);
     if (rows_.section("Material")) material_.draw(rows_, watch_.share(), out);
     if (rows_.section("Motion")) motion_.draw(rows_, out);
-    if (rows_.section("Tool")) draw_grasp();
+    if (rows_.section("Tool")) draw_tool();
     if (with_readings) {
       if (rows_.section("Tool force")) draw_force(rows_, frame, history_);
       if (rows_.section("Energy")) draw_energies(rows_, frame, history_);
@@ -255,13 +271,25 @@ void Panel::draw_pace(const Frame& frame) {
   rows_.value({"Pace", "Whether simulated time keeps up with the clock on the wall."}, text, colour, colour);
 }
 
-void Panel::draw_grasp() {
-  double millimetres = grasp_radius_ * 1e3;
-  if (rows_.slider({"Grasp radius",
-                    "Surface nodes within this distance of where you take hold go with the tool, mm, measured on the "
-                    "rest shape. 0: one node alone. Delete (Del) takes out the tissue within it, one element deep."},
-                   millimetres, {0, largest_grasp_ * 1e3, "%.1f mm", false}))
-    grasp_radius_ = millimetres * 1e-3;
+void Panel::draw_tool() {
+  static const std::string names[] = {"Grasper", "Scalpel"};
+  static const std::string hints[] = {"The left button takes hold of the body and pulls (G).",
+                                      "The left button draws a blade through the body (C). Ctrl+Z takes a cut back."};
+  int tool = static_cast<int>(tool_.tool);
+  if (rows_.choice({"Tool", "What the left mouse button does to the body."}, tool, names, hints))
+    tool_.tool = static_cast<Tool>(tool);
+  const auto length = [this](const Label& label, double& metres, double most) {
+    double millimetres = metres * 1e3;
+    if (rows_.slider(label, millimetres, {0, most * body_radius_ * 1e3, "%.1f mm", false})) metres = millimetres * 1e-3;
+  };
+  if (tool_.tool == Tool::scalpel)
+    length({"Depth", "How far the blade reaches below the surface, mm, along the line of sight."}, tool_.depth,
+           most_depth);
+  else
+    length({"Grasp radius",
+            "Surface nodes within this distance of where you take hold go with the tool, mm, measured on the "
+            "rest shape. 0: one node alone. Delete (Del) takes out the tissue within it, one element deep."},
+           tool_.radius, most_grasp);
 }
 
 void Panel::draw_readings(const Frame& frame) {

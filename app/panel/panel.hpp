@@ -42,11 +42,11 @@ class Panel {
 
   const render::DrawOptions& drawing() const { return view_.drawing(); }
   bool wants_stretches() const { return watch_.active(); }  ///< whether frames should carry Frame::stretches
-  double grasp_radius() const { return grasp_radius_; }     ///< m
-  Insets insets(ImVec2 picture) const;                      ///< that draw() takes in a picture of a size, pixels
+  const ToolInHand& tool() const { return tool_; }
+  Insets insets(ImVec2 picture) const;  ///< that draw() takes in a picture of a size, pixels
   bool covers(float x,
-              float y) const;  ///< whether a point is on the panel, as last drawn: the mouse is then not on the body
-  bool shows_recovery() const;                                    ///< one goes on, or has ended a moment ago
+              float y) const;   ///< whether a point is on the panel, as last drawn: the mouse is then not on the body
+  bool shows_recovery() const;  ///< one goes on, or has ended a moment ago
   bool animating() const { return notices_.animating(); }         ///< whether it changes by itself
   const std::string& hovered() const { return rows_.hovered(); }  ///< label of the row under the mouse; empty: none
 
@@ -56,15 +56,17 @@ class Panel {
   void draw_header(const Frame& frame);
   void draw_pace(const Frame& frame);
   void draw_readings(const Frame& frame);
-  void draw_grasp();
+  void draw_tool();
+  void tell_refusal(const Frame& frame);
   void take_skin(const Frame& frame);
   void watch_stretches();
   std::optional<Banner> banner_for(const Frame& frame) const;
   void remember_place();
 
   std::string title_, description_;  ///< of the scene
-  double largest_grasp_;             ///< m
-  double grasp_radius_;              ///< m
+  double body_radius_;               ///< m, at rest
+  ToolInHand tool_;
+  long refusals_ = 0;  ///< of the session, that were told
   MaterialSection material_;
   StretchWatch watch_;
   long skin_version_;         ///< that the watch is of

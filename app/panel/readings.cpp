@@ -50,6 +50,17 @@ void draw_volume(Rows& rows, const Frame& frame, const History& history) {
   if (frame.removed > 0)
     rows.value({"Removed", "Tetrahedra taken out of the body, of all it had. Reset brings them back."},
                fmt::format("{} of {}", frame.removed, frame.elements));
+  if (frame.last_edit && frame.last_edit->split > 0) {
+    const EditReport& cut = *frame.last_edit;
+    rows.value({"Last cut", "Area of one side of the last cut, as the body was when it was made."},
+               fmt::format("{:.3g} cm²", cut.area * 1e4));
+    rows.value({"Smallest angle",
+                "Dihedral angle of the worst new tetrahedron of the last cut, degrees, at rest. Slivers "
+                "have less than 5°."},
+               fmt::format("{:.0f}°", cut.smallest_angle));
+    rows.value({"Step, before and after", "The longest stable step of explicit methods before and after the last cut."},
+               fmt::format("{} → {}", quantity(cut.step_before, "s"), quantity(cut.step_after, "s")));
+  }
   const Curve curves[] = {
       {"Least", colours::potential, [](const Reading& r) { return r.min_J; }},
       {"Greatest", colours::kinetic, [](const Reading& r) { return r.max_J; }},

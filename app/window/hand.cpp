@@ -2,18 +2,30 @@
 #include <app/window/hand.hpp>
 
 namespace heml::window {
+namespace {
+constexpr float least_stroke = 4;  // pixels: what a blade goes on by
+}
 
 std::optional<render::Hit> Hand::under(const render::Vec2f& at, const Frame& frame, const Skin& skin) const {
   return render::pick(frame, skin, eye_.camera().ray(at.x(), at.y(), eye_.size()));
 }
 
 bool Hand::press(MouseButton button, const render::Vec2f& at, bool shift, const Frame& frame, const Skin& skin,
-                 double radius, std::vector<Command>& out) {
+                 const panel::ToolInHand& tool, std::vector<Command>& out) {
   if (doing_ != Doing::nothing) return false;
   button_ = button;
   last_ = at;
   if (button == MouseButton::left)
-    if (const auto hit = under(at, frame, skin)) return !grasp(*hit, frame, skin, radius, out);
+    if (const auto hit = under(at, frame, skin)) {
+      if (tool.tool == panel::Tool::grasper) return !grasp(*hit, frame, skin, tool.radius, out);
+      doing_ = Doing::cutting;
+      held_point_ = hit->point;
+      depth_ = tool.depth;
+      blade_ = blade_at(at);
+      cut_to_ = at;
+      goes_on_ = false;
+      return false;
+    }
   const bool pans = button == MouseButton::middle || (button == MouseButton::right && shift);
   doing_ = pans ? Doing::panning : Doing::orbiting;
   return false;
@@ -33,12 +45,30 @@ bool Hand::grasp(const render::Hit& hit, const Frame& frame, const Skin& skin, d
   return true;
 }
 
-void Hand::move(const render::Vec2f& at, std::vector<Command>& out) {
+/// From a little above the surface, so that it is cut too, along the line of sight.
+std::array<Vec3, 2> Hand::blade_at(const render::Vec2f& at) const {
+  const Vec3 point = eye_.camera().drag(at.x(), at.y(), eye_.size(), held_point_).cast<double>();
+  const Vec3 along = eye_.camera().ray(at.x(), at.y(), eye_.size()).direction.cast<double>();
+  return {point - 0.3 * depth_ * along, point + depth_ * along};
+}
+
+void Hand::cut(const render::Vec2f& at, const Frame& frame, const Skin& skin, std::vector<Command>& out) {
+  if ((at - cut_to_).norm() < least_stroke) return;
+  if (const auto hit = under(at, frame, skin)) held_point_ = hit->point;  // the surface rises and falls
+  const std::array<Vec3, 2> now = blade_at(at);
+  out.emplace_back(CutTissue{{{blade_, now}}, goes_on_});
+  blade_ = now;
+  cut_to_ = at;
+  goes_on_ = true;
+}
+
+void Hand::move(const render::Vec2f& at, const Frame& frame, const Skin& skin, std::vector<Command>& out) {
   const render::Vec2f travel = at - last_;
   last_ = at;
   if (travel == render::Vec2f::Zero()) return;
   if (doing_ == Doing::orbiting) eye_.orbit(travel.x(), travel.y());
   if (doing_ == Doing::panning) eye_.pan(travel.x(), travel.y());
+  if (doing_ == Doing::cutting) cut(at, frame, skin, out);
   if (doing_ == Doing::grasping) {
     const Vec3f point = eye_.camera().drag(at.x(), at.y(), eye_.size(), held_point_);
     out.emplace_back(MoveTool{(point + node_offset_).cast<double>()});

@@ -1,5 +1,6 @@
 #pragma once
 // What the mouse does to the body and to the eye. Pixels from the top left corner of the picture.
+#include <app/panel/actions.hpp>
 #include <app/panel/eye.hpp>
 #include <app/render/pick.hpp>
 #include <heml/session/frame.hpp>
@@ -13,15 +14,16 @@ enum class MouseButton { left, right, middle };
 
 class Hand {
  public:
-  enum class Doing { nothing, grasping, orbiting, panning };
+  enum class Doing { nothing, grasping, cutting, orbiting, panning };
 
   explicit Hand(panel::Eye& eye) : eye_(eye) {}
 
-  /// A button went down at a place off the panel. Left on the body takes hold of it, with a radius in m. Returns true
-  /// when the body is there but cannot be taken, because the scene holds it.
+  /// A button went down at a place off the panel. Left on the body takes hold of it, or sets the blade to it. Returns
+  /// true when the body is there but cannot be taken, because the scene holds it.
   bool press(MouseButton button, const render::Vec2f& at, bool shift, const Frame& frame, const Skin& skin,
-             double radius, std::vector<Command>& out);
-  void move(const render::Vec2f& at, std::vector<Command>& out);
+             const panel::ToolInHand& tool, std::vector<Command>& out);
+  /// What is held follows; a blade cuts on from where it was.
+  void move(const render::Vec2f& at, const Frame& frame, const Skin& skin, std::vector<Command>& out);
   void release(MouseButton button, std::vector<Command>& out);
   /// Ends whatever the hand does.
   void let_go(std::vector<Command>& out);
@@ -32,13 +34,19 @@ class Hand {
 
  private:
   bool grasp(const render::Hit& hit, const Frame& frame, const Skin& skin, double radius, std::vector<Command>& out);
+  void cut(const render::Vec2f& at, const Frame& frame, const Skin& skin, std::vector<Command>& out);
+  std::array<Vec3, 2> blade_at(const render::Vec2f& at) const;
 
   panel::Eye& eye_;
   Doing doing_ = Doing::nothing;
-  MouseButton button_ = MouseButton::left;      // that began it
-  render::Vec2f last_ = render::Vec2f::Zero();  // where the mouse was
-  Vec3f held_point_ = Vec3f::Zero();            // m, of the surface, where it was taken
-  Vec3f node_offset_ = Vec3f::Zero();           // m, from there to the node that was taken
+  MouseButton button_ = MouseButton::left;        // that began it
+  render::Vec2f last_ = render::Vec2f::Zero();    // where the mouse was
+  Vec3f held_point_ = Vec3f::Zero();              // m, of the surface, where it was taken
+  Vec3f node_offset_ = Vec3f::Zero();             // m, from there to the node that was taken
+  double depth_ = 0;                              // m, of the blade below held_point_
+  std::array<Vec3, 2> blade_;                     // m, where it has cut up to
+  render::Vec2f cut_to_ = render::Vec2f::Zero();  // the same, in the picture
+  bool goes_on_ = false;                          // this stroke has cut before
 };
 
 }  // namespace heml::window

@@ -88,8 +88,9 @@ void Viewer::draw_marks() {
   const bool free = hand_.doing() == Hand::Doing::nothing && !ImGui::IsAnyItemActive() && ImGui::IsMousePosValid();
   if (!free || panel_->covers(mouse_.x(), mouse_.y())) return;
   if (const auto hit = hand_.under(mouse_, *frame_, *frame_->skin)) {
-    draw_ring(*hit, *frame_, *frame_->skin, eye_, panel_->grasp_radius());
-    ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
+    const bool grasps = panel_->tool().tool == panel::Tool::grasper;
+    draw_ring(*hit, *frame_, *frame_->skin, eye_, grasps ? panel_->tool().radius : 0);
+    if (grasps) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
   }
 }
 
@@ -158,7 +159,7 @@ void Viewer::remove_tissue() {
   const auto hit = points ? hand_.under(mouse_, *frame_, skin) : std::nullopt;
   const int node = hit ? skin.nodes[static_cast<std::size_t>(hit->node)] : frame_->tool.active ? frame_->tool.node : -1;
   ElementSelection which;
-  which.tets = elements_round(node, skin, panel_->grasp_radius());
+  which.tets = elements_round(node, skin, panel_->tool().radius);
   if (which.tets.empty()) return panel_->say("Point at the tissue to remove, or hold it.");
   open_.session->post(RemoveElements{which});
 }
@@ -187,7 +188,7 @@ void Viewer::button(MouseButton button, bool down, bool shift) {
     return post(commands);
   }
   if (panel_->covers(mouse_.x(), mouse_.y())) return;
-  if (hand_.press(button, mouse_, shift, *frame_, *frame_->skin, panel_->grasp_radius(), commands))
+  if (hand_.press(button, mouse_, shift, *frame_, *frame_->skin, panel_->tool(), commands))
     panel_->say("The scene holds this part; take another.");
   post(commands);
   if (button != MouseButton::left || hand_.doing() != Hand::Doing::orbiting) return;
@@ -202,7 +203,7 @@ void Viewer::mouse(const render::Vec2f& at) {
   changed();
   mouse_ = at;
   std::vector<Command> commands;
-  hand_.move(at, commands);
+  hand_.move(at, *frame_, *frame_->skin, commands);
   post(commands);
 }
 

@@ -53,6 +53,9 @@ struct Frame {
   std::optional<Recovery> recovery;        ///< the last one, going on or ended
   std::string recovery_file;               ///< that shows it again; empty: none was written
   std::array<Vec3f, 4> recovered_element;  ///< m, corners of its first bad element, where there is one to name
+  std::optional<EditReport> last_edit;     ///< of the mesh
+  long refusals = 0;                       ///< commands the world would not take, so far
+  std::string refusal;                     ///< why not the last
   std::string halted;                      ///< why the world will not step on; empty while it does
 };
 

@@ -145,7 +145,12 @@ class Session::Impl {
   }
 
   void carry_out(const Command& command) {
-    if (const auto problem = world_->apply(command)) return warn("{}", *problem);
+    if (const auto problem = world_->apply(command)) {
+      ++refusals_;
+      refusal_ = *problem;
+      show_now_ = true;
+      return warn("{}", *problem);
+    }
     if (recorder_) recorder_->command(*world_, command);
     if (!options_.recovery_file.empty()) history_.push_back({world_->ticks(), command});
   }
@@ -212,6 +217,8 @@ class Session::Impl {
     frame.pace = pacer_.pace(began);
     frame.paused = !playing_;
     frame.recovery_file = kept_recovery_;
+    frame.refusals = refusals_;
+    frame.refusal = refusal_;
     frames_.publish();
     published_ = Pacer::Clock::now();
     publish_cost_ = published_ - began;
@@ -227,6 +234,8 @@ class Session::Impl {
   RecoveryWatch watch_;
   std::vector<Event> history_;  ///< every command so far; empty where nobody would want it
   std::string kept_recovery_;   ///< the file of the last one
+  long refusals_ = 0;           ///< of commands
+  std::string refusal_;         ///< why the last
   std::mutex mutex_;            ///< of queue_ and single_steps_; held for a swap at most
   std::condition_variable wake_;
   std::vector<Command> queue_, taken_;

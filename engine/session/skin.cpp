@@ -80,6 +80,8 @@ void fill_frame(World& world, std::shared_ptr<const Skin> skin, Field field, dou
       std::copy(at.begin(), at.end(), frame.recovered_element.begin());
     }
   }
+  frame.last_edit.reset();
+  if (!world.edits().empty()) frame.last_edit = world.edits().back();
   frame.halted = world.halt() ? world.halt()->message : std::string();
   frame.skin = std::move(skin);
 }

@@ -66,14 +66,17 @@ std::optional<std::string> TypedWorld<Real>::take(const CutTissue& command) {
   for (const auto& [tip, end] : command.sweep.blades)
     if (!tip.allFinite() || !end.allFinite()) return "cut: a place of the blade is not finite";
   if (command.sweep.blades.size() < 2) return "cut: the sweep needs the blade at two moments at least";
-  const bool goes_on = command.goes_on && !stroke_.empty();
+  if (!command.goes_on) {
+    stroke_.clear();
+    in_stroke_ = false;
+  }
   if (snap_ == 0) snap_ = snapping_distance(setup_.mesh);
   Cut cut;
-  if (make_cut(command.sweep, setup_.mesh, positions(), *topology_, snap_, goes_on ? stroke_ : std::vector<int>(), cut))
+  if (make_cut(command.sweep, setup_.mesh, positions(), *topology_, snap_, stroke_, cut))
     return std::nullopt;  // through the air
   stroke_ = cut.nodes;
   if (cut.edit.removed.empty()) return std::nullopt;
-  if (!goes_on || !in_stroke_) {
+  if (!in_stroke_) {
     save();
     edits_.push_back(begin_report());
     edits_.back().smallest_angle = 180;

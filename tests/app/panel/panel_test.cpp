@@ -112,14 +112,14 @@ TEST_CASE("a gravity along no axis keeps its direction") {
 
 TEST_CASE("the grasp radius is the panel's to tell") {
   Driver driver;
-  const double before = driver.panel.grasp_radius();
+  const double before = driver.panel.tool().radius;
   CHECK(before > 0);
   const ImVec2 at = driver.find("Grasp radius");
   driver.hold(true);
   driver.draw();
   driver.move({at.x + 40, at.y});
   CHECK(driver.draw().commands.empty());
-  CHECK(driver.panel.grasp_radius() > before);
+  CHECK(driver.panel.tool().radius > before);
 }
 
 TEST_CASE("Del asks for the tissue under the ring to go, and what has gone is told") {

@@ -16,6 +16,9 @@ struct Sheet {
   panel::Eye eye;
   Hand hand{eye};
   std::vector<Command> commands;
+  panel::ToolInHand tool{panel::Tool::grasper, 0.01, 0.02};
+
+  void move(const render::Vec2f& at) { hand.move(at, frame, skin, commands); }
 
   Sheet() {
     skin.nodes = {20, 21, 22, 23};
@@ -29,7 +32,7 @@ struct Sheet {
   }
   render::Vec2f pixel(const Vec3f& point) const { return eye.camera().pixel(point, size); }
   bool press(MouseButton button, const render::Vec2f& at, bool shift = false) {
-    return hand.press(button, at, shift, frame, skin, 0.01, commands);
+    return hand.press(button, at, shift, frame, skin, tool, commands);
   }
 };
 
@@ -46,7 +49,7 @@ TEST_CASE("the left button on the body takes its nearest node and pulls it in th
   CHECK(sheet.hand.doing() == Hand::Doing::grasping);
 
   const Vec3f pulled = point + Vec3f(0.03f, 0.02f, 0);
-  sheet.hand.move(sheet.pixel(pulled), sheet.commands);
+  sheet.move(sheet.pixel(pulled));
   REQUIRE(sheet.commands.size() == 2);
   const Vec3 target = std::get<MoveTool>(sheet.commands[1]).target;
   // The node goes as far as the point under the mouse: no jump when it is taken off its centre.
@@ -56,6 +59,34 @@ TEST_CASE("the left button on the body takes its nearest node and pulls it in th
   REQUIRE(sheet.commands.size() == 3);
   CHECK(std::holds_alternative<Release>(sheet.commands[2]));
   CHECK(sheet.hand.doing() == Hand::Doing::nothing);
+}
+
+TEST_CASE("a scalpel cuts along the line of sight from where it was, and each press begins a stroke of its own") {
+  Sheet sheet;
+  sheet.tool.tool = panel::Tool::scalpel;
+  for (int stroke = 0; stroke < 2; ++stroke) {
+    sheet.commands.clear();
+    CHECK_FALSE(sheet.press(MouseButton::left, sheet.pixel({-0.05f, 0, 0})));
+    CHECK(sheet.hand.doing() == Hand::Doing::cutting);
+    CHECK(sheet.commands.empty());
+    sheet.move(sheet.pixel({-0.0499f, 0, 0}));  // a tremor
+    CHECK(sheet.commands.empty());
+    sheet.move(sheet.pixel({0.02f, 0.01f, 0}));
+    sheet.move(sheet.pixel({0.06f, 0.01f, 0}));
+    REQUIRE(sheet.commands.size() == 2);
+    const CutTissue first = std::get<CutTissue>(sheet.commands[0]), next = std::get<CutTissue>(sheet.commands[1]);
+    CHECK_FALSE(first.goes_on);
+    CHECK(next.goes_on);
+    CHECK(first.sweep.blades[1] == next.sweep.blades[0]);  // no gap
+    const auto& [tip, end] = first.sweep.blades[0];
+    CHECK(tip.z() > 0);  // towards the eye
+    CHECK(end.z() < -0.018);
+    const double at_surface = tip.z() / (tip.z() - end.z());
+    CHECK((tip + at_surface * (end - tip) - Vec3(-0.05, 0, 0)).norm() < 1e-5);
+    sheet.hand.release(MouseButton::left, sheet.commands);
+    CHECK(sheet.commands.size() == 2);
+    CHECK(sheet.hand.doing() == Hand::Doing::nothing);
+  }
 }
 
 TEST_CASE("a held node is not taken, its free neighbour is") {
@@ -87,7 +118,7 @@ TEST_CASE("buttons beside the body turn and move the eye and send nothing") {
     const Vec3f eye = sheet.eye.camera().eye();
     sheet.press(button, beside, shift);
     CHECK(sheet.hand.doing() == doing);
-    sheet.hand.move({25, 15}, sheet.commands);
+    sheet.move({25, 15});
     CHECK((sheet.eye.camera().eye() - eye).norm() > 1e-3f);
     sheet.hand.release(button, sheet.commands);
     CHECK(sheet.hand.doing() == Hand::Doing::nothing);
@@ -109,6 +140,6 @@ TEST_CASE("another button does not end a grasp, and a resting mouse sends nothin
   sheet.press(MouseButton::middle, at);
   sheet.hand.release(MouseButton::middle, sheet.commands);
   CHECK(sheet.hand.doing() == Hand::Doing::grasping);
-  sheet.hand.move(at, sheet.commands);
+  sheet.move(at);
   CHECK(sheet.commands.size() == 1);
 }

@@ -1,4 +1,5 @@
 #include <doctest/doctest.h>
+
 #include <engine/mesh/files.hpp>
 #include <engine/scenario/samples.hpp>
 #include <fstream>
@@ -33,6 +34,12 @@ void record(const std::filesystem::path& path, const Scene& scene) {
     if (tick == 30) command(Release{});
     if (tick == 35) command(SetIntegrator{Integrator::symplectic_euler});
     if (tick == 38) command(SetGravity{Vec3(1, 0, 0)});
+    if (tick == 40)
+      command(CutTissue{{{{Vec3(0.08, -1, -1), Vec3(0.08, -1, 1)}, {Vec3(0.09, 1, -1), Vec3(0.09, 1, 1)}}}, false});
+    if (tick == 42) command(Undo{});
+    if (tick == 43)
+      command(
+          CutTissue{{{{Vec3(0.12, -1, -1), Vec3(0.12, -1, 1)}, {Vec3(0.12, 0.06, -1), Vec3(0.12, 0.06, 1)}}}, true});
     if (tick == 45) command(Reset{});
     world->tick();
     recorder.ticked(*world);
@@ -57,7 +64,7 @@ TEST_CASE("replays a recorded session to the bit") {
   record(folder / "session.jsonl", session_scene());
   const Scene recording = read_scene(folder / "session.jsonl");
   CHECK(recording.recorded_ticks == 50);
-  CHECK(recording.events.size() == 33);
+  CHECK(recording.events.size() == 36);
   const std::unique_ptr<World> world = load_world(recording);
   long calls = 0;
   const ReplayResult result = replay(recording, *world, [&](World& at) { CHECK(at.ticks() == ++calls); });
