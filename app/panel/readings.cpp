@@ -59,7 +59,7 @@ void draw_volume(Rows& rows, const Frame& frame, const History& history) {
                 "have less than 5°."},
                fmt::format("{:.0f}°", cut.smallest_angle));
     rows.value({"Step, before and after", "The longest stable step of explicit methods before and after the last cut."},
-               fmt::format("{} → {}", quantity(cut.step_before, "s"), quantity(cut.step_after, "s")));
+               fmt::format("{}, {}", quantity(cut.step_before, "s"), quantity(cut.step_after, "s")));
   }
   const Curve curves[] = {
       {"Least", colours::potential, [](const Reading& r) { return r.min_J; }},
