@@ -40,6 +40,11 @@ class IncrementalPotential final : public Objective {
     potential_.add_stiffness(matrix);
     for (const int n : free_.node) matrix.add_diagonal(n, a_ * mass_[3 * n]);
   }
+  bool add_stiffness_in_float(BlockRows& rows) override {
+    if (!potential_.add_stiffness_in_float(rows)) return false;
+    for (const int n : free_.node) rows.add_diagonal(n, a_ * mass_[3 * n]);
+    return true;
+  }
 
  private:
   Objective& potential_;

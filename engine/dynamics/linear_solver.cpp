@@ -90,6 +90,7 @@ std::size_t LinearSolver::bytes() const {
     sum += bytes_of(cholesky_->matrixL().nestedExpression()) + bytes_of(cholesky_->vectorD()) +
            2 * sizeof(int) * static_cast<std::size_t>(cholesky_->rows());  // and its permutation, both ways
   if (scalar_) sum += scalar_->bytes();
+  if (in_float_) sum += in_float_->bytes();
   return sum;
 }
 
@@ -143,9 +144,18 @@ bool LinearSolver::solve(Objective& objective, const Vector& r, double tolerance
   ++counts_.solves;
   const double enough = tolerance * r.norm();
   if (!objective.symmetric()) return biconjugate_gradients(objective, r, enough, d);
+  if (takes_float(objective, tolerance))
+    return in_float_->solve(*scalar_, r, tolerance, most_iterations, d, counts_.iterations);
   if (sign == Sign::positive) return conjugate_gradients(objective, r, enough, d);
   apply_factor(r, d);
   return false;
+}
+
+/// Whether float will do, with the stiffness then assembled in it.
+bool LinearSolver::takes_float(Objective& objective, double tolerance) {
+  if (!scalar_ || tolerance < finest_in_float) return false;
+  if (!in_float_) in_float_ = std::make_unique<FloatGradients>(free_, mesh_, team_);
+  return in_float_->assemble(objective, shift_);
 }
 
 bool LinearSolver::conjugate_gradients(Objective& objective, const Vector& r, double enough, Vector& d) {

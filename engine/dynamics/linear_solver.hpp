@@ -3,7 +3,7 @@
 // preconditioners. With the Cholesky factor of the assembled stiffness they end after one iteration, or after a few
 // where the assembled matrix is an approximation.
 #include <Eigen/SparseCholesky>
-#include <heml/dynamics/multilevel.hpp>
+#include <heml/dynamics/float_gradients.hpp>
 #include <heml/dynamics/objective.hpp>
 #include <memory>
 
@@ -61,6 +61,7 @@ class LinearSolver {
   void apply(const Vector& r, Vector& z);
   void apply_factor(const Vector& r, Vector& z);
   void invert_blocks();
+  bool takes_float(Objective& objective, double tolerance);
   bool conjugate_gradients(Objective& objective, const Vector& r, double enough, Vector& d);
   bool biconjugate_gradients(Objective& objective, const Vector& r, double enough, Vector& d);
 
@@ -77,6 +78,7 @@ class LinearSolver {
   std::unique_ptr<Cholesky> cholesky_;
   Vector pivots_;  ///< |D|, in the factor's order
   std::unique_ptr<Multilevel> scalar_;
+  std::unique_ptr<FloatGradients> in_float_;
   std::vector<Mat3> inverse_blocks_;  ///< #free
   std::vector<double> modulus_;
   double a_ = 0, factored_a_ = -1;

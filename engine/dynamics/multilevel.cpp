@@ -1,7 +1,9 @@
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <heml/dynamics/aggregation.hpp>
 #include <heml/dynamics/multilevel.hpp>
+#include <heml/elastic/wide.hpp>
 #include <numbers>
 
 namespace heml {
@@ -20,6 +22,30 @@ const std::array<float, 2> weights = [] {
   }
   return result;
 }();
+
+using Rows = Eigen::SparseMatrix<float, Eigen::RowMajor>;
+typedef float Four __attribute__((vector_size(16)));
+
+[[gnu::always_inline]] inline void rows(const Rows& A, const Triples& x, const auto& write, std::size_t begin,
+                                        std::size_t end) {
+  const int* start = A.outerIndexPtr();
+  const int* column = A.innerIndexPtr();
+  const float* value = A.valuePtr();
+  for (std::size_t i = begin; i < end; ++i) {
+    Four sum = {}, at;
+    for (int k = start[i]; k < start[i + 1]; ++k) {
+      std::memcpy(&at, &x[static_cast<std::size_t>(column[k])], sizeof at);
+      sum += value[k] * at;
+    }
+    Eigen::Array4f of_row;
+    std::memcpy(of_row.data(), &sum, sizeof sum);
+    write(i, of_row);
+  }
+}
+
+HEML_WIDE void wide_rows(const Rows& A, const Triples& x, const auto& write, std::size_t begin, std::size_t end) {
+  rows(A, x, write, begin, end);
+}
 
 }  // namespace
 
@@ -65,15 +91,11 @@ bool Multilevel::set_inertia(double a) {
 /// Calls write(row, (A x) there) for every row.
 template <class Write>
 void Multilevel::each_row(const Rows& A, const Triples& x, const Write& write) const {
-  const int* start = A.outerIndexPtr();
-  const int* column = A.innerIndexPtr();
-  const float* value = A.valuePtr();
   team_.for_ranges(static_cast<std::size_t>(A.rows()), grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      Eigen::Array4f sum = Eigen::Array4f::Zero();
-      for (int k = start[i]; k < start[i + 1]; ++k) sum += value[k] * x[static_cast<std::size_t>(column[k])];
-      write(i, sum);
-    }
+    if (has_wide())
+      wide_rows(A, x, write, begin, end);
+    else
+      rows(A, x, write, begin, end);
   });
 }
 
@@ -99,6 +121,12 @@ void Multilevel::cycle(std::size_t l) {
   cycle(l + 1);
   each_row(level.P, coarse.x, [&](std::size_t i, const Eigen::Array4f& sum) { level.x[i] += sum; });
   for (const float weight : weights) smooth(level, weight);
+}
+
+void Multilevel::apply(const Triples& r, Triples& z) {
+  levels_.front().b = r;
+  cycle(0);
+  z = levels_.front().x;
 }
 
 void Multilevel::apply(const Vector& r, Vector& z) {

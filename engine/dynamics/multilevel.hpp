@@ -31,6 +31,8 @@ class Multilevel {
 
   /// z ≈ (aM + L)⁻¹ r for each axis (3 #V); 0 at nodes that are not free.
   void apply(const Vector& r, Vector& z);
+  /// The same of free nodes alone, #free, of numbers that float can hold.
+  void apply(const Triples& r, Triples& z);
 
   std::size_t levels() const { return levels_.size(); }
   std::size_t bytes() const;

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <heml/dynamics/block_matrix.hpp>
 #include <heml/dynamics/solver_options.hpp>
+#include <heml/elastic/block_rows.hpp>
 #include <optional>
 
 namespace heml {
@@ -28,6 +29,8 @@ class Objective {
   virtual bool symmetric() const { return true; }
   /// Adds the blocks of K between free nodes, its symmetric part, or an approximation of it.
   virtual void add_stiffness(BlockMatrix& matrix) = 0;
+  /// Adds K between free nodes to rows in float, where it is symmetric and they can hold it. Returns whether.
+  virtual bool add_stiffness_in_float(BlockRows&) { return false; }
 };
 
 }  // namespace heml

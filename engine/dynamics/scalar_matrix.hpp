@@ -12,7 +12,6 @@
 namespace heml {
 
 using ScalarMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
-using Triples = std::vector<Eigen::Array4f>;  ///< xyz and padding: one vector register
 
 /// L, #free square, symmetric, whole. mesh: rest shape, positive volumes. modulus: #T, Pa.
 ScalarMatrix scalar_stiffness(const FreeNodes& free, const TetMesh& mesh, const std::vector<double>& modulus);

@@ -250,6 +250,20 @@ void ElasticBody<Real>::force_change(const Real* dx, Real* out, ThreadTeam& team
 }
 
 template <class Real>
+bool ElasticBody<Real>::add_stiffness(BlockRows& rows, ThreadTeam& team) const {
+  if (pressure_) return false;
+  for (const Part& part : parts_)
+    if (!part.terms.empty()) rows.add_elements(part.stiffness.data(), part.group, team);
+  each_spring_stiffness([&](int a, int b, const Real(&block)[3][3]) {
+    Mat3 B;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) B(i, j) = static_cast<double>(block[i][j]);
+    rows.add_edge(a, b, B);
+  });
+  return true;
+}
+
+template <class Real>
 void ElasticBody<Real>::element_stiffness(std::size_t p, std::size_t s, ElementMatrix<Real>& K) const {
   const Part& part = parts_[p];
   Real k[edge_entries];
