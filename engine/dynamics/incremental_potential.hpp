@@ -2,6 +2,7 @@
 // Φ(x) = a/2 ‖x − y‖²_M + U(x): what one step of an implicit method minimises, whatever the method
 // (implicit_stage.hpp).
 #include <heml/dynamics/objective.hpp>
+#include <heml/elastic/block_rows.hpp>
 
 namespace heml {
 

@@ -5,10 +5,11 @@
 #include <Eigen/Core>
 #include <heml/dynamics/block_matrix.hpp>
 #include <heml/dynamics/solver_options.hpp>
-#include <heml/elastic/block_rows.hpp>
 #include <optional>
 
 namespace heml {
+
+class BlockRows;
 
 using Vector = Eigen::VectorXd;  ///< 3 #V: node after node
 

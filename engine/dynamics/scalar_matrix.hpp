@@ -7,6 +7,7 @@
 #include <Eigen/SparseCore>
 #include <heml/dynamics/block_matrix.hpp>
 #include <heml/dynamics/objective.hpp>
+#include <heml/elastic/block_rows.hpp>
 #include <vector>
 
 namespace heml {

@@ -90,9 +90,15 @@ void BlockRows::add_edge(int a, int b, const Mat3& B) {
   add(column, row, -B);
 }
 
-void BlockRows::add_diagonal(int node, double k) {
+void BlockRows::add_node(int node, const Mat3& B) {
   const int row = number_[static_cast<std::size_t>(node)];
-  add(row, row, k * Mat3::Identity());
+  add(row, row, B);
+}
+
+void BlockRows::add_diagonal(int node, double k) {
+  const int row = number_[static_cast<std::size_t>(node)], place = find(row, row);
+  for (int i = 0; place >= 0 && i < 3; ++i)
+    block_[static_cast<std::size_t>(place)].column[i][i] += static_cast<float>(k);
 }
 
 /// What the elements of a group have in blocks [first, last).

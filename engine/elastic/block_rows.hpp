@@ -30,7 +30,8 @@ class BlockRows {
   void add_elements(const Real* K, const ElementGroup<Real>& group, ThreadTeam& team);
   /// Adds [B −B; −B B], B symmetric, of an edge between two nodes.
   void add_edge(int a, int b, const Mat3& B);
-  /// Adds k to the three diagonal entries of a node.
+  /// Adds a symmetric B to the block of a node; k to its three diagonal entries.
+  void add_node(int node, const Mat3& B);
   void add_diagonal(int node, double k);
 
   /// y = K x, #rows.

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <heml/elastic/block_rows.hpp>
 #include <heml/elastic/body.hpp>
 #include <heml/elastic/memory_term.hpp>
 #include <heml/elastic/stiffness_product.hpp>

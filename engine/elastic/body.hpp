@@ -6,7 +6,6 @@
 //               terms of other groups ──► corner forces ──► added at nodes ─┘
 //               nodal pressure ──────────────┘
 #include <heml/base/thread_team.hpp>
-#include <heml/elastic/block_rows.hpp>
 #include <heml/elastic/element_group.hpp>
 #include <heml/elastic/fan_forces.hpp>
 #include <heml/elastic/group_term.hpp>
@@ -22,6 +21,8 @@
 #include <vector>
 
 namespace heml {
+
+class BlockRows;
 
 /// What a viewer may want to know of an element.
 template <class Real>

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <heml/elastic/block_rows.hpp>
 #include <heml/materials/material.hpp>
 #include <heml/world/body_objective.hpp>
 #include <limits>
