@@ -13,6 +13,9 @@ class FloatGradients {
   /// mesh: its elements couple nodes. free and team must outlive this.
   FloatGradients(const FreeNodes& free, const TetMesh& mesh, ThreadTeam& team);
 
+  /// The mesh has lost elements: these are left, by the numbers they had.
+  void keep_elements(const std::vector<int>& elements) { K_.keep_elements(elements); }
+
   /// Takes K where the objective was linearised last, plus shift, N/m, on its diagonal. Returns whether the objective
   /// has it in float.
   bool assemble(Objective& objective, double shift);

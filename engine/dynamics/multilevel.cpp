@@ -51,9 +51,14 @@ HEML_WIDE void wide_rows(const Rows& A, const Triples& x, const auto& write, std
 
 Multilevel::Multilevel(const FreeNodes& free, const TetMesh& mesh, const std::vector<double>& modulus,
                        const Vector& mass, std::size_t most_factored, ThreadTeam& team)
-    : free_(free), team_(team), levels_(1) {
+    : node_(free.node), team_(team), levels_(1) {
   levels_[0].L = scalar_stiffness(free, mesh, modulus);
   levels_[0].M = scalar_mass(free, mass);
+  for (std::size_t row = 0; row < node_.size(); ++row) {
+    if (mass[3 * node_[row]] > 0) continue;
+    left_out_.push_back(row);
+    levels_[0].L.coeffRef(static_cast<int>(row), static_cast<int>(row)) += 1;
+  }
   add_levels(most_factored);
 }
 
@@ -127,22 +132,24 @@ void Multilevel::apply(const Triples& r, Triples& z) {
   levels_.front().b = r;
   cycle(0);
   z = levels_.front().x;
+  for (const std::size_t row : left_out_) z[row].setZero();
 }
 
 void Multilevel::apply(const Vector& r, Vector& z) {
   const double largest = r.cwiseAbs().maxCoeff(), scale = largest > 0 ? largest : 1;  // keeps float in its range
   Level& top = levels_.front();
-  const auto place = [&](std::size_t k) { return 3 * free_.node[k]; };
+  const auto place = [&](std::size_t k) { return 3 * node_[k]; };
   for (std::size_t k = 0; k < top.b.size(); ++k)
     top.b[k] << (r.segment<3>(place(k)) / scale).cast<float>().array(), 0.0f;
   cycle(0);
   z.setZero(r.size());
   for (std::size_t k = 0; k < top.x.size(); ++k)
     z.segment<3>(place(k)) = scale * top.x[k].head<3>().cast<double>().matrix();
+  for (const std::size_t row : left_out_) z.segment<3>(place(row)).setZero();
 }
 
 std::size_t Multilevel::bytes() const {
-  std::size_t sum = bottom_.bytes();
+  std::size_t sum = bottom_.bytes() + bytes_of(node_, left_out_);
   for (const Level& level : levels_)
     sum += bytes_of(level.L, level.M, level.A, level.P, level.R) +
            bytes_of(level.inverse_D, level.b, level.x, level.scratch);

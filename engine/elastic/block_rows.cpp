@@ -3,6 +3,7 @@
 #include <heml/elastic/block_rows.hpp>
 #include <heml/elastic/edge_stiffness.hpp>
 #include <heml/elastic/wide.hpp>
+#include <heml/mesh/edit.hpp>
 
 namespace heml {
 namespace {
@@ -72,6 +73,8 @@ int BlockRows::find(int row, int column) const {
   const auto end = column_.begin() + start_[static_cast<std::size_t>(row) + 1];
   return static_cast<int>(std::lower_bound(begin, end, column) - column_.begin());
 }
+
+void BlockRows::keep_elements(const std::vector<int>& elements) { places_ = with_elements(places_, elements); }
 
 void BlockRows::set_zero() { std::fill(block_.begin(), block_.end(), Block{}); }
 

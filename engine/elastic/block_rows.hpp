@@ -24,6 +24,9 @@ class BlockRows {
   /// number: #V, the row of each node, −1 where it has none.
   BlockRows(const std::vector<int>& number, const std::vector<Tet>& tets);
 
+  /// Leaves the given elements (ascending), numbered anew in that order. Rows and blocks stay.
+  void keep_elements(const std::vector<int>& elements);
+
   void set_zero();
   /// Adds the stiffnesses of the elements of a group, K as in edge_stiffness.hpp. Elements are the tets' numbers.
   template <class Real>

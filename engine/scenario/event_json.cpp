@@ -68,6 +68,7 @@ Command command_from(const Key& key, const std::string& action, std::optional<Ve
   }
   expect_true(value);
   if (action == "release") return Release{};
+  if (action == "factor") return TakeFactor{};
   return Reset{};
 }
 
@@ -81,17 +82,18 @@ Json command_json(const SetIntegrator& set) { return {{"integrator", integrator_
 Json command_json(const SetBudget& set) { return {{"budget", set.iterations}}; }
 Json command_json(const SetStepCost& set) { return {{"step_cost", set.nanoseconds}}; }
 Json command_json(const RemoveElements& remove) { return {{"remove", elements_json(remove.which)}}; }
+Json command_json(const TakeFactor&) { return {{"factor", true}}; }
 Json command_json(const Reset&) { return {{"reset", true}}; }
 
 }  // namespace
 
 void read_script_entry(const Key& key, double tick_length, Script& script) {
   key.allow({"step", "at", "grasp", "move", "release", "material", "damping", "gravity", "integrator", "budget",
-             "step_cost", "remove", "reset", "checkpoint", "nodes", "end"});
+             "step_cost", "remove", "factor", "reset", "checkpoint", "nodes", "end"});
   const long tick = tick_from(key, tick_length);
   const std::string action =
       key.only_one_of({"grasp", "move", "release", "material", "damping", "gravity", "integrator", "budget",
-                       "step_cost", "remove", "reset", "checkpoint", "end"});
+                       "step_cost", "remove", "factor", "reset", "checkpoint", "end"});
   if (action != "checkpoint" && key.has("nodes")) key["nodes"].fail("stands without a checkpoint", "take it away");
   if (action == "checkpoint") {
     const auto nodes = key.find("nodes");

@@ -51,12 +51,16 @@ struct SetStepCost {
 struct RemoveElements {
   ElementSelection which;  ///< of those that are there, mesh-file order
 };
+/// Preconditions implicit steps from now on with what is made for the body as it is now, after elements were removed.
+/// Sessions send it when that has arrived from another thread (World::factor_work); where none has, it is made there
+/// and then, to the same bits.
+struct TakeFactor {};
 /// Back to the initial state at time 0, with all elements there again; ticks go on counting. Materials, damping and the
 /// like stay as they are.
 struct Reset {};
 
 using Command = std::variant<Grasp, MoveTool, Release, SetMaterial, SetDamping, SetGravity, SetIntegrator, SetBudget,
-                             SetStepCost, RemoveElements, Reset>;
+                             SetStepCost, RemoveElements, TakeFactor, Reset>;
 
 /// A command and the tick at whose start it takes effect (the first tick is 0).
 struct Event {

@@ -49,6 +49,7 @@ class TypedWorld final : public World {
   std::vector<std::uint16_t> node_hashes() const override;
   std::shared_ptr<const Topology> topology() const override { return topology_; }
   const std::vector<EditReport>& edits() const override { return edits_; }
+  std::shared_ptr<FactorWork> factor_work() override;
   WorldFacts facts() override;
   const WorldSetup& setup() const override { return setup_; }
 
@@ -127,6 +128,7 @@ class TypedWorld final : public World {
 
   // world_edits.cpp: other elements
   std::optional<std::string> take(const RemoveElements& command);
+  std::optional<std::string> take(const TakeFactor& command);
   void carry_out(const MeshEdit& edit);
   void undo_edits();
 
@@ -162,6 +164,8 @@ class TypedWorld final : public World {
   std::atomic<bool> interrupted_{false};
   bool unfinished_ = false;
   std::unique_ptr<ImplicitParts<Real>> implicit_;  ///< none until an implicit or static method needs it
+  std::shared_ptr<FactorWork> factor_work_;        ///< given out last, if it may still serve
+  long factor_version_ = 0;                        ///< of the topology it is of
   std::unique_ptr<RecoveryParts<Real>> recovery_;  ///< none unless the scene asks for it
   SolverWork work_;
   Integrator method_ = Integrator::verlet;          ///< in use: what "auto" has chosen, else the scene's

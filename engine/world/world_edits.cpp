@@ -1,6 +1,7 @@
 // Edits of the mesh in a running world: what is inside is laid out anew, what people hold and know stays as it is.
 #include <heml/world/typed_world.hpp>
 #include <numeric>
+#include <utility>
 
 namespace heml {
 
@@ -37,8 +38,28 @@ void TypedWorld<Real>::carry_out(const MeshEdit& edit) {
   move_held();  // nodes of no element too
   if (recovery_) recovery_->set_mesh(model_.mesh, mass_);
   if (recovering()) stand_in();
-  implicit_.reset();
+  if (implicit_ && !implicit_->keep_elements(elements, mass_)) implicit_.reset();
   lowest_frequency_.reset();
+}
+
+template <class Real>
+std::shared_ptr<FactorWork> TypedWorld<Real>::factor_work() {
+  if (!implicit_) return nullptr;
+  factor_work_ = implicit_->linear.factor_work();
+  factor_version_ = topology_->version;
+  return factor_work_;
+}
+
+/// What another thread has made, where it is of the body as it is; else the same, made here and now.
+template <class Real>
+std::optional<std::string> TypedWorld<Real>::take(const TakeFactor&) {
+  const bool serves = factor_work_ && factor_work_->done() && factor_version_ == topology_->version;
+  const auto work = serves ? std::exchange(factor_work_, nullptr) : factor_work();
+  factor_work_.reset();
+  if (!work || !implicit_ || !implicit_->linear.is_outdated()) return std::nullopt;
+  if (!serves) work->run();
+  implicit_->linear.take(*work);
+  return std::nullopt;
 }
 
 template <class Real>
