@@ -60,7 +60,8 @@ TEST_CASE("after a removal implicit steps go on with the factor there was, to wh
       CHECK(rms_difference(cut->positions(), built->positions()) <= 1e-11);
       CHECK(rms_difference(cut->velocities(), built->velocities()) <= 1e-9);
       CHECK(cut->solver_work().linear.factorisations - first <= 2);  // one for each a
-      CHECK(old_iterations <= 3 * built_iterations);  // to 1e-11, with a sixth of the body gone
+      // To 1e-11, with a sixth of the body gone.
+      CHECK(old_iterations <= 3 * built_iterations);
       REQUIRE_FALSE(cut->apply(TakeFactor{}));
       const long new_iterations = iterations_of(*cut, 5), beside = iterations_of(*built, 5);
       MESSAGE("iterations with the old one " << old_iterations << ", " << built_iterations << " without the elements; "
