@@ -16,16 +16,17 @@ constexpr int most_relaxation_steps = 80;
 }  // namespace
 
 Equilibrium::Equilibrium(LoadedObjective& body, LinearSolver& linear, const Vector& mass, const FreeNodes& free,
-                         double tolerance, Vector start)
+                         double tolerance, double inertia, Vector start)
     : body_(body),
       linear_(linear),
       mass_(mass),
       free_(free),
+      inertia_(inertia),
       stop_{[&body](const Vector& r) { return body.imbalance(r); }, tolerance},
       x_(std::move(start)) {}
 
 bool Equilibrium::load_to(double fraction, const std::atomic<bool>& stop) {
-  linear_.set_inertia(0);
+  linear_.set_inertia(inertia_);
   if (!solved_ && fraction <= load_) return increment(load_) || relax(load_);
   while (load_ < fraction) {
     if (stop) return false;
@@ -106,7 +107,7 @@ bool Equilibrium::relax(double next) {
     reached = body_.imbalance(r) <= stop_.limit;
     a *= newton.end == NewtonResult::End::converged ? 1.0 / 8 : newton.end == NewtonResult::End::stalled ? 16 : 1.0 / 2;
   }
-  linear_.set_inertia(0);
+  linear_.set_inertia(inertia_);
   return reached && keep(next, x);
 }
 

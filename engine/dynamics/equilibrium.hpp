@@ -30,9 +30,10 @@ class LoadedObjective : public Objective {
 
 class Equilibrium {
  public:
-  /// start: 3 #V, the state at load 0. mass: 3 #V, kg, 0 where not free. All must outlive this.
+  /// start: 3 #V, the state at load 0. mass: 3 #V, kg, 0 where not free. inertia: 1/s², of the scalar matrix that
+  /// preconditions; 0 where the body is held. All must outlive this.
   Equilibrium(LoadedObjective& body, LinearSolver& linear, const Vector& mass, const FreeNodes& free, double tolerance,
-              Vector start);
+              double inertia, Vector start);
 
   /// Goes on to a fraction of the load. Returns false where no equilibrium is found, or when told to stop: load() and
   /// x() are then the last ones found.
@@ -58,6 +59,7 @@ class Equilibrium {
   LinearSolver& linear_;
   const Vector& mass_;
   const FreeNodes& free_;
+  double inertia_;
   Stop stop_;
   Vector x_;
   double load_ = 0, step_ = 1, imbalance_ = 0;

@@ -2,6 +2,7 @@
 // Φ(x) = a/2 ‖x − y‖²_M + U(x): what one step of an implicit method minimises, whatever the method
 // (implicit_stage.hpp).
 #include <heml/dynamics/objective.hpp>
+#include <heml/elastic/block_rows.hpp>
 
 namespace heml {
 
@@ -39,6 +40,11 @@ class IncrementalPotential final : public Objective {
   void add_stiffness(BlockMatrix& matrix) override {
     potential_.add_stiffness(matrix);
     for (const int n : free_.node) matrix.add_diagonal(n, a_ * mass_[3 * n]);
+  }
+  bool add_stiffness_in_float(BlockRows& rows) override {
+    if (!potential_.add_stiffness_in_float(rows)) return false;
+    for (const int n : free_.node) rows.add_diagonal(n, a_ * mass_[3 * n]);
+    return true;
   }
 
  private:

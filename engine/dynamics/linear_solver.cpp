@@ -3,12 +3,14 @@
 #include <cassert>
 #include <cmath>
 #include <heml/dynamics/linear_solver.hpp>
+#include <heml/mesh/edit.hpp>
 
 namespace heml {
 namespace {
 constexpr int most_iterations = 500;
 constexpr double first_shift = 1e-4;          // of the stiffness along the residual
 constexpr double projected_tolerance = 1e-2;  // an approximation need not be solved exactly
+constexpr double still_serves = 2.0 / 3;      // of its elements, what a body must have for an outdated factor
 constexpr double changed_a_lot = 3;           // a factor of aM + L serves while a is within this of its own
 }  // namespace
 
@@ -90,15 +92,47 @@ std::size_t LinearSolver::bytes() const {
     sum += bytes_of(cholesky_->matrixL().nestedExpression()) + bytes_of(cholesky_->vectorD()) +
            2 * sizeof(int) * static_cast<std::size_t>(cholesky_->rows());  // and its permutation, both ways
   if (scalar_) sum += scalar_->bytes();
+  if (in_float_) sum += in_float_->bytes();
   return sum;
+}
+
+std::size_t LinearSolver::most_factored() const {
+  return preconditioner_ == Preconditioner::multilevel ? most_factored_once : free_.node.size();
+}
+
+bool LinearSolver::keep_elements(const std::vector<int>& elements) {
+  if (!scalar_) return false;
+  modulus_ = with_elements(modulus_, elements);
+  if (in_float_) in_float_->keep_elements(elements);
+  std::vector<std::size_t> bare;
+  for (std::size_t row = 0; row < free_.node.size(); ++row)
+    if (!(mass_[3 * free_.node[row]] > 0)) bare.push_back(row);
+  scalar_->leave_out(std::move(bare));
+  outdated_ = true;
+  return true;
+}
+
+std::shared_ptr<FactorWork> LinearSolver::factor_work() const {
+  if (!outdated_) return nullptr;
+  return std::make_shared<FactorWork>(free_, mesh_, modulus_, mass_, most_factored(), a_, team_);
+}
+
+void LinearSolver::take(FactorWork& work) {
+  scalar_ = work.take();
+  made_of_ = modulus_.size();
+  outdated_ = false;
+  ++counts_.factorisations;
+  factored_a_ = work.is_definite() && work.a() == a_ ? a_ : -1;
+  factor_scalar();  // the same factor whenever the work began
 }
 
 /// Of aM + L, where it has changed a lot.
 bool LinearSolver::factor_scalar() {
-  if (!scalar_) {
-    const bool levels = preconditioner_ == Preconditioner::multilevel;
-    scalar_ = std::make_unique<Multilevel>(free_, mesh_, modulus_, mass_,
-                                           levels ? most_factored_once : free_.node.size(), team_);
+  if (!scalar_ || (outdated_ && static_cast<double>(modulus_.size()) < still_serves * static_cast<double>(made_of_))) {
+    scalar_ = std::make_unique<Multilevel>(free_, mesh_, modulus_, mass_, most_factored(), team_);
+    made_of_ = modulus_.size();
+    outdated_ = false;
+    factored_a_ = -1;
   }
   if (factored_a_ >= 0 && a_ <= changed_a_lot * factored_a_ && factored_a_ <= changed_a_lot * a_) return true;
   ++counts_.factorisations;
@@ -143,9 +177,18 @@ bool LinearSolver::solve(Objective& objective, const Vector& r, double tolerance
   ++counts_.solves;
   const double enough = tolerance * r.norm();
   if (!objective.symmetric()) return biconjugate_gradients(objective, r, enough, d);
+  if (takes_float(objective, tolerance))
+    return in_float_->solve(*scalar_, r, tolerance, most_iterations, d, counts_.iterations);
   if (sign == Sign::positive) return conjugate_gradients(objective, r, enough, d);
   apply_factor(r, d);
   return false;
+}
+
+/// Whether float will do, with the stiffness then assembled in it.
+bool LinearSolver::takes_float(Objective& objective, double tolerance) {
+  if (!scalar_ || tolerance < finest_in_float) return false;
+  if (!in_float_) in_float_ = std::make_unique<FloatGradients>(free_, mesh_, team_);
+  return in_float_->assemble(objective, shift_);
 }
 
 bool LinearSolver::conjugate_gradients(Objective& objective, const Vector& r, double enough, Vector& d) {

@@ -3,7 +3,8 @@
 // preconditioners. With the Cholesky factor of the assembled stiffness they end after one iteration, or after a few
 // where the assembled matrix is an approximation.
 #include <Eigen/SparseCholesky>
-#include <heml/dynamics/multilevel.hpp>
+#include <heml/dynamics/factor_work.hpp>
+#include <heml/dynamics/float_gradients.hpp>
 #include <heml/dynamics/objective.hpp>
 #include <memory>
 
@@ -28,6 +29,18 @@ class LinearSolver {
   /// free, mass (3 #V, kg), team must outlive this. mesh: rest shape. modulus: #T, Pa, for the scalar matrix.
   LinearSolver(const FreeNodes& free, const TetMesh& mesh, const std::vector<double>& modulus, const Vector& mass,
                Preconditioner preconditioner, Projection projection, ThreadTeam& team);
+
+  /// The mesh has lost elements: these are left, by the numbers they had (ascending); mass has followed, and the nodes
+  /// that lost all elements have none, though free still names them. What preconditions goes on as it is, with few
+  /// more iterations while most of the body is there, and is made anew once a third of it is gone. Returns false where
+  /// it cannot: make another solver.
+  bool keep_elements(const std::vector<int>& elements);
+  /// Whether what preconditions is of a body with more elements.
+  bool is_outdated() const { return outdated_; }
+  /// Makes another of the body as it is now. Null where there is nothing to make.
+  std::shared_ptr<FactorWork> factor_work() const;
+  /// Preconditions with what such work has made (done, and of the body as it is now) from now on.
+  void take(FactorWork& work);
 
   /// Tells the a of Φ = a/2 ‖x − y‖²_M + U. The scalar matrix is factored again where it has changed a lot.
   void set_inertia(double a);
@@ -58,9 +71,11 @@ class LinearSolver {
   Sign factor();
   Sign prepare(Objective& objective);
   bool factor_scalar();
+  std::size_t most_factored() const;
   void apply(const Vector& r, Vector& z);
   void apply_factor(const Vector& r, Vector& z);
   void invert_blocks();
+  bool takes_float(Objective& objective, double tolerance);
   bool conjugate_gradients(Objective& objective, const Vector& r, double enough, Vector& d);
   bool biconjugate_gradients(Objective& objective, const Vector& r, double enough, Vector& d);
 
@@ -77,9 +92,12 @@ class LinearSolver {
   std::unique_ptr<Cholesky> cholesky_;
   Vector pivots_;  ///< |D|, in the factor's order
   std::unique_ptr<Multilevel> scalar_;
+  std::unique_ptr<FloatGradients> in_float_;
   std::vector<Mat3> inverse_blocks_;  ///< #free
   std::vector<double> modulus_;
   double a_ = 0, factored_a_ = -1;
+  bool outdated_ = false;
+  std::size_t made_of_ = 0;  ///< elements, what preconditions
   LinearCounts counts_;
 };
 

@@ -1,7 +1,9 @@
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <heml/dynamics/aggregation.hpp>
 #include <heml/dynamics/multilevel.hpp>
+#include <heml/elastic/wide.hpp>
 #include <numbers>
 
 namespace heml {
@@ -21,13 +23,42 @@ const std::array<float, 2> weights = [] {
   return result;
 }();
 
+using Rows = Eigen::SparseMatrix<float, Eigen::RowMajor>;
+typedef float Four __attribute__((vector_size(16)));
+
+[[gnu::always_inline]] inline void rows(const Rows& A, const Triples& x, const auto& write, std::size_t begin,
+                                        std::size_t end) {
+  const int* start = A.outerIndexPtr();
+  const int* column = A.innerIndexPtr();
+  const float* value = A.valuePtr();
+  for (std::size_t i = begin; i < end; ++i) {
+    Four sum = {}, at;
+    for (int k = start[i]; k < start[i + 1]; ++k) {
+      std::memcpy(&at, &x[static_cast<std::size_t>(column[k])], sizeof at);
+      sum += value[k] * at;
+    }
+    Eigen::Array4f of_row;
+    std::memcpy(of_row.data(), &sum, sizeof sum);
+    write(i, of_row);
+  }
+}
+
+HEML_WIDE void wide_rows(const Rows& A, const Triples& x, const auto& write, std::size_t begin, std::size_t end) {
+  rows(A, x, write, begin, end);
+}
+
 }  // namespace
 
 Multilevel::Multilevel(const FreeNodes& free, const TetMesh& mesh, const std::vector<double>& modulus,
                        const Vector& mass, std::size_t most_factored, ThreadTeam& team)
-    : free_(free), team_(team), levels_(1) {
+    : node_(free.node), team_(team), levels_(1) {
   levels_[0].L = scalar_stiffness(free, mesh, modulus);
   levels_[0].M = scalar_mass(free, mass);
+  for (std::size_t row = 0; row < node_.size(); ++row) {
+    if (mass[3 * node_[row]] > 0) continue;
+    left_out_.push_back(row);
+    levels_[0].L.coeffRef(static_cast<int>(row), static_cast<int>(row)) += 1;
+  }
   add_levels(most_factored);
 }
 
@@ -65,15 +96,11 @@ bool Multilevel::set_inertia(double a) {
 /// Calls write(row, (A x) there) for every row.
 template <class Write>
 void Multilevel::each_row(const Rows& A, const Triples& x, const Write& write) const {
-  const int* start = A.outerIndexPtr();
-  const int* column = A.innerIndexPtr();
-  const float* value = A.valuePtr();
   team_.for_ranges(static_cast<std::size_t>(A.rows()), grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      Eigen::Array4f sum = Eigen::Array4f::Zero();
-      for (int k = start[i]; k < start[i + 1]; ++k) sum += value[k] * x[static_cast<std::size_t>(column[k])];
-      write(i, sum);
-    }
+    if (has_wide())
+      wide_rows(A, x, write, begin, end);
+    else
+      rows(A, x, write, begin, end);
   });
 }
 
@@ -101,20 +128,28 @@ void Multilevel::cycle(std::size_t l) {
   for (const float weight : weights) smooth(level, weight);
 }
 
+void Multilevel::apply(const Triples& r, Triples& z) {
+  levels_.front().b = r;
+  cycle(0);
+  z = levels_.front().x;
+  for (const std::size_t row : left_out_) z[row].setZero();
+}
+
 void Multilevel::apply(const Vector& r, Vector& z) {
   const double largest = r.cwiseAbs().maxCoeff(), scale = largest > 0 ? largest : 1;  // keeps float in its range
   Level& top = levels_.front();
-  const auto place = [&](std::size_t k) { return 3 * free_.node[k]; };
+  const auto place = [&](std::size_t k) { return 3 * node_[k]; };
   for (std::size_t k = 0; k < top.b.size(); ++k)
     top.b[k] << (r.segment<3>(place(k)) / scale).cast<float>().array(), 0.0f;
   cycle(0);
   z.setZero(r.size());
   for (std::size_t k = 0; k < top.x.size(); ++k)
     z.segment<3>(place(k)) = scale * top.x[k].head<3>().cast<double>().matrix();
+  for (const std::size_t row : left_out_) z.segment<3>(place(row)).setZero();
 }
 
 std::size_t Multilevel::bytes() const {
-  std::size_t sum = bottom_.bytes();
+  std::size_t sum = bottom_.bytes() + bytes_of(node_, left_out_);
   for (const Level& level : levels_)
     sum += bytes_of(level.L, level.M, level.A, level.P, level.R) +
            bytes_of(level.inverse_D, level.b, level.x, level.scratch);

@@ -22,15 +22,21 @@ namespace heml {
 class Multilevel {
  public:
   /// mesh: rest shape. modulus: #T, Pa. mass: 3 #V, kg. most_factored: unknowns up to which a level is factored rather
-  /// than coarsened. free and team must outlive this.
+  /// than coarsened. Nodes without mass and elements count as fixed. team must outlive this.
   Multilevel(const FreeNodes& free, const TetMesh& mesh, const std::vector<double>& modulus, const Vector& mass,
              std::size_t most_factored, ThreadTeam& team);
 
   /// a: 1/s². Returns whether aM + L is positive definite.
   bool set_inertia(double a);
 
+  /// Takes nodes for fixed from now on that were not: z is 0 there. What is left is symmetric and positive definite as
+  /// before, and near to what it would be anew while they are few. rows: of free nodes.
+  void leave_out(std::vector<std::size_t> rows) { left_out_ = std::move(rows); }
+
   /// z ≈ (aM + L)⁻¹ r for each axis (3 #V); 0 at nodes that are not free.
   void apply(const Vector& r, Vector& z);
+  /// The same of free nodes alone, #free, of numbers that float can hold.
+  void apply(const Triples& r, Triples& z);
 
   std::size_t levels() const { return levels_.size(); }
   std::size_t bytes() const;
@@ -51,7 +57,8 @@ class Multilevel {
   template <class Write>
   void each_row(const Rows& A, const Triples& x, const Write& write) const;
 
-  const FreeNodes& free_;
+  std::vector<int> node_;  ///< of each row
+  std::vector<std::size_t> left_out_;
   ThreadTeam& team_;
   std::vector<Level> levels_;
   ScalarFactor bottom_;

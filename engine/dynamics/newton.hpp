@@ -21,7 +21,7 @@ struct Stop {
 struct NewtonOptions {
   int most_iterations = 60;
   double linear_tolerance = 1e-2;  ///< of the first solve, ‖residual‖/‖r‖; later ones are tightened as Newton converges
-  double tightest_linear = 1e-6;  ///< to this at most
+  double tightest_linear = finest_in_float;  ///< to this at most: what is left costs the next iteration less
 };
 
 struct NewtonResult {

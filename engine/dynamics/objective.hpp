@@ -9,6 +9,8 @@
 
 namespace heml {
 
+class BlockRows;
+
 using Vector = Eigen::VectorXd;  ///< 3 #V: node after node
 
 class Objective {
@@ -28,6 +30,8 @@ class Objective {
   virtual bool symmetric() const { return true; }
   /// Adds the blocks of K between free nodes, its symmetric part, or an approximation of it.
   virtual void add_stiffness(BlockMatrix& matrix) = 0;
+  /// Adds K between free nodes to rows in float, where it is symmetric and they can hold it. Returns whether.
+  virtual bool add_stiffness_in_float(BlockRows&) { return false; }
 };
 
 }  // namespace heml

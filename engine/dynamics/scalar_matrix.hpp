@@ -7,12 +7,12 @@
 #include <Eigen/SparseCore>
 #include <heml/dynamics/block_matrix.hpp>
 #include <heml/dynamics/objective.hpp>
+#include <heml/elastic/block_rows.hpp>
 #include <vector>
 
 namespace heml {
 
 using ScalarMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
-using Triples = std::vector<Eigen::Array4f>;  ///< xyz and padding: one vector register
 
 /// L, #free square, symmetric, whole. mesh: rest shape, positive volumes. modulus: #T, Pa.
 ScalarMatrix scalar_stiffness(const FreeNodes& free, const TetMesh& mesh, const std::vector<double>& modulus);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <heml/elastic/block_rows.hpp>
 #include <heml/elastic/body.hpp>
 #include <heml/elastic/memory_term.hpp>
 #include <heml/elastic/stiffness_product.hpp>
@@ -247,6 +248,20 @@ void ElasticBody<Real>::force_change(const Real* dx, Real* out, ThreadTeam& team
   if (pressure_) pressure_->add_force_change(x, dx, corner_.data(), team);
   gather_corners(corners_, out, false, team);
   if (!springs_.empty()) springs_.add_force_change(x, dx, out, projected_, team);
+}
+
+template <class Real>
+bool ElasticBody<Real>::add_stiffness(BlockRows& rows, ThreadTeam& team) const {
+  if (pressure_) return false;
+  for (const Part& part : parts_)
+    if (!part.terms.empty()) rows.add_elements(part.stiffness.data(), part.group, team);
+  each_spring_stiffness([&](int a, int b, const Real(&block)[3][3]) {
+    Mat3 B;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) B(i, j) = static_cast<double>(block[i][j]);
+    rows.add_edge(a, b, B);
+  });
+  return true;
 }
 
 template <class Real>

@@ -22,6 +22,8 @@
 
 namespace heml {
 
+class BlockRows;
+
 /// What a viewer may want to know of an element.
 template <class Real>
 struct ElementState {
@@ -70,6 +72,10 @@ class ElasticBody {
   void project(Projection projection, ThreadTeam& team);
   /// −K dx into out (3 #V, overwritten), N: change of the forces with a change dx of the positions.
   void force_change(const Real* dx, Real* out, ThreadTeam& team);
+
+  /// Adds K to rows between free nodes. Returns false, with nothing added, where they cannot hold it: averaged nodal
+  /// pressure couples nodes that share no element.
+  bool add_stiffness(BlockRows& rows, ThreadTeam& team) const;
 
   /// Calls visit(nodes (4 inner numbers), K) for every element's part of K in turn. With nodal pressure its part is an
   /// approximation of the element alone.

@@ -82,6 +82,7 @@ Command command_from(const Key& key, const std::string& action, std::optional<Ve
   expect_true(value);
   if (action == "release") return Release{};
   if (action == "undo") return Undo{};
+  if (action == "factor") return TakeFactor{};
   return Reset{};
 }
 
@@ -103,17 +104,18 @@ Json command_json(const CutTissue& cut) {
   return {{"cut", std::move(json)}};
 }
 Json command_json(const Undo&) { return {{"undo", true}}; }
+Json command_json(const TakeFactor&) { return {{"factor", true}}; }
 Json command_json(const Reset&) { return {{"reset", true}}; }
 
 }  // namespace
 
 void read_script_entry(const Key& key, double tick_length, Script& script) {
   key.allow({"step", "at", "grasp", "move", "release", "material", "damping", "gravity", "integrator", "budget",
-             "step_cost", "remove", "cut", "undo", "reset", "checkpoint", "nodes", "end"});
+             "step_cost", "remove", "cut", "factor", "undo", "reset", "checkpoint", "nodes", "end"});
   const long tick = tick_from(key, tick_length);
   const std::string action =
       key.only_one_of({"grasp", "move", "release", "material", "damping", "gravity", "integrator", "budget",
-                       "step_cost", "remove", "cut", "undo", "reset", "checkpoint", "end"});
+                       "step_cost", "remove", "cut", "factor", "undo", "reset", "checkpoint", "end"});
   if (action != "checkpoint" && key.has("nodes")) key["nodes"].fail("stands without a checkpoint", "take it away");
   if (action == "checkpoint") {
     const auto nodes = key.find("nodes");

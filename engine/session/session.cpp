@@ -10,6 +10,7 @@
 #include <heml/scenario/schedule.hpp>
 #include <heml/session/budget_keeper.hpp>
 #include <heml/session/cost_keeper.hpp>
+#include <heml/session/factor_keeper.hpp>
 #include <heml/session/mailbox.hpp>
 #include <heml/session/pacer.hpp>
 #include <heml/session/session.hpp>
@@ -167,6 +168,7 @@ class Session::Impl {
     const auto began = Pacer::Clock::now();
     if (options_.before_tick) options_.before_tick();
     for (const Event& event : schedule_.due(world_->ticks())) carry_out(event.command);
+    if (factor_keeper_.arrived(*world_)) carry_out(TakeFactor{});
     world_->tick();
     if (recorder_) recorder_->ticked(*world_);
     learn(std::chrono::duration<double>(Pacer::Clock::now() - began).count());
@@ -245,6 +247,7 @@ class Session::Impl {
 
   std::optional<BudgetKeeper> budget_keeper_;  ///< where the scene's budget is in milliseconds
   std::optional<CostKeeper> cost_keeper_;      ///< where the scene leaves the method to the engine
+  FactorKeeper factor_keeper_;
   Pacer pacer_;
   bool frames_published_since_pause_ = false;
   Pacer::Time published_{};

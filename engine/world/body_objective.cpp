@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <heml/elastic/block_rows.hpp>
 #include <heml/materials/material.hpp>
 #include <heml/world/body_objective.hpp>
 #include <limits>
@@ -7,7 +8,8 @@
 namespace heml {
 namespace {
 
-constexpr double nothing = 1e-12;  // N: forces below vanish (contract, "tolerance")
+constexpr std::size_t values_remembered = 3;  // where a step began, where it would fly, where it has come
+constexpr double nothing = 1e-12;             // N: forces below vanish (contract, "tolerance")
 
 Mat3 cross_matrix(const Vec3& w) {
   Mat3 result;
@@ -151,7 +153,7 @@ void BodyObjective<Real>::add_external(const Real* x, const Vector& x_double) {
 template <class Real>
 void BodyObjective<Real>::forget_answers() {
   forces_at_.resize(0);
-  value_at_.resize(0);
+  values_.clear();
 }
 
 template <class Real>
@@ -177,11 +179,10 @@ void BodyObjective<Real>::find_forces(const Vector& x) {
 template <class Real>
 std::optional<double> BodyObjective<Real>::value(const Vector& x) {
   if (!model_.pressures.empty()) return std::nullopt;
-  if (value_at_.size() == 0 || value_at_ != x) {
-    value_ = find_value(x);
-    value_at_ = x;
-  }
-  return value_;
+  for (const auto& [at, value] : values_)
+    if (at == x) return value;
+  if (values_.size() == values_remembered) values_.pop_front();
+  return values_.emplace_back(x, find_value(x)).second;
 }
 
 template <class Real>
@@ -276,6 +277,20 @@ void BodyObjective<Real>::add_stiffness(BlockMatrix& matrix) {
       matrix.add_pair(face[i], face[j], p / 2 * cross_matrix(w[i] - w[j]));
     }
   });
+  add_diagonal(matrix);
+}
+
+template <class Real>
+bool BodyObjective<Real>::add_stiffness_in_float(BlockRows& rows) {
+  if (!symmetric() || !body_.add_stiffness(rows, team_)) return false;
+  add_diagonal(rows);
+  return true;
+}
+
+/// What grasps and the anchor have.
+template <class Real>
+template <class Matrix>
+void BodyObjective<Real>::add_diagonal(Matrix& matrix) const {
   for (const auto& grasp : grasps_)
     grasp.each_stiffness([&](int n, Real k, Real damping) {
       matrix.add_diagonal(n, static_cast<double>(k) + (d_ > 0 ? static_cast<double>(damping) / d_ : 0));

@@ -4,11 +4,13 @@
 //
 // Pressure follows the surface and has no potential in general: with it value() has nothing to say, products are not
 // symmetric, and the assembled stiffness has the symmetric part of pressure's.
+#include <deque>
 #include <heml/base/thread_team.hpp>
 #include <heml/dynamics/equilibrium.hpp>
 #include <heml/elastic/body.hpp>
 #include <heml/tools/grasp.hpp>
 #include <heml/world/model.hpp>
+#include <utility>
 
 namespace heml {
 
@@ -41,6 +43,7 @@ class BodyObjective final : public LoadedObjective {
   void product(const Vector& dx, Vector& out) override;
   bool symmetric() const override { return linearised_at_.size() == 0; }
   void add_stiffness(BlockMatrix& matrix) override;
+  bool add_stiffness_in_float(BlockRows& rows) override;
 
   /// Force of all loads and gravity together at the last residual(), as a part of their sizes' sum: 0 where they
   /// balance.
@@ -57,6 +60,8 @@ class BodyObjective final : public LoadedObjective {
   void find_forces(const Vector& x);
   double find_value(const Vector& x);
   void add_external(const Real* x, const Vector& x_double);
+  template <class Matrix>
+  void add_diagonal(Matrix& matrix) const;
   template <class Visit>
   void each_pressed_face(const Vector& x, const Visit& visit) const;
   int count_inverted(const Vector& x) const;
@@ -74,9 +79,9 @@ class BodyObjective final : public LoadedObjective {
   int inverted_at_start_ = 0;
   Vector forces_, external_;
   // Solvers ask again where they have just been; both are empty where time, loads or memory have changed since.
-  Vector forces_at_, value_at_;
+  Vector forces_at_;
+  std::deque<std::pair<Vector, double>> values_;  ///< positions and Φ there, of the last few
   bool is_defined_ = true;
-  double value_ = 0;
   Vector linearised_at_;              ///< 3 #V, where pressure that follows the surface is part of K, else empty
   std::vector<Real> x_, dx_, f_, v_;  ///< scratch
 };

@@ -61,12 +61,16 @@ struct CutTissue {
 /// Takes back the last removal or stroke: elements and positions are what they were before it, what happened since is
 /// forgotten, time goes on.
 struct Undo {};
+/// Preconditions implicit steps from now on with what is made for the body as it is now, after elements were removed.
+/// Sessions send it when that has arrived from another thread (World::factor_work); where none has, it is made there
+/// and then, to the same bits.
+struct TakeFactor {};
 /// Back to the initial state at time 0, with all elements there again; ticks go on counting. Materials, damping and the
 /// like stay as they are.
 struct Reset {};
 
 using Command = std::variant<Grasp, MoveTool, Release, SetMaterial, SetDamping, SetGravity, SetIntegrator, SetBudget,
-                             SetStepCost, RemoveElements, CutTissue, Undo, Reset>;
+                             SetStepCost, RemoveElements, CutTissue, Undo, TakeFactor, Reset>;
 
 /// A command and the tick at whose start it takes effect (the first tick is 0).
 struct Event {

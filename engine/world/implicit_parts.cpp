@@ -44,6 +44,13 @@ ImplicitParts<Real>::ImplicitParts(ElasticBody<Real>& elastic, const Model<Real>
       linear(free, model.mesh, modulus, mass, preconditioner_of(solver, free.node.size()), solver.projection, team),
       step(body, mass, free) {}
 
+template <class Real>
+bool ImplicitParts<Real>::keep_elements(const std::vector<int>& elements, const std::vector<Real>& masses) {
+  mass = thrice(free, masses);
+  h_before = 0;  // BDF2 starts anew
+  return !equilibrium && linear.keep_elements(elements);
+}
+
 template struct ImplicitParts<float>;
 template struct ImplicitParts<double>;
 

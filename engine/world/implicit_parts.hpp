@@ -25,6 +25,9 @@ struct ImplicitParts {
   ImplicitParts(ElasticBody<Real>& elastic, const Model<Real>& model, const std::vector<Real>& masses,
                 const std::vector<Real>& inverse_mass, const std::vector<double>& modulus,
                 const std::vector<GraspSpring<Real>>& grasps, ThreadTeam& team, const SolverSettings& solver);
+  /// Elements have gone: these are left, by the numbers they had; model and masses have followed. Returns false where
+  /// parts have to be made anew.
+  bool keep_elements(const std::vector<int>& elements, const std::vector<Real>& masses);
   ImplicitParts(const ImplicitParts&) = delete;
   ImplicitParts& operator=(const ImplicitParts&) = delete;
 };

@@ -159,20 +159,26 @@ Vector TypedWorld<Real>::stage_start(const Stage& stage, double time, const Vect
   const auto place_held = [&](Vector& to) {
     for (const HeldNode& held : model_.held) to.segment<3>(3 * held.node) = held_at(model_, held, time).x;
   };
-  Vector stay = x, fly = stage.y(setup_.solver.damping), r_stay, r_fly;
+  Vector stay = x, fly = stage.y(setup_.solver.damping), r_stay, r_fly, r;
   for (Eigen::Index i = 0; i < fly.size(); ++i)
     if (!(parts.mass[i] > 0)) fly[i] = x[i];
   place_held(stay);
   place_held(fly);
-  const bool can_stay = parts.step.residual(stay, r_stay) && r_stay.allFinite();
-  const bool can_fly = parts.step.residual(fly, r_fly) && r_fly.allFinite();
-  if (can_stay && can_fly) {
-    const auto staying = parts.step.value(stay), flying = parts.step.value(fly);
-    return (staying ? *flying < *staying : r_fly.norm() < r_stay.norm()) ? fly : stay;
+  const auto is_defined = [&](const Vector& at, Vector& r_there) {
+    return parts.step.residual(at, r_there) && r_there.allFinite();
+  };
+  const auto staying = parts.step.value(stay), flying = parts.step.value(fly);
+  if (staying && flying) {
+    const bool flies = *flying < *staying;
+    const Vector &lower = flies ? fly : stay, &higher = flies ? stay : fly;
+    if (is_defined(lower, r)) return lower;
+    if (is_defined(higher, r)) return higher;
+  } else {
+    const bool can_stay = is_defined(stay, r_stay), can_fly = is_defined(fly, r_fly);
+    if (can_stay && can_fly) return r_fly.norm() < r_stay.norm() ? fly : stay;
+    if (can_stay || can_fly) return can_stay ? stay : fly;
   }
-  if (can_stay) return stay;
-  if (can_fly) return fly;
-  Vector r, stretched, d;
+  Vector stretched, d;
   if (!parts.step.residual(x, r)) return stay;
   parts.step.linearise(x);
   parts.step.product(stay - x, stretched);

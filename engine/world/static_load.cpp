@@ -7,7 +7,8 @@
 
 namespace heml {
 namespace {
-constexpr double anchor = 1e-9;  // of the highest ω²: what holds a body that nothing else holds, while it is solved
+// Of the highest ω²: what holds a body that nothing else holds, while it is solved; and what stands for it in float.
+constexpr double anchor = 1e-9, anchor_in_float = 1e-6;
 
 /// Whether the loads on a body that nothing holds have a sum. x: positions, 3 #V.
 template <class Real>
@@ -31,10 +32,11 @@ void TypedWorld<Real>::load_to(double fraction) {
       Eigen::Map<const Eigen::Matrix<Real, Eigen::Dynamic, 1>>(state_.x.data(), size).template cast<double>();
   parts.body.begin_static(duration, setup_.gravity, start);
   if (!parts.equilibrium) {
-    if (!well_held(model_.mesh, model_.held))
-      parts.body.set_anchor(anchor * static_cast<double>(rest_frequency_ * rest_frequency_));
-    parts.equilibrium.emplace(parts.body, parts.linear, parts.mass, parts.free,
-                              setup_.solver.relative_tolerance(), start);
+    const double highest = static_cast<double>(rest_frequency_ * rest_frequency_);
+    const bool held = well_held(model_.mesh, model_.held);
+    if (!held) parts.body.set_anchor(anchor * highest);
+    parts.equilibrium.emplace(parts.body, parts.linear, parts.mass, parts.free, setup_.solver.relative_tolerance(),
+                              held ? 0 : anchor_in_float * highest, start);
   }
   Equilibrium& equilibrium = *parts.equilibrium;
   work_.load = equilibrium.load();

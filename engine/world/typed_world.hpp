@@ -49,6 +49,7 @@ class TypedWorld final : public World {
   std::vector<std::uint16_t> node_hashes() const override;
   std::shared_ptr<const Topology> topology() const override { return topology_; }
   const std::vector<EditReport>& edits() const override { return edits_; }
+  std::shared_ptr<FactorWork> factor_work() override;
   WorldFacts facts() override;
   const WorldSetup& setup() const override { return setup_; }
 
@@ -140,6 +141,7 @@ class TypedWorld final : public World {
   std::optional<std::string> take(const Undo& command);
   EditReport begin_report();
   void end_report(EditReport& report);
+  std::optional<std::string> take(const TakeFactor& command);
   void carry_out(const MeshEdit& edit);
   void take_edited();
   void save();
@@ -183,6 +185,8 @@ class TypedWorld final : public World {
   std::atomic<bool> interrupted_{false};
   bool unfinished_ = false;
   std::unique_ptr<ImplicitParts<Real>> implicit_;  ///< none until an implicit or static method needs it
+  std::shared_ptr<FactorWork> factor_work_;        ///< given out last, if it may still serve
+  long factor_version_ = 0;                        ///< of the topology it is of
   std::unique_ptr<RecoveryParts<Real>> recovery_;  ///< none unless the scene asks for it
   SolverWork work_;
   Integrator method_ = Integrator::verlet;          ///< in use: what "auto" has chosen, else the scene's

@@ -4,6 +4,7 @@
 //
 // Everything goes in and comes out in the mesh file's node and element order; inside both are reordered for locality.
 #include <cstdint>
+#include <heml/dynamics/factor_work.hpp>
 #include <heml/mesh/edit.hpp>
 #include <heml/world/command.hpp>
 #include <heml/world/recovery.hpp>
@@ -121,6 +122,11 @@ class World {
   virtual std::shared_ptr<const Topology> topology() const = 0;
   /// Edits since the start or the last Reset, without those taken back.
   virtual const std::vector<EditReport>& edits() const = 0;
+
+  /// Where implicit steps are preconditioned for a body that had more elements: work that makes what is right for the
+  /// body as it is now, to be run in any thread (which must end before this world does) and put to use by TakeFactor,
+  /// in time for which bodies step with what they have. Else null.
+  virtual std::shared_ptr<FactorWork> factor_work() = 0;
 
   /// As it is now: materials, damping, gravity and integrator follow the commands applied. The mesh
   /// is the whole one, with what cuts have added; topology() says what of it is there.

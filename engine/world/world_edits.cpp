@@ -6,6 +6,7 @@
 #include <heml/mesh/quality.hpp>
 #include <heml/world/typed_world.hpp>
 #include <numeric>
+#include <utility>
 
 namespace heml {
 namespace {
@@ -163,6 +164,7 @@ void TypedWorld<Real>::carry_out(const MeshEdit& edit) {
   else
     body_.take_pieces(model_.mesh, model_.material_of, origins);
   take_edited();
+  if (implicit_ && !(edit.added.empty() && implicit_->keep_elements(elements, mass_))) implicit_.reset();
 }
 
 /// What follows from other elements.
@@ -174,7 +176,6 @@ void TypedWorld<Real>::take_edited() {
   move_held();  // nodes of no element too
   if (recovery_) recovery_->set_mesh(model_.mesh, mass_);
   if (recovering()) stand_in();
-  implicit_.reset();
   lowest_frequency_.reset();
 }
 
@@ -194,7 +195,28 @@ void TypedWorld<Real>::restore(const Saved& saved) {
   in_stroke_ = false;
   body_.set_mesh(model_.mesh, model_.material_of);
   body_.forget(state_.x.data());
+  implicit_.reset();
   take_edited();
+}
+
+template <class Real>
+std::shared_ptr<FactorWork> TypedWorld<Real>::factor_work() {
+  if (!implicit_) return nullptr;
+  factor_work_ = implicit_->linear.factor_work();
+  factor_version_ = topology_->version;
+  return factor_work_;
+}
+
+/// What another thread has made, where it is of the body as it is; else the same, made here and now.
+template <class Real>
+std::optional<std::string> TypedWorld<Real>::take(const TakeFactor&) {
+  const bool serves = factor_work_ && factor_work_->done() && factor_version_ == topology_->version;
+  const auto work = serves ? std::exchange(factor_work_, nullptr) : factor_work();
+  factor_work_.reset();
+  if (!work || !implicit_ || !implicit_->linear.is_outdated()) return std::nullopt;
+  if (!serves) work->run();
+  implicit_->linear.take(*work);
+  return std::nullopt;
 }
 
 template <class Real>

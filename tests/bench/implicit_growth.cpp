@@ -2,7 +2,8 @@
 // Euler in steps of 1/60 s. One line a mesh; regular ones, and one whose inner nodes are shaken.
 //
 //   ninja -C build/release bench_implicit_growth
-//   build/release/tests/bench_implicit_growth [LARGEST=1000000] [POISSON=0.3]
+//   build/release/tests/bench_implicit_growth [LARGEST=1000000] [POISSON=0.3] [NEWTON ITERATIONS A STEP=as many as
+//     the tolerance takes] [THREADS=1]
 //
 // Beside each step a naive evaluation of the same forces is timed in turn (F = Ds Dm⁻¹, P = F S, scattered, double, one
 // thread, the nodes in the mesh's own order): times alone say little on a shared machine, their ratio does.
@@ -107,7 +108,7 @@ bool naive_agrees(const Lame& lame) {
   return difference <= 1e-12 * largest;
 }
 
-void measure(int cells, bool shaken, double poisson) {
+void measure(int cells, bool shaken, double poisson, int iterations, int threads) {
   const Lame lame = lame_from(young, poisson);
   WorldSetup setup;
   setup.mesh = cube(cells, shaken);
@@ -118,6 +119,8 @@ void measure(int cells, bool shaken, double poisson) {
   setup.gravity = Vec3(0, -9.81, 0);
   setup.solver.integrator = Integrator::backward_euler;
   setup.solver.step = step;
+  setup.solver.threads = threads;
+  if (iterations > 0) setup.solver.budget = Budget{iterations, 0};
 
   const double before = milliseconds();
   const auto world = make_world(setup);
@@ -154,8 +157,11 @@ void measure(int cells, bool shaken, double poisson) {
 
 int main(int count, char** arguments) {
   const double largest = count > 1 ? std::atof(arguments[1]) : 1e6, poisson = count > 2 ? std::atof(arguments[2]) : 0.3;
-  if (!(largest > 0) || !(poisson > -1 && poisson < 0.5)) {
-    std::fprintf(stderr, "usage: bench_implicit_growth [LARGEST NUMBER OF TETRAHEDRA] [POISSON'S RATIO]\n");
+  const int iterations = count > 3 ? std::atoi(arguments[3]) : 0, threads = count > 4 ? std::atoi(arguments[4]) : 1;
+  if (!(largest > 0) || !(poisson > -1 && poisson < 0.5) || iterations < 0 || threads < 1) {
+    std::fprintf(
+        stderr,
+        "usage: bench_implicit_growth [LARGEST NUMBER OF TETRAHEDRA] [POISSON'S RATIO] [ITERATIONS] [THREADS]\n");
     return 2;
   }
   if (!naive_agrees(lame_from(young, poisson))) {
@@ -163,11 +169,12 @@ int main(int count, char** arguments) {
     return 1;
   }
   std::printf(
-      "backward Euler, steps of 1/60 s, Neo-Hookean %g Pa, Poisson's ratio %g; * nodes shaken; MB: peak so far\n",
-      young, poisson);
+      "backward Euler, steps of 1/60 s, Neo-Hookean %g Pa, Poisson's ratio %g, %d threads; * nodes shaken; MB: peak so "
+      "far\n",
+      young, poisson, threads);
   std::printf("%8s  %8s %-10s %9s %9s %9s %9s %7s %7s %8s %8s\n", "tets", "nodes", "by", "make ms", "1st ms", "step ms",
               "least", "Newton", "PCG", "MB", "/naive");
   for (const auto& [cells, shaken] :
        {std::pair{8, false}, {13, false}, {13, true}, {18, false}, {27, false}, {27, true}, {39, false}, {58, false}})
-    if (5.0 * cells * cells * cells <= largest) measure(cells, shaken, poisson);
+    if (5.0 * cells * cells * cells <= largest) measure(cells, shaken, poisson, iterations, threads);
 }

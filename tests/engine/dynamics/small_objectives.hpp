@@ -50,11 +50,13 @@ class NodesAndSprings : public Objective {
       matrix.add_node(b, k_ * Mat3::Identity());
       matrix.add_pair(a, b, -k_ * Mat3::Identity());
     });
-    for (const int n : free_.node) {
-      Vec3 diagonal;
-      for (int i = 0; i < 3; ++i) diagonal[i] = bend(at_[3 * n + i]);
-      matrix.add_node(n, diagonal.asDiagonal().toDenseMatrix());
-    }
+    for (const int n : free_.node) matrix.add_node(n, bends(n));
+  }
+
+  bool add_stiffness_in_float(BlockRows& rows) override {
+    each_edge([&](int a, int b) { rows.add_edge(a, b, k_ * Mat3::Identity()); });
+    for (const int n : free_.node) rows.add_node(n, bends(n));
+    return true;
   }
 
   virtual double well(double) const { return 0; }
@@ -62,6 +64,7 @@ class NodesAndSprings : public Objective {
   virtual double curvature(double) const { return 0; }
 
  private:
+  Mat3 bends(int n) const { return Vec3(bend(at_[3 * n]), bend(at_[3 * n + 1]), bend(at_[3 * n + 2])).asDiagonal(); }
   double bend(double x) const { return projected_ ? std::max(curvature(x), 0.0) : curvature(x); }
   template <class Visit>
   void each_edge(const Visit& visit) const {

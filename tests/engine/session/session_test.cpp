@@ -230,6 +230,44 @@ TEST_CASE("a recorded session replays to the same hashes, with one thread and wi
   CHECK(replay(changed, *world).difference);
 }
 
+TEST_CASE("after a removal a new factor arrives from another thread, and its arrival is recorded") {
+  TemporaryFolder folder;
+  const auto file = folder.path / "removal.jsonl";
+  const auto recorded = [&] {
+    std::ifstream lines(file);
+    return std::string(std::istreambuf_iterator<char>(lines), {});
+  };
+  {
+    Scene scene = small_scene();
+    scene.mesh.box->cells = {20, 5, 5};
+    scene.solver.integrator = Integrator::backward_euler;
+    scene.solver.step = 0.01;
+    scene.solver.budget = Budget{1, 0};
+    SessionOptions options;
+    options.record = file;
+    Session session(scene, options);
+    wait_for(session, [](const Frame& f) { return f.tick > 2; });
+    for (const double x : {0.09, 0.08, 0.07}) {  // some while work is under way
+      RemoveElements removal;
+      removal.which.box = {Vec3(x, -1, -1), Vec3(x + 0.01, 1, 1)};
+      session.post(removal);
+      std::this_thread::sleep_for(5ms);
+    }
+    wait_for(session, [&](const Frame&) { return recorded().find("\"factor\"") != std::string::npos; });
+    const long now = session.latest().tick;
+    wait_for(session, [&](const Frame& f) { return f.tick > now + 10; });
+  }
+  for (const int threads : {1, 2}) {
+    Scene scene = read_scene(file);
+    scene.solver.threads = threads;
+    const auto world = load_world(scene);
+    const ReplayResult result = replay(scene, *world);
+    CHECK(result.checkpoints >= 2);
+    CHECK_FALSE(result.difference);
+    CHECK_FALSE(result.halt);
+  }
+}
+
 TEST_CASE("a session that cannot go on says why and lives on to be reset") {
   Scene scene = small_scene();
   scene.solver.continuation = false;
