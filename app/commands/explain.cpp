@@ -4,6 +4,7 @@
 #include <app/commands/commands.hpp>
 #include <app/commands/explanation_json.hpp>
 #include <app/commands/progress.hpp>
+#include <heml/studies/operation_count.hpp>
 #include <numbers>
 
 namespace heml {
@@ -43,6 +44,9 @@ void print_materials(const Explanation& explained) {
     if (material.rest.shear > 0)
       print_line("  at rest", "shear modulus {:.4g} Pa, bulk {:.4g} Pa, Poisson's ratio {:.4g}", material.rest.shear,
                  material.rest.bulk, material.poisson);
+    if (const auto count = element_operations(explained.setup.materials[kernel.material].material))
+      print_line("  operations", "{} multiplications, {} additions, {} others a tetrahedron and force",
+                 count->multiplications, count->additions, count->others);
     if (kernel.bytes_per_tet > 0) print_line("  traffic", "{:.0f} bytes a tetrahedron and force", kernel.bytes_per_tet);
   }
 }

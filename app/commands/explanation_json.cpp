@@ -1,4 +1,5 @@
 #include <app/commands/explanation_json.hpp>
+#include <heml/studies/operation_count.hpp>
 
 namespace heml {
 namespace {
@@ -27,12 +28,18 @@ Json materials_json(const Explanation& explained) {
     const KernelInfo& kernel = material.kernel;
     Json terms = Json::array();
     for (const TermFacts& term : material.terms) terms.push_back({{"name", term.name}, {"detail", term.detail}});
+    Json operations;
+    if (const auto count = element_operations(explained.setup.materials[kernel.material].material))
+      operations = {{"multiplications", count->multiplications},
+                    {"additions", count->additions},
+                    {"others", count->others}};
     list.push_back({{"region", material.region ? Json(*material.region) : Json()},
                     {"law", kernel.law},
                     {"tets", kernel.elements},
                     {"kernel", kernel.kernel},
                     {"instructions", kernel.instructions},
                     {"bytes_per_tet", kernel.bytes_per_tet},
+                    {"operations_per_tet", operations},
                     {"terms", terms},
                     {"density", material.density},
                     {"shear_modulus", material.rest.shear},

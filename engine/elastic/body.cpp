@@ -58,7 +58,7 @@ std::vector<Real> ElasticBody<Real>::at_rest() const {
 }
 
 template <class Real>
-void ElasticBody<Real>::make_parts() {
+void ElasticBody<Real>::make_parts(bool same_elements) {
   parts_.clear();
   for (std::size_t m = 0; m < materials_.size(); ++m) {
     std::vector<int> elements;
@@ -75,31 +75,34 @@ void ElasticBody<Real>::make_parts() {
     part.group.density = static_cast<Real>(materials_[m].density);
     part.flow = make_flow<Real>(materials_[m], options_.continuation, part.group);
   }
-  join_parts();
+  join_parts(same_elements);
 }
 
 /// What depends on all parts together.
 template <class Real>
-void ElasticBody<Real>::join_parts() {
+void ElasticBody<Real>::join_parts(bool same_elements) {
   std::vector<ElementGroup<Real>*> groups;
   for (Part& part : parts_) groups.push_back(&part.group);
   corners_ = map_corners(groups, mesh_.nodes.size());
   corner_.assign(3 * corner_count(groups), Real(0));
-  make_fans();
+  make_fans(same_elements);
   make_shared();
 }
 
 /// Elements whose law is all there is to them go to the fast kernels.
 template <class Real>
-void ElasticBody<Real>::make_fans() {
+void ElasticBody<Real>::make_fans(bool same_elements) {
   std::vector<FanPart> parts;
   for (Part& part : parts_) {
     const Material& material = materials_[part.material];
     part.in_fans = part.terms.size() == 1 && material.fields.empty() && !part.flow && !options_.nodal_pressure;
     if (part.in_fans) parts.push_back({&part.group.element, &material});
   }
-  fans_ = {};
-  if (!parts.empty()) fans_ = FanForces<Real>(mesh_, parts, options_.continuation, options_.instruction_set);
+  if (!same_elements || !fans_.take_laws(parts, options_.continuation)) {
+    fans_ = {};
+    ThreadTeam team(mesh_.tets.size() < large_body_ ? 1 : options_.threads);
+    if (!parts.empty()) fans_ = FanForces<Real>(mesh_, parts, options_.continuation, options_.instruction_set, team);
+  }
 
   force_corners_ = {{0}, {}};
   const auto is_in_fans = [&](std::size_t corner) {
@@ -394,7 +397,7 @@ void ElasticBody<Real>::states(const Real* x, std::vector<ElementState<Real>>& o
 template <class Real>
 void ElasticBody<Real>::set_material(std::size_t index, const Material& material, const Real* x) {
   materials_[index] = material;
-  make_parts();
+  make_parts(true);
   forget(x);
 }
 

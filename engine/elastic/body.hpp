@@ -37,6 +37,7 @@ struct BodyOptions {
   bool continuation = false;
   bool nodal_pressure = false;  ///< needs laws with a volume term, the same one in all materials
   InstructionSet instruction_set = InstructionSet::best;  ///< of the fast kernels; must be one this processor has
+  int threads = 0;                                        ///< that lay out a large body; 0: one a core
 };
 
 /// What runs the forces of the elements of one material.
@@ -154,11 +155,12 @@ class ElasticBody {
     bool in_fans;                 ///< its forces are run by fans_, not by its terms
   };
   static constexpr std::size_t grain_ = 2048;  ///< elements below which waking a thread costs more than it brings
+  static constexpr std::size_t large_body_ = 8192;  ///< elements from which laying them out is worth a team
 
   std::vector<Real> at_rest() const;
-  void make_parts();
-  void join_parts();
-  void make_fans();
+  void make_parts(bool same_elements = false);  // of materials as before
+  void join_parts(bool same_elements = false);
+  void make_fans(bool same_elements);
   void make_shared();
   void gather_corners(const CornerMap& corners, Real* f, bool add, ThreadTeam& team) const;
   double sum_energies(const Real* x, bool stored, ThreadTeam& team);

@@ -11,11 +11,13 @@
 // Edges of the ring are taken from the axis, b_i = r_i − p − φ_i a, a = q − p, with φ_i such that b_i is square to a at
 // rest: then A_ab = g_a·g_b has no entries between axis and ring, and half of the work on it is gone.
 //
-// A group is as many fans of one length as the processor has lanes; fan l of a group is lane l of every pack.
+// Where the ring is closed (m tetrahedra all round the edge) rm is r0, and there once.
 //
-//   length:  of each group: tetrahedra m a fan
-//   index:   [group][p q r0 … rm][lane]      where the node's record begins, in Reals
-//   shape:   [group][φ0 … φm, then constants of tetrahedron 0 … m−1][lane]
+// A group is as many fans of one size as the processor has lanes; fan l of a group is lane l of every pack.
+//
+//   size:    of each group: tetrahedra and ring nodes a fan
+//   index:   [group][p q r0 r1 …][lane]      where the node's record begins, in Reals
+//   shape:   [group][φ0 φ1 …, then constants of tetrahedron 0 … m−1][lane]
 //   record:  x y z · f f f ·                 of each of the block's nodes, on the kernel's stack
 //
 // The constants are A*_aa, A*_00, A*_11, A*_01 of A* = 6V A and k = 1/6V; for a law of principal stretches the lower
@@ -27,13 +29,18 @@
 
 namespace heml {
 
+struct FanSize {
+  std::uint8_t tets, ring;  ///< ring: nodes, one more than tetrahedra, or as many where it is closed
+  bool operator==(const FanSize&) const = default;
+};
+
 template <class Real>
 struct FanBlock {
-  const std::uint8_t* length;
+  const FanSize* size;
   std::size_t groups;
   const std::uint16_t* index;
   const Real* shape;
-  const int* node;     ///< the block's nodes: those of its own first, then those shared with other blocks
+  const std::uint32_t* place;  ///< 3 n of the block's nodes n: its own first, then those shared with other blocks
   std::size_t own;     ///< nodes no other block touches: their forces go to f at once
   std::size_t nodes;   ///< own and shared
   Real* shared_force;  ///< 3 a shared node, summed later in the order of blocks

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <array>
+#include <compare>
 #include <heml/elastic/fan_block.hpp>
 #include <heml/elastic/fan_cut.hpp>
 
@@ -6,6 +8,33 @@ namespace heml {
 namespace {
 
 constexpr std::size_t longest = longest_fan;
+
+/// Sizes of fans, those first that read fewest nodes a tetrahedron: in this order they are looked for.
+const std::vector<FanSize>& sizes_by_worth() {
+  static const std::vector<FanSize> sizes = [] {
+    std::vector<FanSize> list;
+    for (std::size_t m = longest; m > 0; --m) {
+      const auto tets = static_cast<std::uint8_t>(m), more = static_cast<std::uint8_t>(m + 1);
+      if (m > 2) list.push_back({tets, tets});
+      list.push_back({tets, more});
+    }
+    std::stable_sort(list.begin(), list.end(),
+                     [](FanSize a, FanSize b) { return (2 + a.ring) * b.tets < (2 + b.ring) * a.tets; });
+    return list;
+  }();
+  return sizes;
+}
+
+/// Where a size is in that order.
+std::size_t rank_of(std::size_t tets, bool closed) {
+  using Ranks = std::array<std::array<std::size_t, 2>, longest + 1>;
+  static const Ranks ranks = [] {
+    Ranks table{};
+    for (std::size_t k = 0; const FanSize size : sizes_by_worth()) table[size.tets][size.ring == size.tets] = k++;
+    return table;
+  }();
+  return ranks[tets][closed];
+}
 
 /// One tetrahedron at one of its edges: (p, q, from, to) has positive volume.
 struct Sector {
@@ -17,61 +46,79 @@ struct Sector {
 std::vector<Sector> sectors_by_edge(const std::vector<Tet>& tets) {
   constexpr std::size_t even[6][4] = {{0, 1, 2, 3}, {0, 2, 3, 1}, {0, 3, 1, 2},
                                       {1, 2, 0, 3}, {1, 3, 2, 0}, {2, 3, 0, 1}};
+  struct Key {
+    std::uint64_t edge;
+    std::size_t sector;
+    auto operator<=>(const Key&) const = default;
+  };
   std::vector<Sector> sectors;
+  std::vector<Key> order;
   sectors.reserve(6 * tets.size());
+  order.reserve(6 * tets.size());
   for (std::size_t t = 0; t < tets.size(); ++t)
-    for (const auto& order : even) {
-      Sector s{tets[t][order[0]], tets[t][order[1]], tets[t][order[2]], tets[t][order[3]], t};
+    for (const auto& corner : even) {
+      Sector s{tets[t][corner[0]], tets[t][corner[1]], tets[t][corner[2]], tets[t][corner[3]], t};
       if (s.p > s.q) std::swap(s.p, s.q), std::swap(s.from, s.to);
+      order.push_back({s.edge(), sectors.size()});
       sectors.push_back(s);
     }
-  std::sort(sectors.begin(), sectors.end(), [](const Sector& a, const Sector& b) {
-    return a.edge() != b.edge() ? a.edge() < b.edge() : a.tet < b.tet;
-  });
-  return sectors;
+  std::sort(order.begin(), order.end());
+  std::vector<Sector> sorted;
+  sorted.reserve(sectors.size());
+  for (const Key& key : order) sorted.push_back(sectors[key.sector]);
+  return sorted;
 }
 
 /// The longest chain among the sectors of one edge whose tetrahedra are not yet taken, at most `longest`.
 class LongestChain {
  public:
-  std::vector<const Sector*> operator()(const Sector* begin, const Sector* end, const std::vector<char>& taken) {
+  const std::vector<const Sector*>& operator()(const Sector* begin, const Sector* end, const std::vector<char>& taken) {
     left_.clear();
+    best_.clear();
     for (const Sector* s = begin; s != end; ++s)
       if (!taken[s->tet]) left_.push_back(s);
-    std::vector<const Sector*> best;
-    const auto follows = [&](int node) {
-      const auto next = std::find_if(left_.begin(), left_.end(), [&](const Sector* s) { return s->from == node; });
-      return next == left_.end() ? nullptr : *next;
-    };
-    const auto try_from = [&](const Sector* first) {
-      std::vector<const Sector*> chain;
-      for (const Sector* s = first; s && chain.size() < longest; s = follows(s->to)) {
-        if (std::find(chain.begin(), chain.end(), s) != chain.end()) break;  // round, or overlapping tetrahedra
-        chain.push_back(s);
-      }
-      if (chain.size() > best.size()) best = chain;
-    };
     for (const Sector* first : left_)
       if (std::none_of(left_.begin(), left_.end(), [&](const Sector* s) { return s->to == first->from; }))
         try_from(first);
-    if (best.empty() && !left_.empty()) try_from(left_.front());  // a closed ring
-    return best;
+    if (best_.empty() && !left_.empty()) try_from(left_.front());  // a closed ring
+    return best_;
   }
 
  private:
-  std::vector<const Sector*> left_;
+  void try_from(const Sector* first) {
+    chain_.clear();
+    for (const Sector* s = first; s && chain_.size() < longest; s = after(s)) {
+      if (std::find(chain_.begin(), chain_.end(), s) != chain_.end()) break;  // round, or overlapping tetrahedra
+      chain_.push_back(s);
+    }
+    if (chain_.size() > best_.size()) std::swap(chain_, best_);
+  }
+  const Sector* after(const Sector* of) const {
+    const auto next = std::find_if(left_.begin(), left_.end(), [&](const Sector* s) { return s->from == of->to; });
+    return next == left_.end() ? nullptr : *next;
+  }
+
+  std::vector<const Sector*> left_, chain_, best_;
 };
 
+bool is_closed(const std::vector<const Sector*>& chain) {
+  return chain.size() > 2 && chain.back()->to == chain.front()->from;
+}
+
 Fan fan_of(const std::vector<const Sector*>& chain) {
-  Fan fan{chain.front()->p, chain.front()->q, {chain.front()->from}, {}};
+  Fan fan{chain.front()->p, chain.front()->q, {}, {}};
+  fan.ring.reserve(chain.size() + 1);
+  fan.tets.reserve(chain.size());
+  fan.ring.push_back(chain.front()->from);
   for (const Sector* s : chain) {
     fan.ring.push_back(s->to);
     fan.tets.push_back(s->tet);
   }
+  if (is_closed(chain)) fan.ring.pop_back();
   return fan;
 }
 
-/// By length; longest chains first, since what they leave is short anyway.
+/// By rank of size; the best first, since what they leave is short anyway.
 std::vector<std::vector<Fan>> greedy_fans(const std::vector<Tet>& tets) {
   const std::vector<Sector> sectors = sectors_by_edge(tets);
   std::vector<std::pair<std::size_t, std::size_t>> edges;  // range of sectors
@@ -79,24 +126,28 @@ std::vector<std::vector<Fan>> greedy_fans(const std::vector<Tet>& tets) {
     for (j = i; j < sectors.size() && sectors[j].edge() == sectors[i].edge();) ++j;
     edges.push_back({i, j});
   }
-  std::vector<std::vector<std::size_t>> waiting(longest + 1);  // edges by a bound on their longest chain
-  for (std::size_t e = edges.size(); e-- > 0;)
-    waiting[std::min(longest, edges[e].second - edges[e].first)].push_back(e);
+  const std::size_t ranks = sizes_by_worth().size();
+  std::vector<std::vector<std::size_t>> waiting(ranks);  // edges by a bound on the best chain they have
+  for (std::size_t e = edges.size(); e-- > 0;) {
+    const std::size_t round = edges[e].second - edges[e].first;
+    waiting[rank_of(std::min(longest, round), round > 2 && round <= longest)].push_back(e);
+  }
   std::vector<char> taken(tets.size(), 0);
-  std::vector<std::vector<Fan>> fans(longest + 1);
+  std::vector<std::vector<Fan>> fans(ranks);
   LongestChain longest_chain;
-  for (std::size_t m = longest; m > 0; --m)
-    while (!waiting[m].empty()) {
-      const std::size_t e = waiting[m].back();
-      waiting[m].pop_back();
-      const auto chain = longest_chain(&sectors[edges[e].first], sectors.data() + edges[e].second, taken);
-      if (chain.size() < m) {
-        if (!chain.empty()) waiting[chain.size()].push_back(e);
+  for (std::size_t rank = 0; rank < ranks; ++rank)
+    while (!waiting[rank].empty()) {
+      const std::size_t e = waiting[rank].back();
+      waiting[rank].pop_back();
+      const auto& chain = longest_chain(&sectors[edges[e].first], sectors.data() + edges[e].second, taken);
+      if (chain.empty()) continue;
+      if (const std::size_t found = rank_of(chain.size(), is_closed(chain)); found > rank) {
+        waiting[found].push_back(e);
         continue;
       }
       for (const Sector* s : chain) taken[s->tet] = 1;
-      fans[m].push_back(fan_of(chain));
-      waiting[m].push_back(e);
+      fans[rank].push_back(fan_of(chain));
+      waiting[rank].push_back(e);
     }
   return fans;
 }
@@ -106,22 +157,35 @@ Fan part_of(const Fan& fan, std::size_t begin, std::size_t end) {
   return {fan.p, fan.q, {at(fan.ring, begin), at(fan.ring, end + 1)}, {at(fan.tets, begin), at(fan.tets, end)}};
 }
 
+/// Less of the same: opened, or halved. `put` takes what comes of it; a single tetrahedron stays.
+template <class Put>
+void cut_shorter(Fan fan, const Put& put) {
+  const std::size_t m = fan.tets.size();
+  if (fan.ring.size() == m) {
+    fan.ring.push_back(fan.ring.front());
+    return put(fan);
+  }
+  put(part_of(fan, 0, (m + 1) / 2));
+  put(part_of(fan, (m + 1) / 2, m));
+}
+
 }  // namespace
 
 std::vector<Fan> cut_into_fans(const std::vector<Tet>& tets, std::size_t lanes) {
   auto fans = greedy_fans(tets);
+  const auto put = [&](const Fan& fan) {
+    fans[rank_of(fan.tets.size(), fan.ring.size() == fan.tets.size())].push_back(fan);
+  };
   std::vector<Fan> result;
-  for (std::size_t m = longest; m > 0; --m) {
-    auto& list = fans[m];
+  for (auto& list : fans) {
     while (list.size() % lanes != 0) {
-      if (m == 1) {
+      if (&list == &fans.back()) {
         list.push_back({-1, -1, {-1, -1}, {}});
         continue;
       }
       const Fan fan = std::move(list.back());
       list.pop_back();
-      fans[(m + 1) / 2].push_back(part_of(fan, 0, (m + 1) / 2));
-      fans[m / 2].push_back(part_of(fan, (m + 1) / 2, m));
+      cut_shorter(fan, put);
     }
     const std::size_t groups = list.size() / lanes;
     for (std::size_t g = 0; g < groups; ++g)

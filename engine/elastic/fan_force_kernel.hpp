@@ -5,14 +5,15 @@
 // own. Each fan is gone through three times, so that one pass has little in registers and consecutive turns of it do
 // not wait for one another:
 //
-//   nodes ──► spokes b, b·b, a·b ──► tensions of each tetrahedron ──► pulls of each ring node ──► nodes
+//   nodes ──► spokes b, b·b, a·b ──► tensions of each tetrahedron ──► forces at each ring node ──► nodes
 //
-// Links that tetrahedra of a fan share have one tension there: f_i = −((t_ii + t'_ii) b_i + (t_ia + t'_ia) a + …).
+// Links that tetrahedra of a fan share have one tension there: f_i = −((t_ii + t'_ii) b_i + (t_ia + t'_ia) a + …). A
+// closed ring is one whose first neighbour is its last.
 #include <heml/elastic/fan_parts.hpp>
 
 namespace heml::fan {
 
-/// C = k LᵀGL and T = ⅙ L S Lᵀ, L the Cholesky factor of A*.
+/// C = k LᵀGL and T = ⅙ L S Lᵀ (here with minus signs), L the Cholesky factor of A*.
 template <class P, PrincipalLaw<P> L>
 [[gnu::always_inline]] inline FanTensions<P> fan_tensions(const L& law, const FanRest<P>& rest, const FanGram<P>& G,
                                                           P J, Truth<P>& valid) {
@@ -23,7 +24,7 @@ template <class P, PrincipalLaw<P> L>
   for (P& entry : C) entry *= rest.k;
   const auto stress = principal_stress(law, principal_state<L::is_continued>(law, C, J), J);
   if constexpr (!L::always_valid) valid = valid && law.valid(Invariants<P>{C[0] + C[1] + C[2], P(0), J});
-  const P sixth = 1.0 / 6, la6 = la * sixth, l006 = l00 * sixth, l106 = l10 * sixth, l116 = l11 * sixth;
+  const P sixth = -1.0 / 6, la6 = la * sixth, l006 = l00 * sixth, l106 = l10 * sixth, l116 = l11 * sixth;
   const P* S = stress.S;
   const P r10 = l10 * S[1] + l11 * S[5], r11 = l10 * S[5] + l11 * S[2];
   return {
@@ -36,7 +37,7 @@ template <class P, InvariantLaw<P> L>
 [[gnu::always_inline]] inline FanTensions<P> fan_tensions(const L& law, const FanRest<P>& rest, const FanGram<P>& G,
                                                           P J, Truth<P>& valid) {
   const auto& [p, q00, q11, q01, k, m] = rest;
-  const P third = 1.0 / 3, y = p * G.aa;
+  const P third = -1.0 / 3, y = p * G.aa;
   Invariants<P> at{P(0), P(0), J, P(1)};
   P w00, w01, w10, w11, v0, v1;  // of A*G
   if constexpr (L::uses_I2) {
@@ -62,23 +63,20 @@ template <class P, InvariantLaw<P> L>
   if constexpr (L::uses_I2) {
     const P c = -(s.w2 * third) * k, pull = (s.w1 + s.w2 * at.I1) * third, cp = c * p;
     const P z00 = c * w00 + pull, z01 = c * w01, z10 = c * w10, z11 = c * w11 + pull;
-    t = {(c * y + pull) * p,
-         z00 * q00 + z01 * q01,
-         z10 * q01 + z11 * q11,
-         cp * v0,
-         cp * v1,
-         z00 * q01 + z01 * q11,
-         P(0)};
+    t.aa = (c * y + pull) * p;
+    t.b00 = z00 * q00 + z01 * q01, t.b11 = z10 * q01 + z11 * q11, t.b01 = z00 * q01 + z01 * q11;
+    t.a0 = cp * v0, t.a1 = cp * v1;
   } else {
     const P pull = s.w1 * third;
-    t = {pull * p, pull * q00, pull * q11, P(0), P(0), pull * q01, P(0)};
+    t.aa = pull * p, t.b00 = pull * q00, t.b11 = pull * q11, t.b01 = pull * q01;
+    if constexpr (L::uses_I4) t.a0 = t.a1 = P(0);
   }
   if constexpr (L::uses_I4) {
     const P w4 = s.w4 * third;
     t.aa += w4 * mm[0], t.b00 += w4 * mm[1], t.b11 += w4 * mm[2];
     t.a0 += w4 * mm[3], t.a1 += w4 * mm[4], t.b01 += w4 * mm[5];
   }
-  t.u = s.wJ * P(1.0 / 6);
+  if constexpr (L::uses_J) t.u = s.wJ * P(-1.0 / 6);
   return t;
 }
 
@@ -88,26 +86,45 @@ struct ForceKernel {
   static constexpr std::size_t constants = fan_constants(L::uses_I4), lanes = P::lanes;
 
   struct Work {
-    Spoke<P> spoke[longest_fan + 3];           ///< [1 .. m+1]
-    FanTensions<P> tensions[longest_fan + 2];  ///< [1 .. m]; those before and after are zero
+    Spoke<P> spoke[longest_fan + 3];           ///< [1 .. ring]; before and after that a closed ring's others
+    FanTensions<P> tensions[longest_fan + 2];  ///< [1 .. m]; before and after that a closed ring's others, or zero
   };
 
   /// Where a group's nodes and constants are, and its axis.
   struct Group {
-    std::size_t m;
+    std::size_t m, ring_nodes;
     const std::uint16_t* ring;
     const Real *foot, *rest;
     P p[3], a[3], aa;
   };
 
   [[gnu::always_inline]] static inline void read_ring(const Group& group, const Real* records, Work& work) {
-    for (std::size_t i = 0; i <= group.m; ++i) {
+    for (std::size_t i = 0; i < group.ring_nodes; ++i) {
       Spoke<P>& spoke = work.spoke[i + 1];
       read_spoke<Isa>(records, group.ring + i * lanes, pack_at<P>(group.foot + i * lanes), group.p, group.a, spoke.b);
       spoke.bb = dot(spoke.b, spoke.b);
       spoke.ab = dot(spoke.b, group.a);
       if constexpr (L::uses_J) cross(spoke.b, group.a, spoke.c);
     }
+    if (group.ring_nodes == group.m) {
+      take(work.spoke[0], work.spoke[group.m]);
+      take(work.spoke[group.m + 1], work.spoke[1]);
+    }
+  }
+
+  /// Pack by pack, since what is copied otherwise is not forwarded to the next read of it.
+  [[gnu::always_inline]] static inline void take(Spoke<P>& to, const Spoke<P>& from) {
+    for (int i = 0; i < 3; ++i) to.b[i].v = from.b[i].v;
+    to.bb.v = from.bb.v, to.ab.v = from.ab.v;
+    if constexpr (L::uses_J)
+      for (int i = 0; i < 3; ++i) to.c[i].v = from.c[i].v;
+  }
+
+  /// What there is beyond the ends of an open ring.
+  [[gnu::always_inline]] static inline void loosen(FanTensions<P>& t) {
+    t.b00 = t.b11 = t.b01 = P(0);
+    if constexpr (has_coupling<L, P>) t.a0 = t.a1 = P(0);
+    if constexpr (L::uses_J) t.u = P(0);
   }
 
   /// Returns the tension of the axis.
@@ -122,14 +139,22 @@ struct ForceKernel {
       work.tensions[i] = fan_tensions<P>(law, rest, G, J, valid);
       axis += work.tensions[i].aa;
     }
-    work.tensions[group.m + 1] = {};
+    if (group.ring_nodes == group.m) {
+      FanTensions<P>&before = work.tensions[0], &last = work.tensions[group.m];
+      before.b11 = last.b11, before.b01 = last.b01;
+      if constexpr (has_coupling<L, P>) before.a1 = last.a1;
+      if constexpr (L::uses_J) before.u = last.u;
+    } else {
+      loosen(work.tensions[0]);
+      loosen(work.tensions[group.m + 1]);
+    }
     return axis;
   }
 
-  /// Draws the ring's nodes, and says what is left to p and q.
+  /// Adds the forces at the ring's nodes, and says what is left to p and q.
   [[gnu::always_inline]] static inline void pull_ring(const Group& group, const Work& work, Real* records, P at_p[3],
                                                       P at_q[3]) {
-    for (std::size_t i = 1; i <= group.m + 1; ++i) {
+    for (std::size_t i = 1; i <= group.ring_nodes; ++i) {
       const Spoke<P>&before = work.spoke[i - 1], &spoke = work.spoke[i], &after = work.spoke[i + 1];
       const FanTensions<P>&s = work.tensions[i - 1], &t = work.tensions[i];
       const P t_bb = s.b11 + t.b00, t_ab = s.a1 + t.a0, foot = pack_at<P>(group.foot + (i - 1) * lanes);
@@ -148,14 +173,14 @@ struct ForceKernel {
         at_p[j] += f[j];
         at_q[j] -= foot * f[j];
       }
-      Isa::subtract(records + 4, group.ring + (i - 1) * lanes, f);
+      Isa::add(records + 4, group.ring + (i - 1) * lanes, f);
     }
   }
 
   /// The forces of one group of fans of length m.
-  [[gnu::always_inline]] static inline void run(const L& law, std::size_t m, const std::uint16_t* index,
+  [[gnu::always_inline]] static inline void run(const L& law, FanSize size, const std::uint16_t* index,
                                                 const Real* shape, Real* records, Work& work, Truth<P>& valid) {
-    Group group{m, index + 2 * lanes, shape, shape + (m + 1) * lanes, {}, {}, {}};
+    Group group{size.tets, size.ring, index + 2 * lanes, shape, shape + size.ring * lanes, {}, {}, {}};
     read_axis<Isa>(static_cast<const Real*>(records), index, group.p, group.a);
     group.aa = dot(group.a, group.a);
     read_ring(group, records, work);
@@ -166,27 +191,26 @@ struct ForceKernel {
       at_q[i] += axis * group.a[i];
       at_p[i] = -(at_p[i] + at_q[i]);
     }
-    Isa::subtract(records + 4, index + lanes, at_q);
-    Isa::subtract(records + 4, index, at_p);
+    Isa::add(records + 4, afresh(index + lanes), at_q);
+    Isa::add(records + 4, afresh(index), at_p);
   }
 
   static bool block(const L& law, const FanBlock<Real>& block, const Real* x, Real* f) {
     alignas(64) Real records[8 * most_block_nodes];
-    read_records(block, x, records);
+    read_records<Isa>(block, x, records);
     const std::uint16_t* index = block.index;
     const Real* shape = block.shape;
     Truth<P> valid = true;
     Work work;
     for (Spoke<P>& spoke : work.spoke) spoke = {};
-    work.tensions[0] = {};
     for (std::size_t g = 0; g < block.groups; ++g) {
-      const std::size_t m = block.length[g];
-      run(law, m, index, shape, records, work, valid);
-      index += (m + 3) * lanes;
-      shape += (m + 1 + m * constants) * lanes;
+      const FanSize size = block.size[g];
+      run(law, size, index, shape, records, work, valid);
+      index += (2 + size.ring) * lanes;
+      shape += (size.ring + size.tets * constants) * lanes;
     }
 
-    write_forces(block, records + 4, f);
+    write_forces<Isa>(block, records + 4, f);
     return valid.all();
   }
 };

@@ -30,19 +30,42 @@ FanElements elements_of(const TetMesh& mesh, const FanPart& part, FanShape shape
 
 template <class Real>
 FanForces<Real>::FanForces(const TetMesh& mesh, const std::vector<FanPart>& parts, bool continuation,
-                           InstructionSet isa)
+                           InstructionSet isa, ThreadTeam& team)
     : isa_(chosen(isa)) {
   std::vector<FanElements> elements;
-  for (const FanPart& part : parts)
-    with_law<Real>(*part.material, continuation, [&]<class L>(const L& law) {
-      elements.push_back(elements_of(mesh, part,
-                                     PrincipalLaw<L, Real> ? FanShape::principal
-                                     : L::uses_I4          ? FanShape::fibre
-                                                           : FanShape::plain));
-      laws_.push_back({fan_kernel<Real>(isa_, index_in_list(L::name), continuation), std::make_shared<const L>(law)});
-    });
-  layout_ = FanLayout<Real>(mesh, elements, lanes_of<Real>(isa_));
+  for (const FanPart& part : parts) {
+    laws_.push_back(law_of(*part.material, continuation));
+    elements.push_back(elements_of(mesh, part, laws_.back().shape));
+  }
+  layout_ = FanLayout<Real>(mesh, elements, lanes_of<Real>(isa_), team);
   shared_force_.resize(3 * layout_.shared_slots);
+}
+
+template <class Real>
+typename FanForces<Real>::Law FanForces<Real>::law_of(const Material& material, bool continuation) const {
+  Law result;
+  with_law<Real>(material, continuation, [&]<class L>(const L& law) {
+    result.kernel = fan_kernel<Real>(isa_, index_in_list(L::name), continuation);
+    result.law = std::make_shared<const L>(law);
+    result.shape = PrincipalLaw<L, Real> ? FanShape::principal : L::uses_I4 ? FanShape::fibre : FanShape::plain;
+  });
+  const bool has_fibre = result.shape == FanShape::fibre;
+  result.fibre = has_fibre && material.fibre_field.empty() ? material.fibre : Vec3::Zero();
+  if (has_fibre) result.fibre_field = material.fibre_field;
+  return result;
+}
+
+template <class Real>
+bool FanForces<Real>::take_laws(const std::vector<FanPart>& parts, bool continuation) {
+  if (parts.size() != laws_.size()) return false;
+  std::vector<Law> laws;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    laws.push_back(law_of(*parts[p].material, continuation));
+    const Law &now = laws.back(), &before = laws_[p];
+    if (now.shape != before.shape || now.fibre != before.fibre || now.fibre_field != before.fibre_field) return false;
+  }
+  laws_ = std::move(laws);
+  return true;
 }
 
 template <class Real>
@@ -54,11 +77,11 @@ bool FanForces<Real>::forces(const Real* x, Real* f, ThreadTeam& team) {
     for (std::size_t b = begin; b < end; ++b) {
       const auto& at = fans.blocks[b];
       const Law& law = laws_[at.part];
-      const FanBlock<Real> block{&fans.length[at.group],
+      const FanBlock<Real> block{&fans.size[at.group],
                                  at.groups,
                                  &fans.index[at.index],
                                  &fans.shape[at.shape],
-                                 &fans.node[at.node],
+                                 &fans.place[at.place],
                                  at.own,
                                  at.nodes,
                                  shared_force_.data() + 3 * at.shared_slot};
@@ -79,7 +102,7 @@ bool FanForces<Real>::forces(const Real* x, Real* f, ThreadTeam& team) {
 
 template <class Real>
 std::size_t FanForces<Real>::bytes() const {
-  return bytes_of(layout_.blocks, layout_.length, layout_.index, layout_.shape, layout_.node, layout_.shared_node,
+  return bytes_of(layout_.blocks, layout_.size, layout_.index, layout_.shape, layout_.place, layout_.shared_node,
                   layout_.shared_start, layout_.shared_slot, shared_force_);
 }
 

@@ -9,6 +9,7 @@
 #include <heml/elastic/fan_layout.hpp>
 #include <heml/materials/material.hpp>
 #include <memory>
+#include <string>
 
 namespace heml {
 
@@ -23,7 +24,12 @@ class FanForces {
  public:
   FanForces() = default;
   /// mesh: in inner order. No parts: no element has forces.
-  FanForces(const TetMesh& mesh, const std::vector<FanPart>& parts, bool continuation, InstructionSet isa);
+  FanForces(const TetMesh& mesh, const std::vector<FanPart>& parts, bool continuation, InstructionSet isa,
+            ThreadTeam& team);
+
+  /// Other laws for the same elements in the same parts: their layout is kept. Returns whether it could be, which is
+  /// where the constants of each part are the same still; else nothing is changed.
+  bool take_laws(const std::vector<FanPart>& parts, bool continuation);
 
   bool empty() const { return layout_.blocks.empty(); }
 
@@ -42,7 +48,12 @@ class FanForces {
   struct Law {
     FanKernel<Real> kernel;
     std::shared_ptr<const void> law;
+    FanShape shape;
+    Vec3 fibre;               ///< of shape fibre alone
+    std::string fibre_field;  ///< likewise
   };
+  Law law_of(const Material& material, bool continuation) const;
+
   InstructionSet isa_ = InstructionSet::portable;
   FanLayout<Real> layout_;
   std::vector<Law> laws_;           ///< of each part

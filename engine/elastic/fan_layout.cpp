@@ -84,43 +84,73 @@ FanNodes nodes_of(const TetMesh& mesh, const Fan& fan) {
   return nodes;
 }
 
-/// Adds the groups of one piece to a layout. record: where the record of a node begins.
+/// The groups of one piece.
+template <class Real>
+struct Groups {
+  std::vector<FanSize> size;
+  std::vector<std::uint16_t> index;
+  std::vector<Real> shape;
+};
+
+/// record: where the record of a node begins.
 template <class Real, class Record>
-void add_groups(FanLayout<Real>& layout, const TetMesh& mesh, const FanElements& part, const Piece& piece,
-                std::size_t lanes, const Record& record) {
+Groups<Real> groups_of(const TetMesh& mesh, const FanElements& part, const Piece& piece, std::size_t lanes,
+                       const Record& record) {
+  Groups<Real> groups;
   std::vector<Tet> tets;
   for (std::size_t i = piece.begin; i < piece.end; ++i) tets.push_back(mesh.tets[at(part.elements[i])]);
   const std::size_t constants = fan_constants(part.shape == FanShape::fibre);
   const std::vector<Fan> fans = cut_into_fans(tets, lanes);
   for (std::size_t first = 0; first < fans.size(); first += lanes) {
-    const std::size_t m = fans[first].ring.size() - 1, index = layout.index.size(), shape = layout.shape.size();
-    layout.length.push_back(static_cast<std::uint8_t>(m));
-    layout.index.resize(index + (m + 3) * lanes);
-    layout.shape.resize(shape + (m + 1 + m * constants) * lanes);
+    const FanSize size = fans[first].size();
+    const std::size_t index = groups.index.size(), shape = groups.shape.size();
+    groups.size.push_back(size);
+    groups.index.resize(index + (2 + size.ring) * lanes);
+    groups.shape.resize(shape + (size.ring + size.tets * constants) * lanes);
     for (std::size_t l = 0; l < lanes; ++l) {
       const Fan& fan = fans[first + l];
       const FanNodes nodes = nodes_of(mesh, fan);
-      layout.index[index + l] = record(fan.p, 0);
-      layout.index[index + lanes + l] = record(fan.q, 1);
-      for (std::size_t i = 0; i <= m; ++i) {
-        layout.index[index + (i + 2) * lanes + l] = record(fan.ring[i], i + 2);
-        layout.shape[shape + i * lanes + l] = static_cast<Real>(nodes.foot[i]);
+      groups.index[index + l] = record(fan.p, 0);
+      groups.index[index + lanes + l] = record(fan.q, 1);
+      for (std::size_t i = 0; i < size.ring; ++i) {
+        groups.index[index + (i + 2) * lanes + l] = record(fan.ring[i], i + 2);
+        groups.shape[shape + i * lanes + l] = static_cast<Real>(nodes.foot[i]);
       }
-      for (std::size_t i = 0; i < m; ++i) {
+      for (std::size_t i = 0; i < size.tets; ++i) {
         const bool has_fibre = part.shape == FanShape::fibre && !fan.tets.empty();
         const Vec3 fibre = has_fibre ? part.fibre[piece.begin + fan.tets[i]] : Vec3::UnitX();
-        const auto values = constants_of(nodes.axis, nodes.spoke[i], nodes.spoke[i + 1], part.shape, fibre);
+        const auto values = constants_of(nodes.axis, nodes.spoke[i], nodes.spoke[(i + 1) % size.ring], part.shape, fibre);
         for (std::size_t c = 0; c < constants; ++c)
-          layout.shape[shape + (m + 1 + i * constants + c) * lanes + l] = static_cast<Real>(values[c]);
+          groups.shape[shape + (size.ring + i * constants + c) * lanes + l] = static_cast<Real>(values[c]);
       }
     }
   }
+  return groups;
+}
+
+/// Those of all pieces, as many at a time as the team has threads.
+template <class Real>
+std::vector<Groups<Real>> all_groups(const TetMesh& mesh, const std::vector<FanElements>& parts,
+                                     const std::vector<Piece>& pieces, std::size_t lanes, ThreadTeam& team) {
+  std::vector<Groups<Real>> groups(pieces.size());
+  team.for_ranges(pieces.size(), 1, [&](std::size_t begin, std::size_t end) {
+    std::vector<std::uint16_t> local(mesh.nodes.size());
+    for (std::size_t p = begin; p < end; ++p) {
+      const std::vector<int>& nodes = pieces[p].nodes;
+      for (std::size_t i = 0; i < nodes.size(); ++i) local[at(nodes[i])] = static_cast<std::uint16_t>(8 * i);
+      groups[p] = groups_of<Real>(mesh, parts[pieces[p].part], pieces[p], lanes, [&](int n, std::size_t corner) {
+        return n < 0 ? static_cast<std::uint16_t>(8 * (nodes.size() + corner)) : local[at(n)];
+      });
+    }
+  });
+  return groups;
 }
 
 }  // namespace
 
 template <class Real>
-FanLayout<Real>::FanLayout(const TetMesh& mesh, const std::vector<FanElements>& parts, std::size_t lanes) {
+FanLayout<Real>::FanLayout(const TetMesh& mesh, const std::vector<FanElements>& parts, std::size_t lanes,
+                           ThreadTeam& team) {
   std::vector<Piece> pieces = pieces_of(mesh, parts);
   std::vector<std::size_t> touches(mesh.nodes.size(), 0), rank(mesh.nodes.size(), 0);
   for (const Piece& piece : pieces)
@@ -134,30 +164,32 @@ FanLayout<Real>::FanLayout(const TetMesh& mesh, const std::vector<FanElements>& 
   }
   shared_slot.resize(shared_start.back());
   std::vector<std::size_t> fill(shared_start.begin(), shared_start.end() - 1);
-  std::vector<std::uint16_t> local(mesh.nodes.size());
 
   for (Piece& piece : pieces) {
-    const FanElements& part = parts[piece.part];
     std::vector<int>& nodes = piece.nodes;
     const auto shared = std::stable_partition(nodes.begin(), nodes.end(), [&](int n) { return touches[at(n)] == 1; });
-    Block block{piece.part, length.size(), index.size(), shape.size(), node.size(), shared_slots, 0, 0, nodes.size()};
+    Block block{piece.part, 0, 0, 0, place.size(), shared_slots, 0, 0, nodes.size()};
     block.own = static_cast<std::size_t>(shared - nodes.begin());
-    for (std::size_t i = 0; i < nodes.size(); ++i) local[at(nodes[i])] = static_cast<std::uint16_t>(8 * i);
     for (auto n = shared; n != nodes.end(); ++n) shared_slot[fill[rank[at(*n)]]++] = shared_slots++;
-    node.insert(node.end(), nodes.begin(), nodes.end());
+    for (const int n : nodes) place.push_back(3 * static_cast<std::uint32_t>(n));
     elements += piece.end - piece.begin;
-    add_groups(*this, mesh, part, piece, lanes, [&](int n, std::size_t corner) {
-      return n < 0 ? static_cast<std::uint16_t>(8 * (nodes.size() + corner)) : local[at(n)];
-    });
-    block.groups = length.size() - block.group;
     blocks.push_back(block);
+  }
+  const auto groups = all_groups<Real>(mesh, parts, pieces, lanes, team);
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    Block& block = blocks[b];
+    block.group = size.size(), block.index = index.size(), block.shape = shape.size();
+    block.groups = groups[b].size.size();
+    size.insert(size.end(), groups[b].size.begin(), groups[b].size.end());
+    index.insert(index.end(), groups[b].index.begin(), groups[b].index.end());
+    shape.insert(shape.end(), groups[b].shape.begin(), groups[b].shape.end());
   }
 }
 
 template <class Real>
 double FanLayout<Real>::bytes_per_tet() const {
-  const std::size_t bytes = length.size() + sizeof(std::uint16_t) * index.size() + sizeof(Real) * shape.size() +
-                            (sizeof(int) + 6 * sizeof(Real)) * node.size() +
+  const std::size_t bytes = sizeof(FanSize) * size.size() + sizeof(std::uint16_t) * index.size() + sizeof(Real) * shape.size() +
+                            (sizeof(std::uint32_t) + 6 * sizeof(Real)) * place.size() +
                             (sizeof(std::size_t) + 3 * sizeof(Real)) * shared_slots;
   return elements ? static_cast<double>(bytes) / static_cast<double>(elements) : 0;
 }

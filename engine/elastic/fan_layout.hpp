@@ -1,6 +1,7 @@
 #pragma once
 // Elements cut into blocks of fans (elastic/fan_block.hpp), and which nodes blocks share. Depends on the mesh and the
 // number of lanes alone, so that threads may take any blocks and sums come out the same.
+#include <heml/base/thread_team.hpp>
 #include <heml/elastic/fan_block.hpp>
 #include <heml/mesh/tet_mesh.hpp>
 #include <new>
@@ -35,14 +36,14 @@ struct FanLayout {
   /// Where a block's data begin in the lists below.
   struct Block {
     std::size_t part;  ///< index into the list of FanElements
-    std::size_t group, index, shape, node, shared_slot;
+    std::size_t group, index, shape, place, shared_slot;
     std::size_t groups, own, nodes;
   };
   std::vector<Block> blocks;  ///< part after part
-  std::vector<std::uint8_t> length;
+  std::vector<FanSize> size;
   std::vector<std::uint16_t> index;
   std::vector<Real, CacheAligned<Real>> shape;
-  std::vector<int> node;
+  std::vector<std::uint32_t> place;
 
   // Nodes that are no block's own: those of several blocks, and those of none.
   std::vector<int> shared_node;           ///< inner numbers, ascending
@@ -53,8 +54,8 @@ struct FanLayout {
   std::size_t elements = 0;
 
   FanLayout() = default;
-  /// mesh: in inner order, positive volumes. lanes: of the kernel that will run.
-  FanLayout(const TetMesh& mesh, const std::vector<FanElements>& parts, std::size_t lanes);
+  /// mesh: in inner order, positive volumes. lanes: of the kernel that will run. The same for any number of threads.
+  FanLayout(const TetMesh& mesh, const std::vector<FanElements>& parts, std::size_t lanes, ThreadTeam& team);
 
   /// What one evaluation of the forces reads and writes, each array once, positions and forces included.
   double bytes_per_tet() const;

@@ -5,7 +5,9 @@
 //
 //   Isa::pack<Real>                        a Pack
 //   Isa::read(records, index, x)           x[3] of the nodes a pack's lanes point at
-//   Isa::subtract(records, index, f)       f[3] from those records, one lane after the other
+//   Isa::add(records, index, f)            f[3] to those records, one lane after the other
+//   Isa::begin(record, x)                  makes a record of the four numbers from x on, the last of them unused
+//   Isa::end(force, f)                     its force to f[3]
 #include <heml/elastic/fan_block.hpp>
 #include <heml/materials/law_list.hpp>
 #include <heml/materials/law_packs.hpp>
@@ -52,7 +54,7 @@ struct FanGram {
   P aa, b00, b11, a0, a1, b01;
 };
 
-/// Tensions of one tetrahedron, N/m, and u = wJ/6, of pull u ∂(6V J)/∂x.
+/// Tensions of one tetrahedron with minus signs, so that they make forces, N/m, and u = −wJ/6 of u ∂(6V J)/∂x.
 template <class P>
 struct FanTensions {
   P aa, b00, b11, a0, a1, b01, u;
@@ -86,47 +88,44 @@ template <class P, std::size_t constants>
   return rest;
 }
 
-/// Copies nodes into records, four numbers at once, the last of them the next node's; but of the last node, which may
-/// have none after it.
-template <class Real>
-[[gnu::always_inline]] inline void read_nodes(const int* node, std::size_t count, const Real* x, Real* record) {
-  typedef Real Four [[gnu::vector_size(4 * sizeof(Real))]];
-  const auto put = [&](Four position) {
-    const Four zero = {};
-    __builtin_memcpy(record, &position, sizeof position);
-    __builtin_memcpy(record + 4, &zero, sizeof zero);
-    record += 8;
-  };
-  for (std::size_t n = 0; n + 1 < count; ++n) {
-    Four position;
-    __builtin_memcpy(&position, x + 3 * node[n], sizeof position);
-    put(position);
-  }
+/// Copies nodes into records; the last of them by itself, since it may have no number after it.
+template <class Isa, class Real>
+[[gnu::always_inline]] inline void read_nodes(const std::uint32_t* place, std::size_t count, const Real* x,
+                                              Real* record) {
+#pragma GCC unroll 4
+  for (std::size_t n = 0; n + 1 < count; ++n, record += 8) Isa::begin(record, x + place[n]);
   if (count == 0) return;
-  const Real* last = x + 3 * node[count - 1];
-  put(Four{last[0], last[1], last[2], 0});
+  const Real* last = x + place[count - 1];
+  const Real padded[4] = {last[0], last[1], last[2], 0};
+  Isa::begin(record, padded);
 }
 
 /// The records of a block's nodes, and of the corner where lanes without a fan are.
-template <class Real>
+template <class Isa, class Real>
 [[gnu::always_inline]] inline void read_records(const FanBlock<Real>& block, const Real* x, Real* records) {
-  read_nodes(block.node, block.own, x, records);
-  read_nodes(block.node + block.own, block.nodes - block.own, x, records + 8 * block.own);
+  read_nodes<Isa>(block.place, block.own, x, records);
+  read_nodes<Isa>(block.place + block.own, block.nodes - block.own, x, records + 8 * block.own);
   Real* record = records + 8 * block.nodes;
   for (int corner = 0; corner < 4; ++corner, record += 8)
     for (int i = 0; i < 8; ++i) record[i] = corner == i + 1 ? Real(1) : Real(0);
 }
 
 /// Three numbers of each record to where they belong.
-template <class Real>
+template <class Isa, class Real>
 [[gnu::always_inline]] inline void write_forces(const FanBlock<Real>& block, const Real* record, Real* f) {
-  for (std::size_t n = 0; n < block.own; ++n, record += 8) {
-    Real* to = f + 3 * block.node[n];
-    to[0] = record[0], to[1] = record[1], to[2] = record[2];
-  }
+  const std::uint32_t* place = block.place;
+  const std::size_t own = block.own, nodes = block.nodes;
   Real* to = block.shared_force;
-  for (std::size_t n = block.own; n < block.nodes; ++n, record += 8, to += 3)
-    to[0] = record[0], to[1] = record[1], to[2] = record[2];
+#pragma GCC unroll 4
+  for (std::size_t n = 0; n < own; ++n, record += 8) Isa::end(record, f + place[n]);
+  for (std::size_t n = own; n < nodes; ++n, record += 8, to += 3) Isa::end(record, to);
+}
+
+/// Hides where a pointer came from: what is read through it is read again rather than kept, where registers are few.
+template <class T>
+[[gnu::always_inline]] inline const T* afresh(const T* pointer) {
+  asm("" : "+r"(pointer));
+  return pointer;
 }
 
 /// What make(tag, continued) gives for one law of LawList, both known when compiled.

@@ -11,6 +11,17 @@ struct Portable {
   using pack = Pack<Real, 16 / sizeof(Real), Portable>;
 
   template <class Real>
+  [[gnu::always_inline]] static inline void begin(Real* record, const Real* x) {
+    for (int i = 0; i < 4; ++i) record[i] = x[i];
+    for (int i = 4; i < 8; ++i) record[i] = 0;
+  }
+
+  template <class Real>
+  [[gnu::always_inline]] static inline void end(const Real* force, Real* f) {
+    for (int i = 0; i < 3; ++i) f[i] = force[i];
+  }
+
+  template <class Real>
   [[gnu::always_inline]] static inline void read(const Real* records, const std::uint16_t* index, pack<Real> x[3]) {
     constexpr int lanes = pack<Real>::lanes;
     Real column[3][lanes];
@@ -20,9 +31,9 @@ struct Portable {
   }
 
   template <class Real>
-  [[gnu::always_inline]] static inline void subtract(Real* records, const std::uint16_t* index, const pack<Real> f[3]) {
+  [[gnu::always_inline]] static inline void add(Real* records, const std::uint16_t* index, const pack<Real> f[3]) {
     for (int l = 0; l < pack<Real>::lanes; ++l)
-      for (int i = 0; i < 3; ++i) records[index[l] + i] -= f[i].v[l];
+      for (int i = 0; i < 3; ++i) records[index[l] + i] += f[i].v[l];
   }
 };
 

@@ -27,6 +27,10 @@ void expect_a_face(const std::vector<int>& nodes, const BoundaryFaces& faces, co
 
 }  // namespace
 
+bool plays_as_recorded(const Scene& scene) {
+  return scene.recorded_instructions && *scene.recorded_instructions <= chosen(InstructionSet::best);
+}
+
 WorldSetup load_setup(const Scene& scene) { return load_setup(scene, load_mesh(scene)); }
 
 WorldSetup load_setup(const Scene& scene, TetMesh mesh) {
@@ -50,6 +54,7 @@ WorldSetup load_setup(const Scene& scene, TetMesh mesh) {
   }
   setup.gravity = scene.gravity;
   setup.solver = scene.solver;
+  if (plays_as_recorded(scene)) setup.instruction_set = *scene.recorded_instructions;
   setup.initial_velocity = scene.initial_velocity;
   if (!scene.initial_positions.empty())
     setup.initial_positions = read_positions_csv(find_file(scene, "initial.positions", scene.initial_positions),

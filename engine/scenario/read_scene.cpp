@@ -68,10 +68,20 @@ void read_initial(const Key& key, const fs::path& folder, Scene& scene) {
 }
 
 MeshIdentity identity_from(const Key& key) {
-  key.allow({"nodes", "tets", "mesh"});
+  key.allow({"nodes", "tets", "mesh", "instructions"});
   constexpr long most = std::numeric_limits<int>::max();
   return {static_cast<int>(key["nodes"].integer(0, most)), static_cast<int>(key["tets"].integer(0, most)),
           key["mesh"].hash()};
+}
+
+/// Of a recording from before they were told: none.
+std::optional<InstructionSet> instructions_from(const Key& recorded) {
+  const auto key = recorded.find("instructions");
+  if (!key) return std::nullopt;
+  const std::string name = key->text();
+  for (const InstructionSet isa : {InstructionSet::portable, InstructionSet::avx2, InstructionSet::avx512})
+    if (name == name_of(isa)) return isa;
+  key->fail(fmt::format("\"{}\" is no instruction set", name), "give portable, avx2 or avx512");
 }
 
 /// Everything but the script.
@@ -95,7 +105,10 @@ Scene scene_from(const Key& key, const fs::path& folder) {
   if (const auto outputs = key.find("outputs")) read_outputs(*outputs, scene);
   if (const auto initial = key.find("initial")) read_initial(*initial, folder, scene);
   if (const auto view = key.find("view")) scene.view = view_from(*view);
-  if (const auto recorded = key.find("recorded")) scene.recorded_mesh = identity_from(*recorded);
+  if (const auto recorded = key.find("recorded")) {
+    scene.recorded_mesh = identity_from(*recorded);
+    scene.recorded_instructions = instructions_from(*recorded);
+  }
   return scene;
 }
 

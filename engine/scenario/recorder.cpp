@@ -16,6 +16,7 @@ Recorder::Recorder(const std::filesystem::path& path, const Scene& scene, const 
     throw InputError(path_, "", "is the scene itself and would be overwritten", "record to another file");
   Scene recorded = scene;
   recorded.recorded_mesh = identity_of(world.setup().mesh);
+  recorded.recorded_instructions = chosen(world.setup().instruction_set);
   const std::filesystem::path folder = path.parent_path();
   const std::string first_line = scene_line(recorded, folder.empty() ? "." : folder);
   file_.reset(std::fopen(path_.c_str(), "wb"));

@@ -101,6 +101,7 @@ struct Scene {
   std::vector<Checkpoint> checkpoints;        ///< of a recording, ascending in tick
   std::optional<long> recorded_ticks;         ///< of a recording: how far it went, as far as is known
   std::optional<MeshIdentity> recorded_mesh;  ///< of a recording
+  std::optional<InstructionSet> recorded_instructions;  ///< of a recording: whose bits its states are
 };
 
 /// Reads a scene, a recording (either form), or puts the default scene round a bare mesh or surface file.
@@ -116,8 +117,13 @@ Scene default_scene();
 /// The default scene round a bare mesh or surface: soft tissue, held at its top, under gravity.
 Scene scene_around(const std::filesystem::path& mesh_or_surface);
 
+/// Whether this processor has the instructions a recording names. Then its world is made to use them, and its states
+/// come out as they were; else they differ by round-off.
+bool plays_as_recorded(const Scene& scene);
+
 /// Reads the mesh, resolves selections and fields, checks what needs the mesh. Throws InputError.
 WorldSetup load_setup(const Scene& scene);
+
 /// The same with the scene's mesh as load_mesh() (load_mesh.hpp) gives it.
 WorldSetup load_setup(const Scene& scene, TetMesh mesh);
 

@@ -38,6 +38,8 @@ std::string scene_line(const Scene& scene, const std::filesystem::path& folder) 
     json["recorded"] = {{"nodes", scene.recorded_mesh->nodes},
                         {"tets", scene.recorded_mesh->tets},
                         {"mesh", fmt::format("{:016x}", scene.recorded_mesh->hash)}};
+  if (scene.recorded_mesh && scene.recorded_instructions)
+    json["recorded"]["instructions"] = name_of(*scene.recorded_instructions);
   return json_text(json, scene.file);
 }
 

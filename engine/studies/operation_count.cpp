@@ -50,4 +50,13 @@ Operations force_operations(const TetMesh& mesh, const Material& material, const
   return result;
 }
 
+std::optional<Operations> element_operations(const Material& material) {
+  if (!find_law(material.law)->is_continuum) return std::nullopt;
+  TetMesh mesh;
+  mesh.nodes = {{0, 0, 0}, {0.1, 0, 0}, {0, 0.1, 0}, {0, 0, 0.1}};
+  mesh.tets = {{0, 1, 2, 3}};
+  const double x[12] = {0, 0, 0, 0.11, 0, 0.01, 0.01, 0.1, 0, 0, 0.01, 0.09};
+  return force_operations(mesh, material, x) - Operations{0, 12, 0};
+}
+
 }  // namespace heml

@@ -100,7 +100,7 @@ std::vector<MemoryFacts> TypedWorld<Real>::memory_facts() const {
   facts.push_back({"mesh", mesh});
   if (whole_) facts.push_back({"undo", bytes_to_undo()});
   facts.push_back(
-      {"state", of_state(state_) + of_state(last_valid_) + bytes_of(mass_, inverse_mass_, element_states_)});
+      {"state", of_state(state_) + of_state(last_valid_) + bytes_of(mass_, inverse_mass_, mobility_, element_states_)});
   if (recovery_) facts.push_back({"recovery", of_state(recovery_->good)});
   if (!implicit_) return facts;
   const ImplicitParts<Real>& parts = *implicit_;

@@ -169,7 +169,7 @@ Suspects TypedWorld<Real>::suspect(const Condition& seen) const {
 
 template <class Real>
 void TypedWorld<Real>::stand_in() {
-  recovery_->stand_in = std::make_unique<StandIn<Real>>(model_, setup_.materials, mass_, inverse_mass_, grasps_, team_);
+  recovery_->stand_in = std::make_unique<StandIn<Real>>(model_, setup_, mass_, inverse_mass_, grasps_, team_);
 }
 
 /// At exact coincidence all forces are zero.

@@ -2,6 +2,7 @@
 // All that makes a world, with every file read and every selection resolved to node numbers. Scenes become this
 // (scenario/), tests write it by hand; make_world() turns it into something that steps.
 #include <heml/dynamics/solver_options.hpp>
+#include <heml/elastic/fan_kernels.hpp>
 #include <heml/materials/material.hpp>
 #include <heml/mesh/tet_mesh.hpp>
 #include <optional>
@@ -98,6 +99,7 @@ struct WorldSetup {
   SolverSettings solver;
   Vec3 initial_velocity = Vec3::Zero();  ///< m/s, of every free node
   std::vector<Vec3> initial_positions;   ///< #V or empty (rest shape), mesh-file order
+  InstructionSet instruction_set = InstructionSet::best;  ///< of the force kernels; must be one this processor has
 };
 
 /// One entry of `materials` per element: index into setup.materials.

@@ -10,9 +10,9 @@ struct StandIn {
   ElasticBody<Real> body;
   ImplicitParts<Real> parts;
 
-  /// materials: the scene's, one per index in model.material_of. masses, inverse_mass: #V, as the world's. All must
+  /// setup: the scene's, a material per index in model.material_of. masses, inverse_mass: #V, as the world's. All must
   /// outlive this.
-  StandIn(const Model<Real>& model, const std::vector<RegionMaterial>& materials, const std::vector<Real>& masses,
+  StandIn(const Model<Real>& model, const WorldSetup& setup, const std::vector<Real>& masses,
           const std::vector<Real>& inverse_mass, const std::vector<GraspSpring<Real>>& grasps, ThreadTeam& team);
 };
 

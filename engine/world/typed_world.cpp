@@ -10,13 +10,24 @@ namespace {
 
 constexpr double safety = 0.9;  // of the live limit; the bound is taken anew every few steps
 constexpr int steps_between_bounds = 8;
+constexpr int steps_between_bounds_when_calm = 32;  // while the limit hardly changes, taking it is most of its cost
 constexpr int steps_between_bounds_when_pulled = 2;  // a hand can do much to a body in little time
-constexpr std::size_t node_grain = 4096;
+constexpr std::size_t node_grain = 4096, coordinate_grain = 3 * node_grain;
+constexpr std::size_t cached_coordinates = 2048;  // which the first cache has still when they are read again
 
 std::vector<Material> materials_of(const WorldSetup& setup) {
   std::vector<Material> materials;
   for (const RegionMaterial& entry : setup.materials) materials.push_back(entry.material);
   return materials;
+}
+
+/// Whether |v| ≤ most for all coordinates [begin, end); not so where one is not a number.
+template <class Real>
+bool all_within(const Real* v, std::size_t begin, std::size_t end, Real most) {
+  using Count = std::conditional_t<sizeof(Real) == 4, std::int32_t, std::int64_t>;  // of one size: the loop vectorises
+  Count within = 0;
+  for (std::size_t i = begin; i < end; ++i) within += std::abs(v[i]) <= most ? Count(1) : Count(0);
+  return static_cast<std::size_t>(within) == end - begin;
 }
 
 }  // namespace
@@ -27,7 +38,8 @@ TypedWorld<Real>::TypedWorld(WorldSetup setup)
       model_(make_model<Real>(setup_)),
       topology_(std::make_shared<const Topology>(whole(setup_.mesh))),
       body_(model_.mesh, model_.material_of, materials_of(setup_),
-            {setup_.solver.continuation, setup_.solver.nodal_pressure}),
+            {setup_.solver.continuation, setup_.solver.nodal_pressure, setup_.instruction_set,
+             setup_.solver.threads}),
       team_(setup_.solver.threads) {
   const FlushDenormals flush;
   take_masses();
@@ -41,6 +53,8 @@ void TypedWorld<Real>::take_masses() {
   inverse_mass_.resize(mass_.size());
   for (std::size_t n = 0; n < mass_.size(); ++n) inverse_mass_[n] = mass_[n] > 0 ? 1 / mass_[n] : Real(0);
   for (const HeldNode& held : model_.held) inverse_mass_[static_cast<std::size_t>(held.node)] = 0;
+  mobility_.clear();
+  for (const Real mobility : inverse_mass_) mobility_.insert(mobility_.end(), 3, mobility);
   for (auto& grasp : grasps_) grasp.take_masses(inverse_mass_);
 }
 
@@ -134,8 +148,8 @@ template <class Real>
 double TypedWorld<Real>::choose_step(double until) {
   const double left = until - state_.time;
   if (setup_.solver.step) return left;
-  const int patience = grasps_.empty() ? steps_between_bounds : steps_between_bounds_when_pulled;
-  if (++steps_since_bound_ >= patience) find_stable_step();
+  const int patience = grasps_.empty() ? bound_interval_ : steps_between_bounds_when_pulled;
+  if (++steps_since_bound_ >= patience) follow_stable_step();
   if (!(stable_step_ > smallest_step)) {
     stop(Halt{Halt::Cause::unstable, -1, -1,
               fmt::format("stopped at t = {:.6g} s: an explicit method would need steps of {:.3g} s; "
@@ -161,13 +175,16 @@ template <class Method>
 void TypedWorld<Real>::step_with(Real h, double time_after) {
   State<Real>& s = state_;
   const Real damping = static_cast<Real>(setup_.solver.damping);
-  const Real* inverse_mass = inverse_mass_.data();
-  last_valid_.x = s.x;
-  last_valid_.v = s.v;
+  const Real* mobility = mobility_.data();
+  std::swap(s.x, last_valid_.x);
+  std::swap(s.v, last_valid_.v);
   last_valid_.time = s.time;
+  s.x.resize(mobility_.size());
+  s.v.resize(mobility_.size());
 
-  team_.for_ranges(inverse_mass_.size(), node_grain, [&](std::size_t begin, std::size_t end) {
-    Method::first_half(h, damping, inverse_mass, s.f.data(), s.x.data(), s.v.data(), begin, end);
+  const FirstHalf<Real> first{mobility, s.f.data(), last_valid_.x.data(), last_valid_.v.data(), s.x.data(), s.v.data()};
+  team_.for_ranges(mobility_.size(), coordinate_grain, [&](std::size_t begin, std::size_t end) {
+    Method::first_half(h, damping, first, begin, end);
   });
   s.time = time_after;
   move_held();
@@ -176,11 +193,12 @@ void TypedWorld<Real>::step_with(Real h, double time_after) {
   // Ten times its own size in a step, or not a number: no tissue does that.
   const Real fastest = static_cast<Real>(10 * (model_.diagonal / h + setup_.initial_velocity.norm()));
   std::atomic<bool> sane{true};
-  team_.for_ranges(inverse_mass_.size(), node_grain, [&](std::size_t begin, std::size_t end) {
-    Method::second_half(h, damping, inverse_mass, s.f.data(), s.v.data(), begin, end);
-    bool slow = true;
-    for (std::size_t i = 3 * begin; i < 3 * end; ++i) slow = slow & (std::abs(s.v[i]) <= fastest);
-    if (!slow) sane.store(false, std::memory_order_relaxed);
+  team_.for_ranges(mobility_.size(), coordinate_grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t some = begin; some < end; some += cached_coordinates) {
+      const std::size_t last = std::min(end, some + cached_coordinates);
+      Method::second_half(h, damping, mobility, s.f.data(), s.v.data(), some, last);
+      if (!all_within(s.v.data(), some, last, fastest)) sane.store(false, std::memory_order_relaxed);
+    }
   });
   if (!sane) return restore_last_valid(Halt::Cause::unstable);
   if (remembers_) {
@@ -213,8 +231,10 @@ bool TypedWorld<Real>::take_forces() {
   const bool valid = acting_body().forces(x, f, team_);
   const Vector3<Real> g = gravity_now().template cast<Real>();
   if (!g.isZero(0))
-    for (std::size_t n = 0; n < mass_.size(); ++n)
-      for (std::size_t i = 0; i < 3; ++i) f[3 * n + i] += mass_[n] * g[static_cast<int>(i)];
+    team_.for_ranges(mass_.size(), node_grain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t n = begin; n < end; ++n)
+        for (std::size_t i = 0; i < 3; ++i) f[3 * n + i] += mass_[n] * g[static_cast<int>(i)];
+    });
   for (const auto& load : model_.dead) add_load(load, state_.time, f);
   for (const auto& load : model_.pressures) add_load(load, state_.time, x, f);
   for (const auto& grasp : grasps_) grasp.add_forces(x, state_.v.data(), f);
@@ -232,6 +252,18 @@ void TypedWorld<Real>::find_stable_step() {
   const double half = omega + (remembers_ ? static_cast<double>(body.damping_bound(state_.x.data(), team_)) / 2 : 0);
   stable_step_ = safety * 2 / (half + std::sqrt(half * half + lambda));
   steps_since_bound_ = 0;
+  bound_interval_ = steps_between_bounds;
+}
+
+/// Takes it anew, and after that the sooner the more it has changed.
+template <class Real>
+void TypedWorld<Real>::follow_stable_step() {
+  const double before = stable_step_;
+  const int interval = bound_interval_;
+  find_stable_step();
+  const double change = std::abs(stable_step_ / before - 1);
+  if (change < 0.02) bound_interval_ = interval;
+  if (change < 0.005) bound_interval_ = std::min(2 * interval, steps_between_bounds_when_calm);
 }
 
 template <class Real>

@@ -64,6 +64,7 @@ class TypedWorld final : public World {
   void move_held();
   bool take_forces();
   void find_stable_step();
+  void follow_stable_step();
   void restore_last_valid(Halt::Cause cause);
   void stop(const Halt& halt);
   void start();
@@ -174,11 +175,12 @@ class TypedWorld final : public World {
   bool remembers_ = false;          ///< whether a material has viscosity, relaxation or plasticity
   std::vector<Real> mass_;          ///< #V, kg
   std::vector<Real> inverse_mass_;  ///< #V, 1/kg; 0 for held nodes and nodes of no element
+  std::vector<Real> mobility_;      ///< 3 #V: the same of each coordinate
   State<Real> state_, last_valid_;
 
   Real rest_frequency_ = 0;                      ///< 1/s, bound of the highest at rest: scales the tools
   double stable_step_ = 0, limit_at_start_ = 0;  ///< s
-  int steps_since_bound_ = 0;
+  int steps_since_bound_ = 0, bound_interval_ = 0;
   long ticks_ = 0, origin_tick_ = 0, steps_ = 0;
   int substeps_ = 0;
   std::optional<Halt> halt_;

@@ -12,12 +12,12 @@ namespace {
 /// One mass on a spring, x'' = −ω²x − αx', released at 1 from rest: position and velocity at t = 1 after n steps.
 template <class Method>
 std::pair<double, double> oscillator(double omega, double damping, int n) {
-  const double h = 1.0 / n, inverse_mass = 1;
+  const double h = 1.0 / n, inverse_mass[3] = {1, 1, 1};
   double x[3] = {1, 0, 0}, v[3] = {0, 0, 0}, f[3] = {-omega * omega, 0, 0};
   for (int k = 0; k < n; ++k) {
-    Method::first_half(h, damping, &inverse_mass, f, x, v, 0, 1);
+    Method::first_half(h, damping, {inverse_mass, f, x, v, x, v}, 0, 3);
     f[0] = -omega * omega * x[0];
-    Method::second_half(h, damping, &inverse_mass, f, v, 0, 1);
+    Method::second_half(h, damping, inverse_mass, f, v, 0, 3);
   }
   return {x[0], v[0]};
 }

@@ -110,6 +110,7 @@ void check_kernels(InstructionSet isa, double tolerance) {
   std::mt19937_64 random(31);
   const TetMesh mesh = irregular_box(random, {3, 2, 2});
   const std::vector<int> elements = all_of(mesh);
+  ThreadTeam alone(1);
   for (const auto law : law_names())
     for (const Pose& pose : poses()) {
       CAPTURE(std::string(law));
@@ -117,7 +118,7 @@ void check_kernels(InstructionSet isa, double tolerance) {
       CAPTURE(pose.name);
       const Material material = sample_material(law);
       const auto x = moved(mesh, random, pose.noise, pose.F);
-      FanForces<Real> fans(mesh, {{&elements, &material}}, pose.continuation, isa);
+      FanForces<Real> fans(mesh, {{&elements, &material}}, pose.continuation, isa, alone);
       const auto expected = reference(mesh, material, pose.continuation, x);
       // What the scalar code of the same precision loses is the law's doing: Ogden's of a flat body, say.
       const double scalar = difference(reference<Real>(mesh, material, pose.continuation, x), expected);
@@ -144,7 +145,8 @@ void check_threads(double tolerance) {
   for (const auto law : {"stvk", "mooney_rivlin"})
     for (const InstructionSet isa : instruction_sets()) {
       const Material material = sample_material(law);
-      FanForces<Real> fans(mesh, {{&elements, &material}}, true, isa);
+      ThreadTeam three(3);
+      FanForces<Real> fans(mesh, {{&elements, &material}}, true, isa, three);
       const auto one = run(fans, x, 1);
       CHECK(difference(one, reference(mesh, material, true, x)) <= tolerance);
       for (const int threads : {2, 3, 16}) CHECK(run(fans, x, threads) == one);
@@ -166,7 +168,7 @@ TEST_CASE("a kernel says when its law is not defined") {
   ThreadTeam team(1);
   std::vector<double> f(upright.size());
   for (const InstructionSet isa : instruction_sets()) {
-    FanForces<double> fans(mesh, {{&elements, &material}}, false, isa);
+    FanForces<double> fans(mesh, {{&elements, &material}}, false, isa, team);
     CHECK(fans.forces(upright.data(), f.data(), team));
     CHECK_FALSE(fans.forces(mirrored.data(), f.data(), team));
     auto nowhere = upright;
@@ -175,7 +177,48 @@ TEST_CASE("a kernel says when its law is not defined") {
   }
 }
 
-TEST_CASE("fans hold every tetrahedron once, upright, in groups of one length") {
+TEST_CASE("the layout of fans is the same whoever makes it") {
+  std::mt19937_64 random(37);
+  const TetMesh mesh = irregular_box(random, {18, 17, 12});
+  const std::vector<FanElements> parts = {{all_of(mesh)}};
+  ThreadTeam alone(1), three(3);
+  const FanLayout<float> one(mesh, parts, 8, alone), other(mesh, parts, 8, three);
+  CHECK(one.blocks.size() > 4);
+  CHECK(one.size == other.size);
+  CHECK(one.index == other.index);
+  CHECK(one.shape == other.shape);
+  CHECK(one.place == other.place);
+  CHECK(one.shared_slot == other.shared_slot);
+}
+
+TEST_CASE("another law takes the layout of the one before, where its constants are the same") {
+  std::mt19937_64 random(38);
+  const TetMesh mesh = irregular_box(random, {4, 3, 3});
+  const std::vector<int> elements = all_of(mesh);
+  const auto x = moved(mesh, random, 0.02, Mat3::Identity());
+  ThreadTeam alone(1);
+  const auto made = [&](const Material& material) {
+    return FanForces<double>(mesh, {{&elements, &material}}, false, InstructionSet::best, alone);
+  };
+  const Material stvk = sample_material("stvk"), mooney = sample_material("mooney_rivlin");
+  FanForces<double> fans = made(stvk), anew = made(mooney);
+  CHECK(fans.take_laws({{&elements, &mooney}}, false));
+  CHECK(run(fans, x, 1) == run(anew, x, 1));
+
+  Material along = sample_material("hgo"), across = along;
+  across.fibre = along.fibre.unitOrthogonal();
+  const Material ogden = sample_material("ogden");
+  const auto before = run(fans, x, 1);
+  CHECK_FALSE(fans.take_laws({{&elements, &ogden}}, false));
+  CHECK_FALSE(fans.take_laws({{&elements, &along}}, false));
+  CHECK_FALSE(fans.take_laws({{&elements, &mooney}, {&elements, &mooney}}, false));
+  CHECK(run(fans, x, 1) == before);
+  FanForces<double> fibres = made(along);
+  CHECK(fibres.take_laws({{&elements, &along}}, false));
+  CHECK_FALSE(fibres.take_laws({{&elements, &across}}, false));
+}
+
+TEST_CASE("fans hold every tetrahedron once, upright, in groups of one size") {
   std::mt19937_64 random(34);
   const auto check = [](const TetMesh& mesh, std::size_t lanes) {
     const auto fans = cut_into_fans(mesh.tets, lanes);
@@ -184,12 +227,13 @@ TEST_CASE("fans hold every tetrahedron once, upright, in groups of one length") 
     std::size_t unused = 0;
     for (std::size_t k = 0; k < fans.size(); ++k) {
       const Fan& fan = fans[k];
-      CHECK(fan.ring.size() == fans[k / lanes * lanes].ring.size());
-      CHECK(fan.ring.size() <= longest_fan + 1);
+      CHECK(fan.size() == fans[k / lanes * lanes].size());
+      CHECK(fan.tets.size() <= longest_fan);
+      if (!fan.tets.empty()) CHECK((fan.ring.size() == fan.tets.size() || fan.ring.size() == fan.tets.size() + 1));
       if (fan.tets.empty()) ++unused;
       for (std::size_t i = 0; i < fan.tets.size(); ++i) {
         ++seen[fan.tets[i]];
-        Tet corners{fan.p, fan.q, fan.ring[i], fan.ring[i + 1]}, expected = mesh.tets[fan.tets[i]];
+        Tet corners{fan.p, fan.q, fan.ring[i], fan.ring[(i + 1) % fan.ring.size()]}, expected = mesh.tets[fan.tets[i]];
         const auto X = [&](std::size_t c) { return mesh.nodes[static_cast<std::size_t>(corners[c])]; };
         CHECK(signed_volume(X(0), X(1), X(2), X(3)) > 0);
         std::sort(corners.begin(), corners.end());
@@ -214,6 +258,16 @@ TEST_CASE("fans hold every tetrahedron once, upright, in groups of one length") 
     wheel.tets.push_back({0, 1, k + 2, (k + 1) % 19 + 2});
   }
   for (const std::size_t lanes : {1, 4}) check(wheel, lanes);
+
+  wheel.nodes.resize(8);  // as many as go into one
+  wheel.tets.clear();
+  for (int k = 0; k < 6; ++k) wheel.tets.push_back({0, 1, k + 2, (k + 1) % 6 + 2});
+  for (int k = 0; k < 6; ++k) {
+    const double angle = k * M_PI / 3;
+    wheel.nodes[static_cast<std::size_t>(k) + 2] = {std::cos(angle), std::sin(angle), 0.5};
+  }
+  check(wheel, 1);
+  CHECK(cut_into_fans(wheel.tets, 1).front().size() == FanSize{6, 6});
 }
 
 TEST_CASE("fast kernels take elements that share no node, and nodes of no element") {
@@ -229,8 +283,9 @@ TEST_CASE("fast kernels take elements that share no node, and nodes of no elemen
   const std::vector<int> elements = all_of(shards);
   const Material material = sample_material("mooney_rivlin");
   const auto x = moved(shards, random, 0.01, Mat3::Identity());
+  ThreadTeam alone(1);
   for (const InstructionSet isa : instruction_sets()) {
-    FanForces<double> fans(shards, {{&elements, &material}}, true, isa);
+    FanForces<double> fans(shards, {{&elements, &material}}, true, isa, alone);
     CHECK(difference(run(fans, x, 2), reference(shards, material, true, x)) <= 1e-11);
     CHECK(fans.bytes_per_tet() > 7 * sizeof(double));
   }

@@ -75,6 +75,37 @@ TEST_CASE("replays a recorded session to the bit") {
   CHECK(!result.halt);
 }
 
+TEST_CASE("a recording is played with the instructions it was made with") {
+  const TemporaryFolder folder;
+  for (const InstructionSet isa : instruction_sets()) {
+    Scene scene = session_scene();
+    scene.recorded_instructions = isa;
+    record(folder / "session.jsonl", scene);
+    const std::string text = text_of(folder / "session.jsonl"), name(name_of(isa));
+    const Scene recording = read_scene(folder / "session.jsonl");
+    CHECK(recording.recorded_instructions == isa);
+    CHECK(plays_as_recorded(recording));
+    CHECK(!replay_of(recording).difference);
+
+    const auto said_to_be = [&](const std::string& other) {
+      const std::string key = "\"instructions\": \"";
+      const std::size_t at = text.find(key + name);
+      REQUIRE(at != std::string::npos);
+      return read_scene(
+          folder.file("other.jsonl", std::string(text).replace(at + key.size(), name.size(), other)));
+    };
+    for (const InstructionSet other : {InstructionSet::portable, InstructionSet::avx2, InstructionSet::avx512}) {
+      const Scene of_other = said_to_be(std::string(name_of(other)));
+      const bool is_here = other <= instruction_sets().back();
+      CHECK(plays_as_recorded(of_other) == is_here);
+      const InstructionSet used = load_setup(of_other).instruction_set;
+      CHECK(used == (is_here ? other : InstructionSet::best));
+      CHECK(replay_of(of_other).difference.has_value() == (chosen(used) != isa));
+    }
+    CHECK_THROWS_AS(said_to_be("sse9"), InputError);
+  }
+}
+
 TEST_CASE("replays what a crash left of a recording") {
   const TemporaryFolder folder;
   record(folder / "session.jsonl", session_scene());

@@ -90,3 +90,18 @@ TEST_CASE("a body takes what its elements take, and twelve additions each to sum
   CHECK(body.multiplications == tets * element.multiplications);
   CHECK(body.additions == tets * (element.additions + 12));
 }
+
+TEST_CASE("an element's operations are those of a body's elements, and springs have none") {
+  for (const char* law : {"stvk", "mooney_rivlin", "hgo"}) {
+    const Material material = test::sample_material(law);
+    const TetMesh mesh = make_box(Vec3(0.1, 0.1, 0.1), {1, 1, 1});
+    std::vector<double> x;
+    for (const Vec3& X : mesh.nodes) x.insert(x.end(), {1.1 * X.x(), X.y(), X.z()});
+    const Operations body = force_operations(mesh, material, x.data());
+    const auto element = element_operations(material);
+    REQUIRE(element);
+    CHECK(body.multiplications == 5 * element->multiplications);
+    CHECK(body.additions == 5 * (element->additions + 12));
+  }
+  CHECK_FALSE(element_operations(test::sample_material("mass_spring")));
+}
