@@ -224,6 +224,33 @@ class Window(unittest.TestCase):
     def test_a_small_window_is_as_usable(self):
         self.play_a_session(640, 360)
 
+    def test_a_scalpel_cuts_and_undo_takes_it_back(self):
+        self.open_display(640, 360)
+        scene = self.folder / "light.json"
+        scene.write_text(json.dumps(light_scene()))
+        self.start(scene, "--record", "out.jsonl", "--size", "640x360")
+        self.wait_for("a picture", lambda: self.display.picture().colours() > 200)
+        time.sleep(1)
+        self.xdo("mousemove", 638, 358, "key", "c", "key", "space")
+        whole = self.steady()
+        place = whole.tissue(220, 640)
+        self.drag((place[0] - 60, place[1] - 20), (120, 40), steps=12)
+        self.wait_for("a cut", lambda: len(self.seen("cut")) >= 3)
+        strokes = [cut.get("goes_on", False) for cut in self.seen("cut")]
+        self.assertEqual(strokes, [False] + [True] * (len(strokes) - 1))
+        self.xdo("mousemove", 638, 358, "key", "space")
+        time.sleep(2)
+        self.xdo("key", "space")
+        self.assertGreater(self.steady().change(whole, 220, 640), 0.05, "the cut does not open")
+        self.xdo("key", "ctrl+z")
+        self.wait_for("an undo", lambda: self.seen("undo"))
+        self.xdo("key", "ctrl+z", "key", "ctrl+q")  # there is nothing more to undo: said, not recorded
+        self.finish()
+        self.assertEqual(len(self.seen("undo")), 1)
+        replayed = subprocess.run([BINARY, "replay", "out.jsonl", "--verify"], cwd=self.folder, capture_output=True,
+                                  text=True, timeout=100)
+        self.assertEqual(replayed.returncode, 0, replayed.stdout + replayed.stderr)
+
     def test_slow_drawing_does_not_hold_up_the_engine(self):
         self.open_display(640, 360)
         scene = self.folder / "light.json"
