@@ -30,9 +30,8 @@ Json materials_json(const Explanation& explained) {
     for (const TermFacts& term : material.terms) terms.push_back({{"name", term.name}, {"detail", term.detail}});
     Json operations;
     if (const auto count = element_operations(explained.setup.materials[kernel.material].material))
-      operations = {{"multiplications", count->multiplications},
-                    {"additions", count->additions},
-                    {"others", count->others}};
+      operations = {
+          {"multiplications", count->multiplications}, {"additions", count->additions}, {"others", count->others}};
     list.push_back({{"region", material.region ? Json(*material.region) : Json()},
                     {"law", kernel.law},
                     {"tets", kernel.elements},

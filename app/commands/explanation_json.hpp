@@ -1,12 +1,13 @@
 #pragma once
-// What `heml explain --json` prints. Keys may be added and never change; SI units, times in s but for "milliseconds" and
-// "saved"; null where there is nothing to tell.
+// What `heml explain --json` prints. Keys may be added and never change; SI units, times in s but for "milliseconds"
+// and "saved"; null where there is nothing to tell.
 //
 //   scene, name    file and name
 //   body           nodes, tets, live_tets, regions, components, held_nodes, boundary_faces, volume, shortest_edge,
 //                  longest_edge, worst_dihedral (degrees), worst_tet, slivers
-//   materials[]    region, law, tets, kernel, instructions, bytes_per_tet, operations_per_tet (multiplications, additions,
-//                  others), terms[] (name, detail), density, shear_modulus, bulk_modulus, poisson
+//   materials[]    region, law, tets, kernel, instructions, bytes_per_tet, operations_per_tet (multiplications,
+//                  additions, others; null of springs), terms[] (name, detail), density, shear_modulus, bulk_modulus,
+//                  poisson
 //   method         asked, integrator, precision, element, threads, tick, step_given, steps_a_tick, stable_step; what
 //                  "auto" goes by: step_cost, explicit_share, explicit_enough, lowest_frequency (1/s),
 //                  tick_times_frequency, resolved_below

@@ -35,10 +35,11 @@ int replay_recording(const ReplayArguments& arguments) {
   fmt::print("{} ticks replayed, {} checkpoints compared, final state {:016x}\n", result.ticks, result.checkpoints,
              world->state_hash());
   if (result.difference && scene.recorded_instructions && !plays_as_recorded(scene)) {
-    log_line(arguments.verify ? "error" : "warning",
-             fmt::format("{}: its states were recorded with {} kernels, which this processor does not have; others differ "
-                         "by round-off, so they cannot be compared",
-                         name, name_of(*scene.recorded_instructions)));
+    log_line(
+        arguments.verify ? "error" : "warning",
+        fmt::format("{}: its states were recorded with {} kernels, which this processor does not have; others differ "
+                    "by round-off, so they cannot be compared",
+                    name, name_of(*scene.recorded_instructions)));
     if (arguments.verify) return exit_check_failed;
   } else if (result.difference) {
     log_line(arguments.verify ? "error" : "warning", fmt::format("{}: {}", name, to_text(*result.difference)));

@@ -20,8 +20,7 @@ int solve_scene(const SolveArguments& arguments) {
     return exit_not_solved;
   }
   const bool at_rest = scene.solver.integrator == Integrator::static_equilibrium;
-  const std::string pace =
-      at_rest ? "" : fmt::format(" ({:.3g} times real time)", result.time / result.wall_seconds);
+  const std::string pace = at_rest ? "" : fmt::format(" ({:.3g} times real time)", result.time / result.wall_seconds);
   fmt::print("{} in {} {}, {:.3g} s of computing{}; results in {}\n",
              at_rest ? std::string("equilibrium") : fmt::format("{} s", result.time), result.steps,
              at_rest ? "increments of the load" : "steps", result.wall_seconds, pace, arguments.out.string());

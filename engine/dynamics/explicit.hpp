@@ -1,8 +1,8 @@
 #pragma once
 // The two explicit methods, each as what it does before and after the forces are taken at the new positions. A step of
-// either is first_half, held nodes moved, forces, second_half. α: mass damping, 1/s. Coordinates with inverse mass 0 (of
-// nodes held, or of no element) are not accelerated. All lists are of coordinates (3 #V), so that loops vectorise; what
-// there was before stays where it was, for a step that has to be taken back.
+// either is first_half, held nodes moved, forces, second_half. α: mass damping, 1/s. Coordinates with inverse mass 0
+// (of nodes held, or of no element) are not accelerated. All lists are of coordinates (3 #V), so that loops vectorise;
+// what there was before stays where it was, for a step that has to be taken back.
 #include <cmath>
 #include <cstddef>
 

@@ -154,7 +154,7 @@ class ElasticBody {
     std::vector<Real> stiffness;  ///< of every element (edge_stiffness.hpp), once it was asked for
     bool in_fans;                 ///< its forces are run by fans_, not by its terms
   };
-  static constexpr std::size_t grain_ = 2048;  ///< elements below which waking a thread costs more than it brings
+  static constexpr std::size_t grain_ = 2048;       ///< elements below which waking a thread costs more than it brings
   static constexpr std::size_t large_body_ = 8192;  ///< elements from which laying them out is worth a team
 
   std::vector<Real> at_rest() const;

@@ -34,8 +34,7 @@ struct Avx2 {
     x[2].v = _mm256_shuffle_ps(z01, z23, 0x44);
   }
 
-  [[gnu::always_inline]] static inline void add(float* records, const std::uint16_t* index,
-                                                     const pack<float> f[3]) {
+  [[gnu::always_inline]] static inline void add(float* records, const std::uint16_t* index, const pack<float> f[3]) {
     const __m256 zero = _mm256_setzero_ps();
     const __m256 xy01 = _mm256_unpacklo_ps(f[0].v, f[1].v), xy23 = _mm256_unpackhi_ps(f[0].v, f[1].v);
     const __m256 z01 = _mm256_unpacklo_ps(f[2].v, zero), z23 = _mm256_unpackhi_ps(f[2].v, zero);
@@ -71,8 +70,7 @@ struct Avx2 {
     x[2].v = _mm256_permute2f128_pd(xz01, xz23, 0x31);
   }
 
-  [[gnu::always_inline]] static inline void add(double* records, const std::uint16_t* index,
-                                                     const pack<double> f[3]) {
+  [[gnu::always_inline]] static inline void add(double* records, const std::uint16_t* index, const pack<double> f[3]) {
     const __m256d zero = _mm256_setzero_pd();
     const __m256d xy02 = _mm256_unpacklo_pd(f[0].v, f[1].v), xy13 = _mm256_unpackhi_pd(f[0].v, f[1].v);
     const __m256d z02 = _mm256_unpacklo_pd(f[2].v, zero), z13 = _mm256_unpackhi_pd(f[2].v, zero);

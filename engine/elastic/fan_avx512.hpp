@@ -40,15 +40,14 @@ struct Avx512 {
 
   template <int quarter>
   [[gnu::always_inline]] static inline void add_quarter(float* records, const std::uint16_t* index,
-                                                             const __m512 row[4]) {
+                                                        const __m512 row[4]) {
     for (int l = 0; l < 4; ++l) {
       float* at = records + index[l + 4 * quarter];
       _mm_store_ps(at, _mm_add_ps(_mm512_extractf32x4_ps(row[l], quarter), _mm_load_ps(at)));
     }
   }
 
-  [[gnu::always_inline]] static inline void add(float* records, const std::uint16_t* index,
-                                                     const pack<float> f[3]) {
+  [[gnu::always_inline]] static inline void add(float* records, const std::uint16_t* index, const pack<float> f[3]) {
     const __m512 zero = _mm512_setzero_ps();
     const __m512 xy01 = _mm512_unpacklo_ps(f[0].v, f[1].v), xy23 = _mm512_unpackhi_ps(f[0].v, f[1].v);
     const __m512 z01 = _mm512_unpacklo_ps(f[2].v, zero), z23 = _mm512_unpackhi_ps(f[2].v, zero);
@@ -84,8 +83,7 @@ struct Avx512 {
     x[2].v = _mm512_permutex2var_pd(xz01, high, xz23);
   }
 
-  [[gnu::always_inline]] static inline void add(double* records, const std::uint16_t* index,
-                                                     const pack<double> f[3]) {
+  [[gnu::always_inline]] static inline void add(double* records, const std::uint16_t* index, const pack<double> f[3]) {
     const __m512d zero = _mm512_setzero_pd();
     const __m512i low = _mm512_setr_epi64(0, 1, 8, 9, 4, 5, 12, 13),
                   high = _mm512_setr_epi64(2, 3, 10, 11, 6, 7, 14, 15);

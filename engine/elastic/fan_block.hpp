@@ -41,9 +41,9 @@ struct FanBlock {
   const std::uint16_t* index;
   const Real* shape;
   const std::uint32_t* place;  ///< 3 n of the block's nodes n: its own first, then those shared with other blocks
-  std::size_t own;     ///< nodes no other block touches: their forces go to f at once
-  std::size_t nodes;   ///< own and shared
-  Real* shared_force;  ///< 3 a shared node, summed later in the order of blocks
+  std::size_t own;             ///< nodes no other block touches: their forces go to f at once
+  std::size_t nodes;           ///< own and shared
+  Real* shared_force;          ///< 3 a shared node, summed later in the order of blocks
 };
 
 /// Constants of a tetrahedron.

@@ -7,8 +7,8 @@
 
 namespace heml {
 
-/// Tetrahedra round an edge: (p, q, ring[i], ring[i+1]), each of positive volume. Where they go all round it the ring is
-/// closed: after its last node comes its first.
+/// Tetrahedra round an edge: (p, q, ring[i], ring[i+1]), each of positive volume. Where they go all round it the ring
+/// is closed: after its last node comes its first.
 struct Fan {
   int p, q;
   std::vector<int> ring;          ///< one more than tetrahedra, or as many: closed

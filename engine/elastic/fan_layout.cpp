@@ -119,7 +119,8 @@ Groups<Real> groups_of(const TetMesh& mesh, const FanElements& part, const Piece
       for (std::size_t i = 0; i < size.tets; ++i) {
         const bool has_fibre = part.shape == FanShape::fibre && !fan.tets.empty();
         const Vec3 fibre = has_fibre ? part.fibre[piece.begin + fan.tets[i]] : Vec3::UnitX();
-        const auto values = constants_of(nodes.axis, nodes.spoke[i], nodes.spoke[(i + 1) % size.ring], part.shape, fibre);
+        const auto values =
+            constants_of(nodes.axis, nodes.spoke[i], nodes.spoke[(i + 1) % size.ring], part.shape, fibre);
         for (std::size_t c = 0; c < constants; ++c)
           groups.shape[shape + (size.ring + i * constants + c) * lanes + l] = static_cast<Real>(values[c]);
       }
@@ -188,8 +189,8 @@ FanLayout<Real>::FanLayout(const TetMesh& mesh, const std::vector<FanElements>& 
 
 template <class Real>
 double FanLayout<Real>::bytes_per_tet() const {
-  const std::size_t bytes = sizeof(FanSize) * size.size() + sizeof(std::uint16_t) * index.size() + sizeof(Real) * shape.size() +
-                            (sizeof(std::uint32_t) + 6 * sizeof(Real)) * place.size() +
+  const std::size_t bytes = sizeof(FanSize) * size.size() + sizeof(std::uint16_t) * index.size() +
+                            sizeof(Real) * shape.size() + (sizeof(std::uint32_t) + 6 * sizeof(Real)) * place.size() +
                             (sizeof(std::size_t) + 3 * sizeof(Real)) * shared_slots;
   return elements ? static_cast<double>(bytes) / static_cast<double>(elements) : 0;
 }

@@ -117,8 +117,8 @@ void check_static(const Scene& scene) {
   if (!scene.solver.is_static()) return;
   for (std::size_t m = 0; m < scene.materials.size(); ++m)
     if (scene.materials[m].material.plasticity)
-      throw InputError(scene.file, fmt::format("materials[{}].plasticity", m), "does not go with solver.integrator static",
-                       "use backward_euler with loads ramped over a time");
+      throw InputError(scene.file, fmt::format("materials[{}].plasticity", m),
+                       "does not go with solver.integrator static", "use backward_euler with loads ramped over a time");
 }
 
 /// Averaged nodal pressure takes the volume terms of all materials together.

@@ -1,6 +1,7 @@
+#include <fmt/format.h>
+
 #include <cerrno>
 #include <cstring>
-#include <fmt/format.h>
 #include <heml/base/error.hpp>
 #include <heml/base/log.hpp>
 #include <heml/scenario/json_text.hpp>

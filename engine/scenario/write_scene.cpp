@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+
 #include <heml/scenario/entries_json.hpp>
 #include <heml/scenario/material_json.hpp>
 #include <heml/scenario/mesh_json.hpp>

@@ -97,8 +97,8 @@ struct WorldSetup {
   std::vector<Load> loads;
   Vec3 gravity = Vec3::Zero();  ///< m/s²
   SolverSettings solver;
-  Vec3 initial_velocity = Vec3::Zero();  ///< m/s, of every free node
-  std::vector<Vec3> initial_positions;   ///< #V or empty (rest shape), mesh-file order
+  Vec3 initial_velocity = Vec3::Zero();                   ///< m/s, of every free node
+  std::vector<Vec3> initial_positions;                    ///< #V or empty (rest shape), mesh-file order
   InstructionSet instruction_set = InstructionSet::best;  ///< of the force kernels; must be one this processor has
 };
 

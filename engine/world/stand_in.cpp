@@ -40,7 +40,8 @@ StandIn<Real>::StandIn(const Model<Real>& model, const WorldSetup& setup, const 
     : body(model.mesh, model.material_of, stand_ins(model.mesh, model.material_of, setup.materials),
            {false, false, setup.instruction_set, setup.solver.threads}),
       parts(body, model, masses, inverse_mass,
-            preconditioner_moduli(model.mesh, model.material_of, setup.materials, Minimiser::newton), grasps, team, {}) {}
+            preconditioner_moduli(model.mesh, model.material_of, setup.materials, Minimiser::newton), grasps, team,
+            {}) {}
 
 template struct StandIn<float>;
 template struct StandIn<double>;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double safety = 0.9;  // of the live limit; the bound is taken anew every few steps
 constexpr int steps_between_bounds = 8;
-constexpr int steps_between_bounds_when_calm = 32;  // while the limit hardly changes, taking it is most of its cost
+constexpr int steps_between_bounds_when_calm = 32;   // while the limit hardly changes, taking it is most of its cost
 constexpr int steps_between_bounds_when_pulled = 2;  // a hand can do much to a body in little time
 constexpr std::size_t node_grain = 4096, coordinate_grain = 3 * node_grain;
 constexpr std::size_t cached_coordinates = 2048;  // which the first cache has still when they are read again
@@ -38,8 +38,7 @@ TypedWorld<Real>::TypedWorld(WorldSetup setup)
       model_(make_model<Real>(setup_)),
       topology_(std::make_shared<const Topology>(whole(setup_.mesh))),
       body_(model_.mesh, model_.material_of, materials_of(setup_),
-            {setup_.solver.continuation, setup_.solver.nodal_pressure, setup_.instruction_set,
-             setup_.solver.threads}),
+            {setup_.solver.continuation, setup_.solver.nodal_pressure, setup_.instruction_set, setup_.solver.threads}),
       team_(setup_.solver.threads) {
   const FlushDenormals flush;
   take_masses();
@@ -183,9 +182,8 @@ void TypedWorld<Real>::step_with(Real h, double time_after) {
   s.v.resize(mobility_.size());
 
   const FirstHalf<Real> first{mobility, s.f.data(), last_valid_.x.data(), last_valid_.v.data(), s.x.data(), s.v.data()};
-  team_.for_ranges(mobility_.size(), coordinate_grain, [&](std::size_t begin, std::size_t end) {
-    Method::first_half(h, damping, first, begin, end);
-  });
+  team_.for_ranges(mobility_.size(), coordinate_grain,
+                   [&](std::size_t begin, std::size_t end) { Method::first_half(h, damping, first, begin, end); });
   s.time = time_after;
   move_held();
   if (remembers_) body_.begin_step(h);

@@ -91,8 +91,7 @@ TEST_CASE("a recording is played with the instructions it was made with") {
       const std::string key = "\"instructions\": \"";
       const std::size_t at = text.find(key + name);
       REQUIRE(at != std::string::npos);
-      return read_scene(
-          folder.file("other.jsonl", std::string(text).replace(at + key.size(), name.size(), other)));
+      return read_scene(folder.file("other.jsonl", std::string(text).replace(at + key.size(), name.size(), other)));
     };
     for (const InstructionSet other : {InstructionSet::portable, InstructionSet::avx2, InstructionSet::avx512}) {
       const Scene of_other = said_to_be(std::string(name_of(other)));
