@@ -21,7 +21,7 @@ Outcome steps_to_rest(World& world) {
     const bool good = away_from_rest(world) <= at_rest && inverted(world) == 0;
     if (!good) since = 0;
     if (good && since == 0) since = step;
-    if (since > 0 && step >= since + 2) break;
+    if (since > 0 && step >= since + 5) break;
   }
   if (world.halt()) return stopped(world);
   return ended(world, away_from_rest(world), since > 0 ? fmt::format("{} steps", since) : "not within 60 steps");

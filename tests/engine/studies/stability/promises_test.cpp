@@ -14,15 +14,22 @@ namespace {
 
 const std::filesystem::path committed = std::filesystem::path(HEML_SOURCE_DIR) / "assets/studies/promised.json";
 
-/// Limits in double and in float, and how many ways of the case were promised first. In double they are the plan's: 0.1 %
-/// of rest after a collapse, order 2 ± 0.1, …
+/// Limits in double and in float, and how many ways of the case were promised first. In double they are the plan's: 0.1
+/// % of rest after a collapse, order 2 ± 0.1, …
 struct Floor {
   double limit, float_limit;
   int ways;
 };
 const std::map<int, Floor> floors = {
-@@
-};
+    {1, {1e-06, 1e-05, 24}},   {2, {1e-05, 1e-05, 24}},   {3, {1e-10, 1e-05, 24}},   {4, {1e-09, 1e-09, 12}},
+    {5, {1e-12, 1e-06, 24}},   {6, {1e-10, 2e-05, 132}},  {7, {0.1, 0, 12}},         {8, {0.2, 0, 11}},
+    {9, {0.01, 0.01, 40}},     {10, {1e-05, 0.001, 30}},  {11, {1e-09, 1e-05, 20}},  {12, {1e-06, 1e-06, 66}},
+    {13, {0.001, 0.001, 108}}, {14, {0, 0, 22}},          {15, {0.001, 0.001, 110}}, {16, {60, 60, 10}},
+    {17, {8, 8, 65}},          {18, {0, 0, 21}},          {19, {0.0001, 0.01, 12}},  {20, {0.01, 0.01, 67}},
+    {21, {0.12, 0.12, 7}},     {22, {0.05, 0.05, 76}},    {23, {0.01, 0.01, 48}},    {24, {1e-06, 1e-05, 6}},
+    {25, {1e-05, 1e-05, 2}},   {26, {0.001, 0.001, 120}}, {27, {0.01, 0.01, 72}},    {28, {1e-09, 1e-05, 108}},
+    {29, {1e-09, 1e-05, 86}},  {30, {1e-09, 1e-05, 140}}, {31, {1e-09, 1e-05, 140}}, {32, {0, 0, 144}},
+    {33, {1e-05, 0.0001, 8}}};
 
 std::filesystem::path folder(const char* name) {
   const auto path = std::filesystem::path(HEML_BINARY_DIR) / name;
