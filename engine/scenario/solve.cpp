@@ -1,10 +1,9 @@
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <fmt/format.h>
 #include <heml/base/error.hpp>
+#include <heml/scenario/player.hpp>
 #include <heml/scenario/report.hpp>
-#include <heml/scenario/schedule.hpp>
 #include <heml/scenario/solve.hpp>
 #include <vector>
 
@@ -12,8 +11,6 @@ namespace heml {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr double same_tick = 1e-6;  // of a tick: a time this close to its end is meant to be its end
 
 /// A time the run has to land on, or in a static scene a fraction of the load, and the file its state goes to.
 struct Landing {
@@ -35,46 +32,6 @@ std::vector<Landing> landings_of(const Scene& scene) {
   landings.push_back({is_static ? 1 : scene.solver.duration, "positions"});
   return landings;
 }
-
-/// Advances a world through its ticks, events included, to times between them.
-class Run {
- public:
-  Run(const Scene& scene, World& world)
-      : world_(world), schedule_(scene, world.setup().mesh), tick_(scene.solver.tick()) {}
-
-  void to(double time, const std::function<void()>& on_tick) {
-    if (world_.setup().solver.is_static()) {
-      begin_tick();
-      return world_.load_to(time);
-    }
-    const double ticks = time / tick_, nearest = std::round(ticks);
-    const bool at_tick = std::abs(ticks - nearest) < same_tick;
-    const long whole = static_cast<long>(at_tick ? nearest : std::floor(ticks));
-    while (world_.ticks() < whole && !world_.halt()) {
-      begin_tick();
-      world_.tick();
-      on_tick();
-    }
-    if (at_tick || world_.halt()) return;
-    begin_tick();
-    world_.advance_within_tick(tick_start_ + (time - static_cast<double>(whole) * tick_));
-  }
-
- private:
-  /// Applies the events of the coming tick, once. The world's own clock starts anew at a reset.
-  void begin_tick() {
-    if (begun_ == world_.ticks()) return;
-    begun_ = world_.ticks();
-    schedule_.apply(world_);
-    tick_start_ = world_.time();
-  }
-
-  World& world_;
-  Schedule schedule_;
-  double tick_;             ///< s
-  double tick_start_ = 0;   ///< s, by the world's clock
-  long begun_ = -1;
-};
 
 void make_folder(const fs::path& folder) {
   std::error_code error;
@@ -100,14 +57,15 @@ SolveResult solve(const Scene& scene, const fs::path& out, const std::function<v
   make_folder(out);
   remove_outputs(out, landings);
 
-  Run run(scene, *world);
+  Player player(scene, *world);
   const auto on_tick = [&] {
     if (progress) progress(static_cast<double>(world->ticks()) * scene.solver.tick() / scene.solver.duration);
+    return true;
   };
   double seconds = 0;
   for (const Landing& landing : landings) {
     const auto begin = std::chrono::steady_clock::now();
-    run.to(landing.time, on_tick);
+    player.to(landing.time, on_tick);
     seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     const bool last = &landing == &landings.back();
     if (last || !world->halt()) write_state(out, landing.stem, *world, last || scene.output_positions, scene.output_vtu);
