@@ -119,6 +119,16 @@ int run_program(int argc, char** argv) {
       "  heml bench kernel --json rows.json            all laws, 320 to a million tetrahedra; takes a while\n"
       "  heml bench paper --out pictures               the paper's tables, printed and measured");
 
+  StudyArguments study_arguments;
+  auto* study_command = program.add_subcommand("study", "reports about what the engine can be trusted with");
+  study_command->add_option("KIND", study_arguments.kind, "stability: stiff and extreme cases")->required();
+  study_command->add_option("--out", study_arguments.out, "folder for report.html, its tables and pictures")
+      ->required();
+  study_command->add_flag("--quick", study_arguments.quick, "within two minutes: fewer and smaller cases");
+  study_command->footer(
+      "A run that was interrupted goes on where it stopped when it is given the same --out.\n"
+      "Exit code 1: a case that is promised falls short.");
+
   BenchTestArguments bench_arguments;
   auto* bench_command =
       program.add_subcommand("bench-test", "the curve of a material test, and parameters fitted to a measured one");
@@ -162,6 +172,8 @@ int run_program(int argc, char** argv) {
     code = materials(materials_arguments);
   } else if (*speed_command) {
     code = bench(speed_arguments);
+  } else if (*study_command) {
+    code = study(study_arguments);
   } else if (*bench_command) {
     code = bench_test(bench_arguments);
   } else {

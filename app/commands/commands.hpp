@@ -83,6 +83,15 @@ struct BenchArguments {
 };
 int bench(const BenchArguments& arguments);
 
+struct StudyArguments {
+  std::string kind;           ///< one of the reports of study.cpp
+  std::filesystem::path out;  ///< folder of the report
+  bool quick = false;
+  std::string scene;  ///< empty: the study's own
+};
+int study(const StudyArguments& arguments);
+int study_stability(const StudyArguments& arguments);  ///< exit_check_failed: a promised case falls short
+
 struct BenchTestArguments {
   std::string material;           ///< a file with one entry of a scene's `materials`, or a preset's name
   std::string test = "uniaxial";  ///< one of bench_test_names(), or "relaxation"

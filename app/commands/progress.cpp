@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <app/commands/progress.hpp>
@@ -5,8 +6,23 @@
 #include <cstdio>
 
 namespace heml {
+namespace {
 
-Progress::Progress(std::string what) : what_(std::move(what)), terminal_(isatty(STDERR_FILENO)) {}
+double now_in_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// ", 4 min left"; nothing in the first seconds, when nobody knows.
+std::string left(double seconds, double fraction) {
+  if (seconds < 3 || fraction <= 0.01 || fraction >= 1) return "";
+  const double rest = seconds / fraction * (1 - fraction);
+  return rest < 90 ? fmt::format(", {:.0f} s left", rest) : fmt::format(", {:.0f} min left", rest / 60);
+}
+
+}  // namespace
+
+Progress::Progress(std::string what)
+    : what_(std::move(what)), terminal_(isatty(STDERR_FILENO)), begin_(now_in_seconds()) {}
 
 Progress::~Progress() {
   if (printed_) std::fprintf(stderr, "\r\033[K");
@@ -14,11 +30,12 @@ Progress::~Progress() {
 
 void Progress::show(double fraction, const std::string& doing) {
   if (!terminal_) return;
-  const double now = std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+  const double now = now_in_seconds();
   if (now - last_ < 0.1) return;
   last_ = now;
   printed_ = true;
-  std::fprintf(stderr, "\r\033[Kheml: %s %3.0f %% %s", what_.c_str(), 100 * fraction, doing.c_str());
+  std::fprintf(stderr, "\r\033[Kheml: %s %3.0f %%%s %s", what_.c_str(), 100 * fraction,
+               left(now - begin_, fraction).c_str(), doing.c_str());
   std::fflush(stderr);
 }
 

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <heml/studies/bench.hpp>
 #include <heml/studies/machine.hpp>
+#include <heml/studies/table.hpp>
 #include <set>
 
 namespace heml {
@@ -24,44 +25,6 @@ const Suite& suite_named(std::string_view name) {
   const auto found = std::find_if(std::begin(suites), std::end(suites), [&](const Suite& s) { return s.name == name; });
   assert(found != std::end(suites));
   return *found;
-}
-
-std::string number(double value) {
-  if (value == 0) return "0";
-  const double size = std::abs(value);
-  if (size >= 1000) return fmt::format("{:.0f}", value);
-  return size >= 100   ? fmt::format("{:.1f}", value)
-         : size >= 10  ? fmt::format("{:.2f}", value)
-         : size >= 0.1 ? fmt::format("{:.3f}", value)
-                       : fmt::format("{:.3g}", value);
-}
-
-using Cells = std::vector<std::string>;
-
-/// Characters, not bytes: names have Greek letters in them.
-std::size_t width_of(const std::string& text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
-}
-
-/// Columns [first_number, end_numbers) to the right, the others to the left.
-std::string aligned(const std::vector<Cells>& rows, std::size_t first_number, std::size_t end_numbers) {
-  std::vector<std::size_t> width(rows.front().size(), 3);
-  for (const Cells& row : rows)
-    for (std::size_t c = 0; c < row.size(); ++c) width[c] = std::max(width[c], width_of(row[c]));
-  const auto is_number = [&](std::size_t c) { return c >= first_number && c < end_numbers; };
-  std::string text;
-  for (std::size_t r = 0; r < rows.size(); ++r) {
-    for (std::size_t c = 0; c < rows[r].size(); ++c) {
-      const std::string space(width[c] - width_of(rows[r][c]), ' ');
-      text += is_number(c) ? fmt::format("| {}{} ", space, rows[r][c]) : fmt::format("| {}{} ", rows[r][c], space);
-    }
-    text += "|\n";
-    if (r > 0) continue;
-    for (std::size_t c = 0; c < width.size(); ++c)
-      text += fmt::format("|{:-<{}}{}", "", width[c] + 1, is_number(c) ? ':' : '-');
-    text += "|\n";
-  }
-  return text;
 }
 
 /// Notes a row carries, said once each.
@@ -84,43 +47,49 @@ std::string fastest(std::span<const BenchRow> rows, const Wanted& wanted) {
   const BenchRow* best = nullptr;
   for (const BenchRow& row : rows)
     if (row.ratio_to_naive && wanted(row) && (!best || row.min < best->min)) best = &row;
-  return best ? fmt::format("{} ({:.1f}×)", number(best->min), *best->ratio_to_naive) : "";
+  return best ? fmt::format("{} ({:.1f}×)", short_number(best->min), *best->ratio_to_naive) : "";
 }
 
 /// A line a mesh and law, of neighbouring rows: what a naive loop takes, then precisions and numbers of threads.
 std::string kernel_table(std::span<const BenchRow> rows) {
   std::set<int> threads;
   for (const BenchRow& row : rows) threads.insert(row.threads);
-  std::vector<Cells> cells = {{"mesh", "law", "tets", "naive"}};
+  Table table;
+  table.head = {"mesh", "law", "tets", "naive"};
   for (const char* precision : {"double", "float"})
     for (const int count : threads)
-      cells.front().push_back(fmt::format("{}, {} thread{}", precision, count, count == 1 ? "" : "s"));
+      table.head.push_back(fmt::format("{}, {} thread{}", precision, count, count == 1 ? "" : "s"));
   for (auto first = rows.begin(); first != rows.end();) {
     const auto last = std::find_if(
         first, rows.end(), [&](const BenchRow& row) { return row.mesh != first->mesh || row.law != first->law; });
-    Cells& line = cells.emplace_back(Cells{first->mesh, first->law, std::to_string(first->tets), ""});
+    Cells& line = table.rows.emplace_back(Cells{first->mesh, first->law, std::to_string(first->tets), ""});
     for (auto row = first; row != last; ++row)
-      if (!row->ratio_to_naive) line[3] = number(row->min);
+      if (!row->ratio_to_naive) line[3] = short_number(row->min);
     for (const char* precision : {"double", "float"})
       for (const int count : threads)
         line.push_back(fastest(
             {first, last}, [&](const BenchRow& row) { return row.precision == precision && row.threads == count; }));
     first = last;
   }
+  table.first_number = 2;
+  table.end_numbers = table.head.size();
   return fmt::format(
       "ns/tet, least of all samples, and times faster than the naive loop; --json has every instruction set\n\n{}",
-      aligned(cells, 2, cells.front().size()));
+      markdown_text(table));
 }
 
 std::string table_of(std::span<const BenchRow> rows) {
   if (rows.front().suite == "kernel") return kernel_table(rows);
-  std::vector<Cells> cells = {
-      {"what", "mesh", "law", "precision", "isa", "tets", "threads", "median", "min", "unit", "naive/ours", "beside"}};
+  Table table;
+  table.head = {"what",    "mesh",   "law", "precision", "isa",        "tets",
+                "threads", "median", "min", "unit",      "naive/ours", "beside"};
+  table.first_number = 5;
+  table.end_numbers = 11;
   for (const BenchRow& row : rows)
-    cells.push_back({row.name, row.mesh, row.law, row.precision, row.isa, row.tets ? std::to_string(row.tets) : "",
-                     std::to_string(row.threads), number(row.median), number(row.min), row.unit,
-                     row.ratio_to_naive ? fmt::format("{:.2f}", *row.ratio_to_naive) : "", row.beside});
-  return aligned(cells, 5, 11) + notes_of(rows);
+    table.rows.push_back({row.name, row.mesh, row.law, row.precision, row.isa, row.tets ? std::to_string(row.tets) : "",
+                          std::to_string(row.threads), short_number(row.median), short_number(row.min), row.unit,
+                          row.ratio_to_naive ? fmt::format("{:.2f}", *row.ratio_to_naive) : "", row.beside});
+  return markdown_text(table) + notes_of(rows);
 }
 
 }  // namespace
