@@ -18,9 +18,9 @@ struct Swing {
 struct Run {
   std::string failed;      ///< why it did not reach the end; empty: it did
   double simulated = 0;    ///< s, how far it came
-  double seconds = 0;      ///< of computing, the least of a few plays where they are short
-  double median_tick = 0;  ///< s of computing
-  double slow_tick = 0;    ///< s, 99th percentile
+  double seconds = 0;      ///< of computing; where it is short, with the least of a few plays for each tick
+  double median_tick = 0;  ///< s of computing, likewise
+  double slow_tick = 0;    ///< s, 99th percentile, likewise
   long ticks = 0, steps = 0, iterations = 0;
   double least_step = 0;                   ///< s, least stable step of explicit methods on the way
   std::vector<std::vector<Vec3>> at;       ///< #times × #V × 3, m
@@ -33,7 +33,7 @@ struct Run {
 struct RunOptions {
   std::vector<double> times;   ///< s, ascending
   double longest = 60;         ///< s of computing, after which it counts as failed
-  double repeat_below = 0.1;   ///< s: shorter ones are played three times
+  double repeat_below = 0.5;   ///< s: shorter ones are played three times
   MakeWorld make = make_world;
 };
 

@@ -1,8 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <heml/base/hash.hpp>
 #include <heml/mesh/subdivide.hpp>
+#include <heml/scenario/load_mesh.hpp>
 #include <heml/scenario/selection.hpp>
 #include <heml/studies/specimen.hpp>
 
@@ -54,13 +57,16 @@ bool splits(const Material& material, VolumeTerm volume_term) {
   return find_law(material.law)->has_volume_term && material.volume_term == volume_term;
 }
 
-std::string milliseconds(double seconds) { return fmt::format("{:.3g} ms", 1e3 * seconds); }
-
 }  // namespace
 
 Specimen specimen_of(const Scene& scene) {
   Specimen specimen{scene, load_setup(scene), {}};
+  if (specimen.scene.name.empty()) specimen.scene.name = std::filesystem::path(scene.file).stem().string();
   settle_grasps(specimen);
+  return with_masses(std::move(specimen));
+}
+
+Specimen with_masses(Specimen specimen) {
   specimen.mass = lumped_masses(specimen.setup);
   return specimen;
 }
@@ -77,8 +83,7 @@ Specimen finer(const Specimen& specimen) {
       initial.push_back((initial[static_cast<std::size_t>(a)] + initial[static_cast<std::size_t>(b)]) / 2);
   take_parts(result.scene.events);
   result.setup.mesh = std::move(cut.mesh);
-  result.mass = lumped_masses(result.setup);
-  return result;
+  return with_masses(std::move(result));
 }
 
 Specimen with_element(Specimen specimen, bool nodal_pressure) {
@@ -96,6 +101,14 @@ bool takes_nodal_pressure(const Specimen& specimen) {
            const auto* change = std::get_if<SetMaterial>(&event.command);
            return !change || splits(change->material, term);
          });
+}
+
+std::string key_of(const Specimen& specimen) {
+  std::uint64_t hash = identity_of(specimen.setup.mesh).hash;
+  for (const char c : scene_text(specimen.scene)) hash = mix(hash, static_cast<std::uint64_t>(c));
+  for (const Vec3& x : specimen.setup.initial_positions)
+    for (const double coordinate : x) hash = mix(hash, std::bit_cast<std::uint64_t>(coordinate));
+  return fmt::format("{} {:016x}", specimen.scene.name, hash);
 }
 
 std::string text_of(const Specimen& specimen) {
@@ -122,14 +135,14 @@ Scene with_method(Scene scene, const Method& method) {
 }
 
 std::string text_of(const Method& method) {
-  std::string text = integrator_name(method.integrator);
-  text += method.step ? ", steps of " + milliseconds(*method.step) : std::string(", live steps");
+  std::string text = fmt::format("{}, {}", integrator_name(method.integrator),
+                                 method.step ? fmt::format("steps of {:.3g} ms", 1e3 * *method.step) : "live steps");
   if (method.iterations > 0)
     text += fmt::format(", {} iteration{}", method.iterations, method.iterations == 1 ? "" : "s");
   else if (!is_explicit(method.integrator))
     text += ", to tolerance";
   if (method.single_precision) text += ", float";
-  if (method.threads > 0) text += fmt::format(", {} thread{}", method.threads, method.threads == 1 ? "" : "s");
+  if (method.threads == 0) text += ", all cores";
   return text;
 }
 

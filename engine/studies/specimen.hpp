@@ -28,17 +28,21 @@ struct Method {
   std::optional<double> step = {};  ///< s; none: explicit at the live limit, in ticks of a millisecond
   int iterations = 0;               ///< of an implicit stage; 0: as many as its tolerance asks for
   bool single_precision = false;
-  int threads = 0;  ///< 0: all cores
+  int threads = 1;  ///< 0: all cores
 };
 
-/// Loads a scene. Throws InputError.
+/// Loads a scene; one without a name gets its file's. Throws InputError.
 Specimen specimen_of(const Scene& scene);
+/// With the masses of its setup.
+Specimen with_masses(Specimen specimen);
 /// On the mesh with every tetrahedron in eight; what was selected takes in the middles between what was selected.
 Specimen finer(const Specimen& specimen);
 /// With the other kind of element.
 Specimen with_element(Specimen specimen, bool nodal_pressure);
 /// Whether averaged nodal pressure is defined for all its laws, at the start and after every event.
 bool takes_nodal_pressure(const Specimen& specimen);
+/// A name that other scenes do not have: its own and a hash of all there is in it.
+std::string key_of(const Specimen& specimen);
 /// Stable name of the mesh and element: "p1, 1600 tetrahedra".
 std::string text_of(const Specimen& specimen);
 

@@ -1,0 +1,104 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <heml/studies/accuracy_study.hpp>
+
+namespace heml {
+namespace {
+
+constexpr double may_grow = 1.1;
+constexpr double negligible = 1e-9;  // m, or of a deviation
+
+/// Shares the progress out: each part has a weight, and within it all steps count alike.
+class Parts {
+ public:
+  Parts(const AccuracyOptions& options, double whole) : options_(options), whole_(whole) {}
+
+  StudyContext part(double weight, std::size_t steps) {
+    before_ += weight_;
+    weight_ = weight, steps_ = steps, done_ = 0;
+    return {options_.results, options_.make, [this](const std::string& doing) {
+              ++done_;
+              const double inside = std::min(1.0, static_cast<double>(done_) / static_cast<double>(steps_));
+              options_.progress((before_ + weight_ * inside) / whole_, doing);
+            }};
+  }
+
+ private:
+  const AccuracyOptions& options_;
+  double whole_, before_ = 0, weight_ = 0;
+  std::size_t steps_ = 1, done_ = 0;
+};
+
+std::string figure_name(const SceneStudy& scene, const TimeStudy& study, const Measured& measured) {
+  return fmt::format("{}; {}; {}", scene.name, study.specimen, text_of(measured.method));
+}
+
+}  // namespace
+
+AccuracyStudy study_accuracy(const AccuracyOptions& options) {
+  AccuracyStudy study;
+  if (options.scene) {
+    const Specimen specimen = specimen_of(*options.scene);
+    SceneStudyOptions how;
+    if (options.quick) how.sweep = Sweep::brief, how.most_tets = 20000;
+    Parts parts(options, 1);
+    study.scenes.push_back(study_scene(specimen.scene.name, specimen, how, parts.part(1, steps_of_scene_study(specimen, how))));
+    return study;
+  }
+  const std::vector<AccuracyScene> scenes = accuracy_scenes(options.quick);
+  const double locking_weight = options.quick ? 5 : 60;
+  double whole = locking_weight;
+  for (const AccuracyScene& scene : scenes) whole += scene.weight;
+  Parts parts(options, whole);
+  for (const AccuracyScene& scene : scenes)
+    study.scenes.push_back(study_scene(scene.name, scene.specimen, scene.options,
+                                       parts.part(scene.weight, steps_of_scene_study(scene.specimen, scene.options))));
+  study.locking = study_locking(options.quick, parts.part(locking_weight, steps_of_locking_study(options.quick)));
+  return study;
+}
+
+std::vector<Figure> figures_of(const AccuracyStudy& study) {
+  std::vector<Figure> figures;
+  for (const SceneStudy& scene : study.scenes) {
+    for (const TimeStudy& time : scene.time)
+      for (const Measured& measured : time.measured)
+        if (!measured.failed() && measured.resolved && !measured.method.single_precision && measured.method.threads == 1)
+          figures.push_back({figure_name(scene, time, measured), measured.error});
+    for (const SettledMesh& mesh : scene.settled.meshes)
+      if (mesh.failed.empty() && mesh.resolved)
+        figures.push_back({fmt::format("{}; at rest; {}, {} tetrahedra", scene.name,
+                                       mesh.nodal_pressure ? "nodal_pressure" : "p1", mesh.tets),
+                           mesh.error});
+  }
+  for (const LockedBeam& beam : study.locking) {
+    figures.push_back({fmt::format("beam off theory, poisson {}", beam.poisson), std::abs(beam.off_theory())});
+    for (const SettledMesh& mesh : beam.settled.meshes)
+      if (mesh.failed.empty() && mesh.resolved)
+        figures.push_back({fmt::format("beam of poisson {}; {}, {} tetrahedra", beam.poisson,
+                                       mesh.nodal_pressure ? "nodal_pressure" : "p1", mesh.tets),
+                           mesh.error});
+  }
+  return figures;
+}
+
+Json to_json(const std::vector<Figure>& figures) {
+  Json json = Json::object();
+  for (const Figure& figure : figures) json[figure.name] = figure.value;
+  return json;
+}
+
+std::vector<std::string> what_got_worse(const std::vector<Figure>& figures, const Json& committed) {
+  std::vector<std::string> worse;
+  for (const auto& [name, value] : committed.items()) {
+    const auto now = std::find_if(figures.begin(), figures.end(), [&](const Figure& f) { return f.name == name; });
+    const double before = value.get<double>();
+    if (now == figures.end())
+      worse.push_back(fmt::format("{}: was {:.4g}, and is no more: it failed or was not measured", name, before));
+    else if (!(now->value <= may_grow * before + negligible))
+      worse.push_back(fmt::format("{}: was {:.4g}, is {:.4g}", name, before, now->value));
+  }
+  return worse;
+}
+
+}  // namespace heml
