@@ -8,9 +8,9 @@
 namespace heml {
 namespace {
 
-void add_pictures(HtmlPage& page, const std::vector<ReportPicture>& pictures, const std::string& scene) {
+void add_pictures(HtmlPage& page, const std::vector<ReportPicture>& pictures, const std::string& part) {
   for (const ReportPicture& picture : pictures)
-    if (picture.scene == scene) page.png(picture.file, picture.caption);
+    if (picture.part == part) page.png(picture.file, picture.caption);
 }
 
 std::string reference_text(const TimeStudy& time) {
@@ -61,8 +61,27 @@ void add_locking(HtmlPage& page, const std::vector<LockedBeam>& beams, const std
       "A beam of 10 × 2 × 2 cm that sags by 0.7 % of its length, held against Timoshenko's theory and against itself on "
       "finer meshes. What an error grows by from one Poisson's ratio to another on the same mesh is locking; theory "
       "does not know that the clamp also holds the section back, hence the last per cent at ratios other than 0.");
-  add_pictures(page, pictures, "");
+  add_pictures(page, pictures, "locking");
   page.table(locking_table(beams));
+}
+
+void add_laws(HtmlPage& page, const std::vector<SettledLaw>& laws) {
+  page.heading("Laws");
+  page.paragraph(
+      "A small cube of each law settles under its weight, its top turned and moved. Then a naive loop, F = Ds Dm⁻¹, P = F "
+      "S, with stresses written out from textbooks apart from the engine's, takes the forces there: what they leave "
+      "over on free nodes beside the weight.");
+  page.table(law_table(laws));
+}
+
+void add_features(HtmlPage& page, const FeatureStudy& study, const std::vector<ReportPicture>& pictures) {
+  page.heading("What features cost: " + study.title);
+  page.paragraph(fmt::format(
+      "{}, {:.3g} s of it, with one thing changed at a time (`heml explain --measure`): computing time, and how far the "
+      "nodes (rms) are in the end from where they are in the scene as it is. Nodes move by {} at most.",
+      study.scene, study.measurement.stretch, length_text(study.measurement.largest_motion)));
+  add_pictures(page, pictures, "features " + study.scene);
+  page.table(feature_table(study));
 }
 
 void add_method(HtmlPage& page, const std::string& command) {
@@ -100,6 +119,8 @@ std::string accuracy_page(const AccuracyStudy& study, const std::vector<ReportPi
   }
   for (const SceneStudy& scene : study.scenes) add_scene(page, scene, pictures);
   if (!study.locking.empty()) add_locking(page, study.locking, pictures);
+  if (!study.laws.empty()) add_laws(page, study.laws);
+  for (const FeatureStudy& features : study.features) add_features(page, features, pictures);
   add_method(page, command);
   return page.text();
 }

@@ -18,12 +18,14 @@ Table time_table(const TimeStudy& study);
 /// Mesh and element at rest.
 Table settled_table(const SettledStudy& study);
 Table locking_table(const std::vector<LockedBeam>& beams);
+Table law_table(const std::vector<SettledLaw>& laws);
+Table feature_table(const FeatureStudy& study);
 /// One line a run, with the machine, compiler, commit and threads it was made with.
 Table run_table(const AccuracyStudy& study);
 
-/// A picture that belongs to the report and the scene it is of; empty: the locking study's.
+/// A picture of the report and the part it belongs to: a scene's name, "locking", or "features" and a scene's name.
 struct ReportPicture {
-  std::string scene;
+  std::string part;
   std::filesystem::path file;
   std::string caption;
 };

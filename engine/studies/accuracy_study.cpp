@@ -8,6 +8,8 @@ namespace {
 
 constexpr double may_grow = 1.1;
 constexpr double negligible = 1e-9;  // m, or of a deviation
+constexpr double round_off = 1e-6;   // of forces: below it figures are chance
+constexpr double feature_weight = 15;  // s of two scenes' measurement, for the estimate of what is left
 
 /// Shares the progress out: each part has a weight, and within it all steps count alike.
 class Parts {
@@ -34,28 +36,43 @@ std::string figure_name(const SceneStudy& scene, const TimeStudy& study, const M
   return fmt::format("{}; {}; {}", scene.name, study.specimen, text_of(measured.method));
 }
 
-}  // namespace
-
-AccuracyStudy study_accuracy(const AccuracyOptions& options) {
+AccuracyStudy study_users_scene(const AccuracyOptions& options) {
+  const Specimen specimen = specimen_of(*options.scene);
+  SceneStudyOptions how;
+  if (options.quick) how.sweep = Sweep::brief, how.most_tets = 20000;
+  Parts parts(options, 1.05);
   AccuracyStudy study;
-  if (options.scene) {
-    const Specimen specimen = specimen_of(*options.scene);
-    SceneStudyOptions how;
-    if (options.quick) how.sweep = Sweep::brief, how.most_tets = 20000;
-    Parts parts(options, 1);
-    study.scenes.push_back(study_scene(specimen.scene.name, specimen, how, parts.part(1, steps_of_scene_study(specimen, how))));
-    return study;
-  }
+  study.scenes.push_back(
+      study_scene(specimen.scene.name, specimen, how, parts.part(1, steps_of_scene_study(specimen, how))));
+  if (!options.quick) study.features = {study_features(*options.scene, parts.part(0.05, 1))};
+  return study;
+}
+
+AccuracyStudy study_own_scenes(const AccuracyOptions& options) {
+  const double locking_weight = options.quick ? 5 : 60, laws_weight = 2;
   const std::vector<AccuracyScene> scenes = accuracy_scenes(options.quick);
-  const double locking_weight = options.quick ? 5 : 60;
-  double whole = locking_weight;
+  std::vector<Scene> featured;
+  if (!options.quick)
+    for (const char* name : {"kidney_pull", "brain_block"})
+      featured.push_back(read_scene(assets_folder() / "scenes" / fmt::format("{}.json", name)));
+  double whole = locking_weight + laws_weight + feature_weight * static_cast<double>(featured.size());
   for (const AccuracyScene& scene : scenes) whole += scene.weight;
+
   Parts parts(options, whole);
+  AccuracyStudy study;
+  study.laws = study_laws(parts.part(laws_weight, steps_of_law_study()));
+  study.locking = study_locking(options.quick, parts.part(locking_weight, steps_of_locking_study(options.quick)));
   for (const AccuracyScene& scene : scenes)
     study.scenes.push_back(study_scene(scene.name, scene.specimen, scene.options,
                                        parts.part(scene.weight, steps_of_scene_study(scene.specimen, scene.options))));
-  study.locking = study_locking(options.quick, parts.part(locking_weight, steps_of_locking_study(options.quick)));
+  for (const Scene& scene : featured) study.features.push_back(study_features(scene, parts.part(feature_weight, 1)));
   return study;
+}
+
+}  // namespace
+
+AccuracyStudy study_accuracy(const AccuracyOptions& options) {
+  return options.scene ? study_users_scene(options) : study_own_scenes(options);
 }
 
 std::vector<Figure> figures_of(const AccuracyStudy& study) {
@@ -72,6 +89,7 @@ std::vector<Figure> figures_of(const AccuracyStudy& study) {
                            mesh.error});
   }
   for (const LockedBeam& beam : study.locking) {
+    if (!beam.settled.reference.problem.empty()) continue;
     figures.push_back({fmt::format("beam off theory, poisson {}", beam.poisson), std::abs(beam.off_theory())});
     for (const SettledMesh& mesh : beam.settled.meshes)
       if (mesh.failed.empty() && mesh.resolved)
@@ -79,6 +97,8 @@ std::vector<Figure> figures_of(const AccuracyStudy& study) {
                                        mesh.nodal_pressure ? "nodal_pressure" : "p1", mesh.tets),
                            mesh.error});
   }
+  for (const SettledLaw& law : study.laws)
+    if (law.failed.empty()) figures.push_back({fmt::format("force left by {}", law.law), std::max(law.left_over, round_off)});
   return figures;
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 // Error against run time: what `heml study accuracy` measures. The scenes are files of assets/studies/accuracy, listed
 // in accuracy_scenes.cpp; or one scene of the user's.
+#include <heml/studies/feature_study.hpp>
+#include <heml/studies/law_study.hpp>
 #include <heml/studies/locking_study.hpp>
 #include <heml/studies/scene_study.hpp>
 
@@ -16,7 +18,10 @@ struct AccuracyOptions {
 
 struct AccuracyStudy {
   std::vector<SceneStudy> scenes;
-  std::vector<LockedBeam> locking;  ///< none: of a user's scene
+  // Of the study itself, not of a user's scene:
+  std::vector<LockedBeam> locking;
+  std::vector<SettledLaw> laws;
+  std::vector<FeatureStudy> features;  ///< of a user's scene, too; not of a quick study
 };
 
 /// Throws InputError.

@@ -93,11 +93,37 @@ Table locking_table(const std::vector<LockedBeam>& beams) {
   for (const LockedBeam& beam : beams)
     for (const SettledMesh& mesh : beam.settled.meshes) {
       if (!mesh.failed.empty()) continue;
+      if (!beam.settled.reference.problem.empty()) {
+        table.rows.push_back({fmt::format("{}", beam.poisson), element_name(mesh.nodal_pressure),
+                              std::to_string(mesh.tets), "", beam.settled.reference.problem,
+                              fmt::format("{:.4f}", 1e3 * beam.theory), "", ""});
+        continue;
+      }
       table.rows.push_back({fmt::format("{}", beam.poisson), element_name(mesh.nodal_pressure),
                             std::to_string(mesh.tets), fmt::format("{:.4f}", 1e3 * beam.sag(mesh)),
                             fmt::format("{:.4f}", 1e3 * beam.extrapolated()), fmt::format("{:.4f}", 1e3 * beam.theory),
                             percent(mesh.relative), percent(std::max(0.0, locking_of(beams, mesh)))});
     }
+  return table;
+}
+
+Table law_table(const std::vector<SettledLaw>& laws) {
+  Table table;
+  table.head = {"law", "force left over, of a node's weight"};
+  table.first_number = 1, table.end_numbers = 2;
+  for (const SettledLaw& law : laws)
+    table.rows.push_back({law.law, law.failed.empty() ? fmt::format("{:.1e}", law.left_over) : "failed: " + law.failed});
+  return table;
+}
+
+Table feature_table(const FeatureStudy& study) {
+  Table table;
+  table.head = {"feature", "from", "to", "ms a tick", "of as it is", "error"};
+  table.first_number = 3, table.end_numbers = 6;
+  const double as_it_is = study.measurement.changes.front().milliseconds;
+  for (const MeasuredChange& c : study.measurement.changes)
+    table.rows.push_back({c.feature, c.from, c.to, short_number(c.milliseconds), percent(c.milliseconds / as_it_is),
+                          c.halted.empty() ? length_text(c.error) : c.halted});
   return table;
 }
 

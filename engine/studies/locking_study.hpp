@@ -16,6 +16,9 @@ struct LockedBeam {
   double off_theory() const { return extrapolated() / theory - 1; }          ///< relative
 };
 
+/// One of them, from a mesh of so many cells.
+LockedBeam study_beam(double poisson, const std::array<int, 3>& cells, const StudyContext& context);
+
 /// From a mesh of 8 × 2 × 2 cells (quick) or 10 × 2 × 2, and fewer Poisson's ratios (quick); the first is 0.
 std::vector<LockedBeam> study_locking(bool quick, const StudyContext& context);
 std::size_t steps_of_locking_study(bool quick);

@@ -77,7 +77,8 @@ SceneStudy study_scene(const std::string& name, const Specimen& specimen, const 
   if (const int halvings = halvings_of(specimen, options); halvings > 0)
     study.settled = study_settled(key, specimen, halvings, context);
   else
-    study.settled.reference.problem = "finer meshes are too large";
+    study.settled.reference.problem =
+        options.most_tets == 0 ? "it is measured on another mesh of this scene" : "finer meshes are too large";
   if (!study.settled.reference.problem.empty())
     study.notes.push_back(fmt::format("the mesh error is not known: {}", study.settled.reference.problem));
   else if (!specimen.scene.events.empty())
@@ -101,6 +102,7 @@ std::optional<Candidate> fastest_within(const std::vector<Candidate>& candidates
 }
 
 std::string length_text(double metres) {
+  if (metres == 0) return "0";
   if (metres >= 0.01) return fmt::format("{:.3g} cm", 100 * metres);
   if (metres >= 1e-4) return fmt::format("{:.2g} mm", 1e3 * metres);
   return metres >= 1e-7 ? fmt::format("{:.2g} µm", 1e6 * metres) : fmt::format("{:.2g} nm", 1e9 * metres);
