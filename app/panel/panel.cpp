@@ -173,7 +173,9 @@ std::optional<Banner> Panel::banner_for(const Frame& frame) const {
         "Reset (R)", colours::danger};
   if (frame.recovery && shows_recovery())
     return Banner{frame.recovery->ended ? "The tissue was brought back" : "Bringing the tissue back",
-                  capitalised(frame.recovery->message) + ".", "", colours::warning};
+                  capitalised(frame.recovery->message) + "." +
+                      (frame.recovery_file.empty() ? "" : "\nTo see it again: heml " + frame.recovery_file),
+                  "", colours::warning};
   if (late_for_ > patience)
     return Banner{fmt::format("{:.1f}× slower than real time", frame.pace.slowdown),
                   "The engine cannot keep up. A softer or denser material, a lower Poisson's ratio or a coarser mesh "

@@ -17,6 +17,8 @@ class Player {
   /// Throws InputError when the world refuses an event.
   void to(double time, const std::function<bool()>& on_tick = [] { return true; });
 
+  std::span<const Event> past_events() const { return schedule_.past(); }  ///< handed to the world so far
+
  private:
   void begin_tick();
 

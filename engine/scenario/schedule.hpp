@@ -17,6 +17,9 @@ class Schedule {
   /// The events up to a tick that were not handed out before. Valid while the schedule lives.
   std::span<const Event> due(long tick);
 
+  /// Those handed out so far.
+  std::span<const Event> past() const { return std::span(events_).first(next_); }
+
   /// Applies the events due at the world's coming tick. Throws InputError when the world refuses one.
   void apply(World& world);
 

@@ -1,8 +1,11 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
-#include <fmt/format.h>
 #include <heml/base/error.hpp>
+#include <heml/base/log.hpp>
 #include <heml/scenario/player.hpp>
+#include <heml/scenario/recovery_watch.hpp>
 #include <heml/scenario/report.hpp>
 #include <heml/scenario/solve.hpp>
 #include <vector>
@@ -11,6 +14,8 @@ namespace heml {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* recovery_file = "recovery.jsonl";
 
 /// A time the run has to land on, or in a static scene a fraction of the load, and the file its state goes to.
 struct Landing {
@@ -28,7 +33,8 @@ std::vector<Landing> landings_of(const Scene& scene) {
                        "in a static scene times are fractions of the load, 0 to 1");
     landings.push_back({time, fmt::format("positions_{}", landings.size())});
   }
-  std::stable_sort(landings.begin(), landings.end(), [](const Landing& a, const Landing& b) { return a.time < b.time; });
+  std::stable_sort(landings.begin(), landings.end(),
+                   [](const Landing& a, const Landing& b) { return a.time < b.time; });
   landings.push_back({is_static ? 1 : scene.solver.duration, "positions"});
   return landings;
 }
@@ -45,6 +51,7 @@ void make_folder(const fs::path& folder) {
 void remove_outputs(const fs::path& folder, const std::vector<Landing>& landings) {
   std::error_code ignored;
   fs::remove(folder / "report.json", ignored);
+  fs::remove(folder / recovery_file, ignored);
   for (const Landing& landing : landings)
     for (const char* ending : {".csv", ".vtu"}) fs::remove(folder / (landing.stem + ending), ignored);
 }
@@ -58,7 +65,12 @@ SolveResult solve(const Scene& scene, const fs::path& out, const std::function<v
   remove_outputs(out, landings);
 
   Player player(scene, *world);
+  RecoveryWatch watch;
   const auto on_tick = [&] {
+    const auto news = watch.after_tick(*world);
+    if (news != RecoveryWatch::News::none) write_replay(out / recovery_file, scene, player.past_events(), *world);
+    if (news == RecoveryWatch::News::began)
+      warn("{}; {} shows it again", world->recovery()->message, (out / recovery_file).string());
     if (progress) progress(static_cast<double>(world->ticks()) * scene.solver.tick() / scene.solver.duration);
     return true;
   };
@@ -68,7 +80,8 @@ SolveResult solve(const Scene& scene, const fs::path& out, const std::function<v
     player.to(landing.time, on_tick);
     seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     const bool last = &landing == &landings.back();
-    if (last || !world->halt()) write_state(out, landing.stem, *world, last || scene.output_positions, scene.output_vtu);
+    if (last || !world->halt())
+      write_state(out, landing.stem, *world, last || scene.output_positions, scene.output_vtu);
   }
   SolveFacts facts;
   facts.halt = world->halt();

@@ -51,6 +51,7 @@ struct Frame {
   double stable_step = 0;  ///< s
   bool paused = false;
   std::optional<Recovery> recovery;        ///< the last one, going on or ended
+  std::string recovery_file;               ///< that shows it again; empty: none was written
   std::array<Vec3f, 4> recovered_element;  ///< m, corners of its first bad element, where there is one to name
   std::string halted;                      ///< why the world will not step on; empty while it does
 };

@@ -2,8 +2,10 @@
 
 #include <atomic>
 #include <condition_variable>
+#include <heml/base/error.hpp>
 #include <heml/base/log.hpp>
 #include <heml/scenario/recorder.hpp>
+#include <heml/scenario/recovery_watch.hpp>
 #include <heml/scenario/schedule.hpp>
 #include <heml/session/budget_keeper.hpp>
 #include <heml/session/cost_keeper.hpp>
@@ -24,11 +26,13 @@ class Session::Impl {
   Impl(const Scene& scene, SessionOptions options)
       : options_(std::move(options)),
         world_(load_world(scene)),
+        scene_(without_events(scene)),
         schedule_(scene, world_->setup().mesh),
         field_(scene.view.field),
         playing_(!options_.start_paused),
         pacer_(world_->setup().solver.tick()) {
-    if (options_.record) recorder_.emplace(*options_.record, without_events(scene), *world_);
+    if (!world_->setup().solver.recovery) options_.recovery_file.clear();
+    if (options_.record) recorder_.emplace(*options_.record, scene_, *world_);
     const auto& budget = world_->setup().solver.budget;
     if (budget && budget->milliseconds > 0) budget_keeper_.emplace(budget->milliseconds);
     if (world_->setup().solver.integrator == Integrator::automatic)
@@ -141,6 +145,7 @@ class Session::Impl {
   void carry_out(const Command& command) {
     if (const auto problem = world_->apply(command)) return warn("{}", *problem);
     if (recorder_) recorder_->command(*world_, command);
+    if (!options_.recovery_file.empty()) history_.push_back({world_->ticks(), command});
   }
 
   /// What the scene's own script does is recorded like what the user does: each once.
@@ -175,17 +180,26 @@ class Session::Impl {
 
   /// A line as a recovery begins, with where to find it again, and one as it ends.
   void tell_of_recovery() {
-    const Recovery* recovery = world_->recovery();
-    if (world_->recoveries() != recoveries_ && recovery) {
-      warn("{}", recovery->message);
-      if (options_.record) inform("{} holds it, from step {}", options_.record->string(), recovery->tick);
-    }
-    recoveries_ = world_->recoveries();
-    const bool goes_on = recovery && !recovery->ended;
-    if (was_recovering_ && !goes_on && recovery)
-      inform("the body came back after {} steps, {:.3g} s", recovery->steps,
-             recovery->ended->time - recovery->begun.time);
-    was_recovering_ = goes_on;
+    const auto news = watch_.after_tick(*world_);
+    if (news == RecoveryWatch::News::none) return;
+    const Recovery& recovery = *world_->recovery();
+    if (news == RecoveryWatch::News::began)
+      warn("{}", recovery.message);
+    else
+      inform("the body came back after {} steps, {:.3g} s", recovery.steps, recovery.ended->time - recovery.begun.time);
+    keep_recovery(news == RecoveryWatch::News::began);
+  }
+
+  void keep_recovery(bool say) try {
+    if (options_.recovery_file.empty()) return;
+    std::error_code ignored;
+    std::filesystem::create_directories(options_.recovery_file.parent_path(), ignored);
+    write_replay(options_.recovery_file, scene_, history_, *world_);
+    kept_recovery_ = options_.recovery_file.string();
+    if (say) inform("{} shows it again", kept_recovery_);
+  } catch (const InputError& error) {
+    warn("{}", error.what());
+    options_.recovery_file.clear();
   }
 
   void publish() {
@@ -195,6 +209,7 @@ class Session::Impl {
     fill_frame(*world_, skin_, field_, 0, frame, stretches_);
     frame.pace = pacer_.pace(began);
     frame.paused = !playing_;
+    frame.recovery_file = kept_recovery_;
     frames_.publish();
     published_ = Pacer::Clock::now();
     publish_cost_ = published_ - began;
@@ -205,10 +220,12 @@ class Session::Impl {
   std::unique_ptr<World> world_;
   std::shared_ptr<const Skin> skin_;  ///< of the last frame
   std::optional<Recorder> recorder_;
-  Schedule schedule_;  ///< the scene's own events
-  long recoveries_ = 0;
-  bool was_recovering_ = false;
-  std::mutex mutex_;  ///< of queue_ and single_steps_; held for a swap at most
+  Scene scene_;        ///< without its events
+  Schedule schedule_;  ///< which are here
+  RecoveryWatch watch_;
+  std::vector<Event> history_;  ///< every command so far; empty where nobody would want it
+  std::string kept_recovery_;   ///< the file of the last one
+  std::mutex mutex_;            ///< of queue_ and single_steps_; held for a swap at most
   std::condition_variable wake_;
   std::vector<Command> queue_, taken_;
   long single_steps_ = 0;

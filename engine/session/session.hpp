@@ -23,6 +23,7 @@ namespace heml {
 
 struct SessionOptions {
   std::optional<std::filesystem::path> record;  ///< JSON Lines file every command and checkpoint is appended to
+  std::filesystem::path recovery_file;  ///< what led to the last recovery is written there; empty: nowhere
   bool start_paused = false;
   std::function<void()>
       on_frame;  ///< called on the engine thread after a frame is published (to wake a sleeping viewer)

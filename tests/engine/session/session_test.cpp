@@ -157,6 +157,35 @@ TEST_CASE("what is removed leaves the frames' skin, and a reset brings it back")
   CHECK(after.removed == 0);
 }
 
+TEST_CASE("a recovery is told to the viewer, with a file that shows it again, and recorded to the bit") {
+  const TemporaryFolder folder;
+  Scene scene = small_scene();
+  scene.solver.recovery = true;
+  scene.solver.damping = 20;
+  SessionOptions options;
+  options.recovery_file = folder.path / "made" / "recovery.jsonl";
+  options.record = folder.path / "session.jsonl";
+  {
+    Session session(scene, options);
+    session.post(SetGravity{Vec3(-40000, 0, 0)});
+    wait_for(session, [](const Frame& f) { return f.recovery.has_value(); });
+    session.post(SetGravity{Vec3::Zero()});
+    const Frame& frame = wait_for(session, [](const Frame& f) { return f.recovery && f.recovery->ended; });
+    CHECK(frame.recovery_file == options.recovery_file.string());
+    CHECK(frame.halted.empty());
+  }
+  for (const std::filesystem::path& file : {options.recovery_file, *options.record}) {
+    const Scene recording = read_scene(file);
+    CHECK(recording.events.size() >= 2);
+    const auto world = load_world(recording);
+    const ReplayResult result = replay(recording, *world);
+    CHECK(result.checkpoints >= 1);
+    CHECK_FALSE(result.difference);
+    REQUIRE(world->recovery());
+    CHECK(world->recovery()->ended);
+  }
+}
+
 TEST_CASE("a recorded session replays to the same hashes, with one thread and with two") {
   TemporaryFolder folder;
   const auto file = folder.path / "session.jsonl";

@@ -1,0 +1,32 @@
+#include <heml/scenario/json_text.hpp>
+#include <heml/scenario/load_mesh.hpp>
+#include <heml/scenario/recovery_watch.hpp>
+#include <heml/scenario/text_file.hpp>
+
+namespace heml {
+
+void write_replay(const std::filesystem::path& path, const Scene& scene, std::span<const Event> events,
+                  const World& world) {
+  Scene recorded = scene;
+  recorded.recorded_mesh = identity_of(world.setup().mesh);
+  const std::filesystem::path folder = path.parent_path();
+  std::string text = scene_line(recorded, folder.empty() ? "." : folder) + '\n';
+  for (const Event& event : events) text += event_line(event) + '\n';
+  text += checkpoint_line({world.ticks(), world.state_hash(), world.node_hashes()}) + '\n';
+  text += json_text({{"step", world.ticks()}, {"end", true}}, path.string()) + '\n';
+  write_text_file(path, text);
+}
+
+RecoveryWatch::News RecoveryWatch::after_tick(const World& world) {
+  const Recovery* recovery = world.recovery();
+  if (recovery && recovery->tick != begun_) {
+    begun_ = recovery->tick;
+    going_on_ = true;
+    return News::began;
+  }
+  if (!going_on_ || (recovery && !recovery->ended)) return News::none;
+  going_on_ = false;
+  return recovery ? News::ended : News::none;  // none: a reset came between
+}
+
+}  // namespace heml
