@@ -83,7 +83,7 @@ Outcome yanked(const Trial& trial) {
     if (world->tool().active) farthest = std::max(farthest, away_from_rest(*world));
   }
   if (world->halt()) return stopped(*world);
-  Outcome outcome = ended(*world, away_from_rest(*world), fmt::format("pulled {:.2f} of its size away", farthest));
+  Outcome outcome = ended(*world, away_from_rest(*world), fmt::format("bent by {:.2f} of its size", farthest));
   if (!(farthest > 0.02)) outcome.broken = "the tool did not pull it";
   return outcome;
 }

@@ -153,7 +153,7 @@ Outcome sliver(const Trial& trial) {
     const auto world = trial.world(bad);
     const double ratio = world->stable_step() / make_world(good)->stable_step();
     const int limited_by = world->facts().step.element;
-    if (!run_until(*world, 0.02)) return stopped(*world);
+    if (!run_until(*world, 0.004)) return stopped(*world);
     Outcome outcome = ended(*world, ratio, fmt::format("stable step × {:.4f}", ratio));
     if (limited_by < static_cast<int>(bad.mesh.tets.size()) - 4) outcome.broken = "another element is told to limit it";
     return outcome;

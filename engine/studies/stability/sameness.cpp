@@ -23,7 +23,7 @@ std::unique_ptr<World> played(const Trial& trial, const WorldSetup& setup) {
 }
 
 void tighten(WorldSetup& setup) {
-  if (!is_explicit(setup.solver.integrator)) setup.solver.tolerance = setup.solver.single_precision ? 1e-4 : 1e-12;
+  if (!is_explicit(setup.solver.integrator)) setup.solver.tolerance = setup.solver.single_precision ? 1e-4 : 1e-9;
 }
 
 /// A permutation of 0 … count − 1.

@@ -21,7 +21,7 @@ std::unique_ptr<World> settled(const Trial& trial, const WorldSetup& setup) {
 
 /// As tight as the precision allows.
 void tighten(WorldSetup& setup) {
-  if (!is_explicit(setup.solver.integrator)) setup.solver.tolerance = setup.solver.single_precision ? 1e-4 : 1e-13;
+  if (!is_explicit(setup.solver.integrator)) setup.solver.tolerance = setup.solver.single_precision ? 1e-4 : 1e-12;
 }
 
 std::map<int, Vec3> targets(const WorldSetup& setup) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <heml/scenario/scene.hpp>
 #include <heml/studies/stability/measures.hpp>
+#include <map>
+#include <mutex>
 
 namespace heml::stability {
 namespace {
@@ -15,6 +17,16 @@ double mean_edge(const TetMesh& mesh) {
     sum += (X(1) - X(0)).norm();
   }
   return sum / static_cast<double>(mesh.tets.size());
+}
+
+/// Read once: what is to be warned of is said once.
+WorldSetup as_in_file(const std::string& scene) {
+  static std::mutex door;
+  static std::map<std::string, WorldSetup> known;
+  const std::lock_guard lock(door);
+  const auto found = known.find(scene);
+  if (found != known.end()) return found->second;
+  return known[scene] = load_setup(read_scene(assets_folder() / "scenes" / "extreme" / (scene + ".json")));
 }
 
 }  // namespace
@@ -47,7 +59,7 @@ Outcome worse(const Outcome& a, const Outcome& b) {
 }
 
 WorldSetup Trial::setup(const std::string& scene) const {
-  WorldSetup setup = load_setup(read_scene(assets_folder() / "scenes" / "extreme" / (scene + ".json")));
+  WorldSetup setup = as_in_file(scene);
   const double edge = mean_edge(setup.mesh);
   for (RegionMaterial& entry : setup.materials) {
     if (entry.material.law == way.law) continue;
