@@ -18,6 +18,7 @@ int study_stability(const StudyArguments& arguments) {
     Progress progress("measuring");
     StudyOptions options;
     options.quick = arguments.quick;
+    options.only = arguments.cases;
     options.progress = [&](const std::string& what, double fraction) { progress.show(fraction, what); };
     cells = run_study(arguments.out / "results.jsonl", options);
   }

@@ -115,7 +115,7 @@ Outcome any_number_of_threads(const Trial& trial) {
     setup.solver.threads = threads;
     const auto world = trial.world(setup);
     Schedule schedule(scene, setup.mesh);
-    const int ticks = is_explicit(setup.solver.integrator) ? 20 : 5;
+    const int ticks = is_explicit(setup.solver.integrator) ? 20 : setup.solver.is_static() ? 1 : 5;
     for (int k = 0; k < ticks && !world->halt(); ++k) {
       schedule.apply(*world);
       world->tick();

@@ -20,7 +20,7 @@ struct Floor {
   double limit;
   int ways;
 };
-const std::map<int, Floor> floors = {FLOORS_HERE};
+const std::map<int, Floor> floors = {{1, {1e-6, 12}}};
 
 std::filesystem::path folder(const char* name) {
   const auto path = std::filesystem::path(HEML_BINARY_DIR) / name;
