@@ -13,6 +13,7 @@ constexpr std::string_view all_laws[] = {
 constexpr std::span<const std::string_view> laws(all_laws), solids = laws.first(laws.size() - 1);
 constexpr std::string_view exponentials[] = {"fung_demiray", "hgo", "veronda_westmann"};
 constexpr std::string_view of_stretches[] = {"ogden"};
+constexpr std::string_view a_few[] = {"stvk", "neo_hookean", "mooney_rivlin", "mass_spring"};
 constexpr std::string_view separate[] = {"neo_hookean_iso", "mooney_rivlin", "fung_demiray", "ogden", "yeoh", "gent",
                                          "veronda_westmann"};
 constexpr double never = std::numeric_limits<double>::quiet_NaN();
@@ -95,7 +96,7 @@ const std::vector<Case>& table() {
       {32, "1 to 16 threads", "the same bits",
        "numbers of threads that differ", 0, 0, laws, every, {"32_any_number_of_threads"}, any_number_of_threads},
       {33, "a million steps", "undamped, it keeps its energy",
-       "energy lost or won / swing", 1e-3, 1e-2, laws, {verlet}, {"33_soak"}, soak},
+       "energy lost or won / swing", 1e-3, 1e-2, a_few, {verlet}, {"33_soak"}, soak},
   };
   return cases;
 }

@@ -1,5 +1,6 @@
 #pragma once
-// The survival matrix: cases down, law × precision × integrator across, a letter and a colour a cell.
+// The survival matrix: cases down, law × precision × integrator across, a letter and a colour a cell; laws in two
+// panels.
 //
 //                  stvk                        neo_hookean
 //                  double        float         double   …

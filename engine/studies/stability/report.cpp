@@ -187,19 +187,18 @@ std::string html_report(const std::vector<Cell>& cells, const std::vector<Penalt
   add_failures(page, cells);
   page.heading("Signed penalty volumes, and continued laws");
   page.paragraph(
-      "The paper names signed penalty volumes (Irving, Teran & Fedkiw 2004) as a way to deal with inverted elements: ½ "
-      "k V (1 − "
-      "v/V)² added for every element, k in units of λ + 2μ. The engine continues each law below its range instead, "
-      "and, where "
-      "asked, steps a collapsed body under a stable stand-in. All are let go from the collapses of cases 13 and 15 (10 "
-      "kPa, ν "
-      "0.45) and stepped for two seconds with damping.");
+      "The paper names signed penalty volumes (Irving, Teran & Fedkiw 2004) as a way to deal with inverted elements: "
+      "½ k V (1 − v/V)² added for every element, k in units of λ + 2μ. The engine continues each law below its range "
+      "instead, and, where asked, steps a collapsed body under a stable stand-in. All are let go from the collapses of "
+      "cases 13 and 15 and from the disorder of case 12 (10 kPa, ν 0.45), and stepped for two seconds with damping.");
   page.answer(penalty_answer(penalty));
   page.table(table_of_penalty(penalty));
   page.paragraph(
-      "A penalty strong enough to turn elements upright is there at all deformations: it changes the stress of sound "
-      "ones and "
-      "shortens the explicit step. A continuation does neither, as it begins where the law ends.");
+      "A penalty is there at all deformations: it changes the stress of sound elements and shortens the explicit step, "
+      "the "
+      "more the stronger it is. A continuation begins where the law ends and does neither. Folded into itself a body "
+      "may be "
+      "at rest under either; that is what recovery is for.");
   page.heading("All runs");
   for (const Case& c : cases()) {
     const auto of_case = taken(cells, [&](const Cell& cell) { return cell.number == c.number; });

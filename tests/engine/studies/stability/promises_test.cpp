@@ -73,7 +73,8 @@ TEST_CASE("what the plan names by law is promised in double: every law's forces,
   for (const auto law : study_laws())
     for (const int number : {1, 2, 3, 4, 5}) CHECK_MESSAGE(promised(number, law, std::nullopt), number, " ", law);
   for (const auto law : continua())
-    for (const int number : {13, 15}) CHECK_MESSAGE(promised(number, law, Integrator::backward_euler), number, " ", law);
+    for (const int number : {13, 15})
+      CHECK_MESSAGE(promised(number, law, Integrator::backward_euler), number, " ", law);
   CHECK(promised(14, "stvk", Integrator::backward_euler));
 }
 
@@ -145,7 +146,7 @@ TEST_CASE("the matrix and the report show every run, its promise, and what falls
     CHECK_MESSAGE(page.find(part) != std::string::npos, part);
 }
 
-TEST_CASE("a penalty turns a flattened body upright only where it is strong, and costs what a continuation does not") {
+TEST_CASE("a penalty costs what a continuation does not, and recovery brings back what either leaves") {
   for (const PenaltyRow& row : compare_with_penalty(true)) {
     CAPTURE(row.method);
     if (row.method.find("penalty") != std::string::npos) {
