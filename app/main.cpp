@@ -127,6 +127,9 @@ int run_program(int argc, char** argv) {
       ->required();
   study_command->add_flag("--quick", study_arguments.quick, "within two minutes: fewer and smaller cases");
   study_command->add_option("--scene", study_arguments.scene, "accuracy: of this scene instead of the study's own");
+  study_command
+      ->add_option("--case", study_arguments.cases, "stability: these cases alone, by number (may be given often)")
+      ->check(CLI::Range(1, 33));
   study_command->footer(
       "A run that was interrupted goes on where it stopped when it is given the same --out.\n"
       "Exit code 1: a case that is promised falls short, or an error of the quick accuracy study has grown.");

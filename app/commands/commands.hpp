@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace heml {
 
@@ -87,7 +88,8 @@ struct StudyArguments {
   std::string kind;           ///< one of the reports of study.cpp
   std::filesystem::path out;  ///< folder of the report
   bool quick = false;
-  std::string scene;  ///< empty: the study's own
+  std::vector<int> cases;  ///< of the stability study, by number; empty: all
+  std::string scene;       ///< empty: the study's own
 };
 int study(const StudyArguments& arguments);
 int study_accuracy(const StudyArguments& arguments);   ///< exit_check_failed: a quick figure has grown

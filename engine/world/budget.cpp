@@ -28,7 +28,7 @@ template <class Real>
 void TypedWorld<Real>::limit_energy(double h, double time, Vector& x, Vector& v) {
   ImplicitParts<Real>& parts = implicit();
   for (const HeldNode& held : model_.held)
-    if (held_at(model_, held, time).x != parts.x.template segment<3>(3 * held.node)) return;
+    if (held_at(model_, held, time).x != held_at(model_, held, state_.time).x) return;
   const auto kinetic = [&](const Vector& velocity) {
     return (parts.mass.array() * velocity.array().square()).sum() / 2;
   };

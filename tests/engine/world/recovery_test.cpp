@@ -41,14 +41,6 @@ Material with_moduli(const std::string& law, double mu, double kappa) {
   return material;
 }
 
-/// Every law but those with stress at rest.
-std::vector<std::string> law_names() {
-  std::vector<std::string> names;
-  for (const LawInfo& law : laws())
-    if (law.is_continuum && !law.name.starts_with("paper_")) names.emplace_back(law.name);
-  return names;
-}
-
 /// A cube of 10 kPa, held at x = 0, stepped by backward Euler.
 WorldSetup cube(const std::string& law, double poisson) {
   WorldSetup setup;
@@ -116,29 +108,7 @@ int steps_to_rest(World& world) {
   return world.halt() ? 0 : since;
 }
 
-void comes_back_from(const Place& place) {
-  for (const std::string& law : law_names())
-    for (const double poisson : {0.3, 0.49, 0.499}) {
-      CAPTURE(law);
-      CAPTURE(poisson);
-      const auto world = make_world(starting_at(cube(law, poisson), place));
-      REQUIRE(world->recovery());
-      const int steps = steps_to_rest(*world);
-      CAPTURE(away_from_rest(world->positions(), world->setup().mesh.nodes));
-      CAPTURE(inverted(*world));
-      CHECK(steps > 0);
-      CHECK(world->recoveries() == 1);
-      REQUIRE(world->recovery()->ended);
-    }
-}
-
 }  // namespace
-
-TEST_CASE("recovery: from a point, every law, to Poisson's ratio 0.499") { comes_back_from(to_point); }
-TEST_CASE("recovery: from a line, every law, to Poisson's ratio 0.499") { comes_back_from(to_line); }
-TEST_CASE("recovery: from a plane, every law, to Poisson's ratio 0.499") { comes_back_from(to_plane); }
-TEST_CASE("recovery: from random scatter, every law, to Poisson's ratio 0.499") { comes_back_from(scattered(1)); }
-TEST_CASE("recovery: with one half mirrored, every law, to Poisson's ratio 0.499") { comes_back_from(mirrored); }
 
 TEST_CASE("recovery: a body that nothing holds comes back too, and from ten other scatters, and in float") {
   int slowest = 0;
@@ -315,22 +285,4 @@ TEST_CASE("recovery: material, grasp and reset are taken while it goes on") {
   CHECK(world->time() == 0);
   CHECK(world->recoveries() == 1);  // it starts scattered again
   CHECK(steps_to_rest(*world) > 0);
-}
-
-TEST_CASE("a flattened body of StVK with continuation pushes back, ever harder") {
-  double before = 0;
-  for (const double height : {0.5, 0.3, 0.1, 0.0, -0.2}) {
-    CAPTURE(height);
-    WorldSetup setup = cube("stvk", 0.3);
-    setup.solver.recovery = false;
-    setup.solver.continuation = true;
-    setup.boundary[0].nodes = nodes_where(setup.mesh, [](const Vec3& X) { return X.y() < 1e-9; });
-    setup.boundary.push_back({nodes_where(setup.mesh, [](const Vec3& X) { return X.y() > side - 1e-9; })});
-    setup.boundary[1].translate = Vec3(0, (height - 1) * side, 0);
-    const auto world =
-        make_world(starting_at(setup, [&](const Vec3& X) { return Vec3(X.x(), height * X.y(), X.z()); }));
-    const double pushed = -world->reactions()[1].y();  // of the body on the upper support
-    CHECK(pushed > before);
-    before = pushed;
-  }
 }

@@ -96,29 +96,6 @@ TEST_CASE("patch test: interior nodes of an irregular mesh settle on the homogen
     CHECK((x[n] - stretch.cwiseProduct(setup.mesh.nodes[n])).norm() <= 1e-10 * 0.1);
 }
 
-TEST_CASE("undamped Verlet keeps its energy to 1e-5 of what swings, over a second") {
-  WorldSetup setup = cantilever();
-  setup.solver.step = 1e-4;
-  const auto world = make_world(setup);
-  // Energy ripples with the step and must not drift: means over the first and the last tenth of a second.
-  double swing = 0;
-  const auto mean_energy = [&](double until) {
-    double sum = 0;
-    int count = 0;
-    for (; world->time() < until - 1e-9; ++count) {
-      world->tick();
-      sum += total(world->energies());
-      swing = std::max(swing, std::abs(world->energies().potential));
-    }
-    return sum / count;
-  };
-  const double first = mean_energy(0.1);
-  mean_energy(1.0);
-  const double last = mean_energy(1.1);
-  MESSAGE("drift / swing = " << (last - first) / swing);
-  CHECK(std::abs(last - first) <= 1e-5 * swing);
-}
-
 TEST_CASE("a free body keeps momentum and angular momentum to round-off") {
   WorldSetup setup = cantilever();
   setup.boundary.clear();
@@ -152,17 +129,6 @@ TEST_CASE("a free body keeps momentum and angular momentum to round-off") {
     CHECK((after.first - before.first).norm() <= 1e-12 * before.first.norm());
     CHECK((after.second - before.second).norm() <= 1e-11 * before.first.norm() * 0.1);
   }
-}
-
-TEST_CASE("the live limit carries a soft beam through its fall, where the limit taken at rest fails") {
-  WorldSetup setup = cantilever("neo_hookean", 1e4);
-  setup.mesh = make_box(Vec3(0.1, 0.02, 0.02), {20, 4, 4});
-  setup.boundary[0].nodes = nodes_where(setup.mesh, [](const Vec3& X) { return X.x() < 1e-9; });
-  const auto live = make_world(setup);
-  run_until(*live, 1.0);
-  CHECK_FALSE(live->halt());
-  const Energies e = live->energies();
-  CHECK(std::abs(total(e)) <= 0.01 * std::abs(e.potential));
 }
 
 TEST_CASE("a step that is too long is reported as unstable and the last valid state kept") {

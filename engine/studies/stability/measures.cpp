@@ -1,0 +1,120 @@
+#include <fmt/format.h>
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <heml/base/hash.hpp>
+#include <heml/studies/stability/measures.hpp>
+
+namespace heml::stability {
+
+Material material_of(std::string_view law, double mu, double kappa, double edge) {
+  const double lambda = kappa - 2 * mu / 3;
+  Material material;
+  material.law = law;
+  material.parameters = law == "stvk" || law == "neo_hookean" || law == "stable_neo_hookean" ? std::vector{lambda, mu}
+                        : law == "neo_hookean_iso"  ? std::vector{mu / 2, kappa}
+                        : law == "mooney_rivlin"    ? std::vector{0.4 * mu, 0.1 * mu, kappa}
+                        : law == "fung_demiray"     ? std::vector{mu, 1.5, kappa}
+                        : law == "ogden"            ? std::vector{6 * mu / 17, -4 * mu / 17, 3.0, -4.0, kappa}
+                        : law == "hgo"              ? std::vector{mu / 2, kappa, 0.8 * mu, 2.0}
+                        : law == "yeoh"             ? std::vector{mu / 2, -0.05 * mu, 0.08 * mu, kappa}
+                        : law == "gent"             ? std::vector{mu, 20.0, kappa}
+                        : law == "veronda_westmann" ? std::vector{mu / 3, 3.0, kappa}
+                                                    : std::vector{mu * edge};
+  if (find_law(law)->has_fibre) material.fibre = Vec3::UnitX();
+  assert(!material_problem(material));
+  return material;
+}
+
+void set_young_poisson(WorldSetup& setup, double young, double poisson) {
+  for (RegionMaterial& entry : setup.materials) {
+    const double density = entry.material.density;
+    entry.material = material_of(entry.material.law, young / (2 + 2 * poisson), young / (3 - 6 * poisson));
+    entry.material.density = density;
+  }
+}
+
+double least_J(World& world) {
+  const auto J = world.volume_ratios();
+  return *std::min_element(J.begin(), J.end());
+}
+
+int inverted(World& world) {
+  const auto J = world.volume_ratios();
+  return static_cast<int>(std::count_if(J.begin(), J.end(), [](double ratio) { return !(ratio > 0); }));
+}
+
+double total(const Energies& e) { return e.kinetic + e.elastic + e.potential; }
+
+double rms_difference(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+  assert(a.size() == b.size());
+  double sum = 0;
+  for (std::size_t n = 0; n < a.size(); ++n) sum += (a[n] - b[n]).squaredNorm();
+  return std::sqrt(sum / static_cast<double>(a.size()));
+}
+
+double largest_difference(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+  assert(a.size() == b.size());
+  double largest = 0;
+  for (std::size_t n = 0; n < a.size(); ++n) {
+    const double apart = (a[n] - b[n]).norm();
+    if (!(apart <= largest)) largest = apart;  // NaN too
+  }
+  return largest;
+}
+
+double diagonal(const TetMesh& mesh) {
+  Vec3 low = mesh.nodes.front(), high = low;
+  for (const Vec3& X : mesh.nodes) low = low.cwiseMin(X), high = high.cwiseMax(X);
+  return (high - low).norm();
+}
+
+double away_from_rest(const World& world) {
+  const std::vector<Vec3> x = world.positions();
+  const std::vector<Vec3>& rest = world.setup().mesh.nodes;
+  const auto mean = [](const std::vector<Vec3>& points) {
+    Vec3 sum = Vec3::Zero();
+    for (const Vec3& point : points) sum += point;
+    return Vec3(sum / static_cast<double>(points.size()));
+  };
+  const Vec3 of_x = mean(x), of_rest = mean(rest);
+  Mat3 moment = Mat3::Zero();
+  for (std::size_t n = 0; n < x.size(); ++n) moment += (rest[n] - of_rest) * (x[n] - of_x).transpose();
+  const Eigen::JacobiSVD<Mat3> svd(moment, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Vec3 signs(1, 1, (svd.matrixV() * svd.matrixU().transpose()).determinant() < 0 ? -1 : 1);
+  const Mat3 R = svd.matrixV() * signs.asDiagonal() * svd.matrixU().transpose();
+  double sum = 0;
+  for (std::size_t n = 0; n < x.size(); ++n) sum += (x[n] - of_x - R * (rest[n] - of_rest)).squaredNorm();
+  return std::sqrt(sum / static_cast<double>(x.size())) / diagonal(world.setup().mesh);
+}
+
+bool run_until(World& world, double time, long most_steps) {
+  while (!world.halt() && world.time() < time - 1e-9 && world.steps() < most_steps) world.tick();
+  return !world.halt() && world.time() >= time - 1e-9;
+}
+
+Outcome ended(World& world, double figure, std::string note) {
+  Outcome outcome{figure, inverted(world), world.recoveries(), {}, {}, std::move(note)};
+  if (world.halt()) outcome.stopped = world.halt()->message;
+  return outcome;
+}
+
+Outcome stopped(World& world) {
+  Outcome outcome = ended(world, std::numeric_limits<double>::infinity());
+  if (outcome.stopped.empty()) outcome.stopped = fmt::format("took {} steps to {:.3g} s", world.steps(), world.time());
+  return outcome;
+}
+
+double noise(std::uint64_t seed, std::uint64_t place) {
+  return static_cast<double>(mix(seed, place) >> 11) * 0x1p-52 - 1;
+}
+
+std::vector<double> flat(const std::vector<Vec3>& points) {
+  std::vector<double> x;
+  for (const Vec3& point : points) x.insert(x.end(), {point.x(), point.y(), point.z()});
+  return x;
+}
+
+}  // namespace heml::stability

@@ -1,0 +1,191 @@
+// Cases of long, far and wild motion.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <heml/elastic/body.hpp>
+#include <heml/mesh/quality.hpp>
+#include <heml/studies/stability/measures.hpp>
+#include <heml/world/facts.hpp>
+
+namespace heml::stability {
+namespace {
+
+/// The longest step that is stable for small vibrations about rest, s: 2/ω of the fastest, by power iteration.
+double limit_at_rest(const WorldSetup& setup) {
+  std::vector<Material> materials;
+  for (const RegionMaterial& entry : setup.materials) materials.push_back(entry.material);
+  ElasticBody<double> body(setup.mesh, material_of_elements(setup.mesh, setup.materials), materials, {});
+  ThreadTeam team(1);
+  const std::vector<double> x = flat(setup.mesh.nodes), mass = body.masses();
+  std::vector<double> w(x.size()), change(x.size());
+  for (std::size_t i = 0; i < w.size(); ++i) w[i] = noise(9, i);
+  for (const Boundary& entry : setup.boundary)
+    for (const int n : entry.nodes)
+      for (std::size_t i = 0; i < 3; ++i) w[3 * static_cast<std::size_t>(n) + i] = 0;
+  body.linearise(x.data(), team);
+  double omega_squared = 0;
+  for (int k = 0; k < 500; ++k) {
+    double size = 0;
+    for (const double c : w) size = std::max(size, std::abs(c));
+    for (double& c : w) c /= size;
+    body.force_change(w.data(), change.data(), team);
+    double wKw = 0, wMw = 0;
+    for (std::size_t i = 0; i < w.size(); ++i) {
+      wKw -= w[i] * change[i];
+      wMw += w[i] * w[i] * mass[i / 3];
+      w[i] = w[i] == 0 ? 0 : -change[i] / mass[i / 3];
+    }
+    omega_squared = wKw / wMw;
+  }
+  return 2 / std::sqrt(omega_squared);
+}
+
+/// Energy a body with nothing working on it has gained at most, in one step, over what it had.
+Outcome largest_gain(World& world, int ticks) {
+  const double first = total(world.energies());
+  double before = first, worst = 0;
+  for (int k = 0; k < ticks && !world.halt(); ++k) {
+    world.tick();
+    const double now = total(world.energies());
+    worst = std::max(worst, (now - before) / first);
+    before = now;
+  }
+  if (world.halt()) return stopped(world);
+  return ended(world, worst);
+}
+
+}  // namespace
+
+Outcome beam_drop(const Trial& trial) {
+  WorldSetup setup = trial.setup("09_beam_drop");
+  const double duration = setup.solver.duration;
+  double swing = 0;
+  const auto world = trial.world(setup);
+  while (!world->halt() && world->time() < duration - 1e-9) {
+    world->tick();
+    swing = std::max(swing, std::abs(world->energies().potential));
+  }
+  if (world->halt()) return stopped(*world);
+  Outcome outcome = ended(*world, std::abs(total(world->energies())) / swing);
+  // What suits the body at rest has to fail, or the case could not tell.
+  setup.solver.step = 0.9 * limit_at_rest(setup);
+  const auto fixed = make_world(setup);
+  const bool reached = run_until(*fixed, duration);
+  const double kept = std::abs(total(fixed->energies())) / swing;
+  const bool told = !reached || kept > 10 * outcome.figure;
+  outcome.note = reached ? fmt::format("0.9 of the limit at rest: energy off by {:.1e}", kept)
+                         : fmt::format("0.9 of the limit at rest fails at {:.2f} s", fixed->time());
+  if (!told && trial.way.law == "neo_hookean" && !trial.way.single) outcome.broken = "the limit at rest did not fail";
+  return outcome;
+}
+
+Outcome no_energy_from_nothing(const Trial& trial) {
+  Outcome outcome;
+  for (const char* scene : {"11_stretched", "11_compressed", "11_thinned", "11_twisted"})
+    for (const double poisson : {0.3, 0.45}) {
+      WorldSetup setup = trial.setup(scene);
+      set_young_poisson(setup, 1e4, poisson);
+      const auto world = trial.world(setup);
+      if (world->halt()) return stopped(*world);
+      outcome = worse(outcome, largest_gain(*world, 25));
+    }
+  return outcome;
+}
+
+Outcome no_energy_from_budgets(const Trial& trial) {
+  Outcome outcome;
+  for (const char* scene : {"11_stretched", "11_compressed", "11_twisted", "12_shaken"})
+    for (const Minimiser minimiser : {Minimiser::newton, Minimiser::lbfgs})
+      for (const int iterations : {1, 3}) {
+        WorldSetup setup = trial.setup(scene);
+        setup.solver.continuation = true;
+        setup.solver.minimiser = minimiser;
+        setup.solver.budget = Budget{iterations, 0};
+        const auto world = trial.world(setup);
+        Outcome one = largest_gain(*world, 15);
+        one.inverted = 0;  // 0.15 s after disorder, one iteration a step, nobody promises that
+        outcome = worse(outcome, one);
+      }
+  return outcome;
+}
+
+Outcome half_a_turn(const Trial& trial) {
+  const WorldSetup setup = trial.setup("17_half_a_turn");
+  const auto world = trial.world(setup);
+  long before = 0, most = 0;
+  while (!world->halt() && world->time() < setup.solver.duration - 1e-9) {
+    world->tick();
+    most = std::max(most, world->solver_work().iterations - before);
+    before = world->solver_work().iterations;
+  }
+  if (world->halt()) return stopped(*world);
+  return ended(*world, static_cast<double>(most));
+}
+
+Outcome two_turns(const Trial& trial) {
+  const WorldSetup setup = trial.setup("18_two_turns");
+  const auto world = trial.world(setup);
+  double before = 0, falls = 0;
+  while (!world->halt() && world->time() < setup.solver.duration - 1e-9) {
+    world->tick();
+    const double now = world->energies().elastic;
+    if (!(now > before)) ++falls;
+    before = now;
+  }
+  if (world->halt()) return stopped(*world);
+  return ended(*world, falls, fmt::format("least J {:.2f}", least_J(*world)));
+}
+
+Outcome sliver(const Trial& trial) {
+  // The same body without the sliver: the four parts of one tetrahedron joined again.
+  WorldSetup bad = trial.setup("22_sliver"), good = bad;
+  const std::size_t last = good.mesh.nodes.size() - 1;
+  std::vector<Tet>& tets = good.mesh.tets;
+  Tet whole = tets[tets.size() - 1];  // its corner 3 is the node inside
+  whole[3] = tets[tets.size() - 2][3];
+  tets.resize(tets.size() - 4);
+  tets.push_back(whole);
+  good.mesh.nodes.resize(last);
+  good.mesh.regions.resize(tets.size());
+  if (is_explicit(*trial.way.integrator)) {
+    bad.solver.step.reset(), good.solver.step.reset();
+    const auto world = trial.world(bad);
+    const double ratio = world->stable_step() / make_world(good)->stable_step();
+    const int limited_by = world->facts().step.element;
+    if (!run_until(*world, 0.004)) return stopped(*world);
+    Outcome outcome = ended(*world, ratio, fmt::format("stable step × {:.4f}", ratio));
+    if (limited_by < static_cast<int>(bad.mesh.tets.size()) - 4) outcome.broken = "another element is told to limit it";
+    return outcome;
+  }
+  std::vector<double> sag, iterations;
+  Outcome outcome;
+  for (const WorldSetup& setup : {good, bad}) {
+    const auto world = trial.world(setup);
+    if (!run_until(*world, setup.solver.duration)) return stopped(*world);
+    auto x = world->positions();
+    x.resize(last);
+    sag.push_back(rms_difference(x, good.mesh.nodes));
+    iterations.push_back(static_cast<double>(world->solver_work().iterations));
+    outcome = ended(*world, 0);
+  }
+  outcome.figure = std::abs(sag[1] / sag[0] - 1);
+  outcome.note = fmt::format("{:.0f} iterations, {:.0f} without", iterations[1], iterations[0]);
+  if (iterations[1] > 1.2 * iterations[0] + 5) outcome.broken = "many more iterations than without";
+  return outcome;
+}
+
+Outcome soak(const Trial& trial) {
+  const WorldSetup setup = trial.setup("33_soak");
+  const auto world = trial.world(setup);
+  const long steps = trial.quick ? 20'000 : 1'000'000;
+  double swing = 0;
+  for (long k = 0; k < steps && !world->halt(); ++k) {
+    world->tick();
+    if (k < 5000) swing = std::max(swing, std::abs(world->energies().potential));
+  }
+  if (world->halt()) return stopped(*world);
+  return ended(*world, std::abs(total(world->energies())) / swing, fmt::format("{} steps", world->steps()));
+}
+
+}  // namespace heml::stability

@@ -1,0 +1,82 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <heml/scenario/scene.hpp>
+#include <heml/studies/stability/measures.hpp>
+#include <map>
+#include <mutex>
+
+namespace heml::stability {
+namespace {
+
+double mean_edge(const TetMesh& mesh) {
+  double sum = 0;
+  for (const Tet& t : mesh.tets) {
+    const auto X = [&](std::size_t c) { return mesh.nodes[static_cast<std::size_t>(t[c])]; };
+    sum += (X(1) - X(0)).norm();
+  }
+  return sum / static_cast<double>(mesh.tets.size());
+}
+
+/// Read once: what is to be warned of is said once.
+WorldSetup as_in_file(const std::string& scene) {
+  static std::mutex door;
+  static std::map<std::string, WorldSetup> known;
+  const std::lock_guard lock(door);
+  const auto found = known.find(scene);
+  if (found != known.end()) return found->second;
+  return known[scene] = load_setup(read_scene(assets_folder() / "scenes" / "extreme" / (scene + ".json")));
+}
+
+}  // namespace
+
+std::string to_text(const Way& way) {
+  return fmt::format("{}{}{} {}", way.law, way.integrator ? " " : "",
+                     way.integrator ? integrator_name(*way.integrator) : "", way.single ? "float" : "double");
+}
+
+const char* verdict_name(Verdict verdict) {
+  constexpr const char* names[] = {"stable", "recovered", "inverted", "diverged", "wrong-but-finite"};
+  return names[static_cast<std::size_t>(verdict)];
+}
+
+Verdict judge(const Outcome& outcome, double limit) {
+  if (!outcome.stopped.empty() || !std::isfinite(outcome.figure)) return Verdict::diverged;
+  if (outcome.inverted > 0) return Verdict::inverted;
+  if (!outcome.broken.empty() || outcome.figure > limit) return Verdict::wrong;
+  return outcome.recoveries > 0 ? Verdict::recovered : Verdict::stable;
+}
+
+Outcome worse(const Outcome& a, const Outcome& b) {
+  Outcome outcome = a.figure >= b.figure || std::isnan(a.figure) ? a : b;
+  outcome.inverted = std::max(a.inverted, b.inverted);
+  outcome.recoveries = std::max(a.recoveries, b.recoveries);
+  outcome.stopped = a.stopped.empty() ? b.stopped : a.stopped;
+  outcome.broken = a.broken.empty() ? b.broken : a.broken;
+  outcome.note = b.note.empty() ? a.note : b.note;
+  return outcome;
+}
+
+WorldSetup Trial::setup(const std::string& scene) const {
+  WorldSetup setup = as_in_file(scene);
+  const double edge = mean_edge(setup.mesh);
+  for (RegionMaterial& entry : setup.materials) {
+    if (entry.material.law == way.law) continue;
+    const GroundState ground = ground_state(entry.material);
+    const double density = entry.material.density;
+    entry.material = material_of(way.law, ground.shear, ground.bulk, edge);
+    entry.material.density = density;
+  }
+  if (way.integrator) setup.solver.integrator = *way.integrator;
+  setup.solver.single_precision = way.single;
+  setup.solver.threads = 1;  // cases are run side by side, and threads change no bit
+  return setup;
+}
+
+std::unique_ptr<World> Trial::world(WorldSetup setup) const {
+  if (world_fault) world_fault(setup);
+  return make_world(std::move(setup));
+}
+
+}  // namespace heml::stability

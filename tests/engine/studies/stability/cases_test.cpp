@@ -1,0 +1,125 @@
+// Cases of the study that are quick enough to be asked with every build; `heml study stability` asks them all.
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <heml/scenario/scene.hpp>
+#include <heml/studies/stability/case.hpp>
+#include <set>
+
+using namespace heml;
+using namespace heml::stability;
+
+namespace {
+
+void check_holds(int number, const Way& way, bool quick = true) {
+  const Case& c = case_numbered(number);
+  CAPTURE(to_text(way));
+  Trial trial;
+  trial.way = way;
+  trial.quick = quick;
+  const Outcome outcome = c.run(trial);
+  CAPTURE(outcome.figure);
+  CAPTURE(outcome.note);
+  CAPTURE(outcome.stopped);
+  CAPTURE(outcome.broken);
+  CHECK(judge(outcome, c.limit_of(way)) <= Verdict::recovered);
+}
+
+constexpr Integrator still = Integrator::static_equilibrium, implicit = Integrator::backward_euler,
+                     verlet = Integrator::verlet;
+
+}  // namespace
+
+TEST_CASE("the list of cases is whole: 33, each once, in order") {
+  int number = 0;
+  for (const Case& c : cases()) CHECK(c.number == ++number);
+  CHECK(number == 33);
+}
+
+TEST_CASE("the cases of forces hold for every law, in double and float") {
+  for (const int number : {1, 2, 3, 5, 24, 25})
+    for (const Way& way : ways_of(case_numbered(number), false)) check_holds(number, way);
+}
+
+TEST_CASE("no force 10 km from the origin, in double") {
+  for (const Way& way : ways_of(case_numbered(4), false))
+    if (!way.single) check_holds(4, way);
+}
+
+TEST_CASE("extremes: stretched to five times its length, or pressed to a fifth, in at most 60 iterations") {
+  check_holds(16, {"neo_hookean", still});
+}
+
+TEST_CASE("extremes: a bar wrung by half a turn in a fifth of a second, in at most 8 iterations a step") {
+  check_holds(17, {"neo_hookean", implicit});
+}
+
+TEST_CASE("extremes: a bar wrung by two turns stores more with every angle") {
+  check_holds(18, {"neo_hookean", implicit});
+}
+
+TEST_CASE("extremes: one half a million times stiffer than the other moves as a rigid body does") {
+  check_holds(19, {"neo_hookean", still});
+}
+
+TEST_CASE("extremes: a sliver shortens the explicit step and leaves implicit ones as they are") {
+  check_holds(22, {"neo_hookean", verlet});
+  check_holds(22, {"neo_hookean", implicit});
+}
+
+TEST_CASE("extremes: one half ten thousand times heavier, both methods agree") {
+  check_holds(23, {"neo_hookean", verlet});
+}
+
+TEST_CASE("extremes: backward Euler gains no energy without load, from any start") {
+  for (const char* law : {"neo_hookean", "neo_hookean_iso"}) check_holds(11, {law, implicit});
+  Trial trial;
+  trial.way = {"stvk", implicit};  // which ends inside out where it starts compressed: it has no reason not to
+  const Outcome outcome = case_numbered(11).run(trial);
+  CHECK(outcome.stopped.empty());
+  CHECK(outcome.figure <= case_numbered(11).limit);
+}
+
+TEST_CASE("the live limit carries a soft beam through its fall, where the limit taken at rest fails") {
+  check_holds(9, {"neo_hookean", verlet});
+}
+
+TEST_CASE("undamped Verlet keeps its energy to 1e-5 of what swings, over a second") {
+  check_holds(10, {"neo_hookean", verlet});
+}
+
+TEST_CASE("recovery: from a point, a line, a plane and random scatter, every law, to Poisson's ratio 0.499") {
+  for (const auto law : continua()) check_holds(13, {std::string(law), implicit}, false);
+}
+
+TEST_CASE("recovery: with one half mirrored, every law, to Poisson's ratio 0.499") {
+  for (const auto law : continua()) check_holds(15, {std::string(law), implicit}, false);
+}
+
+TEST_CASE("a flattened body of StVK with continuation pushes back, ever harder") {
+  check_holds(14, {"stvk", implicit});
+}
+
+TEST_CASE("20 ms steps of 1 GPa settle on its equilibrium") { check_holds(20, {"neo_hookean", implicit}); }
+
+TEST_CASE("budgets of one iteration gain no energy in single precision either") {
+  check_holds(12, {"neo_hookean", implicit, true});
+  check_holds(12, {"neo_hookean", Integrator::tr_bdf2, true});
+}
+
+TEST_CASE("every scene of the study can be read, has a title, and belongs to a case") {
+  std::set<std::string> used;
+  for (const Case& c : cases()) used.insert(c.scenes.begin(), c.scenes.end());
+  std::set<std::string> found;
+  for (const auto& entry : std::filesystem::directory_iterator(assets_folder() / "scenes" / "extreme")) {
+    if (entry.path().extension() != ".json") continue;
+    CAPTURE(entry.path().filename().string());
+    const Scene scene = read_scene(entry.path());
+    CHECK(scene.name == entry.path().stem().string());
+    CHECK_FALSE(scene.title.empty());
+    CHECK_FALSE(scene.description.empty());
+    CHECK_NOTHROW(load_world(scene));
+    found.insert(scene.name);
+  }
+  CHECK(found == used);
+}

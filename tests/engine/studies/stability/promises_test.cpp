@@ -1,0 +1,162 @@
+// What is promised may grow and become tighter; never the other way round.
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <heml/scenario/text_file.hpp>
+#include <heml/studies/stability/matrix.hpp>
+#include <heml/studies/stability/report.hpp>
+#include <map>
+
+using namespace heml;
+using namespace heml::stability;
+
+namespace {
+
+const std::filesystem::path committed = std::filesystem::path(HEML_SOURCE_DIR) / "assets/studies/promised.json";
+
+/// Limits in double (float where that is all a case asks), as the plan of the study has them; and how many ways of the
+/// case were promised first.
+struct Floor {
+  double limit;
+  int ways;
+};
+const std::map<int, Floor> floors = {{1, {1e-6, 12}}};
+
+std::filesystem::path folder(const char* name) {
+  const auto path = std::filesystem::path(HEML_BINARY_DIR) / name;
+  std::filesystem::remove_all(path);
+  std::filesystem::create_directories(path);
+  return path;
+}
+
+Cell cell_of(Verdict verdict, double figure) {
+  Cell cell{10, {"ogden", Integrator::verlet, false}, {figure}, verdict};
+  return cell;
+}
+
+const Promise drift{10, Integrator::verlet, false, 1e-5, {"stvk", "ogden"}};
+
+}  // namespace
+
+TEST_CASE("the list of promises has not shrunk and no limit is looser than the plan's") {
+  std::map<int, int> ways;
+  for (const Promise& promise : read_promises(committed)) {
+    CAPTURE(promise.number);
+    REQUIRE(floors.contains(promise.number));
+    ways[promise.number] += static_cast<int>(promise.laws.size());
+    const Case& c = case_numbered(promise.number);
+    if (!promise.single) CHECK(promise.limit <= floors.at(promise.number).limit);
+    CHECK(promise.limit <= c.limit_of({"", promise.integrator, promise.single}));
+    const auto known = ways_of(c, false);
+    for (const std::string& law : promise.laws)
+      CHECK_MESSAGE(std::count(known.begin(), known.end(), Way{law, promise.integrator, promise.single}) == 1, law);
+  }
+  for (const auto& [number, floor] : floors) {
+    CAPTURE(number);
+    CHECK(ways[number] >= floor.ways);
+  }
+}
+
+TEST_CASE("no limit of the table is looser than the plan's") {
+  for (const Case& c : cases()) CHECK_MESSAGE(c.limit <= floors.at(c.number).limit, c.name);
+}
+
+TEST_CASE("what the plan names by law is promised in double: every law's forces, every law's collapse") {
+  const auto promises = read_promises(committed);
+  const auto promised = [&](int number, std::string_view law, std::optional<Integrator> integrator) {
+    for (const Promise& promise : promises)
+      if (promise.number == number && promise.integrator == integrator && !promise.single &&
+          std::find(promise.laws.begin(), promise.laws.end(), law) != promise.laws.end())
+        return true;
+    return false;
+  };
+  for (const auto law : study_laws())
+    for (const int number : {1, 2, 3, 4, 5}) CHECK_MESSAGE(promised(number, law, std::nullopt), number, " ", law);
+  for (const auto law : continua())
+    for (const int number : {13, 15})
+      CHECK_MESSAGE(promised(number, law, Integrator::backward_euler), number, " ", law);
+  CHECK(promised(14, "stvk", Integrator::backward_euler));
+}
+
+TEST_CASE("a verdict needs more than being finite") {
+  CHECK(judge({0.5}, 1) == Verdict::stable);
+  CHECK(judge({2}, 1) == Verdict::wrong);
+  CHECK(judge({0.5, 3}, 1) == Verdict::inverted);
+  CHECK(judge({0.5, 0, 1}, 1) == Verdict::recovered);
+  CHECK(judge({0.5, 0, 0, "ran away"}, 1) == Verdict::diverged);
+  CHECK(judge({0.5, 0, 0, "", "not balanced"}, 1) == Verdict::wrong);
+  CHECK(judge({std::numeric_limits<double>::quiet_NaN()}, 1) == Verdict::diverged);
+  CHECK(worse({1}, {2, 0, 0, "ran away"}).stopped == "ran away");
+  CHECK(worse({std::numeric_limits<double>::quiet_NaN()}, {2}).figure != 2);
+}
+
+TEST_CASE("a promise falls short by its verdict, and by its figure alone") {
+  std::vector<Cell> cells = {cell_of(Verdict::stable, 1e-6), cell_of(Verdict::stable, 2e-5),
+                             cell_of(Verdict::inverted, 1e-6), cell_of(Verdict::wrong, 1)};
+  cells[3].way.law = "gent";  // not promised
+  hold_against({drift}, cells);
+  CHECK(cells[0].promised);
+  CHECK_FALSE(cells[0].short_of_promise);
+  CHECK(cells[1].short_of_promise);
+  CHECK(cells[2].short_of_promise);
+  CHECK_FALSE(cells[3].promised);
+  CHECK_FALSE(cells[3].short_of_promise);
+  CHECK(shortfalls(cells).size() == 2);
+  CHECK(answer(cells).starts_with("1 of 3 promised runs hold; the others fall short"));
+}
+
+TEST_CASE("what holds can be promised as it is, and is read back") {
+  const auto file = folder("promises") / "holding.json";
+  write_text_file(file, promises_text({cell_of(Verdict::stable, 1e-6), cell_of(Verdict::diverged, 1)}));
+  const auto promises = read_promises(file);
+  REQUIRE(promises.size() == 1);
+  CHECK(promises[0].number == 10);
+  CHECK(promises[0].integrator == Integrator::verlet);
+  CHECK(promises[0].limit == 1e-5);
+  CHECK(promises[0].laws == std::vector<std::string>{"ogden"});
+}
+
+TEST_CASE("a study goes on where it stopped, and its figures are the ones it had") {
+  StudyOptions options;
+  options.only = {5};
+  int runs = 0;
+  options.progress = [&](const std::string&, double) { ++runs; };
+  const auto results = folder("study") / "results.jsonl";
+  const auto first = run_study(results, options);
+  CHECK(runs == static_cast<int>(first.size()));
+  const std::string text = read_text_file(results);
+  write_text_file(results, text.substr(0, text.size() / 2));  // cut off in the middle of a line
+  runs = 0;
+  const auto second = run_study(results, options);
+  CHECK(runs > 0);
+  CHECK(runs < static_cast<int>(first.size()));
+  for (std::size_t k = 0; k < first.size(); ++k) CHECK(first[k].outcome.figure == second[k].outcome.figure);
+}
+
+TEST_CASE("the matrix and the report show every run, its promise, and what falls short") {
+  std::vector<Cell> cells = {cell_of(Verdict::stable, 1e-6), cell_of(Verdict::inverted, 1e-6)};
+  cells[1].way.law = "stvk";
+  hold_against({drift}, cells);
+  const std::string svg = matrix_svg(cells);
+  CHECK(svg.find(">S</text>") != std::string::npos);
+  CHECK(svg.find(">I</text>") != std::string::npos);
+  CHECK(svg.find("#c00020") != std::string::npos);
+  const std::string page = html_report(cells, {}, true);
+  for (const char* part : {"Falls short: case 10", "<svg", "What does not hold", "Signed penalty volumes"})
+    CHECK_MESSAGE(page.find(part) != std::string::npos, part);
+}
+
+TEST_CASE("a penalty costs what a continuation does not, and recovery brings back what either leaves") {
+  for (const PenaltyRow& row : compare_with_penalty(true)) {
+    CAPTURE(row.method);
+    if (row.method.find("penalty") != std::string::npos) {
+      CHECK(row.changed_stress > 0.001);
+      CHECK(row.longest_step < 1);
+    } else {
+      CHECK(row.changed_stress == 0);
+      CHECK(row.longest_step == doctest::Approx(1));
+    }
+    if (row.method == "StVK alone") CHECK_FALSE(row.back());
+    if (row.method == "Neo-Hookean, engine's recovery") CHECK(row.back());
+  }
+}
