@@ -133,8 +133,8 @@ std::vector<ReportPicture> write_accuracy_pictures(const std::filesystem::path& 
       const auto file = folder / fmt::format("{}_{}.png", scene.name, element);
       write_chart(file, work_precision(scene, time));
       pictures.push_back({scene.name, file,
-                          fmt::format("{}, {}: error of time against computing time. Marks on the level line gain "
-                                      "nothing more from smaller steps, since the mesh errs as much.",
+                          fmt::format("{}, {}: error of time against computing time. Marks below the level line "
+                                      "gain nothing from smaller steps: the mesh errs by more.",
                                       scene.title, time.specimen)});
     }
   if (!study.locking.empty()) {

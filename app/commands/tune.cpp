@@ -28,13 +28,8 @@ std::filesystem::path out_of(const TuneArguments& arguments, const Scene& scene)
 
 Tuning measure(const Scene& scene, bool quick) {
   Progress progress("tuning");
-  StudyContext context;
-  double done = 0;
-  context.step_done = [&](const std::string& doing) {
-    ++done;
-    progress.show(done / (done + 40), doing);  // how many there will be is known at the end
-  };
-  return measure_for_tuning(scene, quick, context);
+  return measure_for_tuning(
+      scene, quick, [&](double fraction, const std::string& doing) { progress.show(fraction, doing); });
 }
 
 }  // namespace

@@ -224,18 +224,28 @@ class Drawing {
   void draw_lines() {
     const UseFont font(Font::small);
     const float gap = em(0.3f), line = ImGui::GetTextLineHeight();
-    float row = 0;
     for (const ChartLine& mark : chart_.upright) {
-      const float x = std::round(place(on_axis(mark.at), 0).x) + 0.5f;
+      const float x = across(mark.at);
       list_.AddLine({x, plot_.from.y}, {x, plot_.to.y}, colours_.axis, em(0.08f));
-      text(x + gap, plot_.from.y + gap + row * line, colours_.muted, mark.name);
-      ++row;
     }
     for (const ChartLine& mark : chart_.level) {
-      const float y = std::round(place(0, on_axis(mark.at)).y) + 0.5f;
+      const float y = up(mark.at);
       list_.AddLine({plot_.from.x, y}, {plot_.to.x, y}, colours_.axis, em(0.08f));
-      text(plot_.to.x - gap - ImGui::CalcTextSize(mark.name.c_str()).x, y - line - em(0.1f), colours_.muted, mark.name);
+      name_line(mark.name, plot_.to.x - gap - ImGui::CalcTextSize(mark.name.c_str()).x, y - line - em(0.1f));
     }
+    float y = plot_.from.y + gap;
+    for (const ChartLine& mark : chart_.upright) {
+      name_line(mark.name, across(mark.at) + gap, y);
+      y += line;
+    }
+  }
+  float across(double x) const { return std::round(place(on_axis(x), 0).x) + 0.5f; }
+  float up(double y) const { return std::round(place(0, on_axis(y)).y) + 0.5f; }
+  /// Readable where lines cross it.
+  void name_line(const std::string& name, float x, float y) {
+    const ImVec2 size = ImGui::CalcTextSize(name.c_str());
+    list_.AddRectFilled({x, y}, {x + size.x, y + size.y}, colours_.paper);
+    text(x, y, colours_.muted, name);
   }
   double on_axis(double value) const { return chart_.logarithmic ? std::log10(value) : value; }
 

@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cmath>
 #include <heml/studies/accuracy_report.hpp>
 #include <heml/studies/machine.hpp>
 #include <heml/studies/pareto.hpp>
@@ -11,6 +13,9 @@ namespace heml {
 namespace {
 
 std::string percent(double share) { return short_number(100 * share) + " %"; }
+std::string signed_percent(double share) {
+  return std::abs(share) < 0.1 ? fmt::format("{:+.2g} %", 100 * share) : fmt::format("{:+.0f} %", 100 * share);
+}
 std::string element_name(bool nodal_pressure) { return nodal_pressure ? "nodal_pressure" : "p1"; }
 
 std::string error_text(const Measured& measured) {
@@ -62,10 +67,10 @@ Table time_table(const TimeStudy& study) {
                {error_text(m), percent(m.relative), length_text(m.last_error), short_number(m.seconds_per_second()),
                 short_number(1e3 * m.seconds_per_second() * frame), short_number(1e3 * m.run.median_tick),
                 short_number(1e3 * m.run.slow_tick), std::to_string(m.run.steps), std::to_string(m.run.iterations),
-                m.frequency_error ? fmt::format("{:+.2g} %", 100 * *m.frequency_error) : "",
+                m.frequency_error ? signed_percent(*m.frequency_error) : "",
                 m.added_decay ? fmt::format("{:+.2g}", *m.added_decay) : "",
-                m.run.energy_drift ? fmt::format("{:+.2g} %", 100 * *m.run.energy_drift) : "",
-                fmt::format("{:+.2g} %", 100 * (m.run.volume - 1)), short_number(m.run.least_J)});
+                m.run.energy_drift ? signed_percent(*m.run.energy_drift) : "",
+                signed_percent(m.run.volume - 1), short_number(m.run.least_J)});
     table.rows.push_back(row);
   }
   return table;

@@ -29,8 +29,8 @@ struct TimeStudy {
 
 /// How wide a sweep is.
 enum class Sweep {
-  brief,   ///< one or two steps of each integrator
-  whole    ///< integrators × steps × iterations, precision, threads, and a step above the stable limit
+  brief,  ///< two steps of each integrator, and one above the stable limit
+  whole   ///< integrators × steps × iterations, precision, threads
 };
 std::vector<Method> methods_of(Sweep sweep, double stable_step);
 

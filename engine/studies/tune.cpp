@@ -85,6 +85,11 @@ void add_other_meshes(Tuning& tuning, const Scene& scene, const Specimen& first,
     add_mesh(tuning, *remade(scene, 0.5), first, settled, times, context);
 }
 
+/// At most: a coarser and a finer one.
+std::size_t steps_of_other_meshes(const Specimen& specimen) {
+  return 2 * elements_of(specimen).size() * (steps_of_time_study(Sweep::brief) + 1);
+}
+
 std::string goal_text(const TuneGoal& goal) {
   return goal.frame_seconds ? fmt::format("within {:.3g} ms a frame", 1e3 * *goal.frame_seconds)
                             : fmt::format("within an error of {}", length_text(*goal.error));
@@ -121,11 +126,20 @@ const TunedMesh& Tuning::of(const Candidate& candidate) const {
                        [&](const TunedMesh& mesh) { return &mesh.study == candidate.study; });
 }
 
-Tuning measure_for_tuning(const Scene& scene, bool quick, const StudyContext& context) {
+Tuning measure_for_tuning(const Scene& scene, bool quick,
+                          const std::function<void(double fraction, const std::string& doing)>& progress) {
   const Specimen specimen = specimen_of(scene);
   SceneStudyOptions options;
   options.most_tets = most_tets;
   if (quick) options.sweep = Sweep::brief;
+  std::size_t steps = steps_of_scene_study(specimen, options), done = 0;
+  if (!quick && can_be_remade(scene)) steps += steps_of_other_meshes(specimen);
+  StudyContext context;
+  context.step_done = [&](const std::string& doing) {
+    ++done;
+    if (progress) progress(std::min(1.0, static_cast<double>(done) / static_cast<double>(steps)), doing);
+  };
+
   SceneStudy own = study_scene(specimen.scene.name, specimen, options, context);
   Tuning tuning;
   tuning.notes = own.notes;

@@ -29,7 +29,8 @@ struct Tuning {
 };
 
 /// quick: fewer methods, the scene's mesh alone. Throws InputError for a static scene and for what loading refuses.
-Tuning measure_for_tuning(const Scene& scene, bool quick, const StudyContext& context);
+Tuning measure_for_tuning(const Scene& scene, bool quick,
+                          const std::function<void(double fraction, const std::string& doing)>& progress = {});
 
 /// What reaches the goal best; none: nothing tried does.
 std::optional<Candidate> best_for(const TuneGoal& goal, const Tuning& tuning);
