@@ -121,16 +121,28 @@ int run_program(int argc, char** argv) {
 
   StudyArguments study_arguments;
   auto* study_command = program.add_subcommand("study", "reports about what the engine can be trusted with");
-  study_command->add_option("KIND", study_arguments.kind, "stability: stiff and extreme cases")->required();
+  study_command->add_option("KIND", study_arguments.kind,
+                            "accuracy: error against run time; stability: stiff and extreme cases")->required();
   study_command->add_option("--out", study_arguments.out, "folder for report.html, its tables and pictures")
       ->required();
   study_command->add_flag("--quick", study_arguments.quick, "within two minutes: fewer and smaller cases");
+  study_command->add_option("--scene", study_arguments.scene, "accuracy: of this scene instead of the study's own");
   study_command
       ->add_option("--case", study_arguments.cases, "stability: these cases alone, by number (may be given often)")
       ->check(CLI::Range(1, 33));
   study_command->footer(
       "A run that was interrupted goes on where it stopped when it is given the same --out.\n"
-      "Exit code 1: a case that is promised falls short.");
+      "Exit code 1: a case that is promised falls short, or an error of the quick accuracy study has grown.");
+
+  TuneArguments tune_arguments;
+  auto* tune_command = program.add_subcommand("tune", "find the best way to solve a scene, by measuring it");
+  tune_command->add_option("SCENE", tune_arguments.scene, "scene, recording, mesh or surface")->required();
+  tune_command->add_option("--within", tune_arguments.within,
+                           "the least error within so much computing a frame of 1/60 s: 16ms");
+  tune_command->add_option("--error", tune_arguments.error, "the least computing within such an error: 1mm");
+  tune_command->add_option("--out", tune_arguments.out, "the scene solved that way; else NAME_tuned.json");
+  tune_command->add_flag("--quick", tune_arguments.quick, "fewer methods, no other meshes");
+  tune_command->footer("Close other programs first: what is fast enough is a matter of this machine and this hour.");
 
   BenchTestArguments bench_arguments;
   auto* bench_command =
@@ -177,6 +189,8 @@ int run_program(int argc, char** argv) {
     code = bench(speed_arguments);
   } else if (*study_command) {
     code = study(study_arguments);
+  } else if (*tune_command) {
+    code = tune_scene(tune_arguments);
   } else if (*bench_command) {
     code = bench_test(bench_arguments);
   } else {

@@ -133,7 +133,7 @@ void write_curve(const std::filesystem::path& path, const CurveTable& table, con
 }
 
 panel::ChartSeries line_of(std::string name, const CurveTable& table, ImU32 colour, float thickness) {
-  panel::ChartSeries series{std::move(name), {}, colour, false, thickness};
+  panel::ChartSeries series{std::move(name), {}, colour, panel::ChartMark::line, thickness};
   for (const auto& row : table.rows) series.points.push_back({row[0], row[1]});
   return series;
 }
@@ -174,7 +174,7 @@ void add_curves(panel::Chart& chart, const CurveTable& given, const CurveTable& 
   chart.series.push_back(
       line_of(fit ? fmt::format("fitted, R² {:.4g}", fit->r_squared) : "nominal stress", curve, law_colour, 1));
   if (!data) return;
-  panel::ChartSeries dots{"measured", {}, data_colour, true};
+  panel::ChartSeries dots{"measured", {}, data_colour, panel::ChartMark::dots};
   for (std::size_t i = 0; i < data->amount.size(); ++i) dots.points.push_back({data->amount[i], data->stress[i]});
   chart.series.push_back(std::move(dots));
 }

@@ -92,7 +92,16 @@ struct StudyArguments {
   std::string scene;       ///< empty: the study's own
 };
 int study(const StudyArguments& arguments);
+int study_accuracy(const StudyArguments& arguments);   ///< exit_check_failed: a quick figure has grown
 int study_stability(const StudyArguments& arguments);  ///< exit_check_failed: a promised case falls short
+
+struct TuneArguments {
+  std::string scene;
+  std::string within, error;  ///< one of both, with its unit
+  std::filesystem::path out;  ///< empty: NAME_tuned.json here
+  bool quick = false;
+};
+int tune_scene(const TuneArguments& arguments);  ///< exit_check_failed: nothing tried is good enough
 
 struct BenchTestArguments {
   std::string material;           ///< a file with one entry of a scene's `materials`, or a preset's name

@@ -44,7 +44,10 @@ Axes logarithmic_axes(const Chart& chart) {
   for (const ChartSeries& series : chart.series)
     for (const ChartPoint& p : series.points)
       if (p.x > 0 && p.y > 0) axes.x.take(std::log10(p.x)), axes.y.take(std::log10(p.y));
-  if (axes.x.low > axes.x.high) axes.x = {0, 1}, axes.y = {0, 1};
+  for (const ChartLine& line : chart.upright) axes.x.take(std::log10(line.at));
+  for (const ChartLine& line : chart.level) axes.y.take(std::log10(line.at));
+  if (axes.x.low > axes.x.high) axes.x = {0, 1};
+  if (axes.y.low > axes.y.high) axes.y = {0, 1};
   for (Span* span : {&axes.x, &axes.y}) {
     span->low = std::floor(span->low + 1e-9), span->high = std::ceil(span->high - 1e-9);
     if (!(span->size() > 0)) span->high = span->low + 1;
@@ -80,6 +83,7 @@ class Drawing {
     plot_ = chart_.small ? small_plot(area) : large_plot(area);
     draw_band();
     draw_ticks();
+    draw_lines();
     list_.PushClipRect({plot_.from.x - em(0.3f), plot_.from.y - em(0.3f)},
                        {plot_.to.x + em(0.3f), plot_.to.y + em(0.3f)}, true);
     for (const ChartSeries& series : chart_.series) draw_series(series);
@@ -132,8 +136,7 @@ class Drawing {
       text(area.from.x + margin, y, colours_.muted, shorten(chart_.subtitle, area.width() - 2 * margin));
       y += ImGui::GetTextLineHeight() + em(0.3f);
     }
-    draw_legend(area.from.x + margin, y + em(0.2f));
-    y += ImGui::GetTextLineHeight() + em(1.0f);
+    y = draw_legend({area.from.x + margin, y + em(0.2f)}, area.to.x - margin) + em(0.8f);
     float widest = 0;
     for (const float tick : ticks(axes_.y)) widest = std::max(widest, ImGui::CalcTextSize(number(tick).c_str()).x);
     text(area.from.x + margin, y, colours_.muted, y_label());
@@ -157,21 +160,27 @@ class Drawing {
     return words;
   }
 
-  void draw_legend(float x, float y) {
-    const float middle = y + ImGui::GetTextLineHeight() / 2, length = em(1.7f);
-    for (const ChartSeries& series : chart_.series) {
-      if (series.name.empty()) continue;
-      if (series.dots)
-        dot({x + length / 2, middle}, series.colour);
-      else
-        list_.AddLine({x, middle}, {x + length, middle}, series.colour, em(0.15f) * series.thickness);
-      x += length + em(0.5f);
-      text(x, y, colours_.text, series.name);
-      x += ImGui::CalcTextSize(series.name.c_str()).x + em(1.6f);
-    }
-    if (!chart_.band || chart_.band->name.empty()) return;
-    list_.AddRectFilled({x, middle - em(0.4f)}, {x + length, middle + em(0.4f)}, colours_.band);
-    text(x + length + em(0.5f), y, colours_.text, chart_.band->name);
+  /// In as many lines as it takes. Returns where it ends.
+  float draw_legend(ImVec2 at, float right) {
+    const float left = at.x, length = em(1.7f), line = ImGui::GetTextLineHeight();
+    const auto entry = [&](const std::string& name, const auto& draw_sample) {
+      if (name.empty()) return;
+      const float width = length + em(0.5f) + ImGui::CalcTextSize(name.c_str()).x;
+      if (at.x > left && at.x + width > right) at = {left, at.y + line + em(0.25f)};
+      draw_sample(ImVec2(at.x, at.y + line / 2));
+      text(at.x + length + em(0.5f), at.y, colours_.text, name);
+      at.x += width + em(1.6f);
+    };
+    for (const ChartSeries& series : chart_.series)
+      entry(series.name, [&](ImVec2 from) {
+        if (series.mark != ChartMark::line) return draw_mark({from.x + length / 2, from.y}, series);
+        list_.AddLine(from, {from.x + length, from.y}, series.colour, em(0.15f) * series.thickness);
+      });
+    if (chart_.band)
+      entry(chart_.band->name, [&](ImVec2 from) {
+        list_.AddRectFilled({from.x, from.y - em(0.4f)}, {from.x + length, from.y + em(0.4f)}, colours_.band);
+      });
+    return at.y + line;
   }
 
   /// x and y as the axes have them.
@@ -211,9 +220,50 @@ class Drawing {
     list_.AddLine({plot_.from.x, zero}, {plot_.to.x, zero}, colours_.axis, chart_.small ? 1 : em(0.07f));
   }
 
-  void dot(ImVec2 at, ImU32 colour) {
-    list_.AddCircleFilled(at, em(0.28f), colour, 20);
-    list_.AddCircle(at, em(0.28f), colours_.paper, 20, em(0.06f));
+  /// Their names stand inside the plot: of upright ones at the top, each a line lower; of level ones at the right.
+  void draw_lines() {
+    const UseFont font(Font::small);
+    const float gap = em(0.3f), line = ImGui::GetTextLineHeight();
+    for (const ChartLine& mark : chart_.upright) {
+      const float x = across(mark.at);
+      list_.AddLine({x, plot_.from.y}, {x, plot_.to.y}, colours_.axis, em(0.08f));
+    }
+    for (const ChartLine& mark : chart_.level) {
+      const float y = up(mark.at);
+      list_.AddLine({plot_.from.x, y}, {plot_.to.x, y}, colours_.axis, em(0.08f));
+      name_line(mark.name, plot_.to.x - gap - ImGui::CalcTextSize(mark.name.c_str()).x, y - line - em(0.1f));
+    }
+    float y = plot_.from.y + gap;
+    for (const ChartLine& mark : chart_.upright) {
+      name_line(mark.name, across(mark.at) + gap, y);
+      y += line;
+    }
+  }
+  float across(double x) const { return std::round(place(on_axis(x), 0).x) + 0.5f; }
+  float up(double y) const { return std::round(place(0, on_axis(y)).y) + 0.5f; }
+  /// Readable where lines cross it.
+  void name_line(const std::string& name, float x, float y) {
+    const ImVec2 size = ImGui::CalcTextSize(name.c_str());
+    list_.AddRectFilled({x, y}, {x + size.x, y + size.y}, colours_.paper);
+    text(x, y, colours_.muted, name);
+  }
+  double on_axis(double value) const { return chart_.logarithmic ? std::log10(value) : value; }
+
+  void draw_mark(ImVec2 at, const ChartSeries& series) {
+    const float radius = em(0.28f);
+    switch (series.mark) {
+      case ChartMark::line:
+        return;
+      case ChartMark::dots:
+        list_.AddCircleFilled(at, radius, series.colour, 20);
+        return list_.AddCircle(at, radius, colours_.paper, 20, em(0.06f));
+      case ChartMark::rings:
+        list_.AddCircleFilled(at, radius, colours_.paper, 20);
+        return list_.AddCircle(at, radius, series.colour, 20, em(0.12f));
+      case ChartMark::crosses:
+        list_.AddLine({at.x - radius, at.y - radius}, {at.x + radius, at.y + radius}, series.colour, em(0.12f));
+        list_.AddLine({at.x - radius, at.y + radius}, {at.x + radius, at.y - radius}, series.colour, em(0.12f));
+    }
   }
 
   void draw_series(const ChartSeries& series) {
@@ -223,10 +273,10 @@ class Drawing {
       if (chart_.logarithmic && !(p.x > 0 && p.y > 0)) continue;
       const ImVec2 at =
           chart_.logarithmic ? place(std::log10(p.x), std::log10(p.y)) : place(p.x, p.y * axes_.prefix.factor);
-      if (series.dots)
-        dot(at, series.colour);
-      else
+      if (series.mark == ChartMark::line)
         line.push_back(at);
+      else
+        draw_mark(at, series);
     }
     list_.AddPolyline(line.data(), static_cast<int>(line.size()), series.colour, ImDrawFlags_None,
                       em(chart_.small ? 0.1f : 0.15f) * series.thickness);

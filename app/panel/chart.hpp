@@ -11,12 +11,20 @@ struct ChartPoint {
   double x, y;
 };
 
+enum class ChartMark { line, dots, rings, crosses };
+
 struct ChartSeries {
   std::string name;  ///< in the legend; empty: not there
   std::vector<ChartPoint> points;
   ImU32 colour = 0;
-  bool dots = false;    ///< measured points instead of a line
-  float thickness = 1;  ///< of the line, relative
+  ChartMark mark = ChartMark::line;  ///< or points of their own
+  float thickness = 1;               ///< of the line, relative
+};
+
+/// A line across the plot at one x or one y, with its name at its end.
+struct ChartLine {
+  double at;
+  std::string name;
 };
 
 /// Part of the x axis that is marked behind the curves.
@@ -31,6 +39,7 @@ struct Chart {
   std::string y_unit;               ///< "Pa": shown with the prefix that suits
   std::vector<ChartSeries> series;
   std::optional<ChartBand> band;
+  std::vector<ChartLine> upright, level;  ///< at an x; at a y. In a logarithmic chart their decade is shown too
   bool logarithmic = false;  ///< both axes: points that are not greater than 0 are left out
   bool small = false;        ///< for the panel: fewer numbers, no grid, no legend
 };

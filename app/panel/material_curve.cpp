@@ -26,7 +26,7 @@ void MaterialCurve::compute(const Material& material) {
   if (preset && preset->stretch_range) chart_.band = {preset->stretch_range->low, preset->stretch_range->high, ""};
   const BenchCurve curve = run_bench(*make_material_point(material, false), BenchTest::uniaxial,
                                      evenly_spaced(lowest_stretch, highest_stretch, points));
-  ChartSeries series{"", {}, colours::accent, false, 1};
+  ChartSeries series{"", {}, colours::accent, ChartMark::line, 1};
   for (const BenchPoint& p : curve.points) series.points.push_back({p.amount, p.nominal});
   chart_.series.push_back(std::move(series));
   shown_ = material;

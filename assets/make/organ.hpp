@@ -30,4 +30,7 @@ Organ uterus();
 /// A cube of 0.1 m with irregular tetrahedra: 151 nodes, 407 tetrahedra.
 TetMesh irregular_cube();
 
+/// A cube of 0.1 m of 7 × 7 × 7 cells: 512 nodes, 1715 tetrahedra. Regions: 1, and 2 a ball of 4 cm across inside it.
+TetMesh inclusion();
+
 }  // namespace heml::make

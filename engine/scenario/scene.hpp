@@ -138,6 +138,9 @@ std::string scene_line(const Scene& scene, const std::filesystem::path& folder =
 std::string event_line(const Event& event);
 std::string checkpoint_line(const Checkpoint& checkpoint);
 
+/// The scene with its events, but no checkpoints, as a file in `folder` for people: indented, likewise.
+std::string scene_text(const Scene& scene, const std::filesystem::path& folder = {});
+
 /// One entry of `materials` (contract), e.g. the file `heml probe` takes; `density` accepted. Throws InputError, also
 /// for fields, as there is no mesh.
 Material read_material(const std::filesystem::path& path);

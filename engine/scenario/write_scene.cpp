@@ -15,9 +15,7 @@ void put_text(Json& json, const char* key, const std::string& text) {
   if (!text.empty()) json[key] = text;
 }
 
-}  // namespace
-
-std::string scene_line(const Scene& scene, const std::filesystem::path& folder) {
+Json scene_json(const Scene& scene, const std::filesystem::path& folder) {
   Json json = {{"schema_version", 1}};
   put_text(json, "name", scene.name);
   put_text(json, "title", scene.title);
@@ -41,7 +39,21 @@ std::string scene_line(const Scene& scene, const std::filesystem::path& folder) 
                         {"mesh", fmt::format("{:016x}", scene.recorded_mesh->hash)}};
   if (scene.recorded_mesh && scene.recorded_instructions)
     json["recorded"]["instructions"] = name_of(*scene.recorded_instructions);
-  return json_text(json, scene.file);
+  return json;
+}
+
+}  // namespace
+
+std::string scene_line(const Scene& scene, const std::filesystem::path& folder) {
+  return json_text(scene_json(scene, folder), scene.file);
+}
+
+std::string scene_text(const Scene& scene, const std::filesystem::path& folder) {
+  Json json = scene_json(scene, folder);
+  json.erase("recorded");
+  if (!scene.events.empty()) json["events"] = Json::array();
+  for (const Event& event : scene.events) json["events"].push_back(parse_json(event_line(event), scene.file));
+  return json_text(json, scene.file, true) + "\n";
 }
 
 }  // namespace heml

@@ -51,13 +51,14 @@ Machine this_machine() {
           cache_size(1), cache_size(2),
           cache_size(3), compiler_name(),
           HEML_FLAGS,    HEML_VERSION,
-          naive_flags()};
+          naive_flags(), HEML_COMMIT};
 }
 
 Json to_json(const Machine& m) {
   return {{"cpu", m.cpu},     {"cores", m.cores},     {"L1_bytes", m.L1},
           {"L2_bytes", m.L2}, {"L3_bytes", m.L3},     {"compiler", m.compiler},
-          {"flags", m.flags}, {"version", m.version}, {"naive_flags", m.naive_flags}};
+          {"flags", m.flags}, {"version", m.version}, {"naive_flags", m.naive_flags},
+          {"commit", m.commit}};
 }
 
 }  // namespace heml

@@ -28,14 +28,14 @@ std::vector<ImVec2> drawn(const Chart& chart, ImU32 colour = ink) {
   return corners;
 }
 
-Chart chart_of(std::vector<ChartPoint> points, bool dots = false) {
+Chart chart_of(std::vector<ChartPoint> points, ChartMark mark = ChartMark::line) {
   Chart chart;
   chart.title = "A title";
   chart.subtitle = "and what is under it";
   chart.x_label = "Stretch";
   chart.y_quantity = "Stress";
   chart.y_unit = "Pa";
-  chart.series.push_back({"", std::move(points), ink, dots, 1});
+  chart.series.push_back({"", std::move(points), ink, mark, 1});
   return chart;
 }
 
@@ -63,7 +63,7 @@ TEST_CASE("what is not finite is left out, and nothing at all is an empty chart"
   CHECK(drawn(chart_of({{1, nan}, {infinite, 2}})).empty());
   CHECK(drawn(chart_of({})).empty());
   CHECK_FALSE(drawn(chart_of({{1, 2}, {nan, 3}, {2, 5}})).empty());
-  CHECK_FALSE(drawn(chart_of({{1, 0}, {1, 0}}, true)).empty());  // no extent
+  CHECK_FALSE(drawn(chart_of({{1, 0}, {1, 0}}, ChartMark::dots)).empty());  // no extent
 }
 
 TEST_CASE("a band is drawn where it meets the axis, cut to it") {
@@ -77,7 +77,7 @@ TEST_CASE("a band is drawn where it meets the axis, cut to it") {
 }
 
 TEST_CASE("equal factors are equal lengths on logarithmic axes, and what has no logarithm is left out") {
-  Chart chart = chart_of({{0, 1}, {1, -1}, {1, 1e-15}, {1e3, 1e-9}, {1e6, 1e-3}}, true);
+  Chart chart = chart_of({{0, 1}, {1, -1}, {1, 1e-15}, {1e3, 1e-9}, {1e6, 1e-3}}, ChartMark::dots);
   chart.logarithmic = true;
   chart.y_unit.clear();
   const auto corners = drawn(chart);

@@ -1,0 +1,152 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <app/commands/accuracy_pictures.hpp>
+#include <app/commands/chart_picture.hpp>
+#include <app/panel/theme.hpp>
+#include <cmath>
+#include <heml/studies/pareto.hpp>
+
+namespace heml {
+namespace {
+
+using panel::ChartMark;
+using panel::colours::rgba;
+
+// Colours that all eyes tell apart (Okabe & Ito).
+struct Ink {
+  Integrator integrator;
+  const char* name;
+  ImU32 colour;
+};
+constexpr Ink inks[] = {{Integrator::symplectic_euler, "symplectic Euler", rgba(0xe69f00)},
+                        {Integrator::verlet, "Verlet", rgba(0x0072b2)},
+                        {Integrator::backward_euler, "backward Euler", rgba(0xd55e00)},
+                        {Integrator::bdf2, "BDF2", rgba(0x009e73)},
+                        {Integrator::tr_bdf2, "TR-BDF2", rgba(0xcc79a7)}};
+constexpr ImU32 front_colour = rgba(0x1d2527, 90), grey = rgba(0x7a8486);
+
+double cost(const Measured& m) { return m.seconds_per_second(); }
+
+/// Behind the points: from each of the front to the next.
+panel::ChartSeries front_of(const TimeStudy& study) {
+  std::vector<CostAndError> points;
+  for (const Measured& m : study.measured)
+    points.push_back(m.failed() ? CostAndError{HUGE_VAL, HUGE_VAL} : CostAndError{cost(m), m.error});
+  panel::ChartSeries series{"Pareto front", {}, front_colour, ChartMark::line, 1.6f};
+  for (const std::size_t k : pareto_front(points))
+    if (!study.measured[k].failed()) series.points.push_back({points[k].cost, 1e3 * points[k].error});
+  return series;
+}
+
+/// A series an integrator, filled where it is explicit or solves to its tolerance, hollow where iterations are few.
+void add_methods(panel::Chart& chart, const TimeStudy& study) {
+  for (const Ink& ink : inks) {
+    panel::ChartSeries solved{ink.name, {}, ink.colour, ChartMark::dots}, cut{"", {}, ink.colour, ChartMark::rings};
+    for (const Measured& m : study.measured)
+      if (m.method.integrator == ink.integrator && !m.failed())
+        (m.method.iterations > 0 ? cut : solved).points.push_back({cost(m), 1e3 * m.error});
+    if (solved.points.empty() && cut.points.empty()) continue;
+    chart.series.push_back(std::move(solved));
+    chart.series.push_back(std::move(cut));
+  }
+  chart.series.push_back({"few iterations", {}, grey, ChartMark::rings});
+}
+
+/// At the top, above all errors.
+void add_failed(panel::Chart& chart, const TimeStudy& study) {
+  double largest = 0;
+  for (const Measured& m : study.measured)
+    if (!m.failed()) largest = std::max(largest, 1e3 * m.error);
+  const double top = std::pow(10, std::ceil(std::log10(largest) + 0.15));
+  panel::ChartSeries failed{"failed", {}, rgba(0x1d2527), ChartMark::crosses};
+  for (const Measured& m : study.measured)
+    if (m.failed() && m.run.simulated > 0 && cost(m) > 0) failed.points.push_back({cost(m), top});
+  if (!failed.points.empty()) chart.series.push_back(std::move(failed));
+}
+
+panel::Chart work_precision(const SceneStudy& scene, const TimeStudy& study) {
+  panel::Chart chart;
+  chart.title = scene.title;
+  chart.subtitle = fmt::format("{} nodes, {} tetrahedra, {}; each mark a method, farther down and left is better",
+                               study.nodes, study.tets, study.nodal_pressure ? "averaged nodal pressure" : "linear");
+  chart.x_label = "Seconds of computing a simulated second";
+  chart.y_quantity = "Error of time, mm";
+  chart.logarithmic = true;
+  chart.upright = {{0.001 / frame, "1 ms a frame"}, {1, "16 ms: real time"}, {0.033 / frame, "33 ms"}};
+  if (const auto error = scene.mesh_error(study.nodal_pressure)) chart.level = {{1e3 * *error, "error of the mesh"}};
+  chart.series.push_back(front_of(study));
+  add_methods(chart, study);
+  add_failed(chart, study);
+  return chart;
+}
+
+panel::Chart locking_chart(const std::vector<LockedBeam>& beams) {
+  panel::Chart chart;
+  chart.title = "Locking of a beam";
+  chart.subtitle = "Sag under its own weight; the closer Poisson's ratio is to 0.5, the stiffer are linear tetrahedra";
+  chart.x_label = "Tetrahedra";
+  chart.y_quantity = "Error of the mesh, % of the motion";
+  chart.logarithmic = true;
+  for (const bool nodal : {false, true})
+    for (std::size_t b = 0; b < beams.size(); ++b) {
+      const ImU32 colour = inks[b % std::size(inks)].colour;
+      const std::string name = fmt::format("ν {}", beams[b].poisson);
+      panel::ChartSeries line{nodal ? "" : name, {}, colour, ChartMark::line}, marks{"", {}, colour, nodal ? ChartMark::rings : ChartMark::dots};
+      for (const SettledMesh& mesh : beams[b].settled.meshes)
+        if (mesh.nodal_pressure == nodal && mesh.failed.empty())
+          line.points.push_back({static_cast<double>(mesh.tets), 100 * mesh.relative});
+      marks.points = line.points;
+      if (nodal) line.thickness = 0.6f;
+      chart.series.push_back(std::move(line));
+      chart.series.push_back(std::move(marks));
+    }
+  chart.series.push_back({"p1", {}, grey, ChartMark::dots});
+  chart.series.push_back({"nodal pressure", {}, grey, ChartMark::rings});
+  return chart;
+}
+
+panel::BarChart feature_bars(const FeatureStudy& study) {
+  panel::BarChart chart;
+  chart.title = study.title;
+  chart.subtitle = "One thing changed at a time: computing time, of the scene as it is; in brackets how far the body errs";
+  chart.names = {"time"};
+  chart.colours = {inks[1].colour};
+  chart.mark = 1;
+  const double as_it_is = study.measurement.changes.front().milliseconds;
+  for (const MeasuredChange& c : study.measurement.changes) {
+    if (c.from.empty()) continue;
+    const std::string error = c.halted.empty() ? length_text(c.error) : "stops";
+    chart.groups.push_back({fmt::format("{}: {} to {} ({})", c.feature, c.from, c.to, error), {c.milliseconds / as_it_is}});
+  }
+  return chart;
+}
+
+}  // namespace
+
+std::vector<ReportPicture> write_accuracy_pictures(const std::filesystem::path& folder, const AccuracyStudy& study) {
+  std::vector<ReportPicture> pictures;
+  for (const SceneStudy& scene : study.scenes)
+    for (const TimeStudy& time : scene.time) {
+      if (time.measured.empty()) continue;
+      const char* element = time.nodal_pressure ? "nodal_pressure" : "p1";
+      const auto file = folder / fmt::format("{}_{}.png", scene.name, element);
+      write_chart(file, work_precision(scene, time));
+      pictures.push_back({scene.name, file,
+                          fmt::format("{}, {}: error of time against computing time. Marks below the level line "
+                                      "gain nothing from smaller steps: the mesh errs by more.",
+                                      scene.title, time.specimen)});
+    }
+  if (!study.locking.empty()) {
+    write_chart(folder / "locking.png", locking_chart(study.locking));
+    pictures.push_back({"locking", folder / "locking.png", "Error of the mesh against its size, by Poisson's ratio."});
+  }
+  for (const FeatureStudy& features : study.features) {
+    const auto file = folder / fmt::format("features_{}.png", features.scene);
+    write_chart(file, feature_bars(features));
+    pictures.push_back({"features " + features.scene, file, "Computing time with one thing changed, and the error of it."});
+  }
+  return pictures;
+}
+
+}  // namespace heml

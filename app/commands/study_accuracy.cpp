@@ -1,0 +1,58 @@
+// `heml study accuracy`: error against run time.
+#include <fmt/format.h>
+
+#include <app/commands/accuracy_pictures.hpp>
+#include <app/commands/commands.hpp>
+#include <app/commands/progress.hpp>
+#include <heml/base/log.hpp>
+#include <heml/scenario/text_file.hpp>
+
+namespace heml {
+namespace {
+
+/// Figures are compared with those of the quick study, which `cp DIR/figures.json` onto this file makes anew.
+constexpr const char* committed = "studies/accuracy_quick.json";
+
+std::vector<std::string> worse_than_committed(const AccuracyStudy& study) {
+  const auto file = assets_folder() / committed;
+  return what_got_worse(figures_of(study), parse_json(read_text_file(file), file.string()));
+}
+
+std::string command_of(const StudyArguments& arguments) {
+  return fmt::format("heml study accuracy --out {}{}{}", arguments.out.string(), arguments.quick ? " --quick" : "",
+                     arguments.scene.empty() ? "" : " --scene " + arguments.scene);
+}
+
+AccuracyStudy measure(const StudyArguments& arguments, Results& results) {
+  Progress progress("studying");
+  AccuracyOptions options;
+  options.quick = arguments.quick;
+  if (!arguments.scene.empty()) options.scene = read_scene(arguments.scene);
+  options.results = &results;
+  options.progress = [&](double fraction, const std::string& doing) { progress.show(fraction, doing); };
+  return study_accuracy(options);
+}
+
+void write_files(const StudyArguments& arguments, const AccuracyStudy& study, const std::vector<std::string>& worse) {
+  const auto pictures = write_accuracy_pictures(arguments.out, study);
+  write_text_file(arguments.out / "runs.csv", csv_text(run_table(study)));
+  write_text_file(arguments.out / "figures.json",
+                  json_text(to_json(figures_of(study)), (arguments.out / "figures.json").string(), true) + "\n");
+  write_text_file(arguments.out / "report.html", accuracy_page(study, pictures, command_of(arguments), worse));
+}
+
+}  // namespace
+
+int study_accuracy(const StudyArguments& arguments) {
+  Results results(arguments.out / "results.jsonl");
+  const AccuracyStudy study = measure(arguments, results);
+  const bool has_figures = arguments.quick && arguments.scene.empty();
+  const auto worse = has_figures ? worse_than_committed(study) : std::vector<std::string>{};
+  write_files(arguments, study, worse);
+  for (const std::string& answer : answers_of(study)) fmt::print("{}\n", answer);
+  fmt::print("the report is {}\n", (arguments.out / "report.html").string());
+  for (const std::string& sentence : worse) log_line("error", sentence);
+  return worse.empty() ? exit_done : exit_check_failed;
+}
+
+}  // namespace heml

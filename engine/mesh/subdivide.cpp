@@ -1,0 +1,85 @@
+#include <heml/mesh/subdivide.hpp>
+#include <map>
+
+namespace heml {
+namespace {
+
+/// Local nodes of the six edges, and which edges lie opposite each other: the diagonals of the octahedron in the middle.
+constexpr std::array<std::array<int, 2>, 6> edges{{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
+constexpr int opposite(int edge) { return 5 - edge; }
+
+/// Number of the middle between two nodes, made when first asked for.
+class Middles {
+ public:
+  explicit Middles(Subdivision& to) : to_(to) {}
+  int between(int a, int b) {
+    const std::array ends{std::min(a, b), std::max(a, b)};
+    const auto [place, is_new] = numbers_.try_emplace(ends, static_cast<int>(to_.mesh.nodes.size()));
+    if (is_new) {
+      to_.mesh.nodes.push_back((to_.mesh.nodes[static_cast<std::size_t>(a)] + to_.mesh.nodes[static_cast<std::size_t>(b)]) /
+                               2);
+      to_.ends.push_back(ends);
+    }
+    return place->second;
+  }
+
+ private:
+  Subdivision& to_;
+  std::map<std::array<int, 2>, int> numbers_;
+};
+
+void add(TetMesh& mesh, Tet tet) {
+  const auto at = [&](std::size_t a) { return mesh.nodes[static_cast<std::size_t>(tet[a])]; };
+  if (signed_volume(at(0), at(1), at(2), at(3)) < 0) std::swap(tet[2], tet[3]);
+  mesh.tets.push_back(tet);
+}
+
+/// Four corners, and four round the shortest diagonal of what they leave.
+void cut(TetMesh& mesh, const Tet& tet, const std::array<int, 6>& middle) {
+  const auto m = [&](int a, int b) {
+    for (std::size_t e = 0; e < 6; ++e)
+      if (edges[e] == std::array{std::min(a, b), std::max(a, b)}) return middle[e];
+    return -1;
+  };
+  for (int a = 0; a < 4; ++a) add(mesh, {tet[static_cast<std::size_t>(a)], m(a, (a + 1) % 4), m(a, (a + 2) % 4), m(a, (a + 3) % 4)});
+  const auto length = [&](int e) {
+    return (mesh.nodes[static_cast<std::size_t>(middle[static_cast<std::size_t>(e)])] -
+            mesh.nodes[static_cast<std::size_t>(middle[static_cast<std::size_t>(opposite(e))])])
+        .squaredNorm();
+  };
+  int axis = 0;
+  for (int e = 1; e < 3; ++e)
+    if (length(e) < length(axis)) axis = e;
+  // Round the diagonal: the four other middles, neighbours sharing a node of the old tetrahedron.
+  const int p = (axis + 1) % 3, q = (axis + 2) % 3;
+  const std::array ring{p, q, opposite(p), opposite(q)};
+  for (std::size_t k = 0; k < 4; ++k)
+    add(mesh, {middle[static_cast<std::size_t>(axis)], middle[static_cast<std::size_t>(opposite(axis))],
+               middle[static_cast<std::size_t>(ring[k])], middle[static_cast<std::size_t>(ring[(k + 1) % 4])]});
+}
+
+}  // namespace
+
+Subdivision subdivided(const TetMesh& mesh) {
+  Subdivision result;
+  result.mesh.nodes = mesh.nodes;
+  result.mesh.source = mesh.source;
+  Middles middles(result);
+  for (const Tet& tet : mesh.tets) {
+    std::array<int, 6> middle{};
+    for (std::size_t e = 0; e < 6; ++e)
+      middle[e] = middles.between(tet[static_cast<std::size_t>(edges[e][0])], tet[static_cast<std::size_t>(edges[e][1])]);
+    cut(result.mesh, tet, middle);
+  }
+  for (const int region : mesh.regions) result.mesh.regions.insert(result.mesh.regions.end(), 8, region);
+  for (const ElementField& field : mesh.fields) {
+    ElementField& finer = result.mesh.fields.emplace_back(ElementField{field.name, field.components, {}});
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t)
+      for (int child = 0; child < 8; ++child)
+        finer.values.insert(finer.values.end(), field.values.begin() + static_cast<std::ptrdiff_t>(t * field.components),
+                            field.values.begin() + static_cast<std::ptrdiff_t>((t + 1) * field.components));
+  }
+  return result;
+}
+
+}  // namespace heml

@@ -1,0 +1,128 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <heml/studies/accuracy_report.hpp>
+#include <heml/studies/machine.hpp>
+
+namespace heml {
+namespace {
+
+void add_pictures(HtmlPage& page, const std::vector<ReportPicture>& pictures, const std::string& part) {
+  for (const ReportPicture& picture : pictures)
+    if (picture.part == part) page.png(picture.file, picture.caption);
+}
+
+std::string reference_text(const TimeStudy& time) {
+  const Reference& reference = time.reference;
+  if (!reference.problem.empty()) return fmt::format("{}: no reference: {}.", time.specimen, reference.problem);
+  std::size_t unresolved = 0;
+  for (const Measured& m : time.measured) unresolved += !m.failed() && !m.resolved;
+  return fmt::format(
+      "{}: errors of time are measured from verlet in double with steps of {:.3g} µs on the same mesh; twice those "
+      "steps move it by {}, so errors from {} on can be told{}. The body moves by {} (rms).",
+      time.specimen, 1e6 * reference.step, length_text(reference.change), length_text(reference.resolution()),
+      unresolved ? fmt::format(" ({} of {} runs are closer than that, and marked <)", unresolved, time.measured.size())
+                 : std::string(),
+      length_text(reference.motion));
+}
+
+std::string settled_text(const SettledStudy& settled) {
+  const Extrapolation& e = settled.reference;
+  if (!e.problem.empty()) return fmt::format("The error of the mesh is not known: {}.", e.problem);
+  std::string text = fmt::format(
+      "Errors of the mesh are of the body at rest under its loads, measured from three meshes, each with every "
+      "tetrahedron of the one before in eight, extrapolated ({}, order {:.2f} and 2, the middle of both; ± {}",
+      e.nodal_pressure ? "nodal_pressure" : "p1", e.order, length_text(e.uncertainty));
+  text += ")";
+  if (e.between_elements) text += fmt::format("; those of the two elements differ by {}", length_text(*e.between_elements));
+  return text + ". The surface is that of the mesh as it is.";
+}
+
+void add_scene(HtmlPage& page, const SceneStudy& scene, const std::vector<ReportPicture>& pictures) {
+  page.heading(scene.title);
+  page.paragraph(fmt::format("{}: {} nodes, {} tetrahedra, {}.", scene.name, scene.time.front().nodes,
+                             scene.time.front().tets, fmt::join(scene.laws, ", ")));
+  add_pictures(page, pictures, scene.name);
+  page.paragraph("What nothing tried beats:");
+  page.table(front_table(scene));
+  for (const std::string& note : scene.notes) page.paragraph(note + ".");
+  for (const TimeStudy& time : scene.time) {
+    page.paragraph(reference_text(time));
+    if (!time.measured.empty()) page.details(fmt::format("All {} runs, {}", time.measured.size(), time.specimen), time_table(time));
+  }
+  page.paragraph(settled_text(scene.settled));
+  if (!scene.settled.meshes.empty()) page.details("Meshes at rest", settled_table(scene.settled));
+}
+
+void add_locking(HtmlPage& page, const std::vector<LockedBeam>& beams, const std::vector<ReportPicture>& pictures) {
+  page.heading("Locking");
+  page.paragraph(
+      "A beam of 10 × 2 × 2 cm that sags by 0.7 % of its length, held against Timoshenko's theory and against itself on "
+      "finer meshes. What an error grows by from one Poisson's ratio to another on the same mesh is locking; theory "
+      "does not know that the clamp also holds the section back, hence the last per cent at ratios other than 0.");
+  add_pictures(page, pictures, "locking");
+  page.table(locking_table(beams));
+}
+
+void add_laws(HtmlPage& page, const std::vector<SettledLaw>& laws) {
+  page.heading("Laws");
+  page.paragraph(
+      "A small cube of each law settles under its weight, its top turned and moved. Then a naive loop, F = Ds Dm⁻¹, P = F "
+      "S, with stresses written out from textbooks apart from the engine's, takes the forces there: what they leave "
+      "over on free nodes beside the weight.");
+  page.table(law_table(laws));
+}
+
+void add_features(HtmlPage& page, const FeatureStudy& study, const std::vector<ReportPicture>& pictures) {
+  page.heading("What features cost: " + study.title);
+  page.paragraph(fmt::format(
+      "{}, {:.3g} s of it, with one thing changed at a time (`heml explain --measure`): computing time, and how far the "
+      "nodes (rms) are in the end from where they are in the scene as it is. Nodes move by {} at most.",
+      study.scene, study.measurement.stretch, length_text(study.measurement.largest_motion)));
+  add_pictures(page, pictures, "features " + study.scene);
+  page.table(feature_table(study));
+}
+
+void add_method(HtmlPage& page, const std::string& command) {
+  const Machine machine = this_machine();
+  page.heading("How this was made");
+  page.command(command);
+  page.paragraph(fmt::format("heml {} ({}), {}, {}, {} cores, {}. Times are of this machine and of what else it did; "
+                             "errors are not.",
+                             machine.version, machine.commit, machine.compiler, machine.cpu, machine.cores,
+                             machine.flags));
+  page.paragraph(
+      "A frame is 1/60 s of simulated time. Errors are rms over the body, weighted by mass, at the set time where they "
+      "are largest; the error of a method is that of time (same mesh, same element, against tiny steps) plus that of "
+      "the mesh (at rest, against finer meshes). No reference is a method of the table or adjusted to one. `runs.csv` "
+      "beside this file has every run.");
+}
+
+}  // namespace
+
+std::vector<std::string> answers_of(const AccuracyStudy& study) {
+  std::vector<std::string> answers;
+  for (const SceneStudy& scene : study.scenes)
+    for (const double budget : frame_budgets)
+      answers.push_back(fmt::format("{}: {}.", scene.name, answer_within(scene.candidates(), budget)));
+  return answers;
+}
+
+std::string accuracy_page(const AccuracyStudy& study, const std::vector<ReportPicture>& pictures,
+                          const std::string& command, const std::vector<std::string>& worse) {
+  HtmlPage page("Error against run time");
+  for (const std::string& answer : answers_of(study)) page.answer(answer);
+  if (!worse.empty()) {
+    page.heading("Worse than before");
+    for (const std::string& sentence : worse) page.paragraph(sentence);
+  }
+  for (const SceneStudy& scene : study.scenes) add_scene(page, scene, pictures);
+  if (!study.locking.empty()) add_locking(page, study.locking, pictures);
+  if (!study.laws.empty()) add_laws(page, study.laws);
+  for (const FeatureStudy& features : study.features) add_features(page, features, pictures);
+  add_method(page, command);
+  return page.text();
+}
+
+}  // namespace heml

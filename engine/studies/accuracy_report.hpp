@@ -1,0 +1,37 @@
+#pragma once
+// The accuracy study in words and tables: the answers first, then the Pareto fronts, then everything.
+#include <heml/studies/accuracy_study.hpp>
+#include <heml/studies/html_page.hpp>
+
+namespace heml {
+
+/// The budgets of a frame that every report answers for, s.
+inline constexpr double frame_budgets[] = {0.033, 0.016, 0.001};
+
+/// One sentence a scene and budget, the scene's name first where there are several.
+std::vector<std::string> answers_of(const AccuracyStudy& study);
+
+/// What nothing tried beats: computing time a frame, errors, how.
+Table front_table(const SceneStudy& scene);
+/// Every method on one mesh and element; failed ones say why.
+Table time_table(const TimeStudy& study);
+/// Mesh and element at rest.
+Table settled_table(const SettledStudy& study);
+Table locking_table(const std::vector<LockedBeam>& beams);
+Table law_table(const std::vector<SettledLaw>& laws);
+Table feature_table(const FeatureStudy& study);
+/// One line a run, with the machine, compiler, commit and threads it was made with.
+Table run_table(const AccuracyStudy& study);
+
+/// A picture of the report and the part it belongs to: a scene's name, "locking", or "features" and a scene's name.
+struct ReportPicture {
+  std::string part;
+  std::filesystem::path file;
+  std::string caption;
+};
+
+/// The whole report. command: what made it. worse: what_got_worse().
+std::string accuracy_page(const AccuracyStudy& study, const std::vector<ReportPicture>& pictures,
+                          const std::string& command, const std::vector<std::string>& worse);
+
+}  // namespace heml

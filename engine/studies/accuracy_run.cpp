@@ -1,0 +1,218 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <heml/scenario/player.hpp>
+#include <heml/studies/accuracy_run.hpp>
+#include <numbers>
+#include <numeric>
+
+namespace heml {
+namespace {
+
+constexpr double sample_every = 1e-3;  // s, of the mean motion
+constexpr double turn = 0.1;           // of the whole swing: a smaller way back is no turning point
+constexpr int plays = 3;
+
+double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+double percentile(std::vector<double> sorted, double share) {
+  if (sorted.empty()) return 0;
+  std::sort(sorted.begin(), sorted.end());
+  return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
+}
+
+/// Nothing takes energy out or puts it in.
+bool keeps_energy(const Specimen& specimen) {
+  const WorldSetup& setup = specimen.setup;
+  const bool still = std::all_of(setup.boundary.begin(), setup.boundary.end(),
+                                 [](const Boundary& b) { return b.translate.isZero() && b.degrees == 0; });
+  const bool elastic = std::none_of(setup.materials.begin(), setup.materials.end(),
+                                    [](const RegionMaterial& m) { return m.material.has_memory(); });
+  return still && elastic && setup.loads.empty() && specimen.scene.events.empty() && setup.solver.damping == 0;
+}
+
+double total(const Energies& e) { return e.kinetic + e.elastic + e.potential; }
+
+/// Looks at a world from time to time, with the clock of computing stopped.
+class Observer {
+ public:
+  Observer(const Specimen& specimen, World& world) : specimen_(specimen), world_(world) {
+    mass_ = std::accumulate(specimen.mass.begin(), specimen.mass.end(), 0.0);
+    look();
+    at_start_ = total(energies_);
+  }
+
+  void after_tick() {
+    least_step_ = std::min(least_step_, world_.stable_step());
+    if (world_.time() >= next_ - 1e-9) look();
+  }
+
+  void tell(Run& run) {
+    look();
+    run.least_step = least_step_;
+    if (largest_kinetic_ > 0 && keeps_energy(specimen_))
+      run.energy_drift = (total(energies_) - at_start_) / largest_kinetic_;
+    if (const auto swing = swing_of(times_, along_axis())) run.swing = swing;
+    const auto ratios = world_.volume_ratios();
+    const auto& elements = world_.topology()->elements;
+    double rest = 0, volume = 0;
+    for (std::size_t k = 0; k < elements.size(); ++k) {
+      const Tet& tet = specimen_.setup.mesh.tets[static_cast<std::size_t>(elements[k])];
+      const auto at = [&](std::size_t a) { return specimen_.setup.mesh.nodes[static_cast<std::size_t>(tet[a])]; };
+      const double V = signed_volume(at(0), at(1), at(2), at(3));
+      rest += V, volume += V * ratios[k];
+    }
+    run.volume = volume / rest;
+    run.least_J = *std::min_element(ratios.begin(), ratios.end());
+  }
+
+ private:
+  void look() {
+    next_ = world_.time() + sample_every;
+    energies_ = world_.energies();
+    largest_kinetic_ = std::max(largest_kinetic_, energies_.kinetic);
+    Vec3 mean = Vec3::Zero();
+    const auto x = world_.positions();
+    for (std::size_t n = 0; n < x.size(); ++n) mean += specimen_.mass[n] * (x[n] - specimen_.setup.mesh.nodes[n]);
+    times_.push_back(world_.time());
+    means_.push_back(mean / mass_);
+  }
+
+  /// The mean displacement along the axis on which it goes farthest.
+  std::vector<double> along_axis() const {
+    Vec3 low = means_.front(), high = low;
+    for (const Vec3& u : means_) low = low.cwiseMin(u), high = high.cwiseMax(u);
+    int axis = 0;
+    (high - low).maxCoeff(&axis);
+    std::vector<double> u;
+    for (const Vec3& mean : means_) u.push_back(mean[axis]);
+    return u;
+  }
+
+  const Specimen& specimen_;
+  World& world_;
+  double mass_ = 0, next_ = 0, at_start_ = 0, largest_kinetic_ = 0;
+  double least_step_ = std::numeric_limits<double>::infinity();
+  Energies energies_;
+  std::vector<double> times_;
+  std::vector<Vec3> means_;
+};
+
+std::string problem_of(const World& world, double seconds, double longest) {
+  if (world.halt()) return world.halt()->message;
+  if (world.recoveries() > 0) return fmt::format("was turned inside out and recovered {} times", world.recoveries());
+  if (seconds > longest) return fmt::format("stopped after {:.0f} s of computing", seconds);
+  return "";
+}
+
+/// What one play took: of each tick, and in all beside ticks. Every play does the same work tick by tick, so the least
+/// of several is what it takes without whatever else the machine did.
+struct Clock {
+  std::vector<double> ticks;
+  double beside = 0;
+
+  void take_least(const Clock& other) {
+    for (std::size_t k = 0; k < std::min(ticks.size(), other.ticks.size()); ++k)
+      ticks[k] = std::min(ticks[k], other.ticks[k]);
+    beside = std::min(beside, other.beside);
+  }
+  double seconds() const { return std::accumulate(ticks.begin(), ticks.end(), beside); }
+};
+
+Run play_once(const Specimen& specimen, const Method& method, const RunOptions& options, Clock& clock) {
+  WorldSetup setup = specimen.setup;
+  const Scene scene = with_method(specimen.scene, method);
+  setup.solver = scene.solver;
+  const std::unique_ptr<World> world = options.make(std::move(setup));
+  Player player(scene, *world);
+  Observer observer(specimen, *world);
+  Run run;
+  double began = now(), taken = 0;
+  for (const double time : options.times) {
+    began = now();
+    player.to(time, [&] {
+      clock.ticks.push_back(now() - began);
+      taken += clock.ticks.back();
+      observer.after_tick();
+      began = now();
+      return taken <= options.longest;
+    });
+    clock.beside += now() - began;
+    run.failed = problem_of(*world, taken, options.longest);
+    if (!run.failed.empty()) break;
+    run.at.push_back(world->positions());
+  }
+  observer.tell(run);
+  run.simulated = world->time();
+  run.ticks = world->ticks();
+  run.steps = world->steps();
+  run.iterations = world->solver_work().iterations;
+  return run;
+}
+
+/// Where a parabola through three samples has its extreme.
+struct Extreme {
+  double t, u;
+};
+Extreme vertex(const std::vector<double>& t, const std::vector<double>& u, std::size_t k) {
+  if (k == 0 || k + 1 >= t.size()) return {t[k], u[k]};
+  const double a = t[k - 1] - t[k], b = t[k + 1] - t[k], fa = u[k - 1] - u[k], fb = u[k + 1] - u[k];
+  const double divisor = a * b * (a - b);
+  if (divisor == 0) return {t[k], u[k]};
+  const double curvature = (b * fa - a * fb) / divisor, slope = (a * a * fb - b * b * fa) / divisor;
+  if (curvature == 0) return {t[k], u[k]};
+  const double at = std::clamp(-slope / (2 * curvature), a, b);
+  return {t[k] + at, u[k] + slope * at + curvature * at * at};
+}
+
+}  // namespace
+
+std::optional<Swing> swing_of(const std::vector<double>& t, const std::vector<double>& u) {
+  if (u.size() < 3) return std::nullopt;
+  const auto [low, high] = std::minmax_element(u.begin(), u.end());
+  const double enough = turn * (*high - *low);
+  if (!(enough > 0) || !std::isfinite(enough)) return std::nullopt;
+  std::vector<Extreme> turns{{t[0], u[0]}};
+  std::size_t farthest = 0;
+  double direction = 0;
+  for (std::size_t k = 1; k < u.size(); ++k) {
+    if (direction == 0) {
+      if (std::abs(u[k] - u[0]) >= enough) direction = u[k] > u[0] ? 1 : -1, farthest = k;
+    } else if (direction * (u[k] - u[farthest]) >= 0) {
+      farthest = k;
+    } else if (direction * (u[farthest] - u[k]) >= enough) {
+      turns.push_back(vertex(t, u, farthest));
+      direction = -direction;
+      farthest = k;
+    }
+  }
+  if (turns.size() < 3) return std::nullopt;
+  const double half_period = (turns.back().t - turns.front().t) / static_cast<double>(turns.size() - 1);
+  const double first = std::abs(turns[1].u - turns[0].u), last = std::abs(turns.back().u - turns[turns.size() - 2].u);
+  const double between = half_period * static_cast<double>(turns.size() - 2);
+  return Swing{1 / (2 * half_period), std::log(first / last) / between};
+}
+
+double rms_distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b, const std::vector<double>& mass) {
+  double sum = 0, whole = 0;
+  for (std::size_t n = 0; n < a.size(); ++n) sum += mass[n] * (a[n] - b[n]).squaredNorm(), whole += mass[n];
+  return std::sqrt(sum / whole);
+}
+
+Run play(const Specimen& specimen, const Method& method, const RunOptions& options) {
+  Clock clock;
+  Run run = play_once(specimen, method, options, clock);
+  for (int again = 1; again < plays && clock.seconds() < options.repeat_below; ++again) {
+    Clock other;
+    play_once(specimen, method, options, other);
+    clock.take_least(other);
+  }
+  run.seconds = clock.seconds();
+  run.median_tick = percentile(clock.ticks, 0.5);
+  run.slow_tick = percentile(clock.ticks, 0.99);
+  return run;
+}
+
+}  // namespace heml

@@ -1,0 +1,105 @@
+// Which scenes are studied, on which meshes, and how widely.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <heml/studies/accuracy_study.hpp>
+#include <heml/studies/bench_bodies.hpp>
+
+namespace heml {
+namespace {
+
+/// A scene file of the study and what is done with it.
+struct Entry {
+  const char* file;  ///< below assets/
+  SceneStudyOptions options;
+  double weight;            ///< s it took where this was written
+  int halvings = 0;         ///< every tetrahedron in eight so many times
+  double young = 0, poisson = 0;  ///< of beams: instead of the file's; 0: the file's
+  const char* law = nullptr;      ///< instead of the file's, the material that `heml bench` has for it
+};
+
+constexpr const char *beam = "studies/accuracy/beam.json", *cube = "studies/accuracy/cube.json";
+constexpr SceneStudyOptions whole{}, brief{Sweep::brief, true, 50000}, own{Sweep::brief, false, 0};
+
+constexpr Entry quick_entries[] = {{beam, {Sweep::brief, true, 20000}, 20}, {"studies/accuracy/twist.json", own, 10}};
+
+constexpr Entry full_entries[] = {
+    {beam, whole, 60},
+    {"scenes/kidney_pull.json", whole, 300},
+    {"studies/accuracy/twist.json", brief, 60},
+    {"studies/accuracy/inclusion.json", brief, 60},
+    {"studies/accuracy/fibre.json", brief, 60},
+    {"studies/accuracy/cut.json", brief, 60},
+    {"studies/accuracy/collapse.json", brief, 60},
+    {cube, brief, 20},
+    // Size.
+    {beam, own, 60, 1},
+    {beam, own, 150, 2},
+    {cube, own, 60, 1},
+    {cube, own, 200, 2},
+    // Stiffness, and how nearly volume is kept.
+    {beam, brief, 20, 0, 1e4, 0.3},
+    {beam, brief, 20, 0, 1e4, 0.45},
+    {beam, brief, 40, 0, 1e4, 0.499},
+    {beam, brief, 20, 0, 1e5, 0.3},
+    {beam, brief, 40, 0, 1e5, 0.499},
+    {beam, brief, 20, 0, 1e6, 0.3},
+    {beam, brief, 40, 0, 1e6, 0.499},
+    {beam, brief, 40, 0, 1e7, 0.3},
+    {beam, brief, 40, 0, 1e7, 0.45},
+    {beam, brief, 90, 0, 1e7, 0.499},
+    // Laws that no scene above has.
+    {cube, own, 5, 0, 0, 0, "gent"},
+    {cube, own, 5, 0, 0, 0, "stable_neo_hookean"},
+    {cube, own, 5, 0, 0, 0, "mass_spring"},
+    {cube, own, 5, 0, 0, 0, "paper_neo_hookean"},
+    {cube, own, 5, 0, 0, 0, "paper_mooney_rivlin"},
+    {cube, own, 5, 0, 0, 0, "paper_fung_demiray"},
+};
+
+/// Of the beam: as many swings as before, and a tenth of a second at least.
+void make_stiffness(Scene& scene, double young, double poisson) {
+  Material& material = scene.materials.front().material;
+  const double before = 9 * material.parameters[1] * 2 * material.parameters[0] /
+                        (3 * material.parameters[1] + 2 * material.parameters[0]);
+  material.parameters = {young / (4 * (1 + poisson)), young / (3 * (1 - 2 * poisson))};
+  scene.solver.duration = std::max(0.1, scene.solver.duration * std::sqrt(before / young));
+  scene.name += fmt::format(" {:g} kPa poisson {}", young / 1000, poisson);
+  scene.title = fmt::format("A beam let go, {:g} kPa, Poisson's ratio {}", young / 1000, poisson);
+}
+
+void make_law(Scene& scene, const char* law) {
+  scene.materials.front().material = bench_material(law);
+  scene.mesh.box->size *= 0.3;  // softer, so smaller
+  scene.mesh.box->cells = {4, 4, 4};
+  scene.name += fmt::format(" {}", law);
+  scene.title = fmt::format("A small cube of {}", law);
+}
+
+AccuracyScene scene_of(const Entry& entry) {
+  Scene scene = read_scene(assets_folder() / entry.file);
+  if (entry.young > 0) make_stiffness(scene, entry.young, entry.poisson);
+  if (entry.law) make_law(scene, entry.law);
+  Specimen specimen = specimen_of(scene);
+  for (int k = 0; k < entry.halvings; ++k) specimen = finer(specimen);
+  if (entry.halvings > 0) {
+    const std::size_t tets = specimen.setup.mesh.tets.size();
+    specimen.scene.name += fmt::format(" {}", tets);
+    specimen.scene.title += fmt::format(", {} tetrahedra", tets);
+  }
+  return {specimen.scene.name, std::move(specimen), entry.options, entry.weight};
+}
+
+}  // namespace
+
+std::vector<AccuracyScene> accuracy_scenes(bool quick) {
+  std::vector<AccuracyScene> scenes;
+  if (quick)
+    for (const Entry& entry : quick_entries) scenes.push_back(scene_of(entry));
+  else
+    for (const Entry& entry : full_entries) scenes.push_back(scene_of(entry));
+  return scenes;
+}
+
+}  // namespace heml

@@ -1,0 +1,124 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <heml/studies/accuracy_study.hpp>
+
+namespace heml {
+namespace {
+
+constexpr double may_grow = 1.1;
+constexpr double negligible = 1e-9;  // m, or of a deviation
+constexpr double round_off = 1e-6;   // of forces: below it figures are chance
+constexpr double feature_weight = 15;  // s of two scenes' measurement, for the estimate of what is left
+
+/// Shares the progress out: each part has a weight, and within it all steps count alike.
+class Parts {
+ public:
+  Parts(const AccuracyOptions& options, double whole) : options_(options), whole_(whole) {}
+
+  StudyContext part(double weight, std::size_t steps) {
+    before_ += weight_;
+    weight_ = weight, steps_ = steps, done_ = 0;
+    return {options_.results, options_.make, [this](const std::string& doing) {
+              ++done_;
+              const double inside = std::min(1.0, static_cast<double>(done_) / static_cast<double>(steps_));
+              options_.progress((before_ + weight_ * inside) / whole_, doing);
+            }};
+  }
+
+ private:
+  const AccuracyOptions& options_;
+  double whole_, before_ = 0, weight_ = 0;
+  std::size_t steps_ = 1, done_ = 0;
+};
+
+std::string figure_name(const SceneStudy& scene, const TimeStudy& study, const Measured& measured) {
+  return fmt::format("{}; {}; {}", scene.name, study.specimen, text_of(measured.method));
+}
+
+AccuracyStudy study_users_scene(const AccuracyOptions& options) {
+  const Specimen specimen = specimen_of(*options.scene);
+  SceneStudyOptions how;
+  if (options.quick) how.sweep = Sweep::brief, how.most_tets = 20000;
+  Parts parts(options, 1.05);
+  AccuracyStudy study;
+  study.scenes.push_back(
+      study_scene(specimen.scene.name, specimen, how, parts.part(1, steps_of_scene_study(specimen, how))));
+  if (!options.quick) study.features = {study_features(*options.scene, parts.part(0.05, 1))};
+  return study;
+}
+
+AccuracyStudy study_own_scenes(const AccuracyOptions& options) {
+  const double locking_weight = options.quick ? 5 : 60, laws_weight = 2;
+  const std::vector<AccuracyScene> scenes = accuracy_scenes(options.quick);
+  std::vector<Scene> featured;
+  if (!options.quick)
+    for (const char* name : {"kidney_pull", "brain_block"})
+      featured.push_back(read_scene(assets_folder() / "scenes" / fmt::format("{}.json", name)));
+  double whole = locking_weight + laws_weight + feature_weight * static_cast<double>(featured.size());
+  for (const AccuracyScene& scene : scenes) whole += scene.weight;
+
+  Parts parts(options, whole);
+  AccuracyStudy study;
+  study.laws = study_laws(parts.part(laws_weight, steps_of_law_study()));
+  study.locking = study_locking(options.quick, parts.part(locking_weight, steps_of_locking_study(options.quick)));
+  for (const AccuracyScene& scene : scenes)
+    study.scenes.push_back(study_scene(scene.name, scene.specimen, scene.options,
+                                       parts.part(scene.weight, steps_of_scene_study(scene.specimen, scene.options))));
+  for (const Scene& scene : featured) study.features.push_back(study_features(scene, parts.part(feature_weight, 1)));
+  return study;
+}
+
+}  // namespace
+
+AccuracyStudy study_accuracy(const AccuracyOptions& options) {
+  return options.scene ? study_users_scene(options) : study_own_scenes(options);
+}
+
+std::vector<Figure> figures_of(const AccuracyStudy& study) {
+  std::vector<Figure> figures;
+  for (const SceneStudy& scene : study.scenes) {
+    for (const TimeStudy& time : scene.time)
+      for (const Measured& measured : time.measured)
+        if (!measured.failed() && measured.resolved && !measured.method.single_precision && measured.method.threads == 1)
+          figures.push_back({figure_name(scene, time, measured), measured.error});
+    for (const SettledMesh& mesh : scene.settled.meshes)
+      if (mesh.failed.empty() && mesh.resolved)
+        figures.push_back({fmt::format("{}; at rest; {}, {} tetrahedra", scene.name,
+                                       mesh.nodal_pressure ? "nodal_pressure" : "p1", mesh.tets),
+                           mesh.error});
+  }
+  for (const LockedBeam& beam : study.locking) {
+    if (!beam.settled.reference.problem.empty()) continue;
+    figures.push_back({fmt::format("beam off theory, poisson {}", beam.poisson), std::abs(beam.off_theory())});
+    for (const SettledMesh& mesh : beam.settled.meshes)
+      if (mesh.failed.empty() && mesh.resolved)
+        figures.push_back({fmt::format("beam of poisson {}; {}, {} tetrahedra", beam.poisson,
+                                       mesh.nodal_pressure ? "nodal_pressure" : "p1", mesh.tets),
+                           mesh.error});
+  }
+  for (const SettledLaw& law : study.laws)
+    if (law.failed.empty()) figures.push_back({fmt::format("force left by {}", law.law), std::max(law.left_over, round_off)});
+  return figures;
+}
+
+Json to_json(const std::vector<Figure>& figures) {
+  Json json = Json::object();
+  for (const Figure& figure : figures) json[figure.name] = figure.value;
+  return json;
+}
+
+std::vector<std::string> what_got_worse(const std::vector<Figure>& figures, const Json& committed) {
+  std::vector<std::string> worse;
+  for (const auto& [name, value] : committed.items()) {
+    const auto now = std::find_if(figures.begin(), figures.end(), [&](const Figure& f) { return f.name == name; });
+    const double before = value.get<double>();
+    if (now == figures.end())
+      worse.push_back(fmt::format("{}: was {:.4g}, and is no more: it failed or was not measured", name, before));
+    else if (!(now->value <= may_grow * before + negligible))
+      worse.push_back(fmt::format("{}: was {:.4g}, is {:.4g}", name, before, now->value));
+  }
+  return worse;
+}
+
+}  // namespace heml

@@ -1,0 +1,60 @@
+#include <fmt/format.h>
+
+#include <heml/mesh/generate.hpp>
+#include <heml/studies/beam_theory.hpp>
+#include <heml/studies/locking_study.hpp>
+
+namespace heml {
+namespace {
+
+constexpr Cantilever beam{0.1, 0.02, 5e5, 0, 1000, 0.981};  // sags by 0.7 % of its length
+constexpr int halvings = 2;
+
+std::vector<double> poissons(bool quick) {
+  return quick ? std::vector<double>{0, 0.3, 0.49} : std::vector<double>{0, 0.3, 0.45, 0.49, 0.499};
+}
+
+std::array<int, 3> cells_of(bool quick) { return quick ? std::array{8, 2, 2} : std::array{10, 2, 2}; }
+
+Specimen beam_of(double poisson, const std::array<int, 3>& cells) {
+  Specimen specimen;
+  WorldSetup& setup = specimen.setup;
+  setup.mesh = make_box(Vec3(beam.length, beam.depth, beam.depth), cells);
+  Material material;
+  material.law = "neo_hookean_iso";
+  material.parameters = {beam.young / (4 * (1 + poisson)), beam.young / (3 * (1 - 2 * poisson))};
+  material.density = beam.density;
+  setup.materials = {{std::nullopt, material}};
+  Boundary held;
+  for (std::size_t n = 0; n < setup.mesh.nodes.size(); ++n)
+    if (setup.mesh.nodes[n].x() < 1e-9) held.nodes.push_back(static_cast<int>(n));
+  setup.boundary = {held};
+  setup.gravity = Vec3(0, -beam.gravity, 0);
+  return with_masses(std::move(specimen));
+}
+
+}  // namespace
+
+std::size_t steps_of_locking_study(bool quick) {
+  return poissons(quick).size() * steps_of_settled_study(beam_of(0.3, cells_of(quick)), halvings);
+}
+
+LockedBeam study_beam(double poisson, const std::array<int, 3>& cells, const StudyContext& context) {
+  Cantilever theory = beam;
+  theory.poisson = poisson;
+  const std::string key = fmt::format("beam of {} cells at rest, poisson {}", cells[0], poisson);
+  return {poisson, theory.sag(), study_settled(key, beam_of(poisson, cells), halvings, context)};
+}
+
+std::vector<LockedBeam> study_locking(bool quick, const StudyContext& context) {
+  std::vector<LockedBeam> beams;
+  for (const double poisson : poissons(quick)) beams.push_back(study_beam(poisson, cells_of(quick), context));
+  return beams;
+}
+
+double locking_of(const std::vector<LockedBeam>& beams, const SettledMesh& mesh) {
+  const SettledMesh* free = beams.front().settled.find(mesh.nodal_pressure, mesh.halvings);
+  return free ? mesh.relative - free->relative : mesh.relative;
+}
+
+}  // namespace heml

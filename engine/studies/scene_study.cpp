@@ -1,0 +1,127 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <heml/base/error.hpp>
+#include <heml/studies/scene_study.hpp>
+
+namespace heml {
+namespace {
+
+constexpr int finest = 2;  // times that every tetrahedron is cut in eight
+
+std::vector<std::string> laws_of(const WorldSetup& setup) {
+  std::vector<std::string> laws;
+  for (const RegionMaterial& entry : setup.materials)
+    if (std::find(laws.begin(), laws.end(), entry.material.law) == laws.end()) laws.push_back(entry.material.law);
+  return laws;
+}
+
+std::vector<bool> elements_of(const Specimen& specimen, const SceneStudyOptions& options) {
+  if (!options.both_elements || !takes_nodal_pressure(specimen)) return {specimen.nodal_pressure()};
+  return {specimen.nodal_pressure(), !specimen.nodal_pressure()};
+}
+
+int halvings_of(const Specimen& specimen, const SceneStudyOptions& options) {
+  const int halvings = halvings_within(specimen.setup.mesh.tets.size(), options.most_tets, finest);
+  return halvings == finest ? finest : 0;  // fewer than three meshes tell nothing
+}
+
+template <class Better, class Wanted>
+std::optional<Candidate> best_of(const std::vector<Candidate>& candidates, const Wanted& wanted, const Better& better) {
+  const Candidate* best = nullptr;
+  for (const Candidate& candidate : candidates)
+    if (wanted(candidate) && (!best || better(candidate, *best))) best = &candidate;
+  return best ? std::optional(*best) : std::nullopt;
+}
+
+}  // namespace
+
+std::optional<double> SceneStudy::mesh_error(bool nodal_pressure) const {
+  if (!settled.reference.problem.empty()) return std::nullopt;
+  const SettledMesh* mesh = settled.find(nodal_pressure, 0);
+  return mesh ? std::optional(mesh->error) : std::nullopt;
+}
+
+std::vector<Candidate> SceneStudy::candidates() const {
+  std::vector<Candidate> list;
+  for (const TimeStudy& study : time)
+    for (const Measured& measured : study.measured)
+      if (!measured.failed()) list.push_back({&study, &measured, mesh_error(study.nodal_pressure)});
+  return list;
+}
+
+std::size_t steps_of_scene_study(const Specimen& specimen, const SceneStudyOptions& options) {
+  const int halvings = halvings_of(specimen, options);
+  return elements_of(specimen, options).size() * steps_of_time_study(options.sweep) +
+         (halvings ? steps_of_settled_study(specimen, halvings) : 0);
+}
+
+SceneStudy study_scene(const std::string& name, const Specimen& specimen, const SceneStudyOptions& options,
+                       const StudyContext& context) {
+  if (specimen.scene.solver.is_static())
+    throw InputError(specimen.scene.file, "solver.integrator", "is static: it has no steps to choose",
+                     "give an integrator of motions, or measure its mesh by refining it");
+  const std::string key = key_of(specimen);
+  SceneStudy study;
+  study.name = name;
+  study.title = specimen.scene.title.empty() ? name : specimen.scene.title;
+  study.laws = laws_of(specimen.setup);
+  for (const bool nodal : elements_of(specimen, options)) {
+    const Specimen now = with_element(specimen, nodal);
+    study.time.push_back(study_time(key, now, set_times(specimen.scene), options.sweep, context));
+    const TimeStudy& time = study.time.back();
+    if (!time.reference.problem.empty())
+      study.notes.push_back(fmt::format("{}: no time errors, since the reference failed: {}", time.specimen,
+                                        time.reference.problem));
+  }
+  if (const int halvings = halvings_of(specimen, options); halvings > 0)
+    study.settled = study_settled(key, specimen, halvings, context);
+  else
+    study.settled.reference.problem =
+        options.most_tets == 0 ? "it is measured on another mesh of this scene" : "finer meshes are too large";
+  if (!study.settled.reference.problem.empty())
+    study.notes.push_back(fmt::format("the mesh error is not known: {}", study.settled.reference.problem));
+  else if (!specimen.scene.events.empty())
+    study.notes.push_back("the mesh error is of the body at rest, before any event");
+  return study;
+}
+
+std::optional<Candidate> best_within(const std::vector<Candidate>& candidates, double frame_seconds) {
+  return best_of(
+      candidates,
+      [&](const Candidate& c) { return c.frame_seconds() <= frame_seconds && c.tick() <= frame * (1 + 1e-9); },
+      [](const Candidate& a, const Candidate& b) {
+        return a.error() != b.error() ? a.error() < b.error() : a.frame_seconds() < b.frame_seconds();
+      });
+}
+
+std::optional<Candidate> fastest_within(const std::vector<Candidate>& candidates, double error) {
+  return best_of(
+      candidates, [&](const Candidate& c) { return c.error() <= error; },
+      [](const Candidate& a, const Candidate& b) { return a.frame_seconds() < b.frame_seconds(); });
+}
+
+std::string length_text(double metres) {
+  if (metres == 0) return "0";
+  if (metres >= 0.01) return fmt::format("{:.3g} cm", 100 * metres);
+  if (metres >= 1e-4) return fmt::format("{:.2g} mm", 1e3 * metres);
+  return metres >= 1e-7 ? fmt::format("{:.2g} µm", 1e6 * metres) : fmt::format("{:.2g} nm", 1e9 * metres);
+}
+
+std::string text_of(const Candidate& candidate) {
+  return fmt::format("{}, {}", candidate.study->nodal_pressure ? "nodal_pressure" : "p1",
+                     text_of(candidate.measured->method));
+}
+
+std::string answer_within(const std::vector<Candidate>& candidates, double frame_seconds) {
+  const auto best = best_within(candidates, frame_seconds);
+  if (!best) return fmt::format("within {:.3g} ms a frame, nothing tried is fast enough", 1e3 * frame_seconds);
+  const std::string parts =
+      best->mesh_error ? fmt::format(" ({} of time, {} of the mesh)", length_text(best->measured->error),
+                                     length_text(*best->mesh_error))
+                       : std::string(" of time (that of the mesh is not known)");
+  return fmt::format("within {:.3g} ms a frame, the smallest error is {}{}, with {}", 1e3 * frame_seconds,
+                     length_text(best->error()), parts, text_of(*best));
+}
+
+}  // namespace heml

@@ -1,0 +1,62 @@
+#pragma once
+// Errors of the mesh: where a body comes to rest under its loads, on its own mesh and on finer ones with every
+// tetrahedron in eight. Meshes are nested, so all are compared at the nodes of the first.
+//
+//    u₀ ──d₀₁── u₁ ──d₁₂── u₂ ─ ─ ─ u*     d falls by 2^p a mesh; u* = u₂ + (u₂ − u₁)/(2^p − 1)   (Richardson)
+//
+// Coarse meshes that are too stiff show a p below the 2 that linear elements have in the end, and lead too far; 2 does
+// not lead far enough. u* is the middle of both guesses, and half their distance how far to trust it. Errors are
+// measured from the u* of whichever element it is surer of; the other element's is held against it.
+#include <heml/studies/study_context.hpp>
+
+namespace heml {
+
+/// A body at rest on one mesh.
+struct SettledMesh {
+  bool nodal_pressure = false;
+  int halvings = 0;
+  std::size_t nodes = 0, tets = 0;
+  double seconds = 0;   ///< of computing
+  std::string failed;   ///< empty: it settled
+  double error = 0;     ///< m, mass-weighted rms over the nodes of the first mesh; at least the resolution
+  double relative = 0;  ///< of the motion
+  bool resolved = true;
+  Vec3 far = Vec3::Zero();  ///< m, displacement of the node that moves farthest on the first mesh
+};
+
+/// u* and how far to trust it.
+struct Extrapolation {
+  std::string problem;       ///< empty: there is one
+  bool nodal_pressure = false;
+  double order = 0;          ///< p as the three meshes show it
+  double uncertainty = 0;    ///< m, half the rms distance of the two guesses
+  double motion = 0;         ///< m, rms of u*
+  Vec3 far = Vec3::Zero();   ///< m, u* of the node that moves farthest
+  std::optional<double> between_elements;  ///< m, rms between the u* of both elements
+  double resolution() const { return 2 * uncertainty; }  ///< m, the least error it can tell
+};
+
+struct SettledStudy {
+  Extrapolation reference;
+  std::vector<Vec3> best;  ///< u* as positions, #V of the first mesh; empty: there is none
+  std::vector<SettledMesh> meshes;
+  const SettledMesh* find(bool nodal_pressure, int halvings) const;
+};
+
+/// Richardson's, of nested solutions u (three or more) at the same nodes. rest: where u is 0. None where differences
+/// do not shrink regularly (order under 0.5 or over 4). best: u*.
+Extrapolation extrapolate(const std::vector<std::vector<Vec3>>& x, const std::vector<Vec3>& rest,
+                          const std::vector<double>& mass, std::vector<Vec3>& best);
+
+/// Loads are those of the scene at full size, without its events. halvings: the finest mesh. Both elements, where its
+/// laws have them.
+SettledStudy study_settled(const std::string& key, const Specimen& specimen, int halvings, const StudyContext& context);
+std::size_t steps_of_settled_study(const Specimen& specimen, int halvings);
+
+/// Where the nodes of a specimen come to rest; empty: nowhere.
+std::vector<Vec3> settled_positions(const std::string& key, const Specimen& specimen, const StudyContext& context);
+
+/// How often a mesh may be cut in eight until it has `most` tetrahedra, at most `halvings` times.
+int halvings_within(std::size_t tets, std::size_t most, int halvings);
+
+}  // namespace heml

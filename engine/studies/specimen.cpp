@@ -1,0 +1,149 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <heml/base/hash.hpp>
+#include <heml/mesh/subdivide.hpp>
+#include <heml/scenario/load_mesh.hpp>
+#include <heml/scenario/selection.hpp>
+#include <heml/studies/specimen.hpp>
+
+namespace heml {
+namespace {
+
+constexpr double rate = 1000;  // Hz, of explicit methods at the live limit
+
+std::vector<double> lumped_masses(const WorldSetup& setup) {
+  const auto entry = material_of_elements(setup.mesh, setup.materials);
+  std::vector<double> mass(setup.mesh.nodes.size(), 0);
+  for (std::size_t t = 0; t < setup.mesh.tets.size(); ++t) {
+    const Tet& tet = setup.mesh.tets[t];
+    const auto at = [&](std::size_t a) { return setup.mesh.nodes[static_cast<std::size_t>(tet[a])]; };
+    const double density = setup.materials[static_cast<std::size_t>(entry[t])].material.density;
+    for (const int node : tet)
+      mass[static_cast<std::size_t>(node)] += density * signed_volume(at(0), at(1), at(2), at(3)) / 4;
+  }
+  return mass;
+}
+
+/// Grasps given by a place take the node that is nearest now: finer meshes have others nearer.
+void settle_grasps(Specimen& specimen) {
+  for (const auto& [index, point] : specimen.scene.grasp_points)
+    std::get<Grasp>(specimen.scene.events.at(index).command).node = nearest_surface_node(specimen.setup.mesh, point);
+  specimen.scene.grasp_points.clear();
+}
+
+void take_middles(std::vector<int>& selected, const Subdivision& finer, std::size_t old_nodes) {
+  std::vector<bool> is_selected(old_nodes, false);
+  for (const int node : selected) is_selected[static_cast<std::size_t>(node)] = true;
+  for (std::size_t m = 0; m < finer.ends.size(); ++m)
+    if (is_selected[static_cast<std::size_t>(finer.ends[m][0])] && is_selected[static_cast<std::size_t>(finer.ends[m][1])])
+      selected.push_back(static_cast<int>(old_nodes + m));
+}
+
+/// Elements that an event removes by number become their eight parts.
+void take_parts(std::vector<Event>& events) {
+  for (Event& event : events)
+    if (auto* remove = std::get_if<RemoveElements>(&event.command)) {
+      std::vector<int> parts;
+      for (const int tet : remove->which.tets)
+        for (int part = 0; part < 8; ++part) parts.push_back(8 * tet + part);
+      remove->which.tets = parts;
+    }
+}
+
+bool splits(const Material& material, VolumeTerm volume_term) {
+  return find_law(material.law)->has_volume_term && material.volume_term == volume_term;
+}
+
+}  // namespace
+
+Specimen specimen_of(const Scene& scene) {
+  Specimen specimen{scene, load_setup(scene), {}};
+  if (specimen.scene.name.empty()) specimen.scene.name = std::filesystem::path(scene.file).stem().string();
+  settle_grasps(specimen);
+  return with_masses(std::move(specimen));
+}
+
+Specimen with_masses(Specimen specimen) {
+  specimen.mass = lumped_masses(specimen.setup);
+  return specimen;
+}
+
+Specimen finer(const Specimen& specimen) {
+  Specimen result = specimen;
+  const std::size_t old_nodes = specimen.setup.mesh.nodes.size();
+  Subdivision cut = subdivided(specimen.setup.mesh);
+  for (Boundary& boundary : result.setup.boundary) take_middles(boundary.nodes, cut, old_nodes);
+  for (Load& load : result.setup.loads) take_middles(load.nodes, cut, old_nodes);
+  auto& initial = result.setup.initial_positions;
+  if (!initial.empty())
+    for (const auto& [a, b] : cut.ends)
+      initial.push_back((initial[static_cast<std::size_t>(a)] + initial[static_cast<std::size_t>(b)]) / 2);
+  take_parts(result.scene.events);
+  result.setup.mesh = std::move(cut.mesh);
+  return with_masses(std::move(result));
+}
+
+Specimen with_element(Specimen specimen, bool nodal_pressure) {
+  specimen.scene.solver.nodal_pressure = specimen.setup.solver.nodal_pressure = nodal_pressure;
+  return specimen;
+}
+
+bool takes_nodal_pressure(const Specimen& specimen) {
+  const auto& materials = specimen.setup.materials;
+  const VolumeTerm term = materials.front().material.volume_term;
+  const bool at_start =
+      std::all_of(materials.begin(), materials.end(), [&](const RegionMaterial& m) { return splits(m.material, term); });
+  const auto& events = specimen.scene.events;
+  return at_start && std::all_of(events.begin(), events.end(), [&](const Event& event) {
+           const auto* change = std::get_if<SetMaterial>(&event.command);
+           return !change || splits(change->material, term);
+         });
+}
+
+std::string key_of(const Specimen& specimen) {
+  std::uint64_t hash = identity_of(specimen.setup.mesh).hash;
+  for (const char c : scene_text(specimen.scene)) hash = mix(hash, static_cast<std::uint64_t>(c));
+  for (const Vec3& x : specimen.setup.initial_positions)
+    for (const double coordinate : x) hash = mix(hash, std::bit_cast<std::uint64_t>(coordinate));
+  return fmt::format("{} {:016x}", specimen.scene.name, hash);
+}
+
+std::string text_of(const Specimen& specimen) {
+  return fmt::format("{}, {} tetrahedra", specimen.nodal_pressure() ? "nodal_pressure" : "p1",
+                     specimen.setup.mesh.tets.size());
+}
+
+Scene with_method(Scene scene, const Method& method) {
+  const double tick_before = scene.solver.tick();
+  SolverSettings& solver = scene.solver;
+  solver.integrator = method.integrator;
+  solver.step = method.step;
+  if (!method.step) solver.rate = rate;
+  solver.budget.reset();
+  if (method.iterations > 0) solver.budget = Budget{method.iterations, 0};
+  solver.single_precision = method.single_precision;
+  solver.threads = method.threads;
+  for (Event& event : scene.events)
+    event.tick = std::lround(static_cast<double>(event.tick) * tick_before / solver.tick());
+  scene.checkpoints.clear();
+  scene.recorded_ticks.reset();
+  scene.recorded_mesh.reset();
+  return scene;
+}
+
+std::string text_of(const Method& method) {
+  std::string text = fmt::format("{}, {}", integrator_name(method.integrator),
+                                 method.step ? fmt::format("steps of {:.3g} ms", 1e3 * *method.step) : "live steps");
+  if (method.iterations > 0)
+    text += fmt::format(", {} iteration{}", method.iterations, method.iterations == 1 ? "" : "s");
+  else if (!is_explicit(method.integrator))
+    text += ", to tolerance";
+  if (method.single_precision) text += ", float";
+  if (method.threads == 0) text += ", all cores";
+  return text;
+}
+
+}  // namespace heml

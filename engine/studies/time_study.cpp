@@ -1,0 +1,139 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <heml/studies/time_study.hpp>
+#include <thread>
+
+namespace heml {
+namespace {
+
+constexpr int set_time_count = 4;
+constexpr double above_limit = 3;  // times the stable step: it keeps a margin
+
+Json run_json(const Run& run) {
+  Json json = {{"failed", run.failed},           {"simulated", run.simulated}, {"seconds", run.seconds},
+               {"median_tick", run.median_tick}, {"slow_tick", run.slow_tick}, {"ticks", run.ticks},
+               {"steps", run.steps},             {"iterations", run.iterations}, {"volume", run.volume},
+               {"least_J", run.least_J}};
+  if (run.swing) json["swing"] = {run.swing->frequency, run.swing->decay};
+  if (run.energy_drift) json["energy_drift"] = *run.energy_drift;
+  return json;
+}
+
+Run run_from(const Json& json) {
+  Run run;
+  run.failed = json["failed"];
+  run.simulated = json["simulated"], run.seconds = json["seconds"];
+  run.median_tick = json["median_tick"], run.slow_tick = json["slow_tick"];
+  run.ticks = json["ticks"], run.steps = json["steps"], run.iterations = json["iterations"];
+  run.volume = json["volume"].is_null() ? 0 : json["volume"].get<double>();
+  run.least_J = json["least_J"].is_null() ? 0 : json["least_J"].get<double>();
+  if (json.contains("swing")) run.swing = Swing{json["swing"][0], json["swing"][1]};
+  if (json.contains("energy_drift") && !json["energy_drift"].is_null()) run.energy_drift = json["energy_drift"];
+  return run;
+}
+
+Json measure(const Specimen& specimen, const Method& method, const Reference& reference, const RunOptions& options) {
+  const Run run = play(specimen, method, options);
+  Json json = run_json(run);
+  if (!run.failed.empty()) return json;
+  json["error"] = largest_distance(run.at, reference.at, specimen.mass);
+  json["last_error"] = rms_distance(run.at.back(), reference.at.back(), specimen.mass);
+  return json;
+}
+
+Measured measured_from(const Json& json, const Method& method, const Reference& reference) {
+  Measured measured;
+  measured.method = method;
+  measured.run = run_from(json);
+  if (measured.failed()) return measured;
+  const double error = json["error"];
+  measured.resolved = error >= reference.resolution();
+  measured.error = std::max(error, reference.resolution());
+  measured.last_error = json["last_error"];
+  measured.relative = measured.error / reference.motion;
+  if (measured.run.swing && reference.swing) {
+    measured.frequency_error = measured.run.swing->frequency / reference.swing->frequency - 1;
+    measured.added_decay = measured.run.swing->decay - reference.swing->decay;
+  }
+  return measured;
+}
+
+bool several_cores() { return std::thread::hardware_concurrency() > 1; }
+
+void add_explicit(std::vector<Method>& list, Sweep sweep, double stable_step) {
+  list.push_back({Integrator::symplectic_euler});
+  list.push_back({Integrator::verlet});
+  list.push_back({Integrator::verlet, above_limit * stable_step});  // fails, and is shown to
+  if (sweep == Sweep::brief) return;
+  list.push_back({Integrator::verlet, {}, 0, true});
+  if (several_cores()) list.push_back({Integrator::verlet, {}, 0, false, 0});
+  list.push_back({Integrator::verlet, 0.5 * stable_step});
+  list.push_back({Integrator::symplectic_euler, 0.5 * stable_step});
+}
+
+void add_implicit(std::vector<Method>& list, Sweep sweep) {
+  constexpr Integrator integrators[] = {Integrator::backward_euler, Integrator::bdf2, Integrator::tr_bdf2};
+  if (sweep == Sweep::brief) {
+    for (const Integrator integrator : integrators)
+      for (const double step : {1.0 / 60, 0.005}) list.push_back({integrator, step, 1});
+    return;
+  }
+  for (const Integrator integrator : integrators)
+    for (const double step : {1.0 / 30, 1.0 / 60, 0.01, 0.005, 0.002})
+      for (const int iterations : {1, 0}) list.push_back({integrator, step, iterations});
+  for (const Integrator integrator : {Integrator::backward_euler, Integrator::tr_bdf2}) {
+    list.push_back({integrator, 0.01, 3});
+    list.push_back({integrator, 0.01, 1, true});
+    if (several_cores()) list.push_back({integrator, 0.01, 1, false, 0});
+  }
+}
+
+}  // namespace
+
+std::vector<Method> methods_of(Sweep sweep, double stable_step) {
+  std::vector<Method> list;
+  add_explicit(list, sweep, stable_step);
+  add_implicit(list, sweep);
+  return list;
+}
+
+std::size_t steps_of_time_study(Sweep sweep) { return 1 + methods_of(sweep, 1).size(); }
+
+std::vector<double> set_times(const Scene& scene) {
+  std::vector<double> times = scene.output_times;
+  std::sort(times.begin(), times.end());
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  std::erase_if(times, [&](double t) { return !(t > 0) || t > scene.solver.duration; });
+  if (times.empty())
+    for (int k = 1; k <= set_time_count; ++k) times.push_back(scene.solver.duration * k / set_time_count);
+  return times;
+}
+
+TimeStudy study_time(const std::string& key, const Specimen& specimen, const std::vector<double>& times, Sweep sweep,
+                     const StudyContext& context) {
+  TimeStudy study;
+  study.specimen = text_of(specimen);
+  study.nodes = specimen.setup.mesh.nodes.size();
+  study.tets = specimen.setup.mesh.tets.size();
+  study.nodal_pressure = specimen.nodal_pressure();
+  const std::string place = fmt::format("{}|{}", key, study.specimen);
+  RunOptions options{times};
+  options.make = context.make;
+
+  study.reference = reference_from(context.kept(place + "|reference", [&] {
+    return to_json(reference_of(specimen, play(specimen, {Integrator::verlet}, options), options));
+  }));
+  if (!study.reference.problem.empty()) return study;
+
+  for (const Method& method : methods_of(sweep, study.reference.stable_step)) {
+    const std::string text = text_of(method);
+    study.measured.push_back(measured_from(
+        context.kept(place + "|" + text, [&] { return measure(specimen, method, study.reference, options); }), method,
+        study.reference));
+  }
+  study.reference.at.clear();
+  return study;
+}
+
+}  // namespace heml

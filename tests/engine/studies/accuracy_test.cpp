@@ -1,0 +1,207 @@
+// The accuracy study itself: what it concludes from numbers that are known, and that it notices what is broken.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <heml/studies/accuracy_report.hpp>
+#include <heml/studies/beam_theory.hpp>
+#include <heml/studies/pareto.hpp>
+#include <numbers>
+
+using namespace heml;
+
+namespace {
+
+constexpr const char* swinging = R"({
+  "schema_version": 1, "name": "small beam",
+  "mesh": {"box": {"size": [0.1, 0.02, 0.02], "cells": [4, 1, 1]}},
+  "materials": [{"law": "neo_hookean_iso", "K1": 5e4, "kappa": 5e5}],
+  "boundary": [{"box": [[-1, -1, -1], [1e-6, 1, 1]], "fix": true}],
+  "gravity": [0, -9.81, 0],
+  "solver": {"duration": 0.04}
+})";
+
+Specimen small_beam() { return specimen_of(parse_scene(swinging, "folder/scene.json")); }
+
+const std::vector<double> times{0.02, 0.04};
+
+/// Worlds whose stiffness is not what the scene says.
+MakeWorld broken(double stiffness, double volume) {
+  return [=](WorldSetup setup) {
+    for (RegionMaterial& entry : setup.materials) {
+      auto& parameters = entry.material.parameters;
+      parameters[0] *= stiffness;
+      if (parameters.size() > 1) parameters[1] *= stiffness * volume;
+    }
+    return make_world(std::move(setup));
+  };
+}
+
+/// Figures that closed forms and other arithmetic stand behind, of a beam and of one law.
+std::vector<Figure> figures_with(const MakeWorld& make) {
+  StudyContext context;
+  context.make = make;
+  AccuracyStudy study;
+  study.locking = {study_beam(0, {8, 2, 2}, context)};
+  return figures_of(study);
+}
+
+std::vector<Vec3> scaled(const std::vector<Vec3>& x, double by) {
+  std::vector<Vec3> result;
+  for (const Vec3& at : x) result.push_back(by * at);
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("the Pareto front holds what nothing beats in both, ascending in cost") {
+  const std::vector<CostAndError> points{{3, 1}, {1, 5}, {2, 6}, {2, 3}, {4, 1}, {5, 0.5}, {1, 5}};
+  const auto front = pareto_front(points);
+  REQUIRE(front.size() == 4);
+  CHECK(points[front[0]].cost == 1);
+  CHECK(front[1] == 3);
+  CHECK(front[2] == 0);
+  CHECK(front[3] == 5);
+  CHECK(pareto_front({}).empty());
+}
+
+TEST_CASE("Richardson: solutions that converge with order 2 lead to their limit, and no uncertainty is left") {
+  const std::vector<Vec3> rest(3, Vec3::Zero()), limit{Vec3(1, 0, 0), Vec3(0, 2, 0), Vec3(0, 0, 3)};
+  const std::vector<double> mass{1, 2, 3};
+  std::vector<Vec3> best;
+  const auto exact = extrapolate({scaled(limit, 1 - 0.16), scaled(limit, 1 - 0.04), scaled(limit, 1 - 0.01)}, rest, mass, best);
+  CHECK(exact.problem.empty());
+  CHECK(exact.order == doctest::Approx(2));
+  CHECK(rms_distance(best, limit, mass) < 1e-12);
+  CHECK(exact.uncertainty < 1e-12);
+  CHECK(exact.far.z() == doctest::Approx(3));
+  // Order 1: the truth is the guess by the order shown, and lies within the uncertainty.
+  const auto slow = extrapolate({scaled(limit, 1 - 0.4), scaled(limit, 1 - 0.2), scaled(limit, 1 - 0.1)}, rest, mass, best);
+  CHECK(slow.order == doctest::Approx(1));
+  CHECK(rms_distance(best, limit, mass) <= slow.uncertainty * (1 + 1e-9));
+  const auto wild = extrapolate({scaled(limit, 1), scaled(limit, 2), scaled(limit, 4)}, rest, mass, best);
+  CHECK_FALSE(wild.problem.empty());
+  CHECK_FALSE(extrapolate({limit, limit}, rest, mass, best).problem.empty());
+}
+
+TEST_CASE("a swing's frequency and decay are read off its turning points") {
+  std::vector<double> t, u;
+  constexpr double frequency = 7, decay = 3;
+  for (int k = 0; k <= 400; ++k) {
+    t.push_back(k * 1e-3);
+    u.push_back(1 - std::exp(-decay * t.back()) * std::cos(2 * std::numbers::pi * frequency * t.back()));
+  }
+  const auto swing = swing_of(t, u);
+  REQUIRE(swing);
+  CHECK(swing->frequency == doctest::Approx(frequency).epsilon(0.02));
+  CHECK(swing->decay == doctest::Approx(decay).epsilon(0.05));
+  CHECK_FALSE(swing_of({0, 1, 2}, {0, 0, 0}));
+  std::vector<double> creeping;
+  for (const double now : t) creeping.push_back(1 - std::exp(-now));
+  CHECK_FALSE(swing_of(t, creeping));
+}
+
+TEST_CASE("a reference tells errors ten times what halving its step changes, and methods converge to it") {
+  const Specimen beam = small_beam();
+  const TimeStudy study = study_time("test", beam, times, Sweep::whole, {});
+  REQUIRE(study.reference.problem.empty());
+  CHECK(study.reference.motion > 1e-4);
+  CHECK(study.reference.resolution() == 10 * study.reference.change);
+  CHECK(study.reference.resolution() < 1e-5 * study.reference.motion);
+  const auto error = [&](Integrator integrator, double step) {
+    for (const Measured& m : study.measured)
+      if (m.method.integrator == integrator && m.method.step == step && m.method.iterations == 0) return m.error;
+    return -1.0;
+  };
+  for (const Integrator integrator : {Integrator::backward_euler, Integrator::bdf2, Integrator::tr_bdf2}) {
+    CAPTURE(integrator_name(integrator));
+    CHECK(error(integrator, 0.002) < error(integrator, 0.01));
+  }
+  CHECK(error(Integrator::tr_bdf2, 0.002) < error(Integrator::bdf2, 0.002));
+  CHECK(error(Integrator::bdf2, 0.002) < error(Integrator::backward_euler, 0.002));
+  for (const Measured& m : study.measured)
+    if (!m.failed()) CHECK(m.error >= study.reference.resolution());
+}
+
+TEST_CASE("steps above the stable limit fail and are said to, and a figure that is gone is worse") {
+  const TimeStudy study = study_time("test", small_beam(), times, Sweep::whole, {});
+  std::size_t failed = 0;
+  for (const Measured& m : study.measured)
+    if (m.method.integrator == Integrator::verlet && m.method.step && *m.method.step > study.reference.stable_step) {
+      ++failed;
+      CHECK(m.failed());
+    }
+  CHECK(failed == 1);
+  // Verlet at the live limit was fine before; had its step been above the limit, it would have no figure.
+  SceneStudy scene;
+  scene.name = "small beam";
+  scene.time = {study};
+  AccuracyStudy whole;
+  whole.scenes = {scene};
+  const Json committed = to_json(figures_of(whole));
+  CHECK(what_got_worse(figures_of(whole), committed).empty());
+  for (Measured& m : whole.scenes[0].time[0].measured)
+    if (m.method.integrator == Integrator::verlet) m.run.failed = "ran away";
+  const auto worse = what_got_worse(figures_of(whole), committed);
+  REQUIRE_FALSE(worse.empty());
+  CHECK(worse[0].find("verlet") != std::string::npos);
+}
+
+TEST_CASE("a kernel that is twice too stiff or has the sign of its volume term wrong is noticed") {
+  const auto sound = figures_with(make_world);
+  const Json committed = to_json(sound);
+  REQUIRE(committed.contains("beam off theory, poisson 0"));
+  CHECK(committed["beam off theory, poisson 0"] < 0.01);
+  CHECK(what_got_worse(sound, committed).empty());
+  CHECK_FALSE(what_got_worse(figures_with(broken(2, 1)), committed).empty());
+  CHECK_FALSE(what_got_worse(figures_with(broken(1, -1)), committed).empty());
+}
+
+TEST_CASE("every law that settles is in balance by arithmetic that is not the engine's, and a broken one is not") {
+  for (const SettledLaw& law : study_laws({})) {
+    CAPTURE(law.law);
+    CHECK(law.failed == "");
+    CHECK(law.left_over < 1e-6);
+  }
+  StudyContext twice;
+  twice.make = broken(2, 1);
+  for (const SettledLaw& law : study_laws(twice))
+    if (law.law != "mass_spring") CHECK((!law.failed.empty() || law.left_over > 0.01));
+}
+
+TEST_CASE("figures grow by a tenth before they are worse, and times are none") {
+  const Json committed = {{"a", 1.0}, {"b", 0.0}};
+  CHECK(what_got_worse({{"a", 1.09}, {"b", 1e-12}, {"new", 5}}, committed).empty());
+  CHECK(what_got_worse({{"a", 1.11}, {"b", 0}}, committed).size() == 1);
+  CHECK(what_got_worse({{"a", 0.5}}, committed).size() == 1);
+  CHECK(what_got_worse({{"a", std::nan("")}, {"b", 0}}, committed).size() == 1);
+}
+
+TEST_CASE("a beam's theory: bending alone is w L4 / 8 E I, shear adds a few per cent of a thick one") {
+  const Cantilever slender{1, 0.01, 1e6, 0.3, 1000, 9.81};
+  const double bending = 12 * 1000 * 9.81 / (8 * 1e6 * 0.01 * 0.01);
+  CHECK(slender.sag() == doctest::Approx(bending).epsilon(1e-3));
+  const Cantilever thick{0.1, 0.02, 5e5, 0.3, 1000, 9.8};
+  CHECK(thick.sag() == doctest::Approx(7.35e-3 * 1.04).epsilon(0.01));
+}
+
+TEST_CASE("the report begins with its answers and holds every scene") {
+  AccuracyStudy study;
+  SceneStudy& scene = study.scenes.emplace_back();
+  scene.name = scene.title = "block";
+  scene.laws = {"stvk"};
+  TimeStudy& time = scene.time.emplace_back();
+  time.specimen = "p1, 5 tetrahedra";
+  Measured& good = time.measured.emplace_back();
+  good.error = 3e-4;
+  good.run.simulated = 1, good.run.seconds = 0.5;
+  Measured& bad = time.measured.emplace_back();
+  bad.run.failed = "ran away <here>";
+  scene.settled.reference.problem = "nothing settles";
+  const std::string page = accuracy_page(study, {}, "heml study accuracy", {});
+  const auto at = [&](const char* text) { return page.find(text); };
+  CHECK(at("within 16 ms a frame, the smallest error is 0.3 mm") != std::string::npos);
+  CHECK(at("the smallest error") < at("What nothing tried beats"));
+  CHECK(at("What nothing tried beats") < at("All 2 runs"));
+  CHECK(at("ran away &lt;here&gt;") != std::string::npos);
+  CHECK(csv_text(run_table(study)).find("block,stvk,p1") != std::string::npos);
+}
