@@ -10,14 +10,19 @@
 
 namespace heml {
 
+Scene as_recorded(const Scene& scene, const World& world) {
+  Scene recorded = scene;
+  recorded.recorded_mesh = identity_of(world.setup().mesh);
+  recorded.recorded_instructions = chosen(world.setup().instruction_set);
+  return recorded;
+}
+
 Recorder::Recorder(const std::filesystem::path& path, const Scene& scene, const World& world, long checkpoint_every)
     : path_(path.string()), every_(checkpoint_every) {
   std::error_code error;
   if (std::filesystem::equivalent(path, scene.file, error))
     throw InputError(path_, "", "is the scene itself and would be overwritten", "record to another file");
-  Scene recorded = scene;
-  recorded.recorded_mesh = identity_of(world.setup().mesh);
-  recorded.recorded_instructions = chosen(world.setup().instruction_set);
+  const Scene recorded = as_recorded(scene, world);
   const std::filesystem::path folder = path.parent_path();
   const std::string first_line = scene_line(recorded, folder.empty() ? "." : folder);
   file_.reset(std::fopen(path_.c_str(), "wb"));

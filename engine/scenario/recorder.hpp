@@ -17,6 +17,9 @@
 
 namespace heml {
 
+/// A scene as its recordings hold it: with which mesh it was, and whose bits its states are. world: as built from it.
+Scene as_recorded(const Scene& scene, const World& world);
+
 class Recorder {
  public:
   /// Replaces the file. world: as built from the scene, before its first tick. checkpoint_every: ticks.

@@ -4,8 +4,8 @@
 #include <chrono>
 #include <heml/base/error.hpp>
 #include <heml/base/log.hpp>
-#include <heml/scenario/load_mesh.hpp>
 #include <heml/scenario/player.hpp>
+#include <heml/scenario/recorder.hpp>
 #include <heml/scenario/recovery_watch.hpp>
 #include <heml/scenario/report.hpp>
 #include <heml/scenario/solve.hpp>
@@ -66,8 +66,7 @@ SolveResult solve(const Scene& scene, const fs::path& out, const std::function<v
   remove_outputs(out, landings);
 
   Player player(scene, *world);
-  Scene recorded = scene;
-  if (scene.solver.recovery) recorded.recorded_mesh = identity_of(world->setup().mesh);
+  const Scene recorded = scene.solver.recovery ? as_recorded(scene, *world) : scene;
   RecoveryWatch watch;
   const auto on_tick = [&] {
     const auto news = watch.after_tick(*world);

@@ -4,7 +4,6 @@
 #include <condition_variable>
 #include <heml/base/error.hpp>
 #include <heml/base/log.hpp>
-#include <heml/scenario/load_mesh.hpp>
 #include <heml/scenario/recorder.hpp>
 #include <heml/scenario/recovery_watch.hpp>
 #include <heml/scenario/schedule.hpp>
@@ -34,7 +33,7 @@ class Session::Impl {
         playing_(!options_.start_paused),
         pacer_(world_->setup().solver.tick()) {
     if (!world_->setup().solver.recovery) options_.recovery_file.clear();
-    if (!options_.recovery_file.empty()) scene_.recorded_mesh = identity_of(world_->setup().mesh);
+    if (!options_.recovery_file.empty()) scene_ = as_recorded(scene_, *world_);
     if (options_.record) recorder_.emplace(*options_.record, scene_, *world_);
     const auto& budget = world_->setup().solver.budget;
     if (budget && budget->milliseconds > 0) budget_keeper_.emplace(budget->milliseconds);
