@@ -68,14 +68,16 @@ TEST_CASE("Richardson: solutions that converge with order 2 lead to their limit,
   const std::vector<Vec3> rest(3, Vec3::Zero()), limit{Vec3(1, 0, 0), Vec3(0, 2, 0), Vec3(0, 0, 3)};
   const std::vector<double> mass{1, 2, 3};
   std::vector<Vec3> best;
-  const auto exact = extrapolate({scaled(limit, 1 - 0.16), scaled(limit, 1 - 0.04), scaled(limit, 1 - 0.01)}, rest, mass, best);
+  const auto exact =
+      extrapolate({scaled(limit, 1 - 0.16), scaled(limit, 1 - 0.04), scaled(limit, 1 - 0.01)}, rest, mass, best);
   CHECK(exact.problem.empty());
   CHECK(exact.order == doctest::Approx(2));
   CHECK(rms_distance(best, limit, mass) < 1e-12);
   CHECK(exact.uncertainty < 1e-12);
   CHECK(exact.far.z() == doctest::Approx(3));
   // Order 1: the truth is the guess by the order shown, and lies within the uncertainty.
-  const auto slow = extrapolate({scaled(limit, 1 - 0.4), scaled(limit, 1 - 0.2), scaled(limit, 1 - 0.1)}, rest, mass, best);
+  const auto slow =
+      extrapolate({scaled(limit, 1 - 0.4), scaled(limit, 1 - 0.2), scaled(limit, 1 - 0.1)}, rest, mass, best);
   CHECK(slow.order == doctest::Approx(1));
   CHECK(rms_distance(best, limit, mass) <= slow.uncertainty * (1 + 1e-9));
   const auto wild = extrapolate({scaled(limit, 1), scaled(limit, 2), scaled(limit, 4)}, rest, mass, best);
