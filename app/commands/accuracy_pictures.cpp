@@ -92,7 +92,8 @@ panel::Chart locking_chart(const std::vector<LockedBeam>& beams) {
     for (std::size_t b = 0; b < beams.size(); ++b) {
       const ImU32 colour = inks[b % std::size(inks)].colour;
       const std::string name = fmt::format("ν {}", beams[b].poisson);
-      panel::ChartSeries line{nodal ? "" : name, {}, colour, ChartMark::line}, marks{"", {}, colour, nodal ? ChartMark::rings : ChartMark::dots};
+      panel::ChartSeries line{nodal ? "" : name, {}, colour, ChartMark::line},
+          marks{"", {}, colour, nodal ? ChartMark::rings : ChartMark::dots};
       for (const SettledMesh& mesh : beams[b].settled.meshes)
         if (mesh.nodal_pressure == nodal && mesh.failed.empty())
           line.points.push_back({static_cast<double>(mesh.tets), 100 * mesh.relative});
@@ -109,7 +110,8 @@ panel::Chart locking_chart(const std::vector<LockedBeam>& beams) {
 panel::BarChart feature_bars(const FeatureStudy& study) {
   panel::BarChart chart;
   chart.title = study.title;
-  chart.subtitle = "One thing changed at a time: computing time, of the scene as it is; in brackets how far the body errs";
+  chart.subtitle =
+      "One thing changed at a time: computing time, of the scene as it is; in brackets how far the body errs";
   chart.names = {"time"};
   chart.colours = {inks[1].colour};
   chart.mark = 1;
@@ -117,7 +119,8 @@ panel::BarChart feature_bars(const FeatureStudy& study) {
   for (const MeasuredChange& c : study.measurement.changes) {
     if (c.from.empty()) continue;
     const std::string error = c.halted.empty() ? length_text(c.error) : "stops";
-    chart.groups.push_back({fmt::format("{}: {} to {} ({})", c.feature, c.from, c.to, error), {c.milliseconds / as_it_is}});
+    chart.groups.push_back(
+        {fmt::format("{}: {} to {} ({})", c.feature, c.from, c.to, error), {c.milliseconds / as_it_is}});
   }
   return chart;
 }
@@ -144,7 +147,8 @@ std::vector<ReportPicture> write_accuracy_pictures(const std::filesystem::path& 
   for (const FeatureStudy& features : study.features) {
     const auto file = folder / fmt::format("features_{}.png", features.scene);
     write_chart(file, feature_bars(features));
-    pictures.push_back({"features " + features.scene, file, "Computing time with one thing changed, and the error of it."});
+    pictures.push_back(
+        {"features " + features.scene, file, "Computing time with one thing changed, and the error of it."});
   }
   return pictures;
 }

@@ -28,8 +28,8 @@ std::filesystem::path out_of(const TuneArguments& arguments, const Scene& scene)
 
 Tuning measure(const Scene& scene, bool quick) {
   Progress progress("tuning");
-  return measure_for_tuning(
-      scene, quick, [&](double fraction, const std::string& doing) { progress.show(fraction, doing); });
+  return measure_for_tuning(scene, quick,
+                            [&](double fraction, const std::string& doing) { progress.show(fraction, doing); });
 }
 
 }  // namespace

@@ -4,7 +4,8 @@
 namespace heml {
 namespace {
 
-/// Local nodes of the six edges, and which edges lie opposite each other: the diagonals of the octahedron in the middle.
+/// Local nodes of the six edges, and which edges lie opposite each other: the diagonals of the octahedron in the
+/// middle.
 constexpr std::array<std::array<int, 2>, 6> edges{{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
 constexpr int opposite(int edge) { return 5 - edge; }
 
@@ -16,8 +17,8 @@ class Middles {
     const std::array ends{std::min(a, b), std::max(a, b)};
     const auto [place, is_new] = numbers_.try_emplace(ends, static_cast<int>(to_.mesh.nodes.size()));
     if (is_new) {
-      to_.mesh.nodes.push_back((to_.mesh.nodes[static_cast<std::size_t>(a)] + to_.mesh.nodes[static_cast<std::size_t>(b)]) /
-                               2);
+      to_.mesh.nodes.push_back(
+          (to_.mesh.nodes[static_cast<std::size_t>(a)] + to_.mesh.nodes[static_cast<std::size_t>(b)]) / 2);
       to_.ends.push_back(ends);
     }
     return place->second;
@@ -41,7 +42,8 @@ void cut(TetMesh& mesh, const Tet& tet, const std::array<int, 6>& middle) {
       if (edges[e] == std::array{std::min(a, b), std::max(a, b)}) return middle[e];
     return -1;
   };
-  for (int a = 0; a < 4; ++a) add(mesh, {tet[static_cast<std::size_t>(a)], m(a, (a + 1) % 4), m(a, (a + 2) % 4), m(a, (a + 3) % 4)});
+  for (int a = 0; a < 4; ++a)
+    add(mesh, {tet[static_cast<std::size_t>(a)], m(a, (a + 1) % 4), m(a, (a + 2) % 4), m(a, (a + 3) % 4)});
   const auto length = [&](int e) {
     return (mesh.nodes[static_cast<std::size_t>(middle[static_cast<std::size_t>(e)])] -
             mesh.nodes[static_cast<std::size_t>(middle[static_cast<std::size_t>(opposite(e))])])
@@ -68,7 +70,8 @@ Subdivision subdivided(const TetMesh& mesh) {
   for (const Tet& tet : mesh.tets) {
     std::array<int, 6> middle{};
     for (std::size_t e = 0; e < 6; ++e)
-      middle[e] = middles.between(tet[static_cast<std::size_t>(edges[e][0])], tet[static_cast<std::size_t>(edges[e][1])]);
+      middle[e] =
+          middles.between(tet[static_cast<std::size_t>(edges[e][0])], tet[static_cast<std::size_t>(edges[e][1])]);
     cut(result.mesh, tet, middle);
   }
   for (const int region : mesh.regions) result.mesh.regions.insert(result.mesh.regions.end(), 8, region);
@@ -76,7 +79,8 @@ Subdivision subdivided(const TetMesh& mesh) {
     ElementField& finer = result.mesh.fields.emplace_back(ElementField{field.name, field.components, {}});
     for (std::size_t t = 0; t < mesh.tets.size(); ++t)
       for (int child = 0; child < 8; ++child)
-        finer.values.insert(finer.values.end(), field.values.begin() + static_cast<std::ptrdiff_t>(t * field.components),
+        finer.values.insert(finer.values.end(),
+                            field.values.begin() + static_cast<std::ptrdiff_t>(t * field.components),
                             field.values.begin() + static_cast<std::ptrdiff_t>((t + 1) * field.components));
   }
   return result;

@@ -11,9 +11,10 @@ struct Subdivision {
   std::vector<std::array<int, 2>> ends;  ///< of each middle, the old nodes it lies between
 };
 
-/// mesh: as check_tets() leaves it. Linear functions on the old mesh are linear functions on the new one. The octahedron
-/// that four corners leave is cut along its shortest diagonal, so shapes do not degenerate however often it is done
-/// (Bey: Tetrahedral grid refinement, Computing 55, 1995, asks for no more than three shapes; this for the best).
+/// mesh: as check_tets() leaves it. Linear functions on the old mesh are linear functions on the new one. The
+/// octahedron that four corners leave is cut along its shortest diagonal, so shapes do not degenerate however often it
+/// is done (Bey: Tetrahedral grid refinement, Computing 55, 1995, asks for no more than three shapes; this for the
+/// best).
 Subdivision subdivided(const TetMesh& mesh);
 
 }  // namespace heml

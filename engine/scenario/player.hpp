@@ -15,7 +15,8 @@ class Player {
   /// On to a time, s, that is not before the last one (of a static scene: to a fraction of the load), or to where the
   /// world halts. A time within a tick is reached by shortened steps. on_tick: after every tick; false ends it there.
   /// Throws InputError when the world refuses an event.
-  void to(double time, const std::function<bool()>& on_tick = [] { return true; });
+  void to(
+      double time, const std::function<bool()>& on_tick = [] { return true; });
 
   std::span<const Event> past_events() const { return schedule_.past(); }  ///< handed to the world so far
 

@@ -7,8 +7,8 @@
 namespace heml {
 namespace {
 
-constexpr double share = 0.1;    // of the least stable step on the pilot's way
-constexpr double longest = 600;  // s of computing
+constexpr double share = 0.1;            // of the least stable step on the pilot's way
+constexpr double longest = 600;          // s of computing
 constexpr std::size_t many_tets = 5000;  // from which on a step is worth sharing
 
 /// Steps of a share of the stable one that fill the scene's ticks, so that events come when they are meant to.
@@ -77,8 +77,14 @@ Json to_json(const Reference& reference) {
 
 Reference reference_from(const Json& json) {
   const auto number = [&](const char* name) { return json[name].is_null() ? 0 : json[name].get<double>(); };
-  Reference reference{json["problem"],  number("stable_step"), number("step"), number("change"),
-                      number("motion"), number("seconds"),     {},             {}};
+  Reference reference{json["problem"],
+                      number("stable_step"),
+                      number("step"),
+                      number("change"),
+                      number("motion"),
+                      number("seconds"),
+                      {},
+                      {}};
   for (const Json& list : json["at"]) {
     std::vector<Vec3>& x = reference.at.emplace_back();
     for (std::size_t k = 0; k + 2 < list.size(); k += 3) x.emplace_back(list[k], list[k + 1], list[k + 2]);

@@ -35,7 +35,8 @@ std::string settled_text(const SettledStudy& settled) {
       "tetrahedron of the one before in eight, extrapolated ({}, order {:.2f} and 2, the middle of both; ± {}",
       e.nodal_pressure ? "nodal_pressure" : "p1", e.order, length_text(e.uncertainty));
   text += ")";
-  if (e.between_elements) text += fmt::format("; those of the two elements differ by {}", length_text(*e.between_elements));
+  if (e.between_elements)
+    text += fmt::format("; those of the two elements differ by {}", length_text(*e.between_elements));
   return text + ". The surface is that of the mesh as it is.";
 }
 
@@ -49,7 +50,8 @@ void add_scene(HtmlPage& page, const SceneStudy& scene, const std::vector<Report
   for (const std::string& note : scene.notes) page.paragraph(note + ".");
   for (const TimeStudy& time : scene.time) {
     page.paragraph(reference_text(time));
-    if (!time.measured.empty()) page.details(fmt::format("All {} runs, {}", time.measured.size(), time.specimen), time_table(time));
+    if (!time.measured.empty())
+      page.details(fmt::format("All {} runs, {}", time.measured.size(), time.specimen), time_table(time));
   }
   page.paragraph(settled_text(scene.settled));
   if (!scene.settled.meshes.empty()) page.details("Meshes at rest", settled_table(scene.settled));
@@ -58,7 +60,8 @@ void add_scene(HtmlPage& page, const SceneStudy& scene, const std::vector<Report
 void add_locking(HtmlPage& page, const std::vector<LockedBeam>& beams, const std::vector<ReportPicture>& pictures) {
   page.heading("Locking");
   page.paragraph(
-      "A beam of 10 × 2 × 2 cm that sags by 0.7 % of its length, held against Timoshenko's theory and against itself on "
+      "A beam of 10 × 2 × 2 cm that sags by 0.7 % of its length, held against Timoshenko's theory and against itself "
+      "on "
       "finer meshes. What an error grows by from one Poisson's ratio to another on the same mesh is locking; theory "
       "does not know that the clamp also holds the section back, hence the last per cent at ratios other than 0.");
   add_pictures(page, pictures, "locking");
@@ -68,7 +71,8 @@ void add_locking(HtmlPage& page, const std::vector<LockedBeam>& beams, const std
 void add_laws(HtmlPage& page, const std::vector<SettledLaw>& laws) {
   page.heading("Laws");
   page.paragraph(
-      "A small cube of each law settles under its weight, its top turned and moved. Then a naive loop, F = Ds Dm⁻¹, P = F "
+      "A small cube of each law settles under its weight, its top turned and moved. Then a naive loop, F = Ds Dm⁻¹, P "
+      "= F "
       "S, with stresses written out from textbooks apart from the engine's, takes the forces there: what they leave "
       "over on free nodes beside the weight.");
   page.table(law_table(laws));
@@ -76,10 +80,11 @@ void add_laws(HtmlPage& page, const std::vector<SettledLaw>& laws) {
 
 void add_features(HtmlPage& page, const FeatureStudy& study, const std::vector<ReportPicture>& pictures) {
   page.heading("What features cost: " + study.title);
-  page.paragraph(fmt::format(
-      "{}, {:.3g} s of it, with one thing changed at a time (`heml explain --measure`): computing time, and how far the "
-      "nodes (rms) are in the end from where they are in the scene as it is. Nodes move by {} at most.",
-      study.scene, study.measurement.stretch, length_text(study.measurement.largest_motion)));
+  page.paragraph(
+      fmt::format("{}, {:.3g} s of it, with one thing changed at a time (`heml explain --measure`): computing time, "
+                  "and how far the "
+                  "nodes (rms) are in the end from where they are in the scene as it is. Nodes move by {} at most.",
+                  study.scene, study.measurement.stretch, length_text(study.measurement.largest_motion)));
   add_pictures(page, pictures, "features " + study.scene);
   page.table(feature_table(study));
 }
@@ -88,10 +93,10 @@ void add_method(HtmlPage& page, const std::string& command) {
   const Machine machine = this_machine();
   page.heading("How this was made");
   page.command(command);
-  page.paragraph(fmt::format("heml {} ({}), {}, {}, {} cores, {}. Times are of this machine and of what else it did; "
-                             "errors are not.",
-                             machine.version, machine.commit, machine.compiler, machine.cpu, machine.cores,
-                             machine.flags));
+  page.paragraph(
+      fmt::format("heml {} ({}), {}, {}, {} cores, {}. Times are of this machine and of what else it did; "
+                  "errors are not.",
+                  machine.version, machine.commit, machine.compiler, machine.cpu, machine.cores, machine.flags));
   page.paragraph(
       "A frame is 1/60 s of simulated time. Errors are rms over the body, weighted by mass, at the set time where they "
       "are largest; the error of a method is that of time (same mesh, same element, against tiny steps) plus that of "

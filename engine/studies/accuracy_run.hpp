@@ -22,18 +22,18 @@ struct Run {
   double median_tick = 0;  ///< s of computing, likewise
   double slow_tick = 0;    ///< s, 99th percentile, likewise
   long ticks = 0, steps = 0, iterations = 0;
-  double least_step = 0;                   ///< s, least stable step of explicit methods on the way
-  std::vector<std::vector<Vec3>> at;       ///< #times × #V × 3, m
-  std::optional<Swing> swing;              ///< none: it does not swing to and fro
-  std::optional<double> energy_drift;      ///< of what it should keep, relative to its largest kinetic energy
-  double volume = 1;                       ///< at the end, relative to rest
-  double least_J = 1;                      ///< at the end
+  double least_step = 0;               ///< s, least stable step of explicit methods on the way
+  std::vector<std::vector<Vec3>> at;   ///< #times × #V × 3, m
+  std::optional<Swing> swing;          ///< none: it does not swing to and fro
+  std::optional<double> energy_drift;  ///< of what it should keep, relative to its largest kinetic energy
+  double volume = 1;                   ///< at the end, relative to rest
+  double least_J = 1;                  ///< at the end
 };
 
 struct RunOptions {
-  std::vector<double> times;   ///< s, ascending
-  double longest = 60;         ///< s of computing, after which it counts as failed
-  double repeat_below = 0.5;   ///< s: shorter ones are played three times
+  std::vector<double> times;  ///< s, ascending
+  double longest = 60;        ///< s of computing, after which it counts as failed
+  double repeat_below = 0.5;  ///< s: shorter ones are played three times
   MakeWorld make = make_world;
 };
 

@@ -13,8 +13,8 @@ namespace {
 struct Entry {
   const char* file;  ///< below assets/
   SceneStudyOptions options;
-  double weight;            ///< s it took where this was written
-  int halvings = 0;         ///< every tetrahedron in eight so many times
+  double weight;                  ///< s it took where this was written
+  int halvings = 0;               ///< every tetrahedron in eight so many times
   double young = 0, poisson = 0;  ///< of beams: instead of the file's; 0: the file's
   const char* law = nullptr;      ///< instead of the file's, the material that `heml bench` has for it
 };

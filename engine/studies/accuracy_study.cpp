@@ -7,8 +7,8 @@ namespace heml {
 namespace {
 
 constexpr double may_grow = 1.1;
-constexpr double negligible = 1e-9;  // m, or of a deviation
-constexpr double round_off = 1e-6;   // of forces: below it figures are chance
+constexpr double negligible = 1e-9;    // m, or of a deviation
+constexpr double round_off = 1e-6;     // of forces: below it figures are chance
 constexpr double feature_weight = 15;  // s of two scenes' measurement, for the estimate of what is left
 
 /// Shares the progress out: each part has a weight, and within it all steps count alike.
@@ -80,7 +80,8 @@ std::vector<Figure> figures_of(const AccuracyStudy& study) {
   for (const SceneStudy& scene : study.scenes) {
     for (const TimeStudy& time : scene.time)
       for (const Measured& measured : time.measured)
-        if (!measured.failed() && measured.resolved && !measured.method.single_precision && measured.method.threads == 1)
+        if (!measured.failed() && measured.resolved && !measured.method.single_precision &&
+            measured.method.threads == 1)
           figures.push_back({figure_name(scene, time, measured), measured.error});
     for (const SettledMesh& mesh : scene.settled.meshes)
       if (mesh.failed.empty() && mesh.resolved)
@@ -98,7 +99,8 @@ std::vector<Figure> figures_of(const AccuracyStudy& study) {
                            mesh.error});
   }
   for (const SettledLaw& law : study.laws)
-    if (law.failed.empty()) figures.push_back({fmt::format("force left by {}", law.law), std::max(law.left_over, round_off)});
+    if (law.failed.empty())
+      figures.push_back({fmt::format("force left by {}", law.law), std::max(law.left_over, round_off)});
   return figures;
 }
 

@@ -50,9 +50,9 @@ Table front_table(const SceneStudy& scene) {
 
 Table time_table(const TimeStudy& study) {
   Table table;
-  table.head = {"method",     "error",       "of the motion", "at the end", "s a simulated s", "ms a frame",
-                "tick p50, ms", "p99, ms", "steps",      "iterations", "frequency",     "added decay, 1/s",
-                "energy",     "volume",      "least J"};
+  table.head = {"method",       "error",   "of the motion", "at the end", "s a simulated s", "ms a frame",
+                "tick p50, ms", "p99, ms", "steps",         "iterations", "frequency",       "added decay, 1/s",
+                "energy",       "volume",  "least J"};
   table.first_number = 1, table.end_numbers = table.head.size();
   for (const Measured& m : study.measured) {
     Cells row = {text_of(m.method)};
@@ -69,8 +69,8 @@ Table time_table(const TimeStudy& study) {
                 short_number(1e3 * m.run.slow_tick), std::to_string(m.run.steps), std::to_string(m.run.iterations),
                 m.frequency_error ? signed_percent(*m.frequency_error) : "",
                 m.added_decay ? fmt::format("{:+.2g}", *m.added_decay) : "",
-                m.run.energy_drift ? signed_percent(*m.run.energy_drift) : "",
-                signed_percent(m.run.volume - 1), short_number(m.run.least_J)});
+                m.run.energy_drift ? signed_percent(*m.run.energy_drift) : "", signed_percent(m.run.volume - 1),
+                short_number(m.run.least_J)});
     table.rows.push_back(row);
   }
   return table;
@@ -92,8 +92,8 @@ Table settled_table(const SettledStudy& study) {
 
 Table locking_table(const std::vector<LockedBeam>& beams) {
   Table table;
-  table.head = {"Poisson's ratio", "element",    "tetrahedra",    "sag, mm", "extrapolated, mm",
-                "theory, mm",      "mesh error", "of it locking"};
+  table.head = {"Poisson's ratio",  "element",    "tetrahedra", "sag, mm",
+                "extrapolated, mm", "theory, mm", "mesh error", "of it locking"};
   table.first_number = 2, table.end_numbers = table.head.size();
   for (const LockedBeam& beam : beams)
     for (const SettledMesh& mesh : beam.settled.meshes) {
@@ -117,7 +117,8 @@ Table law_table(const std::vector<SettledLaw>& laws) {
   table.head = {"law", "force left over, of a node's weight"};
   table.first_number = 1, table.end_numbers = 2;
   for (const SettledLaw& law : laws)
-    table.rows.push_back({law.law, law.failed.empty() ? fmt::format("{:.1e}", law.left_over) : "failed: " + law.failed});
+    table.rows.push_back(
+        {law.law, law.failed.empty() ? fmt::format("{:.1e}", law.left_over) : "failed: " + law.failed});
   return table;
 }
 
@@ -134,30 +135,79 @@ Table feature_table(const FeatureStudy& study) {
 
 Table run_table(const AccuracyStudy& study) {
   Table table;
-  table.head = {"scene",           "laws",         "element",     "nodes",     "tets",       "integrator",
-                "step_s",          "iterations_allowed", "precision", "threads", "failed",     "simulated_s",
-                "time_error_m",    "error_resolved", "relative_error", "last_error_m", "mesh_error_m", "seconds_per_second",
-                "tick_p50_s",      "tick_p99_s",   "steps",       "iterations", "frequency_error", "added_decay_per_s",
-                "energy_drift",    "volume",       "min_J",       "cpu",       "cores",      "compiler",
-                "flags",           "version",      "commit"};
+  table.head = {"scene",
+                "laws",
+                "element",
+                "nodes",
+                "tets",
+                "integrator",
+                "step_s",
+                "iterations_allowed",
+                "precision",
+                "threads",
+                "failed",
+                "simulated_s",
+                "time_error_m",
+                "error_resolved",
+                "relative_error",
+                "last_error_m",
+                "mesh_error_m",
+                "seconds_per_second",
+                "tick_p50_s",
+                "tick_p99_s",
+                "steps",
+                "iterations",
+                "frequency_error",
+                "added_decay_per_s",
+                "energy_drift",
+                "volume",
+                "min_J",
+                "cpu",
+                "cores",
+                "compiler",
+                "flags",
+                "version",
+                "commit"};
   const Machine machine = this_machine();
   for (const SceneStudy& scene : study.scenes)
     for (const TimeStudy& time : scene.time)
       for (const Measured& m : time.measured) {
         const auto error = [&](double value) { return m.failed() ? "" : fmt::format("{:.6g}", value); };
-        table.rows.push_back({scene.name, fmt::format("{}", fmt::join(scene.laws, " ")),
-                              element_name(time.nodal_pressure), std::to_string(time.nodes), std::to_string(time.tets),
-                              integrator_name(m.method.integrator), optional_number(m.method.step),
-                              std::to_string(m.method.iterations), m.method.single_precision ? "float" : "double",
-                              std::to_string(threads_of(m.method)), m.run.failed, fmt::format("{:.6g}", m.run.simulated),
-                              error(m.error), m.failed() ? "" : m.resolved ? "yes" : "no", error(m.relative),
-                              error(m.last_error), optional_number(scene.mesh_error(time.nodal_pressure)),
-                              fmt::format("{:.6g}", m.seconds_per_second()), fmt::format("{:.6g}", m.run.median_tick),
-                              fmt::format("{:.6g}", m.run.slow_tick), std::to_string(m.run.steps),
-                              std::to_string(m.run.iterations), optional_number(m.frequency_error),
-                              optional_number(m.added_decay), optional_number(m.run.energy_drift), error(m.run.volume),
-                              error(m.run.least_J), machine.cpu, std::to_string(machine.cores), machine.compiler,
-                              machine.flags, machine.version, machine.commit});
+        table.rows.push_back({scene.name,
+                              fmt::format("{}", fmt::join(scene.laws, " ")),
+                              element_name(time.nodal_pressure),
+                              std::to_string(time.nodes),
+                              std::to_string(time.tets),
+                              integrator_name(m.method.integrator),
+                              optional_number(m.method.step),
+                              std::to_string(m.method.iterations),
+                              m.method.single_precision ? "float" : "double",
+                              std::to_string(threads_of(m.method)),
+                              m.run.failed,
+                              fmt::format("{:.6g}", m.run.simulated),
+                              error(m.error),
+                              m.failed()   ? ""
+                              : m.resolved ? "yes"
+                                           : "no",
+                              error(m.relative),
+                              error(m.last_error),
+                              optional_number(scene.mesh_error(time.nodal_pressure)),
+                              fmt::format("{:.6g}", m.seconds_per_second()),
+                              fmt::format("{:.6g}", m.run.median_tick),
+                              fmt::format("{:.6g}", m.run.slow_tick),
+                              std::to_string(m.run.steps),
+                              std::to_string(m.run.iterations),
+                              optional_number(m.frequency_error),
+                              optional_number(m.added_decay),
+                              optional_number(m.run.energy_drift),
+                              error(m.run.volume),
+                              error(m.run.least_J),
+                              machine.cpu,
+                              std::to_string(machine.cores),
+                              machine.compiler,
+                              machine.flags,
+                              machine.version,
+                              machine.commit});
       }
   return table;
 }

@@ -68,7 +68,8 @@ std::vector<SettledLaw> study_laws(const StudyContext& context) {
   std::vector<SettledLaw> laws;
   for (const Material& material : bench_materials()) {
     const Json found = context.kept("law at rest|" + material.law, [&] { return settle(material, context.make); });
-    laws.push_back({material.law, found["failed"], found["left_over"].is_null() ? 0 : found["left_over"].get<double>()});
+    laws.push_back(
+        {material.law, found["failed"], found["left_over"].is_null() ? 0 : found["left_over"].get<double>()});
   }
   return laws;
 }

@@ -1,14 +1,14 @@
 #pragma once
 // Every law held against arithmetic that is not the engine's: a small cube settles under its own weight, its top turned
-// and moved; then the naive loops (naive.hpp), whose stresses are written out from textbooks, must find the same balance
-// of forces. A wrong factor or sign in a kernel leaves a force.
+// and moved; then the naive loops (naive.hpp), whose stresses are written out from textbooks, must find the same
+// balance of forces. A wrong factor or sign in a kernel leaves a force.
 #include <heml/studies/study_context.hpp>
 
 namespace heml {
 
 struct SettledLaw {
   std::string law;
-  std::string failed;   ///< empty: it settled
+  std::string failed;    ///< empty: it settled
   double left_over = 0;  ///< largest force on a free node by the naive loops, of the largest weight of a node
 };
 

@@ -1,7 +1,7 @@
 #pragma once
-// Locking: what the mesh error grows by when a material comes near to keeping its volume, all else the same. A beam sags
-// by a little under its own weight, which theory tells (beam_theory.hpp); linear tetrahedra are too stiff for it, and
-// ever more so as Poisson's ratio nears 1/2.
+// Locking: what the mesh error grows by when a material comes near to keeping its volume, all else the same. A beam
+// sags by a little under its own weight, which theory tells (beam_theory.hpp); linear tetrahedra are too stiff for it,
+// and ever more so as Poisson's ratio nears 1/2.
 #include <heml/studies/settled_study.hpp>
 
 namespace heml {
@@ -11,9 +11,9 @@ struct LockedBeam {
   double poisson = 0;
   double theory = 0;  ///< m, sag of the tip
   SettledStudy settled;
-  double sag(const SettledMesh& mesh) const { return -mesh.far.y(); }         ///< m
-  double extrapolated() const { return -settled.reference.far.y(); }         ///< m
-  double off_theory() const { return extrapolated() / theory - 1; }          ///< relative
+  double sag(const SettledMesh& mesh) const { return -mesh.far.y(); }  ///< m
+  double extrapolated() const { return -settled.reference.far.y(); }   ///< m
+  double off_theory() const { return extrapolated() / theory - 1; }    ///< relative
 };
 
 /// One of them, from a mesh of so many cells.

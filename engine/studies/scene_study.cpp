@@ -71,8 +71,8 @@ SceneStudy study_scene(const std::string& name, const Specimen& specimen, const 
     study.time.push_back(study_time(key, now, set_times(specimen.scene), options.sweep, context));
     const TimeStudy& time = study.time.back();
     if (!time.reference.problem.empty())
-      study.notes.push_back(fmt::format("{}: no time errors, since the reference failed: {}", time.specimen,
-                                        time.reference.problem));
+      study.notes.push_back(
+          fmt::format("{}: no time errors, since the reference failed: {}", time.specimen, time.reference.problem));
   }
   if (const int halvings = halvings_of(specimen, options); halvings > 0)
     study.settled = study_settled(key, specimen, halvings, context);
@@ -116,10 +116,10 @@ std::string text_of(const Candidate& candidate) {
 std::string answer_within(const std::vector<Candidate>& candidates, double frame_seconds) {
   const auto best = best_within(candidates, frame_seconds);
   if (!best) return fmt::format("within {:.3g} ms a frame, nothing tried is fast enough", 1e3 * frame_seconds);
-  const std::string parts =
-      best->mesh_error ? fmt::format(" ({} of time, {} of the mesh)", length_text(best->measured->error),
-                                     length_text(*best->mesh_error))
-                       : std::string(" of time (that of the mesh is not known)");
+  const std::string parts = best->mesh_error
+                                ? fmt::format(" ({} of time, {} of the mesh)", length_text(best->measured->error),
+                                              length_text(*best->mesh_error))
+                                : std::string(" of time (that of the mesh is not known)");
   return fmt::format("within {:.3g} ms a frame, the smallest error is {}{}, with {}", 1e3 * frame_seconds,
                      length_text(best->error()), parts, text_of(*best));
 }

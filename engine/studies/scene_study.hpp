@@ -15,8 +15,8 @@ inline constexpr double frame = 1.0 / 60;  ///< s of simulated time between two 
 struct Candidate {
   const TimeStudy* study = nullptr;
   const Measured* measured = nullptr;
-  std::optional<double> mesh_error;  ///< m; none: not known
-  double error() const { return measured->error + mesh_error.value_or(0); }         ///< m
+  std::optional<double> mesh_error;                                                ///< m; none: not known
+  double error() const { return measured->error + mesh_error.value_or(0); }        ///< m
   double frame_seconds() const { return measured->seconds_per_second() * frame; }  ///< of computing
   double tick() const { return measured->method.step.value_or(1e-3); }             ///< s
 };
@@ -34,8 +34,8 @@ struct SceneStudy {
 
 struct SceneStudyOptions {
   Sweep sweep = Sweep::whole;
-  bool both_elements = true;        ///< time errors of the element the scene does not name, too
-  std::size_t most_tets = 150000;   ///< of meshes for the mesh error; 0: none is measured
+  bool both_elements = true;       ///< time errors of the element the scene does not name, too
+  std::size_t most_tets = 150000;  ///< of meshes for the mesh error; 0: none is measured
 };
 
 /// name: for tables. Throws InputError for a static scene and for what loading refuses.

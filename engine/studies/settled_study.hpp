@@ -26,13 +26,13 @@ struct SettledMesh {
 
 /// u* and how far to trust it.
 struct Extrapolation {
-  std::string problem;       ///< empty: there is one
+  std::string problem;  ///< empty: there is one
   bool nodal_pressure = false;
-  double order = 0;          ///< p as the three meshes show it
-  double uncertainty = 0;    ///< m, half the rms distance of the two guesses
-  double motion = 0;         ///< m, rms of u*
-  Vec3 far = Vec3::Zero();   ///< m, u* of the node that moves farthest
-  std::optional<double> between_elements;  ///< m, rms between the u* of both elements
+  double order = 0;                                      ///< p as the three meshes show it
+  double uncertainty = 0;                                ///< m, half the rms distance of the two guesses
+  double motion = 0;                                     ///< m, rms of u*
+  Vec3 far = Vec3::Zero();                               ///< m, u* of the node that moves farthest
+  std::optional<double> between_elements;                ///< m, rms between the u* of both elements
   double resolution() const { return 2 * uncertainty; }  ///< m, the least error it can tell
 };
 

@@ -38,7 +38,8 @@ void take_middles(std::vector<int>& selected, const Subdivision& finer, std::siz
   std::vector<bool> is_selected(old_nodes, false);
   for (const int node : selected) is_selected[static_cast<std::size_t>(node)] = true;
   for (std::size_t m = 0; m < finer.ends.size(); ++m)
-    if (is_selected[static_cast<std::size_t>(finer.ends[m][0])] && is_selected[static_cast<std::size_t>(finer.ends[m][1])])
+    if (is_selected[static_cast<std::size_t>(finer.ends[m][0])] &&
+        is_selected[static_cast<std::size_t>(finer.ends[m][1])])
       selected.push_back(static_cast<int>(old_nodes + m));
 }
 
@@ -94,8 +95,8 @@ Specimen with_element(Specimen specimen, bool nodal_pressure) {
 bool takes_nodal_pressure(const Specimen& specimen) {
   const auto& materials = specimen.setup.materials;
   const VolumeTerm term = materials.front().material.volume_term;
-  const bool at_start =
-      std::all_of(materials.begin(), materials.end(), [&](const RegionMaterial& m) { return splits(m.material, term); });
+  const bool at_start = std::all_of(materials.begin(), materials.end(),
+                                    [&](const RegionMaterial& m) { return splits(m.material, term); });
   const auto& events = specimen.scene.events;
   return at_start && std::all_of(events.begin(), events.end(), [&](const Event& event) {
            const auto* change = std::get_if<SetMaterial>(&event.command);

@@ -18,8 +18,8 @@ using MakeWorld = std::function<std::unique_ptr<World>(WorldSetup)>;
 
 struct Specimen {
   Scene scene;
-  WorldSetup setup;             ///< load_setup(scene), perhaps on another mesh
-  std::vector<double> mass;     ///< #V, kg, lumped: the weights of errors
+  WorldSetup setup;          ///< load_setup(scene), perhaps on another mesh
+  std::vector<double> mass;  ///< #V, kg, lumped: the weights of errors
   bool nodal_pressure() const { return setup.solver.nodal_pressure; }
 };
 

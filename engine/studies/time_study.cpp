@@ -11,10 +11,11 @@ constexpr int set_time_count = 4;
 constexpr double above_limit = 3;  // times the stable step: it keeps a margin
 
 Json run_json(const Run& run) {
-  Json json = {{"failed", run.failed},           {"simulated", run.simulated}, {"seconds", run.seconds},
-               {"median_tick", run.median_tick}, {"slow_tick", run.slow_tick}, {"ticks", run.ticks},
-               {"steps", run.steps},             {"iterations", run.iterations}, {"volume", run.volume},
-               {"least_J", run.least_J}};
+  Json json = {{"failed", run.failed},       {"simulated", run.simulated},
+               {"seconds", run.seconds},     {"median_tick", run.median_tick},
+               {"slow_tick", run.slow_tick}, {"ticks", run.ticks},
+               {"steps", run.steps},         {"iterations", run.iterations},
+               {"volume", run.volume},       {"least_J", run.least_J}};
   if (run.swing) json["swing"] = {run.swing->frequency, run.swing->decay};
   if (run.energy_drift) json["energy_drift"] = *run.energy_drift;
   return json;

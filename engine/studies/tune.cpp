@@ -9,9 +9,9 @@
 namespace heml {
 namespace {
 
-constexpr std::size_t most_tets = 150000;     // of meshes that tell the error of the mesh
-constexpr double longest_reference = 120;     // s of computing, expected of a finer mesh
-constexpr double finer_costs = 16;            // times that of the mesh: eight times the elements, half the step
+constexpr std::size_t most_tets = 150000;  // of meshes that tell the error of the mesh
+constexpr double longest_reference = 120;  // s of computing, expected of a finer mesh
+constexpr double finer_costs = 16;         // times that of the mesh: eight times the elements, half the step
 
 /// Whether all that refers to the mesh means places, which another mesh has as well.
 bool can_be_remade(const Scene& scene) {
@@ -165,8 +165,8 @@ std::vector<std::string> tuning_text(const TuneGoal& goal, const Tuning& tuning,
   const Method& method = best.measured->method;
   const TunedMesh& mesh = tuning.of(best);
   std::vector<std::string> text;
-  text.push_back(fmt::format("{}: {}: {}, with {}, on {}.", mesh.scene.name, goal_text(goal), facts_text(best), text_of(best),
-                             mesh.mesh));
+  text.push_back(fmt::format("{}: {}: {}, with {}, on {}.", mesh.scene.name, goal_text(goal), facts_text(best),
+                             text_of(best), mesh.mesh));
   const Candidate& exact = most_exact(candidates);
   if (exact.error() < best.error())
     text.push_back(fmt::format("Given up: {} of error; the most exact way tried, {}, on {}, has {}.",

@@ -16,7 +16,8 @@ Specimen block() {
     "loads": [{"box": [[0.2, -1, -1], [1, 1, 1]], "traction": [1, 0, 0]}],
     "solver": {"rate": 100, "duration": 0.1},
     "events": [{"at": 0.05, "remove": {"tets": [3]}}, {"at": 0.07, "grasp": {"point": [0.2, 0.1, 0.1]}}]
-  })", "folder/scene.json"));
+  })",
+                                 "folder/scene.json"));
 }
 }  // namespace
 
@@ -24,7 +25,8 @@ TEST_CASE("a finer specimen holds and loads the same faces, weighs the same, and
   const Specimen coarse = block(), fine = finer(coarse);
   CHECK(fine.setup.mesh.tets.size() == 8 * coarse.setup.mesh.tets.size());
   CHECK(fine.setup.boundary[0].nodes.size() == 9);  // a square of 3 × 3
-  for (const int node : fine.setup.boundary[0].nodes) CHECK(fine.setup.mesh.nodes[static_cast<std::size_t>(node)].x() == 0);
+  for (const int node : fine.setup.boundary[0].nodes)
+    CHECK(fine.setup.mesh.nodes[static_cast<std::size_t>(node)].x() == 0);
   CHECK(fine.setup.loads[0].nodes.size() == 9);
   double mass = 0, fine_mass = 0;
   for (const double m : coarse.mass) mass += m;

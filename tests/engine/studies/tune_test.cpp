@@ -82,7 +82,8 @@ TEST_CASE("a tuned scene is a scene, solved as was measured, and the text says w
     "gravity": [0, -9.81, 0],
     "solver": {"duration": 0.02},
     "events": [{"at": 0.01, "damping": 3}]
-  })", "folder/scene.json");
+  })",
+                                  "folder/scene.json");
   const Tuning tuning = measure_for_tuning(scene, false);
   CHECK(tuning.meshes.size() == 6);  // coarser, own, finer × two elements
   for (const TuneGoal& goal : {TuneGoal{10.0, std::nullopt}, TuneGoal{std::nullopt, 1.0}}) {
