@@ -20,9 +20,9 @@ struct Entry {
 };
 
 constexpr const char *beam = "studies/accuracy/beam.json", *cube = "studies/accuracy/cube.json";
-constexpr SceneStudyOptions whole{}, brief{Sweep::brief, true, 50000}, own{Sweep::brief, false, 0};
+constexpr SceneStudyOptions whole{}, brief{Breadth::brief, true, 50000}, own{Breadth::brief, false, 0};
 
-constexpr Entry quick_entries[] = {{beam, {Sweep::brief, true, 20000}, 20}, {"studies/accuracy/twist.json", own, 10}};
+constexpr Entry quick_entries[] = {{beam, {Breadth::brief, true, 20000}, 20}, {"studies/accuracy/twist.json", own, 10}};
 
 constexpr Entry full_entries[] = {
     {beam, whole, 60},

@@ -39,7 +39,7 @@ std::string figure_name(const SceneStudy& scene, const TimeStudy& study, const M
 AccuracyStudy study_users_scene(const AccuracyOptions& options) {
   const Specimen specimen = specimen_of(*options.scene);
   SceneStudyOptions how;
-  if (options.quick) how.sweep = Sweep::brief, how.most_tets = 20000;
+  if (options.quick) how.sweep = Breadth::brief, how.most_tets = 20000;
   Parts parts(options, 1.05);
   AccuracyStudy study;
   study.scenes.push_back(

@@ -33,7 +33,7 @@ struct SceneStudy {
 };
 
 struct SceneStudyOptions {
-  Sweep sweep = Sweep::whole;
+  Breadth sweep = Breadth::whole;
   bool both_elements = true;       ///< time errors of the element the scene does not name, too
   std::size_t most_tets = 150000;  ///< of meshes for the mesh error; 0: none is measured
 };

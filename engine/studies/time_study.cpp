@@ -62,20 +62,20 @@ Measured measured_from(const Json& json, const Method& method, const Reference& 
 
 bool several_cores() { return std::thread::hardware_concurrency() > 1; }
 
-void add_explicit(std::vector<Method>& list, Sweep sweep, double stable_step) {
+void add_explicit(std::vector<Method>& list, Breadth sweep, double stable_step) {
   list.push_back({Integrator::symplectic_euler});
   list.push_back({Integrator::verlet});
   list.push_back({Integrator::verlet, above_limit * stable_step});  // fails, and is shown to
-  if (sweep == Sweep::brief) return;
+  if (sweep == Breadth::brief) return;
   list.push_back({Integrator::verlet, {}, 0, true});
   if (several_cores()) list.push_back({Integrator::verlet, {}, 0, false, 0});
   list.push_back({Integrator::verlet, 0.5 * stable_step});
   list.push_back({Integrator::symplectic_euler, 0.5 * stable_step});
 }
 
-void add_implicit(std::vector<Method>& list, Sweep sweep) {
+void add_implicit(std::vector<Method>& list, Breadth sweep) {
   constexpr Integrator integrators[] = {Integrator::backward_euler, Integrator::bdf2, Integrator::tr_bdf2};
-  if (sweep == Sweep::brief) {
+  if (sweep == Breadth::brief) {
     for (const Integrator integrator : integrators)
       for (const double step : {1.0 / 60, 0.005}) list.push_back({integrator, step, 1});
     return;
@@ -92,14 +92,14 @@ void add_implicit(std::vector<Method>& list, Sweep sweep) {
 
 }  // namespace
 
-std::vector<Method> methods_of(Sweep sweep, double stable_step) {
+std::vector<Method> methods_of(Breadth sweep, double stable_step) {
   std::vector<Method> list;
   add_explicit(list, sweep, stable_step);
   add_implicit(list, sweep);
   return list;
 }
 
-std::size_t steps_of_time_study(Sweep sweep) { return 1 + methods_of(sweep, 1).size(); }
+std::size_t steps_of_time_study(Breadth sweep) { return 1 + methods_of(sweep, 1).size(); }
 
 std::vector<double> set_times(const Scene& scene) {
   std::vector<double> times = scene.output_times;
@@ -111,7 +111,7 @@ std::vector<double> set_times(const Scene& scene) {
   return times;
 }
 
-TimeStudy study_time(const std::string& key, const Specimen& specimen, const std::vector<double>& times, Sweep sweep,
+TimeStudy study_time(const std::string& key, const Specimen& specimen, const std::vector<double>& times, Breadth sweep,
                      const StudyContext& context) {
   TimeStudy study;
   study.specimen = text_of(specimen);

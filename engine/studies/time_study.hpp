@@ -28,18 +28,18 @@ struct TimeStudy {
 };
 
 /// How wide a sweep is.
-enum class Sweep {
+enum class Breadth {
   brief,  ///< two steps of each integrator, and one above the stable limit
   whole   ///< integrators × steps × iterations, precision, threads
 };
-std::vector<Method> methods_of(Sweep sweep, double stable_step);
+std::vector<Method> methods_of(Breadth sweep, double stable_step);
 
 /// key: of the scene, in results. times: s.
-TimeStudy study_time(const std::string& key, const Specimen& specimen, const std::vector<double>& times, Sweep sweep,
+TimeStudy study_time(const std::string& key, const Specimen& specimen, const std::vector<double>& times, Breadth sweep,
                      const StudyContext& context);
 
 /// How many times step_done() will be called by it.
-std::size_t steps_of_time_study(Sweep sweep);
+std::size_t steps_of_time_study(Breadth sweep);
 
 /// The scene's own output times, or four that part its duration evenly.
 std::vector<double> set_times(const Scene& scene);

@@ -57,7 +57,7 @@ void add_mesh(Tuning& tuning, const Scene& scene, const Specimen& first, const S
   for (const bool nodal : elements_of(other)) {
     const Specimen now = with_element(other, nodal);
     TunedMesh mesh{mesh_text(scene, now.setup.mesh.tets.size()), now.scene,
-                   study_time(key_of(other), now, times, Sweep::brief, context), std::nullopt};
+                   study_time(key_of(other), now, times, Breadth::brief, context), std::nullopt};
     if (settled.reference.problem.empty()) {
       const auto x = settled_positions(key_of(other), now, context);
       if (!x.empty()) {
@@ -87,7 +87,7 @@ void add_other_meshes(Tuning& tuning, const Scene& scene, const Specimen& first,
 
 /// At most: a coarser and a finer one.
 std::size_t steps_of_other_meshes(const Specimen& specimen) {
-  return 2 * elements_of(specimen).size() * (steps_of_time_study(Sweep::brief) + 1);
+  return 2 * elements_of(specimen).size() * (steps_of_time_study(Breadth::brief) + 1);
 }
 
 std::string goal_text(const TuneGoal& goal) {
@@ -131,7 +131,7 @@ Tuning measure_for_tuning(const Scene& scene, bool quick,
   const Specimen specimen = specimen_of(scene);
   SceneStudyOptions options;
   options.most_tets = most_tets;
-  if (quick) options.sweep = Sweep::brief;
+  if (quick) options.sweep = Breadth::brief;
   std::size_t steps = steps_of_scene_study(specimen, options), done = 0;
   if (!quick && can_be_remade(scene)) steps += steps_of_other_meshes(specimen);
   StudyContext context;

@@ -104,7 +104,7 @@ TEST_CASE("a swing's frequency and decay are read off its turning points") {
 
 TEST_CASE("a reference tells errors ten times what halving its step changes, and methods converge to it") {
   const Specimen beam = small_beam();
-  const TimeStudy study = study_time("test", beam, times, Sweep::whole, {});
+  const TimeStudy study = study_time("test", beam, times, Breadth::whole, {});
   REQUIRE(study.reference.problem.empty());
   CHECK(study.reference.motion > 1e-4);
   CHECK(study.reference.resolution() == 10 * study.reference.change);
@@ -125,7 +125,7 @@ TEST_CASE("a reference tells errors ten times what halving its step changes, and
 }
 
 TEST_CASE("steps above the stable limit fail and are said to, and a figure that is gone is worse") {
-  const TimeStudy study = study_time("test", small_beam(), times, Sweep::whole, {});
+  const TimeStudy study = study_time("test", small_beam(), times, Breadth::whole, {});
   std::size_t failed = 0;
   for (const Measured& m : study.measured)
     if (m.method.integrator == Integrator::verlet && m.method.step && *m.method.step > study.reference.stable_step) {
