@@ -33,14 +33,18 @@ Recorder::Recorder(const std::filesystem::path& path, const Scene& scene, const 
   checkpoint(world);
 }
 
-void Recorder::command(const World& world, const Command& command) { write(event_line({world.ticks(), command})); }
+void Recorder::command(const World& world, const Command& command) {
+  write(event_line({world.ticks(), command}));
+  last_command_ = world.ticks();
+}
 
 void Recorder::ticked(const World& world) {
   if (world.ticks() % every_ == 0) checkpoint(world);
 }
 
 void Recorder::end(const World& world) {
-  if (last_checkpoint_ != world.ticks()) checkpoint(world);
+  // A checkpoint is of the state before a tick's commands: after one there is none to be had until it has ticked.
+  if (last_checkpoint_ != world.ticks() && last_command_ != world.ticks()) checkpoint(world);
   write(json_text({{"step", world.ticks()}, {"end", true}}, path_));
   file_.reset();
 }

@@ -45,7 +45,7 @@ class Recorder {
   };
   std::string path_;
   std::unique_ptr<std::FILE, Close> file_;  ///< null once it ended
-  long every_, last_checkpoint_ = -1;
+  long every_, last_checkpoint_ = -1, last_command_ = -1;
 };
 
 }  // namespace heml

@@ -105,6 +105,26 @@ TEST_CASE("a recording is played with the instructions it was made with") {
   }
 }
 
+TEST_CASE("replays a session that ended on a command, with no tick after it") {
+  const TemporaryFolder folder;
+  const Scene scene = session_scene();
+  const std::unique_ptr<World> world = load_world(scene);
+  Recorder recorder(folder / "session.jsonl", scene, *world, 10);
+  while (world->ticks() < 15) {
+    world->tick();
+    recorder.ticked(*world);
+  }
+  REQUIRE(!world->apply(Reset{}));
+  recorder.command(*world, Reset{});
+  recorder.end(*world);
+  const Scene recording = read_scene(folder / "session.jsonl");
+  CHECK(recording.recorded_ticks == 15);
+  const ReplayResult result = replay_of(recording);
+  CHECK(result.ticks == 15);
+  CHECK(result.checkpoints == 2);
+  CHECK(!result.difference);
+}
+
 TEST_CASE("replays what a crash left of a recording") {
   const TemporaryFolder folder;
   record(folder / "session.jsonl", session_scene());
