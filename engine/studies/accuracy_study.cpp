@@ -113,7 +113,8 @@ Json to_json(const std::vector<Figure>& figures) {
 std::vector<std::string> what_got_worse(const std::vector<Figure>& figures, const Json& committed) {
   std::vector<std::string> worse;
   for (const auto& [name, value] : committed.items()) {
-    const auto now = std::find_if(figures.begin(), figures.end(), [&](const Figure& f) { return f.name == name; });
+    const auto now =
+        std::find_if(figures.begin(), figures.end(), [&, &name = name](const Figure& f) { return f.name == name; });
     const double before = value.get<double>();
     if (now == figures.end())
       worse.push_back(fmt::format("{}: was {:.4g}, and is no more: it failed or was not measured", name, before));
