@@ -70,6 +70,24 @@ int run_program(int argc, char** argv) {
   solve_command->add_option("SCENE", solve_arguments.scene, "scene, recording, mesh or surface")->required();
   solve_command->add_option("--out", solve_arguments.out, "folder for the results")->required();
 
+  ExportArguments export_arguments;
+  auto* export_command = program.add_subcommand("export", "play a scene or recording into files for other programs");
+  export_command->add_option("SCENE", export_arguments.scene, "scene, recording, mesh or surface")->required();
+  export_command->add_option("--out", export_arguments.out, "folder for frame_00000.vtu ...")->required();
+  export_command
+      ->add_option("--format", export_arguments.format,
+                   "vtu: the body with its fields, and frames.pvd for ParaView; ply: the surface with scalars of its "
+                   "nodes; obj: the surface")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"vtu", "ply", "obj"}));
+  export_command->add_option("--fps", export_arguments.fps, "frames a simulated second")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber);
+  export_command->footer(
+      "Examples:\n"
+      "  heml export session.jsonl --out frames              then open frames/frames.pvd in ParaView\n"
+      "  heml export scene.json --out shape --format ply     surfaces for Blender or MeshLab");
+
   ExplainArguments explain_arguments;
   auto* explain_command =
       program.add_subcommand("explain", "what a scene makes the engine run, what it leaves out, and why");
@@ -177,6 +195,8 @@ int run_program(int argc, char** argv) {
     code = replay_recording(replay_arguments);
   } else if (*solve_command) {
     code = solve_scene(solve_arguments);
+  } else if (*export_command) {
+    code = export_frames(export_arguments);
   } else if (*explain_command) {
     code = explain_scene(explain_arguments);
   } else if (*probe_command) {

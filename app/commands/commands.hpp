@@ -59,6 +59,14 @@ struct SolveArguments {
 };
 int solve_scene(const SolveArguments& arguments);
 
+struct ExportArguments {
+  std::string scene;
+  std::filesystem::path out;
+  std::string format = "vtu";  ///< vtu, ply or obj
+  double fps = 30;
+};
+int export_frames(const ExportArguments& arguments);
+
 struct ExplainArguments {
   std::string scene;
   bool json = false;

@@ -85,6 +85,22 @@ LoadEntry load_from(const Key& key) {
   return entry;
 }
 
+ProbeEntry probe_from(const Key& key) {
+  key.allow({"name", "nodes", "box", "sphere"});
+  ProbeEntry entry;
+  entry.where = selection_from(key);
+  if (const auto name = key.find("name")) entry.name = name->text();
+  if (entry.name.find_first_of(",\"\n\r") != std::string::npos)
+    key["name"].refuse("must do in a table: without commas, quotes and line ends");
+  return entry;
+}
+
+Json probe_json(const ProbeEntry& entry) {
+  Json json = selection_json(entry.where);
+  if (!entry.name.empty()) json["name"] = entry.name;
+  return json;
+}
+
 Json boundary_json(const BoundaryEntry& entry) {
   Json json = selection_json(entry.where);
   const Boundary& motion = entry.motion;

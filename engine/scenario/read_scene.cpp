@@ -49,7 +49,7 @@ std::vector<RegionMaterial> materials_from(const Key& key) {
 }
 
 void read_outputs(const Key& key, Scene& scene) {
-  key.allow({"times", "positions", "vtu"});
+  key.allow({"times", "positions", "vtu", "probes", "history", "every"});
   if (const auto times = key.find("times")) {
     times->each([&](const Key& time) {
       scene.output_times.push_back(time.non_negative());
@@ -59,6 +59,10 @@ void read_outputs(const Key& key, Scene& scene) {
   }
   if (const auto positions = key.find("positions")) scene.output_positions = positions->flag();
   if (const auto vtu = key.find("vtu")) scene.output_vtu = vtu->flag();
+  if (const auto probes = key.find("probes"))
+    probes->each([&](const Key& entry) { scene.probes.push_back(probe_from(entry)); });
+  if (const auto history = key.find("history")) scene.output_history = history->flag();
+  if (const auto every = key.find("every")) scene.output_every = every->positive();
 }
 
 void read_initial(const Key& key, const fs::path& folder, Scene& scene) {

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <heml/mesh/write.hpp>
+#include <heml/scenario/frame_series.hpp>
 #include <heml/scenario/json_text.hpp>
 #include <heml/scenario/positions_csv.hpp>
 #include <heml/scenario/report.hpp>
@@ -88,13 +88,9 @@ void write_report(const std::filesystem::path& path, World& world, const SolveFa
   write_text_file(path, json_text(report, path.string(), true) + "\n");
 }
 
-void write_state(const std::filesystem::path& folder, const std::string& stem, const World& world, bool csv, bool vtu) {
-  const std::vector<Vec3> positions = world.positions();
-  if (csv) write_positions_csv(folder / (stem + ".csv"), positions);
-  if (!vtu) return;
-  TetMesh mesh = with_elements(world.setup().mesh, world.topology()->elements);
-  mesh.nodes = positions;
-  write_tet_mesh(folder / (stem + ".vtu"), mesh);
+void write_state(const std::filesystem::path& folder, const std::string& stem, World& world, bool csv, bool vtu) {
+  if (csv) write_positions_csv(folder / (stem + ".csv"), world.positions());
+  if (vtu) write_frame(folder / (stem + ".vtu"), world);
 }
 
 }  // namespace heml

@@ -17,8 +17,8 @@ struct SolveFacts {
 /// report.json; extremes of J are of the elements that are there. Throws InputError when it cannot be written.
 void write_report(const std::filesystem::path& path, World& world, const SolveFacts& facts);
 
-/// FOLDER/STEM.csv and, where asked for, FOLDER/STEM.vtu of the positions now, the .vtu with the elements
-/// that are there. Throws InputError likewise.
-void write_state(const std::filesystem::path& folder, const std::string& stem, const World& world, bool csv, bool vtu);
+/// Where asked for, FOLDER/STEM.csv of the positions now and FOLDER/STEM.vtu (frame_series.hpp). Throws InputError
+/// likewise.
+void write_state(const std::filesystem::path& folder, const std::string& stem, World& world, bool csv, bool vtu);
 
 }  // namespace heml

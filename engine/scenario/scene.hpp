@@ -59,6 +59,12 @@ struct LoadEntry {
   Load load;  ///< likewise
 };
 
+/// Nodes whose mean place is written while a scene is solved (trace.hpp).
+struct ProbeEntry {
+  std::string name;  ///< empty: its number
+  Selection where;
+};
+
 /// How a viewer starts: all optional, never part of the physics.
 struct View {
   std::optional<double> azimuth, elevation;  ///< degrees
@@ -93,6 +99,9 @@ struct Scene {
   SolverSettings solver;
   std::vector<double> output_times;  ///< s, as listed
   bool output_positions = true, output_vtu = false;
+  std::vector<ProbeEntry> probes;
+  bool output_history = false;
+  double output_every = 0;  ///< s between rows of probes and history; 0: every tick
   Vec3 initial_velocity = Vec3::Zero();
   std::filesystem::path initial_positions;
   View view;

@@ -9,6 +9,7 @@
 #include <heml/scenario/recovery_watch.hpp>
 #include <heml/scenario/report.hpp>
 #include <heml/scenario/solve.hpp>
+#include <heml/scenario/trace.hpp>
 #include <vector>
 
 namespace heml {
@@ -52,7 +53,7 @@ void make_folder(const fs::path& folder) {
 void remove_outputs(const fs::path& folder, const std::vector<Landing>& landings) {
   std::error_code ignored;
   fs::remove(folder / "report.json", ignored);
-  fs::remove(folder / recovery_file, ignored);
+  for (const char* file : {recovery_file, Trace::probes_file, Trace::history_file}) fs::remove(folder / file, ignored);
   for (const Landing& landing : landings)
     for (const char* ending : {".csv", ".vtu"}) fs::remove(folder / (landing.stem + ending), ignored);
 }
@@ -66,6 +67,8 @@ SolveResult solve(const Scene& scene, const fs::path& out, const std::function<v
   remove_outputs(out, landings);
 
   Player player(scene, *world);
+  Trace trace(scene, *world);
+  trace.take(*world);
   const Scene recorded = scene.solver.recovery ? as_recorded(scene, *world) : scene;
   RecoveryWatch watch;
   const auto on_tick = [&] {
@@ -73,6 +76,7 @@ SolveResult solve(const Scene& scene, const fs::path& out, const std::function<v
     if (news != RecoveryWatch::News::none) write_replay(out / recovery_file, recorded, player.past_events(), *world);
     if (news == RecoveryWatch::News::began)
       warn("{}; {} shows it again", world->recovery()->message, (out / recovery_file).string());
+    trace.take(*world);
     if (progress) progress(static_cast<double>(world->ticks()) * scene.solver.tick() / scene.solver.duration);
     return true;
   };
@@ -81,10 +85,12 @@ SolveResult solve(const Scene& scene, const fs::path& out, const std::function<v
     const auto begin = std::chrono::steady_clock::now();
     player.to(landing.time, on_tick);
     seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    trace.take(*world);
     const bool last = &landing == &landings.back();
     if (last || !world->halt())
       write_state(out, landing.stem, *world, last || scene.output_positions, scene.output_vtu);
   }
+  trace.write(out);
   SolveFacts facts;
   facts.halt = world->halt();
   facts.converged = !facts.halt;

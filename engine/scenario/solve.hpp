@@ -17,8 +17,9 @@ struct SolveResult {
 
 /// Static equilibrium under the whole load (the scene's events of step 0 alone take part), or dynamics with the scene's
 /// events up to its duration. Writes into `out` (made when missing) positions.csv and
-/// report.json, and for outputs.times, in the order listed, positions_<k>.csv; .vtu beside them where asked for; of the
-/// last recovery a recording, recovery.jsonl.
+/// report.json, and for outputs.times, in the order listed, positions_<k>.csv; .vtu beside them where asked for
+/// (frame_series.hpp); tables of how it went where asked for (trace.hpp); of the last recovery a recording,
+/// recovery.jsonl.
 /// progress: called now and then with the fraction done. Throws InputError.
 SolveResult solve(const Scene& scene, const std::filesystem::path& out,
                   const std::function<void(double)>& progress = {});

@@ -30,6 +30,9 @@ Json scene_json(const Scene& scene, const std::filesystem::path& folder) {
   json["gravity"] = vector_json(scene.gravity);
   json["solver"] = solver_json(scene.solver);
   json["outputs"] = {{"times", scene.output_times}, {"positions", scene.output_positions}, {"vtu", scene.output_vtu}};
+  for (const ProbeEntry& entry : scene.probes) json["outputs"]["probes"].push_back(probe_json(entry));
+  if (scene.output_history) json["outputs"]["history"] = true;
+  if (scene.output_every > 0) json["outputs"]["every"] = scene.output_every;
   json["initial"] = {{"velocity", vector_json(scene.initial_velocity)}};
   if (!scene.initial_positions.empty()) json["initial"]["positions"] = path_text(scene.initial_positions, folder);
   json["view"] = view_json(scene.view);

@@ -7,6 +7,7 @@ import pathlib
 import subprocess
 import tempfile
 import unittest
+import xml.etree.ElementTree
 
 BINARY = os.environ["HEML_BINARY"]
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
@@ -90,6 +91,21 @@ class CommandLine(unittest.TestCase):
         again = self.folder / "again"
         heml("solve", self.folder / "scene.json", "--out", again)
         self.assertEqual(report["state_hash"], json.loads((again / "report.json").read_text())["state_hash"])
+
+    def test_export_writes_what_paraview_opens(self):
+        out = self.folder / "frames"
+        done = heml("export", self.write("scene.json", cantilever()), "--out", out, "--fps", "50")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        series = xml.etree.ElementTree.parse(out / "frames.pvd").getroot().findall("Collection/DataSet")
+        self.assertEqual([float(s.get("timestep")) for s in series], sorted(float(s.get("timestep")) for s in series))
+        self.assertEqual(len(series), 6)
+        for each in series:
+            piece = xml.etree.ElementTree.parse(out / each.get("file")).getroot().find("UnstructuredGrid/Piece")
+            count = {"PointData": int(piece.get("NumberOfPoints")), "CellData": int(piece.get("NumberOfCells"))}
+            self.assertEqual(count, {"PointData": 99, "CellData": 200})
+            for kind, entries in count.items():
+                for array in piece.find(kind):
+                    self.assertEqual(len(array.text.split()), entries * int(array.get("NumberOfComponents")))
 
     def test_an_unstable_step_is_exit_4_and_what_was_reached_is_written(self):
         scene = cantilever(solver={"step": 0.01, "duration": 5})

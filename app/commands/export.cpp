@@ -1,0 +1,36 @@
+#include <fmt/format.h>
+
+#include <app/commands/commands.hpp>
+#include <app/commands/progress.hpp>
+#include <heml/base/log.hpp>
+#include <heml/scenario/frame_series.hpp>
+#include <heml/scenario/replay.hpp>
+
+namespace heml {
+
+int export_frames(const ExportArguments& arguments) {
+  const Scene scene = read_scene(arguments.scene);
+  const auto world = load_world(scene);
+  FrameSeries series(arguments.out, arguments.format);
+  const double total = static_cast<double>(std::max(1l, ticks_to_play(scene)));
+  const double tick = world->setup().solver.tick();
+  ReplayResult result;
+  {
+    Progress progress("exporting");
+    series.take(*world);
+    result = replay(scene, *world, [&](World& w) {
+      // The first whole tick at or after each frame's time: a state the motion passes through, with its own time.
+      if (static_cast<double>(w.ticks()) * tick * arguments.fps >= series.taken() * (1 - 1e-12)) series.take(w);
+      progress.show(static_cast<double>(w.ticks()) / total);
+    });
+  }
+  if (result.halt) {
+    log_line("error", fmt::format("{}: {}; {} frames are in {}", arguments.scene, result.halt->message, series.taken(),
+                                  arguments.out.string()));
+    return exit_not_solved;
+  }
+  fmt::print("{} frames in {}\n", series.taken(), arguments.out.string());
+  return exit_done;
+}
+
+}  // namespace heml

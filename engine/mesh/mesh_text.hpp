@@ -1,0 +1,43 @@
+#pragma once
+// Text that grows and becomes a file.
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <heml/base/error.hpp>
+#include <heml/mesh/tet_mesh.hpp>
+#include <iterator>
+#include <utility>
+
+namespace heml {
+
+/// 17 significant digits give every double back.
+class MeshText {
+ public:
+  template <class... Args>
+  void add(fmt::format_string<Args...> format, Args&&... args) {
+    fmt::format_to(std::back_inserter(text_), format, std::forward<Args>(args)...);
+  }
+  void add_point(const Vec3& x) { add("{:.17g} {:.17g} {:.17g}", x[0], x[1], x[2]); }
+  void add_nodes(const Tet& tet, int first) {
+    add("{} {} {} {}", tet[0] + first, tet[1] + first, tet[2] + first, tet[3] + first);
+  }
+  /// The values of one element or node and the end of the line.
+  template <class Field>
+  void add_values(const Field& field, std::size_t which) {
+    for (std::size_t i = 0; i < field.components; ++i)
+      add("{:.17g}{}", field.values[field.components * which + i], i + 1 < field.components ? ' ' : '\n');
+  }
+
+  /// Throws InputError when it cannot be written.
+  void save(const std::filesystem::path& path) const {
+    std::FILE* file = std::fopen(path.c_str(), "wb");
+    const bool written = file && std::fwrite(text_.data(), 1, text_.size(), file) == text_.size();
+    if (!file || (std::fclose(file) != 0) || !written) throw InputError(path.string(), "", "cannot be written");
+  }
+
+ private:
+  fmt::memory_buffer text_;
+};
+
+}  // namespace heml

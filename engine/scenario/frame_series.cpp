@@ -1,0 +1,86 @@
+#include <fmt/format.h>
+
+#include <heml/base/error.hpp>
+#include <heml/mesh/surface.hpp>
+#include <heml/mesh/write_surface.hpp>
+#include <heml/scenario/frame_series.hpp>
+#include <numeric>
+#include <utility>
+
+namespace heml {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<double> flat(const std::vector<Vec3>& vectors) {
+  std::vector<double> values;
+  values.reserve(3 * vectors.size());
+  for (const Vec3& v : vectors) values.insert(values.end(), v.data(), v.data() + 3);
+  return values;
+}
+
+/// A field of a world at given nodes.
+NodeField field_of(World& world, const char* name, Field field, const std::vector<int>& nodes) {
+  std::vector<float> values;
+  world.write_field(field, nodes, values);
+  return {name, 1, {values.begin(), values.end()}};
+}
+
+void write_body(const fs::path& path, World& world) {
+  TetMesh mesh = with_elements(world.setup().mesh, world.topology()->elements);
+  std::vector<int> all(mesh.nodes.size());
+  std::iota(all.begin(), all.end(), 0);
+  std::vector<Vec3> displacement = world.positions();
+  for (std::size_t n = 0; n < displacement.size(); ++n) displacement[n] -= mesh.nodes[n];
+  mesh.nodes = world.positions();
+  mesh.fields.push_back({"J", 1, world.volume_ratios()});
+  write_vtu(path, mesh,
+            {{"displacement", 3, flat(displacement)},
+             {"velocity", 3, flat(world.velocities())},
+             field_of(world, "stretch", Field::stretch, all),
+             field_of(world, "von_mises", Field::von_mises, all)});
+}
+
+void write_skin(const fs::path& path, World& world) {
+  const BoundaryFaces faces = boundary_of(with_elements(world.setup().mesh, world.topology()->elements));
+  const std::vector<Vec3> positions = world.positions();
+  std::vector<int> number(positions.size(), -1), nodes;  // on the surface, in order of appearance
+  SurfaceMesh surface;
+  for (Triangle triangle : faces.triangles) {
+    for (int& n : triangle) {
+      int& own = number[static_cast<std::size_t>(n)];
+      if (own < 0) {
+        own = static_cast<int>(nodes.size());
+        nodes.push_back(n);
+        surface.nodes.push_back(positions[static_cast<std::size_t>(n)]);
+      }
+      n = own;
+    }
+    surface.triangles.push_back(triangle);
+  }
+  write_surface(
+      path, surface,
+      {field_of(world, "displacement", Field::displacement, nodes), field_of(world, "stretch", Field::stretch, nodes),
+       field_of(world, "von_mises", Field::von_mises, nodes),
+       field_of(world, "volume_ratio", Field::volume_ratio, nodes)});
+}
+
+}  // namespace
+
+void write_frame(const fs::path& path, World& world) {
+  path.extension() == ".vtu" ? write_body(path, world) : write_skin(path, world);
+}
+
+FrameSeries::FrameSeries(fs::path folder, std::string ending) : folder_(std::move(folder)), ending_(std::move(ending)) {
+  std::error_code error;
+  fs::create_directories(folder_, error);
+  if (error) throw InputError(folder_.string(), "", "cannot be made: " + error.message(), "name a folder that can be");
+}
+
+void FrameSeries::take(World& world) {
+  files_.push_back({world.time(), fmt::format("frame_{:05}.{}", files_.size(), ending_)});
+  write_frame(folder_ / files_.back().file, world);
+  if (ending_ == "vtu") write_pvd(folder_ / "frames.pvd", files_);
+}
+
+}  // namespace heml

@@ -1,0 +1,79 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <heml/scenario/selection.hpp>
+#include <heml/scenario/text_file.hpp>
+#include <heml/scenario/trace.hpp>
+#include <iterator>
+
+namespace heml {
+namespace {
+
+void add(std::string& row, double value) { fmt::format_to(std::back_inserter(row), ",{:.17g}", value); }
+void add(std::string& row, const Vec3& v) {
+  for (const double value : v) add(row, value);
+}
+
+}  // namespace
+
+Trace::Trace(const Scene& scene, const World& world) : every_(scene.output_every) {
+  for (std::size_t k = 0; k < scene.probes.size(); ++k) {
+    const ProbeEntry& entry = scene.probes[k];
+    const std::string place = fmt::format("outputs.probes[{}]", k);
+    probes_.push_back({entry.name.empty() ? std::to_string(k) : entry.name,
+                       select_nodes(entry.where, world.setup().mesh, scene.file, place)});
+  }
+  if (!probes_.empty()) probe_rows_ = "time,probe,x,y,z,vx,vy,vz\n";
+  if (!scene.output_history) return;
+  history_rows_ = "time,kinetic,elastic,potential,min_J,max_J,tool_x,tool_y,tool_z";
+  for (std::size_t k = 0; k < scene.boundary.size(); ++k)
+    for (const char axis : {'x', 'y', 'z'}) history_rows_ += fmt::format(",reaction_{}_{}", k, axis);
+  history_rows_ += '\n';
+}
+
+void Trace::take(World& world) {
+  if (probes_.empty() && history_rows_.empty()) return;
+  const double time = world.time();
+  if (time < last_) next_ = 0;  // after a reset
+  if (time == last_ || time < next_ * (1 - 1e-12)) return;
+  last_ = time;
+  if (every_ > 0) next_ = every_ * (std::floor(time / every_ * (1 + 1e-12)) + 1);
+  if (!probes_.empty()) take_probes(world);
+  if (!history_rows_.empty()) take_history(world);
+}
+
+void Trace::take_probes(const World& world) {
+  const std::vector<Vec3> x = world.positions(), v = world.velocities();
+  for (const Probe& probe : probes_) {
+    Vec3 place = Vec3::Zero(), velocity = Vec3::Zero();
+    for (const int n : probe.nodes) {
+      place += x[static_cast<std::size_t>(n)];
+      velocity += v[static_cast<std::size_t>(n)];
+    }
+    const double count = static_cast<double>(probe.nodes.size());
+    probe_rows_ += fmt::format("{:.17g},{}", world.time(), probe.name);
+    add(probe_rows_, place / count);
+    add(probe_rows_, velocity / count);
+    probe_rows_ += '\n';
+  }
+}
+
+void Trace::take_history(World& world) {
+  const Energies energies = world.energies();
+  const std::vector<double> J = world.volume_ratios();
+  const auto [least, most] = std::minmax_element(J.begin(), J.end());
+  history_rows_ += fmt::format("{:.17g}", world.time());
+  for (const double value : {energies.kinetic, energies.elastic, energies.potential, *least, *most})
+    add(history_rows_, value);
+  add(history_rows_, world.tool().force);
+  for (const Vec3& force : world.reactions()) add(history_rows_, force);
+  history_rows_ += '\n';
+}
+
+void Trace::write(const std::filesystem::path& folder) const {
+  if (!probe_rows_.empty()) write_text_file(folder / probes_file, probe_rows_);
+  if (!history_rows_.empty()) write_text_file(folder / history_file, history_rows_);
+}
+
+}  // namespace heml
