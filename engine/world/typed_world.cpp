@@ -9,6 +9,8 @@ namespace heml {
 namespace {
 
 constexpr double safety = 0.9;  // of the live limit; the bound is taken anew every few steps
+// Of cut tissue: a cut sets the smallest pieces swinging by as much as their own size, and the limit changes meanwhile.
+constexpr double safety_of_pieces = 0.7;
 constexpr int steps_between_bounds = 8;
 constexpr int steps_between_bounds_when_calm = 32;   // while the limit hardly changes, taking it is most of its cost
 constexpr int steps_between_bounds_when_pulled = 2;  // a hand can do much to a body in little time
@@ -248,7 +250,8 @@ void TypedWorld<Real>::find_stable_step() {
   for (const auto& grasp : grasps_) omega = std::max(omega, static_cast<double>(grasp.omega()));
   lambda += omega * omega;
   const double half = omega + (remembers_ ? static_cast<double>(body.damping_bound(state_.x.data(), team_)) / 2 : 0);
-  stable_step_ = safety * 2 / (half + std::sqrt(half * half + lambda));
+  const bool cut = std::any_of(edits_.begin(), edits_.end(), [](const EditReport& edit) { return edit.split > 0; });
+  stable_step_ = (cut ? safety_of_pieces : safety) * 2 / (half + std::sqrt(half * half + lambda));
   steps_since_bound_ = 0;
   bound_interval_ = steps_between_bounds;
 }

@@ -97,9 +97,9 @@ template <class Real>
 std::optional<std::string> TypedWorld<Real>::take(const Undo&) {
   if (edits_.empty()) return "undo: nothing was cut or removed";
   if (saved_.empty()) return fmt::format("undo: only the last {} edits can be taken back", most_undone);
+  edits_.pop_back();
   restore(*saved_.back());
   saved_.pop_back();
-  edits_.pop_back();
   return std::nullopt;
 }
 
