@@ -1,4 +1,4 @@
-// Two hundred random cuts through organs that hang and move meanwhile.
+// Random cuts through organs that hang and move meanwhile.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -81,11 +81,11 @@ std::vector<CutTissue> random_cuts(const TetMesh& mesh, int count) {
   return cuts;
 }
 
-void check_cuts(const std::filesystem::path& file) {
+void check_cuts(const std::filesystem::path& file, int count) {
   const auto one = make_world(hanging(file, 1)), two = make_world(hanging(file, 2));
   const double volume = rest_of(*one).volume;
   int made = 0;
-  for (const CutTissue& cut : random_cuts(one->setup().mesh, 200)) {
+  for (const CutTissue& cut : random_cuts(one->setup().mesh, count)) {
     CAPTURE(made);
     const auto refused = one->apply(cut);
     CHECK(refused == two->apply(cut));
@@ -98,7 +98,7 @@ void check_cuts(const std::filesystem::path& file) {
     REQUIRE(std::abs(rest.volume / volume - 1) <= 1e-12);
     REQUIRE(rest.least > 0);
   }
-  CHECK(made > 100);
+  CHECK(made > count / 2);
   CHECK(is_closed(*one));
   CHECK(one->state_hash() == two->state_hash());
   MESSAGE(made << " cuts, " << one->topology()->elements.size() << " elements, the smallest " << rest_of(*one).least
@@ -107,8 +107,8 @@ void check_cuts(const std::filesystem::path& file) {
 
 }  // namespace
 
-TEST_CASE("two hundred random cuts through the kidney lose nothing, leave it closed and play the same again") {
-  check_cuts(std::filesystem::path(HEML_SOURCE_DIR) / "assets/meshes/kidney.mesh");
+TEST_CASE("sixty random cuts through the kidney lose nothing, leave it closed and play the same again") {
+  check_cuts(std::filesystem::path(HEML_SOURCE_DIR) / "assets/meshes/kidney.mesh", 60);
 }
 
 TEST_CASE("two hundred random cuts through a liver lose nothing, leave it closed and play the same again") {
@@ -117,5 +117,5 @@ TEST_CASE("two hundred random cuts through a liver lose nothing, leave it closed
     MESSAGE("no liver beside the source tree");
     return;
   }
-  check_cuts(liver);
+  check_cuts(liver, 200);
 }
