@@ -52,7 +52,7 @@ void make_mesh(const std::string& folder, TetMesh mesh) {
 int main(int argc, char** argv) try {
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   if (arguments.empty()) {
-    fmt::print(stderr, "usage: heml-make-assets FOLDER [kidney] [uterus] [irregular_cube] [inclusion]\n");
+    fmt::print(stderr, "usage: heml-make-assets FOLDER [kidney] [uterus] [liver] [irregular_cube] [inclusion]\n");
     return 2;
   }
   const auto wanted = [&](const char* name) {
@@ -60,6 +60,7 @@ int main(int argc, char** argv) try {
   };
   if (wanted("kidney")) make_mesh(arguments[0], make::mesh_of(make::kidney()));
   if (wanted("uterus")) make_mesh(arguments[0], make::mesh_of(make::uterus()));
+  if (wanted("liver")) make_mesh(arguments[0], make::mesh_of(make::liver()));
   if (wanted("irregular_cube")) make_mesh(arguments[0], make::irregular_cube());
   if (wanted("inclusion")) make_mesh(arguments[0], make::inclusion());
   return 0;

@@ -27,6 +27,10 @@ Organ kidney();
 /// Regions: 1 wall of the body, 2 cervix, 3 tubes.
 Organ uterus();
 
+/// A liver, 21 cm, with the inferior vena cava above it. x left, y superior, z anterior.
+/// Regions: 1 parenchyma, 2 vena cava.
+Organ liver();
+
 /// A cube of 0.1 m with irregular tetrahedra: 151 nodes, 407 tetrahedra.
 TetMesh irregular_cube();
 

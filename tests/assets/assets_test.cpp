@@ -90,6 +90,13 @@ TEST_CASE("the uterus has the paper's size, three regions, a cavity and no slive
   CHECK(inside(mesh, {0, 0.026, 0.0200}));         // in the front wall
 }
 
+TEST_CASE("the liver weighs what livers do, has two regions and no slivers") {
+  const TetMesh mesh = asset("liver");
+  const QualityReport report = check_sound(mesh, 17);
+  CHECK(regions_of(mesh) == std::set{1, 2});
+  CHECK(report.volume == doctest::Approx(1.2e-3).epsilon(0.1));
+}
+
 TEST_CASE("the irregular cube has exactly the paper's size and fills a decimetre") {
   const TetMesh mesh = asset("irregular_cube");
   CHECK(mesh.nodes.size() == 151);
@@ -111,7 +118,8 @@ TEST_CASE("every scene can be read, and runs for a while") {
     const double until = scene.name == "large_cube" ? 0.02 : 0.25;
     while (world->time() < until && !world->halt()) world->tick();
     CHECK_FALSE(world->halt().has_value());
+    CHECK(std::filesystem::exists(assets / "pictures/scenes" / (scene.name + ".png")));
     ++scenes;
   }
-  CHECK(scenes == 8);
+  CHECK(scenes == 13);
 }
