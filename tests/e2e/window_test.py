@@ -251,6 +251,26 @@ class Window(unittest.TestCase):
                                   text=True, timeout=100)
         self.assertEqual(replayed.returncode, 0, replayed.stdout + replayed.stderr)
 
+    def test_what_was_recorded_before_a_kill_replays(self):
+        self.open_display(640, 480)
+        self.start("--record", "out.jsonl", "--size", "640x480")
+        self.wait_for("a picture", lambda: self.display.picture().colours() > 500)
+        time.sleep(1)
+        self.drag(self.display.picture().tissue(220, 640), (30, 40), steps=4)
+        self.wait_for("a release", lambda: self.seen("release"))
+        self.wait_for("a checkpoint after it", lambda: "checkpoint" in self.events()[-1], 60)
+        recorded = self.events()
+        self.program.kill()
+        self.program.wait()
+        with open(self.folder / "out.jsonl", "a") as file:
+            file.write('{"step": 99')  # as a kill in the middle of a line leaves it
+        replayed = subprocess.run([BINARY, "replay", "out.jsonl", "--verify"], cwd=self.folder, capture_output=True,
+                                  text=True, timeout=400)
+        self.assertEqual(replayed.returncode, 0, replayed.stdout + replayed.stderr)
+        ticks, checkpoints = map(int, re.match(r"(\d+) ticks replayed, (\d+) checkpoints", replayed.stdout).groups())
+        self.assertGreaterEqual(ticks, recorded[-1]["step"])
+        self.assertGreaterEqual(checkpoints, sum("checkpoint" in event for event in recorded))
+
     def test_slow_drawing_does_not_hold_up_the_engine(self):
         self.open_display(640, 360)
         scene = self.folder / "light.json"
