@@ -57,6 +57,8 @@ int run_program(int argc, char** argv) {
   replay_command->add_flag("--verify", replay_arguments.verify,
                            "compare the state with every checkpoint; exit 1 where it differs");
   replay_command->add_option("--frames", replay_arguments.frames, "write frames into this folder");
+  replay_command->add_option("--record", replay_arguments.record,
+                             "write what is played as a recording, with checkpoints: of a scene with a script, or anew");
   replay_command->add_option("--size", replay_size, size_help)->capture_default_str();
   replay_command->add_option("--fps", replay_arguments.fps, "frames a simulated second")
       ->capture_default_str()

@@ -46,7 +46,7 @@ int run(const RunArguments& arguments);
 struct ReplayArguments {
   std::filesystem::path recording;
   bool verify = false;
-  std::optional<std::filesystem::path> frames;
+  std::optional<std::filesystem::path> frames, record;
   PictureSize size;
   double fps = 30;
   int threads = 0;  ///< 0: as the recording says

@@ -7,6 +7,9 @@
 #include <heml/scenario/replay.hpp>
 
 namespace heml {
+namespace {
+constexpr long ticks_between_checkpoints = 100;  // of what is recorded
+}
 
 int replay_recording(const ReplayArguments& arguments) {
   Scene scene = read_scene(arguments.recording);
@@ -15,17 +18,24 @@ int replay_recording(const ReplayArguments& arguments) {
   std::optional<Photographer> photographer;
   if (arguments.frames) photographer.emplace(scene, *world, arguments.size, false, *arguments.frames);
 
+  std::optional<Recorder> recorder;
+  if (arguments.record) recorder.emplace(*arguments.record, scene, *world, ticks_between_checkpoints);
+
   const double total = static_cast<double>(std::max(1l, ticks_to_play(scene)));
   const double tick = world->setup().solver.tick();
   ReplayResult result;
   {
     Progress progress("replaying");
     if (photographer) photographer->take(*world, 0, 1 / arguments.fps);
-    result = replay(scene, *world, [&](World& w) {
-      const double time = static_cast<double>(w.ticks()) * tick;
-      if (photographer && time * arguments.fps >= photographer->taken()) photographer->take(w, 0, 1 / arguments.fps);
-      progress.show(static_cast<double>(w.ticks()) / total);
-    });
+    result = replay(
+        scene, *world,
+        [&](World& w) {
+          const double time = static_cast<double>(w.ticks()) * tick;
+          if (photographer && time * arguments.fps >= photographer->taken())
+            photographer->take(w, 0, 1 / arguments.fps);
+          progress.show(static_cast<double>(w.ticks()) / total);
+        },
+        recorder ? &*recorder : nullptr);
   }
   const std::string name = arguments.recording.string();
   if (result.halt) {

@@ -1,6 +1,7 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <heml/scenario/replay.hpp>
 #include <heml/scenario/schedule.hpp>
 
@@ -41,7 +42,7 @@ long ticks_to_play(const Scene& scene) {
   return std::lround(scene.solver.duration / scene.solver.tick());
 }
 
-ReplayResult replay(const Scene& scene, World& world, const std::function<void(World&)>& on_tick) {
+ReplayResult replay(const Scene& scene, World& world, const std::function<void(World&)>& on_tick, Recorder* recorder) {
   const long ticks = ticks_to_play(scene);
   Schedule schedule(scene, world.setup().mesh);
   Comparison comparison(scene.checkpoints);
@@ -49,11 +50,16 @@ ReplayResult replay(const Scene& scene, World& world, const std::function<void(W
   while (true) {
     comparison.up_to(world.ticks(), world, result);
     if (world.ticks() >= ticks || world.halt()) break;
+    const std::size_t past = schedule.past().size();
     schedule.apply(world);
+    if (recorder)
+      for (const Event& event : schedule.past().subspan(past)) recorder->command(world, event.command);
     world.tick();
+    if (recorder) recorder->ticked(world);
     if (on_tick) on_tick(world);
   }
   comparison.up_to(ticks, world, result);  // what a halt left unreached
+  if (recorder) recorder->end(world);
   result.ticks = world.ticks();
   if (world.ticks() < ticks) result.halt = world.halt();
   return result;

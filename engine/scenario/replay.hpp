@@ -1,6 +1,7 @@
 #pragma once
 // Plays the events of a scene or recording in a world and compares the states on the way with the recorded ones.
 #include <functional>
+#include <heml/scenario/recorder.hpp>
 #include <heml/scenario/scene.hpp>
 #include <heml/world/world.hpp>
 #include <optional>
@@ -25,9 +26,10 @@ struct ReplayResult {
 /// How many ticks a replay plays: as far as the recording goes, or, of a scene with a script, its duration.
 long ticks_to_play(const Scene& scene);
 
-/// world: load_world(scene), before its first tick. on_tick: called after every tick. Throws InputError when the world
-/// refuses an event.
-ReplayResult replay(const Scene& scene, World& world, const std::function<void(World&)>& on_tick = {});
+/// world: load_world(scene), before its first tick. on_tick: called after every tick. recorder: of that world, takes down
+/// what is played and is ended. Throws InputError when the world refuses an event.
+ReplayResult replay(const Scene& scene, World& world, const std::function<void(World&)>& on_tick = {},
+                    Recorder* recorder = nullptr);
 
 /// One sentence for people.
 std::string to_text(const ReplayDifference& difference);

@@ -75,6 +75,22 @@ TEST_CASE("replays a recorded session to the bit") {
   CHECK(!result.halt);
 }
 
+TEST_CASE("what is replayed can be recorded anew, with the same commands and checkpoints of its own") {
+  const TemporaryFolder folder;
+  record(folder / "session.jsonl", session_scene());
+  const Scene recording = read_scene(folder / "session.jsonl");
+  const std::unique_ptr<World> world = load_world(recording);
+  Recorder recorder(folder / "again.jsonl", recording, *world, 7);
+  replay(recording, *world, {}, &recorder);
+  const Scene again = read_scene(folder / "again.jsonl");
+  CHECK(again.recorded_ticks == 50);
+  CHECK(again.checkpoints.size() == 9);  // at 0, 7, …, 49, and the end
+  REQUIRE(again.events.size() == recording.events.size());
+  for (std::size_t k = 0; k < again.events.size(); ++k)
+    CHECK(event_line(again.events[k]) == event_line(recording.events[k]));
+  CHECK_FALSE(replay_of(again).difference.has_value());
+}
+
 TEST_CASE("a recording is played with the instructions it was made with") {
   const TemporaryFolder folder;
   for (const InstructionSet isa : instruction_sets()) {
