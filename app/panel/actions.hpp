@@ -26,17 +26,18 @@ enum class Action {
   remove,
   take_grasper,
   take_scalpel,
+  take_pin,
   undo,
   quit
 };
 
 /// What the left button does to the body.
-enum class Tool { grasper, scalpel };
+enum class Tool { grasper, scalpel, pin };
 
 /// A tool as the user has set it.
 struct ToolInHand {
   Tool tool = Tool::grasper;
-  double radius = 0;  ///< m, of a grasp
+  double radius = 0;  ///< m, of a grasp or a pin
   double depth = 0;   ///< m, that the scalpel reaches below the surface
 };
 

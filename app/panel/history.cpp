@@ -10,6 +10,7 @@ void History::take(const Frame& frame) {
   reading.time = frame.time;
   reading.energies = frame.energies;
   reading.force = frame.tool.active ? frame.tool.force.norm() : 0.0;
+  reading.pins = sum_of(frame.pins).norm();
   reading.typical_tick = frame.pace.p50;
   reading.slow_tick = frame.pace.p99;
   reading.min_J = frame.min_J;

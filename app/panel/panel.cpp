@@ -146,6 +146,9 @@ void Panel::carry_out(Action action, const Frame& frame, PanelActions& out) {
     case Action::take_scalpel:
       tool_.tool = Tool::scalpel;
       return;
+    case Action::take_pin:
+      tool_.tool = Tool::pin;
+      return;
     case Action::undo:
       out.commands.emplace_back(Undo{});
       return;
@@ -212,7 +215,7 @@ void Panel::draw_controls(const Frame& frame, bool with_readings, PanelActions& 
     ImGui::BeginChild("sections", {0, 0}, false, ImGuiWindowFlags_NoNav);
     if (rows_.section("Material")) material_.draw(rows_, watch_.share(), out);
     if (rows_.section("Motion")) motion_.draw(rows_, out);
-    if (rows_.section("Tool")) draw_tool();
+    if (rows_.section("Tool")) draw_tool(frame, out);
     if (with_readings) {
       if (rows_.section("Tool force")) draw_force(rows_, frame, history_);
       if (rows_.section("Energy")) draw_energies(rows_, frame, history_);
@@ -271,10 +274,11 @@ void Panel::draw_pace(const Frame& frame) {
   rows_.value({"Pace", "Whether simulated time keeps up with the clock on the wall."}, text, colour, colour);
 }
 
-void Panel::draw_tool() {
-  static const std::string names[] = {"Grasper", "Scalpel"};
+void Panel::draw_tool(const Frame& frame, PanelActions& out) {
+  static const std::string names[] = {"Grasper", "Scalpel", "Pin"};
   static const std::string hints[] = {"The left button takes hold of the body and pulls (G).",
-                                      "The left button draws a blade through the body (C). Ctrl+Z takes a cut back."};
+                                      "The left button draws a blade through the body (C). Ctrl+Z takes a cut back.",
+                                      "The left button pins the body where it is; on a pin, takes it out (N)."};
   int tool = static_cast<int>(tool_.tool);
   if (rows_.choice({"Tool", "What the left mouse button does to the body."}, tool, names, hints))
     tool_.tool = static_cast<Tool>(tool);
@@ -286,10 +290,15 @@ void Panel::draw_tool() {
     length({"Depth", "How far the blade reaches below the surface, mm, along the line of sight."}, tool_.depth,
            most_depth);
   else
-    length({"Grasp radius",
-            "Surface nodes within this distance of where you take hold go with the tool, mm, measured on the "
-            "rest shape. 0: one node alone. Delete (Del) takes out the tissue within it, one element deep."},
+    length({"Radius",
+            "Surface nodes within this distance of where you take hold go with the tool, or stay where they are under "
+            "a pin, mm, measured on the rest shape. 0: one node alone. Delete (Del) takes out the tissue within it, "
+            "one element deep."},
            tool_.radius, most_grasp);
+  if (!frame.pins.empty() &&
+      rows_.button({fmt::format("Take out {} pin{}", frame.pins.size(), frame.pins.size() == 1 ? "" : "s"),
+                    "Releases all that is pinned."}))
+    out.commands.emplace_back(Unpin{});
 }
 
 void Panel::draw_readings(const Frame& frame) {

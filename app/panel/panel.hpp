@@ -56,7 +56,7 @@ class Panel {
   void draw_header(const Frame& frame);
   void draw_pace(const Frame& frame);
   void draw_readings(const Frame& frame);
-  void draw_tool();
+  void draw_tool(const Frame& frame, PanelActions& out);
   void tell_refusal(const Frame& frame);
   void take_skin(const Frame& frame);
   void watch_stretches();

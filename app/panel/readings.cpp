@@ -19,8 +19,12 @@ void draw_force(Rows& rows, const Frame& frame, const History& history) {
     ImGui::PopStyleColor();
   }
   ImGui::EndGroup();
-  rows.explain({"Force", "What the tool feels: the size of the force between tool and tissue, N (newton)."});
-  const Curve curves[] = {{"Force", colours::accent, [](const Reading& r) { return r.force; }}};
+  rows.explain({"Force", "What the grasp feels: the size of the force between tool and tissue, N (newton)."});
+  if (!frame.pins.empty())
+    rows.value({"Pins", "What the pins together bear: the size of the sum of their forces on the tissue, N."},
+               newtons(sum_of(frame.pins).norm()), colours::potential);
+  const Curve curves[] = {{"Grasp", colours::accent, [](const Reading& r) { return r.force; }},
+                          {"Pins", colours::potential, [](const Reading& r) { return r.pins; }}};
   plot("force plot", history, curves, {"N", 0, 1e-3, 3.6f});
 }
 

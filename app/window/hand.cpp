@@ -18,6 +18,7 @@ bool Hand::press(MouseButton button, const render::Vec2f& at, bool shift, const 
   if (button == MouseButton::left)
     if (const auto hit = under(at, frame, skin)) {
       if (tool.tool == panel::Tool::grasper) return !grasp(*hit, frame, skin, tool.radius, out);
+      if (tool.tool == panel::Tool::pin) return !pin(*hit, frame, skin, tool.radius, out);
       doing_ = Doing::cutting;
       held_point_ = hit->point;
       depth_ = tool.depth;
@@ -31,13 +32,35 @@ bool Hand::press(MouseButton button, const render::Vec2f& at, bool shift, const 
   return false;
 }
 
-bool Hand::grasp(const render::Hit& hit, const Frame& frame, const Skin& skin, double radius,
-                 std::vector<Command>& out) {
+/// The corner nearest to a hit that the scene does not hold; none where it holds all.
+std::optional<int> Hand::free_corner(const render::Hit& hit, const Skin& skin) {
   const auto held = [&](int node) { return std::binary_search(skin.held.begin(), skin.held.end(), node); };
   int node = hit.node;
   for (const int corner : skin.triangles[static_cast<std::size_t>(hit.triangle)])
     if (held(node)) node = corner;
-  if (held(node)) return false;
+  return held(node) ? std::nullopt : std::optional(node);
+}
+
+/// Takes out the pin that is there, or sets one.
+bool Hand::pin(const render::Hit& hit, const Frame& frame, const Skin& skin, double radius, std::vector<Command>& out) {
+  const auto corner = free_corner(hit, skin);
+  if (!corner) return false;
+  const int node = skin.nodes[static_cast<std::size_t>(*corner)];
+  const bool pinned = std::any_of(frame.pins.begin(), frame.pins.end(), [&](const PinState& pin) {
+    return std::find(pin.nodes.begin(), pin.nodes.end(), node) != pin.nodes.end();
+  });
+  if (pinned)
+    out.emplace_back(Unpin{node});
+  else
+    out.emplace_back(PinTissue{node, radius});
+  return true;
+}
+
+bool Hand::grasp(const render::Hit& hit, const Frame& frame, const Skin& skin, double radius,
+                 std::vector<Command>& out) {
+  const auto corner = free_corner(hit, skin);
+  if (!corner) return false;
+  const int node = *corner;
   doing_ = Doing::grasping;
   held_point_ = hit.point;
   node_offset_ = frame.positions[static_cast<std::size_t>(node)] - hit.point;

@@ -18,7 +18,8 @@ class Hand {
 
   explicit Hand(panel::Eye& eye) : eye_(eye) {}
 
-  /// A button went down at a place off the panel. Left on the body takes hold of it, or sets the blade to it. Returns
+  /// A button went down at a place off the panel. Left on the body takes hold of it, sets the blade
+  /// to it, or pins it. Returns
   /// true when the body is there but cannot be taken, because the scene holds it.
   bool press(MouseButton button, const render::Vec2f& at, bool shift, const Frame& frame, const Skin& skin,
              const panel::ToolInHand& tool, std::vector<Command>& out);
@@ -33,6 +34,8 @@ class Hand {
   std::optional<render::Hit> under(const render::Vec2f& at, const Frame& frame, const Skin& skin) const;
 
  private:
+  static std::optional<int> free_corner(const render::Hit& hit, const Skin& skin);
+  bool pin(const render::Hit& hit, const Frame& frame, const Skin& skin, double radius, std::vector<Command>& out);
   bool grasp(const render::Hit& hit, const Frame& frame, const Skin& skin, double radius, std::vector<Command>& out);
   void cut(const render::Vec2f& at, const Frame& frame, const Skin& skin, std::vector<Command>& out);
   std::array<Vec3, 2> blade_at(const render::Vec2f& at) const;

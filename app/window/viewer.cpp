@@ -88,9 +88,9 @@ void Viewer::draw_marks() {
   const bool free = hand_.doing() == Hand::Doing::nothing && !ImGui::IsAnyItemActive() && ImGui::IsMousePosValid();
   if (!free || panel_->covers(mouse_.x(), mouse_.y())) return;
   if (const auto hit = hand_.under(mouse_, *frame_, *frame_->skin)) {
-    const bool grasps = panel_->tool().tool == panel::Tool::grasper;
-    draw_ring(*hit, *frame_, *frame_->skin, eye_, grasps ? panel_->tool().radius : 0);
-    if (grasps) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
+    const bool cuts = panel_->tool().tool == panel::Tool::scalpel;
+    draw_ring(*hit, *frame_, *frame_->skin, eye_, cuts ? 0 : panel_->tool().radius);
+    if (!cuts) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
   }
 }
 

@@ -68,10 +68,14 @@ Vector Equilibrium::predict(double next) {
 }
 
 bool Equilibrium::solve(Vector& x) {
-  const NewtonResult newton = minimise(body_, linear_, stop_, newton_options, x);
-  iterations_ += newton.iterations;
-  last_iterations_ = newton.iterations;
-  return newton.converged();
+  last_iterations_ = 0;
+  do {
+    const NewtonResult newton = minimise(body_, linear_, stop_, newton_options, x);
+    iterations_ += newton.iterations;
+    last_iterations_ = std::max(last_iterations_, newton.iterations);
+    if (!newton.converged()) return false;
+  } while (body_.revise(x));
+  return true;
 }
 
 bool Equilibrium::keep(double next, const Vector& x) {
@@ -104,7 +108,7 @@ bool Equilibrium::relax(double next) {
     const NewtonResult newton = minimise(inert, linear_, stop_, relaxation_options, x);
     iterations_ += newton.iterations;
     body_.residual(x, r);
-    reached = body_.imbalance(r) <= stop_.limit;
+    reached = body_.imbalance(r) <= stop_.limit && !body_.revise(x);
     a *= newton.end == NewtonResult::End::converged ? 1.0 / 8 : newton.end == NewtonResult::End::stalled ? 16 : 1.0 / 2;
   }
   linear_.set_inertia(inertia_);

@@ -115,6 +115,29 @@ Json load_json(const LoadEntry& entry) {
   return json;
 }
 
+std::vector<Table> tables_from(const Key& key) {
+  std::vector<Table> tables;
+  key.each([&](const Key& entry) {
+    entry.allow({"point", "normal", "friction"});
+    Table table;
+    table.point = entry["point"].vector();
+    table.normal = entry["normal"].vector();
+    if (!(table.normal.norm() > 0)) entry["normal"].refuse("must not be zero");
+    table.normal.normalize();
+    if (const auto friction = entry.find("friction")) table.friction = friction->non_negative();
+    tables.push_back(table);
+  });
+  return tables;
+}
+
+Json tables_json(const std::vector<Table>& tables) {
+  Json json = Json::array();
+  for (const Table& table : tables)
+    json.push_back(
+        {{"point", vector_json(table.point)}, {"normal", vector_json(table.normal)}, {"friction", table.friction}});
+  return json;
+}
+
 ElementSelection elements_from(const Key& key) {
   key.allow({"tets", "region", "box", "sphere"});
   ElementSelection which;

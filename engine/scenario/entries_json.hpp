@@ -1,5 +1,5 @@
 #pragma once
-// Entries of `boundary` and `loads`, and the selections in them and in events, between JSON and data.
+// Entries of `boundary`, `loads` and `tables`, and the selections in them and in events, between JSON and data.
 #include <heml/scenario/key.hpp>
 #include <heml/scenario/scene.hpp>
 
@@ -9,8 +9,11 @@ namespace heml {
 BoundaryEntry boundary_from(const Key& key);
 LoadEntry load_from(const Key& key);
 
+std::vector<Table> tables_from(const Key& key);
+
 Json boundary_json(const BoundaryEntry& entry);
 Json load_json(const LoadEntry& entry);
+Json tables_json(const std::vector<Table>& tables);
 
 /// {"tets": [3, 4]}, {"region": 2}, {"box": [[..], [..]]} or {"sphere": [[x, y, z], r]}. Throws likewise.
 ElementSelection elements_from(const Key& key);

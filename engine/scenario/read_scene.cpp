@@ -87,8 +87,8 @@ std::optional<InstructionSet> instructions_from(const Key& recorded) {
 /// Everything but the script.
 Scene scene_from(const Key& key, const fs::path& folder) {
   check_version(key);
-  key.allow({"schema_version", "name", "title", "description", "mesh", "materials", "boundary", "loads", "gravity",
-             "solver", "outputs", "initial", "view", "events", "checkpoints", "recorded"});
+  key.allow({"schema_version", "name", "title", "description", "mesh", "materials", "boundary", "loads", "tables",
+             "gravity", "solver", "outputs", "initial", "view", "events", "checkpoints", "recorded"});
   Scene scene;
   scene.file = key.file();
   if (const auto name = key.find("name")) scene.name = name->text();
@@ -100,6 +100,7 @@ Scene scene_from(const Key& key, const fs::path& folder) {
     boundary->each([&](const Key& entry) { scene.boundary.push_back(boundary_from(entry)); });
   if (const auto loads = key.find("loads"))
     loads->each([&](const Key& entry) { scene.loads.push_back(load_from(entry)); });
+  if (const auto tables = key.find("tables")) scene.tables = tables_from(*tables);
   if (const auto gravity = key.find("gravity")) scene.gravity = gravity->vector();
   if (const auto solver = key.find("solver")) scene.solver = solver_from(*solver);
   if (const auto outputs = key.find("outputs")) read_outputs(*outputs, scene);

@@ -27,6 +27,7 @@ Json scene_json(const Scene& scene, const std::filesystem::path& folder) {
   for (const BoundaryEntry& entry : scene.boundary) json["boundary"].push_back(boundary_json(entry));
   json["loads"] = Json::array();
   for (const LoadEntry& entry : scene.loads) json["loads"].push_back(load_json(entry));
+  if (!scene.tables.empty()) json["tables"] = tables_json(scene.tables);
   json["gravity"] = vector_json(scene.gravity);
   json["solver"] = solver_json(scene.solver);
   json["outputs"] = {{"times", scene.output_times}, {"positions", scene.output_positions}, {"vtu", scene.output_vtu}};

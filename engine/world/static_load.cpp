@@ -33,14 +33,14 @@ void TypedWorld<Real>::load_to(double fraction) {
   parts.body.begin_static(duration, setup_.gravity, start);
   if (!parts.equilibrium) {
     const double highest = static_cast<double>(rest_frequency_ * rest_frequency_);
-    const bool held = well_held(model_.mesh, model_.held);
+    const bool held = well_held(model_.mesh, held_nodes());
     if (!held) parts.body.set_anchor(anchor * highest);
     parts.equilibrium.emplace(parts.body, parts.linear, parts.mass, parts.free, setup_.solver.relative_tolerance(),
                               held ? 0 : anchor_in_float * highest, start);
   }
   Equilibrium& equilibrium = *parts.equilibrium;
   work_.load = equilibrium.load();
-  if (model_.held.empty() && pushed_away(parts.body, equilibrium.x(), fraction))
+  if (held_nodes().empty() && contacts_.empty() && pushed_away(parts.body, equilibrium.x(), fraction))
     return halt_unsolved("no equilibrium: nothing holds the body and its loads do not balance (add a boundary entry)");
   const bool reached = equilibrium.load_to(fraction, interrupted_);
   work_.load = equilibrium.load();
@@ -54,7 +54,7 @@ void TypedWorld<Real>::load_to(double fraction) {
   if (!reached && !interrupted_)
     halt_unsolved(fmt::format(
         "no equilibrium found beyond {:.4g} of the load ({}): what is written is the last one", equilibrium.load(),
-        well_held(model_.mesh, model_.held)
+        well_held(model_.mesh, held_nodes())
             ? "the body may snap, collapse or be crushed there, or leave the range of its law"
             : "it is not held against every rigid motion: then loads must balance, in force and moment"));
 }
