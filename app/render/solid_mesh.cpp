@@ -82,6 +82,35 @@ SolidShape forceps() {
   return shape;
 }
 
+SolidShape ball() {
+  SolidShape shape;
+  add_ball(shape, Vec3f::Zero(), 1);
+  return shape;
+}
+
+SolidShape disc() {
+  constexpr std::uint32_t round = 64;
+  SolidShape shape;
+  const auto vertex = [&](const Vec3f& position, const Vec3f& normal) { shape.vertices.push_back({position, normal}); };
+  const Vec3f up = Vec3f::UnitY();
+  vertex(Vec3f::Zero(), up);
+  vertex(-up, -up);
+  for (std::uint32_t k = 0; k < round; ++k) {
+    const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(k) / round;
+    const Vec3f out(std::cos(angle), 0, std::sin(angle));
+    vertex(out, up);
+    vertex(out, out);
+    vertex(out - up, out);
+    vertex(out - up, -up);
+  }
+  for (std::uint32_t k = 0; k < round; ++k) {
+    const std::uint32_t a = 2 + 4 * k, b = 2 + 4 * ((k + 1) % round);
+    for (const std::uint32_t i : {0u, b, a, a + 1, b + 1, a + 2, b + 1, b + 2, a + 2, 1u, a + 3, b + 3})
+      shape.triangles.push_back(i);
+  }
+  return shape;
+}
+
 SolidShape needle() {
   SolidShape shape;
   add_tube(shape,

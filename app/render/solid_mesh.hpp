@@ -33,6 +33,12 @@ SolidShape rod();
 /// Forceps that point down: tips together at the origin, the end at (0, 1, 0).
 SolidShape forceps();
 
+/// A ball of radius 1 about the origin.
+SolidShape ball();
+
+/// A round table: radius 1, its top at y = 0, its bottom at y = −1.
+SolidShape disc();
+
 /// A pin that stands on its point at the origin, its head at (0, 1, 0).
 SolidShape needle();
 

@@ -38,6 +38,9 @@ void ToolDrawing::place(const Frame& frame, bool shown, const Shot& shot) {
   if (!shown) return;
   if (frame.tool.active) place_grasp(frame.tool, shot);
   for (const PinState& pin : frame.pins) place_pin(pin, shot);
+  if (frame.probe.active) place_probe(frame.probe);
+  for (const TableState& state : frame.tables) place_table(state.table, frame, shot);
+  for (const SutureState& suture : frame.sutures) place_suture(suture, shot);
 }
 
 void ToolDrawing::place_grasp(const ToolState& tool, const Shot& shot) {
@@ -52,6 +55,40 @@ void ToolDrawing::place_grasp(const ToolState& tool, const Shot& shot) {
   if (reach.norm() <= thickness) return;
   parts_.push_back({&rod_, place_along(grip, reach, across(reach), reach.norm(), thickness),
                     tension_tint(static_cast<float>(tool.force.norm())), 0, false});
+}
+
+void ToolDrawing::place_probe(const ProbeState& probe) {
+  const Vec3f tip = probe.tip.cast<float>(), shaft = probe.end.cast<float>() - tip;
+  if (!tip.allFinite() || !shaft.allFinite()) return;
+  const float r = static_cast<float>(probe.radius);
+  parts_.push_back({&ball_, place_along(tip, Vec3f::UnitY(), Vec3f::UnitX(), r, r), steel, 1});
+  if (shaft.norm() == 0) return;
+  parts_.push_back({&rod_, place_along(tip, shaft, across(shaft), shaft.norm(), r), steel, 1});
+}
+
+/// As much of it as a table has, under the body.
+void ToolDrawing::place_table(const Table& table, const Frame& frame, const Shot& shot) {
+  if (frame.positions.empty()) return;
+  Vec3f middle = Vec3f::Zero();
+  for (const Vec3f& x : frame.positions) middle += x / static_cast<float>(frame.positions.size());
+  const Vec3f normal = table.normal.cast<float>();
+  middle -= normal.dot(middle - table.point.cast<float>()) * normal;
+  if (!middle.allFinite()) return;
+  parts_.push_back({&disc_, place_along(middle, normal, across(normal), 0.06f * shot.radius, 1.7f * shot.radius),
+                    Vec3f(0.055f, 0.075f, 0.08f), 0, false});
+}
+
+void ToolDrawing::place_suture(const SutureState& suture, const Shot& shot) {
+  const Vec3f from = suture.ends[0].cast<float>(), way = suture.ends[1].cast<float>() - from;
+  const float thickness = 0.008f * shot.radius;
+  if (!from.allFinite() || !way.allFinite()) return;
+  for (const Vec3& end : suture.ends)
+    parts_.push_back({&ball_,
+                      place_along(end.cast<float>(), Vec3f::UnitY(), Vec3f::UnitX(), 2 * thickness, 2 * thickness),
+                      Vec3f(0.02f, 0.02f, 0.025f), 0});
+  if (way.norm() > thickness)
+    parts_.push_back(
+        {&rod_, place_along(from, way, across(way), way.norm(), thickness), Vec3f(0.02f, 0.02f, 0.025f), 0});
 }
 
 /// Leans towards the eye, so that the tissue never hides it.

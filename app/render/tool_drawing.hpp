@@ -1,5 +1,6 @@
 #pragma once
-// The tools: forceps at the target of a grasp and the spring to the tissue it holds, a pin where tissue is pinned.
+// The tools: forceps at the target of a grasp and the spring to the tissue it holds, a pin where tissue is pinned, the
+// probe, a table under the body, threads of sutures.
 #include <app/render/camera.hpp>
 #include <app/render/solid_mesh.hpp>
 #include <heml/session/frame.hpp>
@@ -36,12 +37,15 @@ class ToolDrawing {
     bool casts = true;
   };
   void place_grasp(const ToolState& tool, const Shot& shot);
+  void place_probe(const ProbeState& probe);
+  void place_table(const Table& table, const Frame& frame, const Shot& shot);
+  void place_suture(const SutureState& suture, const Shot& shot);
   void place_pin(const PinState& pin, const Shot& shot);
   void prepare(const Program& program, const Shot& shot, const Part& part) const;
 
   Program solid_{"solid.vert", "solid.frag"};
   Program strip_{"solid.vert", "solid.frag", {"OUTLINE"}};
-  SolidMesh forceps_{forceps()}, rod_{rod()}, needle_{needle()};
+  SolidMesh forceps_{forceps()}, rod_{rod()}, needle_{needle()}, ball_{ball()}, disc_{disc()};
   std::vector<Part> parts_;
 };
 

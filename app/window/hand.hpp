@@ -14,7 +14,7 @@ enum class MouseButton { left, right, middle };
 
 class Hand {
  public:
-  enum class Doing { nothing, grasping, cutting, orbiting, panning };
+  enum class Doing { nothing, grasping, cutting, probing, orbiting, panning };
 
   explicit Hand(panel::Eye& eye) : eye_(eye) {}
 
@@ -25,16 +25,24 @@ class Hand {
              const panel::ToolInHand& tool, std::vector<Command>& out);
   /// What is held follows; a blade cuts on from where it was.
   void move(const render::Vec2f& at, const Frame& frame, const Skin& skin, std::vector<Command>& out);
+  /// Pushes a probe deeper by a notch of the wheel, or back. Returns false where there is none.
+  bool wheel(float notches, std::vector<Command>& out);
   void release(MouseButton button, std::vector<Command>& out);
   /// Ends whatever the hand does.
   void let_go(std::vector<Command>& out);
 
   Doing doing() const { return doing_; }
+  /// The end of a suture that waits for its other one: mesh-file number of a node.
+  std::optional<int> first_end() const { return first_end_; }
   /// The part of the body under a point of the picture.
   std::optional<render::Hit> under(const render::Vec2f& at, const Frame& frame, const Skin& skin) const;
 
  private:
   static std::optional<int> free_corner(const render::Hit& hit, const Skin& skin);
+  void begin_probing(const render::Hit& hit, const panel::ToolInHand& tool, const render::Vec2f& at,
+                     std::vector<Command>& out);
+  MoveProbe probe_at(const render::Vec2f& at) const;
+  bool suture(const render::Hit& hit, const Skin& skin, std::vector<Command>& out);
   bool pin(const render::Hit& hit, const Frame& frame, const Skin& skin, double radius, std::vector<Command>& out);
   bool grasp(const render::Hit& hit, const Frame& frame, const Skin& skin, double radius, std::vector<Command>& out);
   void cut(const render::Vec2f& at, const Frame& frame, const Skin& skin, std::vector<Command>& out);
@@ -49,6 +57,8 @@ class Hand {
   double depth_ = 0;                              // m, of the blade below held_point_
   std::array<Vec3, 2> blade_;                     // m, where it has cut up to
   render::Vec2f cut_to_ = render::Vec2f::Zero();  // the same, in the picture
+  panel::ToolInHand probe_;                       // as it was when the probe was taken
+  std::optional<int> first_end_;                  // of a suture
   bool goes_on_ = false;                          // this stroke has cut before
 };
 

@@ -120,7 +120,7 @@ void ContactImpulses<Real>::push(const Stopped& stopped, double closing, double 
   const double light = inverse_mass_of(point, inverse_mass);
   if (!(light > 0)) return;
   const double friction = surfaces_[stopped.surface].friction;
-  const Vec3 before = at(v, point), u = before - stopped.velocity, slides = u - point.normal.dot(u) * point.normal;
+  const Vec3 u = at(v, point) - stopped.velocity, slides = u - point.normal.dot(u) * point.normal;
   const double p = closing / light, speed = slides.norm();
   Vec3 impulse = p * point.normal;
   if (speed > 0 && friction > 0) impulse -= std::min(friction * p, speed / light) / speed * slides;
@@ -131,7 +131,7 @@ void ContactImpulses<Real>::push(const Stopped& stopped, double closing, double 
             .template cast<Real>();
   }
   impulse_[stopped.surface] += weight * impulse;
-  contacts.deeds[stopped.surface].work += impulse.dot(before + light / 2 * impulse);
+  contacts.deeds[stopped.surface].work += weight * impulse.dot(at(v, point));
 }
 
 template <class Real>

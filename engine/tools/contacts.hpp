@@ -11,10 +11,10 @@ namespace heml {
 /// What a surface has done to the body.
 struct ContactDeeds {
   Vec3 force = Vec3::Zero();  ///< N, on the body: of the last step, or the mean of the steps of a tick
-  double work = 0;            ///< J, on the body since it is there: friction's is negative, a probe's may be positive
-  double energy = 0;          ///< J, that is stored in an implicit method's contact
-  double deepest = 0;         ///< m, that a point of the body is inside; 0: none
-  int touching = 0;           ///< points of the body
+  double work = 0;     ///< J, force times way: friction's is negative, a probe's may be positive; impacts have none
+  double energy = 0;   ///< J, that is stored in an implicit method's contact
+  double deepest = 0;  ///< m, that a point of the body is inside; 0: none
+  int touching = 0;    ///< points of the body
 };
 
 struct Contacts {

@@ -145,6 +145,8 @@ bool TypedWorld<Real>::solve_stage(const Stage& stage, double h, double time, Ve
   if (!result.converged() && !setup_.solver.budget && !is_balanced_enough(stage, r)) return false;
   v = stage.velocity(x);
   for (const HeldNode& held : model_.held) v.segment<3>(3 * held.node) = held_at(model_, held, time).v;
+  for (const PinnedPatch& pin : pins_)
+    for (const int n : pin.nodes) v.segment<3>(3 * n).setZero();
   return true;
 }
 

@@ -71,7 +71,7 @@ struct PinState {
 struct TableState {
   Table table;
   Vec3 force = Vec3::Zero();  ///< N, on the tissue: of explicit methods the mean over the last tick
-  double work = 0;            ///< J, on the tissue since the table is there: friction and impacts take energy away
+  double work = 0;            ///< J, on the tissue, force times way: friction takes energy away
   double energy = 0;          ///< J, stored in the contact of implicit methods
   double deepest = 0;         ///< m, that tissue is inside
   int touching = 0;           ///< points of tissue

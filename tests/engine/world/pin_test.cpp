@@ -83,8 +83,10 @@ TEST_CASE("pin: undoing a cut brings back the pins of then, and a reset takes al
   const std::size_t held = world->pins()[0].nodes.size();
   run_until(*world, 0.01);
   const auto before = world->state_hash();
-  REQUIRE_FALSE(world->apply(CutTissue{{{{Vec3(0.085, -0.01, 0.0108), Vec3(0.12, -0.01, 0.0108)},
-                                         {Vec3(0.085, 0.03, 0.0108), Vec3(0.12, 0.03, 0.0108)}}}}));
+  CutTissue cut;
+  cut.sweep.blades = {{Vec3(0.085, -0.01, 0.0108), Vec3(0.12, -0.01, 0.0108)},
+                      {Vec3(0.085, 0.03, 0.0108), Vec3(0.12, 0.03, 0.0108)}};
+  REQUIRE_FALSE(world->apply(cut));
   REQUIRE(world->edits().size() == 1);
   CHECK(world->pins()[0].nodes.size() > held);  // nodes that the cut made within the patch are of it
   run_until(*world, 0.02);
