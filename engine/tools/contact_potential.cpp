@@ -7,6 +7,7 @@ namespace heml {
 namespace {
 
 constexpr int most_revisions = 16;      // of one solve
+constexpr double nearest_axis = 0.25;   // of a probe's radius: tissue that comes nearer is taken to have passed it
 constexpr double stiffest = 1e6;        // times a node's own stiffness
 constexpr double share_of_node = 0.5;   // of its stiffness, for each of the faces round it
 constexpr double same_friction = 1e-3;  // of all friction: what it may differ by from what was assumed
@@ -34,7 +35,7 @@ void ContactPotential::begin(const Vector& x, double time) {
   surfaces_before_ = surfaces_ = contacts_.surfaces(time);
   stiffer_.resize(surfaces_.size(), 1);
   contacts_.deeds.resize(surfaces_.size());
-  x_before_ = x;
+  x_before_ = x_seen_ = x;
   touches_at_.resize(0);
   revisions_ = 0;
   if (first) {  // what touches at first sticks, until its weight is known
@@ -98,6 +99,24 @@ Vec3 ContactPotential::friction_force(const Friction& friction, const Vector& x)
   return -friction.most / length * slid;
 }
 
+bool ContactPotential::passes(const Vector& x) const {
+  if (!contacts_.probe || x_seen_.size() != x.size()) return false;
+  double way = 0;
+  for (const int n : contacts_.skin.nodes) way = std::max(way, (at(x, n) - at(x_seen_, n)).norm());
+  bool passed = false;
+  for (const ContactSurface& surface : surfaces_) {
+    if (surface.shape != ContactSurface::Shape::capsule || way < nearest_axis * surface.radius) continue;
+    each_contact(
+        surface, contacts_.skin, way, [&](int n) { return at(x_seen_, n); },
+        [&](const ContactPoint& point) {
+          const Vec3 moved = at(x, point) - at(x_seen_, point);
+          const double from_axis = surface.radius + point.gap + point.normal.dot(moved);
+          passed = passed || (from_axis < nearest_axis * surface.radius && point.normal.dot(moved) < 0);
+        });
+  }
+  return passed;
+}
+
 double ContactPotential::value(const Vector& x) {
   find(x);
   double sum = 0;
@@ -123,6 +142,7 @@ void ContactPotential::add_forces(const Vector& x, Vector& f) {
 /// tissue is not deep inside.
 void ContactPotential::linearise(const Vector& x) {
   find(x);
+  x_seen_ = x;
   blocks_.clear();
   for (const Touch& touch : touches_) {
     const Vec3& n = touch.point.normal;

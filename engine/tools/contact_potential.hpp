@@ -33,6 +33,9 @@ class ContactPotential {
   /// Surfaces are where they are at a time, s, from now on; friction is assumed as it was at the step's start.
   void set_time(double time);
 
+  /// Whether tissue has gone through a probe on its way to x from where it was linearised last, or begun: solvers
+  /// step as far as they see fit, and on the other side nothing would push it back.
+  bool passes(const Vector& x) const;
   double value(const Vector& x);
   void add_forces(const Vector& x, Vector& f);
   /// Finds the stiffness at x, which the calls below are about. It is never negative.
@@ -79,7 +82,7 @@ class ContactPotential {
   std::vector<double> stiffer_;  ///< of each surface, times
   std::vector<Friction> friction_, accepted_;
   std::vector<ContactSurface> surfaces_, surfaces_before_;
-  Vector x_before_, touches_at_;
+  Vector x_before_, touches_at_, x_seen_;
   std::vector<Touch> touches_;  ///< where touches_at_ is
   std::vector<Block> blocks_;
   int revisions_ = 0;

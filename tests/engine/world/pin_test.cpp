@@ -90,8 +90,8 @@ TEST_CASE("pin: undoing a cut brings back the pins of then, and a reset takes al
   REQUIRE(world->edits().size() == 1);
   CHECK(world->pins()[0].nodes.size() > held);  // nodes that the cut made within the patch are of it
   run_until(*world, 0.02);
-  for (const int n : world->pins()[0].nodes)
-    CHECK(world->velocities()[static_cast<std::size_t>(n)] == Vec3(Vec3::Zero()));
+  const auto pinned = world->pins()[0].nodes;
+  for (const int n : pinned) CHECK(world->velocities()[static_cast<std::size_t>(n)] == Vec3(Vec3::Zero()));
   REQUIRE_FALSE(world->apply(Unpin{}));
   REQUIRE_FALSE(world->apply(Undo{}));
   CHECK(world->state_hash() == before);
