@@ -14,6 +14,7 @@ bool Hand::press(MouseButton button, const render::Vec2f& at, bool shift, const 
                  const panel::ToolInHand& tool, std::vector<Command>& out) {
   if (doing_ != Doing::nothing) return false;
   button_ = button;
+  if (tool.tool != panel::Tool::suture) first_end_.reset();
   last_ = at;
   if (button == MouseButton::left)
     if (const auto hit = under(at, frame, skin)) {
@@ -148,10 +149,15 @@ void Hand::move(const render::Vec2f& at, const Frame& frame, const Skin& skin, s
 }
 
 void Hand::release(MouseButton button, std::vector<Command>& out) {
-  if (button == button_) let_go(out);
+  if (button == button_) stop(out);
 }
 
 void Hand::let_go(std::vector<Command>& out) {
+  stop(out);
+  first_end_.reset();
+}
+
+void Hand::stop(std::vector<Command>& out) {
   if (doing_ == Doing::grasping) out.emplace_back(Release{});
   if (doing_ == Doing::probing) out.emplace_back(WithdrawProbe{});
   doing_ = Doing::nothing;

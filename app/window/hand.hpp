@@ -28,7 +28,7 @@ class Hand {
   /// Pushes a probe deeper by a notch of the wheel, or back. Returns false where there is none.
   bool wheel(float notches, std::vector<Command>& out);
   void release(MouseButton button, std::vector<Command>& out);
-  /// Ends whatever the hand does.
+  /// Ends whatever the hand does, and what it has begun.
   void let_go(std::vector<Command>& out);
 
   Doing doing() const { return doing_; }
@@ -38,6 +38,7 @@ class Hand {
   std::optional<render::Hit> under(const render::Vec2f& at, const Frame& frame, const Skin& skin) const;
 
  private:
+  void stop(std::vector<Command>& out);
   static std::optional<int> free_corner(const render::Hit& hit, const Skin& skin);
   void begin_probing(const render::Hit& hit, const panel::ToolInHand& tool, const render::Vec2f& at,
                      std::vector<Command>& out);
