@@ -18,7 +18,7 @@ namespace {
 struct Row {
   Mat3 F, dF;
 };
-struct Table {
+struct StateTable {
   std::vector<Row> rows;
   bool has_dF = false;
 };
@@ -43,14 +43,14 @@ std::string header(bool with_dF) {
   return text;
 }
 
-Table read_table(const std::filesystem::path& path) {
+StateTable read_table(const std::filesystem::path& path) {
   std::ifstream in(path);
   if (!in) throw InputError(path.string(), "", "cannot be read", "a CSV file with the header " + header(false));
   std::string line;
   std::getline(in, line);
   std::string names;
   for (const std::string& cell : split(line)) names += (names.empty() ? "" : ",") + cell;
-  Table table;
+  StateTable table;
   table.has_dF = names == header(true);
   if (!table.has_dF && names != header(false))
     throw InputError(path.string(), "line 1", fmt::format("the header is '{}'", names.substr(0, 80)),
@@ -92,7 +92,7 @@ int probe(const ProbeArguments& arguments) {
         fmt::format("{}: '{}' has no energy of a deformation gradient to probe: its forces are those of "
                     "edges",
                     arguments.material.string(), material.law));
-  const Table table = read_table(arguments.gradients);
+  const StateTable table = read_table(arguments.gradients);
   std::ofstream out(arguments.out);
   if (!out) throw InputError(arguments.out.string(), "", "cannot be written");
   std::string names = "W";

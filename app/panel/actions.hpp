@@ -26,18 +26,24 @@ enum class Action {
   remove,
   take_grasper,
   take_scalpel,
+  take_pin,
+  take_probe,
+  take_suture,
+  toggle_table,
   undo,
   quit
 };
 
 /// What the left button does to the body.
-enum class Tool { grasper, scalpel };
+enum class Tool { grasper, scalpel, pin, probe, suture };
 
 /// A tool as the user has set it.
 struct ToolInHand {
   Tool tool = Tool::grasper;
-  double radius = 0;  ///< m, of a grasp
-  double depth = 0;   ///< m, that the scalpel reaches below the surface
+  double radius = 0;                             ///< m, of a grasp or a pin
+  double depth = 0;                              ///< m, that the scalpel reaches below the surface
+  double probe_radius = 0, dent = 0, shaft = 0;  ///< m, of the probe, what it goes below the surface, its length
+  double friction = 0.3;                         ///< Coulomb's coefficient, of the probe and of tables
 };
 
 /// What the panel asks its owner for.

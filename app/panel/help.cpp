@@ -8,9 +8,12 @@ namespace heml::panel {
 namespace {
 
 constexpr std::pair<const char*, const char*> mouse[] = {
-    {"Left, on the body", "grasp it and pull; or cut"},   {"Left beside it, or right", "turn the eye"},
-    {"Middle, or Shift + right", "move the eye"},         {"Wheel", "nearer or farther"},
-    {"Double click beside it", "fit the body into view"}, {"Drop a file", "open a scene, mesh or surface"},
+    {"Left, on the body", "grasp it and pull; or what the tool does"},
+    {"Left beside it, or right", "turn the eye"},
+    {"Middle, or Shift + right", "move the eye"},
+    {"Wheel", "nearer or farther"},
+    {"Double click beside it", "fit the body into view"},
+    {"Drop a file", "open a scene, mesh or surface"},
 };
 
 /// Within a group: what to press, and what it does `gap` pixels from the group's left edge.

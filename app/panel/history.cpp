@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <app/panel/history.hpp>
 
 namespace heml::panel {
@@ -10,6 +11,10 @@ void History::take(const Frame& frame) {
   reading.time = frame.time;
   reading.energies = frame.energies;
   reading.force = frame.tool.active ? frame.tool.force.norm() : 0.0;
+  reading.pins = sum_of(frame.pins).norm();
+  reading.tables = sum_of(frame.tables).norm();
+  reading.probe = frame.probe.force.norm();
+  for (const SutureState& suture : frame.sutures) reading.sutures = std::max(reading.sutures, suture.force.norm());
   reading.typical_tick = frame.pace.p50;
   reading.slow_tick = frame.pace.p99;
   reading.min_J = frame.min_J;

@@ -9,7 +9,9 @@ namespace heml::panel {
 struct Reading {
   double time = 0;                         ///< s, simulated
   Energies energies;                       ///< J
-  double force = 0;                        ///< N, of the tool
+  double force = 0;                        ///< N, of the grasp
+  double pins = 0, tables = 0, probe = 0;  ///< N, of all pins and all tables together, and of the probe
+  double sutures = 0;                      ///< N, of the tightest
   double typical_tick = 0, slow_tick = 0;  ///< s of computing a tick: median and 99th percentile
   double min_J = 1, max_J = 1;
   double total() const { return energies.kinetic + energies.elastic + energies.potential; }

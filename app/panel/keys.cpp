@@ -22,6 +22,10 @@ constexpr KeyBinding bindings[] = {
     {key_delete, false, Action::remove, "Del", "remove the tissue under the ring"},
     {'G', false, Action::take_grasper, "G", "grasp with the left button"},
     {'C', false, Action::take_scalpel, "C", "cut with the left button"},
+    {'N', false, Action::take_pin, "N", "pin, or take a pin out, with the left button"},
+    {'O', false, Action::take_probe, "O", "push a probe with the left button"},
+    {'S', false, Action::take_suture, "S", "suture: two clicks, one an end"},
+    {'T', false, Action::toggle_table, "T", "a table under the body, or none"},
     {'Z', true, Action::undo, "Ctrl+Z", "take back the last cut or removal"},
     {'Q', true, Action::quit, "Ctrl+Q", "quit"},
 };

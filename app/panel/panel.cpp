@@ -13,7 +13,6 @@ namespace heml::panel {
 namespace {
 
 constexpr float controls_width = 18.5f, readings_width = 16.0f, margin = 0.7f, two_columns_from = 66;  // em
-constexpr double first_grasp = 0.12, most_grasp = 0.5, first_depth = 0.35, most_depth = 2;  // of the body's radius
 
 constexpr float patience = 1;   // s of being late before it is said aloud
 constexpr float shown_for = 5;  // s that a recovery is spoken of after its end
@@ -34,8 +33,7 @@ bool two_columns(ImVec2 picture) { return picture.x >= em(two_columns_from); }
 Panel::Panel(const Scene& scene, const Skin& skin)
     : title_(!scene.title.empty() ? scene.title : scene.name),
       description_(scene.description),
-      body_radius_(static_cast<double>(render::ball_around(skin.rest).radius)),
-      tool_{Tool::grasper, first_grasp * body_radius_, first_depth * body_radius_},
+      tool_(static_cast<double>(render::ball_around(skin.rest).radius), scene.gravity),
       material_(scene.materials),
       watch_(skin),
       skin_version_(skin.version),
@@ -87,7 +85,10 @@ void Panel::perform(Action action) { pressed_.push_back(action); }
 
 void Panel::follow(const Command& command) {
   if (const auto* material = std::get_if<SetMaterial>(&command)) material_.follow(*material);
-  if (const auto* gravity = std::get_if<SetGravity>(&command)) motion_.follow(*gravity);
+  if (const auto* gravity = std::get_if<SetGravity>(&command)) {
+    motion_.follow(*gravity);
+    tool_.follow(*gravity);
+  }
   if (const auto* damping = std::get_if<SetDamping>(&command)) motion_.follow(*damping);
   if (const auto* integrator = std::get_if<SetIntegrator>(&command)) motion_.follow(*integrator);
 }
@@ -141,11 +142,22 @@ void Panel::carry_out(Action action, const Frame& frame, PanelActions& out) {
     case Action::remove:
       return ask(Request::remove);
     case Action::take_grasper:
-      tool_.tool = Tool::grasper;
+      tool_.take(Tool::grasper);
       return;
     case Action::take_scalpel:
-      tool_.tool = Tool::scalpel;
+      tool_.take(Tool::scalpel);
       return;
+    case Action::take_pin:
+      tool_.take(Tool::pin);
+      return;
+    case Action::take_probe:
+      tool_.take(Tool::probe);
+      return;
+    case Action::take_suture:
+      tool_.take(Tool::suture);
+      return;
+    case Action::toggle_table:
+      return tool_.toggle_table(frame, out);
     case Action::undo:
       out.commands.emplace_back(Undo{});
       return;
@@ -212,7 +224,7 @@ void Panel::draw_controls(const Frame& frame, bool with_readings, PanelActions& 
     ImGui::BeginChild("sections", {0, 0}, false, ImGuiWindowFlags_NoNav);
     if (rows_.section("Material")) material_.draw(rows_, watch_.share(), out);
     if (rows_.section("Motion")) motion_.draw(rows_, out);
-    if (rows_.section("Tool")) draw_tool();
+    if (rows_.section("Tool")) tool_.draw(rows_, frame, out);
     if (with_readings) {
       if (rows_.section("Tool force")) draw_force(rows_, frame, history_);
       if (rows_.section("Energy")) draw_energies(rows_, frame, history_);
@@ -269,27 +281,6 @@ void Panel::draw_pace(const Frame& frame) {
                                           : "real time";
   const UseFont small(Font::small);
   rows_.value({"Pace", "Whether simulated time keeps up with the clock on the wall."}, text, colour, colour);
-}
-
-void Panel::draw_tool() {
-  static const std::string names[] = {"Grasper", "Scalpel"};
-  static const std::string hints[] = {"The left button takes hold of the body and pulls (G).",
-                                      "The left button draws a blade through the body (C). Ctrl+Z takes a cut back."};
-  int tool = static_cast<int>(tool_.tool);
-  if (rows_.choice({"Tool", "What the left mouse button does to the body."}, tool, names, hints))
-    tool_.tool = static_cast<Tool>(tool);
-  const auto length = [this](const Label& label, double& metres, double most) {
-    double millimetres = metres * 1e3;
-    if (rows_.slider(label, millimetres, {0, most * body_radius_ * 1e3, "%.1f mm", false})) metres = millimetres * 1e-3;
-  };
-  if (tool_.tool == Tool::scalpel)
-    length({"Depth", "How far the blade reaches below the surface, mm, along the line of sight."}, tool_.depth,
-           most_depth);
-  else
-    length({"Grasp radius",
-            "Surface nodes within this distance of where you take hold go with the tool, mm, measured on the "
-            "rest shape. 0: one node alone. Delete (Del) takes out the tissue within it, one element deep."},
-           tool_.radius, most_grasp);
 }
 
 void Panel::draw_readings(const Frame& frame) {

@@ -19,6 +19,7 @@
 #include <app/panel/motion_section.hpp>
 #include <app/panel/notices.hpp>
 #include <app/panel/stretch_watch.hpp>
+#include <app/panel/tool_section.hpp>
 #include <app/panel/view_section.hpp>
 #include <heml/scenario/scene.hpp>
 
@@ -42,7 +43,7 @@ class Panel {
 
   const render::DrawOptions& drawing() const { return view_.drawing(); }
   bool wants_stretches() const { return watch_.active(); }  ///< whether frames should carry Frame::stretches
-  const ToolInHand& tool() const { return tool_; }
+  const ToolInHand& tool() const { return tool_.tool(); }
   Insets insets(ImVec2 picture) const;  ///< that draw() takes in a picture of a size, pixels
   bool covers(float x,
               float y) const;   ///< whether a point is on the panel, as last drawn: the mouse is then not on the body
@@ -56,7 +57,6 @@ class Panel {
   void draw_header(const Frame& frame);
   void draw_pace(const Frame& frame);
   void draw_readings(const Frame& frame);
-  void draw_tool();
   void tell_refusal(const Frame& frame);
   void take_skin(const Frame& frame);
   void watch_stretches();
@@ -64,8 +64,7 @@ class Panel {
   void remember_place();
 
   std::string title_, description_;  ///< of the scene
-  double body_radius_;               ///< m, at rest
-  ToolInHand tool_;
+  ToolSection tool_;
   long refusals_ = 0;  ///< of the session, that were told
   MaterialSection material_;
   StretchWatch watch_;

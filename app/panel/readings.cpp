@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <app/panel/plot.hpp>
 #include <app/panel/quantity.hpp>
 #include <app/panel/readings.hpp>
@@ -19,8 +20,28 @@ void draw_force(Rows& rows, const Frame& frame, const History& history) {
     ImGui::PopStyleColor();
   }
   ImGui::EndGroup();
-  rows.explain({"Force", "What the tool feels: the size of the force between tool and tissue, N (newton)."});
-  const Curve curves[] = {{"Force", colours::accent, [](const Reading& r) { return r.force; }}};
+  rows.explain({"Force", "What the grasp feels: the size of the force between tool and tissue, N (newton)."});
+  if (!frame.pins.empty())
+    rows.value({"Pins", "What the pins together bear: the size of the sum of their forces on the tissue, N."},
+               newtons(sum_of(frame.pins).norm()), colours::potential);
+  if (frame.probe.active)
+    rows.value({"Probe", "The size of the force between probe and tissue, friction with it, N."},
+               newtons(frame.probe.force.norm()), colours::warning);
+  if (!frame.tables.empty()) {
+    rows.value({"Table", "The size of the force of the table on the tissue, N: at rest, what the tissue weighs."},
+               newtons(sum_of(frame.tables).norm()), colours::kinetic);
+    rows.value({"Points on it", "Points of the tissue that touch the table."},
+               fmt::format("{}", frame.tables.front().touching));
+  }
+  double tightest = 0;
+  for (const SutureState& suture : frame.sutures) tightest = std::max(tightest, suture.force.norm());
+  if (!frame.sutures.empty())
+    rows.value({"Sutures", "Tension of the tightest thread, N."}, newtons(tightest), colours::danger);
+  const Curve curves[] = {{"Grasp", colours::accent, [](const Reading& r) { return r.force; }},
+                          {"Pins", colours::potential, [](const Reading& r) { return r.pins; }},
+                          {"Probe", colours::warning, [](const Reading& r) { return r.probe; }},
+                          {"Table", colours::kinetic, [](const Reading& r) { return r.tables; }},
+                          {"Sutures", colours::danger, [](const Reading& r) { return r.sutures; }}};
   plot("force plot", history, curves, {"N", 0, 1e-3, 3.6f});
 }
 

@@ -120,7 +120,7 @@ void Renderer::Impl::draw(const Frame& frame, const Camera& camera, const DrawOp
   glDisable(GL_SCISSOR_TEST);
   glDisable(GL_CULL_FACE);
   glEnable(GL_PROGRAM_POINT_SIZE);
-  tool_.place(options.tool ? frame.tool : ToolState{}, shot);
+  tool_.place(frame, options.tool, shot);
   if (body_) {
     body_->update(frame, options.range.value_or(natural_range(frame.field, frame.values)));
     body_->update_hatching(options.beyond);

@@ -44,6 +44,20 @@ void add_tube(SolidShape& shape, const std::vector<Ring>& rings, const Vec3f& de
       shape.triangles.insert(shape.triangles.end(), {vertex(ring, 0), vertex(ring, k), vertex(ring, k + 1)});
 }
 
+void add_ball(SolidShape& shape, const Vec3f& centre, float radius) {
+  std::vector<Ring> rings;
+  constexpr int steps = 12;
+  for (int i = 0; i <= steps; ++i) {
+    const float angle = std::numbers::pi_v<float> * static_cast<float>(i) / steps;
+    const float across = std::max(1e-3f, std::sin(angle)) * radius;
+    rings.push_back({centre - Vec3f(0, radius * std::cos(angle), 0), across, across});
+  }
+  const std::size_t first = shape.vertices.size();
+  add_tube(shape, rings, Vec3f::UnitZ());
+  for (std::size_t k = first; k < shape.vertices.size(); ++k)
+    shape.vertices[k].normal = (shape.vertices[k].position - centre).normalized();
+}
+
 SolidShape rod() {
   SolidShape shape;
   add_tube(shape, {{Vec3f::Zero(), 1, 1}, {Vec3f::UnitY(), 1, 1}}, Vec3f::UnitZ());
@@ -59,12 +73,50 @@ SolidShape forceps() {
       const float t = static_cast<float>(i) / steps;
       const float bow = std::pow(std::sin(std::numbers::pi_v<float> * std::pow(t, 0.8f)), 1.2f);
       const float swell = std::sin(0.5f * std::numbers::pi_v<float> * std::min(1.0f, 1.6f * t));
-      rings.push_back({Vec3f(side * (0.006f + 0.052f * bow), t, 0), 0.006f + 0.004f * t,
-                       0.007f + 0.020f * std::pow(swell, 1.5f)});
+      rings.push_back(
+          {Vec3f(side * (0.006f + 0.052f * bow), t, 0), 0.006f + 0.004f * t, 0.007f + 0.020f * std::pow(swell, 1.5f)});
     }
     add_tube(shape, rings, Vec3f::UnitZ());
   }
   add_tube(shape, {{Vec3f(0, 0.93f, 0), 0.012f, 0.024f}, {Vec3f(0, 1.03f, 0), 0.014f, 0.022f}}, Vec3f::UnitZ());
+  return shape;
+}
+
+SolidShape ball() {
+  SolidShape shape;
+  add_ball(shape, Vec3f::Zero(), 1);
+  return shape;
+}
+
+SolidShape disc() {
+  constexpr std::uint32_t round = 64;
+  SolidShape shape;
+  const auto vertex = [&](const Vec3f& position, const Vec3f& normal) { shape.vertices.push_back({position, normal}); };
+  const Vec3f up = Vec3f::UnitY();
+  vertex(Vec3f::Zero(), up);
+  vertex(-up, -up);
+  for (std::uint32_t k = 0; k < round; ++k) {
+    const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(k) / round;
+    const Vec3f out(std::cos(angle), 0, std::sin(angle));
+    vertex(out, up);
+    vertex(out, out);
+    vertex(out - up, out);
+    vertex(out - up, -up);
+  }
+  for (std::uint32_t k = 0; k < round; ++k) {
+    const std::uint32_t a = 2 + 4 * k, b = 2 + 4 * ((k + 1) % round);
+    for (const std::uint32_t i : {0u, b, a, a + 1, b + 1, a + 2, b + 1, b + 2, a + 2, 1u, a + 3, b + 3})
+      shape.triangles.push_back(i);
+  }
+  return shape;
+}
+
+SolidShape needle() {
+  SolidShape shape;
+  add_tube(shape,
+           {{Vec3f::Zero(), 0.004f, 0.004f}, {Vec3f(0, 0.15f, 0), 0.02f, 0.02f}, {Vec3f(0, 0.9f, 0), 0.02f, 0.02f}},
+           Vec3f::UnitZ());
+  add_ball(shape, Vec3f(0, 0.88f, 0), 0.12f);
   return shape;
 }
 

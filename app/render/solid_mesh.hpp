@@ -24,11 +24,23 @@ struct Ring {
 /// Adds a tube of elliptic rings with closed ends. depth_axis: unit, never along the tube.
 void add_tube(SolidShape& shape, const std::vector<Ring>& rings, const Vec3f& depth_axis);
 
+/// Adds a ball.
+void add_ball(SolidShape& shape, const Vec3f& centre, float radius);
+
 /// A rod from the origin to (0, 1, 0), of radius 1 across.
 SolidShape rod();
 
 /// Forceps that point down: tips together at the origin, the end at (0, 1, 0).
 SolidShape forceps();
+
+/// A ball of radius 1 about the origin.
+SolidShape ball();
+
+/// A round table: radius 1, its top at y = 0, its bottom at y = −1.
+SolidShape disc();
+
+/// A pin that stands on its point at the origin, its head at (0, 1, 0).
+SolidShape needle();
 
 class SolidMesh {
  public:

@@ -5,6 +5,7 @@
 namespace heml::render {
 namespace {
 
+const Vec3f steel(0.80f, 0.83f, 0.86f);
 constexpr float half_tension = 0.5f;  // N at which the spring is half way from calm to alarming
 
 // A shape along +y from the origin, turned to `axis`, its x axis towards `side`.
@@ -19,6 +20,11 @@ Mat4f place_along(const Vec3f& origin, const Vec3f& axis, const Vec3f& side, flo
   return model;
 }
 
+/// A direction that is not along an axis.
+Vec3f across(const Vec3f& axis) {
+  return std::abs(axis.normalized().y()) < 0.9f ? Vec3f(Vec3f::UnitY()) : Vec3f(Vec3f::UnitX());
+}
+
 Vec3f tension_tint(float force) {
   const float strain = force / (force + half_tension);
   const Vec3f calm(0.03f, 0.36f, 0.29f), firm(0.62f, 0.30f, 0.02f), alarming(0.55f, 0.015f, 0.01f);
@@ -27,27 +33,80 @@ Vec3f tension_tint(float force) {
 
 }  // namespace
 
-void ToolDrawing::place(const ToolState& tool, const Shot& shot) {
-  forceps_.reset();
-  spring_.reset();
+void ToolDrawing::place(const Frame& frame, bool shown, const Shot& shot) {
+  parts_.clear();
+  if (!shown) return;
+  if (frame.tool.active) place_grasp(frame.tool, shot);
+  for (const PinState& pin : frame.pins) place_pin(pin, shot);
+  if (frame.probe.active) place_probe(frame.probe);
+  for (const TableState& state : frame.tables) place_table(state.table, frame, shot);
+  for (const SutureState& suture : frame.sutures) place_suture(suture, shot);
+}
+
+void ToolDrawing::place_grasp(const ToolState& tool, const Shot& shot) {
   const Vec3f target = tool.target.cast<float>(), grip = tool.grip.cast<float>();
-  if (!tool.active || !target.allFinite() || !grip.allFinite()) return;
+  if (!target.allFinite() || !grip.allFinite()) return;
   const Vec3f right = shot.camera.right();
   const Vec3f axis = Vec3f::UnitY() + 0.55f * right;  // leans out of the picture's middle, as a right hand holds it
   const Vec3f side = right + 0.5f * shot.camera.up().cross(right);
   const float length = 1.5f * shot.radius, thickness = 0.008f * shot.radius;
-  forceps_ = Part{place_along(target, axis, side, length, length), Vec3f(0.80f, 0.83f, 0.86f), 1};
+  parts_.push_back({&forceps_, place_along(target, axis, side, length, length), steel, 1});
   const Vec3f reach = target - grip;
   if (reach.norm() <= thickness) return;
-  const Vec3f other = std::abs(reach.normalized().y()) < 0.9f ? Vec3f::UnitY() : Vec3f::UnitX();
-  spring_ = Part{place_along(grip, reach, other, reach.norm(), thickness),
-                 tension_tint(static_cast<float>(tool.force.norm())), 0};
+  parts_.push_back({&rod_, place_along(grip, reach, across(reach), reach.norm(), thickness),
+                    tension_tint(static_cast<float>(tool.force.norm())), 0, false});
+}
+
+void ToolDrawing::place_probe(const ProbeState& probe) {
+  const Vec3f tip = probe.tip.cast<float>(), shaft = probe.end.cast<float>() - tip;
+  if (!tip.allFinite() || !shaft.allFinite()) return;
+  const float r = static_cast<float>(probe.radius);
+  parts_.push_back({&ball_, place_along(tip, Vec3f::UnitY(), Vec3f::UnitX(), r, r), steel, 1});
+  if (shaft.norm() == 0) return;
+  parts_.push_back({&rod_, place_along(tip, shaft, across(shaft), shaft.norm(), r), steel, 1});
+}
+
+/// As much of it as a table has, under the body.
+void ToolDrawing::place_table(const Table& table, const Frame& frame, const Shot& shot) {
+  if (frame.positions.empty()) return;
+  Vec3f middle = Vec3f::Zero();
+  for (const Vec3f& x : frame.positions) middle += x / static_cast<float>(frame.positions.size());
+  const Vec3f normal = table.normal.cast<float>();
+  middle -= normal.dot(middle - table.point.cast<float>()) * normal;
+  if (!middle.allFinite()) return;
+  parts_.push_back({&disc_, place_along(middle, normal, across(normal), 0.06f * shot.radius, 1.7f * shot.radius),
+                    Vec3f(0.055f, 0.075f, 0.08f), 0, false});
+}
+
+void ToolDrawing::place_suture(const SutureState& suture, const Shot& shot) {
+  const Vec3f from = suture.ends[0].cast<float>(), way = suture.ends[1].cast<float>() - from;
+  const float thickness = 0.008f * shot.radius;
+  if (!from.allFinite() || !way.allFinite()) return;
+  for (const Vec3& end : suture.ends)
+    parts_.push_back({&ball_,
+                      place_along(end.cast<float>(), Vec3f::UnitY(), Vec3f::UnitX(), 2 * thickness, 2 * thickness),
+                      Vec3f(0.02f, 0.02f, 0.025f), 0});
+  if (way.norm() > thickness)
+    parts_.push_back(
+        {&rod_, place_along(from, way, across(way), way.norm(), thickness), Vec3f(0.02f, 0.02f, 0.025f), 0});
+}
+
+/// Leans towards the eye, so that the tissue never hides it.
+void ToolDrawing::place_pin(const PinState& pin, const Shot& shot) {
+  const Vec3f place = pin.place.cast<float>();
+  if (!place.allFinite()) return;
+  const Vec3f axis = shot.camera.up() + 0.8f * (shot.camera.eye() - place).normalized();
+  const float length = 0.16f * shot.radius;
+  parts_.push_back({&needle_, place_along(place, axis, across(axis), length, length),
+                    tension_tint(static_cast<float>(pin.force.norm())), 0});
 }
 
 void ToolDrawing::cast(const Program& program) const {
-  if (!forceps_) return;
-  program.set("model", forceps_->model);
-  forceps_mesh_.draw();
+  for (const Part& part : parts_) {
+    if (!part.casts) continue;
+    program.set("model", part.model);
+    part.mesh->draw();
+  }
 }
 
 void ToolDrawing::prepare(const Program& program, const Shot& shot, const Part& part) const {
@@ -61,24 +120,18 @@ void ToolDrawing::prepare(const Program& program, const Shot& shot, const Part& 
 }
 
 void ToolDrawing::draw(const Shot& shot) const {
-  const auto draw_part = [&](const std::optional<Part>& part, const SolidMesh& mesh) {
-    if (!part) return;
-    prepare(solid_, shot, *part);
-    mesh.draw();
-  };
-  draw_part(forceps_, forceps_mesh_);
-  draw_part(spring_, rod_mesh_);
+  for (const Part& part : parts_) {
+    prepare(solid_, shot, part);
+    part.mesh->draw();
+  }
 }
 
 void ToolDrawing::draw_outline(const Shot& shot) {
-  const auto draw_part = [&](const std::optional<Part>& part, SolidMesh& mesh) {
-    if (!part) return;
-    prepare(strip_, shot, *part);
-    const Vec3f eye = (part->model.inverse() * shot.camera.eye().homogeneous()).head<3>();
-    mesh.draw_outline(eye, shot.view_projection * part->model, shot.size);
-  };
-  draw_part(forceps_, forceps_mesh_);
-  draw_part(spring_, rod_mesh_);
+  for (const Part& part : parts_) {
+    prepare(strip_, shot, part);
+    const Vec3f eye = (part.model.inverse() * shot.camera.eye().homogeneous()).head<3>();
+    part.mesh->draw_outline(eye, shot.view_projection * part.model, shot.size);
+  }
 }
 
 }  // namespace heml::render

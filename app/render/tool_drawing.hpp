@@ -1,9 +1,10 @@
 #pragma once
-// The grasping tool: forceps at its target, and the spring to the tissue it holds.
+// The tools: forceps at the target of a grasp and the spring to the tissue it holds, a pin where tissue is pinned, the
+// probe, a table under the body, threads of sutures.
 #include <app/render/camera.hpp>
 #include <app/render/solid_mesh.hpp>
-#include <heml/world/world.hpp>
-#include <optional>
+#include <heml/session/frame.hpp>
+#include <vector>
 
 namespace heml::render {
 
@@ -19,8 +20,8 @@ struct Shot {
 
 class ToolDrawing {
  public:
-  /// Places the tool for a frame; call before the others.
-  void place(const ToolState& tool, const Shot& shot);
+  /// Places the tools of a frame, or none; call before the others.
+  void place(const Frame& frame, bool shown, const Shot& shot);
 
   void cast(const Program& program) const;  ///< for shadows: sets `model`
   void draw(const Shot& shot) const;
@@ -29,16 +30,23 @@ class ToolDrawing {
  private:
   // One solid at its place.
   struct Part {
+    SolidMesh* mesh;
     Mat4f model = Mat4f::Identity();
     Vec3f tint = Vec3f::Zero();
     float metal = 0;  // 1: steel, 0: enamel
+    bool casts = true;
   };
+  void place_grasp(const ToolState& tool, const Shot& shot);
+  void place_probe(const ProbeState& probe);
+  void place_table(const Table& table, const Frame& frame, const Shot& shot);
+  void place_suture(const SutureState& suture, const Shot& shot);
+  void place_pin(const PinState& pin, const Shot& shot);
   void prepare(const Program& program, const Shot& shot, const Part& part) const;
 
   Program solid_{"solid.vert", "solid.frag"};
   Program strip_{"solid.vert", "solid.frag", {"OUTLINE"}};
-  SolidMesh forceps_mesh_{forceps()}, rod_mesh_{rod()};
-  std::optional<Part> forceps_, spring_;
+  SolidMesh forceps_{forceps()}, rod_{rod()}, needle_{needle()}, ball_{ball()}, disc_{disc()};
+  std::vector<Part> parts_;
 };
 
 }  // namespace heml::render

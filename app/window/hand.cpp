@@ -14,10 +14,17 @@ bool Hand::press(MouseButton button, const render::Vec2f& at, bool shift, const 
                  const panel::ToolInHand& tool, std::vector<Command>& out) {
   if (doing_ != Doing::nothing) return false;
   button_ = button;
+  if (tool.tool != panel::Tool::suture) first_end_.reset();
   last_ = at;
   if (button == MouseButton::left)
     if (const auto hit = under(at, frame, skin)) {
       if (tool.tool == panel::Tool::grasper) return !grasp(*hit, frame, skin, tool.radius, out);
+      if (tool.tool == panel::Tool::pin) return !pin(*hit, frame, skin, tool.radius, out);
+      if (tool.tool == panel::Tool::suture) return !suture(*hit, skin, out);
+      if (tool.tool == panel::Tool::probe) {
+        begin_probing(*hit, tool, at, out);
+        return false;
+      }
       doing_ = Doing::cutting;
       held_point_ = hit->point;
       depth_ = tool.depth;
@@ -31,17 +38,82 @@ bool Hand::press(MouseButton button, const render::Vec2f& at, bool shift, const 
   return false;
 }
 
-bool Hand::grasp(const render::Hit& hit, const Frame& frame, const Skin& skin, double radius,
-                 std::vector<Command>& out) {
+/// The corner nearest to a hit that the scene does not hold; none where it holds all.
+std::optional<int> Hand::free_corner(const render::Hit& hit, const Skin& skin) {
   const auto held = [&](int node) { return std::binary_search(skin.held.begin(), skin.held.end(), node); };
   int node = hit.node;
   for (const int corner : skin.triangles[static_cast<std::size_t>(hit.triangle)])
     if (held(node)) node = corner;
-  if (held(node)) return false;
+  return held(node) ? std::nullopt : std::optional(node);
+}
+
+/// Takes out the pin that is there, or sets one.
+bool Hand::pin(const render::Hit& hit, const Frame& frame, const Skin& skin, double radius, std::vector<Command>& out) {
+  const auto corner = free_corner(hit, skin);
+  if (!corner) return false;
+  const int node = skin.nodes[static_cast<std::size_t>(*corner)];
+  const bool pinned = std::any_of(frame.pins.begin(), frame.pins.end(), [&](const PinState& pin) {
+    return std::find(pin.nodes.begin(), pin.nodes.end(), node) != pin.nodes.end();
+  });
+  if (pinned)
+    out.emplace_back(Unpin{node});
+  else
+    out.emplace_back(PinTissue{node, radius});
+  return true;
+}
+
+bool Hand::grasp(const render::Hit& hit, const Frame& frame, const Skin& skin, double radius,
+                 std::vector<Command>& out) {
+  const auto corner = free_corner(hit, skin);
+  if (!corner) return false;
+  const int node = *corner;
   doing_ = Doing::grasping;
   held_point_ = hit.point;
   node_offset_ = frame.positions[static_cast<std::size_t>(node)] - hit.point;
   out.emplace_back(Grasp{skin.nodes[static_cast<std::size_t>(node)], radius});
+  return true;
+}
+
+/// The first click sets one end, the second the other.
+bool Hand::suture(const render::Hit& hit, const Skin& skin, std::vector<Command>& out) {
+  const int node = skin.nodes[static_cast<std::size_t>(hit.node)];
+  if (!first_end_) {
+    first_end_ = node;
+  } else {
+    if (*first_end_ != node) out.emplace_back(SutureTissue{{*first_end_, node}, 0, 0.5});
+    first_end_.reset();
+  }
+  return true;
+}
+
+/// From before the surface, along the line of sight.
+void Hand::begin_probing(const render::Hit& hit, const panel::ToolInHand& tool, const render::Vec2f& at,
+                         std::vector<Command>& out) {
+  doing_ = Doing::probing;
+  held_point_ = hit.point;
+  probe_ = tool;
+  MoveProbe probe = probe_at(at);
+  const Vec3 along = -probe.shaft.normalized();
+  probe.path.insert(probe.path.begin(), probe.path.front() - (probe_.dent + 0.1 * probe_.probe_radius) * along);
+  out.emplace_back(std::move(probe));
+}
+
+/// The tip `dent` below where the surface was pressed, in the plane that faces the eye; the shaft towards the eye.
+MoveProbe Hand::probe_at(const render::Vec2f& at) const {
+  const Vec3 point = eye_.camera().drag(at.x(), at.y(), eye_.size(), held_point_).cast<double>();
+  const Vec3 along = eye_.camera().ray(at.x(), at.y(), eye_.size()).direction.cast<double>().normalized();
+  MoveProbe probe;
+  probe.radius = probe_.probe_radius;
+  probe.shaft = -probe_.shaft * along;
+  probe.friction = probe_.friction;
+  probe.path = {point + (probe_.dent - probe_.probe_radius) * along};
+  return probe;
+}
+
+bool Hand::wheel(float notches, std::vector<Command>& out) {
+  if (doing_ != Doing::probing) return false;
+  probe_.dent += 0.1 * static_cast<double>(notches) * probe_.probe_radius;
+  out.emplace_back(probe_at(last_));
   return true;
 }
 
@@ -68,6 +140,7 @@ void Hand::move(const render::Vec2f& at, const Frame& frame, const Skin& skin, s
   if (travel == render::Vec2f::Zero()) return;
   if (doing_ == Doing::orbiting) eye_.orbit(travel.x(), travel.y());
   if (doing_ == Doing::panning) eye_.pan(travel.x(), travel.y());
+  if (doing_ == Doing::probing) out.emplace_back(probe_at(at));
   if (doing_ == Doing::cutting) cut(at, frame, skin, out);
   if (doing_ == Doing::grasping) {
     const Vec3f point = eye_.camera().drag(at.x(), at.y(), eye_.size(), held_point_);
@@ -76,11 +149,17 @@ void Hand::move(const render::Vec2f& at, const Frame& frame, const Skin& skin, s
 }
 
 void Hand::release(MouseButton button, std::vector<Command>& out) {
-  if (button == button_) let_go(out);
+  if (button == button_) stop(out);
 }
 
 void Hand::let_go(std::vector<Command>& out) {
+  stop(out);
+  first_end_.reset();
+}
+
+void Hand::stop(std::vector<Command>& out) {
   if (doing_ == Doing::grasping) out.emplace_back(Release{});
+  if (doing_ == Doing::probing) out.emplace_back(WithdrawProbe{});
   doing_ = Doing::nothing;
 }
 

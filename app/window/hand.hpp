@@ -14,25 +14,37 @@ enum class MouseButton { left, right, middle };
 
 class Hand {
  public:
-  enum class Doing { nothing, grasping, cutting, orbiting, panning };
+  enum class Doing { nothing, grasping, cutting, probing, orbiting, panning };
 
   explicit Hand(panel::Eye& eye) : eye_(eye) {}
 
-  /// A button went down at a place off the panel. Left on the body takes hold of it, or sets the blade to it. Returns
+  /// A button went down at a place off the panel. Left on the body takes hold of it, sets the blade
+  /// to it, or pins it. Returns
   /// true when the body is there but cannot be taken, because the scene holds it.
   bool press(MouseButton button, const render::Vec2f& at, bool shift, const Frame& frame, const Skin& skin,
              const panel::ToolInHand& tool, std::vector<Command>& out);
   /// What is held follows; a blade cuts on from where it was.
   void move(const render::Vec2f& at, const Frame& frame, const Skin& skin, std::vector<Command>& out);
+  /// Pushes a probe deeper by a notch of the wheel, or back. Returns false where there is none.
+  bool wheel(float notches, std::vector<Command>& out);
   void release(MouseButton button, std::vector<Command>& out);
-  /// Ends whatever the hand does.
+  /// Ends whatever the hand does, and what it has begun.
   void let_go(std::vector<Command>& out);
 
   Doing doing() const { return doing_; }
+  /// The end of a suture that waits for its other one: mesh-file number of a node.
+  std::optional<int> first_end() const { return first_end_; }
   /// The part of the body under a point of the picture.
   std::optional<render::Hit> under(const render::Vec2f& at, const Frame& frame, const Skin& skin) const;
 
  private:
+  void stop(std::vector<Command>& out);
+  static std::optional<int> free_corner(const render::Hit& hit, const Skin& skin);
+  void begin_probing(const render::Hit& hit, const panel::ToolInHand& tool, const render::Vec2f& at,
+                     std::vector<Command>& out);
+  MoveProbe probe_at(const render::Vec2f& at) const;
+  bool suture(const render::Hit& hit, const Skin& skin, std::vector<Command>& out);
+  bool pin(const render::Hit& hit, const Frame& frame, const Skin& skin, double radius, std::vector<Command>& out);
   bool grasp(const render::Hit& hit, const Frame& frame, const Skin& skin, double radius, std::vector<Command>& out);
   void cut(const render::Vec2f& at, const Frame& frame, const Skin& skin, std::vector<Command>& out);
   std::array<Vec3, 2> blade_at(const render::Vec2f& at) const;
@@ -46,6 +58,8 @@ class Hand {
   double depth_ = 0;                              // m, of the blade below held_point_
   std::array<Vec3, 2> blade_;                     // m, where it has cut up to
   render::Vec2f cut_to_ = render::Vec2f::Zero();  // the same, in the picture
+  panel::ToolInHand probe_;                       // as it was when the probe was taken
+  std::optional<int> first_end_;                  // of a suture
   bool goes_on_ = false;                          // this stroke has cut before
 };
 

@@ -37,17 +37,37 @@ void draw_ring(const render::Hit& hit, const Frame& frame, const Skin& skin, con
   list.AddCircleFilled({middle.x(), middle.y()}, panel::em(0.16f), colour, 12);
 }
 
-void draw_force(const Frame& frame, const panel::Eye& eye) {
-  if (!frame.tool.active) return;
-  const render::Vec2f at = eye.camera().pixel(frame.tool.target.cast<float>(), eye.size());
+namespace {
+
+void draw_force(const Vec3& force, const Vec3& place, const panel::Eye& eye) {
+  const render::Vec2f at = eye.camera().pixel(place.cast<float>(), eye.size());
   if (!at.allFinite()) return;
-  const std::string text = panel::newtons(frame.tool.force.norm());
+  const std::string text = panel::newtons(force.norm());
   const ImVec2 size = ImGui::CalcTextSize(text.c_str());
   const ImVec2 from(at.x() + panel::em(1.4f), at.y() - size.y / 2), pad(panel::em(0.5f), panel::em(0.25f));
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   list.AddRectFilled({from.x - pad.x, from.y - pad.y}, {from.x + size.x + pad.x, from.y + size.y + pad.y},
                      panel::colours::background, panel::em(0.4f));
   list.AddText(from, panel::colours::accent, text.c_str());
+}
+
+}  // namespace
+
+void draw_forces(const Frame& frame, const panel::Eye& eye) {
+  if (frame.tool.active) draw_force(frame.tool.force, frame.tool.target, eye);
+  for (const PinState& pin : frame.pins) draw_force(pin.force, pin.place, eye);
+  if (frame.probe.active) draw_force(frame.probe.force, frame.probe.tip, eye);
+  for (const SutureState& suture : frame.sutures) draw_force(suture.force, (suture.ends[0] + suture.ends[1]) / 2, eye);
+}
+
+void draw_end(int node, const Frame& frame, const Skin& skin, const panel::Eye& eye) {
+  const auto place = std::find(skin.nodes.begin(), skin.nodes.end(), node);
+  if (place == skin.nodes.end()) return;
+  const auto k = static_cast<std::size_t>(place - skin.nodes.begin());
+  const render::Vec2f at = eye.camera().pixel(frame.positions[k], eye.size());
+  if (!at.allFinite()) return;
+  ImGui::GetBackgroundDrawList()->AddCircle({at.x(), at.y()}, panel::em(0.45f), panel::colours::warning, 16,
+                                            panel::em(0.16f));
 }
 
 void draw_bad_element(const Frame& frame, const panel::Eye& eye) {

@@ -9,8 +9,11 @@ namespace heml::window {
 /// taken.
 void draw_ring(const render::Hit& hit, const Frame& frame, const Skin& skin, const panel::Eye& eye, double radius);
 
-/// The force in newtons beside the tool; nothing while nothing is grasped.
-void draw_force(const Frame& frame, const panel::Eye& eye);
+/// Forces in newtons beside the tools that are at work: grasp, pins, probe, sutures.
+void draw_forces(const Frame& frame, const panel::Eye& eye);
+
+/// The end of a suture that waits for its other one. node: mesh-file number.
+void draw_end(int node, const Frame& frame, const Skin& skin, const panel::Eye& eye);
 
 /// The edges of the first bad element of a frame's recovery, over everything that hides it.
 void draw_bad_element(const Frame& frame, const panel::Eye& eye);

@@ -82,15 +82,20 @@ void Viewer::draw_interface(float seconds) {
 }
 
 void Viewer::draw_marks() {
-  draw_force(*frame_, eye_);
+  draw_forces(*frame_, eye_);
+  if (hand_.first_end()) draw_end(*hand_.first_end(), *frame_, *frame_->skin, eye_);
   if (panel_->shows_recovery()) draw_bad_element(*frame_, eye_);
   if (hand_.doing() == Hand::Doing::grasping) return ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeAll);
   const bool free = hand_.doing() == Hand::Doing::nothing && !ImGui::IsAnyItemActive() && ImGui::IsMousePosValid();
   if (!free || panel_->covers(mouse_.x(), mouse_.y())) return;
   if (const auto hit = hand_.under(mouse_, *frame_, *frame_->skin)) {
-    const bool grasps = panel_->tool().tool == panel::Tool::grasper;
-    draw_ring(*hit, *frame_, *frame_->skin, eye_, grasps ? panel_->tool().radius : 0);
-    if (grasps) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
+    const panel::ToolInHand& tool = panel_->tool();
+    const bool takes_patch = tool.tool == panel::Tool::grasper || tool.tool == panel::Tool::pin;
+    draw_ring(*hit, *frame_, *frame_->skin, eye_,
+              takes_patch                       ? tool.radius
+              : tool.tool == panel::Tool::probe ? tool.probe_radius
+                                                : 0);
+    if (takes_patch) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
   }
 }
 
@@ -209,6 +214,8 @@ void Viewer::mouse(const render::Vec2f& at) {
 
 void Viewer::wheel(float notches) {
   changed();
+  std::vector<Command> commands;
+  if (hand_.wheel(notches, commands)) return post(commands);
   if (!panel_->covers(mouse_.x(), mouse_.y())) eye_.zoom(notches);
 }
 

@@ -40,7 +40,7 @@ def test_bench():
           {"integrator": "verlet", "rate": 1000, "duration": 2.5, "damping": 20},
           materials=[{"preset": "brain_ogden", "density": 1040}],
           view={"azimuth": 20, "elevation": 15, "zoom": 0.8, "field": "stretch"},
-          outputs={"probes": [{"name": "middle", "box": [[0.0499, -1, -1], [0.0501, 1, 1]]}], "history": True, "every": 0.02})
+          outputs={"markers": [{"name": "middle", "box": [[0.0499, -1, -1], [0.0501, 1, 1]]}], "history": True, "every": 0.02})
 
 
 def beam_duel():

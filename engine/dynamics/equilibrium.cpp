@@ -9,7 +9,8 @@ namespace {
 constexpr double shortest = 1.0 / 1024;  // increment, below which Newton is given up
 constexpr double relaxing = 1.0 / 64;    // increment that relaxation is tried with
 constexpr NewtonOptions newton_options{40, 1e-3};
-constexpr int quick = 8;  // iterations up to which increments grow
+constexpr double far_enough = 100;  // times the tolerance: what round-off may leave
+constexpr int quick = 8;            // iterations up to which increments grow
 constexpr NewtonOptions relaxation_options{8, 1e-2};
 constexpr int most_relaxation_steps = 80;
 
@@ -70,14 +71,22 @@ Vector Equilibrium::predict(double next) {
 }
 
 bool Equilibrium::solve(Vector& x) {
-  const NewtonResult newton = minimise(body_, linear_, stop_, newton_options, x);
-  iterations_ += newton.iterations;
-  last_iterations_ = newton.iterations;
+  last_iterations_ = 0;
+  do {
+    const NewtonResult newton = minimise(body_, linear_, stop_, newton_options, x);
+    iterations_ += newton.iterations;
+    last_iterations_ = std::max(last_iterations_, newton.iterations);
+    if (!is_enough(newton, x)) return false;
+  } while (body_.revise(x));
+  return true;
+}
+
+/// Converged, or ended by round-off where that will do.
+bool Equilibrium::is_enough(const NewtonResult& newton, const Vector& x) {
   round_off_.reset();
   Vector r;
-  if (newton.end != NewtonResult::End::stalled || !body_.residual(x, r) || !body_.is_round_off(r))
-    return newton.converged();
-  if (!strict_ && newton.measure <= std::sqrt(stop_.limit)) return true;
+  if (!newton.at_round_off || !body_.residual(x, r) || !body_.is_round_off(r)) return newton.converged();
+  if (!strict_ && newton.measure <= far_enough * stop_.limit) return true;
   round_off_ = newton.measure;
   return false;
 }
@@ -112,7 +121,7 @@ bool Equilibrium::relax(double next) {
     const NewtonResult newton = minimise(inert, linear_, stop_, relaxation_options, x);
     iterations_ += newton.iterations;
     body_.residual(x, r);
-    reached = body_.imbalance(r) <= stop_.limit;
+    reached = body_.imbalance(r) <= stop_.limit && !body_.revise(x);
     a *= newton.end == NewtonResult::End::converged ? 1.0 / 8 : newton.end == NewtonResult::End::stalled ? 16 : 1.0 / 2;
   }
   linear_.set_inertia(inertia_);

@@ -27,6 +27,8 @@ class LoadedObjective : public Objective {
   virtual bool is_round_off(const Vector& r) const = 0;
   /// Whether an equilibrium is one the load leads to: no element turned inside out.
   virtual bool acceptable(const Vector& x) const = 0;
+  /// Whether what it took for granted of a solution does not hold of x: then it is to be solved again from there.
+  virtual bool revise(const Vector&) { return false; }
   /// Keeps an equilibrium: what remembers goes on from it.
   virtual void accept(const Vector& x) = 0;
 };
@@ -64,6 +66,7 @@ class Equilibrium {
   bool increment(double next);
   Vector predict(double next);
   bool solve(Vector& x);
+  bool is_enough(const NewtonResult& newton, const Vector& x);
   bool relax(double next);
   bool keep(double next, const Vector& x);
 

@@ -19,6 +19,8 @@ struct FirstHalf {
 /// implicitly, so that the limit stays h < 2/ω_max.
 template <class Real>
 struct SymplecticEuler {
+  /// What the first half divides velocities by.
+  static double first_shrink(double h, double damping) { return 1 + damping * h; }
   static void first_half(Real h, Real damping, const FirstHalf<Real>& at, std::size_t begin, std::size_t end) {
     const auto [inverse_mass, f, x, v, x_after, v_after] = at;
     const Real shrink = 1 / (1 + damping * h);
@@ -34,6 +36,7 @@ struct SymplecticEuler {
 /// Velocity Verlet with damping, second order: v½ = (v + ½h a)/(1+½αh); x += h v½; v = (1−½αh) v½ + ½h a(x).
 template <class Real>
 struct Verlet {
+  static double first_shrink(double h, double damping) { return 1 + damping * h / 2; }
   static void first_half(Real h, Real damping, const FirstHalf<Real>& at, std::size_t begin, std::size_t end) {
     const auto [inverse_mass, f, x, v, x_after, v_after] = at;
     const Real shrink = 1 / (1 + damping * h / 2);

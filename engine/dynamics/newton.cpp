@@ -33,7 +33,8 @@ NewtonResult minimise(Objective& objective, LinearSolver& linear, const Stop& st
     // Where Φ no longer tells steps apart, the measure has to fall, or this is as near as round-off lets it come.
     idle = at.at_noise && result.measure > 0.9 * least ? idle + 1 : 0;
     least = std::min(least, result.measure);
-    if (idle == patience) return finish(NewtonResult::End::stalled);
+    result.at_round_off = idle == patience;
+    if (result.at_round_off) return finish(NewtonResult::End::stalled);
     if (result.iterations >= options.most_iterations) return finish(NewtonResult::End::out_of_iterations);
     ++result.iterations;
     const double tolerance =

@@ -28,8 +28,9 @@ struct NewtonResult {
   enum class End { converged, out_of_iterations, stalled, undefined };
   End end = End::undefined;  ///< undefined: Φ is not defined at the start
   int iterations = 0;
-  int projected = 0;   ///< of them with a stiffness made positive
-  double measure = 0;  ///< at the end
+  int projected = 0;          ///< of them with a stiffness made positive
+  double measure = 0;         ///< at the end
+  bool at_round_off = false;  ///< stalled there: values no longer tell steps apart, and the measure falls no further
   bool converged() const { return end == End::converged; }
 };
 

@@ -85,9 +85,9 @@ LoadEntry load_from(const Key& key) {
   return entry;
 }
 
-ProbeEntry probe_from(const Key& key) {
+MarkerEntry marker_from(const Key& key) {
   key.allow({"name", "nodes", "box", "sphere"});
-  ProbeEntry entry;
+  MarkerEntry entry;
   entry.where = selection_from(key);
   if (const auto name = key.find("name")) entry.name = name->text();
   if (entry.name.find_first_of(",\"\n\r") != std::string::npos)
@@ -95,7 +95,7 @@ ProbeEntry probe_from(const Key& key) {
   return entry;
 }
 
-Json probe_json(const ProbeEntry& entry) {
+Json marker_json(const MarkerEntry& entry) {
   Json json = selection_json(entry.where);
   if (!entry.name.empty()) json["name"] = entry.name;
   return json;
@@ -128,6 +128,29 @@ Json load_json(const LoadEntry& entry) {
       break;
   }
   json["over"] = entry.load.over;
+  return json;
+}
+
+std::vector<Table> tables_from(const Key& key) {
+  std::vector<Table> tables;
+  key.each([&](const Key& entry) {
+    entry.allow({"point", "normal", "friction"});
+    Table table;
+    table.point = entry["point"].vector();
+    table.normal = entry["normal"].vector();
+    if (!(table.normal.norm() > 0)) entry["normal"].refuse("must not be zero");
+    table.normal.normalize();
+    if (const auto friction = entry.find("friction")) table.friction = friction->non_negative();
+    tables.push_back(table);
+  });
+  return tables;
+}
+
+Json tables_json(const std::vector<Table>& tables) {
+  Json json = Json::array();
+  for (const Table& table : tables)
+    json.push_back(
+        {{"point", vector_json(table.point)}, {"normal", vector_json(table.normal)}, {"friction", table.friction}});
   return json;
 }
 

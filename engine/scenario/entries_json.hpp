@@ -1,5 +1,6 @@
 #pragma once
-// Entries of `boundary`, `loads` and `outputs.probes`, and the selections in them and in events, between JSON and data.
+// Entries of `boundary`, `loads`, `tables` and `outputs.markers`, and the selections in them and in events, between JSON
+// and data.
 #include <heml/scenario/key.hpp>
 #include <heml/scenario/scene.hpp>
 
@@ -8,11 +9,14 @@ namespace heml {
 /// Throw InputError naming the key.
 BoundaryEntry boundary_from(const Key& key);
 LoadEntry load_from(const Key& key);
-ProbeEntry probe_from(const Key& key);
+MarkerEntry marker_from(const Key& key);
+
+std::vector<Table> tables_from(const Key& key);
 
 Json boundary_json(const BoundaryEntry& entry);
 Json load_json(const LoadEntry& entry);
-Json probe_json(const ProbeEntry& entry);
+Json marker_json(const MarkerEntry& entry);
+Json tables_json(const std::vector<Table>& tables);
 
 /// {"tets": [3, 4]}, {"region": 2}, {"box": [[..], [..]]} or {"sphere": [[x, y, z], r]}. Throws likewise.
 ElementSelection elements_from(const Key& key);

@@ -23,15 +23,27 @@ long tick_from(const Key& key, double tick_length) {
   return static_cast<long>(tick);
 }
 
-Grasp grasp_from(const Key& key, std::optional<Vec3>& point) {
+/// A node by its number, or by a place that the schedule finds the nearest surface node of.
+int node_from(const Key& key, std::vector<Vec3>& points) {
+  if (key.only_one_of({"node", "point"}) == "node")
+    return static_cast<int>(key["node"].integer(0, std::numeric_limits<int>::max()));
+  points = {key["point"].vector()};
+  return 0;
+}
+
+Grasp grasp_from(const Key& key, std::vector<Vec3>& points) {
   key.allow({"node", "point", "radius"});
   Grasp grasp;
-  if (key.only_one_of({"node", "point"}) == "node")
-    grasp.node = static_cast<int>(key["node"].integer(0, std::numeric_limits<int>::max()));
-  else
-    point = key["point"].vector();
+  grasp.node = node_from(key, points);
   if (const auto radius = key.find("radius")) grasp.radius = radius->non_negative();
   return grasp;
+}
+
+PinTissue pin_from(const Key& key, std::vector<Vec3>& points) {
+  key.allow({"node", "point", "radius"});
+  PinTissue pin{node_from(key, points)};
+  if (const auto radius = key.find("radius")) pin.radius = radius->non_negative();
+  return pin;
 }
 
 void expect_true(const Key& key) {
@@ -50,6 +62,49 @@ std::vector<std::uint16_t> node_hashes_from(const Key& key) {
   return hashes;
 }
 
+MoveProbe probe_from(const Key& key) {
+  key.allow({"radius", "shaft", "friction", "path", "speed"});
+  MoveProbe probe;
+  probe.radius = key["radius"].positive();
+  if (const auto shaft = key.find("shaft")) probe.shaft = shaft->vector();
+  if (const auto friction = key.find("friction")) probe.friction = friction->non_negative();
+  if (const auto speed = key.find("speed")) probe.speed = speed->positive();
+  key["path"].each([&](const Key& place) { probe.path.push_back(place.vector()); });
+  if (probe.path.empty()) key["path"].fail("is empty", "give one place of the tip or more");
+  return probe;
+}
+
+SutureTissue suture_from(const Key& key, std::vector<Vec3>& points) {
+  key.allow({"nodes", "points", "length", "over"});
+  SutureTissue suture;
+  const std::string kind = key.only_one_of({"nodes", "points"});
+  if (key[kind].size() != 2) key[kind].refuse("must be two, one for each end");
+  for (std::size_t end = 0; end < 2; ++end)
+    if (kind == "nodes")
+      suture.nodes[end] = static_cast<int>(key[kind][end].integer(0, std::numeric_limits<int>::max()));
+    else
+      points.push_back(key[kind][end].vector());
+  if (const auto length = key.find("length")) suture.length = length->non_negative();
+  if (const auto over = key.find("over")) suture.over = over->non_negative();
+  return suture;
+}
+
+/// true: the grasp; "pins": all of them; a node: the pin that holds it; "probe" and "sutures" likewise.
+Command release_from(const Key& key, std::vector<Vec3>& points) {
+  if (key.json().is_object()) {
+    key.allow({"node", "point"});
+    return Unpin{node_from(key, points)};
+  }
+  if (key.json().is_string()) {
+    if (key.text() == "pins") return Unpin{};
+    if (key.text() == "probe") return WithdrawProbe{};
+    if (key.text() == "sutures") return CutSutures{};
+    key.refuse("must be true (the grasp), \"pins\", \"probe\", \"sutures\", or {\"node\": n} of a pin");
+  }
+  expect_true(key);
+  return Release{};
+}
+
 CutTissue cut_from(const Key& key) {
   key.allow({"sweep", "goes_on"});
   CutTissue cut;
@@ -63,9 +118,14 @@ CutTissue cut_from(const Key& key) {
 }
 
 /// The command an action of that name stands for.
-Command command_from(const Key& key, const std::string& action, std::optional<Vec3>& point) {
+Command command_from(const Key& key, const std::string& action, std::vector<Vec3>& points) {
   const Key value = key[action];
-  if (action == "grasp") return grasp_from(value, point);
+  if (action == "grasp") return grasp_from(value, points);
+  if (action == "tables") return SetTables{tables_from(value)};
+  if (action == "probe") return probe_from(value);
+  if (action == "suture") return suture_from(value, points);
+  if (action == "pin") return pin_from(value, points);
+  if (action == "release") return release_from(value, points);
   if (action == "move") return MoveTool{value.vector()};
   if (action == "damping") return SetDamping{value.non_negative()};
   if (action == "gravity") return SetGravity{value.vector()};
@@ -80,7 +140,6 @@ Command command_from(const Key& key, const std::string& action, std::optional<Ve
     return SetMaterial{entry.region, entry.material};
   }
   expect_true(value);
-  if (action == "release") return Release{};
   if (action == "undo") return Undo{};
   if (action == "factor") return TakeFactor{};
   return Reset{};
@@ -89,6 +148,24 @@ Command command_from(const Key& key, const std::string& action, std::optional<Ve
 Json command_json(const Grasp& grasp) { return {{"grasp", {{"node", grasp.node}, {"radius", grasp.radius}}}}; }
 Json command_json(const MoveTool& move) { return {{"move", vector_json(move.target)}}; }
 Json command_json(const Release&) { return {{"release", true}}; }
+Json command_json(const PinTissue& pin) { return {{"pin", {{"node", pin.node}, {"radius", pin.radius}}}}; }
+Json command_json(const Unpin& unpin) { return {{"release", unpin.node ? Json{{"node", *unpin.node}} : Json("pins")}}; }
+Json command_json(const SetTables& set) { return {{"tables", tables_json(set.tables)}}; }
+Json command_json(const MoveProbe& probe) {
+  Json path = Json::array();
+  for (const Vec3& place : probe.path) path.push_back(vector_json(place));
+  return {{"probe",
+           {{"radius", probe.radius},
+            {"shaft", vector_json(probe.shaft)},
+            {"friction", probe.friction},
+            {"path", std::move(path)},
+            {"speed", probe.speed}}}};
+}
+Json command_json(const WithdrawProbe&) { return {{"release", "probe"}}; }
+Json command_json(const SutureTissue& suture) {
+  return {{"suture", {{"nodes", suture.nodes}, {"length", suture.length}, {"over", suture.over}}}};
+}
+Json command_json(const CutSutures&) { return {{"release", "sutures"}}; }
 Json command_json(const SetMaterial& set) { return {{"material", material_json({set.region, set.material})}}; }
 Json command_json(const SetDamping& set) { return {{"damping", set.damping}}; }
 Json command_json(const SetGravity& set) { return {{"gravity", vector_json(set.gravity)}}; }
@@ -110,12 +187,13 @@ Json command_json(const Reset&) { return {{"reset", true}}; }
 }  // namespace
 
 void read_script_entry(const Key& key, double tick_length, Script& script) {
-  key.allow({"step", "at", "grasp", "move", "release", "material", "damping", "gravity", "integrator", "budget",
-             "step_cost", "remove", "cut", "factor", "undo", "reset", "checkpoint", "nodes", "end"});
+  key.allow({"step",   "at",       "grasp",   "move",    "release",    "pin",    "tables",    "probe",
+             "suture", "material", "damping", "gravity", "integrator", "budget", "step_cost", "remove",
+             "cut",    "factor",   "undo",    "reset",   "checkpoint", "nodes",  "end"});
   const long tick = tick_from(key, tick_length);
-  const std::string action =
-      key.only_one_of({"grasp", "move", "release", "material", "damping", "gravity", "integrator", "budget",
-                       "step_cost", "remove", "cut", "factor", "undo", "reset", "checkpoint", "end"});
+  const std::string action = key.only_one_of(
+      {"grasp",      "move",   "release",   "pin",    "tables", "probe",  "suture", "material", "damping",    "gravity",
+       "integrator", "budget", "step_cost", "remove", "cut",    "factor", "undo",   "reset",    "checkpoint", "end"});
   if (action != "checkpoint" && key.has("nodes")) key["nodes"].fail("stands without a checkpoint", "take it away");
   if (action == "checkpoint") {
     const auto nodes = key.find("nodes");
@@ -127,7 +205,7 @@ void read_script_entry(const Key& key, double tick_length, Script& script) {
     script.end = tick;
   } else {
     Script::Entry entry;
-    entry.event = {tick, command_from(key, action, entry.point)};
+    entry.event = {tick, command_from(key, action, entry.points)};
     script.entries.push_back(std::move(entry));
   }
 }
@@ -138,7 +216,7 @@ void install_script(Script script, Scene& scene) {
   std::stable_sort(script.checkpoints.begin(), script.checkpoints.end(),
                    [](const Checkpoint& a, const Checkpoint& b) { return a.tick < b.tick; });
   for (const Script::Entry& entry : script.entries) {
-    if (entry.point) scene.grasp_points[scene.events.size()] = *entry.point;
+    if (!entry.points.empty()) scene.points[scene.events.size()] = entry.points;
     scene.events.push_back(entry.event);
   }
   scene.recorded_ticks = script.end;

@@ -6,6 +6,14 @@
 //                                                         node nearest to it at rest
 //   {"step": 13, "move": [0.1, 0, 0]}                       the tool
 //   {"step": 40, "release": true}
+//   {"step": 41, "pin": {"node": 3, "radius": 0.01}}        hold where it is; node and point as in grasp
+//   {"step": 45, "release": {"node": 3}}                    the pin that holds the node; or "pins": all
+//   {"step": 46, "tables": [{"point": [0, 0, 0], "normal": [0, 1, 0], "friction": 0.3}]}   from now on, these
+//   {"step": 47, "probe": {"radius": 0.004, "shaft": [0, 0.1, 0], "friction": 0.2, "path": [[0, 0.1, 0], …],
+//                          "speed": 0.1}}                 the tip goes on from where it is; "release": "probe"
+//   {"step": 48, "suture": {"nodes": [3, 8], "length": 0, "over": 0.5}}    drawn in to a length, m, over s; or
+//   "points":
+//                                                         [[x, y, z], [x, y, z]]; "release": "sutures"
 //   {"step": 50, "material": {"region": 2, "law": ...}}     as an entry of `materials`
 //   {"step": 60, "damping": 2}   {"step": 60, "gravity": [0, -9.81, 0]}   {"step": 60, "integrator": "verlet"}
 //   {"step": 65, "remove": {"tets": [3, 4]}}               elements by number; or "region": 2; or "box": [[..], [..]]
@@ -28,7 +36,7 @@ namespace heml {
 struct Script {
   struct Entry {
     Event event;
-    std::optional<Vec3> point;  ///< of a grasp given by its place
+    std::vector<Vec3> points;  ///< of a command about nodes that are given by their places
   };
   std::vector<Entry> entries;
   std::vector<Checkpoint> checkpoints;

@@ -52,6 +52,7 @@ WorldSetup load_setup(const Scene& scene, TetMesh mesh) {
     if (load.kind != Load::Kind::force) expect_a_face(load.nodes, faces, scene.file, place);
     setup.loads.push_back(std::move(load));
   }
+  setup.tables = scene.tables;
   setup.gravity = scene.gravity;
   setup.solver = scene.solver;
   if (plays_as_recorded(scene)) setup.instruction_set = *scene.recorded_instructions;

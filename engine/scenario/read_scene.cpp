@@ -49,7 +49,7 @@ std::vector<RegionMaterial> materials_from(const Key& key) {
 }
 
 void read_outputs(const Key& key, Scene& scene) {
-  key.allow({"times", "positions", "vtu", "probes", "history", "every"});
+  key.allow({"times", "positions", "vtu", "markers", "history", "every"});
   if (const auto times = key.find("times")) {
     times->each([&](const Key& time) {
       scene.output_times.push_back(time.non_negative());
@@ -59,8 +59,8 @@ void read_outputs(const Key& key, Scene& scene) {
   }
   if (const auto positions = key.find("positions")) scene.output_positions = positions->flag();
   if (const auto vtu = key.find("vtu")) scene.output_vtu = vtu->flag();
-  if (const auto probes = key.find("probes"))
-    probes->each([&](const Key& entry) { scene.probes.push_back(probe_from(entry)); });
+  if (const auto markers = key.find("markers"))
+    markers->each([&](const Key& entry) { scene.markers.push_back(marker_from(entry)); });
   if (const auto history = key.find("history")) scene.output_history = history->flag();
   if (const auto every = key.find("every")) scene.output_every = every->positive();
 }
@@ -91,8 +91,8 @@ std::optional<InstructionSet> instructions_from(const Key& recorded) {
 /// Everything but the script.
 Scene scene_from(const Key& key, const fs::path& folder) {
   check_version(key);
-  key.allow({"schema_version", "name", "title", "description", "mesh", "materials", "boundary", "loads", "gravity",
-             "solver", "outputs", "initial", "view", "events", "checkpoints", "recorded"});
+  key.allow({"schema_version", "name", "title", "description", "mesh", "materials", "boundary", "loads", "tables",
+             "gravity", "solver", "outputs", "initial", "view", "events", "checkpoints", "recorded"});
   Scene scene;
   scene.file = key.file();
   if (const auto name = key.find("name")) scene.name = name->text();
@@ -104,6 +104,7 @@ Scene scene_from(const Key& key, const fs::path& folder) {
     boundary->each([&](const Key& entry) { scene.boundary.push_back(boundary_from(entry)); });
   if (const auto loads = key.find("loads"))
     loads->each([&](const Key& entry) { scene.loads.push_back(load_from(entry)); });
+  if (const auto tables = key.find("tables")) scene.tables = tables_from(*tables);
   if (const auto gravity = key.find("gravity")) scene.gravity = gravity->vector();
   if (const auto solver = key.find("solver")) scene.solver = solver_from(*solver);
   if (const auto outputs = key.find("outputs")) read_outputs(*outputs, scene);

@@ -75,6 +75,11 @@ void write_report(const std::filesystem::path& path, World& world, const SolveFa
                  {"inverted", std::count_if(J.begin(), J.end(), [](double ratio) { return !(ratio > 0); })}};
   report["reaction"] = Json::array();
   for (const Vec3& force : world.reactions()) report["reaction"].push_back(vector_json(force));
+  for (const TableState& table : world.tables())
+    report["tables"].push_back({{"force", vector_json(table.force)},
+                                {"work", table.work},
+                                {"deepest", table.deepest},
+                                {"touching", table.touching}});
   report["nodes"] = world.setup().mesh.nodes.size();
   const std::size_t removed = removed_of(world);
   report["tets"] = world.topology()->elements.size() + removed;

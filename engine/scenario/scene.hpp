@@ -60,7 +60,7 @@ struct LoadEntry {
 };
 
 /// Nodes whose mean place is written while a scene is solved (trace.hpp).
-struct ProbeEntry {
+struct MarkerEntry {
   std::string name;  ///< empty: its number
   Selection where;
 };
@@ -95,21 +95,23 @@ struct Scene {
   std::vector<RegionMaterial> materials;
   std::vector<BoundaryEntry> boundary;
   std::vector<LoadEntry> loads;
+  std::vector<Table> tables;
   Vec3 gravity = Vec3::Zero();
   SolverSettings solver;
   std::vector<double> output_times;  ///< s, as listed
   bool output_positions = true, output_vtu = false;
-  std::vector<ProbeEntry> probes;
+  std::vector<MarkerEntry> markers;
   bool output_history = false;
-  double output_every = 0;  ///< s between rows of probes and history; 0: every tick
+  double output_every = 0;  ///< s between rows of markers and history; 0: every tick
   Vec3 initial_velocity = Vec3::Zero();
   std::filesystem::path initial_positions;
   View view;
-  std::vector<Event> events;                  ///< ascending in tick
-  std::map<std::size_t, Vec3> grasp_points;   ///< index of a grasp in `events` to a place in space instead of a node
-  std::vector<Checkpoint> checkpoints;        ///< of a recording, ascending in tick
-  std::optional<long> recorded_ticks;         ///< of a recording: how far it went, as far as is known
-  std::optional<MeshIdentity> recorded_mesh;  ///< of a recording
+  std::vector<Event> events;  ///< ascending in tick
+  /// Index in `events` of a command about nodes to places in space instead: the surface nodes nearest to them.
+  std::map<std::size_t, std::vector<Vec3>> points;
+  std::vector<Checkpoint> checkpoints;                  ///< of a recording, ascending in tick
+  std::optional<long> recorded_ticks;                   ///< of a recording: how far it went, as far as is known
+  std::optional<MeshIdentity> recorded_mesh;            ///< of a recording
   std::optional<InstructionSet> recorded_instructions;  ///< of a recording: whose bits its states are
 };
 

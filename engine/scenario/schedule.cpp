@@ -7,9 +7,16 @@
 
 namespace heml {
 
+void set_nodes(Command& command, const TetMesh& mesh, const std::vector<Vec3>& points) {
+  const auto node = [&](std::size_t k) { return nearest_surface_node(mesh, points.at(k)); };
+  if (auto* grasp = std::get_if<Grasp>(&command)) grasp->node = node(0);
+  if (auto* pin = std::get_if<PinTissue>(&command)) pin->node = node(0);
+  if (auto* unpin = std::get_if<Unpin>(&command)) unpin->node = node(0);
+  if (auto* suture = std::get_if<SutureTissue>(&command)) suture->nodes = {node(0), node(1)};
+}
+
 Schedule::Schedule(const Scene& scene, const TetMesh& mesh) : file_(scene.file), events_(scene.events) {
-  for (const auto& [index, point] : scene.grasp_points)
-    std::get<Grasp>(events_.at(index).command).node = nearest_surface_node(mesh, point);
+  for (const auto& [index, points] : scene.points) set_nodes(events_.at(index).command, mesh, points);
   // Cuts add nodes and elements: the world tells whether those are there.
   const bool cuts = std::any_of(events_.begin(), events_.end(),
                                 [](const Event& event) { return std::holds_alternative<CutTissue>(event.command); });
@@ -22,6 +29,12 @@ Schedule::Schedule(const Scene& scene, const TetMesh& mesh) : file_(scene.file),
     };
     if (const auto* grasp = std::get_if<Grasp>(&event.command))
       expect(grasp->node, mesh.nodes.size(), "grasp.node", "nodes");
+    if (const auto* pin = std::get_if<PinTissue>(&event.command))
+      expect(pin->node, mesh.nodes.size(), "pin.node", "nodes");
+    if (const auto* unpin = std::get_if<Unpin>(&event.command); unpin && unpin->node)
+      expect(*unpin->node, mesh.nodes.size(), "release.node", "nodes");
+    if (const auto* suture = std::get_if<SutureTissue>(&event.command))
+      for (const int node : suture->nodes) expect(node, mesh.nodes.size(), "suture.nodes", "nodes");
     if (const auto* remove = std::get_if<RemoveElements>(&event.command))
       for (std::size_t k = 0; k < remove->which.tets.size(); ++k)
         expect(remove->which.tets[k], mesh.tets.size(), fmt::format("remove.tets[{}]", k), "elements");

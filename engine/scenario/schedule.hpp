@@ -8,9 +8,12 @@
 
 namespace heml {
 
+/// Of a command about nodes that was given by places: the nodes of the surface nearest to them.
+void set_nodes(Command& command, const TetMesh& mesh, const std::vector<Vec3>& points);
+
 class Schedule {
  public:
-  /// Resolves grasps given by a place to the surface node nearest at rest. mesh: as the world has it.
+  /// Resolves commands given by places to the surface nodes nearest at rest. mesh: as the world has it.
   /// Throws InputError for a node or an element the mesh does not have.
   Schedule(const Scene& scene, const TetMesh& mesh);
 

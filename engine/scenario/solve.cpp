@@ -53,7 +53,7 @@ void make_folder(const fs::path& folder) {
 void remove_outputs(const fs::path& folder, const std::vector<Landing>& landings) {
   std::error_code ignored;
   fs::remove(folder / "report.json", ignored);
-  for (const char* file : {recovery_file, Trace::probes_file, Trace::history_file}) fs::remove(folder / file, ignored);
+  for (const char* file : {recovery_file, Trace::markers_file, Trace::history_file}) fs::remove(folder / file, ignored);
   for (const Landing& landing : landings)
     for (const char* ending : {".csv", ".vtu"}) fs::remove(folder / (landing.stem + ending), ignored);
 }

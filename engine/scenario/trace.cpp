@@ -18,13 +18,13 @@ void add(std::string& row, const Vec3& v) {
 }  // namespace
 
 Trace::Trace(const Scene& scene, const World& world) : every_(scene.output_every) {
-  for (std::size_t k = 0; k < scene.probes.size(); ++k) {
-    const ProbeEntry& entry = scene.probes[k];
-    const std::string place = fmt::format("outputs.probes[{}]", k);
-    probes_.push_back({entry.name.empty() ? std::to_string(k) : entry.name,
+  for (std::size_t k = 0; k < scene.markers.size(); ++k) {
+    const MarkerEntry& entry = scene.markers[k];
+    const std::string place = fmt::format("outputs.markers[{}]", k);
+    markers_.push_back({entry.name.empty() ? std::to_string(k) : entry.name,
                        select_nodes(entry.where, world.setup().mesh, scene.file, place)});
   }
-  if (!probes_.empty()) probe_rows_ = "time,probe,x,y,z,vx,vy,vz\n";
+  if (!markers_.empty()) marker_rows_ = "time,marker,x,y,z,vx,vy,vz\n";
   if (!scene.output_history) return;
   history_rows_ = "time,kinetic,elastic,potential,min_J,max_J,tool_x,tool_y,tool_z";
   for (std::size_t k = 0; k < scene.boundary.size(); ++k)
@@ -33,29 +33,29 @@ Trace::Trace(const Scene& scene, const World& world) : every_(scene.output_every
 }
 
 void Trace::take(World& world) {
-  if (probes_.empty() && history_rows_.empty()) return;
+  if (markers_.empty() && history_rows_.empty()) return;
   const double time = world.time();
   if (time < last_) next_ = 0;  // after a reset
   if (time == last_ || time < next_ * (1 - 1e-12)) return;
   last_ = time;
   if (every_ > 0) next_ = every_ * (std::floor(time / every_ * (1 + 1e-12)) + 1);
-  if (!probes_.empty()) take_probes(world);
+  if (!markers_.empty()) take_markers(world);
   if (!history_rows_.empty()) take_history(world);
 }
 
-void Trace::take_probes(const World& world) {
+void Trace::take_markers(const World& world) {
   const std::vector<Vec3> x = world.positions(), v = world.velocities();
-  for (const Probe& probe : probes_) {
+  for (const Marker& marker : markers_) {
     Vec3 place = Vec3::Zero(), velocity = Vec3::Zero();
-    for (const int n : probe.nodes) {
+    for (const int n : marker.nodes) {
       place += x[static_cast<std::size_t>(n)];
       velocity += v[static_cast<std::size_t>(n)];
     }
-    const double count = static_cast<double>(probe.nodes.size());
-    probe_rows_ += fmt::format("{:.17g},{}", world.time(), probe.name);
-    add(probe_rows_, place / count);
-    add(probe_rows_, velocity / count);
-    probe_rows_ += '\n';
+    const double count = static_cast<double>(marker.nodes.size());
+    marker_rows_ += fmt::format("{:.17g},{}", world.time(), marker.name);
+    add(marker_rows_, place / count);
+    add(marker_rows_, velocity / count);
+    marker_rows_ += '\n';
   }
 }
 
@@ -72,7 +72,7 @@ void Trace::take_history(World& world) {
 }
 
 void Trace::write(const std::filesystem::path& folder) const {
-  if (!probe_rows_.empty()) write_text_file(folder / probes_file, probe_rows_);
+  if (!marker_rows_.empty()) write_text_file(folder / markers_file, marker_rows_);
   if (!history_rows_.empty()) write_text_file(folder / history_file, history_rows_);
 }
 

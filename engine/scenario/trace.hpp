@@ -1,5 +1,5 @@
 #pragma once
-// How a run went, as tables: what a scene's `outputs.probes` and `outputs.history` ask for.
+// How a run went, as tables: what a scene's `outputs.markers` and `outputs.history` ask for.
 #include <filesystem>
 #include <heml/scenario/scene.hpp>
 #include <heml/world/world.hpp>
@@ -9,13 +9,13 @@
 
 namespace heml {
 
-/// probes.csv   time,probe,x,y,z,vx,vy,vz            a row a probe: the mean of its nodes, m and m/s
+/// markers.csv   time,marker,x,y,z,vx,vy,vz            a row a marker: the mean of its nodes, m and m/s
 /// history.csv  time,kinetic,elastic,potential,      J; tool_*: force of the grasp on the tissue, N;
 ///              min_J,max_J,tool_x,...,               reaction_<k>_*: of boundary[k] on the body, N
 ///              reaction_0_x,...
 class Trace {
  public:
-  /// world: of the scene, before its first tick. Throws InputError for a probe that selects nothing.
+  /// world: of the scene, before its first tick. Throws InputError for a marker that selects nothing.
   Trace(const Scene& scene, const World& world);
 
   /// Keeps the state, if it is time to: the first at or after each multiple of outputs.every.
@@ -24,21 +24,21 @@ class Trace {
   /// Throws InputError when one cannot be written. Writes none that was not asked for.
   void write(const std::filesystem::path& folder) const;
 
-  static constexpr const char* probes_file = "probes.csv";
+  static constexpr const char* markers_file = "markers.csv";
   static constexpr const char* history_file = "history.csv";
 
  private:
-  struct Probe {
+  struct Marker {
     std::string name;
     std::vector<int> nodes;
   };
-  void take_probes(const World& world);
+  void take_markers(const World& world);
   void take_history(World& world);
 
-  std::vector<Probe> probes_;
+  std::vector<Marker> markers_;
   double every_;  ///< s; 0: every tick
   double next_ = 0, last_ = -1;
-  std::string probe_rows_, history_rows_;
+  std::string marker_rows_, history_rows_;
 };
 
 }  // namespace heml

@@ -27,10 +27,11 @@ Json scene_json(const Scene& scene, const std::filesystem::path& folder) {
   for (const BoundaryEntry& entry : scene.boundary) json["boundary"].push_back(boundary_json(entry));
   json["loads"] = Json::array();
   for (const LoadEntry& entry : scene.loads) json["loads"].push_back(load_json(entry));
+  if (!scene.tables.empty()) json["tables"] = tables_json(scene.tables);
   json["gravity"] = vector_json(scene.gravity);
   json["solver"] = solver_json(scene.solver);
   json["outputs"] = {{"times", scene.output_times}, {"positions", scene.output_positions}, {"vtu", scene.output_vtu}};
-  for (const ProbeEntry& entry : scene.probes) json["outputs"]["probes"].push_back(probe_json(entry));
+  for (const MarkerEntry& entry : scene.markers) json["outputs"]["markers"].push_back(marker_json(entry));
   if (scene.output_history) json["outputs"]["history"] = true;
   if (scene.output_every > 0) json["outputs"]["every"] = scene.output_every;
   json["initial"] = {{"velocity", vector_json(scene.initial_velocity)}};

@@ -23,6 +23,14 @@ struct Skin {
   std::shared_ptr<const Skin> whole = nullptr;  ///< of the body before anything was removed; none: this is it
 };
 
+/// Sum of the forces of all of them, N.
+template <class State>
+Vec3 sum_of(const std::vector<State>& states) {
+  Vec3 sum = Vec3::Zero();
+  for (const State& state : states) sum += state.force;
+  return sum;
+}
+
 inline const Skin& whole_of(const Skin& skin) { return skin.whole ? *skin.whole : skin; }
 
 /// How well the engine keeps up with the wall clock.
@@ -46,6 +54,10 @@ struct Frame {
   double min_J = 1, max_J = 1;
   std::size_t elements = 0, removed = 0;  ///< of the mesh; of them no longer there
   ToolState tool;
+  std::vector<PinState> pins;
+  std::vector<TableState> tables;
+  ProbeState probe;
+  std::vector<SutureState> sutures;
   Pace pace;
   int substeps = 1;
   double stable_step = 0;  ///< s

@@ -22,6 +22,13 @@ namespace {
 constexpr auto frame_interval = std::chrono::milliseconds(8);  // no viewer looks more often
 }  // namespace
 
+/// Whether of two commands in a row only the second counts: where the mouse was between two ticks is of no consequence.
+static bool is_overtaken(const Command& command, const Command& next) {
+  if (std::holds_alternative<MoveTool>(command)) return std::holds_alternative<MoveTool>(next);
+  const auto *probe = std::get_if<MoveProbe>(&command), *further = std::get_if<MoveProbe>(&next);
+  return probe && further && probe->path.size() == 1 && further->path.size() == 1;
+}
+
 class Session::Impl {
  public:
   Impl(const Scene& scene, SessionOptions options)
@@ -134,10 +141,8 @@ class Session::Impl {
       std::lock_guard lock(mutex_);
       taken_.swap(queue_);
     }
-    // Where the mouse was between two ticks is of no consequence: only the last of several moves counts.
     for (std::size_t i = 0; i < taken_.size(); ++i) {
-      const bool overtaken = i + 1 < taken_.size() && std::holds_alternative<MoveTool>(taken_[i]) &&
-                             std::holds_alternative<MoveTool>(taken_[i + 1]);
+      const bool overtaken = i + 1 < taken_.size() && is_overtaken(taken_[i], taken_[i + 1]);
       if (!overtaken) carry_out(taken_[i]);
     }
     if (!taken_.empty()) show_now_ = true;

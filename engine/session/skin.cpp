@@ -68,6 +68,10 @@ void fill_frame(World& world, std::shared_ptr<const Skin> skin, Field field, dou
   frame.removed = removed_of(world);
   frame.elements = J.size() + frame.removed;
   frame.tool = world.tool();
+  frame.pins = world.pins();
+  frame.tables = world.tables();
+  frame.probe = world.probe();
+  frame.sutures = world.sutures();
   frame.substeps = world.substeps();
   frame.stable_step = world.stable_step();
   frame.recovery.reset();

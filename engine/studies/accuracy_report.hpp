@@ -12,16 +12,16 @@ inline constexpr double frame_budgets[] = {0.033, 0.016, 0.001};
 std::vector<std::string> answers_of(const AccuracyStudy& study);
 
 /// What nothing tried beats: computing time a frame, errors, how.
-Table front_table(const SceneStudy& scene);
+TextTable front_table(const SceneStudy& scene);
 /// Every method on one mesh and element; failed ones say why.
-Table time_table(const TimeStudy& study);
+TextTable time_table(const TimeStudy& study);
 /// Mesh and element at rest.
-Table settled_table(const SettledStudy& study);
-Table locking_table(const std::vector<LockedBeam>& beams);
-Table law_table(const std::vector<SettledLaw>& laws);
-Table feature_table(const FeatureStudy& study);
+TextTable settled_table(const SettledStudy& study);
+TextTable locking_table(const std::vector<LockedBeam>& beams);
+TextTable law_table(const std::vector<SettledLaw>& laws);
+TextTable feature_table(const FeatureStudy& study);
 /// One line a run, with the machine, compiler, commit and threads it was made with.
-Table run_table(const AccuracyStudy& study);
+TextTable run_table(const AccuracyStudy& study);
 
 /// A picture of the report and the part it belongs to: a scene's name, "locking", or "features" and a scene's name.
 struct ReportPicture {

@@ -33,8 +33,8 @@ std::string optional_number(const std::optional<Value>& value) {
 
 }  // namespace
 
-Table front_table(const SceneStudy& scene) {
-  Table table;
+TextTable front_table(const SceneStudy& scene) {
+  TextTable table;
   table.head = {"ms a frame", "error", "of time", "of the mesh", "how"};
   table.first_number = 0, table.end_numbers = 4;
   const auto candidates = scene.candidates();
@@ -48,8 +48,8 @@ Table front_table(const SceneStudy& scene) {
   return table;
 }
 
-Table time_table(const TimeStudy& study) {
-  Table table;
+TextTable time_table(const TimeStudy& study) {
+  TextTable table;
   table.head = {"method",       "error",   "of the motion", "at the end", "s a simulated s", "ms a frame",
                 "tick p50, ms", "p99, ms", "steps",         "iterations", "frequency",       "added decay, 1/s",
                 "energy",       "volume",  "least J"};
@@ -76,8 +76,8 @@ Table time_table(const TimeStudy& study) {
   return table;
 }
 
-Table settled_table(const SettledStudy& study) {
-  Table table;
+TextTable settled_table(const SettledStudy& study) {
+  TextTable table;
   table.head = {"element", "tetrahedra", "nodes", "error", "of the motion", "s of computing"};
   table.first_number = 1, table.end_numbers = table.head.size();
   for (const SettledMesh& mesh : study.meshes) {
@@ -90,8 +90,8 @@ Table settled_table(const SettledStudy& study) {
   return table;
 }
 
-Table locking_table(const std::vector<LockedBeam>& beams) {
-  Table table;
+TextTable locking_table(const std::vector<LockedBeam>& beams) {
+  TextTable table;
   table.head = {"Poisson's ratio",  "element",    "tetrahedra", "sag, mm",
                 "extrapolated, mm", "theory, mm", "mesh error", "of it locking"};
   table.first_number = 2, table.end_numbers = table.head.size();
@@ -112,8 +112,8 @@ Table locking_table(const std::vector<LockedBeam>& beams) {
   return table;
 }
 
-Table law_table(const std::vector<SettledLaw>& laws) {
-  Table table;
+TextTable law_table(const std::vector<SettledLaw>& laws) {
+  TextTable table;
   table.head = {"law", "force left over, of a node's weight"};
   table.first_number = 1, table.end_numbers = 2;
   for (const SettledLaw& law : laws)
@@ -122,8 +122,8 @@ Table law_table(const std::vector<SettledLaw>& laws) {
   return table;
 }
 
-Table feature_table(const FeatureStudy& study) {
-  Table table;
+TextTable feature_table(const FeatureStudy& study) {
+  TextTable table;
   table.head = {"feature", "from", "to", "ms a tick", "of as it is", "error"};
   table.first_number = 3, table.end_numbers = 6;
   const double as_it_is = study.measurement.changes.front().milliseconds;
@@ -133,8 +133,8 @@ Table feature_table(const FeatureStudy& study) {
   return table;
 }
 
-Table run_table(const AccuracyStudy& study) {
-  Table table;
+TextTable run_table(const AccuracyStudy& study) {
+  TextTable table;
   table.head = {"scene",
                 "laws",
                 "element",

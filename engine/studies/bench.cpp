@@ -54,7 +54,7 @@ std::string fastest(std::span<const BenchRow> rows, const Wanted& wanted) {
 std::string kernel_table(std::span<const BenchRow> rows) {
   std::set<int> threads;
   for (const BenchRow& row : rows) threads.insert(row.threads);
-  Table table;
+  TextTable table;
   table.head = {"mesh", "law", "tets", "naive"};
   for (const char* precision : {"double", "float"})
     for (const int count : threads)
@@ -80,7 +80,7 @@ std::string kernel_table(std::span<const BenchRow> rows) {
 
 std::string table_of(std::span<const BenchRow> rows) {
   if (rows.front().suite == "kernel") return kernel_table(rows);
-  Table table;
+  TextTable table;
   table.head = {"what",    "mesh",   "law", "precision", "isa",        "tets",
                 "threads", "median", "min", "unit",      "naive/ours", "beside"};
   table.first_number = 5;

@@ -42,10 +42,10 @@ void HtmlPage::heading(const std::string& text) { body_ += fmt::format("<h2>{}</
 void HtmlPage::paragraph(const std::string& text) { body_ += fmt::format("<p>{}</p>\n", marked_up(text)); }
 void HtmlPage::answer(const std::string& text) { body_ += fmt::format("<p class=answer>{}</p>\n", marked_up(text)); }
 void HtmlPage::command(const std::string& text) { body_ += fmt::format("<pre>{}</pre>\n", html_escaped(text)); }
-void HtmlPage::table(const Table& table) { body_ += html_text(table); }
+void HtmlPage::table(const TextTable& table) { body_ += html_text(table); }
 void HtmlPage::svg(const std::string& picture, const std::string& caption) { body_ += figure(picture, caption); }
 
-void HtmlPage::details(const std::string& summary, const Table& table) {
+void HtmlPage::details(const std::string& summary, const TextTable& table) {
   body_ += fmt::format("<details><summary>{}</summary>\n{}</details>\n", marked_up(summary), html_text(table));
 }
 

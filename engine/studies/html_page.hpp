@@ -16,8 +16,8 @@ class HtmlPage {
   void paragraph(const std::string& text);
   void answer(const std::string& text);   ///< a paragraph that stands out: what a reader came for
   void command(const std::string& text);  ///< a line for a terminal
-  void table(const Table& table);
-  void details(const std::string& summary, const Table& table);  ///< a table that opens when asked for
+  void table(const TextTable& table);
+  void details(const std::string& summary, const TextTable& table);  ///< a table that opens when asked for
   void png(const std::filesystem::path& file, const std::string& caption);
   void svg(const std::string& picture, const std::string& caption);
 

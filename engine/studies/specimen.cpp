@@ -6,7 +6,7 @@
 #include <heml/base/hash.hpp>
 #include <heml/mesh/subdivide.hpp>
 #include <heml/scenario/load_mesh.hpp>
-#include <heml/scenario/selection.hpp>
+#include <heml/scenario/schedule.hpp>
 #include <heml/studies/specimen.hpp>
 
 namespace heml {
@@ -29,9 +29,9 @@ std::vector<double> lumped_masses(const WorldSetup& setup) {
 
 /// Grasps given by a place take the node that is nearest now: finer meshes have others nearer.
 void settle_grasps(Specimen& specimen) {
-  for (const auto& [index, point] : specimen.scene.grasp_points)
-    std::get<Grasp>(specimen.scene.events.at(index).command).node = nearest_surface_node(specimen.setup.mesh, point);
-  specimen.scene.grasp_points.clear();
+  for (const auto& [index, points] : specimen.scene.points)
+    set_nodes(specimen.scene.events.at(index).command, specimen.setup.mesh, points);
+  specimen.scene.points.clear();
 }
 
 void take_middles(std::vector<int>& selected, const Subdivision& finer, std::size_t old_nodes) {

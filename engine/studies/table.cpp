@@ -12,7 +12,7 @@ std::size_t width_of(const std::string& text) {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
 }
 
-bool is_number(const Table& table, std::size_t column) {
+bool is_number(const TextTable& table, std::size_t column) {
   return column >= table.first_number && column < table.end_numbers;
 }
 
@@ -29,7 +29,7 @@ std::string csv_line(const Cells& cells) {
   return line + "\n";
 }
 
-std::string html_line(const Table& table, const Cells& cells, const char* tag) {
+std::string html_line(const TextTable& table, const Cells& cells, const char* tag) {
   std::string line = "<tr>";
   for (std::size_t c = 0; c < cells.size(); ++c)
     line += fmt::format("<{}{}>{}</{}>", tag, is_number(table, c) ? " class=number" : "", html_escaped(cells[c]), tag);
@@ -38,7 +38,7 @@ std::string html_line(const Table& table, const Cells& cells, const char* tag) {
 
 }  // namespace
 
-std::string markdown_text(const Table& table) {
+std::string markdown_text(const TextTable& table) {
   std::vector<std::size_t> width(table.head.size(), 3);
   const auto widen = [&](const Cells& cells) {
     for (std::size_t c = 0; c < cells.size(); ++c) width[c] = std::max(width[c], width_of(cells[c]));
@@ -61,13 +61,13 @@ std::string markdown_text(const Table& table) {
   return text;
 }
 
-std::string csv_text(const Table& table) {
+std::string csv_text(const TextTable& table) {
   std::string text = csv_line(table.head);
   for (const Cells& row : table.rows) text += csv_line(row);
   return text;
 }
 
-std::string html_text(const Table& table) {
+std::string html_text(const TextTable& table) {
   std::string text = "<table>\n<thead>" + html_line(table, table.head, "th") + "</thead>\n<tbody>\n";
   for (const Cells& row : table.rows) text += html_line(table, row, "td");
   return text + "</tbody>\n</table>\n";

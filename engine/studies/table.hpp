@@ -8,15 +8,15 @@ namespace heml {
 
 using Cells = std::vector<std::string>;
 
-struct Table {
+struct TextTable {
   Cells head;
   std::vector<Cells> rows;                        ///< each as long as the head
   std::size_t first_number = 0, end_numbers = 0;  ///< columns that are set to the right
 };
 
-std::string markdown_text(const Table& table);  ///< columns aligned, a line end behind every row
-std::string csv_text(const Table& table);       ///< RFC 4180; the head first
-std::string html_text(const Table& table);      ///< a <table>; cells are escaped
+std::string markdown_text(const TextTable& table);  ///< columns aligned, a line end behind every row
+std::string csv_text(const TextTable& table);       ///< RFC 4180; the head first
+std::string html_text(const TextTable& table);      ///< a <table>; cells are escaped
 
 /// A figure as a table shows it: three or four digits, "1.2e-07" where it is small.
 std::string short_number(double value);

@@ -9,6 +9,7 @@ namespace heml {
 namespace {
 
 constexpr std::size_t values_remembered = 3;  // where a step began, where it would fly, where it has come
+constexpr double deepest = 1e-4;              // of the body's size: how far inside a table or a probe tissue may be
 constexpr double nothing = 1e-12;             // N: forces below vanish (contract, "tolerance")
 
 Mat3 cross_matrix(const Vec3& w) {
@@ -24,8 +25,14 @@ Vec3 at(const Vector& x, int node) { return x.segment<3>(3 * node); }
 template <class Real>
 BodyObjective<Real>::BodyObjective(ElasticBody<Real>& body, const Model<Real>& model, const std::vector<Real>& mass,
                                    const FreeNodes& free, const std::vector<GraspSpring<Real>>& grasps,
-                                   ThreadTeam& team)
-    : body_(body), model_(model), mass_(mass), free_(free), grasps_(grasps), team_(team) {
+                                   Contacts& contacts, ThreadTeam& team)
+    : body_(body),
+      model_(model),
+      mass_(mass),
+      free_(free),
+      grasps_(grasps),
+      team_(team),
+      contact_(contacts, deepest * model.diagonal) {
   find_noise();
 }
 
@@ -47,6 +54,12 @@ void BodyObjective<Real>::find_noise() {
   constexpr double epsilon = std::numeric_limits<Real>::epsilon(), safety = 4;
   const double bound = static_cast<double>(body_.frequency_bound(x_.data(), team_));
   const double spacing = model_.diagonal / std::cbrt(static_cast<double>(std::max<std::size_t>(1, mass_.size())));
+  std::vector<double> stiffness(mass_.size(), 0.0);
+  for (const int n : free_.node) {
+    const auto k = static_cast<std::size_t>(n);
+    stiffness[k] = bound * static_cast<double>(mass_[k]);
+  }
+  contact_.set_stiffness(std::move(stiffness));
   noise_ = epsilon * bound * inertia * spacing * spacing;
   const double worst = epsilon * bound * model_.diagonal;
   acceleration_noise_ = std::clamp(safety * at_rest, worst / 10, worst);
@@ -63,7 +76,32 @@ template <class Real>
 void BodyObjective<Real>::set_time(double time, const Vec3& gravity) {
   time_ = time;
   gravity_ = gravity;
+  move_tools(time);
+}
+
+template <class Real>
+void BodyObjective<Real>::move_tools(double time) {
+  if (!contact_.empty()) contact_.set_time(time);
   forget_answers();
+}
+
+template <class Real>
+void BodyObjective<Real>::begin_step(const Vector& x, double time) {
+  if (!contact_.empty()) contact_.begin(x, time);
+}
+
+template <class Real>
+void BodyObjective<Real>::end_step(const Vector& x) {
+  if (contact_.empty()) return;
+  contact_.accept(x);
+  contact_.begin(x, time_);
+}
+
+template <class Real>
+bool BodyObjective<Real>::revise(const Vector& x) {
+  if (contact_.empty() || !contact_.revise(x)) return false;
+  forget_answers();
+  return true;
 }
 
 template <class Real>
@@ -79,6 +117,7 @@ void BodyObjective<Real>::begin_static(double duration, const Vec3& gravity, con
   full_gravity_ = gravity;
   d_ = 0;
   inverted_at_start_ = count_inverted(start);
+  begin_step(start, time_);
 }
 
 template <class Real>
@@ -94,7 +133,8 @@ void BodyObjective<Real>::place_held(double fraction, Vector& x) const {
 template <class Real>
 double BodyObjective<Real>::imbalance(const Vector& r) const {
   double reactions = 0;
-  for (const HeldNode& held : model_.held) reactions += forces_.segment<3>(3 * held.node).squaredNorm();
+  for (std::size_t n = 0; n < free_.number.size(); ++n)
+    if (free_.number[n] < 0) reactions += forces_.segment<3>(3 * static_cast<int>(n)).squaredNorm();
   const double carried = std::max(std::sqrt(reactions), external_.norm());
   const double left = r.norm();
   if (carried <= nothing) return left <= nothing ? 0 : left / nothing;
@@ -143,6 +183,7 @@ bool BodyObjective<Real>::acceptable(const Vector& x) const {
 template <class Real>
 void BodyObjective<Real>::accept(const Vector& x) {
   if (body_.has_memory()) body_.commit(as_real(x, x_));
+  end_step(x);
 }
 
 template <class Real>
@@ -164,6 +205,7 @@ void BodyObjective<Real>::add_external(const Real* x, const Vector& x_double) {
     for (std::size_t i = 0; i < 3; ++i)
       external_[static_cast<Eigen::Index>(3 * n + i)] =
           static_cast<double>(f_[3 * n + i]) + static_cast<double>(mass_[n]) * gravity_[static_cast<int>(i)];
+  if (!contact_.empty()) contact_.add_forces(x_double, external_);
 }
 
 template <class Real>
@@ -184,7 +226,7 @@ template <class Real>
 void BodyObjective<Real>::find_forces(const Vector& x) {
   const Real* at_x = as_real(x, x_);
   f_.resize(x_.size());
-  is_defined_ = body_.forces(at_x, f_.data(), team_);
+  is_defined_ = body_.forces(at_x, f_.data(), team_) && !contact_.passes(x);
   forces_.resize(x.size());
   for (std::size_t i = 0; i < f_.size(); ++i) forces_[static_cast<Eigen::Index>(i)] = static_cast<double>(f_[i]);
   add_external(at_x, x);
@@ -214,6 +256,7 @@ double BodyObjective<Real>::find_value(const Vector& x) {
         sum -=
             ramp(time_, load.over) * static_cast<double>(load.forces[3 * k + static_cast<std::size_t>(i)]) * moved[i];
     }
+  if (!contact_.empty()) sum += contact_.value(x);
   for (const auto& grasp : grasps_) {
     sum += grasp.energy(at_x);
     if (d_ > 0)
@@ -245,6 +288,7 @@ void BodyObjective<Real>::linearise(const Vector& x, Projection projection) {
   body_.project(projection, team_);
   const bool with_pressure = !model_.pressures.empty() && projection == Projection::none;
   linearised_at_ = with_pressure ? x : Vector();
+  if (!contact_.empty()) contact_.linearise(x);
 }
 
 template <class Real>
@@ -265,6 +309,11 @@ void BodyObjective<Real>::product(const Vector& dx, Vector& out) {
     for (std::size_t j = 0; j < 3; ++j) push += p * w[j].cross(at(dx, face[j]));
     for (const int n : face) add(n, -push);
   });
+  if (!contact_.empty()) {
+    contact_.add_product(dx, out);
+    for (std::size_t n = 0; n < free_.number.size(); ++n)
+      if (free_.number[n] < 0) out.segment<3>(3 * static_cast<int>(n)).setZero();
+  }
   for (const auto& grasp : grasps_)
     grasp.each_stiffness([&](int n, Real k, Real damping) {
       add(n, (static_cast<double>(k) + (d_ > 0 ? static_cast<double>(damping) / d_ : 0)) * at(dx, n));
@@ -293,14 +342,32 @@ void BodyObjective<Real>::add_stiffness(BlockMatrix& matrix) {
       matrix.add_pair(face[i], face[j], p / 2 * cross_matrix(w[i] - w[j]));
     }
   });
+  add_contact_stiffness(matrix, [&](int a, int b, const Mat3& K) { matrix.add_pair(a, b, K); });
   add_diagonal(matrix);
 }
 
 template <class Real>
 bool BodyObjective<Real>::add_stiffness_in_float(BlockRows& rows) {
-  if (!symmetric() || !body_.add_stiffness(rows, team_)) return false;
+  if (!symmetric() || !contact_.within_nodes() || !body_.add_stiffness(rows, team_)) return false;
+  add_contact_stiffness(rows, [](int, int, const Mat3&) {});
   add_diagonal(rows);
   return true;
+}
+
+/// What contact adds for points of one node, and of a thread at its ends; what faces and threads join is left to
+/// `pair`.
+template <class Real>
+template <class Matrix, class Pair>
+void BodyObjective<Real>::add_contact_stiffness(Matrix& matrix, const Pair& pair) const {
+  if (contact_.empty()) return;
+  const auto is_free = [&](int n) { return free_.number[static_cast<std::size_t>(n)] >= 0; };
+  contact_.each_block([&](int a, int b, const Mat3& K) {
+    if (!is_free(a) || !is_free(b)) return;
+    if (a == b)
+      matrix.add_node(a, K);
+    else
+      pair(a, b, K);
+  });
 }
 
 /// What grasps and the anchor have.

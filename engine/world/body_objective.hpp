@@ -1,6 +1,6 @@
 #pragma once
 // A body with all that acts on it, as solvers see it (dynamics/objective.hpp): elastic energy and what remembers,
-// gravity, dead loads, pressure, grasps. Inertia comes on top (dynamics/incremental_potential.hpp).
+// gravity, dead loads, pressure, grasps, contact. Inertia comes on top (dynamics/incremental_potential.hpp).
 //
 // Pressure follows the surface and has no potential in general: with it value() has nothing to say, products are not
 // symmetric, and the assembled stiffness has the symmetric part of pressure's.
@@ -8,6 +8,7 @@
 #include <heml/base/thread_team.hpp>
 #include <heml/dynamics/equilibrium.hpp>
 #include <heml/elastic/body.hpp>
+#include <heml/tools/contact_potential.hpp>
 #include <heml/tools/grasp.hpp>
 #include <heml/world/model.hpp>
 #include <utility>
@@ -19,7 +20,7 @@ class BodyObjective final : public LoadedObjective {
  public:
   /// mass: #V, kg. All must outlive this.
   BodyObjective(ElasticBody<Real>& body, const Model<Real>& model, const std::vector<Real>& mass, const FreeNodes& free,
-                const std::vector<GraspSpring<Real>>& grasps, ThreadTeam& team);
+                const std::vector<GraspSpring<Real>>& grasps, Contacts& contacts, ThreadTeam& team);
 
   /// Loads as at time t, s. gravity: m/s².
   void set_time(double time, const Vec3& gravity);
@@ -27,6 +28,15 @@ class BodyObjective final : public LoadedObjective {
   void set_velocity(double d, const Vector& x_bar);
   /// Adds a · mass to the stiffness, not to the residual, a in 1/s²: holds what nothing else does while it is solved.
   void set_anchor(double a) { anchor_ = a; }
+
+  /// A step begins at x, at a time, s; it has ended at x.
+  void begin_step(const Vector& x, double time);
+  void end_step(const Vector& x);
+  /// Moves tools alone to where they are at a time, s.
+  void move_tools(double time);
+  void forget_contact() { contact_.forget(); }
+  /// Adds what contact does at x, where the last step has ended, N.
+  void add_contact(const Vector& x, Vector& f) { contact_.add_forces(x, f); }
 
   // Static worlds: the load is the fraction of a duration, s; start: the state at load 0.
   void begin_static(double duration, const Vec3& gravity, const Vector& start);
@@ -36,6 +46,7 @@ class BodyObjective final : public LoadedObjective {
   bool is_round_off(const Vector& r) const override;
   bool acceptable(const Vector& x) const override;
   void accept(const Vector& x) override;
+  bool revise(const Vector& x) override;
 
   bool residual(const Vector& x, Vector& r) override;
   std::optional<double> value(const Vector& x) override;
@@ -65,6 +76,8 @@ class BodyObjective final : public LoadedObjective {
   void add_external(const Real* x, const Vector& x_double);
   template <class Matrix>
   void add_diagonal(Matrix& matrix) const;
+  template <class Matrix, class Pair>
+  void add_contact_stiffness(Matrix& matrix, const Pair& pair) const;
   template <class Visit>
   void each_pressed_face(const Vector& x, const Visit& visit) const;
   int count_inverted(const Vector& x) const;
@@ -75,6 +88,7 @@ class BodyObjective final : public LoadedObjective {
   const FreeNodes& free_;
   const std::vector<GraspSpring<Real>>& grasps_;
   ThreadTeam& team_;
+  ContactPotential contact_;
   double time_ = 0, duration_ = 0, d_ = 0, anchor_ = 0;
   Vec3 gravity_ = Vec3::Zero(), full_gravity_ = Vec3::Zero();
   Vector x_bar_;

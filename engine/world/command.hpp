@@ -1,14 +1,17 @@
 #pragma once
 // What a person or a script can do to a running world: one struct an action. Commands enter at the start of a tick, at
 // one door (World::apply), where sessions record them; a replay sends the same commands at the same ticks.
+#include <array>
 #include <heml/materials/material.hpp>
 #include <heml/math/types.hpp>
 #include <heml/mesh/edit.hpp>
 #include <heml/mesh/sweep.hpp>
+#include <heml/tools/contact_surface.hpp>
 #include <heml/world/setup.hpp>
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 namespace heml {
 
@@ -24,6 +27,37 @@ struct MoveTool {
 };
 /// Lets go.
 struct Release {};
+/// Holds the surface nodes within `radius` of a node exactly where they are, beside all that is pinned already.
+struct PinTissue {
+  int node = 0;       ///< mesh-file order
+  double radius = 0;  ///< m, rest shape; 0: that node alone
+};
+/// Releases the pin that holds a node.
+struct Unpin {
+  std::optional<int> node;  ///< mesh-file order; none: all pins
+};
+/// The tables that there are from now on: these.
+struct SetTables {
+  std::vector<Table> tables;
+};
+/// Sets the probe on its way: from where it is, or, where there is none, from the path's first place.
+struct MoveProbe {
+  double radius = 0;          ///< m
+  Vec3 shaft = Vec3::Zero();  ///< m, from the tip's centre to the other end of a capsule's axis; 0: a ball
+  double friction = 0;        ///< Coulomb's coefficient
+  std::vector<Vec3> path;     ///< m, places of the tip's centre, one or more
+  double speed = 1;           ///< m/s
+};
+/// Takes the probe away.
+struct WithdrawProbe {};
+/// Ties two nodes by a stiff link that is drawn in from the distance between them now.
+struct SutureTissue {
+  std::array<int, 2> nodes{};  ///< mesh-file order
+  double length = 0;           ///< m, in the end
+  double over = 0.5;           ///< s, of drawing in
+};
+/// Takes out all sutures.
+struct CutSutures {};
 /// Switches the material of a region (none: of the default entry, or the only one). Positions and velocities are kept.
 struct SetMaterial {
   std::optional<int> region;
@@ -69,7 +103,8 @@ struct TakeFactor {};
 /// like stay as they are.
 struct Reset {};
 
-using Command = std::variant<Grasp, MoveTool, Release, SetMaterial, SetDamping, SetGravity, SetIntegrator, SetBudget,
+using Command = std::variant<Grasp, MoveTool, Release, PinTissue, Unpin, SetTables, MoveProbe, WithdrawProbe,
+                             SutureTissue, CutSutures, SetMaterial, SetDamping, SetGravity, SetIntegrator, SetBudget,
                              SetStepCost, RemoveElements, CutTissue, Undo, TakeFactor, Reset>;
 
 /// A command and the tick at whose start it takes effect (the first tick is 0).

@@ -37,10 +37,10 @@ template <class Real>
 ImplicitParts<Real>::ImplicitParts(ElasticBody<Real>& elastic, const Model<Real>& model,
                                    const std::vector<Real>& masses, const std::vector<Real>& inverse_mass,
                                    const std::vector<double>& modulus, const std::vector<GraspSpring<Real>>& grasps,
-                                   ThreadTeam& team, const SolverSettings& solver)
+                                   Contacts& contacts, ThreadTeam& team, const SolverSettings& solver)
     : free(nonzero(inverse_mass)),
       mass(thrice(free, masses)),
-      body(elastic, model, masses, free, grasps, team),
+      body(elastic, model, masses, free, grasps, contacts, team),
       linear(free, model.mesh, modulus, mass, preconditioner_of(solver, free.node.size()), solver.projection, team),
       step(body, mass, free) {}
 

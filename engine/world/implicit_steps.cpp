@@ -11,6 +11,7 @@ namespace {
 constexpr double smallest_share = 1.0 / 64;  // of a tick: shorter steps are not tried
 constexpr double slack_of_motion = 1e-3;     // of gravity's acceleration: what a step may leave unbalanced
 constexpr double earth = 9.81;               // m/s²
+constexpr int most_ways = 64;                // of a probe in a step
 constexpr int quasi_patience = 5;            // iterations of L-BFGS for one of Newton's: then Newton's go on
 }  // namespace
 
@@ -20,7 +21,7 @@ ImplicitParts<Real>& TypedWorld<Real>::implicit() {
     implicit_ = std::make_unique<ImplicitParts<Real>>(
         body_, model_, mass_, inverse_mass_,
         preconditioner_moduli(model_.mesh, model_.material_of, setup_.materials, setup_.solver.minimiser), grasps_,
-        team_, setup_.solver);
+        contacts_, team_, setup_.solver);
   return *implicit_;
 }
 
@@ -58,6 +59,7 @@ bool TypedWorld<Real>::implicit_step(double h, double time_after) {
   parts.x = as_vector(state_.x);
   parts.v = as_vector(state_.v);
   Vector x = parts.x, v = parts.v;
+  parts.body.begin_step(parts.x, state_.time);
   bool done = false;
   if (method_ == Integrator::backward_euler) {
     done = solve_stage(backward_euler_stage(x, v, h), h, time_after, x, v);
@@ -76,6 +78,7 @@ bool TypedWorld<Real>::implicit_step(double h, double time_after) {
     return false;
   }
   if (setup_.solver.budget) limit_energy(h, time_after, x, v);
+  parts.body.end_step(x);
   parts.x_before = parts.x;
   parts.v_before = parts.v;
   parts.h_before = h;
@@ -119,9 +122,17 @@ bool TypedWorld<Real>::solve_stage(const Stage& stage, double h, double time, Ve
   parts.body.set_velocity(stage.d, stage.x_bar);
   parts.step.set(stage.a(damping), stage.y(damping));
   parts.linear.set_inertia(stage.a(damping));
+  const int ways = tool_ways(h);
+  parts.body.move_tools(time - h * (ways - 1) / ways);
   x = stage_start(stage, time, x);
-  const NewtonResult result = minimise_stage(x);
-  work_.iterations += result.iterations;
+  NewtonResult result;
+  for (int way = 1; way <= ways; ++way) {
+    if (way > 1) parts.body.move_tools(time - h * (ways - way) / ways);
+    do {
+      result = minimise_stage(x);
+      work_.iterations += result.iterations;
+    } while (result.end != NewtonResult::End::undefined && !setup_.solver.budget && parts.body.revise(x));
+  }
   Vector r;
   parts.step.residual(x, r);
   work_.residual = parts.body.imbalance(r);
@@ -129,7 +140,17 @@ bool TypedWorld<Real>::solve_stage(const Stage& stage, double h, double time, Ve
   if (!result.converged() && !setup_.solver.budget && !is_balanced_enough(stage, r)) return false;
   v = stage.velocity(x);
   for (const HeldNode& held : model_.held) v.segment<3>(3 * held.node) = held_at(model_, held, time).v;
+  for (const PinnedPatch& pin : pins_)
+    for (const int n : pin.nodes) v.segment<3>(3 * n).setZero();
   return true;
+}
+
+/// Into how many parts what a probe goes in h, s, is divided: it meets tissue at the end of each, and does not pass it.
+template <class Real>
+int TypedWorld<Real>::tool_ways(double h) const {
+  if (!contacts_.probe) return 1;
+  const double way = (contacts_.probe->tip(state_.time + h) - contacts_.probe->tip(state_.time)).norm();
+  return std::clamp(static_cast<int>(std::ceil(2 * way / contacts_.probe->radius())), 1, most_ways);
 }
 
 template <class Real>

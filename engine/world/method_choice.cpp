@@ -75,7 +75,7 @@ std::optional<std::string> TypedWorld<Real>::take(const SetStepCost& command) {
 template <class Real>
 double TypedWorld<Real>::lowest_frequency() {
   ImplicitParts<Real>& parts = implicit();
-  if (parts.free.node.empty() || !well_held(model_.mesh, model_.held)) return 0;
+  if (parts.free.node.empty() || !well_held(model_.mesh, held_nodes())) return 0;
   Vector rest(parts.mass.size()), shape, push;
   for (std::size_t n = 0; n < model_.mesh.nodes.size(); ++n)
     rest.template segment<3>(3 * static_cast<int>(n)) = model_.mesh.nodes[n];

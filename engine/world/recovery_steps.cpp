@@ -169,7 +169,8 @@ Suspects TypedWorld<Real>::suspect(const Condition& seen) const {
 
 template <class Real>
 void TypedWorld<Real>::stand_in() {
-  recovery_->stand_in = std::make_unique<StandIn<Real>>(model_, setup_, mass_, inverse_mass_, grasps_, team_);
+  recovery_->stand_in =
+      std::make_unique<StandIn<Real>>(model_, setup_, mass_, inverse_mass_, grasps_, contacts_, team_);
 }
 
 /// At exact coincidence all forces are zero.
@@ -217,6 +218,7 @@ void TypedWorld<Real>::step_stand_in(double until) {
   const Stage stage = backward_euler_stage(parts.x, parts.v, h);
   // Critical for the slowest mode, which is about a wave to and fro.
   const double damping = std::max(setup_.solver.damping, 2 * std::numbers::pi * shear_waves() / model_.diagonal);
+  parts.body.begin_step(parts.x, state_.time);
   parts.body.set_time(until, setup_.gravity);
   parts.body.set_velocity(stage.d, stage.x_bar);
   parts.step.set(stage.a(damping), stage.y(damping));
@@ -235,6 +237,7 @@ void TypedWorld<Real>::step_stand_in(double until) {
                   1};
   work_.iterations += minimise(parts.step, parts.linear, stop, newton_options, x).iterations;
   parts.step.residual(x, r);  // whose forces are kept
+  parts.body.end_step(x);
   take_state(x, stage.velocity(x), until);
   move_held();
   ++steps_;

@@ -5,6 +5,7 @@
 #include <heml/elastic/fan_kernels.hpp>
 #include <heml/materials/material.hpp>
 #include <heml/mesh/tet_mesh.hpp>
+#include <heml/tools/contact_surface.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -95,6 +96,7 @@ struct WorldSetup {
   std::vector<RegionMaterial> materials;
   std::vector<Boundary> boundary;
   std::vector<Load> loads;
+  std::vector<Table> tables;
   Vec3 gravity = Vec3::Zero();  ///< m/s²
   SolverSettings solver;
   Vec3 initial_velocity = Vec3::Zero();                   ///< m/s, of every free node

@@ -36,12 +36,12 @@ std::vector<Material> stand_ins(const TetMesh& mesh, const std::vector<int>& mat
 template <class Real>
 StandIn<Real>::StandIn(const Model<Real>& model, const WorldSetup& setup, const std::vector<Real>& masses,
                        const std::vector<Real>& inverse_mass, const std::vector<GraspSpring<Real>>& grasps,
-                       ThreadTeam& team)
+                       Contacts& contacts, ThreadTeam& team)
     : body(model.mesh, model.material_of, stand_ins(model.mesh, model.material_of, setup.materials),
            {false, false, setup.instruction_set, setup.solver.threads}),
       parts(body, model, masses, inverse_mass,
-            preconditioner_moduli(model.mesh, model.material_of, setup.materials, Minimiser::newton), grasps, team,
-            {}) {}
+            preconditioner_moduli(model.mesh, model.material_of, setup.materials, Minimiser::newton), grasps, contacts,
+            team, {}) {}
 
 template struct StandIn<float>;
 template struct StandIn<double>;

@@ -13,7 +13,8 @@ struct StandIn {
   /// setup: the scene's, a material per index in model.material_of. masses, inverse_mass: #V, as the world's. All must
   /// outlive this.
   StandIn(const Model<Real>& model, const WorldSetup& setup, const std::vector<Real>& masses,
-          const std::vector<Real>& inverse_mass, const std::vector<GraspSpring<Real>>& grasps, ThreadTeam& team);
+          const std::vector<Real>& inverse_mass, const std::vector<GraspSpring<Real>>& grasps, Contacts& contacts,
+          ThreadTeam& team);
 };
 
 }  // namespace heml

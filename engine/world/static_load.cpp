@@ -34,7 +34,7 @@ void TypedWorld<Real>::load_to(double fraction) {
   parts.body.begin_static(duration, setup_.gravity, start);
   if (!parts.equilibrium) {
     const double highest = static_cast<double>(rest_frequency_ * rest_frequency_);
-    const bool held = well_held(model_.mesh, model_.held);
+    const bool held = well_held(model_.mesh, held_nodes());
     if (!held) parts.body.set_anchor(anchor * highest);
     const EquilibriumLimit limit{setup_.solver.relative_tolerance(), setup_.solver.tolerance.has_value()};
     parts.equilibrium.emplace(parts.body, parts.linear, parts.mass, parts.free, limit,
@@ -42,7 +42,7 @@ void TypedWorld<Real>::load_to(double fraction) {
   }
   Equilibrium& equilibrium = *parts.equilibrium;
   work_.load = equilibrium.load();
-  if (model_.held.empty() && pushed_away(parts.body, equilibrium.x(), fraction))
+  if (held_nodes().empty() && contacts_.empty() && pushed_away(parts.body, equilibrium.x(), fraction))
     return halt_unsolved("no equilibrium: nothing holds the body and its loads do not balance (add a boundary entry)");
   const bool reached = equilibrium.load_to(fraction, interrupted_);
   work_.load = equilibrium.load();
@@ -67,7 +67,7 @@ std::string TypedWorld<Real>::why_not_beyond(const Equilibrium& equilibrium) con
         setup_.solver.relative_tolerance(), load, *equilibrium.round_off(),
         std::is_same_v<Real, float> ? "solve with \"precision\": \"double\"" : "allow a larger \"tolerance\"");
   return fmt::format("no equilibrium found beyond {:.4g} of the load ({}): what is written is the last one", load,
-                     well_held(model_.mesh, model_.held)
+                     well_held(model_.mesh, held_nodes())
                          ? "the body may snap, collapse or be crushed there, or leave the range of its law"
                          : "it is not held against every rigid motion: then loads must balance, in force and moment");
 }

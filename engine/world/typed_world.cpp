@@ -43,6 +43,8 @@ TypedWorld<Real>::TypedWorld(WorldSetup setup)
             {setup_.solver.continuation, setup_.solver.nodal_pressure, setup_.instruction_set, setup_.solver.threads}),
       team_(setup_.solver.threads) {
   const FlushDenormals flush;
+  contacts_.tables = setup_.tables;
+  for (Table& table : contacts_.tables) table.normal.normalize();
   take_masses();
   start();
 }
@@ -54,6 +56,8 @@ void TypedWorld<Real>::take_masses() {
   inverse_mass_.resize(mass_.size());
   for (std::size_t n = 0; n < mass_.size(); ++n) inverse_mass_[n] = mass_[n] > 0 ? 1 / mass_[n] : Real(0);
   for (const HeldNode& held : model_.held) inverse_mass_[static_cast<std::size_t>(held.node)] = 0;
+  for (const PinnedPatch& pin : pins_)
+    for (const int n : pin.nodes) inverse_mass_[static_cast<std::size_t>(n)] = 0;
   mobility_.clear();
   for (const Real mobility : inverse_mass_) mobility_.insert(mobility_.end(), 3, mobility);
   for (auto& grasp : grasps_) grasp.take_masses(inverse_mass_);
@@ -61,6 +65,14 @@ void TypedWorld<Real>::take_masses() {
 
 template <class Real>
 void TypedWorld<Real>::start() {
+  if (!pins_.empty()) {
+    pins_.clear();
+    take_masses();
+  }
+  contacts_.probe.reset();
+  contacts_.sutures.clear();
+  contacts_.deeds.clear();
+  take_surfaces();
   const std::size_t nodes = model_.mesh.nodes.size();
   state_.x.resize(3 * nodes);
   state_.v.assign(3 * nodes, 0);
@@ -99,6 +111,7 @@ void TypedWorld<Real>::tick() {
   if (halt_) return;
   const FlushDenormals flush;
   substeps_ = 0;
+  impulses_.begin_tick();
   if (setup_.solver.integrator == Integrator::automatic) reconsider_method();
   const double until = static_cast<double>(ticks_ - origin_tick_ + 1) * setup_.solver.tick();
   advance(until);
@@ -149,7 +162,7 @@ template <class Real>
 double TypedWorld<Real>::choose_step(double until) {
   const double left = until - state_.time;
   if (setup_.solver.step) return left;
-  const int patience = grasps_.empty() ? bound_interval_ : steps_between_bounds_when_pulled;
+  const int patience = grasps_.empty() && !contacts_.probe ? bound_interval_ : steps_between_bounds_when_pulled;
   if (++steps_since_bound_ >= patience) follow_stable_step();
   if (!(stable_step_ > smallest_step)) {
     stop(Halt{Halt::Cause::unstable, -1, -1,
@@ -186,6 +199,10 @@ void TypedWorld<Real>::step_with(Real h, double time_after) {
   const FirstHalf<Real> first{mobility, s.f.data(), last_valid_.x.data(), last_valid_.v.data(), s.x.data(), s.v.data()};
   team_.for_ranges(mobility_.size(), coordinate_grain,
                    [&](std::size_t begin, std::size_t end) { Method::first_half(h, damping, first, begin, end); });
+  if (!contacts_.empty())
+    impulses_.first_half(contacts_, last_valid_.time, time_after,
+                         Method::first_shrink(static_cast<double>(h), setup_.solver.damping), inverse_mass_,
+                         last_valid_.x.data(), s.x.data(), s.v.data());
   s.time = time_after;
   move_held();
   if (remembers_) body_.begin_step(h);
@@ -201,6 +218,7 @@ void TypedWorld<Real>::step_with(Real h, double time_after) {
     }
   });
   if (!sane) return restore_last_valid(Halt::Cause::unstable);
+  if (!contacts_.empty()) impulses_.second_half(contacts_, inverse_mass_, s.x.data(), s.v.data());
   if (remembers_) {
     body_.commit(s.x.data());
     body_.begin_step(0);
@@ -215,6 +233,12 @@ void TypedWorld<Real>::move_held() {
     Eigen::Map<Vector3<Real>>(&state_.x[3 * static_cast<std::size_t>(held.node)]) = at.x.template cast<Real>();
     Eigen::Map<Vector3<Real>>(&state_.v[3 * static_cast<std::size_t>(held.node)]) = at.v.template cast<Real>();
   }
+  for (const PinnedPatch& pin : pins_)
+    for (std::size_t k = 0; k < pin.nodes.size(); ++k) {
+      const auto n = 3 * static_cast<std::size_t>(pin.nodes[k]);
+      Eigen::Map<Vector3<Real>>(&state_.x[n]) = pin.place[k].template cast<Real>();
+      Eigen::Map<Vector3<Real>>(&state_.v[n]).setZero();
+    }
 }
 
 /// In a static world gravity is ramped with everything else.
@@ -238,6 +262,11 @@ bool TypedWorld<Real>::take_forces() {
   for (const auto& load : model_.dead) add_load(load, state_.time, f);
   for (const auto& load : model_.pressures) add_load(load, state_.time, x, f);
   for (const auto& grasp : grasps_) grasp.add_forces(x, state_.v.data(), f);
+  if (!contacts_.empty() && implicit_ && !is_explicit(method_) && !recovering()) {
+    Vector contact = Vector::Zero(static_cast<Eigen::Index>(state_.x.size()));
+    implicit_->body.add_contact(as_vector(state_.x), contact);
+    for (std::size_t i = 0; i < state_.f.size(); ++i) f[i] += static_cast<Real>(contact[static_cast<Eigen::Index>(i)]);
+  }
   return valid;
 }
 

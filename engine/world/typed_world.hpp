@@ -5,7 +5,9 @@
 #include <heml/dynamics/implicit_stage.hpp>
 #include <heml/dynamics/state.hpp>
 #include <heml/elastic/body.hpp>
+#include <heml/tools/contact_impulses.hpp>
 #include <heml/tools/grasp.hpp>
+#include <heml/tools/pin.hpp>
 #include <heml/world/facts.hpp>
 #include <heml/world/implicit_parts.hpp>
 #include <heml/world/model.hpp>
@@ -45,6 +47,10 @@ class TypedWorld final : public World {
   std::vector<double> volume_ratios() override;
   std::vector<Vec3> reactions() override;
   ToolState tool() const override;
+  std::vector<PinState> pins() const override;
+  std::vector<TableState> tables() const override;
+  ProbeState probe() const override;
+  std::vector<SutureState> sutures() const override;
   std::uint64_t state_hash() const override;
   std::vector<std::uint16_t> node_hashes() const override;
   std::shared_ptr<const Topology> topology() const override { return topology_; }
@@ -85,6 +91,7 @@ class TypedWorld final : public World {
   bool implicit_step(double h, double time_after);
   bool solve_stage(const Stage& stage, double h, double time, Vector& x, Vector& v);
   NewtonResult minimise_stage(Vector& x);
+  int tool_ways(double h) const;
   Vector stage_start(const Stage& stage, double time, const Vector& x);
   Stop stage_stop();
   bool is_balanced_enough(const Stage& stage, const Vector& r);
@@ -122,11 +129,25 @@ class TypedWorld final : public World {
   std::optional<std::string> take(const Grasp& command);
   std::optional<std::string> take(const MoveTool& command);
   std::optional<std::string> take(const Release& command);
+  std::optional<std::string> take(const PinTissue& command);
+  std::optional<std::string> take(const Unpin& command);
   std::optional<std::string> take(const SetMaterial& command);
   std::optional<std::string> take(const SetDamping& command);
   std::optional<std::string> take(const SetGravity& command);
   std::optional<std::string> take(const SetIntegrator& command);
   std::optional<std::string> take(const Reset& command);
+  std::vector<int> surface_with(int node) const;
+  void take_held();
+
+  // contact_commands.cpp: tables, the probe, sutures
+  std::optional<std::string> take(const SetTables& command);
+  std::optional<std::string> take(const MoveProbe& command);
+  std::optional<std::string> take(const WithdrawProbe& command);
+  std::optional<std::string> take(const SutureTissue& command);
+  std::optional<std::string> take(const CutSutures& command);
+  void take_surfaces();
+  void take_skin();
+  std::vector<HeldNode> held_nodes() const;
 
   // world_edits.cpp: other elements
   /// What an edit may be taken back to.
@@ -137,6 +158,8 @@ class TypedWorld final : public World {
     Model<Real> model;
     std::shared_ptr<const Topology> topology;
     std::vector<Real> x, v;  ///< m, m/s
+    std::vector<PinnedPatch> pins;
+    std::vector<Suture> sutures;
   };
   std::optional<std::string> take(const RemoveElements& command);
   std::optional<std::string> take(const CutTissue& command);
@@ -172,6 +195,9 @@ class TypedWorld final : public World {
   ElasticBody<Real> body_;
   ThreadTeam team_;
   std::vector<GraspSpring<Real>> grasps_;  ///< none or one: an empty list costs nothing
+  std::vector<PinnedPatch> pins_;          ///< in the order they were set
+  Contacts contacts_;                      ///< nothing, in most worlds
+  ContactImpulses<Real> impulses_;
 
   bool remembers_ = false;          ///< whether a material has viscosity, relaxation or plasticity
   std::vector<Real> mass_;          ///< #V, kg

@@ -59,6 +59,42 @@ struct ToolState {
   Vec3 force = Vec3::Zero();   ///< N, of the tool on the tissue
 };
 
+/// A pin as the world sees it.
+struct PinState {
+  int node = -1;              ///< its centre, mesh-file order
+  std::vector<int> nodes;     ///< that it holds, mesh-file order
+  Vec3 place = Vec3::Zero();  ///< m, of the centre
+  Vec3 force = Vec3::Zero();  ///< N, of the pin on the tissue
+};
+
+/// A table as the world sees it.
+struct TableState {
+  Table table;
+  Vec3 force = Vec3::Zero();  ///< N, on the tissue: of explicit methods the mean over the last tick
+  double work = 0;            ///< J, on the tissue, force times way: friction takes energy away
+  double energy = 0;          ///< J, stored in the contact of implicit methods
+  double deepest = 0;         ///< m, that tissue is inside
+  int touching = 0;           ///< points of tissue
+};
+
+/// The probe, likewise.
+struct ProbeState {
+  bool active = false;
+  Vec3 tip = Vec3::Zero(), end = Vec3::Zero();  ///< m, of its axis
+  double radius = 0;                            ///< m
+  Vec3 force = Vec3::Zero();                    ///< N, on the tissue
+  double work = 0, energy = 0;                  ///< J
+  double deepest = 0;                           ///< m
+  int touching = 0;
+};
+
+/// A suture as the world sees it.
+struct SutureState {
+  std::array<int, 2> nodes{};                            ///< mesh-file order
+  std::array<Vec3, 2> ends{Vec3::Zero(), Vec3::Zero()};  ///< m
+  Vec3 force = Vec3::Zero();                             ///< N, on its first node: along the link
+};
+
 struct WorldFacts;  // facts.hpp
 
 class World {
@@ -112,6 +148,10 @@ class World {
   virtual std::vector<double> volume_ratios() = 0;  ///< J of each element of topology(), in its order
   virtual std::vector<Vec3> reactions() = 0;        ///< one per setup.boundary, N: the support's force on the body
   virtual ToolState tool() const = 0;
+  virtual std::vector<PinState> pins() const = 0;
+  virtual std::vector<TableState> tables() const = 0;
+  virtual ProbeState probe() const = 0;
+  virtual std::vector<SutureState> sutures() const = 0;
 
   /// Hash of positions and velocities, bit for bit, in mesh-file order.
   virtual std::uint64_t state_hash() const = 0;

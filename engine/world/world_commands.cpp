@@ -20,6 +20,14 @@ double tool_frequency(const WorldSetup& setup, double radius, double highest) {
 }
 
 bool finite(const Vec3& v) { return v.allFinite(); }
+
+std::optional<std::string> patch_problem(const char* tool, int node, double radius, std::size_t nodes) {
+  if (node < 0 || static_cast<std::size_t>(node) >= nodes)
+    return fmt::format("{}: node {} does not exist; the body has nodes 0 to {}", tool, node, nodes - 1);
+  if (!(radius >= 0) || !std::isfinite(radius))
+    return fmt::format("{}: radius must be 0 m or more, is {}", tool, radius);
+  return std::nullopt;
+}
 }  // namespace
 
 template <class Real>
@@ -36,18 +44,11 @@ std::optional<std::string> TypedWorld<Real>::apply(const Command& command) {
 
 template <class Real>
 std::optional<std::string> TypedWorld<Real>::take(const Grasp& command) {
-  const int nodes = static_cast<int>(mass_.size());
-  if (command.node < 0 || command.node >= nodes)
-    return fmt::format("grasp: node {} does not exist; the body has nodes 0 to {}", command.node, nodes - 1);
-  if (!(command.radius >= 0) || !std::isfinite(command.radius))
-    return fmt::format("grasp: radius must be 0 m or more, is {}", command.radius);
+  if (auto problem = patch_problem("grasp", command.node, command.radius, mass_.size())) return problem;
   const int center = model_.order.new_node[static_cast<std::size_t>(command.node)];
-  std::vector<int> candidates = model_.surface_nodes;
-  if (!std::binary_search(candidates.begin(), candidates.end(), center))
-    candidates.insert(std::lower_bound(candidates.begin(), candidates.end(), center), center);
   GraspSpring<Real> grasp(
-      center, static_cast<Real>(command.radius), candidates, model_.mesh.nodes, state_.x.data(), inverse_mass_,
-      static_cast<Real>(tool_frequency(setup_, command.radius, static_cast<double>(rest_frequency_))),
+      center, static_cast<Real>(command.radius), surface_with(center), model_.mesh.nodes, state_.x.data(),
+      inverse_mass_, static_cast<Real>(tool_frequency(setup_, command.radius, static_cast<double>(rest_frequency_))),
       grip_reach * model_.diagonal);
   if (grasp.empty()) return fmt::format("grasp: node {} is held, or belongs to no element", command.node);
   grasps_.assign(1, std::move(grasp));
@@ -66,6 +67,56 @@ template <class Real>
 std::optional<std::string> TypedWorld<Real>::take(const Release&) {
   grasps_.clear();
   return std::nullopt;
+}
+
+template <class Real>
+std::optional<std::string> TypedWorld<Real>::take(const PinTissue& command) {
+  if (auto problem = patch_problem("pin", command.node, command.radius, mass_.size())) return problem;
+  const int center = model_.order.new_node[static_cast<std::size_t>(command.node)];
+  if (inverse_mass_[static_cast<std::size_t>(center)] == 0)
+    return fmt::format("pin: node {} is held, or belongs to no element", command.node);
+  pins_.push_back(
+      pin_patch(center, command.radius, surface_with(center), model_.mesh.nodes, state_.x.data(), inverse_mass_));
+  take_held();
+  return std::nullopt;
+}
+
+template <class Real>
+std::optional<std::string> TypedWorld<Real>::take(const Unpin& command) {
+  if (!command.node) {
+    pins_.clear();
+    take_held();
+    return std::nullopt;
+  }
+  const auto holds = [&](const PinnedPatch& pin) {
+    return std::any_of(pin.nodes.begin(), pin.nodes.end(),
+                       [&](int n) { return model_.order.file_node[static_cast<std::size_t>(n)] == *command.node; });
+  };
+  const auto pin = std::find_if(pins_.begin(), pins_.end(), holds);
+  if (pin == pins_.end()) return fmt::format("release: no pin holds node {}", *command.node);
+  pins_.erase(pin);
+  take_held();
+  return std::nullopt;
+}
+
+/// Nodes of the surface, inner numbers, ascending; and one more, which may be of them.
+template <class Real>
+std::vector<int> TypedWorld<Real>::surface_with(int node) const {
+  std::vector<int> nodes = model_.surface_nodes;
+  const auto place = std::lower_bound(nodes.begin(), nodes.end(), node);
+  if (place == nodes.end() || *place != node) nodes.insert(place, node);
+  return nodes;
+}
+
+/// What follows from other nodes being held.
+template <class Real>
+void TypedWorld<Real>::take_held() {
+  take_masses();
+  take_skin();
+  move_held();
+  implicit_.reset();
+  lowest_frequency_.reset();
+  if (recovering()) stand_in();
 }
 
 template <class Real>

@@ -122,8 +122,8 @@ void TypedWorld<Real>::end_report(EditReport& report) {
 /// Keeps what an edit may be taken back to.
 template <class Real>
 void TypedWorld<Real>::save() {
-  auto saved = std::make_unique<const Saved>(
-      Saved{setup_.mesh, setup_.boundary, setup_.loads, model_, topology_, state_.x, state_.v});
+  auto saved = std::make_unique<const Saved>(Saved{setup_.mesh, setup_.boundary, setup_.loads, model_, topology_,
+                                                   state_.x, state_.v, pins_, contacts_.sutures});
   if (!whole_) {
     whole_ = std::make_unique<const Saved>(*saved);
   } else if (saved_.size() == most_undone) {
@@ -145,10 +145,15 @@ void TypedWorld<Real>::carry_out(const MeshEdit& edit) {
     append(edit, setup_.mesh);
     for (Boundary& entry : setup_.boundary) follow(edit, file_nodes, entry.nodes);
     for (Load& load : setup_.loads) follow(edit, file_nodes, load.nodes);
+    for (PinnedPatch& pin : pins_) follow(inner, static_cast<int>(mass_.size()), pin.nodes);
     append(setup_, inner, model_);
     for (auto* values : {&state_.x, &state_.v, &last_valid_.x, &last_valid_.v}) append(inner, *values, 3);
     state_.f.resize(state_.x.size());
     if (recovery_) recovery_->append(inner);
+    for (PinnedPatch& pin : pins_)
+      for (std::size_t k = pin.place.size(); k < pin.nodes.size(); ++k)
+        pin.place.emplace_back(Eigen::Map<const Vector3<Real>>(&state_.x[3 * static_cast<std::size_t>(pin.nodes[k])])
+                                   .template cast<double>());
   }
   std::vector<bool> stays(model_.mesh.tets.size(), true);
   for (const int t : inner.removed) stays[static_cast<std::size_t>(t)] = false;
@@ -171,6 +176,7 @@ void TypedWorld<Real>::carry_out(const MeshEdit& edit) {
 template <class Real>
 void TypedWorld<Real>::take_edited() {
   take_masses();
+  take_surfaces();
   for (std::size_t n = 0; n < mass_.size(); ++n)
     if (mass_[n] == 0) Eigen::Map<Vector3<Real>>(&state_.v[3 * n]).setZero();
   move_held();  // nodes of no element too
@@ -191,6 +197,8 @@ void TypedWorld<Real>::restore(const Saved& saved) {
   state_.f.resize(saved.x.size());
   if (recovery_) recovery_->good = state_;
   grasps_.clear();
+  pins_ = saved.pins;
+  contacts_.sutures = saved.sutures;
   stroke_.clear();
   in_stroke_ = false;
   body_.set_mesh(model_.mesh, model_.material_of);

@@ -113,6 +113,54 @@ ToolState TypedWorld<Real>::tool() const {
 }
 
 template <class Real>
+std::vector<PinState> TypedWorld<Real>::pins() const {
+  const auto file = [this](int n) { return model_.order.file_node[static_cast<std::size_t>(n)]; };
+  std::vector<PinState> pins;
+  for (const PinnedPatch& pin : pins_) {
+    PinState& state = pins.emplace_back();
+    state.node = file(pin.center);
+    for (const int n : pin.nodes) state.nodes.push_back(file(n));
+    state.place =
+        Eigen::Map<const Vector3<Real>>(&state_.x[3 * static_cast<std::size_t>(pin.center)]).template cast<double>();
+    state.force = pin_force(pin, state_.f.data());
+  }
+  return pins;
+}
+
+template <class Real>
+std::vector<TableState> TypedWorld<Real>::tables() const {
+  std::vector<TableState> tables;
+  for (std::size_t s = 0; s < contacts_.tables.size(); ++s) {
+    const ContactDeeds deeds = contacts_.deeds_of(s);
+    tables.push_back({contacts_.tables[s], deeds.force, deeds.work, deeds.energy, deeds.deepest, deeds.touching});
+  }
+  return tables;
+}
+
+template <class Real>
+ProbeState TypedWorld<Real>::probe() const {
+  if (!contacts_.probe) return {};
+  const ContactSurface at = surface_of(*contacts_.probe, state_.time);
+  const ContactDeeds deeds = contacts_.deeds_of(contacts_.tables.size());
+  return {true, at.point, at.other, at.radius, deeds.force, deeds.work, deeds.energy, deeds.deepest, deeds.touching};
+}
+
+template <class Real>
+std::vector<SutureState> TypedWorld<Real>::sutures() const {
+  std::vector<SutureState> sutures;
+  for (std::size_t k = 0; k < contacts_.sutures.size(); ++k) {
+    SutureState& state = sutures.emplace_back();
+    for (std::size_t end = 0; end < 2; ++end) {
+      const auto n = static_cast<std::size_t>(contacts_.sutures[k].nodes[end]);
+      state.nodes[end] = model_.order.file_node[n];
+      state.ends[end] = Eigen::Map<const Vector3<Real>>(&state_.x[3 * n]).template cast<double>();
+    }
+    state.force = contacts_.deeds_of(contacts_.tables.size() + (contacts_.probe ? 1 : 0) + k).force;
+  }
+  return sutures;
+}
+
+template <class Real>
 SolverWork TypedWorld<Real>::solver_work() const {
   SolverWork work = work_;
   work.integrator = integrator_name(method_);

@@ -271,6 +271,34 @@ class Window(unittest.TestCase):
         self.assertGreaterEqual(ticks, recorded[-1]["step"])
         self.assertGreaterEqual(checkpoints, sum("checkpoint" in event for event in recorded))
 
+    def test_pins_table_probe_and_sutures_work_by_mouse_and_keys(self):
+        self.open_display(640, 360)
+        scene = self.folder / "light.json"
+        scene.write_text(json.dumps(light_scene()))
+        self.start(scene, "--record", "out.jsonl", "--size", "640x360")
+        self.wait_for("a picture", lambda: self.display.picture().colours() > 200)
+        time.sleep(1)
+        place = self.display.picture().tissue(220, 640)
+        self.xdo("key", "t")
+        self.wait_for("a table", lambda: self.seen("tables"))
+        self.xdo("key", "n", "mousemove", *place, "click", 1)
+        self.wait_for("a pin", lambda: self.seen("pin"))
+        self.xdo("click", 1)
+        self.wait_for("its release", lambda: any("node" in value for value in self.seen("release")))
+        self.xdo("key", "o")
+        self.drag(place, (30, 10))
+        self.wait_for("a withdrawn probe", lambda: "probe" in self.seen("release"))
+        self.assertGreaterEqual(len(self.seen("probe")), 3)
+        self.xdo("key", "s", "mousemove", *place, "click", 1)
+        time.sleep(0.3)
+        self.xdo("mousemove", place[0] + 50, place[1], "click", 1)
+        self.wait_for("a suture", lambda: self.seen("suture"))
+        self.xdo("key", "ctrl+q")
+        self.finish()
+        replayed = subprocess.run([BINARY, "replay", "out.jsonl", "--verify"], cwd=self.folder, capture_output=True,
+                                  text=True, timeout=100)
+        self.assertEqual(replayed.returncode, 0, replayed.stdout + replayed.stderr)
+
     def test_slow_drawing_does_not_hold_up_the_engine(self):
         self.open_display(640, 360)
         scene = self.folder / "light.json"

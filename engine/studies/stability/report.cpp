@@ -36,8 +36,8 @@ std::string summary(const std::vector<const Cell*>& cells, double limit) {
   return fmt::format("{} of {}: at most {}, limit {}", good, cells.size(), short_number(worst), short_number(limit));
 }
 
-Table table_of_cases(const std::vector<Cell>& cells) {
-  Table table;
+TextTable table_of_cases(const std::vector<Cell>& cells) {
+  TextTable table;
   table.head = {"", "case", "holds when", "figure", "double", "float", "scenes"};
   for (const Case& c : cases()) {
     std::string scenes;
@@ -69,8 +69,8 @@ Cells line_of(const Cell& cell) {
           words};
 }
 
-Table table_of_cells(const std::vector<const Cell*>& cells) {
-  Table table;
+TextTable table_of_cells(const std::vector<const Cell*>& cells) {
+  TextTable table;
   table.head = {"", "case", "law", "integrator", "precision", "verdict", "figure", "limit", "promise", "what was seen"};
   for (const Cell* cell : cells) table.rows.push_back(line_of(*cell));
   return table;
@@ -84,8 +84,8 @@ std::vector<const Cell*> taken(const std::vector<Cell>& cells, const Take& take)
   return found;
 }
 
-Table table_of_penalty(const std::vector<PenaltyRow>& rows) {
-  Table table;
+TextTable table_of_penalty(const std::vector<PenaltyRow>& rows) {
+  TextTable table;
   table.head = {
       "start", "method", "back", "inside out", "away from rest", "longest step at rest", "stress changed at 1.3"};
   for (const PenaltyRow& row : rows)
@@ -162,7 +162,7 @@ std::string answer(const std::vector<Cell>& cells) {
 }
 
 std::string csv_of(const std::vector<Cell>& cells) {
-  Table table = table_of_cells(taken(cells, [](const Cell&) { return true; }));
+  TextTable table = table_of_cells(taken(cells, [](const Cell&) { return true; }));
   table.head.front() = "number";
   for (std::size_t k = 0; k < cells.size(); ++k) table.rows[k][6] = fmt::format("{}", cells[k].outcome.figure);
   return csv_text(table);

@@ -143,3 +143,60 @@ TEST_CASE("another button does not end a grasp, and a resting mouse sends nothin
   sheet.move(at);
   CHECK(sheet.commands.size() == 1);
 }
+
+TEST_CASE("a pin is set where the body is pressed, and taken out where it is") {
+  Sheet sheet;
+  sheet.tool.tool = panel::Tool::pin;
+  const render::Vec2f at = sheet.pixel(Vec3f(0.08f, -0.09f, 0));
+  CHECK_FALSE(sheet.press(MouseButton::left, at));
+  REQUIRE(sheet.commands.size() == 1);
+  CHECK(std::get<PinTissue>(sheet.commands[0]).node == 21);
+  CHECK(std::get<PinTissue>(sheet.commands[0]).radius == 0.01);
+  CHECK(sheet.hand.doing() == Hand::Doing::nothing);
+  PinState& pin = sheet.frame.pins.emplace_back();
+  pin.node = 20;
+  pin.nodes = {20, 21};
+  sheet.press(MouseButton::left, at);
+  REQUIRE(sheet.commands.size() == 2);
+  CHECK(std::get<Unpin>(sheet.commands[1]).node == 21);
+}
+
+TEST_CASE("a probe comes along the line of sight, goes deeper by the wheel, and leaves with the button") {
+  Sheet sheet;
+  sheet.tool.tool = panel::Tool::probe;
+  sheet.tool.probe_radius = 0.005;
+  sheet.tool.dent = 0.01;
+  sheet.tool.shaft = 0.1;
+  sheet.tool.friction = 0.4;
+  const render::Vec2f middle = sheet.pixel(Vec3f::Zero());
+  CHECK_FALSE(sheet.hand.wheel(1, sheet.commands));
+  sheet.press(MouseButton::left, middle);
+  REQUIRE(sheet.commands.size() == 1);
+  const auto pressed = std::get<MoveProbe>(sheet.commands[0]);
+  REQUIRE(pressed.path.size() == 2);
+  CHECK(pressed.path[0].z() > 0.005);                            // before the surface
+  CHECK((pressed.path[1] - Vec3(0, 0, -0.005)).norm() <= 1e-5);  // its ball 10 mm below
+  CHECK(pressed.shaft.z() == doctest::Approx(0.1).epsilon(1e-3));
+  CHECK(pressed.friction == 0.4);
+  sheet.move(sheet.pixel(Vec3f(0.02f, 0, 0)));
+  REQUIRE(sheet.commands.size() == 2);
+  const auto moved = std::get<MoveProbe>(sheet.commands[1]);
+  REQUIRE(moved.path.size() == 1);
+  CHECK(moved.path[0].x() == doctest::Approx(0.02).epsilon(0.02));
+  CHECK(sheet.hand.wheel(2, sheet.commands));
+  CHECK(std::get<MoveProbe>(sheet.commands[2]).path[0].z() < moved.path[0].z() - 5e-4);
+  sheet.hand.release(MouseButton::left, sheet.commands);
+  CHECK(std::holds_alternative<WithdrawProbe>(sheet.commands.back()));
+}
+
+TEST_CASE("a suture takes two presses, one an end") {
+  Sheet sheet;
+  sheet.tool.tool = panel::Tool::suture;
+  sheet.press(MouseButton::left, sheet.pixel(Vec3f(0.08f, -0.09f, 0)));
+  CHECK(sheet.commands.empty());
+  CHECK(sheet.hand.first_end() == 21);
+  sheet.press(MouseButton::left, sheet.pixel(Vec3f(0.08f, 0.09f, 0)));
+  REQUIRE(sheet.commands.size() == 1);
+  CHECK(std::get<SutureTissue>(sheet.commands[0]).nodes == std::array<int, 2>{21, 22});
+  CHECK_FALSE(sheet.hand.first_end());
+}

@@ -129,8 +129,8 @@ TEST_CASE("reads every kind of event, in ascending order of ticks, equal ticks a
   CHECK(std::get<SetDamping>(scene.events[4].command).damping == 2);
   CHECK(std::get<SetGravity>(scene.events[5].command).gravity == Vec3(0, -1, 0));
   CHECK(std::get<SetIntegrator>(scene.events[6].command).integrator == Integrator::symplectic_euler);
-  REQUIRE(scene.grasp_points.size() == 1);
-  CHECK(scene.grasp_points.at(7) == Vec3(0.2, 0.1, 0));
+  REQUIRE(scene.points.size() == 1);
+  CHECK(scene.points.at(7).front() == Vec3(0.2, 0.1, 0));
   CHECK(std::holds_alternative<Reset>(scene.events[8].command));
 }
 

@@ -38,7 +38,7 @@ TEST_CASE("a recovery can be seen again, to the bit, from the file that solve le
 
   Scene calm = struck_scene();
   calm.events.clear();
-  calm.grasp_points.clear();
+  calm.points.clear();
   solve(calm, folder / "out");
   CHECK_FALSE(std::filesystem::exists(folder / "out/recovery.jsonl"));
 }

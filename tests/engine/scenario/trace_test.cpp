@@ -33,12 +33,12 @@ Scene falling(const std::string& outputs) {
 
 }  // namespace
 
-TEST_CASE("probes follow the mean of their nodes, a row a tick and one at the end") {
+TEST_CASE("markers follow the mean of their nodes, a row a tick and one at the end") {
   const TemporaryFolder folder;
-  const Scene scene = falling(R"({"probes": [{"name": "tip", "nodes": [3]}, {"box": [[-9, -9, -9], [9, 9, 9]]}]})");
+  const Scene scene = falling(R"({"markers": [{"name": "tip", "nodes": [3]}, {"box": [[-9, -9, -9], [9, 9, 9]]}]})");
   solve(scene, folder / "");
-  const auto rows = table_in(folder / "probes.csv");
-  CHECK(rows[0] == std::vector<std::string>{"time", "probe", "x", "y", "z", "vx", "vy", "vz"});
+  const auto rows = table_in(folder / "markers.csv");
+  CHECK(rows[0] == std::vector<std::string>{"time", "marker", "x", "y", "z", "vx", "vy", "vz"});
   REQUIRE(rows.size() == 1 + 2 * 12);  // at 0, after ten ticks, and at 0.0104 s
   const double start = std::stod(rows[1][3]);
   CHECK(rows[1][1] == "tip");
@@ -53,16 +53,16 @@ TEST_CASE("probes follow the mean of their nodes, a row a tick and one at the en
   CHECK(std::stod(rows.back()[0]) == doctest::Approx(0.0104));
 }
 
-TEST_CASE("rows of probes and history come as often as asked, at the first tick at or after each multiple") {
+TEST_CASE("rows of markers and history come as often as asked, at the first tick at or after each multiple") {
   const TemporaryFolder folder;
-  solve(falling(R"({"probes": [{"nodes": [0]}], "history": true, "every": 0.0025})"), folder / "");
-  const auto probes = table_in(folder / "probes.csv"), history = table_in(folder / "history.csv");
-  REQUIRE(probes.size() == 6);
+  solve(falling(R"({"markers": [{"nodes": [0]}], "history": true, "every": 0.0025})"), folder / "");
+  const auto markers = table_in(folder / "markers.csv"), history = table_in(folder / "history.csv");
+  REQUIRE(markers.size() == 6);
   REQUIRE(history.size() == 6);
   const double times[] = {0, 0.003, 0.005, 0.008, 0.01};
   for (std::size_t k = 0; k < 5; ++k) {
-    CHECK(std::stod(probes[k + 1][0]) == doctest::Approx(times[k]));
-    CHECK(history[k + 1][0] == probes[k + 1][0]);
+    CHECK(std::stod(markers[k + 1][0]) == doctest::Approx(times[k]));
+    CHECK(history[k + 1][0] == markers[k + 1][0]);
   }
   CHECK(history[0].size() == 9);  // nothing is held: no reaction
   // m v²/2 of free fall.
@@ -71,14 +71,14 @@ TEST_CASE("rows of probes and history come as often as asked, at the first tick 
 
 TEST_CASE("tables that were not asked for are not written, and those of an earlier run go") {
   const TemporaryFolder folder;
-  folder.file("probes.csv", "of an earlier run");
+  folder.file("markers.csv", "of an earlier run");
   folder.file("history.csv", "of an earlier run");
   solve(falling("{}"), folder / "");
-  CHECK(!std::filesystem::exists(folder / "probes.csv"));
+  CHECK(!std::filesystem::exists(folder / "markers.csv"));
   CHECK(!std::filesystem::exists(folder / "history.csv"));
 }
 
-TEST_CASE("a probe that selects nothing is an error that names it, as is a name that breaks a table") {
+TEST_CASE("a marker that selects nothing is an error that names it, as is a name that breaks a table") {
   const TemporaryFolder folder;
   const auto problem_of = [&](const std::string& outputs) -> std::string {
     try {
@@ -88,9 +88,9 @@ TEST_CASE("a probe that selects nothing is an error that names it, as is a name 
       return error.what();
     }
   };
-  CHECK(problem_of(R"({"probes": [{"nodes": [0]}, {"sphere": [[99, 0, 0], 1]}]})").find("outputs.probes[1]") !=
+  CHECK(problem_of(R"({"markers": [{"nodes": [0]}, {"sphere": [[99, 0, 0], 1]}]})").find("outputs.markers[1]") !=
         std::string::npos);
-  CHECK(problem_of(R"({"probes": [{"nodes": [0], "name": "a,b"}]})").find("outputs.probes[0].name") !=
+  CHECK(problem_of(R"({"markers": [{"nodes": [0], "name": "a,b"}]})").find("outputs.markers[0].name") !=
         std::string::npos);
   CHECK(problem_of(R"({"every": 0})").find("outputs.every") != std::string::npos);
 }

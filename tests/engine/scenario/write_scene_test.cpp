@@ -45,7 +45,7 @@ Scene scene_of_everything() {
   scene.loads.push_back({{{}, {}, std::pair{vector(), number()}}, {Load::Kind::force, {}, vector(), 0, number()}});
   scene.loads.push_back({{{4}, {}, {}}, {Load::Kind::traction, {}, vector(), 0, 0}});
   scene.loads.push_back({{{4}, {}, {}}, {Load::Kind::pressure, {}, Vec3::Zero(), -number(), 0}});
-  scene.probes = {{"tip", {{3}, {}, {}}}, {"", {{}, {}, std::pair{vector(), number()}}}};
+  scene.markers = {{"tip", {{3}, {}, {}}}, {"", {{}, {}, std::pair{vector(), number()}}}};
   scene.output_history = true;
   scene.output_every = number();
   scene.gravity = vector();

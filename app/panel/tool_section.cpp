@@ -1,0 +1,117 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <app/panel/tool_section.hpp>
+#include <limits>
+
+namespace heml::panel {
+namespace {
+
+// Of the body's radius.
+constexpr double first_grasp = 0.12, most_grasp = 0.5, first_depth = 0.35, most_depth = 2;
+constexpr double first_probe = 0.08, most_probe = 0.4, first_dent = 0.15, most_dent = 0.6;
+constexpr double most_friction = 1.5, table_gap = 0.01;
+
+std::string several(std::size_t count, const char* what) {
+  return fmt::format("Take out {} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+}  // namespace
+
+ToolSection::ToolSection(double body_radius, const Vec3& gravity) : body_radius_(body_radius) {
+  tool_.radius = first_grasp * body_radius;
+  tool_.depth = first_depth * body_radius;
+  tool_.probe_radius = first_probe * body_radius;
+  tool_.dent = first_dent * body_radius;
+  tool_.shaft = 2 * body_radius;
+  follow({gravity});
+}
+
+void ToolSection::follow(const SetGravity& command) {
+  if (command.gravity.norm() > 0) up_ = -command.gravity.normalized();
+}
+
+void ToolSection::draw(Rows& rows, const Frame& frame, PanelActions& out) {
+  static const std::string names[] = {"Grasper", "Scalpel", "Pin", "Probe", "Suture"};
+  static const std::string hints[] = {
+      "The left button takes hold of the body and pulls (G).",
+      "The left button draws a blade through the body (C). Ctrl+Z takes a cut back.",
+      "The left button pins the body where it is; on a pin, takes it out (N).",
+      "The left button pushes a rigid rod with a round tip into the body, along the line of sight (O). The wheel "
+      "pushes "
+      "it deeper.",
+      "The left button sets one end of a thread, then the other; the thread draws them together (S)."};
+  int tool = static_cast<int>(tool_.tool);
+  if (rows.choice({"Tool", "What the left mouse button does to the body."}, tool, names, hints))
+    tool_.tool = static_cast<Tool>(tool);
+  draw_settings(rows);
+  draw_friction(rows, frame, out);
+  bool table = !frame.tables.empty();
+  if (rows.check({"Table",
+                  "A fixed table under the body, across gravity, where its lowest point is when it is put "
+                  "there (T)."},
+                 table))
+    toggle_table(frame, out);
+  if (!frame.pins.empty() && rows.button({several(frame.pins.size(), "pin"), "Releases all that is pinned."}))
+    out.commands.emplace_back(Unpin{});
+  if (!frame.sutures.empty() && rows.button({several(frame.sutures.size(), "suture"), "Cuts all threads."}))
+    out.commands.emplace_back(CutSutures{});
+}
+
+bool ToolSection::length(Rows& rows, const Label& label, double& metres, double most) {
+  double millimetres = metres * 1e3;
+  if (!rows.slider(label, millimetres, {0, most * body_radius_ * 1e3, "%.1f mm", false})) return false;
+  metres = millimetres * 1e-3;
+  return true;
+}
+
+void ToolSection::draw_settings(Rows& rows) {
+  switch (tool_.tool) {
+    case Tool::scalpel:
+      length(rows, {"Depth", "How far the blade reaches below the surface, mm, along the line of sight."}, tool_.depth,
+             most_depth);
+      return;
+    case Tool::probe:
+      length(rows, {"Tip radius", "Of the probe's round tip, and of its shaft, mm."}, tool_.probe_radius, most_probe);
+      tool_.probe_radius = std::max(tool_.probe_radius, 0.01 * body_radius_);
+      length(rows, {"Dent", "How far the tip goes below the surface when it is pressed on it, mm."}, tool_.dent,
+             most_dent);
+      return;
+    case Tool::suture:
+      return;
+    default:
+      length(rows,
+             {"Radius",
+              "Surface nodes within this distance of where you take hold go with the tool, or stay where they are "
+              "under a pin, mm, measured on the rest shape. 0: one node alone. Delete (Del) takes out the tissue "
+              "within it, one element deep."},
+             tool_.radius, most_grasp);
+  }
+}
+
+void ToolSection::draw_friction(Rows& rows, const Frame& frame, PanelActions& out) {
+  if (tool_.tool != Tool::probe && frame.tables.empty()) return;
+  if (!frame.tables.empty() && tool_.tool != Tool::probe) tool_.friction = frame.tables.front().table.friction;
+  if (!rows.slider({"Friction", "Coulomb's coefficient of friction of tissue on probe and table, no unit."},
+                   tool_.friction, {0, most_friction, "%.2f", false}) ||
+      frame.tables.empty())
+    return;
+  SetTables set;
+  for (const TableState& state : frame.tables) {
+    set.tables.push_back(state.table);
+    set.tables.back().friction = tool_.friction;
+  }
+  out.commands.emplace_back(std::move(set));
+}
+
+void ToolSection::toggle_table(const Frame& frame, PanelActions& out) const {
+  SetTables set;
+  if (frame.tables.empty()) {
+    double lowest = std::numeric_limits<double>::infinity();
+    for (const Vec3f& x : frame.positions) lowest = std::min(lowest, up_.dot(x.cast<double>()));
+    set.tables.push_back({(lowest - table_gap * body_radius_) * up_, up_, tool_.friction});
+  }
+  out.commands.emplace_back(std::move(set));
+}
+
+}  // namespace heml::panel

@@ -1,0 +1,167 @@
+#include <algorithm>
+#include <cmath>
+#include <heml/tools/contact_impulses.hpp>
+
+namespace heml {
+namespace {
+
+constexpr int most_rounds = 8;       // of points that share nodes
+constexpr double recovery = 0.01;    // s, in which tissue that was inside from the start comes out
+constexpr double longest_way = 0.5;  // of a probe's radius: what it goes before it is met again
+constexpr double most_parts = 64;    // of a step, that it is met in
+
+template <class Real>
+Vec3 at(const Real* values, int node) {
+  return Eigen::Map<const Vector3<Real>>(values + 3 * node).template cast<double>();
+}
+
+template <class Real>
+Vec3 at(const Real* values, const ContactPoint& point) {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t k = 0; k < static_cast<std::size_t>(point.count); ++k)
+    sum += point.weights[k] * at(values, point.nodes[k]);
+  return sum;
+}
+
+/// Of a point's motion along a direction, 1/kg.
+template <class Real>
+double inverse_mass_of(const ContactPoint& point, const std::vector<Real>& inverse_mass) {
+  double sum = 0;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(point.count); ++k)
+    sum += point.weights[k] * point.weights[k] *
+           static_cast<double>(inverse_mass[static_cast<std::size_t>(point.nodes[k])]);
+  return sum;
+}
+
+}  // namespace
+
+template <class Real>
+struct ContactImpulses<Real>::Way {
+  double from, to;  ///< s: the step's start, and the moment in it that the surface is met at
+  double weight;
+  const std::vector<Real>& inverse_mass;
+  const Real* before;
+  std::vector<ContactSurface> then, now;  ///< at both moments
+};
+
+template <class Real>
+void ContactImpulses<Real>::begin_tick() {
+  impulse_.clear();
+  duration_ = 0;
+}
+
+template <class Real>
+void ContactImpulses<Real>::first_half(Contacts& contacts, double time_before, double time_after, double shrink,
+                                       const std::vector<Real>& inverse_mass, const Real* before, Real* x, Real* v) {
+  const double h = time_after - time_before;
+  surfaces_ = contacts.surfaces(time_after);
+  contacts.deeds.resize(surfaces_.size());
+  impulse_.resize(contacts.deeds.size(), Vec3::Zero());
+  duration_ += h;
+  stopped_.clear();
+  double parts = 1;
+  if (contacts.probe) {
+    const double way = (contacts.probe->tip(time_after) - contacts.probe->tip(time_before)).norm();
+    parts = std::clamp(std::ceil(way / (longest_way * contacts.probe->radius())), 1.0, most_parts);
+  }
+  const int rounds = contacts.deeds.size() > 1 ? 3 : 1;
+  for (double part = 1; part <= parts; ++part) {
+    const double to = part < parts ? time_before + part / parts * h : time_after;
+    const Way way{time_before, to, shrink, inverse_mass, before, contacts.surfaces(time_before), contacts.surfaces(to)};
+    for (int round = 0; round < rounds; ++round)  // a table, which is fixed, has the last word
+      for (std::size_t s = contacts.deeds.size(); s-- > 0;) stop_at(way, s, contacts, v);
+  }
+  const auto less = [](const Stopped& a, const Stopped& b) {
+    return a.surface != b.surface ? a.surface < b.surface : a.point.nodes < b.point.nodes;
+  };
+  std::stable_sort(stopped_.begin(), stopped_.end(), less);
+  stopped_.erase(std::unique(stopped_.begin(), stopped_.end(),
+                             [&](const Stopped& a, const Stopped& b) { return !less(a, b) && !less(b, a); }),
+                 stopped_.end());
+  for (const Stopped& stopped : stopped_)
+    for (std::size_t k = 0; k < static_cast<std::size_t>(stopped.point.count); ++k) {
+      const int n = 3 * stopped.point.nodes[k];
+      if (inverse_mass[static_cast<std::size_t>(stopped.point.nodes[k])] > 0)
+        for (int i = n; i < n + 3; ++i) x[i] = before[i] + static_cast<Real>(h) * v[i];
+    }
+}
+
+/// What would be inside at the end of the way is not; what was inside from the start comes out of it slowly.
+template <class Real>
+void ContactImpulses<Real>::stop_at(const Way& way, std::size_t s, Contacts& contacts, Real* v) {
+  const double h = way.to - way.from;
+  const ContactSurface &now = way.now[s], &then = way.then[s];
+  const auto moved = [&](int n) -> Vec3 { return at(way.before, n) + h * at(v, n); };
+  const auto was = [&](int n) { return at(way.before, n); };
+  const bool is_thread = now.shape == ContactSurface::Shape::thread,
+             is_capsule = now.shape == ContactSurface::Shape::capsule;
+  bool deep = true;
+  for (int round = 0; deep && round < (is_capsule ? most_rounds : 1); ++round) {
+    deep = false;
+    each_contact(now, contacts.skin, 0, moved, [&](const ContactPoint& point) {
+      const double may = std::min(0.0, gap_again(then, point, was)) * std::max(0.0, 1 - h / recovery);
+      const double closing = (may - point.gap) / h;
+      if (!(closing > 0)) return;
+      const Vec3 velocity =
+          is_thread ? Vec3((then.radius - now.radius) / h * point.normal) : Vec3((now.point - then.point) / h);
+      stopped_.push_back({s, point, velocity});
+      push(stopped_.back(), closing, way.weight, way.inverse_mass, contacts, v);
+      deep = deep || may - point.gap > 1e-6 * now.radius;
+    });
+  }
+}
+
+/// Gives a point's velocity `closing`, m/s, along the normal, and takes what friction can of its sliding. weight: of
+/// the impulse in the force of the step.
+template <class Real>
+void ContactImpulses<Real>::push(const Stopped& stopped, double closing, double weight,
+                                 const std::vector<Real>& inverse_mass, Contacts& contacts, Real* v) {
+  const ContactPoint& point = stopped.point;
+  const double light = inverse_mass_of(point, inverse_mass);
+  if (!(light > 0)) return;
+  const double friction = surfaces_[stopped.surface].friction;
+  const Vec3 u = at(v, point) - stopped.velocity, slides = u - point.normal.dot(u) * point.normal;
+  const double p = closing / light, speed = slides.norm();
+  Vec3 impulse = p * point.normal;
+  if (speed > 0 && friction > 0) impulse -= std::min(friction * p, speed / light) / speed * slides;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(point.count); ++k) {
+    const int n = point.nodes[k];
+    Eigen::Map<Vector3<Real>>(v + 3 * n) +=
+        (point.weights[k] * static_cast<double>(inverse_mass[static_cast<std::size_t>(n)]) * impulse)
+            .template cast<Real>();
+  }
+  impulse_[stopped.surface] += weight * impulse;
+  contacts.deeds[stopped.surface].work += weight * impulse.dot(at(v, point));
+}
+
+template <class Real>
+void ContactImpulses<Real>::second_half(Contacts& contacts, const std::vector<Real>& inverse_mass, const Real* x,
+                                        Real* v) {
+  for (int round = 0; round < (surfaces_.size() > 1 || contacts.probe ? most_rounds : 1); ++round)
+    for (const Stopped& stopped : stopped_) {
+      const double inward = stopped.point.normal.dot(stopped.velocity - at(v, stopped.point));
+      if (inward > 0) push(stopped, inward, 1, inverse_mass, contacts, v);
+    }
+  tell(contacts, x);
+}
+
+template <class Real>
+void ContactImpulses<Real>::tell(Contacts& contacts, const Real* x) const {
+  for (std::size_t s = 0; s < surfaces_.size(); ++s) {
+    ContactDeeds& deeds = contacts.deeds[s];
+    deeds.force = impulse_[s] / duration_;
+    deeds.energy = deeds.deepest = 0;
+    deeds.touching = 0;
+  }
+  for (const Stopped& stopped : stopped_) {
+    ContactDeeds& deeds = contacts.deeds[stopped.surface];
+    ++deeds.touching;
+    const double gap = gap_again(surfaces_[stopped.surface], stopped.point, [&](int n) { return at(x, n); });
+    deeds.deepest = std::max(deeds.deepest, -gap);
+  }
+}
+
+template class ContactImpulses<float>;
+template class ContactImpulses<double>;
+
+}  // namespace heml

@@ -1,0 +1,258 @@
+#include <algorithm>
+#include <cmath>
+#include <heml/tools/contact_potential.hpp>
+#include <limits>
+
+namespace heml {
+namespace {
+
+constexpr int most_revisions = 16;      // of one solve
+constexpr double nearest_axis = 0.25;   // of a probe's radius: tissue that comes nearer is taken to have passed it
+constexpr double stiffest = 1e6;        // times a node's own stiffness
+constexpr double share_of_node = 0.5;   // of its stiffness, for each of the faces round it
+constexpr double same_friction = 1e-3;  // of all friction: what it may differ by from what was assumed
+
+Vec3 at(const Vector& x, int node) { return x.segment<3>(3 * node); }
+
+Vec3 at(const Vector& x, const ContactPoint& point) {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t k = 0; k < static_cast<std::size_t>(point.count); ++k)
+    sum += point.weights[k] * at(x, point.nodes[k]);
+  return sum;
+}
+
+void add(const ContactPoint& point, const Vec3& force, Vector& f) {
+  for (std::size_t k = 0; k < static_cast<std::size_t>(point.count); ++k)
+    f.segment<3>(3 * point.nodes[k]) += point.weights[k] * force;
+}
+
+Mat3 along(const Vec3& normal) { return Mat3::Identity() - normal * normal.transpose(); }
+
+}  // namespace
+
+void ContactPotential::begin(const Vector& x, double time) {
+  const bool first = stiffer_.empty();
+  surfaces_before_ = surfaces_ = contacts_.surfaces(time);
+  stiffer_.resize(surfaces_.size(), 1);
+  contacts_.deeds.resize(surfaces_.size());
+  x_before_ = x_seen_ = x;
+  touches_at_.resize(0);
+  revisions_ = 0;
+  if (first) {  // what touches at first sticks, until its weight is known
+    find(x);
+    for (const Touch& touch : touches_)
+      if (surfaces_[touch.surface].friction > 0)
+        accepted_.push_back({touch, std::numeric_limits<double>::infinity(), Vec3::Zero()});
+    touches_at_.resize(0);
+  }
+  friction_ = accepted_;
+}
+
+void ContactPotential::forget() {
+  stiffer_.clear();
+  friction_.clear();
+  accepted_.clear();
+  surfaces_.clear();
+  touches_at_.resize(0);
+}
+
+void ContactPotential::set_time(double time) {
+  if (stiffer_.empty()) return;  // no step has begun
+  friction_ = accepted_;
+  surfaces_ = contacts_.surfaces(time);
+  touches_at_.resize(0);
+  revisions_ = 0;
+}
+
+void ContactPotential::find(const Vector& x) {
+  if (touches_at_.size() > 0 && touches_at_ == x) return;
+  touches_.clear();
+  const auto where = [&](int n) { return at(x, n); };
+  for (std::size_t s = 0; s < surfaces_.size(); ++s)
+    each_contact(surfaces_[s], contacts_.skin, 1e-9 * bound_, where, [&](const ContactPoint& point) {
+      touches_.push_back({s, point});
+    });
+  touches_at_ = x;
+}
+
+double ContactPotential::stiffness_of(const ContactPoint& point) const {
+  const auto k = [&](std::size_t c) { return stiffness_[static_cast<std::size_t>(point.nodes[c])]; };
+  if (point.count == 1) return k(0);
+  return point.count == 2 ? (k(0) + k(1)) / 2 : share_of_node * (k(0) + k(1) + k(2)) / 3;
+}
+
+double ContactPotential::normal_stiffness(const Touch& touch) const {
+  return stiffer_[touch.surface] * stiffness_of(touch.point);
+}
+
+/// How far a point's spring is stretched, m.
+Vec3 ContactPotential::sliding(const Friction& friction, const Vector& x) const {
+  const auto& [surface, point] = friction.touch;
+  const Vec3 way = at(x, point) - at(x_before_, point) - (surfaces_[surface].point - surfaces_before_[surface].point);
+  return along(point.normal) * (way + friction.stretch);
+}
+
+Vec3 ContactPotential::friction_force(const Friction& friction, const Vector& x) const {
+  const Vec3 slid = sliding(friction, x);
+  const double k = stiffness_of(friction.touch.point), length = slid.norm();
+  if (k * length <= friction.most) return -k * slid;
+  return -friction.most / length * slid;
+}
+
+bool ContactPotential::passes(const Vector& x) const {
+  if (!contacts_.probe || x_seen_.size() != x.size()) return false;
+  double way = 0;
+  for (const int n : contacts_.skin.nodes) way = std::max(way, (at(x, n) - at(x_seen_, n)).norm());
+  bool passed = false;
+  for (const ContactSurface& surface : surfaces_) {
+    if (surface.shape != ContactSurface::Shape::capsule || way < nearest_axis * surface.radius) continue;
+    each_contact(
+        surface, contacts_.skin, way, [&](int n) { return at(x_seen_, n); },
+        [&](const ContactPoint& point) {
+          const Vec3 moved = at(x, point) - at(x_seen_, point);
+          const double from_axis = surface.radius + point.gap + point.normal.dot(moved);
+          passed = passed || (from_axis < nearest_axis * surface.radius && point.normal.dot(moved) < 0);
+        });
+  }
+  return passed;
+}
+
+double ContactPotential::value(const Vector& x) {
+  find(x);
+  double sum = 0;
+  for (const Touch& touch : touches_) {
+    const double inside = std::min(0.0, touch.point.gap);
+    sum += normal_stiffness(touch) / 2 * inside * inside;
+  }
+  for (const Friction& friction : friction_) {
+    const double k = stiffness_of(friction.touch.point), slid = sliding(friction, x).norm();
+    sum += k * slid <= friction.most ? k / 2 * slid * slid : friction.most * (slid - friction.most / (2 * k));
+  }
+  return sum;
+}
+
+void ContactPotential::add_forces(const Vector& x, Vector& f) {
+  find(x);
+  for (const Touch& touch : touches_)
+    add(touch.point, -normal_stiffness(touch) * std::min(0.0, touch.point.gap) * touch.point.normal, f);
+  for (const Friction& friction : friction_) add(friction.touch.point, friction_force(friction, x), f);
+}
+
+/// Where the nearest point turns about a probe, the stiffness that this takes away is left out: it is small where
+/// tissue is not deep inside.
+void ContactPotential::linearise(const Vector& x) {
+  find(x);
+  x_seen_ = x;
+  blocks_.clear();
+  for (const Touch& touch : touches_) {
+    const Vec3& n = touch.point.normal;
+    Mat3 K = normal_stiffness(touch) * n * n.transpose();
+    if (touch.point.count == 2)  // a taut thread bears what is across
+      K += normal_stiffness(touch) * -std::min(0.0, touch.point.gap) / at(x, touch.point).norm() * along(n);
+    blocks_.push_back({touch.point, K});
+  }
+  for (const Friction& friction : friction_) {
+    const double k = stiffness_of(friction.touch.point);
+    if (!(k > 0) || friction.most == 0) continue;
+    const Vec3 slid = sliding(friction, x);
+    const double length = slid.norm();
+    const Mat3 plane = along(friction.touch.point.normal);
+    if (k * length <= friction.most)
+      blocks_.push_back({friction.touch.point, k * plane});
+    else
+      blocks_.push_back(
+          {friction.touch.point, friction.most / length * (plane - slid * slid.transpose() / (length * length))});
+  }
+}
+
+void ContactPotential::add_product(const Vector& dx, Vector& out) const {
+  for (const auto& [point, K] : blocks_) add(point, K * at(dx, point), out);
+}
+
+bool ContactPotential::within_nodes() const {
+  return std::all_of(blocks_.begin(), blocks_.end(), [](const Block& block) { return block.point.count == 1; });
+}
+
+/// By the forces at x; springs that were there stay as they are.
+std::vector<ContactPotential::Friction> ContactPotential::friction_of_touches() const {
+  std::vector<Friction> result;
+  std::size_t old = 0;  // both lists are in the order of surfaces and the skin
+  for (const Touch& touch : touches_) {
+    const double friction = surfaces_[touch.surface].friction;
+    if (!(friction > 0) || !(touch.point.gap < 0)) continue;
+    Friction& now =
+        result.emplace_back(Friction{touch, -friction * normal_stiffness(touch) * touch.point.gap, Vec3::Zero()});
+    const auto is_same = [&](const Friction& f) {
+      return f.touch.surface == touch.surface && f.touch.point.nodes == touch.point.nodes;
+    };
+    for (std::size_t k = 0; k < friction_.size(); ++k, ++old) {
+      if (old >= friction_.size()) old = 0;
+      if (!is_same(friction_[old])) continue;
+      now.stretch = friction_[old].stretch;
+      break;
+    }
+  }
+  return result;
+}
+
+bool ContactPotential::revise(const Vector& x) {
+  if (empty() || ++revisions_ > most_revisions) return false;
+  find(x);
+  std::vector<double> deepest(surfaces_.size(), 0.0);
+  for (const Touch& touch : touches_) deepest[touch.surface] = std::max(deepest[touch.surface], -touch.point.gap);
+  bool changes = false;
+  for (std::size_t s = 0; s < surfaces_.size(); ++s)
+    if (deepest[s] > bound_ && stiffer_[s] < stiffest) {
+      stiffer_[s] *= std::clamp(2 * deepest[s] / bound_, 2.0, 32.0);
+      changes = true;
+    }
+  std::vector<Friction> now = friction_of_touches();
+  double sum = 0, difference = 0;
+  for (const Friction& friction : now) sum += friction.most;
+  const bool same_points =
+      now.size() == friction_.size() &&
+      std::equal(now.begin(), now.end(), friction_.begin(), [](const Friction& a, const Friction& b) {
+        return a.touch.surface == b.touch.surface && a.touch.point.nodes == b.touch.point.nodes;
+      });
+  if (same_points)
+    for (std::size_t k = 0; k < now.size(); ++k) difference += std::abs(now[k].most - friction_[k].most);
+  if (!now.empty() || !friction_.empty())
+    if (!same_points || !(difference <= same_friction * sum)) {
+      friction_ = std::move(now);
+      changes = true;
+    }
+  return changes;
+}
+
+void ContactPotential::accept(const Vector& x) {
+  if (empty()) return;
+  find(x);
+  for (ContactDeeds& deeds : contacts_.deeds) {
+    deeds.force.setZero();
+    deeds.energy = deeds.deepest = 0;
+    deeds.touching = 0;
+  }
+  const auto tell = [&](const Touch& touch, const Vec3& force) {
+    ContactDeeds& deeds = contacts_.deeds[touch.surface];
+    deeds.force += force;
+    deeds.work += force.dot(at(x, touch.point) - at(x_before_, touch.point));
+  };
+  for (const Touch& touch : touches_) {
+    const double inside = std::min(0.0, touch.point.gap), k = normal_stiffness(touch);
+    ContactDeeds& deeds = contacts_.deeds[touch.surface];
+    tell(touch, -k * inside * touch.point.normal);
+    deeds.energy += k / 2 * inside * inside;
+    deeds.deepest = std::max(deeds.deepest, -inside);
+    deeds.touching += inside < 0 ? 1 : 0;
+  }
+  for (Friction& friction : friction_) {
+    const Vec3 force = friction_force(friction, x);
+    tell(friction.touch, force);
+    // What has slipped is not stretched; faces slide along a probe, and their springs begin anew.
+    const double k = stiffness_of(friction.touch.point);
+    friction.stretch = friction.touch.point.count == 1 && k > 0 ? Vec3(-force / k) : Vec3(Vec3::Zero());
+  }
+  accepted_ = friction_of_touches();
+}
+
+}  // namespace heml

@@ -1,0 +1,41 @@
+#pragma once
+// All that tissue of a world may not pass, and what they have done to its body: a force, the work of it, how deep
+// tissue is in one. Explicit methods are stopped by impulses (contact_impulses.hpp), implicit ones by an energy
+// (contact_potential.hpp); both tell here.
+#include <heml/tools/contact_surface.hpp>
+#include <optional>
+#include <vector>
+
+namespace heml {
+
+/// What a surface has done to the body.
+struct ContactDeeds {
+  Vec3 force = Vec3::Zero();  ///< N, on the body: of the last step, or the mean of the steps of a tick
+  double work = 0;     ///< J, force times way: friction's is negative, a probe's may be positive; impacts have none
+  double energy = 0;   ///< J, that is stored in an implicit method's contact
+  double deepest = 0;  ///< m, that a point of the body is inside; 0: none
+  int touching = 0;    ///< points of the body
+};
+
+struct Contacts {
+  std::vector<Table> tables;
+  std::optional<Probe> probe;
+  std::vector<Suture> sutures;
+  ContactSkin skin;                 ///< inner numbers; kept up with the body while there is a surface
+  std::vector<ContactDeeds> deeds;  ///< of the tables, the probe, the sutures
+
+  /// Of one of surfaces(), by number; before the first step nothing.
+  ContactDeeds deeds_of(std::size_t s) const { return s < deeds.size() ? deeds[s] : ContactDeeds(); }
+
+  bool empty() const { return tables.empty() && !probe && sutures.empty(); }
+  /// Tables, the probe, sutures, at a time, s.
+  std::vector<ContactSurface> surfaces(double time) const {
+    std::vector<ContactSurface> all;
+    for (const Table& table : tables) all.push_back(surface_of(table));
+    if (probe) all.push_back(surface_of(*probe, time));
+    for (const Suture& suture : sutures) all.push_back(surface_of(suture, time));
+    return all;
+  }
+};
+
+}  // namespace heml
