@@ -109,18 +109,23 @@ std::string level_of(double bytes, const Machine& machine, int threads) {
   return bytes < static_cast<double>(machine.L3) ? "L3" : "DRAM";
 }
 
-/// What holds a kernel back, by what it reaches.
-std::string limit_of(double arithmetic, double bandwidth, double slow_share) {
+/// Divisions of the element's code by its volume and by numbers, which are constants of the kernels.
+constexpr double constant_divisions = 10;
+constexpr std::size_t shared_from = 8192;  ///< elements; below them one thread does all (elastic/fan_forces.hpp)
+
+/// What holds a kernel back, by what it reaches. slow: divisions, roots, ... of a tetrahedron.
+std::string limit_of(double arithmetic, double bandwidth, double slow) {
   if (bandwidth > 0.6 && bandwidth > arithmetic) return "memory";
+  if (slow > 2) return "divisions and roots, and what waits for them";
   if (arithmetic > 0.6) return "arithmetic, and moving nodes between lanes";
-  if (slow_share > 0.02) return "divisions and roots, and what waits for them";
   return "moving nodes between lanes, waiting for results";
 }
 
 BenchRow reached_row(const ForceTiming& timing, const BenchBody& body, const Operations& counted, const Peaks& peaks) {
   const double of_all = 1 / static_cast<double>(body.mesh.tets.size());
-  const double slow = static_cast<double>(counted.others) * of_all;
-  const double operations = static_cast<double>(counted.multiplications_and_additions()) * of_all + slow;
+  const double others = static_cast<double>(counted.others) * of_all;
+  const double slow = std::max(others - constant_divisions, 0.0);
+  const double operations = static_cast<double>(counted.multiplications_and_additions()) * of_all + others;
   const double tets = static_cast<double>(body.mesh.tets.size());
   BenchRow row = force_row(timing, body);
   const double best = 1e9 * timing.time.min / tets;  // ns/tet
@@ -137,7 +142,8 @@ BenchRow reached_row(const ForceTiming& timing, const BenchBody& body, const Ope
   const double bandwidth = timing.bytes_per_tet / best / peaks.bytes_per_ns(level, timing.threads);
   row.more["fraction_of_arithmetic"] = arithmetic;
   row.more["fraction_of_bandwidth"] = bandwidth;
-  row.more["limit"] = limit_of(arithmetic, bandwidth, slow / operations);
+  const bool alone = timing.threads > 1 && body.mesh.tets.size() < shared_from;
+  row.more["limit"] = alone ? "as on one thread: too small to share" : limit_of(arithmetic, bandwidth, slow);
   row.more["note"] = reached_note;
   row.beside = fmt::format("{:.0f} operations, {:.0f} bytes a tet: {:.0f} % of the arithmetic, {:.0f} % of {}",
                            operations, timing.bytes_per_tet, 100 * arithmetic, 100 * bandwidth, level);
