@@ -16,20 +16,23 @@ std::array<Vec3, 4> places(const TetMesh& mesh, int element) {
 
 /// Adds the slots of more elements after all there are.
 template <class Real>
-void append(ElementGroup<Real>&& more, ElementGroup<Real>& group) {
-  const auto add = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
-  std::vector<std::size_t> slots(group.size() + more.size());
-  for (std::size_t s = 0; s < slots.size(); ++s)
-    slots[s] = s < group.size() ? s : group.volume.size() + s - group.size();
-  group.element.resize(group.volume.size());  // padded, as the others are
-  add(group.element, more.element);
+void append(const ElementGroup<Real>& more, ElementGroup<Real>& group) {
+  constexpr std::size_t lanes = ElementGroup<Real>::lanes;
+  const std::size_t before = group.size();
+  group.element.insert(group.element.end(), more.element.begin(), more.element.end());
+  const auto add = [&](auto& list, const auto& from) {
+    if (from.empty()) return;
+    list.resize(before);  // without padding
+    list.insert(list.end(), from.begin(), from.begin() + static_cast<std::ptrdiff_t>(more.size()));
+    const auto last = list.back();
+    list.resize((list.size() + lanes - 1) / lanes * lanes, last);
+  };
   for (std::size_t i = 0; i < group.node.size(); ++i) add(group.node[i], more.node[i]);
   for (std::size_t i = 0; i < group.A.size(); ++i) add(group.A[i], more.A[i]);
   add(group.volume, more.volume);
   add(group.gamma, more.gamma);
   for (std::size_t i = 0; i < group.fibre.size(); ++i) add(group.fibre[i], more.fibre[i]);
   for (std::size_t i = 0; i < group.parameters.size(); ++i) add(group.parameters[i], more.parameters[i]);
-  keep_slots(group, slots);
 }
 
 }  // namespace
