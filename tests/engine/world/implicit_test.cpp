@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <functional>
+#include <heml/world/facts.hpp>
 
 #include "engine/materials/sample_materials.hpp"
 #include "support.hpp"
