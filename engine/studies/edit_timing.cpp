@@ -79,7 +79,7 @@ std::vector<BenchRow> edit_rows(int n, bool quick) {
   const Material material = bench_material("stvk");
   const int samples = quick ? 3 : 9;
 
-  // Three cells deep into the upper face, five long; a ball of 2.4 cells about the middle.
+  // Three cells deep into the upper face, five long; a ball of 1.8 cells about the middle.
   const double x = middle + 0.4 * cell, y = middle - 2.5 * cell, deep = size - 2.9 * cell;
   const Sweep sweep{
       {{Vec3(x, y, deep), Vec3(x, y, 2 * size)}, {Vec3(x, y + 5 * cell, deep), Vec3(x, y + 5 * cell, 2 * size)}}};

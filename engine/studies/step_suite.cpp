@@ -1,4 +1,4 @@
-// Whole steps of a hanging cube: explicit and implicit, Saint Venant-Kirchhoff from 4 thousand to a million
+// Whole steps of a hanging cube: explicit and implicit, Saint Venant-Kirchhoff from 320 to a million
 // tetrahedra, what is beside the law, and what an edit of the mesh takes.
 #include <fmt/format.h>
 
