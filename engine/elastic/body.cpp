@@ -46,6 +46,7 @@ ElasticBody<Real>::ElasticBody(const TetMesh& mesh, const std::vector<int>& mate
       options_(options),
       springs_(mesh, std::vector<double>(mesh.tets.size(), 0.0)) {
   make_parts();
+  make_fans();
   forget(at_rest().data());
 }
 
@@ -58,64 +59,84 @@ std::vector<Real> ElasticBody<Real>::at_rest() const {
 }
 
 template <class Real>
-void ElasticBody<Real>::make_parts(bool same_elements) {
+void ElasticBody<Real>::make_parts() {
   parts_.clear();
   for (std::size_t m = 0; m < materials_.size(); ++m) {
     std::vector<int> elements;
     for (std::size_t t = 0; t < material_of_.size(); ++t)
       if (material_of_[t] == static_cast<int>(m)) elements.push_back(static_cast<int>(t));
-    if (elements.empty()) continue;
-    parts_.push_back({m,
-                      make_group<Real>(mesh_, elements, materials_[m]),
-                      make_terms<Real>(materials_[m], options_.continuation, options_.nodal_pressure),
-                      nullptr,
-                      {},
-                      false});
-    Part& part = parts_.back();
-    part.group.density = static_cast<Real>(materials_[m].density);
-    part.flow = make_flow<Real>(materials_[m], options_.continuation, part.group);
+    if (!elements.empty()) parts_.push_back(make_part(m, elements));
   }
-  join_parts(same_elements);
+  join_parts();
 }
 
-/// What depends on all parts together.
+/// Laws go to the fast kernels but where their parameters or rest shapes are each element's own.
 template <class Real>
-void ElasticBody<Real>::join_parts(bool same_elements) {
+typename ElasticBody<Real>::Part ElasticBody<Real>::make_part(std::size_t index,
+                                                              const std::vector<int>& elements) const {
+  const Material& material = materials_[index];
+  Part part{index,
+            make_group<Real>(mesh_, elements, material),
+            make_terms<Real>(material, options_.continuation, options_.nodal_pressure),
+            nullptr,
+            {},
+            false};
+  part.group.density = static_cast<Real>(material.density);
+  part.flow = make_flow<Real>(material, options_.continuation, part.group);
+  part.in_fans = !part.terms.empty() && material.fields.empty() && !part.flow;
+  return part;
+}
+
+/// What depends on all parts together, but for the fans.
+template <class Real>
+void ElasticBody<Real>::join_parts() {
   std::vector<ElementGroup<Real>*> groups;
   for (Part& part : parts_) groups.push_back(&part.group);
   corners_ = map_corners(groups, mesh_.nodes.size());
   corner_.assign(3 * corner_count(groups), Real(0));
-  make_fans(same_elements);
+  force_corners_ = {std::vector<std::size_t>(nodes() + 1, 0), {}};
+  const auto has_loops = [&](const Part& part) { return part.has_loops(options_.nodal_pressure); };
+  const auto is_in_loops = [&](std::size_t corner) {
+    return std::any_of(parts_.begin(), parts_.end(), [&](const Part& part) {
+      const std::size_t first = part.group.first_corner;
+      return has_loops(part) && corner >= first && corner < first + 4 * part.group.volume.size();
+    });
+  };
+  const bool any_loops = std::any_of(parts_.begin(), parts_.end(), has_loops);
+  for (std::size_t n = 0; n < nodes() && any_loops; ++n) {
+    for (std::size_t k = corners_.start[n]; k < corners_.start[n + 1]; ++k)
+      if (is_in_loops(corners_.corners[k])) force_corners_.corners.push_back(corners_.corners[k]);
+    force_corners_.start[n + 1] = force_corners_.corners.size();
+  }
   make_shared();
 }
 
-/// Elements whose law is all there is to them go to the fast kernels.
 template <class Real>
-void ElasticBody<Real>::make_fans(bool same_elements) {
+std::vector<FanPart> ElasticBody<Real>::fan_parts() const {
   std::vector<FanPart> parts;
-  for (Part& part : parts_) {
+  for (const Part& part : parts_) {
     const Material& material = materials_[part.material];
-    part.in_fans = part.terms.size() == 1 && material.fields.empty() && !part.flow && !options_.nodal_pressure;
-    if (part.in_fans) parts.push_back({&part.group.element, &material});
+    const bool isochoric = options_.nodal_pressure || material.volume_term != VolumeTerm::quadratic;
+    if (part.in_fans) parts.push_back({&part.group.element, &material, isochoric});
   }
-  if (!same_elements || !fans_.take_laws(parts, options_.continuation)) {
-    fans_ = {};
-    ThreadTeam team(mesh_.tets.size() < large_body_ ? 1 : options_.threads);
-    if (!parts.empty()) fans_ = FanForces<Real>(mesh_, parts, options_.continuation, options_.instruction_set, team);
-  }
+  return parts;
+}
 
-  force_corners_ = {{0}, {}};
-  const auto is_in_fans = [&](std::size_t corner) {
-    return std::any_of(parts_.begin(), parts_.end(), [&](const Part& part) {
-      const std::size_t first = part.group.first_corner;
-      return part.in_fans && corner >= first && corner < first + 4 * part.group.volume.size();
-    });
-  };
-  for (std::size_t n = 0; n < nodes(); ++n) {
-    for (std::size_t k = corners_.start[n]; k < corners_.start[n + 1]; ++k)
-      if (!is_in_fans(corners_.corners[k])) force_corners_.corners.push_back(corners_.corners[k]);
-    force_corners_.start.push_back(force_corners_.corners.size());
-  }
+template <class Real>
+void ElasticBody<Real>::make_fans() {
+  fans_ = {};
+  const std::vector<FanPart> parts = fan_parts();
+  if (parts.empty()) return;
+  ThreadTeam team = layout_team();
+  fans_ = FanForces<Real>(mesh_, parts, options_.continuation, options_.instruction_set, team);
+}
+
+/// Of the mesh as it is now, where element t is of what origins[t] was before.
+template <class Real>
+void ElasticBody<Real>::edit_fans(const TetMesh& before, const std::vector<int>& origins) {
+  const std::vector<FanPart> parts = fan_parts();
+  ThreadTeam team = layout_team();
+  if (parts.empty() || !fans_.follow(before, mesh_, parts, origins, team)) make_fans();
 }
 
 /// What belongs to no element alone.
@@ -165,12 +186,16 @@ template <class Real>
 bool ElasticBody<Real>::forces(const Real* x, Real* f, ThreadTeam& team) {
   std::atomic<bool> valid{true};
   if (!fans_.empty()) valid = fans_.forces(x, f, team);
-  for (const Part& part : parts_)
-    for (std::size_t k = 0; !part.in_fans && k < part.terms.size(); ++k)
+  for (const Part& part : parts_) {
+    const std::size_t first = part.first_loop(), corners = part.group.first_corner;
+    for (std::size_t k = first; k < part.terms.size(); ++k)
       team.for_ranges(part.group.packets(), grain_ / part.group.lanes, [&](std::size_t begin, std::size_t end) {
-        if (!part.terms[k]->forces(part.group, x, begin, end, corner_.data(), k > 0))
+        if (!part.terms[k]->forces(part.group, x, begin, end, corner_.data(), k > first))
           valid.store(false, std::memory_order_relaxed);
       });
+    if (pressure_ && part.terms.size() == first)  // nothing else is at those corners
+      std::fill_n(corner_.data() + 3 * corners, 12 * part.group.volume.size(), Real(0));
+  }
   if (pressure_ && !pressure_->add_forces(x, corner_.data(), team)) valid = false;
   if (fans_.empty() || !force_corners_.corners.empty()) gather_corners(force_corners_, f, !fans_.empty(), team);
   if (!springs_.empty()) springs_.add_forces(x, f, team);
@@ -188,13 +213,16 @@ std::vector<KernelInfo> ElasticBody<Real>::kernels() const {
     KernelInfo info{part.material, material.law, "corners", "portable", part.group.size(), 0};
     if (part.terms.empty()) {
       info.kernel = "springs";
-    } else if (part.in_fans) {
-      info.kernel = "fans";
-      info.instructions = name_of(fans_.instruction_set());
-      info.bytes_per_tet = fans_.bytes_per_tet();
     } else {
-      if (material.fields.empty()) info.instructions = wide_instructions();  // elastic/law_term.hpp
-      info.bytes_per_tet = corners * static_cast<double>(part.terms.size());
+      const bool has_loops = part.has_loops(options_.nodal_pressure);
+      if (part.in_fans) {
+        info.kernel = has_loops ? "fans and corners" : "fans";
+        info.instructions = name_of(fans_.instruction_set());
+        info.bytes_per_tet = fans_.bytes_per_tet();
+      } else if (material.fields.empty()) {
+        info.instructions = wide_instructions();  // elastic/law_term.hpp
+      }
+      info.bytes_per_tet += corners * static_cast<double>(part.terms.size() - part.first_loop());
     }
     result.push_back(std::move(info));
   }
@@ -397,7 +425,8 @@ void ElasticBody<Real>::states(const Real* x, std::vector<ElementState<Real>>& o
 template <class Real>
 void ElasticBody<Real>::set_material(std::size_t index, const Material& material, const Real* x) {
   materials_[index] = material;
-  make_parts(true);
+  make_parts();
+  if (!fans_.take_laws(fan_parts(), options_.continuation)) make_fans();
   forget(x);
 }
 

@@ -2,9 +2,9 @@
 // The elastic part of a body: its groups of elements, each with the terms of its material, and what is not of one
 // element alone (springs along edges, averaged nodal pressure); and the sum of their forces at the nodes.
 //
-//   forces(x):  elements of a uniform law and nothing else ──► fans ──► nodes ──► + springs
-//               terms of other groups ──► corner forces ──► added at nodes ─┘
-//               nodal pressure ──────────────┘
+//   forces(x):  uniform laws ──► fans ──► nodes ──────────────────────► + springs
+//               other terms ──► corner forces ──► added at nodes ─┘
+//               nodal pressure ───────┘
 #include <heml/base/thread_team.hpp>
 #include <heml/elastic/element_group.hpp>
 #include <heml/elastic/fan_forces.hpp>
@@ -44,7 +44,8 @@ struct BodyOptions {
 struct KernelInfo {
   std::size_t material;  ///< index into the body's materials
   std::string law;
-  std::string kernel;             ///< "fans"; "corners": the loops of the material's terms; "springs": along edges
+  std::string kernel;  ///< "fans"; "corners": the loops of its terms; "fans and corners": its law, its other terms;
+                       ///< "springs": along edges
   std::string_view instructions;  ///< "portable", "avx2", "avx512"
   std::size_t elements;
   double bytes_per_tet;  ///< read and written in one evaluation, each array once; 0 of springs
@@ -123,10 +124,11 @@ class ElasticBody {
   void set_material(std::size_t index, const Material& material, const Real* x);
 
   /// Leaves the given elements (inner numbers, ascending; at least one), numbered anew in that order. What they
-  /// remember stays with them; forces are the bits of a body made of them alone.
+  /// remember stays with them; forces are those of a body made of them alone, to round-off: blocks of fans that lose
+  /// none keep their layout (fan_layout.hpp).
   void keep_elements(const std::vector<int>& elements);
   /// Another mesh, of the same nodes and further ones: element t is what origins[t] was or a piece of it, and
-  /// remembers what that did. Materials as theirs.
+  /// remembers what that did. Materials as theirs. Blocks of fans that are not touched keep their layout.
   void take_pieces(const TetMesh& mesh, const std::vector<int>& material_of, const std::vector<int>& origins);
   /// Another mesh of the same nodes, at rest: what keep_elements() took away is there again. As in the constructor.
   void set_mesh(const TetMesh& mesh, const std::vector<int>& material_of);
@@ -152,16 +154,25 @@ class ElasticBody {
     std::vector<std::unique_ptr<GroupTerm<Real>>> terms;
     std::unique_ptr<PlasticFlow<Real>> flow;
     std::vector<Real> stiffness;  ///< of every element (edge_stiffness.hpp), once it was asked for
-    bool in_fans;                 ///< its forces are run by fans_, not by its terms
+    bool in_fans;                 ///< its law's forces are run by fans_, not by the first of its terms
+
+    std::size_t first_loop() const { return in_fans ? 1 : 0; }  ///< of its terms
+    bool has_loops(bool nodal_pressure) const { return terms.size() > first_loop() || nodal_pressure; }
   };
   static constexpr std::size_t grain_ = 2048;       ///< elements below which waking a thread costs more than it brings
   static constexpr std::size_t large_body_ = 8192;  ///< elements from which laying them out is worth a team
 
   std::vector<Real> at_rest() const;
-  void make_parts(bool same_elements = false);  // of materials as before
-  void join_parts(bool same_elements = false);
-  void make_fans(bool same_elements);
+  void make_parts();
+  Part make_part(std::size_t material, const std::vector<int>& elements) const;
+  void join_parts();
+  std::vector<FanPart> fan_parts() const;
+  ThreadTeam layout_team() const { return ThreadTeam(mesh_.tets.size() < large_body_ ? 1 : options_.threads); }
+  void make_fans();
+  void edit_fans(const TetMesh& before, const std::vector<int>& origins);
   void make_shared();
+  void keep_numbered(Part& part, const std::vector<int>& number);
+  void take_memory(const Part& old, const TetMesh& before, const std::vector<int>& origins, Part& part) const;
   void gather_corners(const CornerMap& corners, Real* f, bool add, ThreadTeam& team) const;
   double sum_energies(const Real* x, bool stored, ThreadTeam& team);
   void element_stiffness(std::size_t part, std::size_t s, ElementMatrix<Real>& K) const;

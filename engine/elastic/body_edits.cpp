@@ -14,6 +14,27 @@ std::array<Vec3, 4> places(const TetMesh& mesh, int element) {
   return X;
 }
 
+/// Adds the slots of more elements after all there are.
+template <class Real>
+void append(const ElementGroup<Real>& more, ElementGroup<Real>& group) {
+  constexpr std::size_t lanes = ElementGroup<Real>::lanes;
+  const std::size_t before = group.size();
+  group.element.insert(group.element.end(), more.element.begin(), more.element.end());
+  const auto add = [&](auto& list, const auto& from) {
+    if (from.empty()) return;
+    list.resize(before);  // without padding
+    list.insert(list.end(), from.begin(), from.begin() + static_cast<std::ptrdiff_t>(more.size()));
+    const auto last = list.back();
+    list.resize((list.size() + lanes - 1) / lanes * lanes, last);
+  };
+  for (std::size_t i = 0; i < group.node.size(); ++i) add(group.node[i], more.node[i]);
+  for (std::size_t i = 0; i < group.A.size(); ++i) add(group.A[i], more.A[i]);
+  add(group.volume, more.volume);
+  add(group.gamma, more.gamma);
+  for (std::size_t i = 0; i < group.fibre.size(); ++i) add(group.fibre[i], more.fibre[i]);
+  for (std::size_t i = 0; i < group.parameters.size(); ++i) add(group.parameters[i], more.parameters[i]);
+}
+
 }  // namespace
 
 template <class Real>
@@ -21,65 +42,93 @@ void ElasticBody<Real>::set_mesh(const TetMesh& mesh, const std::vector<int>& ma
   mesh_ = mesh;
   material_of_ = material_of;
   make_parts();
+  make_fans();
   forget(at_rest().data());
+}
+
+/// number: of each element from now on, −1: gone.
+template <class Real>
+void ElasticBody<Real>::keep_numbered(Part& part, const std::vector<int>& number) {
+  std::vector<std::size_t> slots;
+  for (std::size_t s = 0; s < part.group.size(); ++s) {
+    int& element = part.group.element[s];
+    element = number[static_cast<std::size_t>(element)];
+    if (element >= 0) slots.push_back(s);
+  }
+  if (slots.size() == part.group.size()) return;
+  if (slots.empty()) {
+    part.group = {};
+    part.group.density = static_cast<Real>(materials_[part.material].density);
+    part.group.parameters.resize(materials_[part.material].fields.size());
+    return;
+  }
+  const std::vector<std::size_t> from = keep_slots(part.group, slots);
+  for (const auto& term : part.terms) term->take_slots(from);
+  if (part.flow) part.flow->take_slots(from);
 }
 
 template <class Real>
 void ElasticBody<Real>::keep_elements(const std::vector<int>& elements) {
-  std::vector<int> number(mesh_.tets.size(), -1);  // that an element has from now on
+  std::vector<int> number(mesh_.tets.size(), -1);
   for (std::size_t k = 0; k < elements.size(); ++k) number[static_cast<std::size_t>(elements[k])] = static_cast<int>(k);
-  for (Part& part : parts_) {
-    std::vector<std::size_t> slots;
-    for (std::size_t s = 0; s < part.group.size(); ++s) {
-      int& element = part.group.element[s];
-      element = number[static_cast<std::size_t>(element)];
-      if (element >= 0) slots.push_back(s);
-    }
-    if (slots.size() == part.group.size()) continue;
-    if (slots.empty()) {
-      part.group.element.clear();
-      continue;
-    }
-    const std::vector<std::size_t> from = keep_slots(part.group, slots);
-    for (const auto& term : part.terms) term->take_slots(from);
-    if (part.flow) part.flow->take_slots(from);
-  }
+  for (Part& part : parts_) keep_numbered(part, number);
   std::erase_if(parts_, [](const Part& part) { return part.group.size() == 0; });
-  mesh_ = with_elements(mesh_, elements);
+  const TetMesh before = std::exchange(mesh_, with_elements(mesh_, elements));
   material_of_ = with_elements(material_of_, elements);
   join_parts();
+  edit_fans(before, elements);
 }
 
-/// Parts are made anew; then those that remember take it from the part their elements were in.
+/// Parts that remember are made anew, and take it from what they were; of the others slots stay with their elements.
 template <class Real>
 void ElasticBody<Real>::take_pieces(const TetMesh& mesh, const std::vector<int>& material_of,
                                     const std::vector<int>& origins) {
-  const TetMesh old_mesh = std::exchange(mesh_, mesh);
-  const std::vector<Part> old_parts = std::exchange(parts_, {});
+  const TetMesh before = std::exchange(mesh_, mesh);
+  std::vector<Part> old_parts = std::exchange(parts_, {});
   material_of_ = material_of;
-  make_parts();
-  if (!has_memory()) return;
-  std::vector<std::size_t> slot(old_mesh.tets.size());
-  for (const Part& part : old_parts)
-    for (std::size_t s = 0; s < part.group.size(); ++s) slot[static_cast<std::size_t>(part.group.element[s])] = s;
-  for (Part& part : parts_) {
-    const auto old = std::find_if(old_parts.begin(), old_parts.end(),
-                                  [&](const Part& other) { return other.material == part.material; });
-    std::vector<std::size_t> from;
-    std::vector<Reshape<Real>> reshapes;
-    for (std::size_t s = 0; s < part.group.volume.size(); ++s) {
-      const int element = part.group.element[std::min(s, part.group.size() - 1)];
-      const int origin = origins[static_cast<std::size_t>(element)];
-      from.push_back(slot[static_cast<std::size_t>(origin)]);
-      reshapes.emplace_back(places(old_mesh, origin), places(mesh_, element));
-    }
-    for (std::size_t k = 0; k < part.terms.size(); ++k) {
-      auto* memory = dynamic_cast<MemoryTerm<Real>*>(part.terms[k].get());
-      if (!memory) continue;
-      memory->take_pieces(dynamic_cast<const MemoryTerm<Real>&>(*old->terms[k]), from, reshapes);
-    }
-    if (part.flow) part.flow->take_pieces(*old->flow, old->group, from, reshapes, part.group);
+  std::vector<int> number(before.tets.size(), -1);
+  std::vector<std::vector<int>> all(materials_.size()), pieces(materials_.size());
+  for (std::size_t t = 0; t < mesh_.tets.size(); ++t) {
+    const auto origin = static_cast<std::size_t>(origins[t]), material = static_cast<std::size_t>(material_of_[t]);
+    all[material].push_back(static_cast<int>(t));
+    if (mesh_.tets[t] == before.tets[origin])
+      number[origin] = static_cast<int>(t);
+    else
+      pieces[material].push_back(static_cast<int>(t));
   }
+  for (Part& old : old_parts) {
+    const std::size_t material = old.material;
+    if (materials_[material].has_memory()) {
+      parts_.push_back(make_part(material, all[material]));
+      take_memory(old, before, origins, parts_.back());
+      continue;
+    }
+    keep_numbered(old, number);
+    if (!pieces[material].empty()) append(make_group<Real>(mesh_, pieces[material], materials_[material]), old.group);
+    if (old.group.size() > 0) parts_.push_back(std::move(old));
+  }
+  join_parts();
+  edit_fans(before, origins);
+}
+
+template <class Real>
+void ElasticBody<Real>::take_memory(const Part& old, const TetMesh& before, const std::vector<int>& origins,
+                                    Part& part) const {
+  std::vector<std::size_t> slot(before.tets.size());
+  for (std::size_t s = 0; s < old.group.size(); ++s) slot[static_cast<std::size_t>(old.group.element[s])] = s;
+  std::vector<std::size_t> from;
+  std::vector<Reshape<Real>> reshapes;
+  for (std::size_t s = 0; s < part.group.volume.size(); ++s) {
+    const int element = part.group.element[std::min(s, part.group.size() - 1)];
+    const int origin = origins[static_cast<std::size_t>(element)];
+    from.push_back(slot[static_cast<std::size_t>(origin)]);
+    reshapes.emplace_back(places(before, origin), places(mesh_, element));
+  }
+  for (std::size_t k = 0; k < part.terms.size(); ++k) {
+    auto* memory = dynamic_cast<MemoryTerm<Real>*>(part.terms[k].get());
+    if (memory) memory->take_pieces(dynamic_cast<const MemoryTerm<Real>&>(*old.terms[k]), from, reshapes);
+  }
+  if (part.flow) part.flow->take_pieces(*old.flow, old.group, from, reshapes, part.group);
 }
 
 template void ElasticBody<float>::set_mesh(const TetMesh&, const std::vector<int>&);

@@ -20,9 +20,9 @@ FanElements elements_of(const TetMesh& mesh, const FanPart& part, FanShape shape
   if (shape != FanShape::fibre) return result;
   const std::string& field = part.material->fibre_field;
   const std::vector<double>* values = field.empty() ? nullptr : &find_field(mesh, field)->values;
-  for (const int t : result.elements)
-    result.fibre.push_back(values ? Eigen::Map<const Vec3>(&(*values)[3 * static_cast<std::size_t>(t)]).normalized()
-                                  : part.material->fibre);
+  result.fibre = [values, fibre = part.material->fibre](int t) -> Vec3 {
+    return values ? Eigen::Map<const Vec3>(&(*values)[3 * static_cast<std::size_t>(t)]).normalized() : fibre;
+  };
   return result;
 }
 
@@ -34,7 +34,7 @@ FanForces<Real>::FanForces(const TetMesh& mesh, const std::vector<FanPart>& part
     : isa_(chosen(isa)) {
   std::vector<FanElements> elements;
   for (const FanPart& part : parts) {
-    laws_.push_back(law_of(*part.material, continuation));
+    laws_.push_back(law_of(part, continuation));
     elements.push_back(elements_of(mesh, part, laws_.back().shape));
   }
   layout_ = FanLayout<Real>(mesh, elements, lanes_of<Real>(isa_), team);
@@ -42,9 +42,12 @@ FanForces<Real>::FanForces(const TetMesh& mesh, const std::vector<FanPart>& part
 }
 
 template <class Real>
-typename FanForces<Real>::Law FanForces<Real>::law_of(const Material& material, bool continuation) const {
+typename FanForces<Real>::Law FanForces<Real>::law_of(const FanPart& part, bool continuation) const {
+  const Material& material = *part.material;
   Law result;
-  with_law<Real>(material, continuation, [&]<class L>(const L& law) {
+  with_law<Real>(material, continuation, [&]<class L>(L law) {
+    if constexpr (L::has_volume_term)
+      if (part.isochoric) law.kappa = 0;
     result.kernel = fan_kernel<Real>(isa_, index_in_list(L::name), continuation);
     result.law = std::make_shared<const L>(law);
     result.shape = PrincipalLaw<L, Real> ? FanShape::principal : L::uses_I4 ? FanShape::fibre : FanShape::plain;
@@ -60,7 +63,7 @@ bool FanForces<Real>::take_laws(const std::vector<FanPart>& parts, bool continua
   if (parts.size() != laws_.size()) return false;
   std::vector<Law> laws;
   for (std::size_t p = 0; p < parts.size(); ++p) {
-    laws.push_back(law_of(*parts[p].material, continuation));
+    laws.push_back(law_of(parts[p], continuation));
     const Law &now = laws.back(), &before = laws_[p];
     if (now.shape != before.shape || now.fibre != before.fibre || now.fibre_field != before.fibre_field) return false;
   }
@@ -69,10 +72,21 @@ bool FanForces<Real>::take_laws(const std::vector<FanPart>& parts, bool continua
 }
 
 template <class Real>
+bool FanForces<Real>::follow(const TetMesh& before, const TetMesh& mesh, const std::vector<FanPart>& parts,
+                             const std::vector<int>& origins, ThreadTeam& team) {
+  if (parts.size() != laws_.size()) return false;
+  std::vector<FanElements> elements;
+  for (std::size_t p = 0; p < parts.size(); ++p) elements.push_back(elements_of(mesh, parts[p], laws_[p].shape));
+  layout_.follow(before, mesh, elements, origins, lanes_of<Real>(isa_), team);
+  shared_force_.assign(3 * layout_.shared_slots, Real(0));
+  return true;
+}
+
+template <class Real>
 bool FanForces<Real>::forces(const Real* x, Real* f, ThreadTeam& team) {
   const FanLayout<Real>& fans = layout_;
   std::atomic<bool> valid{true};
-  const std::size_t blocks_a_thread = 1 + grain_ * fans.blocks.size() / (fans.elements + 1);
+  const std::size_t blocks_a_thread = 1 + grain_ * fans.blocks.size() / (fans.elements() + 1);
   team.for_ranges(fans.blocks.size(), blocks_a_thread, [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
       const auto& at = fans.blocks[b];
@@ -102,8 +116,8 @@ bool FanForces<Real>::forces(const Real* x, Real* f, ThreadTeam& team) {
 
 template <class Real>
 std::size_t FanForces<Real>::bytes() const {
-  return bytes_of(layout_.blocks, layout_.size, layout_.index, layout_.shape, layout_.place, layout_.shared_node,
-                  layout_.shared_start, layout_.shared_slot, shared_force_);
+  return bytes_of(layout_.blocks, layout_.size, layout_.index, layout_.shape, layout_.place, layout_.element,
+                  layout_.shared_node, layout_.shared_start, layout_.shared_slot, shared_force_);
 }
 
 template class FanForces<float>;

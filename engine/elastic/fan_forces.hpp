@@ -1,6 +1,6 @@
 #pragma once
-// The forces of elements that have a uniform law and nothing else: blocks of fans (elastic/fan_block.hpp), each run by
-// the kernel of its law.
+// The forces of elements that have a uniform law: blocks of fans (elastic/fan_block.hpp), each run by the kernel of its
+// law.
 //
 //   blocks ──► forces of their own nodes ──► f
 //         └──► those of shared nodes ──► summed in the order of blocks ──► f
@@ -13,10 +13,11 @@
 
 namespace heml {
 
-/// Elements (inner numbers, in locality order) of one material without fields, memory or another volume term.
+/// Elements (inner numbers, in locality order) of one material without fields, whose rest shapes stay.
 struct FanPart {
   const std::vector<int>* elements;
   const Material* material;
+  bool isochoric = false;  ///< the law without its volume term, which it must have
 };
 
 template <class Real>
@@ -30,6 +31,11 @@ class FanForces {
   /// Other laws for the same elements in the same parts: their layout is kept. Returns whether it could be, which is
   /// where the constants of each part are the same still; else nothing is changed.
   bool take_laws(const std::vector<FanPart>& parts, bool continuation);
+
+  /// Takes an edit of the mesh (fan_layout.hpp, follow): blocks it did not touch are kept. Returns whether it could,
+  /// which is where there are as many parts as before; else nothing is changed.
+  bool follow(const TetMesh& before, const TetMesh& mesh, const std::vector<FanPart>& parts,
+              const std::vector<int>& origins, ThreadTeam& team);
 
   bool empty() const { return layout_.blocks.empty(); }
 
@@ -52,7 +58,7 @@ class FanForces {
     Vec3 fibre;               ///< of shape fibre alone
     std::string fibre_field;  ///< likewise
   };
-  Law law_of(const Material& material, bool continuation) const;
+  Law law_of(const FanPart& part, bool continuation) const;
 
   InstructionSet isa_ = InstructionSet::portable;
   FanLayout<Real> layout_;

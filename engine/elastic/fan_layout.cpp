@@ -1,8 +1,11 @@
 #include <Eigen/LU>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <heml/elastic/fan_cut.hpp>
 #include <heml/elastic/fan_layout.hpp>
+#include <optional>
+#include <span>
 
 namespace heml {
 namespace {
@@ -12,41 +15,39 @@ constexpr std::size_t most_mesh_nodes_a_block = most_block_nodes - 4;  // and fo
 
 std::size_t at(int n) { return static_cast<std::size_t>(n); }
 
-/// A contiguous piece of a part's elements, its distinct nodes ascending.
-struct Piece {
-  std::size_t part, begin, end;
-  std::vector<int> nodes;
+/// What a block is made of.
+struct Chunk {
+  std::size_t part;
+  std::vector<int> elements;
+  std::vector<int> nodes;           ///< distinct; ascending, or as the block has them that it was
+  std::optional<std::size_t> kept;  ///< the block that it was
 };
 
-Piece piece_of(const TetMesh& mesh, const std::vector<int>& elements, std::size_t part, std::size_t begin,
-               std::size_t end) {
-  Piece piece{part, begin, end, {}};
-  for (std::size_t i = begin; i < end; ++i)
-    for (const int n : mesh.tets[at(elements[i])]) piece.nodes.push_back(n);
-  std::sort(piece.nodes.begin(), piece.nodes.end());
-  piece.nodes.erase(std::unique(piece.nodes.begin(), piece.nodes.end()), piece.nodes.end());
-  return piece;
+Chunk chunk_of(const TetMesh& mesh, std::size_t part, std::span<const int> elements) {
+  Chunk chunk{part, {elements.begin(), elements.end()}, {}, {}};
+  for (const int t : elements)
+    for (const int n : mesh.tets[at(t)]) chunk.nodes.push_back(n);
+  std::sort(chunk.nodes.begin(), chunk.nodes.end());
+  chunk.nodes.erase(std::unique(chunk.nodes.begin(), chunk.nodes.end()), chunk.nodes.end());
+  return chunk;
 }
 
-/// A power of two of pieces, from 16 on a multiple of it, so that threads get equal shares; more where elements share
-/// few nodes.
-std::vector<Piece> pieces_of(const TetMesh& mesh, const std::vector<FanElements>& parts) {
-  std::vector<Piece> pieces;
-  for (std::size_t p = 0; p < parts.size(); ++p) {
-    const auto& elements = parts[p].elements;
-    const std::size_t first = pieces.size();
-    std::size_t count = 1;
-    while (elements.size() > count * most_block_elements) count += std::min<std::size_t>(count, 16);
-    for (bool fits = false; !fits; count *= 2) {
-      fits = true;
-      pieces.resize(first);
-      for (std::size_t b = 0; b < count && fits; ++b) {
-        pieces.push_back(piece_of(mesh, elements, p, elements.size() * b / count, elements.size() * (b + 1) / count));
-        fits = pieces.back().nodes.size() <= most_mesh_nodes_a_block;
-      }
+/// Adds a power of two of chunks, from 16 on a multiple of it, so that threads get equal shares; more where elements
+/// share few nodes.
+void add_chunks(const TetMesh& mesh, std::size_t part, std::span<const int> elements, std::vector<Chunk>& chunks) {
+  if (elements.empty()) return;
+  const std::size_t first = chunks.size(), size = elements.size();
+  std::size_t count = 1;
+  while (size > count * most_block_elements) count += std::min<std::size_t>(count, 16);
+  for (bool fits = false; !fits; count *= 2) {
+    fits = true;
+    chunks.resize(first);
+    for (std::size_t b = 0; b < count && fits; ++b) {
+      const std::size_t begin = size * b / count, end = size * (b + 1) / count;
+      chunks.push_back(chunk_of(mesh, part, elements.subspan(begin, end - begin)));
+      fits = chunks.back().nodes.size() <= most_mesh_nodes_a_block;
     }
   }
-  return pieces;
 }
 
 /// The rest shape of one tetrahedron whose edges b0, b1 are square to its edge a, in the order of fan_block.hpp.
@@ -84,7 +85,7 @@ FanNodes nodes_of(const TetMesh& mesh, const Fan& fan) {
   return nodes;
 }
 
-/// The groups of one piece.
+/// The groups of one chunk.
 template <class Real>
 struct Groups {
   std::vector<FanSize> size;
@@ -94,11 +95,11 @@ struct Groups {
 
 /// record: where the record of a node begins.
 template <class Real, class Record>
-Groups<Real> groups_of(const TetMesh& mesh, const FanElements& part, const Piece& piece, std::size_t lanes,
+Groups<Real> groups_of(const TetMesh& mesh, const FanElements& part, const Chunk& chunk, std::size_t lanes,
                        const Record& record) {
   Groups<Real> groups;
   std::vector<Tet> tets;
-  for (std::size_t i = piece.begin; i < piece.end; ++i) tets.push_back(mesh.tets[at(part.elements[i])]);
+  for (const int t : chunk.elements) tets.push_back(mesh.tets[at(t)]);
   const std::size_t constants = fan_constants(part.shape == FanShape::fibre);
   const std::vector<Fan> fans = cut_into_fans(tets, lanes);
   for (std::size_t first = 0; first < fans.size(); first += lanes) {
@@ -118,7 +119,7 @@ Groups<Real> groups_of(const TetMesh& mesh, const FanElements& part, const Piece
       }
       for (std::size_t i = 0; i < size.tets; ++i) {
         const bool has_fibre = part.shape == FanShape::fibre && !fan.tets.empty();
-        const Vec3 fibre = has_fibre ? part.fibre[piece.begin + fan.tets[i]] : Vec3::UnitX();
+        const Vec3 fibre = has_fibre ? part.fibre(chunk.elements[fan.tets[i]]) : Vec3::UnitX();
         const auto values =
             constants_of(nodes.axis, nodes.spoke[i], nodes.spoke[(i + 1) % size.ring], part.shape, fibre);
         for (std::size_t c = 0; c < constants; ++c)
@@ -129,17 +130,21 @@ Groups<Real> groups_of(const TetMesh& mesh, const FanElements& part, const Piece
   return groups;
 }
 
-/// Those of all pieces, as many at a time as the team has threads.
+/// Those of all chunks that are not kept, as many at a time as the team has threads.
 template <class Real>
 std::vector<Groups<Real>> all_groups(const TetMesh& mesh, const std::vector<FanElements>& parts,
-                                     const std::vector<Piece>& pieces, std::size_t lanes, ThreadTeam& team) {
-  std::vector<Groups<Real>> groups(pieces.size());
-  team.for_ranges(pieces.size(), 1, [&](std::size_t begin, std::size_t end) {
+                                     const std::vector<Chunk>& chunks, std::size_t lanes, ThreadTeam& team) {
+  std::vector<std::size_t> fresh;
+  for (std::size_t c = 0; c < chunks.size(); ++c)
+    if (!chunks[c].kept) fresh.push_back(c);
+  std::vector<Groups<Real>> groups(chunks.size());
+  team.for_ranges(fresh.size(), 1, [&](std::size_t begin, std::size_t end) {
     std::vector<std::uint16_t> local(mesh.nodes.size());
-    for (std::size_t p = begin; p < end; ++p) {
-      const std::vector<int>& nodes = pieces[p].nodes;
+    for (std::size_t k = begin; k < end; ++k) {
+      const Chunk& chunk = chunks[fresh[k]];
+      const std::vector<int>& nodes = chunk.nodes;
       for (std::size_t i = 0; i < nodes.size(); ++i) local[at(nodes[i])] = static_cast<std::uint16_t>(8 * i);
-      groups[p] = groups_of<Real>(mesh, parts[pieces[p].part], pieces[p], lanes, [&](int n, std::size_t corner) {
+      groups[fresh[k]] = groups_of<Real>(mesh, parts[chunk.part], chunk, lanes, [&](int n, std::size_t corner) {
         return n < 0 ? static_cast<std::uint16_t>(8 * (nodes.size() + corner)) : local[at(n)];
       });
     }
@@ -147,44 +152,121 @@ std::vector<Groups<Real>> all_groups(const TetMesh& mesh, const std::vector<FanE
   return groups;
 }
 
+/// Adds what a kept block has in a list, from its `begin` to that of the block after it.
+template <class List>
+void add_slice(const List& from, std::size_t begin, std::size_t end, List& to) {
+  to.insert(to.end(), from.begin() + static_cast<std::ptrdiff_t>(begin),
+            from.begin() + static_cast<std::ptrdiff_t>(end));
+}
+
+/// The groups of all chunks: those of kept ones out of the layout before, the others anew.
+template <class Real>
+void add_groups(const TetMesh& mesh, const std::vector<FanElements>& parts, const std::vector<Chunk>& chunks,
+                std::size_t lanes, const FanLayout<Real>& before, FanLayout<Real>& layout, ThreadTeam& team) {
+  const auto groups = all_groups<Real>(mesh, parts, chunks, lanes, team);
+  for (std::size_t b = 0; b < chunks.size(); ++b) {
+    auto& block = layout.blocks[b];
+    block.group = layout.size.size(), block.index = layout.index.size(), block.shape = layout.shape.size();
+    if (const auto kept = chunks[b].kept) {
+      const auto& old = before.blocks[*kept];
+      const bool last = *kept + 1 == before.blocks.size();
+      block.groups = old.groups;
+      add_slice(before.size, old.group, old.group + old.groups, layout.size);
+      add_slice(before.index, old.index, last ? before.index.size() : before.blocks[*kept + 1].index, layout.index);
+      add_slice(before.shape, old.shape, last ? before.shape.size() : before.blocks[*kept + 1].shape, layout.shape);
+    } else {
+      block.groups = groups[b].size.size();
+      layout.size.insert(layout.size.end(), groups[b].size.begin(), groups[b].size.end());
+      layout.index.insert(layout.index.end(), groups[b].index.begin(), groups[b].index.end());
+      layout.shape.insert(layout.shape.end(), groups[b].shape.begin(), groups[b].shape.end());
+    }
+  }
+}
+
+/// Which nodes are no block's own.
+template <class Real>
+std::vector<char> shared_nodes(const TetMesh& mesh, const std::vector<Chunk>& chunks, const FanLayout<Real>& before,
+                               std::vector<std::size_t>& touches) {
+  touches.assign(mesh.nodes.size(), 0);
+  std::vector<char> shared(mesh.nodes.size(), 0);
+  for (const Chunk& chunk : chunks) {
+    for (const int n : chunk.nodes) ++touches[at(n)];
+    for (std::size_t i = chunk.kept ? before.blocks[*chunk.kept].own : chunk.nodes.size(); i < chunk.nodes.size(); ++i)
+      shared[at(chunk.nodes[i])] = 1;
+  }
+  for (std::size_t n = 0; n < shared.size(); ++n)
+    if (touches[n] != 1) shared[n] = 1;
+  return shared;
+}
+
+template <class Real>
+FanLayout<Real> layout_of(const TetMesh& mesh, const std::vector<FanElements>& parts, std::vector<Chunk> chunks,
+                          std::size_t lanes, const FanLayout<Real>& before, ThreadTeam& team) {
+  FanLayout<Real> layout;
+  std::vector<std::size_t> touches, rank(mesh.nodes.size(), 0);
+  const std::vector<char> shared = shared_nodes(mesh, chunks, before, touches);
+  layout.shared_start.push_back(0);
+  for (std::size_t n = 0; n < shared.size(); ++n) {
+    if (!shared[n]) continue;
+    rank[n] = layout.shared_node.size();
+    layout.shared_node.push_back(static_cast<int>(n));
+    layout.shared_start.push_back(layout.shared_start.back() + touches[n]);
+  }
+  layout.shared_slot.resize(layout.shared_start.back());
+  std::vector<std::size_t> fill(layout.shared_start.begin(), layout.shared_start.end() - 1);
+
+  for (Chunk& chunk : chunks) {
+    std::vector<int>& nodes = chunk.nodes;
+    const auto others = std::stable_partition(nodes.begin(), nodes.end(), [&](int n) { return !shared[at(n)]; });
+    const auto own = static_cast<std::size_t>(others - nodes.begin());
+    assert(!chunk.kept || own == before.blocks[*chunk.kept].own);
+    layout.blocks.push_back({chunk.part, 0, 0, 0, layout.place.size(), layout.element.size(), layout.shared_slots, 0,
+                             own, nodes.size(), chunk.elements.size()});
+    for (auto n = others; n != nodes.end(); ++n) layout.shared_slot[fill[rank[at(*n)]]++] = layout.shared_slots++;
+    for (const int n : nodes) layout.place.push_back(3 * static_cast<std::uint32_t>(n));
+    layout.element.insert(layout.element.end(), chunk.elements.begin(), chunk.elements.end());
+  }
+  add_groups(mesh, parts, chunks, lanes, before, layout, team);
+  return layout;
+}
+
 }  // namespace
 
 template <class Real>
 FanLayout<Real>::FanLayout(const TetMesh& mesh, const std::vector<FanElements>& parts, std::size_t lanes,
                            ThreadTeam& team) {
-  std::vector<Piece> pieces = pieces_of(mesh, parts);
-  std::vector<std::size_t> touches(mesh.nodes.size(), 0), rank(mesh.nodes.size(), 0);
-  for (const Piece& piece : pieces)
-    for (const int n : piece.nodes) ++touches[at(n)];
-  shared_start.push_back(0);
-  for (std::size_t n = 0; n < touches.size(); ++n) {
-    if (touches[n] == 1) continue;
-    rank[n] = shared_node.size();
-    shared_node.push_back(static_cast<int>(n));
-    shared_start.push_back(shared_start.back() + touches[n]);
-  }
-  shared_slot.resize(shared_start.back());
-  std::vector<std::size_t> fill(shared_start.begin(), shared_start.end() - 1);
+  std::vector<Chunk> chunks;
+  for (std::size_t p = 0; p < parts.size(); ++p) add_chunks(mesh, p, parts[p].elements, chunks);
+  *this = layout_of(mesh, parts, std::move(chunks), lanes, FanLayout(), team);
+}
 
-  for (Piece& piece : pieces) {
-    std::vector<int>& nodes = piece.nodes;
-    const auto shared = std::stable_partition(nodes.begin(), nodes.end(), [&](int n) { return touches[at(n)] == 1; });
-    Block block{piece.part, 0, 0, 0, place.size(), shared_slots, 0, 0, nodes.size()};
-    block.own = static_cast<std::size_t>(shared - nodes.begin());
-    for (auto n = shared; n != nodes.end(); ++n) shared_slot[fill[rank[at(*n)]]++] = shared_slots++;
-    for (const int n : nodes) place.push_back(3 * static_cast<std::uint32_t>(n));
-    elements += piece.end - piece.begin;
-    blocks.push_back(block);
-  }
-  const auto groups = all_groups<Real>(mesh, parts, pieces, lanes, team);
+template <class Real>
+void FanLayout<Real>::follow(const TetMesh& before, const TetMesh& mesh, const std::vector<FanElements>& parts,
+                             const std::vector<int>& origins, std::size_t lanes, ThreadTeam& team) {
+  std::vector<std::size_t> block_of(before.tets.size(), 0);
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+    for (std::size_t k = 0; k < blocks[b].elements; ++k) block_of[at(element[blocks[b].element + k])] = b;
+  std::vector<std::vector<int>> of_block(blocks.size());
+  std::vector<char> touched(blocks.size(), 0);
+  for (const FanElements& part : parts)
+    for (const int t : part.elements) {
+      const int origin = origins[at(t)];
+      const std::size_t b = block_of[at(origin)];
+      of_block[b].push_back(t);
+      if (mesh.tets[at(t)] != before.tets[at(origin)]) touched[b] = 1;
+    }
+  std::vector<Chunk> chunks;
   for (std::size_t b = 0; b < blocks.size(); ++b) {
-    Block& block = blocks[b];
-    block.group = size.size(), block.index = index.size(), block.shape = shape.size();
-    block.groups = groups[b].size.size();
-    size.insert(size.end(), groups[b].size.begin(), groups[b].size.end());
-    index.insert(index.end(), groups[b].index.begin(), groups[b].index.end());
-    shape.insert(shape.end(), groups[b].shape.begin(), groups[b].shape.end());
+    const Block& block = blocks[b];
+    if (touched[b] || of_block[b].size() != block.elements) {
+      add_chunks(mesh, block.part, of_block[b], chunks);
+      continue;
+    }
+    chunks.push_back({block.part, std::move(of_block[b]), {}, b});
+    for (std::size_t k = 0; k < block.nodes; ++k)
+      chunks.back().nodes.push_back(static_cast<int>(place[block.place + k] / 3));
   }
+  *this = layout_of(mesh, parts, std::move(chunks), lanes, *this, team);
 }
 
 template <class Real>
@@ -192,7 +274,7 @@ double FanLayout<Real>::bytes_per_tet() const {
   const std::size_t bytes = sizeof(FanSize) * size.size() + sizeof(std::uint16_t) * index.size() +
                             sizeof(Real) * shape.size() + (sizeof(std::uint32_t) + 6 * sizeof(Real)) * place.size() +
                             (sizeof(std::size_t) + 3 * sizeof(Real)) * shared_slots;
-  return elements ? static_cast<double>(bytes) / static_cast<double>(elements) : 0;
+  return element.empty() ? 0 : static_cast<double>(bytes) / static_cast<double>(element.size());
 }
 
 template struct FanLayout<float>;

@@ -1,8 +1,74 @@
 #include <algorithm>
 #include <cmath>
 #include <heml/elastic/memory_term.hpp>
+#include <heml/elastic/wide.hpp>
 
 namespace heml {
+namespace {
+
+/// V (η A dG A + ζ/2 (A:dG) A) / h.
+template <class Real>
+[[gnu::always_inline]] inline void add_viscous_tensions(const Real dG[6], const RestShape<Real>& rest, Real eta,
+                                                        Real zeta, Real per_step, Real T[6]) {
+  const Real* A = rest.A;
+  const Real a[3][3] = {{A[0], A[3], A[4]}, {A[3], A[1], A[5]}, {A[4], A[5], A[2]}};
+  Real AdGA[6];
+  congruent3(a, dG, AdGA);
+  const Real bulk = zeta / 2 * contract3(A, dG), scale = rest.volume * per_step;
+  for (int i = 0; i < 6; ++i) T[i] += scale * (eta * AdGA[i] + bulk * A[i]);
+}
+
+/// A term that is viscous and nothing else.
+template <class Real>
+struct Viscous {
+  Real eta, zeta, per_step;
+  std::size_t stride;
+};
+
+template <class Real>
+HEML_WIDE void viscous_forces(const Viscous<Real>& of, const ElementGroup<Real>& group, const Real* x, const Real* kept,
+                              std::size_t begin, std::size_t end, Real* corner, bool add) {
+  constexpr std::size_t lanes = ElementGroup<Real>::lanes;
+  for (std::size_t p = begin; p < end; ++p) {
+    const Packet<Real, false> packet(group, x, p * lanes);
+    Real before[6][lanes], out[12][lanes];
+    for (std::size_t l = 0; l < lanes; ++l)
+      for (std::size_t i = 0; i < 6; ++i) before[i][l] = kept[of.stride * (p * lanes + l) + i];
+#pragma GCC ivdep
+    for (std::size_t l = 0; l < lanes; ++l) {
+      const Corners<Real> at(packet.x, l);
+      const RestShape<Real> rest = packet.rest(l);
+      const auto link = read_link<false, false, false>(at.x[0], at.x[1], at.x[2], at.x[3], rest);
+      Real dG[6], f[12];
+      for (std::size_t i = 0; i < 6; ++i) dG[i] = link.G[i] - before[i][l];
+      Tensions<Real> t{};
+      add_viscous_tensions(dG, rest, of.eta, of.zeta, of.per_step, t.T);
+      pull_corners<false>(t, link.e, link.cross, f);
+      for (int i = 0; i < 12; ++i) out[i][l] = f[i];
+    }
+    put_corners(out, corner + 3 * (group.first_corner + 4 * p * lanes), add);
+  }
+}
+
+/// Squared lengths now, for the next step.
+template <class Real>
+HEML_WIDE void keep_lengths(const ElementGroup<Real>& group, const Real* x, std::size_t stride, Real* kept) {
+  constexpr std::size_t lanes = ElementGroup<Real>::lanes;
+  for (std::size_t p = 0; p < group.packets(); ++p) {
+    const Packet<Real, false> packet(group, x, p * lanes);
+    Real G[6][lanes];
+#pragma GCC ivdep
+    for (std::size_t l = 0; l < lanes; ++l) {
+      const Corners<Real> at(packet.x, l);
+      const auto link = read_link<false, false, false>(at.x[0], at.x[1], at.x[2], at.x[3], packet.rest(l));
+      for (int i = 0; i < 6; ++i) G[i][l] = link.G[i];
+    }
+    for (std::size_t l = 0; l < lanes; ++l)
+      for (std::size_t i = 0; i < 6; ++i) kept[stride * (p * lanes + l) + i] = G[i][l];
+  }
+}
+
+}  // namespace
 
 template <class Real>
 MemoryTerm<Real>::MemoryTerm(std::unique_ptr<GroupTerm<Real>> law, const Material& material)
@@ -49,6 +115,7 @@ void MemoryTerm<Real>::take_pieces(const MemoryTerm& other, std::span<const std:
 
 template <class Real>
 void MemoryTerm<Real>::commit(const Group& group, const Real* x) {
+  if (branches_.empty() && has_wide()) return keep_lengths(group, x, stride_, kept_.data());
   for (std::size_t s = 0; s < group.volume.size(); ++s) {
     const auto rest = rest_shape(group, s);
     const auto link = whole_link(group, x, s, rest);
@@ -81,15 +148,17 @@ Tensions<Real> MemoryTerm<Real>::fixed_tensions(std::size_t s) const {
   return t;
 }
 
-/// V (η A dG A + ζ/2 (A:dG) A) / h.
 template <class Real>
 void MemoryTerm<Real>::add_viscous(const Real dG[6], const RestShape<Real>& rest, Real T[6]) const {
-  const Real* A = rest.A;
-  const Real a[3][3] = {{A[0], A[3], A[4]}, {A[3], A[1], A[5]}, {A[4], A[5], A[2]}};
-  Real AdGA[6];
-  congruent3(a, dG, AdGA);
-  const Real bulk = zeta_ / 2 * contract3(A, dG), scale = rest.volume * per_step_;
-  for (int i = 0; i < 6; ++i) T[i] += scale * (eta_ * AdGA[i] + bulk * A[i]);
+  add_viscous_tensions(dG, rest, eta_, zeta_, per_step_, T);
+}
+
+template <class Real>
+bool MemoryTerm<Real>::forces(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real* corner,
+                              bool add) const {
+  if (!branches_.empty() || !has_wide()) return GroupTerm<Real>::forces(group, x, begin, end, corner, add);
+  viscous_forces<Real>({eta_, zeta_, per_step_, stride_}, group, x, kept_.data(), begin, end, corner, add);
+  return true;
 }
 
 template <class Real>

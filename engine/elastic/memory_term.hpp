@@ -25,6 +25,8 @@ class MemoryTerm final : public GroupTerm<Real> {
   /// law: the isochoric part of the material's law.
   MemoryTerm(std::unique_ptr<GroupTerm<Real>> law, const Material& material);
 
+  bool forces(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real* corner,
+              bool add) const override;
   Tensions<Real> tensions(const Group& group, std::size_t s, const Link<Real>& link,
                           const RestShape<Real>& rest) const override;
   Tensions<Real> tension_change(const Group& group, std::size_t s, const Link<Real>& link, const RestShape<Real>& rest,

@@ -2,6 +2,7 @@
 #include <atomic>
 #include <cmath>
 #include <heml/elastic/nodal_pressure.hpp>
+#include <heml/elastic/wide.hpp>
 #include <heml/materials/volume.hpp>
 #include <mutex>
 
@@ -15,6 +16,45 @@ Link<Real> volume_link(const ElementGroup<Real>& group, const Real* x, std::size
   const SlotNodes<Real> n(group, x, s);
   return read_link<false, true, false>(n.x0, n.x1, n.x2, n.x3, rest);
 }
+
+/// V J of every slot of packets.
+template <class Real>
+HEML_WIDE void packet_volumes(const ElementGroup<Real>& group, const Real* x, std::size_t begin, std::size_t end,
+                              Real* of_slot) {
+  constexpr std::size_t lanes = ElementGroup<Real>::lanes;
+  for (std::size_t p = begin; p < end; ++p) {
+    const Packet<Real, false> packet(group, x, p * lanes);
+    Real* to = of_slot + p * lanes;
+#pragma GCC ivdep
+    for (std::size_t l = 0; l < lanes; ++l) {
+      const Corners<Real> at(packet.x, l);
+      const RestShape<Real> rest = packet.rest(l);
+      to[l] = rest.volume * read_link<false, true, false>(at.x[0], at.x[1], at.x[2], at.x[3], rest).at.J;
+    }
+  }
+}
+
+/// Adds the pull of the mean of four nodes' pressures to the corner forces of packets.
+template <class Real>
+HEML_WIDE void add_packet_pressures(const ElementGroup<Real>& group, const Real* x, const Real* pressure,
+                                    std::size_t begin, std::size_t end, Real* corner) {
+  constexpr std::size_t lanes = ElementGroup<Real>::lanes;
+  for (std::size_t p = begin; p < end; ++p) {
+    const Packet<Real, false> packet(group, x, p * lanes);
+    Real mean[lanes] = {}, out[12][lanes];
+    for (const auto& list : group.node)
+      for (std::size_t l = 0; l < lanes; ++l) mean[l] += pressure[list[p * lanes + l]];
+#pragma GCC ivdep
+    for (std::size_t l = 0; l < lanes; ++l) {
+      const Corners<Real> at(packet.x, l);
+      const auto link = read_link<false, true, false>(at.x[0], at.x[1], at.x[2], at.x[3], packet.rest(l));
+      Real f[12];
+      pull_corners<true>(Tensions<Real>{{}, mean[l] / 4}, link.e, link.cross, f);
+      for (int i = 0; i < 12; ++i) out[i][l] = f[i];
+    }
+    put_corners(out, corner + 3 * (group.first_corner + 4 * p * lanes), true);
+  }
+}
 }  // namespace
 
 template <class Real>
@@ -23,7 +63,7 @@ NodalPressure<Real>::NodalPressure(std::vector<const ElementGroup<Real>*> groups
     : groups_(std::move(groups)), corners_(corners), kappa_(kappa), term_(term), continuation_(continuation) {
   std::size_t count = 0;
   for (const auto* group : groups_) count += 4 * group->volume.size();
-  of_corner_.assign(count, 0);
+  of_corner_.assign(count / 4, 0);  // a slot's four corners have the same
   ThreadTeam alone(1);
   gather(node_volume_, alone,
          [](const ElementGroup<Real>& group, std::size_t, std::size_t s) { return group.volume[s]; });
@@ -33,26 +73,32 @@ NodalPressure<Real>::NodalPressure(std::vector<const ElementGroup<Real>*> groups
     if (node_volume_[n] > 0) node_kappa_[n] /= node_volume_[n];
 }
 
-/// Sums a value of every element at its four nodes, in ascending order of corner.
+/// Sums of_corner_ at nodes, in ascending order of corner.
+template <class Real>
+static void sum_at_nodes(const CornerMap& corners, const std::vector<Real>& of_slot, std::vector<Real>& node_sums,
+                         ThreadTeam& team) {
+  const std::size_t nodes = corners.start.size() - 1;
+  node_sums.resize(nodes);
+  team.for_ranges(nodes, node_grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t n = begin; n < end; ++n) {
+      Real sum = 0;
+      for (std::size_t k = corners.start[n]; k < corners.start[n + 1]; ++k) sum += of_slot[corners.corners[k] / 4];
+      node_sums[n] = sum;
+    }
+  });
+}
+
+/// Sums a value of every element at its four nodes.
 template <class Real>
 template <class OfSlot>
 void NodalPressure<Real>::gather(std::vector<Real>& node_sums, ThreadTeam& team, const OfSlot& of_slot) {
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     const ElementGroup<Real>& group = *groups_[g];
     team.for_ranges(group.size(), slot_grain, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t s = begin; s < end; ++s)
-        std::fill_n(&of_corner_[group.first_corner + 4 * s], 4, of_slot(group, g, s));
+      for (std::size_t s = begin; s < end; ++s) of_corner_[group.first_corner / 4 + s] = of_slot(group, g, s);
     });
   }
-  const std::size_t nodes = corners_.start.size() - 1;
-  node_sums.resize(nodes);
-  team.for_ranges(nodes, node_grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t n = begin; n < end; ++n) {
-      Real sum = 0;
-      for (std::size_t k = corners_.start[n]; k < corners_.start[n + 1]; ++k) sum += of_corner_[corners_.corners[k]];
-      node_sums[n] = sum;
-    }
-  });
+  sum_at_nodes(corners_, of_corner_, node_sums, team);
 }
 
 template <class Real>
@@ -68,10 +114,18 @@ typename NodalPressure<Real>::Value NodalPressure<Real>::psi(Real J) const {
 
 template <class Real>
 void NodalPressure<Real>::average(const Real* x, ThreadTeam& team) {
-  gather(ratio_, team, [&](const ElementGroup<Real>& group, std::size_t, std::size_t s) {
-    RestShape<Real> rest;
-    return group.volume[s] * volume_link(group, x, s, rest).at.J;
-  });
+  if (has_wide()) {
+    for (const ElementGroup<Real>* group : groups_)
+      team.for_ranges(group->packets(), slot_grain / group->lanes, [&](std::size_t begin, std::size_t end) {
+        packet_volumes(*group, x, begin, end, &of_corner_[group->first_corner / 4]);
+      });
+    sum_at_nodes(corners_, of_corner_, ratio_, team);
+  } else {
+    gather(ratio_, team, [&](const ElementGroup<Real>& group, std::size_t, std::size_t s) {
+      RestShape<Real> rest;
+      return group.volume[s] * volume_link(group, x, s, rest).at.J;
+    });
+  }
   pressure_.resize(ratio_.size());
   for (std::size_t n = 0; n < ratio_.size(); ++n) {
     ratio_[n] = node_volume_[n] > 0 ? ratio_[n] / node_volume_[n] : Real(1);
@@ -92,6 +146,12 @@ bool NodalPressure<Real>::add_forces(const Real* x, Real* corner, ThreadTeam& te
   average(x, team);
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     const ElementGroup<Real>& group = *groups_[g];
+    if (has_wide()) {
+      team.for_ranges(group.packets(), slot_grain / group.lanes, [&](std::size_t begin, std::size_t end) {
+        add_packet_pressures(group, x, pressure_.data(), begin, end, corner);
+      });
+      continue;
+    }
     team.for_ranges(group.size(), slot_grain, [&](std::size_t begin, std::size_t end) {
       for (std::size_t s = begin; s < end; ++s) {
         RestShape<Real> rest;

@@ -145,8 +145,14 @@ class Cutter {
   /// Elements that have a node in the cut, those with halved edges in pieces.
   void split_elements() {
     pieces_.clear();
+    std::vector<char> is_end(mesh_.nodes.size(), 0);  // of a crossed edge; most elements have none
+    for (const auto& [edge, crossing] : crossings_)
+      for (const int n : {edge.first, edge.second}) is_end[static_cast<std::size_t>(n)] = 1;
     for (const int t : topology_.elements) {
       const Tet& tet = mesh_.tets[static_cast<std::size_t>(t)];
+      if (std::none_of(tet.begin(), tet.end(),
+                       [&](int n) { return is_end[static_cast<std::size_t>(n)] || is_in_cut(n); }))
+        continue;
       std::vector<std::pair<Edge, int>> halved;
       for (const auto& local : tet_edges)
         if (const auto found = crossings_.find(edge_of(tet, local));

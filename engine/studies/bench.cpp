@@ -4,9 +4,8 @@
 #include <array>
 #include <cassert>
 #include <heml/studies/bench.hpp>
+#include <heml/studies/bench_tables.hpp>
 #include <heml/studies/machine.hpp>
-#include <heml/studies/table.hpp>
-#include <set>
 
 namespace heml {
 namespace {
@@ -25,71 +24,6 @@ const Suite& suite_named(std::string_view name) {
   const auto found = std::find_if(std::begin(suites), std::end(suites), [&](const Suite& s) { return s.name == name; });
   assert(found != std::end(suites));
   return *found;
-}
-
-/// Notes a row carries, said once each.
-std::string notes_of(std::span<const BenchRow> rows) {
-  std::vector<std::string> said;
-  std::string text;
-  for (const BenchRow& row : rows) {
-    if (!row.more.contains("note")) continue;
-    const std::string note = row.more["note"];
-    if (std::find(said.begin(), said.end(), note) != said.end()) continue;
-    said.push_back(note);
-    text += fmt::format("- {}: {}\n", row.name, note);
-  }
-  return text.empty() ? text : fmt::format("\n{}", text);
-}
-
-/// Least time and ratio of the fastest of the rows that `wanted` takes.
-template <class Wanted>
-std::string fastest(std::span<const BenchRow> rows, const Wanted& wanted) {
-  const BenchRow* best = nullptr;
-  for (const BenchRow& row : rows)
-    if (row.ratio_to_naive && wanted(row) && (!best || row.min < best->min)) best = &row;
-  return best ? fmt::format("{} ({:.1f}×)", short_number(best->min), *best->ratio_to_naive) : "";
-}
-
-/// A line a mesh and law, of neighbouring rows: what a naive loop takes, then precisions and numbers of threads.
-std::string kernel_table(std::span<const BenchRow> rows) {
-  std::set<int> threads;
-  for (const BenchRow& row : rows) threads.insert(row.threads);
-  TextTable table;
-  table.head = {"mesh", "law", "tets", "naive"};
-  for (const char* precision : {"double", "float"})
-    for (const int count : threads)
-      table.head.push_back(fmt::format("{}, {} thread{}", precision, count, count == 1 ? "" : "s"));
-  for (auto first = rows.begin(); first != rows.end();) {
-    const auto last = std::find_if(
-        first, rows.end(), [&](const BenchRow& row) { return row.mesh != first->mesh || row.law != first->law; });
-    Cells& line = table.rows.emplace_back(Cells{first->mesh, first->law, std::to_string(first->tets), ""});
-    for (auto row = first; row != last; ++row)
-      if (!row->ratio_to_naive) line[3] = short_number(row->min);
-    for (const char* precision : {"double", "float"})
-      for (const int count : threads)
-        line.push_back(fastest(
-            {first, last}, [&](const BenchRow& row) { return row.precision == precision && row.threads == count; }));
-    first = last;
-  }
-  table.first_number = 2;
-  table.end_numbers = table.head.size();
-  return fmt::format(
-      "ns/tet, least of all samples, and times faster than the naive loop; --json has every instruction set\n\n{}",
-      markdown_text(table));
-}
-
-std::string table_of(std::span<const BenchRow> rows) {
-  if (rows.front().suite == "kernel") return kernel_table(rows);
-  TextTable table;
-  table.head = {"what",    "mesh",   "law", "precision", "isa",        "tets",
-                "threads", "median", "min", "unit",      "naive/ours", "beside"};
-  table.first_number = 5;
-  table.end_numbers = 11;
-  for (const BenchRow& row : rows)
-    table.rows.push_back({row.name, row.mesh, row.law, row.precision, row.isa, row.tets ? std::to_string(row.tets) : "",
-                          std::to_string(row.threads), short_number(row.median), short_number(row.min), row.unit,
-                          row.ratio_to_naive ? fmt::format("{:.2f}", *row.ratio_to_naive) : "", row.beside});
-  return markdown_text(table) + notes_of(rows);
 }
 
 }  // namespace
@@ -132,7 +66,7 @@ std::string bench_table(const std::vector<BenchRow>& rows) {
   for (auto first = rows.begin(); first != rows.end();) {
     const auto last = std::find_if(first, rows.end(), [&](const BenchRow& row) { return row.suite != first->suite; });
     text += fmt::format("\n## {}: {}\n\n", first->suite, suite_named(first->suite).title);
-    text += table_of({first, last});
+    text += suite_tables({first, last});
     first = last;
   }
   return text;

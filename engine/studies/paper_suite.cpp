@@ -33,6 +33,8 @@ constexpr const char* printed_sums_note =
     "equation (3) over all neighbours, with U_k·U_j taken once for all l: taken anew for each it would be 1.7 times as "
     "much, as the paper has it of the regular cubes. The rest is the mesh: the count goes with the cube of a node's "
     "neighbours, and those of the paper's kidney and uterus, which are not public, must have been more";
+constexpr const char* laws_note =
+    "the element's code of each law, divisions, roots, exponentials and logarithms counted apart";
 constexpr const char* careful_sums_note =
     "equation (3) without the coefficients that are zero because their nodes share no tetrahedron";
 
@@ -91,6 +93,22 @@ std::vector<BenchRow> count_rows(const BenchBody& body, const PaperBody& paper, 
                     paper.mass_tensor, printed_sums_note),
           count_row(body, "Mass-Tensor, no zeros",
                     mass_tensor_operations(body, lambda, mu, MassTensorSums::without_zeros), 0, careful_sums_note)};
+}
+
+/// Every other law on the same body.
+std::vector<BenchRow> law_rows(const BenchBody& body) {
+  std::vector<BenchRow> rows;
+  for (const Material& material : bench_materials()) {
+    if (!find_law(material.law)->is_continuum) continue;
+    const Operations operations = force_operations(body.mesh, material, body.x.data());
+    BenchRow row = count_row(body, "HEML", operations, 0, laws_note);
+    row.law = material.law;
+    row.more["a_tetrahedron"] = Json::array();
+    for (const long count : {operations.multiplications, operations.additions, operations.others})
+      row.more["a_tetrahedron"].push_back(static_cast<double>(count) / static_cast<double>(row.tets));
+    rows.push_back(std::move(row));
+  }
+  return rows;
 }
 
 /// The naive loop, HEML and Mass-Tensor in both precisions, in turn, on one thread.
@@ -167,6 +185,12 @@ std::vector<BenchRow> paper_suite(const BenchOptions& options) {
     for (BenchRow& row : time_rows(body, paper, material, limits)) of_body.push_back(std::move(row));
     add_carried_error<double>(body, material, "double", of_body);
     add_carried_error<float>(body, material, "float", of_body);
+    if (&paper == &paper_bodies[0])
+      for (BenchRow& row : law_rows(body))
+        if (row.law != material.law)
+          of_body.push_back(std::move(row));
+        else
+          of_body.front().more["a_tetrahedron"] = row.more["a_tetrahedron"];
     rows.insert(rows.end(), of_body.begin(), of_body.end());
   }
   return rows;

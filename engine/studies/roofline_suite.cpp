@@ -11,6 +11,14 @@
 namespace heml {
 namespace {
 
+constexpr const char* reached_note =
+    "operations are those of one tetrahedron's code alone (studies/counted.hpp); fans share some of them, so that the "
+    "processor does fewer than the rate says. Slow ones (divisions, roots, exponentials, logarithms) count as one, "
+    "and take many times as long. Why not more: a fan's nodes lie apart, so that loads and stores of whole "
+    "registers are followed by transposes; three passes over a fan write and "
+    "read what does not fit the registers; and results of one are waited for in the next (a fifth of the cycles of "
+    "Saint Venant-Kirchhoff in float). Small bodies run on one thread whatever the number: waking another costs more";
+
 /// Best figure over threads and instruction sets: what a kernel's is held against.
 struct Peaks {
   std::vector<BenchRow> arithmetic, bandwidth;
@@ -101,7 +109,23 @@ std::string level_of(double bytes, const Machine& machine, int threads) {
   return bytes < static_cast<double>(machine.L3) ? "L3" : "DRAM";
 }
 
-BenchRow reached_row(const ForceTiming& timing, const BenchBody& body, double operations, const Peaks& peaks) {
+/// Divisions of the element's code by its volume and by numbers, which are constants of the kernels.
+constexpr double constant_divisions = 10;
+constexpr std::size_t shared_from = 8192;  ///< elements; below them one thread does all (elastic/fan_forces.hpp)
+
+/// What holds a kernel back, by what it reaches. slow: divisions, roots, ... of a tetrahedron.
+std::string limit_of(double arithmetic, double bandwidth, double slow) {
+  if (bandwidth > 0.6 && bandwidth > arithmetic) return "memory";
+  if (slow > 2) return "divisions and roots, and what waits for them";
+  if (arithmetic > 0.6) return "arithmetic, and moving nodes between lanes";
+  return "moving nodes between lanes, waiting for results";
+}
+
+BenchRow reached_row(const ForceTiming& timing, const BenchBody& body, const Operations& counted, const Peaks& peaks) {
+  const double of_all = 1 / static_cast<double>(body.mesh.tets.size());
+  const double others = static_cast<double>(counted.others) * of_all;
+  const double slow = std::max(others - constant_divisions, 0.0);
+  const double operations = static_cast<double>(counted.multiplications_and_additions()) * of_all + others;
   const double tets = static_cast<double>(body.mesh.tets.size());
   BenchRow row = force_row(timing, body);
   const double best = 1e9 * timing.time.min / tets;  // ns/tet
@@ -110,6 +134,7 @@ BenchRow reached_row(const ForceTiming& timing, const BenchBody& body, double op
   row.median = operations / row.median;
   row.min = operations * tets / (1e9 * timing.time.max);
   row.more["operations_per_tet"] = operations;
+  row.more["slow_operations_per_tet"] = slow;
   row.more["bytes_per_tet"] = timing.bytes_per_tet;
   row.more["ns_per_tet"] = best;
   row.more["memory_level"] = level;
@@ -117,10 +142,9 @@ BenchRow reached_row(const ForceTiming& timing, const BenchBody& body, double op
   const double bandwidth = timing.bytes_per_tet / best / peaks.bytes_per_ns(level, timing.threads);
   row.more["fraction_of_arithmetic"] = arithmetic;
   row.more["fraction_of_bandwidth"] = bandwidth;
-  row.more["note"] =
-      "operations of the element code of one tetrahedron alone (studies/counted.hpp); fans share some of them, so that "
-      "the "
-      "processor does fewer than the rate says";
+  const bool alone = timing.threads > 1 && body.mesh.tets.size() < shared_from;
+  row.more["limit"] = alone ? "as on one thread: too small to share" : limit_of(arithmetic, bandwidth, slow);
+  row.more["note"] = reached_note;
   row.beside = fmt::format("{:.0f} operations, {:.0f} bytes a tet: {:.0f} % of the arithmetic, {:.0f} % of {}",
                            operations, timing.bytes_per_tet, 100 * arithmetic, 100 * bandwidth, level);
   return row;
@@ -143,10 +167,8 @@ std::vector<BenchRow> roofline_suite(const BenchOptions& options) {
                        done++ / static_cast<double>(cubes.size() * materials.size()));
       if (!find_law(material.law)->is_continuum) continue;
       const Operations operations = force_operations(body.mesh, material, body.x.data());
-      const double a_tet = static_cast<double>(operations.multiplications_and_additions() + operations.others) /
-                           static_cast<double>(body.mesh.tets.size());
       for (const ForceTiming& timing : time_forces(body, material, limits_of(options)))
-        if (!timing.naive) rows.push_back(reached_row(timing, body, a_tet, peaks));
+        if (!timing.naive) rows.push_back(reached_row(timing, body, operations, peaks));
     }
   }
   return rows;

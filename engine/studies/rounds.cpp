@@ -26,6 +26,8 @@ long runs_of_sample(const std::function<void()>& work, double shortest) {
   }
 }
 
+}  // namespace
+
 Timing summary(std::vector<double> samples) {
   std::sort(samples.begin(), samples.end());
   const std::size_t count = samples.size();
@@ -33,8 +35,6 @@ Timing summary(std::vector<double> samples) {
   return {median, samples.front(), samples.back(), (samples[3 * (count - 1) / 4] - samples[(count - 1) / 4]) / median,
           static_cast<int>(count)};
 }
-
-}  // namespace
 
 std::vector<Timing> time_in_turn(const std::vector<std::function<void()>>& works, const RoundLimits& limits) {
   std::vector<long> runs;

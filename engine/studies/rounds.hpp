@@ -21,6 +21,9 @@ struct RoundLimits {
   double shortest_sample = 1e-3;  ///< s
 };
 
+/// Of samples (s, one at least) that were taken otherwise.
+Timing summary(std::vector<double> samples);
+
 /// What each of the works takes. Reads the clock: for measurements only.
 std::vector<Timing> time_in_turn(const std::vector<std::function<void()>>& works, const RoundLimits& limits);
 

@@ -1,7 +1,11 @@
+// Whole steps of a hanging cube: explicit and implicit, Saint Venant-Kirchhoff from 320 to a million
+// tetrahedra, what is beside the law, and what an edit of the mesh takes.
 #include <fmt/format.h>
 
+#include <deque>
 #include <heml/studies/bench.hpp>
 #include <heml/studies/bench_bodies.hpp>
+#include <heml/studies/edit_timing.hpp>
 #include <heml/studies/naive.hpp>
 #include <heml/studies/rounds.hpp>
 #include <heml/world/world.hpp>
@@ -10,33 +14,48 @@ namespace heml {
 namespace {
 
 struct Case {
+  Material material;
   Integrator integrator;
-  double poisson;
   int budget;  ///< iterations a step; 0: to the tolerance
   bool single;
   int threads;
 };
 
-std::vector<Case> cases() {
+/// E 10 kPa.
+Material soft(const char* law, double poisson) {
+  const Lame lame = lame_from(1e4, poisson);
+  Material material;
+  material.law = law;
+  material.parameters = {lame.lambda, lame.mu};
+  return material;
+}
+
+/// Explicit and implicit, and what Poisson's ratio does to the latter.
+std::vector<Case> method_cases() {
   std::vector<Case> list;
   for (const int threads : bench_threads()) {
     for (const Integrator method : {Integrator::symplectic_euler, Integrator::verlet})
-      for (const bool single : {false, true}) list.push_back({method, 0.45, 0, single, threads});
+      for (const bool single : {false, true}) list.push_back({soft("neo_hookean", 0.45), method, 0, single, threads});
     for (const double poisson : {0.3, 0.45})
-      for (const int budget : {1, 0}) list.push_back({Integrator::backward_euler, poisson, budget, false, threads});
+      for (const int budget : {1, 0})
+        list.push_back({soft("neo_hookean", poisson), Integrator::backward_euler, budget, false, threads});
   }
   return list;
 }
 
-/// A cube of very soft tissue that hangs from one face, and swings.
+/// Explicit steps of the fastest law.
+std::vector<Case> size_cases() {
+  std::vector<Case> list;
+  for (const int threads : bench_threads())
+    for (const bool single : {false, true}) list.push_back({soft("stvk", 0.3), Integrator::verlet, 0, single, threads});
+  return list;
+}
+
+/// A cube that hangs from one face, and swings.
 WorldSetup setup_of(const TetMesh& mesh, const Case& which) {
-  const Lame lame = lame_from(1e4, which.poisson);
-  Material material;
-  material.law = "neo_hookean";
-  material.parameters = {lame.lambda, lame.mu};
   WorldSetup setup;
   setup.mesh = mesh;
-  setup.materials = {{std::nullopt, material}};
+  setup.materials = {{std::nullopt, which.material}};
   Boundary held;
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
     if (mesh.nodes[n].x() < 1e-9) held.nodes.push_back(static_cast<int>(n));
@@ -50,11 +69,29 @@ WorldSetup setup_of(const TetMesh& mesh, const Case& which) {
   return setup;
 }
 
-BenchRow measure(const TetMesh& mesh, const std::string& name, const Case& which, bool quick) {
-  const WorldSetup setup = setup_of(mesh, which);
+BenchRow row_of(const BenchBody& body, const Case& which) {
+  BenchRow row;
+  row.mesh = body.name;
+  row.nodes = body.mesh.nodes.size();
+  row.tets = body.mesh.tets.size();
+  row.law = which.material.law;
+  row.precision = which.single ? "float" : "double";
+  row.isa = name_of(instruction_sets().back());
+  row.threads = which.threads;
+  row.unit = "ms";
+  return row;
+}
+
+double poisson_of(const Material& material) {
+  const double lambda = material.parameters[0], mu = material.parameters[1];
+  return lambda / (2 * (lambda + mu));
+}
+
+/// A step held against one evaluation of the naive loop, in turn with it.
+BenchRow measure(const BenchBody& body, const Case& which, bool quick) {
+  const WorldSetup setup = setup_of(body.mesh, which);
   const auto world = make_world(setup);
-  const BenchBody body = bench_body(name, mesh);
-  const NaiveForces naive(body.mesh, setup.materials.front().material);
+  const NaiveForces naive(body.mesh, which.material);
   std::vector<double> f(body.x.size());
   for (int k = 0; k < 3; ++k) world->tick();  // masses, factors, the first estimate of the limit
   const long steps_before = world->steps(), ticks_before = world->ticks(),
@@ -67,50 +104,111 @@ BenchRow measure(const TetMesh& mesh, const std::string& name, const Case& which
   const Timing& tick = times[0];
   const double ticks = static_cast<double>(world->ticks() - ticks_before);
   const double steps = static_cast<double>(world->steps() - steps_before), a_tick = steps / ticks;
-  BenchRow row;
+  BenchRow row = row_of(body, which);
   row.name = integrator_name(which.integrator);
   if (which.budget > 0) row.name += fmt::format(", {} iteration", which.budget);
-  row.name += fmt::format(", ν {}", which.poisson);
-  row.mesh = name;
-  row.nodes = mesh.nodes.size();
-  row.tets = mesh.tets.size();
-  row.law = "neo_hookean";
-  row.precision = which.single ? "float" : "double";
-  row.isa = name_of(instruction_sets().back());
-  row.threads = which.threads;
+  row.name += fmt::format(", ν {:.2g}", poisson_of(which.material));
   row.median = 1e3 * tick.median / a_tick;
   row.min = 1e3 * tick.min / a_tick;
-  row.unit = "ms";
   row.more = {{"spread", tick.spread},
               {"samples", tick.samples},
               {"step_seconds", setup.solver.tick() / a_tick},
+              {"ns_per_tet", 1e6 * row.min / static_cast<double>(row.tets)},
               {"seconds_per_simulated_second", tick.median / setup.solver.tick()},
               {"naive_evaluations", tick.min / a_tick / times[1].min}};
-  row.beside = fmt::format("{:.2g} naive force evaluations; {:.2g} s a simulated second",
-                           row.more["naive_evaluations"].get<double>(), tick.median / setup.solver.tick());
-  if (!is_explicit(which.integrator)) {
+  row.beside = fmt::format("{:.2g} s a simulated second", tick.median / setup.solver.tick());
+  if (is_explicit(which.integrator)) {
+    row.ratio_to_naive = times[1].min * a_tick / tick.min;
+    row.beside += fmt::format("; {:.2f} ns a tetrahedron", row.more["ns_per_tet"].get<double>());
+    row.more["note"] = "naive/ours: one evaluation of the naive loop over one whole step, bound of the step included";
+  } else {
     const double iterations = static_cast<double>(world->solver_work().iterations - work_before) / steps;
     row.more["iterations_per_step"] = iterations;
-    row.beside += fmt::format("; {:.1f} iterations", iterations);
+    row.beside += fmt::format("; {:.1f} iterations; {:.2g} naive force evaluations", iterations,
+                              row.more["naive_evaluations"].get<double>());
   }
   if (world->halt()) row.more["halted"] = row.beside = world->halt()->message;
   return row;
 }
 
+/// What a law may have beside it, in turn with the law alone.
+std::vector<BenchRow> beside_the_law(const BenchBody& body, bool single, bool quick) {
+  Material bare = bench_material("neo_hookean_iso");
+  Material viscous = bare, relaxing = bare, other_volume = bare;
+  viscous.viscosity = 1;
+  relaxing.relaxation = {{0.3, 0.1}};
+  other_volume.volume_term = VolumeTerm::logarithmic;
+  struct Feature {
+    const char* name;
+    Material material;
+    bool nodal_pressure;
+  };
+  const Feature features[] = {{"law alone", bare, false},
+                              {"viscosity", viscous, false},
+                              {"relaxation", relaxing, false},
+                              {"another volume term", other_volume, false},
+                              {"nodal pressure", bare, true}};
+  std::vector<std::unique_ptr<World>> worlds;
+  std::vector<std::function<void()>> works;
+  std::vector<long> steps, ticks;
+  for (const Feature& feature : features) {
+    WorldSetup setup = setup_of(body.mesh, {feature.material, Integrator::verlet, 0, single, 1});
+    setup.solver.nodal_pressure = feature.nodal_pressure;
+    worlds.push_back(make_world(setup));
+    worlds.back()->tick();
+    works.push_back([world = worlds.back().get()] { world->tick(); });
+    steps.push_back(worlds.back()->steps());
+    ticks.push_back(worlds.back()->ticks());
+  }
+  RoundLimits limits;
+  limits.seconds = quick ? 0.5 : 5;
+  limits.fewest = 3;
+  limits.shortest_sample = 0;
+  const auto times = time_in_turn(works, limits);
+  std::vector<BenchRow> rows;
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    const double a_tick =
+        static_cast<double>(worlds[k]->steps() - steps[k]) / static_cast<double>(worlds[k]->ticks() - ticks[k]);
+    BenchRow row = row_of(body, {features[k].material, Integrator::verlet, 0, single, 1});
+    row.name = fmt::format("verlet, {}", features[k].name);
+    row.median = 1e3 * times[k].median / a_tick;
+    row.min = 1e3 * times[k].min / a_tick;
+    row.more = {{"spread", times[k].spread},
+                {"samples", times[k].samples},
+                {"step_seconds", 1.0 / 60 / a_tick},
+                {"times_the_law_alone", k == 0 ? 1.0 : row.min / rows.front().min}};
+    if (k > 0) row.beside = fmt::format("{:.1f} times a step of the law alone", row.min / rows.front().min);
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
 }  // namespace
 
 std::vector<BenchRow> step_suite(const BenchOptions& options) {
+  std::vector<std::function<void(std::vector<BenchRow>&)>> works;
+  const auto add = [&](const BenchBody& body, const std::vector<Case>& list) {
+    for (const Case& which : list)
+      works.push_back([&options, &body, which](auto& rows) { rows.push_back(measure(body, which, options.quick)); });
+  };
+  std::deque<BenchBody> bodies;  // works hold on to them
+  for (const int n : options.quick ? std::vector<int>{9} : std::vector<int>{9, 13, 18})
+    add(bodies.emplace_back(bench_cube(n, false)), method_cases());
+  for (const int n : options.quick ? std::vector<int>{27} : std::vector<int>{4, 13, 27, 58})
+    for (const bool irregular : {false, true}) add(bodies.emplace_back(bench_cube(n, irregular)), size_cases());
+  const BenchBody& middle = bodies.emplace_back(bench_cube(options.quick ? 9 : 13, false));
+  for (const bool single : {false, true})
+    works.push_back([&, single](auto& rows) {
+      for (BenchRow& row : beside_the_law(middle, single, options.quick)) rows.push_back(std::move(row));
+    });
+  for (const int n : {13, 27})
+    works.push_back([&options, n](auto& rows) {
+      for (BenchRow& row : edit_rows(n, options.quick)) rows.push_back(std::move(row));
+    });
   std::vector<BenchRow> rows;
-  const std::vector<int> cubes = options.quick ? std::vector<int>{9} : std::vector<int>{9, 13, 18};
-  const auto list = cases();
-  double done = 0;
-  for (const int n : cubes) {
-    const BenchBody cube = bench_cube(n, false);
-    for (const Case& which : list) {
-      options.progress(fmt::format("step: {}, {}", cube.name, integrator_name(which.integrator)),
-                       done++ / static_cast<double>(cubes.size() * list.size()));
-      rows.push_back(measure(cube.mesh, cube.name, which, options.quick));
-    }
+  for (std::size_t k = 0; k < works.size(); ++k) {
+    options.progress("step", static_cast<double>(k) / static_cast<double>(works.size()));
+    works[k](rows);
   }
   return rows;
 }

@@ -6,6 +6,7 @@
 //
 // What a step costs may be told (SetStepCost): sessions measure it and record what they found as a command.
 #include <cmath>
+#include <heml/world/step_cost.hpp>
 #include <heml/world/typed_world.hpp>
 
 namespace heml {
@@ -30,7 +31,7 @@ MethodFacts TypedWorld<Real>::method_facts() {
   MethodFacts facts;
   facts.asked = setup_.solver.integrator;
   facts.used = method_;
-  facts.step_cost = step_cost_;
+  facts.step_cost = step_cost();
   facts.explicit_share = explicit_share();
   facts.enough = enough;
   if (!is_explicit(method_) && !implicit_ && !halt_) lowest_frequency_ = lowest_frequency();
@@ -59,14 +60,19 @@ double TypedWorld<Real>::explicit_load() const {
 
 template <class Real>
 double TypedWorld<Real>::explicit_share() const {
-  return bound_share * step_cost_ * static_cast<double>(model_.mesh.tets.size()) / stable_step_;
+  return bound_share * step_cost() * static_cast<double>(model_.mesh.tets.size()) / stable_step_;
+}
+
+template <class Real>
+double TypedWorld<Real>::step_cost() const {
+  return told_step_cost_.value_or(fixed_step_cost(body_.kernels(), setup_));
 }
 
 template <class Real>
 std::optional<std::string> TypedWorld<Real>::take(const SetStepCost& command) {
   if (!(command.nanoseconds > 0) || !std::isfinite(command.nanoseconds))
     return "step_cost: must be more than 0 ns an element";
-  step_cost_ = 1e-9 * command.nanoseconds;
+  told_step_cost_ = 1e-9 * command.nanoseconds;
   return std::nullopt;
 }
 

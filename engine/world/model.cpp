@@ -3,6 +3,7 @@
 #include <heml/mesh/faces.hpp>
 #include <heml/world/model.hpp>
 #include <numbers>
+#include <unordered_map>
 
 namespace heml {
 namespace {
@@ -175,18 +176,20 @@ void append(const WorldSetup& setup, const MeshEdit& edit, Model<Real>& model) {
     model.order.new_node.push_back(nodes + static_cast<int>(k));
   }
   BoundaryFaces& faces = model.loaded_faces;
-  const std::size_t loaded = faces.tets.size();
+  std::unordered_map<int, std::vector<Triangle>> loaded;  // of the parents
+  for (const int parent : edit.parents) loaded[parent] = {};
+  for (std::size_t f = 0; f < faces.tets.size(); ++f)
+    if (const auto of = loaded.find(faces.tets[f]); of != loaded.end()) of->second.push_back(faces.triangles[f]);
   for (std::size_t k = 0; k < edit.added.size(); ++k) {
     const int element = tets + static_cast<int>(k);
     model.order.file_tet.push_back(static_cast<int>(model.order.new_tet.size()));
     model.order.new_tet.push_back(element);
     model.material_of.push_back(model.material_of[static_cast<std::size_t>(edit.parents[k])]);
-    for (std::size_t f = 0; f < loaded; ++f)
-      if (faces.tets[f] == edit.parents[k])
-        for (const Triangle& face : faces_in(faces.triangles[f], edit.added[k], edit, nodes)) {
-          faces.triangles.push_back(face);
-          faces.tets.push_back(element);
-        }
+    for (const Triangle& of_parent : loaded[edit.parents[k]])
+      for (const Triangle& face : faces_in(of_parent, edit.added[k], edit, nodes)) {
+        faces.triangles.push_back(face);
+        faces.tets.push_back(element);
+      }
   }
   append(edit, model.mesh);
   model.held.clear();

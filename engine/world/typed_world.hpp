@@ -82,6 +82,7 @@ class TypedWorld final : public World {
   void reconsider_method();
   double explicit_load() const;
   double explicit_share() const;
+  double step_cost() const;
   std::optional<std::string> take(const SetStepCost& command);
   double lowest_frequency();
   MethodFacts method_facts();
@@ -219,7 +220,7 @@ class TypedWorld final : public World {
   std::unique_ptr<RecoveryParts<Real>> recovery_;  ///< none unless the scene asks for it
   SolverWork work_;
   Integrator method_ = Integrator::verlet;          ///< in use: what "auto" has chosen, else the scene's
-  double step_cost_ = 40e-9;                        ///< s an element: an explicit step, one core
+  std::optional<double> told_step_cost_;            ///< s an element: an explicit step, one core (SetStepCost)
   std::optional<double> lowest_frequency_;          ///< 1/s, at rest; none until somebody asks
   std::vector<ElementState<Real>> element_states_;  ///< scratch of queries
 };

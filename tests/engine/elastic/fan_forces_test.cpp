@@ -291,6 +291,38 @@ TEST_CASE("fast kernels take elements that share no node, and nodes of no elemen
   }
 }
 
+TEST_CASE("a law that stands alone is its kernel to the bit, and what stands beside one leaves it there") {
+  std::mt19937_64 random(39);
+  const TetMesh mesh = irregular_box(random, {4, 3, 3});
+  const std::vector<int> elements = all_of(mesh), one_material(mesh.tets.size(), 0);
+  const auto x = moved(mesh, random, 0.02, Mat3::Identity());
+  ThreadTeam alone(1);
+  const Material plain = sample_material("mooney_rivlin");
+  Material viscous = plain, relaxing = plain, other_volume = plain, plastic = plain;
+  viscous.viscosity = 3;
+  relaxing.relaxation = {{0.4, 0.1}};
+  other_volume.volume_term = VolumeTerm::simo_taylor;
+  plastic.plasticity = Plasticity{50, 20};
+  const auto forces = [&](const Material& material, bool nodal_pressure, const char* kernel) {
+    ElasticBody<double> body(mesh, one_material, {material}, {false, nodal_pressure});
+    CHECK(body.kernels().front().kernel == kernel);
+    body.begin_step(0.01);
+    return test::forces_of(body, x);
+  };
+  FanForces<double> fans(mesh, {{&elements, &plain}}, false, InstructionSet::best, alone);
+  CHECK(forces(plain, false, "fans") == run(fans, x, 1));
+  for (const Material& material : {viscous, relaxing, other_volume})
+    CHECK(forces(material, false, "fans and corners") != run(fans, x, 1));
+  CHECK(forces(plain, true, "fans and corners") != run(fans, x, 1));
+  forces(plastic, false, "corners");
+
+  // Without its volume term a law is one of another κ.
+  Material isochoric = plain;
+  isochoric.parameters.back() = 0;
+  FanForces<double> without(mesh, {{&elements, &plain, true}}, false, InstructionSet::best, alone);
+  CHECK(difference(run(without, x, 1), reference(mesh, isochoric, false, x)) <= 1e-11);
+}
+
 TEST_CASE("fast kernels stand beside the loops of other materials, and a body says which runs what") {
   std::mt19937_64 random(36);
   test::SmallBody small(random, 0.05);
@@ -307,7 +339,7 @@ TEST_CASE("fast kernels stand beside the loops of other materials, and a body sa
     CHECK(kernels[0].kernel == "fans");
     CHECK(kernels[0].instructions == name_of(isa));
     CHECK(kernels[0].elements == small.mesh.tets.size() / 3);
-    CHECK(kernels[1].kernel == "corners");
+    CHECK(kernels[1].kernel == "fans and corners");
     CHECK(kernels[1].bytes_per_tet > kernels[0].bytes_per_tet / 2);
   }
 }

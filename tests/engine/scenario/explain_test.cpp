@@ -60,7 +60,7 @@ TEST_CASE("an explicit scene is explained: body, kernel, steps, no solver") {
   const StepFacts& step = of.world.step;
   CHECK(step.tick == doctest::Approx(0.01));
   CHECK(step.steps_a_tick == static_cast<int>(std::ceil(0.01 / step.stable)));
-  CHECK(of.world.method.explicit_share == doctest::Approx(1.25 * 40e-9 * 10 / step.stable));
+  CHECK(of.world.method.explicit_share == doctest::Approx(1.25 * of.world.method.step_cost * 10 / step.stable));
   CHECK(of.startup.size() == 3);
 }
 

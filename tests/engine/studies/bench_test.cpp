@@ -89,9 +89,9 @@ TEST_CASE("rows become JSON with the contract's fields, and a table of whole lin
   CHECK(json[1]["min"] == 12);
   CHECK_FALSE(json[0]["machine"]["compiler"].get<std::string>().empty());
   CHECK(bench_table({row, ours}).find("12.00 (3.2×)") != std::string::npos);
-  row.suite = ours.suite = "paper";
+  row.suite = ours.suite = "step";
   const std::string table = bench_table({row, ours});
-  CHECK(table.find("## paper") != std::string::npos);
+  CHECK(table.find("## step") != std::string::npos);
   CHECK(table.find("3.25") != std::string::npos);
   const std::size_t note = table.find("said once");
   REQUIRE(note != std::string::npos);

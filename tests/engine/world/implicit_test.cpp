@@ -1,7 +1,10 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <functional>
+#include <heml/world/facts.hpp>
 
+#include "engine/materials/sample_materials.hpp"
 #include "support.hpp"
 #include "world_support.hpp"
 
@@ -170,4 +173,29 @@ TEST_CASE("auto: explicit where that is fast enough, implicit where it is not") 
   CHECK(chosen(1e4, 1e-5) == "verlet");
   CHECK(chosen(1e4, 0.005) == "tr_bdf2");
   CHECK(chosen(1e9, 0.02) == "backward_euler");
+}
+
+TEST_CASE("auto weighs a step by its laws, its terms and its precision, until it is told") {
+  const auto cost = [](const std::function<void(WorldSetup&)>& change) {
+    WorldSetup setup = cantilever("neo_hookean_iso", 1e4);
+    setup.materials.front().material = sample_material("neo_hookean_iso");
+    change(setup);
+    return make_world(setup)->facts().method.step_cost;
+  };
+  const double plain = cost([](WorldSetup&) {});
+  CHECK(plain > 2e-9);
+  CHECK(plain < 40e-9);
+  CHECK(cost([](WorldSetup& setup) { setup.solver.single_precision = true; }) < plain);
+  CHECK(cost([](WorldSetup& setup) { setup.solver.nodal_pressure = true; }) > plain);
+  const auto with = [&](const auto& change) {
+    return cost([&](WorldSetup& setup) { change(setup.materials.front().material); });
+  };
+  CHECK(with([](Material& material) { material = sample_material("ogden"); }) > 5 * plain);
+  const double viscous = with([](Material& material) { material.viscosity = 1; });
+  CHECK(viscous > plain);
+  CHECK(with([](Material& material) { material.relaxation = {{0.3, 0.1}}; }) > viscous);
+  WorldSetup setup = cantilever("neo_hookean", 1e4);
+  const auto world = make_world(setup);
+  world->apply(SetStepCost{25});
+  CHECK(world->facts().method.step_cost == doctest::Approx(25e-9));
 }

@@ -271,7 +271,9 @@ TEST_CASE("the memory of what remains is kept: another block of the same mesh ma
     }
     REQUIRE_FALSE(cut->halt());
     const auto x = whole_one->positions(), y = cut->positions();
-    CHECK(std::equal(x.begin(), x.begin() + nodes, y.begin()));  // to the bit
+    double apart = 0;
+    for (std::size_t n = 0; n < static_cast<std::size_t>(nodes); ++n) apart = std::max(apart, (x[n] - y[n]).norm());
+    CHECK(apart <= (material.plasticity ? 0 : 1e-13));  // m; fans, which run laws that stay as they are, are cut anew
   }
 }
 

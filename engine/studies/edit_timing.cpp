@@ -1,0 +1,128 @@
+#include <fmt/format.h>
+
+#include <chrono>
+#include <heml/elastic/body.hpp>
+#include <heml/mesh/cut.hpp>
+#include <heml/mesh/generate.hpp>
+#include <heml/studies/bench_bodies.hpp>
+#include <heml/studies/edit_timing.hpp>
+#include <heml/studies/rounds.hpp>
+#include <heml/world/world.hpp>
+
+namespace heml {
+namespace {
+
+template <class Work>
+double seconds(const Work& work) {
+  const auto began = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+}
+
+/// A mesh, and what an edit makes of it.
+struct Edited {
+  TetMesh mesh;
+  std::vector<int> origins;
+};
+
+Edited edited_mesh(const TetMesh& mesh, const MeshEdit& edit) {
+  const auto tets = static_cast<int>(mesh.tets.size());
+  TetMesh all = mesh;
+  append(edit, all);
+  const auto elements = edited(whole(mesh), edit, tets).elements;
+  Edited result{with_elements(all, elements), {}};
+  for (const int t : elements)
+    result.origins.push_back(t < tets ? t : edit.parents[static_cast<std::size_t>(t - tets)]);
+  return result;
+}
+
+/// A body that takes an edit, and one that is made of what it leaves: each time of the same body.
+std::array<Timing, 2> time_body(const TetMesh& mesh, const Material& material, const MeshEdit& edit, int samples) {
+  const Edited after = edited_mesh(mesh, edit);
+  const std::vector<int> before_of(mesh.tets.size(), 0), after_of(after.mesh.tets.size(), 0);
+  ElasticBody<float> body(mesh, before_of, {material}, {});
+  std::vector<double> followed, anew;
+  for (int k = 0; k < samples; ++k) {
+    followed.push_back(seconds([&] {
+      if (edit.added.empty())
+        body.keep_elements(after.origins);
+      else
+        body.take_pieces(after.mesh, after_of, after.origins);
+    }));
+    anew.push_back(seconds([&] { body.set_mesh(after.mesh, after_of); }));
+    body.set_mesh(mesh, before_of);
+  }
+  return {summary(followed), summary(anew)};
+}
+
+Timing time_command(const TetMesh& mesh, const Material& material, const Command& command, int samples) {
+  WorldSetup setup;
+  setup.mesh = mesh;
+  setup.materials = {{std::nullopt, material}};
+  setup.solver.integrator = Integrator::verlet;
+  setup.solver.single_precision = true;
+  const auto world = make_world(setup);
+  std::vector<double> times;
+  for (int k = 0; k < samples; ++k) {
+    times.push_back(seconds([&] { world->apply(command); }));
+    world->apply(Undo{});
+  }
+  return summary(times);
+}
+
+}  // namespace
+
+std::vector<BenchRow> edit_rows(int n, bool quick) {
+  constexpr double size = 0.1;
+  const double cell = size / n, middle = cell * (n / 2);
+  const BenchBody body = bench_cube(n, false);
+  const Material material = bench_material("stvk");
+  const int samples = quick ? 3 : 9;
+
+  // Three cells deep into the upper face, five long; a ball of 1.8 cells about the middle.
+  const double x = middle + 0.4 * cell, y = middle - 2.5 * cell, deep = size - 2.9 * cell;
+  const Sweep sweep{
+      {{Vec3(x, y, deep), Vec3(x, y, 2 * size)}, {Vec3(x, y + 5 * cell, deep), Vec3(x, y + 5 * cell, 2 * size)}}};
+  RemoveElements removal;
+  removal.which.sphere = {Vec3(middle, middle, middle), 1.8 * cell};
+  Cut cut;
+  MeshEdit gone;
+  make_cut(sweep, body.mesh, body.mesh.nodes, whole(body.mesh), snapping_distance(body.mesh), {}, cut);
+  make_removal(removal.which, body.mesh, whole(body.mesh), gone);
+
+  std::vector<BenchRow> rows;
+  const auto add = [&](std::string name, const Timing& time, std::string beside) {
+    BenchRow& row = rows.emplace_back();
+    row.name = std::move(name);
+    row.mesh = body.name;
+    row.nodes = body.mesh.nodes.size();
+    row.tets = body.mesh.tets.size();
+    row.law = material.law;
+    row.precision = "float";
+    row.isa = name_of(instruction_sets().back());
+    row.threads = bench_threads().back();
+    row.median = 1e3 * time.median;
+    row.min = 1e3 * time.min;
+    row.unit = "ms";
+    row.more = {{"spread", time.spread}, {"samples", time.samples}};
+    row.beside = std::move(beside);
+  };
+  struct Kind {
+    const char* name;
+    const MeshEdit& edit;
+    Command command;
+  };
+  for (const auto& [name, edit, command] : {Kind{"cut", cut.edit, CutTissue{sweep}}, Kind{"removal", gone, removal}}) {
+    const auto [followed, anew] = time_body(body.mesh, material, edit, samples);
+    add(fmt::format("{}, layout followed", name), followed,
+        fmt::format("{} elements go, {} come; {:.1f} times as fast as anew", edit.removed.size(), edit.added.size(),
+                    anew.min / followed.min));
+    rows.back().more.update({{"removed", edit.removed.size()}, {"added", edit.added.size()}});
+    add(fmt::format("{}, laid out anew", name), anew, "");
+    add(fmt::format("{}, whole command", name), time_command(body.mesh, material, command, samples),
+        "mesh, energies and stable step too");
+  }
+  return rows;
+}
+
+}  // namespace heml
