@@ -81,7 +81,7 @@ void ToolSection::draw_settings(Rows& rows) {
       return;
     default:
       length(rows,
-             {"Radius",
+             {tool_.tool == Tool::pin ? "Pin radius" : "Grasp radius",
               "Surface nodes within this distance of where you take hold go with the tool, or stay where they are "
               "under a pin, mm, measured on the rest shape. 0: one node alone. Delete (Del) takes out the tissue "
               "within it, one element deep."},

@@ -169,8 +169,8 @@ void ContactPotential::add_product(const Vector& dx, Vector& out) const {
   for (const auto& [point, K] : blocks_) add(point, K * at(dx, point), out);
 }
 
-bool ContactPotential::within_nodes() const {
-  return std::all_of(blocks_.begin(), blocks_.end(), [](const Block& block) { return block.point.count == 1; });
+bool ContactPotential::within_elements() const {
+  return std::all_of(blocks_.begin(), blocks_.end(), [](const Block& block) { return block.point.count != 2; });
 }
 
 /// By the forces at x; springs that were there stay as they are.

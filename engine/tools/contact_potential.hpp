@@ -46,8 +46,8 @@ class ContactPotential {
   template <class Visit>
   void each_block(const Visit& visit) const;
 
-  /// Whether no block joins two nodes.
-  bool within_nodes() const;
+  /// Whether no block joins nodes that share no element.
+  bool within_elements() const;
 
   /// Whether what was assumed of a solution x does not hold of it: then it is assumed anew, and x is to be solved
   /// again.

@@ -348,14 +348,17 @@ void BodyObjective<Real>::add_stiffness(BlockMatrix& matrix) {
 
 template <class Real>
 bool BodyObjective<Real>::add_stiffness_in_float(BlockRows& rows) {
-  if (!symmetric() || !contact_.within_nodes() || !body_.add_stiffness(rows, team_)) return false;
-  add_contact_stiffness(rows, [](int, int, const Mat3&) {});
+  if (!symmetric() || !contact_.within_elements() || !body_.add_stiffness(rows, team_)) return false;
+  add_contact_stiffness(rows, [&](int a, int b, const Mat3& K) {
+    rows.add_edge(a, b, -K);  // and away again what this adds to the nodes' own blocks
+    rows.add_node(a, K);
+    rows.add_node(b, K);
+  });
   add_diagonal(rows);
   return true;
 }
 
-/// What contact adds for points of one node, and of a thread at its ends; what faces and threads join is left to
-/// `pair`.
+/// What contact adds; how two nodes are joined is left to `pair`.
 template <class Real>
 template <class Matrix, class Pair>
 void BodyObjective<Real>::add_contact_stiffness(Matrix& matrix, const Pair& pair) const {
