@@ -18,6 +18,8 @@ Table time_table(const TimeStudy& study);
 /// Mesh and element at rest.
 Table settled_table(const SettledStudy& study);
 Table locking_table(const std::vector<LockedBeam>& beams);
+/// Of linear tetrahedra: what the panel estimates of the error of a mesh, and what finer meshes tell of it.
+Table gauge_table(const AccuracyStudy& study);
 Table law_table(const std::vector<SettledLaw>& laws);
 Table feature_table(const FeatureStudy& study);
 /// One line a run, with the machine, compiler, commit and threads it was made with.
