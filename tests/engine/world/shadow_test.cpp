@@ -100,7 +100,7 @@ TEST_CASE("what cannot be followed is not: memory, another precision, a body tha
 
 TEST_CASE("a world's estimate of its mesh falls with the mesh, and nets of springs have none") {
   double before = 1;
-  for (const int cells : {1, 2, 4}) {
+  for (const int cells : {2, 4}) {
     WorldSetup setup = beam(Integrator::static_equilibrium, {});
     setup.mesh = make_box(Vec3(0.1, 0.02, 0.02), {5 * cells, cells, cells});
     setup.boundary[0].nodes.clear();
