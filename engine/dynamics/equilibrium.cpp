@@ -16,13 +16,14 @@ constexpr int most_relaxation_steps = 80;
 }  // namespace
 
 Equilibrium::Equilibrium(LoadedObjective& body, LinearSolver& linear, const Vector& mass, const FreeNodes& free,
-                         double tolerance, double inertia, Vector start)
+                         EquilibriumLimit limit, double inertia, Vector start)
     : body_(body),
       linear_(linear),
       mass_(mass),
       free_(free),
       inertia_(inertia),
-      stop_{[&body](const Vector& r) { return body.imbalance(r); }, tolerance},
+      stop_{[&body](const Vector& r) { return body.imbalance(r); }, limit.tolerance},
+      strict_(limit.strict),
       x_(std::move(start)) {}
 
 bool Equilibrium::load_to(double fraction, const std::atomic<bool>& stop) {
@@ -35,6 +36,7 @@ bool Equilibrium::load_to(double fraction, const std::atomic<bool>& stop) {
       if (last_iterations_ <= quick) step_ *= 2;
       continue;
     }
+    if (round_off_) return false;  // weighs more the less load there is
     step_ = (next - load_) / 2;
     if (step_ >= shortest) continue;
     if (!relax(std::min(fraction, load_ + relaxing))) return false;
@@ -71,7 +73,13 @@ bool Equilibrium::solve(Vector& x) {
   const NewtonResult newton = minimise(body_, linear_, stop_, newton_options, x);
   iterations_ += newton.iterations;
   last_iterations_ = newton.iterations;
-  return newton.converged();
+  round_off_.reset();
+  Vector r;
+  if (newton.end != NewtonResult::End::stalled || !body_.residual(x, r) || !body_.is_round_off(r))
+    return newton.converged();
+  if (!strict_ && newton.measure <= std::sqrt(stop_.limit)) return true;
+  round_off_ = newton.measure;
+  return false;
 }
 
 bool Equilibrium::keep(double next, const Vector& x) {

@@ -9,6 +9,7 @@
 //                              kept
 #include <atomic>
 #include <heml/dynamics/newton.hpp>
+#include <optional>
 
 namespace heml {
 
@@ -22,18 +23,27 @@ class LoadedObjective : public Objective {
   /// How far the last state residual() saw, with its residual r, is from equilibrium: relative to what the body
   /// carries.
   virtual double imbalance(const Vector& r) const = 0;
+  /// Whether that residual is no more than round-off.
+  virtual bool is_round_off(const Vector& r) const = 0;
   /// Whether an equilibrium is one the load leads to: no element turned inside out.
   virtual bool acceptable(const Vector& x) const = 0;
   /// Keeps an equilibrium: what remembers goes on from it.
   virtual void accept(const Vector& x) = 0;
 };
 
+/// When a state counts as an equilibrium: its imbalance is within the tolerance, or, unless strict, as small as
+/// round-off lets it become: of bodies with very stiff parts, or large ones in float, nothing more can be asked.
+struct EquilibriumLimit {
+  double tolerance;
+  bool strict;
+};
+
 class Equilibrium {
  public:
   /// start: 3 #V, the state at load 0. mass: 3 #V, kg, 0 where not free. inertia: 1/s², of the scalar matrix that
   /// preconditions; 0 where the body is held. All must outlive this.
-  Equilibrium(LoadedObjective& body, LinearSolver& linear, const Vector& mass, const FreeNodes& free, double tolerance,
-              double inertia, Vector start);
+  Equilibrium(LoadedObjective& body, LinearSolver& linear, const Vector& mass, const FreeNodes& free,
+              EquilibriumLimit limit, double inertia, Vector start);
 
   /// Goes on to a fraction of the load. Returns false where no equilibrium is found, or when told to stop: load() and
   /// x() are then the last ones found.
@@ -45,6 +55,8 @@ class Equilibrium {
   const Vector& x() const { return x_; }
   double load() const { return load_; }
   double imbalance() const { return imbalance_; }  ///< of x()
+  /// Imbalance beyond which round-off did not let the last attempt come; none where it ended otherwise.
+  std::optional<double> round_off() const { return round_off_; }
   long increments() const { return increments_; }
   long iterations() const { return iterations_; }  ///< of Newton, those of failed increments too
 
@@ -61,7 +73,9 @@ class Equilibrium {
   const FreeNodes& free_;
   double inertia_;
   Stop stop_;
+  bool strict_;
   Vector x_;
+  std::optional<double> round_off_;
   double load_ = 0, step_ = 1, imbalance_ = 0;
   bool solved_ = false;  ///< whether x_ is an equilibrium at load_
   int last_iterations_ = 0;

@@ -102,6 +102,22 @@ double BodyObjective<Real>::imbalance(const Vector& r) const {
 }
 
 template <class Real>
+double BodyObjective<Real>::largest_acceleration(const Vector& r) const {
+  double largest = 0;
+  for (const int n : free_.node) {
+    const double mass = static_cast<double>(mass_[static_cast<std::size_t>(n)]);
+    largest = std::max(largest, at(r, n).template lpNorm<Eigen::Infinity>() / mass);
+  }
+  return largest;
+}
+
+template <class Real>
+bool BodyObjective<Real>::is_round_off(const Vector& r) const {
+  constexpr double deformed = 10;  // times the round-off at rest
+  return largest_acceleration(r) <= deformed * acceleration_noise_;
+}
+
+template <class Real>
 double BodyObjective<Real>::unbalanced() const {
   Vec3 sum = Vec3::Zero();
   double sizes = 0;

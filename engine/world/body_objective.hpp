@@ -33,6 +33,7 @@ class BodyObjective final : public LoadedObjective {
   void set_load(double fraction) override;
   void place_held(double fraction, Vector& x) const override;
   double imbalance(const Vector& r) const override;
+  bool is_round_off(const Vector& r) const override;
   bool acceptable(const Vector& x) const override;
   void accept(const Vector& x) override;
 
@@ -50,7 +51,9 @@ class BodyObjective final : public LoadedObjective {
   double unbalanced() const;
   /// Forces from all sides but supports at the last residual(), 3 #V, N.
   const Vector& forces() const { return forces_; }
-  /// Round-off of forces, as an acceleration, m/s²: the largest at any node.
+  /// ‖M⁻¹r‖_∞, m/s².
+  double largest_acceleration(const Vector& r) const;
+  /// Round-off of forces, as an acceleration, m/s²: the largest at any node, at rest.
   double acceleration_noise() const { return acceleration_noise_; }
 
  private:

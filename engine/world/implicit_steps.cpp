@@ -12,11 +12,6 @@ constexpr double smallest_share = 1.0 / 64;  // of a tick: shorter steps are not
 constexpr double slack_of_motion = 1e-3;     // of gravity's acceleration: what a step may leave unbalanced
 constexpr double earth = 9.81;               // m/s²
 constexpr int quasi_patience = 5;            // iterations of L-BFGS for one of Newton's: then Newton's go on
-
-/// ‖M⁻¹r‖_∞, m/s².
-double largest_acceleration(const Vector& mass, const Vector& r) {
-  return (mass.array() > 0).select(r.array() / mass.array(), 0).abs().maxCoeff();
-}
 }  // namespace
 
 template <class Real>
@@ -200,7 +195,7 @@ bool TypedWorld<Real>::is_balanced_enough(const Stage& stage, const Vector& r) {
   if (setup_.solver.tolerance) return false;
   ImplicitParts<Real>& parts = implicit();
   const double noise = parts.body.acceleration_noise() + 0x1p-52 * stage.a(setup_.solver.damping) * model_.diagonal;
-  return largest_acceleration(parts.mass, r) <=
+  return parts.body.largest_acceleration(r) <=
          std::max(slack_of_motion * std::max(setup_.gravity.norm(), earth), 10 * noise);
 }
 

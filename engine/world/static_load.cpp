@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <heml/world/typed_world.hpp>
 #include <limits>
+#include <type_traits>
 
 namespace heml {
 namespace {
@@ -35,7 +36,8 @@ void TypedWorld<Real>::load_to(double fraction) {
     const double highest = static_cast<double>(rest_frequency_ * rest_frequency_);
     const bool held = well_held(model_.mesh, model_.held);
     if (!held) parts.body.set_anchor(anchor * highest);
-    parts.equilibrium.emplace(parts.body, parts.linear, parts.mass, parts.free, setup_.solver.relative_tolerance(),
+    const EquilibriumLimit limit{setup_.solver.relative_tolerance(), setup_.solver.tolerance.has_value()};
+    parts.equilibrium.emplace(parts.body, parts.linear, parts.mass, parts.free, limit,
                               held ? 0 : anchor_in_float * highest, start);
   }
   Equilibrium& equilibrium = *parts.equilibrium;
@@ -51,12 +53,23 @@ void TypedWorld<Real>::load_to(double fraction) {
   Vector r;
   parts.body.residual(equilibrium.x(), r);
   take_state(equilibrium.x(), Vector::Zero(equilibrium.x().size()), equilibrium.load() * duration);
-  if (!reached && !interrupted_)
-    halt_unsolved(fmt::format(
-        "no equilibrium found beyond {:.4g} of the load ({}): what is written is the last one", equilibrium.load(),
-        well_held(model_.mesh, model_.held)
-            ? "the body may snap, collapse or be crushed there, or leave the range of its law"
-            : "it is not held against every rigid motion: then loads must balance, in force and moment"));
+  if (!reached && !interrupted_) halt_unsolved(why_not_beyond(equilibrium));
+}
+
+template <class Real>
+std::string TypedWorld<Real>::why_not_beyond(const Equilibrium& equilibrium) const {
+  const double load = equilibrium.load();
+  if (equilibrium.round_off())
+    return fmt::format(
+        "no equilibrium to within {:.1e} of the forces beyond {:.4g} of the load: round-off leaves {:.1e} of them "
+        "({}): "
+        "what is written is the last one",
+        setup_.solver.relative_tolerance(), load, *equilibrium.round_off(),
+        std::is_same_v<Real, float> ? "solve with \"precision\": \"double\"" : "allow a larger \"tolerance\"");
+  return fmt::format("no equilibrium found beyond {:.4g} of the load ({}): what is written is the last one", load,
+                     well_held(model_.mesh, model_.held)
+                         ? "the body may snap, collapse or be crushed there, or leave the range of its law"
+                         : "it is not held against every rigid motion: then loads must balance, in force and moment");
 }
 
 template class TypedWorld<float>;

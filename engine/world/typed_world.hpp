@@ -91,6 +91,7 @@ class TypedWorld final : public World {
   Stop stage_stop();
   bool is_balanced_enough(const Stage& stage, const Vector& r);
   void halt_unsolved(const std::string& message);
+  std::string why_not_beyond(const Equilibrium& equilibrium) const;
   ImplicitParts<Real>& implicit();
   void take_state(const Vector& x, const Vector& v, double time);
   static Vector as_vector(const std::vector<Real>& values);

@@ -248,6 +248,32 @@ TEST_CASE("static: crushed StVK has no way on and stops at the last good state")
         doctest::Approx(0.1 - 0.09 * work.load).epsilon(1e-12));
 }
 
+TEST_CASE("static: where round-off ends the search, it is enough, or the message says what would do") {
+  WorldSetup setup = at_rest(soft());
+  setup.gravity.setZero();
+  setup.boundary.push_back(moved(setup, Vec3(0.02, 0, 0), 40));
+  setup.mesh.regions.assign(setup.mesh.tets.size(), 0);
+  for (std::size_t t = 0; t < setup.mesh.tets.size(); ++t)
+    for (const int n : setup.mesh.tets[t])
+      if (setup.mesh.nodes[static_cast<std::size_t>(n)].x() > 0.06) setup.mesh.regions[t] = 1;
+  Material stiff = setup.materials[0].material;
+  for (double& value : stiff.parameters) value *= 1e6;
+  setup.materials.push_back({1, stiff});
+  const auto message_of = [](const WorldSetup& asked) {
+    const auto world = make_world(asked);
+    world->load_to(1);
+    CHECK(world->solver_work().iterations < 60);  // no shorter increments, which would bring nothing
+    return world->halt() ? world->halt()->message : "";
+  };
+  setup.solver.tolerance.reset();
+  CHECK(message_of(setup).empty());
+  setup.solver.tolerance = 1e-14;
+  CHECK(message_of(setup).find("larger \"tolerance\"") != std::string::npos);
+  setup.solver.tolerance.reset();
+  setup.solver.single_precision = true;
+  CHECK(message_of(setup).find("\"precision\": \"double\"") != std::string::npos);
+}
+
 TEST_CASE("static: a body that falls is told to be held, and does not crash") {
   WorldSetup setup = at_rest(soft());
   setup.boundary.clear();
