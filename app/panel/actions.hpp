@@ -19,6 +19,7 @@ enum class Action {
   show_stretch,
   show_von_mises,
   show_volume_ratio,
+  show_error,
   screenshot,
   hide,
   help,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <app/panel/bar_chart.hpp>
+#include <app/panel/rows.hpp>
 #include <app/panel/theme.hpp>
 #include <cmath>
 
@@ -21,6 +22,7 @@ class Drawing {
 
   void draw(const Area& area) {
     list_.AddRectFilled(area.from, area.to, colours_.paper);
+    widest_ = std::min(widest_, most_label_ * area.width());
     const float margin = em(1.4f);
     bars_ = {{area.from.x + margin + widest_ + em(0.7f), draw_head(area.from.x + margin, area.from.y + em(1.0f))},
              {area.to.x - margin - em(3.2f), area.to.y - margin}};
@@ -61,8 +63,8 @@ class Drawing {
 
   void draw_group(const BarChart::Group& group, float y, float height) {
     const float middle = y + height / 2, half_text = ImGui::GetTextLineHeight() / 2;
-    text(bars_.from.x - em(0.7f) - ImGui::CalcTextSize(group.label.c_str()).x, middle - half_text, colours_.text,
-         group.label);
+    const std::string label = shortened(group.label, widest_);
+    text(bars_.from.x - em(0.7f) - ImGui::CalcTextSize(label.c_str()).x, middle - half_text, colours_.text, label);
     const float thick = 0.8f * height / static_cast<float>(std::max<std::size_t>(1, group.values.size()));
     const UseFont font(Font::small);
     for (std::size_t k = 0; k < group.values.size(); ++k) {
@@ -74,6 +76,8 @@ class Drawing {
            fmt::format("{:.3g}", value));
     }
   }
+
+  static constexpr float most_label_ = 0.5f;  // of the width: longer labels end in an ellipsis
 
   ImDrawList& list_;
   const BarChart& chart_;

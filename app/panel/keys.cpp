@@ -12,6 +12,7 @@ constexpr KeyBinding bindings[] = {
     {'3', false, Action::show_stretch, "3", "colours: stretch"},
     {'4', false, Action::show_von_mises, "4", "colours: von Mises stress"},
     {'5', false, Action::show_volume_ratio, "5", "colours: volume ratio"},
+    {'6', false, Action::show_error, "6", "colours: error of the mesh"},
     {'W', false, Action::wireframe, "W", "edges of the mesh"},
     {'P', false, Action::screenshot, "P, F12", "save a picture"},
     {key_f12, false, Action::screenshot, "", ""},

@@ -128,6 +128,8 @@ void Panel::carry_out(Action action, const Frame& frame, PanelActions& out) {
       return view_.show(Field::von_mises, out);
     case Action::show_volume_ratio:
       return view_.show(Field::volume_ratio, out);
+    case Action::show_error:
+      return view_.show(Field::error, out);
     case Action::screenshot:
       return ask(Request::screenshot);
     case Action::hide:
@@ -170,6 +172,7 @@ PanelActions Panel::draw(const Frame& frame) {
   PanelActions out;
   rows_.new_frame();
   places_.clear();
+  errors_open_ = false;
   const ImVec2 picture = ImGui::GetIO().DisplaySize;
   const Insets taken = insets(picture);
   const Area free{{taken.left, 0}, {picture.x - taken.right, picture.y}};
@@ -230,6 +233,7 @@ void Panel::draw_controls(const Frame& frame, bool with_readings, PanelActions& 
       if (rows_.section("Energy")) draw_energies(rows_, frame, history_);
       if (rows_.section("Volume")) draw_volume(rows_, frame, history_);
       if (rows_.section("Engine")) draw_engine(rows_, frame, history_);
+      draw_accuracy(frame);
     }
     if (rows_.section("View")) view_.draw(rows_, pressed_, out);
     controls_height_ = header_height + ImGui::GetCursorPosY() + ImGui::GetStyle().WindowPadding.y;
@@ -293,8 +297,14 @@ void Panel::draw_readings(const Frame& frame) {
     if (rows_.section("Energy")) draw_energies(rows_, frame, history_);
     if (rows_.section("Volume")) draw_volume(rows_, frame, history_);
     if (rows_.section("Engine")) draw_engine(rows_, frame, history_);
+    draw_accuracy(frame);
   }
   ImGui::End();
+}
+
+void Panel::draw_accuracy(const Frame& frame) {
+  errors_open_ = rows_.section("Accuracy", false);
+  if (errors_open_) draw_errors(rows_, frame);
 }
 
 }  // namespace heml::panel

@@ -43,6 +43,7 @@ class Panel {
 
   const render::DrawOptions& drawing() const { return view_.drawing(); }
   bool wants_stretches() const { return watch_.active(); }  ///< whether frames should carry Frame::stretches
+  bool wants_errors() const { return errors_open_; }        ///< whether frames should carry errors
   const ToolInHand& tool() const { return tool_.tool(); }
   Insets insets(ImVec2 picture) const;  ///< that draw() takes in a picture of a size, pixels
   bool covers(float x,
@@ -57,6 +58,7 @@ class Panel {
   void draw_header(const Frame& frame);
   void draw_pace(const Frame& frame);
   void draw_readings(const Frame& frame);
+  void draw_accuracy(const Frame& frame);
   void tell_refusal(const Frame& frame);
   void take_skin(const Frame& frame);
   void watch_stretches();
@@ -84,6 +86,7 @@ class Panel {
   long recovery_seen_ = -1;       ///< Recovery::tick of the last one
   float since_recovery_ = 1e9f;   ///< s of wall time since it went on
   bool hidden_ = false, helping_ = false;
+  bool errors_open_ = false;  ///< somebody reads them
 };
 
 }  // namespace heml::panel

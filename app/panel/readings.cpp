@@ -89,6 +89,23 @@ void draw_volume(Rows& rows, const Frame& frame, const History& history) {
   plot("volume plot", history, curves, {"", 1, 0.01, 3.4f});
 }
 
+void draw_errors(Rows& rows, const Frame& frame) {
+  rows.value(
+      {"Of the mesh",
+       "Estimated error of what linear tetrahedra make of the deformation, % of its energy norm (Zienkiewicz and "
+       "Zhu): stress against its mean at nodes. Halving the edges about halves it; colours (6) show where. It "
+       "does not see locking, and a body on the way may be off for other reasons."},
+      frame.mesh_error ? fmt::format("{:.1f} %", 100 * *frame.mesh_error) : "–", 0);
+  const auto& time = frame.time_error;
+  rows.value({"Of the steps",
+              "How far the nodes (rms) were from where infinitely short steps would have taken them at the end of a "
+              "stretch of 0.1 s, mm: a shadow of the body goes through it with half the steps now and then. Not after "
+              "cuts, and not of tissue that remembers."},
+             time ? fmt::format("{:.2g} mm", 1e3 * time->rms) : "–", 0);
+  rows.value({"At the worst node", "The same of the node where it is largest, mm."},
+             time ? fmt::format("{:.2g} mm", 1e3 * time->largest) : "–", 0);
+}
+
 void draw_engine(Rows& rows, const Frame& frame, const History& history) {
   const Pace& pace = frame.pace;
   const auto time_of = [](double seconds) { return seconds > 0 ? quantity(seconds, "s") : std::string("–"); };

@@ -4,8 +4,10 @@
 
 namespace heml::panel {
 namespace {
-constexpr std::array fields{Field::none, Field::displacement, Field::stretch, Field::von_mises, Field::volume_ratio};
-const std::array<std::string, 5> field_names{"Tissue", "Displacement", "Stretch", "von Mises stress", "Volume ratio J"};
+constexpr std::array fields{Field::none,      Field::displacement, Field::stretch,
+                            Field::von_mises, Field::volume_ratio, Field::error};
+const std::array<std::string, 6> field_names{"Tissue",           "Displacement",   "Stretch",
+                                             "von Mises stress", "Volume ratio J", "Error of the mesh"};
 constexpr float half_resolution = 0.5f;
 }  // namespace
 
@@ -19,8 +21,9 @@ void ViewSection::show(Field field, PanelActions& out) {
 void ViewSection::draw(Rows& rows, std::vector<Action>& pressed, PanelActions& out) {
   int chosen = static_cast<int>(std::find(fields.begin(), fields.end(), field_) - fields.begin());
   if (rows.choice({"Colours",
-                   "What the surface shows (keys 1 to 5): the tissue itself, the distance from the rest shape (m), the "
-                   "largest stretch, the von Mises stress (Pa), or the volume relative to rest."},
+                   "What the surface shows (keys 1 to 6): the tissue itself, the distance from the rest shape (m), the "
+                   "largest stretch, the von Mises stress (Pa), the volume relative to rest, or where the mesh is too "
+                   "coarse (the estimated error of its energy norm, of the body's mean)."},
                   chosen, field_names))
     show(fields[static_cast<std::size_t>(chosen)], out);
   const float half = ImGui::GetContentRegionAvail().x / 2;

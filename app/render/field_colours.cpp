@@ -70,6 +70,7 @@ FieldLabel field_label(Field field, const Range& range) {
     case Field::stretch: return {"Largest stretch", "", 1};
     case Field::von_mises: return pascals(range.high);
     case Field::volume_ratio: return {"Volume ratio J", "", 1};
+    case Field::error: return {"Error of the mesh, of the mean energy norm", "%", 100};
     case Field::none: break;
   }
   return {};

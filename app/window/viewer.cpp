@@ -62,6 +62,7 @@ void Viewer::draw() {
   follow_script();
   panel_->take(*frame_, seconds);
   open_.session->carry_stretches(panel_->wants_stretches());
+  open_.session->carry_errors(panel_->wants_errors());
   const render::Size size = window_.size();
   interface_.set_scale(panel::Interface::suitable_scale(size) * window_.content_scale());
   eye_.resize(size, panel_->insets({static_cast<float>(size.width), static_cast<float>(size.height)}));

@@ -23,4 +23,5 @@ cantilever 0.5
 cube 0.5
 irregular_cube 0.5
 large_cube 0.2
+kidney_on_table 1.6
 END

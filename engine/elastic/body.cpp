@@ -423,6 +423,30 @@ void ElasticBody<Real>::states(const Real* x, std::vector<ElementState<Real>>& o
 }
 
 template <class Real>
+std::vector<Mat3> ElasticBody<Real>::stresses(const Real* x, ThreadTeam& team) {
+  std::fill(corner_.begin(), corner_.end(), Real(0));
+  for (const Part& part : parts_)
+    for (const auto& term : part.terms)
+      if (term->stores())
+        team.for_ranges(part.group.packets(), grain_ / part.group.lanes, [&](std::size_t begin, std::size_t end) {
+          term->forces(part.group, x, begin, end, corner_.data(), true);
+        });
+  if (pressure_) pressure_->add_forces(x, corner_.data(), team);
+  std::vector<Mat3> P(mesh_.tets.size(), Mat3::Zero());
+  for (const Part& part : parts_)
+    for (std::size_t s = 0; s < part.group.size(); ++s) {
+      const auto t = static_cast<std::size_t>(part.group.element[s]);
+      const auto X = [&](std::size_t a) { return mesh_.nodes[static_cast<std::size_t>(part.group.node[a][s])]; };
+      const double volume = signed_volume(X(0), X(1), X(2), X(3));
+      for (std::size_t a = 1; a < 4; ++a) {
+        const Real* f = &corner_[3 * (part.group.first_corner + 4 * s + a)];
+        P[t] -= Vec3(f[0], f[1], f[2]) * (X(a) - X(0)).transpose() / volume;
+      }
+    }
+  return P;
+}
+
+template <class Real>
 void ElasticBody<Real>::set_material(std::size_t index, const Material& material, const Real* x) {
   materials_[index] = material;
   make_parts();

@@ -120,6 +120,11 @@ class ElasticBody {
   /// #T in inner order.
   void states(const Real* x, std::vector<ElementState<Real>>& out) const;
 
+  /// What is elastic of the first Piola–Kirchhoff stress of every element, #T in inner order, Pa, whatever its terms:
+  /// the moment of its corner forces, P = −1/V Σ_a f_a ⊗ X_a. Springs bear none.
+  std::vector<Mat3> stresses(const Real* x, ThreadTeam& team);
+  bool has_springs() const { return !springs_.empty(); }
+
   /// Puts another law on the elements of one material, and forgets what they remember.
   void set_material(std::size_t index, const Material& material, const Real* x);
 

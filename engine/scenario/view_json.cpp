@@ -4,7 +4,7 @@ namespace heml {
 namespace {
 
 /// In the order of Field.
-constexpr std::string_view field_names[] = {"none", "displacement", "stretch", "von_mises", "J"};
+constexpr std::string_view field_names[] = {"none", "displacement", "stretch", "von_mises", "J", "error"};
 
 }  // namespace
 

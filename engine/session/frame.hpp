@@ -1,7 +1,7 @@
 #pragma once
 // What the engine publishes for eyes: a picture of the body at one tick. Immutable once published.
 #include <array>
-#include <heml/world/world.hpp>
+#include <heml/world/shadow.hpp>
 #include <memory>
 #include <optional>
 #include <string>
@@ -48,8 +48,10 @@ struct Frame {
   double time = 0;               ///< s, simulated
   std::vector<Vec3f> positions;  ///< #S×3, m, in the order of Skin::nodes
   Field field = Field::none;
-  std::vector<float> values;     ///< #S in the field's unit; empty for Field::none
-  std::vector<float> stretches;  ///< #S, largest principal stretch; empty unless asked for
+  std::vector<float> values;            ///< #S in the field's unit; empty for Field::none
+  std::vector<float> stretches;         ///< #S, largest principal stretch; empty unless asked for
+  std::optional<double> mesh_error;     ///< of the energy norm, 0 to 1; none unless asked for, or not known
+  std::optional<TimeError> time_error;  ///< of the last stretch that was looked at; none likewise
   Energies energies;
   double min_J = 1, max_J = 1;
   std::size_t elements = 0, removed = 0;  ///< of the mesh; of them no longer there

@@ -13,13 +13,15 @@
 #include <heml/session/mailbox.hpp>
 #include <heml/session/pacer.hpp>
 #include <heml/session/session.hpp>
+#include <heml/session/shadow_keeper.hpp>
 #include <heml/session/skin.hpp>
 #include <mutex>
 #include <thread>
 
 namespace heml {
 namespace {
-constexpr auto frame_interval = std::chrono::milliseconds(8);  // no viewer looks more often
+constexpr auto frame_interval = std::chrono::milliseconds(8);    // no viewer looks more often
+constexpr auto error_interval = std::chrono::milliseconds(200);  // nor reads errors
 }  // namespace
 
 /// Whether of two commands in a row only the second counts: where the mouse was between two ticks is of no consequence.
@@ -81,6 +83,11 @@ class Session::Impl {
   }
   void carry_stretches(bool wanted) {
     if (stretches_.exchange(wanted) == wanted) return;
+    show_now_ = true;
+    wake_.notify_all();
+  }
+  void carry_errors(bool wanted) {
+    if (errors_.exchange(wanted) == wanted) return;
     show_now_ = true;
     wake_.notify_all();
   }
@@ -156,6 +163,7 @@ class Session::Impl {
       show_now_ = true;
       return warn("{}", *problem);
     }
+    if (shadow_keeper_) shadow_keeper_->carried_out(command);
     if (recorder_) recorder_->command(*world_, command);
     if (!options_.recovery_file.empty()) history_.push_back({world_->ticks(), command});
   }
@@ -175,6 +183,7 @@ class Session::Impl {
     if (factor_keeper_.arrived(*world_)) carry_out(TakeFactor{});
     world_->tick();
     if (recorder_) recorder_->ticked(*world_);
+    if (shadow_keeper_) shadow_keeper_->ticked(*world_);
     learn(std::chrono::duration<double>(Pacer::Clock::now() - began).count());
     if (world_->halt()) show_now_ = true;
     tell_of_recovery();
@@ -215,11 +224,32 @@ class Session::Impl {
     options_.recovery_file.clear();
   }
 
+  /// Both errors, where somebody reads them.
+  void find_errors(Frame& frame) {
+    if (errors_ != shadow_keeper_.has_value()) {
+      mesh_error_.reset();
+      errors_at_ = {};
+      if (errors_)
+        shadow_keeper_.emplace();
+      else
+        shadow_keeper_.reset();
+    }
+    const auto now = Pacer::Clock::now();
+    if (shadow_keeper_ && now - errors_at_ >= error_interval) {
+      const auto estimate = world_->error_estimate();
+      mesh_error_ = estimate ? std::optional(estimate->relative()) : std::nullopt;
+      errors_at_ = now;
+    }
+    frame.mesh_error = mesh_error_;
+    frame.time_error = shadow_keeper_ ? shadow_keeper_->latest() : std::nullopt;
+  }
+
   void publish() {
     const auto began = Pacer::Clock::now();
     Frame& frame = frames_.back();
     skin_ = skin_of(*world_, std::move(skin_));
     fill_frame(*world_, skin_, field_, 0, frame, stretches_);
+    find_errors(frame);
     frame.pace = pacer_.pace(began);
     frame.paused = !playing_;
     frame.recovery_file = kept_recovery_;
@@ -247,11 +277,14 @@ class Session::Impl {
   std::vector<Command> queue_, taken_;
   long single_steps_ = 0;
   std::atomic<Field> field_;
-  std::atomic<bool> playing_, stopping_{false}, finished_{false}, show_now_{false}, stretches_{false};
+  std::atomic<bool> playing_, stopping_{false}, finished_{false}, show_now_{false}, stretches_{false}, errors_{false};
 
   std::optional<BudgetKeeper> budget_keeper_;  ///< where the scene's budget is in milliseconds
   std::optional<CostKeeper> cost_keeper_;      ///< where the scene leaves the method to the engine
   FactorKeeper factor_keeper_;
+  std::optional<ShadowKeeper> shadow_keeper_;  ///< while errors are read
+  std::optional<double> mesh_error_;           ///< the last
+  Pacer::Time errors_at_{};                    ///< when
   Pacer pacer_;
   bool frames_published_since_pause_ = false;
   Pacer::Time published_{};
@@ -268,6 +301,7 @@ void Session::pause() { impl_->set_playing(false); }
 void Session::step_once() { impl_->set_playing(false, 1); }
 void Session::show(Field field) { impl_->show(field); }
 void Session::carry_stretches(bool wanted) { impl_->carry_stretches(wanted); }
+void Session::carry_errors(bool wanted) { impl_->carry_errors(wanted); }
 const Frame& Session::latest() { return impl_->frames_.front(); }
 bool Session::frame_waiting() const { return impl_->frames_.waiting(); }
 

@@ -45,6 +45,7 @@ class Session {
   void step_once();                   ///< one tick, then pause
   void show(Field field);             ///< which scalars frames carry from now on
   void carry_stretches(bool wanted);  ///< whether Frame::stretches is filled from now on
+  void carry_errors(bool wanted);     ///< whether Frame::mesh_error and time_error are found from now on
   const Frame& latest();              ///< the newest frame; stays as it is until the next call
   bool frame_waiting() const;         ///< true when latest() would return a newer one
 

@@ -18,6 +18,8 @@ TextTable time_table(const TimeStudy& study);
 /// Mesh and element at rest.
 TextTable settled_table(const SettledStudy& study);
 TextTable locking_table(const std::vector<LockedBeam>& beams);
+/// Of linear tetrahedra: what the panel estimates of the error of a mesh, and what finer meshes tell of it.
+TextTable gauge_table(const AccuracyStudy& study);
 TextTable law_table(const std::vector<SettledLaw>& laws);
 TextTable feature_table(const FeatureStudy& study);
 /// One line a run, with the machine, compiler, commit and threads it was made with.

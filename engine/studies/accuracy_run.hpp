@@ -39,6 +39,11 @@ struct RunOptions {
 
 Run play(const Specimen& specimen, const Method& method, const RunOptions& options);
 
+/// m, rms: what a shadow (world/shadow.hpp) says of a method's error at a time, from the start on; none where it cannot
+/// follow or something happens meanwhile.
+std::optional<double> gauged_error(const Specimen& specimen, const Method& method, double until,
+                                   const RunOptions& options);
+
 /// From the turning points of a motion that starts at one; none: fewer than three. t: s; u: along its axis.
 std::optional<Swing> swing_of(const std::vector<double>& t, const std::vector<double>& u);
 

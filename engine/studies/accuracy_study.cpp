@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <heml/studies/accuracy_study.hpp>
+#include <regex>
 
 namespace heml {
 namespace {
@@ -10,6 +11,14 @@ constexpr double may_grow = 1.1;
 constexpr double negligible = 1e-9;    // m, or of a deviation
 constexpr double round_off = 1e-6;     // of forces: below it figures are chance
 constexpr double feature_weight = 15;  // s of two scenes' measurement, for the estimate of what is left
+
+/// "beam 011b105b179f046f|p1, 200 tetrahedra|verlet": a key of results, without its hash and with commas.
+std::string readable(const std::string& key) {
+  std::string text;
+  for (const char c : std::regex_replace(key, std::regex(" [0-9a-f]{16}(?=\\|)"), ""))
+    text += c == '|' ? ", " : std::string(1, c);
+  return text;
+}
 
 /// Shares the progress out: each part has a weight, and within it all steps count alike.
 class Parts {
@@ -22,7 +31,7 @@ class Parts {
     return {options_.results, options_.make, [this](const std::string& doing) {
               ++done_;
               const double inside = std::min(1.0, static_cast<double>(done_) / static_cast<double>(steps_));
-              options_.progress((before_ + weight_ * inside) / whole_, doing);
+              options_.progress((before_ + weight_ * inside) / whole_, readable(doing));
             }};
   }
 

@@ -26,6 +26,23 @@ int threads_of(const Method& method) {
   return method.threads > 0 ? method.threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 }
 
+/// What an estimate says of what is known.
+std::string effectivity_text(const std::optional<double>& effectivity) {
+  return effectivity ? fmt::format("{:.2f}", *effectivity) : "";
+}
+
+/// Of a mesh whose error is known in the energy norm.
+void add_gauged(TextTable& table, const std::string& body, const SettledStudy& settled) {
+  for (const SettledMesh& mesh : settled.meshes) {
+    if (!mesh.effectivity()) continue;
+    const auto of_norm = [&](double squared) { return percent(std::sqrt(squared / (2 * mesh.stored + squared))); };
+    const bool in_metres = mesh.resolved && settled.reference.problem.empty();
+    table.rows.push_back({body, std::to_string(mesh.tets), of_norm(*mesh.known), of_norm(*mesh.estimated),
+                          effectivity_text(mesh.effectivity()), in_metres ? length_text(mesh.error) : "",
+                          length_text(mesh.estimated_length())});
+  }
+}
+
 template <class Value>
 std::string optional_number(const std::optional<Value>& value) {
   return value ? fmt::format("{:.6g}", *value) : "";
@@ -52,7 +69,7 @@ TextTable time_table(const TimeStudy& study) {
   TextTable table;
   table.head = {"method",       "error",   "of the motion", "at the end", "s a simulated s", "ms a frame",
                 "tick p50, ms", "p99, ms", "steps",         "iterations", "frequency",       "added decay, 1/s",
-                "energy",       "volume",  "least J"};
+                "energy",       "volume",  "least J",       "gauge"};
   table.first_number = 1, table.end_numbers = table.head.size();
   for (const Measured& m : study.measured) {
     Cells row = {text_of(m.method)};
@@ -70,7 +87,7 @@ TextTable time_table(const TimeStudy& study) {
                 m.frequency_error ? signed_percent(*m.frequency_error) : "",
                 m.added_decay ? fmt::format("{:+.2g}", *m.added_decay) : "",
                 m.run.energy_drift ? signed_percent(*m.run.energy_drift) : "", signed_percent(m.run.volume - 1),
-                short_number(m.run.least_J)});
+                short_number(m.run.least_J), effectivity_text(m.gauge)});
     table.rows.push_back(row);
   }
   return table;
@@ -109,6 +126,16 @@ TextTable locking_table(const std::vector<LockedBeam>& beams) {
                             fmt::format("{:.4f}", 1e3 * beam.extrapolated()), fmt::format("{:.4f}", 1e3 * beam.theory),
                             percent(mesh.relative), percent(std::max(0.0, locking_of(beams, mesh)))});
     }
+  return table;
+}
+
+TextTable gauge_table(const AccuracyStudy& study) {
+  TextTable table;
+  table.head = {"body", "tetrahedra", "error, of the energy norm", "estimated", "effectivity", "error", "estimated"};
+  table.first_number = 1, table.end_numbers = table.head.size();
+  for (const LockedBeam& beam : study.locking)
+    add_gauged(table, fmt::format("beam at rest, Poisson's ratio {}", beam.poisson), beam.settled);
+  for (const SceneStudy& scene : study.scenes) add_gauged(table, scene.name + " at rest", scene.settled);
   return table;
 }
 

@@ -11,6 +11,13 @@ namespace {
 
 constexpr double least_order = 0.5, greatest_order = 4, proven_order = 2;
 
+void tell_energies(const Specimen& specimen, World& world, Json& json) {
+  const Energies energies = world.energies();
+  json["stored"] = energies.elastic;
+  if (specimen.setup.loads.empty()) json["potential"] = energies.elastic + energies.potential;
+  if (const auto estimate = world.error_estimate()) json["estimated"] = estimate->squared;
+}
+
 /// At rest under the whole load. Positions are those of the first `nodes`.
 Json settle(const Specimen& specimen, std::size_t nodes, const MakeWorld& make) {
   WorldSetup setup = specimen.setup;
@@ -27,6 +34,7 @@ Json settle(const Specimen& specimen, std::size_t nodes, const MakeWorld& make) 
                {"tets", specimen.setup.mesh.tets.size()},
                {"failed", world->halt() ? world->halt()->message : ""},
                {"x", Json::array()}};
+  if (!world->halt()) tell_energies(specimen, *world, json);
   const auto x = world->positions();
   if (!world->halt())
     for (std::size_t n = 0; n < nodes; ++n)
@@ -83,6 +91,24 @@ Extrapolation extrapolate(const std::vector<std::vector<Vec3>>& x, const std::ve
   return result;
 }
 
+std::optional<double> SettledMesh::effectivity() const {
+  if (!estimated || !known) return std::nullopt;
+  return std::sqrt(*estimated / *known);
+}
+
+double SettledMesh::estimated_length() const {
+  return estimated ? *estimated / (2 * stored + *estimated) * moved : 0;
+}
+
+std::optional<Potential> extrapolate(const std::vector<double>& potentials) {
+  if (potentials.size() < 3) return std::nullopt;
+  const double *last = &potentials.back(), fall = last[-1] - last[0], ratio = (last[-2] - last[-1]) / fall;
+  const double order = std::log2(ratio);  // of the squared norm: 2 in the end
+  if (!(fall > 0) || !(order >= least_order && order <= greatest_order)) return std::nullopt;
+  const double as_shown = last[0] - fall / (ratio - 1), as_proven = last[0] - fall / (std::pow(2, proven_order) - 1);
+  return Potential{(as_shown + as_proven) / 2, std::abs(as_shown - as_proven) / 2};
+}
+
 const SettledMesh* SettledStudy::find(bool nodal_pressure, int halvings) const {
   for (const SettledMesh& mesh : meshes)
     if (mesh.nodal_pressure == nodal_pressure && mesh.halvings == halvings && mesh.failed.empty()) return &mesh;
@@ -113,6 +139,8 @@ SettledStudy study_settled(const std::string& key, const Specimen& specimen, int
   for (const bool nodal : elements_of(specimen)) {
     Specimen now = with_element(specimen, nodal);
     std::vector<std::vector<Vec3>> settled;
+    std::vector<double> potentials;
+    const std::size_t first_mesh = study.meshes.size();
     for (int k = 0; k <= halvings; ++k) {
       if (k > 0) now = finer(now);
       const Json found = context.kept(fmt::format("{}|settled|{}", key, text_of(now)),
@@ -122,8 +150,19 @@ SettledStudy study_settled(const std::string& key, const Specimen& specimen, int
       mesh.nodes = found["nodes"], mesh.tets = found["tets"], mesh.seconds = found["seconds"];
       mesh.failed = found["failed"];
       all.push_back(positions_from(found["x"]));
-      if (mesh.failed.empty()) settled.push_back(all.back());
+      if (!mesh.failed.empty()) continue;
+      settled.push_back(all.back());
+      mesh.moved = rms_distance(all.back(), rest, specimen.mass);
+      mesh.stored = found["stored"];
+      if (found.contains("estimated")) mesh.estimated = found["estimated"];
+      if (found.contains("potential")) potentials.push_back(mesh.potential = found["potential"]);
     }
+    if (const auto limit = nodal ? std::nullopt : extrapolate(potentials))
+      for (std::size_t k = first_mesh; k < study.meshes.size(); ++k) {
+        SettledMesh& mesh = study.meshes[k];
+        if (const double above = mesh.potential - limit->best; mesh.failed.empty() && above > 2 * limit->uncertainty)
+          mesh.known = 2 * above;
+      }
     std::vector<Vec3> best;
     Extrapolation of_element = extrapolate(settled, rest, specimen.mass, best);
     of_element.nodal_pressure = nodal;

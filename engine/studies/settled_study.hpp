@@ -7,6 +7,10 @@
 // Coarse meshes that are too stiff show a p below the 2 that linear elements have in the end, and lead too far; 2 does
 // not lead far enough. u* is the middle of both guesses, and half their distance how far to trust it. Errors are
 // measured from the u* of whichever element it is surer of; the other element's is held against it.
+//
+// The estimate that the panel shows (elastic/error_estimate.hpp) is held against the energy norm of the error, which
+// the potential Π of the settled body tells: ‖u − u_h‖² = 2 (Π_h − Π*) to leading order, Π* extrapolated like u*. That
+// holds for linear tetrahedra, whose Π_h is never below Π*, under dead loads.
 #include <heml/studies/study_context.hpp>
 
 namespace heml {
@@ -21,7 +25,13 @@ struct SettledMesh {
   double error = 0;     ///< m, mass-weighted rms over the nodes of the first mesh; at least the resolution
   double relative = 0;  ///< of the motion
   bool resolved = true;
-  Vec3 far = Vec3::Zero();  ///< m, displacement of the node that moves farthest on the first mesh
+  Vec3 far = Vec3::Zero();                    ///< m, displacement of the node that moves farthest on the first mesh
+  double moved = 0;                           ///< m, rms displacement
+  double stored = 0, potential = 0;           ///< J, elastic energy; Π
+  std::optional<double> estimated;            ///< J, squared energy norm of the error as the panel estimates it
+  std::optional<double> known;                ///< J, the same as finer meshes tell it
+  std::optional<double> effectivity() const;  ///< estimated / known, of the norm; 1: honest
+  double estimated_length() const;            ///< m, the share of the motion that goes with the energy: e²/‖u‖²
 };
 
 /// u* and how far to trust it.
@@ -47,6 +57,13 @@ struct SettledStudy {
 /// do not shrink regularly (order under 0.5 or over 4). best: u*.
 Extrapolation extrapolate(const std::vector<std::vector<Vec3>>& x, const std::vector<Vec3>& rest,
                           const std::vector<double>& mass, std::vector<Vec3>& best);
+
+/// Π* of nested meshes (three or more), and half of what two guesses at it differ by, both J; none where it does not
+/// fall regularly.
+struct Potential {
+  double best, uncertainty;
+};
+std::optional<Potential> extrapolate(const std::vector<double>& potentials);
 
 /// Loads are those of the scene at full size, without its events. halvings: the finest mesh. Both elements, where its
 /// laws have them.

@@ -8,7 +8,8 @@ namespace heml {
 namespace {
 
 constexpr int set_time_count = 4;
-constexpr double above_limit = 3;  // times the stable step: it keeps a margin
+constexpr double gauged_below = 5;  // s of computing
+constexpr double above_limit = 3;   // times the stable step: it keeps a margin
 
 Json run_json(const Run& run) {
   Json json = {{"failed", run.failed},       {"simulated", run.simulated},
@@ -39,6 +40,11 @@ Json measure(const Specimen& specimen, const Method& method, const Reference& re
   Json json = run_json(run);
   if (!run.failed.empty()) return json;
   json["error"] = largest_distance(run.at, reference.at, specimen.mass);
+  const double first = rms_distance(run.at.front(), reference.at.front(), specimen.mass);
+  const bool is_short = run.seconds < gauged_below && method.threads == 1 && !method.single_precision;
+  if (is_short && first > reference.resolution())
+    if (const auto gauged = gauged_error(specimen, method, options.times.front(), options))
+      json["gauge"] = *gauged / first;
   json["last_error"] = rms_distance(run.at.back(), reference.at.back(), specimen.mass);
   return json;
 }
@@ -52,6 +58,7 @@ Measured measured_from(const Json& json, const Method& method, const Reference& 
   measured.resolved = error >= reference.resolution();
   measured.error = std::max(error, reference.resolution());
   measured.last_error = json["last_error"];
+  if (json.contains("gauge")) measured.gauge = json["gauge"];
   measured.relative = measured.error / reference.motion;
   if (measured.run.swing && reference.swing) {
     measured.frequency_error = measured.run.swing->frequency / reference.swing->frequency - 1;

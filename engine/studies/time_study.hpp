@@ -8,11 +8,12 @@ namespace heml {
 /// A run and its error.
 struct Measured {
   Method method;
-  Run run;                ///< without positions
-  double error = 0;       ///< m, rms at the set time where it is largest; at least the reference's resolution
-  double relative = 0;    ///< of the reference's motion
-  double last_error = 0;  ///< m, at the last set time
-  bool resolved = true;   ///< the error itself was not below what the reference can tell
+  Run run;                      ///< without positions
+  double error = 0;             ///< m, rms at the set time where it is largest; at least the reference's resolution
+  double relative = 0;          ///< of the reference's motion
+  double last_error = 0;        ///< m, at the last set time
+  std::optional<double> gauge;  ///< what the panel's gauge says at the first set time, of the error there
+  bool resolved = true;         ///< the error itself was not below what the reference can tell
   std::optional<double> frequency_error;  ///< of the first mode, relative
   std::optional<double> added_decay;      ///< 1/s, of the first mode, beyond the reference's
   bool failed() const { return !run.failed.empty(); }

@@ -45,12 +45,14 @@ class TypedWorld final : public World {
   void write_field(Field field, std::span<const int> nodes, std::vector<float>& out) override;
   Energies energies() override;
   std::vector<double> volume_ratios() override;
+  std::optional<ErrorEstimate> error_estimate() override;
   std::vector<Vec3> reactions() override;
   ToolState tool() const override;
   std::vector<PinState> pins() const override;
   std::vector<TableState> tables() const override;
   ProbeState probe() const override;
   std::vector<SutureState> sutures() const override;
+  bool follow(const World& leader) override;
   std::uint64_t state_hash() const override;
   std::vector<std::uint16_t> node_hashes() const override;
   std::shared_ptr<const Topology> topology() const override { return topology_; }
@@ -183,6 +185,8 @@ class TypedWorld final : public World {
   // world_queries.cpp: what people ask
   std::vector<Vec3> in_file_order(const std::vector<Real>& values) const;
   std::uint64_t node_hash(std::size_t file_node) const;
+  std::vector<double> element_values(Field field);
+  std::optional<ErrorEstimate> estimate();
 
   WorldSetup setup_;
   Model<Real> model_;

@@ -5,6 +5,7 @@
 // Everything goes in and comes out in the mesh file's node and element order; inside both are reordered for locality.
 #include <cstdint>
 #include <heml/dynamics/factor_work.hpp>
+#include <heml/elastic/error_estimate.hpp>
 #include <heml/mesh/edit.hpp>
 #include <heml/world/command.hpp>
 #include <heml/world/recovery.hpp>
@@ -47,7 +48,8 @@ enum class Field {
   displacement,  ///< m, distance from the rest position
   stretch,       ///< largest principal stretch, 1 at rest
   von_mises,     ///< Pa, of the Cauchy stress
-  volume_ratio   ///< J, 1 at rest
+  volume_ratio,  ///< J, 1 at rest
+  error          ///< of the mesh, of the mean energy norm: elastic/error_estimate.hpp
 };
 
 /// The tool as the world sees it.
@@ -146,12 +148,18 @@ class World {
 
   virtual Energies energies() = 0;
   virtual std::vector<double> volume_ratios() = 0;  ///< J of each element of topology(), in its order
+  /// Of the mesh, as the body is now; elements as topology() has them. None where springs bear what no stress tells.
+  virtual std::optional<ErrorEstimate> error_estimate() = 0;
   virtual std::vector<Vec3> reactions() = 0;        ///< one per setup.boundary, N: the support's force on the body
   virtual ToolState tool() const = 0;
   virtual std::vector<PinState> pins() const = 0;
   virtual std::vector<TableState> tables() const = 0;
   virtual ProbeState probe() const = 0;
   virtual std::vector<SutureState> sutures() const = 0;
+
+  /// Takes over the motion of another world of the same setup: positions, velocities, time, what is grasped. Returns
+  /// false, and does nothing, where that is not all there is to it: another mesh or precision, memory, recovery.
+  virtual bool follow(const World& leader) = 0;
 
   /// Hash of positions and velocities, bit for bit, in mesh-file order.
   virtual std::uint64_t state_hash() const = 0;

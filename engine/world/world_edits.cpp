@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t most_undone = 20;  // edits; what was before them is forgotten, but for the start
 
 /// Nodes that an edit adds between two of a list are of it too, and copies of its nodes.
-void follow(const MeshEdit& edit, int nodes, std::vector<int>& list) {
+void follow_edit(const MeshEdit& edit, int nodes, std::vector<int>& list) {
   std::vector<int> sorted = list;
   std::sort(sorted.begin(), sorted.end());
   const auto has = [&](int n) { return std::binary_search(sorted.begin(), sorted.end(), n); };
@@ -143,9 +143,9 @@ void TypedWorld<Real>::carry_out(const MeshEdit& edit) {
   const std::size_t before = model_.mesh.tets.size();
   if (!edit.added.empty()) {
     append(edit, setup_.mesh);
-    for (Boundary& entry : setup_.boundary) follow(edit, file_nodes, entry.nodes);
-    for (Load& load : setup_.loads) follow(edit, file_nodes, load.nodes);
-    for (PinnedPatch& pin : pins_) follow(inner, static_cast<int>(mass_.size()), pin.nodes);
+    for (Boundary& entry : setup_.boundary) follow_edit(edit, file_nodes, entry.nodes);
+    for (Load& load : setup_.loads) follow_edit(edit, file_nodes, load.nodes);
+    for (PinnedPatch& pin : pins_) follow_edit(inner, static_cast<int>(mass_.size()), pin.nodes);
     append(setup_, inner, model_);
     for (auto* values : {&state_.x, &state_.v, &last_valid_.x, &last_valid_.v}) append(inner, *values, 3);
     state_.f.resize(state_.x.size());

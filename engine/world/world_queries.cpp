@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <heml/base/hash.hpp>
 #include <heml/world/typed_world.hpp>
+#include <numeric>
 
 namespace heml {
 
@@ -39,16 +40,14 @@ void TypedWorld<Real>::write_field(Field field, std::span<const int> nodes, std:
     }
     return;
   }
-  acting_body().states(state_.x.data(), element_states_);
+  const std::vector<double> values = element_values(field);
   std::vector<double> sum(mass_.size(), 0.0), weight(mass_.size(), 0.0);
   for (std::size_t t = 0; t < model_.mesh.tets.size(); ++t) {
     const Tet& tet = model_.mesh.tets[t];
     const auto X = [&](std::size_t c) -> const Vec3& { return model_.mesh.nodes[static_cast<std::size_t>(tet[c])]; };
     const double volume = signed_volume(X(0), X(1), X(2), X(3));
-    const auto& s = element_states_[t];
-    const Real value = field == Field::stretch ? s.stretch : field == Field::von_mises ? s.von_mises : s.J;
     for (const int n : tet) {
-      sum[static_cast<std::size_t>(n)] += volume * static_cast<double>(value);
+      sum[static_cast<std::size_t>(n)] += volume * values[t];
       weight[static_cast<std::size_t>(n)] += volume;
     }
   }
@@ -56,6 +55,67 @@ void TypedWorld<Real>::write_field(Field field, std::span<const int> nodes, std:
     const std::size_t n = inner(nodes[k]);
     out[k] = weight[n] > 0 ? static_cast<float>(sum[n] / weight[n]) : 0.0f;
   }
+}
+
+/// #T in inner order.
+template <class Real>
+std::vector<double> TypedWorld<Real>::element_values(Field field) {
+  std::vector<double> values(model_.mesh.tets.size(), 0.0);
+  if (field == Field::error) {
+    if (const auto found = estimate()) values = found->densities(model_.mesh);
+    return values;
+  }
+  acting_body().states(state_.x.data(), element_states_);
+  for (std::size_t t = 0; t < values.size(); ++t) {
+    const auto& s = element_states_[t];
+    values[t] = static_cast<double>(field == Field::stretch     ? s.stretch
+                                    : field == Field::von_mises ? s.von_mises
+                                                                : s.J);
+  }
+  return values;
+}
+
+/// Elements in inner order.
+template <class Real>
+std::optional<ErrorEstimate> TypedWorld<Real>::estimate() {
+  const FlushDenormals flush;
+  ElasticBody<Real>& body = acting_body();
+  if (body.has_springs()) return std::nullopt;
+  std::vector<Vec3> x(mass_.size());
+  for (std::size_t n = 0; n < x.size(); ++n)
+    x[n] = Eigen::Map<const Vector3<Real>>(&state_.x[3 * n]).template cast<double>();
+  ErrorEstimate found;
+  found.of_element = recovered_errors(model_.mesh, model_.material_of, deformation_gradients(model_.mesh, x),
+                                      body.stresses(state_.x.data(), team_));
+  found.squared = std::accumulate(found.of_element.begin(), found.of_element.end(), 0.0);
+  found.stored = body.energy(state_.x.data(), team_);
+  return found;
+}
+
+template <class Real>
+std::optional<ErrorEstimate> TypedWorld<Real>::error_estimate() {
+  auto found = estimate();
+  if (!found) return found;
+  const std::vector<double> inner = std::move(found->of_element);
+  found->of_element.clear();
+  for (const int file : topology_->elements)
+    found->of_element.push_back(inner[static_cast<std::size_t>(model_.order.new_tet[static_cast<std::size_t>(file)])]);
+  return found;
+}
+
+template <class Real>
+bool TypedWorld<Real>::follow(const World& leader) {
+  const auto* other = dynamic_cast<const TypedWorld*>(&leader);
+  if (!other || other->halt_ || other->remembers_ || remembers_ || other->recovering() || recovering()) return false;
+  if (other->model_.order.file_node != model_.order.file_node || other->model_.order.file_tet != model_.order.file_tet)
+    return false;
+  state_ = other->state_;
+  last_valid_ = state_;
+  grasps_ = other->grasps_;
+  stable_step_ = other->stable_step_;
+  halt_.reset();
+  if (implicit_) implicit_->h_before = 0;  // BDF2 starts anew
+  return true;
 }
 
 template <class Real>

@@ -121,5 +121,17 @@ TEST_CASE("every scene can be read, and runs for a while") {
     CHECK(std::filesystem::exists(assets / "pictures/scenes" / (scene.name + ".png")));
     ++scenes;
   }
-  CHECK(scenes == 13);
+  CHECK(scenes == 14);
+}
+
+TEST_CASE("every scene of the accuracy study can be read") {
+  int scenes = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(assets / "studies" / "accuracy")) {
+    CAPTURE(entry.path().filename().string());
+    const Scene scene = read_scene(entry.path());
+    CHECK_FALSE(scene.title.empty());
+    CHECK_NOTHROW(load_setup(scene));
+    ++scenes;
+  }
+  CHECK(scenes == 7);
 }

@@ -48,7 +48,7 @@ inline Skin small_skin() {
 
 class Driver {
  public:
-  explicit Driver(const Scene& scene = small_scene(), float width = 1280, float height = 720, float scale = 1)
+  explicit Driver(const Scene& scene = small_scene(), float width = 1280, float height = 760, float scale = 1)
       : context_(width, height, scale), panel(scene, small_skin()) {
     frame.positions = small_skin().rest;
     away();

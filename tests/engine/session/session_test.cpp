@@ -65,6 +65,19 @@ TEST_CASE("frames carry stretches while somebody wants them") {
   wait_for(session, [](const Frame& f) { return f.stretches.empty() && !f.values.empty(); });
 }
 
+TEST_CASE("frames carry errors while somebody reads them, and the body does not know") {
+  Session session(small_scene(), {});
+  wait_for(session, [](const Frame& f) { return f.tick > 20 && !f.mesh_error && !f.time_error; });
+  session.carry_errors(true);
+  const Frame& frame = wait_for(session, [](const Frame& f) { return f.mesh_error && f.time_error; });
+  CHECK(*frame.mesh_error > 0.01);
+  CHECK(*frame.mesh_error < 1);
+  CHECK(frame.time_error->rms > 0);
+  CHECK(frame.time_error->rms < 1e-3);
+  session.carry_errors(false);
+  wait_for(session, [](const Frame& f) { return !f.mesh_error && !f.time_error; });
+}
+
 TEST_CASE("a session steps by itself and publishes what a viewer needs") {
   Session session(small_scene(), {});
   CHECK(session.latest().skin->nodes.size() > 50);

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <heml/materials/parameter_slots.hpp>
 #include <heml/studies/accuracy_report.hpp>
 #include <heml/studies/beam_theory.hpp>
 #include <heml/studies/pareto.hpp>
@@ -32,6 +33,15 @@ MakeWorld broken(double stiffness) {
       parameters[0] *= stiffness;
       if (parameters.size() > 1) parameters[1] *= stiffness;
     }
+    return make_world(std::move(setup));
+  };
+}
+
+/// Worlds in which the volume term of one law pulls where it should push.
+MakeWorld volume_of_wrong_sign(const std::string& law) {
+  return [=](WorldSetup setup) {
+    Material& material = setup.materials.front().material;
+    if (material.law == law) material.parameters[*volume_slot(material, *find_law(law))] *= -1;
     return make_world(std::move(setup));
   };
 }
@@ -155,6 +165,21 @@ TEST_CASE("a kernel that is twice too stiff is noticed") {
   CHECK(committed["beam off theory, poisson 0"] < 0.01);
   CHECK(what_got_worse(sound, committed).empty());
   CHECK_FALSE(what_got_worse(figures_with(broken(2)), committed).empty());
+}
+
+TEST_CASE("a volume term of the wrong sign is noticed") {
+  AccuracyStudy study;
+  study.laws = study_laws({});
+  const Json committed = to_json(figures_of(study));
+  for (const std::string law : {"neo_hookean_iso", "neo_hookean"}) {
+    CAPTURE(law);
+    StudyContext wrong;
+    wrong.make = volume_of_wrong_sign(law);
+    study.laws = study_laws(wrong);
+    const auto worse = what_got_worse(figures_of(study), committed);
+    REQUIRE(worse.size() == 1);
+    CHECK(worse[0].find("force left by " + law) == 0);
+  }
 }
 
 TEST_CASE("every law that settles is in balance by arithmetic that is not the engine's, and a broken one is not") {

@@ -30,7 +30,7 @@ TEST_CASE("a page holds its text escaped, its tables and its pictures") {
 }
 
 TEST_CASE("tables as Markdown and as CSV") {
-  const Table table{{"law", "figure"}, {{"µ, λ", "1"}, {"a \"b\"", "22"}}, 1, 2};
+  const TextTable table{{"law", "figure"}, {{"µ, λ", "1"}, {"a \"b\"", "22"}}, 1, 2};
   CHECK(markdown_text(table) == "| law   | figure |\n|-------|-------:|\n| µ, λ  |      1 |\n| a \"b\" |     22 |\n");
   CHECK(csv_text(table) == "law,figure\n\"µ, λ\",1\n\"a \"\"b\"\"\",22\n");
   CHECK(short_number(0.00001234) == "1.23e-05");

@@ -1,0 +1,129 @@
+#include <algorithm>
+#include <heml/mesh/refine.hpp>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <tuple>
+
+namespace heml {
+namespace {
+
+using Edge = std::array<int, 2>;  // nodes, ascending
+
+constexpr std::array<std::array<std::size_t, 2>, 6> corners{{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
+
+Edge edge_of(const Tet& tet, std::size_t e) {
+  const int a = tet[corners[e][0]], b = tet[corners[e][1]];
+  return {std::min(a, b), std::max(a, b)};
+}
+
+class Bisection {
+ public:
+  explicit Bisection(const TetMesh& mesh) : mesh_(mesh) {
+    result_.mesh.nodes = mesh.nodes;
+    result_.mesh.source = mesh.source;
+  }
+
+  void mark(const std::vector<int>& chosen) {
+    for (const int t : chosen) mark_longest(mesh_.tets[static_cast<std::size_t>(t)]);
+    for (std::size_t before = 0; before != middles_.size();) {
+      before = middles_.size();
+      for (const Tet& tet : mesh_.tets)
+        if (longest_marked(tet)) mark_longest(tet);
+    }
+  }
+
+  Refinement cut() {
+    number_middles();
+    for (std::size_t t = 0; t < mesh_.tets.size(); ++t) cut(mesh_.tets[t], static_cast<int>(t));
+    take_fields();
+    return std::move(result_);
+  }
+
+ private:
+  /// Longer first; of equal ones the one with the smaller numbers.
+  bool is_longer(const Edge& a, const Edge& b) const {
+    const auto length = [&](const Edge& e) {
+      return (mesh_.nodes[static_cast<std::size_t>(e[0])] - mesh_.nodes[static_cast<std::size_t>(e[1])]).squaredNorm();
+    };
+    return std::tuple(-length(a), a) < std::tuple(-length(b), b);
+  }
+
+  void mark_longest(const Tet& tet) {
+    Edge longest = edge_of(tet, 0);
+    for (std::size_t e = 1; e < 6; ++e)
+      if (is_longer(edge_of(tet, e), longest)) longest = edge_of(tet, e);
+    middles_.try_emplace(longest, -1);
+  }
+
+  /// Which of its edges.
+  std::optional<std::size_t> longest_marked(const Tet& tet) const {
+    std::optional<std::size_t> found;
+    for (std::size_t e = 0; e < 6; ++e)
+      if (middles_.contains(edge_of(tet, e)) && (!found || is_longer(edge_of(tet, e), edge_of(tet, *found)))) found = e;
+    return found;
+  }
+
+  void number_middles() {
+    for (auto& [edge, middle] : middles_) {
+      middle = static_cast<int>(result_.mesh.nodes.size());
+      result_.mesh.nodes.push_back(
+          (mesh_.nodes[static_cast<std::size_t>(edge[0])] + mesh_.nodes[static_cast<std::size_t>(edge[1])]) / 2);
+      result_.ends.push_back(edge);
+    }
+  }
+
+  /// Halves keep the winding: the middle takes the place of one end, then of the other.
+  void cut(const Tet& tet, int parent) {
+    const auto e = longest_marked(tet);
+    if (!e) {
+      result_.mesh.tets.push_back(tet);
+      result_.parents.push_back(parent);
+      return;
+    }
+    const int middle = middles_.at(edge_of(tet, *e));
+    for (const std::size_t end : corners[*e]) {
+      Tet half = tet;
+      half[end] = middle;
+      cut(half, parent);
+    }
+  }
+
+  void take_fields() {
+    for (const int parent : result_.parents)
+      result_.mesh.regions.push_back(mesh_.regions[static_cast<std::size_t>(parent)]);
+    for (const ElementField& field : mesh_.fields) {
+      ElementField& finer = result_.mesh.fields.emplace_back(ElementField{field.name, field.components, {}});
+      for (const int parent : result_.parents)
+        for (std::size_t k = 0; k < field.components; ++k)
+          finer.values.push_back(field.values[static_cast<std::size_t>(parent) * field.components + k]);
+    }
+  }
+
+  const TetMesh& mesh_;
+  Refinement result_;
+  std::map<Edge, int> middles_;  ///< of marked edges: their numbers
+};
+
+}  // namespace
+
+Refinement refined(const TetMesh& mesh, const std::vector<int>& chosen) {
+  Bisection bisection(mesh);
+  bisection.mark(chosen);
+  return bisection.cut();
+}
+
+std::vector<int> greatest(const std::vector<double>& of_element, double share) {
+  std::vector<int> order(of_element.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto value = [&](int t) { return of_element[static_cast<std::size_t>(t)]; };
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return value(a) > value(b); });
+  const double wanted = share * std::accumulate(of_element.begin(), of_element.end(), 0.0);
+  std::size_t count = 0;
+  for (double sum = 0; count < order.size() && sum < wanted; ++count) sum += value(order[count]);
+  order.resize(count);
+  std::sort(order.begin(), order.end());
+  return order;
+}
+
+}  // namespace heml
