@@ -2,7 +2,7 @@
 
 Where physics is meant to change, they are made anew from the scenes they are named after:
 
-    for s in kidney_pull liver_cut twist; do build/release/app/heml replay assets/scenes/$s.json --record tests/golden/$s.jsonl; done
+    for s in kidney_pull liver_cut kidney_on_table twist; do build/release/app/heml replay assets/scenes/$s.json --record tests/golden/$s.jsonl; done
 """
 import json
 import os
