@@ -186,6 +186,23 @@ int run_program(int argc, char** argv) {
       "A scene may ask for it itself: \"mesh\": {..., \"refine\": {\"error\": 0.05, \"tets\": 10000}}.\n"
       "Exit code 1: that error would take more tetrahedra; the best of those allowed is written.");
 
+  HapticsArguments haptics_arguments;
+  auto* haptics_command =
+      program.add_subcommand("haptics", "what a recorded hand feels that holds the tool of a scene");
+  haptics_command->add_option("SCENE", haptics_arguments.scene, "scene with a grasp, or a recording of one")
+      ->required();
+  haptics_command->add_option("--hand", haptics_arguments.hand, "CSV of the hand: time,x,y,z in seconds and metres")
+      ->required();
+  haptics_command
+      ->add_option("--out", haptics_arguments.out, "CSV: place, force on the hand, energy and added damping each ms")
+      ->required();
+  haptics_command->add_option("--stiffest", haptics_arguments.stiffest, "N/m that the device is stable with")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  haptics_command->add_option("--force", haptics_arguments.force, "N that it can give")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+
   BenchTestArguments bench_arguments;
   auto* bench_command =
       program.add_subcommand("bench-test", "the curve of a material test, and parameters fitted to a measured one");
@@ -235,6 +252,8 @@ int run_program(int argc, char** argv) {
     code = study(study_arguments);
   } else if (*tune_command) {
     code = tune_scene(tune_arguments);
+  } else if (*haptics_command) {
+    code = feel_scene(haptics_arguments);
   } else if (*refine_command) {
     code = refine_scene(refine_arguments);
   } else if (*bench_command) {

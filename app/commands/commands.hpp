@@ -120,6 +120,14 @@ struct RefineArguments {
 };
 int refine_scene(const RefineArguments& arguments);  ///< exit_check_failed: the error asked for takes more elements
 
+struct HapticsArguments {
+  std::string scene;
+  std::filesystem::path hand, out;
+  double stiffest = 1000;  ///< N/m
+  double force = 4;        ///< N
+};
+int feel_scene(const HapticsArguments& arguments);
+
 struct BenchTestArguments {
   std::string material;           ///< a file with one entry of a scene's `materials`, or a preset's name
   std::string test = "uniaxial";  ///< one of bench_test_names(), or "relaxation"
