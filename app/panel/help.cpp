@@ -2,6 +2,7 @@
 #include <app/panel/help.hpp>
 #include <app/panel/keys.hpp>
 #include <app/panel/theme.hpp>
+#include <span>
 #include <utility>
 
 namespace heml::panel {
@@ -33,10 +34,10 @@ void draw_mouse() {
   for (const auto& [left, right] : mouse) line(left, right, em(12));
 }
 
-void draw_keys() {
+void draw_keys(std::span<const KeyBinding> bindings) {
   heading("Keys");
-  for (const KeyBinding& binding : key_bindings())
-    if (binding.label[0]) line(binding.label, binding.meaning, em(4.5f));
+  for (const KeyBinding& binding : bindings)
+    if (binding.label[0]) line(binding.label, binding.meaning, em(7));
 }
 
 }  // namespace
@@ -51,12 +52,16 @@ bool draw_help(ImVec2 picture, Area& place) {
   ImGui::Begin("Mouse and keys", &open,
                ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
                    ImGuiWindowFlags_NoNav | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoTitleBar);
+  const std::span<const KeyBinding> keys = key_bindings();
+  const std::size_t beside_mouse = two_columns ? keys.size() / 3 : 0;
   ImGui::BeginGroup();
   draw_mouse();
+  ImGui::Dummy({0, em(0.5f)});
+  if (two_columns) draw_keys(keys.first(beside_mouse));
   ImGui::EndGroup();
   if (two_columns) ImGui::SameLine(0, em(3));
   ImGui::BeginGroup();
-  draw_keys();
+  draw_keys(keys.subspan(beside_mouse));
   ImGui::EndGroup();
   const ImVec2 from = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
   place = {from, {from.x + size.x, from.y + size.y}};

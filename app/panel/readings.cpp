@@ -43,7 +43,7 @@ void draw_force(Rows& rows, const Frame& frame, const History& history) {
                           {"Probe", colours::warning, [](const Reading& r) { return r.probe; }},
                           {"Table", colours::kinetic, [](const Reading& r) { return r.tables; }},
                           {"Sutures", colours::danger, [](const Reading& r) { return r.sutures; }}};
-  plot("force plot", history, curves, {"N", 0, 1e-3, 3.6f});
+  plot("force plot", history, curves, {"N", 0, 1e-3, 3.2f});
 }
 
 void draw_energies(Rows& rows, const Frame& frame, const History& history) {
@@ -60,7 +60,7 @@ void draw_energies(Rows& rows, const Frame& frame, const History& history) {
       {"Elastic", colours::elastic, [](const Reading& r) { return r.energies.elastic; }},
       {"Kinetic", colours::kinetic, [](const Reading& r) { return r.energies.kinetic; }},
   };
-  plot("energy plot", history, curves, {"J", 0, 1e-9, 5.2f});
+  plot("energy plot", history, curves, {"J", 0, 1e-9, 4.2f});
 }
 
 void draw_volume(Rows& rows, const Frame& frame, const History& history) {
@@ -93,7 +93,7 @@ void draw_volume(Rows& rows, const Frame& frame, const History& history) {
       {"Greatest", colours::kinetic, [](const Reading& r) { return r.max_J; }},
       {"Whole", total_colour, [](const Reading& r) { return r.volume; }},
   };
-  plot("volume plot", history, curves, {"", 1, 0.01, 3.4f});
+  plot("volume plot", history, curves, {"", 1, 0.01, 3.0f});
 }
 
 void draw_errors(Rows& rows, const Frame& frame, const History& history) {
@@ -139,12 +139,12 @@ void draw_engine(Rows& rows, const Frame& frame, const History& history) {
       {"Slowest", colours::warning, [](const Reading& r) { return r.slow_tick; }},
       {"Typical", colours::accent, [](const Reading& r) { return r.typical_tick; }},
   };
-  plot("tick plot", history, curves, {"s", 0, 1e-6, 3.4f});
+  plot("tick plot", history, curves, {"s", 0, 1e-6, 2.8f});
   rows.value({"Slower by", "Wall seconds a simulated second over the last second: 1 is real time, 2 half as fast."},
              pace.slowdown < 1e8 ? fmt::format("{:.2f} ×", pace.slowdown) : "–", colours::potential);
   const Curve late[] = {
       {"Slower by", colours::potential, [](const Reading& r) { return std::min(r.slowdown, 100.0); }}};
-  plot("lateness plot", history, late, {"×", 1, 0.5, 2.6f});
+  plot("lateness plot", history, late, {"×", 1, 0.5, 2.2f});
 }
 
 }  // namespace heml::panel

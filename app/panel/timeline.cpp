@@ -18,6 +18,16 @@ std::string seconds_text(double seconds) {
                       : fmt::format("{}:{:04.1f}", static_cast<long>(seconds / 60), std::fmod(seconds, 60));
 }
 
+std::string moment_hint(const Timeline& time) {
+  return fmt::format(
+      "Simulated time since the start of what is shown, s, by ticks of the engine, which a reset does not set back. "
+      "Left, "
+      "Right and Home look back too; Resume (B) goes on from there.\n\n{} moments are kept, {:.1f} of at most {:.0f} "
+      "MB. "
+      "When that is full, every other one goes.",
+      time.moments, static_cast<double>(time.bytes) / 1e6, static_cast<double>(time.room) / 1e6);
+}
+
 /// The track, and where ticks are on it.
 struct Track {
   ImVec2 from, to;
@@ -57,14 +67,16 @@ void follow_mouse(Rows& rows, const Track& track, PanelActions& out) {
     if (tick <= time.live) out.look_at = tick;
   }
   if (ImGui::IsItemDeactivated() && tick > time.live) out.look_at = tick;  // ahead: once, where the mouse lets go
-  const std::string kept =
-      fmt::format("{} moments are kept, {:.0f} of at most {:.0f} MB; when that is full, every second goes.",
-                  time.moments, static_cast<double>(time.bytes) / 1e6, static_cast<double>(time.room) / 1e6);
-  rows.explain({"Timeline", fmt::format("{} of {}, simulated time since the start. Drag to look back (Left, Right, "
-                                        "Home); Resume (B) goes on from there. Where a recording goes on, let go "
-                                        "there to send the engine ahead.\n\n{}",
-                                        seconds_text(static_cast<double>(tick) / time.rate),
-                                        seconds_text(static_cast<double>(time.end) / time.rate), kept)});
+  rows.explain({"Timeline", ""});
+  if (!ImGui::IsItemHovered()) return;
+  // Above the bar, whose buttons it would hide.
+  ImGui::SetNextWindowPos({x, track.from.y - em(0.8f)}, ImGuiCond_Always, {0.5f, 1});
+  ImGui::BeginTooltip();
+  ImGui::Text("%s of %s", seconds_text(static_cast<double>(tick) / time.rate).c_str(),
+              seconds_text(static_cast<double>(time.end) / time.rate).c_str());
+  if (!ImGui::IsAnyMouseDown())
+    ImGui::TextDisabled("%s", tick > time.live ? "let go here to send the engine ahead" : "drag to look back");
+  ImGui::EndTooltip();
 }
 
 }  // namespace

@@ -61,7 +61,7 @@ panel::Timeline LookingBack::timeline(const Scene& scene, const Frame& live) con
   timeline.live = live.tick;
   timeline.first = seen_.frames().empty() ? live.tick : seen_.frames().front().tick;
   timeline.end = std::max({live.tick, live.hurries_to, scene.recorded_ticks.value_or(0)});
-  if (at_) timeline.shown = static_cast<long>(*at_);
+  if (at_) timeline.shown = shown_.tick;
   timeline.moments = seen_.frames().size();
   timeline.bytes = seen_.bytes();
   timeline.room = seen_.room();

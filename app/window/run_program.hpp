@@ -15,7 +15,7 @@ std::filesystem::path find_program(const std::string& name);
 /// soon as `leave` is true: it then goes on by itself.
 std::optional<int> run_program(std::vector<std::string> words, const std::atomic<bool>& leave);
 
-/// The calling thread, and programs it runs, take what others leave of the processor.
+/// The calling thread, and programs it runs, get less of the processor than others; enough for somebody to wait for it.
 void give_way();
 
 }  // namespace heml::window

@@ -13,7 +13,7 @@ namespace heml::window {
 class SeenFrames {
  public:
   /// room: bytes; skins, which frames share, are not counted.
-  explicit SeenFrames(std::size_t room = std::size_t{256} << 20) : room_(room) {}
+  explicit SeenFrames(std::size_t room = 256'000'000) : room_(room) {}
 
   /// Takes a frame that is later than the last by the spacing of the moment, or of the same tick, which it replaces.
   void take(const Frame& frame);
