@@ -295,7 +295,7 @@ class Window(unittest.TestCase):
         place = self.display.picture().tissue(220, 640)
         self.xdo("key", "t")
         self.wait_for("a table", lambda: self.seen("tables"))
-        self.xdo("key", "n", "mousemove", *place, "click", 1)
+        self.xdo("key", "n", "sleep", 0.5, "mousemove", *place, "click", 1)  # a picture between, as for any hand
         self.wait_for("a pin", lambda: self.seen("pin"))
         self.xdo("click", 1)
         self.wait_for("its release", lambda: any("node" in value for value in self.seen("release")))
@@ -303,7 +303,7 @@ class Window(unittest.TestCase):
         self.drag(place, (30, 10))
         self.wait_for("a withdrawn probe", lambda: "probe" in self.seen("release"))
         self.assertGreaterEqual(len(self.seen("probe")), 3)
-        self.xdo("key", "s", "mousemove", *place, "click", 1)
+        self.xdo("key", "s", "sleep", 0.5, "mousemove", *place, "click", 1)
         time.sleep(0.3)
         self.xdo("mousemove", place[0] + 50, place[1], "click", 1)
         self.wait_for("a suture", lambda: self.seen("suture"))
