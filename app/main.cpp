@@ -57,8 +57,9 @@ int run_program(int argc, char** argv) {
   replay_command->add_flag("--verify", replay_arguments.verify,
                            "compare the state with every checkpoint; exit 1 where it differs");
   replay_command->add_option("--frames", replay_arguments.frames, "write frames into this folder");
-  replay_command->add_option("--record", replay_arguments.record,
-                             "write what is played as a recording, with checkpoints: of a scene with a script, or anew");
+  replay_command->add_option(
+      "--record", replay_arguments.record,
+      "write what is played as a recording, with checkpoints: of a scene with a script, or anew");
   replay_command->add_option("--size", replay_size, size_help)->capture_default_str();
   replay_command->add_option("--fps", replay_arguments.fps, "frames a simulated second")
       ->capture_default_str()
@@ -141,8 +142,9 @@ int run_program(int argc, char** argv) {
 
   StudyArguments study_arguments;
   auto* study_command = program.add_subcommand("study", "reports about what the engine can be trusted with");
-  study_command->add_option("KIND", study_arguments.kind,
-                            "accuracy: error against run time; stability: stiff and extreme cases")->required();
+  study_command
+      ->add_option("KIND", study_arguments.kind, "accuracy: error against run time; stability: stiff and extreme cases")
+      ->required();
   study_command->add_option("--out", study_arguments.out, "folder for report.html, its tables and pictures")
       ->required();
   study_command->add_flag("--quick", study_arguments.quick, "within two minutes: fewer and smaller cases");
@@ -163,6 +165,43 @@ int run_program(int argc, char** argv) {
   tune_command->add_option("--out", tune_arguments.out, "the scene solved that way; else NAME_tuned.json");
   tune_command->add_flag("--quick", tune_arguments.quick, "fewer methods, no other meshes");
   tune_command->footer("Close other programs first: what is fast enough is a matter of this machine and this hour.");
+
+  RefineArguments refine_arguments;
+  auto* refine_command = program.add_subcommand("refine", "a scene on a mesh that is finer where it errs most");
+  refine_command->add_option("SCENE", refine_arguments.scene, "scene, recording, mesh or surface")->required();
+  refine_command->add_option("--out", refine_arguments.out, "folder for scene.json and its mesh.vtu")->required();
+  refine_command
+      ->add_option("--error", refine_arguments.error,
+                   "per cent of the energy norm, as estimated, to come down to; else 10")
+      ->check(CLI::Range(0.1, 100.0));
+  refine_command->add_option("--tets", refine_arguments.tets, "and no more tetrahedra than these; else 50000")
+      ->check(CLI::Range(1, 10'000'000));
+  refine_command
+      ->add_option("--at", refine_arguments.at, "the moment of its motion, s, to look at; else rest under all loads")
+      ->check(CLI::PositiveNumber);
+  refine_command->footer(
+      "Examples:\n"
+      "  heml refine sagging.json --out fine --error 5\n"
+      "  heml refine assets/scenes/kidney_pull.json --out fine --at 1 --tets 10000\n"
+      "A scene may ask for it itself: \"mesh\": {..., \"refine\": {\"error\": 0.05, \"tets\": 10000}}.\n"
+      "Exit code 1: that error would take more tetrahedra; the best of those allowed is written.");
+
+  HapticsArguments haptics_arguments;
+  auto* haptics_command =
+      program.add_subcommand("haptics", "what a recorded hand feels that holds the tool of a scene");
+  haptics_command->add_option("SCENE", haptics_arguments.scene, "scene with a grasp, or a recording of one")
+      ->required();
+  haptics_command->add_option("--hand", haptics_arguments.hand, "CSV of the hand: time,x,y,z in seconds and metres")
+      ->required();
+  haptics_command
+      ->add_option("--out", haptics_arguments.out, "CSV: place, force on the hand, energy and added damping each ms")
+      ->required();
+  haptics_command->add_option("--stiffest", haptics_arguments.stiffest, "N/m that the device is stable with")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  haptics_command->add_option("--force", haptics_arguments.force, "N that it can give")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
 
   BenchTestArguments bench_arguments;
   auto* bench_command =
@@ -213,6 +252,10 @@ int run_program(int argc, char** argv) {
     code = study(study_arguments);
   } else if (*tune_command) {
     code = tune_scene(tune_arguments);
+  } else if (*haptics_command) {
+    code = feel_scene(haptics_arguments);
+  } else if (*refine_command) {
+    code = refine_scene(refine_arguments);
   } else if (*bench_command) {
     code = bench_test(bench_arguments);
   } else {

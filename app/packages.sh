@@ -16,6 +16,7 @@ run_packages=(
   libxcursor1 libxi6 libxinerama1 libxrandr2         # what GLFW loads when it opens one
 )
 test_packages=(
+  ccache                                             # what two presets share is compiled once
   clang libclang-rt-14-dev                           # fuzzing
   imagemagick python3 xauth xdotool xvfb             # a window with a mouse in it
   calculix-ccx python3-mpmath python3-numpy          # results to compare with

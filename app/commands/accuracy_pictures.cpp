@@ -107,6 +107,29 @@ panel::Chart locking_chart(const std::vector<LockedBeam>& beams) {
   return chart;
 }
 
+panel::Chart refinement_chart(const RefinementStudy& study) {
+  panel::Chart chart;
+  chart.title = "Uniform and adapted meshes of a beam";
+  chart.subtitle = "At rest under its weight, Poisson's ratio 0.3; adapted: cut where the estimate is greatest";
+  chart.x_label = "Tetrahedra";
+  chart.y_quantity = "Error of the mesh, % of the energy norm";
+  chart.logarithmic = true;
+  for (const bool adapted : {false, true}) {
+    const ImU32 colour = inks[adapted ? 2 : 1].colour;
+    panel::ChartSeries line{adapted ? "adapted" : "uniform", {}, colour, ChartMark::line},
+        marks{"", {}, colour, ChartMark::dots}, estimates{"", {}, colour, ChartMark::rings};
+    for (const RefinedMesh& mesh : study.meshes)
+      if (mesh.adapted == adapted) {
+        line.points.push_back({static_cast<double>(mesh.tets), 100 * mesh.error});
+        estimates.points.push_back({static_cast<double>(mesh.tets), 100 * mesh.estimated});
+      }
+    marks.points = line.points;
+    for (panel::ChartSeries* series : {&line, &marks, &estimates}) chart.series.push_back(std::move(*series));
+  }
+  chart.series.push_back({"as estimated", {}, grey, ChartMark::rings});
+  return chart;
+}
+
 panel::BarChart feature_bars(const FeatureStudy& study) {
   panel::BarChart chart;
   chart.title = study.title;
@@ -143,6 +166,11 @@ std::vector<ReportPicture> write_accuracy_pictures(const std::filesystem::path& 
   if (!study.locking.empty()) {
     write_chart(folder / "locking.png", locking_chart(study.locking));
     pictures.push_back({"locking", folder / "locking.png", "Error of the mesh against its size, by Poisson's ratio."});
+  }
+  if (study.refinement && !study.refinement->meshes.empty()) {
+    write_chart(folder / "refinement.png", refinement_chart(*study.refinement));
+    pictures.push_back(
+        {"refinement", folder / "refinement.png", "Error of the mesh against its size, known and estimated."});
   }
   for (const FeatureStudy& features : study.features) {
     const auto file = folder / fmt::format("features_{}.png", features.scene);

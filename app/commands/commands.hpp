@@ -111,6 +111,23 @@ struct TuneArguments {
 };
 int tune_scene(const TuneArguments& arguments);  ///< exit_check_failed: nothing tried is good enough
 
+struct RefineArguments {
+  std::string scene;
+  std::filesystem::path out;
+  std::optional<double> error;  ///< per cent of the energy norm; else the scene's, or 10
+  std::optional<int> tets;      ///< at most; else the scene's, or 50,000
+  std::optional<double> at;     ///< s; else at rest
+};
+int refine_scene(const RefineArguments& arguments);  ///< exit_check_failed: the error asked for takes more elements
+
+struct HapticsArguments {
+  std::string scene;
+  std::filesystem::path hand, out;
+  double stiffest = 1000;  ///< N/m
+  double force = 4;        ///< N
+};
+int feel_scene(const HapticsArguments& arguments);
+
 struct BenchTestArguments {
   std::string material;           ///< a file with one entry of a scene's `materials`, or a preset's name
   std::string test = "uniaxial";  ///< one of bench_test_names(), or "relaxation"

@@ -54,7 +54,8 @@ void Photographer::draw_alone(float seconds) {
   if (!interface_) return;
   interface_->begin(size_, seconds);
   panel::draw_legend(frame_.field, *options.range,
-                     {{0, 0}, {static_cast<float>(size_.width), static_cast<float>(size_.height)}});
+                     {{0, 0}, {static_cast<float>(size_.width), static_cast<float>(size_.height)}},
+                     !(frame_.min_J > 0));
   interface_->end();
 }
 

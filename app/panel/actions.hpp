@@ -1,5 +1,6 @@
 #pragma once
 // What goes out of the panel. The panel knows no session: whoever draws it carries these out.
+#include <filesystem>
 #include <heml/world/command.hpp>
 #include <heml/world/world.hpp>
 #include <optional>
@@ -32,6 +33,21 @@ enum class Action {
   take_suture,
   toggle_table,
   undo,
+  open,
+  look_earlier,
+  look_later,
+  look_first,
+  look_now,
+  resume,
+  film,
+  view_1,
+  view_2,
+  view_3,
+  view_4,
+  keep_view_1,
+  keep_view_2,
+  keep_view_3,
+  keep_view_4,
   quit
 };
 
@@ -48,12 +64,32 @@ struct ToolInHand {
 };
 
 /// What the panel asks its owner for.
-enum class Request { play, pause, step, fit, screenshot, release, remove, quit };
+enum class Request {
+  play,
+  pause,
+  step,
+  fit,
+  screenshot,
+  release,
+  remove,
+  list,
+  earlier,
+  later,
+  first,
+  now,
+  resume,
+  film,
+  quit
+};
 
 struct PanelActions {
   std::vector<Command> commands;  ///< for the world, in order
   std::vector<Request> requests;
-  std::optional<Field> show;  ///< the field that frames should carry from now on
+  std::optional<Field> show;                       ///< the field that frames should carry from now on
+  std::optional<std::filesystem::path> open;       ///< a file to open
+  std::optional<std::filesystem::path> look_into;  ///< a folder to list; Request::list: where one was last
+  std::optional<std::size_t> view, keep_view;      ///< a number of Eye: to go to, to keep as it looks now
+  std::optional<long> look_at;                     ///< a tick to show, of the past or of a recording ahead
 };
 
 }  // namespace heml::panel

@@ -28,6 +28,11 @@ void Eye::pan(float right, float down) {
 
 void Eye::zoom(float notches) { centred_.zoom(std::pow(0.9f, notches)); }
 
+bool Eye::go_to(std::size_t view) {
+  if (kept_[view]) centred_ = *kept_[view];
+  return has(view);
+}
+
 render::Camera Eye::camera() const {
   render::Camera shifted = centred_;
   shifted.pan((covered_.right - covered_.left) / 2 / static_cast<float>(size_.height), 0);

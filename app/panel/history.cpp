@@ -1,10 +1,14 @@
 #include <algorithm>
 #include <app/panel/history.hpp>
+#include <app/panel/volume.hpp>
+#include <limits>
 
 namespace heml::panel {
 
 void History::take(const Frame& frame) {
   constexpr double spacing = span / 240;
+  if (frame.tick < latest_tick_) return;  // somebody looks back
+  latest_tick_ = frame.tick;
   if (!readings_.empty() && frame.time < readings_.back().time) readings_.clear();
   if (!readings_.empty() && frame.time < readings_.back().time + spacing) return;
   Reading reading;
@@ -19,6 +23,11 @@ void History::take(const Frame& frame) {
   reading.slow_tick = frame.pace.p99;
   reading.min_J = frame.min_J;
   reading.max_J = frame.max_J;
+  if (frame.skin) reading.volume = enclosed_volume(*frame.skin, frame.positions) / enclosed_volume(*frame.skin);
+  reading.slowdown = frame.pace.slowdown;
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  reading.mesh_error = frame.mesh_error ? 100 * *frame.mesh_error : unknown;
+  reading.time_error = frame.time_error ? 1e3 * frame.time_error->rms : unknown;
   readings_.push_back(reading);
   while (readings_.front().time < frame.time - span) readings_.pop_front();
 }

@@ -44,6 +44,17 @@ void draw_reset(ImDrawList& list, ImVec2 c, float half, ImU32 colour) {
                          colour);
 }
 
+void draw_folder(ImDrawList& list, ImVec2 c, float half, ImU32 colour) {
+  list.AddRectFilled({c.x - half, c.y - half * 0.75f}, {c.x - half * 0.05f, c.y}, colour, half * 0.2f);
+  list.AddRectFilled({c.x - half, c.y - half * 0.45f}, {c.x + half, c.y + half * 0.75f}, colour, half * 0.2f);
+}
+
+void draw_cross(ImDrawList& list, ImVec2 c, float half, ImU32 colour) {
+  const float h = half * 0.75f;
+  list.AddLine({c.x - h, c.y - h}, {c.x + h, c.y + h}, colour, half * 0.3f);
+  list.AddLine({c.x - h, c.y + h}, {c.x + h, c.y - h}, colour, half * 0.3f);
+}
+
 void draw_question(ImDrawList& list, ImVec2 c, float, ImU32 colour) {
   const ImVec2 size = ImGui::CalcTextSize("?");
   list.AddText({c.x - size.x / 2, c.y - size.y / 2}, colour, "?");

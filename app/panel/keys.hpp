@@ -6,7 +6,21 @@
 namespace heml::panel {
 
 /// Printable keys are their own character, letters in upper case; the rest have numbers past ASCII.
-enum Key : int { key_escape = 256, key_tab, key_f1, key_f12, key_delete };
+enum Key : int {
+  key_escape = 256,
+  key_tab,
+  key_f1,
+  key_f5,
+  key_f6,
+  key_f7,
+  key_f8,
+  key_f12,
+  key_delete,
+  key_left,
+  key_right,
+  key_home,
+  key_end
+};
 
 struct KeyBinding {
   int key;

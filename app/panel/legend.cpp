@@ -14,10 +14,11 @@ ImU32 colour_at(Field field, float place) {
   return ImGui::ColorConvertFloat4ToU32({c.x(), c.y(), c.z(), 1});
 }
 
-void draw_bar(ImDrawList& list, Field field, const Area& bar) {
+/// From a place of the colour map to its end.
+void draw_bar(ImDrawList& list, Field field, float first, const Area& bar) {
   for (int i = 0; i < colour_steps; ++i) {
     const float a = static_cast<float>(i) / colour_steps, b = static_cast<float>(i + 1) / colour_steps;
-    const ImU32 left = colour_at(field, a), right = colour_at(field, b);
+    const ImU32 left = colour_at(field, first + a * (1 - first)), right = colour_at(field, first + b * (1 - first));
     list.AddRectFilledMultiColor({bar.from.x + a * bar.width(), bar.from.y}, {bar.from.x + b * bar.width(), bar.to.y},
                                  left, right, right, left);
   }
@@ -29,8 +30,14 @@ void centred(ImDrawList& list, float x, float y, ImU32 colour, const std::string
 
 }  // namespace
 
-void draw_legend(Field field, const render::Range& range, const Area& free) {
+render::Range legend_range(Field field, const render::Range& range, bool turned_inside_out) {
+  const bool is_ratio = field == Field::stretch || (field == Field::volume_ratio && !turned_inside_out);
+  return {is_ratio ? std::max(range.low, 0.0f) : range.low, range.high};
+}
+
+void draw_legend(Field field, const render::Range& whole, const Area& free, bool turned_inside_out) {
   if (field == Field::none) return;
+  const render::Range range = legend_range(field, whole, turned_inside_out);
   const UseFont small(Font::small);
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   const render::FieldLabel label = render::field_label(field, range);
@@ -40,9 +47,10 @@ void draw_legend(Field field, const render::Range& range, const Area& free) {
   const float pad = em(0.8f);
   list.AddRectFilled({bar.from.x - pad * 1.4f, bar.from.y - line - pad}, {bar.to.x + pad * 1.4f, bottom + pad * 0.5f},
                      colours::background, em(0.5f));
-  const std::string title = label.unit.empty() ? label.title : fmt::format("{}, {}", label.title, label.unit);
+  std::string title = label.unit.empty() ? label.title : fmt::format("{}, {}", label.title, label.unit);
+  if (field == Field::volume_ratio && range.low < 0) title += " (below 0: inside out)";
   centred(list, middle, bar.from.y - line - em(0.25f), colours::text, title);
-  draw_bar(list, field, bar);
+  draw_bar(list, field, (range.low - whole.low) / (whole.high - whole.low), bar);
   for (const float tick : render::ticks({range.low * label.scale, range.high * label.scale})) {
     const float x = bar.from.x + (tick / label.scale - range.low) / (range.high - range.low) * width;
     list.AddLine({x, bar.to.y}, {x, bar.to.y + em(0.15f)}, colours::muted);

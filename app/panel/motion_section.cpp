@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include <app/panel/motion_section.hpp>
 #include <array>
 
@@ -36,7 +34,7 @@ const std::array<Direction, 6>& directions() {
 }  // namespace
 
 MotionSection::MotionSection(const Vec3& gravity, const SolverSettings& solver)
-    : damping_(solver.damping), integrator_(solver.integrator), rate_(1 / solver.tick()) {
+    : damping_(solver.damping), integrator_(solver.integrator) {
   follow(SetGravity{gravity});
 }
 
@@ -51,8 +49,6 @@ void MotionSection::draw(Rows& rows, PanelActions& out) {
                   {0, 20, "%.2f 1/s", false}))
     out.commands.emplace_back(SetDamping{damping_});
   draw_integrator(rows, out);
-  rows.value({"Rate", "Ticks of the engine a simulated second, Hz. The scene fixes it (solver.rate or solver.step)."},
-             fmt::format("{:.4g} Hz", rate_));
 }
 
 void MotionSection::draw_gravity(Rows& rows, PanelActions& out) {

@@ -1,5 +1,5 @@
 #pragma once
-// Gravity, damping, the integrator and the engine's rate.
+// Gravity, damping and the integrator.
 #include <app/panel/actions.hpp>
 #include <app/panel/rows.hpp>
 
@@ -24,7 +24,6 @@ class MotionSection {
   Vec3 direction_ = Vec3(0, -1, 0);  ///< of gravity, unit; kept while the strength is 0
   double damping_;                   ///< 1/s
   Integrator integrator_;
-  double rate_;  ///< Hz
 };
 
 }  // namespace heml::panel

@@ -100,72 +100,8 @@ Insets Panel::insets(ImVec2 picture) const {
 
 bool Panel::covers(float x, float y) const {
   constexpr ImGuiPopupFlags any = ImGuiPopupFlags_AnyPopup;
-  return notices_.covers(x, y) || ImGui::IsPopupOpen("", any) ||
+  return dialog_.is_open() || notices_.covers(x, y) || ImGui::IsPopupOpen("", any) ||
          std::any_of(places_.begin(), places_.end(), [&](const Area& place) { return place.contains(x, y); });
-}
-
-void Panel::carry_out(Action action, const Frame& frame, PanelActions& out) {
-  const auto ask = [&](Request request) { out.requests.push_back(request); };
-  switch (action) {
-    case Action::toggle_play:
-      return ask(frame.paused ? Request::play : Request::pause);
-    case Action::step:
-      return ask(Request::step);
-    case Action::reset:
-      out.commands.emplace_back(Reset{});
-      return;
-    case Action::fit:
-      return ask(Request::fit);
-    case Action::wireframe:
-      return view_.toggle_wireframe();
-    case Action::show_tissue:
-      return view_.show(Field::none, out);
-    case Action::show_displacement:
-      return view_.show(Field::displacement, out);
-    case Action::show_stretch:
-      return view_.show(Field::stretch, out);
-    case Action::show_von_mises:
-      return view_.show(Field::von_mises, out);
-    case Action::show_volume_ratio:
-      return view_.show(Field::volume_ratio, out);
-    case Action::show_error:
-      return view_.show(Field::error, out);
-    case Action::screenshot:
-      return ask(Request::screenshot);
-    case Action::hide:
-      hidden_ = !hidden_;
-      return;
-    case Action::help:
-      helping_ = !helping_;
-      return;
-    case Action::release:
-      if (helping_ || notices_.close()) helping_ = false;
-      return ask(Request::release);
-    case Action::remove:
-      return ask(Request::remove);
-    case Action::take_grasper:
-      tool_.take(Tool::grasper);
-      return;
-    case Action::take_scalpel:
-      tool_.take(Tool::scalpel);
-      return;
-    case Action::take_pin:
-      tool_.take(Tool::pin);
-      return;
-    case Action::take_probe:
-      tool_.take(Tool::probe);
-      return;
-    case Action::take_suture:
-      tool_.take(Tool::suture);
-      return;
-    case Action::toggle_table:
-      return tool_.toggle_table(frame, out);
-    case Action::undo:
-      out.commands.emplace_back(Undo{});
-      return;
-    case Action::quit:
-      return ask(Request::quit);
-  }
 }
 
 PanelActions Panel::draw(const Frame& frame) {
@@ -175,8 +111,12 @@ PanelActions Panel::draw(const Frame& frame) {
   errors_open_ = false;
   const ImVec2 picture = ImGui::GetIO().DisplaySize;
   const Insets taken = insets(picture);
-  const Area free{{taken.left, 0}, {picture.x - taken.right, picture.y}};
-  draw_legend(frame.field, range_, free);
+  Area free{{taken.left, 0}, {picture.x - taken.right, picture.y}};
+  if (timeline_ && !hidden_) {
+    draw_timeline(rows_, *timeline_, free, pressed_, out, places_.emplace_back());
+    free.to.y -= timeline_height();
+  }
+  draw_legend(frame.field, range_, free, !(frame.min_J > 0));
   if (!hidden_) {
     draw_controls(frame, !two_columns(picture), out);
     if (two_columns(picture)) draw_readings(frame);
@@ -187,6 +127,7 @@ PanelActions Panel::draw(const Frame& frame) {
     helping_ = draw_help(picture, place);
     places_.push_back(place);
   }
+  dialog_.draw(rows_, picture, out);
   for (const Action action : std::exchange(pressed_, {})) carry_out(action, frame, out);
   return out;
 }
@@ -207,7 +148,7 @@ std::optional<Banner> Panel::banner_for(const Frame& frame) const {
                   capitalised(frame.recovery->message) + "." +
                       (frame.recovery_file.empty() ? "" : "\nTo see it again: heml " + frame.recovery_file),
                   "", colours::warning};
-  if (late_for_ > patience)
+  if (late_for_ > patience && !frame.paused)
     return Banner{fmt::format("{:.1f}× slower than real time", frame.pace.slowdown),
                   "The engine cannot keep up. A softer or denser material, a lower Poisson's ratio or a coarser mesh "
                   "allows longer steps.",
@@ -248,10 +189,10 @@ void Panel::draw_header(const Frame& frame) {
     ImGui::TextUnformatted(shortened(title_, ImGui::GetContentRegionAvail().x).c_str());
   }
   rows_.explain({"Title", description_.empty() ? title_ : title_ + "\n\n" + description_});
-  const float size = em(2.1f);
+  const float size = em(1.95f);
   const auto button = [&](const char* name, const char* hint, bool strong, Action action, const Rows::Icon& icon) {
     if (rows_.icon_button({name, hint}, size, strong, icon)) pressed_.push_back(action);
-    ImGui::SameLine(0, em(0.35f));
+    ImGui::SameLine(0, em(0.3f));
   };
   if (frame.paused)
     button("Play", "Lets time run (Space).", true, Action::toggle_play, draw_play);
@@ -260,6 +201,7 @@ void Panel::draw_header(const Frame& frame) {
   button("Step", "One tick of the engine, then pause (. key).", false, Action::step, draw_step);
   button("Reset", "Back to the initial state at time 0; materials and the like stay (R).", false, Action::reset,
          draw_reset);
+  button("Open", "Scenes that come with heml, recent files, and folders (Ctrl+O).", false, Action::open, draw_folder);
   button("Help", "Mouse and keys (H).", false, Action::help, draw_question);
   ImGui::BeginGroup();
   text_at_right(fmt::format("{:.2f} s", frame.time), colours::text);
@@ -304,7 +246,7 @@ void Panel::draw_readings(const Frame& frame) {
 
 void Panel::draw_accuracy(const Frame& frame) {
   errors_open_ = rows_.section("Accuracy", false);
-  if (errors_open_) draw_errors(rows_, frame);
+  if (errors_open_) draw_errors(rows_, frame, history_);
 }
 
 }  // namespace heml::panel

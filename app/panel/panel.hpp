@@ -18,7 +18,9 @@
 #include <app/panel/material_section.hpp>
 #include <app/panel/motion_section.hpp>
 #include <app/panel/notices.hpp>
+#include <app/panel/open_dialog.hpp>
 #include <app/panel/stretch_watch.hpp>
+#include <app/panel/timeline.hpp>
 #include <app/panel/tool_section.hpp>
 #include <app/panel/view_section.hpp>
 #include <heml/scenario/scene.hpp>
@@ -40,6 +42,11 @@ class Panel {
   void follow(const Command& command);                             ///< shows what was changed elsewhere
   void say(std::string text) { notices_.say(std::move(text)); }    ///< in passing
   void fail(std::string text) { notices_.fail(std::move(text)); }  ///< a file that could not be opened
+
+  void offer(Offers offers) { dialog_.offer(std::move(offers)); }        ///< what can be opened
+  void set_timeline(const Timeline& timeline) { timeline_ = timeline; }  ///< shown from now on; none: there is no bar
+  ViewSection& view() { return view_; }
+  bool asks() const { return dialog_.is_open(); }  ///< a dialog has keys and mouse to itself
 
   const render::DrawOptions& drawing() const { return view_.drawing(); }
   bool wants_stretches() const { return watch_.active(); }  ///< whether frames should carry Frame::stretches
@@ -75,6 +82,8 @@ class Panel {
   MotionSection motion_;
   ViewSection view_;
   Notices notices_;
+  OpenDialog dialog_;
+  std::optional<Timeline> timeline_;
   Rows rows_;
   History history_;
   render::ColourRange colour_range_;

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <app/panel/plot.hpp>
 #include <app/panel/quantity.hpp>
@@ -10,6 +12,13 @@ namespace {
 struct Axis {
   double low, high;
 };
+
+std::string text_of(double value, std::string_view unit) {
+  if (!std::isfinite(value)) return "–";
+  if (unit.empty()) return fmt::format("{:.3f}", value);
+  const bool takes_prefix = unit != "%" && unit != "×" && unit != "mm";
+  return takes_prefix ? quantity(value, unit) : fmt::format("{:.3g} {}", value, unit);
+}
 
 /// The smallest of 1, 1.5, 2, 3, 5, 7 times a power of ten that is not below the value: the axis then moves seldom.
 double rounded_up(double value) {
@@ -69,7 +78,7 @@ void say_values(ImDrawList& list, const Canvas& canvas, const std::deque<Reading
   for (const Curve& curve : curves) {
     ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(curve.colour), "%s", curve.name);
     ImGui::SameLine(em(5));
-    ImGui::TextUnformatted(quantity(curve.value(*found), unit).c_str());
+    ImGui::TextUnformatted(text_of(curve.value(*found), unit).c_str());
   }
   ImGui::EndTooltip();
 }
@@ -97,8 +106,12 @@ void plot(const char* id, const History& history, std::span<const Curve> curves,
   list.PopClipRect();
   const UseFont small(Font::small);
   const float margin = em(0.3f);
-  list.AddText({from.x + margin, from.y + margin * 0.5f}, colours::faint,
-               quantity(canvas.axis.high, style.unit).c_str());
+  const float bottom = to.y - ImGui::GetTextLineHeight() - margin * 0.2f;
+  const std::string span = fmt::format("last {:.0f} s", History::span);
+  list.AddText({from.x + margin, from.y + margin * 0.2f}, colours::muted,
+               text_of(canvas.axis.high, style.unit).c_str());
+  list.AddText({from.x + margin, bottom}, colours::muted, text_of(canvas.axis.low, style.unit).c_str());
+  list.AddText({to.x - margin - ImGui::CalcTextSize(span.c_str()).x, bottom}, colours::faint, span.c_str());
   if (ImGui::IsItemHovered() && !ImGui::IsAnyMouseDown()) say_values(list, canvas, readings, curves, style.unit);
 }
 

@@ -4,6 +4,7 @@
 #include <app/panel/plot.hpp>
 #include <app/panel/quantity.hpp>
 #include <app/panel/readings.hpp>
+#include <app/panel/volume.hpp>
 
 namespace heml::panel {
 namespace {
@@ -64,6 +65,11 @@ void draw_energies(Rows& rows, const Frame& frame, const History& history) {
 
 void draw_volume(Rows& rows, const Frame& frame, const History& history) {
   const bool inverted = !(frame.min_J > 0);
+  if (frame.skin) {
+    const double now = enclosed_volume(*frame.skin, frame.positions), rest = enclosed_volume(*frame.skin);
+    rows.value({"Whole body", "What the body takes up now, cm³ (millilitres), and as a share of its volume at rest."},
+               fmt::format("{:.4g} cm³, {:.1f} %", now * 1e6, 100 * now / rest), total_colour);
+  }
   rows.value({"Least J", "The most compressed tetrahedron: its volume relative to rest. 0 or less: turned inside out."},
              fmt::format("{:.3f}", frame.min_J), colours::potential, inverted ? colours::danger : colours::text);
   rows.value({"Greatest J", "The most expanded tetrahedron: its volume relative to rest."},
@@ -88,25 +94,30 @@ void draw_volume(Rows& rows, const Frame& frame, const History& history) {
   const Curve curves[] = {
       {"Least", colours::potential, [](const Reading& r) { return r.min_J; }},
       {"Greatest", colours::kinetic, [](const Reading& r) { return r.max_J; }},
+      {"Whole", total_colour, [](const Reading& r) { return r.volume; }},
   };
   plot("volume plot", history, curves, {"", 1, 0.01, 3.4f});
 }
 
-void draw_errors(Rows& rows, const Frame& frame) {
+void draw_errors(Rows& rows, const Frame& frame, const History& history) {
   rows.value(
       {"Of the mesh",
        "Estimated error of what linear tetrahedra make of the deformation, % of its energy norm (Zienkiewicz and "
        "Zhu): stress against its mean at nodes. Halving the edges about halves it; colours (6) show where. It "
        "does not see locking, and a body on the way may be off for other reasons."},
-      frame.mesh_error ? fmt::format("{:.1f} %", 100 * *frame.mesh_error) : "–", 0);
+      frame.mesh_error ? fmt::format("{:.1f} %", 100 * *frame.mesh_error) : "–", colours::accent);
   const auto& time = frame.time_error;
   rows.value({"Of the steps",
               "How far the nodes (rms) were from where infinitely short steps would have taken them at the end of a "
               "stretch of 0.1 s, mm: a shadow of the body goes through it with half the steps now and then. Not after "
               "cuts, and not of tissue that remembers."},
-             time ? fmt::format("{:.2g} mm", 1e3 * time->rms) : "–", 0);
+             time ? fmt::format("{:.2g} mm", 1e3 * time->rms) : "–", colours::warning);
   rows.value({"At the worst node", "The same of the node where it is largest, mm."},
              time ? fmt::format("{:.2g} mm", 1e3 * time->largest) : "–", 0);
+  const Curve mesh_curve[] = {{"Mesh", colours::accent, [](const Reading& r) { return r.mesh_error; }}};
+  plot("mesh error plot", history, mesh_curve, {"%", 0, 1, 2.8f});
+  const Curve time_curve[] = {{"Steps", colours::warning, [](const Reading& r) { return r.time_error; }}};
+  plot("time error plot", history, time_curve, {"mm", 0, 1e-6, 2.8f});
 }
 
 void draw_engine(Rows& rows, const Frame& frame, const History& history) {
@@ -118,6 +129,8 @@ void draw_engine(Rows& rows, const Frame& frame, const History& history) {
   rows.value({"Time per tick", "Wall time of computing one tick, s: median of the last 1000."}, time_of(pace.p50),
              colours::accent);
   rows.value({"Slowest 1 %", "99 of 100 ticks take less than this, s."}, time_of(pace.p99), colours::warning);
+  rows.value({"Rate", "Ticks of the engine a simulated second, Hz. The scene fixes it (solver.rate or solver.step)."},
+             fmt::format("{:.4g} Hz", pace.rate));
   rows.value({"Steps per tick", "Equal integration steps that a tick is divided into for stability."},
              fmt::format("{}", frame.substeps));
   rows.value({"Stable step",
@@ -130,6 +143,11 @@ void draw_engine(Rows& rows, const Frame& frame, const History& history) {
       {"Typical", colours::accent, [](const Reading& r) { return r.typical_tick; }},
   };
   plot("tick plot", history, curves, {"s", 0, 1e-6, 3.4f});
+  rows.value({"Slower by", "Wall seconds a simulated second over the last second: 1 is real time, 2 half as fast."},
+             pace.slowdown < 1e8 ? fmt::format("{:.2f} ×", pace.slowdown) : "–", colours::potential);
+  const Curve late[] = {
+      {"Slower by", colours::potential, [](const Reading& r) { return std::min(r.slowdown, 100.0); }}};
+  plot("lateness plot", history, late, {"×", 1, 0.5, 2.6f});
 }
 
 }  // namespace heml::panel

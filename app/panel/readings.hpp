@@ -8,7 +8,7 @@ namespace heml::panel {
 void draw_force(Rows& rows, const Frame& frame, const History& history);
 void draw_energies(Rows& rows, const Frame& frame, const History& history);
 void draw_volume(Rows& rows, const Frame& frame, const History& history);
-void draw_errors(Rows& rows, const Frame& frame);
+void draw_errors(Rows& rows, const Frame& frame, const History& history);
 void draw_engine(Rows& rows, const Frame& frame, const History& history);
 
 }  // namespace heml::panel

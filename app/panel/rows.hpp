@@ -33,6 +33,9 @@ class Rows {
               std::span<const std::string> hints = {});
   bool check(const Label& label, bool& value);
 
+  /// The left part of a row whose controls follow.
+  void name(const Label& label) { begin(label); }
+
   /// A number with its name; a dot before it when a colour is given.
   void value(const Label& label, const std::string& shown, ImU32 dot = 0, ImU32 colour = colours::text);
 

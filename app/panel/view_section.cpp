@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <app/panel/view_section.hpp>
 #include <array>
@@ -38,12 +40,43 @@ void ViewSection::draw(Rows& rows, std::vector<Action>& pressed, PanelActions& o
           {"Sharp", "The picture at the screen's full resolution. Off: half, which is faster without a graphics card."},
           fine))
     drawing_.resolution = fine ? 1 : half_resolution;
-  const float width = half - ImGui::GetStyle().ItemSpacing.x / 2;
-  if (rows.button({"Fit view", "Turns the eye back to where the scene began (F)."}, width))
+  draw_views(rows, pressed);
+  const float room = ImGui::GetContentRegionAvail().x - 2 * ImGui::GetStyle().ItemSpacing.x;
+  if (rows.button({"Fit view", "Turns the eye back to where the scene began (F)."}, 0.29f * room))
     pressed.push_back(Action::fit);
   ImGui::SameLine();
-  if (rows.button({"Save picture", "Writes a PNG into the working folder (P)."}, width))
+  if (rows.button({"Save picture", "Writes a PNG into the working folder (P)."}, 0.42f * room))
     pressed.push_back(Action::screenshot);
+  ImGui::SameLine();
+  const std::string so_far = filmed_ ? fmt::format("\n\n{} pictures so far.", *filmed_) : "";
+  if (rows.button({filmed_ ? "Stop film" : "Film",
+                   "Writes 30 pictures a simulated second into a folder of the working folder, and at the end a video "
+                   "beside it where ffmpeg is installed (V). As the window looks: Tab leaves the panel out." +
+                       so_far},
+                  0.29f * room))
+    pressed.push_back(Action::film);
+}
+
+/// A button a view: goes there; keeps this one where none was kept, or with Ctrl.
+void ViewSection::draw_views(Rows& rows, std::vector<Action>& pressed) const {
+  rows.name(
+      {"Views", "Four places of the eye to come back to: a press keeps the view of the moment, then goes to it."});
+  const float gap = em(0.25f), each = (ImGui::GetContentRegionAvail().x - gap * (Eye::views - 1)) / Eye::views;
+  for (std::size_t view = 0; view < Eye::views; ++view) {
+    if (view > 0) ImGui::SameLine(0, gap);
+    ImGui::PushStyleColor(ImGuiCol_Text, kept_[view] ? colours::text : colours::faint);
+    const std::string name = fmt::format("{}", view + 1);
+    const std::string hint = fmt::format(
+        "View {0} of the eye, {1} Ctrl+press (Ctrl+F{2}) keeps how it looks now.", view + 1,
+        kept_[view] ? fmt::format("kept: press to go there (F{}).", view + 5) : "not kept: press to keep it.",
+        view + 5);
+    const bool chosen = rows.button({name, hint}, each);
+    ImGui::PopStyleColor();
+    if (!chosen) continue;
+    const bool keeps = !kept_[view] || ImGui::GetIO().KeyCtrl;
+    pressed.push_back(
+        static_cast<Action>(static_cast<int>(keeps ? Action::keep_view_1 : Action::view_1) + static_cast<int>(view)));
+  }
 }
 
 }  // namespace heml::panel

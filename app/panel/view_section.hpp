@@ -1,6 +1,7 @@
 #pragma once
 // What of the body is shown, and how.
 #include <app/panel/actions.hpp>
+#include <app/panel/eye.hpp>
 #include <app/panel/rows.hpp>
 #include <app/render/renderer.hpp>
 #include <heml/scenario/scene.hpp>
@@ -19,11 +20,18 @@ class ViewSection {
   void set_range(const render::Range& range) { drawing_.range = range; }
   void set_beyond(std::span<const float> beyond) { drawing_.beyond = beyond; }
 
+  void set_kept(std::size_t view, bool kept) { kept_[view] = kept; }     ///< of Eye's views
+  void set_filmed(std::optional<long> pictures) { filmed_ = pictures; }  ///< none: nothing is filmed
+
   Field field() const { return field_; }
   const render::DrawOptions& drawing() const { return drawing_; }
 
  private:
+  void draw_views(Rows& rows, std::vector<Action>& pressed) const;
+
   Field field_;
+  std::array<bool, Eye::views> kept_{};
+  std::optional<long> filmed_;
   render::DrawOptions drawing_;
 };
 

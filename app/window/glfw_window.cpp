@@ -27,10 +27,23 @@ int panel_key(int key, int scancode) {
       return panel::key_tab;
     case GLFW_KEY_F1:
       return panel::key_f1;
+    case GLFW_KEY_F5:
+    case GLFW_KEY_F6:
+    case GLFW_KEY_F7:
+    case GLFW_KEY_F8:
+      return panel::key_f5 + (key - GLFW_KEY_F5);
     case GLFW_KEY_F12:
       return panel::key_f12;
     case GLFW_KEY_DELETE:
       return panel::key_delete;
+    case GLFW_KEY_LEFT:
+      return panel::key_left;
+    case GLFW_KEY_RIGHT:
+      return panel::key_right;
+    case GLFW_KEY_HOME:
+      return panel::key_home;
+    case GLFW_KEY_END:
+      return panel::key_end;
     case GLFW_KEY_KP_DECIMAL:
       return '.';
     default:

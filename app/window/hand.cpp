@@ -33,9 +33,16 @@ bool Hand::press(MouseButton button, const render::Vec2f& at, bool shift, const 
       goes_on_ = false;
       return false;
     }
+  press_beside(button, at, shift);
+  return false;
+}
+
+void Hand::press_beside(MouseButton button, const render::Vec2f& at, bool shift) {
+  if (doing_ != Doing::nothing) return;
+  button_ = button;
+  last_ = at;
   const bool pans = button == MouseButton::middle || (button == MouseButton::right && shift);
   doing_ = pans ? Doing::panning : Doing::orbiting;
-  return false;
 }
 
 /// The corner nearest to a hit that the scene does not hold; none where it holds all.

@@ -23,6 +23,8 @@ class Hand {
   /// true when the body is there but cannot be taken, because the scene holds it.
   bool press(MouseButton button, const render::Vec2f& at, bool shift, const Frame& frame, const Skin& skin,
              const panel::ToolInHand& tool, std::vector<Command>& out);
+  /// The same where there is nothing to take: the eye turns or moves.
+  void press_beside(MouseButton button, const render::Vec2f& at, bool shift);
   /// What is held follows; a blade cuts on from where it was.
   void move(const render::Vec2f& at, const Frame& frame, const Skin& skin, std::vector<Command>& out);
   /// Pushes a probe deeper by a notch of the wheel, or back. Returns false where there is none.

@@ -1,54 +1,120 @@
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <app/window/glfw_window.hpp>
 #include <app/window/opening.hpp>
+#include <app/window/state_folder.hpp>
 #include <chrono>
-#include <cstdlib>
+#include <thread>
 
 namespace heml::window {
 namespace {
 
+namespace fs = std::filesystem;
+
 /// Where the last recovery of a scene is kept: in the user's folder for what programs did, if there is one.
-std::filesystem::path recovery_file_of(const Scene& scene) {
-  const char* state = std::getenv("XDG_STATE_HOME");
-  const char* home = std::getenv("HOME");
-  if (!state && !home) return {};
-  const std::filesystem::path folder =
-      state && *state ? std::filesystem::path(state) : std::filesystem::path(home) / ".local" / "state";
-  return folder / "heml" / fmt::format("recovery-{}.jsonl", std::filesystem::path(scene.file).stem().string());
+fs::path recovery_file_of(const Scene& scene) {
+  const fs::path folder = state_folder();
+  return folder.empty() ? folder : folder / fmt::format("recovery-{}.jsonl", fs::path(scene.file).stem().string());
 }
 
-}  // namespace
-
-OpenScene start(Scene scene, const std::optional<std::filesystem::path>& record, int number) {
+SessionOptions options_for(const Scene& scene, const std::optional<fs::path>& record) {
   SessionOptions options;
   options.record = record;
   options.recovery_file = recovery_file_of(scene);
-  if (record && number > 1)
-    options.record->replace_filename(
-        fmt::format("{}-{}{}", record->stem().string(), number, record->extension().string()));
   options.on_frame = [] { GlfwWindow::wake(); };
-  OpenScene result{std::move(scene), nullptr};
-  result.session = std::make_unique<Session>(result.scene, options);
+  return options;
+}
+
+bool can_be_written(const fs::path& folder) { return access(folder.empty() ? "." : folder.c_str(), W_OK) == 0; }
+
+struct WakeAtEnd {
+  ~WakeAtEnd() { GlfwWindow::wake(); }
+};
+
+}  // namespace
+
+fs::path next_recording(const fs::path& file) {
+  std::error_code failed;
+  for (int number = 2;; ++number) {
+    const fs::path next = file.parent_path() / fmt::format("{}-{}.jsonl", file.stem().string(), number);
+    if (!fs::exists(next, failed)) return next;
+  }
+}
+
+OpenScene start(Scene scene, const std::optional<fs::path>& record) {
+  OpenScene result{std::move(scene), nullptr, record};
+  result.was_recorded = result.scene.recorded_ticks.has_value();
+  result.session = std::make_unique<Session>(result.scene, options_for(result.scene, record));
   return result;
 }
 
-void Opening::begin(const std::filesystem::path& path, const std::optional<std::filesystem::path>& record) {
+void Opening::begin(const fs::path& path, const std::optional<fs::path>& record) {
   if (under_way()) return;
-  result_ = std::async(std::launch::async, [path, record, number = number_ + 1] {
-    struct Wake {
-      ~Wake() { GlfwWindow::wake(); }
-    } wake_at_end;
-    return start(read_scene(path), record, number);
+  goal_ = 0;
+  cancelled_ = false;
+  result_ = std::async(std::launch::async, [path, record] {
+    const WakeAtEnd wake_at_end;
+    OpenScene opened = start(read_scene(path), record ? std::optional(next_recording(*record)) : std::nullopt);
+    remember_file(path);
+    return opened;
   });
 }
 
+void Opening::resume(Scene scene, const std::optional<fs::path>& record) {
+  if (under_way()) return;
+  goal_ = std::max(1l, scene.recorded_ticks.value_or(0));
+  reached_ = 0;
+  cancelled_ = false;
+  result_ = std::async(std::launch::async, [this, scene = std::move(scene), record]() mutable {
+    const WakeAtEnd wake_at_end;
+    return reach(std::move(scene), record);
+  });
+}
+
+OpenScene Opening::reach(Scene scene, const std::optional<fs::path>& record) {
+  std::optional<fs::path> file;
+  if (record) file = next_recording(*record);
+  if (file && !can_be_written(file->parent_path()) && !state_folder().empty()) {
+    fs::create_directories(state_folder());
+    file = next_recording(state_folder() / record->filename());
+  }
+  const long moment = scene.recorded_ticks.value_or(0);
+  SessionOptions options = options_for(scene, file);
+  options.start_paused = true;
+  options.hurry_to = moment;
+  OpenScene result{std::move(scene), nullptr, file, record.has_value(), moment};
+  result.session = std::make_unique<Session>(result.scene, options);
+  while (!cancelled_) {
+    const Frame& frame = result.session->latest();
+    reached_ = frame.tick;
+    if (frame.hurries_to == 0) break;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  return result;
+}
+
+bool Opening::is_ready() const {
+  return under_way() && result_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+}
+
+std::optional<int> Opening::progress() const {
+  if (!under_way() || goal_ == 0) return std::nullopt;
+  return static_cast<int>(100 * reached_ / goal_);
+}
+
 std::optional<std::variant<OpenScene, std::string>> Opening::take() {
-  if (!under_way() || result_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return std::nullopt;
+  if (!is_ready()) return std::nullopt;
   try {
     OpenScene opened = result_.get();
-    ++number_;
-    return opened;
+    if (!cancelled_) return opened;
+    std::error_code failed;
+    if (opened.resumed && opened.recording) {  // nobody asked for its beginning alone
+      opened.session.reset();
+      fs::remove(*opened.recording, failed);
+    }
+    return std::nullopt;
   } catch (const std::exception& error) {
     return std::string(error.what());
   }

@@ -8,13 +8,18 @@
 
 namespace heml::window {
 
-std::filesystem::path save_picture(const render::Image& picture, const std::string& name) {
+std::filesystem::path free_name(const std::string& name, const std::string& ending) {
   std::string plain = name.empty() ? "body" : name;
   for (char& c : plain)
     if (!std::isalnum(static_cast<unsigned char>(c)) && c != '_' && c != '-') c = '-';
   const std::string stem = fmt::format("heml-{}-{:%Y%m%d-%H%M%S}", plain, fmt::localtime(std::time(nullptr)));
-  std::filesystem::path path = stem + ".png";
-  for (int k = 2; std::filesystem::exists(path); ++k) path = fmt::format("{}-{}.png", stem, k);
+  std::filesystem::path path = stem + ending;
+  for (int k = 2; std::filesystem::exists(path); ++k) path = fmt::format("{}-{}{}", stem, k, ending);
+  return path;
+}
+
+std::filesystem::path save_picture(const render::Image& picture, const std::string& name) {
+  const std::filesystem::path path = free_name(name, ".png");
   render::write_png(path, picture);
   return path;
 }

@@ -1,12 +1,8 @@
-#include <fmt/format.h>
 #include <imgui.h>
 
 #include <app/panel/keys.hpp>
 #include <app/window/overlay.hpp>
-#include <app/window/patch.hpp>
-#include <app/window/screenshot.hpp>
 #include <app/window/viewer.hpp>
-#include <heml/base/error.hpp>
 #include <thread>
 
 namespace heml::window {
@@ -24,7 +20,7 @@ Viewer::Viewer(GlfwWindow& window, const Scene& scene, const WindowOptions& opti
     : window_(window),
       options_(options),
       interface_(panel::Interface::suitable_scale(window.size()) * window.content_scale()) {
-  adopt(start(scene, options.record, 1));
+  adopt(start(scene, options.record));
   window_.send_events_to(this);
 }
 
@@ -33,11 +29,17 @@ Viewer::~Viewer() { window_.send_events_to(nullptr); }
 void Viewer::adopt(OpenScene opened) {
   std::vector<Command> last;
   hand_.let_go(last);
+  if (opened.resumed)
+    past_.resumed_at(*opened.resumed, opened.session->latest().skin);
+  else
+    past_ = LookingBack();
   open_ = std::move(opened);
   frame_ = &open_.session->latest();
   panel_.emplace(open_.scene, *frame_->skin);
   next_event_ = 0;
   window_.set_title(window_title(open_.scene));
+  if (open_.resumed) return;
+  eye_.forget();
   fit();
 }
 
@@ -48,8 +50,9 @@ void Viewer::fit() {
 }
 
 bool Viewer::wants_drawing() const {
-  return window_.visible() &&
-         (pictures_wanted_ > 0 || open_.session->frame_waiting() || panel_->animating() || opening_.under_way());
+  return window_.visible() && (pictures_wanted_ > 0 || open_.session->frame_waiting() || panel_->animating() ||
+                               past_.playing() || opening_.is_ready() || opening_.progress() != shown_progress_ ||
+                               library_.is_ready() || (filming_ && filming_->is_done()));
 }
 
 void Viewer::draw() {
@@ -58,8 +61,14 @@ void Viewer::draw() {
   drawn_at_ = now;
   if (pictures_wanted_ > 0) --pictures_wanted_;
   take_opened();
-  frame_ = &open_.session->latest();
+  if (auto offers = library_.take()) panel_->offer(std::move(*offers));
+  const Frame& live = open_.session->latest();
+  frame_ = &past_.take(live, seconds, *open_.session);
   follow_script();
+  panel::Timeline timeline = past_.timeline(open_.scene, live);
+  timeline.returning = shown_progress_ = opening_.progress();
+  panel_->set_timeline(timeline);
+  for (std::size_t view = 0; view < panel::Eye::views; ++view) panel_->view().set_kept(view, eye_.has(view));
   panel_->take(*frame_, seconds);
   open_.session->carry_stretches(panel_->wants_stretches());
   open_.session->carry_errors(panel_->wants_errors());
@@ -68,6 +77,7 @@ void Viewer::draw() {
   eye_.resize(size, panel_->insets({static_cast<float>(size.width), static_cast<float>(size.height)}));
   renderer_.draw(*frame_, eye_.camera(), panel_->drawing(), size);
   draw_interface(seconds);
+  take_picture();
   std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(options_.draw_stall));
   window_.present();
   ++drawn_;
@@ -88,7 +98,7 @@ void Viewer::draw_marks() {
   if (panel_->shows_recovery()) draw_bad_element(*frame_, eye_);
   if (hand_.doing() == Hand::Doing::grasping) return ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeAll);
   const bool free = hand_.doing() == Hand::Doing::nothing && !ImGui::IsAnyItemActive() && ImGui::IsMousePosValid();
-  if (!free || panel_->covers(mouse_.x(), mouse_.y())) return;
+  if (!free || past_.active() || panel_->covers(mouse_.x(), mouse_.y())) return;
   if (const auto hit = hand_.under(mouse_, *frame_, *frame_->skin)) {
     const panel::ToolInHand& tool = panel_->tool();
     const bool takes_patch = tool.tool == panel::Tool::grasper || tool.tool == panel::Tool::pin;
@@ -110,7 +120,12 @@ void Viewer::take_opened() {
   auto result = opening_.take();
   if (!result) return;
   if (auto* problem = std::get_if<std::string>(&*result)) return panel_->fail(*problem);
-  adopt(std::move(std::get<OpenScene>(*result)));
+  OpenScene& opened = std::get<OpenScene>(*result);
+  const bool goes_on = opened.resumed && past_.ran();
+  adopt(std::move(opened));
+  if (!open_.resumed) return;
+  panel_->say(open_.recording ? "Resumed, recorded in " + open_.recording->string() : "Resumed");
+  if (goes_on) open_.session->play();
 }
 
 void Viewer::post(std::vector<Command>& commands) {
@@ -118,71 +133,14 @@ void Viewer::post(std::vector<Command>& commands) {
   commands.clear();
 }
 
-void Viewer::carry_out(const panel::PanelActions& actions) {
-  std::vector<Command> commands = actions.commands;
-  // What is reset is let go of first: the hand would pull a body that starts anew.
-  for (const Command& command : actions.commands)
-    if (std::holds_alternative<Reset>(command)) {
-      std::vector<Command> release;
-      hand_.let_go(release);
-      post(release);
-    }
-  post(commands);
-  if (actions.show) open_.session->show(*actions.show);
-  for (const panel::Request request : actions.requests) carry_out(request);
-  if (!actions.commands.empty() || !actions.requests.empty() || actions.show) changed();
-}
-
-void Viewer::carry_out(panel::Request request) {
-  switch (request) {
-    case panel::Request::play:
-      return open_.session->play();
-    case panel::Request::pause:
-      return open_.session->pause();
-    case panel::Request::step:
-      return open_.session->step_once();
-    case panel::Request::fit:
-      return fit();
-    case panel::Request::screenshot:
-      return save_screenshot();
-    case panel::Request::release: {
-      std::vector<Command> commands;
-      hand_.let_go(commands);
-      return post(commands);
-    }
-    case panel::Request::remove:
-      return remove_tissue();
-    case panel::Request::quit:
-      quits_ = true;
-      return;
-  }
-}
-
-/// Under the ring; where nothing is pointed at, what the hand holds.
-void Viewer::remove_tissue() {
-  const Skin& skin = *frame_->skin;
-  const bool points = hand_.doing() == Hand::Doing::nothing && !panel_->covers(mouse_.x(), mouse_.y());
-  const auto hit = points ? hand_.under(mouse_, *frame_, skin) : std::nullopt;
-  const int node = hit ? skin.nodes[static_cast<std::size_t>(hit->node)] : frame_->tool.active ? frame_->tool.node : -1;
-  ElementSelection which;
-  which.tets = elements_round(node, skin, panel_->tool().radius);
-  if (which.tets.empty()) return panel_->say("Point at the tissue to remove, or hold it.");
-  open_.session->post(RemoveElements{which});
-}
-
-void Viewer::save_screenshot() {
-  try {
-    const auto path = save_picture(render::read_pixels(eye_.size()), open_.scene.name);
-    panel_->say("Saved " + path.string());
-  } catch (const InputError& error) {
-    panel_->say(error.what());
-  }
-}
-
 void Viewer::key(int key, bool control, bool repeated) {
   changed();
   const auto action = panel::action_of(key, control);
-  if (!action || ImGui::GetIO().WantTextInput || (repeated && *action != panel::Action::step)) return;
+  if (!action) return;
+  using enum panel::Action;
+  const bool closes = *action == release && panel_->asks();
+  const bool may_repeat = *action == step || *action == look_earlier || *action == look_later;
+  if ((ImGui::GetIO().WantTextInput && !closes) || (repeated && !may_repeat)) return;
   panel_->perform(*action);
 }
 
@@ -194,6 +152,9 @@ void Viewer::button(MouseButton button, bool down, bool shift) {
     return post(commands);
   }
   if (panel_->covers(mouse_.x(), mouse_.y())) return;
+  if (past_.active() && button == MouseButton::left && hand_.under(mouse_, *frame_, *frame_->skin))
+    panel_->say(past_is_fixed);
+  if (past_.active()) return hand_.press_beside(button, mouse_, shift);
   if (hand_.press(button, mouse_, shift, *frame_, *frame_->skin, panel_->tool(), commands))
     panel_->say("The scene holds this part; take another.");
   post(commands);
@@ -222,9 +183,7 @@ void Viewer::wheel(float notches) {
 
 void Viewer::dropped(const std::filesystem::path& path) {
   changed();
-  if (opening_.under_way()) return panel_->say("Another file is still being opened.");
-  panel_->say("Opening " + path.filename().string() + " …");
-  opening_.begin(path, options_.record);
+  open(path);
 }
 
 }  // namespace heml::window

@@ -6,8 +6,11 @@
 #include <app/panel/interface.hpp>
 #include <app/panel/panel.hpp>
 #include <app/render/renderer.hpp>
+#include <app/window/filming.hpp>
 #include <app/window/glfw_window.hpp>
 #include <app/window/hand.hpp>
+#include <app/window/library.hpp>
+#include <app/window/looking_back.hpp>
 #include <app/window/opening.hpp>
 #include <app/window/window.hpp>
 #include <chrono>
@@ -36,10 +39,16 @@ class Viewer final : public WindowEvents {
   void changed() override { pictures_wanted_ = settling_pictures; }
 
  private:
+  static constexpr auto past_is_fixed = "This is the past: Resume (B) goes on from here, Esc goes back to the present.";
   static constexpr int settling_pictures = 3;  ///< that Dear ImGui may take to settle after something was done
 
   void adopt(OpenScene opened);
   void take_opened();
+  void open(const std::filesystem::path& path);
+  void list(const std::filesystem::path& folder);
+  void resume();
+  void look(panel::Request where);
+  void to_the_present();
   void follow_script();
   void fit();
   void draw_interface(float seconds);
@@ -47,8 +56,12 @@ class Viewer final : public WindowEvents {
   void carry_out(const panel::PanelActions& actions);
   void carry_out(panel::Request request);
   void post(std::vector<Command>& commands);
+  void let_go();
   void remove_tissue();
   void save_screenshot();
+  void film();
+  void take_picture();
+  void use_view(const panel::PanelActions& actions);
 
   GlfwWindow& window_;
   WindowOptions options_;
@@ -57,7 +70,11 @@ class Viewer final : public WindowEvents {
   panel::Eye eye_;
   Hand hand_{eye_};
   Opening opening_;
+  Library library_;
   OpenScene open_;
+  LookingBack past_;
+  std::optional<int> shown_progress_;  ///< of opening_, %
+  std::unique_ptr<Filming> filming_;   ///< while it goes on, and until its video is made
   std::optional<panel::Panel> panel_;
   const Frame* frame_ = nullptr;
 
@@ -67,6 +84,7 @@ class Viewer final : public WindowEvents {
   render::Vec2f pressed_where_{-1, -1};
   int pictures_wanted_ = settling_pictures;
   long drawn_ = 0;
+  bool listed_ = false;  ///< folders, before
   bool quits_ = false;
 };
 

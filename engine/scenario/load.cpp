@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <heml/base/error.hpp>
+#include <heml/base/log.hpp>
 #include <heml/mesh/surface.hpp>
+#include <heml/scenario/adapt.hpp>
 #include <heml/scenario/load_mesh.hpp>
 #include <heml/scenario/material_fields.hpp>
 #include <heml/scenario/positions_csv.hpp>
@@ -25,6 +27,16 @@ void expect_a_face(const std::vector<int>& nodes, const BoundaryFaces& faces, co
                      "select all three nodes of at least one boundary face");
 }
 
+WorldSetup refined_setup(const Scene& scene, WorldSetup setup) {
+  Adaptation adapted = adapt(scene, std::move(setup), *scene.mesh.refine, {},
+                             [](const AdaptedMesh& mesh) { inform("refining the mesh: {}", text_of(mesh)); });
+  if (!adapted.reached)
+    warn("{}: mesh.refine: {} and no more than {} tetrahedra do not go together; took {}", scene.file,
+         scene.mesh.refine->error, scene.mesh.refine->tets, text_of(adapted.meshes.back()));
+  expect_recorded_mesh(scene, adapted.setup.mesh);
+  return std::move(adapted.setup);
+}
+
 }  // namespace
 
 bool plays_as_recorded(const Scene& scene) {
@@ -38,7 +50,7 @@ WorldSetup load_setup(const Scene& scene, TetMesh mesh) {
   setup.mesh = std::move(mesh);
   setup.materials = scene.materials;
   take_fields(scene.file, setup);
-  expect_recorded_mesh(scene, setup.mesh);
+  if (!scene.mesh.refine) expect_recorded_mesh(scene, setup.mesh);
   for (std::size_t i = 0; i < scene.boundary.size(); ++i) {
     Boundary boundary = scene.boundary[i].motion;
     boundary.nodes = select_nodes(scene.boundary[i].where, setup.mesh, scene.file, fmt::format("boundary[{}]", i));
@@ -62,7 +74,7 @@ WorldSetup load_setup(const Scene& scene, TetMesh mesh) {
   if (!scene.initial_positions.empty())
     setup.initial_positions = read_positions_csv(find_file(scene, "initial.positions", scene.initial_positions),
                                                  static_cast<int>(setup.mesh.nodes.size()));
-  return setup;
+  return scene.mesh.refine ? refined_setup(scene, std::move(setup)) : setup;
 }
 
 std::unique_ptr<World> load_world(const Scene& scene) { return make_world(load_setup(scene)); }

@@ -1,5 +1,6 @@
-#include <algorithm>
 #include <fmt/format.h>
+
+#include <algorithm>
 #include <heml/scenario/mesh_json.hpp>
 #include <heml/scenario/vector_json.hpp>
 
@@ -7,6 +8,7 @@ namespace heml {
 namespace {
 
 constexpr double most_cells = 2e6;  // ten million tetrahedra
+constexpr long most_refined = 10'000'000;
 
 MeshSpec::Box box_from(const Key& key) {
   key.allow({"size", "cells", "origin"});
@@ -30,12 +32,19 @@ void read_tetgen(const Key& key, MeshSpec& mesh) {
   if (const auto volume = key.find("max_volume")) mesh.max_volume = volume->positive();
 }
 
+RefineGoal refine_from(const Key& key) {
+  key.allow({"error", "tets"});
+  RefineGoal goal;
+  if (const auto error = key.find("error")) goal.error = error->between(0.001, 1);
+  if (const auto tets = key.find("tets")) goal.tets = static_cast<int>(tets->integer(1, most_refined));
+  return goal;
+}
+
 /// The name of a file in the assets' folder of meshes, and not a way out of it.
 std::string asset_from(const Key& key) {
   const std::string name = key.text();
-  const bool plain = std::all_of(name.begin(), name.end(), [](unsigned char c) {
-    return (c < 0x80 && std::isalnum(c)) || c == '_' || c == '-';
-  });
+  const bool plain = std::all_of(name.begin(), name.end(),
+                                 [](unsigned char c) { return (c < 0x80 && std::isalnum(c)) || c == '_' || c == '-'; });
   if (name.empty() || !plain) key.refuse("must be the name of a mesh that comes with the program, like \"kidney\"");
   return name;
 }
@@ -58,7 +67,7 @@ std::string path_text(const std::filesystem::path& path, const std::filesystem::
 }
 
 MeshSpec mesh_from(const Key& key, const std::filesystem::path& folder) {
-  key.allow({"file", "surface", "tetgen", "box", "asset", "scale", "rotate", "translate"});
+  key.allow({"file", "surface", "tetgen", "box", "asset", "scale", "rotate", "translate", "refine"});
   MeshSpec mesh;
   const std::string kind = key.only_one_of({"file", "surface", "box", "asset"});
   if (kind == "file") mesh.file = path_from(key["file"], folder);
@@ -73,6 +82,7 @@ MeshSpec mesh_from(const Key& key, const std::filesystem::path& folder) {
   if (const auto rotate = key.find("rotate"))
     read_rotation(*rotate, mesh.rotate_axis, mesh.rotate_origin, mesh.rotate_degrees);
   if (const auto translate = key.find("translate")) mesh.translate = translate->vector();
+  if (const auto refine = key.find("refine")) mesh.refine = refine_from(*refine);
   return mesh;
 }
 
@@ -85,15 +95,15 @@ Json mesh_json(const MeshSpec& mesh, const std::filesystem::path& folder) {
     json["tetgen"] = {{"radius_edge_ratio", mesh.radius_edge_ratio}};
     if (mesh.max_volume) json["tetgen"]["max_volume"] = *mesh.max_volume;
   } else if (mesh.box) {
-    json["box"] = {{"size", vector_json(mesh.box->size)},
-                   {"cells", mesh.box->cells},
-                   {"origin", vector_json(mesh.box->origin)}};
+    json["box"] = {
+        {"size", vector_json(mesh.box->size)}, {"cells", mesh.box->cells}, {"origin", vector_json(mesh.box->origin)}};
   } else {
     json["asset"] = mesh.asset;
   }
   json["scale"] = mesh.scale;
   json["rotate"] = rotation_json(mesh.rotate_axis, mesh.rotate_origin, mesh.rotate_degrees);
   json["translate"] = vector_json(mesh.translate);
+  if (mesh.refine) json["refine"] = {{"error", mesh.refine->error}, {"tets", mesh.refine->tets}};
   return json;
 }
 

@@ -1,8 +1,7 @@
-#include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <fmt/format.h>
+
 #include <heml/base/error.hpp>
+#include <heml/scenario/csv_text.hpp>
 #include <heml/scenario/json_text.hpp>
 #include <heml/scenario/positions_csv.hpp>
 #include <heml/scenario/text_file.hpp>
@@ -13,27 +12,6 @@ namespace heml {
 namespace {
 
 constexpr std::string_view header = "node,x,y,z";
-
-/// Takes the next line off a text, without its end.
-std::string_view take_line(std::string_view& text) {
-  const std::size_t end = text.find('\n');
-  std::string_view line = text.substr(0, end);
-  text.remove_prefix(end == text.npos ? text.size() : end + 1);
-  if (line.ends_with('\r')) line.remove_suffix(1);
-  return line;
-}
-
-/// Takes the next number off a line, with the comma behind it; false when there is none.
-template <class Number>
-bool take_number(std::string_view& line, Number& number) {
-  const std::size_t comma = line.find(',');
-  std::string_view cell = line.substr(0, comma);
-  line.remove_prefix(comma == line.npos ? line.size() : comma + 1);
-  cell.remove_prefix(std::min(cell.find_first_not_of(' '), cell.size()));
-  cell = cell.substr(0, cell.find_last_not_of(' ') + 1);
-  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
-  return error == std::errc() && end == cell.data() + cell.size();
-}
 
 }  // namespace
 

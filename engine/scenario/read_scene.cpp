@@ -8,6 +8,7 @@
 #include <heml/mesh/read.hpp>
 #include <heml/scenario/entries_json.hpp>
 #include <heml/scenario/event_json.hpp>
+#include <heml/scenario/file_kind.hpp>
 #include <heml/scenario/material_json.hpp>
 #include <heml/scenario/mesh_json.hpp>
 #include <heml/scenario/scene.hpp>
@@ -204,12 +205,20 @@ Scene parse_scene(std::string_view text, const fs::path& as_if_from) {
   return scene;
 }
 
-Scene read_scene(const fs::path& path) {
+FileKind kind_of(const fs::path& path) {
   const std::string ending = lower_case(path.extension().string());
+  if (ending == ".json") return FileKind::scene;
+  if (ending == ".jsonl") return FileKind::recording;
+  if (is_tet_mesh_file(path)) return FileKind::tetrahedra;
   const auto surface = std::find(std::begin(surface_endings), std::end(surface_endings), ending);
-  if (surface != std::end(surface_endings) || is_tet_mesh_file(path)) return scene_around(path);
+  return surface != std::end(surface_endings) ? FileKind::surface : FileKind::other;
+}
+
+Scene read_scene(const fs::path& path) {
+  const FileKind kind = kind_of(path);
+  if (kind == FileKind::surface || kind == FileKind::tetrahedra) return scene_around(path);
   const std::string text = read_text_file(path);
-  if (ending != ".json" && ending != ".jsonl" && !looks_like_json(text))
+  if (kind == FileKind::other && !looks_like_json(text))
     throw InputError(path.string(), "", "is not a kind of file this program opens",
                      fmt::format("a scene (.json), a recording (.jsonl), tetrahedra (.msh .mesh .vtk .vtu .node .ele) "
                                  "or a surface ({})",

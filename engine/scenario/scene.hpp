@@ -25,6 +25,12 @@
 
 namespace heml {
 
+/// How fine a mesh is to be made where it errs most (adapt.hpp).
+struct RefineGoal {
+  double error = 0.1;  ///< of the energy norm at rest under all loads, as estimated; 0 to 1
+  int tets = 50000;    ///< and no more than so many
+};
+
 /// Which mesh, and where it is put. Exactly one of file, surface, box, asset.
 struct MeshSpec {
   struct Box {
@@ -41,6 +47,7 @@ struct MeshSpec {
   Vec3 rotate_axis = Vec3(0, 0, 1), rotate_origin = Vec3::Zero();
   double rotate_degrees = 0;
   Vec3 translate = Vec3::Zero();
+  std::optional<RefineGoal> refine;  ///< none: as it is
 };
 
 /// Nodes chosen in a boundary or load entry: by number, box or sphere (rest positions, closed sets).
@@ -134,7 +141,8 @@ Scene scene_around(const std::filesystem::path& mesh_or_surface);
 /// come out as they were; else they differ by round-off.
 bool plays_as_recorded(const Scene& scene);
 
-/// Reads the mesh, resolves selections and fields, checks what needs the mesh. Throws InputError.
+/// Reads the mesh, resolves selections and fields, refines where that is asked for, checks what needs the mesh. Throws
+/// InputError.
 WorldSetup load_setup(const Scene& scene);
 
 /// The same with the scene's mesh as load_mesh() (load_mesh.hpp) gives it.

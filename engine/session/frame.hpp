@@ -46,6 +46,7 @@ struct Frame {
   std::shared_ptr<const Skin> skin;
   long tick = 0;
   double time = 0;               ///< s, simulated
+  long commands = 0;             ///< carried out since the start, to be there (Session::until)
   std::vector<Vec3f> positions;  ///< #S×3, m, in the order of Skin::nodes
   Field field = Field::none;
   std::vector<float> values;            ///< #S in the field's unit; empty for Field::none
@@ -64,6 +65,7 @@ struct Frame {
   int substeps = 1;
   double stable_step = 0;  ///< s
   bool paused = false;
+  long hurries_to = 0;                     ///< a tick that lies ahead; 0: time is simulated as it comes
   std::optional<Recovery> recovery;        ///< the last one, going on or ended
   std::string recovery_file;               ///< that shows it again; empty: none was written
   std::array<Vec3f, 4> recovered_element;  ///< m, corners of its first bad element, where there is one to name

@@ -38,8 +38,10 @@ class Session::Impl {
         world_(load_world(scene)),
         scene_(without_events(scene)),
         schedule_(scene, world_->setup().mesh),
+        recorded_ticks_(scene.recorded_ticks.value_or(0)),
         field_(scene.view.field),
         playing_(!options_.start_paused),
+        goal_(options_.hurry_to),
         pacer_(world_->setup().solver.tick()) {
     if (!world_->setup().solver.recovery) options_.recovery_file.clear();
     if (!options_.recovery_file.empty()) scene_ = as_recorded(scene_, *world_);
@@ -78,8 +80,23 @@ class Session::Impl {
       std::lock_guard lock(mutex_);
       playing_ = playing;
       single_steps_ += steps;
+      if (!playing) goal_ = 0;
     }
     wake_.notify_all();
+  }
+  void hurry_to(long tick) {
+    {
+      std::lock_guard lock(mutex_);
+      goal_ = tick;
+    }
+    wake_.notify_all();
+  }
+  Scene until(const Frame& moment) const {
+    Scene scene = scene_;
+    std::lock_guard lock(mutex_);
+    scene.events.assign(history_.begin(), history_.begin() + moment.commands);
+    scene.recorded_ticks = moment.tick;
+    return scene;
   }
   void carry_stretches(bool wanted) {
     if (stretches_.exchange(wanted) == wanted) return;
@@ -108,6 +125,7 @@ class Session::Impl {
       if (stopping_) return;
       take_commands();
       if (may_tick()) one_tick();
+      if (goal_ > 0 && (world_->ticks() >= goal_ || world_->halt())) arrive();
       const auto now = Pacer::Clock::now();
       if (show_now_.exchange(false) ||
           now - published_ >= std::max<Pacer::Clock::duration>(frame_interval, 4 * publish_cost_))
@@ -118,9 +136,10 @@ class Session::Impl {
   /// Sleeps until the next tick is due, or, while paused, until somebody wants something.
   void wait_until_due() {
     std::unique_lock lock(mutex_);
-    const auto wanted = [this] { return stopping_ || show_now_ || !queue_.empty() || single_steps_ > 0; };
+    if (goal_ > 0) return;
+    const auto wanted = [this] { return stopping_ || show_now_ || !queue_.empty() || single_steps_ > 0 || goal_ > 0; };
     if (playing_ && !world_->halt()) {
-      wake_.wait_until(lock, pacer_.due(), [this] { return stopping_ || !playing_; });
+      wake_.wait_until(lock, pacer_.due(), [this] { return stopping_ || !playing_ || goal_ > 0; });
       return;
     }
     if (!wanted() && !frames_published_since_pause_) {
@@ -137,6 +156,7 @@ class Session::Impl {
   bool may_tick() {
     std::lock_guard lock(mutex_);
     if (world_->halt()) return false;
+    if (goal_ > 0) return world_->ticks() < goal_;
     if (playing_) return Pacer::Clock::now() >= pacer_.due();
     if (single_steps_ == 0) return false;
     --single_steps_;
@@ -165,29 +185,43 @@ class Session::Impl {
     }
     if (shadow_keeper_) shadow_keeper_->carried_out(command);
     if (recorder_) recorder_->command(*world_, command);
-    if (!options_.recovery_file.empty()) history_.push_back({world_->ticks(), command});
+    std::lock_guard lock(mutex_);
+    history_.push_back({world_->ticks(), command});
   }
 
   /// What the scene's own script does is recorded like what the user does: each once.
   static Scene without_events(Scene scene) {
     scene.events.clear();
+    scene.points.clear();
     scene.checkpoints.clear();
     scene.recorded_ticks = 0;
     return scene;
   }
 
+  /// The end of a hurry: what the script does at this very moment is done, and the clock counts from here on.
+  void arrive() {
+    for (const Event& event : schedule_.due(world_->ticks())) carry_out(event.command);
+    goal_ = 0;
+    show_now_ = true;
+    pacer_.restart(Pacer::Clock::now());
+  }
+
+  /// Whether what comes was recorded, with all that the clock chose.
+  bool is_recorded() const { return world_->ticks() < recorded_ticks_; }
+
   void one_tick() {
     const auto began = Pacer::Clock::now();
     if (options_.before_tick) options_.before_tick();
     for (const Event& event : schedule_.due(world_->ticks())) carry_out(event.command);
-    if (factor_keeper_.arrived(*world_)) carry_out(TakeFactor{});
+    const bool recorded = is_recorded();
+    if (!recorded && factor_keeper_.arrived(*world_)) carry_out(TakeFactor{});
     world_->tick();
     if (recorder_) recorder_->ticked(*world_);
     if (shadow_keeper_) shadow_keeper_->ticked(*world_);
-    learn(std::chrono::duration<double>(Pacer::Clock::now() - began).count());
+    if (!recorded) learn(std::chrono::duration<double>(Pacer::Clock::now() - began).count());
     if (world_->halt()) show_now_ = true;
     tell_of_recovery();
-    pacer_.book(began, Pacer::Clock::now());
+    if (goal_ == 0) pacer_.book(began, Pacer::Clock::now());
   }
 
   /// What was chosen by the clock becomes a command. seconds: that the tick took.
@@ -251,7 +285,9 @@ class Session::Impl {
     fill_frame(*world_, skin_, field_, 0, frame, stretches_);
     find_errors(frame);
     frame.pace = pacer_.pace(began);
+    frame.commands = std::ssize(history_);
     frame.paused = !playing_;
+    frame.hurries_to = goal_;
     frame.recovery_file = kept_recovery_;
     frame.refusals = refusals_;
     frame.refusal = refusal_;
@@ -265,19 +301,21 @@ class Session::Impl {
   std::unique_ptr<World> world_;
   std::shared_ptr<const Skin> skin_;  ///< of the last frame
   std::optional<Recorder> recorder_;
-  Scene scene_;        ///< without its events
-  Schedule schedule_;  ///< which are here
+  Scene scene_;          ///< without its events
+  Schedule schedule_;    ///< which are here
+  long recorded_ticks_;  ///< of the scene, where it is a recording
   RecoveryWatch watch_;
-  std::vector<Event> history_;  ///< every command so far; empty where nobody would want it
+  std::vector<Event> history_;  ///< every command so far; changed under mutex_
   std::string kept_recovery_;   ///< the file of the last one
   long refusals_ = 0;           ///< of commands
   std::string refusal_;         ///< why the last
-  std::mutex mutex_;            ///< of queue_ and single_steps_; held for a swap at most
+  mutable std::mutex mutex_;    ///< of queue_, single_steps_ and history_; held for a swap, or by until()
   std::condition_variable wake_;
   std::vector<Command> queue_, taken_;
   long single_steps_ = 0;
   std::atomic<Field> field_;
   std::atomic<bool> playing_, stopping_{false}, finished_{false}, show_now_{false}, stretches_{false}, errors_{false};
+  std::atomic<long> goal_;  ///< the tick hurried to; 0: none
 
   std::optional<BudgetKeeper> budget_keeper_;  ///< where the scene's budget is in milliseconds
   std::optional<CostKeeper> cost_keeper_;      ///< where the scene leaves the method to the engine
@@ -299,6 +337,8 @@ void Session::post(Command command) { impl_->post(std::move(command)); }
 void Session::play() { impl_->set_playing(true); }
 void Session::pause() { impl_->set_playing(false); }
 void Session::step_once() { impl_->set_playing(false, 1); }
+void Session::hurry_to(long tick) { impl_->hurry_to(tick); }
+Scene Session::until(const Frame& moment) const { return impl_->until(moment); }
 void Session::show(Field field) { impl_->show(field); }
 void Session::carry_stretches(bool wanted) { impl_->carry_stretches(wanted); }
 void Session::carry_errors(bool wanted) { impl_->carry_errors(wanted); }

@@ -19,6 +19,7 @@ TextTable time_table(const TimeStudy& study);
 TextTable settled_table(const SettledStudy& study);
 TextTable locking_table(const std::vector<LockedBeam>& beams);
 /// Of linear tetrahedra: what the panel estimates of the error of a mesh, and what finer meshes tell of it.
+TextTable refinement_table(const RefinementStudy& study);
 TextTable gauge_table(const AccuracyStudy& study);
 TextTable law_table(const std::vector<SettledLaw>& laws);
 TextTable feature_table(const FeatureStudy& study);

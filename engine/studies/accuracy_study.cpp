@@ -11,6 +11,13 @@ constexpr double may_grow = 1.1;
 constexpr double negligible = 1e-9;    // m, or of a deviation
 constexpr double round_off = 1e-6;     // of forces: below it figures are chance
 constexpr double feature_weight = 15;  // s of two scenes' measurement, for the estimate of what is left
+constexpr double refined_poisson = 0.3;
+
+RefinementStudy refine_beam(const std::vector<LockedBeam>& beams, bool quick, const StudyContext& context) {
+  const auto beam =
+      std::find_if(beams.begin(), beams.end(), [](const LockedBeam& b) { return b.poisson == refined_poisson; });
+  return study_refinement(*beam, cells_of_locking_study(quick), quick ? 5000 : 30000, context);
+}
 
 /// "beam 011b105b179f046f|p1, 200 tetrahedra|verlet": a key of results, without its hash and with commas.
 std::string readable(const std::string& key) {
@@ -58,19 +65,21 @@ AccuracyStudy study_users_scene(const AccuracyOptions& options) {
 }
 
 AccuracyStudy study_own_scenes(const AccuracyOptions& options) {
-  const double locking_weight = options.quick ? 5 : 60, laws_weight = 2;
+  const double locking_weight = options.quick ? 5 : 60, refinement_weight = options.quick ? 3 : 20, laws_weight = 2;
   const std::vector<AccuracyScene> scenes = accuracy_scenes(options.quick);
   std::vector<Scene> featured;
   if (!options.quick)
     for (const char* name : {"kidney_pull", "brain_block"})
       featured.push_back(read_scene(assets_folder() / "scenes" / fmt::format("{}.json", name)));
-  double whole = locking_weight + laws_weight + feature_weight * static_cast<double>(featured.size());
+  double whole =
+      locking_weight + refinement_weight + laws_weight + feature_weight * static_cast<double>(featured.size());
   for (const AccuracyScene& scene : scenes) whole += scene.weight;
 
   Parts parts(options, whole);
   AccuracyStudy study;
   study.laws = study_laws(parts.part(laws_weight, steps_of_law_study()));
   study.locking = study_locking(options.quick, parts.part(locking_weight, steps_of_locking_study(options.quick)));
+  study.refinement = refine_beam(study.locking, options.quick, parts.part(refinement_weight, 1));
   for (const AccuracyScene& scene : scenes)
     study.scenes.push_back(study_scene(scene.name, scene.specimen, scene.options,
                                        parts.part(scene.weight, steps_of_scene_study(scene.specimen, scene.options))));
@@ -107,6 +116,10 @@ std::vector<Figure> figures_of(const AccuracyStudy& study) {
                                        mesh.nodal_pressure ? "nodal_pressure" : "p1", mesh.tets),
                            mesh.error});
   }
+  if (study.refinement)
+    for (int round = 0; const RefinedMesh& mesh : study.refinement->meshes)
+      if (mesh.adapted)
+        figures.push_back({fmt::format("energy norm of the beam, adapted {} times", round++), mesh.error});
   for (const SettledLaw& law : study.laws)
     if (law.failed.empty())
       figures.push_back({fmt::format("force left by {}", law.law), std::max(law.left_over, round_off)});

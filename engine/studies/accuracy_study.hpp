@@ -4,6 +4,7 @@
 #include <heml/studies/feature_study.hpp>
 #include <heml/studies/law_study.hpp>
 #include <heml/studies/locking_study.hpp>
+#include <heml/studies/refinement_study.hpp>
 #include <heml/studies/scene_study.hpp>
 
 namespace heml {
@@ -20,6 +21,7 @@ struct AccuracyStudy {
   std::vector<SceneStudy> scenes;
   // Of the study itself, not of a user's scene:
   std::vector<LockedBeam> locking;
+  std::optional<RefinementStudy> refinement;
   std::vector<SettledLaw> laws;
   std::vector<FeatureStudy> features;  ///< of a user's scene, too; not of a quick study
 };

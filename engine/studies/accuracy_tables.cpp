@@ -129,6 +129,16 @@ TextTable locking_table(const std::vector<LockedBeam>& beams) {
   return table;
 }
 
+TextTable refinement_table(const RefinementStudy& study) {
+  TextTable table;
+  table.head = {"mesh", "tetrahedra", "error, of the energy norm", "estimated"};
+  table.first_number = 1, table.end_numbers = table.head.size();
+  for (const RefinedMesh& mesh : study.meshes)
+    table.rows.push_back({mesh.adapted ? "adapted" : "uniform", std::to_string(mesh.tets), percent(mesh.error),
+                          percent(mesh.estimated)});
+  return table;
+}
+
 TextTable gauge_table(const AccuracyStudy& study) {
   TextTable table;
   table.head = {"body", "tetrahedra", "error, of the energy norm", "estimated", "effectivity", "error", "estimated"};

@@ -14,9 +14,9 @@ std::vector<double> poissons(bool quick) {
   return quick ? std::vector<double>{0, 0.3, 0.49} : std::vector<double>{0, 0.3, 0.45, 0.49, 0.499};
 }
 
-std::array<int, 3> cells_of(bool quick) { return quick ? std::array{8, 2, 2} : std::array{10, 2, 2}; }
+}  // namespace
 
-Specimen beam_of(double poisson, const std::array<int, 3>& cells) {
+Specimen beam_specimen(double poisson, const std::array<int, 3>& cells) {
   Specimen specimen;
   WorldSetup& setup = specimen.setup;
   setup.mesh = make_box(Vec3(beam.length, beam.depth, beam.depth), cells);
@@ -33,22 +33,23 @@ Specimen beam_of(double poisson, const std::array<int, 3>& cells) {
   return with_masses(std::move(specimen));
 }
 
-}  // namespace
+std::array<int, 3> cells_of_locking_study(bool quick) { return quick ? std::array{8, 2, 2} : std::array{10, 2, 2}; }
 
 std::size_t steps_of_locking_study(bool quick) {
-  return poissons(quick).size() * steps_of_settled_study(beam_of(0.3, cells_of(quick)), halvings);
+  return poissons(quick).size() * steps_of_settled_study(beam_specimen(0.3, cells_of_locking_study(quick)), halvings);
 }
 
 LockedBeam study_beam(double poisson, const std::array<int, 3>& cells, const StudyContext& context) {
   Cantilever theory = beam;
   theory.poisson = poisson;
   const std::string key = fmt::format("beam of {} cells at rest, poisson {}", cells[0], poisson);
-  return {poisson, theory.sag(), study_settled(key, beam_of(poisson, cells), halvings, context)};
+  return {poisson, theory.sag(), study_settled(key, beam_specimen(poisson, cells), halvings, context)};
 }
 
 std::vector<LockedBeam> study_locking(bool quick, const StudyContext& context) {
   std::vector<LockedBeam> beams;
-  for (const double poisson : poissons(quick)) beams.push_back(study_beam(poisson, cells_of(quick), context));
+  for (const double poisson : poissons(quick))
+    beams.push_back(study_beam(poisson, cells_of_locking_study(quick), context));
   return beams;
 }
 

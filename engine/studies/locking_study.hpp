@@ -16,10 +16,14 @@ struct LockedBeam {
   double off_theory() const { return extrapolated() / theory - 1; }    ///< relative
 };
 
+/// What is at rest there, on a mesh of so many cells.
+Specimen beam_specimen(double poisson, const std::array<int, 3>& cells);
+
 /// One of them, from a mesh of so many cells.
 LockedBeam study_beam(double poisson, const std::array<int, 3>& cells, const StudyContext& context);
 
 /// From a mesh of 8 × 2 × 2 cells (quick) or 10 × 2 × 2, and fewer Poisson's ratios (quick); the first is 0.
+std::array<int, 3> cells_of_locking_study(bool quick);
 std::vector<LockedBeam> study_locking(bool quick, const StudyContext& context);
 std::size_t steps_of_locking_study(bool quick);
 

@@ -185,12 +185,13 @@ std::vector<BenchRow> paper_suite(const BenchOptions& options) {
     for (BenchRow& row : time_rows(body, paper, material, limits)) of_body.push_back(std::move(row));
     add_carried_error<double>(body, material, "double", of_body);
     add_carried_error<float>(body, material, "float", of_body);
-    if (&paper == &paper_bodies[0])
+    if (&paper == &paper_bodies[0]) {
       for (BenchRow& row : law_rows(body))
         if (row.law != material.law)
           of_body.push_back(std::move(row));
         else
           of_body.front().more["a_tetrahedron"] = row.more["a_tetrahedron"];
+    }
     rows.insert(rows.end(), of_body.begin(), of_body.end());
   }
   return rows;

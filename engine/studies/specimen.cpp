@@ -8,6 +8,7 @@
 #include <heml/scenario/load_mesh.hpp>
 #include <heml/scenario/schedule.hpp>
 #include <heml/studies/specimen.hpp>
+#include <heml/world/finer_setup.hpp>
 
 namespace heml {
 namespace {
@@ -32,15 +33,6 @@ void settle_grasps(Specimen& specimen) {
   for (const auto& [index, points] : specimen.scene.points)
     set_nodes(specimen.scene.events.at(index).command, specimen.setup.mesh, points);
   specimen.scene.points.clear();
-}
-
-void take_middles(std::vector<int>& selected, const Subdivision& finer, std::size_t old_nodes) {
-  std::vector<bool> is_selected(old_nodes, false);
-  for (const int node : selected) is_selected[static_cast<std::size_t>(node)] = true;
-  for (std::size_t m = 0; m < finer.ends.size(); ++m)
-    if (is_selected[static_cast<std::size_t>(finer.ends[m][0])] &&
-        is_selected[static_cast<std::size_t>(finer.ends[m][1])])
-      selected.push_back(static_cast<int>(old_nodes + m));
 }
 
 /// Elements that an event removes by number become their eight parts.
@@ -74,16 +66,9 @@ Specimen with_masses(Specimen specimen) {
 
 Specimen finer(const Specimen& specimen) {
   Specimen result = specimen;
-  const std::size_t old_nodes = specimen.setup.mesh.nodes.size();
   Subdivision cut = subdivided(specimen.setup.mesh);
-  for (Boundary& boundary : result.setup.boundary) take_middles(boundary.nodes, cut, old_nodes);
-  for (Load& load : result.setup.loads) take_middles(load.nodes, cut, old_nodes);
-  auto& initial = result.setup.initial_positions;
-  if (!initial.empty())
-    for (const auto& [a, b] : cut.ends)
-      initial.push_back((initial[static_cast<std::size_t>(a)] + initial[static_cast<std::size_t>(b)]) / 2);
+  result.setup = on_finer_mesh(std::move(result.setup), std::move(cut.mesh), cut.ends);
   take_parts(result.scene.events);
-  result.setup.mesh = std::move(cut.mesh);
   return with_masses(std::move(result));
 }
 

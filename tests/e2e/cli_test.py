@@ -228,6 +228,37 @@ class CommandLine(unittest.TestCase):
             for library in ("libOSMesa", "libGL.", "libGLX", "libEGL", "libassimp", "libtet", "libLLVM"):
                 self.assertNotIn(library, record, arguments)
 
+    def test_refine_writes_a_scene_that_stands_alone(self):
+        scene = self.write("scene.json", cantilever())
+        out = self.folder / "fine"
+        done = heml("refine", scene, "--out", out, "--error", 45, "--tets", 3000)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("tetrahedra, estimated error", done.stdout)
+        scene.unlink()
+        explained = json.loads(heml("explain", out / "scene.json", "--json").stdout)
+        self.assertGreater(explained["body"]["tets"], 200)
+        few = heml("refine", out / "scene.json", "--out", self.folder / "same", "--error", 1, "--tets", 100)
+        self.assertEqual(few.returncode, 1)
+        self.assertIn("--tets", few.stderr)
+        asking = cantilever(mesh=dict(cantilever()["mesh"], refine={"error": 0.45, "tets": 3000}))
+        loaded = json.loads(heml("explain", self.write("asking.json", asking), "--json").stdout)
+        self.assertEqual(loaded["body"]["tets"], explained["body"]["tets"])
+
+    def test_a_recorded_hand_feels_the_tissue_every_millisecond(self):
+        scene = cantilever(events=[{"step": 1, "grasp": {"point": [0.1, 0.01, 0.01], "radius": 0.012}}],
+                           solver={"integrator": "backward_euler", "step": 1 / 60, "duration": 0.5, "damping": 2})
+        hand = self.write("hand.csv", "time,x,y,z\n0,0.1,0.01,0.01\n0.1,0.1,0.01,0.01\n0.5,0.1,0.03,0.01\n")
+        done = heml("haptics", self.write("scene.json", scene), "--hand", hand, "--out", self.folder / "felt.csv")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with open(self.folder / "felt.csv") as file:
+            rows = list(csv.DictReader(file))
+        self.assertGreaterEqual(len(rows), 500)
+        for k, row in enumerate(rows):
+            self.assertAlmostEqual(float(row["time"]), k / 1000, places=9)
+        self.assertLess(float(rows[490]["fy"]), -0.01, "pulled up, it pulls down")
+        self.assert_refused(heml("haptics", self.folder / "scene.json", "--hand", self.write("no.csv", "a\n"), "--out",
+                                 self.folder / "felt.csv"), 3, "no.csv", "line 1", "time,x,y,z")
+
     def test_wrong_usage_is_exit_2(self):
         scene = self.write("scene.json", cantilever())
         for arguments in (["capture", scene], ["bogus"], ["solve", scene], ["capture", scene, "--out", "x", "--size", "big"],

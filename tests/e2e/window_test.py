@@ -99,7 +99,7 @@ class Window(unittest.TestCase):
     def open_display(self, width, height):
         self.display = Display(self.folder, width, height)
         self.addCleanup(self.display.close)
-        self.environment = dict(os.environ, DISPLAY=self.display.name)
+        self.environment = dict(os.environ, DISPLAY=self.display.name, XDG_STATE_HOME=str(self.folder / "state"))
 
     def start(self, *arguments):
         self.program = subprocess.Popen([BINARY, "run", *map(str, arguments)], cwd=self.folder, env=self.environment,
@@ -137,10 +137,24 @@ class Window(unittest.TestCase):
         self.xdo("mouseup", 1)
         time.sleep(0.3)
 
-    def events(self):
+    def events(self, file="out.jsonl"):
         """The recording so far, without the scene and a line that is still being written."""
-        lines = (self.folder / "out.jsonl").read_text().split("\n")[1:-1]
+        lines = (self.folder / file).read_text().split("\n")[1:-1]
         return [json.loads(line) for line in lines]
+
+    def commands(self, file):
+        return [event for event in self.events(file) if "checkpoint" not in event and "end" not in event]
+
+    def name_in(self, file):
+        """Of the scene that is recorded there."""
+        path = self.folder / file
+        line = path.read_text().split("\n")[0] if path.exists() else ""
+        return json.loads(line).get("name") if line else None
+
+    def verify(self, file):
+        replayed = subprocess.run([BINARY, "replay", file, "--verify"], cwd=self.folder, capture_output=True, text=True,
+                                  timeout=400)
+        self.assertEqual(replayed.returncode, 0, replayed.stdout + replayed.stderr)
 
     def seen(self, key):
         return [event[key] for event in self.events() if key in event]
@@ -281,7 +295,7 @@ class Window(unittest.TestCase):
         place = self.display.picture().tissue(220, 640)
         self.xdo("key", "t")
         self.wait_for("a table", lambda: self.seen("tables"))
-        self.xdo("key", "n", "mousemove", *place, "click", 1)
+        self.xdo("key", "n", "sleep", 0.5, "mousemove", *place, "click", 1)  # a picture between, as for any hand
         self.wait_for("a pin", lambda: self.seen("pin"))
         self.xdo("click", 1)
         self.wait_for("its release", lambda: any("node" in value for value in self.seen("release")))
@@ -289,7 +303,7 @@ class Window(unittest.TestCase):
         self.drag(place, (30, 10))
         self.wait_for("a withdrawn probe", lambda: "probe" in self.seen("release"))
         self.assertGreaterEqual(len(self.seen("probe")), 3)
-        self.xdo("key", "s", "mousemove", *place, "click", 1)
+        self.xdo("key", "s", "sleep", 0.5, "mousemove", *place, "click", 1)
         time.sleep(0.3)
         self.xdo("mousemove", place[0] + 50, place[1], "click", 1)
         self.wait_for("a suture", lambda: self.seen("suture"))
@@ -298,6 +312,130 @@ class Window(unittest.TestCase):
         replayed = subprocess.run([BINARY, "replay", "out.jsonl", "--verify"], cwd=self.folder, capture_output=True,
                                   text=True, timeout=100)
         self.assertEqual(replayed.returncode, 0, replayed.stdout + replayed.stderr)
+
+    def test_a_scene_is_found_by_typing_and_what_was_opened_is_remembered(self):
+        self.open_display(1280, 720)
+        scene = self.folder / "my_block.json"
+        scene.write_text(json.dumps(light_scene()))
+        self.start(scene, "--record", "out.jsonl", "--size", "1280x720")
+        self.wait_for("a picture", lambda: self.display.picture().colours() > 200)
+        time.sleep(1)
+        self.xdo("mousemove", 1270, 715)
+        before = self.display.picture()
+        self.xdo("key", "ctrl+o")
+        self.wait_for("pictures of scenes", lambda: self.display.picture().change(before, 100, 800) > 8)
+        time.sleep(1)
+        self.xdo("type", "cantilever")
+        time.sleep(0.5)
+        self.xdo("key", "Return")
+        self.wait_for("the cantilever", lambda: self.name_in("out-2.jsonl") == "cantilever")
+        time.sleep(1)
+        self.xdo("key", "ctrl+o")
+        time.sleep(1)
+        self.xdo("key", "Escape", "key", "ctrl+q")  # closed again: the next key is the window's
+        self.finish()
+
+        self.start("--record", "again.jsonl", "--size", "1280x720")
+        self.wait_for("a picture", lambda: self.display.picture().colours() > 200)
+        time.sleep(1)
+        self.xdo("key", "ctrl+o")
+        time.sleep(2)
+        self.xdo("type", "my_block")
+        time.sleep(0.5)
+        self.xdo("key", "Return")
+        self.wait_for("the first scene", lambda: self.name_in("again-2.jsonl") == "light")
+        self.xdo("key", "ctrl+q")
+        self.finish()
+
+    def test_an_earlier_moment_is_looked_at_and_resumed_in_a_new_recording(self):
+        self.open_display(640, 360)
+        scene = self.folder / "light.json"
+        scene.write_text(json.dumps(light_scene()))
+        self.start(scene, "--record", "out.jsonl", "--size", "640x360")
+        self.wait_for("a picture", lambda: self.display.picture().colours() > 200)
+        time.sleep(1)
+        place = self.display.picture().tissue(220, 640)
+        self.drag(place, (40, 30))
+        self.wait_for("a release", lambda: self.seen("release"))
+        time.sleep(2)
+        self.drag(place, (-40, 20))
+        self.wait_for("another release", lambda: len(self.seen("release")) == 2)
+        self.xdo("key", "space")
+        present = self.steady()
+        self.drag((600, 341), (-260, 0), steps=12)  # along the bar of time
+        past = self.steady()
+        self.assertGreater(past.change(present, 220, 640), 0.05, "the past looks as the present")
+        self.xdo("key", "Escape")
+        self.assertLess(self.steady().change(present, 220, 640), 0.01, "the present is not what it was")
+        self.drag((600, 341), (-260, 0), steps=12)
+        written = (self.folder / "out.jsonl").read_text()
+        self.xdo("key", "b")
+        self.wait_for("a second recording", lambda: self.name_in("out-2.jsonl") == "light")
+        time.sleep(1)
+        self.xdo("key", "space")
+        time.sleep(1)
+        self.drag(self.display.picture().tissue(220, 640), (20, -30))
+        self.wait_for("a release", lambda: "release" in self.commands("out-2.jsonl")[-1])
+        self.xdo("key", "ctrl+q")
+        self.finish()
+        self.assertTrue((self.folder / "out.jsonl").read_text().startswith(written), "the old recording was changed")
+        old, new = self.commands("out.jsonl"), self.commands("out-2.jsonl")
+        shared = next((k for k, pair in enumerate(zip(old, new)) if pair[0] != pair[1]), min(len(old), len(new)))
+        self.assertGreater(shared, 0, "nothing of the first recording led to the moment")
+        self.assertLess(shared, len(old), "all of the first recording did")
+        self.assertGreater(len(new), shared)
+        for file in ("out.jsonl", "out-2.jsonl"):
+            self.verify(file)
+
+    def test_a_recording_is_resumed_beside_itself(self):
+        self.open_display(640, 360)
+        scene = dict(light_scene(), events=[{"at": 0.1, "grasp": {"node": 0, "radius": 0.02}},
+                                            {"at": 0.4, "move": [0.03, 0.0, 0.0]}, {"at": 1.0, "release": True}])
+        (self.folder / "scene.json").write_text(json.dumps(scene))
+        subprocess.run([BINARY, "replay", "scene.json", "--record", "tape.jsonl"], cwd=self.folder, check=True,
+                       stdout=subprocess.DEVNULL)
+        tape = (self.folder / "tape.jsonl").read_bytes()
+        self.start("tape.jsonl", "--size", "640x360")
+        self.wait_for("a picture", lambda: self.display.picture().colours() > 200)
+        time.sleep(4)  # past its end
+        self.xdo("mousemove", 638, 300, "key", "space")
+        self.steady()
+        self.xdo("key", "Home", "key", "Right", "key", "Right", "key", "b")
+        self.wait_for("a new recording", lambda: self.name_in("tape-2.jsonl") == "light")
+        time.sleep(1)
+        self.xdo("key", "ctrl+q")
+        self.finish()
+        self.assertEqual((self.folder / "tape.jsonl").read_bytes(), tape)
+        self.verify("tape-2.jsonl")
+
+    def test_a_film_becomes_pictures_and_a_video_where_ffmpeg_is(self):
+        self.open_display(640, 360)
+        scene = self.folder / "light.json"
+        scene.write_text(json.dumps(light_scene()))
+        tools = self.folder / "tools"
+        tools.mkdir()
+        if not shutil.which("ffmpeg"):  # one that makes a file stands for it
+            (tools / "ffmpeg").write_text('#!/bin/sh\nfor last; do :; done\necho video > "$last"\n')
+            (tools / "ffmpeg").chmod(0o755)
+        self.environment["PATH"] = f"{tools}:{self.environment['PATH']}"
+        self.start(scene, "--size", "640x360")
+        self.wait_for("a picture", lambda: self.display.picture().colours() > 200)
+        time.sleep(1)
+        self.xdo("mousemove", 638, 300, "key", "v")
+        self.wait_for("pictures", lambda: len(list(self.folder.glob("heml-*/frame_*.png"))) > 20)
+        self.xdo("key", "v")
+        self.wait_for("a video", lambda: list(self.folder.glob("heml-*.mp4")) + list(self.folder.glob("heml-*.webm")))
+        self.xdo("key", "v")
+        time.sleep(1)
+        self.xdo("key", "ctrl+q")  # in the middle of another film
+        self.finish()
+        folders = sorted(path for path in self.folder.glob("heml-*") if path.is_dir())
+        self.assertEqual(len(folders), 2)
+        for folder in folders:
+            numbers = sorted(int(path.stem[6:]) for path in folder.glob("frame_*.png"))
+            self.assertEqual(numbers, list(range(len(numbers))))
+            for path in folder.glob("frame_*.png"):
+                self.assertEqual(struct.unpack(">2I", path.read_bytes()[16:24]), (640, 360))
 
     def test_slow_drawing_does_not_hold_up_the_engine(self):
         self.open_display(640, 360)

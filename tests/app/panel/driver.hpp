@@ -88,6 +88,11 @@ class Driver {
       all.commands.insert(all.commands.end(), more.commands.begin(), more.commands.end());
       all.requests.insert(all.requests.end(), more.requests.begin(), more.requests.end());
       if (more.show) all.show = more.show;
+      if (more.open) all.open = more.open;
+      if (more.look_into) all.look_into = more.look_into;
+      if (more.look_at) all.look_at = more.look_at;
+      if (more.view) all.view = more.view;
+      if (more.keep_view) all.keep_view = more.keep_view;
     }
     return all;
   }

@@ -55,3 +55,19 @@ TEST_CASE("the wheel brings the body nearer") {
   eye.zoom(2);
   CHECK(extent() > 1.15f * before);
 }
+
+TEST_CASE("a view that was kept is gone back to, whatever the picture has become") {
+  panel::Eye eye;
+  eye.fit({}, skin, size, {});
+  eye.orbit(80, 20);
+  const render::Vec2f before = eye.camera().pixel({0.1f, 0, 0}, size);
+  eye.keep(2);
+  eye.orbit(-200, 50);
+  eye.zoom(4);
+  CHECK_FALSE(eye.go_to(1));
+  CHECK((eye.camera().pixel({0.1f, 0, 0}, size) - before).norm() > 10);
+  CHECK(eye.go_to(2));
+  CHECK((eye.camera().pixel({0.1f, 0, 0}, size) - before).norm() < 1e-3);
+  eye.forget();
+  CHECK_FALSE(eye.has(2));
+}

@@ -45,3 +45,14 @@ TEST_CASE("history takes no force from a tool that holds nothing") {
   history.take(frame);
   CHECK(history.readings().back().force == 5);
 }
+
+TEST_CASE("history does not mind that somebody looks back") {
+  History history;
+  Frame now = at(2), before = at(1);
+  now.tick = 200;
+  before.tick = 100;
+  history.take(now);
+  history.take(before);
+  CHECK(history.readings().size() == 1);
+  CHECK(history.readings().back().time == 2);
+}

@@ -38,7 +38,7 @@ TEST_CASE("buttons do what their keys do") {
   const auto reset = driver.click("Reset", 112);
   REQUIRE(reset.commands.size() == 1);
   CHECK(std::holds_alternative<Reset>(reset.commands.front()));
-  CHECK(driver.click("Save picture", 230).requests == std::vector{Request::screenshot});
+  CHECK(driver.click("Save picture", 150).requests == std::vector{Request::screenshot});
   CHECK(driver.click("Fit view", 60).requests == std::vector{Request::fit});
 }
 
@@ -108,6 +108,38 @@ TEST_CASE("a gravity along no axis keeps its direction") {
   const Vec3 g = std::get<SetGravity>(actions.commands.front()).gravity;
   CHECK(g.x() / g.norm() == doctest::Approx(0.6));
   CHECK(g.y() / g.norm() == doctest::Approx(-0.8));
+}
+
+TEST_CASE("a view of the eye is kept by its first press and gone to by the next") {
+  Driver driver;
+  CHECK(driver.click("2", 180).keep_view == 1u);
+  driver.panel.view().set_kept(1, true);
+  const auto again = driver.click("2", 180);
+  CHECK(again.view == 1u);
+  CHECK_FALSE(again.keep_view);
+  CHECK(after(driver, Action::keep_view_4).keep_view == 3u);
+  CHECK(after(driver, Action::view_1).view == 0u);
+}
+
+TEST_CASE("the film button begins a film and ends it") {
+  Driver driver;
+  CHECK(driver.click("Film", 245).requests == std::vector{Request::film});
+  driver.panel.view().set_filmed(12);
+  CHECK(driver.click("Stop film", 245).requests == std::vector{Request::film});
+}
+
+TEST_CASE("errors and lateness are plotted where they are read") {
+  Driver driver;
+  driver.frame.mesh_error = 0.1;
+  driver.frame.time_error = TimeError{1e-4, 2e-4};
+  driver.frame.skin = std::make_shared<const Skin>(small_skin());
+  for (int k = 0; k < 30; ++k) {
+    driver.frame.time += 0.1;
+    driver.frame.tick += 100;
+    driver.draw();
+  }
+  driver.find("Slower by", 1180);
+  driver.find("Whole body", 1180);
 }
 
 TEST_CASE("the grasp radius is the panel's to tell") {

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <app/window/opening.hpp>
+#include <app/window/state_folder.hpp>
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
@@ -13,12 +14,14 @@ namespace fs = std::filesystem;
 namespace {
 
 /// A folder that goes with its contents.
+/// What is remembered is remembered there too.
 struct Folder {
   fs::path path;
   Folder() {
     std::string name = (fs::temp_directory_path() / "heml-opening-XXXXXX").string();
     REQUIRE(mkdtemp(name.data()));
     path = name;
+    setenv("XDG_STATE_HOME", (path / "state").c_str(), 1);
   }
   ~Folder() { fs::remove_all(path); }
 };
@@ -55,6 +58,47 @@ TEST_CASE("a dropped scene becomes a running session, recorded beside the first 
   CHECK_FALSE(opening.under_way());
   CHECK(fs::exists(folder.path / "out-2.jsonl"));
   CHECK_FALSE(fs::exists(folder.path / "out.jsonl"));
+  CHECK(next_recording(folder.path / "out.jsonl") == folder.path / "out-3.jsonl");
+}
+
+TEST_CASE("a moment is gone back to in a session of its own, recorded beside the old one") {
+  const Folder folder;
+  const auto file = write(folder, "box.json", box);
+  OpenScene old = start(read_scene(file), folder.path / "out.jsonl");
+  while (old.session->latest().tick < 30) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  old.session->pause();
+  while (!old.session->latest().paused) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  Frame moment = old.session->latest();
+  moment.tick = 17;
+  Opening opening;
+  opening.resume(old.session->until(moment), folder.path / "out.jsonl");
+  CHECK(opening.progress());
+  auto result = wait_for(opening);
+  auto* resumed = std::get_if<OpenScene>(&result);
+  REQUIRE(resumed);
+  CHECK(resumed->resumed == 17);
+  CHECK(resumed->was_recorded);
+  CHECK(resumed->recording == folder.path / "out-2.jsonl");
+  CHECK(resumed->session->latest().tick == 17);
+  CHECK(resumed->session->latest().paused);
+}
+
+TEST_CASE("going back can be given up, and leaves nothing behind") {
+  const Folder folder;
+  OpenScene old = start(read_scene(write(folder, "box.json", box)), std::nullopt);
+  Frame moment;
+  moment.tick = 1'000'000'000;
+  Opening opening;
+  opening.resume(old.session->until(moment), folder.path / "out.jsonl");
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  CHECK(*opening.progress() < 100);
+  opening.cancel();
+  for (int k = 0; k < 500 && opening.under_way(); ++k) {
+    CHECK_FALSE(opening.take());
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  CHECK_FALSE(opening.under_way());
+  CHECK_FALSE(fs::exists(folder.path / "out-2.jsonl"));
 }
 
 TEST_CASE("a dropped file that is no scene says what is wrong with it, and another may follow") {
@@ -70,4 +114,5 @@ TEST_CASE("a dropped file that is no scene says what is wrong with it, and anoth
   CHECK(std::holds_alternative<std::string>(wait_for(opening)));
   opening.begin(write(folder, "box.json", box), std::nullopt);
   CHECK(std::holds_alternative<OpenScene>(wait_for(opening)));
+  CHECK(recent_files() == std::vector{fs::canonical(folder.path / "box.json")});
 }

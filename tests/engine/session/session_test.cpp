@@ -281,6 +281,110 @@ TEST_CASE("after a removal a new factor arrives from another thread, and its arr
   }
 }
 
+TEST_CASE("a session of what led to a moment is there to the bit, and goes on in a recording of its own") {
+  const TemporaryFolder folder;
+  const auto first = folder.path / "first.jsonl", second = folder.path / "second.jsonl";
+  Frame moment, later;
+  Scene way;
+  {
+    SessionOptions options;
+    options.record = first;
+    Session session(small_scene(), options);
+    session.post(Grasp{20, 0.012});
+    for (int i = 0; i < 10; ++i) {
+      session.post(MoveTool{Vec3(0.05 + 0.002 * i, 0.01, 0.01)});
+      std::this_thread::sleep_for(10ms);
+    }
+    session.post(SetMaterial{std::nullopt, {"stvk", {6e3, 4e3}, 900}});
+    session.pause();
+    session.post(Reset{});  // the moment is after what was done while time stood still
+    moment = wait_for(session, [](const Frame& f) { return f.paused && f.time == 0; });
+    CHECK(moment.tick > 50);
+    session.play();
+    session.post(SetDamping{9});
+    later = wait_for(session, [&](const Frame& f) { return f.tick > moment.tick + 100; });
+    way = session.until(moment);
+  }
+  const auto recorded = read_scene(first);
+  {
+    SessionOptions options;
+    options.record = second;
+    options.start_paused = true;
+    options.hurry_to = moment.tick;
+    Session session(way, options);
+    const Frame& reached =
+        wait_for(session, [&](const Frame& f) { return f.hurries_to == 0 && f.tick == moment.tick; });
+    CHECK(reached.paused);
+    CHECK(reached.time == moment.time);
+    CHECK(reached.commands == moment.commands);
+    CHECK(reached.positions == moment.positions);
+    CHECK(reached.tool.active == moment.tool.active);
+    session.post(SetGravity{Vec3(0, 5, 0)});
+    session.play();
+    wait_for(session, [&](const Frame& f) { return f.tick > moment.tick + 600; });
+  }
+  const Scene branch = read_scene(second);
+  CHECK(static_cast<long>(branch.events.size()) == moment.commands + 1);
+  CHECK(std::holds_alternative<SetGravity>(branch.events.back().command));
+  const auto world = load_world(branch);
+  const ReplayResult result = replay(branch, *world);
+  CHECK(result.checkpoints >= 3);
+  CHECK_FALSE(result.difference);
+  const Scene untouched = read_scene(first);
+  CHECK(untouched.events.size() == recorded.events.size());
+  CHECK(untouched.recorded_ticks >= later.tick);
+}
+
+TEST_CASE("a hurry is faster than the clock, and a pause ends it on the way") {
+  Scene scene = small_scene();
+  scene.solver.step = 1e-4;
+  scene.mesh.box->cells = {2, 1, 1};
+  SessionOptions options;
+  options.start_paused = true;
+  Session session(scene, options);
+  session.hurry_to(2000);
+  const Frame& there = wait_for(session, [](const Frame& f) { return f.tick == 2000 && f.hurries_to == 0; });
+  CHECK(there.paused);
+  CHECK(there.pace.missed == 0);
+  session.hurry_to(100000000);
+  wait_for(session, [](const Frame& f) { return f.tick > 2100; });
+  session.pause();
+  const long tick = wait_for(session, [](const Frame& f) { return f.hurries_to == 0; }).tick;
+  std::this_thread::sleep_for(50ms);
+  CHECK(session.latest().tick <= tick + 1);
+}
+
+TEST_CASE("until its end a recording is played as it was: the clock chooses nothing") {
+  const TemporaryFolder folder;
+  const auto first = folder.path / "budget.jsonl", second = folder.path / "again.jsonl";
+  Scene scene = small_scene();
+  scene.mesh.box->cells = {20, 5, 5};
+  scene.solver.integrator = Integrator::backward_euler;
+  scene.solver.step = 0.01;
+  scene.solver.budget = Budget{0, 0.05};  // far less than a step takes: it is learnt
+  {
+    SessionOptions options;
+    options.record = first;
+    Session session(scene, options);
+    wait_for(session, [](const Frame& f) { return f.tick > 30; });
+  }
+  const Scene recorded = read_scene(first);
+  CHECK(recorded.events.size() >= 1);
+  {
+    SessionOptions options;
+    options.record = second;
+    options.start_paused = true;
+    options.hurry_to = *recorded.recorded_ticks;
+    Session session(recorded, options);
+    wait_for(session, [](const Frame& f) { return f.hurries_to == 0; });
+  }
+  const Scene again = read_scene(second);
+  REQUIRE(again.events.size() == recorded.events.size());
+  for (std::size_t k = 0; k < again.events.size(); ++k)
+    CHECK(event_line(again.events[k]) == event_line(recorded.events[k]));
+  CHECK(again.checkpoints.back().hash == recorded.checkpoints.back().hash);
+}
+
 TEST_CASE("a session that cannot go on says why and lives on to be reset") {
   Scene scene = small_scene();
   scene.solver.continuation = false;

@@ -1,0 +1,192 @@
+#include <algorithm>
+#include <app/panel/icons.hpp>
+#include <app/panel/open_dialog.hpp>
+#include <cctype>
+#include <sstream>
+#include <string_view>
+#include <utility>
+
+namespace heml::panel {
+namespace {
+
+constexpr float widest = 78, two_columns_from = 58, side_column = 0.4f, cell_width = 10.5f;  // em; of the width
+
+std::string lower_case(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+bool pressed(ImGuiKey key) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key)); }
+
+}  // namespace
+
+void OpenDialog::open() {
+  open_ = just_opened_ = true;
+  wanted_[0] = '\0';
+  marked_ = -1;
+}
+
+bool OpenDialog::close() { return std::exchange(open_, false); }
+
+void OpenDialog::draw(Rows& rows, ImVec2 picture, PanelActions& out) {
+  if (!open_) return;
+  shown_.clear();
+  const ImVec2 size(std::min(picture.x - em(1.4f), em(widest)), picture.y - em(1.4f));
+  ImGui::SetNextWindowPos({picture.x / 2, picture.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+  ImGui::SetNextWindowSize(size);
+  ImGui::SetNextWindowBgAlpha(0.98f);
+  if (just_opened_) ImGui::SetNextWindowFocus();
+  ImGui::Begin("open", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoNav |
+                   ImGuiWindowFlags_NoScrollWithMouse);
+  draw_head(rows);
+  const float width = ImGui::GetContentRegionAvail().x;
+  const bool wide = size.x > em(two_columns_from);
+  ImGui::BeginChild("scenes", {wide ? (1 - side_column) * width : width, 0}, false, ImGuiWindowFlags_NoNav);
+  draw_scenes(rows, out);
+  if (wide) {
+    ImGui::EndChild();
+    ImGui::SameLine(0, em(1));
+    ImGui::BeginChild("files", {0, 0}, false, ImGuiWindowFlags_NoNav);
+  }
+  draw_files(rows, out);
+  ImGui::EndChild();
+  follow_keys(out);
+  if (ImGui::IsMouseClicked(ImGuiMouseButton_Left) && !just_opened_ &&
+      !ImGui::IsWindowHovered(ImGuiHoveredFlags_ChildWindows | ImGuiHoveredFlags_AllowWhenBlockedByActiveItem))
+    open_ = false;
+  ImGui::End();
+  just_opened_ = false;
+}
+
+void OpenDialog::draw_head(Rows& rows) {
+  {
+    const UseFont large(Font::title);
+    ImGui::TextUnformatted("Open");
+  }
+  ImGui::SameLine(em(5));
+  const float close_size = ImGui::GetFrameHeight();
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - close_size - em(0.7f));
+  if (!ImGui::IsAnyItemActive()) ImGui::SetKeyboardFocusHere();  // typing filters, wherever the mouse was
+  if (ImGui::InputTextWithHint("##wanted", "Type to find", wanted_, sizeof wanted_)) marked_ = wanted_[0] ? 0 : -1;
+  rows.explain({"Find",
+                "Shows what has these words in its name or description. Up and Down choose, Enter opens, Esc closes. "
+                "A path that begins with / opens that file."});
+  ImGui::SameLine(0, em(0.7f));
+  if (rows.icon_button({"Close", "Closes this page (Esc)."}, close_size, false, draw_cross)) open_ = false;
+  ImGui::Dummy({0, em(0.2f)});
+}
+
+void OpenDialog::draw_scenes(Rows& rows, PanelActions& out) {
+  draw_group(rows, "Scenes", offers_.scenes, Shape::cell, out);
+  draw_group(rows, "Stiff and extreme cases", offers_.extreme, Shape::line, out);
+}
+
+void OpenDialog::draw_files(Rows& rows, PanelActions& out) {
+  draw_group(rows, "Recent", offers_.recent, Shape::line, out);
+  if (offers_.folder.empty()) return;
+  draw_group(rows, "Files in " + offers_.folder.string(), offers_.files, Shape::line, out);
+  if (offers_.problem.empty()) return;
+  ImGui::PushStyleColor(ImGuiCol_Text, colours::warning);
+  ImGui::TextWrapped("%s", offers_.problem.c_str());
+  ImGui::PopStyleColor();
+}
+
+void OpenDialog::draw_group(Rows& rows, const std::string& heading, const std::vector<Offer>& offers, Shape shape,
+                            PanelActions& out) {
+  if (std::none_of(offers.begin(), offers.end(), [&](const Offer& offer) { return matches(offer); })) return;
+  const float room = ImGui::GetContentRegionAvail().x;
+  ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(colours::accent), "%s", shortened(heading, room).c_str());
+  rows.explain({heading, ""});
+  const float gap = em(0.7f);
+  const int columns = std::max(1, static_cast<int>((room - em(0.8f) + gap) / (em(cell_width) + gap)));
+  const float width = (room - em(0.8f) + gap) / static_cast<float>(columns) - gap;
+  int column = 0;
+  for (const Offer& offer : offers) {
+    if (!matches(offer)) continue;
+    const bool marked = std::ssize(shown_) == marked_;
+    shown_.push_back(&offer);
+    ImGui::PushID(&offer);
+    if (shape == Shape::cell && column > 0) ImGui::SameLine(0, gap);
+    column = (column + 1) % columns;
+    if (shape == Shape::cell ? draw_cell(rows, offer, width, marked) : draw_line(rows, offer, marked)) take(offer, out);
+    if (marked && std::exchange(moved_, false)) ImGui::SetScrollHereY();
+    ImGui::PopID();
+  }
+  ImGui::Dummy({0, em(0.3f)});
+}
+
+bool OpenDialog::draw_cell(Rows& rows, const Offer& offer, float width, bool marked) {
+  const float height = std::round(width * 9 / 16), line = ImGui::GetTextLineHeight();
+  const ImVec2 from = ImGui::GetCursorScreenPos();
+  const bool chosen = ImGui::InvisibleButton("cell", {width, height + line + em(0.35f)});
+  const bool warm = marked || ImGui::IsItemHovered();
+  rows.explain({offer.title, offer.title + "\n\n" + offer.about});
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ImVec2 to(from.x + width, from.y + height);
+  const float rounding = ImGui::GetStyle().FrameRounding;
+  if (offer.picture)
+    list.AddImageRounded(offer.picture, from, to, {0, 0}, {1, 1}, IM_COL32_WHITE, rounding);
+  else
+    list.AddRectFilled(from, to, colours::track, rounding);
+  if (warm) list.AddRect(from, to, colours::accent, rounding, ImDrawFlags_None, em(0.13f));
+  list.AddText({from.x, to.y + em(0.1f)}, warm ? colours::text : colours::muted, shortened(offer.title, width).c_str());
+  return chosen;
+}
+
+bool OpenDialog::draw_line(Rows& rows, const Offer& offer, bool marked) {
+  const UseFont small(Font::small);
+  const float width = ImGui::GetContentRegionAvail().x - em(0.8f), line = ImGui::GetTextLineHeight();
+  const ImVec2 from = ImGui::GetCursorScreenPos(), to(from.x + width, from.y + line + em(0.3f));
+  const bool chosen = ImGui::InvisibleButton("line", {width, to.y - from.y});
+  const bool warm = offer.is_there && (marked || ImGui::IsItemHovered());
+  const std::string gone = offer.is_there ? "" : "\n\nIt is no longer there.";
+  rows.explain({offer.title, offer.title + "\n\n" + offer.about + gone});
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  if (warm)
+    list.AddRectFilled({from.x - em(0.3f), from.y}, to, colours::track_hovered, ImGui::GetStyle().FrameRounding);
+  const std::string title = shortened(offer.title, 0.62f * width);
+  const float used = ImGui::CalcTextSize(title.c_str()).x + em(0.8f), top = from.y + em(0.15f);
+  const std::string about = shortened(offer.is_there ? offer.about : "no longer there", width - used - em(0.3f));
+  list.AddText({from.x, top}, offer.is_there ? colours::text : colours::faint, title.c_str());
+  list.AddText({to.x - em(0.3f) - ImGui::CalcTextSize(about.c_str()).x, top},
+               offer.is_there ? colours::muted : colours::faint, about.c_str());
+  return chosen;
+}
+
+/// All words are in it.
+bool OpenDialog::matches(const Offer& offer) const {
+  const std::string text = lower_case(offer.title + ' ' + offer.about + ' ' + offer.path.string());
+  std::istringstream words(lower_case(wanted_));
+  for (std::string word; words >> word;)
+    if (text.find(word) == std::string::npos) return false;
+  return true;
+}
+
+void OpenDialog::take(const Offer& offer, PanelActions& out) {
+  if (!offer.is_there) return;
+  if (offer.is_folder) {
+    out.look_into = offer.path;
+    wanted_[0] = '\0';
+    marked_ = -1;
+    return;
+  }
+  out.open = offer.path;
+  open_ = false;
+}
+
+void OpenDialog::follow_keys(PanelActions& out) {
+  const int last = static_cast<int>(shown_.size()) - 1;
+  const int before = marked_;
+  if (pressed(ImGuiKey_DownArrow)) marked_ = std::min(marked_ + 1, last);
+  if (pressed(ImGuiKey_UpArrow)) marked_ = std::max(marked_ - 1, 0);
+  marked_ = std::min(marked_, last);
+  moved_ |= marked_ != before;
+  if (!pressed(ImGuiKey_Enter) && !pressed(ImGuiKey_KeyPadEnter)) return;
+  if (wanted_[0] == '/')
+    take({wanted_, wanted_, "", nullptr, std::string_view(wanted_).ends_with('/')}, out);
+  else if (marked_ >= 0)
+    take(*shown_[static_cast<std::size_t>(marked_)], out);
+}
+
+}  // namespace heml::panel

@@ -1,0 +1,51 @@
+#pragma once
+// What to open: scenes with pictures, what was opened last, and folders.
+//
+//    ┌ Open ───── what to look for ──────── × ┐
+//    │ Scenes              Recent             │
+//    │ ┌────┐ ┌────┐ ┌────┐ liver.json         │
+//    │ └────┘ └────┘ └────┘ Files in ~/work    │
+//    │ ┌────┐ ┌────┐        ..                 │     a narrow picture has one column
+//    └────────────────────────────────────────┘
+#include <app/panel/actions.hpp>
+#include <app/panel/area.hpp>
+#include <app/panel/offers.hpp>
+#include <app/panel/rows.hpp>
+
+namespace heml::panel {
+
+class OpenDialog {
+ public:
+  void open();
+  bool close();  ///< true when it was open
+  bool is_open() const { return open_; }
+
+  /// What it shows from now on.
+  void offer(Offers offers) { offers_ = std::move(offers); }
+
+  /// Over all of a picture of a size (pixels), while it is open. A press tells what to open or to look into.
+  void draw(Rows& rows, ImVec2 picture, PanelActions& out);
+
+ private:
+  enum class Shape { cell, line };
+
+  void draw_head(Rows& rows);
+  void draw_scenes(Rows& rows, PanelActions& out);
+  void draw_files(Rows& rows, PanelActions& out);
+  void draw_group(Rows& rows, const std::string& heading, const std::vector<Offer>& offers, Shape shape,
+                  PanelActions& out);
+  bool draw_cell(Rows& rows, const Offer& offer, float width, bool marked);
+  bool draw_line(Rows& rows, const Offer& offer, bool marked);
+  bool matches(const Offer& offer) const;
+  void take(const Offer& offer, PanelActions& out);
+  void follow_keys(PanelActions& out);
+
+  Offers offers_;
+  bool open_ = false, just_opened_ = false;
+  char wanted_[256] = {};            ///< what is looked for
+  int marked_ = -1;                  ///< place in shown_ that Enter opens
+  bool moved_ = false;               ///< the mark, by a key
+  std::vector<const Offer*> shown_;  ///< in this frame
+};
+
+}  // namespace heml::panel

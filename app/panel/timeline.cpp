@@ -1,0 +1,118 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <app/panel/quantity.hpp>
+#include <app/panel/timeline.hpp>
+#include <cmath>
+
+namespace heml::panel {
+namespace {
+
+constexpr float bar_height = 2.1f, margin = 0.7f, widest = 60, buttons_width = 9.5f, label_width = 4.6f;  // em
+
+constexpr ImGuiWindowFlags bar_flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                       ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoFocusOnAppearing;
+
+std::string seconds_text(double seconds) {
+  return seconds < 60 ? fmt::format("{:.2f} s", seconds)
+                      : fmt::format("{}:{:04.1f}", static_cast<long>(seconds / 60), std::fmod(seconds, 60));
+}
+
+/// The track, and where ticks are on it.
+struct Track {
+  ImVec2 from, to;
+  const Timeline& time;
+  float at(long tick) const {
+    const double share = static_cast<double>(tick) / static_cast<double>(std::max(time.end, 1l));
+    return from.x + static_cast<float>(std::clamp(share, 0.0, 1.0)) * (to.x - from.x);
+  }
+  long tick_at(float x) const {
+    const double share = std::clamp((x - from.x) / std::max(1.0f, to.x - from.x), 0.0f, 1.0f);
+    return std::lround(share * static_cast<double>(time.end));
+  }
+};
+
+void draw_track(const Track& track) {
+  const Timeline& time = track.time;
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const float middle = (track.from.y + track.to.y) / 2, half = em(0.22f);
+  const auto part = [&](float left, float right, ImU32 colour) {
+    if (right > left) list.AddRectFilled({left, middle - half}, {right, middle + half}, colour, half);
+  };
+  part(track.from.x, track.to.x, colours::track);
+  part(track.at(time.first), track.at(time.live), time.shown ? colours::faint : colours::fill);
+  if (time.shown) part(track.at(time.first), track.at(*time.shown), colours::fill);
+  if (time.hurries_to > 0)
+    list.AddCircle({track.at(time.hurries_to), middle}, em(0.42f), colours::warning, 20, em(0.12f));
+  list.AddCircleFilled({track.at(time.shown.value_or(time.live)), middle}, em(0.46f), colours::accent, 24);
+}
+
+void follow_mouse(Rows& rows, const Track& track, PanelActions& out) {
+  const Timeline& time = track.time;
+  const ImVec2 size(track.to.x - track.from.x, track.to.y - track.from.y);
+  ImGui::InvisibleButton("track", size);
+  const float x = ImGui::GetIO().MousePos.x;
+  const long tick = track.tick_at(x);
+  if (ImGui::IsItemActive() && (ImGui::IsMouseClicked(0) || ImGui::GetIO().MouseDelta.x != 0)) {
+    if (tick <= time.live) out.look_at = tick;
+  }
+  if (ImGui::IsItemDeactivated() && tick > time.live) out.look_at = tick;  // ahead: once, where the mouse lets go
+  const std::string kept =
+      fmt::format("{} moments are kept, {:.0f} of at most {:.0f} MB; when that is full, every second goes.",
+                  time.moments, static_cast<double>(time.bytes) / 1e6, static_cast<double>(time.room) / 1e6);
+  rows.explain({"Timeline", fmt::format("{} of {}, simulated time since the start. Drag to look back (Left, Right, "
+                                        "Home); Resume (B) goes on from there. Where a recording goes on, let go "
+                                        "there to send the engine ahead.\n\n{}",
+                                        seconds_text(static_cast<double>(tick) / time.rate),
+                                        seconds_text(static_cast<double>(time.end) / time.rate), kept)});
+}
+
+}  // namespace
+
+float timeline_height() { return em(bar_height + margin); }
+
+void draw_timeline(Rows& rows, const Timeline& time, const Area& free, std::vector<Action>& pressed, PanelActions& out,
+                   Area& place) {
+  const float width = std::min(free.width() - em(2 * margin), em(widest)), middle = (free.from.x + free.to.x) / 2;
+  const float top = free.to.y - timeline_height();
+  place = {{middle - width / 2, top}, {middle + width / 2, top + em(bar_height)}};
+  ImGui::SetNextWindowPos(place.from);
+  ImGui::SetNextWindowSize({width, em(bar_height)});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {em(0.7f), em(0.3f)});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
+  if (ImGui::Begin("timeline", nullptr, bar_flags)) {
+    const float height = ImGui::GetContentRegionAvail().y, left = ImGui::GetCursorScreenPos().x;
+    const bool back = time.shown.has_value();
+    const double seconds = static_cast<double>(time.shown.value_or(time.live)) / time.rate;
+    ImGui::AlignTextToFramePadding();
+    ImGui::PushStyleColor(ImGuiCol_Text, back ? colours::warning : colours::text);
+    ImGui::TextUnformatted(seconds_text(seconds).c_str());
+    ImGui::PopStyleColor();
+    rows.explain({"Moment",
+                  "Simulated time since the start, s, of what is shown: ticks of the engine, which a reset "
+                  "does not set back."});
+    const float end = place.to.x - em(0.9f) - (back || time.returning ? em(buttons_width) : 0);
+    const Track track{{left + em(label_width), place.from.y + em(0.3f)}, {end, place.from.y + em(0.3f) + height}, time};
+    ImGui::SetCursorScreenPos(track.from);
+    draw_track(track);
+    follow_mouse(rows, track, out);
+    ImGui::SetCursorScreenPos({end + em(0.6f), place.from.y + em(0.3f)});
+    if (time.returning) {
+      ImGui::AlignTextToFramePadding();
+      ImGui::Text("Returning %d %%", *time.returning);
+      rows.explain(
+          {"Returning", "What led to that moment is played again, as fast as this machine can; Esc gives up."});
+    } else if (back) {
+      if (rows.button({"Resume",
+                       "Goes on from this moment: what led to it is played again, to the bit, and a recording "
+                       "that is under way, or was opened, goes on in a new file (B)."}))
+        pressed.push_back(Action::resume);
+      ImGui::SameLine(0, em(0.4f));
+      if (rows.button({"Now", "Back to the present (End, Esc)."})) pressed.push_back(Action::look_now);
+    }
+  }
+  ImGui::End();
+  ImGui::PopStyleVar(2);
+}
+
+}  // namespace heml::panel

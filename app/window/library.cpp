@@ -1,0 +1,156 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <app/render/png.hpp>
+#include <app/window/glfw_window.hpp>
+#include <app/window/library.hpp>
+#include <app/window/state_folder.hpp>
+#include <heml/base/error.hpp>
+#include <heml/scenario/file_kind.hpp>
+#include <heml/scenario/scene.hpp>
+
+namespace heml::window {
+namespace {
+
+namespace fs = std::filesystem;
+using panel::Offer;
+constexpr std::size_t most_files = 2000;
+
+std::string size_text(std::uintmax_t bytes) {
+  const double size = static_cast<double>(bytes);
+  return size < 1e6 ? fmt::format("{:.0f} kB", std::max(1.0, size / 1e3)) : fmt::format("{:.1f} MB", size / 1e6);
+}
+
+const char* name_of(FileKind kind) {
+  switch (kind) {
+    case FileKind::scene:
+      return "scene";
+    case FileKind::recording:
+      return "recording";
+    case FileKind::tetrahedra:
+      return "tetrahedra";
+    case FileKind::surface:
+      return "surface";
+    case FileKind::other:
+      break;
+  }
+  return "file";
+}
+
+/// Every scene of a folder that can be read, in the order of file names.
+std::vector<Offer> scenes_in(const fs::path& folder) {
+  std::vector<Offer> offers;
+  std::error_code failed;
+  for (fs::directory_iterator entry(folder, failed), end; !failed && entry != end; entry.increment(failed)) {
+    if (kind_of(entry->path()) != FileKind::scene) continue;
+    try {
+      const Scene scene = read_scene(entry->path());
+      offers.push_back({entry->path(), scene.title.empty() ? scene.name : scene.title, scene.description});
+    } catch (const InputError&) {  // of another version: not offered
+    }
+  }
+  std::sort(offers.begin(), offers.end(), [](const Offer& a, const Offer& b) { return a.path < b.path; });
+  return offers;
+}
+
+void list_scenes(Listing& listing) {
+  const fs::path assets = assets_folder();
+  listing.offers.scenes = scenes_in(assets / "scenes");
+  listing.offers.extreme = scenes_in(assets / "scenes" / "extreme");
+  for (const Offer& offer : listing.offers.scenes) {
+    const fs::path file = assets / "pictures" / "scenes" / offer.path.filename().replace_extension(".png");
+    std::error_code failed;
+    if (!fs::exists(file, failed)) continue;
+    try {
+      listing.pictures.emplace(offer.path, render::read_png(file));
+    } catch (const InputError&) {  // goes without
+    }
+  }
+}
+
+void list_folder(const fs::path& folder, panel::Offers& offers) {
+  std::error_code failed;
+  offers.folder = folder;
+  if (folder.has_relative_path()) offers.files.push_back({folder.parent_path(), "..", "folder above", nullptr, true});
+  std::vector<Offer> folders, files;
+  for (fs::directory_iterator entry(folder, failed), end; !failed && entry != end; entry.increment(failed)) {
+    const std::string name = entry->path().filename().string();
+    std::error_code unknown;
+    if (name.starts_with('.')) continue;
+    if (entry->is_directory(unknown)) folders.push_back({entry->path(), name, "folder", nullptr, true});
+    const FileKind kind = kind_of(entry->path());
+    if (!entry->is_regular_file(unknown) || kind == FileKind::other) continue;
+    const auto bytes = entry->file_size(unknown);
+    files.push_back({entry->path(), name, fmt::format("{}, {}", name_of(kind), size_text(unknown ? 0 : bytes))});
+    if (files.size() + folders.size() > most_files) {
+      offers.problem = fmt::format("There is more than these {}; type a path that begins with /.", most_files);
+      break;
+    }
+  }
+  if (failed) offers.problem = "It cannot be looked into: " + failed.message() + ".";
+  for (std::vector<Offer>* part : {&folders, &files}) {
+    std::sort(part->begin(), part->end(), [](const Offer& a, const Offer& b) { return a.title < b.title; });
+    offers.files.insert(offers.files.end(), part->begin(), part->end());
+  }
+}
+
+}  // namespace
+
+Listing list_offers(const fs::path& folder, bool with_scenes) {
+  Listing listing;
+  if (with_scenes) list_scenes(listing);
+  for (const fs::path& file : recent_files()) {
+    std::error_code failed;
+    listing.offers.recent.push_back(
+        {file, file.filename().string(), file.parent_path().string(), nullptr, false, fs::exists(file, failed)});
+  }
+  if (!folder.empty()) list_folder(folder, listing.offers);
+  return listing;
+}
+
+void Library::look_into(fs::path folder) {
+  if (!folder.empty()) folder_ = std::move(folder);
+  again_ = result_.valid();
+  if (!again_) begin();
+}
+
+void Library::begin() {
+  result_ = std::async(std::launch::async, [folder = folder_, with_scenes = scenes_.empty()] {
+    struct Wake {
+      ~Wake() { GlfwWindow::wake(); }
+    } wake_at_end;
+    return list_offers(folder, with_scenes);
+  });
+}
+
+bool Library::is_ready() const {
+  return result_.valid() && result_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+}
+
+std::optional<panel::Offers> Library::take() {
+  if (!is_ready()) return std::nullopt;
+  Listing listing = result_.get();
+  for (Offer& offer : listing.offers.scenes) {
+    const auto found = listing.pictures.find(offer.path);
+    if (found == listing.pictures.end()) continue;
+    const render::Image& image = found->second;
+    const render::Texture& texture = pictures_.emplace_back();
+    render::allocate_texture(texture, GL_RGB8, GL_RGB, GL_UNSIGNED_BYTE, image.size);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, image.size.width, image.size.height, GL_RGB, GL_UNSIGNED_BYTE,
+                    image.pixels.data());
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    glGenerateMipmap(GL_TEXTURE_2D);
+    offer.picture = reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture));
+  }
+  if (!listing.offers.scenes.empty()) {
+    scenes_ = listing.offers.scenes;
+    extreme_ = listing.offers.extreme;
+  }
+  listing.offers.scenes = scenes_;
+  listing.offers.extreme = extreme_;
+  if (std::exchange(again_, false)) begin();
+  return std::move(listing.offers);
+}
+
+}  // namespace heml::window

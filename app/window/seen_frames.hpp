@@ -1,0 +1,39 @@
+#pragma once
+// What was seen of a session, to be looked at again: frames, oldest first, in so much memory at most. When that is full
+// every second one goes, so the whole session stays, ever coarser:
+//
+//    0 1 2 3 4 5 6 7        full
+//    0   2   4   6   8      from now on every second one is taken
+#include <cstddef>
+#include <heml/session/frame.hpp>
+#include <vector>
+
+namespace heml::window {
+
+class SeenFrames {
+ public:
+  /// room: bytes; skins, which frames share, are not counted.
+  explicit SeenFrames(std::size_t room = std::size_t{256} << 20) : room_(room) {}
+
+  /// Takes a frame that is later than the last by the spacing of the moment, or of the same tick, which it replaces.
+  void take(const Frame& frame);
+  /// Forgets what is later than a tick.
+  void cut_after(long tick);
+  /// Frames with a skin of this version have this one from now on: who draws keeps what is made of a skin.
+  void share(const std::shared_ptr<const Skin>& skin);
+
+  const std::vector<Frame>& frames() const { return frames_; }  ///< ascending in tick
+  /// The frame of a tick: the last that is not later, else the first. There is one.
+  std::size_t place_of(long tick) const;
+  std::size_t bytes() const { return bytes_; }
+  std::size_t room() const { return room_; }
+
+ private:
+  void thin();
+
+  std::size_t room_, bytes_ = 0;
+  long spacing_ = 1;  ///< ticks
+  std::vector<Frame> frames_;
+};
+
+}  // namespace heml::window

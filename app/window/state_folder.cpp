@@ -1,0 +1,55 @@
+#include <unistd.h>
+
+#include <algorithm>
+#include <app/window/state_folder.hpp>
+#include <cstdlib>
+#include <fstream>
+#include <string>
+
+namespace heml::window {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr std::size_t most_files = 20;
+
+/// A path a line.
+fs::path list_file() {
+  const fs::path folder = state_folder();
+  return folder.empty() ? fs::path() : folder / "recent";
+}
+
+}  // namespace
+
+fs::path state_folder() {
+  const char *state = std::getenv("XDG_STATE_HOME"), *home = std::getenv("HOME");
+  if (state && *state) return fs::path(state) / "heml";
+  return home && *home ? fs::path(home) / ".local" / "state" / "heml" : fs::path();
+}
+
+std::vector<fs::path> recent_files() {
+  std::vector<fs::path> files;
+  std::ifstream list(list_file());
+  for (std::string line; files.size() < most_files && std::getline(list, line);)
+    if (!line.empty()) files.emplace_back(line);
+  return files;
+}
+
+void remember_file(const fs::path& path) {
+  std::error_code failed;
+  const fs::path list = list_file(), whole = fs::weakly_canonical(path, failed);
+  if (failed || list.empty() || whole.string().find('\n') != std::string::npos) return;
+  std::vector<fs::path> files = recent_files();
+  std::erase(files, whole);
+  files.insert(files.begin(), whole);
+  files.resize(std::min(files.size(), most_files));
+  fs::create_directories(list.parent_path(), failed);
+  const fs::path next = list.string() + "." + std::to_string(getpid());  // renamed: never half a list
+  {
+    std::ofstream out(next);
+    for (const fs::path& file : files) out << file.string() << '\n';
+    if (!out.flush()) return;
+  }
+  fs::rename(next, list, failed);
+}
+
+}  // namespace heml::window

@@ -1,0 +1,180 @@
+// What the panel asks of the window.
+#include <fmt/format.h>
+
+#include <app/window/patch.hpp>
+#include <app/window/screenshot.hpp>
+#include <app/window/viewer.hpp>
+#include <heml/base/error.hpp>
+#include <utility>
+
+namespace heml::window {
+
+void Viewer::let_go() {
+  std::vector<Command> commands;
+  hand_.let_go(commands);
+  post(commands);
+}
+
+void Viewer::carry_out(const panel::PanelActions& actions) {
+  std::vector<Command> commands = actions.commands;
+  if (!commands.empty()) {  // it is the living body that is changed
+    if (opening_.progress()) opening_.cancel();
+    past_.end(*open_.session);
+  }
+  // What is reset is let go of first: the hand would pull a body that starts anew.
+  for (const Command& command : actions.commands)
+    if (std::holds_alternative<Reset>(command)) let_go();
+  post(commands);
+  if (actions.show) open_.session->show(*actions.show);
+  for (const panel::Request request : actions.requests) carry_out(request);
+  if (actions.look_at) {
+    let_go();
+    past_.look(*actions.look_at, *open_.session);
+  }
+  use_view(actions);
+  if (actions.look_into) list(*actions.look_into);
+  if (actions.open) open(*actions.open);
+  if (!actions.commands.empty() || !actions.requests.empty() || actions.show || actions.look_at || actions.look_into ||
+      actions.open || actions.view || actions.keep_view)
+    changed();
+}
+
+void Viewer::carry_out(panel::Request request) {
+  switch (request) {
+    case panel::Request::play:
+      return past_.active() ? past_.play(true) : open_.session->play();
+    case panel::Request::pause:
+      return past_.active() ? past_.play(false) : open_.session->pause();
+    case panel::Request::step:
+      return past_.active() ? past_.step(1, *open_.session) : open_.session->step_once();
+    case panel::Request::earlier:
+    case panel::Request::later:
+    case panel::Request::first:
+      return look(request);
+    case panel::Request::now:
+      return to_the_present();
+    case panel::Request::resume:
+      return resume();
+    case panel::Request::film:
+      return film();
+    case panel::Request::list:
+      return list({});
+    case panel::Request::fit:
+      return fit();
+    case panel::Request::screenshot:
+      return save_screenshot();
+    case panel::Request::release:
+      return let_go();
+    case panel::Request::remove:
+      return remove_tissue();
+    case panel::Request::quit:
+      quits_ = true;
+      return;
+  }
+}
+
+void Viewer::open(const std::filesystem::path& path) {
+  if (opening_.under_way()) return panel_->say("Another file is still being opened.");
+  panel_->say("Opening " + path.filename().string() + " …");
+  opening_.begin(path, options_.record);
+}
+
+/// No folder: the one looked into last; first the scene's, or where the program was started.
+void Viewer::list(const std::filesystem::path& folder) {
+  namespace fs = std::filesystem;
+  if (!folder.empty()) return library_.look_into(folder);
+  if (std::exchange(listed_, true)) return library_.look_into({});
+  std::error_code failed;
+  const bool is_ours = open_.scene.file.starts_with(assets_folder().string());
+  const fs::path parent = fs::absolute(open_.scene.file, failed).parent_path();
+  library_.look_into(is_ours || failed ? fs::current_path(failed) : parent);
+}
+
+/// Goes on from the moment that is looked at, in a session of its own. What was recorded goes on in a new file.
+void Viewer::resume() {
+  if (!past_.active()) return panel_->say("Look back first: drag the bar of time, or press Left.");
+  if (opening_.under_way()) return panel_->say("Something else is still being opened.");
+  Scene scene = open_.session->until(*frame_);
+  scene.view = open_.scene.view;
+  scene.view.field = frame_->field;
+  scene.view.wireframe = panel_->drawing().wireframe;
+  std::optional<std::filesystem::path> record = options_.record;
+  if (!record && open_.was_recorded) record = open_.scene.file;
+  past_.play(false);
+  opening_.resume(std::move(scene), record);
+}
+
+void Viewer::look(panel::Request where) {
+  let_go();
+  switch (where) {
+    case panel::Request::earlier:
+      return past_.step(-1, *open_.session);
+    case panel::Request::later:
+      return past_.step(1, *open_.session);
+    default:
+      return past_.look(0, *open_.session);
+  }
+}
+
+void Viewer::to_the_present() {
+  if (opening_.progress()) return opening_.cancel();
+  past_.end(*open_.session);
+}
+
+/// Under the ring; where nothing is pointed at, what the hand holds.
+void Viewer::remove_tissue() {
+  if (past_.active()) return panel_->say(past_is_fixed);
+  const Skin& skin = *frame_->skin;
+  const bool points = hand_.doing() == Hand::Doing::nothing && !panel_->covers(mouse_.x(), mouse_.y());
+  const auto hit = points ? hand_.under(mouse_, *frame_, skin) : std::nullopt;
+  const int node = hit ? skin.nodes[static_cast<std::size_t>(hit->node)] : frame_->tool.active ? frame_->tool.node : -1;
+  ElementSelection which;
+  which.tets = elements_round(node, skin, panel_->tool().radius);
+  if (which.tets.empty()) return panel_->say("Point at the tissue to remove, or hold it.");
+  open_.session->post(RemoveElements{which});
+}
+
+void Viewer::save_screenshot() {
+  try {
+    const auto path = save_picture(render::read_pixels(eye_.size()), open_.scene.name);
+    panel_->say("Saved " + path.string());
+  } catch (const InputError& error) {
+    panel_->say(error.what());
+  }
+}
+
+void Viewer::film() {
+  if (filming_) return filming_->finish();
+  try {
+    filming_ = std::make_unique<Filming>(open_.scene.name, eye_.size());
+    panel_->say("Filming. V ends it.");
+  } catch (const InputError& error) {
+    panel_->say(error.what());
+  }
+}
+
+/// For the film, as everything is drawn.
+void Viewer::take_picture() {
+  if (!filming_) return panel_->view().set_filmed(std::nullopt);
+  if (const auto outcome = filming_->take_outcome()) {
+    filming_.reset();
+    return panel_->say(*outcome);
+  }
+  panel_->view().set_filmed(filming_->pictures());
+  const double time = static_cast<double>(frame_->tick) / frame_->pace.rate;
+  if (past_.active() || !filming_->due(time)) return;
+  if (filming_->size() == eye_.size()) return filming_->take(render::read_pixels(eye_.size()), time);
+  panel_->say("The window has another size now: the film ends here.");
+  filming_->finish();
+}
+
+void Viewer::use_view(const panel::PanelActions& actions) {
+  if (actions.keep_view) {
+    eye_.keep(*actions.keep_view);
+    panel_->say(fmt::format("View {} is kept: F{} goes there.", *actions.keep_view + 1, *actions.keep_view + 5));
+  }
+  if (actions.view && !eye_.go_to(*actions.view))
+    panel_->say(fmt::format("No view was kept there yet: Ctrl+F{} does.", *actions.view + 5));
+}
+
+}  // namespace heml::window

@@ -1,0 +1,131 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <heml/base/error.hpp>
+#include <heml/mesh/refine.hpp>
+#include <heml/scenario/adapt.hpp>
+#include <heml/scenario/load_mesh.hpp>
+#include <heml/scenario/player.hpp>
+#include <heml/world/finer_setup.hpp>
+#include <numeric>
+
+namespace heml {
+namespace {
+
+constexpr const char* key = "mesh.refine";
+constexpr const char* other_way = "refine it at a moment of its motion instead: heml refine SCENE --at SECONDS";
+constexpr double refined_share = 0.5;  // of the squared error, a round
+
+void check(const Scene& scene, const WorldSetup& setup, const std::optional<double>& moment) {
+  const double end = scene.solver.is_static() ? 1 : scene.solver.duration;
+  if (moment && *moment > end)
+    throw InputError(scene.file, "", fmt::format("ends at {} s and is to be refined at {} s", end, *moment),
+                     "give an earlier moment");
+  const bool flows = std::any_of(setup.materials.begin(), setup.materials.end(),
+                                 [](const RegionMaterial& entry) { return entry.material.plasticity.has_value(); });
+  if (flows && !moment)
+    throw InputError(scene.file, key, "the rest of a body that flows depends on its way there", other_way);
+}
+
+std::unique_ptr<World> at_rest(WorldSetup setup) {
+  SolverSettings& solver = setup.solver;
+  solver.integrator = Integrator::static_equilibrium;
+  solver.single_precision = solver.recovery = false;
+  solver.tolerance.reset(), solver.budget.reset(), solver.step.reset();
+  std::unique_ptr<World> world = make_world(std::move(setup));
+  world->load_to(1);
+  return world;
+}
+
+std::unique_ptr<World> at_moment(const Scene& scene, WorldSetup setup, double moment) {
+  std::unique_ptr<World> world = make_world(std::move(setup));
+  Player(scene, *world).to(moment);
+  return world;
+}
+
+struct Solved {
+  ErrorEstimate error;
+  Energies energies;
+};
+
+Solved solved(const Scene& scene, const WorldSetup& setup, const std::optional<double>& moment) {
+  const auto world = moment ? at_moment(scene, setup, *moment) : at_rest(setup);
+  if (world->halt())
+    throw InputError(scene.file, key,
+                     fmt::format("the body cannot be solved to see its error: {}", world->halt()->message),
+                     moment ? "give an earlier moment" : other_way);
+  const auto found = world->error_estimate();
+  if (!found)
+    throw InputError(scene.file, key, "springs have no stress whose error could be estimated", "leave it out");
+  if (!(found->stored > 0))
+    throw InputError(scene.file, key, "nothing deforms the body there, so no error is to be seen",
+                     moment ? "give a later moment" : other_way);
+  return {*found, world->energies()};
+}
+
+/// "12,800"
+std::string grouped(std::size_t number) {
+  std::string text = std::to_string(number);
+  for (std::size_t end = text.size(); end > 3; end -= 3) text.insert(end - 3, ",");
+  return text;
+}
+
+}  // namespace
+
+Adaptation adapt(const Scene& scene, WorldSetup setup, const RefineGoal& goal, const std::optional<double>& moment,
+                 const std::function<void(const AdaptedMesh&)>& told) {
+  check(scene, setup, moment);
+  Adaptation result;
+  result.origins.resize(setup.mesh.tets.size());
+  std::iota(result.origins.begin(), result.origins.end(), 0);
+  for (;;) {
+    const auto [error, energies] = solved(scene, setup, moment);
+    result.meshes.push_back({setup.mesh.nodes.size(), setup.mesh.tets.size(), error.relative(), energies.elastic,
+                             energies.elastic + energies.potential});
+    if (told) told(result.meshes.back());
+    result.reached = error.relative() <= goal.error;
+    if (result.reached) break;
+    Refinement finer = refined(setup.mesh, greatest(error.of_element, refined_share));
+    if (finer.mesh.tets.size() > static_cast<std::size_t>(goal.tets)) break;
+    std::vector<int> origins;
+    for (const int parent : finer.parents) origins.push_back(result.origins[static_cast<std::size_t>(parent)]);
+    result.origins = std::move(origins);
+    setup = on_finer_mesh(std::move(setup), std::move(finer.mesh), finer.ends);
+  }
+  result.setup = std::move(setup);
+  return result;
+}
+
+AdaptedScene adapted_scene(const Scene& scene, const Adaptation& adaptation, const std::filesystem::path& mesh_file) {
+  for (const Event& event : scene.events)
+    if (const auto* remove = std::get_if<RemoveElements>(&event.command); remove && !remove->which.tets.empty())
+      throw InputError(
+          scene.file, "events",
+          fmt::format("step {} removes tetrahedra by numbers, which a finer mesh has others for", event.tick),
+          "give it a region, a box or a sphere");
+  AdaptedScene result{scene, adaptation.setup.mesh};
+  result.mesh.fields.clear();
+  for (const ElementField& field : load_mesh(scene).fields) {
+    ElementField& pieces = result.mesh.fields.emplace_back(ElementField{field.name, field.components, {}});
+    for (const int origin : adaptation.origins) {
+      const auto first = field.values.begin() + static_cast<std::ptrdiff_t>(origin * field.components);
+      pieces.values.insert(pieces.values.end(), first, first + static_cast<std::ptrdiff_t>(field.components));
+    }
+  }
+  Scene& finer = result.scene;
+  finer.mesh = MeshSpec();
+  finer.mesh.file = mesh_file;
+  for (std::size_t k = 0; k < scene.boundary.size(); ++k)
+    if (auto& nodes = finer.boundary[k].where.nodes; !nodes.empty()) nodes = adaptation.setup.boundary[k].nodes;
+  for (std::size_t k = 0; k < scene.loads.size(); ++k)
+    if (auto& nodes = finer.loads[k].where.nodes; !nodes.empty()) nodes = adaptation.setup.loads[k].nodes;
+  finer.checkpoints.clear();
+  finer.recorded_ticks.reset(), finer.recorded_mesh.reset(), finer.recorded_instructions.reset();
+  return result;
+}
+
+std::string text_of(const AdaptedMesh& mesh) {
+  return fmt::format("{} tetrahedra, estimated error {:.3g} %", grouped(mesh.tets), 100 * mesh.error);
+}
+
+}  // namespace heml

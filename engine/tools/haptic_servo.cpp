@@ -1,0 +1,63 @@
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <heml/tools/haptic_servo.hpp>
+
+namespace heml {
+namespace {
+
+constexpr double shortest_way = 1e-6;  // m: below it a difference of forces says nothing of stiffness
+
+/// The symmetric part, its eigenvalues kept between 0 and the stiffest.
+Mat3 bounded(const Mat3& B, double stiffest) {
+  const Eigen::SelfAdjointEigenSolver<Mat3> parts((B + B.transpose()) / 2);
+  const Vec3 values = parts.eigenvalues().cwiseMax(0).cwiseMin(stiffest);
+  return parts.eigenvectors() * values.asDiagonal() * parts.eigenvectors().transpose();
+}
+
+}  // namespace
+
+void HapticServo::take(const TouchState& state) {
+  if (touching_) {
+    correction_ = modelled(state.tool) - state.force;
+    between_ = state.time - last_.time;
+    if (const Vec3 way = state.tool - last_.tool; way.norm() > shortest_way)
+      learnt_ += (state.force - last_.force - learnt_ * way) * way.transpose() / way.squaredNorm();
+    stiffness_ = bounded(learnt_, limits_.stiffest);
+  } else {
+    correction_ = -state.force;  // from nothing
+    between_ = 0;
+    learnt_ = stiffness_ = Mat3::Zero();
+  }
+  touching_ = true;
+  since_ = 0;
+  last_ = state;
+}
+
+void HapticServo::let_go() { touching_ = false; }
+
+/// The force on the tissue with the tool at x. Goes over to a new state within the time between the last two.
+Vec3 HapticServo::modelled(const Vec3& x) const {
+  const double gone_over = between_ > 0 ? std::min(1.0, since_ / between_) : 1;
+  return last_.force + stiffness_ * (x - last_.tool) + (1 - gone_over) * correction_;
+}
+
+/// The force given was held all the way, so what it did on it is exact.
+void HapticServo::watch(const Vec3& way, double seconds) {
+  energy_ -= given_.dot(way);
+  damping_ = 0;
+  if (const double square = way.squaredNorm() / seconds; energy_ < 0 && square > 0)
+    damping_ = std::min(-energy_ / square, limits_.damping);
+}
+
+Vec3 HapticServo::serve(const Vec3& x, double seconds) {
+  const Vec3 way = has_served_ ? Vec3(x - hand_) : Vec3(Vec3::Zero());
+  watch(way, seconds);
+  Vec3 force = touching_ ? Vec3(-modelled(x)) : Vec3(Vec3::Zero());
+  force -= damping_ * way / seconds;
+  if (const double size = force.norm(); size > limits_.force) force *= limits_.force / size;
+  since_ += seconds;
+  hand_ = x, given_ = force, has_served_ = true;
+  return force;
+}
+
+}  // namespace heml

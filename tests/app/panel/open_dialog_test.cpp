@@ -1,0 +1,133 @@
+#include "driver.hpp"
+
+using namespace heml;
+using namespace heml::test;
+using panel::Action;
+using panel::Offer;
+using panel::Offers;
+using panel::Request;
+
+namespace {
+
+Offers some_offers() {
+  Offers offers;
+  offers.scenes = {{"/assets/kidney.json", "Kidney, held by its vessels", "Grasp it anywhere and pull."},
+                   {"/assets/beam.json", "Cantilever", "A soft beam bends under its own weight."},
+                   {"/assets/twist.json", "Wrung by two turns", "One end of a bar turns twice."}};
+  offers.extreme = {{"/assets/extreme/patch.json", "Patch test", "Every node inside has to find the same shape."}};
+  offers.recent = {{"/home/liver.obj", "liver.obj", "/home"},
+                   {"/home/gone.json", "gone.json", "/home", nullptr, false, false}};
+  offers.folder = "/home/work";
+  offers.files = {{"/home", "..", "folder above", nullptr, true}, {"/home/work/a.jsonl", "a.jsonl", "recording, 2 kB"}};
+  return offers;
+}
+
+/// With the dialog open, after what it takes to settle.
+void open(Driver& driver) {
+  driver.panel.offer(some_offers());
+  driver.panel.perform(Action::open);
+  CHECK(driver.draw().requests == std::vector{Request::list});
+  for (int k = 0; k < 3; ++k) driver.draw();
+}
+
+void type(Driver& driver, const char* text) {
+  ImGui::GetIO().AddInputCharactersUTF8(text);
+  for (int k = 0; k < 2; ++k) driver.draw();
+}
+
+panel::PanelActions press(Driver& driver, ImGuiKey key) {
+  ImGuiIO& io = ImGui::GetIO();
+  io.KeyMap[key] = 300 + static_cast<int>(key);
+  io.KeysDown[io.KeyMap[key]] = true;
+  const auto actions = driver.draw();
+  io.KeysDown[io.KeyMap[key]] = false;
+  driver.draw();
+  return actions;
+}
+
+/// Looks for a cell or line of that title all over the picture.
+bool shows(Driver& driver, const std::string& title) {
+  for (float x = 100; x < 1240; x += 60)
+    for (float y = 60; y < 740; y += 9) {
+      driver.move({x, y});
+      driver.draw();
+      if (driver.panel.hovered() == title) return true;
+    }
+  return false;
+}
+
+}  // namespace
+
+TEST_CASE("the open dialog shows scenes, recent files and a folder, and a press opens") {
+  Driver driver;
+  CHECK_FALSE(driver.panel.asks());
+  open(driver);
+  CHECK(driver.panel.asks());
+  CHECK(driver.panel.covers(640, 360));
+  REQUIRE(shows(driver, "Cantilever"));
+  const auto actions = driver.click();
+  CHECK(actions.open == std::filesystem::path("/assets/beam.json"));
+  CHECK_FALSE(driver.panel.asks());
+}
+
+TEST_CASE("a folder is looked into, and a file that has gone is not opened") {
+  Driver driver;
+  open(driver);
+  REQUIRE(shows(driver, "gone.json"));
+  CHECK_FALSE(driver.click().open);
+  CHECK(driver.panel.asks());
+  REQUIRE(shows(driver, ".."));
+  const auto actions = driver.click();
+  CHECK(actions.look_into == std::filesystem::path("/home"));
+  CHECK_FALSE(actions.open);
+  CHECK(driver.panel.asks());
+}
+
+TEST_CASE("typing finds, arrows choose and Enter opens") {
+  Driver driver;
+  open(driver);
+  type(driver, "TURNS bar");
+  CHECK(shows(driver, "Wrung by two turns"));
+  CHECK_FALSE(shows(driver, "Cantilever"));
+  driver.away();
+  CHECK(press(driver, ImGuiKey_Enter).open == std::filesystem::path("/assets/twist.json"));
+  open(driver);
+  press(driver, ImGuiKey_DownArrow);
+  press(driver, ImGuiKey_DownArrow);
+  CHECK(press(driver, ImGuiKey_Enter).open == std::filesystem::path("/assets/beam.json"));
+  open(driver);
+  type(driver, "/data/x.msh");
+  CHECK(press(driver, ImGuiKey_Enter).open == std::filesystem::path("/data/x.msh"));
+}
+
+TEST_CASE("Esc closes the open dialog and lets go of nothing, other keys wait for it") {
+  Driver driver;
+  open(driver);
+  driver.panel.perform(Action::toggle_play);
+  CHECK(driver.draw().requests.empty());
+  driver.panel.perform(Action::release);
+  CHECK(driver.draw().requests.empty());
+  CHECK_FALSE(driver.panel.asks());
+  CHECK_FALSE(driver.panel.covers(640, 360));
+}
+
+TEST_CASE("a press beside the open dialog closes it") {
+  Driver driver;
+  open(driver);
+  driver.move({4, 400});
+  CHECK_FALSE(driver.click().open);
+  CHECK_FALSE(driver.panel.asks());
+}
+
+TEST_CASE("a small picture shows the open dialog in one column that scrolls") {
+  Driver driver(small_scene(), 640, 360, 0.72f);
+  open(driver);
+  driver.move({320, 200});
+  for (int k = 0; k < 60; ++k) {
+    ImGui::GetIO().MouseWheel = -1;
+    driver.draw();
+  }
+  ImGui::GetIO().MouseWheel = 0;
+  driver.find("a.jsonl", 100);
+  CHECK(driver.click().open == std::filesystem::path("/home/work/a.jsonl"));
+}

@@ -1,0 +1,103 @@
+#include "driver.hpp"
+
+using namespace heml;
+using namespace heml::test;
+using panel::Action;
+using panel::Request;
+using panel::Timeline;
+
+namespace {
+
+constexpr float bar_y = 735;  // in a picture 760 high
+
+/// Five seconds seen of a recording of ten.
+Timeline half_way() {
+  Timeline timeline;
+  timeline.rate = 100;
+  timeline.live = 500;
+  timeline.end = 1000;
+  timeline.moments = 300;
+  timeline.bytes = 4'000'000;
+  timeline.room = 256'000'000;
+  return timeline;
+}
+
+/// A place on the track for a share of it.
+float place(Driver& driver, float share) {
+  float first = -1, last = -1;
+  for (float x = 280; x < 1020; x += 4) {
+    driver.move({x, bar_y});
+    driver.draw();
+    if (driver.panel.hovered() != "Timeline") continue;
+    if (first < 0) first = x;
+    last = x;
+  }
+  REQUIRE(first >= 0);
+  return first + share * (last - first);
+}
+
+}  // namespace
+
+TEST_CASE("without a timeline there is no bar") {
+  Driver driver;
+  CHECK_FALSE(driver.panel.covers(640, bar_y));
+  driver.panel.set_timeline(half_way());
+  driver.draw();
+  CHECK(driver.panel.covers(640, bar_y));
+}
+
+TEST_CASE("the bar is dragged to what was seen at once, and to what lies ahead where the mouse lets go") {
+  Driver driver;
+  driver.panel.set_timeline(half_way());
+  const float past = place(driver, 0.3f), ahead = place(driver, 0.8f);
+  driver.move({past, bar_y});
+  driver.draw();
+  driver.hold(true);
+  auto actions = driver.draw();
+  REQUIRE(actions.look_at);
+  CHECK(*actions.look_at == doctest::Approx(300).epsilon(0.03));
+  driver.move({past - 40, bar_y});
+  actions = driver.draw();
+  REQUIRE(actions.look_at);
+  CHECK(*actions.look_at < 290);
+  driver.move({ahead, bar_y});
+  CHECK_FALSE(driver.draw().look_at);
+  driver.hold(false);
+  actions = driver.draw();
+  REQUIRE(actions.look_at);
+  CHECK(*actions.look_at == doctest::Approx(800).epsilon(0.03));
+  CHECK_FALSE(driver.draw().look_at);
+}
+
+TEST_CASE("while one looks back there are ways on and back") {
+  Driver driver;
+  Timeline timeline = half_way();
+  timeline.shown = 200;
+  driver.panel.set_timeline(timeline);
+  const auto press = [&](const char* name) {
+    for (float x = 900; x < 1020; x += 4) {
+      driver.move({x, bar_y});
+      driver.draw();
+      if (driver.panel.hovered() == name) return driver.click().requests;
+    }
+    return std::vector<Request>();
+  };
+  CHECK(press("Resume") == std::vector{Request::resume});
+  CHECK(press("Now") == std::vector{Request::now});
+  driver.panel.perform(Action::release);
+  CHECK(driver.draw().requests == std::vector{Request::now});
+  driver.panel.set_timeline(half_way());
+  driver.panel.perform(Action::release);
+  CHECK(driver.draw().requests == std::vector{Request::release});
+}
+
+TEST_CASE("keys look earlier and later, at the start and at the present, and resume") {
+  Driver driver;
+  for (const auto& [action, request] :
+       {std::pair(Action::look_earlier, Request::earlier), std::pair(Action::look_later, Request::later),
+        std::pair(Action::look_first, Request::first), std::pair(Action::look_now, Request::now),
+        std::pair(Action::resume, Request::resume), std::pair(Action::film, Request::film)}) {
+    driver.panel.perform(action);
+    CHECK(driver.draw().requests == std::vector{request});
+  }
+}

@@ -1,0 +1,85 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <app/window/library.hpp>
+#include <app/window/state_folder.hpp>
+#include <cstdlib>
+#include <fstream>
+
+using namespace heml;
+using namespace heml::window;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A folder that goes with its contents, and holds what is remembered meanwhile.
+struct Folder {
+  fs::path path;
+  Folder() {
+    std::string name = (fs::temp_directory_path() / "heml-library-XXXXXX").string();
+    REQUIRE(mkdtemp(name.data()));
+    path = name;
+    setenv("XDG_STATE_HOME", (path / ".state").c_str(), 1);
+  }
+  ~Folder() { fs::remove_all(path); }
+  fs::path write(const std::string& name) const {
+    std::ofstream(path / name) << "text";
+    return path / name;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("every scene that comes with heml is offered with title, description and picture") {
+  const Folder folder;
+  const Listing listing = list_offers({}, true);
+  CHECK(listing.offers.scenes.size() >= 14);
+  CHECK(listing.offers.extreme.size() >= 20);
+  for (const panel::Offer& offer : listing.offers.scenes) {
+    CAPTURE(offer.path.string());
+    CHECK_FALSE(offer.title.empty());
+    CHECK_FALSE(offer.about.empty());
+    REQUIRE(listing.pictures.count(offer.path));
+    const render::Size size = listing.pictures.at(offer.path).size;
+    CHECK(size.width * 9 == size.height * 16);
+  }
+}
+
+TEST_CASE("a folder shows the one above, folders, and files that can be opened") {
+  const Folder folder;
+  fs::create_directory(folder.path / "organs");
+  for (const char* name : {"liver.obj", "beam.json", "notes.txt", "Beam.JSONL", ".hidden.json", "box.msh"})
+    folder.write(name);
+  const auto files = list_offers(folder.path, false).offers.files;
+  std::vector<std::string> titles;
+  for (const panel::Offer& offer : files) titles.push_back(offer.title);
+  CHECK(titles == std::vector<std::string>{"..", "organs", "Beam.JSONL", "beam.json", "box.msh", "liver.obj"});
+  CHECK(files[0].path == folder.path.parent_path());
+  CHECK(files[1].is_folder);
+  CHECK_FALSE(files[2].is_folder);
+  CHECK(files[2].about.starts_with("recording"));
+  CHECK(files[5].about.starts_with("surface"));
+}
+
+TEST_CASE("a folder that cannot be looked into says why") {
+  const Folder folder;
+  const auto offers = list_offers(folder.path / "nowhere", false).offers;
+  CHECK_FALSE(offers.problem.empty());
+  CHECK(offers.files.size() == 1);
+}
+
+TEST_CASE("what was opened last comes first, once, and what has gone is told") {
+  const Folder folder;
+  const fs::path a = fs::canonical(folder.write("a.json")), b = fs::canonical(folder.write("b.json"));
+  remember_file(a);
+  remember_file(b);
+  remember_file(a);
+  CHECK(recent_files() == std::vector{a, b});
+  fs::remove(b);
+  const auto recent = list_offers({}, false).offers.recent;
+  REQUIRE(recent.size() == 2);
+  CHECK(recent[0].is_there);
+  CHECK_FALSE(recent[1].is_there);
+  for (int k = 0; k < 40; ++k) remember_file(folder.path / ("c" + std::to_string(k)));
+  CHECK(recent_files().size() == 20);
+}

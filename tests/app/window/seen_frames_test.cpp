@@ -1,0 +1,61 @@
+#include <doctest/doctest.h>
+
+#include <app/window/seen_frames.hpp>
+
+using namespace heml;
+using window::SeenFrames;
+
+namespace {
+Frame at(long tick, long commands = 0) {
+  Frame frame;
+  frame.tick = tick;
+  frame.commands = commands;
+  frame.positions.resize(100);
+  return frame;
+}
+}  // namespace
+
+TEST_CASE("what was seen is found again by its tick") {
+  SeenFrames seen;
+  for (const long tick : {3l, 5l, 9l}) seen.take(at(tick));
+  REQUIRE(seen.frames().size() == 3);
+  CHECK(seen.place_of(0) == 0);
+  CHECK(seen.place_of(3) == 0);
+  CHECK(seen.place_of(8) == 1);
+  CHECK(seen.place_of(1000) == 2);
+}
+
+TEST_CASE("a frame of the same tick replaces the last, one of the past is not taken") {
+  SeenFrames seen;
+  seen.take(at(4));
+  seen.take(at(7, 1));
+  seen.take(at(7, 2));
+  seen.take(at(5));
+  REQUIRE(seen.frames().size() == 2);
+  CHECK(seen.frames().back().commands == 2);
+}
+
+TEST_CASE("the room is never exceeded, and the whole session stays") {
+  constexpr std::size_t room = 100'000;
+  SeenFrames seen(room);
+  for (long tick = 0; tick < 20'000; ++tick) {
+    seen.take(at(tick));
+    CHECK_MESSAGE(seen.bytes() <= room, tick);
+  }
+  CHECK(seen.bytes() > room / 4);
+  const auto& frames = seen.frames();
+  CHECK(frames.front().tick == 0);
+  const long gap = 20'000 / std::ssize(frames);
+  CHECK(frames.back().tick > 20'000 - 3 * gap);
+  for (std::size_t k = 1; k < frames.size(); ++k) CHECK(frames[k].tick - frames[k - 1].tick <= 3 * gap);
+}
+
+TEST_CASE("what is later than a moment can be forgotten") {
+  SeenFrames seen;
+  for (long tick = 0; tick < 10; ++tick) seen.take(at(tick));
+  const std::size_t before = seen.bytes();
+  seen.cut_after(4);
+  CHECK(seen.frames().size() == 5);
+  CHECK(seen.frames().back().tick == 4);
+  CHECK(seen.bytes() == before / 2);
+}

@@ -1,0 +1,145 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <engine/mesh/files.hpp>
+#include <engine/scenario/samples.hpp>
+#include <heml/mesh/generate.hpp>
+#include <heml/mesh/read.hpp>
+#include <heml/mesh/write.hpp>
+#include <heml/scenario/adapt.hpp>
+#include <heml/scenario/load_mesh.hpp>
+#include <heml/scenario/recorder.hpp>
+#include <heml/scenario/replay.hpp>
+#include <heml/scenario/text_file.hpp>
+
+namespace heml {
+namespace {
+
+/// A bar held at x = 0 by the numbers of its nodes, that sags and is pulled at its other end.
+Scene sagging(const std::string& patch = "{}") {
+  Json scene = Json::parse(test::scene_with(R"({
+    "mesh": {"box": {"size": [0.2, 0.05, 0.05], "cells": [4, 1, 1]}},
+    "gravity": [0, -1, 0],
+    "loads": [{"box": [[0.2, -1, -1], [0.2, 1, 1]], "traction": [10, 0, 0]}]})"));
+  scene["boundary"] = Json::parse(R"([{"nodes": [0, 5, 10, 15], "fix": true}])");
+  scene.merge_patch(Json::parse(patch));
+  return parse_scene(scene.dump(), "folder/scene.json");
+}
+
+std::string refused(const Scene& scene, const std::optional<double>& moment = {}) {
+  return refusal([&] { adapt(scene, load_setup(scene), RefineGoal{0.3, 500}, moment); });
+}
+
+}  // namespace
+
+TEST_CASE("a mesh is refined until its estimate is as asked for, and the error falls with every mesh") {
+  const Scene scene = sagging();
+  std::size_t told = 0;
+  const Adaptation adapted = adapt(scene, load_setup(scene), RefineGoal{0.4, 5000}, {}, [&](const AdaptedMesh& mesh) {
+    ++told;
+    CHECK(mesh.error > 0);
+  });
+  CHECK(adapted.reached);
+  REQUIRE(adapted.meshes.size() > 3);
+  CHECK(told == adapted.meshes.size());
+  for (std::size_t k = 1; k < adapted.meshes.size(); ++k) {
+    CHECK(adapted.meshes[k].tets > adapted.meshes[k - 1].tets);
+    CHECK(adapted.meshes[k].potential < adapted.meshes[k - 1].potential);  // nested spaces: Π can only fall
+  }
+  CHECK(adapted.meshes.back().error <= 0.4);
+  CHECK(adapted.meshes[adapted.meshes.size() - 2].error > 0.4);
+  CHECK(adapted.meshes.back().tets == adapted.setup.mesh.tets.size());
+}
+
+TEST_CASE("no more tetrahedra are made than are allowed, and that is told") {
+  const Scene scene = sagging();
+  const Adaptation adapted = adapt(scene, load_setup(scene), RefineGoal{0.01, 300}, {});
+  CHECK(!adapted.reached);
+  CHECK(adapted.setup.mesh.tets.size() <= 300);
+  CHECK(adapted.setup.mesh.tets.size() > 100);
+}
+
+TEST_CASE("what is held on a finer mesh is what lies between what was held") {
+  const Scene scene = sagging();
+  const Adaptation adapted = adapt(scene, load_setup(scene), RefineGoal{0.4, 5000}, {});
+  const std::vector<int>& held = adapted.setup.boundary[0].nodes;
+  const std::vector<Vec3>& nodes = adapted.setup.mesh.nodes;
+  const auto at_the_wall = std::count_if(nodes.begin(), nodes.end(), [](const Vec3& x) { return x.x() == 0; });
+  CHECK(at_the_wall > 4);
+  CHECK(static_cast<std::ptrdiff_t>(held.size()) == at_the_wall);
+  for (const int n : held) CHECK(nodes[static_cast<std::size_t>(n)].x() == 0);
+}
+
+TEST_CASE("a scene that asks for it is refined as it is loaded, and written and read back asks the same") {
+  const Scene scene = sagging(R"({"mesh": {"refine": {"error": 0.4, "tets": 5000}}})");
+  const WorldSetup setup = load_setup(scene);
+  CHECK(setup.mesh.tets.size() > 3 * 20);
+  const Scene again = parse_scene(scene_text(scene), "folder/scene.json");
+  REQUIRE(again.mesh.refine);
+  CHECK(again.mesh.refine->error == 0.4);
+  CHECK(again.mesh.refine->tets == 5000);
+  CHECK(test::says(refusal([] { sagging(R"({"mesh": {"refine": {"error": 2}}})"); }), "mesh.refine.error: is 2"));
+  CHECK(test::says(refusal([] { sagging(R"({"mesh": {"refine": {"at": 2}}})"); }), "mesh.refine.at: unknown key"));
+}
+
+TEST_CASE("a recorded session on a refined mesh replays to the bit, though it removes elements by their new numbers") {
+  const TemporaryFolder folder;
+  const Scene scene = sagging(R"({"mesh": {"refine": {"error": 0.4, "tets": 5000}}})");
+  {
+    const auto world = load_world(scene);
+    Recorder recorder(folder / "session.jsonl", scene, *world, 2);
+    const Command removal = RemoveElements{{{100}, {}, {}, {}}};
+    REQUIRE(!world->apply(removal));
+    recorder.command(*world, removal);
+    for (int k = 0; k < 4; ++k) {
+      world->tick();
+      recorder.ticked(*world);
+    }
+    recorder.end(*world);
+  }
+  const Scene recording = read_scene(folder / "session.jsonl");
+  const auto world = load_world(recording);
+  CHECK(!replay(recording, *world).difference);
+}
+
+TEST_CASE("the refined scene, written with its mesh and fields, moves as the refined world does") {
+  const TemporaryFolder folder;
+  TetMesh mesh = make_box(Vec3(0.2, 0.05, 0.05), {4, 1, 1});
+  mesh.fields = {{"other", 1, std::vector<double>(20, 7)}, {"E", 1, {}}};
+  for (int t = 0; t < 20; ++t) mesh.fields[1].values.push_back(1e4 + 100 * t);
+  write_tet_mesh(folder / "bar.vtu", mesh);
+  Json text = Json::parse(scene_text(sagging()));
+  text["mesh"] = {{"file", "bar.vtu"}, {"translate", {0.1, 0, 0}}};
+  text["materials"] = Json::parse(R"([{"law": "stvk", "young": {"field": "E"}, "poisson": 0.3}])");
+  text["loads"] = Json::array();
+  const Scene scene = parse_scene(text.dump(), folder / "scene.json");
+
+  const Adaptation adapted = adapt(scene, load_setup(scene), RefineGoal{0.4, 400}, 0.05);
+  const AdaptedScene written = adapted_scene(scene, adapted, folder / "fine.vtu");
+  write_tet_mesh(folder / "fine.vtu", written.mesh);
+  const Scene read = parse_scene(scene_text(written.scene), folder / "fine.json");
+  CHECK(written.mesh.fields.size() == 2);
+  const auto fine = load_world(read), direct = make_world(adapted.setup);
+  CHECK(identity_of(fine->setup().mesh) == identity_of(direct->setup().mesh));
+  for (int k = 0; k < 5; ++k) fine->tick(), direct->tick();
+  CHECK(fine->state_hash() == direct->state_hash());
+}
+
+TEST_CASE("what cannot be refined is refused with what would do") {
+  CHECK(test::says(refused(sagging(R"({"gravity": [0, 0, 0], "loads": []})")), "nothing deforms the body"));
+  CHECK(test::says(refused(sagging(R"({"gravity": [0, 0, 0], "loads": []})")), "heml refine SCENE --at SECONDS"));
+  CHECK(test::says(refused(sagging(), 5), "ends at 0.1 s"));
+  Scene springs = sagging();
+  springs.materials[0].material = Material();
+  springs.materials[0].material.law = "mass_spring";
+  springs.materials[0].material.parameters = {1000};
+  CHECK(test::says(refused(springs), "springs have no stress"));
+  Scene removing = sagging();
+  removing.events.push_back({1, RemoveElements{{{3}, {}, {}, {}}}});
+  CHECK(test::says(refusal([&] {
+                     adapted_scene(removing, adapt(removing, load_setup(removing), RefineGoal{0.9, 500}, {}), "m.vtu");
+                   }),
+                   "step 1 removes tetrahedra by numbers"));
+}
+
+}  // namespace heml
