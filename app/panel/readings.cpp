@@ -77,6 +77,9 @@ void draw_volume(Rows& rows, const Frame& frame, const History& history) {
   if (frame.removed > 0)
     rows.value({"Removed", "Tetrahedra taken out of the body, of all it had. Reset brings them back."},
                fmt::format("{} of {}", frame.removed, frame.elements));
+  if (frame.last_edit && frame.last_edit->torn > 0)
+    rows.value({"Torn", "Area of one side of the tear, as the body was when it came apart. Undo takes all of it back."},
+               fmt::format("{:.3g} cm²", frame.last_edit->area * 1e4));
   if (frame.last_edit && frame.last_edit->split > 0) {
     const EditReport& cut = *frame.last_edit;
     rows.value({"Last cut", "Area of one side of the last cut, as the body was when it was made."},

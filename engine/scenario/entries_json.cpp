@@ -154,6 +154,26 @@ Json tables_json(const std::vector<Table>& tables) {
   return json;
 }
 
+std::optional<SelfContactSettings> self_contact_from(const Key& key) {
+  if (key.json().is_boolean()) return key.flag() ? std::optional(SelfContactSettings{}) : std::nullopt;
+  if (!key.json().is_object()) key.refuse("must be true, false, or {\"friction\": coefficient}");
+  key.allow({"friction"});
+  SelfContactSettings settings;
+  if (const auto friction = key.find("friction")) settings.friction = friction->non_negative();
+  return settings;
+}
+
+TearingSettings tearing_from(const Key& key) {
+  key.allow({"stretch"});
+  const double stretch = key["stretch"].number();
+  if (!(stretch > 1)) key["stretch"].refuse("must be more than 1, the stretch at rest");
+  return {stretch};
+}
+
+Json tearing_json(const TearingSettings& settings) { return {{"stretch", settings.stretch}}; }
+
+Json self_contact_json(const SelfContactSettings& settings) { return {{"friction", settings.friction}}; }
+
 ElementSelection elements_from(const Key& key) {
   key.allow({"tets", "region", "box", "sphere"});
   ElementSelection which;

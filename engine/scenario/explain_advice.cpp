@@ -137,7 +137,10 @@ std::vector<LeftOut> left_out_of(const Scene& scene, const WorldSetup& setup, co
   leave(scene.events.empty(), "tools and edits",
         "no events: grasps are an empty list, no loop asks which elements live");
   leave(facts.threads == 1, "worker threads", "one thread");
-  leave(true, "contact", "this version has none");
+  leave(setup.tables.empty(), "tables", "none: an empty list");
+  leave(!setup.self_contact, "self-contact",
+        "\"self_contact\" is not given: no surface is searched, tissue passes tissue");
+  leave(!setup.tearing, "tearing", "\"tearing\" is not given: no stretch is looked at");
   leave(scene.mesh.surface.empty(), "surface mesher", "the mesh has tetrahedra: assimp and TetGen were not started");
   leave(true, "drawing", "only run, capture and replay --frames load OSMesa or open a window");
   return left;

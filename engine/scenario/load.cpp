@@ -65,6 +65,8 @@ WorldSetup load_setup(const Scene& scene, TetMesh mesh) {
     setup.loads.push_back(std::move(load));
   }
   setup.tables = scene.tables;
+  setup.self_contact = scene.self_contact;
+  setup.tearing = scene.tearing;
   setup.gravity = scene.gravity;
   setup.solver = scene.solver;
   if (plays_as_recorded(scene)) setup.instruction_set = *scene.recorded_instructions;

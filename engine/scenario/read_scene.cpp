@@ -93,7 +93,8 @@ std::optional<InstructionSet> instructions_from(const Key& recorded) {
 Scene scene_from(const Key& key, const fs::path& folder) {
   check_version(key);
   key.allow({"schema_version", "name", "title", "description", "mesh", "materials", "boundary", "loads", "tables",
-             "gravity", "solver", "outputs", "initial", "view", "events", "checkpoints", "recorded"});
+             "self_contact", "tearing", "gravity", "solver", "outputs", "initial", "view", "events", "checkpoints",
+             "recorded"});
   Scene scene;
   scene.file = key.file();
   if (const auto name = key.find("name")) scene.name = name->text();
@@ -106,6 +107,8 @@ Scene scene_from(const Key& key, const fs::path& folder) {
   if (const auto loads = key.find("loads"))
     loads->each([&](const Key& entry) { scene.loads.push_back(load_from(entry)); });
   if (const auto tables = key.find("tables")) scene.tables = tables_from(*tables);
+  if (const auto contact = key.find("self_contact")) scene.self_contact = self_contact_from(*contact);
+  if (const auto tearing = key.find("tearing")) scene.tearing = tearing_from(*tearing);
   if (const auto gravity = key.find("gravity")) scene.gravity = gravity->vector();
   if (const auto solver = key.find("solver")) scene.solver = solver_from(*solver);
   if (const auto outputs = key.find("outputs")) read_outputs(*outputs, scene);
@@ -118,9 +121,12 @@ Scene scene_from(const Key& key, const fs::path& folder) {
   return scene;
 }
 
-/// Plastic flow depends on the way taken, which statics does not follow.
+/// Plastic flow and tears depend on the way taken, which statics does not follow.
 void check_static(const Scene& scene) {
   if (!scene.solver.is_static()) return;
+  if (scene.tearing)
+    throw InputError(scene.file, "tearing", "does not go with solver.integrator static",
+                     "use backward_euler with loads ramped over a time");
   for (std::size_t m = 0; m < scene.materials.size(); ++m)
     if (scene.materials[m].material.plasticity)
       throw InputError(scene.file, fmt::format("materials[{}].plasticity", m),

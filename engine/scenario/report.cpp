@@ -37,6 +37,10 @@ Json edit_json(const EditReport& edit) {
     json["area"] = edit.area;
     json["smallest_angle"] = edit.smallest_angle;
   }
+  if (edit.torn > 0) {
+    json["torn"] = edit.torn;
+    json["area"] = edit.area;
+  }
   return json;
 }
 
@@ -80,6 +84,12 @@ void write_report(const std::filesystem::path& path, World& world, const SolveFa
                                 {"work", table.work},
                                 {"deepest", table.deepest},
                                 {"touching", table.touching}});
+  if (const auto contact = world.self_contact())
+    report["self_contact"] = {{"force", contact->force},
+                              {"work", contact->work},
+                              {"energy", contact->energy},
+                              {"deepest", contact->deepest},
+                              {"touching", contact->touching}};
   report["nodes"] = world.setup().mesh.nodes.size();
   const std::size_t removed = removed_of(world);
   report["tets"] = world.topology()->elements.size() + removed;

@@ -103,6 +103,8 @@ struct Scene {
   std::vector<BoundaryEntry> boundary;
   std::vector<LoadEntry> loads;
   std::vector<Table> tables;
+  std::optional<SelfContactSettings> self_contact;
+  std::optional<TearingSettings> tearing;
   Vec3 gravity = Vec3::Zero();
   SolverSettings solver;
   std::vector<double> output_times;  ///< s, as listed

@@ -28,6 +28,8 @@ Json scene_json(const Scene& scene, const std::filesystem::path& folder) {
   json["loads"] = Json::array();
   for (const LoadEntry& entry : scene.loads) json["loads"].push_back(load_json(entry));
   if (!scene.tables.empty()) json["tables"] = tables_json(scene.tables);
+  if (scene.self_contact) json["self_contact"] = self_contact_json(*scene.self_contact);
+  if (scene.tearing) json["tearing"] = tearing_json(*scene.tearing);
   json["gravity"] = vector_json(scene.gravity);
   json["solver"] = solver_json(scene.solver);
   json["outputs"] = {{"times", scene.output_times}, {"positions", scene.output_positions}, {"vtu", scene.output_vtu}};

@@ -47,7 +47,7 @@ struct ContactImpulses<Real>::Way {
 template <class Real>
 void ContactImpulses<Real>::begin_tick() {
   impulse_.clear();
-  duration_ = 0;
+  duration_ = pressed_ = 0;
 }
 
 template <class Real>
@@ -64,12 +64,18 @@ void ContactImpulses<Real>::first_half(Contacts& contacts, double time_before, d
     const double way = (contacts.probe->tip(time_after) - contacts.probe->tip(time_before)).norm();
     parts = std::clamp(std::ceil(way / (longest_way * contacts.probe->radius())), 1.0, most_parts);
   }
+  if (contacts.tissue) tissue_.meet(*contacts.tissue, h, inverse_mass, before, x);
   const int rounds = contacts.deeds.size() > 1 ? 3 : 1;
   for (double part = 1; part <= parts; ++part) {
     const double to = part < parts ? time_before + part / parts * h : time_after;
     const Way way{time_before, to, shrink, inverse_mass, before, contacts.surfaces(time_before), contacts.surfaces(to)};
     for (int round = 0; round < rounds; ++round)  // a table, which is fixed, has the last word
-      for (std::size_t s = contacts.deeds.size(); s-- > 0;) stop_at(way, s, contacts, v);
+      for (std::size_t s = contacts.deeds.size(); s-- > 0;) {
+        if (surfaces_[s].shape == ContactSurface::Shape::tissue)
+          tissue_.push(inverse_mass, v);
+        else
+          stop_at(way, s, contacts, v);
+      }
   }
   const auto less = [](const Stopped& a, const Stopped& b) {
     return a.surface != b.surface ? a.surface < b.surface : a.point.nodes < b.point.nodes;
@@ -78,12 +84,15 @@ void ContactImpulses<Real>::first_half(Contacts& contacts, double time_before, d
   stopped_.erase(std::unique(stopped_.begin(), stopped_.end(),
                              [&](const Stopped& a, const Stopped& b) { return !less(a, b) && !less(b, a); }),
                  stopped_.end());
+  const auto place = [&](int n) {
+    if (!(inverse_mass[static_cast<std::size_t>(n)] > 0)) return;
+    for (int i = 3 * n; i < 3 * n + 3; ++i) x[i] = before[i] + static_cast<Real>(h) * v[i];
+  };
   for (const Stopped& stopped : stopped_)
-    for (std::size_t k = 0; k < static_cast<std::size_t>(stopped.point.count); ++k) {
-      const int n = 3 * stopped.point.nodes[k];
-      if (inverse_mass[static_cast<std::size_t>(stopped.point.nodes[k])] > 0)
-        for (int i = n; i < n + 3; ++i) x[i] = before[i] + static_cast<Real>(h) * v[i];
-    }
+    for (std::size_t k = 0; k < static_cast<std::size_t>(stopped.point.count); ++k) place(stopped.point.nodes[k]);
+  if (!contacts.tissue) return;
+  tissue_.each_node(place);
+  tissue_.tell(shrink, pressed_, contacts.deeds.back());
 }
 
 /// What would be inside at the end of the way is not; what was inside from the start comes out of it slowly.
@@ -137,11 +146,15 @@ void ContactImpulses<Real>::push(const Stopped& stopped, double closing, double 
 template <class Real>
 void ContactImpulses<Real>::second_half(Contacts& contacts, const std::vector<Real>& inverse_mass, const Real* x,
                                         Real* v) {
-  for (int round = 0; round < (surfaces_.size() > 1 || contacts.probe ? most_rounds : 1); ++round)
+  if (contacts.tissue) tissue_.stop(inverse_mass, x);
+  for (int round = 0; round < (surfaces_.size() > 1 || contacts.probe ? most_rounds : 1); ++round) {
+    if (contacts.tissue) tissue_.push(inverse_mass, v);
     for (const Stopped& stopped : stopped_) {
       const double inward = stopped.point.normal.dot(stopped.velocity - at(v, stopped.point));
       if (inward > 0) push(stopped, inward, 1, inverse_mass, contacts, v);
     }
+  }
+  if (contacts.tissue) tissue_.tell(1, pressed_, contacts.deeds.back());
   tell(contacts, x);
 }
 
@@ -153,6 +166,14 @@ void ContactImpulses<Real>::tell(Contacts& contacts, const Real* x) const {
     deeds.energy = deeds.deepest = 0;
     deeds.touching = 0;
   }
+  if (!tissue_.empty()) {
+    ContactDeeds& deeds = contacts.deeds.back();
+    tissue_.each_touch([&](const ContactPoint& point) {
+      ++deeds.touching;
+      deeds.deepest = std::max(deeds.deepest, -point.gap);
+    });
+  }
+  if (contacts.tissue) contacts.deeds.back().pressed = pressed_ / duration_;
   for (const Stopped& stopped : stopped_) {
     ContactDeeds& deeds = contacts.deeds[stopped.surface];
     ++deeds.touching;

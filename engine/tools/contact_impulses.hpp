@@ -9,8 +9,9 @@
 // and friction takes up to μ p of what slides, all of it where that is enough: what sticks, sticks. There is no
 // stiffness to choose, the stable step is what it was, and a node is never inside by more than round-off. A surface at
 // rest gives no energy. Points inside faces share nodes: those go round a few times. A probe that goes far in a step is
-// met at several places on its way.
+// met at several places on its way. Tissue that meets tissue: self_contact_impulses.hpp.
 #include <heml/tools/contacts.hpp>
+#include <heml/tools/self_contact_impulses.hpp>
 
 namespace heml {
 
@@ -38,6 +39,8 @@ class ContactImpulses {
             Real* v);
   void tell(Contacts& contacts, const Real* x) const;
 
+  SelfContactImpulses<Real> tissue_;
+  double pressed_ = 0;  ///< N s, by tissue on tissue, since the tick began
   std::vector<Stopped> stopped_;
   std::vector<Vec3> impulse_;             ///< N s, of each surface, since the tick began
   double duration_ = 0;                   ///< s, likewise

@@ -38,6 +38,8 @@ void ContactPotential::begin(const Vector& x, double time) {
   x_before_ = x_seen_ = x;
   touches_at_.resize(0);
   revisions_ = 0;
+  pairs_.clear();
+  meet(x);
   if (first) {  // what touches at first sticks, until its weight is known
     find(x);
     for (const Touch& touch : touches_)
@@ -53,6 +55,7 @@ void ContactPotential::forget() {
   friction_.clear();
   accepted_.clear();
   surfaces_.clear();
+  pairs_.clear();
   touches_at_.resize(0);
 }
 
@@ -68,17 +71,42 @@ void ContactPotential::find(const Vector& x) {
   if (touches_at_.size() > 0 && touches_at_ == x) return;
   touches_.clear();
   const auto where = [&](int n) { return at(x, n); };
-  for (std::size_t s = 0; s < surfaces_.size(); ++s)
-    each_contact(surfaces_[s], contacts_.skin, 1e-9 * bound_, where, [&](const ContactPoint& point) {
-      touches_.push_back({s, point});
-    });
+  const double near = 1e-9 * bound_;
+  for (std::size_t s = 0; s < surfaces_.size(); ++s) {
+    if (surfaces_[s].shape != ContactSurface::Shape::tissue) {
+      each_contact(surfaces_[s], contacts_.skin, near, where, [&](const ContactPoint& point) {
+        touches_.push_back({s, point});
+      });
+      continue;
+    }
+    for (const SkinPair& pair : pairs_)
+      if (const auto point = point_of(pair, where); point && point->gap < near) touches_.push_back({s, *point});
+  }
   touches_at_ = x;
+}
+
+/// Takes what touches on the way to x among the pairs. Returns whether a new one is inside there.
+bool ContactPotential::meet(const Vector& x) {
+  if (!contacts_.tissue || !with_tissue_) return false;
+  const auto before = [&](int n) { return at(x_before_, n); };
+  const auto now = [&](int n) { return at(x, n); };
+  const auto known = static_cast<std::ptrdiff_t>(pairs_.size());
+  const auto& met = contacts_.tissue->meeting(before, now);
+  std::set_difference(met.begin(), met.end(), pairs_.begin(), pairs_.begin() + known, std::back_inserter(pairs_));
+  const bool inside = std::any_of(pairs_.begin() + known, pairs_.end(), [&](const SkinPair& pair) {
+    const auto point = point_of(pair, now);
+    return point && point->gap < -bound_;
+  });
+  std::inplace_merge(pairs_.begin(), pairs_.begin() + known, pairs_.end());
+  touches_at_.resize(0);
+  return inside;
 }
 
 double ContactPotential::stiffness_of(const ContactPoint& point) const {
   const auto k = [&](std::size_t c) { return stiffness_[static_cast<std::size_t>(point.nodes[c])]; };
   if (point.count == 1) return k(0);
-  return point.count == 2 ? (k(0) + k(1)) / 2 : share_of_node * (k(0) + k(1) + k(2)) / 3;
+  if (point.count == 2) return (k(0) + k(1)) / 2;
+  return share_of_node * (point.count == 3 ? (k(0) + k(1) + k(2)) / 3 : (k(0) + k(1) + k(2) + k(3)) / 4);
 }
 
 double ContactPotential::normal_stiffness(const Touch& touch) const {
@@ -170,7 +198,7 @@ void ContactPotential::add_product(const Vector& dx, Vector& out) const {
 }
 
 bool ContactPotential::within_elements() const {
-  return std::all_of(blocks_.begin(), blocks_.end(), [](const Block& block) { return block.point.count != 2; });
+  return std::all_of(blocks_.begin(), blocks_.end(), [](const Block& block) { return block.point.count % 2 == 1; });
 }
 
 /// By the forces at x; springs that were there stay as they are.
@@ -197,10 +225,10 @@ std::vector<ContactPotential::Friction> ContactPotential::friction_of_touches() 
 
 bool ContactPotential::revise(const Vector& x) {
   if (empty() || ++revisions_ > most_revisions) return false;
+  bool changes = meet(x);
   find(x);
   std::vector<double> deepest(surfaces_.size(), 0.0);
   for (const Touch& touch : touches_) deepest[touch.surface] = std::max(deepest[touch.surface], -touch.point.gap);
-  bool changes = false;
   for (std::size_t s = 0; s < surfaces_.size(); ++s)
     if (deepest[s] > bound_ && stiffer_[s] < stiffest) {
       stiffer_[s] *= std::clamp(2 * deepest[s] / bound_, 2.0, 32.0);
@@ -229,7 +257,7 @@ void ContactPotential::accept(const Vector& x) {
   find(x);
   for (ContactDeeds& deeds : contacts_.deeds) {
     deeds.force.setZero();
-    deeds.energy = deeds.deepest = 0;
+    deeds.pressed = deeds.energy = deeds.deepest = 0;
     deeds.touching = 0;
   }
   const auto tell = [&](const Touch& touch, const Vec3& force) {
@@ -241,6 +269,7 @@ void ContactPotential::accept(const Vector& x) {
     const double inside = std::min(0.0, touch.point.gap), k = normal_stiffness(touch);
     ContactDeeds& deeds = contacts_.deeds[touch.surface];
     tell(touch, -k * inside * touch.point.normal);
+    if (touch.point.count == 4) deeds.pressed -= k * inside;
     deeds.energy += k / 2 * inside * inside;
     deeds.deepest = std::max(deeds.deepest, -inside);
     deeds.touching += inside < 0 ? 1 : 0;
@@ -250,7 +279,8 @@ void ContactPotential::accept(const Vector& x) {
     tell(friction.touch, force);
     // What has slipped is not stretched; faces slide along a probe, and their springs begin anew.
     const double k = stiffness_of(friction.touch.point);
-    friction.stretch = friction.touch.point.count == 1 && k > 0 ? Vec3(-force / k) : Vec3(Vec3::Zero());
+    const bool stays = friction.touch.point.count == 1 || friction.touch.point.count == 4;
+    friction.stretch = stays && k > 0 ? Vec3(-force / k) : Vec3(Vec3::Zero());
   }
   accepted_ = friction_of_touches();
 }

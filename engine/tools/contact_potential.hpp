@@ -11,6 +11,10 @@
 //                      one's, the problem is solved again (revise()).
 //
 // What sticks at rest does not creep: the spring is kept from step to step.
+//
+// Which pairs of tissue and tissue are in contact (self_contact.hpp) is settled while a problem is solved, so that its
+// energy has no jumps: those that touch when a step begins, and those that a solution has let cross, for which it is
+// solved again. So nothing tunnels, however far it goes in a step.
 #include <heml/dynamics/objective.hpp>
 #include <heml/tools/contacts.hpp>
 
@@ -30,6 +34,8 @@ class ContactPotential {
   void begin(const Vector& x, double time);
   /// There are other surfaces now: what was known of any is forgotten.
   void forget();
+  /// From now on tissue passes tissue.
+  void leave_tissue() { with_tissue_ = false; }
   /// Surfaces are where they are at a time, s, from now on; friction is assumed as it was at the step's start.
   void set_time(double time);
 
@@ -42,7 +48,7 @@ class ContactPotential {
   void linearise(const Vector& x);
   void add_product(const Vector& dx, Vector& out) const;
   /// Calls visit(node, node, block, 3×3) for pairs of nodes of one face, each pair once, and for single ones; of a
-  /// thread, whose ends share no element, for each of them alone.
+  /// thread and of two pieces of tissue, which share no element, for each node alone.
   template <class Visit>
   void each_block(const Visit& visit) const;
 
@@ -70,6 +76,7 @@ class ContactPotential {
     Mat3 K;
   };
   void find(const Vector& x);
+  bool meet(const Vector& x);
   double stiffness_of(const ContactPoint& point) const;
   double normal_stiffness(const Touch& touch) const;
   Vec3 sliding(const Friction& friction, const Vector& x) const;
@@ -82,6 +89,8 @@ class ContactPotential {
   std::vector<double> stiffer_;  ///< of each surface, times
   std::vector<Friction> friction_, accepted_;
   std::vector<ContactSurface> surfaces_, surfaces_before_;
+  bool with_tissue_ = true;
+  std::vector<SkinPair> pairs_;  ///< of tissue, in contact or as good as; ascending
   Vector x_before_, touches_at_, x_seen_;
   std::vector<Touch> touches_;  ///< where touches_at_ is
   std::vector<Block> blocks_;

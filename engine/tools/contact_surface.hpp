@@ -61,7 +61,7 @@ struct Suture {
 
 /// One of them at one moment.
 struct ContactSurface {
-  enum class Shape { plane, capsule, thread };
+  enum class Shape { plane, capsule, thread, tissue };
   Shape shape;
   Vec3 point;                 ///< m: on the plane; the capsule's tip
   Vec3 other;                 ///< the plane's normal, unit; the capsule's other end, m
@@ -74,12 +74,12 @@ ContactSurface surface_of(const Table& table);
 ContactSurface surface_of(const Probe& probe, double time);
 ContactSurface surface_of(const Suture& suture, double time);
 
-/// A point of the tissue near a surface: a sum of nodes' positions. Of a face the weights' sum is 1, of a thread's ends
-/// they are 1 and −1.
+/// A point of the tissue near a surface: a sum of nodes' positions. Of a face the weights' sum is 1; of a thread's
+/// ends, and of tissue that meets tissue, where the point is the way from one to the other, it is 0.
 struct ContactPoint {
-  std::array<int, 3> nodes;
-  std::array<double, 3> weights;
-  int count;    ///< of nodes: 1, 2 (a thread) or 3
+  std::array<int, 4> nodes;
+  std::array<double, 4> weights;
+  int count;    ///< of nodes: 1, 2 (a thread), 3 (a face) or 4 (self_contact.hpp)
   double gap;   ///< m, negative where it must not be
   Vec3 normal;  ///< unit, the way back
 };
@@ -110,7 +110,7 @@ void each_contact(const ContactSurface& surface, const ContactSkin& skin, double
   if (surface.shape == ContactSurface::Shape::plane) {
     for (const int n : skin.nodes) {
       const double gap = surface.other.dot(at(n) - surface.point);
-      if (gap < reach) visit(ContactPoint{{n, n, n}, {1, 0, 0}, 1, gap, surface.other});
+      if (gap < reach) visit(ContactPoint{{n, n, n, n}, {1, 0, 0, 0}, 1, gap, surface.other});
     }
     return;
   }
@@ -133,7 +133,8 @@ double gap_again(const ContactSurface& surface, const ContactPoint& point, const
   if (surface.shape == ContactSurface::Shape::thread)
     now = near_end(surface, at(point.nodes[0]), at(point.nodes[1]), 0);
   else
-    now = near_face(surface, point.nodes, at(point.nodes[0]), at(point.nodes[1]), at(point.nodes[2]), 0);
+    now = near_face(surface, {point.nodes[0], point.nodes[1], point.nodes[2]}, at(point.nodes[0]), at(point.nodes[1]),
+                    at(point.nodes[2]), 0);
   return now ? now->gap : 0;
 }
 

@@ -3,6 +3,7 @@
 // tissue is in one. Explicit methods are stopped by impulses (contact_impulses.hpp), implicit ones by an energy
 // (contact_potential.hpp); both tell here.
 #include <heml/tools/contact_surface.hpp>
+#include <heml/tools/self_contact.hpp>
 #include <optional>
 #include <vector>
 
@@ -11,6 +12,7 @@ namespace heml {
 /// What a surface has done to the body.
 struct ContactDeeds {
   Vec3 force = Vec3::Zero();  ///< N, on the body: of the last step, or the mean of the steps of a tick
+  double pressed = 0;         ///< N, likewise, of tissue on tissue, whose forces have no sum: the sum of what presses
   double work = 0;     ///< J, force times way: friction's is negative, a probe's may be positive; impacts have none
   double energy = 0;   ///< J, that is stored in an implicit method's contact
   double deepest = 0;  ///< m, that a point of the body is inside; 0: none
@@ -21,19 +23,23 @@ struct Contacts {
   std::vector<Table> tables;
   std::optional<Probe> probe;
   std::vector<Suture> sutures;
-  ContactSkin skin;                 ///< inner numbers; kept up with the body while there is a surface
-  std::vector<ContactDeeds> deeds;  ///< of the tables, the probe, the sutures
+  std::optional<SelfContact> tissue;  ///< kept up with the body, where a scene asks for it
+  ContactSkin skin;                   ///< inner numbers; kept up with the body while there is a surface
+  std::vector<ContactDeeds> deeds;    ///< of the tables, the probe, the sutures, the tissue
 
   /// Of one of surfaces(), by number; before the first step nothing.
   ContactDeeds deeds_of(std::size_t s) const { return s < deeds.size() ? deeds[s] : ContactDeeds(); }
 
-  bool empty() const { return tables.empty() && !probe && sutures.empty(); }
-  /// Tables, the probe, sutures, at a time, s.
+  bool empty() const { return !has_tools() && !tissue; }
+  /// Whether there is more than the tissue itself.
+  bool has_tools() const { return !tables.empty() || probe || !sutures.empty(); }
+  /// Tables, the probe, sutures, the tissue itself, at a time, s.
   std::vector<ContactSurface> surfaces(double time) const {
     std::vector<ContactSurface> all;
     for (const Table& table : tables) all.push_back(surface_of(table));
     if (probe) all.push_back(surface_of(*probe, time));
     for (const Suture& suture : sutures) all.push_back(surface_of(suture, time));
+    if (tissue) all.push_back({ContactSurface::Shape::tissue, Vec3::Zero(), Vec3::Zero(), 0, tissue->friction()});
     return all;
   }
 };

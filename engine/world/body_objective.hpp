@@ -35,6 +35,8 @@ class BodyObjective final : public LoadedObjective {
   /// Moves tools alone to where they are at a time, s.
   void move_tools(double time);
   void forget_contact() { contact_.forget(); }
+  /// From now on tissue passes tissue.
+  void leave_tissue() { contact_.leave_tissue(); }
   /// Adds what contact does at x, where the last step has ended, N.
   void add_contact(const Vector& x, Vector& f) { contact_.add_forces(x, f); }
 

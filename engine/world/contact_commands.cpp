@@ -109,10 +109,16 @@ std::optional<std::string> TypedWorld<Real>::take(const CutSutures&) {
 template <class Real>
 void TypedWorld<Real>::take_surfaces() {
   take_skin();
-  contacts_.deeds.assign(contacts_.tables.size() + (contacts_.probe ? 1 : 0) + contacts_.sutures.size(), {});
+  contacts_.deeds.assign(contacts_.surfaces(state_.time).size(), {});
   impulses_.begin_tick();
   if (implicit_) implicit_->body.forget_contact();
   if (recovering()) recovery_->stand_in->parts.body.forget_contact();
+}
+
+/// The body has other elements, or begins anew.
+template <class Real>
+void TypedWorld<Real>::take_tissue() {
+  if (setup_.self_contact) contacts_.tissue.emplace(*setup_.self_contact, model_.mesh);
 }
 
 /// The nodes of the surface that are free, and its faces where something may be smaller than they are.

@@ -102,6 +102,7 @@ std::vector<MemoryFacts> TypedWorld<Real>::memory_facts() const {
   facts.push_back(
       {"state", of_state(state_) + of_state(last_valid_) + bytes_of(mass_, inverse_mass_, mobility_, element_states_)});
   if (recovery_) facts.push_back({"recovery", of_state(recovery_->good)});
+  if (contacts_.tissue) facts.push_back({"self-contact", contacts_.tissue->bytes()});
   if (!implicit_) return facts;
   const ImplicitParts<Real>& parts = *implicit_;
   facts.push_back({"factors", parts.linear.bytes()});

@@ -5,7 +5,8 @@
 #include <heml/elastic/fan_kernels.hpp>
 #include <heml/materials/material.hpp>
 #include <heml/mesh/tet_mesh.hpp>
-#include <heml/tools/contact_surface.hpp>
+#include <heml/tools/self_contact.hpp>
+#include <heml/tools/tearing.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -97,7 +98,9 @@ struct WorldSetup {
   std::vector<Boundary> boundary;
   std::vector<Load> loads;
   std::vector<Table> tables;
-  Vec3 gravity = Vec3::Zero();  ///< m/s²
+  std::optional<SelfContactSettings> self_contact;  ///< none: tissue passes tissue
+  std::optional<TearingSettings> tearing;           ///< none: nothing tears; dynamics alone
+  Vec3 gravity = Vec3::Zero();                      ///< m/s²
   SolverSettings solver;
   Vec3 initial_velocity = Vec3::Zero();                   ///< m/s, of every free node
   std::vector<Vec3> initial_positions;                    ///< #V or empty (rest shape), mesh-file order

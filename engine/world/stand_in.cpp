@@ -41,7 +41,9 @@ StandIn<Real>::StandIn(const Model<Real>& model, const WorldSetup& setup, const 
            {false, false, setup.instruction_set, setup.solver.threads}),
       parts(body, model, masses, inverse_mass,
             preconditioner_moduli(model.mesh, model.material_of, setup.materials, Minimiser::newton), grasps, contacts,
-            team, {}) {}
+            team, {}) {
+  parts.body.leave_tissue();  // a tangle is not to hold itself
+}
 
 template struct StandIn<float>;
 template struct StandIn<double>;

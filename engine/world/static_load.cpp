@@ -42,7 +42,7 @@ void TypedWorld<Real>::load_to(double fraction) {
   }
   Equilibrium& equilibrium = *parts.equilibrium;
   work_.load = equilibrium.load();
-  if (held_nodes().empty() && contacts_.empty() && pushed_away(parts.body, equilibrium.x(), fraction))
+  if (held_nodes().empty() && !contacts_.has_tools() && pushed_away(parts.body, equilibrium.x(), fraction))
     return halt_unsolved("no equilibrium: nothing holds the body and its loads do not balance (add a boundary entry)");
   const bool reached = equilibrium.load_to(fraction, interrupted_);
   work_.load = equilibrium.load();

@@ -72,6 +72,7 @@ void TypedWorld<Real>::start() {
   contacts_.probe.reset();
   contacts_.sutures.clear();
   contacts_.deeds.clear();
+  take_tissue();
   take_surfaces();
   const std::size_t nodes = model_.mesh.nodes.size();
   state_.x.resize(3 * nodes);
@@ -112,6 +113,7 @@ void TypedWorld<Real>::tick() {
   const FlushDenormals flush;
   substeps_ = 0;
   impulses_.begin_tick();
+  if (setup_.tearing && !recovering() && !setup_.solver.is_static()) tear();
   if (setup_.solver.integrator == Integrator::automatic) reconsider_method();
   const double until = static_cast<double>(ticks_ - origin_tick_ + 1) * setup_.solver.tick();
   advance(until);
@@ -279,7 +281,8 @@ void TypedWorld<Real>::find_stable_step() {
   for (const auto& grasp : grasps_) omega = std::max(omega, static_cast<double>(grasp.omega()));
   lambda += omega * omega;
   const double half = omega + (remembers_ ? static_cast<double>(body.damping_bound(state_.x.data(), team_)) / 2 : 0);
-  const bool cut = std::any_of(edits_.begin(), edits_.end(), [](const EditReport& edit) { return edit.split > 0; });
+  const bool cut =
+      std::any_of(edits_.begin(), edits_.end(), [](const EditReport& edit) { return edit.split + edit.torn > 0; });
   stable_step_ = (cut ? safety_of_pieces : safety) * 2 / (half + std::sqrt(half * half + lambda));
   steps_since_bound_ = 0;
   bound_interval_ = steps_between_bounds;

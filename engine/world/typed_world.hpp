@@ -52,6 +52,7 @@ class TypedWorld final : public World {
   std::vector<TableState> tables() const override;
   ProbeState probe() const override;
   std::vector<SutureState> sutures() const override;
+  std::optional<SelfContactState> self_contact() const override;
   bool follow(const World& leader) override;
   std::uint64_t state_hash() const override;
   std::vector<std::uint16_t> node_hashes() const override;
@@ -149,6 +150,7 @@ class TypedWorld final : public World {
   std::optional<std::string> take(const SutureTissue& command);
   std::optional<std::string> take(const CutSutures& command);
   void take_surfaces();
+  void take_tissue();
   void take_skin();
   std::vector<HeldNode> held_nodes() const;
 
@@ -167,6 +169,7 @@ class TypedWorld final : public World {
   std::optional<std::string> take(const RemoveElements& command);
   std::optional<std::string> take(const CutTissue& command);
   std::optional<std::string> take(const Undo& command);
+  void tear();
   EditReport begin_report();
   void end_report(EditReport& report);
   std::optional<std::string> take(const TakeFactor& command);
@@ -197,6 +200,7 @@ class TypedWorld final : public World {
   std::vector<int> stroke_;                          ///< nodes in the last cut, mesh-file order
   bool in_stroke_ = false;                           ///< whether it was saved before it
   double snap_ = 0;                                  ///< m, of cuts; 0: nothing was cut yet
+  std::optional<Tearing> tearing_;                   ///< none unless the scene asks for it
   ElasticBody<Real> body_;
   ThreadTeam team_;
   std::vector<GraspSpring<Real>> grasps_;  ///< none or one: an empty list costs nothing

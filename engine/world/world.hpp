@@ -19,7 +19,7 @@
 
 namespace heml {
 
-/// What an edit of the mesh has done to a body: a removal, or the sweeps of a stroke.
+/// What an edit of the mesh has done to a body: a removal, the sweeps of a stroke, or a tear as far as it has gone.
 struct EditReport {
   long tick = 0;                           ///< at whose start it began
   std::size_t removed = 0;                 ///< elements that are lost
@@ -29,8 +29,9 @@ struct EditReport {
   // Of a cut:
   std::size_t split = 0;      ///< elements, into
   std::size_t pieces = 0;     ///< so many
-  double area = 0;            ///< m², of one side of the cut, as the body was
+  double area = 0;            ///< m², of one side of the cut, as the body was; of a tear too
   double smallest_angle = 0;  ///< degrees, dihedral, of the worst piece at rest
+  std::size_t torn = 0;       ///< of a tear: faces that have come apart
 };
 
 /// Why a world will not step on. The state is the last valid one.
@@ -97,6 +98,15 @@ struct SutureState {
   Vec3 force = Vec3::Zero();                             ///< N, on its first node: along the link
 };
 
+/// Contact of tissue with tissue as the world sees it.
+struct SelfContactState {
+  double force = 0;   ///< N, the sum of what presses between all pairs: of explicit methods the mean over the last tick
+  double work = 0;    ///< J, of friction
+  double energy = 0;  ///< J, stored in the contact of implicit methods
+  double deepest = 0;  ///< m, that tissue is inside tissue
+  int touching = 0;    ///< pairs of a node and a face, or of two ridges
+};
+
 struct WorldFacts;  // facts.hpp
 
 class World {
@@ -150,12 +160,14 @@ class World {
   virtual std::vector<double> volume_ratios() = 0;  ///< J of each element of topology(), in its order
   /// Of the mesh, as the body is now; elements as topology() has them. None where springs bear what no stress tells.
   virtual std::optional<ErrorEstimate> error_estimate() = 0;
-  virtual std::vector<Vec3> reactions() = 0;        ///< one per setup.boundary, N: the support's force on the body
+  virtual std::vector<Vec3> reactions() = 0;  ///< one per setup.boundary, N: the support's force on the body
   virtual ToolState tool() const = 0;
   virtual std::vector<PinState> pins() const = 0;
   virtual std::vector<TableState> tables() const = 0;
   virtual ProbeState probe() const = 0;
   virtual std::vector<SutureState> sutures() const = 0;
+  /// None where the setup does not ask for it.
+  virtual std::optional<SelfContactState> self_contact() const = 0;
 
   /// Takes over the motion of another world of the same setup: positions, velocities, time, what is grasped. Returns
   /// false, and does nothing, where that is not all there is to it: another mesh or precision, memory, recovery.

@@ -103,6 +103,29 @@ std::optional<std::string> TypedWorld<Real>::take(const Undo&) {
   return std::nullopt;
 }
 
+/// Before a tick. What tears until another edit comes is one, to undo.
+template <class Real>
+void TypedWorld<Real>::tear() {
+  if (!tearing_) tearing_.emplace(*setup_.tearing, setup_.mesh, *topology_);
+  const std::vector<Vec3> x = positions();
+  const auto is_held = [this](int n) {
+    return inverse_mass_[static_cast<std::size_t>(model_.order.new_node[static_cast<std::size_t>(n)])] == 0;
+  };
+  const std::vector<Opening> openings = tearing_->openings(setup_.mesh, x, is_held, team_);
+  if (openings.empty()) return;
+  if (edits_.empty() || edits_.back().torn == 0) {
+    save();
+    stroke_.clear();
+    edits_.push_back(begin_report());
+  }
+  const Tear tear = make_tear(openings, setup_.mesh, x, tearing_->around());
+  carry_out(tear.edit);
+  take_forces();
+  edits_.back().torn += tear.faces;
+  edits_.back().area += tear.area;
+  end_report(edits_.back());
+}
+
 template <class Real>
 EditReport TypedWorld<Real>::begin_report() {
   EditReport report;
@@ -176,6 +199,8 @@ void TypedWorld<Real>::carry_out(const MeshEdit& edit) {
 template <class Real>
 void TypedWorld<Real>::take_edited() {
   take_masses();
+  tearing_.reset();
+  take_tissue();
   take_surfaces();
   for (std::size_t n = 0; n < mass_.size(); ++n)
     if (mass_[n] == 0) Eigen::Map<Vector3<Real>>(&state_.v[3 * n]).setZero();

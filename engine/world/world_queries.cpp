@@ -221,6 +221,14 @@ std::vector<SutureState> TypedWorld<Real>::sutures() const {
 }
 
 template <class Real>
+std::optional<SelfContactState> TypedWorld<Real>::self_contact() const {
+  if (!contacts_.tissue) return std::nullopt;
+  const ContactDeeds deeds =
+      contacts_.deeds_of(contacts_.tables.size() + (contacts_.probe ? 1 : 0) + contacts_.sutures.size());
+  return SelfContactState{deeds.pressed, deeds.work, deeds.energy, deeds.deepest, deeds.touching};
+}
+
+template <class Real>
 SolverWork TypedWorld<Real>::solver_work() const {
   SolverWork work = work_;
   work.integrator = integrator_name(method_);

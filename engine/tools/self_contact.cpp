@@ -1,0 +1,316 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <heml/math/bytes.hpp>
+#include <heml/math/closest.hpp>
+#include <heml/mesh/surface.hpp>
+#include <heml/tools/self_contact.hpp>
+#include <tuple>
+
+namespace heml {
+namespace {
+
+constexpr double touch = 1e-3;  // of an edge: what is nearer may be pushed together within a step
+constexpr double slack = 0.01;  // of a face or an edge: beside it, so that nothing slips through between two
+constexpr double least_allowance = 0.15, most_allowance = 1;  // of an edge
+constexpr double same_overlap = 1e-6;  // of an edge: overlaps at rest below are round-off of touching
+constexpr double facing = 0.1;         // cosine: what faces another surface does so at least by this
+constexpr double flat = 0.02;          // sine: edges that bend their surface less are no ridges
+constexpr double parallel = 0.3;       // sine of two edges: below, their nodes meet faces
+constexpr double same_line = 1e-3;     // sine: below, no direction is across both
+constexpr double deepest = 0.5;        // of an element's height: what is further in has not come from there
+
+std::size_t at(int n) { return static_cast<std::size_t>(n); }
+
+Vec3 area_vector(const Vec3& a, const Vec3& b, const Vec3& c) { return (b - a).cross(c - a); }
+
+/// Whether all of a pair's weights are those of points between corners, or ends.
+bool is_within(const SkinPair& pair, const ContactPoint& point) {
+  const auto& w = point.weights;
+  if (pair.side == 0) return w[1] <= slack && w[2] <= slack && w[3] <= slack;
+  return w[0] >= -slack && w[1] >= -slack && w[2] <= slack && w[3] <= slack;
+}
+
+std::array<Vec3, 4> between(const std::array<Vec3, 4>& a, const std::array<Vec3, 4>& b, double t) {
+  std::array<Vec3, 4> x;
+  for (std::size_t k = 0; k < 4; ++k) x[k] = a[k] + t * (b[k] - a[k]);
+  return x;
+}
+
+}  // namespace
+
+std::optional<ContactPoint> point_of(const SkinPair& pair, const std::array<Vec3, 4>& x) {
+  ContactPoint point{pair.nodes, {}, 4, 0, Vec3::Zero()};
+  if (pair.side == 0) {
+    const Vec3 ab = x[2] - x[1], ac = x[3] - x[1], r = x[0] - x[1], N = ab.cross(ac);
+    const double square = N.squaredNorm();
+    if (!(square > 1e-24 * ab.squaredNorm() * ac.squaredNorm())) return std::nullopt;
+    const double b = r.cross(ac).dot(N) / square, c = ab.cross(r).dot(N) / square;
+    point.weights = {1, b + c - 1, -b, -c};
+    point.normal = N / std::sqrt(square);
+    point.gap = point.normal.dot(r);
+    return point;
+  }
+  const Vec3 u = x[1] - x[0], v = x[3] - x[2], r = x[0] - x[2], N = pair.side * u.cross(v);
+  const double square = N.squaredNorm(), uu = u.squaredNorm(), vv = v.squaredNorm(), uv = u.dot(v);
+  if (!(square > same_line * same_line * uu * vv)) return std::nullopt;
+  const double s = (uv * v.dot(r) - vv * u.dot(r)) / square, t = (uu * v.dot(r) - uv * u.dot(r)) / square;
+  point.weights = {1 - s, s, t - 1, -t};
+  point.normal = N / std::sqrt(square);
+  point.gap = point.normal.dot(r);
+  return point;
+}
+
+SelfContact::SelfContact(const SelfContactSettings& settings, const TetMesh& mesh) : friction_(settings.friction) {
+  take_rest(mesh);
+  make_edges();
+}
+
+void SelfContact::take_rest(const TetMesh& mesh) {
+  const BoundaryFaces boundary = boundary_of(mesh);
+  for (std::size_t f = 0; f < boundary.triangles.size(); ++f) {
+    const Tet& tet = mesh.tets[at(boundary.tets[f])];
+    nodes_.insert(nodes_.end(), tet.begin(), tet.end());
+  }
+  std::sort(nodes_.begin(), nodes_.end());
+  nodes_.erase(std::unique(nodes_.begin(), nodes_.end()), nodes_.end());
+  const auto number = [this](int n) {
+    return static_cast<int>(std::lower_bound(nodes_.begin(), nodes_.end(), n) - nodes_.begin());
+  };
+  for (const int n : nodes_) rest_.push_back(mesh.nodes[at(n)]);
+  for (std::size_t f = 0; f < boundary.triangles.size(); ++f) {
+    const Triangle& face = boundary.triangles[f];
+    faces_.push_back({number(face[0]), number(face[1]), number(face[2])});
+    for (const int n : mesh.tets[at(boundary.tets[f])])
+      if (std::find(face.begin(), face.end(), n) == face.end()) apex_.push_back(number(n));
+  }
+  start_.assign(nodes_.size() + 1, 0);
+  for (const Triangle& face : faces_)
+    for (const int n : face) ++start_[at(n) + 1];
+  for (std::size_t n = 0; n < nodes_.size(); ++n) start_[n + 1] += start_[n];
+  round_.resize(3 * faces_.size());
+  std::vector<int> next(start_.begin(), start_.end() - 1);
+  for (std::size_t f = 0; f < faces_.size(); ++f)
+    for (const int n : faces_[f]) round_[at(next[at(n)]++)] = static_cast<int>(f);
+}
+
+void SelfContact::make_edges() {
+  std::vector<std::tuple<int, int, int>> sides;  // lower end, upper end, face
+  for (std::size_t f = 0; f < faces_.size(); ++f)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int a = faces_[f][k], b = faces_[f][(k + 1) % 3];
+      sides.emplace_back(std::min(a, b), std::max(a, b), static_cast<int>(f));
+    }
+  std::sort(sides.begin(), sides.end());
+  own_nodes_.assign(faces_.size(), {-1, -1, -1});
+  own_edges_ = own_nodes_;
+  const auto give = [](Triangle& list, int item) { *std::find(list.begin(), list.end(), -1) = item; };
+  double length = 0;
+  for (std::size_t k = 0; k + 1 < sides.size(); k += 2) {  // a closed surface has each edge an even number of times
+    const auto [a, b, one] = sides[k];
+    const auto [c, d, other] = sides[k + 1];
+    give(own_edges_[at(one)], static_cast<int>(edges_.size()));
+    edges_.push_back({{a, b}, {one, other}});
+    length += (rest_[at(b)] - rest_[at(a)]).norm();
+  }
+  edge_ = length / static_cast<double>(std::max<std::size_t>(1, edges_.size()));
+  for (std::size_t n = 0; n < nodes_.size(); ++n)
+    if (start_[n] < start_[n + 1]) give(own_nodes_[at(round_[at(start_[n])])], static_cast<int>(n));
+}
+
+void SelfContact::find() {
+  met_.clear();
+  const auto is_finite = [](const Places& places) {
+    return std::all_of(places.begin(), places.end(), [](const Vec3& x) { return x.allFinite(); });
+  };
+  if (!is_finite(from_) || !is_finite(to_)) return;  // the step will see for itself that it went wrong
+  if (!is_covered()) search();
+  for (const Candidate& candidate : near_)
+    if (const SkinPair pair = pair_of(candidate); meets(candidate, pair)) {
+      met_.push_back(pair);
+      for (int& n : met_.back().nodes) n = nodes_[at(n)];
+    }
+  std::sort(met_.begin(), met_.end());
+}
+
+bool SelfContact::is_covered() const {
+  return seen_.size() == from_.size() && spread(from_) <= allowance_ && spread(to_) <= allowance_;
+}
+
+/// How far nodes are at most from where they were seen, m, but for what all have in common.
+double SelfContact::spread(const Places& x) const {
+  Vec3 mean = Vec3::Zero();
+  for (std::size_t n = 0; n < x.size(); ++n) mean += x[n] - seen_[n];
+  mean /= static_cast<double>(x.size());
+  double most = 0;
+  for (std::size_t n = 0; n < x.size(); ++n) most = std::max(most, (x[n] - seen_[n] - mean).squaredNorm());
+  return std::sqrt(most);
+}
+
+/// Pairs of faces that share a cell, each once: in the cell of the lower corner of what their boxes share.
+void SelfContact::search() {
+  ++searches_;
+  seen_ = from_;
+  const double way = spread(to_);
+  allowance_ = std::max(1.5 * way, std::clamp(8 * way, least_allowance * edge_, most_allowance * edge_));
+  const double reach = 2 * allowance_ + (touch + 4 * slack) * edge_;
+  near_.clear();
+  std::vector<Eigen::AlignedBox3d> boxes(faces_.size());
+  Eigen::AlignedBox3d all;
+  double size = 0;
+  for (std::size_t f = 0; f < faces_.size(); ++f) {
+    for (const int n : faces_[f]) boxes[f].extend(seen_[at(n)]);
+    const Vec3 more = Vec3::Constant(reach / 2);
+    boxes[f] = Eigen::AlignedBox3d(boxes[f].min() - more, boxes[f].max() + more);
+    all.extend(boxes[f]);
+    size += boxes[f].sizes().maxCoeff() / static_cast<double>(faces_.size());
+  }
+  constexpr double most_cells = 1 << 20;  // in each direction
+  const double cell = std::max(size, all.sizes().maxCoeff() / most_cells);
+  const auto cell_of = [&](const Vec3& x) -> Eigen::Vector3i {
+    return ((x - all.min()) / cell).array().floor().cast<int>();
+  };
+  const auto key_of = [](const Eigen::Vector3i& c) {
+    return (static_cast<std::uint64_t>(c[0]) << 42) | (static_cast<std::uint64_t>(c[1]) << 21) |
+           static_cast<std::uint64_t>(c[2]);
+  };
+  std::vector<std::pair<std::uint64_t, int>> entries;
+  for (std::size_t f = 0; f < faces_.size(); ++f) {
+    const Eigen::Vector3i low = cell_of(boxes[f].min()), high = cell_of(boxes[f].max());
+    for (int i = low[0]; i <= high[0]; ++i)
+      for (int j = low[1]; j <= high[1]; ++j)
+        for (int k = low[2]; k <= high[2]; ++k) entries.emplace_back(key_of({i, j, k}), static_cast<int>(f));
+  }
+  std::sort(entries.begin(), entries.end());
+  for (std::size_t first = 0, last; first < entries.size(); first = last) {
+    for (last = first; last < entries.size() && entries[last].first == entries[first].first;) ++last;
+    for (std::size_t p = first; p < last; ++p)
+      for (std::size_t q = p + 1; q < last; ++q) {
+        const auto &one = boxes[at(entries[p].second)], &other = boxes[at(entries[q].second)];
+        if (!one.intersects(other) || key_of(cell_of(one.min().cwiseMax(other.min()))) != entries[p].first) continue;
+        offer(entries[p].second, entries[q].second, reach);
+      }
+  }
+  std::sort(near_.begin(), near_.end());
+}
+
+void SelfContact::offer(int one, int other, double reach) {
+  for (const int n : own_nodes_[at(one)])
+    if (n >= 0) offer_node(n, other, reach);
+  for (const int n : own_nodes_[at(other)])
+    if (n >= 0) offer_node(n, one, reach);
+  for (const int e : own_edges_[at(one)])
+    for (const int d : own_edges_[at(other)])
+      if (e >= 0 && d >= 0) offer_edges(std::min(e, d), std::max(e, d), reach);
+}
+
+void SelfContact::offer_node(int node, int face, double reach) {
+  const Triangle& corners = faces_[at(face)];
+  if (std::find(corners.begin(), corners.end(), node) != corners.end()) return;
+  const Vec3 &x = seen_[at(node)], &a = seen_[at(corners[0])], &b = seen_[at(corners[1])], &c = seen_[at(corners[2])];
+  const auto [u, v, w] = nearest_weights(x, a, b, c);
+  if ((u * a + v * b + w * c - x).squaredNorm() > reach * reach) return;
+  // Overlapping at rest, or of one body's thin end: no contact.
+  const SkinPair pair{{node, corners[0], corners[1], corners[2]}, 0};
+  const auto at_rest = point_of(pair, [this](int n) { return rest_[at(n)]; });
+  if (at_rest && at_rest->gap < -same_overlap * edge_ && is_within(pair, *at_rest)) {
+    const Vec3 normal = area_vector(rest_[at(corners[0])], rest_[at(corners[1])], rest_[at(corners[2])]).normalized();
+    const double depth = normal.dot(rest_[at(corners[0])] - rest_[at(apex_[at(face)])]);
+    if (-at_rest->gap < 2 * depth) return;
+  }
+  near_.push_back({false, node, face});
+}
+
+void SelfContact::offer_edges(int one, int other, double reach) {
+  const auto [a, b] = edges_[at(one)].ends;
+  const auto [c, d] = edges_[at(other)].ends;
+  if (a == c || a == d || b == c || b == d) return;
+  const Vec3 u = seen_[at(b)] - seen_[at(a)], v = seen_[at(d)] - seen_[at(c)];
+  const auto [s, t] = nearest_on_segments(seen_[at(a)], u, seen_[at(c)], v);
+  if ((seen_[at(a)] + s * u - seen_[at(c)] - t * v).squaredNorm() > reach * reach) return;
+  const SkinPair pair{{a, b, c, d}, side_of(edges_[at(one)], edges_[at(other)], rest_)};
+  const auto at_rest = point_of(pair, [this](int n) { return rest_[at(n)]; });
+  if (at_rest && at_rest->gap < -same_overlap * edge_ && is_within(pair, *at_rest)) return;
+  near_.push_back({true, one, other});
+}
+
+Vec3 SelfContact::face_normal(int face, const Places& x) const {
+  const auto [a, b, c] = faces_[at(face)];
+  return area_vector(x[at(a)], x[at(b)], x[at(c)]).normalized();
+}
+
+Vec3 SelfContact::node_normal(int node) const {
+  Vec3 sum = Vec3::Zero();
+  for (int k = start_[at(node)]; k < start_[at(node) + 1]; ++k) {
+    const auto [a, b, c] = faces_[at(round_[at(k)])];
+    sum += area_vector(from_[at(a)], from_[at(b)], from_[at(c)]);
+  }
+  return sum.normalized();
+}
+
+/// Of the element behind a face, m; not positive where it is inside out.
+double SelfContact::height(int face) const {
+  return face_normal(face, from_).dot(from_[at(faces_[at(face)][0])] - from_[at(apex_[at(face)])]);
+}
+
+/// Whether a direction lies between the normals of an edge's faces, and these bend outward.
+bool SelfContact::is_ridge_towards(const Edge& edge, const Vec3& normal) const {
+  const auto [one, other] = edge.faces;
+  const Vec3 n = face_normal(one, from_), m = face_normal(other, from_);
+  const Triangle& across = faces_[at(other)];
+  for (const int k : across) {
+    if (k == edge.ends[0] || k == edge.ends[1]) continue;
+    const Vec3 way = from_[at(k)] - from_[at(edge.ends[0])];
+    if (!(n.dot(way) < -flat * way.norm())) return false;
+  }
+  const double c = n.dot(m), p = normal.dot(n), q = normal.dot(m), determinant = 1 - c * c;
+  return p - c * q >= -slack * determinant && q - c * p >= -slack * determinant;
+}
+
+int SelfContact::side_of(const Edge& one, const Edge& other, const Places& x) const {
+  const Vec3 u = x[at(one.ends[1])] - x[at(one.ends[0])], v = x[at(other.ends[1])] - x[at(other.ends[0])];
+  return u.cross(v).dot(face_normal(other.faces[0], x) + face_normal(other.faces[1], x)) > 0 ? 1 : -1;
+}
+
+/// In the skin's numbers.
+SkinPair SelfContact::pair_of(const Candidate& candidate) const {
+  if (!candidate.edges) {
+    const auto [a, b, c] = faces_[at(candidate.second)];
+    return {{candidate.first, a, b, c}, 0};
+  }
+  const Edge &one = edges_[at(candidate.first)], &other = edges_[at(candidate.second)];
+  return {{one.ends[0], one.ends[1], other.ends[0], other.ends[1]}, side_of(one, other, from_)};
+}
+
+bool SelfContact::meets(const Candidate& candidate, const SkinPair& pair) const {
+  std::array<Vec3, 4> from, to;
+  for (std::size_t k = 0; k < 4; ++k) {
+    from[k] = from_[at(pair.nodes[k])];
+    to[k] = to_[at(pair.nodes[k])];
+  }
+  const auto first = point_of(pair, from), last = point_of(pair, to);
+  if (!first || !last || !(std::min(first->gap, last->gap) <= touch * edge_)) return false;
+  const double part = first->gap <= 0  ? 0
+                      : last->gap >= 0 ? (last->gap < first->gap ? 1 : 0)
+                                       : first->gap / (first->gap - last->gap);
+  const auto there = point_of(pair, between(from, to, part));
+  if (!there || !is_within(pair, *there)) return false;
+  if (!candidate.edges)
+    return node_normal(candidate.first).dot(first->normal) < -facing &&
+           (first->gap >= 0 || -first->gap < deepest * height(candidate.second));
+  const Vec3 u = from[1] - from[0], v = from[3] - from[2];
+  if (u.cross(v).norm() < parallel * u.norm() * v.norm()) return false;
+  const Edge &one = edges_[at(candidate.first)], &other = edges_[at(candidate.second)];
+  if (!is_ridge_towards(one, -first->normal) || !is_ridge_towards(other, first->normal)) return false;
+  if (first->gap >= 0) return true;
+  double least = height(one.faces[0]);
+  for (const int face : {one.faces[1], other.faces[0], other.faces[1]}) least = std::min(least, height(face));
+  return -first->gap < deepest * least;
+}
+
+std::size_t SelfContact::bytes() const {
+  return bytes_of(nodes_, rest_, faces_, apex_, edges_, start_, round_, own_nodes_, own_edges_) +
+         bytes_of(from_, to_, seen_, near_, met_);
+}
+
+}  // namespace heml

@@ -1,0 +1,87 @@
+#include <Eigen/SVD>
+#include <algorithm>
+#include <heml/mesh/surface.hpp>
+#include <heml/tools/tearing.hpp>
+#include <tuple>
+
+namespace heml {
+namespace {
+
+constexpr std::size_t grain = 2048;
+
+std::size_t at(int n) { return static_cast<std::size_t>(n); }
+
+Mat3 edges(const Tet& tet, const std::vector<Vec3>& x) {
+  Mat3 D;
+  for (int k = 0; k < 3; ++k) D.col(k) = x[at(tet[static_cast<std::size_t>(k) + 1])] - x[at(tet[0])];
+  return D;
+}
+
+/// Whether a symmetric matrix is positive, by its leading minors.
+bool is_positive(const Mat3& A) { return A(0, 0) > 0 && A(0, 0) * A(1, 1) > A(0, 1) * A(0, 1) && A.determinant() > 0; }
+
+}  // namespace
+
+Tearing::Tearing(const TearingSettings& settings, const TetMesh& mesh, const Topology& topology)
+    : limit_(settings.stretch), around_(mesh, topology), elements_(topology.elements), is_beyond_(elements_.size()) {
+  for (const int t : elements_) inverse_rest_.push_back(edges(mesh.tets[at(t)], mesh.nodes).inverse());
+  on_surface_.assign(mesh.nodes.size(), false);
+  for (const Triangle& face : boundary_of(with_elements(mesh, elements_)).triangles)
+    for (const int n : face) on_surface_[at(n)] = true;
+}
+
+Mat3 Tearing::gradient(const TetMesh& mesh, const std::vector<Vec3>& x, std::size_t element) const {
+  return edges(mesh.tets[at(elements_[element])], x) * inverse_rest_[element];
+}
+
+/// The most stretched first.
+std::vector<Tearing::Torn> Tearing::beyond(const TetMesh& mesh, const std::vector<Vec3>& x, ThreadTeam& team) {
+  team.for_ranges(elements_.size(), grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t e = begin; e < end; ++e) {
+      const Mat3 F = gradient(mesh, x, e);
+      is_beyond_[e] = F.allFinite() && !is_positive(limit_ * limit_ * Mat3::Identity() - F.transpose() * F);
+    }
+  });
+  std::vector<Torn> torn;
+  for (std::size_t e = 0; e < elements_.size(); ++e) {
+    if (!is_beyond_[e]) continue;
+    const Eigen::JacobiSVD<Mat3> svd(gradient(mesh, x, e), Eigen::ComputeFullV);
+    torn.push_back({svd.singularValues()[0], elements_[e], svd.matrixV().col(0)});
+  }
+  std::sort(torn.begin(), torn.end(), [](const Torn& a, const Torn& b) {
+    return a.stretch != b.stretch ? a.stretch > b.stretch : a.element < b.element;
+  });
+  return torn;
+}
+
+/// Of the element's nodes on the surface, where tears begin and go on, that with the fewest elements round it; else of
+/// all. None where each is held or has elements on one side alone.
+std::optional<Opening> Tearing::opening_of(const Torn& torn, const TetMesh& mesh,
+                                           const std::function<bool(int)>& is_held) const {
+  std::optional<Opening> best;
+  const auto rank = [this](int n) { return std::tuple(!on_surface_[at(n)], around_.of(n).size(), n); };
+  for (const int n : mesh.tets[at(torn.element)]) {
+    const Opening opening{n, torn.across};
+    if (!is_held(n) && opens(opening, mesh, around_) && (!best || rank(n) < rank(best->node))) best = opening;
+  }
+  return best;
+}
+
+std::vector<Opening> Tearing::openings(const TetMesh& mesh, const std::vector<Vec3>& x,
+                                       const std::function<bool(int)>& is_held, ThreadTeam& team) {
+  std::vector<Opening> chosen;
+  std::vector<int> taken;  // elements that share a node with one that was looked at before
+  for (const Torn& torn : beyond(mesh, x, team)) {
+    if (chosen.size() == most_openings) break;
+    if (std::find(taken.begin(), taken.end(), torn.element) != taken.end()) continue;
+    const auto opening = opening_of(torn, mesh, is_held);
+    if (!opening) continue;
+    for (const int n : mesh.tets[at(torn.element)])
+      for (const int t : around_.of(n))
+        for (const int m : mesh.tets[at(t)]) taken.insert(taken.end(), around_.of(m).begin(), around_.of(m).end());
+    chosen.push_back(*opening);
+  }
+  return chosen;
+}
+
+}  // namespace heml
