@@ -140,8 +140,9 @@ const char* name_of(LimitFacts::Cause cause) {
 Explanation explain(const Scene& scene) {
   Explanation result;
   TetMesh mesh = timed(result.startup, mesh_work(scene.mesh), [&] { return load_mesh(scene); });
-  result.setup =
-      timed(result.startup, "selections and fields resolved", [&] { return load_setup(scene, std::move(mesh)); });
+  const char* resolved = scene.mesh.refine ? "selections and fields resolved, mesh refined where it errs"
+                                           : "selections and fields resolved";
+  result.setup = timed(result.startup, resolved, [&] { return load_setup(scene, std::move(mesh)); });
   const WorldSetup& setup = result.setup;
   const bool chooses = setup.solver.integrator == Integrator::automatic;
   const auto world = timed(

@@ -11,7 +11,8 @@ namespace heml {
 /// Writes a world's state as `heml solve` and series have it, by the path's ending:
 ///   .vtu         the elements that are there, deformed; of nodes displacement (m), velocity (m/s), stretch and
 ///   von_mises
-///                (Pa, averaged by volume); of elements region, what fields the mesh has, and J
+///                (Pa, averaged by volume); of elements region, what fields the mesh has, J, and
+///                stress (Cauchy, Pa, nine numbers, not of springs)
 ///   .ply, .obj   the surface, deformed; .ply with displacement's size, stretch, von_mises and volume_ratio of its
 ///   nodes
 /// Throws InputError when it cannot be written.

@@ -45,6 +45,7 @@ class TypedWorld final : public World {
   void write_field(Field field, std::span<const int> nodes, std::vector<float>& out) override;
   Energies energies() override;
   std::vector<double> volume_ratios() override;
+  std::vector<Mat3> stresses() override;
   std::optional<ErrorEstimate> error_estimate() override;
   std::vector<Vec3> reactions() override;
   ToolState tool() const override;
@@ -190,6 +191,7 @@ class TypedWorld final : public World {
   std::uint64_t node_hash(std::size_t file_node) const;
   std::vector<double> element_values(Field field);
   std::optional<ErrorEstimate> estimate();
+  std::vector<Vec3> inner_positions() const;
 
   WorldSetup setup_;
   Model<Real> model_;

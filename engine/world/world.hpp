@@ -158,6 +158,8 @@ class World {
 
   virtual Energies energies() = 0;
   virtual std::vector<double> volume_ratios() = 0;  ///< J of each element of topology(), in its order
+  /// Cauchy stress of each, Pa, in the same order; none where there are springs.
+  virtual std::vector<Mat3> stresses() = 0;
   /// Of the mesh, as the body is now; elements as topology() has them. None where springs bear what no stress tells.
   virtual std::optional<ErrorEstimate> error_estimate() = 0;
   virtual std::vector<Vec3> reactions() = 0;  ///< one per setup.boundary, N: the support's force on the body

@@ -75,17 +75,24 @@ std::vector<double> TypedWorld<Real>::element_values(Field field) {
   return values;
 }
 
+/// #V in inner order, m.
+template <class Real>
+std::vector<Vec3> TypedWorld<Real>::inner_positions() const {
+  std::vector<Vec3> x(mass_.size());
+  for (std::size_t n = 0; n < x.size(); ++n)
+    x[n] = Eigen::Map<const Vector3<Real>>(&state_.x[3 * n]).template cast<double>();
+  return x;
+}
+
 /// Elements in inner order.
 template <class Real>
 std::optional<ErrorEstimate> TypedWorld<Real>::estimate() {
   const FlushDenormals flush;
   ElasticBody<Real>& body = acting_body();
   if (body.has_springs()) return std::nullopt;
-  std::vector<Vec3> x(mass_.size());
-  for (std::size_t n = 0; n < x.size(); ++n)
-    x[n] = Eigen::Map<const Vector3<Real>>(&state_.x[3 * n]).template cast<double>();
   ErrorEstimate found;
-  found.of_element = recovered_errors(model_.mesh, model_.material_of, deformation_gradients(model_.mesh, x),
+  found.of_element = recovered_errors(model_.mesh, model_.material_of,
+                                      deformation_gradients(model_.mesh, inner_positions()),
                                       body.stresses(state_.x.data(), team_));
   found.squared = std::accumulate(found.of_element.begin(), found.of_element.end(), 0.0);
   found.stored = body.energy(state_.x.data(), team_);
@@ -140,6 +147,22 @@ std::vector<double> TypedWorld<Real>::volume_ratios() {
   for (const int file : topology_->elements) {
     const auto t = static_cast<std::size_t>(model_.order.new_tet[static_cast<std::size_t>(file)]);
     result.push_back(static_cast<double>(element_states_[t].J));
+  }
+  return result;
+}
+
+/// σ = P Fᵀ / J
+template <class Real>
+std::vector<Mat3> TypedWorld<Real>::stresses() {
+  const FlushDenormals flush;
+  ElasticBody<Real>& body = acting_body();
+  if (body.has_springs()) return {};
+  const std::vector<Mat3> F = deformation_gradients(model_.mesh, inner_positions()),
+                          P = body.stresses(state_.x.data(), team_);
+  std::vector<Mat3> result;
+  for (const int file : topology_->elements) {
+    const auto t = static_cast<std::size_t>(model_.order.new_tet[static_cast<std::size_t>(file)]);
+    result.push_back(P[t] * F[t].transpose() / F[t].determinant());
   }
   return result;
 }

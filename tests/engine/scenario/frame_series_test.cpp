@@ -45,6 +45,12 @@ TEST_CASE("a body written for ParaView is read back as it is, with its fields be
     for (int i = 0; i < 3; ++i)
       CHECK(displacement[3 * n + static_cast<std::size_t>(i)] == mesh.nodes[n][i] - world->setup().mesh.nodes[n][i]);
   CHECK(J == world->volume_ratios());
+  const std::vector<double> stress = array_of(text, "stress");
+  REQUIRE(stress.size() == 9 * mesh.tets.size());
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t)
+    for (const auto& [a, b] : {std::pair(1, 3), std::pair(2, 6), std::pair(5, 7)})
+      CHECK(stress[9 * t + static_cast<std::size_t>(a)] ==
+            doctest::Approx(stress[9 * t + static_cast<std::size_t>(b)]).epsilon(1e-9));
   CHECK(array_of(text, "velocity").size() == 3 * mesh.nodes.size());
   for (const char* name : {"stretch", "von_mises"}) CHECK(array_of(text, name).size() == mesh.nodes.size());
 }
