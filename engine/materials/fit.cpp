@@ -62,9 +62,9 @@ std::vector<Variable> variables_of(const Material& material, const MeasuredTest&
 }
 
 /// The problem in the variables u that the method moves: u = ln |value| where the sign is kept, else value / scale.
-class Problem {
+class Misfit {
  public:
-  Problem(const Material& material, const MeasuredTest& test, const Measured& data, const FitOptions& options)
+  Misfit(const Material& material, const MeasuredTest& test, const Measured& data, const FitOptions& options)
       : material_(material), test_(test), data_(data), variables_(variables_of(material, test, options)) {
     const double modulus = ground_state(material).shear;
     for (const Variable& v : variables_)
@@ -139,7 +139,7 @@ struct Descent {
   bool converged = false;
 };
 
-Descent descend(const Problem& problem, const std::function<void(double)>& progress) {
+Descent descend(const Misfit& problem, const std::function<void(double)>& progress) {
   Descent at{problem.start(), {}, {}};
   at.r = *problem.residuals(at.u);
   double damping = 1e-3;
@@ -239,7 +239,7 @@ std::string fit_problem(const Material& material, const MeasuredTest& test, cons
 
 Fit fit_material(const Material& material, const MeasuredTest& test, const Measured& data, const FitOptions& options,
                  const std::function<void(double)>& progress) {
-  const Problem problem(material, test, data, options);
+  const Misfit problem(material, test, data, options);
   const Descent end = descend(problem, progress);
   const Certainty certain = certainty(end);
   Fit fit;

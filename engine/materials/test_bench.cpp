@@ -7,7 +7,7 @@
 namespace heml {
 namespace {
 
-constexpr int most_iterations = 60;
+constexpr int most_newton_steps = 60;
 constexpr int most_halvings = 12;  // of a step between two amounts, and of a Newton step
 
 /// Axes whose faces are free in a test; the others follow the amount.
@@ -45,7 +45,7 @@ class Balance {
   std::optional<Mat3> operator()(Mat3 F) const {
     if (!law_.valid(F)) return std::nullopt;
     if (free_.empty()) return F;
-    for (int i = 0; i < most_iterations; ++i) {
+    for (int i = 0; i < most_newton_steps; ++i) {
       const Mat3 P = law_.first_piola(F);
       const Vec3 r = residual(F, P);
       const Mat3 S = slope(F, P);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <heml/base/error.hpp>
+#include <heml/mesh/coordinates.hpp>
 #include <heml/mesh/from_surface.hpp>
 #include <heml/mesh/intersections.hpp>
 #include <heml/mesh/shells.hpp>
@@ -13,18 +14,14 @@
 namespace heml {
 namespace {
 
-constexpr double farthest = 1e12;  // m, as for tetrahedra
-
-std::string shown(const Vec3& x) { return fmt::format("[{}, {}, {}]", x[0], x[1], x[2]); }
-
 std::string triangle_place(std::size_t t) { return fmt::format("triangle {}", t); }
 
 void check_nodes(const SurfaceMesh& surface) {
   for (std::size_t n = 0; n < surface.nodes.size(); ++n)
-    if (!(surface.nodes[n].cwiseAbs().maxCoeff() <= farthest) || !surface.nodes[n].allFinite())
+    if (!(surface.nodes[n].cwiseAbs().maxCoeff() <= farthest_node) || !surface.nodes[n].allFinite())
       throw InputError(surface.source, fmt::format("node {}", n),
                        "position " + shown(surface.nodes[n]) + " is no place in metres",
-                       fmt::format("finite coordinates up to {:.0e}", farthest));
+                       fmt::format("finite coordinates up to {:.0e}", farthest_node));
 }
 
 void check_triangles(const SurfaceMesh& surface) {

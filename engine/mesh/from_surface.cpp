@@ -18,7 +18,7 @@ namespace {
 
 // What is exchanged with the helper: "#nodes #rows [#holes]", then x y z a node, then indices a row, then x y z a hole.
 
-std::string contents_of(const std::filesystem::path& path) {
+std::string answer_in(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
 }
@@ -39,7 +39,7 @@ void write_request(const std::filesystem::path& path, const SurfaceMesh& surface
 template <std::size_t N>
 void read_answer(const std::string& subject, const std::filesystem::path& path, std::vector<Vec3>& nodes,
                  std::vector<std::array<int, N>>& rows) {
-  const std::string text = contents_of(path);
+  const std::string text = answer_in(path);
   Scanner in(subject, text);
   nodes.resize(in.count("the number of nodes", 3));
   rows.resize(in.count("the number of elements", N));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <heml/base/error.hpp>
+#include <heml/mesh/coordinates.hpp>
 #include <heml/mesh/faces.hpp>
 #include <heml/mesh/quality.hpp>
 #include <heml/mesh/surface.hpp>
@@ -16,9 +17,6 @@ namespace heml {
 namespace {
 
 constexpr double sliver_degrees = 5;
-constexpr double farthest = 1e12;  // m: past this no file means metres, and volumes leave the range of float
-
-std::string shown(const Vec3& x) { return fmt::format("[{}, {}, {}]", x[0], x[1], x[2]); }
 
 std::string shown(const Tet& tet) { return fmt::format("{}, {}, {}, {}", tet[0], tet[1], tet[2], tet[3]); }
 
@@ -29,9 +27,9 @@ void check_nodes(const TetMesh& mesh) {
     const Vec3& x = mesh.nodes[n];
     if (!x.allFinite())
       throw InputError(mesh.source, fmt::format("node {}", n), "position " + shown(x) + " is not finite");
-    if (x.cwiseAbs().maxCoeff() > farthest)
+    if (x.cwiseAbs().maxCoeff() > farthest_node)
       throw InputError(mesh.source, fmt::format("node {}", n), "position " + shown(x) + " is no place in metres",
-                       fmt::format("coordinates up to {:.0e}", farthest));
+                       fmt::format("coordinates up to {:.0e}", farthest_node));
   }
 }
 

@@ -27,7 +27,7 @@ class GmshReader {
     while (in_.next_line()) {
       const std::string name(in_.word("a section"));
       if (name[0] != '$' || name.starts_with("$End"))
-        in_.fail("a section should begin here, found " + quoted(name), "$MeshFormat, $Nodes, $Elements, ...");
+        in_.fail("a section should begin here, found " + in_quotes(name), "$MeshFormat, $Nodes, $Elements, ...");
       any_section = true;
       section(name);
     }
@@ -67,7 +67,7 @@ class GmshReader {
     in_.need_line(closing(name));
     const std::string_view found = in_.word(closing(name));
     if (found != closing(name))
-      in_.fail(fmt::format("{} should end here, found {}", name, quoted(found)), closing(name));
+      in_.fail(fmt::format("{} should end here, found {}", name, in_quotes(found)), closing(name));
   }
 
   void skip(const std::string& name) {

@@ -44,11 +44,11 @@ ReadMesh read_medit(std::string file, std::string_view text) {
   Scanner in(std::move(file), text, '#');
   ReadMesh read;
   if (const auto first = in.word("MeshVersionFormatted"); first != "MeshVersionFormatted")
-    in.fail("a Medit file should begin with MeshVersionFormatted, found " + quoted(first));
+    in.fail("a Medit file should begin with MeshVersionFormatted, found " + in_quotes(first));
   in.integer("the version", 0, 9);
   while (in.has_word()) {
     const std::string_view keyword = in.word("a section");
-    if (!is_keyword(keyword)) in.fail("a section should begin here, found " + quoted(keyword));
+    if (!is_keyword(keyword)) in.fail("a section should begin here, found " + in_quotes(keyword));
     if (keyword == "End") break;
     if (keyword == "Dimension") {
       in.integer("the dimension", 3, 3);

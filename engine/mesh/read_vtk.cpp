@@ -101,12 +101,12 @@ class VtkReader {
     in_.rest_of_line();
     in_.rest_of_line();  // title
     const std::string coding = lower(in_.word("ASCII or BINARY"));
-    if (coding != "ascii" && coding != "binary") in_.fail("should be ASCII or BINARY, is " + quoted(coding));
+    if (coding != "ascii" && coding != "binary") in_.fail("should be ASCII or BINARY, is " + in_quotes(coding));
     binary_ = coding == "binary";
     Scanner line = header_line();
     if (lower(line.word("DATASET")) != "dataset") line.fail("should be DATASET UNSTRUCTURED_GRID");
     if (const auto kind = line.word("UNSTRUCTURED_GRID"); lower(kind) != "unstructured_grid")
-      line.fail("the dataset is " + quoted(kind), "UNSTRUCTURED_GRID");
+      line.fail("the dataset is " + in_quotes(kind), "UNSTRUCTURED_GRID");
   }
 
   // The next line with words, as a scanner of its own; raw data, if any, begins where the reader is left. Passes
@@ -148,7 +148,7 @@ class VtkReader {
     const std::string name = lower(line.word("a data type"));
     const auto type = std::find_if(types.begin(), types.end(), [&](const Type& t) { return t.name == name; });
     if (type == types.end())
-      line.fail("data of type " + quoted(name) + " is not read", "float, double, int, long, ...");
+      line.fail("data of type " + in_quotes(name) + " is not read", "float, double, int, long, ...");
     return *type;
   }
 
@@ -188,7 +188,7 @@ class VtkReader {
          {std::tuple("offsets", offsets, &cells_.offsets), std::tuple("connectivity", size, &cells_.connectivity)}) {
       Scanner array = header_line();
       if (const auto found = array.word(name); lower(found) != name)
-        array.fail(fmt::format("{} should begin here, found {}", name, quoted(found)));
+        array.fail(fmt::format("{} should begin here, found {}", name, in_quotes(found)));
       *values = integers(count, type_of(array));
     }
   }
@@ -208,7 +208,7 @@ class VtkReader {
 
   // SCALARS and the like: what follows depends on the keyword.
   void attribute(Scanner& line, const std::string& keyword) {
-    if (keyword != "lookup_table" && tuples_ == 0) line.fail("unknown section " + quoted(keyword));
+    if (keyword != "lookup_table" && tuples_ == 0) line.fail("unknown section " + in_quotes(keyword));
     const std::string_view name = line.word("a name");
     if (keyword == "scalars") {
       const Type& type = type_of(line);
@@ -229,7 +229,7 @@ class VtkReader {
     } else if (keyword == "lookup_table") {
       skip(4 * counted(line, "the size of the table"), byte_type);
     } else {
-      line.fail("unknown section " + quoted(keyword));
+      line.fail("unknown section " + in_quotes(keyword));
     }
   }
 

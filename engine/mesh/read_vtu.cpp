@@ -50,7 +50,7 @@ class VtuReader {
         continue;
       }
       const std::string_view tag = in_.rest().substr(0, in_.rest().find('>'));
-      if (!in_.skip_past(">")) in_.fail("a tag does not end: " + quoted(tag));
+      if (!in_.skip_past(">")) in_.fail("a tag does not end: " + in_quotes(tag));
       if (tag.starts_with("AppendedData")) break;
       take(tag.substr(0, tag.find_first_of(" \t\r\n/", 1)), tag);
     }
@@ -63,10 +63,10 @@ class VtuReader {
   void take(std::string_view name, std::string_view tag) {
     if (name == "VTKFile") {
       if (const auto type = attribute(tag, "type"); type != "UnstructuredGrid")
-        in_.fail("the VTKFile is of type " + quoted(type), "UnstructuredGrid");
+        in_.fail("the VTKFile is of type " + in_quotes(type), "UnstructuredGrid");
       is_vtk_ = true;
     } else if (!is_vtk_) {
-      if (!name.starts_with('?')) in_.fail("a VTKFile should begin here, found " + quoted(name));
+      if (!name.starts_with('?')) in_.fail("a VTKFile should begin here, found " + in_quotes(name));
     } else if (name == "Piece") {
       begin_piece(tag);
     } else if (name == "/Piece") {
@@ -89,7 +89,7 @@ class VtuReader {
       value = 10 * value + (c - '0');
     }
     if (text.empty() || value < 0 || value > std::numeric_limits<int>::max())
-      in_.fail(fmt::format("{} of the Piece is {}", key, quoted(text)), "a count");
+      in_.fail(fmt::format("{} of the Piece is {}", key, in_quotes(text)), "a count");
     return value;
   }
 
@@ -149,7 +149,7 @@ class VtuReader {
 
   Scanner text_of(std::string_view tag) {
     if (const auto format = attribute(tag, "format"); format != "ascii")
-      in_.fail(fmt::format("the array {} has format {}", quoted(attribute(tag, "Name")), quoted(format)),
+      in_.fail(fmt::format("the array {} has format {}", in_quotes(attribute(tag, "Name")), in_quotes(format)),
                "save with data mode ASCII");
     return in_.until('<');
   }

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int vtk_tetra = 10;
 constexpr std::size_t most_fields = 1000;  // finding one is linear in their number
-constexpr std::size_t most_values = 4;     // of fields, a byte of the file: some may leave out most of the tetrahedra
+constexpr std::size_t most_values_a_byte = 4;     // of fields, a byte of the file: some may leave out most of the tetrahedra
 
 void check_count(std::size_t fields, const Scanner& in) {
   if (fields > most_fields) in.fail(fmt::format("more than {} fields of elements", most_fields), "save fewer");
@@ -49,7 +49,7 @@ void check_sizes(const VtkCells& cells, const Scanner& in) {
     in.fail(fmt::format("{} cells have {} values of 'region'", count, cells.regions.size()));
   for (const ElementField& field : cells.fields)
     if (field.values.size() != field.components * count)
-      in.fail(fmt::format("{} cells have {} values of {}", count, field.values.size(), quoted(field.name)),
+      in.fail(fmt::format("{} cells have {} values of {}", count, field.values.size(), in_quotes(field.name)),
               fmt::format("{} a cell", field.components));
 }
 
@@ -78,14 +78,14 @@ ElementField& field_in(TetMesh& mesh, std::string_view name, std::size_t compone
     return mesh.fields.emplace_back(ElementField{plain, components, {}});
   }
   if (found->components != components)
-    in.fail(fmt::format("{} has {} components here and {} before", quoted(plain), components, found->components));
+    in.fail(fmt::format("{} has {} components here and {} before", in_quotes(plain), components, found->components));
   return *found;
 }
 
 void pad_fields(TetMesh& mesh, const Scanner& in) {
   std::size_t components = 0;
   for (const ElementField& field : mesh.fields) components += field.components;
-  if (mesh.fields.empty() || components <= most_values * in.size() / std::max<std::size_t>(mesh.tets.size(), 1)) {
+  if (mesh.fields.empty() || components <= most_values_a_byte * in.size() / std::max<std::size_t>(mesh.tets.size(), 1)) {
     for (ElementField& field : mesh.fields)
       field.values.resize(field.components * mesh.tets.size(), std::numeric_limits<double>::quiet_NaN());
     return;

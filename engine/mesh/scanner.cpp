@@ -19,7 +19,7 @@ bool is_tiny(std::string_view word) {
 
 }  // namespace
 
-std::string quoted(std::string_view word) {
+std::string in_quotes(std::string_view word) {
   constexpr std::size_t longest = 40;
   std::string text(word.substr(0, longest));
   for (char& c : text)
@@ -94,7 +94,7 @@ double Scanner::any_number(std::string_view what) {
   double value = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (error == std::errc::invalid_argument || end != digits.data() + digits.size())
-    fail(fmt::format("{} should be a number, is {}", what, quoted(found)));
+    fail(fmt::format("{} should be a number, is {}", what, in_quotes(found)));
   if (error != std::errc::result_out_of_range) return value;
   if (is_tiny(digits)) return 0;
   return digits.starts_with('-') ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::infinity();
@@ -103,7 +103,7 @@ double Scanner::any_number(std::string_view what) {
 double Scanner::number(std::string_view what) {
   const double value = any_number(what);
   if (!std::isfinite(value))
-    fail(fmt::format("{} is not finite: {}", what, quoted(text_.substr(last_, position_ - last_))));
+    fail(fmt::format("{} is not finite: {}", what, in_quotes(text_.substr(last_, position_ - last_))));
   return value;
 }
 
@@ -118,9 +118,9 @@ long long Scanner::integer(std::string_view what, long long low, long long high)
   long long value = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (error == std::errc::invalid_argument || end != digits.data() + digits.size())
-    fail(fmt::format("{} should be an integer, is {}", what, quoted(found)));
+    fail(fmt::format("{} should be an integer, is {}", what, in_quotes(found)));
   if (error != std::errc() || value < low || value > high)
-    fail(fmt::format("{} is {}", what, quoted(found)), fmt::format("{} to {}", low, high));
+    fail(fmt::format("{} is {}", what, in_quotes(found)), fmt::format("{} to {}", low, high));
   return value;
 }
 
@@ -137,7 +137,7 @@ std::size_t Scanner::count(std::string_view what, std::size_t values) {
 }
 
 void Scanner::end_line(std::string_view of) {
-  if (has_word()) fail(fmt::format("the line goes on after {} with {}", of, quoted(word(of))));
+  if (has_word()) fail(fmt::format("the line goes on after {} with {}", of, in_quotes(word(of))));
 }
 
 std::string_view Scanner::rest_of_line() {

@@ -10,7 +10,7 @@
 namespace heml {
 
 /// A word as a message may show it: short, printable, in quotes.
-std::string quoted(std::string_view word);
+std::string in_quotes(std::string_view word);
 
 class Scanner {
  public:

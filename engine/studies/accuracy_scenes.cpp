@@ -20,13 +20,13 @@ struct Entry {
 };
 
 constexpr const char *beam = "studies/accuracy/beam.json", *cube = "studies/accuracy/cube.json";
-constexpr SceneStudyOptions whole{}, brief{Breadth::brief, true, 50000}, own{Breadth::brief, false, 0};
+constexpr SceneStudyOptions thorough{}, brief{Breadth::brief, true, 50000}, own{Breadth::brief, false, 0};
 
 constexpr Entry quick_entries[] = {{beam, {Breadth::brief, true, 20000}, 20}, {"studies/accuracy/twist.json", own, 10}};
 
 constexpr Entry full_entries[] = {
-    {beam, whole, 60},
-    {"scenes/kidney_pull.json", whole, 300},
+    {beam, thorough, 60},
+    {"scenes/kidney_pull.json", thorough, 300},
     {"studies/accuracy/twist.json", brief, 60},
     {"studies/accuracy/inclusion.json", brief, 60},
     {"studies/accuracy/fibre.json", brief, 60},

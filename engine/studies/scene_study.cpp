@@ -17,8 +17,7 @@ std::vector<std::string> laws_of(const WorldSetup& setup) {
 }
 
 std::vector<bool> elements_of(const Specimen& specimen, const SceneStudyOptions& options) {
-  if (!options.both_elements || !takes_nodal_pressure(specimen)) return {specimen.nodal_pressure()};
-  return {specimen.nodal_pressure(), !specimen.nodal_pressure()};
+  return options.both_elements ? elements_of(specimen) : std::vector<bool>{specimen.nodal_pressure()};
 }
 
 int halvings_of(const Specimen& specimen, const SceneStudyOptions& options) {

@@ -48,11 +48,6 @@ std::vector<Vec3> positions_from(const Json& list) {
   return x;
 }
 
-std::vector<bool> elements_of(const Specimen& specimen) {
-  if (!takes_nodal_pressure(specimen)) return {specimen.nodal_pressure()};
-  return {specimen.nodal_pressure(), !specimen.nodal_pressure()};
-}
-
 std::size_t farthest(const std::vector<Vec3>& x, const std::vector<Vec3>& rest) {
   std::size_t best = 0;
   for (std::size_t n = 0; n < x.size(); ++n)

@@ -89,6 +89,11 @@ bool takes_nodal_pressure(const Specimen& specimen) {
          });
 }
 
+std::vector<bool> elements_of(const Specimen& specimen) {
+  if (!takes_nodal_pressure(specimen)) return {specimen.nodal_pressure()};
+  return {specimen.nodal_pressure(), !specimen.nodal_pressure()};
+}
+
 std::string key_of(const Specimen& specimen) {
   std::uint64_t hash = identity_of(specimen.setup.mesh).hash;
   for (const char c : scene_text(specimen.scene)) hash = mix(hash, static_cast<std::uint64_t>(c));

@@ -41,6 +41,8 @@ Specimen finer(const Specimen& specimen);
 Specimen with_element(Specimen specimen, bool nodal_pressure);
 /// Whether averaged nodal pressure is defined for all its laws, at the start and after every event.
 bool takes_nodal_pressure(const Specimen& specimen);
+/// With averaged nodal pressure or without: the specimen's own first, then the other where it is defined.
+std::vector<bool> elements_of(const Specimen& specimen);
 /// A name that other scenes do not have: its own and a hash of all there is in it.
 std::string key_of(const Specimen& specimen);
 /// Stable name of the mesh and element: "p1, 1600 tetrahedra".

@@ -45,11 +45,6 @@ std::string mesh_text(const Scene& scene, std::size_t tets) {
   return fmt::format("{} × {} × {} cells, {} tetrahedra", cells[0], cells[1], cells[2], tets);
 }
 
-std::vector<bool> elements_of(const Specimen& specimen) {
-  if (!takes_nodal_pressure(specimen)) return {specimen.nodal_pressure()};
-  return {specimen.nodal_pressure(), !specimen.nodal_pressure()};
-}
-
 /// Another mesh of the scene, with its own time errors and its distance from the first mesh's extrapolation.
 void add_mesh(Tuning& tuning, const Scene& scene, const Specimen& first, const SettledStudy& settled,
               const std::vector<double>& times, const StudyContext& context) {

@@ -1,37 +1,14 @@
 #include <algorithm>
 #include <cmath>
 #include <heml/tools/contact_impulses.hpp>
+#include <heml/tools/contact_motion.hpp>
 
 namespace heml {
 namespace {
 
 constexpr int most_rounds = 8;       // of points that share nodes
-constexpr double recovery = 0.01;    // s, in which tissue that was inside from the start comes out
 constexpr double longest_way = 0.5;  // of a probe's radius: what it goes before it is met again
 constexpr double most_parts = 64;    // of a step, that it is met in
-
-template <class Real>
-Vec3 at(const Real* values, int node) {
-  return Eigen::Map<const Vector3<Real>>(values + 3 * node).template cast<double>();
-}
-
-template <class Real>
-Vec3 at(const Real* values, const ContactPoint& point) {
-  Vec3 sum = Vec3::Zero();
-  for (std::size_t k = 0; k < static_cast<std::size_t>(point.count); ++k)
-    sum += point.weights[k] * at(values, point.nodes[k]);
-  return sum;
-}
-
-/// Of a point's motion along a direction, 1/kg.
-template <class Real>
-double inverse_mass_of(const ContactPoint& point, const std::vector<Real>& inverse_mass) {
-  double sum = 0;
-  for (std::size_t k = 0; k < static_cast<std::size_t>(point.count); ++k)
-    sum += point.weights[k] * point.weights[k] *
-           static_cast<double>(inverse_mass[static_cast<std::size_t>(point.nodes[k])]);
-  return sum;
-}
 
 }  // namespace
 
@@ -108,7 +85,7 @@ void ContactImpulses<Real>::stop_at(const Way& way, std::size_t s, Contacts& con
   for (int round = 0; deep && round < (is_capsule ? most_rounds : 1); ++round) {
     deep = false;
     each_contact(now, contacts.skin, 0, moved, [&](const ContactPoint& point) {
-      const double may = std::min(0.0, gap_again(then, point, was)) * std::max(0.0, 1 - h / recovery);
+      const double may = std::min(0.0, gap_again(then, point, was)) * std::max(0.0, 1 - h / contact_recovery);
       const double closing = (may - point.gap) / h;
       if (!(closing > 0)) return;
       const Vec3 velocity =
@@ -133,12 +110,7 @@ void ContactImpulses<Real>::push(const Stopped& stopped, double closing, double 
   const double p = closing / light, speed = slides.norm();
   Vec3 impulse = p * point.normal;
   if (speed > 0 && friction > 0) impulse -= std::min(friction * p, speed / light) / speed * slides;
-  for (std::size_t k = 0; k < static_cast<std::size_t>(point.count); ++k) {
-    const int n = point.nodes[k];
-    Eigen::Map<Vector3<Real>>(v + 3 * n) +=
-        (point.weights[k] * static_cast<double>(inverse_mass[static_cast<std::size_t>(n)]) * impulse)
-            .template cast<Real>();
-  }
+  push_nodes(point, impulse, inverse_mass, v);
   impulse_[stopped.surface] += weight * impulse;
   contacts.deeds[stopped.surface].work += weight * impulse.dot(at(v, point));
 }

@@ -56,7 +56,6 @@ class SelfContactImpulses {
     double work = 0;            ///< J, friction's
   };
   double push(Touch& touch, const std::vector<Real>& inverse_mass, Real* v) const;
-  void add(const Touch& touch, const Vec3& impulse, const std::vector<Real>& inverse_mass, Real* v) const;
 
   std::vector<Touch> touches_;
   double friction_ = 0;

@@ -9,11 +9,11 @@ namespace {
 
 constexpr std::size_t grain = 2048;
 
-std::size_t at(int n) { return static_cast<std::size_t>(n); }
+std::size_t as_index(int n) { return static_cast<std::size_t>(n); }
 
 Mat3 edges(const Tet& tet, const std::vector<Vec3>& x) {
   Mat3 D;
-  for (int k = 0; k < 3; ++k) D.col(k) = x[at(tet[static_cast<std::size_t>(k) + 1])] - x[at(tet[0])];
+  for (int k = 0; k < 3; ++k) D.col(k) = x[as_index(tet[static_cast<std::size_t>(k) + 1])] - x[as_index(tet[0])];
   return D;
 }
 
@@ -24,14 +24,14 @@ bool is_positive(const Mat3& A) { return A(0, 0) > 0 && A(0, 0) * A(1, 1) > A(0,
 
 Tearing::Tearing(const TearingSettings& settings, const TetMesh& mesh, const Topology& topology)
     : limit_(settings.stretch), around_(mesh, topology), elements_(topology.elements), is_beyond_(elements_.size()) {
-  for (const int t : elements_) inverse_rest_.push_back(edges(mesh.tets[at(t)], mesh.nodes).inverse());
+  for (const int t : elements_) inverse_rest_.push_back(edges(mesh.tets[as_index(t)], mesh.nodes).inverse());
   on_surface_.assign(mesh.nodes.size(), false);
   for (const Triangle& face : boundary_of(with_elements(mesh, elements_)).triangles)
-    for (const int n : face) on_surface_[at(n)] = true;
+    for (const int n : face) on_surface_[as_index(n)] = true;
 }
 
 Mat3 Tearing::gradient(const TetMesh& mesh, const std::vector<Vec3>& x, std::size_t element) const {
-  return edges(mesh.tets[at(elements_[element])], x) * inverse_rest_[element];
+  return edges(mesh.tets[as_index(elements_[element])], x) * inverse_rest_[element];
 }
 
 /// The most stretched first.
@@ -59,8 +59,8 @@ std::vector<Tearing::Torn> Tearing::beyond(const TetMesh& mesh, const std::vecto
 std::optional<Opening> Tearing::opening_of(const Torn& torn, const TetMesh& mesh,
                                            const std::function<bool(int)>& is_held) const {
   std::optional<Opening> best;
-  const auto rank = [this](int n) { return std::tuple(!on_surface_[at(n)], around_.of(n).size(), n); };
-  for (const int n : mesh.tets[at(torn.element)]) {
+  const auto rank = [this](int n) { return std::tuple(!on_surface_[as_index(n)], around_.of(n).size(), n); };
+  for (const int n : mesh.tets[as_index(torn.element)]) {
     const Opening opening{n, torn.across};
     if (!is_held(n) && opens(opening, mesh, around_) && (!best || rank(n) < rank(best->node))) best = opening;
   }
@@ -76,9 +76,9 @@ std::vector<Opening> Tearing::openings(const TetMesh& mesh, const std::vector<Ve
     if (std::find(taken.begin(), taken.end(), torn.element) != taken.end()) continue;
     const auto opening = opening_of(torn, mesh, is_held);
     if (!opening) continue;
-    for (const int n : mesh.tets[at(torn.element)])
+    for (const int n : mesh.tets[as_index(torn.element)])
       for (const int t : around_.of(n))
-        for (const int m : mesh.tets[at(t)]) taken.insert(taken.end(), around_.of(m).begin(), around_.of(m).end());
+        for (const int m : mesh.tets[as_index(t)]) taken.insert(taken.end(), around_.of(m).begin(), around_.of(m).end());
     chosen.push_back(*opening);
   }
   return chosen;

@@ -41,7 +41,7 @@ constexpr long most_hands = 30;  // steps: what is inside out for longer is held
 constexpr double unfolding_small = 0.01, unfolding_caught = 0.1;  // of the way home, a step
 constexpr double weight_of_held = 1000;                           // beside free nodes, in what fits best
 constexpr NewtonOptions newton_options{10, 1e-2};
-constexpr double enough = 1e-3;           // of the first residual
+constexpr double small_enough = 1e-3;           // of the first residual
 constexpr double no_acceleration = 1e-2;  // m/s²
 
 /// Least height over longest edge.
@@ -232,7 +232,7 @@ void TypedWorld<Real>::step_stand_in(double until) {
   const double first = r.norm();
   const Stop stop{[&](const Vector& left) {
                     const auto push = (parts.mass.array() > 0).select(left.array() / parts.mass.array(), 0);
-                    return std::min(push.abs().maxCoeff() / no_acceleration, left.norm() / (enough * first));
+                    return std::min(push.abs().maxCoeff() / no_acceleration, left.norm() / (small_enough * first));
                   },
                   1};
   work_.iterations += minimise(parts.step, parts.linear, stop, newton_options, x).iterations;

@@ -41,9 +41,9 @@ VolumeSlope volume_slope(const TetMesh& mesh, const Tet& tet, const std::vector<
 }
 
 /// A body by one of the methods, in damped explicit steps.
-class Body {
+class SteppedBody {
  public:
-  Body(const Method& method, const WorldSetup& setup)
+  SteppedBody(const Method& method, const WorldSetup& setup)
       : method_(method),
         mesh_(setup.mesh),
         body_(mesh_, std::vector<int>(mesh_.tets.size(), 0), {material_of(method.law, shear, bulk)},
@@ -129,9 +129,9 @@ PenaltyRow row_of(const Method& method, const std::string& start, const WorldSet
   const std::vector<double> rest = flat(setup.mesh.nodes);
   Method without = method;
   without.strength = 0;
-  row.longest_step = std::sqrt(Body(without, setup).bound(rest) / Body(method, setup).bound(rest));
+  row.longest_step = std::sqrt(SteppedBody(without, setup).bound(rest) / SteppedBody(method, setup).bound(rest));
   row.changed_stress = changed_stress(method);
-  Body body(method, setup);
+  SteppedBody body(method, setup);
   body.run();
   body.measure(row);
   return row;
