@@ -5,7 +5,7 @@
 #include <heml/dynamics/motion.hpp>
 #include <numbers>
 
-using namespace heml;
+namespace heml::explicit_test {
 
 namespace {
 
@@ -70,3 +70,5 @@ TEST_CASE("a moved node is where the contract says, and its velocity and acceler
   const Motion at_once{Vec3(1, 0, 0), Vec3(0, 0, 1), Vec3::Zero(), 0, 0};
   CHECK((at_once(X, 0).x - X - Vec3(1, 0, 0)).norm() == 0);
 }
+
+}  // namespace heml::explicit_test

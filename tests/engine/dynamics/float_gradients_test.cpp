@@ -5,7 +5,8 @@
 #include "small_objectives.hpp"
 #include "support.hpp"
 
-using namespace heml;
+namespace heml::float_gradients_test {
+
 using namespace heml::test;
 
 namespace {
@@ -84,3 +85,5 @@ TEST_CASE("a solve in float gives the same bits with any number of threads") {
     if (threads > 1) CHECK(d == first);
   }
 }
+
+}  // namespace heml::float_gradients_test

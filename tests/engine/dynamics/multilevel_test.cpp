@@ -7,7 +7,8 @@
 
 #include "support.hpp"
 
-using namespace heml;
+namespace heml::multilevel_test {
+
 using namespace heml::test;
 
 namespace {
@@ -195,3 +196,5 @@ TEST_CASE("a cycle gives the same bits with any number of threads") {
   }
   for (const Vector& z : results) CHECK((z.array() == results[0].array()).all());
 }
+
+}  // namespace heml::multilevel_test

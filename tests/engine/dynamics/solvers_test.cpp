@@ -9,7 +9,8 @@
 #include "small_objectives.hpp"
 #include "support.hpp"
 
-using namespace heml;
+namespace heml::solvers_test {
+
 using namespace heml::test;
 
 namespace {
@@ -178,3 +179,5 @@ TEST_CASE("stages of each method have its order on a damped oscillator, also whe
     CHECK(std::log2(error(coarse) / error(fine)) == doctest::Approx(order).epsilon(0.05));
   }
 }
+
+}  // namespace heml::solvers_test

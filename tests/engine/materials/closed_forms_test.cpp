@@ -16,7 +16,8 @@
 //
 // Free stretches are found by bisection of the closed form.
 
-using namespace heml;
+namespace heml::closed_forms_test {
+
 using test::sample_material;
 
 namespace {
@@ -306,3 +307,5 @@ TEST_CASE("whichever the volume term, constants at rest are the same") {
     }
   }
 }
+
+}  // namespace heml::closed_forms_test

@@ -7,7 +7,8 @@
 
 // Where laws end, and how they go on past that.
 
-using namespace heml;
+namespace heml::continuation_test {
+
 using namespace heml::test;
 
 TEST_CASE("a continuation changes nothing in moderate states") {
@@ -137,3 +138,5 @@ TEST_CASE("StVK loses its stiffness below a stretch of 1/√3, which the continu
   CHECK(std::abs(P11(*formula, 0.1)) < std::abs(P11(*formula, t)));
   for (double s = t; s > -0.5; s -= 0.05) CHECK(P11(*continued, s - 0.05) < P11(*continued, s));
 }
+
+}  // namespace heml::continuation_test

@@ -4,7 +4,8 @@
 
 #include "sample_materials.hpp"
 
-using namespace heml;
+namespace heml::fit_test {
+
 using heml::test::sample_material;
 
 namespace {
@@ -147,3 +148,5 @@ TEST_CASE("refuses what cannot be fitted") {
   gent.parameters[1] = 0.5;
   CHECK(fit_problem(gent, BenchTest::uniaxial, {{1.1, 1.5, 3}, {10, 20, 30}}, {}).find("range") != std::string::npos);
 }
+
+}  // namespace heml::fit_test

@@ -7,7 +7,8 @@
 // What must hold of every law, whatever its formula; the formulas themselves are in closed_forms_test.cpp, where laws
 // end in continuation_test.cpp.
 
-using namespace heml;
+namespace heml::laws_test {
+
 using namespace heml::test;
 
 namespace {
@@ -187,3 +188,5 @@ TEST_CASE("Young's modulus and Poisson's ratio become Lamé's and come back") {
   CHECK(engineering_from(lame).young == doctest::Approx(1e4).epsilon(1e-14));
   CHECK(engineering_from(lame).poisson == doctest::Approx(0.45).epsilon(1e-14));
 }
+
+}  // namespace heml::laws_test

@@ -2,7 +2,8 @@
 
 #include "sample_materials.hpp"
 
-using namespace heml;
+namespace heml::parameter_slots_test {
+
 using heml::test::sample_material;
 
 TEST_CASE("lists come apart into one slot a term, scalars stay whole") {
@@ -35,3 +36,5 @@ TEST_CASE("every law has as many slots as parameters, and knows what keeps its v
     CHECK(ground_state(stiffer).shear == doctest::Approx(ground_state(material).shear));
   }
 }
+
+}  // namespace heml::parameter_slots_test

@@ -3,7 +3,8 @@
 
 #include "sample_materials.hpp"
 
-using namespace heml;
+namespace heml::test_bench_test {
+
 using heml::test::sample_material;
 
 namespace {
@@ -199,3 +200,5 @@ TEST_CASE("stress relaxes from 1 + Σγ to 1") {
   CHECK(relaxation_factor(terms, 1e4) == doctest::Approx(1));
   CHECK(relaxation_factor({}, 3) == 1);
 }
+
+}  // namespace heml::test_bench_test

@@ -6,7 +6,7 @@
 
 #include "support.hpp"
 
-using namespace heml;
+namespace heml::elementary_test {
 
 TEST_CASE_TEMPLATE("the logarithm is within 2 units in the last place of one with more digits", Real, float, double) {
   std::mt19937_64 random(1);
@@ -37,3 +37,5 @@ TEST_CASE("the cofactor is the gradient of the determinant, of singular matrices
       }
   }
 }
+
+}  // namespace heml::elementary_test

@@ -7,7 +7,7 @@
 #include "engine/mesh/files.hpp"
 #include "engine/mesh/solids.hpp"
 
-using namespace heml;
+namespace heml::check_surface_test {
 
 namespace {
 std::string refusal_of(SurfaceMesh surface) {
@@ -96,3 +96,5 @@ TEST_CASE("refuses what is no surface at all") {
   CHECK(has(refusal_of(surface), "triangle 4: has no area"));
   CHECK(has(refusal_of({}), "no triangles"));
 }
+
+}  // namespace heml::check_surface_test

@@ -11,7 +11,7 @@
 #include <random>
 #include <set>
 
-using namespace heml;
+namespace heml::cut_test {
 
 namespace {
 
@@ -271,3 +271,5 @@ TEST_CASE("cut: what misses the body, or sweeps no area, says so") {
   CHECK(body.cut({{{Vec3::Zero(), Vec3::Ones()}}}).find("sweeps no area") != std::string::npos);
   CHECK(body.cut({}).find("sweeps no area") != std::string::npos);
 }
+
+}  // namespace heml::cut_test

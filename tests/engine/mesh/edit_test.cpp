@@ -3,7 +3,7 @@
 #include <heml/mesh/edit.hpp>
 #include <heml/mesh/generate.hpp>
 
-using namespace heml;
+namespace heml::edit_test {
 
 namespace {
 
@@ -71,3 +71,5 @@ TEST_CASE("a removal that makes no sense is refused in words") {
              "all 18 elements that are left would go"));
   CHECK(problem_of(tets({4, 4}), topology).empty());
 }
+
+}  // namespace heml::edit_test

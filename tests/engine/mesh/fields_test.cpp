@@ -11,7 +11,7 @@
 #include "engine/mesh/files.hpp"
 #include "engine/mesh/samples.hpp"
 
-using namespace heml;
+namespace heml::fields_test {
 
 namespace {
 
@@ -170,3 +170,5 @@ TEST_CASE("refuses a mesh whose fields do not fit its tetrahedra") {
   mesh.fields = {{"E", 1, {1, 2, 3}}};
   CHECK(says(refusal([&] { check_tets(mesh); }), {"field 'E'", "3 values of 1 components for 5 tetrahedra"}));
 }
+
+}  // namespace heml::fields_test

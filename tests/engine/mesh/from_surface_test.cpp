@@ -11,7 +11,7 @@
 #include "engine/mesh/files.hpp"
 #include "engine/mesh/solids.hpp"
 
-using namespace heml;
+namespace heml::from_surface_test {
 
 namespace {
 
@@ -275,3 +275,5 @@ TEST_CASE("fills a surface by others that runs through itself in a crease, once 
   CHECK(report.rewound == 0);
   CHECK(report.volume == doctest::Approx(enclosed_volume(liver)).epsilon(1e-10));
 }
+
+}  // namespace heml::from_surface_test

@@ -7,7 +7,7 @@
 #include "engine/mesh/any_format.hpp"
 #include "engine/mesh/samples.hpp"
 
-using namespace heml;
+namespace heml::fuzz_test {
 
 namespace {
 
@@ -85,3 +85,5 @@ TEST_CASE("damaged TetGen files give a mesh or one clear error") {
   CHECK(count_survivors(4, samples::node + '\0' + samples::ele, 10) > 0);
   CHECK(count_survivors(4, samples::node + '\0' + samples::ele_attributes, 13) > 0);
 }
+
+}  // namespace heml::fuzz_test

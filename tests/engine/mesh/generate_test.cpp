@@ -5,7 +5,7 @@
 #include <heml/mesh/quality.hpp>
 #include <heml/mesh/surface.hpp>
 
-using namespace heml;
+namespace heml::generate_test {
 
 TEST_CASE("a box of 4 cells a side has 125 nodes, 320 tetrahedra and the volume of the box") {
   TetMesh box = make_box(Vec3(0.1, 0.2, 0.3), {4, 4, 4}, Vec3(1, 2, 3));
@@ -52,3 +52,5 @@ TEST_CASE("refuses boxes without size, without cells or with too many") {
   CHECK_THROWS_AS(make_box(Vec3(1, 1, 1), {1, 0, 1}), InputError);
   CHECK_THROWS_AS(make_box(Vec3(1, 1, 1), {2000000000, 2000000000, 2000000000}), InputError);
 }
+
+}  // namespace heml::generate_test

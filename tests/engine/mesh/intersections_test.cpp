@@ -5,7 +5,7 @@
 #include "engine/mesh/solids.hpp"
 #include "support.hpp"
 
-using namespace heml;
+namespace heml::intersections_test {
 
 namespace {
 
@@ -84,3 +84,5 @@ TEST_CASE("finds the pairs that comparing every two triangles alone finds") {
   CHECK(found.pairs == count);
   CHECK(std::pair(found.first, found.second) == first);
 }
+
+}  // namespace heml::intersections_test

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <string>
 
-using namespace heml;
+namespace heml::quality_test {
 
 namespace {
 TetMesh corner() { return {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 1, 2, 3}}, {0}, "corner"}; }
@@ -139,3 +139,5 @@ TEST_CASE("the report in words holds counts, volume and every warning") {
   CHECK(text.find("0.166667 m³") != std::string::npos);
   CHECK(text.find("warning: 1 node of no tetrahedron") != std::string::npos);
 }
+
+}  // namespace heml::quality_test

@@ -7,7 +7,7 @@
 #include "engine/mesh/files.hpp"
 #include "engine/mesh/samples.hpp"
 
-using namespace heml;
+namespace heml::read_test {
 
 namespace {
 
@@ -249,3 +249,5 @@ TEST_CASE("reads meshes made by others") {
     CHECK(report.components == 1);
   }
 }
+
+}  // namespace heml::read_test

@@ -8,7 +8,7 @@
 #include <numeric>
 #include <set>
 
-using namespace heml;
+namespace heml::refine_test {
 
 namespace {
 
@@ -118,3 +118,5 @@ TEST_CASE("the greatest few have the share of the sum that is asked for") {
   CHECK(greatest({1, 5, 2, 2}, 1) == std::vector<int>{0, 1, 2, 3});
   CHECK(greatest({0, 0}, 0.5).empty());
 }
+
+}  // namespace heml::refine_test

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <random>
 
-using namespace heml;
+namespace heml::reorder_test {
 
 namespace {
 // The box with nodes and tetrahedra in a random order (mt19937 and its own arithmetic: the same everywhere), one orphan
@@ -117,3 +117,5 @@ TEST_CASE("the order depends on the mesh alone and survives a mesh of nothing") 
   CHECK(locality_order(mesh).file_node == locality_order(mesh).file_node);
   CHECK(locality_order(TetMesh{}).file_node.empty());
 }
+
+}  // namespace heml::reorder_test

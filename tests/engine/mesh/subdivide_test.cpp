@@ -6,7 +6,7 @@
 #include <heml/mesh/subdivide.hpp>
 #include <numeric>
 
-using namespace heml;
+namespace heml::subdivide_test {
 
 namespace {
 double volume_of(const TetMesh& mesh, std::size_t t) {
@@ -51,3 +51,5 @@ TEST_CASE("a subdivided mesh has no gaps, and twice subdivided its shapes are no
   }
   CHECK(check_tets(twice).worst_dihedral == doctest::Approx(check_tets(once).worst_dihedral).epsilon(1e-6));
 }
+
+}  // namespace heml::subdivide_test

@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-using namespace heml;
+namespace heml::surface_test {
 
 namespace {
 double enclosed_volume(const TetMesh& mesh, const std::vector<Triangle>& triangles) {
@@ -58,3 +58,5 @@ TEST_CASE("a face shared by two tetrahedra is inside, whatever the order of its 
 }
 
 TEST_CASE("a mesh of nothing has no boundary") { CHECK(boundary_of(TetMesh{}).triangles.empty()); }
+
+}  // namespace heml::surface_test

@@ -4,7 +4,7 @@
 
 #include "engine/mesh/solids.hpp"
 
-using namespace heml;
+namespace heml::untangle_test {
 
 namespace {
 // A box with a dent in its top and the node beside it pushed through a wall of the dent.
@@ -35,3 +35,5 @@ TEST_CASE("leaves bodies that cross as they were") {
   CHECK_FALSE(untangle(surface, self_intersections(surface)));
   CHECK(surface.nodes == before);
 }
+
+}  // namespace heml::untangle_test

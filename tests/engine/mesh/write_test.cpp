@@ -8,7 +8,7 @@
 
 #include "engine/mesh/files.hpp"
 
-using namespace heml;
+namespace heml::write_test {
 
 TEST_CASE("every format gives back nodes to the bit, tetrahedra and regions") {
   TetMesh mesh = make_box(Vec3(0.1, 0.2, 1.0 / 3), {3, 2, 2}, Vec3(-1e-3, 1e5, 0.7));
@@ -71,3 +71,5 @@ TEST_CASE("refuses to write unknown endings and into folders that are not there"
   CHECK(refusal([&] { write_tet_mesh(folder / "none/a.msh", mesh); }).find("cannot be written") != std::string::npos);
   CHECK(refusal([&] { write_tet_mesh("/dev/full/a.msh", mesh); }).find("cannot be written") != std::string::npos);
 }
+
+}  // namespace heml::write_test

@@ -12,7 +12,7 @@
 #include <heml/scenario/replay.hpp>
 #include <heml/scenario/text_file.hpp>
 
-namespace heml {
+namespace heml::adapt_test {
 namespace {
 
 /// A bar held at x = 0 by the numbers of its nodes, that sags and is pulled at its other end.
@@ -142,4 +142,4 @@ TEST_CASE("what cannot be refined is refused with what would do") {
                    "step 1 removes tetrahedra by numbers"));
 }
 
-}  // namespace heml
+}  // namespace heml::adapt_test

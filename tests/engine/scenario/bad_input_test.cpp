@@ -5,7 +5,7 @@
 #include <engine/scenario/samples.hpp>
 #include <heml/scenario/scene.hpp>
 
-namespace heml {
+namespace heml::bad_input_test {
 namespace {
 
 struct Mistake {
@@ -214,4 +214,4 @@ TEST_CASE("reads one material entry as a file, and refuses a wrong one with its 
   CHECK(test::says(message, "bad.json: lamda: unknown key (did you mean 'lambda'?"));
 }
 
-}  // namespace heml
+}  // namespace heml::bad_input_test

@@ -8,7 +8,8 @@
 
 #include "samples.hpp"
 
-using namespace heml;
+namespace heml::curve_csv_test {
+
 using heml::test::says;
 
 namespace {
@@ -62,3 +63,5 @@ TEST_CASE("refuses what is no measured curve, naming the line") {
   for (int k = 0; k < 5001; ++k) many += "1.1,5\n";
   CHECK(says(refusal(many), "line 5002"));
 }
+
+}  // namespace heml::curve_csv_test

@@ -5,7 +5,7 @@
 #include <heml/scenario/scene.hpp>
 #include <heml/scenario/selection.hpp>
 
-namespace heml {
+namespace heml::default_scene_test {
 
 TEST_CASE("puts soft tissue held at its top round a bare mesh") {
   const TemporaryFolder folder;
@@ -62,4 +62,4 @@ TEST_CASE("puts a scene round meshes and surfaces made by others") {
   }
 }
 
-}  // namespace heml
+}  // namespace heml::default_scene_test

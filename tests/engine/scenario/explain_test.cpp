@@ -9,7 +9,7 @@
 #include <heml/scenario/explain.hpp>
 #include <heml/scenario/measure_features.hpp>
 
-namespace heml {
+namespace heml::explain_test {
 namespace {
 
 Explanation explained(const std::string& patch) { return explain(test::small_scene_with(patch)); }
@@ -256,4 +256,4 @@ TEST_CASE("features are measured beside the scene as it is") {
   for (const MeasuredChange& change : measured.changes) CHECK(change.milliseconds > 0);
 }
 
-}  // namespace heml
+}  // namespace heml::explain_test

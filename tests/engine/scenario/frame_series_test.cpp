@@ -10,7 +10,7 @@
 #include <heml/scenario/text_file.hpp>
 #include <sstream>
 
-namespace heml {
+namespace heml::frame_series_test {
 namespace {
 
 /// The text between two marks.
@@ -86,4 +86,4 @@ TEST_CASE("a series lists its frames with their times, also while it grows") {
   CHECK(std::filesystem::exists(folder / "frames" / "frame_00001.vtu"));
 }
 
-}  // namespace heml
+}  // namespace heml::frame_series_test

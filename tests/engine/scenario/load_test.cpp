@@ -10,7 +10,7 @@
 #include <heml/scenario/schedule.hpp>
 #include <heml/scenario/selection.hpp>
 
-namespace heml {
+namespace heml::load_test {
 namespace {
 
 // The small scene's box: nodes at x 0, 0.1, 0.2; y and z 0, 0.1; x fastest, then y, then z.
@@ -128,4 +128,4 @@ TEST_CASE("resolves a grasp of a place to the surface node nearest at rest, and 
   CHECK(test::says(refusal([&] { Schedule(scene, mesh); }), "events: step 1: grasp.node: is 12"));
 }
 
-}  // namespace heml
+}  // namespace heml::load_test

@@ -9,7 +9,7 @@
 #include <heml/scenario/load_mesh.hpp>
 #include <limits>
 
-namespace heml {
+namespace heml::material_fields_test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -215,4 +215,4 @@ TEST_CASE("nodal pressure is refused for laws without a volume term, and with di
                    "events: step 3: material.law: 'stvk'"));
 }
 
-}  // namespace heml
+}  // namespace heml::material_fields_test

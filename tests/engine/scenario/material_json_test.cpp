@@ -7,7 +7,7 @@
 #include <heml/scenario/material_json.hpp>
 #include <heml/scenario/young_poisson.hpp>
 
-namespace heml {
+namespace heml::material_json_test {
 namespace {
 
 using Values = std::vector<double>;
@@ -210,4 +210,4 @@ TEST_CASE("refuses fields where there is no mesh") {
                    "there is no mesh here"));
 }
 
-}  // namespace heml
+}  // namespace heml::material_json_test

@@ -6,7 +6,7 @@
 #include <heml/scenario/scene.hpp>
 #include <random>
 
-namespace heml {
+namespace heml::mutation_test {
 namespace {
 
 const char* const pieces[] = {"{",
@@ -94,4 +94,4 @@ TEST_CASE("answers damaged scenes with a scene or an InputError and nothing else
   CHECK(refused > 1000);
 }
 
-}  // namespace heml
+}  // namespace heml::mutation_test

@@ -11,7 +11,8 @@
 
 #include "samples.hpp"
 
-using namespace heml;
+namespace heml::presets_test {
+
 using heml::test::says;
 
 namespace {
@@ -176,3 +177,5 @@ TEST_CASE("refuses a preset that is wrong, naming the key") {
   CHECK(says(refusal(R"({"source": {"year": "2002"}})"), "source.year"));
   CHECK(says(refusal(R"({"published": {"mu": "a"}})"), "published.mu"));
 }
+
+}  // namespace heml::presets_test

@@ -6,7 +6,7 @@
 #include <heml/scenario/replay.hpp>
 #include <heml/scenario/solve.hpp>
 
-namespace heml {
+namespace heml::recovery_watch_test {
 namespace {
 
 /// A box that a blow of gravity turns inside out.
@@ -62,4 +62,4 @@ TEST_CASE("a watch tells of the begin and the end of a recovery, each once, and 
   }
 }
 
-}  // namespace heml
+}  // namespace heml::recovery_watch_test

@@ -10,7 +10,7 @@
 #include <heml/scenario/solve.hpp>
 #include <heml/scenario/text_file.hpp>
 
-namespace heml {
+namespace heml::removal_test {
 namespace {
 
 const char* const removals = R"({
@@ -131,4 +131,4 @@ TEST_CASE("the report and the vtu of a solve say what was removed") {
   CHECK(written.nodes.size() == 5 * 3 * 3);
 }
 
-}  // namespace heml
+}  // namespace heml::removal_test

@@ -10,7 +10,7 @@
 #include <heml/scenario/schedule.hpp>
 #include <iterator>
 
-namespace heml {
+namespace heml::replay_test {
 namespace {
 
 Scene session_scene() {
@@ -209,4 +209,4 @@ TEST_CASE("plays a scene with a script for its duration, and refuses an event th
   CHECK(refusal([&] { replay_of(wrong); }).find("folder/scene.json: events: step 4: ") == 0);
 }
 
-}  // namespace heml
+}  // namespace heml::replay_test

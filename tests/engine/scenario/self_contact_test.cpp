@@ -10,7 +10,7 @@
 #include <heml/scenario/replay.hpp>
 #include <heml/scenario/solve.hpp>
 
-namespace heml {
+namespace heml::self_contact_test {
 namespace {
 
 /// A block with a slot from above, whose two lobes a probe presses together.
@@ -122,4 +122,4 @@ TEST_CASE("explain says that tissue passes tissue, or what keeping it apart take
   }));
 }
 
-}  // namespace heml
+}  // namespace heml::self_contact_test

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace heml {
+namespace heml::solve_test {
 namespace {
 
 constexpr double g = 9.81, step = 1e-3;
@@ -220,4 +220,4 @@ TEST_CASE("refuses an output folder that is a file") {
   CHECK(test::says(refusal([&] { solve(test::small_scene_with("{}"), file / "in"); }), "cannot be made"));
 }
 
-}  // namespace heml
+}  // namespace heml::solve_test

@@ -7,7 +7,7 @@
 #include <heml/scenario/replay.hpp>
 #include <heml/scenario/schedule.hpp>
 
-namespace heml {
+namespace heml::tools_test {
 namespace {
 
 Scene scene_with_events(const std::string& events) {
@@ -135,4 +135,4 @@ TEST_CASE("a recorded session with every tool replays to the bit, by explicit an
   }
 }
 
-}  // namespace heml
+}  // namespace heml::tools_test

@@ -9,7 +9,7 @@
 #include <sstream>
 #include <vector>
 
-namespace heml {
+namespace heml::trace_test {
 namespace {
 
 /// Rows of a table, the header first.
@@ -95,4 +95,4 @@ TEST_CASE("a marker that selects nothing is an error that names it, as is a name
   CHECK(problem_of(R"({"every": 0})").find("outputs.every") != std::string::npos);
 }
 
-}  // namespace heml
+}  // namespace heml::trace_test

@@ -5,7 +5,8 @@
 #include "support.hpp"
 #include "world_support.hpp"
 
-using namespace heml;
+namespace heml::budget_test {
+
 using namespace heml::test;
 
 namespace {
@@ -130,3 +131,5 @@ TEST_CASE("every projection and every preconditioner leads to the same equilibri
        {Preconditioner::scalar, Preconditioner::multilevel, Preconditioner::block_jacobi})
     sag(Projection::element, preconditioner);
 }
+
+}  // namespace heml::budget_test

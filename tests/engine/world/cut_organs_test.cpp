@@ -11,7 +11,8 @@
 #include "support.hpp"
 #include "world_support.hpp"
 
-using namespace heml;
+namespace heml::cut_organs_test {
+
 using namespace heml::test;
 
 namespace {
@@ -119,3 +120,5 @@ TEST_CASE("two hundred random cuts through a liver lose nothing, leave it closed
   }
   check_cuts(liver, 200);
 }
+
+}  // namespace heml::cut_organs_test

@@ -8,7 +8,8 @@
 #include "support.hpp"
 #include "world_support.hpp"
 
-using namespace heml;
+namespace heml::cut_test {
+
 using namespace heml::test;
 
 namespace {
@@ -251,3 +252,5 @@ TEST_CASE("a body in recovery, a grasped one and a static one can be cut") {
   at_rest->load_to(1);
   CHECK_FALSE(at_rest->halt());
 }
+
+}  // namespace heml::cut_test

@@ -8,7 +8,8 @@
 #include "support.hpp"
 #include "world_support.hpp"
 
-using namespace heml;
+namespace heml::implicit_test {
+
 using namespace heml::test;
 
 namespace {
@@ -199,3 +200,5 @@ TEST_CASE("auto weighs a step by its laws, its terms and its precision, until it
   world->apply(SetStepCost{25});
   CHECK(world->facts().method.step_cost == doctest::Approx(25e-9));
 }
+
+}  // namespace heml::implicit_test

@@ -6,7 +6,8 @@
 
 #include "world_support.hpp"
 
-using namespace heml;
+namespace heml::outdated_factor_test {
+
 using namespace heml::test;
 
 namespace {
@@ -120,3 +121,5 @@ TEST_CASE("a factor taken where there is nothing to make anew changes nothing") 
     CHECK(world->state_hash() == other->state_hash());
   }
 }
+
+}  // namespace heml::outdated_factor_test

@@ -6,7 +6,8 @@
 
 #include "world_support.hpp"
 
-using namespace heml;
+namespace heml::pin_test {
+
 using namespace heml::test;
 
 namespace {
@@ -110,3 +111,5 @@ TEST_CASE("pin: what cannot be held or released is refused, and changes nothing"
     CHECK(world->apply(wrong));
   CHECK(world->pins().empty());
 }
+
+}  // namespace heml::pin_test

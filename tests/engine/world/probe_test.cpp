@@ -9,7 +9,8 @@
 
 #include "world_support.hpp"
 
-using namespace heml;
+namespace heml::probe_test {
+
 using namespace heml::test;
 
 namespace {
@@ -204,3 +205,5 @@ TEST_CASE("probe: what makes none is refused, and a reset takes it away") {
   CHECK_FALSE(world->apply(Reset{}));
   CHECK_FALSE(world->probe().active);
 }
+
+}  // namespace heml::probe_test

@@ -5,7 +5,8 @@
 #include "support.hpp"
 #include "world_support.hpp"
 
-using namespace heml;
+namespace heml::rate_effects_test {
+
 using namespace heml::test;
 
 namespace {
@@ -137,3 +138,5 @@ TEST_CASE("rate effects are the same bits for any number of threads") {
       CHECK(world->state_hash() == hash);
   }
 }
+
+}  // namespace heml::rate_effects_test

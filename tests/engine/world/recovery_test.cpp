@@ -10,7 +10,8 @@
 #include "support.hpp"
 #include "world_support.hpp"
 
-using namespace heml;
+namespace heml::recovery_test {
+
 using namespace heml::test;
 
 namespace {
@@ -286,3 +287,5 @@ TEST_CASE("recovery: material, grasp and reset are taken while it goes on") {
   CHECK(world->recoveries() == 1);  // it starts scattered again
   CHECK(steps_to_rest(*world) > 0);
 }
+
+}  // namespace heml::recovery_test

@@ -12,7 +12,8 @@
 #include "support.hpp"
 #include "world_support.hpp"
 
-using namespace heml;
+namespace heml::removal_test {
+
 using namespace heml::test;
 
 namespace {
@@ -420,3 +421,5 @@ TEST_CASE("removals give the same bits for any number of threads, in float and w
       }
     }
 }
+
+}  // namespace heml::removal_test

@@ -8,7 +8,8 @@
 
 #include "world_support.hpp"
 
-using namespace heml;
+namespace heml::self_contact_test {
+
 using namespace heml::test;
 
 namespace {
@@ -329,3 +330,5 @@ TEST_CASE("self-contact: the same bits for any number of threads, after a reset 
       CHECK(one->state_hash() == hash);
     }
 }
+
+}  // namespace heml::self_contact_test

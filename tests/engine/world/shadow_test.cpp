@@ -6,7 +6,8 @@
 
 #include "world_support.hpp"
 
-using namespace heml;
+namespace heml::shadow_test {
+
 using namespace heml::test;
 
 namespace {
@@ -125,3 +126,5 @@ TEST_CASE("a world's estimate of its mesh falls with the mesh, and nets of sprin
   net.materials = {{std::nullopt, Material{"mass_spring", {10}}}};
   CHECK_FALSE(make_world(net)->error_estimate());
 }
+
+}  // namespace heml::shadow_test

@@ -8,7 +8,8 @@
 
 #include "world_support.hpp"
 
-using namespace heml;
+namespace heml::static_closed_forms_test {
+
 using namespace heml::test;
 
 namespace {
@@ -120,3 +121,5 @@ TEST_CASE("static: the apex of a regular tetrahedron goes where the closed form 
     CHECK((apex - Vec3(shear * height, 0, height)).norm() <= 1e-8 * shear * height);
   }
 }
+
+}  // namespace heml::static_closed_forms_test

@@ -7,7 +7,8 @@
 #include "support.hpp"
 #include "world_support.hpp"
 
-using namespace heml;
+namespace heml::static_test {
+
 using namespace heml::test;
 
 namespace {
@@ -399,3 +400,5 @@ TEST_CASE("static: a scene does not become dynamic while it runs, nor the other 
   CHECK(make_world(at_rest(soft()))->apply(SetIntegrator{Integrator::verlet}));
   CHECK(make_world(cantilever())->apply(SetIntegrator{Integrator::static_equilibrium}));
 }
+
+}  // namespace heml::static_test

@@ -6,7 +6,8 @@
 
 #include "world_support.hpp"
 
-using namespace heml;
+namespace heml::suture_test {
+
 using namespace heml::test;
 
 namespace {
@@ -103,3 +104,5 @@ TEST_CASE("suture: one that cannot be is refused") {
     CHECK(world->apply(wrong));
   CHECK(world->sutures().empty());
 }
+
+}  // namespace heml::suture_test

@@ -9,7 +9,8 @@
 
 #include "world_support.hpp"
 
-using namespace heml;
+namespace heml::table_test {
+
 using namespace heml::test;
 
 namespace {
@@ -195,3 +196,5 @@ TEST_CASE("table: a wrong one is refused and changes nothing") {
   CHECK_FALSE(world->apply(SetTables{}));
   CHECK(world->tables().empty());
 }
+
+}  // namespace heml::table_test

@@ -9,7 +9,8 @@
 
 #include "world_support.hpp"
 
-using namespace heml;
+namespace heml::tearing_test {
+
 using namespace heml::test;
 
 namespace {
@@ -194,3 +195,5 @@ TEST_CASE("tearing: the same bits for any number of threads and after a reset, a
     CHECK(one->state_hash() == hash);
   }
 }
+
+}  // namespace heml::tearing_test

@@ -12,7 +12,8 @@
 #include "support.hpp"
 #include "world_support.hpp"
 
-using namespace heml;
+namespace heml::vibration_test {
+
 using namespace heml::test;
 
 namespace {
@@ -181,3 +182,5 @@ TEST_CASE("vibration: a run swings at the frequencies of its own stiffness") {
     CHECK(omega == doctest::Approx(mode.omega).epsilon(1e-3));
   }
 }
+
+}  // namespace heml::vibration_test

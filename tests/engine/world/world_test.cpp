@@ -6,7 +6,8 @@
 #include "support.hpp"
 #include "world_support.hpp"
 
-using namespace heml;
+namespace heml::world_test {
+
 using namespace heml::test;
 
 namespace {
@@ -301,3 +302,5 @@ TEST_CASE("regions need a material each, and one entry only") {
   setup.materials = {{std::nullopt, soft()}};
   CHECK_NOTHROW(make_world(setup));
 }
+
+}  // namespace heml::world_test
