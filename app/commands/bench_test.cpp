@@ -26,13 +26,13 @@ constexpr ImU32 law_colour = panel::colours::rgba(0x2a8578), given_colour = pane
 constexpr int most_points = 100000;
 
 /// What is tested, and under which name it is shown.
-struct Specimen {
+struct TestedMaterial {
   Material material;
   std::string title;
   std::optional<StretchRange> stretch_range;  ///< of a preset
 };
 
-Specimen specimen_of(const std::string& name) {
+TestedMaterial tested_material(const std::string& name) {
   std::error_code error;
   const bool is_file = std::filesystem::exists(name, error);
   const Preset* preset = is_file ? nullptr : find_preset(name);
@@ -68,8 +68,8 @@ MeasuredTest test_of(const BenchTestArguments& arguments) {
 }
 
 /// What the curve runs over.
-StretchRange range_of(const BenchTestArguments& arguments, const MeasuredTest& test, const Specimen& specimen,
-                      const std::optional<Measured>& data) {
+StretchRange range_of(const BenchTestArguments& arguments, const MeasuredTest& test, const TestedMaterial& specimen,
+                      const std::optional<MeasuredCurve>& data) {
   StretchRange range{0.7, 1.5};
   if (const auto* bench = std::get_if<BenchTest>(&test)) {
     if (*bench == BenchTest::shear)
@@ -152,7 +152,7 @@ std::string parameters_text(const Material& material) {
   return text;
 }
 
-panel::Chart chart_of(const Specimen& specimen, const MeasuredTest& test, const BenchTestArguments& arguments) {
+panel::Chart chart_of(const TestedMaterial& specimen, const MeasuredTest& test, const BenchTestArguments& arguments) {
   panel::Chart chart;
   chart.title = specimen.title;
   chart.y_quantity = "Nominal stress";
@@ -169,7 +169,7 @@ panel::Chart chart_of(const Specimen& specimen, const MeasuredTest& test, const 
 
 /// The curve, and beside it where a fit began and what was measured.
 void add_curves(panel::Chart& chart, const CurveTable& given, const CurveTable& curve, const std::optional<Fit>& fit,
-                const std::optional<Measured>& data) {
+                const std::optional<MeasuredCurve>& data) {
   if (fit) chart.series.push_back(line_of("start", given, given_colour, 0.8f));
   chart.series.push_back(
       line_of(fit ? fmt::format("fitted, R² {:.4g}", fit->r_squared) : "nominal stress", curve, law_colour, 1));
@@ -192,8 +192,8 @@ void print_fit(const Fit& fit) {
 }
 
 /// Fits, prints, and writes the entry for scenes.
-Fit fit_to(const BenchTestArguments& arguments, const MeasuredTest& test, const Measured& data,
-           const Specimen& specimen) {
+Fit fit_to(const BenchTestArguments& arguments, const MeasuredTest& test, const MeasuredCurve& data,
+           const TestedMaterial& specimen) {
   const FitOptions options{arguments.fit_all};
   if (const std::string problem = fit_problem(specimen.material, test, data, options); !problem.empty())
     throw InputError(arguments.data->string(), "", problem);
@@ -223,8 +223,8 @@ int bench_test(const BenchTestArguments& arguments) {
     throw UsageError(fmt::format("--points must be from 2 to {}, is {}", most_points, arguments.points));
   if (arguments.data && arguments.out.extension() == ".json")
     throw UsageError("--out must not end in .json: the fitted material is written under that name");
-  Specimen specimen = specimen_of(arguments.material);
-  const std::optional<Measured> data =
+  TestedMaterial specimen = tested_material(arguments.material);
+  const std::optional<MeasuredCurve> data =
       arguments.data ? std::make_optional(read_curve_csv(*arguments.data, test)) : std::nullopt;
   if (std::holds_alternative<Relaxation>(test) && specimen.material.relaxation.empty())
     throw InputError(arguments.material, "", "the material does not relax",

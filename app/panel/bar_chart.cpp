@@ -9,9 +9,9 @@
 namespace heml::panel {
 namespace {
 
-class Drawing {
+class BarDrawing {
  public:
-  Drawing(ImDrawList& list, const BarChart& chart, const ChartColours& colours)
+  BarDrawing(ImDrawList& list, const BarChart& chart, const ChartColours& colours)
       : list_(list), chart_(chart), colours_(colours) {
     for (const auto& group : chart.groups) {
       widest_ = std::max(widest_, ImGui::CalcTextSize(group.label.c_str()).x);
@@ -90,7 +90,7 @@ class Drawing {
 }  // namespace
 
 void draw_bars(ImDrawList& list, const Area& area, const BarChart& chart, const ChartColours& colours) {
-  Drawing(list, chart, colours).draw(area);
+  BarDrawing(list, chart, colours).draw(area);
 }
 
 }  // namespace heml::panel

@@ -3,7 +3,7 @@
 
 namespace heml::panel {
 namespace {
-constexpr float shown_for = 3.5f, fading = 0.5f;  // s
+constexpr float notice_shown_for = 3.5f, fading = 0.5f;  // s
 constexpr ImGuiWindowFlags plain_window = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
                                           ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoFocusOnAppearing |
                                           ImGuiWindowFlags_NoNav;
@@ -65,8 +65,8 @@ bool Notices::draw_banner(Rows& rows, const char* id, const Area& free, const Ba
 
 void Notices::draw_said(const Area& free, float seconds) {
   said_for_ += seconds;
-  if (said_for_ > shown_for) return said_.clear();
-  const float opacity = std::clamp((shown_for - said_for_) / fading, 0.0f, 1.0f);
+  if (said_for_ > notice_shown_for) return said_.clear();
+  const float opacity = std::clamp((notice_shown_for - said_for_) / fading, 0.0f, 1.0f);
   ImGui::SetNextWindowPos({(free.from.x + free.to.x) / 2, free.to.y - em(4.2f)}, ImGuiCond_Always, {0.5f, 1});
   ImGui::PushStyleVar(ImGuiStyleVar_Alpha, opacity);
   if (ImGui::Begin("said", nullptr, plain_window | ImGuiWindowFlags_NoInputs)) {

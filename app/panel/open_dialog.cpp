@@ -9,7 +9,7 @@
 namespace heml::panel {
 namespace {
 
-constexpr float widest = 78, two_columns_from = 58, side_column = 0.4f, cell_width = 10.5f;  // em; of the width
+constexpr float widest = 78, wide_from = 58, side_column = 0.4f, cell_width = 10.5f;  // em; of the width
 
 std::string lower_case(std::string text) {
   for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -41,7 +41,7 @@ void OpenDialog::draw(Rows& rows, ImVec2 picture, PanelActions& out) {
                    ImGuiWindowFlags_NoScrollWithMouse);
   draw_head(rows);
   const float width = ImGui::GetContentRegionAvail().x;
-  const bool wide = size.x > em(two_columns_from);
+  const bool wide = size.x > em(wide_from);
   ImGui::BeginChild("scenes", {wide ? (1 - side_column) * width : width, 0}, false, ImGuiWindowFlags_NoNav);
   draw_scenes(rows, out);
   if (wide) {

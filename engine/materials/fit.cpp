@@ -64,7 +64,7 @@ std::vector<Variable> variables_of(const Material& material, const MeasuredTest&
 /// The problem in the variables u that the method moves: u = ln |value| where the sign is kept, else value / scale.
 class Misfit {
  public:
-  Misfit(const Material& material, const MeasuredTest& test, const Measured& data, const FitOptions& options)
+  Misfit(const Material& material, const MeasuredTest& test, const MeasuredCurve& data, const FitOptions& options)
       : material_(material), test_(test), data_(data), variables_(variables_of(material, test, options)) {
     const double modulus = ground_state(material).shear;
     for (const Variable& v : variables_)
@@ -126,7 +126,7 @@ class Misfit {
  private:
   const Material& material_;
   const MeasuredTest& test_;
-  const Measured& data_;
+  const MeasuredCurve& data_;
   std::vector<Variable> variables_;
   std::vector<double> scale_;
 };
@@ -224,7 +224,7 @@ std::optional<std::vector<double>> nominal_stresses(const Material& material, co
   return stresses;
 }
 
-std::string fit_problem(const Material& material, const MeasuredTest& test, const Measured& data,
+std::string fit_problem(const Material& material, const MeasuredTest& test, const MeasuredCurve& data,
                         const FitOptions& options) {
   if (std::holds_alternative<Relaxation>(test) && material.relaxation.empty())
     return "the material has no relaxation terms to start from: add \"relaxation\": [{\"gamma\": 1, \"tau\": 1}]";
@@ -237,8 +237,8 @@ std::string fit_problem(const Material& material, const MeasuredTest& test, cons
   return "";
 }
 
-Fit fit_material(const Material& material, const MeasuredTest& test, const Measured& data, const FitOptions& options,
-                 const std::function<void(double)>& progress) {
+Fit fit_material(const Material& material, const MeasuredTest& test, const MeasuredCurve& data,
+                 const FitOptions& options, const std::function<void(double)>& progress) {
   const Misfit problem(material, test, data, options);
   const Descent end = descend(problem, progress);
   const Certainty certain = certainty(end);

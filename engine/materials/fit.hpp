@@ -10,7 +10,7 @@
 namespace heml {
 
 /// What was measured: nominal stress (Pa) against stretch, γ, or time (s). Both columns of the same length.
-struct Measured {
+struct MeasuredCurve {
   std::vector<double> amount, stress;
 };
 
@@ -44,14 +44,14 @@ struct Fit {
 };
 
 /// What stands in the way of fitting: empty, or one sentence with what to do.
-std::string fit_problem(const Material& material, const MeasuredTest& test, const Measured& data,
+std::string fit_problem(const Material& material, const MeasuredTest& test, const MeasuredCurve& data,
                         const FitOptions& options);
 
 /// Starts from the material's own parameters. Those whose sign material_problem() fixes keep it (fitted as logarithms).
 /// A relaxation test fits γ and τ of every term and one factor of all the law's moduli but the volume's: a single
 /// stretch does not tell them apart. progress, if given, is called with the share of the most iterations that is done.
 /// The material must be one that fit_problem() has nothing against.
-Fit fit_material(const Material& material, const MeasuredTest& test, const Measured& data, const FitOptions& options,
+Fit fit_material(const Material& material, const MeasuredTest& test, const MeasuredCurve& data, const FitOptions& options,
                  const std::function<void(double)>& progress = {});
 
 /// Nominal stress (Pa) of a test at given amounts; nothing when one of them cannot be reached.

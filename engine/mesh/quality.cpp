@@ -70,7 +70,8 @@ void repair_winding(TetMesh& mesh, QualityReport& report) {
     }
     const double volume = signed_volume(mesh.nodes[tet[0]], mesh.nodes[tet[1]], mesh.nodes[tet[2]], mesh.nodes[tet[3]]);
     if (!(std::abs(volume) > 4 * epsilon * edge * edge * (edge + size)))
-      throw InputError(mesh.source, element(t), fmt::format("has no volume: {:.3g} m³ (nodes {})", volume, corners(tet)),
+      throw InputError(mesh.source, element(t),
+                       fmt::format("has no volume: {:.3g} m³ (nodes {})", volume, corners(tet)),
                        "remove it or move one of its nodes");
     if (volume < 0) {
       std::swap(tet[2], tet[3]);
@@ -164,8 +165,8 @@ void add_warnings(const TetMesh& mesh, QualityReport& report) {
   if (r.rewound > 0) say(fmt::format("{} of {} tetrahedra inside out by their winding; repaired", r.rewound, r.tets));
   if (r.slivers > 0)
     say(fmt::format("{} (a dihedral angle under {}°); the worst, element {} (nodes {}), has {:.3g}°",
-                    counted(r.slivers, "sliver", "slivers"), sliver_degrees, r.worst_tet, corners(mesh.tets[r.worst_tet]),
-                    r.worst_dihedral));
+                    counted(r.slivers, "sliver", "slivers"), sliver_degrees, r.worst_tet,
+                    corners(mesh.tets[r.worst_tet]), r.worst_dihedral));
   if (r.orphans > 0) say(counted(r.orphans, "node", "nodes") + " of no tetrahedron: at rest for good");
   if (r.duplicates > 0)
     say(counted(r.duplicates, "node", "nodes") + " at the very place of another: never merged, the body is open there");

@@ -9,7 +9,8 @@ namespace {
 
 constexpr int vtk_tetra = 10;
 constexpr std::size_t most_fields = 1000;  // finding one is linear in their number
-constexpr std::size_t most_values_a_byte = 4;     // of fields, a byte of the file: some may leave out most of the tetrahedra
+constexpr std::size_t most_values_a_byte =
+    4;  // of fields, a byte of the file: some may leave out most of the tetrahedra
 
 void check_count(std::size_t fields, const Scanner& in) {
   if (fields > most_fields) in.fail(fmt::format("more than {} fields of elements", most_fields), "save fewer");
@@ -85,7 +86,8 @@ ElementField& field_in(TetMesh& mesh, std::string_view name, std::size_t compone
 void pad_fields(TetMesh& mesh, const Scanner& in) {
   std::size_t components = 0;
   for (const ElementField& field : mesh.fields) components += field.components;
-  if (mesh.fields.empty() || components <= most_values_a_byte * in.size() / std::max<std::size_t>(mesh.tets.size(), 1)) {
+  if (mesh.fields.empty() ||
+      components <= most_values_a_byte * in.size() / std::max<std::size_t>(mesh.tets.size(), 1)) {
     for (ElementField& field : mesh.fields)
       field.values.resize(field.components * mesh.tets.size(), std::numeric_limits<double>::quiet_NaN());
     return;

@@ -17,14 +17,14 @@ std::string_view amount_name(const MeasuredTest& test) {
   return std::get<BenchTest>(test) == BenchTest::shear ? "gamma" : "stretch";
 }
 
-Measured read_curve_csv(const std::filesystem::path& path, const MeasuredTest& test) {
+MeasuredCurve read_curve_csv(const std::filesystem::path& path, const MeasuredTest& test) {
   const std::string content = read_text_file(path);
   std::string_view text = content;
   const std::string_view name = amount_name(test);
   const auto fail = [&](long line, const std::string& problem, const std::string& remedy) {
     throw InputError(path.string(), fmt::format("line {}", line), problem, remedy);
   };
-  Measured data;
+  MeasuredCurve data;
   bool has_header = false;
   for (long line = 1; !text.empty(); ++line) {
     const std::string_view entry = take_line(text);

@@ -10,6 +10,6 @@ std::string_view amount_name(const MeasuredTest& test);
 
 /// Reads a measured curve: header `stretch,stress` (`gamma,stress` for shear, `time,stress` for relaxation), then two
 /// numbers a line; stress is nominal, Pa; lines that begin with # are skipped. Throws InputError naming the line.
-Measured read_curve_csv(const std::filesystem::path& path, const MeasuredTest& test);
+MeasuredCurve read_curve_csv(const std::filesystem::path& path, const MeasuredTest& test);
 
 }  // namespace heml

@@ -7,8 +7,8 @@ namespace heml {
 namespace {
 
 constexpr int most_pair_rounds = 60;
-constexpr double still = 1e-8;     // of the largest impulse: smaller changes end the rounds
-constexpr double has_met = 1e-7;   // m
+constexpr double still = 1e-8;    // of the largest impulse: smaller changes end the rounds
+constexpr double has_met = 1e-7;  // m
 
 }  // namespace
 

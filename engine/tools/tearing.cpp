@@ -78,7 +78,8 @@ std::vector<Opening> Tearing::openings(const TetMesh& mesh, const std::vector<Ve
     if (!opening) continue;
     for (const int n : mesh.tets[as_index(torn.element)])
       for (const int t : around_.of(n))
-        for (const int m : mesh.tets[as_index(t)]) taken.insert(taken.end(), around_.of(m).begin(), around_.of(m).end());
+        for (const int m : mesh.tets[as_index(t)])
+          taken.insert(taken.end(), around_.of(m).begin(), around_.of(m).end());
     chosen.push_back(*opening);
   }
   return chosen;

@@ -12,7 +12,7 @@
 
 namespace {
 
-using namespace heml;
+namespace heml::assets_test {
 
 const std::filesystem::path assets = std::filesystem::path(HEML_SOURCE_DIR) / "assets";
 
@@ -68,7 +68,7 @@ void check_size(const TetMesh& mesh, int nodes, int tets) {
   CHECK(double(mesh.tets.size()) == doctest::Approx(tets).epsilon(0.03));
 }
 
-}  // namespace
+}  // namespace heml::assets_test
 
 TEST_CASE("the kidney has the paper's size, two regions and no slivers") {
   const TetMesh mesh = asset("kidney");
@@ -135,3 +135,5 @@ TEST_CASE("every scene of the accuracy study can be read") {
   }
   CHECK(scenes == 7);
 }
+
+}  // namespace

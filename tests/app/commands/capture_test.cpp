@@ -8,7 +8,7 @@
 #include <fstream>
 #include <string>
 
-using namespace heml;
+namespace heml::capture_test {
 
 namespace {
 
@@ -62,13 +62,14 @@ TEST_CASE("captured frames are those committed, and show the body") {
 
 TEST_CASE("the comparison can fail: a later frame differs by more than the limit") {
   const TemporaryFolder folder;
-  CHECK(render::rms_difference(captured(scene("kidney_pull"), 8, folder), render::read_png(golden / "kidney_pull_5.png")) >
-        limit);
+  CHECK(render::rms_difference(captured(scene("kidney_pull"), 8, folder),
+                               render::read_png(golden / "kidney_pull_5.png")) > limit);
 }
 
 TEST_CASE("a colour map brings its legend, at the bottom, the panel brings its columns") {
   const TemporaryFolder folder;
-  const auto plain = captured(scene("irregular_cube"), 0, folder), with_panel = captured(scene("irregular_cube"), 0, folder, " --panel");
+  const auto plain = captured(scene("irregular_cube"), 0, folder),
+             with_panel = captured(scene("irregular_cube"), 0, folder, " --panel");
   int left = 0;
   for (int y = 0; y < 180; ++y)
     for (int x = 0; x < 60; ++x) left += !std::equal(plain.at(x, y), plain.at(x, y) + 3, with_panel.at(x, y));
@@ -89,3 +90,5 @@ TEST_CASE("a colour map brings its legend, at the bottom, the panel brings its c
     for (int x = 100; x < 220; ++x) legend += !std::equal(tissue.at(x, y), tissue.at(x, y) + 3, coloured.at(x, y));
   CHECK(legend > 200);
 }
+
+}  // namespace heml::capture_test

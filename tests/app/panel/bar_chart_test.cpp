@@ -4,7 +4,8 @@
 
 #include "driver.hpp"
 
-using namespace heml;
+namespace heml::bar_chart_test {
+
 using namespace heml::panel;
 
 namespace {
@@ -69,3 +70,5 @@ TEST_CASE("values without a length have no bar") {
   }
   CHECK(drawn(chart_of({}), ink).corners == 4);
 }
+
+}  // namespace heml::bar_chart_test

@@ -4,7 +4,8 @@
 
 #include "driver.hpp"
 
-using namespace heml;
+namespace heml::chart_test {
+
 using namespace heml::panel;
 
 namespace {
@@ -98,3 +99,5 @@ TEST_CASE("equal factors are equal lengths on logarithmic axes, and what has no 
   CHECK(centres[2].x > centres[0].x);
   CHECK(centres[2].y < centres[0].y);
 }
+
+}  // namespace heml::chart_test

@@ -2,7 +2,8 @@
 
 #include "driver.hpp"
 
-using namespace heml;
+namespace heml::eye_test {
+
 using namespace heml::test;
 
 namespace {
@@ -71,3 +72,5 @@ TEST_CASE("a view that was kept is gone back to, whatever the picture has become
   eye.forget();
   CHECK_FALSE(eye.has(2));
 }
+
+}  // namespace heml::eye_test

@@ -2,7 +2,8 @@
 
 #include <app/panel/history.hpp>
 
-using namespace heml;
+namespace heml::history_test {
+
 using panel::History;
 
 namespace {
@@ -56,3 +57,5 @@ TEST_CASE("history does not mind that somebody looks back") {
   CHECK(history.readings().size() == 1);
   CHECK(history.readings().back().time == 2);
 }
+
+}  // namespace heml::history_test

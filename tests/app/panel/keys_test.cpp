@@ -4,6 +4,8 @@
 #include <set>
 #include <utility>
 
+namespace heml::keys_test {
+
 using namespace heml::panel;
 
 TEST_CASE("keys mean what the help page says") {
@@ -28,3 +30,5 @@ TEST_CASE("no key is bound twice, and every action has one") {
   }
   CHECK(actions.size() == static_cast<std::size_t>(Action::quit) + 1);
 }
+
+}  // namespace heml::keys_test

@@ -2,7 +2,8 @@
 
 #include <app/panel/legend.hpp>
 
-using namespace heml;
+namespace heml::legend_test {
+
 using panel::legend_range;
 
 TEST_CASE("a stretch is never shown below 0, a volume ratio only of what is turned inside out") {
@@ -14,3 +15,5 @@ TEST_CASE("a stretch is never shown below 0, a volume ratio only of what is turn
   CHECK(legend_range(Field::volume_ratio, {0.9f, 1.1f}, false).low == 0.9f);
   CHECK(legend_range(Field::stretch, wide, false).high == 3.5f);
 }
+
+}  // namespace heml::legend_test

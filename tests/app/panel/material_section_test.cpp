@@ -2,7 +2,8 @@
 
 #include "driver.hpp"
 
-using namespace heml;
+namespace heml::material_section_test {
+
 using namespace heml::test;
 
 namespace {
@@ -218,3 +219,5 @@ TEST_CASE("every law can be chosen and drawn") {
     if (law.is_continuum) driver.find("Shear modulus at rest");
   }
 }
+
+}  // namespace heml::material_section_test

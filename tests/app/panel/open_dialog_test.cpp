@@ -1,6 +1,7 @@
 #include "driver.hpp"
 
-using namespace heml;
+namespace heml::open_dialog_test {
+
 using namespace heml::test;
 using panel::Action;
 using panel::Offer;
@@ -131,3 +132,5 @@ TEST_CASE("a small picture shows the open dialog in one column that scrolls") {
   driver.find("a.jsonl", 100);
   CHECK(driver.click().open == std::filesystem::path("/home/work/a.jsonl"));
 }
+
+}  // namespace heml::open_dialog_test

@@ -3,7 +3,8 @@
 
 #include "driver.hpp"
 
-using namespace heml;
+namespace heml::panel_test {
+
 using namespace heml::test;
 using panel::Action;
 using panel::Request;
@@ -313,3 +314,5 @@ TEST_CASE("the font has every letter that laws and units need") {
     CHECK(panel::font(panel::Font::text)->FindGlyphNoFallback(static_cast<ImWchar>(code)));
   }
 }
+
+}  // namespace heml::panel_test

@@ -3,6 +3,8 @@
 #include <app/panel/quantity.hpp>
 #include <limits>
 
+namespace heml::quantity_test {
+
 using namespace heml::panel;
 
 TEST_CASE("quantities take the prefix that suits and three digits") {
@@ -33,3 +35,5 @@ TEST_CASE("counts are grouped") {
   CHECK(counted(1234567) == "1\u00a0234\u00a0567");
   CHECK(counted(-1000) == "−1\u00a0000");
 }
+
+}  // namespace heml::quantity_test

@@ -2,7 +2,8 @@
 
 #include <app/panel/same_stiffness.hpp>
 
-using namespace heml;
+namespace heml::same_stiffness_test {
+
 using namespace heml::panel;
 
 namespace {
@@ -82,3 +83,5 @@ TEST_CASE("what a law cannot have beside it is dropped, the rest stays") {
   turned.fibre = Vec3::UnitZ();
   CHECK(replaced(turned, "hgo").fibre == Vec3::UnitZ());
 }
+
+}  // namespace heml::same_stiffness_test

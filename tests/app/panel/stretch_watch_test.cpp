@@ -3,7 +3,8 @@
 
 #include "driver.hpp"
 
-using namespace heml;
+namespace heml::stretch_watch_test {
+
 using namespace heml::test;
 
 namespace {
@@ -78,3 +79,5 @@ TEST_CASE("the panel asks for stretches once a tissue with a range is chosen, an
   REQUIRE(driver.panel.drawing().beyond.size() == 4);
   CHECK(driver.panel.drawing().beyond[3] > 0);
 }
+
+}  // namespace heml::stretch_watch_test

@@ -1,6 +1,7 @@
 #include "driver.hpp"
 
-using namespace heml;
+namespace heml::timeline_test {
+
 using namespace heml::test;
 using panel::Action;
 using panel::Request;
@@ -101,3 +102,5 @@ TEST_CASE("keys look earlier and later, at the start and at the present, and res
     CHECK(driver.draw().requests == std::vector{request});
   }
 }
+
+}  // namespace heml::timeline_test

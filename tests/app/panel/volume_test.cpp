@@ -2,7 +2,8 @@
 
 #include <app/panel/volume.hpp>
 
-using namespace heml;
+namespace heml::volume_test {
+
 using panel::enclosed_volume;
 
 namespace {
@@ -30,3 +31,5 @@ TEST_CASE("what is turned inside out counts negative, and nothing encloses nothi
   CHECK(enclosed_volume(skin, mirrored) == doctest::Approx(-1.0 / 6));
   CHECK(enclosed_volume(Skin(), {}) == 0);
 }
+
+}  // namespace heml::volume_test

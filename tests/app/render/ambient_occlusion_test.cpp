@@ -4,7 +4,8 @@
 
 #include "shapes.hpp"
 
-using namespace heml;
+namespace heml::ambient_occlusion_test {
+
 using namespace heml::render;
 
 TEST_CASE("a ball sees the whole sky everywhere") {
@@ -29,3 +30,5 @@ TEST_CASE("beside a wide wall half of the sky is hidden") {
   const std::vector<Vec3f> up(skin.rest.size(), Vec3f::UnitY());
   CHECK(ambient_occlusion(skin, up, 100)[0] == doctest::Approx(0.5).epsilon(0.06));
 }
+
+}  // namespace heml::ambient_occlusion_test

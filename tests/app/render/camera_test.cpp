@@ -5,7 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-using namespace heml;
+namespace heml::camera_test {
+
 using namespace heml::render;
 
 TEST_CASE("a fitted camera has the ball in the picture and not small") {
@@ -59,3 +60,5 @@ TEST_CASE("turning keeps the distance and stops short of the poles") {
   CHECK(camera.up().y() > 0);
   CHECK(camera.eye().y() / distance == doctest::Approx(std::sin(89 * std::numbers::pi / 180)));
 }
+
+}  // namespace heml::camera_test

@@ -4,7 +4,8 @@
 
 #include <limits>
 
-using namespace heml;
+namespace heml::field_colours_test {
+
 using namespace heml::render;
 
 namespace {
@@ -74,3 +75,5 @@ TEST_CASE("ticks are few, round and inside the range") {
   }
   CHECK(ticks({0, 8.3f}) == std::vector<float>{0, 2, 4, 6, 8});
 }
+
+}  // namespace heml::field_colours_test

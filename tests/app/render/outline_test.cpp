@@ -6,7 +6,8 @@
 
 #include "shapes.hpp"
 
-using namespace heml;
+namespace heml::outline_test {
+
 using namespace heml::render;
 
 namespace {
@@ -53,3 +54,5 @@ TEST_CASE("the outline of a ball is a closed loop round its rim") {
   CHECK(pieces.size() > 20);
   for (const auto& [vertex, count] : ends) CHECK(count % 2 == 0);
 }
+
+}  // namespace heml::outline_test

@@ -4,7 +4,8 @@
 
 #include "shapes.hpp"
 
-using namespace heml;
+namespace heml::pick_test {
+
 using namespace heml::render;
 
 TEST_CASE("the pixel of a node in front picks that node, on the deformed body") {
@@ -39,3 +40,5 @@ TEST_CASE("a ray beside the body picks nothing, one through it the near side") {
   REQUIRE(hit);
   CHECK(hit->point.z() == doctest::Approx(std::sqrt(1 - 0.05)).epsilon(0.02));
 }
+
+}  // namespace heml::pick_test

@@ -7,7 +7,8 @@
 #include <heml/base/error.hpp>
 #include <string>
 
-using namespace heml;
+namespace heml::png_test {
+
 using namespace heml::render;
 
 namespace {
@@ -54,3 +55,5 @@ TEST_CASE("refuses files that are missing, not PNG, or cut short") {
 TEST_CASE("refuses to write where no folder is") {
   CHECK_THROWS_AS(write_png(folder / "no" / "such" / "place.png", pattern()), InputError);
 }
+
+}  // namespace heml::png_test

@@ -12,7 +12,8 @@
 
 #include "shapes.hpp"
 
-using namespace heml;
+namespace heml::renderer_test {
+
 using namespace heml::render;
 
 namespace {
@@ -255,3 +256,5 @@ TEST_CASE("survives frames with positions that are not finite") {
   for (Vec3f& node : stage.frame.positions) node.setConstant(std::nanf(""));
   CHECK_NOTHROW(stage.draw());
 }
+
+}  // namespace heml::renderer_test

@@ -6,7 +6,8 @@
 
 #include "shapes.hpp"
 
-using namespace heml;
+namespace heml::smooth_surface_test {
+
 using namespace heml::render;
 
 namespace {
@@ -106,3 +107,5 @@ TEST_CASE("degenerate triangles give finite surfaces") {
     CHECK(surface.normals()[p].allFinite());
   }
 }
+
+}  // namespace heml::smooth_surface_test

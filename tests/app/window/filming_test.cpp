@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <app/render/png.hpp>
 #include <app/window/filming.hpp>
 #include <chrono>
@@ -7,7 +8,8 @@
 #include <fstream>
 #include <thread>
 
-using namespace heml;
+namespace heml::filming_test {
+
 using window::Filming;
 namespace fs = std::filesystem;
 
@@ -120,3 +122,5 @@ TEST_CASE("a film of nothing leaves nothing, and one that is left has all its pi
   }
   CHECK(workplace.all(".png").size() == 6);
 }
+
+}  // namespace heml::filming_test

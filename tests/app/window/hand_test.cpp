@@ -2,7 +2,8 @@
 
 #include <app/window/hand.hpp>
 
-using namespace heml;
+namespace heml::hand_test {
+
 using namespace heml::window;
 
 namespace {
@@ -200,3 +201,5 @@ TEST_CASE("a suture takes two presses, one an end") {
   CHECK(std::get<SutureTissue>(sheet.commands[0]).nodes == std::array<int, 2>{21, 22});
   CHECK_FALSE(sheet.hand.first_end());
 }
+
+}  // namespace heml::hand_test

@@ -6,7 +6,8 @@
 #include <cstdlib>
 #include <fstream>
 
-using namespace heml;
+namespace heml::library_test {
+
 using namespace heml::window;
 namespace fs = std::filesystem;
 
@@ -83,3 +84,5 @@ TEST_CASE("what was opened last comes first, once, and what has gone is told") {
   for (int k = 0; k < 40; ++k) remember_file(folder.path / ("c" + std::to_string(k)));
   CHECK(recent_files().size() == 20);
 }
+
+}  // namespace heml::library_test

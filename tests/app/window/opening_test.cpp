@@ -7,7 +7,8 @@
 #include <fstream>
 #include <thread>
 
-using namespace heml;
+namespace heml::opening_test {
+
 using namespace heml::window;
 namespace fs = std::filesystem;
 
@@ -116,3 +117,5 @@ TEST_CASE("a dropped file that is no scene says what is wrong with it, and anoth
   CHECK(std::holds_alternative<OpenScene>(wait_for(opening)));
   CHECK(recent_files() == std::vector{fs::canonical(folder.path / "box.json")});
 }
+
+}  // namespace heml::opening_test

@@ -4,7 +4,8 @@
 #include <heml/mesh/generate.hpp>
 #include <heml/session/skin.hpp>
 
-using namespace heml;
+namespace heml::patch_test {
+
 using namespace heml::window;
 
 TEST_CASE("the elements round a node are those it has on the surface, and those within the radius") {
@@ -42,3 +43,5 @@ TEST_CASE("the elements round a node are those it has on the surface, and those 
   CHECK(std::find(next->nodes.begin(), next->nodes.end(), corner) == next->nodes.end());
   CHECK(elements_round(corner, *next, 1).empty());
 }
+
+}  // namespace heml::patch_test

@@ -2,7 +2,8 @@
 
 #include <app/window/seen_frames.hpp>
 
-using namespace heml;
+namespace heml::seen_frames_test {
+
 using window::SeenFrames;
 
 namespace {
@@ -59,3 +60,5 @@ TEST_CASE("what is later than a moment can be forgotten") {
   CHECK(seen.frames().back().tick == 4);
   CHECK(seen.bytes() == before / 2);
 }
+
+}  // namespace heml::seen_frames_test

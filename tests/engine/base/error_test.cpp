@@ -3,7 +3,7 @@
 #include <heml/base/error.hpp>
 #include <heml/base/hash.hpp>
 
-using namespace heml;
+namespace heml::error_test {
 
 TEST_CASE("an input error is one line: file, place, problem and remedy") {
   CHECK(std::string(InputError("a.json", "gravity[1]", "is not a number", "write metres per second squared").what()) ==
@@ -16,3 +16,5 @@ TEST_CASE("a hash sees the last bit and the sign of zero, and the order") {
   CHECK(mix(0, 0.0) != mix(0, -0.0));
   CHECK(mix(mix(0, 1.0), 2.0) != mix(mix(0, 2.0), 1.0));
 }
+
+}  // namespace heml::error_test

@@ -3,7 +3,7 @@
 #include <heml/base/thread_team.hpp>
 #include <vector>
 
-using namespace heml;
+namespace heml::thread_team_test {
 
 TEST_CASE("every item of a loop is visited once, whatever the number of threads") {
   for (const int threads : {1, 2, 3, 16}) {
@@ -30,3 +30,5 @@ TEST_CASE("a loop shorter than its grain stays on the calling thread") {
   });
   CHECK(calls == 1);
 }
+
+}  // namespace heml::thread_team_test

@@ -4,7 +4,8 @@
 
 #include "small_body.hpp"
 
-using namespace heml;
+namespace heml::block_rows_test {
+
 using test::law_names;
 using test::SmallBody;
 
@@ -85,3 +86,5 @@ TEST_CASE("rows and their products are the same bits for any number of threads")
     for (std::size_t row = 0; threads > 1 && row < rows.rows(); ++row) CHECK((out[row] == first[row]).all());
   }
 }
+
+}  // namespace heml::block_rows_test

@@ -6,7 +6,8 @@
 
 #include "small_body.hpp"
 
-using namespace heml;
+namespace heml::body_test {
+
 using test::forces_of;
 using test::largest;
 using test::law_names;
@@ -227,3 +228,5 @@ TEST_CASE("stretch and von Mises stress of a pulled bar are those of uniaxial te
     CHECK(state.von_mises == doctest::Approx(von_mises).epsilon(1e-9));
   }
 }
+
+}  // namespace heml::body_test

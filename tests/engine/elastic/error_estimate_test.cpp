@@ -9,7 +9,8 @@
 
 #include "small_body.hpp"
 
-using namespace heml;
+namespace heml::error_estimate_test {
+
 using namespace heml::test;
 
 namespace {
@@ -141,3 +142,5 @@ TEST_CASE("of smooth deformations the estimate is within a third of the error, a
     }
   }
 }
+
+}  // namespace heml::error_estimate_test

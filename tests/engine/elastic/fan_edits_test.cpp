@@ -9,7 +9,8 @@
 
 #include "small_body.hpp"
 
-using namespace heml;
+namespace heml::fan_edits_test {
+
 using namespace heml::test;
 
 namespace {
@@ -173,3 +174,5 @@ TEST_CASE("blocks that an edit does not touch keep their layout") {
   CHECK(after.blocks.size() == blocks - 1);
   CHECK(after.elements() == without.size());
 }
+
+}  // namespace heml::fan_edits_test

@@ -10,7 +10,8 @@
 
 #include "small_body.hpp"
 
-using namespace heml;
+namespace heml::fan_forces_test {
+
 using test::law_names;
 using test::sample_material;
 
@@ -343,3 +344,5 @@ TEST_CASE("fast kernels stand beside the loops of other materials, and a body sa
     CHECK(kernels[1].bytes_per_tet > kernels[0].bytes_per_tet / 2);
   }
 }
+
+}  // namespace heml::fan_forces_test

@@ -5,7 +5,8 @@
 
 #include "small_body.hpp"
 
-using namespace heml;
+namespace heml::materials_of_a_body_test {
+
 using test::forces_of;
 using test::largest;
 using test::sample_material;
@@ -93,3 +94,5 @@ TEST_CASE("laws may be mixed in one body, and share its nodes") {
   CHECK(test::gradient_error(body, small.x) <= 1e-6);
   CHECK(test::stiffness_error(body, small.x, random) <= 1e-5);
 }
+
+}  // namespace heml::materials_of_a_body_test

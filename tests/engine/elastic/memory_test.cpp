@@ -6,7 +6,8 @@
 
 #include "small_body.hpp"
 
-using namespace heml;
+namespace heml::memory_test {
+
 using test::forces_of;
 using test::largest;
 using test::sample_material;
@@ -220,3 +221,5 @@ TEST_CASE("plastic flow is the same turned") {
   const Mat3 P = straight.stress(straight.at(F));
   CHECK((other.stress(other.at(R * F)) - R * P).norm() <= 1e-10 * P.norm());
 }
+
+}  // namespace heml::memory_test

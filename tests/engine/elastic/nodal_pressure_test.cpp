@@ -4,7 +4,8 @@
 
 #include "small_body.hpp"
 
-using namespace heml;
+namespace heml::nodal_pressure_test {
+
 using test::forces_of;
 using test::largest;
 using test::sample_material;
@@ -75,3 +76,5 @@ TEST_CASE("the frequency bound holds with nodal pressure, and threads change no 
   const auto one = forces_of(*body, small.x, 1);
   for (const int threads : {2, 5}) CHECK(forces_of(*body, small.x, threads) == one);
 }
+
+}  // namespace heml::nodal_pressure_test

@@ -5,7 +5,8 @@
 
 #include "small_body.hpp"
 
-using namespace heml;
+namespace heml::pieces_test {
+
 using namespace heml::test;
 
 namespace {
@@ -96,3 +97,5 @@ TEST_CASE("pieces of elements do the work of the whole, and go on remembering: v
     CHECK(difference > 1e-3 * largest(g));
   }
 }
+
+}  // namespace heml::pieces_test

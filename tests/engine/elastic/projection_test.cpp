@@ -5,7 +5,8 @@
 #include "small_body.hpp"
 #include "support.hpp"
 
-using namespace heml;
+namespace heml::projection_test {
+
 using namespace heml::test;
 
 namespace {
@@ -48,3 +49,5 @@ TEST_CASE("projections leave what is positive and make positive what is not, in 
     CHECK(any_negative);
   }
 }
+
+}  // namespace heml::projection_test

@@ -5,7 +5,8 @@
 
 #include "small_body.hpp"
 
-using namespace heml;
+namespace heml::removal_test {
+
 using namespace heml::test;
 
 namespace {
@@ -149,3 +150,5 @@ TEST_CASE("viscosity, relaxation and plastic set of what is left go on as if the
     CHECK(answers(*cut, small.x) == answers(*built, small.x));
   }
 }
+
+}  // namespace heml::removal_test

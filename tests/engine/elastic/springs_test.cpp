@@ -5,7 +5,7 @@
 
 #include "small_body.hpp"
 
-using namespace heml;
+namespace heml::springs_test {
 
 TEST_CASE("every edge of the mesh is one spring, however many elements share it") {
   // One tetrahedron and its mirror image: nine edges, three of them shared.
@@ -47,3 +47,5 @@ TEST_CASE("one spring pulled straight swings at its own frequency's bound") {
   // Three springs meet at every node: 2 · 3k / m.
   CHECK(springs.frequency_bound({2, 2, 2, 2}) == doctest::Approx(30.0));
 }
+
+}  // namespace heml::springs_test

@@ -10,7 +10,7 @@ using heml::test::sample_material;
 
 namespace {
 
-Measured measured(const Material& truth, const MeasuredTest& test, std::vector<double> amounts) {
+MeasuredCurve measured(const Material& truth, const MeasuredTest& test, std::vector<double> amounts) {
   const auto stress = nominal_stresses(truth, test, amounts);
   REQUIRE(stress);
   return {std::move(amounts), *stress};
@@ -30,7 +30,7 @@ TEST_CASE("a curve made with known parameters gives them back, from another star
                           "veronda_westmann", "mooney_rivlin", "paper_neo_hookean"}) {
     CAPTURE(law);
     const Material truth = sample_material(law);
-    const Measured data = measured(truth, BenchTest::uniaxial, evenly_spaced(0.7, 1.6, 19));
+    const MeasuredCurve data = measured(truth, BenchTest::uniaxial, evenly_spaced(0.7, 1.6, 19));
     Material start = truth;
     const bool lame = find_law(law)->takes_young_poisson;
     for (std::size_t i = 0; i < start.parameters.size(); ++i)
@@ -61,7 +61,7 @@ TEST_CASE("one Ogden term keeps the sign of its power and is found from far away
 TEST_CASE("the bulk modulus is held, unless it is asked for and the test sees it") {
   Material truth = sample_material("neo_hookean_iso");
   truth.parameters = {500, 3e3};
-  const Measured data = measured(truth, BenchTest::equibiaxial, evenly_spaced(0.8, 1.6, 15));
+  const MeasuredCurve data = measured(truth, BenchTest::equibiaxial, evenly_spaced(0.8, 1.6, 15));
   Material start = truth;
   start.parameters = {700, 2e3};
   CHECK(fit_material(start, BenchTest::equibiaxial, data, {}).material.parameters[1] == 2e3);
@@ -75,7 +75,7 @@ TEST_CASE("errors and R² are those of ordinary least squares where the law is l
   Material truth = sample_material("neo_hookean_iso");
   truth.parameters = {500, 5e4};
   const std::vector<double> gamma = evenly_spaced(0.05, 0.6, 12);
-  Measured data = measured(truth, BenchTest::shear, gamma);
+  MeasuredCurve data = measured(truth, BenchTest::shear, gamma);
   std::mt19937_64 random(7);
   for (double& stress : data.stress) stress += heml::test::uniform(random, -30, 30);
   double xx = 0, xy = 0, mean = 0;
@@ -100,7 +100,7 @@ TEST_CASE("errors and R² are those of ordinary least squares where the law is l
 TEST_CASE("says which parameters the data leave open") {
   // Simple shear sees K1 + K2 alone.
   const Material truth = sample_material("mooney_rivlin");
-  const Measured shear = measured(truth, BenchTest::shear, evenly_spaced(-0.4, 0.4, 9));
+  const MeasuredCurve shear = measured(truth, BenchTest::shear, evenly_spaced(-0.4, 0.4, 9));
   const Fit fit = fit_material(truth, BenchTest::shear, shear, {});
   CHECK_FALSE(parameter(fit, "K1").determined);
   CHECK_FALSE(parameter(fit, "K2").determined);
@@ -112,7 +112,7 @@ TEST_CASE("says which parameters the data leave open") {
   CHECK(parameter(pull, "K2").determined);
   // A curve within noise of a straight line says nothing of how fast a tissue stiffens.
   Material fung = sample_material("fung_demiray");
-  Measured nearly = measured(fung, BenchTest::uniaxial, evenly_spaced(0.99, 1.01, 9));
+  MeasuredCurve nearly = measured(fung, BenchTest::uniaxial, evenly_spaced(0.99, 1.01, 9));
   std::mt19937_64 random(3);
   for (double& stress : nearly.stress) stress += heml::test::uniform(random, -3, 3);
   const Fit flat = fit_material(fung, BenchTest::uniaxial, nearly, {});
@@ -126,7 +126,7 @@ TEST_CASE("relaxation gives γ, τ and one factor of the moduli back") {
   const MeasuredTest test = Relaxation{1.15};
   std::vector<double> times;
   for (int k = 0; k <= 60; ++k) times.push_back(0.01 * std::pow(10, k / 15.0));
-  Measured data = measured(truth, test, times);
+  MeasuredCurve data = measured(truth, test, times);
   Material start = truth;
   start.relaxation = {{0.5, 0.2}, {0.5, 50}};
   for (std::size_t i : {0, 1}) start.parameters[i] *= 0.5;

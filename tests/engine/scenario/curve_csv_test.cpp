@@ -20,7 +20,7 @@ struct Removed {
   ~Removed() { std::filesystem::remove(path); }
 };
 
-Measured read(const std::string& text, const MeasuredTest& test = BenchTest::uniaxial) {
+MeasuredCurve read(const std::string& text, const MeasuredTest& test = BenchTest::uniaxial) {
   const auto path = std::filesystem::temp_directory_path() / fmt::format("heml-curve-test-{}.csv", getpid());
   write_text_file(path, text);
   const Removed removed{path};
@@ -40,7 +40,7 @@ std::string refusal(const std::string& text, const MeasuredTest& test = BenchTes
 }  // namespace
 
 TEST_CASE("reads two columns under the header of the test") {
-  const Measured data = read("# pulled by hand\nstretch,stress\r\n 1.1 , 100\n\n1.2,\t2.5e2\n");
+  const MeasuredCurve data = read("# pulled by hand\nstretch,stress\r\n 1.1 , 100\n\n1.2,\t2.5e2\n");
   CHECK(data.amount == std::vector<double>{1.1, 1.2});
   CHECK(data.stress == std::vector<double>{100, 250});
   CHECK(read("gamma,stress\n-0.1,-5", BenchTest::shear).amount == std::vector<double>{-0.1});

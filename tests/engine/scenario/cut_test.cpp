@@ -1,12 +1,13 @@
 // Cuts in scenes: what is written, read, refused, replayed and reported.
 #include <doctest/doctest.h>
+
 #include <engine/mesh/files.hpp>
 #include <engine/scenario/samples.hpp>
 #include <fstream>
 #include <heml/scenario/replay.hpp>
 #include <heml/scenario/solve.hpp>
 
-namespace heml {
+namespace heml::cut_test {
 namespace {
 
 Scene scene_with_events(const std::string& events) {
@@ -75,4 +76,4 @@ TEST_CASE("solve reports a cut, and writes what it added after the nodes of the 
   CHECK(lines == nodes + 1);
 }
 
-}  // namespace heml
+}  // namespace heml::cut_test

@@ -1,4 +1,5 @@
 #include <doctest/doctest.h>
+
 #include <engine/mesh/files.hpp>
 #include <heml/mesh/generate.hpp>
 #include <heml/mesh/write.hpp>

@@ -6,7 +6,7 @@
 #include <engine/scenario/samples.hpp>
 #include <heml/scenario/haptic_run.hpp>
 
-namespace heml {
+namespace heml::haptic_run_test {
 namespace {
 
 /// A bar held at x = 0, grasped at its other end after the first tick.
@@ -74,4 +74,4 @@ TEST_CASE("a hand is read from its file, and what is wrong with it is told with 
       "solver.integrator"));
 }
 
-}  // namespace heml
+}  // namespace heml::haptic_run_test

@@ -1,4 +1,5 @@
 #include <doctest/doctest.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <engine/mesh/files.hpp>
@@ -50,8 +51,8 @@ TEST_CASE("refuses a selection of nothing with its key path and where the body i
                    "loads[0]: its sphere selects"));
   CHECK(test::says(refusal_of(R"({"boundary": [{"nodes": [0, 12], "fix": true}]})"),
                    "boundary[0].nodes[1]: is 12 (the mesh has nodes 0 to 11)"));
-  CHECK(test::says(refusal_of(R"({"loads": [{"nodes": [0, 1], "pressure": 3}]})"),
-                   "loads[0]: its 2 nodes hold no face"));
+  CHECK(
+      test::says(refusal_of(R"({"loads": [{"nodes": [0, 1], "pressure": 3}]})"), "loads[0]: its 2 nodes hold no face"));
   CHECK(refusal_of(R"({"loads": [{"nodes": [0, 1], "force": [0, 0, 3]}]})").empty());
 }
 

@@ -5,7 +5,7 @@
 #include <engine/scenario/samples.hpp>
 #include <heml/scenario/scene.hpp>
 
-namespace heml {
+namespace heml::read_scene_test {
 
 TEST_CASE("reads a scene with every key of the format") {
   const Scene scene = parse_scene(R"({
@@ -181,8 +181,6 @@ TEST_CASE("refuses any other broken line with its number") {
   CHECK(test::says(message("{\"step\": 1, \"end\": true}\n{\"step\": 2, \"end\": true}\n"), "line 3: a second end"));
 }
 
-}  // namespace heml
-
 TEST_CASE("a scene may name a tissue instead of a law, with what it says beside it") {
   const heml::Scene scene = heml::parse_scene(R"({
     "schema_version": 1, "mesh": {"box": {"size": [1, 1, 1], "cells": [1, 1, 1]}},
@@ -205,3 +203,5 @@ TEST_CASE("refuses plasticity in statics, which has no way to follow") {
                                       "clay.json"),
                     doctest::Contains("materials[0].plasticity: does not go with solver.integrator static"));
 }
+
+}  // namespace heml::read_scene_test

@@ -1,4 +1,5 @@
 #include <doctest/doctest.h>
+
 #include <cmath>
 #include <engine/mesh/files.hpp>
 #include <engine/scenario/samples.hpp>
@@ -167,16 +168,16 @@ TEST_CASE("solves a static scene and lands on fractions of its load") {
   CHECK(report["kinetic_energy"] == 0);
   CHECK(report["inverted"] == 0);
   CHECK(report["reaction"][1][0].get<double>() > 0);
-  CHECK(report["reaction"][0][0].get<double>() == doctest::Approx(-report["reaction"][1][0].get<double>()).epsilon(1e-8));
+  CHECK(report["reaction"][0][0].get<double>() ==
+        doctest::Approx(-report["reaction"][1][0].get<double>()).epsilon(1e-8));
 }
 
 TEST_CASE("writes the last equilibrium and the fraction of the load where a static scene has no other") {
   const TemporaryFolder folder;
-  const Scene scene = parse_scene(
-      drawn_out(R"({"boundary": [{"box": [[0, -1, -1], [0, 1, 1]], "fix": true},
+  const Scene scene = parse_scene(drawn_out(R"({"boundary": [{"box": [[0, -1, -1], [0, 1, 1]], "fix": true},
                                  {"box": [[0.2, -1, -1], [0.2, 1, 1]], "translate": [-0.19, 0, 0]}],
                     "outputs": {"times": [0.01, 1]}})"),
-      "crush.json");
+                                  "crush.json");
   const SolveResult result = solve(scene, folder / "");
   REQUIRE(result.halt);
   const Json report = report_in(folder);
@@ -203,7 +204,8 @@ TEST_CASE("runs a scene by each implicit method") {
   for (const char* integrator : {"backward_euler", "bdf2", "tr_bdf2", "auto"}) {
     const TemporaryFolder folder;
     const Scene scene = test::small_scene_with(std::string(R"({"gravity": [0, -9.81, 0], "solver": {"rate": null,
-      "step": 0.02, "duration": 0.1, "integrator": ")") + integrator + "\"}}");
+      "step": 0.02, "duration": 0.1, "integrator": ")") +
+                                               integrator + "\"}}");
     CHECK(!solve(scene, folder / "").halt);
     const Json report = report_in(folder);
     CHECK(report["time"].get<double>() == doctest::Approx(0.1));

@@ -95,7 +95,8 @@ TEST_CASE("tools that cannot be meant are refused, with their place") {
 
 TEST_CASE("a recorded session with every tool replays to the bit, by explicit and by implicit steps") {
   for (const std::string solver :
-       {R"({"rate": 100, "duration": 0.5})", R"({"integrator": "backward_euler", "rate": null, "step": 0.01, "duration": 0.5})"}) {
+       {R"({"rate": 100, "duration": 0.5})",
+        R"({"integrator": "backward_euler", "rate": null, "step": 0.01, "duration": 0.5})"}) {
     CAPTURE(solver);
     const Scene scene =
         test::small_scene_with(R"({"gravity": [0, -9.81, 0], "solver": )" + solver +

@@ -7,7 +7,7 @@
 #include <limits>
 #include <support.hpp>
 
-namespace heml {
+namespace heml::write_scene_test {
 namespace {
 
 bool same_bits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
@@ -218,4 +218,4 @@ TEST_CASE("refuses to write what is not UTF-8") {
   CHECK(test::says(refusal([&] { scene_line(scene); }), "not UTF-8"));
 }
 
-}  // namespace heml
+}  // namespace heml::write_scene_test

@@ -3,7 +3,7 @@
 #include <heml/session/budget_keeper.hpp>
 #include <heml/session/cost_keeper.hpp>
 
-using namespace heml;
+namespace heml::budget_keeper_test {
 
 namespace {
 
@@ -48,3 +48,5 @@ TEST_CASE("where nothing was iterated there is nothing to learn") {
   work.budget = 3;
   CHECK(!keeper.after(1, work));
 }
+
+}  // namespace heml::budget_keeper_test

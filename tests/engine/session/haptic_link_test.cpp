@@ -5,7 +5,7 @@
 #include <heml/session/haptic_link.hpp>
 #include <thread>
 
-namespace heml {
+namespace heml::haptic_link_test {
 namespace {
 
 /// A hand that stands at 1 cm and counts what it is given.
@@ -48,4 +48,4 @@ TEST_CASE("a device is served by a thread of its own, is told of the tool, and i
   CHECK(device.last_x == 0);
 }
 
-}  // namespace heml
+}  // namespace heml::haptic_link_test

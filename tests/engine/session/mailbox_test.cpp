@@ -4,7 +4,7 @@
 #include <heml/session/mailbox.hpp>
 #include <thread>
 
-using namespace heml;
+namespace heml::mailbox_test {
 
 TEST_CASE("the reader's slot stays as it is until it asks again, and then is the newest") {
   Mailbox<int> box;
@@ -47,3 +47,5 @@ TEST_CASE("a frame is never torn, and frames never go back") {
   stop = true;
   writer.join();
 }
+
+}  // namespace heml::mailbox_test

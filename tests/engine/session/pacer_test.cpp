@@ -2,7 +2,8 @@
 
 #include <heml/session/pacer.hpp>
 
-using namespace heml;
+namespace heml::pacer_test {
+
 using namespace std::chrono_literals;
 
 namespace {
@@ -62,3 +63,5 @@ TEST_CASE("a short delay is made up for") {
   run(pacer, now, 20ms, 1ms);
   CHECK(run(pacer, now, 100us, 1s) >= 1018);
 }
+
+}  // namespace heml::pacer_test

@@ -9,7 +9,8 @@
 #include <heml/session/session.hpp>
 #include <thread>
 
-using namespace heml;
+namespace heml::session_test {
+
 using namespace std::chrono_literals;
 
 namespace {
@@ -397,3 +398,5 @@ TEST_CASE("a session that cannot go on says why and lives on to be reset") {
   session.post(Reset{});
   CHECK(wait_for(session, [](const Frame& f) { return f.halted.empty(); }).time == 0);
 }
+
+}  // namespace heml::session_test

@@ -8,7 +8,7 @@
 #include <heml/studies/pareto.hpp>
 #include <numbers>
 
-using namespace heml;
+namespace heml::accuracy_test {
 
 namespace {
 
@@ -231,3 +231,5 @@ TEST_CASE("the report begins with its answers and holds every scene") {
   CHECK(at("ran away &lt;here&gt;") != std::string::npos);
   CHECK(csv_text(run_table(study)).find("block,stvk,p1") != std::string::npos);
 }
+
+}  // namespace heml::accuracy_test

@@ -5,7 +5,7 @@
 #include <set>
 #include <thread>
 
-using namespace heml;
+namespace heml::bench_test {
 
 TEST_CASE("works timed in turn are all run, their least time is no more than the median") {
   int runs[2] = {0, 0};
@@ -97,3 +97,5 @@ TEST_CASE("rows become JSON with the contract's fields, and a table of whole lin
   REQUIRE(note != std::string::npos);
   CHECK(table.find("said once", note + 1) == std::string::npos);
 }
+
+}  // namespace heml::bench_test

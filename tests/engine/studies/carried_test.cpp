@@ -2,7 +2,7 @@
 
 #include <heml/studies/carried.hpp>
 
-using namespace heml;
+namespace heml::carried_test {
 
 TEST_CASE("carried far, HEML keeps the digits that positions have, Mass-Tensor loses the cube of the way") {
   const BenchBody body = bench_cube(3, true);
@@ -17,3 +17,5 @@ TEST_CASE("carried far, HEML keeps the digits that positions have, Mass-Tensor l
     if (at.sizes >= 10) CHECK(at.mass_tensor > 10 * at.heml);
   }
 }
+
+}  // namespace heml::carried_test

@@ -4,7 +4,7 @@
 #include <heml/scenario/text_file.hpp>
 #include <heml/studies/html_page.hpp>
 
-using namespace heml;
+namespace heml::html_page_test {
 
 TEST_CASE("base64 as RFC 4648 has it") {
   CHECK(base64("") == "");
@@ -37,3 +37,5 @@ TEST_CASE("tables as Markdown and as CSV") {
   CHECK(short_number(12.3456) == "12.35");
   CHECK(short_number(NAN) == "not a number");
 }
+
+}  // namespace heml::html_page_test

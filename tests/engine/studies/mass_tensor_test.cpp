@@ -3,7 +3,8 @@
 
 #include "engine/elastic/small_body.hpp"
 
-using namespace heml;
+namespace heml::mass_tensor_test {
+
 using test::largest;
 using test::SmallBody;
 
@@ -85,3 +86,5 @@ TEST_CASE("leaving zeros out changes no force of Mass-Tensor, only how many oper
   CHECK(counted.additions == additions);
   CHECK(operations_of_forces(small, MassTensorSums::without_zeros).multiplications < multiplications);
 }
+
+}  // namespace heml::mass_tensor_test

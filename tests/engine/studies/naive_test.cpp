@@ -2,7 +2,8 @@
 
 #include "engine/elastic/small_body.hpp"
 
-using namespace heml;
+namespace heml::naive_test {
+
 using test::largest;
 using test::SmallBody;
 
@@ -49,3 +50,5 @@ TEST_CASE("naive forces tell laws and parameters apart") {
     }
   }
 }
+
+}  // namespace heml::naive_test

@@ -7,7 +7,7 @@
 
 #include "engine/materials/sample_materials.hpp"
 
-using namespace heml;
+namespace heml::operation_count_test {
 
 namespace {
 
@@ -105,3 +105,5 @@ TEST_CASE("an element's operations are those of a body's elements, and springs h
   }
   CHECK_FALSE(element_operations(test::sample_material("mass_spring")));
 }
+
+}  // namespace heml::operation_count_test

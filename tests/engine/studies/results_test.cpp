@@ -4,7 +4,7 @@
 #include <heml/scenario/text_file.hpp>
 #include <heml/studies/results.hpp>
 
-using namespace heml;
+namespace heml::results_test {
 
 namespace {
 std::filesystem::path fresh_file(const char* name) {
@@ -46,3 +46,5 @@ TEST_CASE("a line that was cut off by an interruption is left out and written an
   results.add("b", 2);
   CHECK(Results(file, "one").find("b"));
 }
+
+}  // namespace heml::results_test

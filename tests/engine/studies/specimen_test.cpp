@@ -4,7 +4,7 @@
 #include <heml/studies/sample_motion.hpp>
 #include <heml/studies/specimen.hpp>
 
-using namespace heml;
+namespace heml::specimen_test {
 
 namespace {
 Specimen block() {
@@ -70,3 +70,5 @@ TEST_CASE("a linear motion is sampled exactly, at nodes, inside and outside") {
   const auto there = sample_motion(mesh, x, points);
   for (std::size_t k = 0; k < points.size(); ++k) CHECK((there[k] - (A * points[k] + Vec3(1, 2, 3))).norm() < 1e-12);
 }
+
+}  // namespace heml::specimen_test

@@ -4,7 +4,7 @@
 #include <heml/studies/quantity_text.hpp>
 #include <heml/studies/tune.hpp>
 
-using namespace heml;
+namespace heml::tune_test {
 
 namespace {
 
@@ -97,3 +97,5 @@ TEST_CASE("a tuned scene is a scene, solved as was measured, and the text says w
     CHECK_FALSE(tuning_text(goal, tuning, *best).empty());
   }
 }
+
+}  // namespace heml::tune_test

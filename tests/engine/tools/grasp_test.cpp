@@ -3,7 +3,7 @@
 #include <cmath>
 #include <heml/tools/grasp.hpp>
 
-using namespace heml;
+namespace heml::grasp_test {
 
 namespace {
 const std::vector<Vec3> rest = {{0, 0, 0}, {0.01, 0, 0}, {0.05, 0, 0}, {0, 0.01, 0}};
@@ -56,3 +56,5 @@ TEST_CASE("pulled further than its reach a grasp slips: the force grows no more"
   grasp.move(Vec3(0, 5, 0));
   CHECK(grasp.force(x.data(), still.data()).y() == doctest::Approx(1e4 * 0.02));
 }
+
+}  // namespace heml::grasp_test

@@ -6,7 +6,7 @@
 #include <heml/tools/haptic_servo.hpp>
 #include <vector>
 
-namespace heml {
+namespace heml::haptic_servo_test {
 namespace {
 
 constexpr double turn = 1e-3, tick = 1.0 / 60;  // s
@@ -121,4 +121,4 @@ TEST_CASE("no force is greater than the device can give") {
   CHECK(force.x() == doctest::Approx(-2.4));
 }
 
-}  // namespace heml
+}  // namespace heml::haptic_servo_test

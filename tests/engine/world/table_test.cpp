@@ -132,7 +132,7 @@ TEST_CASE("table: pressed flat without friction a block is in uniaxial stress") 
   }
   CHECK(l < 0.9);
   CHECK(top - lowest(*world) == doctest::Approx(l * side).epsilon(2e-4));  // it may be 1e-4 of its size inside
-  CHECK(wide - narrow == doctest::Approx(a * side).epsilon(5e-4));  // and not everywhere as much
+  CHECK(wide - narrow == doctest::Approx(a * side).epsilon(5e-4));         // and not everywhere as much
   CHECK(world->tables()[0].force.y() == doctest::Approx(pressure * side * side).epsilon(1e-6));
 }
 

@@ -6,7 +6,8 @@
 #include <heml/studies/stability/case.hpp>
 #include <set>
 
-using namespace heml;
+namespace heml::cases_test {
+
 using namespace heml::stability;
 
 namespace {
@@ -123,3 +124,5 @@ TEST_CASE("every scene of the study can be read, has a title, and belongs to a c
   }
   CHECK(found == used);
 }
+
+}  // namespace heml::cases_test

@@ -4,7 +4,8 @@
 #include <heml/elastic/body.hpp>
 #include <heml/studies/stability/measures.hpp>
 
-using namespace heml;
+namespace heml::faults_test {
+
 using namespace heml::stability;
 
 namespace {
@@ -101,3 +102,5 @@ TEST_CASE("a collapsed body without recovery does not hold") {
   CHECK(verdict_of(15, of_motion(Integrator::backward_euler, {})) == Verdict::recovered);
   CHECK(verdict_of(15, of_motion(Integrator::backward_euler, off)) == Verdict::diverged);
 }
+
+}  // namespace heml::faults_test

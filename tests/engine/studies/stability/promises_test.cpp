@@ -7,7 +7,8 @@
 #include <heml/studies/stability/report.hpp>
 #include <map>
 
-using namespace heml;
+namespace heml::promises_test {
+
 using namespace heml::stability;
 
 namespace {
@@ -173,3 +174,5 @@ TEST_CASE("a penalty costs what a continuation does not, and recovery brings bac
     if (row.method == "Neo-Hookean, engine's recovery") CHECK(row.back());
   }
 }
+
+}  // namespace heml::promises_test
