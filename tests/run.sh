@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds heml and tests it. Ends with how many tests passed and failed.
-#   bash tests/run.sh           all: release; address, undefined behaviour and thread sanitizers; engine alone; fuzzers
+#   bash tests/run.sh           all: release; address and undefined behaviour sanitizers and fuzzers; thread sanitizer; engine alone
 #   bash tests/run.sh --quick   release alone
 #   bash tests/run.sh --long    all, five minutes a fuzzer
 set -euo pipefail
@@ -8,7 +8,7 @@ top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$top"
 source app/packages.sh
 
-presets=(release address thread smallest fuzz)
+presets=(release address thread smallest)
 fuzz_seconds=20
 case "${1:-}" in
   '') ;;

@@ -12,7 +12,7 @@
 namespace heml {
 namespace {
 
-constexpr const char* key = "mesh.refine";
+constexpr const char* refine_key = "mesh.refine";
 constexpr const char* other_way = "refine it at a moment of its motion instead: heml refine SCENE --at SECONDS";
 constexpr double refined_share = 0.5;  // of the squared error, a round
 
@@ -24,7 +24,7 @@ void check(const Scene& scene, const WorldSetup& setup, const std::optional<doub
   const bool flows = std::any_of(setup.materials.begin(), setup.materials.end(),
                                  [](const RegionMaterial& entry) { return entry.material.plasticity.has_value(); });
   if (flows && !moment)
-    throw InputError(scene.file, key, "the rest of a body that flows depends on its way there", other_way);
+    throw InputError(scene.file, refine_key, "the rest of a body that flows depends on its way there", other_way);
 }
 
 std::unique_ptr<World> at_rest(WorldSetup setup) {
@@ -51,14 +51,14 @@ struct Solved {
 Solved solved(const Scene& scene, const WorldSetup& setup, const std::optional<double>& moment) {
   const auto world = moment ? at_moment(scene, setup, *moment) : at_rest(setup);
   if (world->halt())
-    throw InputError(scene.file, key,
+    throw InputError(scene.file, refine_key,
                      fmt::format("the body cannot be solved to see its error: {}", world->halt()->message),
                      moment ? "give an earlier moment" : other_way);
   const auto found = world->error_estimate();
   if (!found)
-    throw InputError(scene.file, key, "springs have no stress whose error could be estimated", "leave it out");
+    throw InputError(scene.file, refine_key, "springs have no stress whose error could be estimated", "leave it out");
   if (!(found->stored > 0))
-    throw InputError(scene.file, key, "nothing deforms the body there, so no error is to be seen",
+    throw InputError(scene.file, refine_key, "nothing deforms the body there, so no error is to be seen",
                      moment ? "give a later moment" : other_way);
   return {*found, world->energies()};
 }

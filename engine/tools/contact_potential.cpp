@@ -8,7 +8,7 @@ namespace {
 
 constexpr int most_revisions = 16;      // of one solve
 constexpr double nearest_axis = 0.25;   // of a probe's radius: tissue that comes nearer is taken to have passed it
-constexpr double stiffest = 1e6;        // times a node's own stiffness
+constexpr double stiffest_spring = 1e6;        // times a node's own stiffness
 constexpr double share_of_node = 0.5;   // of its stiffness, for each of the faces round it
 constexpr double same_friction = 1e-3;  // of all friction: what it may differ by from what was assumed
 
@@ -230,7 +230,7 @@ bool ContactPotential::revise(const Vector& x) {
   std::vector<double> deepest(surfaces_.size(), 0.0);
   for (const Touch& touch : touches_) deepest[touch.surface] = std::max(deepest[touch.surface], -touch.point.gap);
   for (std::size_t s = 0; s < surfaces_.size(); ++s)
-    if (deepest[s] > bound_ && stiffer_[s] < stiffest) {
+    if (deepest[s] > bound_ && stiffer_[s] < stiffest_spring) {
       stiffer_[s] *= std::clamp(2 * deepest[s] / bound_, 2.0, 32.0);
       changes = true;
     }

@@ -36,7 +36,7 @@ fs::path write(const Folder& folder, const char* name, const char* text) {
   return folder.path / name;
 }
 
-std::variant<OpenScene, std::string> wait_for(Opening& opening) {
+std::variant<OpenScene, std::string> wait_for(window::Opening& opening) {
   for (int k = 0; k < 3000; ++k) {
     if (auto result = opening.take()) return std::move(*result);
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -48,7 +48,7 @@ std::variant<OpenScene, std::string> wait_for(Opening& opening) {
 
 TEST_CASE("a dropped scene becomes a running session, recorded beside the first one") {
   const Folder folder;
-  Opening opening;
+  window::Opening opening;
   opening.begin(write(folder, "box.json", box), folder.path / "out.jsonl");
   CHECK(opening.under_way());
   auto result = wait_for(opening);
@@ -71,7 +71,7 @@ TEST_CASE("a moment is gone back to in a session of its own, recorded beside the
   while (!old.session->latest().paused) std::this_thread::sleep_for(std::chrono::milliseconds(5));
   Frame moment = old.session->latest();
   moment.tick = 17;
-  Opening opening;
+  window::Opening opening;
   opening.resume(old.session->until(moment), folder.path / "out.jsonl");
   CHECK(opening.progress());
   auto result = wait_for(opening);
@@ -89,7 +89,7 @@ TEST_CASE("going back can be given up, and leaves nothing behind") {
   OpenScene old = start(read_scene(write(folder, "box.json", box)), std::nullopt);
   Frame moment;
   moment.tick = 1'000'000'000;
-  Opening opening;
+  window::Opening opening;
   opening.resume(old.session->until(moment), folder.path / "out.jsonl");
   std::this_thread::sleep_for(std::chrono::milliseconds(200));
   CHECK(*opening.progress() < 100);
@@ -104,7 +104,7 @@ TEST_CASE("going back can be given up, and leaves nothing behind") {
 
 TEST_CASE("a dropped file that is no scene says what is wrong with it, and another may follow") {
   const Folder folder;
-  Opening opening;
+  window::Opening opening;
   opening.begin(write(folder, "bad.json", R"({"schema_version": 1, "mash": {}})"), std::nullopt);
   const auto result = wait_for(opening);
   const auto* problem = std::get_if<std::string>(&result);
