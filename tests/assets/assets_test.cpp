@@ -10,9 +10,8 @@
 #include <set>
 #include <string>
 
-namespace {
-
 namespace heml::assets_test {
+namespace {
 
 const std::filesystem::path assets = std::filesystem::path(HEML_SOURCE_DIR) / "assets";
 
@@ -137,3 +136,4 @@ TEST_CASE("every scene of the accuracy study can be read") {
 }
 
 }  // namespace
+}  // namespace heml::assets_test
