@@ -135,5 +135,4 @@ TEST_CASE("every scene of the accuracy study can be read") {
   CHECK(scenes == 7);
 }
 
-}  // namespace
 }  // namespace heml::assets_test
