@@ -4,6 +4,9 @@ namespace heml::panel {
 namespace {
 constexpr KeyBinding bindings[] = {
     {'O', true, Action::open, "Ctrl+O", "open a scene, a recording, a mesh or a surface"},
+    {key_up, false, Action::choose_previous, "Up, Down", "choose there what Enter opens"},
+    {key_down, false, Action::choose_next, "", ""},
+    {key_enter, false, Action::open_chosen, "", ""},
     {' ', false, Action::toggle_play, "Space", "play or pause"},
     {'.', false, Action::step, ".", "one tick, then pause"},
     {key_left, false, Action::look_earlier, "Left, Right", "look at the moment before, after"},

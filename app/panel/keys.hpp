@@ -19,7 +19,10 @@ enum Key : int {
   key_left,
   key_right,
   key_home,
-  key_end
+  key_end,
+  key_up,
+  key_down,
+  key_enter
 };
 
 struct KeyBinding {

@@ -16,14 +16,13 @@ std::string lower_case(std::string text) {
   return text;
 }
 
-bool pressed(ImGuiKey key) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key)); }
-
 }  // namespace
 
 void OpenDialog::open() {
   open_ = just_opened_ = true;
   wanted_[0] = '\0';
   marked_ = -1;
+  shown_.clear();
 }
 
 bool OpenDialog::close() { return std::exchange(open_, false); }
@@ -51,7 +50,6 @@ void OpenDialog::draw(Rows& rows, ImVec2 picture, PanelActions& out) {
   }
   draw_files(rows, out);
   ImGui::EndChild();
-  follow_keys(out);
   if (ImGui::IsMouseClicked(ImGuiMouseButton_Left) && !just_opened_ &&
       !ImGui::IsWindowHovered(ImGuiHoveredFlags_ChildWindows | ImGuiHoveredFlags_AllowWhenBlockedByActiveItem))
     open_ = false;
@@ -175,17 +173,15 @@ void OpenDialog::take(const Offer& offer, PanelActions& out) {
   open_ = false;
 }
 
-void OpenDialog::follow_keys(PanelActions& out) {
-  const int last = static_cast<int>(shown_.size()) - 1;
-  const int before = marked_;
-  if (pressed(ImGuiKey_DownArrow)) marked_ = std::min(marked_ + 1, last);
-  if (pressed(ImGuiKey_UpArrow)) marked_ = std::max(marked_ - 1, 0);
-  marked_ = std::min(marked_, last);
-  moved_ |= marked_ != before;
-  if (!pressed(ImGuiKey_Enter) && !pressed(ImGuiKey_KeyPadEnter)) return;
+void OpenDialog::choose(int way) {
+  marked_ = std::clamp(marked_ + way, 0, std::max(0, static_cast<int>(shown_.size()) - 1));
+  moved_ = true;
+}
+
+void OpenDialog::open_chosen(PanelActions& out) {
   if (wanted_[0] == '/')
     take({wanted_, wanted_, "", nullptr, std::string_view(wanted_).ends_with('/')}, out);
-  else if (marked_ >= 0)
+  else if (marked_ >= 0 && marked_ < std::ssize(shown_))
     take(*shown_[static_cast<std::size_t>(marked_)], out);
 }
 

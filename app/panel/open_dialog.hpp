@@ -20,6 +20,10 @@ class OpenDialog {
   bool close();  ///< true when it was open
   bool is_open() const { return open_; }
 
+  /// What is marked of what the last draw() showed: goes up (−1) or down (1), and is opened.
+  void choose(int way);
+  void open_chosen(PanelActions& out);
+
   /// What it shows from now on.
   void offer(Offers offers) { offers_ = std::move(offers); }
 
@@ -38,12 +42,11 @@ class OpenDialog {
   bool draw_line(Rows& rows, const Offer& offer, bool marked);
   bool matches(const Offer& offer) const;
   void take(const Offer& offer, PanelActions& out);
-  void follow_keys(PanelActions& out);
 
   Offers offers_;
   bool open_ = false, just_opened_ = false;
   char wanted_[256] = {};            ///< what is looked for
-  int marked_ = -1;                  ///< place in shown_ that Enter opens
+  int marked_ = -1;                  ///< place in shown_ that open_chosen() takes; −1: none
   bool moved_ = false;               ///< the mark, by a key
   std::vector<const Offer*> shown_;  ///< in this frame
 };

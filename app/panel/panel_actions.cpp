@@ -2,10 +2,17 @@
 #include <app/panel/panel.hpp>
 
 namespace heml::panel {
+namespace {
+
+bool needs_dialog(Action action) {
+  return action == Action::choose_previous || action == Action::choose_next || action == Action::open_chosen;
+}
+
+}  // namespace
 
 void Panel::carry_out(Action action, const Frame& frame, PanelActions& out) {
   const auto ask = [&](Request request) { out.requests.push_back(request); };
-  if (dialog_.is_open() && action != Action::release && action != Action::quit) return;
+  if (dialog_.is_open() != needs_dialog(action) && action != Action::release && action != Action::quit) return;
   switch (action) {
     case Action::toggle_play:
       return ask(frame.paused ? Request::play : Request::pause);
@@ -41,6 +48,12 @@ void Panel::carry_out(Action action, const Frame& frame, PanelActions& out) {
     case Action::open:
       dialog_.open();
       return ask(Request::list);
+    case Action::choose_previous:
+      return dialog_.choose(-1);
+    case Action::choose_next:
+      return dialog_.choose(1);
+    case Action::open_chosen:
+      return dialog_.open_chosen(out);
     case Action::release:
       if (dialog_.close()) return;
       if (helping_ || notices_.close()) helping_ = false;

@@ -44,6 +44,13 @@ int panel_key(int key, int scancode) {
       return panel::key_home;
     case GLFW_KEY_END:
       return panel::key_end;
+    case GLFW_KEY_UP:
+      return panel::key_up;
+    case GLFW_KEY_DOWN:
+      return panel::key_down;
+    case GLFW_KEY_ENTER:
+    case GLFW_KEY_KP_ENTER:
+      return panel::key_enter;
     case GLFW_KEY_KP_DECIMAL:
       return '.';
     default:

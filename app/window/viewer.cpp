@@ -138,9 +138,11 @@ void Viewer::key(int key, bool control, bool repeated) {
   const auto action = panel::action_of(key, control);
   if (!action) return;
   using enum panel::Action;
-  const bool closes = *action == release && panel_->asks();
-  const bool may_repeat = *action == step || *action == look_earlier || *action == look_later;
-  if ((ImGui::GetIO().WantTextInput && !closes) || (repeated && !may_repeat)) return;
+  const bool chooses = *action == choose_previous || *action == choose_next;
+  const bool is_asked = panel_->asks() && (chooses || *action == open_chosen || *action == release);
+  const bool may_repeat = chooses || *action == step || *action == look_earlier || *action == look_later;
+  const bool is_text = ImGui::GetIO().WantTextInput && !is_asked && *action != quit;
+  if (is_text || (repeated && !may_repeat)) return;
   panel_->perform(*action);
 }
 

@@ -164,7 +164,9 @@ template <class Real>
 double TypedWorld<Real>::choose_step(double until) {
   const double left = until - state_.time;
   if (setup_.solver.step) return left;
-  const int patience = grasps_.empty() && !contacts_.probe ? bound_interval_ : steps_between_bounds_when_pulled;
+  const bool has_torn = !edits_.empty() && edits_.back().torn > 0;  // shreds are let go stretched, and snap back
+  const bool is_pulled = !grasps_.empty() || contacts_.probe || has_torn;
+  const int patience = is_pulled ? steps_between_bounds_when_pulled : bound_interval_;
   if (++steps_since_bound_ >= patience) follow_stable_step();
   if (!(stable_step_ > smallest_step)) {
     stop(Halt{Halt::Cause::unstable, -1, -1,

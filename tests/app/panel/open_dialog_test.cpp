@@ -36,14 +36,9 @@ void type(Driver& driver, const char* text) {
   for (int k = 0; k < 2; ++k) driver.draw();
 }
 
-panel::PanelActions press(Driver& driver, ImGuiKey key) {
-  ImGuiIO& io = ImGui::GetIO();
-  io.KeyMap[key] = 300 + static_cast<int>(key);
-  io.KeysDown[io.KeyMap[key]] = true;
-  const auto actions = driver.draw();
-  io.KeysDown[io.KeyMap[key]] = false;
-  driver.draw();
-  return actions;
+panel::PanelActions press(Driver& driver, Action key) {
+  driver.panel.perform(key);
+  return driver.draw();
 }
 
 /// Looks for a cell or line of that title all over the picture.
@@ -91,14 +86,14 @@ TEST_CASE("typing finds, arrows choose and Enter opens") {
   CHECK(shows(driver, "Wrung by two turns"));
   CHECK_FALSE(shows(driver, "Cantilever"));
   driver.away();
-  CHECK(press(driver, ImGuiKey_Enter).open == std::filesystem::path("/assets/twist.json"));
+  CHECK(press(driver, Action::open_chosen).open == std::filesystem::path("/assets/twist.json"));
   open(driver);
-  press(driver, ImGuiKey_DownArrow);
-  press(driver, ImGuiKey_DownArrow);
-  CHECK(press(driver, ImGuiKey_Enter).open == std::filesystem::path("/assets/beam.json"));
+  press(driver, Action::choose_next);
+  press(driver, Action::choose_next);
+  CHECK(press(driver, Action::open_chosen).open == std::filesystem::path("/assets/beam.json"));
   open(driver);
   type(driver, "/data/x.msh");
-  CHECK(press(driver, ImGuiKey_Enter).open == std::filesystem::path("/data/x.msh"));
+  CHECK(press(driver, Action::open_chosen).open == std::filesystem::path("/data/x.msh"));
 }
 
 TEST_CASE("Esc closes the open dialog and lets go of nothing, other keys wait for it") {

@@ -22,7 +22,7 @@ constexpr const char* lobes = R"({
   "solver": {"rate": 500, "duration": 0.4, "damping": 10, "continuation": true},
   "events": [{"step": 0, "remove": {"box": [[0.04, 0.01, -1], [0.06, 1, 1]]}},
              {"step": 1, "probe": {"radius": 0.006, "shaft": [0, 0, 0.06], "speed": 0.25,
-                                   "path": [[0.108, 0.045, -0.02], [0.05, 0.045, -0.02]]}}]})";
+                                   "path": [[0.108, 0.045, -0.02], [0.07, 0.045, -0.02]]}}]})";
 
 /// A strip that is drawn in two.
 constexpr const char* strip = R"({
