@@ -72,7 +72,7 @@ std::vector<Opening> Tearing::openings(const TetMesh& mesh, const std::vector<Ve
   std::vector<Opening> chosen;
   std::vector<int> taken;  // elements that share a node with one that was looked at before
   for (const Torn& torn : beyond(mesh, x, team)) {
-    if (chosen.size() == most_openings) break;
+    if (!chosen.empty() && torn.stretch < overdue * limit_) break;
     if (std::find(taken.begin(), taken.end(), torn.element) != taken.end()) continue;
     const auto opening = opening_of(torn, mesh, is_held);
     if (!opening) continue;

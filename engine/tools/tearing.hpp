@@ -19,13 +19,14 @@ struct TearingSettings {
 
 class Tearing {
  public:
-  static constexpr std::size_t most_openings = 1;  ///< in one edit: what it lets go unloads what is round it
+  static constexpr double overdue = 1.25;  ///< of the limit
 
   /// mesh: at rest; its elements that are there. All numbers are those of mesh and topology.
   Tearing(const TearingSettings& settings, const TetMesh& mesh, const Topology& topology);
 
-  /// Nodes that are to open, share no element, and are at most so many; none in most steps. x: #V×3, m. is_held(node):
-  /// such a node is not let go, as it would lie where it lies.
+  /// Nodes that are to open; none in most steps. One, since what it lets go unloads what is round it; others only for
+  /// elements that are overdue, and far enough off to share no element with it or its neighbours. x: #V×3, m.
+  /// is_held(node): such a node is not let go, as it would lie where it lies.
   std::vector<Opening> openings(const TetMesh& mesh, const std::vector<Vec3>& x,
                                 const std::function<bool(int)>& is_held, ThreadTeam& team);
   const NodeElements& around() const { return around_; }

@@ -11,6 +11,7 @@ namespace {
 constexpr double safety = 0.9;  // of the live limit; the bound is taken anew every few steps
 // Of cut tissue: a cut sets the smallest pieces swinging by as much as their own size, and the limit changes meanwhile.
 constexpr double safety_of_pieces = 0.7;
+constexpr double safety_of_shreds = 0.5, growth_when_torn = 1.002;
 constexpr int steps_between_bounds = 8;
 constexpr int steps_between_bounds_when_calm = 32;   // while the limit hardly changes, taking it is most of its cost
 constexpr int steps_between_bounds_when_pulled = 2;  // a hand can do much to a body in little time
@@ -283,9 +284,10 @@ void TypedWorld<Real>::find_stable_step() {
   for (const auto& grasp : grasps_) omega = std::max(omega, static_cast<double>(grasp.omega()));
   lambda += omega * omega;
   const double half = omega + (remembers_ ? static_cast<double>(body.damping_bound(state_.x.data(), team_)) / 2 : 0);
-  const bool cut =
-      std::any_of(edits_.begin(), edits_.end(), [](const EditReport& edit) { return edit.split + edit.torn > 0; });
-  stable_step_ = (cut ? safety_of_pieces : safety) * 2 / (half + std::sqrt(half * half + lambda));
+  const bool cut = std::any_of(edits_.begin(), edits_.end(), [](const EditReport& edit) { return edit.split > 0; });
+  const bool torn = std::any_of(edits_.begin(), edits_.end(), [](const EditReport& edit) { return edit.torn > 0; });
+  const double part = torn ? safety_of_shreds : cut ? safety_of_pieces : safety;
+  stable_step_ = part * 2 / (half + std::sqrt(half * half + lambda));
   steps_since_bound_ = 0;
   bound_interval_ = steps_between_bounds;
 }
@@ -296,6 +298,8 @@ void TypedWorld<Real>::follow_stable_step() {
   const double before = stable_step_;
   const int interval = bound_interval_;
   find_stable_step();
+  // A shred swings by its own size, and the limit with it: steps that grew and shrank in its rhythm would feed it.
+  if (!edits_.empty() && edits_.back().torn > 0) stable_step_ = std::min(stable_step_, growth_when_torn * before);
   const double change = std::abs(stable_step_ / before - 1);
   if (change < 0.02) bound_interval_ = interval;
   if (change < 0.005) bound_interval_ = std::min(2 * interval, steps_between_bounds_when_calm);

@@ -159,7 +159,7 @@ TEST_CASE("self-contact: cubes pressed together by opposite forces bear just the
   run_until(*world, 0.5);
   REQUIRE_FALSE(world->halt());
   CHECK(world->self_contact()->force == doctest::Approx(force).epsilon(1e-3));
-  CHECK(world->self_contact()->deepest <= 1e-9);
+  CHECK(world->self_contact()->deepest <= 2e-5 * side);  // rounds end when little changes
 }
 
 TEST_CASE("self-contact: at equilibrium what is pressed bears on what presses it, to the solver's digits") {
