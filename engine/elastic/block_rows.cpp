@@ -8,8 +8,8 @@
 namespace heml {
 namespace {
 
-constexpr std::size_t grain = 512;  // rows below which waking a thread costs more than it brings
-constexpr int lanes = 4;            // elements taken side by side
+constexpr std::size_t row_grain = 512;  // rows below which waking a thread costs more than it brings
+constexpr int side_by_side = 4;         // elements taken side by side
 
 typedef float Four __attribute__((vector_size(16)));
 
@@ -26,7 +26,7 @@ typedef float Four __attribute__((vector_size(16)));
 }
 
 /// Rows of numbers of four elements become a column of each: (x, y, z) of lane l in column[l], and 0.
-[[gnu::always_inline]] inline void transpose(const Four (&xyz)[3], Four (&column)[lanes]) {
+[[gnu::always_inline]] inline void transpose(const Four (&xyz)[3], Four (&column)[side_by_side]) {
   const Four zero = {};
   const Four a = __builtin_shufflevector(xyz[0], xyz[1], 0, 4, 1, 5);
   const Four b = __builtin_shufflevector(xyz[0], xyz[1], 2, 6, 3, 7);
@@ -114,19 +114,19 @@ template <class Real>
     const auto at = static_cast<std::size_t>(static_cast<unsigned>(place));
     return at - first < last - first;  // −1 is nowhere
   };
-  for (std::size_t s = 0; s < group.size(); s += lanes) {
-    const Places* places[lanes];
+  for (std::size_t s = 0; s < group.size(); s += side_by_side) {
+    const Places* places[side_by_side];
     bool any = false;
-    for (std::size_t l = 0; l < lanes; ++l) {
+    for (std::size_t l = 0; l < side_by_side; ++l) {
       places[l] = s + l < group.size() ? &places_[static_cast<std::size_t>(group.element[s + l])] : &nowhere;
       for (std::size_t a = 0; a < 4; ++a) any = any || is_here((*places[l])[5 * a]);
     }
     if (!any) continue;
     const Real* const k = K + edge_entries * packet * (s / packet) + s % packet;
     const auto put = [&](std::size_t a, std::size_t b, int j, const Four(&xyz)[3]) {
-      Four column[lanes];
+      Four column[side_by_side];
       transpose(xyz, column);
-      for (std::size_t l = 0; l < lanes; ++l) {
+      for (std::size_t l = 0; l < side_by_side; ++l) {
         const int place = (*places[l])[4 * a + b];
         if (is_here(place)) block_[static_cast<std::size_t>(place)].column[j] += column[l];
       }
@@ -165,7 +165,7 @@ HEML_WIDE void BlockRows::add_wide(std::size_t first, std::size_t last, const Re
 
 template <class Real>
 void BlockRows::add_elements(const Real* K, const ElementGroup<Real>& group, ThreadTeam& team) {
-  team.for_ranges(rows(), grain, [&](std::size_t begin, std::size_t end) {
+  team.for_ranges(rows(), row_grain, [&](std::size_t begin, std::size_t end) {
     const auto first = static_cast<std::size_t>(start_[begin]), last = static_cast<std::size_t>(start_[end]);
     if (has_wide())
       add_wide(first, last, K, group);
@@ -192,7 +192,7 @@ HEML_WIDE void BlockRows::multiply_wide(const Triples& x, Triples& y, std::size_
 }
 
 void BlockRows::multiply(const Triples& x, Triples& y, ThreadTeam& team) const {
-  team.for_ranges(rows(), grain, [&](std::size_t begin, std::size_t end) {
+  team.for_ranges(rows(), row_grain, [&](std::size_t begin, std::size_t end) {
     if (has_wide())
       multiply_wide(x, y, begin, end);
     else
