@@ -7,13 +7,14 @@
 #include <heml/mesh/surface.hpp>
 #include <heml/scenario/scene.hpp>
 #include <map>
+#include <places.hpp>
 #include <set>
 #include <string>
 
 namespace heml::assets_test {
 namespace {
 
-const std::filesystem::path assets = std::filesystem::path(HEML_SOURCE_DIR) / "assets";
+const std::filesystem::path assets = test::source_folder() / "assets";
 
 TetMesh asset(const std::string& name) { return read_tet_mesh(assets / "meshes" / (name + ".mesh")); }
 
@@ -67,7 +68,7 @@ void check_size(const TetMesh& mesh, int nodes, int tets) {
   CHECK(double(mesh.tets.size()) == doctest::Approx(tets).epsilon(0.03));
 }
 
-}  // namespace heml::assets_test
+}  // namespace
 
 TEST_CASE("the kidney has the paper's size, two regions and no slivers") {
   const TetMesh mesh = asset("kidney");

@@ -6,13 +6,14 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <places.hpp>
 #include <string>
 
 namespace heml::capture_test {
 
 namespace {
 
-const std::filesystem::path golden = std::filesystem::path(HEML_SOURCE_DIR) / "tests" / "golden";
+const std::filesystem::path golden = test::source_folder() / "tests" / "golden";
 constexpr double limit = 3.0;  // of 255, per-pixel rms: drivers round differently, bodies do not move
 
 struct TemporaryFolder {
@@ -26,14 +27,14 @@ struct TemporaryFolder {
 render::Image captured(const std::filesystem::path& scene, int frame, const TemporaryFolder& folder,
                        const std::string& more = "") {
   const auto out = folder.path / "frames";
-  const std::string command = std::string(HEML_BINARY) + " capture '" + scene.string() + "' --out '" + out.string() +
+  const std::string command = test::program().string() + " capture '" + scene.string() + "' --out '" + out.string() +
                               "' --size 320x180 --fps 10 --frames " + std::to_string(frame + 1) + more + " >/dev/null";
   REQUIRE(std::system(command.c_str()) == 0);
   return render::read_png(out / ("frame_0000" + std::to_string(frame) + ".png"));
 }
 
 std::filesystem::path scene(const char* name) {
-  return std::filesystem::path(HEML_SOURCE_DIR) / "assets" / "scenes" / (std::string(name) + ".json");
+  return test::source_folder() / "assets" / "scenes" / (std::string(name) + ".json");
 }
 
 /// Share of pixels that are clearly redder than they are green: the tissue.

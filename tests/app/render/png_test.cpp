@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fstream>
 #include <heml/base/error.hpp>
+#include <places.hpp>
 #include <string>
 
 namespace heml::png_test {
@@ -13,7 +14,7 @@ using namespace heml::render;
 
 namespace {
 
-const std::filesystem::path folder = std::filesystem::path(HEML_BINARY_DIR) / "png_test";
+const std::filesystem::path folder = test::build_folder() / "png_test";
 
 Image pattern() {
   Image image({37, 23});

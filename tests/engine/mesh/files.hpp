@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <heml/base/error.hpp>
+#include <places.hpp>
 #include <string>
 
 namespace heml {
@@ -47,7 +48,7 @@ std::string refusal(Action action) {
 
 /// Meshes made by others, beside the source tree; empty when they are not there.
 inline std::filesystem::path shared_data(const std::string& name) {
-  const std::filesystem::path path = std::filesystem::path(HEML_SOURCE_DIR) / "../shared/data" / name;
+  const std::filesystem::path path = test::source_folder() / "../shared/data" / name;
   std::error_code ignored;
   return std::filesystem::exists(path, ignored) ? path : std::filesystem::path();
 }

@@ -8,6 +8,7 @@
 #include <heml/scenario/material_json.hpp>
 #include <heml/scenario/presets.hpp>
 #include <heml/scenario/text_file.hpp>
+#include <places.hpp>
 
 #include "samples.hpp"
 
@@ -32,7 +33,7 @@ struct Removed {
 
 /// A preset's file with parts added or replaced (JSON merge patch), read.
 Preset read_changed(const std::string& patch) {
-  const auto source = std::filesystem::path(HEML_SOURCE_DIR) / "assets" / "materials" / "brain_ogden.json";
+  const auto source = test::source_folder() / "assets" / "materials" / "brain_ogden.json";
   Json json = parse_json(read_text_file(source), source.string());
   json.merge_patch(Json::parse(patch));
   const auto path = std::filesystem::temp_directory_path() / fmt::format("heml-preset-test-{}.json", getpid());

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <heml/scenario/text_file.hpp>
 #include <heml/studies/html_page.hpp>
+#include <places.hpp>
 
 namespace heml::html_page_test {
 
@@ -16,7 +17,7 @@ TEST_CASE("base64 as RFC 4648 has it") {
 }
 
 TEST_CASE("a page holds its text escaped, its tables and its pictures") {
-  const auto picture = std::filesystem::path(HEML_BINARY_DIR) / "page_picture.png";
+  const auto picture = test::build_folder() / "page_picture.png";
   write_text_file(picture, "foobar");
   HtmlPage page("A & B");
   page.heading("J < 0");

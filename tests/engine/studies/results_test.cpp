@@ -3,12 +3,13 @@
 #include <fstream>
 #include <heml/scenario/text_file.hpp>
 #include <heml/studies/results.hpp>
+#include <places.hpp>
 
 namespace heml::results_test {
 
 namespace {
 std::filesystem::path fresh_file(const char* name) {
-  const auto file = std::filesystem::path(HEML_BINARY_DIR) / name;
+  const auto file = test::build_folder() / name;
   std::filesystem::remove(file);
   return file;
 }

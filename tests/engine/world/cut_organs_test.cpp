@@ -6,6 +6,7 @@
 #include <heml/mesh/read.hpp>
 #include <heml/mesh/surface.hpp>
 #include <map>
+#include <places.hpp>
 #include <random>
 
 #include "support.hpp"
@@ -109,7 +110,7 @@ void check_cuts(const std::filesystem::path& file, int count) {
 }  // namespace
 
 TEST_CASE("sixty random cuts through the kidney lose nothing, leave it closed and play the same again") {
-  check_cuts(std::filesystem::path(HEML_SOURCE_DIR) / "assets/meshes/kidney.mesh", 60);
+  check_cuts(test::source_folder() / "assets/meshes/kidney.mesh", 60);
 }
 
 TEST_CASE("two hundred random cuts through a liver lose nothing, leave it closed and play the same again") {

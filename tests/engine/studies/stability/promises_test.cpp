@@ -6,6 +6,7 @@
 #include <heml/studies/stability/matrix.hpp>
 #include <heml/studies/stability/report.hpp>
 #include <map>
+#include <places.hpp>
 
 namespace heml::promises_test {
 
@@ -13,7 +14,7 @@ using namespace heml::stability;
 
 namespace {
 
-const std::filesystem::path committed = std::filesystem::path(HEML_SOURCE_DIR) / "assets/studies/promised.json";
+const std::filesystem::path committed = test::source_folder() / "assets/studies/promised.json";
 
 /// Limits in double and in float, and how many ways of the case were promised first. In double they are the plan's: 0.1
 /// % of rest after a collapse, order 2 ± 0.1, …
@@ -33,7 +34,7 @@ const std::map<int, Floor> floors = {
     {33, {1e-05, 0.0001, 8}}};
 
 std::filesystem::path folder(const char* name) {
-  const auto path = std::filesystem::path(HEML_BINARY_DIR) / name;
+  const auto path = test::build_folder() / name;
   std::filesystem::remove_all(path);
   std::filesystem::create_directories(path);
   return path;
