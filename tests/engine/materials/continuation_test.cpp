@@ -37,9 +37,10 @@ void check_smooth_along(const std::vector<Path>& paths) {
   const Mat3 turn = Eigen::AngleAxisd(0.7, askew).toRotationMatrix();
   const Mat3 direction = (askew * askew.transpose() + Mat3::Identity()).normalized();
   for (const Material& material : samples())
-    for (const auto& [name, from, to] : paths) {
+    for (const auto& path : paths) {
+      const auto& [name, from, to] = path;
       CAPTURE(material.law);
-      CAPTURE(name);
+      CAPTURE(path.name);
       const auto point = make_material_point(material, true);
       // A fibre that begins to bear load is a jump of the law's own, and not what is asked here.
       const bool jumps = material.law == "stvk" || find_law(material.law)->has_fibre;
@@ -49,7 +50,7 @@ void check_smooth_along(const std::vector<Path>& paths) {
         Mat3 P, dP, stiffness;
       };
       const auto at = [&](int k) {
-        const Mat3 F = turn * from.asDiagonal() + k * step;
+        const Mat3 F = turn * path.from.asDiagonal() + k * step;
         return At{point->energy(F), point->first_piola(F), point->first_piola_differential(F, step),
                   point->first_piola_differential(F, direction)};
       };

@@ -166,8 +166,9 @@ TEST_CASE("reads surfaces with joined nodes: OBJ of several parts and quadrilate
     ply += fmt::format("3 {} {} {}\n", t[0], t[1], t[2]);
     off += fmt::format("3 {} {} {}\n", t[0], t[1], t[2]);
   }
-  for (const auto& [name, text] : {std::pair{"a.stl", stl + "endsolid a\n"}, {"a.ply", ply}, {"a.off", off}}) {
-    CAPTURE(name);
+  for (const auto& file : {std::pair{"a.stl", stl + "endsolid a\n"}, {"a.ply", ply}, {"a.off", off}}) {
+    const auto& [name, text] = file;
+    CAPTURE(file.first);
     SurfaceMesh read = read_surface(folder.file(name, text));
     CHECK(read.nodes.size() == surface.nodes.size());
     CHECK(read.triangles.size() == surface.triangles.size());

@@ -43,9 +43,10 @@ TEST_CASE("implicit: each method converges at its order on a falling beam, in po
   smooth.loads[0].vector = Vec3(0, -0.4, 0);
   smooth.loads[0].over = 0.4;
   const auto exact = run(smooth, end);
-  for (const auto& [integrator, order] :
+  for (const auto& method :
        {std::pair{Integrator::backward_euler, 1.0}, {Integrator::bdf2, 2.0}, {Integrator::tr_bdf2, 2.0}}) {
-    CAPTURE(std::string(integrator_name(integrator)));
+    const auto& [integrator, order] = method;
+    CAPTURE(std::string(integrator_name(method.first)));
     std::vector<double> x_error, v_error;
     for (const double step : {0.01, 0.005, 0.0025}) {
       WorldSetup setup = smooth;

@@ -107,7 +107,8 @@ TEST_CASE("static: the apex of a regular tetrahedron goes where the closed form 
   for (const double t : {0.8, 1 - 1e-6, 1 + 1e-6, 1.1, 1.6})
     for (const auto& [law, stress] :
          {std::pair<std::string, std::function<double(double)>>{"neo_hookean", neo_hookean}, {"stvk", stvk}}) {
-      CAPTURE(law);
+      const auto& name = law;
+      CAPTURE(name);
       CAPTURE(t);
       const WorldSetup setup = regular_tetrahedron(edge, soft(law.c_str(), young, poisson));
       const Vec3 apex = apex_under(setup, Vec3(0, 0, third_of_base * stress(t)));

@@ -63,9 +63,9 @@ TEST_CASE("the list of promises has not shrunk and no limit is looser than the p
     for (const std::string& law : promise.laws)
       CHECK_MESSAGE(std::count(known.begin(), known.end(), Way{law, promise.integrator, promise.single}) == 1, law);
   }
-  for (const auto& [number, floor] : floors) {
-    CAPTURE(number);
-    CHECK(ways[number] >= floor.ways);
+  for (const auto& floor : floors) {
+    CAPTURE(floor.first);
+    CHECK(ways[floor.first] >= floor.second.ways);
   }
 }
 
