@@ -23,7 +23,7 @@ using Clock = std::chrono::steady_clock;
 constexpr const char* name = "heml-mesher";
 constexpr int cannot_start = 127;  // as shells have it; also the dynamic linker's
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef HEML_SANITIZED
 constexpr bool limits_memory = false;  // sanitizers reserve terabytes of addresses
 #else
 constexpr bool limits_memory = true;
