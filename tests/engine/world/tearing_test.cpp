@@ -124,7 +124,7 @@ TEST_CASE("tearing: a strip that is drawn too far comes apart, and nothing of it
     CHECK(tear.torn >= 6);  // across three cells, two faces each
     // Torn across where it was drawn out: sides of 2 and 0.5 cm that have become thinner.
     CHECK(tear.area > 0.2 * 0.02 * 0.005);
-    CHECK(tear.area < 6 * 0.02 * 0.005);  // faces as the mesh has them, not a straight way
+    CHECK(tear.torn < 352 / 6);  // of its inner faces: a jagged way as the mesh has it, not dust
     // Hanging on the ends alone it is at rest again.
     CHECK(world->energies().elastic < 0.2 * tear.before.elastic);
   }
