@@ -143,6 +143,10 @@ void Viewer::key(int key, bool control, bool repeated) {
   const bool may_repeat = chooses || *action == step || *action == look_earlier || *action == look_later;
   const bool is_text = ImGui::GetIO().WantTextInput && !is_asked && *action != quit;
   if (is_text || (repeated && !may_repeat)) return;
+  if (*action == quit) {  // not by the panel, which a scene that opens at this moment replaces
+    quits_ = true;
+    return;
+  }
   panel_->perform(*action);
 }
 

@@ -11,7 +11,9 @@ namespace {
 constexpr double safety = 0.9;  // of the live limit; the bound is taken anew every few steps
 // Of cut tissue: a cut sets the smallest pieces swinging by as much as their own size, and the limit changes meanwhile.
 constexpr double safety_of_pieces = 0.7;
-constexpr double safety_of_shreds = 0.5, growth_when_torn = 1.002;
+constexpr double safety_of_shreds = 0.5;
+constexpr double growth_of_steps = 1.02,
+                 growth_of_steps_when_torn = 1.002;  // at most, each time the limit is taken anew
 constexpr int steps_between_bounds = 8;
 constexpr int steps_between_bounds_when_calm = 32;   // while the limit hardly changes, taking it is most of its cost
 constexpr int steps_between_bounds_when_pulled = 2;  // a hand can do much to a body in little time
@@ -298,8 +300,9 @@ void TypedWorld<Real>::follow_stable_step() {
   const double before = stable_step_;
   const int interval = bound_interval_;
   find_stable_step();
-  // A shred swings by its own size, and the limit with it: steps that grew and shrank in its rhythm would feed it.
-  if (!edits_.empty() && edits_.back().torn > 0) stable_step_ = std::min(stable_step_, growth_when_torn * before);
+  // The limit swings with what is crushed or hangs by a corner: steps that grow in its rhythm would feed the swing.
+  const bool has_torn = !edits_.empty() && edits_.back().torn > 0;
+  stable_step_ = std::min(stable_step_, (has_torn ? growth_of_steps_when_torn : growth_of_steps) * before);
   const double change = std::abs(stable_step_ / before - 1);
   if (change < 0.02) bound_interval_ = interval;
   if (change < 0.005) bound_interval_ = std::min(2 * interval, steps_between_bounds_when_calm);
