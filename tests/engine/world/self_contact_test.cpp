@@ -316,17 +316,17 @@ TEST_CASE("self-contact: the same bits for any number of threads, after a reset 
       auto one = make_world(setup);
       setup.solver.threads = 2;
       auto two = make_world(setup);
-      for (const auto& world : {one.get(), two.get()}) run_until(*world, 0.1);
+      for (const auto& world : {one.get(), two.get()}) run_until(*world, 0.03);
       CHECK(one->self_contact()->touching > 0);
       CHECK(one->state_hash() == two->state_hash());
       const auto hash = one->state_hash();
       one->apply(
           CutTissue{{{{Vec3(0.019, -1, -1), Vec3(0.019, -1, 1)}, {Vec3(0.019, 1, -1), Vec3(0.019, 1, 1)}}}, false});
-      run_until(*one, 0.12);
+      run_until(*one, 0.035);
       one->apply(Undo{});
       CHECK(one->state_hash() == hash);
       one->apply(Reset{});
-      run_until(*one, 0.1);
+      run_until(*one, 0.03);
       CHECK(one->state_hash() == hash);
     }
 }
