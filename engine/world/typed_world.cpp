@@ -12,7 +12,7 @@ constexpr double safety = 0.9;  // of the live limit; the bound is taken anew ev
 // Of cut tissue: a cut sets the smallest pieces swinging by as much as their own size, and the limit changes meanwhile.
 constexpr double safety_of_pieces = 0.7;
 constexpr double safety_of_shreds = 0.5;
-constexpr double growth_of_steps = 1.02,
+constexpr double growth_of_steps = 1.1,
                  growth_of_steps_when_torn = 1.002;  // at most, each time the limit is taken anew
 constexpr int steps_between_bounds = 8;
 constexpr int steps_between_bounds_when_calm = 32;   // while the limit hardly changes, taking it is most of its cost

@@ -117,7 +117,7 @@ class CommandLine(unittest.TestCase):
 
     def test_leaving_the_range_of_a_law_is_exit_4_and_names_the_element(self):
         scene = cantilever()
-        scene["boundary"].append({"box": [[0.0999, -1, -1], [1, 1, 1]], "translate": [-0.15, 0, 0], "over": 0.1})
+        scene["boundary"].append({"box": [[0.0999, -1, -1], [1, 1, 1]], "translate": [-0.15, 0, 0], "over": 0.02})
         scene["solver"]["duration"] = 0.2
         self.assert_refused(heml("solve", self.write("scene.json", scene), "--out", self.folder / "out"), 4, "element ")
 
