@@ -12,11 +12,12 @@ constexpr double safety = 0.9;  // of the live limit; the bound is taken anew ev
 // Of cut tissue: a cut sets the smallest pieces swinging by as much as their own size, and the limit changes meanwhile.
 constexpr double safety_of_pieces = 0.7;
 constexpr double safety_of_shreds = 0.5;
-constexpr double growth_of_steps = 1.1,
-                 growth_of_steps_when_torn = 1.002;  // at most, each time the limit is taken anew
-constexpr int steps_between_bounds = 8;
-constexpr int steps_between_bounds_when_calm = 32;   // while the limit hardly changes, taking it is most of its cost
-constexpr int steps_between_bounds_when_pulled = 2;  // a hand can do much to a body in little time
+constexpr double growth_of_steps = 0.0125, growth_of_steps_when_torn = 0.001;  // a step, at most
+// The limit is taken anew when it may have changed by a twentieth, as fast as it changed last time.
+constexpr double change_between_bounds = 0.05;
+constexpr double steps_between_bounds_when_calm = 32;  // at most: then taking it costs hardly anything
+constexpr int steps_between_bounds_at_first = 8;
+constexpr int steps_between_bounds_when_driven = 2;  // a hand or a moved support can do much to a body in little time
 constexpr std::size_t node_grain = 4096, coordinate_grain = 3 * node_grain;
 constexpr std::size_t cached_coordinates = 2048;  // which the first cache has still when they are read again
 
@@ -168,8 +169,8 @@ double TypedWorld<Real>::choose_step(double until) {
   const double left = until - state_.time;
   if (setup_.solver.step) return left;
   const bool has_torn = !edits_.empty() && edits_.back().torn > 0;  // shreds are let go stretched, and snap back
-  const bool is_pulled = !grasps_.empty() || contacts_.probe || has_torn;
-  const int patience = is_pulled ? steps_between_bounds_when_pulled : bound_interval_;
+  const bool is_driven = !grasps_.empty() || contacts_.probe || has_torn || supports_move();
+  const int patience = is_driven ? std::min(bound_interval_, steps_between_bounds_when_driven) : bound_interval_;
   if (++steps_since_bound_ >= patience) follow_stable_step();
   if (!(stable_step_ > smallest_step)) {
     stop(Halt{Halt::Cause::unstable, -1, -1,
@@ -179,6 +180,13 @@ double TypedWorld<Real>::choose_step(double until) {
     return left;
   }
   return left / std::ceil(left / stable_step_);
+}
+
+template <class Real>
+bool TypedWorld<Real>::supports_move() const {
+  return std::any_of(setup_.boundary.begin(), setup_.boundary.end(), [&](const Boundary& support) {
+    return state_.time < support.over && (support.degrees != 0 || !support.translate.isZero(0));
+  });
 }
 
 template <class Real>
@@ -291,21 +299,22 @@ void TypedWorld<Real>::find_stable_step() {
   const double part = torn ? safety_of_shreds : cut ? safety_of_pieces : safety;
   stable_step_ = part * 2 / (half + std::sqrt(half * half + lambda));
   steps_since_bound_ = 0;
-  bound_interval_ = steps_between_bounds;
+  bound_interval_ = steps_between_bounds_at_first;
 }
 
-/// Takes it anew, and after that the sooner the more it has changed.
+/// Takes it anew, and after that the sooner the faster it changes.
 template <class Real>
 void TypedWorld<Real>::follow_stable_step() {
   const double before = stable_step_;
-  const int interval = bound_interval_;
+  const int steps = steps_since_bound_, interval = bound_interval_;
   find_stable_step();
+  const double change = std::abs(stable_step_ / before - 1);
+  const double enough = steps * change_between_bounds / std::max(change, 1e-9);
+  bound_interval_ = static_cast<int>(std::clamp(enough, 1.0, std::min(2.0 * interval, steps_between_bounds_when_calm)));
   // The limit swings with what is crushed or hangs by a corner: steps that grow in its rhythm would feed the swing.
   const bool has_torn = !edits_.empty() && edits_.back().torn > 0;
-  stable_step_ = std::min(stable_step_, (has_torn ? growth_of_steps_when_torn : growth_of_steps) * before);
-  const double change = std::abs(stable_step_ / before - 1);
-  if (change < 0.02) bound_interval_ = interval;
-  if (change < 0.005) bound_interval_ = std::min(2 * interval, steps_between_bounds_when_calm);
+  const double growth = has_torn ? growth_of_steps_when_torn : growth_of_steps;
+  stable_step_ = std::min(stable_step_, (1 + steps * growth) * before);
 }
 
 template <class Real>
