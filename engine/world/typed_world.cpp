@@ -12,9 +12,11 @@ constexpr double safety = 0.9;  // of the live limit; the bound is taken anew ev
 // Of cut tissue: a cut sets the smallest pieces swinging by as much as their own size, and the limit changes meanwhile.
 constexpr double safety_of_pieces = 0.7;
 constexpr double safety_of_shreds = 0.5;
-constexpr double growth_of_steps = 0.0125, growth_of_steps_when_torn = 0.001;  // a step, at most
-// The limit is taken anew when it may have changed by a twentieth, as fast as it changed last time.
-constexpr double change_between_bounds = 0.05;
+// The limit swings with a body that is crushed, lands, or hangs by a corner. Steps that grow in its rhythm feed the
+// swing.
+constexpr double growth_of_steps = 0.001;  // a step, at most
+// The limit is taken anew when it may have changed by so much, as fast as it changed last time.
+constexpr double change_between_bounds = 0.02;
 constexpr double steps_between_bounds_when_calm = 32;  // at most: then taking it costs hardly anything
 constexpr int steps_between_bounds_at_first = 8;
 constexpr int steps_between_bounds_when_driven = 2;  // a hand or a moved support can do much to a body in little time
@@ -311,10 +313,7 @@ void TypedWorld<Real>::follow_stable_step() {
   const double change = std::abs(stable_step_ / before - 1);
   const double enough = steps * change_between_bounds / std::max(change, 1e-9);
   bound_interval_ = static_cast<int>(std::clamp(enough, 1.0, std::min(2.0 * interval, steps_between_bounds_when_calm)));
-  // The limit swings with what is crushed or hangs by a corner: steps that grow in its rhythm would feed the swing.
-  const bool has_torn = !edits_.empty() && edits_.back().torn > 0;
-  const double growth = has_torn ? growth_of_steps_when_torn : growth_of_steps;
-  stable_step_ = std::min(stable_step_, (1 + steps * growth) * before);
+  stable_step_ = std::min(stable_step_, (1 + steps * growth_of_steps) * before);
 }
 
 template <class Real>
