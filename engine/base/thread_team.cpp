@@ -7,7 +7,8 @@ namespace heml {
 
 ThreadTeam::ThreadTeam(int threads) {
   const int wanted = threads > 0 ? threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  for (int i = 1; i < wanted; ++i) workers_.emplace_back([this, i] { work(static_cast<std::size_t>(i)); });
+  workers_ = std::vector<Worker>(static_cast<std::size_t>(wanted - 1));
+  for (std::size_t k = 0; k < workers_.size(); ++k) workers_[k].thread = std::thread([this, k] { work(k); });
 }
 
 ThreadTeam::~ThreadTeam() {
@@ -15,42 +16,41 @@ ThreadTeam::~ThreadTeam() {
     std::lock_guard lock(mutex_);
     stop_ = true;
   }
-  start_.notify_all();
-  for (auto& worker : workers_) worker.join();
+  for (Worker& worker : workers_) worker.wake.notify_one();
+  for (Worker& worker : workers_) worker.thread.join();
 }
 
 void ThreadTeam::run_piece(const Loop& loop, std::size_t piece) {
-  if (piece >= loop.pieces) return;
   loop.call(loop.body, loop.count * piece / loop.pieces, loop.count * (piece + 1) / loop.pieces);
 }
 
+/// Wakes as many as there are pieces: to wake the others would take longer than many a loop.
 void ThreadTeam::run(const Loop& loop) {
+  const std::size_t helpers = loop.pieces - 1;
   {
     std::lock_guard lock(mutex_);
     loop_ = loop;
-    unfinished_ = workers_.size();
-    ++round_;
+    unfinished_ = helpers;
+    for (std::size_t k = 0; k < helpers; ++k) workers_[k].is_wanted = true;
   }
-  start_.notify_all();
+  for (std::size_t k = 0; k < helpers; ++k) workers_[k].wake.notify_one();
   run_piece(loop, 0);
   std::unique_lock lock(mutex_);
   done_.wait(lock, [this] { return unfinished_ == 0; });
 }
 
-void ThreadTeam::work(std::size_t piece) {
+void ThreadTeam::work(std::size_t k) {
   FlushDenormals flush;
-  unsigned long seen = 0;
+  Worker& self = workers_[k];
+  std::unique_lock lock(mutex_);
   for (;;) {
-    Loop loop;
-    {
-      std::unique_lock lock(mutex_);
-      start_.wait(lock, [&] { return stop_ || round_ != seen; });
-      if (stop_) return;
-      seen = round_;
-      loop = loop_;
-    }
-    run_piece(loop, piece);
-    std::lock_guard lock(mutex_);
+    self.wake.wait(lock, [&] { return stop_ || self.is_wanted; });
+    if (stop_) return;
+    self.is_wanted = false;
+    const Loop loop = loop_;
+    lock.unlock();
+    run_piece(loop, k + 1);
+    lock.lock();
     if (--unfinished_ == 0) done_.notify_one();
   }
 }

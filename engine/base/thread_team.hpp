@@ -41,14 +41,18 @@ class ThreadTeam {
     std::size_t count, pieces;
   };
   void run(const Loop& loop);
-  void work(std::size_t piece);
+  struct Worker {
+    std::thread thread;
+    std::condition_variable wake;
+    bool is_wanted = false;
+  };
+  void work(std::size_t k);
   static void run_piece(const Loop& loop, std::size_t piece);
 
-  std::vector<std::thread> workers_;
+  std::vector<Worker> workers_;
   std::mutex mutex_;
-  std::condition_variable start_, done_;
+  std::condition_variable done_;
   Loop loop_{};
-  unsigned long round_ = 0;
   std::size_t unfinished_ = 0;
   bool stop_ = false;
 };
