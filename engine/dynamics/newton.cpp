@@ -20,6 +20,7 @@ NewtonResult minimise(Objective& objective, LinearSolver& linear, const Stop& st
   bool by_projection = may_project && linear.preconditioner() == Preconditioner::cholesky;
   const double first = at.r.norm();
   double least = std::numeric_limits<double>::infinity();
+  double lowest = std::numeric_limits<double>::infinity();  // Φ when it last fell by more than its round-off
   int idle = 0;
   const auto finish = [&](NewtonResult::End end) {
     x = at.x;
@@ -30,8 +31,11 @@ NewtonResult minimise(Objective& objective, LinearSolver& linear, const Stop& st
   while (true) {
     result.measure = stop.measure(at.r);
     if (result.measure <= stop.limit) return finish(NewtonResult::End::converged);
-    // Where Φ no longer tells steps apart, the measure has to fall, or this is as near as round-off lets it come.
-    idle = at.at_noise && result.measure > 0.9 * least ? idle + 1 : 0;
+    // Where Φ no longer tells steps apart, several together have to lower it, or the measure has to fall, or this is as
+    // near as round-off lets it come.
+    const bool is_lower = at.value && *at.value < lowest - objective.value_noise();
+    if (is_lower) lowest = *at.value;
+    idle = at.at_noise && !is_lower && result.measure > 0.9 * least ? idle + 1 : 0;
     least = std::min(least, result.measure);
     result.at_round_off = idle == patience;
     if (result.at_round_off) return finish(NewtonResult::End::stalled);
