@@ -23,8 +23,6 @@ class LoadedObjective : public Objective {
   /// How far the last state residual() saw, with its residual r, is from equilibrium: relative to what the body
   /// carries.
   virtual double imbalance(const Vector& r) const = 0;
-  /// Whether that residual is no more than round-off.
-  virtual bool is_round_off(const Vector& r) const = 0;
   /// Whether an equilibrium is one the load leads to: no element turned inside out.
   virtual bool acceptable(const Vector& x) const = 0;
   /// Whether what it took for granted of a solution does not hold of x: then it is to be solved again from there.

@@ -29,6 +29,10 @@ class IncrementalPotential final : public Objective {
     return *U + a_ / 2 * (mass_.array() * (x - y_).array().square()).sum();
   }
   double value_noise() const override { return potential_.value_noise(); }
+  bool is_round_off(const Vector& r) const override { return potential_.is_round_off(r); }
+  bool turns_inside_out(const Vector& from, const Vector& to) const override {
+    return potential_.turns_inside_out(from, to);
+  }
   void linearise(const Vector& x, Projection projection = Projection::none) override {
     potential_.linearise(x, projection);
   }

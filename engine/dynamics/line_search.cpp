@@ -5,6 +5,7 @@ namespace heml {
 namespace {
 constexpr double armijo = 1e-4;
 constexpr int most_cuts = 24;
+constexpr int cuts_against_turning = 12;  // then an element may turn inside out: it may be on its way back
 constexpr double flatter = 0.95;  // of the slope at the start: a step at round-off must make it at least this flat
 }  // namespace
 
@@ -15,6 +16,7 @@ bool search_line(Objective& objective, const Vector& d, SearchPoint& at) {
   double s = 1;
   for (int cut = 0; cut <= most_cuts; ++cut, s /= 2) {
     trial.x = at.x + s * d;
+    if (cut < cuts_against_turning && objective.turns_inside_out(at.x, trial.x)) continue;
     if (!objective.residual(trial.x, trial.r) || !trial.r.allFinite()) continue;
     const double slope_there = d.dot(trial.r);
     const bool is_flatter = std::abs(slope_there) <= flatter * slope;

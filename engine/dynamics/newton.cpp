@@ -6,7 +6,8 @@
 namespace heml {
 namespace {
 constexpr double slow = 0.5;  // of ‖r‖ left by an iteration without positive curvature: the other remedy is tried next
-constexpr int patience = 3;  // iterations at round-off that bring nothing
+// Iterations that bring nothing, where forces are round-off, and where the potential alone is.
+constexpr int patience_of_forces = 2, patience_of_values = 5;
 }  // namespace
 
 NewtonResult minimise(Objective& objective, LinearSolver& linear, const Stop& stop, const NewtonOptions& options,
@@ -37,7 +38,7 @@ NewtonResult minimise(Objective& objective, LinearSolver& linear, const Stop& st
     if (is_lower) lowest = *at.value;
     idle = at.at_noise && !is_lower && result.measure > 0.9 * least ? idle + 1 : 0;
     least = std::min(least, result.measure);
-    result.at_round_off = idle == patience;
+    result.at_round_off = idle >= (objective.is_round_off(at.r) ? patience_of_forces : patience_of_values);
     if (result.at_round_off) return finish(NewtonResult::End::stalled);
     if (result.iterations >= options.most_iterations) return finish(NewtonResult::End::out_of_iterations);
     ++result.iterations;

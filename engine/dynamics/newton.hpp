@@ -5,7 +5,8 @@
 // near incompressibility, |D| past a buckling load: each is kept while it makes progress. Steps are cut by Armijo's
 // rule on Φ with slack for round-off, where the slope along the step decides instead (Hager & Zhang 2005, "approximate
 // Wolfe"); where forces have no potential, by that slope or by ‖r‖. States where Φ is not defined are stepped back from
-// like any other bad one.
+// like any other bad one, and so are long steps through states that no body can pass: behind them lie minima of laws
+// that bear elements inside out.
 #include <functional>
 #include <heml/dynamics/linear_solver.hpp>
 #include <heml/dynamics/objective.hpp>

@@ -22,6 +22,10 @@ class Objective {
   virtual std::optional<double> value(const Vector& x) = 0;
   /// Up to what difference values are round-off, J.
   virtual double value_noise() const = 0;
+  /// Whether a residual is no more than the round-off of forces.
+  virtual bool is_round_off(const Vector&) const { return false; }
+  /// Whether a step from one x to another is long and turns elements inside out: shorter ones are tried first.
+  virtual bool turns_inside_out(const Vector&, const Vector&) const { return false; }
   /// Finds K = −∂r/∂x at x, or its projection, which the calls below are about until the next one.
   virtual void linearise(const Vector& x, Projection projection = Projection::none) = 0;
   /// out = K dx; 0 at nodes that are not free. dx may move those.

@@ -10,6 +10,7 @@ namespace {
 
 constexpr std::size_t values_remembered = 3;  // where a step began, where it would fly, where it has come
 constexpr double deepest = 1e-4;              // of the body's size: how far inside a table or a probe tissue may be
+constexpr double long_way = 0.1;              // of the spacing of nodes: a shorter step turns no good element
 constexpr double nothing = 1e-12;             // N: forces below vanish (contract, "tolerance")
 
 Mat3 cross_matrix(const Vec3& w) {
@@ -53,14 +54,14 @@ void BodyObjective<Real>::find_noise() {
   // An energy density is found as a difference of numbers of the size of a modulus: ω² m L² in all.
   constexpr double epsilon = std::numeric_limits<Real>::epsilon(), safety = 4;
   const double bound = static_cast<double>(body_.frequency_bound(x_.data(), team_));
-  const double spacing = model_.diagonal / std::cbrt(static_cast<double>(std::max<std::size_t>(1, mass_.size())));
+  spacing_ = model_.diagonal / std::cbrt(static_cast<double>(std::max<std::size_t>(1, mass_.size())));
   std::vector<double> stiffness(mass_.size(), 0.0);
   for (const int n : free_.node) {
     const auto k = static_cast<std::size_t>(n);
     stiffness[k] = bound * static_cast<double>(mass_[k]);
   }
   contact_.set_stiffness(std::move(stiffness));
-  noise_ = epsilon * bound * inertia * spacing * spacing;
+  noise_ = epsilon * bound * inertia * spacing_ * spacing_;
   const double worst = epsilon * bound * model_.diagonal;
   acceleration_noise_ = std::clamp(safety * at_rest, worst / 10, worst);
 }
@@ -173,6 +174,12 @@ int BodyObjective<Real>::count_inverted(const Vector& x) const {
   return static_cast<int>(std::count_if(model_.mesh.tets.begin(), model_.mesh.tets.end(), [&](const Tet& tet) {
     return !(signed_volume(at(x, tet[0]), at(x, tet[1]), at(x, tet[2]), at(x, tet[3])) > 0);
   }));
+}
+
+template <class Real>
+bool BodyObjective<Real>::turns_inside_out(const Vector& from, const Vector& to) const {
+  return (to - from).template lpNorm<Eigen::Infinity>() > long_way * spacing_ &&
+         count_inverted(to) > count_inverted(from);
 }
 
 template <class Real>

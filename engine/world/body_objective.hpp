@@ -53,6 +53,7 @@ class BodyObjective final : public LoadedObjective {
   bool residual(const Vector& x, Vector& r) override;
   std::optional<double> value(const Vector& x) override;
   double value_noise() const override { return noise_; }
+  bool turns_inside_out(const Vector& from, const Vector& to) const override;
   void linearise(const Vector& x, Projection projection = Projection::none) override;
   void product(const Vector& dx, Vector& out) override;
   bool symmetric() const override { return linearised_at_.size() == 0; }
@@ -94,6 +95,7 @@ class BodyObjective final : public LoadedObjective {
   double time_ = 0, duration_ = 0, d_ = 0, anchor_ = 0;
   Vec3 gravity_ = Vec3::Zero(), full_gravity_ = Vec3::Zero();
   Vector x_bar_;
+  double spacing_ = 0;  ///< m, of nodes, in the mean
   double noise_ = 0, acceleration_noise_ = 0;
   int inverted_at_start_ = 0;
   Vector forces_, external_;
