@@ -9,23 +9,49 @@ constexpr double slow = 0.5;  // of ‖r‖ left by an iteration without positiv
 // Iterations that bring nothing, where forces are round-off, and where the potential alone is.
 constexpr int patience_of_forces = 2, patience_of_values = 5;
 constexpr double mostly = 1e-3;  // of the bound on round-off of values: what it comes to in sums of many elements
+constexpr double none = std::numeric_limits<double>::infinity();
+
+/// What happens where Φ no longer tells steps apart: several together have to lower it, or the measure has to fall, or
+/// this is as near as round-off lets it come.
+class AtRoundOff {
+ public:
+  /// Whether it is, at a point with this measure.
+  bool is_over(const Objective& objective, const SearchPoint& at, double measure) {
+    const bool is_lower = at.value && *at.value < lowest_ - mostly * objective.value_noise();
+    if (is_lower) {
+      lowest_ = *at.value;
+      best_measure_ = none;
+    }
+    idle_ = at.at_noise && !is_lower && measure > 0.9 * least_ ? idle_ + 1 : 0;
+    least_ = std::min(least_, measure);
+    if (at.at_noise && measure < best_measure_) {
+      best_ = at.x;
+      best_measure_ = measure;
+    }
+    return idle_ >= (objective.is_round_off(at.r) ? patience_of_forces : patience_of_values);
+  }
+  const Vector& best() const { return best_; }
+  double best_measure() const { return best_measure_; }
+
+ private:
+  double lowest_ = none;  // Φ when it last fell by more than its round-off
+  double least_ = none, best_measure_ = none;
+  Vector best_;
+  int idle_ = 0;
+};
 }  // namespace
 
 NewtonResult minimise(Objective& objective, LinearSolver& linear, const Stop& stop, const NewtonOptions& options,
                       Vector& x) {
   NewtonResult result;
   SearchPoint at{x, Vector(), std::nullopt};
-  Vector best;  // of those at round-off
+  AtRoundOff round_off;
   if (!objective.residual(at.x, at.r) || !at.r.allFinite()) return result;
   at.value = objective.value(at.x);
   Vector d;
   const bool may_project = linear.projection() != Projection::none;
   bool by_projection = may_project && linear.preconditioner() == Preconditioner::cholesky;
   const double first = at.r.norm();
-  constexpr double none = std::numeric_limits<double>::infinity();
-  double least = none, least_at_noise = none;
-  double lowest = none;  // Φ when it last fell by more than its round-off
-  int idle = 0;
   const auto finish = [&](NewtonResult::End end) {
     x = at.x;
     if (end == NewtonResult::End::stalled) objective.residual(x, at.r);  // what it saw last is where it stays
@@ -35,21 +61,10 @@ NewtonResult minimise(Objective& objective, LinearSolver& linear, const Stop& st
   while (true) {
     result.measure = stop.measure(at.r);
     if (result.measure <= stop.limit) return finish(NewtonResult::End::converged);
-    // Where Φ no longer tells steps apart, several together have to lower it, or the measure has to fall, or this is as
-    // near as round-off lets it come.
-    const bool is_lower = at.value && *at.value < lowest - mostly * objective.value_noise();
-    if (is_lower) lowest = *at.value;
-    idle = at.at_noise && !is_lower && result.measure > 0.9 * least ? idle + 1 : 0;
-    if (is_lower) least_at_noise = none;
-    if (at.at_noise && result.measure < least_at_noise) {
-      best = at.x;
-      least_at_noise = result.measure;
-    }
-    least = std::min(least, result.measure);
-    result.at_round_off = idle >= (objective.is_round_off(at.r) ? patience_of_forces : patience_of_values);
+    result.at_round_off = round_off.is_over(objective, at, result.measure);
     if (result.at_round_off) {
-      at.x = best;
-      result.measure = least_at_noise;
+      at.x = round_off.best();
+      result.measure = round_off.best_measure();
       return finish(NewtonResult::End::stalled);
     }
     if (result.iterations >= options.most_iterations) return finish(NewtonResult::End::out_of_iterations);
