@@ -30,6 +30,7 @@ class Filming {
   void take(render::Image picture, double time);
   void finish();  ///< nothing is taken any more; the video is made
 
+  bool is_finishing() const { return finishing_; }
   long pictures() const { return next_; }
   render::Size size() const { return size_; }
   bool is_done() const;  ///< there is an outcome to take

@@ -144,6 +144,7 @@ void Viewer::save_screenshot() {
 }
 
 void Viewer::film() {
+  if (filming_ && filming_->is_finishing()) return panel_->say("The last film is still being made into a video.");
   if (filming_) return filming_->finish();
   try {
     filming_ = std::make_unique<Filming>(open_.scene.name, eye_.size());

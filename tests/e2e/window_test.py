@@ -117,6 +117,14 @@ class Window(unittest.TestCase):
     def xdo(self, *words):
         subprocess.run(["xdotool", *map(str, words)], env=self.environment, check=True, stdout=subprocess.DEVNULL)
 
+    def helpers(self):
+        """Programs that it has started and that still run."""
+        tasks = pathlib.Path(f"/proc/{self.program.pid}/task").glob("*/children")
+        return " ".join(task.read_text() for task in tasks).split()
+
+    def films(self):
+        return sorted(path for path in self.folder.glob("heml-*") if path.is_dir())
+
     def wait_for(self, what, reached, seconds=60):
         end = time.monotonic() + seconds
         while not reached():
@@ -425,13 +433,14 @@ class Window(unittest.TestCase):
         self.wait_for("pictures", lambda: len(list(self.folder.glob("heml-*/frame_*.png"))) > 20)
         self.xdo("key", "v")
         self.wait_for("a video", lambda: list(self.folder.glob("heml-*.mp4")) + list(self.folder.glob("heml-*.webm")))
-        self.xdo("key", "v")
+        self.wait_for("the video's end", lambda: not self.helpers())
         time.sleep(1)
-        self.xdo("key", "ctrl+q")  # in the middle of another film
+        self.xdo("key", "v")
+        self.wait_for("another film", lambda: len(self.films()) == 2)
+        time.sleep(1)
+        self.xdo("key", "ctrl+q")  # in the middle of it
         self.finish()
-        folders = sorted(path for path in self.folder.glob("heml-*") if path.is_dir())
-        self.assertEqual(len(folders), 2)
-        for folder in folders:
+        for folder in self.films():
             numbers = sorted(int(path.stem[6:]) for path in folder.glob("frame_*.png"))
             self.assertEqual(numbers, list(range(len(numbers))))
             for path in folder.glob("frame_*.png"):
