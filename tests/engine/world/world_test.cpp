@@ -177,23 +177,18 @@ TEST_CASE("however fast a continued body is crushed, explicit steps that follow 
     double over, way;  // s, m
     int fine;
   };
-  for (const auto& [over, way, fine] : {Crushing{0.06, 0.15, 2},
-                                        {0.11, 0.14, 2},
-                                        {0.16, 0.16, 2},
-                                        {0.2, 0.15, 2},
-                                        {0.05, 0.18, 2},
-                                        {0.05, 0.15, 1},
-                                        {0.05, 0.18, 1},
-                                        {0.102, 0.149, 1}}) {
-    CAPTURE(over);
-    CAPTURE(way);
+  constexpr Crushing crushings[] = {{0.06, 0.15, 2}, {0.11, 0.14, 2}, {0.16, 0.16, 2}, {0.2, 0.15, 2},
+                                    {0.05, 0.18, 2}, {0.05, 0.15, 1}, {0.05, 0.18, 1}, {0.102, 0.149, 1}};
+  for (const Crushing& crushing : crushings) {
+    CAPTURE(crushing.over);
+    CAPTURE(crushing.way);
     WorldSetup setup = cantilever();
-    setup.mesh = make_box(Vec3(0.1, 0.02, 0.02), {10 * fine, 2 * fine, 2 * fine});
+    setup.mesh = make_box(Vec3(0.1, 0.02, 0.02), {10 * crushing.fine, 2 * crushing.fine, 2 * crushing.fine});
     setup.gravity.setZero();
     setup.boundary = {{nodes_where(setup.mesh, [](const Vec3& X) { return X.x() < 1e-9; })}};
     Boundary crush{nodes_where(setup.mesh, [](const Vec3& X) { return X.x() > 0.0999; })};
-    crush.translate = Vec3(-way, 0, 0);
-    crush.over = over;
+    crush.translate = Vec3(-crushing.way, 0, 0);
+    crush.over = crushing.over;
     setup.boundary.push_back(crush);
     setup.solver.continuation = true;
     setup.solver.damping = 50;
