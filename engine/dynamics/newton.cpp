@@ -28,7 +28,7 @@ class AtRoundOff {
       best_ = at.x;
       best_measure_ = measure;
     }
-    return idle_ >= (objective.is_round_off(at.r) ? patience_of_forces : patience_of_values);
+    return idle_ >= patience_of_values || (idle_ >= patience_of_forces && objective.is_round_off(at.r));
   }
   const Vector& best() const { return best_; }
   double best_measure() const { return best_measure_; }
