@@ -16,10 +16,11 @@ Offers some_offers() {
                    {"/assets/beam.json", "Cantilever", "A soft beam bends under its own weight."},
                    {"/assets/twist.json", "Wrung by two turns", "One end of a bar turns twice."}};
   offers.extreme = {{"/assets/extreme/patch.json", "Patch test", "Every node inside has to find the same shape."}};
-  offers.recent = {{"/home/liver.obj", "liver.obj", "/home"},
-                   {"/home/gone.json", "gone.json", "/home", nullptr, false, false}};
-  offers.folder = "/home/work";
-  offers.files = {{"/home", "..", "folder above", nullptr, true}, {"/home/work/a.jsonl", "a.jsonl", "recording, 2 kB"}};
+  offers.recent = {{"/scenes/liver.obj", "liver.obj", "/scenes"},
+                   {"/scenes/gone.json", "gone.json", "/scenes", nullptr, false, false}};
+  offers.folder = "/scenes/mine";
+  offers.files = {{"/scenes", "..", "folder above", nullptr, true},
+                  {"/scenes/mine/a.jsonl", "a.jsonl", "recording, 2 kB"}};
   return offers;
 }
 
@@ -74,7 +75,7 @@ TEST_CASE("a folder is looked into, and a file that has gone is not opened") {
   CHECK(driver.panel.asks());
   REQUIRE(shows(driver, ".."));
   const auto actions = driver.click();
-  CHECK(actions.look_into == std::filesystem::path("/home"));
+  CHECK(actions.look_into == std::filesystem::path("/scenes"));
   CHECK_FALSE(actions.open);
   CHECK(driver.panel.asks());
 }
@@ -125,7 +126,7 @@ TEST_CASE("a small picture shows the open dialog in one column that scrolls") {
   }
   ImGui::GetIO().MouseWheel = 0;
   driver.find("a.jsonl", 100);
-  CHECK(driver.click().open == std::filesystem::path("/home/work/a.jsonl"));
+  CHECK(driver.click().open == std::filesystem::path("/scenes/mine/a.jsonl"));
 }
 
 }  // namespace heml::open_dialog_test

@@ -1,10 +1,12 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <heml/dynamics/implicit_stage.hpp>
 #include <heml/dynamics/incremental_potential.hpp>
 #include <heml/dynamics/newton.hpp>
+#include <random>
 
 #include "small_objectives.hpp"
 #include "support.hpp"
@@ -137,6 +139,38 @@ TEST_CASE("stops with what it has when iterations run out") {
   CHECK(result.end == NewtonResult::End::out_of_iterations);
   CHECK(result.iterations == 2);
   CHECK(*wells.value(x) < before);
+}
+
+/// Springs whose forces are known to some digits only.
+class Blurred final : public NodesAndSprings {
+ public:
+  using NodesAndSprings::NodesAndSprings;
+  bool residual(const Vector& x, Vector& r) override {
+    NodesAndSprings::residual(x, r);
+    for (Eigen::Index i = 0; i < r.size(); ++i)
+      if (r[i] != 0) r[i] += 1e-4 * std::uniform_real_distribution(-1.0, 1.0)(engine_);
+    return true;
+  }
+  double value_noise() const override { return 1; }
+  bool is_round_off(const Vector& r) const override { return r.norm() < 1e-2; }
+
+ private:
+  std::mt19937_64 engine_{11};
+};
+
+TEST_CASE("where forces are round-off Newton ends soon, with the best it saw there") {
+  const Fixture f;
+  LinearSolver solver = f.solver(Preconditioner::cholesky);
+  Blurred springs(f.mesh, f.free, 2);
+  std::vector<double> seen;
+  const Stop stop{[&](const Vector& r) { return seen.emplace_back(r.norm()); }, 1e-12};
+  Vector x = f.random(0, 1);
+  const NewtonResult result = minimise(springs, solver, stop, {}, x);
+  CHECK(result.end == NewtonResult::End::stalled);
+  CHECK(result.at_round_off);
+  CHECK(result.iterations < 12);
+  CHECK(result.measure == *std::min_element(seen.begin(), seen.end()));
+  CHECK(seen.back() > result.measure);  // it was not the last
 }
 
 TEST_CASE("stages of each method have its order on a damped oscillator, also when the step changes") {

@@ -134,7 +134,7 @@ TEST_CASE("implicit: a tolerance out of reach ends in a message, with the last g
 TEST_CASE("implicit: let go at a quarter of its volume, no law turns an element inside out on its way back") {
   for (const char* law : {"hgo", "fung_demiray", "mooney_rivlin", "neo_hookean"})
     for (const bool single : {false, true}) {
-      CAPTURE(law);
+      CAPTURE(std::string(law));
       CAPTURE(single);
       WorldSetup setup = falling(Integrator::backward_euler, 0.01);
       setup.mesh = make_box(Vec3(0.1, 0.02, 0.02), {6, 2, 2});
