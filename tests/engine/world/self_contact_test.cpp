@@ -318,8 +318,12 @@ static void check_bits(Integrator integrator, bool single) {
   CHECK(one->self_contact()->touching > 0);
   CHECK(one->state_hash() == two->state_hash());
   const auto hash = one->state_hash();
-  one->apply(CutTissue{{{{Vec3(0.019, -1, -1), Vec3(0.019, -1, 1)}, {Vec3(0.019, 1, -1), Vec3(0.019, 1, 1)}}}, false});
+  const double below = side + 0.002;  // the lower body's top: the upper one alone is cut
+  one->apply(
+      CutTissue{{{{Vec3(0.019, below, -1), Vec3(0.019, below, 1)}, {Vec3(0.019, 1, -1), Vec3(0.019, 1, 1)}}}, false});
+  REQUIRE(one->edits().size() == 1);
   run_until(*one, 0.03);
+  CHECK_FALSE(one->halt());
   one->apply(Undo{});
   CHECK(one->state_hash() == hash);
   one->apply(Reset{});
