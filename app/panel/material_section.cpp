@@ -4,9 +4,9 @@
 #include <app/panel/material_section.hpp>
 #include <app/panel/parameter_rows.hpp>
 #include <app/panel/quantity.hpp>
-#include <app/panel/same_stiffness.hpp>
 #include <app/panel/tissue_choice.hpp>
 #include <cmath>
+#include <heml/materials/same_stiffness.hpp>
 
 namespace heml::panel {
 namespace {

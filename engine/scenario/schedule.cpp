@@ -47,10 +47,12 @@ std::span<const Event> Schedule::due(long tick) {
   return std::span(events_).subspan(first, next_ - first);
 }
 
-void Schedule::apply(World& world) {
-  for (const Event& event : due(world.ticks()))
+void Schedule::apply(World& world, const std::function<void(const Command&)>& applied) {
+  for (const Event& event : due(world.ticks())) {
     if (const auto problem = world.apply(event.command))
       throw InputError(file_, fmt::format("events: step {}", event.tick), *problem, event_line(event));
+    applied(event.command);
+  }
 }
 
 }  // namespace heml

@@ -1,5 +1,6 @@
 #pragma once
 // The events of a scene, handed out tick by tick.
+#include <functional>
 #include <heml/scenario/scene.hpp>
 #include <heml/world/world.hpp>
 #include <span>
@@ -23,8 +24,10 @@ class Schedule {
   /// Those handed out so far.
   std::span<const Event> past() const { return std::span(events_).first(next_); }
 
-  /// Applies the events due at the world's coming tick. Throws InputError when the world refuses one.
-  void apply(World& world);
+  /// Applies the events due at the world's coming tick, and tells of each that was. Throws InputError when the world
+  /// refuses one.
+  void apply(
+      World& world, const std::function<void(const Command&)>& applied = [](const Command&) {});
 
  private:
   std::string file_;

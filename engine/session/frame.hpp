@@ -42,6 +42,11 @@ struct Pace {
   bool keeping_up = true;   ///< false while simulated time is slower than asked
 };
 
+/// Of the nodes of two bodies, m.
+struct Distance {
+  double mean = 0, most = 0;
+};
+
 struct Frame {
   std::shared_ptr<const Skin> skin;
   long tick = 0;
@@ -73,6 +78,9 @@ struct Frame {
   long refusals = 0;                       ///< commands the world would not take, so far
   std::string refusal;                     ///< why not the last
   std::string halted;                      ///< why the world will not step on; empty while it does
+  std::vector<Frame> beside;               ///< the same tick, computed in other ways (SessionOptions::beside)
+  std::string way;                         ///< in which this one is, where there are several
+  std::optional<Distance> apart;           ///< of one beside: from the body; none where their surfaces differ
 };
 
 }  // namespace heml

@@ -8,6 +8,7 @@
 #include <heml/scenario/recovery_watch.hpp>
 #include <heml/scenario/schedule.hpp>
 #include <heml/session/budget_keeper.hpp>
+#include <heml/session/companions.hpp>
 #include <heml/session/cost_keeper.hpp>
 #include <heml/session/factor_keeper.hpp>
 #include <heml/session/mailbox.hpp>
@@ -43,6 +44,7 @@ class Session::Impl {
         playing_(!options_.start_paused),
         goal_(options_.hurry_to),
         pacer_(world_->setup().solver.tick()) {
+    if (!options_.beside.empty()) companions_.emplace(world_->setup(), options_.beside);
     if (!world_->setup().solver.recovery) options_.recovery_file.clear();
     if (!options_.recovery_file.empty()) scene_ = as_recorded(scene_, *world_);
     if (options_.record) recorder_.emplace(*options_.record, scene_, *world_);
@@ -63,6 +65,7 @@ class Session::Impl {
     // The tick under way may end, so that the recording has its end; one that takes far too long may not.
     for (int wait = 0; wait < 100 && !finished_; ++wait) std::this_thread::sleep_for(std::chrono::milliseconds(5));
     world_->interrupt();
+    if (companions_) companions_->interrupt();
     thread_.join();
     if (recorder_ && !world_->unfinished()) recorder_->end(*world_);
   }
@@ -183,6 +186,7 @@ class Session::Impl {
       show_now_ = true;
       return warn("{}", *problem);
     }
+    if (companions_) companions_->apply(command);
     if (shadow_keeper_) shadow_keeper_->carried_out(command);
     if (recorder_) recorder_->command(*world_, command);
     std::lock_guard lock(mutex_);
@@ -215,7 +219,10 @@ class Session::Impl {
     for (const Event& event : schedule_.due(world_->ticks())) carry_out(event.command);
     const bool recorded = is_recorded();
     if (!recorded && factor_keeper_.arrived(*world_)) carry_out(TakeFactor{});
-    world_->tick();
+    if (companions_)
+      companions_->tick(*world_);
+    else
+      world_->tick();
     if (recorder_) recorder_->ticked(*world_);
     if (shadow_keeper_) shadow_keeper_->ticked(*world_);
     if (!recorded) learn(std::chrono::duration<double>(Pacer::Clock::now() - began).count());
@@ -283,6 +290,7 @@ class Session::Impl {
     Frame& frame = frames_.back();
     skin_ = skin_of(*world_, std::move(skin_));
     fill_frame(*world_, skin_, field_, 0, frame, stretches_);
+    if (companions_) companions_->fill(frame);
     find_errors(frame);
     frame.pace = pacer_.pace(began);
     frame.commands = std::ssize(history_);
@@ -299,7 +307,8 @@ class Session::Impl {
 
   SessionOptions options_;
   std::unique_ptr<World> world_;
-  std::shared_ptr<const Skin> skin_;  ///< of the last frame
+  std::shared_ptr<const Skin> skin_;      ///< of the last frame
+  std::optional<Companions> companions_;  ///< where the body is computed in other ways too
   std::optional<Recorder> recorder_;
   Scene scene_;          ///< without its events
   Schedule schedule_;    ///< which are here

@@ -28,6 +28,7 @@ namespace heml {
 struct SessionOptions {
   std::optional<std::filesystem::path> record;  ///< JSON Lines file every command and checkpoint is appended to
   std::filesystem::path recovery_file;          ///< what led to the last recovery is written there; empty: nowhere
+  std::vector<std::string> beside;  ///< other ways to compute the body, side by side (variant.hpp); empty: none
   bool start_paused = false;
   long hurry_to = 0;  ///< a tick to go to first, as Session::hurry_to() does
   std::function<void()>
@@ -37,7 +38,7 @@ struct SessionOptions {
 
 class Session {
  public:
-  /// Builds the world of a scene and starts its thread. Throws InputError as load_world() does.
+  /// Builds the world of a scene and starts its thread. Throws InputError as load_world() and variant_of() do.
   Session(const Scene& scene, SessionOptions options);
   ~Session();  ///< stops the thread and closes the recording
   Session(const Session&) = delete;

@@ -1,10 +1,9 @@
 #include <doctest/doctest.h>
 
-#include <app/panel/same_stiffness.hpp>
+#include <heml/materials/same_stiffness.hpp>
 
 namespace heml::same_stiffness_test {
 
-using namespace heml::panel;
 
 namespace {
 

@@ -2,7 +2,7 @@
 // Parameters for another law that make a tissue behave the same under small strains.
 #include <heml/materials/material.hpp>
 
-namespace heml::panel {
+namespace heml {
 
 /// The material with another law: the same density, shear and bulk modulus at rest (ground_state()); exponents and
 /// powers start moderate, and a fibre along x where the law needs one and there was none. What the law cannot have
@@ -10,4 +10,4 @@ namespace heml::panel {
 /// its own: it is taken as 1 cm long springs, Young's modulus times that length, with Poisson's ratio 1/4.
 Material same_stiffness(const Material& material, const LawInfo& from, const LawInfo& to);
 
-}  // namespace heml::panel
+}  // namespace heml

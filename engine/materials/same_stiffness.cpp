@@ -1,7 +1,7 @@
-#include <app/panel/same_stiffness.hpp>
 #include <heml/materials/parameter_slots.hpp>
+#include <heml/materials/same_stiffness.hpp>
 
-namespace heml::panel {
+namespace heml {
 namespace {
 
 constexpr double spring_length = 0.01;  // m
@@ -59,4 +59,4 @@ Material same_stiffness(const Material& material, const LawInfo& from, const Law
   return result;
 }
 
-}  // namespace heml::panel
+}  // namespace heml

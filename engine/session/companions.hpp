@@ -1,0 +1,40 @@
+#pragma once
+// Other ways to compute a session's body, side by side with it: each is a world of its own that gets the same commands
+// and makes the same ticks. Nothing of them comes back to the session's world.
+//
+//    command ──► world ─┬─► companion 1 ─┬─► companion 2 …        apply(): each that it concerns
+//    tick:    [ world | companion 1 | companion 2 … ]             on as many cores as there are
+#include <heml/base/thread_team.hpp>
+#include <heml/session/frame.hpp>
+#include <heml/session/variant.hpp>
+
+namespace heml {
+
+class Companions {
+ public:
+  static constexpr std::size_t most = 3;  ///< that can be looked at
+
+  /// As the words say (variant_of()), of the body as it is set up. Throws InputError.
+  Companions(const WorldSetup& setup, const std::vector<std::string>& words);
+
+  /// What the world has carried out. A companion with a law of its own takes no other; of a method likewise.
+  void apply(const Command& command);
+  /// One tick of the world and of every companion that has not halted. Returns when all have ended.
+  void tick(World& world);
+  /// Lets a tick under way end early.
+  void interrupt();
+  /// Fills Frame::beside and Frame::way of the world's frame, which is filled. ahead: as in fill_frame(), s.
+  void fill(Frame& frame, double ahead = 0);
+
+ private:
+  struct Companion {
+    Variant variant;  ///< without its setup
+    std::unique_ptr<World> world;
+    std::shared_ptr<const Skin> skin;
+  };
+  std::string way_;  ///< of the world itself, as it was set up
+  std::vector<Companion> companions_;
+  ThreadTeam team_;
+};
+
+}  // namespace heml

@@ -1,0 +1,103 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <heml/base/error.hpp>
+#include <heml/mesh/generate.hpp>
+#include <heml/session/companions.hpp>
+#include <heml/session/skin.hpp>
+
+#include "engine/world/world_support.hpp"
+
+namespace heml::companions_test {
+
+using namespace heml::test;
+
+namespace {
+
+/// The frame of a world and its companions after a number of ticks.
+Frame after(World& world, Companions& companions, int ticks) {
+  for (int k = 0; k < ticks; ++k) companions.tick(world);
+  Frame frame;
+  fill_frame(world, skin_of(world), Field::none, 0, frame);
+  companions.fill(frame);
+  return frame;
+}
+
+}  // namespace
+
+TEST_CASE("companions: one of the same law and method is the body itself, to the bit") {
+  const WorldSetup setup = cantilever();
+  const auto world = make_world(setup);
+  Companions companions(setup, {"neo_hookean", "verlet", "double+p1"});
+  const Frame frame = after(*world, companions, 50);
+  REQUIRE(frame.beside.size() == 3);
+  for (const Frame& beside : frame.beside) {
+    CHECK(beside.tick == 50);
+    CHECK(beside.positions == frame.positions);
+    REQUIRE(beside.apart);
+    CHECK(beside.apart->most == 0);
+  }
+  CHECK(frame.beside[2].way == "double+p1");
+}
+
+TEST_CASE("companions: another method differs by its error in time, another law by what it is") {
+  const WorldSetup setup = cantilever();
+  const auto world = make_world(setup);
+  Companions companions(setup, {"tr_bdf2", "stvk"});
+  const Frame frame = after(*world, companions, 200);
+  const double moved = (frame.positions.back() - frame.skin->rest.back()).norm();
+  REQUIRE(frame.beside[0].apart);
+  CHECK(frame.beside[0].apart->most > 0);
+  CHECK(frame.beside[0].apart->most < 0.01 * moved);
+  CHECK(frame.beside[1].apart->most > 0.01 * moved);
+  CHECK(frame.beside[1].apart->mean <= frame.beside[1].apart->most);
+}
+
+TEST_CASE("companions: what is done to the body is done to them, but for their own law and method") {
+  const WorldSetup setup = cantilever();
+  const auto world = make_world(setup), alone = make_world(setup);
+  Companions companions(setup, {"verlet"});
+  const auto both = [&](const Command& command) {
+    CHECK_FALSE(world->apply(command));
+    companions.apply(command);
+  };
+  const int tip = nodes_where(setup.mesh, [](const Vec3& X) { return (X - Vec3(0.1, 0.02, 0.02)).norm() < 1e-9; })[0];
+  both(Grasp{tip, 0.01});
+  both(MoveTool{Vec3(0.11, 0.03, 0.02)});
+  both(SetMaterial{std::nullopt, soft("stvk", 2e4)});
+  Frame frame = after(*world, companions, 50);
+  CHECK(frame.beside[0].positions == frame.positions);
+  CHECK(frame.beside[0].tool.force == frame.tool.force);
+  both(SetIntegrator{Integrator::backward_euler});
+  frame = after(*world, companions, 50);
+  CHECK(frame.beside[0].positions != frame.positions);
+}
+
+TEST_CASE("companions: one that cannot go on stops and says why, the body goes on") {
+  WorldSetup setup = cantilever("stvk");
+  setup.gravity.setZero();
+  Boundary crush{nodes_where(setup.mesh, [](const Vec3& X) { return X.x() > 0.0999; })};
+  crush.translate = Vec3(-0.15, 0, 0);
+  crush.over = 0.1;
+  setup.boundary.push_back(crush);
+  const auto world = make_world(setup);
+  Companions companions(setup, {"neo_hookean"});
+  const Frame frame = after(*world, companions, 100);
+  CHECK(frame.halted.empty());
+  CHECK(frame.tick == 100);
+  CHECK_FALSE(frame.beside[0].halted.empty());
+  CHECK(frame.beside[0].tick < 100);
+}
+
+TEST_CASE("companions: wrong words are refused with those there are") {
+  for (const char* words : {"", "ogdn", "ogden+", "ogden,stvk", "static"}) {
+    CAPTURE(words);
+    CHECK_THROWS_WITH_AS(variant_of(cantilever(), words), doctest::Contains("neo_hookean, "), InputError);
+  }
+  WorldSetup at_rest = cantilever();
+  at_rest.solver.integrator = Integrator::static_equilibrium;
+  CHECK_THROWS_AS(variant_of(at_rest, "verlet"), InputError);
+  CHECK(variant_of(at_rest, "ogden+float").setup.solver.single_precision);
+}
+
+}  // namespace heml::companions_test
