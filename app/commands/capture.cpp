@@ -8,6 +8,7 @@
 #include <heml/base/error.hpp>
 #include <heml/base/log.hpp>
 #include <heml/scenario/schedule.hpp>
+#include <heml/session/companions.hpp>
 
 namespace heml {
 
@@ -30,7 +31,8 @@ int capture(const CaptureArguments& arguments) {
   const Scene scene = arguments.scene.empty() ? default_scene() : read_scene(arguments.scene);
   const auto world = load_world(scene);
   Schedule schedule(scene, world->setup().mesh);
-  Photographer photographer(scene, *world, arguments.size, arguments.panel, arguments.out);
+  Companions companions(world->setup(), arguments.beside);
+  Photographer photographer(scene, *world, arguments.size, arguments.panel, !arguments.beside.empty(), arguments.out);
   const double tick = world->setup().solver.tick();
   Progress progress("capturing frames");
   for (int k = 0; k < arguments.frames && !world->halt(); ++k) {
@@ -38,10 +40,11 @@ int capture(const CaptureArguments& arguments) {
     // the time, less than a tick, is extrapolated for the picture alone.
     const double time = k / arguments.fps;
     while (!world->halt() && static_cast<double>(world->ticks() + 1) * tick <= time * (1 + 1e-12)) {
-      schedule.apply(*world);
-      world->tick();
+      schedule.apply(*world, [&](const Command& command) { companions.apply(command); });
+      companions.tick(*world);
     }
-    photographer.take(*world, world->halt() ? 0.0 : time - static_cast<double>(world->ticks()) * tick, 1 / arguments.fps);
+    photographer.take(*world, world->halt() ? 0.0 : time - static_cast<double>(world->ticks()) * tick,
+                      1 / arguments.fps, &companions);
     progress.show((k + 1.0) / arguments.frames);
   }
   if (world->halt()) {

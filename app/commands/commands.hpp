@@ -31,12 +31,14 @@ struct CaptureArguments {
   PictureSize size;
   double fps = 30;
   bool panel = false;
+  std::vector<std::string> beside;  ///< other ways to compute the body (heml/session/variant.hpp)
 };
 int capture(const CaptureArguments& arguments);
 
 struct RunArguments {
   std::string scene;  ///< empty: the default scene
   std::optional<std::filesystem::path> record;
+  std::vector<std::string> beside;  ///< other ways to compute the body (heml/session/variant.hpp)
   PictureSize size;
   double exit_after = 0;  ///< s; 0: when the window is closed
   double draw_stall = 0;  ///< ms added to every drawing

@@ -16,7 +16,7 @@ int replay_recording(const ReplayArguments& arguments) {
   if (arguments.threads > 0) scene.solver.threads = arguments.threads;
   const auto world = load_world(scene);
   std::optional<Photographer> photographer;
-  if (arguments.frames) photographer.emplace(scene, *world, arguments.size, false, *arguments.frames);
+  if (arguments.frames) photographer.emplace(scene, *world, arguments.size, false, false, *arguments.frames);
 
   std::optional<Recorder> recorder;
   if (arguments.record) recorder.emplace(*arguments.record, scene, *world, ticks_between_checkpoints);

@@ -4,6 +4,7 @@
 #include <heml/world/command.hpp>
 #include <heml/world/world.hpp>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace heml::panel {
@@ -92,6 +93,7 @@ struct PanelActions {
   std::optional<std::filesystem::path> open;       ///< a file to open
   std::optional<std::filesystem::path> look_into;  ///< a folder to list; Request::list: where one was last
   std::optional<std::size_t> view, keep_view;      ///< a number of Eye: to go to, to keep as it looks now
+  std::optional<std::vector<std::string>> beside;  ///< what is to be beside the body from now on (variant.hpp)
   std::optional<long> look_at;                     ///< a tick to show, of the past or of a recording ahead
 };
 

@@ -5,24 +5,54 @@
 
 namespace heml::panel {
 
-void Eye::fit(const View& view, const Skin& skin, render::Size size, const Insets& covered) {
-  resize(size, covered);
-  const int free = std::max(size.width - static_cast<int>(covered.left + covered.right), size.width / 4);
-  centred_ = render::camera_for(view, skin, {free, size.height});
+bool Pane::contains(const render::Vec2f& at) const {
+  const float x = at.x() - static_cast<float>(left), y = at.y() - static_cast<float>(top);
+  return x >= 0 && y >= 0 && x < static_cast<float>(size.width) && y < static_cast<float>(size.height);
 }
 
-void Eye::resize(render::Size size, const Insets& covered) {
+std::vector<Pane> panes_of(render::Size picture, const Insets& covered, std::size_t count) {
+  const int columns = count == 4 ? 2 : static_cast<int>(count), rows = count == 4 ? 2 : 1;
+  const float free = static_cast<float>(picture.width) - covered.left - covered.right;
+  const auto edge = [&](int column) {
+    if (column == 0) return 0;
+    if (column == columns) return picture.width;
+    return static_cast<int>(covered.left + free * static_cast<float>(column) / static_cast<float>(columns));
+  };
+  std::vector<Pane> panes;
+  for (int row = 0; row < rows; ++row)
+    for (int column = 0; column < columns; ++column)
+      panes.push_back({edge(column),
+                       picture.height * row / rows,
+                       {edge(column + 1) - edge(column), picture.height / rows},
+                       {column == 0 ? covered.left : 0, column + 1 == columns ? covered.right : 0}});
+  return panes;
+}
+
+void Eye::fit(const View& view, const Skin& skin, render::Size size, const Insets& covered, std::size_t bodies) {
+  resize(size, covered, bodies);
+  const Pane& first = panes_.front();
+  const int free = first.size.width - static_cast<int>(first.covered.left + first.covered.right);
+  centred_ = render::camera_for(view, skin, {std::max(free, first.size.width / 4), first.size.height});
+}
+
+void Eye::resize(render::Size size, const Insets& covered, std::size_t bodies) {
   size_ = size;
-  covered_ = covered;
+  panes_ = panes_of(size, covered, bodies);
+  current_ = std::min(current_, panes_.size() - 1);
+}
+
+void Eye::enter(const render::Vec2f& at) {
+  for (std::size_t k = 0; k < panes_.size(); ++k)
+    if (panes_[k].contains(at)) current_ = k;
 }
 
 void Eye::orbit(float right, float down) {
-  const float radians = std::numbers::pi_v<float> / static_cast<float>(size_.height);
+  const float radians = std::numbers::pi_v<float> / static_cast<float>(pane().size.height);
   centred_.orbit(-right * radians, down * radians);
 }
 
 void Eye::pan(float right, float down) {
-  const float height = static_cast<float>(size_.height);
+  const float height = static_cast<float>(pane().size.height);
   centred_.pan(-right / height, down / height);
 }
 
@@ -35,8 +65,21 @@ bool Eye::go_to(std::size_t view) {
 
 render::Camera Eye::camera() const {
   render::Camera shifted = centred_;
-  shifted.pan((covered_.right - covered_.left) / 2 / static_cast<float>(size_.height), 0);
+  const Insets& covered = pane().covered;
+  shifted.pan((covered.right - covered.left) / 2 / static_cast<float>(pane().size.height), 0);
   return shifted;
 }
+
+render::Ray Eye::ray(const render::Vec2f& at) const {
+  const render::Vec2f inside = at - corner();
+  return camera().ray(inside.x(), inside.y(), pane().size);
+}
+
+Vec3f Eye::drag(const render::Vec2f& at, const Vec3f& point) const {
+  const render::Vec2f inside = at - corner();
+  return camera().drag(inside.x(), inside.y(), pane().size, point);
+}
+
+render::Vec2f Eye::pixel(const Vec3f& point) const { return camera().pixel(point, pane().size) + corner(); }
 
 }  // namespace heml::panel

@@ -14,6 +14,7 @@
 // A frame: take(frame), draw the body with drawing(), then between Interface::begin() and end(): draw(frame).
 #include <app/panel/actions.hpp>
 #include <app/panel/area.hpp>
+#include <app/panel/beside_section.hpp>
 #include <app/panel/history.hpp>
 #include <app/panel/material_section.hpp>
 #include <app/panel/motion_section.hpp>
@@ -81,6 +82,7 @@ class Panel {
   int watched_changes_ = -1;  ///< MaterialSection::changes() that the watch knows of
   MotionSection motion_;
   ViewSection view_;
+  BesideSection beside_;
   Notices notices_;
   OpenDialog dialog_;
   std::optional<Timeline> timeline_;

@@ -73,12 +73,12 @@ Canvas::Canvas(Size size) : size_(size) {
     throw std::runtime_error("the graphics driver refuses to draw a picture of this size");
 }
 
-void Canvas::stretch_to_screen(Size size) const {
+void Canvas::stretch_to_screen(int left, int bottom, Size size) const {
   glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_);
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
-  glBlitFramebuffer(0, 0, size_.width, size_.height, 0, 0, size.width, size.height, GL_COLOR_BUFFER_BIT, GL_LINEAR);
+  glBlitFramebuffer(0, 0, size_.width, size_.height, left, bottom, left + size.width, bottom + size.height,
+                    GL_COLOR_BUFFER_BIT, GL_LINEAR);
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
-  glViewport(0, 0, size.width, size.height);
 }
 
 }  // namespace heml::render

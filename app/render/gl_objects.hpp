@@ -82,9 +82,7 @@ class Program {
   void set(const char* name, const Vec2f& value) const { glUniform2fv(place(name), 1, value.data()); }
   void set(const char* name, const Vec3f& value) const { glUniform3fv(place(name), 1, value.data()); }
   void set(const char* name, const Vec4f& value) const { glUniform4fv(place(name), 1, value.data()); }
-  void set(const char* name, const Mat4f& value) const {
-    glUniformMatrix4fv(place(name), 1, GL_FALSE, value.data());
-  }
+  void set(const char* name, const Mat4f& value) const { glUniformMatrix4fv(place(name), 1, GL_FALSE, value.data()); }
 
  private:
   GLint place(const char* name) const { return glGetUniformLocation(name_, name); }
@@ -109,7 +107,7 @@ class Canvas {
  public:
   explicit Canvas(Size size);
   void bind() const { glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_); }
-  void stretch_to_screen(Size size) const;  ///< over all of framebuffer 0, which is then bound
+  void stretch_to_screen(int left, int bottom, Size size) const;  ///< over a part of framebuffer 0, then bound
   Size size() const { return size_; }
 
  private:

@@ -129,12 +129,16 @@ void Renderer::Impl::draw(const Frame& frame, const Camera& camera, const DrawOp
   }
   if (scaled) {
     scaled->bind();
+    glViewport(0, 0, drawn.width, drawn.height);
   } else {
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glViewport(options.left, options.bottom, drawn.width, drawn.height);
+    glScissor(options.left, options.bottom, drawn.width, drawn.height);  // wide points and lines keep to it too
+    glEnable(GL_SCISSOR_TEST);
   }
-  glViewport(0, 0, drawn.width, drawn.height);
   draw_picture(shot, frame, options);
-  if (scaled) scaled->stretch_to_screen(size);
+  glDisable(GL_SCISSOR_TEST);
+  if (scaled) scaled->stretch_to_screen(options.left, options.bottom, size);
 }
 
 void Renderer::Impl::draw_picture(const Shot& shot, const Frame& frame, const DrawOptions& options) {

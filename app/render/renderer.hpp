@@ -20,6 +20,7 @@ struct DrawOptions {
   std::optional<Range> range;     ///< of the colour map; none: what the frame's values ask for
   std::span<const float> beyond;  ///< #S, hatched where above 0; empty: no hatching, which then costs nothing
   float resolution = 1;           ///< of the picture before it is scaled to its size, 0.25 to 1: speed for sharpness
+  int left = 0, bottom = 0;       ///< where in framebuffer 0 the picture lies, pixels from its lower left corner
 };
 
 /// Belongs to the context that was current when it was made, and needs it current in every call.
@@ -31,7 +32,7 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  /// Draws over all of framebuffer 0, which is of this size and has depth. The picture depends on the arguments alone.
+  /// Draws over a rectangle of framebuffer 0, which has depth. The picture depends on the arguments alone.
   /// A frame without a skin has no body. A skin that the frame before did not have is taken up first, which takes as
   /// long as its ambient occlusion: about a second for 50,000 nodes, far less where a body has lost a part. Throws
   /// std::invalid_argument for a frame or a `beyond` with another number of nodes than the skin.

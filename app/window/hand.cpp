@@ -7,7 +7,7 @@ constexpr float least_stroke = 4;  // pixels: what a blade goes on by
 }
 
 std::optional<render::Hit> Hand::under(const render::Vec2f& at, const Frame& frame, const Skin& skin) const {
-  return render::pick(frame, skin, eye_.camera().ray(at.x(), at.y(), eye_.size()));
+  return render::pick(frame, skin, eye_.ray(at));
 }
 
 bool Hand::press(MouseButton button, const render::Vec2f& at, bool shift, const Frame& frame, const Skin& skin,
@@ -107,8 +107,8 @@ void Hand::begin_probing(const render::Hit& hit, const panel::ToolInHand& tool, 
 
 /// The tip `dent` below where the surface was pressed, in the plane that faces the eye; the shaft towards the eye.
 MoveProbe Hand::probe_at(const render::Vec2f& at) const {
-  const Vec3 point = eye_.camera().drag(at.x(), at.y(), eye_.size(), held_point_).cast<double>();
-  const Vec3 along = eye_.camera().ray(at.x(), at.y(), eye_.size()).direction.cast<double>().normalized();
+  const Vec3 point = eye_.drag(at, held_point_).cast<double>();
+  const Vec3 along = eye_.ray(at).direction.cast<double>().normalized();
   MoveProbe probe;
   probe.radius = probe_.probe_radius;
   probe.shaft = -probe_.shaft * along;
@@ -126,8 +126,8 @@ bool Hand::wheel(float notches, std::vector<Command>& out) {
 
 /// From a little above the surface, so that it is cut too, along the line of sight.
 std::array<Vec3, 2> Hand::blade_at(const render::Vec2f& at) const {
-  const Vec3 point = eye_.camera().drag(at.x(), at.y(), eye_.size(), held_point_).cast<double>();
-  const Vec3 along = eye_.camera().ray(at.x(), at.y(), eye_.size()).direction.cast<double>();
+  const Vec3 point = eye_.drag(at, held_point_).cast<double>();
+  const Vec3 along = eye_.ray(at).direction.cast<double>();
   return {point - 0.3 * depth_ * along, point + depth_ * along};
 }
 
@@ -150,7 +150,7 @@ void Hand::move(const render::Vec2f& at, const Frame& frame, const Skin& skin, s
   if (doing_ == Doing::probing) out.emplace_back(probe_at(at));
   if (doing_ == Doing::cutting) cut(at, frame, skin, out);
   if (doing_ == Doing::grasping) {
-    const Vec3f point = eye_.camera().drag(at.x(), at.y(), eye_.size(), held_point_);
+    const Vec3f point = eye_.drag(at, held_point_);
     out.emplace_back(MoveTool{(point + node_offset_).cast<double>()});
   }
 }

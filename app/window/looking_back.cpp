@@ -48,9 +48,9 @@ void LookingBack::end(Session& session) {
   if (ran_) session.play();
 }
 
-void LookingBack::resumed_at(long tick, const std::shared_ptr<const Skin>& skin) {
+void LookingBack::resumed_at(long tick, const Frame& frame) {
   seen_.cut_after(tick);
-  seen_.share(skin);
+  seen_.share(frame);
   at_.reset();
   playing_ = false;
 }

@@ -21,8 +21,8 @@ class LookingBack {
   void play(bool playing) { playing_ = playing; }
   /// Back to the present, which goes on if it did before.
   void end(Session& session);
-  /// What was seen stays of a session that another one goes on from. skin: of that, whose numbers are the same.
-  void resumed_at(long tick, const std::shared_ptr<const Skin>& skin);
+  /// What was seen up to a tick stays of a session that another one goes on from, of which this is a frame.
+  void resumed_at(long tick, const Frame& frame);
 
   /// Whether the session ran when one began to look back.
   bool ran() const { return ran_; }

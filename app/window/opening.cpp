@@ -43,10 +43,12 @@ fs::path next_recording(const fs::path& file) {
   }
 }
 
-OpenScene start(Scene scene, const std::optional<fs::path>& record) {
-  OpenScene result{std::move(scene), nullptr, record};
+OpenScene start(Scene scene, const std::optional<fs::path>& record, std::vector<std::string> beside) {
+  OpenScene result{std::move(scene), nullptr, record, false, std::move(beside), {}};
   result.was_recorded = result.scene.recorded_ticks.has_value();
-  result.session = std::make_unique<Session>(result.scene, options_for(result.scene, record));
+  SessionOptions options = options_for(result.scene, record);
+  options.beside = result.beside;
+  result.session = std::make_unique<Session>(result.scene, options);
   return result;
 }
 
@@ -62,18 +64,19 @@ void Opening::begin(const fs::path& path, const std::optional<fs::path>& record)
   });
 }
 
-void Opening::resume(Scene scene, const std::optional<fs::path>& record) {
+void Opening::resume(Scene scene, const std::optional<fs::path>& record, std::vector<std::string> beside) {
   if (under_way()) return;
   goal_ = std::max(1l, scene.recorded_ticks.value_or(0));
   reached_ = 0;
   cancelled_ = false;
-  result_ = std::async(std::launch::async, [this, scene = std::move(scene), record]() mutable {
-    const WakeAtEnd wake_at_end;
-    return reach(std::move(scene), record);
-  });
+  result_ =
+      std::async(std::launch::async, [this, scene = std::move(scene), record, beside = std::move(beside)]() mutable {
+        const WakeAtEnd wake_at_end;
+        return reach(std::move(scene), record, std::move(beside));
+      });
 }
 
-OpenScene Opening::reach(Scene scene, const std::optional<fs::path>& record) {
+OpenScene Opening::reach(Scene scene, const std::optional<fs::path>& record, std::vector<std::string> beside) {
   std::optional<fs::path> file;
   if (record) file = next_recording(*record);
   if (file && !can_be_written(file->parent_path()) && !state_folder().empty()) {
@@ -84,7 +87,8 @@ OpenScene Opening::reach(Scene scene, const std::optional<fs::path>& record) {
   SessionOptions options = options_for(scene, file);
   options.start_paused = true;
   options.hurry_to = moment;
-  OpenScene result{std::move(scene), nullptr, file, record.has_value(), moment};
+  options.beside = beside;
+  OpenScene result{std::move(scene), nullptr, file, record.has_value(), std::move(beside), moment};
   result.session = std::make_unique<Session>(result.scene, options);
   while (!cancelled_) {
     const Frame& frame = result.session->latest();

@@ -15,11 +15,12 @@ struct OpenScene {
   std::unique_ptr<Session> session;
   std::optional<std::filesystem::path> recording;  ///< that is being written
   bool was_recorded = false;                       ///< the scene is a recording, or goes on from one
+  std::vector<std::string> beside;                 ///< SessionOptions::beside
   std::optional<long> resumed;                     ///< the tick of another session that this one goes on from
 };
 
 /// Starts the session of a scene, with a window that is woken by its frames. record: where. Throws InputError.
-OpenScene start(Scene scene, const std::optional<std::filesystem::path>& record);
+OpenScene start(Scene scene, const std::optional<std::filesystem::path>& record, std::vector<std::string> beside = {});
 
 /// STEM-2.jsonl beside a file, or the next number that is not there yet.
 std::filesystem::path next_recording(const std::filesystem::path& file);
@@ -35,7 +36,7 @@ class Opening {
 
   /// A session that goes on from what led to a moment (Session::until()), once it has played that: paused.
   /// record: the file its own is named after, if any; where that folder cannot be written, in state_folder().
-  void resume(Scene scene, const std::optional<std::filesystem::path>& record);
+  void resume(Scene scene, const std::optional<std::filesystem::path>& record, std::vector<std::string> beside = {});
 
   bool under_way() const { return result_.valid(); }
   bool is_ready() const;  ///< there is something to take
@@ -47,7 +48,7 @@ class Opening {
   std::optional<std::variant<OpenScene, std::string>> take();
 
  private:
-  OpenScene reach(Scene scene, const std::optional<std::filesystem::path>& record);
+  OpenScene reach(Scene scene, const std::optional<std::filesystem::path>& record, std::vector<std::string> beside);
 
   std::atomic<bool> cancelled_{false};
   std::atomic<long> reached_{0};

@@ -16,8 +16,7 @@ void draw_ring(const render::Hit& hit, const Frame& frame, const Skin& skin, con
   };
   const Vec3f normal = (corner(1) - corner(0)).cross(corner(2) - corner(0)).normalized();
   const Vec3f across = normal.unitOrthogonal(), along = normal.cross(across);
-  const render::Camera camera = eye.camera();
-  const render::Vec2f middle = camera.pixel(hit.point, eye.size());
+  const render::Vec2f middle = eye.pixel(hit.point);
   const bool held = std::binary_search(skin.held.begin(), skin.held.end(), hit.node);
   const ImU32 colour = held ? panel::colours::danger : panel::colours::text;
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
@@ -26,7 +25,7 @@ void draw_ring(const render::Hit& hit, const Frame& frame, const Skin& skin, con
   for (int i = 0; i < pieces; ++i) {
     const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(i) / pieces;
     const Vec3f point = hit.point + static_cast<float>(radius) * (std::cos(angle) * across + std::sin(angle) * along);
-    const render::Vec2f pixel = camera.pixel(point, eye.size());
+    const render::Vec2f pixel = eye.pixel(point);
     widest = std::max(widest, (pixel - middle).norm());
     list.PathLineTo({pixel.x(), pixel.y()});
   }
@@ -40,7 +39,7 @@ void draw_ring(const render::Hit& hit, const Frame& frame, const Skin& skin, con
 namespace {
 
 void draw_force(const Vec3& force, const Vec3& place, const panel::Eye& eye) {
-  const render::Vec2f at = eye.camera().pixel(place.cast<float>(), eye.size());
+  const render::Vec2f at = eye.pixel(place.cast<float>());
   if (!at.allFinite()) return;
   const std::string text = panel::newtons(force.norm());
   const ImVec2 size = ImGui::CalcTextSize(text.c_str());
@@ -64,7 +63,7 @@ void draw_end(int node, const Frame& frame, const Skin& skin, const panel::Eye& 
   const auto place = std::find(skin.nodes.begin(), skin.nodes.end(), node);
   if (place == skin.nodes.end()) return;
   const auto k = static_cast<std::size_t>(place - skin.nodes.begin());
-  const render::Vec2f at = eye.camera().pixel(frame.positions[k], eye.size());
+  const render::Vec2f at = eye.pixel(frame.positions[k]);
   if (!at.allFinite()) return;
   ImGui::GetBackgroundDrawList()->AddCircle({at.x(), at.y()}, panel::em(0.45f), panel::colours::warning, 16,
                                             panel::em(0.16f));
@@ -74,7 +73,7 @@ void draw_bad_element(const Frame& frame, const panel::Eye& eye) {
   if (!frame.recovery || frame.recovery->element < 0) return;
   std::array<render::Vec2f, 4> at;
   for (std::size_t c = 0; c < 4; ++c) {
-    at[c] = eye.camera().pixel(frame.recovered_element[c], eye.size());
+    at[c] = eye.pixel(frame.recovered_element[c]);
     if (!at[c].allFinite()) return;
   }
   ImDrawList& list = *ImGui::GetBackgroundDrawList();

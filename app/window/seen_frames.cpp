@@ -5,8 +5,10 @@ namespace heml::window {
 namespace {
 
 std::size_t bytes_of(const Frame& frame) {
-  return sizeof(Frame) + frame.positions.size() * sizeof(Vec3f) +
-         (frame.values.size() + frame.stretches.size()) * sizeof(float);
+  std::size_t bytes = sizeof(Frame) + frame.positions.size() * sizeof(Vec3f) +
+                      (frame.values.size() + frame.stretches.size()) * sizeof(float);
+  for (const Frame& beside : frame.beside) bytes += bytes_of(beside);
+  return bytes;
 }
 
 }  // namespace
@@ -43,9 +45,15 @@ void SeenFrames::cut_after(long tick) {
   }
 }
 
-void SeenFrames::share(const std::shared_ptr<const Skin>& skin) {
-  for (Frame& frame : frames_)
-    if (frame.skin->version == skin->version) frame.skin = skin;
+void SeenFrames::share(const Frame& frame) {
+  for (Frame& seen : frames_) {
+    if (seen.skin->version == frame.skin->version) seen.skin = frame.skin;
+    for (std::size_t k = 0; k < std::min(seen.beside.size(), frame.beside.size()); ++k) {
+      Frame& body = seen.beside[k];
+      const Frame& same = frame.beside[k];
+      if (body.way == same.way && body.skin->version == same.skin->version) body.skin = same.skin;
+    }
+  }
 }
 
 std::size_t SeenFrames::place_of(long tick) const {

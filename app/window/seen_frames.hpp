@@ -19,8 +19,9 @@ class SeenFrames {
   void take(const Frame& frame);
   /// Forgets what is later than a tick.
   void cut_after(long tick);
-  /// Frames with a skin of this version have this one from now on: who draws keeps what is made of a skin.
-  void share(const std::shared_ptr<const Skin>& skin);
+  /// Frames whose skins are of the version of this one's, or of what is beside it, have these from now on: who draws
+  /// keeps what is made of a skin.
+  void share(const Frame& frame);
 
   const std::vector<Frame>& frames() const { return frames_; }  ///< ascending in tick
   /// The frame of a tick: the last that is not later, else the first. There is one.

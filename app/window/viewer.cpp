@@ -20,7 +20,7 @@ Viewer::Viewer(GlfwWindow& window, const Scene& scene, const WindowOptions& opti
     : window_(window),
       options_(options),
       interface_(panel::Interface::suitable_scale(window.size()) * window.content_scale()) {
-  adopt(start(scene, options.record));
+  adopt(start(scene, options.record, options.beside));
   window_.send_events_to(this);
 }
 
@@ -30,7 +30,7 @@ void Viewer::adopt(OpenScene opened) {
   std::vector<Command> last;
   hand_.let_go(last);
   if (opened.resumed)
-    past_.resumed_at(*opened.resumed, opened.session->latest().skin);
+    past_.resumed_at(*opened.resumed, opened.session->latest());
   else
     past_ = LookingBack();
   open_ = std::move(opened);
@@ -46,7 +46,8 @@ void Viewer::adopt(OpenScene opened) {
 void Viewer::fit() {
   const render::Size size = window_.size();
   eye_.fit(open_.scene.view, *frame_->skin, size,
-           panel_->insets({static_cast<float>(size.width), static_cast<float>(size.height)}));
+           panel_->insets({static_cast<float>(size.width), static_cast<float>(size.height)}),
+           panel::bodies_of(*frame_));
 }
 
 bool Viewer::wants_drawing() const {
@@ -74,8 +75,9 @@ void Viewer::draw() {
   open_.session->carry_errors(panel_->wants_errors());
   const render::Size size = window_.size();
   interface_.set_scale(panel::Interface::suitable_scale(size) * window_.content_scale());
-  eye_.resize(size, panel_->insets({static_cast<float>(size.width), static_cast<float>(size.height)}));
-  renderer_.draw(*frame_, eye_.camera(), panel_->drawing(), size);
+  eye_.resize(size, panel_->insets({static_cast<float>(size.width), static_cast<float>(size.height)}),
+              panel::bodies_of(*frame_));
+  bodies_.draw(*frame_, eye_, panel_->drawing());
   draw_interface(seconds);
   take_picture();
   std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(options_.draw_stall));
@@ -93,16 +95,19 @@ void Viewer::draw_interface(float seconds) {
 }
 
 void Viewer::draw_marks() {
-  draw_forces(*frame_, eye_);
-  if (hand_.first_end()) draw_end(*hand_.first_end(), *frame_, *frame_->skin, eye_);
-  if (panel_->shows_recovery()) draw_bad_element(*frame_, eye_);
+  panel::each_pane(*frame_, eye_, [&](std::size_t, const Frame& body) {
+    draw_forces(body, eye_);
+    if (hand_.first_end()) draw_end(*hand_.first_end(), body, *body.skin, eye_);
+    if (panel_->shows_recovery()) draw_bad_element(body, eye_);
+  });
+  panel::draw_ways(*frame_, eye_);
   if (hand_.doing() == Hand::Doing::grasping) return ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeAll);
   const bool free = hand_.doing() == Hand::Doing::nothing && !ImGui::IsAnyItemActive() && ImGui::IsMousePosValid();
   if (!free || past_.active() || panel_->covers(mouse_.x(), mouse_.y())) return;
-  if (const auto hit = hand_.under(mouse_, *frame_, *frame_->skin)) {
+  if (const auto hit = hand_.under(mouse_, seen(), *seen().skin)) {
     const panel::ToolInHand& tool = panel_->tool();
     const bool takes_patch = tool.tool == panel::Tool::grasper || tool.tool == panel::Tool::pin;
-    draw_ring(*hit, *frame_, *frame_->skin, eye_,
+    draw_ring(*hit, seen(), *seen().skin, eye_,
               takes_patch                       ? tool.radius
               : tool.tool == panel::Tool::probe ? tool.probe_radius
                                                 : 0);
@@ -121,10 +126,13 @@ void Viewer::take_opened() {
   if (!result) return;
   if (auto* problem = std::get_if<std::string>(&*result)) return panel_->fail(*problem);
   OpenScene& opened = std::get<OpenScene>(*result);
-  const bool goes_on = opened.resumed && past_.ran();
+  const bool goes_on = opened.resumed && (past_.ran() || std::exchange(plays_on_, false));
   adopt(std::move(opened));
   if (!open_.resumed) return;
-  panel_->say(open_.recording ? "Resumed, recorded in " + open_.recording->string() : "Resumed");
+  if (open_.recording)
+    panel_->say("Resumed, recorded in " + open_.recording->string());
+  else if (past_.active() || open_.beside.empty())
+    panel_->say("Resumed");
   if (goes_on) open_.session->play();
 }
 
@@ -158,10 +166,11 @@ void Viewer::button(MouseButton button, bool down, bool shift) {
     return post(commands);
   }
   if (panel_->covers(mouse_.x(), mouse_.y())) return;
-  if (past_.active() && button == MouseButton::left && hand_.under(mouse_, *frame_, *frame_->skin))
+  if (past_.active() && button == MouseButton::left && hand_.under(mouse_, seen(), *seen().skin))
     panel_->say(past_is_fixed);
-  if (past_.active()) return hand_.press_beside(button, mouse_, shift);
-  if (hand_.press(button, mouse_, shift, *frame_, *frame_->skin, panel_->tool(), commands))
+  const bool has_other_surface = eye_.current() > 0 && !seen().apart;  // nodes have other numbers there
+  if (past_.active() || has_other_surface) return hand_.press_beside(button, mouse_, shift);
+  if (hand_.press(button, mouse_, shift, seen(), *seen().skin, panel_->tool(), commands))
     panel_->say("The scene holds this part; take another.");
   post(commands);
   if (button != MouseButton::left || hand_.doing() != Hand::Doing::orbiting) return;
@@ -175,8 +184,9 @@ void Viewer::button(MouseButton button, bool down, bool shift) {
 void Viewer::mouse(const render::Vec2f& at) {
   changed();
   mouse_ = at;
+  if (hand_.doing() == Hand::Doing::nothing) eye_.enter(at);
   std::vector<Command> commands;
-  hand_.move(at, *frame_, *frame_->skin, commands);
+  hand_.move(at, seen(), *seen().skin, commands);
   post(commands);
 }
 

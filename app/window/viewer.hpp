@@ -5,7 +5,7 @@
 //       └─────► panel ──► actions ─┴─► session ──► frames ──► draw()
 #include <app/panel/interface.hpp>
 #include <app/panel/panel.hpp>
-#include <app/render/renderer.hpp>
+#include <app/panel/side_by_side.hpp>
 #include <app/window/filming.hpp>
 #include <app/window/glfw_window.hpp>
 #include <app/window/hand.hpp>
@@ -51,6 +51,9 @@ class Viewer final : public WindowEvents {
   void to_the_present();
   void follow_script();
   void fit();
+  void compare(const std::vector<std::string>& ways);
+  void go_on_from_here(const std::vector<std::string>& beside);
+  const Frame& seen() const { return panel::body_in(*frame_, eye_.current()); }  ///< the body in the eye's pane
   void draw_interface(float seconds);
   void draw_marks();
   void carry_out(const panel::PanelActions& actions);
@@ -65,7 +68,7 @@ class Viewer final : public WindowEvents {
 
   GlfwWindow& window_;
   WindowOptions options_;
-  render::Renderer renderer_;
+  panel::SideBySide bodies_;
   panel::Interface interface_;
   panel::Eye eye_;
   Hand hand_{eye_};
@@ -84,7 +87,8 @@ class Viewer final : public WindowEvents {
   render::Vec2f pressed_where_{-1, -1};
   int pictures_wanted_ = settling_pictures;
   long drawn_ = 0;
-  bool listed_ = false;  ///< folders, before
+  bool listed_ = false;    ///< folders, before
+  bool plays_on_ = false;  ///< what is opened for a comparison
   bool quits_ = false;
 };
 

@@ -34,8 +34,9 @@ void Viewer::carry_out(const panel::PanelActions& actions) {
   use_view(actions);
   if (actions.look_into) list(*actions.look_into);
   if (actions.open) open(*actions.open);
+  if (actions.beside) compare(*actions.beside);
   if (!actions.commands.empty() || !actions.requests.empty() || actions.show || actions.look_at || actions.look_into ||
-      actions.open || actions.view || actions.keep_view)
+      actions.open || actions.beside || actions.view || actions.keep_view)
     changed();
 }
 
@@ -94,6 +95,10 @@ void Viewer::list(const std::filesystem::path& folder) {
 void Viewer::resume() {
   if (!past_.active()) return panel_->say("Look back first: drag the bar of time, or press Left.");
   if (opening_.under_way()) return panel_->say("Something else is still being opened.");
+  go_on_from_here(open_.beside);
+}
+
+void Viewer::go_on_from_here(const std::vector<std::string>& beside) {
   Scene scene = open_.session->until(*frame_);
   scene.view = open_.scene.view;
   scene.view.field = frame_->field;
@@ -101,7 +106,14 @@ void Viewer::resume() {
   std::optional<std::filesystem::path> record = options_.record;
   if (!record && open_.was_recorded) record = open_.scene.file;
   past_.play(false);
-  opening_.resume(std::move(scene), record);
+  opening_.resume(std::move(scene), record, beside);
+}
+
+/// The session goes on beside others, from what led to this moment.
+void Viewer::compare(const std::vector<std::string>& ways) {
+  if (opening_.under_way()) return panel_->say("Something else is still being opened.");
+  plays_on_ = !past_.active() && !frame_->paused;
+  go_on_from_here(ways);
 }
 
 void Viewer::look(panel::Request where) {
@@ -124,9 +136,9 @@ void Viewer::to_the_present() {
 /// Under the ring; where nothing is pointed at, what the hand holds.
 void Viewer::remove_tissue() {
   if (past_.active()) return panel_->say(past_is_fixed);
-  const Skin& skin = *frame_->skin;
+  const Skin& skin = *seen().skin;
   const bool points = hand_.doing() == Hand::Doing::nothing && !panel_->covers(mouse_.x(), mouse_.y());
-  const auto hit = points ? hand_.under(mouse_, *frame_, skin) : std::nullopt;
+  const auto hit = points ? hand_.under(mouse_, seen(), skin) : std::nullopt;
   const int node = hit ? skin.nodes[static_cast<std::size_t>(hit->node)] : frame_->tool.active ? frame_->tool.node : -1;
   ElementSelection which;
   which.tets = elements_round(node, skin, panel_->tool().radius);

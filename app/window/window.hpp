@@ -5,11 +5,13 @@
 #include <heml/scenario/scene.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace heml {
 
 struct WindowOptions {
   std::optional<std::filesystem::path> record;  ///< JSON Lines recording of what is done in the window
+  std::vector<std::string> beside;              ///< other ways to compute the body (heml/session/variant.hpp)
   render::Size size{1280, 720};                 ///< pixels
   double exit_after = 0;                        ///< s of wall time until the window closes by itself; 0: never
   double draw_stall = 0;                        ///< ms every drawing is held up by; the engine must not notice

@@ -416,6 +416,37 @@ class Window(unittest.TestCase):
         self.assertEqual((self.folder / "tape.jsonl").read_bytes(), tape)
         self.verify("tape-2.jsonl")
 
+    def test_laws_side_by_side_are_grasped_looked_back_at_and_resumed_together(self):
+        self.open_display(1280, 720)
+        scene = self.folder / "light.json"
+        scene.write_text(json.dumps(light_scene()))
+        self.start(scene, "--beside", "stvk+backward_euler", "--record", "out.jsonl", "--size", "1280x720")
+        self.wait_for("a picture", lambda: self.display.picture().colours() > 200)
+        time.sleep(1)
+        panes = (300, 650), (665, 1010)  # of what the panel's columns leave free
+        before, dragged = self.display.picture(), []
+        self.drag(before.tissue(*panes[1]), (60, 40), held=lambda: dragged.append(self.display.picture()))
+        self.wait_for("a release", lambda: self.seen("release"))
+        for pane in panes:
+            self.assertGreater(dragged[0].change(before, *pane), 2, "one of the bodies does not follow the drag")
+        self.xdo("mousemove", 1270, 715, "key", "space")
+        present = self.steady()
+        self.xdo(*["key", "Left"] * 12)
+        past = self.steady()
+        for pane in panes:
+            self.assertGreater(past.change(present, *pane), 0.05, "the past looks as the present")
+        self.xdo("key", "b")
+        self.wait_for("a second recording", lambda: self.name_in("out-2.jsonl") == "light")
+        resumed = self.steady()
+        for left, right in panes:
+            change = [resumed.change(other, left, right) for other in (past, present)]
+            self.assertLess(change[0], change[1] / 2, "it was resumed elsewhere than where one looked")
+        self.xdo("key", "ctrl+q")
+        self.finish()
+        self.assertEqual(len(self.seen("grasp")), 1)
+        for file in ("out.jsonl", "out-2.jsonl"):  # of the first body: what is beside it leaves no trace
+            self.verify(file)
+
     def test_a_film_becomes_pictures_and_a_video_where_ffmpeg_is(self):
         self.open_display(640, 360)
         scene = self.folder / "light.json"

@@ -92,4 +92,32 @@ TEST_CASE("a colour map brings its legend, at the bottom, the panel brings its c
   CHECK(legend > 200);
 }
 
+TEST_CASE("beside the body stand the same body in other ways, each in its part of the picture") {
+  const TemporaryFolder folder;
+  const render::Image frame = captured(scene("kidney_pull"), 3, folder, " --beside ogden,tr_bdf2,float");
+  REQUIRE(frame.size == render::Size{320, 180});
+  constexpr int line = 4;  // pixels left out: what divides the parts
+  const auto part = [&](int column, int row, int from) {
+    render::Image image({160 - line, 90 - from});
+    for (int y = from; y < 90; ++y)
+      std::copy_n(frame.at(160 * column + line, 90 * row + y), std::size_t{3} * (160 - line), image.at(0, y - from));
+    return image;
+  };
+  for (const int row : {0, 1})
+    for (const int column : {0, 1}) {
+      CAPTURE(row);
+      CAPTURE(column);
+      CHECK(coverage(part(column, row, line)) > 0.04);
+    }
+  const auto apart = [&](int column, int row) {  // below the text
+    return render::rms_difference(part(0, 0, 40), part(column, row, 40));
+  };
+  MESSAGE("from the body: ogden " << apart(1, 0) << ", tr_bdf2 " << apart(0, 1) << ", float " << apart(1, 1));
+  CHECK(apart(1, 1) < 1);            // the same motion, another part of the backdrop's grain
+  CHECK(apart(1, 0) > apart(1, 1));  // another tissue
+  const std::string wrong = test::program().string() + " capture '" + scene("kidney_pull").string() + "' --out '" +
+                            folder.path.string() + "' --beside ogdn 2>/dev/null";
+  CHECK(WEXITSTATUS(std::system(wrong.c_str())) == 3);
+}
+
 }  // namespace heml::capture_test

@@ -90,6 +90,7 @@ class Driver {
       if (more.show) all.show = more.show;
       if (more.open) all.open = more.open;
       if (more.look_into) all.look_into = more.look_into;
+      if (more.beside) all.beside = more.beside;
       if (more.look_at) all.look_at = more.look_at;
       if (more.view) all.view = more.view;
       if (more.keep_view) all.keep_view = more.keep_view;

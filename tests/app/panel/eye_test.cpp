@@ -73,4 +73,35 @@ TEST_CASE("a view that was kept is gone back to, whatever the picture has become
   CHECK_FALSE(eye.has(2));
 }
 
+TEST_CASE("several bodies share what the panel leaves free, each in the middle of its part, all as large") {
+  for (const std::size_t bodies : {2, 3, 4}) {
+    CAPTURE(bodies);
+    panel::Eye eye;
+    eye.fit({}, skin, size, {200, 100}, bodies);
+    REQUIRE(eye.panes().size() == bodies);
+    const std::size_t columns = bodies == 4 ? 2 : bodies;
+    const float part = 340 / static_cast<float>(columns);
+    int area = 0;
+    float extent = 0;
+    for (std::size_t pane = 0; pane < bodies; ++pane) {
+      eye.enter_pane(pane);
+      const render::Vec2f at = eye.pixel(centre);
+      CHECK(at.x() == doctest::Approx(200 + part * (static_cast<float>(pane % columns) + 0.5f)).epsilon(0.01));
+      CHECK(at.y() == doctest::Approx(bodies == 4 ? 90 + 180 * static_cast<float>(pane / 2) : 180).epsilon(0.01));
+      const float here = (eye.pixel(skin.rest[1]) - eye.pixel(skin.rest[2])).norm();
+      if (pane > 0) CHECK(here == doctest::Approx(extent).epsilon(0.02));
+      extent = here;
+      area += eye.pane().size.width * eye.pane().size.height;
+      // The ray of a pixel meets what appears there, and the mouse means the pane it is in.
+      const render::Ray ray = eye.ray(at);
+      CHECK((centre - ray.origin).cross(ray.direction).norm() < 1e-4f);
+      CHECK((eye.drag(at, centre) - centre).norm() < 1e-4f);
+      eye.enter_pane(0);
+      eye.enter(at);
+      CHECK(eye.current() == pane);
+    }
+    CHECK(area == size.width * size.height);
+  }
+}
+
 }  // namespace heml::eye_test

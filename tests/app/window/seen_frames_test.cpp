@@ -61,4 +61,30 @@ TEST_CASE("what is later than a moment can be forgotten") {
   CHECK(seen.bytes() == before / 2);
 }
 
+TEST_CASE("frames of one version share the newest skins, what is beside too where it is of the same way") {
+  const auto skin = [](long version) {
+    auto made = std::make_shared<Skin>();
+    made->version = version;
+    return made;
+  };
+  const auto with = [&](long tick, long version, const char* way) {
+    Frame frame = at(tick), beside = at(tick);
+    beside.skin = skin(version);
+    beside.way = way;
+    frame.skin = skin(version);
+    frame.beside = {beside};
+    return frame;
+  };
+  SeenFrames seen;
+  for (const Frame& frame : {with(1, 0, "ogden"), with(2, 1, "ogden"), with(3, 1, "stvk")}) seen.take(frame);
+  const Frame newest = with(9, 1, "ogden");
+  seen.share(newest);
+  const auto& frames = seen.frames();
+  CHECK(frames[0].skin != newest.skin);
+  CHECK(frames[0].beside[0].skin != newest.beside[0].skin);
+  for (const std::size_t k : {1, 2}) CHECK(frames[k].skin == newest.skin);
+  CHECK(frames[1].beside[0].skin == newest.beside[0].skin);
+  CHECK(frames[2].beside[0].skin != newest.beside[0].skin);
+}
+
 }  // namespace heml::seen_frames_test

@@ -1,0 +1,39 @@
+#pragma once
+// The body and those beside it (Frame::beside), each in its pane of the picture.
+#include <app/panel/eye.hpp>
+#include <app/render/renderer.hpp>
+#include <memory>
+#include <vector>
+
+namespace heml::panel {
+
+inline std::size_t bodies_of(const Frame& frame) { return 1 + frame.beside.size(); }
+/// What is in a pane.
+inline const Frame& body_in(const Frame& frame, std::size_t pane) { return pane == 0 ? frame : frame.beside[pane - 1]; }
+
+/// Calls visit(pane, body) with each pane of an eye as the current one, and leaves the eye as it was.
+template <class Visit>
+void each_pane(const Frame& frame, Eye& eye, const Visit& visit) {
+  const std::size_t before = eye.current();
+  for (std::size_t pane = 0; pane < bodies_of(frame); ++pane) {
+    eye.enter_pane(pane);
+    visit(pane, body_in(frame, pane));
+  }
+  eye.enter_pane(before);
+}
+
+/// Belongs to the context that is current when it first draws, and needs it current in every call.
+class SideBySide {
+ public:
+  /// Draws over all of framebuffer 0, which is of the eye's size, in as many panes as there are bodies.
+  void draw(const Frame& frame, Eye& eye, const render::DrawOptions& options);
+
+ private:
+  std::vector<std::unique_ptr<render::Renderer>> renderers_;  ///< one a pane: each keeps what it made of a skin
+};
+
+/// Over each of several panes: in what way its body is computed, and how far it is from the first. Into the current
+/// Dear ImGui frame, behind the panel.
+void draw_ways(const Frame& frame, Eye& eye);
+
+}  // namespace heml::panel
