@@ -3,6 +3,8 @@
 Where physics is meant to change, they are made anew from the scenes they are named after:
 
     for s in kidney_pull liver_cut kidney_on_table twist; do build/release/app/heml replay assets/scenes/$s.json --record tests/golden/$s.jsonl; done
+
+kidney_by_hand was played in a window, by play_by_hand.py.
 """
 import json
 import os

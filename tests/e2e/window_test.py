@@ -164,8 +164,8 @@ class Window(unittest.TestCase):
                                   timeout=400)
         self.assertEqual(replayed.returncode, 0, replayed.stdout + replayed.stderr)
 
-    def seen(self, key):
-        return [event[key] for event in self.events() if key in event]
+    def seen(self, key, file="out.jsonl"):
+        return [event[key] for event in self.events(file) if key in event]
 
     def steady(self):
         """A picture after which nothing changes any more; of a paused body."""
