@@ -116,6 +116,19 @@ void print_solver(const Explanation& explained) {
                                          : fmt::format("{:.3g} ms a tick", solver.budget->milliseconds));
 }
 
+void print_tools(const Explanation& explained) {
+  if (explained.tools.empty()) return;
+  print_head("Tools");
+  for (const ToolFacts& tool : explained.tools) {
+    std::string use;
+    if (tool.first)
+      use = tool.first == tool.last ? fmt::format("at {:.3g} s: ", *tool.first)
+                                    : fmt::format("{} time{}, from {:.3g} to {:.3g} s: ", tool.times,
+                                                  tool.times == 1 ? "" : "s", *tool.first, *tool.last);
+    print_line(tool.name, "{}{}", use, tool.detail);
+  }
+}
+
 void print_costs(const Explanation& explained) {
   print_head("Memory");
   double all = 0;
@@ -176,6 +189,7 @@ int explain_scene(const ExplainArguments& arguments) {
   print_materials(explained);
   print_method(explained);
   print_solver(explained);
+  print_tools(explained);
   print_costs(explained);
   print_rest(explained);
   if (measured) print_measured(explained, *measured);

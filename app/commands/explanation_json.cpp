@@ -99,6 +99,18 @@ Json solver_json(const Explanation& explained) {
            solver.budget && solver.budget->milliseconds > 0 ? Json(solver.budget->milliseconds) : Json()}};
 }
 
+Json tools_json(const Explanation& explained) {
+  const auto or_null = [](const std::optional<double>& value) { return value ? Json(*value) : Json(); };
+  Json list = Json::array();
+  for (const ToolFacts& tool : explained.tools)
+    list.push_back({{"name", tool.name},
+                    {"detail", tool.detail},
+                    {"times", tool.times},
+                    {"first", or_null(tool.first)},
+                    {"last", or_null(tool.last)}});
+  return list;
+}
+
 Json measurement_json(const Measurement& measured) {
   Json changes = Json::array();
   const double as_it_is = measured.changes.front().milliseconds;
@@ -126,6 +138,7 @@ Json explanation_json(const Explanation& explained, const std::optional<Measurem
   json["method"] = method_json(explained);
   json["limit"] = limit_json(explained);
   json["solver"] = solver_json(explained);
+  json["tools"] = tools_json(explained);
   std::size_t bytes = 0;
   json["memory"] = Json::object();
   for (const MemoryFacts& memory : explained.world.memory) {

@@ -157,6 +157,7 @@ Explanation explain(const Scene& scene) {
   result.quality = check_tets(checked);
   result.materials = materials_of(setup, result.world);
   result.limit = limit_of(setup, result.world.step);
+  result.tools = tools_of(scene, setup);
   result.left_out = left_out_of(scene, setup, result.world);
   result.advice = advice_on(result);
   if (world->halt()) result.advice.push_back({"halted", world->halt()->message, "no step can be taken"});

@@ -41,6 +41,14 @@ struct LimitFacts {
 /// "none", "sliver", "small", "stiff".
 const char* name_of(LimitFacts::Cause cause);
 
+/// A tool that stands in the scene, or that its script takes up.
+struct ToolFacts {
+  std::string name;                   ///< table, self-contact, tearing; grasp, probe, pin, suture, tables, cut, ...
+  std::string detail;                 ///< for people
+  int times = 0;                      ///< that the script takes it up
+  std::optional<double> first, last;  ///< s, of its use by the script; none: it stands there from the start
+};
+
 /// Work done once, before the first step.
 struct StartupWork {
   std::string what;
@@ -64,6 +72,7 @@ struct Explanation {
   WorldFacts world;
   std::vector<MaterialFacts> materials;
   LimitFacts limit;
+  std::vector<ToolFacts> tools;
   std::vector<StartupWork> startup;
   std::vector<LeftOut> left_out;
   std::vector<Advice> advice;
@@ -74,6 +83,7 @@ struct Explanation {
 Explanation explain(const Scene& scene);
 
 /// The parts of it that follow from the rest.
+std::vector<ToolFacts> tools_of(const Scene& scene, const WorldSetup& setup);
 std::vector<LeftOut> left_out_of(const Scene& scene, const WorldSetup& setup, const WorldFacts& facts);
 std::vector<Advice> advice_on(const Explanation& explained);
 

@@ -89,6 +89,11 @@ void advise_on_method(const Explanation& explained, std::vector<Advice>& advice)
                       "\"integrator\": \"auto\", float precision, a coarser or better mesh"});
 }
 
+bool lies_on_a_table(const WorldSetup& setup) {
+  return std::any_of(setup.tables.begin(), setup.tables.end(),
+                     [&](const Table& table) { return table.normal.dot(setup.gravity) < 0; });
+}
+
 }  // namespace
 
 std::vector<Advice> advice_on(const Explanation& explained) {
@@ -99,8 +104,9 @@ std::vector<Advice> advice_on(const Explanation& explained) {
   }
   advise_on_mesh(explained, advice);
   advise_on_method(explained, advice);
-  if (explained.world.held_nodes == 0 && !explained.setup.gravity.isZero(0))
-    advice.push_back({"free_fall", "nothing holds the body, and gravity pulls at it", "a `boundary` entry"});
+  if (explained.world.held_nodes == 0 && !explained.setup.gravity.isZero(0) && !lies_on_a_table(explained.setup))
+    advice.push_back(
+        {"free_fall", "nothing holds the body, and gravity pulls at it", "a `boundary` entry, or a table"});
   return advice;
 }
 

@@ -181,7 +181,7 @@ class CommandLine(unittest.TestCase):
         done = heml("explain", scene, "--json")
         self.assertEqual(done.returncode, 0, done.stderr)
         told = json.loads(done.stdout)
-        for key in "scene name body materials method limit solver memory startup left_out warnings measured".split():
+        for key in "scene name body materials method limit solver tools memory startup left_out warnings measured".split():
             self.assertIn(key, told)
         self.assertEqual((told["body"]["tets"], told["body"]["held_nodes"]), (200, 9))
         self.assertEqual([term["name"] for term in told["materials"][0]["terms"]], ["law"])

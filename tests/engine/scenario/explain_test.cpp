@@ -256,4 +256,38 @@ TEST_CASE("features are measured beside the scene as it is") {
   for (const MeasuredChange& change : measured.changes) CHECK(change.milliseconds > 0);
 }
 
+TEST_CASE("tools are told: what stands in the scene, and what the script takes up, how often and when") {
+  const Explanation of = explained(R"({
+    "solver": {"rate": 100}, "tearing": {"stretch": 3}, "self_contact": {"friction": 0.25},
+    "tables": [{"point": [0, -1, 0], "normal": [0, 1, 0], "friction": 0.5}],
+    "events": [{"at": 0.1, "grasp": {"node": 3, "radius": 0}}, {"at": 0.2, "move": [0, 0, 0]},
+               {"at": 0.5, "release": true}, {"at": 0.6, "grasp": {"node": 4, "radius": 0}},
+               {"at": 0.7, "pin": {"node": 3, "radius": 0}}, {"at": 0.8, "damping": 2}]})");
+  const auto tool = [&](const std::string& name) {
+    const auto found = std::find_if(of.tools.begin(), of.tools.end(), [&](const auto& t) { return t.name == name; });
+    REQUIRE_MESSAGE(found != of.tools.end(), name);
+    return *found;
+  };
+  CHECK(of.tools.size() == 5);
+  CHECK(tool("grasp").times == 2);
+  CHECK(*tool("grasp").first == doctest::Approx(0.1));
+  CHECK(*tool("grasp").last == doctest::Approx(0.6));
+  CHECK(tool("pin").times == 1);
+  CHECK_FALSE(tool("table").first);
+  CHECK(tool("table").detail.find("0.5") != std::string::npos);
+  CHECK(tool("self-contact").detail.find("0.25") != std::string::npos);
+  CHECK(tool("tearing").detail.find("3") != std::string::npos);
+  CHECK(explained("{}").tools.empty());
+}
+
+TEST_CASE("a body without support is told of, unless a table lies below it") {
+  const auto falls = [](const std::string& tables) {
+    return advice_about(explained(R"({"boundary": [], "gravity": [0, -9.81, 0], "tables": [)" + tables + "]}"),
+                        "free_fall") != nullptr;
+  };
+  CHECK(falls(""));
+  CHECK_FALSE(falls(R"({"point": [0, -1, 0], "normal": [0, 1, 0]})"));
+  CHECK(falls(R"({"point": [0, 1, 0], "normal": [0, -1, 0]})"));
+}
+
 }  // namespace heml::explain_test
