@@ -10,9 +10,11 @@
 namespace heml {
 namespace {
 
-constexpr double touch = 1e-3;  // of an edge: what is nearer may be pushed together within a step
-constexpr double slack = 0.01;  // of a face or an edge: beside it, so that nothing slips through between two
+constexpr double touch = 1e-3;   // of an edge: what is nearer may be pushed together within a step
+constexpr double slack = 0.01;   // of a face or an edge: beside it, so that nothing slips through between two
+constexpr double beside = 0.25;  // of a face or an edge: what is inside may move by this before it is looked for anew
 constexpr double least_allowance = 0.15, most_allowance = 1;  // of an edge
+constexpr double least_sifted = 0.02, most_sifted = 0.15;     // of an edge
 constexpr double same_overlap = 1e-6;  // of an edge: overlaps at rest below are round-off of touching
 constexpr double facing = 0.1;         // cosine: what faces another surface does so at least by this
 constexpr double flat = 0.02;          // sine: edges that bend their surface less are no ridges
@@ -24,11 +26,11 @@ std::size_t at(int n) { return static_cast<std::size_t>(n); }
 
 Vec3 area_vector(const Vec3& a, const Vec3& b, const Vec3& c) { return (b - a).cross(c - a); }
 
-/// Whether all of a pair's weights are those of points between corners, or ends.
-bool is_within(const SkinPair& pair, const ContactPoint& point) {
+/// Whether all of a pair's weights are those of points between corners, or ends, or as little beside them.
+bool is_within(const SkinPair& pair, const ContactPoint& point, double by = slack) {
   const auto& w = point.weights;
-  if (pair.side == 0) return w[1] <= slack && w[2] <= slack && w[3] <= slack;
-  return w[0] >= -slack && w[1] >= -slack && w[2] <= slack && w[3] <= slack;
+  if (pair.side == 0) return w[1] <= by && w[2] <= by && w[3] <= by;
+  return w[0] >= -by && w[1] >= -by && w[2] <= by && w[3] <= by;
 }
 
 std::array<Vec3, 4> between(const std::array<Vec3, 4>& a, const std::array<Vec3, 4>& b, double t) {
@@ -124,8 +126,9 @@ void SelfContact::find() {
     return std::all_of(places.begin(), places.end(), [](const Vec3& x) { return x.allFinite(); });
   };
   if (!is_finite(from_) || !is_finite(to_)) return;  // the step will see for itself that it went wrong
-  if (!is_covered()) search();
-  for (const Candidate& candidate : near_)
+  if (!covers(searched_)) search();
+  if (!covers(sifted_)) sift();
+  for (const Candidate& candidate : close_)
     if (const SkinPair pair = pair_of(candidate); meets(candidate, pair)) {
       met_.push_back(pair);
       for (int& n : met_.back().nodes) n = nodes_[at(n)];
@@ -133,33 +136,38 @@ void SelfContact::find() {
   std::sort(met_.begin(), met_.end());
 }
 
-bool SelfContact::is_covered() const {
-  return seen_.size() == from_.size() && spread(from_) <= allowance_ && spread(to_) <= allowance_;
+bool SelfContact::covers(const Survey& survey) const {
+  return survey.seen.size() == from_.size() && spread(survey, from_) <= survey.allowance &&
+         spread(survey, to_) <= survey.allowance;
 }
 
 /// How far nodes are at most from where they were seen, m, but for what all have in common.
-double SelfContact::spread(const Places& x) const {
+double SelfContact::spread(const Survey& survey, const Places& x) const {
   Vec3 mean = Vec3::Zero();
-  for (std::size_t n = 0; n < x.size(); ++n) mean += x[n] - seen_[n];
+  for (std::size_t n = 0; n < x.size(); ++n) mean += x[n] - survey.seen[n];
   mean /= static_cast<double>(x.size());
   double most = 0;
-  for (std::size_t n = 0; n < x.size(); ++n) most = std::max(most, (x[n] - seen_[n] - mean).squaredNorm());
+  for (std::size_t n = 0; n < x.size(); ++n) most = std::max(most, (x[n] - survey.seen[n] - mean).squaredNorm());
   return std::sqrt(most);
 }
+
+/// Of pairs that may be `allowance` from where they are.
+double SelfContact::reach_of(double allowance) const { return 2 * allowance + (touch + 4 * slack) * edge_; }
 
 /// Pairs of faces that share a cell, each once: in the cell of the lower corner of what their boxes share.
 void SelfContact::search() {
   ++searches_;
-  seen_ = from_;
-  const double way = spread(to_);
-  allowance_ = std::max(1.5 * way, std::clamp(8 * way, least_allowance * edge_, most_allowance * edge_));
-  const double reach = 2 * allowance_ + (touch + 4 * slack) * edge_;
+  searched_.seen = from_;
+  sifted_.seen.clear();
+  const double way = spread(searched_, to_);
+  searched_.allowance = std::max(1.5 * way, std::clamp(8 * way, least_allowance * edge_, most_allowance * edge_));
+  const double reach = reach_of(searched_.allowance);
   near_.clear();
   std::vector<Eigen::AlignedBox3d> boxes(faces_.size());
   Eigen::AlignedBox3d all;
   double size = 0;
   for (std::size_t f = 0; f < faces_.size(); ++f) {
-    for (const int n : faces_[f]) boxes[f].extend(seen_[at(n)]);
+    for (const int n : faces_[f]) boxes[f].extend(from_[at(n)]);
     const Vec3 more = Vec3::Constant(reach / 2);
     boxes[f] = Eigen::AlignedBox3d(boxes[f].min() - more, boxes[f].max() + more);
     all.extend(boxes[f]);
@@ -207,9 +215,7 @@ void SelfContact::offer(int one, int other, double reach) {
 void SelfContact::offer_node(int node, int face, double reach) {
   const Triangle& corners = faces_[at(face)];
   if (std::find(corners.begin(), corners.end(), node) != corners.end()) return;
-  const Vec3 &x = seen_[at(node)], &a = seen_[at(corners[0])], &b = seen_[at(corners[1])], &c = seen_[at(corners[2])];
-  const auto [u, v, w] = nearest_weights(x, a, b, c);
-  if ((u * a + v * b + w * c - x).squaredNorm() > reach * reach) return;
+  if (squared_distance({false, node, face}) > reach * reach) return;
   // Overlapping at rest, or of one body's thin end: no contact.
   const SkinPair pair{{node, corners[0], corners[1], corners[2]}, 0};
   const auto at_rest = point_of(pair, [this](int n) { return rest_[at(n)]; });
@@ -225,13 +231,48 @@ void SelfContact::offer_edges(int one, int other, double reach) {
   const auto [a, b] = edges_[at(one)].ends;
   const auto [c, d] = edges_[at(other)].ends;
   if (a == c || a == d || b == c || b == d) return;
-  const Vec3 u = seen_[at(b)] - seen_[at(a)], v = seen_[at(d)] - seen_[at(c)];
-  const auto [s, t] = nearest_on_segments(seen_[at(a)], u, seen_[at(c)], v);
-  if ((seen_[at(a)] + s * u - seen_[at(c)] - t * v).squaredNorm() > reach * reach) return;
+  if (squared_distance({true, one, other}) > reach * reach) return;
   const SkinPair pair{{a, b, c, d}, side_of(edges_[at(one)], edges_[at(other)], rest_)};
   const auto at_rest = point_of(pair, [this](int n) { return rest_[at(n)]; });
   if (at_rest && at_rest->gap < -same_overlap * edge_ && is_within(pair, *at_rest)) return;
   near_.push_back({true, one, other});
+}
+
+/// Of the two, with nodes at from_, m².
+double SelfContact::squared_distance(const Candidate& candidate) const {
+  const auto x = [this](int n) -> const Vec3& { return from_[at(n)]; };
+  if (!candidate.edges) {
+    const Triangle& corners = faces_[at(candidate.second)];
+    const Vec3 &p = x(candidate.first), &a = x(corners[0]), &b = x(corners[1]), &c = x(corners[2]);
+    const auto [u, v, w] = nearest_weights(p, a, b, c);
+    return (u * a + v * b + w * c - p).squaredNorm();
+  }
+  const auto [a, b] = edges_[at(candidate.first)].ends;
+  const auto [c, d] = edges_[at(candidate.second)].ends;
+  const Vec3 u = x(b) - x(a), v = x(d) - x(c);
+  const auto [s, t] = nearest_on_segments(x(a), u, x(c), v);
+  return (x(a) + s * u - x(c) - t * v).squaredNorm();
+}
+
+/// Of near pairs those that can meet while nodes go far less than a search allows for. What is inside already stays,
+/// however deep.
+void SelfContact::sift() {
+  sifted_.seen = from_;
+  const double way = spread(sifted_, to_);
+  sifted_.allowance = std::min(searched_.allowance,
+                               std::max(1.5 * way, std::clamp(8 * way, least_sifted * edge_, most_sifted * edge_)));
+  const double reach = reach_of(sifted_.allowance);
+  close_.clear();
+  std::copy_if(near_.begin(), near_.end(), std::back_inserter(close_), [&](const Candidate& candidate) {
+    return squared_distance(candidate) <= reach * reach || overlaps(candidate);
+  });
+}
+
+/// Whether what crosses lies inside, if not far beside where it crossed.
+bool SelfContact::overlaps(const Candidate& candidate) const {
+  const SkinPair pair = pair_of(candidate);
+  const auto point = point_of(pair, [this](int n) { return from_[at(n)]; });
+  return point && point->gap < 0 && is_within(pair, *point, beside);
 }
 
 Vec3 SelfContact::face_normal(int face, const Places& x) const {
@@ -310,7 +351,7 @@ bool SelfContact::meets(const Candidate& candidate, const SkinPair& pair) const 
 
 std::size_t SelfContact::bytes() const {
   return bytes_of(nodes_, rest_, faces_, apex_, edges_, start_, round_, own_nodes_, own_edges_) +
-         bytes_of(from_, to_, seen_, near_, met_);
+         bytes_of(from_, to_, searched_.seen, sifted_.seen, near_, close_, met_);
 }
 
 }  // namespace heml

@@ -13,9 +13,10 @@
 // crossing; and what is inside is so by less than half the element behind. In a body that is not inside out no node
 // lies in an element that is not its own, so neighbours are no contact. What overlaps at rest is let be.
 //
-//   each step   nodes at from, at to ──► have any moved by more than the allowance since the last search? ──► search
-//               near pairs ──► those that meet between from and to
-//   search      faces in a grid of cells, in the order of cells; pairs in the order of nodes, whatever was searched
+//   each step   nodes at from, at to ──► have any moved by more than was allowed for? ──► search, or sift
+//               close pairs ──► those that meet between from and to
+//   search      faces in a grid of cells, in the order of cells ──► near pairs, in the order of nodes
+//   sift        near pairs ──► close pairs: nodes may go a small part of the way that a search allows for
 //
 // Without a scene's "self_contact" none of this is made.
 #include <compare>
@@ -84,9 +85,18 @@ class SelfContact {
   void take_rest(const TetMesh& mesh);
   void make_edges();
   void find();
-  bool is_covered() const;
-  double spread(const Places& x) const;
+  /// Places for which it is known which pairs can meet.
+  struct Survey {
+    Places seen;           ///< empty: none yet
+    double allowance = 0;  ///< m, that nodes may be from there
+  };
+  bool covers(const Survey& survey) const;
+  double spread(const Survey& survey, const Places& x) const;
+  double reach_of(double allowance) const;
   void search();
+  void sift();
+  double squared_distance(const Candidate& candidate) const;
+  bool overlaps(const Candidate& candidate) const;
   void offer(int one, int other, double reach);
   void offer_node(int node, int face, double reach);
   void offer_edges(int one, int other, double reach);
@@ -108,9 +118,9 @@ class SelfContact {
   std::vector<Edge> edges_;                      ///< with two faces each
   std::vector<int> start_, round_;               ///< faces round each node: round_[start_[n] .. start_[n + 1])
   std::vector<Triangle> own_nodes_, own_edges_;  ///< of each face: nodes, edges that no face before it has; −1
-  Places from_, to_, seen_;                      ///< seen_: where the last search was; empty: none yet
-  double allowance_ = 0;                         ///< m
-  std::vector<Candidate> near_;
+  Places from_, to_;
+  Survey searched_, sifted_;
+  std::vector<Candidate> near_, close_;  ///< pairs that can meet: of searched_; of these, of sifted_
   std::vector<SkinPair> met_;
   long searches_ = 0;
 };
