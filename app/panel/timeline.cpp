@@ -20,7 +20,7 @@ std::string seconds_text(double seconds) {
 
 std::string moment_hint(const Timeline& time) {
   return fmt::format(
-      "Simulated time since the start of what is shown, s, by ticks of the engine, which a reset does not set back. "
+      "Simulated time since the start, s, of what is shown: ticks of the engine, which a reset does not set back. "
       "Left, "
       "Right and Home look back too; Resume (B) goes on from there.\n\n{} moments are kept, {:.1f} of at most {:.0f} "
       "MB. "
@@ -100,9 +100,7 @@ void draw_timeline(Rows& rows, const Timeline& time, const Area& free, std::vect
     ImGui::PushStyleColor(ImGuiCol_Text, back ? colours::warning : colours::text);
     ImGui::TextUnformatted(seconds_text(seconds).c_str());
     ImGui::PopStyleColor();
-    rows.explain({"Moment",
-                  "Simulated time since the start, s, of what is shown: ticks of the engine, which a reset "
-                  "does not set back."});
+    rows.explain({"Moment", moment_hint(time)});
     const float end = place.to.x - em(0.9f) - (back || time.returning ? em(buttons_width) : 0);
     const Track track{{left + em(label_width), place.from.y + em(0.3f)}, {end, place.from.y + em(0.3f) + height}, time};
     ImGui::SetCursorScreenPos(track.from);

@@ -43,10 +43,10 @@ const char* name_of(LimitFacts::Cause cause);
 
 /// A tool that stands in the scene, or that its script takes up.
 struct ToolFacts {
-  std::string name;                   ///< table, self-contact, tearing; grasp, probe, pin, suture, tables, cut, ...
-  std::string detail;                 ///< for people
-  int times = 0;                      ///< that the script takes it up
-  std::optional<double> first, last;  ///< s, of its use by the script; none: it stands there from the start
+  std::string name;                       ///< table, self-contact, tearing; grasp, probe, pin, suture, tables, cut, ...
+  std::string detail;                     ///< for people
+  int times = 0;                          ///< that the script takes it up
+  std::optional<double> first{}, last{};  ///< s, of its use by the script; none: it stands there from the start
 };
 
 /// Work done once, before the first step.
