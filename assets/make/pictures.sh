@@ -24,4 +24,6 @@ cube 0.5
 irregular_cube 0.5
 large_cube 0.2
 kidney_on_table 1.6
+kidney_on_pad 1.4
+strip_tears 1.0
 END

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes scenes of assets/scenes that show something off, and the mesh of the duel of beams.
+"""Writes scenes of assets/scenes that show something off, and the meshes of the duel of beams and of the kidney on a pad.
 
     python3 assets/make/showcase.py
 
@@ -79,9 +79,59 @@ def far_out():
           view={"azimuth": 20, "elevation": 15, "zoom": 0.8, "field": "stretch"})
 
 
+def read_mesh(name):
+    words = [line.split("#")[0] for line in (ASSETS / "meshes" / f"{name}.mesh").read_text().splitlines()]
+    words = " ".join(words).split()
+    first = lambda keyword: words.index(keyword) + 2
+    count = lambda keyword: int(words[words.index(keyword) + 1])
+    rows = lambda keyword, width: [words[first(keyword) + width * k:][:width] for k in range(count(keyword))]
+    nodes = [tuple(map(float, row[:3])) for row in rows("Vertices", 4)]
+    tets = [([int(n) - 1 for n in row[:4]], int(row[4])) for row in rows("Tetrahedra", 5)]
+    return nodes, [tet for tet, _ in tets], [region for _, region in tets]
+
+
+def kidney_on_pad():
+    """The kidney, laid down, 4 mm above a soft pad: two bodies of one mesh."""
+    nodes, tets, regions = read_mesh("kidney")
+    nodes = [(x, z, -y) for x, y, z in nodes]
+    size, cells = [0.13, 0.03, 0.14], [10, 3, 11]
+    low, middle = min(y for _, y, _ in nodes), [sum(c) / len(nodes) for c in zip(*nodes)]
+    corner = (middle[0] - size[0] / 2, low - 0.004 - size[1], middle[2] - size[2] / 2)
+    pad, more = six_a_cell(size, cells)
+    tets += [[n + len(nodes) for n in tet] for tet in more]
+    regions += [3] * len(more)
+    nodes += [tuple(c + o for c, o in zip(node, corner)) for node in pad]
+    extreme.OUT = ASSETS / "meshes"
+    write_mesh("kidney_on_pad", nodes, tets, regions)
+    extreme.OUT = ASSETS / "scenes"
+    start = [round(middle[0] + 0.02, 3), round(-low, 3), round(middle[2], 3)]
+    events = [{"at": 0.8, "grasp": {"point": start, "radius": 0.012}}]
+    for k in range(1, 13):
+        share = (1 - math.cos(math.pi * k / 12)) / 2
+        events.append({"at": round(0.8 + 0.05 * k, 3), "move": [round(start[0] - 0.03 * share, 4), round(start[1] + 0.045 * share, 4), start[2]]})
+    scene("kidney_on_pad", "Kidney on a soft pad", "Two bodies touch: a kidney falls on a pad that is softer than itself and sinks in; "
+          "it is lifted at one side, let go, and falls back.", {"asset": "kidney_on_pad"},
+          [{"box": [[-1, -1, -1], [1, round(corner[1] + 1e-4, 6), 1]], "fix": True}],
+          INTERACTIVE | {"duration": 3.0, "damping": 4.0},
+          materials=[material(1e4, 0.43, density=1050), material(1.5e4, 0.43, density=1050, region=2), material(6e3, 0.4, region=3)],
+          gravity=DOWN, self_contact={"friction": 0.4}, view={"azimuth": 20, "elevation": 20, "zoom": 1.2},
+          events=events + [{"at": 1.7, "release": True}])
+
+
+def strip_tears():
+    scene("strip_tears", "A strip that tears", "A notched strip is drawn out; where it is stretched to more than 1.8 times its length "
+          "it comes apart, and the tear runs from the notch across.", box([0.1, 0.04, 0.006], [25, 10, 2]),
+          [CLAMP, {"box": [[0.0999, -1, -1], [0.1001, 1, 1]], "translate": [0.06, 0, 0], "over": 2.0}],
+          INTERACTIVE | {"duration": 2.5, "damping": 10.0}, materials=[material(2e4, 0.4)], gravity=DOWN, tearing={"stretch": 1.8},
+          view={"azimuth": 15, "elevation": 20, "zoom": 0.9, "field": "stretch"},
+          events=[{"at": 0.01, "cut": {"sweep": [[[0.049, 0.03, -1], [0.049, 0.03, 1]], [[0.049, 0.05, -1], [0.049, 0.05, 1]]], "goes_on": False}}])
+
+
 if __name__ == "__main__":
     extreme.OUT = ASSETS / "scenes"
     liver_cut()
     test_bench()
     beam_duel()
     far_out()
+    kidney_on_pad()
+    strip_tears()
