@@ -97,7 +97,7 @@ TEST_CASE("a Lamé parameter is changed alone") {
   const ImVec2 at = driver.find("μ");
   driver.hold(true);
   driver.draw();
-  driver.move({at.x - 25, at.y});
+  driver.move({at.x - 50, at.y});
   const auto actions = driver.draw();
   REQUIRE(actions.commands.size() == 1);
   const auto& parameters = std::get<SetMaterial>(actions.commands.front()).material.parameters;
