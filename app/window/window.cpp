@@ -11,20 +11,22 @@ namespace {
 using Clock = std::chrono::steady_clock;
 double seconds(Clock::duration d) { return std::chrono::duration<double>(d).count(); }
 
-/// When the next picture may be drawn: 60 a second at most, and with rests between, because drawing without a graphics
-/// card takes a core that the engine may need: a quarter as long as drawing took, or as long while the engine is late.
+/// When the next picture may be drawn: 60 a second at most, and after a short rest. Drawing without a graphics card
+/// takes a core, which the engine's threads get back in between; longer rests gave it a few percent for half the
+/// pictures.
 class DrawingPace {
  public:
   bool due(Clock::time_point now) const { return now >= next_; }
   double until_due(Clock::time_point now) const { return std::max(0.0, seconds(next_ - now)); }
-  void drew(Clock::time_point began, Clock::time_point ended, bool engine_keeps_up) {
-    const double cost = seconds(ended - began), rest = std::min(engine_keeps_up ? cost / 4 : cost, longest_rest);
-    next_ = began +
-            std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(std::max(shortest, cost + rest)));
+  void drew(Clock::time_point began, Clock::time_point ended) {
+    const double taken = (1 + rest) * seconds(ended - began);
+    next_ =
+        began + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(std::max(shortest, taken)));
   }
 
  private:
-  static constexpr double shortest = 1.0 / 60, longest_rest = 0.1;  // s
+  static constexpr double shortest = 1.0 / 60;  // s
+  static constexpr double rest = 1.0 / 16;      // of what drawing took
   Clock::time_point next_{};
 };
 
@@ -42,7 +44,7 @@ void show(window::GlfwWindow& window, window::Viewer& viewer, double exit_after)
     }
     window.wait(0);
     viewer.draw();
-    pace.drew(now, Clock::now(), viewer.frame().pace.keeping_up);
+    pace.drew(now, Clock::now());
   }
 }
 
