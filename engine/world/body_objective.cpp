@@ -54,14 +54,13 @@ void BodyObjective<Real>::find_noise() {
   // An energy density is found as a difference of numbers of the size of a modulus: ω² m L² in all.
   constexpr double epsilon = std::numeric_limits<Real>::epsilon(), safety = 4;
   const double bound = static_cast<double>(body_.frequency_bound(x_.data(), team_));
-  spacing_ = model_.diagonal / std::cbrt(static_cast<double>(std::max<std::size_t>(1, mass_.size())));
   std::vector<double> stiffness(mass_.size(), 0.0);
   for (const int n : free_.node) {
     const auto k = static_cast<std::size_t>(n);
     stiffness[k] = bound * static_cast<double>(mass_[k]);
   }
   contact_.set_stiffness(std::move(stiffness));
-  noise_ = epsilon * bound * inertia * spacing_ * spacing_;
+  noise_ = epsilon * bound * inertia * model_.spacing * model_.spacing;
   const double worst = epsilon * bound * model_.diagonal;
   acceleration_noise_ = std::clamp(safety * at_rest, worst / 10, worst);
 }
@@ -178,7 +177,7 @@ int BodyObjective<Real>::count_inverted(const Vector& x) const {
 
 template <class Real>
 bool BodyObjective<Real>::turns_inside_out(const Vector& from, const Vector& to) const {
-  return (to - from).template lpNorm<Eigen::Infinity>() > long_way * spacing_ &&
+  return (to - from).template lpNorm<Eigen::Infinity>() > long_way * model_.spacing &&
          count_inverted(to) > count_inverted(from);
 }
 

@@ -95,7 +95,6 @@ class BodyObjective final : public LoadedObjective {
   double time_ = 0, duration_ = 0, d_ = 0, anchor_ = 0;
   Vec3 gravity_ = Vec3::Zero(), full_gravity_ = Vec3::Zero();
   Vector x_bar_;
-  double spacing_ = 0;  ///< m, of nodes, in the mean
   double noise_ = 0, acceleration_noise_ = 0;
   int inverted_at_start_ = 0;
   Vector forces_, external_;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <heml/mesh/edit.hpp>
 #include <heml/mesh/faces.hpp>
 #include <heml/world/model.hpp>
@@ -95,6 +96,11 @@ void add_boundary(const WorldSetup& setup, Model<Real>& model) {
   }
   for (std::size_t n = 0; n < winner.size(); ++n)
     if (winner[n] >= 0) model.held.push_back({static_cast<int>(n), winner[n]});
+  model.speeds.assign(model.motions.size(), 0);
+  for (const HeldNode& held : model.held) {
+    double& speed = model.speeds[static_cast<std::size_t>(held.entry)];
+    speed = std::max(speed, held_at(model, held, 0).v.norm());
+  }
 }
 
 }  // namespace
@@ -116,6 +122,7 @@ Model<Real> make_model(const WorldSetup& setup) {
   Eigen::AlignedBox3d box;
   for (const Vec3& X : model.mesh.nodes) box.extend(X);
   model.diagonal = box.diagonal().norm();
+  model.spacing = model.diagonal / std::cbrt(static_cast<double>(std::max<std::size_t>(1, model.mesh.nodes.size())));
   return model;
 }
 

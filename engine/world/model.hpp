@@ -26,9 +26,11 @@ struct Model {
   std::vector<int> surface_nodes;  ///< ascending
   std::vector<HeldNode> held;      ///< ascending in node
   std::vector<Motion> motions;     ///< one per setup.boundary
+  std::vector<double> speeds;      ///< m/s, of each while it moves: of the fastest node
   std::vector<DeadLoad<Real>> dead;
   std::vector<Pressure<Real>> pressures;
   double diagonal = 0;  ///< m, of the rest bounding box
+  double spacing = 0;   ///< m, of nodes, about
 };
 
 /// Where a held node is at time t, s.

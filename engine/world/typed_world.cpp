@@ -19,7 +19,7 @@ constexpr double growth_of_steps = 0.001;  // a step, at most
 constexpr double change_between_bounds = 0.02;
 constexpr double steps_between_bounds_when_calm = 32;  // at most: then taking it costs hardly anything
 constexpr int steps_between_bounds_at_first = 8;
-constexpr int steps_between_bounds_when_driven = 2;  // a hand or a moved support can do much to a body in little time
+constexpr int steps_between_bounds_when_driven = 2;  // a hand can do much to a body in little time
 constexpr std::size_t node_grain = 4096, coordinate_grain = 3 * node_grain;
 constexpr std::size_t cached_coordinates = 2048;  // which the first cache has still when they are read again
 
@@ -171,9 +171,9 @@ double TypedWorld<Real>::choose_step(double until) {
   const double left = until - state_.time;
   if (setup_.solver.step) return left;
   const bool has_torn = !edits_.empty() && edits_.back().torn > 0;  // shreds are let go stretched, and snap back
-  const bool is_driven = !grasps_.empty() || contacts_.probe || has_torn || supports_move();
-  const int patience = is_driven ? std::min(bound_interval_, steps_between_bounds_when_driven) : bound_interval_;
-  if (++steps_since_bound_ >= patience) follow_stable_step();
+  const bool is_driven = !grasps_.empty() || contacts_.probe || has_torn;
+  const int most = is_driven ? steps_between_bounds_when_driven : steps_until_supports_strain();
+  if (++steps_since_bound_ >= std::min(bound_interval_, most)) follow_stable_step();
   if (!(stable_step_ > smallest_step)) {
     stop(Halt{Halt::Cause::unstable, -1, -1,
               fmt::format("stopped at t = {:.6g} s: an explicit method would need steps of {:.3g} s; "
@@ -184,11 +184,14 @@ double TypedWorld<Real>::choose_step(double until) {
   return left / std::ceil(left / stable_step_);
 }
 
+/// In how many steps the fastest support strains what is next to it by as much as the limit may change between bounds.
 template <class Real>
-bool TypedWorld<Real>::supports_move() const {
-  return std::any_of(setup_.boundary.begin(), setup_.boundary.end(), [&](const Boundary& support) {
-    return state_.time < support.over && (support.degrees != 0 || !support.translate.isZero(0));
-  });
+int TypedWorld<Real>::steps_until_supports_strain() const {
+  double fastest = 0;
+  for (std::size_t k = 0; k < model_.motions.size(); ++k)
+    if (state_.time < model_.motions[k].over) fastest = std::max(fastest, model_.speeds[k]);
+  const double steps = change_between_bounds * model_.spacing / (fastest * stable_step_);
+  return static_cast<int>(std::clamp<double>(steps, steps_between_bounds_when_driven, steps_between_bounds_when_calm));
 }
 
 template <class Real>

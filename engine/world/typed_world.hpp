@@ -73,7 +73,7 @@ class TypedWorld final : public World {
   void step_with(Real h, double time_after);
   void move_held();
   bool take_forces();
-  bool supports_move() const;
+  int steps_until_supports_strain() const;
   void find_stable_step();
   void follow_stable_step();
   void restore_last_valid(Halt::Cause cause);
