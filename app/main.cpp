@@ -34,7 +34,7 @@ int run_program(int argc, char** argv) {
   run_command->add_option("--record", run_arguments.record, "append every action to this recording (.jsonl)");
   const std::string beside_help =
       "set the same body beside it in other ways, up to three: laws, methods, float, nodal_pressure; joined by +";
-  run_command->add_option("--beside", run_arguments.beside, beside_help)->delimiter(',');
+  run_command->add_option("--beside", run_arguments.beside, beside_help)->delimiter(',')->allow_extra_args(false);
   run_command->add_option("--size", run_size, "size of the window, pixels")->capture_default_str();
   run_command->add_option("--exit-after", run_arguments.exit_after, "close by itself after so many seconds");
   run_command->add_option("--draw-stall", run_arguments.draw_stall,
@@ -49,7 +49,9 @@ int run_program(int argc, char** argv) {
   capture_command->add_option("--frames", capture_arguments.frames, "how many")->capture_default_str();
   capture_command->add_option("--size", capture_size, size_help)->capture_default_str();
   capture_command->add_option("--fps", capture_arguments.fps, "frames a simulated second")->capture_default_str();
-  capture_command->add_option("--beside", capture_arguments.beside, beside_help)->delimiter(',');
+  capture_command->add_option("--beside", capture_arguments.beside, beside_help)
+      ->delimiter(',')
+      ->allow_extra_args(false);
   capture_command->add_flag("--panel", capture_arguments.panel, "draw the panel too");
 
   ReplayArguments replay_arguments;

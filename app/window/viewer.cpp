@@ -126,7 +126,7 @@ void Viewer::take_opened() {
   if (!result) return;
   if (auto* problem = std::get_if<std::string>(&*result)) return panel_->fail(*problem);
   OpenScene& opened = std::get<OpenScene>(*result);
-  const bool goes_on = opened.resumed && (past_.ran() || std::exchange(plays_on_, false));
+  const bool goes_on = opened.resumed && plays_on_;
   adopt(std::move(opened));
   if (!open_.resumed) return;
   if (open_.recording)

@@ -88,7 +88,7 @@ class Viewer final : public WindowEvents {
   int pictures_wanted_ = settling_pictures;
   long drawn_ = 0;
   bool listed_ = false;    ///< folders, before
-  bool plays_on_ = false;  ///< what is opened for a comparison
+  bool plays_on_ = false;  ///< what goes on from here is to run
   bool quits_ = false;
 };
 

@@ -95,6 +95,7 @@ void Viewer::list(const std::filesystem::path& folder) {
 void Viewer::resume() {
   if (!past_.active()) return panel_->say("Look back first: drag the bar of time, or press Left.");
   if (opening_.under_way()) return panel_->say("Something else is still being opened.");
+  plays_on_ = past_.ran();
   go_on_from_here(open_.beside);
 }
 
@@ -112,7 +113,7 @@ void Viewer::go_on_from_here(const std::vector<std::string>& beside) {
 /// The session goes on beside others, from what led to this moment.
 void Viewer::compare(const std::vector<std::string>& ways) {
   if (opening_.under_way()) return panel_->say("Something else is still being opened.");
-  plays_on_ = !past_.active() && !frame_->paused;
+  plays_on_ = past_.active() ? past_.ran() : !frame_->paused;
   go_on_from_here(ways);
 }
 
