@@ -7,6 +7,7 @@ constexpr KeyBinding bindings[] = {
     {key_up, false, Action::choose_previous, "Up, Down", "choose there what Enter opens"},
     {key_down, false, Action::choose_next, "", ""},
     {key_enter, false, Action::open_chosen, "", ""},
+    {'S', true, Action::save, "Ctrl+S", "save the scene as it is set, as a file to open"},
     {' ', false, Action::toggle_play, "Space", "play or pause"},
     {'.', false, Action::step, ".", "one tick, then pause"},
     {key_left, false, Action::look_earlier, "Left, Right", "look at the moment before, after"},

@@ -33,6 +33,12 @@ const std::array<Direction, 6>& directions() {
 
 }  // namespace
 
+void MotionSection::write_into(Scene& scene) const {
+  scene.gravity = strength_ * direction_;
+  scene.solver.damping = damping_;
+  scene.solver.integrator = integrator_;
+}
+
 MotionSection::MotionSection(const Vec3& gravity, const SolverSettings& solver)
     : damping_(solver.damping), integrator_(solver.integrator) {
   follow(SetGravity{gravity});

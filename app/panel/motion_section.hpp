@@ -2,6 +2,7 @@
 // Gravity, damping and the integrator.
 #include <app/panel/actions.hpp>
 #include <app/panel/rows.hpp>
+#include <heml/scenario/scene.hpp>
 
 namespace heml::panel {
 
@@ -10,6 +11,8 @@ class MotionSection {
   MotionSection(const Vec3& gravity, const SolverSettings& solver);
 
   void draw(Rows& rows, PanelActions& out);
+
+  void write_into(Scene& scene) const;  ///< what it shows
 
   // Show what was set elsewhere.
   void follow(const SetGravity& command);

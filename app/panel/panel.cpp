@@ -93,6 +93,13 @@ void Panel::follow(const Command& command) {
   if (const auto* integrator = std::get_if<SetIntegrator>(&command)) motion_.follow(*integrator);
 }
 
+void Panel::write_into(Scene& scene) const {
+  scene.materials = material_.materials();
+  motion_.write_into(scene);
+  scene.view.field = view_.field();
+  scene.view.wireframe = view_.drawing().wireframe;
+}
+
 Insets Panel::insets(ImVec2 picture) const {
   if (hidden_) return {};
   return {em(controls_width + margin), two_columns(picture) ? em(readings_width + margin) : 0};

@@ -57,7 +57,9 @@ class Panel {
   bool covers(float x,
               float y) const;   ///< whether a point is on the panel, as last drawn: the mouse is then not on the body
   bool shows_recovery() const;  ///< one goes on, or has ended a moment ago
-  bool animating() const { return notices_.animating(); }         ///< whether it changes by itself
+  bool animating() const { return notices_.animating(); }  ///< whether it changes by itself
+  /// Tissue, motion and colours as they are shown: a scene that starts with them.
+  void write_into(Scene& scene) const;
   const std::string& hovered() const { return rows_.hovered(); }  ///< label of the row under the mouse; empty: none
 
  private:

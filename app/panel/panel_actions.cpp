@@ -39,6 +39,8 @@ void Panel::carry_out(Action action, const Frame& frame, PanelActions& out) {
       return view_.show(Field::error, out);
     case Action::screenshot:
       return ask(Request::screenshot);
+    case Action::save:
+      return ask(Request::save);
     case Action::hide:
       hidden_ = !hidden_;
       return;

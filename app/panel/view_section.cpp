@@ -55,6 +55,12 @@ void ViewSection::draw(Rows& rows, std::vector<Action>& pressed, PanelActions& o
                        so_far},
                   0.29f * room))
     pressed.push_back(Action::film);
+  if (rows.button(
+          {"Save scene",
+           "Writes the scene as it was opened, with tissue, motion, tables and colours as they are now, into the "
+           "working folder (Ctrl+S). What was done by hand is what recordings are for."},
+          ImGui::GetContentRegionAvail().x))
+    pressed.push_back(Action::save);
 }
 
 /// A button a view: goes there; keeps this one where none was kept, or with Ctrl.

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -38,19 +39,34 @@ void draw_ring(const render::Hit& hit, const Frame& frame, const Skin& skin, con
 
 namespace {
 
-void draw_force(const Vec3& force, const Vec3& place, const panel::Eye& eye) {
-  const render::Vec2f at = eye.pixel(place.cast<float>());
+/// A label to the right of a point of the body.
+void draw_label(const Vec3f& place, const std::string& text, ImU32 colour, const panel::Eye& eye) {
+  const render::Vec2f at = eye.pixel(place);
   if (!at.allFinite()) return;
-  const std::string text = panel::newtons(force.norm());
   const ImVec2 size = ImGui::CalcTextSize(text.c_str());
   const ImVec2 from(at.x() + panel::em(1.4f), at.y() - size.y / 2), pad(panel::em(0.5f), panel::em(0.25f));
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   list.AddRectFilled({from.x - pad.x, from.y - pad.y}, {from.x + size.x + pad.x, from.y + size.y + pad.y},
                      panel::colours::background, panel::em(0.4f));
-  list.AddText(from, panel::colours::accent, text.c_str());
+  list.AddText(from, colour, text.c_str());
+}
+
+void draw_force(const Vec3& force, const Vec3& place, const panel::Eye& eye) {
+  draw_label(place.cast<float>(), panel::newtons(force.norm()), panel::colours::accent, eye);
 }
 
 }  // namespace
+
+void draw_reading(const render::Hit& hit, const Frame& frame, const Skin& skin, const panel::Eye& eye,
+                  const render::Range& range) {
+  const auto value = render::value_at(hit, frame, skin);
+  if (!value) return;
+  const render::FieldLabel label = render::field_label(frame.field, range);
+  draw_label(hit.point,
+             fmt::format("{:.3g}{}{}, node {}", *value * label.scale, label.unit.empty() ? "" : " ", label.unit,
+                         skin.nodes[static_cast<std::size_t>(hit.node)]),
+             panel::colours::text, eye);
+}
 
 void draw_forces(const Frame& frame, const panel::Eye& eye) {
   if (frame.tool.active) draw_force(frame.tool.force, frame.tool.target, eye);

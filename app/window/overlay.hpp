@@ -1,6 +1,7 @@
 #pragma once
 // Marks over the picture, under the panel: what would be grasped, and how hard the tool pulls.
 #include <app/panel/eye.hpp>
+#include <app/render/field_colours.hpp>
 #include <app/render/pick.hpp>
 
 namespace heml::window {
@@ -8,6 +9,11 @@ namespace heml::window {
 /// A ring on the surface round the point under the mouse, of the grasp's radius (m); red where the body cannot be
 /// taken.
 void draw_ring(const render::Hit& hit, const Frame& frame, const Skin& skin, const panel::Eye& eye, double radius);
+
+/// What the colours say at the point under the mouse: the field's value there, in the unit of a colour range, and the
+/// nearest node. Nothing where the body shows no field.
+void draw_reading(const render::Hit& hit, const Frame& frame, const Skin& skin, const panel::Eye& eye,
+                  const render::Range& range);
 
 /// Forces in newtons beside the tools that are at work: grasp, pins, probe, sutures.
 void draw_forces(const Frame& frame, const panel::Eye& eye);

@@ -34,6 +34,7 @@ void Viewer::adopt(OpenScene opened) {
   else
     past_ = LookingBack();
   open_ = std::move(opened);
+  if (!open_.resumed) as_opened_ = open_.scene;
   frame_ = &open_.session->latest();
   panel_.emplace(open_.scene, *frame_->skin);
   next_event_ = 0;
@@ -103,8 +104,10 @@ void Viewer::draw_marks() {
   panel::draw_ways(*frame_, eye_);
   if (hand_.doing() == Hand::Doing::grasping) return ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeAll);
   const bool free = hand_.doing() == Hand::Doing::nothing && !ImGui::IsAnyItemActive() && ImGui::IsMousePosValid();
-  if (!free || past_.active() || panel_->covers(mouse_.x(), mouse_.y())) return;
+  if (!free || panel_->covers(mouse_.x(), mouse_.y())) return;
   if (const auto hit = hand_.under(mouse_, seen(), *seen().skin)) {
+    if (const auto& range = panel_->drawing().range) draw_reading(*hit, seen(), *seen().skin, eye_, *range);
+    if (past_.active()) return;
     const panel::ToolInHand& tool = panel_->tool();
     const bool takes_patch = tool.tool == panel::Tool::grasper || tool.tool == panel::Tool::pin;
     draw_ring(*hit, seen(), *seen().skin, eye_,

@@ -62,6 +62,7 @@ class Viewer final : public WindowEvents {
   void let_go();
   void remove_tissue();
   void save_screenshot();
+  void save_scene();
   void film();
   void take_picture();
   void use_view(const panel::PanelActions& actions);
@@ -75,6 +76,7 @@ class Viewer final : public WindowEvents {
   Opening opening_;
   Library library_;
   OpenScene open_;
+  Scene as_opened_;  ///< of the file, not of what one went on from
   LookingBack past_;
   std::optional<int> shown_progress_;  ///< of opening_, %
   std::unique_ptr<Filming> filming_;   ///< while it goes on, and until its video is made

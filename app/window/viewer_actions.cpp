@@ -5,6 +5,7 @@
 #include <app/window/screenshot.hpp>
 #include <app/window/viewer.hpp>
 #include <heml/base/error.hpp>
+#include <heml/scenario/text_file.hpp>
 #include <utility>
 
 namespace heml::window {
@@ -64,6 +65,8 @@ void Viewer::carry_out(panel::Request request) {
       return fit();
     case panel::Request::screenshot:
       return save_screenshot();
+    case panel::Request::save:
+      return save_scene();
     case panel::Request::release:
       return let_go();
     case panel::Request::remove:
@@ -150,6 +153,21 @@ void Viewer::remove_tissue() {
 void Viewer::save_screenshot() {
   try {
     const auto path = save_picture(render::read_pixels(eye_.size()), open_.scene.name);
+    panel_->say("Saved " + path.string());
+  } catch (const InputError& error) {
+    panel_->say(error.what());
+  }
+}
+
+/// As it was opened, with the settings of now; what was done by hand is what recordings are for.
+void Viewer::save_scene() {
+  Scene scene = as_opened_;
+  panel_->write_into(scene);
+  scene.tables.clear();
+  for (const TableState& state : frame_->tables) scene.tables.push_back(state.table);
+  try {
+    const auto path = free_name(scene.name, ".json");
+    write_text_file(path, scene_text(scene, std::filesystem::current_path()));
     panel_->say("Saved " + path.string());
   } catch (const InputError& error) {
     panel_->say(error.what());

@@ -447,6 +447,60 @@ class Window(unittest.TestCase):
         for file in ("out.jsonl", "out-2.jsonl"):  # of the first body: what is beside it leaves no trace
             self.verify(file)
 
+    def test_colours_are_read_under_the_mouse(self):
+        self.open_display(640, 360)
+        scene = self.folder / "light.json"
+        scene.write_text(json.dumps(light_scene()))
+        self.start(scene, "--size", "640x360")
+        self.wait_for("a picture", lambda: self.display.picture().colours() > 200)
+        time.sleep(1)
+        self.xdo("mousemove", 638, 300, "key", "space")
+        x, y = self.steady().tissue(220, 640)
+
+        def light_pixels_beside():  # where the reading stands, right of the mouse
+            picture = self.steady()
+            return sum(min(picture.pixel(a, b)) > 170 for a in range(x + 12, x + 90) for b in range(y - 8, y + 8))
+
+        self.xdo("mousemove", x, y)
+        self.assertLess(light_pixels_beside(), 5, "something is read of tissue without colours")
+        self.xdo("key", "2")
+        self.assertGreater(light_pixels_beside(), 25, "no reading beside the mouse")
+        self.xdo("key", "ctrl+q")
+        self.finish()
+
+    def test_a_scene_that_was_saved_opens_the_same(self):
+        self.open_display(640, 360)
+        scene = self.folder / "light.json"
+        scene.write_text(json.dumps(light_scene()))
+        saved = []
+
+        def save(file):
+            self.start(file, "--size", "640x360")
+            self.wait_for("a picture", lambda: self.display.picture().colours() > 200)
+            time.sleep(1)
+            if not saved:
+                self.drag((125, 177), (24, 0), steps=4)
+                self.xdo("key", "t", "key", "w", "key", "4")
+                time.sleep(1)
+            self.xdo("key", "ctrl+s")
+            self.wait_for("a file", lambda: len(list(self.folder.glob("heml-*.json"))) > len(saved))
+            time.sleep(0.5)
+            self.xdo("key", "ctrl+q")
+            self.finish()
+            saved.append(max(self.folder.glob("heml-*.json"), key=lambda path: path.stat().st_mtime_ns))
+            return json.loads(saved[-1].read_text())
+
+        first = save(scene)
+        self.assertEqual(first["view"]["field"], "von_mises")
+        self.assertTrue(first["view"]["wireframe"])
+        self.assertEqual(len(first["tables"]), 1)
+        subprocess.run([BINARY, "replay", scene, "--record", "plain.jsonl"], cwd=self.folder, check=True,
+                       stdout=subprocess.DEVNULL)
+        plain = json.loads((self.folder / "plain.jsonl").read_text().split("\n")[0])
+        changed = [key for key in ("materials", "gravity", "mesh", "boundary", "loads") if first[key] != plain[key]]
+        self.assertIn(changed, (["materials"], ["gravity"]), "what was dragged, and nothing else, is in the file")
+        self.assertEqual(save(saved[0]), first)
+
     def test_a_film_becomes_pictures_and_a_video_where_ffmpeg_is(self):
         self.open_display(640, 360)
         scene = self.folder / "light.json"

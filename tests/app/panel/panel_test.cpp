@@ -41,6 +41,30 @@ TEST_CASE("buttons do what their keys do") {
   CHECK(std::holds_alternative<Reset>(reset.commands.front()));
   CHECK(driver.click("Save picture", 150).requests == std::vector{Request::screenshot});
   CHECK(driver.click("Fit view", 60).requests == std::vector{Request::fit});
+  Driver tall(small_scene(), 1280, 900);
+  CHECK(tall.click("Save scene", 100).requests == std::vector{Request::save});
+}
+
+TEST_CASE("a scene is written with the tissue, the motion and the colours that are shown") {
+  Scene scene = small_scene();
+  Driver driver(scene);
+  Material other = scene.materials[1].material;
+  other.density = 1234;
+  driver.panel.follow(SetMaterial{2, other});
+  driver.panel.follow(SetGravity{Vec3(0, 0, 3)});
+  driver.panel.follow(SetDamping{7});
+  driver.panel.follow(SetIntegrator{Integrator::tr_bdf2});
+  after(driver, Action::show_stretch);
+  after(driver, Action::wireframe);
+  driver.panel.write_into(scene);
+  CHECK(scene.materials.size() == 2);
+  CHECK(scene.materials[1].material.density == 1234);
+  CHECK(scene.materials[0].material.density == 1000);
+  CHECK((scene.gravity - Vec3(0, 0, 3)).norm() < 1e-15);
+  CHECK(scene.solver.damping == 7);
+  CHECK(scene.solver.integrator == Integrator::tr_bdf2);
+  CHECK(scene.view.field == Field::stretch);
+  CHECK(scene.view.wireframe);
 }
 
 TEST_CASE("colour keys and the colour choice ask for fields") {

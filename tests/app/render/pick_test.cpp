@@ -41,4 +41,19 @@ TEST_CASE("a ray beside the body picks nothing, one through it the near side") {
   CHECK(hit->point.z() == doctest::Approx(std::sqrt(1 - 0.05)).epsilon(0.02));
 }
 
+TEST_CASE("a field is read between the nodes of what was hit, and only where there is one") {
+  const Skin skin = ball_skin(2, 1);
+  Frame frame = frame_at_rest(skin);
+  const Ray ray{Vec3f(0.1f, 0.2f, 5), Vec3f(0, 0, -1)};
+  const auto hit = pick(frame, skin, ray);
+  REQUIRE(hit);
+  CHECK_FALSE(value_at(*hit, frame, skin));
+  frame.field = Field::displacement;
+  CHECK_FALSE(value_at(*hit, frame, skin));  // not yet with its values
+  for (const Vec3f& node : frame.positions) frame.values.push_back(3 * node.x() - node.y() + 1);
+  const auto value = value_at(*hit, frame, skin);
+  REQUIRE(value);
+  CHECK(*value == doctest::Approx(3 * 0.1 - 0.2 + 1).epsilon(1e-5));
+}
+
 }  // namespace heml::pick_test
