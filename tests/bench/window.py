@@ -1,0 +1,50 @@
+"""What a window costs beside the engine: pictures a second and lateness of organs, on this machine, drawn as it draws.
+
+    HEML_BINARY=build/release/app/heml python3 tests/bench/window.py [SECONDS]
+"""
+import json
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+HERE = pathlib.Path(__file__).resolve()
+sys.path.insert(0, str(HERE.parents[1] / "e2e"))
+from window_test import BINARY, Display, os  # noqa: E402
+
+SCENES = HERE.parents[2] / "assets" / "scenes"
+IN_REAL_TIME = {"integrator": "backward_euler", "rate": 60, "damping": 2, "budget": {"milliseconds": 8}}
+CASES = [
+    ("kidney, verlet at 1 kHz", "kidney_grasp", {}),
+    ("uterus, verlet at 1 kHz", "uterus", {}),
+    ("uterus, verlet at 1 kHz, float", "uterus", {"precision": "float"}),
+    ("uterus, backward Euler at 60 Hz within 8 ms", "uterus", None),
+]
+
+
+def main():
+    seconds = float(sys.argv[1]) if len(sys.argv) > 1 else 10
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        display = Display(folder, 1280, 720)
+        environment = dict(os.environ, DISPLAY=display.name, XDG_STATE_HOME=str(folder / "state"))
+        print("| 1280 × 720 | pictures a second | ticks a second | of them late | wall s a simulated s |\n|---|---|---|---|---|")
+        try:
+            for title, scene, changes in CASES:
+                case = json.loads((SCENES / f"{scene}.json").read_text())
+                case["solver"] = IN_REAL_TIME if changes is None else case["solver"] | changes
+                file = folder / "scene.json"
+                file.write_text(json.dumps(case))
+                done = subprocess.run([BINARY, "run", file, "--exit-after", str(seconds), "--size", "1280x720"], env=environment,
+                                      capture_output=True, text=True, check=True)
+                pictures, ticks, missed, pace = re.match(r"(\d+) pictures drawn, (\d+) ticks, (\d+) missed deadlines, (\S+)",
+                                                         done.stdout).groups()
+                print(f"| {title} | {int(pictures) / seconds:.0f} | {int(ticks) / seconds:.0f} | "
+                      f"{int(missed) / max(1, int(ticks)):.0%} | {pace} |", flush=True)
+        finally:
+            display.close()
+
+
+if __name__ == "__main__":
+    main()
