@@ -26,7 +26,7 @@ Photographer::Photographer(const Scene& scene, const World& world, PictureSize s
 void Photographer::take(World& world, double ahead, double seconds, Companions* companions) {
   skin_ = skin_of(world, std::move(skin_));
   fill_frame(world, skin_, view_.field, ahead, frame_, panel_ && panel_->wants_stretches());
-  if (companions) companions->fill(frame_, ahead);
+  if (companions) companions->fill(world, frame_, ahead);
   frame_.pace.rate = 1 / world.setup().solver.tick();
   if (panel_)
     draw_with_panel(static_cast<float>(seconds));

@@ -37,7 +37,6 @@ Companions::Companions(const WorldSetup& setup, const std::vector<std::string>& 
   if (words.size() > most)
     throw InputError("beside", fmt::format("{}", fmt::join(words, ",")), fmt::format("is more than {} ways", most),
                      "leave some out");
-  way_ = way_of(setup);
   for (const std::string& word : words) {
     Variant variant = variant_of(setup, word);
     variant.setup.solver.threads = 1;  // they are run side by side, and threads change no bit
@@ -65,8 +64,8 @@ void Companions::interrupt() {
   for (Companion& companion : companions_) companion.world->interrupt();
 }
 
-void Companions::fill(Frame& frame, double ahead) {
-  frame.way = way_;
+void Companions::fill(const World& world, Frame& frame, double ahead) {
+  frame.way = way_of(world.setup());
   frame.beside.resize(companions_.size());
   for (std::size_t k = 0; k < companions_.size(); ++k) {
     Companion& companion = companions_[k];

@@ -24,7 +24,7 @@ class Companions {
   /// Lets a tick under way end early.
   void interrupt();
   /// Fills Frame::beside and Frame::way of the world's frame, which is filled. ahead: as in fill_frame(), s.
-  void fill(Frame& frame, double ahead = 0);
+  void fill(const World& world, Frame& frame, double ahead = 0);
 
  private:
   struct Companion {
@@ -32,7 +32,6 @@ class Companions {
     std::unique_ptr<World> world;
     std::shared_ptr<const Skin> skin;
   };
-  std::string way_;  ///< of the world itself, as it was set up
   std::vector<Companion> companions_;
   ThreadTeam team_;
 };

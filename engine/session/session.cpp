@@ -290,7 +290,7 @@ class Session::Impl {
     Frame& frame = frames_.back();
     skin_ = skin_of(*world_, std::move(skin_));
     fill_frame(*world_, skin_, field_, 0, frame, stretches_);
-    if (companions_) companions_->fill(frame);
+    if (companions_) companions_->fill(*world_, frame);
     find_errors(frame);
     frame.pace = pacer_.pace(began);
     frame.commands = std::ssize(history_);

@@ -19,7 +19,7 @@ Frame after(World& world, Companions& companions, int ticks) {
   for (int k = 0; k < ticks; ++k) companions.tick(world);
   Frame frame;
   fill_frame(world, skin_of(world), Field::none, 0, frame);
-  companions.fill(frame);
+  companions.fill(world, frame);
   return frame;
 }
 
@@ -68,9 +68,11 @@ TEST_CASE("companions: what is done to the body is done to them, but for their o
   Frame frame = after(*world, companions, 50);
   CHECK(frame.beside[0].positions == frame.positions);
   CHECK(frame.beside[0].tool.force == frame.tool.force);
+  CHECK(frame.way == "stvk, verlet");
   both(SetIntegrator{Integrator::backward_euler});
   frame = after(*world, companions, 50);
   CHECK(frame.beside[0].positions != frame.positions);
+  CHECK(frame.way == "stvk, backward_euler");
 }
 
 TEST_CASE("companions: one that cannot go on stops and says why, the body goes on") {
