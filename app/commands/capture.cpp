@@ -31,8 +31,9 @@ int capture(const CaptureArguments& arguments) {
   const Scene scene = arguments.scene.empty() ? default_scene() : read_scene(arguments.scene);
   const auto world = load_world(scene);
   Schedule schedule(scene, world->setup().mesh);
-  Companions companions(world->setup(), arguments.beside);
-  Photographer photographer(scene, *world, arguments.size, arguments.panel, !arguments.beside.empty(), arguments.out);
+  std::optional<Companions> companions;
+  if (!arguments.beside.empty()) companions.emplace(world->setup(), arguments.beside);
+  Photographer photographer(scene, *world, arguments.size, arguments.panel, companions.has_value(), arguments.out);
   const double tick = world->setup().solver.tick();
   Progress progress("capturing frames");
   for (int k = 0; k < arguments.frames && !world->halt(); ++k) {
@@ -40,11 +41,16 @@ int capture(const CaptureArguments& arguments) {
     // the time, less than a tick, is extrapolated for the picture alone.
     const double time = k / arguments.fps;
     while (!world->halt() && static_cast<double>(world->ticks() + 1) * tick <= time * (1 + 1e-12)) {
-      schedule.apply(*world, [&](const Command& command) { companions.apply(command); });
-      companions.tick(*world);
+      schedule.apply(*world, [&](const Command& command) {
+        if (companions) companions->apply(command);
+      });
+      if (companions)
+        companions->tick(*world);
+      else
+        world->tick();
     }
     photographer.take(*world, world->halt() ? 0.0 : time - static_cast<double>(world->ticks()) * tick,
-                      1 / arguments.fps, &companions);
+                      1 / arguments.fps, companions ? &*companions : nullptr);
     progress.show((k + 1.0) / arguments.frames);
   }
   if (world->halt()) {

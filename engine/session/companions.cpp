@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <chrono>
 #include <heml/base/error.hpp>
 #include <heml/base/log.hpp>
 #include <heml/session/companions.hpp>
@@ -51,13 +52,23 @@ void Companions::apply(const Command& command) {
       if (const auto problem = companion.world->apply(command)) warn("{}: {}", companion.variant.name, *problem);
 }
 
-void Companions::tick(World& world) {
+double Companions::tick(World& world) {
+  using Clock = std::chrono::steady_clock;
+  const auto seconds_since = [](Clock::time_point t) {
+    return std::chrono::duration<double>(Clock::now() - t).count();
+  };
+  const auto all_began = Clock::now();
+  double own = 0;
   team_.for_ranges(companions_.size() + 1, 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       World& one = k == 0 ? world : *companions_[k - 1].world;
-      if (!one.halt()) one.tick();
+      if (one.halt()) continue;
+      const auto began = Clock::now();
+      one.tick();
+      if (k == 0) own = seconds_since(began);
     }
   });
+  return seconds_since(all_began) - own;
 }
 
 void Companions::interrupt() {

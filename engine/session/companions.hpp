@@ -19,8 +19,9 @@ class Companions {
 
   /// What the world has carried out. A companion with a law of its own takes no other; of a method likewise.
   void apply(const Command& command);
-  /// One tick of the world and of every companion that has not halted. Returns when all have ended.
-  void tick(World& world);
+  /// One tick of the world and of every companion that has not halted. Returns when all have ended: how much longer
+  /// that took than the world's own tick, s, since what is learnt of the clock is to be of the world alone.
+  double tick(World& world);
   /// Lets a tick under way end early.
   void interrupt();
   /// Fills Frame::beside and Frame::way of the world's frame, which is filled. ahead: as in fill_frame(), s.

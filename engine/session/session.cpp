@@ -219,19 +219,20 @@ class Session::Impl {
     for (const Event& event : schedule_.due(world_->ticks())) carry_out(event.command);
     const bool recorded = is_recorded();
     if (!recorded && factor_keeper_.arrived(*world_)) carry_out(TakeFactor{});
+    double waited = 0;  // s, for what is beside the body
     if (companions_)
-      companions_->tick(*world_);
+      waited = companions_->tick(*world_);
     else
       world_->tick();
     if (recorder_) recorder_->ticked(*world_);
     if (shadow_keeper_) shadow_keeper_->ticked(*world_);
-    if (!recorded) learn(std::chrono::duration<double>(Pacer::Clock::now() - began).count());
+    if (!recorded) learn(std::chrono::duration<double>(Pacer::Clock::now() - began).count() - waited);
     if (world_->halt()) show_now_ = true;
     tell_of_recovery();
     if (goal_ == 0) pacer_.book(began, Pacer::Clock::now());
   }
 
-  /// What was chosen by the clock becomes a command. seconds: that the tick took.
+  /// What was chosen by the clock becomes a command. seconds: that the tick took of the body's own.
   void learn(double seconds) {
     if (budget_keeper_)
       if (const auto iterations = budget_keeper_->after(seconds, world_->solver_work()))
