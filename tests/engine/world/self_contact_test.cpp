@@ -282,6 +282,23 @@ TEST_CASE("self-contact: what overlaps at rest stays at rest") {
   }
 }
 
+TEST_CASE("self-contact: what begins deep inside is pushed out again") {
+  constexpr double deep = 0.003;  // a quarter of an edge
+  WorldSetup setup = stack(Integrator::verlet, 0, 0.001);
+  setup.gravity.setZero();
+  setup.initial_positions = setup.mesh.nodes;
+  const std::size_t lower = make_box(Vec3::Constant(side), {3, 3, 3}).nodes.size();
+  for (std::size_t n = lower; n < setup.mesh.nodes.size(); ++n) setup.initial_positions[n].y() -= 0.001 + deep;
+  auto world = make_world(setup);
+  world->tick();
+  CHECK(world->self_contact()->touching > 0);
+  CHECK(world->self_contact()->deepest > 0.8 * deep);
+  run_until(*world, 0.2);
+  REQUIRE_FALSE(world->halt());
+  const auto x = world->positions();
+  CHECK(mean(x, lower, x.size()).y() - mean(x, 0, lower).y() > side - 0.1 * deep);
+}
+
 TEST_CASE("self-contact: a cut opens as freely as without, and closes no further than it was") {
   const auto run = [](bool with, double pull) {
     WorldSetup setup = cantilever();
