@@ -4,7 +4,6 @@
 
 namespace heml::same_stiffness_test {
 
-
 namespace {
 
 Material soft_tissue() {
