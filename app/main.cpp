@@ -135,7 +135,7 @@ int run_program(int argc, char** argv) {
   speed_command->add_option(
       "SUITE", speed_arguments.suite,
       "paper: the five bodies of the paper, HEML and Mass-Tensor; kernel: one force evaluation, every "
-      "law; step: whole steps; roofline: what the machine could do. None: all");
+      "law; step: whole steps; threads: steps with one to all threads; roofline: what the machine could do. None: all");
   speed_command->add_option("--json", speed_arguments.json, "write the rows into this file too");
   speed_command->add_option("--out", speed_arguments.out, "draw pictures into this folder (suites kernel and paper)");
   speed_command->add_flag("--quick", speed_arguments.quick, "less than a minute: few and small bodies");

@@ -1,57 +1,202 @@
+#include <heml/base/log.hpp>
+#include <heml/base/processor_time.hpp>
 #include <heml/base/thread_team.hpp>
+#include <system_error>
 #if defined(__SSE2__)
 #include <immintrin.h>
 #endif
 
 namespace heml {
+namespace {
+
+constexpr std::size_t chunks_a_range = 4;    // a thread that comes late or is stopped leaves little undone
+constexpr std::size_t chunk_alignment = 16;  // items: threads write to no cache line in common
+constexpr auto longest_spin = std::chrono::microseconds(50);  // about what waking a thread takes
+constexpr int looks_between_clocks = 32;
+constexpr int most_patience = 16;      // loops
+constexpr double loss_allowed = 0.02;  // of the caller's time: waiting that nothing saved makes up for
+constexpr double most_credit = 0.002;  // s
+constexpr double price_of_waiting = 3;  // a second waited costs more than one: caches, and whom it keeps from the core
+constexpr auto between_marks = std::chrono::milliseconds(1);  // shorter than what another program takes at a time
+
+constexpr std::uint64_t inside_mask = 0x7fff, stop_bit = 0x8000, open_bit = 0x10000;
+constexpr std::uint64_t threads_of(std::uint64_t gate) { return gate >> 17 & 0x7fff; }
+constexpr std::uint64_t loop_of(std::uint64_t gate) { return gate >> 32; }
+
+void relax() {
+#if defined(__SSE2__)
+  _mm_pause();
+#endif
+}
+
+std::size_t cores() { return std::max(1u, std::thread::hardware_concurrency()); }
+
+double seconds(std::chrono::steady_clock::duration time) { return std::chrono::duration<double>(time).count(); }
+
+}  // namespace
 
 ThreadTeam::ThreadTeam(int threads) {
-  const int wanted = threads > 0 ? threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  workers_ = std::vector<Worker>(static_cast<std::size_t>(wanted - 1));
-  for (std::size_t k = 0; k < workers_.size(); ++k) workers_[k].thread = std::thread([this, k] { work(k); });
+  start_workers((threads > 0 ? static_cast<std::size_t>(threads) : cores()) - 1);
+  ranges_ = std::make_unique<Range[]>(workers_.size() + 1);
+  limit_ = workers_.size() + 1;
+}
+
+void ThreadTeam::start_workers(std::size_t wanted) {
+  workers_.reserve(wanted);
+  for (std::size_t k = 0; k < wanted; ++k) {
+    auto worker = std::make_unique<Worker>();
+    Worker& started = *worker;
+    workers_.push_back(std::move(worker));
+    try {
+      started.thread = std::thread([this, &started, k] { work(started, k + 1); });
+    } catch (const std::system_error& error) {
+      workers_.pop_back();
+      warn("computing with {} of {} threads: the system starts no more ({})", k + 1, wanted + 1, error.code().message());
+      return;
+    }
+  }
 }
 
 ThreadTeam::~ThreadTeam() {
-  {
-    std::lock_guard lock(mutex_);
-    stop_ = true;
-  }
-  for (Worker& worker : workers_) worker.wake.notify_one();
-  for (Worker& worker : workers_) worker.thread.join();
+  gate_.fetch_or(stop_bit);
+  for (const auto& worker : workers_) wake(*worker);
+  for (const auto& worker : workers_) worker->thread.join();
 }
 
-void ThreadTeam::run_piece(const Loop& loop, std::size_t piece) {
-  loop.call(loop.body, loop.count * piece / loop.pieces, loop.count * (piece + 1) / loop.pieces);
+double ThreadTeam::worker_seconds() const {
+  double sum = 0;
+  for (const auto& worker : workers_) sum += processor_seconds_of(worker->thread);
+  return sum;
 }
 
-/// Wakes as many as there are pieces: to wake the others would take longer than many a loop.
 void ThreadTeam::run(const Loop& loop) {
-  const std::size_t helpers = loop.pieces - 1;
-  {
-    std::lock_guard lock(mutex_);
-    loop_ = loop;
-    unfinished_ = helpers;
-    for (std::size_t k = 0; k < helpers; ++k) workers_[k].is_wanted = true;
-  }
-  for (std::size_t k = 0; k < helpers; ++k) workers_[k].wake.notify_one();
-  run_piece(loop, 0);
-  std::unique_lock lock(mutex_);
-  done_.wait(lock, [this] { return unfinished_ == 0; });
+  const auto began = Clock::now();
+  if (began < alone_until_) return loop.call(loop.body, 0, loop.count);
+  if (began - last_end_ > between_marks) mark_ = {began, processor_seconds_of_thread()};
+  open(loop);
+  const std::size_t own_chunks = claim_chunks(0);
+  const auto worked = Clock::now();
+  close();
+  settle_account(began, worked, own_chunks);
 }
 
-void ThreadTeam::work(std::size_t k) {
-  FlushDenormals flush;
-  Worker& self = workers_[k];
-  std::unique_lock lock(mutex_);
+/// Lays out ranges and chunks, lets workers in and wakes those that sleep.
+void ThreadTeam::open(const Loop& loop) {
+  loop_ = loop;
+  chunk_ = 1 + (loop.count - 1) / (chunks_a_range * loop.threads);
+  if (chunk_ > chunk_alignment) chunk_ = (chunk_ + chunk_alignment - 1) / chunk_alignment * chunk_alignment;
+  chunks_ = 0;
+  const std::size_t all = (loop.count - 1) / chunk_ + 1;
+  for (std::size_t r = 0; r < loop.threads; ++r) {
+    ranges_[r].next.store(all * r / loop.threads * chunk_, std::memory_order_relaxed);
+    ranges_[r].end = std::min(loop.count, all * (r + 1) / loop.threads * chunk_);
+  }
+  chunks_ = all;
+  gate_.store(++loops_ << 32 | loop.threads << 17 | open_bit);
+  for (std::size_t k = 0; k + 1 < loop.threads; ++k) wake(*workers_[k]);
+}
+
+void ThreadTeam::wake(Worker& worker) {
+  if (!worker.asleep.load() || !worker.asleep.exchange(0)) return;
+  worker.asleep.notify_one();
+}
+
+/// Does chunks until none is left, those of the own range first. Returns how many.
+std::size_t ThreadTeam::claim_chunks(std::size_t own) {
+  std::size_t done = 0;
+  for (std::size_t k = 0; k < loop_.threads; ++k) {
+    Range& range = ranges_[(own + k) % loop_.threads];
+    while (range.next.load(std::memory_order_relaxed) < range.end) {
+      const std::size_t begin = range.next.fetch_add(chunk_, std::memory_order_relaxed);
+      if (begin >= range.end) break;
+      loop_.call(loop_.body, begin, std::min(begin + chunk_, range.end));
+      ++done;
+    }
+  }
+  return done;
+}
+
+/// Lets no further worker in and waits for those inside.
+void ThreadTeam::close() {
+  std::uint64_t gate = gate_.fetch_and(~open_bit, std::memory_order_acq_rel);
+  const auto began = Clock::now();
+  while (gate & inside_mask) {
+    for (int k = 0; k < looks_between_clocks && gate & inside_mask; ++k) {
+      relax();
+      gate = gate_.load(std::memory_order_acquire);
+    }
+    if (gate & inside_mask && Clock::now() - began > longest_spin) std::this_thread::yield();
+  }
+}
+
+/// Workers save the time their chunks would have taken the caller. They cost the time it waits for them at the end, and
+/// the time that other programs have its core for, since they cannot have those of the workers. A negative account
+/// sends the caller on alone, for so long that the loss stays what is allowed.
+void ThreadTeam::settle_account(Clock::time_point began, Clock::time_point worked, std::size_t own_chunks) {
+  last_end_ = Clock::now();
+  double working = seconds(worked - began), lost = 0;
+  if (last_end_ - mark_.wall > between_marks) {
+    const Mark now{last_end_, processor_seconds_of_thread()};
+    lost = std::max(0.0, seconds(now.wall - mark_.wall) - (now.processor - mark_.processor));
+    working = std::max(0.0, working - lost);
+    mark_ = now;
+  }
+  const double a_chunk = working / static_cast<double>(std::max<std::size_t>(own_chunks, 1));
+  const double saved = a_chunk * static_cast<double>(chunks_ - own_chunks);
+  const double waited = seconds(last_end_ - worked) + lost;
+  credit_ = std::min(credit_ + saved - price_of_waiting * waited, most_credit);
+  if (credit_ >= 0) return;
+  const std::chrono::duration<double> alone(-credit_ / loss_allowed);
+  alone_until_ = last_end_ + std::chrono::duration_cast<Clock::duration>(alone);
+  credit_ = 0;
+}
+
+void ThreadTeam::work(Worker& self, std::size_t range) {
+  const FlushDenormals flush;
+  std::uint64_t last = 0;
   for (;;) {
-    self.wake.wait(lock, [&] { return stop_ || self.is_wanted; });
-    if (stop_) return;
-    self.is_wanted = false;
-    const Loop loop = loop_;
-    lock.unlock();
-    run_piece(loop, k + 1);
-    lock.lock();
-    if (--unfinished_ == 0) done_.notify_one();
+    const std::uint64_t gate = await_loop(self, range, last);
+    if (gate & stop_bit) return;
+    last = loop_of(gate);
+    if (!enter(gate)) continue;
+    claim_chunks(range);
+    gate_.fetch_sub(1, std::memory_order_release);
+  }
+}
+
+/// Counts this worker in; fails where the loop has been closed.
+bool ThreadTeam::enter(std::uint64_t gate) {
+  const std::uint64_t loop = loop_of(gate);
+  while (gate & open_bit && loop_of(gate) == loop)
+    if (gate_.compare_exchange_weak(gate, gate + 1, std::memory_order_acquire)) return true;
+  return false;
+}
+
+/// Returns the gate of a loop that has a range for this worker, or of the end. Waits awake for as long as that has paid
+/// lately, then sleeps.
+std::uint64_t ThreadTeam::await_loop(Worker& self, std::size_t range, std::uint64_t last) const {
+  const auto is_wanted = [&](std::uint64_t gate) {
+    return gate & stop_bit || (gate & open_bit && loop_of(gate) != last && range < threads_of(gate));
+  };
+  for (;;) {
+    const auto began = Clock::now();
+    do {
+      for (int k = 0; k < looks_between_clocks; ++k) {
+        const std::uint64_t gate = gate_.load(std::memory_order_acquire);
+        if (is_wanted(gate)) {
+          self.patience = std::min(self.patience + 1, most_patience);
+          return gate;
+        }
+        relax();
+      }
+    } while (self.patience > 0 && Clock::now() - began < longest_spin);
+    self.asleep.store(1);  // then either the caller sees this, or we see its gate
+    if (is_wanted(gate_.load()))
+      self.asleep.store(0);
+    else
+      self.asleep.wait(1);
+    const bool would_have_paid = Clock::now() - began < 2 * longest_spin;
+    self.patience = would_have_paid ? most_patience : std::max(self.patience - 1, 0);
   }
 }
 

@@ -40,6 +40,8 @@ struct Pace {
   long missed = 0;          ///< ticks that ended after their deadline, since start
   double p50 = 0, p99 = 0;  ///< s a tick, over the last 1000 ticks
   bool keeping_up = true;   ///< false while simulated time is slower than asked
+  int threads = 1;          ///< that step now
+  double others = 0;        ///< cores that the rest of the process takes, drawing above all; 0: not measured
 };
 
 /// Of the nodes of two bodies, m.

@@ -4,6 +4,7 @@
 #include <condition_variable>
 #include <heml/base/error.hpp>
 #include <heml/base/log.hpp>
+#include <heml/base/processor_time.hpp>
 #include <heml/scenario/recorder.hpp>
 #include <heml/scenario/recovery_watch.hpp>
 #include <heml/scenario/schedule.hpp>
@@ -16,6 +17,7 @@
 #include <heml/session/session.hpp>
 #include <heml/session/shadow_keeper.hpp>
 #include <heml/session/skin.hpp>
+#include <heml/session/thread_balance.hpp>
 #include <mutex>
 #include <thread>
 
@@ -52,6 +54,7 @@ class Session::Impl {
     if (budget && budget->milliseconds > 0) budget_keeper_.emplace(budget->milliseconds);
     if (world_->setup().solver.integrator == Integrator::automatic)
       cost_keeper_.emplace(world_->setup().mesh.tets.size());
+    if (world_->setup().solver.threads == 0 && world_->threads() > 1) balance_.emplace(world_->threads());
     publish();
     thread_ = std::thread([this] {
       run();
@@ -128,6 +131,7 @@ class Session::Impl {
       if (stopping_) return;
       take_commands();
       if (may_tick()) one_tick();
+      if (balance_) balance_threads();
       if (goal_ > 0 && (world_->ticks() >= goal_ || world_->halt())) arrive();
       const auto now = Pacer::Clock::now();
       if (show_now_.exchange(false) ||
@@ -232,6 +236,14 @@ class Session::Impl {
     if (goal_ == 0) pacer_.book(began, Pacer::Clock::now());
   }
 
+  /// Leaves cores to whatever else the process does. Not recorded: the number of threads changes no bit.
+  void balance_threads() {
+    const double wall = std::chrono::duration<double>(Pacer::Clock::now().time_since_epoch()).count();
+    if (!balance_->is_due(wall)) return;
+    const double own = processor_seconds_of_thread() + world_->worker_seconds();
+    if (const auto threads = balance_->look(wall, processor_seconds_of_process() - own)) world_->limit_threads(*threads);
+  }
+
   /// What was chosen by the clock becomes a command. seconds: that the tick took of the body's own.
   void learn(double seconds) {
     if (budget_keeper_)
@@ -294,6 +306,8 @@ class Session::Impl {
     if (companions_) companions_->fill(*world_, frame);
     find_errors(frame);
     frame.pace = pacer_.pace(began);
+    frame.pace.threads = world_->threads();
+    if (balance_) frame.pace.others = balance_->load_of_others();
     frame.commands = std::ssize(history_);
     frame.paused = !playing_;
     frame.hurries_to = goal_;
@@ -329,6 +343,7 @@ class Session::Impl {
 
   std::optional<BudgetKeeper> budget_keeper_;  ///< where the scene's budget is in milliseconds
   std::optional<CostKeeper> cost_keeper_;      ///< where the scene leaves the method to the engine
+  std::optional<ThreadBalance> balance_;       ///< where the scene leaves the number of threads to the engine
   FactorKeeper factor_keeper_;
   std::optional<ShadowKeeper> shadow_keeper_;  ///< while errors are read
   std::optional<double> mesh_error_;           ///< the last

@@ -78,6 +78,18 @@ Material bench_material(std::string_view law) {
   return {};
 }
 
+WorldSetup hanging_cube(const TetMesh& mesh, const Material& material) {
+  WorldSetup setup;
+  setup.mesh = mesh;
+  setup.materials = {{std::nullopt, material}};
+  Boundary fixed;
+  for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
+    if (mesh.nodes[n].x() < 1e-9) fixed.nodes.push_back(static_cast<int>(n));
+  setup.boundary = {fixed};
+  setup.gravity = Vec3(0, -9.81, 0);
+  return setup;
+}
+
 std::vector<InstructionSet> kernels_of(const Material& material) {
   if (!find_law(material.law)->is_continuum) return {InstructionSet::portable};  // springs have no kernels
   const auto sets = instruction_sets();

@@ -2,6 +2,7 @@
 // The bodies that are measured, and the materials they are made of.
 #include <heml/elastic/body.hpp>
 #include <heml/mesh/tet_mesh.hpp>
+#include <heml/world/setup.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +21,9 @@ BenchBody bench_body(std::string name, const TetMesh& mesh);
 
 /// A cube of 10 cm, 5 tetrahedra in each of n³ cells. irregular: inner nodes moved by up to a fifth of a cell (seed 1).
 BenchBody bench_cube(int n, bool irregular);
+
+/// A cube that hangs from its face x = 0, and swings.
+WorldSetup hanging_cube(const TetMesh& mesh, const Material& material);
 
 /// One material of every law, around 1 kPa, nearly incompressible where it has a volume term.
 std::vector<Material> bench_materials();

@@ -51,16 +51,8 @@ std::vector<Case> size_cases() {
   return list;
 }
 
-/// A cube that hangs from one face, and swings.
 WorldSetup setup_of(const TetMesh& mesh, const Case& which) {
-  WorldSetup setup;
-  setup.mesh = mesh;
-  setup.materials = {{std::nullopt, which.material}};
-  Boundary held;
-  for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
-    if (mesh.nodes[n].x() < 1e-9) held.nodes.push_back(static_cast<int>(n));
-  setup.boundary = {held};
-  setup.gravity = Vec3(0, -9.81, 0);
+  WorldSetup setup = hanging_cube(mesh, which.material);
   setup.solver.integrator = which.integrator;
   setup.solver.single_precision = which.single;
   setup.solver.threads = which.threads;

@@ -62,6 +62,9 @@ class TypedWorld final : public World {
   std::shared_ptr<FactorWork> factor_work() override;
   WorldFacts facts() override;
   const WorldSetup& setup() const override { return setup_; }
+  void limit_threads(int threads) override { team_.limit(threads); }
+  int threads() const override { return team_.limit(); }
+  double worker_seconds() const override { return team_.worker_seconds(); }
 
  private:
   // typed_world.cpp: stepping

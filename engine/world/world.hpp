@@ -194,6 +194,11 @@ class World {
   /// is the whole one, with what cuts have added; topology() says what of it is there.
   virtual const WorldSetup& setup() const = 0;
 
+  /// How many threads may step from now on, the caller included; at most those of the setup. Never changes a result.
+  virtual void limit_threads(int threads) = 0;
+  virtual int threads() const = 0;            ///< that may step now
+  virtual double worker_seconds() const = 0;  ///< processor time, s, that threads beside the caller have had
+
   /// What this world runs now and what that rests on, for people to read (facts.hpp). Implicit and static worlds that
   /// have not stepped yet factor their matrix for it. Steps after it are the same bits as without.
   virtual WorldFacts facts() = 0;

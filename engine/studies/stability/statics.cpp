@@ -20,7 +20,7 @@ std::unique_ptr<World> settled(const Trial& trial, const WorldSetup& setup) {
 }
 
 /// As tight as the precision allows.
-void tighten(WorldSetup& setup) {
+void tighten_static(WorldSetup& setup) {
   if (!is_explicit(setup.solver.integrator)) setup.solver.tolerance = setup.solver.single_precision ? 1e-4 : 1e-12;
 }
 
@@ -72,7 +72,7 @@ double volume_of(World& world) {
 
 Outcome patch(const Trial& trial) {
   WorldSetup setup = trial.setup("06_patch");
-  tighten(setup);
+  tighten_static(setup);
   if (!is_explicit(setup.solver.integrator)) setup.solver.step = 0.02;
   const auto to = targets(setup);
   const auto map = affine_fit(setup, to);
