@@ -40,6 +40,7 @@ void LinearSolver::assemble(Objective& objective) {
 }
 
 LinearSolver::Sign LinearSolver::factor() {
+  if (matrix_->lower().rows() == 0) return Sign::positive;  // which some factorisations do not bear
   if (!cholesky_) {
     cholesky_ = std::make_unique<Cholesky>();
     cholesky_->analyzePattern(matrix_->lower());
@@ -142,6 +143,8 @@ bool LinearSolver::factor_scalar() {
 }
 
 bool LinearSolver::precondition(const Vector& r, Vector& z) {
+  z.setZero(r.size());
+  if (r.isZero(0)) return true;
   assert(preconditioner_ == Preconditioner::scalar || preconditioner_ == Preconditioner::multilevel);
   if (!factor_scalar()) return false;
   scalar_->apply(r, z);
@@ -172,6 +175,7 @@ void LinearSolver::apply(const Vector& r, Vector& z) {
 
 bool LinearSolver::solve(Objective& objective, const Vector& r, double tolerance, Vector& d) {
   d.setZero(r.size());
+  if (r.isZero(0)) return true;  // and where nothing is free: there is no quotient to take
   const Sign sign = prepare(objective);
   if (sign == Sign::none) return false;
   ++counts_.solves;
@@ -249,6 +253,8 @@ bool LinearSolver::biconjugate_gradients(Objective& objective, const Vector& r, 
 }
 
 void LinearSolver::solve_projected(Objective& objective, const Vector& x, const Vector& r, Vector& d) {
+  d.setZero(r.size());
+  if (r.isZero(0)) return;
   objective.linearise(x, projection_);
   Vector Kr;
   objective.product(r, Kr);
