@@ -47,7 +47,7 @@ bool Equilibrium::load_to(double fraction, const std::atomic<bool>& stop) {
 }
 
 bool Equilibrium::increment(double next) {
-  Vector x = predict(next);
+  Vector x = tried_ = predict(next);
   return solve(x) && keep(next, x);
 }
 
@@ -105,7 +105,7 @@ bool Equilibrium::keep(double next, const Vector& x) {
 }
 
 bool Equilibrium::relax(double next) {
-  Vector x = predict(next), r, Kr;
+  Vector x = tried_ = predict(next), r, Kr;
   if (!body_.residual(x, r)) return false;
   if (r.norm() == 0) return solve(x) && keep(next, x);
   // Inertia that matches the stiffness along the residual, then ever less.

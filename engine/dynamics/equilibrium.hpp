@@ -53,6 +53,7 @@ class Equilibrium {
   void disturb() { solved_ = false; }
 
   const Vector& x() const { return x_; }
+  const Vector& tried() const { return tried_; }  ///< where the last increment was to begin
   double load() const { return load_; }
   double imbalance() const { return imbalance_; }  ///< of x()
   /// Imbalance beyond which round-off did not let the last attempt come; none where it ended otherwise.
@@ -75,7 +76,7 @@ class Equilibrium {
   double inertia_;
   Stop stop_;
   bool strict_;
-  Vector x_;
+  Vector x_, tried_;
   std::optional<double> round_off_;
   double load_ = 0, step_ = 1, imbalance_ = 0;
   bool solved_ = false;  ///< whether x_ is an equilibrium at load_

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <heml/dynamics/linear_solver.hpp>
 #include <heml/mesh/edit.hpp>
+#include <utility>
 
 namespace heml {
 namespace {
@@ -40,6 +41,7 @@ void LinearSolver::assemble(Objective& objective) {
 }
 
 LinearSolver::Sign LinearSolver::factor() {
+  if (matrix_->lower().rows() == 0) return Sign::positive;  // which some factorisations do not bear
   if (!cholesky_) {
     cholesky_ = std::make_unique<Cholesky>();
     cholesky_->analyzePattern(matrix_->lower());
@@ -126,10 +128,33 @@ void LinearSolver::take(FactorWork& work) {
   factor_scalar();  // the same factor whenever the work began
 }
 
+LinearSolver::Memory LinearSolver::memory() const {
+  Memory memory;
+  memory.factored_a = factored_a_;
+  if (outdated_) memory.outdated = scalar_;
+  if (outdated_) memory.left_out = scalar_->left_out();
+  memory.made_of = made_of_;
+  return memory;
+}
+
+void LinearSolver::restore(const Memory& memory) {
+  if (memory.outdated) {
+    scalar_ = memory.outdated;
+    scalar_->leave_out(memory.left_out);
+    made_of_ = memory.made_of;
+    outdated_ = true;
+  }
+  if (memory.factored_a < 0) return;
+  const double a = std::exchange(a_, memory.factored_a);
+  factored_a_ = -1;
+  factor_scalar();
+  a_ = a;
+}
+
 /// Of aM + L, where it has changed a lot.
 bool LinearSolver::factor_scalar() {
   if (!scalar_ || (outdated_ && static_cast<double>(modulus_.size()) < still_serves * static_cast<double>(made_of_))) {
-    scalar_ = std::make_unique<Multilevel>(free_, mesh_, modulus_, mass_, most_factored(), team_);
+    scalar_ = std::make_shared<Multilevel>(free_, mesh_, modulus_, mass_, most_factored(), team_);
     made_of_ = modulus_.size();
     outdated_ = false;
     factored_a_ = -1;
@@ -142,6 +167,8 @@ bool LinearSolver::factor_scalar() {
 }
 
 bool LinearSolver::precondition(const Vector& r, Vector& z) {
+  z.setZero(r.size());
+  if (r.isZero(0)) return true;
   assert(preconditioner_ == Preconditioner::scalar || preconditioner_ == Preconditioner::multilevel);
   if (!factor_scalar()) return false;
   scalar_->apply(r, z);
@@ -172,6 +199,7 @@ void LinearSolver::apply(const Vector& r, Vector& z) {
 
 bool LinearSolver::solve(Objective& objective, const Vector& r, double tolerance, Vector& d) {
   d.setZero(r.size());
+  if (r.isZero(0)) return true;  // and where nothing is free: there is no quotient to take
   const Sign sign = prepare(objective);
   if (sign == Sign::none) return false;
   ++counts_.solves;
@@ -249,6 +277,8 @@ bool LinearSolver::biconjugate_gradients(Objective& objective, const Vector& r, 
 }
 
 void LinearSolver::solve_projected(Objective& objective, const Vector& x, const Vector& r, Vector& d) {
+  d.setZero(r.size());
+  if (r.isZero(0)) return;
   objective.linearise(x, projection_);
   Vector Kr;
   objective.product(r, Kr);

@@ -39,6 +39,17 @@ class LinearSolver {
   bool is_outdated() const { return outdated_; }
   /// Makes another of the body as it is now. Null where there is nothing to make.
   std::shared_ptr<FactorWork> factor_work() const;
+  /// What solves to come depend on beside the body: which a the scalar matrix is factored for, and the matrix where it
+  /// cannot be made again, being of a body with more elements.
+  struct Memory {
+    double factored_a = -1;  ///< 1/s²; negative: it is not
+    std::shared_ptr<Multilevel> outdated;
+    std::vector<std::size_t> left_out;
+    std::size_t made_of = 0;
+  };
+  Memory memory() const;
+  /// Of a solver made anew: goes on as that one would have.
+  void restore(const Memory& memory);
   /// Preconditions with what such work has made (done, and of the body as it is now) from now on.
   void take(FactorWork& work);
 
@@ -91,7 +102,7 @@ class LinearSolver {
   std::unique_ptr<BlockMatrix> matrix_;  ///< made when first needed, like the rest
   std::unique_ptr<Cholesky> cholesky_;
   Vector pivots_;  ///< |D|, in the factor's order
-  std::unique_ptr<Multilevel> scalar_;
+  std::shared_ptr<Multilevel> scalar_;  ///< also of those that remember it
   std::unique_ptr<FloatGradients> in_float_;
   std::vector<Mat3> inverse_blocks_;  ///< #free
   std::vector<double> modulus_;

@@ -32,6 +32,7 @@ class Multilevel {
   /// Takes nodes for fixed from now on that were not: z is 0 there. What is left is symmetric and positive definite as
   /// before, and near to what it would be anew while they are few. rows: of free nodes.
   void leave_out(std::vector<std::size_t> rows) { left_out_ = std::move(rows); }
+  const std::vector<std::size_t>& left_out() const { return left_out_; }
 
   /// z ≈ (aM + L)⁻¹ r for each axis (3 #V); 0 at nodes that are not free.
   void apply(const Vector& r, Vector& z);

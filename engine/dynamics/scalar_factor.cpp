@@ -4,6 +4,10 @@
 namespace heml {
 
 bool ScalarFactor::factor(const ScalarMatrix& A) {
+  if (A.rows() == 0) {  // definite, and nothing to solve
+    *this = ScalarFactor();
+    return true;
+  }
   const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> cholesky(A);
   if (cholesky.info() != Eigen::Success) return false;
   const auto& L = cholesky.matrixL().nestedExpression();

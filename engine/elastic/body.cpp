@@ -3,7 +3,6 @@
 #include <cmath>
 #include <heml/elastic/block_rows.hpp>
 #include <heml/elastic/body.hpp>
-#include <heml/elastic/memory_term.hpp>
 #include <heml/elastic/stiffness_product.hpp>
 #include <heml/elastic/wide.hpp>
 #include <heml/materials/parameter_slots.hpp>
@@ -25,6 +24,11 @@ ElementState<Real> state_of(const StressSum<Real>& stress, const Real C[6], Real
   const Real mean = (T[0] + T[1] + T[2]) / 3;
   for (int i = 0; i < 3; ++i) T[i] -= mean;
   return {J, std::sqrt(std::max(largest, Real(0))), std::sqrt(Real(1.5) * contract3(T, T)) / std::abs(J)};
+}
+
+template <class Real>
+bool is_finite(const Tensions<Real>& t) {
+  return std::isfinite(t.wJ) && std::all_of(std::begin(t.T), std::end(t.T), [](Real T) { return std::isfinite(T); });
 }
 
 /// What the vectorised loops run as here.
@@ -82,6 +86,7 @@ typename ElasticBody<Real>::Part ElasticBody<Real>::make_part(std::size_t index,
             {},
             false};
   part.group.density = static_cast<Real>(material.density);
+  for (const auto& term : part.terms) term->begin_step(step_);
   part.flow = make_flow<Real>(material, options_.continuation, part.group);
   part.in_fans = !part.terms.empty() && material.fields.empty() && !part.flow;
   return part;
@@ -392,8 +397,8 @@ std::size_t ElasticBody<Real>::bytes() const {
     const ElementGroup<Real>& group = part.group;
     sum += bytes_of(group.element, group.node, group.A, group.volume, group.gamma, group.fibre, group.parameters);
     sum += bytes_of(part.stiffness) + (part.flow ? part.flow->bytes() : 0);
-    for (const auto& term : part.terms)  // laws keep nothing of an element
-      if (const auto* memory = dynamic_cast<const MemoryTerm<Real>*>(term.get())) sum += memory->bytes();
+    for (const auto& term : part.terms)
+      for (const SlotMemory<Real>& memory : term->memory()) sum += bytes_of(*memory.values);
   }
   return sum + fans_.bytes() + springs_.bytes() + (pressure_ ? pressure_->bytes() : 0);
 }
@@ -401,10 +406,11 @@ std::size_t ElasticBody<Real>::bytes() const {
 template <class Real>
 int ElasticBody<Real>::first_invalid(const Real* x) const {
   int first = -1;
-  each_slot(x, [&](const Part& part, std::size_t s, const Link<Real>& link, const RestShape<Real>&) {
+  each_slot(x, [&](const Part& part, std::size_t s, const Link<Real>& link, const RestShape<Real>& rest) {
     for (const auto& term : part.terms)
-      if (!term->valid(part.group, s, link) && (first < 0 || part.group.element[s] < first))
-        first = part.group.element[s];
+      if (first < 0 || part.group.element[s] < first)
+        if (!term->valid(part.group, s, link) || !is_finite(term->tensions(part.group, s, link, rest)))
+          first = part.group.element[s];
   });
   return first;
 }
@@ -455,6 +461,14 @@ void ElasticBody<Real>::set_material(std::size_t index, const Material& material
 }
 
 template <class Real>
+SlotMemories<Real> ElasticBody<Real>::Part::memory() {
+  SlotMemories<Real> lists = flow ? flow->memory(group) : SlotMemories<Real>();
+  for (const auto& term : terms)
+    for (const SlotMemory<Real>& list : term->memory()) lists.push_back(list);
+  return lists;
+}
+
+template <class Real>
 bool ElasticBody<Real>::has_memory() const {
   return std::any_of(parts_.begin(), parts_.end(),
                      [&](const Part& part) { return materials_[part.material].has_memory(); });
@@ -462,6 +476,7 @@ bool ElasticBody<Real>::has_memory() const {
 
 template <class Real>
 void ElasticBody<Real>::begin_step(Real h) {
+  step_ = h;
   for (Part& part : parts_)
     for (const auto& term : part.terms) term->begin_step(h);
 }

@@ -51,6 +51,23 @@ struct KernelInfo {
   double bytes_per_tet;  ///< read and written in one evaluation, each array once; 0 of springs
 };
 
+/// What is to be known of a body beside its mesh, to make it anew as it was: its materials, in which order its elements
+/// lie, what they remember, how the fast kernels have them laid out.
+template <class Real>
+struct BodyMemory {
+  struct Part {
+    std::size_t material;
+    std::vector<int> element;               ///< of each slot, inner numbers
+    std::vector<std::vector<Real>> values;  ///< what its slots remember (slot_memory.hpp)
+  };
+  std::vector<Part> parts;
+  std::vector<Material> materials;
+  FanForces<Real> fans;
+  double plastic_work = 0;  ///< J
+  Real step = 0;            ///< s, begun last
+  std::size_t bytes() const;
+};
+
 template <class Real>
 class ElasticBody {
  public:
@@ -114,7 +131,7 @@ class ElasticBody {
   /// Of all that is kept.
   std::size_t bytes() const;
 
-  /// First element (inner number) out of its law's range; −1: none, also where forces() saw one by its own rounding.
+  /// First element (inner number) out of its law's range, or whose forces are no numbers; −1: none, also where forces() saw one by its own rounding.
   int first_invalid(const Real* x) const;
 
   /// #T in inner order.
@@ -135,7 +152,12 @@ class ElasticBody {
   /// Another mesh, of the same nodes and further ones: element t is what origins[t] was or a piece of it, and
   /// remembers what that did. Materials as theirs. Blocks of fans that are not touched keep their layout.
   void take_pieces(const TetMesh& mesh, const std::vector<int>& material_of, const std::vector<int>& origins);
-  /// Another mesh of the same nodes, at rest: what keep_elements() took away is there again. As in the constructor.
+  /// What is to be known of the body beside its mesh, to come back to it as it is now, to the bit.
+  BodyMemory<Real> memory();
+  /// Back to a mesh and what memory() was then. What has another material since has forgotten: it has lasted at x.
+  void restore(const TetMesh& mesh, const std::vector<int>& material_of, const BodyMemory<Real>& memory,
+               const Real* x);
+  /// Another mesh, at rest, as in the constructor.
   void set_mesh(const TetMesh& mesh, const std::vector<int>& material_of);
 
   // What remembers (viscosity, relaxation, plasticity), if anything does: a step of length h begins (0: none; infinite:
@@ -162,6 +184,7 @@ class ElasticBody {
     bool in_fans;                 ///< its law's forces are run by fans_, not by the first of its terms
 
     std::size_t first_loop() const { return in_fans ? 1 : 0; }  ///< of its terms
+    SlotMemories<Real> memory();                                  ///< of all of them
     bool has_loops(bool nodal_pressure) const { return terms.size() > first_loop() || nodal_pressure; }
   };
   static constexpr std::size_t grain_ = 2048;       ///< elements below which waking a thread costs more than it brings
@@ -209,6 +232,7 @@ class ElasticBody {
   bool projected_ = false;             ///< whether what was found there has been made positive
   std::vector<double> packet_energy_;  ///< written and read within energy()
   double plastic_work_ = 0;
+  Real step_ = 0;  ///< s, begun last
 };
 
 }  // namespace heml

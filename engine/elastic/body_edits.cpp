@@ -1,8 +1,6 @@
 // Other elements in a body that lives.
 #include <algorithm>
 #include <heml/elastic/body.hpp>
-#include <heml/elastic/memory_term.hpp>
-#include <heml/elastic/reshape.hpp>
 
 namespace heml {
 namespace {
@@ -46,6 +44,45 @@ void ElasticBody<Real>::set_mesh(const TetMesh& mesh, const std::vector<int>& ma
   forget(at_rest().data());
 }
 
+template <class Real>
+BodyMemory<Real> ElasticBody<Real>::memory() {
+  BodyMemory<Real> memory{{}, materials_, fans_, plastic_work_, step_};
+  for (Part& part : parts_) {
+    auto& of_part = memory.parts.emplace_back(part.material, part.group.element);
+    for (const SlotMemory<Real>& list : part.memory()) of_part.values.push_back(*list.values);
+  }
+  return memory;
+}
+
+template <class Real>
+void ElasticBody<Real>::restore(const TetMesh& mesh, const std::vector<int>& material_of,
+                                const BodyMemory<Real>& memory, const Real* x) {
+  mesh_ = mesh;
+  material_of_ = material_of;
+  parts_.clear();
+  step_ = memory.step;
+  for (const auto& of_part : memory.parts) {
+    Part& part = parts_.emplace_back(make_part(of_part.material, of_part.element));
+    for (const auto& term : part.terms) term->forget(part.group, x);
+    if (!(materials_[part.material] == memory.materials[part.material])) continue;
+    const SlotMemories<Real> lists = part.memory();
+    for (std::size_t k = 0; k < lists.size(); ++k) *lists[k].values = of_part.values[k];
+  }
+  join_parts();
+  plastic_work_ = memory.plastic_work;
+  if (materials_ == memory.materials)
+    fans_ = memory.fans;
+  else
+    make_fans();
+}
+
+template <class Real>
+std::size_t BodyMemory<Real>::bytes() const {
+  std::size_t sum = fans.bytes();
+  for (const Part& part : parts) sum += bytes_of(part.element, part.values);
+  return sum;
+}
+
 /// number: of each element from now on, −1: gone.
 template <class Real>
 void ElasticBody<Real>::keep_numbered(Part& part, const std::vector<int>& number) {
@@ -63,7 +100,8 @@ void ElasticBody<Real>::keep_numbered(Part& part, const std::vector<int>& number
     return;
   }
   const std::vector<std::size_t> from = keep_slots(part.group, slots);
-  for (const auto& term : part.terms) term->take_slots(from);
+  for (const auto& term : part.terms)
+    for (const SlotMemory<Real>& memory : term->memory()) take_slots(*memory.values, from, memory.each);
   if (part.flow) part.flow->take_slots(from);
 }
 
@@ -125,14 +163,26 @@ void ElasticBody<Real>::take_memory(const Part& old, const TetMesh& before, cons
     reshapes.emplace_back(places(before, origin), places(mesh_, element));
   }
   for (std::size_t k = 0; k < part.terms.size(); ++k) {
-    auto* memory = dynamic_cast<MemoryTerm<Real>*>(part.terms[k].get());
-    if (memory) memory->take_pieces(dynamic_cast<const MemoryTerm<Real>&>(*old.terms[k]), from, reshapes);
+    const SlotMemories<Real> to = part.terms[k]->memory(), whole = old.terms[k]->memory();
+    for (std::size_t list = 0; list < to.size(); ++list) {
+      *to[list].values = *whole[list].values;
+      take_slots(*to[list].values, from, to[list].each);
+    }
+    part.terms[k]->reshape(reshapes);
   }
   if (part.flow) part.flow->take_pieces(*old.flow, old.group, from, reshapes, part.group);
 }
 
 template void ElasticBody<float>::set_mesh(const TetMesh&, const std::vector<int>&);
 template void ElasticBody<double>::set_mesh(const TetMesh&, const std::vector<int>&);
+template struct BodyMemory<float>;
+template struct BodyMemory<double>;
+template BodyMemory<float> ElasticBody<float>::memory();
+template BodyMemory<double> ElasticBody<double>::memory();
+template void ElasticBody<float>::restore(const TetMesh&, const std::vector<int>&, const BodyMemory<float>&,
+                                          const float*);
+template void ElasticBody<double>::restore(const TetMesh&, const std::vector<int>&, const BodyMemory<double>&,
+                                           const double*);
 template void ElasticBody<float>::keep_elements(const std::vector<int>&);
 template void ElasticBody<double>::keep_elements(const std::vector<int>&);
 template void ElasticBody<float>::take_pieces(const TetMesh&, const std::vector<int>&, const std::vector<int>&);

@@ -37,8 +37,8 @@ FanForces<Real>::FanForces(const TetMesh& mesh, const std::vector<FanPart>& part
     laws_.push_back(law_of(part, continuation));
     elements.push_back(elements_of(mesh, part, laws_.back().shape));
   }
-  layout_ = FanLayout<Real>(mesh, elements, lanes_of<Real>(isa_), team);
-  shared_force_.resize(3 * layout_.shared_slots);
+  layout_ = std::make_shared<const FanLayout<Real>>(mesh, elements, lanes_of<Real>(isa_), team);
+  shared_force_.resize(3 * layout_->shared_slots);
 }
 
 template <class Real>
@@ -77,14 +77,15 @@ bool FanForces<Real>::follow(const TetMesh& before, const TetMesh& mesh, const s
   if (parts.size() != laws_.size()) return false;
   std::vector<FanElements> elements;
   for (std::size_t p = 0; p < parts.size(); ++p) elements.push_back(elements_of(mesh, parts[p], laws_[p].shape));
-  layout_.follow(before, mesh, elements, origins, lanes_of<Real>(isa_), team);
-  shared_force_.assign(3 * layout_.shared_slots, Real(0));
+  layout_ = std::make_shared<const FanLayout<Real>>(
+      layout_->edited(before, mesh, elements, origins, lanes_of<Real>(isa_), team));
+  shared_force_.assign(3 * layout_->shared_slots, Real(0));
   return true;
 }
 
 template <class Real>
 bool FanForces<Real>::forces(const Real* x, Real* f, ThreadTeam& team) {
-  const FanLayout<Real>& fans = layout_;
+  const FanLayout<Real>& fans = *layout_;
   std::atomic<bool> valid{true};
   const std::size_t blocks_a_thread = 1 + grain_ * fans.blocks.size() / (fans.elements() + 1);
   team.for_ranges(fans.blocks.size(), blocks_a_thread, [&](std::size_t begin, std::size_t end) {
@@ -116,8 +117,9 @@ bool FanForces<Real>::forces(const Real* x, Real* f, ThreadTeam& team) {
 
 template <class Real>
 std::size_t FanForces<Real>::bytes() const {
-  return bytes_of(layout_.blocks, layout_.size, layout_.index, layout_.shape, layout_.place, layout_.element,
-                  layout_.shared_node, layout_.shared_start, layout_.shared_slot, shared_force_);
+  const FanLayout<Real>& fans = *layout_;
+  return bytes_of(fans.blocks, fans.size, fans.index, fans.shape, fans.place, fans.element, fans.shared_node,
+                  fans.shared_start, fans.shared_slot, shared_force_);
 }
 
 template class FanForces<float>;

@@ -32,19 +32,19 @@ class FanForces {
   /// where the constants of each part are the same still; else nothing is changed.
   bool take_laws(const std::vector<FanPart>& parts, bool continuation);
 
-  /// Takes an edit of the mesh (fan_layout.hpp, follow): blocks it did not touch are kept. Returns whether it could,
+  /// Takes an edit of the mesh (fan_layout.hpp, edited): blocks it did not touch are kept. Returns whether it could,
   /// which is where there are as many parts as before; else nothing is changed.
   bool follow(const TetMesh& before, const TetMesh& mesh, const std::vector<FanPart>& parts,
               const std::vector<int>& origins, ThreadTeam& team);
 
-  bool empty() const { return layout_.blocks.empty(); }
+  bool empty() const { return layout_->blocks.empty(); }
 
   /// Forces at positions x (3 #V) into f (3 #V, overwritten; zero at nodes of no such element), N. Returns whether
   /// every law is defined there.
   bool forces(const Real* x, Real* f, ThreadTeam& team);
 
   InstructionSet instruction_set() const { return isa_; }
-  double bytes_per_tet() const { return layout_.bytes_per_tet(); }
+  double bytes_per_tet() const { return layout_->bytes_per_tet(); }
   /// Of all that is kept.
   std::size_t bytes() const;
 
@@ -61,7 +61,7 @@ class FanForces {
   Law law_of(const FanPart& part, bool continuation) const;
 
   InstructionSet isa_ = InstructionSet::portable;
-  FanLayout<Real> layout_;
+  std::shared_ptr<const FanLayout<Real>> layout_ = std::make_shared<const FanLayout<Real>>();  ///< of copies too
   std::vector<Law> laws_;           ///< of each part
   std::vector<Real> shared_force_;  ///< 3 a shared slot, written and read within forces()
 };

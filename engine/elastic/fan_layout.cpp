@@ -241,8 +241,9 @@ FanLayout<Real>::FanLayout(const TetMesh& mesh, const std::vector<FanElements>& 
 }
 
 template <class Real>
-void FanLayout<Real>::follow(const TetMesh& before, const TetMesh& mesh, const std::vector<FanElements>& parts,
-                             const std::vector<int>& origins, std::size_t lanes, ThreadTeam& team) {
+FanLayout<Real> FanLayout<Real>::edited(const TetMesh& before, const TetMesh& mesh,
+                                        const std::vector<FanElements>& parts, const std::vector<int>& origins,
+                                        std::size_t lanes, ThreadTeam& team) const {
   std::vector<std::size_t> block_of(before.tets.size(), 0);
   for (std::size_t b = 0; b < blocks.size(); ++b)
     for (std::size_t k = 0; k < blocks[b].elements; ++k) block_of[at(element[blocks[b].element + k])] = b;
@@ -266,7 +267,7 @@ void FanLayout<Real>::follow(const TetMesh& before, const TetMesh& mesh, const s
     for (std::size_t k = 0; k < block.nodes; ++k)
       chunks.back().nodes.push_back(static_cast<int>(place[block.place + k] / 3));
   }
-  *this = layout_of(mesh, parts, std::move(chunks), lanes, *this, team);
+  return layout_of(mesh, parts, std::move(chunks), lanes, *this, team);
 }
 
 template <class Real>

@@ -65,10 +65,10 @@ struct FanLayout {
   /// mesh: in inner order, positive volumes. lanes: of the kernel that will run. The same for any number of threads.
   FanLayout(const TetMesh& mesh, const std::vector<FanElements>& parts, std::size_t lanes, ThreadTeam& team);
 
-  /// Takes an edit of the mesh: element t is what origins[t] was in the mesh before, or a piece of it, whose nodes are
-  /// among that one's or new. Parts as many as they were. Rest as in the constructor.
-  void follow(const TetMesh& before, const TetMesh& mesh, const std::vector<FanElements>& parts,
-              const std::vector<int>& origins, std::size_t lanes, ThreadTeam& team);
+  /// The layout after an edit of the mesh: element t is what origins[t] was in the mesh before, or a piece of it, whose
+  /// nodes are among that one's or new. Parts as many as they were. Rest as in the constructor.
+  FanLayout edited(const TetMesh& before, const TetMesh& mesh, const std::vector<FanElements>& parts,
+                   const std::vector<int>& origins, std::size_t lanes, ThreadTeam& team) const;
 
   std::size_t elements() const { return element.size(); }
   /// What one evaluation of the forces reads and writes, each array once, positions and forces included.

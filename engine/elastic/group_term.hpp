@@ -6,6 +6,8 @@
 // What is asked of one slot at a time (parameters that differ between elements, assembly, memory) goes through the
 // functions of a slot, from which the loops here are made.
 #include <heml/elastic/group_loops.hpp>
+#include <heml/elastic/reshape.hpp>
+#include <heml/elastic/slot_memory.hpp>
 #include <heml/materials/material.hpp>
 #include <memory>
 #include <vector>
@@ -64,8 +66,10 @@ class GroupTerm {
   virtual void begin_step(Real) {}
   virtual void commit(const Group&, const Real*) {}
   virtual void forget(const Group&, const Real*) {}
-  /// An edit of the group: what slot from[s] remembered is slot s's from now on.
-  virtual void take_slots(std::span<const std::size_t>) {}
+  /// All that the term keeps of its slots from step to step; nothing for a law.
+  virtual SlotMemories<Real> memory() = 0;
+  /// An edit of the mesh: what slot s remembers is that of an element, of which it is a piece from now on, reshaped so.
+  virtual void reshape(const std::vector<Reshape<Real>>&) {}
 };
 
 /// Writes or adds one slot's corner forces.

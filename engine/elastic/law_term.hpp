@@ -75,6 +75,8 @@ class LawTerm final : public GroupTerm<Real> {
     for (int i = 0; i < 3; ++i) tau[i] -= mean;
   }
 
+  SlotMemories<Real> memory() override { return {}; }
+
   bool forces(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real* corner,
               bool add) const override {
     if (!is_wide()) return GroupTerm<Real>::forces(group, x, begin, end, corner, add);

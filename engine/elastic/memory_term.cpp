@@ -102,11 +102,8 @@ void MemoryTerm<Real>::forget(const Group& group, const Real* x) {
 }
 
 template <class Real>
-void MemoryTerm<Real>::take_pieces(const MemoryTerm& other, std::span<const std::size_t> from,
-                                   const std::vector<Reshape<Real>>& reshapes) {
-  kept_ = other.kept_;
-  heml::take_slots(kept_, from, stride_);
-  for (std::size_t s = 0; s < from.size(); ++s) {
+void MemoryTerm<Real>::reshape(const std::vector<Reshape<Real>>& reshapes) {
+  for (std::size_t s = 0; s < reshapes.size(); ++s) {
     Real* kept = &kept_[stride_ * s];
     reshapes[s].lengths(kept);
     for (std::size_t k = 6; k < stride_; k += 6) reshapes[s].tensions(kept + k);

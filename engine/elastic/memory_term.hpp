@@ -12,8 +12,6 @@
 //
 //   slot s:  G0[6] T0[6] Q0[6] Q1[6] ...   as committed last
 #include <heml/elastic/group_term.hpp>
-#include <heml/elastic/reshape.hpp>
-#include <heml/math/bytes.hpp>
 
 namespace heml {
 
@@ -44,11 +42,8 @@ class MemoryTerm final : public GroupTerm<Real> {
   void begin_step(Real h) override;
   void commit(const Group& group, const Real* x) override;
   void forget(const Group& group, const Real* x) override;
-  std::size_t bytes() const { return bytes_of(kept_); }
-  void take_slots(std::span<const std::size_t> from) override { heml::take_slots(kept_, from, stride_); }
-  /// Slot s is one of a piece, reshaped so, of what slot from[s] of another term is of.
-  void take_pieces(const MemoryTerm& other, std::span<const std::size_t> from,
-                   const std::vector<Reshape<Real>>& reshapes);
+  SlotMemories<Real> memory() override { return {{&kept_, stride_}}; }
+  void reshape(const std::vector<Reshape<Real>>& reshapes) override;
 
  private:
   struct Branch {

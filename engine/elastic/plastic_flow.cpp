@@ -80,6 +80,13 @@ void PlasticFlow<Real>::reset(Group& group) {
 }
 
 template <class Real>
+SlotMemories<Real> PlasticFlow<Real>::memory(Group& group) {
+  SlotMemories<Real> memory = {{&strain_, 1}, {&group.gamma, 1}};
+  for (auto& list : group.A) memory.push_back({&list, 1});
+  return memory;
+}
+
+template <class Real>
 void PlasticFlow<Real>::take_slots(std::span<const std::size_t> from) {
   for (auto& list : rest_A_) heml::take_slots(list, from);
   heml::take_slots(rest_gamma_, from);

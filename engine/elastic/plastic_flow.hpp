@@ -6,8 +6,6 @@
 // stress equal yield + hardening · (equivalent plastic strain). For isotropic laws whose principal stresses are ordered
 // as the stretches, stress times flow is never negative: plastic work is dissipated, not made.
 #include <heml/elastic/group_term.hpp>
-#include <heml/elastic/reshape.hpp>
-#include <heml/math/bytes.hpp>
 #include <memory>
 
 namespace heml {
@@ -29,6 +27,8 @@ class PlasticFlow {
   /// What slots of another group have flowed becomes that of its pieces: slot s is one of slot from[s], reshaped so.
   void take_pieces(const PlasticFlow& other, const Group& of_other, std::span<const std::size_t> from,
                    const std::vector<Reshape<Real>>& reshapes, Group& group);
+  /// All that has flowed: of the group too, whose rest shape it is.
+  SlotMemories<Real> memory(Group& group);
   std::size_t bytes() const { return bytes_of(rest_A_, rest_gamma_, strain_); }
   const std::vector<Real>& plastic_strain() const { return strain_; }  ///< padded #S, equivalent
 

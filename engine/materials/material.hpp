@@ -25,18 +25,24 @@ std::span<const std::string_view> volume_term_names();  ///< in the order of the
 struct PronyTerm {
   double gamma;  ///< strength relative to the elastic law, which is the long-term one
   double tau;    ///< s
+
+  bool operator==(const PronyTerm&) const = default;
 };
 
 /// J2 plasticity with linear isotropic hardening, on the isochoric part.
 struct Plasticity {
   double yield = 0;      ///< Pa, von Mises Kirchhoff stress at which flow begins
   double hardening = 0;  ///< Pa per unit of equivalent plastic strain
+
+  bool operator==(const Plasticity&) const = default;
 };
 
 /// Parameters that differ from element to element come from a field of the mesh file.
 struct FieldParameter {
   std::size_t parameter;  ///< index into Material::parameters, which then holds the mean
   std::string field;      ///< name in the mesh file
+
+  bool operator==(const FieldParameter&) const = default;
 };
 
 struct Material {
@@ -54,6 +60,7 @@ struct Material {
   std::vector<PronyTerm> relaxation = {};  ///< empty: none
   std::optional<Plasticity> plasticity = {};
 
+  bool operator==(const Material&) const = default;
   bool has_memory() const { return viscosity > 0 || bulk_viscosity > 0 || !relaxation.empty() || plasticity; }
 };
 

@@ -100,6 +100,7 @@ void write_report(const std::filesystem::path& path, World& world, const SolveFa
   report["recoveries"] = world.recoveries();
   if (const Recovery* recovery = world.recovery()) report["recovery"] = recovery_json(*recovery);
   if (facts.halt) report["halt"] = halt_json(*facts.halt);
+  if (facts.refused) report["refused"] = *facts.refused;
   write_text_file(path, json_text(report, path.string(), true) + "\n");
 }
 

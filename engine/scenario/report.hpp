@@ -12,6 +12,7 @@ struct SolveFacts {
   bool converged = true;
   double wall_seconds = 0;
   std::optional<Halt> halt;
+  std::optional<std::string> refused;  ///< an event that ended it, and why
 };
 
 /// report.json; extremes of J are of the elements that are there. Throws InputError when it cannot be written.

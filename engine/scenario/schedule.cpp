@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <heml/base/error.hpp>
+#include <heml/base/log.hpp>
 #include <heml/scenario/schedule.hpp>
 #include <heml/scenario/selection.hpp>
 
@@ -47,10 +48,31 @@ std::span<const Event> Schedule::due(long tick) {
   return std::span(events_).subspan(first, next_ - first);
 }
 
+/// After a cut: whether its sweep has parted anything. A stroke is over where no later cut goes on with it.
+void Schedule::watch_stroke(const Event& event, bool parted) {
+  const auto* cut = std::get_if<CutTissue>(&event.command);
+  if (!cut) return;
+  parted_ = (cut->goes_on && parted_) || parted;
+  const auto next = std::find_if(events_.begin() + (&event - events_.data()) + 1, events_.end(), [](const Event& later) {
+    return std::holds_alternative<CutTissue>(later.command);
+  });
+  const bool goes_on = next != events_.end() && std::get<CutTissue>(next->command).goes_on;
+  if (!parted_ && !goes_on)
+    warn("{}: events: step {}: the cut parted nothing: its blade passes beside the body as it lies then", file_,
+         event.tick);
+}
+
 void Schedule::apply(World& world, const std::function<void(const Command&)>& applied) {
+  const auto split = [&] {
+    std::size_t sum = 0;
+    for (const EditReport& edit : world.edits()) sum += edit.split;
+    return sum;
+  };
   for (const Event& event : due(world.ticks())) {
+    const std::size_t before = split();
     if (const auto problem = world.apply(event.command))
       throw InputError(file_, fmt::format("events: step {}", event.tick), *problem, event_line(event));
+    watch_stroke(event, split() != before);
     applied(event.command);
   }
 }

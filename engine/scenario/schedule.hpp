@@ -24,15 +24,18 @@ class Schedule {
   /// Those handed out so far.
   std::span<const Event> past() const { return std::span(events_).first(next_); }
 
-  /// Applies the events due at the world's coming tick, and tells of each that was. Throws InputError when the world
-  /// refuses one.
+  /// Applies the events due at the world's coming tick, and tells of each that was. Warns of a stroke that has parted
+  /// nothing. Throws InputError when the world refuses an event: what came before it stands.
   void apply(
       World& world, const std::function<void(const Command&)>& applied = [](const Command&) {});
 
  private:
+  void watch_stroke(const Event& event, bool parted);
+
   std::string file_;
   std::vector<Event> events_;  ///< ascending in tick
   std::size_t next_ = 0;
+  bool parted_ = false;  ///< whether the stroke under way has parted anything
 };
 
 }  // namespace heml

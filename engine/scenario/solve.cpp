@@ -81,21 +81,33 @@ SolveResult solve(const Scene& scene, const fs::path& out, const std::function<v
     return true;
   };
   double seconds = 0;
+  std::optional<InputError> refused;
   for (const Landing& landing : landings) {
-    const auto begin = std::chrono::steady_clock::now();
-    player.to(landing.time, on_tick);
-    seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    trace.take(*world);
     const bool last = &landing == &landings.back();
-    if (last || !world->halt())
-      write_state(out, landing.stem, *world, last || scene.output_positions, scene.output_vtu);
+    if (!refused) {
+      const auto begin = std::chrono::steady_clock::now();
+      try {
+        player.to(landing.time, on_tick);
+      } catch (const InputError& error) {
+        refused = error;
+      }
+      seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+      trace.take(*world);
+    }
+    const bool reached = !refused && !world->halt();
+    if (last || reached) write_state(out, landing.stem, *world, last || scene.output_positions, scene.output_vtu);
   }
   trace.write(out);
   SolveFacts facts;
   facts.halt = world->halt();
-  facts.converged = !facts.halt;
+  if (refused) facts.refused = refused->what();
+  facts.converged = !facts.halt && !refused;
   facts.wall_seconds = seconds;
   write_report(out / "report.json", *world, facts);
+  if (refused) {
+    warn("an event was refused; what was reached before it is in {}", out.string());
+    throw *refused;
+  }
   return {world->halt(), world->ticks(), world->steps(), world->time(), seconds};
 }
 

@@ -20,7 +20,8 @@ struct SolveResult {
 /// report.json, and for outputs.times, in the order listed, positions_<k>.csv; .vtu beside them where asked for
 /// (frame_series.hpp); tables of how it went where asked for (trace.hpp); of the last recovery a recording,
 /// recovery.jsonl.
-/// progress: called now and then with the fraction done. Throws InputError.
+/// progress: called now and then with the fraction done. Throws InputError; of an event that the world refuses only
+/// after what was reached is written, marked in report.json by "refused".
 SolveResult solve(const Scene& scene, const std::filesystem::path& out,
                   const std::function<void(double)>& progress = {});
 

@@ -237,6 +237,7 @@ void BodyObjective<Real>::find_forces(const Vector& x) {
   for (std::size_t i = 0; i < f_.size(); ++i) forces_[static_cast<Eigen::Index>(i)] = static_cast<double>(f_[i]);
   add_external(at_x, x);
   forces_ += external_;
+  is_defined_ = is_defined_ && forces_.allFinite();  // on held nodes too: what supports bear
   forces_at_ = x;
 }
 

@@ -92,8 +92,9 @@ struct CutTissue {
   Sweep sweep;           ///< where the blade is, m, in space as the tissue lies now
   bool goes_on = false;  ///< with the last cut: one stroke, and one edit to undo
 };
-/// Takes back the last removal or stroke: elements and positions are what they were before it, what happened since is
-/// forgotten, time goes on.
+/// Takes back the last removal or stroke: elements and positions are what they were before it, and so is what they
+/// remember; what happened since is forgotten, time goes on. A stroke that parted nothing is none. What has been grasped
+/// ever since stays grasped. With nothing but edits since, the body goes on as if there had been none, to the bit.
 struct Undo {};
 /// Preconditions implicit steps from now on with what is made for the body as it is now, after elements were removed.
 /// Sessions send it when that has arrived from another thread (World::factor_work); where none has, it is made there

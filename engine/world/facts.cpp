@@ -83,10 +83,10 @@ std::optional<SolverFacts> TypedWorld<Real>::solver_facts() {
 template <class Real>
 std::size_t TypedWorld<Real>::bytes_to_undo() const {
   const auto of = [](const Saved& saved) {
-    return bytes_of_mesh(saved.mesh) + bytes_of_model(saved.model) +
-           bytes_of(saved.topology->elements, saved.x, saved.v);
+    return bytes_of_mesh(saved.mesh) + bytes_of_model(saved.model) + saved.body.bytes() +
+           bytes_of(saved.topology->elements, saved.state.x, saved.state.v, saved.state.f);
   };
-  std::size_t sum = of(*whole_);
+  std::size_t sum = !saved_.empty() && saved_.front() == whole_ ? 0 : of(*whole_);
   for (const auto& saved : saved_) sum += of(*saved);
   return sum;
 }

@@ -51,6 +51,15 @@ bool ImplicitParts<Real>::keep_elements(const std::vector<int>& elements, const 
   return !equilibrium && linear.keep_elements(elements);
 }
 
+template <class Real>
+void ImplicitParts<Real>::restore(const ImplicitMemory& memory) {
+  free = memory.free;  // with the nodes that have lost all elements since it was made: they have no mass
+  x_before = memory.x_before;
+  v_before = memory.v_before;
+  h_before = memory.h_before;
+  linear.restore(memory.linear);
+}
+
 template struct ImplicitParts<float>;
 template struct ImplicitParts<double>;
 

@@ -9,6 +9,14 @@
 
 namespace heml {
 
+/// What steps to come depend on beside the state: the step before, the unknowns and what solves for them.
+struct ImplicitMemory {
+  FreeNodes free;
+  Vector x_before, v_before;
+  double h_before = 0;
+  LinearSolver::Memory linear;
+};
+
 template <class Real>
 struct ImplicitParts {
   FreeNodes free;
@@ -29,6 +37,9 @@ struct ImplicitParts {
   /// Elements have gone: these are left, by the numbers they had; model and masses have followed. Returns false where
   /// parts have to be made anew.
   bool keep_elements(const std::vector<int>& elements, const std::vector<Real>& masses);
+  ImplicitMemory memory() const { return {free, x_before, v_before, h_before, linear.memory()}; }
+  /// Of parts made anew, of the body that it was: they go on as those would have.
+  void restore(const ImplicitMemory& memory);
   ImplicitParts(const ImplicitParts&) = delete;
   ImplicitParts& operator=(const ImplicitParts&) = delete;
 };

@@ -39,18 +39,25 @@ void TypedWorld<Real>::advance_implicit(double until) {
     }
     longest /= 2;
     if (setup_.solver.step || longest < smallest_share * whole)
-      halt_unsolved(
-          fmt::format("did not converge at t = {:.6g} s: {:.3g} of the forces is left unbalanced (take a "
-                      "smaller step{})",
-                      state_.time, work_.residual, setup_.solver.tolerance ? " or a larger tolerance" : ""));
+      halt_unsolved(undefined_at_.empty() ? Halt{Halt::Cause::not_converged, -1, -1, why_unbalanced()}
+                                          : out_of_range(undefined_at_, after));
   }
 }
 
 template <class Real>
-void TypedWorld<Real>::halt_unsolved(const std::string& message) {
+std::string TypedWorld<Real>::why_unbalanced() const {
+  return fmt::format("did not converge at t = {:.6g} s: {} (take a smaller step{})", state_.time,
+                     std::isfinite(work_.residual)
+                         ? fmt::format("{:.3g} of the forces is left unbalanced", work_.residual)
+                         : "the forces left unbalanced overflow",
+                     setup_.solver.tolerance ? " or a larger tolerance" : "");
+}
+
+template <class Real>
+void TypedWorld<Real>::halt_unsolved(const Halt& halt) {
   if (remembers_) body_.begin_step(0);
   take_forces();
-  stop(Halt{Halt::Cause::not_converged, -1, -1, message});
+  stop(halt);
 }
 
 template <class Real>
@@ -136,7 +143,11 @@ bool TypedWorld<Real>::solve_stage(const Stage& stage, double h, double time, Ve
   Vector r;
   parts.step.residual(x, r);
   work_.residual = parts.body.imbalance(r);
-  if (result.end == NewtonResult::End::undefined) return false;
+  undefined_at_.clear();
+  if (result.end == NewtonResult::End::undefined) {
+    for (const double value : x) undefined_at_.push_back(static_cast<Real>(value));
+    return false;
+  }
   if (!result.converged() && !setup_.solver.budget && !is_balanced_enough(stage, r)) return false;
   v = stage.velocity(x);
   for (const HeldNode& held : model_.held) v.segment<3>(3 * held.node) = held_at(model_, held, time).v;

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <heml/world/recovery_cause.hpp>
 
 namespace heml {
@@ -13,7 +14,9 @@ std::string what(const Suspects& s) {
   if (s.element < 0) return fmt::format("a node ran away at t = {:.4g} s", s.time);
   const std::string state = s.least_J > 0 ? "was pressed out of the range of its law" : "was flat or inside out";
   const std::string others = s.inverted > 1 ? fmt::format(", with {} in all inverted", s.inverted) : "";
-  return fmt::format("element {} {} at t = {:.4g} s (J = {:.3g}{})", s.element, state, s.time, s.least_J, others);
+  const std::string J =
+      std::isfinite(s.least_J) ? fmt::format("J = {:.3g}", s.least_J) : "with nodes at no finite place";
+  return fmt::format("element {} {} at t = {:.4g} s ({}{})", s.element, state, s.time, J, others);
 }
 
 /// The cause and what to do about it, from the surest to the most general.

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <heml/world/typed_world.hpp>
 #include <limits>
-#include <type_traits>
 
 namespace heml {
 namespace {
@@ -24,6 +23,7 @@ bool pushed_away(BodyObjective<Real>& body, const Vector& x, double fraction) {
 template <class Real>
 void TypedWorld<Real>::load_to(double fraction) {
   if (halt_) return;
+  ++changes_;
   const FlushDenormals flush;
   ImplicitParts<Real>& parts = implicit();
   const double duration = setup_.solver.load_duration();
@@ -43,7 +43,9 @@ void TypedWorld<Real>::load_to(double fraction) {
   Equilibrium& equilibrium = *parts.equilibrium;
   work_.load = equilibrium.load();
   if (held_nodes().empty() && !contacts_.has_tools() && pushed_away(parts.body, equilibrium.x(), fraction))
-    return halt_unsolved("no equilibrium: nothing holds the body and its loads do not balance (add a boundary entry)");
+    return halt_unsolved(
+        {Halt::Cause::not_converged, -1, -1,
+         "no equilibrium: nothing holds the body and its loads do not balance (add a boundary entry)"});
   const bool reached = equilibrium.load_to(fraction, interrupted_);
   work_.load = equilibrium.load();
   work_.iterations = equilibrium.iterations();
@@ -57,19 +59,52 @@ void TypedWorld<Real>::load_to(double fraction) {
 }
 
 template <class Real>
-std::string TypedWorld<Real>::why_not_beyond(const Equilibrium& equilibrium) const {
+Halt TypedWorld<Real>::why_not_beyond(const Equilibrium& equilibrium) const {
   const double load = equilibrium.load();
-  if (equilibrium.round_off())
-    return fmt::format(
+  Halt halt{Halt::Cause::not_converged, -1, -1, {}};
+  if (equilibrium.round_off()) {
+    halt.message = fmt::format(
         "no equilibrium to within {:.1e} of the forces beyond {:.4g} of the load: round-off leaves {:.1e} of them "
         "({}): "
         "what is written is the last one",
         setup_.solver.relative_tolerance(), load, *equilibrium.round_off(),
-        std::is_same_v<Real, float> ? "solve with \"precision\": \"double\"" : "allow a larger \"tolerance\"");
-  return fmt::format("no equilibrium found beyond {:.4g} of the load ({}): what is written is the last one", load,
+        single_ ? "solve with \"precision\": \"double\"" : "allow a larger \"tolerance\"");
+    return halt;
+  }
+  if (implicit_->free.node.empty()) {  // supports alone say where everything is
+    std::vector<Real> x;
+    for (const double value : equilibrium.tried()) x.push_back(static_cast<Real>(value));
+    const int element = first_flat(x);
+    if (element >= 0) {
+      halt.cause = Halt::Cause::out_of_range;
+      halt.element = model_.order.file_tet[static_cast<std::size_t>(element)];
+      halt.message = fmt::format(
+          "no equilibrium beyond {:.4g} of the load: the supports, which hold every node, press element {} flat, turn "
+          "it inside out or out of the range of its law (move them less): what is written is the last one",
+          load, halt.element);
+      return halt;
+    }
+  }
+  halt.message = fmt::format("no equilibrium found beyond {:.4g} of the load ({}): what is written is the last one", load,
                      well_held(model_.mesh, held_nodes())
                          ? "the body may snap, collapse or be crushed there, or leave the range of its law"
                          : "it is not held against every rigid motion: then loads must balance, in force and moment");
+  return halt;
+}
+
+/// The first element out of its law's range or inside out at positions, 3 #V; inner number, −1: none.
+template <class Real>
+int TypedWorld<Real>::first_flat(const std::vector<Real>& x) const {
+  const int invalid = body_.first_invalid(x.data());
+  if (invalid >= 0) return invalid;
+  const auto at = [&](int n) {
+    return Vec3(Eigen::Map<const Vector3<Real>>(&x[3 * static_cast<std::size_t>(n)]).template cast<double>());
+  };
+  const auto& tets = model_.mesh.tets;
+  const auto flat = std::find_if(tets.begin(), tets.end(), [&](const Tet& tet) {
+    return !(signed_volume(at(tet[0]), at(tet[1]), at(tet[2]), at(tet[3])) > 0);
+  });
+  return flat == tets.end() ? -1 : static_cast<int>(flat - tets.begin());
 }
 
 template class TypedWorld<float>;

@@ -137,6 +137,7 @@ void TypedWorld<Real>::advance_within_tick(double time) {
 
 template <class Real>
 void TypedWorld<Real>::advance(double until) {
+  ++changes_;
   if (setup_.solver.is_static()) {
     load_to(ramp(until, setup_.solver.load_duration()));
     if (!halt_ && !interrupted_) state_.time = until;
@@ -175,13 +176,23 @@ double TypedWorld<Real>::choose_step(double until) {
   const int most = is_driven ? steps_between_bounds_when_driven : steps_until_supports_strain();
   if (++steps_since_bound_ >= std::min(bound_interval_, most)) follow_stable_step();
   if (!(stable_step_ > smallest_step)) {
-    stop(Halt{Halt::Cause::unstable, -1, -1,
-              fmt::format("stopped at t = {:.6g} s: an explicit method would need steps of {:.3g} s; "
-                          "soften the material or improve the mesh's worst element",
-                          state_.time, stable_step_)});
+    stop(Halt{Halt::Cause::unstable, -1, -1, why_no_step()});
     return left;
   }
   return left / std::ceil(left / stable_step_);
+}
+
+template <class Real>
+std::string TypedWorld<Real>::why_no_step() const {
+  if (stable_step_ > 0)
+    return fmt::format(
+        "stopped at t = {:.6g} s: an explicit method would need steps of {:.3g} s; "
+        "soften the material or improve the mesh's worst element",
+        state_.time, stable_step_);
+  return fmt::format(
+      "stopped at t = {:.6g} s: the stiffness of the body is no number that {} precision can hold, so far is it "
+      "stretched or crushed: no step is short enough (load it more gently{})",
+      state_.time, single_ ? "single" : "double", single_ ? ", or take \"precision\": \"double\"" : "");
 }
 
 /// In how many steps the fastest support strains what is next to it by as much as the limit may change between bounds.
@@ -319,17 +330,27 @@ void TypedWorld<Real>::follow_stable_step() {
   stable_step_ = std::min(stable_step_, (1 + steps * growth_of_steps) * before);
 }
 
+/// At positions, 3 #V, that were to be those at a time, s.
+template <class Real>
+Halt TypedWorld<Real>::out_of_range(const std::vector<Real>& x, double time) const {
+  Halt halt{Halt::Cause::out_of_range, -1, -1, {}};
+  const int element = body_.first_invalid(x.data());
+  if (element >= 0) halt.element = model_.order.file_tet[static_cast<std::size_t>(element)];
+  halt.message =
+      fmt::format("{} left the range of its law at t = {:.6g} s: it was {} ({}take a smaller step, or load more gently)",
+                  element < 0 ? "an element" : fmt::format("element {}", halt.element), time,
+                  setup_.solver.continuation ? "deformed so far that its forces overflow"
+                                             : "pressed flat or turned inside out",
+                  setup_.solver.continuation ? "" : "set solver.continuation to true, ");
+  return halt;
+}
+
 template <class Real>
 void TypedWorld<Real>::restore_last_valid(Halt::Cause cause) {
   Halt halt{cause, -1, -1, {}};
   const double reached = state_.time, h = state_.time - last_valid_.time;
   if (cause == Halt::Cause::out_of_range) {
-    const int element = body_.first_invalid(state_.x.data());
-    if (element >= 0) halt.element = model_.order.file_tet[static_cast<std::size_t>(element)];
-    halt.message = fmt::format(
-        "{} left the range of its law at t = {:.6g} s: it was pressed flat or turned inside out "
-        "(set solver.continuation to true, take a smaller step, or load more gently)",
-        element < 0 ? "an element" : fmt::format("element {}", halt.element), reached);
+    halt = out_of_range(state_.x, reached);
   } else {
     const auto wild = std::find_if(state_.v.begin(), state_.v.end(), [&](Real v) {
       return !(std::abs(v) <= 10 * (model_.diagonal / h + setup_.initial_velocity.norm()));
@@ -337,8 +358,8 @@ void TypedWorld<Real>::restore_last_valid(Halt::Cause cause) {
     if (wild != state_.v.end())
       halt.node = model_.order.file_node[static_cast<std::size_t>(wild - state_.v.begin()) / 3];
     halt.message = fmt::format(
-        "unstable at t = {:.6g} s: node {} ran away with steps of {:.3g} s; at the start the limit was {:.3g} s",
-        reached, halt.node, h, limit_at_start_);
+        "unstable at t = {:.6g} s: node {} ran away with steps of {:.3g} s{}", reached, halt.node, h,
+        std::isfinite(limit_at_start_) ? fmt::format("; at the start the limit was {:.3g} s", limit_at_start_) : "");
   }
   state_.x = last_valid_.x;
   state_.v = last_valid_.v;

@@ -67,6 +67,8 @@ class TypedWorld final : public World {
   double worker_seconds() const override { return team_.worker_seconds(); }
 
  private:
+  static constexpr bool single_ = sizeof(Real) == sizeof(float);
+
   // typed_world.cpp: stepping
   void advance(double until);
   void advance_explicit(double until);
@@ -79,6 +81,8 @@ class TypedWorld final : public World {
   int steps_until_supports_strain() const;
   void find_stable_step();
   void follow_stable_step();
+  std::string why_no_step() const;
+  Halt out_of_range(const std::vector<Real>& x, double time) const;
   void restore_last_valid(Halt::Cause cause);
   void stop(const Halt& halt);
   void start();
@@ -104,8 +108,10 @@ class TypedWorld final : public World {
   Vector stage_start(const Stage& stage, double time, const Vector& x);
   Stop stage_stop();
   bool is_balanced_enough(const Stage& stage, const Vector& r);
-  void halt_unsolved(const std::string& message);
-  std::string why_not_beyond(const Equilibrium& equilibrium) const;
+  void halt_unsolved(const Halt& halt);
+  std::string why_unbalanced() const;
+  Halt why_not_beyond(const Equilibrium& equilibrium) const;
+  int first_flat(const std::vector<Real>& x) const;
   ImplicitParts<Real>& implicit();
   void take_state(const Vector& x, const Vector& v, double time);
   static Vector as_vector(const std::vector<Real>& values);
@@ -167,9 +173,18 @@ class TypedWorld final : public World {
     std::vector<Load> loads;
     Model<Real> model;
     std::shared_ptr<const Topology> topology;
-    std::vector<Real> x, v;  ///< m, m/s
+    BodyMemory<Real> body;
     std::vector<PinnedPatch> pins;
     std::vector<Suture> sutures;
+    std::vector<GraspSpring<Real>> grasps;
+    long grasps_taken;
+    // Of the moment itself:
+    long changes;
+    State<Real> state;
+    double stable_step;
+    int steps_since_bound, bound_interval;
+    std::optional<double> lowest_frequency;
+    std::optional<ImplicitMemory> implicit;
   };
   std::optional<std::string> take(const RemoveElements& command);
   std::optional<std::string> take(const CutTissue& command);
@@ -182,6 +197,8 @@ class TypedWorld final : public World {
   void take_edited();
   void save();
   void restore(const Saved& saved);
+  void restore_grasp(const Saved& saved);
+  void restore_moment(const Saved& saved);
   void undo_edits();
 
   // facts.cpp: what it runs
@@ -201,15 +218,19 @@ class TypedWorld final : public World {
   Model<Real> model_;
   std::shared_ptr<const Topology> topology_;
   std::vector<EditReport> edits_;
-  std::unique_ptr<const Saved> whole_;               ///< before the first edit; none: there was none
-  std::vector<std::unique_ptr<const Saved>> saved_;  ///< before each of the last edits
+  std::shared_ptr<const Saved> whole_;               ///< before the first edit; none: there was none
+  std::vector<std::shared_ptr<const Saved>> saved_;  ///< before each of the last edits
+  long changes_ = 0;      ///< steps, loads and commands that are no edits: as many as before, nothing else has happened
+  bool is_known_ = false;  ///< whether forces and stable step are those of the state: an undo has brought them back
   std::vector<int> stroke_;                          ///< nodes in the last cut, mesh-file order
   bool in_stroke_ = false;                           ///< whether it was saved before it
+  std::optional<long> missed_;                       ///< tick of the last stroke, where it has parted nothing
   double snap_ = 0;                                  ///< m, of cuts; 0: nothing was cut yet
   std::optional<Tearing> tearing_;                   ///< none unless the scene asks for it
   ElasticBody<Real> body_;
   ThreadTeam team_;
   std::vector<GraspSpring<Real>> grasps_;  ///< none or one: an empty list costs nothing
+  long grasps_taken_ = 0;                  ///< so far: tells one from another
   std::vector<PinnedPatch> pins_;          ///< in the order they were set
   Contacts contacts_;                      ///< nothing, in most worlds
   ContactImpulses<Real> impulses_;
@@ -232,6 +253,7 @@ class TypedWorld final : public World {
   std::shared_ptr<FactorWork> factor_work_;        ///< given out last, if it may still serve
   long factor_version_ = 0;                        ///< of the topology it is of
   std::unique_ptr<RecoveryParts<Real>> recovery_;  ///< none unless the scene asks for it
+  std::vector<Real> undefined_at_;  ///< 3 #V, where the last stage that came to nothing was to begin; empty: defined
   SolverWork work_;
   Integrator method_ = Integrator::verlet;          ///< in use: what "auto" has chosen, else the scene's
   std::optional<double> told_step_cost_;            ///< s an element: an explicit step, one core (SetStepCost)

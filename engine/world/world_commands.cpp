@@ -21,6 +21,11 @@ double tool_frequency(const WorldSetup& setup, double radius, double highest) {
 
 bool finite(const Vec3& v) { return v.allFinite(); }
 
+bool is_edit(const Command& command) {
+  return std::holds_alternative<RemoveElements>(command) || std::holds_alternative<CutTissue>(command) ||
+         std::holds_alternative<Undo>(command);
+}
+
 std::optional<std::string> patch_problem(const char* tool, int node, double radius, std::size_t nodes) {
   if (node < 0 || static_cast<std::size_t>(node) >= nodes)
     return fmt::format("{}: node {} does not exist; the body has nodes 0 to {}", tool, node, nodes - 1);
@@ -33,9 +38,11 @@ std::optional<std::string> patch_problem(const char* tool, int node, double radi
 template <class Real>
 std::optional<std::string> TypedWorld<Real>::apply(const Command& command) {
   const FlushDenormals flush;
+  if (!is_edit(command)) ++changes_;
+  is_known_ = false;
   if (implicit_ && implicit_->equilibrium) implicit_->equilibrium->disturb();
   auto problem = std::visit([this](const auto& c) { return take(c); }, command);
-  if (!problem && !halt_) {
+  if (!problem && !halt_ && !is_known_) {
     if (!take_forces()) restore_last_valid(Halt::Cause::out_of_range);
     find_stable_step();
   }
@@ -52,6 +59,7 @@ std::optional<std::string> TypedWorld<Real>::take(const Grasp& command) {
       grip_reach * model_.diagonal);
   if (grasp.empty()) return fmt::format("grasp: node {} is held, or belongs to no element", command.node);
   grasps_.assign(1, std::move(grasp));
+  ++grasps_taken_;
   return std::nullopt;
 }
 

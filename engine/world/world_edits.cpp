@@ -70,6 +70,7 @@ std::optional<std::string> TypedWorld<Real>::take(const CutTissue& command) {
   if (!command.goes_on) {
     stroke_.clear();
     in_stroke_ = false;
+    missed_ = ticks_;
   }
   if (snap_ == 0) snap_ = snapping_distance(setup_.mesh);
   Cut cut;
@@ -77,6 +78,7 @@ std::optional<std::string> TypedWorld<Real>::take(const CutTissue& command) {
     return std::nullopt;  // through the air
   stroke_ = cut.nodes;
   if (cut.edit.removed.empty()) return std::nullopt;
+  missed_.reset();
   if (!in_stroke_) {
     save();
     edits_.push_back(begin_report());
@@ -95,6 +97,8 @@ std::optional<std::string> TypedWorld<Real>::take(const CutTissue& command) {
 
 template <class Real>
 std::optional<std::string> TypedWorld<Real>::take(const Undo&) {
+  if (edits_.empty() && missed_)
+    return fmt::format("undo: nothing was cut or removed; the cut of step {} parted nothing", *missed_);
   if (edits_.empty()) return "undo: nothing was cut or removed";
   if (saved_.empty()) return fmt::format("undo: only the last {} edits can be taken back", most_undone);
   edits_.pop_back();
@@ -145,14 +149,13 @@ void TypedWorld<Real>::end_report(EditReport& report) {
 /// Keeps what an edit may be taken back to.
 template <class Real>
 void TypedWorld<Real>::save() {
-  auto saved = std::make_unique<const Saved>(Saved{setup_.mesh, setup_.boundary, setup_.loads, model_, topology_,
-                                                   state_.x, state_.v, pins_, contacts_.sutures});
-  if (!whole_) {
-    whole_ = std::make_unique<const Saved>(*saved);
-  } else if (saved_.size() == most_undone) {
-    saved_.erase(saved_.begin());
-  }
-  saved_.push_back(std::move(saved));
+  const bool solves = implicit_ && !implicit_->equilibrium;
+  saved_.push_back(std::make_shared<const Saved>(
+      Saved{setup_.mesh, setup_.boundary, setup_.loads, model_, topology_, body_.memory(), pins_, contacts_.sutures,
+            grasps_, grasps_taken_, changes_, state_, stable_step_, steps_since_bound_, bound_interval_,
+            lowest_frequency_, solves ? std::optional(implicit_->memory()) : std::nullopt}));
+  if (!whole_) whole_ = saved_.back();
+  if (saved_.size() > most_undone) saved_.erase(saved_.begin());
   in_stroke_ = false;
 }
 
@@ -217,19 +220,43 @@ void TypedWorld<Real>::restore(const Saved& saved) {
   setup_.loads = saved.loads;
   model_ = saved.model;
   topology_ = std::make_shared<const Topology>(Topology{topology_->version + 1, saved.topology->elements});
-  state_.x = last_valid_.x = saved.x;
-  state_.v = last_valid_.v = saved.v;
-  state_.f.resize(saved.x.size());
+  state_.x = last_valid_.x = saved.state.x;
+  state_.v = last_valid_.v = saved.state.v;
+  state_.f = saved.state.f;
   if (recovery_) recovery_->good = state_;
-  grasps_.clear();
+  restore_grasp(saved);
   pins_ = saved.pins;
   contacts_.sutures = saved.sutures;
   stroke_.clear();
   in_stroke_ = false;
-  body_.set_mesh(model_.mesh, model_.material_of);
-  body_.forget(state_.x.data());
+  body_.restore(model_.mesh, model_.material_of, saved.body, state_.x.data());
   implicit_.reset();
   take_edited();
+  if (saved.changes == changes_) restore_moment(saved);
+}
+
+/// What was grasped then is grasped as it was, where it has been ever since: by a tool that is where it is now.
+template <class Real>
+void TypedWorld<Real>::restore_grasp(const Saved& saved) {
+  const bool since = !grasps_.empty() && grasps_taken_ == saved.grasps_taken;
+  const Vec3 target = since ? grasps_.front().target() : Vec3::Zero();
+  grasps_.clear();
+  if (!since) return;
+  grasps_ = saved.grasps;
+  grasps_.front().move(target);
+}
+
+/// Nothing but edits has happened since it was saved, and they are taken back: to go on as if there had been none, to
+/// the bit, nothing may be found anew.
+template <class Real>
+void TypedWorld<Real>::restore_moment(const Saved& saved) {
+  state_ = saved.state;
+  stable_step_ = saved.stable_step;
+  steps_since_bound_ = saved.steps_since_bound;
+  bound_interval_ = saved.bound_interval;
+  lowest_frequency_ = saved.lowest_frequency;
+  if (saved.implicit) implicit().restore(*saved.implicit);
+  is_known_ = true;
 }
 
 template <class Real>
@@ -255,6 +282,7 @@ std::optional<std::string> TypedWorld<Real>::take(const TakeFactor&) {
 template <class Real>
 void TypedWorld<Real>::undo_edits() {
   edits_.clear();
+  missed_.reset();
   saved_.clear();
   if (whole_) restore(*whole_);
   whole_.reset();

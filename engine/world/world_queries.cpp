@@ -116,6 +116,7 @@ bool TypedWorld<Real>::follow(const World& leader) {
   if (!other || other->halt_ || other->remembers_ || remembers_ || other->recovering() || recovering()) return false;
   if (other->model_.order.file_node != model_.order.file_node || other->model_.order.file_tet != model_.order.file_tet)
     return false;
+  ++changes_;
   state_ = other->state_;
   last_valid_ = state_;
   grasps_ = other->grasps_;

@@ -62,6 +62,28 @@ class CommandLine(unittest.TestCase):
         for word in words:
             self.assertIn(word, errors[0])
 
+    def test_a_cut_beside_the_body_is_warned_of_and_a_refused_event_leaves_what_was_reached(self):
+        def blade(x):
+            return {"cut": {"sweep": [[[x, -1, -1], [x, -1, 1]], [[x, 1, -1], [x, 1, 1]]]}}
+
+        def sweeps(*xs):
+            return [{"step": 5, "cut": dict(blade(x)["cut"], goes_on=k > 0)} for k, x in enumerate(xs)]
+
+        through = heml("solve", self.write("scene.json", cantilever(events=sweeps(0.2, 0.053) + [{"step": 9, "undo": True}])),
+                       "--out", self.folder / "through")
+        self.assertEqual(through.returncode, 0, through.stderr)
+        self.assertNotIn("parted nothing", through.stderr)
+        events = sweeps(0.2, 0.3) + [{"step": 9, "undo": True}]
+        refused = heml("solve", self.write("scene.json", cantilever(events=events)), "--out", self.folder / "out")
+        self.assert_refused(refused, 3, "step 9", "the cut of step 5 parted nothing")
+        self.assertEqual(refused.stderr.count("step 5: the cut parted nothing"), 1, refused.stderr)
+        self.assertIn(str(self.folder / "out"), refused.stderr)
+        report = json.loads((self.folder / "out" / "report.json").read_text())
+        self.assertFalse(report["converged"])
+        self.assertEqual(report["ticks"], 9)
+        self.assertIn("parted nothing", report["refused"])
+        self.assertTrue((self.folder / "out" / "positions.csv").exists())
+
     def test_solve_converges_at_the_order_of_each_integrator(self):
         def run(integrator, step):
             return self.positions(cantilever(solver={"integrator": integrator, "duration": 0.1, "damping": 2, "step": step}))

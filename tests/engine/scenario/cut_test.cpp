@@ -76,4 +76,34 @@ TEST_CASE("solve reports a cut, and writes what it added after the nodes of the 
   CHECK(lines == nodes + 1);
 }
 
+TEST_CASE("an event refused on the way ends a solve in words, and what was reached is written and marked") {
+  const TemporaryFolder folder;
+  const std::string beside = R"([{"step": 2, "cut": {"sweep": [[[9, -1, -1], [9, -1, 1]], [[9, 1, -1], [9, 1, 1]]]}},
+                                 {"step": 4, "undo": true}])";
+  Scene scene = scene_with_events(beside);
+  scene.output_times = {0.02, 0.06};
+  std::filesystem::create_directory(folder / "out");
+  folder.file("out/positions_1.csv", "of an earlier run");
+  const std::string problem = refusal([&] { solve(scene, folder / "out"); });
+  CHECK(test::says(problem, "events: step 4"));
+  CHECK(test::says(problem, "the cut of step 2 parted nothing"));
+  std::ifstream file(folder / "out/report.json");
+  const Json report = Json::parse(file);
+  CHECK(report.at("converged") == false);
+  CHECK(report.at("ticks") == 4);
+  CHECK(report.at("refused") == problem);
+  CHECK(std::filesystem::exists(folder / "out/positions.csv"));
+  CHECK(std::filesystem::exists(folder / "out/positions_0.csv"));
+  CHECK_FALSE(std::filesystem::exists(folder / "out/positions_1.csv"));
+}
+
+TEST_CASE("undo after a cut that parted nothing takes back the edit before it") {
+  const TemporaryFolder folder;
+  const std::string events = R"([{"step": 1, "remove": {"tets": [0]}},
+    {"step": 2, "cut": {"sweep": [[[9, -1, -1], [9, -1, 1]], [[9, 1, -1], [9, 1, 1]]]}}, {"step": 4, "undo": true}])";
+  CHECK_FALSE(solve(scene_with_events(events), folder / "out").halt);
+  std::ifstream file(folder / "out/report.json");
+  CHECK(Json::parse(file).at("removed") == 0);
+}
+
 }  // namespace heml::cut_test
