@@ -1,6 +1,6 @@
 #include <heml/scenario/json_text.hpp>
 #include <heml/scenario/recovery_watch.hpp>
-#include <heml/scenario/text_file.hpp>
+#include <heml/base/write_file.hpp>
 
 namespace heml {
 
@@ -11,7 +11,7 @@ void write_replay(const std::filesystem::path& path, const Scene& scene, std::sp
   for (const Event& event : events) text += event_line(event) + '\n';
   text += checkpoint_line({world.ticks(), world.state_hash(), world.node_hashes()}) + '\n';
   text += json_text({{"step", world.ticks()}, {"end", true}}, path.string()) + '\n';
-  write_text_file(path, text);
+  write_file(path, text);
 }
 
 RecoveryWatch::News RecoveryWatch::after_tick(const World& world) {
