@@ -1,6 +1,10 @@
 // The command line. Every command is a file in commands/.
 #include <CLI/CLI.hpp>
 #include <app/commands/commands.hpp>
+#include <app/commands/number_options.hpp>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
 #include <exception>
 #include <heml/base/error.hpp>
 #include <heml/base/log.hpp>
@@ -36,9 +40,12 @@ int run_program(int argc, char** argv) {
       "set the same body beside it in other ways, up to three: laws, methods, float, nodal_pressure; joined by +";
   run_command->add_option("--beside", run_arguments.beside, beside_help)->delimiter(',')->allow_extra_args(false);
   run_command->add_option("--size", run_size, "size of the window, pixels")->capture_default_str();
-  run_command->add_option("--exit-after", run_arguments.exit_after, "close by itself after so many seconds");
-  run_command->add_option("--draw-stall", run_arguments.draw_stall,
-                          "hold every drawing up by so many milliseconds (for tests)");
+  run_command->add_option("--exit-after", run_arguments.exit_after, "close by itself after so many seconds")
+      ->check(number_between(0));
+  run_command
+      ->add_option("--draw-stall", run_arguments.draw_stall,
+                   "hold every drawing up by so many milliseconds (for tests)")
+      ->check(number_between(0));
 
   CaptureArguments capture_arguments;
   std::string capture_size = "1280x720";
@@ -46,9 +53,13 @@ int run_program(int argc, char** argv) {
   capture_command->add_option("SCENE", capture_arguments.scene,
                               "scene, recording, mesh or surface; none: the default scene");
   capture_command->add_option("--out", capture_arguments.out, "folder for frame_00000.png ...")->required();
-  capture_command->add_option("--frames", capture_arguments.frames, "how many")->capture_default_str();
+  capture_command->add_option("--frames", capture_arguments.frames, "how many")
+      ->capture_default_str()
+      ->check(whole_number_between(1));
   capture_command->add_option("--size", capture_size, size_help)->capture_default_str();
-  capture_command->add_option("--fps", capture_arguments.fps, "frames a simulated second")->capture_default_str();
+  capture_command->add_option("--fps", capture_arguments.fps, "frames a simulated second")
+      ->capture_default_str()
+      ->check(positive_number());
   capture_command->add_option("--beside", capture_arguments.beside, beside_help)
       ->delimiter(',')
       ->allow_extra_args(false);
@@ -60,8 +71,12 @@ int run_program(int argc, char** argv) {
   replay_command
       ->add_option("RECORDING", replay_arguments.recording, "what `heml run --record` wrote, or a scene with events")
       ->required();
-  replay_command->add_flag("--verify", replay_arguments.verify,
-                           "compare the state with every checkpoint; exit 1 where it differs");
+  auto* verify_flag =
+      replay_command->add_flag("--verify", replay_arguments.verify,
+                               "compare every checkpoint and the end; exit 1 where one differs or is missing");
+  replay_command
+      ->add_flag("--partial", replay_arguments.partial, "with --verify: the recording was cut short and has no end")
+      ->needs(verify_flag);
   replay_command->add_option("--frames", replay_arguments.frames, "write frames into this folder");
   replay_command->add_option(
       "--record", replay_arguments.record,
@@ -69,9 +84,9 @@ int run_program(int argc, char** argv) {
   replay_command->add_option("--size", replay_size, size_help)->capture_default_str();
   replay_command->add_option("--fps", replay_arguments.fps, "frames a simulated second")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   replay_command->add_option("--threads", replay_arguments.threads, "instead of the recording's; never changes a bit")
-      ->check(CLI::NonNegativeNumber);
+      ->check(thread_count());
 
   SolveArguments solve_arguments;
   auto* solve_command =
@@ -91,7 +106,7 @@ int run_program(int argc, char** argv) {
       ->check(CLI::IsMember({"vtu", "ply", "obj"}));
   export_command->add_option("--fps", export_arguments.fps, "frames a simulated second")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   export_command->footer(
       "Examples:\n"
       "  heml export session.jsonl --out frames              then open frames/frames.pvd in ParaView\n"
@@ -119,12 +134,13 @@ int run_program(int argc, char** argv) {
       ->required();
   mesh_command->add_option("--out", mesh_arguments.out, ".msh, .mesh, .vtk, .vtu or .node")->required();
   mesh_command->add_option("--scale", mesh_arguments.scale, "multiplies coordinates: 0.001 for a file in millimetres")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(positive_number());
   mesh_command->add_option("--radius-edge-ratio", mesh_arguments.radius_edge_ratio, "shape: smaller is better and more")
       ->capture_default_str()
-      ->check(CLI::Range(1.0, 100.0));
+      ->check(number_between(1, 100));
   mesh_command->add_option("--max-volume", mesh_arguments.max_volume, "of one tetrahedron, m³")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
 
   MaterialsArguments materials_arguments;
   auto* materials_command = program.add_subcommand("materials", "every law, its parameters, and tissues with sources");
@@ -157,7 +173,7 @@ int run_program(int argc, char** argv) {
   study_command->add_option("--scene", study_arguments.scene, "accuracy: of this scene instead of the study's own");
   study_command
       ->add_option("--case", study_arguments.cases, "stability: these cases alone, by number (may be given often)")
-      ->check(CLI::Range(1, 33));
+      ->check(whole_number_between(1, 33));
   study_command->footer(
       "A run that was interrupted goes on where it stopped when it is given the same --out.\n"
       "Exit code 1: a case that is promised falls short, or an error of the quick accuracy study has grown.");
@@ -179,12 +195,12 @@ int run_program(int argc, char** argv) {
   refine_command
       ->add_option("--error", refine_arguments.error,
                    "per cent of the energy norm, as estimated, to come down to; else 10")
-      ->check(CLI::Range(0.1, 100.0));
+      ->check(number_between(0.1, 100));
   refine_command->add_option("--tets", refine_arguments.tets, "and no more tetrahedra than these; else 50000")
-      ->check(CLI::Range(1, 10'000'000));
+      ->check(whole_number_between(1, 10'000'000));
   refine_command
       ->add_option("--at", refine_arguments.at, "the moment of its motion, s, to look at; else rest under all loads")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   refine_command->footer(
       "Examples:\n"
       "  heml refine sagging.json --out fine --error 5\n"
@@ -203,10 +219,10 @@ int run_program(int argc, char** argv) {
       ->add_option("--out", haptics_arguments.out, "CSV: place, force on the hand, energy and added damping each ms")
       ->required();
   haptics_command->add_option("--stiffest", haptics_arguments.stiffest, "N/m that the device is stable with")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->capture_default_str();
   haptics_command->add_option("--force", haptics_arguments.force, "N that it can give")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->capture_default_str();
 
   BenchTestArguments bench_arguments;
@@ -271,20 +287,34 @@ int run_program(int argc, char** argv) {
   return code;
 }
 
+/// Runs the program, and says of anything thrown what it was.
+int guarded_run(int argc, char** argv) {
+  try {
+    return run_program(argc, argv);
+  } catch (const InputError& error) {
+    log_line("error", error.what());
+    return exit_input;
+  } catch (const UsageError& error) {
+    log_line("error", error.what());
+    return exit_usage;
+  } catch (const std::exception& error) {
+    if (std::ferror(stdout)) return exit_done;  // of a print: flushed_output() says it
+    log_line("internal error", error.what());
+    return exit_internal;
+  }
+}
+
+/// What was printed has to have arrived: else it is said, once, and the code is that of a file that cannot be written.
+int flushed_output(int code) {
+  errno = 0;
+  const bool failed = std::fflush(stdout) != 0;
+  if (!failed && !std::ferror(stdout)) return code;
+  log_line("error", fmt::format("standard output: cannot be written{}{} (check where it goes, and the space left there)",
+                                errno ? ": " : "", errno ? std::strerror(errno) : ""));
+  return code == exit_done ? exit_input : code;
+}
+
 }  // namespace
 }  // namespace heml
 
-int main(int argc, char** argv) {
-  try {
-    return heml::run_program(argc, argv);
-  } catch (const heml::InputError& error) {
-    heml::log_line("error", error.what());
-    return heml::exit_input;
-  } catch (const heml::UsageError& error) {
-    heml::log_line("error", error.what());
-    return heml::exit_usage;
-  } catch (const std::exception& error) {
-    heml::log_line("internal error", error.what());
-    return heml::exit_internal;
-  }
-}
+int main(int argc, char** argv) { return heml::flushed_output(heml::guarded_run(argc, argv)); }

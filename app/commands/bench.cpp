@@ -6,10 +6,9 @@
 #include <app/commands/bench_pictures.hpp>
 #include <app/commands/commands.hpp>
 #include <app/commands/progress.hpp>
-#include <fstream>
 #include <heml/base/error.hpp>
 #include <heml/base/log.hpp>
-#include <heml/scenario/text_file.hpp>
+#include <heml/base/write_file.hpp>
 #include <heml/studies/bench.hpp>
 
 namespace heml {
@@ -23,21 +22,16 @@ std::vector<std::string_view> chosen_suites(const std::string& suite) {
   return {suite};
 }
 
-void expect_writable(const std::filesystem::path& path) {
-  if (!std::ofstream(path, std::ios::app))
-    throw InputError(path.string(), "", "cannot be written", "give another --json");
-}
-
 void write_json(const std::filesystem::path& path, const std::vector<BenchRow>& rows) {
-  write_text_file(path, json_text(to_json(rows), path.string(), true) + "\n");
+  write_file(path, json_text(to_json(rows), path.string(), true) + "\n");
 }
 
 }  // namespace
 
 int bench(const BenchArguments& arguments) {
   const auto suites = chosen_suites(arguments.suite);
-  if (arguments.json) expect_writable(*arguments.json);  // said now, not minutes later
-  if (arguments.out) make_picture_folder(*arguments.out);
+  if (arguments.json) expect_writable_file(*arguments.json, "--json");  // said now, not minutes later
+  if (arguments.out) make_folder(*arguments.out);
   std::vector<BenchRow> rows;
   {
     Progress progress("measuring");

@@ -67,13 +67,6 @@ std::optional<panel::Chart> carried_chart(const std::vector<BenchRow>& rows) {
 
 }  // namespace
 
-void make_picture_folder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error || !std::filesystem::is_directory(folder))
-    throw InputError(folder.string(), "", "cannot be made a folder", "give another --out");
-}
-
 std::vector<std::filesystem::path> write_bench_pictures(const std::filesystem::path& folder,
                                                         const std::vector<BenchRow>& rows) {
   std::vector<std::filesystem::path> files;

@@ -6,9 +6,6 @@
 
 namespace heml {
 
-/// Throws InputError when it cannot be made.
-void make_picture_folder(const std::filesystem::path& folder);
-
 /// Writes what the rows have numbers for, and returns the files: `ratios.png`, how many times faster than the naive
 /// loop each law is on the largest body of the kernel suite; `carried.png`, what precision a body loses that travels.
 std::vector<std::filesystem::path> write_bench_pictures(const std::filesystem::path& folder,

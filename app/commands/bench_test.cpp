@@ -11,12 +11,13 @@
 #include <cmath>
 #include <heml/base/error.hpp>
 #include <heml/base/log.hpp>
+#include <heml/base/write_file.hpp>
 #include <heml/materials/parameter_slots.hpp>
 #include <heml/scenario/curve_csv.hpp>
+#include <heml/scenario/input_files.hpp>
 #include <heml/scenario/material_json.hpp>
 #include <heml/scenario/presets.hpp>
 #include <heml/scenario/scene.hpp>
-#include <heml/scenario/text_file.hpp>
 
 namespace heml {
 namespace {
@@ -129,7 +130,7 @@ void write_curve(const std::filesystem::path& path, const CurveTable& table, con
     for (std::size_t i = 0; i < row.size(); ++i) text += fmt::format("{}{:.17g}", i ? "," : "", row[i]);
     text += '\n';
   }
-  write_text_file(path, text);
+  write_file(path, text);
 }
 
 panel::ChartSeries line_of(std::string name, const CurveTable& table, ImU32 colour, float thickness) {
@@ -191,6 +192,18 @@ void print_fit(const Fit& fit) {
   fmt::print("rms {:.4g} Pa, R² {:.6f}, {} iterations\n", fit.rms, fit.r_squared, fit.iterations);
 }
 
+std::filesystem::path fitted_entry(const BenchTestArguments& arguments) {
+  return std::filesystem::path(arguments.out).replace_extension(".json");
+}
+
+void check_files(const BenchTestArguments& arguments) {
+  std::vector<std::filesystem::path> inputs{arguments.material};
+  if (arguments.data) inputs.push_back(*arguments.data);
+  check_output_file(inputs, arguments.out);
+  if (arguments.data) check_output_file(inputs, fitted_entry(arguments));
+  if (arguments.plot) check_output_file(inputs, *arguments.plot, "--plot");
+}
+
 /// Fits, prints, and writes the entry for scenes.
 Fit fit_to(const BenchTestArguments& arguments, const MeasuredTest& test, const MeasuredCurve& data,
            const TestedMaterial& specimen) {
@@ -202,9 +215,8 @@ Fit fit_to(const BenchTestArguments& arguments, const MeasuredTest& test, const 
     return fit_material(specimen.material, test, data, options, [&](double share) { progress.show(share); });
   }();
   print_fit(fit);
-  std::filesystem::path entry = arguments.out;
-  entry.replace_extension(".json");
-  write_text_file(entry, json_text(material_json({std::nullopt, fit.material}), entry.string(), true) + "\n");
+  const std::filesystem::path entry = fitted_entry(arguments);
+  write_file(entry, json_text(material_json({std::nullopt, fit.material}), entry.string(), true) + "\n");
   fmt::print("an entry for `materials` is in {}\n", entry.string());
   const GroundState rest = ground_state(fit.material);
   if (!arguments.fit_all && rest.bulk < 10 * rest.shear)
@@ -223,6 +235,7 @@ int bench_test(const BenchTestArguments& arguments) {
     throw UsageError(fmt::format("--points must be from 2 to {}, is {}", most_points, arguments.points));
   if (arguments.data && arguments.out.extension() == ".json")
     throw UsageError("--out must not end in .json: the fitted material is written under that name");
+  check_files(arguments);
   TestedMaterial specimen = tested_material(arguments.material);
   const std::optional<MeasuredCurve> data =
       arguments.data ? std::make_optional(read_curve_csv(*arguments.data, test)) : std::nullopt;

@@ -4,9 +4,9 @@
 #include <app/commands/photographer.hpp>
 #include <app/commands/progress.hpp>
 #include <charconv>
-#include <cmath>
 #include <heml/base/error.hpp>
 #include <heml/base/log.hpp>
+#include <heml/scenario/input_files.hpp>
 #include <heml/scenario/schedule.hpp>
 #include <heml/session/companions.hpp>
 
@@ -25,10 +25,8 @@ PictureSize parse_size(const std::string& text) {
 }
 
 int capture(const CaptureArguments& arguments) {
-  if (arguments.frames < 1) throw UsageError(fmt::format("--frames must be 1 or more, is {}", arguments.frames));
-  if (!(arguments.fps > 0) || !std::isfinite(arguments.fps))
-    throw UsageError(fmt::format("--fps must be greater than 0, is {}", arguments.fps));
   const Scene scene = arguments.scene.empty() ? default_scene() : read_scene(arguments.scene);
+  check_output_folder(input_files(scene), arguments.out, frames_in(arguments.out, ".png"));
   const auto world = load_world(scene);
   Schedule schedule(scene, world->setup().mesh);
   std::optional<Companions> companions;

@@ -48,6 +48,7 @@ int run(const RunArguments& arguments);
 struct ReplayArguments {
   std::filesystem::path recording;
   bool verify = false;
+  bool partial = false;  ///< the recording need not have its end
   std::optional<std::filesystem::path> frames, record;
   PictureSize size;
   double fps = 30;

@@ -4,12 +4,16 @@
 #include <app/commands/progress.hpp>
 #include <heml/base/log.hpp>
 #include <heml/scenario/frame_series.hpp>
+#include <heml/scenario/input_files.hpp>
 #include <heml/scenario/replay.hpp>
 
 namespace heml {
 
 int export_frames(const ExportArguments& arguments) {
   const Scene scene = read_scene(arguments.scene);
+  std::vector<std::filesystem::path> outputs = frames_in(arguments.out, "." + arguments.format);
+  if (arguments.format == "vtu") outputs.push_back(arguments.out / "frames.pvd");
+  check_output_folder(input_files(scene), arguments.out, outputs);
   const auto world = load_world(scene);
   FrameSeries series(arguments.out, arguments.format);
   const double total = static_cast<double>(std::max(1l, ticks_to_play(scene)));

@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <app/commands/commands.hpp>
 #include <heml/base/log.hpp>
+#include <heml/base/write_file.hpp>
 #include <heml/scenario/haptic_run.hpp>
-#include <heml/scenario/text_file.hpp>
+#include <heml/scenario/input_files.hpp>
 #include <iterator>
 
 namespace heml {
@@ -25,8 +26,12 @@ std::string csv_of(const std::vector<FeltForce>& felt) {
 int feel_scene(const HapticsArguments& arguments) {
   HapticLimits limits;
   limits.stiffest = arguments.stiffest, limits.force = arguments.force;
-  const HapticRun run = run_with_hand(read_scene(arguments.scene), read_hand_csv(arguments.hand), limits);
-  write_text_file(arguments.out, csv_of(run.felt));
+  const Scene scene = read_scene(arguments.scene);
+  std::vector<std::filesystem::path> inputs = input_files(scene);
+  inputs.push_back(arguments.hand);
+  check_output_file(inputs, arguments.out);
+  const HapticRun run = run_with_hand(scene, read_hand_csv(arguments.hand), limits);
+  write_file(arguments.out, csv_of(run.felt));
   if (run.halt) {
     log_line("error", fmt::format("{}: {}; what was felt up to there is in {}", arguments.scene, run.halt->message,
                                   arguments.out.string()));

@@ -3,17 +3,35 @@
 #include <app/commands/commands.hpp>
 #include <heml/base/error.hpp>
 #include <heml/base/log.hpp>
+#include <heml/base/write_file.hpp>
 #include <heml/mesh/from_surface.hpp>
 #include <heml/mesh/quality.hpp>
 #include <heml/mesh/read.hpp>
 #include <heml/mesh/write.hpp>
+#include <heml/scenario/input_files.hpp>
+#include <vector>
 
 namespace heml {
 
+namespace {
+
+/// TetGen's meshes are two files.
+std::vector<std::filesystem::path> files_of_mesh(const std::filesystem::path& path) {
+  if (path.extension() != ".node" && path.extension() != ".ele") return {path};
+  return {std::filesystem::path(path).replace_extension(".node"), std::filesystem::path(path).replace_extension(".ele")};
+}
+
+void check_files(const MeshArguments& arguments) {
+  refuse_overwriting(files_of_mesh(arguments.surface), files_of_mesh(arguments.out));
+  for (const std::filesystem::path& file : files_of_mesh(arguments.out)) expect_writable_file(file);
+}
+
+}  // namespace
+
 int mesh_surface(const MeshArguments& arguments) {
-  if (!(arguments.scale > 0)) throw UsageError(fmt::format("--scale must be greater than 0, is {}", arguments.scale));
   if (!is_tet_mesh_file(arguments.out))
     throw UsageError(fmt::format("--out {}: end the name in .msh, .mesh, .vtk, .vtu or .node", arguments.out.string()));
+  check_files(arguments);
   TetMesh mesh;
   if (is_tet_mesh_file(arguments.surface)) {
     mesh = read_tet_mesh(arguments.surface);

@@ -4,7 +4,7 @@
 #include <app/panel/eye.hpp>
 #include <app/panel/legend.hpp>
 #include <app/render/png.hpp>
-#include <heml/base/error.hpp>
+#include <heml/base/write_file.hpp>
 #include <heml/session/skin.hpp>
 
 namespace heml {
@@ -16,9 +16,7 @@ Photographer::Photographer(const Scene& scene, const World& world, PictureSize s
       context_(size_),
       skin_(skin_of(world)),
       view_(scene.view) {
-  std::error_code failed;
-  std::filesystem::create_directories(folder_, failed);
-  if (failed) throw InputError(folder_.string(), "", "cannot be made: " + failed.message(), "name another folder");
+  make_folder(folder_);
   if (panel || beside || view_.field != Field::none) interface_.emplace(panel::Interface::suitable_scale(size_));
   if (panel) panel_.emplace(scene, *skin_);
 }

@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <fmt/os.h>
 
 #include <app/commands/commands.hpp>
 #include <charconv>
@@ -7,7 +6,9 @@
 #include <fstream>
 #include <heml/base/error.hpp>
 #include <heml/base/log.hpp>
+#include <heml/base/write_file.hpp>
 #include <heml/materials/point.hpp>
+#include <heml/scenario/input_files.hpp>
 #include <heml/scenario/scene.hpp>
 #include <limits>
 #include <sstream>
@@ -92,28 +93,26 @@ int probe(const ProbeArguments& arguments) {
         fmt::format("{}: '{}' has no energy of a deformation gradient to probe: its forces are those of "
                     "edges",
                     arguments.material.string(), material.law));
+  check_output_file({arguments.material, arguments.gradients}, arguments.out);
   const StateTable table = read_table(arguments.gradients);
-  std::ofstream out(arguments.out);
-  if (!out) throw InputError(arguments.out.string(), "", "cannot be written");
   std::string names = "W";
   for (const char* prefix : {"P", "dP"}) {
     if (prefix[0] == 'd' && !table.has_dF) break;
     for (int i = 0; i < 9; ++i) names += fmt::format(",{}{}{}", prefix, i / 3 + 1, i % 3 + 1);
   }
-  out << names << '\n';
+  std::string out = names + '\n';
   int outside = 0;
   const auto point = make_material_point(material, false);
   const Mat3 nan = Mat3::Constant(std::numeric_limits<double>::quiet_NaN());
   for (const Row& row : table.rows) {
     const bool valid = point->valid(row.F);
     outside += valid ? 0 : 1;
-    out << fmt::format("{:.17g}", valid ? point->energy(row.F) : nan(0, 0))
-        << cells_of(valid ? point->first_piola(row.F) : nan);
-    if (table.has_dF) out << cells_of(valid ? point->first_piola_differential(row.F, row.dF) : nan);
-    out << '\n';
+    out += fmt::format("{:.17g}", valid ? point->energy(row.F) : nan(0, 0)) +
+           cells_of(valid ? point->first_piola(row.F) : nan);
+    if (table.has_dF) out += cells_of(valid ? point->first_piola_differential(row.F, row.dF) : nan);
+    out += '\n';
   }
-  out.flush();
-  if (!out) throw InputError(arguments.out.string(), "", "could not be written to its end", "is the disk full?");
+  write_file(arguments.out, out);
   if (outside > 0)
     warn("{}: {} of {} states are outside the range of {}: nan in their rows", arguments.gradients.string(), outside,
          table.rows.size(), material.law);

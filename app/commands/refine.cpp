@@ -3,10 +3,11 @@
 
 #include <app/commands/commands.hpp>
 #include <heml/base/log.hpp>
+#include <heml/base/write_file.hpp>
 #include <heml/mesh/write.hpp>
 #include <heml/scenario/adapt.hpp>
+#include <heml/scenario/input_files.hpp>
 #include <heml/scenario/positions_csv.hpp>
-#include <heml/scenario/text_file.hpp>
 
 namespace heml {
 namespace {
@@ -19,21 +20,22 @@ RefineGoal goal_of(const RefineArguments& arguments, const Scene& scene) {
 }
 
 void write(const std::filesystem::path& out, const Scene& scene, const Adaptation& adaptation) {
-  std::error_code ignored;  // what cannot be made cannot be written into, and that is told
-  std::filesystem::create_directories(out, ignored);
+  make_folder(out);
   AdaptedScene finer = adapted_scene(scene, adaptation, out / "mesh.vtu");
   if (!adaptation.setup.initial_positions.empty()) {
     finer.scene.initial_positions = out / "initial.csv";
     write_positions_csv(finer.scene.initial_positions, adaptation.setup.initial_positions);
   }
   write_tet_mesh(out / "mesh.vtu", finer.mesh);
-  write_text_file(out / "scene.json", scene_text(finer.scene, std::filesystem::absolute(out)));
+  write_file(out / "scene.json", scene_text(finer.scene, std::filesystem::absolute(out)));
 }
 
 }  // namespace
 
 int refine_scene(const RefineArguments& arguments) {
   Scene scene = read_scene(arguments.scene);
+  check_output_folder(input_files(scene), arguments.out,
+                      {arguments.out / "mesh.vtu", arguments.out / "scene.json", arguments.out / "initial.csv"});
   const RefineGoal goal = goal_of(arguments, scene);
   scene.mesh.refine.reset();
   scene.recorded_mesh.reset();

@@ -4,16 +4,42 @@
 #include <app/commands/photographer.hpp>
 #include <app/commands/progress.hpp>
 #include <heml/base/log.hpp>
-#include <heml/scenario/replay.hpp>
+#include <heml/scenario/input_files.hpp>
+#include <heml/scenario/verify.hpp>
 
 namespace heml {
 namespace {
 constexpr long ticks_between_checkpoints = 100;  // of what is recorded
+
+void check_outputs(const ReplayArguments& arguments, const Scene& scene) {
+  const std::vector<std::filesystem::path> inputs = input_files(scene);
+  if (arguments.record) check_output_file(inputs, *arguments.record, "--record");
+  if (arguments.frames) check_output_folder(inputs, *arguments.frames, frames_in(*arguments.frames, ".png"), "--frames");
+}
+
+int exit_code_of(const Verification& verification, const ReplayResult& result, const Scene& scene) {
+  if (!verification.passed) {
+    log_line("error", fmt::format("{}: {}", scene.file, verification.reason));
+    return exit_check_failed;
+  }
+  if (!verification.warning.empty()) warn("{}: {}", scene.file, verification.warning);
+  if (result.halt) fmt::print("stopped at step {}, as recorded: {}\n", result.ticks, result.halt->message);
+  return exit_done;
+}
+
+/// Of a replay that proves nothing.
+int exit_code_of(const ReplayResult& result, const Scene& scene) {
+  if (result.difference) warn("{}: {}", scene.file, to_text(*result.difference));
+  if (!result.halt) return exit_done;
+  log_line("error", fmt::format("{}: {}", scene.file, result.halt->message));
+  return exit_not_solved;
+}
 }
 
 int replay_recording(const ReplayArguments& arguments) {
   Scene scene = read_scene(arguments.recording);
   if (arguments.threads > 0) scene.solver.threads = arguments.threads;
+  check_outputs(arguments, scene);
   const auto world = load_world(scene);
   std::optional<Photographer> photographer;
   if (arguments.frames) photographer.emplace(scene, *world, arguments.size, false, false, *arguments.frames);
@@ -37,28 +63,10 @@ int replay_recording(const ReplayArguments& arguments) {
         },
         recorder ? &*recorder : nullptr);
   }
-  const std::string name = arguments.recording.string();
-  if (result.halt) {
-    log_line("error", fmt::format("{}: {}", name, result.halt->message));
-    return exit_not_solved;
-  }
-  fmt::print("{} ticks replayed, {} checkpoints compared, final state {:016x}\n", result.ticks, result.checkpoints,
-             world->state_hash());
-  if (result.difference && scene.recorded_instructions && !plays_as_recorded(scene)) {
-    log_line(
-        arguments.verify ? "error" : "warning",
-        fmt::format("{}: its states were recorded with {} kernels, which this processor does not have; others differ "
-                    "by round-off, so they cannot be compared",
-                    name, name_of(*scene.recorded_instructions)));
-    if (arguments.verify) return exit_check_failed;
-  } else if (result.difference) {
-    log_line(arguments.verify ? "error" : "warning", fmt::format("{}: {}", name, to_text(*result.difference)));
-    if (arguments.verify) return exit_check_failed;
-  } else if (arguments.verify && result.checkpoints == 0) {
-    log_line("error", fmt::format("{}: it holds no checkpoint, so nothing could be verified", name));
-    return exit_check_failed;
-  }
-  return exit_done;
+  fmt::print("{} ticks replayed, {} of {} checkpoints compared, final state {:016x}\n", result.ticks,
+             result.checkpoints, scene.checkpoints.size(), world->state_hash());
+  return arguments.verify ? exit_code_of(verify(scene, result, arguments.partial), result, scene)
+                          : exit_code_of(result, scene);
 }
 
 }  // namespace heml

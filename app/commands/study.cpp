@@ -2,9 +2,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <app/commands/bench_pictures.hpp>
 #include <app/commands/commands.hpp>
 #include <heml/base/error.hpp>
+#include <heml/base/write_file.hpp>
 
 namespace heml {
 namespace {
@@ -25,7 +25,7 @@ int study(const StudyArguments& arguments) {
     if (study.kind != arguments.kind) continue;
     if (!study.takes_scene && !arguments.scene.empty())
       throw UsageError(fmt::format("study {}: takes no --scene", study.kind));
-    make_picture_folder(arguments.out);
+    make_folder(arguments.out);
     return study.run(arguments);
   }
   throw UsageError(fmt::format("study {}: the studies are {}", arguments.kind, fmt::join(kinds, ", ")));

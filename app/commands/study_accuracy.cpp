@@ -5,6 +5,8 @@
 #include <app/commands/commands.hpp>
 #include <app/commands/progress.hpp>
 #include <heml/base/log.hpp>
+#include <heml/base/write_file.hpp>
+#include <heml/scenario/input_files.hpp>
 #include <heml/scenario/text_file.hpp>
 
 namespace heml {
@@ -33,17 +35,26 @@ AccuracyStudy measure(const StudyArguments& arguments, Results& results) {
   return study_accuracy(options);
 }
 
+/// A scene of the user's may lie in the folder of the report, under another name than the report's files.
+void check_scene(const StudyArguments& arguments) {
+  if (arguments.scene.empty()) return;
+  const auto files = {arguments.out / "results.jsonl", arguments.out / "runs.csv", arguments.out / "figures.json",
+                      arguments.out / "report.html"};
+  refuse_overwriting(input_files(read_scene(arguments.scene)), files);
+}
+
 void write_files(const StudyArguments& arguments, const AccuracyStudy& study, const std::vector<std::string>& worse) {
   const auto pictures = write_accuracy_pictures(arguments.out, study);
-  write_text_file(arguments.out / "runs.csv", csv_text(run_table(study)));
-  write_text_file(arguments.out / "figures.json",
+  write_file(arguments.out / "runs.csv", csv_text(run_table(study)));
+  write_file(arguments.out / "figures.json",
                   json_text(to_json(figures_of(study)), (arguments.out / "figures.json").string(), true) + "\n");
-  write_text_file(arguments.out / "report.html", accuracy_page(study, pictures, command_of(arguments), worse));
+  write_file(arguments.out / "report.html", accuracy_page(study, pictures, command_of(arguments), worse));
 }
 
 }  // namespace
 
 int study_accuracy(const StudyArguments& arguments) {
+  check_scene(arguments);
   Results results(arguments.out / "results.jsonl");
   const AccuracyStudy study = measure(arguments, results);
   const bool has_figures = arguments.quick && arguments.scene.empty();

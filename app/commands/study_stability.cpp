@@ -4,7 +4,7 @@
 #include <app/commands/commands.hpp>
 #include <app/commands/progress.hpp>
 #include <heml/base/log.hpp>
-#include <heml/scenario/text_file.hpp>
+#include <heml/base/write_file.hpp>
 #include <heml/studies/stability/matrix.hpp>
 #include <heml/studies/stability/report.hpp>
 
@@ -23,7 +23,7 @@ int study_stability(const StudyArguments& arguments) {
     cells = run_study(arguments.out / "results.jsonl", options);
   }
   hold_against(promises, cells);
-  const auto write = [&](const char* name, const std::string& text) { write_text_file(arguments.out / name, text); };
+  const auto write = [&](const char* name, const std::string& text) { write_file(arguments.out / name, text); };
   write("report.html", html_report(cells, compare_with_penalty(arguments.quick), arguments.quick));
   write("matrix.svg", matrix_svg(cells));
   write("cells.csv", csv_of(cells));

@@ -5,7 +5,8 @@
 #include <app/commands/progress.hpp>
 #include <heml/base/error.hpp>
 #include <heml/base/log.hpp>
-#include <heml/scenario/text_file.hpp>
+#include <heml/base/write_file.hpp>
+#include <heml/scenario/input_files.hpp>
 #include <heml/studies/quantity_text.hpp>
 #include <heml/studies/tune.hpp>
 
@@ -19,7 +20,6 @@ TuneGoal goal_of(const TuneArguments& arguments) {
   return {std::nullopt, metres_from(arguments.error, "--error")};
 }
 
-/// Beside nothing of the user's: a scene is replaced only where --out names it.
 std::filesystem::path out_of(const TuneArguments& arguments, const Scene& scene) {
   if (!arguments.out.empty()) return arguments.out;
   const auto stem = std::filesystem::path(scene.file).stem().string();
@@ -38,13 +38,14 @@ int tune_scene(const TuneArguments& arguments) {
   const TuneGoal goal = goal_of(arguments);
   const Scene scene = read_scene(arguments.scene);
   const auto out = out_of(arguments, scene);
+  check_output_file(input_files(scene), out);
   const Tuning tuning = measure(scene, arguments.quick);
   const auto best = best_for(goal, tuning);
   if (!best) {
     log_line("error", fmt::format("{}: {}", scene.file, nothing_reaches(goal, tuning)));
     return exit_check_failed;
   }
-  write_text_file(out, scene_text(tuned_scene(tuning, *best), std::filesystem::absolute(out).parent_path()));
+  write_file(out, scene_text(tuned_scene(tuning, *best), std::filesystem::absolute(out).parent_path()));
   for (const std::string& sentence : tuning_text(goal, tuning, *best)) fmt::print("{}\n", sentence);
   fmt::print("the scene solved that way is {}\n", out.string());
   return exit_done;

@@ -5,8 +5,10 @@
 
 #include <cstdio>
 #include <heml/base/error.hpp>
+#include <heml/base/write_file.hpp>
 #include <memory>
 #include <stdexcept>
+#include <string>
 
 namespace heml::render {
 namespace {
@@ -20,6 +22,10 @@ using File = std::unique_ptr<std::FILE, CloseFile>;
 // destructors running, which longjmp would skip.
 [[noreturn]] void throw_error(png_structp, png_const_charp message) { throw std::runtime_error(message); }
 void ignore_warning(png_structp, png_const_charp) {}
+
+void append(png_structp png, png_bytep data, png_size_t size) {
+  static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<const char*>(data), size);
+}
 
 class Writer {
  public:
@@ -69,11 +75,10 @@ Image decode(std::FILE* file) {
 }  // namespace
 
 void write_png(const std::filesystem::path& path, const Image& image) {
-  const File file(std::fopen(path.c_str(), "wb"));
-  if (!file) throw InputError(path.string(), "", "cannot be written", "name an existing folder you may write to");
+  std::string bytes;
   try {
     Writer writer;
-    png_init_io(writer.png, file.get());
+    png_set_write_fn(writer.png, &bytes, append, nullptr);
     png_set_IHDR(writer.png, writer.info, image.size.width, image.size.height, 8, PNG_COLOR_TYPE_RGB,
                  PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_set_compression_level(writer.png, 1);
@@ -81,10 +86,10 @@ void write_png(const std::filesystem::path& path, const Image& image) {
     png_write_info(writer.png, writer.info);
     for (int y = 0; y < image.size.height; ++y) png_write_row(writer.png, image.at(0, y));
     png_write_end(writer.png, nullptr);
-    if (std::fflush(file.get()) != 0) throw std::runtime_error("the disk takes no more");
   } catch (const std::runtime_error& error) {
     throw InputError(path.string(), "", fmt::format("cannot be written as PNG: {}", error.what()), "");
   }
+  write_file(path, bytes);
 }
 
 Image read_png(const std::filesystem::path& path) {

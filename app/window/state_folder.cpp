@@ -1,9 +1,9 @@
-#include <unistd.h>
-
 #include <algorithm>
 #include <app/window/state_folder.hpp>
 #include <cstdlib>
 #include <fstream>
+#include <heml/base/error.hpp>
+#include <heml/base/write_file.hpp>
 #include <string>
 
 namespace heml::window {
@@ -43,13 +43,12 @@ void remember_file(const fs::path& path) {
   files.insert(files.begin(), whole);
   files.resize(std::min(files.size(), most_files));
   fs::create_directories(list.parent_path(), failed);
-  const fs::path next = list.string() + "." + std::to_string(getpid());  // renamed: never half a list
-  {
-    std::ofstream out(next);
-    for (const fs::path& file : files) out << file.string() << '\n';
-    if (!out.flush()) return;
+  std::string text;
+  for (const fs::path& file : files) text += file.string() + '\n';
+  try {
+    write_file(list, text);
+  } catch (const InputError&) {  // forgotten, then
   }
-  fs::rename(next, list, failed);
 }
 
 }  // namespace heml::window

@@ -5,7 +5,7 @@
 #include <app/window/screenshot.hpp>
 #include <app/window/viewer.hpp>
 #include <heml/base/error.hpp>
-#include <heml/scenario/text_file.hpp>
+#include <heml/base/write_file.hpp>
 #include <utility>
 
 namespace heml::window {
@@ -167,7 +167,7 @@ void Viewer::save_scene() {
   for (const TableState& state : frame_->tables) scene.tables.push_back(state.table);
   try {
     const auto path = free_name(scene.name, ".json");
-    write_text_file(path, scene_text(scene, std::filesystem::current_path()));
+    write_file(path, scene_text(scene, std::filesystem::current_path()));
     panel_->say("Saved " + path.string());
   } catch (const InputError& error) {
     panel_->say(error.what());

@@ -4,6 +4,7 @@
 #include <app/window/viewer.hpp>
 #include <app/window/window.hpp>
 #include <chrono>
+#include <heml/base/error.hpp>
 
 namespace heml {
 namespace {
@@ -58,6 +59,8 @@ std::optional<std::string> run_window(const Scene& scene, const WindowOptions& o
     const Frame& last = viewer.frame();
     fmt::print("{} pictures drawn, {} ticks, {} missed deadlines, {:.3g} wall seconds a simulated second\n",
                viewer.drawn(), last.tick, last.pace.missed, last.pace.slowdown);
+    if (!last.recording_problem.empty())
+      throw InputError("", "the recording ended early", last.recording_problem);
     return std::nullopt;
   } catch (const window::NoDisplay& reason) {
     return reason.what();

@@ -19,7 +19,7 @@ struct WindowOptions {
 
 /// Shows the scene until the window is closed, then prints one line of statistics on stdout. Returns nothing then, and
 /// why there is no window when there can be none (no display, no OpenGL 3.3). The calling thread must be the program's
-/// first. Throws InputError as Session does.
+/// first. Throws InputError as Session does, and at the end where the recording could not be written to its own.
 std::optional<std::string> run_window(const Scene& scene, const WindowOptions& options);
 
 }  // namespace heml

@@ -2,9 +2,9 @@
 // Text that grows and becomes a file.
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <filesystem>
 #include <heml/base/error.hpp>
+#include <heml/base/write_file.hpp>
 #include <heml/mesh/tet_mesh.hpp>
 #include <iterator>
 #include <utility>
@@ -31,9 +31,7 @@ class MeshText {
 
   /// Throws InputError when it cannot be written.
   void save(const std::filesystem::path& path) const {
-    std::FILE* file = std::fopen(path.c_str(), "wb");
-    const bool written = file && std::fwrite(text_.data(), 1, text_.size(), file) == text_.size();
-    if (!file || (std::fclose(file) != 0) || !written) throw InputError(path.string(), "", "cannot be written");
+    write_file(path, {text_.data(), text_.size()});
   }
 
  private:

@@ -120,7 +120,7 @@ AdaptedScene adapted_scene(const Scene& scene, const Adaptation& adaptation, con
   for (std::size_t k = 0; k < scene.loads.size(); ++k)
     if (auto& nodes = finer.loads[k].where.nodes; !nodes.empty()) nodes = adaptation.setup.loads[k].nodes;
   finer.checkpoints.clear();
-  finer.recorded_ticks.reset(), finer.recorded_mesh.reset(), finer.recorded_instructions.reset();
+  finer.recorded_ticks.reset(), finer.recorded_end.reset(), finer.recorded_by = {}, finer.recorded_mesh.reset(), finer.recorded_instructions.reset();
   return result;
 }
 

@@ -145,6 +145,22 @@ Command command_from(const Key& key, const std::string& action, std::vector<Vec3
   return Reset{};
 }
 
+RecordedEnd end_from(const Key& key, long tick) {
+  expect_true(key["end"]);
+  RecordedEnd end{tick, {}, {}, {}};
+  if (const auto count = key.find("checkpoints")) end.checkpoints = count->integer(0, last_tick);
+  if (const auto hash = key.find("hash")) end.hash = hash->hash();
+  if (const auto halt = key.find("halt")) end.halt = halt->text();
+  return end;
+}
+
+/// Keys that belong to an entry of one kind alone.
+void expect_only_with(const Key& key, std::string_view action, std::string_view seen,
+                      std::initializer_list<std::string_view> names) {
+  for (const std::string_view name : names)
+    if (action != seen && key.has(name)) key[name].fail(fmt::format("stands without '{}'", action), "take it away");
+}
+
 Json command_json(const Grasp& grasp) { return {{"grasp", {{"node", grasp.node}, {"radius", grasp.radius}}}}; }
 Json command_json(const MoveTool& move) { return {{"move", vector_json(move.target)}}; }
 Json command_json(const Release&) { return {{"release", true}}; }
@@ -189,20 +205,21 @@ Json command_json(const Reset&) { return {{"reset", true}}; }
 void read_script_entry(const Key& key, double tick_length, Script& script) {
   key.allow({"step",   "at",       "grasp",   "move",    "release",    "pin",    "tables",    "probe",
              "suture", "material", "damping", "gravity", "integrator", "budget", "step_cost", "remove",
-             "cut",    "factor",   "undo",    "reset",   "checkpoint", "nodes",  "end"});
+             "cut",    "factor",   "undo",    "reset",   "checkpoint", "nodes",  "end",
+             "checkpoints", "hash", "halt"});
   const long tick = tick_from(key, tick_length);
   const std::string action = key.only_one_of(
       {"grasp",      "move",   "release",   "pin",    "tables", "probe",  "suture", "material", "damping",    "gravity",
        "integrator", "budget", "step_cost", "remove", "cut",    "factor", "undo",   "reset",    "checkpoint", "end"});
-  if (action != "checkpoint" && key.has("nodes")) key["nodes"].fail("stands without a checkpoint", "take it away");
+  expect_only_with(key, "checkpoint", action, {"nodes"});
+  expect_only_with(key, "end", action, {"checkpoints", "hash", "halt"});
   if (action == "checkpoint") {
     const auto nodes = key.find("nodes");
     script.checkpoints.push_back(
         {tick, key["checkpoint"].hash(), nodes ? node_hashes_from(*nodes) : std::vector<std::uint16_t>()});
   } else if (action == "end") {
-    expect_true(key["end"]);
     if (script.end) key.fail("a second end", "keep one of them");
-    script.end = tick;
+    script.end = end_from(key, tick);
   } else {
     Script::Entry entry;
     entry.event = {tick, command_from(key, action, entry.points)};
@@ -219,8 +236,10 @@ void install_script(Script script, Scene& scene) {
     if (!entry.points.empty()) scene.points[scene.events.size()] = entry.points;
     scene.events.push_back(entry.event);
   }
-  scene.recorded_ticks = script.end;
-  if (!script.end && !script.checkpoints.empty()) {  // ended by a crash: as far as its lines go
+  scene.recorded_end = script.end;
+  if (script.end) {
+    scene.recorded_ticks = script.end->tick;
+  } else if (!script.checkpoints.empty()) {  // ended by a crash: as far as its lines go
     const long event_end = scene.events.empty() ? 0 : scene.events.back().tick + 1;
     scene.recorded_ticks = std::max(script.checkpoints.back().tick, event_end);
   }
@@ -238,6 +257,14 @@ std::string checkpoint_line(const Checkpoint& checkpoint) {
   std::string digits;
   for (const std::uint16_t hash : checkpoint.nodes) fmt::format_to(std::back_inserter(digits), "{:04x}", hash);
   if (!digits.empty()) json["nodes"] = digits;
+  return json_text(json, "");
+}
+
+std::string end_line(const RecordedEnd& end) {
+  Json json = {{"step", end.tick}, {"end", true}};
+  if (end.checkpoints) json["checkpoints"] = *end.checkpoints;
+  if (end.hash) json["hash"] = fmt::format("{:016x}", *end.hash);
+  if (end.halt) json["halt"] = *end.halt;
   return json_text(json, "");
 }
 

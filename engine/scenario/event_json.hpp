@@ -24,7 +24,9 @@
 //   {"step": 67, "undo": true}                             the last removal or stroke
 //   {"step": 70, "reset": true}
 //   {"step": 80, "checkpoint": "0123456789abcdef", "nodes": "12ab..."}    state hash; 4 hexadecimal digits a node
-//   {"step": 90, "end": true}                               how far a recording went
+//   {"step": 90, "end": true, "checkpoints": 12, "hash": "0123456789abcdef", "halt": "unstable at …"}
+//                                                         how far a recording went, how many checkpoints it holds, the
+//                                                         state before the events of this step, and why it stopped there
 //
 // with "at": seconds instead of "step" where that is easier: it means the nearest tick.
 #include <heml/scenario/key.hpp>
@@ -40,7 +42,7 @@ struct Script {
   };
   std::vector<Entry> entries;
   std::vector<Checkpoint> checkpoints;
-  std::optional<long> end;
+  std::optional<RecordedEnd> end;
 };
 
 /// Adds one entry. tick_length: s. Throws InputError naming the key.

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include <heml/base/error.hpp>
+#include <heml/base/write_file.hpp>
 #include <heml/mesh/surface.hpp>
 #include <heml/mesh/write_surface.hpp>
 #include <heml/scenario/frame_series.hpp>
@@ -76,9 +76,7 @@ void write_frame(const fs::path& path, World& world) {
 }
 
 FrameSeries::FrameSeries(fs::path folder, std::string ending) : folder_(std::move(folder)), ending_(std::move(ending)) {
-  std::error_code error;
-  fs::create_directories(folder_, error);
-  if (error) throw InputError(folder_.string(), "", "cannot be made: " + error.message(), "name a folder that can be");
+  make_folder(folder_);
 }
 
 void FrameSeries::take(World& world) {

@@ -29,7 +29,7 @@ std::vector<std::string> asset_names(const fs::path& folder) {
 }
 
 TetMesh asset_mesh(const Scene& scene) {
-  const fs::path folder = assets_folder() / "meshes", path = folder / (scene.mesh.asset + ".mesh");
+  const fs::path path = asset_mesh_file(scene.mesh.asset), folder = path.parent_path();
   std::error_code error;
   if (!fs::exists(path, error))
     throw InputError(scene.file, "mesh.asset", fmt::format("'{}' is not in {}", scene.mesh.asset, folder.string()),
@@ -55,6 +55,8 @@ TetMesh raw_mesh(const Scene& scene) {
 }
 
 }  // namespace
+
+fs::path asset_mesh_file(const std::string& name) { return assets_folder() / "meshes" / (name + ".mesh"); }
 
 fs::path find_file(const Scene& scene, const std::string& key, const fs::path& path) {
   std::error_code error;

@@ -12,6 +12,9 @@ TetMesh load_mesh(const Scene& scene);
 /// mesh: as load_setup() leaves it, with the fields that materials use and no others.
 MeshIdentity identity_of(const TetMesh& mesh);
 
+/// Of an asset by its name; it need not exist.
+std::filesystem::path asset_mesh_file(const std::string& name);
+
 /// Throws InputError when the scene was recorded with another mesh.
 void expect_recorded_mesh(const Scene& scene, const TetMesh& mesh);
 

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <heml/base/error.hpp>
+#include <heml/base/write_file.hpp>
 #include <heml/scenario/csv_text.hpp>
 #include <heml/scenario/json_text.hpp>
 #include <heml/scenario/positions_csv.hpp>
@@ -55,7 +56,7 @@ void write_positions_csv(const std::filesystem::path& path, const std::vector<Ve
     const Vec3& x = positions[i];
     fmt::format_to(std::back_inserter(text), "{},{:.17g},{:.17g},{:.17g}\n", i, x.x(), x.y(), x.z());
   }
-  write_text_file(path, std::string_view(text.data(), text.size()));
+  write_file(path, std::string_view(text.data(), text.size()));
 }
 
 }  // namespace heml

@@ -73,7 +73,7 @@ void read_initial(const Key& key, const fs::path& folder, Scene& scene) {
 }
 
 MeshIdentity identity_from(const Key& key) {
-  key.allow({"nodes", "tets", "mesh", "instructions"});
+  key.allow({"nodes", "tets", "mesh", "instructions", "format", "kernel_revision", "build"});
   constexpr long most = std::numeric_limits<int>::max();
   return {static_cast<int>(key["nodes"].integer(0, most)), static_cast<int>(key["tets"].integer(0, most)),
           key["mesh"].hash()};
@@ -87,6 +87,15 @@ std::optional<InstructionSet> instructions_from(const Key& recorded) {
   for (const InstructionSet isa : {InstructionSet::portable, InstructionSet::avx2, InstructionSet::avx512})
     if (name == name_of(isa)) return isa;
   key->fail(fmt::format("\"{}\" is no instruction set", name), "give portable, avx2 or avx512");
+}
+
+RecordedBy recorded_by_from(const Key& recorded) {
+  RecordedBy by;
+  if (const auto format = recorded.find("format")) by.format = static_cast<int>(format->integer(1, recording_format));
+  if (const auto revision = recorded.find("kernel_revision"))
+    by.kernel_revision = revision->integer(0, std::numeric_limits<int>::max());
+  if (const auto build = recorded.find("build")) by.build = build->text();
+  return by;
 }
 
 /// Everything but the script.
@@ -117,6 +126,7 @@ Scene scene_from(const Key& key, const fs::path& folder) {
   if (const auto recorded = key.find("recorded")) {
     scene.recorded_mesh = identity_from(*recorded);
     scene.recorded_instructions = instructions_from(*recorded);
+    scene.recorded_by = recorded_by_from(*recorded);
   }
   return scene;
 }

@@ -1,12 +1,9 @@
-#include <fmt/format.h>
-
-#include <cerrno>
-#include <cstring>
 #include <heml/base/error.hpp>
-#include <heml/base/log.hpp>
-#include <heml/scenario/json_text.hpp>
+#include <heml/scenario/build_identity.hpp>
+#include <heml/scenario/input_files.hpp>
 #include <heml/scenario/load_mesh.hpp>
 #include <heml/scenario/recorder.hpp>
+#include <utility>
 
 namespace heml {
 
@@ -14,53 +11,56 @@ Scene as_recorded(const Scene& scene, const World& world) {
   Scene recorded = scene;
   recorded.recorded_mesh = identity_of(world.setup().mesh);
   recorded.recorded_instructions = chosen(world.setup().instruction_set);
+  recorded.recorded_by = {recording_format, kernel_revision, build_name()};
   return recorded;
 }
 
 Recorder::Recorder(const std::filesystem::path& path, const Scene& scene, const World& world, long checkpoint_every)
-    : path_(path.string()), every_(checkpoint_every) {
-  std::error_code error;
-  if (std::filesystem::equivalent(path, scene.file, error))
-    throw InputError(path_, "", "is the scene itself and would be overwritten", "record to another file");
-  const Scene recorded = as_recorded(scene, world);
+    : every_(checkpoint_every), tick_(world.ticks()), hash_(world.state_hash()), halted_(world.halt().has_value()) {
+  refuse_overwriting(input_files(scene), {path}, "--record");
   const std::filesystem::path folder = path.parent_path();
-  const std::string first_line = scene_line(recorded, folder.empty() ? "." : folder);
-  file_.reset(std::fopen(path_.c_str(), "wb"));
-  if (!file_)
-    throw InputError(path_, "", fmt::format("cannot be written: {}", std::strerror(errno)),
-                     "check the folder and its permissions");
+  const std::string first_line = scene_line(as_recorded(scene, world), folder.empty() ? "." : folder);
+  file_.emplace(path, GrowingFile::From::start);
   write(first_line);
   checkpoint(world);
 }
 
 void Recorder::command(const World& world, const Command& command) {
-  write(event_line({world.ticks(), command}));
-  last_command_ = world.ticks();
+  moot_.push_back(event_line({world.ticks(), command}));
+  const bool was_halted = std::exchange(halted_, world.halt().has_value());
+  if (was_halted && halted_) return;
+  for (const std::string& line : std::exchange(moot_, {})) write(line);
 }
 
 void Recorder::ticked(const World& world) {
-  if (world.ticks() % every_ == 0) checkpoint(world);
+  halted_ = world.halt().has_value();
+  if (world.ticks() == tick_) return;  // halted or interrupted within it
+  tick_ = world.ticks();
+  hash_ = world.state_hash();
+  if (tick_ % every_ == 0) checkpoint(world);
 }
 
 void Recorder::end(const World& world) {
-  // A checkpoint is of the state before a tick's commands: after one there is none to be had until it has ticked.
-  if (last_checkpoint_ != world.ticks() && last_command_ != world.ticks()) checkpoint(world);
-  write(json_text({{"step", world.ticks()}, {"end", true}}, path_));
+  // A checkpoint is of the state before a tick's commands, which is gone where one of them or half a tick changed it.
+  if (last_checkpoint_ != tick_ && world.ticks() == tick_ && world.state_hash() == hash_) checkpoint(world);
+  RecordedEnd end{tick_, checkpoints_, hash_, {}};
+  if (world.halt()) end.halt = world.halt()->message;
+  write(end_line(end));
+  if (file_) file_->close();
   file_.reset();
 }
 
 void Recorder::checkpoint(const World& world) {
-  if (!file_) return;
-  write(checkpoint_line({world.ticks(), world.state_hash(), world.node_hashes()}));
-  last_checkpoint_ = world.ticks();
+  write(checkpoint_line({tick_, hash_, world.node_hashes()}));
+  last_checkpoint_ = tick_;
+  ++checkpoints_;
 }
 
-void Recorder::write(const std::string& line) {
-  if (!file_) return;
-  const std::string whole = line + '\n';
-  if (std::fwrite(whole.data(), 1, whole.size(), file_.get()) == whole.size() && std::fflush(file_.get()) == 0) return;
-  warn("{}: cannot be written any further: {}; the recording ends here", path_, std::strerror(errno));
+void Recorder::write(const std::string& line) try {
+  if (file_) file_->write(line + '\n');
+} catch (const InputError&) {
   file_.reset();
+  throw;
 }
 
 }  // namespace heml

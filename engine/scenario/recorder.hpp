@@ -1,51 +1,53 @@
 #pragma once
 // Appends a session to a JSON Lines file as it goes:
 //
-//   {"schema_version": 1, "mesh": ..., "recorded": {...}}    the scene, and which mesh it was
+//   {"schema_version": 1, "mesh": ..., "recorded": {...}}    the scene, which mesh it was, and who records
 //   {"step": 0, "checkpoint": "...", "nodes": "..."}         state before tick 0
 //   {"step": 12, "grasp": {"node": 3, "radius": 0.01}}       commands, before the tick they act on
 //   ...
-//   {"step": 900, "end": true}
+//   {"step": 900, "end": true, "checkpoints": 3, "hash": "..."}    the state before the commands of that tick
 //
-// Every line is handed to the system before the next is made, so a crash loses the line being written and no other.
-#include <cstdio>
+// Every line is handed to the system before the next is made, so a crash loses the line being written and no other. A
+// world that halts stops within a tick: the end then names that tick, the state before it, and why ("halt").
 #include <filesystem>
+#include <heml/base/write_file.hpp>
 #include <heml/scenario/scene.hpp>
 #include <heml/world/world.hpp>
-#include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace heml {
 
 /// A scene as its recordings hold it: with which mesh it was, and whose bits its states are. world: as built from it.
 Scene as_recorded(const Scene& scene, const World& world);
 
+/// Any of its functions throws InputError when the file takes no more; what comes after is not written any more.
 class Recorder {
  public:
   /// Replaces the file. world: as built from the scene, before its first tick. checkpoint_every: ticks.
-  /// Throws InputError when the file cannot be written or is the scene's own.
+  /// Throws InputError when the file cannot be written or the scene reads it.
   Recorder(const std::filesystem::path& path, const Scene& scene, const World& world, long checkpoint_every = 500);
 
-  /// A command that takes effect at the world's coming tick.
+  /// A command that takes effect at the world's coming tick, and has been applied.
   void command(const World& world, const Command& command);
 
   /// To be called after every tick: writes a checkpoint when one is due.
   void ticked(const World& world);
 
-  /// The last checkpoint and the end. Nothing may be written afterwards.
+  /// The last checkpoint and the end. Nothing is written afterwards.
   void end(const World& world);
 
  private:
-  /// A disk that fills up ends the recording with a warning, not the session.
   void write(const std::string& line);
   void checkpoint(const World& world);
 
-  struct Close {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-  };
-  std::string path_;
-  std::unique_ptr<std::FILE, Close> file_;  ///< null once it ended
-  long every_, last_checkpoint_ = -1, last_command_ = -1;
+  std::optional<GrowingFile> file_;  ///< none once it ended
+  long every_, checkpoints_ = 0, last_checkpoint_ = -1;
+  long tick_ = 0;                  ///< the coming one
+  std::uint64_t hash_ = 0;         ///< of the state before its commands
+  bool halted_ = false;            ///< as of the last call
+  std::vector<std::string> moot_;  ///< lines of commands given to a world that had halted: they count after a reset
 };
 
 }  // namespace heml

@@ -1,6 +1,5 @@
-#include <heml/scenario/json_text.hpp>
+#include <heml/base/write_file.hpp>
 #include <heml/scenario/recovery_watch.hpp>
-#include <heml/scenario/text_file.hpp>
 
 namespace heml {
 
@@ -9,9 +8,10 @@ void write_replay(const std::filesystem::path& path, const Scene& scene, std::sp
   const std::filesystem::path folder = path.parent_path();
   std::string text = scene_line(scene, folder.empty() ? "." : folder) + '\n';
   for (const Event& event : events) text += event_line(event) + '\n';
-  text += checkpoint_line({world.ticks(), world.state_hash(), world.node_hashes()}) + '\n';
-  text += json_text({{"step", world.ticks()}, {"end", true}}, path.string()) + '\n';
-  write_text_file(path, text);
+  const std::uint64_t hash = world.state_hash();
+  text += checkpoint_line({world.ticks(), hash, world.node_hashes()}) + '\n';
+  text += end_line({world.ticks(), 1, hash, {}}) + '\n';
+  write_file(path, text);
 }
 
 RecoveryWatch::News RecoveryWatch::after_tick(const World& world) {

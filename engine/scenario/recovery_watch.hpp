@@ -7,7 +7,7 @@
 
 namespace heml {
 
-/// Writes the way to a world's present state as a recording: the scene, the commands, a checkpoint of the state, the
+/// world: between two ticks, not halted. Writes the way to its present state as a recording: the scene, the commands, a checkpoint of the state, the
 /// end. It plays back to the bit (`heml replay --verify`). events: every command since the world was built; those the
 /// scene itself holds are not written. scene: as_recorded() of it. Throws InputError when the file cannot be written.
 void write_replay(const std::filesystem::path& path, const Scene& scene, std::span<const Event> events,

@@ -13,17 +13,18 @@ namespace heml {
 struct ReplayDifference {
   long tick = 0;  ///< of the checkpoint
   int node = -1;  ///< the first node that differs, mesh-file order; -1: the checkpoint does not tell
-  std::uint64_t expected = 0, actual = 0;  ///< state hashes
+  std::uint64_t expected = 0, actual = 0;  ///< state hashes; the same where only the recorded hash of a node is wrong
 };
 
 struct ReplayResult {
   long ticks = 0;                              ///< played
   long checkpoints = 0;                        ///< compared
   std::optional<ReplayDifference> difference;  ///< the first
-  std::optional<Halt> halt;                    ///< the world stopped before the end
+  std::optional<Halt> halt;                    ///< the world stopped before the end, or as its end says
 };
 
-/// How many ticks a replay plays: as far as the recording goes, or, of a scene with a script, its duration.
+/// How many ticks a replay plays: as far as the recording goes, with the one in which it stopped where it did; or, of a
+/// scene with a script, its duration.
 long ticks_to_play(const Scene& scene);
 
 /// world: load_world(scene), before its first tick. on_tick: called after every tick. recorder: of that world, takes down

@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <heml/base/write_file.hpp>
 #include <heml/scenario/frame_series.hpp>
 #include <heml/scenario/json_text.hpp>
 #include <heml/scenario/positions_csv.hpp>
 #include <heml/scenario/report.hpp>
-#include <heml/scenario/text_file.hpp>
 #include <heml/scenario/vector_json.hpp>
 
 namespace heml {
@@ -101,7 +101,7 @@ void write_report(const std::filesystem::path& path, World& world, const SolveFa
   if (const Recovery* recovery = world.recovery()) report["recovery"] = recovery_json(*recovery);
   if (facts.halt) report["halt"] = halt_json(*facts.halt);
   if (facts.refused) report["refused"] = *facts.refused;
-  write_text_file(path, json_text(report, path.string(), true) + "\n");
+  write_file(path, json_text(report, path.string(), true) + "\n");
 }
 
 void write_state(const std::filesystem::path& folder, const std::string& stem, World& world, bool csv, bool vtu) {

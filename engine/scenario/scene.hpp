@@ -87,6 +87,22 @@ struct Checkpoint {
   std::vector<std::uint16_t> nodes;  ///< node_hashes(); may be empty
 };
 
+/// How a recording ends. Only `tick` is there in those of format 1.
+struct RecordedEnd {
+  long tick = 0;
+  std::optional<long> checkpoints;    ///< that the recording holds
+  std::optional<std::uint64_t> hash;  ///< state_hash() before the commands of the tick
+  std::optional<std::string> halt;    ///< Halt::message, where the world stopped within the tick
+};
+
+/// Who made a recording.
+struct RecordedBy {
+  int format = 1;            ///< 2: its end says how many checkpoints there are and the state it ends with
+  long kernel_revision = 0;  ///< build_identity.hpp; 0: made before there were any
+  std::string build;         ///< likewise; empty: not told
+};
+constexpr int recording_format = 2;  ///< that this build writes
+
 /// Says whether a mesh is the one a recording was made with. Hash: of positions (as placed), elements, regions
 /// and the fields that materials use.
 struct MeshIdentity {
@@ -120,6 +136,8 @@ struct Scene {
   std::map<std::size_t, std::vector<Vec3>> points;
   std::vector<Checkpoint> checkpoints;                  ///< of a recording, ascending in tick
   std::optional<long> recorded_ticks;                   ///< of a recording: how far it went, as far as is known
+  std::optional<RecordedEnd> recorded_end;              ///< of a recording that was not cut short
+  RecordedBy recorded_by;                               ///< of a recording
   std::optional<MeshIdentity> recorded_mesh;            ///< of a recording
   std::optional<InstructionSet> recorded_instructions;  ///< of a recording: whose bits its states are
 };
@@ -158,6 +176,7 @@ std::unique_ptr<World> load_world(const Scene& scene);
 std::string scene_line(const Scene& scene, const std::filesystem::path& folder = {});
 std::string event_line(const Event& event);
 std::string checkpoint_line(const Checkpoint& checkpoint);
+std::string end_line(const RecordedEnd& end);
 
 /// The scene with its events, but no checkpoints, as a file in `folder` for people: indented, likewise.
 std::string scene_text(const Scene& scene, const std::filesystem::path& folder = {});

@@ -4,6 +4,8 @@
 #include <chrono>
 #include <heml/base/error.hpp>
 #include <heml/base/log.hpp>
+#include <heml/base/write_file.hpp>
+#include <heml/scenario/input_files.hpp>
 #include <heml/scenario/player.hpp>
 #include <heml/scenario/recorder.hpp>
 #include <heml/scenario/recovery_watch.hpp>
@@ -41,30 +43,27 @@ std::vector<Landing> landings_of(const Scene& scene) {
   return landings;
 }
 
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error || !fs::is_directory(folder, error))
-    throw InputError(folder.string(), "", fmt::format("cannot be made: {}", error ? error.message() : "is a file"),
-                     "name a folder that can be written");
-}
-
-/// Of an earlier solve: a run that stops early must not leave them standing as its own.
-void remove_outputs(const fs::path& folder, const std::vector<Landing>& landings) {
-  std::error_code ignored;
-  fs::remove(folder / "report.json", ignored);
-  for (const char* file : {recovery_file, Trace::markers_file, Trace::history_file}) fs::remove(folder / file, ignored);
+/// What a run writes, if asked for it. An earlier solve's are taken away first: a run that stops early must not leave
+/// them standing as its own.
+std::vector<fs::path> outputs_in(const fs::path& folder, const std::vector<Landing>& landings) {
+  std::vector<fs::path> files;
+  for (const char* file : {"report.json", recovery_file, Trace::markers_file, Trace::history_file})
+    files.push_back(folder / file);
   for (const Landing& landing : landings)
-    for (const char* ending : {".csv", ".vtu"}) fs::remove(folder / (landing.stem + ending), ignored);
+    for (const char* ending : {".csv", ".vtu"}) files.push_back(folder / (landing.stem + ending));
+  return files;
 }
 
 }  // namespace
 
 SolveResult solve(const Scene& scene, const fs::path& out, const std::function<void(double)>& progress) {
   const std::vector<Landing> landings = landings_of(scene);
+  const std::vector<fs::path> outputs = outputs_in(out, landings);
+  check_output_folder(input_files(scene), out, outputs);
   const std::unique_ptr<World> world = load_world(scene);
   make_folder(out);
-  remove_outputs(out, landings);
+  std::error_code ignored;
+  for (const fs::path& file : outputs) fs::remove(file, ignored);
 
   Player player(scene, *world);
   Trace trace(scene, *world);
@@ -73,7 +72,8 @@ SolveResult solve(const Scene& scene, const fs::path& out, const std::function<v
   RecoveryWatch watch;
   const auto on_tick = [&] {
     const auto news = watch.after_tick(*world);
-    if (news != RecoveryWatch::News::none) write_replay(out / recovery_file, recorded, player.past_events(), *world);
+    if (news != RecoveryWatch::News::none && !world->halt())
+      write_replay(out / recovery_file, recorded, player.past_events(), *world);
     if (news == RecoveryWatch::News::began)
       warn("{}; {} shows it again", world->recovery()->message, (out / recovery_file).string());
     trace.take(*world);

@@ -13,8 +13,6 @@ constexpr std::string_view known_integrators[] = {"symplectic_euler", "verlet", 
 constexpr std::string_view elements[] = {"p1", "nodal_pressure"};
 constexpr double most_ticks = 1e12;
 constexpr double fastest_rate = 1e6;  // Hz
-constexpr long most_threads = 256;
-
 constexpr long most_iterations = 1000;  // of a stage
 
 Budget budget_from(const Key& key) {
@@ -73,7 +71,7 @@ SolverSettings solver_from(const Key& key) {
     constexpr std::string_view names[] = {"double", "float"};
     solver.single_precision = precision->one_of(names) == 1;
   }
-  if (const auto threads = key.find("threads")) solver.threads = static_cast<int>(threads->integer(0, most_threads));
+  if (const auto threads = key.find("threads")) solver.threads = static_cast<int>(threads->integer(0, max_threads));
   if (const auto element = key.find("element")) solver.nodal_pressure = element->one_of(elements) == 1;
   if (const auto continuation = key.find("continuation")) solver.continuation = continuation->flag();
   if (const auto recovery = key.find("recovery")) solver.recovery = recovery->flag();

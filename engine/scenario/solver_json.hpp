@@ -5,6 +5,9 @@
 
 namespace heml {
 
+/// Of `threads`, and of --threads: more would only wait for each other.
+constexpr int max_threads = 256;
+
 /// The integrator a value names. Throws InputError for one that is unknown or not part of this build.
 Integrator integrator_from(const Key& key);
 

@@ -34,15 +34,6 @@ std::string read_text_file(const fs::path& path) {
   return text;
 }
 
-void write_text_file(const fs::path& path, std::string_view text) {
-  std::ofstream file(path, std::ios::binary | std::ios::trunc);
-  file.write(text.data(), static_cast<std::streamsize>(text.size()));
-  file.close();
-  if (!file)
-    throw InputError(path.string(), "", fmt::format("cannot be written: {}", std::strerror(errno)),
-                     "check the folder, its permissions and the space left");
-}
-
 bool is_blank(std::string_view text) { return text.find_first_not_of(" \t\r\n") == text.npos; }
 
 std::string lower_case(std::string_view text) {

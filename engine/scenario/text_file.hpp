@@ -9,9 +9,6 @@ namespace heml {
 /// A file's content. Throws InputError when there is none, it is not a regular file, or it is over 1 GB.
 std::string read_text_file(const std::filesystem::path& path);
 
-/// Replaces a file. Throws InputError when it cannot be written in full.
-void write_text_file(const std::filesystem::path& path, std::string_view text);
-
 bool is_blank(std::string_view text);        ///< spaces, tabs and line ends only
 std::string lower_case(std::string_view text);  ///< of ASCII letters
 

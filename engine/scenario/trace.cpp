@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <heml/base/write_file.hpp>
 #include <heml/scenario/selection.hpp>
-#include <heml/scenario/text_file.hpp>
 #include <heml/scenario/trace.hpp>
 #include <iterator>
 
@@ -72,8 +72,8 @@ void Trace::take_history(World& world) {
 }
 
 void Trace::write(const std::filesystem::path& folder) const {
-  if (!marker_rows_.empty()) write_text_file(folder / markers_file, marker_rows_);
-  if (!history_rows_.empty()) write_text_file(folder / history_file, history_rows_);
+  if (!marker_rows_.empty()) write_file(folder / markers_file, marker_rows_);
+  if (!history_rows_.empty()) write_file(folder / history_file, history_rows_);
 }
 
 }  // namespace heml

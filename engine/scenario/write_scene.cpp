@@ -45,6 +45,11 @@ Json scene_json(const Scene& scene, const std::filesystem::path& folder) {
                         {"mesh", fmt::format("{:016x}", scene.recorded_mesh->hash)}};
   if (scene.recorded_mesh && scene.recorded_instructions)
     json["recorded"]["instructions"] = name_of(*scene.recorded_instructions);
+  if (scene.recorded_mesh && scene.recorded_by.format > 1) {
+    json["recorded"]["format"] = scene.recorded_by.format;
+    json["recorded"]["kernel_revision"] = scene.recorded_by.kernel_revision;
+    json["recorded"]["build"] = scene.recorded_by.build;
+  }
   return json;
 }
 

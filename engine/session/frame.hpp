@@ -76,6 +76,7 @@ struct Frame {
   std::optional<Recovery> recovery;        ///< the last one, going on or ended
   std::string recovery_file;               ///< that shows it again; empty: none was written
   std::array<Vec3f, 4> recovered_element;  ///< m, corners of its first bad element, where there is one to name
+  std::string recording_problem;           ///< why the recording ended early; empty: it goes on, or there is none
   std::optional<EditReport> last_edit;     ///< of the mesh
   long refusals = 0;                       ///< commands the world would not take, so far
   std::string refusal;                     ///< why not the last

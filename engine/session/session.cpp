@@ -70,7 +70,7 @@ class Session::Impl {
     world_->interrupt();
     if (companions_) companions_->interrupt();
     thread_.join();
-    if (recorder_ && !world_->unfinished()) recorder_->end(*world_);
+    record([this](Recorder& recorder) { recorder.end(*world_); });
   }
 
   // Any of these from the viewer's thread.
@@ -192,9 +192,20 @@ class Session::Impl {
     }
     if (companions_) companions_->apply(command);
     if (shadow_keeper_) shadow_keeper_->carried_out(command);
-    if (recorder_) recorder_->command(*world_, command);
+    record([&](Recorder& recorder) { recorder.command(*world_, command); });
     std::lock_guard lock(mutex_);
     history_.push_back({world_->ticks(), command});
+  }
+
+  /// A disk that fills up ends the recording, not the session.
+  template <class Write>
+  void record(const Write& write) try {
+    if (recorder_) write(*recorder_);
+  } catch (const InputError& error) {
+    warn("{}; the recording ends here", error.what());
+    recording_problem_ = error.what();
+    recorder_.reset();
+    show_now_ = true;
   }
 
   /// What the scene's own script does is recorded like what the user does: each once.
@@ -203,6 +214,7 @@ class Session::Impl {
     scene.points.clear();
     scene.checkpoints.clear();
     scene.recorded_ticks = 0;
+    scene.recorded_end.reset();
     return scene;
   }
 
@@ -228,7 +240,7 @@ class Session::Impl {
       waited = companions_->tick(*world_);
     else
       world_->tick();
-    if (recorder_) recorder_->ticked(*world_);
+    record([this](Recorder& recorder) { recorder.ticked(*world_); });
     if (shadow_keeper_) shadow_keeper_->ticked(*world_);
     if (!recorded) learn(std::chrono::duration<double>(Pacer::Clock::now() - began).count() - waited);
     if (world_->halt()) show_now_ = true;
@@ -267,7 +279,7 @@ class Session::Impl {
   }
 
   void keep_recovery(bool say) try {
-    if (options_.recovery_file.empty()) return;
+    if (options_.recovery_file.empty() || world_->halt() || world_->unfinished()) return;
     std::error_code ignored;
     std::filesystem::create_directories(options_.recovery_file.parent_path(), ignored);
     write_replay(options_.recovery_file, scene_, history_, *world_);
@@ -312,6 +324,7 @@ class Session::Impl {
     frame.paused = !playing_;
     frame.hurries_to = goal_;
     frame.recovery_file = kept_recovery_;
+    frame.recording_problem = recording_problem_;
     frame.refusals = refusals_;
     frame.refusal = refusal_;
     frames_.publish();
@@ -331,6 +344,7 @@ class Session::Impl {
   RecoveryWatch watch_;
   std::vector<Event> history_;  ///< every command so far; changed under mutex_
   std::string kept_recovery_;   ///< the file of the last one
+  std::string recording_problem_;  ///< why the recording ended early
   long refusals_ = 0;           ///< of commands
   std::string refusal_;         ///< why the last
   mutable std::mutex mutex_;    ///< of queue_, single_steps_ and history_; held for a swap, or by until()

@@ -1,4 +1,5 @@
 #include <fstream>
+#include <heml/scenario/build_identity.hpp>
 #include <heml/studies/machine.hpp>
 #include <heml/studies/naive_loops.hpp>
 #include <sstream>
@@ -34,14 +35,6 @@ std::size_t cache_size(int level) {
     return count << (unit == 'K' ? 10 : unit == 'M' ? 20 : 0);
   }
   return 0;
-}
-
-std::string compiler_name() {
-#if defined(__clang__)
-  return "Clang " __clang_version__;
-#else
-  return "GCC " __VERSION__;
-#endif
 }
 
 }  // namespace

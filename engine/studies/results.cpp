@@ -3,6 +3,7 @@
 #include <fstream>
 #include <heml/base/error.hpp>
 #include <heml/base/hash.hpp>
+#include <heml/base/write_file.hpp>
 #include <heml/scenario/csv_text.hpp>
 #include <heml/scenario/text_file.hpp>
 #include <heml/studies/machine.hpp>
@@ -41,7 +42,7 @@ Results::Results(const std::filesystem::path& file, std::string build) : file_(f
         results_[line["key"]] = line["result"];
     }
   }
-  write_text_file(file, whole);  // without half a line at its end
+  write_file(file, whole);  // without half a line at its end
 }
 
 const Json* Results::find(const std::string& key) const {
@@ -51,10 +52,9 @@ const Json* Results::find(const std::string& key) const {
 
 const Json& Results::add(const std::string& key, const Json& result) {
   const std::string line = json_text({{"key", key}, {"build", build_}, {"result", result}}, file_.string());
-  std::ofstream out(file_, std::ios::app);
-  out << line << '\n';
-  out.flush();
-  if (!out) throw InputError(file_.string(), "", "cannot be written", "make room, or give another --out");
+  GrowingFile out(file_, GrowingFile::From::end);
+  out.write(line + '\n');
+  out.close();
   return results_[key] = Json::parse(line)["result"];
 }
 

@@ -121,6 +121,7 @@ Scene with_method(Scene scene, const Method& method) {
     event.tick = std::lround(static_cast<double>(event.tick) * tick_before / solver.tick());
   scene.checkpoints.clear();
   scene.recorded_ticks.reset();
+  scene.recorded_end.reset();
   scene.recorded_mesh.reset();
   return scene;
 }

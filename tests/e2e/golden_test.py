@@ -1,6 +1,7 @@
 """Committed recordings play as they were recorded, with one thread and with two. HEML_BINARY names the program.
 
-Where physics is meant to change, they are made anew from the scenes they are named after:
+Where physics is meant to change, kernel_revision (engine/scenario/build_identity.hpp) is raised, and they are made anew from the
+scenes they are named after:
 
     for s in kidney_pull liver_cut kidney_on_table twist; do build/release/app/heml replay assets/scenes/$s.json --record tests/golden/$s.jsonl; done
 

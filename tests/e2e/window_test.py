@@ -291,10 +291,14 @@ class Window(unittest.TestCase):
         self.program.wait()
         with open(self.folder / "out.jsonl", "a") as file:
             file.write('{"step": 99')  # as a kill in the middle of a line leaves it
-        replayed = subprocess.run([BINARY, "replay", "out.jsonl", "--verify"], cwd=self.folder, capture_output=True,
-                                  text=True, timeout=400)
+        cut = subprocess.run([BINARY, "replay", "out.jsonl", "--verify"], cwd=self.folder, capture_output=True,
+                             text=True, timeout=400)
+        self.assertEqual(cut.returncode, 1, cut.stdout + cut.stderr)
+        self.assertIn("--partial", cut.stderr)
+        replayed = subprocess.run([BINARY, "replay", "out.jsonl", "--verify", "--partial"], cwd=self.folder,
+                                  capture_output=True, text=True, timeout=400)
         self.assertEqual(replayed.returncode, 0, replayed.stdout + replayed.stderr)
-        ticks, checkpoints = map(int, re.match(r"(\d+) ticks replayed, (\d+) checkpoints", replayed.stdout).groups())
+        ticks, checkpoints = map(int, re.match(r"(\d+) ticks replayed, (\d+) of \d+ check", replayed.stdout).groups())
         self.assertGreaterEqual(ticks, recorded[-1]["step"])
         self.assertGreaterEqual(checkpoints, sum("checkpoint" in event for event in recorded))
 

@@ -3,8 +3,8 @@
 #include <unistd.h>
 
 #include <heml/base/error.hpp>
+#include <heml/base/write_file.hpp>
 #include <heml/scenario/curve_csv.hpp>
-#include <heml/scenario/text_file.hpp>
 
 #include "samples.hpp"
 
@@ -22,7 +22,7 @@ struct Removed {
 
 MeasuredCurve read(const std::string& text, const MeasuredTest& test = BenchTest::uniaxial) {
   const auto path = std::filesystem::temp_directory_path() / fmt::format("heml-curve-test-{}.csv", getpid());
-  write_text_file(path, text);
+  write_file(path, text);
   const Removed removed{path};
   return read_curve_csv(path, test);
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <heml/base/error.hpp>
+#include <heml/base/write_file.hpp>
 #include <heml/scenario/material_json.hpp>
 #include <heml/scenario/presets.hpp>
 #include <heml/scenario/text_file.hpp>
@@ -37,7 +38,7 @@ Preset read_changed(const std::string& patch) {
   Json json = parse_json(read_text_file(source), source.string());
   json.merge_patch(Json::parse(patch));
   const auto path = std::filesystem::temp_directory_path() / fmt::format("heml-preset-test-{}.json", getpid());
-  write_text_file(path, json.dump());
+  write_file(path, json.dump());
   const Removed removed{path};
   return read_preset(path);
 }

@@ -195,7 +195,7 @@ TEST_CASE("refuses to record over the scene itself or into nowhere") {
   const TemporaryFolder folder;
   const Scene scene = read_scene(folder.file("scene.json", test::scene_with("{}")));
   const std::unique_ptr<World> world = load_world(scene);
-  CHECK(test::says(refusal([&] { Recorder(folder / "scene.json", scene, *world); }), "is the scene itself"));
+  CHECK(test::says(refusal([&] { Recorder(folder / "scene.json", scene, *world); }), "is read by this run"));
   CHECK(test::says(refusal([&] { Recorder(folder / "none/r.jsonl", scene, *world); }), "cannot be written"));
   CHECK(text_of(folder / "scene.json") == test::scene_with("{}"));
 }

@@ -1,11 +1,13 @@
 #include <doctest/doctest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
-#include <heml/scenario/replay.hpp>
+#include <heml/scenario/verify.hpp>
 #include <heml/session/session.hpp>
 #include <thread>
 
@@ -397,6 +399,69 @@ TEST_CASE("a session that cannot go on says why and lives on to be reset") {
   session.pause();
   session.post(Reset{});
   CHECK(wait_for(session, [](const Frame& f) { return f.halted.empty(); }).time == 0);
+}
+
+TEST_CASE("a recorded session that halted verifies, after more commands too") {
+  const TemporaryFolder folder;
+  Scene scene = small_scene();
+  scene.solver.continuation = false;
+  scene.solver.step = 0.02;  // far beyond the limit
+  for (const bool more : {false, true}) {
+    SessionOptions options;
+    options.record = folder.path / "halted.jsonl";
+    {
+      Session session(scene, options);
+      wait_for(session, [](const Frame& f) { return !f.halted.empty(); });
+      if (more) {
+        session.post(SetGravity{Vec3(0, 1, 0)});
+        session.post(SetDamping{7});
+        std::this_thread::sleep_for(50ms);
+      }
+    }
+    const Scene recording = read_scene(*options.record);
+    REQUIRE(recording.recorded_end);
+    CHECK(recording.recorded_end->halt);
+    const auto world = load_world(recording);
+    CHECK(verify(recording, replay(recording, *world)).reason == "");
+  }
+}
+
+TEST_CASE("a session closed in the middle of a tick leaves a recording with its end") {
+  const TemporaryFolder folder;
+  SessionOptions options;
+  options.record = folder.path / "short.jsonl";
+  {
+    Scene scene = small_scene();
+    scene.mesh.box->cells = {60, 12, 12};
+    scene.solver.rate = 1;  // a tick takes far longer than anybody waits for it
+    Session session(scene, options);
+    std::this_thread::sleep_for(100ms);
+  }
+  const Scene recording = read_scene(*options.record);
+  REQUIRE(recording.recorded_end);
+  CHECK(recording.recorded_end->tick == 0);
+  const auto world = load_world(recording);
+  CHECK(verify(recording, replay(recording, *world)).reason == "");
+}
+
+TEST_CASE("a disk that fills up ends the recording, is told to the viewer, and the session goes on") {
+  const TemporaryFolder folder;
+  const auto pipe = folder.path / "pipe";
+  REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+  std::signal(SIGPIPE, SIG_IGN);  // a write then fails, as on a full disk
+  SessionOptions options;
+  options.record = pipe;
+  std::ifstream reader;
+  std::thread opener([&] { reader.open(pipe); });
+  Session session(small_scene(), options);
+  opener.join();
+  CHECK(wait_for(session, [](const Frame& f) { return f.tick > 10; }).recording_problem.empty());
+  reader.close();
+  const std::string problem =
+      wait_for(session, [](const Frame& f) { return !f.recording_problem.empty(); }).recording_problem;
+  CHECK(problem.find(pipe.string() + ": cannot be written") == 0);
+  const long tick = session.latest().tick;
+  wait_for(session, [&](const Frame& f) { return f.tick > tick + 10; });
 }
 
 }  // namespace heml::session_test

@@ -1,7 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <heml/scenario/text_file.hpp>
+#include <heml/base/write_file.hpp>
 #include <heml/studies/html_page.hpp>
 #include <places.hpp>
 
@@ -18,7 +18,7 @@ TEST_CASE("base64 as RFC 4648 has it") {
 
 TEST_CASE("a page holds its text escaped, its tables and its pictures") {
   const auto picture = test::build_folder() / "page_picture.png";
-  write_text_file(picture, "foobar");
+  write_file(picture, "foobar");
   HtmlPage page("A & B");
   page.heading("J < 0");
   page.paragraph("run `heml --help` <now>");

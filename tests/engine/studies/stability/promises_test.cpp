@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <filesystem>
+#include <heml/base/write_file.hpp>
 #include <heml/scenario/text_file.hpp>
 #include <heml/studies/stability/matrix.hpp>
 #include <heml/studies/stability/report.hpp>
@@ -122,7 +123,7 @@ TEST_CASE("a promise falls short by its verdict, and by its figure alone") {
 
 TEST_CASE("what holds can be promised as it is, and is read back") {
   const auto file = folder("promises") / "holding.json";
-  write_text_file(file, promises_text({cell_of(Verdict::stable, 1e-6), cell_of(Verdict::diverged, 1)}));
+  write_file(file, promises_text({cell_of(Verdict::stable, 1e-6), cell_of(Verdict::diverged, 1)}));
   const auto promises = read_promises(file);
   REQUIRE(promises.size() == 1);
   CHECK(promises[0].number == 10);
@@ -140,7 +141,7 @@ TEST_CASE("a study goes on where it stopped, and its figures are the ones it had
   const auto first = run_study(results, options);
   CHECK(runs == static_cast<int>(first.size()));
   const std::string text = read_text_file(results);
-  write_text_file(results, text.substr(0, text.size() / 2));  // cut off in the middle of a line
+  write_file(results, text.substr(0, text.size() / 2));  // cut off in the middle of a line
   runs = 0;
   const auto second = run_study(results, options);
   CHECK(runs > 0);

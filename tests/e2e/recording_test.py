@@ -1,0 +1,156 @@
+"""Recordings that prove: what `replay --verify` notices, and what it says. HEML_BINARY names the program."""
+import json
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+BINARY = os.environ["HEML_BINARY"]
+SOURCE = pathlib.Path(__file__).resolve().parents[2]
+GOLDEN = SOURCE / "tests" / "golden" / "twist.jsonl"
+
+
+def heml(*arguments, cwd=None):
+    return subprocess.run([BINARY, *map(str, arguments)], cwd=cwd, capture_output=True, text=True, timeout=280)
+
+
+def beam(**changes):
+    scene = {
+        "schema_version": 1,
+        "name": "beam",
+        "mesh": {"box": {"size": [0.1, 0.02, 0.02], "cells": [6, 2, 2], "origin": [0, 0, 0]}},
+        "materials": [{"law": "neo_hookean", "young": 1e4, "poisson": 0.3, "density": 1000}],
+        "boundary": [{"box": [[-1, -1, -1], [1e-6, 1, 1]], "fix": True}],
+        "gravity": [0, -9.81, 0],
+        "solver": {"integrator": "verlet", "duration": 0.5, "damping": 2},
+        "events": [{"step": 150, "grasp": {"point": [0.1, 0.01, 0.01], "radius": 0.012}},
+                   {"step": 151, "move": [0.11, 0.02, 0.01]}, {"step": 260, "release": True}],
+    }
+    scene.update(changes)
+    return scene
+
+
+class Recordings(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def record(self, scene, code=0):
+        (self.folder / "scene.json").write_text(json.dumps(scene))
+        file = self.folder / "r.jsonl"
+        done = heml("replay", self.folder / "scene.json", "--record", file)
+        self.assertEqual(done.returncode, code, done.stderr)
+        return [json.loads(line) for line in file.read_text().splitlines()]
+
+    def verify(self, lines, *options):
+        file = self.folder / "altered.jsonl"
+        file.write_text("".join(json.dumps(line) + "\n" for line in lines))
+        return heml("replay", file, "--verify", *options)
+
+    def test_a_recording_ends_with_what_proves_it(self):
+        lines = self.record(beam())
+        self.assertEqual(lines[0]["recorded"]["format"], 2)
+        end, checkpoints = lines[-1], [line for line in lines if "checkpoint" in line]
+        self.assertEqual(end, {"step": 500, "end": True, "checkpoints": 6, "hash": checkpoints[-1]["checkpoint"]})
+        done = self.verify(lines)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("6 of 6 checkpoints compared", done.stdout)
+        self.assertEqual(done.stderr, "")
+
+    def test_every_alteration_is_exit_1(self):
+        lines = self.record(beam())
+        places = [k for k, line in enumerate(lines) if "checkpoint" in line]
+
+        def altered(change):
+            copy = json.loads(json.dumps(lines))
+            change(copy)
+            return copy
+
+        def other_digit(text):
+            return ("1" if text[0] == "0" else "0") + text[1:]
+
+        def end_at(copy, step):
+            copy[-1]["step"] = step
+
+        changes = {
+            "the end moved": lambda c: end_at(c, 50),
+            "the end moved behind": lambda c: end_at(c, 501),
+            "the second half dropped": lambda c: c.__delitem__(slice(places[2] + 1, len(c) - 1)),
+            "no end": lambda c: c.pop(),
+            "a checkpoint dropped": lambda c: c.pop(places[3]),
+            "a state's hash": lambda c: c[places[2]].update(checkpoint=other_digit(c[places[2]]["checkpoint"])),
+            "a node's hash": lambda c: c[places[4]].update(nodes=other_digit(c[places[4]]["nodes"])),
+            "the end's hash": lambda c: c[-1].update(hash=other_digit(c[-1]["hash"])),
+            "the end's count": lambda c: c[-1].update(checkpoints=5),
+            "a halt that never was": lambda c: c[-1].update(halt="unstable"),
+            "an event": lambda c: [line for line in c if "move" in line][0].update(move=[0.11, 0.02, 0.0101]),
+            "an event dropped": lambda c: c.remove([line for line in c if "release" in line][0]),
+            "another kernel revision": lambda c: c[0]["recorded"].update(kernel_revision=0),
+        }
+        for name, change in changes.items():
+            with self.subTest(name):
+                done = self.verify(altered(change))
+                self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
+                self.assertRegex(done.stdout, r"\d+ of \d+ checkpoints compared")
+                self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+        revision = self.verify(altered(changes["another kernel revision"])).stderr
+        self.assertRegex(revision, r"kernel revision 0 .*revision [1-9]\d*: .*cannot be compared")
+        unknown = self.verify(altered(lambda c: c[0]["recorded"].update(format=3)))
+        self.assertEqual(unknown.returncode, 3, unknown.stderr)
+
+    def test_partial_verifies_what_a_crash_left(self):
+        lines = self.record(beam())
+        cut = lines[:-3]
+        self.assertEqual(self.verify(cut).returncode, 1)
+        done = self.verify(cut, "--partial")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for line in cut:
+            if line.get("step") == 300 and "checkpoint" in line:
+                line["checkpoint"] = "0" * 16
+        self.assertEqual(self.verify(cut, "--partial").returncode, 1)
+        self.assertEqual(heml("replay", self.folder / "r.jsonl", "--partial").returncode, 2)
+
+    def test_recordings_without_a_format(self):
+        whole = [json.loads(line) for line in GOLDEN.read_text().splitlines()]
+        self.assertNotIn("format", whole[0]["recorded"])
+        done = self.verify(whole)
+        if "this processor does not have" in done.stderr:
+            self.skipTest("other instructions")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stderr, "^heml: warning: .*format 1.*--record")
+        places = [k for k, line in enumerate(whole) if "checkpoint" in line]
+        for name, lines in (("end moved", whole[:-1] + [{"step": 50, "end": True}]), ("no end", whole[:-1]),
+                            ("the last dropped", whole[:places[-1]] + whole[-1:]),
+                            ("the first alone", whole[:places[0] + 1] + whole[-1:])):
+            with self.subTest(name):
+                self.assertEqual(self.verify(lines).returncode, 1)
+
+    def test_a_halt_is_recorded_shown_again_and_verifies(self):
+        scene = beam(events=[], gravity=[0, 0, 0])
+        scene["boundary"].append({"box": [[0.0999, -1, -1], [1, 1, 1]], "translate": [-0.15, 0, 0], "over": 0.1})
+        scene["solver"] = {"integrator": "verlet", "duration": 0.2, "rate": 30, "threads": 1}
+        end = self.record(scene, code=4)[-1]
+        self.assertIn("left the range of its law", end["halt"])
+        done = heml("replay", self.folder / "r.jsonl", "--verify")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn(f"stopped at step {end['step']}, as recorded: {end['halt']}", done.stdout)
+        self.assertEqual(heml("replay", self.folder / "r.jsonl").returncode, 4)
+        lines = [json.loads(line) for line in (self.folder / "r.jsonl").read_text().splitlines()]
+        lines[-1]["halt"] = "unstable"
+        self.assertEqual(self.verify(lines).returncode, 1)
+
+    def test_the_recording_of_a_recovery_verifies(self):
+        scene = beam(gravity=[0, 0, 0], events=[{"step": 10, "gravity": [-30000, 0, 0]}, {"step": 12, "gravity": [0, 0, 0]}])
+        scene["solver"] = {"integrator": "backward_euler", "rate": 60, "duration": 2, "recovery": True}
+        (self.folder / "scene.json").write_text(json.dumps(scene))
+        done = heml("solve", self.folder / "scene.json", "--out", self.folder / "out")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        done = heml("replay", self.folder / "out" / "recovery.jsonl", "--verify")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stderr.count("format 1"), 0)
+
+
+if __name__ == "__main__":
+    unittest.main()
