@@ -73,6 +73,10 @@ void Scanner::need_line(std::string_view what) {
   if (!next_line()) fail_missing(what);
 }
 
+void Scanner::need_word(std::string_view what) {
+  if (!has_word()) need_line(what);
+}
+
 std::string_view Scanner::peek() {
   if (!has_word()) return {};
   std::size_t end = position_;
