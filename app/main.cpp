@@ -39,6 +39,8 @@ int run_program(int argc, char** argv) {
   run_command->add_option("--exit-after", run_arguments.exit_after, "close by itself after so many seconds");
   run_command->add_option("--draw-stall", run_arguments.draw_stall,
                           "hold every drawing up by so many milliseconds (for tests)");
+  run_command->add_flag("--log-pictures", run_arguments.log_pictures,
+                        "a line on stderr for every picture: what it shows, and what is still to come (for tests)");
 
   CaptureArguments capture_arguments;
   std::string capture_size = "1280x720";
