@@ -32,7 +32,7 @@ std::string request_of(const SurfaceMesh& surface, const std::vector<Vec3>& hole
 template <std::size_t N>
 void read_answer(const std::string& subject, const std::string& text, std::vector<Vec3>& nodes,
                  std::vector<std::array<int, N>>& rows) {
-  Scanner in(subject, text);
+  Scanner in(subject + ", as read by the mesher", text);
   nodes.resize(in.count("the number of nodes", 3));
   rows.resize(in.count("the number of elements", N));
   for (Vec3& node : nodes) node = in.point("a coordinate");
