@@ -7,6 +7,20 @@ from window_case import BINARY, WindowCase, light_scene
 
 
 class Time(WindowCase):
+    def look_between_the_drags(self):
+        """Along the bar of time, to where the first drag has ended and the second has not begun."""
+        after = next(event["step"] for event in self.events() if "release" in event)
+        before = [event["step"] for event in self.events() if "grasp" in event][1]
+        left, right = 220, 600
+        self.do("mousemove", right, 341)
+        self.do("mousedown", 1)
+        while not after < self.status().tick < before:
+            self.assertLess(left + 1, right, f"no place of the bar is between ticks {after} and {before}")
+            middle = (left + right) // 2
+            self.do("mousemove", middle, 341)
+            left, right = (middle, right) if self.status().tick <= after else (left, middle)
+        self.do("mouseup", 1)
+
     def test_an_earlier_moment_is_looked_at_and_resumed_in_a_new_recording(self):
         self.open_display(640, 360)
         self.begin_light("--record", "out.jsonl")
@@ -18,12 +32,12 @@ class Time(WindowCase):
         self.wait_for_event("release", 2)
         self.xdo("key", "space", "mousemove", 630, 20)
         present = self.steady()
-        self.drag((600, 341), (-260, 0), steps=12)  # along the bar of time
+        self.look_between_the_drags()
         past = self.steady()
         self.assertGreater(past.change(present, 220, 640), 0.05, "the past looks as the present")
         self.xdo("key", "Escape", "mousemove", 630, 20)
         self.assertLess(self.steady().change(present, 220, 640), 0.01, "the present is not what it was")
-        self.drag((600, 341), (-260, 0), steps=12)
+        self.look_between_the_drags()
         written = (self.folder / "out.jsonl").read_text()
         self.do("key", "b")
         self.wait_for_scene("light", "out-2.jsonl")
