@@ -46,6 +46,8 @@ int run_program(int argc, char** argv) {
       ->add_option("--draw-stall", run_arguments.draw_stall,
                    "hold every drawing up by so many milliseconds (for tests)")
       ->check(number_between(0));
+  run_command->add_flag("--log-pictures", run_arguments.log_pictures,
+                        "a line on stderr for every picture: what it shows, and what is still to come (for tests)");
 
   CaptureArguments capture_arguments;
   std::string capture_size = "1280x720";

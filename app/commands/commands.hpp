@@ -42,6 +42,7 @@ struct RunArguments {
   PictureSize size;
   double exit_after = 0;  ///< s; 0: when the window is closed
   double draw_stall = 0;  ///< ms added to every drawing
+  bool log_pictures = false;
 };
 int run(const RunArguments& arguments);
 

@@ -18,6 +18,7 @@ int run(const RunArguments& arguments) {
   options.size = {arguments.size.width, arguments.size.height};
   options.exit_after = arguments.exit_after;
   options.draw_stall = arguments.draw_stall;
+  options.log_pictures = arguments.log_pictures;
   const auto outcome = run_window(scene, options);
   if (!outcome) return exit_done;
   reason = *outcome;

@@ -23,6 +23,7 @@ class Library {
  public:
   /// Begins to list a folder; the one before where it is empty.
   void look_into(std::filesystem::path folder);
+  bool under_way() const { return result_.valid(); }
   bool is_ready() const;  ///< there is something to take
 
   /// What came of it, once.

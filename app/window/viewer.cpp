@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <app/panel/keys.hpp>
@@ -55,6 +56,19 @@ bool Viewer::wants_drawing() const {
   return window_.visible() && (pictures_wanted_ > 0 || open_.session->frame_waiting() || panel_->animating() ||
                                past_.playing() || opening_.is_ready() || opening_.progress() != shown_progress_ ||
                                library_.is_ready() || (filming_ && filming_->is_done()));
+}
+
+bool Viewer::is_busy() const {
+  return pictures_wanted_ > 0 || opening_.under_way() || library_.under_way() || (filming_ && filming_->is_finishing());
+}
+
+std::string Viewer::status() const {
+  const bool paused = past_.active() ? !past_.playing() : frame_->paused;
+  return fmt::format("picture {}, tick {}, {}, {}, key {}", drawn_, frame_->tick, paused ? "paused" : "running",
+                     is_busy()                     ? "busy"
+                     : paused && !wants_drawing() ? "still"
+                                                   : "ready",
+                     last_key_);
 }
 
 void Viewer::draw() {
@@ -146,6 +160,7 @@ void Viewer::post(std::vector<Command>& commands) {
 
 void Viewer::key(int key, bool control, bool repeated) {
   changed();
+  last_key_ = key;
   const auto action = panel::action_of(key, control);
   if (!action) return;
   using enum panel::Action;

@@ -27,6 +27,11 @@ class Viewer final : public WindowEvents {
   bool wants_drawing() const;
   void draw();
 
+  /// The last picture in one line, by which scripts that drive the window know when to go on: its number, its tick,
+  /// "running" or "paused"; "busy" while something done before is still to show, "still" when nothing changes by itself
+  /// any more, else "ready"; and the key that was pressed last, as the panel counts them.
+  std::string status() const;
+
   bool quits() const { return quits_; }
   long drawn() const { return drawn_; }           ///< pictures so far
   const Frame& frame() const { return *frame_; }  ///< the one drawn last
@@ -42,6 +47,7 @@ class Viewer final : public WindowEvents {
   static constexpr auto past_is_fixed = "This is the past: Resume (B) goes on from here, Esc goes back to the present.";
   static constexpr int settling_pictures = 3;  ///< that Dear ImGui may take to settle after something was done
 
+  bool is_busy() const;
   void adopt(OpenScene opened);
   void take_opened();
   void open(const std::filesystem::path& path);
@@ -89,6 +95,7 @@ class Viewer final : public WindowEvents {
   render::Vec2f pressed_where_{-1, -1};
   int pictures_wanted_ = settling_pictures;
   long drawn_ = 0;
+  int last_key_ = 0;
   bool listed_ = false;    ///< folders, before
   bool plays_on_ = false;  ///< what goes on from here is to run
   bool quits_ = false;

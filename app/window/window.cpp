@@ -31,13 +31,13 @@ class DrawingPace {
   Clock::time_point next_{};
 };
 
-void show(window::GlfwWindow& window, window::Viewer& viewer, double exit_after) {
+void show(window::GlfwWindow& window, window::Viewer& viewer, const WindowOptions& options) {
   constexpr double longest_sleep = 1;  // s
   const auto began = Clock::now();
   DrawingPace pace;
   while (!window.closed() && !viewer.quits()) {
     const auto now = Clock::now();
-    const double left = exit_after > 0 ? exit_after - seconds(now - began) : longest_sleep;
+    const double left = options.exit_after > 0 ? options.exit_after - seconds(now - began) : longest_sleep;
     if (left <= 0) return;
     if (!viewer.wants_drawing() || !pace.due(now)) {
       window.wait(std::min({left, longest_sleep, viewer.wants_drawing() ? pace.until_due(now) : longest_sleep}));
@@ -46,6 +46,7 @@ void show(window::GlfwWindow& window, window::Viewer& viewer, double exit_after)
     window.wait(0);
     viewer.draw();
     pace.drew(now, Clock::now());
+    if (options.log_pictures) fmt::print(stderr, "{}\n", viewer.status());
   }
 }
 
@@ -55,7 +56,7 @@ std::optional<std::string> run_window(const Scene& scene, const WindowOptions& o
   try {
     window::GlfwWindow window("heml", options.size);
     window::Viewer viewer(window, scene, options);
-    show(window, viewer, options.exit_after);
+    show(window, viewer, options);
     const Frame& last = viewer.frame();
     fmt::print("{} pictures drawn, {} ticks, {} missed deadlines, {:.3g} wall seconds a simulated second\n",
                viewer.drawn(), last.tick, last.pace.missed, last.pace.slowdown);

@@ -15,6 +15,7 @@ struct WindowOptions {
   render::Size size{1280, 720};                 ///< pixels
   double exit_after = 0;                        ///< s of wall time until the window closes by itself; 0: never
   double draw_stall = 0;                        ///< ms every drawing is held up by; the engine must not notice
+  bool log_pictures = false;                    ///< a line on stderr for each: Viewer::status()
 };
 
 /// Shows the scene until the window is closed, then prints one line of statistics on stdout. Returns nothing then, and

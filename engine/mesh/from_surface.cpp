@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <fstream>
 #include <heml/base/error.hpp>
 #include <heml/base/log.hpp>
+#include <heml/mesh/check_ply.hpp>
+#include <heml/mesh/file_contents.hpp>
 #include <heml/mesh/from_surface.hpp>
 #include <heml/mesh/helper.hpp>
 #include <heml/mesh/scanner.hpp>
@@ -18,34 +18,32 @@ namespace {
 
 // What is exchanged with the helper: "#nodes #rows [#holes]", then x y z a node, then indices a row, then x y z a hole.
 
-std::string answer_in(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-void write_request(const std::filesystem::path& path, const SurfaceMesh& surface, const std::vector<Vec3>& holes) {
-  fmt::memory_buffer text;
+std::string request_of(const SurfaceMesh& surface, const std::vector<Vec3>& holes) {
+  std::string text;
   const auto out = std::back_inserter(text);
   const auto add = [&](const Vec3& x) { fmt::format_to(out, "{:.17g} {:.17g} {:.17g}\n", x[0], x[1], x[2]); };
   fmt::format_to(out, "{} {} {}\n", surface.nodes.size(), surface.triangles.size(), holes.size());
   for (const Vec3& x : surface.nodes) add(x);
   for (const Triangle& t : surface.triangles) fmt::format_to(out, "{} {} {}\n", t[0], t[1], t[2]);
   for (const Vec3& x : holes) add(x);
-  std::ofstream file(path, std::ios::binary);
-  file.write(text.data(), static_cast<std::streamsize>(text.size()));
-  if (!file.flush()) throw InputError(path.string(), "", "cannot be written", "set TMPDIR to a folder with room");
+  return text;
 }
 
 template <std::size_t N>
-void read_answer(const std::string& subject, const std::filesystem::path& path, std::vector<Vec3>& nodes,
+void read_answer(const std::string& subject, const std::string& text, std::vector<Vec3>& nodes,
                  std::vector<std::array<int, N>>& rows) {
-  const std::string text = answer_in(path);
-  Scanner in(subject, text);
+  Scanner in(subject + ", as read by the mesher", text);
   nodes.resize(in.count("the number of nodes", 3));
   rows.resize(in.count("the number of elements", N));
   for (Vec3& node : nodes) node = in.point("a coordinate");
   for (auto& row : rows)
     for (int& node : row) node = static_cast<int>(in.integer("a node", 0, static_cast<long long>(nodes.size()) - 1));
+}
+
+// assimp makes up to a hundred bytes of one, and some formats are compressed; a damaged size makes it ask for more or
+// count for hours.
+HelperLimits reading_limits(double file_bytes) {
+  return {20 + file_bytes / 5e6, 120 + file_bytes / 5e6, std::min(256e6 + 1000 * file_bytes, 4e9)};
 }
 
 bool before(const Vec3& a, const Vec3& b) {
@@ -94,14 +92,19 @@ void check_options(const SurfaceMesh& surface, const TetgenOptions& options) {
 }  // namespace
 
 SurfaceMesh read_surface(const std::filesystem::path& path) {
-  std::error_code error;
-  if (!std::filesystem::exists(path, error)) throw InputError(path.string(), "", "there is no such file");
-  if (!std::filesystem::is_regular_file(path, error)) throw InputError(path.string(), "", "is not a plain file");
-  const ScratchFolder folder;
-  run_helper(path.string(), {"read", std::filesystem::absolute(path).string(), (folder / "surface").string()}, {});
+  HelperTask task{.subject = path.string(),
+                  .doing = "reading it",
+                  .arguments = {"read", std::filesystem::absolute(path).string()},
+                  .limits = {},
+                  .remedy = "is a size that the file declares damaged?"};
+  {
+    const std::string text = file_contents(path);
+    if (is_ply(text)) check_ply(task.subject, text);
+    task.limits = reading_limits(static_cast<double>(text.size()));
+  }
   SurfaceMesh surface;
-  surface.source = path.string();
-  read_answer(surface.source, folder / "surface", surface.nodes, surface.triangles);
+  surface.source = task.subject;
+  read_answer(surface.source, run_helper(task), surface.nodes, surface.triangles);
   return joined(surface);
 }
 
@@ -109,16 +112,17 @@ TetMesh tetrahedralize(const SurfaceMesh& surface, const TetgenOptions& options)
   check_options(surface, options);
   SurfaceMesh checked = surface;
   check_surface(checked);
-  const ScratchFolder folder;
-  write_request(folder / "surface", checked, cavity_points(checked, turn_alike(checked)));
-  run_helper(surface.source,
-             {"fill", (folder / "surface").string(), (folder / "tets").string(),
-              fmt::format("{:.17g}", options.radius_edge_ratio),
-              options.max_volume ? fmt::format("{:.17g}", *options.max_volume) : "none"},
-             {options.time_limit, options.memory_limit});
+  const HelperTask task{
+      .subject = surface.source,
+      .doing = "filling it",
+      .arguments = {"fill", fmt::format("{:.17g}", options.radius_edge_ratio),
+                    options.max_volume ? fmt::format("{:.17g}", *options.max_volume) : "none"},
+      .limits = {options.time_limit, options.time_limit, options.memory_limit},
+      .remedy = "a coarser surface, a larger radius_edge_ratio or max_volume"};
   TetMesh mesh;
   mesh.source = surface.source;
-  read_answer(mesh.source, folder / "tets", mesh.nodes, mesh.tets);
+  const std::vector<Vec3> holes = cavity_points(checked, turn_alike(checked));
+  read_answer(mesh.source, run_helper(task, request_of(checked, holes)), mesh.nodes, mesh.tets);
   if (mesh.tets.empty() || mesh.nodes.size() < surface.nodes.size())
     throw InputError(surface.source, "", "TetGen filled nothing", "repair or simplify the surface");
   std::copy(checked.nodes.begin(), checked.nodes.end(), mesh.nodes.begin());

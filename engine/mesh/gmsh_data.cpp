@@ -11,13 +11,8 @@ constexpr long long most_tags = 1000;
 
 bool by_number(const GmshElement& a, const GmshElement& b) { return a.number < b.number; }
 
-// Moves to the next word, on this line or a later one.
-void ahead(Scanner& in, std::string_view what) {
-  if (!in.has_word()) in.need_line(what);
-}
-
 std::size_t tag_count(Scanner& in, std::string_view what) {
-  ahead(in, what);
+  in.need_word(what);
   return static_cast<std::size_t>(in.integer(what, 0, most_tags));
 }
 
@@ -59,19 +54,19 @@ GmshData::Section GmshData::header(Scanner& in) {
   }
   if (texts > 0) in.need_line("the number of real tags");
   for (std::size_t left = tag_count(in, "the number of real tags"); left > 0; --left) {
-    ahead(in, "a real tag");
+    in.need_word("a real tag");
     in.any_number("a real tag");
   }
   const std::size_t integers = tag_count(in, "the number of integer tags");
   if (integers < 3) in.fail(fmt::format("{} integer tags", integers), "time step, components, number of elements");
-  ahead(in, "the time step");
+  in.need_word("the time step");
   section.step = in.integer("the time step");
-  ahead(in, "the number of components");
+  in.need_word("the number of components");
   section.components = static_cast<std::size_t>(in.integer("the number of components", 0, most_tags));
-  ahead(in, "the number of elements");
+  in.need_word("the number of elements");
   section.count = in.count("the number of elements", 1 + section.components);
   for (std::size_t i = 3; i < integers; ++i) {
-    ahead(in, "an integer tag");
+    in.need_word("an integer tag");
     in.wide_integer("an integer tag");
   }
   return section;
@@ -79,30 +74,35 @@ GmshData::Section GmshData::header(Scanner& in) {
 
 void GmshData::put(std::vector<GmshElement> tets, const Scanner& in, ReadMesh& read) const {
   if (!std::is_sorted(tets.begin(), tets.end(), by_number)) std::sort(tets.begin(), tets.end(), by_number);
-  const auto tets_of = [&](long long number) {
-    return std::equal_range(tets.begin(), tets.end(), GmshElement{number, 0}, by_number);
+  const auto first_of = [&](long long number) -> const GmshElement* {
+    const auto at = std::lower_bound(tets.begin(), tets.end(), GmshElement{number, 0}, by_number);
+    return at != tets.end() && at->number == number ? &*at : nullptr;
   };
   const auto names_a_tet = [&](const Section& section) {
-    return std::any_of(section.elements.begin(), section.elements.end(), [&](long long number) {
-      const auto [begin, end] = tets_of(number);
-      return begin != end;
-    });
+    return std::any_of(section.elements.begin(), section.elements.end(), first_of);
   };
+  std::vector<const Section*> named;
   for (const Section& section : sections_)
-    if (names_a_tet(section)) field_in(read.mesh, section.name, section.components, in);
+    if (names_a_tet(section)) {
+      named.push_back(&section);
+      field_in(read.mesh, section.name, section.components, in);
+    }
   pad_fields(read.mesh, in);
-  for (const Section& section : sections_) {
-    if (!names_a_tet(section)) continue;
-    ElementField& field = field_in(read.mesh, section.name, section.components, in);
-    const double* value = section.values.data();
-    for (const long long number : section.elements) {
-      const auto [begin, end] = tets_of(number);
-      for (auto element = begin; element != end; ++element)
-        std::copy_n(value, section.components,
-                    &field.values[section.components * static_cast<std::size_t>(element->tet)]);
-      value += section.components;
+  for (const Section* section : named) {
+    ElementField& field = field_in(read.mesh, section->name, section->components, in);
+    const double* value = section->values.data();
+    for (const long long number : section->elements) {
+      if (const GmshElement* element = first_of(number))
+        std::copy_n(value, field.components, &field.values[field.components * static_cast<std::size_t>(element->tet)]);
+      value += field.components;
     }
   }
+  // Tetrahedra of one number have the same values. Copied once at the end: for each value it would take quadratic time.
+  for (ElementField& field : read.mesh.fields)
+    for (std::size_t i = 1; i < tets.size(); ++i)
+      if (tets[i].number == tets[i - 1].number)
+        std::copy_n(&field.values[field.components * static_cast<std::size_t>(tets[i - 1].tet)], field.components,
+                    &field.values[field.components * static_cast<std::size_t>(tets[i].tet)]);
 }
 
 }  // namespace heml

@@ -1,7 +1,8 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
-#include <stdlib.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -11,9 +12,12 @@
 #include <chrono>
 #include <cmath>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <heml/base/error.hpp>
 #include <heml/mesh/helper.hpp>
+#include <stdexcept>
 
 namespace heml {
 namespace {
@@ -21,7 +25,9 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr const char* name = "heml-mesher";
+constexpr int out_of_memory = 2;   // as the helper has it
 constexpr int cannot_start = 127;  // as shells have it; also the dynamic linker's
+constexpr int answer_fd = 3;       // the helper's input and words for people are where every program's are
 
 #ifdef HEML_SANITIZED
 constexpr bool limits_memory = false;  // sanitizers reserve terabytes of addresses
@@ -47,17 +53,69 @@ std::filesystem::path find_helper() {
   return {};
 }
 
+[[noreturn]] void fail_in(const char* call) {
+  throw std::runtime_error(fmt::format("{}: {}", call, std::strerror(errno)));
+}
+
+// A file in memory, without a name: gone with the last process that has it open.
+class MemoryFile {
+ public:
+  MemoryFile() : fd_(memfd_create(name, MFD_CLOEXEC)) {
+    if (fd_ < 0) fail_in("memfd_create");
+  }
+  ~MemoryFile() { close(fd_); }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+  int fd() const { return fd_; }
+
+  /// From its beginning, where the helper finds it.
+  void put(std::string_view text) {
+    for (off_t at = 0; !text.empty();) {
+      const ssize_t count = pwrite(fd_, text.data(), text.size(), at);
+      if (count < 0 && errno == EINTR) continue;
+      if (count <= 0) fail_in("write");
+      at += count;
+      text.remove_prefix(static_cast<std::size_t>(count));
+    }
+  }
+
+  std::string contents() const {
+    std::string text(static_cast<std::size_t>(std::max<off_t>(lseek(fd_, 0, SEEK_END), 0)), '\0');
+    for (std::size_t at = 0; at < text.size();) {
+      const ssize_t count = pread(fd_, text.data() + at, text.size() - at, static_cast<off_t>(at));
+      if (count < 0 && errno == EINTR) continue;
+      if (count <= 0) fail_in("read");
+      at += static_cast<std::size_t>(count);
+    }
+    return text;
+  }
+
+ private:
+  int fd_;
+};
+
+// What the child gets in the place of its own.
+struct Streams {
+  int input, words, answer;
+};
+
 // In the child, between fork and exec: only calls that are safe there.
-[[noreturn]] void become_helper(char* const* arguments, int output, const HelperLimits& limits) {
-  const auto limit = [](auto resource, double value) {
-    const rlimit both{static_cast<rlim_t>(value), static_cast<rlim_t>(value)};
+[[noreturn]] void become_helper(char* const* arguments, Streams from, pid_t parent, const HelperLimits& limits) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(cannot_start);  // it ended before the line above
+  const auto limit = [](auto resource, double value, rlim_t grace = 0) {
+    const rlimit both{static_cast<rlim_t>(value), static_cast<rlim_t>(value) + grace};
     setrlimit(resource, &both);
   };
-  limit(RLIMIT_CPU, std::ceil(limits.seconds) + 1);
+  limit(RLIMIT_CPU, std::ceil(limits.processor_seconds) + 1, 1);  // SIGXCPU first: at the hard limit it is SIGKILL
   limit(RLIMIT_CORE, 0);
+  limit(RLIMIT_FSIZE, limits.bytes);  // the answer is in memory too
   if (limits_memory) limit(RLIMIT_AS, limits.bytes);
-  dup2(output, STDOUT_FILENO);
-  dup2(output, STDERR_FILENO);
+  for (int* fd : {&from.input, &from.words, &from.answer}) *fd = fcntl(*fd, F_DUPFD_CLOEXEC, answer_fd + 1);
+  dup2(from.input, STDIN_FILENO);
+  dup2(from.words, STDOUT_FILENO);
+  dup2(from.words, STDERR_FILENO);
+  dup2(from.answer, answer_fd);
   execv(arguments[0], arguments);
   _exit(cannot_start);
 }
@@ -65,7 +123,7 @@ std::filesystem::path find_helper() {
 struct Ending {
   int status = 0;
   bool timed_out = false;
-  std::string text;  ///< the beginning of what it printed
+  std::string words;  ///< the beginning of what it printed
 };
 
 // Collects what the helper prints until it ends or its time is over, which ends it.
@@ -88,28 +146,29 @@ Ending wait_for(pid_t helper, int output, double seconds) {
     const ssize_t count = read(output, buffer, sizeof buffer);
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) break;
-    ending.text.append(buffer, std::min<std::size_t>(count, longest - std::min(longest, ending.text.size())));
+    ending.words.append(buffer, std::min<std::size_t>(count, longest - std::min(longest, ending.words.size())));
   }
   while (waitpid(helper, &ending.status, 0) < 0 && errno == EINTR) continue;
   return ending;
 }
 
-Ending run(const std::filesystem::path& helper, const std::vector<std::string>& arguments, const HelperLimits& limits) {
+Ending run(const std::filesystem::path& helper, const HelperTask& task, const MemoryFile& input,
+           const MemoryFile& answer) {
   std::vector<std::string> words{helper.string()};
-  words.insert(words.end(), arguments.begin(), arguments.end());
+  words.insert(words.end(), task.arguments.begin(), task.arguments.end());
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
   int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error(fmt::format("pipe: {}", std::strerror(errno)));
-  const pid_t child = fork();
-  if (child == 0) become_helper(pointers.data(), ends[1], limits);
+  if (pipe2(ends, O_CLOEXEC) != 0) fail_in("pipe");
+  const pid_t parent = getpid(), child = fork();
+  if (child == 0) become_helper(pointers.data(), {input.fd(), ends[1], answer.fd()}, parent, task.limits);
   close(ends[1]);
   if (child < 0) {
     close(ends[0]);
-    throw std::runtime_error(fmt::format("fork: {}", std::strerror(errno)));
+    fail_in("fork");
   }
-  Ending ending = wait_for(child, ends[0], limits.seconds);
+  Ending ending = wait_for(child, ends[0], task.limits.seconds);
   close(ends[0]);
   return ending;
 }
@@ -125,37 +184,33 @@ std::string last_line(std::string text) {
 
 }  // namespace
 
-ScratchFolder::ScratchFolder() {
-  std::error_code error;
-  std::string place = (std::filesystem::temp_directory_path(error) / "heml-XXXXXX").string();
-  if (error || !mkdtemp(place.data()))
-    throw InputError(place, "", fmt::format("cannot make a temporary folder: {}", std::strerror(errno)), "set TMPDIR");
-  path_ = place;
-}
-
-ScratchFolder::~ScratchFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
-}
-
-void run_helper(const std::string& subject, const std::vector<std::string>& arguments, const HelperLimits& limits) {
+std::string run_helper(const HelperTask& task, std::string_view input) {
   const std::filesystem::path helper = find_helper();
   if (helper.empty())
-    throw InputError(subject, "", "this program reads tetrahedral meshes only: its helper heml-mesher is not there",
+    throw InputError(task.subject, "",
+                     "this program reads tetrahedral meshes only: its helper heml-mesher is not there",
                      "build with HEML_ASSIMP and HEML_TETGEN on, or set HEML_MESHER to where it is");
-  const Ending ending = run(helper, arguments, limits);
-  if (ending.timed_out || (WIFSIGNALED(ending.status) && WTERMSIG(ending.status) == SIGXCPU))
-    throw InputError(subject, "", fmt::format("filling or reading it takes longer than {} s", limits.seconds),
-                     "a coarser surface, a larger radius_edge_ratio or max_volume");
-  if (WIFSIGNALED(ending.status))
-    throw InputError(subject, "",
-                     fmt::format("the mesher cannot handle it (signal {}, {})", WTERMSIG(ending.status),
-                                 strsignal(WTERMSIG(ending.status))),
+  MemoryFile request, answer;
+  request.put(input);
+  const Ending ending = run(helper, task, request, answer);
+  const auto refuse = [&](const std::string& problem) {
+    throw InputError(task.subject, "", task.doing + " " + problem, task.remedy);
+  };
+  if (ending.timed_out) refuse(fmt::format("takes longer than {} s", task.limits.seconds));
+  if (WIFSIGNALED(ending.status)) {
+    const int signal = WTERMSIG(ending.status);
+    if (signal == SIGXCPU) refuse(fmt::format("takes longer than {} s", task.limits.processor_seconds));
+    throw InputError(task.subject, "",
+                     fmt::format("the mesher cannot handle it (signal {}, {})", signal, strsignal(signal)),
                      "repair or simplify the surface");
-  if (WEXITSTATUS(ending.status) == cannot_start)
-    throw InputError(subject, "", fmt::format("the helper {} cannot be started", helper.string()),
-                     last_line(ending.text));
-  if (WEXITSTATUS(ending.status) != 0) throw InputError(subject, "", last_line(ending.text));
+  }
+  const int code = WEXITSTATUS(ending.status);
+  if (code == out_of_memory) refuse(fmt::format("takes more than {:.0f} MB of memory", task.limits.bytes / 1e6));
+  if (code == cannot_start)
+    throw InputError(task.subject, "", fmt::format("the helper {} cannot be started", helper.string()),
+                     last_line(ending.words));
+  if (code != 0) throw InputError(task.subject, "", last_line(ending.words));
+  return answer.contents();
 }
 
 }  // namespace heml

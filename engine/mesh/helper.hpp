@@ -1,31 +1,29 @@
 #pragma once
 // The helper process that runs assimp and TetGen, which may crash or never end.
-#include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace heml {
 
-/// A private folder in the system's folder for temporary files; removed with all it holds.
-class ScratchFolder {
- public:
-  ScratchFolder();  ///< throws InputError when there is no room for it
-  ~ScratchFolder();
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-
- private:
-  std::filesystem::path path_;
-};
-
 struct HelperLimits {
-  double seconds = 120;
-  double bytes = 4e9;  ///< of memory
+  double processor_seconds = 120;  ///< whole seconds are enforced
+  double seconds = 120;            ///< of the clock: for a helper that waits
+  double bytes = 4e9;              ///< of memory
 };
 
-/// Runs `heml-mesher ARGUMENTS` to its end. Throws InputError about `subject` when this build has no helper or the
-/// helper fails, crashes, takes too long or too much memory.
-void run_helper(const std::string& subject, const std::vector<std::string>& arguments, const HelperLimits& limits);
+/// One run of the helper, and the words for messages about it.
+struct HelperTask {
+  std::string subject;                 ///< the file or surface
+  std::string doing;                   ///< "filling it"
+  std::vector<std::string> arguments;  ///< of heml-mesher
+  HelperLimits limits;
+  std::string remedy;                  ///< against taking too long or too much memory
+};
+
+/// Runs `heml-mesher` with `input` to read, to its end, and returns its answer. Both pass through memory that has no
+/// name, and the helper ends with the thread that called: nothing is left behind however this program ends. Throws
+/// InputError about the subject when this build has no helper or the helper fails, crashes, or reaches a limit.
+std::string run_helper(const HelperTask& task, std::string_view input = {});
 
 }  // namespace heml

@@ -3,37 +3,19 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <fstream>
 #include <heml/base/error.hpp>
 #include <heml/base/log.hpp>
+#include <heml/mesh/file_contents.hpp>
 #include <heml/mesh/read.hpp>
 #include <heml/mesh/readers.hpp>
 
 namespace heml {
 namespace {
 
-constexpr std::uintmax_t largest = 4'000'000'000;  // bytes: nodes, and faces of tetrahedra, are counted in 32 bits
-
 std::string ending_of(const std::filesystem::path& path) {
   std::string ending = path.extension().string();
   for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return ending;
-}
-
-// Only plain files: a device or a pipe could go on for ever.
-std::string contents_of(const std::filesystem::path& path) {
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) throw InputError(path.string(), "", "there is no such file");
-  if (!std::filesystem::is_regular_file(status)) throw InputError(path.string(), "", "is not a plain file");
-  const std::uintmax_t size = std::filesystem::file_size(path, error);
-  if (error) throw InputError(path.string(), "", "cannot be read: " + error.message());
-  if (size > largest) throw InputError(path.string(), "", fmt::format("has {} bytes", size), "too large for a mesh");
-  std::ifstream in(path, std::ios::binary);
-  std::string text(size, '\0');
-  in.read(text.data(), static_cast<std::streamsize>(size));
-  if (!in) throw InputError(path.string(), "", "cannot be read", "check the file's permissions");
-  return text;
 }
 
 ReadMesh read_by_ending(const std::filesystem::path& path) {
@@ -45,9 +27,9 @@ ReadMesh read_by_ending(const std::filesystem::path& path) {
     for (const auto& file : {node, ele})
       if (std::error_code error; !std::filesystem::exists(file, error))
         throw InputError(file.string(), "", "there is no such file", "TetGen's .node and .ele stand side by side");
-    return read_tetgen(node.string(), contents_of(node), ele.string(), contents_of(ele));
+    return read_tetgen(node.string(), file_contents(node), ele.string(), file_contents(ele));
   }
-  const std::string text = contents_of(path);
+  const std::string text = file_contents(path);
   if (ending == ".msh") return read_gmsh(path.string(), text);
   if (ending == ".mesh") return read_medit(path.string(), text);
   if (ending == ".vtk") return read_vtk(path.string(), text);

@@ -13,7 +13,7 @@ namespace {
 constexpr int gmsh_tetrahedron = 4;
 
 // Hexahedra, prisms, pyramids, and everything with a volume of higher order.
-bool is_other_volume(long long type) {
+bool is_other_gmsh_volume(long long type) {
   constexpr std::array volumes{5, 6, 7, 11, 12, 13, 14, 17, 18, 19, 29, 30, 31, 71, 79, 90, 91, 92, 93, 106, 118};
   return std::find(volumes.begin(), volumes.end(), type) != volumes.end();
 }
@@ -105,7 +105,7 @@ class GmshReader {
       in_.need_line("an element");
       const long long number = in_.wide_integer("an element number");
       const long long type = in_.integer("an element type");
-      read_.ignored += is_other_volume(type);
+      read_.ignored += is_other_gmsh_volume(type);
       if (type != gmsh_tetrahedron) continue;
       int region = 0;
       if (version == 1) {
@@ -169,7 +169,7 @@ class GmshReader {
       const long long entity = in_.integer("an entity"), type = in_.integer("an element type");
       const std::size_t in_block = in_.count("the number of elements in the block", 2);
       found += in_block;
-      if (is_other_volume(type)) read_.ignored += static_cast<long>(in_block);
+      if (is_other_gmsh_volume(type)) read_.ignored += static_cast<long>(in_block);
       const auto region = volume_region_.find(entity);
       for (std::size_t e = 0; e < in_block; ++e) {
         in_.need_line("an element");

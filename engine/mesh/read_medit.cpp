@@ -9,7 +9,7 @@ namespace {
 
 bool is_keyword(std::string_view word) { return !word.empty() && std::isalpha(static_cast<unsigned char>(word[0])); }
 
-bool is_other_volume(std::string_view keyword) {
+bool is_other_medit_volume(std::string_view keyword) {
   return keyword == "Hexahedra" || keyword == "Hexaedra" || keyword == "Prisms" || keyword == "Pentahedra" ||
          keyword == "Pyramids" || keyword.starts_with("TetrahedraP") || keyword.starts_with("HexahedraQ");
 }
@@ -57,7 +57,7 @@ ReadMesh read_medit(std::string file, std::string_view text) {
     } else if (keyword == "Tetrahedra") {
       read_tetrahedra(in, read);
     } else {
-      if (is_other_volume(keyword)) read.ignored += static_cast<long>(in.count("a number of cells", 5));
+      if (is_other_medit_volume(keyword)) read.ignored += static_cast<long>(in.count("a number of cells", 5));
       while (in.has_word() && !is_keyword(in.peek())) in.word("a value");
     }
   }

@@ -17,7 +17,7 @@ void check_count(std::size_t fields, const Scanner& in) {
 }
 
 // Cells of VTK with a volume, other than the linear tetrahedron (vtkCellType.h).
-bool is_other_volume(long long type) {
+bool is_other_vtk_volume(long long type) {
   return (type >= 11 && type <= 16) || (type >= 24 && type <= 27) || type == 29 || (type >= 31 && type <= 33) ||
          type == 37 || type == 42 || (type >= 71 && type <= 74) || (type >= 78 && type <= 81);
 }
@@ -130,7 +130,7 @@ void add_vtk_cells(const VtkCells& cells, int first_node, const Scanner& in, Rea
     if (begin < 0 || begin > end || end > static_cast<long long>(cells.connectivity.size()))
       in.fail(fmt::format("offsets of cell {} are {} and {}", c, begin, end),
               fmt::format("ascending, up to {}", cells.connectivity.size()));
-    read.ignored += is_other_volume(cells.types[c]);
+    read.ignored += is_other_vtk_volume(cells.types[c]);
     if (cells.types[c] != vtk_tetra) continue;
     read.mesh.tets.push_back(tet_of(cells, c, first_node, in, read.mesh));
     read.mesh.regions.push_back(region_of(cells, c, in));

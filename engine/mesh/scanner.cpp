@@ -11,6 +11,11 @@ namespace {
 
 bool is_blank(char c) { return c == ' ' || ('\t' <= c && c <= '\r'); }
 
+// from_chars() takes no plus.
+std::string_view without_plus(std::string_view word) {
+  return word.starts_with('+') && !word.starts_with("+-") ? word.substr(1) : word;
+}
+
 // Whether a decimal number too extreme for a double is merely too close to 0.
 bool is_tiny(std::string_view word) {
   const std::size_t e = word.find_first_of("eE");
@@ -73,6 +78,10 @@ void Scanner::need_line(std::string_view what) {
   if (!next_line()) fail_missing(what);
 }
 
+void Scanner::need_word(std::string_view what) {
+  if (!has_word()) need_line(what);
+}
+
 std::string_view Scanner::peek() {
   if (!has_word()) return {};
   std::size_t end = position_;
@@ -90,7 +99,7 @@ std::string_view Scanner::word(std::string_view what) {
 
 double Scanner::any_number(std::string_view what) {
   const std::string_view found = word(what);
-  const std::string_view digits = found.starts_with('+') ? found.substr(1) : found;
+  const std::string_view digits = without_plus(found);
   double value = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (error == std::errc::invalid_argument || end != digits.data() + digits.size())
@@ -114,7 +123,7 @@ Vec3 Scanner::point(std::string_view what) {
 
 long long Scanner::integer(std::string_view what, long long low, long long high) {
   const std::string_view found = word(what);
-  const std::string_view digits = found.starts_with('+') ? found.substr(1) : found;
+  const std::string_view digits = without_plus(found);
   long long value = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (error == std::errc::invalid_argument || end != digits.data() + digits.size())

@@ -20,6 +20,7 @@ class Scanner {
 
   bool next_line();                              ///< to the next line that holds a word; false: there is none
   void need_line(std::string_view what);         ///< likewise; throws when there is none
+  void need_word(std::string_view what);         ///< moves to a later line where this one has no word left; throws
   bool has_word();                               ///< whether another word is in reach
   std::string_view peek();                       ///< the next word, not consumed; empty: none
   std::string_view word(std::string_view what);  ///< `what` it should be: for messages

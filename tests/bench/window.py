@@ -3,6 +3,7 @@
     HEML_BINARY=build/release/app/heml python3 tests/bench/window.py [SECONDS]
 """
 import json
+import os
 import pathlib
 import re
 import subprocess
@@ -11,8 +12,9 @@ import tempfile
 
 HERE = pathlib.Path(__file__).resolve()
 sys.path.insert(0, str(HERE.parents[1] / "e2e"))
-from window_test import BINARY, Display, os  # noqa: E402
+from display import Display  # noqa: E402
 
+BINARY = os.environ["HEML_BINARY"]
 SCENES = HERE.parents[2] / "assets" / "scenes"
 IN_REAL_TIME = {"integrator": "backward_euler", "rate": 60, "damping": 2, "budget": {"milliseconds": 8}}
 CASES = [

@@ -25,4 +25,7 @@ int main(int argc, char** argv) {
   write("vtu", 3, vtu);
   write("tetgen", 4, node + '\0' + ele);
   write("tetgen_attributes", 4, node + '\0' + ele_attributes);
+  write("ply", 5, ply);
+  write("ply_little_endian", 5, ply_little_endian);
+  write("ply_big_endian", 5, ply_big_endian);
 }

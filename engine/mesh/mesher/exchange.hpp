@@ -1,6 +1,8 @@
 #pragma once
 // The plain text the engine and its helper exchange: "#nodes #rows [#holes]", then x y z a node, then indices a row,
 // then x y z a hole. The engine writes it, so the helper trusts it.
+#include <cstdio>
+#include <istream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -18,13 +20,15 @@ struct Exchange {
   std::vector<double> holes;  ///< x y z, m
 };
 
-Exchange read_exchange(const std::string& path, int row);
-void write_exchange(const std::string& path, const Exchange& exchange, int row);
+Exchange read_exchange(std::istream& in, int row);
+void write_exchange(std::FILE* file, const Exchange& exchange, int row);
 
-/// Any surface file assimp knows: triangles as the file has them, nodes not joined. Throws Failure.
+/// Any surface file assimp knows: triangles as the file has them, nodes not joined. Throws Failure, and
+/// std::bad_alloc where the memory is not enough.
 Exchange read_surface(const std::string& path);
 
-/// Tetrahedra in a closed surface; its nodes come first. max_volume: m³ of one, 0 for none. Throws Failure.
+/// Tetrahedra in a closed surface; its nodes come first. max_volume: m³ of one, 0 for none. Throws Failure
+/// and std::bad_alloc.
 Exchange fill_surface(const Exchange& surface, double radius_edge_ratio, double max_volume);
 
 }  // namespace mesher

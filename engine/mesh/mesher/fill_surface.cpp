@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <new>
 
 #include "exchange.hpp"
 
@@ -59,7 +60,6 @@ void give(const Exchange& surface, const Frame& frame, tetgenio& in) {
 
 const char* reason(int code) {
   switch (code) {
-    case 1: return "TetGen takes too much memory";
     case 3: return "TetGen finds that the surface runs through itself";
     case 4: return "TetGen finds details too small for it";
     case 5: return "TetGen finds triangles too close to each other";
@@ -82,6 +82,7 @@ Exchange fill_surface(const Exchange& surface, double radius_edge_ratio, double 
   try {
     tetrahedralize(switches, &in, &out);
   } catch (int code) {
+    if (code == 1) throw std::bad_alloc();
     throw Failure(reason(code));
   }
   if (out.numberoftetrahedra == 0) throw Failure("TetGen filled nothing");

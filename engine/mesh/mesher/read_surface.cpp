@@ -5,6 +5,7 @@
 #include <assimp/scene.h>
 
 #include <assimp/Importer.hpp>
+#include <new>
 
 #include "exchange.hpp"
 
@@ -20,7 +21,11 @@ Exchange read_surface(const std::string& path) {
   importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, all_but_meshes);
   const aiScene* scene = importer.ReadFile(path, aiProcess_RemoveComponent | aiProcess_Triangulate |
                                                      aiProcess_PreTransformVertices | aiProcess_SortByPType);
-  if (!scene) throw Failure(std::string("is no surface assimp can read: ") + importer.GetErrorString());
+  if (!scene) {
+    const std::string reason = importer.GetErrorString();
+    if (reason.find("bad_alloc") != std::string::npos) throw std::bad_alloc();
+    throw Failure("is no surface assimp can read: " + reason);
+  }
   Exchange surface;
   for (unsigned m = 0; m < scene->mNumMeshes; ++m) {
     const aiMesh& mesh = *scene->mMeshes[m];

@@ -3,17 +3,18 @@
 #include <algorithm>
 #include <array>
 #include <heml/base/error.hpp>
+#include <heml/mesh/check_ply.hpp>
 #include <heml/mesh/quality.hpp>
 #include <heml/mesh/readers.hpp>
 #include <string_view>
 
 namespace heml {
 
-inline constexpr std::array formats{"msh", "mesh", "vtk", "vtu", "tetgen"};
+inline constexpr std::array formats{"msh", "mesh", "vtk", "vtu", "tetgen", "ply"};
 
-/// Reads a text held in memory as formats[format] and checks the mesh. TetGen's two files stand one after the other, a
-/// zero byte between. Returns whether there was a mesh fit for simulation; InputError is the other allowed outcome, and
-/// all else leaves through here.
+/// Reads a text held in memory as formats[format] and checks the mesh; of PLY, the sizes it declares. TetGen's two files
+/// stand one after the other, a zero byte between. Returns whether there was a mesh fit for simulation; InputError is
+/// the other allowed outcome, and all else leaves through here.
 inline bool read_and_check(std::size_t format, std::string_view text) {
   try {
     ReadMesh read;
@@ -31,6 +32,9 @@ inline bool read_and_check(std::size_t format, std::string_view text) {
       case 3:
         read = read_vtu("fuzz", text);
         break;
+      case 5:
+        check_ply("fuzz.ply", text);
+        return true;
       default:
         read = read_tetgen("fuzz.node", text.substr(0, zero), "fuzz.ele", text.substr(std::min(zero + 1, text.size())));
     }

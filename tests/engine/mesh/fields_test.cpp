@@ -72,6 +72,19 @@ TEST_CASE("reads Gmsh element data before the elements, in parts, and of some el
   CHECK(values(some, "E", 1)[1] == 5);
 }
 
+TEST_CASE("gives Gmsh tetrahedra of one number the same data, the last, however many there are of both") {
+  constexpr int count = 300'000;  // one after the other: 9e10 copies
+  std::string tets = fmt::format("$Elements\n{}\n", count);
+  std::string data = fmt::format("$ElementData\n1\nE\n0\n3\n0 1 {}\n", count);
+  for (int i = 0; i < count; ++i) {
+    tets += "1 4 0 40 20 21 33\n";
+    data += fmt::format("1 {}\n", i);
+  }
+  const std::string nodes = samples::gmsh_2.substr(0, samples::gmsh_2.find("$Elements"));
+  const TetMesh mesh = read_gmsh("a.msh", nodes + tets + "$EndElements\n" + data + "$EndElementData\n").mesh;
+  CHECK(values(mesh, "E", 1) == Values(count, count - 1));
+}
+
 TEST_CASE("reads legacy VTK cell arrays: scalars, vectors and field arrays, in text and binary") {
   const TetMesh text = read_vtk("a.vtk", samples::vtk).mesh;
   CHECK(names_of(text) == std::vector<std::string>{"quality", "fibre direction", "stiffness"});

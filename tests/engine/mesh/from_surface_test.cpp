@@ -1,14 +1,15 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
+#include <sys/resource.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <heml/mesh/from_surface.hpp>
 #include <heml/mesh/intersections.hpp>
 #include <heml/mesh/quality.hpp>
 #include <set>
 
 #include "engine/mesh/files.hpp"
+#include "engine/mesh/helpers.hpp"
 #include "engine/mesh/solids.hpp"
 
 namespace heml::from_surface_test {
@@ -16,19 +17,6 @@ namespace heml::from_surface_test {
 namespace {
 
 bool has(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
-
-class Environment {
- public:
-  Environment(const char* name, const std::string& value) : name_(name) {
-    if (const char* old = std::getenv(name)) old_ = old;
-    setenv(name, value.c_str(), 1);
-  }
-  ~Environment() { old_ ? setenv(name_, old_->c_str(), 1) : unsetenv(name_); }
-
- private:
-  const char* name_;
-  std::optional<std::string> old_;
-};
 
 // Whether this build has the helper with both libraries; says so when not.
 bool can_mesh() {
@@ -41,11 +29,11 @@ bool can_mesh() {
   return !missing;
 }
 
-// A helper that does as a shell script says.
-std::string helper_of(const TemporaryFolder& folder, const std::string& script) {
-  const auto path = folder.file("helper", "#!/bin/sh\n" + script + "\n");
-  std::filesystem::permissions(path, std::filesystem::perms::owner_all);
-  return path.string();
+// Of the processor, by all helpers so far.
+double helpers_seconds() {
+  rusage used;
+  getrusage(RUSAGE_CHILDREN, &used);
+  return static_cast<double>(used.ru_utime.tv_sec) + 1e-6 * static_cast<double>(used.ru_utime.tv_usec);
 }
 
 std::string as_obj(const SurfaceMesh& surface) {
@@ -196,6 +184,33 @@ TEST_CASE("refuses files that hold no surface") {
   CHECK(has(refusal([&] { read_surface(folder.file("points.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n")); }), "points.obj"));
 }
 
+TEST_CASE("refuses surfaces of sizes that the file cannot hold, at once") {
+  if (!can_mesh()) return;
+  const TemporaryFolder folder;
+  const auto said_of = [&](const char* name, const std::string& text) {
+    const double start = helpers_seconds();
+    const std::string said = refusal([&] { read_surface(folder.file(name, text)); });
+    CHECK(helpers_seconds() - start < 1);
+    return said;
+  };
+  const std::string end = "property list uint int vertex_indices\nend_header\n", huge = "2147483648";
+  const std::string ply = "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nelement face 1\n";
+  CHECK(has(said_of("list.ply", ply + end + "0\n" + huge + " 0 1 2\n"), "list of 2147483648 values"));
+  CHECK(has(said_of("cut.ply", ply + "property float zchar int vertex_indices\nen 3\n3 1 " + huge + " 3\n"), "line 6"));
+  if (helpers_have_memory_limits)
+    CHECK(has(said_of("a.off", "OFF\n4000000000 4000000000 0\n0 0 0\n"), "reading it takes more than 256 MB"));
+  CHECK(has(said_of("a.stl", std::string(80, '\0') + std::string(4, '\xff') + std::string(100, '\0')), "a.stl"));
+  CHECK(has(said_of("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 2147483647\n"), "a.obj"));
+}
+
+TEST_CASE("reading that takes too long or too much memory is said of reading, not of filling") {
+  const TemporaryFolder folder;
+  const auto surface = folder.file("a.obj", "v 0 0 0\n");
+  const Environment helper("HEML_MESHER", helper_of(folder, "exit 2"));
+  const std::string said = refusal([&] { read_surface(surface); });
+  CHECK(has(said, "reading it takes more than 256 MB of memory (is a size that the file declares damaged?)"));
+}
+
 TEST_CASE("says which option adds the helper when it is not there") {
   const Environment none("HEML_MESHER", "/nonexistent");
   const std::string said = refusal([] { tetrahedralize(cube(1, {0, 0, 0})); });
@@ -214,11 +229,12 @@ TEST_CASE("survives a helper that hangs, crashes, complains or answers nonsense,
   CHECK(has(told("exec sleep 60"), "longer than 0.5 s"));
   CHECK(has(told("while :; do echo x; done"), "longer than 0.5 s"));
   CHECK(has(told("kill -SEGV $$"), "signal 11"));
+  CHECK(has(told("exit 2"), "filling it takes more than 4000 MB"));
   CHECK(has(told("echo first >&2; echo 'too small' >&2; exit 1"), "box: too small"));
   CHECK(has(told("exit 0"), "box"));
-  CHECK(has(told("echo '8 4000000' > \"$3\""), "is 8, more than"));
-  CHECK(has(told("echo '1 1 0 0 0 0 0 0 7' > \"$3\""), "'7'"));
-  CHECK(has(told("echo '1 0 0 0 0' > \"$3\""), "filled nothing"));
+  CHECK(has(told("echo '8 4000000' >&3"), "is 8, more than"));
+  CHECK(has(told("echo '1 1 0 0 0 0 0 0 7' >&3"), "'7'"));
+  CHECK(has(told("echo '1 0 0 0 0' >&3"), "filled nothing"));
   CHECK(std::filesystem::is_empty(scratch / ""));
 }
 

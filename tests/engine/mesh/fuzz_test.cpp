@@ -85,5 +85,10 @@ TEST_CASE("damaged TetGen files give a mesh or one clear error") {
   CHECK(count_survivors(4, samples::node + '\0' + samples::ele, 10) > 0);
   CHECK(count_survivors(4, samples::node + '\0' + samples::ele_attributes, 13) > 0);
 }
+TEST_CASE("sizes in damaged PLY files fit the file or are refused") {
+  CHECK(count_survivors(5, samples::ply, 14) > 0);
+  CHECK(count_survivors(5, samples::ply_little_endian, 15) > 0);
+  CHECK(count_survivors(5, samples::ply_big_endian, 16) > 0);
+}
 
 }  // namespace heml::fuzz_test

@@ -3,6 +3,7 @@
 #include <heml/mesh/quality.hpp>
 #include <heml/mesh/read.hpp>
 #include <heml/mesh/readers.hpp>
+#include <regex>
 
 #include "engine/mesh/files.hpp"
 #include "engine/mesh/samples.hpp"
@@ -105,6 +106,19 @@ TEST_CASE("reads numbers as people write them") {
   CHECK(with("1e-400") == 0);
   CHECK(with(".5") == 0.5);
   CHECK(with("2.") == 2.0);
+}
+
+TEST_CASE("reads Gmsh node numbers from one end of 64 bits to the other") {
+  for (std::string text : {samples::gmsh_1, samples::gmsh_2}) {
+    text = std::regex_replace(text, std::regex(R"(\b10\b)"), "-9223372036854775808");
+    text = std::regex_replace(text, std::regex(R"(\b40\b)"), "9223372036854775807");
+    check_sample(from_text("a.msh", text));
+  }
+}
+
+TEST_CASE("refuses a number with two signs") {
+  CHECK(says(refusal_of("a.mesh", replaced(samples::medit, "1 1 1.5", "1 +-1 1.5")), {"line", "'+-1'"}));
+  CHECK(says(refusal_of("a.mesh", replaced(samples::medit, "2 3 4 5 -3", "2 3 4 5 +-3")), {"line", "'+-3'"}));
 }
 
 TEST_CASE("counts other cells with a volume and keeps the tetrahedra") {

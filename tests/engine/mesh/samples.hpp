@@ -2,6 +2,7 @@
 // Two tetrahedra in every format: nodes 0..4, elements {0,1,2,3} of region 7 and {1,2,3,4} of region −3, written by
 // hand from the descriptions of the formats, with the oddities files have (gaps in numbering, comments, other cells
 // between).
+#include <array>
 #include <string>
 #include <vector>
 
@@ -279,32 +280,37 @@ inline const std::string ele_attributes = R"(2 4 3
 2 2 3 4 5 -3.0 4 inf
 )";
 
-/// The legacy VTK sample in binary; big-endian, as the format has it.
-class BinaryVtk {
+/// Text and numbers as bytes.
+class Binary {
  public:
-  BinaryVtk& text(const std::string& text) {
+  explicit Binary(bool little_endian = false) : little_endian_(little_endian) {}
+  Binary& text(const std::string& text) {
     bytes_ += text;
     return *this;
   }
   template <class Integer>
-  BinaryVtk& integers(const std::vector<long long>& values) {
+  Binary& integers(const std::vector<long long>& values) {
     for (long long value : values)
-      for (int byte = sizeof(Integer) - 1; byte >= 0; --byte)
+      for (std::size_t i = 0; i < sizeof(Integer); ++i) {
+        const std::size_t byte = little_endian_ ? i : sizeof(Integer) - 1 - i;
         bytes_ += static_cast<char>(static_cast<unsigned long long>(value) >> (8 * byte) & 0xff);
+      }
     return *this;
   }
-  BinaryVtk& floats(const std::vector<float>& values) {
+  Binary& floats(const std::vector<float>& values) {
     for (float value : values) integers<int>({static_cast<long long>(__builtin_bit_cast(unsigned, value))});
     return *this;
   }
   operator std::string() const { return bytes_; }
 
  private:
+  bool little_endian_;
   std::string bytes_;
 };
 
+/// The legacy VTK sample in binary; big-endian, as the format has it.
 inline const std::string vtk_binary =
-    BinaryVtk()
+    Binary()
         .text("# vtk DataFile Version 2.0\ntwo tetrahedra\nBINARY\nDATASET UNSTRUCTURED_GRID\nPOINTS 5 float\n")
         .floats({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1.5})
         .text("\nCELLS 2 10\n")
@@ -316,7 +322,7 @@ inline const std::string vtk_binary =
         .text("\n");
 
 inline const std::string vtk_5_binary =
-    BinaryVtk()
+    Binary()
         .text("# vtk DataFile Version 5.1\ntwo tetrahedra\nBINARY\nDATASET UNSTRUCTURED_GRID\nPOINTS 5 float\n")
         .floats({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1.5})
         .text("\nCELLS 3 8\nOFFSETS vtktypeint64\n")
@@ -334,5 +340,42 @@ inline const std::string vtk_5_binary =
         .text("\nSCALARS count unsigned_char\nLOOKUP_TABLE default\n")
         .integers<char>({200, 3})
         .text("\n");
+
+/// The surface of the tetrahedron {0,1,2,3}.
+inline const std::string ply = R"(ply
+format ascii 1.0
+comment a surface
+obj_info of a tetrahedron
+element vertex 4
+property float x
+property float y
+property double z
+element face 4
+property list uint int vertex_indices
+property uchar red
+element edge 0
+property int vertex1
+end_header
+0 0 0
+1 0 0
+0 1 0
+0 0 1
+3 0 2 1 255
+3 0 1 3 0
+3 1 2 3 0
+3 0 3 2 0
+)";
+
+inline std::string binary_ply(bool little_endian) {
+  Binary file(little_endian);
+  file.text("ply\nformat binary_" + std::string(little_endian ? "little" : "big") + "_endian 1.0\n")
+      .text("element vertex 4\nproperty float x\nproperty float y\nproperty float z\n")
+      .text("element face 4\nproperty list short uint vertex_indices\nend_header\n")
+      .floats({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1});
+  for (const auto& [a, b, c] : {std::array{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}})
+    file.integers<short>({3}).integers<int>({a, b, c});
+  return file;
+}
+inline const std::string ply_little_endian = binary_ply(true), ply_big_endian = binary_ply(false);
 
 }  // namespace heml::samples

@@ -1,0 +1,65 @@
+"""A screen without a monitor, and pictures of it."""
+import mmap
+import os
+import statistics
+import struct
+import subprocess
+
+
+class Display:
+    """A screen without a monitor, whose pixels are in a file."""
+
+    def __init__(self, folder, width, height):
+        read, write = os.pipe()
+        self.server = subprocess.Popen(
+            ["Xvfb", "-displayfd", str(write), "-screen", "0", f"{width}x{height}x24", "-fbdir", str(folder),
+             "-nolisten", "tcp"],
+            pass_fds=(write,), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        os.close(write)
+        with os.fdopen(read) as pipe:
+            self.name = ":" + pipe.readline().strip()
+        self.file = folder / "Xvfb_screen0"
+
+    def close(self):
+        self.server.terminate()
+        self.server.wait()
+
+    def picture(self):
+        """The screen. The file is an X window dump: 25 big-endian words, a name, colours of 12 bytes, pixels."""
+        with open(self.file, "rb") as file, mmap.mmap(file.fileno(), 0, prot=mmap.PROT_READ) as dump:
+            words = struct.unpack(">25I", dump[:100])
+            width, height, stride, start = words[4], words[5], words[12], words[0] + 12 * words[19]
+            return Picture(width, height, stride, dump[start:start + stride * height])
+
+
+class Picture:
+    """Rows of blue, green, red, nothing."""
+
+    def __init__(self, width, height, stride, data):
+        self.width, self.height, self.stride, self.data = width, height, stride, data
+
+    def pixel(self, x, y):
+        at = y * self.stride + 4 * x
+        blue, green, red = self.data[at:at + 3]
+        return red, green, blue
+
+    def places(self, left, right, step=4):
+        return [(x, y) for y in range(0, self.height, step) for x in range(left, right, step)]
+
+    def colours(self):
+        return len({self.pixel(x, y) for x, y in self.places(0, self.width)})
+
+    def change(self, other, left, right):
+        """Mean difference of a channel, 0 to 255, between two columns."""
+        places = self.places(left, right)
+        return sum(abs(a - b) for p in places for a, b in zip(self.pixel(*p), other.pixel(*p))) / (3 * len(places))
+
+    def tissue(self, left, right):
+        """A place in the middle of what is red."""
+        def is_red(place):
+            red, green, _ = self.pixel(*place)
+            return red > 90 and red > 1.7 * green
+
+        red = [place for place in self.places(left, right) if is_red(place)]
+        middle = statistics.median(x for x, _ in red), statistics.median(y for _, y in red)
+        return min(red, key=lambda p: (p[0] - middle[0]) ** 2 + (p[1] - middle[1]) ** 2)

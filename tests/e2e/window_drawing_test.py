@@ -1,0 +1,77 @@
+"""How the window draws: as without a display, colours as numbers, without holding up the engine, not when it rests."""
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import time
+import unittest
+
+from window_case import BINARY, WindowCase, light_scene
+
+
+class Drawing(WindowCase):
+    def test_colours_are_read_under_the_mouse(self):
+        self.open_display(640, 360)
+        self.begin_light()
+        self.xdo("mousemove", 638, 300, "key", "space")
+        x, y = self.steady().tissue(220, 640)
+
+        def light_pixels_beside():  # where the reading stands, right of the mouse
+            picture = self.display.picture()
+            return sum(min(picture.pixel(a, b)) > 170 for a in range(x + 12, x + 90) for b in range(y - 8, y + 8))
+
+        self.xdo("mousemove", x, y)
+        self.steady()
+        self.assertLess(light_pixels_beside(), 5, "something is read of tissue without colours")
+        self.do("key", "2")
+        self.wait_for("a reading beside the mouse", lambda: light_pixels_beside() > 25)
+        self.quit()
+
+    def test_slow_drawing_does_not_hold_up_the_engine(self):
+        self.open_display(640, 360)
+        self.begin_light("--draw-stall", 1000)
+        first = self.status()
+        self.wait_for("pictures", lambda: self.status().picture >= first.picture + 5)
+        last = self.status()
+        ticks = (last.tick - first.tick) / (last.picture - first.picture)
+        self.assertGreater(ticks, 10, "an engine that waits for pictures makes one tick for each, and 60 a second alone")
+        self.quit()
+
+    @unittest.skipUnless(shutil.which("compare"), "imagemagick is needed")
+    def test_the_window_shows_what_is_captured_without_a_display(self):
+        self.open_display(640, 360)
+        self.begin_light(scene=dict(light_scene(), gravity=[0, 0, 0]))
+        self.do("mousemove", 638, 358)
+        self.do("key", "Tab")
+        self.do("key", "p")
+        self.wait_for("a screenshot", lambda: list(self.folder.glob("heml-*.png")))
+        self.quit()
+        subprocess.run([BINARY, "capture", "light.json", "--out", "frames", "--frames", "1", "--size", "640x360"],
+                       cwd=self.folder, check=True, stdout=subprocess.DEVNULL)
+        shot = next(self.folder.glob("heml-*.png"))
+        done = subprocess.run(["compare", "-metric", "RMSE", shot, self.folder / "frames/frame_00000.png", "null:"],
+                              stderr=subprocess.PIPE, text=True)
+        normalised = float(done.stderr.split("(")[1].split(")")[0])
+        self.assertLess(normalised * 255, 3.0)  # the limit of committed frames
+
+    def test_a_paused_window_draws_nothing(self):
+        self.open_display(640, 360)
+        self.begin_light()
+        self.xdo("mousemove", 600, 350, "key", "space")
+        self.steady()
+        stat = pathlib.Path(f"/proc/{self.program.pid}/stat")
+
+        def processor_time():
+            fields = stat.read_text().rsplit(")", 1)[1].split()
+            return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+        before, drawn = processor_time(), self.status().picture
+        time.sleep(3)  # nothing is to happen, for so long
+        self.assertLess(processor_time() - before, 0.15)
+        self.assertEqual(self.status().picture, drawn)
+        self.quit()
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

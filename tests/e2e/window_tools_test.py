@@ -1,0 +1,158 @@
+"""The window's tools as people use them: what is done by mouse and keys is seen, recorded and replays."""
+import json
+import re
+import struct
+import unittest
+
+from window_case import WindowCase
+
+
+class Tools(WindowCase):
+    def pull_the_body(self, left, right, by):
+        before = self.display.picture()
+
+        def follows():
+            self.wait_for("a picture that follows the drag",
+                          lambda: self.display.picture().change(before, left, right) > 1)
+
+        self.drag(before.tissue(left, right), by, held=follows)
+        self.wait_for_event("release")
+        self.assertGreaterEqual(len(self.seen("move")), 3)
+
+    def change_the_material(self, scale):
+        """The row of its first parameter is dragged; which one it is depends on how the panel is laid out."""
+        law = json.loads((self.folder / "out.jsonl").read_text().split("\n")[0])["materials"][0]["law"]
+        for row in range(10):
+            self.drag((int(scale * 170), int(scale * (140 + 13 * row))), (int(scale * 24), 0), steps=4)
+            self.do("key", "Escape")
+            self.play(3)  # what was done is recorded with the next tick
+            if any(material["law"] == law for material in self.seen("material")):
+                return
+        self.fail("no row of the material was dragged")
+
+    def choose_a_tissue(self):
+        """One with published numbers: the list opens under its row."""
+        before = len(self.seen("material"))
+        self.do("mousemove", 195, 170)
+        self.do("click", 1)
+        self.do("mousemove", 195, 240)
+        self.do("click", 1)
+        self.wait_for_event("material", before + 1)
+        self.assertNotEqual(self.seen("material")[-1], self.seen("material")[before - 1])
+
+    def remove_tissue(self, left, right, corner):
+        self.xdo("mousemove", *corner, "key", "space")
+        paused = self.steady()
+        self.do("mousemove", *paused.tissue(left, right))
+        self.do("key", "Delete")
+        self.wait_for_event("remove")
+        self.do("mousemove", *corner)
+        self.wait_for("a hole", lambda: self.display.picture().change(paused, left, right) > 0.05)
+
+    def play_a_session(self, width, height):
+        left, right = (300, 1010) if width >= 1000 else (220, width)  # between the panel's columns
+        scale = 1 if width >= 1000 else 0.74
+        self.open_display(width, height)
+        self.begin("--record", "out.jsonl", "--size", f"{width}x{height}", colours=500)
+        self.pull_the_body(left, right, (width // 20, height // 12))
+        self.change_the_material(scale)
+        if width >= 1000:
+            self.choose_a_tissue()
+        self.remove_tissue(left, right, (width - 30, height - 5))
+        paused = self.steady()
+        self.do("key", "3")
+        self.wait_for("other colours", lambda: self.display.picture().change(paused, left, right) > 3)
+        coloured = self.steady()
+        self.do("key", "Tab")
+        self.wait_for("a hidden panel", lambda: self.display.picture().change(coloured, 0, int(scale * 250)) > 3)
+        self.do("key", "p")
+        self.wait_for("a saved picture", lambda: list(self.folder.glob("heml-*.png")))
+        self.do("key", "r", "key", "space")
+        self.wait_for_event("reset")
+        self.play(30)
+        drawn, ticks = self.quit()
+        self.assertGreater(drawn, 10)
+        self.assertGreater(ticks, 100)
+
+        order = [key for event in self.events() for key in ("grasp", "move", "release") if key in event]
+        self.assertLess(order.index("grasp"), order.index("move"))
+        self.assertLess(order.index("move"), order.index("release"))
+        self.verify()
+        [saved] = self.folder.glob("heml-*.png")
+        head = saved.read_bytes()[:24]
+        self.assertEqual(head[:8], b"\x89PNG\r\n\x1a\n")
+        self.assertEqual(struct.unpack(">2I", head[16:]), (width, height))
+
+    def test_a_session_with_mouse_and_keys_is_recorded_and_replays(self):
+        self.play_a_session(1280, 720)
+
+    def test_a_small_window_is_as_usable(self):
+        self.play_a_session(640, 360)
+
+    def test_a_scalpel_cuts_and_undo_takes_it_back(self):
+        self.open_display(640, 360)
+        self.begin_light("--record", "out.jsonl")
+        self.xdo("mousemove", 638, 358, "key", "c", "key", "space")
+        whole = self.steady()
+        place = whole.tissue(220, 640)
+        self.drag((place[0] - 60, place[1] - 20), (120, 40), steps=12)
+        self.wait_for_event("cut", 3)
+        strokes = [cut.get("goes_on", False) for cut in self.seen("cut")]
+        self.assertEqual(strokes, [False] + [True] * (len(strokes) - 1))
+        self.do("mousemove", 638, 358, "key", "space")
+        self.play(120)
+        self.xdo("key", "space")
+        self.assertGreater(self.steady().change(whole, 220, 640), 0.05, "the cut does not open")
+        self.do("key", "ctrl+z")
+        self.wait_for_event("undo")
+        self.do("key", "ctrl+z")  # there is nothing more to undo: said, not recorded
+        self.quit()
+        self.assertEqual(len(self.seen("undo")), 1)
+        self.verify()
+
+    def test_what_was_recorded_before_a_kill_replays(self):
+        self.open_display(640, 480)
+        self.begin("--record", "out.jsonl", "--size", "640x480", colours=500)
+        self.drag(self.display.picture().tissue(220, 640), (30, 40), steps=4)
+        self.wait_for_event("release")
+        self.wait_for("a checkpoint after it", lambda: "checkpoint" in self.events()[-1])
+        recorded = self.events()
+        self.end()
+        with open(self.folder / "out.jsonl", "a") as file:
+            file.write('{"step": 99')  # as a kill in the middle of a line leaves it
+        cut = self.replay()
+        self.assertEqual(cut.returncode, 1, cut.stdout + cut.stderr)
+        self.assertIn("--partial", cut.stderr)
+        said = re.match(r"(\d+) ticks replayed, (\d+) of \d+ check", self.verify("--partial"))
+        self.assertGreaterEqual(int(said[1]), recorded[-1]["step"])
+        self.assertGreaterEqual(int(said[2]), sum("checkpoint" in event for event in recorded))
+
+    def test_pins_table_probe_and_sutures_work_by_mouse_and_keys(self):
+        self.open_display(640, 360)
+        self.begin_light("--record", "out.jsonl")
+        place = self.display.picture().tissue(220, 640)
+        self.do("key", "t")
+        self.wait_for_event("tables")
+        self.do("key", "n")
+        self.do("mousemove", *place)
+        self.do("click", 1)
+        self.wait_for_event("pin")
+        self.play(3)  # its release asks for what the picture shows
+        self.do("click", 1)
+        self.wait_for("its release", lambda: any("node" in value for value in self.seen("release")))
+        self.do("key", "o")
+        self.drag(place, (30, 10))
+        self.wait_for("a withdrawn probe", lambda: "probe" in self.seen("release"))
+        self.assertGreaterEqual(len(self.seen("probe")), 3)
+        self.do("key", "s")
+        self.do("mousemove", *place)
+        self.do("click", 1)
+        self.do("mousemove", place[0] + 50, place[1])
+        self.do("click", 1)
+        self.wait_for_event("suture")
+        self.quit()
+        self.verify()
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
