@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
 #include <heml/materials/laws.hpp>
 #include <heml/materials/mass_spring.hpp>
+#include <heml/materials/parameter_slots.hpp>
 #include <heml/materials/point.hpp>
 
 namespace heml {
@@ -49,28 +51,9 @@ constexpr auto table_of(std::tuple<Tag...>) {
 }
 constexpr auto law_table = table_of(LawList{});
 
-/// Whether no law has the name of another.
-constexpr bool names_differ() {
-  for (std::size_t i = 0; i < law_table.size(); ++i)
-    for (std::size_t k = 0; k < i; ++k)
-      if (law_table[i].name == law_table[k].name) return false;
-  return true;
-}
-static_assert(names_differ());
-
-std::size_t list_length(const Material& material, const LawInfo& law) {
-  std::size_t lists = 0;
-  for (const ParameterInfo& info : law.parameters) lists += info.is_list();
-  return lists ? (material.parameters.size() - (law.parameters.size() - lists)) / lists : 0;
-}
-
-bool has_right_count(const Material& material, const LawInfo& law) {
-  std::size_t lists = 0;
-  for (const ParameterInfo& info : law.parameters) lists += info.is_list();
-  const std::size_t scalars = law.parameters.size() - lists, given = material.parameters.size();
-  if (lists == 0) return given == scalars;
-  return given >= scalars + lists && (given - scalars) % lists == 0;
-}
+static_assert(std::all_of(law_table.begin(), law_table.end(),
+                          [](const LawInfo& law) { return &law == &law_table[law_index(law.name)]; }),
+              "two laws of one name");
 
 /// What is wrong with one value; empty: nothing.
 std::string value_problem(const ParameterInfo& info, double value) {
@@ -90,12 +73,10 @@ std::string value_problem(const ParameterInfo& info, double value) {
 }
 
 std::optional<Problem> parameter_problem(const Material& material, const LawInfo& law) {
-  const std::size_t length = list_length(material, law);
-  std::size_t next = 0;
-  for (const ParameterInfo& info : law.parameters)
-    for (std::size_t k = 0; k < (info.is_list() ? length : 1); ++k, ++next)
-      if (auto text = value_problem(info, material.parameters[next]); !text.empty())
-        return Problem{info.is_list() ? fmt::format("{}[{}]", info.name, k) : std::string(info.name), std::move(text)};
+  const std::vector<ParameterSlot> slots = parameter_slots(material, law);
+  for (std::size_t i = 0; i < slots.size(); ++i)
+    if (auto text = value_problem(*slots[i].info, material.parameters[i]); !text.empty())
+      return Problem{slots[i].key(), std::move(text)};
   if (law.takes_young_poisson) {
     const double lambda = material.parameters[0], mu = material.parameters[1];
     if (!(3 * lambda + 2 * mu > 0))
@@ -173,9 +154,9 @@ std::span<const std::string_view> volume_term_names() {
 std::optional<Problem> material_problem(const Material& material) {
   const LawInfo* law = find_law(material.law);
   if (!law) return Problem{"law", fmt::format("'{}' is not a law of this build", material.law)};
-  if (!has_right_count(material, *law))
-    return Problem{"law", fmt::format("'{}' takes {} parameters, got {} values", law->name, law->parameters.size(),
-                                      material.parameters.size())};
+  const std::size_t given = material.parameters.size();
+  if (given < law->parameters.size() || given != parameter_slots(material, *law).size())
+    return Problem{"law", fmt::format("'{}' takes {} parameters, got {} values", law->name, law->parameters.size(), given)};
   if (auto problem = parameter_problem(material, *law)) return problem;
   if (auto problem = beside_problem(material, *law)) return problem;
   if (!(material.density > 0) || !std::isfinite(material.density))
