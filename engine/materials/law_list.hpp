@@ -1,5 +1,6 @@
 #pragma once
 // The one list of laws, and the one way from a name to a type. Adding a law: engine/docs/adding.md.
+#include <heml/materials/arruda_boyce.hpp>
 #include <heml/materials/as_printed.hpp>
 #include <heml/materials/gent.hpp>
 #include <heml/materials/hgo.hpp>
@@ -34,6 +35,7 @@ using LawList = std::tuple<LawTag<NeoHookean>,
                            LawTag<Hgo>,
                            LawTag<Yeoh>,
                            LawTag<Gent>,
+                           LawTag<ArrudaBoyce>,
                            LawTag<VerondaWestmann>,
                            LawTag<StableNeoHookean>,
                            LawTag<PaperNeoHookean>,

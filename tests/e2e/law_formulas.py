@@ -166,6 +166,16 @@ def gent(m, F):
     return -m["mu"] * m["Jm"] / 2 * mp.log(1 - (I1 - 3) / m["Jm"]) + quadratic(m, J)
 
 
+@law(mu=uniform(200, 2e3), lambda_m=uniform(1.2, 4), kappa=uniform(1e3, 1e5))
+def arruda_boyce(m, F):
+    """The work of stretching chains: the integral of the inverse Langevin function, by the first five terms of that."""
+    I1, _, J = isochoric(F)
+    links = m["lambda_m"] ** 2
+    terms = mpf(3), mpf(9) / 5, mpf(297) / 175, mpf(1539) / 875, mpf(126117) / 67375
+    work = lambda I1: sum(c * (I1 / (3 * links)) ** k / (2 * k) for k, c in enumerate(terms, 1))
+    return m["mu"] * links * (work(I1) - work(3)) + quadratic(m, J)
+
+
 @law(lambda m, F: m["beta"] * (isochoric(F)[0] - 3) < 600,
      c1=uniform(20, 300), beta=uniform(0.3, 3), kappa=uniform(1e3, 1e5))
 def veronda_westmann(m, F):
