@@ -14,7 +14,7 @@ L law_from(std::span<const double> values) {
   } else {
     static_assert(sizeof(L) == sizeof(Real) * std::size(L::parameters), "a law holds its parameters and nothing else");
     assert(values.size() == std::size(L::parameters));
-    L law;
+    L law{};
     for (std::size_t i = 0; i < values.size(); ++i) law.*L::parameters[i].member = static_cast<Real>(values[i]);
     return law;
   }
