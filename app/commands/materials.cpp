@@ -56,7 +56,7 @@ void print_law(const LawInfo& law) {
   fmt::print("\n  {}: {}\n", law.name, law.title);
   print_entry("W", law.formula);
   for (const ParameterInfo& info : law.parameters) {
-    print_entry(fmt::format("{:<10}{}", fmt::format("{}{}", info.name, info.list ? "[]" : ""), info.unit),
+    print_entry(fmt::format("{:<10}{}", fmt::format("{}{}", info.name, info.is_list() ? "[]" : ""), info.unit),
                 info.meaning);
   }
   if (law.takes_young_poisson) print_entry("or", "young (Pa) and poisson in place of lambda and mu");
@@ -102,7 +102,7 @@ Json law_json(const LawInfo& law) {
                           {"symbol", info.symbol},
                           {"unit", info.unit},
                           {"meaning", info.meaning},
-                          {"list", info.list}});
+                          {"list", info.is_list()}});
   return {{"name", law.name},
           {"title", law.title},
           {"formula", law.formula},

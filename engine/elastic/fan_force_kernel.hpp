@@ -219,13 +219,15 @@ struct ForceKernel {
 template <class Real, class Isa>
 FanKernel<Real> force_kernel(std::size_t law, bool continued) {
   using P = typename Isa::template pack<Real>;
-  return for_law<FanKernel<Real>>(law, continued, [](auto tag, auto with) -> FanKernel<Real> {
-    using One = typename decltype(tag)::template Law<Real, decltype(with)::value>;
-    using Many = typename decltype(tag)::template Law<P, decltype(with)::value>;
-    return [](const void* scalar, const FanBlock<Real>& block, const Real* x, Real* f) {
+  FanKernel<Real> kernel = nullptr;
+  visit_law(law, continued, [&]<class Tag, bool with>(Tag, std::bool_constant<with>) {
+    using One = typename Tag::template Law<Real, with>;
+    using Many = typename Tag::template Law<P, with>;
+    kernel = [](const void* scalar, const FanBlock<Real>& block, const Real* x, Real* f) {
       return ForceKernel<Real, Isa, Many>::block(broadcast<Many, P>(*static_cast<const One*>(scalar)), block, x, f);
     };
   });
+  return kernel;
 }
 
 }  // namespace heml::fan

@@ -6,15 +6,6 @@
 namespace heml {
 namespace {
 
-std::size_t index_in_list(std::string_view law) {
-  return [&]<std::size_t... k>(std::index_sequence<k...>) {
-    std::size_t found = 0;
-    ((std::tuple_element_t<k, LawList>::template Law<double, false>::name == law ? void(found = k) : void()), ...);
-    return found;
-  }
-  (std::make_index_sequence<std::tuple_size_v<LawList>>{});
-}
-
 FanElements elements_of(const TetMesh& mesh, const FanPart& part, FanShape shape) {
   FanElements result{*part.elements, shape, {}};
   if (shape != FanShape::fibre) return result;
@@ -48,7 +39,7 @@ typename FanForces<Real>::Law FanForces<Real>::law_of(const FanPart& part, bool 
   with_law<Real>(material, continuation, [&]<class L>(L law) {
     if constexpr (L::has_volume_term)
       if (part.isochoric) law.kappa = 0;
-    result.kernel = fan_kernel<Real>(isa_, index_in_list(L::name), continuation);
+    result.kernel = fan_kernel<Real>(isa_, law_index(L::name), continuation);
     result.law = std::make_shared<const L>(law);
     result.shape = PrincipalLaw<L, Real> ? FanShape::principal : L::uses_I4 ? FanShape::fibre : FanShape::plain;
   });

@@ -1,5 +1,5 @@
 #pragma once
-// What the kernels of fans share: reading a block and its fans, a law as packs, and the choice of a law.
+// What the kernels of fans share: reading a block and its fans, and a law as packs.
 //
 // Isa says how wide a pack is and how it reads and writes records:
 //
@@ -126,20 +126,6 @@ template <class T>
 [[gnu::always_inline]] inline const T* afresh(const T* pointer) {
   asm("" : "+r"(pointer));
   return pointer;
-}
-
-/// What make(tag, continued) gives for one law of LawList, both known when compiled.
-template <class Kernel, class Make>
-Kernel for_law(std::size_t law, bool continued, const Make& make) {
-  return [&]<std::size_t... each>(std::index_sequence<each...>) {
-    Kernel found = nullptr;
-    ((each == law ? void(found = continued ? make(std::tuple_element_t<each, LawList>{}, std::true_type{})
-                                           : make(std::tuple_element_t<each, LawList>{}, std::false_type{}))
-                  : void()),
-     ...);
-    return found;
-  }
-  (std::make_index_sequence<std::tuple_size_v<LawList>>{});
 }
 
 }  // namespace heml::fan

@@ -8,29 +8,22 @@ namespace heml {
 template <class Real, class L>
 class LawSource {
  public:
-  /// fields: which parameters of L the group's rows are, in their order; −1: not one of L.
-  LawSource(L law, std::vector<int> fields) : law_(std::move(law)), fields_(std::move(fields)) {}
+  /// members: the parameter of L that each of the group's rows is, in their order; null: none of L.
+  LawSource(L law, std::vector<Real L::*> members) : law_(std::move(law)), members_(std::move(members)) {}
 
-  bool uniform() const { return fields_.empty(); }
+  bool uniform() const { return members_.empty(); }
   const L& uniform_law() const { return law_; }
 
   L at(const ElementGroup<Real>& group, std::size_t s) const {
     L law = law_;
-    for (std::size_t k = 0; k < fields_.size(); ++k)
-      if (fields_[k] >= 0) set(law, static_cast<std::size_t>(fields_[k]), group.parameters[k][s]);
+    for (std::size_t k = 0; k < members_.size(); ++k)
+      if (members_[k]) law.*members_[k] = group.parameters[k][s];
     return law;
   }
 
  private:
-  static void set(L& law, std::size_t parameter, Real value) {
-    if constexpr (requires { L::from({}); })
-      law.kappa = value;  // lists are the same for all elements
-    else
-      reinterpret_cast<Real*>(&law)[parameter] = value;
-  }
-
   L law_;
-  std::vector<int> fields_;
+  std::vector<Real L::*> members_;
 };
 
 }  // namespace heml

@@ -6,25 +6,32 @@
 
 namespace heml {
 
-/// Whether a law of LawList belongs to a part.
-template <std::size_t part>
-struct InPart {
-  constexpr bool operator()(std::size_t law) const { return law % term_parts == part; }
-};
+/// The members of a law that the material's fields fill, in their order; null: of its volume term, where left out.
+template <class Real, class L>
+std::vector<Real L::*> members_with_fields(const Material& material, bool isochoric) {
+  const LawInfo& info = *find_law(material.law);
+  const std::vector<ParameterSlot> slots = parameter_slots(material, info);
+  const std::optional<std::size_t> volume = isochoric ? volume_slot(material, info) : std::nullopt;
+  std::vector<Real L::*> members;
+  for (const FieldParameter& field : material.fields) {
+    const auto parameter = static_cast<std::size_t>(slots[field.parameter].info - info.parameters.data());
+    members.push_back(field.parameter == volume ? nullptr : L::parameters[parameter].member);
+  }
+  return members;
+}
 
 template <class Real, std::size_t part>
 std::unique_ptr<GroupTerm<Real>> make_law_term_of_part(const Material& material, bool continuation, bool isochoric) {
   std::unique_ptr<GroupTerm<Real>> term;
-  std::vector<int> fields;
-  const std::size_t kappa = isochoric ? *volume_slot(material, *find_law(material.law)) : 0;
-  for (const FieldParameter& field : material.fields) {
-    const bool lost = isochoric && field.parameter == kappa;
-    fields.push_back(lost ? -1 : static_cast<int>(field.parameter));
-  }
-  with_law_among<Real>(InPart<part>{}, material, continuation, [&]<class L>(L law) {
-    if constexpr (L::has_volume_term)
-      if (isochoric) law.kappa = 0;
-    term = std::make_unique<LawTerm<Real, L>>(LawSource<Real, L>(law, std::move(fields)));
+  visit_law(law_index(material.law), continuation, [&]<class Tag, bool continued>(Tag, std::bool_constant<continued>) {
+    if constexpr (law_index(Tag::name) % term_parts == part) {
+      using L = typename Tag::template Law<Real, continued>;
+      L law = law_from<L, Real>(material.parameters);
+      if constexpr (L::has_volume_term)
+        if (isochoric) law.kappa = 0;
+      term = std::make_unique<LawTerm<Real, L>>(
+          LawSource<Real, L>(std::move(law), members_with_fields<Real, L>(material, isochoric)));
+    }
   });
   return term;
 }

@@ -11,7 +11,8 @@ template <class Self, class Real, bool continued>
 struct AsPrinted {
   static constexpr std::string_view source = "Goulette & Chendeb 2006, Table 1, as printed";
   static constexpr bool has_volume_term = true, uses_J = true, uses_I4 = false;
-  static constexpr bool always_valid = true;
+  static constexpr bool always_valid = true, is_stress_free = false;
+  static constexpr GroundState sample = {1e3, 5e4};
 
   Truth<Real> valid(const Invariants<Real>&) const { return true; }
   Real energy(const Invariants<Real>& at) const {
@@ -36,10 +37,12 @@ struct PaperNeoHookean : AsPrinted<PaperNeoHookean<Real, continued>, Real, conti
   static constexpr std::string_view name = "paper_neo_hookean";
   static constexpr std::string_view title = "Neo-Hookean as printed";
   static constexpr std::string_view formula = "K1 (I1−3) + κ/2 (J−1)²";
-  static constexpr ParameterInfo parameters[] = {
-      {"K1", "K1", "Pa", "half the shear modulus"},
-      {"kappa", "κ", "Pa", "penalty of a change of volume"},
+  static constexpr Parameter<PaperNeoHookean, Real> parameters[] = {
+      {&PaperNeoHookean::K1, {"K1", "K1", "Pa", "half the shear modulus", Range::positive}},
+      {&PaperNeoHookean::kappa, {"kappa", "κ", "Pa", "penalty of a change of volume", Range::not_negative}},
   };
+  static constexpr ForceCost cost = {5.2, 3.0};
+  static constexpr auto of_moduli(double shear, double bulk) { return std::array{shear / 2, bulk}; }
   static constexpr bool uses_I2 = false;
   IsochoricPart<Real> part(Real I1, Real) const { return {K1 * (I1 - 3), K1, 0}; }
 };
@@ -51,11 +54,13 @@ struct PaperMooneyRivlin : AsPrinted<PaperMooneyRivlin<Real, continued>, Real, c
   static constexpr std::string_view name = "paper_mooney_rivlin";
   static constexpr std::string_view title = "Mooney-Rivlin as printed";
   static constexpr std::string_view formula = "K1 (I1−3) + K2 (I2−3) + κ/2 (J−1)²";
-  static constexpr ParameterInfo parameters[] = {
-      {"K1", "K1", "Pa", "first Mooney constant"},
-      {"K2", "K2", "Pa", "second Mooney constant"},
-      {"kappa", "κ", "Pa", "penalty of a change of volume"},
+  static constexpr Parameter<PaperMooneyRivlin, Real> parameters[] = {
+      {&PaperMooneyRivlin::K1, {"K1", "K1", "Pa", "first Mooney constant", Range::positive}},
+      {&PaperMooneyRivlin::K2, {"K2", "K2", "Pa", "second Mooney constant", Range::any, 0.25}},
+      {&PaperMooneyRivlin::kappa, {"kappa", "κ", "Pa", "penalty of a change of volume", Range::not_negative}},
   };
+  static constexpr ForceCost cost = {6.7, 3.8};
+  static constexpr auto of_moduli(double shear, double bulk) { return std::array{0.4 * shear, 0.1 * shear, bulk}; }
   static constexpr bool uses_I2 = true;
   IsochoricPart<Real> part(Real I1, Real I2) const { return {K1 * (I1 - 3) + K2 * (I2 - 3), K1, K2}; }
 };
@@ -67,11 +72,14 @@ struct PaperFungDemiray : AsPrinted<PaperFungDemiray<Real, continued>, Real, con
   static constexpr std::string_view name = "paper_fung_demiray";
   static constexpr std::string_view title = "Fung & Demiray as printed";
   static constexpr std::string_view formula = "μ/(2γ) (exp(γ(I1−3)) − 1) + κ/2 (J−1)²";
-  static constexpr ParameterInfo parameters[] = {
-      {"mu", "μ", "Pa", "shear modulus"},
-      {"gamma", "γ", "", "how fast the tissue stiffens when stretched"},
-      {"kappa", "κ", "Pa", "penalty of a change of volume"},
+  static constexpr Parameter<PaperFungDemiray, Real> parameters[] = {
+      {&PaperFungDemiray::mu, {"mu", "μ", "Pa", "shear modulus", Range::positive}},
+      {&PaperFungDemiray::gamma,
+       {"gamma", "γ", "", "how fast the tissue stiffens when stretched", Range::positive, 1, ParameterKind::exponent}},
+      {&PaperFungDemiray::kappa, {"kappa", "κ", "Pa", "penalty of a change of volume", Range::not_negative}},
   };
+  static constexpr ForceCost cost = {8.6, 4.3};
+  static constexpr auto of_moduli(double shear, double bulk) { return std::array{shear, 1.5, bulk}; }
   static constexpr bool uses_I2 = false, always_valid = continued;
   Truth<Real> valid(const Invariants<Real>& at) const {
     return continued || gamma * (at.I1 - 3) < exponent_in_range<Real>;

@@ -2,18 +2,8 @@
 // The general type of the paper (Table 1, first row): a law given as nothing but its energy W(I1, I2, J). Slopes and
 // curvatures come by forward-mode differentiation (math/jet.hpp).
 //
-//   template <class Real, bool continued>
-//   struct Mine : GeneralLaw<Mine<Real, continued>, Real, continued> {
-//     Real c, kappa;
-//     ... name, title, formula, source, parameters ...
-//     template <class T>
-//     T density(const Invariants<T>& at) const {
-//       const auto bar = isochoric<continued>(at);
-//       return T(c) * (bar.I1 - T(3)) + T(kappa / 2) * (at.J - T(1)) * (at.J - T(1));
-//     }
-//   };
-//
-// and a line in LawList (laws.hpp).
+// A law derives from GeneralLaw<itself, Real, continued> and answers density(at) for invariants of any scalar:
+// yeoh.hpp is the shortest.
 #include <heml/materials/volume.hpp>
 #include <heml/math/jet.hpp>
 
@@ -22,7 +12,8 @@ namespace heml {
 template <class Self, class Real, bool continued>
 struct GeneralLaw {
   static constexpr bool has_volume_term = true, uses_I2 = true, uses_J = true, uses_I4 = false;
-  static constexpr bool always_valid = continued;
+  static constexpr bool always_valid = continued, is_stress_free = true;
+  static constexpr GroundState sample = {1e3, 5e4};
 
   Truth<Real> valid(const Invariants<Real>& at) const {
     return continued || at.J > smallest_ratio<Real> || at.J < -smallest_ratio<Real>;

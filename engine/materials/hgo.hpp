@@ -15,12 +15,16 @@ struct Hgo {
   static constexpr std::string_view title = "Holzapfel-Gasser-Ogden fibres";
   static constexpr std::string_view formula = "K1 (Ī1−3) + κ/2 (J−1)² + k1/(2 k2) (exp(k2 (Ī4−1)²) − 1) where Ī4 > 1";
   static constexpr std::string_view source = "Holzapfel, Gasser & Ogden 2000";
-  static constexpr ParameterInfo parameters[] = {
-      {"K1", "K1", "Pa", "half the shear modulus of the matrix"},
-      {"kappa", "κ", "Pa", "bulk modulus: resistance to change of volume"},
-      {"k1", "k1", "Pa", "stiffness of the fibres"},
-      {"k2", "k2", "", "how fast the fibres stiffen"},
+  static constexpr Parameter<Hgo, Real> parameters[] = {
+      {&Hgo::K1, {"K1", "K1", "Pa", "half the shear modulus of the matrix", Range::positive}},
+      {&Hgo::kappa, {"kappa", "κ", "Pa", "bulk modulus: resistance to change of volume", Range::positive}},
+      {&Hgo::k1, {"k1", "k1", "Pa", "stiffness of the fibres", Range::positive}},
+      {&Hgo::k2, {"k2", "k2", "", "how fast the fibres stiffen", Range::positive, 1, ParameterKind::exponent}},
   };
+  static constexpr bool is_stress_free = true;
+  static constexpr ForceCost cost = {20.3, 8.6};
+  static constexpr GroundState sample = {1e3, 5e4};
+  static constexpr auto of_moduli(double shear, double bulk) { return std::array{shear / 2, bulk, 0.8 * shear, 2.0}; }
   static constexpr bool has_volume_term = true, uses_I2 = false, uses_J = true, uses_I4 = true;
   static constexpr bool always_valid = continued;
 

@@ -16,7 +16,8 @@ struct IsochoricPart {
 template <class Self, class Real, bool continued>
 struct IsochoricLaw {
   static constexpr bool has_volume_term = true, uses_J = true, uses_I4 = false;
-  static constexpr bool always_valid = continued;
+  static constexpr bool always_valid = continued, is_stress_free = true;
+  static constexpr GroundState sample = {1e3, 5e4};
 
   Truth<Real> valid(const Invariants<Real>& at) const {
     return continued || at.J > smallest_ratio<Real> || at.J < -smallest_ratio<Real>;

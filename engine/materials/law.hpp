@@ -9,8 +9,10 @@
 //
 // I1, I2 and I4 are functions of squared edge lengths alone (paper, Appendix); J is the signed det F, since squared
 // lengths do not see a mirror image. How slopes become tensions of links is in elastic/tension.hpp.
+#include <array>
 #include <concepts>
 #include <heml/math/scalar.hpp>
+#include <iterator>
 #include <span>
 #include <string_view>
 
@@ -35,24 +37,52 @@ struct Curvatures {
   Real w11, w12, w22, w1J, w2J, wJJ, w14 = Real(0), w24 = Real(0), w4J = Real(0), w44 = Real(0);
 };
 
-/// One number a law takes from the user: what the scene file calls it, and what the panel says of it.
-struct ParameterInfo {
-  std::string_view name;     ///< key in a scene file
-  std::string_view symbol;   ///< as shown in the panel
-  std::string_view unit;     ///< "Pa", "" for a ratio
-  std::string_view meaning;  ///< one line
-  bool list = false;         ///< any number of values; all lists of a law have the same length
+/// Values a parameter may have, beside being finite.
+enum class Range { any, positive, not_negative, not_zero };
+
+enum class ParameterKind {
+  plain,
+  list,      ///< any number of values; all lists of a law have the same length
+  exponent,  ///< the exponential of a law grows with it, and overflows at large stretches
+  limit      ///< of stretch: the law ends there
 };
 
-/// What every law says of itself. A law is a struct of its parameters (of type Real, in the order of `parameters`).
+/// One number a law takes from the user: what the scene file calls it, and what the panel says of it.
+struct ParameterInfo {
+  std::string_view name;       ///< key in a scene file
+  std::string_view symbol;     ///< as shown in the panel
+  std::string_view unit;       ///< "Pa", "" for a ratio
+  std::string_view meaning;    ///< one line
+  Range range = Range::any;
+  double start = 1;            ///< when a material changes to this law, its moduli being scaled afterwards
+  ParameterKind kind = ParameterKind::plain;
+
+  constexpr bool is_list() const { return kind == ParameterKind::list; }
+};
+
+/// A parameter of the law L of Real, and the member that holds it; a list has none (see L::from in ogden.hpp).
+template <class L, class Real>
+struct Parameter {
+  Real L::*member;
+  ParameterInfo info;
+};
+
+/// Elastic constants at rest, Pa: what a law is for small strains.
+struct GroundState {
+  double shear, bulk;
+};
+
+/// What one evaluation of the forces costs, ns a tetrahedron: as `heml bench kernel --quick` found it on one core of an
+/// AMD EPYC with AVX2 (irregular cube 9). Without AVX2 twice as much.
+struct ForceCost {
+  double in_double, in_float;
+};
+
+/// What every law says of its calculus. A law is a struct of its parameters, of which `parameters` is the table.
 /// `valid` says whether W is defined at a state; other calls may return anything where it is not.
 template <class L>
 concept AnyLaw = requires {
-  { L::name } -> std::convertible_to<std::string_view>;
-  { L::title } -> std::convertible_to<std::string_view>;
-  { L::formula } -> std::convertible_to<std::string_view>;
-  { L::source } -> std::convertible_to<std::string_view>;
-  {std::span<const ParameterInfo>(L::parameters)};
+  {std::size(L::parameters)};
   { L::has_volume_term } -> std::convertible_to<bool>;  ///< has a member kappa; kappa = 0 leaves the isochoric part
   { L::always_valid } -> std::convertible_to<bool>;
   { L::uses_I2 } -> std::convertible_to<bool>;  ///< false: slopes never need I2, and w2 = 0
@@ -90,5 +120,18 @@ concept PrincipalLaw = AnyLaw<L> && requires(const L law, Real c) {
 
 template <class L, class Real>
 concept Law = InvariantLaw<L, Real> || PrincipalLaw<L, Real>;
+
+/// What a law of LawList says to people, tests and the cost model.
+template <class L>
+concept DescribedLaw = requires(double modulus) {
+  { L::name } -> std::convertible_to<std::string_view>;
+  { L::title } -> std::convertible_to<std::string_view>;
+  { L::formula } -> std::convertible_to<std::string_view>;
+  { L::source } -> std::convertible_to<std::string_view>;
+  { L::is_stress_free } -> std::convertible_to<bool>;  ///< at rest
+  { L::cost } -> std::convertible_to<ForceCost>;
+  { L::sample } -> std::convertible_to<GroundState>;  ///< moduli of the material that tests and benches have of it
+  {std::span<const double>(L::of_moduli(modulus, modulus))};  ///< parameters of a soft tissue with these moduli at rest
+};
 
 }  // namespace heml

@@ -1,5 +1,6 @@
 #pragma once
-// The one list of laws. Adding a law is its header and a line in LawList.
+// The one list of laws, and the one way from a name to a type. Adding a law: engine/docs/adding.md.
+#include <heml/materials/arruda_boyce.hpp>
 #include <heml/materials/as_printed.hpp>
 #include <heml/materials/gent.hpp>
 #include <heml/materials/hgo.hpp>
@@ -10,7 +11,9 @@
 #include <heml/materials/stvk.hpp>
 #include <heml/materials/veronda_westmann.hpp>
 #include <heml/materials/yeoh.hpp>
+#include <string_view>
 #include <tuple>
+#include <utility>
 
 namespace heml {
 
@@ -19,12 +22,48 @@ template <template <class, bool> class L>
 struct LawTag {
   template <class Real, bool continued>
   using Law = L<Real, continued>;
+  static constexpr std::string_view name = L<double, false>::name;
 };
 
 /// In the order people see them.
-using LawList =
-    std::tuple<LawTag<NeoHookean>, LawTag<StVK>, LawTag<NeoHookeanIso>, LawTag<MooneyRivlin>, LawTag<FungDemiray>,
-               LawTag<Ogden>, LawTag<Hgo>, LawTag<Yeoh>, LawTag<Gent>, LawTag<VerondaWestmann>,
-               LawTag<StableNeoHookean>, LawTag<PaperNeoHookean>, LawTag<PaperMooneyRivlin>, LawTag<PaperFungDemiray>>;
+using LawList = std::tuple<LawTag<NeoHookean>,
+                           LawTag<StVK>,
+                           LawTag<NeoHookeanIso>,
+                           LawTag<MooneyRivlin>,
+                           LawTag<FungDemiray>,
+                           LawTag<Ogden>,
+                           LawTag<Hgo>,
+                           LawTag<Yeoh>,
+                           LawTag<Gent>,
+                           LawTag<ArrudaBoyce>,
+                           LawTag<VerondaWestmann>,
+                           LawTag<StableNeoHookean>,
+                           LawTag<PaperNeoHookean>,
+                           LawTag<PaperMooneyRivlin>,
+                           LawTag<PaperFungDemiray>>;
+
+inline constexpr std::size_t law_count = std::tuple_size_v<LawList>;
+
+/// The place of a name in LawList; law_count: it is not there.
+constexpr std::size_t law_index(std::string_view name) {
+  return [&]<std::size_t... k>(std::index_sequence<k...>) {
+    std::size_t found = law_count;
+    ((found == law_count && std::tuple_element_t<k, LawList>::name == name ? void(found = k) : void()), ...);
+    return found;
+  }
+  (std::make_index_sequence<law_count>{});
+}
+
+/// Calls use(tag, std::bool_constant<continued>) for the law at a place in LawList; for none past its end. A place, not
+/// a name: code for other processors (elastic/fan_avx512.hpp) must share no function with the rest, such as a
+/// comparison of names.
+template <class Use>
+void visit_law(std::size_t law, bool continued, const Use& use) {
+  const auto call = [&](auto tag) { continued ? use(tag, std::true_type{}) : use(tag, std::false_type{}); };
+  [&]<std::size_t... k>(std::index_sequence<k...>) {
+    ((k == law ? call(std::tuple_element_t<k, LawList>{}) : void()), ...);
+  }
+  (std::make_index_sequence<law_count>{});
+}
 
 }  // namespace heml

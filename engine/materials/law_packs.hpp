@@ -1,6 +1,8 @@
 #pragma once
 // A law of numbers as one of packs of numbers: the same parameters in every lane.
 #include <heml/math/pack.hpp>
+#include <iterator>
+#include <utility>
 
 namespace heml {
 
@@ -16,17 +18,19 @@ struct Rebound<L<Real, continued, other>, P> {
   using Law = L<P, continued, other>;
 };
 
+template <class To, class From, std::size_t... i>
+[[gnu::always_inline]] inline void copy_parameters(const From& from, To& to, std::index_sequence<i...>) {
+  ((to.*To::parameters[i].member = from.*From::parameters[i].member), ...);
+}
+
 /// A law's struct of packs from that of numbers.
 template <class PackLaw, class P, class L>
 [[gnu::always_inline]] inline PackLaw broadcast(const L& law) {
   if constexpr (requires { law.template broadcast<P>(); }) {
     return law.template broadcast<P>();
   } else {
-    static_assert(sizeof(PackLaw) / sizeof(P) == sizeof(L) / sizeof(Lane<P>));
     PackLaw packs;
-    P* to = reinterpret_cast<P*>(&packs);
-    const Lane<P>* from = reinterpret_cast<const Lane<P>*>(&law);
-    for (std::size_t i = 0; i < sizeof(L) / sizeof(Lane<P>); ++i) to[i] = from[i];
+    copy_parameters(law, packs, std::make_index_sequence<std::size(L::parameters)>{});
     return packs;
   }
 }

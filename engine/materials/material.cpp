@@ -1,8 +1,12 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <heml/materials/laws.hpp>
+#include <heml/materials/mass_spring.hpp>
+#include <heml/materials/parameter_slots.hpp>
 #include <heml/materials/point.hpp>
 
 namespace heml {
@@ -10,74 +14,71 @@ namespace {
 
 using Problem = std::pair<std::string, std::string>;
 
-template <class Tag>
-LawInfo info_of(Tag) {
-  using L = typename Tag::template Law<double, false>;
-  const bool lame = std::size(L::parameters) == 2 && L::parameters[0].name == "lambda" && L::parameters[1].name == "mu";
-  return {L::name, L::title, L::formula, L::source, L::parameters, lame, L::has_volume_term, L::uses_I4, true};
-}
+template <class L>
+constexpr auto parameters_of = [] {
+  std::array<ParameterInfo, std::size(L::parameters)> infos;
+  for (std::size_t i = 0; i < infos.size(); ++i) infos[i] = L::parameters[i].info;
+  return infos;
+}();
 
-/// The paper's degenerate case: forces along the edges of the mesh (elastic/springs.hpp).
-constexpr ParameterInfo spring_parameters[] = {{"stiffness", "k", "N/m", "of the spring along every edge"}};
-constexpr LawInfo mass_spring = {"mass_spring",
-                                 "Mass-spring net",
-                                 "Σ over mesh edges of k/2 (ℓ − L)²",
-                                 "Goulette & Chendeb 2006, section 1: the degenerate case",
-                                 spring_parameters,
-                                 false,
-                                 false,
-                                 false,
-                                 false};
-
-const auto& law_table() {
-  static const auto table = std::apply([](auto... tag) { return std::array{info_of(tag)..., mass_spring}; }, LawList{});
-  return table;
-}
-
-std::size_t list_length(const Material& material, const LawInfo& law) {
-  std::size_t lists = 0;
-  for (const ParameterInfo& info : law.parameters) lists += info.list;
-  return lists ? (material.parameters.size() - (law.parameters.size() - lists)) / lists : 0;
-}
-
-bool has_right_count(const Material& material, const LawInfo& law) {
-  std::size_t lists = 0;
-  for (const ParameterInfo& info : law.parameters) lists += info.list;
-  const std::size_t scalars = law.parameters.size() - lists, given = material.parameters.size();
-  if (lists == 0) return given == scalars;
-  return given >= scalars + lists && (given - scalars) % lists == 0;
-}
-
-/// What is wrong with one value, beyond not being finite; empty: nothing.
-std::string value_problem(const LawInfo& law, std::string_view name, double value) {
-  const auto positive = [&](const char* unit) {
-    return value > 0 ? std::string() : fmt::format("must be greater than 0{}, is {}", unit, value);
+template <DescribedLaw L>
+constexpr LawInfo info_of() {
+  const auto& infos = parameters_of<L>;
+  const bool lame = infos.size() == 2 && infos.front().name == "lambda" && infos.back().name == "mu";
+  const auto of_moduli = [](GroundState rest) {
+    const auto values = L::of_moduli(rest.shear, rest.bulk);
+    return std::vector<double>(values.begin(), values.end());
   };
-  const auto not_negative = [&](const char* unit) {
-    return value >= 0 ? std::string() : fmt::format("must be 0{} or more, is {}", unit, value);
-  };
-  if (name == "kappa" || name == "k1") return law.name.starts_with("paper_") ? not_negative(" Pa") : positive(" Pa");
-  if (name == "gamma" || name == "beta" || name == "k2" || name == "Jm") return positive("");
-  if (name == "stiffness") return positive(" N/m");
-  if (name == "c1" || name == "C10" || (name == "K1" && law.name != "mooney_rivlin")) return positive(" Pa");
-  if (name == "mu" && !law.takes_young_poisson && law.name != "ogden") return positive(" Pa");
-  if (name == "alpha" && value == 0) return "must not be 0";
+  return {L::name,
+          L::title,
+          L::formula,
+          L::source,
+          infos,
+          lame,
+          L::has_volume_term,
+          L::uses_I4,
+          PrincipalLaw<L, double>,
+          L::is_stress_free,
+          Law<L, double>,
+          L::cost,
+          L::sample,
+          of_moduli};
+}
+
+template <class... Tag>
+constexpr auto table_of(std::tuple<Tag...>) {
+  return std::array{info_of<typename Tag::template Law<double, false>>()..., info_of<MassSpring>()};
+}
+constexpr auto law_table = table_of(LawList{});
+
+static_assert(std::all_of(law_table.begin(), law_table.end(),
+                          [](const LawInfo& law) { return &law == &law_table[law_index(law.name)]; }),
+              "two laws of one name");
+
+/// What is wrong with one value; empty: nothing.
+std::string value_problem(const ParameterInfo& info, double value) {
+  const std::string unit = info.unit.empty() ? "" : fmt::format(" {}", info.unit);
+  if (!std::isfinite(value)) return fmt::format("must be finite, is {}", value);
+  switch (info.range) {
+    case Range::any:
+      return {};
+    case Range::positive:
+      return value > 0 ? std::string() : fmt::format("must be greater than 0{}, is {}", unit, value);
+    case Range::not_negative:
+      return value >= 0 ? std::string() : fmt::format("must be 0{} or more, is {}", unit, value);
+    case Range::not_zero:
+      return value != 0 ? std::string() : "must not be 0";
+  }
   return {};
 }
 
 std::optional<Problem> parameter_problem(const Material& material, const LawInfo& law) {
-  const std::size_t length = list_length(material, law);
-  std::size_t next = 0;
-  for (const ParameterInfo& info : law.parameters)
-    for (std::size_t k = 0; k < (info.list ? length : 1); ++k, ++next) {
-      const double value = material.parameters[next];
-      const std::string name = info.list ? fmt::format("{}[{}]", info.name, k) : std::string(info.name);
-      if (!std::isfinite(value)) return Problem{name, fmt::format("must be finite, is {}", value)};
-      if (auto text = value_problem(law, info.name, value); !text.empty()) return Problem{name, std::move(text)};
-    }
+  const std::vector<ParameterSlot> slots = parameter_slots(material, law);
+  for (std::size_t i = 0; i < slots.size(); ++i)
+    if (auto text = value_problem(*slots[i].info, material.parameters[i]); !text.empty())
+      return Problem{slots[i].key(), std::move(text)};
   if (law.takes_young_poisson) {
     const double lambda = material.parameters[0], mu = material.parameters[1];
-    if (!(mu > 0)) return Problem{"mu", fmt::format("must be greater than 0 Pa, is {}", mu)};
     if (!(3 * lambda + 2 * mu > 0))
       return Problem{"lambda", fmt::format("must be greater than -2/3 mu ({} Pa), is {}", -2 * mu / 3, lambda)};
   }
@@ -126,12 +127,23 @@ std::optional<Problem> beside_problem(const Material& material, const LawInfo& l
 
 }  // namespace
 
-std::span<const LawInfo> laws() { return law_table(); }
+std::span<const LawInfo> laws() { return law_table; }
 
 const LawInfo* find_law(std::string_view name) {
   for (const LawInfo& law : laws())
     if (law.name == name) return &law;
   return nullptr;
+}
+
+Material sample_material(const LawInfo& law) { return sample_material(law, law.sample); }
+
+Material sample_material(const LawInfo& law, GroundState rest) {
+  Material material;
+  material.law = law.name;
+  material.parameters = law.of_moduli(rest);
+  if (law.has_fibre) material.fibre = Vec3::UnitX();
+  assert(!material_problem(material));
+  return material;
 }
 
 std::span<const std::string_view> volume_term_names() {
@@ -142,9 +154,9 @@ std::span<const std::string_view> volume_term_names() {
 std::optional<Problem> material_problem(const Material& material) {
   const LawInfo* law = find_law(material.law);
   if (!law) return Problem{"law", fmt::format("'{}' is not a law of this build", material.law)};
-  if (!has_right_count(material, *law))
-    return Problem{"law", fmt::format("'{}' takes {} parameters, got {} values", law->name, law->parameters.size(),
-                                      material.parameters.size())};
+  const std::size_t given = material.parameters.size();
+  if (given < law->parameters.size() || given != parameter_slots(material, *law).size())
+    return Problem{"law", fmt::format("'{}' takes {} parameters, got {} values", law->name, law->parameters.size(), given)};
   if (auto problem = parameter_problem(material, *law)) return problem;
   if (auto problem = beside_problem(material, *law)) return problem;
   if (!(material.density > 0) || !std::isfinite(material.density))

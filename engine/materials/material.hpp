@@ -74,7 +74,12 @@ struct LawInfo {
   bool takes_young_poisson;                   ///< `young`, `poisson` may stand for `lambda`, `mu` in a scene
   bool has_volume_term;                       ///< W = isochoric part + volume term with its κ
   bool has_fibre;                             ///< needs Material::fibre or fibre_field
+  bool is_principal;                          ///< W of principal stretches
+  bool is_stress_free;                        ///< at rest
   bool is_continuum;                          ///< W(F) of an element; false: forces along mesh edges (mass_spring)
+  ForceCost cost;
+  GroundState sample;                                ///< moduli of sample_material()
+  std::vector<double> (*of_moduli)(GroundState rest);  ///< parameters of a soft tissue with these moduli
 };
 
 /// Every law this build can run, in the order the panel lists them.
@@ -83,15 +88,17 @@ std::span<const LawInfo> laws();
 /// The law of that name; nullptr when there is none.
 const LawInfo* find_law(std::string_view name);
 
+/// A soft material of a law, around 1 kPa unless other moduli at rest are given (Pa), defined for stretches of 0.5 to
+/// 1.6, fibres along x: what tests, benches and studies are made of.
+Material sample_material(const LawInfo& law);
+Material sample_material(const LawInfo& law, GroundState rest);
+
 /// What is wrong with the parameters or the density: (key, problem), e.g. ("mu", "must be greater than 0, is -3").
 /// Empty when nothing is.
 std::optional<std::pair<std::string, std::string>> material_problem(const Material& material);
 
-/// Elastic constants at rest, Pa: what a law is for small strains. Of a fibre law across the fibre; zero where the law
-/// is no continuum. The material must be one that material_problem() has nothing against.
-struct GroundState {
-  double shear, bulk;
-};
+/// Of a fibre law across the fibre; zero where the law is no continuum. The material must be one that
+/// material_problem() has nothing against.
 GroundState ground_state(const Material& material);
 
 /// Lamé parameters from engineering constants: λ = Eν/((1+ν)(1−2ν)), μ = E/(2(1+ν)).

@@ -17,10 +17,14 @@ struct NeoHookean {
   static constexpr std::string_view title = "Neo-Hookean";
   static constexpr std::string_view formula = "μ/2 (I1−3) − μ ln J + λ/2 (ln J)²";
   static constexpr std::string_view source = "Bonet & Wood 2008, 6.4.3";
-  static constexpr ParameterInfo parameters[] = {
-      {"lambda", "λ", "Pa", "first Lamé parameter: resistance to change of volume"},
-      {"mu", "μ", "Pa", "shear modulus (second Lamé parameter)"},
+  static constexpr Parameter<NeoHookean, Real> parameters[] = {
+      {&NeoHookean::lambda, {"lambda", "λ", "Pa", "first Lamé parameter: resistance to change of volume"}},
+      {&NeoHookean::mu, {"mu", "μ", "Pa", "shear modulus (second Lamé parameter)", Range::positive}},
   };
+  static constexpr bool is_stress_free = true;
+  static constexpr ForceCost cost = {7.9, 4.0};
+  static constexpr GroundState sample = {1e3, 4e3 + 2e3 / 3};
+  static constexpr auto of_moduli(double shear, double bulk) { return std::array{bulk - 2 * shear / 3, shear}; }
   static constexpr bool uses_I2 = false;
   static constexpr bool uses_J = true;
   static constexpr bool uses_I4 = false, has_volume_term = false;

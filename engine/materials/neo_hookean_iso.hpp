@@ -13,10 +13,12 @@ struct NeoHookeanIso : IsochoricLaw<NeoHookeanIso<Real, continued>, Real, contin
   static constexpr std::string_view title = "Neo-Hookean, isochoric";
   static constexpr std::string_view formula = "K1 (Ī1−3) + κ/2 (J−1)²";
   static constexpr std::string_view source = "Goulette & Chendeb 2006, Table 1, with Ī1 for I1";
-  static constexpr ParameterInfo parameters[] = {
-      {"K1", "K1", "Pa", "half the shear modulus"},
-      {"kappa", "κ", "Pa", "bulk modulus: resistance to change of volume"},
+  static constexpr Parameter<NeoHookeanIso, Real> parameters[] = {
+      {&NeoHookeanIso::K1, {"K1", "K1", "Pa", "half the shear modulus", Range::positive}},
+      {&NeoHookeanIso::kappa, {"kappa", "κ", "Pa", "bulk modulus: resistance to change of volume", Range::positive}},
   };
+  static constexpr ForceCost cost = {12.2, 5.7};
+  static constexpr auto of_moduli(double shear, double bulk) { return std::array{shear / 2, bulk}; }
   static constexpr bool uses_I2 = false;
 
   IsochoricPart<Real> part(Real a, Real) const { return {K1 * (a - 3), K1, 0}; }

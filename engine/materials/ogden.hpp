@@ -39,11 +39,21 @@ struct Ogden {
   static constexpr std::string_view title = "Ogden";
   static constexpr std::string_view formula = "Σ μp/αp (λ̄1^αp + λ̄2^αp + λ̄3^αp − 3) + κ/2 (J−1)²";
   static constexpr std::string_view source = "Ogden 1972";
-  static constexpr ParameterInfo parameters[] = {
-      {"mu", "μ", "Pa", "strength of each term; the shear modulus at rest is Σ μ α / 2", true},
-      {"alpha", "α", "", "power of each term; negative ones stiffen in compression", true},
-      {"kappa", "κ", "Pa", "bulk modulus: resistance to change of volume"},
+  static constexpr Parameter<Ogden, Real> parameters[] = {
+      {nullptr,
+       {"mu", "μ", "Pa", "strength of each term; the shear modulus at rest is Σ μ α / 2", Range::any, 1,
+        ParameterKind::list}},
+      {nullptr,
+       {"alpha", "α", "", "power of each term; negative ones stiffen in compression", Range::not_zero, 2,
+        ParameterKind::list}},
+      {&Ogden::kappa, {"kappa", "κ", "Pa", "bulk modulus: resistance to change of volume", Range::positive}},
   };
+  static constexpr bool is_stress_free = true;
+  static constexpr ForceCost cost = {148, 60};
+  static constexpr GroundState sample = {850, 5e4};
+  static constexpr auto of_moduli(double shear, double bulk) {
+    return std::array{6 * shear / 17, -4 * shear / 17, 3.0, -4.0, bulk};
+  }
   static constexpr bool has_volume_term = true, uses_I2 = true, uses_J = true, uses_I4 = false;
   static constexpr bool always_valid = continued;
   static constexpr bool is_continued = continued;

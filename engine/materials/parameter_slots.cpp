@@ -15,13 +15,14 @@ std::string ParameterSlot::symbol() const {
 }
 
 std::vector<ParameterSlot> parameter_slots(const Material& material, const LawInfo& law) {
-  const auto lists = std::count_if(law.parameters.begin(), law.parameters.end(), [](const auto& p) { return p.list; });
+  const auto lists = std::count_if(law.parameters.begin(), law.parameters.end(),
+                                   [](const ParameterInfo& info) { return info.is_list(); });
   const auto scalars = std::ssize(law.parameters) - lists;
   const auto length = lists ? (std::ssize(material.parameters) - scalars) / lists : 0;
   std::vector<ParameterSlot> slots;
   for (const ParameterInfo& info : law.parameters) {
-    if (!info.list) slots.push_back({&info, -1});
-    for (int k = 0; info.list && k < length; ++k) slots.push_back({&info, k});
+    if (!info.is_list()) slots.push_back({&info, -1});
+    for (int k = 0; info.is_list() && k < length; ++k) slots.push_back({&info, k});
   }
   return slots;
 }

@@ -12,15 +12,6 @@ GroundState moduli_of(const Material& material, const LawInfo& law) {
   return {lame.mu, lame.lambda + 2 * lame.mu / 3};
 }
 
-/// What a parameter begins with; moduli are scaled afterwards.
-double first_value(std::string_view name) {
-  if (name == "K2") return 0.25;  // of K1: usually about a fifth of a soft tissue's stiffness
-  if (name == "alpha") return 2;  // neo-Hookean
-  if (name == "C20" || name == "C30") return 0;
-  if (name == "Jm") return 30;  // locks at a stretch of about 5
-  return 1;
-}
-
 }  // namespace
 
 Material same_stiffness(const Material& material, const LawInfo& from, const LawInfo& to) {
@@ -29,7 +20,7 @@ Material same_stiffness(const Material& material, const LawInfo& from, const Law
   result.law = to.name;
   result.parameters.clear();
   result.fields.clear();
-  for (const ParameterInfo& info : to.parameters) result.parameters.push_back(first_value(info.name));
+  for (const ParameterInfo& info : to.parameters) result.parameters.push_back(info.start);
   if (!to.has_fibre) {
     result.fibre = Vec3::Zero();
     result.fibre_field.clear();

@@ -18,10 +18,14 @@ struct StableNeoHookean {
   static constexpr std::string_view title = "Stable Neo-Hookean";
   static constexpr std::string_view formula = "2μ/3 (I1−3 − ln((I1+1)/4)) + (λ/2 + 5μ/12)(J−1)² − μ (J−1)";
   static constexpr std::string_view source = "Smith, De Goes & Kim 2018, Eq. 14";
-  static constexpr ParameterInfo parameters[] = {
-      {"lambda", "λ", "Pa", "first Lamé parameter: resistance to change of volume"},
-      {"mu", "μ", "Pa", "shear modulus (second Lamé parameter)"},
+  static constexpr Parameter<StableNeoHookean, Real> parameters[] = {
+      {&StableNeoHookean::lambda, {"lambda", "λ", "Pa", "first Lamé parameter: resistance to change of volume"}},
+      {&StableNeoHookean::mu, {"mu", "μ", "Pa", "shear modulus (second Lamé parameter)", Range::positive}},
   };
+  static constexpr bool is_stress_free = true;
+  static constexpr ForceCost cost = {6.0, 3.4};
+  static constexpr GroundState sample = {1e3, 4e3 + 2e3 / 3};
+  static constexpr auto of_moduli(double shear, double bulk) { return std::array{bulk - 2 * shear / 3, shear}; }
   static constexpr bool uses_I2 = false, uses_J = true, uses_I4 = false, has_volume_term = false;
   static constexpr bool always_valid = true;
 

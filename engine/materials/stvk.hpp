@@ -18,10 +18,14 @@ struct StVK {
   static constexpr std::string_view title = "Saint Venant-Kirchhoff";
   static constexpr std::string_view formula = "λ/2 tr(E)² + μ tr(E²), E = (C − I)/2";
   static constexpr std::string_view source = "Goulette & Chendeb 2006, Table 1";
-  static constexpr ParameterInfo parameters[] = {
-      {"lambda", "λ", "Pa", "first Lamé parameter: resistance to change of volume"},
-      {"mu", "μ", "Pa", "shear modulus (second Lamé parameter)"},
+  static constexpr Parameter<StVK, Real> parameters[] = {
+      {&StVK::lambda, {"lambda", "λ", "Pa", "first Lamé parameter: resistance to change of volume"}},
+      {&StVK::mu, {"mu", "μ", "Pa", "shear modulus (second Lamé parameter)", Range::positive}},
   };
+  static constexpr bool is_stress_free = true;
+  static constexpr ForceCost cost = {5.8, 3.3};
+  static constexpr GroundState sample = {1e3, 1.5e3 + 2e3 / 3};
+  static constexpr auto of_moduli(double shear, double bulk) { return std::array{bulk - 2 * shear / 3, shear}; }
   static constexpr bool uses_I2 = true;
   static constexpr bool uses_J = continued;
   static constexpr bool uses_I4 = false, has_volume_term = false;

@@ -52,17 +52,14 @@ Invariants<T> isochoric(const Invariants<T>& at) {
           p * p * (T(1) - d * T(4.0 / 3) + d * d * T(14.0 / 9)) * at.I2, at.J};
 }
 
-/// Volume terms other than the contract's κ/2 (J−1)², which stands in the laws themselves. As a law of its own, added
-/// to the isochoric part of another.
+/// Volume terms other than the contract's κ/2 (J−1)², which stands in the laws themselves: κ/2 (ln J)² and
+/// κ/4 (J² − 1 − 2 ln J) of Simo & Taylor 1982. As a law of its own, added to the isochoric part of another.
 template <class Real, bool continued, bool simo_taylor>
 struct VolumeLaw {
   Real kappa;
 
-  static constexpr std::string_view name = simo_taylor ? "simo_taylor" : "logarithmic";
-  static constexpr std::string_view title = "volume term";
-  static constexpr std::string_view formula = simo_taylor ? "κ/4 (J² − 1 − 2 ln J)" : "κ/2 (ln J)²";
-  static constexpr std::string_view source = "Simo & Taylor 1982";
-  static constexpr ParameterInfo parameters[] = {{"kappa", "κ", "Pa", "bulk modulus"}};
+  static constexpr Parameter<VolumeLaw, Real> parameters[] = {
+      {&VolumeLaw::kappa, {"kappa", "κ", "Pa", "bulk modulus"}}};
   static constexpr bool has_volume_term = true, uses_I2 = false, uses_J = true, uses_I4 = false;
   static constexpr bool always_valid = continued;
 

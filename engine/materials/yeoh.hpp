@@ -12,12 +12,16 @@ struct Yeoh : GeneralLaw<Yeoh<Real, continued>, Real, continued> {
   static constexpr std::string_view title = "Yeoh";
   static constexpr std::string_view formula = "C10 (Ī1−3) + C20 (Ī1−3)² + C30 (Ī1−3)³ + κ/2 (J−1)²";
   static constexpr std::string_view source = "Yeoh 1993";
-  static constexpr ParameterInfo parameters[] = {
-      {"C10", "C10", "Pa", "half the shear modulus at rest"},
-      {"C20", "C20", "Pa", "second coefficient"},
-      {"C30", "C30", "Pa", "third coefficient: stiffening at large stretches"},
-      {"kappa", "κ", "Pa", "bulk modulus: resistance to change of volume"},
+  static constexpr Parameter<Yeoh, Real> parameters[] = {
+      {&Yeoh::C10, {"C10", "C10", "Pa", "half the shear modulus at rest", Range::positive}},
+      {&Yeoh::C20, {"C20", "C20", "Pa", "second coefficient", Range::any, 0}},
+      {&Yeoh::C30, {"C30", "C30", "Pa", "third coefficient: stiffening at large stretches", Range::any, 0}},
+      {&Yeoh::kappa, {"kappa", "κ", "Pa", "bulk modulus: resistance to change of volume", Range::positive}},
   };
+  static constexpr ForceCost cost = {23.2, 9.9};
+  static constexpr auto of_moduli(double shear, double bulk) {
+    return std::array{shear / 2, -0.05 * shear, 0.08 * shear, bulk};
+  }
 
   template <class T>
   T density(const Invariants<T>& at) const {

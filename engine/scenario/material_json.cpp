@@ -81,7 +81,7 @@ void read_parameters(const Key& entry, const LawInfo& law, Material& material) {
   const ParameterInfo* first_list = nullptr;
   for (const ParameterInfo& info : law.parameters) {
     const Key key = entry[info.name];
-    if (!info.list) {
+    if (!info.is_list()) {
       add_scalar(quantity_from(key), material);
       continue;
     }

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <cassert>
 #include <cmath>
 #include <heml/base/hash.hpp>
 #include <heml/mesh/generate.hpp>
@@ -47,35 +46,15 @@ BenchBody bench_cube(int n, bool irregular) {
 }
 
 std::vector<Material> bench_materials() {
-  const auto material = [](const char* law, std::vector<double> parameters) {
-    Material m;
-    m.law = law;
-    m.parameters = std::move(parameters);
-    if (find_law(law)->has_fibre) m.fibre = Vec3(2, -1, 2) / 3;
-    return m;
-  };
-  return {material("stvk", {1.5e3, 1e3}),
-          material("neo_hookean", {4e3, 1e3}),
-          material("neo_hookean_iso", {500, 5e4}),
-          material("mooney_rivlin", {400, 100, 5e4}),
-          material("fung_demiray", {1e3, 1.5, 5e4}),
-          material("ogden", {300, -200, 3, -4, 5e4}),
-          material("hgo", {500, 5e4, 800, 2}),
-          material("yeoh", {500, -50, 80, 5e4}),
-          material("gent", {1e3, 20, 5e4}),
-          material("veronda_westmann", {300, 3, 5e4}),
-          material("stable_neo_hookean", {4e3, 1e3}),
-          material("paper_neo_hookean", {500, 5e4}),
-          material("paper_mooney_rivlin", {400, 100, 5e4}),
-          material("paper_fung_demiray", {1e3, 1.5, 5e4}),
-          material("mass_spring", {10})};
+  std::vector<Material> materials;
+  for (const LawInfo& law : laws()) materials.push_back(bench_material(law.name));
+  return materials;
 }
 
 Material bench_material(std::string_view law) {
-  for (const Material& material : bench_materials())
-    if (material.law == law) return material;
-  assert(false);
-  return {};
+  Material material = sample_material(*find_law(law));
+  if (find_law(law)->has_fibre) material.fibre = Vec3(2, -1, 2) / 3;
+  return material;
 }
 
 WorldSetup hanging_cube(const TetMesh& mesh, const Material& material) {

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <heml/studies/naive.hpp>
 
 namespace heml {
@@ -21,7 +20,7 @@ std::vector<std::array<int, 2>> edges_of(const TetMesh& mesh) {
 
 NaiveForces::NaiveForces(const TetMesh& mesh, const Material& material)
     : parameters_(material.parameters), loop_(naive_loop(material.law)) {
-  assert(loop_);
+  if (!loop_) point_ = make_material_point(material, false);
   const auto node = [&](int n) { return mesh.nodes[static_cast<std::size_t>(n)]; };
   if (find_law(material.law)->is_continuum) {
     for (const Tet& tet : mesh.tets) {
@@ -43,6 +42,21 @@ NaiveForces::NaiveForces(const TetMesh& mesh, const Material& material)
            parameters_.size(), corners_.data(),    Dm_inverse_.data(),
            volume_.data(),     parameters_.data(), {material.fibre.x(), material.fibre.y(), material.fibre.z()},
            ends_.data(),       length_.data()};
+}
+
+void NaiveForces::operator()(const double* x, double* f) const {
+  if (loop_) return loop_(body_, x, f);
+  std::fill(f, f + 3 * body_.nodes, 0.0);
+  for (std::size_t t = 0; t < body_.tets; ++t) {
+    const int* corner = &corners_[4 * t];
+    const auto node = [&](int a) { return Eigen::Map<const Vec3>(x + 3 * corner[a]); };
+    const Mat3 Dm_inverse = Eigen::Map<const Mat3>(&Dm_inverse_[9 * t]).transpose();
+    Mat3 Ds;
+    Ds << node(1) - node(0), node(2) - node(0), node(3) - node(0);
+    const Mat3 H = -volume_[t] * point_->first_piola(Ds * Dm_inverse) * Dm_inverse.transpose();
+    Eigen::Map<Vec3>(f + 3 * corner[0]) -= H.rowwise().sum();
+    for (int a = 0; a < 3; ++a) Eigen::Map<Vec3>(f + 3 * corner[a + 1]) += H.col(a);
+  }
 }
 
 }  // namespace heml

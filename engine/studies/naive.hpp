@@ -1,10 +1,12 @@
 #pragma once
 // What people write first: for every tetrahedron F = Ds Dm⁻¹, P = F S, and −V P Dm⁻ᵀ added to its nodes, one after the
 // other, in double. The laws are written out from their textbook stresses, apart from those of the engine: a yardstick
-// of its speed, and a second opinion on its forces.
-#include <heml/materials/material.hpp>
+// of its speed, and a second opinion on its forces. A law not written out there takes its stress from a MaterialPoint,
+// which shares its formula with the engine but not the tension form, and is slower than what people write.
+#include <heml/materials/point.hpp>
 #include <heml/mesh/tet_mesh.hpp>
 #include <heml/studies/naive_loops.hpp>
+#include <memory>
 #include <vector>
 
 namespace heml {
@@ -17,13 +19,14 @@ class NaiveForces {
   NaiveForces& operator=(const NaiveForces&) = delete;
 
   /// Forces at positions x (3 #V, metres) into f (3 #V, overwritten), N. One thread.
-  void operator()(const double* x, double* f) const { loop_(body_, x, f); }
+  void operator()(const double* x, double* f) const;
 
  private:
   std::vector<int> corners_, ends_;
   std::vector<double> Dm_inverse_, volume_, length_, parameters_;
   NaiveBody body_{};
   NaiveLoop loop_;
+  std::unique_ptr<MaterialPoint> point_;  ///< where there is no loop
 };
 
 }  // namespace heml

@@ -1,7 +1,5 @@
-#include <cassert>
 #include <heml/elastic/tension.hpp>
 #include <heml/studies/operation_count.hpp>
-#include <tuple>
 #include <vector>
 
 namespace heml {
@@ -38,15 +36,13 @@ void add_forces(const L& law, const TetMesh& mesh, const Vec3& fibre, const doub
 
 Operations force_operations(const TetMesh& mesh, const Material& material, const double* positions) {
   Operations result;
-  const auto attempt = [&](auto tag) {  // as with_law(), which would make the continued laws too
-    using L = typename decltype(tag)::template Law<Counted, false>;
-    if (material.law != L::name) return false;
-    const L law = law_from<L, Counted>(material.parameters);
-    result = operations_of([&] { add_forces(law, mesh, material.fibre, positions); });
-    return true;
-  };
-  [[maybe_unused]] const bool found = std::apply([&](auto... tag) { return (attempt(tag) || ...); }, LawList{});
-  assert(found);
+  visit_law(law_index(material.law), false, [&]<class Tag, bool continued>(Tag, std::bool_constant<continued>) {
+    if constexpr (!continued) {
+      using L = typename Tag::template Law<Counted, false>;
+      const L law = law_from<L, Counted>(material.parameters);
+      result = operations_of([&] { add_forces(law, mesh, material.fibre, positions); });
+    }
+  });
   return result;
 }
 

@@ -1,8 +1,10 @@
-"""Energies of the laws as formulas, and their derivatives, in 70 digits.
+"""Energies of the laws as formulas, and their derivatives, in 70 digits; and materials of each to compare at.
 
 Written from the invariants and stretches of F, as in the documentation of the laws; this knows nothing of how the
 program computes. Stresses and stiffnesses are differences of the energy, which in so many digits are exact to 30.
 """
+from typing import Callable, NamedTuple
+
 from mpmath import mp, mpf
 
 mp.dps = 70
@@ -59,31 +61,69 @@ def quadratic(m, J):
     return m["kappa"] / 2 * (J - 1) ** 2
 
 
+# ---- The laws. ----
+
+class Law(NamedTuple):
+    formula: Callable
+    draws: dict  # a value of each parameter from a random.Random, soft as tissue
+    in_range: Callable  # whether the law m is far from its end at F
+    lists: list  # parameters that are lists, of a material each
+
+
+LAWS = {}
+
+
+def law(in_range=lambda m, F: True, lists=({}, {}, {}), **draws):
+    def register(formula):
+        LAWS[formula.__name__] = Law(formula, draws, in_range, lists)
+        return formula
+    return register
+
+
+def uniform(low, high):
+    return lambda r: r.uniform(low, high)
+
+
+def materials(name, r):
+    """Several of a law, as scene files say them."""
+    of = LAWS[name]
+    return [{"law": name} | given | {key: draw(r) for key, draw in of.draws.items()} for given in of.lists]
+
+
+@law(mu=uniform(500, 5e3), **{"lambda": uniform(-300, 2e4)})
 def stvk(m, F):
     E = [(c - (1 if i % 4 == 0 else 0)) / 2 for i, c in enumerate(right_cauchy_green(F))]
     return m["lambda"] / 2 * trace(E) ** 2 + m["mu"] * trace(product(E, E))
 
 
+@law(mu=uniform(500, 5e3), **{"lambda": uniform(-300, 2e4)})
 def neo_hookean(m, F):
     I1, _, J = invariants(F)
     return m["mu"] / 2 * (I1 - 3) - m["mu"] * mp.log(J) + m["lambda"] / 2 * mp.log(J) ** 2
 
 
+@law(K1=uniform(200, 2e3), kappa=uniform(1e3, 1e5))
 def neo_hookean_iso(m, F):
     I1, _, J = isochoric(F)
     return m["K1"] * (I1 - 3) + quadratic(m, J)
 
 
+@law(K1=uniform(200, 2e3), K2=uniform(-100, 500), kappa=uniform(1e3, 1e5))
 def mooney_rivlin(m, F):
     I1, I2, J = isochoric(F)
     return m["K1"] * (I1 - 3) + m["K2"] * (I2 - 3) + quadratic(m, J)
 
 
+@law(lambda m, F: m["gamma"] * (isochoric(F)[0] - 3) < 600,
+     mu=uniform(200, 2e3), gamma=uniform(0.05, 3), kappa=uniform(1e3, 1e5))
 def fung_demiray(m, F):
     I1, _, J = isochoric(F)
     return m["mu"] / (2 * m["gamma"]) * (mp.exp(m["gamma"] * (I1 - 3)) - 1) + quadratic(m, J)
 
 
+@law(lists=[{"mu": [-500.0], "alpha": [-4.7]}, {"mu": [300.0, -200.0], "alpha": [3.0, -4.0]},
+            {"mu": [630.0, 1.2, -10.0], "alpha": [1.3, 5.0, -2.0]}],
+     kappa=uniform(1e3, 1e5))
 def ogden(m, F):
     J = determinant(F)
     p = mp.cbrt(1 / (J * J))
@@ -102,6 +142,9 @@ def fibre_stretch(m, F):
     return mp.cbrt(1 / (J * J)) * sum(x * x for x in stretched) / sum(x * x for x in a)
 
 
+@law(lambda m, F: m["k2"] * (fibre_stretch(m, F) - 1) ** 2 < 600,
+     K1=uniform(200, 2e3), kappa=uniform(1e3, 1e5), k1=uniform(100, 5e3), k2=uniform(0.05, 1),
+     fibre=lambda r: [r.gauss(0, 1) for _ in range(3)])
 def hgo(m, F, bears):
     """bears: whether the fibre bears load, Ī4 > 1. Decided once a state, so that differences stay on one side."""
     W = neo_hookean_iso(m, F)
@@ -110,21 +153,37 @@ def hgo(m, F, bears):
     return W
 
 
+@law(C10=uniform(200, 2e3), C20=uniform(-50, 50), C30=uniform(0, 20), kappa=uniform(1e3, 1e5))
 def yeoh(m, F):
     I1, _, J = isochoric(F)
     return m["C10"] * (I1 - 3) + m["C20"] * (I1 - 3) ** 2 + m["C30"] * (I1 - 3) ** 3 + quadratic(m, J)
 
 
+@law(lambda m, F: isochoric(F)[0] - 3 < mpf("0.99") * m["Jm"],
+     mu=uniform(200, 2e3), Jm=uniform(10, 100), kappa=uniform(1e3, 1e5))
 def gent(m, F):
     I1, _, J = isochoric(F)
     return -m["mu"] * m["Jm"] / 2 * mp.log(1 - (I1 - 3) / m["Jm"]) + quadratic(m, J)
 
 
+@law(mu=uniform(200, 2e3), lambda_m=uniform(1.2, 4), kappa=uniform(1e3, 1e5))
+def arruda_boyce(m, F):
+    """The work of stretching chains: the integral of the inverse Langevin function, by the first five terms of that."""
+    I1, _, J = isochoric(F)
+    links = m["lambda_m"] ** 2
+    terms = mpf(3), mpf(9) / 5, mpf(297) / 175, mpf(1539) / 875, mpf(126117) / 67375
+    work = lambda I1: sum(c * (I1 / (3 * links)) ** k / (2 * k) for k, c in enumerate(terms, 1))
+    return m["mu"] * links * (work(I1) - work(3)) + quadratic(m, J)
+
+
+@law(lambda m, F: m["beta"] * (isochoric(F)[0] - 3) < 600,
+     c1=uniform(20, 300), beta=uniform(0.3, 3), kappa=uniform(1e3, 1e5))
 def veronda_westmann(m, F):
     I1, I2, J = isochoric(F)
     return m["c1"] * (mp.exp(m["beta"] * (I1 - 3)) - 1) - m["c1"] * m["beta"] / 2 * (I2 - 3) + quadratic(m, J)
 
 
+@law(mu=uniform(500, 5e3), **{"lambda": uniform(-300, 2e4)})
 def stable_neo_hookean(m, F):
     """Smith, De Goes & Kim 2018, Eq. 14, less its value at rest."""
     I1, _, J = invariants(F)
@@ -134,16 +193,20 @@ def stable_neo_hookean(m, F):
     return at(I1, J) - at(mpf(3), mpf(1))
 
 
+@law(K1=uniform(200, 2e3), kappa=uniform(1e3, 1e5))
 def paper_neo_hookean(m, F):
     I1, _, J = invariants(F)
     return m["K1"] * (I1 - 3) + quadratic(m, J)
 
 
+@law(K1=uniform(200, 2e3), K2=uniform(-50, 500), kappa=uniform(1e3, 1e5))
 def paper_mooney_rivlin(m, F):
     I1, I2, J = invariants(F)
     return m["K1"] * (I1 - 3) + m["K2"] * (I2 - 3) + quadratic(m, J)
 
 
+@law(lambda m, F: m["gamma"] * (invariants(F)[0] - 3) < 600,
+     mu=uniform(200, 2e3), gamma=uniform(0.05, 1), kappa=uniform(1e3, 1e5))
 def paper_fung_demiray(m, F):
     I1, _, J = invariants(F)
     return m["mu"] / (2 * m["gamma"]) * (mp.exp(m["gamma"] * (I1 - 3)) - 1) + quadratic(m, J)
@@ -164,7 +227,7 @@ def numbers(material):
 def energy_of(material):
     """W(F) in mpf, and which side of a fibre's kink each state is on."""
     m = numbers(material)
-    formula = globals()[material["law"]]
+    formula = LAWS[material["law"]].formula
     term = VOLUME_TERMS.get(material.get("volume_term"))
 
     def W(F, bears=False):

@@ -7,15 +7,25 @@
 namespace heml::stability {
 namespace {
 
-constexpr std::string_view all_laws[] = {
-    "stvk", "neo_hookean", "neo_hookean_iso",  "mooney_rivlin",      "fung_demiray", "ogden", "hgo",
-    "yeoh", "gent",        "veronda_westmann", "stable_neo_hookean", "mass_spring"};
-constexpr std::span<const std::string_view> laws(all_laws), solids = laws.first(laws.size() - 1);
-constexpr std::string_view exponentials[] = {"fung_demiray", "hgo", "veronda_westmann"};
-constexpr std::string_view of_stretches[] = {"ogden"};
-constexpr std::string_view a_few[] = {"stvk", "neo_hookean", "mooney_rivlin", "mass_spring"};
-constexpr std::string_view separate[] = {"neo_hookean_iso", "mooney_rivlin", "fung_demiray", "ogden", "yeoh", "gent",
-                                         "veronda_westmann"};
+/// Names of all laws without stress at rest that are so.
+std::vector<std::string_view> those(bool (*are_so)(const LawInfo&)) {
+  std::vector<std::string_view> names;
+  for (const LawInfo& law : heml::laws())
+    if (law.is_stress_free && are_so(law)) names.push_back(law.name);
+  return names;
+}
+
+bool has_exponent(const LawInfo& law) {
+  return std::any_of(law.parameters.begin(), law.parameters.end(),
+                     [](const ParameterInfo& info) { return info.kind == ParameterKind::exponent; });
+}
+
+const auto laws = those([](const LawInfo&) { return true; });
+const auto solids = those([](const LawInfo& law) { return law.is_continuum; });
+const auto exponentials = those(has_exponent);
+const auto of_stretches = those([](const LawInfo& law) { return law.is_principal; });
+const auto separate = those([](const LawInfo& law) { return law.has_volume_term && !law.has_fibre; });
+const std::vector<std::string_view> a_few = {"stvk", "neo_hookean", "mooney_rivlin", "mass_spring"};  // it takes long
 constexpr double never = std::numeric_limits<double>::quiet_NaN();
 
 using enum Integrator;

@@ -208,12 +208,14 @@ Outcome exponential_far_out(const Trial& trial) {
   // Q = 200: e^Q is beyond what float holds, and beyond all tissue.
   Material material = bench_material(trial.way.law);
   const double gamma = 20;
-  material.parameters[trial.way.law == "hgo" ? 3 : 1] = gamma;
-  if (trial.way.law == "hgo") material.fibre = Vec3::UnitX();
+  const LawInfo& law = *find_law(trial.way.law);
+  for (std::size_t k = 0; k < law.parameters.size(); ++k)
+    if (law.parameters[k].kind == ParameterKind::exponent) material.parameters[k] = gamma;
+  if (law.has_fibre) material.fibre = Vec3::UnitX();
   double stretch = 1;  // of an incompressible bar, with Q(stretch) = 200
   const auto Q = [&](double t) {
     const double I1 = t * t + 2 / t;
-    return trial.way.law == "hgo" ? gamma * std::pow(t * t - 1, 2) : gamma * (I1 - 3);
+    return law.has_fibre ? gamma * std::pow(t * t - 1, 2) : gamma * (I1 - 3);
   };
   while (Q(stretch) < 200) stretch += 1e-4;
   const Vec3 stretches(stretch, 1 / std::sqrt(stretch), 1 / std::sqrt(stretch));

@@ -10,21 +10,8 @@
 namespace heml::stability {
 
 Material material_of(std::string_view law, double mu, double kappa, double edge) {
-  const double lambda = kappa - 2 * mu / 3;
-  Material material;
-  material.law = law;
-  material.parameters = law == "stvk" || law == "neo_hookean" || law == "stable_neo_hookean" ? std::vector{lambda, mu}
-                        : law == "neo_hookean_iso"  ? std::vector{mu / 2, kappa}
-                        : law == "mooney_rivlin"    ? std::vector{0.4 * mu, 0.1 * mu, kappa}
-                        : law == "fung_demiray"     ? std::vector{mu, 1.5, kappa}
-                        : law == "ogden"            ? std::vector{6 * mu / 17, -4 * mu / 17, 3.0, -4.0, kappa}
-                        : law == "hgo"              ? std::vector{mu / 2, kappa, 0.8 * mu, 2.0}
-                        : law == "yeoh"             ? std::vector{mu / 2, -0.05 * mu, 0.08 * mu, kappa}
-                        : law == "gent"             ? std::vector{mu, 20.0, kappa}
-                        : law == "veronda_westmann" ? std::vector{mu / 3, 3.0, kappa}
-                                                    : std::vector{mu * edge};
-  if (find_law(law)->has_fibre) material.fibre = Vec3::UnitX();
-  assert(!material_problem(material));
+  Material material = sample_material(*find_law(law), {mu, kappa});
+  if (!find_law(law)->is_continuum) material.parameters = {mu * edge};
   return material;
 }
 

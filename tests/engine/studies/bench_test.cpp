@@ -45,15 +45,6 @@ TEST_CASE("a force evaluation is timed in both precisions, every instruction set
   }
 }
 
-TEST_CASE("every law has a material to be measured with") {
-  std::set<std::string_view> names;
-  for (const Material& material : bench_materials()) {
-    CHECK_FALSE(material_problem(material));
-    names.insert(find_law(material.law)->name);
-  }
-  CHECK(names.size() == laws().size());
-}
-
 TEST_CASE("an irregular cube keeps its surface and turns no tetrahedron over") {
   const BenchBody body = bench_cube(5, true);
   for (const Tet& tet : body.mesh.tets) {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <functional>
 #include <heml/world/recovery_cause.hpp>
-#include <map>
 
+#include "engine/materials/sample_materials.hpp"
 #include "support.hpp"
 #include "world_support.hpp"
 
@@ -18,25 +18,8 @@ namespace {
 
 constexpr double side = 0.1;  // m
 
-/// Parameters of a law from its moduli at rest, Pa.
 Material with_moduli(const std::string& law, double mu, double kappa) {
-  const std::map<std::string, std::vector<double>> parameters = {
-      {"stvk", {kappa - 2 * mu / 3, mu}},
-      {"neo_hookean", {kappa - 2 * mu / 3, mu}},
-      {"stable_neo_hookean", {kappa - 2 * mu / 3, mu}},
-      {"neo_hookean_iso", {mu / 2, kappa}},
-      {"mooney_rivlin", {0.4 * mu, 0.1 * mu, kappa}},
-      {"fung_demiray", {mu, 1.5, kappa}},
-      {"ogden", {6 * mu / 17, -4 * mu / 17, 3, -4, kappa}},
-      {"hgo", {mu / 2, kappa, 0.8 * mu, 2}},
-      {"yeoh", {mu / 2, -0.05 * mu, 0.08 * mu, kappa}},
-      {"gent", {mu, 20, kappa}},
-      {"veronda_westmann", {mu / 3, 3, kappa}},
-  };
-  Material material;
-  material.law = law;
-  material.parameters = parameters.at(law);
-  if (find_law(law)->has_fibre) material.fibre = Vec3::UnitX();
+  Material material = sample_material(law, mu, kappa);
   REQUIRE_FALSE(material_problem(material));
   REQUIRE(ground_state(material).shear == doctest::Approx(mu));
   return material;

@@ -1,0 +1,23 @@
+#pragma once
+// The paper's degenerate case: forces along the edges of the mesh (elastic/springs.hpp). No energy of F, so it stands
+// in laws() without being one of LawList.
+#include <heml/materials/law.hpp>
+
+namespace heml {
+
+struct MassSpring {
+  static constexpr std::string_view name = "mass_spring";
+  static constexpr std::string_view title = "Mass-spring net";
+  static constexpr std::string_view formula = "Σ over mesh edges of k/2 (ℓ − L)²";
+  static constexpr std::string_view source = "Goulette & Chendeb 2006, section 1: the degenerate case";
+  static constexpr Parameter<MassSpring, double> parameters[] = {
+      {nullptr, {"stiffness", "k", "N/m", "of the spring along every edge", Range::positive}},
+  };
+  static constexpr bool uses_I4 = false, has_volume_term = false, is_stress_free = true;
+  static constexpr ForceCost cost = {17, 14};
+  static constexpr GroundState sample = {1e3, 5e4};
+  /// Of a mesh of 1 cm edges: Poisson's ratio is what it is.
+  static constexpr auto of_moduli(double shear, double) { return std::array{0.01 * shear}; }
+};
+
+}  // namespace heml
