@@ -10,7 +10,7 @@
 #include <heml/base/error.hpp>
 #include <heml/base/log.hpp>
 #include <heml/scenario/text_file.hpp>
-#include <heml/studies/bench.hpp>
+#include <studies/bench.hpp>
 
 namespace heml {
 namespace {

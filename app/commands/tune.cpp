@@ -6,8 +6,8 @@
 #include <heml/base/error.hpp>
 #include <heml/base/log.hpp>
 #include <heml/scenario/text_file.hpp>
-#include <heml/studies/quantity_text.hpp>
-#include <heml/studies/tune.hpp>
+#include <studies/quantity_text.hpp>
+#include <studies/tune.hpp>
 
 namespace heml {
 namespace {

@@ -1,7 +1,7 @@
 #include <fstream>
-#include <heml/studies/machine.hpp>
-#include <heml/studies/naive_loops.hpp>
 #include <sstream>
+#include <studies/machine.hpp>
+#include <studies/naive_loops.hpp>
 #include <thread>
 
 namespace heml {

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <heml/studies/naive.hpp>
+#include <studies/naive.hpp>
 
 namespace heml {
 namespace {

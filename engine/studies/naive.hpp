@@ -4,7 +4,7 @@
 // of its speed, and a second opinion on its forces.
 #include <heml/materials/material.hpp>
 #include <heml/mesh/tet_mesh.hpp>
-#include <heml/studies/naive_loops.hpp>
+#include <studies/naive_loops.hpp>
 #include <vector>
 
 namespace heml {

@@ -1,5 +1,5 @@
 #include <cmath>
-#include <heml/studies/naive_loops.hpp>
+#include <studies/naive_loops.hpp>
 
 #ifndef HEML_NAIVE_FLAGS
 #define HEML_NAIVE_FLAGS ""

@@ -1,6 +1,6 @@
 #include <cassert>
 #include <heml/elastic/tension.hpp>
-#include <heml/studies/operation_count.hpp>
+#include <studies/operation_count.hpp>
 #include <tuple>
 #include <vector>
 

@@ -5,9 +5,9 @@
 #include <heml/base/hash.hpp>
 #include <heml/scenario/csv_text.hpp>
 #include <heml/scenario/text_file.hpp>
-#include <heml/studies/machine.hpp>
-#include <heml/studies/results.hpp>
 #include <iterator>
+#include <studies/machine.hpp>
+#include <studies/results.hpp>
 
 namespace heml {
 namespace {

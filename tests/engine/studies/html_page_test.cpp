@@ -2,8 +2,8 @@
 
 #include <cmath>
 #include <heml/scenario/text_file.hpp>
-#include <heml/studies/html_page.hpp>
 #include <places.hpp>
+#include <studies/html_page.hpp>
 
 namespace heml::html_page_test {
 

@@ -1,4 +1,4 @@
-#include <heml/studies/naive.hpp>
+#include <studies/naive.hpp>
 
 #include "engine/elastic/small_body.hpp"
 
