@@ -5,6 +5,7 @@
 #include <Eigen/SparseCholesky>
 #include <heml/dynamics/factor_work.hpp>
 #include <heml/dynamics/float_gradients.hpp>
+#include <heml/dynamics/linear_counts.hpp>
 #include <heml/dynamics/objective.hpp>
 #include <memory>
 
@@ -18,11 +19,6 @@ inline constexpr std::size_t most_factored_once = 1000;
 
 /// The choice for a body of that size, by a fixed model of cost, never by a clock.
 Preconditioner choose_preconditioner(std::size_t free_nodes, bool static_solve);
-
-/// What was done so far.
-struct LinearCounts {
-  long factorisations = 0, solves = 0, iterations = 0;
-};
 
 class LinearSolver {
  public:

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <heml/elastic/block_rows.hpp>
 #include <heml/elastic/body.hpp>
+#include <heml/elastic/clamp.hpp>
 #include <heml/elastic/memory_term.hpp>
 #include <heml/elastic/stiffness_product.hpp>
 #include <heml/elastic/wide.hpp>

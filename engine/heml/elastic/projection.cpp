@@ -1,6 +1,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <cmath>
+#include <heml/elastic/clamp.hpp>
 #include <heml/elastic/projection.hpp>
 
 namespace heml {

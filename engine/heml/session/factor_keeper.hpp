@@ -1,6 +1,7 @@
 #pragma once
 // Has the preconditioner of implicit steps made anew, in a thread of its own, after elements were removed: its arrival,
 // which a clock decides, becomes a command, which is recorded like any other, so a replay needs no clock.
+#include <heml/dynamics/factor_work.hpp>
 #include <heml/world/world.hpp>
 #include <thread>
 

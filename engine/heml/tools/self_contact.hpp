@@ -21,14 +21,10 @@
 // Without a scene's "self_contact" none of this is made.
 #include <compare>
 #include <heml/tools/contact_surface.hpp>
+#include <heml/tools/settings.hpp>
 #include <tuple>
 
 namespace heml {
-
-/// What a scene asks for.
-struct SelfContactSettings {
-  double friction = 0;  ///< Coulomb's coefficient
-};
 
 /// Two bits of surface, inner numbers: a node and a face's corners, or an edge's ends and another's.
 struct SkinPair {

@@ -9,13 +9,9 @@
 #include <functional>
 #include <heml/base/thread_team.hpp>
 #include <heml/mesh/tear.hpp>
+#include <heml/tools/settings.hpp>
 
 namespace heml {
-
-/// What a scene asks for.
-struct TearingSettings {
-  double stretch = 2;  ///< largest principal stretch that elements bear
-};
 
 class Tearing {
  public:

@@ -2,11 +2,11 @@
 // All that makes a world, with every file read and every selection resolved to node numbers. Scenes become this
 // (scenario/), tests write it by hand; make_world() turns it into something that steps.
 #include <heml/dynamics/solver_options.hpp>
-#include <heml/elastic/fan_kernels.hpp>
+#include <heml/elastic/instruction_set.hpp>
 #include <heml/materials/material.hpp>
 #include <heml/mesh/tet_mesh.hpp>
-#include <heml/tools/self_contact.hpp>
-#include <heml/tools/tearing.hpp>
+#include <heml/tools/contact_surface.hpp>
+#include <heml/tools/settings.hpp>
 #include <optional>
 #include <string>
 #include <vector>

@@ -1,5 +1,6 @@
 #pragma once
-#include <heml/dynamics/linear_solver.hpp>
+#include <heml/dynamics/linear_counts.hpp>
+#include <string_view>
 
 namespace heml {
 

@@ -2,12 +2,14 @@
 // A world of one scalar type: the step, and everything people ask of it.
 #include <atomic>
 #include <heml/base/thread_team.hpp>
+#include <heml/dynamics/factor_work.hpp>
 #include <heml/dynamics/implicit_stage.hpp>
 #include <heml/dynamics/state.hpp>
 #include <heml/elastic/body.hpp>
 #include <heml/tools/contact_impulses.hpp>
 #include <heml/tools/grasp.hpp>
 #include <heml/tools/pin.hpp>
+#include <heml/tools/tearing.hpp>
 #include <heml/world/facts.hpp>
 #include <heml/world/implicit_parts.hpp>
 #include <heml/world/model.hpp>

@@ -4,7 +4,6 @@
 //
 // Everything goes in and comes out in the mesh file's node and element order; inside both are reordered for locality.
 #include <cstdint>
-#include <heml/dynamics/factor_work.hpp>
 #include <heml/elastic/error_estimate.hpp>
 #include <heml/mesh/edit.hpp>
 #include <heml/world/command.hpp>
@@ -107,6 +106,7 @@ struct SelfContactState {
   int touching = 0;    ///< pairs of a node and a face, or of two ridges
 };
 
+class FactorWork;   // dynamics/factor_work.hpp
 struct WorldFacts;  // facts.hpp
 
 class World {
