@@ -20,6 +20,7 @@ test_packages=(
   clang libclang-rt-14-dev                           # sanitizers, fuzzing
   imagemagick python3 xauth xdotool xvfb             # a window with a mouse in it
   calculix-ccx python3-mpmath python3-numpy          # results to compare with
+  dpkg-dev                                           # the Debian package
 )
 
 # say TEXT...: a line of ours, told apart from what the tools print.

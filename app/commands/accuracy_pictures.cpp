@@ -5,7 +5,7 @@
 #include <app/commands/chart_picture.hpp>
 #include <app/panel/theme.hpp>
 #include <cmath>
-#include <heml/studies/pareto.hpp>
+#include <studies/pareto.hpp>
 
 namespace heml {
 namespace {

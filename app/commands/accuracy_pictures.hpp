@@ -1,6 +1,6 @@
 #pragma once
 // The accuracy study, drawn.
-#include <heml/studies/accuracy_report.hpp>
+#include <studies/accuracy_report.hpp>
 
 namespace heml {
 

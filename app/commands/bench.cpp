@@ -9,7 +9,7 @@
 #include <heml/base/error.hpp>
 #include <heml/base/log.hpp>
 #include <heml/base/write_file.hpp>
-#include <heml/studies/bench.hpp>
+#include <studies/bench.hpp>
 
 namespace heml {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 // What `heml bench` measured, drawn.
 #include <filesystem>
-#include <heml/studies/bench.hpp>
+#include <studies/bench.hpp>
 #include <vector>
 
 namespace heml {

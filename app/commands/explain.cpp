@@ -4,8 +4,9 @@
 #include <app/commands/commands.hpp>
 #include <app/commands/explanation_json.hpp>
 #include <app/commands/progress.hpp>
-#include <heml/studies/operation_count.hpp>
+#include <heml/dynamics/linear_solver.hpp>
 #include <numbers>
+#include <studies/operation_count.hpp>
 
 namespace heml {
 namespace {

@@ -1,5 +1,5 @@
 #include <app/commands/explanation_json.hpp>
-#include <heml/studies/operation_count.hpp>
+#include <studies/operation_count.hpp>
 
 namespace heml {
 namespace {

@@ -5,8 +5,8 @@
 #include <app/commands/progress.hpp>
 #include <heml/base/log.hpp>
 #include <heml/base/write_file.hpp>
-#include <heml/studies/stability/matrix.hpp>
-#include <heml/studies/stability/report.hpp>
+#include <studies/stability/matrix.hpp>
+#include <studies/stability/report.hpp>
 
 namespace heml {
 

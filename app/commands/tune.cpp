@@ -7,8 +7,8 @@
 #include <heml/base/log.hpp>
 #include <heml/base/write_file.hpp>
 #include <heml/scenario/input_files.hpp>
-#include <heml/studies/quantity_text.hpp>
-#include <heml/studies/tune.hpp>
+#include <studies/quantity_text.hpp>
+#include <studies/tune.hpp>
 
 namespace heml {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <heml/studies/accuracy_reference.hpp>
+#include <studies/accuracy_reference.hpp>
 
 namespace heml {
 namespace {

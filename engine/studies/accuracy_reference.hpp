@@ -3,7 +3,7 @@
 // at half of that. It holds for errors ten times what that halving changed, and says nothing of smaller ones. The
 // methods under study never see it, and it is none of them.
 #include <heml/scenario/json_text.hpp>
-#include <heml/studies/accuracy_run.hpp>
+#include <studies/accuracy_run.hpp>
 
 namespace heml {
 

@@ -2,8 +2,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <heml/studies/accuracy_report.hpp>
-#include <heml/studies/machine.hpp>
+#include <studies/accuracy_report.hpp>
+#include <studies/machine.hpp>
 
 namespace heml {
 namespace {

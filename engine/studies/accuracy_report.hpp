@@ -1,7 +1,7 @@
 #pragma once
 // The accuracy study in words and tables: the answers first, then the Pareto fronts, then everything.
-#include <heml/studies/accuracy_study.hpp>
-#include <heml/studies/html_page.hpp>
+#include <studies/accuracy_study.hpp>
+#include <studies/html_page.hpp>
 
 namespace heml {
 

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <ctime>
 #include <heml/scenario/player.hpp>
-#include <heml/studies/accuracy_run.hpp>
 #include <heml/world/shadow.hpp>
 #include <numbers>
 #include <numeric>
+#include <studies/accuracy_run.hpp>
 
 namespace heml {
 namespace {

@@ -4,8 +4,8 @@
 //    set times      0 ────────┬────────┬────────┬────────┐  t
 //    positions               x(t₁)    x(t₂)    x(t₃)    x(t₄)      errors are taken there
 //    mean motion    ·  ·  ·  ·  ·  ·  ·  ·  ·  ·  ·  ·  ·  ·       frequency and damping are read off it
-#include <heml/studies/specimen.hpp>
 #include <optional>
+#include <studies/specimen.hpp>
 
 namespace heml {
 

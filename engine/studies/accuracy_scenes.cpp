@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <heml/studies/accuracy_study.hpp>
-#include <heml/studies/bench_bodies.hpp>
+#include <studies/accuracy_study.hpp>
+#include <studies/bench_bodies.hpp>
 #include <set>
 #include <span>
 

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <heml/studies/accuracy_study.hpp>
 #include <regex>
+#include <studies/accuracy_study.hpp>
 
 namespace heml {
 namespace {

@@ -1,11 +1,11 @@
 #pragma once
 // Error against run time: what `heml study accuracy` measures. The scenes are files of assets/studies/accuracy, listed
 // in accuracy_scenes.cpp; or one scene of the user's.
-#include <heml/studies/feature_study.hpp>
-#include <heml/studies/law_study.hpp>
-#include <heml/studies/locking_study.hpp>
-#include <heml/studies/refinement_study.hpp>
-#include <heml/studies/scene_study.hpp>
+#include <studies/feature_study.hpp>
+#include <studies/law_study.hpp>
+#include <studies/locking_study.hpp>
+#include <studies/refinement_study.hpp>
+#include <studies/scene_study.hpp>
 
 namespace heml {
 

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <heml/studies/accuracy_report.hpp>
-#include <heml/studies/machine.hpp>
-#include <heml/studies/pareto.hpp>
+#include <studies/accuracy_report.hpp>
+#include <studies/machine.hpp>
+#include <studies/pareto.hpp>
 #include <thread>
 
 namespace heml {

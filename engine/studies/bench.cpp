@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <heml/studies/bench.hpp>
-#include <heml/studies/bench_tables.hpp>
-#include <heml/studies/machine.hpp>
+#include <studies/bench.hpp>
+#include <studies/bench_tables.hpp>
+#include <studies/machine.hpp>
 
 namespace heml {
 namespace {

@@ -4,7 +4,7 @@
 #include <heml/base/hash.hpp>
 #include <heml/mesh/generate.hpp>
 #include <heml/mesh/reorder.hpp>
-#include <heml/studies/bench_bodies.hpp>
+#include <studies/bench_bodies.hpp>
 #include <thread>
 
 namespace heml {

@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <heml/studies/bench_tables.hpp>
-#include <heml/studies/table.hpp>
 #include <set>
+#include <studies/bench_tables.hpp>
+#include <studies/table.hpp>
 
 namespace heml {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 // The tables of `heml bench`, a suite each: Markdown, columns aligned.
-#include <heml/studies/bench.hpp>
+#include <studies/bench.hpp>
 
 namespace heml {
 

@@ -1,7 +1,7 @@
 #include <cmath>
-#include <heml/studies/carried.hpp>
-#include <heml/studies/mass_tensor.hpp>
-#include <heml/studies/naive.hpp>
+#include <studies/carried.hpp>
+#include <studies/mass_tensor.hpp>
+#include <studies/naive.hpp>
 
 namespace heml {
 namespace {

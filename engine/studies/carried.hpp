@@ -1,7 +1,7 @@
 #pragma once
 // What precision is lost when a body travels (Goulette & Chendeb 2006, section 3.2): HEML works with differences of
 // positions, Mass-Tensor with displacements from the rest shape.
-#include <heml/studies/bench_bodies.hpp>
+#include <studies/bench_bodies.hpp>
 #include <vector>
 
 namespace heml {

@@ -4,10 +4,10 @@
 #include <heml/elastic/body.hpp>
 #include <heml/mesh/cut.hpp>
 #include <heml/mesh/generate.hpp>
-#include <heml/studies/bench_bodies.hpp>
-#include <heml/studies/edit_timing.hpp>
-#include <heml/studies/rounds.hpp>
 #include <heml/world/world.hpp>
+#include <studies/bench_bodies.hpp>
+#include <studies/edit_timing.hpp>
+#include <studies/rounds.hpp>
 
 namespace heml {
 namespace {

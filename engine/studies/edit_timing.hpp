@@ -1,6 +1,6 @@
 #pragma once
 // What an edit of a mesh takes: a cut and a removal of about a hundred elements.
-#include <heml/studies/bench.hpp>
+#include <studies/bench.hpp>
 
 namespace heml {
 

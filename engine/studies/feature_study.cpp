@@ -1,4 +1,4 @@
-#include <heml/studies/feature_study.hpp>
+#include <studies/feature_study.hpp>
 
 namespace heml {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 // What each feature of a scene costs and brings (scenario/measure_features.hpp), kept as results of a study.
 #include <heml/scenario/measure_features.hpp>
-#include <heml/studies/study_context.hpp>
+#include <studies/study_context.hpp>
 
 namespace heml {
 

@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <heml/studies/force_timing.hpp>
-#include <heml/studies/naive.hpp>
 #include <memory>
 #include <stdexcept>
+#include <studies/force_timing.hpp>
+#include <studies/naive.hpp>
 
 namespace heml {
 namespace {

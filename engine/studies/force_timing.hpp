@@ -1,9 +1,9 @@
 #pragma once
 // One force evaluation of one body and law, in every way it can be made, against the naive loop: all in turn.
-#include <heml/studies/bench.hpp>
-#include <heml/studies/bench_bodies.hpp>
-#include <heml/studies/rounds.hpp>
 #include <string>
+#include <studies/bench.hpp>
+#include <studies/bench_bodies.hpp>
+#include <studies/rounds.hpp>
 #include <vector>
 
 namespace heml {

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include <heml/scenario/text_file.hpp>
-#include <heml/studies/html_page.hpp>
+#include <studies/html_page.hpp>
 
 namespace heml {
 namespace {

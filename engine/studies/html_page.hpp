@@ -1,9 +1,9 @@
 #pragma once
 // A report as one HTML file that needs no other: text, tables, and pictures inside it.
 #include <filesystem>
-#include <heml/studies/table.hpp>
 #include <string>
 #include <string_view>
+#include <studies/table.hpp>
 
 namespace heml {
 

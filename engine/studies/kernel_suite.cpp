@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
-#include <heml/studies/bench.hpp>
-#include <heml/studies/force_timing.hpp>
+#include <studies/bench.hpp>
+#include <studies/force_timing.hpp>
 
 namespace heml {
 namespace {

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <heml/mesh/generate.hpp>
-#include <heml/studies/bench_bodies.hpp>
-#include <heml/studies/law_study.hpp>
-#include <heml/studies/naive.hpp>
+#include <studies/bench_bodies.hpp>
+#include <studies/law_study.hpp>
+#include <studies/naive.hpp>
 
 namespace heml {
 namespace {

@@ -2,7 +2,7 @@
 // Every law held against arithmetic that is not the engine's: a small cube settles under its own weight, its top turned
 // and moved; then the naive loops (naive.hpp), whose stresses are written out from textbooks, must find the same
 // balance of forces. A wrong factor or sign in a kernel leaves a force.
-#include <heml/studies/study_context.hpp>
+#include <studies/study_context.hpp>
 
 namespace heml {
 

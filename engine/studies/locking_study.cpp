@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
 #include <heml/mesh/generate.hpp>
-#include <heml/studies/beam_theory.hpp>
-#include <heml/studies/locking_study.hpp>
+#include <studies/beam_theory.hpp>
+#include <studies/locking_study.hpp>
 
 namespace heml {
 namespace {

@@ -2,7 +2,7 @@
 // Locking: what the mesh error grows by when a material comes near to keeping its volume, all else the same. A beam
 // sags by a little under its own weight, which theory tells (beam_theory.hpp); linear tetrahedra are too stiff for it,
 // and ever more so as Poisson's ratio nears 1/2.
-#include <heml/studies/settled_study.hpp>
+#include <studies/settled_study.hpp>
 
 namespace heml {
 

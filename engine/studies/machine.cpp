@@ -1,8 +1,8 @@
 #include <fstream>
 #include <heml/scenario/build_identity.hpp>
-#include <heml/studies/machine.hpp>
-#include <heml/studies/naive_loops.hpp>
 #include <sstream>
+#include <studies/machine.hpp>
+#include <studies/naive_loops.hpp>
 #include <thread>
 
 namespace heml {

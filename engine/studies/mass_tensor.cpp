@@ -1,6 +1,6 @@
 #include <algorithm>
-#include <heml/studies/counted.hpp>
-#include <heml/studies/mass_tensor.hpp>
+#include <studies/counted.hpp>
+#include <studies/mass_tensor.hpp>
 
 namespace heml {
 namespace {

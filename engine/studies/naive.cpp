@@ -1,6 +1,6 @@
 #include <algorithm>
 #include <array>
-#include <heml/studies/naive.hpp>
+#include <studies/naive.hpp>
 
 namespace heml {
 namespace {
@@ -18,8 +18,8 @@ std::vector<std::array<int, 2>> edges_of(const TetMesh& mesh) {
 
 }  // namespace
 
-NaiveForces::NaiveForces(const TetMesh& mesh, const Material& material)
-    : parameters_(material.parameters), loop_(naive_loop(material.law)) {
+NaiveForces::NaiveForces(const TetMesh& mesh, const Material& material, NaiveLoop loop)
+    : parameters_(material.parameters), loop_(loop) {
   if (!loop_) point_ = make_material_point(material, false);
   const auto node = [&](int n) { return mesh.nodes[static_cast<std::size_t>(n)]; };
   if (find_law(material.law)->is_continuum) {

@@ -5,16 +5,19 @@
 // which shares its formula with the engine but not the tension form, and is slower than what people write.
 #include <heml/materials/point.hpp>
 #include <heml/mesh/tet_mesh.hpp>
-#include <heml/studies/naive_loops.hpp>
 #include <memory>
+#include <studies/naive_loops.hpp>
 #include <vector>
 
 namespace heml {
 
 class NaiveForces {
  public:
-  /// mesh: positive volumes. material: a law alone, the same everywhere, as its formula says (no continuation).
-  NaiveForces(const TetMesh& mesh, const Material& material);
+  /// mesh: positive volumes. material: a law alone, the same everywhere, as its formula says (no continuation). loop:
+  /// that of the law; nullptr: a MaterialPoint.
+  NaiveForces(const TetMesh& mesh, const Material& material)
+      : NaiveForces(mesh, material, naive_loop(material.law)) {}
+  NaiveForces(const TetMesh& mesh, const Material& material, NaiveLoop loop);
   NaiveForces(const NaiveForces&) = delete;
   NaiveForces& operator=(const NaiveForces&) = delete;
 

@@ -1,5 +1,5 @@
 #include <heml/elastic/tension.hpp>
-#include <heml/studies/operation_count.hpp>
+#include <studies/operation_count.hpp>
 #include <vector>
 
 namespace heml {

@@ -1,8 +1,8 @@
 #pragma once
 // How many operations the engine's element code takes.
 #include <heml/mesh/tet_mesh.hpp>
-#include <heml/studies/counted.hpp>
 #include <optional>
+#include <studies/counted.hpp>
 
 namespace heml {
 

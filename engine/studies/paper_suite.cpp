@@ -3,12 +3,12 @@
 #include <heml/mesh/generate.hpp>
 #include <heml/mesh/read.hpp>
 #include <heml/scenario/scene.hpp>
-#include <heml/studies/bench.hpp>
-#include <heml/studies/carried.hpp>
-#include <heml/studies/force_timing.hpp>
-#include <heml/studies/mass_tensor.hpp>
-#include <heml/studies/naive.hpp>
-#include <heml/studies/operation_count.hpp>
+#include <studies/bench.hpp>
+#include <studies/carried.hpp>
+#include <studies/force_timing.hpp>
+#include <studies/mass_tensor.hpp>
+#include <studies/naive.hpp>
+#include <studies/operation_count.hpp>
 
 namespace heml {
 namespace {

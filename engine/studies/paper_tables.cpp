@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <heml/studies/bench_tables.hpp>
-#include <heml/studies/table.hpp>
+#include <studies/bench_tables.hpp>
+#include <studies/table.hpp>
 
 namespace heml {
 namespace {

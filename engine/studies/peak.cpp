@@ -1,4 +1,4 @@
-#include <heml/studies/peak.hpp>
+#include <studies/peak.hpp>
 
 namespace heml {
 namespace {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <cstdlib>
 #include <heml/base/error.hpp>
-#include <heml/studies/quantity_text.hpp>
 #include <span>
 #include <string_view>
+#include <studies/quantity_text.hpp>
 #include <vector>
 
 namespace heml {

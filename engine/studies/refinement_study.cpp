@@ -2,7 +2,7 @@
 
 #include <cmath>
 #include <heml/scenario/adapt.hpp>
-#include <heml/studies/refinement_study.hpp>
+#include <studies/refinement_study.hpp>
 
 namespace heml {
 namespace {

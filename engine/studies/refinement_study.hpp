@@ -2,7 +2,7 @@
 // What refining where the estimate says gains: a beam at rest on meshes with every tetrahedron in eight, and on meshes
 // adapted to the estimate (scenario/adapt.hpp), error against number of tetrahedra. Errors of both are known from the
 // potential, Π* extrapolated from the uniform meshes (settled_study.hpp).
-#include <heml/studies/locking_study.hpp>
+#include <studies/locking_study.hpp>
 
 namespace heml {
 

@@ -6,9 +6,9 @@
 #include <heml/base/write_file.hpp>
 #include <heml/scenario/csv_text.hpp>
 #include <heml/scenario/text_file.hpp>
-#include <heml/studies/machine.hpp>
-#include <heml/studies/results.hpp>
 #include <iterator>
+#include <studies/machine.hpp>
+#include <studies/results.hpp>
 
 namespace heml {
 namespace {

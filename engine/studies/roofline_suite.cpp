@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <heml/studies/bench.hpp>
-#include <heml/studies/force_timing.hpp>
-#include <heml/studies/machine.hpp>
-#include <heml/studies/operation_count.hpp>
-#include <heml/studies/peak.hpp>
+#include <studies/bench.hpp>
+#include <studies/force_timing.hpp>
+#include <studies/machine.hpp>
+#include <studies/operation_count.hpp>
+#include <studies/peak.hpp>
 
 namespace heml {
 namespace {

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <heml/studies/rounds.hpp>
+#include <studies/rounds.hpp>
 
 namespace heml {
 namespace {

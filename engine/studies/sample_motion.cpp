@@ -1,5 +1,5 @@
-#include <heml/studies/sample_motion.hpp>
 #include <limits>
+#include <studies/sample_motion.hpp>
 
 namespace heml {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <heml/base/error.hpp>
-#include <heml/studies/scene_study.hpp>
+#include <studies/scene_study.hpp>
 
 namespace heml {
 namespace {

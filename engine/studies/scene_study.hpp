@@ -4,8 +4,8 @@
 //   time error   each method against the reference on the same mesh and element      (time_study.hpp)
 //   mesh error   the same mesh and element at rest against finer meshes              (settled_study.hpp)
 //   error        their sum: what a user sees at most
-#include <heml/studies/settled_study.hpp>
-#include <heml/studies/time_study.hpp>
+#include <studies/settled_study.hpp>
+#include <studies/time_study.hpp>
 
 namespace heml {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <heml/studies/accuracy_reference.hpp>
-#include <heml/studies/settled_study.hpp>
+#include <studies/accuracy_reference.hpp>
+#include <studies/settled_study.hpp>
 
 namespace heml {
 namespace {

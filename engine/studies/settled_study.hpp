@@ -11,7 +11,7 @@
 // The estimate that the panel shows (elastic/error_estimate.hpp) is held against the energy norm of the error, which
 // the potential Π of the settled body tells: ‖u − u_h‖² = 2 (Π_h − Π*) to leading order, Π* extrapolated like u*. That
 // holds for linear tetrahedra, whose Π_h is never below Π*, under dead loads.
-#include <heml/studies/study_context.hpp>
+#include <studies/study_context.hpp>
 
 namespace heml {
 

@@ -7,8 +7,8 @@
 #include <heml/mesh/subdivide.hpp>
 #include <heml/scenario/load_mesh.hpp>
 #include <heml/scenario/schedule.hpp>
-#include <heml/studies/specimen.hpp>
 #include <heml/world/finer_setup.hpp>
+#include <studies/specimen.hpp>
 
 namespace heml {
 namespace {

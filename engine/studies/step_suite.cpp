@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <deque>
-#include <heml/studies/bench.hpp>
-#include <heml/studies/bench_bodies.hpp>
-#include <heml/studies/edit_timing.hpp>
-#include <heml/studies/naive.hpp>
-#include <heml/studies/rounds.hpp>
 #include <heml/world/world.hpp>
+#include <studies/bench.hpp>
+#include <studies/bench_bodies.hpp>
+#include <studies/edit_timing.hpp>
+#include <studies/naive.hpp>
+#include <studies/rounds.hpp>
 
 namespace heml {
 namespace {

@@ -1,9 +1,9 @@
 #pragma once
 // What all parts of a long study share: the results there are, how worlds are made, who looks on.
 #include <functional>
-#include <heml/studies/results.hpp>
-#include <heml/studies/specimen.hpp>
 #include <string>
+#include <studies/results.hpp>
+#include <studies/specimen.hpp>
 
 namespace heml {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <heml/studies/table.hpp>
+#include <studies/table.hpp>
 
 namespace heml {
 namespace {

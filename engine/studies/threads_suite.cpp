@@ -6,9 +6,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <heml/studies/bench.hpp>
-#include <heml/studies/bench_bodies.hpp>
-#include <heml/studies/rounds.hpp>
+#include <studies/bench.hpp>
+#include <studies/bench_bodies.hpp>
+#include <studies/rounds.hpp>
 #include <heml/world/world.hpp>
 #include <thread>
 

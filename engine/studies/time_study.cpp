@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <heml/studies/time_study.hpp>
+#include <studies/time_study.hpp>
 #include <thread>
 
 namespace heml {

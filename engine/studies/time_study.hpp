@@ -1,7 +1,7 @@
 #pragma once
 // Errors of time: one specimen moved by many methods, each held against the reference on the same mesh.
-#include <heml/studies/accuracy_reference.hpp>
-#include <heml/studies/study_context.hpp>
+#include <studies/accuracy_reference.hpp>
+#include <studies/study_context.hpp>
 
 namespace heml {
 

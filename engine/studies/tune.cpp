@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <heml/base/error.hpp>
-#include <heml/studies/sample_motion.hpp>
-#include <heml/studies/tune.hpp>
+#include <studies/sample_motion.hpp>
+#include <studies/tune.hpp>
 
 namespace heml {
 namespace {

@@ -2,7 +2,7 @@
 // A scene solved the best way that was found for it: the least error within a time, or the least time within an error.
 // Measured on the scene itself: every method on its mesh with both elements, and on a coarser and a finer mesh where
 // the scene's can be made anew (boxes and surfaces whose selections are boxes and spheres).
-#include <heml/studies/scene_study.hpp>
+#include <studies/scene_study.hpp>
 
 namespace heml {
 

@@ -17,6 +17,7 @@ int main() {
   const auto world = heml::make_world(setup);
   for (int k = 0; k < 50; ++k) world->tick();
   const double sag = setup.mesh.nodes.back().y() - world->positions().back().y();
-  std::printf("the free end sank by %.3g mm in %.3g s\n", 1e3 * sag, world->time());
+  std::printf("the free end sank by %.3g mm in %.3g s, state %016llx\n", 1e3 * sag, world->time(),
+              static_cast<unsigned long long>(world->state_hash()));
   return sag > 1e-3 && !world->halt() ? 0 : 1;
 }

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <heml/studies/stability/measures.hpp>
+#include <studies/stability/measures.hpp>
 
 namespace heml::stability {
 namespace {

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <heml/studies/stability/case.hpp>
+#include <studies/stability/case.hpp>
 
 namespace heml::stability {
 namespace {

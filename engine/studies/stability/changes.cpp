@@ -6,7 +6,7 @@
 #include <heml/materials/point.hpp>
 #include <heml/scenario/scene.hpp>
 #include <heml/scenario/schedule.hpp>
-#include <heml/studies/stability/measures.hpp>
+#include <studies/stability/measures.hpp>
 
 namespace heml::stability {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <heml/scenario/scene.hpp>
 #include <heml/scenario/schedule.hpp>
-#include <heml/studies/stability/measures.hpp>
+#include <studies/stability/measures.hpp>
 
 namespace heml::stability {
 namespace {

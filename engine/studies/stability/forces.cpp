@@ -6,9 +6,9 @@
 #include <cmath>
 #include <heml/elastic/body.hpp>
 #include <heml/mesh/generate.hpp>
-#include <heml/studies/bench_bodies.hpp>
-#include <heml/studies/naive.hpp>
-#include <heml/studies/stability/measures.hpp>
+#include <studies/bench_bodies.hpp>
+#include <studies/naive.hpp>
+#include <studies/stability/measures.hpp>
 
 namespace heml::stability {
 namespace {

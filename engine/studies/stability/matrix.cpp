@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <heml/studies/stability/matrix.hpp>
-#include <heml/studies/table.hpp>
+#include <studies/stability/matrix.hpp>
+#include <studies/table.hpp>
 
 namespace heml::stability {
 namespace {

@@ -7,8 +7,8 @@
 //                  SE VV BE B2 TR ST SE VV …
 //   1 force = −∇U  [      S        ][    s …      a cell over all integrators: forces alone
 //   9 beam drop     I  S        …                 capital letters: promised
-#include <heml/studies/stability/study.hpp>
 #include <string>
+#include <studies/stability/study.hpp>
 
 namespace heml::stability {
 

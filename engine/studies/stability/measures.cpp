@@ -5,7 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <heml/base/hash.hpp>
-#include <heml/studies/stability/measures.hpp>
+#include <studies/stability/measures.hpp>
 
 namespace heml::stability {
 

@@ -1,6 +1,6 @@
 #pragma once
 // What cases measure of worlds and bodies, and the materials they are made of.
-#include <heml/studies/stability/case.hpp>
+#include <studies/stability/case.hpp>
 
 namespace heml::stability {
 

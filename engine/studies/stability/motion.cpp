@@ -5,8 +5,8 @@
 #include <cmath>
 #include <heml/elastic/body.hpp>
 #include <heml/mesh/quality.hpp>
-#include <heml/studies/stability/measures.hpp>
 #include <heml/world/facts.hpp>
+#include <studies/stability/measures.hpp>
 
 namespace heml::stability {
 namespace {

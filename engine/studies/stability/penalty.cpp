@@ -4,9 +4,9 @@
 #include <cmath>
 #include <heml/elastic/body.hpp>
 #include <heml/materials/point.hpp>
-#include <heml/studies/stability/measures.hpp>
-#include <heml/studies/stability/penalty.hpp>
 #include <optional>
+#include <studies/stability/measures.hpp>
+#include <studies/stability/penalty.hpp>
 
 namespace heml::stability {
 namespace {

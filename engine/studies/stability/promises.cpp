@@ -5,7 +5,7 @@
 #include <heml/scenario/json_text.hpp>
 #include <heml/scenario/scene.hpp>
 #include <heml/scenario/text_file.hpp>
-#include <heml/studies/stability/study.hpp>
+#include <studies/stability/study.hpp>
 
 namespace heml::stability {
 namespace {

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <heml/studies/html_page.hpp>
-#include <heml/studies/machine.hpp>
-#include <heml/studies/stability/matrix.hpp>
-#include <heml/studies/stability/report.hpp>
+#include <studies/html_page.hpp>
+#include <studies/machine.hpp>
+#include <studies/stability/matrix.hpp>
+#include <studies/stability/report.hpp>
 
 namespace heml::stability {
 namespace {

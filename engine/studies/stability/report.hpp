@@ -1,8 +1,8 @@
 #pragma once
 // The stability report: what a person reads.
-#include <heml/studies/stability/penalty.hpp>
-#include <heml/studies/stability/study.hpp>
 #include <string>
+#include <studies/stability/penalty.hpp>
+#include <studies/stability/study.hpp>
 
 namespace heml::stability {
 

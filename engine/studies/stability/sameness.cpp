@@ -7,8 +7,8 @@
 #include <heml/mesh/quality.hpp>
 #include <heml/scenario/scene.hpp>
 #include <heml/scenario/schedule.hpp>
-#include <heml/studies/stability/measures.hpp>
 #include <numeric>
+#include <studies/stability/measures.hpp>
 
 namespace heml::stability {
 namespace {

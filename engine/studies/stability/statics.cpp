@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <heml/studies/stability/measures.hpp>
 #include <map>
+#include <studies/stability/measures.hpp>
 
 namespace heml::stability {
 namespace {

@@ -8,11 +8,11 @@
 #include <heml/base/log.hpp>
 #include <heml/scenario/scene.hpp>
 #include <heml/scenario/text_file.hpp>
-#include <heml/studies/results.hpp>
-#include <heml/studies/stability/study.hpp>
 #include <mutex>
 #include <numeric>
 #include <set>
+#include <studies/results.hpp>
+#include <studies/stability/study.hpp>
 #include <thread>
 
 namespace heml::stability {

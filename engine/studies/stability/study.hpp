@@ -2,8 +2,8 @@
 // Runs cases over all their ways, side by side on all cores, and holds what comes out against what is promised.
 #include <filesystem>
 #include <functional>
-#include <heml/studies/stability/case.hpp>
 #include <string>
+#include <studies/stability/case.hpp>
 #include <vector>
 
 namespace heml::stability {

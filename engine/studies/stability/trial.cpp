@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <heml/scenario/scene.hpp>
-#include <heml/studies/stability/measures.hpp>
 #include <map>
 #include <mutex>
+#include <studies/stability/measures.hpp>
 
 namespace heml::stability {
 namespace {

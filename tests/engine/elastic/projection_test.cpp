@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/Eigenvalues>
+#include <heml/elastic/clamp.hpp>
 
 #include "small_body.hpp"
 #include "support.hpp"

@@ -3,10 +3,10 @@
 
 #include <cmath>
 #include <heml/materials/parameter_slots.hpp>
-#include <heml/studies/accuracy_report.hpp>
-#include <heml/studies/beam_theory.hpp>
-#include <heml/studies/pareto.hpp>
 #include <numbers>
+#include <studies/accuracy_report.hpp>
+#include <studies/beam_theory.hpp>
+#include <studies/pareto.hpp>
 
 namespace heml::accuracy_test {
 

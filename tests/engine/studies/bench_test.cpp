@@ -1,8 +1,8 @@
 #include <doctest/doctest.h>
 
-#include <heml/studies/bench.hpp>
-#include <heml/studies/force_timing.hpp>
 #include <set>
+#include <studies/bench.hpp>
+#include <studies/force_timing.hpp>
 #include <thread>
 
 namespace heml::bench_test {

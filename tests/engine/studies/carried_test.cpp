@@ -1,6 +1,6 @@
 #include <doctest/doctest.h>
 
-#include <heml/studies/carried.hpp>
+#include <studies/carried.hpp>
 
 namespace heml::carried_test {
 

@@ -2,8 +2,9 @@
 
 #include <cmath>
 #include <heml/base/write_file.hpp>
-#include <heml/studies/html_page.hpp>
+#include <studies/html_page.hpp>
 #include <places.hpp>
+#include <studies/html_page.hpp>
 
 namespace heml::html_page_test {
 

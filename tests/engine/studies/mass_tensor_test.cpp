@@ -1,5 +1,5 @@
-#include <heml/studies/counted.hpp>
-#include <heml/studies/mass_tensor.hpp>
+#include <studies/counted.hpp>
+#include <studies/mass_tensor.hpp>
 
 #include "engine/elastic/small_body.hpp"
 

@@ -1,4 +1,5 @@
-#include <heml/studies/naive.hpp>
+#include <memory>
+#include <studies/naive.hpp>
 
 #include "engine/elastic/small_body.hpp"
 
@@ -21,6 +22,10 @@ std::vector<double> naive_forces(const SmallBody& small, const Material& materia
   return f;
 }
 
+#define HEML_COMPILED_FOR(macro, name) , HEML_IS_ONE(macro)
+constexpr bool compiled_for[] = {true HEML_X86_FEATURES(HEML_COMPILED_FOR)};  // this file, as all but the native loops
+#undef HEML_COMPILED_FOR
+
 }  // namespace
 
 TEST_CASE("naive forces of every law are the engine's to round-off") {
@@ -34,6 +39,37 @@ TEST_CASE("naive forces of every law are the engine's to round-off") {
       auto body = small.of(material, false);
       CHECK(apart(naive_forces(small, material), test::forces_of(*body, small.x)) < 1e-11);
     }
+}
+
+TEST_CASE("naive loops for every processor are those for this one to round-off") {
+  std::mt19937_64 random(83);
+  for (const auto law : test::law_names(true)) {
+    CAPTURE(std::string(law));
+    Material material = test::sample_material(law);
+    if (find_law(law)->has_fibre) material.fibre = Vec3(2, -1, 2) / 3;
+    const SmallBody small(random, 0.1, test::random_gradient(random, 0.9, 1.2));
+    std::vector<double> f(small.x.size());
+    NaiveForces(small.mesh, material, naive_loop(portable_naive_set, law))(small.x.data(), f.data());
+    CHECK(apart(naive_forces(small, material), f) < 1e-11);
+  }
+}
+
+TEST_CASE("naive loops made for a processor run on none that lacks what they were made for") {
+  const std::size_t count = native_naive_set.features;
+  REQUIRE(count == portable_naive_set.features);
+  std::vector<std::size_t> asked_for;
+  for (std::size_t k = 1; k < count; ++k) {
+    CHECK(portable_naive_set.compiled_for[k] == compiled_for[k]);
+    if (native_naive_set.compiled_for[k]) asked_for.push_back(k);
+  }
+  CHECK(asked_for.empty() == (count == 1));  // SSE2 at least, where there is a list
+  const auto has = std::make_unique<bool[]>(count);  // std::vector<bool> is no array
+  const auto chosen_without = [&](std::size_t lacking) {
+    for (std::size_t k = 0; k < count; ++k) has[k] = k != lacking;
+    return &naive_set({has.get(), count});
+  };
+  CHECK(chosen_without(count) == &native_naive_set);
+  for (const std::size_t k : asked_for) CHECK(chosen_without(k) == &portable_naive_set);
 }
 
 TEST_CASE("naive forces tell laws and parameters apart") {

@@ -3,7 +3,7 @@
 
 #include <heml/elastic/tension.hpp>
 #include <heml/mesh/generate.hpp>
-#include <heml/studies/operation_count.hpp>
+#include <studies/operation_count.hpp>
 
 #include "engine/materials/sample_materials.hpp"
 

@@ -2,8 +2,8 @@
 
 #include <fstream>
 #include <heml/scenario/text_file.hpp>
-#include <heml/studies/results.hpp>
 #include <places.hpp>
+#include <studies/results.hpp>
 
 namespace heml::results_test {
 

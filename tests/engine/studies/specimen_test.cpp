@@ -1,8 +1,8 @@
 #include <doctest/doctest.h>
 
 #include <heml/mesh/generate.hpp>
-#include <heml/studies/sample_motion.hpp>
-#include <heml/studies/specimen.hpp>
+#include <studies/sample_motion.hpp>
+#include <studies/specimen.hpp>
 
 namespace heml::specimen_test {
 

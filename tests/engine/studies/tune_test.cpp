@@ -1,8 +1,8 @@
 #include <doctest/doctest.h>
 
 #include <heml/base/error.hpp>
-#include <heml/studies/quantity_text.hpp>
-#include <heml/studies/tune.hpp>
+#include <studies/quantity_text.hpp>
+#include <studies/tune.hpp>
 
 namespace heml::tune_test {
 

@@ -1,6 +1,7 @@
 // Implicit steps after a removal, with what preconditioned the body before it, and with what is made anew.
 #include <doctest/doctest.h>
 
+#include <heml/dynamics/factor_work.hpp>
 #include <heml/world/facts.hpp>
 #include <thread>
 

@@ -3,8 +3,8 @@
 
 #include <filesystem>
 #include <heml/scenario/scene.hpp>
-#include <heml/studies/stability/case.hpp>
 #include <set>
+#include <studies/stability/case.hpp>
 
 namespace heml::cases_test {
 

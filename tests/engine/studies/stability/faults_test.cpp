@@ -2,7 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <heml/elastic/body.hpp>
-#include <heml/studies/stability/measures.hpp>
+#include <studies/stability/measures.hpp>
 
 namespace heml::faults_test {
 

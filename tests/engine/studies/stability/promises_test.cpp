@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <heml/base/write_file.hpp>
 #include <heml/scenario/text_file.hpp>
-#include <heml/studies/stability/matrix.hpp>
-#include <heml/studies/stability/report.hpp>
 #include <map>
 #include <places.hpp>
+#include <studies/stability/matrix.hpp>
+#include <studies/stability/report.hpp>
 
 namespace heml::promises_test {
 

@@ -1,0 +1,115 @@
+#pragma once
+// All that makes a world, with every file read and every selection resolved to node numbers. Scenes become this
+// (scenario/), tests write it by hand; make_world() turns it into something that steps.
+#include <heml/dynamics/solver_options.hpp>
+#include <heml/elastic/instruction_set.hpp>
+#include <heml/materials/material.hpp>
+#include <heml/mesh/tet_mesh.hpp>
+#include <heml/tools/contact_surface.hpp>
+#include <heml/tools/settings.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace heml {
+
+/// A material and the region it applies to; no region: the default.
+struct RegionMaterial {
+  std::optional<int> region;
+  Material material;
+};
+
+/// Nodes held or moved. A moved node goes to rotate(X − origin) + origin + translate of its rest position X,
+/// translation and angle ramped linearly over `over` seconds from t = 0, then held. Of several on one node the last
+/// wins.
+struct Boundary {
+  std::vector<int> nodes;         ///< mesh-file order
+  Vec3 translate = Vec3::Zero();  ///< m
+  Vec3 axis = Vec3(0, 0, 1);      ///< unit
+  Vec3 origin = Vec3::Zero();     ///< m
+  double degrees = 0;             ///< right-handed about axis
+  double over = 0;                ///< s; 0: at once
+};
+
+/// A load on selected nodes, ramped linearly over `over` seconds from t = 0. What is removed of the body takes its
+/// share of a load along: faces that go with their element, nodes that lose all elements. Faces laid bare carry none.
+struct Load {
+  enum class Kind {
+    force,     ///< N in all, shared equally by the nodes
+    traction,  ///< Pa on the boundary faces whose three nodes are selected: rest area, dead load
+    pressure   ///< Pa on the same faces, along the inward normal of the deformed surface
+  };
+  Kind kind = Kind::force;
+  std::vector<int> nodes;      ///< mesh-file order
+  Vec3 vector = Vec3::Zero();  ///< N for force, Pa for traction
+  double pressure = 0;         ///< Pa for pressure
+  double over = 0;             ///< s; 0: at once
+};
+
+enum class Integrator {
+  symplectic_euler,
+  verlet,
+  backward_euler,
+  bdf2,
+  tr_bdf2,
+  static_equilibrium,  ///< "static"
+  automatic            ///< "auto"
+};
+
+inline bool is_explicit(Integrator integrator) { return integrator <= Integrator::verlet; }
+
+/// The names scene files use, in the order of the enum.
+const char* integrator_name(Integrator integrator);
+std::optional<Integrator> find_integrator(const std::string& name);
+
+/// How much an implicit stage may take, for those who must be on time: at the end of it the body is where it is, never
+/// worse off than at the start, with the energy it may have (world/budget.cpp). A scene gives one of
+/// the two.
+struct Budget {
+  int iterations = 0;       ///< of the minimiser, a stage; 0: what the time allows
+  double milliseconds = 0;  ///< a tick; 0: none given
+};
+
+struct SolverSettings {
+  Integrator integrator = Integrator::verlet;
+  bool single_precision = false;  ///< float instead of double
+  std::optional<double> step;  ///< s; given: obeyed exactly, one step a tick. Not given: live stable substeps of a tick
+  double rate = 1000;          ///< Hz of the engine's ticks where no step is given
+  double duration = 1;         ///< s, for `heml solve`
+  double damping = 0;          ///< mass-proportional, 1/s
+  int threads = 0;             ///< 0: all cores. Never changes a bit of the result
+  bool continuation = false;   ///< continue each law past its range instead of stopping there
+  bool recovery = false;  ///< bring a collapsed or wild body back instead of stopping (recovery.hpp); dynamics alone
+  bool nodal_pressure = false;  ///< averaged nodal pressure instead of one a tetrahedron (elastic/nodal_pressure.hpp)
+  std::optional<double> tolerance;  ///< of implicit and static solves, relative to the forces at work (contract)
+  std::optional<Budget> budget;     ///< none: every stage is solved to its tolerance
+  Minimiser minimiser = Minimiser::newton;       ///< of implicit steps; statics are Newton's
+  Projection projection = Projection::element;   ///< of a stiffness that is seen not to be positive
+  std::optional<Preconditioner> preconditioner;  ///< none: by the body's size
+  bool is_static() const { return integrator == Integrator::static_equilibrium; }
+  double load_duration() const { return duration > 0 ? duration : 1; }  ///< s, that a static world's ticks load over
+  double relative_tolerance() const { return tolerance.value_or(single_precision ? 1e-4 : 1e-8); }
+  double tick() const { return step ? *step : 1.0 / rate; }  ///< s
+};
+
+struct WorldSetup {
+  TetMesh mesh;  ///< checked by check_tets(): positive volumes
+  std::vector<RegionMaterial> materials;
+  std::vector<Boundary> boundary;
+  std::vector<Load> loads;
+  std::vector<Table> tables;
+  std::optional<SelfContactSettings> self_contact;  ///< none: tissue passes tissue
+  std::optional<TearingSettings> tearing;           ///< none: nothing tears; dynamics alone
+  Vec3 gravity = Vec3::Zero();                      ///< m/s²
+  SolverSettings solver;
+  Vec3 initial_velocity = Vec3::Zero();                   ///< m/s, of every free node
+  std::vector<Vec3> initial_positions;                    ///< #V or empty (rest shape), mesh-file order
+  InstructionSet instruction_set = InstructionSet::best;  ///< of the force kernels; must be one this processor has
+};
+
+/// One entry of `materials` per element: index into setup.materials.
+/// Throws InputError for a region without material and for two entries of one region; warns of an entry that matches
+/// nothing.
+std::vector<int> material_of_elements(const TetMesh& mesh, const std::vector<RegionMaterial>& materials);
+
+}  // namespace heml

@@ -1,0 +1,213 @@
+#pragma once
+// A body that lives: an immutable model and its mutable state behind one small interface, the same for float and double
+// and for every mix of laws. One thread at a time; results are the same bits for any number of threads inside.
+//
+// Everything goes in and comes out in the mesh file's node and element order; inside both are reordered for locality.
+#include <cstdint>
+#include <heml/elastic/error_estimate.hpp>
+#include <heml/mesh/edit.hpp>
+#include <heml/world/command.hpp>
+#include <heml/world/recovery.hpp>
+#include <heml/world/setup.hpp>
+#include <heml/world/solver_work.hpp>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace heml {
+
+/// What an edit of the mesh has done to a body: a removal, the sweeps of a stroke, or a tear as far as it has gone.
+struct EditReport {
+  long tick = 0;                           ///< at whose start it began
+  std::size_t removed = 0;                 ///< elements that are lost
+  double mass = 0;                         ///< kg that went
+  Energies before, after;                  ///< of the whole body
+  double step_before = 0, step_after = 0;  ///< s, stable steps
+  // Of a cut:
+  std::size_t split = 0;      ///< elements, into
+  std::size_t pieces = 0;     ///< so many
+  double area = 0;            ///< m², of one side of the cut, as the body was; of a tear too
+  double smallest_angle = 0;  ///< degrees, dihedral, of the worst piece at rest
+  std::size_t torn = 0;       ///< of a tear: faces that have come apart
+};
+
+/// Why a world will not step on. The state is the last valid one.
+struct Halt {
+  enum class Cause { out_of_range, unstable, not_converged };
+  Cause cause;
+  int element = -1;     ///< the first element out of range, mesh-file order; -1: none to name
+  int node = -1;        ///< the first node that ran away, mesh-file order; -1: none to name
+  std::string message;  ///< one sentence for people, with what to do
+};
+
+/// Scalars a viewer may ask for, one a node (element values averaged by volume).
+enum class Field {
+  none,
+  displacement,  ///< m, distance from the rest position
+  stretch,       ///< largest principal stretch, 1 at rest
+  von_mises,     ///< Pa, of the Cauchy stress
+  volume_ratio,  ///< J, 1 at rest
+  error          ///< of the mesh, of the mean energy norm: elastic/error_estimate.hpp
+};
+
+/// The tool as the world sees it.
+struct ToolState {
+  bool active = false;
+  int node = -1;               ///< grasped node, mesh-file order
+  Vec3 target = Vec3::Zero();  ///< m, where the tool is
+  Vec3 grip = Vec3::Zero();    ///< m, where the grasped patch is (mass-weighted mean)
+  Vec3 force = Vec3::Zero();   ///< N, of the tool on the tissue
+};
+
+/// A pin as the world sees it.
+struct PinState {
+  int node = -1;              ///< its centre, mesh-file order
+  std::vector<int> nodes;     ///< that it holds, mesh-file order
+  Vec3 place = Vec3::Zero();  ///< m, of the centre
+  Vec3 force = Vec3::Zero();  ///< N, of the pin on the tissue
+};
+
+/// A table as the world sees it.
+struct TableState {
+  Table table;
+  Vec3 force = Vec3::Zero();  ///< N, on the tissue: of explicit methods the mean over the last tick
+  double work = 0;            ///< J, on the tissue, force times way: friction takes energy away
+  double energy = 0;          ///< J, stored in the contact of implicit methods
+  double deepest = 0;         ///< m, that tissue is inside
+  int touching = 0;           ///< points of tissue
+};
+
+/// The probe, likewise.
+struct ProbeState {
+  bool active = false;
+  Vec3 tip = Vec3::Zero(), end = Vec3::Zero();  ///< m, of its axis
+  double radius = 0;                            ///< m
+  Vec3 force = Vec3::Zero();                    ///< N, on the tissue
+  double work = 0, energy = 0;                  ///< J
+  double deepest = 0;                           ///< m
+  int touching = 0;
+};
+
+/// A suture as the world sees it.
+struct SutureState {
+  std::array<int, 2> nodes{};                            ///< mesh-file order
+  std::array<Vec3, 2> ends{Vec3::Zero(), Vec3::Zero()};  ///< m
+  Vec3 force = Vec3::Zero();                             ///< N, on its first node: along the link
+};
+
+/// Contact of tissue with tissue as the world sees it.
+struct SelfContactState {
+  double force = 0;   ///< N, the sum of what presses between all pairs: of explicit methods the mean over the last tick
+  double work = 0;    ///< J, of friction
+  double energy = 0;  ///< J, stored in the contact of implicit methods
+  double deepest = 0;  ///< m, that tissue is inside tissue
+  int touching = 0;    ///< pairs of a node and a face, or of two ridges
+};
+
+class FactorWork;   // dynamics/factor_work.hpp
+struct WorldFacts;  // facts.hpp
+
+class World {
+ public:
+  virtual ~World() = default;
+
+  /// Takes one command, before the next tick. Returns what is wrong with it, or nothing; a wrong one changes nothing.
+  virtual std::optional<std::string> apply(const Command& command) = 0;
+
+  /// Advances one tick (solver.step, or 1/rate in as many equal substeps as stability asks; implicit methods take one,
+  /// or halves where one does not converge). A static world is loaded further by tick / duration. Does nothing once
+  /// halted.
+  virtual void tick() = 0;
+
+  /// Advances to a time within the coming tick, by shortened steps; the next tick() then ends where it would have.
+  virtual void advance_within_tick(double time) = 0;
+
+  /// Static worlds alone: goes on to a fraction of all motions, loads and gravity, 0 to 1, never back, in increments of
+  /// its own choice. Halts where no equilibrium is found.
+  virtual void load_to(double fraction) = 0;
+
+  /// From any thread: a tick under way ends after its current step. For stopping a program; the tick is left
+  /// unfinished.
+  virtual void interrupt() = 0;
+  /// Whether interrupt() left a tick unfinished: the state is then of no whole tick.
+  virtual bool unfinished() const = 0;
+
+  virtual const std::optional<Halt>& halt() const = 0;
+
+  /// The last recovery since the start or the last Reset, if there was any (setup().solver.recovery), and how many
+  /// there were.
+  virtual const Recovery* recovery() const = 0;
+  virtual long recoveries() const = 0;
+
+  virtual long ticks() const = 0;          ///< whole ticks done, not reset by Reset
+  virtual double time() const = 0;         ///< s since start or the last Reset
+  virtual long steps() const = 0;          ///< integration steps done, substeps counted
+  virtual int substeps() const = 0;        ///< of the last tick
+  virtual double stable_step() const = 0;  ///< s, the live limit (safety included)
+  virtual SolverWork solver_work() const = 0;
+
+  virtual std::vector<Vec3> positions() const = 0;   ///< #V×3, m
+  virtual std::vector<Vec3> velocities() const = 0;  ///< #V×3, m/s
+  /// Writes positions of given nodes as float; no allocation when `out` has the size. `ahead`: s of extrapolation by
+  /// velocity.
+  virtual void write_positions(std::span<const int> nodes, double ahead, std::vector<Vec3f>& out) const = 0;
+  /// Writes a field at given nodes.
+  virtual void write_field(Field field, std::span<const int> nodes, std::vector<float>& out) = 0;
+
+  virtual Energies energies() = 0;
+  virtual std::vector<double> volume_ratios() = 0;  ///< J of each element of topology(), in its order
+  /// Cauchy stress of each, Pa, in the same order; none where there are springs.
+  virtual std::vector<Mat3> stresses() = 0;
+  /// Of the mesh, as the body is now; elements as topology() has them. None where springs bear what no stress tells.
+  virtual std::optional<ErrorEstimate> error_estimate() = 0;
+  virtual std::vector<Vec3> reactions() = 0;  ///< one per setup.boundary, N: the support's force on the body
+  virtual ToolState tool() const = 0;
+  virtual std::vector<PinState> pins() const = 0;
+  virtual std::vector<TableState> tables() const = 0;
+  virtual ProbeState probe() const = 0;
+  virtual std::vector<SutureState> sutures() const = 0;
+  /// None where the setup does not ask for it.
+  virtual std::optional<SelfContactState> self_contact() const = 0;
+
+  /// Takes over the motion of another world of the same setup: positions, velocities, time, what is grasped. Returns
+  /// false, and does nothing, where that is not all there is to it: another mesh or precision, memory, recovery.
+  virtual bool follow(const World& leader) = 0;
+
+  /// Hash of positions and velocities, bit for bit, in mesh-file order.
+  virtual std::uint64_t state_hash() const = 0;
+  /// 16-bit hash of each node's position and velocity, mesh-file order: lets a replay name the node that differs.
+  virtual std::vector<std::uint16_t> node_hashes() const = 0;
+
+  /// Which elements of the mesh are there. Shared, and another one after every edit or Reset of one.
+  virtual std::shared_ptr<const Topology> topology() const = 0;
+  /// Edits since the start or the last Reset, without those taken back.
+  virtual const std::vector<EditReport>& edits() const = 0;
+
+  /// Where implicit steps are preconditioned for a body that had more elements: work that makes what is right for the
+  /// body as it is now, to be run in any thread (which must end before this world does) and put to use by TakeFactor,
+  /// in time for which bodies step with what they have. Else null.
+  virtual std::shared_ptr<FactorWork> factor_work() = 0;
+
+  /// As it is now: materials, damping, gravity and integrator follow the commands applied. The mesh
+  /// is the whole one, with what cuts have added; topology() says what of it is there.
+  virtual const WorldSetup& setup() const = 0;
+
+  /// How many threads may step from now on, the caller included; at most those of the setup. Never changes a result.
+  virtual void limit_threads(int threads) = 0;
+  virtual int threads() const = 0;            ///< that may step now
+  virtual double worker_seconds() const = 0;  ///< processor time, s, that threads beside the caller have had
+
+  /// What this world runs now and what that rests on, for people to read (facts.hpp). Implicit and static worlds that
+  /// have not stepped yet factor their matrix for it. Steps after it are the same bits as without.
+  virtual WorldFacts facts() = 0;
+};
+
+/// Elements that removals have taken, and nobody has taken back.
+std::size_t removed_of(const World& world);
+
+/// Builds a world. Throws InputError for what check_tets() and material_of_elements() refuse.
+std::unique_ptr<World> make_world(WorldSetup setup);
+
+}  // namespace heml

@@ -1,0 +1,1 @@
+#include <heml/base/upwards.hpp>

@@ -1,0 +1,1 @@
+#include <heml/math/types.hpp>

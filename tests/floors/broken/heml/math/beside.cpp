@@ -1,0 +1,2 @@
+#include <heml/base/upwards.hpp>
+#include <studies/bench.hpp>
