@@ -3,11 +3,13 @@
 #include <app/commands/commands.hpp>
 #include <app/commands/number_options.hpp>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <exception>
 #include <heml/base/error.hpp>
 #include <heml/base/log.hpp>
+#include <heml/mesh/helper.hpp>
 
 namespace heml {
 namespace {
@@ -316,7 +318,22 @@ int flushed_output(int code) {
   return code == exit_done ? exit_input : code;
 }
 
+void end_by_signal(int signal) {
+  end_helper();
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
+}
+
+/// Signals that end the program end its helper first. Ignored ones (nohup) stay ignored.
+void handle_signals() {
+  for (const int signal : {SIGHUP, SIGINT, SIGTERM})
+    if (std::signal(signal, end_by_signal) == SIG_IGN) std::signal(signal, SIG_IGN);
+}
+
 }  // namespace
 }  // namespace heml
 
-int main(int argc, char** argv) { return heml::flushed_output(heml::guarded_run(argc, argv)); }
+int main(int argc, char** argv) {
+  heml::handle_signals();
+  return heml::flushed_output(heml::guarded_run(argc, argv));
+}

@@ -77,6 +77,8 @@ void print_method(const Explanation& explained) {
              world.method.asked == Integrator::automatic ? " (auto)" : "",
              explained.setup.solver.single_precision ? "float" : "double", world.threads,
              world.threads == 1 ? "" : "s");
+  if (world.threads > 1 && explained.setup.solver.threads == 0)
+    print_line("", "one a core; in the window fewer, by the cores that drawing takes");
   print_choice(explained);
   if (explained.setup.solver.is_static())
     print_line("load", "in increments of its own choice");

@@ -138,6 +138,9 @@ void draw_engine(Rows& rows, const Frame& frame, const History& history) {
              time_of(frame.stable_step));
   rows.value({"Missed deadlines", "Ticks that ended later than real time asked, since the start."},
              counted(pace.missed), 0, pace.missed > 0 && !pace.keeping_up ? colours::warning : colours::text);
+  rows.value({"Threads", "Threads that step the body, and how many cores the rest of the program (drawing, above all) takes. "
+                         "Stepping gets what is left, unless the scene fixes solver.threads; results do not depend on it."},
+             fmt::format("{}, drawing {:.1f} cores", pace.threads, pace.others));
   const Curve curves[] = {
       {"Slowest", colours::warning, [](const Reading& r) { return r.slow_tick; }},
       {"Typical", colours::accent, [](const Reading& r) { return r.typical_tick; }},

@@ -38,8 +38,8 @@ struct PaperNeoHookean : AsPrinted<PaperNeoHookean<Real, continued>, Real, conti
   static constexpr std::string_view title = "Neo-Hookean as printed";
   static constexpr std::string_view formula = "K1 (I1−3) + κ/2 (J−1)²";
   static constexpr Parameter<PaperNeoHookean, Real> parameters[] = {
-      {&PaperNeoHookean::K1, {"K1", "K1", "Pa", "half the shear modulus", Range::positive}},
-      {&PaperNeoHookean::kappa, {"kappa", "κ", "Pa", "penalty of a change of volume", Range::not_negative}},
+      {&PaperNeoHookean::K1, {"K1", "K1", "Pa", "half the shear modulus", ParameterRange::positive}},
+      {&PaperNeoHookean::kappa, {"kappa", "κ", "Pa", "penalty of a change of volume", ParameterRange::not_negative}},
   };
   static constexpr ForceCost cost = {5.2, 3.0};
   static constexpr auto of_moduli(double shear, double bulk) { return std::array{shear / 2, bulk}; }
@@ -55,9 +55,9 @@ struct PaperMooneyRivlin : AsPrinted<PaperMooneyRivlin<Real, continued>, Real, c
   static constexpr std::string_view title = "Mooney-Rivlin as printed";
   static constexpr std::string_view formula = "K1 (I1−3) + K2 (I2−3) + κ/2 (J−1)²";
   static constexpr Parameter<PaperMooneyRivlin, Real> parameters[] = {
-      {&PaperMooneyRivlin::K1, {"K1", "K1", "Pa", "first Mooney constant", Range::positive}},
-      {&PaperMooneyRivlin::K2, {"K2", "K2", "Pa", "second Mooney constant", Range::any, 0.25}},
-      {&PaperMooneyRivlin::kappa, {"kappa", "κ", "Pa", "penalty of a change of volume", Range::not_negative}},
+      {&PaperMooneyRivlin::K1, {"K1", "K1", "Pa", "first Mooney constant", ParameterRange::positive}},
+      {&PaperMooneyRivlin::K2, {"K2", "K2", "Pa", "second Mooney constant", ParameterRange::any, 0.25}},
+      {&PaperMooneyRivlin::kappa, {"kappa", "κ", "Pa", "penalty of a change of volume", ParameterRange::not_negative}},
   };
   static constexpr ForceCost cost = {6.7, 3.8};
   static constexpr auto of_moduli(double shear, double bulk) { return std::array{0.4 * shear, 0.1 * shear, bulk}; }
@@ -73,10 +73,10 @@ struct PaperFungDemiray : AsPrinted<PaperFungDemiray<Real, continued>, Real, con
   static constexpr std::string_view title = "Fung & Demiray as printed";
   static constexpr std::string_view formula = "μ/(2γ) (exp(γ(I1−3)) − 1) + κ/2 (J−1)²";
   static constexpr Parameter<PaperFungDemiray, Real> parameters[] = {
-      {&PaperFungDemiray::mu, {"mu", "μ", "Pa", "shear modulus", Range::positive}},
+      {&PaperFungDemiray::mu, {"mu", "μ", "Pa", "shear modulus", ParameterRange::positive}},
       {&PaperFungDemiray::gamma,
-       {"gamma", "γ", "", "how fast the tissue stiffens when stretched", Range::positive, 1, ParameterKind::exponent}},
-      {&PaperFungDemiray::kappa, {"kappa", "κ", "Pa", "penalty of a change of volume", Range::not_negative}},
+       {"gamma", "γ", "", "how fast the tissue stiffens when stretched", ParameterRange::positive, 1, ParameterKind::exponent}},
+      {&PaperFungDemiray::kappa, {"kappa", "κ", "Pa", "penalty of a change of volume", ParameterRange::not_negative}},
   };
   static constexpr ForceCost cost = {8.6, 4.3};
   static constexpr auto of_moduli(double shear, double bulk) { return std::array{shear, 1.5, bulk}; }

@@ -34,10 +34,10 @@ struct FungDemiray : IsochoricLaw<FungDemiray<Real, continued>, Real, continued>
   static constexpr std::string_view formula = "μ/(2γ) (exp(γ(Ī1−3)) − 1) + κ/2 (J−1)²";
   static constexpr std::string_view source = "Fung 1967; Demiray 1972; Goulette & Chendeb 2006, Table 1";
   static constexpr Parameter<FungDemiray, Real> parameters[] = {
-      {&FungDemiray::mu, {"mu", "μ", "Pa", "shear modulus at rest", Range::positive}},
+      {&FungDemiray::mu, {"mu", "μ", "Pa", "shear modulus at rest", ParameterRange::positive}},
       {&FungDemiray::gamma,
-       {"gamma", "γ", "", "how fast the tissue stiffens when stretched", Range::positive, 1, ParameterKind::exponent}},
-      {&FungDemiray::kappa, {"kappa", "κ", "Pa", "bulk modulus: resistance to change of volume", Range::positive}},
+       {"gamma", "γ", "", "how fast the tissue stiffens when stretched", ParameterRange::positive, 1, ParameterKind::exponent}},
+      {&FungDemiray::kappa, {"kappa", "κ", "Pa", "bulk modulus: resistance to change of volume", ParameterRange::positive}},
   };
   static constexpr ForceCost cost = {17.4, 7.3};
   static constexpr auto of_moduli(double shear, double bulk) { return std::array{shear, 1.5, bulk}; }

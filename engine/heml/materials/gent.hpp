@@ -15,11 +15,11 @@ struct Gent : GeneralLaw<Gent<Real, continued>, Real, continued> {
   static constexpr std::string_view formula = "−μ Jm/2 ln(1 − (Ī1−3)/Jm) + κ/2 (J−1)²";
   static constexpr std::string_view source = "Gent 1996";
   static constexpr Parameter<Gent, Real> parameters[] = {
-      {&Gent::mu, {"mu", "μ", "Pa", "shear modulus at rest", Range::positive}},
+      {&Gent::mu, {"mu", "μ", "Pa", "shear modulus at rest", ParameterRange::positive}},
       {&Gent::Jm,
        {"Jm", "Jm", "", "value of Ī1−3 where the chains are straight and no further stretch is possible",
-        Range::positive, 30, ParameterKind::limit}},
-      {&Gent::kappa, {"kappa", "κ", "Pa", "bulk modulus: resistance to change of volume", Range::positive}},
+        ParameterRange::positive, 30, ParameterKind::limit}},
+      {&Gent::kappa, {"kappa", "κ", "Pa", "bulk modulus: resistance to change of volume", ParameterRange::positive}},
   };
   static constexpr ForceCost cost = {30.7, 13.2};
   static constexpr auto of_moduli(double shear, double bulk) { return std::array{shear, 20.0, bulk}; }

@@ -16,10 +16,10 @@ struct Hgo {
   static constexpr std::string_view formula = "K1 (Ī1−3) + κ/2 (J−1)² + k1/(2 k2) (exp(k2 (Ī4−1)²) − 1) where Ī4 > 1";
   static constexpr std::string_view source = "Holzapfel, Gasser & Ogden 2000";
   static constexpr Parameter<Hgo, Real> parameters[] = {
-      {&Hgo::K1, {"K1", "K1", "Pa", "half the shear modulus of the matrix", Range::positive}},
-      {&Hgo::kappa, {"kappa", "κ", "Pa", "bulk modulus: resistance to change of volume", Range::positive}},
-      {&Hgo::k1, {"k1", "k1", "Pa", "stiffness of the fibres", Range::positive}},
-      {&Hgo::k2, {"k2", "k2", "", "how fast the fibres stiffen", Range::positive, 1, ParameterKind::exponent}},
+      {&Hgo::K1, {"K1", "K1", "Pa", "half the shear modulus of the matrix", ParameterRange::positive}},
+      {&Hgo::kappa, {"kappa", "κ", "Pa", "bulk modulus: resistance to change of volume", ParameterRange::positive}},
+      {&Hgo::k1, {"k1", "k1", "Pa", "stiffness of the fibres", ParameterRange::positive}},
+      {&Hgo::k2, {"k2", "k2", "", "how fast the fibres stiffen", ParameterRange::positive, 1, ParameterKind::exponent}},
   };
   static constexpr bool is_stress_free = true;
   static constexpr ForceCost cost = {20.3, 8.6};

@@ -38,7 +38,7 @@ struct Curvatures {
 };
 
 /// Values a parameter may have, beside being finite.
-enum class Range { any, positive, not_negative, not_zero };
+enum class ParameterRange { any, positive, not_negative, not_zero };
 
 enum class ParameterKind {
   plain,
@@ -53,7 +53,7 @@ struct ParameterInfo {
   std::string_view symbol;     ///< as shown in the panel
   std::string_view unit;       ///< "Pa", "" for a ratio
   std::string_view meaning;    ///< one line
-  Range range = Range::any;
+  ParameterRange range = ParameterRange::any;
   double start = 1;            ///< when a material changes to this law, its moduli being scaled afterwards
   ParameterKind kind = ParameterKind::plain;
 

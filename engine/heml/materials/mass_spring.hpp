@@ -11,7 +11,7 @@ struct MassSpring {
   static constexpr std::string_view formula = "Σ over mesh edges of k/2 (ℓ − L)²";
   static constexpr std::string_view source = "Goulette & Chendeb 2006, section 1: the degenerate case";
   static constexpr Parameter<MassSpring, double> parameters[] = {
-      {nullptr, {"stiffness", "k", "N/m", "of the spring along every edge", Range::positive}},
+      {nullptr, {"stiffness", "k", "N/m", "of the spring along every edge", ParameterRange::positive}},
   };
   static constexpr bool uses_I4 = false, has_volume_term = false, is_stress_free = true;
   static constexpr ForceCost cost = {17, 14};

@@ -60,13 +60,13 @@ std::string value_problem(const ParameterInfo& info, double value) {
   const std::string unit = info.unit.empty() ? "" : fmt::format(" {}", info.unit);
   if (!std::isfinite(value)) return fmt::format("must be finite, is {}", value);
   switch (info.range) {
-    case Range::any:
+    case ParameterRange::any:
       return {};
-    case Range::positive:
+    case ParameterRange::positive:
       return value > 0 ? std::string() : fmt::format("must be greater than 0{}, is {}", unit, value);
-    case Range::not_negative:
+    case ParameterRange::not_negative:
       return value >= 0 ? std::string() : fmt::format("must be 0{} or more, is {}", unit, value);
-    case Range::not_zero:
+    case ParameterRange::not_zero:
       return value != 0 ? std::string() : "must not be 0";
   }
   return {};

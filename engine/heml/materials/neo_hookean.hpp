@@ -19,7 +19,7 @@ struct NeoHookean {
   static constexpr std::string_view source = "Bonet & Wood 2008, 6.4.3";
   static constexpr Parameter<NeoHookean, Real> parameters[] = {
       {&NeoHookean::lambda, {"lambda", "λ", "Pa", "first Lamé parameter: resistance to change of volume"}},
-      {&NeoHookean::mu, {"mu", "μ", "Pa", "shear modulus (second Lamé parameter)", Range::positive}},
+      {&NeoHookean::mu, {"mu", "μ", "Pa", "shear modulus (second Lamé parameter)", ParameterRange::positive}},
   };
   static constexpr bool is_stress_free = true;
   static constexpr ForceCost cost = {7.9, 4.0};

@@ -41,12 +41,12 @@ struct Ogden {
   static constexpr std::string_view source = "Ogden 1972";
   static constexpr Parameter<Ogden, Real> parameters[] = {
       {nullptr,
-       {"mu", "μ", "Pa", "strength of each term; the shear modulus at rest is Σ μ α / 2", Range::any, 1,
+       {"mu", "μ", "Pa", "strength of each term; the shear modulus at rest is Σ μ α / 2", ParameterRange::any, 1,
         ParameterKind::list}},
       {nullptr,
-       {"alpha", "α", "", "power of each term; negative ones stiffen in compression", Range::not_zero, 2,
+       {"alpha", "α", "", "power of each term; negative ones stiffen in compression", ParameterRange::not_zero, 2,
         ParameterKind::list}},
-      {&Ogden::kappa, {"kappa", "κ", "Pa", "bulk modulus: resistance to change of volume", Range::positive}},
+      {&Ogden::kappa, {"kappa", "κ", "Pa", "bulk modulus: resistance to change of volume", ParameterRange::positive}},
   };
   static constexpr bool is_stress_free = true;
   static constexpr ForceCost cost = {148, 60};

@@ -20,7 +20,7 @@ struct StableNeoHookean {
   static constexpr std::string_view source = "Smith, De Goes & Kim 2018, Eq. 14";
   static constexpr Parameter<StableNeoHookean, Real> parameters[] = {
       {&StableNeoHookean::lambda, {"lambda", "λ", "Pa", "first Lamé parameter: resistance to change of volume"}},
-      {&StableNeoHookean::mu, {"mu", "μ", "Pa", "shear modulus (second Lamé parameter)", Range::positive}},
+      {&StableNeoHookean::mu, {"mu", "μ", "Pa", "shear modulus (second Lamé parameter)", ParameterRange::positive}},
   };
   static constexpr bool is_stress_free = true;
   static constexpr ForceCost cost = {6.0, 3.4};

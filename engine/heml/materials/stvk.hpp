@@ -20,7 +20,7 @@ struct StVK {
   static constexpr std::string_view source = "Goulette & Chendeb 2006, Table 1";
   static constexpr Parameter<StVK, Real> parameters[] = {
       {&StVK::lambda, {"lambda", "λ", "Pa", "first Lamé parameter: resistance to change of volume"}},
-      {&StVK::mu, {"mu", "μ", "Pa", "shear modulus (second Lamé parameter)", Range::positive}},
+      {&StVK::mu, {"mu", "μ", "Pa", "shear modulus (second Lamé parameter)", ParameterRange::positive}},
   };
   static constexpr bool is_stress_free = true;
   static constexpr ForceCost cost = {5.8, 3.3};

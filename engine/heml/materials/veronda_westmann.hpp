@@ -15,10 +15,10 @@ struct VerondaWestmann : GeneralLaw<VerondaWestmann<Real, continued>, Real, cont
   static constexpr std::string_view formula = "c1 (exp(β(Ī1−3)) − 1) − c1 β/2 (Ī2−3) + κ/2 (J−1)²";
   static constexpr std::string_view source = "Veronda & Westmann 1970";
   static constexpr Parameter<VerondaWestmann, Real> parameters[] = {
-      {&VerondaWestmann::c1, {"c1", "c1", "Pa", "stiffness; the shear modulus at rest is c1 β", Range::positive}},
+      {&VerondaWestmann::c1, {"c1", "c1", "Pa", "stiffness; the shear modulus at rest is c1 β", ParameterRange::positive}},
       {&VerondaWestmann::beta,
-       {"beta", "β", "", "how fast the tissue stiffens when stretched", Range::positive, 1, ParameterKind::exponent}},
-      {&VerondaWestmann::kappa, {"kappa", "κ", "Pa", "bulk modulus: resistance to change of volume", Range::positive}},
+       {"beta", "β", "", "how fast the tissue stiffens when stretched", ParameterRange::positive, 1, ParameterKind::exponent}},
+      {&VerondaWestmann::kappa, {"kappa", "κ", "Pa", "bulk modulus: resistance to change of volume", ParameterRange::positive}},
   };
   static constexpr ForceCost cost = {32.0, 13.6};
   static constexpr GroundState sample = {900, 5e4};

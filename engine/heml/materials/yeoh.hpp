@@ -13,10 +13,10 @@ struct Yeoh : GeneralLaw<Yeoh<Real, continued>, Real, continued> {
   static constexpr std::string_view formula = "C10 (Ī1−3) + C20 (Ī1−3)² + C30 (Ī1−3)³ + κ/2 (J−1)²";
   static constexpr std::string_view source = "Yeoh 1993";
   static constexpr Parameter<Yeoh, Real> parameters[] = {
-      {&Yeoh::C10, {"C10", "C10", "Pa", "half the shear modulus at rest", Range::positive}},
-      {&Yeoh::C20, {"C20", "C20", "Pa", "second coefficient", Range::any, 0}},
-      {&Yeoh::C30, {"C30", "C30", "Pa", "third coefficient: stiffening at large stretches", Range::any, 0}},
-      {&Yeoh::kappa, {"kappa", "κ", "Pa", "bulk modulus: resistance to change of volume", Range::positive}},
+      {&Yeoh::C10, {"C10", "C10", "Pa", "half the shear modulus at rest", ParameterRange::positive}},
+      {&Yeoh::C20, {"C20", "C20", "Pa", "second coefficient", ParameterRange::any, 0}},
+      {&Yeoh::C30, {"C30", "C30", "Pa", "third coefficient: stiffening at large stretches", ParameterRange::any, 0}},
+      {&Yeoh::kappa, {"kappa", "κ", "Pa", "bulk modulus: resistance to change of volume", ParameterRange::positive}},
   };
   static constexpr ForceCost cost = {23.2, 9.9};
   static constexpr auto of_moduli(double shear, double bulk) {

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <cmath>
@@ -126,6 +127,8 @@ struct Ending {
   std::string words;  ///< the beginning of what it printed
 };
 
+std::atomic<pid_t> under_way{0};
+
 // Collects what the helper prints until it ends or its time is over, which ends it.
 Ending wait_for(pid_t helper, int output, double seconds) {
   constexpr std::size_t longest = 4096;
@@ -149,6 +152,7 @@ Ending wait_for(pid_t helper, int output, double seconds) {
     ending.words.append(buffer, std::min<std::size_t>(count, longest - std::min(longest, ending.words.size())));
   }
   while (waitpid(helper, &ending.status, 0) < 0 && errno == EINTR) continue;
+  under_way = 0;
   return ending;
 }
 
@@ -168,6 +172,7 @@ Ending run(const std::filesystem::path& helper, const HelperTask& task, const Me
     close(ends[0]);
     fail_in("fork");
   }
+  under_way = child;
   Ending ending = wait_for(child, ends[0], task.limits.seconds);
   close(ends[0]);
   return ending;
@@ -183,6 +188,13 @@ std::string last_line(std::string text) {
 }
 
 }  // namespace
+
+void end_helper() {
+  const pid_t helper = under_way.exchange(0);
+  if (helper <= 0) return;
+  kill(helper, SIGKILL);
+  waitpid(helper, nullptr, 0);
+}
 
 std::string run_helper(const HelperTask& task, std::string_view input) {
   const std::filesystem::path helper = find_helper();

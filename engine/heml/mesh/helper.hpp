@@ -26,4 +26,8 @@ struct HelperTask {
 /// InputError about the subject when this build has no helper or the helper fails, crashes, or reaches a limit.
 std::string run_helper(const HelperTask& task, std::string_view input = {});
 
+/// Ends the helper that runs, if one does, and waits for that. For handlers of signals that end the program: it calls
+/// only what is safe there. Without it the helper ends too, but stays in the system's list until somebody asks for it.
+void end_helper();
+
 }  // namespace heml

@@ -141,7 +141,7 @@ Json parameters_json(const Material& material, const LawInfo& law) {
         return {{"young", quantity_json(pair->young)}, {"poisson", quantity_json(pair->poisson)}};
   for (std::size_t i = 0; i < slots.size(); ++i) {
     Json& value = json[std::string(slots[i].info->name)];
-    if (slots[i].info->list)
+    if (slots[i].info->is_list())
       value.push_back(quantities.at(i).value);
     else
       value = quantity_json(quantities.at(i));

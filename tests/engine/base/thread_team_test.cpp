@@ -53,13 +53,21 @@ TEST_CASE("a loop shorter than its grain stays on the calling thread") {
   CHECK(calls == 1);
 }
 
-/// The threads that took part in loops of some milliseconds.
-std::size_t threads_seen(ThreadTeam& team) {
+void compute_for(std::chrono::microseconds time) {
+  const auto until = std::chrono::steady_clock::now() + time;
+  while (std::chrono::steady_clock::now() < until) {
+  }
+}
+
+/// The threads that take part in loops, which go on until `wanted` have or `longest` is over: a busy machine may keep
+/// workers from their cores for a while.
+std::size_t threads_seen(ThreadTeam& team, std::size_t wanted, std::chrono::milliseconds longest) {
   std::mutex mutex;
   std::set<std::thread::id> seen;
-  for (int repeat = 0; repeat < 20; ++repeat)
-    team.for_ranges(8, 1, [&](std::size_t, std::size_t) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  const auto until = std::chrono::steady_clock::now() + longest;
+  while (seen.size() < wanted && std::chrono::steady_clock::now() < until)
+    team.for_ranges(64, 1, [&](std::size_t, std::size_t) {
+      compute_for(std::chrono::microseconds(100));
       std::lock_guard lock(mutex);
       seen.insert(std::this_thread::get_id());
     });
@@ -67,18 +75,19 @@ std::size_t threads_seen(ThreadTeam& team) {
 }
 
 TEST_CASE("a limit keeps workers out, and lets them in again") {
+  constexpr auto patience = std::chrono::seconds(60);
   ThreadTeam team(3);
-  CHECK(threads_seen(team) == 3);
+  CHECK(threads_seen(team, 3, patience) == 3);
   team.limit(1);
-  CHECK(threads_seen(team) == 1);
+  CHECK(threads_seen(team, 2, std::chrono::milliseconds(100)) == 1);
   team.limit(100);
   CHECK(team.limit() == 3);
-  CHECK(threads_seen(team) == 3);
+  CHECK(threads_seen(team, 3, patience) == 3);
 }
 
 TEST_CASE("workers sleep between loops that are far apart") {
   ThreadTeam team(2);
-  threads_seen(team);
+  threads_seen(team, 2, std::chrono::milliseconds(100));
   std::this_thread::sleep_for(std::chrono::milliseconds(20));  // longer than any spin
   const double before = team.worker_seconds();
   std::this_thread::sleep_for(std::chrono::milliseconds(200));

@@ -1,6 +1,8 @@
 // Worlds in which supports hold every node: there is nothing to solve for, and every method plays their motion.
 #include <doctest/doctest.h>
 
+#include <heml/materials/point.hpp>
+
 #include "engine/materials/sample_materials.hpp"
 #include "support.hpp"
 #include "world_support.hpp"
@@ -65,8 +67,11 @@ void check_crushed(const WorldSetup& setup) {
   for (const double J : world->volume_ratios()) CHECK(J > 0);
 }
 
-/// Whether an element that is flat ends a world, there being no law that bears it.
-bool ends_when_flat(std::string_view law) { return law == "neo_hookean" || law == "paper_neo_hookean"; }
+/// Whether a law without continuation has no energy for elements that are inside out.
+bool ends_when_flat(const LawInfo& law) {
+  if (!law.is_continuum) return false;
+  return !make_material_point(sample_material(law.name), false)->valid(Vec3(1, 1, -0.1).asDiagonal());
+}
 
 const std::initializer_list<Integrator> all = {
     Integrator::symplectic_euler,   Integrator::verlet, Integrator::backward_euler, Integrator::bdf2, Integrator::tr_bdf2,
@@ -80,7 +85,7 @@ TEST_CASE("nothing free: every law, method and precision plays what supports pre
       for (const bool single : {false, true})
         for (const Supports supports : {Supports::fixed, Supports::prescribed}) {
           CAPTURE(std::string(law.name));
-          CAPTURE(integrator_name(integrator));
+          CAPTURE(std::string(integrator_name(integrator)));
           CAPTURE(single);
           CAPTURE(supports == Supports::fixed);
           WorldSetup setup = held_block(sample_material(law.name), supports);
@@ -95,13 +100,13 @@ TEST_CASE("nothing free: an element that supports press flat is named") {
     for (const Integrator integrator : all)
       for (const bool single : {false, true}) {
         CAPTURE(std::string(law.name));
-        CAPTURE(integrator_name(integrator));
+        CAPTURE(std::string(integrator_name(integrator)));
         CAPTURE(single);
         WorldSetup setup = held_block(sample_material(law.name), Supports::crushing);
         setup.solver.integrator = integrator;
         setup.solver.single_precision = single;
         // Equilibria with an element inside out are none, whatever the law.
-        if (ends_when_flat(law.name) || integrator == Integrator::static_equilibrium) {
+        if (ends_when_flat(law) || integrator == Integrator::static_equilibrium) {
           check_crushed(setup);
         } else {
           const auto world = make_world(setup);
@@ -133,7 +138,7 @@ TEST_CASE("nothing free: whatever preconditions, minimises, projects, bounds or 
                                                   Preconditioner::multilevel, Preconditioner::block_jacobi})
         for (const Minimiser minimiser : {Minimiser::newton, Minimiser::lbfgs})
           for (const bool bounded : {false, true}) {
-            CAPTURE(integrator_name(integrator));
+            CAPTURE(std::string(integrator_name(integrator)));
             WorldSetup setup = held_block(sample_material("neo_hookean"), Supports::prescribed);
             setup.solver.integrator = integrator;
             setup.solver.single_precision = single;
@@ -168,7 +173,7 @@ TEST_CASE("nothing free: pins may hold what is left, and the body still remember
   material.plasticity = Plasticity{60, 10};
   for (const Integrator integrator : all)
     for (const bool single : {false, true}) {
-      CAPTURE(integrator_name(integrator));
+      CAPTURE(std::string(integrator_name(integrator)));
       WorldSetup setup = held_block(material, Supports::prescribed);
       setup.solver.integrator = integrator;
       setup.solver.single_precision = single;
