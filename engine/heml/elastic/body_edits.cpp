@@ -48,7 +48,8 @@ template <class Real>
 BodyMemory<Real> ElasticBody<Real>::memory() {
   BodyMemory<Real> memory{{}, materials_, fans_, plastic_work_, step_};
   for (Part& part : parts_) {
-    auto& of_part = memory.parts.emplace_back(part.material, part.group.element);
+    memory.parts.push_back({part.material, part.group.element, {}});
+    auto& of_part = memory.parts.back();
     for (const SlotMemory<Real>& list : part.memory()) of_part.values.push_back(*list.values);
   }
   return memory;
