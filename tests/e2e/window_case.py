@@ -186,11 +186,11 @@ class WindowCase(unittest.TestCase):
         self.wait_for(f"{name} in {file}", lambda: self.name_in(file) == name)
         self.settle()
 
-    def replay(self, *options, file="out.jsonl"):
+    def replay(self, file="out.jsonl", *options):
         return subprocess.run([BINARY, "replay", file, "--verify", *options], cwd=self.folder, capture_output=True,
                               text=True, timeout=2 * PATIENCE)
 
-    def verify(self, *options, file="out.jsonl"):
-        replayed = self.replay(*options, file=file)
+    def verify(self, file="out.jsonl", *options):
+        replayed = self.replay(file, *options)
         self.assertEqual(replayed.returncode, 0, replayed.stdout + replayed.stderr)
         return replayed.stdout

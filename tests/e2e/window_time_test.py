@@ -73,7 +73,7 @@ class Time(WindowCase):
         self.wait_for_scene("light", "tape-2.jsonl")
         self.quit()
         self.assertEqual((self.folder / "tape.jsonl").read_bytes(), tape)
-        self.verify(file="tape-2.jsonl")
+        self.verify("tape-2.jsonl")
 
     def test_laws_side_by_side_are_grasped_looked_back_at_and_resumed_together(self):
         self.open_display(1280, 720)

@@ -18,6 +18,7 @@ constexpr double loss_allowed = 0.02;  // of the caller's time: waiting that not
 constexpr double most_credit = 0.002;  // s
 constexpr double price_of_waiting = 3;  // a second waited costs more than one: caches, and whom it keeps from the core
 constexpr auto between_marks = std::chrono::milliseconds(1);  // shorter than what another program takes at a time
+constexpr auto longest_gap = std::chrono::microseconds(100);  // between loops: in a longer one the caller may have slept
 
 constexpr std::uint64_t inside_mask = 0x7fff, stop_bit = 0x8000, open_bit = 0x10000;
 constexpr std::uint64_t threads_of(std::uint64_t gate) { return gate >> 17 & 0x7fff; }
@@ -72,7 +73,7 @@ double ThreadTeam::worker_seconds() const {
 void ThreadTeam::run(const Loop& loop) {
   const auto began = Clock::now();
   if (began < alone_until_) return loop.call(loop.body, 0, loop.count);
-  if (began - last_end_ > between_marks) mark_ = {began, processor_seconds_of_thread()};
+  if (began - last_end_ > longest_gap) mark_ = {began, processor_seconds_of_thread()};
   open(loop);
   const std::size_t own_chunks = claim_chunks(0);
   const auto worked = Clock::now();
