@@ -198,6 +198,7 @@ std::string TypedWorld<Real>::why_no_step() const {
 /// In how many steps the fastest support strains what is next to it by as much as the limit may change between bounds.
 template <class Real>
 int TypedWorld<Real>::steps_until_supports_strain() const {
+  if (!(stable_step_ > 0)) return steps_between_bounds_when_driven;
   double fastest = 0;
   for (std::size_t k = 0; k < model_.motions.size(); ++k)
     if (state_.time < model_.motions[k].over) fastest = std::max(fastest, model_.speeds[k]);
@@ -325,7 +326,7 @@ void TypedWorld<Real>::follow_stable_step() {
   const int steps = steps_since_bound_, interval = bound_interval_;
   find_stable_step();
   const double change = std::abs(stable_step_ / before - 1);
-  const double enough = steps * change_between_bounds / std::max(change, 1e-9);
+  const double enough = std::isfinite(change) ? steps * change_between_bounds / std::max(change, 1e-9) : 1;
   bound_interval_ = static_cast<int>(std::clamp(enough, 1.0, std::min(2.0 * interval, steps_between_bounds_when_calm)));
   stable_step_ = std::min(stable_step_, (1 + steps * growth_of_steps) * before);
 }
