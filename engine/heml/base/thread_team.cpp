@@ -16,6 +16,7 @@ constexpr int looks_between_clocks = 32;
 constexpr int most_patience = 16;      // loops
 constexpr double loss_allowed = 0.02;  // of the caller's time: waiting that nothing saved makes up for
 constexpr double most_credit = 0.002;  // s
+constexpr double longest_alone = 0.25;  // s, also after a pause of the whole program, which looks like a loss
 constexpr double price_of_waiting = 3;  // a second waited costs more than one: caches, and whom it keeps from the core
 constexpr auto between_marks = std::chrono::milliseconds(1);  // shorter than what another program takes at a time
 constexpr auto longest_gap = std::chrono::microseconds(100);  // between loops: in a longer one the caller may have slept
@@ -86,13 +87,11 @@ void ThreadTeam::open(const Loop& loop) {
   loop_ = loop;
   chunk_ = 1 + (loop.count - 1) / (chunks_a_range * loop.threads);
   if (chunk_ > chunk_alignment) chunk_ = (chunk_ + chunk_alignment - 1) / chunk_alignment * chunk_alignment;
-  chunks_ = 0;
-  const std::size_t all = (loop.count - 1) / chunk_ + 1;
+  chunks_ = (loop.count - 1) / chunk_ + 1;
   for (std::size_t r = 0; r < loop.threads; ++r) {
-    ranges_[r].next.store(all * r / loop.threads * chunk_, std::memory_order_relaxed);
-    ranges_[r].end = std::min(loop.count, all * (r + 1) / loop.threads * chunk_);
+    ranges_[r].next.store(chunks_ * r / loop.threads * chunk_, std::memory_order_relaxed);
+    ranges_[r].end = std::min(loop.count, chunks_ * (r + 1) / loop.threads * chunk_);
   }
-  chunks_ = all;
   gate_.store(++loops_ << 32 | loop.threads << 17 | open_bit);
   for (std::size_t k = 0; k + 1 < loop.threads; ++k) wake(*workers_[k]);
 }
@@ -130,9 +129,9 @@ void ThreadTeam::close() {
   }
 }
 
-/// Workers save the time their chunks would have taken the caller. They cost the time it waits for them at the end, and
-/// the time that other programs have its core for, since they cannot have those of the workers. A negative account
-/// sends the caller on alone, for so long that the loss stays what is allowed.
+/// Workers save the time that their chunks would have taken the caller. They cost the time that it waits for them at the
+/// end, and the time that other programs run on its core while workers occupy the others. When the account is negative,
+/// the caller goes on alone for long enough to keep the loss within what is allowed.
 void ThreadTeam::settle_account(Clock::time_point began, Clock::time_point worked, std::size_t own_chunks) {
   last_end_ = Clock::now();
   double working = seconds(worked - began), lost = 0;
@@ -147,7 +146,7 @@ void ThreadTeam::settle_account(Clock::time_point began, Clock::time_point worke
   const double waited = seconds(last_end_ - worked) + lost;
   credit_ = std::min(credit_ + saved - price_of_waiting * waited, most_credit);
   if (credit_ >= 0) return;
-  const std::chrono::duration<double> alone(-credit_ / loss_allowed);
+  const std::chrono::duration<double> alone(std::min(-credit_ / loss_allowed, longest_alone));
   alone_until_ = last_end_ + std::chrono::duration_cast<Clock::duration>(alone);
   credit_ = 0;
 }

@@ -85,6 +85,12 @@ TEST_CASE("a limit keeps workers out, and lets them in again") {
   CHECK(threads_seen(team, 3, patience) == 3);
 }
 
+TEST_CASE("after a long pause within a loop workers soon take part again") {
+  ThreadTeam team(2);
+  team.for_ranges(2, 1, [](std::size_t, std::size_t) { std::this_thread::sleep_for(std::chrono::milliseconds(400)); });
+  CHECK(threads_seen(team, 2, std::chrono::seconds(15)) == 2);
+}
+
 TEST_CASE("workers sleep between loops that are far apart") {
   ThreadTeam team(2);
   threads_seen(team, 2, std::chrono::milliseconds(100));
