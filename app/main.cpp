@@ -9,7 +9,7 @@
 #include <exception>
 #include <heml/base/error.hpp>
 #include <heml/base/log.hpp>
-#include <heml/mesh/helper.hpp>
+#include <heml/mesh/mesher_process.hpp>
 
 namespace heml {
 namespace {
@@ -23,7 +23,7 @@ int run_program(int argc, char** argv) {
       ".stl .ply).\n"
       "Examples:\n"
       "  heml run liver.obj                                 grasp your own organ\n"
-      "  heml capture scene.json --out frames --frames 90   pictures without a display\n"
+      "  heml capture scene.json --out frames --frames 90   frames without a display\n"
       "  heml run --record session.jsonl                    record what you do ...\n"
       "  heml replay session.jsonl --verify                 ... and check that it plays the same\n"
       "Exit codes: 0 done, 1 a check failed, 2 wrong usage, 3 bad input, 4 not converged or unstable, 5 internal "
@@ -31,7 +31,7 @@ int run_program(int argc, char** argv) {
   program.require_subcommand(0, 1);
   program.fallthrough(false);
   int code = exit_done;
-  const std::string size_help = "size of pictures, pixels";
+  const std::string size_help = "size of frames, pixels";
 
   RunArguments run_arguments;
   std::string run_size = "1280x720";
@@ -39,14 +39,13 @@ int run_program(int argc, char** argv) {
   run_command->add_option("SCENE", run_arguments.scene, "scene, recording, mesh or surface; none: the default scene");
   run_command->add_option("--record", run_arguments.record, "append every action to this recording (.jsonl)");
   const std::string beside_help =
-      "set the same body beside it in other ways, up to three: laws, methods, float, nodal_pressure; joined by +";
-  run_command->add_option("--beside", run_arguments.beside, beside_help)->delimiter(',')->allow_extra_args(false);
+      "run up to three variants of the body side by side: laws, integrators, float, nodal_pressure; joined by +";
+  run_command->add_option("--beside", run_arguments.comparisons, beside_help)->delimiter(',')->allow_extra_args(false);
   run_command->add_option("--size", run_size, "size of the window, pixels")->capture_default_str();
   run_command->add_option("--exit-after", run_arguments.exit_after, "close by itself after so many seconds")
       ->check(number_between(0));
   run_command
-      ->add_option("--draw-stall", run_arguments.draw_stall,
-                   "hold every drawing up by so many milliseconds (for tests)")
+      ->add_option("--draw-stall", run_arguments.draw_stall, "delay every drawing by so many milliseconds (for tests)")
       ->check(number_between(0));
   run_command->add_flag("--log-pictures", run_arguments.log_pictures,
                         "a line on stderr for every picture: what it shows, and what is still to come (for tests)");
@@ -61,10 +60,10 @@ int run_program(int argc, char** argv) {
       ->capture_default_str()
       ->check(whole_number_between(1));
   capture_command->add_option("--size", capture_size, size_help)->capture_default_str();
-  capture_command->add_option("--fps", capture_arguments.fps, "frames a simulated second")
+  capture_command->add_option("--fps", capture_arguments.fps, "frames per simulated second")
       ->capture_default_str()
       ->check(positive_number());
-  capture_command->add_option("--beside", capture_arguments.beside, beside_help)
+  capture_command->add_option("--beside", capture_arguments.comparisons, beside_help)
       ->delimiter(',')
       ->allow_extra_args(false);
   capture_command->add_flag("--panel", capture_arguments.panel, "draw the panel too");
@@ -86,7 +85,7 @@ int run_program(int argc, char** argv) {
       "--record", replay_arguments.record,
       "write what is played as a recording, with checkpoints: of a scene with a script, or anew");
   replay_command->add_option("--size", replay_size, size_help)->capture_default_str();
-  replay_command->add_option("--fps", replay_arguments.fps, "frames a simulated second")
+  replay_command->add_option("--fps", replay_arguments.fps, "frames per simulated second")
       ->capture_default_str()
       ->check(positive_number());
   replay_command->add_option("--threads", replay_arguments.threads, "instead of the recording's; never changes a bit")
@@ -108,7 +107,7 @@ int run_program(int argc, char** argv) {
                    "nodes; obj: the surface")
       ->capture_default_str()
       ->check(CLI::IsMember({"vtu", "ply", "obj"}));
-  export_command->add_option("--fps", export_arguments.fps, "frames a simulated second")
+  export_command->add_option("--fps", export_arguments.fps, "frames per simulated second")
       ->capture_default_str()
       ->check(positive_number());
   export_command->footer(
@@ -118,7 +117,7 @@ int run_program(int argc, char** argv) {
 
   ExplainArguments explain_arguments;
   auto* explain_command =
-      program.add_subcommand("explain", "what a scene makes the engine run, what it leaves out, and why");
+      program.add_subcommand("explain", "what a scene makes the engine run, what is omitted, and why");
   explain_command->add_option("SCENE", explain_arguments.scene, "scene, recording, mesh or surface")->required();
   explain_command->add_flag("--json", explain_arguments.json, "for programs: numbers with 17 digits");
   explain_command->add_flag("--measure", explain_arguments.measure,
@@ -157,7 +156,7 @@ int run_program(int argc, char** argv) {
       "paper: the five bodies of the paper, HEML and Mass-Tensor; kernel: one force evaluation, every "
       "law; step: whole steps; threads: steps with one to all threads; roofline: what the machine could do. None: all");
   speed_command->add_option("--json", speed_arguments.json, "write the rows into this file too");
-  speed_command->add_option("--out", speed_arguments.out, "draw pictures into this folder (suites kernel and paper)");
+  speed_command->add_option("--out", speed_arguments.out, "draw charts into this folder (suites kernel and paper)");
   speed_command->add_flag("--quick", speed_arguments.quick, "less than a minute: few and small bodies");
   speed_command->footer(
       "Close other programs first: ratios are of times taken in turn and survive a busy machine, times do not.\n"
@@ -171,8 +170,7 @@ int run_program(int argc, char** argv) {
   study_command
       ->add_option("KIND", study_arguments.kind, "accuracy: error against run time; stability: stiff and extreme cases")
       ->required();
-  study_command->add_option("--out", study_arguments.out, "folder for report.html, its tables and pictures")
-      ->required();
+  study_command->add_option("--out", study_arguments.out, "folder for report.html, its tables and charts")->required();
   study_command->add_flag("--quick", study_arguments.quick, "within two minutes: fewer and smaller cases");
   study_command->add_option("--scene", study_arguments.scene, "accuracy: of this scene instead of the study's own");
   study_command
@@ -186,9 +184,9 @@ int run_program(int argc, char** argv) {
   auto* tune_command = program.add_subcommand("tune", "find the best way to solve a scene, by measuring it");
   tune_command->add_option("SCENE", tune_arguments.scene, "scene, recording, mesh or surface")->required();
   tune_command->add_option("--within", tune_arguments.within,
-                           "the least error within so much computing a frame of 1/60 s: 16ms");
-  tune_command->add_option("--error", tune_arguments.error, "the least computing within such an error: 1mm");
-  tune_command->add_option("--out", tune_arguments.out, "the scene solved that way; else NAME_tuned.json");
+                           "min error within so much computing per frame of 1/60 s: 16ms");
+  tune_command->add_option("--error", tune_arguments.error, "min computing time within such an error: 1mm");
+  tune_command->add_option("--out", tune_arguments.out, "the tuned scene; else NAME_tuned.json");
   tune_command->add_flag("--quick", tune_arguments.quick, "fewer methods, no other meshes");
   tune_command->footer("Close other programs first: what is fast enough is a matter of this machine and this hour.");
 
@@ -203,7 +201,8 @@ int run_program(int argc, char** argv) {
   refine_command->add_option("--tets", refine_arguments.tets, "and no more tetrahedra than these; else 50000")
       ->check(whole_number_between(1, 10'000'000));
   refine_command
-      ->add_option("--at", refine_arguments.at, "the moment of its motion, s, to look at; else rest under all loads")
+      ->add_option("--at", refine_arguments.at,
+                   "time of its motion, s, whose error is estimated; else equilibrium under all loads")
       ->check(positive_number());
   refine_command->footer(
       "Examples:\n"
@@ -214,15 +213,16 @@ int run_program(int argc, char** argv) {
 
   HapticsArguments haptics_arguments;
   auto* haptics_command =
-      program.add_subcommand("haptics", "what a recorded hand feels that holds the tool of a scene");
+      program.add_subcommand("haptics", "the forces that a haptic handle on the tool of a scene feels");
   haptics_command->add_option("SCENE", haptics_arguments.scene, "scene with a grasp, or a recording of one")
       ->required();
-  haptics_command->add_option("--hand", haptics_arguments.hand, "CSV of the hand: time,x,y,z in seconds and metres")
+  haptics_command->add_option("--hand", haptics_arguments.handle, "CSV of the handle: time,x,y,z in seconds and metres")
       ->required();
   haptics_command
-      ->add_option("--out", haptics_arguments.out, "CSV: place, force on the hand, energy and added damping each ms")
+      ->add_option("--out", haptics_arguments.out,
+                   "CSV: position, force on the handle, energy and added damping each ms")
       ->required();
-  haptics_command->add_option("--stiffest", haptics_arguments.stiffest, "N/m that the device is stable with")
+  haptics_command->add_option("--stiffest", haptics_arguments.max_stiffness, "N/m that the device is stable with")
       ->check(positive_number())
       ->capture_default_str();
   haptics_command->add_option("--force", haptics_arguments.force, "N that it can give")
@@ -245,7 +245,7 @@ int run_program(int argc, char** argv) {
   bench_command->add_option("--from", bench_arguments.from, "first stretch, shear or time");
   bench_command->add_option("--to", bench_arguments.to, "last one");
   bench_command->add_option("--points", bench_arguments.points, "of the curve")->capture_default_str();
-  bench_command->add_option("--step-stretch", bench_arguments.step_stretch, "held in a relaxation test")
+  bench_command->add_option("--step-stretch", bench_arguments.step_stretch, "stretch held in a relaxation test")
       ->capture_default_str();
   bench_command->add_flag("--fit-all", bench_arguments.fit_all, "fit the bulk modulus (kappa, lambda) too");
 
@@ -279,7 +279,7 @@ int run_program(int argc, char** argv) {
   } else if (*tune_command) {
     code = tune_scene(tune_arguments);
   } else if (*haptics_command) {
-    code = feel_scene(haptics_arguments);
+    code = run_haptics(haptics_arguments);
   } else if (*refine_command) {
     code = refine_scene(refine_arguments);
   } else if (*bench_command) {
@@ -313,8 +313,9 @@ int flushed_output(int code) {
   errno = 0;
   const bool failed = std::fflush(stdout) != 0;
   if (!failed && !std::ferror(stdout)) return code;
-  log_line("error", fmt::format("standard output: cannot be written{}{} (check where it goes, and the space left there)",
-                                errno ? ": " : "", errno ? std::strerror(errno) : ""));
+  log_line("error",
+           fmt::format("standard output: cannot be written{}{} (check where it goes, and the space left there)",
+                       errno ? ": " : "", errno ? std::strerror(errno) : ""));
   return code == exit_done ? exit_input : code;
 }
 

@@ -81,7 +81,7 @@ panel::Chart work_precision(const SceneStudy& scene, const TimeStudy& study) {
   return chart;
 }
 
-panel::Chart locking_chart(const std::vector<LockedBeam>& beams) {
+panel::Chart locking_chart(const std::vector<LockingBeam>& beams) {
   panel::Chart chart;
   chart.title = "Locking of a beam";
   chart.subtitle = "Sag under its own weight; the closer Poisson's ratio is to 0.5, the stiffer are linear tetrahedra";
@@ -94,7 +94,7 @@ panel::Chart locking_chart(const std::vector<LockedBeam>& beams) {
       const std::string name = fmt::format("ν {}", beams[b].poisson);
       panel::ChartSeries line{nodal ? "" : name, {}, colour, ChartMark::line},
           marks{"", {}, colour, nodal ? ChartMark::rings : ChartMark::dots};
-      for (const SettledMesh& mesh : beams[b].settled.meshes)
+      for (const ConvergenceMesh& mesh : beams[b].convergence.meshes)
         if (mesh.nodal_pressure == nodal && mesh.failed.empty())
           line.points.push_back({static_cast<double>(mesh.tets), 100 * mesh.relative});
       marks.points = line.points;
@@ -161,7 +161,7 @@ std::vector<ReportPicture> write_accuracy_pictures(const std::filesystem::path& 
       pictures.push_back({scene.name, file,
                           fmt::format("{}, {}: error of time against computing time. Marks below the level line "
                                       "gain nothing from smaller steps: the mesh errs by more.",
-                                      scene.title, time.specimen)});
+                                      scene.title, time.problem)});
     }
   if (!study.locking.empty()) {
     write_chart(folder / "locking.png", locking_chart(study.locking));

@@ -49,7 +49,7 @@ int bench(const BenchArguments& arguments) {
   }
   fmt::print("{}", bench_table(rows));
   if (arguments.out)
-    for (const auto& picture : write_bench_pictures(*arguments.out, rows)) inform("wrote {}", picture.string());
+    for (const auto& picture : write_bench_pictures(*arguments.out, rows)) log_info("wrote {}", picture.string());
   return exit_done;
 }
 

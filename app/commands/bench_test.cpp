@@ -24,7 +24,7 @@ namespace {
 
 constexpr ImU32 law_colour = panel::colours::rgba(0x2a8578), given_colour = panel::colours::rgba(0xb4bcbb),
                 data_colour = panel::colours::rgba(0xc2552d);
-constexpr int most_points = 100000;
+constexpr int max_points = 100000;
 
 /// What is tested, and under which name it is shown.
 struct TestedMaterial {
@@ -169,8 +169,8 @@ panel::Chart chart_of(const TestedMaterial& specimen, const MeasuredTest& test, 
 }
 
 /// The curve, and beside it where a fit began and what was measured.
-void add_curves(panel::Chart& chart, const CurveTable& given, const CurveTable& curve, const std::optional<Fit>& fit,
-                const std::optional<MeasuredCurve>& data) {
+void add_curves(panel::Chart& chart, const CurveTable& given, const CurveTable& curve,
+                const std::optional<FitResult>& fit, const std::optional<MeasuredCurve>& data) {
   if (fit) chart.series.push_back(line_of("start", given, given_colour, 0.8f));
   chart.series.push_back(
       line_of(fit ? fmt::format("fitted, R² {:.4g}", fit->r_squared) : "nominal stress", curve, law_colour, 1));
@@ -180,7 +180,7 @@ void add_curves(panel::Chart& chart, const CurveTable& given, const CurveTable& 
   chart.series.push_back(std::move(dots));
 }
 
-void print_fit(const Fit& fit) {
+void print_fit(const FitResult& fit) {
   fmt::print("{:<24} {:>14}   {}\n", "parameter", "value", "standard error");
   for (const FittedParameter& p : fit.parameters) {
     const std::string error = std::isinf(p.standard_error) ? "not determined by these data"
@@ -205,12 +205,12 @@ void check_files(const BenchTestArguments& arguments) {
 }
 
 /// Fits, prints, and writes the entry for scenes.
-Fit fit_to(const BenchTestArguments& arguments, const MeasuredTest& test, const MeasuredCurve& data,
-           const TestedMaterial& specimen) {
+FitResult fit_to(const BenchTestArguments& arguments, const MeasuredTest& test, const MeasuredCurve& data,
+                 const TestedMaterial& specimen) {
   const FitOptions options{arguments.fit_all};
   if (const std::string problem = fit_problem(specimen.material, test, data, options); !problem.empty())
     throw InputError(arguments.data->string(), "", problem);
-  const Fit fit = [&] {
+  const FitResult fit = [&] {
     Progress progress("fitting");
     return fit_material(specimen.material, test, data, options, [&](double share) { progress.show(share); });
   }();
@@ -218,7 +218,7 @@ Fit fit_to(const BenchTestArguments& arguments, const MeasuredTest& test, const 
   const std::filesystem::path entry = fitted_entry(arguments);
   write_file(entry, json_text(material_json({std::nullopt, fit.material}), entry.string(), true) + "\n");
   fmt::print("an entry for `materials` is in {}\n", entry.string());
-  const GroundState rest = ground_state(fit.material);
+  const SmallStrainModuli rest = small_strain_moduli(fit.material);
   if (!arguments.fit_all && rest.bulk < 10 * rest.shear)
     warn(
         "the bulk modulus was held at {:.4g} Pa, only {:.3g} times the fitted shear modulus: the tissue is not nearly "
@@ -231,8 +231,8 @@ Fit fit_to(const BenchTestArguments& arguments, const MeasuredTest& test, const 
 
 int bench_test(const BenchTestArguments& arguments) {
   const MeasuredTest test = test_of(arguments);
-  if (arguments.points < 2 || arguments.points > most_points)
-    throw UsageError(fmt::format("--points must be from 2 to {}, is {}", most_points, arguments.points));
+  if (arguments.points < 2 || arguments.points > max_points)
+    throw UsageError(fmt::format("--points must be from 2 to {}, is {}", max_points, arguments.points));
   if (arguments.data && arguments.out.extension() == ".json")
     throw UsageError("--out must not end in .json: the fitted material is written under that name");
   check_files(arguments);
@@ -246,7 +246,7 @@ int bench_test(const BenchTestArguments& arguments) {
   const std::vector<double> amounts = evenly_spaced(range.low, range.high, arguments.points);
 
   CurveTable given;
-  std::optional<Fit> fit;
+  std::optional<FitResult> fit;
   if (data) {
     given = curve_of(specimen.material, test, amounts);
     fit = fit_to(arguments, test, *data, specimen);

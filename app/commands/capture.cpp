@@ -1,14 +1,14 @@
 #include <fmt/format.h>
 
 #include <app/commands/commands.hpp>
-#include <app/commands/photographer.hpp>
+#include <app/commands/frame_capture.hpp>
 #include <app/commands/progress.hpp>
 #include <charconv>
 #include <heml/base/error.hpp>
 #include <heml/base/log.hpp>
 #include <heml/scenario/input_files.hpp>
 #include <heml/scenario/schedule.hpp>
-#include <heml/session/companions.hpp>
+#include <heml/session/comparison_runs.hpp>
 
 namespace heml {
 
@@ -29,9 +29,10 @@ int capture(const CaptureArguments& arguments) {
   check_output_folder(input_files(scene), arguments.out, frames_in(arguments.out, ".png"));
   const auto world = load_world(scene);
   Schedule schedule(scene, world->setup().mesh);
-  std::optional<Companions> companions;
-  if (!arguments.beside.empty()) companions.emplace(world->setup(), arguments.beside);
-  Photographer photographer(scene, *world, arguments.size, arguments.panel, companions.has_value(), arguments.out);
+  std::optional<ComparisonRuns> comparison_runs;
+  if (!arguments.comparisons.empty()) comparison_runs.emplace(world->setup(), arguments.comparisons);
+  FrameCapture frame_capture(scene, *world, arguments.size, arguments.panel, comparison_runs.has_value(),
+                             arguments.out);
   const double tick = world->setup().solver.tick();
   Progress progress("capturing frames");
   for (int k = 0; k < arguments.frames && !world->halt(); ++k) {
@@ -40,20 +41,20 @@ int capture(const CaptureArguments& arguments) {
     const double time = k / arguments.fps;
     while (!world->halt() && static_cast<double>(world->ticks() + 1) * tick <= time * (1 + 1e-12)) {
       schedule.apply(*world, [&](const Command& command) {
-        if (companions) companions->apply(command);
+        if (comparison_runs) comparison_runs->apply(command);
       });
-      if (companions)
-        companions->tick(*world);
+      if (comparison_runs)
+        comparison_runs->tick(*world);
       else
         world->tick();
     }
-    photographer.take(*world, world->halt() ? 0.0 : time - static_cast<double>(world->ticks()) * tick,
-                      1 / arguments.fps, companions ? &*companions : nullptr);
+    frame_capture.capture(*world, world->halt() ? 0.0 : time - static_cast<double>(world->ticks()) * tick,
+                          1 / arguments.fps, comparison_runs ? &*comparison_runs : nullptr);
     progress.show((k + 1.0) / arguments.frames);
   }
   if (world->halt()) {
     log_line("error", fmt::format("{}: {}; {} of {} frames are in {}", scene.file, world->halt()->message,
-                                  photographer.taken(), arguments.frames, arguments.out.string()));
+                                  frame_capture.taken(), arguments.frames, arguments.out.string()));
     return exit_not_solved;
   }
   fmt::print("{} frames in {}\n", arguments.frames, arguments.out.string());

@@ -31,14 +31,14 @@ struct CaptureArguments {
   PictureSize size;
   double fps = 30;
   bool panel = false;
-  std::vector<std::string> beside;  ///< other ways to compute the body (heml/session/variant.hpp)
+  std::vector<std::string> comparisons;  ///< other ways to compute the body (heml/session/variant.hpp)
 };
 int capture(const CaptureArguments& arguments);
 
 struct RunArguments {
   std::string scene;  ///< empty: the default scene
   std::optional<std::filesystem::path> record;
-  std::vector<std::string> beside;  ///< other ways to compute the body (heml/session/variant.hpp)
+  std::vector<std::string> comparisons;  ///< other ways to compute the body (heml/session/variant.hpp)
   PictureSize size;
   double exit_after = 0;  ///< s; 0: when the window is closed
   double draw_stall = 0;  ///< ms added to every drawing
@@ -126,11 +126,11 @@ int refine_scene(const RefineArguments& arguments);  ///< exit_check_failed: the
 
 struct HapticsArguments {
   std::string scene;
-  std::filesystem::path hand, out;
-  double stiffest = 1000;  ///< N/m
-  double force = 4;        ///< N
+  std::filesystem::path handle, out;
+  double max_stiffness = 1000;  ///< N/m
+  double force = 4;             ///< N
 };
-int feel_scene(const HapticsArguments& arguments);
+int run_haptics(const HapticsArguments& arguments);
 
 struct BenchTestArguments {
   std::string material;           ///< a file with one entry of a scene's `materials`, or a preset's name

@@ -32,7 +32,7 @@ void print_body(const Explanation& explained) {
              quality.regions == 1 ? "" : "s");
   print_line("shape", "edges {:.3g} to {:.3g} mm, smallest dihedral angle {:.3g}° (element {})",
              1e3 * quality.shortest_edge, 1e3 * quality.longest_edge, quality.worst_dihedral, quality.worst_tet);
-  print_line("held", "{} nodes", world.held_nodes);
+  print_line("constrained", "{} nodes", world.constrained_nodes);
 }
 
 void print_materials(const Explanation& explained) {
@@ -83,7 +83,8 @@ void print_method(const Explanation& explained) {
   if (explained.setup.solver.is_static())
     print_line("load", "in increments of its own choice");
   else
-    print_line("tick", "{:.4g} ms, {} step{}", 1e3 * step.tick, step.steps_a_tick, step.steps_a_tick == 1 ? "" : "s");
+    print_line("tick", "{:.4g} ms, {} step{}", 1e3 * step.tick, step.steps_per_tick,
+               step.steps_per_tick == 1 ? "" : "s");
   print_line("stable step", "{:.4g} ms for explicit methods now; {:.3g} of real time by the model of cost",
              1e3 * step.stable, world.method.explicit_share);
   if (world.method.lowest_frequency)
@@ -105,10 +106,10 @@ void print_solver(const Explanation& explained) {
              solver.tolerance);
   print_line("preconditioner", "{}{}", preconditioner_names[static_cast<std::size_t>(solver.preconditioner)],
              solver.levels ? fmt::format(", {} level{}", solver.levels, solver.levels == 1 ? "" : "s") : "");
-  const std::size_t small = most_factored_each_time(at_rest);
+  const std::size_t small = max_direct_unknowns_each_time(at_rest);
   if (solver.by_size)
     print_line("why", "{} free nodes: cholesky up to {}, {}multilevel above", solver.free_nodes, small,
-               small < most_factored_once ? fmt::format("scalar up to {}, ", most_factored_once) : "");
+               small < max_direct_unknowns_once ? fmt::format("scalar up to {}, ", max_direct_unknowns_once) : "");
   else
     print_line("why", "the scene asks for it; {} free nodes", solver.free_nodes);
   print_line("projection", "{}, where the stiffness is seen not to be positive",
@@ -146,8 +147,8 @@ void print_costs(const Explanation& explained) {
 }
 
 void print_rest(const Explanation& explained) {
-  print_head("Left out");
-  for (const LeftOut& left : explained.left_out) fmt::print("  {:<28}{}\n", left.feature, left.why);
+  print_head("Omitted");
+  for (const OmittedFeature& left : explained.omitted_features) fmt::print("  {:<28}{}\n", left.feature, left.why);
   print_head("Warnings");
   for (const Advice& advice : explained.advice)
     fmt::print("  {}: {}\n    → {}\n", advice.about, advice.text, advice.remedy);
@@ -157,8 +158,8 @@ void print_rest(const Explanation& explained) {
 void print_measured(const Explanation& explained, const Measurement& measured) {
   const bool at_rest = explained.setup.solver.is_static();
   print_head("Measured");
-  fmt::print("  {:.4g} {}; least of {} turns; the body moved by {:.4g} mm\n", measured.stretch,
-             at_rest ? "of the load" : "s of simulated time", measured.turns, 1e3 * measured.largest_motion);
+  fmt::print("  {:.4g} {}; min of {} rounds; the body moved by {:.4g} mm\n", measured.stretch,
+             at_rest ? "of the load" : "s of simulated time", measured.turns, 1e3 * measured.max_motion);
   fmt::print("  {:<20}{:<26}{:>11}{:>11}{:>10}{:>13}\n", "feature", "changed", at_rest ? "ms" : "ms a tick", "saved",
              "steps", "rms mm");
   for (const MeasuredChange& change : measured.changes) {

@@ -12,7 +12,7 @@ Json body_json(const Explanation& explained) {
           {"live_tets", world.live_tets},
           {"regions", quality.regions},
           {"components", quality.components},
-          {"held_nodes", world.held_nodes},
+          {"held_nodes", world.constrained_nodes},
           {"boundary_faces", world.faces},
           {"volume", quality.volume},
           {"shortest_edge", quality.shortest_edge},
@@ -59,7 +59,7 @@ Json method_json(const Explanation& explained) {
           {"threads", explained.world.threads},
           {"tick", step.tick},
           {"step_given", solver.step.has_value()},
-          {"steps_a_tick", step.steps_a_tick},
+          {"steps_a_tick", step.steps_per_tick},
           {"stable_step", step.stable},
           {"step_cost", method.step_cost},
           {"explicit_share", method.explicit_share},
@@ -125,7 +125,7 @@ Json measurement_json(const Measurement& measured) {
                        {"halted", change.halted.empty() ? Json() : Json(change.halted)}});
   return {{"stretch", measured.stretch},
           {"turns", measured.turns},
-          {"largest_motion", measured.largest_motion},
+          {"largest_motion", measured.max_motion},
           {"changes", changes}};
 }
 
@@ -150,7 +150,7 @@ Json explanation_json(const Explanation& explained, const std::optional<Measurem
   for (const StartupWork& work : explained.startup)
     json["startup"].push_back({{"what", work.what}, {"seconds", work.seconds}});
   json["left_out"] = Json::array();
-  for (const LeftOut& left : explained.left_out)
+  for (const OmittedFeature& left : explained.omitted_features)
     json["left_out"].push_back({{"feature", left.feature}, {"why", left.why}});
   json["warnings"] = Json::array();
   for (const Advice& advice : explained.advice)

@@ -21,10 +21,10 @@ int export_frames(const ExportArguments& arguments) {
   ReplayResult result;
   {
     Progress progress("exporting");
-    series.take(*world);
+    series.add_frame(*world);
     result = replay(scene, *world, [&](World& w) {
       // The first whole tick at or after each frame's time: a state the motion passes through, with its own time.
-      if (static_cast<double>(w.ticks()) * tick * arguments.fps >= series.taken() * (1 - 1e-12)) series.take(w);
+      if (static_cast<double>(w.ticks()) * tick * arguments.fps >= series.taken() * (1 - 1e-12)) series.add_frame(w);
       progress.show(static_cast<double>(w.ticks()) / total);
     });
   }

@@ -119,7 +119,7 @@ Json text_or_null(const std::string& text) { return text.empty() ? Json() : Json
 Json preset_json(const Preset& preset) {
   Json published = Json::object();
   for (const auto& [name, value] : preset.published) published[name] = value;
-  const GroundState rest = ground_state(preset.material);
+  const SmallStrainModuli rest = small_strain_moduli(preset.material);
   const Citation& from = preset.source;
   return {
       {"name", preset.name},

@@ -18,7 +18,8 @@ namespace {
 /// TetGen's meshes are two files.
 std::vector<std::filesystem::path> files_of_mesh(const std::filesystem::path& path) {
   if (path.extension() != ".node" && path.extension() != ".ele") return {path};
-  return {std::filesystem::path(path).replace_extension(".node"), std::filesystem::path(path).replace_extension(".ele")};
+  return {std::filesystem::path(path).replace_extension(".node"),
+          std::filesystem::path(path).replace_extension(".ele")};
 }
 
 void check_files(const MeshArguments& arguments) {
@@ -37,7 +38,7 @@ int mesh_surface(const MeshArguments& arguments) {
     mesh = read_tet_mesh(arguments.surface);
     for (Vec3& X : mesh.nodes) X *= arguments.scale;
   } else {
-    SurfaceMesh surface = read_surface(arguments.surface);
+    TriangleMesh surface = read_surface(arguments.surface);
     for (Vec3& X : surface.nodes) X *= arguments.scale;
     check_surface(surface);
     TetgenOptions options;
@@ -48,8 +49,7 @@ int mesh_surface(const MeshArguments& arguments) {
   const QualityReport report = check_tets(mesh);
   write_tet_mesh(arguments.out, mesh);
   for (const std::string& text : report.warnings) warn("{}", text);
-  if (const std::string odd = unit_suspicion(report.low, report.high); !odd.empty())
-    warn("{} (--scale changes it)", odd);
+  if (const std::string odd = unit_warning(report.low, report.high); !odd.empty()) warn("{} (--scale changes it)", odd);
   fmt::print("{}written to {}\n", to_text(report), arguments.out.string());
   return exit_done;
 }

@@ -33,8 +33,8 @@ CLI::Validator validator(const Accepts& accepts, const std::string& what, const 
 }  // namespace
 
 CLI::Validator positive_number() {
-  return validator<double>([](double value) { return value > 0 && std::isfinite(value); },
-                           "a number greater than 0", "> 0");
+  return validator<double>([](double value) { return value > 0 && std::isfinite(value); }, "a number greater than 0",
+                           "> 0");
 }
 
 CLI::Validator number_between(double low, double high) {

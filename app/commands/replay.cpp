@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include <app/commands/commands.hpp>
-#include <app/commands/photographer.hpp>
+#include <app/commands/frame_capture.hpp>
 #include <app/commands/progress.hpp>
 #include <heml/base/log.hpp>
 #include <heml/scenario/input_files.hpp>
@@ -14,7 +14,8 @@ constexpr long ticks_between_checkpoints = 100;  // of what is recorded
 void check_outputs(const ReplayArguments& arguments, const Scene& scene) {
   const std::vector<std::filesystem::path> inputs = input_files(scene);
   if (arguments.record) check_output_file(inputs, *arguments.record, "--record");
-  if (arguments.frames) check_output_folder(inputs, *arguments.frames, frames_in(*arguments.frames, ".png"), "--frames");
+  if (arguments.frames)
+    check_output_folder(inputs, *arguments.frames, frames_in(*arguments.frames, ".png"), "--frames");
 }
 
 int exit_code_of(const Verification& verification, const ReplayResult& result, const Scene& scene) {
@@ -34,15 +35,15 @@ int exit_code_of(const ReplayResult& result, const Scene& scene) {
   log_line("error", fmt::format("{}: {}", scene.file, result.halt->message));
   return exit_not_solved;
 }
-}
+}  // namespace
 
 int replay_recording(const ReplayArguments& arguments) {
   Scene scene = read_scene(arguments.recording);
   if (arguments.threads > 0) scene.solver.threads = arguments.threads;
   check_outputs(arguments, scene);
   const auto world = load_world(scene);
-  std::optional<Photographer> photographer;
-  if (arguments.frames) photographer.emplace(scene, *world, arguments.size, false, false, *arguments.frames);
+  std::optional<FrameCapture> frame_capture;
+  if (arguments.frames) frame_capture.emplace(scene, *world, arguments.size, false, false, *arguments.frames);
 
   std::optional<Recorder> recorder;
   if (arguments.record) recorder.emplace(*arguments.record, scene, *world, ticks_between_checkpoints);
@@ -52,13 +53,13 @@ int replay_recording(const ReplayArguments& arguments) {
   ReplayResult result;
   {
     Progress progress("replaying");
-    if (photographer) photographer->take(*world, 0, 1 / arguments.fps);
+    if (frame_capture) frame_capture->capture(*world, 0, 1 / arguments.fps);
     result = replay(
         scene, *world,
         [&](World& w) {
           const double time = static_cast<double>(w.ticks()) * tick;
-          if (photographer && time * arguments.fps >= photographer->taken())
-            photographer->take(w, 0, 1 / arguments.fps);
+          if (frame_capture && time * arguments.fps >= frame_capture->taken())
+            frame_capture->capture(w, 0, 1 / arguments.fps);
           progress.show(static_cast<double>(w.ticks()) / total);
         },
         recorder ? &*recorder : nullptr);

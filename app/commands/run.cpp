@@ -14,7 +14,7 @@ int run(const RunArguments& arguments) {
   const Scene scene = arguments.scene.empty() ? default_scene() : read_scene(arguments.scene);
   WindowOptions options;
   options.record = arguments.record;
-  options.beside = arguments.beside;
+  options.comparisons = arguments.comparisons;
   options.size = {arguments.size.width, arguments.size.height};
   options.exit_after = arguments.exit_after;
   options.draw_stall = arguments.draw_stall;
@@ -25,8 +25,8 @@ int run(const RunArguments& arguments) {
 #endif
   CaptureArguments instead;
   instead.scene = arguments.scene;
-  instead.beside = arguments.beside;
-  inform("no window ({}): capturing {} frames into ./{} instead", reason, instead.frames, instead.out.string());
+  instead.comparisons = arguments.comparisons;
+  log_info("no window ({}): capturing {} frames into ./{} instead", reason, instead.frames, instead.out.string());
   return capture(instead);
 }
 

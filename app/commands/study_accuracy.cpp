@@ -17,7 +17,7 @@ constexpr const char* committed = "studies/accuracy_quick.json";
 
 std::vector<std::string> worse_than_committed(const AccuracyStudy& study) {
   const auto file = assets_folder() / committed;
-  return what_got_worse(figures_of(study), parse_json(read_text_file(file), file.string()));
+  return what_got_worse(result_values(study), parse_json(read_text_file(file), file.string()));
 }
 
 std::string command_of(const StudyArguments& arguments) {
@@ -47,7 +47,7 @@ void write_files(const StudyArguments& arguments, const AccuracyStudy& study, co
   const auto pictures = write_accuracy_pictures(arguments.out, study);
   write_file(arguments.out / "runs.csv", csv_text(run_table(study)));
   write_file(arguments.out / "figures.json",
-                  json_text(to_json(figures_of(study)), (arguments.out / "figures.json").string(), true) + "\n");
+             json_text(to_json(result_values(study)), (arguments.out / "figures.json").string(), true) + "\n");
   write_file(arguments.out / "report.html", accuracy_page(study, pictures, command_of(arguments), worse));
 }
 

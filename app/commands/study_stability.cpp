@@ -22,7 +22,7 @@ int study_stability(const StudyArguments& arguments) {
     options.progress = [&](const std::string& what, double fraction) { progress.show(fraction, what); };
     cells = run_study(arguments.out / "results.jsonl", options);
   }
-  hold_against(promises, cells);
+  check_promises(promises, cells);
   const auto write = [&](const char* name, const std::string& text) { write_file(arguments.out / name, text); };
   write("report.html", html_report(cells, compare_with_penalty(arguments.quick), arguments.quick));
   write("matrix.svg", matrix_svg(cells));
@@ -31,7 +31,7 @@ int study_stability(const StudyArguments& arguments) {
   fmt::print("{}\n", answer(cells));
   const auto missed = shortfalls(cells);
   for (const std::string& line : missed) warn("falls short of its promise: {}", line);
-  inform("wrote {}", (arguments.out / "report.html").string());
+  log_info("wrote {}", (arguments.out / "report.html").string());
   return missed.empty() ? exit_done : exit_check_failed;
 }
 

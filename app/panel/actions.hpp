@@ -39,10 +39,10 @@ enum class Action {
   choose_previous,
   choose_next,
   open_chosen,
-  look_earlier,
-  look_later,
-  look_first,
-  look_now,
+  seek_earlier,
+  seek_later,
+  seek_start,
+  seek_now,
   resume,
   film,
   view_1,
@@ -60,7 +60,7 @@ enum class Action {
 enum class Tool { grasper, scalpel, pin, probe, suture };
 
 /// A tool as the user has set it.
-struct ToolInHand {
+struct ToolSettings {
   Tool tool = Tool::grasper;
   double radius = 0;                             ///< m, of a grasp or a pin
   double depth = 0;                              ///< m, that the scalpel reaches below the surface
@@ -91,12 +91,12 @@ enum class Request {
 struct PanelActions {
   std::vector<Command> commands;  ///< for the world, in order
   std::vector<Request> requests;
-  std::optional<Field> show;                       ///< the field that frames should carry from now on
-  std::optional<std::filesystem::path> open;       ///< a file to open
-  std::optional<std::filesystem::path> look_into;  ///< a folder to list; Request::list: where one was last
-  std::optional<std::size_t> view, keep_view;      ///< a number of Eye: to go to, to keep as it looks now
-  std::optional<std::vector<std::string>> beside;  ///< what is to be beside the body from now on (variant.hpp)
-  std::optional<long> look_at;                     ///< a tick to show, of the past or of a recording ahead
+  std::optional<Field> show;                            ///< the field that frames should carry from now on
+  std::optional<std::filesystem::path> open;            ///< a file to open
+  std::optional<std::filesystem::path> list_folder;     ///< a folder to list; Request::list: where one was last
+  std::optional<std::size_t> view, keep_view;           ///< a number of Eye: to go to, to keep as it looks now
+  std::optional<std::vector<std::string>> comparisons;  ///< what is to be beside the body from now on (variant.hpp)
+  std::optional<long> seek_to;                          ///< a tick to show, of the past or of a recording ahead
 };
 
 }  // namespace heml::panel

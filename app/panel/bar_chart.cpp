@@ -22,7 +22,7 @@ class BarDrawing {
 
   void draw(const Area& area) {
     list_.AddRectFilled(area.from, area.to, colours_.paper);
-    widest_ = std::min(widest_, most_label_ * area.width());
+    widest_ = std::min(widest_, max_label_ * area.width());
     const float margin = em(1.4f);
     bars_ = {{area.from.x + margin + widest_ + em(0.7f), draw_head(area.from.x + margin, area.from.y + em(1.0f))},
              {area.to.x - margin - em(3.2f), area.to.y - margin}};
@@ -77,7 +77,7 @@ class BarDrawing {
     }
   }
 
-  static constexpr float most_label_ = 0.5f;  // of the width: longer labels end in an ellipsis
+  static constexpr float max_label_ = 0.5f;  // of the width: longer labels end in an ellipsis
 
   ImDrawList& list_;
   const BarChart& chart_;

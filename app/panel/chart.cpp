@@ -24,7 +24,7 @@ Prefix prefix_for(double largest) {
 
 struct Span {
   double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
-  void take(double value) {
+  void include_value(double value) {
     if (!std::isfinite(value)) return;
     low = std::min(low, value);
     high = std::max(high, value);
@@ -43,9 +43,9 @@ Axes logarithmic_axes(const Chart& chart) {
   Axes axes{{}, {}, {"", 1}};
   for (const ChartSeries& series : chart.series)
     for (const ChartPoint& p : series.points)
-      if (p.x > 0 && p.y > 0) axes.x.take(std::log10(p.x)), axes.y.take(std::log10(p.y));
-  for (const ChartLine& line : chart.upright) axes.x.take(std::log10(line.at));
-  for (const ChartLine& line : chart.level) axes.y.take(std::log10(line.at));
+      if (p.x > 0 && p.y > 0) axes.x.include_value(std::log10(p.x)), axes.y.include_value(std::log10(p.y));
+  for (const ChartLine& line : chart.upright) axes.x.include_value(std::log10(line.at));
+  for (const ChartLine& line : chart.level) axes.y.include_value(std::log10(line.at));
   if (axes.x.low > axes.x.high) axes.x = {0, 1};
   if (axes.y.low > axes.y.high) axes.y = {0, 1};
   for (Span* span : {&axes.x, &axes.y}) {
@@ -60,9 +60,9 @@ Axes axes_of(const Chart& chart) {
   Axes axes{{}, {}, {"", 1}};
   for (const ChartSeries& series : chart.series)
     for (const ChartPoint& p : series.points)
-      if (std::isfinite(p.x) && std::isfinite(p.y)) axes.x.take(p.x), axes.y.take(p.y);
+      if (std::isfinite(p.x) && std::isfinite(p.y)) axes.x.include_value(p.x), axes.y.include_value(p.y);
   if (axes.x.low > axes.x.high) axes.x = {0, 1}, axes.y = {0, 1};
-  axes.y.take(0);
+  axes.y.include_value(0);
   axes.prefix = prefix_for(std::max(std::abs(axes.y.low), std::abs(axes.y.high)));
   axes.y.low *= axes.prefix.factor, axes.y.high *= axes.prefix.factor;
   if (!(axes.y.size() > 0)) axes.y.high = axes.y.low + 1;

@@ -40,8 +40,8 @@ struct Chart {
   std::vector<ChartSeries> series;
   std::optional<ChartBand> band;
   std::vector<ChartLine> upright, level;  ///< at an x; at a y. In a logarithmic chart their decade is shown too
-  bool logarithmic = false;  ///< both axes: points that are not greater than 0 are left out
-  bool small = false;        ///< for the panel: fewer numbers, no grid, no legend
+  bool logarithmic = false;               ///< both axes: points that are not greater than 0 are left out
+  bool small = false;                     ///< for the panel: fewer numbers, no grid, no legend
 };
 
 struct ChartColours {

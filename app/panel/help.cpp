@@ -10,10 +10,10 @@ namespace {
 
 constexpr std::pair<const char*, const char*> mouse[] = {
     {"Left, on the body", "grasp it and pull; or what the tool does"},
-    {"Left beside it, or right", "turn the eye"},
-    {"Middle, or Shift + right", "move the eye"},
+    {"Left on the background, or right", "turn the camera"},
+    {"Middle, or Shift + right", "move the camera"},
     {"Wheel", "nearer or farther"},
-    {"Double click beside it", "fit the body into view"},
+    {"Double click on the background", "fit the body into view"},
     {"Drop a file", "open a scene, mesh or surface"},
 };
 

@@ -5,7 +5,7 @@
 
 namespace heml::panel {
 
-void History::take(const Frame& frame) {
+void History::add(const Frame& frame) {
   constexpr double spacing = span / 240;
   if (frame.tick < latest_tick_) return;  // somebody looks back
   latest_tick_ = frame.tick;
@@ -23,7 +23,8 @@ void History::take(const Frame& frame) {
   reading.slow_tick = frame.pace.p99;
   reading.min_J = frame.min_J;
   reading.max_J = frame.max_J;
-  if (frame.skin) reading.volume = enclosed_volume(*frame.skin, frame.positions) / enclosed_volume(*frame.skin);
+  if (frame.surface_mesh)
+    reading.volume = enclosed_volume(*frame.surface_mesh, frame.positions) / enclosed_volume(*frame.surface_mesh);
   reading.slowdown = frame.pace.slowdown;
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   reading.mesh_error = frame.mesh_error ? 100 * *frame.mesh_error : unknown;

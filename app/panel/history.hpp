@@ -26,7 +26,7 @@ class History {
  public:
   static constexpr double span = 8;  ///< s
 
-  void take(const Frame& frame);
+  void add(const Frame& frame);
   const std::deque<Reading>& readings() const { return readings_; }  ///< ascending in time
 
  private:

@@ -6,7 +6,7 @@
 #include <app/panel/quantity.hpp>
 #include <app/panel/tissue_choice.hpp>
 #include <cmath>
-#include <heml/materials/same_stiffness.hpp>
+#include <heml/materials/match_moduli.hpp>
 
 namespace heml::panel {
 namespace {
@@ -25,7 +25,7 @@ void warn_in_panel(const std::string& text) {
 
 }  // namespace
 
-void MaterialSection::follow(const SetMaterial& command) {
+void MaterialSection::sync(const SetMaterial& command) {
   for (RegionMaterial& entry : materials_)
     if (entry.region == command.region) entry.material = command.material;
   ++changes_;
@@ -78,19 +78,19 @@ bool MaterialSection::draw_law(Rows& rows, Material& material) {
                    "under small strains."},
                   chosen, titles, hints);
   if (!changed || !before) return false;
-  material = same_stiffness(material, *before, laws()[static_cast<std::size_t>(chosen)]);
+  material = match_moduli(material, *before, laws()[static_cast<std::size_t>(chosen)]);
   return true;
 }
 
 bool MaterialSection::draw_numbers(Rows& rows, Material& material, const LawInfo& law) {
   const bool has_pair = law.takes_young_poisson && material.fields.empty();
   if (has_pair) {
-    static const std::string ways[] = {"E and ν", "λ and μ"};
-    int way = engineering_ ? 0 : 1;
+    static const std::string variants[] = {"E and ν", "λ and μ"};
+    int direction = engineering_ ? 0 : 1;
     rows.choice(
         {"Given as", "Young's modulus and Poisson's ratio, or the two Lamé parameters: the same material either way."},
-        way, ways);
-    engineering_ = way == 0;
+        direction, variants);
+    engineering_ = direction == 0;
   }
   bool changed = has_pair && engineering_ ? engineering_rows(rows, material) : parameter_rows(rows, material, law);
   if (law.has_fibre) changed |= fibre_rows(rows, material);
@@ -100,7 +100,7 @@ bool MaterialSection::draw_numbers(Rows& rows, Material& material, const LawInfo
 }
 
 void MaterialSection::draw_outcome(Rows& rows, const Material& material, double stretched) {
-  const GroundState rest = ground_state(material);
+  const SmallStrainModuli rest = small_strain_moduli(material);
   const bool tall = ImGui::GetIO().DisplaySize.y >= em(tall_picture);
   const std::string hint = fmt::format(
       "Shear stress per shear strain under small strains, Pa; across the fibres where there are any. Bulk "

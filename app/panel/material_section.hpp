@@ -13,11 +13,11 @@ class MaterialSection {
   explicit MaterialSection(std::vector<RegionMaterial> materials) : materials_(std::move(materials)) {}
 
   /// Adds one SetMaterial when the user changed something that material_problem() has nothing against. stretched: share
-  /// of the surface that is stretched further than its tissue was measured (stretch_watch.hpp).
+  /// of the surface that is stretched further than its tissue was measured (stretch_monitor.hpp).
   void draw(Rows& rows, double stretched, PanelActions& out);
 
   /// Shows what was set elsewhere.
-  void follow(const SetMaterial& command);
+  void sync(const SetMaterial& command);
 
   const std::vector<RegionMaterial>& materials() const { return materials_; }
   int changes() const { return changes_; }  ///< counts them

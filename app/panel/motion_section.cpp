@@ -41,10 +41,10 @@ void MotionSection::write_into(Scene& scene) const {
 
 MotionSection::MotionSection(const Vec3& gravity, const SolverSettings& solver)
     : damping_(solver.damping), integrator_(solver.integrator) {
-  follow(SetGravity{gravity});
+  sync(SetGravity{gravity});
 }
 
-void MotionSection::follow(const SetGravity& command) {
+void MotionSection::sync(const SetGravity& command) {
   strength_ = command.gravity.norm();
   if (strength_ > 0) direction_ = command.gravity / strength_;
 }

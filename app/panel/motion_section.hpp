@@ -15,9 +15,9 @@ class MotionSection {
   void write_into(Scene& scene) const;  ///< what it shows
 
   // Show what was set elsewhere.
-  void follow(const SetGravity& command);
-  void follow(const SetDamping& command) { damping_ = command.damping; }
-  void follow(const SetIntegrator& command) { integrator_ = command.integrator; }
+  void sync(const SetGravity& command);
+  void sync(const SetDamping& command) { damping_ = command.damping; }
+  void sync(const SetIntegrator& command) { integrator_ = command.integrator; }
 
  private:
   void draw_gravity(Rows& rows, PanelActions& out);

@@ -76,23 +76,23 @@ void OpenDialog::draw_head(Rows& rows) {
 }
 
 void OpenDialog::draw_scenes(Rows& rows, PanelActions& out) {
-  draw_group(rows, "Scenes", offers_.scenes, Shape::cell, out);
-  draw_group(rows, "Stiff and extreme cases", offers_.extreme, Shape::line, out);
+  draw_group(rows, "Scenes", choices_.scenes, Shape::cell, out);
+  draw_group(rows, "Stiff and extreme cases", choices_.extreme, Shape::line, out);
 }
 
 void OpenDialog::draw_files(Rows& rows, PanelActions& out) {
-  draw_group(rows, "Recent", offers_.recent, Shape::line, out);
-  if (offers_.folder.empty()) return;
-  draw_group(rows, "Files in " + offers_.folder.string(), offers_.files, Shape::line, out);
-  if (offers_.problem.empty()) return;
+  draw_group(rows, "Recent", choices_.recent, Shape::line, out);
+  if (choices_.folder.empty()) return;
+  draw_group(rows, "Files in " + choices_.folder.string(), choices_.files, Shape::line, out);
+  if (choices_.problem.empty()) return;
   ImGui::PushStyleColor(ImGuiCol_Text, colours::warning);
-  ImGui::TextWrapped("%s", offers_.problem.c_str());
+  ImGui::TextWrapped("%s", choices_.problem.c_str());
   ImGui::PopStyleColor();
 }
 
-void OpenDialog::draw_group(Rows& rows, const std::string& heading, const std::vector<Offer>& offers, Shape shape,
+void OpenDialog::draw_group(Rows& rows, const std::string& heading, const std::vector<OpenChoice>& choices, Shape shape,
                             PanelActions& out) {
-  if (std::none_of(offers.begin(), offers.end(), [&](const Offer& offer) { return matches(offer); })) return;
+  if (std::none_of(choices.begin(), choices.end(), [&](const OpenChoice& choice) { return matches(choice); })) return;
   const float room = ImGui::GetContentRegionAvail().x;
   ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(colours::accent), "%s", shortened(heading, room).c_str());
   rows.explain({heading, ""});
@@ -100,89 +100,91 @@ void OpenDialog::draw_group(Rows& rows, const std::string& heading, const std::v
   const int columns = std::max(1, static_cast<int>((room - em(0.8f) + gap) / (em(cell_width) + gap)));
   const float width = (room - em(0.8f) + gap) / static_cast<float>(columns) - gap;
   int column = 0;
-  for (const Offer& offer : offers) {
-    if (!matches(offer)) continue;
+  for (const OpenChoice& choice : choices) {
+    if (!matches(choice)) continue;
     const bool marked = std::ssize(shown_) == marked_;
-    shown_.push_back(&offer);
-    ImGui::PushID(&offer);
+    shown_.push_back(&choice);
+    ImGui::PushID(&choice);
     if (shape == Shape::cell && column > 0) ImGui::SameLine(0, gap);
     column = (column + 1) % columns;
-    if (shape == Shape::cell ? draw_cell(rows, offer, width, marked) : draw_line(rows, offer, marked)) take(offer, out);
+    if (shape == Shape::cell ? draw_cell(rows, choice, width, marked) : draw_line(rows, choice, marked))
+      activate(choice, out);
     if (marked && std::exchange(moved_, false)) ImGui::SetScrollHereY();
     ImGui::PopID();
   }
   ImGui::Dummy({0, em(0.3f)});
 }
 
-bool OpenDialog::draw_cell(Rows& rows, const Offer& offer, float width, bool marked) {
+bool OpenDialog::draw_cell(Rows& rows, const OpenChoice& choice, float width, bool marked) {
   const float height = std::round(width * 9 / 16), line = ImGui::GetTextLineHeight();
   const ImVec2 from = ImGui::GetCursorScreenPos();
   const bool chosen = ImGui::InvisibleButton("cell", {width, height + line + em(0.35f)});
   const bool warm = marked || ImGui::IsItemHovered();
-  rows.explain({offer.title, offer.title + "\n\n" + offer.about});
+  rows.explain({choice.title, choice.title + "\n\n" + choice.about});
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImVec2 to(from.x + width, from.y + height);
   const float rounding = ImGui::GetStyle().FrameRounding;
-  if (offer.picture)
-    list.AddImageRounded(offer.picture, from, to, {0, 0}, {1, 1}, IM_COL32_WHITE, rounding);
+  if (choice.picture)
+    list.AddImageRounded(choice.picture, from, to, {0, 0}, {1, 1}, IM_COL32_WHITE, rounding);
   else
     list.AddRectFilled(from, to, colours::track, rounding);
   if (warm) list.AddRect(from, to, colours::accent, rounding, ImDrawFlags_None, em(0.13f));
-  list.AddText({from.x, to.y + em(0.1f)}, warm ? colours::text : colours::muted, shortened(offer.title, width).c_str());
+  list.AddText({from.x, to.y + em(0.1f)}, warm ? colours::text : colours::muted,
+               shortened(choice.title, width).c_str());
   return chosen;
 }
 
-bool OpenDialog::draw_line(Rows& rows, const Offer& offer, bool marked) {
+bool OpenDialog::draw_line(Rows& rows, const OpenChoice& choice, bool marked) {
   const UseFont small(Font::small);
   const float width = ImGui::GetContentRegionAvail().x - em(0.8f), line = ImGui::GetTextLineHeight();
   const ImVec2 from = ImGui::GetCursorScreenPos(), to(from.x + width, from.y + line + em(0.3f));
   const bool chosen = ImGui::InvisibleButton("line", {width, to.y - from.y});
-  const bool warm = offer.is_there && (marked || ImGui::IsItemHovered());
-  const std::string gone = offer.is_there ? "" : "\n\nIt is no longer there.";
-  rows.explain({offer.title, offer.title + "\n\n" + offer.about + gone});
+  const bool warm = choice.is_there && (marked || ImGui::IsItemHovered());
+  const std::string gone = choice.is_there ? "" : "\n\nIt is no longer there.";
+  rows.explain({choice.title, choice.title + "\n\n" + choice.about + gone});
   ImDrawList& list = *ImGui::GetWindowDrawList();
   if (warm)
     list.AddRectFilled({from.x - em(0.3f), from.y}, to, colours::track_hovered, ImGui::GetStyle().FrameRounding);
-  const std::string title = shortened(offer.title, 0.62f * width);
+  const std::string title = shortened(choice.title, 0.62f * width);
   const float used = ImGui::CalcTextSize(title.c_str()).x + em(0.8f), top = from.y + em(0.15f);
-  const std::string about = shortened(offer.is_there ? offer.about : "no longer there", width - used - em(0.3f));
-  list.AddText({from.x, top}, offer.is_there ? colours::text : colours::faint, title.c_str());
+  const std::string about = shortened(choice.is_there ? choice.about : "no longer there", width - used - em(0.3f));
+  list.AddText({from.x, top}, choice.is_there ? colours::text : colours::faint, title.c_str());
   list.AddText({to.x - em(0.3f) - ImGui::CalcTextSize(about.c_str()).x, top},
-               offer.is_there ? colours::muted : colours::faint, about.c_str());
+               choice.is_there ? colours::muted : colours::faint, about.c_str());
   return chosen;
 }
 
 /// All words are in it.
-bool OpenDialog::matches(const Offer& offer) const {
-  const std::string text = lower_case(offer.title + ' ' + offer.about + ' ' + offer.path.string());
+bool OpenDialog::matches(const OpenChoice& choice) const {
+  const std::string text = lower_case(choice.title + ' ' + choice.about + ' ' + choice.path.string());
   std::istringstream words(lower_case(wanted_));
   for (std::string word; words >> word;)
     if (text.find(word) == std::string::npos) return false;
   return true;
 }
 
-void OpenDialog::take(const Offer& offer, PanelActions& out) {
-  if (!offer.is_there) return;
-  if (offer.is_folder) {
-    out.look_into = offer.path;
+void OpenDialog::activate(const OpenChoice& choice, PanelActions& out) {
+  if (!choice.is_there) return;
+  if (choice.is_folder) {
+    out.list_folder = choice.path;
     wanted_[0] = '\0';
     marked_ = -1;
     return;
   }
-  out.open = offer.path;
+  out.open = choice.path;
   open_ = false;
 }
 
-void OpenDialog::choose(int way) {
-  marked_ = std::clamp(marked_ + way, 0, std::max(0, static_cast<int>(shown_.size()) - 1));
+void OpenDialog::choose(int direction) {
+  marked_ = std::clamp(marked_ + direction, 0, std::max(0, static_cast<int>(shown_.size()) - 1));
   moved_ = true;
 }
 
 void OpenDialog::open_chosen(PanelActions& out) {
   if (wanted_[0] == '/')
-    take({wanted_, wanted_, "", nullptr, std::string_view(wanted_).ends_with('/')}, out);
+    activate({wanted_, wanted_, "", nullptr, std::string_view(wanted_).ends_with('/')}, out);
   else if (marked_ >= 0 && marked_ < std::ssize(shown_))
-    take(*shown_[static_cast<std::size_t>(marked_)], out);
+    activate(*shown_[static_cast<std::size_t>(marked_)], out);
 }
 
 }  // namespace heml::panel

@@ -9,7 +9,7 @@
 //    └────────────────────────────────────────┘
 #include <app/panel/actions.hpp>
 #include <app/panel/area.hpp>
-#include <app/panel/offers.hpp>
+#include <app/panel/open_choices.hpp>
 #include <app/panel/rows.hpp>
 
 namespace heml::panel {
@@ -21,11 +21,11 @@ class OpenDialog {
   bool is_open() const { return open_; }
 
   /// What is marked of what the last draw() showed: goes up (−1) or down (1), and is opened.
-  void choose(int way);
+  void choose(int direction);
   void open_chosen(PanelActions& out);
 
   /// What it shows from now on.
-  void offer(Offers offers) { offers_ = std::move(offers); }
+  void set_choices(OpenChoices choices) { choices_ = std::move(choices); }
 
   /// Over all of a picture of a size (pixels), while it is open. A press tells what to open or to look into.
   void draw(Rows& rows, ImVec2 picture, PanelActions& out);
@@ -36,19 +36,19 @@ class OpenDialog {
   void draw_head(Rows& rows);
   void draw_scenes(Rows& rows, PanelActions& out);
   void draw_files(Rows& rows, PanelActions& out);
-  void draw_group(Rows& rows, const std::string& heading, const std::vector<Offer>& offers, Shape shape,
+  void draw_group(Rows& rows, const std::string& heading, const std::vector<OpenChoice>& choices, Shape shape,
                   PanelActions& out);
-  bool draw_cell(Rows& rows, const Offer& offer, float width, bool marked);
-  bool draw_line(Rows& rows, const Offer& offer, bool marked);
-  bool matches(const Offer& offer) const;
-  void take(const Offer& offer, PanelActions& out);
+  bool draw_cell(Rows& rows, const OpenChoice& choice, float width, bool marked);
+  bool draw_line(Rows& rows, const OpenChoice& choice, bool marked);
+  bool matches(const OpenChoice& choice) const;
+  void activate(const OpenChoice& choice, PanelActions& out);
 
-  Offers offers_;
+  OpenChoices choices_;
   bool open_ = false, just_opened_ = false;
-  char wanted_[256] = {};            ///< what is looked for
-  int marked_ = -1;                  ///< place in shown_ that open_chosen() takes; −1: none
-  bool moved_ = false;               ///< the mark, by a key
-  std::vector<const Offer*> shown_;  ///< in this frame
+  char wanted_[256] = {};                 ///< what is looked for
+  int marked_ = -1;                       ///< place in shown_ that open_chosen() takes; −1: none
+  bool moved_ = false;                    ///< the mark, by a key
+  std::vector<const OpenChoice*> shown_;  ///< in this frame
 };
 
 }  // namespace heml::panel

@@ -30,13 +30,13 @@ bool two_columns(ImVec2 picture) { return picture.x >= em(two_columns_from); }
 
 }  // namespace
 
-Panel::Panel(const Scene& scene, const Skin& skin)
+Panel::Panel(const Scene& scene, const SurfaceMesh& surface_mesh)
     : title_(!scene.title.empty() ? scene.title : scene.name),
       description_(scene.description),
-      tool_(static_cast<double>(render::ball_around(skin.rest).radius), scene.gravity),
+      tool_(static_cast<double>(render::bounding_sphere(surface_mesh.rest).radius), scene.gravity),
       material_(scene.materials),
-      watch_(skin),
-      skin_version_(skin.version),
+      watch_(surface_mesh),
+      surface_version_(surface_mesh.version),
       motion_(scene.gravity, scene.solver),
       view_(scene.view) {
   watch_stretches();
@@ -48,15 +48,15 @@ void Panel::watch_stretches() {
   watch_.set(material_.materials());
 }
 
-void Panel::take_skin(const Frame& frame) {
-  if (!frame.skin || frame.skin->version == skin_version_) return;
-  skin_version_ = frame.skin->version;
-  watch_ = StretchWatch(*frame.skin);
+void Panel::update_surface(const Frame& frame) {
+  if (!frame.surface_mesh || frame.surface_mesh->version == surface_version_) return;
+  surface_version_ = frame.surface_mesh->version;
+  watch_ = StretchMonitor(*frame.surface_mesh);
   watched_changes_ = -1;
 }
 
-void Panel::take(const Frame& frame, float seconds) {
-  history_.take(frame);
+void Panel::update(const Frame& frame, float seconds) {
+  history_.add(frame);
   tell_refusal(frame);
   since_recovery_ += seconds;
   if (!frame.recovery) since_recovery_ = shown_for;
@@ -67,9 +67,9 @@ void Panel::take(const Frame& frame, float seconds) {
   late_for_ = frame.paused || frame.pace.keeping_up ? 0 : late_for_ + seconds;
   range_ = colour_range_.update(frame.field, frame.values, seconds);
   view_.set_range(range_);
-  take_skin(frame);
+  update_surface(frame);
   watch_stretches();
-  watch_.take(frame);
+  watch_.update(frame);
   view_.set_beyond(watch_.beyond());
 }
 
@@ -83,14 +83,14 @@ bool Panel::shows_recovery() const { return since_recovery_ < shown_for; }
 
 void Panel::perform(Action action) { pressed_.push_back(action); }
 
-void Panel::follow(const Command& command) {
-  if (const auto* material = std::get_if<SetMaterial>(&command)) material_.follow(*material);
+void Panel::sync(const Command& command) {
+  if (const auto* material = std::get_if<SetMaterial>(&command)) material_.sync(*material);
   if (const auto* gravity = std::get_if<SetGravity>(&command)) {
-    motion_.follow(*gravity);
-    tool_.follow(*gravity);
+    motion_.sync(*gravity);
+    tool_.sync(*gravity);
   }
-  if (const auto* damping = std::get_if<SetDamping>(&command)) motion_.follow(*damping);
-  if (const auto* integrator = std::get_if<SetIntegrator>(&command)) motion_.follow(*integrator);
+  if (const auto* damping = std::get_if<SetDamping>(&command)) motion_.sync(*damping);
+  if (const auto* integrator = std::get_if<SetIntegrator>(&command)) motion_.sync(*integrator);
 }
 
 void Panel::write_into(Scene& scene) const {
@@ -183,7 +183,7 @@ void Panel::draw_controls(const Frame& frame, bool with_readings, PanelActions& 
       if (rows_.section("Engine")) draw_engine(rows_, frame, history_);
       draw_accuracy(frame);
     }
-    if (rows_.section("Beside", false)) beside_.draw(rows_, frame, out);
+    if (rows_.section("Compare", false)) comparisons_.draw(rows_, frame, out);
     if (rows_.section("View")) view_.draw(rows_, pressed_, out);
     controls_height_ = header_height + ImGui::GetCursorPosY() + ImGui::GetStyle().WindowPadding.y;
     ImGui::EndChild();

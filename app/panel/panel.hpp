@@ -14,13 +14,13 @@
 // A frame: take(frame), draw the body with drawing(), then between Interface::begin() and end(): draw(frame).
 #include <app/panel/actions.hpp>
 #include <app/panel/area.hpp>
-#include <app/panel/beside_section.hpp>
+#include <app/panel/compare_section.hpp>
 #include <app/panel/history.hpp>
 #include <app/panel/material_section.hpp>
 #include <app/panel/motion_section.hpp>
 #include <app/panel/notices.hpp>
 #include <app/panel/open_dialog.hpp>
-#include <app/panel/stretch_watch.hpp>
+#include <app/panel/stretch_monitor.hpp>
 #include <app/panel/timeline.hpp>
 #include <app/panel/tool_section.hpp>
 #include <app/panel/view_section.hpp>
@@ -31,20 +31,20 @@ namespace heml::panel {
 class Panel {
  public:
   /// What it shows at first is what the scene says.
-  Panel(const Scene& scene, const Skin& skin);
+  Panel(const Scene& scene, const SurfaceMesh& surface_mesh);
 
   /// Takes a frame's numbers, before the body is drawn. seconds: wall time since the last call.
-  void take(const Frame& frame, float seconds);
+  void update(const Frame& frame, float seconds);
 
   /// Draws the panel into the current ImGui frame and returns what the user did with it and with the keys since.
   PanelActions draw(const Frame& frame);
 
   void perform(Action action);                                     ///< a key; takes effect in the next draw()
-  void follow(const Command& command);                             ///< shows what was changed elsewhere
+  void sync(const Command& command);                               ///< shows what was changed elsewhere
   void say(std::string text) { notices_.say(std::move(text)); }    ///< in passing
   void fail(std::string text) { notices_.fail(std::move(text)); }  ///< a file that could not be opened
 
-  void offer(Offers offers) { dialog_.offer(std::move(offers)); }        ///< what can be opened
+  void set_choices(OpenChoices choices) { dialog_.set_choices(std::move(choices)); }  ///< what can be opened
   void set_timeline(const Timeline& timeline) { timeline_ = timeline; }  ///< shown from now on; none: there is no bar
   ViewSection& view() { return view_; }
   bool asks() const { return dialog_.is_open(); }  ///< a dialog has keys and mouse to itself
@@ -52,7 +52,7 @@ class Panel {
   const render::DrawOptions& drawing() const { return view_.drawing(); }
   bool wants_stretches() const { return watch_.active(); }  ///< whether frames should carry Frame::stretches
   bool wants_errors() const { return errors_open_; }        ///< whether frames should carry errors
-  const ToolInHand& tool() const { return tool_.tool(); }
+  const ToolSettings& tool() const { return tool_.tool(); }
   Insets insets(ImVec2 picture) const;  ///< that draw() takes in a picture of a size, pixels
   bool covers(float x,
               float y) const;   ///< whether a point is on the panel, as last drawn: the mouse is then not on the body
@@ -70,7 +70,7 @@ class Panel {
   void draw_readings(const Frame& frame);
   void draw_accuracy(const Frame& frame);
   void tell_refusal(const Frame& frame);
-  void take_skin(const Frame& frame);
+  void update_surface(const Frame& frame);
   void watch_stretches();
   std::optional<Banner> banner_for(const Frame& frame) const;
   void remember_place();
@@ -79,12 +79,12 @@ class Panel {
   ToolSection tool_;
   long refusals_ = 0;  ///< of the session, that were told
   MaterialSection material_;
-  StretchWatch watch_;
-  long skin_version_;         ///< that the watch is of
+  StretchMonitor watch_;
+  long surface_version_;      ///< that the watch is of
   int watched_changes_ = -1;  ///< MaterialSection::changes() that the watch knows of
   MotionSection motion_;
   ViewSection view_;
-  BesideSection beside_;
+  CompareSection comparisons_;
   Notices notices_;
   OpenDialog dialog_;
   std::optional<Timeline> timeline_;

@@ -60,32 +60,32 @@ void Panel::carry_out(Action action, const Frame& frame, PanelActions& out) {
       if (dialog_.close()) return;
       if (helping_ || notices_.close()) helping_ = false;
       return ask(timeline_ && (timeline_->shown || timeline_->returning) ? Request::now : Request::release);
-    case Action::look_earlier:
+    case Action::seek_earlier:
       return ask(Request::earlier);
-    case Action::look_later:
+    case Action::seek_later:
       return ask(Request::later);
-    case Action::look_first:
+    case Action::seek_start:
       return ask(Request::first);
-    case Action::look_now:
+    case Action::seek_now:
       return ask(Request::now);
     case Action::resume:
       return ask(Request::resume);
     case Action::remove:
       return ask(Request::remove);
     case Action::take_grasper:
-      tool_.take(Tool::grasper);
+      tool_.select(Tool::grasper);
       return;
     case Action::take_scalpel:
-      tool_.take(Tool::scalpel);
+      tool_.select(Tool::scalpel);
       return;
     case Action::take_pin:
-      tool_.take(Tool::pin);
+      tool_.select(Tool::pin);
       return;
     case Action::take_probe:
-      tool_.take(Tool::probe);
+      tool_.select(Tool::probe);
       return;
     case Action::take_suture:
-      tool_.take(Tool::suture);
+      tool_.select(Tool::suture);
       return;
     case Action::toggle_table:
       return tool_.toggle_table(frame, out);

@@ -9,7 +9,7 @@
 namespace heml::panel {
 namespace {
 
-constexpr int most_terms = 6;
+constexpr int max_terms = 6;
 constexpr double steepest = 89.9;  // degrees: further up a fibre has no direction in the plane
 
 /// A parameter in the unit the panel shows it in.
@@ -47,7 +47,7 @@ bool parameter_row(Rows& rows, Material& material, const ParameterSlot& slot, st
       rows.value({label, hint}, fmt::format("field '{}' of the mesh", field.field));
       return false;
     }
-  const Shown shown = shown_as(slot, material.parameters[index], keeps_sign(material, index));
+  const Shown shown = shown_as(slot, material.parameters[index], has_fixed_sign(material, index));
   SliderRange range = shown.range;
   range.format = shown.format.c_str();
   double value = shown.factor * material.parameters[index];
@@ -64,7 +64,7 @@ bool term_rows(Rows& rows, Material& material, const std::vector<ParameterSlot>&
   const float width = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
   int change = 0;
   if (rows.button({"Add term", "One more term of the sum, which shares the strength of the last."}, width) &&
-      terms < most_terms)
+      terms < max_terms)
     change = 1;
   ImGui::SameLine();
   if (rows.button({"Remove term", "Takes the last term away."}, width) && terms > 1) change = -1;
@@ -92,7 +92,7 @@ bool parameter_rows(Rows& rows, Material& material, const LawInfo& law) {
 }
 
 bool engineering_rows(Rows& rows, Material& material) {
-  const Engineering now = engineering_from({material.parameters[0], material.parameters[1]});
+  const EngineeringConstants now = engineering_constants({material.parameters[0], material.parameters[1]});
   double young = now.young * 1e-3, poisson = now.poisson;
   bool changed =
       rows.slider({"Young's E",
@@ -105,7 +105,7 @@ bool engineering_rows(Rows& rows, Material& material) {
                    "its volume, and steps must be shorter."},
                   poisson, {0, 0.495, "%.3f", false});
   if (!changed) return false;
-  const Lame lame = lame_from(young * 1e3, poisson);
+  const LameParameters lame = lame_parameters(young * 1e3, poisson);
   material.parameters = {lame.lambda, lame.mu};
   return true;
 }

@@ -14,10 +14,10 @@ struct Curve {
 };
 
 struct PlotStyle {
-  std::string_view unit;   ///< of the values; of SI, or "", "%", "×", "mm", which take no prefix
-  double base = 0;         ///< always within the plot
-  double least_range = 0;  ///< of the vertical axis at least; keeps noise from filling the plot
-  float height = 4.2f;     ///< em
+  std::string_view unit;  ///< of the values; of SI, or "", "%", "×", "mm", which take no prefix
+  double base = 0;        ///< always within the plot
+  double min_range = 0;   ///< of the vertical axis at least; keeps noise from filling the plot
+  float height = 4.2f;    ///< em
 };
 
 /// As wide as there is room; the newest reading is at the right edge. Both ends of the axes are written with their

@@ -31,7 +31,7 @@ std::string newtons(double value) {
                                     : 0);
 }
 
-std::string counted(long value) {
+std::string grouped_digits(long value) {
   std::string digits = std::to_string(std::abs(value));
   for (std::ptrdiff_t at = std::ssize(digits) - 3; at > 0; at -= 3)
     digits.insert(static_cast<std::size_t>(at), "\u00a0");

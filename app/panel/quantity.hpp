@@ -12,6 +12,6 @@ std::string quantity(double value, std::string_view unit);
 std::string newtons(double value);
 
 /// A whole number in groups of three digits, "12 345", with a thin gap that does not break.
-std::string counted(long value);
+std::string grouped_digits(long value);
 
 }  // namespace heml::panel

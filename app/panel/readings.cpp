@@ -31,8 +31,8 @@ void draw_force(Rows& rows, const Frame& frame, const History& history) {
   if (!frame.tables.empty()) {
     rows.value({"Table", "The size of the force of the table on the tissue, N: at rest, what the tissue weighs."},
                newtons(sum_of(frame.tables).norm()), colours::kinetic);
-    rows.value({"Points on it", "Points of the tissue that touch the table."},
-               fmt::format("{}", frame.tables.front().touching));
+    rows.value({"Contact points", "Points of the tissue in contact with the table."},
+               fmt::format("{}", frame.tables.front().contact_count));
   }
   double tightest = 0;
   for (const SutureState& suture : frame.sutures) tightest = std::max(tightest, suture.force.norm());
@@ -65,14 +65,15 @@ void draw_energies(Rows& rows, const Frame& frame, const History& history) {
 
 void draw_volume(Rows& rows, const Frame& frame, const History& history) {
   const bool inverted = !(frame.min_J > 0);
-  if (frame.skin) {
-    const double now = enclosed_volume(*frame.skin, frame.positions), rest = enclosed_volume(*frame.skin);
+  if (frame.surface_mesh) {
+    const double now = enclosed_volume(*frame.surface_mesh, frame.positions),
+                 rest = enclosed_volume(*frame.surface_mesh);
     rows.value({"Whole body", "What the body takes up now, cm³ (millilitres), and as a share of its volume at rest."},
                fmt::format("{:.4g} cm³, {:.1f} %", now * 1e6, 100 * now / rest), total_colour);
   }
-  rows.value({"Least J", "The most compressed tetrahedron: its volume relative to rest. 0 or less: turned inside out."},
+  rows.value({"Min J", "The most compressed tetrahedron: its volume relative to rest. 0 or less: turned inside out."},
              fmt::format("{:.3f}", frame.min_J), colours::potential, inverted ? colours::danger : colours::text);
-  rows.value({"Greatest J", "The most expanded tetrahedron: its volume relative to rest."},
+  rows.value({"Max J", "The most expanded tetrahedron: its volume relative to rest."},
              fmt::format("{:.3f}", frame.max_J), colours::kinetic);
   if (frame.removed > 0)
     rows.value({"Removed", "Tetrahedra taken out of the body, of all it had. Reset brings them back."},
@@ -84,16 +85,16 @@ void draw_volume(Rows& rows, const Frame& frame, const History& history) {
     const EditReport& cut = *frame.last_edit;
     rows.value({"Last cut", "Area of one side of the last cut, as the body was when it was made."},
                fmt::format("{:.3g} cm²", cut.area * 1e4));
-    rows.value({"Smallest angle",
+    rows.value({"Min dihedral angle",
                 "Dihedral angle of the worst new tetrahedron of the last cut, degrees, at rest. Slivers "
                 "have less than 5°."},
-               fmt::format("{:.0f}°", cut.smallest_angle));
+               fmt::format("{:.0f}°", cut.min_angle));
     rows.value({"Step, before and after", "The longest stable step of explicit methods before and after the last cut."},
                fmt::format("{}, {}", quantity(cut.step_before, "s"), quantity(cut.step_after, "s")));
   }
   const Curve curves[] = {
-      {"Least", colours::potential, [](const Reading& r) { return r.min_J; }},
-      {"Greatest", colours::kinetic, [](const Reading& r) { return r.max_J; }},
+      {"Min", colours::potential, [](const Reading& r) { return r.min_J; }},
+      {"Max", colours::kinetic, [](const Reading& r) { return r.max_J; }},
       {"Whole", total_colour, [](const Reading& r) { return r.volume; }},
   };
   plot("volume plot", history, curves, {"", 1, 0.01, 3.0f});
@@ -101,19 +102,20 @@ void draw_volume(Rows& rows, const Frame& frame, const History& history) {
 
 void draw_errors(Rows& rows, const Frame& frame, const History& history) {
   rows.value(
-      {"Of the mesh",
+      {"Discretisation error",
        "Estimated error of what linear tetrahedra make of the deformation, % of its energy norm (Zienkiewicz and "
        "Zhu): stress against its mean at nodes. Halving the edges about halves it; colours (6) show where. It "
        "does not see locking, and a body on the way may be off for other reasons."},
       frame.mesh_error ? fmt::format("{:.1f} %", 100 * *frame.mesh_error) : "–", colours::accent);
   const auto& time = frame.time_error;
-  rows.value({"Of the steps",
-              "How far the nodes (rms) were from where infinitely short steps would have taken them at the end of a "
-              "stretch of 0.1 s, mm: a shadow of the body goes through it with half the steps now and then. Not after "
-              "cuts, and not of tissue that remembers."},
-             time ? fmt::format("{:.2g} mm", 1e3 * time->rms) : "–", colours::warning);
-  rows.value({"At the worst node", "The same of the node where it is largest, mm."},
-             time ? fmt::format("{:.2g} mm", 1e3 * time->largest) : "–", 0);
+  rows.value(
+      {"Time error",
+       "How far the nodes (rms) were from where infinitely short steps would have taken them at the end of a "
+       "stretch of 0.1 s, mm: a copy of the body repeats it with half the step now and then (step doubling). Not after "
+       "cuts, and not of tissue that remembers."},
+      time ? fmt::format("{:.2g} mm", 1e3 * time->rms) : "–", colours::warning);
+  rows.value({"Max time error", "The same of the node where it is largest, mm."},
+             time ? fmt::format("{:.2g} mm", 1e3 * time->max) : "–", 0);
   const Curve mesh_curve[] = {{"Mesh", colours::accent, [](const Reading& r) { return r.mesh_error; }}};
   plot("mesh error plot", history, mesh_curve, {"%", 0, 1, 2.8f});
   const Curve time_curve[] = {{"Steps", colours::warning, [](const Reading& r) { return r.time_error; }}};
@@ -137,19 +139,19 @@ void draw_engine(Rows& rows, const Frame& frame, const History& history) {
               "Longest step that stays stable now, s, with a margin. Stiffer, lighter or finer makes it shorter."},
              time_of(frame.stable_step));
   rows.value({"Missed deadlines", "Ticks that ended later than real time asked, since the start."},
-             counted(pace.missed), 0, pace.missed > 0 && !pace.keeping_up ? colours::warning : colours::text);
-  rows.value({"Threads", "Threads that step the body, and how many cores the rest of the program (drawing, above all) takes. "
-                         "Stepping gets what is left, unless the scene fixes solver.threads; results do not depend on it."},
+             grouped_digits(pace.missed), 0, pace.missed > 0 && !pace.keeping_up ? colours::warning : colours::text);
+  rows.value({"Threads",
+              "Threads that step the body, and how many cores the rest of the program (drawing, above all) takes. "
+              "Stepping gets what is left, unless the scene fixes solver.threads; results do not depend on it."},
              fmt::format("{}, drawing {:.1f} cores", pace.threads, pace.others));
   const Curve curves[] = {
       {"Slowest", colours::warning, [](const Reading& r) { return r.slow_tick; }},
       {"Typical", colours::accent, [](const Reading& r) { return r.typical_tick; }},
   };
   plot("tick plot", history, curves, {"s", 0, 1e-6, 2.8f});
-  rows.value({"Slower by", "Wall seconds a simulated second over the last second: 1 is real time, 2 half as fast."},
+  rows.value({"Slowdown", "Wall seconds a simulated second over the last second: 1 is real time, 2 half as fast."},
              pace.slowdown < 1e8 ? fmt::format("{:.2f} ×", pace.slowdown) : "–", colours::potential);
-  const Curve late[] = {
-      {"Slower by", colours::potential, [](const Reading& r) { return std::min(r.slowdown, 100.0); }}};
+  const Curve late[] = {{"Slowdown", colours::potential, [](const Reading& r) { return std::min(r.slowdown, 100.0); }}};
   plot("lateness plot", history, late, {"×", 1, 0.5, 2.2f});
 }
 

@@ -18,14 +18,14 @@ std::string seconds_text(double seconds) {
                       : fmt::format("{}:{:04.1f}", static_cast<long>(seconds / 60), std::fmod(seconds, 60));
 }
 
-std::string moment_hint(const Timeline& time) {
+std::string time_hint(const Timeline& time) {
   return fmt::format(
       "Simulated time since the start, s, of what is shown: ticks of the engine, which a reset does not set back. "
       "Left, "
-      "Right and Home look back too; Resume (B) goes on from there.\n\n{} moments are kept, {:.1f} of at most {:.0f} "
+      "Right and Home look back too; Resume (B) goes on from there.\n\n{} frames are kept, {:.1f} of at most {:.0f} "
       "MB. "
       "When that is full, every other one goes.",
-      time.moments, static_cast<double>(time.bytes) / 1e6, static_cast<double>(time.room) / 1e6);
+      time.frames, static_cast<double>(time.bytes) / 1e6, static_cast<double>(time.room) / 1e6);
 }
 
 /// The track, and where ticks are on it.
@@ -52,8 +52,8 @@ void draw_track(const Track& track) {
   part(track.from.x, track.to.x, colours::track);
   part(track.at(time.first), track.at(time.live), time.shown ? colours::faint : colours::fill);
   if (time.shown) part(track.at(time.first), track.at(*time.shown), colours::fill);
-  if (time.hurries_to > 0)
-    list.AddCircle({track.at(time.hurries_to), middle}, em(0.42f), colours::warning, 20, em(0.12f));
+  if (time.fast_forward_target > 0)
+    list.AddCircle({track.at(time.fast_forward_target), middle}, em(0.42f), colours::warning, 20, em(0.12f));
   list.AddCircleFilled({track.at(time.shown.value_or(time.live)), middle}, em(0.46f), colours::accent, 24);
 }
 
@@ -64,9 +64,9 @@ void follow_mouse(Rows& rows, const Track& track, PanelActions& out) {
   const float x = ImGui::GetIO().MousePos.x;
   const long tick = track.tick_at(x);
   if (ImGui::IsItemActive() && (ImGui::IsMouseClicked(0) || ImGui::GetIO().MouseDelta.x != 0)) {
-    if (tick <= time.live) out.look_at = tick;
+    if (tick <= time.live) out.seek_to = tick;
   }
-  if (ImGui::IsItemDeactivated() && tick > time.live) out.look_at = tick;  // ahead: once, where the mouse lets go
+  if (ImGui::IsItemDeactivated() && tick > time.live) out.seek_to = tick;  // ahead: once, where the mouse lets go
   rows.explain({"Timeline", ""});
   if (!ImGui::IsItemHovered()) return;
   // Above the bar, whose buttons it would hide.
@@ -75,7 +75,7 @@ void follow_mouse(Rows& rows, const Track& track, PanelActions& out) {
   ImGui::Text("%s of %s", seconds_text(static_cast<double>(tick) / time.rate).c_str(),
               seconds_text(static_cast<double>(time.end) / time.rate).c_str());
   if (!ImGui::IsAnyMouseDown())
-    ImGui::TextDisabled("%s", tick > time.live ? "let go here to send the engine ahead" : "drag to look back");
+    ImGui::TextDisabled("%s", tick > time.live ? "release here to fast-forward to it" : "drag to show the past");
   ImGui::EndTooltip();
 }
 
@@ -100,7 +100,7 @@ void draw_timeline(Rows& rows, const Timeline& time, const Area& free, std::vect
     ImGui::PushStyleColor(ImGuiCol_Text, back ? colours::warning : colours::text);
     ImGui::TextUnformatted(seconds_text(seconds).c_str());
     ImGui::PopStyleColor();
-    rows.explain({"Moment", moment_hint(time)});
+    rows.explain({"Shown time", time_hint(time)});
     const float end = place.to.x - em(0.9f) - (back || time.returning ? em(buttons_width) : 0);
     const Track track{{left + em(label_width), place.from.y + em(0.3f)}, {end, place.from.y + em(0.3f) + height}, time};
     ImGui::SetCursorScreenPos(track.from);
@@ -110,15 +110,14 @@ void draw_timeline(Rows& rows, const Timeline& time, const Area& free, std::vect
     if (time.returning) {
       ImGui::AlignTextToFramePadding();
       ImGui::Text("Returning %d %%", *time.returning);
-      rows.explain(
-          {"Returning", "What led to that moment is played again, as fast as this machine can; Esc gives up."});
+      rows.explain({"Returning", "What led to that time is played again, as fast as this machine can; Esc gives up."});
     } else if (back) {
       if (rows.button({"Resume",
-                       "Goes on from this moment: what led to it is played again, to the bit, and a recording "
+                       "Resumes from this time: what led to it is played again, to the bit, and a recording "
                        "that is under way, or was opened, goes on in a new file (B)."}))
         pressed.push_back(Action::resume);
       ImGui::SameLine(0, em(0.4f));
-      if (rows.button({"Now", "Back to the present (End, Esc)."})) pressed.push_back(Action::look_now);
+      if (rows.button({"Now", "Back to the present (End, Esc)."})) pressed.push_back(Action::seek_now);
     }
   }
   ImGui::End();

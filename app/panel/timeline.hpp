@@ -19,9 +19,9 @@ struct Timeline {
   long first = 0, live = 0;   ///< what was seen; where the engine is
   long end = 0;               ///< of a recording, where that is later
   std::optional<long> shown;  ///< the moment that is looked at; none: live
-  std::size_t moments = 0;    ///< that are kept
+  std::size_t frames = 0;     ///< that are kept
   std::size_t bytes = 0, room = 0;
-  long hurries_to = 0;           ///< a tick ahead that the engine goes to; 0: none
+  long fast_forward_target = 0;  ///< a tick ahead that the engine goes to; 0: none
   std::optional<int> returning;  ///< %, of the way back to a moment that is resumed
 };
 

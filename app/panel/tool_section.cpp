@@ -8,9 +8,9 @@ namespace heml::panel {
 namespace {
 
 // Of the body's radius.
-constexpr double first_grasp = 0.12, most_grasp = 0.5, first_depth = 0.35, most_depth = 2;
-constexpr double first_probe = 0.08, most_probe = 0.4, first_dent = 0.15, most_dent = 0.6;
-constexpr double most_friction = 1.5, table_gap = 0.01;
+constexpr double first_grasp = 0.12, max_grasp = 0.5, first_depth = 0.35, max_depth = 2;
+constexpr double first_probe = 0.08, max_probe = 0.4, first_dent = 0.15, max_dent = 0.6;
+constexpr double max_friction = 1.5, table_gap = 0.01;
 
 std::string several(std::size_t count, const char* what) {
   return fmt::format("Take out {} {}{}", count, what, count == 1 ? "" : "s");
@@ -24,10 +24,10 @@ ToolSection::ToolSection(double body_radius, const Vec3& gravity) : body_radius_
   tool_.probe_radius = first_probe * body_radius;
   tool_.dent = first_dent * body_radius;
   tool_.shaft = 2 * body_radius;
-  follow({gravity});
+  sync({gravity});
 }
 
-void ToolSection::follow(const SetGravity& command) {
+void ToolSection::sync(const SetGravity& command) {
   if (command.gravity.norm() > 0) up_ = -command.gravity.normalized();
 }
 
@@ -69,13 +69,13 @@ void ToolSection::draw_settings(Rows& rows) {
   switch (tool_.tool) {
     case Tool::scalpel:
       length(rows, {"Depth", "How far the blade reaches below the surface, mm, along the line of sight."}, tool_.depth,
-             most_depth);
+             max_depth);
       return;
     case Tool::probe:
-      length(rows, {"Tip radius", "Of the probe's round tip, and of its shaft, mm."}, tool_.probe_radius, most_probe);
+      length(rows, {"Tip radius", "Of the probe's round tip, and of its shaft, mm."}, tool_.probe_radius, max_probe);
       tool_.probe_radius = std::max(tool_.probe_radius, 0.01 * body_radius_);
       length(rows, {"Dent", "How far the tip goes below the surface when it is pressed on it, mm."}, tool_.dent,
-             most_dent);
+             max_dent);
       return;
     case Tool::suture:
       return;
@@ -85,7 +85,7 @@ void ToolSection::draw_settings(Rows& rows) {
               "Surface nodes within this distance of where you take hold go with the tool, or stay where they are "
               "under a pin, mm, measured on the rest shape. 0: one node alone. Delete (Del) takes out the tissue "
               "within it, one element deep."},
-             tool_.radius, most_grasp);
+             tool_.radius, max_grasp);
   }
 }
 
@@ -93,7 +93,7 @@ void ToolSection::draw_friction(Rows& rows, const Frame& frame, PanelActions& ou
   if (tool_.tool != Tool::probe && frame.tables.empty()) return;
   if (!frame.tables.empty() && tool_.tool != Tool::probe) tool_.friction = frame.tables.front().table.friction;
   if (!rows.slider({"Friction", "Coulomb's coefficient of friction of tissue on probe and table, no unit."},
-                   tool_.friction, {0, most_friction, "%.2f", false}) ||
+                   tool_.friction, {0, max_friction, "%.2f", false}) ||
       frame.tables.empty())
     return;
   SetTables set;

@@ -12,19 +12,19 @@ class ToolSection {
   ToolSection(double body_radius, const Vec3& gravity);
 
   void draw(Rows& rows, const Frame& frame, PanelActions& out);
-  void take(Tool tool) { tool_.tool = tool; }
+  void select(Tool tool) { tool_.tool = tool; }
   /// Puts a table under the body as it is, or takes all tables away.
   void toggle_table(const Frame& frame, PanelActions& out) const;
-  void follow(const SetGravity& command);
+  void sync(const SetGravity& command);
 
-  const ToolInHand& tool() const { return tool_; }
+  const ToolSettings& tool() const { return tool_; }
 
  private:
   void draw_settings(Rows& rows);
   void draw_friction(Rows& rows, const Frame& frame, PanelActions& out);
   bool length(Rows& rows, const Label& label, double& metres, double most);
 
-  ToolInHand tool_;
+  ToolSettings tool_;
   double body_radius_;
   Vec3 up_ = Vec3::UnitY();
 };

@@ -32,25 +32,25 @@ void ViewSection::draw(Rows& rows, std::vector<Action>& pressed, PanelActions& o
   const float left = ImGui::GetCursorPosX();
   rows.check({"Wireframe", "The mesh's edges over the surface (W)."}, drawing_.wireframe);
   ImGui::SameLine(left + half);
-  rows.check({"Held nodes", "Beads where the scene holds or moves the body."}, drawing_.held);
+  rows.check({"Constrained nodes", "Beads where the scene holds or moves the body."}, drawing_.constrained);
   rows.check({"Ground", "The drape below, and the shadow on it."}, drawing_.ground);
   ImGui::SameLine(left + half);
   bool fine = drawing_.resolution == 1;
   if (rows.check(
-          {"Sharp", "The picture at the screen's full resolution. Off: half, which is faster without a graphics card."},
+          {"Sharp", "The image at the screen's full resolution. Off: half, which is faster without a graphics card."},
           fine))
     drawing_.resolution = fine ? 1 : half_resolution;
   draw_views(rows, pressed);
   const float room = ImGui::GetContentRegionAvail().x - 2 * ImGui::GetStyle().ItemSpacing.x;
-  if (rows.button({"Fit view", "Turns the eye back to where the scene began (F)."}, 0.29f * room))
+  if (rows.button({"Fit view", "Turns the camera back to where the scene began (F)."}, 0.29f * room))
     pressed.push_back(Action::fit);
   ImGui::SameLine();
-  if (rows.button({"Save picture", "Writes a PNG into the working folder (P)."}, 0.42f * room))
+  if (rows.button({"Save image", "Writes a PNG into the working folder (P)."}, 0.42f * room))
     pressed.push_back(Action::screenshot);
   ImGui::SameLine();
-  const std::string so_far = filmed_ ? fmt::format("\n\n{} pictures so far.", *filmed_) : "";
-  if (rows.button({filmed_ ? "Stop film" : "Film",
-                   "Writes 30 pictures a simulated second into a folder of the working folder, and at the end a video "
+  const std::string so_far = filmed_ ? fmt::format("\n\n{} frames so far.", *filmed_) : "";
+  if (rows.button({filmed_ ? "Stop recording" : "Record video",
+                   "Writes 30 frames per simulated second into a folder of the working folder, and at the end a video "
                    "beside it where ffmpeg is installed (V). As the window looks: Tab leaves the panel out." +
                        so_far},
                   0.29f * room))
@@ -65,10 +65,10 @@ void ViewSection::draw(Rows& rows, std::vector<Action>& pressed, PanelActions& o
 
 /// A button a view: goes there; keeps this one where none was kept, or with Ctrl.
 void ViewSection::draw_views(Rows& rows, std::vector<Action>& pressed) const {
-  rows.name(
-      {"Views", "Four places of the eye to come back to: a press keeps the view of the moment, then goes to it."});
-  const float gap = em(0.25f), each = (ImGui::GetContentRegionAvail().x - gap * (Eye::views - 1)) / Eye::views;
-  for (std::size_t view = 0; view < Eye::views; ++view) {
+  rows.name({"Views", "Four saved camera views: a press saves the current view, then goes to it."});
+  const float gap = em(0.25f),
+              each = (ImGui::GetContentRegionAvail().x - gap * (CameraController::views - 1)) / CameraController::views;
+  for (std::size_t view = 0; view < CameraController::views; ++view) {
     if (view > 0) ImGui::SameLine(0, gap);
     ImGui::PushStyleColor(ImGuiCol_Text, kept_[view] ? colours::text : colours::faint);
     const std::string name = fmt::format("{}", view + 1);

@@ -1,7 +1,7 @@
 #pragma once
 // What of the body is shown, and how.
 #include <app/panel/actions.hpp>
-#include <app/panel/eye.hpp>
+#include <app/panel/camera_controller.hpp>
 #include <app/panel/rows.hpp>
 #include <app/render/renderer.hpp>
 #include <heml/scenario/scene.hpp>
@@ -30,7 +30,7 @@ class ViewSection {
   void draw_views(Rows& rows, std::vector<Action>& pressed) const;
 
   Field field_;
-  std::array<bool, Eye::views> kept_{};
+  std::array<bool, CameraController::views> kept_{};
   std::optional<long> filmed_;
   render::DrawOptions drawing_;
 };

@@ -2,12 +2,12 @@
 
 namespace heml::panel {
 
-double enclosed_volume(const Skin& skin, std::span<const Vec3f> positions) {
-  if (skin.triangles.empty() || positions.size() != skin.nodes.size()) return 0;
+double enclosed_volume(const SurfaceMesh& surface_mesh, std::span<const Vec3f> positions) {
+  if (surface_mesh.triangles.empty() || positions.size() != surface_mesh.nodes.size()) return 0;
   const Vec3 origin = positions.front().cast<double>();  // near, so that nothing large cancels
   const auto at = [&](int node) { return Vec3(positions[static_cast<std::size_t>(node)].cast<double>() - origin); };
   double six_times = 0;
-  for (const Triangle& t : skin.triangles) six_times += at(t[0]).dot(at(t[1]).cross(at(t[2])));
+  for (const Triangle& t : surface_mesh.triangles) six_times += at(t[0]).dot(at(t[1]).cross(at(t[2])));
   return six_times / 6;
 }
 

@@ -15,7 +15,8 @@ using Box = Eigen::AlignedBox3f;
 // Triangles in a binary tree of boxes, halved at the median of the longest side.
 class Occluder {
  public:
-  explicit Occluder(const Skin& skin) : skin_(skin), order_(skin.triangles.size()) {
+  explicit Occluder(const SurfaceMesh& surface_mesh)
+      : surface_mesh_(surface_mesh), order_(surface_mesh.triangles.size()) {
     std::iota(order_.begin(), order_.end(), 0);
     if (!order_.empty()) build(0, static_cast<int>(order_.size()));
   }
@@ -30,8 +31,9 @@ class Occluder {
       if (!enters(node.box, origin, inverse, reach)) continue;
       if (node.right < 0) {
         for (int i = node.first; i < node.last; ++i) {
-          const auto& [a, b, c] = skin_.triangles[order_[i]];
-          if (ray_meets(origin, direction, skin_.rest[a], skin_.rest[b], skin_.rest[c]) < reach) return true;
+          const auto& [a, b, c] = surface_mesh_.triangles[order_[i]];
+          if (ray_meets(origin, direction, surface_mesh_.rest[a], surface_mesh_.rest[b], surface_mesh_.rest[c]) < reach)
+            return true;
         }
       } else {
         stack[size++] = node.right;
@@ -54,8 +56,8 @@ class Occluder {
   }
 
   Vec3f centre(int triangle) const {
-    const auto& [a, b, c] = skin_.triangles[triangle];
-    return (skin_.rest[a] + skin_.rest[b] + skin_.rest[c]) / 3;
+    const auto& [a, b, c] = surface_mesh_.triangles[triangle];
+    return (surface_mesh_.rest[a] + surface_mesh_.rest[b] + surface_mesh_.rest[c]) / 3;
   }
 
   void build(int first, int last) {
@@ -63,7 +65,7 @@ class Occluder {
     nodes_.push_back({Box(), first, last});
     Box centres;
     for (int i = first; i < last; ++i) {
-      for (const int node : skin_.triangles[order_[i]]) nodes_[self].box.extend(skin_.rest[node]);
+      for (const int node : surface_mesh_.triangles[order_[i]]) nodes_[self].box.extend(surface_mesh_.rest[node]);
       centres.extend(centre(order_[i]));
     }
     if (last - first <= 4) return;
@@ -77,7 +79,7 @@ class Occluder {
     build(middle, last);
   }
 
-  const Skin& skin_;
+  const SurfaceMesh& surface_mesh_;
   std::vector<int> order_;
   std::vector<Node> nodes_;
 };
@@ -98,9 +100,9 @@ std::vector<Vec3f> directions(int side, unsigned seed) {
 }
 
 // Ray counts leave a grain; the mean with the neighbours takes it away.
-void smooth(const Skin& skin, std::vector<float>& values) {
+void smooth(const SurfaceMesh& surface_mesh, std::vector<float>& values) {
   std::vector<float> sum = values, weight(values.size(), 1);
-  for (const Triangle& triangle : skin.triangles)
+  for (const Triangle& triangle : surface_mesh.triangles)
     for (int k = 0; k < 3; ++k)
       for (const int other : {triangle[(k + 1) % 3], triangle[(k + 2) % 3]}) {
         sum[triangle[k]] += 0.5f * values[other];
@@ -111,23 +113,23 @@ void smooth(const Skin& skin, std::vector<float>& values) {
 
 }  // namespace
 
-std::vector<float> ambient_occlusion(const Skin& skin, const std::vector<Vec3f>& normals, float reach,
+std::vector<float> ambient_occlusion(const SurfaceMesh& surface_mesh, const std::vector<Vec3f>& normals, float reach,
                                      std::span<const std::optional<float>> known) {
-  const Occluder occluder(skin);
-  const std::vector<Vec3f> rays = directions(skin.rest.size() < 10000 ? 10 : 5, 20010301);
-  std::vector<float> open(skin.rest.size(), 1);
+  const Occluder occluder(surface_mesh);
+  const std::vector<Vec3f> rays = directions(surface_mesh.rest.size() < 10000 ? 10 : 5, 20010301);
+  std::vector<float> open(surface_mesh.rest.size(), 1);
   for (std::size_t i = 0; i < open.size(); ++i) {
     const Vec3f n = normals[i];
     if (!known.empty() && known[i]) open[i] = *known[i];
     if (n.isZero() || (!known.empty() && known[i])) continue;
     const Eigen::Quaternionf turn = Eigen::Quaternionf::FromTwoVectors(Vec3f::UnitZ(), n);
-    const Vec3f origin = skin.rest[i] + 1e-3f * reach * n;
+    const Vec3f origin = surface_mesh.rest[i] + 1e-3f * reach * n;
     int blocked = 0;
     for (const Vec3f& ray : rays) blocked += occluder.blocks(origin, turn * ray, reach);
     open[i] = 1 - static_cast<float>(blocked) / static_cast<float>(rays.size());
   }
-  smooth(skin, open);
-  smooth(skin, open);
+  smooth(surface_mesh, open);
+  smooth(surface_mesh, open);
   for (std::size_t i = 0; i < known.size(); ++i) open[i] = known[i].value_or(open[i]);
   return open;
 }

@@ -10,7 +10,7 @@ namespace heml::render {
 /// #S values from 0 (buried) to 1 (open): the share of rays, cosine-weighted about the node's normal, that meet nothing
 /// within `reach` (m). normals: #S×3, unit. known: #S, values that are kept where there is one, or empty. The same for
 /// the same skin; about a second for 50,000 nodes that are not known.
-std::vector<float> ambient_occlusion(const Skin& skin, const std::vector<Vec3f>& normals, float reach,
+std::vector<float> ambient_occlusion(const SurfaceMesh& surface_mesh, const std::vector<Vec3f>& normals, float reach,
                                      std::span<const std::optional<float>> known = {});
 
 }  // namespace heml::render

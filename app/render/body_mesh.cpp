@@ -9,21 +9,23 @@ namespace {
 
 std::uint8_t byte(float value) { return static_cast<std::uint8_t>(std::lround(255 * std::clamp(value, 0.0f, 1.0f))); }
 
-float mean_edge(const Skin& skin) {
+float mean_edge(const SurfaceMesh& surface_mesh) {
   double sum = 0;
-  for (const auto& [a, b, c] : skin.triangles)
-    sum += (skin.rest[a] - skin.rest[b]).norm() + (skin.rest[b] - skin.rest[c]).norm() +
-           (skin.rest[c] - skin.rest[a]).norm();
-  return skin.triangles.empty() ? 0 : static_cast<float>(sum / (3.0 * static_cast<double>(skin.triangles.size())));
+  for (const auto& [a, b, c] : surface_mesh.triangles)
+    sum += (surface_mesh.rest[a] - surface_mesh.rest[b]).norm() + (surface_mesh.rest[b] - surface_mesh.rest[c]).norm() +
+           (surface_mesh.rest[c] - surface_mesh.rest[a]).norm();
+  return surface_mesh.triangles.empty()
+             ? 0
+             : static_cast<float>(sum / (3.0 * static_cast<double>(surface_mesh.triangles.size())));
 }
 
 // Mean tint of the triangles at each corner: regions pass softly into each other.
-std::vector<Vec3f> corner_tints(const Skin& skin, const SurfaceTopology& topology) {
+std::vector<Vec3f> corner_tints(const SurfaceMesh& surface_mesh, const SurfaceTopology& topology) {
   std::vector<Vec3f> tints(topology.corner_nodes.size(), Vec3f::Zero());
   std::vector<float> counts(tints.size(), 0);
   for (std::size_t t = 0; t < topology.triangles.size(); ++t)
     for (const int corner : topology.triangles[t]) {
-      tints[corner] += tissue_tint(t < skin.regions.size() ? skin.regions[t] : 0);
+      tints[corner] += tissue_tint(t < surface_mesh.regions.size() ? surface_mesh.regions[t] : 0);
       counts[corner] += 1;
     }
   for (std::size_t c = 0; c < tints.size(); ++c) tints[c] /= counts[c];
@@ -32,15 +34,15 @@ std::vector<Vec3f> corner_tints(const Skin& skin, const SurfaceTopology& topolog
 
 }  // namespace
 
-BodyMesh::BodyMesh(const Skin& skin, const TissueLook& look)
-    : surface_(skin, SmoothSurface::suitable_segments(skin.triangles.size())),
-      nodes_(skin.rest.size()),
-      rest_(ball_around(whole_of(skin).rest)),
-      bead_radius_(std::min(0.4f * mean_edge(whole_of(skin)), 0.022f * rest_.radius)),
+BodyMesh::BodyMesh(const SurfaceMesh& surface_mesh, const TissueLook& look)
+    : surface_(surface_mesh, SmoothSurface::suitable_segments(surface_mesh.triangles.size())),
+      nodes_(surface_mesh.rest.size()),
+      rest_(bounding_sphere(uncut_surface(surface_mesh).rest)),
+      bead_radius_(std::min(0.4f * mean_edge(uncut_surface(surface_mesh)), 0.022f * rest_.radius)),
       outline_(surface_.triangles(), surface_.positions()) {
   describe_vertices();
-  upload_fixed(skin, look);
-  upload_indices(skin);
+  upload_fixed(surface_mesh, look);
+  upload_indices(surface_mesh);
 }
 
 void BodyMesh::describe_vertices() {
@@ -66,7 +68,7 @@ void BodyMesh::describe_vertices() {
   vertex_attribute(6, 3, GL_FLOAT, sizeof(Strip), offsetof(Strip, strip));
 }
 
-void BodyMesh::upload_indices(const Skin& skin) {
+void BodyMesh::upload_indices(const SurfaceMesh& surface_mesh) {
   glBindVertexArray(array_);
   const auto fill = [](Indices& indices, const std::vector<std::uint32_t>& values) {
     upload(GL_ELEMENT_ARRAY_BUFFER, indices.buffer, std::span(values), GL_STATIC_DRAW);
@@ -74,22 +76,22 @@ void BodyMesh::upload_indices(const Skin& skin) {
   };
   fill(triangles_, surface_.triangles());
   fill(lines_, surface_.lines());
-  std::vector<std::uint32_t> flat, held;
+  std::vector<std::uint32_t> flat, constrained;
   for (const Triangle& corners : surface_.topology().triangles) flat.insert(flat.end(), corners.begin(), corners.end());
   fill(flat_, flat);
-  std::vector<char> is_held(skin.rest.size(), 0);
-  for (const int node : skin.held) is_held[node] = 1;
+  std::vector<char> is_constrained(surface_mesh.rest.size(), 0);
+  for (const int node : surface_mesh.constrained) is_constrained[node] = 1;
   const std::vector<int>& corner_nodes = surface_.topology().corner_nodes;
   for (std::size_t c = 0; c < corner_nodes.size(); ++c)
-    if (std::exchange(is_held[corner_nodes[c]], 0)) held.push_back(static_cast<std::uint32_t>(c));
-  fill(held_, held);
+    if (std::exchange(is_constrained[corner_nodes[c]], 0)) constrained.push_back(static_cast<std::uint32_t>(c));
+  fill(constrained_, constrained);
 }
 
-void BodyMesh::upload_fixed(const Skin& skin, const TissueLook& look) {
-  const std::vector<Vec3f> tints = corner_tints(skin, surface_.topology());
+void BodyMesh::upload_fixed(const SurfaceMesh& surface_mesh, const TissueLook& look) {
+  const std::vector<Vec3f> tints = corner_tints(surface_mesh, surface_.topology());
   std::vector<Vec3f> rest, on_sphere;
   std::vector<float> open;
-  surface_.spread(std::span<const Vec3f>(skin.rest), rest);
+  surface_.spread(std::span<const Vec3f>(surface_mesh.rest), rest);
   surface_.spread(std::span<const Vec3f>(look.on_sphere), on_sphere);
   surface_.spread(std::span<const float>(look.openness), open);
   fixed_.resize(rest.size());
@@ -145,6 +147,6 @@ void BodyMesh::draw(GLenum mode, const Indices& indices) const {
 void BodyMesh::draw_surface() const { draw(GL_TRIANGLES, triangles_); }
 void BodyMesh::draw_flat() const { draw(GL_TRIANGLES, flat_); }
 void BodyMesh::draw_edges() const { draw(GL_LINES, lines_); }
-void BodyMesh::draw_held() const { draw(GL_POINTS, held_); }
+void BodyMesh::draw_constrained() const { draw(GL_POINTS, constrained_); }
 
 }  // namespace heml::render

@@ -12,7 +12,7 @@ namespace heml::render {
 
 class BodyMesh {
  public:
-  BodyMesh(const Skin& skin, const TissueLook& look);
+  BodyMesh(const SurfaceMesh& surface_mesh, const TissueLook& look);
 
   /// Takes a frame's positions and, when it has them, its values over a range.
   void update(const Frame& frame, const Range& range);
@@ -27,9 +27,11 @@ class BodyMesh {
   void draw_outline() const;  ///< strips that fade outwards, see outline.hpp
   void draw_flat() const;     ///< the real triangles, for shadows
   void draw_edges() const;
-  void draw_held() const;  ///< points
+  void draw_constrained() const;  ///< points
 
-  const Ball& rest() const { return rest_; }  ///< of the whole body: what is removed moves neither ground nor light
+  const BoundingSphere& rest() const {
+    return rest_;
+  }  ///< of the whole body: what is removed moves neither ground nor light
   float bead_radius() const { return bead_radius_; }  ///< m, for held nodes
   bool has_triangles() const { return !surface_.triangles().empty(); }
   std::size_t node_count() const { return nodes_; }
@@ -57,13 +59,13 @@ class BodyMesh {
   };
 
   void describe_vertices();
-  void upload_fixed(const Skin& skin, const TissueLook& look);
-  void upload_indices(const Skin& skin);
+  void upload_fixed(const SurfaceMesh& surface_mesh, const TissueLook& look);
+  void upload_indices(const SurfaceMesh& surface_mesh);
   void draw(GLenum mode, const Indices& indices) const;
 
   SmoothSurface surface_;
   std::size_t nodes_;
-  Ball rest_;
+  BoundingSphere rest_;
   float bead_radius_ = 0;
   std::vector<float> values_, beyond_;
   Outline outline_;
@@ -72,7 +74,7 @@ class BodyMesh {
   std::vector<Strip> strips_;
   VertexArray array_, strip_array_;
   Buffer moving_buffer_, fixed_buffer_, strip_buffer_, beyond_buffer_;
-  Indices triangles_, flat_, lines_, held_;
+  Indices triangles_, flat_, lines_, constrained_;
 };
 
 }  // namespace heml::render

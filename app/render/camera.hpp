@@ -24,12 +24,12 @@ class Camera {
   void zoom(float factor);                     ///< multiplies the distance; stays between 0.2 and 50 radii
 
   const Vec3f& target() const { return target_; }
-  Vec3f eye() const;                         ///< m
-  Vec3f right() const;                       ///< unit, along the picture's x axis
-  Vec3f up() const;                          ///< unit, against the picture's y axis
-  Mat4f view() const;                        ///< world to eye space, OpenGL's convention
-  Mat4f projection(Size size) const;         ///< eye space to clip space
-  Ray ray(float x, float y, Size size) const;  ///< through a point of the picture
+  Vec3f eye() const;                                 ///< m
+  Vec3f right() const;                               ///< unit, along the picture's x axis
+  Vec3f up() const;                                  ///< unit, against the picture's y axis
+  Mat4f view() const;                                ///< world to eye space, OpenGL's convention
+  Mat4f projection(Size size) const;                 ///< eye space to clip space
+  Ray ray(float x, float y, Size size) const;        ///< through a point of the picture
   Vec2f pixel(const Vec3f& point, Size size) const;  ///< where a point in front of the eye appears
   /// Where the ray of a pixel meets the plane through `point` that faces the camera: what a dragged point follows.
   Vec3f drag(float x, float y, Size size, const Vec3f& point) const;

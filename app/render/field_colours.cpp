@@ -11,9 +11,9 @@ bool is_ratio(Field field) { return field == Field::stretch || field == Field::v
 // Polynomial of degree 6 fitted to matplotlib's viridis by Matt Zucker (public domain); off by less than 0.01.
 Vec3f viridis(float t) {
   const std::array<Vec3f, 7> c = {
-      Vec3f(0.2777273f, 0.0054073f, 0.3340998f),     Vec3f(0.1050930f, 1.4046135f, 1.3845902f),
-      Vec3f(-0.3308618f, 0.2148476f, 0.0950952f),    Vec3f(-4.6342305f, -5.7991010f, -19.3324410f),
-      Vec3f(6.2282699f, 14.1799334f, 56.6905526f),   Vec3f(4.7763850f, -13.7451454f, -65.3530326f),
+      Vec3f(0.2777273f, 0.0054073f, 0.3340998f),   Vec3f(0.1050930f, 1.4046135f, 1.3845902f),
+      Vec3f(-0.3308618f, 0.2148476f, 0.0950952f),  Vec3f(-4.6342305f, -5.7991010f, -19.3324410f),
+      Vec3f(6.2282699f, 14.1799334f, 56.6905526f), Vec3f(4.7763850f, -13.7451454f, -65.3530326f),
       Vec3f(-5.4354559f, 4.6458526f, 26.3124352f)};
   Vec3f sum = c[6];
   for (int i = 5; i >= 0; --i) sum = c[i] + t * sum;
@@ -66,12 +66,18 @@ Range ColourRange::update(Field field, std::span<const float> values, float seco
 
 FieldLabel field_label(Field field, const Range& range) {
   switch (field) {
-    case Field::displacement: return {"Displacement", "mm", 1e3f};
-    case Field::stretch: return {"Largest stretch", "", 1};
-    case Field::von_mises: return pascals(range.high);
-    case Field::volume_ratio: return {"Volume ratio J", "", 1};
-    case Field::error: return {"Error of the mesh, of the mean energy norm", "%", 100};
-    case Field::none: break;
+    case Field::displacement:
+      return {"Displacement", "mm", 1e3f};
+    case Field::stretch:
+      return {"Largest stretch", "", 1};
+    case Field::von_mises:
+      return pascals(range.high);
+    case Field::volume_ratio:
+      return {"Volume ratio J", "", 1};
+    case Field::error:
+      return {"Error of the mesh, of the mean energy norm", "%", 100};
+    case Field::none:
+      break;
   }
   return {};
 }

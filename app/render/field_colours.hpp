@@ -16,8 +16,8 @@ struct Range {
 /// sRGB, 0..1, at a place 0..1 of a field's map: viridis, or for stretch and J a diverging one that is neutral at 0.5.
 Vec3f map_colour(Field field, float place);
 
-/// The range a field asks for: from 0 to the greatest value; for stretch and J symmetric about 1. Never empty; values that
-/// are not finite are left out.
+/// The range a field asks for: from 0 to the greatest value; for stretch and J symmetric about 1. Never empty; values
+/// that are not finite are left out.
 Range natural_range(Field field, std::span<const float> values);
 
 /// The range that is shown: fixed, or following natural_range() without flicker.

@@ -60,7 +60,7 @@ void allocate_texture(const Texture& texture, GLint internal_format, GLenum form
     glTexParameteri(GL_TEXTURE_2D, wrap, GL_CLAMP_TO_EDGE);
 }
 
-Canvas::Canvas(Size size) : size_(size) {
+RenderTarget::RenderTarget(Size size) : size_(size) {
   bind();
   const auto attach = [&](const Renderbuffer& buffer, GLenum format, GLenum point) {
     glBindRenderbuffer(GL_RENDERBUFFER, buffer);
@@ -73,7 +73,7 @@ Canvas::Canvas(Size size) : size_(size) {
     throw std::runtime_error("the graphics driver refuses to draw a picture of this size");
 }
 
-void Canvas::stretch_to_screen(int left, int bottom, Size size) const {
+void RenderTarget::stretch_to_screen(int left, int bottom, Size size) const {
   glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_);
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
   glBlitFramebuffer(0, 0, size_.width, size_.height, left, bottom, left + size.width, bottom + size.height,

@@ -18,14 +18,14 @@ using Vec4f = Eigen::Vector4f;
 
 /// Owns one OpenGL name; Traits::make and Traits::drop create and delete it.
 template <class Traits>
-class Handle {
+class GlHandle {
  public:
-  Handle() : name_(Traits::make()) {}
-  ~Handle() {
+  GlHandle() : name_(Traits::make()) {}
+  ~GlHandle() {
     if (name_) Traits::drop(name_);
   }
-  Handle(Handle&& other) noexcept : name_(std::exchange(other.name_, 0)) {}
-  Handle& operator=(Handle&& other) noexcept {
+  GlHandle(GlHandle&& other) noexcept : name_(std::exchange(other.name_, 0)) {}
+  GlHandle& operator=(GlHandle&& other) noexcept {
     std::swap(name_, other.name_);
     return *this;
   }
@@ -62,11 +62,11 @@ struct ProgramTraits {
 };
 // clang-format on
 
-using Buffer = Handle<BufferTraits>;
-using VertexArray = Handle<VertexArrayTraits>;
-using Texture = Handle<TextureTraits>;
-using Renderbuffer = Handle<RenderbufferTraits>;
-using Framebuffer = Handle<FramebufferTraits>;
+using Buffer = GlHandle<BufferTraits>;
+using VertexArray = GlHandle<VertexArrayTraits>;
+using Texture = GlHandle<TextureTraits>;
+using Renderbuffer = GlHandle<RenderbufferTraits>;
+using Framebuffer = GlHandle<FramebufferTraits>;
 
 /// A linked pair of shaders out of the embedded files (resources.hpp), "common.glsl" put before each.
 class Program {
@@ -86,7 +86,7 @@ class Program {
 
  private:
   GLint place(const char* name) const { return glGetUniformLocation(name_, name); }
-  Handle<ProgramTraits> name_;
+  GlHandle<ProgramTraits> name_;
 };
 
 /// Replaces what a buffer holds. usage: GL_STATIC_DRAW or GL_STREAM_DRAW.
@@ -103,9 +103,9 @@ void vertex_attribute(GLuint index, int components, GLenum type, std::size_t str
 void allocate_texture(const Texture& texture, GLint internal_format, GLenum format, GLenum type, Size size);
 
 /// Colour and depth of a size of its own to draw a picture into.
-class Canvas {
+class RenderTarget {
  public:
-  explicit Canvas(Size size);
+  explicit RenderTarget(Size size);
   void bind() const { glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_); }
   void stretch_to_screen(int left, int bottom, Size size) const;  ///< over a part of framebuffer 0, then bound
   Size size() const { return size_; }

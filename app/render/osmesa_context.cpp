@@ -44,8 +44,17 @@ const Library& library() {
 class OsMesaContext::Impl {
  public:
   explicit Impl(Size wanted) : size(wanted), pixels(std::size_t{4} * wanted.width * wanted.height) {
-    const int attributes[] = {OSMESA_FORMAT, OSMESA_RGBA, OSMESA_DEPTH_BITS, 24, OSMESA_PROFILE, OSMESA_CORE_PROFILE,
-                              OSMESA_CONTEXT_MAJOR_VERSION, 3, OSMESA_CONTEXT_MINOR_VERSION, 3, 0};
+    const int attributes[] = {OSMESA_FORMAT,
+                              OSMESA_RGBA,
+                              OSMESA_DEPTH_BITS,
+                              24,
+                              OSMESA_PROFILE,
+                              OSMESA_CORE_PROFILE,
+                              OSMESA_CONTEXT_MAJOR_VERSION,
+                              3,
+                              OSMESA_CONTEXT_MINOR_VERSION,
+                              3,
+                              0};
     context = library().create(attributes, nullptr);
     if (!context) throw std::runtime_error("libOSMesa gives no OpenGL 3.3 core context");
   }

@@ -39,9 +39,8 @@ Outline::Outline(std::span<const std::uint32_t> triangles, std::span<const Vec3f
     const auto [low, high] = std::minmax(same[from], same[to]);
     sides.push_back({low, high, from, to, apex, static_cast<int>(i / 3)});
   }
-  std::stable_sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return std::pair(a.low, a.high) < std::pair(b.low, b.high);
-  });
+  std::stable_sort(sides.begin(), sides.end(),
+                   [](const Side& a, const Side& b) { return std::pair(a.low, a.high) < std::pair(b.low, b.high); });
   for (std::size_t i = 0; i < sides.size();) {
     const Side& side = sides[i++];
     Edge edge{side.from, side.to, side.triangle, -1, side.apex, side.apex, false};

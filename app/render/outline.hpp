@@ -23,12 +23,12 @@ class Outline {
   Outline(std::span<const std::uint32_t> triangles, std::span<const Vec3f> positions);
 
   /// Edges between a triangle that faces the eye and one that does not, that have one triangle only, or that are sharp
-  /// and seen from both sides (they then fade into the other side); in a fixed order. eye: in the space of the positions.
-  /// to_clip: from that space to the clip space of a picture of a size in pixels.
-  const std::vector<Piece>& find(std::span<const Vec3f> positions, const Vec3f& eye, const Mat4f& to_clip,
-                                 Size size);
+  /// and seen from both sides (they then fade into the other side); in a fixed order. eye: in the space of the
+  /// positions. to_clip: from that space to the clip space of a picture of a size in pixels.
+  const std::vector<Piece>& find(std::span<const Vec3f> positions, const Vec3f& eye, const Mat4f& to_clip, Size size);
 
-  /// Six corners of two triangles for each piece: calls corner(vertex, outward, cover), cover 1 on the edge and 0 outside.
+  /// Six corners of two triangles for each piece: calls corner(vertex, outward, cover), cover 1 on the edge and 0
+  /// outside.
   template <class Corner>
   static void for_each_corner(const std::vector<Piece>& pieces, Corner corner) {
     for (const Piece& piece : pieces)
@@ -38,8 +38,8 @@ class Outline {
 
  private:
   struct Edge {
-    std::uint32_t from, to;        // as the first triangle has them
-    int first, second;             // triangles; second −1: none
+    std::uint32_t from, to;  // as the first triangle has them
+    int first, second;       // triangles; second −1: none
     std::uint32_t first_apex, second_apex;
     bool sharp;  // its two triangles have vertices of their own
   };

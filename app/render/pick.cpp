@@ -6,11 +6,11 @@
 
 namespace heml::render {
 
-std::optional<Hit> pick(const Frame& frame, const Skin& skin, const Ray& ray) {
+std::optional<Hit> pick(const Frame& frame, const SurfaceMesh& surface_mesh, const Ray& ray) {
   float nearest = std::numeric_limits<float>::infinity();
   std::optional<Hit> hit;
-  for (std::size_t t = 0; t < skin.triangles.size(); ++t) {
-    const auto& [a, b, c] = skin.triangles[t];
+  for (std::size_t t = 0; t < surface_mesh.triangles.size(); ++t) {
+    const auto& [a, b, c] = surface_mesh.triangles[t];
     const float distance =
         ray_meets(ray.origin, ray.direction, frame.positions[a], frame.positions[b], frame.positions[c]);
     if (!(distance < nearest)) continue;
@@ -18,18 +18,18 @@ std::optional<Hit> pick(const Frame& frame, const Skin& skin, const Ray& ray) {
     hit = Hit{static_cast<int>(t), a, ray.origin + distance * ray.direction};
   }
   if (!hit) return hit;
-  for (const int node : skin.triangles[hit->triangle])
+  for (const int node : surface_mesh.triangles[hit->triangle])
     if ((frame.positions[node] - hit->point).squaredNorm() < (frame.positions[hit->node] - hit->point).squaredNorm())
       hit->node = node;
   return hit;
 }
 
-std::optional<float> value_at(const Hit& hit, const Frame& frame, const Skin& skin) {
+std::optional<float> value_at(const Hit& hit, const Frame& frame, const SurfaceMesh& surface_mesh) {
   if (frame.field == Field::none || frame.values.size() != frame.positions.size()) return std::nullopt;
-  const Triangle& triangle = skin.triangles[static_cast<std::size_t>(hit.triangle)];
+  const Triangle& triangle = surface_mesh.triangles[static_cast<std::size_t>(hit.triangle)];
   const auto corner = [&](std::size_t k) { return static_cast<std::size_t>(triangle[k]); };
   const auto place = [&](std::size_t k) -> Vec3 { return frame.positions[corner(k)].cast<double>(); };
-  const auto weights = nearest_weights(hit.point.cast<double>(), place(0), place(1), place(2));
+  const auto weights = closest_point_weights(hit.point.cast<double>(), place(0), place(1), place(2));
   double sum = 0;
   for (std::size_t k = 0; k < 3; ++k) sum += weights[k] * static_cast<double>(frame.values[corner(k)]);
   return static_cast<float>(sum);

@@ -13,9 +13,9 @@ struct Hit {
 };
 
 /// The nearest triangle, of either side, that a ray meets; of equally near ones the first.
-std::optional<Hit> pick(const Frame& frame, const Skin& skin, const Ray& ray);
+std::optional<Hit> pick(const Frame& frame, const SurfaceMesh& surface_mesh, const Ray& ray);
 
 /// The field's value at a hit of such a frame, between its triangle's corners; none where the frame carries none.
-std::optional<float> value_at(const Hit& hit, const Frame& frame, const Skin& skin);
+std::optional<float> value_at(const Hit& hit, const Frame& frame, const SurfaceMesh& surface_mesh);
 
 }  // namespace heml::render

@@ -49,15 +49,15 @@ class Renderer::Impl {
 
  private:
   void take_skin(const Frame& frame);
-  const Canvas* canvas(const DrawOptions& options, Size size);
-  void draw_picture(const Shot& shot, const Frame& frame, const DrawOptions& options);
+  const RenderTarget* canvas(const DrawOptions& options, Size size);
+  void draw_picture(const ViewContext& shot, const Frame& frame, const DrawOptions& options);
   const Program& surface_program(bool shows_field, bool hatched);
-  void prepare_body(const Shot& shot, const Program& program) const;
-  void draw_shadows(const Shot& shot, const Frame& frame, const DrawOptions& options);
-  void draw_edges(const Shot& shot) const;
-  void draw_held(const Shot& shot) const;
-  void draw_ground(const Shot& shot) const;
-  void draw_backdrop(const Shot& shot) const;
+  void prepare_body(const ViewContext& shot, const Program& program) const;
+  void draw_shadows(const ViewContext& shot, const Frame& frame, const DrawOptions& options);
+  void draw_edges(const ViewContext& shot) const;
+  void draw_constrained(const ViewContext& shot) const;
+  void draw_ground(const ViewContext& shot) const;
+  void draw_backdrop(const ViewContext& shot) const;
 
   Program tissue_{"tissue.vert", "tissue.frag"};
   Program field_{"tissue.vert", "tissue.frag", {"FIELD"}};
@@ -70,9 +70,9 @@ class Renderer::Impl {
   Program backdrop_{"screen.vert", "backdrop.frag"};
   VertexArray nothing_;  // for shapes made of vertex numbers alone
   Texture map_, detail_;
-  std::optional<Canvas> canvas_;
-  std::shared_ptr<const Skin> skin_;   // that body_ is of
-  std::shared_ptr<const Skin> whole_;  // of the body before it lost a part
+  std::optional<RenderTarget> canvas_;
+  std::shared_ptr<const SurfaceMesh> surface_mesh_;  // that body_ is of
+  std::shared_ptr<const SurfaceMesh> whole_;         // of the body before it lost a part
   TissueLook whole_look_;
   std::optional<BodyMesh> body_;
   ShadowMap shadow_map_;
@@ -81,7 +81,7 @@ class Renderer::Impl {
   Vec3f ground_centre_ = Vec3f::Zero();
 };
 
-const Canvas* Renderer::Impl::canvas(const DrawOptions& options, Size size) {
+const RenderTarget* Renderer::Impl::canvas(const DrawOptions& options, Size size) {
   const float scale = std::clamp(options.resolution, 0.25f, 1.0f);
   const Size wanted{std::max(1, static_cast<int>(std::lround(scale * static_cast<float>(size.width)))),
                     std::max(1, static_cast<int>(std::lround(scale * static_cast<float>(size.height))))};
@@ -91,29 +91,29 @@ const Canvas* Renderer::Impl::canvas(const DrawOptions& options, Size size) {
 }
 
 void Renderer::Impl::take_skin(const Frame& frame) {
-  if (frame.skin == skin_) return;
-  skin_ = frame.skin;
+  if (frame.surface_mesh == surface_mesh_) return;
+  surface_mesh_ = frame.surface_mesh;
   body_.reset();
-  if (!skin_) return;
-  const auto& whole = skin_->whole ? skin_->whole : skin_;
+  if (!surface_mesh_) return;
+  const auto& whole = surface_mesh_->whole ? surface_mesh_->whole : surface_mesh_;
   if (whole != whole_) whole_look_ = tissue_look(*whole, nullptr);
   whole_ = whole;
-  if (skin_->whole)
-    body_.emplace(*skin_, tissue_look(*skin_, &whole_look_));
+  if (surface_mesh_->whole)
+    body_.emplace(*surface_mesh_, tissue_look(*surface_mesh_, &whole_look_));
   else
-    body_.emplace(*skin_, whole_look_);
+    body_.emplace(*surface_mesh_, whole_look_);
 }
 
 void Renderer::Impl::draw(const Frame& frame, const Camera& camera, const DrawOptions& options, Size size) {
   take_skin(frame);
   if (body_ && frame.positions.size() != body_->node_count())
-    throw std::invalid_argument("Renderer::draw: the frame has another number of nodes than the skin");
+    throw std::invalid_argument("Renderer::draw: the frame has another number of nodes than the surface mesh");
   if (body_ && !options.beyond.empty() && options.beyond.size() != body_->node_count())
-    throw std::invalid_argument("Renderer::draw: `beyond` has another number of nodes than the skin");
-  const Canvas* scaled = canvas(options, size);
+    throw std::invalid_argument("Renderer::draw: `beyond` has another number of nodes than the surface mesh");
+  const RenderTarget* scaled = canvas(options, size);
   const Size drawn = scaled ? scaled->size() : size;
   const Mat4f sight = camera.view(), projection = camera.projection(drawn);
-  const Shot shot{
+  const ViewContext shot{
       camera, drawn, sight, projection, projection * sight, key_direction, body_ ? body_->rest().radius : 1};
 
   glDisable(GL_BLEND);
@@ -141,7 +141,7 @@ void Renderer::Impl::draw(const Frame& frame, const Camera& camera, const DrawOp
   if (scaled) scaled->stretch_to_screen(options.left, options.bottom, size);
 }
 
-void Renderer::Impl::draw_picture(const Shot& shot, const Frame& frame, const DrawOptions& options) {
+void Renderer::Impl::draw_picture(const ViewContext& shot, const Frame& frame, const DrawOptions& options) {
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LEQUAL);
   glClear(GL_DEPTH_BUFFER_BIT);
@@ -155,7 +155,7 @@ void Renderer::Impl::draw_picture(const Shot& shot, const Frame& frame, const Dr
     body_->draw_surface();
     glDisable(GL_CULL_FACE);
     if (options.wireframe) draw_edges(shot);
-    if (options.held) draw_held(shot);
+    if (options.constrained) draw_constrained(shot);
     tool_.draw(shot);
     if (options.ground && shot.camera.eye().y() > ground_centre_.y()) draw_ground(shot);
   }
@@ -182,9 +182,9 @@ const Program& Renderer::Impl::surface_program(bool shows_field, bool hatched) {
   return *program;
 }
 
-void Renderer::Impl::draw_shadows(const Shot& shot, const Frame& frame, const DrawOptions& options) {
-  const Ball ball = ball_around(frame.positions);
-  const Ball& rest = body_->rest();
+void Renderer::Impl::draw_shadows(const ViewContext& shot, const Frame& frame, const DrawOptions& options) {
+  const BoundingSphere ball = bounding_sphere(frame.positions);
+  const BoundingSphere& rest = body_->rest();
   // The drape gives way to a body that sinks lower than it stood.
   const float ground = std::min(rest.lowest - ground_gap * rest.radius, ball.lowest - 0.02f * rest.radius);
   ground_centre_ = Vec3f(rest.centre.x(), ground, rest.centre.z());
@@ -201,7 +201,7 @@ void Renderer::Impl::draw_shadows(const Shot& shot, const Frame& frame, const Dr
   });
 }
 
-void Renderer::Impl::prepare_body(const Shot& shot, const Program& program) const {
+void Renderer::Impl::prepare_body(const ViewContext& shot, const Program& program) const {
   program.use();
   program.set("view_projection", shot.view_projection);
   program.set("shadow_matrix", shadow_map_.matrix());
@@ -223,7 +223,7 @@ void Renderer::Impl::prepare_body(const Shot& shot, const Program& program) cons
   bind(0, "detail_map", detail_);
 }
 
-void Renderer::Impl::draw_edges(const Shot& shot) const {
+void Renderer::Impl::draw_edges(const ViewContext& shot) const {
   line_.use();
   line_.set("view_projection", shot.view_projection);
   line_.set("tint", Vec4f(0.03f, 0.02f, 0.02f, 0.55f));
@@ -235,7 +235,7 @@ void Renderer::Impl::draw_edges(const Shot& shot) const {
   glDisable(GL_LINE_SMOOTH);
 }
 
-void Renderer::Impl::draw_held(const Shot& shot) const {
+void Renderer::Impl::draw_constrained(const ViewContext& shot) const {
   bead_.use();
   bead_.set("view", shot.view);
   bead_.set("projection", shot.projection);
@@ -243,10 +243,10 @@ void Renderer::Impl::draw_held(const Shot& shot) const {
   bead_.set("height", static_cast<float>(shot.size.height));
   bead_.set("key_direction", shot.key_direction);
   bead_.set("tint", Vec3f(0.62f, 0.70f, 0.74f));
-  body_->draw_held();
+  body_->draw_constrained();
 }
 
-void Renderer::Impl::draw_ground(const Shot& shot) const {
+void Renderer::Impl::draw_ground(const ViewContext& shot) const {
   ground_.use();
   ground_.set("view_projection", shot.view_projection);
   ground_.set("centre", ground_centre_);
@@ -262,7 +262,7 @@ void Renderer::Impl::draw_ground(const Shot& shot) const {
   glDrawArrays(GL_TRIANGLES, 0, 6 * ground_grid * ground_grid);
 }
 
-void Renderer::Impl::draw_backdrop(const Shot& shot) const {
+void Renderer::Impl::draw_backdrop(const ViewContext& shot) const {
   backdrop_.use();
   backdrop_.set("aspect", shot.size.aspect());
   glBindVertexArray(nothing_);

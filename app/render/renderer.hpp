@@ -15,7 +15,7 @@ namespace heml::render {
 struct DrawOptions {
   bool wireframe = false;         ///< the mesh's true edges over the surface
   bool ground = true;             ///< the drape and the shadow on it
-  bool held = true;               ///< beads on nodes with a boundary condition
+  bool constrained = true;        ///< beads on nodes with a boundary condition
   bool tool = true;               ///< forceps and spring while something is grasped
   std::optional<Range> range;     ///< of the colour map; none: what the frame's values ask for
   std::span<const float> beyond;  ///< #S, hatched where above 0; empty: no hatching, which then costs nothing

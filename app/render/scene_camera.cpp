@@ -4,9 +4,9 @@
 
 namespace heml::render {
 
-Camera camera_for(const View& view, const Skin& skin, Size size) {
+Camera camera_for(const View& view, const SurfaceMesh& surface_mesh, Size size) {
   constexpr double degree = std::numbers::pi / 180;
-  const Ball ball = ball_around(skin.rest);
+  const BoundingSphere ball = bounding_sphere(surface_mesh.rest);
   Camera camera;
   camera.fit(ball.centre, ball.radius, size);
   camera.look(static_cast<float>(view.azimuth.value_or(24) * degree),

@@ -7,6 +7,6 @@
 namespace heml::render {
 
 /// A camera that has the body at rest in the picture, turned and zoomed as the scene's view says.
-Camera camera_for(const View& view, const Skin& skin, Size size);
+Camera camera_for(const View& view, const SurfaceMesh& surface_mesh, Size size);
 
 }  // namespace heml::render

@@ -28,7 +28,7 @@ ShadowMap::ShadowMap() {
   attach(framebuffer_, GL_DEPTH_ATTACHMENT, depth_);
 }
 
-void ShadowMap::draw(const Ball& ball, const Vec3f& key_direction, const DrawCasters& draw_casters) {
+void ShadowMap::draw(const BoundingSphere& ball, const Vec3f& key_direction, const DrawCasters& draw_casters) {
   const Vec3f right = key_direction.cross(Vec3f::UnitZ()).normalized();
   Eigen::Matrix3f axes;
   axes << right.transpose(), key_direction.cross(right).transpose(), -key_direction.transpose();

@@ -14,8 +14,8 @@ class ShadowMap {
  public:
   ShadowMap();
   /// Everything within the ball casts and takes shadows.
-  void draw(const Ball& ball, const Vec3f& key_direction, const DrawCasters& draw_casters);
-  const Mat4f& matrix() const { return matrix_; }  ///< world to the map's clip space
+  void draw(const BoundingSphere& ball, const Vec3f& key_direction, const DrawCasters& draw_casters);
+  const Mat4f& matrix() const { return matrix_; }    ///< world to the map's clip space
   const Texture& texture() const { return depth_; }  ///< for a sampler2DShadow
 
  private:
@@ -25,7 +25,8 @@ class ShadowMap {
   Mat4f matrix_ = Mat4f::Identity();
 };
 
-/// What the ground sees of the body, blurred. r: key light hidden; g: nearness, for the soft dark where they almost touch.
+/// What the ground sees of the body, blurred. r: key light hidden; g: nearness, for the soft dark where they almost
+/// touch.
 class Footprint {
  public:
   static constexpr float extent = 3.4f;  ///< half the side of the square covered, in radii

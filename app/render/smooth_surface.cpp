@@ -25,13 +25,13 @@ Vec3f control(const Vec3f& p, const Vec3f& q, const Vec3f& n) { return (2 * p + 
 
 }  // namespace
 
-SmoothSurface::SmoothSurface(const Skin& skin, int segments)
-    : topology_(surface_topology(skin, crease)), segments_(segments) {
+SmoothSurface::SmoothSurface(const SurfaceMesh& surface_mesh, int segments)
+    : topology_(surface_topology(surface_mesh, crease)), segments_(segments) {
   for (int c = 0; c < static_cast<int>(topology_.corner_nodes.size()); ++c) blends_.push_back({{c, c, c}, {1, 0, 0}});
   number_edges();
   number_triangles();
   controls_.resize(topology_.edges.size());
-  update(skin.rest);
+  update(surface_mesh.rest);
 }
 
 int SmoothSurface::suitable_segments(std::size_t triangles) {
@@ -143,8 +143,8 @@ void SmoothSurface::update_edges(std::span<const Vec3f> nodes) {
       for (int step = 1; step < segments_; ++step) {
         const float t = static_cast<float>(step) / static_cast<float>(segments_), u = 1 - t;
         const std::uint32_t vertex = edge_first_[e][s] + step - 1;
-        positions_[vertex] = u * u * u * p + 3 * u * u * t * controls_[e][0] + 3 * u * t * t * controls_[e][1] +
-                             t * t * t * q;
+        positions_[vertex] =
+            u * u * u * p + 3 * u * u * t * controls_[e][0] + 3 * u * t * t * controls_[e][1] + t * t * t * q;
         normals_[vertex] = unit_or_zero(u * u * n + u * t * middle + t * t * m);
       }
     }

@@ -1,8 +1,8 @@
 #pragma once
 // The deformed surface as the eye expects it: smooth normals, and every triangle bent into a curved patch that goes
 // through the real nodes (PN triangles: Vlachos, Peters, Boyd and Mitchell, "Curved PN triangles", I3D 2001). Each
-// triangle becomes `segments`² small ones; a patch meets its neighbours exactly, because the vertices along an edge belong
-// to the edge.
+// triangle becomes `segments`² small ones; a patch meets its neighbours exactly, because the vertices along an edge
+// belong to the edge.
 //
 // Vertices are numbered: corners (surface_topology.hpp), then those inside edges, then those inside triangles.
 #include <app/render/surface_topology.hpp>
@@ -22,7 +22,7 @@ class SmoothSurface {
   };
 
   /// segments: parts every edge is cut into; 1 leaves the triangles flat.
-  SmoothSurface(const Skin& skin, int segments);
+  SmoothSurface(const SurfaceMesh& surface_mesh, int segments);
 
   /// Segments that suit a surface of so many triangles: at most 20,000 small ones where it is coarse.
   static int suitable_segments(std::size_t triangles);

@@ -22,11 +22,11 @@ void normalize_all(std::vector<Vec3f>& places, const Vec3f& centre) {
 
 }  // namespace
 
-std::vector<Vec3f> sphere_map(const Skin& skin, std::span<const std::optional<Vec3f>> known) {
-  std::vector<Vec3f> places = skin.rest;
-  normalize_all(places, ball_around(whole_of(skin).rest).centre);
+std::vector<Vec3f> sphere_map(const SurfaceMesh& surface_mesh, std::span<const std::optional<Vec3f>> known) {
+  std::vector<Vec3f> places = surface_mesh.rest;
+  normalize_all(places, bounding_sphere(uncut_surface(surface_mesh).rest).centre);
   for (std::size_t i = 0; i < known.size(); ++i) places[i] = known[i].value_or(places[i]);
-  std::vector<Triangle> triangles = skin.triangles;  // that pull at what is not known
+  std::vector<Triangle> triangles = surface_mesh.triangles;  // that pull at what is not known
   const auto is_known = [&](int node) { return !known.empty() && known[node].has_value(); };
   std::erase_if(triangles, [&](const Triangle& t) { return std::all_of(t.begin(), t.end(), is_known); });
   std::vector<Vec3f> sums(places.size());
@@ -35,7 +35,8 @@ std::vector<Vec3f> sphere_map(const Skin& skin, std::span<const std::optional<Ve
     Vec3f mean = Vec3f::Zero();
     float area = 0;
     for (const auto& [a, b, c] : triangles) {
-      const float weight = (skin.rest[b] - skin.rest[a]).cross(skin.rest[c] - skin.rest[a]).norm();
+      const float weight =
+          (surface_mesh.rest[b] - surface_mesh.rest[a]).cross(surface_mesh.rest[c] - surface_mesh.rest[a]).norm();
       const Vec3f sum = places[a] + places[b] + places[c];
       mean += weight * sum / 3;
       area += weight;

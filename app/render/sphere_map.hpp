@@ -10,6 +10,6 @@ namespace heml::render {
 /// #S×3, unit: starts from each node's direction from the body's centre, then lets neighbours pull (Laplacian smoothing
 /// on the sphere), which spreads what a hollow would squeeze together. known: #S, places that are kept where there is
 /// one, or empty. The same for the same skin.
-std::vector<Vec3f> sphere_map(const Skin& skin, std::span<const std::optional<Vec3f>> known = {});
+std::vector<Vec3f> sphere_map(const SurfaceMesh& surface_mesh, std::span<const std::optional<Vec3f>> known = {});
 
 }  // namespace heml::render

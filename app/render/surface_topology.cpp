@@ -14,13 +14,13 @@ struct HalfEdge {
   int from_slot, to_slot;
 };
 
-std::vector<HalfEdge> sorted_half_edges(const Skin& skin) {
+std::vector<HalfEdge> sorted_half_edges(const SurfaceMesh& surface_mesh) {
   std::vector<HalfEdge> result;
-  result.reserve(3 * skin.triangles.size());
-  for (int t = 0; t < static_cast<int>(skin.triangles.size()); ++t)
+  result.reserve(3 * surface_mesh.triangles.size());
+  for (int t = 0; t < static_cast<int>(surface_mesh.triangles.size()); ++t)
     for (int k = 0; k < 3; ++k) {
       const int next = (k + 1) % 3;
-      HalfEdge edge{skin.triangles[t][k], skin.triangles[t][next], t, k, 3 * t + k, 3 * t + next};
+      HalfEdge edge{surface_mesh.triangles[t][k], surface_mesh.triangles[t][next], t, k, 3 * t + k, 3 * t + next};
       if (edge.from > edge.to) {
         std::swap(edge.from, edge.to);
         std::swap(edge.from_slot, edge.to_slot);
@@ -51,13 +51,13 @@ class Sets {
   std::vector<int> parent_;
 };
 
-Vec3f rest_normal(const Skin& skin, int triangle) {
-  const auto& [a, b, c] = skin.triangles[triangle];
-  return (skin.rest[b] - skin.rest[a]).cross(skin.rest[c] - skin.rest[a]);
+Vec3f rest_normal(const SurfaceMesh& surface_mesh, int triangle) {
+  const auto& [a, b, c] = surface_mesh.triangles[triangle];
+  return (surface_mesh.rest[b] - surface_mesh.rest[a]).cross(surface_mesh.rest[c] - surface_mesh.rest[a]);
 }
 
-bool is_smooth(const Skin& skin, const HalfEdge& a, const HalfEdge& b, float crease) {
-  const Vec3f m = rest_normal(skin, a.triangle), n = rest_normal(skin, b.triangle);
+bool is_smooth(const SurfaceMesh& surface_mesh, const HalfEdge& a, const HalfEdge& b, float crease) {
+  const Vec3f m = rest_normal(surface_mesh, a.triangle), n = rest_normal(surface_mesh, b.triangle);
   return m.dot(n) >= std::cos(crease) * m.norm() * n.norm();
 }
 
@@ -86,32 +86,31 @@ void for_each_edge(const std::vector<HalfEdge>& half_edges, Action action) {
 
 }  // namespace
 
-SurfaceTopology surface_topology(const Skin& skin, float crease) {
-  const std::vector<HalfEdge> half_edges = sorted_half_edges(skin);
+SurfaceTopology surface_topology(const SurfaceMesh& surface_mesh, float crease) {
+  const std::vector<HalfEdge> half_edges = sorted_half_edges(surface_mesh);
   Sets sheets(half_edges.size());
   for_each_edge(half_edges, [&](const HalfEdge* first, const HalfEdge* last) {
-    if (last - first != 2 || !is_smooth(skin, first[0], first[1], crease)) return;
+    if (last - first != 2 || !is_smooth(surface_mesh, first[0], first[1], crease)) return;
     sheets.join(first[0].from_slot, first[1].from_slot);
     sheets.join(first[0].to_slot, first[1].to_slot);
   });
 
   SurfaceTopology topology;
   std::vector<int> corner_of_root(half_edges.size(), -1);
-  for (std::size_t t = 0; t < skin.triangles.size(); ++t) {
+  for (std::size_t t = 0; t < surface_mesh.triangles.size(); ++t) {
     Triangle corners;
     for (int k = 0; k < 3; ++k) {
       int& corner = corner_of_root[sheets.root(static_cast<int>(3 * t) + k)];
       if (corner < 0) {
         corner = static_cast<int>(topology.corner_nodes.size());
-        topology.corner_nodes.push_back(skin.triangles[t][k]);
+        topology.corner_nodes.push_back(surface_mesh.triangles[t][k]);
       }
       corners[k] = corner;
     }
     topology.triangles.push_back(corners);
   }
-  topology.triangle_edges.resize(skin.triangles.size());
-  for_each_edge(half_edges,
-                [&](const HalfEdge* first, const HalfEdge* last) { add_edge(topology, first, last); });
+  topology.triangle_edges.resize(surface_mesh.triangles.size());
+  for_each_edge(half_edges, [&](const HalfEdge* first, const HalfEdge* last) { add_edge(topology, first, last); });
   return topology;
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 // How the triangles of a skin hang together, fixed while the skin is.
 //
-// A node on a sharp edge is seen with several normals, one for each smooth sheet that meets there. Each (node, sheet) is
-// a "corner"; nodes on smooth parts have one:
+// A node on a sharp edge is seen with several normals, one for each smooth sheet that meets there. Each (node, sheet)
+// is a "corner"; nodes on smooth parts have one:
 //
 //        sheet A                       node n  = corners 4 and 7
 //     4 ─────────                      4: normal of sheet A
@@ -31,8 +31,8 @@ struct SurfaceTopology {
   std::vector<std::array<int, 3>> triangle_edges;  ///< #F×3: the edge from vertex k to vertex k+1
 };
 
-/// crease: radians; an edge whose faces turn by more than this at rest is sharp. So is one that is not shared by exactly
-/// two.
-SurfaceTopology surface_topology(const Skin& skin, float crease);
+/// crease: radians; an edge whose faces turn by more than this at rest is sharp. So is one that is not shared by
+/// exactly two.
+SurfaceTopology surface_topology(const SurfaceMesh& surface_mesh, float crease);
 
 }  // namespace heml::render

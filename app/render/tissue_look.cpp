@@ -13,26 +13,26 @@ namespace {
 constexpr float occlusion_reach = 0.7f;  // in body radii
 
 /// Index among the whole body's nodes; −1: laid bare since. Both lists are ascending.
-std::vector<int> places_in_whole(const Skin& skin) {
-  std::vector<int> places(skin.nodes.size(), -1);
-  const std::vector<int>& nodes = skin.whole->nodes;
+std::vector<int> places_in_whole(const SurfaceMesh& surface_mesh) {
+  std::vector<int> places(surface_mesh.nodes.size(), -1);
+  const std::vector<int>& nodes = surface_mesh.whole->nodes;
   for (std::size_t i = 0; i < places.size(); ++i) {
-    const auto at = std::lower_bound(nodes.begin(), nodes.end(), skin.nodes[i]);
-    if (at != nodes.end() && *at == skin.nodes[i]) places[i] = static_cast<int>(at - nodes.begin());
+    const auto at = std::lower_bound(nodes.begin(), nodes.end(), surface_mesh.nodes[i]);
+    if (at != nodes.end() && *at == surface_mesh.nodes[i]) places[i] = static_cast<int>(at - nodes.begin());
   }
   return places;
 }
 
-std::vector<int> triangle_counts(const Skin& skin) {
-  std::vector<int> counts(skin.nodes.size(), 0);
-  for (const Triangle& triangle : skin.triangles)
+std::vector<int> triangle_counts(const SurfaceMesh& surface_mesh) {
+  std::vector<int> counts(surface_mesh.nodes.size(), 0);
+  for (const Triangle& triangle : surface_mesh.triangles)
     for (const int node : triangle) ++counts[node];
   return counts;
 }
 
-std::vector<Vec3f> node_normals(const Skin& skin) {
-  const SmoothSurface surface(skin, 1);
-  std::vector<Vec3f> normals(skin.rest.size(), Vec3f::Zero());
+std::vector<Vec3f> node_normals(const SurfaceMesh& surface_mesh) {
+  const SmoothSurface surface(surface_mesh, 1);
+  std::vector<Vec3f> normals(surface_mesh.rest.size(), Vec3f::Zero());
   const std::vector<int>& nodes = surface.topology().corner_nodes;
   for (std::size_t c = 0; c < nodes.size(); ++c) normals[nodes[c]] += surface.normals()[c];
   for (Vec3f& normal : normals) normal.normalize();
@@ -41,13 +41,13 @@ std::vector<Vec3f> node_normals(const Skin& skin) {
 
 }  // namespace
 
-TissueLook tissue_look(const Skin& skin, const TissueLook* whole) {
-  assert((whole != nullptr) == (skin.whole != nullptr));
+TissueLook tissue_look(const SurfaceMesh& surface_mesh, const TissueLook* whole) {
+  assert((whole != nullptr) == (surface_mesh.whole != nullptr));
   std::vector<std::optional<Vec3f>> on_sphere;
   std::vector<std::optional<float>> openness;
   if (whole) {
-    const std::vector<int> place = places_in_whole(skin);
-    const std::vector<int> now = triangle_counts(skin), before = triangle_counts(*skin.whole);
+    const std::vector<int> place = places_in_whole(surface_mesh);
+    const std::vector<int> now = triangle_counts(surface_mesh), before = triangle_counts(*surface_mesh.whole);
     on_sphere.resize(place.size());
     openness.resize(place.size());
     for (std::size_t i = 0; i < place.size(); ++i) {
@@ -56,9 +56,9 @@ TissueLook tissue_look(const Skin& skin, const TissueLook* whole) {
       if (now[i] == before[place[i]]) openness[i] = whole->openness[place[i]];  // else it is on the rim
     }
   }
-  const Ball ball = ball_around(whole_of(skin).rest);
-  return {sphere_map(skin, on_sphere),
-          ambient_occlusion(skin, node_normals(skin), occlusion_reach * ball.radius, openness)};
+  const BoundingSphere ball = bounding_sphere(uncut_surface(surface_mesh).rest);
+  return {sphere_map(surface_mesh, on_sphere),
+          ambient_occlusion(surface_mesh, node_normals(surface_mesh), occlusion_reach * ball.radius, openness)};
 }
 
 }  // namespace heml::render

@@ -13,6 +13,6 @@ struct TissueLook {
 };
 
 /// whole: the look of skin.whole, where the skin has one.
-TissueLook tissue_look(const Skin& skin, const TissueLook* whole);
+TissueLook tissue_look(const SurfaceMesh& surface_mesh, const TissueLook* whole);
 
 }  // namespace heml::render

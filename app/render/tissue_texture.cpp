@@ -10,10 +10,10 @@
 namespace heml::render {
 namespace {
 
-constexpr float step = 0.005f;         // rad between points of a vessel
-constexpr float thinnest = 0.0026f;    // rad, half the width at which a vessel ends
-constexpr float blush = 0.030f;        // rad, reach of the reddening beside a vessel
-constexpr int cells = 64;              // of a grid over the cube round the sphere
+constexpr float step = 0.005f;       // rad between points of a vessel
+constexpr float thinnest = 0.0026f;  // rad, half the width at which a vessel ends
+constexpr float blush = 0.030f;      // rad, reach of the reddening beside a vessel
+constexpr int cells = 64;            // of a grid over the cube round the sphere
 
 struct Point {
   Vec3f place;  // on the unit sphere

@@ -33,7 +33,7 @@ Vec3f tension_tint(float force) {
 
 }  // namespace
 
-void ToolDrawing::place(const Frame& frame, bool shown, const Shot& shot) {
+void ToolDrawing::place(const Frame& frame, bool shown, const ViewContext& shot) {
   parts_.clear();
   if (!shown) return;
   if (frame.tool.active) place_grasp(frame.tool, shot);
@@ -43,7 +43,7 @@ void ToolDrawing::place(const Frame& frame, bool shown, const Shot& shot) {
   for (const SutureState& suture : frame.sutures) place_suture(suture, shot);
 }
 
-void ToolDrawing::place_grasp(const ToolState& tool, const Shot& shot) {
+void ToolDrawing::place_grasp(const ToolState& tool, const ViewContext& shot) {
   const Vec3f target = tool.target.cast<float>(), grip = tool.grip.cast<float>();
   if (!target.allFinite() || !grip.allFinite()) return;
   const Vec3f right = shot.camera.right();
@@ -67,7 +67,7 @@ void ToolDrawing::place_probe(const ProbeState& probe) {
 }
 
 /// As much of it as a table has, under the body.
-void ToolDrawing::place_table(const Table& table, const Frame& frame, const Shot& shot) {
+void ToolDrawing::place_table(const Table& table, const Frame& frame, const ViewContext& shot) {
   if (frame.positions.empty()) return;
   Vec3f middle = Vec3f::Zero();
   for (const Vec3f& x : frame.positions) middle += x / static_cast<float>(frame.positions.size());
@@ -78,21 +78,21 @@ void ToolDrawing::place_table(const Table& table, const Frame& frame, const Shot
                     Vec3f(0.055f, 0.075f, 0.08f), 0, false});
 }
 
-void ToolDrawing::place_suture(const SutureState& suture, const Shot& shot) {
-  const Vec3f from = suture.ends[0].cast<float>(), way = suture.ends[1].cast<float>() - from;
+void ToolDrawing::place_suture(const SutureState& suture, const ViewContext& shot) {
+  const Vec3f from = suture.ends[0].cast<float>(), direction = suture.ends[1].cast<float>() - from;
   const float thickness = 0.008f * shot.radius;
-  if (!from.allFinite() || !way.allFinite()) return;
+  if (!from.allFinite() || !direction.allFinite()) return;
   for (const Vec3& end : suture.ends)
     parts_.push_back({&ball_,
                       place_along(end.cast<float>(), Vec3f::UnitY(), Vec3f::UnitX(), 2 * thickness, 2 * thickness),
                       Vec3f(0.02f, 0.02f, 0.025f), 0});
-  if (way.norm() > thickness)
-    parts_.push_back(
-        {&rod_, place_along(from, way, across(way), way.norm(), thickness), Vec3f(0.02f, 0.02f, 0.025f), 0});
+  if (direction.norm() > thickness)
+    parts_.push_back({&rod_, place_along(from, direction, across(direction), direction.norm(), thickness),
+                      Vec3f(0.02f, 0.02f, 0.025f), 0});
 }
 
 /// Leans towards the eye, so that the tissue never hides it.
-void ToolDrawing::place_pin(const PinState& pin, const Shot& shot) {
+void ToolDrawing::place_pin(const PinState& pin, const ViewContext& shot) {
   const Vec3f place = pin.place.cast<float>();
   if (!place.allFinite()) return;
   const Vec3f axis = shot.camera.up() + 0.8f * (shot.camera.eye() - place).normalized();
@@ -109,7 +109,7 @@ void ToolDrawing::cast(const Program& program) const {
   }
 }
 
-void ToolDrawing::prepare(const Program& program, const Shot& shot, const Part& part) const {
+void ToolDrawing::prepare(const Program& program, const ViewContext& shot, const Part& part) const {
   program.use();
   program.set("view_projection", shot.view_projection);
   program.set("eye", shot.camera.eye());
@@ -119,14 +119,14 @@ void ToolDrawing::prepare(const Program& program, const Shot& shot, const Part& 
   program.set("metal", part.metal);
 }
 
-void ToolDrawing::draw(const Shot& shot) const {
+void ToolDrawing::draw(const ViewContext& shot) const {
   for (const Part& part : parts_) {
     prepare(solid_, shot, part);
     part.mesh->draw();
   }
 }
 
-void ToolDrawing::draw_outline(const Shot& shot) {
+void ToolDrawing::draw_outline(const ViewContext& shot) {
   for (const Part& part : parts_) {
     prepare(strip_, shot, part);
     const Vec3f eye = (part.model.inverse() * shot.camera.eye().homogeneous()).head<3>();

@@ -9,7 +9,7 @@
 namespace heml::render {
 
 /// What parts of a picture share.
-struct Shot {
+struct ViewContext {
   const Camera& camera;
   Size size;
   Mat4f view, projection;
@@ -21,11 +21,11 @@ struct Shot {
 class ToolDrawing {
  public:
   /// Places the tools of a frame, or none; call before the others.
-  void place(const Frame& frame, bool shown, const Shot& shot);
+  void place(const Frame& frame, bool shown, const ViewContext& shot);
 
   void cast(const Program& program) const;  ///< for shadows: sets `model`
-  void draw(const Shot& shot) const;
-  void draw_outline(const Shot& shot);  ///< strips that fade outwards, see outline.hpp
+  void draw(const ViewContext& shot) const;
+  void draw_outline(const ViewContext& shot);  ///< strips that fade outwards, see outline.hpp
 
  private:
   // One solid at its place.
@@ -36,12 +36,12 @@ class ToolDrawing {
     float metal = 0;  // 1: steel, 0: enamel
     bool casts = true;
   };
-  void place_grasp(const ToolState& tool, const Shot& shot);
+  void place_grasp(const ToolState& tool, const ViewContext& shot);
   void place_probe(const ProbeState& probe);
-  void place_table(const Table& table, const Frame& frame, const Shot& shot);
-  void place_suture(const SutureState& suture, const Shot& shot);
-  void place_pin(const PinState& pin, const Shot& shot);
-  void prepare(const Program& program, const Shot& shot, const Part& part) const;
+  void place_table(const Table& table, const Frame& frame, const ViewContext& shot);
+  void place_suture(const SutureState& suture, const ViewContext& shot);
+  void place_pin(const PinState& pin, const ViewContext& shot);
+  void prepare(const Program& program, const ViewContext& shot, const Part& part) const;
 
   Program solid_{"solid.vert", "solid.frag"};
   Program strip_{"solid.vert", "solid.frag", {"OUTLINE"}};

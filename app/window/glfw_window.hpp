@@ -2,7 +2,7 @@
 // A window of the desktop with OpenGL in it, and what people do to it.
 #include <app/render/camera.hpp>
 #include <app/render/context.hpp>
-#include <app/window/hand.hpp>
+#include <app/window/mouse_tool.hpp>
 #include <filesystem>
 #include <stdexcept>
 #include <string>

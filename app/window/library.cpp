@@ -13,8 +13,8 @@ namespace heml::window {
 namespace {
 
 namespace fs = std::filesystem;
-using panel::Offer;
-constexpr std::size_t most_files = 2000;
+using panel::OpenChoice;
+constexpr std::size_t max_files = 2000;
 
 std::string size_text(std::uintmax_t bytes) {
   const double size = static_cast<double>(bytes);
@@ -38,41 +38,41 @@ const char* name_of(FileKind kind) {
 }
 
 /// Every scene of a folder that can be read, in the order of file names.
-std::vector<Offer> scenes_in(const fs::path& folder) {
-  std::vector<Offer> offers;
+std::vector<OpenChoice> scenes_in(const fs::path& folder) {
+  std::vector<OpenChoice> choices;
   std::error_code failed;
   for (fs::directory_iterator entry(folder, failed), end; !failed && entry != end; entry.increment(failed)) {
     if (kind_of(entry->path()) != FileKind::scene) continue;
     try {
       const Scene scene = read_scene(entry->path());
-      offers.push_back({entry->path(), scene.title.empty() ? scene.name : scene.title, scene.description});
+      choices.push_back({entry->path(), scene.title.empty() ? scene.name : scene.title, scene.description});
     } catch (const InputError&) {  // of another version: not offered
     }
   }
-  std::sort(offers.begin(), offers.end(), [](const Offer& a, const Offer& b) { return a.path < b.path; });
-  return offers;
+  std::sort(choices.begin(), choices.end(), [](const OpenChoice& a, const OpenChoice& b) { return a.path < b.path; });
+  return choices;
 }
 
 void list_scenes(Listing& listing) {
   const fs::path assets = assets_folder();
-  listing.offers.scenes = scenes_in(assets / "scenes");
-  listing.offers.extreme = scenes_in(assets / "scenes" / "extreme");
-  for (const Offer& offer : listing.offers.scenes) {
-    const fs::path file = assets / "pictures" / "scenes" / offer.path.filename().replace_extension(".png");
+  listing.choices.scenes = scenes_in(assets / "scenes");
+  listing.choices.extreme = scenes_in(assets / "scenes" / "extreme");
+  for (const OpenChoice& choice : listing.choices.scenes) {
+    const fs::path file = assets / "pictures" / "scenes" / choice.path.filename().replace_extension(".png");
     std::error_code failed;
     if (!fs::exists(file, failed)) continue;
     try {
-      listing.pictures.emplace(offer.path, render::read_png(file));
+      listing.pictures.emplace(choice.path, render::read_png(file));
     } catch (const InputError&) {  // goes without
     }
   }
 }
 
-void list_folder(const fs::path& folder, panel::Offers& offers) {
+void list_folder(const fs::path& folder, panel::OpenChoices& choices) {
   std::error_code failed;
-  offers.folder = folder;
-  if (folder.has_relative_path()) offers.files.push_back({folder.parent_path(), "..", "folder above", nullptr, true});
-  std::vector<Offer> folders, files;
+  choices.folder = folder;
+  if (folder.has_relative_path()) choices.files.push_back({folder.parent_path(), "..", "folder above", nullptr, true});
+  std::vector<OpenChoice> folders, files;
   for (fs::directory_iterator entry(folder, failed), end; !failed && entry != end; entry.increment(failed)) {
     const std::string name = entry->path().filename().string();
     std::error_code unknown;
@@ -82,33 +82,33 @@ void list_folder(const fs::path& folder, panel::Offers& offers) {
     if (!entry->is_regular_file(unknown) || kind == FileKind::other) continue;
     const auto bytes = entry->file_size(unknown);
     files.push_back({entry->path(), name, fmt::format("{}, {}", name_of(kind), size_text(unknown ? 0 : bytes))});
-    if (files.size() + folders.size() > most_files) {
-      offers.problem = fmt::format("There is more than these {}; type a path that begins with /.", most_files);
+    if (files.size() + folders.size() > max_files) {
+      choices.problem = fmt::format("There is more than these {}; type a path that begins with /.", max_files);
       break;
     }
   }
-  if (failed) offers.problem = "It cannot be looked into: " + failed.message() + ".";
-  for (std::vector<Offer>* part : {&folders, &files}) {
-    std::sort(part->begin(), part->end(), [](const Offer& a, const Offer& b) { return a.title < b.title; });
-    offers.files.insert(offers.files.end(), part->begin(), part->end());
+  if (failed) choices.problem = "It cannot be looked into: " + failed.message() + ".";
+  for (std::vector<OpenChoice>* part : {&folders, &files}) {
+    std::sort(part->begin(), part->end(), [](const OpenChoice& a, const OpenChoice& b) { return a.title < b.title; });
+    choices.files.insert(choices.files.end(), part->begin(), part->end());
   }
 }
 
 }  // namespace
 
-Listing list_offers(const fs::path& folder, bool with_scenes) {
+Listing list_choices(const fs::path& folder, bool with_scenes) {
   Listing listing;
   if (with_scenes) list_scenes(listing);
   for (const fs::path& file : recent_files()) {
     std::error_code failed;
-    listing.offers.recent.push_back(
+    listing.choices.recent.push_back(
         {file, file.filename().string(), file.parent_path().string(), nullptr, false, fs::exists(file, failed)});
   }
-  if (!folder.empty()) list_folder(folder, listing.offers);
+  if (!folder.empty()) list_folder(folder, listing.choices);
   return listing;
 }
 
-void Library::look_into(fs::path folder) {
+void Library::list_folder(fs::path folder) {
   if (!folder.empty()) folder_ = std::move(folder);
   again_ = result_.valid();
   if (!again_) begin();
@@ -119,7 +119,7 @@ void Library::begin() {
     struct Wake {
       ~Wake() { GlfwWindow::wake(); }
     } wake_at_end;
-    return list_offers(folder, with_scenes);
+    return list_choices(folder, with_scenes);
   });
 }
 
@@ -127,11 +127,11 @@ bool Library::is_ready() const {
   return result_.valid() && result_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
 }
 
-std::optional<panel::Offers> Library::take() {
+std::optional<panel::OpenChoices> Library::take() {
   if (!is_ready()) return std::nullopt;
   Listing listing = result_.get();
-  for (Offer& offer : listing.offers.scenes) {
-    const auto found = listing.pictures.find(offer.path);
+  for (OpenChoice& choice : listing.choices.scenes) {
+    const auto found = listing.pictures.find(choice.path);
     if (found == listing.pictures.end()) continue;
     const render::Image& image = found->second;
     const render::Texture& texture = pictures_.emplace_back();
@@ -141,16 +141,16 @@ std::optional<panel::Offers> Library::take() {
                     image.pixels.data());
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
     glGenerateMipmap(GL_TEXTURE_2D);
-    offer.picture = reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture));
+    choice.picture = reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture));
   }
-  if (!listing.offers.scenes.empty()) {
-    scenes_ = listing.offers.scenes;
-    extreme_ = listing.offers.extreme;
+  if (!listing.choices.scenes.empty()) {
+    scenes_ = listing.choices.scenes;
+    extreme_ = listing.choices.extreme;
   }
-  listing.offers.scenes = scenes_;
-  listing.offers.extreme = extreme_;
+  listing.choices.scenes = scenes_;
+  listing.choices.extreme = extreme_;
   if (std::exchange(again_, false)) begin();
-  return std::move(listing.offers);
+  return std::move(listing.choices);
 }
 
 }  // namespace heml::window

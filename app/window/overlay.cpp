@@ -10,23 +10,25 @@
 
 namespace heml::window {
 
-void draw_ring(const render::Hit& hit, const Frame& frame, const Skin& skin, const panel::Eye& eye, double radius) {
-  const Triangle& triangle = skin.triangles[static_cast<std::size_t>(hit.triangle)];
+void draw_ring(const render::Hit& hit, const Frame& frame, const SurfaceMesh& surface_mesh,
+               const panel::CameraController& controller, double radius) {
+  const Triangle& triangle = surface_mesh.triangles[static_cast<std::size_t>(hit.triangle)];
   const auto corner = [&](int k) {
     return frame.positions[static_cast<std::size_t>(triangle[static_cast<std::size_t>(k)])];
   };
   const Vec3f normal = (corner(1) - corner(0)).cross(corner(2) - corner(0)).normalized();
   const Vec3f across = normal.unitOrthogonal(), along = normal.cross(across);
-  const render::Vec2f middle = eye.pixel(hit.point);
-  const bool held = std::binary_search(skin.held.begin(), skin.held.end(), hit.node);
-  const ImU32 colour = held ? panel::colours::danger : panel::colours::text;
+  const render::Vec2f middle = controller.pixel(hit.point);
+  const bool constrained =
+      std::binary_search(surface_mesh.constrained.begin(), surface_mesh.constrained.end(), hit.node);
+  const ImU32 colour = constrained ? panel::colours::danger : panel::colours::text;
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   constexpr int pieces = 40;
   float widest = 0;
   for (int i = 0; i < pieces; ++i) {
     const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(i) / pieces;
     const Vec3f point = hit.point + static_cast<float>(radius) * (std::cos(angle) * across + std::sin(angle) * along);
-    const render::Vec2f pixel = eye.pixel(point);
+    const render::Vec2f pixel = controller.pixel(point);
     widest = std::max(widest, (pixel - middle).norm());
     list.PathLineTo({pixel.x(), pixel.y()});
   }
@@ -40,8 +42,8 @@ void draw_ring(const render::Hit& hit, const Frame& frame, const Skin& skin, con
 namespace {
 
 /// A label to the right of a point of the body.
-void draw_label(const Vec3f& place, const std::string& text, ImU32 colour, const panel::Eye& eye) {
-  const render::Vec2f at = eye.pixel(place);
+void draw_label(const Vec3f& place, const std::string& text, ImU32 colour, const panel::CameraController& controller) {
+  const render::Vec2f at = controller.pixel(place);
   if (!at.allFinite()) return;
   const ImVec2 size = ImGui::CalcTextSize(text.c_str());
   const ImVec2 from(at.x() + panel::em(1.4f), at.y() - size.y / 2), pad(panel::em(0.5f), panel::em(0.25f));
@@ -51,45 +53,47 @@ void draw_label(const Vec3f& place, const std::string& text, ImU32 colour, const
   list.AddText(from, colour, text.c_str());
 }
 
-void draw_force(const Vec3& force, const Vec3& place, const panel::Eye& eye) {
-  draw_label(place.cast<float>(), panel::newtons(force.norm()), panel::colours::accent, eye);
+void draw_force(const Vec3& force, const Vec3& place, const panel::CameraController& controller) {
+  draw_label(place.cast<float>(), panel::newtons(force.norm()), panel::colours::accent, controller);
 }
 
 }  // namespace
 
-void draw_reading(const render::Hit& hit, const Frame& frame, const Skin& skin, const panel::Eye& eye,
-                  const render::Range& range) {
-  const auto value = render::value_at(hit, frame, skin);
+void draw_reading(const render::Hit& hit, const Frame& frame, const SurfaceMesh& surface_mesh,
+                  const panel::CameraController& controller, const render::Range& range) {
+  const auto value = render::value_at(hit, frame, surface_mesh);
   if (!value) return;
   const render::FieldLabel label = render::field_label(frame.field, range);
   draw_label(hit.point,
              fmt::format("{:.3g}{}{}, node {}", *value * label.scale, label.unit.empty() ? "" : " ", label.unit,
-                         skin.nodes[static_cast<std::size_t>(hit.node)]),
-             panel::colours::text, eye);
+                         surface_mesh.nodes[static_cast<std::size_t>(hit.node)]),
+             panel::colours::text, controller);
 }
 
-void draw_forces(const Frame& frame, const panel::Eye& eye) {
-  if (frame.tool.active) draw_force(frame.tool.force, frame.tool.target, eye);
-  for (const PinState& pin : frame.pins) draw_force(pin.force, pin.place, eye);
-  if (frame.probe.active) draw_force(frame.probe.force, frame.probe.tip, eye);
-  for (const SutureState& suture : frame.sutures) draw_force(suture.force, (suture.ends[0] + suture.ends[1]) / 2, eye);
+void draw_forces(const Frame& frame, const panel::CameraController& controller) {
+  if (frame.tool.active) draw_force(frame.tool.force, frame.tool.target, controller);
+  for (const PinState& pin : frame.pins) draw_force(pin.force, pin.place, controller);
+  if (frame.probe.active) draw_force(frame.probe.force, frame.probe.tip, controller);
+  for (const SutureState& suture : frame.sutures)
+    draw_force(suture.force, (suture.ends[0] + suture.ends[1]) / 2, controller);
 }
 
-void draw_end(int node, const Frame& frame, const Skin& skin, const panel::Eye& eye) {
-  const auto place = std::find(skin.nodes.begin(), skin.nodes.end(), node);
-  if (place == skin.nodes.end()) return;
-  const auto k = static_cast<std::size_t>(place - skin.nodes.begin());
-  const render::Vec2f at = eye.pixel(frame.positions[k]);
+void draw_suture_end(int node, const Frame& frame, const SurfaceMesh& surface_mesh,
+                     const panel::CameraController& controller) {
+  const auto place = std::find(surface_mesh.nodes.begin(), surface_mesh.nodes.end(), node);
+  if (place == surface_mesh.nodes.end()) return;
+  const auto k = static_cast<std::size_t>(place - surface_mesh.nodes.begin());
+  const render::Vec2f at = controller.pixel(frame.positions[k]);
   if (!at.allFinite()) return;
   ImGui::GetBackgroundDrawList()->AddCircle({at.x(), at.y()}, panel::em(0.45f), panel::colours::warning, 16,
                                             panel::em(0.16f));
 }
 
-void draw_bad_element(const Frame& frame, const panel::Eye& eye) {
+void draw_bad_element(const Frame& frame, const panel::CameraController& controller) {
   if (!frame.recovery || frame.recovery->element < 0) return;
   std::array<render::Vec2f, 4> at;
   for (std::size_t c = 0; c < 4; ++c) {
-    at[c] = eye.pixel(frame.recovered_element[c]);
+    at[c] = controller.pixel(frame.recovered_element[c]);
     if (!at[c].allFinite()) return;
   }
   ImDrawList& list = *ImGui::GetBackgroundDrawList();

@@ -46,6 +46,6 @@ std::optional<int> run_program(std::vector<std::string> words, const std::atomic
   }
 }
 
-void give_way() { setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), 5); }
+void lower_priority() { setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), 5); }
 
 }  // namespace heml::window

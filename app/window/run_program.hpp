@@ -16,6 +16,6 @@ std::filesystem::path find_program(const std::string& name);
 std::optional<int> run_program(std::vector<std::string> words, const std::atomic<bool>& leave);
 
 /// The calling thread, and programs it runs, get less of the processor than others; enough for somebody to wait for it.
-void give_way();
+void lower_priority();
 
 }  // namespace heml::window

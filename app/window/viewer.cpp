@@ -21,7 +21,7 @@ Viewer::Viewer(GlfwWindow& window, const Scene& scene, const WindowOptions& opti
     : window_(window),
       options_(options),
       interface_(panel::Interface::suitable_scale(window.size()) * window.content_scale()) {
-  adopt(start(scene, options.record, options.beside));
+  adopt(start(scene, options.record, options.comparisons));
   window_.send_events_to(this);
 }
 
@@ -29,45 +29,47 @@ Viewer::~Viewer() { window_.send_events_to(nullptr); }
 
 void Viewer::adopt(OpenScene opened) {
   std::vector<Command> last;
-  hand_.let_go(last);
+  mouse_tool_.let_go(last);
   if (opened.resumed)
     past_.resumed_at(*opened.resumed, opened.session->latest());
   else
-    past_ = LookingBack();
+    past_ = TimelinePlayback();
   open_ = std::move(opened);
   if (!open_.resumed) as_opened_ = open_.scene;
   frame_ = &open_.session->latest();
-  panel_.emplace(open_.scene, *frame_->skin);
+  panel_.emplace(open_.scene, *frame_->surface_mesh);
   next_event_ = 0;
   window_.set_title(window_title(open_.scene));
   if (open_.resumed) return;
-  eye_.forget();
+  controller_.clear_views();
   fit();
 }
 
 void Viewer::fit() {
   const render::Size size = window_.size();
-  eye_.fit(open_.scene.view, *frame_->skin, size,
-           panel_->insets({static_cast<float>(size.width), static_cast<float>(size.height)}),
-           panel::bodies_of(*frame_));
+  controller_.fit(open_.scene.view, *frame_->surface_mesh, size,
+                  panel_->insets({static_cast<float>(size.width), static_cast<float>(size.height)}),
+                  panel::bodies_of(*frame_));
 }
 
 bool Viewer::wants_drawing() const {
-  return window_.visible() && (pictures_wanted_ > 0 || open_.session->frame_waiting() || panel_->animating() ||
-                               past_.playing() || opening_.is_ready() || opening_.progress() != shown_progress_ ||
-                               library_.is_ready() || (filming_ && filming_->is_done()));
+  return window_.visible() &&
+         (pictures_wanted_ > 0 || open_.session->frame_waiting() || panel_->animating() || past_.playing() ||
+          session_loader_.is_ready() || session_loader_.progress() != shown_progress_ || library_.is_ready() ||
+          (video_recorder_ && video_recorder_->is_done()));
 }
 
 bool Viewer::is_busy() const {
-  return pictures_wanted_ > 0 || opening_.under_way() || library_.under_way() || (filming_ && filming_->is_finishing());
+  return pictures_wanted_ > 0 || session_loader_.under_way() || library_.under_way() ||
+         (video_recorder_ && video_recorder_->is_finishing());
 }
 
 std::string Viewer::status() const {
   const bool paused = past_.active() ? !past_.playing() : frame_->paused;
   return fmt::format("picture {}, tick {}, {}, {}, key {}", drawn_, frame_->tick, paused ? "paused" : "running",
-                     is_busy()                     ? "busy"
+                     is_busy()                    ? "busy"
                      : paused && !wants_drawing() ? "still"
-                                                   : "ready",
+                                                  : "ready",
                      last_key_);
 }
 
@@ -77,22 +79,23 @@ void Viewer::draw() {
   drawn_at_ = now;
   if (pictures_wanted_ > 0) --pictures_wanted_;
   take_opened();
-  if (auto offers = library_.take()) panel_->offer(std::move(*offers));
+  if (auto choices = library_.take()) panel_->set_choices(std::move(*choices));
   const Frame& live = open_.session->latest();
-  frame_ = &past_.take(live, seconds, *open_.session);
+  frame_ = &past_.select_frame(live, seconds, *open_.session);
   follow_script();
   panel::Timeline timeline = past_.timeline(open_.scene, live);
-  timeline.returning = shown_progress_ = opening_.progress();
+  timeline.returning = shown_progress_ = session_loader_.progress();
   panel_->set_timeline(timeline);
-  for (std::size_t view = 0; view < panel::Eye::views; ++view) panel_->view().set_kept(view, eye_.has(view));
-  panel_->take(*frame_, seconds);
-  open_.session->carry_stretches(panel_->wants_stretches());
-  open_.session->carry_errors(panel_->wants_errors());
+  for (std::size_t view = 0; view < panel::CameraController::views; ++view)
+    panel_->view().set_kept(view, controller_.has(view));
+  panel_->update(*frame_, seconds);
+  open_.session->enable_stretches(panel_->wants_stretches());
+  open_.session->enable_errors(panel_->wants_errors());
   const render::Size size = window_.size();
   interface_.set_scale(panel::Interface::suitable_scale(size) * window_.content_scale());
-  eye_.resize(size, panel_->insets({static_cast<float>(size.width), static_cast<float>(size.height)}),
-              panel::bodies_of(*frame_));
-  bodies_.draw(*frame_, eye_, panel_->drawing());
+  controller_.resize(size, panel_->insets({static_cast<float>(size.width), static_cast<float>(size.height)}),
+                     panel::bodies_of(*frame_));
+  bodies_.draw(*frame_, controller_, panel_->drawing());
   draw_interface(seconds);
   take_picture();
   std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(options_.draw_stall));
@@ -102,7 +105,7 @@ void Viewer::draw() {
 
 void Viewer::draw_interface(float seconds) {
   window_.prepare_imgui();
-  interface_.begin(eye_.size(), seconds);
+  interface_.begin(controller_.size(), seconds);
   draw_marks();
   const panel::PanelActions actions = panel_->draw(*frame_);
   interface_.end();
@@ -110,21 +113,23 @@ void Viewer::draw_interface(float seconds) {
 }
 
 void Viewer::draw_marks() {
-  panel::each_pane(*frame_, eye_, [&](std::size_t, const Frame& body) {
-    draw_forces(body, eye_);
-    if (hand_.first_end()) draw_end(*hand_.first_end(), body, *body.skin, eye_);
-    if (panel_->shows_recovery()) draw_bad_element(body, eye_);
+  panel::each_pane(*frame_, controller_, [&](std::size_t, const Frame& body) {
+    draw_forces(body, controller_);
+    if (mouse_tool_.first_end()) draw_suture_end(*mouse_tool_.first_end(), body, *body.surface_mesh, controller_);
+    if (panel_->shows_recovery()) draw_bad_element(body, controller_);
   });
-  panel::draw_ways(*frame_, eye_);
-  if (hand_.doing() == Hand::Doing::grasping) return ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeAll);
-  const bool free = hand_.doing() == Hand::Doing::nothing && !ImGui::IsAnyItemActive() && ImGui::IsMousePosValid();
+  panel::draw_variant_labels(*frame_, controller_);
+  if (mouse_tool_.doing() == MouseTool::Doing::grasping) return ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeAll);
+  const bool free =
+      mouse_tool_.doing() == MouseTool::Doing::nothing && !ImGui::IsAnyItemActive() && ImGui::IsMousePosValid();
   if (!free || panel_->covers(mouse_.x(), mouse_.y())) return;
-  if (const auto hit = hand_.under(mouse_, seen(), *seen().skin)) {
-    if (const auto& range = panel_->drawing().range) draw_reading(*hit, seen(), *seen().skin, eye_, *range);
+  if (const auto hit = mouse_tool_.under(mouse_, seen(), *seen().surface_mesh)) {
+    if (const auto& range = panel_->drawing().range)
+      draw_reading(*hit, seen(), *seen().surface_mesh, controller_, *range);
     if (past_.active()) return;
-    const panel::ToolInHand& tool = panel_->tool();
+    const panel::ToolSettings& tool = panel_->tool();
     const bool takes_patch = tool.tool == panel::Tool::grasper || tool.tool == panel::Tool::pin;
-    draw_ring(*hit, seen(), *seen().skin, eye_,
+    draw_ring(*hit, seen(), *seen().surface_mesh, controller_,
               takes_patch                       ? tool.radius
               : tool.tool == panel::Tool::probe ? tool.probe_radius
                                                 : 0);
@@ -135,22 +140,22 @@ void Viewer::draw_marks() {
 void Viewer::follow_script() {
   const std::vector<Event>& events = open_.scene.events;
   for (; next_event_ < events.size() && events[next_event_].tick < frame_->tick; ++next_event_)
-    panel_->follow(events[next_event_].command);
+    panel_->sync(events[next_event_].command);
 }
 
 void Viewer::take_opened() {
-  auto result = opening_.take();
+  auto result = session_loader_.take();
   if (!result) return;
   if (auto* problem = std::get_if<std::string>(&*result)) return panel_->fail(*problem);
   OpenScene& opened = std::get<OpenScene>(*result);
-  const bool goes_on = opened.resumed && plays_on_;
+  const bool continues_stroke = opened.resumed && plays_on_;
   adopt(std::move(opened));
   if (!open_.resumed) return;
   if (open_.recording)
     panel_->say("Resumed, recorded in " + open_.recording->string());
-  else if (past_.active() || open_.beside.empty())
+  else if (past_.active() || open_.comparisons.empty())
     panel_->say("Resumed");
-  if (goes_on) open_.session->play();
+  if (continues_stroke) open_.session->play();
 }
 
 void Viewer::post(std::vector<Command>& commands) {
@@ -166,7 +171,7 @@ void Viewer::key(int key, bool control, bool repeated) {
   using enum panel::Action;
   const bool chooses = *action == choose_previous || *action == choose_next;
   const bool is_asked = panel_->asks() && (chooses || *action == open_chosen || *action == release);
-  const bool may_repeat = chooses || *action == step || *action == look_earlier || *action == look_later;
+  const bool may_repeat = chooses || *action == step || *action == seek_earlier || *action == seek_later;
   const bool is_text = ImGui::GetIO().WantTextInput && !is_asked && *action != quit;
   if (is_text || (repeated && !may_repeat)) return;
   if (*action == quit) {  // not by the panel, which a scene that opens at this moment replaces
@@ -180,18 +185,18 @@ void Viewer::button(MouseButton button, bool down, bool shift) {
   changed();
   std::vector<Command> commands;
   if (!down) {
-    hand_.release(button, commands);
+    mouse_tool_.release(button, commands);
     return post(commands);
   }
   if (panel_->covers(mouse_.x(), mouse_.y())) return;
-  if (past_.active() && button == MouseButton::left && hand_.under(mouse_, seen(), *seen().skin))
+  if (past_.active() && button == MouseButton::left && mouse_tool_.under(mouse_, seen(), *seen().surface_mesh))
     panel_->say(past_is_fixed);
-  const bool has_other_surface = eye_.current() > 0 && !seen().apart;  // nodes have other numbers there
-  if (past_.active() || has_other_surface) return hand_.press_beside(button, mouse_, shift);
-  if (hand_.press(button, mouse_, shift, seen(), *seen().skin, panel_->tool(), commands))
+  const bool has_other_surface = controller_.current() > 0 && !seen().distance;  // nodes have other numbers there
+  if (past_.active() || has_other_surface) return mouse_tool_.press_background(button, mouse_, shift);
+  if (mouse_tool_.press(button, mouse_, shift, seen(), *seen().surface_mesh, panel_->tool(), commands))
     panel_->say("The scene holds this part; take another.");
   post(commands);
-  if (button != MouseButton::left || hand_.doing() != Hand::Doing::orbiting) return;
+  if (button != MouseButton::left || mouse_tool_.doing() != MouseTool::Doing::orbiting) return;
   const auto now = std::chrono::steady_clock::now();
   const bool twice = now - pressed_at_ < double_click_time && (mouse_ - pressed_where_).norm() < double_click_distance;
   pressed_at_ = twice ? std::chrono::steady_clock::time_point{} : now;
@@ -202,17 +207,17 @@ void Viewer::button(MouseButton button, bool down, bool shift) {
 void Viewer::mouse(const render::Vec2f& at) {
   changed();
   mouse_ = at;
-  if (hand_.doing() == Hand::Doing::nothing) eye_.enter(at);
+  if (mouse_tool_.doing() == MouseTool::Doing::nothing) controller_.enter(at);
   std::vector<Command> commands;
-  hand_.move(at, seen(), *seen().skin, commands);
+  mouse_tool_.move(at, seen(), *seen().surface_mesh, commands);
   post(commands);
 }
 
 void Viewer::wheel(float notches) {
   changed();
   std::vector<Command> commands;
-  if (hand_.wheel(notches, commands)) return post(commands);
-  if (!panel_->covers(mouse_.x(), mouse_.y())) eye_.zoom(notches);
+  if (mouse_tool_.wheel(notches, commands)) return post(commands);
+  if (!panel_->covers(mouse_.x(), mouse_.y())) controller_.zoom(notches);
 }
 
 void Viewer::dropped(const std::filesystem::path& path) {

@@ -3,15 +3,15 @@
 //
 //    events ──► hand ──► commands ─┐
 //       └─────► panel ──► actions ─┴─► session ──► frames ──► draw()
+#include <app/panel/comparison_view.hpp>
 #include <app/panel/interface.hpp>
 #include <app/panel/panel.hpp>
-#include <app/panel/side_by_side.hpp>
-#include <app/window/filming.hpp>
 #include <app/window/glfw_window.hpp>
-#include <app/window/hand.hpp>
 #include <app/window/library.hpp>
-#include <app/window/looking_back.hpp>
-#include <app/window/opening.hpp>
+#include <app/window/mouse_tool.hpp>
+#include <app/window/session_loader.hpp>
+#include <app/window/timeline_playback.hpp>
+#include <app/window/video_recorder.hpp>
 #include <app/window/window.hpp>
 #include <chrono>
 
@@ -57,9 +57,9 @@ class Viewer final : public WindowEvents {
   void to_the_present();
   void follow_script();
   void fit();
-  void compare(const std::vector<std::string>& ways);
-  void go_on_from_here(const std::vector<std::string>& beside);
-  const Frame& seen() const { return panel::body_in(*frame_, eye_.current()); }  ///< the body in the eye's pane
+  void compare(const std::vector<std::string>& variants);
+  void resume_with(const std::vector<std::string>& comparisons);
+  const Frame& seen() const { return panel::body_in(*frame_, controller_.current()); }  ///< the body in the eye's pane
   void draw_interface(float seconds);
   void draw_marks();
   void carry_out(const panel::PanelActions& actions);
@@ -75,17 +75,17 @@ class Viewer final : public WindowEvents {
 
   GlfwWindow& window_;
   WindowOptions options_;
-  panel::SideBySide bodies_;
+  panel::ComparisonView bodies_;
   panel::Interface interface_;
-  panel::Eye eye_;
-  Hand hand_{eye_};
-  Opening opening_;
+  panel::CameraController controller_;
+  MouseTool mouse_tool_{controller_};
+  SessionLoader session_loader_;
   Library library_;
   OpenScene open_;
   Scene as_opened_;  ///< of the file, not of what one went on from
-  LookingBack past_;
-  std::optional<int> shown_progress_;  ///< of opening_, %
-  std::unique_ptr<Filming> filming_;   ///< while it goes on, and until its video is made
+  TimelinePlayback past_;
+  std::optional<int> shown_progress_;              ///< of session_loader_, %
+  std::unique_ptr<VideoRecorder> video_recorder_;  ///< while it goes on, and until its video is made
   std::optional<panel::Panel> panel_;
   const Frame* frame_ = nullptr;
 

@@ -12,14 +12,14 @@ namespace heml::window {
 
 void Viewer::let_go() {
   std::vector<Command> commands;
-  hand_.let_go(commands);
+  mouse_tool_.let_go(commands);
   post(commands);
 }
 
 void Viewer::carry_out(const panel::PanelActions& actions) {
   std::vector<Command> commands = actions.commands;
   if (!commands.empty()) {  // it is the living body that is changed
-    if (opening_.progress()) opening_.cancel();
+    if (session_loader_.progress()) session_loader_.cancel();
     past_.end(*open_.session);
   }
   // What is reset is let go of first: the hand would pull a body that starts anew.
@@ -28,16 +28,16 @@ void Viewer::carry_out(const panel::PanelActions& actions) {
   post(commands);
   if (actions.show) open_.session->show(*actions.show);
   for (const panel::Request request : actions.requests) carry_out(request);
-  if (actions.look_at) {
+  if (actions.seek_to) {
     let_go();
-    past_.look(*actions.look_at, *open_.session);
+    past_.look(*actions.seek_to, *open_.session);
   }
   use_view(actions);
-  if (actions.look_into) list(*actions.look_into);
+  if (actions.list_folder) list(*actions.list_folder);
   if (actions.open) open(*actions.open);
-  if (actions.beside) compare(*actions.beside);
-  if (!actions.commands.empty() || !actions.requests.empty() || actions.show || actions.look_at || actions.look_into ||
-      actions.open || actions.beside || actions.view || actions.keep_view)
+  if (actions.comparisons) compare(*actions.comparisons);
+  if (!actions.commands.empty() || !actions.requests.empty() || actions.show || actions.seek_to ||
+      actions.list_folder || actions.open || actions.comparisons || actions.view || actions.keep_view)
     changed();
 }
 
@@ -78,31 +78,31 @@ void Viewer::carry_out(panel::Request request) {
 }
 
 void Viewer::open(const std::filesystem::path& path) {
-  if (opening_.under_way()) return panel_->say("Another file is still being opened.");
+  if (session_loader_.under_way()) return panel_->say("Another file is still being opened.");
   panel_->say("Opening " + path.filename().string() + " …");
-  opening_.begin(path, options_.record);
+  session_loader_.begin(path, options_.record);
 }
 
 /// No folder: the one looked into last; first the scene's, or where the program was started.
 void Viewer::list(const std::filesystem::path& folder) {
   namespace fs = std::filesystem;
-  if (!folder.empty()) return library_.look_into(folder);
-  if (std::exchange(listed_, true)) return library_.look_into({});
+  if (!folder.empty()) return library_.list_folder(folder);
+  if (std::exchange(listed_, true)) return library_.list_folder({});
   std::error_code failed;
   const bool is_ours = open_.scene.file.starts_with(assets_folder().string());
   const fs::path parent = fs::absolute(open_.scene.file, failed).parent_path();
-  library_.look_into(is_ours || failed ? fs::current_path(failed) : parent);
+  library_.list_folder(is_ours || failed ? fs::current_path(failed) : parent);
 }
 
 /// Goes on from the moment that is looked at, in a session of its own. What was recorded goes on in a new file.
 void Viewer::resume() {
-  if (!past_.active()) return panel_->say("Look back first: drag the bar of time, or press Left.");
-  if (opening_.under_way()) return panel_->say("Something else is still being opened.");
+  if (!past_.active()) return panel_->say("Show a past time first: drag the timeline, or press Left.");
+  if (session_loader_.under_way()) return panel_->say("Something else is still being opened.");
   plays_on_ = past_.ran();
-  go_on_from_here(open_.beside);
+  resume_with(open_.comparisons);
 }
 
-void Viewer::go_on_from_here(const std::vector<std::string>& beside) {
+void Viewer::resume_with(const std::vector<std::string>& comparisons) {
   Scene scene = open_.session->until(*frame_);
   scene.view = open_.scene.view;
   scene.view.field = frame_->field;
@@ -110,14 +110,14 @@ void Viewer::go_on_from_here(const std::vector<std::string>& beside) {
   std::optional<std::filesystem::path> record = options_.record;
   if (!record && open_.was_recorded) record = open_.scene.file;
   past_.play(false);
-  opening_.resume(std::move(scene), record, beside);
+  session_loader_.resume(std::move(scene), record, comparisons);
 }
 
 /// The session goes on beside others, from what led to this moment.
-void Viewer::compare(const std::vector<std::string>& ways) {
-  if (opening_.under_way()) return panel_->say("Something else is still being opened.");
+void Viewer::compare(const std::vector<std::string>& variants) {
+  if (session_loader_.under_way()) return panel_->say("Something else is still being opened.");
   plays_on_ = past_.active() ? past_.ran() : !frame_->paused;
-  go_on_from_here(ways);
+  resume_with(variants);
 }
 
 void Viewer::look(panel::Request where) {
@@ -133,26 +133,28 @@ void Viewer::look(panel::Request where) {
 }
 
 void Viewer::to_the_present() {
-  if (opening_.progress()) return opening_.cancel();
+  if (session_loader_.progress()) return session_loader_.cancel();
   past_.end(*open_.session);
 }
 
 /// Under the ring; where nothing is pointed at, what the hand holds.
 void Viewer::remove_tissue() {
   if (past_.active()) return panel_->say(past_is_fixed);
-  const Skin& skin = *seen().skin;
-  const bool points = hand_.doing() == Hand::Doing::nothing && !panel_->covers(mouse_.x(), mouse_.y());
-  const auto hit = points ? hand_.under(mouse_, seen(), skin) : std::nullopt;
-  const int node = hit ? skin.nodes[static_cast<std::size_t>(hit->node)] : frame_->tool.active ? frame_->tool.node : -1;
+  const SurfaceMesh& surface_mesh = *seen().surface_mesh;
+  const bool points = mouse_tool_.doing() == MouseTool::Doing::nothing && !panel_->covers(mouse_.x(), mouse_.y());
+  const auto hit = points ? mouse_tool_.under(mouse_, seen(), surface_mesh) : std::nullopt;
+  const int node = hit                   ? surface_mesh.nodes[static_cast<std::size_t>(hit->node)]
+                   : frame_->tool.active ? frame_->tool.node
+                                         : -1;
   ElementSelection which;
-  which.tets = elements_round(node, skin, panel_->tool().radius);
+  which.tets = elements_around(node, surface_mesh, panel_->tool().radius);
   if (which.tets.empty()) return panel_->say("Point at the tissue to remove, or hold it.");
   open_.session->post(RemoveElements{which});
 }
 
 void Viewer::save_screenshot() {
   try {
-    const auto path = save_picture(render::read_pixels(eye_.size()), open_.scene.name);
+    const auto path = save_picture(render::read_pixels(controller_.size()), open_.scene.name);
     panel_->say("Saved " + path.string());
   } catch (const InputError& error) {
     panel_->say(error.what());
@@ -175,11 +177,11 @@ void Viewer::save_scene() {
 }
 
 void Viewer::film() {
-  if (filming_ && filming_->is_finishing()) return panel_->say("The last film is still being made into a video.");
-  if (filming_) return filming_->finish();
+  if (video_recorder_ && video_recorder_->is_finishing()) return panel_->say("The last video is still being encoded.");
+  if (video_recorder_) return video_recorder_->finish();
   try {
-    filming_ = std::make_unique<Filming>(open_.scene.name, eye_.size());
-    panel_->say("Filming. V ends it.");
+    video_recorder_ = std::make_unique<VideoRecorder>(open_.scene.name, controller_.size());
+    panel_->say("Recording video. V ends it.");
   } catch (const InputError& error) {
     panel_->say(error.what());
   }
@@ -187,25 +189,26 @@ void Viewer::film() {
 
 /// For the film, as everything is drawn.
 void Viewer::take_picture() {
-  if (!filming_) return panel_->view().set_filmed(std::nullopt);
-  if (const auto outcome = filming_->take_outcome()) {
-    filming_.reset();
+  if (!video_recorder_) return panel_->view().set_filmed(std::nullopt);
+  if (const auto outcome = video_recorder_->take_outcome()) {
+    video_recorder_.reset();
     return panel_->say(*outcome);
   }
-  panel_->view().set_filmed(filming_->pictures());
+  panel_->view().set_filmed(video_recorder_->pictures());
   const double time = static_cast<double>(frame_->tick) / frame_->pace.rate;
-  if (past_.active() || !filming_->due(time)) return;
-  if (filming_->size() == eye_.size()) return filming_->take(render::read_pixels(eye_.size()), time);
-  panel_->say("The window has another size now: the film ends here.");
-  filming_->finish();
+  if (past_.active() || !video_recorder_->due(time)) return;
+  if (video_recorder_->size() == controller_.size())
+    return video_recorder_->add_frame(render::read_pixels(controller_.size()), time);
+  panel_->say("The window has another size now: the recording ends here.");
+  video_recorder_->finish();
 }
 
 void Viewer::use_view(const panel::PanelActions& actions) {
   if (actions.keep_view) {
-    eye_.keep(*actions.keep_view);
+    controller_.keep(*actions.keep_view);
     panel_->say(fmt::format("View {} is kept: F{} goes there.", *actions.keep_view + 1, *actions.keep_view + 5));
   }
-  if (actions.view && !eye_.go_to(*actions.view))
+  if (actions.view && !controller_.go_to(*actions.view))
     panel_->say(fmt::format("No view was kept there yet: Ctrl+F{} does.", *actions.view + 5));
 }
 

@@ -32,15 +32,15 @@ class DrawingPace {
 };
 
 void show(window::GlfwWindow& window, window::Viewer& viewer, const WindowOptions& options) {
-  constexpr double longest_sleep = 1;  // s
+  constexpr double max_sleep = 1;  // s
   const auto began = Clock::now();
   DrawingPace pace;
   while (!window.closed() && !viewer.quits()) {
     const auto now = Clock::now();
-    const double left = options.exit_after > 0 ? options.exit_after - seconds(now - began) : longest_sleep;
+    const double left = options.exit_after > 0 ? options.exit_after - seconds(now - began) : max_sleep;
     if (left <= 0) return;
     if (!viewer.wants_drawing() || !pace.due(now)) {
-      window.wait(std::min({left, longest_sleep, viewer.wants_drawing() ? pace.until_due(now) : longest_sleep}));
+      window.wait(std::min({left, max_sleep, viewer.wants_drawing() ? pace.until_due(now) : max_sleep}));
       continue;
     }
     window.wait(0);
@@ -58,10 +58,9 @@ std::optional<std::string> run_window(const Scene& scene, const WindowOptions& o
     window::Viewer viewer(window, scene, options);
     show(window, viewer, options);
     const Frame& last = viewer.frame();
-    fmt::print("{} pictures drawn, {} ticks, {} missed deadlines, {:.3g} wall seconds a simulated second\n",
+    fmt::print("{} frames drawn, {} ticks, {} missed deadlines, {:.3g} wall seconds per simulated second\n",
                viewer.drawn(), last.tick, last.pace.missed, last.pace.slowdown);
-    if (!last.recording_problem.empty())
-      throw InputError("", "the recording ended early", last.recording_problem);
+    if (!last.recording_problem.empty()) throw InputError("", "the recording ended early", last.recording_problem);
     return std::nullopt;
   } catch (const window::NoDisplay& reason) {
     return reason.what();

@@ -11,7 +11,7 @@ namespace heml {
 
 struct WindowOptions {
   std::optional<std::filesystem::path> record;  ///< JSON Lines recording of what is done in the window
-  std::vector<std::string> beside;              ///< other ways to compute the body (heml/session/variant.hpp)
+  std::vector<std::string> comparisons;         ///< other ways to compute the body (heml/session/variant.hpp)
   render::Size size{1280, 720};                 ///< pixels
   double exit_after = 0;                        ///< s of wall time until the window closes by itself; 0: never
   double draw_stall = 0;                        ///< ms every drawing is held up by; the engine must not notice

@@ -48,7 +48,7 @@ class Contour {
     }
   }
 
-  SurfaceMesh mesh;
+  TriangleMesh mesh;
 
  private:
   Vec3 mean(const std::vector<int>& corners) const {
@@ -80,7 +80,7 @@ class Contour {
 
 }  // namespace
 
-SurfaceMesh contour(const Shape& shape, const Vec3& low, const Vec3& high, double cell) {
+TriangleMesh contour(const Shape& shape, const Vec3& low, const Vec3& high, double cell) {
   const Grid grid = sample(shape, low, high, cell);
   Contour contour(grid);
   for (int z = 0; z + 1 < grid.size.z(); ++z)

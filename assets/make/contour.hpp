@@ -8,6 +8,6 @@ namespace heml::make {
 
 /// The closed surface of what lies strictly inside [low, high], outward. cell: m, side of the cubes that are cut into
 /// six tetrahedra each.
-SurfaceMesh contour(const Shape& shape, const Vec3& low, const Vec3& high, double cell);
+TriangleMesh contour(const Shape& shape, const Vec3& low, const Vec3& high, double cell);
 
 }  // namespace heml::make

@@ -62,7 +62,7 @@ std::vector<Vec3> interior_lattice(const Shape& shape, const Vec3& low, const Ve
   return points;
 }
 
-TetMesh fill(const SurfaceMesh& surface, const std::vector<Vec3>& interior) {
+TetMesh fill(const TriangleMesh& surface, const std::vector<Vec3>& interior) {
   tetgenio in;
   std::vector<Vec3> points = surface.nodes;
   points.insert(points.end(), interior.begin(), interior.end());

@@ -12,7 +12,7 @@ std::vector<Vec3> interior_lattice(const Shape& shape, const Vec3& low, const Ve
 
 /// Tetrahedra between the nodes of a closed surface, which keeps its triangles, and the interior nodes, by TetGen.
 /// Nodes: the surface's, then the interior ones.
-TetMesh fill(const SurfaceMesh& surface, const std::vector<Vec3>& interior);
+TetMesh fill(const TriangleMesh& surface, const std::vector<Vec3>& interior);
 
 /// The Delaunay tetrahedra of a cloud of points, by TetGen.
 TetMesh delaunay(const std::vector<Vec3>& points);

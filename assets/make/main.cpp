@@ -30,7 +30,7 @@ void write(const std::string& path, const TetMesh& mesh) {
 }
 
 /// m, the least distance of a node from the opposite face: what limits the time step of explicit methods.
-double least_altitude(const TetMesh& mesh) {
+double min_altitude(const TetMesh& mesh) {
   double least = std::numeric_limits<double>::infinity();
   for (const Tet& tet : mesh.tets)
     for (int i = 0; i < 4; ++i) {
@@ -43,8 +43,7 @@ double least_altitude(const TetMesh& mesh) {
 
 void make_mesh(const std::string& folder, TetMesh mesh) {
   write(folder + "/" + mesh.source + ".mesh", mesh);
-  fmt::print("{}\n{}\nleast altitude {:.3g} mm\n\n", mesh.source, to_text(check_tets(mesh)),
-             1e3 * least_altitude(mesh));
+  fmt::print("{}\n{}\nleast altitude {:.3g} mm\n\n", mesh.source, to_text(check_tets(mesh)), 1e3 * min_altitude(mesh));
 }
 
 }  // namespace

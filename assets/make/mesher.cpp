@@ -71,7 +71,7 @@ void mark_regions(TetMesh& mesh, const Organ& organ) {
 }  // namespace
 
 TetMesh mesh_of(const Organ& organ) {
-  SurfaceMesh surface = contour(organ.shape, organ.low, organ.high, 0.4 * organ.edge);
+  TriangleMesh surface = contour(organ.shape, organ.low, organ.high, 0.4 * organ.edge);
   remesh(
       surface, organ.shape, [&](const Vec3& p) { return organ.edge * organ.detail(p); }, 45);
   TetMesh mesh = fill(surface, interior_lattice(organ.shape, organ.low, organ.high, organ.depth, organ.spacing));

@@ -38,7 +38,7 @@ class Sweep {
     std::ranges::stable_sort(faces_, {}, &Face::key);
     for (std::size_t i = 0; i < faces_.size(); ++i)
       if (!inner(i) && (i == 0 || !inner(i - 1)))
-        for (int j = 0; j < 3; ++j) skin_.insert(sorted(faces_[i].nodes[j], faces_[i].nodes[(j + 1) % 3]));
+        for (int j = 0; j < 3; ++j) surface_mesh_.insert(sorted(faces_[i].nodes[j], faces_[i].nodes[(j + 1) % 3]));
   }
 
   int run() {
@@ -151,9 +151,9 @@ class Sweep {
   }
 
   /// Whether the surface may pass over the ends of an open ring's polygon instead of over its edge.
-  bool may_swap_skin(const Ring& ring) const {
+  bool may_swap_surface(const Ring& ring) const {
     const int p = ring.polygon.front(), q = ring.polygon.back();
-    if (skin_.contains(sorted(p, q)) || (ring.tets.size() > 1 && exists(p, q))) return false;
+    if (surface_mesh_.contains(sorted(p, q)) || (ring.tets.size() > 1 && exists(p, q))) return false;
     const auto normal = [&](int i, int j, int k) {
       const auto& x = mesh_.nodes;
       return (x[j] - x[i]).cross(x[k] - x[i]).normalized().eval();
@@ -166,7 +166,7 @@ class Sweep {
   void take_out_edge(std::size_t begin, std::size_t end) {
     const Ring ring = ring_of(begin, end);
     if (ring.tets.empty() || ring.polygon.size() > 9) return;
-    if (ring.closed ? skin_.contains(sorted(ring.a, ring.b)) : !may_swap_skin(ring)) return;
+    if (ring.closed ? surface_mesh_.contains(sorted(ring.a, ring.b)) : !may_swap_surface(ring)) return;
     const double before = worst(ring.tets);
     std::vector<Tet> tets;
     const double after = ring.polygon.size() > 2 ? fill_polygon(ring, tets) : 1;
@@ -174,8 +174,8 @@ class Sweep {
     if (!fewer && !(after > before + 1e-6 && before < options_.enough)) return;
     if (std::ranges::any_of(tets, [&](const Tet& k) { return diagonal_exists(ring, k); })) return;
     if (!ring.closed) {
-      skin_.erase(sorted(ring.a, ring.b));
-      skin_.insert(sorted(ring.polygon.front(), ring.polygon.back()));
+      surface_mesh_.erase(sorted(ring.a, ring.b));
+      surface_mesh_.insert(sorted(ring.polygon.front(), ring.polygon.back()));
     }
     replace(ring.tets, tets);
   }
@@ -214,7 +214,7 @@ class Sweep {
   std::vector<char> touched_;
   std::vector<std::pair<Pair, int>> around_;  ///< (edge, tetrahedron), sorted
   std::vector<Face> faces_;                   ///< sorted by key: the two sides of a face are neighbours
-  std::set<Pair> skin_;                       ///< edges of the surface
+  std::set<Pair> surface_mesh_;               ///< edges of the surface
   std::set<Pair> made_;                       ///< edges of the new tetrahedra
   std::vector<Tet> fresh_;
   int edits_ = 0;

@@ -20,16 +20,16 @@ struct Topology {
   std::vector<std::vector<int>> ring;  ///< triangles round each node
   std::vector<char> touched;           ///< triangles edited in this pass
 
-  bool neighbours(const SurfaceMesh& mesh, int a, int b) const {
+  bool neighbours(const TriangleMesh& mesh, int a, int b) const {
     return std::ranges::any_of(ring[a], [&](int t) { return std::ranges::count(mesh.triangles[t], b) > 0; });
   }
 };
 
-Vec3 area_vector(const SurfaceMesh& mesh, const Triangle& t) {
+Vec3 area_vector(const TriangleMesh& mesh, const Triangle& t) {
   return 0.5 * (mesh.nodes[t[1]] - mesh.nodes[t[0]]).cross(mesh.nodes[t[2]] - mesh.nodes[t[0]]);
 }
 
-Topology topology_of(const SurfaceMesh& mesh) {
+Topology topology_of(const TriangleMesh& mesh) {
   Topology topology;
   topology.ring.resize(mesh.nodes.size());
   topology.touched.assign(mesh.triangles.size(), 0);
@@ -60,7 +60,7 @@ std::vector<Edge> by_length(std::vector<Edge> edges, bool longest_first) {
   return edges;
 }
 
-int split_long(SurfaceMesh& mesh, const Shape& shape, const std::function<double(const Vec3&)>& target) {
+int split_long(TriangleMesh& mesh, const Shape& shape, const std::function<double(const Vec3&)>& target) {
   Topology topology = topology_of(mesh);
   int edits = 0;
   for (const Edge& e : by_length(topology.edges, true)) {
@@ -79,7 +79,8 @@ int split_long(SurfaceMesh& mesh, const Shape& shape, const std::function<double
 }
 
 /// Whether moving nodes a and b of the edge to `place` keeps a manifold, turns no triangle and makes no long edge.
-bool may_collapse(const SurfaceMesh& mesh, const Topology& topology, const Edge& e, const Vec3& place, double longest) {
+bool may_collapse(const TriangleMesh& mesh, const Topology& topology, const Edge& e, const Vec3& place,
+                  double longest) {
   std::vector<int> around_a, around_b, common;
   const auto check = [&](int node, int other, std::vector<int>& around) {
     for (const int t : topology.ring[node]) {
@@ -105,7 +106,7 @@ bool may_collapse(const SurfaceMesh& mesh, const Topology& topology, const Edge&
   return common.size() == 2 && topology.ring[e.c].size() > 3 && topology.ring[e.d].size() > 3;
 }
 
-int collapse_short(SurfaceMesh& mesh, const Shape& shape, const std::function<double(const Vec3&)>& target) {
+int collapse_short(TriangleMesh& mesh, const Shape& shape, const std::function<double(const Vec3&)>& target) {
   Topology topology = topology_of(mesh);
   std::vector<char> dropped(mesh.nodes.size(), 0);
   int edits = 0;
@@ -142,7 +143,7 @@ double angle_at(const Vec3& p, const Vec3& q, const Vec3& r) {
 }
 
 /// Whether the other diagonal is better: valences nearer to six, or (delaunay) opposite angles that sum to less than π.
-bool wants_flip(const SurfaceMesh& mesh, const Topology& topology, const Edge& e, bool delaunay) {
+bool wants_flip(const TriangleMesh& mesh, const Topology& topology, const Edge& e, bool delaunay) {
   const auto& x = mesh.nodes;
   if (delaunay) return angle_at(x[e.c], x[e.a], x[e.b]) + angle_at(x[e.d], x[e.a], x[e.b]) > std::numbers::pi + 1e-3;
   const auto excess = [&](int n, int change) { return std::abs(int(topology.ring[n].size()) + change - 6); };
@@ -150,7 +151,7 @@ bool wants_flip(const SurfaceMesh& mesh, const Topology& topology, const Edge& e
          excess(e.a, 0) + excess(e.b, 0) + excess(e.c, 0) + excess(e.d, 0);
 }
 
-int flip(SurfaceMesh& mesh, bool delaunay) {
+int flip(TriangleMesh& mesh, bool delaunay) {
   Topology topology = topology_of(mesh);
   int edits = 0;
   for (const Edge& e : topology.edges) {
@@ -175,7 +176,7 @@ int flip(SurfaceMesh& mesh, bool delaunay) {
 }
 
 /// Every node towards the area-weighted centroid of its ring, along the surface.
-void relax(SurfaceMesh& mesh, const Shape& shape, const std::function<double(const Vec3&)>& target) {
+void relax(TriangleMesh& mesh, const Shape& shape, const std::function<double(const Vec3&)>& target) {
   std::vector<Vec3> sum(mesh.nodes.size(), Vec3::Zero()), normal(mesh.nodes.size(), Vec3::Zero());
   std::vector<double> weight(mesh.nodes.size(), 0);
   for (const Triangle& t : mesh.triangles) {
@@ -195,7 +196,7 @@ void relax(SurfaceMesh& mesh, const Shape& shape, const std::function<double(con
 
 }  // namespace
 
-void remesh(SurfaceMesh& mesh, const Shape& shape, const std::function<double(const Vec3& p)>& edge, int iterations) {
+void remesh(TriangleMesh& mesh, const Shape& shape, const std::function<double(const Vec3& p)>& edge, int iterations) {
   for (int iteration = 0; iteration < iterations; ++iteration) {
     // Edits stop before the end, so that the last rounds only settle what is there.
     const bool settle = iteration >= iterations * 2 / 3;

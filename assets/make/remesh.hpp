@@ -8,6 +8,6 @@
 namespace heml::make {
 
 /// Improves a closed manifold mesh of `shape` until its edges are about edge(p) m long. Topology is kept.
-void remesh(SurfaceMesh& mesh, const Shape& shape, const std::function<double(const Vec3& p)>& edge, int iterations);
+void remesh(TriangleMesh& mesh, const Shape& shape, const std::function<double(const Vec3& p)>& edge, int iterations);
 
 }  // namespace heml::make

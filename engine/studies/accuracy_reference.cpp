@@ -12,11 +12,11 @@ constexpr double longest = 600;          // s of computing
 constexpr std::size_t many_tets = 5000;  // from which on a step is worth sharing
 
 /// Steps of a share of the stable one that fill the scene's ticks, so that events come when they are meant to.
-Run fine_run(const Specimen& specimen, const Run& pilot, double part, const RunOptions& options) {
-  const double tick = specimen.scene.solver.tick();
-  Method method{Integrator::verlet, tick / std::ceil(tick / (part * pilot.least_step))};
-  if (specimen.setup.mesh.tets.size() > many_tets) method.threads = 0;
-  return play(specimen, method, options);
+Run fine_run(const Problem& problem, const Run& pilot, double part, const RunOptions& options) {
+  const double tick = problem.scene.solver.tick();
+  Method method{Integrator::verlet, tick / std::ceil(tick / (part * pilot.min_step))};
+  if (problem.setup.mesh.tets.size() > many_tets) method.threads = 0;
+  return play(problem, method, options);
 }
 
 Json positions_json(const std::vector<Vec3>& x) {
@@ -28,50 +28,50 @@ Json positions_json(const std::vector<Vec3>& x) {
 
 }  // namespace
 
-double largest_distance(const std::vector<std::vector<Vec3>>& a, const std::vector<std::vector<Vec3>>& b,
-                        const std::vector<double>& mass) {
+double max_distance(const std::vector<std::vector<Vec3>>& a, const std::vector<std::vector<Vec3>>& b,
+                    const std::vector<double>& mass) {
   double largest = 0;
   for (std::size_t k = 0; k < std::min(a.size(), b.size()); ++k)
     largest = std::max(largest, rms_distance(a[k], b[k], mass));
   return largest;
 }
 
-Reference reference_of(const Specimen& specimen, const Run& pilot, RunOptions options) {
+Reference reference_of(const Problem& problem, const Run& pilot, RunOptions options) {
   Reference reference;
-  reference.stable_step = pilot.least_step;
-  if (!(pilot.least_step > 0) || !std::isfinite(pilot.least_step)) {
-    reference.problem = "verlet took no step";
+  reference.stable_step = pilot.min_step;
+  if (!(pilot.min_step > 0) || !std::isfinite(pilot.min_step)) {
+    reference.failure = "verlet took no step";
     return reference;
   }
   options.longest = longest;
   options.repeat_below = 0;
-  const Run coarse = fine_run(specimen, pilot, share, options);
+  const Run coarse = fine_run(problem, pilot, share, options);
   if (coarse.failed.empty()) {
-    const Run fine = fine_run(specimen, pilot, share / 2, options);
-    reference.problem = fine.failed;
+    const Run fine = fine_run(problem, pilot, share / 2, options);
+    reference.failure = fine.failed;
     reference.step = fine.steps > 0 ? fine.simulated / static_cast<double>(fine.steps) : 0;
-    reference.change = largest_distance(coarse.at, fine.at, specimen.mass);
+    reference.change = max_distance(coarse.at, fine.at, problem.mass);
     reference.seconds = coarse.seconds + fine.seconds;
     reference.at = fine.at;
-    reference.swing = fine.swing;
-    const std::vector<std::vector<Vec3>> rest(fine.at.size(), specimen.setup.mesh.nodes);
-    reference.motion = largest_distance(fine.at, rest, specimen.mass);
+    reference.first_mode = fine.first_mode;
+    const std::vector<std::vector<Vec3>> rest(fine.at.size(), problem.setup.mesh.nodes);
+    reference.motion = max_distance(fine.at, rest, problem.mass);
   } else {
-    reference.problem = coarse.failed;
+    reference.failure = coarse.failed;
   }
-  if (reference.problem.empty() && !(reference.motion > 0)) reference.problem = "nothing moves";
-  if (reference.problem.empty() && !(reference.resolution() < reference.motion / 10))
-    reference.problem = fmt::format("halving a step of {:.3g} ms moves nodes by {:.3g} mm: the motion is chaotic",
+  if (reference.failure.empty() && !(reference.motion > 0)) reference.failure = "nothing moves";
+  if (reference.failure.empty() && !(reference.resolution() < reference.motion / 10))
+    reference.failure = fmt::format("halving a step of {:.3g} ms moves nodes by {:.3g} mm: the motion is chaotic",
                                     2e3 * reference.step, 1e3 * reference.change);
   return reference;
 }
 
 Json to_json(const Reference& reference) {
-  Json json = {{"problem", reference.problem}, {"stable_step", reference.stable_step}, {"step", reference.step},
+  Json json = {{"problem", reference.failure}, {"stable_step", reference.stable_step}, {"step", reference.step},
                {"change", reference.change},   {"motion", reference.motion},           {"seconds", reference.seconds},
                {"at", Json::array()}};
   for (const auto& x : reference.at) json["at"].push_back(positions_json(x));
-  if (reference.swing) json["swing"] = {reference.swing->frequency, reference.swing->decay};
+  if (reference.first_mode) json["swing"] = {reference.first_mode->frequency, reference.first_mode->decay};
   return json;
 }
 
@@ -89,7 +89,7 @@ Reference reference_from(const Json& json) {
     std::vector<Vec3>& x = reference.at.emplace_back();
     for (std::size_t k = 0; k + 2 < list.size(); k += 3) x.emplace_back(list[k], list[k + 1], list[k + 2]);
   }
-  if (json.contains("swing")) reference.swing = Swing{json["swing"][0], json["swing"][1]};
+  if (json.contains("swing")) reference.first_mode = FirstMode{json["swing"][0], json["swing"][1]};
   return reference;
 }
 

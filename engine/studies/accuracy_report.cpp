@@ -15,21 +15,21 @@ void add_pictures(HtmlPage& page, const std::vector<ReportPicture>& pictures, co
 
 std::string reference_text(const TimeStudy& time) {
   const Reference& reference = time.reference;
-  if (!reference.problem.empty()) return fmt::format("{}: no reference: {}.", time.specimen, reference.problem);
+  if (!reference.failure.empty()) return fmt::format("{}: no reference: {}.", time.problem, reference.failure);
   std::size_t unresolved = 0;
   for (const Measured& m : time.measured) unresolved += !m.failed() && !m.resolved;
   return fmt::format(
       "{}: errors of time are measured from verlet in double with steps of {:.3g} µs on the same mesh; twice those "
       "steps move it by {}, so errors from {} on can be told{}. The body moves by {} (rms).",
-      time.specimen, 1e6 * reference.step, length_text(reference.change), length_text(reference.resolution()),
+      time.problem, 1e6 * reference.step, length_text(reference.change), length_text(reference.resolution()),
       unresolved ? fmt::format(" ({} of {} runs are closer than that, and marked <)", unresolved, time.measured.size())
                  : std::string(),
       length_text(reference.motion));
 }
 
-std::string settled_text(const SettledStudy& settled) {
-  const Extrapolation& e = settled.reference;
-  if (!e.problem.empty()) return fmt::format("The error of the mesh is not known: {}.", e.problem);
+std::string mesh_convergence_text(const MeshConvergenceStudy& convergence) {
+  const Extrapolation& e = convergence.reference;
+  if (!e.failure.empty()) return fmt::format("The error of the mesh is not known: {}.", e.failure);
   std::string text = fmt::format(
       "Errors of the mesh are of the body at rest under its loads, measured from three meshes, each with every "
       "tetrahedron of the one before in eight, extrapolated ({}, order {:.2f} and 2, the middle of both; ± {}",
@@ -51,13 +51,13 @@ void add_scene(HtmlPage& page, const SceneStudy& scene, const std::vector<Report
   for (const TimeStudy& time : scene.time) {
     page.paragraph(reference_text(time));
     if (!time.measured.empty())
-      page.details(fmt::format("All {} runs, {}", time.measured.size(), time.specimen), time_table(time));
+      page.details(fmt::format("All {} runs, {}", time.measured.size(), time.problem), time_table(time));
   }
-  page.paragraph(settled_text(scene.settled));
-  if (!scene.settled.meshes.empty()) page.details("Meshes at rest", settled_table(scene.settled));
+  page.paragraph(mesh_convergence_text(scene.convergence));
+  if (!scene.convergence.meshes.empty()) page.details("Meshes at rest", mesh_convergence_table(scene.convergence));
 }
 
-void add_locking(HtmlPage& page, const std::vector<LockedBeam>& beams, const std::vector<ReportPicture>& pictures) {
+void add_locking(HtmlPage& page, const std::vector<LockingBeam>& beams, const std::vector<ReportPicture>& pictures) {
   page.heading("Locking");
   page.paragraph(
       "A beam of 10 × 2 × 2 cm that sags by 0.7 % of its length, held against Timoshenko's theory and against itself "
@@ -97,7 +97,7 @@ std::string spread_of_time_gauges(const AccuracyStudy& study) {
   for (const SceneStudy& scene : study.scenes)
     for (const TimeStudy& time : scene.time)
       for (const Measured& m : time.measured)
-        if (m.gauge) gauges.push_back(*m.gauge);
+        if (m.step_doubling) gauges.push_back(*m.step_doubling);
   if (gauges.empty()) return "none of the runs could be followed";
   std::sort(gauges.begin(), gauges.end());
   const auto honest = std::count_if(gauges.begin(), gauges.end(), [](double g) { return g >= 0.5 && g <= 2; });
@@ -114,14 +114,14 @@ void add_gauges(HtmlPage& page, const AccuracyStudy& study) {
       "energy norm of the error that the potentials of finer meshes tell, linear tetrahedra alone. The last two "
       "columns "
       "are lengths: the share of the motion that is the share of the energy, against the error on finer meshes.");
-  page.table(gauge_table(study));
+  page.table(step_doubling_table(study));
   page.paragraph(
       "Of the steps: a shadow with half the steps, from the start to the first set time, held against the reference "
       "(\"gauge\" in the tables of runs): " +
       spread_of_time_gauges(study) + ".");
 }
 
-void add_laws(HtmlPage& page, const std::vector<SettledLaw>& laws) {
+void add_laws(HtmlPage& page, const std::vector<LawCheck>& laws) {
   page.heading("Laws");
   page.paragraph(
       "A small cube of each law settles under its weight, its top turned and moved. Then a naive loop, F = Ds Dm⁻¹, P "
@@ -137,7 +137,7 @@ void add_features(HtmlPage& page, const FeatureStudy& study, const std::vector<R
       fmt::format("{}, {:.3g} s of it, with one thing changed at a time (`heml explain --measure`): computing time, "
                   "and how far the "
                   "nodes (rms) are in the end from where they are in the scene as it is. Nodes move by {} at most.",
-                  study.scene, study.measurement.stretch, length_text(study.measurement.largest_motion)));
+                  study.scene, study.measurement.stretch, length_text(study.measurement.max_motion)));
   add_pictures(page, pictures, "features " + study.scene);
   page.table(feature_table(study));
 }

@@ -16,12 +16,12 @@ TextTable front_table(const SceneStudy& scene);
 /// Every method on one mesh and element; failed ones say why.
 TextTable time_table(const TimeStudy& study);
 /// Mesh and element at rest.
-TextTable settled_table(const SettledStudy& study);
-TextTable locking_table(const std::vector<LockedBeam>& beams);
+TextTable mesh_convergence_table(const MeshConvergenceStudy& study);
+TextTable locking_table(const std::vector<LockingBeam>& beams);
 /// Of linear tetrahedra: what the panel estimates of the error of a mesh, and what finer meshes tell of it.
 TextTable refinement_table(const RefinementStudy& study);
-TextTable gauge_table(const AccuracyStudy& study);
-TextTable law_table(const std::vector<SettledLaw>& laws);
+TextTable step_doubling_table(const AccuracyStudy& study);
+TextTable law_table(const std::vector<LawCheck>& laws);
 TextTable feature_table(const FeatureStudy& study);
 /// One line a run, with the machine, compiler, commit and threads it was made with.
 TextTable run_table(const AccuracyStudy& study);

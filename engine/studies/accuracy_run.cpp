@@ -5,7 +5,7 @@
 #include <cmath>
 #include <ctime>
 #include <heml/scenario/player.hpp>
-#include <heml/world/shadow.hpp>
+#include <heml/world/step_doubling.hpp>
 #include <numbers>
 #include <numeric>
 #include <studies/accuracy_run.hpp>
@@ -26,13 +26,13 @@ double percentile(std::vector<double> sorted, double share) {
 }
 
 /// Nothing takes energy out or puts it in.
-bool keeps_energy(const Specimen& specimen) {
-  const WorldSetup& setup = specimen.setup;
+bool keeps_energy(const Problem& problem) {
+  const WorldSetup& setup = problem.setup;
   const bool still = std::all_of(setup.boundary.begin(), setup.boundary.end(),
                                  [](const Boundary& b) { return b.translate.isZero() && b.degrees == 0; });
   const bool elastic = std::none_of(setup.materials.begin(), setup.materials.end(),
-                                    [](const RegionMaterial& m) { return m.material.has_memory(); });
-  return still && elastic && setup.loads.empty() && specimen.scene.events.empty() && setup.solver.damping == 0;
+                                    [](const RegionMaterial& m) { return m.material.has_internal_state(); });
+  return still && elastic && setup.loads.empty() && problem.scene.events.empty() && setup.solver.damping == 0;
 }
 
 double total(const Energies& e) { return e.kinetic + e.elastic + e.potential; }
@@ -40,23 +40,22 @@ double total(const Energies& e) { return e.kinetic + e.elastic + e.potential; }
 /// Looks at a world from time to time, with the clock of computing stopped.
 class Observer {
  public:
-  Observer(const Specimen& specimen, World& world) : specimen_(specimen), world_(world) {
-    mass_ = std::accumulate(specimen.mass.begin(), specimen.mass.end(), 0.0);
+  Observer(const Problem& problem, World& world) : specimen_(problem), world_(world) {
+    mass_ = std::accumulate(problem.mass.begin(), problem.mass.end(), 0.0);
     look();
     at_start_ = total(energies_);
   }
 
   void after_tick() {
-    least_step_ = std::min(least_step_, world_.stable_step());
+    min_step_ = std::min(min_step_, world_.stable_step());
     if (world_.time() >= next_ - 1e-9) look();
   }
 
   void tell(Run& run) {
     look();
-    run.least_step = least_step_;
-    if (largest_kinetic_ > 0 && keeps_energy(specimen_))
-      run.energy_drift = (total(energies_) - at_start_) / largest_kinetic_;
-    if (const auto swing = swing_of(times_, along_axis())) run.swing = swing;
+    run.min_step = min_step_;
+    if (max_kinetic_ > 0 && keeps_energy(specimen_)) run.energy_drift = (total(energies_) - at_start_) / max_kinetic_;
+    if (const auto first_mode = first_mode_of(times_, along_axis())) run.first_mode = first_mode;
     const auto ratios = world_.volume_ratios();
     const auto& elements = world_.topology()->elements;
     double rest = 0, volume = 0;
@@ -67,14 +66,14 @@ class Observer {
       rest += V, volume += V * ratios[k];
     }
     run.volume = volume / rest;
-    run.least_J = *std::min_element(ratios.begin(), ratios.end());
+    run.min_J = *std::min_element(ratios.begin(), ratios.end());
   }
 
  private:
   void look() {
     next_ = world_.time() + sample_every;
     energies_ = world_.energies();
-    largest_kinetic_ = std::max(largest_kinetic_, energies_.kinetic);
+    max_kinetic_ = std::max(max_kinetic_, energies_.kinetic);
     Vec3 mean = Vec3::Zero();
     const auto x = world_.positions();
     for (std::size_t n = 0; n < x.size(); ++n) mean += specimen_.mass[n] * (x[n] - specimen_.setup.mesh.nodes[n]);
@@ -93,16 +92,16 @@ class Observer {
     return u;
   }
 
-  const Specimen& specimen_;
+  const Problem& specimen_;
   World& world_;
-  double mass_ = 0, next_ = 0, at_start_ = 0, largest_kinetic_ = 0;
-  double least_step_ = std::numeric_limits<double>::infinity();
+  double mass_ = 0, next_ = 0, at_start_ = 0, max_kinetic_ = 0;
+  double min_step_ = std::numeric_limits<double>::infinity();
   Energies energies_;
   std::vector<double> times_;
   std::vector<Vec3> means_;
 };
 
-std::string problem_of(const World& world, double seconds, double longest) {
+std::string failure_of(const World& world, double seconds, double longest) {
   if (world.halt()) return world.halt()->message;
   if (world.recoveries() > 0) return fmt::format("was turned inside out and recovered {} times", world.recoveries());
   if (seconds > longest) return fmt::format("stopped after {:.0f} s of computing", seconds);
@@ -123,13 +122,13 @@ struct Clock {
   double seconds() const { return std::accumulate(ticks.begin(), ticks.end(), beside); }
 };
 
-Run play_once(const Specimen& specimen, const Method& method, const RunOptions& options, Clock& clock) {
-  WorldSetup setup = specimen.setup;
-  const Scene scene = with_method(specimen.scene, method);
+Run play_once(const Problem& problem, const Method& method, const RunOptions& options, Clock& clock) {
+  WorldSetup setup = problem.setup;
+  const Scene scene = with_method(problem.scene, method);
   setup.solver = scene.solver;
   const std::unique_ptr<World> world = options.make(std::move(setup));
   Player player(scene, *world);
-  Observer observer(specimen, *world);
+  Observer observer(problem, *world);
   Run run;
   const std::clock_t at_start = std::clock();  // of this process: others on the machine make nothing fail
   const auto worked = [&] { return static_cast<double>(std::clock() - at_start) / CLOCKS_PER_SEC; };
@@ -143,7 +142,7 @@ Run play_once(const Specimen& specimen, const Method& method, const RunOptions& 
       return worked() <= options.longest;
     });
     clock.beside += now() - began;
-    run.failed = problem_of(*world, worked(), options.longest);
+    run.failed = failure_of(*world, worked(), options.longest);
     if (!run.failed.empty()) break;
     run.at.push_back(world->positions());
   }
@@ -151,7 +150,7 @@ Run play_once(const Specimen& specimen, const Method& method, const RunOptions& 
   run.simulated = world->time();
   run.ticks = world->ticks();
   run.steps = world->steps();
-  run.iterations = world->solver_work().iterations;
+  run.iterations = world->solver_stats().iterations;
   return run;
 }
 
@@ -172,14 +171,14 @@ Extreme vertex(const std::vector<double>& t, const std::vector<double>& u, std::
 
 }  // namespace
 
-std::optional<double> gauged_error(const Specimen& specimen, const Method& method, double until,
-                                   const RunOptions& options) {
-  WorldSetup setup = specimen.setup;
-  const Scene scene = with_method(specimen.scene, method);
+std::optional<double> step_doubling_error(const Problem& problem, const Method& method, double until,
+                                          const RunOptions& options) {
+  WorldSetup setup = problem.setup;
+  const Scene scene = with_method(problem.scene, method);
   setup.solver = scene.solver;
   for (const Event& event : scene.events)
     if (static_cast<double>(event.tick) * setup.solver.tick() < until) return std::nullopt;
-  Shadow shadow(setup);
+  StepDoublingEstimator shadow(setup);
   const std::unique_ptr<World> world = options.make(std::move(setup));
   Player player(scene, *world);
   if (!shadow.begin(*world)) return std::nullopt;
@@ -192,7 +191,7 @@ std::optional<double> gauged_error(const Specimen& specimen, const Method& metho
   return error ? std::optional(error->rms) : std::nullopt;
 }
 
-std::optional<Swing> swing_of(const std::vector<double>& t, const std::vector<double>& u) {
+std::optional<FirstMode> first_mode_of(const std::vector<double>& t, const std::vector<double>& u) {
   if (u.size() < 3) return std::nullopt;
   const auto [low, high] = std::minmax_element(u.begin(), u.end());
   const double enough = turn * (*high - *low);
@@ -215,7 +214,7 @@ std::optional<Swing> swing_of(const std::vector<double>& t, const std::vector<do
   const double half_period = (turns.back().t - turns.front().t) / static_cast<double>(turns.size() - 1);
   const double first = std::abs(turns[1].u - turns[0].u), last = std::abs(turns.back().u - turns[turns.size() - 2].u);
   const double between = half_period * static_cast<double>(turns.size() - 2);
-  return Swing{1 / (2 * half_period), std::log(first / last) / between};
+  return FirstMode{1 / (2 * half_period), std::log(first / last) / between};
 }
 
 double rms_distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b, const std::vector<double>& mass) {
@@ -224,12 +223,12 @@ double rms_distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b, cons
   return std::sqrt(sum / whole);
 }
 
-Run play(const Specimen& specimen, const Method& method, const RunOptions& options) {
+Run play(const Problem& problem, const Method& method, const RunOptions& options) {
   Clock clock;
-  Run run = play_once(specimen, method, options, clock);
+  Run run = play_once(problem, method, options, clock);
   for (int again = 1; again < plays && clock.seconds() < options.repeat_below; ++again) {
     Clock other;
-    play_once(specimen, method, options, other);
+    play_once(problem, method, options, other);
     clock.take_least(other);
   }
   run.seconds = clock.seconds();

@@ -5,12 +5,12 @@
 //    positions               x(t₁)    x(t₂)    x(t₃)    x(t₄)      errors are taken there
 //    mean motion    ·  ·  ·  ·  ·  ·  ·  ·  ·  ·  ·  ·  ·  ·       frequency and damping are read off it
 #include <optional>
-#include <studies/specimen.hpp>
+#include <studies/problem.hpp>
 
 namespace heml {
 
 /// Of the first mode, as the mean motion of the body shows it.
-struct Swing {
+struct FirstMode {
   double frequency = 0;  ///< Hz
   double decay = 0;      ///< 1/s, of the amplitude
 };
@@ -22,12 +22,12 @@ struct Run {
   double median_tick = 0;  ///< s of computing, likewise
   double slow_tick = 0;    ///< s, 99th percentile, likewise
   long ticks = 0, steps = 0, iterations = 0;
-  double least_step = 0;               ///< s, least stable step of explicit methods on the way
-  std::vector<std::vector<Vec3>> at;   ///< #times × #V × 3, m
-  std::optional<Swing> swing;          ///< none: it does not swing to and fro
-  std::optional<double> energy_drift;  ///< of what it should keep, relative to its largest kinetic energy
-  double volume = 1;                   ///< at the end, relative to rest
-  double least_J = 1;                  ///< at the end
+  double min_step = 0;                  ///< s, least stable step of explicit methods on the way
+  std::vector<std::vector<Vec3>> at;    ///< #times × #V × 3, m
+  std::optional<FirstMode> first_mode;  ///< none: it does not swing to and fro
+  std::optional<double> energy_drift;   ///< of what it should keep, relative to its largest kinetic energy
+  double volume = 1;                    ///< at the end, relative to rest
+  double min_J = 1;                     ///< at the end
 };
 
 struct RunOptions {
@@ -37,15 +37,15 @@ struct RunOptions {
   MakeWorld make = make_world;
 };
 
-Run play(const Specimen& specimen, const Method& method, const RunOptions& options);
+Run play(const Problem& problem, const Method& method, const RunOptions& options);
 
-/// m, rms: what a shadow (world/shadow.hpp) says of a method's error at a time, from the start on; none where it cannot
-/// follow or something happens meanwhile.
-std::optional<double> gauged_error(const Specimen& specimen, const Method& method, double until,
-                                   const RunOptions& options);
+/// m, rms: what a shadow (world/step_doubling.hpp) says of a method's error at a time, from the start on; none where it
+/// cannot follow or something happens meanwhile.
+std::optional<double> step_doubling_error(const Problem& problem, const Method& method, double until,
+                                          const RunOptions& options);
 
 /// From the turning points of a motion that starts at one; none: fewer than three. t: s; u: along its axis.
-std::optional<Swing> swing_of(const std::vector<double>& t, const std::vector<double>& u);
+std::optional<FirstMode> first_mode_of(const std::vector<double>& t, const std::vector<double>& u);
 
 /// √(Σ m |a − b|² / Σ m), m. mass: #V.
 double rms_distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b, const std::vector<double>& mass);

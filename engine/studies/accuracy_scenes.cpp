@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <studies/accuracy_study.hpp>
-#include <studies/bench_bodies.hpp>
 #include <set>
 #include <span>
+#include <studies/accuracy_study.hpp>
+#include <studies/bench_bodies.hpp>
 
 namespace heml {
 namespace {
@@ -76,14 +76,14 @@ AccuracyScene scene_of(const Entry& entry) {
   Scene scene = read_scene(assets_folder() / entry.file);
   if (entry.young > 0) make_stiffness(scene, entry.young, entry.poisson);
   if (!entry.law.empty()) make_law(scene, entry.law);
-  Specimen specimen = specimen_of(scene);
-  for (int k = 0; k < entry.halvings; ++k) specimen = finer(specimen);
+  Problem problem = problem_of(scene);
+  for (int k = 0; k < entry.halvings; ++k) problem = finer(problem);
   if (entry.halvings > 0) {
-    const std::size_t tets = specimen.setup.mesh.tets.size();
-    specimen.scene.name += fmt::format(" {}", tets);
-    specimen.scene.title += fmt::format(", {} tetrahedra", tets);
+    const std::size_t tets = problem.setup.mesh.tets.size();
+    problem.scene.name += fmt::format(" {}", tets);
+    problem.scene.title += fmt::format(", {} tetrahedra", tets);
   }
-  return {specimen.scene.name, std::move(specimen), entry.options, entry.weight};
+  return {problem.scene.name, std::move(problem), entry.options, entry.weight};
 }
 
 }  // namespace
@@ -96,7 +96,7 @@ std::vector<AccuracyScene> accuracy_scenes(bool quick) {
   std::set<std::string_view> missing;
   for (const LawInfo& law : laws()) missing.insert(law.name);
   for (const AccuracyScene& scene : scenes)
-    for (const RegionMaterial& entry : scene.specimen.scene.materials) missing.erase(entry.material.law);
+    for (const RegionMaterial& entry : scene.problem.scene.materials) missing.erase(entry.material.law);
   for (const LawInfo& law : laws())
     if (missing.contains(law.name)) scenes.push_back(scene_of({cube, own, 5, 0, 0, 0, law.name}));
   return scenes;

@@ -13,9 +13,9 @@ constexpr double round_off = 1e-6;     // of forces: below it figures are chance
 constexpr double feature_weight = 15;  // s of two scenes' measurement, for the estimate of what is left
 constexpr double refined_poisson = 0.3;
 
-RefinementStudy refine_beam(const std::vector<LockedBeam>& beams, bool quick, const StudyContext& context) {
+RefinementStudy refine_beam(const std::vector<LockingBeam>& beams, bool quick, const StudyContext& context) {
   const auto beam =
-      std::find_if(beams.begin(), beams.end(), [](const LockedBeam& b) { return b.poisson == refined_poisson; });
+      std::find_if(beams.begin(), beams.end(), [](const LockingBeam& b) { return b.poisson == refined_poisson; });
   return study_refinement(*beam, cells_of_locking_study(quick), quick ? 5000 : 30000, context);
 }
 
@@ -49,17 +49,17 @@ class Parts {
 };
 
 std::string figure_name(const SceneStudy& scene, const TimeStudy& study, const Measured& measured) {
-  return fmt::format("{}; {}; {}", scene.name, study.specimen, text_of(measured.method));
+  return fmt::format("{}; {}; {}", scene.name, study.problem, text_of(measured.method));
 }
 
 AccuracyStudy study_users_scene(const AccuracyOptions& options) {
-  const Specimen specimen = specimen_of(*options.scene);
+  const Problem problem = problem_of(*options.scene);
   SceneStudyOptions how;
-  if (options.quick) how.sweep = Breadth::brief, how.most_tets = 20000;
+  if (options.quick) how.sweep = Breadth::brief, how.max_tets = 20000;
   Parts parts(options, 1.05);
   AccuracyStudy study;
   study.scenes.push_back(
-      study_scene(specimen.scene.name, specimen, how, parts.part(1, steps_of_scene_study(specimen, how))));
+      study_scene(problem.scene.name, problem, how, parts.part(1, steps_of_scene_study(problem, how))));
   if (!options.quick) study.features = {study_features(*options.scene, parts.part(0.05, 1))};
   return study;
 }
@@ -81,8 +81,8 @@ AccuracyStudy study_own_scenes(const AccuracyOptions& options) {
   study.locking = study_locking(options.quick, parts.part(locking_weight, steps_of_locking_study(options.quick)));
   study.refinement = refine_beam(study.locking, options.quick, parts.part(refinement_weight, 1));
   for (const AccuracyScene& scene : scenes)
-    study.scenes.push_back(study_scene(scene.name, scene.specimen, scene.options,
-                                       parts.part(scene.weight, steps_of_scene_study(scene.specimen, scene.options))));
+    study.scenes.push_back(study_scene(scene.name, scene.problem, scene.options,
+                                       parts.part(scene.weight, steps_of_scene_study(scene.problem, scene.options))));
   for (const Scene& scene : featured) study.features.push_back(study_features(scene, parts.part(feature_weight, 1)));
   return study;
 }
@@ -93,52 +93,52 @@ AccuracyStudy study_accuracy(const AccuracyOptions& options) {
   return options.scene ? study_users_scene(options) : study_own_scenes(options);
 }
 
-std::vector<Figure> figures_of(const AccuracyStudy& study) {
-  std::vector<Figure> figures;
+std::vector<ResultValue> result_values(const AccuracyStudy& study) {
+  std::vector<ResultValue> values;
   for (const SceneStudy& scene : study.scenes) {
     for (const TimeStudy& time : scene.time)
       for (const Measured& measured : time.measured)
         if (!measured.failed() && measured.resolved && !measured.method.single_precision &&
             measured.method.threads == 1)
-          figures.push_back({figure_name(scene, time, measured), measured.error});
-    for (const SettledMesh& mesh : scene.settled.meshes)
+          values.push_back({figure_name(scene, time, measured), measured.error});
+    for (const ConvergenceMesh& mesh : scene.convergence.meshes)
       if (mesh.failed.empty() && mesh.resolved)
-        figures.push_back({fmt::format("{}; at rest; {}, {} tetrahedra", scene.name,
-                                       mesh.nodal_pressure ? "nodal_pressure" : "p1", mesh.tets),
-                           mesh.error});
+        values.push_back({fmt::format("{}; at rest; {}, {} tetrahedra", scene.name,
+                                      mesh.nodal_pressure ? "nodal_pressure" : "p1", mesh.tets),
+                          mesh.error});
   }
-  for (const LockedBeam& beam : study.locking) {
-    if (!beam.settled.reference.problem.empty()) continue;
-    figures.push_back({fmt::format("beam off theory, poisson {}", beam.poisson), std::abs(beam.off_theory())});
-    for (const SettledMesh& mesh : beam.settled.meshes)
+  for (const LockingBeam& beam : study.locking) {
+    if (!beam.convergence.reference.failure.empty()) continue;
+    values.push_back({fmt::format("beam off theory, poisson {}", beam.poisson), std::abs(beam.off_theory())});
+    for (const ConvergenceMesh& mesh : beam.convergence.meshes)
       if (mesh.failed.empty() && mesh.resolved)
-        figures.push_back({fmt::format("beam of poisson {}; {}, {} tetrahedra", beam.poisson,
-                                       mesh.nodal_pressure ? "nodal_pressure" : "p1", mesh.tets),
-                           mesh.error});
+        values.push_back({fmt::format("beam of poisson {}; {}, {} tetrahedra", beam.poisson,
+                                      mesh.nodal_pressure ? "nodal_pressure" : "p1", mesh.tets),
+                          mesh.error});
   }
   if (study.refinement)
     for (int round = 0; const RefinedMesh& mesh : study.refinement->meshes)
       if (mesh.adapted)
-        figures.push_back({fmt::format("energy norm of the beam, adapted {} times", round++), mesh.error});
-  for (const SettledLaw& law : study.laws)
+        values.push_back({fmt::format("energy norm of the beam, adapted {} times", round++), mesh.error});
+  for (const LawCheck& law : study.laws)
     if (law.failed.empty())
-      figures.push_back({fmt::format("force left by {}", law.law), std::max(law.left_over, round_off)});
-  return figures;
+      values.push_back({fmt::format("force left by {}", law.law), std::max(law.left_over, round_off)});
+  return values;
 }
 
-Json to_json(const std::vector<Figure>& figures) {
+Json to_json(const std::vector<ResultValue>& values) {
   Json json = Json::object();
-  for (const Figure& figure : figures) json[figure.name] = figure.value;
+  for (const ResultValue& value : values) json[value.name] = value.value;
   return json;
 }
 
-std::vector<std::string> what_got_worse(const std::vector<Figure>& figures, const Json& committed) {
+std::vector<std::string> what_got_worse(const std::vector<ResultValue>& values, const Json& committed) {
   std::vector<std::string> worse;
   for (const auto& [name, value] : committed.items()) {
     const auto now =
-        std::find_if(figures.begin(), figures.end(), [&, &name = name](const Figure& f) { return f.name == name; });
+        std::find_if(values.begin(), values.end(), [&, &name = name](const ResultValue& f) { return f.name == name; });
     const double before = value.get<double>();
-    if (now == figures.end())
+    if (now == values.end())
       worse.push_back(fmt::format("{}: was {:.4g}, and is no more: it failed or was not measured", name, before));
     else if (!(now->value <= may_grow * before + negligible))
       worse.push_back(fmt::format("{}: was {:.4g}, is {:.4g}", name, before, now->value));

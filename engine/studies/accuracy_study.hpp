@@ -20,9 +20,9 @@ struct AccuracyOptions {
 struct AccuracyStudy {
   std::vector<SceneStudy> scenes;
   // Of the study itself, not of a user's scene:
-  std::vector<LockedBeam> locking;
+  std::vector<LockingBeam> locking;
   std::optional<RefinementStudy> refinement;
-  std::vector<SettledLaw> laws;
+  std::vector<LawCheck> laws;
   std::vector<FeatureStudy> features;  ///< of a user's scene, too; not of a quick study
 };
 
@@ -32,22 +32,22 @@ AccuracyStudy study_accuracy(const AccuracyOptions& options);
 /// A scene of the study's, ready to be measured, and how.
 struct AccuracyScene {
   std::string name;
-  Specimen specimen;
+  Problem problem;
   SceneStudyOptions options;
   double weight;  ///< of the time it takes, for the estimate of what is left
 };
 std::vector<AccuracyScene> accuracy_scenes(bool quick);
 
 /// A figure that is not to grow: errors in m, deviations from theory relative. Times are none.
-struct Figure {
+struct ResultValue {
   std::string name;
   double value;
 };
 /// Of methods whose result does not depend on the machine: not of float, nor of numbers of threads.
-std::vector<Figure> figures_of(const AccuracyStudy& study);
-Json to_json(const std::vector<Figure>& figures);
+std::vector<ResultValue> result_values(const AccuracyStudy& study);
+Json to_json(const std::vector<ResultValue>& values);
 
 /// What is worse than what was committed, in sentences: grown by more than a tenth, or gone.
-std::vector<std::string> what_got_worse(const std::vector<Figure>& figures, const Json& committed);
+std::vector<std::string> what_got_worse(const std::vector<ResultValue>& values, const Json& committed);
 
 }  // namespace heml

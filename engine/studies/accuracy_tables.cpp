@@ -32,11 +32,11 @@ std::string effectivity_text(const std::optional<double>& effectivity) {
 }
 
 /// Of a mesh whose error is known in the energy norm.
-void add_gauged(TextTable& table, const std::string& body, const SettledStudy& settled) {
-  for (const SettledMesh& mesh : settled.meshes) {
+void add_gauged(TextTable& table, const std::string& body, const MeshConvergenceStudy& convergence) {
+  for (const ConvergenceMesh& mesh : convergence.meshes) {
     if (!mesh.effectivity()) continue;
     const auto of_norm = [&](double squared) { return percent(std::sqrt(squared / (2 * mesh.stored + squared))); };
-    const bool in_metres = mesh.resolved && settled.reference.problem.empty();
+    const bool in_metres = mesh.resolved && convergence.reference.failure.empty();
     table.rows.push_back({body, std::to_string(mesh.tets), of_norm(*mesh.known), of_norm(*mesh.estimated),
                           effectivity_text(mesh.effectivity()), in_metres ? length_text(mesh.error) : "",
                           length_text(mesh.estimated_length())});
@@ -87,18 +87,18 @@ TextTable time_table(const TimeStudy& study) {
                 m.frequency_error ? signed_percent(*m.frequency_error) : "",
                 m.added_decay ? fmt::format("{:+.2g}", *m.added_decay) : "",
                 m.run.energy_drift ? signed_percent(*m.run.energy_drift) : "", signed_percent(m.run.volume - 1),
-                short_number(m.run.least_J), effectivity_text(m.gauge)});
+                short_number(m.run.min_J), effectivity_text(m.step_doubling)});
     table.rows.push_back(row);
   }
   return table;
 }
 
-TextTable settled_table(const SettledStudy& study) {
+TextTable mesh_convergence_table(const MeshConvergenceStudy& study) {
   TextTable table;
   table.head = {"element", "tetrahedra", "nodes", "error", "of the motion", "s of computing"};
   table.first_number = 1, table.end_numbers = table.head.size();
-  for (const SettledMesh& mesh : study.meshes) {
-    const bool is_known = mesh.failed.empty() && study.reference.problem.empty();
+  for (const ConvergenceMesh& mesh : study.meshes) {
+    const bool is_known = mesh.failed.empty() && study.reference.failure.empty();
     const std::string error = (mesh.resolved ? "" : "< ") + length_text(mesh.error);
     table.rows.push_back({element_name(mesh.nodal_pressure), std::to_string(mesh.tets), std::to_string(mesh.nodes),
                           is_known ? error : mesh.failed, is_known ? percent(mesh.relative) : "",
@@ -107,17 +107,17 @@ TextTable settled_table(const SettledStudy& study) {
   return table;
 }
 
-TextTable locking_table(const std::vector<LockedBeam>& beams) {
+TextTable locking_table(const std::vector<LockingBeam>& beams) {
   TextTable table;
   table.head = {"Poisson's ratio",  "element",    "tetrahedra", "sag, mm",
                 "extrapolated, mm", "theory, mm", "mesh error", "of it locking"};
   table.first_number = 2, table.end_numbers = table.head.size();
-  for (const LockedBeam& beam : beams)
-    for (const SettledMesh& mesh : beam.settled.meshes) {
+  for (const LockingBeam& beam : beams)
+    for (const ConvergenceMesh& mesh : beam.convergence.meshes) {
       if (!mesh.failed.empty()) continue;
-      if (!beam.settled.reference.problem.empty()) {
+      if (!beam.convergence.reference.failure.empty()) {
         table.rows.push_back({fmt::format("{}", beam.poisson), element_name(mesh.nodal_pressure),
-                              std::to_string(mesh.tets), "", beam.settled.reference.problem,
+                              std::to_string(mesh.tets), "", beam.convergence.reference.failure,
                               fmt::format("{:.4f}", 1e3 * beam.theory), "", ""});
         continue;
       }
@@ -139,21 +139,21 @@ TextTable refinement_table(const RefinementStudy& study) {
   return table;
 }
 
-TextTable gauge_table(const AccuracyStudy& study) {
+TextTable step_doubling_table(const AccuracyStudy& study) {
   TextTable table;
   table.head = {"body", "tetrahedra", "error, of the energy norm", "estimated", "effectivity", "error", "estimated"};
   table.first_number = 1, table.end_numbers = table.head.size();
-  for (const LockedBeam& beam : study.locking)
-    add_gauged(table, fmt::format("beam at rest, Poisson's ratio {}", beam.poisson), beam.settled);
-  for (const SceneStudy& scene : study.scenes) add_gauged(table, scene.name + " at rest", scene.settled);
+  for (const LockingBeam& beam : study.locking)
+    add_gauged(table, fmt::format("beam at rest, Poisson's ratio {}", beam.poisson), beam.convergence);
+  for (const SceneStudy& scene : study.scenes) add_gauged(table, scene.name + " at rest", scene.convergence);
   return table;
 }
 
-TextTable law_table(const std::vector<SettledLaw>& laws) {
+TextTable law_table(const std::vector<LawCheck>& laws) {
   TextTable table;
   table.head = {"law", "force left over, of a node's weight"};
   table.first_number = 1, table.end_numbers = 2;
-  for (const SettledLaw& law : laws)
+  for (const LawCheck& law : laws)
     table.rows.push_back(
         {law.law, law.failed.empty() ? fmt::format("{:.1e}", law.left_over) : "failed: " + law.failed});
   return table;
@@ -238,7 +238,7 @@ TextTable run_table(const AccuracyStudy& study) {
                               optional_number(m.added_decay),
                               optional_number(m.run.energy_drift),
                               error(m.run.volume),
-                              error(m.run.least_J),
+                              error(m.run.min_J),
                               machine.cpu,
                               std::to_string(machine.cores),
                               machine.compiler,

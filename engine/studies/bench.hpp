@@ -1,7 +1,7 @@
 #pragma once
 // Speed, measured: what `heml bench` runs. Every suite gives rows (contract, "heml bench"); what they have in common
 // are bodies (bench_bodies.hpp), the naive loop that ours is compared with (naive.hpp), and works timed in turn
-// (rounds.hpp).
+// (interleaved_timing.hpp).
 //
 //   paper     the five bodies of the paper: time and counted operations, HEML and Mass-Tensor
 //   kernel    one force evaluation: every law, precision, instruction set, 1 and all threads, 320 to 1M tetrahedra
@@ -28,7 +28,7 @@ struct BenchRow {
   std::string unit;                      ///< "ns/tet", "ms", "GB/s", "GFLOP/s", "operations"
   std::optional<double> ratio_to_naive;  ///< of minima: naive/ours
   Json more = Json::object();            ///< further fields
-  std::string beside;                    ///< for the table alone: the most telling of them, in words
+  std::string remark;                    ///< for the table alone: the most telling of them, in words
 };
 
 struct BenchOptions {

@@ -11,7 +11,7 @@ namespace heml {
 namespace {
 
 /// Uniform in [−1, 1], of a place in a sequence.
-double noise(std::uint64_t place) { return static_cast<double>(mix(1, place) >> 11) * 0x1p-52 - 1; }
+double noise(std::uint64_t place) { return static_cast<double>(hash_combine(1, place) >> 11) * 0x1p-52 - 1; }
 
 void jitter(TetMesh& mesh, int n, double size) {
   const double reach = 0.2 * size / n, edge = 1e-9 * size;
@@ -25,7 +25,7 @@ void jitter(TetMesh& mesh, int n, double size) {
 }  // namespace
 
 BenchBody bench_body(std::string name, const TetMesh& mesh) {
-  BenchBody body{std::move(name), reordered(mesh, locality_order(mesh)), {}};
+  BenchBody body{std::move(name), reordered(mesh, hilbert_order(mesh)), {}};
   Vec3 low = body.mesh.nodes.front(), high = low;
   for (const Vec3& X : body.mesh.nodes) low = low.cwiseMin(X), high = high.cwiseMax(X);
   const double size = (high - low).maxCoeff();

@@ -69,7 +69,7 @@ std::string plain_table(std::span<const BenchRow> rows) {
   for (const BenchRow& row : rows)
     table.rows.push_back({row.name, row.mesh, row.law, row.precision, row.isa, row.tets ? std::to_string(row.tets) : "",
                           std::to_string(row.threads), short_number(row.median), short_number(row.min), row.unit,
-                          row.ratio_to_naive ? fmt::format("{:.2f}", *row.ratio_to_naive) : "", row.beside});
+                          row.ratio_to_naive ? fmt::format("{:.2f}", *row.ratio_to_naive) : "", row.remark});
   return markdown_text(table);
 }
 

@@ -7,7 +7,7 @@
 #include <heml/world/world.hpp>
 #include <studies/bench_bodies.hpp>
 #include <studies/edit_timing.hpp>
-#include <studies/rounds.hpp>
+#include <studies/interleaved_timing.hpp>
 
 namespace heml {
 namespace {
@@ -29,7 +29,7 @@ Edited edited_mesh(const TetMesh& mesh, const MeshEdit& edit) {
   const auto tets = static_cast<int>(mesh.tets.size());
   TetMesh all = mesh;
   append(edit, all);
-  const auto elements = edited(whole(mesh), edit, tets).elements;
+  const auto elements = apply_edit(whole(mesh), edit, tets).elements;
   Edited result{with_elements(all, elements), {}};
   for (const int t : elements)
     result.origins.push_back(t < tets ? t : edit.parents[static_cast<std::size_t>(t - tets)]);
@@ -47,7 +47,7 @@ std::array<Timing, 2> time_body(const TetMesh& mesh, const Material& material, c
       if (edit.added.empty())
         body.keep_elements(after.origins);
       else
-        body.take_pieces(after.mesh, after_of, after.origins);
+        body.transfer_state(after.mesh, after_of, after.origins);
     }));
     anew.push_back(seconds([&] { body.set_mesh(after.mesh, after_of); }));
     body.set_mesh(mesh, before_of);
@@ -88,10 +88,10 @@ std::vector<BenchRow> edit_rows(int n, bool quick) {
   Cut cut;
   MeshEdit gone;
   make_cut(sweep, body.mesh, body.mesh.nodes, whole(body.mesh), snapping_distance(body.mesh), {}, cut);
-  make_removal(removal.which, body.mesh, whole(body.mesh), gone);
+  make_removal_edit(removal.which, body.mesh, whole(body.mesh), gone);
 
   std::vector<BenchRow> rows;
-  const auto add = [&](std::string name, const Timing& time, std::string beside) {
+  const auto add = [&](std::string name, const Timing& time, std::string remark) {
     BenchRow& row = rows.emplace_back();
     row.name = std::move(name);
     row.mesh = body.name;
@@ -105,7 +105,7 @@ std::vector<BenchRow> edit_rows(int n, bool quick) {
     row.min = 1e3 * time.min;
     row.unit = "ms";
     row.more = {{"spread", time.spread}, {"samples", time.samples}};
-    row.beside = std::move(beside);
+    row.remark = std::move(remark);
   };
   struct Kind {
     const char* name;

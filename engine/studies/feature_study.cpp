@@ -5,7 +5,7 @@ namespace {
 
 Json to_json(const Measurement& measurement) {
   Json json = {{"stretch", measurement.stretch},
-               {"largest_motion", measurement.largest_motion},
+               {"largest_motion", measurement.max_motion},
                {"turns", measurement.turns},
                {"changes", Json::array()}};
   for (const MeasuredChange& c : measurement.changes)
@@ -30,11 +30,11 @@ Measurement measurement_from(const Json& json) {
 }  // namespace
 
 FeatureStudy study_features(const Scene& scene, const StudyContext& context) {
-  const Specimen specimen = specimen_of(scene);
-  const Json found = context.kept(key_of(specimen) + "|features",
-                                  [&] { return to_json(measure_features(specimen.scene, specimen.setup)); });
-  const std::string& title = specimen.scene.title;
-  return {specimen.scene.name, title.empty() ? specimen.scene.name : title, measurement_from(found)};
+  const Problem problem = problem_of(scene);
+  const Json found = context.kept(key_of(problem) + "|features",
+                                  [&] { return to_json(measure_features(problem.scene, problem.setup)); });
+  const std::string& title = problem.scene.title;
+  return {problem.scene.name, title.empty() ? problem.scene.name : title, measurement_from(found)};
 }
 
 }  // namespace heml

@@ -55,7 +55,7 @@ struct Contest {
 
 }  // namespace
 
-std::vector<ForceTiming> time_forces(const BenchBody& body, const Material& material, const RoundLimits& limits) {
+std::vector<ForceTiming> time_forces(const BenchBody& body, const Material& material, const TimingLimits& limits) {
   const FlushDenormals flush;
   const NaiveForces naive(body.mesh, material);
   std::vector<double> reference(body.x.size()), f(body.x.size());
@@ -65,7 +65,7 @@ std::vector<ForceTiming> time_forces(const BenchBody& body, const Material& mate
   contest.entries.push_back({material.law, "double", "native", 1, true, {}, 0, 1});
   contest.enter<double>("double", 1e-10);
   contest.enter<float>("float", 1e-2);
-  const auto times = time_in_turn(contest.works, limits);
+  const auto times = time_interleaved(contest.works, limits);
   for (std::size_t k = 0; k < times.size(); ++k) {
     contest.entries[k].time = times[k];
     contest.entries[k].ratio_to_naive = times[0].min / times[k].min;

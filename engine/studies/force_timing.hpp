@@ -3,7 +3,7 @@
 #include <string>
 #include <studies/bench.hpp>
 #include <studies/bench_bodies.hpp>
-#include <studies/rounds.hpp>
+#include <studies/interleaved_timing.hpp>
 #include <vector>
 
 namespace heml {
@@ -18,7 +18,7 @@ struct ForceTiming {
 };
 
 /// The naive loop first. Forces of all agree with it; what does not is an internal error (std::logic_error).
-std::vector<ForceTiming> time_forces(const BenchBody& body, const Material& material, const RoundLimits& limits);
+std::vector<ForceTiming> time_forces(const BenchBody& body, const Material& material, const TimingLimits& limits);
 
 /// As a row of ns/tet.
 BenchRow force_row(const ForceTiming& timing, const BenchBody& body);

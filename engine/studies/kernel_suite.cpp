@@ -31,10 +31,10 @@ std::vector<BenchRow> kernel_suite(const BenchOptions& options) {
     for (const Material& material : materials) {
       options.progress(fmt::format("kernel: {}, {}", body.name, material.law),
                        done++ / static_cast<double>(list.size() * materials.size()));
-      RoundLimits limits;
+      TimingLimits limits;
       limits.seconds = options.quick ? 0.15 : 1.5;
-      limits.fewest = options.quick ? 3 : 5;
-      limits.shortest_sample = options.quick ? 2e-4 : 1e-3;
+      limits.min_rounds = options.quick ? 3 : 5;
+      limits.min_sample = options.quick ? 2e-4 : 1e-3;
       for (const ForceTiming& timing : time_forces(body, material, limits)) rows.push_back(force_row(timing, body));
     }
   }

@@ -10,9 +10,9 @@ namespace {
 constexpr double size = 0.03;  // m: sinks by a few per cent
 constexpr double tolerance = 1e-10;
 
-Specimen cube_of(const Material& material) {
-  Specimen specimen;
-  WorldSetup& setup = specimen.setup;
+Problem cube_of(const Material& material) {
+  Problem problem;
+  WorldSetup& setup = problem.setup;
   setup.mesh = make_box(Vec3(size, size, size), {3, 3, 3});
   setup.materials = {{std::nullopt, material}};
   Boundary bottom, top;
@@ -29,23 +29,23 @@ Specimen cube_of(const Material& material) {
   setup.solver.integrator = Integrator::static_equilibrium;
   setup.solver.tolerance = tolerance;
   setup.solver.threads = 1;
-  return with_masses(std::move(specimen));
+  return with_masses(std::move(problem));
 }
 
 /// What the naive loops leave on free nodes beside the weight.
-double left_over(const Specimen& specimen, const std::vector<Vec3>& positions) {
-  const WorldSetup& setup = specimen.setup;
+double left_over(const Problem& problem, const std::vector<Vec3>& positions) {
+  const WorldSetup& setup = problem.setup;
   const NaiveForces naive(setup.mesh, setup.materials.front().material);
   std::vector<double> x, f(3 * positions.size());
   for (const Vec3& at : positions) x.insert(x.end(), {at.x(), at.y(), at.z()});
   naive(x.data(), f.data());
-  std::vector<bool> held(positions.size(), false);
+  std::vector<bool> constrained(positions.size(), false);
   for (const Boundary& boundary : setup.boundary)
-    for (const int node : boundary.nodes) held[static_cast<std::size_t>(node)] = true;
+    for (const int node : boundary.nodes) constrained[static_cast<std::size_t>(node)] = true;
   double left = 0, weight = 0;
   for (std::size_t n = 0; n < positions.size(); ++n) {
-    if (held[n]) continue;
-    const Vec3 own = specimen.mass[n] * setup.gravity;
+    if (constrained[n]) continue;
+    const Vec3 own = problem.mass[n] * setup.gravity;
     left = std::max(left, (Vec3(f[3 * n], f[3 * n + 1], f[3 * n + 2]) + own).norm());
     weight = std::max(weight, own.norm());
   }
@@ -53,19 +53,19 @@ double left_over(const Specimen& specimen, const std::vector<Vec3>& positions) {
 }
 
 Json settle(const Material& material, const MakeWorld& make) {
-  const Specimen specimen = cube_of(material);
-  const auto world = make(specimen.setup);
+  const Problem problem = cube_of(material);
+  const auto world = make(problem.setup);
   world->load_to(1);
   return {{"failed", world->halt() ? world->halt()->message : ""},
-          {"left_over", left_over(specimen, world->positions())}};
+          {"left_over", left_over(problem, world->positions())}};
 }
 
 }  // namespace
 
 std::size_t steps_of_law_study() { return bench_materials().size(); }
 
-std::vector<SettledLaw> study_laws(const StudyContext& context) {
-  std::vector<SettledLaw> laws;
+std::vector<LawCheck> study_laws(const StudyContext& context) {
+  std::vector<LawCheck> laws;
   for (const Material& material : bench_materials()) {
     const Json found = context.kept("law at rest|" + material.law, [&] { return settle(material, context.make); });
     laws.push_back(

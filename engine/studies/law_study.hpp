@@ -6,14 +6,14 @@
 
 namespace heml {
 
-struct SettledLaw {
+struct LawCheck {
   std::string law;
   std::string failed;    ///< empty: it settled
   double left_over = 0;  ///< largest force on a free node by the naive loops, of the largest weight of a node
 };
 
 /// One a law, as bench_materials() lists them.
-std::vector<SettledLaw> study_laws(const StudyContext& context);
+std::vector<LawCheck> study_laws(const StudyContext& context);
 std::size_t steps_of_law_study();
 
 }  // namespace heml

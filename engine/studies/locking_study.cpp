@@ -16,45 +16,46 @@ std::vector<double> poissons(bool quick) {
 
 }  // namespace
 
-Specimen beam_specimen(double poisson, const std::array<int, 3>& cells) {
-  Specimen specimen;
-  WorldSetup& setup = specimen.setup;
+Problem beam_problem(double poisson, const std::array<int, 3>& cells) {
+  Problem problem;
+  WorldSetup& setup = problem.setup;
   setup.mesh = make_box(Vec3(beam.length, beam.depth, beam.depth), cells);
   Material material;
   material.law = "neo_hookean_iso";
   material.parameters = {beam.young / (4 * (1 + poisson)), beam.young / (3 * (1 - 2 * poisson))};
   material.density = beam.density;
   setup.materials = {{std::nullopt, material}};
-  Boundary held;
+  Boundary constrained;
   for (std::size_t n = 0; n < setup.mesh.nodes.size(); ++n)
-    if (setup.mesh.nodes[n].x() < 1e-9) held.nodes.push_back(static_cast<int>(n));
-  setup.boundary = {held};
+    if (setup.mesh.nodes[n].x() < 1e-9) constrained.nodes.push_back(static_cast<int>(n));
+  setup.boundary = {constrained};
   setup.gravity = Vec3(0, -beam.gravity, 0);
-  return with_masses(std::move(specimen));
+  return with_masses(std::move(problem));
 }
 
 std::array<int, 3> cells_of_locking_study(bool quick) { return quick ? std::array{8, 2, 2} : std::array{10, 2, 2}; }
 
 std::size_t steps_of_locking_study(bool quick) {
-  return poissons(quick).size() * steps_of_settled_study(beam_specimen(0.3, cells_of_locking_study(quick)), halvings);
+  return poissons(quick).size() *
+         steps_of_mesh_convergence_study(beam_problem(0.3, cells_of_locking_study(quick)), halvings);
 }
 
-LockedBeam study_beam(double poisson, const std::array<int, 3>& cells, const StudyContext& context) {
+LockingBeam study_beam(double poisson, const std::array<int, 3>& cells, const StudyContext& context) {
   Cantilever theory = beam;
   theory.poisson = poisson;
   const std::string key = fmt::format("beam of {} cells at rest, poisson {}", cells[0], poisson);
-  return {poisson, theory.sag(), study_settled(key, beam_specimen(poisson, cells), halvings, context)};
+  return {poisson, theory.sag(), study_mesh_convergence(key, beam_problem(poisson, cells), halvings, context)};
 }
 
-std::vector<LockedBeam> study_locking(bool quick, const StudyContext& context) {
-  std::vector<LockedBeam> beams;
+std::vector<LockingBeam> study_locking(bool quick, const StudyContext& context) {
+  std::vector<LockingBeam> beams;
   for (const double poisson : poissons(quick))
     beams.push_back(study_beam(poisson, cells_of_locking_study(quick), context));
   return beams;
 }
 
-double locking_of(const std::vector<LockedBeam>& beams, const SettledMesh& mesh) {
-  const SettledMesh* free = beams.front().settled.find(mesh.nodal_pressure, mesh.halvings);
+double locking_of(const std::vector<LockingBeam>& beams, const ConvergenceMesh& mesh) {
+  const ConvergenceMesh* free = beams.front().convergence.find(mesh.nodal_pressure, mesh.halvings);
   return free ? mesh.relative - free->relative : mesh.relative;
 }
 

@@ -48,9 +48,9 @@ Machine this_machine() {
 }
 
 Json to_json(const Machine& m) {
-  return {{"cpu", m.cpu},     {"cores", m.cores},     {"L1_bytes", m.L1},
-          {"L2_bytes", m.L2}, {"L3_bytes", m.L3},     {"compiler", m.compiler},
-          {"flags", m.flags}, {"version", m.version}, {"naive_flags", m.naive_flags},
+  return {{"cpu", m.cpu},      {"cores", m.cores},     {"L1_bytes", m.L1},
+          {"L2_bytes", m.L2},  {"L3_bytes", m.L3},     {"compiler", m.compiler},
+          {"flags", m.flags},  {"version", m.version}, {"naive_flags", m.naive_flags},
           {"commit", m.commit}};
 }
 

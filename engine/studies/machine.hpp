@@ -12,7 +12,7 @@ struct Machine {
   std::size_t L1 = 0, L2 = 0, L3 = 0;    ///< bytes, of one core and (L3) of all; 0: not known
   std::string compiler, flags, version;  ///< of this program
   std::string naive_flags;               ///< of the naive loops beside them
-  std::string commit;                    ///< the source's, with a + where it was changed; "unknown" outside a repository
+  std::string commit;  ///< the source's, with a + where it was changed; "unknown" outside a repository
 };
 
 Machine this_machine();

@@ -1,5 +1,5 @@
 #include <algorithm>
-#include <studies/counted.hpp>
+#include <studies/counting_scalar.hpp>
 #include <studies/mass_tensor.hpp>
 
 namespace heml {
@@ -163,6 +163,6 @@ std::size_t MassTensor<Real>::coefficients() const {
 
 template class MassTensor<float>;
 template class MassTensor<double>;
-template class MassTensor<Counted>;
+template class MassTensor<CountingScalar>;
 
 }  // namespace heml

@@ -15,8 +15,7 @@ class NaiveForces {
  public:
   /// mesh: positive volumes. material: a law alone, the same everywhere, as its formula says (no continuation). loop:
   /// that of the law; nullptr: a MaterialPoint.
-  NaiveForces(const TetMesh& mesh, const Material& material)
-      : NaiveForces(mesh, material, naive_loop(material.law)) {}
+  NaiveForces(const TetMesh& mesh, const Material& material) : NaiveForces(mesh, material, naive_loop(material.law)) {}
   NaiveForces(const TetMesh& mesh, const Material& material, NaiveLoop loop);
   NaiveForces(const NaiveForces&) = delete;
   NaiveForces& operator=(const NaiveForces&) = delete;

@@ -65,7 +65,7 @@ struct Strain {
   double J, I1, I2;
 };
 
-[[gnu::always_inline]] inline Strain strain_of(const Matrix& F) {
+[[gnu::always_inline]] inline Strain strain_measures(const Matrix& F) {
   Strain at;
   at.C = product(transposed(F), F);
   at.J = determinant(F);
@@ -262,7 +262,7 @@ void element_loop(const NaiveBody& body, const double* x, double* f) {
         Dm_inverse.m[i][a] = body.Dm_inverse[9 * t + static_cast<std::size_t>(3 * i + a)];
       }
     const Matrix F = product(Ds, Dm_inverse);
-    const Matrix P = product(F, Law::stress(strain_of(F), body));
+    const Matrix P = product(F, Law::stress(strain_measures(F), body));
     const Matrix H = product(P, transposed(Dm_inverse));
     for (int i = 0; i < 3; ++i)
       for (int a = 0; a < 3; ++a) {

@@ -16,9 +16,11 @@ const NaiveSet& set_of_this_processor() {
   static const NaiveSet& set = [&]() -> const NaiveSet& {
     const NaiveSet& chosen = naive_set(has);
     if (&chosen != &native_naive_set)
-      warn("the naive loops were compiled for a processor with {}, which this one lacks: they run as compiled with {}, and "
-           "are slower than they could be; build heml on this machine to compare with it",
-           feature_names[missing_feature(native_naive_set, has)], chosen.flags);
+      warn(
+          "the naive loops were compiled for a processor with {}, which this one lacks: they run as compiled with {}, "
+          "and "
+          "are slower than they could be; build heml on this machine to compare with it",
+          feature_names[missing_feature(native_naive_set, has)], chosen.flags);
     return chosen;
   }();
   return set;

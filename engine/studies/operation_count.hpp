@@ -2,7 +2,7 @@
 // How many operations the engine's element code takes.
 #include <heml/mesh/tet_mesh.hpp>
 #include <optional>
-#include <studies/counted.hpp>
+#include <studies/counting_scalar.hpp>
 
 namespace heml {
 

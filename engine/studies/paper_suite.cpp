@@ -4,11 +4,11 @@
 #include <heml/mesh/read.hpp>
 #include <heml/scenario/scene.hpp>
 #include <studies/bench.hpp>
-#include <studies/carried.hpp>
 #include <studies/force_timing.hpp>
 #include <studies/mass_tensor.hpp>
 #include <studies/naive.hpp>
 #include <studies/operation_count.hpp>
+#include <studies/translation_error.hpp>
 
 namespace heml {
 namespace {
@@ -64,7 +64,7 @@ BenchRow count_row(const BenchBody& body, std::string name, const Operations& op
               {"divisions", operations.others}};
   if (printed > 0) {
     row.more["printed"] = printed;
-    row.beside = fmt::format("printed: {:.0f}", printed);
+    row.remark = fmt::format("printed: {:.0f}", printed);
   }
   row.more["note"] = note;
   return row;
@@ -80,9 +80,9 @@ BenchRow time_row(const BenchBody& body, std::string name, const std::string& pr
 }
 
 Operations mass_tensor_operations(const BenchBody& body, double lambda, double mu, MassTensorSums sums) {
-  const MassTensor<Counted> method(body.mesh, lambda, mu, sums);
-  const std::vector<Counted> x(body.x.begin(), body.x.end());
-  std::vector<Counted> f(x.size());
+  const MassTensor<CountingScalar> method(body.mesh, lambda, mu, sums);
+  const std::vector<CountingScalar> x(body.x.begin(), body.x.end());
+  std::vector<CountingScalar> f(x.size());
   return operations_of([&] { method.forces(x.data(), f.data()); });
 }
 
@@ -124,7 +124,7 @@ void add_mass_tensor(const BenchBody& body, const Material& material, std::vecto
 }
 
 std::vector<BenchRow> time_rows(const BenchBody& body, const PaperBody& paper, const Material& material,
-                                const RoundLimits& limits) {
+                                const TimingLimits& limits) {
   std::vector<BenchRow> rows;
   for (const ForceTiming& timing : time_forces(body, material, limits)) {
     BenchRow row = time_row(body, timing.naive ? "naive" : "HEML", timing.precision, timing.time);
@@ -133,7 +133,7 @@ std::vector<BenchRow> time_rows(const BenchBody& body, const PaperBody& paper, c
     if (!timing.naive) {
       row.ratio_to_naive = timing.ratio_to_naive;
       row.more["printed"] = paper.milliseconds;
-      row.beside = fmt::format("printed: {}", paper.milliseconds);
+      row.remark = fmt::format("printed: {}", paper.milliseconds);
       row.more["note"] = "the paper's were measured on a Pentium 4 of 3.2 GHz, without optimisation (its section 3.1)";
     }
     rows.push_back(std::move(row));
@@ -143,7 +143,7 @@ std::vector<BenchRow> time_rows(const BenchBody& body, const PaperBody& paper, c
   std::vector<std::function<void()>> works = {[&] { naive(body.x.data(), f.data()); }};
   add_mass_tensor<double>(body, material, works);
   add_mass_tensor<float>(body, material, works);
-  const auto times = time_in_turn(works, limits);
+  const auto times = time_interleaved(works, limits);
   for (std::size_t k = 1; k < times.size(); ++k) {
     BenchRow row =
         time_row(body, k % 2 ? "Mass-Tensor" : "Mass-Tensor, no zeros", k < 3 ? "double" : "float", times[k]);
@@ -158,13 +158,13 @@ std::vector<BenchRow> time_rows(const BenchBody& body, const PaperBody& paper, c
 template <class Real>
 void add_carried_error(const BenchBody& body, const Material& material, const char* precision,
                        std::vector<BenchRow>& rows) {
-  const auto points = carried_errors<Real>(body, material);
+  const auto points = translation_errors<Real>(body, material);
   for (BenchRow& row : rows) {
     if (row.unit != "ms" || row.precision != precision || row.threads != 1) continue;
     const bool is_heml = row.name == "HEML";
     if (!is_heml && row.name != "Mass-Tensor") continue;
     Json list = Json::array();
-    for (const CarriedError& at : points) list.push_back({at.sizes, is_heml ? at.heml : at.mass_tensor});
+    for (const TranslationError& at : points) list.push_back({at.sizes, is_heml ? at.heml : at.mass_tensor});
     row.more["error_when_carried"] = list;
   }
 }
@@ -178,9 +178,9 @@ std::vector<BenchRow> paper_suite(const BenchOptions& options) {
   for (const PaperBody& paper : paper_bodies) {
     options.progress(fmt::format("paper: {}", paper.name), done++ / std::size(paper_bodies));
     const BenchBody body = bench_body(paper.name, mesh_of(paper));
-    RoundLimits limits;
+    TimingLimits limits;
     limits.seconds = options.quick ? 0.4 : 3;
-    limits.fewest = 3;
+    limits.min_rounds = 3;
     std::vector<BenchRow> of_body = count_rows(body, paper, material);
     for (BenchRow& row : time_rows(body, paper, material, limits)) of_body.push_back(std::move(row));
     add_carried_error<double>(body, material, "double", of_body);

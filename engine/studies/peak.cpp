@@ -54,7 +54,7 @@ std::vector<PeakLoop> peak_loops() {
 Triad::Triad(std::size_t bytes) : a_(bytes / 24, 0.0), b_(bytes / 24, 1.0), c_(bytes / 24, 2.0) {}
 
 void Triad::run(ThreadTeam& team, long turns) {
-  team.for_ranges(a_.size(), 1, [&](std::size_t begin, std::size_t end) {
+  team.parallel_for(a_.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (long turn = 0; turn < turns; ++turn) {
       double* a = a_.data();
       const double *b = b_.data(), *c = c_.data();

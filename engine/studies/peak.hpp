@@ -12,7 +12,7 @@ namespace heml {
 struct PeakLoop {
   std::string isa, precision;  ///< "portable", "avx2", "avx512"; "float", "double"
   void (*run)(long turns);
-  double operations_a_turn;
+  double operations_per_turn;
 };
 
 /// What this processor has, in all.

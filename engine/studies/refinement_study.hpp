@@ -1,7 +1,7 @@
 #pragma once
 // What refining where the estimate says gains: a beam at rest on meshes with every tetrahedron in eight, and on meshes
 // adapted to the estimate (scenario/adapt.hpp), error against number of tetrahedra. Errors of both are known from the
-// potential, Π* extrapolated from the uniform meshes (settled_study.hpp).
+// potential, Π* extrapolated from the uniform meshes (mesh_convergence_study.hpp).
 #include <studies/locking_study.hpp>
 
 namespace heml {
@@ -20,7 +20,7 @@ struct RefinementStudy {
 };
 
 /// From the first mesh of a beam at rest that is known already, to no more than so many tetrahedra.
-RefinementStudy study_refinement(const LockedBeam& beam, const std::array<int, 3>& cells, int most_tets,
+RefinementStudy study_refinement(const LockingBeam& beam, const std::array<int, 3>& cells, int max_tets,
                                  const StudyContext& context);
 
 }  // namespace heml

@@ -20,7 +20,7 @@ std::string identity_of_program() {
   const Machine machine = this_machine();
   const std::string text = bytes.empty() ? machine.version + machine.compiler + machine.flags : bytes;
   std::uint64_t hash = 0;
-  for (const char c : text) hash = mix(hash, static_cast<std::uint64_t>(static_cast<unsigned char>(c)));
+  for (const char c : text) hash = hash_combine(hash, static_cast<std::uint64_t>(static_cast<unsigned char>(c)));
   return fmt::format("{:016x}", hash);
 }
 
@@ -37,7 +37,7 @@ Results::Results(const std::filesystem::path& file, std::string build) : file_(f
     const std::string text = read_text_file(file);
     whole = text.substr(0, text.rfind('\n') + 1);  // npos + 1 == 0: not one whole line
     for (std::string_view rest = whole; !rest.empty();) {
-      const Json line = Json::parse(take_line(rest), nullptr, false);
+      const Json line = Json::parse(consume_line(rest), nullptr, false);
       if (line.is_object() && line.value("build", "") == build_ && line.contains("key") && line.contains("result"))
         results_[line["key"]] = line["result"];
     }

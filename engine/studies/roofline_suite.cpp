@@ -12,7 +12,8 @@ namespace heml {
 namespace {
 
 constexpr const char* reached_note =
-    "operations are those of one tetrahedron's code alone (studies/counted.hpp); fans share some of them, so that the "
+    "operations are those of one tetrahedron's code alone (studies/counting_scalar.hpp); fans share some of them, so "
+    "that the "
     "processor does fewer than the rate says. Slow ones (divisions, roots, exponentials, logarithms) count as one, "
     "and take many times as long. Why not more: a fan's nodes lie apart, so that loads and stores of whole "
     "registers are followed by transposes; three passes over a fan write and "
@@ -36,10 +37,10 @@ struct Peaks {
   }
 };
 
-RoundLimits limits_of(const BenchOptions& options) {
-  RoundLimits limits;
+TimingLimits limits_of(const BenchOptions& options) {
+  TimingLimits limits;
   limits.seconds = options.quick ? 0.05 : 0.5;
-  limits.fewest = 3;
+  limits.min_rounds = 3;
   return limits;
 }
 
@@ -62,10 +63,10 @@ std::vector<BenchRow> arithmetic_rows(const BenchOptions& options) {
     ThreadTeam team(threads);
     for (const PeakLoop& loop : peak_loops()) {
       const auto work = [&] {
-        team.for_ranges(static_cast<std::size_t>(threads), 1, [&](std::size_t, std::size_t) { loop.run(turns); });
+        team.parallel_for(static_cast<std::size_t>(threads), 1, [&](std::size_t, std::size_t) { loop.run(turns); });
       };
-      const Timing time = time_in_turn({work}, limits_of(options)).front();
-      BenchRow row = rate_row("peak arithmetic", time, threads * turns * loop.operations_a_turn, "GFLOP/s", threads);
+      const Timing time = time_interleaved({work}, limits_of(options)).front();
+      BenchRow row = rate_row("peak arithmetic", time, threads * turns * loop.operations_per_turn, "GFLOP/s", threads);
       row.isa = loop.isa;
       row.precision = loop.precision;
       rows.push_back(std::move(row));
@@ -91,7 +92,7 @@ std::vector<BenchRow> bandwidth_rows(const BenchOptions& options) {
       ThreadTeam team(threads);
       Triad triad(size.bytes * static_cast<std::size_t>(size.shared ? 1 : threads));
       const long turns = std::max(1L, static_cast<long>(5e7 / triad.bytes()));
-      const Timing time = time_in_turn({[&] { triad.run(team, turns); }}, limits_of(options)).front();
+      const Timing time = time_interleaved({[&] { triad.run(team, turns); }}, limits_of(options)).front();
       BenchRow row = rate_row(fmt::format("triad {}", size.level), time, static_cast<double>(turns) * triad.bytes(),
                               "GB/s", threads);
       row.precision = "double";
@@ -145,7 +146,7 @@ BenchRow reached_row(const ForceTiming& timing, const BenchBody& body, const Ope
   const bool alone = timing.threads > 1 && body.mesh.tets.size() < shared_from;
   row.more["limit"] = alone ? "as on one thread: too small to share" : limit_of(arithmetic, bandwidth, slow);
   row.more["note"] = reached_note;
-  row.beside = fmt::format("{:.0f} operations, {:.0f} bytes a tet: {:.0f} % of the arithmetic, {:.0f} % of {}",
+  row.remark = fmt::format("{:.0f} operations, {:.0f} bytes a tet: {:.0f} % of the arithmetic, {:.0f} % of {}",
                            operations, timing.bytes_per_tet, 100 * arithmetic, 100 * bandwidth, level);
   return row;
 }

@@ -16,12 +16,12 @@ std::vector<std::string> laws_of(const WorldSetup& setup) {
   return laws;
 }
 
-std::vector<bool> elements_of(const Specimen& specimen, const SceneStudyOptions& options) {
-  return options.both_elements ? elements_of(specimen) : std::vector<bool>{specimen.nodal_pressure()};
+std::vector<bool> elements_of(const Problem& problem, const SceneStudyOptions& options) {
+  return options.both_elements ? elements_of(problem) : std::vector<bool>{problem.nodal_pressure()};
 }
 
-int halvings_of(const Specimen& specimen, const SceneStudyOptions& options) {
-  const int halvings = halvings_within(specimen.setup.mesh.tets.size(), options.most_tets, finest);
+int halvings_of(const Problem& problem, const SceneStudyOptions& options) {
+  const int halvings = halvings_within(problem.setup.mesh.tets.size(), options.max_tets, finest);
   return halvings == finest ? finest : 0;  // fewer than three meshes tell nothing
 }
 
@@ -36,8 +36,8 @@ std::optional<Candidate> best_of(const std::vector<Candidate>& candidates, const
 }  // namespace
 
 std::optional<double> SceneStudy::mesh_error(bool nodal_pressure) const {
-  if (!settled.reference.problem.empty()) return std::nullopt;
-  const SettledMesh* mesh = settled.find(nodal_pressure, 0);
+  if (!convergence.reference.failure.empty()) return std::nullopt;
+  const ConvergenceMesh* mesh = convergence.find(nodal_pressure, 0);
   return mesh ? std::optional(mesh->error) : std::nullopt;
 }
 
@@ -49,38 +49,38 @@ std::vector<Candidate> SceneStudy::candidates() const {
   return list;
 }
 
-std::size_t steps_of_scene_study(const Specimen& specimen, const SceneStudyOptions& options) {
-  const int halvings = halvings_of(specimen, options);
-  return elements_of(specimen, options).size() * steps_of_time_study(options.sweep) +
-         (halvings ? steps_of_settled_study(specimen, halvings) : 0);
+std::size_t steps_of_scene_study(const Problem& problem, const SceneStudyOptions& options) {
+  const int halvings = halvings_of(problem, options);
+  return elements_of(problem, options).size() * steps_of_time_study(options.sweep) +
+         (halvings ? steps_of_mesh_convergence_study(problem, halvings) : 0);
 }
 
-SceneStudy study_scene(const std::string& name, const Specimen& specimen, const SceneStudyOptions& options,
+SceneStudy study_scene(const std::string& name, const Problem& problem, const SceneStudyOptions& options,
                        const StudyContext& context) {
-  if (specimen.scene.solver.is_static())
-    throw InputError(specimen.scene.file, "solver.integrator", "is static: it has no steps to choose",
+  if (problem.scene.solver.is_static())
+    throw InputError(problem.scene.file, "solver.integrator", "is static: it has no steps to choose",
                      "give an integrator of motions, or measure its mesh by refining it");
-  const std::string key = key_of(specimen);
+  const std::string key = key_of(problem);
   SceneStudy study;
   study.name = name;
-  study.title = specimen.scene.title.empty() ? name : specimen.scene.title;
-  study.laws = laws_of(specimen.setup);
-  for (const bool nodal : elements_of(specimen, options)) {
-    const Specimen now = with_element(specimen, nodal);
-    study.time.push_back(study_time(key, now, set_times(specimen.scene), options.sweep, context));
+  study.title = problem.scene.title.empty() ? name : problem.scene.title;
+  study.laws = laws_of(problem.setup);
+  for (const bool nodal : elements_of(problem, options)) {
+    const Problem now = with_element(problem, nodal);
+    study.time.push_back(study_time(key, now, set_times(problem.scene), options.sweep, context));
     const TimeStudy& time = study.time.back();
-    if (!time.reference.problem.empty())
+    if (!time.reference.failure.empty())
       study.notes.push_back(
-          fmt::format("{}: no time errors, since the reference failed: {}", time.specimen, time.reference.problem));
+          fmt::format("{}: no time errors, since the reference failed: {}", time.problem, time.reference.failure));
   }
-  if (const int halvings = halvings_of(specimen, options); halvings > 0)
-    study.settled = study_settled(key, specimen, halvings, context);
+  if (const int halvings = halvings_of(problem, options); halvings > 0)
+    study.convergence = study_mesh_convergence(key, problem, halvings, context);
   else
-    study.settled.reference.problem =
-        options.most_tets == 0 ? "it is measured on another mesh of this scene" : "finer meshes are too large";
-  if (!study.settled.reference.problem.empty())
-    study.notes.push_back(fmt::format("the mesh error is not known: {}", study.settled.reference.problem));
-  else if (!specimen.scene.events.empty())
+    study.convergence.reference.failure =
+        options.max_tets == 0 ? "it is measured on another mesh of this scene" : "finer meshes are too large";
+  if (!study.convergence.reference.failure.empty())
+    study.notes.push_back(fmt::format("the mesh error is not known: {}", study.convergence.reference.failure));
+  else if (!problem.scene.events.empty())
     study.notes.push_back("the mesh error is of the body at rest, before any event");
   return study;
 }

@@ -2,9 +2,9 @@
 // All errors of one scene, and the answer they lead to.
 //
 //   time error   each method against the reference on the same mesh and element      (time_study.hpp)
-//   mesh error   the same mesh and element at rest against finer meshes              (settled_study.hpp)
+//   mesh error   the same mesh and element at rest against finer meshes              (mesh_convergence_study.hpp)
 //   error        their sum: what a user sees at most
-#include <studies/settled_study.hpp>
+#include <studies/mesh_convergence_study.hpp>
 #include <studies/time_study.hpp>
 
 namespace heml {
@@ -25,7 +25,7 @@ struct SceneStudy {
   std::string name, title;
   std::vector<std::string> laws;
   std::vector<TimeStudy> time;  ///< one an element
-  SettledStudy settled;
+  MeshConvergenceStudy convergence;
   std::vector<std::string> notes;  ///< what could not be measured, and why
 
   std::vector<Candidate> candidates() const;  ///< all that did not fail
@@ -34,14 +34,14 @@ struct SceneStudy {
 
 struct SceneStudyOptions {
   Breadth sweep = Breadth::whole;
-  bool both_elements = true;       ///< time errors of the element the scene does not name, too
-  std::size_t most_tets = 150000;  ///< of meshes for the mesh error; 0: none is measured
+  bool both_elements = true;      ///< time errors of the element the scene does not name, too
+  std::size_t max_tets = 150000;  ///< of meshes for the mesh error; 0: none is measured
 };
 
 /// name: for tables. Throws InputError for a static scene and for what loading refuses.
-SceneStudy study_scene(const std::string& name, const Specimen& specimen, const SceneStudyOptions& options,
+SceneStudy study_scene(const std::string& name, const Problem& problem, const SceneStudyOptions& options,
                        const StudyContext& context);
-std::size_t steps_of_scene_study(const Specimen& specimen, const SceneStudyOptions& options);
+std::size_t steps_of_scene_study(const Problem& problem, const SceneStudyOptions& options);
 
 /// The least error whose frame is computed in that time and that has a state for every frame; none: nothing is as fast.
 std::optional<Candidate> best_within(const std::vector<Candidate>& candidates, double frame_seconds);

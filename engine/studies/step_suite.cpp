@@ -7,8 +7,8 @@
 #include <studies/bench.hpp>
 #include <studies/bench_bodies.hpp>
 #include <studies/edit_timing.hpp>
+#include <studies/interleaved_timing.hpp>
 #include <studies/naive.hpp>
-#include <studies/rounds.hpp>
 
 namespace heml {
 namespace {
@@ -23,7 +23,7 @@ struct Case {
 
 /// E 10 kPa.
 Material soft(const char* law, double poisson) {
-  const Lame lame = lame_from(1e4, poisson);
+  const LameParameters lame = lame_parameters(1e4, poisson);
   Material material;
   material.law = law;
   material.parameters = {lame.lambda, lame.mu};
@@ -87,12 +87,12 @@ BenchRow measure(const BenchBody& body, const Case& which, bool quick) {
   std::vector<double> f(body.x.size());
   for (int k = 0; k < 3; ++k) world->tick();  // masses, factors, the first estimate of the limit
   const long steps_before = world->steps(), ticks_before = world->ticks(),
-             work_before = world->solver_work().iterations;
-  RoundLimits limits;
+             work_before = world->solver_stats().iterations;
+  TimingLimits limits;
   limits.seconds = quick ? 0.3 : 3;
-  limits.fewest = quick ? 3 : 5;
-  limits.shortest_sample = 0;  // a sample is a tick
-  const auto times = time_in_turn({[&] { world->tick(); }, [&] { naive(body.x.data(), f.data()); }}, limits);
+  limits.min_rounds = quick ? 3 : 5;
+  limits.min_sample = 0;  // a sample is a tick
+  const auto times = time_interleaved({[&] { world->tick(); }, [&] { naive(body.x.data(), f.data()); }}, limits);
   const Timing& tick = times[0];
   const double ticks = static_cast<double>(world->ticks() - ticks_before);
   const double steps = static_cast<double>(world->steps() - steps_before), a_tick = steps / ticks;
@@ -108,18 +108,18 @@ BenchRow measure(const BenchBody& body, const Case& which, bool quick) {
               {"ns_per_tet", 1e6 * row.min / static_cast<double>(row.tets)},
               {"seconds_per_simulated_second", tick.median / setup.solver.tick()},
               {"naive_evaluations", tick.min / a_tick / times[1].min}};
-  row.beside = fmt::format("{:.2g} s a simulated second", tick.median / setup.solver.tick());
+  row.remark = fmt::format("{:.2g} s a simulated second", tick.median / setup.solver.tick());
   if (is_explicit(which.integrator)) {
     row.ratio_to_naive = times[1].min * a_tick / tick.min;
-    row.beside += fmt::format("; {:.2f} ns a tetrahedron", row.more["ns_per_tet"].get<double>());
+    row.remark += fmt::format("; {:.2f} ns a tetrahedron", row.more["ns_per_tet"].get<double>());
     row.more["note"] = "naive/ours: one evaluation of the naive loop over one whole step, bound of the step included";
   } else {
-    const double iterations = static_cast<double>(world->solver_work().iterations - work_before) / steps;
+    const double iterations = static_cast<double>(world->solver_stats().iterations - work_before) / steps;
     row.more["iterations_per_step"] = iterations;
-    row.beside += fmt::format("; {:.1f} iterations; {:.2g} naive force evaluations", iterations,
+    row.remark += fmt::format("; {:.1f} iterations; {:.2g} naive force evaluations", iterations,
                               row.more["naive_evaluations"].get<double>());
   }
-  if (world->halt()) row.more["halted"] = row.beside = world->halt()->message;
+  if (world->halt()) row.more["halted"] = row.remark = world->halt()->message;
   return row;
 }
 
@@ -152,11 +152,11 @@ std::vector<BenchRow> beside_the_law(const BenchBody& body, bool single, bool qu
     steps.push_back(worlds.back()->steps());
     ticks.push_back(worlds.back()->ticks());
   }
-  RoundLimits limits;
+  TimingLimits limits;
   limits.seconds = quick ? 0.5 : 5;
-  limits.fewest = 3;
-  limits.shortest_sample = 0;
-  const auto times = time_in_turn(works, limits);
+  limits.min_rounds = 3;
+  limits.min_sample = 0;
+  const auto times = time_interleaved(works, limits);
   std::vector<BenchRow> rows;
   for (std::size_t k = 0; k < times.size(); ++k) {
     const double a_tick =
@@ -169,7 +169,7 @@ std::vector<BenchRow> beside_the_law(const BenchBody& body, bool single, bool qu
                 {"samples", times[k].samples},
                 {"step_seconds", 1.0 / 60 / a_tick},
                 {"times_the_law_alone", k == 0 ? 1.0 : row.min / rows.front().min}};
-    if (k > 0) row.beside = fmt::format("{:.1f} times a step of the law alone", row.min / rows.front().min);
+    if (k > 0) row.remark = fmt::format("{:.1f} times a step of the law alone", row.min / rows.front().min);
     rows.push_back(std::move(row));
   }
   return rows;

@@ -2,8 +2,8 @@
 // What all parts of a long study share: the results there are, how worlds are made, who looks on.
 #include <functional>
 #include <string>
+#include <studies/problem.hpp>
 #include <studies/results.hpp>
-#include <studies/specimen.hpp>
 
 namespace heml {
 

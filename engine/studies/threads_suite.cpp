@@ -6,10 +6,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <heml/world/world.hpp>
 #include <studies/bench.hpp>
 #include <studies/bench_bodies.hpp>
-#include <studies/rounds.hpp>
-#include <heml/world/world.hpp>
+#include <studies/interleaved_timing.hpp>
 #include <thread>
 
 namespace heml {
@@ -41,7 +41,7 @@ struct TimedMethod {
 };
 
 std::unique_ptr<World> timed_world(const BenchBody& body, const TimedMethod& method, int threads) {
-  const Lame lame = lame_from(1e4, 0.3);
+  const LameParameters lame = lame_parameters(1e4, 0.3);
   Material material;
   material.law = "stvk";
   material.parameters = {lame.lambda, lame.mu};
@@ -73,11 +73,11 @@ std::vector<BenchRow> time_threads(const BenchBody& body, const TimedMethod& met
   }
   std::optional<BusyProcess> other;
   if (loaded) other.emplace();
-  RoundLimits limits;
+  TimingLimits limits;
   limits.seconds = quick ? 0.3 : 4;
-  limits.fewest = 3;
-  limits.shortest_sample = quick ? 0 : 0.02;  // longer than what another program takes at a time
-  const auto times = time_in_turn(works, limits);
+  limits.min_rounds = 3;
+  limits.min_sample = quick ? 0 : 0.02;  // longer than what another program takes at a time
+  const auto times = time_interleaved(works, limits);
   std::vector<BenchRow> rows;
   for (std::size_t k = 0; k < times.size(); ++k) {
     const double a_tick =
@@ -96,7 +96,7 @@ std::vector<BenchRow> time_threads(const BenchBody& body, const TimedMethod& met
     row.min = 1e3 * times[k].min / a_tick;
     const double speedup = times[0].median / times[k].median;
     row.more = {{"spread", times[k].spread}, {"samples", times[k].samples}, {"speedup", speedup}};
-    if (k > 0) row.beside = fmt::format("{:.2f} times as fast as one thread (medians)", speedup);
+    if (k > 0) row.remark = fmt::format("{:.2f} times as fast as one thread (medians)", speedup);
     rows.push_back(std::move(row));
   }
   return rows;
@@ -107,7 +107,8 @@ std::vector<BenchRow> time_threads(const BenchBody& body, const TimedMethod& met
 std::vector<BenchRow> threads_suite(const BenchOptions& options) {
   std::vector<BenchRow> rows;
   const std::vector<int> cells = options.quick ? std::vector<int>{4, 13} : std::vector<int>{4, 9, 13, 18, 27, 58};
-  const TimedMethod methods[] = {{Integrator::verlet, true}, {Integrator::verlet, false}, {Integrator::backward_euler, false}};
+  const TimedMethod methods[] = {
+      {Integrator::verlet, true}, {Integrator::verlet, false}, {Integrator::backward_euler, false}};
   double done = 0;
   for (const int n : cells) {
     const BenchBody body = bench_cube(n, false);

@@ -16,8 +16,8 @@ Json run_json(const Run& run) {
                {"seconds", run.seconds},     {"median_tick", run.median_tick},
                {"slow_tick", run.slow_tick}, {"ticks", run.ticks},
                {"steps", run.steps},         {"iterations", run.iterations},
-               {"volume", run.volume},       {"least_J", run.least_J}};
-  if (run.swing) json["swing"] = {run.swing->frequency, run.swing->decay};
+               {"volume", run.volume},       {"least_J", run.min_J}};
+  if (run.first_mode) json["swing"] = {run.first_mode->frequency, run.first_mode->decay};
   if (run.energy_drift) json["energy_drift"] = *run.energy_drift;
   return json;
 }
@@ -29,23 +29,23 @@ Run run_from(const Json& json) {
   run.median_tick = json["median_tick"], run.slow_tick = json["slow_tick"];
   run.ticks = json["ticks"], run.steps = json["steps"], run.iterations = json["iterations"];
   run.volume = json["volume"].is_null() ? 0 : json["volume"].get<double>();
-  run.least_J = json["least_J"].is_null() ? 0 : json["least_J"].get<double>();
-  if (json.contains("swing")) run.swing = Swing{json["swing"][0], json["swing"][1]};
+  run.min_J = json["least_J"].is_null() ? 0 : json["least_J"].get<double>();
+  if (json.contains("swing")) run.first_mode = FirstMode{json["swing"][0], json["swing"][1]};
   if (json.contains("energy_drift") && !json["energy_drift"].is_null()) run.energy_drift = json["energy_drift"];
   return run;
 }
 
-Json measure(const Specimen& specimen, const Method& method, const Reference& reference, const RunOptions& options) {
-  const Run run = play(specimen, method, options);
+Json measure(const Problem& problem, const Method& method, const Reference& reference, const RunOptions& options) {
+  const Run run = play(problem, method, options);
   Json json = run_json(run);
   if (!run.failed.empty()) return json;
-  json["error"] = largest_distance(run.at, reference.at, specimen.mass);
-  const double first = rms_distance(run.at.front(), reference.at.front(), specimen.mass);
+  json["error"] = max_distance(run.at, reference.at, problem.mass);
+  const double first = rms_distance(run.at.front(), reference.at.front(), problem.mass);
   const bool is_short = run.seconds < gauged_below && method.threads == 1 && !method.single_precision;
   if (is_short && first > reference.resolution())
-    if (const auto gauged = gauged_error(specimen, method, options.times.front(), options))
+    if (const auto gauged = step_doubling_error(problem, method, options.times.front(), options))
       json["gauge"] = *gauged / first;
-  json["last_error"] = rms_distance(run.at.back(), reference.at.back(), specimen.mass);
+  json["last_error"] = rms_distance(run.at.back(), reference.at.back(), problem.mass);
   return json;
 }
 
@@ -58,11 +58,11 @@ Measured measured_from(const Json& json, const Method& method, const Reference& 
   measured.resolved = error >= reference.resolution();
   measured.error = std::max(error, reference.resolution());
   measured.last_error = json["last_error"];
-  if (json.contains("gauge")) measured.gauge = json["gauge"];
+  if (json.contains("gauge")) measured.step_doubling = json["gauge"];
   measured.relative = measured.error / reference.motion;
-  if (measured.run.swing && reference.swing) {
-    measured.frequency_error = measured.run.swing->frequency / reference.swing->frequency - 1;
-    measured.added_decay = measured.run.swing->decay - reference.swing->decay;
+  if (measured.run.first_mode && reference.first_mode) {
+    measured.frequency_error = measured.run.first_mode->frequency / reference.first_mode->frequency - 1;
+    measured.added_decay = measured.run.first_mode->decay - reference.first_mode->decay;
   }
   return measured;
 }
@@ -118,26 +118,26 @@ std::vector<double> set_times(const Scene& scene) {
   return times;
 }
 
-TimeStudy study_time(const std::string& key, const Specimen& specimen, const std::vector<double>& times, Breadth sweep,
+TimeStudy study_time(const std::string& key, const Problem& problem, const std::vector<double>& times, Breadth sweep,
                      const StudyContext& context) {
   TimeStudy study;
-  study.specimen = text_of(specimen);
-  study.nodes = specimen.setup.mesh.nodes.size();
-  study.tets = specimen.setup.mesh.tets.size();
-  study.nodal_pressure = specimen.nodal_pressure();
-  const std::string place = fmt::format("{}|{}", key, study.specimen);
+  study.problem = text_of(problem);
+  study.nodes = problem.setup.mesh.nodes.size();
+  study.tets = problem.setup.mesh.tets.size();
+  study.nodal_pressure = problem.nodal_pressure();
+  const std::string place = fmt::format("{}|{}", key, study.problem);
   RunOptions options{times};
   options.make = context.make;
 
   study.reference = reference_from(context.kept(place + "|reference", [&] {
-    return to_json(reference_of(specimen, play(specimen, {Integrator::verlet}, options), options));
+    return to_json(reference_of(problem, play(problem, {Integrator::verlet}, options), options));
   }));
-  if (!study.reference.problem.empty()) return study;
+  if (!study.reference.failure.empty()) return study;
 
   for (const Method& method : methods_of(sweep, study.reference.stable_step)) {
     const std::string text = text_of(method);
     study.measured.push_back(measured_from(
-        context.kept(place + "|" + text, [&] { return measure(specimen, method, study.reference, options); }), method,
+        context.kept(place + "|" + text, [&] { return measure(problem, method, study.reference, options); }), method,
         study.reference));
   }
   study.reference.at.clear();

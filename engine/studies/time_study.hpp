@@ -8,12 +8,12 @@ namespace heml {
 /// A run and its error.
 struct Measured {
   Method method;
-  Run run;                      ///< without positions
-  double error = 0;             ///< m, rms at the set time where it is largest; at least the reference's resolution
-  double relative = 0;          ///< of the reference's motion
-  double last_error = 0;        ///< m, at the last set time
-  std::optional<double> gauge;  ///< what the panel's gauge says at the first set time, of the error there
-  bool resolved = true;         ///< the error itself was not below what the reference can tell
+  Run run;                ///< without positions
+  double error = 0;       ///< m, rms at the set time where it is largest; at least the reference's resolution
+  double relative = 0;    ///< of the reference's motion
+  double last_error = 0;  ///< m, at the last set time
+  std::optional<double> step_doubling;    ///< what the panel's gauge says at the first set time, of the error there
+  bool resolved = true;                   ///< the error itself was not below what the reference can tell
   std::optional<double> frequency_error;  ///< of the first mode, relative
   std::optional<double> added_decay;      ///< 1/s, of the first mode, beyond the reference's
   bool failed() const { return !run.failed.empty(); }
@@ -21,7 +21,7 @@ struct Measured {
 };
 
 struct TimeStudy {
-  std::string specimen;  ///< text_of(specimen)
+  std::string problem;  ///< text_of(specimen)
   std::size_t nodes = 0, tets = 0;
   bool nodal_pressure = false;
   Reference reference;  ///< without positions
@@ -36,7 +36,7 @@ enum class Breadth {
 std::vector<Method> methods_of(Breadth sweep, double stable_step);
 
 /// key: of the scene, in results. times: s.
-TimeStudy study_time(const std::string& key, const Specimen& specimen, const std::vector<double>& times, Breadth sweep,
+TimeStudy study_time(const std::string& key, const Problem& problem, const std::vector<double>& times, Breadth sweep,
                      const StudyContext& context);
 
 /// How many times step_done() will be called by it.

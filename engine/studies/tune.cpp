@@ -9,9 +9,9 @@
 namespace heml {
 namespace {
 
-constexpr std::size_t most_tets = 150000;  // of meshes that tell the error of the mesh
-constexpr double longest_reference = 120;  // s of computing, expected of a finer mesh
-constexpr double finer_costs = 16;         // times that of the mesh: eight times the elements, half the step
+constexpr std::size_t max_tets = 150000;  // of meshes that tell the error of the mesh
+constexpr double max_reference = 120;     // s of computing, expected of a finer mesh
+constexpr double finer_costs = 16;        // times that of the mesh: eight times the elements, half the step
 
 /// Whether all that refers to the mesh means places, which another mesh has as well.
 bool can_be_remade(const Scene& scene) {
@@ -46,43 +46,44 @@ std::string mesh_text(const Scene& scene, std::size_t tets) {
 }
 
 /// Another mesh of the scene, with its own time errors and its distance from the first mesh's extrapolation.
-void add_mesh(Tuning& tuning, const Scene& scene, const Specimen& first, const SettledStudy& settled,
+void add_mesh(Tuning& tuning, const Scene& scene, const Problem& first, const MeshConvergenceStudy& convergence,
               const std::vector<double>& times, const StudyContext& context) {
-  const Specimen other = specimen_of(scene);
+  const Problem other = problem_of(scene);
   for (const bool nodal : elements_of(other)) {
-    const Specimen now = with_element(other, nodal);
+    const Problem now = with_element(other, nodal);
     TunedMesh mesh{mesh_text(scene, now.setup.mesh.tets.size()), now.scene,
                    study_time(key_of(other), now, times, Breadth::brief, context), std::nullopt};
-    if (settled.reference.problem.empty()) {
-      const auto x = settled_positions(key_of(other), now, context);
+    if (convergence.reference.failure.empty()) {
+      const auto x = equilibrium_positions(key_of(other), now, context);
       if (!x.empty()) {
         const auto there = sample_motion(now.setup.mesh, x, first.setup.mesh.nodes);
-        mesh.mesh_error = std::max(rms_distance(there, settled.best, first.mass), settled.reference.resolution());
+        mesh.mesh_error =
+            std::max(rms_distance(there, convergence.best, first.mass), convergence.reference.resolution());
       }
     }
     tuning.meshes.push_back(std::move(mesh));
   }
 }
 
-void add_other_meshes(Tuning& tuning, const Scene& scene, const Specimen& first, const SettledStudy& settled,
+void add_other_meshes(Tuning& tuning, const Scene& scene, const Problem& first, const MeshConvergenceStudy& convergence,
                       const std::vector<double>& times, const StudyContext& context) {
   if (!can_be_remade(scene)) {
     tuning.notes.push_back("the mesh stays: it is not made by the scene, or something refers to its nodes or elements");
     return;
   }
   if (const auto coarser = remade(scene, 2))
-    add_mesh(tuning, *coarser, first, settled, times, context);
+    add_mesh(tuning, *coarser, first, convergence, times, context);
   else
     tuning.notes.push_back("no coarser mesh was tried: the numbers of cells are not all even");
-  if (finer_costs * tuning.meshes.front().study.reference.seconds > longest_reference)
+  if (finer_costs * tuning.meshes.front().study.reference.seconds > max_reference)
     tuning.notes.push_back("no finer mesh was tried: its reference would take minutes");
   else
-    add_mesh(tuning, *remade(scene, 0.5), first, settled, times, context);
+    add_mesh(tuning, *remade(scene, 0.5), first, convergence, times, context);
 }
 
 /// At most: a coarser and a finer one.
-std::size_t steps_of_other_meshes(const Specimen& specimen) {
-  return 2 * elements_of(specimen).size() * (steps_of_time_study(Breadth::brief) + 1);
+std::size_t steps_of_other_meshes(const Problem& problem) {
+  return 2 * elements_of(problem).size() * (steps_of_time_study(Breadth::brief) + 1);
 }
 
 std::string goal_text(const TuneGoal& goal) {
@@ -123,26 +124,26 @@ const TunedMesh& Tuning::of(const Candidate& candidate) const {
 
 Tuning measure_for_tuning(const Scene& scene, bool quick,
                           const std::function<void(double fraction, const std::string& doing)>& progress) {
-  const Specimen specimen = specimen_of(scene);
+  const Problem problem = problem_of(scene);
   SceneStudyOptions options;
-  options.most_tets = most_tets;
+  options.max_tets = max_tets;
   if (quick) options.sweep = Breadth::brief;
-  std::size_t steps = steps_of_scene_study(specimen, options), done = 0;
-  if (!quick && can_be_remade(scene)) steps += steps_of_other_meshes(specimen);
+  std::size_t steps = steps_of_scene_study(problem, options), done = 0;
+  if (!quick && can_be_remade(scene)) steps += steps_of_other_meshes(problem);
   StudyContext context;
   context.step_done = [&](const std::string& doing) {
     ++done;
     if (progress) progress(std::min(1.0, static_cast<double>(done) / static_cast<double>(steps)), doing);
   };
 
-  SceneStudy own = study_scene(specimen.scene.name, specimen, options, context);
+  SceneStudy own = study_scene(problem.scene.name, problem, options, context);
   Tuning tuning;
   tuning.notes = own.notes;
   for (TimeStudy& study : own.time) {
-    Scene with = with_element(specimen, study.nodal_pressure).scene;
+    Scene with = with_element(problem, study.nodal_pressure).scene;
     tuning.meshes.push_back({"the scene's mesh", std::move(with), study, own.mesh_error(study.nodal_pressure)});
   }
-  if (!quick) add_other_meshes(tuning, scene, specimen, own.settled, set_times(scene), context);
+  if (!quick) add_other_meshes(tuning, scene, problem, own.convergence, set_times(scene), context);
   return tuning;
 }
 

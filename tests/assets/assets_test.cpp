@@ -20,7 +20,7 @@ TetMesh asset(const std::string& name) { return read_tet_mesh(assets / "meshes" 
 
 /// V − E + F of the boundary; every edge must have one face on either side.
 int euler_characteristic(const TetMesh& mesh) {
-  const BoundaryFaces boundary = boundary_of(mesh);
+  const BoundaryFaces boundary = extract_boundary(mesh);
   std::map<std::pair<int, int>, int> sides;
   std::set<int> nodes;
   for (const Triangle& t : boundary.triangles)
@@ -40,7 +40,7 @@ int euler_characteristic(const TetMesh& mesh) {
 /// What holds for every mesh; `dihedral`: degrees that the README promises.
 QualityReport check_sound(TetMesh mesh, double dihedral) {
   const QualityReport report = check_tets(mesh);
-  CHECK(report.rewound == 0);
+  CHECK(report.flipped == 0);
   CHECK(report.orphans == 0);
   CHECK(report.duplicates == 0);
   CHECK(report.components == 1);

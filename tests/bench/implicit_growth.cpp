@@ -46,7 +46,7 @@ double megabytes_at_most() {
 /// Forces of Neo-Hookean tetrahedra as a first program would find them.
 class NaiveForces {
  public:
-  NaiveForces(const TetMesh& mesh, const Lame& lame) : mesh_(mesh), lame_(lame) {
+  NaiveForces(const TetMesh& mesh, const LameParameters& lame) : mesh_(mesh), lame_(lame) {
     for (const Tet& tet : mesh.tets) {
       inverse_.push_back(edges(mesh.nodes, tet).inverse());
       volume_.push_back(1 / (6 * inverse_.back().determinant()));
@@ -75,7 +75,7 @@ class NaiveForces {
     return Ds;
   }
   const TetMesh& mesh_;
-  Lame lame_;
+  LameParameters lame_;
   std::vector<Mat3> inverse_;
   std::vector<double> volume_;
 };
@@ -89,7 +89,7 @@ TetMesh cube(int cells, bool shaken) {
 }
 
 /// Whether the naive forces are the program's, to round-off.
-bool naive_agrees(const Lame& lame) {
+bool naive_agrees(const LameParameters& lame) {
   const TetMesh mesh = cube(4, true);
   const std::vector<int> material_of(mesh.tets.size(), 0);
   ElasticBody<double> body(mesh, material_of, {{"neo_hookean", {lame.lambda, lame.mu}, density}}, {});
@@ -109,7 +109,7 @@ bool naive_agrees(const Lame& lame) {
 }
 
 void measure(int cells, bool shaken, double poisson, int iterations, int threads) {
-  const Lame lame = lame_from(young, poisson);
+  const LameParameters lame = lame_parameters(young, poisson);
   WorldSetup setup;
   setup.mesh = cube(cells, shaken);
   setup.materials = {{std::nullopt, {"neo_hookean", {lame.lambda, lame.mu}, density}}};
@@ -128,7 +128,7 @@ void measure(int cells, bool shaken, double poisson, int iterations, int threads
   world->tick();  // makes the solver
   const double first = milliseconds();
   for (int k = 1; k < first_steps; ++k) world->tick();
-  const SolverWork start = world->solver_work();
+  const SolverStats start = world->solver_stats();
   const NaiveForces naive_forces(setup.mesh, lame);
   std::vector<double> steps, naive;
   std::vector<Vec3> f;
@@ -141,7 +141,7 @@ void measure(int cells, bool shaken, double poisson, int iterations, int threads
     steps.push_back(middle - begin);
     naive.push_back(milliseconds() - middle);
   }
-  const SolverWork end = world->solver_work();
+  const SolverStats end = world->solver_stats();
   if (world->halt()) std::printf("%s\n", world->halt()->message.c_str());
   const double each = 1.0 / timed_steps, least = *std::min_element(steps.begin(), steps.end());
   std::printf("%8zu%s %8zu %-10.*s %9.0f %9.0f %9.1f %9.1f %7.1f %7.1f %8.0f %8.0f\n", setup.mesh.tets.size(),
@@ -164,7 +164,7 @@ int main(int count, char** arguments) {
         "usage: bench_implicit_growth [LARGEST NUMBER OF TETRAHEDRA] [POISSON'S RATIO] [ITERATIONS] [THREADS]\n");
     return 2;
   }
-  if (!naive_agrees(lame_from(young, poisson))) {
+  if (!naive_agrees(lame_parameters(young, poisson))) {
     std::fprintf(stderr, "the naive forces are not those of the program\n");
     return 1;
   }

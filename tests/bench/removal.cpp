@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <heml/mesh/generate.hpp>
-#include <heml/session/skin.hpp>
+#include <heml/session/surface_mesh.hpp>
 
 using namespace heml;
 
@@ -35,10 +35,10 @@ void measure(const char* law, Integrator integrator, bool nodal_pressure, int ce
   if (material.law == "neo_hookean_iso") material.parameters = {500, 5e4};
   if (material.law == "mass_spring") material.parameters = {10};
   setup.materials = {{std::nullopt, material}};
-  Boundary held;
+  Boundary constrained;
   for (std::size_t n = 0; n < setup.mesh.nodes.size(); ++n)
-    if (setup.mesh.nodes[n].x() < 1e-9) held.nodes.push_back(static_cast<int>(n));
-  setup.boundary = {held};
+    if (setup.mesh.nodes[n].x() < 1e-9) constrained.nodes.push_back(static_cast<int>(n));
+  setup.boundary = {constrained};
   setup.gravity = Vec3(0, -9.81, 0);
   setup.solver.integrator = integrator;
   setup.solver.step = is_explicit(integrator) ? 1e-5 : 1.0 / 60;
@@ -47,7 +47,7 @@ void measure(const char* law, Integrator integrator, bool nodal_pressure, int ce
   setup.solver.threads = 1;
   const auto world = make_world(setup);
   world->tick();
-  auto skin = skin_of(*world);
+  auto surface_mesh = make_surface_mesh(*world);
   const int count = static_cast<int>(setup.mesh.tets.size());
   Times removal, first_step, step, surface;
   for (int k = 0; k < 15; ++k) {
@@ -56,7 +56,7 @@ void measure(const char* law, Integrator integrator, bool nodal_pressure, int ce
     removal.all.push_back(milliseconds([&] { world->apply(command); }));
     first_step.all.push_back(milliseconds([&] { world->tick(); }));
     step.all.push_back(milliseconds([&] { world->tick(); }));
-    surface.all.push_back(milliseconds([&] { skin = skin_of(*world, skin); }));
+    surface.all.push_back(milliseconds([&] { surface_mesh = make_surface_mesh(*world, surface_mesh); }));
   }
   fmt::print("{:16} {:15} {:6} {:7} {:5} | {} | {} | {} | {}{}\n", law, integrator_name(integrator),
              nodal_pressure ? "nodal" : "p1", count, batch, removal.text(), first_step.text(), step.text(),

@@ -40,7 +40,7 @@ def main():
                 file.write_text(json.dumps(case))
                 done = subprocess.run([BINARY, "run", file, "--exit-after", str(seconds), "--size", "1280x720"], env=environment,
                                       capture_output=True, text=True, check=True)
-                pictures, ticks, missed, pace = re.match(r"(\d+) pictures drawn, (\d+) ticks, (\d+) missed deadlines, (\S+)",
+                pictures, ticks, missed, pace = re.match(r"(\d+) frames drawn, (\d+) ticks, (\d+) missed deadlines, (\S+)",
                                                          done.stdout).groups()
                 print(f"| {title} | {int(pictures) / seconds:.0f} | {int(ticks) / seconds:.0f} | "
                       f"{int(missed) / max(1, int(ticks)):.0%} | {pace} |", flush=True)

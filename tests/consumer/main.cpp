@@ -6,7 +6,7 @@
 int main() {
   heml::WorldSetup setup;
   setup.mesh = heml::make_box({0.1, 0.02, 0.02}, {10, 2, 2});
-  const heml::Lame lame = heml::lame_from(1e4, 0.45);
+  const heml::LameParameters lame = heml::lame_parameters(1e4, 0.45);
   setup.materials = {{std::nullopt, {"neo_hookean", {lame.lambda, lame.mu}, 1000.0}}};
   setup.gravity = {0, -9.81, 0};
   heml::Boundary wall;

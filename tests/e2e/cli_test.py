@@ -198,7 +198,7 @@ class CommandLine(unittest.TestCase):
         scene = self.write("scene.json", cantilever())
         text = heml("explain", scene)
         self.assertEqual(text.returncode, 0, text.stderr)
-        for word in ("99 nodes", "200 tetrahedra", "neo_hookean", "verlet", "stable step", "Left out", "viscosity", "Memory"):
+        for word in ("99 nodes", "200 tetrahedra", "neo_hookean", "verlet", "stable step", "Omitted", "viscosity", "Memory"):
             self.assertIn(word, text.stdout)
         done = heml("explain", scene, "--json")
         self.assertEqual(done.returncode, 0, done.stderr)

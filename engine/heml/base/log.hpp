@@ -18,7 +18,7 @@ void warn(fmt::format_string<Args...> format, Args&&... args) {
 
 /// What the program is doing; silenced by set_quiet().
 template <class... Args>
-void inform(fmt::format_string<Args...> format, Args&&... args) {
+void log_info(fmt::format_string<Args...> format, Args&&... args) {
   log_line("", fmt::format(format, std::forward<Args>(args)...));
 }
 

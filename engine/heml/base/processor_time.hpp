@@ -4,8 +4,8 @@
 
 namespace heml {
 
-double processor_seconds_of_thread();   ///< that the calling thread has had; a system call
+double processor_seconds_of_thread();              ///< that the calling thread has had; a system call
 double processor_seconds_of(std::thread& thread);  ///< that a running thread has had
-double processor_seconds_of_process();  ///< that all threads of the process have had, those that ended too
+double processor_seconds_of_process();             ///< that all threads of the process have had, those that ended too
 
 }  // namespace heml

@@ -9,17 +9,17 @@
 namespace heml {
 namespace {
 
-constexpr std::size_t chunks_a_range = 4;    // a thread that comes late or is stopped leaves little undone
-constexpr std::size_t chunk_alignment = 16;  // items: threads write to no cache line in common
-constexpr auto longest_spin = std::chrono::microseconds(50);  // about what waking a thread takes
+constexpr std::size_t chunks_a_range = 4;                 // a thread that comes late or is stopped leaves little undone
+constexpr std::size_t chunk_alignment = 16;               // items: threads write to no cache line in common
+constexpr auto max_spin = std::chrono::microseconds(50);  // about what waking a thread takes
 constexpr int looks_between_clocks = 32;
-constexpr int most_patience = 16;      // loops
-constexpr double loss_allowed = 0.02;  // of the caller's time: waiting that nothing saved makes up for
-constexpr double most_credit = 0.002;  // s
-constexpr double longest_alone = 0.25;  // s, also after a pause of the whole program, which looks like a loss
+constexpr int max_patience = 16;        // loops
+constexpr double loss_allowed = 0.02;   // of the caller's time: waiting that nothing saved makes up for
+constexpr double max_credit = 0.002;    // s
+constexpr double max_alone = 0.25;      // s, also after a pause of the whole program, which looks like a loss
 constexpr double price_of_waiting = 3;  // a second waited costs more than one: caches, and whom it keeps from the core
 constexpr auto between_marks = std::chrono::milliseconds(1);  // shorter than what another program takes at a time
-constexpr auto longest_gap = std::chrono::microseconds(100);  // between loops: in a longer one the caller may have slept
+constexpr auto max_gap = std::chrono::microseconds(100);  // between loops: in a longer one the caller may have slept
 
 constexpr std::uint64_t inside_mask = 0x7fff, stop_bit = 0x8000, open_bit = 0x10000;
 constexpr std::uint64_t threads_of(std::uint64_t gate) { return gate >> 17 & 0x7fff; }
@@ -53,7 +53,8 @@ void ThreadTeam::start_workers(std::size_t wanted) {
       started.thread = std::thread([this, &started, k] { work(started, k + 1); });
     } catch (const std::system_error& error) {
       workers_.pop_back();
-      warn("computing with {} of {} threads: the system starts no more ({})", k + 1, wanted + 1, error.code().message());
+      warn("computing with {} of {} threads: the system starts no more ({})", k + 1, wanted + 1,
+           error.code().message());
       return;
     }
   }
@@ -74,7 +75,7 @@ double ThreadTeam::worker_seconds() const {
 void ThreadTeam::run(const Loop& loop) {
   const auto began = Clock::now();
   if (began < alone_until_) return loop.call(loop.body, 0, loop.count);
-  if (began - last_end_ > longest_gap) mark_ = {began, processor_seconds_of_thread()};
+  if (began - last_end_ > max_gap) mark_ = {began, processor_seconds_of_thread()};
   open(loop);
   const std::size_t own_chunks = claim_chunks(0);
   const auto worked = Clock::now();
@@ -125,13 +126,13 @@ void ThreadTeam::close() {
       relax();
       gate = gate_.load(std::memory_order_acquire);
     }
-    if (gate & inside_mask && Clock::now() - began > longest_spin) std::this_thread::yield();
+    if (gate & inside_mask && Clock::now() - began > max_spin) std::this_thread::yield();
   }
 }
 
-/// Workers save the time that their chunks would have taken the caller. They cost the time that it waits for them at the
-/// end, and the time that other programs run on its core while workers occupy the others. When the account is negative,
-/// the caller goes on alone for long enough to keep the loss within what is allowed.
+/// Workers save the time that their chunks would have taken the caller. They cost the time that it waits for them at
+/// the end, and the time that other programs run on its core while workers occupy the others. When the account is
+/// negative, the caller goes on alone for long enough to keep the loss within what is allowed.
 void ThreadTeam::settle_account(Clock::time_point began, Clock::time_point worked, std::size_t own_chunks) {
   last_end_ = Clock::now();
   double working = seconds(worked - began), lost = 0;
@@ -144,9 +145,9 @@ void ThreadTeam::settle_account(Clock::time_point began, Clock::time_point worke
   const double a_chunk = working / static_cast<double>(std::max<std::size_t>(own_chunks, 1));
   const double saved = a_chunk * static_cast<double>(chunks_ - own_chunks);
   const double waited = seconds(last_end_ - worked) + lost;
-  credit_ = std::min(credit_ + saved - price_of_waiting * waited, most_credit);
+  credit_ = std::min(credit_ + saved - price_of_waiting * waited, max_credit);
   if (credit_ >= 0) return;
-  const std::chrono::duration<double> alone(std::min(-credit_ / loss_allowed, longest_alone));
+  const std::chrono::duration<double> alone(std::min(-credit_ / loss_allowed, max_alone));
   alone_until_ = last_end_ + std::chrono::duration_cast<Clock::duration>(alone);
   credit_ = 0;
 }
@@ -184,19 +185,19 @@ std::uint64_t ThreadTeam::await_loop(Worker& self, std::size_t range, std::uint6
       for (int k = 0; k < looks_between_clocks; ++k) {
         const std::uint64_t gate = gate_.load(std::memory_order_acquire);
         if (is_wanted(gate)) {
-          self.patience = std::min(self.patience + 1, most_patience);
+          self.patience = std::min(self.patience + 1, max_patience);
           return gate;
         }
         relax();
       }
-    } while (self.patience > 0 && Clock::now() - began < longest_spin);
+    } while (self.patience > 0 && Clock::now() - began < max_spin);
     self.asleep.store(1);  // then either the caller sees this, or we see its gate
     if (is_wanted(gate_.load()))
       self.asleep.store(0);
     else
       self.asleep.wait(1);
-    const bool would_have_paid = Clock::now() - began < 2 * longest_spin;
-    self.patience = would_have_paid ? most_patience : std::max(self.patience - 1, 0);
+    const bool would_have_paid = Clock::now() - began < 2 * max_spin;
+    self.patience = would_have_paid ? max_patience : std::max(self.patience - 1, 0);
   }
 }
 

@@ -44,7 +44,7 @@ class ThreadTeam {
   /// Calls body(begin, end) on contiguous chunks that together cover [0, count), and returns when all are done.
   /// `grain`: items that are worth a thread of their own. One caller at a time. body must not throw.
   template <class Body>
-  void for_ranges(std::size_t count, std::size_t grain, const Body& body) {
+  void parallel_for(std::size_t count, std::size_t grain, const Body& body) {
     const std::size_t threads = std::min<std::size_t>(limit_, grain ? count / grain : count);
     if (threads <= 1) {
       if (count) body(std::size_t{0}, count);

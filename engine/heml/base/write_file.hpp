@@ -4,8 +4,8 @@
 //
 //   write_file("out/report.json")   out/report.json.4711-0.part ──(complete)──rename──► out/report.json
 //
-// Pipes, devices and the standard streams have no final name to protect: they are written through. What has to survive a
-// crash of the program grows instead, line by line.
+// Pipes, devices and the standard streams have no final name to protect: they are written through. What has to survive
+// a crash of the program grows instead, line by line.
 #include <filesystem>
 #include <string_view>
 

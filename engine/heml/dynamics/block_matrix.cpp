@@ -3,9 +3,9 @@
 
 namespace heml {
 
-FreeNodes::FreeNodes(const std::vector<bool>& take) : number(take.size(), -1) {
-  for (std::size_t n = 0; n < take.size(); ++n)
-    if (take[n]) {
+FreeNodes::FreeNodes(const std::vector<bool>& is_free) : number(is_free.size(), -1) {
+  for (std::size_t n = 0; n < is_free.size(); ++n)
+    if (is_free[n]) {
       number[n] = static_cast<int>(node.size());
       node.push_back(static_cast<int>(n));
     }

@@ -17,7 +17,7 @@ struct FreeNodes {
   std::vector<int> node;    ///< of each unknown, ascending
 
   /// take: #V.
-  explicit FreeNodes(const std::vector<bool>& take);
+  explicit FreeNodes(const std::vector<bool>& is_free);
 };
 
 class BlockMatrix {

@@ -1,8 +1,8 @@
 #pragma once
 // The two explicit methods, each as what it does before and after the forces are taken at the new positions. A step of
-// either is first_half, held nodes moved, forces, second_half. α: mass damping, 1/s. Coordinates with inverse mass 0
-// (of nodes held, or of no element) are not accelerated. All lists are of coordinates (3 #V), so that loops vectorise;
-// what there was before stays where it was, for a step that has to be taken back.
+// either is first_half_step, held nodes moved, forces, second_half_step. α: mass damping, 1/s. Coordinates with inverse
+// mass 0 (of nodes held, or of no element) are not accelerated. All lists are of coordinates (3 #V), so that loops
+// vectorise; what there was before stays where it was, for a step that has to be taken back.
 #include <cmath>
 #include <cstddef>
 
@@ -10,7 +10,7 @@ namespace heml {
 
 /// What a first half reads, and where it writes.
 template <class Real>
-struct FirstHalf {
+struct FirstHalfStep {
   const Real *inverse_mass, *f, *x, *v;  ///< 1/kg, N, m, m/s
   Real *x_after, *v_after;
 };
@@ -20,8 +20,8 @@ struct FirstHalf {
 template <class Real>
 struct SymplecticEuler {
   /// What the first half divides velocities by.
-  static double first_shrink(double h, double damping) { return 1 + damping * h; }
-  static void first_half(Real h, Real damping, const FirstHalf<Real>& at, std::size_t begin, std::size_t end) {
+  static double damping_divisor(double h, double damping) { return 1 + damping * h; }
+  static void first_half_step(Real h, Real damping, const FirstHalfStep<Real>& at, std::size_t begin, std::size_t end) {
     const auto [inverse_mass, f, x, v, x_after, v_after] = at;
     const Real shrink = 1 / (1 + damping * h);
     for (std::size_t i = begin; i < end; ++i) {
@@ -30,14 +30,14 @@ struct SymplecticEuler {
       x_after[i] = x[i] + h * faster;
     }
   }
-  static void second_half(Real, Real, const Real*, const Real*, Real*, std::size_t, std::size_t) {}
+  static void second_half_step(Real, Real, const Real*, const Real*, Real*, std::size_t, std::size_t) {}
 };
 
 /// Velocity Verlet with damping, second order: v½ = (v + ½h a)/(1+½αh); x += h v½; v = (1−½αh) v½ + ½h a(x).
 template <class Real>
 struct Verlet {
-  static double first_shrink(double h, double damping) { return 1 + damping * h / 2; }
-  static void first_half(Real h, Real damping, const FirstHalf<Real>& at, std::size_t begin, std::size_t end) {
+  static double damping_divisor(double h, double damping) { return 1 + damping * h / 2; }
+  static void first_half_step(Real h, Real damping, const FirstHalfStep<Real>& at, std::size_t begin, std::size_t end) {
     const auto [inverse_mass, f, x, v, x_after, v_after] = at;
     const Real shrink = 1 / (1 + damping * h / 2);
     for (std::size_t i = begin; i < end; ++i) {
@@ -46,8 +46,8 @@ struct Verlet {
       x_after[i] = x[i] + h * faster;
     }
   }
-  static void second_half(Real h, Real damping, const Real* inverse_mass, const Real* f, Real* v, std::size_t begin,
-                          std::size_t end) {
+  static void second_half_step(Real h, Real damping, const Real* inverse_mass, const Real* f, Real* v,
+                               std::size_t begin, std::size_t end) {
     const Real shrink = 1 - damping * h / 2;
     for (std::size_t i = begin; i < end; ++i) {
       const Real keep = inverse_mass[i] > 0 ? shrink : Real(1);  // held nodes keep the velocity they were given

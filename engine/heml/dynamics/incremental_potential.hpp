@@ -2,7 +2,7 @@
 // Φ(x) = a/2 ‖x − y‖²_M + U(x): what one step of an implicit method minimises, whatever the method
 // (implicit_stage.hpp).
 #include <heml/dynamics/objective.hpp>
-#include <heml/elastic/block_rows.hpp>
+#include <heml/elastic/bsr_matrix.hpp>
 
 namespace heml {
 
@@ -28,10 +28,10 @@ class IncrementalPotential final : public Objective {
     if (!U) return U;
     return *U + a_ / 2 * (mass_.array() * (x - y_).array().square()).sum();
   }
-  double value_noise() const override { return potential_.value_noise(); }
-  bool is_round_off(const Vector& r) const override { return potential_.is_round_off(r); }
-  bool turns_inside_out(const Vector& from, const Vector& to) const override {
-    return potential_.turns_inside_out(from, to);
+  double value_round_off() const override { return potential_.value_round_off(); }
+  bool is_at_round_off(const Vector& r) const override { return potential_.is_at_round_off(r); }
+  bool inverts_elements(const Vector& from, const Vector& to) const override {
+    return potential_.inverts_elements(from, to);
   }
   void linearise(const Vector& x, Projection projection = Projection::none) override {
     potential_.linearise(x, projection);
@@ -40,13 +40,13 @@ class IncrementalPotential final : public Objective {
     potential_.product(dx, out);
     out.array() += a_ * mass_.array() * dx.array();
   }
-  bool symmetric() const override { return potential_.symmetric(); }
+  bool is_symmetric() const override { return potential_.is_symmetric(); }
   void add_stiffness(BlockMatrix& matrix) override {
     potential_.add_stiffness(matrix);
     for (const int n : free_.node) matrix.add_diagonal(n, a_ * mass_[3 * n]);
   }
-  bool add_stiffness_in_float(BlockRows& rows) override {
-    if (!potential_.add_stiffness_in_float(rows)) return false;
+  bool add_stiffness_single_precision(BsrMatrix& rows) override {
+    if (!potential_.add_stiffness_single_precision(rows)) return false;
     for (const int n : free_.node) rows.add_diagonal(n, a_ * mass_[3 * n]);
     return true;
   }

@@ -4,19 +4,19 @@
 namespace heml {
 namespace {
 constexpr double armijo = 1e-4;
-constexpr int most_cuts = 24;
+constexpr int max_cuts = 24;
 constexpr int cuts_against_turning = 12;  // then an element may turn inside out: it may be on its way back
 constexpr double flatter = 0.95;  // of the slope at the start: a step at round-off must make it at least this flat
 }  // namespace
 
-bool search_line(Objective& objective, const Vector& d, SearchPoint& at) {
+bool line_search(Objective& objective, const Vector& d, SearchPoint& at) {
   const double slope = d.dot(at.r);  // −dΦ/ds
   if (!(slope > 0) && at.value) return false;
   SearchPoint trial;
   double s = 1;
-  for (int cut = 0; cut <= most_cuts; ++cut, s /= 2) {
+  for (int cut = 0; cut <= max_cuts; ++cut, s /= 2) {
     trial.x = at.x + s * d;
-    if (cut < cuts_against_turning && objective.turns_inside_out(at.x, trial.x)) continue;
+    if (cut < cuts_against_turning && objective.inverts_elements(at.x, trial.x)) continue;
     if (!objective.residual(trial.x, trial.r) || !trial.r.allFinite()) continue;
     const double slope_there = d.dot(trial.r);
     const bool is_flatter = std::abs(slope_there) <= flatter * slope;
@@ -24,10 +24,10 @@ bool search_line(Objective& objective, const Vector& d, SearchPoint& at) {
       if (!is_flatter && !(trial.r.norm() <= (1 - armijo * s) * at.r.norm())) continue;
     } else {
       trial.value = objective.value(trial.x);
-      const double noise = objective.value_noise() + 1e-15 * std::abs(*at.value);
+      const double noise = objective.value_round_off() + 1e-15 * std::abs(*at.value);
       if (!(*trial.value <= *at.value - armijo * s * slope + noise)) continue;
-      trial.at_noise = s * slope < 8 * noise;
-      if (trial.at_noise && !is_flatter) continue;  // values cannot tell
+      trial.within_round_off = s * slope < 8 * noise;
+      if (trial.within_round_off && !is_flatter) continue;  // values cannot tell
     }
     std::swap(at, trial);
     return true;

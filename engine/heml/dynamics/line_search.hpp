@@ -10,10 +10,10 @@ namespace heml {
 struct SearchPoint {
   Vector x, r;  ///< positions; the residual there
   std::optional<double> value;
-  bool at_noise = false;  ///< whether the step that led here changed Φ by no more than its round-off
+  bool within_round_off = false;  ///< whether the step that led here changed Φ by no more than its round-off
 };
 
 /// Steps along d. Returns false and leaves `at` as it is when no step is good enough.
-bool search_line(Objective& objective, const Vector& d, SearchPoint& at);
+bool line_search(Objective& objective, const Vector& d, SearchPoint& at);
 
 }  // namespace heml

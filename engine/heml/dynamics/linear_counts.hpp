@@ -3,7 +3,7 @@
 namespace heml {
 
 /// What linear solves have done so far.
-struct LinearCounts {
+struct LinearSolverStats {
   long factorisations = 0, solves = 0, iterations = 0;
 };
 

@@ -8,7 +8,7 @@
 
 namespace heml {
 namespace {
-constexpr int most_iterations = 500;
+constexpr int max_iterations = 500;
 constexpr double first_shift = 1e-4;          // of the stiffness along the residual
 constexpr double projected_tolerance = 1e-2;  // an approximation need not be solved exactly
 constexpr double still_serves = 2.0 / 3;      // of its elements, what a body must have for an outdated factor
@@ -16,8 +16,8 @@ constexpr double changed_a_lot = 3;           // a factor of aM + L serves while
 }  // namespace
 
 Preconditioner choose_preconditioner(std::size_t free_nodes, bool static_solve) {
-  if (free_nodes <= most_factored_each_time(static_solve)) return Preconditioner::cholesky;
-  return free_nodes <= most_factored_once ? Preconditioner::scalar : Preconditioner::multilevel;
+  if (free_nodes <= max_direct_unknowns_each_time(static_solve)) return Preconditioner::cholesky;
+  return free_nodes <= max_direct_unknowns_once ? Preconditioner::scalar : Preconditioner::multilevel;
 }
 
 LinearSolver::LinearSolver(const FreeNodes& free, const TetMesh& mesh, const std::vector<double>& modulus,
@@ -40,18 +40,18 @@ void LinearSolver::assemble(Objective& objective) {
     for (const int n : free_.node) matrix_->add_diagonal(n, shift_);
 }
 
-LinearSolver::Sign LinearSolver::factor() {
-  if (matrix_->lower().rows() == 0) return Sign::positive;  // which some factorisations do not bear
+LinearSolver::Definiteness LinearSolver::factor() {
+  if (matrix_->lower().rows() == 0) return Definiteness::positive;  // which some factorisations do not bear
   if (!cholesky_) {
     cholesky_ = std::make_unique<Cholesky>();
     cholesky_->analyzePattern(matrix_->lower());
   }
   cholesky_->factorize(matrix_->lower());
   ++counts_.factorisations;
-  if (cholesky_->info() != Eigen::Success || !cholesky_->vectorD().allFinite()) return Sign::none;
+  if (cholesky_->info() != Eigen::Success || !cholesky_->vectorD().allFinite()) return Definiteness::none;
   const double smallest = 1e-12 * cholesky_->vectorD().cwiseAbs().maxCoeff();
   pivots_ = cholesky_->vectorD().cwiseAbs().cwiseMax(smallest);
-  return cholesky_->vectorD().minCoeff() > 0 ? Sign::positive : Sign::mixed;
+  return cholesky_->vectorD().minCoeff() > 0 ? Definiteness::positive : Definiteness::indefinite;
 }
 
 void LinearSolver::invert_blocks() {
@@ -71,7 +71,7 @@ void LinearSolver::invert_blocks() {
   }
 }
 
-LinearSolver::Sign LinearSolver::prepare(Objective& objective) {
+LinearSolver::Definiteness LinearSolver::prepare(Objective& objective) {
   switch (preconditioner_) {
     case Preconditioner::cholesky:
       assemble(objective);
@@ -79,12 +79,12 @@ LinearSolver::Sign LinearSolver::prepare(Objective& objective) {
     case Preconditioner::block_jacobi:
       assemble(objective);
       invert_blocks();
-      return Sign::positive;
+      return Definiteness::positive;
     case Preconditioner::scalar:
     case Preconditioner::multilevel:
-      return factor_scalar() ? Sign::positive : Sign::none;
+      return factorise_scalar() ? Definiteness::positive : Definiteness::none;
   }
-  return Sign::none;
+  return Definiteness::none;
 }
 
 std::size_t LinearSolver::bytes() const {
@@ -94,45 +94,45 @@ std::size_t LinearSolver::bytes() const {
     sum += bytes_of(cholesky_->matrixL().nestedExpression()) + bytes_of(cholesky_->vectorD()) +
            2 * sizeof(int) * static_cast<std::size_t>(cholesky_->rows());  // and its permutation, both ways
   if (scalar_) sum += scalar_->bytes();
-  if (in_float_) sum += in_float_->bytes();
+  if (single_precision_cg_) sum += single_precision_cg_->bytes();
   return sum;
 }
 
-std::size_t LinearSolver::most_factored() const {
-  return preconditioner_ == Preconditioner::multilevel ? most_factored_once : free_.node.size();
+std::size_t LinearSolver::max_direct_unknowns() const {
+  return preconditioner_ == Preconditioner::multilevel ? max_direct_unknowns_once : free_.node.size();
 }
 
 bool LinearSolver::keep_elements(const std::vector<int>& elements) {
   if (!scalar_) return false;
   modulus_ = with_elements(modulus_, elements);
-  if (in_float_) in_float_->keep_elements(elements);
+  if (single_precision_cg_) single_precision_cg_->keep_elements(elements);
   std::vector<std::size_t> bare;
   for (std::size_t row = 0; row < free_.node.size(); ++row)
     if (!(mass_[3 * free_.node[row]] > 0)) bare.push_back(row);
-  scalar_->leave_out(std::move(bare));
+  scalar_->exclude_rows(std::move(bare));
   outdated_ = true;
   return true;
 }
 
-std::shared_ptr<FactorWork> LinearSolver::factor_work() const {
+std::shared_ptr<PreconditionerBuild> LinearSolver::preconditioner_build() const {
   if (!outdated_) return nullptr;
-  return std::make_shared<FactorWork>(free_, mesh_, modulus_, mass_, most_factored(), a_, team_);
+  return std::make_shared<PreconditionerBuild>(free_, mesh_, modulus_, mass_, max_direct_unknowns(), a_, team_);
 }
 
-void LinearSolver::take(FactorWork& work) {
-  scalar_ = work.take();
+void LinearSolver::adopt(PreconditionerBuild& work) {
+  scalar_ = work.release();
   made_of_ = modulus_.size();
   outdated_ = false;
   ++counts_.factorisations;
   factored_a_ = work.is_definite() && work.a() == a_ ? a_ : -1;
-  factor_scalar();  // the same factor whenever the work began
+  factorise_scalar();  // the same factor whenever the work began
 }
 
 LinearSolver::Memory LinearSolver::memory() const {
   Memory memory;
   memory.factored_a = factored_a_;
   if (outdated_) memory.outdated = scalar_;
-  if (outdated_) memory.left_out = scalar_->left_out();
+  if (outdated_) memory.omitted_features = scalar_->omitted_features();
   memory.made_of = made_of_;
   return memory;
 }
@@ -140,21 +140,21 @@ LinearSolver::Memory LinearSolver::memory() const {
 void LinearSolver::restore(const Memory& memory) {
   if (memory.outdated) {
     scalar_ = memory.outdated;
-    scalar_->leave_out(memory.left_out);
+    scalar_->exclude_rows(memory.omitted_features);
     made_of_ = memory.made_of;
     outdated_ = true;
   }
   if (memory.factored_a < 0) return;
   const double a = std::exchange(a_, memory.factored_a);
   factored_a_ = -1;
-  factor_scalar();
+  factorise_scalar();
   a_ = a;
 }
 
 /// Of aM + L, where it has changed a lot.
-bool LinearSolver::factor_scalar() {
+bool LinearSolver::factorise_scalar() {
   if (!scalar_ || (outdated_ && static_cast<double>(modulus_.size()) < still_serves * static_cast<double>(made_of_))) {
-    scalar_ = std::make_shared<Multilevel>(free_, mesh_, modulus_, mass_, most_factored(), team_);
+    scalar_ = std::make_shared<SmoothedAggregation>(free_, mesh_, modulus_, mass_, max_direct_unknowns(), team_);
     made_of_ = modulus_.size();
     outdated_ = false;
     factored_a_ = -1;
@@ -170,7 +170,7 @@ bool LinearSolver::precondition(const Vector& r, Vector& z) {
   z.setZero(r.size());
   if (r.isZero(0)) return true;
   assert(preconditioner_ == Preconditioner::scalar || preconditioner_ == Preconditioner::multilevel);
-  if (!factor_scalar()) return false;
+  if (!factorise_scalar()) return false;
   scalar_->apply(r, z);
   return true;
 }
@@ -200,23 +200,23 @@ void LinearSolver::apply(const Vector& r, Vector& z) {
 bool LinearSolver::solve(Objective& objective, const Vector& r, double tolerance, Vector& d) {
   d.setZero(r.size());
   if (r.isZero(0)) return true;  // and where nothing is free: there is no quotient to take
-  const Sign sign = prepare(objective);
-  if (sign == Sign::none) return false;
+  const Definiteness sign = prepare(objective);
+  if (sign == Definiteness::none) return false;
   ++counts_.solves;
   const double enough = tolerance * r.norm();
-  if (!objective.symmetric()) return biconjugate_gradients(objective, r, enough, d);
-  if (takes_float(objective, tolerance))
-    return in_float_->solve(*scalar_, r, tolerance, most_iterations, d, counts_.iterations);
-  if (sign == Sign::positive) return conjugate_gradients(objective, r, enough, d);
+  if (!objective.is_symmetric()) return biconjugate_gradients(objective, r, enough, d);
+  if (supports_single_precision(objective, tolerance))
+    return single_precision_cg_->solve(*scalar_, r, tolerance, max_iterations, d, counts_.iterations);
+  if (sign == Definiteness::positive) return conjugate_gradients(objective, r, enough, d);
   apply_factor(r, d);
   return false;
 }
 
 /// Whether float will do, with the stiffness then assembled in it.
-bool LinearSolver::takes_float(Objective& objective, double tolerance) {
-  if (!scalar_ || tolerance < finest_in_float) return false;
-  if (!in_float_) in_float_ = std::make_unique<FloatGradients>(free_, mesh_, team_);
-  return in_float_->assemble(objective, shift_);
+bool LinearSolver::supports_single_precision(Objective& objective, double tolerance) {
+  if (!scalar_ || tolerance < min_float_tolerance) return false;
+  if (!single_precision_cg_) single_precision_cg_ = std::make_unique<SinglePrecisionCG>(free_, mesh_, team_);
+  return single_precision_cg_->assemble(objective, shift_);
 }
 
 bool LinearSolver::conjugate_gradients(Objective& objective, const Vector& r, double enough, Vector& d) {
@@ -224,7 +224,7 @@ bool LinearSolver::conjugate_gradients(Objective& objective, const Vector& r, do
   apply(left, z);
   Vector p = z;
   double progress = left.dot(z);
-  for (int k = 0; k < most_iterations; ++k) {
+  for (int k = 0; k < max_iterations; ++k) {
     objective.product(p, q);
     if (shift_ > 0) q += shift_ * p;
     ++counts_.iterations;
@@ -251,7 +251,7 @@ bool LinearSolver::biconjugate_gradients(Objective& objective, const Vector& r, 
   double rho = 1, alpha = 1, omega = 1, least = r.norm();
   Vector best;
   apply(r, best);  // at the least a direction of the symmetric part
-  for (int k = 0; k < most_iterations && left.norm() > enough; ++k) {
+  for (int k = 0; k < max_iterations && left.norm() > enough; ++k) {
     const double rho_now = r.dot(left), beta = rho_now / rho * alpha / omega;
     rho = rho_now;
     p = left + beta * (p - omega * q);

@@ -17,18 +17,18 @@ class AtRoundOff {
  public:
   /// Whether it is, at a point with this measure.
   bool is_over(const Objective& objective, const SearchPoint& at, double measure) {
-    const bool is_lower = at.value && *at.value < lowest_ - mostly * objective.value_noise();
+    const bool is_lower = at.value && *at.value < lowest_ - mostly * objective.value_round_off();
     if (is_lower) {
       lowest_ = *at.value;
       best_measure_ = none;
     }
-    idle_ = at.at_noise && !is_lower && measure > 0.9 * least_ ? idle_ + 1 : 0;
+    idle_ = at.within_round_off && !is_lower && measure > 0.9 * least_ ? idle_ + 1 : 0;
     least_ = std::min(least_, measure);
-    if (at.at_noise && measure < best_measure_) {
+    if (at.within_round_off && measure < best_measure_) {
       best_ = at.x;
       best_measure_ = measure;
     }
-    return idle_ >= patience_of_values || (idle_ >= patience_of_forces && objective.is_round_off(at.r));
+    return idle_ >= patience_of_values || (idle_ >= patience_of_forces && objective.is_at_round_off(at.r));
   }
   const Vector& best() const { return best_; }
   double best_measure() const { return best_measure_; }
@@ -41,8 +41,8 @@ class AtRoundOff {
 };
 }  // namespace
 
-NewtonResult minimise(Objective& objective, LinearSolver& linear, const Stop& stop, const NewtonOptions& options,
-                      Vector& x) {
+NewtonResult minimise(Objective& objective, LinearSolver& linear, const StoppingCriterion& stop,
+                      const NewtonOptions& options, Vector& x) {
   NewtonResult result;
   SearchPoint at{x, Vector(), std::nullopt};
   AtRoundOff round_off;
@@ -52,25 +52,25 @@ NewtonResult minimise(Objective& objective, LinearSolver& linear, const Stop& st
   const bool may_project = linear.projection() != Projection::none;
   bool by_projection = may_project && linear.preconditioner() == Preconditioner::cholesky;
   const double first = at.r.norm();
-  const auto finish = [&](NewtonResult::End end) {
+  const auto finish = [&](NewtonResult::Status status) {
     x = at.x;
-    if (end == NewtonResult::End::stalled) objective.residual(x, at.r);  // what it saw last is where it stays
-    result.end = end;
+    if (status == NewtonResult::Status::stalled) objective.residual(x, at.r);  // what it saw last is where it stays
+    result.status = status;
     return result;
   };
   while (true) {
     result.measure = stop.measure(at.r);
-    if (result.measure <= stop.limit) return finish(NewtonResult::End::converged);
+    if (result.measure <= stop.limit) return finish(NewtonResult::Status::converged);
     result.at_round_off = round_off.is_over(objective, at, result.measure);
     if (result.at_round_off) {
       at.x = round_off.best();
       result.measure = round_off.best_measure();
-      return finish(NewtonResult::End::stalled);
+      return finish(NewtonResult::Status::stalled);
     }
-    if (result.iterations >= options.most_iterations) return finish(NewtonResult::End::out_of_iterations);
+    if (result.iterations >= options.max_iterations) return finish(NewtonResult::Status::out_of_iterations);
     ++result.iterations;
-    const double tolerance =
-        std::clamp(options.linear_tolerance * at.r.norm() / first, options.tightest_linear, options.linear_tolerance);
+    const double tolerance = std::clamp(options.linear_tolerance * at.r.norm() / first, options.min_linear_tolerance,
+                                        options.linear_tolerance);
     const double before = at.r.norm();
     objective.linearise(at.x);
     const bool positive = linear.solve(objective, at.r, tolerance, d);
@@ -78,15 +78,15 @@ NewtonResult minimise(Objective& objective, LinearSolver& linear, const Stop& st
       ++result.projected;
       linear.solve_projected(objective, at.x, at.r, d);
     }
-    if (search_line(objective, d, at)) {
+    if (line_search(objective, d, at)) {
       if (!positive && at.r.norm() > slow * before) by_projection = may_project && !by_projection;
       continue;
     }
-    if (!may_project || (!positive && by_projection)) return finish(NewtonResult::End::stalled);
+    if (!may_project || (!positive && by_projection)) return finish(NewtonResult::Status::stalled);
     ++result.projected;
     linear.solve_projected(objective, at.x, at.r, d);
-    if (search_line(objective, d, at)) continue;
-    return finish(NewtonResult::End::stalled);
+    if (line_search(objective, d, at)) continue;
+    return finish(NewtonResult::Status::stalled);
   }
 }
 

@@ -14,30 +14,30 @@
 namespace heml {
 
 /// When a solve is done: measure(r) <= limit.
-struct Stop {
+struct StoppingCriterion {
   std::function<double(const Vector& r)> measure;
   double limit;
 };
 
 struct NewtonOptions {
-  int most_iterations = 60;
+  int max_iterations = 60;
   double linear_tolerance = 1e-2;  ///< of the first solve, ‖residual‖/‖r‖; later ones are tightened as Newton converges
-  double tightest_linear = finest_in_float;  ///< to this at most: what is left costs the next iteration less
+  double min_linear_tolerance = min_float_tolerance;  ///< to this at most: what is left costs the next iteration less
 };
 
 struct NewtonResult {
-  enum class End { converged, out_of_iterations, stalled, undefined };
-  End end = End::undefined;  ///< undefined: Φ is not defined at the start
+  enum class Status { converged, out_of_iterations, stalled, undefined };
+  Status status = Status::undefined;  ///< undefined: Φ is not defined at the start
   int iterations = 0;
   int projected = 0;          ///< of them with a stiffness made positive
   double measure = 0;         ///< at the end
   bool at_round_off = false;  ///< stalled there: values no longer tell steps apart, and the measure falls no further
-  bool converged() const { return end == End::converged; }
+  bool converged() const { return status == Status::converged; }
 };
 
 /// Moves x (its free nodes) towards ∇Φ = 0. Φ never rises by more than its round-off. After `stalled` no step improves
 /// anything, which at round-off is as good as it gets: the caller judges by `measure`.
-NewtonResult minimise(Objective& objective, LinearSolver& linear, const Stop& stop, const NewtonOptions& options,
-                      Vector& x);
+NewtonResult minimise(Objective& objective, LinearSolver& linear, const StoppingCriterion& stop,
+                      const NewtonOptions& options, Vector& x);
 
 }  // namespace heml

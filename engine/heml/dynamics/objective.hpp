@@ -9,7 +9,7 @@
 
 namespace heml {
 
-class BlockRows;
+class BsrMatrix;
 
 using Vector = Eigen::VectorXd;  ///< 3 #V: node after node
 
@@ -21,21 +21,21 @@ class Objective {
   /// Φ at x, J; differences alone matter. None where the forces have no potential.
   virtual std::optional<double> value(const Vector& x) = 0;
   /// Up to what difference values are round-off, J.
-  virtual double value_noise() const = 0;
+  virtual double value_round_off() const = 0;
   /// Whether a residual is no more than the round-off of forces.
-  virtual bool is_round_off(const Vector&) const { return false; }
+  virtual bool is_at_round_off(const Vector&) const { return false; }
   /// Whether a step from one x to another is long and turns elements inside out: shorter ones are tried first.
-  virtual bool turns_inside_out(const Vector&, const Vector&) const { return false; }
+  virtual bool inverts_elements(const Vector&, const Vector&) const { return false; }
   /// Finds K = −∂r/∂x at x, or its projection, which the calls below are about until the next one.
   virtual void linearise(const Vector& x, Projection projection = Projection::none) = 0;
   /// out = K dx; 0 at nodes that are not free. dx may move those.
   virtual void product(const Vector& dx, Vector& out) = 0;
   /// Whether K is: it is where the forces have a potential.
-  virtual bool symmetric() const { return true; }
+  virtual bool is_symmetric() const { return true; }
   /// Adds the blocks of K between free nodes, its symmetric part, or an approximation of it.
   virtual void add_stiffness(BlockMatrix& matrix) = 0;
   /// Adds K between free nodes to rows in float, where it is symmetric and they can hold it. Returns whether.
-  virtual bool add_stiffness_in_float(BlockRows&) { return false; }
+  virtual bool add_stiffness_single_precision(BsrMatrix&) { return false; }
 };
 
 }  // namespace heml

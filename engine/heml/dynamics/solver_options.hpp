@@ -9,7 +9,7 @@ namespace heml {
 /// How Φ is made least.
 enum class Minimiser {
   newton,  ///< exact stiffness first (newton.hpp)
-  lbfgs    ///< the prefactored matrix and what the last steps have shown (quasi_newton.hpp)
+  lbfgs    ///< the prefactored matrix and what the last steps have shown (lbfgs.hpp)
 };
 
 /// What linear solves are preconditioned with.

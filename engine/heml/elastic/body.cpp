@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <heml/elastic/block_rows.hpp>
+#include <heml/elastic/avx2_dispatch.hpp>
 #include <heml/elastic/body.hpp>
+#include <heml/elastic/bsr_matrix.hpp>
 #include <heml/elastic/clamp.hpp>
 #include <heml/elastic/stiffness_product.hpp>
-#include <heml/elastic/wide.hpp>
 #include <heml/materials/parameter_slots.hpp>
 #include <mutex>
 
@@ -15,16 +15,16 @@ namespace {
 /// J σ = F S Fᵀ + wJ J I; von Mises and the largest stretch are the same in any frame, so √C may stand for F.
 template <class Real>
 ElementState<Real> state_of(const StressSum<Real>& stress, const Real C[6], Real J) {
-  const auto e = eigen3(C);
+  const auto e = symmetric_eigen3(C);
   const Real largest = std::max({e.value[0], e.value[1], e.value[2]});
   Real root[3], U[6], T[6];
   for (int i = 0; i < 3; ++i) root[i] = std::sqrt(std::max(e.value[i], Real(0)));
-  assemble3(e, root, U);
+  spectral_sum3(e, root, U);
   const Real M[3][3] = {{U[0], U[3], U[4]}, {U[3], U[1], U[5]}, {U[4], U[5], U[2]}};
-  congruent3(M, stress.S, T);
+  congruence3(M, stress.S, T);
   const Real mean = (T[0] + T[1] + T[2]) / 3;
   for (int i = 0; i < 3; ++i) T[i] -= mean;
-  return {J, std::sqrt(std::max(largest, Real(0))), std::sqrt(Real(1.5) * contract3(T, T)) / std::abs(J)};
+  return {J, std::sqrt(std::max(largest, Real(0))), std::sqrt(Real(1.5) * double_contraction3(T, T)) / std::abs(J)};
 }
 
 template <class Real>
@@ -35,7 +35,7 @@ bool is_finite(const Tensions<Real>& t) {
 /// What the vectorised loops run as here.
 std::string_view wide_instructions() {
 #if defined(__x86_64__)
-  if (has_wide()) return "avx2";
+  if (has_avx2()) return "avx2";
 #endif
   return "portable";
 }
@@ -52,7 +52,7 @@ ElasticBody<Real>::ElasticBody(const TetMesh& mesh, const std::vector<int>& mate
       springs_(mesh, std::vector<double>(mesh.tets.size(), 0.0)) {
   make_parts();
   make_fans();
-  forget(at_rest().data());
+  reset_history(at_rest().data());
 }
 
 template <class Real>
@@ -139,10 +139,10 @@ void ElasticBody<Real>::make_fans() {
 
 /// Of the mesh as it is now, where element t is of what origins[t] was before.
 template <class Real>
-void ElasticBody<Real>::edit_fans(const TetMesh& before, const std::vector<int>& origins) {
+void ElasticBody<Real>::update_fans(const TetMesh& before, const std::vector<int>& origins) {
   const std::vector<FanPart> parts = fan_parts();
   ThreadTeam team = layout_team();
-  if (parts.empty() || !fans_.follow(before, mesh_, parts, origins, team)) make_fans();
+  if (parts.empty() || !fans_.update_layout(before, mesh_, parts, origins, team)) make_fans();
 }
 
 /// What belongs to no element alone.
@@ -165,7 +165,7 @@ void ElasticBody<Real>::make_shared() {
   for (const Part& part : parts_) {
     const Material& material = materials_[part.material];
     groups.push_back(&part.group);
-    const std::size_t slot = *volume_slot(material, *find_law(material.law));
+    const std::size_t slot = *volume_parameter(material, *find_law(material.law));
     kappa.emplace_back(part.group.volume.size(), static_cast<Real>(material.parameters[slot]));
     for (std::size_t k = 0; k < material.fields.size(); ++k)
       if (material.fields[k].parameter == slot) kappa.back() = part.group.parameters[k];
@@ -176,7 +176,7 @@ void ElasticBody<Real>::make_shared() {
 
 template <class Real>
 void ElasticBody<Real>::gather_corners(const CornerMap& corners, Real* f, bool add, ThreadTeam& team) const {
-  team.for_ranges(nodes(), grain_ / 4, [&](std::size_t begin, std::size_t end) {
+  team.parallel_for(nodes(), grain_ / 4, [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n) {
       Real sum[3] = {0, 0, 0};
       for (std::size_t k = corners.start[n]; k < corners.start[n + 1]; ++k) {
@@ -195,7 +195,7 @@ bool ElasticBody<Real>::forces(const Real* x, Real* f, ThreadTeam& team) {
   for (const Part& part : parts_) {
     const std::size_t first = part.first_loop(), corners = part.group.first_corner;
     for (std::size_t k = first; k < part.terms.size(); ++k)
-      team.for_ranges(part.group.packets(), grain_ / part.group.lanes, [&](std::size_t begin, std::size_t end) {
+      team.parallel_for(part.group.packets(), grain_ / part.group.lanes, [&](std::size_t begin, std::size_t end) {
         if (!part.terms[k]->forces(part.group, x, begin, end, corner_.data(), k > first))
           valid.store(false, std::memory_order_relaxed);
       });
@@ -237,12 +237,12 @@ std::vector<KernelInfo> ElasticBody<Real>::kernels() const {
 
 template <class Real>
 void ElasticBody<Real>::linearise(const Real* x, ThreadTeam& team) {
-  linearised_at_.assign(x, x + 3 * nodes());
+  linearisation_point_.assign(x, x + 3 * nodes());
   projected_ = false;
   for (Part& part : parts_) {
     part.stiffness.resize(edge_entries * part.group.volume.size());
     for (std::size_t k = 0; k < part.terms.size(); ++k)
-      team.for_ranges(part.group.packets(), grain_ / 4 / part.group.lanes, [&](std::size_t begin, std::size_t end) {
+      team.parallel_for(part.group.packets(), grain_ / 4 / part.group.lanes, [&](std::size_t begin, std::size_t end) {
         part.terms[k]->stiffness(part.group, x, begin, end, part.stiffness.data(), k > 0);
       });
   }
@@ -253,42 +253,42 @@ void ElasticBody<Real>::project(Projection projection, ThreadTeam& team) {
   if (projection != Projection::element && projection != Projection::tension) return;
   projected_ = true;
   for (Part& part : parts_)
-    team.for_ranges(part.group.volume.size(), grain_ / 16, [&](std::size_t begin, std::size_t end) {
+    team.parallel_for(part.group.volume.size(), grain_ / 16, [&](std::size_t begin, std::size_t end) {
       for (std::size_t s = begin; s < end; ++s) {
         Real k[edge_entries];
-        take_edges(part.stiffness.data(), s, k);
+        read_edge_stiffness(part.stiffness.data(), s, k);
         if (projection == Projection::element) {
           clamp_element(k);
         } else {
           const auto rest = rest_shape(part.group, s);
-          const auto link = whole_link(part.group, linearised_at_.data(), s, rest);
+          const auto kinematics = full_kinematics(part.group, linearisation_point_.data(), s, rest);
           Tensions<Real> sum{};
           for (const auto& term : part.terms) {
-            const Tensions<Real> t = term->tensions(part.group, s, link, rest);
+            const Tensions<Real> t = term->tensions(part.group, s, kinematics, rest);
             for (int i = 0; i < 6; ++i) sum.T[i] += t.T[i];
             sum.wJ += t.wJ;
           }
-          clamp_tension(sum, link, rest, k);
+          clamp_tension(sum, kinematics, rest, k);
         }
-        put_edges(k, s, part.stiffness.data(), false);
+        write_edge_stiffness(k, s, part.stiffness.data(), false);
       }
     });
 }
 
 template <class Real>
-void ElasticBody<Real>::force_change(const Real* dx, Real* out, ThreadTeam& team) {
+void ElasticBody<Real>::force_differential(const Real* dx, Real* out, ThreadTeam& team) {
   for (const Part& part : parts_)
-    team.for_ranges(part.group.packets(), grain_ / part.group.lanes, [&](std::size_t begin, std::size_t end) {
+    team.parallel_for(part.group.packets(), grain_ / part.group.lanes, [&](std::size_t begin, std::size_t end) {
       multiply_stiffness(part.stiffness.data(), part.group, dx, begin, end, corner_.data());
     });
-  const Real* x = linearised_at_.data();
-  if (pressure_) pressure_->add_force_change(x, dx, corner_.data(), team);
+  const Real* x = linearisation_point_.data();
+  if (pressure_) pressure_->add_force_differential(x, dx, corner_.data(), team);
   gather_corners(corners_, out, false, team);
-  if (!springs_.empty()) springs_.add_force_change(x, dx, out, projected_, team);
+  if (!springs_.empty()) springs_.add_force_differential(x, dx, out, projected_, team);
 }
 
 template <class Real>
-bool ElasticBody<Real>::add_stiffness(BlockRows& rows, ThreadTeam& team) const {
+bool ElasticBody<Real>::add_stiffness(BsrMatrix& rows, ThreadTeam& team) const {
   if (pressure_) return false;
   for (const Part& part : parts_)
     if (!part.terms.empty()) rows.add_elements(part.stiffness.data(), part.group, team);
@@ -305,8 +305,8 @@ template <class Real>
 void ElasticBody<Real>::element_stiffness(std::size_t p, std::size_t s, ElementMatrix<Real>& K) const {
   const Part& part = parts_[p];
   Real k[edge_entries];
-  take_edges(part.stiffness.data(), s, k);
-  if (pressure_) pressure_->add_stiffness(p, linearised_at_.data(), s, k);
+  read_edge_stiffness(part.stiffness.data(), s, k);
+  if (pressure_) pressure_->add_stiffness(p, linearisation_point_.data(), s, k);
   expand_edges(k, K);
 }
 
@@ -318,7 +318,7 @@ double ElasticBody<Real>::sum_energies(const Real* x, bool stored, ThreadTeam& t
     packet_energy_.assign(part.group.packets(), 0.0);
     for (const auto& term : part.terms)
       if (term->stores() == stored)
-        team.for_ranges(part.group.packets(), grain_ / part.group.lanes, [&](std::size_t begin, std::size_t end) {
+        team.parallel_for(part.group.packets(), grain_ / part.group.lanes, [&](std::size_t begin, std::size_t end) {
           term->energies(part.group, x, begin, end, packet_energy_.data(), true);
         });
     for (const double of_packet : packet_energy_) sum += of_packet;
@@ -335,20 +335,20 @@ double ElasticBody<Real>::energy(const Real* x, ThreadTeam& team) {
 
 template <class Real>
 double ElasticBody<Real>::potential(const Real* x, ThreadTeam& team) {
-  return energy(x, team) + (has_memory() ? sum_energies(x, false, team) : 0.0);
+  return energy(x, team) + (has_internal_state() ? sum_energies(x, false, team) : 0.0);
 }
 
 /// Largest of a part's bounds, summed over its terms; then of all parts.
 template <class Real>
 template <class Bound>
-Real ElasticBody<Real>::largest_bound(ThreadTeam& team, const Bound& bound) const {
+Real ElasticBody<Real>::max_bound(ThreadTeam& team, const Bound& bound) const {
   Real of_all = 0;
   std::mutex mutex;  // a maximum does not depend on the order it is taken in
   for (const Part& part : parts_) {
     Real of_part = 0;
     for (const auto& term : part.terms) {
       Real largest = 0;
-      team.for_ranges(part.group.packets(), grain_ / part.group.lanes, [&](std::size_t begin, std::size_t end) {
+      team.parallel_for(part.group.packets(), grain_ / part.group.lanes, [&](std::size_t begin, std::size_t end) {
         const Real value = bound(*term, part.group, begin, end);
         std::lock_guard lock(mutex);
         largest = value > largest || std::isnan(value) ? value : largest;
@@ -362,7 +362,7 @@ Real ElasticBody<Real>::largest_bound(ThreadTeam& team, const Bound& bound) cons
 
 template <class Real>
 Real ElasticBody<Real>::frequency_bound(const Real* x, ThreadTeam& team) {
-  Real bound = largest_bound(team, [x](const auto& term, const auto& group, std::size_t begin, std::size_t end) {
+  Real bound = max_bound(team, [x](const auto& term, const auto& group, std::size_t begin, std::size_t end) {
     return term.frequency_bound(group, x, begin, end);
   });
   if (pressure_) bound += pressure_->frequency_bound(x, team);
@@ -372,8 +372,8 @@ Real ElasticBody<Real>::frequency_bound(const Real* x, ThreadTeam& team) {
 
 template <class Real>
 Real ElasticBody<Real>::damping_bound(const Real* x, ThreadTeam& team) {
-  if (!has_memory()) return 0;
-  return largest_bound(team, [x](const auto& term, const auto& group, std::size_t begin, std::size_t end) {
+  if (!has_internal_state()) return 0;
+  return max_bound(team, [x](const auto& term, const auto& group, std::size_t begin, std::size_t end) {
     return term.damping_bound(group, x, begin, end);
   });
 }
@@ -381,10 +381,12 @@ Real ElasticBody<Real>::damping_bound(const Real* x, ThreadTeam& team) {
 template <class Real>
 std::vector<Real> ElasticBody<Real>::element_bounds(const Real* x) const {
   std::vector<Real> bounds(mesh_.tets.size(), Real(0));
-  each_slot(x, [&](const Part& part, std::size_t s, const Link<Real>& link, const RestShape<Real>& rest) {
-    for (const auto& term : part.terms)
-      bounds[static_cast<std::size_t>(part.group.element[s])] += term->slot_bound(part.group, s, link, rest);
-  });
+  each_slot(
+      x, [&](const Part& part, std::size_t s, const ElementKinematics<Real>& kinematics, const RestShape<Real>& rest) {
+        for (const auto& term : part.terms)
+          bounds[static_cast<std::size_t>(part.group.element[s])] +=
+              term->slot_frequency_bound(part.group, s, kinematics, rest);
+      });
   return bounds;
 }
 
@@ -393,7 +395,7 @@ std::size_t ElasticBody<Real>::bytes() const {
   std::size_t sum = bytes_of(mesh_.nodes, mesh_.tets, mesh_.regions, material_of_);
   for (const ElementField& field : mesh_.fields) sum += bytes_of(field.values);
   sum += bytes_of(corners_.start, corners_.corners, force_corners_.start, force_corners_.corners, corner_,
-                  linearised_at_, packet_energy_);
+                  linearisation_point_, packet_energy_);
   for (const Part& part : parts_) {
     const ElementGroup<Real>& group = part.group;
     sum += bytes_of(group.element, group.node, group.A, group.volume, group.gamma, group.fibre, group.parameters);
@@ -405,28 +407,30 @@ std::size_t ElasticBody<Real>::bytes() const {
 }
 
 template <class Real>
-int ElasticBody<Real>::first_invalid(const Real* x) const {
+int ElasticBody<Real>::first_undefined(const Real* x) const {
   int first = -1;
-  each_slot(x, [&](const Part& part, std::size_t s, const Link<Real>& link, const RestShape<Real>& rest) {
-    for (const auto& term : part.terms)
-      if (first < 0 || part.group.element[s] < first)
-        if (!term->valid(part.group, s, link) || !is_finite(term->tensions(part.group, s, link, rest)))
-          first = part.group.element[s];
-  });
+  each_slot(
+      x, [&](const Part& part, std::size_t s, const ElementKinematics<Real>& kinematics, const RestShape<Real>& rest) {
+        for (const auto& term : part.terms)
+          if (first < 0 || part.group.element[s] < first)
+            if (!term->valid(part.group, s, kinematics) || !is_finite(term->tensions(part.group, s, kinematics, rest)))
+              first = part.group.element[s];
+      });
   return first;
 }
 
 template <class Real>
 void ElasticBody<Real>::states(const Real* x, std::vector<ElementState<Real>>& out) const {
   out.resize(mesh_.tets.size());
-  each_slot(x, [&](const Part& part, std::size_t s, const Link<Real>& link, const RestShape<Real>& rest) {
-    StressSum<Real> stress;
-    for (const auto& term : part.terms) stress.add(term->tensions(part.group, s, link, rest), rest);
-    Real factor[3][3], C[6];
-    cholesky3(rest.A, factor);
-    into_rest_frame(factor, link.G, C);
-    out[static_cast<std::size_t>(part.group.element[s])] = state_of(stress, C, link.at.J);
-  });
+  each_slot(
+      x, [&](const Part& part, std::size_t s, const ElementKinematics<Real>& kinematics, const RestShape<Real>& rest) {
+        StressSum<Real> stress;
+        for (const auto& term : part.terms) stress.add(term->tensions(part.group, s, kinematics, rest), rest);
+        Real factor[3][3], C[6];
+        cholesky3(rest.A, factor);
+        into_rest_frame(factor, kinematics.G, C);
+        out[static_cast<std::size_t>(part.group.element[s])] = state_of(stress, C, kinematics.at.J);
+      });
 }
 
 template <class Real>
@@ -435,7 +439,7 @@ std::vector<Mat3> ElasticBody<Real>::stresses(const Real* x, ThreadTeam& team) {
   for (const Part& part : parts_)
     for (const auto& term : part.terms)
       if (term->stores())
-        team.for_ranges(part.group.packets(), grain_ / part.group.lanes, [&](std::size_t begin, std::size_t end) {
+        team.parallel_for(part.group.packets(), grain_ / part.group.lanes, [&](std::size_t begin, std::size_t end) {
           term->forces(part.group, x, begin, end, corner_.data(), true);
         });
   if (pressure_) pressure_->add_forces(x, corner_.data(), team);
@@ -457,8 +461,8 @@ template <class Real>
 void ElasticBody<Real>::set_material(std::size_t index, const Material& material, const Real* x) {
   materials_[index] = material;
   make_parts();
-  if (!fans_.take_laws(fan_parts(), options_.continuation)) make_fans();
-  forget(x);
+  if (!fans_.update_laws(fan_parts(), options_.continuation)) make_fans();
+  reset_history(x);
 }
 
 template <class Real>
@@ -470,9 +474,9 @@ SlotMemories<Real> ElasticBody<Real>::Part::memory() {
 }
 
 template <class Real>
-bool ElasticBody<Real>::has_memory() const {
+bool ElasticBody<Real>::has_internal_state() const {
   return std::any_of(parts_.begin(), parts_.end(),
-                     [&](const Part& part) { return materials_[part.material].has_memory(); });
+                     [&](const Part& part) { return materials_[part.material].has_internal_state(); });
 }
 
 template <class Real>
@@ -491,11 +495,11 @@ void ElasticBody<Real>::commit(const Real* x) {
 }
 
 template <class Real>
-void ElasticBody<Real>::forget(const Real* x) {
+void ElasticBody<Real>::reset_history(const Real* x) {
   plastic_work_ = 0;
   for (Part& part : parts_) {
     if (part.flow) part.flow->reset(part.group);
-    for (const auto& term : part.terms) term->forget(part.group, x);
+    for (const auto& term : part.terms) term->reset_history(part.group, x);
   }
 }
 

@@ -22,7 +22,7 @@
 
 namespace heml {
 
-class BlockRows;
+class BsrMatrix;
 
 /// What a viewer may want to know of an element.
 template <class Real>
@@ -90,11 +90,11 @@ class ElasticBody {
   /// nodal pressure keeps its own.
   void project(Projection projection, ThreadTeam& team);
   /// −K dx into out (3 #V, overwritten), N: change of the forces with a change dx of the positions.
-  void force_change(const Real* dx, Real* out, ThreadTeam& team);
+  void force_differential(const Real* dx, Real* out, ThreadTeam& team);
 
   /// Adds K to rows between free nodes. Returns false, with nothing added, where they cannot hold it: averaged nodal
   /// pressure couples nodes that share no element.
-  bool add_stiffness(BlockRows& rows, ThreadTeam& team) const;
+  bool add_stiffness(BsrMatrix& rows, ThreadTeam& team) const;
 
   /// Calls visit(nodes (4 inner numbers), K) for every element's part of K in turn. With nodal pressure its part is an
   /// approximation of the element alone.
@@ -111,7 +111,7 @@ class ElasticBody {
   /// Calls visit(node a, node b, 3×3 block B) for every spring: its part of K is [B −B; −B B].
   template <class Visit>
   void each_spring_stiffness(const Visit& visit) const {
-    springs_.each_stiffness(linearised_at_.data(), projected_, visit);
+    springs_.each_stiffness(linearisation_point_.data(), projected_, visit);
   }
 
   /// Stored elastic energy, J (contract: W of every element).
@@ -131,8 +131,9 @@ class ElasticBody {
   /// Of all that is kept.
   std::size_t bytes() const;
 
-  /// First element (inner number) out of its law's range, or whose forces are no numbers; −1: none, also where forces() saw one by its own rounding.
-  int first_invalid(const Real* x) const;
+  /// First element (inner number) out of its law's range, or whose forces are no numbers; −1: none, also where forces()
+  /// saw one by its own rounding.
+  int first_undefined(const Real* x) const;
 
   /// #T in inner order.
   void states(const Real* x, std::vector<ElementState<Real>>& out) const;
@@ -151,21 +152,20 @@ class ElasticBody {
   void keep_elements(const std::vector<int>& elements);
   /// Another mesh, of the same nodes and further ones: element t is what origins[t] was or a piece of it, and
   /// remembers what that did. Materials as theirs. Blocks of fans that are not touched keep their layout.
-  void take_pieces(const TetMesh& mesh, const std::vector<int>& material_of, const std::vector<int>& origins);
+  void transfer_state(const TetMesh& mesh, const std::vector<int>& material_of, const std::vector<int>& origins);
   /// What is to be known of the body beside its mesh, to come back to it as it is now, to the bit.
   BodyMemory<Real> memory();
   /// Back to a mesh and what memory() was then. What has another material since has forgotten: it has lasted at x.
-  void restore(const TetMesh& mesh, const std::vector<int>& material_of, const BodyMemory<Real>& memory,
-               const Real* x);
+  void restore(const TetMesh& mesh, const std::vector<int>& material_of, const BodyMemory<Real>& memory, const Real* x);
   /// Another mesh, at rest, as in the constructor.
   void set_mesh(const TetMesh& mesh, const std::vector<int>& material_of);
 
   // What remembers (viscosity, relaxation, plasticity), if anything does: a step of length h begins (0: none; infinite:
   // all has relaxed); the positions it reached are kept; all is forgotten.
-  bool has_memory() const;
+  bool has_internal_state() const;
   void begin_step(Real h);
   void commit(const Real* x);
-  void forget(const Real* x);
+  void reset_history(const Real* x);
   double plastic_work() const { return plastic_work_; }  ///< J, since forget()
 
   /// Lumped masses (#V, kg): each tetrahedron's density × volume / 4 on its nodes.
@@ -184,7 +184,7 @@ class ElasticBody {
     bool in_fans;                 ///< its law's forces are run by fans_, not by the first of its terms
 
     std::size_t first_loop() const { return in_fans ? 1 : 0; }  ///< of its terms
-    SlotMemories<Real> memory();                                  ///< of all of them
+    SlotMemories<Real> memory();                                ///< of all of them
     bool has_loops(bool nodal_pressure) const { return terms.size() > first_loop() || nodal_pressure; }
   };
   static constexpr std::size_t grain_ = 2048;       ///< elements below which waking a thread costs more than it brings
@@ -197,15 +197,15 @@ class ElasticBody {
   std::vector<FanPart> fan_parts() const;
   ThreadTeam layout_team() const { return ThreadTeam(mesh_.tets.size() < large_body_ ? 1 : options_.threads); }
   void make_fans();
-  void edit_fans(const TetMesh& before, const std::vector<int>& origins);
+  void update_fans(const TetMesh& before, const std::vector<int>& origins);
   void make_shared();
   void keep_numbered(Part& part, const std::vector<int>& number);
-  void take_memory(const Part& old, const TetMesh& before, const std::vector<int>& origins, Part& part) const;
+  void transfer_memory(const Part& old, const TetMesh& before, const std::vector<int>& origins, Part& part) const;
   void gather_corners(const CornerMap& corners, Real* f, bool add, ThreadTeam& team) const;
   double sum_energies(const Real* x, bool stored, ThreadTeam& team);
   void element_stiffness(std::size_t part, std::size_t s, ElementMatrix<Real>& K) const;
   template <class Bound>
-  Real largest_bound(ThreadTeam& team, const Bound& bound) const;
+  Real max_bound(ThreadTeam& team, const Bound& bound) const;
 
   /// Calls visit(part, slot, whole link, rest shape) for every element.
   template <class Visit>
@@ -213,7 +213,7 @@ class ElasticBody {
     for (const Part& part : parts_)
       for (std::size_t s = 0; s < part.group.size(); ++s) {
         const auto rest = rest_shape(part.group, s);
-        visit(part, s, whole_link(part.group, x, s, rest), rest);
+        visit(part, s, full_kinematics(part.group, x, s, rest), rest);
       }
   }
 
@@ -227,10 +227,10 @@ class ElasticBody {
   CornerMap force_corners_;  ///< of those that are not in fans
   Springs<Real> springs_;
   std::unique_ptr<NodalPressure<Real>> pressure_;
-  std::vector<Real> corner_;           ///< 3 a corner, written and read within forces()
-  std::vector<Real> linearised_at_;    ///< 3 #V
-  bool projected_ = false;             ///< whether what was found there has been made positive
-  std::vector<double> packet_energy_;  ///< written and read within energy()
+  std::vector<Real> corner_;               ///< 3 a corner, written and read within forces()
+  std::vector<Real> linearisation_point_;  ///< 3 #V
+  bool projected_ = false;                 ///< whether what was found there has been made positive
+  std::vector<double> packet_energy_;      ///< written and read within energy()
   double plastic_work_ = 0;
   Real step_ = 0;  ///< s, begun last
 };

@@ -41,7 +41,7 @@ void ElasticBody<Real>::set_mesh(const TetMesh& mesh, const std::vector<int>& ma
   material_of_ = material_of;
   make_parts();
   make_fans();
-  forget(at_rest().data());
+  reset_history(at_rest().data());
 }
 
 template <class Real>
@@ -64,7 +64,7 @@ void ElasticBody<Real>::restore(const TetMesh& mesh, const std::vector<int>& mat
   step_ = memory.step;
   for (const auto& of_part : memory.parts) {
     Part& part = parts_.emplace_back(make_part(of_part.material, of_part.element));
-    for (const auto& term : part.terms) term->forget(part.group, x);
+    for (const auto& term : part.terms) term->reset_history(part.group, x);
     if (!(materials_[part.material] == memory.materials[part.material])) continue;
     const SlotMemories<Real> lists = part.memory();
     for (std::size_t k = 0; k < lists.size(); ++k) *lists[k].values = of_part.values[k];
@@ -102,8 +102,8 @@ void ElasticBody<Real>::keep_numbered(Part& part, const std::vector<int>& number
   }
   const std::vector<std::size_t> from = keep_slots(part.group, slots);
   for (const auto& term : part.terms)
-    for (const SlotMemory<Real>& memory : term->memory()) take_slots(*memory.values, from, memory.each);
-  if (part.flow) part.flow->take_slots(from);
+    for (const SlotMemory<Real>& memory : term->memory()) gather_slots(*memory.values, from, memory.each);
+  if (part.flow) part.flow->gather_slots(from);
 }
 
 template <class Real>
@@ -115,13 +115,13 @@ void ElasticBody<Real>::keep_elements(const std::vector<int>& elements) {
   const TetMesh before = std::exchange(mesh_, with_elements(mesh_, elements));
   material_of_ = with_elements(material_of_, elements);
   join_parts();
-  edit_fans(before, elements);
+  update_fans(before, elements);
 }
 
 /// Parts that remember are made anew, and take it from what they were; of the others slots stay with their elements.
 template <class Real>
-void ElasticBody<Real>::take_pieces(const TetMesh& mesh, const std::vector<int>& material_of,
-                                    const std::vector<int>& origins) {
+void ElasticBody<Real>::transfer_state(const TetMesh& mesh, const std::vector<int>& material_of,
+                                       const std::vector<int>& origins) {
   const TetMesh before = std::exchange(mesh_, mesh);
   std::vector<Part> old_parts = std::exchange(parts_, {});
   material_of_ = material_of;
@@ -137,9 +137,9 @@ void ElasticBody<Real>::take_pieces(const TetMesh& mesh, const std::vector<int>&
   }
   for (Part& old : old_parts) {
     const std::size_t material = old.material;
-    if (materials_[material].has_memory()) {
+    if (materials_[material].has_internal_state()) {
       parts_.push_back(make_part(material, all[material]));
-      take_memory(old, before, origins, parts_.back());
+      transfer_memory(old, before, origins, parts_.back());
       continue;
     }
     keep_numbered(old, number);
@@ -147,31 +147,31 @@ void ElasticBody<Real>::take_pieces(const TetMesh& mesh, const std::vector<int>&
     if (old.group.size() > 0) parts_.push_back(std::move(old));
   }
   join_parts();
-  edit_fans(before, origins);
+  update_fans(before, origins);
 }
 
 template <class Real>
-void ElasticBody<Real>::take_memory(const Part& old, const TetMesh& before, const std::vector<int>& origins,
-                                    Part& part) const {
+void ElasticBody<Real>::transfer_memory(const Part& old, const TetMesh& before, const std::vector<int>& origins,
+                                        Part& part) const {
   std::vector<std::size_t> slot(before.tets.size());
   for (std::size_t s = 0; s < old.group.size(); ++s) slot[static_cast<std::size_t>(old.group.element[s])] = s;
   std::vector<std::size_t> from;
-  std::vector<Reshape<Real>> reshapes;
+  std::vector<SubelementMap<Real>> subelement_maps;
   for (std::size_t s = 0; s < part.group.volume.size(); ++s) {
     const int element = part.group.element[std::min(s, part.group.size() - 1)];
     const int origin = origins[static_cast<std::size_t>(element)];
     from.push_back(slot[static_cast<std::size_t>(origin)]);
-    reshapes.emplace_back(places(before, origin), places(mesh_, element));
+    subelement_maps.emplace_back(places(before, origin), places(mesh_, element));
   }
   for (std::size_t k = 0; k < part.terms.size(); ++k) {
     const SlotMemories<Real> to = part.terms[k]->memory(), whole = old.terms[k]->memory();
     for (std::size_t list = 0; list < to.size(); ++list) {
       *to[list].values = *whole[list].values;
-      take_slots(*to[list].values, from, to[list].each);
+      gather_slots(*to[list].values, from, to[list].each);
     }
-    part.terms[k]->reshape(reshapes);
+    part.terms[k]->reshape(subelement_maps);
   }
-  if (part.flow) part.flow->take_pieces(*old.flow, old.group, from, reshapes, part.group);
+  if (part.flow) part.flow->transfer_state(*old.flow, old.group, from, subelement_maps, part.group);
 }
 
 template void ElasticBody<float>::set_mesh(const TetMesh&, const std::vector<int>&);
@@ -186,7 +186,7 @@ template void ElasticBody<double>::restore(const TetMesh&, const std::vector<int
                                            const double*);
 template void ElasticBody<float>::keep_elements(const std::vector<int>&);
 template void ElasticBody<double>::keep_elements(const std::vector<int>&);
-template void ElasticBody<float>::take_pieces(const TetMesh&, const std::vector<int>&, const std::vector<int>&);
-template void ElasticBody<double>::take_pieces(const TetMesh&, const std::vector<int>&, const std::vector<int>&);
+template void ElasticBody<float>::transfer_state(const TetMesh&, const std::vector<int>&, const std::vector<int>&);
+template void ElasticBody<double>::transfer_state(const TetMesh&, const std::vector<int>&, const std::vector<int>&);
 
 }  // namespace heml

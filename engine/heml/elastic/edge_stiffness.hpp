@@ -38,13 +38,13 @@ template <int count, class Real>
 
 /// What a law of invariants adds beyond its tensions' T_ab I.
 template <class Real, InvariantLaw<Real> L>
-[[gnu::always_inline]] inline void add_curvature(const L& law, const Link<Real>& link, const RestShape<Real>& rest,
-                                                 Real K[edge_entries]) {
-  const Slopes<Real> s = law.slopes(link.at);
-  const Curvatures<Real> c = law.curvatures(link.at);
+[[gnu::always_inline]] inline void add_material_stiffness(const L& law, const ElementKinematics<Real>& kinematics,
+                                                          const RestShape<Real>& rest, Real K[edge_entries]) {
+  const FirstDerivatives<Real> s = law.first_derivatives(kinematics.at);
+  const SecondDerivatives<Real> c = law.second_derivatives(kinematics.at);
   const Real* A = rest.A;
   const Real a[3][3] = {{A[0], A[3], A[4]}, {A[3], A[1], A[5]}, {A[4], A[5], A[2]}};
-  const auto& e = link.e;
+  const auto& e = kinematics.e;
   Real u[3][3];  // u_a = Σ_b A_ab e_b: half of ∂I1/∂e_a
   for (int k = 0; k < 3; ++k)
     for (int i = 0; i < 3; ++i) u[k][i] = a[k][0] * e[0][i] + a[k][1] * e[1][i] + a[k][2] * e[2][i];
@@ -53,7 +53,7 @@ template <class Real, InvariantLaw<Real> L>
   for (int k = 0; k < 3; ++k)
     for (int i = 0; i < 3; ++i) {
       p[0][3 * k + i] = 2 * u[k][i];
-      p[1][3 * k + i] = link.cross[k][i] / (6 * rest.volume);
+      p[1][3 * k + i] = kinematics.cross[k][i] / (6 * rest.volume);
     }
   if constexpr (L::uses_I2) {
     // ∂I2/∂e_a = 2 (I1 u_a − y_a), y = AGA e; ∂²I2 = 4 u_a u_bᵀ − 2 u_b u_aᵀ − 2 A_ab FFᵀ and what is in the tensions.
@@ -61,8 +61,8 @@ template <class Real, InvariantLaw<Real> L>
     constexpr int row[6] = {0, 1, 2, 0, 0, 1}, column[6] = {0, 1, 2, 1, 2, 2};
     for (int k = 0; k < 3; ++k) {
       for (int i = 0; i < 3; ++i) {
-        const Real y = link.AG[k][0] * u[0][i] + link.AG[k][1] * u[1][i] + link.AG[k][2] * u[2][i];
-        p[I2][3 * k + i] = 2 * (link.at.I1 * u[k][i] - y);
+        const Real y = kinematics.AG[k][0] * u[0][i] + kinematics.AG[k][1] * u[1][i] + kinematics.AG[k][2] * u[2][i];
+        p[I2][3 * k + i] = 2 * (kinematics.at.I1 * u[k][i] - y);
       }
       for (int m = 0; m < 6; ++m) FF[m] += u[k][row[m]] * e[k][column[m]];
     }
@@ -94,7 +94,8 @@ template <class Real, InvariantLaw<Real> L>
 
 /// Adds T_ab I and wJ ∂²J/∂e_a∂e_b: a triple product's second derivatives are edges.
 template <class Real>
-[[gnu::always_inline]] inline void add_pull(const Tensions<Real>& t, const Real e[3][3], Real K[edge_entries]) {
+[[gnu::always_inline]] inline void add_geometric_stiffness(const Tensions<Real>& t, const Real e[3][3],
+                                                           Real K[edge_entries]) {
   constexpr int pair[3][3] = {{0, 3, 4}, {3, 1, 5}, {4, 5, 2}};
   for (int k = 0; k < 3; ++k)
     for (int l = 0; l <= k; ++l)
@@ -125,17 +126,20 @@ template <class Change, class Real>
 
 /// Adds the stiffness of a law at an element, whose link must be whole.
 template <class Real, Law<Real> L>
-[[gnu::always_inline]] inline void add_edge_stiffness(const L& law, const Link<Real>& link, const RestShape<Real>& rest,
-                                                      Real K[edge_entries]) {
-  const Tensions<Real> t = tensions(law, link, rest);
+[[gnu::always_inline]] inline void add_edge_stiffness(const L& law, const ElementKinematics<Real>& kinematics,
+                                                      const RestShape<Real>& rest, Real K[edge_entries]) {
+  const Tensions<Real> t = tensions(law, kinematics, rest);
   if constexpr (PrincipalLaw<L, Real>) {
-    const PrincipalTangent<Real, L> tangent(law, link, rest);
-    add_columns([&](const Real(&de)[3][3],
-                    Real* f) { pull_change(t, tangent(link_change(link, de, rest.volume)), link, de, f); },
-                K);
+    const PrincipalTangent<Real, L> tangent(law, kinematics, rest);
+    add_columns(
+        [&](const Real(&de)[3][3], Real* f) {
+          corner_force_differential(t, tangent(kinematics_differential(kinematics, de, rest.volume)), kinematics, de,
+                                    f);
+        },
+        K);
   } else {
-    add_curvature(law, link, rest, K);
-    add_pull(t, link.e, K);
+    add_material_stiffness(law, kinematics, rest, K);
+    add_geometric_stiffness(t, kinematics.e, K);
   }
 }
 

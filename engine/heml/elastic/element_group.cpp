@@ -63,16 +63,16 @@ ElementGroup<Real> make_group(const TetMesh& mesh, const std::vector<int>& eleme
 
 template <class Real>
 std::vector<std::size_t> keep_slots(ElementGroup<Real>& group, const std::vector<std::size_t>& slots) {
-  take_slots(group.element, slots);
+  gather_slots(group.element, slots);
   std::vector<std::size_t> from = slots;
   while (from.size() % ElementGroup<Real>::lanes != 0) from.push_back(slots.back());
-  for (auto& list : group.node) take_slots(list, from);
-  for (auto& list : group.A) take_slots(list, from);
-  take_slots(group.volume, from);
-  take_slots(group.gamma, from);
+  for (auto& list : group.node) gather_slots(list, from);
+  for (auto& list : group.A) gather_slots(list, from);
+  gather_slots(group.volume, from);
+  gather_slots(group.gamma, from);
   if (!group.fibre[0].empty())
-    for (auto& list : group.fibre) take_slots(list, from);
-  for (auto& list : group.parameters) take_slots(list, from);
+    for (auto& list : group.fibre) gather_slots(list, from);
+  for (auto& list : group.parameters) gather_slots(list, from);
   return from;
 }
 

@@ -44,7 +44,7 @@ ElementGroup<Real> make_group(const TetMesh& mesh, const std::vector<int>& eleme
 /// An edit of a group: slot s takes what slot from[s] had, `each` values a slot. So what elements remember stays with
 /// them when others go.
 template <class Value>
-void take_slots(std::vector<Value>& of_slots, std::span<const std::size_t> from, std::size_t each = 1) {
+void gather_slots(std::vector<Value>& of_slots, std::span<const std::size_t> from, std::size_t each = 1) {
   std::vector<Value> taken;
   taken.reserve(each * from.size());
   for (const std::size_t s : from) {

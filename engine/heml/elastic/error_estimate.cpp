@@ -62,8 +62,8 @@ std::vector<double> ErrorEstimate::densities(const TetMesh& mesh) const {
   return result;
 }
 
-std::vector<double> recovered_errors(const TetMesh& mesh, const std::vector<int>& material_of,
-                                     const std::vector<Mat3>& F, const std::vector<Mat3>& P) {
+std::vector<double> recovery_errors(const TetMesh& mesh, const std::vector<int>& material_of,
+                                    const std::vector<Mat3>& F, const std::vector<Mat3>& P) {
   std::vector<double> errors(mesh.tets.size(), 0.0);
   const int materials = material_of.empty() ? 0 : 1 + *std::max_element(material_of.begin(), material_of.end());
   const std::size_t nodes = mesh.nodes.size();

@@ -27,8 +27,8 @@ struct ErrorEstimate {
 };
 
 /// e_t² of every element. material_of, F and P (Pa): #T.
-std::vector<double> recovered_errors(const TetMesh& mesh, const std::vector<int>& material_of,
-                                     const std::vector<Mat3>& F, const std::vector<Mat3>& P);
+std::vector<double> recovery_errors(const TetMesh& mesh, const std::vector<int>& material_of,
+                                    const std::vector<Mat3>& F, const std::vector<Mat3>& P);
 
 /// Deformation gradient of every element at positions x (#V×3, m).
 std::vector<Mat3> deformation_gradients(const TetMesh& mesh, const std::vector<Vec3>& x);

@@ -50,10 +50,10 @@ struct FanBlock {
 constexpr std::size_t fan_constants(bool has_fibre) { return has_fibre ? 8 : 5; }
 
 /// Most tetrahedra of a fan.
-inline constexpr std::size_t longest_fan = 8;
+inline constexpr std::size_t max_fan_tets = 8;
 
 /// Most nodes a block may have, 4 unused ones for lanes without a fan among them.
-inline constexpr std::size_t most_block_nodes = 1024;
+inline constexpr std::size_t max_block_nodes = 1024;
 
 /// Forces (N) of a block at positions x (3 #V, metres) into f (3 #V) and shared_force, overwritten. `law` is the
 /// kernel's law as a struct of Real. Returns whether it is defined in every tetrahedron.

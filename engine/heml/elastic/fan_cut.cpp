@@ -7,7 +7,7 @@
 namespace heml {
 namespace {
 
-constexpr std::size_t longest = longest_fan;
+constexpr std::size_t longest = max_fan_tets;
 
 /// Sizes of fans, those first that read fewest nodes a tetrahedron: in this order they are looked for.
 const std::vector<FanSize>& sizes_by_worth() {
@@ -134,12 +134,12 @@ std::vector<std::vector<Fan>> greedy_fans(const std::vector<Tet>& tets) {
   }
   std::vector<char> taken(tets.size(), 0);
   std::vector<std::vector<Fan>> fans(ranks);
-  LongestChain longest_chain;
+  LongestChain max_chain;
   for (std::size_t rank = 0; rank < ranks; ++rank)
     while (!waiting[rank].empty()) {
       const std::size_t e = waiting[rank].back();
       waiting[rank].pop_back();
-      const auto& chain = longest_chain(&sectors[edges[e].first], sectors.data() + edges[e].second, taken);
+      const auto& chain = max_chain(&sectors[edges[e].first], sectors.data() + edges[e].second, taken);
       if (chain.empty()) continue;
       if (const std::size_t found = rank_of(chain.size(), is_closed(chain)); found > rank) {
         waiting[found].push_back(e);

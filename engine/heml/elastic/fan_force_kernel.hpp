@@ -16,7 +16,7 @@ namespace heml::fan {
 /// C = k LᵀGL and T = ⅙ L S Lᵀ (here with minus signs), L the Cholesky factor of A*.
 template <class P, PrincipalLaw<P> L>
 [[gnu::always_inline]] inline FanTensions<P> fan_tensions(const L& law, const FanRest<P>& rest, const FanGram<P>& G,
-                                                          P J, Truth<P>& valid) {
+                                                          P J, Mask<P>& valid) {
   const P la = rest.p, l00 = rest.q00, l10 = rest.q01, l11 = rest.q11;  // of the Cholesky factor
   const P w00 = G.b00 * l00 + G.b01 * l10, w10 = G.b01 * l00 + G.b11 * l10, w01 = G.b01 * l11, w11 = G.b11 * l11;
   P C[6] = {la * la * G.aa,    l00 * w00 + l10 * w10, l11 * w11, la * (G.a0 * l00 + G.a1 * l10),
@@ -35,7 +35,7 @@ template <class P, PrincipalLaw<P> L>
 /// T = ⅓ [(w1 + w2 I1) A* − w2 k A*GA* + w4 m* m*ᵀ] with I1 = k A*:G, tr C² = k² tr(A*G)², I4 = k m*·G m*.
 template <class P, InvariantLaw<P> L>
 [[gnu::always_inline]] inline FanTensions<P> fan_tensions(const L& law, const FanRest<P>& rest, const FanGram<P>& G,
-                                                          P J, Truth<P>& valid) {
+                                                          P J, Mask<P>& valid) {
   const auto& [p, q00, q11, q01, k, m] = rest;
   const P third = -1.0 / 3, y = p * G.aa;
   Invariants<P> at{P(0), P(0), J, P(1)};
@@ -58,7 +58,7 @@ template <class P, InvariantLaw<P> L>
   }
   if constexpr (!L::always_valid) valid = valid && law.valid(at);
 
-  const Slopes<P> s = law.slopes(at);
+  const FirstDerivatives<P> s = law.first_derivatives(at);
   FanTensions<P> t;
   if constexpr (L::uses_I2) {
     const P c = -(s.w2 * third) * k, pull = (s.w1 + s.w2 * at.I1) * third, cp = c * p;
@@ -86,8 +86,8 @@ struct ForceKernel {
   static constexpr std::size_t constants = fan_constants(L::uses_I4), lanes = P::lanes;
 
   struct Work {
-    Spoke<P> spoke[longest_fan + 3];           ///< [1 .. ring]; before and after that a closed ring's others
-    FanTensions<P> tensions[longest_fan + 2];  ///< [1 .. m]; before and after that a closed ring's others, or zero
+    Spoke<P> spoke[max_fan_tets + 3];           ///< [1 .. ring]; before and after that a closed ring's others
+    FanTensions<P> tensions[max_fan_tets + 2];  ///< [1 .. m]; before and after that a closed ring's others, or zero
   };
 
   /// Where a group's nodes and constants are, and its axis.
@@ -107,13 +107,13 @@ struct ForceKernel {
       if constexpr (L::uses_J) cross(spoke.b, group.a, spoke.c);
     }
     if (group.ring_nodes == group.m) {
-      take(work.spoke[0], work.spoke[group.m]);
-      take(work.spoke[group.m + 1], work.spoke[1]);
+      copy_spoke(work.spoke[0], work.spoke[group.m]);
+      copy_spoke(work.spoke[group.m + 1], work.spoke[1]);
     }
   }
 
   /// Pack by pack, since what is copied otherwise is not forwarded to the next read of it.
-  [[gnu::always_inline]] static inline void take(Spoke<P>& to, const Spoke<P>& from) {
+  [[gnu::always_inline]] static inline void copy_spoke(Spoke<P>& to, const Spoke<P>& from) {
     for (int i = 0; i < 3; ++i) to.b[i].v = from.b[i].v;
     to.bb.v = from.bb.v, to.ab.v = from.ab.v;
     if constexpr (L::uses_J)
@@ -121,14 +121,15 @@ struct ForceKernel {
   }
 
   /// What there is beyond the ends of an open ring.
-  [[gnu::always_inline]] static inline void loosen(FanTensions<P>& t) {
+  [[gnu::always_inline]] static inline void zero_tensions(FanTensions<P>& t) {
     t.b00 = t.b11 = t.b01 = P(0);
     if constexpr (has_coupling<L, P>) t.a0 = t.a1 = P(0);
     if constexpr (L::uses_J) t.u = P(0);
   }
 
   /// Returns the tension of the axis.
-  [[gnu::always_inline]] static inline P tighten(const L& law, const Group& group, Work& work, Truth<P>& valid) {
+  [[gnu::always_inline]] static inline P evaluate_tensions(const L& law, const Group& group, Work& work,
+                                                           Mask<P>& valid) {
     P axis = 0;
     const Real* constant = group.rest;
     for (std::size_t i = 1; i <= group.m; ++i, constant += constants * lanes) {
@@ -145,15 +146,15 @@ struct ForceKernel {
       if constexpr (has_coupling<L, P>) before.a1 = last.a1;
       if constexpr (L::uses_J) before.u = last.u;
     } else {
-      loosen(work.tensions[0]);
-      loosen(work.tensions[group.m + 1]);
+      zero_tensions(work.tensions[0]);
+      zero_tensions(work.tensions[group.m + 1]);
     }
     return axis;
   }
 
   /// Adds the forces at the ring's nodes, and says what is left to p and q.
-  [[gnu::always_inline]] static inline void pull_ring(const Group& group, const Work& work, Real* records, P at_p[3],
-                                                      P at_q[3]) {
+  [[gnu::always_inline]] static inline void add_ring_forces(const Group& group, const Work& work, Real* records,
+                                                            P at_p[3], P at_q[3]) {
     for (std::size_t i = 1; i <= group.ring_nodes; ++i) {
       const Spoke<P>&before = work.spoke[i - 1], &spoke = work.spoke[i], &after = work.spoke[i + 1];
       const FanTensions<P>&s = work.tensions[i - 1], &t = work.tensions[i];
@@ -179,28 +180,28 @@ struct ForceKernel {
 
   /// The forces of one group of fans of length m.
   [[gnu::always_inline]] static inline void run(const L& law, FanSize size, const std::uint16_t* index,
-                                                const Real* shape, Real* records, Work& work, Truth<P>& valid) {
+                                                const Real* shape, Real* records, Work& work, Mask<P>& valid) {
     Group group{size.tets, size.ring, index + 2 * lanes, shape, shape + size.ring * lanes, {}, {}, {}};
     read_axis<Isa>(static_cast<const Real*>(records), index, group.p, group.a);
     group.aa = dot(group.a, group.a);
     read_ring(group, records, work);
-    const P axis = tighten(law, group, work, valid);
+    const P axis = evaluate_tensions(law, group, work, valid);
     P at_p[3] = {0, 0, 0}, at_q[3] = {0, 0, 0};
-    pull_ring(group, work, records, at_p, at_q);
+    add_ring_forces(group, work, records, at_p, at_q);
     for (int i = 0; i < 3; ++i) {
       at_q[i] += axis * group.a[i];
       at_p[i] = -(at_p[i] + at_q[i]);
     }
-    Isa::add(records + 4, afresh(index + lanes), at_q);
-    Isa::add(records + 4, afresh(index), at_p);
+    Isa::add(records + 4, reread(index + lanes), at_q);
+    Isa::add(records + 4, reread(index), at_p);
   }
 
   static bool block(const L& law, const FanBlock<Real>& block, const Real* x, Real* f) {
-    alignas(64) Real records[8 * most_block_nodes];
+    alignas(64) Real records[8 * max_block_nodes];
     read_records<Isa>(block, x, records);
     const std::uint16_t* index = block.index;
     const Real* shape = block.shape;
-    Truth<P> valid = true;
+    Mask<P> valid = true;
     Work work;
     for (Spoke<P>& spoke : work.spoke) spoke = {};
     for (std::size_t g = 0; g < block.groups; ++g) {

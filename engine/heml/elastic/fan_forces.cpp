@@ -22,7 +22,7 @@ FanElements elements_of(const TetMesh& mesh, const FanPart& part, FanShape shape
 template <class Real>
 FanForces<Real>::FanForces(const TetMesh& mesh, const std::vector<FanPart>& parts, bool continuation,
                            InstructionSet isa, ThreadTeam& team)
-    : isa_(chosen(isa)) {
+    : isa_(resolve(isa)) {
   std::vector<FanElements> elements;
   for (const FanPart& part : parts) {
     laws_.push_back(law_of(part, continuation));
@@ -50,7 +50,7 @@ typename FanForces<Real>::Law FanForces<Real>::law_of(const FanPart& part, bool 
 }
 
 template <class Real>
-bool FanForces<Real>::take_laws(const std::vector<FanPart>& parts, bool continuation) {
+bool FanForces<Real>::update_laws(const std::vector<FanPart>& parts, bool continuation) {
   if (parts.size() != laws_.size()) return false;
   std::vector<Law> laws;
   for (std::size_t p = 0; p < parts.size(); ++p) {
@@ -63,13 +63,13 @@ bool FanForces<Real>::take_laws(const std::vector<FanPart>& parts, bool continua
 }
 
 template <class Real>
-bool FanForces<Real>::follow(const TetMesh& before, const TetMesh& mesh, const std::vector<FanPart>& parts,
-                             const std::vector<int>& origins, ThreadTeam& team) {
+bool FanForces<Real>::update_layout(const TetMesh& before, const TetMesh& mesh, const std::vector<FanPart>& parts,
+                                    const std::vector<int>& origins, ThreadTeam& team) {
   if (parts.size() != laws_.size()) return false;
   std::vector<FanElements> elements;
   for (std::size_t p = 0; p < parts.size(); ++p) elements.push_back(elements_of(mesh, parts[p], laws_[p].shape));
   layout_ = std::make_shared<const FanLayout<Real>>(
-      layout_->edited(before, mesh, elements, origins, lanes_of<Real>(isa_), team));
+      layout_->after_edit(before, mesh, elements, origins, lanes_of<Real>(isa_), team));
   shared_force_.assign(3 * layout_->shared_slots, Real(0));
   return true;
 }
@@ -79,7 +79,7 @@ bool FanForces<Real>::forces(const Real* x, Real* f, ThreadTeam& team) {
   const FanLayout<Real>& fans = *layout_;
   std::atomic<bool> valid{true};
   const std::size_t blocks_a_thread = 1 + grain_ * fans.blocks.size() / (fans.elements() + 1);
-  team.for_ranges(fans.blocks.size(), blocks_a_thread, [&](std::size_t begin, std::size_t end) {
+  team.parallel_for(fans.blocks.size(), blocks_a_thread, [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
       const auto& at = fans.blocks[b];
       const Law& law = laws_[at.part];
@@ -94,7 +94,7 @@ bool FanForces<Real>::forces(const Real* x, Real* f, ThreadTeam& team) {
       if (!law.kernel(law.law.get(), block, x, f)) valid.store(false, std::memory_order_relaxed);
     }
   });
-  team.for_ranges(fans.shared_node.size(), grain_ / 2, [&](std::size_t begin, std::size_t end) {
+  team.parallel_for(fans.shared_node.size(), grain_ / 2, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       Real sum[3] = {0, 0, 0};
       for (std::size_t s = fans.shared_start[k]; s < fans.shared_start[k + 1]; ++s)

@@ -30,12 +30,12 @@ class FanForces {
 
   /// Other laws for the same elements in the same parts: their layout is kept. Returns whether it could be, which is
   /// where the constants of each part are the same still; else nothing is changed.
-  bool take_laws(const std::vector<FanPart>& parts, bool continuation);
+  bool update_laws(const std::vector<FanPart>& parts, bool continuation);
 
-  /// Takes an edit of the mesh (fan_layout.hpp, edited): blocks it did not touch are kept. Returns whether it could,
+  /// Takes an edit of the mesh (FanLayout::after_edit): blocks it did not touch are kept. Returns whether it could,
   /// which is where there are as many parts as before; else nothing is changed.
-  bool follow(const TetMesh& before, const TetMesh& mesh, const std::vector<FanPart>& parts,
-              const std::vector<int>& origins, ThreadTeam& team);
+  bool update_layout(const TetMesh& before, const TetMesh& mesh, const std::vector<FanPart>& parts,
+                     const std::vector<int>& origins, ThreadTeam& team);
 
   bool empty() const { return layout_->blocks.empty(); }
 
@@ -62,7 +62,7 @@ class FanForces {
 
   InstructionSet isa_ = InstructionSet::portable;
   std::shared_ptr<const FanLayout<Real>> layout_ = std::make_shared<const FanLayout<Real>>();  ///< of copies too
-  std::vector<Law> laws_;           ///< of each part
+  std::vector<Law> laws_;                                                                      ///< of each part
   std::vector<Real> shared_force_;  ///< 3 a shared slot, written and read within forces()
 };
 

@@ -10,8 +10,8 @@
 namespace heml {
 namespace {
 
-constexpr std::size_t most_block_elements = 2560;                      // whose nodes fit the first cache
-constexpr std::size_t most_mesh_nodes_a_block = most_block_nodes - 4;  // and four that are nobody's
+constexpr std::size_t max_block_elements = 2560;                     // whose nodes fit the first cache
+constexpr std::size_t max_mesh_nodes_a_block = max_block_nodes - 4;  // and four that are nobody's
 
 std::size_t at(int n) { return static_cast<std::size_t>(n); }
 
@@ -38,14 +38,14 @@ void add_chunks(const TetMesh& mesh, std::size_t part, std::span<const int> elem
   if (elements.empty()) return;
   const std::size_t first = chunks.size(), size = elements.size();
   std::size_t count = 1;
-  while (size > count * most_block_elements) count += std::min<std::size_t>(count, 16);
+  while (size > count * max_block_elements) count += std::min<std::size_t>(count, 16);
   for (bool fits = false; !fits; count *= 2) {
     fits = true;
     chunks.resize(first);
     for (std::size_t b = 0; b < count && fits; ++b) {
       const std::size_t begin = size * b / count, end = size * (b + 1) / count;
       chunks.push_back(chunk_of(mesh, part, elements.subspan(begin, end - begin)));
-      fits = chunks.back().nodes.size() <= most_mesh_nodes_a_block;
+      fits = chunks.back().nodes.size() <= max_mesh_nodes_a_block;
     }
   }
 }
@@ -138,7 +138,7 @@ std::vector<Groups<Real>> all_groups(const TetMesh& mesh, const std::vector<FanE
   for (std::size_t c = 0; c < chunks.size(); ++c)
     if (!chunks[c].kept) fresh.push_back(c);
   std::vector<Groups<Real>> groups(chunks.size());
-  team.for_ranges(fresh.size(), 1, [&](std::size_t begin, std::size_t end) {
+  team.parallel_for(fresh.size(), 1, [&](std::size_t begin, std::size_t end) {
     std::vector<std::uint16_t> local(mesh.nodes.size());
     for (std::size_t k = begin; k < end; ++k) {
       const Chunk& chunk = chunks[fresh[k]];
@@ -241,9 +241,9 @@ FanLayout<Real>::FanLayout(const TetMesh& mesh, const std::vector<FanElements>& 
 }
 
 template <class Real>
-FanLayout<Real> FanLayout<Real>::edited(const TetMesh& before, const TetMesh& mesh,
-                                        const std::vector<FanElements>& parts, const std::vector<int>& origins,
-                                        std::size_t lanes, ThreadTeam& team) const {
+FanLayout<Real> FanLayout<Real>::after_edit(const TetMesh& before, const TetMesh& mesh,
+                                            const std::vector<FanElements>& parts, const std::vector<int>& origins,
+                                            std::size_t lanes, ThreadTeam& team) const {
   std::vector<std::size_t> block_of(before.tets.size(), 0);
   for (std::size_t b = 0; b < blocks.size(); ++b)
     for (std::size_t k = 0; k < blocks[b].elements; ++k) block_of[at(element[blocks[b].element + k])] = b;

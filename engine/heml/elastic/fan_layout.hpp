@@ -67,8 +67,8 @@ struct FanLayout {
 
   /// The layout after an edit of the mesh: element t is what origins[t] was in the mesh before, or a piece of it, whose
   /// nodes are among that one's or new. Parts as many as they were. Rest as in the constructor.
-  FanLayout edited(const TetMesh& before, const TetMesh& mesh, const std::vector<FanElements>& parts,
-                   const std::vector<int>& origins, std::size_t lanes, ThreadTeam& team) const;
+  FanLayout after_edit(const TetMesh& before, const TetMesh& mesh, const std::vector<FanElements>& parts,
+                       const std::vector<int>& origins, std::size_t lanes, ThreadTeam& team) const;
 
   std::size_t elements() const { return element.size(); }
   /// What one evaluation of the forces reads and writes, each array once, positions and forces included.

@@ -123,7 +123,7 @@ template <class Isa, class Real>
 
 /// Hides where a pointer came from: what is read through it is read again rather than kept, where registers are few.
 template <class T>
-[[gnu::always_inline]] inline const T* afresh(const T* pointer) {
+[[gnu::always_inline]] inline const T* reread(const T* pointer) {
   asm("" : "+r"(pointer));
   return pointer;
 }

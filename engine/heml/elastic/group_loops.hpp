@@ -33,9 +33,10 @@ RestShape<Real> rest_shape(const ElementGroup<Real>& group, std::size_t s) {
 }
 
 template <class Real>
-Link<Real> whole_link(const ElementGroup<Real>& group, const Real* x, std::size_t s, const RestShape<Real>& rest) {
+ElementKinematics<Real> full_kinematics(const ElementGroup<Real>& group, const Real* x, std::size_t s,
+                                        const RestShape<Real>& rest) {
   const SlotNodes<Real> n(group, x, s);
-  return read_whole_link(n.x0, n.x1, n.x2, n.x3, rest);
+  return full_element_kinematics(n.x0, n.x1, n.x2, n.x3, rest);
 }
 
 /// What the loops read of one packet, gathered apart so that the compiler can vectorise what is computed from it.
@@ -78,7 +79,7 @@ struct Corners {
 
 /// Writes or adds the corner forces of one packet.
 template <class Real, std::size_t lanes>
-[[gnu::always_inline]] inline void put_corners(const Real (&out)[12][lanes], Real* to, bool add) {
+[[gnu::always_inline]] inline void write_packet_corners(const Real (&out)[12][lanes], Real* to, bool add) {
   if (add)
     for (std::size_t l = 0; l < lanes; ++l)
       for (std::size_t i = 0; i < 12; ++i) to[12 * l + i] += out[i][l];
@@ -105,7 +106,7 @@ template <class Real, Law<Real> L>
       defined[l] = is_defined ? Real(1) : Real(0);
       for (int i = 0; i < 12; ++i) out[i][l] = f[i];
     }
-    put_corners(out, corner + 3 * (group.first_corner + 4 * p * lanes), add);
+    write_packet_corners(out, corner + 3 * (group.first_corner + 4 * p * lanes), add);
     if constexpr (!L::always_valid)
       for (std::size_t l = 0; l < lanes; ++l) valid = valid && defined[l] == 1;
   }
@@ -137,17 +138,17 @@ template <class P, class L>
 [[gnu::always_inline]] inline void group_stiffness(const L& law, const ElementGroup<Lane<P>>& group, const Lane<P>* x,
                                                    std::size_t begin, std::size_t end, Lane<P>* K, bool add) {
   using Real = Lane<P>;
-  using Many = typename Rebound<L, P>::Law;
+  using Many = typename ReboundLaw<L, P>::Law;
   constexpr std::size_t lanes = ElementGroup<Real>::lanes, width = P::lanes;
   const Many many = broadcast<Many, P>(law);
   for (std::size_t p = begin; p < end; ++p) {
     const Packet<Real, L::uses_I4> packet(group, x, p * lanes);
     for (std::size_t first = 0; first < lanes; first += width) {
       const PackedElements<P, L::uses_I4> at(packet, first);
-      const auto link = read_link<true, true, L::uses_I4>(at.x[0], at.x[1], at.x[2], at.x[3], at.rest);
+      const auto kinematics = element_kinematics<true, true, L::uses_I4>(at.x[0], at.x[1], at.x[2], at.x[3], at.rest);
       P k[edge_entries];
       for (P& entry : k) entry = P(0);
-      add_edge_stiffness<P>(many, link, at.rest, k);
+      add_edge_stiffness<P>(many, kinematics, at.rest, k);
       Real* to = K + edge_entries * lanes * p + first;
       for (std::size_t i = 0; i < edge_entries; ++i) {
         typename P::Vector before;
@@ -164,7 +165,7 @@ template <class P, class L>
 [[gnu::always_inline]] inline void group_energy(const L& law, const ElementGroup<Lane<P>>& group, const Lane<P>* x,
                                                 std::size_t begin, std::size_t end, double* of_packet, bool add) {
   using Real = Lane<P>;
-  using Many = typename Rebound<L, P>::Law;
+  using Many = typename ReboundLaw<L, P>::Law;
   constexpr std::size_t lanes = ElementGroup<Real>::lanes, width = P::lanes;
   const Many many = broadcast<Many, P>(law);
   for (std::size_t p = begin; p < end; ++p) {
@@ -172,8 +173,8 @@ template <class P, class L>
     Real density[lanes];
     for (std::size_t first = 0; first < lanes; first += width) {
       const PackedElements<P, L::uses_I4> at(packet, first);
-      const auto link = read_link<true, true, L::uses_I4>(at.x[0], at.x[1], at.x[2], at.x[3], at.rest);
-      const P W = law_energy<P>(many, link, at.rest);
+      const auto kinematics = element_kinematics<true, true, L::uses_I4>(at.x[0], at.x[1], at.x[2], at.x[3], at.rest);
+      const P W = law_energy<P>(many, kinematics, at.rest);
       __builtin_memcpy(density + first, &W.v, sizeof W.v);
     }
     double sum = add ? of_packet[p] : 0.0;
@@ -197,8 +198,8 @@ template <class Real, Law<Real> L>
     for (std::size_t l = 0; l < lanes; ++l) {
       const Corners<Real> at(packet.x, l);
       const RestShape<Real> rest = packet.rest(l);
-      const auto link = read_link<true, true, L::uses_I4>(at.x[0], at.x[1], at.x[2], at.x[3], rest);
-      bound[l] = element_frequency_bound(law, link, rest, group.gamma[p * lanes + l], group.density);
+      const auto kinematics = element_kinematics<true, true, L::uses_I4>(at.x[0], at.x[1], at.x[2], at.x[3], rest);
+      bound[l] = element_frequency_bound(law, kinematics, rest, group.gamma[p * lanes + l], group.density);
     }
     for (std::size_t l = 0; l < lanes; ++l) largest = bound[l] > largest || std::isnan(bound[l]) ? bound[l] : largest;
   }

@@ -1,6 +1,6 @@
 #include <cmath>
-#include <heml/elastic/memory_term.hpp>
 #include <heml/elastic/term_parts.hpp>
+#include <heml/elastic/viscoelastic_term.hpp>
 
 namespace heml {
 
@@ -11,7 +11,7 @@ void StressSum<Real>::add(const Tensions<Real>& t, const RestShape<Real>& rest) 
   const Real i0 = 1 / L[0][0], i1 = 1 / L[1][1], i2 = 1 / L[2][2];
   const Real low = -L[1][0] * i0 * i1;
   const Real inverse[3][3] = {{i0, 0, 0}, {low, i1, 0}, {-(L[2][0] * i0 + L[2][1] * low) * i2, -L[2][1] * i1 * i2, i2}};
-  congruent3(inverse, t.T, more);
+  congruence3(inverse, t.T, more);
   for (int i = 0; i < 6; ++i) S[i] += more[i] / rest.volume;
   wJ += t.wJ;
 }
@@ -22,11 +22,11 @@ bool GroupTerm<Real>::forces(const Group& group, const Real* x, std::size_t begi
   bool all_valid = true;
   for (std::size_t s = begin * Group::lanes; s < end * Group::lanes; ++s) {
     const auto rest = rest_shape(group, s);
-    const auto link = whole_link(group, x, s, rest);
+    const auto kinematics = full_kinematics(group, x, s, rest);
     Real f[12];
-    pull_corners<true>(tensions(group, s, link, rest), link.e, link.cross, f);
-    put_slot(f, group, s, corner, add);
-    all_valid &= valid(group, s, link);
+    forces_from_tensions<true>(tensions(group, s, kinematics, rest), kinematics.e, kinematics.cross, f);
+    write_slot_forces(f, group, s, corner, add);
+    all_valid &= valid(group, s, kinematics);
   }
   return all_valid;
 }
@@ -36,15 +36,17 @@ void GroupTerm<Real>::stiffness(const Group& group, const Real* x, std::size_t b
                                 bool add) const {
   for (std::size_t s = begin * Group::lanes; s < end * Group::lanes; ++s) {
     const auto rest = rest_shape(group, s);
-    const auto link = whole_link(group, x, s, rest);
-    const auto t = tensions(group, s, link, rest);
+    const auto kinematics = full_kinematics(group, x, s, rest);
+    const auto t = tensions(group, s, kinematics, rest);
     Real k[edge_entries] = {};
     add_columns(
         [&](const Real(&de)[3][3], Real* f) {
-          pull_change(t, tension_change(group, s, link, rest, link_change(link, de, rest.volume)), link, de, f);
+          corner_force_differential(
+              t, tension_differential(group, s, kinematics, rest, kinematics_differential(kinematics, de, rest.volume)),
+              kinematics, de, f);
         },
         k);
-    put_edges(k, s, K, add);
+    write_edge_stiffness(k, s, K, add);
   }
 }
 
@@ -55,7 +57,7 @@ void GroupTerm<Real>::energies(const Group& group, const Real* x, std::size_t be
     double sum = add ? of_packet[p] : 0.0;
     for (std::size_t s = p * Group::lanes; s < std::min((p + 1) * Group::lanes, group.size()); ++s) {
       const auto rest = rest_shape(group, s);
-      sum += energy(group, s, whole_link(group, x, s, rest), rest);
+      sum += energy(group, s, full_kinematics(group, x, s, rest), rest);
     }
     of_packet[p] = sum;
   }
@@ -66,7 +68,7 @@ Real GroupTerm<Real>::frequency_bound(const Group& group, const Real* x, std::si
   Real largest = 0;
   for (std::size_t s = begin * Group::lanes; s < end * Group::lanes; ++s) {
     const auto rest = rest_shape(group, s);
-    const Real bound = slot_bound(group, s, whole_link(group, x, s, rest), rest);
+    const Real bound = slot_frequency_bound(group, s, full_kinematics(group, x, s, rest), rest);
     largest = bound > largest || std::isnan(bound) ? bound : largest;
   }
   return largest;
@@ -82,7 +84,7 @@ std::vector<std::unique_ptr<GroupTerm<Real>>> make_terms(const Material& materia
   terms.push_back(make_law_term<Real>(material, continuation, !own_volume_term));
   if (!own_volume_term && !without_volume) terms.push_back(make_volume_term<Real>(material, continuation));
   if (material.viscosity > 0 || material.bulk_viscosity > 0 || !material.relaxation.empty())
-    terms.push_back(std::make_unique<MemoryTerm<Real>>(
+    terms.push_back(std::make_unique<ViscoelasticTerm<Real>>(
         make_law_term<Real>(material, continuation, info.has_volume_term), material));
   return terms;
 }

@@ -6,8 +6,8 @@
 // What is asked of one slot at a time (parameters that differ between elements, assembly, memory) goes through the
 // functions of a slot, from which the loops here are made.
 #include <heml/elastic/group_loops.hpp>
-#include <heml/elastic/reshape.hpp>
 #include <heml/elastic/slot_memory.hpp>
+#include <heml/elastic/subelement_map.hpp>
 #include <heml/materials/material.hpp>
 #include <memory>
 #include <vector>
@@ -30,21 +30,22 @@ class GroupTerm {
   virtual ~GroupTerm() = default;
 
   // Of one slot, whose link is whole.
-  virtual Tensions<Real> tensions(const Group& group, std::size_t s, const Link<Real>& link,
+  virtual Tensions<Real> tensions(const Group& group, std::size_t s, const ElementKinematics<Real>& kinematics,
                                   const RestShape<Real>& rest) const = 0;
-  virtual Tensions<Real> tension_change(const Group& group, std::size_t s, const Link<Real>& link,
-                                        const RestShape<Real>& rest, const LinkChange<Real>& change) const = 0;
+  virtual Tensions<Real> tension_differential(const Group& group, std::size_t s,
+                                              const ElementKinematics<Real>& kinematics, const RestShape<Real>& rest,
+                                              const KinematicsDifferential<Real>& change) const = 0;
   /// A bound on λ_max(M_t⁻¹K_t), 1/s².
-  virtual Real slot_bound(const Group& group, std::size_t s, const Link<Real>& link,
-                          const RestShape<Real>& rest) const = 0;
+  virtual Real slot_frequency_bound(const Group& group, std::size_t s, const ElementKinematics<Real>& kinematics,
+                                    const RestShape<Real>& rest) const = 0;
   /// V W, J.
-  virtual double energy(const Group& group, std::size_t s, const Link<Real>& link,
+  virtual double energy(const Group& group, std::size_t s, const ElementKinematics<Real>& kinematics,
                         const RestShape<Real>& rest) const = 0;
   /// Whether that energy is stored elastically, or the incremental potential of what remembers.
   virtual bool stores() const { return true; }
-  virtual bool valid(const Group& group, std::size_t s, const Link<Real>& link) const = 0;
+  virtual bool valid(const Group& group, std::size_t s, const ElementKinematics<Real>& kinematics) const = 0;
   /// Deviatoric principal Kirchhoff stresses at eigenvalues c of C, Pa.
-  virtual void deviator(const Group& group, std::size_t s, const Real c[3], Real J, Real tau[3]) const = 0;
+  virtual void deviatoric_stress(const Group& group, std::size_t s, const Real c[3], Real J, Real tau[3]) const = 0;
 
   // Of packets [begin, end). Any number of threads on disjoint ranges.
   /// See group_forces().
@@ -56,7 +57,7 @@ class GroupTerm {
   /// Sums of energy() over each packet into of_packet (#packets), overwritten or added to.
   virtual void energies(const Group& group, const Real* x, std::size_t begin, std::size_t end, double* of_packet,
                         bool add) const;
-  /// Largest slot_bound().
+  /// Largest slot_frequency_bound().
   virtual Real frequency_bound(const Group& group, const Real* x, std::size_t begin, std::size_t end) const;
   /// The same of λ_max(M_t⁻¹D_t), 1/s, D the damping matrix of the term.
   virtual Real damping_bound(const Group&, const Real*, std::size_t, std::size_t) const { return 0; }
@@ -65,23 +66,23 @@ class GroupTerm {
   // forgotten, the state x being one that has lasted.
   virtual void begin_step(Real) {}
   virtual void commit(const Group&, const Real*) {}
-  virtual void forget(const Group&, const Real*) {}
+  virtual void reset_history(const Group&, const Real*) {}
   /// All that the term keeps of its slots from step to step; nothing for a law.
   virtual SlotMemories<Real> memory() = 0;
   /// An edit of the mesh: what slot s remembers is that of an element, of which it is a piece from now on, reshaped so.
-  virtual void reshape(const std::vector<Reshape<Real>>&) {}
+  virtual void reshape(const std::vector<SubelementMap<Real>>&) {}
 };
 
 /// Writes or adds one slot's corner forces.
 template <class Real>
-void put_slot(const Real f[12], const ElementGroup<Real>& group, std::size_t s, Real* corner, bool add) {
+void write_slot_forces(const Real f[12], const ElementGroup<Real>& group, std::size_t s, Real* corner, bool add) {
   Real* to = corner + 3 * (group.first_corner + 4 * s);
   for (int i = 0; i < 12; ++i) to[i] = add ? to[i] + f[i] : f[i];
 }
 
 /// Writes or adds one slot's stiffness (elastic/edge_stiffness.hpp).
 template <class Real>
-void put_edges(const Real k[edge_entries], std::size_t s, Real* K, bool add) {
+void write_edge_stiffness(const Real k[edge_entries], std::size_t s, Real* K, bool add) {
   constexpr std::size_t lanes = ElementGroup<Real>::lanes;
   Real* to = K + edge_entries * lanes * (s / lanes) + s % lanes;
   for (std::size_t i = 0; i < edge_entries; ++i) to[lanes * i] = add ? to[lanes * i] + k[i] : k[i];
@@ -89,7 +90,7 @@ void put_edges(const Real k[edge_entries], std::size_t s, Real* K, bool add) {
 
 /// Reads it back.
 template <class Real>
-void take_edges(const Real* K, std::size_t s, Real k[edge_entries]) {
+void read_edge_stiffness(const Real* K, std::size_t s, Real k[edge_entries]) {
   constexpr std::size_t lanes = ElementGroup<Real>::lanes;
   const Real* from = K + edge_entries * lanes * (s / lanes) + s % lanes;
   for (std::size_t i = 0; i < edge_entries; ++i) k[i] = from[lanes * i];

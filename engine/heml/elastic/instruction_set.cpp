@@ -32,7 +32,7 @@ std::span<const InstructionSet> instruction_sets() {
   return {all.data(), count};
 }
 
-InstructionSet chosen(InstructionSet isa) {
+InstructionSet resolve(InstructionSet isa) {
   if (isa == InstructionSet::best) return instruction_sets().back();
   assert(isa <= instruction_sets().back());
   return isa;

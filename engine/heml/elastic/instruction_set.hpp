@@ -18,6 +18,6 @@ std::string_view name_of(InstructionSet isa);
 std::span<const InstructionSet> instruction_sets();
 
 /// isa, which this processor must have; the best there is for `best`.
-InstructionSet chosen(InstructionSet isa);
+InstructionSet resolve(InstructionSet isa);
 
 }  // namespace heml

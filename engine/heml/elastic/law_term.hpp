@@ -1,8 +1,8 @@
 #pragma once
 // A law as a term of a group's energy.
+#include <heml/elastic/avx2_dispatch.hpp>
 #include <heml/elastic/group_term.hpp>
 #include <heml/elastic/law_source.hpp>
-#include <heml/elastic/wide.hpp>
 
 namespace heml {
 
@@ -38,38 +38,40 @@ class LawTerm final : public GroupTerm<Real> {
   using Group = ElementGroup<Real>;
   explicit LawTerm(LawSource<Real, L> source) : source_(std::move(source)) {}
 
-  Tensions<Real> tensions(const Group& group, std::size_t s, const Link<Real>& link,
+  Tensions<Real> tensions(const Group& group, std::size_t s, const ElementKinematics<Real>& kinematics,
                           const RestShape<Real>& rest) const override {
-    return heml::tensions(source_.at(group, s), link, rest);
+    return heml::tensions(source_.at(group, s), kinematics, rest);
   }
 
-  Tensions<Real> tension_change(const Group& group, std::size_t s, const Link<Real>& link, const RestShape<Real>& rest,
-                                const LinkChange<Real>& change) const override {
-    return heml::tension_change(source_.at(group, s), link, rest, change);
+  Tensions<Real> tension_differential(const Group& group, std::size_t s, const ElementKinematics<Real>& kinematics,
+                                      const RestShape<Real>& rest,
+                                      const KinematicsDifferential<Real>& change) const override {
+    return heml::tension_differential(source_.at(group, s), kinematics, rest, change);
   }
 
-  Real slot_bound(const Group& group, std::size_t s, const Link<Real>& link,
-                  const RestShape<Real>& rest) const override {
-    return element_frequency_bound(source_.at(group, s), link, rest, group.gamma[s], group.density);
+  Real slot_frequency_bound(const Group& group, std::size_t s, const ElementKinematics<Real>& kinematics,
+                            const RestShape<Real>& rest) const override {
+    return element_frequency_bound(source_.at(group, s), kinematics, rest, group.gamma[s], group.density);
   }
 
-  double energy(const Group& group, std::size_t s, const Link<Real>& link, const RestShape<Real>& rest) const override {
-    return static_cast<double>(rest.volume) * static_cast<double>(law_energy(source_.at(group, s), link, rest));
+  double energy(const Group& group, std::size_t s, const ElementKinematics<Real>& kinematics,
+                const RestShape<Real>& rest) const override {
+    return static_cast<double>(rest.volume) * static_cast<double>(law_energy(source_.at(group, s), kinematics, rest));
   }
 
-  bool valid(const Group& group, std::size_t s, const Link<Real>& link) const override {
-    return L::always_valid || source_.at(group, s).valid(link.at);
+  bool valid(const Group& group, std::size_t s, const ElementKinematics<Real>& kinematics) const override {
+    return L::always_valid || source_.at(group, s).valid(kinematics.at);
   }
 
-  void deviator(const Group& group, std::size_t s, const Real c[3], Real J, Real tau[3]) const override {
+  void deviatoric_stress(const Group& group, std::size_t s, const Real c[3], Real J, Real tau[3]) const override {
     const L law = source_.at(group, s);
     if constexpr (PrincipalLaw<L, Real>) {
       const Real p = volume_powers<L::is_continued>(J).p;
       for (int i = 0; i < 3; ++i) tau[i] = 2 * p * c[i] * law.principal(p * c[i]).h1;
     } else {
       const Real I1 = c[0] + c[1] + c[2], I2 = c[0] * c[1] + c[0] * c[2] + c[1] * c[2];
-      const Slopes<Real> slopes = law.slopes({I1, I2, J});
-      for (int i = 0; i < 3; ++i) tau[i] = 2 * c[i] * (slopes.w1 + slopes.w2 * (I1 - c[i]));
+      const FirstDerivatives<Real> first_derivatives = law.first_derivatives({I1, I2, J});
+      for (int i = 0; i < 3; ++i) tau[i] = 2 * c[i] * (first_derivatives.w1 + first_derivatives.w2 * (I1 - c[i]));
     }
     const Real mean = (tau[0] + tau[1] + tau[2]) / 3;
     for (int i = 0; i < 3; ++i) tau[i] -= mean;
@@ -79,34 +81,34 @@ class LawTerm final : public GroupTerm<Real> {
 
   bool forces(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real* corner,
               bool add) const override {
-    if (!is_wide()) return GroupTerm<Real>::forces(group, x, begin, end, corner, add);
+    if (!is_vectorised()) return GroupTerm<Real>::forces(group, x, begin, end, corner, add);
     return wide_forces<Real>(source_.uniform_law(), group, x, begin, end, corner, add);
   }
 
   void stiffness(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real* K,
                  bool add) const override {
-    if (is_wide()) return wide_stiffness<Real>(source_.uniform_law(), group, x, begin, end, K, add);
+    if (is_vectorised()) return wide_stiffness<Real>(source_.uniform_law(), group, x, begin, end, K, add);
     for (std::size_t s = begin * Group::lanes; s < end * Group::lanes; ++s) {
       const auto rest = rest_shape(group, s);
       Real k[edge_entries] = {};
-      add_edge_stiffness(source_.at(group, s), whole_link(group, x, s, rest), rest, k);
-      put_edges(k, s, K, add);
+      add_edge_stiffness(source_.at(group, s), full_kinematics(group, x, s, rest), rest, k);
+      write_edge_stiffness(k, s, K, add);
     }
   }
 
   void energies(const Group& group, const Real* x, std::size_t begin, std::size_t end, double* of_packet,
                 bool add) const override {
-    if (!is_wide()) return GroupTerm<Real>::energies(group, x, begin, end, of_packet, add);
+    if (!is_vectorised()) return GroupTerm<Real>::energies(group, x, begin, end, of_packet, add);
     wide_energy<Real>(source_.uniform_law(), group, x, begin, end, of_packet, add);
   }
 
   Real frequency_bound(const Group& group, const Real* x, std::size_t begin, std::size_t end) const override {
-    if (!is_wide()) return GroupTerm<Real>::frequency_bound(group, x, begin, end);
+    if (!is_vectorised()) return GroupTerm<Real>::frequency_bound(group, x, begin, end);
     return wide_frequency_bound<Real>(source_.uniform_law(), group, x, begin, end);
   }
 
  private:
-  bool is_wide() const { return source_.uniform() && has_wide(); }
+  bool is_vectorised() const { return source_.uniform() && has_avx2(); }
 
   LawSource<Real, L> source_;
 };

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <heml/elastic/avx2_dispatch.hpp>
 #include <heml/elastic/nodal_pressure.hpp>
-#include <heml/elastic/wide.hpp>
 #include <heml/materials/volume.hpp>
 #include <mutex>
 
@@ -11,10 +11,11 @@ namespace {
 constexpr std::size_t slot_grain = 2048, node_grain = 4096;
 
 template <class Real>
-Link<Real> volume_link(const ElementGroup<Real>& group, const Real* x, std::size_t s, RestShape<Real>& rest) {
+ElementKinematics<Real> volume_kinematics(const ElementGroup<Real>& group, const Real* x, std::size_t s,
+                                          RestShape<Real>& rest) {
   rest = rest_shape(group, s);
   const SlotNodes<Real> n(group, x, s);
-  return read_link<false, true, false>(n.x0, n.x1, n.x2, n.x3, rest);
+  return element_kinematics<false, true, false>(n.x0, n.x1, n.x2, n.x3, rest);
 }
 
 /// V J of every slot of packets.
@@ -29,7 +30,7 @@ HEML_WIDE void packet_volumes(const ElementGroup<Real>& group, const Real* x, st
     for (std::size_t l = 0; l < lanes; ++l) {
       const Corners<Real> at(packet.x, l);
       const RestShape<Real> rest = packet.rest(l);
-      to[l] = rest.volume * read_link<false, true, false>(at.x[0], at.x[1], at.x[2], at.x[3], rest).at.J;
+      to[l] = rest.volume * element_kinematics<false, true, false>(at.x[0], at.x[1], at.x[2], at.x[3], rest).at.J;
     }
   }
 }
@@ -47,12 +48,13 @@ HEML_WIDE void add_packet_pressures(const ElementGroup<Real>& group, const Real*
 #pragma GCC ivdep
     for (std::size_t l = 0; l < lanes; ++l) {
       const Corners<Real> at(packet.x, l);
-      const auto link = read_link<false, true, false>(at.x[0], at.x[1], at.x[2], at.x[3], packet.rest(l));
+      const auto kinematics =
+          element_kinematics<false, true, false>(at.x[0], at.x[1], at.x[2], at.x[3], packet.rest(l));
       Real f[12];
-      pull_corners<true>(Tensions<Real>{{}, mean[l] / 4}, link.e, link.cross, f);
+      forces_from_tensions<true>(Tensions<Real>{{}, mean[l] / 4}, kinematics.e, kinematics.cross, f);
       for (int i = 0; i < 12; ++i) out[i][l] = f[i];
     }
-    put_corners(out, corner + 3 * (group.first_corner + 4 * p * lanes), true);
+    write_packet_corners(out, corner + 3 * (group.first_corner + 4 * p * lanes), true);
   }
 }
 }  // namespace
@@ -79,7 +81,7 @@ static void sum_at_nodes(const CornerMap& corners, const std::vector<Real>& of_s
                          ThreadTeam& team) {
   const std::size_t nodes = corners.start.size() - 1;
   node_sums.resize(nodes);
-  team.for_ranges(nodes, node_grain, [&](std::size_t begin, std::size_t end) {
+  team.parallel_for(nodes, node_grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n) {
       Real sum = 0;
       for (std::size_t k = corners.start[n]; k < corners.start[n + 1]; ++k) sum += of_slot[corners.corners[k] / 4];
@@ -94,7 +96,7 @@ template <class OfSlot>
 void NodalPressure<Real>::gather(std::vector<Real>& node_sums, ThreadTeam& team, const OfSlot& of_slot) {
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     const ElementGroup<Real>& group = *groups_[g];
-    team.for_ranges(group.size(), slot_grain, [&](std::size_t begin, std::size_t end) {
+    team.parallel_for(group.size(), slot_grain, [&](std::size_t begin, std::size_t end) {
       for (std::size_t s = begin; s < end; ++s) of_corner_[group.first_corner / 4 + s] = of_slot(group, g, s);
     });
   }
@@ -105,7 +107,7 @@ template <class Real>
 typename NodalPressure<Real>::Value NodalPressure<Real>::psi(Real J) const {
   if (term_ == VolumeTerm::quadratic) return {(J - 1) * (J - 1) / 2, J - 1, 1};
   const auto of = [J](const auto& law) {
-    return Value{law.energy({3, 3, J}), law.slopes({3, 3, J}).wJ, law.curvatures({3, 3, J}).wJJ};
+    return Value{law.energy({3, 3, J}), law.first_derivatives({3, 3, J}).wJ, law.second_derivatives({3, 3, J}).wJJ};
   };
   if (term_ == VolumeTerm::simo_taylor)
     return continuation_ ? of(VolumeLaw<Real, true, true>{1}) : of(VolumeLaw<Real, false, true>{1});
@@ -114,16 +116,16 @@ typename NodalPressure<Real>::Value NodalPressure<Real>::psi(Real J) const {
 
 template <class Real>
 void NodalPressure<Real>::average(const Real* x, ThreadTeam& team) {
-  if (has_wide()) {
+  if (has_avx2()) {
     for (const ElementGroup<Real>* group : groups_)
-      team.for_ranges(group->packets(), slot_grain / group->lanes, [&](std::size_t begin, std::size_t end) {
+      team.parallel_for(group->packets(), slot_grain / group->lanes, [&](std::size_t begin, std::size_t end) {
         packet_volumes(*group, x, begin, end, &of_corner_[group->first_corner / 4]);
       });
     sum_at_nodes(corners_, of_corner_, ratio_, team);
   } else {
     gather(ratio_, team, [&](const ElementGroup<Real>& group, std::size_t, std::size_t s) {
       RestShape<Real> rest;
-      return group.volume[s] * volume_link(group, x, s, rest).at.J;
+      return group.volume[s] * volume_kinematics(group, x, s, rest).at.J;
     });
   }
   pressure_.resize(ratio_.size());
@@ -146,55 +148,56 @@ bool NodalPressure<Real>::add_forces(const Real* x, Real* corner, ThreadTeam& te
   average(x, team);
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     const ElementGroup<Real>& group = *groups_[g];
-    if (has_wide()) {
-      team.for_ranges(group.packets(), slot_grain / group.lanes, [&](std::size_t begin, std::size_t end) {
+    if (has_avx2()) {
+      team.parallel_for(group.packets(), slot_grain / group.lanes, [&](std::size_t begin, std::size_t end) {
         add_packet_pressures(group, x, pressure_.data(), begin, end, corner);
       });
       continue;
     }
-    team.for_ranges(group.size(), slot_grain, [&](std::size_t begin, std::size_t end) {
+    team.parallel_for(group.size(), slot_grain, [&](std::size_t begin, std::size_t end) {
       for (std::size_t s = begin; s < end; ++s) {
         RestShape<Real> rest;
-        const auto link = volume_link(group, x, s, rest);
+        const auto kinematics = volume_kinematics(group, x, s, rest);
         Real f[12];
-        pull_corners<true>(Tensions<Real>{{}, pressure(g, s)}, link.e, link.cross, f);
+        forces_from_tensions<true>(Tensions<Real>{{}, pressure(g, s)}, kinematics.e, kinematics.cross, f);
         Real* to = corner + 3 * (group.first_corner + 4 * s);
         for (int i = 0; i < 12; ++i) to[i] += f[i];
       }
     });
   }
   if (continuation_ || term_ == VolumeTerm::quadratic) return true;
-  return std::all_of(ratio_.begin(), ratio_.end(), [](Real J) { return J > smallest_ratio<Real>; });
+  return std::all_of(ratio_.begin(), ratio_.end(), [](Real J) { return J > min_volume_ratio<Real>; });
 }
 
 template <class Real>
-void NodalPressure<Real>::add_force_change(const Real* x, const Real* dx, Real* corner, ThreadTeam& team) {
+void NodalPressure<Real>::add_force_differential(const Real* x, const Real* dx, Real* corner, ThreadTeam& team) {
   average(x, team);
-  const auto change = [&](const ElementGroup<Real>& group, std::size_t s, const Link<Real>& link, Real(&de)[3][3]) {
+  const auto change = [&](const ElementGroup<Real>& group, std::size_t s, const ElementKinematics<Real>& kinematics,
+                          Real(&de)[3][3]) {
     const SlotNodes<Real> d(group, dx, s);
     const Real* moved[3] = {d.x1, d.x2, d.x3};
     for (int a = 0; a < 3; ++a)
       for (int i = 0; i < 3; ++i) de[a][i] = moved[a][i] - d.x0[i];
-    return link_change(link, de, group.volume[s]).J;
+    return kinematics_differential(kinematics, de, group.volume[s]).J;
   };
   std::vector<Real> dp;
   gather(dp, team, [&](const ElementGroup<Real>& group, std::size_t, std::size_t s) {
     RestShape<Real> rest;
     Real de[3][3];
-    return group.volume[s] * change(group, s, volume_link(group, x, s, rest), de);
+    return group.volume[s] * change(group, s, volume_kinematics(group, x, s, rest), de);
   });
   for (std::size_t n = 0; n < dp.size(); ++n)
     dp[n] = node_volume_[n] > 0 ? node_kappa_[n] * psi(ratio_[n]).w2 * dp[n] / node_volume_[n] : Real(0);
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     const ElementGroup<Real>& group = *groups_[g];
-    team.for_ranges(group.size(), slot_grain, [&](std::size_t begin, std::size_t end) {
+    team.parallel_for(group.size(), slot_grain, [&](std::size_t begin, std::size_t end) {
       for (std::size_t s = begin; s < end; ++s) {
         RestShape<Real> rest;
-        const auto link = volume_link(group, x, s, rest);
+        const auto kinematics = volume_kinematics(group, x, s, rest);
         Real de[3][3], f[12], mean = 0;
-        change(group, s, link, de);
+        change(group, s, kinematics, de);
         for (const auto& list : group.node) mean += dp[static_cast<std::size_t>(list[s])] / 4;
-        pull_change(Tensions<Real>{{}, pressure(g, s)}, Tensions<Real>{{}, mean}, link, de, f);
+        corner_force_differential(Tensions<Real>{{}, pressure(g, s)}, Tensions<Real>{{}, mean}, kinematics, de, f);
         Real* to = corner + 3 * (group.first_corner + 4 * s);
         for (int i = 0; i < 12; ++i) to[i] += f[i];
       }
@@ -224,17 +227,17 @@ Real NodalPressure<Real>::frequency_bound(const Real* x, ThreadTeam& team) {
   std::mutex mutex;  // a maximum does not depend on the order it is taken in
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     const ElementGroup<Real>& group = *groups_[g];
-    team.for_ranges(group.size(), slot_grain, [&](std::size_t begin, std::size_t end) {
+    team.parallel_for(group.size(), slot_grain, [&](std::size_t begin, std::size_t end) {
       Real most = 0;
       for (std::size_t s = begin; s < end; ++s) {
         const auto rest = rest_shape(group, s);
-        const auto link = whole_link(group, x, s, rest);
+        const auto kinematics = full_kinematics(group, x, s, rest);
         Real kappa = 0;
         for (const auto& list : group.node) kappa = std::max(kappa, stiffness[static_cast<std::size_t>(list[s])]);
         const Real bound =
             4 / group.density *
-            (kappa * corner_sums(link, rest).nJ +
-             2 * std::abs(pressure(g, s)) * std::sqrt(largest_stretches(link.at).largest) * group.gamma[s]);
+            (kappa * corner_sums(kinematics, rest).nJ +
+             2 * std::abs(pressure(g, s)) * std::sqrt(stretch_bounds(kinematics.at).max) * group.gamma[s]);
         most = bound > most || std::isnan(bound) ? bound : most;
       }
       std::lock_guard lock(mutex);
@@ -248,16 +251,16 @@ template <class Real>
 void NodalPressure<Real>::add_stiffness(std::size_t g, const Real* x, std::size_t s, Real K[edge_entries]) const {
   const ElementGroup<Real>& group = *groups_[g];
   RestShape<Real> rest;
-  const auto link = volume_link(group, x, s, rest);
+  const auto kinematics = volume_kinematics(group, x, s, rest);
   Real stiffness = 0;
   for (const auto& list : group.node) {
     const auto n = static_cast<std::size_t>(list[s]);
     stiffness += node_kappa_[n] * psi(ratio_[n]).w2 / 4;
   }
   Real gradient[1][9];  // of J
-  for (int r = 0; r < 9; ++r) gradient[0][r] = link.cross[r / 3][r % 3] / (6 * rest.volume);
+  for (int r = 0; r < 9; ++r) gradient[0][r] = kinematics.cross[r / 3][r % 3] / (6 * rest.volume);
   add_outer_products<1>(gradient, {{stiffness}}, rest.volume, K);
-  add_pull(Tensions<Real>{{}, pressure(g, s)}, link.e, K);
+  add_geometric_stiffness(Tensions<Real>{{}, pressure(g, s)}, kinematics.e, K);
 }
 
 template class NodalPressure<float>;

@@ -23,7 +23,7 @@ class NodalPressure {
   /// Adds to the corner forces of all groups (3 a corner). Returns whether ψ is defined at every node.
   bool add_forces(const Real* x, Real* corner, ThreadTeam& team);
   /// Adds −K dx likewise.
-  void add_force_change(const Real* x, const Real* dx, Real* corner, ThreadTeam& team);
+  void add_force_differential(const Real* x, const Real* dx, Real* corner, ThreadTeam& team);
   double energy(const Real* x);  ///< J
   /// A bound of λ_max(M⁻¹K) of these terms, 1/s².
   Real frequency_bound(const Real* x, ThreadTeam& team);

@@ -22,18 +22,18 @@ void put_rest_shape(ElementGroup<Real>& group, std::size_t s, const Real A[6]) {
   cholesky3(A, L);
   const Real ones[6] = {2, 2, 2, 1, 1, 1};
   into_rest_frame(L, ones, sum);
-  const auto spread = eigen3(sum);
+  const auto spread = symmetric_eigen3(sum);
   group.gamma[s] = std::max({spread.value[0], spread.value[1], spread.value[2]});
 }
 
 /// A = L N exp(−2 Δγ n) Nᵀ Lᵀ.
 template <class Real>
-void replace_rest_shape(ElementGroup<Real>& group, std::size_t s, const Real factor[3][3], const Eigen3<Real>& e,
-                        Real gamma, const Real n[3]) {
+void replace_rest_shape(ElementGroup<Real>& group, std::size_t s, const Real factor[3][3],
+                        const SymmetricEigen3<Real>& e, Real gamma, const Real n[3]) {
   Real shrink[3], R[6], A[6];
   for (int i = 0; i < 3; ++i) shrink[i] = natural_exp(-2 * gamma * n[i]);
-  assemble3(e, shrink, R);
-  congruent3(factor, R, A);
+  spectral_sum3(e, shrink, R);
+  congruence3(factor, R, A);
   put_rest_shape(group, s, A);
 }
 
@@ -66,7 +66,7 @@ template <class Real>
 double PlasticFlow<Real>::flow(Group& group, const Real* x) {
   double work = 0;
   for (std::size_t s = 0; s < group.volume.size(); ++s) {
-    const double of_slot = flow_slot(group, x, s);
+    const double of_slot = return_map(group, x, s);
     if (s < group.size()) work += of_slot;  // the rest is padding
   }
   return work;
@@ -87,42 +87,43 @@ SlotMemories<Real> PlasticFlow<Real>::memory(Group& group) {
 }
 
 template <class Real>
-void PlasticFlow<Real>::take_slots(std::span<const std::size_t> from) {
-  for (auto& list : rest_A_) heml::take_slots(list, from);
-  heml::take_slots(rest_gamma_, from);
-  heml::take_slots(strain_, from);
+void PlasticFlow<Real>::gather_slots(std::span<const std::size_t> from) {
+  for (auto& list : rest_A_) heml::gather_slots(list, from);
+  heml::gather_slots(rest_gamma_, from);
+  heml::gather_slots(strain_, from);
 }
 
 template <class Real>
-void PlasticFlow<Real>::take_pieces(const PlasticFlow& other, const Group& of_other, std::span<const std::size_t> from,
-                                    const std::vector<Reshape<Real>>& reshapes, Group& group) {
+void PlasticFlow<Real>::transfer_state(const PlasticFlow& other, const Group& of_other,
+                                       std::span<const std::size_t> from,
+                                       const std::vector<SubelementMap<Real>>& subelement_maps, Group& group) {
   for (std::size_t s = 0; s < from.size(); ++s) {
     strain_[s] = other.strain_[from[s]];
     if (strain_[s] == 0) continue;
     Real A[6];
     for (std::size_t i = 0; i < 6; ++i) A[i] = of_other.A[i][from[s]];
-    reshapes[s].metric(A);
+    subelement_maps[s].metric(A);
     put_rest_shape(group, s, A);
   }
 }
 
 template <class Real>
-double PlasticFlow<Real>::flow_slot(Group& group, const Real* x, std::size_t s) {
+double PlasticFlow<Real>::return_map(Group& group, const Real* x, std::size_t s) {
   const auto rest = rest_shape(group, s);
-  const auto link = whole_link(group, x, s, rest);
-  if (!(link.at.J > Real(flattest))) return 0;
+  const auto kinematics = full_kinematics(group, x, s, rest);
+  if (!(kinematics.at.J > Real(flattest))) return 0;
   Real factor[3][3], C[6], tau[3], n[3];
   cholesky3(rest.A, factor);
-  into_rest_frame(factor, link.G, C);
-  const auto e = eigen3(C);
-  law_->deviator(group, s, e.value, link.at.J, tau);
+  into_rest_frame(factor, kinematics.G, C);
+  const auto e = symmetric_eigen3(C);
+  law_->deviatoric_stress(group, s, e.value, kinematics.at.J, tau);
   if (!(mises(tau) > yield_ + hardening_ * strain_[s])) return 0;
 
   const Real length = flow_direction(e.value, n);
   const auto beyond = [&](Real gamma) {  // of yield, after a flow of gamma; leaves the stress there in tau
     Real c[3];
     for (int i = 0; i < 3; ++i) c[i] = e.value[i] * natural_exp(-2 * gamma * n[i]);
-    law_->deviator(group, s, c, link.at.J, tau);
+    law_->deviatoric_stress(group, s, c, kinematics.at.J, tau);
     return mises(tau) - yield_ - hardening_ * (strain_[s] + Real(equivalent) * gamma);
   };
   Real low = 0, high = length;  // nothing is left of the deviator at the upper end

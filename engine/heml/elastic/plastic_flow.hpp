@@ -23,17 +23,17 @@ class PlasticFlow {
   /// Back to the rest shape as made.
   void reset(Group& group);
   /// An edit of the group: what slot from[s] was is slot s's from now on.
-  void take_slots(std::span<const std::size_t> from);
+  void gather_slots(std::span<const std::size_t> from);
   /// What slots of another group have flowed becomes that of its pieces: slot s is one of slot from[s], reshaped so.
-  void take_pieces(const PlasticFlow& other, const Group& of_other, std::span<const std::size_t> from,
-                   const std::vector<Reshape<Real>>& reshapes, Group& group);
+  void transfer_state(const PlasticFlow& other, const Group& of_other, std::span<const std::size_t> from,
+                      const std::vector<SubelementMap<Real>>& subelement_maps, Group& group);
   /// All that has flowed: of the group too, whose rest shape it is.
   SlotMemories<Real> memory(Group& group);
   std::size_t bytes() const { return bytes_of(rest_A_, rest_gamma_, strain_); }
   const std::vector<Real>& plastic_strain() const { return strain_; }  ///< padded #S, equivalent
 
  private:
-  double flow_slot(Group& group, const Real* x, std::size_t s);
+  double return_map(Group& group, const Real* x, std::size_t s);
 
   std::unique_ptr<GroupTerm<Real>> law_;
   Real yield_, hardening_;

@@ -59,15 +59,17 @@ void clamp_element(Real K[edge_entries]) {
 }
 
 template <class Real>
-void clamp_tension(const Tensions<Real>& t, const Link<Real>& link, const RestShape<Real>& rest, Real K[edge_entries]) {
-  const double J = static_cast<double>(link.at.J), V = static_cast<double>(rest.volume);
+void clamp_tension(const Tensions<Real>& t, const ElementKinematics<Real>& kinematics, const RestShape<Real>& rest,
+                   Real K[edge_entries]) {
+  const double J = static_cast<double>(kinematics.at.J), V = static_cast<double>(rest.volume);
   const Mat9 matrix = full(K);
   if (!(std::abs(J) > flat) || !matrix.allFinite()) return clamp_element(K);
   Eigen::Matrix3d T = square(t.T);  // ∂J/∂G = J/2 G⁻¹, and G⁻¹ is made of the cross products of edges
   for (int a = 0; a < 3; ++a)
     for (int b = 0; b < 3; ++b)
       for (int i = 0; i < 3; ++i)
-        T(a, b) += static_cast<double>(t.wJ) / (36 * V * J) * static_cast<double>(link.cross[a][i] * link.cross[b][i]);
+        T(a, b) += static_cast<double>(t.wJ) / (36 * V * J) *
+                   static_cast<double>(kinematics.cross[a][i] * kinematics.cross[b][i]);
   const Eigen::Matrix3d L = square(rest.A).llt().matrixL(), inverse = L.inverse();
   const Eigen::Matrix3d S = inverse * T * inverse.transpose();
   const Eigen::Matrix3d positive = L * positive_part(S) * L.transpose();
@@ -76,8 +78,9 @@ void clamp_tension(const Tensions<Real>& t, const Link<Real>& link, const RestSh
 
 template void clamp_element(float[edge_entries]);
 template void clamp_element(double[edge_entries]);
-template void clamp_tension(const Tensions<float>&, const Link<float>&, const RestShape<float>&, float[edge_entries]);
-template void clamp_tension(const Tensions<double>&, const Link<double>&, const RestShape<double>&,
+template void clamp_tension(const Tensions<float>&, const ElementKinematics<float>&, const RestShape<float>&,
+                            float[edge_entries]);
+template void clamp_tension(const Tensions<double>&, const ElementKinematics<double>&, const RestShape<double>&,
                             double[edge_entries]);
 
 }  // namespace heml

@@ -49,7 +49,7 @@ Springs<Real>::Springs(const TetMesh& mesh, const std::vector<double>& stiffness
 
 template <class Real>
 void Springs<Real>::add_forces(const Real* x, Real* f, ThreadTeam& team) const {
-  team.for_ranges(start_.size() - 1, grain, [&](std::size_t begin, std::size_t end) {
+  team.parallel_for(start_.size() - 1, grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n)
       for (std::size_t k = start_[n]; k < start_[n + 1]; ++k) {
         const Spring& spring = springs_[of_node_[k]];
@@ -80,8 +80,9 @@ void Springs<Real>::block(const Spring& spring, const Real* x, bool positive, Re
 }
 
 template <class Real>
-void Springs<Real>::add_force_change(const Real* x, const Real* dx, Real* out, bool positive, ThreadTeam& team) const {
-  team.for_ranges(start_.size() - 1, grain, [&](std::size_t begin, std::size_t end) {
+void Springs<Real>::add_force_differential(const Real* x, const Real* dx, Real* out, bool positive,
+                                           ThreadTeam& team) const {
+  team.parallel_for(start_.size() - 1, grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n)
       for (std::size_t k = start_[n]; k < start_[n + 1]; ++k) {
         const Spring& spring = springs_[of_node_[k]];

@@ -21,7 +21,7 @@ class Springs {
   std::size_t bytes() const { return bytes_of(springs_, start_, of_node_); }
   /// Each adds to f, out (3 #V): forces, N; −K dx, N. positive: a spring that is pushed has no stiffness across itself.
   void add_forces(const Real* x, Real* f, ThreadTeam& team) const;
-  void add_force_change(const Real* x, const Real* dx, Real* out, bool positive, ThreadTeam& team) const;
+  void add_force_differential(const Real* x, const Real* dx, Real* out, bool positive, ThreadTeam& team) const;
   double energy(const Real* x) const;  ///< J
   /// max_n 2 Σ k / m_n, 1/s²: holds at any length.
   Real frequency_bound(const std::vector<Real>& mass) const;

@@ -25,16 +25,17 @@ struct CornerSums {
 };
 
 template <class Real>
-[[gnu::always_inline]] inline CornerSums<Real> corner_sums(const Link<Real>& link, const RestShape<Real>& rest) {
+[[gnu::always_inline]] inline CornerSums<Real> corner_sums(const ElementKinematics<Real>& kinematics,
+                                                           const RestShape<Real>& rest) {
   // Σ_a |F g_a|² = tr(AGA) + 1ᵀAGA 1.
   Real AGA[6];
-  product_AGA(rest.A, link.AG, AGA);
+  product_AGA(rest.A, kinematics.AG, AGA);
   CornerSums<Real> sums{4 * (2 * (AGA[0] + AGA[1] + AGA[2]) + 2 * (AGA[3] + AGA[4] + AGA[5])), 0, 0};
   for (int i = 0; i < 3; ++i) {
     Real sum = 0;
     for (int a = 0; a < 3; ++a) {
-      sums.nJ += link.cross[a][i] * link.cross[a][i];
-      sum += link.cross[a][i];
+      sums.nJ += kinematics.cross[a][i] * kinematics.cross[a][i];
+      sum += kinematics.cross[a][i];
     }
     sums.nJ += sum * sum;
   }
@@ -47,11 +48,11 @@ template <class Real>
 
 /// Upper bounds of the largest and the middle eigenvalue of C.
 template <class Real>
-struct LargestStretches {
-  Real largest, middle;
+struct StretchBounds {
+  Real max, middle;
 };
 template <class Real>
-[[gnu::always_inline]] inline LargestStretches<Real> largest_stretches(const Invariants<Real>& at) {
+[[gnu::always_inline]] inline StretchBounds<Real> stretch_bounds(const Invariants<Real>& at) {
   const Real mean = at.I1 / 3;
   const Real spread = std::sqrt(std::max((at.I1 * at.I1 - 2 * at.I2) / 3 - mean * mean, Real(0)));
   return {mean + Real(1.4142136) * spread, mean + Real(0.70710678) * spread};
@@ -65,12 +66,12 @@ struct InvariantMatrix {
 
 /// Products N_αβ = Σ_a ∂I_α/∂x_a·∂I_β/∂x_a over an element's corners.
 template <class L, class Real>
-[[gnu::always_inline]] inline InvariantMatrix<Real> gradient_products(const Link<Real>& link,
+[[gnu::always_inline]] inline InvariantMatrix<Real> gradient_products(const ElementKinematics<Real>& kinematics,
                                                                       const RestShape<Real>& rest,
                                                                       const CornerSums<Real>& sums) {
   const Real* A = rest.A;
   const auto over_corners = [](const Real S[6]) { return 2 * (S[0] + S[1] + S[2] + S[3] + S[4] + S[5]); };
-  const auto& [I1, I2, J, I4] = link.at;
+  const auto& [I1, I2, J, I4] = kinematics.at;
   const Real q0 = over_corners(A), q1 = sums.n1 / 4;  // Σ_a g_a·Cᵏ g_a
   InvariantMatrix<Real> N;
   N.n11 = sums.n1;
@@ -78,8 +79,8 @@ template <class L, class Real>
   N.nJJ = sums.nJ;
   if constexpr (L::uses_I2) {
     Real AGA[6];
-    product_AGA(A, link.AG, AGA);
-    const auto& m = link.AG;
+    product_AGA(A, kinematics.AG, AGA);
+    const auto& m = kinematics.AG;
     const Real B[3][3] = {{AGA[0], AGA[3], AGA[4]}, {AGA[3], AGA[1], AGA[5]}, {AGA[4], AGA[5], AGA[2]}};
     const auto entry = [&](int r, int c) { return m[r][0] * B[0][c] + m[r][1] * B[1][c] + m[r][2] * B[2][c]; };
     const Real AGAGA[6] = {entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(0, 2), entry(1, 2)};
@@ -89,7 +90,7 @@ template <class L, class Real>
     N.n2J = 2 * J * (I1 * q0 - q1);
   }
   if constexpr (L::uses_I4) {
-    const Real *m = rest.fibre, *G = link.G;
+    const Real *m = rest.fibre, *G = kinematics.G;
     const Real Gm[3] = {G[0] * m[0] + G[3] * m[1] + G[4] * m[2], G[3] * m[0] + G[1] * m[1] + G[5] * m[2],
                         G[4] * m[0] + G[5] * m[1] + G[2] * m[2]};
     const Real AGm[3] = {A[0] * Gm[0] + A[3] * Gm[1] + A[4] * Gm[2], A[3] * Gm[0] + A[1] * Gm[1] + A[5] * Gm[2],
@@ -106,7 +107,7 @@ template <class L, class Real>
 /// & Styan 1980); exact for rank 2. Both given by the upper triangle 11 12 13 22 23 33; a third that is not used is
 /// zero.
 template <int rank, class Real>
-[[gnu::always_inline]] inline Real largest_eigenvalue(const Real H[6], const Real N[6]) {
+[[gnu::always_inline]] inline Real max_eigenvalue(const Real H[6], const Real N[6]) {
   const Real p00 = H[0] * N[0] + H[1] * N[1] + H[2] * N[2], p01 = H[0] * N[1] + H[1] * N[3] + H[2] * N[4];
   const Real p02 = H[0] * N[2] + H[1] * N[4] + H[2] * N[5], p10 = H[1] * N[0] + H[3] * N[1] + H[4] * N[2];
   const Real p11 = H[1] * N[1] + H[3] * N[3] + H[4] * N[4], p12 = H[1] * N[2] + H[3] * N[4] + H[4] * N[5];
@@ -118,7 +119,7 @@ template <int rank, class Real>
   return std::max(mean + std::sqrt((rank - 1) * spread), Real(0));
 }
 template <class Real>
-[[gnu::always_inline]] inline Real largest_eigenvalue2(Real H11, Real H12, Real H22, Real N11, Real N12, Real N22) {
+[[gnu::always_inline]] inline Real max_eigenvalue2(Real H11, Real H12, Real H22, Real N11, Real N12, Real N22) {
   const Real trace = H11 * N11 + 2 * H12 * N12 + H22 * N22;
   const Real det = (H11 * H22 - H12 * H12) * (N11 * N22 - N12 * N12);
   return std::max((trace + std::sqrt(std::max(trace * trace - 4 * det, Real(0)))) / 2, Real(0));
@@ -126,43 +127,43 @@ template <class Real>
 
 /// The same for the invariants a law uses: I1 and two of I2, J, I4 at most.
 template <class L, class Real>
-[[gnu::always_inline]] inline Real largest_curvature(const InvariantMatrix<Real>& H, const InvariantMatrix<Real>& N) {
+[[gnu::always_inline]] inline Real max_curvature(const InvariantMatrix<Real>& H, const InvariantMatrix<Real>& N) {
   static_assert(!(L::uses_I2 && L::uses_I4));
   if constexpr (L::uses_I2 && L::uses_J) {
     const Real h[6] = {H.n11, H.n12, H.n1J, H.n22, H.n2J, H.nJJ}, n[6] = {N.n11, N.n12, N.n1J, N.n22, N.n2J, N.nJJ};
-    return largest_eigenvalue<3>(h, n);
+    return max_eigenvalue<3>(h, n);
   } else if constexpr (L::uses_I4) {
     const Real h[6] = {H.n11, H.n14, H.n1J, H.n44, H.n4J, H.nJJ}, n[6] = {N.n11, N.n14, N.n1J, N.n44, N.n4J, N.nJJ};
-    return largest_eigenvalue<3>(h, n);
+    return max_eigenvalue<3>(h, n);
   } else if constexpr (L::uses_I2) {
-    return largest_eigenvalue2(H.n11, H.n12, H.n22, N.n11, N.n12, N.n22);
+    return max_eigenvalue2(H.n11, H.n12, H.n22, N.n11, N.n12, N.n22);
   } else {
-    return largest_eigenvalue2(H.n11, H.n1J, H.nJJ, N.n11, N.n1J, N.nJJ);
+    return max_eigenvalue2(H.n11, H.n1J, H.nJJ, N.n11, N.n1J, N.nJJ);
   }
 }
 
 /// A bound on λ_max(M_t⁻¹K_t), 1/s², of an element whose Link is whole.
 template <class Real, InvariantLaw<Real> L>
-[[gnu::always_inline]] inline Real element_frequency_bound(const L& law, const Link<Real>& link,
+[[gnu::always_inline]] inline Real element_frequency_bound(const L& law, const ElementKinematics<Real>& kinematics,
                                                            const RestShape<Real>& rest, Real gamma, Real density) {
-  const Slopes<Real> s = law.slopes(link.at);
-  const Curvatures<Real> c = law.curvatures(link.at);
-  const Real I1 = link.at.I1, J = link.at.J;
+  const FirstDerivatives<Real> s = law.first_derivatives(kinematics.at);
+  const SecondDerivatives<Real> c = law.second_derivatives(kinematics.at);
+  const Real I1 = kinematics.at.I1, J = kinematics.at.J;
   const auto positive = [](Real value) { return std::max(value, Real(0)); };
-  const auto [largest, middle] = largest_stretches(link.at);
+  const auto [largest, middle] = stretch_bounds(kinematics.at);
   const Real sigma1 = std::sqrt(largest);
-  const CornerSums<Real> sums = corner_sums(link, rest);
+  const CornerSums<Real> sums = corner_sums(kinematics, rest);
 
   // S:(dFᵀdF) with S = 2 (w1 + I1 w2) I − 2 w2 C + 2 w4 a0 a0ᵀ, and −w2 |dC|².
   Real bound = positive(2 * (s.w1 + I1 * s.w2) + 2 * positive(-s.w2) * largest) * gamma;
   bound += positive(-s.w2) * 4 * largest * gamma;
   if constexpr (L::uses_I4) bound += 2 * positive(s.w4) * sums.m;
 
-  const InvariantMatrix<Real> N = gradient_products<L>(link, rest, sums);
+  const InvariantMatrix<Real> N = gradient_products<L>(kinematics, rest, sums);
   InvariantMatrix<Real> H{c.w11 + s.w2, c.w12, c.w22, c.w1J, c.w2J, c.wJJ, c.w14, c.w4J, c.w44};
-  const Real plain = largest_curvature<L>(H, N) + (s.wJ > 0 ? 2 * s.wJ : Real(-1.4142136) * s.wJ) * sigma1 * gamma;
+  const Real plain = max_curvature<L>(H, N) + (s.wJ > 0 ? 2 * s.wJ : Real(-1.4142136) * s.wJ) * sigma1 * gamma;
   H.nJJ += s.wJ / J;
-  const Real sharper = largest_curvature<L>(H, N) + std::abs(s.wJ) * (largest * middle / J) * gamma;
+  const Real sharper = max_curvature<L>(H, N) + std::abs(s.wJ) * (largest * middle / J) * gamma;
   const Real curved = J > 0 && sharper < plain ? sharper : plain;  // chosen, not branched: the loop vectorises
   return 4 / density * (bound + curved);
 }
@@ -171,14 +172,14 @@ template <class Real, InvariantLaw<Real> L>
 /// d²C̄ = 2p dFᵀdF + 2p' dJ dC + (p'' (dJ)² + p' d²J) C. In the eigenvectors' frame |dC_ij|² ≤ (σi² + σj²)(X_ij² +
 /// X_ji²), X = dF there: what is compressed hard counts only with its own small σ.
 template <class Real, PrincipalLaw<Real> L>
-Real element_frequency_bound(const L& law, const Link<Real>& link, const RestShape<Real>& rest, Real gamma,
-                             Real density) {
+Real element_frequency_bound(const L& law, const ElementKinematics<Real>& kinematics, const RestShape<Real>& rest,
+                             Real gamma, Real density) {
   Real factor[3][3], C[6];
   cholesky3(rest.A, factor);
-  into_rest_frame(factor, link.G, C);
-  const auto at = principal_state<L::is_continued>(law, C, link.at.J);
+  into_rest_frame(factor, kinematics.G, C);
+  const auto at = principal_state<L::is_continued>(law, C, kinematics.at.J);
   const Real* c = at.e.value;
-  const auto [n1, nJ, m] = corner_sums(link, rest);
+  const auto [n1, nJ, m] = corner_sums(kinematics, rest);
   const Real sigma1 = std::sqrt(std::max({c[0], c[1], c[2]})), p = at.v.p, p1 = std::abs(at.v.p1);
   Real most = 0, square = 0, HC = 0, shape = 0, volume = 0;
   for (int i = 0; i < 3; ++i) {
@@ -186,7 +187,7 @@ Real element_frequency_bound(const L& law, const Link<Real>& link, const RestSha
     square += at.h1[i] * at.h1[i];
     HC += at.h1[i] * c[i];
     for (int j = i; j < 3; ++j) {
-      const Real slope = std::max(law.divided(p * c[i], p * c[j]), Real(0));
+      const Real slope = std::max(law.divided_difference(p * c[i], p * c[j]), Real(0));
       shape = std::max(shape, 2 * slope * (c[i] + c[j]));
       if (i == j) volume += slope * c[i] * c[i];
     }
@@ -195,7 +196,7 @@ Real element_frequency_bound(const L& law, const Link<Real>& link, const RestSha
   Real bound = change * change + 2 * p * most * gamma;
   bound += 4 * p1 * sigma1 * std::sqrt(square * nJ * gamma) + std::max(at.v.p2 * HC, Real(0)) * nJ;
   bound += 2 * std::abs(at.v.p1 * HC) * sigma1 * gamma;
-  const auto volume_value = law.volume(link.at.J);
+  const auto volume_value = law.volume(kinematics.at.J);
   bound += volume_value.w2 * nJ + 2 * std::abs(volume_value.w1) * sigma1 * gamma;
   return 4 / density * bound;
 }

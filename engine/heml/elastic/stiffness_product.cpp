@@ -1,6 +1,6 @@
 #include <cstring>
+#include <heml/elastic/avx2_dispatch.hpp>
 #include <heml/elastic/stiffness_product.hpp>
-#include <heml/elastic/wide.hpp>
 
 namespace heml {
 namespace {
@@ -61,7 +61,7 @@ HEML_WIDE void wide_multiply(const Real* K, const ElementGroup<Real>& group, con
 template <class Real>
 void multiply_stiffness(const Real* K, const ElementGroup<Real>& group, const Real* dx, std::size_t begin,
                         std::size_t end, Real* corner) {
-  if (has_wide())
+  if (has_avx2())
     wide_multiply(K, group, dx, begin, end, corner);
   else
     multiply(K, group, dx, begin, end, corner);

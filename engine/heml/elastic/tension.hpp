@@ -22,7 +22,7 @@ namespace heml {
 
 /// What the force loop and its kin read of one element.
 template <class Real>
-struct Link {
+struct ElementKinematics {
   Real e[3][3];   ///< edges from node 0, m
   Real G[6];      ///< Gram matrix 11 22 33 12 13 23, m²
   Real AG[3][3];  ///< A G
@@ -73,56 +73,57 @@ template <class Real>
 template <class Real>
 [[gnu::always_inline]] inline void into_rest_frame(const Real L[3][3], const Real G[6], Real C[6]) {
   const Real Lt[3][3] = {{L[0][0], L[1][0], L[2][0]}, {L[0][1], L[1][1], L[2][1]}, {L[0][2], L[1][2], L[2][2]}};
-  congruent3(Lt, G, C);
+  congruence3(Lt, G, C);
 }
 
 /// Reads an element's nodes and makes its invariants. I2, J and I4 only where the law asks for them.
 template <bool need_I2, bool need_J, bool need_I4, class Real>
-[[gnu::always_inline]] inline Link<Real> read_link(const Real* x0, const Real* x1, const Real* x2, const Real* x3,
-                                                   const RestShape<Real>& rest) {
-  Link<Real> link;
+[[gnu::always_inline]] inline ElementKinematics<Real> element_kinematics(const Real* x0, const Real* x1, const Real* x2,
+                                                                         const Real* x3, const RestShape<Real>& rest) {
+  ElementKinematics<Real> kinematics;
   for (int i = 0; i < 3; ++i) {
-    link.e[0][i] = x1[i] - x0[i];
-    link.e[1][i] = x2[i] - x0[i];
-    link.e[2][i] = x3[i] - x0[i];
+    kinematics.e[0][i] = x1[i] - x0[i];
+    kinematics.e[1][i] = x2[i] - x0[i];
+    kinematics.e[2][i] = x3[i] - x0[i];
   }
-  const auto& e = link.e;
+  const auto& e = kinematics.e;
   const Real* A = rest.A;
   const auto dot = [](const Real* a, const Real* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
-  link.G[0] = dot(e[0], e[0]);
-  link.G[1] = dot(e[1], e[1]);
-  link.G[2] = dot(e[2], e[2]);
-  link.G[3] = dot(e[0], e[1]);
-  link.G[4] = dot(e[0], e[2]);
-  link.G[5] = dot(e[1], e[2]);
-  const Real* G = link.G;
-  link.at.I1 = contract3(A, G);
-  link.at.I2 = 0;
-  link.at.J = 1;
-  link.at.I4 = 1;
+  kinematics.G[0] = dot(e[0], e[0]);
+  kinematics.G[1] = dot(e[1], e[1]);
+  kinematics.G[2] = dot(e[2], e[2]);
+  kinematics.G[3] = dot(e[0], e[1]);
+  kinematics.G[4] = dot(e[0], e[2]);
+  kinematics.G[5] = dot(e[1], e[2]);
+  const Real* G = kinematics.G;
+  kinematics.at.I1 = double_contraction3(A, G);
+  kinematics.at.I2 = 0;
+  kinematics.at.J = 1;
+  kinematics.at.I4 = 1;
   if constexpr (need_I2) {
     const Real a[3][3] = {{A[0], A[3], A[4]}, {A[3], A[1], A[5]}, {A[4], A[5], A[2]}};
     const Real g[3][3] = {{G[0], G[3], G[4]}, {G[3], G[1], G[5]}, {G[4], G[5], G[2]}};
     for (int r = 0; r < 3; ++r)
-      for (int c = 0; c < 3; ++c) link.AG[r][c] = a[r][0] * g[0][c] + a[r][1] * g[1][c] + a[r][2] * g[2][c];
-    const auto& m = link.AG;
+      for (int c = 0; c < 3; ++c) kinematics.AG[r][c] = a[r][0] * g[0][c] + a[r][1] * g[1][c] + a[r][2] * g[2][c];
+    const auto& m = kinematics.AG;
     const Real trace_C2 = m[0][0] * m[0][0] + m[1][1] * m[1][1] + m[2][2] * m[2][2] +
                           2 * (m[0][1] * m[1][0] + m[0][2] * m[2][0] + m[1][2] * m[2][1]);
-    link.at.I2 = (link.at.I1 * link.at.I1 - trace_C2) / 2;
+    kinematics.at.I2 = (kinematics.at.I1 * kinematics.at.I1 - trace_C2) / 2;
   }
   if constexpr (need_J) {
-    cross_edges(e, link.cross);
-    link.at.J = dot(e[0], link.cross[0]) / (6 * rest.volume);
+    cross_edges(e, kinematics.cross);
+    kinematics.at.J = dot(e[0], kinematics.cross[0]) / (6 * rest.volume);
   }
-  if constexpr (need_I4) link.at.I4 = between3(rest.fibre, G, rest.fibre);
-  return link;
+  if constexpr (need_I4) kinematics.at.I4 = bilinear3(rest.fibre, G, rest.fibre);
+  return kinematics;
 }
 
 /// Everything at once: for what is not done every step.
 template <class Real>
-[[gnu::always_inline]] inline Link<Real> read_whole_link(const Real* x0, const Real* x1, const Real* x2, const Real* x3,
-                                                         const RestShape<Real>& rest) {
-  return read_link<true, true, true>(x0, x1, x2, x3, rest);
+[[gnu::always_inline]] inline ElementKinematics<Real> full_element_kinematics(const Real* x0, const Real* x1,
+                                                                              const Real* x2, const Real* x3,
+                                                                              const RestShape<Real>& rest) {
+  return element_kinematics<true, true, true>(x0, x1, x2, x3, rest);
 }
 
 /// AGA as 11 22 33 12 13 23.
@@ -145,24 +146,25 @@ template <class Real>
 
 /// Tensions and wJ of a law at an element.
 template <class Real, Law<Real> L>
-[[gnu::always_inline]] inline Tensions<Real> tensions(const L& law, const Link<Real>& link,
+[[gnu::always_inline]] inline Tensions<Real> tensions(const L& law, const ElementKinematics<Real>& kinematics,
                                                       const RestShape<Real>& rest) {
   Tensions<Real> t;
   if constexpr (PrincipalLaw<L, Real>) {
     Real factor[3][3], C[6];
     cholesky3(rest.A, factor);
-    into_rest_frame(factor, link.G, C);
-    const auto stress = principal_stress(law, principal_state<L::is_continued>(law, C, link.at.J), link.at.J);
-    congruent3(factor, stress.S, t.T);
+    into_rest_frame(factor, kinematics.G, C);
+    const auto stress =
+        principal_stress(law, principal_state<L::is_continued>(law, C, kinematics.at.J), kinematics.at.J);
+    congruence3(factor, stress.S, t.T);
     for (Real& value : t.T) value *= rest.volume;
     t.wJ = stress.wJ;
   } else {
-    const Slopes<Real> s = law.slopes(link.at);
-    const Real pull = 2 * rest.volume * (s.w1 + (L::uses_I2 ? s.w2 * link.at.I1 : Real(0)));
+    const FirstDerivatives<Real> s = law.first_derivatives(kinematics.at);
+    const Real pull = 2 * rest.volume * (s.w1 + (L::uses_I2 ? s.w2 * kinematics.at.I1 : Real(0)));
     for (int i = 0; i < 6; ++i) t.T[i] = pull * rest.A[i];
     if constexpr (L::uses_I2) {
       Real AGA[6];
-      product_AGA(rest.A, link.AG, AGA);
+      product_AGA(rest.A, kinematics.AG, AGA);
       for (int i = 0; i < 6; ++i) t.T[i] -= 2 * rest.volume * s.w2 * AGA[i];
     }
     if constexpr (L::uses_I4) {
@@ -177,50 +179,54 @@ template <class Real, Law<Real> L>
 
 /// W of a law at an element, Pa. The link must be whole.
 template <class Real, Law<Real> L>
-[[gnu::always_inline]] inline Real law_energy(const L& law, const Link<Real>& link, const RestShape<Real>& rest) {
+[[gnu::always_inline]] inline Real law_energy(const L& law, const ElementKinematics<Real>& kinematics,
+                                              const RestShape<Real>& rest) {
   if constexpr (PrincipalLaw<L, Real>) {
     Real factor[3][3], C[6];
     cholesky3(rest.A, factor);
-    into_rest_frame(factor, link.G, C);
-    return principal_energy<L::is_continued>(law, C, link.at.J);
+    into_rest_frame(factor, kinematics.G, C);
+    return principal_energy<L::is_continued>(law, C, kinematics.at.J);
   } else {
-    return law.energy(link.at);
+    return law.energy(kinematics.at);
   }
 }
 
 /// Change of G and J with a change de of the edges.
 template <class Real>
-struct LinkChange {
+struct KinematicsDifferential {
   Real G[6], J;
 };
 template <class Real>
-[[gnu::always_inline]] inline LinkChange<Real> link_change(const Link<Real>& link, const Real de[3][3], Real volume) {
+[[gnu::always_inline]] inline KinematicsDifferential<Real> kinematics_differential(
+    const ElementKinematics<Real>& kinematics, const Real de[3][3], Real volume) {
   const auto dot = [](const Real* a, const Real* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
-  const auto& e = link.e;
+  const auto& e = kinematics.e;
   return {{2 * dot(e[0], de[0]), 2 * dot(e[1], de[1]), 2 * dot(e[2], de[2]), dot(e[0], de[1]) + dot(e[1], de[0]),
            dot(e[0], de[2]) + dot(e[2], de[0]), dot(e[1], de[2]) + dot(e[2], de[1])},
-          (dot(link.cross[0], de[0]) + dot(link.cross[1], de[1]) + dot(link.cross[2], de[2])) / (6 * volume)};
+          (dot(kinematics.cross[0], de[0]) + dot(kinematics.cross[1], de[1]) + dot(kinematics.cross[2], de[2])) /
+              (6 * volume)};
 }
 
 /// What all changes of the tensions of a law of principal stretches have in common at one element.
 template <class Real, class L>
 class PrincipalTangent {
  public:
-  [[gnu::always_inline]] PrincipalTangent(const L& law, const Link<Real>& link, const RestShape<Real>& rest)
-      : law_(law), J_(link.at.J), volume_(rest.volume) {
+  [[gnu::always_inline]] PrincipalTangent(const L& law, const ElementKinematics<Real>& kinematics,
+                                          const RestShape<Real>& rest)
+      : law_(law), J_(kinematics.at.J), volume_(rest.volume) {
     Real C[6];
     cholesky3(rest.A, factor_);
-    into_rest_frame(factor_, link.G, C);
+    into_rest_frame(factor_, kinematics.G, C);
     state_ = principal_state<L::is_continued>(law, C, J_);
     divided_differences(law, state_, divided_);
   }
 
-  [[gnu::always_inline]] Tensions<Real> operator()(const LinkChange<Real>& d) const {
+  [[gnu::always_inline]] Tensions<Real> operator()(const KinematicsDifferential<Real>& d) const {
     Real dC[6];
     into_rest_frame(factor_, d.G, dC);
-    const auto change = principal_change(law_, state_, divided_, dC, J_, d.J);
+    const auto change = principal_stress_differential(law_, state_, divided_, dC, J_, d.J);
     Tensions<Real> t;
-    congruent3(factor_, change.S, t.T);
+    congruence3(factor_, change.S, t.T);
     for (Real& value : t.T) value *= volume_;
     t.wJ = change.wJ;
     return t;
@@ -235,26 +241,28 @@ class PrincipalTangent {
 
 /// Change of the tensions and of wJ. The link must be whole.
 template <class Real, Law<Real> L>
-[[gnu::always_inline]] inline Tensions<Real> tension_change(const L& law, const Link<Real>& link,
-                                                            const RestShape<Real>& rest, const LinkChange<Real>& d) {
+[[gnu::always_inline]] inline Tensions<Real> tension_differential(const L& law,
+                                                                  const ElementKinematics<Real>& kinematics,
+                                                                  const RestShape<Real>& rest,
+                                                                  const KinematicsDifferential<Real>& d) {
   Tensions<Real> t;
   if constexpr (PrincipalLaw<L, Real>) {
-    t = PrincipalTangent<Real, L>(law, link, rest)(d);
+    t = PrincipalTangent<Real, L>(law, kinematics, rest)(d);
   } else {
-    const Slopes<Real> s = law.slopes(link.at);
-    const Curvatures<Real> c = law.curvatures(link.at);
+    const FirstDerivatives<Real> s = law.first_derivatives(kinematics.at);
+    const SecondDerivatives<Real> c = law.second_derivatives(kinematics.at);
     Real AGA[6], dAGA[6];
     const Real* A = rest.A;
     const Real a[3][3] = {{A[0], A[3], A[4]}, {A[3], A[1], A[5]}, {A[4], A[5], A[2]}};
-    product_AGA(A, link.AG, AGA);
-    const Real dI1 = contract3(A, d.G), dI2 = link.at.I1 * dI1 - contract3(AGA, d.G);
-    const Real dI4 = L::uses_I4 ? between3(rest.fibre, d.G, rest.fibre) : Real(0);
+    product_AGA(A, kinematics.AG, AGA);
+    const Real dI1 = double_contraction3(A, d.G), dI2 = kinematics.at.I1 * dI1 - double_contraction3(AGA, d.G);
+    const Real dI4 = L::uses_I4 ? bilinear3(rest.fibre, d.G, rest.fibre) : Real(0);
     const Real dw1 = c.w11 * dI1 + c.w12 * dI2 + c.w1J * d.J + c.w14 * dI4;
     const Real dw2 = c.w12 * dI1 + c.w22 * dI2 + c.w2J * d.J + c.w24 * dI4;
-    const Real pull = dw1 + dw2 * link.at.I1 + s.w2 * dI1;
+    const Real pull = dw1 + dw2 * kinematics.at.I1 + s.w2 * dI1;
     for (int i = 0; i < 6; ++i) t.T[i] = 2 * rest.volume * pull * A[i];
     if constexpr (L::uses_I2) {
-      congruent3(a, d.G, dAGA);
+      congruence3(a, d.G, dAGA);
       for (int i = 0; i < 6; ++i) t.T[i] -= 2 * rest.volume * (dw2 * AGA[i] + s.w2 * dAGA[i]);
     }
     t.wJ = c.w1J * dI1 + c.w2J * dI2 + c.wJJ * d.J;
@@ -271,8 +279,8 @@ template <class Real, Law<Real> L>
 
 /// Corner forces −Σ_b T_ab e_b − (wJ/6) cross_a into out[12] ([corner][xyz], N).
 template <bool with_J, class Real>
-[[gnu::always_inline]] inline void pull_corners(const Tensions<Real>& t, const Real e[3][3], const Real cross[3][3],
-                                                Real out[12]) {
+[[gnu::always_inline]] inline void forces_from_tensions(const Tensions<Real>& t, const Real e[3][3],
+                                                        const Real cross[3][3], Real out[12]) {
   const Real T[3][3] = {{t.T[0], t.T[3], t.T[4]}, {t.T[3], t.T[1], t.T[5]}, {t.T[4], t.T[5], t.T[2]}};
   for (int i = 0; i < 3; ++i) {
     Real sum = 0;
@@ -290,18 +298,20 @@ template <bool with_J, class Real>
 template <class Real, Law<Real> L>
 [[gnu::always_inline]] inline bool corner_forces(const L& law, const Real* x0, const Real* x1, const Real* x2,
                                                  const Real* x3, const RestShape<Real>& rest, Real out[12]) {
-  const Link<Real> link = read_link<L::uses_I2, L::uses_J, L::uses_I4>(x0, x1, x2, x3, rest);
-  pull_corners<L::uses_J>(tensions(law, link, rest), link.e, link.cross, out);
-  return law.valid(link.at);
+  const ElementKinematics<Real> kinematics =
+      element_kinematics<L::uses_I2, L::uses_J, L::uses_I4>(x0, x1, x2, x3, rest);
+  forces_from_tensions<L::uses_J>(tensions(law, kinematics, rest), kinematics.e, kinematics.cross, out);
+  return law.valid(kinematics.at);
 }
 
 /// Change of the corner forces with a change de of the edges, given the tensions and their change: −K dx.
 template <class Real>
-[[gnu::always_inline]] inline void pull_change(const Tensions<Real>& t, const Tensions<Real>& dt,
-                                               const Link<Real>& link, const Real de[3][3], Real out[12]) {
+[[gnu::always_inline]] inline void corner_force_differential(const Tensions<Real>& t, const Tensions<Real>& dt,
+                                                             const ElementKinematics<Real>& kinematics,
+                                                             const Real de[3][3], Real out[12]) {
   Real dcross[3][3];
   for (int a = 0; a < 3; ++a) {
-    const Real *p = link.e[(a + 1) % 3], *q = link.e[(a + 2) % 3];
+    const Real *p = kinematics.e[(a + 1) % 3], *q = kinematics.e[(a + 2) % 3];
     const Real *dp = de[(a + 1) % 3], *dq = de[(a + 2) % 3];
     for (int i = 0; i < 3; ++i) {
       const int j = (i + 1) % 3, k = (i + 2) % 3;
@@ -309,8 +319,8 @@ template <class Real>
     }
   }
   Real other[12];
-  pull_corners<true>(t, de, dcross, out);
-  pull_corners<true>(dt, link.e, link.cross, other);
+  forces_from_tensions<true>(t, de, dcross, out);
+  forces_from_tensions<true>(dt, kinematics.e, kinematics.cross, other);
   for (int i = 0; i < 12; ++i) out[i] += other[i];
 }
 

@@ -11,7 +11,7 @@ template <class Real, class L>
 std::vector<Real L::*> members_with_fields(const Material& material, bool isochoric) {
   const LawInfo& info = *find_law(material.law);
   const std::vector<ParameterSlot> slots = parameter_slots(material, info);
-  const std::optional<std::size_t> volume = isochoric ? volume_slot(material, info) : std::nullopt;
+  const std::optional<std::size_t> volume = isochoric ? volume_parameter(material, info) : std::nullopt;
   std::vector<Real L::*> members;
   for (const FieldParameter& field : material.fields) {
     const auto parameter = static_cast<std::size_t>(slots[field.parameter].info - info.parameters.data());

@@ -9,10 +9,9 @@ namespace {
 template <class Real, bool continued, bool simo_taylor>
 std::unique_ptr<GroupTerm<Real>> volume_term(const Material& material) {
   using L = VolumeLaw<Real, continued, simo_taylor>;
-  const std::size_t kappa = *volume_slot(material, *find_law(material.law));
+  const std::size_t kappa = *volume_parameter(material, *find_law(material.law));
   std::vector<Real L::*> members;
-  for (const FieldParameter& field : material.fields)
-    members.push_back(field.parameter == kappa ? &L::kappa : nullptr);
+  for (const FieldParameter& field : material.fields) members.push_back(field.parameter == kappa ? &L::kappa : nullptr);
   const L law{static_cast<Real>(material.parameters[kappa])};
   return std::make_unique<LawTerm<Real, L>>(LawSource<Real, L>(law, std::move(members)));
 }

@@ -15,9 +15,12 @@ struct ArrudaBoyce : IsochoricLaw<ArrudaBoyce<Real, continued>, Real, continued>
   static constexpr std::string_view formula = "μ Σ Ci λm^(2−2i) (Ī1^i − 3^i) + κ/2 (J−1)², i = 1 to 5";
   static constexpr std::string_view source = "Arruda & Boyce 1993";
   static constexpr Parameter<ArrudaBoyce, Real> parameters[] = {
-      {&ArrudaBoyce::mu, {"mu", "μ", "Pa", "stiffness: the shear modulus at rest of long chains", ParameterRange::positive}},
-      {&ArrudaBoyce::lambda_m, {"lambda_m", "λm", "", "stretch at which the chains are straight", ParameterRange::positive, 3}},
-      {&ArrudaBoyce::kappa, {"kappa", "κ", "Pa", "bulk modulus: resistance to change of volume", ParameterRange::positive}},
+      {&ArrudaBoyce::mu,
+       {"mu", "μ", "Pa", "stiffness: the shear modulus at rest of long chains", ParameterRange::positive}},
+      {&ArrudaBoyce::lambda_m,
+       {"lambda_m", "λm", "", "stretch at which the chains are straight", ParameterRange::positive, 3}},
+      {&ArrudaBoyce::kappa,
+       {"kappa", "κ", "Pa", "bulk modulus: resistance to change of volume", ParameterRange::positive}},
   };
   static constexpr bool uses_I2 = false;
   static constexpr ForceCost cost = {13.5, 6.3};

@@ -15,25 +15,25 @@ struct Strain {
 
   Invariants<Real> invariants() const {
     const Real I1 = C[0] + C[1] + C[2];
-    return {I1, (I1 * I1 - contract3(C, C)) / 2, J, between3(fibre.data(), C, fibre.data())};
+    return {I1, (I1 * I1 - double_contraction3(C, C)) / 2, J, bilinear3(fibre.data(), C, fibre.data())};
   }
 };
 
 template <class Real>
-void to_six(const Matrix3<Real>& S, Real out[6]) {
+void to_symmetric6(const Matrix3<Real>& S, Real out[6]) {
   out[0] = S(0, 0), out[1] = S(1, 1), out[2] = S(2, 2), out[3] = S(0, 1), out[4] = S(0, 2), out[5] = S(1, 2);
 }
 template <class Real>
-Matrix3<Real> from_six(const Real S[6]) {
+Matrix3<Real> from_symmetric6(const Real S[6]) {
   Matrix3<Real> M;
   M << S[0], S[3], S[4], S[3], S[1], S[5], S[4], S[5], S[2];
   return M;
 }
 
 template <class Real>
-Strain<Real> strain_of(const Matrix3<Real>& F, const Vector3<Real>& fibre) {
+Strain<Real> strain_measures(const Matrix3<Real>& F, const Vector3<Real>& fibre) {
   Strain<Real> strain;
-  to_six<Real>(F.transpose() * F, strain.C);
+  to_symmetric6<Real>(F.transpose() * F, strain.C);
   strain.J = F.col(0).dot(F.col(1).cross(F.col(2)));
   strain.fibre = fibre;
   return strain;
@@ -53,11 +53,11 @@ Stress<Real> stress_of(const L& law, const Strain<Real>& at) {
     return principal_stress(law, principal_state<L::is_continued>(law, at.C, at.J), at.J);
   } else {
     const auto i = at.invariants();
-    const Slopes<Real> s = law.slopes(i);
-    const Matrix3<Real> S = 2 * (s.w1 + s.w2 * i.I1) * Matrix3<Real>::Identity() - 2 * s.w2 * from_six(at.C) +
+    const FirstDerivatives<Real> s = law.first_derivatives(i);
+    const Matrix3<Real> S = 2 * (s.w1 + s.w2 * i.I1) * Matrix3<Real>::Identity() - 2 * s.w2 * from_symmetric6(at.C) +
                             2 * s.w4 * at.fibre * at.fibre.transpose();
     Stress<Real> stress;
-    to_six(S, stress.S);
+    to_symmetric6(S, stress.S);
     stress.wJ = s.wJ;
     return stress;
   }
@@ -65,26 +65,26 @@ Stress<Real> stress_of(const L& law, const Strain<Real>& at) {
 
 /// Change of S and wJ with dC and dJ.
 template <class Real, Law<Real> L>
-Stress<Real> stress_change(const L& law, const Strain<Real>& at, const Real dC[6], Real dJ) {
+Stress<Real> stress_differential(const L& law, const Strain<Real>& at, const Real dC[6], Real dJ) {
   if constexpr (PrincipalLaw<L, Real>) {
     const auto state = principal_state<L::is_continued>(law, at.C, at.J);
     Real divided[6];
     divided_differences(law, state, divided);
-    return principal_change(law, state, divided, dC, at.J, dJ);
+    return principal_stress_differential(law, state, divided, dC, at.J, dJ);
   } else {
     const auto i = at.invariants();
-    const Slopes<Real> s = law.slopes(i);
-    const Curvatures<Real> c = law.curvatures(i);
-    const Real dI1 = dC[0] + dC[1] + dC[2], dI2 = i.I1 * dI1 - contract3(at.C, dC);
-    const Real dI4 = between3(at.fibre.data(), dC, at.fibre.data());
+    const FirstDerivatives<Real> s = law.first_derivatives(i);
+    const SecondDerivatives<Real> c = law.second_derivatives(i);
+    const Real dI1 = dC[0] + dC[1] + dC[2], dI2 = i.I1 * dI1 - double_contraction3(at.C, dC);
+    const Real dI4 = bilinear3(at.fibre.data(), dC, at.fibre.data());
     const Real dw1 = c.w11 * dI1 + c.w12 * dI2 + c.w1J * dJ + c.w14 * dI4;
     const Real dw2 = c.w12 * dI1 + c.w22 * dI2 + c.w2J * dJ + c.w24 * dI4;
     const Real dw4 = c.w14 * dI1 + c.w24 * dI2 + c.w4J * dJ + c.w44 * dI4;
     const Matrix3<Real> dS = 2 * (dw1 + dw2 * i.I1 + s.w2 * dI1) * Matrix3<Real>::Identity() -
-                             2 * (dw2 * from_six(at.C) + s.w2 * from_six(dC)) +
+                             2 * (dw2 * from_symmetric6(at.C) + s.w2 * from_symmetric6(dC)) +
                              2 * dw4 * at.fibre * at.fibre.transpose();
     Stress<Real> change;
-    to_six(dS, change.S);
+    to_symmetric6(dS, change.S);
     change.wJ = c.w1J * dI1 + c.w2J * dI2 + c.wJJ * dJ + c.w4J * dI4;
     return change;
   }
@@ -93,7 +93,7 @@ Stress<Real> stress_change(const L& law, const Strain<Real>& at, const Real dC[6
 /// P = ∂W/∂F, Pa.
 template <class Real>
 Matrix3<Real> first_piola(const Stress<Real>& stress, const Matrix3<Real>& F) {
-  return F * from_six(stress.S) + stress.wJ * cofactor(F);
+  return F * from_symmetric6(stress.S) + stress.wJ * cofactor(F);
 }
 
 /// ∂P/∂F : dF, Pa, from the stress there and its change.
@@ -105,7 +105,7 @@ Matrix3<Real> first_piola_change(const Stress<Real>& stress, const Stress<Real>&
     const int j = (i + 1) % 3, k = (i + 2) % 3;
     dcof.col(i) = dF.col(j).cross(F.col(k)) + F.col(j).cross(dF.col(k));
   }
-  return dF * from_six(stress.S) + F * from_six(change.S) + stress.wJ * dcof + change.wJ * cofactor(F);
+  return dF * from_symmetric6(stress.S) + F * from_symmetric6(change.S) + stress.wJ * dcof + change.wJ * cofactor(F);
 }
 
 }  // namespace heml

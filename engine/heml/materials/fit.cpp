@@ -14,15 +14,15 @@ namespace {
 using Vector = Eigen::VectorXd;
 using Matrix = Eigen::MatrixXd;
 
-constexpr int most_iterations = 150;
-constexpr double difference_step = 1e-5;       // of central differences, relative
-constexpr double least_singular_value = 1e-7;  // relative: below it a direction is left open by the data
+constexpr int max_iterations = 150;
+constexpr double difference_step = 1e-5;     // of central differences, relative
+constexpr double min_singular_value = 1e-7;  // relative: below it a direction is left open by the data
 
 /// One number that is fitted, and how it is written into a material.
 struct Variable {
   std::string name, unit;
   double start;
-  bool keeps_sign;                  ///< fitted as a logarithm
+  bool has_fixed_sign;              ///< fitted as a logarithm
   std::vector<std::size_t> moduli;  ///< indices into Material::parameters that are its value times what they were; or
   double* (*place)(Material&, std::size_t);  ///< where the value itself stands
   std::size_t index;
@@ -35,7 +35,7 @@ double* tau_place(Material& material, std::size_t index) { return &material.rela
 std::vector<Variable> variables_of(const Material& material, const MeasuredTest& test, const FitOptions& options) {
   const LawInfo& law = *find_law(material.law);
   const std::vector<ParameterSlot> slots = parameter_slots(material, law);
-  const std::optional<std::size_t> volume = volume_slot(material, law);
+  const std::optional<std::size_t> volume = volume_parameter(material, law);
   std::vector<Variable> variables;
   if (std::holds_alternative<Relaxation>(test)) {
     Variable factor{"factor of all moduli", "", 1, true, {}, nullptr, 0};
@@ -54,7 +54,7 @@ std::vector<Variable> variables_of(const Material& material, const MeasuredTest&
       variables.push_back({slots[i].key(),
                            std::string(slots[i].info->unit),
                            material.parameters[i],
-                           keeps_sign(material, i),
+                           has_fixed_sign(material, i),
                            {},
                            parameter_place,
                            i});
@@ -66,7 +66,7 @@ class Misfit {
  public:
   Misfit(const Material& material, const MeasuredTest& test, const MeasuredCurve& data, const FitOptions& options)
       : material_(material), test_(test), data_(data), variables_(variables_of(material, test, options)) {
-    const double modulus = ground_state(material).shear;
+    const double modulus = small_strain_moduli(material).shear;
     for (const Variable& v : variables_)
       scale_.push_back(v.start != 0 ? std::abs(v.start) : v.unit == "Pa" ? modulus : 1.0);
   }
@@ -76,16 +76,16 @@ class Misfit {
 
   Vector start() const {
     return Vector::NullaryExpr(std::ssize(variables_), [this](auto i) {
-      return variables_[i].keeps_sign ? std::log(std::abs(variables_[i].start)) : variables_[i].start / scale_[i];
+      return variables_[i].has_fixed_sign ? std::log(std::abs(variables_[i].start)) : variables_[i].start / scale_[i];
     });
   }
 
   double value(std::size_t i, const Vector& u) const {
     const double at = u[static_cast<Eigen::Index>(i)];
-    return variables_[i].keeps_sign ? std::copysign(std::exp(at), variables_[i].start) : at * scale_[i];
+    return variables_[i].has_fixed_sign ? std::copysign(std::exp(at), variables_[i].start) : at * scale_[i];
   }
   double value_per_u(std::size_t i, const Vector& u) const {
-    return variables_[i].keeps_sign ? std::abs(value(i, u)) : scale_[i];
+    return variables_[i].has_fixed_sign ? std::abs(value(i, u)) : scale_[i];
   }
 
   Material material(const Vector& u) const {
@@ -143,8 +143,8 @@ Descent descend(const Misfit& problem, const std::function<void(double)>& progre
   Descent at{problem.start(), {}, {}};
   at.r = *problem.residuals(at.u);
   double damping = 1e-3;
-  for (; at.iterations < most_iterations && !at.converged; ++at.iterations) {
-    if (progress) progress(static_cast<double>(at.iterations) / most_iterations);
+  for (; at.iterations < max_iterations && !at.converged; ++at.iterations) {
+    if (progress) progress(static_cast<double>(at.iterations) / max_iterations);
     const auto J = problem.jacobian(at.u, at.r);
     if (!J) break;
     at.J = *J;
@@ -189,7 +189,7 @@ Certainty certainty(const Descent& end) {
   Certainty result{Vector::Zero(n), std::vector<bool>(static_cast<std::size_t>(n), false)};
   for (Eigen::Index k = 0; k < n; ++k) {
     const double sigma = k < svd.singularValues().size() ? svd.singularValues()[k] : 0;
-    const bool open = !(sigma > least_singular_value * svd.singularValues()[0]);
+    const bool open = !(sigma > min_singular_value * svd.singularValues()[0]);
     for (Eigen::Index i = 0; i < n; ++i) {
       const double share = svd.matrixV()(i, k);
       if (open && std::abs(share) > 0.05) result.open[static_cast<std::size_t>(i)] = true;
@@ -237,12 +237,12 @@ std::string fit_problem(const Material& material, const MeasuredTest& test, cons
   return "";
 }
 
-Fit fit_material(const Material& material, const MeasuredTest& test, const MeasuredCurve& data,
-                 const FitOptions& options, const std::function<void(double)>& progress) {
+FitResult fit_material(const Material& material, const MeasuredTest& test, const MeasuredCurve& data,
+                       const FitOptions& options, const std::function<void(double)>& progress) {
   const Misfit problem(material, test, data, options);
   const Descent end = descend(problem, progress);
   const Certainty certain = certainty(end);
-  Fit fit;
+  FitResult fit;
   fit.material = problem.material(end.u);
   fit.iterations = end.iterations;
   fit.converged = end.converged;

@@ -34,7 +34,7 @@ struct FittedParameter {
   bool determined = true;     ///< false: the data leave it open alone or together with another
 };
 
-struct Fit {
+struct FitResult {
   Material material;  ///< as given, with the fitted values
   std::vector<FittedParameter> parameters;
   double rms = 0;        ///< Pa, root of the mean squared residual
@@ -51,8 +51,8 @@ std::string fit_problem(const Material& material, const MeasuredTest& test, cons
 /// A relaxation test fits γ and τ of every term and one factor of all the law's moduli but the volume's: a single
 /// stretch does not tell them apart. progress, if given, is called with the share of the most iterations that is done.
 /// The material must be one that fit_problem() has nothing against.
-Fit fit_material(const Material& material, const MeasuredTest& test, const MeasuredCurve& data, const FitOptions& options,
-                 const std::function<void(double)>& progress = {});
+FitResult fit_material(const Material& material, const MeasuredTest& test, const MeasuredCurve& data,
+                       const FitOptions& options, const std::function<void(double)>& progress = {});
 
 /// Nominal stress (Pa) of a test at given amounts; nothing when one of them cannot be reached.
 std::optional<std::vector<double>> nominal_stresses(const Material& material, const MeasuredTest& test,

@@ -10,7 +10,7 @@ namespace heml {
 
 template <class Real>
 struct ExponentialValue {
-  Real less_one, slope, curvature;  ///< of exp
+  Real exp_minus_one, first, second;  ///< of exp
 };
 
 /// exp and two derivatives at Q, continued above Q0 = ln 1e4 by its Taylor polynomial.
@@ -18,10 +18,10 @@ template <bool continued, class Real>
 [[gnu::always_inline]] inline ExponentialValue<Real> bounded_exp(Real Q) {
   constexpr Real Q0 = Real(9.210340371976184);
   const Real c = continued ? select(Q < Q0, Q, Q0) : Q;
-  const Real less_one = natural_expm1(c), e = less_one + 1;
-  if constexpr (!continued) return {less_one, e, e};
+  const Real exp_minus_one = natural_expm1(c), e = exp_minus_one + 1;
+  if constexpr (!continued) return {exp_minus_one, e, e};
   const Real d = Q - c;
-  return {less_one + e * d * (1 + d / 2), e * (1 + d), e};
+  return {exp_minus_one + e * d * (1 + d / 2), e * (1 + d), e};
 }
 
 template <class Real, bool continued>
@@ -36,21 +36,23 @@ struct FungDemiray : IsochoricLaw<FungDemiray<Real, continued>, Real, continued>
   static constexpr Parameter<FungDemiray, Real> parameters[] = {
       {&FungDemiray::mu, {"mu", "μ", "Pa", "shear modulus at rest", ParameterRange::positive}},
       {&FungDemiray::gamma,
-       {"gamma", "γ", "", "how fast the tissue stiffens when stretched", ParameterRange::positive, 1, ParameterKind::exponent}},
-      {&FungDemiray::kappa, {"kappa", "κ", "Pa", "bulk modulus: resistance to change of volume", ParameterRange::positive}},
+       {"gamma", "γ", "", "how fast the tissue stiffens when stretched", ParameterRange::positive, 1,
+        ParameterKind::exponent}},
+      {&FungDemiray::kappa,
+       {"kappa", "κ", "Pa", "bulk modulus: resistance to change of volume", ParameterRange::positive}},
   };
   static constexpr ForceCost cost = {17.4, 7.3};
   static constexpr auto of_moduli(double shear, double bulk) { return std::array{shear, 1.5, bulk}; }
   static constexpr bool uses_I2 = false;
 
-  Truth<Real> valid(const Invariants<Real>& at) const {
+  Mask<Real> valid(const Invariants<Real>& at) const {
     return Base::valid(at) && (continued || gamma * (volume_powers<continued>(at.J).p * at.I1 - 3) <
-                                                exponent_in_range<Real>);  // stress and stiffness must fit too
+                                                safe_exponent<Real>);  // stress and stiffness must fit too
   }
 
   IsochoricPart<Real> part(Real a, Real) const {
     const auto e = bounded_exp<continued>(gamma * (a - 3));
-    return {mu / (2 * gamma) * e.less_one, mu / 2 * e.slope, 0, mu / 2 * gamma * e.curvature};
+    return {mu / (2 * gamma) * e.exp_minus_one, mu / 2 * e.first, 0, mu / 2 * gamma * e.second};
   }
 };
 

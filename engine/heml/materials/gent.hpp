@@ -1,13 +1,13 @@
 #pragma once
 // Gent, whose chains lock: W = −μ Jm/2 ln(1 − (Ī1−3)/Jm) + κ/2 (J−1)², defined for Ī1 − 3 < Jm. `continued` goes on
 // from 0.95 Jm with the second-order Taylor polynomial: C2.
-#include <heml/materials/general.hpp>
+#include <heml/materials/autodiff_law.hpp>
 
 namespace heml {
 
 template <class Real, bool continued>
-struct Gent : GeneralLaw<Gent<Real, continued>, Real, continued> {
-  using Base = GeneralLaw<Gent, Real, continued>;
+struct Gent : AutodiffLaw<Gent<Real, continued>, Real, continued> {
+  using Base = AutodiffLaw<Gent, Real, continued>;
   Real mu, Jm, kappa;
 
   static constexpr std::string_view name = "gent";
@@ -24,7 +24,7 @@ struct Gent : GeneralLaw<Gent<Real, continued>, Real, continued> {
   static constexpr ForceCost cost = {30.7, 13.2};
   static constexpr auto of_moduli(double shear, double bulk) { return std::array{shear, 20.0, bulk}; }
 
-  Truth<Real> valid(const Invariants<Real>& at) const {
+  Mask<Real> valid(const Invariants<Real>& at) const {
     return Base::valid(at) && (continued || isochoric<continued>(at).I1 - 3 < Real(0.999999) * Jm);
   }
 

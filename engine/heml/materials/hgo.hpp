@@ -23,23 +23,23 @@ struct Hgo {
   };
   static constexpr bool is_stress_free = true;
   static constexpr ForceCost cost = {20.3, 8.6};
-  static constexpr GroundState sample = {1e3, 5e4};
+  static constexpr SmallStrainModuli sample = {1e3, 5e4};
   static constexpr auto of_moduli(double shear, double bulk) { return std::array{shear / 2, bulk, 0.8 * shear, 2.0}; }
   static constexpr bool has_volume_term = true, uses_I2 = false, uses_J = true, uses_I4 = true;
   static constexpr bool always_valid = continued;
 
-  Truth<Real> valid(const Invariants<Real>& at) const {
+  Mask<Real> valid(const Invariants<Real>& at) const {
     if constexpr (continued) return true;
     const Real stretch = volume_powers<continued>(at.J).p * at.I4 - 1;
-    return matrix().valid(at) && !(stretch > 0 && k2 * stretch * stretch > exponent_in_range<Real>);
+    return matrix().valid(at) && !(stretch > 0 && k2 * stretch * stretch > safe_exponent<Real>);
   }
 
   Real energy(const Invariants<Real>& at) const {
     return matrix().energy(at) + fibre(volume_powers<continued>(at.J).p * at.I4).w;
   }
 
-  Slopes<Real> slopes(const Invariants<Real>& at) const {
-    Slopes<Real> s = matrix().slopes(at);
+  FirstDerivatives<Real> first_derivatives(const Invariants<Real>& at) const {
+    FirstDerivatives<Real> s = matrix().first_derivatives(at);
     const auto v = volume_powers<continued>(at.J);
     const auto f = fibre(v.p * at.I4);
     s.wJ += f.w1 * v.p1 * at.I4;
@@ -47,8 +47,8 @@ struct Hgo {
     return s;
   }
 
-  Curvatures<Real> curvatures(const Invariants<Real>& at) const {
-    Curvatures<Real> c = matrix().curvatures(at);
+  SecondDerivatives<Real> second_derivatives(const Invariants<Real>& at) const {
+    SecondDerivatives<Real> c = matrix().second_derivatives(at);
     const auto v = volume_powers<continued>(at.J);
     const auto f = fibre(v.p * at.I4);
     c.w44 = f.w2 * v.p * v.p;
@@ -65,11 +65,11 @@ struct Hgo {
   };
   Fibre fibre(Real i4) const {
     // At Ī4 = 1 it does not, whatever a rounding of the invariant says.
-    const Truth<Real> bears = i4 > 1 + 32 * std::numeric_limits<Real>::epsilon();
+    const Mask<Real> bears = i4 > 1 + 32 * std::numeric_limits<Real>::epsilon();
     const Real s = select(bears, i4 - 1, Real(0));  // all of it is zero there, curvature apart
     const auto e = bounded_exp<continued>(k2 * s * s);
     const Real on = select(bears, k1, Real(0));
-    return {k1 / (2 * k2) * e.less_one, k1 * s * e.slope, on * (e.slope + 2 * k2 * s * s * e.curvature)};
+    return {k1 / (2 * k2) * e.exp_minus_one, k1 * s * e.first, on * (e.first + 2 * k2 * s * s * e.second)};
   }
 };
 

@@ -17,10 +17,10 @@ template <class Self, class Real, bool continued>
 struct IsochoricLaw {
   static constexpr bool has_volume_term = true, uses_J = true, uses_I4 = false;
   static constexpr bool always_valid = continued, is_stress_free = true;
-  static constexpr GroundState sample = {1e3, 5e4};
+  static constexpr SmallStrainModuli sample = {1e3, 5e4};
 
-  Truth<Real> valid(const Invariants<Real>& at) const {
-    return continued || at.J > smallest_ratio<Real> || at.J < -smallest_ratio<Real>;
+  Mask<Real> valid(const Invariants<Real>& at) const {
+    return continued || at.J > min_volume_ratio<Real> || at.J < -min_volume_ratio<Real>;
   }
 
   Real energy(const Invariants<Real>& at) const {
@@ -28,7 +28,7 @@ struct IsochoricLaw {
     return self().part(v.p * at.I1, v.q * at.I2).w + self().kappa / 2 * (at.J - 1) * (at.J - 1);
   }
 
-  Slopes<Real> slopes(const Invariants<Real>& at) const {
+  FirstDerivatives<Real> first_derivatives(const Invariants<Real>& at) const {
     const auto v = volume_powers<continued>(at.J);
     const auto w = self().part(v.p * at.I1, v.q * at.I2);
     Real wJ = w.a * v.p1 * at.I1 + self().kappa * (at.J - 1);
@@ -36,11 +36,11 @@ struct IsochoricLaw {
     return {w.a * v.p, w.b * v.q, wJ};
   }
 
-  Curvatures<Real> curvatures(const Invariants<Real>& at) const {
+  SecondDerivatives<Real> second_derivatives(const Invariants<Real>& at) const {
     const auto v = volume_powers<continued>(at.J);
     const auto w = self().part(v.p * at.I1, v.q * at.I2);
     const Real aJ = v.p1 * at.I1, bJ = v.q1 * at.I2;  // ∂Ī/∂J
-    Curvatures<Real> c;
+    SecondDerivatives<Real> c;
     c.w11 = w.aa * v.p * v.p;
     c.w12 = w.ab * v.p * v.q;
     c.w22 = w.bb * v.q * v.q;

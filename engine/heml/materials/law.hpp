@@ -27,13 +27,13 @@ struct Invariants {
 
 /// First derivatives of W, Pa.
 template <class Real>
-struct Slopes {
+struct FirstDerivatives {
   Real w1, w2, wJ, w4 = Real(0);
 };
 
 /// Second derivatives of W, Pa.
 template <class Real>
-struct Curvatures {
+struct SecondDerivatives {
   Real w11, w12, w22, w1J, w2J, wJJ, w14 = Real(0), w24 = Real(0), w4J = Real(0), w44 = Real(0);
 };
 
@@ -49,12 +49,12 @@ enum class ParameterKind {
 
 /// One number a law takes from the user: what the scene file calls it, and what the panel says of it.
 struct ParameterInfo {
-  std::string_view name;       ///< key in a scene file
-  std::string_view symbol;     ///< as shown in the panel
-  std::string_view unit;       ///< "Pa", "" for a ratio
-  std::string_view meaning;    ///< one line
+  std::string_view name;     ///< key in a scene file
+  std::string_view symbol;   ///< as shown in the panel
+  std::string_view unit;     ///< "Pa", "" for a ratio
+  std::string_view meaning;  ///< one line
   ParameterRange range = ParameterRange::any;
-  double start = 1;            ///< when a material changes to this law, its moduli being scaled afterwards
+  double start = 1;  ///< when a material changes to this law, its moduli being scaled afterwards
   ParameterKind kind = ParameterKind::plain;
 
   constexpr bool is_list() const { return kind == ParameterKind::list; }
@@ -68,7 +68,7 @@ struct Parameter {
 };
 
 /// Elastic constants at rest, Pa: what a law is for small strains.
-struct GroundState {
+struct SmallStrainModuli {
   double shear, bulk;
 };
 
@@ -92,30 +92,30 @@ concept AnyLaw = requires {
 
 template <class L, class Real>
 concept InvariantLaw = AnyLaw<L> && requires(const L law, Invariants<Real> at) {
-  { law.valid(at) } -> std::same_as<Truth<Real>>;
+  { law.valid(at) } -> std::same_as<Mask<Real>>;
   { law.energy(at) } -> std::same_as<Real>;
-  { law.slopes(at) } -> std::same_as<Slopes<Real>>;
-  { law.curvatures(at) } -> std::same_as<Curvatures<Real>>;
+  { law.first_derivatives(at) } -> std::same_as<FirstDerivatives<Real>>;
+  { law.second_derivatives(at) } -> std::same_as<SecondDerivatives<Real>>;
 };
 
 /// h and its first two derivatives at one eigenvalue c̄ of J^(−2/3) C, Pa.
 template <class Real>
-struct Principal {
+struct PrincipalDerivatives {
   Real h, h1, h2;
 };
 
 /// ψ and its first two derivatives, Pa.
 template <class Real>
-struct VolumeValue {
+struct VolumeDerivatives {
   Real w, w1, w2;
 };
 
 /// A law of principal stretches: W = Σ_i h(c̄_i) + ψ(J). See materials/principal.hpp for its calculus.
 template <class L, class Real>
 concept PrincipalLaw = AnyLaw<L> && requires(const L law, Real c) {
-  { law.principal(c) } -> std::same_as<Principal<Real>>;
-  { law.divided(c, c) } -> std::same_as<Real>;  ///< (h1(a) − h1(b)) / (a − b), with its limit
-  { law.volume(c) } -> std::same_as<VolumeValue<Real>>;
+  { law.principal(c) } -> std::same_as<PrincipalDerivatives<Real>>;
+  { law.divided_difference(c, c) } -> std::same_as<Real>;  ///< (h1(a) − h1(b)) / (a − b), with its limit
+  { law.volume(c) } -> std::same_as<VolumeDerivatives<Real>>;
 };
 
 template <class L, class Real>
@@ -130,7 +130,9 @@ concept DescribedLaw = requires(double modulus) {
   { L::source } -> std::convertible_to<std::string_view>;
   { L::is_stress_free } -> std::convertible_to<bool>;  ///< at rest
   { L::cost } -> std::convertible_to<ForceCost>;
-  { L::sample } -> std::convertible_to<GroundState>;  ///< moduli of the material that tests and benches have of it
+  {
+    L::sample
+    } -> std::convertible_to<SmallStrainModuli>;  ///< moduli of the material that tests and benches have of it
   {std::span<const double>(L::of_moduli(modulus, modulus))};  ///< parameters of a soft tissue with these moduli at rest
 };
 

@@ -1,12 +1,12 @@
 #pragma once
 // The one list of laws, and the one way from a name to a type. Adding a law: engine/docs/adding.md.
 #include <heml/materials/arruda_boyce.hpp>
-#include <heml/materials/as_printed.hpp>
 #include <heml/materials/gent.hpp>
 #include <heml/materials/hgo.hpp>
 #include <heml/materials/mooney_rivlin.hpp>
 #include <heml/materials/neo_hookean.hpp>
 #include <heml/materials/ogden.hpp>
+#include <heml/materials/paper_laws.hpp>
 #include <heml/materials/stable_neo_hookean.hpp>
 #include <heml/materials/stvk.hpp>
 #include <heml/materials/veronda_westmann.hpp>
@@ -26,21 +26,10 @@ struct LawTag {
 };
 
 /// In the order people see them.
-using LawList = std::tuple<LawTag<NeoHookean>,
-                           LawTag<StVK>,
-                           LawTag<NeoHookeanIso>,
-                           LawTag<MooneyRivlin>,
-                           LawTag<FungDemiray>,
-                           LawTag<Ogden>,
-                           LawTag<Hgo>,
-                           LawTag<Yeoh>,
-                           LawTag<Gent>,
-                           LawTag<ArrudaBoyce>,
-                           LawTag<VerondaWestmann>,
-                           LawTag<StableNeoHookean>,
-                           LawTag<PaperNeoHookean>,
-                           LawTag<PaperMooneyRivlin>,
-                           LawTag<PaperFungDemiray>>;
+using LawList =
+    std::tuple<LawTag<NeoHookean>, LawTag<StVK>, LawTag<NeoHookeanIso>, LawTag<MooneyRivlin>, LawTag<FungDemiray>,
+               LawTag<Ogden>, LawTag<Hgo>, LawTag<Yeoh>, LawTag<Gent>, LawTag<ArrudaBoyce>, LawTag<VerondaWestmann>,
+               LawTag<StableNeoHookean>, LawTag<PaperNeoHookean>, LawTag<PaperMooneyRivlin>, LawTag<PaperFungDemiray>>;
 
 inline constexpr std::size_t law_count = std::tuple_size_v<LawList>;
 

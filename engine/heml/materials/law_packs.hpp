@@ -8,13 +8,13 @@ namespace heml {
 
 /// The same law of another scalar.
 template <class L, class P>
-struct Rebound;
+struct ReboundLaw;
 template <template <class, bool> class L, class Real, bool continued, class P>
-struct Rebound<L<Real, continued>, P> {
+struct ReboundLaw<L<Real, continued>, P> {
   using Law = L<P, continued>;
 };
 template <template <class, bool, bool> class L, class Real, bool continued, bool other, class P>
-struct Rebound<L<Real, continued, other>, P> {
+struct ReboundLaw<L<Real, continued, other>, P> {
   using Law = L<P, continued, other>;
 };
 

@@ -15,7 +15,7 @@ struct MassSpring {
   };
   static constexpr bool uses_I4 = false, has_volume_term = false, is_stress_free = true;
   static constexpr ForceCost cost = {17, 14};
-  static constexpr GroundState sample = {1e3, 5e4};
+  static constexpr SmallStrainModuli sample = {1e3, 5e4};
   /// Of a mesh of 1 cm edges: Poisson's ratio is what it is.
   static constexpr auto of_moduli(double shear, double) { return std::array{0.01 * shear}; }
 };

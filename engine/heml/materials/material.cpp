@@ -25,7 +25,7 @@ template <DescribedLaw L>
 constexpr LawInfo info_of() {
   const auto& infos = parameters_of<L>;
   const bool lame = infos.size() == 2 && infos.front().name == "lambda" && infos.back().name == "mu";
-  const auto of_moduli = [](GroundState rest) {
+  const auto of_moduli = [](SmallStrainModuli rest) {
     const auto values = L::of_moduli(rest.shear, rest.bulk);
     return std::vector<double>(values.begin(), values.end());
   };
@@ -83,7 +83,7 @@ std::optional<Problem> parameter_problem(const Material& material, const LawInfo
       return Problem{"lambda", fmt::format("must be greater than -2/3 mu ({} Pa), is {}", -2 * mu / 3, lambda)};
   }
   if (law.is_continuum) {
-    const double shear = ground_state(material).shear;
+    const double shear = small_strain_moduli(material).shear;
     if (!(shear > 0))
       return Problem{std::string(law.parameters[0].name),
                      fmt::format("the shear modulus at rest must be greater than 0 Pa, is {}", shear)};
@@ -137,7 +137,7 @@ const LawInfo* find_law(std::string_view name) {
 
 Material sample_material(const LawInfo& law) { return sample_material(law, law.sample); }
 
-Material sample_material(const LawInfo& law, GroundState rest) {
+Material sample_material(const LawInfo& law, SmallStrainModuli rest) {
   Material material;
   material.law = law.name;
   material.parameters = law.of_moduli(rest);
@@ -156,7 +156,8 @@ std::optional<Problem> material_problem(const Material& material) {
   if (!law) return Problem{"law", fmt::format("'{}' is not a law of this build", material.law)};
   const std::size_t given = material.parameters.size();
   if (given < law->parameters.size() || given != parameter_slots(material, *law).size())
-    return Problem{"law", fmt::format("'{}' takes {} parameters, got {} values", law->name, law->parameters.size(), given)};
+    return Problem{"law",
+                   fmt::format("'{}' takes {} parameters, got {} values", law->name, law->parameters.size(), given)};
   if (auto problem = parameter_problem(material, *law)) return problem;
   if (auto problem = beside_problem(material, *law)) return problem;
   if (!(material.density > 0) || !std::isfinite(material.density))
@@ -164,7 +165,7 @@ std::optional<Problem> material_problem(const Material& material) {
   return std::nullopt;
 }
 
-GroundState ground_state(const Material& material) {
+SmallStrainModuli small_strain_moduli(const Material& material) {
   const LawInfo* law = find_law(material.law);
   if (!law || !law->is_continuum) return {0, 0};
   Material plain = material;
@@ -182,11 +183,11 @@ GroundState ground_state(const Material& material) {
   return {mu + rest / 2, bulk - 2 * rest / 3};
 }
 
-Lame lame_from(double young, double poisson) {
+LameParameters lame_parameters(double young, double poisson) {
   return {young * poisson / ((1 + poisson) * (1 - 2 * poisson)), young / (2 * (1 + poisson))};
 }
 
-Engineering engineering_from(const Lame& lame) {
+EngineeringConstants engineering_constants(const LameParameters& lame) {
   return {lame.mu * (3 * lame.lambda + 2 * lame.mu) / (lame.lambda + lame.mu),
           lame.lambda / (2 * (lame.lambda + lame.mu))};
 }

@@ -61,7 +61,7 @@ struct Material {
   std::optional<Plasticity> plasticity = {};
 
   bool operator==(const Material&) const = default;
-  bool has_memory() const { return viscosity > 0 || bulk_viscosity > 0 || !relaxation.empty() || plasticity; }
+  bool has_internal_state() const { return viscosity > 0 || bulk_viscosity > 0 || !relaxation.empty() || plasticity; }
 };
 
 /// What the program knows of a law before it runs it.
@@ -78,8 +78,8 @@ struct LawInfo {
   bool is_stress_free;                        ///< at rest
   bool is_continuum;                          ///< W(F) of an element; false: forces along mesh edges (mass_spring)
   ForceCost cost;
-  GroundState sample;                                ///< moduli of sample_material()
-  std::vector<double> (*of_moduli)(GroundState rest);  ///< parameters of a soft tissue with these moduli
+  SmallStrainModuli sample;                                  ///< moduli of sample_material()
+  std::vector<double> (*of_moduli)(SmallStrainModuli rest);  ///< parameters of a soft tissue with these moduli
 };
 
 /// Every law this build can run, in the order the panel lists them.
@@ -91,7 +91,7 @@ const LawInfo* find_law(std::string_view name);
 /// A soft material of a law, around 1 kPa unless other moduli at rest are given (Pa), defined for stretches of 0.5 to
 /// 1.6, fibres along x: what tests, benches and studies are made of.
 Material sample_material(const LawInfo& law);
-Material sample_material(const LawInfo& law, GroundState rest);
+Material sample_material(const LawInfo& law, SmallStrainModuli rest);
 
 /// What is wrong with the parameters or the density: (key, problem), e.g. ("mu", "must be greater than 0, is -3").
 /// Empty when nothing is.
@@ -99,19 +99,19 @@ std::optional<std::pair<std::string, std::string>> material_problem(const Materi
 
 /// Of a fibre law across the fibre; zero where the law is no continuum. The material must be one that
 /// material_problem() has nothing against.
-GroundState ground_state(const Material& material);
+SmallStrainModuli small_strain_moduli(const Material& material);
 
 /// Lamé parameters from engineering constants: λ = Eν/((1+ν)(1−2ν)), μ = E/(2(1+ν)).
-struct Lame {
+struct LameParameters {
   double lambda, mu;  ///< Pa
 };
-Lame lame_from(double young, double poisson);
+LameParameters lame_parameters(double young, double poisson);
 
 /// And back: E = μ(3λ+2μ)/(λ+μ), ν = λ/(2(λ+μ)).
-struct Engineering {
+struct EngineeringConstants {
   double young;    ///< Pa
   double poisson;  ///< -
 };
-Engineering engineering_from(const Lame& lame);
+EngineeringConstants engineering_constants(const LameParameters& lame);
 
 }  // namespace heml

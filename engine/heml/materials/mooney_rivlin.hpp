@@ -16,7 +16,8 @@ struct MooneyRivlin : IsochoricLaw<MooneyRivlin<Real, continued>, Real, continue
   static constexpr Parameter<MooneyRivlin, Real> parameters[] = {
       {&MooneyRivlin::K1, {"K1", "K1", "Pa", "first Mooney constant; the shear modulus is 2 (K1 + K2)"}},
       {&MooneyRivlin::K2, {"K2", "K2", "Pa", "second Mooney constant", ParameterRange::any, 0.25}},
-      {&MooneyRivlin::kappa, {"kappa", "κ", "Pa", "bulk modulus: resistance to change of volume", ParameterRange::positive}},
+      {&MooneyRivlin::kappa,
+       {"kappa", "κ", "Pa", "bulk modulus: resistance to change of volume", ParameterRange::positive}},
   };
   static constexpr ForceCost cost = {15.9, 7.1};
   static constexpr auto of_moduli(double shear, double bulk) { return std::array{0.4 * shear, 0.1 * shear, bulk}; }

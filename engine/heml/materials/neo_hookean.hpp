@@ -23,7 +23,7 @@ struct NeoHookean {
   };
   static constexpr bool is_stress_free = true;
   static constexpr ForceCost cost = {7.9, 4.0};
-  static constexpr GroundState sample = {1e3, 4e3 + 2e3 / 3};
+  static constexpr SmallStrainModuli sample = {1e3, 4e3 + 2e3 / 3};
   static constexpr auto of_moduli(double shear, double bulk) { return std::array{bulk - 2 * shear / 3, shear}; }
   static constexpr bool uses_I2 = false;
   static constexpr bool uses_J = true;
@@ -31,7 +31,7 @@ struct NeoHookean {
   static constexpr bool always_valid = continued;
   static constexpr Real J0 = Real(0.3);
 
-  Truth<Real> valid(const Invariants<Real>& at) const { return continued || at.J > Real(1e-30); }
+  Mask<Real> valid(const Invariants<Real>& at) const { return continued || at.J > Real(1e-30); }
 
   Real energy(const Invariants<Real>& at) const {
     const auto [d, l, c] = point(at.J);
@@ -40,12 +40,12 @@ struct NeoHookean {
     return mu / 2 * (at.I1 - 3) - mu * log_J + lambda / 2 * log_J_squared;
   }
 
-  Slopes<Real> slopes(const Invariants<Real>& at) const {
+  FirstDerivatives<Real> first_derivatives(const Invariants<Real>& at) const {
     const auto [d, l, c] = point(at.J);
     return {mu / 2, 0, (lambda * (l + (1 - l) * (d / c)) - mu * (1 - d / c)) / c};
   }
 
-  Curvatures<Real> curvatures(const Invariants<Real>& at) const {
+  SecondDerivatives<Real> second_derivatives(const Invariants<Real>& at) const {
     const auto [d, l, c] = point(at.J);
     return {0, 0, 0, 0, 0, (lambda * (1 - l) + mu) / (c * c)};
   }

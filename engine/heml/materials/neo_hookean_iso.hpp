@@ -15,7 +15,8 @@ struct NeoHookeanIso : IsochoricLaw<NeoHookeanIso<Real, continued>, Real, contin
   static constexpr std::string_view source = "Goulette & Chendeb 2006, Table 1, with Ī1 for I1";
   static constexpr Parameter<NeoHookeanIso, Real> parameters[] = {
       {&NeoHookeanIso::K1, {"K1", "K1", "Pa", "half the shear modulus", ParameterRange::positive}},
-      {&NeoHookeanIso::kappa, {"kappa", "κ", "Pa", "bulk modulus: resistance to change of volume", ParameterRange::positive}},
+      {&NeoHookeanIso::kappa,
+       {"kappa", "κ", "Pa", "bulk modulus: resistance to change of volume", ParameterRange::positive}},
   };
   static constexpr ForceCost cost = {12.2, 5.7};
   static constexpr auto of_moduli(double shear, double bulk) { return std::array{shear / 2, bulk}; }

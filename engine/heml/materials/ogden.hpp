@@ -50,7 +50,7 @@ struct Ogden {
   };
   static constexpr bool is_stress_free = true;
   static constexpr ForceCost cost = {148, 60};
-  static constexpr GroundState sample = {850, 5e4};
+  static constexpr SmallStrainModuli sample = {850, 5e4};
   static constexpr auto of_moduli(double shear, double bulk) {
     return std::array{6 * shear / 17, -4 * shear / 17, 3.0, -4.0, bulk};
   }
@@ -87,24 +87,24 @@ struct Ogden {
     return {terms, count, steepness, kappa, upright};
   }
 
-  Truth<Real> valid(const Invariants<Real>& at) const {
+  Mask<Real> valid(const Invariants<Real>& at) const {
     if constexpr (continued) return true;
     // Powers of eigenvalues between I3/I1² and I1 must fit; seen from a bound, since valid() has no eigenvalues.
     const Real p = volume_powers<continued>(at.J).p, most = p * at.I1, least = Real(4) / (p * p * at.I1 * at.I1);
-    const Truth<Real> has_volume = at.J > smallest_ratio<Real> || at.J < -smallest_ratio<Real>;
-    return has_volume && steepness * natural_log(most) < exponent_in_range<Real> &&
-           -steepness * natural_log(least) < exponent_in_range<Real>;
+    const Mask<Real> has_volume = at.J > min_volume_ratio<Real> || at.J < -min_volume_ratio<Real>;
+    return has_volume && steepness * natural_log(most) < safe_exponent<Real> &&
+           -steepness * natural_log(least) < safe_exponent<Real>;
   }
 
-  Principal<Real> principal(Real c) const {
-    Principal<Real> sum{0, 0, 0};
+  PrincipalDerivatives<Real> principal(Real c) const {
+    PrincipalDerivatives<Real> sum{0, 0, 0};
     for (const Term *end = terms + count, *each = terms; each != end; ++each) {
       const Term& term = *each;
       const Real s = term.alpha / 2, low = term.low, high = term.high;
       const Real at = continued ? select(c < low, low, select(c > high, high, c)) : c;
-      const Real less_one = natural_expm1(s * natural_log(at)), x = less_one + 1;
-      const Real h = Real(term.mu / term.alpha) * less_one, h1 = Real(term.mu / 2) * x / at, h2 = h1 * (s - 1) / at,
-                 d = c - at;
+      const Real exp_minus_one = natural_expm1(s * natural_log(at)), x = exp_minus_one + 1;
+      const Real h = Real(term.mu / term.alpha) * exp_minus_one, h1 = Real(term.mu / 2) * x / at,
+                 h2 = h1 * (s - 1) / at, d = c - at;
       sum.h += h + d * (h1 + d / 2 * h2);
       sum.h1 += h1 + d * h2;
       sum.h2 += h2;
@@ -112,8 +112,8 @@ struct Ogden {
     return sum;
   }
 
-  VolumeValue<Real> volume(Real J) const {
-    VolumeValue<Real> v{kappa / 2 * (J - 1) * (J - 1), kappa * (J - 1), kappa};
+  VolumeDerivatives<Real> volume(Real J) const {
+    VolumeDerivatives<Real> v{kappa / 2 * (J - 1) * (J - 1), kappa * (J - 1), kappa};
     if constexpr (continued) {
       constexpr Real J0 = continuation_start<Real>;
       const Real d = select(J < J0, J0 - J, Real(0)), k = upright / (J0 * J0);
@@ -123,7 +123,7 @@ struct Ogden {
   }
 
   /// Close to one another by three Gauss points of the mean of h2 between them, whose error is below 1e-12 there.
-  Real divided(Real a, Real b) const {
+  Real divided_difference(Real a, Real b) const {
     const Real apart = a - b, middle = (a + b) / 2;
     const Real distance = select(apart < 0, -apart, apart), reach = apart / 2 * Real(0.7745966692414834);
     const Real mean =

@@ -27,13 +27,13 @@ std::vector<ParameterSlot> parameter_slots(const Material& material, const LawIn
   return slots;
 }
 
-bool keeps_sign(const Material& material, std::size_t parameter) {
+bool has_fixed_sign(const Material& material, std::size_t parameter) {
   Material opposite = material;
   opposite.parameters[parameter] *= -1;
   return material.parameters[parameter] != 0 && material_problem(opposite).has_value();
 }
 
-std::optional<std::size_t> volume_slot(const Material& material, const LawInfo& law) {
+std::optional<std::size_t> volume_parameter(const Material& material, const LawInfo& law) {
   const std::string_view name = law.has_volume_term ? "kappa" : law.takes_young_poisson ? "lambda" : "";
   const std::vector<ParameterSlot> slots = parameter_slots(material, law);
   for (std::size_t i = 0; i < slots.size(); ++i)

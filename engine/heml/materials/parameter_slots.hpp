@@ -19,10 +19,10 @@ struct ParameterSlot {
 std::vector<ParameterSlot> parameter_slots(const Material& material, const LawInfo& law);
 
 /// Whether a value must keep its sign: material_problem() refuses the opposite one, all else left as it is.
-bool keeps_sign(const Material& material, std::size_t parameter);
+bool has_fixed_sign(const Material& material, std::size_t parameter);
 
 /// The index in Material::parameters of what keeps volume: the κ of a law with a volume term, the λ of one that takes
 /// `young` and `poisson`; nothing for other laws.
-std::optional<std::size_t> volume_slot(const Material& material, const LawInfo& law);
+std::optional<std::size_t> volume_parameter(const Material& material, const LawInfo& law);
 
 }  // namespace heml

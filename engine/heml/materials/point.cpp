@@ -13,20 +13,20 @@ class PointOf final : public MaterialPoint {
   PointOf(const L& law, const Vec3& fibre) : law_(law), fibre_(fibre) {}
 
   bool valid(const Mat3& F) const override {
-    const auto at = strain_of<double>(F, fibre_);
+    const auto at = strain_measures<double>(F, fibre_);
     return law_.valid(at.invariants()) && std::isfinite(energy_density(law_, at)) && first_piola(F).allFinite() &&
            first_piola_differential(F, F).allFinite();
   }
-  double energy(const Mat3& F) const override { return energy_density(law_, strain_of<double>(F, fibre_)); }
+  double energy(const Mat3& F) const override { return energy_density(law_, strain_measures<double>(F, fibre_)); }
   Mat3 first_piola(const Mat3& F) const override {
-    return heml::first_piola<double>(stress_of(law_, strain_of<double>(F, fibre_)), F);
+    return heml::first_piola<double>(stress_of(law_, strain_measures<double>(F, fibre_)), F);
   }
   Mat3 first_piola_differential(const Mat3& F, const Mat3& dF) const override {
-    const auto at = strain_of<double>(F, fibre_);
+    const auto at = strain_measures<double>(F, fibre_);
     double dC[6];
-    to_six<double>(dF.transpose() * F + F.transpose() * dF, dC);
+    to_symmetric6<double>(dF.transpose() * F + F.transpose() * dF, dC);
     const double dJ = cofactor(F).cwiseProduct(dF).sum();
-    return first_piola_change<double>(stress_of(law_, at), stress_change(law_, at, dC, dJ), F, dF);
+    return first_piola_change<double>(stress_of(law_, at), stress_differential(law_, at, dC, dJ), F, dF);
   }
 
  private:

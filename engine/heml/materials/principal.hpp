@@ -17,14 +17,14 @@ struct Stress {
 
 template <class Real>
 struct PrincipalState {
-  Eigen3<Real> e;  ///< of C
+  SymmetricEigen3<Real> e;  ///< of C
   VolumePowers<Real> v;
   Real h1[3];
 };
 
 template <bool continued, class Real, PrincipalLaw<Real> L>
 [[gnu::always_inline]] inline PrincipalState<Real> principal_state(const L& law, const Real C[6], Real J) {
-  PrincipalState<Real> state{eigen3(C), volume_powers<continued>(J), {}};
+  PrincipalState<Real> state{symmetric_eigen3(C), volume_powers<continued>(J), {}};
   for (int i = 0; i < 3; ++i) state.h1[i] = law.principal(state.v.p * state.e.value[i]).h1;
   return state;
 }
@@ -32,7 +32,7 @@ template <bool continued, class Real, PrincipalLaw<Real> L>
 template <class Real, PrincipalLaw<Real> L>
 [[gnu::always_inline]] inline Stress<Real> principal_stress(const L& law, const PrincipalState<Real>& at, Real J) {
   Stress<Real> stress;
-  assemble3(at.e, at.h1, stress.S);
+  spectral_sum3(at.e, at.h1, stress.S);
   for (Real& s : stress.S) s *= 2 * at.v.p;
   Real HC = 0;
   for (int i = 0; i < 3; ++i) HC += at.h1[i] * at.e.value[i];
@@ -44,20 +44,22 @@ template <class Real, PrincipalLaw<Real> L>
 template <class Real, PrincipalLaw<Real> L>
 [[gnu::always_inline]] inline void divided_differences(const L& law, const PrincipalState<Real>& at, Real divided[6]) {
   constexpr int row[6] = {0, 1, 2, 0, 0, 1}, col[6] = {0, 1, 2, 1, 2, 2};
-  for (int k = 0; k < 6; ++k) divided[k] = law.divided(at.v.p * at.e.value[row[k]], at.v.p * at.e.value[col[k]]);
+  for (int k = 0; k < 6; ++k)
+    divided[k] = law.divided_difference(at.v.p * at.e.value[row[k]], at.v.p * at.e.value[col[k]]);
 }
 
 /// Change of S and wJ with dC (six numbers) and dJ.
 template <class Real, PrincipalLaw<Real> L>
-[[gnu::always_inline]] inline Stress<Real> principal_change(const L& law, const PrincipalState<Real>& at,
-                                                            const Real divided[6], const Real dC[6], Real J, Real dJ) {
+[[gnu::always_inline]] inline Stress<Real> principal_stress_differential(const L& law, const PrincipalState<Real>& at,
+                                                                         const Real divided[6], const Real dC[6],
+                                                                         Real J, Real dJ) {
   const auto& [p, p1, p2, q, q1, q2] = at.v;
   constexpr int row[6] = {0, 1, 2, 0, 0, 1}, col[6] = {0, 1, 2, 1, 2, 2};
   // dC̄ in the eigenvectors' frame, then dH there.
   Real dH[6], HdC = 0, HC = 0, dHC = 0;
   for (int k = 0; k < 6; ++k) {
     const int i = row[k], j = col[k];
-    const Real c = between3(at.e.vector[i], dC, at.e.vector[j]);
+    const Real c = bilinear3(at.e.vector[i], dC, at.e.vector[j]);
     Real m = p * c;
     if (i == j) {
       m += p1 * dJ * at.e.value[i];
@@ -72,8 +74,8 @@ template <class Real, PrincipalLaw<Real> L>
                         {at.e.vector[0][2], at.e.vector[1][2], at.e.vector[2][2]}};
   Stress<Real> change;
   Real H[6];
-  congruent3(N, dH, change.S);
-  assemble3(at.e, at.h1, H);
+  congruence3(N, dH, change.S);
+  spectral_sum3(at.e, at.h1, H);
   for (int k = 0; k < 6; ++k) change.S[k] = 2 * (p * change.S[k] + p1 * dJ * H[k]);
   change.wJ = p2 * dJ * HC + p1 * (dHC + HdC) + law.volume(J).w2 * dJ;
   return change;
@@ -81,7 +83,7 @@ template <class Real, PrincipalLaw<Real> L>
 
 template <bool continued, class Real, PrincipalLaw<Real> L>
 Real principal_energy(const L& law, const Real C[6], Real J) {
-  const auto e = eigen3(C);
+  const auto e = symmetric_eigen3(C);
   const Real p = volume_powers<continued>(J).p;
   Real W = law.volume(J).w;
   for (int i = 0; i < 3; ++i) W += law.principal(p * e.value[i]).h;

@@ -4,7 +4,8 @@
 //
 // Defined at every state, with finite stiffness, and without a state to be caught in: turned inside out it is pushed
 // upright, and the logarithm takes the hold away that I1 alone would have on a body shrunk to a point. So it needs no
-// continuation, and serves bodies that have to be brought back from where their own law ends (world/stand_in.hpp).
+// continuation, and serves bodies that have to be brought back from where their own law ends
+// (world/recovery_surrogate.hpp).
 #include <heml/materials/law.hpp>
 #include <heml/math/elementary.hpp>
 
@@ -24,23 +25,23 @@ struct StableNeoHookean {
   };
   static constexpr bool is_stress_free = true;
   static constexpr ForceCost cost = {6.0, 3.4};
-  static constexpr GroundState sample = {1e3, 4e3 + 2e3 / 3};
+  static constexpr SmallStrainModuli sample = {1e3, 4e3 + 2e3 / 3};
   static constexpr auto of_moduli(double shear, double bulk) { return std::array{bulk - 2 * shear / 3, shear}; }
   static constexpr bool uses_I2 = false, uses_J = true, uses_I4 = false, has_volume_term = false;
   static constexpr bool always_valid = true;
 
-  Truth<Real> valid(const Invariants<Real>&) const { return true; }
+  Mask<Real> valid(const Invariants<Real>&) const { return true; }
 
   Real energy(const Invariants<Real>& at) const {
     const Real dJ = at.J - 1;
     return Real(2.0 / 3) * mu * (at.I1 - 3 - natural_log((at.I1 + 1) / 4)) + (bulk() / 2 * dJ - mu) * dJ;
   }
 
-  Slopes<Real> slopes(const Invariants<Real>& at) const {
+  FirstDerivatives<Real> first_derivatives(const Invariants<Real>& at) const {
     return {Real(2.0 / 3) * mu * at.I1 / (at.I1 + 1), 0, bulk() * (at.J - 1) - mu};
   }
 
-  Curvatures<Real> curvatures(const Invariants<Real>& at) const {
+  SecondDerivatives<Real> second_derivatives(const Invariants<Real>& at) const {
     const Real i = 1 / (at.I1 + 1);
     return {Real(2.0 / 3) * mu * i * i, 0, 0, 0, 0, bulk()};
   }

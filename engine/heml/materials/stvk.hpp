@@ -24,7 +24,7 @@ struct StVK {
   };
   static constexpr bool is_stress_free = true;
   static constexpr ForceCost cost = {5.8, 3.3};
-  static constexpr GroundState sample = {1e3, 1.5e3 + 2e3 / 3};
+  static constexpr SmallStrainModuli sample = {1e3, 1.5e3 + 2e3 / 3};
   static constexpr auto of_moduli(double shear, double bulk) { return std::array{bulk - 2 * shear / 3, shear}; }
   static constexpr bool uses_I2 = true;
   static constexpr bool uses_J = continued;
@@ -32,7 +32,7 @@ struct StVK {
   static constexpr bool always_valid = true;
   static constexpr Real J1 = Real(0.57735026918962576);
 
-  Truth<Real> valid(const Invariants<Real>&) const { return true; }
+  Mask<Real> valid(const Invariants<Real>&) const { return true; }
 
   Real energy(const Invariants<Real>& at) const {
     const Real e = at.I1 - 3;
@@ -42,13 +42,13 @@ struct StVK {
     return W + select(depth > 0, (lambda + 2 * mu) / 2 * depth * depth, Real(0));
   }
 
-  Slopes<Real> slopes(const Invariants<Real>& at) const {
+  FirstDerivatives<Real> first_derivatives(const Invariants<Real>& at) const {
     const Real depth = J1 - at.J;
     return {lambda / 4 * (at.I1 - 3) + mu / 2 * (at.I1 - 1), -mu / 2,
             continued ? select(depth > 0, -(lambda + 2 * mu) * depth, Real(0)) : Real(0)};
   }
 
-  Curvatures<Real> curvatures(const Invariants<Real>& at) const {
+  SecondDerivatives<Real> second_derivatives(const Invariants<Real>& at) const {
     return {lambda / 4 + mu / 2, 0, 0, 0, 0, continued ? select(at.J < J1, lambda + 2 * mu, Real(0)) : Real(0)};
   }
 };

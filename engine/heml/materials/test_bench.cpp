@@ -7,8 +7,8 @@
 namespace heml {
 namespace {
 
-constexpr int most_newton_steps = 60;
-constexpr int most_halvings = 12;  // of a step between two amounts, and of a Newton step
+constexpr int max_newton_steps = 60;
+constexpr int max_halvings = 12;  // of a step between two amounts, and of a Newton step
 
 /// Axes whose faces are free in a test; the others follow the amount.
 std::span<const int> free_axes(BenchTest test) {
@@ -45,7 +45,7 @@ class Balance {
   std::optional<Mat3> operator()(Mat3 F) const {
     if (!law_.valid(F)) return std::nullopt;
     if (free_.empty()) return F;
-    for (int i = 0; i < most_newton_steps; ++i) {
+    for (int i = 0; i < max_newton_steps; ++i) {
       const Mat3 P = law_.first_piola(F);
       const Vec3 r = residual(F, P);
       const Mat3 S = slope(F, P);
@@ -90,7 +90,7 @@ class Balance {
 
   std::optional<Mat3> improved(const Mat3& F, double norm, Vec3 step) const {
     step *= std::min(1.0, 0.5 / step.cwiseAbs().maxCoeff());
-    for (int k = 0; k <= most_halvings; ++k, step /= 2) {
+    for (int k = 0; k <= max_halvings; ++k, step /= 2) {
       const Mat3 next = stretched(F, step);
       if (law_.valid(next) && residual(next, law_.first_piola(next)).norm() < norm) return next;
     }
@@ -111,7 +111,7 @@ class Follower {
   /// From F at `begin`. Nothing when `end` cannot be reached.
   std::optional<Mat3> follow(Mat3 F, double begin, double end) const {
     double step = end - begin;
-    const double least = std::abs(step) * std::ldexp(1.0, -most_halvings);
+    const double least = std::abs(step) * std::ldexp(1.0, -max_halvings);
     while (begin != end) {
       const bool last = std::abs(end - begin) <= std::abs(step);
       const double next = last ? end : begin + step;

@@ -17,7 +17,7 @@ inline constexpr Real continuation_start = Real(0.3);
 
 /// Smallest |J| where powers of J are taken as defined.
 template <class Real>
-inline constexpr Real smallest_ratio = Real(1e-12);
+inline constexpr Real min_volume_ratio = Real(1e-12);
 
 /// p = J^(−2/3) and q = J^(−4/3) with two derivatives each.
 template <class Real>
@@ -63,10 +63,12 @@ struct VolumeLaw {
   static constexpr bool has_volume_term = true, uses_I2 = false, uses_J = true, uses_I4 = false;
   static constexpr bool always_valid = continued;
 
-  Truth<Real> valid(const Invariants<Real>& at) const { return continued || at.J > smallest_ratio<Real>; }
+  Mask<Real> valid(const Invariants<Real>& at) const { return continued || at.J > min_volume_ratio<Real>; }
   Real energy(const Invariants<Real>& at) const { return value(at.J).w; }
-  Slopes<Real> slopes(const Invariants<Real>& at) const { return {0, 0, value(at.J).w1}; }
-  Curvatures<Real> curvatures(const Invariants<Real>& at) const { return {0, 0, 0, 0, 0, value(at.J).w2}; }
+  FirstDerivatives<Real> first_derivatives(const Invariants<Real>& at) const { return {0, 0, value(at.J).w1}; }
+  SecondDerivatives<Real> second_derivatives(const Invariants<Real>& at) const {
+    return {0, 0, 0, 0, 0, value(at.J).w2};
+  }
 
  private:
   struct Value {

@@ -1,11 +1,11 @@
 #pragma once
 // Yeoh: W = C10 (Ī1−3) + C20 (Ī1−3)² + C30 (Ī1−3)³ + κ/2 (J−1)².
-#include <heml/materials/general.hpp>
+#include <heml/materials/autodiff_law.hpp>
 
 namespace heml {
 
 template <class Real, bool continued>
-struct Yeoh : GeneralLaw<Yeoh<Real, continued>, Real, continued> {
+struct Yeoh : AutodiffLaw<Yeoh<Real, continued>, Real, continued> {
   Real C10, C20, C30, kappa;
 
   static constexpr std::string_view name = "yeoh";

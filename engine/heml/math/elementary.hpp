@@ -94,19 +94,19 @@ inline float natural_log(float x) { return detail::logarithm<std::uint32_t>(x, x
 
 /// Where e^x ends: beyond, it counts as infinite (or 0).
 template <class Real>
-inline constexpr Real largest_exponent = std::numeric_limits<Real>::digits == 24 ? Real(87) : Real(709);
+inline constexpr Real max_exponent = std::numeric_limits<Real>::digits == 24 ? Real(87) : Real(709);
 
 /// Up to where a stress of e^x and its derivatives still fit in a Real.
 template <class Real>
-inline constexpr Real exponent_in_range = largest_exponent<Real> * Real(0.9);
+inline constexpr Real safe_exponent = max_exponent<Real>* Real(0.9);
 
 template <class Real>
 using UnsignedOf = std::conditional_t<sizeof(Real) == 4, std::uint32_t, std::uint64_t>;
 
-/// e^x, within 2 ulp; infinite above largest_exponent, 0 below its negative.
+/// e^x, within 2 ulp; infinite above max_exponent, 0 below its negative.
 template <class Real>
 requires std::numeric_limits<Real>::is_iec559 inline Real natural_exp(Real x) {
-  constexpr Real most = largest_exponent<Real>;
+  constexpr Real most = max_exponent<Real>;
   const Real inside = x < most ? (x > -most ? x : -most) : most;
   const auto [scale, rest] = detail::exponential<UnsignedOf<Real>>(inside, inside);
   const Real value = scale + scale * rest;
@@ -116,7 +116,7 @@ requires std::numeric_limits<Real>::is_iec559 inline Real natural_exp(Real x) {
 /// e^x − 1 without the loss of digits near 0.
 template <class Real>
 requires std::numeric_limits<Real>::is_iec559 inline Real natural_expm1(Real x) {
-  constexpr Real most = largest_exponent<Real>;
+  constexpr Real most = max_exponent<Real>;
   const Real inside = x < most ? (x > -most ? x : -most) : most;
   const auto [scale, rest] = detail::exponential<UnsignedOf<Real>>(inside, inside);
   const Real value = scale * rest + (scale - 1);

@@ -27,18 +27,18 @@ struct BitsOf<double> {
 
 /// Of a comparison: all bits of a lane set, or none.
 template <class Real, int lanes, class Family>
-struct Mask {
+struct PackMask {
   using Signed = typename BitsOf<Real>::Signed;
   typedef Signed Vector [[gnu::vector_size(lanes * sizeof(Real))]];
   Vector bits;
 
-  Mask() = default;
-  [[gnu::always_inline]] Mask(bool all) : bits(Vector{} - Signed{all}) {}  // NOLINT: a truth is one of all lanes
-  [[gnu::always_inline]] explicit Mask(Vector b) : bits(b) {}
+  PackMask() = default;
+  [[gnu::always_inline]] PackMask(bool all) : bits(Vector{} - Signed{all}) {}  // NOLINT: a truth is one of all lanes
+  [[gnu::always_inline]] explicit PackMask(Vector b) : bits(b) {}
 
-  [[gnu::always_inline]] friend Mask operator&&(Mask a, Mask b) { return Mask(a.bits & b.bits); }
-  [[gnu::always_inline]] friend Mask operator||(Mask a, Mask b) { return Mask(a.bits | b.bits); }
-  [[gnu::always_inline]] friend Mask operator!(Mask a) { return Mask(~a.bits); }
+  [[gnu::always_inline]] friend PackMask operator&&(PackMask a, PackMask b) { return PackMask(a.bits & b.bits); }
+  [[gnu::always_inline]] friend PackMask operator||(PackMask a, PackMask b) { return PackMask(a.bits | b.bits); }
+  [[gnu::always_inline]] friend PackMask operator!(PackMask a) { return PackMask(~a.bits); }
   [[gnu::always_inline]] bool all() const {
     Signed every = -1;
     for (int l = 0; l < lanes; ++l) every &= bits[l];
@@ -51,7 +51,7 @@ struct Pack {
   static constexpr int lanes = n;
   typedef Real Vector [[gnu::vector_size(n * sizeof(Real))]];
   typedef typename BitsOf<Real>::Unsigned Bits [[gnu::vector_size(n * sizeof(Real))]];
-  using Truth = Mask<Real, n, Family>;
+  using Mask = PackMask<Real, n, Family>;
   Vector v;
 
   Pack() = default;
@@ -68,13 +68,11 @@ struct Pack {
   [[gnu::always_inline]] Pack& operator+=(Pack b) { return v += b.v, *this; }
   [[gnu::always_inline]] Pack& operator-=(Pack b) { return v -= b.v, *this; }
   [[gnu::always_inline]] Pack& operator*=(Pack b) { return v *= b.v, *this; }
-  [[gnu::always_inline]] friend Truth operator<(Pack a, Pack b) { return Truth(a.v < b.v); }
-  [[gnu::always_inline]] friend Truth operator>(Pack a, Pack b) { return Truth(a.v > b.v); }
-  [[gnu::always_inline]] friend Truth operator==(Pack a, Pack b) { return Truth(a.v == b.v); }
+  [[gnu::always_inline]] friend Mask operator<(Pack a, Pack b) { return Mask(a.v < b.v); }
+  [[gnu::always_inline]] friend Mask operator>(Pack a, Pack b) { return Mask(a.v > b.v); }
+  [[gnu::always_inline]] friend Mask operator==(Pack a, Pack b) { return Mask(a.v == b.v); }
 
-  [[gnu::always_inline]] friend Pack select(Truth condition, Pack a, Pack b) {
-    return Pack(condition.bits ? a.v : b.v);
-  }
+  [[gnu::always_inline]] friend Pack select(Mask condition, Pack a, Pack b) { return Pack(condition.bits ? a.v : b.v); }
   [[gnu::always_inline]] friend Pack sqrt(Pack a) {
     Pack root;
     for (int l = 0; l < n; ++l) root.v[l] = std::sqrt(a.v[l]);
@@ -82,13 +80,13 @@ struct Pack {
   }
   [[gnu::always_inline]] friend Pack natural_log(Pack a) { return Pack(detail::logarithm<Bits>(a.v, Real{})); }
   [[gnu::always_inline]] friend Pack natural_exp(Pack a) {
-    const Pack most = largest_exponent<Real>;
+    const Pack most = max_exponent<Real>;
     const auto [scale, rest] = detail::exponential<Bits>(within(a, most).v, Real{});
     return select(a > most, Pack(std::numeric_limits<Real>::infinity()),
                   select(a < -most, Pack(0), Pack(scale + scale * rest)));
   }
   [[gnu::always_inline]] friend Pack natural_expm1(Pack a) {
-    const Pack most = largest_exponent<Real>;
+    const Pack most = max_exponent<Real>;
     const auto [scale, rest] = detail::exponential<Bits>(within(a, most).v, Real{});
     return select(a > most, Pack(std::numeric_limits<Real>::infinity()), Pack(scale * rest + (scale - Real(1))));
   }
@@ -104,9 +102,9 @@ struct LaneOf<Pack<Real, n, Family>> {
   using type = Real;
 };
 template <class Real, int n, class Family>
-inline constexpr Real largest_exponent<Pack<Real, n, Family>> = largest_exponent<Real>;
+inline constexpr Real max_exponent<Pack<Real, n, Family>> = max_exponent<Real>;
 template <class Real, int n, class Family>
-inline constexpr Real exponent_in_range<Pack<Real, n, Family>> = exponent_in_range<Real>;
+inline constexpr Real safe_exponent<Pack<Real, n, Family>> = safe_exponent<Real>;
 
 }  // namespace heml
 

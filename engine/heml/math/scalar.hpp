@@ -7,7 +7,7 @@ namespace heml {
 
 /// What a comparison of two of them gives: bool, or a mask of many.
 template <class Real>
-using Truth = decltype(std::declval<Real>() < std::declval<Real>());
+using Mask = decltype(std::declval<Real>() < std::declval<Real>());
 
 /// condition ? a : b.
 template <class Real>

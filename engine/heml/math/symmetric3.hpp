@@ -8,14 +8,14 @@
 namespace heml {
 
 template <class Real>
-struct Eigen3 {
+struct SymmetricEigen3 {
   Real value[3];
   Real vector[3][3];  ///< vector[i] belongs to value[i]; orthonormal
 };
 
 /// All eigenvalues and eigenvectors, in no particular order; five sweeps of cyclic Jacobi (Golub & Van Loan, 8.5).
 template <class Real>
-[[gnu::always_inline]] inline Eigen3<Real> eigen3(const Real S[6]) {
+[[gnu::always_inline]] inline SymmetricEigen3<Real> symmetric_eigen3(const Real S[6]) {
   using std::sqrt;  // a scalar type of its own brings its own
   Real a[3][3] = {{S[0], S[3], S[4]}, {S[3], S[1], S[5]}, {S[4], S[5], S[2]}};
   Real v[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};  // columns are the vectors
@@ -40,7 +40,7 @@ template <class Real>
         row[q] = s * vp + c * vq;
       }
     }
-  Eigen3<Real> e;
+  SymmetricEigen3<Real> e;
   for (int i = 0; i < 3; ++i) {
     e.value[i] = a[i][i];
     for (int k = 0; k < 3; ++k) e.vector[i][k] = v[k][i];
@@ -50,7 +50,7 @@ template <class Real>
 
 /// Σ_i f_i n_i n_iᵀ.
 template <class Real>
-[[gnu::always_inline]] inline void assemble3(const Eigen3<Real>& e, const Real f[3], Real out[6]) {
+[[gnu::always_inline]] inline void spectral_sum3(const SymmetricEigen3<Real>& e, const Real f[3], Real out[6]) {
   constexpr int row[6] = {0, 1, 2, 0, 0, 1}, col[6] = {0, 1, 2, 1, 2, 2};
   for (int k = 0; k < 6; ++k) {
     out[k] = 0;
@@ -60,26 +60,26 @@ template <class Real>
 
 /// A:B of two symmetric matrices.
 template <class Real>
-[[gnu::always_inline]] inline Real contract3(const Real a[6], const Real b[6]) {
+[[gnu::always_inline]] inline Real double_contraction3(const Real a[6], const Real b[6]) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + 2 * (a[3] * b[3] + a[4] * b[4] + a[5] * b[5]);
 }
 
 /// n·S m.
 template <class Real>
-[[gnu::always_inline]] inline Real between3(const Real n[3], const Real S[6], const Real m[3]) {
+[[gnu::always_inline]] inline Real bilinear3(const Real n[3], const Real S[6], const Real m[3]) {
   return n[0] * (S[0] * m[0] + S[3] * m[1] + S[4] * m[2]) + n[1] * (S[3] * m[0] + S[1] * m[1] + S[5] * m[2]) +
          n[2] * (S[4] * m[0] + S[5] * m[1] + S[2] * m[2]);
 }
 
 /// M S Mᵀ of a general M and a symmetric S.
 template <class Real>
-[[gnu::always_inline]] inline void congruent3(const Real M[3][3], const Real S[6], Real out[6]) {
-  out[0] = between3(M[0], S, M[0]);
-  out[1] = between3(M[1], S, M[1]);
-  out[2] = between3(M[2], S, M[2]);
-  out[3] = between3(M[0], S, M[1]);
-  out[4] = between3(M[0], S, M[2]);
-  out[5] = between3(M[1], S, M[2]);
+[[gnu::always_inline]] inline void congruence3(const Real M[3][3], const Real S[6], Real out[6]) {
+  out[0] = bilinear3(M[0], S, M[0]);
+  out[1] = bilinear3(M[1], S, M[1]);
+  out[2] = bilinear3(M[2], S, M[2]);
+  out[3] = bilinear3(M[0], S, M[1]);
+  out[4] = bilinear3(M[0], S, M[2]);
+  out[5] = bilinear3(M[1], S, M[2]);
 }
 
 }  // namespace heml

@@ -19,11 +19,11 @@ struct PlyType {
 };
 
 constexpr std::array ply_types{
-    PlyType{"char", 1, true, true},       PlyType{"int8", 1, true, true},     PlyType{"uchar", 1, true, false},
-    PlyType{"uint8", 1, true, false},     PlyType{"short", 2, true, true},    PlyType{"int16", 2, true, true},
-    PlyType{"ushort", 2, true, false},    PlyType{"uint16", 2, true, false},  PlyType{"int", 4, true, true},
-    PlyType{"int32", 4, true, true},      PlyType{"uint", 4, true, false},    PlyType{"uint32", 4, true, false},
-    PlyType{"float", 4, false, true},     PlyType{"float32", 4, false, true}, PlyType{"double", 8, false, true},
+    PlyType{"char", 1, true, true},     PlyType{"int8", 1, true, true},     PlyType{"uchar", 1, true, false},
+    PlyType{"uint8", 1, true, false},   PlyType{"short", 2, true, true},    PlyType{"int16", 2, true, true},
+    PlyType{"ushort", 2, true, false},  PlyType{"uint16", 2, true, false},  PlyType{"int", 4, true, true},
+    PlyType{"int32", 4, true, true},    PlyType{"uint", 4, true, false},    PlyType{"uint32", 4, true, false},
+    PlyType{"float", 4, false, true},   PlyType{"float32", 4, false, true}, PlyType{"double", 8, false, true},
     PlyType{"float64", 8, false, true},
 };
 

@@ -16,15 +16,15 @@ namespace {
 
 std::string triangle_place(std::size_t t) { return fmt::format("triangle {}", t); }
 
-void check_nodes(const SurfaceMesh& surface) {
+void check_nodes(const TriangleMesh& surface) {
   for (std::size_t n = 0; n < surface.nodes.size(); ++n)
-    if (!(surface.nodes[n].cwiseAbs().maxCoeff() <= farthest_node) || !surface.nodes[n].allFinite())
+    if (!(surface.nodes[n].cwiseAbs().maxCoeff() <= max_coordinate) || !surface.nodes[n].allFinite())
       throw InputError(surface.source, fmt::format("node {}", n),
                        "position " + shown(surface.nodes[n]) + " is no place in metres",
-                       fmt::format("finite coordinates up to {:.0e}", farthest_node));
+                       fmt::format("finite coordinates up to {:.0e}", max_coordinate));
 }
 
-void check_triangles(const SurfaceMesh& surface) {
+void check_triangles(const TriangleMesh& surface) {
   if (surface.triangles.empty()) throw InputError(surface.source, "", "has no triangles", "a closed surface");
   const int nodes = static_cast<int>(surface.nodes.size());
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
@@ -42,7 +42,7 @@ void check_triangles(const SurfaceMesh& surface) {
   }
 }
 
-void check_duplicates(const SurfaceMesh& surface) {
+void check_duplicates(const TriangleMesh& surface) {
   std::vector<std::pair<Triangle, int>> sorted;
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     sorted.push_back({surface.triangles[t], static_cast<int>(t)});
@@ -58,7 +58,7 @@ void check_duplicates(const SurfaceMesh& surface) {
                      "each triangle once");
 }
 
-void check_edges(const SurfaceMesh& surface) {
+void check_edges(const TriangleMesh& surface) {
   std::vector<std::pair<int, int>> edges;
   for (const Triangle& t : surface.triangles)
     for (int i = 0; i < 3; ++i) edges.push_back(std::minmax(t[i], t[(i + 1) % 3]));
@@ -82,27 +82,27 @@ void check_edges(const SurfaceMesh& surface) {
                      "remove inner walls and parts that touch");
 }
 
-void check_intersections(SurfaceMesh& surface) {
+void check_intersections(TriangleMesh& surface) {
   const Intersections found = self_intersections(surface);
   if (found.pairs == 0 || untangle(surface, found)) return;
   const Triangle& first = surface.triangles[found.first];
   throw InputError(
       surface.source, triangle_place(found.first),
       fmt::format("meets triangle {} near {}; the surface runs through itself in {}{} pairs of triangles", found.second,
-                  shown(surface.nodes[first[0]]), found.pairs >= most_pairs ? "at least " : "", found.pairs),
+                  shown(surface.nodes[first[0]]), found.pairs >= max_pairs ? "at least " : "", found.pairs),
       "separate or unite the parts");
 }
 
 }  // namespace
 
-void check_surface(SurfaceMesh& surface) {
+void check_surface(TriangleMesh& surface) {
   check_nodes(surface);
   check_triangles(surface);
   check_duplicates(surface);
   check_edges(surface);
-  const Shells shells = turn_alike(surface);
+  const Shells shells = orient_consistently(surface);
   check_intersections(surface);
-  turn_outward(surface, shells);
+  orient_outward(surface, shells);
 }
 
 }  // namespace heml

@@ -8,7 +8,7 @@
 namespace heml {
 
 /// m: past this no file means metres, and volumes leave the range of float.
-inline constexpr double farthest_node = 1e12;
+inline constexpr double max_coordinate = 1e12;
 
 inline std::string shown(const Vec3& x) { return fmt::format("[{}, {}, {}]", x[0], x[1], x[2]); }
 

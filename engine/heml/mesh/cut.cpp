@@ -86,8 +86,8 @@ class Cutter {
         const auto [a, b, c] = face(piece, f);
         area += (at(b) - at(a)).cross(at(c) - at(a)).norm() / 2;
         piece.comes_apart[f] = true;
-        Piece& across = pieces_[static_cast<std::size_t>(other)];
-        across.comes_apart[facing(across, &piece)] = true;
+        Piece& plane_normal = pieces_[static_cast<std::size_t>(other)];
+        plane_normal.comes_apart[facing(plane_normal, &piece)] = true;
       }
     copy_nodes();
     return area;
@@ -172,13 +172,13 @@ class Cutter {
     std::vector<int> entering;
     for (const Piece& piece : pieces_) {
       if (!piece.is_new) continue;
-      const double angle = smallest_angle(piece.tet);
-      if (angle >= thin || angle >= smallest_angle(mesh_.tets[static_cast<std::size_t>(piece.parent)])) continue;
+      const double angle = min_angle(piece.tet);
+      if (angle >= thin || angle >= min_angle(mesh_.tets[static_cast<std::size_t>(piece.parent)])) continue;
       int end = -1;
       double nearest = snap;
       for (const int n : piece.tet) {
         if (n < static_cast<int>(mesh_.nodes.size())) continue;
-        const NewNode& node = new_nodes_[static_cast<std::size_t>(n) - mesh_.nodes.size()];
+        const InsertedNode& node = new_nodes_[static_cast<std::size_t>(n) - mesh_.nodes.size()];
         const Crossing& crossing = crossings_.at({node.from, node.to});
         const double distance = crossing.to_end(mesh_, {node.from, node.to});
         if (distance >= nearest) continue;
@@ -195,18 +195,18 @@ class Cutter {
   }
 
   /// Of a piece at rest, degrees.
-  double smallest_angle(const Tet& tet) const {
+  double min_angle(const Tet& tet) const {
     std::array<Vec3, 4> X;
     for (std::size_t a = 0; a < 4; ++a) {
       const auto n = static_cast<std::size_t>(tet[a]);
       if (n < mesh_.nodes.size()) {
         X[a] = mesh_.nodes[n];
       } else {
-        const NewNode& node = new_nodes_[n - mesh_.nodes.size()];
+        const InsertedNode& node = new_nodes_[n - mesh_.nodes.size()];
         X[a] = rest(node.from) + node.at * (rest(node.to) - rest(node.from));
       }
     }
-    return smallest_dihedral(X);
+    return min_dihedral(X);
   }
 
   /// Splits those of the pieces from `first` on that have the edge.
@@ -290,7 +290,7 @@ class Cutter {
     if (!keeps) {
       number = static_cast<int>(in_cut_.size());
       const auto known = static_cast<std::size_t>(node);
-      new_nodes_.push_back(known < mesh_.nodes.size() ? NewNode{node, node, 0}
+      new_nodes_.push_back(known < mesh_.nodes.size() ? InsertedNode{node, node, 0}
                                                       : new_nodes_[known - mesh_.nodes.size()]);
       in_cut_.push_back(true);
     }
@@ -319,7 +319,7 @@ class Cutter {
   const Topology& topology_;
   std::vector<bool> in_cut_, newly_in_cut_;
   std::map<Edge, Crossing> crossings_;
-  std::vector<NewNode> new_nodes_;
+  std::vector<InsertedNode> new_nodes_;
   std::vector<Piece> pieces_;
   std::vector<Tet> final_;  ///< of each piece, with copies
 };

@@ -65,7 +65,7 @@ Topology whole(const TetMesh& mesh, long version) {
   return topology;
 }
 
-Topology edited(const Topology& topology, const MeshEdit& edit, int elements) {
+Topology apply_edit(const Topology& topology, const MeshEdit& edit, int elements) {
   Topology result{topology.version + 1, {}};
   std::set_difference(topology.elements.begin(), topology.elements.end(), edit.removed.begin(), edit.removed.end(),
                       std::back_inserter(result.elements));
@@ -84,8 +84,8 @@ void append(const MeshEdit& edit, TetMesh& mesh) {
         field.values.push_back(field.values[field.components * static_cast<std::size_t>(parent) + c]);
 }
 
-std::optional<std::string> make_removal(const ElementSelection& which, const TetMesh& mesh, const Topology& topology,
-                                        MeshEdit& edit) {
+std::optional<std::string> make_removal_edit(const ElementSelection& which, const TetMesh& mesh,
+                                             const Topology& topology, MeshEdit& edit) {
   std::vector<int> chosen;
   if (which.region) {
     chosen =

@@ -16,17 +16,17 @@
 namespace heml {
 
 /// A node that an edit adds, on the edge between two that were there; from == to: a copy of that one.
-struct NewNode {
+struct InsertedNode {
   int from, to;
   double at;  ///< 0 at from, 1 at to; at rest and now
 };
 
 /// What is to become of a mesh of #V nodes and #T elements.
 struct MeshEdit {
-  std::vector<int> removed;    ///< elements that go, ascending, each once
-  std::vector<NewNode> nodes;  ///< numbers #V, #V + 1, …
-  std::vector<Tet> added;      ///< numbers #T, #T + 1, …; into old and new nodes
-  std::vector<int> parents;    ///< of each added, one of the removed, whose part it is; ascending
+  std::vector<int> removed;         ///< elements that go, ascending, each once
+  std::vector<InsertedNode> nodes;  ///< numbers #V, #V + 1, …
+  std::vector<Tet> added;           ///< numbers #T, #T + 1, …; into old and new nodes
+  std::vector<int> parents;         ///< of each added, one of the removed, whose part it is; ascending
 };
 
 /// Which elements are there. Never changes: an edit makes another one, and all who draw or write share it.
@@ -39,7 +39,7 @@ struct Topology {
 Topology whole(const TetMesh& mesh, long version = 0);
 
 /// What an edit leaves of a topology of a mesh of #T elements. Everything it removes must be there.
-Topology edited(const Topology& topology, const MeshEdit& edit, int elements);
+Topology apply_edit(const Topology& topology, const MeshEdit& edit, int elements);
 
 /// Adds an edit's nodes and elements to a mesh: at rest between those they come from, of their parent's region and
 /// fields. What it removes stays, as a gap in the topology.
@@ -48,7 +48,7 @@ void append(const MeshEdit& edit, TetMesh& mesh);
 /// Values of nodes (each × #V) continued on an edit's nodes.
 template <class Value>
 void append(const MeshEdit& edit, std::vector<Value>& values, std::size_t each = 1) {
-  for (const NewNode& node : edit.nodes)
+  for (const InsertedNode& node : edit.nodes)
     for (std::size_t c = 0; c < each; ++c) {
       const Value from = values[each * static_cast<std::size_t>(node.from) + c];
       const Value to = values[each * static_cast<std::size_t>(node.to) + c];
@@ -66,8 +66,8 @@ struct ElementSelection {
 
 /// The edit that removes what is chosen of what is there; or what is wrong with it, in words: an element that there is
 /// not or no more, nothing chosen, nothing left. mesh: at rest.
-std::optional<std::string> make_removal(const ElementSelection& which, const TetMesh& mesh, const Topology& topology,
-                                        MeshEdit& edit);
+std::optional<std::string> make_removal_edit(const ElementSelection& which, const TetMesh& mesh,
+                                             const Topology& topology, MeshEdit& edit);
 
 /// The mesh with the given elements alone, in that order, and all its nodes and fields.
 TetMesh with_elements(const TetMesh& mesh, const std::vector<int>& elements);

@@ -7,7 +7,7 @@
 #include <heml/mesh/check_ply.hpp>
 #include <heml/mesh/file_contents.hpp>
 #include <heml/mesh/from_surface.hpp>
-#include <heml/mesh/helper.hpp>
+#include <heml/mesh/mesher_process.hpp>
 #include <heml/mesh/scanner.hpp>
 #include <heml/mesh/shells.hpp>
 #include <iterator>
@@ -18,7 +18,7 @@ namespace {
 
 // What is exchanged with the helper: "#nodes #rows [#holes]", then x y z a node, then indices a row, then x y z a hole.
 
-std::string request_of(const SurfaceMesh& surface, const std::vector<Vec3>& holes) {
+std::string request_of(const TriangleMesh& surface, const std::vector<Vec3>& holes) {
   std::string text;
   const auto out = std::back_inserter(text);
   const auto add = [&](const Vec3& x) { fmt::format_to(out, "{:.17g} {:.17g} {:.17g}\n", x[0], x[1], x[2]); };
@@ -42,7 +42,7 @@ void read_answer(const std::string& subject, const std::string& text, std::vecto
 
 // assimp makes up to a hundred bytes of one, and some formats are compressed; a damaged size makes it ask for more or
 // count for hours.
-HelperLimits reading_limits(double file_bytes) {
+ProcessLimits reading_limits(double file_bytes) {
   return {20 + file_bytes / 5e6, 120 + file_bytes / 5e6, std::min(256e6 + 1000 * file_bytes, 4e9)};
 }
 
@@ -52,7 +52,7 @@ bool before(const Vec3& a, const Vec3& b) {
 
 // Joins nodes at the very same place (files of triangles repeat them), drops those of no triangle and triangles that
 // lose a corner by it. Nodes keep the order of their first use.
-SurfaceMesh joined(const SurfaceMesh& surface) {
+TriangleMesh joined(const TriangleMesh& surface) {
   std::vector<int> order(surface.nodes.size());
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(), [&](int a, int b) {
@@ -62,7 +62,7 @@ SurfaceMesh joined(const SurfaceMesh& surface) {
   std::vector<int> same(surface.nodes.size());
   for (std::size_t i = 0; i < order.size(); ++i)
     same[order[i]] = i > 0 && surface.nodes[order[i]] == surface.nodes[order[i - 1]] ? same[order[i - 1]] : order[i];
-  SurfaceMesh result;
+  TriangleMesh result;
   result.source = surface.source;
   std::vector<int> number(surface.nodes.size(), -1);
   for (Triangle triangle : surface.triangles) {
@@ -80,7 +80,7 @@ SurfaceMesh joined(const SurfaceMesh& surface) {
   return result;
 }
 
-void check_options(const SurfaceMesh& surface, const TetgenOptions& options) {
+void check_options(const TriangleMesh& surface, const TetgenOptions& options) {
   if (!(options.radius_edge_ratio >= 1) || !std::isfinite(options.radius_edge_ratio))
     throw InputError(surface.source, "tetgen.radius_edge_ratio", fmt::format("is {}", options.radius_edge_ratio),
                      "a number from 1, e.g. 1.4");
@@ -91,7 +91,7 @@ void check_options(const SurfaceMesh& surface, const TetgenOptions& options) {
 
 }  // namespace
 
-SurfaceMesh read_surface(const std::filesystem::path& path) {
+TriangleMesh read_surface(const std::filesystem::path& path) {
   HelperTask task{.subject = path.string(),
                   .doing = "reading it",
                   .arguments = {"read", std::filesystem::absolute(path).string()},
@@ -102,27 +102,26 @@ SurfaceMesh read_surface(const std::filesystem::path& path) {
     if (is_ply(text)) check_ply(task.subject, text);
     task.limits = reading_limits(static_cast<double>(text.size()));
   }
-  SurfaceMesh surface;
+  TriangleMesh surface;
   surface.source = task.subject;
-  read_answer(surface.source, run_helper(task), surface.nodes, surface.triangles);
+  read_answer(surface.source, run_mesher(task), surface.nodes, surface.triangles);
   return joined(surface);
 }
 
-TetMesh tetrahedralize(const SurfaceMesh& surface, const TetgenOptions& options) {
+TetMesh tetrahedralize(const TriangleMesh& surface, const TetgenOptions& options) {
   check_options(surface, options);
-  SurfaceMesh checked = surface;
+  TriangleMesh checked = surface;
   check_surface(checked);
-  const HelperTask task{
-      .subject = surface.source,
-      .doing = "filling it",
-      .arguments = {"fill", fmt::format("{:.17g}", options.radius_edge_ratio),
-                    options.max_volume ? fmt::format("{:.17g}", *options.max_volume) : "none"},
-      .limits = {options.time_limit, options.time_limit, options.memory_limit},
-      .remedy = "a coarser surface, a larger radius_edge_ratio or max_volume"};
+  const HelperTask task{.subject = surface.source,
+                        .doing = "filling it",
+                        .arguments = {"fill", fmt::format("{:.17g}", options.radius_edge_ratio),
+                                      options.max_volume ? fmt::format("{:.17g}", *options.max_volume) : "none"},
+                        .limits = {options.time_limit, options.time_limit, options.memory_limit},
+                        .remedy = "a coarser surface, a larger radius_edge_ratio or max_volume"};
   TetMesh mesh;
   mesh.source = surface.source;
-  const std::vector<Vec3> holes = cavity_points(checked, turn_alike(checked));
-  read_answer(mesh.source, run_helper(task, request_of(checked, holes)), mesh.nodes, mesh.tets);
+  const std::vector<Vec3> holes = cavity_points(checked, orient_consistently(checked));
+  read_answer(mesh.source, run_mesher(task, request_of(checked, holes)), mesh.nodes, mesh.tets);
   if (mesh.tets.empty() || mesh.nodes.size() < surface.nodes.size())
     throw InputError(surface.source, "", "TetGen filled nothing", "repair or simplify the surface");
   std::copy(checked.nodes.begin(), checked.nodes.end(), mesh.nodes.begin());

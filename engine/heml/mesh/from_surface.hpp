@@ -16,18 +16,18 @@ struct TetgenOptions {
 };
 
 /// Any surface assimp reads (OBJ, STL, PLY, ...), equal vertices joined, triangles only. Throws InputError.
-SurfaceMesh read_surface(const std::filesystem::path& path);
+TriangleMesh read_surface(const std::filesystem::path& path);
 
 /// Why a surface cannot be filled (open, non-manifold, self-intersecting, ...): throws InputError that names edge or
 /// triangle. Turns all triangles outward first, and smooths away creases that run through themselves (untangle.hpp).
-void check_surface(SurfaceMesh& surface);
+void check_surface(TriangleMesh& surface);
 
 /// Fills a closed surface, all but its cavities; its triangles are kept, its nodes come first, in order and, as
 /// check_surface() leaves them, to the bit. Throws InputError when TetGen fails, takes too long, or makes nothing;
 /// warns of tetrahedra larger than asked for.
-TetMesh tetrahedralize(const SurfaceMesh& surface, const TetgenOptions& options = {});
+TetMesh tetrahedralize(const TriangleMesh& surface, const TetgenOptions& options = {});
 
 /// What is odd about the size of a body in metres: "18 m long: is the file in centimetres? ...", or empty.
-std::string unit_suspicion(const Vec3& low, const Vec3& high);
+std::string unit_warning(const Vec3& low, const Vec3& high);
 
 }  // namespace heml

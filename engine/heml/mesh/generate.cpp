@@ -7,7 +7,7 @@
 namespace heml {
 namespace {
 
-constexpr double most_tets = 1e8;
+constexpr double max_tets = 1e8;
 
 void check_box(const Vec3& size, const std::array<int, 3>& cells, const Vec3& origin) {
   for (int i = 0; i < 3; ++i) {
@@ -17,10 +17,10 @@ void check_box(const Vec3& size, const std::array<int, 3>& cells, const Vec3& or
     if (cells[i] < 1) throw InputError("", "box.cells", fmt::format("must be at least 1 each, has {}", cells[i]));
   }
   const double tets = 5.0 * cells[0] * cells[1] * cells[2];
-  if (tets > most_tets)
+  if (tets > max_tets)
     throw InputError("", "box.cells",
                      fmt::format("{} × {} × {} cells make {:.3g} tetrahedra", cells[0], cells[1], cells[2], tets),
-                     fmt::format("at most {:.0e}", most_tets));
+                     fmt::format("at most {:.0e}", max_tets));
 }
 
 }  // namespace

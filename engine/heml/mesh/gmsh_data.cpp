@@ -7,13 +7,13 @@
 namespace heml {
 namespace {
 
-constexpr long long most_tags = 1000;
+constexpr long long max_tags = 1000;
 
 bool by_number(const GmshElement& a, const GmshElement& b) { return a.number < b.number; }
 
 std::size_t tag_count(Scanner& in, std::string_view what) {
   in.need_word(what);
-  return static_cast<std::size_t>(in.integer(what, 0, most_tags));
+  return static_cast<std::size_t>(in.integer(what, 0, max_tags));
 }
 
 // A line of text without its quotes; what follows on it is left for need_line().
@@ -62,7 +62,7 @@ GmshData::Section GmshData::header(Scanner& in) {
   in.need_word("the time step");
   section.step = in.integer("the time step");
   in.need_word("the number of components");
-  section.components = static_cast<std::size_t>(in.integer("the number of components", 0, most_tags));
+  section.components = static_cast<std::size_t>(in.integer("the number of components", 0, max_tags));
   in.need_word("the number of elements");
   section.count = in.count("the number of elements", 1 + section.components);
   for (std::size_t i = 3; i < integers; ++i) {

@@ -65,7 +65,7 @@ bool segment_meets(const Vec3& p, const Vec3& q, const std::array<Vec3, 3>& t) {
 
 class Pairs {
  public:
-  explicit Pairs(const SurfaceMesh& surface) : surface_(surface) {}
+  explicit Pairs(const TriangleMesh& surface) : surface_(surface) {}
 
   bool meet(const Triangle& s, const Triangle& t) const {
     // Shared nodes to the front of both, in the same order.
@@ -104,14 +104,14 @@ class Pairs {
     return side(u, v, a, b) == 0 && (v - u).cross(a - u).dot((v - u).cross(b - u)) > 0;
   }
 
-  const SurfaceMesh& surface_;
+  const TriangleMesh& surface_;
 };
 
 // What Eigen's tree asks for: which boxes and which triangles to compare; each pair once.
 struct Search {
   using Box = Eigen::AlignedBox3d;
 
-  const SurfaceMesh& surface;
+  const TriangleMesh& surface;
   const Pairs& pairs;
   Intersections found;
 
@@ -126,13 +126,13 @@ struct Search {
       found.second = t;
     }
     found.triangles.insert(found.triangles.end(), {s, t});
-    return ++found.pairs >= most_pairs;
+    return ++found.pairs >= max_pairs;
   }
 };
 
 }  // namespace
 
-Intersections self_intersections(const SurfaceMesh& surface) {
+Intersections self_intersections(const TriangleMesh& surface) {
   const Pairs pairs(surface);
   std::vector<int> triangles;
   std::vector<Eigen::AlignedBox3d> boxes;

@@ -30,9 +30,7 @@ class MeshText {
   }
 
   /// Throws InputError when it cannot be written.
-  void save(const std::filesystem::path& path) const {
-    write_file(path, {text_.data(), text_.size()});
-  }
+  void save(const std::filesystem::path& path) const { write_file(path, {text_.data(), text_.size()}); }
 
  private:
   fmt::memory_buffer text_;

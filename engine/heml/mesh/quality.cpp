@@ -27,9 +27,9 @@ void check_nodes(const TetMesh& mesh) {
     const Vec3& x = mesh.nodes[n];
     if (!x.allFinite())
       throw InputError(mesh.source, fmt::format("node {}", n), "position " + shown(x) + " is not finite");
-    if (x.cwiseAbs().maxCoeff() > farthest_node)
+    if (x.cwiseAbs().maxCoeff() > max_coordinate)
       throw InputError(mesh.source, fmt::format("node {}", n), "position " + shown(x) + " is no place in metres",
-                       fmt::format("coordinates up to {:.0e}", farthest_node));
+                       fmt::format("coordinates up to {:.0e}", max_coordinate));
   }
 }
 
@@ -75,7 +75,7 @@ void repair_winding(TetMesh& mesh, QualityReport& report) {
                        "remove it or move one of its nodes");
     if (volume < 0) {
       std::swap(tet[2], tet[3]);
-      ++report.rewound;
+      ++report.flipped;
     }
     report.volume += std::abs(volume);
   }
@@ -96,7 +96,7 @@ void measure_shape(const TetMesh& mesh, QualityReport& report) {
         report.longest_edge = std::max(report.longest_edge, length);
       }
     }
-    const double dihedral = smallest_dihedral(x);
+    const double dihedral = min_dihedral(x);
     report.slivers += dihedral < sliver_degrees;
     if (dihedral < report.worst_dihedral) {
       report.worst_dihedral = dihedral;
@@ -139,7 +139,7 @@ int count_duplicates(const std::vector<Vec3>& nodes) {
 
 int count_nonmanifold_edges(const TetMesh& mesh) {
   std::vector<std::pair<int, int>> edges;
-  for (const Triangle& face : boundary_of(mesh).triangles)
+  for (const Triangle& face : extract_boundary(mesh).triangles)
     for (int a = 0; a < 3; ++a) edges.push_back(std::minmax(face[a], face[(a + 1) % 3]));
   std::sort(edges.begin(), edges.end());
   int count = 0;
@@ -162,7 +162,7 @@ std::string counted(int count, const char* one, const char* many) {
 void add_warnings(const TetMesh& mesh, QualityReport& report) {
   const QualityReport& r = report;
   const auto say = [&](std::string sentence) { report.warnings.push_back(std::move(sentence)); };
-  if (r.rewound > 0) say(fmt::format("{} of {} tetrahedra inside out by their winding; repaired", r.rewound, r.tets));
+  if (r.flipped > 0) say(fmt::format("{} of {} tetrahedra inside out by their winding; repaired", r.flipped, r.tets));
   if (r.slivers > 0)
     say(fmt::format("{} (a dihedral angle under {}°); the worst, element {} (nodes {}), has {:.3g}°",
                     counted(r.slivers, "sliver", "slivers"), sliver_degrees, r.worst_tet,
@@ -179,7 +179,7 @@ void add_warnings(const TetMesh& mesh, QualityReport& report) {
 
 }  // namespace
 
-double smallest_dihedral(const std::array<Vec3, 4>& x) {
+double min_dihedral(const std::array<Vec3, 4>& x) {
   std::array<Vec3, 4> outward;
   for (int f = 0; f < 4; ++f) {
     const auto& [a, b, c] = tet_faces[f];

@@ -10,7 +10,7 @@ struct QualityReport {
   int nodes = 0, tets = 0, regions = 0;
   double volume = 0;                           ///< m³
   Vec3 low, high;                              ///< m, bounding box of the tetrahedra
-  int rewound = 0;                             ///< tetrahedra whose winding was repaired
+  int flipped = 0;                             ///< tetrahedra whose winding was repaired
   int slivers = 0;                             ///< with a smallest dihedral angle under 5°
   int worst_tet = -1;                          ///< file order
   double worst_dihedral = 0;                   ///< degrees, of worst_tet
@@ -23,7 +23,7 @@ struct QualityReport {
 };
 
 /// The smallest angle between two faces of a tetrahedron, degrees.
-double smallest_dihedral(const std::array<Vec3, 4>& x);
+double min_dihedral(const std::array<Vec3, 4>& x);
 
 /// Checks a mesh and repairs winding in place. Throws InputError for what cannot be repaired: no tetrahedra, an index
 /// outside the nodes, a coordinate that is not finite, a node twice in one element, a volume of zero; it names the

@@ -8,7 +8,7 @@
 namespace heml {
 namespace {
 
-constexpr long long most_attributes = 1000;  // attributes a line
+constexpr long long max_attributes = 1000;  // attributes a line
 
 // "number x y z attribute ... [marker]"
 NodeNumbers read_nodes(Scanner& in, std::vector<Vec3>& nodes) {
@@ -46,7 +46,7 @@ ReadMesh read_tetgen(std::string node_file, std::string_view nodes, std::string 
   in.need_line("the number of tetrahedra");
   const std::size_t count = in.count("the number of tetrahedra", 5);
   if (in.has_word()) in.integer("the nodes a tetrahedron", 4, 4);
-  const long long attributes = in.has_word() ? in.integer("the attributes a tetrahedron", 0, most_attributes) : 0;
+  const long long attributes = in.has_word() ? in.integer("the attributes a tetrahedron", 0, max_attributes) : 0;
   for (long long a = 1; a < attributes; ++a) field_in(read.mesh, fmt::format("attribute{}", a), 1, in);
   read.mesh.tets.reserve(count);
   read.mesh.regions.reserve(count);

@@ -8,12 +8,12 @@ namespace heml {
 namespace {
 
 constexpr int vtk_tetra = 10;
-constexpr std::size_t most_fields = 1000;  // finding one is linear in their number
+constexpr std::size_t max_fields = 1000;  // finding one is linear in their number
 constexpr std::size_t most_values_a_byte =
     4;  // of fields, a byte of the file: some may leave out most of the tetrahedra
 
 void check_count(std::size_t fields, const Scanner& in) {
-  if (fields > most_fields) in.fail(fmt::format("more than {} fields of elements", most_fields), "save fewer");
+  if (fields > max_fields) in.fail(fmt::format("more than {} fields of elements", max_fields), "save fewer");
 }
 
 // Cells of VTK with a volume, other than the linear tetrahedron (vtkCellType.h).

@@ -36,7 +36,7 @@ class Bisection {
   Refinement cut() {
     number_middles();
     for (std::size_t t = 0; t < mesh_.tets.size(); ++t) cut(mesh_.tets[t], static_cast<int>(t));
-    take_fields();
+    resolve_fields();
     return std::move(result_);
   }
 
@@ -89,7 +89,7 @@ class Bisection {
     }
   }
 
-  void take_fields() {
+  void resolve_fields() {
     for (const int parent : result_.parents)
       result_.mesh.regions.push_back(mesh_.regions[static_cast<std::size_t>(parent)]);
     for (const ElementField& field : mesh_.fields) {
@@ -107,13 +107,13 @@ class Bisection {
 
 }  // namespace
 
-Refinement refined(const TetMesh& mesh, const std::vector<int>& chosen) {
+Refinement refine_longest_edge(const TetMesh& mesh, const std::vector<int>& chosen) {
   Bisection bisection(mesh);
   bisection.mark(chosen);
   return bisection.cut();
 }
 
-std::vector<int> greatest(const std::vector<double>& of_element, double share) {
+std::vector<int> doerfler_marking(const std::vector<double>& of_element, double share) {
   std::vector<int> order(of_element.size());
   std::iota(order.begin(), order.end(), 0);
   const auto value = [&](int t) { return of_element[static_cast<std::size_t>(t)]; };

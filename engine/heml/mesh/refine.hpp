@@ -23,10 +23,10 @@ struct Refinement {
 
 /// Cuts at least the given elements of a mesh that check_tets() has left. Linear functions on the old mesh are linear
 /// functions on the new one. Shapes do not degenerate, however often it is done.
-Refinement refined(const TetMesh& mesh, const std::vector<int>& chosen);
+Refinement refine_longest_edge(const TetMesh& mesh, const std::vector<int>& chosen);
 
 /// The fewest elements that have this share of a sum, greatest first; of equals the first: what to refine by an
 /// estimate of_element (Dörfler's marking). Ascending.
-std::vector<int> greatest(const std::vector<double>& of_element, double share);
+std::vector<int> doerfler_marking(const std::vector<double>& of_element, double share);
 
 }  // namespace heml

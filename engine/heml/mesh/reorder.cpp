@@ -58,7 +58,7 @@ void sort_by_key(const std::vector<std::uint64_t>& keys, std::vector<int>& order
 
 }  // namespace
 
-Reordering locality_order(const TetMesh& mesh) {
+Reordering hilbert_order(const TetMesh& mesh) {
   std::vector<char> used(mesh.nodes.size(), 0);
   for (const Tet& tet : mesh.tets)
     for (int node : tet) used[node] = 1;

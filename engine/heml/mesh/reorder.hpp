@@ -12,7 +12,7 @@ struct Reordering {
 };
 
 /// Hilbert order of tetrahedra (by centroid) and of nodes; orphan nodes last. Depends on the mesh alone.
-Reordering locality_order(const TetMesh& mesh);
+Reordering hilbert_order(const TetMesh& mesh);
 
 /// The mesh in inner order, its fields too.
 TetMesh reordered(const TetMesh& mesh, const Reordering& order);

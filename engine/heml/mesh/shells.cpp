@@ -17,7 +17,7 @@ struct Corner {
 };
 
 // The edges of all triangles, those of one edge beside each other.
-std::vector<Corner> sorted_edges(const SurfaceMesh& surface) {
+std::vector<Corner> sorted_edges(const TriangleMesh& surface) {
   std::vector<Corner> edges;
   for (std::size_t t = 0; t < surface.triangles.size(); ++t)
     for (int i = 0; i < 3; ++i) {
@@ -38,11 +38,11 @@ struct Neighbour {
 void turn(Triangle& triangle) { std::swap(triangle[1], triangle[2]); }
 
 // Six times the volume under a triangle, seen from `origin`.
-double volume_under(const SurfaceMesh& surface, const Triangle& t, const Vec3& origin) {
+double volume_under(const TriangleMesh& surface, const Triangle& t, const Vec3& origin) {
   return (surface.nodes[t[0]] - origin).cross(surface.nodes[t[1]] - origin).dot(surface.nodes[t[2]] - origin);
 }
 
-std::vector<double> shell_volumes(const SurfaceMesh& surface, const Shells& shells) {
+std::vector<double> shell_volumes(const TriangleMesh& surface, const Shells& shells) {
   std::vector<double> volumes(shells.count, 0);
   std::vector<int> first(shells.count, -1);  // origin near the shell: less cancellation
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
@@ -60,7 +60,7 @@ double solid_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
 }
 
 // How many other shells each shell lies in. They do not cross, so one point of it decides.
-std::vector<int> depths(const SurfaceMesh& surface, const Shells& shells) {
+std::vector<int> depths(const TriangleMesh& surface, const Shells& shells) {
   std::vector<Eigen::AlignedBox3d> boxes(shells.count);
   std::vector<std::vector<int>> members(shells.count);
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
@@ -85,7 +85,7 @@ std::vector<int> depths(const SurfaceMesh& surface, const Shells& shells) {
 }
 
 // Where a ray first meets the surface: the multiple of `along` (Möller, Trumbore 1997), edges counted in.
-double first_hit(const SurfaceMesh& surface, int from_triangle, const Vec3& start, const Vec3& along) {
+double first_hit(const TriangleMesh& surface, int from_triangle, const Vec3& start, const Vec3& along) {
   constexpr double slack = 1e-9;
   double nearest = std::numeric_limits<double>::infinity();
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
@@ -102,7 +102,7 @@ double first_hit(const SurfaceMesh& surface, int from_triangle, const Vec3& star
 
 }  // namespace
 
-Shells turn_alike(SurfaceMesh& surface) {
+Shells orient_consistently(TriangleMesh& surface) {
   const std::vector<Corner> edges = sorted_edges(surface);
   std::vector<std::array<Neighbour, 3>> neighbours(surface.triangles.size());
   std::vector<int> known(surface.triangles.size(), 0);
@@ -141,7 +141,7 @@ Shells turn_alike(SurfaceMesh& surface) {
   return shells;
 }
 
-void turn_outward(SurfaceMesh& surface, const Shells& shells) {
+void orient_outward(TriangleMesh& surface, const Shells& shells) {
   const std::vector<double> volumes = shell_volumes(surface, shells);
   const std::vector<int> depth = depths(surface, shells);
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
@@ -150,7 +150,7 @@ void turn_outward(SurfaceMesh& surface, const Shells& shells) {
   }
 }
 
-std::vector<Vec3> cavity_points(const SurfaceMesh& surface, const Shells& shells) {
+std::vector<Vec3> cavity_points(const TriangleMesh& surface, const Shells& shells) {
   const std::vector<double> volumes = shell_volumes(surface, shells);
   std::vector<int> largest(shells.count, -1);
   std::vector<double> size(shells.count, 0);

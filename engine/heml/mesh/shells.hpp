@@ -20,12 +20,12 @@ struct Shells {
 
 /// Edge-connected parts of a closed manifold surface, their triangles turned alike (as the first of each has it).
 /// Throws InputError when that cannot be.
-Shells turn_alike(SurfaceMesh& surface);
+Shells orient_consistently(TriangleMesh& surface);
 
 /// Turns whole shells until every triangle faces away from the body.
-void turn_outward(SurfaceMesh& surface, const Shells& shells);
+void orient_outward(TriangleMesh& surface, const Shells& shells);
 
 /// A point in every cavity of a surface turned outward, m.
-std::vector<Vec3> cavity_points(const SurfaceMesh& surface, const Shells& shells);
+std::vector<Vec3> cavity_points(const TriangleMesh& surface, const Shells& shells);
 
 }  // namespace heml

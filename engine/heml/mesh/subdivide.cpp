@@ -62,7 +62,7 @@ void cut(TetMesh& mesh, const Tet& tet, const std::array<int, 6>& middle) {
 
 }  // namespace
 
-Subdivision subdivided(const TetMesh& mesh) {
+Subdivision subdivide_uniformly(const TetMesh& mesh) {
   Subdivision result;
   result.mesh.nodes = mesh.nodes;
   result.mesh.source = mesh.source;

@@ -15,6 +15,6 @@ struct Subdivision {
 /// octahedron that four corners leave is cut along its shortest diagonal, so shapes do not degenerate however often it
 /// is done (Bey: Tetrahedral grid refinement, Computing 55, 1995, asks for no more than three shapes; this for the
 /// best).
-Subdivision subdivided(const TetMesh& mesh);
+Subdivision subdivide_uniformly(const TetMesh& mesh);
 
 }  // namespace heml

@@ -3,7 +3,7 @@
 
 namespace heml {
 
-BoundaryFaces boundary_of(const TetMesh& mesh) {
+BoundaryFaces extract_boundary(const TetMesh& mesh) {
   const auto counts = face_counts(mesh.tets, static_cast<int>(mesh.nodes.size()));
   BoundaryFaces boundary;
   for (std::size_t t = 0; t < mesh.tets.size(); ++t)

@@ -12,6 +12,6 @@ struct BoundaryFaces {
 };
 
 /// In ascending order of (tetrahedron, local face): depends on the mesh alone.
-BoundaryFaces boundary_of(const TetMesh& mesh);
+BoundaryFaces extract_boundary(const TetMesh& mesh);
 
 }  // namespace heml

@@ -8,11 +8,11 @@
 namespace heml {
 namespace {
 
-bool is_above(const Opening& opening, const TetMesh& mesh, int element) {
+bool is_above(const TearOpening& opening, const TetMesh& mesh, int element) {
   Vec3 middle = Vec3::Zero();
   for (const int n : mesh.tets[static_cast<std::size_t>(element)])
     middle += mesh.nodes[static_cast<std::size_t>(n)] / 4;
-  return opening.across.dot(middle - mesh.nodes[static_cast<std::size_t>(opening.node)]) > 0;
+  return opening.plane_normal.dot(middle - mesh.nodes[static_cast<std::size_t>(opening.node)]) > 0;
 }
 
 /// A face between two elements round a node.
@@ -61,7 +61,7 @@ std::vector<int> groups_of(std::span<const int> elements, const std::vector<bool
 
 }  // namespace
 
-NodeElements::NodeElements(const TetMesh& mesh, const Topology& topology) : start_(mesh.nodes.size() + 1, 0) {
+NodeToElements::NodeToElements(const TetMesh& mesh, const Topology& topology) : start_(mesh.nodes.size() + 1, 0) {
   for (const int t : topology.elements)
     for (const int n : mesh.tets[static_cast<std::size_t>(t)]) ++start_[static_cast<std::size_t>(n) + 1];
   for (std::size_t n = 0; n + 1 < start_.size(); ++n) start_[n + 1] += start_[n];
@@ -71,18 +71,18 @@ NodeElements::NodeElements(const TetMesh& mesh, const Topology& topology) : star
     for (const int n : mesh.tets[static_cast<std::size_t>(t)]) list_[next[static_cast<std::size_t>(n)]++] = t;
 }
 
-bool opens(const Opening& opening, const TetMesh& mesh, const NodeElements& around) {
+bool can_open(const TearOpening& opening, const TetMesh& mesh, const NodeToElements& around) {
   const auto elements = around.of(opening.node);
   return std::any_of(elements.begin(), elements.end(),
                      [&](int t) { return is_above(opening, mesh, t) != is_above(opening, mesh, elements.front()); });
 }
 
-Tear make_tear(const std::vector<Opening>& openings, const TetMesh& mesh, const std::vector<Vec3>& x,
-               const NodeElements& around) {
+Tear make_tear(const std::vector<TearOpening>& openings, const TetMesh& mesh, const std::vector<Vec3>& x,
+               const NodeToElements& around) {
   Tear tear;
   std::map<int, Tet> changed;  // by element
   const auto at = [&](int n) -> const Vec3& { return x[static_cast<std::size_t>(n)]; };
-  for (const Opening& opening : openings) {
+  for (const TearOpening& opening : openings) {
     const auto elements = around.of(opening.node);
     std::vector<bool> above;
     for (const int t : elements) above.push_back(is_above(opening, mesh, t));
@@ -91,7 +91,7 @@ Tear make_tear(const std::vector<Opening>& openings, const TetMesh& mesh, const 
     const auto first = static_cast<int>(mesh.nodes.size() + tear.edit.nodes.size()) - 1;  // group 0 keeps the node
     const int groups = *std::max_element(group.begin(), group.end()) + 1;
     tear.edit.nodes.insert(tear.edit.nodes.end(), static_cast<std::size_t>(groups - 1),
-                           NewNode{opening.node, opening.node, 0});
+                           InsertedNode{opening.node, opening.node, 0});
     for (std::size_t e = 0; e < elements.size(); ++e) {
       if (group[e] == 0) continue;
       Tet tet = mesh.tets[static_cast<std::size_t>(elements[e])];

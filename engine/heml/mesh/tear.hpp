@@ -12,9 +12,9 @@
 namespace heml {
 
 /// A node to open, and the normal of the plane at rest.
-struct Opening {
+struct TearOpening {
   int node;
-  Vec3 across;
+  Vec3 plane_normal;
 };
 
 struct Tear {
@@ -24,9 +24,9 @@ struct Tear {
 };
 
 /// The elements that are there round each node.
-class NodeElements {
+class NodeToElements {
  public:
-  NodeElements(const TetMesh& mesh, const Topology& topology);
+  NodeToElements(const TetMesh& mesh, const Topology& topology);
   std::span<const int> of(int node) const {
     const auto n = static_cast<std::size_t>(node);
     return std::span(list_).subspan(start_[n], start_[n + 1] - start_[n]);
@@ -38,10 +38,10 @@ class NodeElements {
 };
 
 /// Whether a node has elements on both sides of the plane.
-bool opens(const Opening& opening, const TetMesh& mesh, const NodeElements& around);
+bool can_open(const TearOpening& opening, const TetMesh& mesh, const NodeToElements& around);
 
 /// Opens nodes that share no element. mesh: at rest. x: its nodes now, #V×3, m.
-Tear make_tear(const std::vector<Opening>& openings, const TetMesh& mesh, const std::vector<Vec3>& x,
-               const NodeElements& around);
+Tear make_tear(const std::vector<TearOpening>& openings, const TetMesh& mesh, const std::vector<Vec3>& x,
+               const NodeToElements& around);
 
 }  // namespace heml

@@ -37,7 +37,7 @@ inline const ElementField* find_field(const TetMesh& mesh, std::string_view name
 }
 
 /// A triangulated surface.
-struct SurfaceMesh {
+struct TriangleMesh {
   std::vector<Vec3> nodes;          ///< #V×3, metres
   std::vector<Triangle> triangles;  ///< #F×3, into nodes, outward by the right-hand rule
   std::string source;

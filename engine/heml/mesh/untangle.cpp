@@ -9,14 +9,14 @@ constexpr int rounds = 30;
 constexpr std::size_t one_in = 50;     // more crossing triangles than one in so many is no crease but another problem
 constexpr double farthest_move = 1.5;  // mean edges
 
-std::vector<std::vector<int>> neighbours_of(const SurfaceMesh& surface) {
+std::vector<std::vector<int>> neighbours_of(const TriangleMesh& surface) {
   std::vector<std::vector<int>> neighbours(surface.nodes.size());
   for (const Triangle& t : surface.triangles)
     for (std::size_t c = 0; c < 3; ++c) neighbours[static_cast<std::size_t>(t[c])].push_back(t[(c + 1) % 3]);
   return neighbours;  // in a closed surface every edge is named once from each end
 }
 
-double mean_edge(const SurfaceMesh& surface) {
+double mean_edge(const TriangleMesh& surface) {
   double sum = 0;
   for (const Triangle& t : surface.triangles)
     for (std::size_t c = 0; c < 3; ++c)
@@ -26,7 +26,7 @@ double mean_edge(const SurfaceMesh& surface) {
 }
 
 /// Corners of the triangles, and as many rings round them as wanted; ascending.
-std::vector<int> surroundings(const SurfaceMesh& surface, const std::vector<int>& triangles,
+std::vector<int> surroundings(const TriangleMesh& surface, const std::vector<int>& triangles,
                               const std::vector<std::vector<int>>& neighbours, int rings) {
   std::vector<int> nodes;
   for (const int t : triangles) {
@@ -46,7 +46,7 @@ std::vector<int> surroundings(const SurfaceMesh& surface, const std::vector<int>
 }
 
 /// Halfway to the mean of its neighbours, all nodes at once.
-void smooth(SurfaceMesh& surface, const std::vector<int>& nodes, const std::vector<std::vector<int>>& neighbours) {
+void smooth(TriangleMesh& surface, const std::vector<int>& nodes, const std::vector<std::vector<int>>& neighbours) {
   std::vector<Vec3> moved;
   for (const int n : nodes) {
     Vec3 mean = Vec3::Zero();
@@ -60,7 +60,7 @@ void smooth(SurfaceMesh& surface, const std::vector<int>& nodes, const std::vect
 
 }  // namespace
 
-bool untangle(SurfaceMesh& surface, const Intersections& found) {
+bool untangle(TriangleMesh& surface, const Intersections& found) {
   if (found.triangles.size() * one_in > surface.triangles.size()) return false;
   const auto neighbours = neighbours_of(surface);
   const std::vector<Vec3> before = surface.nodes;

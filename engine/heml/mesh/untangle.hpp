@@ -7,6 +7,6 @@ namespace heml {
 /// Smooths the crossing triangles and their surroundings until none crosses, and says through warn() how far nodes
 /// moved. Only where few triangles are concerned and nodes need to move by less than an edge or so; otherwise the
 /// surface is left as it was and false returned.
-bool untangle(SurfaceMesh& surface, const Intersections& found);
+bool untangle(TriangleMesh& surface, const Intersections& found);
 
 }  // namespace heml

@@ -4,7 +4,7 @@
 namespace heml {
 namespace {
 
-MeshText ply(const SurfaceMesh& surface, const std::vector<NodeField>& fields) {
+MeshText ply(const TriangleMesh& surface, const std::vector<NodeField>& fields) {
   MeshText out;
   out.add("ply\nformat ascii 1.0\ncomment metres\nelement vertex {}\n", surface.nodes.size());
   for (const char axis : {'x', 'y', 'z'}) out.add("property double {}\n", axis);
@@ -21,7 +21,7 @@ MeshText ply(const SurfaceMesh& surface, const std::vector<NodeField>& fields) {
   return out;
 }
 
-MeshText obj(const SurfaceMesh& surface) {
+MeshText obj(const TriangleMesh& surface) {
   MeshText out;
   out.add("# metres\n");
   for (const Vec3& x : surface.nodes) {
@@ -35,7 +35,7 @@ MeshText obj(const SurfaceMesh& surface) {
 
 }  // namespace
 
-void write_surface(const std::filesystem::path& path, const SurfaceMesh& surface,
+void write_surface(const std::filesystem::path& path, const TriangleMesh& surface,
                    const std::vector<NodeField>& fields) {
   const std::string ending = path.extension().string();
   if (ending == ".ply") return ply(surface, fields).save(path);

@@ -8,7 +8,7 @@ namespace heml {
 
 /// .ply (ASCII, with scalar fields of nodes as properties) or .obj (fields left out); 17 significant digits. Throws
 /// InputError when the ending is another or the file cannot be written.
-void write_surface(const std::filesystem::path& path, const SurfaceMesh& surface,
+void write_surface(const std::filesystem::path& path, const TriangleMesh& surface,
                    const std::vector<NodeField>& fields = {});
 
 }  // namespace heml

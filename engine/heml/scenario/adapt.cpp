@@ -13,18 +13,18 @@ namespace heml {
 namespace {
 
 constexpr const char* refine_key = "mesh.refine";
-constexpr const char* other_way = "refine it at a moment of its motion instead: heml refine SCENE --at SECONDS";
+constexpr const char* other_remedy = "refine it at a time of its motion instead: heml refine SCENE --at SECONDS";
 constexpr double refined_share = 0.5;  // of the squared error, a round
 
-void check(const Scene& scene, const WorldSetup& setup, const std::optional<double>& moment) {
+void check(const Scene& scene, const WorldSetup& setup, const std::optional<double>& time) {
   const double end = scene.solver.is_static() ? 1 : scene.solver.duration;
-  if (moment && *moment > end)
-    throw InputError(scene.file, "", fmt::format("ends at {} s and is to be refined at {} s", end, *moment),
-                     "give an earlier moment");
+  if (time && *time > end)
+    throw InputError(scene.file, "", fmt::format("ends at {} s and is to be refined at {} s", end, *time),
+                     "give an earlier time");
   const bool flows = std::any_of(setup.materials.begin(), setup.materials.end(),
                                  [](const RegionMaterial& entry) { return entry.material.plasticity.has_value(); });
-  if (flows && !moment)
-    throw InputError(scene.file, refine_key, "the rest of a body that flows depends on its way there", other_way);
+  if (flows && !time)
+    throw InputError(scene.file, refine_key, "the rest of a body that flows depends on its way there", other_remedy);
 }
 
 std::unique_ptr<World> at_rest(WorldSetup setup) {
@@ -37,9 +37,9 @@ std::unique_ptr<World> at_rest(WorldSetup setup) {
   return world;
 }
 
-std::unique_ptr<World> at_moment(const Scene& scene, WorldSetup setup, double moment) {
+std::unique_ptr<World> at_time(const Scene& scene, WorldSetup setup, double time) {
   std::unique_ptr<World> world = make_world(std::move(setup));
-  Player(scene, *world).to(moment);
+  Player(scene, *world).to(time);
   return world;
 }
 
@@ -48,18 +48,18 @@ struct Solved {
   Energies energies;
 };
 
-Solved solved(const Scene& scene, const WorldSetup& setup, const std::optional<double>& moment) {
-  const auto world = moment ? at_moment(scene, setup, *moment) : at_rest(setup);
+Solved solved(const Scene& scene, const WorldSetup& setup, const std::optional<double>& time) {
+  const auto world = time ? at_time(scene, setup, *time) : at_rest(setup);
   if (world->halt())
     throw InputError(scene.file, refine_key,
                      fmt::format("the body cannot be solved to see its error: {}", world->halt()->message),
-                     moment ? "give an earlier moment" : other_way);
+                     time ? "give an earlier time" : other_remedy);
   const auto found = world->error_estimate();
   if (!found)
     throw InputError(scene.file, refine_key, "springs have no stress whose error could be estimated", "leave it out");
   if (!(found->stored > 0))
     throw InputError(scene.file, refine_key, "nothing deforms the body there, so no error is to be seen",
-                     moment ? "give a later moment" : other_way);
+                     time ? "give a later time" : other_remedy);
   return {*found, world->energies()};
 }
 
@@ -72,20 +72,20 @@ std::string grouped(std::size_t number) {
 
 }  // namespace
 
-Adaptation adapt(const Scene& scene, WorldSetup setup, const RefineGoal& goal, const std::optional<double>& moment,
+Adaptation adapt(const Scene& scene, WorldSetup setup, const RefineGoal& goal, const std::optional<double>& time,
                  const std::function<void(const AdaptedMesh&)>& told) {
-  check(scene, setup, moment);
+  check(scene, setup, time);
   Adaptation result;
   result.origins.resize(setup.mesh.tets.size());
   std::iota(result.origins.begin(), result.origins.end(), 0);
   for (;;) {
-    const auto [error, energies] = solved(scene, setup, moment);
+    const auto [error, energies] = solved(scene, setup, time);
     result.meshes.push_back({setup.mesh.nodes.size(), setup.mesh.tets.size(), error.relative(), energies.elastic,
                              energies.elastic + energies.potential});
     if (told) told(result.meshes.back());
     result.reached = error.relative() <= goal.error;
     if (result.reached) break;
-    Refinement finer = refined(setup.mesh, greatest(error.of_element, refined_share));
+    Refinement finer = refine_longest_edge(setup.mesh, doerfler_marking(error.of_element, refined_share));
     if (finer.mesh.tets.size() > static_cast<std::size_t>(goal.tets)) break;
     std::vector<int> origins;
     for (const int parent : finer.parents) origins.push_back(result.origins[static_cast<std::size_t>(parent)]);
@@ -120,7 +120,8 @@ AdaptedScene adapted_scene(const Scene& scene, const Adaptation& adaptation, con
   for (std::size_t k = 0; k < scene.loads.size(); ++k)
     if (auto& nodes = finer.loads[k].where.nodes; !nodes.empty()) nodes = adaptation.setup.loads[k].nodes;
   finer.checkpoints.clear();
-  finer.recorded_ticks.reset(), finer.recorded_end.reset(), finer.recorded_by = {}, finer.recorded_mesh.reset(), finer.recorded_instructions.reset();
+  finer.recorded_ticks.reset(), finer.recorded_end.reset(), finer.recorded_by = {}, finer.recorded_mesh.reset(),
+                                                            finer.recorded_instructions.reset();
   return result;
 }
 

@@ -32,7 +32,7 @@ struct Adaptation {
 /// setup: of the scene, on the mesh to begin with. moment: of the scene's motion, s, where its error is looked at;
 /// none: at rest under all loads, whatever its events do. told: called with every mesh once its error is known. Throws
 /// InputError where the scene cannot be solved so and where nothing deforms it there.
-Adaptation adapt(const Scene& scene, WorldSetup setup, const RefineGoal& goal, const std::optional<double>& moment,
+Adaptation adapt(const Scene& scene, WorldSetup setup, const RefineGoal& goal, const std::optional<double>& time,
                  const std::function<void(const AdaptedMesh&)>& told = {});
 
 /// The scene on the last mesh, which the caller writes into the file named, with the fields the scene's mesh had.

@@ -1,6 +1,6 @@
 #pragma once
-// Whose bits the states of a recording are. They are the same for the same scene, kernel revision, build and instruction
-// set; recordings say all of these.
+// Whose bits the states of a recording are. They are the same for the same scene, kernel revision, build and
+// instruction set; recordings say all of these.
 #include <string>
 
 namespace heml {

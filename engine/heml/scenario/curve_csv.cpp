@@ -9,7 +9,7 @@
 
 namespace heml {
 namespace {
-constexpr std::size_t most_points = 5000;  // a fit evaluates each of them thousands of times
+constexpr std::size_t max_points = 5000;  // a fit evaluates each of them thousands of times
 }  // namespace
 
 std::string_view amount_name(const MeasuredTest& test) {
@@ -27,11 +27,11 @@ MeasuredCurve read_curve_csv(const std::filesystem::path& path, const MeasuredTe
   MeasuredCurve data;
   bool has_header = false;
   for (long line = 1; !text.empty(); ++line) {
-    const std::string_view entry = take_line(text);
+    const std::string_view entry = consume_line(text);
     if (is_blank(entry) || entry.starts_with('#')) continue;
     std::string_view rest = entry;
     if (!has_header) {
-      const std::string_view first = take_cell(rest), second = take_cell(rest);
+      const std::string_view first = consume_cell(rest), second = consume_cell(rest);
       if (first != name || second != "stress" || !rest.empty())
         fail(line, fmt::format("is '{}'", shown(entry)),
              fmt::format("must be the header {},stress (stress in Pa)", name));
@@ -39,14 +39,14 @@ MeasuredCurve read_curve_csv(const std::filesystem::path& path, const MeasuredTe
       continue;
     }
     double amount = 0, stress = 0;
-    if (!take_number(rest, amount) || !take_number(rest, stress) || !rest.empty() || !std::isfinite(amount) ||
+    if (!consume_number(rest, amount) || !consume_number(rest, stress) || !rest.empty() || !std::isfinite(amount) ||
         !std::isfinite(stress))
       fail(line, fmt::format("is '{}'", shown(entry)), fmt::format("must be {},stress: two numbers", name));
     if (name == "stretch" && !(amount > 0))
       fail(line, fmt::format("the stretch is {}", amount), "must be greater than 0");
     if (name == "time" && !(amount >= 0)) fail(line, fmt::format("the time is {} s", amount), "must be 0 or more");
-    if (data.amount.size() == most_points)
-      fail(line, fmt::format("is past the {}th point", most_points), "thin the curve out");
+    if (data.amount.size() == max_points)
+      fail(line, fmt::format("is past the {}th point", max_points), "thin the curve out");
     data.amount.push_back(amount);
     data.stress.push_back(stress);
   }

@@ -1,7 +1,8 @@
 // Scenes the program makes by itself: the one it opens with, and the one round a bare mesh or surface.
+#include <fmt/format.h>
+
 #include <cmath>
 #include <cstdlib>
-#include <fmt/format.h>
 #include <heml/base/error.hpp>
 #include <heml/base/log.hpp>
 #include <heml/mesh/from_surface.hpp>
@@ -15,9 +16,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double held_part = 0.08;      // of the height, from the top
-constexpr double sensible_size = 0.2;   // m, longest side of a body whose own size cannot be meant
-constexpr double wanted_tets = 1000;    // of a filled surface by volume; its triangles, which are kept, ask for more
+constexpr double constrained_part = 0.08;  // of the height, from the top
+constexpr double sensible_size = 0.2;      // m, longest side of a body whose own size cannot be meant
+constexpr double wanted_tets = 1000;       // of a filled surface by volume; its triangles, which are kept, ask for more
 
 /// Places of a body before the scene scales it.
 struct Extent {
@@ -31,7 +32,7 @@ Extent extent_of_mesh(Scene& scene, const fs::path& path) {
   return {report.low, report.high};
 }
 
-double volume_of(const SurfaceMesh& surface, const Vec3& inside) {
+double volume_of(const TriangleMesh& surface, const Vec3& inside) {
   double volume = 0;
   for (const Triangle& t : surface.triangles)
     volume += signed_volume(inside, surface.nodes[t[0]], surface.nodes[t[1]], surface.nodes[t[2]]);
@@ -40,7 +41,7 @@ double volume_of(const SurfaceMesh& surface, const Vec3& inside) {
 
 Extent extent_of_surface(Scene& scene, const fs::path& path) {
   scene.mesh.surface = path;
-  SurfaceMesh surface = read_surface(path);
+  TriangleMesh surface = read_surface(path);
   check_surface(surface);
   const auto [low, high] = bounds_of(surface.nodes);
   scene.mesh.max_volume = volume_of(surface, low) / wanted_tets;
@@ -49,7 +50,7 @@ Extent extent_of_surface(Scene& scene, const fs::path& path) {
 
 /// A body that is metres long, or a speck, was not drawn in metres: unless a scene says better it gets an organ's size.
 void settle_size(Scene& scene, const Extent& extent) {
-  const std::string odd = unit_suspicion(extent.low, extent.high);
+  const std::string odd = unit_warning(extent.low, extent.high);
   if (odd.empty()) return;
   scene.mesh.scale = sensible_size / (extent.high - extent.low).maxCoeff();
   if (scene.mesh.max_volume) *scene.mesh.max_volume *= std::pow(scene.mesh.scale, 3);
@@ -69,11 +70,11 @@ Scene scene_around(const fs::path& path) {
   extent.low *= scene.mesh.scale;
   extent.high *= scene.mesh.scale;
 
-  const Lame lame = lame_from(1.0e4, 0.45);
+  const LameParameters lame = lame_parameters(1.0e4, 0.45);
   scene.materials = {{std::nullopt, {"neo_hookean", {lame.lambda, lame.mu}, 1000.0}}};
   const Vec3 size = extent.high - extent.low;
   Vec3 low = extent.low - size, high = extent.high + size;
-  low.y() = extent.high.y() - held_part * size.y();
+  low.y() = extent.high.y() - constrained_part * size.y();
   scene.boundary.push_back({{{}, std::array{low, high}, std::nullopt}, {}});
   scene.gravity = Vec3(0, -9.81, 0);
   scene.solver.continuation = scene.solver.recovery = true;

@@ -9,28 +9,28 @@ namespace heml {
 namespace {
 
 /// what: "node" or "element".
-std::vector<int> numbers_from(const Key& key, const char* what) {
+std::vector<int> numbers_from(const JsonCursor& key, const char* what) {
   std::vector<int> numbers;
-  key.each([&](const Key& number) {
+  key.each([&](const JsonCursor& number) {
     numbers.push_back(static_cast<int>(number.integer(0, std::numeric_limits<int>::max())));
   });
   if (numbers.empty()) key.fail("is empty", fmt::format("name at least one {}, from 0", what));
   return numbers;
 }
 
-std::array<Vec3, 2> box_from(const Key& key) {
+std::array<Vec3, 2> box_from(const JsonCursor& key) {
   if (key.size() != 2) key.refuse("must be two corners [[x, y, z], [x, y, z]]");
   const Vec3 low = key[0].vector(), high = key[1].vector();
   if ((low.array() > high.array()).any()) key.refuse("must name the lower corner first, in x, y and z");
   return {low, high};
 }
 
-std::pair<Vec3, double> sphere_from(const Key& key) {
+std::pair<Vec3, double> sphere_from(const JsonCursor& key) {
   if (key.size() != 2) key.refuse("must be [[x, y, z], radius]");
   return {key[0].vector(), key[1].non_negative()};
 }
 
-Selection selection_from(const Key& key) {
+Selection selection_from(const JsonCursor& key) {
   Selection selection;
   const std::string kind = key.only_one_of({"nodes", "box", "sphere"});
   if (kind == "nodes") selection.nodes = numbers_from(key["nodes"], "node");
@@ -51,7 +51,7 @@ Json selection_json(const Selection& where) {
 
 }  // namespace
 
-BoundaryEntry boundary_from(const Key& key) {
+BoundaryEntry boundary_from(const JsonCursor& key) {
   key.allow({"nodes", "box", "sphere", "fix", "translate", "rotate", "over"});
   BoundaryEntry entry;
   entry.where = selection_from(key);
@@ -62,11 +62,11 @@ BoundaryEntry boundary_from(const Key& key) {
   if (const auto translate = key.find("translate")) entry.motion.translate = translate->vector();
   if (const auto rotate = key.find("rotate"))
     read_rotation(*rotate, entry.motion.axis, entry.motion.origin, entry.motion.degrees);
-  if (const auto over = key.find("over")) entry.motion.over = over->non_negative();
+  if (const auto ramp_time = key.find("over")) entry.motion.ramp_time = ramp_time->non_negative();
   return entry;
 }
 
-LoadEntry load_from(const Key& key) {
+LoadEntry load_from(const JsonCursor& key) {
   key.allow({"nodes", "box", "sphere", "force", "traction", "pressure", "over"});
   LoadEntry entry;
   entry.where = selection_from(key);
@@ -81,11 +81,11 @@ LoadEntry load_from(const Key& key) {
     entry.load.kind = Load::Kind::pressure;
     entry.load.pressure = key["pressure"].number();
   }
-  if (const auto over = key.find("over")) entry.load.over = over->non_negative();
+  if (const auto ramp_time = key.find("over")) entry.load.ramp_time = ramp_time->non_negative();
   return entry;
 }
 
-MarkerEntry marker_from(const Key& key) {
+MarkerEntry marker_from(const JsonCursor& key) {
   key.allow({"name", "nodes", "box", "sphere"});
   MarkerEntry entry;
   entry.where = selection_from(key);
@@ -110,7 +110,7 @@ Json boundary_json(const BoundaryEntry& entry) {
     json["translate"] = vector_json(motion.translate);
     json["rotate"] = rotation_json(motion.axis, motion.origin, motion.degrees);
   }
-  json["over"] = motion.over;
+  json["over"] = motion.ramp_time;
   return json;
 }
 
@@ -127,13 +127,13 @@ Json load_json(const LoadEntry& entry) {
       json["pressure"] = entry.load.pressure;
       break;
   }
-  json["over"] = entry.load.over;
+  json["over"] = entry.load.ramp_time;
   return json;
 }
 
-std::vector<Table> tables_from(const Key& key) {
+std::vector<Table> tables_from(const JsonCursor& key) {
   std::vector<Table> tables;
-  key.each([&](const Key& entry) {
+  key.each([&](const JsonCursor& entry) {
     entry.allow({"point", "normal", "friction"});
     Table table;
     table.point = entry["point"].vector();
@@ -154,7 +154,7 @@ Json tables_json(const std::vector<Table>& tables) {
   return json;
 }
 
-std::optional<SelfContactSettings> self_contact_from(const Key& key) {
+std::optional<SelfContactSettings> self_contact_from(const JsonCursor& key) {
   if (key.json().is_boolean()) return key.flag() ? std::optional(SelfContactSettings{}) : std::nullopt;
   if (!key.json().is_object()) key.refuse("must be true, false, or {\"friction\": coefficient}");
   key.allow({"friction"});
@@ -163,7 +163,7 @@ std::optional<SelfContactSettings> self_contact_from(const Key& key) {
   return settings;
 }
 
-TearingSettings tearing_from(const Key& key) {
+TearingSettings tearing_from(const JsonCursor& key) {
   key.allow({"stretch"});
   const double stretch = key["stretch"].number();
   if (!(stretch > 1)) key["stretch"].refuse("must be more than 1, the stretch at rest");
@@ -174,7 +174,7 @@ Json tearing_json(const TearingSettings& settings) { return {{"stretch", setting
 
 Json self_contact_json(const SelfContactSettings& settings) { return {{"friction", settings.friction}}; }
 
-ElementSelection elements_from(const Key& key) {
+ElementSelection elements_from(const JsonCursor& key) {
   key.allow({"tets", "region", "box", "sphere"});
   ElementSelection which;
   const std::string kind = key.only_one_of({"tets", "region", "box", "sphere"});

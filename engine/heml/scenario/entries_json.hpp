@@ -1,21 +1,21 @@
 #pragma once
 // Entries of `boundary`, `loads`, `tables`, `self_contact`, `tearing` and `outputs.markers`, and the selections in them
 // and in events, between JSON and data.
-#include <heml/scenario/key.hpp>
+#include <heml/scenario/json_cursor.hpp>
 #include <heml/scenario/scene.hpp>
 
 namespace heml {
 
 /// Throw InputError naming the key.
-BoundaryEntry boundary_from(const Key& key);
-LoadEntry load_from(const Key& key);
-MarkerEntry marker_from(const Key& key);
+BoundaryEntry boundary_from(const JsonCursor& key);
+LoadEntry load_from(const JsonCursor& key);
+MarkerEntry marker_from(const JsonCursor& key);
 
-std::vector<Table> tables_from(const Key& key);
+std::vector<Table> tables_from(const JsonCursor& key);
 /// true, {"friction": 0.3}, or false: none.
-std::optional<SelfContactSettings> self_contact_from(const Key& key);
+std::optional<SelfContactSettings> self_contact_from(const JsonCursor& key);
 /// {"stretch": 1.8}.
-TearingSettings tearing_from(const Key& key);
+TearingSettings tearing_from(const JsonCursor& key);
 
 Json boundary_json(const BoundaryEntry& entry);
 Json load_json(const LoadEntry& entry);
@@ -25,7 +25,7 @@ Json tearing_json(const TearingSettings& settings);
 Json self_contact_json(const SelfContactSettings& settings);
 
 /// {"tets": [3, 4]}, {"region": 2}, {"box": [[..], [..]]} or {"sphere": [[x, y, z], r]}. Throws likewise.
-ElementSelection elements_from(const Key& key);
+ElementSelection elements_from(const JsonCursor& key);
 Json elements_json(const ElementSelection& which);
 
 }  // namespace heml

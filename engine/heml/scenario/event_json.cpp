@@ -14,9 +14,9 @@ namespace heml {
 namespace {
 
 constexpr long last_tick = 1'000'000'000'000;
-constexpr long most_iterations = 1000;  // of a stage
+constexpr long max_budget_iterations = 1000;  // of a stage
 
-long tick_from(const Key& key, double tick_length) {
+long tick_from(const JsonCursor& key, double tick_length) {
   if (key.only_one_of({"step", "at"}) == "step") return key["step"].integer(0, last_tick);
   const double tick = std::round(key["at"].non_negative() / tick_length);
   if (!(tick <= static_cast<double>(last_tick))) key["at"].refuse(fmt::format("must be at most {} ticks", last_tick));
@@ -24,14 +24,14 @@ long tick_from(const Key& key, double tick_length) {
 }
 
 /// A node by its number, or by a place that the schedule finds the nearest surface node of.
-int node_from(const Key& key, std::vector<Vec3>& points) {
+int node_from(const JsonCursor& key, std::vector<Vec3>& points) {
   if (key.only_one_of({"node", "point"}) == "node")
     return static_cast<int>(key["node"].integer(0, std::numeric_limits<int>::max()));
   points = {key["point"].vector()};
   return 0;
 }
 
-Grasp grasp_from(const Key& key, std::vector<Vec3>& points) {
+Grasp grasp_from(const JsonCursor& key, std::vector<Vec3>& points) {
   key.allow({"node", "point", "radius"});
   Grasp grasp;
   grasp.node = node_from(key, points);
@@ -39,18 +39,18 @@ Grasp grasp_from(const Key& key, std::vector<Vec3>& points) {
   return grasp;
 }
 
-PinTissue pin_from(const Key& key, std::vector<Vec3>& points) {
+PinTissue pin_from(const JsonCursor& key, std::vector<Vec3>& points) {
   key.allow({"node", "point", "radius"});
   PinTissue pin{node_from(key, points)};
   if (const auto radius = key.find("radius")) pin.radius = radius->non_negative();
   return pin;
 }
 
-void expect_true(const Key& key) {
+void expect_true(const JsonCursor& key) {
   if (!key.flag()) key.refuse("must be true, or leave the entry out");
 }
 
-std::vector<std::uint16_t> node_hashes_from(const Key& key) {
+std::vector<std::uint16_t> node_hashes_from(const JsonCursor& key) {
   const std::string digits = key.text();
   std::vector<std::uint16_t> hashes(digits.size() / 4);
   bool right = digits.size() % 4 == 0;
@@ -62,19 +62,19 @@ std::vector<std::uint16_t> node_hashes_from(const Key& key) {
   return hashes;
 }
 
-MoveProbe probe_from(const Key& key) {
+MoveProbe probe_from(const JsonCursor& key) {
   key.allow({"radius", "shaft", "friction", "path", "speed"});
   MoveProbe probe;
   probe.radius = key["radius"].positive();
   if (const auto shaft = key.find("shaft")) probe.shaft = shaft->vector();
   if (const auto friction = key.find("friction")) probe.friction = friction->non_negative();
   if (const auto speed = key.find("speed")) probe.speed = speed->positive();
-  key["path"].each([&](const Key& place) { probe.path.push_back(place.vector()); });
+  key["path"].each([&](const JsonCursor& place) { probe.path.push_back(place.vector()); });
   if (probe.path.empty()) key["path"].fail("is empty", "give one place of the tip or more");
   return probe;
 }
 
-SutureTissue suture_from(const Key& key, std::vector<Vec3>& points) {
+SutureTissue suture_from(const JsonCursor& key, std::vector<Vec3>& points) {
   key.allow({"nodes", "points", "length", "over"});
   SutureTissue suture;
   const std::string kind = key.only_one_of({"nodes", "points"});
@@ -85,12 +85,12 @@ SutureTissue suture_from(const Key& key, std::vector<Vec3>& points) {
     else
       points.push_back(key[kind][end].vector());
   if (const auto length = key.find("length")) suture.length = length->non_negative();
-  if (const auto over = key.find("over")) suture.over = over->non_negative();
+  if (const auto ramp_time = key.find("over")) suture.ramp_time = ramp_time->non_negative();
   return suture;
 }
 
 /// true: the grasp; "pins": all of them; a node: the pin that holds it; "probe" and "sutures" likewise.
-Command release_from(const Key& key, std::vector<Vec3>& points) {
+Command release_from(const JsonCursor& key, std::vector<Vec3>& points) {
   if (key.json().is_object()) {
     key.allow({"node", "point"});
     return Unpin{node_from(key, points)};
@@ -105,21 +105,21 @@ Command release_from(const Key& key, std::vector<Vec3>& points) {
   return Release{};
 }
 
-CutTissue cut_from(const Key& key) {
+CutTissue cut_from(const JsonCursor& key) {
   key.allow({"sweep", "goes_on"});
   CutTissue cut;
-  key["sweep"].each([&](const Key& blade) {
+  key["sweep"].each([&](const JsonCursor& blade) {
     if (blade.size() != 2) blade.refuse("must be the two ends of the blade, [[x, y, z], [x, y, z]]");
     cut.sweep.blades.push_back({blade[0].vector(), blade[1].vector()});
   });
-  if (cut.sweep.blades.size() < 2) key["sweep"].refuse("must have the blade at two moments at least");
-  if (const auto goes_on = key.find("goes_on")) cut.goes_on = goes_on->flag();
+  if (cut.sweep.blades.size() < 2) key["sweep"].refuse("must have the blade at two times at least");
+  if (const auto continues_stroke = key.find("goes_on")) cut.continues_stroke = continues_stroke->flag();
   return cut;
 }
 
 /// The command an action of that name stands for.
-Command command_from(const Key& key, const std::string& action, std::vector<Vec3>& points) {
-  const Key value = key[action];
+Command command_from(const JsonCursor& key, const std::string& action, std::vector<Vec3>& points) {
+  const JsonCursor value = key[action];
   if (action == "grasp") return grasp_from(value, points);
   if (action == "tables") return SetTables{tables_from(value)};
   if (action == "probe") return probe_from(value);
@@ -130,22 +130,22 @@ Command command_from(const Key& key, const std::string& action, std::vector<Vec3
   if (action == "damping") return SetDamping{value.non_negative()};
   if (action == "gravity") return SetGravity{value.vector()};
   if (action == "integrator") return SetIntegrator{integrator_from(value)};
-  if (action == "budget") return SetBudget{static_cast<int>(value.integer(1, most_iterations))};
+  if (action == "budget") return SetBudget{static_cast<int>(value.integer(1, max_budget_iterations))};
   if (action == "step_cost") return SetStepCost{value.positive()};
   if (action == "remove") return RemoveElements{elements_from(value)};
   if (action == "cut") return cut_from(value);
   if (action == "material") {
     const RegionMaterial entry = material_from(value);
-    if (takes_fields(entry.material)) value.fail("takes a field of the mesh", "a material switched to takes numbers");
+    if (uses_fields(entry.material)) value.fail("takes a field of the mesh", "a material switched to takes numbers");
     return SetMaterial{entry.region, entry.material};
   }
   expect_true(value);
   if (action == "undo") return Undo{};
-  if (action == "factor") return TakeFactor{};
+  if (action == "factor") return AdoptPreconditioner{};
   return Reset{};
 }
 
-RecordedEnd end_from(const Key& key, long tick) {
+RecordedEnd end_from(const JsonCursor& key, long tick) {
   expect_true(key["end"]);
   RecordedEnd end{tick, {}, {}, {}};
   if (const auto count = key.find("checkpoints")) end.checkpoints = count->integer(0, last_tick);
@@ -155,7 +155,7 @@ RecordedEnd end_from(const Key& key, long tick) {
 }
 
 /// Keys that belong to an entry of one kind alone.
-void expect_only_with(const Key& key, std::string_view action, std::string_view seen,
+void expect_only_with(const JsonCursor& key, std::string_view action, std::string_view seen,
                       std::initializer_list<std::string_view> names) {
   for (const std::string_view name : names)
     if (action != seen && key.has(name)) key[name].fail(fmt::format("stands without '{}'", action), "take it away");
@@ -179,7 +179,7 @@ Json command_json(const MoveProbe& probe) {
 }
 Json command_json(const WithdrawProbe&) { return {{"release", "probe"}}; }
 Json command_json(const SutureTissue& suture) {
-  return {{"suture", {{"nodes", suture.nodes}, {"length", suture.length}, {"over", suture.over}}}};
+  return {{"suture", {{"nodes", suture.nodes}, {"length", suture.length}, {"over", suture.ramp_time}}}};
 }
 Json command_json(const CutSutures&) { return {{"release", "sutures"}}; }
 Json command_json(const SetMaterial& set) { return {{"material", material_json({set.region, set.material})}}; }
@@ -193,20 +193,19 @@ Json command_json(const CutTissue& cut) {
   Json sweep = Json::array();
   for (const auto& [tip, end] : cut.sweep.blades) sweep.push_back({vector_json(tip), vector_json(end)});
   Json json = {{"sweep", std::move(sweep)}};
-  if (cut.goes_on) json["goes_on"] = true;
+  if (cut.continues_stroke) json["goes_on"] = true;
   return {{"cut", std::move(json)}};
 }
 Json command_json(const Undo&) { return {{"undo", true}}; }
-Json command_json(const TakeFactor&) { return {{"factor", true}}; }
+Json command_json(const AdoptPreconditioner&) { return {{"factor", true}}; }
 Json command_json(const Reset&) { return {{"reset", true}}; }
 
 }  // namespace
 
-void read_script_entry(const Key& key, double tick_length, Script& script) {
-  key.allow({"step",   "at",       "grasp",   "move",    "release",    "pin",    "tables",    "probe",
-             "suture", "material", "damping", "gravity", "integrator", "budget", "step_cost", "remove",
-             "cut",    "factor",   "undo",    "reset",   "checkpoint", "nodes",  "end",
-             "checkpoints", "hash", "halt"});
+void read_script_entry(const JsonCursor& key, double tick_length, Script& script) {
+  key.allow({"step",     "at",      "grasp",      "move",       "release", "pin",         "tables", "probe", "suture",
+             "material", "damping", "gravity",    "integrator", "budget",  "step_cost",   "remove", "cut",   "factor",
+             "undo",     "reset",   "checkpoint", "nodes",      "end",     "checkpoints", "hash",   "halt"});
   const long tick = tick_from(key, tick_length);
   const std::string action = key.only_one_of(
       {"grasp",      "move",   "release",   "pin",    "tables", "probe",  "suture", "material", "damping",    "gravity",

@@ -26,10 +26,11 @@
 //   {"step": 80, "checkpoint": "0123456789abcdef", "nodes": "12ab..."}    state hash; 4 hexadecimal digits a node
 //   {"step": 90, "end": true, "checkpoints": 12, "hash": "0123456789abcdef", "halt": "unstable at …"}
 //                                                         how far a recording went, how many checkpoints it holds, the
-//                                                         state before the events of this step, and why it stopped there
+//                                                         state before the events of this step, and why it stopped
+//                                                         there
 //
 // with "at": seconds instead of "step" where that is easier: it means the nearest tick.
-#include <heml/scenario/key.hpp>
+#include <heml/scenario/json_cursor.hpp>
 #include <heml/scenario/scene.hpp>
 
 namespace heml {
@@ -46,7 +47,7 @@ struct Script {
 };
 
 /// Adds one entry. tick_length: s. Throws InputError naming the key.
-void read_script_entry(const Key& key, double tick_length, Script& script);
+void read_script_entry(const JsonCursor& key, double tick_length, Script& script);
 
 /// Hands a script to a scene, in ascending order of ticks; entries of one tick keep their order.
 void install_script(Script script, Scene& scene);

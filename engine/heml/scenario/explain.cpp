@@ -59,7 +59,7 @@ std::vector<MaterialFacts> materials_of(const WorldSetup& setup, const WorldFact
                            kernel,
                            terms_of(entry.material, setup.solver.nodal_pressure),
                            entry.material.density,
-                           ground_state(entry.material),
+                           small_strain_moduli(entry.material),
                            0};
     const auto [shear, bulk] = material.rest;
     if (shear > 0) material.poisson = (3 * bulk - 2 * shear) / (2 * (3 * bulk + shear));
@@ -84,7 +84,7 @@ std::array<Vec3, 4> corners(const TetMesh& mesh, std::size_t tet) {
   return x;
 }
 
-double smallest_height(const std::array<Vec3, 4>& x) {
+double min_height(const std::array<Vec3, 4>& x) {
   double largest = 0;  // twice a face's area
   for (std::size_t f = 0; f < 4; ++f) {
     const Vec3 &a = x[(f + 1) % 4], &b = x[(f + 2) % 4], &c = x[(f + 3) % 4];
@@ -94,7 +94,7 @@ double smallest_height(const std::array<Vec3, 4>& x) {
 }
 
 double wave_speed(const Material& material) {
-  const auto [shear, bulk] = ground_state(material);
+  const auto [shear, bulk] = small_strain_moduli(material);
   return std::sqrt((bulk + 4 * shear / 3) / material.density);
 }
 
@@ -113,11 +113,11 @@ LimitFacts limit_of(const WorldSetup& setup, const StepFacts& step) {
   if (step.element < 0) return limit;
   std::vector<double> heights, speeds;
   for (std::size_t t = 0; t < setup.mesh.tets.size(); ++t) {
-    heights.push_back(smallest_height(corners(setup.mesh, t)));
+    heights.push_back(min_height(corners(setup.mesh, t)));
     speeds.push_back(wave_speed(material_at(setup, t)));
   }
   const auto own = static_cast<std::size_t>(step.element);
-  limit.dihedral = smallest_dihedral(corners(setup.mesh, own));
+  limit.dihedral = min_dihedral(corners(setup.mesh, own));
   limit.height = heights[own];
   limit.wave_speed = speeds[own];
   limit.median_height = median(std::move(heights));
@@ -158,7 +158,7 @@ Explanation explain(const Scene& scene) {
   result.materials = materials_of(setup, result.world);
   result.limit = limit_of(setup, result.world.step);
   result.tools = tools_of(scene, setup);
-  result.left_out = left_out_of(scene, setup, result.world);
+  result.omitted_features = omitted_features_of(scene, setup, result.world);
   result.advice = advice_on(result);
   if (world->halt()) result.advice.push_back({"halted", world->halt()->message, "no step can be taken"});
   return result;

@@ -24,9 +24,9 @@ struct MaterialFacts {
   std::optional<int> region;  ///< none: the default entry
   KernelInfo kernel;
   std::vector<TermFacts> terms;
-  double density = 0;  ///< kg/m³
-  GroundState rest{};  ///< Pa, at rest; where parameters are fields, of their means
-  double poisson = 0;  ///< at rest; of springs 0, like the ground state
+  double density = 0;        ///< kg/m³
+  SmallStrainModuli rest{};  ///< Pa, at rest; where parameters are fields, of their means
+  double poisson = 0;        ///< at rest; of springs 0, like the ground state
 };
 
 /// Why one element limits explicit steps: its shape and its material beside the median element's.
@@ -55,7 +55,7 @@ struct StartupWork {
   double seconds;
 };
 
-struct LeftOut {
+struct OmittedFeature {
   std::string feature, why;
 };
 
@@ -74,7 +74,7 @@ struct Explanation {
   LimitFacts limit;
   std::vector<ToolFacts> tools;
   std::vector<StartupWork> startup;
-  std::vector<LeftOut> left_out;
+  std::vector<OmittedFeature> omitted_features;
   std::vector<Advice> advice;
 };
 
@@ -84,7 +84,7 @@ Explanation explain(const Scene& scene);
 
 /// The parts of it that follow from the rest.
 std::vector<ToolFacts> tools_of(const Scene& scene, const WorldSetup& setup);
-std::vector<LeftOut> left_out_of(const Scene& scene, const WorldSetup& setup, const WorldFacts& facts);
+std::vector<OmittedFeature> omitted_features_of(const Scene& scene, const WorldSetup& setup, const WorldFacts& facts);
 std::vector<Advice> advice_on(const Explanation& explained);
 
 }  // namespace heml

@@ -104,14 +104,14 @@ std::vector<Advice> advice_on(const Explanation& explained) {
   }
   advise_on_mesh(explained, advice);
   advise_on_method(explained, advice);
-  if (explained.world.held_nodes == 0 && !explained.setup.gravity.isZero(0) && !lies_on_a_table(explained.setup))
+  if (explained.world.constrained_nodes == 0 && !explained.setup.gravity.isZero(0) && !lies_on_a_table(explained.setup))
     advice.push_back(
         {"free_fall", "nothing holds the body, and gravity pulls at it", "a `boundary` entry, or a table"});
   return advice;
 }
 
-std::vector<LeftOut> left_out_of(const Scene& scene, const WorldSetup& setup, const WorldFacts& facts) {
-  std::vector<LeftOut> left;
+std::vector<OmittedFeature> omitted_features_of(const Scene& scene, const WorldSetup& setup, const WorldFacts& facts) {
+  std::vector<OmittedFeature> left;
   const auto leave = [&](bool unused, const char* feature, std::string why) {
     if (unused) left.push_back({feature, std::move(why)});
   };

@@ -13,7 +13,7 @@ bool is_one_of(const Command& command) {
 
 bool begins_a_stroke(const Command& command) {
   const auto* cut = std::get_if<CutTissue>(&command);
-  return cut && !cut->goes_on;
+  return cut && !cut->continues_stroke;
 }
 
 /// The commands a tool is used by, those of them that take it up, and what it does to the engine.
@@ -28,10 +28,10 @@ constexpr ToolKind kinds[] = {
      "a spring at each node in reach; explicit steps look at their limit every other step meanwhile"},
     {"probe", is_one_of<MoveProbe, WithdrawProbe>, is_one_of<MoveProbe>,
      "meets faces of the surface; explicit steps look at their limit every other step meanwhile"},
-    {"pin", is_one_of<PinTissue, Unpin>, is_one_of<PinTissue>, "nodes that are held where they are"},
+    {"pin", is_one_of<PinTissue, Unpin>, is_one_of<PinTissue>, "nodes constrained where they are"},
     {"suture", is_one_of<SutureTissue, CutSutures>, is_one_of<SutureTissue>, "a stiff link that is drawn in"},
     {"tables", is_one_of<SetTables>, is_one_of<SetTables>, "other planes from then on"},
-    {"cut", is_one_of<CutTissue>, begins_a_stroke, "elements are split, and the body is laid out anew"},
+    {"cut", is_one_of<CutTissue>, begins_a_stroke, "elements are split, and the layout of the body is rebuilt"},
     {"removal", is_one_of<RemoveElements>, is_one_of<RemoveElements>, "loops ask which elements are there"},
     {"undo", is_one_of<Undo>, is_one_of<Undo>, "the body as it was before the last cut or removal"},
 };
@@ -41,8 +41,8 @@ constexpr ToolKind kinds[] = {
 std::vector<ToolFacts> tools_of(const Scene& scene, const WorldSetup& setup) {
   std::vector<ToolFacts> tools;
   for (const Table& table : setup.tables)
-    tools.push_back(
-        {"table", fmt::format("friction {:.3g}; each node of the surface is held against its plane", table.friction)});
+    tools.push_back({"table", fmt::format("friction {:.3g}; each node of the surface is checked against its plane",
+                                          table.friction)});
   if (setup.self_contact)
     tools.push_back(
         {"self-contact", fmt::format("friction {:.3g}; pairs of faces that come near each other are searched",

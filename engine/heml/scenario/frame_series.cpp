@@ -45,11 +45,11 @@ void write_body(const fs::path& path, World& world) {
              field_of(world, "von_mises", Field::von_mises, all)});
 }
 
-void write_skin(const fs::path& path, World& world) {
-  const BoundaryFaces faces = boundary_of(with_elements(world.setup().mesh, world.topology()->elements));
+void write_surface_mesh(const fs::path& path, World& world) {
+  const BoundaryFaces faces = extract_boundary(with_elements(world.setup().mesh, world.topology()->elements));
   const std::vector<Vec3> positions = world.positions();
   std::vector<int> number(positions.size(), -1), nodes;  // on the surface, in order of appearance
-  SurfaceMesh surface;
+  TriangleMesh surface;
   for (Triangle triangle : faces.triangles) {
     for (int& n : triangle) {
       int& own = number[static_cast<std::size_t>(n)];
@@ -72,14 +72,14 @@ void write_skin(const fs::path& path, World& world) {
 }  // namespace
 
 void write_frame(const fs::path& path, World& world) {
-  path.extension() == ".vtu" ? write_body(path, world) : write_skin(path, world);
+  path.extension() == ".vtu" ? write_body(path, world) : write_surface_mesh(path, world);
 }
 
 FrameSeries::FrameSeries(fs::path folder, std::string ending) : folder_(std::move(folder)), ending_(std::move(ending)) {
   make_folder(folder_);
 }
 
-void FrameSeries::take(World& world) {
+void FrameSeries::add_frame(World& world) {
   files_.push_back({world.time(), fmt::format("frame_{:05}.{}", files_.size(), ending_)});
   write_frame(folder_ / files_.back().file, world);
   if (ending_ == "vtu") write_pvd(folder_ / "frames.pvd", files_);

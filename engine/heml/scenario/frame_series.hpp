@@ -24,7 +24,7 @@ class FrameSeries {
   FrameSeries(std::filesystem::path folder, std::string ending);
 
   /// Writes frame_<number>.<ending> and, of .vtu, frames.pvd with the times of all frames so far.
-  void take(World& world);
+  void add_frame(World& world);
 
   int taken() const { return static_cast<int>(files_.size()); }
 

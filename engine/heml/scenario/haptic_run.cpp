@@ -29,65 +29,66 @@ Scene without_moves(Scene scene) {
 
 }  // namespace
 
-Vec3 HandPath::at(double time) const {
+Vec3 HandleTrajectory::at(double time) const {
   const auto after = std::upper_bound(times.begin(), times.end(), time);
-  if (after == times.begin()) return places.front();
-  if (after == times.end()) return places.back();
+  if (after == times.begin()) return positions.front();
+  if (after == times.end()) return positions.back();
   const auto k = static_cast<std::size_t>(after - times.begin());
   const double share = (time - times[k - 1]) / (times[k] - times[k - 1]);
-  return places[k - 1] + share * (places[k] - places[k - 1]);
+  return positions[k - 1] + share * (positions[k] - positions[k - 1]);
 }
 
-HandPath read_hand_csv(const std::filesystem::path& path) {
+HandleTrajectory read_handle_csv(const std::filesystem::path& path) {
   const std::string content = read_text_file(path);
   std::string_view text = content;
   const auto fail = [&](long line, const std::string& problem, const std::string& remedy) {
     throw InputError(path.string(), fmt::format("line {}", line), problem, remedy);
   };
-  if (const std::string_view first = take_line(text); first != header)
+  if (const std::string_view first = consume_line(text); first != header)
     fail(1, fmt::format("is '{}'", shown(first)), fmt::format("must be the header {}", header));
-  HandPath hand;
+  HandleTrajectory handle;
   for (long line = 2; !text.empty(); ++line) {
-    const std::string_view entry = take_line(text);
+    const std::string_view entry = consume_line(text);
     if (is_blank(entry)) continue;
     std::string_view rest = entry;
     double time = 0;
     Vec3 x;
-    const bool read =
-        take_number(rest, time) && take_number(rest, x[0]) && take_number(rest, x[1]) && take_number(rest, x[2]);
+    const bool read = consume_number(rest, time) && consume_number(rest, x[0]) && consume_number(rest, x[1]) &&
+                      consume_number(rest, x[2]);
     if (!read || !rest.empty() || !x.allFinite() || !(time >= 0 && time < HUGE_VAL))
       fail(line, fmt::format("is '{}'", shown(entry)), "must be time,x,y,z: seconds and metres");
-    if (!hand.times.empty() && !(time > hand.times.back()))
-      fail(line, fmt::format("is of {} s, after {} s", time, hand.times.back()), "times must rise");
-    hand.times.push_back(time);
-    hand.places.push_back(x);
+    if (!handle.times.empty() && !(time > handle.times.back()))
+      fail(line, fmt::format("is of {} s, after {} s", time, handle.times.back()), "times must rise");
+    handle.times.push_back(time);
+    handle.positions.push_back(x);
   }
-  if (hand.times.empty()) throw InputError(path.string(), "", "has no place of the hand", "give one line at least");
-  return hand;
+  if (handle.times.empty())
+    throw InputError(path.string(), "", "has no position of the handle", "give one line at least");
+  return handle;
 }
 
-HapticRun run_with_hand(const Scene& scene, const HandPath& hand, const HapticLimits& limits) {
+HapticRun run_with_handle(const Scene& scene, const HandleTrajectory& handle, const HapticLimits& limits) {
   if (scene.solver.is_static())
-    throw InputError(scene.file, "solver.integrator", "is static, and a hand moves", "give another integrator");
+    throw InputError(scene.file, "solver.integrator", "is static, and a handle moves", "give another integrator");
   const Scene script = without_moves(scene);
   const auto world = load_world(script);
   Player player(script, *world);
   HapticServo servo(limits);
   HapticRun run;
-  const double tick = scene.solver.tick(), end = std::min(scene.solver.duration, hand.times.back());
+  const double tick = scene.solver.tick(), end = std::min(scene.solver.duration, handle.times.back());
   for (long k = 1; static_cast<double>(k) * tick <= end * (1 + 1e-12); ++k) {
     const double now = static_cast<double>(k) * tick;
     if (world->tool().active)
-      if (const auto refused = world->apply(MoveTool{hand.at(now - tick)}))
-        throw InputError(scene.file, "", "the tool cannot follow the hand: " + *refused, "give another hand");
+      if (const auto refused = world->apply(MoveTool{handle.at(now - tick)}))
+        throw InputError(scene.file, "", "the tool cannot follow the handle: " + *refused, "give another trajectory");
     player.to(now);
     if ((run.halt = world->halt())) break;
     const ToolState tool = world->tool();
-    tool.active ? servo.take({now, tool.target, tool.force}) : servo.let_go();
-    while (static_cast<double>(run.felt.size()) * turn < now + tick) {  // until the next tick is done
-      const double time = static_cast<double>(run.felt.size()) * turn;
-      const Vec3 place = hand.at(time), force = time < now ? Vec3(Vec3::Zero()) : servo.serve(place, turn);
-      run.felt.push_back({time, place, force, servo.energy(), servo.added_damping()});
+    tool.active ? servo.update({now, tool.target, tool.force}) : servo.release();
+    while (static_cast<double>(run.samples.size()) * turn < now + tick) {  // until the next tick is done
+      const double time = static_cast<double>(run.samples.size()) * turn;
+      const Vec3 place = handle.at(time), force = time < now ? Vec3(Vec3::Zero()) : servo.serve(place, turn);
+      run.samples.push_back({time, place, force, servo.energy(), servo.added_damping()});
     }
   }
   return run;

@@ -11,30 +11,30 @@
 namespace heml {
 
 /// Places of a hand.
-struct HandPath {
-  std::vector<double> times;   ///< s, ascending
-  std::vector<Vec3> places;    ///< m
-  Vec3 at(double time) const;  ///< linear between them, still before and after
+struct HandleTrajectory {
+  std::vector<double> times;    ///< s, ascending
+  std::vector<Vec3> positions;  ///< m
+  Vec3 at(double time) const;   ///< linear between them, still before and after
 };
 
 /// Reads a CSV: header `time,x,y,z`, s and m. Throws InputError naming the line.
-HandPath read_hand_csv(const std::filesystem::path& path);
+HandleTrajectory read_handle_csv(const std::filesystem::path& path);
 
 /// One turn of the servo.
-struct FeltForce {
-  double time = 0;            ///< s
-  Vec3 hand = Vec3::Zero();   ///< m
-  Vec3 force = Vec3::Zero();  ///< N, on the hand
-  double energy = 0;          ///< J, the hand has put in
-  double damping = 0;         ///< N s/m, added
+struct HapticSample {
+  double time = 0;             ///< s
+  Vec3 handle = Vec3::Zero();  ///< m
+  Vec3 force = Vec3::Zero();   ///< N, on the hand
+  double energy = 0;           ///< J, the hand has put in
+  double damping = 0;          ///< N s/m, added
 };
 
 /// The scene's grasp goes where the hand goes. Its events play, without their moves of the tool. Ends with the hand or
 /// the scene, whichever is first. Throws InputError; where the world halts, with what was felt up to there in `felt`.
 struct HapticRun {
-  std::vector<FeltForce> felt;
-  std::optional<Halt> halt;
+  std::vector<HapticSample> samples;
+  std::optional<StopReason> halt;
 };
-HapticRun run_with_hand(const Scene& scene, const HandPath& hand, const HapticLimits& limits = {});
+HapticRun run_with_handle(const Scene& scene, const HandleTrajectory& handle, const HapticLimits& limits = {});
 
 }  // namespace heml

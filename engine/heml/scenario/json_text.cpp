@@ -1,22 +1,23 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <heml/base/error.hpp>
 #include <heml/scenario/json_text.hpp>
 
 namespace heml {
 namespace {
 
-constexpr std::size_t longest_text = 64'000'000;
-constexpr std::size_t deepest = 32;        // no scene nests deeper than 5
-constexpr std::size_t most_keys = 1000;    // looking up a key is linear in their number
-constexpr std::size_t longest_shown = 80;  // characters of a value quoted in a message
+constexpr std::size_t max_text = 64'000'000;
+constexpr std::size_t deepest = 32;     // no scene nests deeper than 5
+constexpr std::size_t max_keys = 1000;  // looking up a key is linear in their number
+constexpr std::size_t max_shown = 80;   // characters of a value quoted in a message
 
 /// What nlohmann says is wrong, without the parts said elsewhere in the message (exception name, line and column).
 std::string syntax_problem(std::string text) {
   if (const auto end = text.find("] "); end != std::string::npos) text.erase(0, end + 2);
   if (text.starts_with("parse error at")) text.erase(0, text.find(": ") + 2);
-  return shown(std::string_view(text).substr(0, 2 * longest_shown));
+  return shown(std::string_view(text).substr(0, 2 * max_shown));
 }
 
 /// Receives the parser's events and builds the value.
@@ -41,7 +42,7 @@ class Builder {
     Frame& frame = stack_.back();
     frame.key = std::move(name);
     if (frame.value.contains(frame.key)) fail("stands twice in one object", "keep one of them");
-    if (frame.value.size() >= most_keys) fail("too many keys in one object", fmt::format("at most {}", most_keys));
+    if (frame.value.size() >= max_keys) fail("too many keys in one object", fmt::format("at most {}", max_keys));
     return true;
   }
 
@@ -140,9 +141,9 @@ void write(const Json& value, int indent, std::string& out) {
 }  // namespace
 
 Json parse_json(std::string_view text, const std::string& file, long first_line) {
-  if (text.size() > longest_text)
+  if (text.size() > max_text)
     throw InputError(file, fmt::format("line {}", first_line), fmt::format("is {} bytes of JSON", text.size()),
-                     fmt::format("at most {} bytes", longest_text));
+                     fmt::format("at most {} bytes", max_text));
   Builder builder(text, file, first_line);
   Json::sax_parse(text, &builder);
   return builder.take();
@@ -160,7 +161,7 @@ std::string json_text(const Json& value, const std::string& file, bool indented)
 }
 
 std::string shown(std::string_view text) {
-  std::string result(text.substr(0, 2 * longest_shown));
+  std::string result(text.substr(0, 2 * max_shown));
   for (char& c : result)
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
   return text.size() > result.size() ? result + "..." : result;
@@ -168,8 +169,8 @@ std::string shown(std::string_view text) {
 
 std::string shown(const Json& value) {
   std::string text = value.dump(-1, ' ', true, Json::error_handler_t::replace);
-  if (text.size() <= longest_shown) return text;
-  return text.substr(0, longest_shown) + "...";
+  if (text.size() <= max_shown) return text;
+  return text.substr(0, max_shown) + "...";
 }
 
 }  // namespace heml

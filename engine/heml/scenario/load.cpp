@@ -29,18 +29,18 @@ void expect_a_face(const std::vector<int>& nodes, const BoundaryFaces& faces, co
 
 WorldSetup refined_setup(const Scene& scene, WorldSetup setup) {
   Adaptation adapted = adapt(scene, std::move(setup), *scene.mesh.refine, {},
-                             [](const AdaptedMesh& mesh) { inform("refining the mesh: {}", text_of(mesh)); });
+                             [](const AdaptedMesh& mesh) { log_info("refining the mesh: {}", text_of(mesh)); });
   if (!adapted.reached)
     warn("{}: mesh.refine: {} and no more than {} tetrahedra do not go together; took {}", scene.file,
          scene.mesh.refine->error, scene.mesh.refine->tets, text_of(adapted.meshes.back()));
-  expect_recorded_mesh(scene, adapted.setup.mesh);
+  check_recorded_mesh(scene, adapted.setup.mesh);
   return std::move(adapted.setup);
 }
 
 }  // namespace
 
 bool plays_as_recorded(const Scene& scene) {
-  return scene.recorded_instructions && *scene.recorded_instructions <= chosen(InstructionSet::best);
+  return scene.recorded_instructions && *scene.recorded_instructions <= resolve(InstructionSet::best);
 }
 
 WorldSetup load_setup(const Scene& scene) { return load_setup(scene, load_mesh(scene)); }
@@ -49,14 +49,14 @@ WorldSetup load_setup(const Scene& scene, TetMesh mesh) {
   WorldSetup setup;
   setup.mesh = std::move(mesh);
   setup.materials = scene.materials;
-  take_fields(scene.file, setup);
-  if (!scene.mesh.refine) expect_recorded_mesh(scene, setup.mesh);
+  resolve_fields(scene.file, setup);
+  if (!scene.mesh.refine) check_recorded_mesh(scene, setup.mesh);
   for (std::size_t i = 0; i < scene.boundary.size(); ++i) {
     Boundary boundary = scene.boundary[i].motion;
     boundary.nodes = select_nodes(scene.boundary[i].where, setup.mesh, scene.file, fmt::format("boundary[{}]", i));
     setup.boundary.push_back(std::move(boundary));
   }
-  const BoundaryFaces faces = scene.loads.empty() ? BoundaryFaces{} : boundary_of(setup.mesh);
+  const BoundaryFaces faces = scene.loads.empty() ? BoundaryFaces{} : extract_boundary(setup.mesh);
   for (std::size_t i = 0; i < scene.loads.size(); ++i) {
     const std::string place = fmt::format("loads[{}]", i);
     Load load = scene.loads[i].load;

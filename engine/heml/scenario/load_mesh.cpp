@@ -38,7 +38,7 @@ TetMesh asset_mesh(const Scene& scene) {
 }
 
 TetMesh filled_surface(const Scene& scene) {
-  SurfaceMesh surface = read_surface(find_file(scene, "mesh.surface", scene.mesh.surface));
+  TriangleMesh surface = read_surface(find_file(scene, "mesh.surface", scene.mesh.surface));
   check_surface(surface);
   TetgenOptions options;
   options.radius_edge_ratio = scene.mesh.radius_edge_ratio;
@@ -70,17 +70,17 @@ fs::path find_file(const Scene& scene, const std::string& key, const fs::path& p
                    "paths are relative to the scene file");
 }
 
-MeshIdentity identity_of(const TetMesh& mesh) {
+MeshFingerprint mesh_fingerprint(const TetMesh& mesh) {
   std::uint64_t hash = 0;
   for (const Vec3& node : mesh.nodes)
-    for (const double coordinate : node) hash = mix(hash, coordinate);
+    for (const double coordinate : node) hash = hash_combine(hash, coordinate);
   const auto number = [](int value) { return static_cast<std::uint64_t>(static_cast<std::uint32_t>(value)); };
   for (const Tet& tet : mesh.tets)
-    for (const int node : tet) hash = mix(hash, number(node));
-  for (const int region : mesh.regions) hash = mix(hash, number(region));
+    for (const int node : tet) hash = hash_combine(hash, number(node));
+  for (const int region : mesh.regions) hash = hash_combine(hash, number(region));
   for (const ElementField& field : mesh.fields) {
-    for (const char c : field.name) hash = mix(hash, number(c));
-    for (const double value : field.values) hash = mix(hash, value);
+    for (const char c : field.name) hash = hash_combine(hash, number(c));
+    for (const double value : field.values) hash = hash_combine(hash, value);
   }
   return {static_cast<int>(mesh.nodes.size()), static_cast<int>(mesh.tets.size()), hash};
 }
@@ -97,13 +97,13 @@ TetMesh load_mesh(const Scene& scene) {
   const QualityReport report = check_tets(mesh);
   for (const std::string& warning : report.warnings) warn("{}: {}", mesh.source, warning);
   if (!scene.mesh.box)
-    if (const std::string odd = unit_suspicion(report.low, report.high); !odd.empty()) warn("{}: {}", mesh.source, odd);
+    if (const std::string odd = unit_warning(report.low, report.high); !odd.empty()) warn("{}: {}", mesh.source, odd);
   return mesh;
 }
 
-void expect_recorded_mesh(const Scene& scene, const TetMesh& mesh) {
+void check_recorded_mesh(const Scene& scene, const TetMesh& mesh) {
   if (!scene.recorded_mesh) return;
-  const MeshIdentity now = identity_of(mesh), then = *scene.recorded_mesh;
+  const MeshFingerprint now = mesh_fingerprint(mesh), then = *scene.recorded_mesh;
   if (now == then) return;
   const std::string problem =
       fmt::format("was recorded on a mesh of {} nodes and {} tetrahedra (hash {:016x}); {} gives {} and {} ({:016x})",

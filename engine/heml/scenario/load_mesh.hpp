@@ -10,13 +10,13 @@ namespace heml {
 TetMesh load_mesh(const Scene& scene);
 
 /// mesh: as load_setup() leaves it, with the fields that materials use and no others.
-MeshIdentity identity_of(const TetMesh& mesh);
+MeshFingerprint mesh_fingerprint(const TetMesh& mesh);
 
 /// Of an asset by its name; it need not exist.
 std::filesystem::path asset_mesh_file(const std::string& name);
 
 /// Throws InputError when the scene was recorded with another mesh.
-void expect_recorded_mesh(const Scene& scene, const TetMesh& mesh);
+void check_recorded_mesh(const Scene& scene, const TetMesh& mesh);
 
 /// Where a file of the scene is: the path, or, for a recording whose file is gone, one of the same name beside the
 /// recording. Throws InputError naming the key when there is none.

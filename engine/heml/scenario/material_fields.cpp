@@ -87,7 +87,7 @@ class Check {
     if (find_field(mesh_, name)) return;
     ElementField made{name, 1, {}};
     for (std::size_t t = 0; t < young.size(); ++t) {
-      const Lame lame = lame_from(young[t], poisson[t]);
+      const LameParameters lame = lame_parameters(young[t], poisson[t]);
       made.values.push_back(name.starts_with("lambda") ? lame.lambda : lame.mu);
     }
     mesh_.fields.push_back(std::move(made));
@@ -155,11 +155,11 @@ void fill_means(const std::vector<std::size_t>& elements, const TetMesh& mesh, M
 
 }  // namespace
 
-void take_fields(const std::string& file, WorldSetup& setup) {
+void resolve_fields(const std::string& file, WorldSetup& setup) {
   std::set<std::string> used;
   for (std::size_t i = 0; i < setup.materials.size(); ++i) {
     Material& material = setup.materials[i].material;
-    if (!takes_fields(material)) continue;
+    if (!uses_fields(material)) continue;
     const std::vector<std::size_t> elements = elements_of(setup.materials[i].region, setup.materials, setup.mesh);
     Check(material, elements, setup.mesh, file, fmt::format("materials[{}]", i)).run();
     fill_means(elements, setup.mesh, material);

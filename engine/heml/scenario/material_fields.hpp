@@ -9,6 +9,6 @@ namespace heml {
 /// law. Makes directions of fibres unit vectors, adds the fields that are made from others (young_poisson.hpp), forgets
 /// those that nothing reads, and gives each parameter that is a field its mean, weighted by volume.
 /// file: of the scene, for messages. Throws InputError naming key path, field and element.
-void take_fields(const std::string& file, WorldSetup& setup);
+void resolve_fields(const std::string& file, WorldSetup& setup);
 
 }  // namespace heml

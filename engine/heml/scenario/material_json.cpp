@@ -27,14 +27,14 @@ constexpr ParticularKey particular_keys[] = {
     {"plasticity", [](const LawInfo& law) { return law.has_volume_term && !law.has_fibre; }},
 };
 
-const LawInfo& law_from(const Key& key) {
+const LawInfo& law_from(const JsonCursor& key) {
   std::vector<std::string_view> names;
   for (const LawInfo& law : laws()) names.push_back(law.name);
   return laws()[key.one_of(names)];
 }
 
 /// Refuses what does not go with the law: keys of other laws, and keys of none.
-void allow_keys_of(const LawInfo& law, const Key& entry) {
+void allow_keys_of(const LawInfo& law, const JsonCursor& entry) {
   std::vector<std::string_view> names = {"law", "region", "density", "preset"};
   if (law.takes_young_poisson) names.insert(names.end(), {"young", "poisson"});
   for (const ParameterInfo& info : law.parameters) names.push_back(info.name);
@@ -60,7 +60,7 @@ void add_scalar(const Quantity& quantity, Material& material) {
 /// λ and μ from young and poisson, by fields made of them where one of the two is a field.
 void add_young_poisson(const YoungPoisson& pair, Material& material) {
   if (pair.young.field.empty() && pair.poisson.field.empty()) {
-    const Lame lame = lame_from(pair.young.value, pair.poisson.value);
+    const LameParameters lame = lame_parameters(pair.young.value, pair.poisson.value);
     material.parameters = {lame.lambda, lame.mu};
   } else {
     for (const char* parameter : {"lambda", "mu"}) add_scalar({1, lame_field(parameter, pair)}, material);
@@ -68,7 +68,7 @@ void add_young_poisson(const YoungPoisson& pair, Material& material) {
 }
 
 /// Whether the entry gives young and poisson rather than lambda and mu.
-bool is_engineering(const Key& entry) {
+bool is_engineering(const JsonCursor& entry) {
   const bool engineering = entry.has("young") || entry.has("poisson");
   const bool lame = entry.has("lambda") || entry.has("mu");
   if (engineering && lame) entry.fail("mixes young, poisson with lambda, mu", "give one pair only");
@@ -76,11 +76,11 @@ bool is_engineering(const Key& entry) {
   return engineering;
 }
 
-void read_parameters(const Key& entry, const LawInfo& law, Material& material) {
+void read_parameters(const JsonCursor& entry, const LawInfo& law, Material& material) {
   if (law.takes_young_poisson && is_engineering(entry)) return add_young_poisson(young_poisson_from(entry), material);
   const ParameterInfo* first_list = nullptr;
   for (const ParameterInfo& info : law.parameters) {
-    const Key key = entry[info.name];
+    const JsonCursor key = entry[info.name];
     if (!info.is_list()) {
       add_scalar(quantity_from(key), material);
       continue;
@@ -90,11 +90,11 @@ void read_parameters(const Key& entry, const LawInfo& law, Material& material) {
     if (const std::size_t length = entry[first_list->name].size(); key.size() != length)
       key.fail(fmt::format("has {} numbers, '{}' has {}", key.size(), first_list->name, length),
                "give as many of each");
-    key.each([&](const Key& number) { material.parameters.push_back(number.number()); });
+    key.each([&](const JsonCursor& number) { material.parameters.push_back(number.number()); });
   }
 }
 
-void read_fibre(const Key& key, Material& material) {
+void read_fibre(const JsonCursor& key, Material& material) {
   if (key.json().is_object())
     material.fibre_field = quantity_from(key).field;
   else
@@ -102,11 +102,11 @@ void read_fibre(const Key& key, Material& material) {
 }
 
 /// What acts beside elasticity.
-void read_memory(const Key& entry, Material& material) {
+void read_memory(const JsonCursor& entry, Material& material) {
   if (const auto viscosity = entry.find("viscosity")) material.viscosity = viscosity->non_negative();
   if (const auto viscosity = entry.find("bulk_viscosity")) material.bulk_viscosity = viscosity->non_negative();
   if (const auto relaxation = entry.find("relaxation"))
-    relaxation->each([&](const Key& term) {
+    relaxation->each([&](const JsonCursor& term) {
       term.allow({"gamma", "tau"});
       material.relaxation.push_back({term["gamma"].positive(), term["tau"].positive()});
     });
@@ -119,7 +119,7 @@ void read_memory(const Key& entry, Material& material) {
 }
 
 /// What can be wrong with the numbers together. Of fields, that is seen when the mesh is there.
-void check_values(const Key& entry, const Material& material) {
+void check_values(const JsonCursor& entry, const Material& material) {
   if (!material.fields.empty()) return;
   for (const double value : material.parameters)
     if (!std::isfinite(value)) entry.fail("its parameters overflow", "use smaller values");
@@ -151,9 +151,9 @@ Json parameters_json(const Material& material, const LawInfo& law) {
 
 }  // namespace
 
-bool takes_fields(const Material& material) { return !material.fields.empty() || !material.fibre_field.empty(); }
+bool uses_fields(const Material& material) { return !material.fields.empty() || !material.fibre_field.empty(); }
 
-RegionMaterial material_from(const Key& entry) {
+RegionMaterial material_from(const JsonCursor& entry) {
   if (entry.has("preset")) return preset_entry(entry);
   RegionMaterial result;
   Material& material = result.material;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int turns = 5;
 constexpr double wanted = 0.2;  // s of computing a run of the scene as it is
-constexpr long least_ticks = 2, most_ticks = 2000;
+constexpr long min_ticks = 2, max_measured_ticks = 2000;
 constexpr double static_stretch = 0.1;  // of the load
 constexpr double frames_a_second = 60;  // of a viewer that draws stretches
 
@@ -134,7 +134,7 @@ double rms_distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
   return std::sqrt(sum / static_cast<double>(a.size()));
 }
 
-double largest_distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+double max_distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
   double largest = 0;
   for (std::size_t n = 0; n < a.size(); ++n) largest = std::max(largest, (a[n] - b[n]).norm());
   return largest;
@@ -144,9 +144,9 @@ double largest_distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b) 
 long ticks_for(const Scene& scene, const WorldSetup& setup) {
   if (setup.solver.is_static()) return 1;
   const long of_scene = std::max(std::lround(setup.solver.duration / setup.solver.tick()), 1L);
-  const Run trial = run(scene, setup, {}, std::min(least_ticks, of_scene));
+  const Run trial = run(scene, setup, {}, std::min(min_ticks, of_scene));
   const double fitting = wanted * static_cast<double>(trial.ticks) / std::max(trial.seconds, 1e-6);
-  return std::min({std::max(std::lround(fitting), least_ticks), of_scene, most_ticks});
+  return std::min({std::max(std::lround(fitting), min_ticks), of_scene, max_measured_ticks});
 }
 
 }  // namespace
@@ -177,7 +177,7 @@ Measurement measure_features(const Scene& scene, WorldSetup setup, const std::fu
         progress(static_cast<double>(turn * static_cast<int>(changes.size()) + static_cast<int>(k) + 1) /
                  static_cast<double>(turns * static_cast<int>(changes.size())));
     }
-  measured.largest_motion = largest_distance(setup.mesh.nodes, as_it_is);
+  measured.max_motion = max_distance(setup.mesh.nodes, as_it_is);
   return measured;
 }
 

@@ -19,8 +19,8 @@ struct MeasuredChange {
 };
 
 struct Measurement {
-  double stretch = 0;         ///< s of simulated time; of a static scene, the fraction of the load
-  double largest_motion = 0;  ///< m, of a node of the scene as it is: what errors are to be held against
+  double stretch = 0;     ///< s of simulated time; of a static scene, the fraction of the load
+  double max_motion = 0;  ///< m, of a node of the scene as it is: what errors are to be held against
   int turns = 0;
   std::vector<MeasuredChange> changes;
 };

@@ -7,41 +7,41 @@
 namespace heml {
 namespace {
 
-constexpr double most_cells = 2e6;  // ten million tetrahedra
-constexpr long most_refined = 10'000'000;
+constexpr double max_cells = 2e6;  // ten million tetrahedra
+constexpr long max_refined = 10'000'000;
 
-MeshSpec::Box box_from(const Key& key) {
+MeshSpec::Box box_from(const JsonCursor& key) {
   key.allow({"size", "cells", "origin"});
   MeshSpec::Box box{key["size"].vector(), Vec3::Zero(), {}};
   if (!(box.size.minCoeff() > 0)) key["size"].refuse("must be greater than 0 along x, y and z");
-  const Key cells = key["cells"];
+  const JsonCursor cells = key["cells"];
   if (cells.size() != 3) cells.refuse("must be three whole numbers [nx, ny, nz]");
   double product = 1;
   for (std::size_t i = 0; i < 3; ++i) {
-    box.cells[i] = static_cast<int>(cells[i].integer(1, static_cast<long>(most_cells)));
+    box.cells[i] = static_cast<int>(cells[i].integer(1, static_cast<long>(max_cells)));
     product *= box.cells[i];
   }
-  if (product > most_cells) cells.refuse(fmt::format("must be at most {} cells in all", most_cells));
+  if (product > max_cells) cells.refuse(fmt::format("must be at most {} cells in all", max_cells));
   if (const auto origin = key.find("origin")) box.origin = origin->vector();
   return box;
 }
 
-void read_tetgen(const Key& key, MeshSpec& mesh) {
+void read_tetgen(const JsonCursor& key, MeshSpec& mesh) {
   key.allow({"radius_edge_ratio", "max_volume"});
   if (const auto ratio = key.find("radius_edge_ratio")) mesh.radius_edge_ratio = ratio->between(1, 100);
   if (const auto volume = key.find("max_volume")) mesh.max_volume = volume->positive();
 }
 
-RefineGoal refine_from(const Key& key) {
+RefineGoal refine_from(const JsonCursor& key) {
   key.allow({"error", "tets"});
   RefineGoal goal;
   if (const auto error = key.find("error")) goal.error = error->between(0.001, 1);
-  if (const auto tets = key.find("tets")) goal.tets = static_cast<int>(tets->integer(1, most_refined));
+  if (const auto tets = key.find("tets")) goal.tets = static_cast<int>(tets->integer(1, max_refined));
   return goal;
 }
 
 /// The name of a file in the assets' folder of meshes, and not a way out of it.
-std::string asset_from(const Key& key) {
+std::string asset_from(const JsonCursor& key) {
   const std::string name = key.text();
   const bool plain = std::all_of(name.begin(), name.end(),
                                  [](unsigned char c) { return (c < 0x80 && std::isalnum(c)) || c == '_' || c == '-'; });
@@ -51,7 +51,7 @@ std::string asset_from(const Key& key) {
 
 }  // namespace
 
-std::filesystem::path path_from(const Key& key, const std::filesystem::path& folder) {
+std::filesystem::path path_from(const JsonCursor& key, const std::filesystem::path& folder) {
   const std::string text = key.text();
   if (text.empty() || text.find('\0') != std::string::npos) key.refuse("must be the path of a file");
   return folder / text;  // an absolute path stays what it is
@@ -66,7 +66,7 @@ std::string path_text(const std::filesystem::path& path, const std::filesystem::
   return relative.empty() || *relative.begin() == ".." ? whole.string() : relative.string();
 }
 
-MeshSpec mesh_from(const Key& key, const std::filesystem::path& folder) {
+MeshSpec mesh_from(const JsonCursor& key, const std::filesystem::path& folder) {
   key.allow({"file", "surface", "tetgen", "box", "asset", "scale", "rotate", "translate", "refine"});
   MeshSpec mesh;
   const std::string kind = key.only_one_of({"file", "surface", "box", "asset"});
@@ -107,7 +107,7 @@ Json mesh_json(const MeshSpec& mesh, const std::filesystem::path& folder) {
   return json;
 }
 
-void read_rotation(const Key& key, Vec3& axis, Vec3& origin, double& degrees) {
+void read_rotation(const JsonCursor& key, Vec3& axis, Vec3& origin, double& degrees) {
   key.allow({"axis", "origin", "degrees"});
   axis = key["axis"].direction();
   degrees = key["degrees"].number();

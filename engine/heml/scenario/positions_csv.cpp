@@ -22,19 +22,19 @@ std::vector<Vec3> read_positions_csv(const std::filesystem::path& path, int node
   const auto fail = [&](long line, const std::string& problem, const std::string& remedy) {
     throw InputError(path.string(), fmt::format("line {}", line), problem, remedy);
   };
-  if (const std::string_view first = take_line(text); first != header)
+  if (const std::string_view first = consume_line(text); first != header)
     fail(1, fmt::format("is '{}'", shown(first)), fmt::format("must be the header {}", header));
   std::vector<Vec3> positions(static_cast<std::size_t>(nodes), Vec3::Zero());
   std::vector<bool> given(positions.size(), false);
   int count = 0;
   for (long line = 2; !text.empty(); ++line) {
-    const std::string_view entry = take_line(text);
+    const std::string_view entry = consume_line(text);
     if (is_blank(entry)) continue;
     std::string_view rest = entry;
     int node = -1;
     Vec3 x;
-    const bool read =
-        take_number(rest, node) && take_number(rest, x[0]) && take_number(rest, x[1]) && take_number(rest, x[2]);
+    const bool read = consume_number(rest, node) && consume_number(rest, x[0]) && consume_number(rest, x[1]) &&
+                      consume_number(rest, x[2]);
     if (!read || !rest.empty() || !x.allFinite())
       fail(line, fmt::format("is '{}'", shown(entry)), "must be node,x,y,z: four numbers");
     if (node < 0 || node >= nodes)

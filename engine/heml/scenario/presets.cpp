@@ -16,9 +16,9 @@ namespace fs = std::filesystem;
 constexpr double modulus_tolerance = 1e-6;  // relative, between what a file says and what its law gives
 
 /// A text, or null for what is not known.
-std::string text_or_nothing(const Key& key) { return key.json().is_null() ? std::string() : key.text(); }
+std::string text_or_nothing(const JsonCursor& key) { return key.json().is_null() ? std::string() : key.text(); }
 
-Citation citation_from(const Key& key) {
+Citation citation_from(const JsonCursor& key) {
   key.allow({"authors", "year", "title", "published_in", "doi", "url", "place"});
   Citation result;
   result.authors = key["authors"].text();
@@ -31,12 +31,12 @@ Citation citation_from(const Key& key) {
   return result;
 }
 
-Material material_of_preset(const Key& key) {
+Material material_of_preset(const JsonCursor& key) {
   if (const auto name = key.find("preset")) name->fail("a preset in a preset", "give the law and its parameters");
   return material_from(key).material;
 }
 
-std::optional<StretchRange> stretch_range_from(const Key& key) {
+std::optional<StretchRange> stretch_range_from(const JsonCursor& key) {
   if (key.json().is_null()) return std::nullopt;
   if (key.size() != 2 || !(key[0].number() > 0) || !(key[1].number() > key[0].number()))
     key.refuse("must be null or [low, high], stretches with 0 < low < high");
@@ -98,7 +98,7 @@ std::string short_text(const Citation& citation) {
 Preset read_preset(const fs::path& path) {
   const std::string file = path.string();
   const Json document = parse_json(read_text_file(path), file);
-  const Key key(document, file);
+  const JsonCursor key(document, file);
   key.allow({"title", "tissue", "species", "material", "published", "convention", "ours", "shear_modulus", "test",
              "stretch_range", "source", "seen", "note", "verified"});
   Preset preset;
@@ -107,12 +107,12 @@ Preset read_preset(const fs::path& path) {
   preset.tissue = key["tissue"].text();
   preset.species = text_or_nothing(key["species"]);
   preset.material = material_of_preset(key["material"]);
-  const Key published = key["published"];
+  const JsonCursor published = key["published"];
   if (!published.json().is_object()) published.refuse("must be an object { \"name\": number, ... }");
   for (const auto& [name, value] : published.json().items())
     preset.published.emplace_back(name, published[name].number());
   preset.convention = key["convention"].text();
-  key["ours"].each([&](const Key& name) { preset.ours.push_back(name.text()); });
+  key["ours"].each([&](const JsonCursor& name) { preset.ours.push_back(name.text()); });
   preset.shear_modulus = key["shear_modulus"].positive();
   preset.test = key["test"].text();
   preset.stretch_range = stretch_range_from(key["stretch_range"]);
@@ -120,7 +120,7 @@ Preset read_preset(const fs::path& path) {
   preset.seen = key["seen"].text();
   preset.note = text_or_nothing(key["note"]);
   preset.verified = key["verified"].flag();
-  const double shear = ground_state(preset.material).shear;
+  const double shear = small_strain_moduli(preset.material).shear;
   if (!(std::abs(shear - preset.shear_modulus) <= modulus_tolerance * shear))
     key["shear_modulus"].refuse(fmt::format("the material's is {:.9g} Pa", shear));
   return preset;
@@ -136,7 +136,7 @@ const Preset* find_preset(std::string_view name) {
   return found == presets().end() ? nullptr : &*found;
 }
 
-RegionMaterial preset_entry(const Key& entry) {
+RegionMaterial preset_entry(const JsonCursor& entry) {
   std::vector<std::string_view> names;
   for (const Preset& preset : presets()) names.push_back(preset.name);
   if (names.empty()) entry["preset"].refuse("there are no presets beside this program: give law and parameters");
@@ -148,7 +148,7 @@ RegionMaterial preset_entry(const Key& entry) {
       entry[name].fail("comes with the preset", "leave it out, or give law and parameters instead of the preset");
     whole[name] = value;
   }
-  return material_from(Key(whole, entry.file(), entry.place()));
+  return material_from(JsonCursor(whole, entry.file(), entry.place()));
 }
 
 const Preset* preset_of(const Material& material) {

@@ -53,13 +53,13 @@ const std::vector<Preset>& presets();
 /// nullptr when there is none of that name.
 const Preset* find_preset(std::string_view name);
 
-class Key;
+class JsonCursor;
 struct RegionMaterial;
 
 /// An entry of `materials` with a `preset`: its law and parameters, and what the entry says beside them (region,
 /// density, fibre, viscosity, ...). Throws InputError for an unknown name and for a parameter that the preset has
 /// already.
-RegionMaterial preset_entry(const Key& entry);
+RegionMaterial preset_entry(const JsonCursor& entry);
 
 /// The preset whose law and parameters a material has (fibre and density aside); nullptr for a material of its own.
 const Preset* preset_of(const Material& material);

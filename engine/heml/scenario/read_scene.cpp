@@ -26,7 +26,7 @@ constexpr long schema_version = 1;
 constexpr std::string_view surface_endings[] = {".obj", ".stl",  ".ply", ".off", ".dae",
                                                 ".fbx", ".gltf", ".glb", ".3ds"};
 
-void check_version(const Key& scene) {
+void check_version(const JsonCursor& scene) {
   if (!scene.json().is_object()) scene.refuse("must be a scene: an object { ... }");
   const auto version = scene.find("schema_version");
   if (!version) scene.fail("'schema_version' is missing", "add \"schema_version\": 1");
@@ -34,9 +34,9 @@ void check_version(const Key& scene) {
     version->refuse("this build reads version 1");
 }
 
-std::vector<RegionMaterial> materials_from(const Key& key) {
+std::vector<RegionMaterial> materials_from(const JsonCursor& key) {
   std::vector<RegionMaterial> materials;
-  key.each([&](const Key& entry) {
+  key.each([&](const JsonCursor& entry) {
     RegionMaterial material = material_from(entry);
     for (std::size_t i = 0; i < materials.size(); ++i) {
       if (materials[i].region != material.region) continue;
@@ -49,10 +49,10 @@ std::vector<RegionMaterial> materials_from(const Key& key) {
   return materials;
 }
 
-void read_outputs(const Key& key, Scene& scene) {
+void read_outputs(const JsonCursor& key, Scene& scene) {
   key.allow({"times", "positions", "vtu", "markers", "history", "every"});
   if (const auto times = key.find("times")) {
-    times->each([&](const Key& time) {
+    times->each([&](const JsonCursor& time) {
       scene.output_times.push_back(time.non_negative());
       if (time.number() > scene.solver.duration)
         time.refuse(fmt::format("must be at most solver.duration, {} s", scene.solver.duration));
@@ -61,18 +61,18 @@ void read_outputs(const Key& key, Scene& scene) {
   if (const auto positions = key.find("positions")) scene.output_positions = positions->flag();
   if (const auto vtu = key.find("vtu")) scene.output_vtu = vtu->flag();
   if (const auto markers = key.find("markers"))
-    markers->each([&](const Key& entry) { scene.markers.push_back(marker_from(entry)); });
+    markers->each([&](const JsonCursor& entry) { scene.markers.push_back(marker_from(entry)); });
   if (const auto history = key.find("history")) scene.output_history = history->flag();
   if (const auto every = key.find("every")) scene.output_every = every->positive();
 }
 
-void read_initial(const Key& key, const fs::path& folder, Scene& scene) {
+void read_initial(const JsonCursor& key, const fs::path& folder, Scene& scene) {
   key.allow({"velocity", "positions"});
   if (const auto velocity = key.find("velocity")) scene.initial_velocity = velocity->vector();
   if (const auto positions = key.find("positions")) scene.initial_positions = path_from(*positions, folder);
 }
 
-MeshIdentity identity_from(const Key& key) {
+MeshFingerprint identity_from(const JsonCursor& key) {
   key.allow({"nodes", "tets", "mesh", "instructions", "format", "kernel_revision", "build"});
   constexpr long most = std::numeric_limits<int>::max();
   return {static_cast<int>(key["nodes"].integer(0, most)), static_cast<int>(key["tets"].integer(0, most)),
@@ -80,7 +80,7 @@ MeshIdentity identity_from(const Key& key) {
 }
 
 /// Of a recording from before they were told: none.
-std::optional<InstructionSet> instructions_from(const Key& recorded) {
+std::optional<InstructionSet> instructions_from(const JsonCursor& recorded) {
   const auto key = recorded.find("instructions");
   if (!key) return std::nullopt;
   const std::string name = key->text();
@@ -89,7 +89,7 @@ std::optional<InstructionSet> instructions_from(const Key& recorded) {
   key->fail(fmt::format("\"{}\" is no instruction set", name), "give portable, avx2 or avx512");
 }
 
-RecordedBy recorded_by_from(const Key& recorded) {
+RecordedBy recorded_by_from(const JsonCursor& recorded) {
   RecordedBy by;
   if (const auto format = recorded.find("format")) by.format = static_cast<int>(format->integer(1, recording_format));
   if (const auto revision = recorded.find("kernel_revision"))
@@ -99,7 +99,7 @@ RecordedBy recorded_by_from(const Key& recorded) {
 }
 
 /// Everything but the script.
-Scene scene_from(const Key& key, const fs::path& folder) {
+Scene scene_from(const JsonCursor& key, const fs::path& folder) {
   check_version(key);
   key.allow({"schema_version", "name", "title", "description", "mesh", "materials", "boundary", "loads", "tables",
              "self_contact", "tearing", "gravity", "solver", "outputs", "initial", "view", "events", "checkpoints",
@@ -112,9 +112,9 @@ Scene scene_from(const Key& key, const fs::path& folder) {
   scene.mesh = mesh_from(key["mesh"], folder);
   scene.materials = materials_from(key["materials"]);
   if (const auto boundary = key.find("boundary"))
-    boundary->each([&](const Key& entry) { scene.boundary.push_back(boundary_from(entry)); });
+    boundary->each([&](const JsonCursor& entry) { scene.boundary.push_back(boundary_from(entry)); });
   if (const auto loads = key.find("loads"))
-    loads->each([&](const Key& entry) { scene.loads.push_back(load_from(entry)); });
+    loads->each([&](const JsonCursor& entry) { scene.loads.push_back(load_from(entry)); });
   if (const auto tables = key.find("tables")) scene.tables = tables_from(*tables);
   if (const auto contact = key.find("self_contact")) scene.self_contact = self_contact_from(*contact);
   if (const auto tearing = key.find("tearing")) scene.tearing = tearing_from(*tearing);
@@ -165,10 +165,10 @@ void check_nodal_pressure(const Scene& scene) {
 }
 
 /// The script that stands in the scene's own object.
-void read_lists(const Key& key, double tick_length, Script& script) {
+void read_lists(const JsonCursor& key, double tick_length, Script& script) {
   for (const std::string_view name : {"events", "checkpoints"})
     if (const auto entries = key.find(name))
-      entries->each([&](const Key& entry) { read_script_entry(entry, tick_length, script); });
+      entries->each([&](const JsonCursor& entry) { read_script_entry(entry, tick_length, script); });
 }
 
 /// The lines after the first. A last line cut off is what a crash in the middle of writing leaves: it is dropped.
@@ -183,7 +183,7 @@ void read_lines(std::string_view text, const std::string& file, double tick_leng
       return;
     }
     const Json json = parse_json(entry, file, line);
-    read_script_entry(Key(json, file, fmt::format("line {}", line)), tick_length, script);
+    read_script_entry(JsonCursor(json, file, fmt::format("line {}", line)), tick_length, script);
   }
 }
 
@@ -204,7 +204,7 @@ Scene parse_scene(std::string_view text, const fs::path& as_if_from) {
   const std::string file = as_if_from.string();
   const std::size_t end = is_json_lines(text) ? text.find('\n') : text.size();
   const Json document = parse_json(text.substr(0, end), file);
-  const Key key(document, file);
+  const JsonCursor key(document, file);
   Scene scene = scene_from(key, as_if_from.parent_path());
   Script script;
   read_lists(key, scene.solver.tick(), script);
@@ -238,8 +238,8 @@ Scene read_scene(const fs::path& path) {
 
 Material read_material(const fs::path& path) {
   const Json document = parse_json(read_text_file(path), path.string());
-  const Material material = material_from(Key(document, path.string())).material;
-  if (takes_fields(material))
+  const Material material = material_from(JsonCursor(document, path.string())).material;
+  if (uses_fields(material))
     throw InputError(path.string(), "", "takes a field of a mesh, and there is no mesh here", "give numbers");
   return material;
 }

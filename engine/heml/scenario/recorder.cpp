@@ -9,8 +9,8 @@ namespace heml {
 
 Scene as_recorded(const Scene& scene, const World& world) {
   Scene recorded = scene;
-  recorded.recorded_mesh = identity_of(world.setup().mesh);
-  recorded.recorded_instructions = chosen(world.setup().instruction_set);
+  recorded.recorded_mesh = mesh_fingerprint(world.setup().mesh);
+  recorded.recorded_instructions = resolve(world.setup().instruction_set);
   recorded.recorded_by = {recording_format, kernel_revision, build_name()};
   return recorded;
 }

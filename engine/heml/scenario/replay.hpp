@@ -20,15 +20,15 @@ struct ReplayResult {
   long ticks = 0;                              ///< played
   long checkpoints = 0;                        ///< compared
   std::optional<ReplayDifference> difference;  ///< the first
-  std::optional<Halt> halt;                    ///< the world stopped before the end, or as its end says
+  std::optional<StopReason> halt;              ///< the world stopped before the end, or as its end says
 };
 
 /// How many ticks a replay plays: as far as the recording goes, with the one in which it stopped where it did; or, of a
 /// scene with a script, its duration.
 long ticks_to_play(const Scene& scene);
 
-/// world: load_world(scene), before its first tick. on_tick: called after every tick. recorder: of that world, takes down
-/// what is played and is ended. Throws InputError when the world refuses an event.
+/// world: load_world(scene), before its first tick. on_tick: called after every tick. recorder: of that world, takes
+/// down what is played and is ended. Throws InputError when the world refuses an event.
 ReplayResult replay(const Scene& scene, World& world, const std::function<void(World&)>& on_tick = {},
                     Recorder* recorder = nullptr);
 

@@ -11,7 +11,7 @@
 namespace heml {
 namespace {
 
-Json halt_json(const Halt& halt) {
+Json halt_json(const StopReason& halt) {
   constexpr const char* causes[] = {"out_of_range", "unstable", "not_converged"};
   Json json = {{"cause", causes[static_cast<std::size_t>(halt.cause)]}, {"message", halt.message}};
   if (halt.element >= 0) json["element"] = halt.element;
@@ -35,7 +35,7 @@ Json edit_json(const EditReport& edit) {
     json["split"] = edit.split;
     json["pieces"] = edit.pieces;
     json["area"] = edit.area;
-    json["smallest_angle"] = edit.smallest_angle;
+    json["smallest_angle"] = edit.min_angle;
   }
   if (edit.torn > 0) {
     json["torn"] = edit.torn;
@@ -51,7 +51,7 @@ Json switch_json(const LawSwitch& at) {
 
 Json recovery_json(const Recovery& recovery) {
   Json json = {{"message", recovery.message}, {"step", recovery.tick},         {"steps", recovery.steps},
-               {"least_J", recovery.least_J}, {"inverted", recovery.inverted}, {"begun", switch_json(recovery.begun)}};
+               {"least_J", recovery.min_J},   {"inverted", recovery.inverted}, {"begun", switch_json(recovery.begun)}};
   if (recovery.element >= 0) json["element"] = recovery.element;
   if (recovery.ended) json["ended"] = switch_json(*recovery.ended);
   return json;
@@ -61,7 +61,7 @@ Json recovery_json(const Recovery& recovery) {
 
 void write_report(const std::filesystem::path& path, World& world, const SolveFacts& facts) {
   const Energies energies = world.energies();
-  const SolverWork work = world.solver_work();
+  const SolverStats work = world.solver_stats();
   const std::vector<double> J = world.volume_ratios();
   Json report = {{"converged", facts.converged},
                  {"load", work.load},
@@ -82,16 +82,16 @@ void write_report(const std::filesystem::path& path, World& world, const SolveFa
   for (const TableState& table : world.tables())
     report["tables"].push_back({{"force", vector_json(table.force)},
                                 {"work", table.work},
-                                {"deepest", table.deepest},
-                                {"touching", table.touching}});
+                                {"deepest", table.max_penetration},
+                                {"touching", table.contact_count}});
   if (const auto contact = world.self_contact())
     report["self_contact"] = {{"force", contact->force},
                               {"work", contact->work},
                               {"energy", contact->energy},
-                              {"deepest", contact->deepest},
-                              {"touching", contact->touching}};
+                              {"deepest", contact->max_penetration},
+                              {"touching", contact->contact_count}};
   report["nodes"] = world.setup().mesh.nodes.size();
-  const std::size_t removed = removed_of(world);
+  const std::size_t removed = removed_count(world);
   report["tets"] = world.topology()->elements.size() + removed;
   report["removed"] = removed;
   report["edits"] = Json::array();

@@ -11,7 +11,7 @@ namespace heml {
 struct SolveFacts {
   bool converged = true;
   double wall_seconds = 0;
-  std::optional<Halt> halt;
+  std::optional<StopReason> halt;
   std::optional<std::string> refused;  ///< an event that ended it, and why
 };
 

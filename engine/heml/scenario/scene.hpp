@@ -9,7 +9,7 @@
 // Paths inside a scene are relative to the scene's file. A recording (recorder.hpp) writes the path of a mesh below its
 // own folder relative to that folder, so both can be moved together, and any other as absolute, so it can be written
 // anywhere; if that file is gone by the time of the replay, one of the same name beside the recording is taken, with a
-// warning. What was recorded of the mesh (MeshIdentity) makes sure that it is the same.
+// warning. What was recorded of the mesh (MeshFingerprint) makes sure that it is the same.
 #include <cstdint>
 #include <filesystem>
 #include <heml/world/command.hpp>
@@ -105,10 +105,10 @@ constexpr int recording_format = 2;  ///< that this build writes
 
 /// Says whether a mesh is the one a recording was made with. Hash: of positions (as placed), elements, regions
 /// and the fields that materials use.
-struct MeshIdentity {
+struct MeshFingerprint {
   int nodes = 0, tets = 0;
   std::uint64_t hash = 0;
-  bool operator==(const MeshIdentity&) const = default;
+  bool operator==(const MeshFingerprint&) const = default;
 };
 
 struct Scene {
@@ -138,7 +138,7 @@ struct Scene {
   std::optional<long> recorded_ticks;                   ///< of a recording: how far it went, as far as is known
   std::optional<RecordedEnd> recorded_end;              ///< of a recording that was not cut short
   RecordedBy recorded_by;                               ///< of a recording
-  std::optional<MeshIdentity> recorded_mesh;            ///< of a recording
+  std::optional<MeshFingerprint> recorded_mesh;         ///< of a recording
   std::optional<InstructionSet> recorded_instructions;  ///< of a recording: whose bits its states are
 };
 

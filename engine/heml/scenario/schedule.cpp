@@ -52,12 +52,11 @@ std::span<const Event> Schedule::due(long tick) {
 void Schedule::watch_stroke(const Event& event, bool parted) {
   const auto* cut = std::get_if<CutTissue>(&event.command);
   if (!cut) return;
-  parted_ = (cut->goes_on && parted_) || parted;
-  const auto next = std::find_if(events_.begin() + (&event - events_.data()) + 1, events_.end(), [](const Event& later) {
-    return std::holds_alternative<CutTissue>(later.command);
-  });
-  const bool goes_on = next != events_.end() && std::get<CutTissue>(next->command).goes_on;
-  if (!parted_ && !goes_on)
+  parted_ = (cut->continues_stroke && parted_) || parted;
+  const auto next = std::find_if(events_.begin() + (&event - events_.data()) + 1, events_.end(),
+                                 [](const Event& later) { return std::holds_alternative<CutTissue>(later.command); });
+  const bool continues_stroke = next != events_.end() && std::get<CutTissue>(next->command).continues_stroke;
+  if (!parted_ && !continues_stroke)
     warn("{}: events: step {}: the cut parted nothing: its blade passes beside the body as it lies then", file_,
          event.tick);
 }

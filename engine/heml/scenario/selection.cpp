@@ -1,5 +1,6 @@
-#include <algorithm>
 #include <fmt/format.h>
+
+#include <algorithm>
 #include <heml/base/error.hpp>
 #include <heml/mesh/surface.hpp>
 #include <heml/scenario/selection.hpp>
@@ -50,9 +51,8 @@ std::vector<int> select_nodes(const Selection& where, const TetMesh& mesh, const
     });
   } else if (where.sphere) {
     const auto& [centre, radius] = *where.sphere;
-    nodes = nodes_where(mesh, [&centre = centre, &radius = radius](const Vec3& x) {
-      return (x - centre).norm() <= radius;
-    });
+    nodes = nodes_where(mesh,
+                        [&centre = centre, &radius = radius](const Vec3& x) { return (x - centre).norm() <= radius; });
   } else {
     nodes = numbered(where.nodes, mesh, file, place);
   }
@@ -68,7 +68,7 @@ std::vector<int> select_nodes(const Selection& where, const TetMesh& mesh, const
 int nearest_surface_node(const TetMesh& mesh, const Vec3& point) {
   int nearest = 0;
   double least = std::numeric_limits<double>::infinity();
-  for (const Triangle& triangle : boundary_of(mesh).triangles) {
+  for (const Triangle& triangle : extract_boundary(mesh).triangles) {
     for (const int node : triangle) {
       const double distance = (mesh.nodes[node] - point).norm();
       if (distance > least || (distance == least && node >= nearest)) continue;

@@ -8,7 +8,7 @@
 #include <heml/scenario/input_files.hpp>
 #include <heml/scenario/player.hpp>
 #include <heml/scenario/recorder.hpp>
-#include <heml/scenario/recovery_watch.hpp>
+#include <heml/scenario/recovery_monitor.hpp>
 #include <heml/scenario/report.hpp>
 #include <heml/scenario/solve.hpp>
 #include <heml/scenario/trace.hpp>
@@ -67,16 +67,16 @@ SolveResult solve(const Scene& scene, const fs::path& out, const std::function<v
 
   Player player(scene, *world);
   Trace trace(scene, *world);
-  trace.take(*world);
+  trace.sample(*world);
   const Scene recorded = scene.solver.recovery ? as_recorded(scene, *world) : scene;
-  RecoveryWatch watch;
+  RecoveryMonitor watch;
   const auto on_tick = [&] {
     const auto news = watch.after_tick(*world);
-    if (news != RecoveryWatch::News::none && !world->halt())
+    if (news != RecoveryMonitor::Change::none && !world->halt())
       write_replay(out / recovery_file, recorded, player.past_events(), *world);
-    if (news == RecoveryWatch::News::began)
+    if (news == RecoveryMonitor::Change::began)
       warn("{}; {} shows it again", world->recovery()->message, (out / recovery_file).string());
-    trace.take(*world);
+    trace.sample(*world);
     if (progress) progress(static_cast<double>(world->ticks()) * scene.solver.tick() / scene.solver.duration);
     return true;
   };
@@ -92,7 +92,7 @@ SolveResult solve(const Scene& scene, const fs::path& out, const std::function<v
         refused = error;
       }
       seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-      trace.take(*world);
+      trace.sample(*world);
     }
     const bool reached = !refused && !world->halt();
     if (last || reached) write_state(out, landing.stem, *world, last || scene.output_positions, scene.output_vtu);

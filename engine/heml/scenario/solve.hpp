@@ -9,7 +9,7 @@
 namespace heml {
 
 struct SolveResult {
-  std::optional<Halt> halt;  ///< why it stopped early; what was reached is written all the same
+  std::optional<StopReason> halt;  ///< why it stopped early; what was reached is written all the same
   long ticks = 0, steps = 0;
   double time = 0;          ///< s, simulated
   double wall_seconds = 0;  ///< of stepping

@@ -11,15 +11,15 @@ namespace {
 constexpr std::string_view known_integrators[] = {"symplectic_euler", "verlet", "backward_euler", "bdf2", "tr_bdf2",
                                                   "static",           "auto"};
 constexpr std::string_view elements[] = {"p1", "nodal_pressure"};
-constexpr double most_ticks = 1e12;
-constexpr double fastest_rate = 1e6;  // Hz
-constexpr long most_iterations = 1000;  // of a stage
+constexpr double max_ticks = 1e12;
+constexpr double fastest_rate = 1e6;   // Hz
+constexpr long max_iterations = 1000;  // of a stage
 
-Budget budget_from(const Key& key) {
+Budget budget_from(const JsonCursor& key) {
   key.allow({"iterations", "milliseconds"});
   Budget budget;
   if (key.only_one_of({"iterations", "milliseconds"}) == "iterations")
-    budget.iterations = static_cast<int>(key["iterations"].integer(1, most_iterations));
+    budget.iterations = static_cast<int>(key["iterations"].integer(1, max_iterations));
   else
     budget.milliseconds = key["milliseconds"].positive();
   return budget;
@@ -41,7 +41,7 @@ double default_rate(Integrator integrator) {
 
 }  // namespace
 
-Integrator integrator_from(const Key& key) {
+Integrator integrator_from(const JsonCursor& key) {
   const std::string name = key.text();
   if (const auto integrator = find_integrator(name)) return *integrator;
   std::vector<std::string_view> available;
@@ -53,7 +53,7 @@ Integrator integrator_from(const Key& key) {
            fmt::format("available: {}", fmt::join(available, ", ")));
 }
 
-SolverSettings solver_from(const Key& key) {
+SolverSettings solver_from(const JsonCursor& key) {
   key.allow({"integrator", "step", "rate", "duration", "damping", "precision", "threads", "element", "continuation",
              "recovery", "tolerance", "budget", "minimiser", "projection", "preconditioner"});
   SolverSettings solver;
@@ -63,9 +63,9 @@ SolverSettings solver_from(const Key& key) {
   solver.rate = default_rate(solver.integrator);
   if (const auto rate = key.find("rate")) solver.rate = rate->between(1, fastest_rate);
   if (const auto duration = key.find("duration")) solver.duration = duration->non_negative();
-  if (!(solver.duration / solver.tick() <= most_ticks))
+  if (!(solver.duration / solver.tick() <= max_ticks))
     key.fail(fmt::format("a duration of {} s is too many steps of {} s", solver.duration, solver.tick()),
-             fmt::format("at most {} steps", most_ticks));
+             fmt::format("at most {} steps", max_ticks));
   if (const auto damping = key.find("damping")) solver.damping = damping->non_negative();
   if (const auto precision = key.find("precision")) {
     constexpr std::string_view names[] = {"double", "float"};

@@ -1,6 +1,6 @@
 #pragma once
 // The `solver` object of a scene between JSON and data.
-#include <heml/scenario/key.hpp>
+#include <heml/scenario/json_cursor.hpp>
 #include <heml/world/setup.hpp>
 
 namespace heml {
@@ -9,10 +9,10 @@ namespace heml {
 constexpr int max_threads = 256;
 
 /// The integrator a value names. Throws InputError for one that is unknown or not part of this build.
-Integrator integrator_from(const Key& key);
+Integrator integrator_from(const JsonCursor& key);
 
 /// Throws InputError naming the key.
-SolverSettings solver_from(const Key& key);
+SolverSettings solver_from(const JsonCursor& key);
 
 Json solver_json(const SolverSettings& solver);
 

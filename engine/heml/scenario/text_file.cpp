@@ -1,7 +1,8 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <fmt/format.h>
 #include <fstream>
 #include <heml/base/error.hpp>
 #include <heml/scenario/text_file.hpp>
@@ -11,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t largest_file = 1'000'000'000;  // bytes
+constexpr std::uintmax_t max_file = 1'000'000'000;  // bytes
 
 }  // namespace
 
@@ -23,8 +24,8 @@ std::string read_text_file(const fs::path& path) {
                      "check the path");
   if (!fs::is_regular_file(status)) throw InputError(path.string(), "", "is not a file", "give the path of a file");
   const std::uintmax_t size = fs::file_size(path, error);
-  if (error || size > largest_file)
-    throw InputError(path.string(), "", fmt::format("is {} bytes", size), fmt::format("at most {}", largest_file));
+  if (error || size > max_file)
+    throw InputError(path.string(), "", fmt::format("is {} bytes", size), fmt::format("at most {}", max_file));
   std::string text(size, '\0');
   std::ifstream file(path, std::ios::binary);
   file.read(text.data(), static_cast<std::streamsize>(size));

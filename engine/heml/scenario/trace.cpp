@@ -22,7 +22,7 @@ Trace::Trace(const Scene& scene, const World& world) : every_(scene.output_every
     const MarkerEntry& entry = scene.markers[k];
     const std::string place = fmt::format("outputs.markers[{}]", k);
     markers_.push_back({entry.name.empty() ? std::to_string(k) : entry.name,
-                       select_nodes(entry.where, world.setup().mesh, scene.file, place)});
+                        select_nodes(entry.where, world.setup().mesh, scene.file, place)});
   }
   if (!markers_.empty()) marker_rows_ = "time,marker,x,y,z,vx,vy,vz\n";
   if (!scene.output_history) return;
@@ -32,18 +32,18 @@ Trace::Trace(const Scene& scene, const World& world) : every_(scene.output_every
   history_rows_ += '\n';
 }
 
-void Trace::take(World& world) {
+void Trace::sample(World& world) {
   if (markers_.empty() && history_rows_.empty()) return;
   const double time = world.time();
   if (time < last_) next_ = 0;  // after a reset
   if (time == last_ || time < next_ * (1 - 1e-12)) return;
   last_ = time;
   if (every_ > 0) next_ = every_ * (std::floor(time / every_ * (1 + 1e-12)) + 1);
-  if (!markers_.empty()) take_markers(world);
-  if (!history_rows_.empty()) take_history(world);
+  if (!markers_.empty()) sample_markers(world);
+  if (!history_rows_.empty()) sample_history(world);
 }
 
-void Trace::take_markers(const World& world) {
+void Trace::sample_markers(const World& world) {
   const std::vector<Vec3> x = world.positions(), v = world.velocities();
   for (const Marker& marker : markers_) {
     Vec3 place = Vec3::Zero(), velocity = Vec3::Zero();
@@ -59,7 +59,7 @@ void Trace::take_markers(const World& world) {
   }
 }
 
-void Trace::take_history(World& world) {
+void Trace::sample_history(World& world) {
   const Energies energies = world.energies();
   const std::vector<double> J = world.volume_ratios();
   const auto [least, most] = std::minmax_element(J.begin(), J.end());

@@ -19,7 +19,7 @@ class Trace {
   Trace(const Scene& scene, const World& world);
 
   /// Keeps the state, if it is time to: the first at or after each multiple of outputs.every.
-  void take(World& world);
+  void sample(World& world);
 
   /// Throws InputError when one cannot be written. Writes none that was not asked for.
   void write(const std::filesystem::path& folder) const;
@@ -32,8 +32,8 @@ class Trace {
     std::string name;
     std::vector<int> nodes;
   };
-  void take_markers(const World& world);
-  void take_history(World& world);
+  void sample_markers(const World& world);
+  void sample_history(World& world);
 
   std::vector<Marker> markers_;
   double every_;  ///< s; 0: every tick

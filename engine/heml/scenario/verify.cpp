@@ -36,7 +36,8 @@ std::string why_halts_differ(const Scene& recording, const ReplayResult& played)
   if (!played.halt)
     return end && end->halt ? fmt::format("did not stop at step {} as recorded: {}", end->tick, *end->halt) : "";
   if (!end) return "";  // it goes no further than its lines
-  if (!end->halt) return fmt::format("stopped at step {}, where the recording goes on: {}", played.ticks, played.halt->message);
+  if (!end->halt)
+    return fmt::format("stopped at step {}, where the recording goes on: {}", played.ticks, played.halt->message);
   if (played.ticks == end->tick && played.halt->message == *end->halt) return "";
   return fmt::format("stopped at step {}: {}; recorded at step {}: {}", played.ticks, played.halt->message, end->tick,
                      *end->halt);
@@ -62,19 +63,21 @@ bool evenly_spaced(const Scene& recording) {
 /// Why a recording that has its end is not the whole of what was recorded; empty: it is.
 std::string why_not_whole(const Scene& recording) {
   const RecordedEnd& end = *recording.recorded_end;
-  const auto held = static_cast<long>(recording.checkpoints.size());
+  const auto constrained = static_cast<long>(recording.checkpoints.size());
   if (recording.checkpoints.back().tick > end.tick)
     return fmt::format("it holds a checkpoint of step {}, after its end at step {}", recording.checkpoints.back().tick,
                        end.tick);
   if (!recording.events.empty() && recording.events.back().tick > end.tick)
-    return fmt::format("it holds an event of step {}, after its end at step {}", recording.events.back().tick, end.tick);
-  if (end.checkpoints && *end.checkpoints != held)
-    return fmt::format("it holds {} checkpoints, and its end tells of {}", held, *end.checkpoints);
+    return fmt::format("it holds an event of step {}, after its end at step {}", recording.events.back().tick,
+                       end.tick);
+  if (end.checkpoints && *end.checkpoints != constrained)
+    return fmt::format("it holds {} checkpoints, and its end tells of {}", constrained, *end.checkpoints);
   if (recording.recorded_by.format > 1)
     return end.checkpoints && end.hash ? "" : "its end record lacks 'checkpoints' or 'hash'";
   return evenly_spaced(recording)
              ? ""
-             : fmt::format("its checkpoints are not evenly spaced up to its end at step {}: some are missing", end.tick);
+             : fmt::format("its checkpoints are not evenly spaced up to its end at step {}: some are missing",
+                           end.tick);
 }
 
 std::string why_not(const Scene& recording, const ReplayResult& played, bool partial) {

@@ -8,7 +8,7 @@ constexpr std::string_view field_names[] = {"none", "displacement", "stretch", "
 
 }  // namespace
 
-View view_from(const Key& key) {
+View view_from(const JsonCursor& key) {
   key.allow({"azimuth", "elevation", "zoom", "field", "wireframe"});
   View view;
   if (const auto azimuth = key.find("azimuth")) view.azimuth = azimuth->between(-360, 360);

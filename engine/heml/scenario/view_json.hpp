@@ -1,12 +1,12 @@
 #pragma once
 // The `view` object of a scene between JSON and data.
-#include <heml/scenario/key.hpp>
+#include <heml/scenario/json_cursor.hpp>
 #include <heml/scenario/scene.hpp>
 
 namespace heml {
 
 /// Throws InputError naming the key.
-View view_from(const Key& key);
+View view_from(const JsonCursor& key);
 
 Json view_json(const View& view);
 

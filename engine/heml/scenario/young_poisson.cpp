@@ -7,7 +7,7 @@
 namespace heml {
 namespace {
 
-Quantity checked(const Key& key, std::string (*problem)(double)) {
+Quantity checked(const JsonCursor& key, std::string (*problem)(double)) {
   const Quantity quantity = quantity_from(key);
   if (!quantity.field.empty()) return quantity;
   if (const std::string text = problem(quantity.value); !text.empty()) key.refuse(text);
@@ -16,7 +16,7 @@ Quantity checked(const Key& key, std::string (*problem)(double)) {
 
 }  // namespace
 
-Quantity quantity_from(const Key& key) {
+Quantity quantity_from(const JsonCursor& key) {
   if (!key.json().is_object()) {
     if (!key.json().is_number()) key.refuse("must be a number, or {\"field\": ...} of the mesh");
     return {key.number(), ""};
@@ -38,7 +38,7 @@ std::string poisson_problem(double poisson) {
   return poisson > -1 && poisson < 0.5 ? "" : "must be greater than -1 and less than 0.5";
 }
 
-YoungPoisson young_poisson_from(const Key& entry) {
+YoungPoisson young_poisson_from(const JsonCursor& entry) {
   return {checked(entry["young"], young_problem), checked(entry["poisson"], poisson_problem)};
 }
 
@@ -52,7 +52,7 @@ std::optional<YoungPoisson> young_poisson_behind(std::string_view field) {
   if (!field.starts_with("lambda {") && !field.starts_with("mu {")) return std::nullopt;
   try {
     const Json json = parse_json(field.substr(json_begin), "");
-    const Key key(json, "");
+    const JsonCursor key(json, "");
     key.allow({"young", "poisson"});
     return young_poisson_from(key);
   } catch (const InputError&) {  // a field of the file that happens to be called so

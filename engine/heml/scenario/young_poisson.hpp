@@ -5,7 +5,7 @@
 // from the file's, and their names say how: `lambda {"young": {"field": "E"}, "poisson": 0.45}`. So a material needs
 // nothing more to be written into a recording as it was read.
 #include <heml/materials/material.hpp>
-#include <heml/scenario/key.hpp>
+#include <heml/scenario/json_cursor.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -17,7 +17,7 @@ struct Quantity {
   double value = 1;   ///< stands in until the mesh is known, where there is a field
   std::string field;  ///< empty: none
 };
-Quantity quantity_from(const Key& key);  ///< throws InputError naming the key
+Quantity quantity_from(const JsonCursor& key);  ///< throws InputError naming the key
 Json quantity_json(const Quantity& quantity);
 
 struct YoungPoisson {
@@ -29,7 +29,7 @@ std::string young_problem(double young);
 std::string poisson_problem(double poisson);
 
 /// `young` and `poisson` of an entry of `materials`. Throws InputError naming the key.
-YoungPoisson young_poisson_from(const Key& entry);
+YoungPoisson young_poisson_from(const JsonCursor& entry);
 
 /// Name of the field of `lambda` or `mu` made from the pair, and the pair behind such a name.
 std::string lame_field(std::string_view parameter, const YoungPoisson& pair);

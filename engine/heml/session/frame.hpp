@@ -1,7 +1,7 @@
 #pragma once
 // What the engine publishes for eyes: a picture of the body at one tick. Immutable once published.
 #include <array>
-#include <heml/world/shadow.hpp>
+#include <heml/world/step_doubling.hpp>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,15 +12,15 @@ namespace heml {
 /// The part of the body that is drawn, of one topology. Immutable: frames share it, an edit of the mesh makes another
 /// one, and whoever draws takes up what it keeps of a skin when a frame comes with one of another version. Indices are
 /// into Skin::nodes.
-struct Skin {
-  long version = 0;                             ///< Topology::version
-  std::vector<int> nodes;                       ///< #S: mesh-file numbers of the surface's nodes
-  std::vector<Vec3f> rest;                      ///< #S×3, m
-  std::vector<Triangle> triangles;              ///< #F×3, outward
-  std::vector<int> regions;                     ///< #F: region of the element behind each triangle
-  std::vector<int> elements;                    ///< #F: its mesh-file number
-  std::vector<int> held;                        ///< indices of nodes with a boundary condition
-  std::shared_ptr<const Skin> whole = nullptr;  ///< of the body before anything was removed; none: this is it
+struct SurfaceMesh {
+  long version = 0;                                    ///< Topology::version
+  std::vector<int> nodes;                              ///< #S: mesh-file numbers of the surface's nodes
+  std::vector<Vec3f> rest;                             ///< #S×3, m
+  std::vector<Triangle> triangles;                     ///< #F×3, outward
+  std::vector<int> regions;                            ///< #F: region of the element behind each triangle
+  std::vector<int> elements;                           ///< #F: its mesh-file number
+  std::vector<int> constrained;                        ///< indices of nodes with a boundary condition
+  std::shared_ptr<const SurfaceMesh> whole = nullptr;  ///< of the body before anything was removed; none: this is it
 };
 
 /// Sum of the forces of all of them, N.
@@ -31,7 +31,9 @@ Vec3 sum_of(const std::vector<State>& states) {
   return sum;
 }
 
-inline const Skin& whole_of(const Skin& skin) { return skin.whole ? *skin.whole : skin; }
+inline const SurfaceMesh& uncut_surface(const SurfaceMesh& surface_mesh) {
+  return surface_mesh.whole ? *surface_mesh.whole : surface_mesh;
+}
 
 /// How well the engine keeps up with the wall clock.
 struct Pace {
@@ -46,11 +48,11 @@ struct Pace {
 
 /// Of the nodes of two bodies, m.
 struct Distance {
-  double mean = 0, most = 0;
+  double mean = 0, max = 0;
 };
 
 struct Frame {
-  std::shared_ptr<const Skin> skin;
+  std::shared_ptr<const SurfaceMesh> surface_mesh;
   long tick = 0;
   double time = 0;               ///< s, simulated
   long commands = 0;             ///< carried out since the start, to be there (Session::until)
@@ -72,7 +74,7 @@ struct Frame {
   int substeps = 1;
   double stable_step = 0;  ///< s
   bool paused = false;
-  long hurries_to = 0;                     ///< a tick that lies ahead; 0: time is simulated as it comes
+  long fast_forward_target = 0;            ///< a tick that lies ahead; 0: time is simulated as it comes
   std::optional<Recovery> recovery;        ///< the last one, going on or ended
   std::string recovery_file;               ///< that shows it again; empty: none was written
   std::array<Vec3f, 4> recovered_element;  ///< m, corners of its first bad element, where there is one to name
@@ -81,9 +83,9 @@ struct Frame {
   long refusals = 0;                       ///< commands the world would not take, so far
   std::string refusal;                     ///< why not the last
   std::string halted;                      ///< why the world will not step on; empty while it does
-  std::vector<Frame> beside;               ///< the same tick, computed in other ways (SessionOptions::beside)
-  std::string way;                         ///< in which this one is, where there are several
-  std::optional<Distance> apart;           ///< of one beside: from the body; none where their surfaces differ
+  std::vector<Frame> comparisons;          ///< the same tick, computed in other ways (SessionOptions::beside)
+  std::string variant;                     ///< in which this one is, where there are several
+  std::optional<Distance> distance;        ///< of one beside: from the body; none where their surfaces differ
 };
 
 }  // namespace heml

@@ -6,17 +6,17 @@
 #include <heml/base/log.hpp>
 #include <heml/base/processor_time.hpp>
 #include <heml/scenario/recorder.hpp>
-#include <heml/scenario/recovery_watch.hpp>
+#include <heml/scenario/recovery_monitor.hpp>
 #include <heml/scenario/schedule.hpp>
-#include <heml/session/budget_keeper.hpp>
-#include <heml/session/companions.hpp>
-#include <heml/session/cost_keeper.hpp>
-#include <heml/session/factor_keeper.hpp>
+#include <heml/session/budget_controller.hpp>
+#include <heml/session/comparison_runs.hpp>
 #include <heml/session/mailbox.hpp>
 #include <heml/session/pacer.hpp>
+#include <heml/session/preconditioner_updater.hpp>
 #include <heml/session/session.hpp>
-#include <heml/session/shadow_keeper.hpp>
-#include <heml/session/skin.hpp>
+#include <heml/session/step_cost_estimator.hpp>
+#include <heml/session/step_doubling_scheduler.hpp>
+#include <heml/session/surface_mesh.hpp>
 #include <heml/session/thread_balance.hpp>
 #include <mutex>
 #include <thread>
@@ -44,16 +44,16 @@ class Session::Impl {
         recorded_ticks_(scene.recorded_ticks.value_or(0)),
         field_(scene.view.field),
         playing_(!options_.start_paused),
-        goal_(options_.hurry_to),
+        goal_(options_.fast_forward_to),
         pacer_(world_->setup().solver.tick()) {
-    if (!options_.beside.empty()) companions_.emplace(world_->setup(), options_.beside);
+    if (!options_.comparisons.empty()) comparison_runs_.emplace(world_->setup(), options_.comparisons);
     if (!world_->setup().solver.recovery) options_.recovery_file.clear();
     if (!options_.recovery_file.empty()) scene_ = as_recorded(scene_, *world_);
     if (options_.record) recorder_.emplace(*options_.record, scene_, *world_);
     const auto& budget = world_->setup().solver.budget;
-    if (budget && budget->milliseconds > 0) budget_keeper_.emplace(budget->milliseconds);
+    if (budget && budget->milliseconds > 0) budget_controller_.emplace(budget->milliseconds);
     if (world_->setup().solver.integrator == Integrator::automatic)
-      cost_keeper_.emplace(world_->setup().mesh.tets.size());
+      step_cost_estimator_.emplace(world_->setup().mesh.tets.size());
     if (world_->setup().solver.threads == 0 && world_->threads() > 1) balance_.emplace(world_->threads());
     publish();
     thread_ = std::thread([this] {
@@ -68,7 +68,7 @@ class Session::Impl {
     // The tick under way may end, so that the recording has its end; one that takes far too long may not.
     for (int wait = 0; wait < 100 && !finished_; ++wait) std::this_thread::sleep_for(std::chrono::milliseconds(5));
     world_->interrupt();
-    if (companions_) companions_->interrupt();
+    if (comparison_runs_) comparison_runs_->interrupt();
     thread_.join();
     record([this](Recorder& recorder) { recorder.end(*world_); });
   }
@@ -90,7 +90,7 @@ class Session::Impl {
     }
     wake_.notify_all();
   }
-  void hurry_to(long tick) {
+  void fast_forward_to(long tick) {
     {
       std::lock_guard lock(mutex_);
       goal_ = tick;
@@ -104,12 +104,12 @@ class Session::Impl {
     scene.recorded_ticks = moment.tick;
     return scene;
   }
-  void carry_stretches(bool wanted) {
+  void enable_stretches(bool wanted) {
     if (stretches_.exchange(wanted) == wanted) return;
     show_now_ = true;
     wake_.notify_all();
   }
-  void carry_errors(bool wanted) {
+  void enable_errors(bool wanted) {
     if (errors_.exchange(wanted) == wanted) return;
     show_now_ = true;
     wake_.notify_all();
@@ -190,8 +190,8 @@ class Session::Impl {
       show_now_ = true;
       return warn("{}", *problem);
     }
-    if (companions_) companions_->apply(command);
-    if (shadow_keeper_) shadow_keeper_->carried_out(command);
+    if (comparison_runs_) comparison_runs_->apply(command);
+    if (step_doubling_scheduler_) step_doubling_scheduler_->carried_out(command);
     record([&](Recorder& recorder) { recorder.command(*world_, command); });
     std::lock_guard lock(mutex_);
     history_.push_back({world_->ticks(), command});
@@ -234,14 +234,14 @@ class Session::Impl {
     if (options_.before_tick) options_.before_tick();
     for (const Event& event : schedule_.due(world_->ticks())) carry_out(event.command);
     const bool recorded = is_recorded();
-    if (!recorded && factor_keeper_.arrived(*world_)) carry_out(TakeFactor{});
+    if (!recorded && preconditioner_updater_.arrived(*world_)) carry_out(AdoptPreconditioner{});
     double waited = 0;  // s, for what is beside the body
-    if (companions_)
-      waited = companions_->tick(*world_);
+    if (comparison_runs_)
+      waited = comparison_runs_->tick(*world_);
     else
       world_->tick();
     record([this](Recorder& recorder) { recorder.ticked(*world_); });
-    if (shadow_keeper_) shadow_keeper_->ticked(*world_);
+    if (step_doubling_scheduler_) step_doubling_scheduler_->ticked(*world_);
     if (!recorded) learn(std::chrono::duration<double>(Pacer::Clock::now() - began).count() - waited);
     if (world_->halt()) show_now_ = true;
     tell_of_recovery();
@@ -253,29 +253,31 @@ class Session::Impl {
     const double wall = std::chrono::duration<double>(Pacer::Clock::now().time_since_epoch()).count();
     if (!balance_->is_due(wall)) return;
     const double own = processor_seconds_of_thread() + world_->worker_seconds();
-    if (const auto threads = balance_->look(wall, processor_seconds_of_process() - own)) world_->limit_threads(*threads);
+    if (const auto threads = balance_->look(wall, processor_seconds_of_process() - own))
+      world_->limit_threads(*threads);
   }
 
   /// What was chosen by the clock becomes a command. seconds: that the tick took of the body's own.
   void learn(double seconds) {
-    if (budget_keeper_)
-      if (const auto iterations = budget_keeper_->after(seconds, world_->solver_work()))
+    if (budget_controller_)
+      if (const auto iterations = budget_controller_->after(seconds, world_->solver_stats()))
         carry_out(SetBudget{*iterations});
-    if (cost_keeper_ && find_integrator(world_->solver_work().integrator) == Integrator::verlet)
-      if (const auto nanoseconds = cost_keeper_->after(seconds, world_->substeps()))
+    if (step_cost_estimator_ && find_integrator(world_->solver_stats().integrator) == Integrator::verlet)
+      if (const auto nanoseconds = step_cost_estimator_->after(seconds, world_->substeps()))
         carry_out(SetStepCost{*nanoseconds});
   }
 
   /// A line as a recovery begins, with where to find it again, and one as it ends.
   void tell_of_recovery() {
     const auto news = watch_.after_tick(*world_);
-    if (news == RecoveryWatch::News::none) return;
+    if (news == RecoveryMonitor::Change::none) return;
     const Recovery& recovery = *world_->recovery();
-    if (news == RecoveryWatch::News::began)
+    if (news == RecoveryMonitor::Change::began)
       warn("{}", recovery.message);
     else
-      inform("the body came back after {} steps, {:.3g} s", recovery.steps, recovery.ended->time - recovery.begun.time);
-    keep_recovery(news == RecoveryWatch::News::began);
+      log_info("the body came back after {} steps, {:.3g} s", recovery.steps,
+               recovery.ended->time - recovery.begun.time);
+    keep_recovery(news == RecoveryMonitor::Change::began);
   }
 
   void keep_recovery(bool say) try {
@@ -284,7 +286,7 @@ class Session::Impl {
     std::filesystem::create_directories(options_.recovery_file.parent_path(), ignored);
     write_replay(options_.recovery_file, scene_, history_, *world_);
     kept_recovery_ = options_.recovery_file.string();
-    if (say) inform("{} shows it again", kept_recovery_);
+    if (say) log_info("{} shows it again", kept_recovery_);
   } catch (const InputError& error) {
     warn("{}", error.what());
     options_.recovery_file.clear();
@@ -292,37 +294,37 @@ class Session::Impl {
 
   /// Both errors, where somebody reads them.
   void find_errors(Frame& frame) {
-    if (errors_ != shadow_keeper_.has_value()) {
+    if (errors_ != step_doubling_scheduler_.has_value()) {
       mesh_error_.reset();
       errors_at_ = {};
       if (errors_)
-        shadow_keeper_.emplace();
+        step_doubling_scheduler_.emplace();
       else
-        shadow_keeper_.reset();
+        step_doubling_scheduler_.reset();
     }
     const auto now = Pacer::Clock::now();
-    if (shadow_keeper_ && now - errors_at_ >= error_interval) {
+    if (step_doubling_scheduler_ && now - errors_at_ >= error_interval) {
       const auto estimate = world_->error_estimate();
       mesh_error_ = estimate ? std::optional(estimate->relative()) : std::nullopt;
       errors_at_ = now;
     }
     frame.mesh_error = mesh_error_;
-    frame.time_error = shadow_keeper_ ? shadow_keeper_->latest() : std::nullopt;
+    frame.time_error = step_doubling_scheduler_ ? step_doubling_scheduler_->latest() : std::nullopt;
   }
 
   void publish() {
     const auto began = Pacer::Clock::now();
     Frame& frame = frames_.back();
-    skin_ = skin_of(*world_, std::move(skin_));
-    fill_frame(*world_, skin_, field_, 0, frame, stretches_);
-    if (companions_) companions_->fill(*world_, frame);
+    surface_mesh_ = make_surface_mesh(*world_, std::move(surface_mesh_));
+    fill_frame(*world_, surface_mesh_, field_, 0, frame, stretches_);
+    if (comparison_runs_) comparison_runs_->fill(*world_, frame);
     find_errors(frame);
     frame.pace = pacer_.pace(began);
     frame.pace.threads = world_->threads();
     if (balance_) frame.pace.others = balance_->load_of_others();
     frame.commands = std::ssize(history_);
     frame.paused = !playing_;
-    frame.hurries_to = goal_;
+    frame.fast_forward_target = goal_;
     frame.recovery_file = kept_recovery_;
     frame.recording_problem = recording_problem_;
     frame.refusals = refusals_;
@@ -335,19 +337,19 @@ class Session::Impl {
 
   SessionOptions options_;
   std::unique_ptr<World> world_;
-  std::shared_ptr<const Skin> skin_;      ///< of the last frame
-  std::optional<Companions> companions_;  ///< where the body is computed in other ways too
+  std::shared_ptr<const SurfaceMesh> surface_mesh_;  ///< of the last frame
+  std::optional<ComparisonRuns> comparison_runs_;    ///< where the body is computed in other ways too
   std::optional<Recorder> recorder_;
   Scene scene_;          ///< without its events
   Schedule schedule_;    ///< which are here
   long recorded_ticks_;  ///< of the scene, where it is a recording
-  RecoveryWatch watch_;
-  std::vector<Event> history_;  ///< every command so far; changed under mutex_
-  std::string kept_recovery_;   ///< the file of the last one
+  RecoveryMonitor watch_;
+  std::vector<Event> history_;     ///< every command so far; changed under mutex_
+  std::string kept_recovery_;      ///< the file of the last one
   std::string recording_problem_;  ///< why the recording ended early
-  long refusals_ = 0;           ///< of commands
-  std::string refusal_;         ///< why the last
-  mutable std::mutex mutex_;    ///< of queue_, single_steps_ and history_; held for a swap, or by until()
+  long refusals_ = 0;              ///< of commands
+  std::string refusal_;            ///< why the last
+  mutable std::mutex mutex_;       ///< of queue_, single_steps_ and history_; held for a swap, or by until()
   std::condition_variable wake_;
   std::vector<Command> queue_, taken_;
   long single_steps_ = 0;
@@ -355,13 +357,13 @@ class Session::Impl {
   std::atomic<bool> playing_, stopping_{false}, finished_{false}, show_now_{false}, stretches_{false}, errors_{false};
   std::atomic<long> goal_;  ///< the tick hurried to; 0: none
 
-  std::optional<BudgetKeeper> budget_keeper_;  ///< where the scene's budget is in milliseconds
-  std::optional<CostKeeper> cost_keeper_;      ///< where the scene leaves the method to the engine
-  std::optional<ThreadBalance> balance_;       ///< where the scene leaves the number of threads to the engine
-  FactorKeeper factor_keeper_;
-  std::optional<ShadowKeeper> shadow_keeper_;  ///< while errors are read
-  std::optional<double> mesh_error_;           ///< the last
-  Pacer::Time errors_at_{};                    ///< when
+  std::optional<BudgetController> budget_controller_;     ///< where the scene's budget is in milliseconds
+  std::optional<StepCostEstimator> step_cost_estimator_;  ///< where the scene leaves the method to the engine
+  std::optional<ThreadBalance> balance_;  ///< where the scene leaves the number of threads to the engine
+  PreconditionerUpdater preconditioner_updater_;
+  std::optional<StepDoublingScheduler> step_doubling_scheduler_;  ///< while errors are read
+  std::optional<double> mesh_error_;                              ///< the last
+  Pacer::Time errors_at_{};                                       ///< when
   Pacer pacer_;
   bool frames_published_since_pause_ = false;
   Pacer::Time published_{};
@@ -376,11 +378,11 @@ void Session::post(Command command) { impl_->post(std::move(command)); }
 void Session::play() { impl_->set_playing(true); }
 void Session::pause() { impl_->set_playing(false); }
 void Session::step_once() { impl_->set_playing(false, 1); }
-void Session::hurry_to(long tick) { impl_->hurry_to(tick); }
+void Session::fast_forward_to(long tick) { impl_->fast_forward_to(tick); }
 Scene Session::until(const Frame& moment) const { return impl_->until(moment); }
 void Session::show(Field field) { impl_->show(field); }
-void Session::carry_stretches(bool wanted) { impl_->carry_stretches(wanted); }
-void Session::carry_errors(bool wanted) { impl_->carry_errors(wanted); }
+void Session::enable_stretches(bool wanted) { impl_->enable_stretches(wanted); }
+void Session::enable_errors(bool wanted) { impl_->enable_errors(wanted); }
 const Frame& Session::latest() { return impl_->frames_.front(); }
 bool Session::frame_waiting() const { return impl_->frames_.waiting(); }
 

@@ -12,7 +12,7 @@
 // When the engine cannot keep up it slows simulated time, says so in Frame::pace, and never runs a burst to catch up.
 //
 // A recording is played as it was: until its end nothing is chosen by the clock, which it holds the choices of. An
-// earlier moment is reached by playing what led there in a session of its own (until(), hurry_to()): no state is
+// earlier moment is reached by playing what led there in a session of its own (until(), fast_forward_to()): no state is
 // stored.
 #include <filesystem>
 #include <functional>
@@ -28,9 +28,9 @@ namespace heml {
 struct SessionOptions {
   std::optional<std::filesystem::path> record;  ///< JSON Lines file every command and checkpoint is appended to
   std::filesystem::path recovery_file;          ///< what led to the last recovery is written there; empty: nowhere
-  std::vector<std::string> beside;  ///< other ways to compute the body, side by side (variant.hpp); empty: none
+  std::vector<std::string> comparisons;  ///< other ways to compute the body, side by side (variant.hpp); empty: none
   bool start_paused = false;
-  long hurry_to = 0;  ///< a tick to go to first, as Session::hurry_to() does
+  long fast_forward_to = 0;  ///< a tick to go to first, as Session::fast_forward_to() does
   std::function<void()>
       on_frame;  ///< called on the engine thread after a frame is published (to wake a sleeping viewer)
   std::function<void()> before_tick;  ///< tests: called on the engine thread before each tick
@@ -48,13 +48,13 @@ class Session {
   void post(Command command);
   void play();
   void pause();
-  void step_once();                   ///< one tick, then pause
-  void hurry_to(long tick);           ///< goes there as fast as it can, then on as before; a pause ends it on the way
-  void show(Field field);             ///< which scalars frames carry from now on
-  void carry_stretches(bool wanted);  ///< whether Frame::stretches is filled from now on
-  void carry_errors(bool wanted);     ///< whether Frame::mesh_error and time_error are found from now on
-  const Frame& latest();              ///< the newest frame; stays as it is until the next call
-  bool frame_waiting() const;         ///< true when latest() would return a newer one
+  void step_once();                    ///< one tick, then pause
+  void fast_forward_to(long tick);     ///< goes there as fast as it can, then on as before; a pause ends it on the way
+  void show(Field field);              ///< which scalars frames carry from now on
+  void enable_stretches(bool wanted);  ///< whether Frame::stretches is filled from now on
+  void enable_errors(bool wanted);     ///< whether Frame::mesh_error and time_error are found from now on
+  const Frame& latest();               ///< the newest frame; stays as it is until the next call
+  bool frame_waiting() const;          ///< true when latest() would return a newer one
 
   /// The scene with all that led to a frame of this session as its script, and Scene::recorded_ticks where that ends.
   /// A session of it that hurries there is in the same state to the bit, and goes on from there by itself.

@@ -1,7 +1,7 @@
 #pragma once
-// How many threads stepping gets while the rest of the process (drawing, above all) needs processors too: a core that is
-// drawn on for half of the time delays every loop that waits for the thread on it. Knows no clock: it is told how much
-// processor time the others have had.
+// How many threads stepping gets while the rest of the process (drawing, above all) needs processors too: a core that
+// is drawn on for half of the time delays every loop that waits for the thread on it. Knows no clock: it is told how
+// much processor time the others have had.
 //
 //   free = cores − (processor time of others) / (wall time);  threads = free, rounded down, one at least
 #include <optional>

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <heml/base/error.hpp>
-#include <heml/materials/same_stiffness.hpp>
+#include <heml/materials/match_moduli.hpp>
 #include <heml/session/variant.hpp>
 #include <string_view>
 
@@ -17,7 +17,7 @@ bool take_word(std::string_view word, Variant& variant) {
     variant.has_law = true;
     for (RegionMaterial& entry : variant.setup.materials)
       if (entry.material.law != law->name)
-        entry.material = same_stiffness(entry.material, *find_law(entry.material.law), *law);
+        entry.material = match_moduli(entry.material, *find_law(entry.material.law), *law);
     return true;
   }
   if (const auto integrator = find_integrator(std::string(word))) {
@@ -49,7 +49,7 @@ std::vector<std::string> variant_words() {
   return words;
 }
 
-std::string way_of(const WorldSetup& setup) {
+std::string variant_name(const WorldSetup& setup) {
   std::vector<std::string> words;
   for (const RegionMaterial& entry : setup.materials)
     if (std::find(words.begin(), words.end(), entry.material.law) == words.end()) words.push_back(entry.material.law);
@@ -63,7 +63,7 @@ Variant variant_of(WorldSetup setup, const std::string& words) {
   while (true) {
     const std::size_t end = std::min(rest.find('+'), rest.size());
     if (!take_word(rest.substr(0, end), variant))
-      throw InputError("beside", words, fmt::format("\"{}\" is no way to compute a body", rest.substr(0, end)),
+      throw InputError("beside", words, fmt::format("\"{}\" is no variant of a body", rest.substr(0, end)),
                        fmt::format("take of these, joined by +: {}", fmt::join(variant_words(), ", ")));
     if (end == rest.size()) break;
     rest.remove_prefix(end + 1);

@@ -13,12 +13,12 @@ struct Variant {
   WorldSetup setup;
 };
 
-/// The words there are: laws (with the moduli at rest that the setup has, same_stiffness()), integrators that move,
+/// The words there are: laws (with the moduli at rest that the setup has, match_moduli()), integrators that move,
 /// "float" and "double", "p1" and "nodal_pressure".
 std::vector<std::string> variant_words();
 
 /// In which way a setup is computed, in such words: its laws and its integrator.
-std::string way_of(const WorldSetup& setup);
+std::string variant_name(const WorldSetup& setup);
 
 /// The setup as words joined by + say. Throws InputError for another word, and for what such a body cannot be.
 Variant variant_of(WorldSetup setup, const std::string& words);

@@ -6,14 +6,14 @@
 namespace heml {
 namespace {
 
-constexpr int most_rounds = 8;       // of points that share nodes
-constexpr double longest_way = 0.5;  // of a probe's radius: what it goes before it is met again
-constexpr double most_parts = 64;    // of a step, that it is met in
+constexpr int max_rounds = 8;       // of points that share nodes
+constexpr double max_travel = 0.5;  // of a probe's radius: what it goes before it is met again
+constexpr double max_parts = 64;    // of a step, that it is met in
 
 }  // namespace
 
 template <class Real>
-struct ContactImpulses<Real>::Way {
+struct ContactImpulses<Real>::StepPath {
   double from, to;  ///< s: the step's start, and the moment in it that the surface is met at
   double weight;
   const std::vector<Real>& inverse_mass;
@@ -24,34 +24,36 @@ struct ContactImpulses<Real>::Way {
 template <class Real>
 void ContactImpulses<Real>::begin_tick() {
   impulse_.clear();
-  duration_ = pressed_ = 0;
+  duration_ = normal_impulse_ = 0;
 }
 
 template <class Real>
-void ContactImpulses<Real>::first_half(Contacts& contacts, double time_before, double time_after, double shrink,
-                                       const std::vector<Real>& inverse_mass, const Real* before, Real* x, Real* v) {
+void ContactImpulses<Real>::first_half_step(Contacts& contacts, double time_before, double time_after, double shrink,
+                                            const std::vector<Real>& inverse_mass, const Real* before, Real* x,
+                                            Real* v) {
   const double h = time_after - time_before;
   surfaces_ = contacts.surfaces(time_after);
-  contacts.deeds.resize(surfaces_.size());
-  impulse_.resize(contacts.deeds.size(), Vec3::Zero());
+  contacts.reports.resize(surfaces_.size());
+  impulse_.resize(contacts.reports.size(), Vec3::Zero());
   duration_ += h;
   stopped_.clear();
   double parts = 1;
   if (contacts.probe) {
-    const double way = (contacts.probe->tip(time_after) - contacts.probe->tip(time_before)).norm();
-    parts = std::clamp(std::ceil(way / (longest_way * contacts.probe->radius())), 1.0, most_parts);
+    const double travel = (contacts.probe->tip(time_after) - contacts.probe->tip(time_before)).norm();
+    parts = std::clamp(std::ceil(travel / (max_travel * contacts.probe->radius())), 1.0, max_parts);
   }
   if (contacts.tissue) tissue_.meet(*contacts.tissue, h, inverse_mass, before, x);
-  const int rounds = contacts.deeds.size() > 1 ? 3 : 1;
+  const int rounds = contacts.reports.size() > 1 ? 3 : 1;
   for (double part = 1; part <= parts; ++part) {
     const double to = part < parts ? time_before + part / parts * h : time_after;
-    const Way way{time_before, to, shrink, inverse_mass, before, contacts.surfaces(time_before), contacts.surfaces(to)};
+    const StepPath path{time_before,          to, shrink, inverse_mass, before, contacts.surfaces(time_before),
+                        contacts.surfaces(to)};
     for (int round = 0; round < rounds; ++round)  // a table, which is fixed, has the last word
-      for (std::size_t s = contacts.deeds.size(); s-- > 0;) {
+      for (std::size_t s = contacts.reports.size(); s-- > 0;) {
         if (surfaces_[s].shape == ContactSurface::Shape::tissue)
           tissue_.push(inverse_mass, v);
         else
-          stop_at(way, s, contacts, v);
+          stop_at(path, s, contacts, v);
       }
   }
   const auto less = [](const Stopped& a, const Stopped& b) {
@@ -69,29 +71,29 @@ void ContactImpulses<Real>::first_half(Contacts& contacts, double time_before, d
     for (std::size_t k = 0; k < static_cast<std::size_t>(stopped.point.count); ++k) place(stopped.point.nodes[k]);
   if (!contacts.tissue) return;
   tissue_.each_node(place);
-  tissue_.tell(shrink, pressed_, contacts.deeds.back());
+  tissue_.publish(shrink, normal_impulse_, contacts.reports.back());
 }
 
 /// What would be inside at the end of the way is not; what was inside from the start comes out of it slowly.
 template <class Real>
-void ContactImpulses<Real>::stop_at(const Way& way, std::size_t s, Contacts& contacts, Real* v) {
-  const double h = way.to - way.from;
-  const ContactSurface &now = way.now[s], &then = way.then[s];
-  const auto moved = [&](int n) -> Vec3 { return at(way.before, n) + h * at(v, n); };
-  const auto was = [&](int n) { return at(way.before, n); };
+void ContactImpulses<Real>::stop_at(const StepPath& path, std::size_t s, Contacts& contacts, Real* v) {
+  const double h = path.to - path.from;
+  const ContactSurface &now = path.now[s], &then = path.then[s];
+  const auto moved = [&](int n) -> Vec3 { return at(path.before, n) + h * at(v, n); };
+  const auto was = [&](int n) { return at(path.before, n); };
   const bool is_thread = now.shape == ContactSurface::Shape::thread,
              is_capsule = now.shape == ContactSurface::Shape::capsule;
   bool deep = true;
-  for (int round = 0; deep && round < (is_capsule ? most_rounds : 1); ++round) {
+  for (int round = 0; deep && round < (is_capsule ? max_rounds : 1); ++round) {
     deep = false;
-    each_contact(now, contacts.skin, 0, moved, [&](const ContactPoint& point) {
-      const double may = std::min(0.0, gap_again(then, point, was)) * std::max(0.0, 1 - h / contact_recovery);
+    each_contact(now, contacts.boundary, 0, moved, [&](const ContactPoint& point) {
+      const double may = std::min(0.0, updated_gap(then, point, was)) * std::max(0.0, 1 - h / contact_recovery);
       const double closing = (may - point.gap) / h;
       if (!(closing > 0)) return;
       const Vec3 velocity =
           is_thread ? Vec3((then.radius - now.radius) / h * point.normal) : Vec3((now.point - then.point) / h);
       stopped_.push_back({s, point, velocity});
-      push(stopped_.back(), closing, way.weight, way.inverse_mass, contacts, v);
+      push(stopped_.back(), closing, path.weight, path.inverse_mass, contacts, v);
       deep = deep || may - point.gap > 1e-6 * now.radius;
     });
   }
@@ -110,47 +112,47 @@ void ContactImpulses<Real>::push(const Stopped& stopped, double closing, double 
   const double p = closing / light, speed = slides.norm();
   Vec3 impulse = p * point.normal;
   if (speed > 0 && friction > 0) impulse -= std::min(friction * p, speed / light) / speed * slides;
-  push_nodes(point, impulse, inverse_mass, v);
+  apply_impulse(point, impulse, inverse_mass, v);
   impulse_[stopped.surface] += weight * impulse;
-  contacts.deeds[stopped.surface].work += weight * impulse.dot(at(v, point));
+  contacts.reports[stopped.surface].work += weight * impulse.dot(at(v, point));
 }
 
 template <class Real>
-void ContactImpulses<Real>::second_half(Contacts& contacts, const std::vector<Real>& inverse_mass, const Real* x,
-                                        Real* v) {
+void ContactImpulses<Real>::second_half_step(Contacts& contacts, const std::vector<Real>& inverse_mass, const Real* x,
+                                             Real* v) {
   if (contacts.tissue) tissue_.stop(inverse_mass, x);
-  for (int round = 0; round < (surfaces_.size() > 1 || contacts.probe ? most_rounds : 1); ++round) {
+  for (int round = 0; round < (surfaces_.size() > 1 || contacts.probe ? max_rounds : 1); ++round) {
     if (contacts.tissue) tissue_.push(inverse_mass, v);
     for (const Stopped& stopped : stopped_) {
       const double inward = stopped.point.normal.dot(stopped.velocity - at(v, stopped.point));
       if (inward > 0) push(stopped, inward, 1, inverse_mass, contacts, v);
     }
   }
-  if (contacts.tissue) tissue_.tell(1, pressed_, contacts.deeds.back());
-  tell(contacts, x);
+  if (contacts.tissue) tissue_.publish(1, normal_impulse_, contacts.reports.back());
+  publish(contacts, x);
 }
 
 template <class Real>
-void ContactImpulses<Real>::tell(Contacts& contacts, const Real* x) const {
+void ContactImpulses<Real>::publish(Contacts& contacts, const Real* x) const {
   for (std::size_t s = 0; s < surfaces_.size(); ++s) {
-    ContactDeeds& deeds = contacts.deeds[s];
-    deeds.force = impulse_[s] / duration_;
-    deeds.energy = deeds.deepest = 0;
-    deeds.touching = 0;
+    ContactReport& report = contacts.reports[s];
+    report.force = impulse_[s] / duration_;
+    report.energy = report.max_penetration = 0;
+    report.contact_count = 0;
   }
   if (!tissue_.empty()) {
-    ContactDeeds& deeds = contacts.deeds.back();
-    tissue_.each_touch([&](const ContactPoint& point) {
-      ++deeds.touching;
-      deeds.deepest = std::max(deeds.deepest, -point.gap);
+    ContactReport& report = contacts.reports.back();
+    tissue_.each_contact_point([&](const ContactPoint& point) {
+      ++report.contact_count;
+      report.max_penetration = std::max(report.max_penetration, -point.gap);
     });
   }
-  if (contacts.tissue) contacts.deeds.back().pressed = pressed_ / duration_;
+  if (contacts.tissue) contacts.reports.back().normal_force = normal_impulse_ / duration_;
   for (const Stopped& stopped : stopped_) {
-    ContactDeeds& deeds = contacts.deeds[stopped.surface];
-    ++deeds.touching;
-    const double gap = gap_again(surfaces_[stopped.surface], stopped.point, [&](int n) { return at(x, n); });
-    deeds.deepest = std::max(deeds.deepest, -gap);
+    ContactReport& report = contacts.reports[stopped.surface];
+    ++report.contact_count;
+    const double gap = updated_gap(surfaces_[stopped.surface], stopped.point, [&](int n) { return at(x, n); });
+    report.max_penetration = std::max(report.max_penetration, -gap);
   }
 }
 

@@ -23,9 +23,9 @@ class ContactImpulses {
   /// Times are s, before and after the step. shrink: what the first half has divided velocities by, for damping.
   /// inverse_mass: #V, 1/kg. before: positions at the step's start, x: those after, v: velocities, 3 #V; x and v
   /// change.
-  void first_half(Contacts& contacts, double time_before, double time_after, double shrink,
-                  const std::vector<Real>& inverse_mass, const Real* before, Real* x, Real* v);
-  void second_half(Contacts& contacts, const std::vector<Real>& inverse_mass, const Real* x, Real* v);
+  void first_half_step(Contacts& contacts, double time_before, double time_after, double shrink,
+                       const std::vector<Real>& inverse_mass, const Real* before, Real* x, Real* v);
+  void second_half_step(Contacts& contacts, const std::vector<Real>& inverse_mass, const Real* x, Real* v);
 
  private:
   struct Stopped {
@@ -33,14 +33,14 @@ class ContactImpulses {
     ContactPoint point;
     Vec3 velocity;  ///< m/s, of the surface
   };
-  struct Way;  // of a step, or a part of it
-  void stop_at(const Way& way, std::size_t s, Contacts& contacts, Real* v);
+  struct StepPath;  // of a step, or a part of it
+  void stop_at(const StepPath& path, std::size_t s, Contacts& contacts, Real* v);
   void push(const Stopped& at, double closing, double weight, const std::vector<Real>& inverse_mass, Contacts& contacts,
             Real* v);
-  void tell(Contacts& contacts, const Real* x) const;
+  void publish(Contacts& contacts, const Real* x) const;
 
   SelfContactImpulses<Real> tissue_;
-  double pressed_ = 0;  ///< N s, by tissue on tissue, since the tick began
+  double normal_impulse_ = 0;  ///< N s, by tissue on tissue, since the tick began
   std::vector<Stopped> stopped_;
   std::vector<Vec3> impulse_;             ///< N s, of each surface, since the tick began
   double duration_ = 0;                   ///< s, likewise

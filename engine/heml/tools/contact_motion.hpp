@@ -1,5 +1,6 @@
 #pragma once
-// What impulses do to points of contact: sums over their nodes. Positions and velocities are 3 #V, inverse masses #V, 1/kg.
+// What impulses do to points of contact: sums over their nodes. Positions and velocities are 3 #V, inverse masses #V,
+// 1/kg.
 
 #include <heml/tools/contact_surface.hpp>
 #include <vector>
@@ -34,7 +35,7 @@ double inverse_mass_of(const ContactPoint& point, const std::vector<Real>& inver
 
 /// impulse: N s, on the point. Changes the velocities v of its nodes, m/s.
 template <class Real>
-void push_nodes(const ContactPoint& point, const Vec3& impulse, const std::vector<Real>& inverse_mass, Real* v) {
+void apply_impulse(const ContactPoint& point, const Vec3& impulse, const std::vector<Real>& inverse_mass, Real* v) {
   for (std::size_t k = 0; k < static_cast<std::size_t>(point.count); ++k) {
     const int n = point.nodes[k];
     Eigen::Map<Vector3<Real>>(v + 3 * n) +=

@@ -6,11 +6,11 @@
 namespace heml {
 namespace {
 
-constexpr int most_revisions = 16;      // of one solve
-constexpr double nearest_axis = 0.25;   // of a probe's radius: tissue that comes nearer is taken to have passed it
-constexpr double stiffest_spring = 1e6;        // times a node's own stiffness
-constexpr double share_of_node = 0.5;   // of its stiffness, for each of the faces round it
-constexpr double same_friction = 1e-3;  // of all friction: what it may differ by from what was assumed
+constexpr int max_revisions = 16;        // of one solve
+constexpr double nearest_axis = 0.25;    // of a probe's radius: tissue that comes nearer is taken to have passed it
+constexpr double stiffest_spring = 1e6;  // times a node's own stiffness
+constexpr double share_of_node = 0.5;    // of its stiffness, for each of the faces round it
+constexpr double same_friction = 1e-3;   // of all friction: what it may differ by from what was assumed
 
 Vec3 at(const Vector& x, int node) { return x.segment<3>(3 * node); }
 
@@ -34,7 +34,7 @@ void ContactPotential::begin(const Vector& x, double time) {
   const bool first = stiffer_.empty();
   surfaces_before_ = surfaces_ = contacts_.surfaces(time);
   stiffer_.resize(surfaces_.size(), 1);
-  contacts_.deeds.resize(surfaces_.size());
+  contacts_.reports.resize(surfaces_.size());
   x_before_ = x_seen_ = x;
   touches_at_.resize(0);
   revisions_ = 0;
@@ -42,7 +42,7 @@ void ContactPotential::begin(const Vector& x, double time) {
   meet(x);
   if (first) {  // what touches at first sticks, until its weight is known
     find(x);
-    for (const Touch& touch : touches_)
+    for (const ActiveContact& touch : active_)
       if (surfaces_[touch.surface].friction > 0)
         accepted_.push_back({touch, std::numeric_limits<double>::infinity(), Vec3::Zero()});
     touches_at_.resize(0);
@@ -50,7 +50,7 @@ void ContactPotential::begin(const Vector& x, double time) {
   friction_ = accepted_;
 }
 
-void ContactPotential::forget() {
+void ContactPotential::reset() {
   stiffer_.clear();
   friction_.clear();
   accepted_.clear();
@@ -69,18 +69,18 @@ void ContactPotential::set_time(double time) {
 
 void ContactPotential::find(const Vector& x) {
   if (touches_at_.size() > 0 && touches_at_ == x) return;
-  touches_.clear();
+  active_.clear();
   const auto where = [&](int n) { return at(x, n); };
   const double near = 1e-9 * bound_;
   for (std::size_t s = 0; s < surfaces_.size(); ++s) {
     if (surfaces_[s].shape != ContactSurface::Shape::tissue) {
-      each_contact(surfaces_[s], contacts_.skin, near, where, [&](const ContactPoint& point) {
-        touches_.push_back({s, point});
+      each_contact(surfaces_[s], contacts_.boundary, near, where, [&](const ContactPoint& point) {
+        active_.push_back({s, point});
       });
       continue;
     }
-    for (const SkinPair& pair : pairs_)
-      if (const auto point = point_of(pair, where); point && point->gap < near) touches_.push_back({s, *point});
+    for (const ContactPair& pair : pairs_)
+      if (const auto point = point_of(pair, where); point && point->gap < near) active_.push_back({s, *point});
   }
   touches_at_ = x;
 }
@@ -91,9 +91,9 @@ bool ContactPotential::meet(const Vector& x) {
   const auto before = [&](int n) { return at(x_before_, n); };
   const auto now = [&](int n) { return at(x, n); };
   const auto known = static_cast<std::ptrdiff_t>(pairs_.size());
-  const auto& met = contacts_.tissue->meeting(before, now);
+  const auto& met = contacts_.tissue->contacts_between(before, now);
   std::set_difference(met.begin(), met.end(), pairs_.begin(), pairs_.begin() + known, std::back_inserter(pairs_));
-  const bool inside = std::any_of(pairs_.begin() + known, pairs_.end(), [&](const SkinPair& pair) {
+  const bool inside = std::any_of(pairs_.begin() + known, pairs_.end(), [&](const ContactPair& pair) {
     const auto point = point_of(pair, now);
     return point && point->gap < -bound_;
   });
@@ -109,15 +109,16 @@ double ContactPotential::stiffness_of(const ContactPoint& point) const {
   return share_of_node * (point.count == 3 ? (k(0) + k(1) + k(2)) / 3 : (k(0) + k(1) + k(2) + k(3)) / 4);
 }
 
-double ContactPotential::normal_stiffness(const Touch& touch) const {
+double ContactPotential::normal_stiffness(const ActiveContact& touch) const {
   return stiffer_[touch.surface] * stiffness_of(touch.point);
 }
 
 /// How far a point's spring is stretched, m.
 Vec3 ContactPotential::sliding(const Friction& friction, const Vector& x) const {
   const auto& [surface, point] = friction.touch;
-  const Vec3 way = at(x, point) - at(x_before_, point) - (surfaces_[surface].point - surfaces_before_[surface].point);
-  return along(point.normal) * (way + friction.stretch);
+  const Vec3 displacement =
+      at(x, point) - at(x_before_, point) - (surfaces_[surface].point - surfaces_before_[surface].point);
+  return along(point.normal) * (displacement + friction.stretch);
 }
 
 Vec3 ContactPotential::friction_force(const Friction& friction, const Vector& x) const {
@@ -129,13 +130,14 @@ Vec3 ContactPotential::friction_force(const Friction& friction, const Vector& x)
 
 bool ContactPotential::passes(const Vector& x) const {
   if (!contacts_.probe || x_seen_.size() != x.size()) return false;
-  double way = 0;
-  for (const int n : contacts_.skin.nodes) way = std::max(way, (at(x, n) - at(x_seen_, n)).norm());
+  double displacement = 0;
+  for (const int n : contacts_.boundary.nodes)
+    displacement = std::max(displacement, (at(x, n) - at(x_seen_, n)).norm());
   bool passed = false;
   for (const ContactSurface& surface : surfaces_) {
-    if (surface.shape != ContactSurface::Shape::capsule || way < nearest_axis * surface.radius) continue;
+    if (surface.shape != ContactSurface::Shape::capsule || displacement < nearest_axis * surface.radius) continue;
     each_contact(
-        surface, contacts_.skin, way, [&](int n) { return at(x_seen_, n); },
+        surface, contacts_.boundary, displacement, [&](int n) { return at(x_seen_, n); },
         [&](const ContactPoint& point) {
           const Vec3 moved = at(x, point) - at(x_seen_, point);
           const double from_axis = surface.radius + point.gap + point.normal.dot(moved);
@@ -148,7 +150,7 @@ bool ContactPotential::passes(const Vector& x) const {
 double ContactPotential::value(const Vector& x) {
   find(x);
   double sum = 0;
-  for (const Touch& touch : touches_) {
+  for (const ActiveContact& touch : active_) {
     const double inside = std::min(0.0, touch.point.gap);
     sum += normal_stiffness(touch) / 2 * inside * inside;
   }
@@ -161,7 +163,7 @@ double ContactPotential::value(const Vector& x) {
 
 void ContactPotential::add_forces(const Vector& x, Vector& f) {
   find(x);
-  for (const Touch& touch : touches_)
+  for (const ActiveContact& touch : active_)
     add(touch.point, -normal_stiffness(touch) * std::min(0.0, touch.point.gap) * touch.point.normal, f);
   for (const Friction& friction : friction_) add(friction.touch.point, friction_force(friction, x), f);
 }
@@ -172,7 +174,7 @@ void ContactPotential::linearise(const Vector& x) {
   find(x);
   x_seen_ = x;
   blocks_.clear();
-  for (const Touch& touch : touches_) {
+  for (const ActiveContact& touch : active_) {
     const Vec3& n = touch.point.normal;
     Mat3 K = normal_stiffness(touch) * n * n.transpose();
     if (touch.point.count == 2)  // a taut thread bears what is across
@@ -205,7 +207,7 @@ bool ContactPotential::within_elements() const {
 std::vector<ContactPotential::Friction> ContactPotential::friction_of_touches() const {
   std::vector<Friction> result;
   std::size_t old = 0;  // both lists are in the order of surfaces and the skin
-  for (const Touch& touch : touches_) {
+  for (const ActiveContact& touch : active_) {
     const double friction = surfaces_[touch.surface].friction;
     if (!(friction > 0) || !(touch.point.gap < 0)) continue;
     Friction& now =
@@ -223,15 +225,16 @@ std::vector<ContactPotential::Friction> ContactPotential::friction_of_touches() 
   return result;
 }
 
-bool ContactPotential::revise(const Vector& x) {
-  if (empty() || ++revisions_ > most_revisions) return false;
+bool ContactPotential::update_lagged(const Vector& x) {
+  if (empty() || ++revisions_ > max_revisions) return false;
   bool changes = meet(x);
   find(x);
-  std::vector<double> deepest(surfaces_.size(), 0.0);
-  for (const Touch& touch : touches_) deepest[touch.surface] = std::max(deepest[touch.surface], -touch.point.gap);
+  std::vector<double> max_penetration(surfaces_.size(), 0.0);
+  for (const ActiveContact& touch : active_)
+    max_penetration[touch.surface] = std::max(max_penetration[touch.surface], -touch.point.gap);
   for (std::size_t s = 0; s < surfaces_.size(); ++s)
-    if (deepest[s] > bound_ && stiffer_[s] < stiffest_spring) {
-      stiffer_[s] *= std::clamp(2 * deepest[s] / bound_, 2.0, 32.0);
+    if (max_penetration[s] > bound_ && stiffer_[s] < stiffest_spring) {
+      stiffer_[s] *= std::clamp(2 * max_penetration[s] / bound_, 2.0, 32.0);
       changes = true;
     }
   std::vector<Friction> now = friction_of_touches();
@@ -255,28 +258,28 @@ bool ContactPotential::revise(const Vector& x) {
 void ContactPotential::accept(const Vector& x) {
   if (empty()) return;
   find(x);
-  for (ContactDeeds& deeds : contacts_.deeds) {
-    deeds.force.setZero();
-    deeds.pressed = deeds.energy = deeds.deepest = 0;
-    deeds.touching = 0;
+  for (ContactReport& report : contacts_.reports) {
+    report.force.setZero();
+    report.normal_force = report.energy = report.max_penetration = 0;
+    report.contact_count = 0;
   }
-  const auto tell = [&](const Touch& touch, const Vec3& force) {
-    ContactDeeds& deeds = contacts_.deeds[touch.surface];
-    deeds.force += force;
-    deeds.work += force.dot(at(x, touch.point) - at(x_before_, touch.point));
+  const auto publish = [&](const ActiveContact& touch, const Vec3& force) {
+    ContactReport& report = contacts_.reports[touch.surface];
+    report.force += force;
+    report.work += force.dot(at(x, touch.point) - at(x_before_, touch.point));
   };
-  for (const Touch& touch : touches_) {
+  for (const ActiveContact& touch : active_) {
     const double inside = std::min(0.0, touch.point.gap), k = normal_stiffness(touch);
-    ContactDeeds& deeds = contacts_.deeds[touch.surface];
-    tell(touch, -k * inside * touch.point.normal);
-    if (touch.point.count == 4) deeds.pressed -= k * inside;
-    deeds.energy += k / 2 * inside * inside;
-    deeds.deepest = std::max(deeds.deepest, -inside);
-    deeds.touching += inside < 0 ? 1 : 0;
+    ContactReport& report = contacts_.reports[touch.surface];
+    publish(touch, -k * inside * touch.point.normal);
+    if (touch.point.count == 4) report.normal_force -= k * inside;
+    report.energy += k / 2 * inside * inside;
+    report.max_penetration = std::max(report.max_penetration, -inside);
+    report.contact_count += inside < 0 ? 1 : 0;
   }
   for (Friction& friction : friction_) {
     const Vec3 force = friction_force(friction, x);
-    tell(friction.touch, force);
+    publish(friction.touch, force);
     // What has slipped is not stretched; faces slide along a probe, and their springs begin anew.
     const double k = stiffness_of(friction.touch.point);
     const bool stays = friction.touch.point.count == 1 || friction.touch.point.count == 4;

@@ -33,9 +33,9 @@ class ContactPotential {
   /// that came to nothing had assumed is forgotten.
   void begin(const Vector& x, double time);
   /// There are other surfaces now: what was known of any is forgotten.
-  void forget();
+  void reset();
   /// From now on tissue passes tissue.
-  void leave_tissue() { with_tissue_ = false; }
+  void disable_self_contact() { with_tissue_ = false; }
   /// Surfaces are where they are at a time, s, from now on; friction is assumed as it was at the step's start.
   void set_time(double time);
 
@@ -57,17 +57,17 @@ class ContactPotential {
 
   /// Whether what was assumed of a solution x does not hold of it: then it is assumed anew, and x is to be solved
   /// again.
-  bool revise(const Vector& x);
+  bool update_lagged(const Vector& x);
   /// Keeps a solution, and tells the contacts of it.
   void accept(const Vector& x);
 
  private:
-  struct Touch {
+  struct ActiveContact {
     std::size_t surface;
     ContactPoint point;
   };
   struct Friction {
-    Touch touch;
+    ActiveContact touch;
     double most;   ///< N
     Vec3 stretch;  ///< m, of the spring at the step's start
   };
@@ -78,7 +78,7 @@ class ContactPotential {
   void find(const Vector& x);
   bool meet(const Vector& x);
   double stiffness_of(const ContactPoint& point) const;
-  double normal_stiffness(const Touch& touch) const;
+  double normal_stiffness(const ActiveContact& touch) const;
   Vec3 sliding(const Friction& friction, const Vector& x) const;
   Vec3 friction_force(const Friction& friction, const Vector& x) const;
   std::vector<Friction> friction_of_touches() const;
@@ -90,9 +90,9 @@ class ContactPotential {
   std::vector<Friction> friction_, accepted_;
   std::vector<ContactSurface> surfaces_, surfaces_before_;
   bool with_tissue_ = true;
-  std::vector<SkinPair> pairs_;  ///< of tissue, in contact or as good as; ascending
+  std::vector<ContactPair> pairs_;  ///< of tissue, in contact or as good as; ascending
   Vector x_before_, touches_at_, x_seen_;
-  std::vector<Touch> touches_;  ///< where touches_at_ is
+  std::vector<ActiveContact> active_;  ///< where touches_at_ is
   std::vector<Block> blocks_;
   int revisions_ = 0;
 };

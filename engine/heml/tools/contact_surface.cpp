@@ -16,21 +16,21 @@ struct Pair {
 Pair nearest_pair(const ContactSurface& capsule, const std::array<Vec3, 3>& x) {
   const auto on_face = [&](const std::array<double, 3>& w) -> Vec3 { return w[0] * x[0] + w[1] * x[1] + w[2] * x[2]; };
   Pair best{{}, Vec3::Zero(), -1};
-  const auto offer = [&](const std::array<double, 3>& weights, const Vec3& on_axis) {
+  const auto keep_nearest = [&](const std::array<double, 3>& weights, const Vec3& on_axis) {
     const double distance = (on_face(weights) - on_axis).norm();
     if (best.distance < 0 || distance < best.distance) best = {weights, on_axis, distance};
   };
-  offer(nearest_weights(capsule.point, x[0], x[1], x[2]), capsule.point);
+  keep_nearest(closest_point_weights(capsule.point, x[0], x[1], x[2]), capsule.point);
   const Vec3 axis = capsule.other - capsule.point;
   if (axis.isZero(0)) return best;
-  offer(nearest_weights(capsule.other, x[0], x[1], x[2]), capsule.other);
+  keep_nearest(closest_point_weights(capsule.other, x[0], x[1], x[2]), capsule.other);
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = (i + 1) % 3;
-    const auto [s, t] = nearest_on_segments(capsule.point, axis, x[i], x[j] - x[i]);
+    const auto [s, t] = closest_on_segments(capsule.point, axis, x[i], x[j] - x[i]);
     std::array<double, 3> weights{};
     weights[i] = 1 - t;
     weights[j] = t;
-    offer(weights, capsule.point + s * axis);
+    keep_nearest(weights, capsule.point + s * axis);
   }
   return best;
 }
@@ -38,10 +38,10 @@ Pair nearest_pair(const ContactSurface& capsule, const std::array<Vec3, 3>& x) {
 }  // namespace
 
 void Probe::go(const std::vector<Vec3>& path, double speed, double time) {
-  std::vector<Vec3> way;
-  if (!path_.empty()) way.push_back(tip(time));
-  way.insert(way.end(), path.begin(), path.end());
-  path_ = std::move(way);
+  std::vector<Vec3> waypoints;
+  if (!path_.empty()) waypoints.push_back(tip(time));
+  waypoints.insert(waypoints.end(), path.begin(), path.end());
+  path_ = std::move(waypoints);
   speed_ = speed;
   start_ = time;
 }
@@ -49,16 +49,16 @@ void Probe::go(const std::vector<Vec3>& path, double speed, double time) {
 Vec3 Probe::tip(double time) const {
   double left = speed_ * std::max(0.0, time - start_);
   for (std::size_t k = 1; k < path_.size(); ++k) {
-    const Vec3 way = path_[k] - path_[k - 1];
-    const double length = way.norm();
-    if (left < length) return path_[k - 1] + left / length * way;
+    const Vec3 segment = path_[k] - path_[k - 1];
+    const double length = segment.norm();
+    if (left < length) return path_[k - 1] + left / length * segment;
     left -= length;
   }
   return path_.back();
 }
 
 double Suture::length(double time) const {
-  const double part = over > 0 ? std::clamp((time - start) / over, 0.0, 1.0) : 1;
+  const double part = ramp_time > 0 ? std::clamp((time - start) / ramp_time, 0.0, 1.0) : 1;
   return from + part * (to - from);
 }
 
@@ -75,8 +75,8 @@ ContactSurface surface_of(const Probe& probe, double time) {
   return {ContactSurface::Shape::capsule, tip, tip + probe.shaft(), probe.radius(), probe.friction()};
 }
 
-std::optional<ContactPoint> near_face(const ContactSurface& capsule, const Triangle& face, const Vec3& a, const Vec3& b,
-                                      const Vec3& c, double reach) {
+std::optional<ContactPoint> capsule_face_contact(const ContactSurface& capsule, const Triangle& face, const Vec3& a,
+                                                 const Vec3& b, const Vec3& c, double reach) {
   const std::array<Vec3, 3> x{a, b, c};
   const Pair pair = nearest_pair(capsule, x);
   if (!(pair.distance < capsule.radius + reach) || !(pair.distance > 1e-9 * capsule.radius)) return std::nullopt;
@@ -89,7 +89,7 @@ std::optional<ContactPoint> near_face(const ContactSurface& capsule, const Trian
                       (point - pair.on_axis) / pair.distance};
 }
 
-std::optional<ContactPoint> near_end(const ContactSurface& thread, const Vec3& a, const Vec3& b, double reach) {
+std::optional<ContactPoint> thread_contact(const ContactSurface& thread, const Vec3& a, const Vec3& b, double reach) {
   const double length = (a - b).norm(), gap = thread.radius - length;
   if (!(gap < reach) || !(length > 0)) return std::nullopt;
   const auto [first, second] = thread.ends;

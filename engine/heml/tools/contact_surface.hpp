@@ -55,7 +55,7 @@ class Probe {
 struct Suture {
   std::array<int, 2> nodes;  ///< inner numbers
   double from, to;           ///< m, lengths at the start and the end
-  double start, over;        ///< s
+  double start, ramp_time;   ///< s
   double length(double time) const;
 };
 
@@ -86,14 +86,14 @@ struct ContactPoint {
 
 /// The point of a face (corners a, b, c, m) that is nearest to a capsule; nothing where they are further apart than
 /// `reach`, m, or where no direction is out.
-std::optional<ContactPoint> near_face(const ContactSurface& capsule, const Triangle& face, const Vec3& a, const Vec3& b,
-                                      const Vec3& c, double reach);
+std::optional<ContactPoint> capsule_face_contact(const ContactSurface& capsule, const Triangle& face, const Vec3& a,
+                                                 const Vec3& b, const Vec3& c, double reach);
 
 /// The thread's, its ends being at a and b, m; nothing where it is slack by more than `reach`, m, or has no direction.
-std::optional<ContactPoint> near_end(const ContactSurface& thread, const Vec3& a, const Vec3& b, double reach);
+std::optional<ContactPoint> thread_contact(const ContactSurface& thread, const Vec3& a, const Vec3& b, double reach);
 
 /// What of a body can touch: the nodes and the faces of its surface, inner numbers.
-struct ContactSkin {
+struct ContactBoundary {
   std::vector<int> nodes;       ///< ascending
   std::vector<Triangle> faces;  ///< outward
 };
@@ -101,14 +101,14 @@ struct ContactSkin {
 /// Calls visit(point) for each point of the skin nearer to the surface than `reach`, m, in the skin's order.
 /// at(node): m.
 template <class At, class Visit>
-void each_contact(const ContactSurface& surface, const ContactSkin& skin, double reach, const At& at,
+void each_contact(const ContactSurface& surface, const ContactBoundary& boundary, double reach, const At& at,
                   const Visit& visit) {
   if (surface.shape == ContactSurface::Shape::thread) {
-    if (const auto point = near_end(surface, at(surface.ends[0]), at(surface.ends[1]), reach)) visit(*point);
+    if (const auto point = thread_contact(surface, at(surface.ends[0]), at(surface.ends[1]), reach)) visit(*point);
     return;
   }
   if (surface.shape == ContactSurface::Shape::plane) {
-    for (const int n : skin.nodes) {
+    for (const int n : boundary.nodes) {
       const double gap = surface.other.dot(at(n) - surface.point);
       if (gap < reach) visit(ContactPoint{{n, n, n, n}, {1, 0, 0, 0}, 1, gap, surface.other});
     }
@@ -116,25 +116,25 @@ void each_contact(const ContactSurface& surface, const ContactSkin& skin, double
   }
   const Vec3 middle = (surface.point + surface.other) / 2;
   const double extent = (surface.other - surface.point).norm() / 2 + surface.radius + reach;
-  for (const Triangle& face : skin.faces) {
+  for (const Triangle& face : boundary.faces) {
     const Vec3 a = at(face[0]), b = at(face[1]), c = at(face[2]);
     const double size = std::max((b - a).squaredNorm(), (c - a).squaredNorm());
     const double away = (a - middle).norm() - extent;
     if (away > 0 && away * away > size) continue;
-    if (const auto point = near_face(surface, face, a, b, c, reach)) visit(*point);
+    if (const auto point = capsule_face_contact(surface, face, a, b, c, reach)) visit(*point);
   }
 }
 
 /// The gap at the nodes of a point found before, with the surface or the nodes elsewhere, m; 0 where they are apart.
 template <class At>
-double gap_again(const ContactSurface& surface, const ContactPoint& point, const At& at) {
+double updated_gap(const ContactSurface& surface, const ContactPoint& point, const At& at) {
   std::optional<ContactPoint> now;
   if (surface.shape == ContactSurface::Shape::plane) return surface.other.dot(at(point.nodes[0]) - surface.point);
   if (surface.shape == ContactSurface::Shape::thread)
-    now = near_end(surface, at(point.nodes[0]), at(point.nodes[1]), 0);
+    now = thread_contact(surface, at(point.nodes[0]), at(point.nodes[1]), 0);
   else
-    now = near_face(surface, {point.nodes[0], point.nodes[1], point.nodes[2]}, at(point.nodes[0]), at(point.nodes[1]),
-                    at(point.nodes[2]), 0);
+    now = capsule_face_contact(surface, {point.nodes[0], point.nodes[1], point.nodes[2]}, at(point.nodes[0]),
+                               at(point.nodes[1]), at(point.nodes[2]), 0);
   return now ? now->gap : 0;
 }
 

@@ -10,25 +10,25 @@
 namespace heml {
 
 /// What a surface has done to the body.
-struct ContactDeeds {
+struct ContactReport {
   Vec3 force = Vec3::Zero();  ///< N, on the body: of the last step, or the mean of the steps of a tick
-  double pressed = 0;         ///< N, likewise, of tissue on tissue, whose forces have no sum: the sum of what presses
-  double work = 0;     ///< J, force times way: friction's is negative, a probe's may be positive; impacts have none
-  double energy = 0;   ///< J, that is stored in an implicit method's contact
-  double deepest = 0;  ///< m, that a point of the body is inside; 0: none
-  int touching = 0;    ///< points of the body
+  double normal_force = 0;    ///< N, likewise, of tissue on tissue, whose forces have no sum: the sum of what presses
+  double work = 0;    ///< J, force times way: friction's is negative, a probe's may be positive; impacts have none
+  double energy = 0;  ///< J, that is stored in an implicit method's contact
+  double max_penetration = 0;  ///< m, that a point of the body is inside; 0: none
+  int contact_count = 0;       ///< points of the body
 };
 
 struct Contacts {
   std::vector<Table> tables;
   std::optional<Probe> probe;
   std::vector<Suture> sutures;
-  std::optional<SelfContact> tissue;  ///< kept up with the body, where a scene asks for it
-  ContactSkin skin;                   ///< inner numbers; kept up with the body while there is a surface
-  std::vector<ContactDeeds> deeds;    ///< of the tables, the probe, the sutures, the tissue
+  std::optional<SelfContact> tissue;   ///< kept up with the body, where a scene asks for it
+  ContactBoundary boundary;            ///< inner numbers; kept up with the body while there is a surface
+  std::vector<ContactReport> reports;  ///< of the tables, the probe, the sutures, the tissue
 
   /// Of one of surfaces(), by number; before the first step nothing.
-  ContactDeeds deeds_of(std::size_t s) const { return s < deeds.size() ? deeds[s] : ContactDeeds(); }
+  ContactReport report_of(std::size_t s) const { return s < reports.size() ? reports[s] : ContactReport(); }
 
   bool empty() const { return !has_tools() && !tissue; }
   /// Whether there is more than the tissue itself.

@@ -26,11 +26,11 @@ GraspSpring<Real>::GraspSpring(int center, Real radius, std::span<const int> nod
     const Real inside = Real(1) - static_cast<Real>(distance * distance) / (radius * radius);
     take(n, inside * inside);
   }
-  take_masses(inverse_mass);
+  update_masses(inverse_mass);
 }
 
 template <class Real>
-void GraspSpring<Real>::take_masses(const std::vector<Real>& inverse_mass) {
+void GraspSpring<Real>::update_masses(const std::vector<Real>& inverse_mass) {
   stiffness_.resize(nodes_.size());
   damping_.resize(nodes_.size());
   for (std::size_t k = 0; k < nodes_.size(); ++k) {

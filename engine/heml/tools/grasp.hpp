@@ -27,7 +27,7 @@ class GraspSpring {
 
   /// Masses have changed: each spring keeps its frequency. A node without mass is held no longer; a grasp may come to
   /// hold nothing.
-  void take_masses(const std::vector<Real>& inverse_mass);
+  void update_masses(const std::vector<Real>& inverse_mass);
 
   /// Adds the springs' forces to f (3 #V, N).
   void add_forces(const Real* x, const Real* v, Real* f) const;

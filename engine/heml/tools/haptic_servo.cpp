@@ -5,35 +5,36 @@
 namespace heml {
 namespace {
 
-constexpr double shortest_way = 1e-6;  // m: below it a difference of forces says nothing of stiffness
+constexpr double min_travel = 1e-6;  // m: below it a difference of forces says nothing of stiffness
 
 /// The symmetric part, its eigenvalues kept between 0 and the stiffest.
-Mat3 bounded(const Mat3& B, double stiffest) {
+Mat3 bounded(const Mat3& B, double max_stiffness) {
   const Eigen::SelfAdjointEigenSolver<Mat3> parts((B + B.transpose()) / 2);
-  const Vec3 values = parts.eigenvalues().cwiseMax(0).cwiseMin(stiffest);
+  const Vec3 values = parts.eigenvalues().cwiseMax(0).cwiseMin(max_stiffness);
   return parts.eigenvectors() * values.asDiagonal() * parts.eigenvectors().transpose();
 }
 
 }  // namespace
 
-void HapticServo::take(const TouchState& state) {
+void HapticServo::update(const ToolContact& state) {
   if (touching_) {
     correction_ = modelled(state.tool) - state.force;
     between_ = state.time - last_.time;
-    if (const Vec3 way = state.tool - last_.tool; way.norm() > shortest_way)
-      learnt_ += (state.force - last_.force - learnt_ * way) * way.transpose() / way.squaredNorm();
-    stiffness_ = bounded(learnt_, limits_.stiffest);
+    if (const Vec3 displacement = state.tool - last_.tool; displacement.norm() > min_travel)
+      broyden_ +=
+          (state.force - last_.force - broyden_ * displacement) * displacement.transpose() / displacement.squaredNorm();
+    stiffness_ = bounded(broyden_, limits_.max_stiffness);
   } else {
     correction_ = -state.force;  // from nothing
     between_ = 0;
-    learnt_ = stiffness_ = Mat3::Zero();
+    broyden_ = stiffness_ = Mat3::Zero();
   }
   touching_ = true;
   since_ = 0;
   last_ = state;
 }
 
-void HapticServo::let_go() { touching_ = false; }
+void HapticServo::release() { touching_ = false; }
 
 /// The force on the tissue with the tool at x. Goes over to a new state within the time between the last two.
 Vec3 HapticServo::modelled(const Vec3& x) const {
@@ -42,21 +43,21 @@ Vec3 HapticServo::modelled(const Vec3& x) const {
 }
 
 /// The force given was held all the way, so what it did on it is exact.
-void HapticServo::watch(const Vec3& way, double seconds) {
-  energy_ -= given_.dot(way);
+void HapticServo::limit_energy(const Vec3& displacement, double seconds) {
+  energy_ -= last_force_.dot(displacement);
   damping_ = 0;
-  if (const double square = way.squaredNorm() / seconds; energy_ < 0 && square > 0)
+  if (const double square = displacement.squaredNorm() / seconds; energy_ < 0 && square > 0)
     damping_ = std::min(-energy_ / square, limits_.damping);
 }
 
 Vec3 HapticServo::serve(const Vec3& x, double seconds) {
-  const Vec3 way = has_served_ ? Vec3(x - hand_) : Vec3(Vec3::Zero());
-  watch(way, seconds);
+  const Vec3 displacement = has_served_ ? Vec3(x - handle_) : Vec3(Vec3::Zero());
+  limit_energy(displacement, seconds);
   Vec3 force = touching_ ? Vec3(-modelled(x)) : Vec3(Vec3::Zero());
-  force -= damping_ * way / seconds;
+  force -= damping_ * displacement / seconds;
   if (const double size = force.norm(); size > limits_.force) force *= limits_.force / size;
   since_ += seconds;
-  hand_ = x, given_ = force, has_served_ = true;
+  handle_ = x, last_force_ = force, has_served_ = true;
   return force;
 }
 

@@ -18,13 +18,13 @@
 namespace heml {
 
 struct HapticLimits {
-  double stiffest = 1000;  ///< N/m, of the model: no more than the device is stable with
-  double force = 4;        ///< N, that the device can give; more is cut off
-  double damping = 20;     ///< N s/m, most that is added
+  double max_stiffness = 1000;  ///< N/m, of the model: no more than the device is stable with
+  double force = 4;             ///< N, that the device can give; more is cut off
+  double damping = 20;          ///< N s/m, most that is added
 };
 
 /// The engine's word on the tool, of one moment.
-struct TouchState {
+struct ToolContact {
   double time = 0;            ///< s
   Vec3 tool = Vec3::Zero();   ///< m
   Vec3 force = Vec3::Zero();  ///< N, of the tool on the tissue: the hand feels the opposite
@@ -35,9 +35,9 @@ class HapticServo {
   explicit HapticServo(const HapticLimits& limits = {}) : limits_(limits) {}
 
   /// A state of the engine that is newer than the last.
-  void take(const TouchState& state);
+  void update(const ToolContact& state);
   /// The tool has let go: no force until the next state.
-  void let_go();
+  void release();
 
   /// The force on a hand that is at x (m), N; held until the next call, `seconds` later.
   Vec3 serve(const Vec3& x, double seconds);
@@ -48,17 +48,17 @@ class HapticServo {
 
  private:
   Vec3 modelled(const Vec3& x) const;
-  void watch(const Vec3& way, double seconds);
+  void limit_energy(const Vec3& displacement, double seconds);
 
   HapticLimits limits_;
   bool touching_ = false, has_served_ = false;
-  TouchState last_;
+  ToolContact last_;
   double between_ = 0;              ///< s, of the last two states
   double since_ = 0;                ///< s of serving since the last state
   Vec3 correction_ = Vec3::Zero();  ///< N, what the model before said of the last state's place, less what is so
-  Mat3 learnt_ = Mat3::Zero();      ///< B
+  Mat3 broyden_ = Mat3::Zero();     ///< B
   Mat3 stiffness_ = Mat3::Zero();   ///< of it what is used
-  Vec3 hand_ = Vec3::Zero(), given_ = Vec3::Zero();  ///< m, N at the last call
+  Vec3 handle_ = Vec3::Zero(), last_force_ = Vec3::Zero();  ///< m, N at the last call
   double energy_ = 0, damping_ = 0;
 };
 

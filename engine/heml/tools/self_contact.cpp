@@ -13,21 +13,21 @@ namespace {
 constexpr double touch = 1e-3;   // of an edge: what is nearer may be pushed together within a step
 constexpr double slack = 0.01;   // of a face or an edge: beside it, so that nothing slips through between two
 constexpr double beside = 0.25;  // of a face or an edge: what is inside may move by this before it is looked for anew
-constexpr double least_allowance = 0.15, most_allowance = 1;  // of an edge
-constexpr double least_sifted = 0.02, most_sifted = 0.15;     // of an edge
-constexpr double same_overlap = 1e-6;  // of an edge: overlaps at rest below are round-off of touching
-constexpr double facing = 0.1;         // cosine: what faces another surface does so at least by this
-constexpr double flat = 0.02;          // sine: edges that bend their surface less are no ridges
-constexpr double parallel = 0.3;       // sine of two edges: below, their nodes meet faces
-constexpr double same_line = 1e-3;     // sine: below, no direction is across both
-constexpr double deepest = 0.5;        // of an element's height: what is further in has not come from there
+constexpr double min_allowance = 0.15, max_allowance = 1;  // of an edge
+constexpr double min_sifted = 0.02, max_sifted = 0.15;     // of an edge
+constexpr double same_overlap = 1e-6;    // of an edge: overlaps at rest below are round-off of touching
+constexpr double facing = 0.1;           // cosine: what faces another surface does so at least by this
+constexpr double flat = 0.02;            // sine: edges that bend their surface less are no ridges
+constexpr double parallel = 0.3;         // sine of two edges: below, their nodes meet faces
+constexpr double same_line = 1e-3;       // sine: below, no direction is across both
+constexpr double max_penetration = 0.5;  // of an element's height: what is further in has not come from there
 
 std::size_t at(int n) { return static_cast<std::size_t>(n); }
 
 Vec3 area_vector(const Vec3& a, const Vec3& b, const Vec3& c) { return (b - a).cross(c - a); }
 
 /// Whether all of a pair's weights are those of points between corners, or ends, or as little beside them.
-bool is_within(const SkinPair& pair, const ContactPoint& point, double by = slack) {
+bool is_within(const ContactPair& pair, const ContactPoint& point, double by = slack) {
   const auto& w = point.weights;
   if (pair.side == 0) return w[1] <= by && w[2] <= by && w[3] <= by;
   return w[0] >= -by && w[1] >= -by && w[2] <= by && w[3] <= by;
@@ -41,7 +41,7 @@ std::array<Vec3, 4> between(const std::array<Vec3, 4>& a, const std::array<Vec3,
 
 }  // namespace
 
-std::optional<ContactPoint> point_of(const SkinPair& pair, const std::array<Vec3, 4>& x) {
+std::optional<ContactPoint> point_of(const ContactPair& pair, const std::array<Vec3, 4>& x) {
   ContactPoint point{pair.nodes, {}, 4, 0, Vec3::Zero()};
   if (pair.side == 0) {
     const Vec3 ab = x[2] - x[1], ac = x[3] - x[1], r = x[0] - x[1], N = ab.cross(ac);
@@ -64,12 +64,12 @@ std::optional<ContactPoint> point_of(const SkinPair& pair, const std::array<Vec3
 }
 
 SelfContact::SelfContact(const SelfContactSettings& settings, const TetMesh& mesh) : friction_(settings.friction) {
-  take_rest(mesh);
+  set_rest(mesh);
   make_edges();
 }
 
-void SelfContact::take_rest(const TetMesh& mesh) {
-  const BoundaryFaces boundary = boundary_of(mesh);
+void SelfContact::set_rest(const TetMesh& mesh) {
+  const BoundaryFaces boundary = extract_boundary(mesh);
   for (std::size_t f = 0; f < boundary.triangles.size(); ++f) {
     const Tet& tet = mesh.tets[at(boundary.tets[f])];
     nodes_.insert(nodes_.end(), tet.begin(), tet.end());
@@ -126,28 +126,27 @@ void SelfContact::find() {
     return std::all_of(places.begin(), places.end(), [](const Vec3& x) { return x.allFinite(); });
   };
   if (!is_finite(from_) || !is_finite(to_)) return;  // the step will see for itself that it went wrong
-  if (!covers(searched_)) search();
-  if (!covers(sifted_)) sift();
+  if (!covers(searched_)) broad_phase();
+  if (!covers(filtered_)) filter_candidates();
   for (const Candidate& candidate : close_)
-    if (const SkinPair pair = pair_of(candidate); meets(candidate, pair)) {
+    if (const ContactPair pair = pair_of(candidate); meets(candidate, pair)) {
       met_.push_back(pair);
       for (int& n : met_.back().nodes) n = nodes_[at(n)];
     }
   std::sort(met_.begin(), met_.end());
 }
 
-bool SelfContact::covers(const Survey& survey) const {
-  return survey.seen.size() == from_.size() && spread(survey, from_) <= survey.allowance &&
-         spread(survey, to_) <= survey.allowance;
+bool SelfContact::covers(const CandidateSet& set) const {
+  return set.seen.size() == from_.size() && spread(set, from_) <= set.allowance && spread(set, to_) <= set.allowance;
 }
 
 /// How far nodes are at most from where they were seen, m, but for what all have in common.
-double SelfContact::spread(const Survey& survey, const Places& x) const {
+double SelfContact::spread(const CandidateSet& set, const Places& x) const {
   Vec3 mean = Vec3::Zero();
-  for (std::size_t n = 0; n < x.size(); ++n) mean += x[n] - survey.seen[n];
+  for (std::size_t n = 0; n < x.size(); ++n) mean += x[n] - set.seen[n];
   mean /= static_cast<double>(x.size());
   double most = 0;
-  for (std::size_t n = 0; n < x.size(); ++n) most = std::max(most, (x[n] - survey.seen[n] - mean).squaredNorm());
+  for (std::size_t n = 0; n < x.size(); ++n) most = std::max(most, (x[n] - set.seen[n] - mean).squaredNorm());
   return std::sqrt(most);
 }
 
@@ -155,12 +154,13 @@ double SelfContact::spread(const Survey& survey, const Places& x) const {
 double SelfContact::reach_of(double allowance) const { return 2 * allowance + (touch + 4 * slack) * edge_; }
 
 /// Pairs of faces that share a cell, each once: in the cell of the lower corner of what their boxes share.
-void SelfContact::search() {
-  ++searches_;
+void SelfContact::broad_phase() {
+  ++broad_phase_count_;
   searched_.seen = from_;
-  sifted_.seen.clear();
-  const double way = spread(searched_, to_);
-  searched_.allowance = std::max(1.5 * way, std::clamp(8 * way, least_allowance * edge_, most_allowance * edge_));
+  filtered_.seen.clear();
+  const double displacement = spread(searched_, to_);
+  searched_.allowance =
+      std::max(1.5 * displacement, std::clamp(8 * displacement, min_allowance * edge_, max_allowance * edge_));
   const double reach = reach_of(searched_.allowance);
   near_.clear();
   std::vector<Eigen::AlignedBox3d> boxes(faces_.size());
@@ -173,8 +173,8 @@ void SelfContact::search() {
     all.extend(boxes[f]);
     size += boxes[f].sizes().maxCoeff() / static_cast<double>(faces_.size());
   }
-  constexpr double most_cells = 1 << 20;  // in each direction
-  const double cell = std::max(size, all.sizes().maxCoeff() / most_cells);
+  constexpr double max_cells = 1 << 20;  // in each direction
+  const double cell = std::max(size, all.sizes().maxCoeff() / max_cells);
   const auto cell_of = [&](const Vec3& x) -> Eigen::Vector3i {
     return ((x - all.min()) / cell).array().floor().cast<int>();
   };
@@ -196,28 +196,28 @@ void SelfContact::search() {
       for (std::size_t q = p + 1; q < last; ++q) {
         const auto &one = boxes[at(entries[p].second)], &other = boxes[at(entries[q].second)];
         if (!one.intersects(other) || key_of(cell_of(one.min().cwiseMax(other.min()))) != entries[p].first) continue;
-        offer(entries[p].second, entries[q].second, reach);
+        add_candidates(entries[p].second, entries[q].second, reach);
       }
   }
   std::sort(near_.begin(), near_.end());
 }
 
-void SelfContact::offer(int one, int other, double reach) {
+void SelfContact::add_candidates(int one, int other, double reach) {
   for (const int n : own_nodes_[at(one)])
-    if (n >= 0) offer_node(n, other, reach);
+    if (n >= 0) add_node_candidates(n, other, reach);
   for (const int n : own_nodes_[at(other)])
-    if (n >= 0) offer_node(n, one, reach);
+    if (n >= 0) add_node_candidates(n, one, reach);
   for (const int e : own_edges_[at(one)])
     for (const int d : own_edges_[at(other)])
-      if (e >= 0 && d >= 0) offer_edges(std::min(e, d), std::max(e, d), reach);
+      if (e >= 0 && d >= 0) add_edge_candidates(std::min(e, d), std::max(e, d), reach);
 }
 
-void SelfContact::offer_node(int node, int face, double reach) {
+void SelfContact::add_node_candidates(int node, int face, double reach) {
   const Triangle& corners = faces_[at(face)];
   if (std::find(corners.begin(), corners.end(), node) != corners.end()) return;
   if (squared_distance({false, node, face}) > reach * reach) return;
   // Overlapping at rest, or of one body's thin end: no contact.
-  const SkinPair pair{{node, corners[0], corners[1], corners[2]}, 0};
+  const ContactPair pair{{node, corners[0], corners[1], corners[2]}, 0};
   const auto at_rest = point_of(pair, [this](int n) { return rest_[at(n)]; });
   if (at_rest && at_rest->gap < -same_overlap * edge_ && is_within(pair, *at_rest)) {
     const Vec3 normal = area_vector(rest_[at(corners[0])], rest_[at(corners[1])], rest_[at(corners[2])]).normalized();
@@ -227,12 +227,12 @@ void SelfContact::offer_node(int node, int face, double reach) {
   near_.push_back({false, node, face});
 }
 
-void SelfContact::offer_edges(int one, int other, double reach) {
+void SelfContact::add_edge_candidates(int one, int other, double reach) {
   const auto [a, b] = edges_[at(one)].ends;
   const auto [c, d] = edges_[at(other)].ends;
   if (a == c || a == d || b == c || b == d) return;
   if (squared_distance({true, one, other}) > reach * reach) return;
-  const SkinPair pair{{a, b, c, d}, side_of(edges_[at(one)], edges_[at(other)], rest_)};
+  const ContactPair pair{{a, b, c, d}, side_of(edges_[at(one)], edges_[at(other)], rest_)};
   const auto at_rest = point_of(pair, [this](int n) { return rest_[at(n)]; });
   if (at_rest && at_rest->gap < -same_overlap * edge_ && is_within(pair, *at_rest)) return;
   near_.push_back({true, one, other});
@@ -244,24 +244,25 @@ double SelfContact::squared_distance(const Candidate& candidate) const {
   if (!candidate.edges) {
     const Triangle& corners = faces_[at(candidate.second)];
     const Vec3 &p = x(candidate.first), &a = x(corners[0]), &b = x(corners[1]), &c = x(corners[2]);
-    const auto [u, v, w] = nearest_weights(p, a, b, c);
+    const auto [u, v, w] = closest_point_weights(p, a, b, c);
     return (u * a + v * b + w * c - p).squaredNorm();
   }
   const auto [a, b] = edges_[at(candidate.first)].ends;
   const auto [c, d] = edges_[at(candidate.second)].ends;
   const Vec3 u = x(b) - x(a), v = x(d) - x(c);
-  const auto [s, t] = nearest_on_segments(x(a), u, x(c), v);
+  const auto [s, t] = closest_on_segments(x(a), u, x(c), v);
   return (x(a) + s * u - x(c) - t * v).squaredNorm();
 }
 
 /// Of near pairs those that can meet while nodes go far less than a search allows for. What is inside already stays,
 /// however deep.
-void SelfContact::sift() {
-  sifted_.seen = from_;
-  const double way = spread(sifted_, to_);
-  sifted_.allowance = std::min(searched_.allowance,
-                               std::max(1.5 * way, std::clamp(8 * way, least_sifted * edge_, most_sifted * edge_)));
-  const double reach = reach_of(sifted_.allowance);
+void SelfContact::filter_candidates() {
+  filtered_.seen = from_;
+  const double displacement = spread(filtered_, to_);
+  filtered_.allowance =
+      std::min(searched_.allowance,
+               std::max(1.5 * displacement, std::clamp(8 * displacement, min_sifted * edge_, max_sifted * edge_)));
+  const double reach = reach_of(filtered_.allowance);
   close_.clear();
   std::copy_if(near_.begin(), near_.end(), std::back_inserter(close_), [&](const Candidate& candidate) {
     return squared_distance(candidate) <= reach * reach || overlaps(candidate);
@@ -270,7 +271,7 @@ void SelfContact::sift() {
 
 /// Whether what crosses lies inside, if not far beside where it crossed.
 bool SelfContact::overlaps(const Candidate& candidate) const {
-  const SkinPair pair = pair_of(candidate);
+  const ContactPair pair = pair_of(candidate);
   const auto point = point_of(pair, [this](int n) { return from_[at(n)]; });
   return point && point->gap < 0 && is_within(pair, *point, beside);
 }
@@ -298,11 +299,11 @@ double SelfContact::height(int face) const {
 bool SelfContact::is_ridge_towards(const Edge& edge, const Vec3& normal) const {
   const auto [one, other] = edge.faces;
   const Vec3 n = face_normal(one, from_), m = face_normal(other, from_);
-  const Triangle& across = faces_[at(other)];
-  for (const int k : across) {
+  const Triangle& plane_normal = faces_[at(other)];
+  for (const int k : plane_normal) {
     if (k == edge.ends[0] || k == edge.ends[1]) continue;
-    const Vec3 way = from_[at(k)] - from_[at(edge.ends[0])];
-    if (!(n.dot(way) < -flat * way.norm())) return false;
+    const Vec3 displacement = from_[at(k)] - from_[at(edge.ends[0])];
+    if (!(n.dot(displacement) < -flat * displacement.norm())) return false;
   }
   const double c = n.dot(m), p = normal.dot(n), q = normal.dot(m), determinant = 1 - c * c;
   return p - c * q >= -slack * determinant && q - c * p >= -slack * determinant;
@@ -314,7 +315,7 @@ int SelfContact::side_of(const Edge& one, const Edge& other, const Places& x) co
 }
 
 /// In the skin's numbers.
-SkinPair SelfContact::pair_of(const Candidate& candidate) const {
+ContactPair SelfContact::pair_of(const Candidate& candidate) const {
   if (!candidate.edges) {
     const auto [a, b, c] = faces_[at(candidate.second)];
     return {{candidate.first, a, b, c}, 0};
@@ -323,7 +324,7 @@ SkinPair SelfContact::pair_of(const Candidate& candidate) const {
   return {{one.ends[0], one.ends[1], other.ends[0], other.ends[1]}, side_of(one, other, from_)};
 }
 
-bool SelfContact::meets(const Candidate& candidate, const SkinPair& pair) const {
+bool SelfContact::meets(const Candidate& candidate, const ContactPair& pair) const {
   std::array<Vec3, 4> from, to;
   for (std::size_t k = 0; k < 4; ++k) {
     from[k] = from_[at(pair.nodes[k])];
@@ -338,7 +339,7 @@ bool SelfContact::meets(const Candidate& candidate, const SkinPair& pair) const 
   if (!there || !is_within(pair, *there)) return false;
   if (!candidate.edges)
     return node_normal(candidate.first).dot(first->normal) < -facing &&
-           (first->gap >= 0 || -first->gap < deepest * height(candidate.second));
+           (first->gap >= 0 || -first->gap < max_penetration * height(candidate.second));
   const Vec3 u = from[1] - from[0], v = from[3] - from[2];
   if (u.cross(v).norm() < parallel * u.norm() * v.norm()) return false;
   const Edge &one = edges_[at(candidate.first)], &other = edges_[at(candidate.second)];
@@ -346,12 +347,12 @@ bool SelfContact::meets(const Candidate& candidate, const SkinPair& pair) const 
   if (first->gap >= 0) return true;
   double least = height(one.faces[0]);
   for (const int face : {one.faces[1], other.faces[0], other.faces[1]}) least = std::min(least, height(face));
-  return -first->gap < deepest * least;
+  return -first->gap < max_penetration * least;
 }
 
 std::size_t SelfContact::bytes() const {
   return bytes_of(nodes_, rest_, faces_, apex_, edges_, start_, round_, own_nodes_, own_edges_) +
-         bytes_of(from_, to_, searched_.seen, sifted_.seen, near_, close_, met_);
+         bytes_of(from_, to_, searched_.seen, filtered_.seen, near_, close_, met_);
 }
 
 }  // namespace heml

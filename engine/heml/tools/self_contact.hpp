@@ -27,22 +27,22 @@
 namespace heml {
 
 /// Two bits of surface, inner numbers: a node and a face's corners, or an edge's ends and another's.
-struct SkinPair {
+struct ContactPair {
   std::array<int, 4> nodes;
   int side = 0;  ///< of edges, 1 or −1: times (b − a)×(d − c) it points out of what the second belongs to; 0: a face
 };
 
-inline bool operator<(const SkinPair& a, const SkinPair& b) {
+inline bool operator<(const ContactPair& a, const ContactPair& b) {
   return std::tie(a.nodes, a.side) < std::tie(b.nodes, b.side);
 }
-inline bool operator==(const SkinPair& a, const SkinPair& b) { return a.nodes == b.nodes && a.side == b.side; }
+inline bool operator==(const ContactPair& a, const ContactPair& b) { return a.nodes == b.nodes && a.side == b.side; }
 
 /// The way from the second to the first, with its nodes at x, m: of the face's plane and of the edges' lines, however
 /// far they go on. No direction where a face is a line, or edges are parallel: none then.
-std::optional<ContactPoint> point_of(const SkinPair& pair, const std::array<Vec3, 4>& x);
+std::optional<ContactPoint> point_of(const ContactPair& pair, const std::array<Vec3, 4>& x);
 
 template <class At>
-std::optional<ContactPoint> point_of(const SkinPair& pair, const At& at) {
+std::optional<ContactPoint> point_of(const ContactPair& pair, const At& at) {
   const auto [a, b, c, d] = pair.nodes;
   return point_of(pair, std::array<Vec3, 4>{at(a), at(b), at(c), at(d)});
 }
@@ -56,14 +56,14 @@ class SelfContact {
 
   /// Pairs that touch, or cross, while nodes go straight from one place to another, m: from(node), to(node). Ascending.
   template <class From, class To>
-  const std::vector<SkinPair>& meeting(const From& from, const To& to) {
+  const std::vector<ContactPair>& contacts_between(const From& from, const To& to) {
     from_.clear(), to_.clear();
     for (const int n : nodes_) from_.emplace_back(from(n)), to_.emplace_back(to(n));
     find();
     return met_;
   }
 
-  long searches() const { return searches_; }  ///< so far
+  long broad_phase_count() const { return broad_phase_count_; }  ///< so far
   std::size_t bytes() const;
 
  private:
@@ -78,27 +78,27 @@ class SelfContact {
   };
   using Places = std::vector<Vec3>;
   // All numbers below are the skin's own.
-  void take_rest(const TetMesh& mesh);
+  void set_rest(const TetMesh& mesh);
   void make_edges();
   void find();
   /// Places for which it is known which pairs can meet.
-  struct Survey {
+  struct CandidateSet {
     Places seen;           ///< empty: none yet
     double allowance = 0;  ///< m, that nodes may be from there
   };
-  bool covers(const Survey& survey) const;
-  double spread(const Survey& survey, const Places& x) const;
+  bool covers(const CandidateSet& set) const;
+  double spread(const CandidateSet& set, const Places& x) const;
   double reach_of(double allowance) const;
-  void search();
-  void sift();
+  void broad_phase();
+  void filter_candidates();
   double squared_distance(const Candidate& candidate) const;
   bool overlaps(const Candidate& candidate) const;
-  void offer(int one, int other, double reach);
-  void offer_node(int node, int face, double reach);
-  void offer_edges(int one, int other, double reach);
+  void add_candidates(int one, int other, double reach);
+  void add_node_candidates(int node, int face, double reach);
+  void add_edge_candidates(int one, int other, double reach);
   int side_of(const Edge& one, const Edge& other, const Places& x) const;
-  SkinPair pair_of(const Candidate& candidate) const;
-  bool meets(const Candidate& candidate, const SkinPair& pair) const;
+  ContactPair pair_of(const Candidate& candidate) const;
+  bool meets(const Candidate& candidate, const ContactPair& pair) const;
   Vec3 face_normal(int face, const Places& x) const;
   Vec3 node_normal(int node) const;
   double height(int face) const;
@@ -115,10 +115,10 @@ class SelfContact {
   std::vector<int> start_, round_;               ///< faces round each node: round_[start_[n] .. start_[n + 1])
   std::vector<Triangle> own_nodes_, own_edges_;  ///< of each face: nodes, edges that no face before it has; −1
   Places from_, to_;
-  Survey searched_, sifted_;
-  std::vector<Candidate> near_, close_;  ///< pairs that can meet: of searched_; of these, of sifted_
-  std::vector<SkinPair> met_;
-  long searches_ = 0;
+  CandidateSet searched_, filtered_;
+  std::vector<Candidate> near_, close_;  ///< pairs that can meet: of searched_; of these, of filtered_
+  std::vector<ContactPair> met_;
+  long broad_phase_count_ = 0;
 };
 
 }  // namespace heml

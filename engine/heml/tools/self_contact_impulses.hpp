@@ -24,29 +24,29 @@ class SelfContactImpulses {
   /// The pairs that were pushed, as they lie now, are to come no nearer.
   void stop(const std::vector<Real>& inverse_mass, const Real* x);
 
-  bool empty() const { return touches_.empty(); }
+  bool empty() const { return active_.empty(); }
   /// Changes velocities, 3 #V, until all is as it is to be. It may be done again when others have changed them.
   void push(const std::vector<Real>& inverse_mass, Real* v);
 
   /// Calls visit(node) for the nodes of pairs.
   template <class Visit>
   void each_node(const Visit& visit) const {
-    for (const Touch& touch : touches_)
+    for (const ActiveContact& touch : active_)
       for (const int n : touch.point.nodes) visit(n);
   }
 
   /// Calls visit(point) for each pair.
   template <class Visit>
-  void each_touch(const Visit& visit) const {
-    for (const Touch& touch : touches_) visit(touch.point);
+  void each_contact_point(const Visit& visit) const {
+    for (const ActiveContact& touch : active_) visit(touch.point);
   }
 
   /// Adds what was done since meet() or stop(), with a weight, to the deeds of a tick; of its forces, N s.
-  void tell(double weight, double& pressed, ContactDeeds& deeds) const;
+  void publish(double weight, double& normal_force, ContactReport& report) const;
 
  private:
-  struct Touch {
-    SkinPair pair;
+  struct ActiveContact {
+    ContactPair pair;
     ContactPoint point;
     double least;               ///< m/s, that the gap is to grow by
     double light;               ///< 1/kg, of the pair's motion
@@ -55,9 +55,9 @@ class SelfContactImpulses {
     Vec3 along = Vec3::Zero();  ///< N s, friction's
     double work = 0;            ///< J, friction's
   };
-  double push(Touch& touch, const std::vector<Real>& inverse_mass, Real* v) const;
+  double push(ActiveContact& touch, const std::vector<Real>& inverse_mass, Real* v) const;
 
-  std::vector<Touch> touches_;
+  std::vector<ActiveContact> active_;
   double friction_ = 0;
 };
 

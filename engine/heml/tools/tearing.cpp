@@ -26,7 +26,7 @@ Tearing::Tearing(const TearingSettings& settings, const TetMesh& mesh, const Top
     : limit_(settings.stretch), around_(mesh, topology), elements_(topology.elements), is_beyond_(elements_.size()) {
   for (const int t : elements_) inverse_rest_.push_back(edges(mesh.tets[as_index(t)], mesh.nodes).inverse());
   on_surface_.assign(mesh.nodes.size(), false);
-  for (const Triangle& face : boundary_of(with_elements(mesh, elements_)).triangles)
+  for (const Triangle& face : extract_boundary(with_elements(mesh, elements_)).triangles)
     for (const int n : face) on_surface_[as_index(n)] = true;
 }
 
@@ -35,20 +35,20 @@ Mat3 Tearing::gradient(const TetMesh& mesh, const std::vector<Vec3>& x, std::siz
 }
 
 /// The most stretched first.
-std::vector<Tearing::Torn> Tearing::beyond(const TetMesh& mesh, const std::vector<Vec3>& x, ThreadTeam& team) {
-  team.for_ranges(elements_.size(), grain, [&](std::size_t begin, std::size_t end) {
+std::vector<Tearing::TearCandidate> Tearing::beyond(const TetMesh& mesh, const std::vector<Vec3>& x, ThreadTeam& team) {
+  team.parallel_for(elements_.size(), grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t e = begin; e < end; ++e) {
       const Mat3 F = gradient(mesh, x, e);
       is_beyond_[e] = F.allFinite() && !is_positive(limit_ * limit_ * Mat3::Identity() - F.transpose() * F);
     }
   });
-  std::vector<Torn> torn;
+  std::vector<TearCandidate> torn;
   for (std::size_t e = 0; e < elements_.size(); ++e) {
     if (!is_beyond_[e]) continue;
     const Eigen::JacobiSVD<Mat3> svd(gradient(mesh, x, e), Eigen::ComputeFullV);
     torn.push_back({svd.singularValues()[0], elements_[e], svd.matrixV().col(0)});
   }
-  std::sort(torn.begin(), torn.end(), [](const Torn& a, const Torn& b) {
+  std::sort(torn.begin(), torn.end(), [](const TearCandidate& a, const TearCandidate& b) {
     return a.stretch != b.stretch ? a.stretch > b.stretch : a.element < b.element;
   });
   return torn;
@@ -56,25 +56,25 @@ std::vector<Tearing::Torn> Tearing::beyond(const TetMesh& mesh, const std::vecto
 
 /// Of the element's nodes on the surface, where tears begin and go on, that with the fewest elements round it; else of
 /// all. None where each is held or has elements on one side alone.
-std::optional<Opening> Tearing::opening_of(const Torn& torn, const TetMesh& mesh,
-                                           const std::function<bool(int)>& is_held) const {
-  std::optional<Opening> best;
+std::optional<TearOpening> Tearing::opening_of(const TearCandidate& torn, const TetMesh& mesh,
+                                               const std::function<bool(int)>& is_constrained) const {
+  std::optional<TearOpening> best;
   const auto rank = [this](int n) { return std::tuple(!on_surface_[as_index(n)], around_.of(n).size(), n); };
   for (const int n : mesh.tets[as_index(torn.element)]) {
-    const Opening opening{n, torn.across};
-    if (!is_held(n) && opens(opening, mesh, around_) && (!best || rank(n) < rank(best->node))) best = opening;
+    const TearOpening opening{n, torn.plane_normal};
+    if (!is_constrained(n) && can_open(opening, mesh, around_) && (!best || rank(n) < rank(best->node))) best = opening;
   }
   return best;
 }
 
-std::vector<Opening> Tearing::openings(const TetMesh& mesh, const std::vector<Vec3>& x,
-                                       const std::function<bool(int)>& is_held, ThreadTeam& team) {
-  std::vector<Opening> chosen;
+std::vector<TearOpening> Tearing::openings(const TetMesh& mesh, const std::vector<Vec3>& x,
+                                           const std::function<bool(int)>& is_constrained, ThreadTeam& team) {
+  std::vector<TearOpening> chosen;
   std::vector<int> taken;  // elements that share a node with one that was looked at before
-  for (const Torn& torn : beyond(mesh, x, team)) {
-    if (!chosen.empty() && torn.stretch < overdue * limit_) break;
+  for (const TearCandidate& torn : beyond(mesh, x, team)) {
+    if (!chosen.empty() && torn.stretch < overload * limit_) break;
     if (std::find(taken.begin(), taken.end(), torn.element) != taken.end()) continue;
-    const auto opening = opening_of(torn, mesh, is_held);
+    const auto opening = opening_of(torn, mesh, is_constrained);
     if (!opening) continue;
     for (const int n : mesh.tets[as_index(torn.element)])
       for (const int t : around_.of(n))

@@ -15,31 +15,31 @@ namespace heml {
 
 class Tearing {
  public:
-  static constexpr double overdue = 1.25;  ///< of the limit
+  static constexpr double overload = 1.25;  ///< of the limit
 
   /// mesh: at rest; its elements that are there. All numbers are those of mesh and topology.
   Tearing(const TearingSettings& settings, const TetMesh& mesh, const Topology& topology);
 
   /// Nodes that are to open; none in most steps. One, since what it lets go unloads what is round it; others only for
   /// elements that are overdue, and far enough off to share no element with it or its neighbours. x: #V×3, m.
-  /// is_held(node): such a node is not let go, as it would lie where it lies.
-  std::vector<Opening> openings(const TetMesh& mesh, const std::vector<Vec3>& x,
-                                const std::function<bool(int)>& is_held, ThreadTeam& team);
-  const NodeElements& around() const { return around_; }
+  /// is_constrained(node): such a node is not let go, as it would lie where it lies.
+  std::vector<TearOpening> openings(const TetMesh& mesh, const std::vector<Vec3>& x,
+                                    const std::function<bool(int)>& is_constrained, ThreadTeam& team);
+  const NodeToElements& around() const { return around_; }
 
  private:
-  struct Torn {
+  struct TearCandidate {
     double stretch;
     int element;
-    Vec3 across;  ///< at rest
+    Vec3 plane_normal;  ///< at rest
   };
   Mat3 gradient(const TetMesh& mesh, const std::vector<Vec3>& x, std::size_t element) const;
-  std::vector<Torn> beyond(const TetMesh& mesh, const std::vector<Vec3>& x, ThreadTeam& team);
-  std::optional<Opening> opening_of(const Torn& torn, const TetMesh& mesh,
-                                    const std::function<bool(int)>& is_held) const;
+  std::vector<TearCandidate> beyond(const TetMesh& mesh, const std::vector<Vec3>& x, ThreadTeam& team);
+  std::optional<TearOpening> opening_of(const TearCandidate& torn, const TetMesh& mesh,
+                                        const std::function<bool(int)>& is_constrained) const;
 
   double limit_;
-  NodeElements around_;
+  NodeToElements around_;
   std::vector<int> elements_;
   std::vector<Mat3> inverse_rest_;  ///< Dm⁻¹, 1/m
   std::vector<char> is_beyond_;

@@ -1,6 +1,6 @@
 #include <algorithm>
 #include <cmath>
-#include <heml/elastic/block_rows.hpp>
+#include <heml/elastic/bsr_matrix.hpp>
 #include <heml/materials/material.hpp>
 #include <heml/world/body_objective.hpp>
 #include <limits>
@@ -9,7 +9,7 @@ namespace heml {
 namespace {
 
 constexpr std::size_t values_remembered = 3;  // where a step began, where it would fly, where it has come
-constexpr double deepest = 1e-4;              // of the body's size: how far inside a table or a probe tissue may be
+constexpr double max_penetration = 1e-4;      // of the body's size: how far inside a table or a probe tissue may be
 constexpr double long_way = 0.1;              // of the spacing of nodes: a shorter step turns no good element
 constexpr double nothing = 1e-12;             // N: forces below vanish (contract, "tolerance")
 
@@ -33,7 +33,7 @@ BodyObjective<Real>::BodyObjective(ElasticBody<Real>& body, const Model<Real>& m
       free_(free),
       grasps_(grasps),
       team_(team),
-      contact_(contacts, deepest * model.diagonal) {
+      contact_(contacts, max_penetration * model.diagonal) {
   find_noise();
 }
 
@@ -62,7 +62,7 @@ void BodyObjective<Real>::find_noise() {
   contact_.set_stiffness(std::move(stiffness));
   noise_ = epsilon * bound * inertia * model_.spacing * model_.spacing;
   const double worst = epsilon * bound * model_.diagonal;
-  acceleration_noise_ = std::clamp(safety * at_rest, worst / 10, worst);
+  acceleration_round_off_ = std::clamp(safety * at_rest, worst / 10, worst);
 }
 
 template <class Real>
@@ -82,7 +82,7 @@ void BodyObjective<Real>::set_time(double time, const Vec3& gravity) {
 template <class Real>
 void BodyObjective<Real>::move_tools(double time) {
   if (!contact_.empty()) contact_.set_time(time);
-  forget_answers();
+  clear_cache();
 }
 
 template <class Real>
@@ -98,9 +98,9 @@ void BodyObjective<Real>::end_step(const Vector& x) {
 }
 
 template <class Real>
-bool BodyObjective<Real>::revise(const Vector& x) {
-  if (contact_.empty() || !contact_.revise(x)) return false;
-  forget_answers();
+bool BodyObjective<Real>::update_lagged(const Vector& x) {
+  if (contact_.empty() || !contact_.update_lagged(x)) return false;
+  clear_cache();
   return true;
 }
 
@@ -108,7 +108,7 @@ template <class Real>
 void BodyObjective<Real>::set_velocity(double d, const Vector& x_bar) {
   d_ = d;
   x_bar_ = x_bar;
-  forget_answers();
+  clear_cache();
 }
 
 template <class Real>
@@ -126,12 +126,13 @@ void BodyObjective<Real>::set_load(double fraction) {
 }
 
 template <class Real>
-void BodyObjective<Real>::place_held(double fraction, Vector& x) const {
-  for (const HeldNode& held : model_.held) x.segment<3>(3 * held.node) = held_at(model_, held, fraction * duration_).x;
+void BodyObjective<Real>::apply_constraints(double fraction, Vector& x) const {
+  for (const ConstrainedNode& constrained : model_.constrained)
+    x.segment<3>(3 * constrained.node) = prescribed_at(model_, constrained, fraction * duration_).x;
 }
 
 template <class Real>
-double BodyObjective<Real>::imbalance(const Vector& r) const {
+double BodyObjective<Real>::relative_residual(const Vector& r) const {
   double reactions = 0;
   for (std::size_t n = 0; n < free_.number.size(); ++n)
     if (free_.number[n] < 0) reactions += forces_.segment<3>(3 * static_cast<int>(n)).squaredNorm();
@@ -142,7 +143,7 @@ double BodyObjective<Real>::imbalance(const Vector& r) const {
 }
 
 template <class Real>
-double BodyObjective<Real>::largest_acceleration(const Vector& r) const {
+double BodyObjective<Real>::max_acceleration(const Vector& r) const {
   double largest = 0;
   for (const int n : free_.node) {
     const double mass = static_cast<double>(mass_[static_cast<std::size_t>(n)]);
@@ -152,13 +153,13 @@ double BodyObjective<Real>::largest_acceleration(const Vector& r) const {
 }
 
 template <class Real>
-bool BodyObjective<Real>::is_round_off(const Vector& r) const {
+bool BodyObjective<Real>::is_at_round_off(const Vector& r) const {
   constexpr double deformed = 10;  // times the round-off at rest
-  return largest_acceleration(r) <= deformed * acceleration_noise_;
+  return max_acceleration(r) <= deformed * acceleration_round_off_;
 }
 
 template <class Real>
-double BodyObjective<Real>::unbalanced() const {
+double BodyObjective<Real>::relative_net_load() const {
   Vec3 sum = Vec3::Zero();
   double sizes = 0;
   for (const int n : free_.node) {
@@ -176,19 +177,19 @@ int BodyObjective<Real>::count_inverted(const Vector& x) const {
 }
 
 template <class Real>
-bool BodyObjective<Real>::turns_inside_out(const Vector& from, const Vector& to) const {
+bool BodyObjective<Real>::inverts_elements(const Vector& from, const Vector& to) const {
   return (to - from).template lpNorm<Eigen::Infinity>() > long_way * model_.spacing &&
          count_inverted(to) > count_inverted(from);
 }
 
 template <class Real>
-bool BodyObjective<Real>::acceptable(const Vector& x) const {
+bool BodyObjective<Real>::is_admissible(const Vector& x) const {
   return count_inverted(x) <= inverted_at_start_;
 }
 
 template <class Real>
 void BodyObjective<Real>::accept(const Vector& x) {
-  if (body_.has_memory()) body_.commit(as_real(x, x_));
+  if (body_.has_internal_state()) body_.commit(as_real(x, x_));
   end_step(x);
 }
 
@@ -215,7 +216,7 @@ void BodyObjective<Real>::add_external(const Real* x, const Vector& x_double) {
 }
 
 template <class Real>
-void BodyObjective<Real>::forget_answers() {
+void BodyObjective<Real>::clear_cache() {
   forces_at_.resize(0);
   values_.clear();
 }
@@ -260,8 +261,8 @@ double BodyObjective<Real>::find_value(const Vector& x) {
     for (std::size_t k = 0; k < load.nodes.size(); ++k) {
       const Vec3 moved = at(x, load.nodes[k]) - model_.mesh.nodes[static_cast<std::size_t>(load.nodes[k])];
       for (int i = 0; i < 3; ++i)
-        sum -=
-            ramp(time_, load.over) * static_cast<double>(load.forces[3 * k + static_cast<std::size_t>(i)]) * moved[i];
+        sum -= ramp(time_, load.ramp_time) * static_cast<double>(load.forces[3 * k + static_cast<std::size_t>(i)]) *
+               moved[i];
     }
   if (!contact_.empty()) sum += contact_.value(x);
   for (const auto& grasp : grasps_) {
@@ -281,7 +282,7 @@ template <class Visit>
 void BodyObjective<Real>::each_pressed_face(const Vector& x, const Visit& visit) const {
   if (x.size() == 0) return;
   for (const auto& load : model_.pressures) {
-    const double p = -static_cast<double>(load.pascal) * ramp(time_, load.over) / 6;
+    const double p = -static_cast<double>(load.pascal) * ramp(time_, load.ramp_time) / 6;
     for (const Triangle& face : load.faces) {
       const Vec3 a = at(x, face[0]), b = at(x, face[1]), c = at(x, face[2]);
       visit(face, p, std::array<Vec3, 3>{c - b, a - c, b - a});
@@ -294,7 +295,7 @@ void BodyObjective<Real>::linearise(const Vector& x, Projection projection) {
   body_.linearise(as_real(x, x_), team_);
   body_.project(projection, team_);
   const bool with_pressure = !model_.pressures.empty() && projection == Projection::none;
-  linearised_at_ = with_pressure ? x : Vector();
+  linearisation_point_ = with_pressure ? x : Vector();
   if (!contact_.empty()) contact_.linearise(x);
 }
 
@@ -302,16 +303,16 @@ template <class Real>
 void BodyObjective<Real>::product(const Vector& dx, Vector& out) {
   const Real* change = as_real(dx, dx_);
   f_.resize(dx_.size());
-  body_.force_change(change, f_.data(), team_);
+  body_.force_differential(change, f_.data(), team_);
   out.setZero(dx.size());
   for (const int n : free_.node)
     for (int i = 0; i < 3; ++i)
       out[3 * n + i] = -static_cast<double>(f_[static_cast<std::size_t>(3 * n + i)]) +
-                       anchor_ * static_cast<double>(mass_[static_cast<std::size_t>(n)]) * dx[3 * n + i];
+                       regularisation_ * static_cast<double>(mass_[static_cast<std::size_t>(n)]) * dx[3 * n + i];
   const auto add = [&](int n, const Vec3& force) {
     if (free_.number[static_cast<std::size_t>(n)] >= 0) out.segment<3>(3 * n) += force;
   };
-  each_pressed_face(linearised_at_, [&](const Triangle& face, double p, const std::array<Vec3, 3>& w) {
+  each_pressed_face(linearisation_point_, [&](const Triangle& face, double p, const std::array<Vec3, 3>& w) {
     Vec3 push = Vec3::Zero();
     for (std::size_t j = 0; j < 3; ++j) push += p * w[j].cross(at(dx, face[j]));
     for (const int n : face) add(n, -push);
@@ -343,7 +344,7 @@ void BodyObjective<Real>::add_stiffness(BlockMatrix& matrix) {
     matrix.add_pair(a, b, -B);
   });
   // Of −p [w_j]× in row i: p/2 ([w_i]× − [w_j]×).
-  each_pressed_face(linearised_at_, [&](const Triangle& face, double p, const std::array<Vec3, 3>& w) {
+  each_pressed_face(linearisation_point_, [&](const Triangle& face, double p, const std::array<Vec3, 3>& w) {
     for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t j = (i + 1) % 3;
       matrix.add_pair(face[i], face[j], p / 2 * cross_matrix(w[i] - w[j]));
@@ -354,8 +355,8 @@ void BodyObjective<Real>::add_stiffness(BlockMatrix& matrix) {
 }
 
 template <class Real>
-bool BodyObjective<Real>::add_stiffness_in_float(BlockRows& rows) {
-  if (!symmetric() || !contact_.within_elements() || !body_.add_stiffness(rows, team_)) return false;
+bool BodyObjective<Real>::add_stiffness_single_precision(BsrMatrix& rows) {
+  if (!is_symmetric() || !contact_.within_elements() || !body_.add_stiffness(rows, team_)) return false;
   add_contact_stiffness(rows, [&](int a, int b, const Mat3& K) {
     rows.add_edge(a, b, -K);  // and away again what this adds to the nodes' own blocks
     rows.add_node(a, K);
@@ -388,9 +389,9 @@ void BodyObjective<Real>::add_diagonal(Matrix& matrix) const {
     grasp.each_stiffness([&](int n, Real k, Real damping) {
       matrix.add_diagonal(n, static_cast<double>(k) + (d_ > 0 ? static_cast<double>(damping) / d_ : 0));
     });
-  if (anchor_ > 0)
+  if (regularisation_ > 0)
     for (const int n : free_.node)
-      matrix.add_diagonal(n, anchor_ * static_cast<double>(mass_[static_cast<std::size_t>(n)]));
+      matrix.add_diagonal(n, regularisation_ * static_cast<double>(mass_[static_cast<std::size_t>(n)]));
 }
 
 template class BodyObjective<float>;

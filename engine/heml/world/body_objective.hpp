@@ -6,7 +6,7 @@
 // symmetric, and the assembled stiffness has the symmetric part of pressure's.
 #include <deque>
 #include <heml/base/thread_team.hpp>
-#include <heml/dynamics/equilibrium.hpp>
+#include <heml/dynamics/static_solve.hpp>
 #include <heml/elastic/body.hpp>
 #include <heml/tools/contact_potential.hpp>
 #include <heml/tools/grasp.hpp>
@@ -16,7 +16,7 @@
 namespace heml {
 
 template <class Real>
-class BodyObjective final : public LoadedObjective {
+class BodyObjective final : public LoadDependentObjective {
  public:
   /// mass: #V, kg. All must outlive this.
   BodyObjective(ElasticBody<Real>& body, const Model<Real>& model, const std::vector<Real>& mass, const FreeNodes& free,
@@ -27,53 +27,53 @@ class BodyObjective final : public LoadedObjective {
   /// Velocities are (x − x_bar)/d, for what is damped; d = 0: no velocity.
   void set_velocity(double d, const Vector& x_bar);
   /// Adds a · mass to the stiffness, not to the residual, a in 1/s²: holds what nothing else does while it is solved.
-  void set_anchor(double a) { anchor_ = a; }
+  void set_regularisation(double a) { regularisation_ = a; }
 
   /// A step begins at x, at a time, s; it has ended at x.
   void begin_step(const Vector& x, double time);
   void end_step(const Vector& x);
   /// Moves tools alone to where they are at a time, s.
   void move_tools(double time);
-  void forget_contact() { contact_.forget(); }
+  void reset_contact() { contact_.reset(); }
   /// From now on tissue passes tissue.
-  void leave_tissue() { contact_.leave_tissue(); }
+  void disable_self_contact() { contact_.disable_self_contact(); }
   /// Adds what contact does at x, where the last step has ended, N.
   void add_contact(const Vector& x, Vector& f) { contact_.add_forces(x, f); }
 
   // Static worlds: the load is the fraction of a duration, s; start: the state at load 0.
   void begin_static(double duration, const Vec3& gravity, const Vector& start);
   void set_load(double fraction) override;
-  void place_held(double fraction, Vector& x) const override;
-  double imbalance(const Vector& r) const override;
-  bool is_round_off(const Vector& r) const override;
-  bool acceptable(const Vector& x) const override;
+  void apply_constraints(double fraction, Vector& x) const override;
+  double relative_residual(const Vector& r) const override;
+  bool is_at_round_off(const Vector& r) const override;
+  bool is_admissible(const Vector& x) const override;
   void accept(const Vector& x) override;
-  bool revise(const Vector& x) override;
+  bool update_lagged(const Vector& x) override;
 
   bool residual(const Vector& x, Vector& r) override;
   std::optional<double> value(const Vector& x) override;
-  double value_noise() const override { return noise_; }
-  bool turns_inside_out(const Vector& from, const Vector& to) const override;
+  double value_round_off() const override { return noise_; }
+  bool inverts_elements(const Vector& from, const Vector& to) const override;
   void linearise(const Vector& x, Projection projection = Projection::none) override;
   void product(const Vector& dx, Vector& out) override;
-  bool symmetric() const override { return linearised_at_.size() == 0; }
+  bool is_symmetric() const override { return linearisation_point_.size() == 0; }
   void add_stiffness(BlockMatrix& matrix) override;
-  bool add_stiffness_in_float(BlockRows& rows) override;
+  bool add_stiffness_single_precision(BsrMatrix& rows) override;
 
   /// Force of all loads and gravity together at the last residual(), as a part of their sizes' sum: 0 where they
   /// balance.
-  double unbalanced() const;
+  double relative_net_load() const;
   /// Forces from all sides but supports at the last residual(), 3 #V, N.
   const Vector& forces() const { return forces_; }
   /// ‖M⁻¹r‖_∞, m/s².
-  double largest_acceleration(const Vector& r) const;
+  double max_acceleration(const Vector& r) const;
   /// Round-off of forces, as an acceleration, m/s²: the largest at any node, at rest.
-  double acceleration_noise() const { return acceleration_noise_; }
+  double acceleration_round_off() const { return acceleration_round_off_; }
 
  private:
   const Real* as_real(const Vector& x, std::vector<Real>& scratch) const;
   void find_noise();
-  void forget_answers();
+  void clear_cache();
   void find_forces(const Vector& x);
   double find_value(const Vector& x);
   void add_external(const Real* x, const Vector& x_double);
@@ -92,17 +92,17 @@ class BodyObjective final : public LoadedObjective {
   const std::vector<GraspSpring<Real>>& grasps_;
   ThreadTeam& team_;
   ContactPotential contact_;
-  double time_ = 0, duration_ = 0, d_ = 0, anchor_ = 0;
+  double time_ = 0, duration_ = 0, d_ = 0, regularisation_ = 0;
   Vec3 gravity_ = Vec3::Zero(), full_gravity_ = Vec3::Zero();
   Vector x_bar_;
-  double noise_ = 0, acceleration_noise_ = 0;
+  double noise_ = 0, acceleration_round_off_ = 0;
   int inverted_at_start_ = 0;
   Vector forces_, external_;
   // Solvers ask again where they have just been; both are empty where time, loads or memory have changed since.
   Vector forces_at_;
   std::deque<std::pair<Vector, double>> values_;  ///< positions and Φ there, of the last few
   bool is_defined_ = true;
-  Vector linearised_at_;              ///< 3 #V, where pressure that follows the surface is part of K, else empty
+  Vector linearisation_point_;        ///< 3 #V, where pressure that follows the surface is part of K, else empty
   std::vector<Real> x_, dx_, f_, v_;  ///< scratch
 };
 

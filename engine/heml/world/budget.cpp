@@ -7,9 +7,9 @@
 namespace heml {
 namespace {
 // Of an iteration, a tetrahedron, one core: the stiffness, a dozen products and back-solves, two forces and values. For
-// budgets in milliseconds where no clock may be asked; a session measures (session/budget_keeper.hpp).
+// budgets in milliseconds where no clock may be asked; a session measures (session/budget_controller.hpp).
 constexpr double seconds_an_iteration = 0.7e-6;
-constexpr int most_iterations = 60, most_halvings = 40;
+constexpr int max_iterations = 60, max_halvings = 40;
 }  // namespace
 
 template <class Real>
@@ -18,7 +18,7 @@ int TypedWorld<Real>::stage_iterations() const {
   if (budget.iterations > 0) return budget.iterations;
   const double stages = method_ == Integrator::tr_bdf2 ? 2 : 1;
   const double cost = seconds_an_iteration * static_cast<double>(model_.mesh.tets.size());
-  return std::clamp(static_cast<int>(budget.milliseconds / 1000 / (stages * cost)), 1, most_iterations);
+  return std::clamp(static_cast<int>(budget.milliseconds / 1000 / (stages * cost)), 1, max_iterations);
 }
 
 /// Takes from x, v what energy a step has gained beyond the work of its loads: from the velocity while that has it to
@@ -26,9 +26,9 @@ int TypedWorld<Real>::stage_iterations() const {
 /// surface has no potential: nothing is known there, and nothing done.
 template <class Real>
 void TypedWorld<Real>::limit_energy(double h, double time, Vector& x, Vector& v) {
-  ImplicitParts<Real>& parts = implicit();
-  for (const HeldNode& held : model_.held)
-    if (held_at(model_, held, time).x != held_at(model_, held, state_.time).x) return;
+  ImplicitState<Real>& parts = implicit();
+  for (const ConstrainedNode& constrained : model_.constrained)
+    if (prescribed_at(model_, constrained, time).x != prescribed_at(model_, constrained, state_.time).x) return;
   const auto kinetic = [&](const Vector& velocity) {
     return (parts.mass.array() * velocity.array().square()).sum() / 2;
   };
@@ -36,8 +36,8 @@ void TypedWorld<Real>::limit_energy(double h, double time, Vector& x, Vector& v)
   if (!at_start) return;
   const double may = *at_start + kinetic(parts.v);
   double has = *parts.body.value(x);
-  for (int k = 0; has > may && k <= most_halvings; ++k) {
-    x = k < most_halvings ? Vector(parts.x + (x - parts.x) / 2) : parts.x;
+  for (int k = 0; has > may && k <= max_halvings; ++k) {
+    x = k < max_halvings ? Vector(parts.x + (x - parts.x) / 2) : parts.x;
     v = (x - parts.x) / h;
     has = *parts.body.value(x);
   }
@@ -45,11 +45,11 @@ void TypedWorld<Real>::limit_energy(double h, double time, Vector& x, Vector& v)
   if (moving > left) v *= std::sqrt(left / moving);
   Vector r;
   parts.step.residual(x, r);  // forces are taken from what the objective saw last
-  work_.residual = parts.body.imbalance(r);
+  work_.residual = parts.body.relative_residual(r);
 }
 
 template <class Real>
-std::optional<std::string> TypedWorld<Real>::take(const SetBudget& command) {
+std::optional<std::string> TypedWorld<Real>::execute(const SetBudget& command) {
   if (command.iterations < 1) return "budget: needs one iteration or more";
   if (!setup_.solver.budget) setup_.solver.budget.emplace();
   setup_.solver.budget->iterations = command.iterations;

@@ -54,7 +54,7 @@ struct WithdrawProbe {};
 struct SutureTissue {
   std::array<int, 2> nodes{};  ///< mesh-file order
   double length = 0;           ///< m, in the end
-  double over = 0.5;           ///< s, of drawing in
+  double ramp_time = 0.5;      ///< s, of drawing in
 };
 /// Takes out all sutures.
 struct CutSutures {};
@@ -89,24 +89,25 @@ struct RemoveElements {
 /// Cuts the tissue along what a blade sweeps. Elements are split there and come apart; nothing is lost, nothing moves
 /// but by its own tension. A blade that meets nothing does nothing.
 struct CutTissue {
-  Sweep sweep;           ///< where the blade is, m, in space as the tissue lies now
-  bool goes_on = false;  ///< with the last cut: one stroke, and one edit to undo
+  Sweep sweep;                    ///< where the blade is, m, in space as the tissue lies now
+  bool continues_stroke = false;  ///< with the last cut: one stroke, and one edit to undo
 };
 /// Takes back the last removal or stroke: elements and positions are what they were before it, and so is what they
-/// remember; what happened since is forgotten, time goes on. A stroke that parted nothing is none. What has been grasped
-/// ever since stays grasped. With nothing but edits since, the body goes on as if there had been none, to the bit.
+/// remember; what happened since is forgotten, time goes on. A stroke that parted nothing is none. What has been
+/// grasped ever since stays grasped. With nothing but edits since, the body goes on as if there had been none, to the
+/// bit.
 struct Undo {};
 /// Preconditions implicit steps from now on with what is made for the body as it is now, after elements were removed.
-/// Sessions send it when that has arrived from another thread (World::factor_work); where none has, it is made there
-/// and then, to the same bits.
-struct TakeFactor {};
+/// Sessions send it when that has arrived from another thread (World::preconditioner_build); where none has, it is made
+/// there and then, to the same bits.
+struct AdoptPreconditioner {};
 /// Back to the initial state at time 0, with all elements there again; ticks go on counting. Materials, damping and the
 /// like stay as they are.
 struct Reset {};
 
 using Command = std::variant<Grasp, MoveTool, Release, PinTissue, Unpin, SetTables, MoveProbe, WithdrawProbe,
                              SutureTissue, CutSutures, SetMaterial, SetDamping, SetGravity, SetIntegrator, SetBudget,
-                             SetStepCost, RemoveElements, CutTissue, Undo, TakeFactor, Reset>;
+                             SetStepCost, RemoveElements, CutTissue, Undo, AdoptPreconditioner, Reset>;
 
 /// A command and the tick at whose start it takes effect (the first tick is 0).
 struct Event {

@@ -18,7 +18,7 @@ std::size_t bytes_of_model(const Model<Real>& model) {
   std::size_t sum = bytes_of_mesh(model.mesh);
   sum += bytes_of(model.order.new_node, model.order.file_node, model.order.new_tet, model.order.file_tet);
   sum += bytes_of(model.material_of, model.loaded_faces.triangles, model.loaded_faces.tets, model.surface_nodes);
-  sum += bytes_of(model.held, model.motions, model.speeds);
+  sum += bytes_of(model.constrained, model.prescribed_motions, model.speeds);
   for (const DeadLoad<Real>& load : model.dead) sum += bytes_of(load.nodes, load.forces);
   for (const Pressure<Real>& load : model.pressures) sum += bytes_of(load.faces);
   return sum;
@@ -33,7 +33,7 @@ WorldFacts TypedWorld<Real>::facts() {
   facts.nodes = setup_.mesh.nodes.size();
   facts.tets = setup_.mesh.tets.size();
   facts.live_tets = topology_->elements.size();
-  facts.held_nodes = model_.held.size();
+  facts.constrained_nodes = model_.constrained.size();
   facts.faces = model_.loaded_faces.triangles.size();
   facts.threads = team_.size();
   facts.kernels = body_.kernels();
@@ -50,7 +50,7 @@ StepFacts TypedWorld<Real>::step_facts() {
   facts.tick = setup_.solver.tick();
   facts.stable = stable_step_;
   if (is_explicit(method_) && !setup_.solver.step && stable_step_ > 0)
-    facts.steps_a_tick = static_cast<int>(std::ceil(facts.tick / stable_step_));
+    facts.steps_per_tick = static_cast<int>(std::ceil(facts.tick / stable_step_));
   std::vector<Real> bounds = body_.element_bounds(state_.x.data());
   const auto largest = std::max_element(bounds.begin(), bounds.end());
   if (!(*largest > 0)) return facts;
@@ -67,7 +67,7 @@ template <class Real>
 std::optional<SolverFacts> TypedWorld<Real>::solver_facts() {
   if (is_explicit(method_)) return std::nullopt;
   const SolverSettings& solver = setup_.solver;
-  const ImplicitParts<Real>& parts = implicit();
+  const ImplicitState<Real>& parts = implicit();
   SolverFacts facts;
   facts.minimiser = solver.is_static() ? Minimiser::newton : solver.minimiser;
   facts.preconditioner = parts.linear.preconditioner();
@@ -99,12 +99,12 @@ std::vector<MemoryFacts> TypedWorld<Real>::memory_facts() const {
   std::size_t mesh = bytes_of_mesh(setup_.mesh) + bytes_of_model(model_) + bytes_of(topology_->elements);
   facts.push_back({"mesh", mesh});
   if (whole_) facts.push_back({"undo", bytes_to_undo()});
-  facts.push_back(
-      {"state", of_state(state_) + of_state(last_valid_) + bytes_of(mass_, inverse_mass_, mobility_, element_states_)});
-  if (recovery_) facts.push_back({"recovery", of_state(recovery_->good)});
+  facts.push_back({"state", of_state(state_) + of_state(last_valid_) +
+                                bytes_of(mass_, inverse_mass_, inverse_mass_per_dof_, element_states_)});
+  if (recovery_) facts.push_back({"recovery", of_state(recovery_->last_good)});
   if (contacts_.tissue) facts.push_back({"self-contact", contacts_.tissue->bytes()});
   if (!implicit_) return facts;
-  const ImplicitParts<Real>& parts = *implicit_;
+  const ImplicitState<Real>& parts = *implicit_;
   facts.push_back({"factors", parts.linear.bytes()});
   facts.push_back({"solver vectors", bytes_of(parts.free.number, parts.free.node) +
                                          bytes_of(parts.mass, parts.x, parts.v, parts.x_before, parts.v_before)});

@@ -23,7 +23,7 @@ struct MethodFacts {
 /// What limits explicit steps.
 struct StepFacts {
   double tick = 0, stable = 0;  ///< s
-  int steps_a_tick = 1;         ///< of the method in use
+  int steps_per_tick = 1;       ///< of the method in use
   int element = -1;             ///< the stiffest for its mass, mesh-file order; −1: none (springs)
   double element_share = 0;     ///< of the bound of ω² that is this element's own, to 1; the rest is nodal pressure's
   double median_ratio = 0;      ///< its bound over that of the median element
@@ -46,9 +46,9 @@ struct MemoryFacts {
 };
 
 struct WorldFacts {
-  std::size_t nodes = 0, tets = 0;        ///< of the mesh file
-  std::size_t live_tets = 0;              ///< of them that are there
-  std::size_t held_nodes = 0, faces = 0;  ///< faces: of the surface as first made
+  std::size_t nodes = 0, tets = 0;               ///< of the mesh file
+  std::size_t live_tets = 0;                     ///< of them that are there
+  std::size_t constrained_nodes = 0, faces = 0;  ///< faces: of the surface as first made
   int threads = 1;
   std::vector<KernelInfo> kernels;  ///< in the order of the materials that have elements
   MethodFacts method;

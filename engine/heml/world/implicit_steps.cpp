@@ -3,22 +3,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <heml/dynamics/quasi_newton.hpp>
+#include <heml/dynamics/lbfgs.hpp>
 #include <heml/world/typed_world.hpp>
 
 namespace heml {
 namespace {
-constexpr double smallest_share = 1.0 / 64;  // of a tick: shorter steps are not tried
-constexpr double slack_of_motion = 1e-3;     // of gravity's acceleration: what a step may leave unbalanced
-constexpr double earth = 9.81;               // m/s²
-constexpr int most_ways = 64;                // of a probe in a step
-constexpr int quasi_patience = 5;            // iterations of L-BFGS for one of Newton's: then Newton's go on
+constexpr double min_share = 1.0 / 64;    // of a tick: shorter steps are not tried
+constexpr double slack_of_motion = 1e-3;  // of gravity's acceleration: what a step may leave unbalanced
+constexpr double earth = 9.81;            // m/s²
+constexpr int max_probe_substeps = 64;    // of a probe in a step
+constexpr int quasi_patience = 5;         // iterations of L-BFGS for one of Newton's: then Newton's go on
 }  // namespace
 
 template <class Real>
-ImplicitParts<Real>& TypedWorld<Real>::implicit() {
+ImplicitState<Real>& TypedWorld<Real>::implicit() {
   if (!implicit_)
-    implicit_ = std::make_unique<ImplicitParts<Real>>(
+    implicit_ = std::make_unique<ImplicitState<Real>>(
         body_, model_, mass_, inverse_mass_,
         preconditioner_moduli(model_.mesh, model_.material_of, setup_.materials, setup_.solver.minimiser), grasps_,
         contacts_, team_, setup_.solver);
@@ -38,8 +38,8 @@ void TypedWorld<Real>::advance_implicit(double until) {
       continue;
     }
     longest /= 2;
-    if (setup_.solver.step || longest < smallest_share * whole)
-      halt_unsolved(undefined_at_.empty() ? Halt{Halt::Cause::not_converged, -1, -1, why_unbalanced()}
+    if (setup_.solver.step || longest < min_share * whole)
+      halt_unsolved(undefined_at_.empty() ? StopReason{StopReason::Cause::not_converged, -1, -1, why_unbalanced()}
                                           : out_of_range(undefined_at_, after));
   }
 }
@@ -54,15 +54,15 @@ std::string TypedWorld<Real>::why_unbalanced() const {
 }
 
 template <class Real>
-void TypedWorld<Real>::halt_unsolved(const Halt& halt) {
+void TypedWorld<Real>::halt_unsolved(const StopReason& halt) {
   if (remembers_) body_.begin_step(0);
-  take_forces();
+  evaluate_forces();
   stop(halt);
 }
 
 template <class Real>
 bool TypedWorld<Real>::implicit_step(double h, double time_after) {
-  ImplicitParts<Real>& parts = implicit();
+  ImplicitState<Real>& parts = implicit();
   parts.x = as_vector(state_.x);
   parts.v = as_vector(state_.v);
   Vector x = parts.x, v = parts.v;
@@ -89,7 +89,7 @@ bool TypedWorld<Real>::implicit_step(double h, double time_after) {
   parts.x_before = parts.x;
   parts.v_before = parts.v;
   parts.h_before = h;
-  take_state(x, v, time_after);
+  set_state(x, v, time_after);
   if (remembers_) {
     body_.commit(state_.x.data());
     body_.begin_step(0);
@@ -107,8 +107,8 @@ Vector TypedWorld<Real>::as_vector(const std::vector<Real>& values) {
 
 /// Keeps what a solve has reached; forces are those the objective saw last.
 template <class Real>
-void TypedWorld<Real>::take_state(const Vector& x, const Vector& v, double time) {
-  const Vector& f = (recovering() ? recovery_->stand_in->parts : implicit()).body.forces();
+void TypedWorld<Real>::set_state(const Vector& x, const Vector& v, double time) {
+  const Vector& f = (recovering() ? recovery_->surrogate->parts : implicit()).body.forces();
   for (std::size_t i = 0; i < state_.x.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
     state_.x[i] = static_cast<Real>(x[k]);
@@ -122,35 +122,36 @@ void TypedWorld<Real>::take_state(const Vector& x, const Vector& v, double time)
 /// From x (the start of the step or of the stage) to the end of a stage, in x and v. h: s since the start of the step.
 template <class Real>
 bool TypedWorld<Real>::solve_stage(const Stage& stage, double h, double time, Vector& x, Vector& v) {
-  ImplicitParts<Real>& parts = implicit();
+  ImplicitState<Real>& parts = implicit();
   const double damping = setup_.solver.damping;
   if (remembers_) body_.begin_step(static_cast<Real>(h));
   parts.body.set_time(time, setup_.gravity);
   parts.body.set_velocity(stage.d, stage.x_bar);
   parts.step.set(stage.a(damping), stage.y(damping));
   parts.linear.set_inertia(stage.a(damping));
-  const int ways = tool_ways(h);
-  parts.body.move_tools(time - h * (ways - 1) / ways);
+  const int substeps = probe_substeps(h);
+  parts.body.move_tools(time - h * (substeps - 1) / substeps);
   x = stage_start(stage, time, x);
   NewtonResult result;
-  for (int way = 1; way <= ways; ++way) {
-    if (way > 1) parts.body.move_tools(time - h * (ways - way) / ways);
+  for (int substep = 1; substep <= substeps; ++substep) {
+    if (substep > 1) parts.body.move_tools(time - h * (substeps - substep) / substeps);
     do {
       result = minimise_stage(x);
       work_.iterations += result.iterations;
-    } while (result.end != NewtonResult::End::undefined && !setup_.solver.budget && parts.body.revise(x));
+    } while (result.status != NewtonResult::Status::undefined && !setup_.solver.budget && parts.body.update_lagged(x));
   }
   Vector r;
   parts.step.residual(x, r);
-  work_.residual = parts.body.imbalance(r);
+  work_.residual = parts.body.relative_residual(r);
   undefined_at_.clear();
-  if (result.end == NewtonResult::End::undefined) {
+  if (result.status == NewtonResult::Status::undefined) {
     for (const double value : x) undefined_at_.push_back(static_cast<Real>(value));
     return false;
   }
   if (!result.converged() && !setup_.solver.budget && !is_balanced_enough(stage, r)) return false;
   v = stage.velocity(x);
-  for (const HeldNode& held : model_.held) v.segment<3>(3 * held.node) = held_at(model_, held, time).v;
+  for (const ConstrainedNode& constrained : model_.constrained)
+    v.segment<3>(3 * constrained.node) = prescribed_at(model_, constrained, time).v;
   for (const PinnedPatch& pin : pins_)
     for (const int n : pin.nodes) v.segment<3>(3 * n).setZero();
   return true;
@@ -158,39 +159,40 @@ bool TypedWorld<Real>::solve_stage(const Stage& stage, double h, double time, Ve
 
 /// Into how many parts what a probe goes in h, s, is divided: it meets tissue at the end of each, and does not pass it.
 template <class Real>
-int TypedWorld<Real>::tool_ways(double h) const {
+int TypedWorld<Real>::probe_substeps(double h) const {
   if (!contacts_.probe) return 1;
-  const double way = (contacts_.probe->tip(state_.time + h) - contacts_.probe->tip(state_.time)).norm();
-  return std::clamp(static_cast<int>(std::ceil(2 * way / contacts_.probe->radius())), 1, most_ways);
+  const double travel = (contacts_.probe->tip(state_.time + h) - contacts_.probe->tip(state_.time)).norm();
+  return std::clamp(static_cast<int>(std::ceil(2 * travel / contacts_.probe->radius())), 1, max_probe_substeps);
 }
 
 template <class Real>
 NewtonResult TypedWorld<Real>::minimise_stage(Vector& x) {
-  ImplicitParts<Real>& parts = implicit();
-  const int most = setup_.solver.budget ? stage_iterations() : NewtonOptions{}.most_iterations;
+  ImplicitState<Real>& parts = implicit();
+  const int most = setup_.solver.budget ? stage_iterations() : NewtonOptions{}.max_iterations;
   if (setup_.solver.minimiser == Minimiser::lbfgs) {
     const int patience = setup_.solver.budget ? most : quasi_patience * most;
-    const NewtonResult result = minimise_quasi(parts.step, parts.linear, stage_stop(), patience, x);
-    if (result.converged() || setup_.solver.budget || result.end == NewtonResult::End::undefined) return result;
+    const NewtonResult result = minimise_lbfgs(parts.step, parts.linear, stage_criterion(), patience, x);
+    if (result.converged() || setup_.solver.budget || result.status == NewtonResult::Status::undefined) return result;
   }
   NewtonOptions options;
-  options.most_iterations = most;
-  return minimise(parts.step, parts.linear, stage_stop(), options, x);
+  options.max_iterations = most;
+  return minimise(parts.step, parts.linear, stage_criterion(), options, x);
 }
 
 /// Of where the body is and where it would fly: the one with the lower Φ (without this guard, methods of few iterations
 /// gain energy without bound); where held nodes move so far that neither is possible, along the tangent.
 template <class Real>
 Vector TypedWorld<Real>::stage_start(const Stage& stage, double time, const Vector& x) {
-  ImplicitParts<Real>& parts = implicit();
-  const auto place_held = [&](Vector& to) {
-    for (const HeldNode& held : model_.held) to.segment<3>(3 * held.node) = held_at(model_, held, time).x;
+  ImplicitState<Real>& parts = implicit();
+  const auto apply_constraints = [&](Vector& to) {
+    for (const ConstrainedNode& constrained : model_.constrained)
+      to.segment<3>(3 * constrained.node) = prescribed_at(model_, constrained, time).x;
   };
   Vector stay = x, fly = stage.y(setup_.solver.damping), r_stay, r_fly, r;
   for (Eigen::Index i = 0; i < fly.size(); ++i)
     if (!(parts.mass[i] > 0)) fly[i] = x[i];
-  place_held(stay);
-  place_held(fly);
+  apply_constraints(stay);
+  apply_constraints(fly);
   const auto is_defined = [&](const Vector& at, Vector& r_there) {
     return parts.step.residual(at, r_there) && r_there.allFinite();
   };
@@ -215,9 +217,9 @@ Vector TypedWorld<Real>::stage_start(const Stage& stage, double time, const Vect
 
 /// Contract: "tolerance".
 template <class Real>
-Stop TypedWorld<Real>::stage_stop() {
-  ImplicitParts<Real>& parts = implicit();
-  return {[&parts](const Vector& r) { return parts.body.imbalance(r); }, setup_.solver.relative_tolerance()};
+StoppingCriterion TypedWorld<Real>::stage_criterion() {
+  ImplicitState<Real>& parts = implicit();
+  return {[&parts](const Vector& r) { return parts.body.relative_residual(r); }, setup_.solver.relative_tolerance()};
 }
 
 /// Whether a step may end where Newton's method can do no more: a tolerance that was given decides alone; without one,
@@ -225,9 +227,9 @@ Stop TypedWorld<Real>::stage_stop() {
 template <class Real>
 bool TypedWorld<Real>::is_balanced_enough(const Stage& stage, const Vector& r) {
   if (setup_.solver.tolerance) return false;
-  ImplicitParts<Real>& parts = implicit();
-  const double noise = parts.body.acceleration_noise() + 0x1p-52 * stage.a(setup_.solver.damping) * model_.diagonal;
-  return parts.body.largest_acceleration(r) <=
+  ImplicitState<Real>& parts = implicit();
+  const double noise = parts.body.acceleration_round_off() + 0x1p-52 * stage.a(setup_.solver.damping) * model_.diagonal;
+  return parts.body.max_acceleration(r) <=
          std::max(slack_of_motion * std::max(setup_.gravity.norm(), earth), 10 * noise);
 }
 

@@ -69,7 +69,7 @@ double TypedWorld<Real>::step_cost() const {
 }
 
 template <class Real>
-std::optional<std::string> TypedWorld<Real>::take(const SetStepCost& command) {
+std::optional<std::string> TypedWorld<Real>::execute(const SetStepCost& command) {
   if (!(command.nanoseconds > 0) || !std::isfinite(command.nanoseconds))
     return "step_cost: must be more than 0 ns an element";
   told_step_cost_ = 1e-9 * command.nanoseconds;
@@ -80,8 +80,8 @@ std::optional<std::string> TypedWorld<Real>::take(const SetStepCost& command) {
 /// free.
 template <class Real>
 double TypedWorld<Real>::lowest_frequency() {
-  ImplicitParts<Real>& parts = implicit();
-  if (parts.free.node.empty() || !well_held(model_.mesh, held_nodes())) return 0;
+  ImplicitState<Real>& parts = implicit();
+  if (parts.free.node.empty() || !is_well_constrained(model_.mesh, constrained_nodes())) return 0;
   Vector rest(parts.mass.size()), shape, push;
   for (std::size_t n = 0; n < model_.mesh.nodes.size(); ++n)
     rest.template segment<3>(3 * static_cast<int>(n)) = model_.mesh.nodes[n];

@@ -49,7 +49,7 @@ DeadLoad<Real> dead_load(const Load& load, const std::vector<int>& nodes, const 
             area / 3 * load.vector;
     }
   }
-  DeadLoad<Real> result{{}, {}, load.over};
+  DeadLoad<Real> result{{}, {}, load.ramp_time};
   for (std::size_t k = 0; k < nodes.size(); ++k) {
     if (!used[static_cast<std::size_t>(nodes[k])]) continue;
     result.nodes.push_back(nodes[k]);
@@ -67,14 +67,15 @@ void make_loads(const WorldSetup& setup, Model<Real>& model) {
   for (const Load& load : setup.loads) {
     const std::vector<int> nodes = inner(load.nodes, model.order);
     if (load.kind == Load::Kind::pressure)
-      model.pressures.push_back({faces_within(model.loaded_faces, nodes), static_cast<Real>(load.pressure), load.over});
+      model.pressures.push_back(
+          {faces_within(model.loaded_faces, nodes), static_cast<Real>(load.pressure), load.ramp_time});
     else
       model.dead.push_back(dead_load<Real>(load, nodes, model.mesh, model.loaded_faces, used));
   }
   if (!setup.solver.is_static()) return;
   const double duration = setup.solver.load_duration();
-  for (DeadLoad<Real>& load : model.dead) load.over = duration;
-  for (Pressure<Real>& load : model.pressures) load.over = duration;
+  for (DeadLoad<Real>& load : model.dead) load.ramp_time = duration;
+  for (Pressure<Real>& load : model.pressures) load.ramp_time = duration;
 }
 
 std::vector<int> chosen_nodes(const std::vector<bool>& chosen) {
@@ -89,17 +90,17 @@ void add_boundary(const WorldSetup& setup, Model<Real>& model) {
   std::vector<int> winner(model.mesh.nodes.size(), -1);
   for (std::size_t b = 0; b < setup.boundary.size(); ++b) {
     const Boundary& entry = setup.boundary[b];
-    const double over = setup.solver.is_static() ? setup.solver.load_duration() : entry.over;
-    model.motions.push_back(
-        {entry.translate, entry.axis.normalized(), entry.origin, entry.degrees * std::numbers::pi / 180, over});
+    const double ramp_time = setup.solver.is_static() ? setup.solver.load_duration() : entry.ramp_time;
+    model.prescribed_motions.push_back(
+        {entry.translate, entry.axis.normalized(), entry.origin, entry.degrees * std::numbers::pi / 180, ramp_time});
     for (const int n : inner(entry.nodes, model.order)) winner[static_cast<std::size_t>(n)] = static_cast<int>(b);
   }
   for (std::size_t n = 0; n < winner.size(); ++n)
-    if (winner[n] >= 0) model.held.push_back({static_cast<int>(n), winner[n]});
-  model.speeds.assign(model.motions.size(), 0);
-  for (const HeldNode& held : model.held) {
-    double& speed = model.speeds[static_cast<std::size_t>(held.entry)];
-    speed = std::max(speed, held_at(model, held, 0).v.norm());
+    if (winner[n] >= 0) model.constrained.push_back({static_cast<int>(n), winner[n]});
+  model.speeds.assign(model.prescribed_motions.size(), 0);
+  for (const ConstrainedNode& constrained : model.constrained) {
+    double& speed = model.speeds[static_cast<std::size_t>(constrained.entry)];
+    speed = std::max(speed, prescribed_at(model, constrained, 0).v.norm());
   }
 }
 
@@ -109,10 +110,10 @@ template <class Real>
 Model<Real> make_model(const WorldSetup& setup) {
   Model<Real> model;
   const std::vector<int> file_materials = material_of_elements(setup.mesh, setup.materials);
-  model.order = locality_order(setup.mesh);
+  model.order = hilbert_order(setup.mesh);
   model.mesh = reordered(setup.mesh, model.order);
   for (const int t : model.order.file_tet) model.material_of.push_back(file_materials[static_cast<std::size_t>(t)]);
-  model.loaded_faces = boundary_of(model.mesh);
+  model.loaded_faces = extract_boundary(model.mesh);
   std::vector<bool> on_surface(model.mesh.nodes.size(), false);
   for (const Triangle& face : model.loaded_faces.triangles)
     for (const int n : face) on_surface[static_cast<std::size_t>(n)] = true;
@@ -161,7 +162,7 @@ std::vector<Triangle> faces_in(const Triangle& face, const Tet& piece, const Mes
   const auto in_face = [&](int n) {
     const auto has = [&](int old) { return std::find(face.begin(), face.end(), old) != face.end(); };
     if (n < old_nodes) return has(n);
-    const NewNode& node = edit.nodes[static_cast<std::size_t>(n - old_nodes)];
+    const InsertedNode& node = edit.nodes[static_cast<std::size_t>(n - old_nodes)];
     return has(node.from) && has(node.to);
   };
   std::vector<Triangle> found;
@@ -199,8 +200,8 @@ void append(const WorldSetup& setup, const MeshEdit& edit, Model<Real>& model) {
       }
   }
   append(edit, model.mesh);
-  model.held.clear();
-  model.motions.clear();
+  model.constrained.clear();
+  model.prescribed_motions.clear();
   add_boundary(setup, model);
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 // What does not change while a body moves, in inner order (mesh/reorder.hpp). An edit of the mesh changes it: inside
 // there are only the elements that are left, so that no loop asks which those are.
-#include <heml/dynamics/motion.hpp>
+#include <heml/dynamics/prescribed_motion.hpp>
 #include <heml/elastic/loads.hpp>
 #include <heml/mesh/edit.hpp>
 #include <heml/mesh/reorder.hpp>
@@ -12,7 +12,7 @@
 namespace heml {
 
 /// A node with a boundary condition; entry: which of setup.boundary won.
-struct HeldNode {
+struct ConstrainedNode {
   int node;
   int entry;
 };
@@ -24,9 +24,9 @@ struct Model {
   std::vector<int> material_of;    ///< #T
   BoundaryFaces loaded_faces;      ///< the surface as first made, of elements that are left: what loads act on
   std::vector<int> surface_nodes;  ///< ascending
-  std::vector<HeldNode> held;      ///< ascending in node
-  std::vector<Motion> motions;     ///< one per setup.boundary
-  std::vector<double> speeds;      ///< m/s, of each while it moves: of the fastest node
+  std::vector<ConstrainedNode> constrained;          ///< ascending in node
+  std::vector<PrescribedMotion> prescribed_motions;  ///< one per setup.boundary
+  std::vector<double> speeds;                        ///< m/s, of each while it moves: of the fastest node
   std::vector<DeadLoad<Real>> dead;
   std::vector<Pressure<Real>> pressures;
   double diagonal = 0;  ///< m, of the rest bounding box
@@ -35,9 +35,9 @@ struct Model {
 
 /// Where a held node is at time t, s.
 template <class Real>
-Motion::At held_at(const Model<Real>& model, const HeldNode& held, double time) {
-  return model.motions[static_cast<std::size_t>(held.entry)](model.mesh.nodes[static_cast<std::size_t>(held.node)],
-                                                             time);
+PrescribedMotion::At prescribed_at(const Model<Real>& model, const ConstrainedNode& constrained, double time) {
+  return model.prescribed_motions[static_cast<std::size_t>(constrained.entry)](
+      model.mesh.nodes[static_cast<std::size_t>(constrained.node)], time);
 }
 
 /// Reorders, resolves boundary and loads. Throws InputError as material_of_elements().

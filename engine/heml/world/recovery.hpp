@@ -26,7 +26,7 @@ struct Recovery {
   long steps = 0;                  ///< of the stand-in so far
   int element = -1;                ///< the first bad element, mesh-file order; -1: none to name
   int inverted = 0;                ///< elements with J ≤ 0 where it began
-  double least_J = 0;              ///< there
+  double min_J = 0;                ///< there
   std::string message;             ///< one sentence for people: what went wrong, why most likely, what to do about it
 };
 

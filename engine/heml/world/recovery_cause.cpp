@@ -10,17 +10,16 @@ constexpr double sliver = 0.05;        // of least height over longest edge
 constexpr double incompressible = 50;  // κ/μ, at ν = 0.49
 constexpr double fast = 1;             // of the speed of shear waves
 
-std::string what(const Suspects& s) {
+std::string what(const FailureDiagnosis& s) {
   if (s.element < 0) return fmt::format("a node ran away at t = {:.4g} s", s.time);
-  const std::string state = s.least_J > 0 ? "was pressed out of the range of its law" : "was flat or inside out";
+  const std::string state = s.min_J > 0 ? "was pressed out of the range of its law" : "was flat or inside out";
   const std::string others = s.inverted > 1 ? fmt::format(", with {} in all inverted", s.inverted) : "";
-  const std::string J =
-      std::isfinite(s.least_J) ? fmt::format("J = {:.3g}", s.least_J) : "with nodes at no finite place";
+  const std::string J = std::isfinite(s.min_J) ? fmt::format("J = {:.3g}", s.min_J) : "with nodes at no finite place";
   return fmt::format("element {} {} at t = {:.4g} s ({}{})", s.element, state, s.time, J, others);
 }
 
 /// The cause and what to do about it, from the surest to the most general.
-std::string why(const Suspects& s) {
+std::string why(const FailureDiagnosis& s) {
   if (s.from_start) return "the body starts so: give it other initial positions if that is not meant";
   if (s.step > s.limit)
     return fmt::format(
@@ -44,6 +43,6 @@ std::string why(const Suspects& s) {
 
 }  // namespace
 
-std::string likely_cause(const Suspects& s) { return what(s) + "; most likely " + why(s); }
+std::string describe_cause(const FailureDiagnosis& s) { return what(s) + "; most likely " + why(s); }
 
 }  // namespace heml

@@ -5,10 +5,10 @@
 namespace heml {
 
 /// What is known when a recovery begins.
-struct Suspects {
+struct FailureDiagnosis {
   double time = 0;             ///< s
   int element = -1;            ///< the first bad element, mesh-file order; −1: none
-  double least_J = 1;          ///< its J
+  double min_J = 1;            ///< its J
   int inverted = 0;            ///< elements with J ≤ 0
   bool from_start = false;     ///< the body was so when it was set up
   double step = 0, limit = 0;  ///< s: a given step of an explicit method and the live limit; 0: no step was given
@@ -20,6 +20,6 @@ struct Suspects {
 };
 
 /// One sentence: what happened, the likely cause, the remedy.
-std::string likely_cause(const Suspects& s);
+std::string describe_cause(const FailureDiagnosis& s);
 
 }  // namespace heml

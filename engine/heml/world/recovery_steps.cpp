@@ -5,8 +5,8 @@
 //                    ▼
 //   the last good state, or this one where there never was any; its nodes set apart by a hair
 //                    ▼
-//   a stable Neo-Hookean stands in (world/stand_in.hpp), one step of backward Euler a tick, damped so that nothing
-//   rings, each ending no higher than it began in Φ = a/2 ‖x − y‖²_M + U
+//   a stable Neo-Hookean stands in (world/recovery_surrogate.hpp), one step of backward Euler a tick, damped so that
+//   nothing rings, each ending no higher than it began in Φ = a/2 ‖x − y‖²_M + U
 //                    │ every element upright for some steps, the body calm, and the scene's law defined
 //                    ▼
 //   back to the scene's law and method, positions and velocities as they are
@@ -26,22 +26,22 @@
 namespace heml {
 namespace {
 
-constexpr double worst_J = -0.2;        // an element below it is not left to its law
-constexpr double most_inverted = 0.01;  // of all elements
-constexpr double upright_J = 0.3;       // of every element, for a recovery to end
-constexpr long upright_for = 5;         // steps, if the body is calm
-constexpr long upright_long = 100;      // steps, if it is not: something moves it
-constexpr double calm = 0.03;           // of the speed of shear waves
-constexpr double far_too_fast = 10;     // times the speed of waves and of the start: no motion of tissue
-constexpr double hair = 1e-5;           // of the body's size: 1 µm for 0.1 m
+constexpr double worst_J = -0.2;       // an element below it is not left to its law
+constexpr double max_inverted = 0.01;  // of all elements
+constexpr double upright_J = 0.3;      // of every element, for a recovery to end
+constexpr long upright_for = 5;        // steps, if the body is calm
+constexpr long upright_long = 100;     // steps, if it is not: something moves it
+constexpr double calm = 0.03;          // of the speed of shear waves
+constexpr double far_too_fast = 10;    // times the speed of waves and of the start: no motion of tissue
+constexpr double hair = 1e-5;          // of the body's size: 1 µm for 0.1 m
 constexpr std::uint64_t hair_seed = 2018;
-constexpr double shrunk = 0.1;   // of its extent at rest
-constexpr double caught = 0.1;   // of the speed of shear waves: what is slower and inside out is caught
-constexpr long most_hands = 30;  // steps: what is inside out for longer is held so from outside
+constexpr double shrunk = 0.1;         // of its extent at rest
+constexpr double caught = 0.1;         // of the speed of shear waves: what is slower and inside out is caught
+constexpr long max_unfold_steps = 30;  // steps: what is inside out for longer is held so from outside
 constexpr double unfolding_small = 0.01, unfolding_caught = 0.1;  // of the way home, a step
-constexpr double weight_of_held = 1000;                           // beside free nodes, in what fits best
+constexpr double weight_of_constrained = 1000;                    // beside free nodes, in what fits best
 constexpr NewtonOptions newton_options{10, 1e-2};
-constexpr double small_enough = 1e-3;           // of the first residual
+constexpr double small_enough = 1e-3;     // of the first residual
 constexpr double no_acceleration = 1e-2;  // m/s²
 
 /// Least height over longest edge.
@@ -59,11 +59,11 @@ double thinness(const TetMesh& mesh, int element) {
 }  // namespace
 
 template <class Real>
-void TypedWorld<Real>::expect_recoveries() {
+void TypedWorld<Real>::start_monitoring() {
   recovery_.reset();
   if (!setup_.solver.recovery || setup_.solver.is_static()) return;
-  const double fastest = far_too_fast * (fastest_waves() + setup_.initial_velocity.norm());
-  recovery_ = std::make_unique<RecoveryParts<Real>>(model_.mesh, mass_, fastest, state_);
+  const double max_speed = far_too_fast * (fastest_waves() + setup_.initial_velocity.norm());
+  recovery_ = std::make_unique<RecoveryState<Real>>(model_.mesh, mass_, max_speed, state_);
 }
 
 /// They cross an element in about 2/ω_max. m/s.
@@ -77,22 +77,22 @@ template <class Real>
 double TypedWorld<Real>::shear_waves() const {
   double speed = 0;
   for (const RegionMaterial& entry : setup_.materials)
-    speed = std::max(speed, std::sqrt(ground_state(entry.material).shear / entry.material.density));
+    speed = std::max(speed, std::sqrt(small_strain_moduli(entry.material).shear / entry.material.density));
   return speed > 0 ? speed : fastest_waves();  // a net of springs is no continuum
 }
 
 /// After a tick by the scene's own law and method, and at the start.
 template <class Real>
-void TypedWorld<Real>::watch() {
-  RecoveryParts<Real>& parts = *recovery_;
-  parts.follow(grasps_.empty() ? nullptr : &grasps_.front(), state_.time);
-  const Condition seen = parts.look(model_.mesh, state_, mass_);
+void TypedWorld<Real>::monitor() {
+  RecoveryState<Real>& parts = *recovery_;
+  parts.track_tool(grasps_.empty() ? nullptr : &grasps_.front(), state_.time);
+  const StateCheck seen = parts.check(model_.mesh, state_, mass_);
   const double inverted = static_cast<double>(seen.inverted) / static_cast<double>(model_.mesh.tets.size());
-  if (!(seen.least_J < worst_J || inverted > most_inverted || seen.speed > parts.fastest)) {
-    parts.good = state_;
-    parts.was_good = true;
+  if (!(seen.min_J < worst_J || inverted > max_inverted || seen.speed > parts.max_speed)) {
+    parts.last_good = state_;
+    parts.has_last_good = true;
   } else if (is_step_hopeless()) {
-    stop({Halt::Cause::unstable, -1, -1,
+    stop({StopReason::Cause::unstable, -1, -1,
           fmt::format(
               "unstable at t = {:.6g} s: steps of {:.3g} s are too long for this body, which at rest bears {:.3g} s",
               state_.time, *setup_.solver.step, 2 / static_cast<double>(rest_frequency_))});
@@ -105,52 +105,54 @@ void TypedWorld<Real>::watch() {
 template <class Real>
 bool TypedWorld<Real>::is_step_hopeless() const {
   const double limit_at_rest = 2 / static_cast<double>(rest_frequency_);
-  return is_explicit(setup_.solver.integrator) && !(limit_at_rest > setup_.solver.step.value_or(smallest_step));
+  return is_explicit(setup_.solver.integrator) && !(limit_at_rest > setup_.solver.step.value_or(min_step));
 }
 
 /// Whether a recovery takes over from what would halt the world: not from what would fail again on a body in good
 /// shape.
 template <class Real>
-bool TypedWorld<Real>::can_recover(const Halt& halt) {
+bool TypedWorld<Real>::can_recover(const StopReason& halt) {
   if (!recovery_ || recovering() || is_step_hopeless()) return false;
-  return halt.cause != Halt::Cause::not_converged || recovery_->look(model_.mesh, state_, mass_).least_J < upright_J;
+  return halt.cause != StopReason::Cause::not_converged ||
+         recovery_->check(model_.mesh, state_, mass_).min_J < upright_J;
 }
 
 /// seen: of the state that is given up.
 template <class Real>
-void TypedWorld<Real>::begin_recovery(const Condition& seen) {
-  RecoveryParts<Real>& parts = *recovery_;
-  Suspects suspects = suspect(seen);
+void TypedWorld<Real>::begin_recovery(const StateCheck& seen) {
+  RecoveryState<Real>& parts = *recovery_;
+  FailureDiagnosis suspects = diagnose(seen);
   Recovery report;
   report.tick = ticks_;
   report.element = suspects.element;
   report.inverted = seen.inverted;
-  report.least_J = seen.least_J;
-  report.message = likely_cause(suspects);
-  state_.x = parts.good.x;
-  state_.v = parts.good.v;
-  state_.time = parts.good.time;
+  report.min_J = seen.min_J;
+  report.message = describe_cause(suspects);
+  state_.x = parts.last_good.x;
+  state_.v = parts.last_good.v;
+  state_.time = parts.last_good.time;
   if (remembers_) body_.begin_step(0);
   report.begun.time = state_.time;
   report.begun.before = energies();
-  if (body_.first_invalid(state_.x.data()) >= 0) report.begun.before.elastic = std::numeric_limits<double>::quiet_NaN();
+  if (body_.first_undefined(state_.x.data()) >= 0)
+    report.begun.before.elastic = std::numeric_limits<double>::quiet_NaN();
   set_apart();
-  stand_in();
-  take_forces();
+  install_surrogate();
+  evaluate_forces();
   report.begun.after = energies();
   parts.last = report;
-  parts.upright_steps = parts.hands = 0;
-  parts.hand = false;
+  parts.upright_steps = parts.unfold_steps = 0;
+  parts.unfolding = false;
   ++parts.count;
 }
 
 template <class Real>
-Suspects TypedWorld<Real>::suspect(const Condition& seen) const {
-  Suspects s;
+FailureDiagnosis TypedWorld<Real>::diagnose(const StateCheck& seen) const {
+  FailureDiagnosis s;
   s.time = state_.time;
-  s.least_J = seen.least_J;
+  s.min_J = seen.min_J;
   s.inverted = seen.inverted;
-  s.from_start = !recovery_->was_good;
+  s.from_start = !recovery_->has_last_good;
   s.tool_speed = recovery_->tool_speed;
   s.pulled = !grasps_.empty();
   s.wave_speed = shear_waves();
@@ -159,18 +161,18 @@ Suspects TypedWorld<Real>::suspect(const Condition& seen) const {
     s.step = *setup_.solver.step;
     s.limit = stable_step_;
   }
-  if (seen.least_J >= upright_J && seen.speed > recovery_->fastest) return s;
+  if (seen.min_J >= upright_J && seen.speed > recovery_->max_speed) return s;
   s.element = model_.order.file_tet[static_cast<std::size_t>(seen.worst)];
   const int material = model_.material_of[static_cast<std::size_t>(seen.worst)];
-  const GroundState rest = ground_state(setup_.materials[static_cast<std::size_t>(material)].material);
+  const SmallStrainModuli rest = small_strain_moduli(setup_.materials[static_cast<std::size_t>(material)].material);
   if (rest.shear > 0) s.stiffness_ratio = rest.bulk / rest.shear;
   return s;
 }
 
 template <class Real>
-void TypedWorld<Real>::stand_in() {
-  recovery_->stand_in =
-      std::make_unique<StandIn<Real>>(model_, setup_, mass_, inverse_mass_, grasps_, contacts_, team_);
+void TypedWorld<Real>::install_surrogate() {
+  recovery_->surrogate =
+      std::make_unique<RecoverySurrogate<Real>>(model_, setup_, mass_, inverse_mass_, grasps_, contacts_, team_);
 }
 
 /// At exact coincidence all forces are zero.
@@ -178,9 +180,9 @@ template <class Real>
 void TypedWorld<Real>::set_apart() {
   for (std::size_t n = 0; n < mass_.size(); ++n) {
     if (!(inverse_mass_[n] > 0)) continue;
-    std::uint64_t random = mix(hair_seed, static_cast<std::uint64_t>(model_.order.file_node[n]));
+    std::uint64_t random = hash_combine(hair_seed, static_cast<std::uint64_t>(model_.order.file_node[n]));
     for (std::size_t i = 0; i < 3; ++i) {
-      random = mix(random, std::uint64_t{i});
+      random = hash_combine(random, std::uint64_t{i});
       const double part = static_cast<double>(random >> 11) * 0x1p-52 - 1;
       state_.x[3 * n + i] += static_cast<Real>(hair * model_.diagonal * part);
     }
@@ -189,28 +191,28 @@ void TypedWorld<Real>::set_apart() {
 
 template <class Real>
 void TypedWorld<Real>::recover(double until) {
-  step_stand_in(until);
-  RecoveryParts<Real>& parts = *recovery_;
-  const Condition seen = parts.look(model_.mesh, state_, mass_);
-  parts.upright_steps = seen.least_J > upright_J ? parts.upright_steps + 1 : 0;
+  step_surrogate(until);
+  RecoveryState<Real>& parts = *recovery_;
+  const StateCheck seen = parts.check(model_.mesh, state_, mass_);
+  parts.upright_steps = seen.min_J > upright_J ? parts.upright_steps + 1 : 0;
   const bool is_calm = seen.speed <= calm * shear_waves();
   if (parts.upright_steps >= (is_calm ? upright_for : upright_long)) end_recovery();
 }
 
 /// One step, whatever Newton's method reaches: Φ does not rise.
 template <class Real>
-void TypedWorld<Real>::step_stand_in(double until) {
-  ImplicitParts<Real>& parts = recovery_->stand_in->parts;
+void TypedWorld<Real>::step_surrogate(double until) {
+  ImplicitState<Real>& parts = recovery_->surrogate->parts;
   // A body too small for its forces to tell it how to grow, or caught in a tangle of lowest energy, gets a hand.
-  const Condition seen = recovery_->look(model_.mesh, state_, mass_);
+  const StateCheck seen = recovery_->check(model_.mesh, state_, mass_);
   if (seen.extent < shrunk) unfold(unfolding_small);
   if (seen.inverted == 0)
-    recovery_->hand = false;
+    recovery_->unfolding = false;
   else if (recovery_->last->steps > 0 && seen.speed <= caught * shear_waves())
-    recovery_->hand = true;
-  if (recovery_->hand && recovery_->hands < most_hands) {
+    recovery_->unfolding = true;
+  if (recovery_->unfolding && recovery_->unfold_steps < max_unfold_steps) {
     unfold(unfolding_caught);
-    ++recovery_->hands;
+    ++recovery_->unfold_steps;
   }
   const double h = until - state_.time;
   parts.x = as_vector(state_.x);
@@ -224,22 +226,24 @@ void TypedWorld<Real>::step_stand_in(double until) {
   parts.step.set(stage.a(damping), stage.y(damping));
   parts.linear.set_inertia(stage.a(damping));
   Vector stay = parts.x, fly = (parts.mass.array() > 0).select(stage.y(damping), stay);
-  for (const HeldNode& held : model_.held)
-    stay.segment<3>(3 * held.node) = fly.segment<3>(3 * held.node) = held_at(model_, held, until).x;
+  for (const ConstrainedNode& constrained : model_.constrained)
+    stay.segment<3>(3 * constrained.node) = fly.segment<3>(3 * constrained.node) =
+        prescribed_at(model_, constrained, until).x;
   const auto staying = parts.step.value(stay), flying = parts.step.value(fly);
   Vector x = flying && *flying < *staying ? fly : stay, r;
   parts.step.residual(x, r);
   const double first = r.norm();
-  const Stop stop{[&](const Vector& left) {
-                    const auto push = (parts.mass.array() > 0).select(left.array() / parts.mass.array(), 0);
-                    return std::min(push.abs().maxCoeff() / no_acceleration, left.norm() / (small_enough * first));
-                  },
-                  1};
+  const StoppingCriterion stop{
+      [&](const Vector& left) {
+        const auto push = (parts.mass.array() > 0).select(left.array() / parts.mass.array(), 0);
+        return std::min(push.abs().maxCoeff() / no_acceleration, left.norm() / (small_enough * first));
+      },
+      1};
   work_.iterations += minimise(parts.step, parts.linear, stop, newton_options, x).iterations;
   parts.step.residual(x, r);  // whose forces are kept
   parts.body.end_step(x);
-  take_state(x, stage.velocity(x), until);
-  move_held();
+  set_state(x, stage.velocity(x), until);
+  move_constrained();
   ++steps_;
   ++substeps_;
   ++recovery_->last->steps;
@@ -254,7 +258,7 @@ void TypedWorld<Real>::unfold(double part) {
   const auto x = [&](std::size_t n) { return Eigen::Map<Vector3<Real>>(&state_.x[3 * n]); };
   const auto& X = model_.mesh.nodes;
   const auto weight = [&](std::size_t n) {
-    return static_cast<double>(mass_[n]) * (inverse_mass_[n] > 0 ? 1 : weight_of_held);
+    return static_cast<double>(mass_[n]) * (inverse_mass_[n] > 0 ? 1 : weight_of_constrained);
   };
   for (std::size_t n = 0; n < mass_.size(); ++n) {
     const double m = weight(n);
@@ -272,28 +276,28 @@ void TypedWorld<Real>::unfold(double part) {
   const Mat3 R = svd.matrixU() * Vec3(1, 1, sign).asDiagonal() * svd.matrixV().transpose();
   for (std::size_t n = 0; n < mass_.size(); ++n) {
     if (!(inverse_mass_[n] > 0)) continue;
-    const Vec3 way = x_mean + R * (X[n] - X_mean) - x(n).template cast<double>();
-    x(n) += (part * way).template cast<Real>();
+    const Vec3 displacement = x_mean + R * (X[n] - X_mean) - x(n).template cast<double>();
+    x(n) += (part * displacement).template cast<Real>();
   }
 }
 
 /// Unless the scene's own law is not defined where the body is: then the recovery goes on.
 template <class Real>
 void TypedWorld<Real>::end_recovery() {
-  RecoveryParts<Real>& parts = *recovery_;
-  if (body_.first_invalid(state_.x.data()) >= 0) return;
+  RecoveryState<Real>& parts = *recovery_;
+  if (body_.first_undefined(state_.x.data()) >= 0) return;
   LawSwitch back{state_.time, energies(), {}};
-  parts.stand_in.reset();
+  parts.surrogate.reset();
   if (remembers_) {  // for materials that remember, all of it was one step
     body_.begin_step(static_cast<Real>(state_.time - parts.last->begun.time));
     body_.commit(state_.x.data());
     body_.begin_step(0);
   }
   if (implicit_) implicit_->h_before = 0;
-  take_forces();
+  evaluate_forces();
   back.after = energies();
   parts.last->ended = back;
-  last_valid_ = parts.good = state_;
+  last_valid_ = parts.last_good = state_;
   find_stable_step();
   method_ = choose_method();
 }

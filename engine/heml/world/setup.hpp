@@ -28,7 +28,7 @@ struct Boundary {
   Vec3 axis = Vec3(0, 0, 1);      ///< unit
   Vec3 origin = Vec3::Zero();     ///< m
   double degrees = 0;             ///< right-handed about axis
-  double over = 0;                ///< s; 0: at once
+  double ramp_time = 0;           ///< s; 0: at once
 };
 
 /// A load on selected nodes, ramped linearly over `over` seconds from t = 0. What is removed of the body takes its
@@ -43,7 +43,7 @@ struct Load {
   std::vector<int> nodes;      ///< mesh-file order
   Vec3 vector = Vec3::Zero();  ///< N for force, Pa for traction
   double pressure = 0;         ///< Pa for pressure
-  double over = 0;             ///< s; 0: at once
+  double ramp_time = 0;        ///< s; 0: at once
 };
 
 enum class Integrator {

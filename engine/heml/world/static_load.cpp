@@ -1,4 +1,4 @@
-// Static worlds: the body is at rest at every fraction of its load (dynamics/equilibrium.hpp).
+// Static worlds: the body is at rest at every fraction of its load (dynamics/static_solve.hpp).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ bool pushed_away(BodyObjective<Real>& body, const Vector& x, double fraction) {
   Vector r;
   body.set_load(fraction);
   body.residual(x, r);
-  return body.unbalanced() > 1e-6;
+  return body.relative_net_load() > 1e-6;
 }
 }  // namespace
 
@@ -25,7 +25,7 @@ void TypedWorld<Real>::load_to(double fraction) {
   if (halt_) return;
   ++changes_;
   const FlushDenormals flush;
-  ImplicitParts<Real>& parts = implicit();
+  ImplicitState<Real>& parts = implicit();
   const double duration = setup_.solver.load_duration();
   if (remembers_) body_.begin_step(std::numeric_limits<Real>::infinity());  // at rest for long: all has relaxed
   const auto size = static_cast<Eigen::Index>(state_.x.size());
@@ -34,34 +34,34 @@ void TypedWorld<Real>::load_to(double fraction) {
   parts.body.begin_static(duration, setup_.gravity, start);
   if (!parts.equilibrium) {
     const double highest = static_cast<double>(rest_frequency_ * rest_frequency_);
-    const bool held = well_held(model_.mesh, held_nodes());
-    if (!held) parts.body.set_anchor(anchor * highest);
-    const EquilibriumLimit limit{setup_.solver.relative_tolerance(), setup_.solver.tolerance.has_value()};
+    const bool constrained = is_well_constrained(model_.mesh, constrained_nodes());
+    if (!constrained) parts.body.set_regularisation(anchor * highest);
+    const StaticTolerance limit{setup_.solver.relative_tolerance(), setup_.solver.tolerance.has_value()};
     parts.equilibrium.emplace(parts.body, parts.linear, parts.mass, parts.free, limit,
-                              held ? 0 : anchor_in_float * highest, start);
+                              constrained ? 0 : anchor_in_float * highest, start);
   }
-  Equilibrium& equilibrium = *parts.equilibrium;
+  StaticSolve& equilibrium = *parts.equilibrium;
   work_.load = equilibrium.load();
-  if (held_nodes().empty() && !contacts_.has_tools() && pushed_away(parts.body, equilibrium.x(), fraction))
+  if (constrained_nodes().empty() && !contacts_.has_tools() && pushed_away(parts.body, equilibrium.x(), fraction))
     return halt_unsolved(
-        {Halt::Cause::not_converged, -1, -1,
+        {StopReason::Cause::not_converged, -1, -1,
          "no equilibrium: nothing holds the body and its loads do not balance (add a boundary entry)"});
   const bool reached = equilibrium.load_to(fraction, interrupted_);
   work_.load = equilibrium.load();
   work_.iterations = equilibrium.iterations();
-  work_.residual = equilibrium.imbalance();
+  work_.residual = equilibrium.relative_residual();
   steps_ = equilibrium.increments();
   parts.body.set_load(equilibrium.load());
   Vector r;
   parts.body.residual(equilibrium.x(), r);
-  take_state(equilibrium.x(), Vector::Zero(equilibrium.x().size()), equilibrium.load() * duration);
+  set_state(equilibrium.x(), Vector::Zero(equilibrium.x().size()), equilibrium.load() * duration);
   if (!reached && !interrupted_) halt_unsolved(why_not_beyond(equilibrium));
 }
 
 template <class Real>
-Halt TypedWorld<Real>::why_not_beyond(const Equilibrium& equilibrium) const {
+StopReason TypedWorld<Real>::why_not_beyond(const StaticSolve& equilibrium) const {
   const double load = equilibrium.load();
-  Halt halt{Halt::Cause::not_converged, -1, -1, {}};
+  StopReason halt{StopReason::Cause::not_converged, -1, -1, {}};
   if (equilibrium.round_off()) {
     halt.message = fmt::format(
         "no equilibrium to within {:.1e} of the forces beyond {:.4g} of the load: round-off leaves {:.1e} of them "
@@ -76,7 +76,7 @@ Halt TypedWorld<Real>::why_not_beyond(const Equilibrium& equilibrium) const {
     for (const double value : equilibrium.tried()) x.push_back(static_cast<Real>(value));
     const int element = first_flat(x);
     if (element >= 0) {
-      halt.cause = Halt::Cause::out_of_range;
+      halt.cause = StopReason::Cause::out_of_range;
       halt.element = model_.order.file_tet[static_cast<std::size_t>(element)];
       halt.message = fmt::format(
           "no equilibrium beyond {:.4g} of the load: the supports, which hold every node, press element {} flat, turn "
@@ -85,17 +85,18 @@ Halt TypedWorld<Real>::why_not_beyond(const Equilibrium& equilibrium) const {
       return halt;
     }
   }
-  halt.message = fmt::format("no equilibrium found beyond {:.4g} of the load ({}): what is written is the last one", load,
-                     well_held(model_.mesh, held_nodes())
-                         ? "the body may snap, collapse or be crushed there, or leave the range of its law"
-                         : "it is not held against every rigid motion: then loads must balance, in force and moment");
+  halt.message =
+      fmt::format("no equilibrium found beyond {:.4g} of the load ({}): what is written is the last one", load,
+                  is_well_constrained(model_.mesh, constrained_nodes())
+                      ? "the body may snap, collapse or be crushed there, or leave the range of its law"
+                      : "its constraints leave a rigid motion free: then loads must balance, in force and moment");
   return halt;
 }
 
 /// The first element out of its law's range or inside out at positions, 3 #V; inner number, −1: none.
 template <class Real>
 int TypedWorld<Real>::first_flat(const std::vector<Real>& x) const {
-  const int invalid = body_.first_invalid(x.data());
+  const int invalid = body_.first_undefined(x.data());
   if (invalid >= 0) return invalid;
   const auto at = [&](int n) {
     return Vec3(Eigen::Map<const Vector3<Real>>(&x[3 * static_cast<std::size_t>(n)]).template cast<double>());

@@ -51,35 +51,37 @@ TypedWorld<Real>::TypedWorld(WorldSetup setup)
   const FlushDenormals flush;
   contacts_.tables = setup_.tables;
   for (Table& table : contacts_.tables) table.normal.normalize();
-  take_masses();
+  update_masses();
   start();
 }
 
 template <class Real>
-void TypedWorld<Real>::take_masses() {
-  remembers_ = body_.has_memory();
+void TypedWorld<Real>::update_masses() {
+  remembers_ = body_.has_internal_state();
   mass_ = body_.masses();
   inverse_mass_.resize(mass_.size());
   for (std::size_t n = 0; n < mass_.size(); ++n) inverse_mass_[n] = mass_[n] > 0 ? 1 / mass_[n] : Real(0);
-  for (const HeldNode& held : model_.held) inverse_mass_[static_cast<std::size_t>(held.node)] = 0;
+  for (const ConstrainedNode& constrained : model_.constrained)
+    inverse_mass_[static_cast<std::size_t>(constrained.node)] = 0;
   for (const PinnedPatch& pin : pins_)
     for (const int n : pin.nodes) inverse_mass_[static_cast<std::size_t>(n)] = 0;
-  mobility_.clear();
-  for (const Real mobility : inverse_mass_) mobility_.insert(mobility_.end(), 3, mobility);
-  for (auto& grasp : grasps_) grasp.take_masses(inverse_mass_);
+  inverse_mass_per_dof_.clear();
+  for (const Real inverse_mass_per_dof : inverse_mass_)
+    inverse_mass_per_dof_.insert(inverse_mass_per_dof_.end(), 3, inverse_mass_per_dof);
+  for (auto& grasp : grasps_) grasp.update_masses(inverse_mass_);
 }
 
 template <class Real>
 void TypedWorld<Real>::start() {
   if (!pins_.empty()) {
     pins_.clear();
-    take_masses();
+    update_masses();
   }
   contacts_.probe.reset();
   contacts_.sutures.clear();
-  contacts_.deeds.clear();
-  take_tissue();
-  take_surfaces();
+  contacts_.reports.clear();
+  update_self_contact();
+  update_contact_surfaces();
   const std::size_t nodes = model_.mesh.nodes.size();
   state_.x.resize(3 * nodes);
   state_.v.assign(3 * nodes, 0);
@@ -101,13 +103,13 @@ void TypedWorld<Real>::start() {
   grasps_.clear();
   implicit_.reset();
   origin_tick_ = ticks_;
-  move_held();
-  body_.forget(state_.x.data());
+  move_constrained();
+  body_.reset_history(state_.x.data());
   last_valid_ = state_;
-  expect_recoveries();
-  if (!take_forces()) restore_last_valid(Halt::Cause::out_of_range);
+  start_monitoring();
+  if (!evaluate_forces()) restore_last_valid(StopReason::Cause::out_of_range);
   last_valid_ = state_;
-  if (watches()) watch();
+  if (monitors()) monitor();
   find_stable_step();
   limit_at_start_ = stable_step_;
   method_ = choose_method();
@@ -150,7 +152,7 @@ void TypedWorld<Real>::advance(double until) {
       advance_explicit(until);
     else
       advance_implicit(until);
-    if (watches()) watch();
+    if (monitors()) monitor();
   }
 }
 
@@ -174,9 +176,9 @@ double TypedWorld<Real>::choose_step(double until) {
   const bool has_torn = !edits_.empty() && edits_.back().torn > 0;  // shreds are let go stretched, and snap back
   const bool is_driven = !grasps_.empty() || contacts_.probe || has_torn;
   const int most = is_driven ? steps_between_bounds_when_driven : steps_until_supports_strain();
-  if (++steps_since_bound_ >= std::min(bound_interval_, most)) follow_stable_step();
-  if (!(stable_step_ > smallest_step)) {
-    stop(Halt{Halt::Cause::unstable, -1, -1, why_no_step()});
+  if (++steps_since_bound_ >= std::min(bound_interval_, most)) update_stable_step();
+  if (!(stable_step_ > min_step)) {
+    stop(StopReason{StopReason::Cause::unstable, -1, -1, why_no_step()});
     return left;
   }
   return left / std::ceil(left / stable_step_);
@@ -200,8 +202,8 @@ template <class Real>
 int TypedWorld<Real>::steps_until_supports_strain() const {
   if (!(stable_step_ > 0)) return steps_between_bounds_when_driven;
   double fastest = 0;
-  for (std::size_t k = 0; k < model_.motions.size(); ++k)
-    if (state_.time < model_.motions[k].over) fastest = std::max(fastest, model_.speeds[k]);
+  for (std::size_t k = 0; k < model_.prescribed_motions.size(); ++k)
+    if (state_.time < model_.prescribed_motions[k].ramp_time) fastest = std::max(fastest, model_.speeds[k]);
   const double steps = change_between_bounds * model_.spacing / (fastest * stable_step_);
   return static_cast<int>(std::clamp<double>(steps, steps_between_bounds_when_driven, steps_between_bounds_when_calm));
 }
@@ -221,36 +223,38 @@ template <class Method>
 void TypedWorld<Real>::step_with(Real h, double time_after) {
   State<Real>& s = state_;
   const Real damping = static_cast<Real>(setup_.solver.damping);
-  const Real* mobility = mobility_.data();
+  const Real* inverse_mass_per_dof = inverse_mass_per_dof_.data();
   std::swap(s.x, last_valid_.x);
   std::swap(s.v, last_valid_.v);
   last_valid_.time = s.time;
-  s.x.resize(mobility_.size());
-  s.v.resize(mobility_.size());
+  s.x.resize(inverse_mass_per_dof_.size());
+  s.v.resize(inverse_mass_per_dof_.size());
 
-  const FirstHalf<Real> first{mobility, s.f.data(), last_valid_.x.data(), last_valid_.v.data(), s.x.data(), s.v.data()};
-  team_.for_ranges(mobility_.size(), coordinate_grain,
-                   [&](std::size_t begin, std::size_t end) { Method::first_half(h, damping, first, begin, end); });
+  const FirstHalfStep<Real> first{inverse_mass_per_dof, s.f.data(), last_valid_.x.data(),
+                                  last_valid_.v.data(), s.x.data(), s.v.data()};
+  team_.parallel_for(inverse_mass_per_dof_.size(), coordinate_grain, [&](std::size_t begin, std::size_t end) {
+    Method::first_half_step(h, damping, first, begin, end);
+  });
   if (!contacts_.empty())
-    impulses_.first_half(contacts_, last_valid_.time, time_after,
-                         Method::first_shrink(static_cast<double>(h), setup_.solver.damping), inverse_mass_,
-                         last_valid_.x.data(), s.x.data(), s.v.data());
+    impulses_.first_half_step(contacts_, last_valid_.time, time_after,
+                              Method::damping_divisor(static_cast<double>(h), setup_.solver.damping), inverse_mass_,
+                              last_valid_.x.data(), s.x.data(), s.v.data());
   s.time = time_after;
-  move_held();
+  move_constrained();
   if (remembers_) body_.begin_step(h);
-  if (!take_forces()) return restore_last_valid(Halt::Cause::out_of_range);
+  if (!evaluate_forces()) return restore_last_valid(StopReason::Cause::out_of_range);
   // Ten times its own size in a step, or not a number: no tissue does that.
   const Real fastest = static_cast<Real>(10 * (model_.diagonal / h + setup_.initial_velocity.norm()));
   std::atomic<bool> sane{true};
-  team_.for_ranges(mobility_.size(), coordinate_grain, [&](std::size_t begin, std::size_t end) {
+  team_.parallel_for(inverse_mass_per_dof_.size(), coordinate_grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t some = begin; some < end; some += cached_coordinates) {
       const std::size_t last = std::min(end, some + cached_coordinates);
-      Method::second_half(h, damping, mobility, s.f.data(), s.v.data(), some, last);
+      Method::second_half_step(h, damping, inverse_mass_per_dof, s.f.data(), s.v.data(), some, last);
       if (!all_within(s.v.data(), some, last, fastest)) sane.store(false, std::memory_order_relaxed);
     }
   });
-  if (!sane) return restore_last_valid(Halt::Cause::unstable);
-  if (!contacts_.empty()) impulses_.second_half(contacts_, inverse_mass_, s.x.data(), s.v.data());
+  if (!sane) return restore_last_valid(StopReason::Cause::unstable);
+  if (!contacts_.empty()) impulses_.second_half_step(contacts_, inverse_mass_, s.x.data(), s.v.data());
   if (remembers_) {
     body_.commit(s.x.data());
     body_.begin_step(0);
@@ -259,11 +263,11 @@ void TypedWorld<Real>::step_with(Real h, double time_after) {
 }
 
 template <class Real>
-void TypedWorld<Real>::move_held() {
-  for (const HeldNode& held : model_.held) {
-    const Motion::At at = held_at(model_, held, state_.time);
-    Eigen::Map<Vector3<Real>>(&state_.x[3 * static_cast<std::size_t>(held.node)]) = at.x.template cast<Real>();
-    Eigen::Map<Vector3<Real>>(&state_.v[3 * static_cast<std::size_t>(held.node)]) = at.v.template cast<Real>();
+void TypedWorld<Real>::move_constrained() {
+  for (const ConstrainedNode& constrained : model_.constrained) {
+    const PrescribedMotion::At at = prescribed_at(model_, constrained, state_.time);
+    Eigen::Map<Vector3<Real>>(&state_.x[3 * static_cast<std::size_t>(constrained.node)]) = at.x.template cast<Real>();
+    Eigen::Map<Vector3<Real>>(&state_.v[3 * static_cast<std::size_t>(constrained.node)]) = at.v.template cast<Real>();
   }
   for (const PinnedPatch& pin : pins_)
     for (std::size_t k = 0; k < pin.nodes.size(); ++k) {
@@ -281,13 +285,13 @@ Vec3 TypedWorld<Real>::gravity_now() const {
 
 /// Forces from all sides but supports at the present positions. Returns whether every law is defined there.
 template <class Real>
-bool TypedWorld<Real>::take_forces() {
+bool TypedWorld<Real>::evaluate_forces() {
   const Real* x = state_.x.data();
   Real* f = state_.f.data();
   const bool valid = acting_body().forces(x, f, team_);
   const Vector3<Real> g = gravity_now().template cast<Real>();
   if (!g.isZero(0))
-    team_.for_ranges(mass_.size(), node_grain, [&](std::size_t begin, std::size_t end) {
+    team_.parallel_for(mass_.size(), node_grain, [&](std::size_t begin, std::size_t end) {
       for (std::size_t n = begin; n < end; ++n)
         for (std::size_t i = 0; i < 3; ++i) f[3 * n + i] += mass_[n] * g[static_cast<int>(i)];
     });
@@ -321,7 +325,7 @@ void TypedWorld<Real>::find_stable_step() {
 
 /// Takes it anew, and after that the sooner the faster it changes.
 template <class Real>
-void TypedWorld<Real>::follow_stable_step() {
+void TypedWorld<Real>::update_stable_step() {
   const double before = stable_step_;
   const int steps = steps_since_bound_, interval = bound_interval_;
   find_stable_step();
@@ -333,24 +337,23 @@ void TypedWorld<Real>::follow_stable_step() {
 
 /// At positions, 3 #V, that were to be those at a time, s.
 template <class Real>
-Halt TypedWorld<Real>::out_of_range(const std::vector<Real>& x, double time) const {
-  Halt halt{Halt::Cause::out_of_range, -1, -1, {}};
-  const int element = body_.first_invalid(x.data());
+StopReason TypedWorld<Real>::out_of_range(const std::vector<Real>& x, double time) const {
+  StopReason halt{StopReason::Cause::out_of_range, -1, -1, {}};
+  const int element = body_.first_undefined(x.data());
   if (element >= 0) halt.element = model_.order.file_tet[static_cast<std::size_t>(element)];
-  halt.message =
-      fmt::format("{} left the range of its law at t = {:.6g} s: it was {} ({}take a smaller step, or load more gently)",
-                  element < 0 ? "an element" : fmt::format("element {}", halt.element), time,
-                  setup_.solver.continuation ? "deformed so far that its forces overflow"
-                                             : "pressed flat or turned inside out",
-                  setup_.solver.continuation ? "" : "set solver.continuation to true, ");
+  halt.message = fmt::format(
+      "{} left the range of its law at t = {:.6g} s: it was {} ({}take a smaller step, or load more gently)",
+      element < 0 ? "an element" : fmt::format("element {}", halt.element), time,
+      setup_.solver.continuation ? "deformed so far that its forces overflow" : "pressed flat or turned inside out",
+      setup_.solver.continuation ? "" : "set solver.continuation to true, ");
   return halt;
 }
 
 template <class Real>
-void TypedWorld<Real>::restore_last_valid(Halt::Cause cause) {
-  Halt halt{cause, -1, -1, {}};
+void TypedWorld<Real>::restore_last_valid(StopReason::Cause cause) {
+  StopReason halt{cause, -1, -1, {}};
   const double reached = state_.time, h = state_.time - last_valid_.time;
-  if (cause == Halt::Cause::out_of_range) {
+  if (cause == StopReason::Cause::out_of_range) {
     halt = out_of_range(state_.x, reached);
   } else {
     const auto wild = std::find_if(state_.v.begin(), state_.v.end(), [&](Real v) {
@@ -366,18 +369,18 @@ void TypedWorld<Real>::restore_last_valid(Halt::Cause cause) {
   state_.v = last_valid_.v;
   state_.time = last_valid_.time;
   if (remembers_) body_.begin_step(0);
-  take_forces();
+  evaluate_forces();
   stop(halt);
 }
 
 /// The world goes no further as it is: halted, or brought back where the scene asks for that.
 template <class Real>
-void TypedWorld<Real>::stop(const Halt& halt) {
+void TypedWorld<Real>::stop(const StopReason& halt) {
   if (!can_recover(halt)) {
     halt_ = halt;
     return;
   }
-  Condition seen = recovery_->look(model_.mesh, state_, mass_);
+  StateCheck seen = recovery_->check(model_.mesh, state_, mass_);
   const auto& file_tet = model_.order.file_tet;
   if (halt.element >= 0)
     seen.worst = static_cast<int>(std::find(file_tet.begin(), file_tet.end(), halt.element) - file_tet.begin());

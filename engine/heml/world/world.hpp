@@ -9,7 +9,7 @@
 #include <heml/world/command.hpp>
 #include <heml/world/recovery.hpp>
 #include <heml/world/setup.hpp>
-#include <heml/world/solver_work.hpp>
+#include <heml/world/solver_stats.hpp>
 #include <memory>
 #include <optional>
 #include <span>
@@ -26,15 +26,15 @@ struct EditReport {
   Energies before, after;                  ///< of the whole body
   double step_before = 0, step_after = 0;  ///< s, stable steps
   // Of a cut:
-  std::size_t split = 0;      ///< elements, into
-  std::size_t pieces = 0;     ///< so many
-  double area = 0;            ///< m², of one side of the cut, as the body was; of a tear too
-  double smallest_angle = 0;  ///< degrees, dihedral, of the worst piece at rest
-  std::size_t torn = 0;       ///< of a tear: faces that have come apart
+  std::size_t split = 0;   ///< elements, into
+  std::size_t pieces = 0;  ///< so many
+  double area = 0;         ///< m², of one side of the cut, as the body was; of a tear too
+  double min_angle = 0;    ///< degrees, dihedral, of the worst piece at rest
+  std::size_t torn = 0;    ///< of a tear: faces that have come apart
 };
 
 /// Why a world will not step on. The state is the last valid one.
-struct Halt {
+struct StopReason {
   enum class Cause { out_of_range, unstable, not_converged };
   Cause cause;
   int element = -1;     ///< the first element out of range, mesh-file order; -1: none to name
@@ -72,11 +72,11 @@ struct PinState {
 /// A table as the world sees it.
 struct TableState {
   Table table;
-  Vec3 force = Vec3::Zero();  ///< N, on the tissue: of explicit methods the mean over the last tick
-  double work = 0;            ///< J, on the tissue, force times way: friction takes energy away
-  double energy = 0;          ///< J, stored in the contact of implicit methods
-  double deepest = 0;         ///< m, that tissue is inside
-  int touching = 0;           ///< points of tissue
+  Vec3 force = Vec3::Zero();   ///< N, on the tissue: of explicit methods the mean over the last tick
+  double work = 0;             ///< J, on the tissue, force times way: friction takes energy away
+  double energy = 0;           ///< J, stored in the contact of implicit methods
+  double max_penetration = 0;  ///< m, that tissue is inside
+  int contact_count = 0;       ///< points of tissue
 };
 
 /// The probe, likewise.
@@ -86,8 +86,8 @@ struct ProbeState {
   double radius = 0;                            ///< m
   Vec3 force = Vec3::Zero();                    ///< N, on the tissue
   double work = 0, energy = 0;                  ///< J
-  double deepest = 0;                           ///< m
-  int touching = 0;
+  double max_penetration = 0;                   ///< m
+  int contact_count = 0;
 };
 
 /// A suture as the world sees it.
@@ -102,12 +102,12 @@ struct SelfContactState {
   double force = 0;   ///< N, the sum of what presses between all pairs: of explicit methods the mean over the last tick
   double work = 0;    ///< J, of friction
   double energy = 0;  ///< J, stored in the contact of implicit methods
-  double deepest = 0;  ///< m, that tissue is inside tissue
-  int touching = 0;    ///< pairs of a node and a face, or of two ridges
+  double max_penetration = 0;  ///< m, that tissue is inside tissue
+  int contact_count = 0;       ///< pairs of a node and a face, or of two ridges
 };
 
-class FactorWork;   // dynamics/factor_work.hpp
-struct WorldFacts;  // facts.hpp
+class PreconditionerBuild;  // dynamics/preconditioner_build.hpp
+struct WorldFacts;          // facts.hpp
 
 class World {
  public:
@@ -134,7 +134,7 @@ class World {
   /// Whether interrupt() left a tick unfinished: the state is then of no whole tick.
   virtual bool unfinished() const = 0;
 
-  virtual const std::optional<Halt>& halt() const = 0;
+  virtual const std::optional<StopReason>& halt() const = 0;
 
   /// The last recovery since the start or the last Reset, if there was any (setup().solver.recovery), and how many
   /// there were.
@@ -146,7 +146,7 @@ class World {
   virtual long steps() const = 0;          ///< integration steps done, substeps counted
   virtual int substeps() const = 0;        ///< of the last tick
   virtual double stable_step() const = 0;  ///< s, the live limit (safety included)
-  virtual SolverWork solver_work() const = 0;
+  virtual SolverStats solver_stats() const = 0;
 
   virtual std::vector<Vec3> positions() const = 0;   ///< #V×3, m
   virtual std::vector<Vec3> velocities() const = 0;  ///< #V×3, m/s
@@ -173,7 +173,7 @@ class World {
 
   /// Takes over the motion of another world of the same setup: positions, velocities, time, what is grasped. Returns
   /// false, and does nothing, where that is not all there is to it: another mesh or precision, memory, recovery.
-  virtual bool follow(const World& leader) = 0;
+  virtual bool copy_motion_from(const World& leader) = 0;
 
   /// Hash of positions and velocities, bit for bit, in mesh-file order.
   virtual std::uint64_t state_hash() const = 0;
@@ -186,9 +186,9 @@ class World {
   virtual const std::vector<EditReport>& edits() const = 0;
 
   /// Where implicit steps are preconditioned for a body that had more elements: work that makes what is right for the
-  /// body as it is now, to be run in any thread (which must end before this world does) and put to use by TakeFactor,
-  /// in time for which bodies step with what they have. Else null.
-  virtual std::shared_ptr<FactorWork> factor_work() = 0;
+  /// body as it is now, to be run in any thread (which must end before this world does) and put to use by
+  /// AdoptPreconditioner, in time for which bodies step with what they have. Else null.
+  virtual std::shared_ptr<PreconditionerBuild> preconditioner_build() = 0;
 
   /// As it is now: materials, damping, gravity and integrator follow the commands applied. The mesh
   /// is the whole one, with what cuts have added; topology() says what of it is there.
@@ -205,7 +205,7 @@ class World {
 };
 
 /// Elements that removals have taken, and nobody has taken back.
-std::size_t removed_of(const World& world);
+std::size_t removed_count(const World& world);
 
 /// Builds a world. Throws InputError for what check_tets() and material_of_elements() refuse.
 std::unique_ptr<World> make_world(WorldSetup setup);

@@ -14,7 +14,7 @@ constexpr double grip_reach = 0.25;  // of the body's size: how far a spring of 
 double tool_frequency(const WorldSetup& setup, double radius, double highest) {
   double speed = 0;  // of shear waves, m/s
   for (const RegionMaterial& entry : setup.materials)
-    speed = std::max(speed, std::sqrt(ground_state(entry.material).shear / entry.material.density));
+    speed = std::max(speed, std::sqrt(small_strain_moduli(entry.material).shear / entry.material.density));
   if (speed == 0) return 0.25 * highest;  // a net of springs: no continuum to ask
   return std::min(2 * speed / std::max(radius, 0.005), 0.25 * highest);
 }
@@ -40,31 +40,31 @@ std::optional<std::string> TypedWorld<Real>::apply(const Command& command) {
   const FlushDenormals flush;
   if (!is_edit(command)) ++changes_;
   is_known_ = false;
-  if (implicit_ && implicit_->equilibrium) implicit_->equilibrium->disturb();
-  auto problem = std::visit([this](const auto& c) { return take(c); }, command);
+  if (implicit_ && implicit_->equilibrium) implicit_->equilibrium->invalidate();
+  auto problem = std::visit([this](const auto& c) { return execute(c); }, command);
   if (!problem && !halt_ && !is_known_) {
-    if (!take_forces()) restore_last_valid(Halt::Cause::out_of_range);
+    if (!evaluate_forces()) restore_last_valid(StopReason::Cause::out_of_range);
     find_stable_step();
   }
   return problem;
 }
 
 template <class Real>
-std::optional<std::string> TypedWorld<Real>::take(const Grasp& command) {
+std::optional<std::string> TypedWorld<Real>::execute(const Grasp& command) {
   if (auto problem = patch_problem("grasp", command.node, command.radius, mass_.size())) return problem;
   const int center = model_.order.new_node[static_cast<std::size_t>(command.node)];
   GraspSpring<Real> grasp(
       center, static_cast<Real>(command.radius), surface_with(center), model_.mesh.nodes, state_.x.data(),
       inverse_mass_, static_cast<Real>(tool_frequency(setup_, command.radius, static_cast<double>(rest_frequency_))),
       grip_reach * model_.diagonal);
-  if (grasp.empty()) return fmt::format("grasp: node {} is held, or belongs to no element", command.node);
+  if (grasp.empty()) return fmt::format("grasp: node {} is constrained, or belongs to no element", command.node);
   grasps_.assign(1, std::move(grasp));
   ++grasps_taken_;
   return std::nullopt;
 }
 
 template <class Real>
-std::optional<std::string> TypedWorld<Real>::take(const MoveTool& command) {
+std::optional<std::string> TypedWorld<Real>::execute(const MoveTool& command) {
   if (grasps_.empty()) return "move: nothing is grasped";
   if (!finite(command.target)) return "move: the target is not finite";
   grasps_.front().move(command.target);
@@ -72,28 +72,28 @@ std::optional<std::string> TypedWorld<Real>::take(const MoveTool& command) {
 }
 
 template <class Real>
-std::optional<std::string> TypedWorld<Real>::take(const Release&) {
+std::optional<std::string> TypedWorld<Real>::execute(const Release&) {
   grasps_.clear();
   return std::nullopt;
 }
 
 template <class Real>
-std::optional<std::string> TypedWorld<Real>::take(const PinTissue& command) {
+std::optional<std::string> TypedWorld<Real>::execute(const PinTissue& command) {
   if (auto problem = patch_problem("pin", command.node, command.radius, mass_.size())) return problem;
   const int center = model_.order.new_node[static_cast<std::size_t>(command.node)];
   if (inverse_mass_[static_cast<std::size_t>(center)] == 0)
-    return fmt::format("pin: node {} is held, or belongs to no element", command.node);
+    return fmt::format("pin: node {} is constrained, or belongs to no element", command.node);
   pins_.push_back(
       pin_patch(center, command.radius, surface_with(center), model_.mesh.nodes, state_.x.data(), inverse_mass_));
-  take_held();
+  update_constraints();
   return std::nullopt;
 }
 
 template <class Real>
-std::optional<std::string> TypedWorld<Real>::take(const Unpin& command) {
+std::optional<std::string> TypedWorld<Real>::execute(const Unpin& command) {
   if (!command.node) {
     pins_.clear();
-    take_held();
+    update_constraints();
     return std::nullopt;
   }
   const auto holds = [&](const PinnedPatch& pin) {
@@ -103,7 +103,7 @@ std::optional<std::string> TypedWorld<Real>::take(const Unpin& command) {
   const auto pin = std::find_if(pins_.begin(), pins_.end(), holds);
   if (pin == pins_.end()) return fmt::format("release: no pin holds node {}", *command.node);
   pins_.erase(pin);
-  take_held();
+  update_constraints();
   return std::nullopt;
 }
 
@@ -118,17 +118,17 @@ std::vector<int> TypedWorld<Real>::surface_with(int node) const {
 
 /// What follows from other nodes being held.
 template <class Real>
-void TypedWorld<Real>::take_held() {
-  take_masses();
-  take_skin();
-  move_held();
+void TypedWorld<Real>::update_constraints() {
+  update_masses();
+  update_contact_boundary();
+  move_constrained();
   implicit_.reset();
   lowest_frequency_.reset();
-  if (recovering()) stand_in();
+  if (recovering()) install_surrogate();
 }
 
 template <class Real>
-std::optional<std::string> TypedWorld<Real>::take(const SetMaterial& command) {
+std::optional<std::string> TypedWorld<Real>::execute(const SetMaterial& command) {
   const auto entry = std::find_if(setup_.materials.begin(), setup_.materials.end(),
                                   [&](const RegionMaterial& m) { return m.region == command.region; });
   if (entry == setup_.materials.end())
@@ -146,17 +146,17 @@ std::optional<std::string> TypedWorld<Real>::take(const SetMaterial& command) {
     return fmt::format("material.{}: {}", problem->first, problem->second);
   entry->material = command.material;
   body_.set_material(static_cast<std::size_t>(entry - setup_.materials.begin()), command.material, state_.x.data());
-  take_masses();
+  update_masses();
   implicit_.reset();
   lowest_frequency_.reset();
-  if (recovering()) stand_in();
+  if (recovering()) install_surrogate();
   find_stable_step();
   method_ = choose_method();
   return std::nullopt;
 }
 
 template <class Real>
-std::optional<std::string> TypedWorld<Real>::take(const SetDamping& command) {
+std::optional<std::string> TypedWorld<Real>::execute(const SetDamping& command) {
   if (!(command.damping >= 0) || !std::isfinite(command.damping))
     return fmt::format("damping: must be 0 1/s or more, is {}", command.damping);
   setup_.solver.damping = command.damping;
@@ -164,14 +164,14 @@ std::optional<std::string> TypedWorld<Real>::take(const SetDamping& command) {
 }
 
 template <class Real>
-std::optional<std::string> TypedWorld<Real>::take(const SetGravity& command) {
+std::optional<std::string> TypedWorld<Real>::execute(const SetGravity& command) {
   if (!finite(command.gravity)) return "gravity: not finite";
   setup_.gravity = command.gravity;
   return std::nullopt;
 }
 
 template <class Real>
-std::optional<std::string> TypedWorld<Real>::take(const SetIntegrator& command) {
+std::optional<std::string> TypedWorld<Real>::execute(const SetIntegrator& command) {
   if ((command.integrator == Integrator::static_equilibrium) != setup_.solver.is_static())
     return "integrator: a scene is static from its start or not at all";
   setup_.solver.integrator = command.integrator;
@@ -181,7 +181,7 @@ std::optional<std::string> TypedWorld<Real>::take(const SetIntegrator& command) 
 }
 
 template <class Real>
-std::optional<std::string> TypedWorld<Real>::take(const Reset&) {
+std::optional<std::string> TypedWorld<Real>::execute(const Reset&) {
   undo_edits();
   start();
   return std::nullopt;

@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t most_undone = 20;  // edits; what was before them is forgotten, but for the start
 
 /// Nodes that an edit adds between two of a list are of it too, and copies of its nodes.
-void follow_edit(const MeshEdit& edit, int nodes, std::vector<int>& list) {
+void update_after_edit(const MeshEdit& edit, int nodes, std::vector<int>& list) {
   std::vector<int> sorted = list;
   std::sort(sorted.begin(), sorted.end());
   const auto has = [&](int n) { return std::binary_search(sorted.begin(), sorted.end(), n); };
@@ -26,7 +26,7 @@ void follow_edit(const MeshEdit& edit, int nodes, std::vector<int>& list) {
 MeshEdit in_numbers(MeshEdit edit, const std::vector<int>& node, const std::vector<int>& tet) {
   for (int& t : edit.removed) t = tet[static_cast<std::size_t>(t)];
   for (int& t : edit.parents) t = tet[static_cast<std::size_t>(t)];
-  for (NewNode& n : edit.nodes)
+  for (InsertedNode& n : edit.nodes)
     n = {node[static_cast<std::size_t>(n.from)], node[static_cast<std::size_t>(n.to)], n.at};
   for (Tet& added : edit.added)
     for (int& n : added)
@@ -39,7 +39,7 @@ double worst_angle(const MeshEdit& edit, const TetMesh& mesh) {
   for (const Tet& tet : edit.added) {
     std::array<Vec3, 4> X;
     for (std::size_t c = 0; c < 4; ++c) X[c] = mesh.nodes[static_cast<std::size_t>(tet[c])];
-    worst = std::min(worst, smallest_dihedral(X));
+    worst = std::min(worst, min_dihedral(X));
   }
   return worst;
 }
@@ -47,9 +47,10 @@ double worst_angle(const MeshEdit& edit, const TetMesh& mesh) {
 }  // namespace
 
 template <class Real>
-std::optional<std::string> TypedWorld<Real>::take(const RemoveElements& command) {
+std::optional<std::string> TypedWorld<Real>::execute(const RemoveElements& command) {
   MeshEdit edit;
-  if (const auto problem = make_removal(command.which, setup_.mesh, *topology_, edit)) return "remove: " + *problem;
+  if (const auto problem = make_removal_edit(command.which, setup_.mesh, *topology_, edit))
+    return "remove: " + *problem;
   save();
   stroke_.clear();
   const auto mass = [this] { return std::accumulate(mass_.begin(), mass_.end(), 0.0); };
@@ -63,11 +64,11 @@ std::optional<std::string> TypedWorld<Real>::take(const RemoveElements& command)
 }
 
 template <class Real>
-std::optional<std::string> TypedWorld<Real>::take(const CutTissue& command) {
+std::optional<std::string> TypedWorld<Real>::execute(const CutTissue& command) {
   for (const auto& [tip, end] : command.sweep.blades)
     if (!tip.allFinite() || !end.allFinite()) return "cut: a place of the blade is not finite";
-  if (command.sweep.blades.size() < 2) return "cut: the sweep needs the blade at two moments at least";
-  if (!command.goes_on) {
+  if (command.sweep.blades.size() < 2) return "cut: the sweep needs the blade at two times at least";
+  if (!command.continues_stroke) {
     stroke_.clear();
     in_stroke_ = false;
     missed_ = ticks_;
@@ -82,7 +83,7 @@ std::optional<std::string> TypedWorld<Real>::take(const CutTissue& command) {
   if (!in_stroke_) {
     save();
     edits_.push_back(begin_report());
-    edits_.back().smallest_angle = 180;
+    edits_.back().min_angle = 180;
   }
   in_stroke_ = true;
   carry_out(cut.edit);
@@ -90,13 +91,13 @@ std::optional<std::string> TypedWorld<Real>::take(const CutTissue& command) {
   report.split += cut.edit.removed.size();
   report.pieces += cut.edit.added.size();
   report.area += cut.area;
-  report.smallest_angle = std::min(report.smallest_angle, worst_angle(cut.edit, setup_.mesh));
+  report.min_angle = std::min(report.min_angle, worst_angle(cut.edit, setup_.mesh));
   end_report(report);
   return std::nullopt;
 }
 
 template <class Real>
-std::optional<std::string> TypedWorld<Real>::take(const Undo&) {
+std::optional<std::string> TypedWorld<Real>::execute(const Undo&) {
   if (edits_.empty() && missed_)
     return fmt::format("undo: nothing was cut or removed; the cut of step {} parted nothing", *missed_);
   if (edits_.empty()) return "undo: nothing was cut or removed";
@@ -112,10 +113,10 @@ template <class Real>
 void TypedWorld<Real>::tear() {
   if (!tearing_) tearing_.emplace(*setup_.tearing, setup_.mesh, *topology_);
   const std::vector<Vec3> x = positions();
-  const auto is_held = [this](int n) {
+  const auto is_constrained = [this](int n) {
     return inverse_mass_[static_cast<std::size_t>(model_.order.new_node[static_cast<std::size_t>(n)])] == 0;
   };
-  const std::vector<Opening> openings = tearing_->openings(setup_.mesh, x, is_held, team_);
+  const std::vector<TearOpening> openings = tearing_->openings(setup_.mesh, x, is_constrained, team_);
   if (openings.empty()) return;
   if (edits_.empty() || edits_.back().torn == 0) {
     save();
@@ -124,7 +125,7 @@ void TypedWorld<Real>::tear() {
   }
   const Tear tear = make_tear(openings, setup_.mesh, x, tearing_->around());
   carry_out(tear.edit);
-  take_forces();
+  evaluate_forces();
   edits_.back().torn += tear.faces;
   edits_.back().area += tear.area;
   end_report(edits_.back());
@@ -165,13 +166,13 @@ void TypedWorld<Real>::carry_out(const MeshEdit& edit) {
   const auto file_nodes = static_cast<int>(setup_.mesh.nodes.size()),
              file_tets = static_cast<int>(setup_.mesh.tets.size());
   const MeshEdit inner = in_numbers(edit, model_.order.new_node, model_.order.new_tet);
-  topology_ = std::make_shared<const Topology>(edited(*topology_, edit, file_tets));
+  topology_ = std::make_shared<const Topology>(apply_edit(*topology_, edit, file_tets));
   const std::size_t before = model_.mesh.tets.size();
   if (!edit.added.empty()) {
     append(edit, setup_.mesh);
-    for (Boundary& entry : setup_.boundary) follow_edit(edit, file_nodes, entry.nodes);
-    for (Load& load : setup_.loads) follow_edit(edit, file_nodes, load.nodes);
-    for (PinnedPatch& pin : pins_) follow_edit(inner, static_cast<int>(mass_.size()), pin.nodes);
+    for (Boundary& entry : setup_.boundary) update_after_edit(edit, file_nodes, entry.nodes);
+    for (Load& load : setup_.loads) update_after_edit(edit, file_nodes, load.nodes);
+    for (PinnedPatch& pin : pins_) update_after_edit(inner, static_cast<int>(mass_.size()), pin.nodes);
     append(setup_, inner, model_);
     for (auto* values : {&state_.x, &state_.v, &last_valid_.x, &last_valid_.v}) append(inner, *values, 3);
     state_.f.resize(state_.x.size());
@@ -193,23 +194,23 @@ void TypedWorld<Real>::carry_out(const MeshEdit& edit) {
   if (edit.added.empty())
     body_.keep_elements(elements);
   else
-    body_.take_pieces(model_.mesh, model_.material_of, origins);
-  take_edited();
+    body_.transfer_state(model_.mesh, model_.material_of, origins);
+  rebuild_after_edit();
   if (implicit_ && !(edit.added.empty() && implicit_->keep_elements(elements, mass_))) implicit_.reset();
 }
 
 /// What follows from other elements.
 template <class Real>
-void TypedWorld<Real>::take_edited() {
-  take_masses();
+void TypedWorld<Real>::rebuild_after_edit() {
+  update_masses();
   tearing_.reset();
-  take_tissue();
-  take_surfaces();
+  update_self_contact();
+  update_contact_surfaces();
   for (std::size_t n = 0; n < mass_.size(); ++n)
     if (mass_[n] == 0) Eigen::Map<Vector3<Real>>(&state_.v[3 * n]).setZero();
-  move_held();  // nodes of no element too
+  move_constrained();  // nodes of no element too
   if (recovery_) recovery_->set_mesh(model_.mesh, mass_);
-  if (recovering()) stand_in();
+  if (recovering()) install_surrogate();
   lowest_frequency_.reset();
 }
 
@@ -223,7 +224,7 @@ void TypedWorld<Real>::restore(const Saved& saved) {
   state_.x = last_valid_.x = saved.state.x;
   state_.v = last_valid_.v = saved.state.v;
   state_.f = saved.state.f;
-  if (recovery_) recovery_->good = state_;
+  if (recovery_) recovery_->last_good = state_;
   restore_grasp(saved);
   pins_ = saved.pins;
   contacts_.sutures = saved.sutures;
@@ -231,7 +232,7 @@ void TypedWorld<Real>::restore(const Saved& saved) {
   in_stroke_ = false;
   body_.restore(model_.mesh, model_.material_of, saved.body, state_.x.data());
   implicit_.reset();
-  take_edited();
+  rebuild_after_edit();
   if (saved.changes == changes_) restore_moment(saved);
 }
 
@@ -260,22 +261,23 @@ void TypedWorld<Real>::restore_moment(const Saved& saved) {
 }
 
 template <class Real>
-std::shared_ptr<FactorWork> TypedWorld<Real>::factor_work() {
+std::shared_ptr<PreconditionerBuild> TypedWorld<Real>::preconditioner_build() {
   if (!implicit_) return nullptr;
-  factor_work_ = implicit_->linear.factor_work();
-  factor_version_ = topology_->version;
-  return factor_work_;
+  preconditioner_build_ = implicit_->linear.preconditioner_build();
+  preconditioner_version_ = topology_->version;
+  return preconditioner_build_;
 }
 
 /// What another thread has made, where it is of the body as it is; else the same, made here and now.
 template <class Real>
-std::optional<std::string> TypedWorld<Real>::take(const TakeFactor&) {
-  const bool serves = factor_work_ && factor_work_->done() && factor_version_ == topology_->version;
-  const auto work = serves ? std::exchange(factor_work_, nullptr) : factor_work();
-  factor_work_.reset();
+std::optional<std::string> TypedWorld<Real>::execute(const AdoptPreconditioner&) {
+  const bool serves =
+      preconditioner_build_ && preconditioner_build_->done() && preconditioner_version_ == topology_->version;
+  const auto work = serves ? std::exchange(preconditioner_build_, nullptr) : preconditioner_build();
+  preconditioner_build_.reset();
   if (!work || !implicit_ || !implicit_->linear.is_outdated()) return std::nullopt;
   if (!serves) work->run();
-  implicit_->linear.take(*work);
+  implicit_->linear.adopt(*work);
   return std::nullopt;
 }
 
@@ -288,7 +290,7 @@ void TypedWorld<Real>::undo_edits() {
   whole_.reset();
 }
 
-std::size_t removed_of(const World& world) {
+std::size_t removed_count(const World& world) {
   std::size_t removed = 0;
   for (const EditReport& edit : world.edits()) removed += edit.removed;
   return removed;

@@ -91,9 +91,9 @@ std::optional<ErrorEstimate> TypedWorld<Real>::estimate() {
   ElasticBody<Real>& body = acting_body();
   if (body.has_springs()) return std::nullopt;
   ErrorEstimate found;
-  found.of_element = recovered_errors(model_.mesh, model_.material_of,
-                                      deformation_gradients(model_.mesh, inner_positions()),
-                                      body.stresses(state_.x.data(), team_));
+  found.of_element =
+      recovery_errors(model_.mesh, model_.material_of, deformation_gradients(model_.mesh, inner_positions()),
+                      body.stresses(state_.x.data(), team_));
   found.squared = std::accumulate(found.of_element.begin(), found.of_element.end(), 0.0);
   found.stored = body.energy(state_.x.data(), team_);
   return found;
@@ -111,7 +111,7 @@ std::optional<ErrorEstimate> TypedWorld<Real>::error_estimate() {
 }
 
 template <class Real>
-bool TypedWorld<Real>::follow(const World& leader) {
+bool TypedWorld<Real>::copy_motion_from(const World& leader) {
   const auto* other = dynamic_cast<const TypedWorld*>(&leader);
   if (!other || other->halt_ || other->remembers_ || remembers_ || other->recovering() || recovering()) return false;
   if (other->model_.order.file_node != model_.order.file_node || other->model_.order.file_tet != model_.order.file_tet)
@@ -173,11 +173,11 @@ template <class Real>
 std::vector<Vec3> TypedWorld<Real>::reactions() {
   std::vector<Vec3> result(setup_.boundary.size(), Vec3::Zero());
   const double inertia = setup_.solver.is_static() ? 0 : 1;
-  for (const HeldNode& held : model_.held) {
-    const auto n = static_cast<std::size_t>(held.node);
-    const Motion::At at = held_at(model_, held, state_.time);
+  for (const ConstrainedNode& constrained : model_.constrained) {
+    const auto n = static_cast<std::size_t>(constrained.node);
+    const PrescribedMotion::At at = prescribed_at(model_, constrained, state_.time);
     const Vec3 f = Eigen::Map<const Vector3<Real>>(&state_.f[3 * n]).template cast<double>();
-    result[static_cast<std::size_t>(held.entry)] +=
+    result[static_cast<std::size_t>(constrained.entry)] +=
         inertia * static_cast<double>(mass_[n]) * (at.a + setup_.solver.damping * at.v) - f;
   }
   return result;
@@ -215,8 +215,9 @@ template <class Real>
 std::vector<TableState> TypedWorld<Real>::tables() const {
   std::vector<TableState> tables;
   for (std::size_t s = 0; s < contacts_.tables.size(); ++s) {
-    const ContactDeeds deeds = contacts_.deeds_of(s);
-    tables.push_back({contacts_.tables[s], deeds.force, deeds.work, deeds.energy, deeds.deepest, deeds.touching});
+    const ContactReport report = contacts_.report_of(s);
+    tables.push_back(
+        {contacts_.tables[s], report.force, report.work, report.energy, report.max_penetration, report.contact_count});
   }
   return tables;
 }
@@ -225,8 +226,16 @@ template <class Real>
 ProbeState TypedWorld<Real>::probe() const {
   if (!contacts_.probe) return {};
   const ContactSurface at = surface_of(*contacts_.probe, state_.time);
-  const ContactDeeds deeds = contacts_.deeds_of(contacts_.tables.size());
-  return {true, at.point, at.other, at.radius, deeds.force, deeds.work, deeds.energy, deeds.deepest, deeds.touching};
+  const ContactReport report = contacts_.report_of(contacts_.tables.size());
+  return {true,
+          at.point,
+          at.other,
+          at.radius,
+          report.force,
+          report.work,
+          report.energy,
+          report.max_penetration,
+          report.contact_count};
 }
 
 template <class Real>
@@ -239,7 +248,7 @@ std::vector<SutureState> TypedWorld<Real>::sutures() const {
       state.nodes[end] = model_.order.file_node[n];
       state.ends[end] = Eigen::Map<const Vector3<Real>>(&state_.x[3 * n]).template cast<double>();
     }
-    state.force = contacts_.deeds_of(contacts_.tables.size() + (contacts_.probe ? 1 : 0) + k).force;
+    state.force = contacts_.report_of(contacts_.tables.size() + (contacts_.probe ? 1 : 0) + k).force;
   }
   return sutures;
 }
@@ -247,14 +256,15 @@ std::vector<SutureState> TypedWorld<Real>::sutures() const {
 template <class Real>
 std::optional<SelfContactState> TypedWorld<Real>::self_contact() const {
   if (!contacts_.tissue) return std::nullopt;
-  const ContactDeeds deeds =
-      contacts_.deeds_of(contacts_.tables.size() + (contacts_.probe ? 1 : 0) + contacts_.sutures.size());
-  return SelfContactState{deeds.pressed, deeds.work, deeds.energy, deeds.deepest, deeds.touching};
+  const ContactReport report =
+      contacts_.report_of(contacts_.tables.size() + (contacts_.probe ? 1 : 0) + contacts_.sutures.size());
+  return SelfContactState{report.normal_force, report.work, report.energy, report.max_penetration,
+                          report.contact_count};
 }
 
 template <class Real>
-SolverWork TypedWorld<Real>::solver_work() const {
-  SolverWork work = work_;
+SolverStats TypedWorld<Real>::solver_stats() const {
+  SolverStats work = work_;
   work.integrator = integrator_name(method_);
   if (setup_.solver.budget) work.budget = stage_iterations();
   if (!implicit_) return work;
@@ -267,14 +277,14 @@ template <class Real>
 std::uint64_t TypedWorld<Real>::node_hash(std::size_t file_node) const {
   const std::size_t n = 3 * static_cast<std::size_t>(model_.order.new_node[file_node]);
   std::uint64_t hash = 0;
-  for (std::size_t i = 0; i < 3; ++i) hash = mix(mix(hash, state_.x[n + i]), state_.v[n + i]);
+  for (std::size_t i = 0; i < 3; ++i) hash = hash_combine(hash_combine(hash, state_.x[n + i]), state_.v[n + i]);
   return hash;
 }
 
 template <class Real>
 std::uint64_t TypedWorld<Real>::state_hash() const {
   std::uint64_t hash = 0;
-  for (std::size_t n = 0; n < mass_.size(); ++n) hash = mix(hash, node_hash(n));
+  for (std::size_t n = 0; n < mass_.size(); ++n) hash = hash_combine(hash, node_hash(n));
   return hash;
 }
 

@@ -19,7 +19,7 @@ std::unique_ptr<World> run(const Trial& trial, WorldSetup setup, Integrator inte
 
 /// How far the order of convergence over two halvings of a step is from 2, in positions or velocities.
 Outcome distance_from_second_order(const Trial& trial, const WorldSetup& setup, double first_step, double finest) {
-  const Integrator integrator = *trial.way.integrator;
+  const Integrator integrator = *trial.variant.integrator;
   const auto exact = run(trial, setup, Integrator::verlet, finest);
   if (exact->halt()) return stopped(*exact);
   std::vector<double> x_error, v_error;
@@ -90,12 +90,12 @@ Outcome stiff_and_settled(const Trial& trial) {
 Outcome density_ratio(const Trial& trial) {
   WorldSetup setup = trial.setup("23_heavy_half");
   setup.solver.step.reset();
-  if (!is_explicit(*trial.way.integrator)) setup.solver.step = 5e-4;
+  if (!is_explicit(*trial.variant.integrator)) setup.solver.step = 5e-4;
   WorldSetup other = setup;  // the other kind of method
-  other.solver.integrator = is_explicit(*trial.way.integrator) ? Integrator::tr_bdf2 : Integrator::verlet;
+  other.solver.integrator = is_explicit(*trial.variant.integrator) ? Integrator::tr_bdf2 : Integrator::verlet;
   other.solver.single_precision = false;
   other.solver.step.reset();
-  if (is_explicit(*trial.way.integrator)) other.solver.step = 5e-4;
+  if (is_explicit(*trial.variant.integrator)) other.solver.step = 5e-4;
   const auto a = trial.world(setup), b = trial.world(other);
   if (!run_until(*b, setup.solver.duration)) return stopped(*b);
   if (!run_until(*a, setup.solver.duration)) return stopped(*a);

@@ -4,7 +4,7 @@
 // below, and give it a line in cases.cpp. A case that is a scene reads its file from assets/scenes/extreme, so that
 // what is measured is what people can open and watch.
 //
-//   cases()  ×  ways_of(case)  ──►  Trial ──► case.run ──► Outcome ──► judge ──► Verdict
+//   cases()  ×  variants_of(case)  ──►  Trial ──► case.run ──► Outcome ──► judge ──► Verdict
 #include <functional>
 #include <heml/world/world.hpp>
 #include <limits>
@@ -16,13 +16,13 @@
 namespace heml::stability {
 
 /// What a case is run with.
-struct Way {
+struct CaseVariant {
   std::string law;                       ///< one of study_laws()
   std::optional<Integrator> integrator;  ///< none: forces alone, nothing moves
   bool single = false;                   ///< float instead of double
-  bool operator==(const Way&) const = default;
+  bool operator==(const CaseVariant&) const = default;
 };
-std::string to_text(const Way& way);  ///< "neo_hookean verlet float"
+std::string to_text(const CaseVariant& variant);  ///< "neo_hookean verlet float"
 
 /// "No NaN" is not among them.
 enum class Verdict {
@@ -35,7 +35,7 @@ enum class Verdict {
 const char* verdict_name(Verdict verdict);
 
 struct Outcome {
-  double figure = 0;         ///< what the case measures: the smaller the better
+  double value = 0;          ///< what the case measures: the smaller the better
   int inverted = 0;          ///< elements, at the end
   long recoveries = 0;       ///< that were needed
   std::string stopped = {};  ///< why the world halted; empty: it did not
@@ -53,7 +53,7 @@ using ForceFault = std::function<void(const TetMesh& mesh, const Material& mater
 
 /// What a case gets. Faults are for tests, which see to it that cases notice; empty: none.
 struct Trial {
-  Way way;
+  CaseVariant variant;
   bool quick = false;
   std::function<void(WorldSetup&)> world_fault = {};
   ForceFault force_fault = {};
@@ -65,20 +65,20 @@ struct Trial {
   std::unique_ptr<World> world(WorldSetup setup) const;
 };
 
-using Question = Outcome (*)(const Trial&);
+using CaseFunction = Outcome (*)(const Trial&);
 
 struct Case {
-  int number;          ///< in the list of cases
-  const char* name;    ///< a few words
-  const char* holds;   ///< what counts as holding, one sentence
-  const char* figure;  ///< what is measured
-  double limit;        ///< of the figure, in double
-  double float_limit;  ///< NaN: not asked in float
+  int number;            ///< in the list of cases
+  const char* name;      ///< a few words
+  const char* holds;     ///< what counts as holding, one sentence
+  const char* measured;  ///< what is measured
+  double limit;          ///< of the figure, in double
+  double float_limit;    ///< NaN: not asked in float
   std::span<const std::string_view> laws;
   std::vector<Integrator> integrators;   ///< empty: forces alone
   std::vector<std::string_view> scenes;  ///< files in assets/scenes/extreme, without ".json"
-  Question run;
-  double limit_of(const Way& way) const { return way.single ? float_limit : limit; }
+  CaseFunction run;
+  double limit_of(const CaseVariant& variant) const { return variant.single ? float_limit : limit; }
 };
 
 /// All of them, in the order of their numbers.
@@ -86,7 +86,7 @@ std::span<const Case> cases();
 const Case& case_numbered(int number);
 
 /// Every way a case is asked. quick: a few laws of each.
-std::vector<Way> ways_of(const Case& c, bool quick);
+std::vector<CaseVariant> variants_of(const Case& c, bool quick);
 
 /// Laws of the study, in the order of columns: all but those of stress at rest, which the paper's tables print.
 std::span<const std::string_view> study_laws();
@@ -113,7 +113,7 @@ Outcome energy_drift(const Trial&);
 Outcome stiff_and_settled(const Trial&);
 Outcome density_ratio(const Trial&);
 Outcome jittered_steps(const Trial&);
-// motion.cpp
+// prescribed_motion.cpp
 Outcome beam_drop(const Trial&);
 Outcome no_energy_from_nothing(const Trial&);
 Outcome no_energy_from_budgets(const Trial&);
@@ -128,7 +128,7 @@ Outcome yanked(const Trial&);
 // changes.cpp
 Outcome cut_away(const Trial&);
 Outcome law_switched(const Trial&);
-// sameness.cpp
+// invariance.cpp
 Outcome permuted(const Trial&);
 Outcome other_units(const Trial&);
 Outcome any_number_of_threads(const Trial&);

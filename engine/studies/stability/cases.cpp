@@ -123,19 +123,19 @@ const Case& case_numbered(int number) {
   return *found;
 }
 
-std::vector<Way> ways_of(const Case& c, bool quick) {
+std::vector<CaseVariant> variants_of(const Case& c, bool quick) {
   static constexpr std::string_view few[] = {"neo_hookean", "mooney_rivlin"};
   std::vector<std::optional<Integrator>> integrators(c.integrators.begin(), c.integrators.end());
   if (integrators.empty()) integrators.emplace_back();
-  std::vector<Way> ways;
+  std::vector<CaseVariant> variants;
   for (const std::string_view law : c.laws)
     for (const bool single : {false, true}) {
       if (single && std::isnan(c.float_limit)) continue;
       const auto wanted = std::span(few).first(single ? 1 : 2);
       if (quick && !c.integrators.empty() && std::find(wanted.begin(), wanted.end(), law) == wanted.end()) continue;
-      for (const auto& integrator : integrators) ways.push_back({std::string(law), integrator, single});
+      for (const auto& integrator : integrators) variants.push_back({std::string(law), integrator, single});
     }
-  return ways;
+  return variants;
 }
 
 std::span<const std::string_view> study_laws() { return laws; }

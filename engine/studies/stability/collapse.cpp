@@ -11,12 +11,12 @@ namespace heml::stability {
 namespace {
 
 constexpr double at_rest = 1e-3;  // rms over the diagonal
-constexpr int most_steps = 60;
+constexpr int max_steps = 60;
 
 /// Steps of 1/60 s until the body is at rest and stays so; what it is away from rest by then.
 Outcome steps_to_rest(World& world) {
   int since = 0;
-  for (int step = 1; step <= most_steps && !world.halt(); ++step) {
+  for (int step = 1; step <= max_steps && !world.halt(); ++step) {
     world.tick();
     const bool good = away_from_rest(world) <= at_rest && inverted(world) == 0;
     if (!good) since = 0;
@@ -52,7 +52,7 @@ Outcome from_all(const Trial& trial, std::span<const char* const> scenes) {
     for (const double poisson : {0.3, 0.49, 0.499}) {
       if (trial.quick && poisson == 0.49) continue;
       const Outcome one = back_to_rest(trial, scene, poisson);
-      if (!(one.figure <= outcome.figure) || !one.stopped.empty())
+      if (!(one.value <= outcome.value) || !one.stopped.empty())
         slowest = fmt::format("{}, ν {}{}{}", scene, poisson, one.note.empty() ? "" : ": ", one.note);
       outcome = worse(outcome, one);
     }

@@ -59,13 +59,13 @@ class Body {
 
   /// Positions as the precision holds them.
   Vector held(const Vector& x) const {
-    if (!trial_.way.single) return x;
+    if (!trial_.variant.single) return x;
     const std::vector<float> single(x.begin(), x.end());
     return {single.begin(), single.end()};
   }
   Vector forces(const Vector& x) {
     Vector f(x.size());
-    if (trial_.way.single) {
+    if (trial_.variant.single) {
       const std::vector<float> at(x.begin(), x.end());
       std::vector<float> force(x.size());
       float_.forces(at.data(), force.data(), team_);
@@ -82,17 +82,17 @@ class Body {
     if (trial_.force_fault) trial_.force_fault(mesh_, material_, x, f);
     return f;
   }
-  Vector force_change(const Vector& x, const Vector& dx) {
+  Vector force_differential(const Vector& x, const Vector& dx) {
     Vector change(x.size());
-    if (!trial_.way.single) {
+    if (!trial_.variant.single) {
       double_.linearise(x.data(), team_);
-      double_.force_change(dx.data(), change.data(), team_);
+      double_.force_differential(dx.data(), change.data(), team_);
       return change;
     }
     const std::vector<float> at(x.begin(), x.end()), along(dx.begin(), dx.end());
     std::vector<float> out(x.size());
     float_.linearise(at.data(), team_);
-    float_.force_change(along.data(), out.data(), team_);
+    float_.force_differential(along.data(), out.data(), team_);
     return {out.begin(), out.end()};
   }
   double energy(const Vector& x) { return double_.energy(x.data(), team_); }
@@ -136,7 +136,8 @@ double stiffness_error(Body& body, const Vector& x, double h = 1e-7) {
     for (std::size_t i = 0; i < x.size(); ++i) at[i] += by * dx[i];
     return body.exact_forces(at);
   };
-  const Vector a = along(h), b = along(-h), c = along(2 * h), d = along(-2 * h), change = body.force_change(x, dx);
+  const Vector a = along(h), b = along(-h), c = along(2 * h), d = along(-2 * h),
+               change = body.force_differential(x, dx);
   Vector slope(x.size());
   for (std::size_t i = 0; i < x.size(); ++i) slope[i] = (8 * (a[i] - b[i]) - (c[i] - d[i])) / (12 * h);
   return largest_apart(change, slope) / largest(slope);
@@ -148,10 +149,10 @@ template <class Error>
 Outcome in_range_and_inverted(const Trial& trial, double reach_inverted, const Error& error) {
   Outcome outcome;
   for (const bool continued : {false, true}) {
-    Body body(trial, irregular_block(), bench_material(trial.way.law), continued);
+    Body body(trial, irregular_block(), bench_material(trial.variant.law), continued);
     const Vector x = body.held(moved(body.mesh(), Mat3::Identity(), continued ? reach_inverted : 0.0024, 2));
     const int inside_out = body.inverted(x);
-    outcome.figure = std::max(outcome.figure, error(body, x));
+    outcome.value = std::max(outcome.value, error(body, x));
     if ((inside_out > 0) != continued) outcome.broken = fmt::format("{} elements are inside out", inside_out);
     if (continued) outcome.note = fmt::format("{} of {} elements inside out", inside_out, body.mesh().tets.size());
   }
@@ -169,7 +170,7 @@ Outcome stiffness_is_slope_of_force(const Trial& trial) {
 }
 
 Outcome tension_form_is_gradient_form(const Trial& trial) {
-  Body body(trial, irregular_block(), bench_material(trial.way.law), false);
+  Body body(trial, irregular_block(), bench_material(trial.variant.law), false);
   Mat3 F;
   F << 1.2, 0.15, 0, -0.1, 0.9, 0.1, 0.05, 0, 1.05;
   const Vector x = body.held(moved(body.mesh(), F, 0.002, 3));
@@ -181,7 +182,7 @@ Outcome tension_form_is_gradient_form(const Trial& trial) {
 Outcome rigid_motion_far_away(const Trial& trial) {
   constexpr double young = 1e4, length = 0.1;
   TetMesh mesh = irregular_block();
-  Body body(trial, mesh, material_of(trial.way.law, young / 2.6, young / 1.2, 0.03), false);
+  Body body(trial, mesh, material_of(trial.variant.law, young / 2.6, young / 1.2, 0.03), false);
   const Mat3 R = Eigen::AngleAxisd(1.1, Vec3(1, -2, 2) / 3).toRotationMatrix();
   Vector x;
   for (const Vec3& X : mesh.nodes)
@@ -190,7 +191,7 @@ Outcome rigid_motion_far_away(const Trial& trial) {
 }
 
 Outcome sums_of_forces(const Trial& trial) {
-  Body body(trial, irregular_block(), bench_material(trial.way.law), true);
+  Body body(trial, irregular_block(), bench_material(trial.variant.law), true);
   const Vector x = body.held(moved(body.mesh(), Mat3::Identity(), 0.009, 4)), f = body.forces(x);
   Vec3 sum = Vec3::Zero(), moment = Vec3::Zero();
   double forces = 0, moments = 0;
@@ -206,9 +207,9 @@ Outcome sums_of_forces(const Trial& trial) {
 
 Outcome exponential_far_out(const Trial& trial) {
   // Q = 200: e^Q is beyond what float holds, and beyond all tissue.
-  Material material = bench_material(trial.way.law);
+  Material material = bench_material(trial.variant.law);
   const double gamma = 20;
-  const LawInfo& law = *find_law(trial.way.law);
+  const LawInfo& law = *find_law(trial.variant.law);
   for (std::size_t k = 0; k < law.parameters.size(); ++k)
     if (law.parameters[k].kind == ParameterKind::exponent) material.parameters[k] = gamma;
   if (law.has_fibre) material.fibre = Vec3::UnitX();
@@ -229,9 +230,9 @@ Outcome equal_stretches(const Trial& trial) {
   TetMesh mesh = irregular_block();
   for (const Vec3& stretches : {Vec3(1, 1, 1), Vec3(1.3, 1.3, 1.3), Vec3(1.4, 0.8, 0.8), Vec3(1.2, 1.2, 0.7)})
     for (const double reach : {0.0, 1e-10, 1e-6}) {
-      Body body(trial, mesh, bench_material(trial.way.law), false);
+      Body body(trial, mesh, bench_material(trial.variant.law), false);
       const Vector x = body.held(moved(mesh, stretches.asDiagonal(), reach, 6));
-      outcome.figure = std::max(outcome.figure, stiffness_error(body, x, 2e-6));
+      outcome.value = std::max(outcome.value, stiffness_error(body, x, 2e-6));
     }
   return outcome;
 }

@@ -54,10 +54,10 @@ std::string box(int x, int y, int width, const Ink& ink, bool promised, bool fal
 
 std::string tip_of(const Cell& cell) {
   const Case& c = case_numbered(cell.number);
-  return fmt::format("{} {}, {}: {}; {} {}, limit {}{}{}{}", cell.number, c.name, to_text(cell.way),
-                     verdict_name(cell.verdict), c.figure, short_number(cell.outcome.figure),
-                     short_number(c.limit_of(cell.way)), cell.outcome.stopped.empty() ? "" : "; ", cell.outcome.stopped,
-                     cell.outcome.broken.empty() ? "" : "; " + cell.outcome.broken);
+  return fmt::format("{} {}, {}: {}; {} {}, limit {}{}{}{}", cell.number, c.name, to_text(cell.variant),
+                     verdict_name(cell.verdict), c.measured, short_number(cell.outcome.value),
+                     short_number(c.limit_of(cell.variant)), cell.outcome.stopped.empty() ? "" : "; ",
+                     cell.outcome.stopped, cell.outcome.broken.empty() ? "" : "; " + cell.outcome.broken);
 }
 
 std::string heads() {
@@ -117,15 +117,15 @@ std::string matrix_svg(const std::vector<Cell>& cells) {
       width, height);
   svg += legend() + rows(0, width) + rows(laws_a_panel(), width) + heads();
   for (const Cell& cell : cells) {
-    const auto law = static_cast<std::size_t>(std::find(study_laws().begin(), study_laws().end(), cell.way.law) -
+    const auto law = static_cast<std::size_t>(std::find(study_laws().begin(), study_laws().end(), cell.variant.law) -
                                               study_laws().begin());
-    const int column =
-        cell.way.integrator
-            ? static_cast<int>(std::find(std::begin(order), std::end(order), *cell.way.integrator) - std::begin(order))
-            : 0;
-    svg += box(x_of(law, cell.way.single, column), y_of(law, static_cast<std::size_t>(cell.number) - 1),
-               cell.way.integrator ? cell_width : columns * cell_width, inks[static_cast<std::size_t>(cell.verdict)],
-               cell.promised, cell.short_of_promise, tip_of(cell));
+    const int column = cell.variant.integrator
+                           ? static_cast<int>(std::find(std::begin(order), std::end(order), *cell.variant.integrator) -
+                                              std::begin(order))
+                           : 0;
+    svg += box(x_of(law, cell.variant.single, column), y_of(law, static_cast<std::size_t>(cell.number) - 1),
+               cell.variant.integrator ? cell_width : columns * cell_width,
+               inks[static_cast<std::size_t>(cell.verdict)], cell.promised, cell.short_of_promise, tip_of(cell));
   }
   return svg + "</svg>\n";
 }

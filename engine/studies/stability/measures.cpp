@@ -23,7 +23,7 @@ void set_young_poisson(WorldSetup& setup, double young, double poisson) {
   }
 }
 
-double least_J(World& world) {
+double min_J(World& world) {
   const auto J = world.volume_ratios();
   return *std::min_element(J.begin(), J.end());
 }
@@ -42,7 +42,7 @@ double rms_difference(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
   return std::sqrt(sum / static_cast<double>(a.size()));
 }
 
-double largest_difference(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+double max_difference(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
   assert(a.size() == b.size());
   double largest = 0;
   for (std::size_t n = 0; n < a.size(); ++n) {
@@ -77,13 +77,13 @@ double away_from_rest(const World& world) {
   return std::sqrt(sum / static_cast<double>(x.size())) / diagonal(world.setup().mesh);
 }
 
-bool run_until(World& world, double time, long most_steps) {
-  while (!world.halt() && world.time() < time - 1e-9 && world.steps() < most_steps) world.tick();
+bool run_until(World& world, double time, long max_steps) {
+  while (!world.halt() && world.time() < time - 1e-9 && world.steps() < max_steps) world.tick();
   return !world.halt() && world.time() >= time - 1e-9;
 }
 
-Outcome ended(World& world, double figure, std::string note) {
-  Outcome outcome{figure, inverted(world), world.recoveries(), {}, {}, std::move(note)};
+Outcome ended(World& world, double value, std::string note) {
+  Outcome outcome{value, inverted(world), world.recoveries(), {}, {}, std::move(note)};
   if (world.halt()) outcome.stopped = world.halt()->message;
   return outcome;
 }
@@ -95,7 +95,7 @@ Outcome stopped(World& world) {
 }
 
 double noise(std::uint64_t seed, std::uint64_t place) {
-  return static_cast<double>(mix(seed, place) >> 11) * 0x1p-52 - 1;
+  return static_cast<double>(hash_combine(seed, place) >> 11) * 0x1p-52 - 1;
 }
 
 std::vector<double> flat(const std::vector<Vec3>& points) {

@@ -9,20 +9,20 @@ Material material_of(std::string_view law, double shear, double bulk, double edg
 /// The same from engineering constants, on all elements of a setup whose materials are of one law each.
 void set_young_poisson(WorldSetup& setup, double young, double poisson);
 
-double least_J(World& world);
+double min_J(World& world);
 int inverted(World& world);
 double total(const Energies& energies);
 double rms_difference(const std::vector<Vec3>& a, const std::vector<Vec3>& b);  ///< of equal length, m
-double largest_difference(const std::vector<Vec3>& a, const std::vector<Vec3>& b);
+double max_difference(const std::vector<Vec3>& a, const std::vector<Vec3>& b);
 double diagonal(const TetMesh& mesh);  ///< m, of the bounding box at rest
 /// Rms distance from the rest shape, turned and moved as fits best, over the diagonal.
 double away_from_rest(const World& world);
 
 /// Ticks until a time, s; at most so many integration steps. Returns whether it came there.
-bool run_until(World& world, double time, long most_steps = 20'000'000);
+bool run_until(World& world, double time, long max_steps = 20'000'000);
 
 /// The outcome of a run that has come to its end, or stopped on the way.
-Outcome ended(World& world, double figure, std::string note = {});
+Outcome ended(World& world, double value, std::string note = {});
 /// Of a run that stopped too early to measure anything.
 Outcome stopped(World& world);
 

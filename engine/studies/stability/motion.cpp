@@ -29,7 +29,7 @@ double limit_at_rest(const WorldSetup& setup) {
     double size = 0;
     for (const double c : w) size = std::max(size, std::abs(c));
     for (double& c : w) c /= size;
-    body.force_change(w.data(), change.data(), team);
+    body.force_differential(w.data(), change.data(), team);
     double wKw = 0, wMw = 0;
     for (std::size_t i = 0; i < w.size(); ++i) {
       wKw -= w[i] * change[i];
@@ -42,7 +42,7 @@ double limit_at_rest(const WorldSetup& setup) {
 }
 
 /// Energy a body with nothing working on it has gained at most, in one step, over what it had.
-Outcome largest_gain(World& world, int ticks) {
+Outcome max_gain(World& world, int ticks) {
   const double first = total(world.energies());
   double before = first, worst = 0;
   for (int k = 0; k < ticks && !world.halt(); ++k) {
@@ -73,10 +73,11 @@ Outcome beam_drop(const Trial& trial) {
   const auto fixed = make_world(setup);
   const bool reached = run_until(*fixed, duration);
   const double kept = std::abs(total(fixed->energies())) / swing;
-  const bool told = !reached || kept > 10 * outcome.figure;
+  const bool told = !reached || kept > 10 * outcome.value;
   outcome.note = reached ? fmt::format("0.9 of the limit at rest: energy off by {:.1e}", kept)
                          : fmt::format("0.9 of the limit at rest fails at {:.2f} s", fixed->time());
-  if (!told && trial.way.law == "neo_hookean" && !trial.way.single) outcome.broken = "the limit at rest did not fail";
+  if (!told && trial.variant.law == "neo_hookean" && !trial.variant.single)
+    outcome.broken = "the limit at rest did not fail";
   return outcome;
 }
 
@@ -88,7 +89,7 @@ Outcome no_energy_from_nothing(const Trial& trial) {
       set_young_poisson(setup, 1e4, poisson);
       const auto world = trial.world(setup);
       if (world->halt()) return stopped(*world);
-      outcome = worse(outcome, largest_gain(*world, 25));
+      outcome = worse(outcome, max_gain(*world, 25));
     }
   return outcome;
 }
@@ -103,7 +104,7 @@ Outcome no_energy_from_budgets(const Trial& trial) {
         setup.solver.minimiser = minimiser;
         setup.solver.budget = Budget{iterations, 0};
         const auto world = trial.world(setup);
-        Outcome one = largest_gain(*world, 15);
+        Outcome one = max_gain(*world, 15);
         one.inverted = 0;  // 0.15 s after disorder, one iteration a step, nobody promises that
         outcome = worse(outcome, one);
       }
@@ -116,8 +117,8 @@ Outcome half_a_turn(const Trial& trial) {
   long before = 0, most = 0;
   while (!world->halt() && world->time() < setup.solver.duration - 1e-9) {
     world->tick();
-    most = std::max(most, world->solver_work().iterations - before);
-    before = world->solver_work().iterations;
+    most = std::max(most, world->solver_stats().iterations - before);
+    before = world->solver_stats().iterations;
   }
   if (world->halt()) return stopped(*world);
   return ended(*world, static_cast<double>(most));
@@ -134,7 +135,7 @@ Outcome two_turns(const Trial& trial) {
     before = now;
   }
   if (world->halt()) return stopped(*world);
-  return ended(*world, falls, fmt::format("least J {:.2f}", least_J(*world)));
+  return ended(*world, falls, fmt::format("least J {:.2f}", min_J(*world)));
 }
 
 Outcome sliver(const Trial& trial) {
@@ -148,7 +149,7 @@ Outcome sliver(const Trial& trial) {
   tets.push_back(whole);
   good.mesh.nodes.resize(last);
   good.mesh.regions.resize(tets.size());
-  if (is_explicit(*trial.way.integrator)) {
+  if (is_explicit(*trial.variant.integrator)) {
     bad.solver.step.reset(), good.solver.step.reset();
     const auto world = trial.world(bad);
     const double ratio = world->stable_step() / make_world(good)->stable_step();
@@ -166,10 +167,10 @@ Outcome sliver(const Trial& trial) {
     auto x = world->positions();
     x.resize(last);
     sag.push_back(rms_difference(x, good.mesh.nodes));
-    iterations.push_back(static_cast<double>(world->solver_work().iterations));
+    iterations.push_back(static_cast<double>(world->solver_stats().iterations));
     outcome = ended(*world, 0);
   }
-  outcome.figure = std::abs(sag[1] / sag[0] - 1);
+  outcome.value = std::abs(sag[1] / sag[0] - 1);
   outcome.note = fmt::format("{:.0f} iterations, {:.0f} without", iterations[1], iterations[0]);
   if (iterations[1] > 1.2 * iterations[0] + 5) outcome.broken = "many more iterations than without";
   return outcome;

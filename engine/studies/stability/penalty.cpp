@@ -129,7 +129,7 @@ PenaltyRow row_of(const Method& method, const std::string& start, const WorldSet
   const std::vector<double> rest = flat(setup.mesh.nodes);
   Method without = method;
   without.strength = 0;
-  row.longest_step = std::sqrt(SteppedBody(without, setup).bound(rest) / SteppedBody(method, setup).bound(rest));
+  row.max_step = std::sqrt(SteppedBody(without, setup).bound(rest) / SteppedBody(method, setup).bound(rest));
   row.changed_stress = changed_stress(method);
   SteppedBody body(method, setup);
   body.run();
@@ -163,7 +163,7 @@ std::vector<PenaltyRow> compare_with_penalty(bool quick) {
   for (const std::string start : {"13_point", "13_line", "13_plane", "13_scatter", "15_mirrored", "12_shaken"}) {
     if (quick && start != "13_plane" && start != "12_shaken") continue;
     Trial trial;
-    trial.way = {"neo_hookean", Integrator::backward_euler, false};
+    trial.variant = {"neo_hookean", Integrator::backward_euler, false};
     WorldSetup setup = trial.setup(start);
     setup.solver.recovery = true;
     set_young_poisson(setup, young, poisson);

@@ -17,7 +17,7 @@ struct PenaltyRow {
   int inverted = 0;    ///< elements left inside out, of how many
   int elements = 0;
   double away = 0;            ///< rms distance from rest over the size; 0.1 % counts as back
-  double longest_step = 0;    ///< of explicit steps at rest, over that of the law alone
+  double max_step = 0;        ///< of explicit steps at rest, over that of the law alone
   double changed_stress = 0;  ///< how much stress at a stretch of 1.3 differs from the law's, relative
   bool back() const { return inverted == 0 && away <= 1e-3; }
 };

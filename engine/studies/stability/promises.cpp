@@ -14,8 +14,8 @@ bool holds(Verdict verdict) { return verdict == Verdict::stable || verdict == Ve
 
 /// In single precision with a tenth to spare, since other processors round otherwise.
 bool can_be_promised(const Cell& cell) {
-  const double limit = case_numbered(cell.number).limit_of(cell.way);
-  return holds(cell.verdict) && cell.outcome.figure <= (cell.way.single ? 0.9 : 1) * limit;
+  const double limit = case_numbered(cell.number).limit_of(cell.variant);
+  return holds(cell.verdict) && cell.outcome.value <= (cell.variant.single ? 0.9 : 1) * limit;
 }
 
 Promise promise_from(const Json& json, const std::string& file, const std::string& place) {
@@ -57,9 +57,9 @@ std::string promises_text(const std::vector<Cell>& cells) {
       for (const auto& integrator : integrators) {
         Promise promise{c.number, integrator, single, single ? c.float_limit : c.limit, {}};
         for (const Cell& cell : cells)
-          if (cell.number == c.number && cell.way.integrator == integrator && cell.way.single == single &&
+          if (cell.number == c.number && cell.variant.integrator == integrator && cell.variant.single == single &&
               can_be_promised(cell))
-            promise.laws.push_back(cell.way.law);
+            promise.laws.push_back(cell.variant.law);
         if (!promise.laws.empty()) promises.push_back(std::move(promise));
       }
     }
@@ -75,15 +75,15 @@ std::string promises_text(const std::vector<Cell>& cells) {
   return text + "]\n";
 }
 
-void hold_against(const std::vector<Promise>& promises, std::vector<Cell>& cells) {
+void check_promises(const std::vector<Promise>& promises, std::vector<Cell>& cells) {
   for (Cell& cell : cells)
     for (const Promise& promise : promises) {
-      if (promise.number != cell.number || promise.integrator != cell.way.integrator ||
-          promise.single != cell.way.single ||
-          std::find(promise.laws.begin(), promise.laws.end(), cell.way.law) == promise.laws.end())
+      if (promise.number != cell.number || promise.integrator != cell.variant.integrator ||
+          promise.single != cell.variant.single ||
+          std::find(promise.laws.begin(), promise.laws.end(), cell.variant.law) == promise.laws.end())
         continue;
       cell.promised = true;
-      cell.short_of_promise = !holds(cell.verdict) || !(cell.outcome.figure <= promise.limit);
+      cell.short_of_promise = !holds(cell.verdict) || !(cell.outcome.value <= promise.limit);
     }
 }
 

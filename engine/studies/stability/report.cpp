@@ -16,7 +16,7 @@ bool holds(const Cell& cell) { return cell.verdict == Verdict::stable || cell.ve
 std::vector<const Cell*> cells_of(const std::vector<Cell>& cells, int number, bool single) {
   std::vector<const Cell*> found;
   for (const Cell& cell : cells)
-    if (cell.number == number && cell.way.single == single) found.push_back(&cell);
+    if (cell.number == number && cell.variant.single == single) found.push_back(&cell);
   return found;
 }
 
@@ -29,7 +29,7 @@ std::string summary(const std::vector<const Cell*>& cells, double limit) {
   std::size_t good = 0;
   for (const Cell* cell : cells)
     if (holds(*cell)) {
-      worst = std::max(worst, cell->outcome.figure);
+      worst = std::max(worst, cell->outcome.value);
       ++good;
     }
   if (good == 0) return fmt::format("none of {}", cells.size());
@@ -42,7 +42,7 @@ TextTable table_of_cases(const std::vector<Cell>& cells) {
   for (const Case& c : cases()) {
     std::string scenes;
     for (const auto& scene : c.scenes) scenes += fmt::format("{}{}", scenes.empty() ? "" : ", ", scene);
-    table.rows.push_back({std::to_string(c.number), c.name, c.holds, c.figure,
+    table.rows.push_back({std::to_string(c.number), c.name, c.holds, c.measured,
                           summary(cells_of(cells, c.number, false), c.limit),
                           summary(cells_of(cells, c.number, true), c.float_limit), scenes});
   }
@@ -59,12 +59,12 @@ Cells line_of(const Cell& cell) {
     if (!more.empty()) words += (words.empty() ? "" : "; ") + more;
   return {std::to_string(cell.number),
           c.name,
-          cell.way.law,
-          cell.way.integrator ? integrator_name(*cell.way.integrator) : "",
-          cell.way.single ? "float" : "double",
+          cell.variant.law,
+          cell.variant.integrator ? integrator_name(*cell.variant.integrator) : "",
+          cell.variant.single ? "float" : "double",
           verdict_name(cell.verdict),
-          short_number(o.figure),
-          short_number(c.limit_of(cell.way)),
+          short_number(o.value),
+          short_number(c.limit_of(cell.variant)),
           cell.promised ? (cell.short_of_promise ? "falls short" : "promised") : "",
           words};
 }
@@ -91,7 +91,7 @@ TextTable table_of_penalty(const std::vector<PenaltyRow>& rows) {
   for (const PenaltyRow& row : rows)
     table.rows.push_back({row.start, row.method, row.back() ? "yes" : "no",
                           fmt::format("{} of {}", row.inverted, row.elements), percent(row.away),
-                          fmt::format("× {:.2f}", row.longest_step), percent(row.changed_stress)});
+                          fmt::format("× {:.2f}", row.max_step), percent(row.changed_stress)});
   table.first_number = 3;
   table.end_numbers = 7;
   return table;
@@ -138,9 +138,9 @@ std::vector<std::string> shortfalls(const std::vector<Cell>& cells) {
   for (const Cell& cell : cells)
     if (cell.short_of_promise)
       lines.push_back(fmt::format("case {} ({}), {}: {}, {} {}, limit {}{}{}", cell.number,
-                                  case_numbered(cell.number).name, to_text(cell.way), verdict_name(cell.verdict),
-                                  case_numbered(cell.number).figure, short_number(cell.outcome.figure),
-                                  short_number(case_numbered(cell.number).limit_of(cell.way)),
+                                  case_numbered(cell.number).name, to_text(cell.variant), verdict_name(cell.verdict),
+                                  case_numbered(cell.number).measured, short_number(cell.outcome.value),
+                                  short_number(case_numbered(cell.number).limit_of(cell.variant)),
                                   cell.outcome.stopped.empty() ? "" : ": ", cell.outcome.stopped));
   return lines;
 }
@@ -164,7 +164,7 @@ std::string answer(const std::vector<Cell>& cells) {
 std::string csv_of(const std::vector<Cell>& cells) {
   TextTable table = table_of_cells(taken(cells, [](const Cell&) { return true; }));
   table.head.front() = "number";
-  for (std::size_t k = 0; k < cells.size(); ++k) table.rows[k][6] = fmt::format("{}", cells[k].outcome.figure);
+  for (std::size_t k = 0; k < cells.size(); ++k) table.rows[k][6] = fmt::format("{}", cells[k].outcome.value);
   return csv_text(table);
 }
 

@@ -88,21 +88,21 @@ Outcome flattened(const Trial& trial) {
   // From above to below the floor: at every height the body pushes back, and more than before.
   WorldSetup setup = trial.setup("14_flattened");
   const double side = 0.1;
-  double before = 0, least_rise = 1;
+  double before = 0, min_rise = 1;
   Outcome outcome;
   for (const double height : {0.5, 0.3, 0.1, 0.0, -0.2}) {
     setup.boundary[1].translate = Vec3(0, (height - 1) * side, 0);
-    setup.boundary[1].over = 0;
+    setup.boundary[1].ramp_time = 0;
     setup.initial_positions.clear();
     for (const Vec3& X : setup.mesh.nodes) setup.initial_positions.emplace_back(X.x(), height * X.y(), X.z());
     const auto world = trial.world(setup);
     if (world->halt()) return stopped(*world);
     const double pushed = -world->reactions()[1].y();
-    if (before > 0) least_rise = std::min(least_rise, pushed / before - 1);
-    if (!(pushed > before)) ++outcome.figure;
+    if (before > 0) min_rise = std::min(min_rise, pushed / before - 1);
+    if (!(pushed > before)) ++outcome.value;
     before = pushed;
   }
-  outcome.note = fmt::format("least rise {:.0f} %", 100 * least_rise);
+  outcome.note = fmt::format("least rise {:.0f} %", 100 * min_rise);
   return outcome;
 }
 
@@ -110,13 +110,13 @@ Outcome stretched_and_pressed(const Trial& trial) {
   Outcome outcome;
   for (const char* scene : {"16_stretched_five_times", "16_pressed_to_a_fifth"}) {
     WorldSetup setup = trial.setup(scene);
-    if (trial.way.single) setup.solver.tolerance.reset();
+    if (trial.variant.single) setup.solver.tolerance.reset();
     const auto world = settled(trial, setup);
-    Outcome one = ended(*world, static_cast<double>(world->solver_work().iterations));
+    Outcome one = ended(*world, static_cast<double>(world->solver_stats().iterations));
     const auto reactions = world->reactions();
-    const double unbalanced = (reactions[0] + reactions[1]).norm() / reactions[0].norm();
-    if (!(unbalanced <= (trial.way.single ? 1e-3 : 1e-6)))
-      one.broken = fmt::format("{}: the supports' forces differ by {:.1e}", scene, unbalanced);
+    const double relative_net_load = (reactions[0] + reactions[1]).norm() / reactions[0].norm();
+    if (!(relative_net_load <= (trial.variant.single ? 1e-3 : 1e-6)))
+      one.broken = fmt::format("{}: the supports' forces differ by {:.1e}", scene, relative_net_load);
     outcome = worse(outcome, one);
   }
   return outcome;
@@ -124,7 +124,7 @@ Outcome stretched_and_pressed(const Trial& trial) {
 
 Outcome stiffness_ratio(const Trial& trial) {
   WorldSetup stiff = trial.setup("19_stiff_half");
-  if (trial.way.single) stiff.solver.tolerance.reset();
+  if (trial.variant.single) stiff.solver.tolerance.reset();
   WorldSetup rigid = stiff;  // all of the stiff half is held
   for (std::size_t t = 0; t < rigid.mesh.tets.size(); ++t)
     if (rigid.mesh.regions[t] == 1)
@@ -134,12 +134,12 @@ Outcome stiffness_ratio(const Trial& trial) {
   const double moved = rms_difference(b->positions(), rigid.mesh.nodes);
   const double shape = rms_difference(a->positions(), b->positions()) / moved;
   const double force = (a->reactions()[0] - b->reactions()[0]).norm() / b->reactions()[0].norm();
-  return ended(*a, std::max(shape, force), fmt::format("{} iterations", a->solver_work().iterations));
+  return ended(*a, std::max(shape, force), fmt::format("{} iterations", a->solver_stats().iterations));
 }
 
 Outcome nearly_incompressible(const Trial& trial) {
   WorldSetup setup = trial.setup("21_nearly_incompressible");
-  if (trial.way.single) setup.solver.tolerance.reset();
+  if (trial.variant.single) setup.solver.tolerance.reset();
   std::vector<std::unique_ptr<World>> worlds;
   for (const double poisson : {0.3, 0.499}) {
     set_young_poisson(setup, 5e5, poisson);

@@ -26,23 +26,23 @@ std::string fingerprint_of_scenes() {
     for (const auto& entry : std::filesystem::directory_iterator(assets_folder() / folder)) files.insert(entry.path());
     for (const auto& file : files)
       for (const char c : file.filename().string() + read_text_file(file))
-        hash = mix(hash, static_cast<std::uint64_t>(static_cast<unsigned char>(c)));
+        hash = hash_combine(hash, static_cast<std::uint64_t>(static_cast<unsigned char>(c)));
   }
   return fmt::format("{:016x}", hash);
 }
 
 std::string key_of(const Cell& cell, bool quick, const std::string& scenes) {
-  return fmt::format("{}|{}|{}|{}", cell.number, to_text(cell.way), quick ? "quick" : "full", scenes);
+  return fmt::format("{}|{}|{}|{}", cell.number, to_text(cell.variant), quick ? "quick" : "full", scenes);
 }
 
 Json to_json(const Outcome& outcome) {
-  return {{"figure", outcome.figure},   {"inverted", outcome.inverted}, {"recoveries", outcome.recoveries},
+  return {{"figure", outcome.value},    {"inverted", outcome.inverted}, {"recoveries", outcome.recoveries},
           {"stopped", outcome.stopped}, {"broken", outcome.broken},     {"note", outcome.note}};
 }
 
 Outcome outcome_from(const Json& json) {
-  const Json& figure = json["figure"];  // null: not finite
-  return {figure.is_null() ? std::numeric_limits<double>::infinity() : figure.get<double>(),
+  const Json& value = json["figure"];  // null: not finite
+  return {value.is_null() ? std::numeric_limits<double>::infinity() : value.get<double>(),
           json["inverted"],
           json["recoveries"],
           json["stopped"],
@@ -52,7 +52,7 @@ Outcome outcome_from(const Json& json) {
 
 Outcome run_cell(const Cell& cell, bool quick) {
   Trial trial;
-  trial.way = cell.way;
+  trial.variant = cell.variant;
   trial.quick = quick;
   return case_numbered(cell.number).run(trial);
 }
@@ -62,7 +62,7 @@ std::vector<Cell> cells_of(const StudyOptions& options) {
   for (const Case& c : cases()) {
     if (!options.only.empty() && std::find(options.only.begin(), options.only.end(), c.number) == options.only.end())
       continue;
-    for (Way& way : ways_of(c, options.quick)) cells.push_back({c.number, std::move(way), {}, {}});
+    for (CaseVariant& variant : variants_of(c, options.quick)) cells.push_back({c.number, std::move(variant), {}, {}});
   }
   return cells;
 }
@@ -81,7 +81,7 @@ std::vector<Cell> run_study(const std::filesystem::path& file, const StudyOption
       open.push_back(k);
   // In no order, so that what is done says how long the rest will take.
   std::sort(open.begin(), open.end(), [](std::size_t a, std::size_t b) {
-    return mix(1, static_cast<std::uint64_t>(a)) < mix(1, static_cast<std::uint64_t>(b));
+    return hash_combine(1, static_cast<std::uint64_t>(a)) < hash_combine(1, static_cast<std::uint64_t>(b));
   });
 
   std::mutex door;
@@ -109,7 +109,7 @@ std::vector<Cell> run_study(const std::filesystem::path& file, const StudyOption
       Json json = to_json(outcome);
       json["seconds"] = seconds;  // for people: nothing is decided by it
       cell.outcome = outcome_from(results.add(key_of(cell, options.quick, scenes), json));
-      options.progress(fmt::format("{}, {}", case_numbered(cell.number).name, to_text(cell.way)),
+      options.progress(fmt::format("{}, {}", case_numbered(cell.number).name, to_text(cell.variant)),
                        static_cast<double>(++done) / static_cast<double>(open.size()));
     }
   };
@@ -117,7 +117,7 @@ std::vector<Cell> run_study(const std::filesystem::path& file, const StudyOption
   for (unsigned k = 0; k < std::max(1u, std::thread::hardware_concurrency()); ++k) workers.emplace_back(work);
   for (std::thread& worker : workers) worker.join();
   if (error) std::rethrow_exception(error);
-  for (Cell& cell : cells) cell.verdict = judge(cell.outcome, case_numbered(cell.number).limit_of(cell.way));
+  for (Cell& cell : cells) cell.verdict = judge(cell.outcome, case_numbered(cell.number).limit_of(cell.variant));
   return cells;
 }
 

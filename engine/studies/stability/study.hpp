@@ -11,7 +11,7 @@ namespace heml::stability {
 /// One way of one case, measured.
 struct Cell {
   int number;  ///< of the case
-  Way way;
+  CaseVariant variant;
   Outcome outcome;
   Verdict verdict;
   bool promised = false;
@@ -34,7 +34,7 @@ std::filesystem::path promises_file();  ///< assets/studies/promised.json
 std::string promises_text(const std::vector<Cell>& cells);
 
 /// Marks what is promised, and what of it falls short.
-void hold_against(const std::vector<Promise>& promises, std::vector<Cell>& cells);
+void check_promises(const std::vector<Promise>& promises, std::vector<Cell>& cells);
 
 struct StudyOptions {
   bool quick = false;

@@ -31,9 +31,10 @@ WorldSetup as_in_file(const std::string& scene) {
 
 }  // namespace
 
-std::string to_text(const Way& way) {
-  return fmt::format("{}{}{} {}", way.law, way.integrator ? " " : "",
-                     way.integrator ? integrator_name(*way.integrator) : "", way.single ? "float" : "double");
+std::string to_text(const CaseVariant& variant) {
+  return fmt::format("{}{}{} {}", variant.law, variant.integrator ? " " : "",
+                     variant.integrator ? integrator_name(*variant.integrator) : "",
+                     variant.single ? "float" : "double");
 }
 
 const char* verdict_name(Verdict verdict) {
@@ -42,14 +43,14 @@ const char* verdict_name(Verdict verdict) {
 }
 
 Verdict judge(const Outcome& outcome, double limit) {
-  if (!outcome.stopped.empty() || !std::isfinite(outcome.figure)) return Verdict::diverged;
+  if (!outcome.stopped.empty() || !std::isfinite(outcome.value)) return Verdict::diverged;
   if (outcome.inverted > 0) return Verdict::inverted;
-  if (!outcome.broken.empty() || outcome.figure > limit) return Verdict::wrong;
+  if (!outcome.broken.empty() || outcome.value > limit) return Verdict::wrong;
   return outcome.recoveries > 0 ? Verdict::recovered : Verdict::stable;
 }
 
 Outcome worse(const Outcome& a, const Outcome& b) {
-  Outcome outcome = a.figure >= b.figure || std::isnan(a.figure) ? a : b;
+  Outcome outcome = a.value >= b.value || std::isnan(a.value) ? a : b;
   outcome.inverted = std::max(a.inverted, b.inverted);
   outcome.recoveries = std::max(a.recoveries, b.recoveries);
   outcome.stopped = a.stopped.empty() ? b.stopped : a.stopped;
@@ -62,14 +63,14 @@ WorldSetup Trial::setup(const std::string& scene) const {
   WorldSetup setup = as_in_file(scene);
   const double edge = mean_edge(setup.mesh);
   for (RegionMaterial& entry : setup.materials) {
-    if (entry.material.law == way.law) continue;
-    const GroundState ground = ground_state(entry.material);
+    if (entry.material.law == variant.law) continue;
+    const SmallStrainModuli ground = small_strain_moduli(entry.material);
     const double density = entry.material.density;
-    entry.material = material_of(way.law, ground.shear, ground.bulk, edge);
+    entry.material = material_of(variant.law, ground.shear, ground.bulk, edge);
     entry.material.density = density;
   }
-  if (way.integrator) setup.solver.integrator = *way.integrator;
-  setup.solver.single_precision = way.single;
+  if (variant.integrator) setup.solver.integrator = *variant.integrator;
+  setup.solver.single_precision = variant.single;
   setup.solver.threads = 1;  // cases are run side by side, and threads change no bit
   return setup;
 }

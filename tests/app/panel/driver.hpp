@@ -31,32 +31,32 @@ class ImguiContext {
 inline Scene small_scene() {
   Scene scene;
   scene.name = "small";
-  const Lame lame = lame_from(1e4, 0.3);
+  const LameParameters lame = lame_parameters(1e4, 0.3);
   scene.materials = {{std::nullopt, {"neo_hookean", {lame.lambda, lame.mu}, 1000}}, {2, {"stvk", {2e4, 1e4}, 1100}}};
   scene.gravity = Vec3(0, -9.81, 0);
   return scene;
 }
 
-inline Skin small_skin() {
-  Skin skin;
-  skin.nodes = {10, 11, 12, 13};
-  skin.rest = {{0, 0, 0}, {0.1f, 0, 0}, {0, 0.1f, 0}, {0, 0, 0.1f}};
-  skin.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
-  skin.regions = {0, 0, 0, 0};
-  return skin;
+inline SurfaceMesh small_surface() {
+  SurfaceMesh surface_mesh;
+  surface_mesh.nodes = {10, 11, 12, 13};
+  surface_mesh.rest = {{0, 0, 0}, {0.1f, 0, 0}, {0, 0.1f, 0}, {0, 0, 0.1f}};
+  surface_mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+  surface_mesh.regions = {0, 0, 0, 0};
+  return surface_mesh;
 }
 
 class Driver {
  public:
   explicit Driver(const Scene& scene = small_scene(), float width = 1280, float height = 760, float scale = 1)
-      : context_(width, height, scale), panel(scene, small_skin()) {
-    frame.positions = small_skin().rest;
+      : context_(width, height, scale), panel(scene, small_surface()) {
+    frame.positions = small_surface().rest;
     away();
     for (int k = 0; k < 3; ++k) draw();
   }
 
   panel::PanelActions draw() {
-    panel.take(frame, 1.0f / 60);
+    panel.update(frame, 1.0f / 60);
     ImGui::NewFrame();
     panel::PanelActions actions = panel.draw(frame);
     ImGui::Render();
@@ -89,9 +89,9 @@ class Driver {
       all.requests.insert(all.requests.end(), more.requests.begin(), more.requests.end());
       if (more.show) all.show = more.show;
       if (more.open) all.open = more.open;
-      if (more.look_into) all.look_into = more.look_into;
-      if (more.beside) all.beside = more.beside;
-      if (more.look_at) all.look_at = more.look_at;
+      if (more.list_folder) all.list_folder = more.list_folder;
+      if (more.comparisons) all.comparisons = more.comparisons;
+      if (more.seek_to) all.seek_to = more.seek_to;
       if (more.view) all.view = more.view;
       if (more.keep_view) all.keep_view = more.keep_view;
     }

@@ -17,7 +17,7 @@ Frame at(double time, double kinetic = 0) {
 
 TEST_CASE("history keeps the last seconds and no more points than a plot can show") {
   History history;
-  for (int k = 0; k <= 30000; ++k) history.take(at(0.001 * k, k));
+  for (int k = 0; k <= 30000; ++k) history.add(at(0.001 * k, k));
   const auto& readings = history.readings();
   CHECK(readings.size() <= 241);
   CHECK(readings.size() > 200);
@@ -28,9 +28,9 @@ TEST_CASE("history keeps the last seconds and no more points than a plot can sho
 
 TEST_CASE("history starts afresh after a reset") {
   History history;
-  history.take(at(1, 5));
-  history.take(at(2, 6));
-  history.take(at(0, 7));
+  history.add(at(1, 5));
+  history.add(at(2, 6));
+  history.add(at(0, 7));
   REQUIRE(history.readings().size() == 1);
   CHECK(history.readings().front().energies.kinetic == 7);
 }
@@ -39,11 +39,11 @@ TEST_CASE("history takes no force from a tool that holds nothing") {
   History history;
   Frame frame = at(1);
   frame.tool.force = Vec3(3, 4, 0);
-  history.take(frame);
+  history.add(frame);
   CHECK(history.readings().back().force == 0);
   frame.time = 2;
   frame.tool.active = true;
-  history.take(frame);
+  history.add(frame);
   CHECK(history.readings().back().force == 5);
 }
 
@@ -52,8 +52,8 @@ TEST_CASE("history does not mind that somebody looks back") {
   Frame now = at(2), before = at(1);
   now.tick = 200;
   before.tick = 100;
-  history.take(now);
-  history.take(before);
+  history.add(now);
+  history.add(before);
   CHECK(history.readings().size() == 1);
   CHECK(history.readings().back().time == 2);
 }

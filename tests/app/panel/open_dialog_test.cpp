@@ -4,29 +4,29 @@ namespace heml::open_dialog_test {
 
 using namespace heml::test;
 using panel::Action;
-using panel::Offer;
-using panel::Offers;
+using panel::OpenChoice;
+using panel::OpenChoices;
 using panel::Request;
 
 namespace {
 
-Offers some_offers() {
-  Offers offers;
-  offers.scenes = {{"/assets/kidney.json", "Kidney, held by its vessels", "Grasp it anywhere and pull."},
-                   {"/assets/beam.json", "Cantilever", "A soft beam bends under its own weight."},
-                   {"/assets/twist.json", "Wrung by two turns", "One end of a bar turns twice."}};
-  offers.extreme = {{"/assets/extreme/patch.json", "Patch test", "Every node inside has to find the same shape."}};
-  offers.recent = {{"/scenes/liver.obj", "liver.obj", "/scenes"},
-                   {"/scenes/gone.json", "gone.json", "/scenes", nullptr, false, false}};
-  offers.folder = "/scenes/mine";
-  offers.files = {{"/scenes", "..", "folder above", nullptr, true},
-                  {"/scenes/mine/a.jsonl", "a.jsonl", "recording, 2 kB"}};
-  return offers;
+OpenChoices some_choices() {
+  OpenChoices choices;
+  choices.scenes = {{"/assets/kidney.json", "Kidney, held by its vessels", "Grasp it anywhere and pull."},
+                    {"/assets/beam.json", "Cantilever", "A soft beam bends under its own weight."},
+                    {"/assets/twist.json", "Wrung by two turns", "One end of a bar turns twice."}};
+  choices.extreme = {{"/assets/extreme/patch.json", "Patch test", "Every node inside has to find the same shape."}};
+  choices.recent = {{"/scenes/liver.obj", "liver.obj", "/scenes"},
+                    {"/scenes/gone.json", "gone.json", "/scenes", nullptr, false, false}};
+  choices.folder = "/scenes/mine";
+  choices.files = {{"/scenes", "..", "folder above", nullptr, true},
+                   {"/scenes/mine/a.jsonl", "a.jsonl", "recording, 2 kB"}};
+  return choices;
 }
 
 /// With the dialog open, after what it takes to settle.
 void open(Driver& driver) {
-  driver.panel.offer(some_offers());
+  driver.panel.set_choices(some_choices());
   driver.panel.perform(Action::open);
   CHECK(driver.draw().requests == std::vector{Request::list});
   for (int k = 0; k < 3; ++k) driver.draw();
@@ -75,7 +75,7 @@ TEST_CASE("a folder is looked into, and a file that has gone is not opened") {
   CHECK(driver.panel.asks());
   REQUIRE(shows(driver, ".."));
   const auto actions = driver.click();
-  CHECK(actions.look_into == std::filesystem::path("/scenes"));
+  CHECK(actions.list_folder == std::filesystem::path("/scenes"));
   CHECK_FALSE(actions.open);
   CHECK(driver.panel.asks());
 }

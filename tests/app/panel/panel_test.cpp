@@ -39,7 +39,7 @@ TEST_CASE("buttons do what their keys do") {
   const auto reset = driver.click("Reset", 112);
   REQUIRE(reset.commands.size() == 1);
   CHECK(std::holds_alternative<Reset>(reset.commands.front()));
-  CHECK(driver.click("Save picture", 150).requests == std::vector{Request::screenshot});
+  CHECK(driver.click("Save image", 150).requests == std::vector{Request::screenshot});
   CHECK(driver.click("Fit view", 60).requests == std::vector{Request::fit});
   Driver tall(small_scene(), 1280, 900);
   CHECK(tall.click("Save scene", 100).requests == std::vector{Request::save});
@@ -50,10 +50,10 @@ TEST_CASE("a scene is written with the tissue, the motion and the colours that a
   Driver driver(scene);
   Material other = scene.materials[1].material;
   other.density = 1234;
-  driver.panel.follow(SetMaterial{2, other});
-  driver.panel.follow(SetGravity{Vec3(0, 0, 3)});
-  driver.panel.follow(SetDamping{7});
-  driver.panel.follow(SetIntegrator{Integrator::tr_bdf2});
+  driver.panel.sync(SetMaterial{2, other});
+  driver.panel.sync(SetGravity{Vec3(0, 0, 3)});
+  driver.panel.sync(SetDamping{7});
+  driver.panel.sync(SetIntegrator{Integrator::tr_bdf2});
   after(driver, Action::show_stretch);
   after(driver, Action::wireframe);
   driver.panel.write_into(scene);
@@ -148,22 +148,22 @@ TEST_CASE("a view of the eye is kept by its first press and gone to by the next"
 
 TEST_CASE("the film button begins a film and ends it") {
   Driver driver;
-  CHECK(driver.click("Film", 245).requests == std::vector{Request::film});
+  CHECK(driver.click("Record video", 245).requests == std::vector{Request::film});
   driver.panel.view().set_filmed(12);
-  CHECK(driver.click("Stop film", 245).requests == std::vector{Request::film});
+  CHECK(driver.click("Stop recording", 245).requests == std::vector{Request::film});
 }
 
 TEST_CASE("errors and lateness are plotted where they are read") {
   Driver driver;
   driver.frame.mesh_error = 0.1;
   driver.frame.time_error = TimeError{1e-4, 2e-4};
-  driver.frame.skin = std::make_shared<const Skin>(small_skin());
+  driver.frame.surface_mesh = std::make_shared<const SurfaceMesh>(small_surface());
   for (int k = 0; k < 30; ++k) {
     driver.frame.time += 0.1;
     driver.frame.tick += 100;
     driver.draw();
   }
-  driver.find("Slower by", 1180);
+  driver.find("Slowdown", 1180);
   driver.find("Whole body", 1180);
 }
 
@@ -196,13 +196,13 @@ TEST_CASE("another skin has its own nodes to watch") {
   driver.frame.stretches.assign(4, 2);
   driver.draw();
   CHECK(driver.panel.drawing().beyond.size() == 4);
-  Skin smaller = small_skin();
+  SurfaceMesh smaller = small_surface();
   smaller.version = 1;
   smaller.nodes.pop_back();
   smaller.rest.pop_back();
   smaller.triangles = {{0, 2, 1}};
   smaller.regions = {0};
-  driver.frame.skin = std::make_shared<const Skin>(smaller);
+  driver.frame.surface_mesh = std::make_shared<const SurfaceMesh>(smaller);
   driver.frame.positions = smaller.rest;
   driver.frame.stretches.assign(3, 2);
   driver.draw();

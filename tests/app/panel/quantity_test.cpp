@@ -30,10 +30,10 @@ TEST_CASE("forces stay in newtons") {
 }
 
 TEST_CASE("counts are grouped") {
-  CHECK(counted(0) == "0");
-  CHECK(counted(999) == "999");
-  CHECK(counted(1234567) == "1\u00a0234\u00a0567");
-  CHECK(counted(-1000) == "−1\u00a0000");
+  CHECK(grouped_digits(0) == "0");
+  CHECK(grouped_digits(999) == "999");
+  CHECK(grouped_digits(1234567) == "1\u00a0234\u00a0567");
+  CHECK(grouped_digits(-1000) == "−1\u00a0000");
 }
 
 }  // namespace heml::quantity_test

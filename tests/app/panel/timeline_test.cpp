@@ -17,7 +17,7 @@ Timeline half_way() {
   timeline.rate = 100;
   timeline.live = 500;
   timeline.end = 1000;
-  timeline.moments = 300;
+  timeline.frames = 300;
   timeline.bytes = 4'000'000;
   timeline.room = 256'000'000;
   return timeline;
@@ -55,19 +55,19 @@ TEST_CASE("the bar is dragged to what was seen at once, and to what lies ahead w
   driver.draw();
   driver.hold(true);
   auto actions = driver.draw();
-  REQUIRE(actions.look_at);
-  CHECK(*actions.look_at == doctest::Approx(300).epsilon(0.03));
+  REQUIRE(actions.seek_to);
+  CHECK(*actions.seek_to == doctest::Approx(300).epsilon(0.03));
   driver.move({past - 40, bar_y});
   actions = driver.draw();
-  REQUIRE(actions.look_at);
-  CHECK(*actions.look_at < 290);
+  REQUIRE(actions.seek_to);
+  CHECK(*actions.seek_to < 290);
   driver.move({ahead, bar_y});
-  CHECK_FALSE(driver.draw().look_at);
+  CHECK_FALSE(driver.draw().seek_to);
   driver.hold(false);
   actions = driver.draw();
-  REQUIRE(actions.look_at);
-  CHECK(*actions.look_at == doctest::Approx(800).epsilon(0.03));
-  CHECK_FALSE(driver.draw().look_at);
+  REQUIRE(actions.seek_to);
+  CHECK(*actions.seek_to == doctest::Approx(800).epsilon(0.03));
+  CHECK_FALSE(driver.draw().seek_to);
 }
 
 TEST_CASE("while one looks back there are ways on and back") {
@@ -95,8 +95,8 @@ TEST_CASE("while one looks back there are ways on and back") {
 TEST_CASE("keys look earlier and later, at the start and at the present, and resume") {
   Driver driver;
   for (const auto& [action, request] :
-       {std::pair(Action::look_earlier, Request::earlier), std::pair(Action::look_later, Request::later),
-        std::pair(Action::look_first, Request::first), std::pair(Action::look_now, Request::now),
+       {std::pair(Action::seek_earlier, Request::earlier), std::pair(Action::seek_later, Request::later),
+        std::pair(Action::seek_start, Request::first), std::pair(Action::seek_now, Request::now),
         std::pair(Action::resume, Request::resume), std::pair(Action::film, Request::film)}) {
     driver.panel.perform(action);
     CHECK(driver.draw().requests == std::vector{request});

@@ -12,9 +12,10 @@ using namespace heml::render;
 
 namespace {
 
-std::vector<std::uint32_t> indices_of(const Skin& skin) {
+std::vector<std::uint32_t> indices_of(const SurfaceMesh& surface_mesh) {
   std::vector<std::uint32_t> indices;
-  for (const Triangle& triangle : skin.triangles) indices.insert(indices.end(), triangle.begin(), triangle.end());
+  for (const Triangle& triangle : surface_mesh.triangles)
+    indices.insert(indices.end(), triangle.begin(), triangle.end());
   return indices;
 }
 
@@ -22,15 +23,15 @@ std::vector<std::uint32_t> indices_of(const Skin& skin) {
 
 TEST_CASE("the outline of a cube seen along an axis is its four front edges") {
   const Size size{400, 400};
-  const Skin skin = cube_skin();
+  const SurfaceMesh surface_mesh = cube_surface();
   Camera camera;
   camera.fit(Vec3f::Zero(), 1, size);
   camera.look(0, 0);
-  Outline outline(indices_of(skin), skin.rest);
-  const auto& pieces = outline.find(skin.rest, camera.eye(), camera.projection(size) * camera.view(), size);
+  Outline outline(indices_of(surface_mesh), surface_mesh.rest);
+  const auto& pieces = outline.find(surface_mesh.rest, camera.eye(), camera.projection(size) * camera.view(), size);
   REQUIRE(pieces.size() == 4);
   for (const auto& piece : pieces) {
-    const Vec3f middle = (skin.rest[piece.from] + skin.rest[piece.to]) / 2;
+    const Vec3f middle = (surface_mesh.rest[piece.from] + surface_mesh.rest[piece.to]) / 2;
     CHECK(middle.z() == 0.5f);
     CHECK(piece.outward.dot(middle.head<2>()) > 0);
     CHECK(piece.outward.norm() == doctest::Approx(2.0 / 400));  // one pixel of a picture 2 wide in clip space
@@ -39,16 +40,16 @@ TEST_CASE("the outline of a cube seen along an axis is its four front edges") {
 
 TEST_CASE("the outline of a ball is a closed loop round its rim") {
   const Size size{400, 300};
-  const Skin skin = ball_skin(3, 1);
+  const SurfaceMesh surface_mesh = ball_surface(3, 1);
   Camera camera;
   camera.fit(Vec3f::Zero(), 1, size);
-  Outline outline(indices_of(skin), skin.rest);
-  const auto& pieces = outline.find(skin.rest, camera.eye(), camera.projection(size) * camera.view(), size);
+  Outline outline(indices_of(surface_mesh), surface_mesh.rest);
+  const auto& pieces = outline.find(surface_mesh.rest, camera.eye(), camera.projection(size) * camera.view(), size);
   std::map<std::uint32_t, int> ends;
   for (const auto& piece : pieces) {
     ++ends[piece.from];
     ++ends[piece.to];
-    const Vec3f place = skin.rest[piece.from];
+    const Vec3f place = surface_mesh.rest[piece.from];
     CHECK(std::abs(place.dot(camera.eye() - place)) < 0.25f * camera.eye().norm());  // near the horizon
   }
   CHECK(pieces.size() > 20);

@@ -10,19 +10,20 @@ using namespace heml::render;
 
 TEST_CASE("the pixel of a node in front picks that node, on the deformed body") {
   const Size size{640, 360};
-  const Skin skin = ball_skin(2, 0.05f);
-  Frame frame = frame_at_rest(skin);
+  const SurfaceMesh surface_mesh = ball_surface(2, 0.05f);
+  Frame frame = frame_at_rest(surface_mesh);
   for (Vec3f& node : frame.positions) node = Vec3f(1.3f * node.x(), 0.8f * node.y() + 0.01f, node.z());
   Camera camera;
   camera.fit(Vec3f::Zero(), 0.06f, size);
   int tried = 0;
-  for (std::size_t i = 0; i < skin.rest.size(); ++i) {
-    const Vec3f outward = skin.rest[i].cwiseQuotient(Vec3f(1.3f, 0.8f, 1)).normalized();
+  for (std::size_t i = 0; i < surface_mesh.rest.size(); ++i) {
+    const Vec3f outward = surface_mesh.rest[i].cwiseQuotient(Vec3f(1.3f, 0.8f, 1)).normalized();
     const Vec3f to_eye = (camera.eye() - frame.positions[i]).normalized();
     if (outward.dot(to_eye) < 0.4f) continue;
     const Vec2f pixel = camera.pixel(frame.positions[i], size);
     // A hair towards the middle, so that the ray does not slip along an edge.
-    const auto hit = pick(frame, skin, camera.ray(pixel.x() * 0.9999f + 0.032f, pixel.y() * 0.9999f + 0.018f, size));
+    const auto hit =
+        pick(frame, surface_mesh, camera.ray(pixel.x() * 0.9999f + 0.032f, pixel.y() * 0.9999f + 0.018f, size));
     REQUIRE(hit);
     CHECK(hit->node == static_cast<int>(i));
     CHECK((hit->point - frame.positions[i]).norm() < 1e-3f);
@@ -32,26 +33,26 @@ TEST_CASE("the pixel of a node in front picks that node, on the deformed body") 
 }
 
 TEST_CASE("a ray beside the body picks nothing, one through it the near side") {
-  const Skin skin = ball_skin(2, 1);
-  const Frame frame = frame_at_rest(skin);
-  CHECK_FALSE(pick(frame, skin, {Vec3f(0, 1.5f, 5), Vec3f(0, 0, -1)}));
-  CHECK_FALSE(pick(frame, skin, {Vec3f(0.1f, 0.2f, 5), Vec3f(0, 0, 1)}));
-  const auto hit = pick(frame, skin, {Vec3f(0.1f, 0.2f, 5), Vec3f(0, 0, -1)});
+  const SurfaceMesh surface_mesh = ball_surface(2, 1);
+  const Frame frame = frame_at_rest(surface_mesh);
+  CHECK_FALSE(pick(frame, surface_mesh, {Vec3f(0, 1.5f, 5), Vec3f(0, 0, -1)}));
+  CHECK_FALSE(pick(frame, surface_mesh, {Vec3f(0.1f, 0.2f, 5), Vec3f(0, 0, 1)}));
+  const auto hit = pick(frame, surface_mesh, {Vec3f(0.1f, 0.2f, 5), Vec3f(0, 0, -1)});
   REQUIRE(hit);
   CHECK(hit->point.z() == doctest::Approx(std::sqrt(1 - 0.05)).epsilon(0.02));
 }
 
 TEST_CASE("a field is read between the nodes of what was hit, and only where there is one") {
-  const Skin skin = ball_skin(2, 1);
-  Frame frame = frame_at_rest(skin);
+  const SurfaceMesh surface_mesh = ball_surface(2, 1);
+  Frame frame = frame_at_rest(surface_mesh);
   const Ray ray{Vec3f(0.1f, 0.2f, 5), Vec3f(0, 0, -1)};
-  const auto hit = pick(frame, skin, ray);
+  const auto hit = pick(frame, surface_mesh, ray);
   REQUIRE(hit);
-  CHECK_FALSE(value_at(*hit, frame, skin));
+  CHECK_FALSE(value_at(*hit, frame, surface_mesh));
   frame.field = Field::displacement;
-  CHECK_FALSE(value_at(*hit, frame, skin));  // not yet with its values
+  CHECK_FALSE(value_at(*hit, frame, surface_mesh));  // not yet with its values
   for (const Vec3f& node : frame.positions) frame.values.push_back(3 * node.x() - node.y() + 1);
-  const auto value = value_at(*hit, frame, skin);
+  const auto value = value_at(*hit, frame, surface_mesh);
   REQUIRE(value);
   CHECK(*value == doctest::Approx(3 * 0.1 - 0.2 + 1).epsilon(1e-5));
 }

@@ -24,13 +24,13 @@ constexpr Size size{320, 180};
 struct Stage {
   OsMesaContext context{size};
   Renderer renderer;
-  Skin skin = ball_skin(3, 0.05f);
-  Frame frame = frame_at_rest(skin);
+  SurfaceMesh surface_mesh = ball_surface(3, 0.05f);
+  Frame frame = frame_at_rest(surface_mesh);
   Camera camera;
   DrawOptions options;
 
   Stage() {
-    const Ball ball = ball_around(skin.rest);
+    const BoundingSphere ball = bounding_sphere(surface_mesh.rest);
     camera.fit(ball.centre, ball.radius, size);
   }
   // Pixels from the middle to the edge of the ball: radius r at distance d appears at the angle asin(r/d).
@@ -99,7 +99,7 @@ TEST_CASE("the same frame gives the same bytes, also after other frames and in a
   const Image first = stage.draw();
   stage.frame.positions[0] *= 1.5f;
   const Image other = stage.draw();
-  stage.frame.positions = stage.skin.rest;
+  stage.frame.positions = stage.surface_mesh.rest;
   const Image again = stage.draw();
   CHECK(first.pixels == again.pixels);
   CHECK(first.pixels != other.pixels);
@@ -112,10 +112,10 @@ TEST_CASE("a field colours the body by its values over the range") {
   stage.options.ground = false;
   const Image tissue = stage.draw();
   stage.frame.field = Field::von_mises;
-  stage.frame.values.assign(stage.skin.rest.size(), 0);
+  stage.frame.values.assign(stage.surface_mesh.rest.size(), 0);
   stage.options.range = Range{0, 100};
   const Image low = stage.draw();
-  stage.frame.values.assign(stage.skin.rest.size(), 100);
+  stage.frame.values.assign(stage.surface_mesh.rest.size(), 100);
   const Image high = stage.draw();
   CHECK(rms_difference(tissue, low) > 5);
   const int x = size.width / 2, y = size.height / 2;
@@ -131,11 +131,11 @@ TEST_CASE("edges, held nodes and the tool show when asked for") {
   CHECK(count_different(plain, stage.draw()) > 500);
   stage.options.wireframe = false;
 
-  Skin pinned = stage.skin;
-  for (int i = 0; i < static_cast<int>(pinned.rest.size()); i += 7) pinned.held.push_back(i);
-  stage.frame.skin = std::make_shared<const Skin>(pinned);
+  SurfaceMesh pinned = stage.surface_mesh;
+  for (int i = 0; i < static_cast<int>(pinned.rest.size()); i += 7) pinned.constrained.push_back(i);
+  stage.frame.surface_mesh = std::make_shared<const SurfaceMesh>(pinned);
   CHECK(count_different(plain, stage.draw()) > 100);
-  stage.options.held = false;
+  stage.options.constrained = false;
   CHECK(stage.draw().pixels == plain.pixels);
 
   stage.frame.tool.active = true;
@@ -150,14 +150,14 @@ TEST_CASE("a skin that lost a piece is taken up with its frame, and the rest of 
   Stage stage;
   stage.options.ground = false;
   const Image before = stage.draw();
-  const auto whole = stage.frame.skin;
-  Skin cut = *whole;  // open where it was cut: a picture does not mind
+  const auto whole = stage.frame.surface_mesh;
+  SurfaceMesh cut = *whole;  // open where it was cut: a picture does not mind
   cut.version = 1;
   cut.whole = whole;
   const Vec3f right = stage.camera.right();
   std::erase_if(cut.triangles, [&](const Triangle& t) { return whole->rest[t[0]].dot(right) > 0.04f; });
   cut.regions.resize(cut.triangles.size());
-  stage.frame.skin = std::make_shared<const Skin>(cut);
+  stage.frame.surface_mesh = std::make_shared<const SurfaceMesh>(cut);
   const Image after = stage.draw();
   int left = 0, gone = 0;
   for (int y = 0; y < size.height; ++y)
@@ -165,20 +165,20 @@ TEST_CASE("a skin that lost a piece is taken up with its frame, and the rest of 
       if (!same(before, after, x, y)) ++(x < size.width / 2 ? left : gone);
   CHECK(gone > 30);
   CHECK(left == 0);
-  stage.frame.skin = whole;
+  stage.frame.surface_mesh = whole;
   CHECK(stage.draw().pixels == before.pixels);
 }
 
 TEST_CASE("what is beyond is hatched, on tissue and on a colour map, nothing else changes") {
   Stage stage;
   stage.options.ground = false;
-  std::vector<float> beyond(stage.skin.rest.size());
-  for (std::size_t n = 0; n < beyond.size(); ++n) beyond[n] = stage.skin.rest[n].dot(stage.camera.right());
+  std::vector<float> beyond(stage.surface_mesh.rest.size());
+  for (std::size_t n = 0; n < beyond.size(); ++n) beyond[n] = stage.surface_mesh.rest[n].dot(stage.camera.right());
   for (const bool field : {false, true}) {
     CAPTURE(field);
     if (field) {
       stage.frame.field = Field::von_mises;
-      stage.frame.values.assign(stage.skin.rest.size(), 50);
+      stage.frame.values.assign(stage.surface_mesh.rest.size(), 50);
       stage.options.range = Range{0, 100};
     }
     stage.options.beyond = {};
@@ -209,7 +209,7 @@ TEST_CASE("what a pixel shows is what it picks") {
     for (int x = 0; x < size.width; x += 3) {
       if (std::abs(from_middle(x, y) - stage.rim()) < 2) continue;  // the fading edge, and what curved patches add
       const bool shown = !same(image, background, x, y);
-      const bool hit = pick(stage.frame, stage.skin, stage.camera.ray(x + 0.5f, y + 0.5f, size)).has_value();
+      const bool hit = pick(stage.frame, stage.surface_mesh, stage.camera.ray(x + 0.5f, y + 0.5f, size)).has_value();
       wrong += shown != hit;
       body += hit;
     }

@@ -9,7 +9,7 @@
 namespace heml::render {
 
 /// A ball's surface: an icosahedron split `rounds` times, 20·4^rounds triangles, all nodes on the sphere.
-inline Skin ball_skin(int rounds, float radius, const Vec3f& centre = Vec3f::Zero()) {
+inline SurfaceMesh ball_surface(int rounds, float radius, const Vec3f& centre = Vec3f::Zero()) {
   const float g = (1 + std::sqrt(5.0f)) / 2;
   std::vector<Vec3f> nodes = {{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
                               {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
@@ -32,33 +32,33 @@ inline Skin ball_skin(int rounds, float radius, const Vec3f& centre = Vec3f::Zer
     }
     triangles = finer;
   }
-  Skin skin;
-  skin.triangles = triangles;
-  skin.regions.assign(triangles.size(), 1);
+  SurfaceMesh surface_mesh;
+  surface_mesh.triangles = triangles;
+  surface_mesh.regions.assign(triangles.size(), 1);
   for (const Vec3f& node : nodes) {
-    skin.nodes.push_back(static_cast<int>(skin.nodes.size()));
-    skin.rest.push_back(centre + radius * node);
+    surface_mesh.nodes.push_back(static_cast<int>(surface_mesh.nodes.size()));
+    surface_mesh.rest.push_back(centre + radius * node);
   }
-  return skin;
+  return surface_mesh;
 }
 
 /// A cube of edge 1 about the origin: 8 nodes, 12 triangles.
-inline Skin cube_skin() {
-  Skin skin;
+inline SurfaceMesh cube_surface() {
+  SurfaceMesh surface_mesh;
   for (int i = 0; i < 8; ++i) {
-    skin.nodes.push_back(i);
-    skin.rest.emplace_back((i & 1) - 0.5f, ((i >> 1) & 1) - 0.5f, ((i >> 2) & 1) - 0.5f);
+    surface_mesh.nodes.push_back(i);
+    surface_mesh.rest.emplace_back((i & 1) - 0.5f, ((i >> 1) & 1) - 0.5f, ((i >> 2) & 1) - 0.5f);
   }
-  skin.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
-                    {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
-  skin.regions.assign(12, 0);
-  return skin;
+  surface_mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                            {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  surface_mesh.regions.assign(12, 0);
+  return surface_mesh;
 }
 
-inline Frame frame_at_rest(const Skin& skin) {
+inline Frame frame_at_rest(const SurfaceMesh& surface_mesh) {
   Frame frame;
-  frame.skin = std::make_shared<const Skin>(skin);
-  frame.positions = skin.rest;
+  frame.surface_mesh = std::make_shared<const SurfaceMesh>(surface_mesh);
+  frame.positions = surface_mesh.rest;
   return frame;
 }
 

@@ -23,25 +23,25 @@ float volume(const SmoothSurface& surface) {
 }  // namespace
 
 TEST_CASE("normals at the nodes of a sphere are radial") {
-  const SmoothSurface surface(ball_skin(2, 0.05f), 3);
+  const SmoothSurface surface(ball_surface(2, 0.05f), 3);
   for (std::size_t c = 0; c < surface.topology().corner_nodes.size(); ++c)
     CHECK((surface.normals()[c] - surface.positions()[c].normalized()).norm() < 1e-5f);
 }
 
 TEST_CASE("curved patches go through the nodes") {
-  const Skin skin = ball_skin(1, 0.05f);
-  SmoothSurface surface(skin, 4);
-  std::vector<Vec3f> moved = skin.rest;
+  const SurfaceMesh surface_mesh = ball_surface(1, 0.05f);
+  SmoothSurface surface(surface_mesh, 4);
+  std::vector<Vec3f> moved = surface_mesh.rest;
   for (Vec3f& node : moved) node = Vec3f(node.x() + 0.3f * node.y(), 1.4f * node.y(), node.z() + 0.01f);
   surface.update(moved);
   const std::vector<int>& nodes = surface.topology().corner_nodes;
-  REQUIRE(nodes.size() == skin.rest.size());
+  REQUIRE(nodes.size() == surface_mesh.rest.size());
   for (std::size_t c = 0; c < nodes.size(); ++c) CHECK(surface.positions()[c] == moved[nodes[c]]);
 }
 
 TEST_CASE("the curved patch of an icosahedron's face is where the paper's formulas put it") {
-  const Skin skin = ball_skin(0, 1);
-  const SmoothSurface curved(skin, 3), flat(skin, 1);
+  const SurfaceMesh surface_mesh = ball_surface(0, 1);
+  const SmoothSurface curved(surface_mesh, 3), flat(surface_mesh, 1);
   // Along the face's axis the nodes are at h. An edge's control point is (2P + Q − ((Q − P)·P) P)/3 with Q·P = 1/√5, so
   // at (4 − 1/√5)/3·h; the one inside is at E + (E − V)/2; the patch's middle weighs nodes, edges, inside 3:18:6.
   const float h = 0.794654f;
@@ -60,7 +60,7 @@ TEST_CASE("the curved patch of an icosahedron's face is where the paper's formul
 }
 
 TEST_CASE("patches meet without gaps") {
-  const SmoothSurface surface(ball_skin(1, 1), 3);
+  const SmoothSurface surface(ball_surface(1, 1), 3);
   // A closed surface passes every edge once each way.
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
   const auto& t = surface.triangles();
@@ -73,8 +73,8 @@ TEST_CASE("patches meet without gaps") {
 }
 
 TEST_CASE("a cube keeps flat faces and sharp edges") {
-  const Skin skin = cube_skin();
-  const SmoothSurface surface(skin, 3);
+  const SurfaceMesh surface_mesh = cube_surface();
+  const SmoothSurface surface(surface_mesh, 3);
   CHECK(surface.topology().corner_nodes.size() == 24);  // every node once a face
   for (std::size_t p = 0; p < surface.positions().size(); ++p) {
     CHECK(surface.positions()[p].cwiseAbs().maxCoeff() == doctest::Approx(0.5f));
@@ -84,23 +84,23 @@ TEST_CASE("a cube keeps flat faces and sharp edges") {
 }
 
 TEST_CASE("values spread linearly over triangles") {
-  const Skin skin = ball_skin(1, 1);
-  const SmoothSurface surface(skin, 3);
+  const SurfaceMesh surface_mesh = ball_surface(1, 1);
+  const SmoothSurface surface(surface_mesh, 3);
   std::vector<float> values, spread;
-  for (const Vec3f& node : skin.rest) values.push_back(2 * node.x() - node.z() + 1);
+  for (const Vec3f& node : surface_mesh.rest) values.push_back(2 * node.x() - node.z() + 1);
   surface.spread(std::span<const float>(values), spread);
   for (std::size_t p = 0; p < spread.size(); ++p) {
     const auto& [corners, weights] = surface.blends()[p];
     Vec3f place = Vec3f::Zero();
-    for (int k = 0; k < 3; ++k) place += weights[k] * skin.rest[surface.topology().corner_nodes[corners[k]]];
+    for (int k = 0; k < 3; ++k) place += weights[k] * surface_mesh.rest[surface.topology().corner_nodes[corners[k]]];
     CHECK(spread[p] == doctest::Approx(2 * place.x() - place.z() + 1).epsilon(1e-5));
   }
 }
 
 TEST_CASE("degenerate triangles give finite surfaces") {
-  Skin skin = ball_skin(1, 1);
-  SmoothSurface surface(skin, 3);
-  const std::vector<Vec3f> collapsed(skin.rest.size(), Vec3f(1, 2, 3));
+  SurfaceMesh surface_mesh = ball_surface(1, 1);
+  SmoothSurface surface(surface_mesh, 3);
+  const std::vector<Vec3f> collapsed(surface_mesh.rest.size(), Vec3f(1, 2, 3));
   surface.update(collapsed);
   for (std::size_t p = 0; p < surface.positions().size(); ++p) {
     CHECK(surface.positions()[p].isApprox(Vec3f(1, 2, 3)));

@@ -33,15 +33,15 @@ struct Folder {
 
 TEST_CASE("every scene that comes with heml is offered with title, description and picture") {
   const Folder folder;
-  const Listing listing = list_offers({}, true);
-  CHECK(listing.offers.scenes.size() >= 14);
-  CHECK(listing.offers.extreme.size() >= 20);
-  for (const panel::Offer& offer : listing.offers.scenes) {
-    CAPTURE(offer.path.string());
-    CHECK_FALSE(offer.title.empty());
-    CHECK_FALSE(offer.about.empty());
-    REQUIRE(listing.pictures.count(offer.path));
-    const render::Size size = listing.pictures.at(offer.path).size;
+  const Listing listing = list_choices({}, true);
+  CHECK(listing.choices.scenes.size() >= 14);
+  CHECK(listing.choices.extreme.size() >= 20);
+  for (const panel::OpenChoice& choice : listing.choices.scenes) {
+    CAPTURE(choice.path.string());
+    CHECK_FALSE(choice.title.empty());
+    CHECK_FALSE(choice.about.empty());
+    REQUIRE(listing.pictures.count(choice.path));
+    const render::Size size = listing.pictures.at(choice.path).size;
     CHECK(size.width * 9 == size.height * 16);
   }
 }
@@ -51,9 +51,9 @@ TEST_CASE("a folder shows the one above, folders, and files that can be opened")
   fs::create_directory(folder.path / "organs");
   for (const char* name : {"liver.obj", "beam.json", "notes.txt", "Beam.JSONL", ".hidden.json", "box.msh"})
     folder.write(name);
-  const auto files = list_offers(folder.path, false).offers.files;
+  const auto files = list_choices(folder.path, false).choices.files;
   std::vector<std::string> titles;
-  for (const panel::Offer& offer : files) titles.push_back(offer.title);
+  for (const panel::OpenChoice& choice : files) titles.push_back(choice.title);
   CHECK(titles == std::vector<std::string>{"..", "organs", "Beam.JSONL", "beam.json", "box.msh", "liver.obj"});
   CHECK(files[0].path == folder.path.parent_path());
   CHECK(files[1].is_folder);
@@ -64,9 +64,9 @@ TEST_CASE("a folder shows the one above, folders, and files that can be opened")
 
 TEST_CASE("a folder that cannot be looked into says why") {
   const Folder folder;
-  const auto offers = list_offers(folder.path / "nowhere", false).offers;
-  CHECK_FALSE(offers.problem.empty());
-  CHECK(offers.files.size() == 1);
+  const auto choices = list_choices(folder.path / "nowhere", false).choices;
+  CHECK_FALSE(choices.problem.empty());
+  CHECK(choices.files.size() == 1);
 }
 
 TEST_CASE("what was opened last comes first, once, and what has gone is told") {
@@ -77,7 +77,7 @@ TEST_CASE("what was opened last comes first, once, and what has gone is told") {
   remember_file(a);
   CHECK(recent_files() == std::vector{a, b});
   fs::remove(b);
-  const auto recent = list_offers({}, false).offers.recent;
+  const auto recent = list_choices({}, false).choices.recent;
   REQUIRE(recent.size() == 2);
   CHECK(recent[0].is_there);
   CHECK_FALSE(recent[1].is_there);

@@ -12,9 +12,9 @@ TEST_CASE("an input error is one line: file, place, problem and remedy") {
 }
 
 TEST_CASE("a hash sees the last bit and the sign of zero, and the order") {
-  CHECK(mix(0, 1.0) != mix(0, 1.0000000000000002));
-  CHECK(mix(0, 0.0) != mix(0, -0.0));
-  CHECK(mix(mix(0, 1.0), 2.0) != mix(mix(0, 2.0), 1.0));
+  CHECK(hash_combine(0, 1.0) != hash_combine(0, 1.0000000000000002));
+  CHECK(hash_combine(0, 0.0) != hash_combine(0, -0.0));
+  CHECK(hash_combine(hash_combine(0, 1.0), 2.0) != hash_combine(hash_combine(0, 2.0), 1.0));
 }
 
 }  // namespace heml::error_test

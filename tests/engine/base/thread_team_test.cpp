@@ -20,7 +20,7 @@ TEST_CASE("every item of a loop is visited once, whatever the number of threads"
     for (const std::size_t count : {std::size_t{0}, std::size_t{1}, std::size_t{7}, std::size_t{1000}}) {
       std::vector<int> visits(count, 0);
       for (int repeat = 0; repeat < 20; ++repeat)
-        team.for_ranges(count, 3, [&](std::size_t begin, std::size_t end) {
+        team.parallel_for(count, 3, [&](std::size_t begin, std::size_t end) {
           for (std::size_t i = begin; i < end; ++i) ++visits[i];
         });
       for (const int visit : visits) REQUIRE(visit == 20);
@@ -32,10 +32,10 @@ TEST_CASE("loops in close succession see what the loop before them wrote") {
   ThreadTeam team(4);
   std::vector<int> a(4096, 0), b(4096, 0);
   for (int repeat = 0; repeat < 5000; ++repeat) {
-    team.for_ranges(a.size(), 64, [&](std::size_t begin, std::size_t end) {
+    team.parallel_for(a.size(), 64, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) a[i] = b[a.size() - 1 - i] + 1;
     });
-    team.for_ranges(b.size(), 64, [&](std::size_t begin, std::size_t end) {
+    team.parallel_for(b.size(), 64, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) b[i] = a[i];
     });
   }
@@ -45,7 +45,7 @@ TEST_CASE("loops in close succession see what the loop before them wrote") {
 TEST_CASE("a loop shorter than its grain stays on the calling thread") {
   ThreadTeam team(4);
   std::size_t calls = 0;
-  team.for_ranges(99, 100, [&](std::size_t begin, std::size_t end) {
+  team.parallel_for(99, 100, [&](std::size_t begin, std::size_t end) {
     ++calls;
     CHECK(begin == 0);
     CHECK(end == 99);
@@ -66,7 +66,7 @@ std::size_t threads_seen(ThreadTeam& team, std::size_t wanted, std::chrono::mill
   std::set<std::thread::id> seen;
   const auto until = std::chrono::steady_clock::now() + longest;
   while (seen.size() < wanted && std::chrono::steady_clock::now() < until)
-    team.for_ranges(64, 1, [&](std::size_t, std::size_t) {
+    team.parallel_for(64, 1, [&](std::size_t, std::size_t) {
       compute_for(std::chrono::microseconds(100));
       std::lock_guard lock(mutex);
       seen.insert(std::this_thread::get_id());
@@ -87,7 +87,8 @@ TEST_CASE("a limit keeps workers out, and lets them in again") {
 
 TEST_CASE("after a long pause within a loop workers soon take part again") {
   ThreadTeam team(2);
-  team.for_ranges(2, 1, [](std::size_t, std::size_t) { std::this_thread::sleep_for(std::chrono::milliseconds(400)); });
+  team.parallel_for(2, 1,
+                    [](std::size_t, std::size_t) { std::this_thread::sleep_for(std::chrono::milliseconds(400)); });
   CHECK(threads_seen(team, 2, std::chrono::seconds(15)) == 2);
 }
 
@@ -108,7 +109,7 @@ TEST_CASE("a team that the system refuses threads computes with fewer") {
     if (setrlimit(RLIMIT_NPROC, &one) != 0 || (getuid() == 0 && setuid(65534) != 0)) _exit(2);
     ThreadTeam team(6);
     int sum = 0;
-    team.for_ranges(1000, 1, [&](std::size_t begin, std::size_t end) { sum += static_cast<int>(end - begin); });
+    team.parallel_for(1000, 1, [&](std::size_t begin, std::size_t end) { sum += static_cast<int>(end - begin); });
     _exit(team.size() == 1 && sum == 1000 ? 0 : 1);
   }
   int status = 0;

@@ -114,7 +114,8 @@ TEST_CASE("what cannot be written is known before, and asking leaves nothing beh
   expect_writable_folder(folder / "new/and/newer");
   CHECK(files_in(folder / "") == 1);
   CHECK(content(file) == "kept");
-  CHECK(refusal([&] { expect_writable_file(folder / "none/new", "--json"); }).find("give another --json") != std::string::npos);
+  CHECK(refusal([&] { expect_writable_file(folder / "none/new", "--json"); }).find("give another --json") !=
+        std::string::npos);
   CHECK(refusal([&] { expect_writable_file(folder / ""); }).find("Is a directory") != std::string::npos);
   CHECK(refusal([&] { expect_writable_folder(file / "new"); }).find("is a file") != std::string::npos);
   CHECK(refusal([&] { expect_writable_folder("/proc/new"); }).find("/proc/new: cannot be written") == 0);

@@ -2,7 +2,7 @@
 
 #include <cmath>
 #include <heml/dynamics/explicit.hpp>
-#include <heml/dynamics/motion.hpp>
+#include <heml/dynamics/prescribed_motion.hpp>
 #include <numbers>
 
 namespace heml::explicit_test {
@@ -15,9 +15,9 @@ std::pair<double, double> oscillator(double omega, double damping, int n) {
   const double h = 1.0 / n, inverse_mass[3] = {1, 1, 1};
   double x[3] = {1, 0, 0}, v[3] = {0, 0, 0}, f[3] = {-omega * omega, 0, 0};
   for (int k = 0; k < n; ++k) {
-    Method::first_half(h, damping, {inverse_mass, f, x, v, x, v}, 0, 3);
+    Method::first_half_step(h, damping, {inverse_mass, f, x, v, x, v}, 0, 3);
     f[0] = -omega * omega * x[0];
-    Method::second_half(h, damping, inverse_mass, f, v, 0, 3);
+    Method::second_half_step(h, damping, inverse_mass, f, v, 0, 3);
   }
   return {x[0], v[0]};
 }
@@ -57,7 +57,7 @@ TEST_CASE("both methods are stable up to 2/omega, with heavy damping too, and no
 }
 
 TEST_CASE("a moved node is where the contract says, and its velocity and acceleration are the derivatives") {
-  const Motion motion{Vec3(0.05, 0, 0.01), Vec3(1, 0, 0), Vec3(0, 0.1, 0), std::numbers::pi / 2, 2.0};
+  const PrescribedMotion motion{Vec3(0.05, 0, 0.01), Vec3(1, 0, 0), Vec3(0, 0.1, 0), std::numbers::pi / 2, 2.0};
   const Vec3 X(0.3, 0.2, 0);
   CHECK((motion(X, 0).x - X).norm() <= 1e-15);
   // Arm (0.3, 0.1, 0) turned 90° about x: (0.3, 0, 0.1), then origin and translation.
@@ -67,7 +67,7 @@ TEST_CASE("a moved node is where the contract says, and its velocity and acceler
   const double t = 0.7, h = 1e-5;
   CHECK((motion(X, t).v - (motion(X, t + h).x - motion(X, t - h).x) / (2 * h)).norm() <= 1e-9);
   CHECK((motion(X, t).a - (motion(X, t + h).v - motion(X, t - h).v) / (2 * h)).norm() <= 1e-9);
-  const Motion at_once{Vec3(1, 0, 0), Vec3(0, 0, 1), Vec3::Zero(), 0, 0};
+  const PrescribedMotion at_once{Vec3(1, 0, 0), Vec3(0, 0, 1), Vec3::Zero(), 0, 0};
   CHECK((at_once(X, 0).x - X - Vec3(1, 0, 0)).norm() == 0);
 }
 

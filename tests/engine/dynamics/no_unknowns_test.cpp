@@ -1,11 +1,11 @@
 // Solves with nothing to solve for: no node is free, or nothing is left of the forces.
 #include <doctest/doctest.h>
 
-#include <heml/dynamics/aggregation.hpp>
-#include <heml/dynamics/equilibrium.hpp>
 #include <heml/dynamics/incremental_potential.hpp>
-#include <heml/dynamics/quasi_newton.hpp>
-#include <heml/dynamics/scalar_factor.hpp>
+#include <heml/dynamics/lbfgs.hpp>
+#include <heml/dynamics/prolongation.hpp>
+#include <heml/dynamics/scalar_cholesky.hpp>
+#include <heml/dynamics/static_solve.hpp>
 
 #include "small_objectives.hpp"
 
@@ -59,16 +59,16 @@ TEST_CASE("no unknowns: every linear solver has the answer, whatever preconditio
 
 TEST_CASE("no unknowns: what preconditions can be made and applied all the same") {
   Body body(false);
-  ScalarFactor factor;
-  Triples none;
+  ScalarCholesky factor;
+  MultiVector none;
   CHECK(factor.factor(ScalarMatrix(0, 0)));
   factor.solve(none);
   CHECK(absolute_row_sums(ScalarMatrix(0, 0)).empty());
-  const ScalarMatrix P = smoothed_aggregation(ScalarMatrix(0, 0));
+  const ScalarMatrix P = smoothed_prolongation(ScalarMatrix(0, 0));
   CHECK(P.rows() == 0);
   CHECK(P.cols() == 0);
-  for (const std::size_t most_factored : {std::size_t{0}, std::size_t{10}}) {
-    Multilevel multilevel(body.free, body.mesh, body.moduli, body.mass, most_factored, body.team);
+  for (const std::size_t max_direct_unknowns : {std::size_t{0}, std::size_t{10}}) {
+    SmoothedAggregation multilevel(body.free, body.mesh, body.moduli, body.mass, max_direct_unknowns, body.team);
     REQUIRE(multilevel.set_inertia(2));
     Vector z;
     multilevel.apply(Vector::Ones(body.mass.size()), z);
@@ -76,9 +76,9 @@ TEST_CASE("no unknowns: what preconditions can be made and applied all the same"
     multilevel.apply(none, none);
   }
   NodesAndSprings springs(body.mesh, body.free, 2);
-  FloatGradients in_float(body.free, body.mesh, body.team);
+  SinglePrecisionCG in_float(body.free, body.mesh, body.team);
   REQUIRE(in_float.assemble(springs, 0.5));
-  Multilevel multilevel(body.free, body.mesh, body.moduli, body.mass, 0, body.team);
+  SmoothedAggregation multilevel(body.free, body.mesh, body.moduli, body.mass, 0, body.team);
   REQUIRE(multilevel.set_inertia(0));
   Vector d;
   long iterations = 0;
@@ -96,10 +96,10 @@ TEST_CASE("no unknowns: minimisers stay where they are, also where no measure wi
         NodesAndSprings objective(body.mesh, body.free, 2);
         LinearSolver linear(body.free, body.mesh, body.moduli, body.mass, preconditioner, Projection::element,
                             body.team);
-        const Stop stop{[](const Vector& r) { return r.norm(); }, limit};
+        const StoppingCriterion stop{[](const Vector& r) { return r.norm(); }, limit};
         Vector x = Vector::Ones(body.mass.size());
         const NewtonResult result =
-            quasi ? minimise_quasi(objective, linear, stop, 5, x) : minimise(objective, linear, stop, {}, x);
+            quasi ? minimise_lbfgs(objective, linear, stop, 5, x) : minimise(objective, linear, stop, {}, x);
         CHECK(result.converged() == (limit == 0));
         CHECK(x == Vector::Ones(body.mass.size()));
       }

@@ -29,7 +29,7 @@ class NodesAndSprings : public Objective {
       for (int i = 0; i < 3; ++i) sum += well(x[3 * n + i]);
     return sum;
   }
-  double value_noise() const override { return 1e-14; }
+  double value_round_off() const override { return 1e-14; }
   void linearise(const Vector& x, Projection projection = Projection::none) override {
     at_ = x;
     projected_ = projection == Projection::element;
@@ -53,7 +53,7 @@ class NodesAndSprings : public Objective {
     for (const int n : free_.node) matrix.add_node(n, bends(n));
   }
 
-  bool add_stiffness_in_float(BlockRows& rows) override {
+  bool add_stiffness_single_precision(BsrMatrix& rows) override {
     each_edge([&](int a, int b) { rows.add_edge(a, b, k_ * Mat3::Identity()); });
     for (const int n : free_.node) rows.add_node(n, bends(n));
     return true;

@@ -22,12 +22,12 @@ struct Fixture {
   FreeNodes free;
   Vector mass;
   mutable ThreadTeam team{1};
-  explicit Fixture(int held = 3) : free(take(mesh.nodes.size(), held)), mass(Vector::Zero(size())) {
+  explicit Fixture(int constrained = 3) : free(free_mask(mesh.nodes.size(), constrained)), mass(Vector::Zero(size())) {
     for (const int n : free.node) mass.segment<3>(3 * n).setConstant(0.5);
   }
-  static std::vector<bool> take(std::size_t nodes, int held) {
+  static std::vector<bool> free_mask(std::size_t nodes, int constrained) {
     std::vector<bool> result(nodes, true);
-    for (int n = 0; n < held; ++n) result[static_cast<std::size_t>(5 * n)] = false;
+    for (int n = 0; n < constrained; ++n) result[static_cast<std::size_t>(5 * n)] = false;
     return result;
   }
   Eigen::Index size() const { return 3 * static_cast<Eigen::Index>(mesh.nodes.size()); }
@@ -46,7 +46,7 @@ struct Fixture {
 constexpr Preconditioner every_preconditioner[] = {Preconditioner::cholesky, Preconditioner::scalar,
                                                    Preconditioner::multilevel, Preconditioner::block_jacobi};
 
-Stop small_residual(double limit) {
+StoppingCriterion small_residual(double limit) {
   return {[](const Vector& r) { return r.norm(); }, limit};
 }
 
@@ -136,7 +136,7 @@ TEST_CASE("stops with what it has when iterations run out") {
   Vector x = f.random(0, 0.3);
   const double before = *wells.value(x);
   const NewtonResult result = minimise(wells, solver, small_residual(1e-10), {2, 1e-2}, x);
-  CHECK(result.end == NewtonResult::End::out_of_iterations);
+  CHECK(result.status == NewtonResult::Status::out_of_iterations);
   CHECK(result.iterations == 2);
   CHECK(*wells.value(x) < before);
 }
@@ -151,8 +151,8 @@ class Blurred final : public NodesAndSprings {
       if (r[i] != 0) r[i] += 1e-4 * std::uniform_real_distribution(-1.0, 1.0)(engine_);
     return true;
   }
-  double value_noise() const override { return 1; }
-  bool is_round_off(const Vector& r) const override { return r.norm() < 1e-2; }
+  double value_round_off() const override { return 1; }
+  bool is_at_round_off(const Vector& r) const override { return r.norm() < 1e-2; }
 
  private:
   std::mt19937_64 engine_{11};
@@ -163,10 +163,10 @@ TEST_CASE("where forces are round-off Newton ends soon, with the best it saw the
   LinearSolver solver = f.solver(Preconditioner::cholesky);
   Blurred springs(f.mesh, f.free, 2);
   std::vector<double> seen;
-  const Stop stop{[&](const Vector& r) { return seen.emplace_back(r.norm()); }, 1e-12};
+  const StoppingCriterion stop{[&](const Vector& r) { return seen.emplace_back(r.norm()); }, 1e-12};
   Vector x = f.random(0, 1);
   const NewtonResult result = minimise(springs, solver, stop, {}, x);
-  CHECK(result.end == NewtonResult::End::stalled);
+  CHECK(result.status == NewtonResult::Status::stalled);
   CHECK(result.at_round_off);
   CHECK(result.iterations < 12);
   CHECK(result.measure == *std::min_element(seen.begin(), seen.end()));

@@ -84,7 +84,7 @@ Comparison compare(const TetMesh& mesh, const Displacement& exact) {
   ThreadTeam team(1);
   const auto F = deformation_gradients(mesh, x);
   ErrorEstimate estimate;
-  estimate.of_element = recovered_errors(mesh, material_of, F, body.stresses(flat.data(), team));
+  estimate.of_element = recovery_errors(mesh, material_of, F, body.stresses(flat.data(), team));
   for (const double e : estimate.of_element) estimate.squared += e;
   estimate.stored = body.energy(flat.data(), team);
   return {estimate.relative(), std::sqrt(estimate.squared / true_error(mesh, F, exact))};
@@ -122,7 +122,7 @@ TEST_CASE("patch test: a body of one deformation shows no error, of whatever mat
   for (std::size_t n = 0; n < body.mesh.nodes.size(); ++n)
     x.emplace_back(body.x[3 * n], body.x[3 * n + 1], body.x[3 * n + 2]);
   const auto F = deformation_gradients(body.mesh, x);
-  const auto errors = recovered_errors(body.mesh, material_of, F, two.stresses(body.x.data(), team));
+  const auto errors = recovery_errors(body.mesh, material_of, F, two.stresses(body.x.data(), team));
   CHECK(largest(errors) <= 1e-24 * two.energy(body.x.data(), team));
 }
 
@@ -131,7 +131,7 @@ TEST_CASE("of smooth deformations the estimate is within a third of the error, a
     TetMesh mesh = make_box(Vec3(0.1, 0.05, 0.05), {4, 2, 2});
     double before = 0;
     for (int halvings = 0; halvings < 3; ++halvings) {
-      if (halvings > 0) mesh = subdivided(mesh).mesh;
+      if (halvings > 0) mesh = subdivide_uniformly(mesh).mesh;
       const Comparison found = compare(mesh, exact);
       CAPTURE(halvings);
       CAPTURE(found.effectivity);

@@ -18,7 +18,7 @@ namespace {
 TetMesh box_of(std::mt19937_64& random, const std::array<int, 3>& cells) {
   TetMesh mesh = make_box(Vec3(0.1, 0.08, 0.06), cells);
   for (Vec3& X : mesh.nodes) X += random_vector(random, 0.01 / cells[0]);
-  return reordered(mesh, locality_order(mesh));
+  return reordered(mesh, hilbert_order(mesh));
 }
 
 /// A body as it is edited: its mesh, and where its nodes are.
@@ -64,13 +64,13 @@ struct Edited {
     const auto tets = static_cast<int>(mesh.tets.size());
     std::vector<int> origins, of_all = material_of;
     for (const int parent : cut.edit.parents) of_all.push_back(material_of[static_cast<std::size_t>(parent)]);
-    const auto elements = edited(whole(mesh), cut.edit, tets).elements;
+    const auto elements = apply_edit(whole(mesh), cut.edit, tets).elements;
     append(cut.edit, mesh);
     append(cut.edit, x, 3);
     mesh = with_elements(mesh, elements);
     material_of = with_elements(of_all, elements);
     for (const int t : elements) origins.push_back(t < tets ? t : cut.edit.parents[static_cast<std::size_t>(t - tets)]);
-    for (const auto& body : bodies) body->take_pieces(mesh, material_of, origins);
+    for (const auto& body : bodies) body->transfer_state(mesh, material_of, origins);
   }
 
   /// All bodies have the same bits, and are the body that is made of the mesh as it is now, to round-off.

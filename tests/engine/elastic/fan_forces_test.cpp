@@ -21,7 +21,7 @@ namespace {
 TetMesh irregular_box(std::mt19937_64& random, const std::array<int, 3>& cells) {
   TetMesh mesh = make_box(Vec3(0.1, 0.08, 0.06), cells);
   for (Vec3& X : mesh.nodes) X += test::random_vector(random, 0.012 / cells[0]);
-  return reordered(mesh, locality_order(mesh));
+  return reordered(mesh, hilbert_order(mesh));
 }
 
 std::vector<int> all_of(const TetMesh& mesh) {
@@ -203,20 +203,20 @@ TEST_CASE("another law takes the layout of the one before, where its constants a
   };
   const Material stvk = sample_material("stvk"), mooney = sample_material("mooney_rivlin");
   FanForces<double> fans = made(stvk), anew = made(mooney);
-  CHECK(fans.take_laws({{&elements, &mooney}}, false));
+  CHECK(fans.update_laws({{&elements, &mooney}}, false));
   CHECK(run(fans, x, 1) == run(anew, x, 1));
 
   Material along = sample_material("hgo"), across = along;
   across.fibre = along.fibre.unitOrthogonal();
   const Material ogden = sample_material("ogden");
   const auto before = run(fans, x, 1);
-  CHECK_FALSE(fans.take_laws({{&elements, &ogden}}, false));
-  CHECK_FALSE(fans.take_laws({{&elements, &along}}, false));
-  CHECK_FALSE(fans.take_laws({{&elements, &mooney}, {&elements, &mooney}}, false));
+  CHECK_FALSE(fans.update_laws({{&elements, &ogden}}, false));
+  CHECK_FALSE(fans.update_laws({{&elements, &along}}, false));
+  CHECK_FALSE(fans.update_laws({{&elements, &mooney}, {&elements, &mooney}}, false));
   CHECK(run(fans, x, 1) == before);
   FanForces<double> fibres = made(along);
-  CHECK(fibres.take_laws({{&elements, &along}}, false));
-  CHECK_FALSE(fibres.take_laws({{&elements, &across}}, false));
+  CHECK(fibres.update_laws({{&elements, &along}}, false));
+  CHECK_FALSE(fibres.update_laws({{&elements, &across}}, false));
 }
 
 TEST_CASE("fans hold every tetrahedron once, upright, in groups of one size") {
@@ -229,7 +229,7 @@ TEST_CASE("fans hold every tetrahedron once, upright, in groups of one size") {
     for (std::size_t k = 0; k < fans.size(); ++k) {
       const Fan& fan = fans[k];
       CHECK(fan.size() == fans[k / lanes * lanes].size());
-      CHECK(fan.tets.size() <= longest_fan);
+      CHECK(fan.tets.size() <= max_fan_tets);
       if (!fan.tets.empty()) CHECK((fan.ring.size() == fan.tets.size() || fan.ring.size() == fan.tets.size() + 1));
       if (fan.tets.empty()) ++unused;
       for (std::size_t i = 0; i < fan.tets.size(); ++i) {

@@ -62,7 +62,7 @@ TEST_CASE("the frequency bound holds with nodal pressure, and threads change no 
     for (Eigen::Index i = 0; i < size; ++i) {
       const auto k = static_cast<std::size_t>(i);
       unit[k] = 1;
-      body->force_change(unit.data(), column.data(), team);
+      body->force_differential(unit.data(), column.data(), team);
       unit[k] = 0;
       for (std::size_t j = 0; j < column.size(); ++j)
         K(static_cast<Eigen::Index>(j), i) = -column[j] / std::sqrt(mass[j / 3] * mass[k / 3]);

@@ -28,7 +28,7 @@ struct CutBody {
     const auto tets = static_cast<int>(small.mesh.tets.size());
     TetMesh all = small.mesh;
     append(edit, all);
-    const auto elements = edited(whole(small.mesh), edit, tets).elements;
+    const auto elements = apply_edit(whole(small.mesh), edit, tets).elements;
     pieces = with_elements(all, elements);
     for (const int t : elements) origins.push_back(t < tets ? t : edit.parents[static_cast<std::size_t>(t - tets)]);
   }
@@ -66,7 +66,7 @@ TEST_CASE("pieces of elements do the work of the whole, and go on remembering: v
       }
       for (double& value : past) value += uniform(random, -2e-3, 2e-3);
     }
-    pieces->take_pieces(cut.pieces, std::vector<int>(cut.pieces.tets.size(), 0), cut.origins);
+    pieces->transfer_state(cut.pieces, std::vector<int>(cut.pieces.tets.size(), 0), cut.origins);
 
     std::vector<double> now = past;
     for (double& value : now) value += uniform(random, -1e-3, 1e-3);

@@ -28,7 +28,7 @@ std::vector<double> answers(ElasticBody<double>& body, const std::vector<double>
   std::vector<double> all = forces_of(body, x), change(x.size()), dx(x.size());
   for (std::size_t i = 0; i < x.size(); ++i) dx[i] = 1e-3 * std::sin(static_cast<double>(i));
   body.linearise(x.data(), team);
-  body.force_change(dx.data(), change.data(), team);
+  body.force_differential(dx.data(), change.data(), team);
   all.insert(all.end(), change.begin(), change.end());
   for (const double mass : body.masses()) all.push_back(mass);
   std::vector<ElementState<double>> states;
@@ -145,8 +145,8 @@ TEST_CASE("viscosity, relaxation and plastic set of what is left go on as if the
     live(*cut, 0.8);
     live(*built, 0.8);
     CHECK(answers(*cut, small.x) == answers(*built, small.x));
-    cut->forget(small.x.data());
-    built->forget(small.x.data());
+    cut->reset_history(small.x.data());
+    built->reset_history(small.x.data());
     CHECK(answers(*cut, small.x) == answers(*built, small.x));
   }
 }

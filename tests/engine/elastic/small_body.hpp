@@ -83,7 +83,7 @@ inline double stiffness_error(ElasticBody<double>& body, const std::vector<doubl
   for (double& d : dx) d = uniform(random, -1, 1);
   ThreadTeam team(1);
   body.linearise(at.data(), team);
-  body.force_change(dx.data(), change.data(), team);
+  body.force_differential(dx.data(), change.data(), team);
   const double h = 1e-7;
   const auto along = [&](double by) {
     auto x = at;

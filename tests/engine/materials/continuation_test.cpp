@@ -57,7 +57,7 @@ void check_smooth_along(const std::vector<Path>& paths) {
       At before = at(0);
       for (int k = 1; k <= steps; ++k) {
         const At now = at(k);
-        const double stiffness = std::min(before.stiffness.norm(), now.stiffness.norm()) + 10 * least_stress(material);
+        const double stiffness = std::min(before.stiffness.norm(), now.stiffness.norm()) + 10 * min_stress(material);
         const double stress = now.P.norm() + stiffness * step.norm();
         energy_jump = std::max(energy_jump, std::abs(now.W - before.W - inner(now.P + before.P, step) / 2) / stress);
         stress_jump = std::max(stress_jump, (now.P - before.P - (now.dP + before.dP) / 2).norm() / stiffness);

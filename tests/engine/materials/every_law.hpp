@@ -34,8 +34,8 @@ inline Mat3 random_direction(std::mt19937_64& random) {
 inline double inner(const Mat3& A, const Mat3& B) { return A.cwiseProduct(B).sum(); }
 
 /// Stress too small to be measured against, Pa.
-inline double least_stress(const Material& material) {
-  const auto [shear, bulk] = ground_state(material);
+inline double min_stress(const Material& material) {
+  const auto [shear, bulk] = small_strain_moduli(material);
   return 1e-3 * (shear + bulk);
 }
 

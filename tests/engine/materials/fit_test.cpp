@@ -16,7 +16,7 @@ MeasuredCurve measured(const Material& truth, const MeasuredTest& test, std::vec
   return {std::move(amounts), *stress};
 }
 
-const FittedParameter& parameter(const Fit& fit, const std::string& name) {
+const FittedParameter& parameter(const FitResult& fit, const std::string& name) {
   for (const FittedParameter& p : fit.parameters)
     if (p.name == name) return p;
   FAIL("no parameter ", name);
@@ -37,7 +37,7 @@ TEST_CASE("a curve made with known parameters gives them back, from another star
     for (std::size_t i = 0; i < start.parameters.size(); ++i)
       if (find_law(law)->parameters[i].name != (lame ? "lambda" : "kappa")) start.parameters[i] *= i % 2 ? 0.7 : 1.4;
     REQUIRE(fit_problem(start, BenchTest::uniaxial, data, {}) == "");
-    const Fit fit = fit_material(start, BenchTest::uniaxial, data, {});
+    const FitResult fit = fit_material(start, BenchTest::uniaxial, data, {});
     CHECK(fit.converged);
     for (std::size_t i = 0; i < truth.parameters.size(); ++i)
       CHECK(fit.material.parameters[i] == doctest::Approx(truth.parameters[i]).epsilon(1e-6));
@@ -52,7 +52,7 @@ TEST_CASE("one Ogden term keeps the sign of its power and is found from far away
   truth.parameters = {-70, -19, 1e5};  // μ, α, κ
   Material start = truth;
   start.parameters = {-300, -5, 1e5};
-  const Fit fit =
+  const FitResult fit =
       fit_material(start, BenchTest::uniaxial, measured(truth, BenchTest::uniaxial, evenly_spaced(0.8, 1.2, 21)), {});
   CHECK(fit.material.parameters[0] == doctest::Approx(-70).epsilon(1e-6));
   CHECK(fit.material.parameters[1] == doctest::Approx(-19).epsilon(1e-6));
@@ -66,7 +66,7 @@ TEST_CASE("the bulk modulus is held, unless it is asked for and the test sees it
   Material start = truth;
   start.parameters = {700, 2e3};
   CHECK(fit_material(start, BenchTest::equibiaxial, data, {}).material.parameters[1] == 2e3);
-  const Fit all = fit_material(start, BenchTest::equibiaxial, data, {.fit_volume = true});
+  const FitResult all = fit_material(start, BenchTest::equibiaxial, data, {.fit_volume = true});
   CHECK(all.material.parameters[0] == doctest::Approx(500).epsilon(1e-6));
   CHECK(all.material.parameters[1] == doctest::Approx(3e3).epsilon(1e-5));
 }
@@ -91,7 +91,7 @@ TEST_CASE("errors and R² are those of ordinary least squares where the law is l
     rest += std::pow(data.stress[i] - 2 * K1 * gamma[i], 2);
     spread += std::pow(data.stress[i] - mean, 2);
   }
-  const Fit fit = fit_material(truth, BenchTest::shear, data, {});
+  const FitResult fit = fit_material(truth, BenchTest::shear, data, {});
   CHECK(parameter(fit, "K1").value == doctest::Approx(K1).epsilon(1e-7));
   CHECK(parameter(fit, "K1").standard_error == doctest::Approx(std::sqrt(rest / 11 / xx)).epsilon(1e-5));
   CHECK(fit.rms == doctest::Approx(std::sqrt(rest / 12)).epsilon(1e-7));
@@ -102,12 +102,12 @@ TEST_CASE("says which parameters the data leave open") {
   // Simple shear sees K1 + K2 alone.
   const Material truth = sample_material("mooney_rivlin");
   const MeasuredCurve shear = measured(truth, BenchTest::shear, evenly_spaced(-0.4, 0.4, 9));
-  const Fit fit = fit_material(truth, BenchTest::shear, shear, {});
+  const FitResult fit = fit_material(truth, BenchTest::shear, shear, {});
   CHECK_FALSE(parameter(fit, "K1").determined);
   CHECK_FALSE(parameter(fit, "K2").determined);
   CHECK(std::isinf(parameter(fit, "K1").standard_error));
   // Both from a pull.
-  const Fit pull =
+  const FitResult pull =
       fit_material(truth, BenchTest::uniaxial, measured(truth, BenchTest::uniaxial, evenly_spaced(0.7, 1.5, 9)), {});
   CHECK(parameter(pull, "K1").determined);
   CHECK(parameter(pull, "K2").determined);
@@ -116,7 +116,7 @@ TEST_CASE("says which parameters the data leave open") {
   MeasuredCurve nearly = measured(fung, BenchTest::uniaxial, evenly_spaced(0.99, 1.01, 9));
   std::mt19937_64 random(3);
   for (double& stress : nearly.stress) stress += heml::test::uniform(random, -3, 3);
-  const Fit flat = fit_material(fung, BenchTest::uniaxial, nearly, {});
+  const FitResult flat = fit_material(fung, BenchTest::uniaxial, nearly, {});
   CHECK(parameter(flat, "mu").determined);
   CHECK_FALSE(parameter(flat, "gamma").determined);
 }
@@ -131,7 +131,7 @@ TEST_CASE("relaxation gives γ, τ and one factor of the moduli back") {
   Material start = truth;
   start.relaxation = {{0.5, 0.2}, {0.5, 50}};
   for (std::size_t i : {0, 1}) start.parameters[i] *= 0.5;
-  const Fit fit = fit_material(start, test, data, {});
+  const FitResult fit = fit_material(start, test, data, {});
   REQUIRE(fit.material.relaxation.size() == 2);
   CHECK(fit.material.relaxation[0].gamma == doctest::Approx(0.8).epsilon(1e-5));
   CHECK(fit.material.relaxation[0].tau == doctest::Approx(0.5).epsilon(1e-5));

@@ -12,9 +12,9 @@ namespace heml {
 
 inline constexpr std::array formats{"msh", "mesh", "vtk", "vtu", "tetgen", "ply"};
 
-/// Reads a text held in memory as formats[format] and checks the mesh; of PLY, the sizes it declares. TetGen's two files
-/// stand one after the other, a zero byte between. Returns whether there was a mesh fit for simulation; InputError is
-/// the other allowed outcome, and all else leaves through here.
+/// Reads a text held in memory as formats[format] and checks the mesh; of PLY, the sizes it declares. TetGen's two
+/// files stand one after the other, a zero byte between. Returns whether there was a mesh fit for simulation;
+/// InputError is the other allowed outcome, and all else leaves through here.
 inline bool read_and_check(std::size_t format, std::string_view text) {
   try {
     ReadMesh read;

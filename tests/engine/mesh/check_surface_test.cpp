@@ -10,14 +10,14 @@
 namespace heml::check_surface_test {
 
 namespace {
-std::string refusal_of(SurfaceMesh surface) {
+std::string refusal_of(TriangleMesh surface) {
   return refusal([&] { check_surface(surface); });
 }
 bool has(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
 }  // namespace
 
 TEST_CASE("turns scattered triangles outward") {
-  SurfaceMesh surface = cube(2, Vec3(5, 5, 5));
+  TriangleMesh surface = cube(2, Vec3(5, 5, 5));
   for (std::size_t t = 0; t < surface.triangles.size(); t += 3)
     std::swap(surface.triangles[t][0], surface.triangles[t][1]);
   check_surface(surface);
@@ -25,19 +25,19 @@ TEST_CASE("turns scattered triangles outward") {
 }
 
 TEST_CASE("turns the walls of a cavity into it, and a body in the cavity outward again") {
-  SurfaceMesh surface = together(together(cube(1, Vec3(9, 9, 9)), cube(3, Vec3(9, 9, 9))), cube(2, Vec3(9, 9, 9)));
+  TriangleMesh surface = together(together(cube(1, Vec3(9, 9, 9)), cube(3, Vec3(9, 9, 9))), cube(2, Vec3(9, 9, 9)));
   check_surface(surface);
   CHECK(enclosed_volume(surface) == doctest::Approx(27 - 8 + 1).epsilon(1e-13));
 }
 
 TEST_CASE("accepts separate bodies") {
-  SurfaceMesh surface = together(cube(1, Vec3(0, 0, 0)), cube(1, Vec3(1.001, 0, 0)));
+  TriangleMesh surface = together(cube(1, Vec3(0, 0, 0)), cube(1, Vec3(1.001, 0, 0)));
   check_surface(surface);
   CHECK(enclosed_volume(surface) == doctest::Approx(2).epsilon(1e-13));
 }
 
 TEST_CASE("refuses an open surface: how many edges, and where one is") {
-  SurfaceMesh surface = cube(1, Vec3(0.5, 0.5, 0.5));
+  TriangleMesh surface = cube(1, Vec3(0.5, 0.5, 0.5));
   const Triangle gone = surface.triangles.back();
   surface.triangles.pop_back();
   const std::string said = refusal_of(surface);
@@ -51,14 +51,14 @@ TEST_CASE("refuses an open surface: how many edges, and where one is") {
 }
 
 TEST_CASE("refuses edges of more than two triangles") {
-  const SurfaceMesh surface{{{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}},
-                            {{0, 2, 1}, {0, 3, 2}, {1, 2, 3}, {0, 1, 3}, {0, 4, 1}, {0, 5, 4}, {1, 4, 5}, {0, 1, 5}},
-                            ""};
+  const TriangleMesh surface{{{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}},
+                             {{0, 2, 1}, {0, 3, 2}, {1, 2, 3}, {0, 1, 3}, {0, 4, 1}, {0, 5, 4}, {1, 4, 5}, {0, 1, 5}},
+                             ""};
   CHECK(has(refusal_of(surface), "1 edges have more than two triangles"));
 }
 
 TEST_CASE("refuses triangles given twice, in any order of corners") {
-  SurfaceMesh surface = cube(1, Vec3(0, 0, 0));
+  TriangleMesh surface = cube(1, Vec3(0, 0, 0));
   const auto [a, b, c] = surface.triangles[5];
   surface.triangles.push_back({c, a, b});
   surface.triangles.push_back({b, a, c});
@@ -67,7 +67,7 @@ TEST_CASE("refuses triangles given twice, in any order of corners") {
 
 TEST_CASE("refuses a surface of one side only") {
   // The projective plane of six vertices (half an icosahedron), in general position.
-  SurfaceMesh surface{
+  TriangleMesh surface{
       {{0, 0, 0}, {1, 0.1, 0}, {0.2, 1, 0.1}, {0.1, 0.3, 1}, {1, 0.9, 0.4}, {0.7, 0.2, 1.1}},
       {{0, 1, 2}, {0, 1, 3}, {0, 2, 4}, {0, 3, 5}, {0, 4, 5}, {1, 2, 5}, {1, 3, 4}, {1, 4, 5}, {2, 3, 4}, {2, 3, 5}},
       ""};
@@ -85,7 +85,7 @@ TEST_CASE("refuses bodies that touch") {
 }
 
 TEST_CASE("refuses what is no surface at all") {
-  SurfaceMesh surface = cube(1, Vec3(0, 0, 0));
+  TriangleMesh surface = cube(1, Vec3(0, 0, 0));
   surface.triangles[7][1] = 999;
   CHECK(has(refusal_of(surface), "triangle 7: names node 999"));
   surface = cube(1, Vec3(0, 0, 0));

@@ -26,7 +26,7 @@ struct Body {
   /// "": done.
   std::string cut(const Sweep& sweep, Cut& made, const std::vector<int>& stroke = {}) {
     if (const auto problem = make_cut(sweep, mesh, x, topology, snap, stroke, made)) return *problem;
-    topology = edited(topology, made.edit, static_cast<int>(mesh.tets.size()));
+    topology = apply_edit(topology, made.edit, static_cast<int>(mesh.tets.size()));
     append(made.edit, mesh);
     append(made.edit, x);
     return "";
@@ -129,7 +129,7 @@ double worst_angle(const Body& body, std::size_t from = 0) {
       x[a] =
           body.mesh
               .nodes[static_cast<std::size_t>(body.mesh.tets[static_cast<std::size_t>(body.topology.elements[k])][a])];
-    worst = std::min(worst, smallest_dihedral(x));
+    worst = std::min(worst, min_dihedral(x));
   }
   return worst;
 }
@@ -178,7 +178,7 @@ TEST_CASE("cut: a blade that stops inside leaves one body, parted as far as it w
   // Nodes on both sides of the slit, at one place, far from its end: they are different ones.
   int pairs = 0;
   std::set<std::array<int, 2>> places;
-  for (const NewNode& node : made.edit.nodes)
+  for (const InsertedNode& node : made.edit.nodes)
     pairs += node.from == node.to || !places.insert({node.from, node.to}).second;
   CHECK(pairs > 0);
   // The body goes on beyond: nothing there is a copy.

@@ -18,7 +18,7 @@ ElementSelection tets(std::vector<int> numbers) { return {std::move(numbers), {}
 /// What is wrong with a removal; "" when nothing is.
 std::string problem_of(const ElementSelection& which, const Topology& topology) {
   MeshEdit edit;
-  return make_removal(which, block(), topology, edit).value_or("");
+  return make_removal_edit(which, block(), topology, edit).value_or("");
 }
 
 bool says(const std::string& text, const char* part) { return text.find(part) != text.npos; }
@@ -31,9 +31,9 @@ TEST_CASE("an edit leaves the numbers of what stays") {
   CHECK(all.elements.size() == 20);
   CHECK(all.version == 0);
   MeshEdit edit;
-  REQUIRE_FALSE(make_removal(tets({7, 2, 2, 19}), mesh, all, edit));
+  REQUIRE_FALSE(make_removal_edit(tets({7, 2, 2, 19}), mesh, all, edit));
   CHECK(edit.removed == std::vector<int>{2, 7, 19});
-  const Topology rest = edited(all, edit, 20);
+  const Topology rest = apply_edit(all, edit, 20);
   CHECK(rest.version == 1);
   CHECK(rest.elements == std::vector<int>{0, 1, 3, 4, 5, 6, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18});
   const TetMesh left = with_elements(mesh, rest.elements);
@@ -46,19 +46,19 @@ TEST_CASE("elements are chosen by region, and by box or sphere of their centroid
   const TetMesh mesh = block();
   Topology topology = whole(mesh);
   MeshEdit edit;
-  REQUIRE_FALSE(make_removal({{}, 3, {}, {}}, mesh, topology, edit));
+  REQUIRE_FALSE(make_removal_edit({{}, 3, {}, {}}, mesh, topology, edit));
   CHECK(edit.removed == std::vector<int>{0, 1, 2, 3, 4});
-  REQUIRE_FALSE(make_removal({{}, {}, std::array{Vec3(0.3, -1, -1), Vec3(1, 1, 1)}, {}}, mesh, topology, edit));
+  REQUIRE_FALSE(make_removal_edit({{}, {}, std::array{Vec3(0.3, -1, -1), Vec3(1, 1, 1)}, {}}, mesh, topology, edit));
   CHECK(edit.removed == std::vector<int>{15, 16, 17, 18, 19});
-  topology = edited(topology, edit, 20);
-  REQUIRE_FALSE(make_removal({{}, {}, std::array{Vec3(0.2, -1, -1), Vec3(1, 1, 1)}, {}}, mesh, topology, edit));
+  topology = apply_edit(topology, edit, 20);
+  REQUIRE_FALSE(make_removal_edit({{}, {}, std::array{Vec3(0.2, -1, -1), Vec3(1, 1, 1)}, {}}, mesh, topology, edit));
   CHECK(edit.removed == std::vector<int>{10, 11, 12, 13, 14});
-  REQUIRE_FALSE(make_removal({{}, {}, {}, std::pair{Vec3(0.05, 0.05, 0.05), 0.06}}, mesh, topology, edit));
+  REQUIRE_FALSE(make_removal_edit({{}, {}, {}, std::pair{Vec3(0.05, 0.05, 0.05), 0.06}}, mesh, topology, edit));
   CHECK(edit.removed == std::vector<int>{0, 1, 2, 3, 4});
 }
 
 TEST_CASE("a removal that makes no sense is refused in words") {
-  Topology topology = edited(whole(block()), {{5, 6}, {}, {}, {}}, 20);
+  Topology topology = apply_edit(whole(block()), {{5, 6}, {}, {}, {}}, 20);
   CHECK(problem_of(tets({20}), topology) == "element 20 does not exist; the mesh has elements 0 to 19");
   CHECK(says(problem_of(tets({3, -1}), topology), "element -1 does not exist"));
   CHECK(problem_of(tets({4, 5}), topology) == "element 5 was removed before");

@@ -36,7 +36,7 @@ double helpers_seconds() {
   return static_cast<double>(used.ru_utime.tv_sec) + 1e-6 * static_cast<double>(used.ru_utime.tv_usec);
 }
 
-std::string as_obj(const SurfaceMesh& surface) {
+std::string as_obj(const TriangleMesh& surface) {
   std::string text;
   for (const Vec3& x : surface.nodes) text += fmt::format("v {:.9g} {:.9g} {:.9g}\n", x[0], x[1], x[2]);
   for (const auto& [a, b, c] : surface.triangles) text += fmt::format("f {} {} {}\n", a + 1, b + 1, c + 1);
@@ -73,13 +73,13 @@ TEST_CASE("fills a box at any scale: nodes kept to the bit, same boundary, same 
   if (!can_mesh()) return;
   for (double scale : {1e-4, 0.1, 1e3}) {
     CAPTURE(scale);
-    const SurfaceMesh surface = box_surface(scale * Vec3(1, 0.7, 0.4), 4, scale * Vec3(3, -2, 1.0 / 3));
+    const TriangleMesh surface = box_surface(scale * Vec3(1, 0.7, 0.4), 4, scale * Vec3(3, -2, 1.0 / 3));
     TetMesh mesh = tetrahedralize(surface);
     REQUIRE(mesh.nodes.size() >= surface.nodes.size());
     CHECK(std::equal(surface.nodes.begin(), surface.nodes.end(), mesh.nodes.begin()));
-    CHECK(sorted_set(boundary_of(mesh).triangles) == sorted_set(surface.triangles));
+    CHECK(sorted_set(extract_boundary(mesh).triangles) == sorted_set(surface.triangles));
     const QualityReport report = check_tets(mesh);
-    CHECK(report.rewound == 0);
+    CHECK(report.flipped == 0);
     CHECK(report.volume == doctest::Approx(0.28 * scale * scale * scale).epsilon(1e-11));
     CHECK(mesh.regions == std::vector<int>(mesh.tets.size(), 0));
   }
@@ -100,7 +100,7 @@ TEST_CASE("keeps cavities empty, fills bodies in cavities and bodies beside each
 
 TEST_CASE("obeys the largest volume asked for, away from the surface whose triangles are kept") {
   if (!can_mesh()) return;
-  const SurfaceMesh surface = box_surface(Vec3(1, 1, 1), 6);
+  const TriangleMesh surface = box_surface(Vec3(1, 1, 1), 6);
   const TetMesh coarse = tetrahedralize(surface), fine = tetrahedralize(surface, with_volume(1e-3));
   CHECK(fine.tets.size() > 1.2 * static_cast<double>(coarse.tets.size()));
   int inside = 0;
@@ -114,7 +114,7 @@ TEST_CASE("obeys the largest volume asked for, away from the surface whose trian
 }
 
 TEST_CASE("refuses options without sense") {
-  const SurfaceMesh surface = cube(1, {0, 0, 0});
+  const TriangleMesh surface = cube(1, {0, 0, 0});
   for (double ratio : {0.5, -1.0, std::nan("")})
     CHECK(has(refusal([&] { tetrahedralize(surface, with_ratio(ratio)); }), "radius_edge_ratio"));
   for (double volume : {0.0, -1.0, std::nan("")})
@@ -127,13 +127,13 @@ TEST_CASE("reads surfaces with joined nodes: OBJ of several parts and quadrilate
   const std::string quads =
       "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
       "g a\nf 4 3 2 1\nf 5 6 7 8\ng b\nf 1 2 6 5\nf 2 3 7 6\ng c\nf 3 4 8 7\nf 4 1 5 8\n";
-  SurfaceMesh box = read_surface(folder.file("quads.obj", quads));
+  TriangleMesh box = read_surface(folder.file("quads.obj", quads));
   CHECK(box.nodes.size() == 8);
   CHECK(box.triangles.size() == 12);
   check_surface(box);
   CHECK(enclosed_volume(box) == doctest::Approx(1));
 
-  const SurfaceMesh surface = cube(1, {0, 0, 0});
+  const TriangleMesh surface = cube(1, {0, 0, 0});
   std::string stl = "solid a\n";
   std::string ply = fmt::format(
       "ply\nformat ascii 1.0\nelement vertex {}\nproperty double x\nproperty double y\nproperty double z\n"
@@ -157,7 +157,7 @@ TEST_CASE("reads surfaces with joined nodes: OBJ of several parts and quadrilate
   for (const auto& file : {std::pair{"a.stl", stl + "endsolid a\n"}, {"a.ply", ply}, {"a.off", off}}) {
     const auto& [name, text] = file;
     CAPTURE(file.first);
-    SurfaceMesh read = read_surface(folder.file(name, text));
+    TriangleMesh read = read_surface(folder.file(name, text));
     CHECK(read.nodes.size() == surface.nodes.size());
     CHECK(read.triangles.size() == surface.triangles.size());
     check_surface(read);
@@ -168,8 +168,8 @@ TEST_CASE("reads surfaces with joined nodes: OBJ of several parts and quadrilate
 TEST_CASE("reads a surface of tiny triangles whole") {
   if (!can_mesh()) return;
   const TemporaryFolder folder;
-  const SurfaceMesh surface = box_surface(Vec3(1e-4, 1e-4, 1e-4), 8);
-  const SurfaceMesh read = read_surface(folder.file("tiny.obj", as_obj(surface)));
+  const TriangleMesh surface = box_surface(Vec3(1e-4, 1e-4, 1e-4), 8);
+  const TriangleMesh read = read_surface(folder.file("tiny.obj", as_obj(surface)));
   CHECK(read.nodes.size() == surface.nodes.size());
   CHECK(read.triangles.size() == surface.triangles.size());
 }
@@ -221,7 +221,7 @@ TEST_CASE("says which option adds the helper when it is not there") {
 TEST_CASE("survives a helper that hangs, crashes, complains or answers nonsense, and leaves no files") {
   const TemporaryFolder folder, scratch;
   const Environment temporary("TMPDIR", (scratch / "").string());
-  const SurfaceMesh surface = cube(1, {0, 0, 0});
+  const TriangleMesh surface = cube(1, {0, 0, 0});
   const auto told = [&](const std::string& script) {
     const Environment helper("HEML_MESHER", helper_of(folder, script));
     return refusal([&] { tetrahedralize(surface, with_time(0.5)); });
@@ -240,14 +240,14 @@ TEST_CASE("survives a helper that hangs, crashes, complains or answers nonsense,
 
 TEST_CASE("a fine mesh that takes too long is stopped") {
   if (!can_mesh()) return;
-  const SurfaceMesh surface = box_surface(Vec3(1, 1, 1), 4);
+  const TriangleMesh surface = box_surface(Vec3(1, 1, 1), 4);
   const std::string said = refusal([&] { tetrahedralize(surface, with_volume(1e-8, 0.3)); });
   CHECK(has(said, "longer than 0.3 s"));
 }
 
 TEST_CASE("suspects bodies of no organ's size") {
   const auto suspicion = [](double length) {
-    return unit_suspicion(Vec3(0, 0, 0), Vec3(length / 2, length, length / 3));
+    return unit_warning(Vec3(0, 0, 0), Vec3(length / 2, length, length / 3));
   };
   for (double length : {0.005, 0.15, 0.5, 1.9}) CHECK(suspicion(length).empty());
   CHECK(has(suspicion(18), "18 m long: is the file in centimetres? \"scale\": 0.01 would make it 0.18 m"));
@@ -262,7 +262,7 @@ TEST_CASE("fills surfaces made by others and refuses those that cannot be filled
     return;
   }
   if (!can_mesh()) return;
-  const SurfaceMesh liver = read_surface(shared_data("liver2.obj"));
+  const TriangleMesh liver = read_surface(shared_data("liver2.obj"));
   CHECK(liver.nodes.size() == 1170);
   CHECK(liver.triangles.size() == 2336);
   TetMesh mesh = tetrahedralize(liver);
@@ -270,7 +270,7 @@ TEST_CASE("fills surfaces made by others and refuses those that cannot be filled
   CHECK(report.components == 1);
   CHECK(report.volume == doctest::Approx(enclosed_volume(liver)).epsilon(1e-10));
   const auto refusal_of = [](const char* name) {
-    SurfaceMesh surface = read_surface(shared_data(name));
+    TriangleMesh surface = read_surface(shared_data(name));
     return refusal([&] { check_surface(surface); });
   };
   CHECK(has(refusal_of("bunny.obj"), "open: 42 edges"));
@@ -282,14 +282,14 @@ TEST_CASE("fills a surface by others that runs through itself in a crease, once 
     return;
   }
   if (!can_mesh()) return;
-  SurfaceMesh liver = read_surface(shared_data("liver-smooth.obj"));
+  TriangleMesh liver = read_surface(shared_data("liver-smooth.obj"));
   CHECK(self_intersections(liver).pairs == 7);  // as exact arithmetic and TetGen's own detection (-d) have it
   TetMesh mesh = tetrahedralize(liver);
   check_surface(liver);
   CHECK(self_intersections(liver).pairs == 0);
   CHECK(std::equal(liver.nodes.begin(), liver.nodes.end(), mesh.nodes.begin()));
   const QualityReport report = check_tets(mesh);
-  CHECK(report.rewound == 0);
+  CHECK(report.flipped == 0);
   CHECK(report.volume == doctest::Approx(enclosed_volume(liver)).epsilon(1e-10));
 }
 

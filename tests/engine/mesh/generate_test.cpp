@@ -13,7 +13,7 @@ TEST_CASE("a box of 4 cells a side has 125 nodes, 320 tetrahedra and the volume 
   CHECK(box.tets.size() == 320);
   CHECK(box.regions == std::vector<int>(320, 0));
   const QualityReport report = check_tets(box);
-  CHECK(report.rewound == 0);
+  CHECK(report.flipped == 0);
   CHECK(report.volume == doctest::Approx(0.1 * 0.2 * 0.3).epsilon(1e-13));
   CHECK(report.warnings.empty());
 }
@@ -31,7 +31,7 @@ TEST_CASE("nodes of a box run x fastest, then y, then z, and end at the far corn
 
 TEST_CASE("cells of a box fit: its boundary is the six sides, two triangles a cell face") {
   const TetMesh box = make_box(Vec3(1, 1, 1), {3, 2, 4});
-  CHECK(boundary_of(box).triangles.size() == 2 * 2 * (3 * 2 + 2 * 4 + 3 * 4));
+  CHECK(extract_boundary(box).triangles.size() == 2 * 2 * (3 * 2 + 2 * 4 + 3 * 4));
 }
 
 TEST_CASE("each cell of a box is one tetrahedron of a third and four of a sixth of it") {

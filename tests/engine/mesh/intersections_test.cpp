@@ -66,7 +66,7 @@ TEST_CASE("a proper surface has none, fine or coarse, near or far from the origi
 
 TEST_CASE("finds the pairs that comparing every two triangles alone finds") {
   std::mt19937_64 random(11);
-  SurfaceMesh soup;
+  TriangleMesh soup;
   for (int t = 0; t < 200; ++t) {
     const Vec3 centre = test::random_vector(random, 1);
     for (int i = 0; i < 3; ++i) soup.nodes.push_back(centre + test::random_vector(random, 0.3));

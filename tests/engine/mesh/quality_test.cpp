@@ -39,7 +39,7 @@ TEST_CASE("repairs winding and says how many") {
   TetMesh box = make_box(Vec3(1, 1, 1), {2, 2, 2});
   for (int t : {3, 17, 30}) std::swap(box.tets[t][0], box.tets[t][1]);
   const QualityReport report = check_tets(box);
-  CHECK(report.rewound == 3);
+  CHECK(report.flipped == 3);
   REQUIRE(report.warnings.size() == 1);
   CHECK(report.warnings[0].find("3 of 40") != std::string::npos);
   for (const auto& [a, b, c, d] : box.tets)

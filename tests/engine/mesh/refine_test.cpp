@@ -63,7 +63,7 @@ std::vector<int> near_corner(const TetMesh& mesh, std::size_t count) {
 TEST_CASE("pieces of a refined mesh fill their parents, with their region and fields, and middles lie in the middle") {
   const TetMesh mesh = sample();
   const std::vector<int> chosen{0, 7, 31};
-  const Refinement finer = refined(mesh, chosen);
+  const Refinement finer = refine_longest_edge(mesh, chosen);
   REQUIRE(finer.parents.size() == finer.mesh.tets.size());
   CHECK(finer.mesh.tets.size() > mesh.tets.size() + 2);
   CHECK(finer.mesh.tets.size() < 2 * mesh.tets.size());
@@ -93,12 +93,12 @@ TEST_CASE("a mesh refined again and again at a corner conforms, stays local, and
   const double area = outside_area(mesh);
   const double shape = check_tets(mesh).worst_dihedral;
   for (int round = 0; round < 12; ++round) {
-    mesh = refined(mesh, near_corner(mesh, 8)).mesh;
+    mesh = refine_longest_edge(mesh, near_corner(mesh, 8)).mesh;
     CHECK(outside_area(mesh) == doctest::Approx(area).epsilon(1e-12));
   }
   const QualityReport report = check_tets(mesh);
   CHECK(report.volume == doctest::Approx(3).epsilon(1e-12));
-  CHECK(report.rewound == 0);
+  CHECK(report.flipped == 0);
   CHECK(report.worst_dihedral > shape / 4);
   CHECK(report.shortest_edge < report.longest_edge / 10);
   CHECK(mesh.tets.size() < 3000);
@@ -106,17 +106,17 @@ TEST_CASE("a mesh refined again and again at a corner conforms, stays local, and
 
 TEST_CASE("nothing chosen changes nothing, all chosen halves all at least") {
   const TetMesh mesh = sample();
-  CHECK(refined(mesh, {}).mesh.tets == mesh.tets);
+  CHECK(refine_longest_edge(mesh, {}).mesh.tets == mesh.tets);
   std::vector<int> all(mesh.tets.size());
   std::iota(all.begin(), all.end(), 0);
-  CHECK(refined(mesh, all).mesh.tets.size() >= 2 * mesh.tets.size());
+  CHECK(refine_longest_edge(mesh, all).mesh.tets.size() >= 2 * mesh.tets.size());
 }
 
 TEST_CASE("the greatest few have the share of the sum that is asked for") {
-  CHECK(greatest({1, 5, 2, 2}, 0.5) == std::vector<int>{1});
-  CHECK(greatest({1, 5, 2, 2}, 0.6) == std::vector<int>{1, 2});
-  CHECK(greatest({1, 5, 2, 2}, 1) == std::vector<int>{0, 1, 2, 3});
-  CHECK(greatest({0, 0}, 0.5).empty());
+  CHECK(doerfler_marking({1, 5, 2, 2}, 0.5) == std::vector<int>{1});
+  CHECK(doerfler_marking({1, 5, 2, 2}, 0.6) == std::vector<int>{1, 2});
+  CHECK(doerfler_marking({1, 5, 2, 2}, 1) == std::vector<int>{0, 1, 2, 3});
+  CHECK(doerfler_marking({0, 0}, 0.5).empty());
 }
 
 }  // namespace heml::refine_test

@@ -46,7 +46,7 @@ double mean_span(const TetMesh& mesh) {
 
 TEST_CASE("reordering is a permutation and its inverse") {
   const TetMesh mesh = shuffled_box(6, 1);
-  const Reordering order = locality_order(mesh);
+  const Reordering order = hilbert_order(mesh);
   REQUIRE(order.new_node.size() == mesh.nodes.size());
   REQUIRE(order.file_tet.size() == mesh.tets.size());
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n) CHECK(order.file_node[order.new_node[n]] == static_cast<int>(n));
@@ -55,7 +55,7 @@ TEST_CASE("reordering is a permutation and its inverse") {
 
 TEST_CASE("a reordered mesh is the same body: positions, corners in order, regions") {
   const TetMesh mesh = shuffled_box(4, 2);
-  const Reordering order = locality_order(mesh);
+  const Reordering order = hilbert_order(mesh);
   const TetMesh inner = reordered(mesh, order);
   REQUIRE(inner.nodes.size() == mesh.nodes.size());
   REQUIRE(inner.tets.size() == mesh.tets.size());
@@ -75,7 +75,7 @@ TEST_CASE("a reordered mesh carries its fields along") {
     for (int node : mesh.tets[t]) sum += mesh.nodes[node];
     mesh.fields[1].values.insert(mesh.fields[1].values.end(), sum.begin(), sum.end());
   }
-  const TetMesh inner = reordered(mesh, locality_order(mesh));
+  const TetMesh inner = reordered(mesh, hilbert_order(mesh));
   REQUIRE(inner.fields.size() == 2);
   CHECK(inner.fields[1].name == "centre");
   REQUIRE(inner.fields[1].values.size() == 3 * mesh.tets.size());
@@ -89,13 +89,13 @@ TEST_CASE("a reordered mesh carries its fields along") {
 
 TEST_CASE("nodes of no element come last") {
   const TetMesh mesh = shuffled_box(3, 3);
-  const Reordering order = locality_order(mesh);
+  const Reordering order = hilbert_order(mesh);
   CHECK(order.new_node[0] == static_cast<int>(mesh.nodes.size()) - 1);
 }
 
 TEST_CASE("what is close in space is close in memory: neighbours along the curve are neighbours in space") {
   const TetMesh mesh = shuffled_box(16, 4);
-  const TetMesh inner = reordered(mesh, locality_order(mesh));
+  const TetMesh inner = reordered(mesh, hilbert_order(mesh));
   // In random order a tetrahedron spans 3/5 of all nodes on average; along a space-filling curve a small part.
   CHECK(mean_span(mesh) > 0.5 * static_cast<double>(mesh.nodes.size()));
   CHECK(mean_span(inner) < 0.1 * static_cast<double>(mesh.nodes.size()));
@@ -107,15 +107,15 @@ TEST_CASE("on a grid of 8 cells a side the curve steps from each node to a neigh
   for (int i = 0; i < 512; ++i) mesh.nodes.emplace_back(i % 8, i / 8 % 8, i / 64);
   for (int i = 0; i + 3 < 512; i += 4) mesh.tets.push_back({i, i + 1, i + 2, i + 3});
   mesh.regions.assign(mesh.tets.size(), 0);
-  const Reordering order = locality_order(mesh);
+  const Reordering order = hilbert_order(mesh);
   for (int i = 1; i < 512; ++i)
     CHECK((mesh.nodes[order.file_node[i]] - mesh.nodes[order.file_node[i - 1]]).norm() == doctest::Approx(1));
 }
 
 TEST_CASE("the order depends on the mesh alone and survives a mesh of nothing") {
   const TetMesh mesh = shuffled_box(5, 5);
-  CHECK(locality_order(mesh).file_node == locality_order(mesh).file_node);
-  CHECK(locality_order(TetMesh{}).file_node.empty());
+  CHECK(hilbert_order(mesh).file_node == hilbert_order(mesh).file_node);
+  CHECK(hilbert_order(TetMesh{}).file_node.empty());
 }
 
 }  // namespace heml::reorder_test

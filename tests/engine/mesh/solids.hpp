@@ -7,12 +7,12 @@
 namespace heml {
 
 /// The sides of a box, outward; every node is on it.
-inline SurfaceMesh box_surface(const Vec3& size, int cells, const Vec3& origin = Vec3::Zero()) {
+inline TriangleMesh box_surface(const Vec3& size, int cells, const Vec3& origin = Vec3::Zero()) {
   const TetMesh box = make_box(size, {cells, cells, cells}, origin);
-  SurfaceMesh surface;
+  TriangleMesh surface;
   surface.source = "box";
   std::vector<int> number(box.nodes.size(), -1);
-  for (Triangle triangle : boundary_of(box).triangles) {
+  for (Triangle triangle : extract_boundary(box).triangles) {
     for (int& node : triangle) {
       if (number[node] < 0) {
         number[node] = static_cast<int>(surface.nodes.size());
@@ -25,11 +25,11 @@ inline SurfaceMesh box_surface(const Vec3& size, int cells, const Vec3& origin =
   return surface;
 }
 
-inline SurfaceMesh cube(double size, const Vec3& centre) {
+inline TriangleMesh cube(double size, const Vec3& centre) {
   return box_surface(Vec3::Constant(size), 2, centre - Vec3::Constant(size / 2));
 }
 
-inline SurfaceMesh together(SurfaceMesh a, const SurfaceMesh& b) {
+inline TriangleMesh together(TriangleMesh a, const TriangleMesh& b) {
   const int first = static_cast<int>(a.nodes.size());
   a.nodes.insert(a.nodes.end(), b.nodes.begin(), b.nodes.end());
   for (const auto& [i, j, k] : b.triangles) a.triangles.push_back({i + first, j + first, k + first});
@@ -37,7 +37,7 @@ inline SurfaceMesh together(SurfaceMesh a, const SurfaceMesh& b) {
 }
 
 /// Volume on the side the triangles face away from, m³.
-inline double enclosed_volume(const SurfaceMesh& surface) {
+inline double enclosed_volume(const TriangleMesh& surface) {
   double volume = 0;
   for (const auto& [a, b, c] : surface.triangles)
     volume += surface.nodes[a].dot(surface.nodes[b].cross(surface.nodes[c])) / 6;

@@ -20,7 +20,7 @@ TEST_CASE("a subdivided mesh has the same volume in eighths, old nodes first, mi
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) mesh.regions[t] = static_cast<int>(t % 3);
   mesh.fields = {{"k", 1, std::vector<double>(mesh.tets.size())}};
   std::iota(mesh.fields[0].values.begin(), mesh.fields[0].values.end(), 0.0);
-  const Subdivision finer = subdivided(mesh);
+  const Subdivision finer = subdivide_uniformly(mesh);
   REQUIRE(finer.mesh.tets.size() == 8 * mesh.tets.size());
   REQUIRE(finer.mesh.nodes.size() == mesh.nodes.size() + finer.ends.size());
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n) CHECK(finer.mesh.nodes[n] == mesh.nodes[n]);
@@ -39,7 +39,7 @@ TEST_CASE("a subdivided mesh has the same volume in eighths, old nodes first, mi
 
 TEST_CASE("a subdivided mesh has no gaps, and twice subdivided its shapes are no worse than once") {
   const TetMesh mesh = make_box(Vec3(1, 1, 1), {2, 2, 2});
-  TetMesh once = subdivided(mesh).mesh, twice = subdivided(once).mesh;
+  TetMesh once = subdivide_uniformly(mesh).mesh, twice = subdivide_uniformly(once).mesh;
   for (TetMesh* finer : {&once, &twice}) {
     const auto counts = face_counts(finer->tets, static_cast<int>(finer->nodes.size()));
     std::size_t outside = 0;

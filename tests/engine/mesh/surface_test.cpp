@@ -18,7 +18,7 @@ double enclosed_volume(const TetMesh& mesh, const std::vector<Triangle>& triangl
 
 TEST_CASE("the boundary of one tetrahedron is its four faces, outward") {
   const TetMesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 1, 2, 3}}, {0}, ""};
-  const BoundaryFaces boundary = boundary_of(mesh);
+  const BoundaryFaces boundary = extract_boundary(mesh);
   REQUIRE(boundary.triangles.size() == 4);
   CHECK(boundary.tets == std::vector<int>(4, 0));
   const Vec3 centre(0.25, 0.25, 0.25);
@@ -30,7 +30,7 @@ TEST_CASE("the boundary of one tetrahedron is its four faces, outward") {
 
 TEST_CASE("the boundary of a box is closed, oriented alike, and encloses its volume") {
   const TetMesh box = make_box(Vec3(0.3, 0.2, 0.1), {5, 4, 3}, Vec3(1, 1, 1));
-  const BoundaryFaces boundary = boundary_of(box);
+  const BoundaryFaces boundary = extract_boundary(box);
   std::map<std::pair<int, int>, int> directed;
   for (const auto& t : boundary.triangles)
     for (int a = 0; a < 3; ++a) ++directed[{t[a], t[(a + 1) % 3]}];
@@ -43,7 +43,7 @@ TEST_CASE("the boundary of a box is closed, oriented alike, and encloses its vol
 
 TEST_CASE("each boundary face belongs to the tetrahedron named behind it, in ascending order") {
   const TetMesh box = make_box(Vec3(1, 1, 1), {2, 2, 2});
-  const BoundaryFaces boundary = boundary_of(box);
+  const BoundaryFaces boundary = extract_boundary(box);
   REQUIRE(boundary.triangles.size() == boundary.tets.size());
   CHECK(std::is_sorted(boundary.tets.begin(), boundary.tets.end()));
   for (std::size_t f = 0; f < boundary.tets.size(); ++f) {
@@ -54,9 +54,9 @@ TEST_CASE("each boundary face belongs to the tetrahedron named behind it, in asc
 
 TEST_CASE("a face shared by two tetrahedra is inside, whatever the order of its nodes") {
   const TetMesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}}, {{0, 1, 2, 3}, {4, 3, 2, 1}}, {0, 0}, ""};
-  CHECK(boundary_of(mesh).triangles.size() == 6);
+  CHECK(extract_boundary(mesh).triangles.size() == 6);
 }
 
-TEST_CASE("a mesh of nothing has no boundary") { CHECK(boundary_of(TetMesh{}).triangles.empty()); }
+TEST_CASE("a mesh of nothing has no boundary") { CHECK(extract_boundary(TetMesh{}).triangles.empty()); }
 
 }  // namespace heml::surface_test

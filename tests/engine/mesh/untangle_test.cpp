@@ -8,8 +8,8 @@ namespace heml::untangle_test {
 
 namespace {
 // A box with a dent in its top and the node beside it pushed through a wall of the dent.
-SurfaceMesh creased_box() {
-  SurfaceMesh surface = box_surface(Vec3(1, 1, 1), 12);
+TriangleMesh creased_box() {
+  TriangleMesh surface = box_surface(Vec3(1, 1, 1), 12);
   for (Vec3& x : surface.nodes) {
     if ((x - Vec3(0.5, 0.5, 1)).norm() < 1e-9) x += Vec3(0.14, 0.01, -0.05);
     if ((x - Vec3(7.0 / 12, 0.5, 1)).norm() < 1e-9) x += Vec3(0, 0, -0.1);
@@ -19,8 +19,8 @@ SurfaceMesh creased_box() {
 }  // namespace
 
 TEST_CASE("smooths a crease apart and leaves all nodes away from it as they were") {
-  SurfaceMesh surface = creased_box();
-  const SurfaceMesh before = surface;
+  TriangleMesh surface = creased_box();
+  const TriangleMesh before = surface;
   const Intersections found = self_intersections(surface);
   REQUIRE(found.pairs > 0);
   CHECK(untangle(surface, found));
@@ -30,7 +30,7 @@ TEST_CASE("smooths a crease apart and leaves all nodes away from it as they were
 }
 
 TEST_CASE("leaves bodies that cross as they were") {
-  SurfaceMesh surface = together(cube(1, Vec3(0, 0, 0)), cube(1, Vec3(0.3, 0.31, 0.32)));
+  TriangleMesh surface = together(cube(1, Vec3(0, 0, 0)), cube(1, Vec3(0.3, 0.31, 0.32)));
   const std::vector<Vec3> before = surface.nodes;
   CHECK_FALSE(untangle(surface, self_intersections(surface)));
   CHECK(surface.nodes == before);

@@ -28,12 +28,12 @@ TEST_CASE("a cut reads back as it was written, with all its moments") {
   auto& cut = std::get<CutTissue>(event.command);
   REQUIRE(cut.sweep.blades.size() == 2);
   CHECK(cut.sweep.blades[1][0] == Vec3(0.12, 1, -1));
-  CHECK_FALSE(cut.goes_on);
-  cut.goes_on = true;
+  CHECK_FALSE(cut.continues_stroke);
+  cut.continues_stroke = true;
   cut.sweep.blades.push_back({Vec3(0.1, 0.2, 1.0 / 3), Vec3(1, 2, 3)});
   const Scene again = scene_with_events("[" + event_line(event) + ", " + event_line({4, Undo{}}) + "]");
   const auto& read = std::get<CutTissue>(again.events[0].command);
-  CHECK(read.goes_on);
+  CHECK(read.continues_stroke);
   CHECK(read.sweep.blades == cut.sweep.blades);
   CHECK(std::holds_alternative<Undo>(again.events[1].command));
 }
@@ -44,7 +44,7 @@ TEST_CASE("a cut that cannot be meant is refused, with its place") {
   };
   CHECK(test::says(refused("{}"), "events[0].cut"));
   CHECK(test::says(refused("{}"), "sweep"));
-  CHECK(test::says(refused(R"({"sweep": [[[0, 0, 0], [1, 0, 0]]]})"), "two moments"));
+  CHECK(test::says(refused(R"({"sweep": [[[0, 0, 0], [1, 0, 0]]]})"), "two times"));
   CHECK(test::says(refused(R"({"sweep": [[[0, 0, 0]], [[1, 0, 0]]]})"), "two ends"));
   CHECK(test::says(refused(R"({"sweep": [[[0, 0], [1, 0, 0]], [[0, 0, 0], [1, 0, 0]]]})"), "sweep[0][0]"));
   CHECK(test::says(refused(R"({"sweeps": []})"), "unknown key"));

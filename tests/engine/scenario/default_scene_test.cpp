@@ -17,7 +17,7 @@ TEST_CASE("puts soft tissue held at its top round a bare mesh") {
   CHECK(scene.materials[0].material.law == "neo_hookean");
   CHECK(scene.materials[0].material.density == 1000);
   const std::vector<double>& parameters = scene.materials[0].material.parameters;
-  const Engineering constants = engineering_from({parameters[0], parameters[1]});
+  const EngineeringConstants constants = engineering_constants({parameters[0], parameters[1]});
   CHECK(constants.young == doctest::Approx(1e4).epsilon(1e-12));
   CHECK(constants.poisson == doctest::Approx(0.45).epsilon(1e-12));
   CHECK(scene.gravity == Vec3(0, -9.81, 0));

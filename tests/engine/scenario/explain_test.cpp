@@ -21,8 +21,8 @@ std::vector<std::string> terms(const Explanation& of) {
 }
 
 bool leaves_out(const Explanation& of, const std::string& feature) {
-  return std::any_of(of.left_out.begin(), of.left_out.end(),
-                     [&](const LeftOut& left) { return left.feature == feature; });
+  return std::any_of(of.omitted_features.begin(), of.omitted_features.end(),
+                     [&](const OmittedFeature& left) { return left.feature == feature; });
 }
 
 const Advice* advice_about(const Explanation& of, const std::string& about) {
@@ -46,7 +46,7 @@ TEST_CASE("an explicit scene is explained: body, kernel, steps, no solver") {
   CHECK(of.world.nodes == 12);
   CHECK(of.world.tets == 10);
   CHECK(of.world.live_tets == 10);
-  CHECK(of.world.held_nodes == 4);
+  CHECK(of.world.constrained_nodes == 4);
   CHECK(of.world.threads == 1);
   REQUIRE(of.materials.size() == 1);
   CHECK(of.materials[0].kernel.law == "stvk");
@@ -59,7 +59,7 @@ TEST_CASE("an explicit scene is explained: body, kernel, steps, no solver") {
   CHECK(leaves_out(of, "linear solver"));
   const StepFacts& step = of.world.step;
   CHECK(step.tick == doctest::Approx(0.01));
-  CHECK(step.steps_a_tick == static_cast<int>(std::ceil(0.01 / step.stable)));
+  CHECK(step.steps_per_tick == static_cast<int>(std::ceil(0.01 / step.stable)));
   CHECK(of.world.method.explicit_share == doctest::Approx(1.25 * of.world.method.step_cost * 10 / step.stable));
   CHECK(of.startup.size() == 3);
 }
@@ -240,7 +240,7 @@ TEST_CASE("features are measured beside the scene as it is") {
   REQUIRE(!measured.changes.empty());
   CHECK(measured.changes[0].feature == "as it is");
   CHECK(measured.changes[0].error == 0);
-  CHECK(measured.largest_motion > 1e-4);
+  CHECK(measured.max_motion > 1e-4);
   CHECK(measured.stretch == doctest::Approx(0.05));
   const auto error = [&](const std::string& feature) {
     const auto found = std::find_if(measured.changes.begin(), measured.changes.end(),

@@ -59,7 +59,7 @@ TEST_CASE("a surface written as PLY or OBJ is the boundary of what is there, def
   const TemporaryFolder folder;
   const auto world = load_world(test::small_scene_with(R"({"gravity": [0, -9.81, 0]})"));
   for (int k = 0; k < 20; ++k) world->tick();
-  const std::size_t faces = boundary_of(world->setup().mesh).triangles.size();
+  const std::size_t faces = extract_boundary(world->setup().mesh).triangles.size();
   write_frame(folder / "skin.ply", *world);
   write_frame(folder / "skin.obj", *world);
   const std::string ply = read_text_file(folder / "skin.ply"), obj = read_text_file(folder / "skin.obj");
@@ -76,9 +76,9 @@ TEST_CASE("a series lists its frames with their times, also while it grows") {
   const TemporaryFolder folder;
   const auto world = load_world(test::small_scene_with("{}"));
   FrameSeries series(folder / "frames", "vtu");
-  series.take(*world);
+  series.add_frame(*world);
   world->tick();
-  series.take(*world);
+  series.add_frame(*world);
   CHECK(series.taken() == 2);
   const std::string list = read_text_file(folder / "frames" / "frames.pvd");
   CHECK(list.find("timestep=\"0\" part=\"0\" file=\"frame_00000.vtu\"") != std::string::npos);

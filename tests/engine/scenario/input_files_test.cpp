@@ -75,7 +75,8 @@ TEST_CASE("solve refuses to replace or take away what its scene reads, before it
 
 TEST_CASE("frames of an earlier run are known by their names") {
   const TemporaryFolder folder;
-  for (const char* name : {"frame_00000.png", "frame_123456.png", "frame_.png", "frame_1a.png", "frame_00001.vtu", "a.png"})
+  for (const char* name :
+       {"frame_00000.png", "frame_123456.png", "frame_.png", "frame_1a.png", "frame_00001.vtu", "a.png"})
     folder.file(name, "");
   auto frames = frames_in(folder / "", ".png");
   std::sort(frames.begin(), frames.end());

@@ -96,7 +96,7 @@ TEST_CASE("reads initial positions of every node, in any order") {
 
 TEST_CASE("refuses a recording on another mesh than its own") {
   Scene scene = test::small_scene_with("{}");
-  scene.recorded_mesh = identity_of(load_setup(scene).mesh);
+  scene.recorded_mesh = mesh_fingerprint(load_setup(scene).mesh);
   CHECK(refusal([&] { load_setup(scene); }).empty());
   scene.mesh.translate.x() = 1e-9;
   scene.boundary.clear();
@@ -111,7 +111,7 @@ TEST_CASE("finds the mesh of a moved recording beside it, and of a plain scene o
   Scene scene = test::small_scene_with(R"({"mesh": {"box": null, "file": "/gone/cube.msh"}, "boundary": []})");
   scene.file = (folder / "recording.jsonl").string();
   CHECK(test::says(refusal([&] { load_setup(scene); }), "there is no file '/gone/cube.msh'"));
-  scene.recorded_mesh = identity_of(mesh);
+  scene.recorded_mesh = mesh_fingerprint(mesh);
   CHECK(load_setup(scene).mesh.tets.size() == 5);
 }
 

@@ -184,10 +184,10 @@ TEST_CASE("a recording knows the fields its materials use, and no others") {
   const Scene scene = Body().scene(stvk_of_E);
   const auto identity = [](const TetMesh& mesh) {
     const Body body(mesh);
-    return identity_of(body.setup(stvk_of_E).mesh);
+    return mesh_fingerprint(body.setup(stvk_of_E).mesh);
   };
   TetMesh mesh = field_mesh();
-  const MeshIdentity before = identity(mesh);
+  const MeshFingerprint before = identity(mesh);
   mesh.fields[1].values[0] = 0.11;
   CHECK(identity(mesh) == before);
   mesh.fields[0].values[0] = std::nextafter(1000, 2000);

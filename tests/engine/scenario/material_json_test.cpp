@@ -14,7 +14,7 @@ using Values = std::vector<double>;
 
 RegionMaterial read(const std::string& text) {
   const Json json = Json::parse(text);
-  return material_from(Key(json, "m.json"));
+  return material_from(JsonCursor(json, "m.json"));
 }
 
 void expect_same(const Material& a, const Material& b) {
@@ -79,7 +79,7 @@ TEST_CASE("reads what acts beside elasticity") {
   CHECK(read(R"({"law": "stvk", "lambda": 3, "mu": 2, "viscosity": 1})").material.viscosity == 1);
   const Material plain = read(R"({"law": "neo_hookean_iso", "K1": 1, "kappa": 20})").material;
   CHECK(plain.volume_term == VolumeTerm::quadratic);
-  CHECK_FALSE(plain.has_memory());
+  CHECK_FALSE(plain.has_internal_state());
 }
 
 TEST_CASE("reads fields for numbers and fibres") {

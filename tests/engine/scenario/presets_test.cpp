@@ -82,13 +82,13 @@ TEST_CASE("published numbers become the material's as the convention says") {
     const double mu = published(*brain, "mu"), alpha = published(*brain, "alpha");
     CHECK(brain->material.parameters[0] == doctest::Approx(2 * mu / alpha).epsilon(1e-14));
     CHECK(brain->material.parameters[1] == alpha);
-    CHECK(ground_state(brain->material).shear == doctest::Approx(mu).epsilon(1e-12));
+    CHECK(small_strain_moduli(brain->material).shear == doctest::Approx(mu).epsilon(1e-12));
   }
   CHECK(find_preset("brain_ogden")->material.parameters[2] == published(*find_preset("brain_ogden"), "kappa"));
   for (const char* name : {"liver_human", "spleen_pig", "uterus_soft", "uterus_stiff"}) {
     CAPTURE(name);
     const auto& lame = find_preset(name)->material.parameters;
-    const Engineering now = engineering_from({lame[0], lame[1]});
+    const EngineeringConstants now = engineering_constants({lame[0], lame[1]});
     CHECK(now.young == doctest::Approx(published(*find_preset(name), "young")).epsilon(1e-12));
     CHECK(now.poisson == doctest::Approx(0.49).epsilon(1e-12));
   }
@@ -102,7 +102,7 @@ TEST_CASE("published numbers become the material's as the convention says") {
 TEST_CASE("bulk moduli of this project's choice are those of Poisson's ratio 0.49") {
   for (const char* name : {"brain_ogden_swine", "skin_suction", "liver_human"}) {
     CAPTURE(name);
-    const auto [mu, kappa] = ground_state(find_preset(name)->material);
+    const auto [mu, kappa] = small_strain_moduli(find_preset(name)->material);
     CHECK((3 * kappa - 2 * mu) / (2 * (3 * kappa + mu)) == doctest::Approx(0.49).epsilon(1e-9));
   }
 }
@@ -121,7 +121,7 @@ TEST_CASE("a changed number makes a material of its own") {
 TEST_CASE("an entry with a preset has its numbers, and what stands beside the name") {
   const auto read = [](const char* text) {
     const Json json = Json::parse(text);
-    return preset_entry(Key(json, "scene.json", "materials[1]"));
+    return preset_entry(JsonCursor(json, "scene.json", "materials[1]"));
   };
   const RegionMaterial heart =
       read(R"({"preset": "myocardium_hgo", "region": 3, "density": 1060, "fibre": [0, 0, 2]})");

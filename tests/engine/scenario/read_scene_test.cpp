@@ -56,14 +56,14 @@ TEST_CASE("reads a scene with every key of the format") {
   CHECK(scene.boundary[1].motion.axis == Vec3(1, 0, 0));
   CHECK(scene.boundary[1].motion.origin == Vec3(0, 0.1, 0));
   CHECK(scene.boundary[1].motion.degrees == 45);
-  CHECK(scene.boundary[1].motion.over == 1.5);
+  CHECK(scene.boundary[1].motion.ramp_time == 1.5);
   REQUIRE(scene.loads.size() == 3);
   CHECK(scene.loads[0].load.kind == Load::Kind::traction);
   CHECK(scene.loads[0].load.vector == Vec3(0, -20, 0));
   CHECK(scene.loads[1].load.kind == Load::Kind::pressure);
   CHECK(scene.loads[1].load.pressure == 7);
   CHECK(scene.loads[1].where.sphere->second == 0.02);
-  CHECK(scene.loads[1].load.over == 2);
+  CHECK(scene.loads[1].load.ramp_time == 2);
   CHECK(scene.loads[2].load.kind == Load::Kind::force);
   CHECK(scene.gravity == Vec3(0, -9.81, 0));
   CHECK(scene.solver.integrator == Integrator::symplectic_euler);

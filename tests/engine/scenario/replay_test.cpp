@@ -115,7 +115,7 @@ TEST_CASE("a recording is played with the instructions it was made with") {
       CHECK(plays_as_recorded(of_other) == is_here);
       const InstructionSet used = load_setup(of_other).instruction_set;
       CHECK(used == (is_here ? other : InstructionSet::best));
-      CHECK(replay_of(of_other).difference.has_value() == (chosen(used) != isa));
+      CHECK(replay_of(of_other).difference.has_value() == (resolve(used) != isa));
     }
     CHECK_THROWS_AS(said_to_be("sse9"), InputError);
   }

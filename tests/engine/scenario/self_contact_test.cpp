@@ -109,17 +109,17 @@ TEST_CASE("recordings of lobes that touch and of a strip that tears play to the 
 
 TEST_CASE("explain says that tissue passes tissue, or what keeping it apart takes") {
   const auto leaves_out = [](const Explanation& of, const char* feature) {
-    return std::any_of(of.left_out.begin(), of.left_out.end(),
-                       [&](const LeftOut& left) { return left.feature == feature; });
+    return std::any_of(of.omitted_features.begin(), of.omitted_features.end(),
+                       [&](const OmittedFeature& left) { return left.feature == feature; });
   };
   const Explanation plain = explain(test::small_scene_with("{}"));
   CHECK(leaves_out(plain, "self-contact"));
   CHECK(leaves_out(plain, "tearing"));
-  const Explanation touching = explain(test::small_scene_with(lobes));
-  CHECK_FALSE(leaves_out(touching, "self-contact"));
-  CHECK(std::any_of(touching.world.memory.begin(), touching.world.memory.end(), [](const MemoryFacts& memory) {
-    return std::string(memory.what) == "self-contact" && memory.bytes > 0;
-  }));
+  const Explanation contact_count = explain(test::small_scene_with(lobes));
+  CHECK_FALSE(leaves_out(contact_count, "self-contact"));
+  CHECK(std::any_of(
+      contact_count.world.memory.begin(), contact_count.world.memory.end(),
+      [](const MemoryFacts& memory) { return std::string(memory.what) == "self-contact" && memory.bytes > 0; }));
 }
 
 }  // namespace heml::self_contact_test

@@ -77,7 +77,8 @@ TEST_CASE("whatever is altered, dropped or moved in a recording is noticed") {
   CHECK(test::says(reason([](Scene& r) { r.checkpoints[2].hash ^= 1; }), "differs at step 10: state"));
   CHECK(test::says(reason([](Scene& r) { r.checkpoints[2].nodes[3] ^= 1; }), "differs at step 10, node 3"));
   CHECK(test::says(reason([](Scene& r) { r.checkpoints[2].nodes.pop_back(); }), "differs at step 10, node 11"));
-  CHECK(test::says(reason([](Scene& r) { r.checkpoints.erase(r.checkpoints.begin() + 2); }), "4 checkpoints, and its end tells of 5"));
+  CHECK(test::says(reason([](Scene& r) { r.checkpoints.erase(r.checkpoints.begin() + 2); }),
+                   "4 checkpoints, and its end tells of 5"));
   CHECK(test::says(reason([](Scene& r) { r.checkpoints.clear(); }), "no checkpoint"));
   CHECK(test::says(reason([](Scene& r) { *r.recorded_end->hash ^= 1; }), "differs at step 20"));
   CHECK(test::says(reason([](Scene& r) { r.recorded_end->hash.reset(); }), "lacks"));
@@ -87,15 +88,17 @@ TEST_CASE("whatever is altered, dropped or moved in a recording is noticed") {
   CHECK(test::says(reason([](Scene& r) { r.events.push_back({21, Release{}}); }), "event of step 21"));
   CHECK(test::says(reason([](Scene& r) { r.recorded_by.kernel_revision = 0; }), "kernel revision 0"));
   CHECK(test::says(reason([](Scene& r) {
-          r.recorded_by.build = "GCC 1";
-          r.checkpoints[1].hash ^= 1;
-        }), "another build (GCC 1; this is"));
+                     r.recorded_by.build = "GCC 1";
+                     r.checkpoints[1].hash ^= 1;
+                   }),
+                   "another build (GCC 1; this is"));
   CHECK(reason([](Scene& r) { r.recorded_by.build = "GCC 1"; }) == "");
   const auto end_at = [](Scene& r, long tick, std::uint64_t hash) {
     r.recorded_ticks = r.recorded_end->tick = tick;
     r.recorded_end->hash = hash;
   };
-  CHECK(test::says(reason([&](Scene& r) { end_at(r, 10, r.checkpoints[2].hash); }), "checkpoint of step 20, after its end"));
+  CHECK(test::says(reason([&](Scene& r) { end_at(r, 10, r.checkpoints[2].hash); }),
+                   "checkpoint of step 20, after its end"));
 }
 
 TEST_CASE("a recording that was cut short verifies as far as it goes when that is asked for") {
@@ -124,8 +127,8 @@ TEST_CASE("a recording of format 1 verifies with a warning where its checkpoints
   };
   CHECK(passes_with({0, 1, 2, 3, 4}, 20));
   CHECK(passes_with({0, 2, 4}, 20));
-  CHECK(passes_with({4}, 20));            // what led to a recovery
-  CHECK(passes_with({0, 2, 3}, 15));      // the last one closer
+  CHECK(passes_with({4}, 20));              // what led to a recovery
+  CHECK(passes_with({0, 2, 3}, 15));        // the last one closer
   CHECK_FALSE(passes_with({0, 1, 2}, 20));  // the second half dropped
   CHECK_FALSE(passes_with({0, 1, 3, 4}, 20));
   CHECK_FALSE(passes_with({1, 2, 3, 4}, 20));
@@ -205,7 +208,8 @@ TEST_CASE("commands to a world that has halted count from a reset on, and else n
 TEST_CASE("a recorder says when its file takes no more, once") {
   const Scene scene = pulled_scene();
   const std::unique_ptr<World> world = load_world(scene);
-  CHECK(test::says(refusal([&] { Recorder(std::filesystem::path("/dev/full"), scene, *world); }), "/dev/full: cannot be written: No space left"));
+  CHECK(test::says(refusal([&] { Recorder(std::filesystem::path("/dev/full"), scene, *world); }),
+                   "/dev/full: cannot be written: No space left"));
 }
 
 }  // namespace heml::verify_test

@@ -70,7 +70,7 @@ Scene scene_of_everything() {
   scene.initial_velocity = vector();
   scene.initial_positions = "/folder/start.csv";
   scene.view = {number(), number(), number(), Field::von_mises, true};
-  scene.recorded_mesh = MeshIdentity{60, 120, 0xfedcba9876543210};
+  scene.recorded_mesh = MeshFingerprint{60, 120, 0xfedcba9876543210};
   return scene;
 }
 
@@ -104,7 +104,7 @@ TEST_CASE("writes a scene on one line that reads back bit for bit") {
     CHECK(same_bits(back.boundary[i].motion.origin, scene.boundary[i].motion.origin));
     CHECK(same_bits(back.boundary[i].motion.axis, scene.boundary[i].motion.axis));
     CHECK(same_bits(back.boundary[i].motion.degrees, scene.boundary[i].motion.degrees));
-    CHECK(same_bits(back.boundary[i].motion.over, scene.boundary[i].motion.over));
+    CHECK(same_bits(back.boundary[i].motion.ramp_time, scene.boundary[i].motion.ramp_time));
   }
   for (int i = 0; i < 3; ++i) {
     CHECK(back.loads[i].where.nodes == scene.loads[i].where.nodes);
@@ -112,7 +112,7 @@ TEST_CASE("writes a scene on one line that reads back bit for bit") {
     CHECK(back.loads[i].load.kind == scene.loads[i].load.kind);
     CHECK(same_bits(back.loads[i].load.vector, scene.loads[i].load.vector));
     CHECK(same_bits(back.loads[i].load.pressure, scene.loads[i].load.pressure));
-    CHECK(same_bits(back.loads[i].load.over, scene.loads[i].load.over));
+    CHECK(same_bits(back.loads[i].load.ramp_time, scene.loads[i].load.ramp_time));
   }
   CHECK(same_bits(back.gravity, scene.gravity));
   CHECK(back.solver.integrator == scene.solver.integrator);

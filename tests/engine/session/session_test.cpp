@@ -23,11 +23,11 @@ Scene small_scene() {
   Scene scene;
   scene.file = "small";
   scene.mesh.box = MeshSpec::Box{Vec3(0.1, 0.02, 0.02), Vec3::Zero(), {6, 2, 2}};
-  const Lame lame = lame_from(1e4, 0.3);
+  const LameParameters lame = lame_parameters(1e4, 0.3);
   scene.materials = {{std::nullopt, {"neo_hookean", {lame.lambda, lame.mu}, 1000}}};
-  BoundaryEntry held;
-  held.where.box = {Vec3(-1, -1, -1), Vec3(1e-6, 1, 1)};
-  scene.boundary.push_back(held);
+  BoundaryEntry constrained;
+  constrained.where.box = {Vec3(-1, -1, -1), Vec3(1e-6, 1, 1)};
+  scene.boundary.push_back(constrained);
   scene.gravity = Vec3(0, -9.81, 0);
   scene.solver.threads = 1;
   scene.solver.continuation = true;
@@ -57,43 +57,43 @@ struct TemporaryFolder {
 TEST_CASE("frames carry stretches while somebody wants them") {
   Session session(small_scene(), {});
   wait_for(session, [](const Frame& f) { return f.tick > 20 && f.stretches.empty(); });
-  session.carry_stretches(true);
+  session.enable_stretches(true);
   const Frame& frame = wait_for(session, [](const Frame& f) { return f.tick > 100 && !f.stretches.empty(); });
-  CHECK(frame.stretches.size() == frame.skin->nodes.size());
+  CHECK(frame.stretches.size() == frame.surface_mesh->nodes.size());
   CHECK(*std::max_element(frame.stretches.begin(), frame.stretches.end()) > 1.0001f);  // it hangs from one end
   CHECK(frame.values.empty());
   session.show(Field::stretch);
   const Frame& both = wait_for(session, [](const Frame& f) { return !f.values.empty(); });
   CHECK(both.stretches == both.values);
-  session.carry_stretches(false);
+  session.enable_stretches(false);
   wait_for(session, [](const Frame& f) { return f.stretches.empty() && !f.values.empty(); });
 }
 
 TEST_CASE("frames carry errors while somebody reads them, and the body does not know") {
   Session session(small_scene(), {});
   wait_for(session, [](const Frame& f) { return f.tick > 20 && !f.mesh_error && !f.time_error; });
-  session.carry_errors(true);
+  session.enable_errors(true);
   const Frame& frame = wait_for(session, [](const Frame& f) { return f.mesh_error && f.time_error; });
   CHECK(*frame.mesh_error > 0.01);
   CHECK(*frame.mesh_error < 1);
   CHECK(frame.time_error->rms > 0);
   CHECK(frame.time_error->rms < 1e-3);
-  session.carry_errors(false);
+  session.enable_errors(false);
   wait_for(session, [](const Frame& f) { return !f.mesh_error && !f.time_error; });
 }
 
 TEST_CASE("a session steps by itself and publishes what a viewer needs") {
   Session session(small_scene(), {});
-  CHECK(session.latest().skin->nodes.size() > 50);
-  CHECK(session.latest().skin->held.size() == 9);
+  CHECK(session.latest().surface_mesh->nodes.size() > 50);
+  CHECK(session.latest().surface_mesh->constrained.size() == 9);
   const Frame& frame = wait_for(session, [](const Frame& f) { return f.tick > 100; });
-  CHECK(frame.positions.size() == frame.skin->nodes.size());
+  CHECK(frame.positions.size() == frame.surface_mesh->nodes.size());
   CHECK(frame.time == doctest::Approx(static_cast<double>(frame.tick) * 1e-3));
   CHECK(frame.energies.potential < 0);
   CHECK(frame.values.empty());
   session.show(Field::displacement);
   const Frame& shown = wait_for(session, [](const Frame& f) { return f.field == Field::displacement; });
-  CHECK(shown.values.size() == shown.skin->nodes.size());
+  CHECK(shown.values.size() == shown.surface_mesh->nodes.size());
   CHECK(*std::max_element(shown.values.begin(), shown.values.end()) > 1e-4f);
 }
 
@@ -155,22 +155,22 @@ TEST_CASE("what is removed leaves the frames' skin, and a reset brings it back")
   SessionOptions options;
   options.start_paused = true;
   Session session(small_scene(), options);
-  const auto whole = session.latest().skin;
+  const auto whole = session.latest().surface_mesh;
   session.post(RemoveElements{{{}, {}, std::array{Vec3(0.08, -1, -1), Vec3(1, 1, 1)}, {}}});
-  const Frame& frame = wait_for(session, [&](const Frame& f) { return f.skin != whole; });
-  CHECK(frame.skin->nodes.size() == whole->nodes.size() - 9 + 1);  // the end's; the one laid bare inside
-  CHECK(frame.positions.size() == frame.skin->nodes.size());
+  const Frame& frame = wait_for(session, [&](const Frame& f) { return f.surface_mesh != whole; });
+  CHECK(frame.surface_mesh->nodes.size() == whole->nodes.size() - 9 + 1);  // the end's; the one laid bare inside
+  CHECK(frame.positions.size() == frame.surface_mesh->nodes.size());
   CHECK(frame.removed == 20);
-  CHECK(frame.skin->whole == whole);
-  for (const Vec3f& X : frame.skin->rest) CHECK(X.x() < 0.085f);
-  for (const auto& triangle : frame.skin->triangles)
-    for (const int n : triangle) CHECK(static_cast<std::size_t>(n) < frame.skin->nodes.size());
-  const long version = frame.skin->version;
+  CHECK(frame.surface_mesh->whole == whole);
+  for (const Vec3f& X : frame.surface_mesh->rest) CHECK(X.x() < 0.085f);
+  for (const auto& triangle : frame.surface_mesh->triangles)
+    for (const int n : triangle) CHECK(static_cast<std::size_t>(n) < frame.surface_mesh->nodes.size());
+  const long version = frame.surface_mesh->version;
   session.post(Reset{});
-  const Frame& after = wait_for(session, [&](const Frame& f) { return f.skin->version > version; });
-  CHECK(after.skin->nodes == whole->nodes);
-  CHECK(after.skin->triangles == whole->triangles);
-  CHECK_FALSE(after.skin->whole);
+  const Frame& after = wait_for(session, [&](const Frame& f) { return f.surface_mesh->version > version; });
+  CHECK(after.surface_mesh->nodes == whole->nodes);
+  CHECK(after.surface_mesh->triangles == whole->triangles);
+  CHECK_FALSE(after.surface_mesh->whole);
   CHECK(after.removed == 0);
 }
 
@@ -289,7 +289,7 @@ TEST_CASE("a session of what led to a moment is there to the bit, and goes on in
   const TemporaryFolder folder;
   const auto first = folder.path / "first.jsonl", second = folder.path / "second.jsonl";
   Frame moment, later;
-  Scene way;
+  Scene variant;
   {
     SessionOptions options;
     options.record = first;
@@ -307,17 +307,17 @@ TEST_CASE("a session of what led to a moment is there to the bit, and goes on in
     session.play();
     session.post(SetDamping{9});
     later = wait_for(session, [&](const Frame& f) { return f.tick > moment.tick + 100; });
-    way = session.until(moment);
+    variant = session.until(moment);
   }
   const auto recorded = read_scene(first);
   {
     SessionOptions options;
     options.record = second;
     options.start_paused = true;
-    options.hurry_to = moment.tick;
-    Session session(way, options);
+    options.fast_forward_to = moment.tick;
+    Session session(variant, options);
     const Frame& reached =
-        wait_for(session, [&](const Frame& f) { return f.hurries_to == 0 && f.tick == moment.tick; });
+        wait_for(session, [&](const Frame& f) { return f.fast_forward_target == 0 && f.tick == moment.tick; });
     CHECK(reached.paused);
     CHECK(reached.time == moment.time);
     CHECK(reached.commands == moment.commands);
@@ -346,14 +346,14 @@ TEST_CASE("a hurry is faster than the clock, and a pause ends it on the way") {
   SessionOptions options;
   options.start_paused = true;
   Session session(scene, options);
-  session.hurry_to(2000);
-  const Frame& there = wait_for(session, [](const Frame& f) { return f.tick == 2000 && f.hurries_to == 0; });
+  session.fast_forward_to(2000);
+  const Frame& there = wait_for(session, [](const Frame& f) { return f.tick == 2000 && f.fast_forward_target == 0; });
   CHECK(there.paused);
   CHECK(there.pace.missed == 0);
-  session.hurry_to(100000000);
+  session.fast_forward_to(100000000);
   wait_for(session, [](const Frame& f) { return f.tick > 2100; });
   session.pause();
-  const long tick = wait_for(session, [](const Frame& f) { return f.hurries_to == 0; }).tick;
+  const long tick = wait_for(session, [](const Frame& f) { return f.fast_forward_target == 0; }).tick;
   std::this_thread::sleep_for(50ms);
   CHECK(session.latest().tick <= tick + 1);
 }
@@ -379,9 +379,9 @@ TEST_CASE("until its end a recording is played as it was: the clock chooses noth
     SessionOptions options;
     options.record = second;
     options.start_paused = true;
-    options.hurry_to = *recorded.recorded_ticks;
+    options.fast_forward_to = *recorded.recorded_ticks;
     Session session(recorded, options);
-    wait_for(session, [](const Frame& f) { return f.hurries_to == 0; });
+    wait_for(session, [](const Frame& f) { return f.fast_forward_target == 0; });
   }
   const Scene again = read_scene(second);
   REQUIRE(again.events.size() == recorded.events.size());

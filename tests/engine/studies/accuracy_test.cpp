@@ -21,7 +21,7 @@ constexpr const char* swinging = R"({
   "solver": {"duration": 0.04}
 })";
 
-Specimen small_beam() { return specimen_of(parse_scene(swinging, "folder/scene.json")); }
+Problem small_beam() { return problem_of(parse_scene(swinging, "folder/scene.json")); }
 
 const std::vector<double> times{0.02, 0.04};
 
@@ -41,18 +41,18 @@ MakeWorld broken(double stiffness) {
 MakeWorld volume_of_wrong_sign(const std::string& law) {
   return [=](WorldSetup setup) {
     Material& material = setup.materials.front().material;
-    if (material.law == law) material.parameters[*volume_slot(material, *find_law(law))] *= -1;
+    if (material.law == law) material.parameters[*volume_parameter(material, *find_law(law))] *= -1;
     return make_world(std::move(setup));
   };
 }
 
 /// Figures that closed forms and other arithmetic stand behind, of a beam and of one law.
-std::vector<Figure> figures_with(const MakeWorld& make) {
+std::vector<ResultValue> figures_with(const MakeWorld& make) {
   StudyContext context;
   context.make = make;
   AccuracyStudy study;
   study.locking = {study_beam(0, {8, 2, 2}, context)};
-  return figures_of(study);
+  return result_values(study);
 }
 
 std::vector<Vec3> scaled(const std::vector<Vec3>& x, double by) {
@@ -80,7 +80,7 @@ TEST_CASE("Richardson: solutions that converge with order 2 lead to their limit,
   std::vector<Vec3> best;
   const auto exact =
       extrapolate({scaled(limit, 1 - 0.16), scaled(limit, 1 - 0.04), scaled(limit, 1 - 0.01)}, rest, mass, best);
-  CHECK(exact.problem.empty());
+  CHECK(exact.failure.empty());
   CHECK(exact.order == doctest::Approx(2));
   CHECK(rms_distance(best, limit, mass) < 1e-12);
   CHECK(exact.uncertainty < 1e-12);
@@ -91,8 +91,8 @@ TEST_CASE("Richardson: solutions that converge with order 2 lead to their limit,
   CHECK(slow.order == doctest::Approx(1));
   CHECK(rms_distance(best, limit, mass) <= slow.uncertainty * (1 + 1e-9));
   const auto wild = extrapolate({scaled(limit, 1), scaled(limit, 2), scaled(limit, 4)}, rest, mass, best);
-  CHECK_FALSE(wild.problem.empty());
-  CHECK_FALSE(extrapolate({limit, limit}, rest, mass, best).problem.empty());
+  CHECK_FALSE(wild.failure.empty());
+  CHECK_FALSE(extrapolate({limit, limit}, rest, mass, best).failure.empty());
 }
 
 TEST_CASE("a swing's frequency and decay are read off its turning points") {
@@ -102,20 +102,20 @@ TEST_CASE("a swing's frequency and decay are read off its turning points") {
     t.push_back(k * 1e-3);
     u.push_back(1 - std::exp(-decay * t.back()) * std::cos(2 * std::numbers::pi * frequency * t.back()));
   }
-  const auto swing = swing_of(t, u);
-  REQUIRE(swing);
-  CHECK(swing->frequency == doctest::Approx(frequency).epsilon(0.02));
-  CHECK(swing->decay == doctest::Approx(decay).epsilon(0.05));
-  CHECK_FALSE(swing_of({0, 1, 2}, {0, 0, 0}));
+  const auto first_mode = first_mode_of(t, u);
+  REQUIRE(first_mode);
+  CHECK(first_mode->frequency == doctest::Approx(frequency).epsilon(0.02));
+  CHECK(first_mode->decay == doctest::Approx(decay).epsilon(0.05));
+  CHECK_FALSE(first_mode_of({0, 1, 2}, {0, 0, 0}));
   std::vector<double> creeping;
   for (const double now : t) creeping.push_back(1 - std::exp(-now));
-  CHECK_FALSE(swing_of(t, creeping));
+  CHECK_FALSE(first_mode_of(t, creeping));
 }
 
 TEST_CASE("a reference tells errors ten times what halving its step changes, and methods converge to it") {
-  const Specimen beam = small_beam();
+  const Problem beam = small_beam();
   const TimeStudy study = study_time("test", beam, times, Breadth::whole, {});
-  REQUIRE(study.reference.problem.empty());
+  REQUIRE(study.reference.failure.empty());
   CHECK(study.reference.motion > 1e-4);
   CHECK(study.reference.resolution() == 10 * study.reference.change);
   CHECK(study.reference.resolution() < 1e-5 * study.reference.motion);
@@ -149,11 +149,11 @@ TEST_CASE("steps above the stable limit fail and are said to, and a figure that 
   scene.time = {study};
   AccuracyStudy whole;
   whole.scenes = {scene};
-  const Json committed = to_json(figures_of(whole));
-  CHECK(what_got_worse(figures_of(whole), committed).empty());
+  const Json committed = to_json(result_values(whole));
+  CHECK(what_got_worse(result_values(whole), committed).empty());
   for (Measured& m : whole.scenes[0].time[0].measured)
     if (m.method.integrator == Integrator::verlet) m.run.failed = "ran away";
-  const auto worse = what_got_worse(figures_of(whole), committed);
+  const auto worse = what_got_worse(result_values(whole), committed);
   REQUIRE_FALSE(worse.empty());
   CHECK(worse[0].find("verlet") != std::string::npos);
 }
@@ -170,27 +170,27 @@ TEST_CASE("a kernel that is twice too stiff is noticed") {
 TEST_CASE("a volume term of the wrong sign is noticed") {
   AccuracyStudy study;
   study.laws = study_laws({});
-  const Json committed = to_json(figures_of(study));
+  const Json committed = to_json(result_values(study));
   for (const std::string law : {"neo_hookean_iso", "neo_hookean"}) {
     CAPTURE(law);
     StudyContext wrong;
     wrong.make = volume_of_wrong_sign(law);
     study.laws = study_laws(wrong);
-    const auto worse = what_got_worse(figures_of(study), committed);
+    const auto worse = what_got_worse(result_values(study), committed);
     REQUIRE(worse.size() == 1);
     CHECK(worse[0].find("force left by " + law) == 0);
   }
 }
 
 TEST_CASE("every law that settles is in balance by arithmetic that is not the engine's, and a broken one is not") {
-  for (const SettledLaw& law : study_laws({})) {
+  for (const LawCheck& law : study_laws({})) {
     CAPTURE(law.law);
     CHECK(law.failed == "");
     CHECK(law.left_over < 1e-6);
   }
   StudyContext twice;
   twice.make = broken(2);
-  for (const SettledLaw& law : study_laws(twice))
+  for (const LawCheck& law : study_laws(twice))
     if (law.law != "mass_spring") CHECK((!law.failed.empty() || law.left_over > 0.01));
 }
 
@@ -216,13 +216,13 @@ TEST_CASE("the report begins with its answers and holds every scene") {
   scene.name = scene.title = "block";
   scene.laws = {"stvk"};
   TimeStudy& time = scene.time.emplace_back();
-  time.specimen = "p1, 5 tetrahedra";
+  time.problem = "p1, 5 tetrahedra";
   Measured& good = time.measured.emplace_back();
   good.error = 3e-4;
   good.run.simulated = 1, good.run.seconds = 0.5;
   Measured& bad = time.measured.emplace_back();
   bad.run.failed = "ran away <here>";
-  scene.settled.reference.problem = "nothing settles";
+  scene.convergence.reference.failure = "nothing settles";
   const std::string page = accuracy_page(study, {}, "heml study accuracy", {});
   const auto at = [&](const char* text) { return page.find(text); };
   CHECK(at("within 16 ms a frame, the smallest error is 0.3 mm") != std::string::npos);

@@ -9,11 +9,11 @@ namespace heml::bench_test {
 
 TEST_CASE("works timed in turn are all run, their least time is no more than the median") {
   int runs[2] = {0, 0};
-  RoundLimits limits;
+  TimingLimits limits;
   limits.seconds = 0;
-  limits.fewest = 4;
-  limits.shortest_sample = 1e-5;
-  const auto times = time_in_turn({[&] { ++runs[0]; }, [&] { ++runs[1]; }}, limits);
+  limits.min_rounds = 4;
+  limits.min_sample = 1e-5;
+  const auto times = time_interleaved({[&] { ++runs[0]; }, [&] { ++runs[1]; }}, limits);
   REQUIRE(times.size() == 2);
   for (int k = 0; k < 2; ++k) {
     CHECK(runs[k] > 4);
@@ -26,10 +26,10 @@ TEST_CASE("works timed in turn are all run, their least time is no more than the
 
 TEST_CASE("a force evaluation is timed in both precisions, every instruction set and number of threads") {
   const BenchBody body = bench_cube(2, true);
-  RoundLimits limits;
+  TimingLimits limits;
   limits.seconds = 0;
-  limits.fewest = 1;
-  limits.shortest_sample = 1e-6;
+  limits.min_rounds = 1;
+  limits.min_sample = 1e-6;
   for (const Material& material : bench_materials()) {
     CAPTURE(material.law);
     const auto timings = time_forces(body, material, limits);

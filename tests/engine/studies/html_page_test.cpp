@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <heml/base/write_file.hpp>
-#include <studies/html_page.hpp>
 #include <places.hpp>
 #include <studies/html_page.hpp>
 

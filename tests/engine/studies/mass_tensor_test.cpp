@@ -1,4 +1,4 @@
-#include <studies/counted.hpp>
+#include <studies/counting_scalar.hpp>
 #include <studies/mass_tensor.hpp>
 
 #include "engine/elastic/small_body.hpp"
@@ -19,9 +19,9 @@ double apart(const std::vector<double>& a, const std::vector<double>& b) {
 }
 
 Operations operations_of_forces(const SmallBody& small, MassTensorSums sums) {
-  const MassTensor<Counted> method(small.mesh, lambda, mu, sums);
-  const std::vector<Counted> x(small.x.begin(), small.x.end());
-  std::vector<Counted> f(x.size());
+  const MassTensor<CountingScalar> method(small.mesh, lambda, mu, sums);
+  const std::vector<CountingScalar> x(small.x.begin(), small.x.end());
+  std::vector<CountingScalar> f(x.size());
   return operations_of([&] { method.forces(x.data(), f.data()); });
 }
 
@@ -53,7 +53,7 @@ TEST_CASE("the linear part of Mass-Tensor is HEML's stiffness at rest") {
   for (std::size_t i = 0; i < rest.size(); ++i) displacement[i] = small.x[i] - rest[i];
   ThreadTeam team(1);
   body->linearise(rest.data(), team);
-  body->force_change(displacement.data(), expected.data(), team);
+  body->force_differential(displacement.data(), expected.data(), team);
   MassTensor<double>(small.mesh, lambda, mu, MassTensorSums::without_zeros).linear_forces(small.x.data(), f.data());
   CHECK(apart(f, expected) < 1e-11);
 }

@@ -62,7 +62,7 @@ TEST_CASE("naive loops made for a processor run on none that lacks what they wer
     CHECK(portable_naive_set.compiled_for[k] == compiled_for[k]);
     if (native_naive_set.compiled_for[k]) asked_for.push_back(k);
   }
-  CHECK(asked_for.empty() == (count == 1));  // SSE2 at least, where there is a list
+  CHECK(asked_for.empty() == (count == 1));          // SSE2 at least, where there is a list
   const auto has = std::make_unique<bool[]>(count);  // std::vector<bool> is no array
   const auto chosen_without = [&](std::size_t lacking) {
     for (std::size_t k = 0; k < count; ++k) has[k] = k != lacking;

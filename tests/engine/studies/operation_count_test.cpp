@@ -36,8 +36,8 @@ std::array<double, 12> forces(const L& law) {
 
 template <class L>
 Operations operations_of_law(const Material& material) {
-  const L law = law_from<L, Counted>(material.parameters);
-  return operations_of([&] { forces<Counted>(law); });
+  const L law = law_from<L, CountingScalar>(material.parameters);
+  return operations_of([&] { forces<CountingScalar>(law); });
 }
 
 }  // namespace
@@ -46,12 +46,12 @@ TEST_CASE("every law runs on a counting scalar, gives the same forces, and says 
   for (std::size_t index = 0; index < law_count; ++index)
     visit_law(index, false, []<class Tag, bool continued>(Tag, std::bool_constant<continued>) {
       if constexpr (!continued) {  // the others take no counted numbers
-        using Counting = typename Tag::template Law<Counted, false>;
+        using Counting = typename Tag::template Law<CountingScalar, false>;
         CAPTURE(std::string(Tag::name));
         const Material material = test::sample_material(Tag::name);
         using Plain = typename Tag::template Law<double, false>;
         const auto expected = forces<double>(law_from<Plain, double>(material.parameters));
-        const auto counted = forces<Counted>(law_from<Counting, Counted>(material.parameters));
+        const auto counted = forces<CountingScalar>(law_from<Counting, CountingScalar>(material.parameters));
         for (std::size_t i = 0; i < 12; ++i) CHECK(counted[i] == expected[i]);
         const Operations c = operations_of_law<Counting>(material);
         MESSAGE(std::string(Tag::name) << ": " << c.multiplications << " multiplications, " << c.additions
@@ -63,16 +63,16 @@ TEST_CASE("every law runs on a counting scalar, gives the same forces, and says 
 }
 
 TEST_CASE("one more multiplication is one more counted") {
-  struct Dearer : StVK<Counted, false> {
-    Slopes<Counted> slopes(const Invariants<Counted>& at) const {
-      auto s = StVK<Counted, false>::slopes(at);
-      s.w1 = s.w1 * Counted(1);
+  struct Dearer : StVK<CountingScalar, false> {
+    FirstDerivatives<CountingScalar> first_derivatives(const Invariants<CountingScalar>& at) const {
+      auto s = StVK<CountingScalar, false>::first_derivatives(at);
+      s.w1 = s.w1 * CountingScalar(1);
       return s;
     }
   };
-  const StVK<Counted, false> plain{1e3, 1e3};
-  const Operations before = operations_of([&] { forces<Counted>(plain); });
-  const Operations after = operations_of([&] { forces<Counted>(Dearer{plain}); });
+  const StVK<CountingScalar, false> plain{1e3, 1e3};
+  const Operations before = operations_of([&] { forces<CountingScalar>(plain); });
+  const Operations after = operations_of([&] { forces<CountingScalar>(Dearer{plain}); });
   CHECK(after.multiplications == before.multiplications + 1);
   CHECK(after.additions == before.additions);
 }
@@ -82,7 +82,7 @@ TEST_CASE("a body takes what its elements take, and twelve additions each to sum
   std::vector<double> x;
   for (const Vec3& X : mesh.nodes) x.insert(x.end(), {1.1 * X.x(), X.y(), X.z()});
   const Material material = test::sample_material("stvk");
-  const Operations element = operations_of_law<StVK<Counted, false>>(material);
+  const Operations element = operations_of_law<StVK<CountingScalar, false>>(material);
   const Operations body = force_operations(mesh, material, x.data());
   const long tets = static_cast<long>(mesh.tets.size());
   CHECK(body.multiplications == tets * element.multiplications);

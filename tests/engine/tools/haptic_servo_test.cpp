@@ -14,7 +14,7 @@ constexpr double turn = 1e-3, tick = 1.0 / 60;  // s
 /// Tissue that pushes back as a spring does, stiffer along one direction than along the others.
 Vec3 spring(const Vec3& x) { return Vec3(200 * x.x() + 50 * x.y(), 50 * x.x() + 120 * x.y(), 40 * x.z()); }
 
-Vec3 hand_at(double t) { return 0.01 * Vec3(std::sin(9 * t), std::cos(5 * t), std::sin(7 * t + 1)); }
+Vec3 handle_at(double t) { return 0.01 * Vec3(std::sin(9 * t), std::cos(5 * t), std::sin(7 * t + 1)); }
 
 struct Errors {
   double modelled = 0, held = 0;  ///< N, rms, of the model and of holding the last state's force
@@ -32,13 +32,13 @@ Errors follow(const HapticLimits& limits) {
     if (const long now = static_cast<long>(t / tick); now > seen) {
       seen = now;
       const double then = static_cast<double>(now - 1) * tick;
-      held = spring(hand_at(then));
-      servo.take({static_cast<double>(now) * tick, hand_at(then), held});
+      held = spring(handle_at(then));
+      servo.update({static_cast<double>(now) * tick, handle_at(then), held});
     }
-    const Vec3 felt = servo.serve(hand_at(t), turn);
+    const Vec3 felt = servo.serve(handle_at(t), turn);
     if (t < 1) continue;  // it learns
-    errors.modelled += (felt + spring(hand_at(t))).squaredNorm();
-    errors.held += (held - spring(hand_at(t))).squaredNorm();
+    errors.modelled += (felt + spring(handle_at(t))).squaredNorm();
+    errors.held += (held - spring(handle_at(t))).squaredNorm();
     ++counted;
   }
   return {std::sqrt(errors.modelled / counted), std::sqrt(errors.held / counted)};
@@ -52,16 +52,16 @@ struct Bounce {
 Bounce drop(const HapticLimits& limits) {
   HapticServo servo(limits);
   const double stiffness = 400, mass = 0.1;
-  std::vector<double> way;
+  std::vector<double> displacement;
   double z = 0.02, v = 0;
   Bounce result;
   long seen = -1;
   for (int k = 0; k < 6000; ++k) {
-    way.push_back(z);
+    displacement.push_back(z);
     if (const long now = static_cast<long>(k * turn / tick); now > seen) {
       seen = now;
-      const double then = way[static_cast<std::size_t>(std::max(0l, k - static_cast<long>(2 * tick / turn)))];
-      servo.take({static_cast<double>(now) * tick, Vec3(0, 0, then), Vec3(0, 0, std::min(0.0, stiffness * then))});
+      const double then = displacement[static_cast<std::size_t>(std::max(0l, k - static_cast<long>(2 * tick / turn)))];
+      servo.update({static_cast<double>(now) * tick, Vec3(0, 0, then), Vec3(0, 0, std::min(0.0, stiffness * then))});
     }
     const double force = servo.serve(Vec3(0, 0, z), turn).z();
     v += turn * (force / mass - 9.81);
@@ -83,8 +83,8 @@ TEST_CASE("between states a hand feels the tissue's stiffness, which is learnt, 
 TEST_CASE("the stiffness of the model is symmetric and no more than the device can hold") {
   HapticServo servo({150, 100, 20});
   for (int k = 0; k < 40; ++k) {
-    const Vec3 x = hand_at(k * tick);
-    servo.take({k * tick, x, spring(x)});
+    const Vec3 x = handle_at(k * tick);
+    servo.update({k * tick, x, spring(x)});
     const Mat3& B = servo.stiffness();
     CHECK((B - B.transpose()).norm() < 1e-9);
     const Vec3 values = Eigen::SelfAdjointEigenSolver<Mat3>(B).eigenvalues();
@@ -105,17 +105,17 @@ TEST_CASE("late states feed a hand energy, and the damping that is added takes i
 TEST_CASE("a hand that holds nothing feels nothing, and one that takes hold feels no step") {
   HapticServo servo;
   CHECK(servo.serve(Vec3(1, 2, 3), turn).norm() == 0);
-  servo.take({0, Vec3::Zero(), Vec3(1, 0, 0)});
-  servo.take({tick, Vec3::Zero(), Vec3(1, 0, 0)});
+  servo.update({0, Vec3::Zero(), Vec3(1, 0, 0)});
+  servo.update({tick, Vec3::Zero(), Vec3(1, 0, 0)});
   const double first = servo.serve(Vec3::Zero(), turn).norm();
   CHECK(first < 1.0 + 1e-12);
-  servo.let_go();
+  servo.release();
   CHECK(servo.serve(Vec3::Zero(), turn).norm() == 0);
 }
 
 TEST_CASE("no force is greater than the device can give") {
   HapticServo servo({1000, 4, 20});
-  servo.take({0, Vec3::Zero(), Vec3(30, 40, 0)});
+  servo.update({0, Vec3::Zero(), Vec3(30, 40, 0)});
   const Vec3 force = servo.serve(Vec3::Zero(), turn);
   CHECK(force.norm() == doctest::Approx(4));
   CHECK(force.x() == doctest::Approx(-2.4));

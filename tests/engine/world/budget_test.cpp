@@ -77,7 +77,7 @@ TEST_CASE("budget: gravity's work is the body's to have, and with enough iterati
     tight->tick();
   }
   CHECK(free->state_hash() == ample->state_hash());
-  CHECK(tight->solver_work().iterations == 20);
+  CHECK(tight->solver_stats().iterations == 20);
   const double fallen = rms_difference(free->positions(), setup.mesh.nodes);
   CHECK(rms_difference(free->positions(), tight->positions()) <= 0.1 * fallen);
 }
@@ -87,9 +87,9 @@ TEST_CASE("budget: milliseconds are turned into iterations by a fixed model, or 
   setup.solver.integrator = Integrator::tr_bdf2;
   setup.solver.budget = Budget{0, 1e-6};
   const auto world = make_world(setup);
-  CHECK(world->solver_work().budget == 1);
+  CHECK(world->solver_stats().budget == 1);
   CHECK(!world->apply(SetBudget{7}));
-  CHECK(world->solver_work().budget == 7);
+  CHECK(world->solver_stats().budget == 7);
   CHECK(world->apply(SetBudget{0}));
 }
 
@@ -105,7 +105,7 @@ TEST_CASE("L-BFGS ends where Newton's method does") {
     quasi->tick();
   }
   REQUIRE(!quasi->halt());
-  CHECK(quasi->solver_work().linear.iterations == 0);
+  CHECK(quasi->solver_stats().linear.iterations == 0);
   CHECK(rms_difference(newton->positions(), quasi->positions()) <=
         1e-6 * rms_difference(newton->positions(), setup.mesh.nodes));
 }

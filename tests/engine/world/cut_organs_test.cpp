@@ -58,7 +58,7 @@ Rest rest_of(const World& world) {
 /// Every edge of the surface is passed as often one way as the other.
 bool is_closed(const World& world) {
   std::map<std::pair<int, int>, int> passes;
-  for (const Triangle& f : boundary_of(with_elements(world.setup().mesh, world.topology()->elements)).triangles)
+  for (const Triangle& f : extract_boundary(with_elements(world.setup().mesh, world.topology()->elements)).triangles)
     for (std::size_t c = 0; c < 3; ++c) {
       const int a = f[c], b = f[(c + 1) % 3];
       passes[{std::min(a, b), std::max(a, b)}] += a < b ? 1 : -1;

@@ -15,9 +15,9 @@ using namespace heml::test;
 namespace {
 
 /// A blade along z from one place to another, of the plane z = 0.
-CutTissue stroke(const Vec3& from, const Vec3& to, bool goes_on = false) {
+CutTissue stroke(const Vec3& from, const Vec3& to, bool continues_stroke = false) {
   const Vec3 below(0, 0, -1), above(0, 0, 1);
-  return {{{{from + below, from + above}, {to + below, to + above}}}, goes_on};
+  return {{{{from + below, from + above}, {to + below, to + above}}}, continues_stroke};
 }
 
 /// A cantilever stretched and bent by hand, in motion.
@@ -85,7 +85,7 @@ TEST_CASE("a cut keeps mass, momentum and elastic energy, and is reported") {
     CHECK(report.split > 0);
     CHECK(report.pieces >= report.split);
     CHECK(report.area == doctest::Approx(0.02 * 0.02).epsilon(0.5));
-    CHECK(report.smallest_angle >= 8);
+    CHECK(report.min_angle >= 8);
     CHECK(report.step_before > 0);
     CHECK(report.step_after <= report.step_before);
     CHECK(report.before.elastic == before.elastic);
@@ -177,9 +177,9 @@ TEST_CASE("a stroke in many sweeps is one edit, and undo brings back what was be
   REQUIRE_FALSE(world->apply(RemoveElements{{{1, 2, 3}, {}, {}, {}}}));
   REQUIRE_FALSE(world->apply(RemoveElements{{{7}, {}, {}, {}}}));
   REQUIRE_FALSE(world->apply(Undo{}));
-  CHECK(removed_of(*world) == 3);
+  CHECK(removed_count(*world) == 3);
   REQUIRE_FALSE(world->apply(Reset{}));
-  CHECK(removed_of(*world) == 0);
+  CHECK(removed_count(*world) == 0);
   CHECK(world->topology()->elements == elements);
 }
 
@@ -217,7 +217,7 @@ TEST_CASE("a blade through the air does nothing, and one that makes no sense is 
   CHECK_FALSE(world->apply(stroke(Vec3(5, 0, 0), Vec3(5, 1, 0))));
   CHECK(world->topology()->version == version);
   CHECK(world->edits().empty());
-  CHECK(world->apply(CutTissue{})->find("two moments") != std::string::npos);
+  CHECK(world->apply(CutTissue{})->find("two times") != std::string::npos);
   CHECK(world->apply(stroke(Vec3(NAN, 0, 0), Vec3(5, 1, 0)))->find("not finite") != std::string::npos);
 }
 

@@ -25,7 +25,7 @@ WorldSetup held_block(const Material& material, Supports supports) {
   Boundary still{nodes_where(setup.mesh, [](const Vec3& X) { return X.x() < 1e-9; })};
   Boundary other{nodes_where(setup.mesh, [](const Vec3& X) { return X.x() > 1e-9; })};
   if (supports != Supports::fixed) other.translate = Vec3(supports == Supports::crushing ? -1.5 * length : 0.01, 0, 0);
-  other.over = 0.02;
+  other.ramp_time = 0.02;
   setup.boundary = {still, other};
   setup.gravity = Vec3(0, -9.81, 0);
   setup.solver.threads = 1;
@@ -56,9 +56,9 @@ void check_crushed(const WorldSetup& setup) {
   const auto world = make_world(setup);
   play(*world);
   REQUIRE(world->halt());
-  const Halt& halt = *world->halt();
+  const StopReason& halt = *world->halt();
   if (!is_explicit(setup.solver.integrator) && setup.solver.integrator != Integrator::automatic) {
-    CHECK(halt.cause == Halt::Cause::out_of_range);
+    CHECK(halt.cause == StopReason::Cause::out_of_range);
     CHECK(halt.element >= 0);
     CHECK(halt.message.find("element ") != halt.message.npos);
   }
@@ -73,9 +73,10 @@ bool ends_when_flat(const LawInfo& law) {
   return !make_material_point(sample_material(law.name), false)->valid(Vec3(1, 1, -0.1).asDiagonal());
 }
 
-const std::initializer_list<Integrator> all = {
-    Integrator::symplectic_euler,   Integrator::verlet, Integrator::backward_euler, Integrator::bdf2, Integrator::tr_bdf2,
-    Integrator::static_equilibrium, Integrator::automatic};
+const std::initializer_list<Integrator> all = {Integrator::symplectic_euler, Integrator::verlet,
+                                               Integrator::backward_euler,   Integrator::bdf2,
+                                               Integrator::tr_bdf2,          Integrator::static_equilibrium,
+                                               Integrator::automatic};
 
 }  // namespace
 
@@ -134,8 +135,8 @@ TEST_CASE("nothing free: supports that twist a block inside out end a static wor
 TEST_CASE("nothing free: whatever preconditions, minimises, projects, bounds or brings back") {
   for (const bool single : {false, true}) {
     for (const Integrator integrator : all)
-      for (const Preconditioner preconditioner : {Preconditioner::cholesky, Preconditioner::scalar,
-                                                  Preconditioner::multilevel, Preconditioner::block_jacobi})
+      for (const Preconditioner preconditioner :
+           {Preconditioner::cholesky, Preconditioner::scalar, Preconditioner::multilevel, Preconditioner::block_jacobi})
         for (const Minimiser minimiser : {Minimiser::newton, Minimiser::lbfgs})
           for (const bool bounded : {false, true}) {
             CAPTURE(std::string(integrator_name(integrator)));

@@ -42,7 +42,7 @@ WorldSetup sheet(Integrator integrator) {
 double height_of_top(const World& world, const Vec3& place) {
   const TetMesh& mesh = world.setup().mesh;
   const auto x = world.positions();
-  for (const Triangle& face : boundary_of(mesh).triangles) {
+  for (const Triangle& face : extract_boundary(mesh).triangles) {
     const auto is_top = [&](int n) { return mesh.nodes[static_cast<std::size_t>(n)].y() > -1e-9; };
     if (!std::all_of(face.begin(), face.end(), is_top)) continue;
     const auto at = [&](std::size_t c) { return x[static_cast<std::size_t>(face[c])]; };
@@ -82,7 +82,7 @@ double felt(int cells) {
   REQUIRE_FALSE(world->apply(ball(radius, {Vec3(0, radius, 0), Vec3(0, radius - depth, 0)}, depth)));
   world->load_to(1);
   REQUIRE_FALSE(world->halt());
-  CHECK(world->probe().deepest <= 2e-5);
+  CHECK(world->probe().max_penetration <= 2e-5);
   return -world->probe().force.y() / pressed_in(1e4, 0.3, radius, depth, height);
 }
 
@@ -101,8 +101,8 @@ TEST_CASE("probe: at 1 m/s it does not pass through a thin sheet, though it is s
     }
     CHECK(world->probe().tip.y() == doctest::Approx(-0.03));
     CHECK(world->probe().force.y() < -1e-3);
-    CHECK(world->probe().touching > 0);
-    CHECK(world->probe().deepest <= 1e-4);
+    CHECK(world->probe().contact_count > 0);
+    CHECK(world->probe().max_penetration <= 1e-4);
   }
 }
 

@@ -28,13 +28,13 @@ std::vector<int> nodes_where(const TetMesh& mesh, int axis, double value) {
 }
 
 /// The cube with one end held and the other moved along x.
-WorldSetup pulled_cube(const Material& material, double by, double over) {
+WorldSetup pulled_cube(const Material& material, double by, double ramp_time) {
   WorldSetup setup = cube(material);
   Boundary fixed, moved;
   fixed.nodes = nodes_where(setup.mesh, 0, 0);
   moved.nodes = nodes_where(setup.mesh, 0, 0.1);
   moved.translate = Vec3(by, 0, 0);
-  moved.over = over;
+  moved.ramp_time = ramp_time;
   setup.boundary = {fixed, moved};
   return setup;
 }

@@ -21,7 +21,7 @@ constexpr double side = 0.1;  // m
 Material with_moduli(const std::string& law, double mu, double kappa) {
   Material material = sample_material(law, mu, kappa);
   REQUIRE_FALSE(material_problem(material));
-  REQUIRE(ground_state(material).shear == doctest::Approx(mu));
+  REQUIRE(small_strain_moduli(material).shear == doctest::Approx(mu));
   return material;
 }
 
@@ -118,7 +118,7 @@ TEST_CASE(
     "recovery: positions go on from tick to tick, held nodes keep to their motion, an explicit method takes over") {
   WorldSetup setup = starting_at(cube("neo_hookean", 0.45), scattered(3));
   setup.boundary[0].translate = Vec3(0, 0.02, 0);
-  setup.boundary[0].over = 0.1;
+  setup.boundary[0].ramp_time = 0.1;
   setup.solver.integrator = Integrator::verlet;
   setup.solver.step.reset();
   setup.solver.rate = 1000;
@@ -152,16 +152,16 @@ TEST_CASE("recovery: energies either side of each switch are those of the state 
   CHECK(recovery.begun.after.elastic > 0);
   CHECK_FALSE(recovery.ended);
   CHECK(recovery.inverted > 0);
-  CHECK(recovery.least_J == doctest::Approx(-1));
+  CHECK(recovery.min_J == doctest::Approx(-1));
   CHECK(recovery.message.find("the body starts so") != std::string::npos);
   double before = total(world->energies());
   while (!world->recovery()->ended) {
     world->tick();
     REQUIRE(world->ticks() < 60);
     const Recovery& now = *world->recovery();
-    const double stand_in = now.ended ? total(now.ended->before) : total(world->energies());
-    CHECK(stand_in <= before * (1 + 1e-9));  // the stand-in never gains
-    before = stand_in;
+    const double surrogate = now.ended ? total(now.ended->before) : total(world->energies());
+    CHECK(surrogate <= before * (1 + 1e-9));  // the stand-in never gains
+    before = surrogate;
   }
   CHECK(world->recovery()->ended->time == world->time());
   CHECK(total(world->recovery()->ended->after) == total(world->energies()));
@@ -183,7 +183,7 @@ TEST_CASE("recovery: off, and on where nothing is wrong, are the same bits, and 
   collapsed.solver.recovery = false;
   const auto stopped = make_world(collapsed);
   REQUIRE(stopped->halt());
-  CHECK(stopped->halt()->cause == Halt::Cause::out_of_range);
+  CHECK(stopped->halt()->cause == StopReason::Cause::out_of_range);
 }
 
 TEST_CASE("recovery: the same bits on every run, with any number of threads") {
@@ -225,12 +225,12 @@ TEST_CASE("recovery: a body thrown against its support is whole again afterwards
 }
 
 TEST_CASE("recovery: the likely cause is the surest that fits, with its remedy") {
-  Suspects s;
+  FailureDiagnosis s;
   s.element = 7;
-  s.least_J = -0.3;
+  s.min_J = -0.3;
   s.inverted = 4;
   s.wave_speed = 2;
-  const auto says = [&](const char* part) { return likely_cause(s).find(part) != std::string::npos; };
+  const auto says = [&](const char* part) { return describe_cause(s).find(part) != std::string::npos; };
   CHECK(says("element 7 was flat or inside out"));
   CHECK(says("with 4 in all inverted"));
   CHECK(says("loads or moved supports"));

@@ -143,8 +143,8 @@ TEST_CASE("what remains moves like a body built without the elements that went")
     WorldSetup without = setup;
     MeshEdit edit;
     const RemoveElements command = slab(0.07, 0.08);  // the end falls off
-    REQUIRE_FALSE(make_removal(command.which, setup.mesh, whole(setup.mesh), edit));
-    without.mesh = with_elements(setup.mesh, edited(whole(setup.mesh), edit, 0).elements);
+    REQUIRE_FALSE(make_removal_edit(command.which, setup.mesh, whole(setup.mesh), edit));
+    without.mesh = with_elements(setup.mesh, apply_edit(whole(setup.mesh), edit, 0).elements);
     const auto world = make_world(setup), built = make_world(without);
     REQUIRE_FALSE(world->apply(command));
     CHECK((world->reactions()[0] - built->reactions()[0]).norm() <= 1e-12 * built->reactions()[0].norm());
@@ -183,7 +183,7 @@ TEST_CASE("static: what remains settles where a body built without the elements 
   REQUIRE_FALSE(world->apply(slab(0.08, 0.1)));
   world->load_to(1);
   REQUIRE_FALSE(world->halt());
-  CHECK(world->solver_work().load == 1);
+  CHECK(world->solver_stats().load == 1);
   // The upper face is 0.08 m long now; half of the force's nodes, those at the end, are gone; what is laid bare at x =
   // 0.08 takes no load.
   const Vec3 reaction = world->reactions()[0];
@@ -192,8 +192,8 @@ TEST_CASE("static: what remains settles where a body built without the elements 
 
   WorldSetup without = setup;
   MeshEdit edit;
-  REQUIRE_FALSE(make_removal(slab(0.08, 0.1).which, setup.mesh, whole(setup.mesh), edit));
-  without.mesh = with_elements(setup.mesh, edited(whole(setup.mesh), edit, 0).elements);
+  REQUIRE_FALSE(make_removal_edit(slab(0.08, 0.1).which, setup.mesh, whole(setup.mesh), edit));
+  without.mesh = with_elements(setup.mesh, apply_edit(whole(setup.mesh), edit, 0).elements);
   const auto built = make_world(without);
   built->load_to(1);
   REQUIRE_FALSE(built->halt());
@@ -210,7 +210,7 @@ TEST_CASE("nodes that lose all elements stay where they are, and held ones go on
   WorldSetup setup = cantilever();
   Boundary pulled{nodes_where(setup.mesh, [](const Vec3& X) { return X.x() > 0.0999; })};
   pulled.translate = Vec3(0.02, 0, 0);
-  pulled.over = 0.2;
+  pulled.ramp_time = 0.2;
   setup.boundary.push_back(pulled);
   const auto world = make_world(setup);
   run_until(*world, 0.05);
@@ -255,7 +255,7 @@ TEST_CASE("the memory of what remains is kept: another block of the same mesh ma
     for (const double at : {0.0, 0.06}) {
       Boundary end{nodes_where(setup.mesh, [at](const Vec3& X) { return std::abs(X.x() - at) < 1e-9; })};
       end.translate = Vec3(at / 2, 0, 0);
-      end.over = 0.02;
+      end.ramp_time = 0.02;
       setup.boundary.push_back(end);
     }
     setup.solver.threads = 1;
@@ -321,7 +321,8 @@ TEST_CASE("nodes laid bare are of the surface that a grasp takes, nodes of no el
       if (random() % 6 != 0) stay.push_back(static_cast<int>(t));
     keep_elements(setup, stay, model);
     std::vector<int> nodes;
-    for (const Triangle& face : boundary_of(model.mesh).triangles) nodes.insert(nodes.end(), face.begin(), face.end());
+    for (const Triangle& face : extract_boundary(model.mesh).triangles)
+      nodes.insert(nodes.end(), face.begin(), face.end());
     std::sort(nodes.begin(), nodes.end());
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
     CHECK(model.surface_nodes == nodes);

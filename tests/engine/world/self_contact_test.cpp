@@ -127,19 +127,19 @@ TEST_CASE("self-contact: two boxes that collide keep momentum and moment to roun
     auto world = make_world(setup);
     const Moments start = moments(*world);
     const double energy = total(world->energies());
-    double most_force = 0, most_energy = 0;
+    double max_force = 0, max_energy = 0;
     for (int tick = 0; tick < 300; ++tick) {
       world->tick();
-      most_force = std::max(most_force, world->self_contact()->force);
-      most_energy = std::max(most_energy, total(world->energies()));
+      max_force = std::max(max_force, world->self_contact()->force);
+      max_energy = std::max(max_energy, total(world->energies()));
     }
     REQUIRE_FALSE(world->halt());
     const Moments end = moments(*world);
-    CHECK(most_force > 0.1);
+    CHECK(max_force > 0.1);
     CHECK(overlapping(*world, 1e-5) == 0);
     CHECK((end.momentum - start.momentum).norm() <= 1e-13 * start.momentum.norm() * 300);
     CHECK((end.moment - start.moment).norm() <= 1e-11 * start.moment.norm());
-    CHECK(most_energy <= energy * (1 + 2e-4));  // the method's own ripple
+    CHECK(max_energy <= energy * (1 + 2e-4));  // the method's own ripple
     const auto v = world->velocities();
     CHECK((mean(v, lower.nodes.size(), v.size()) - setup.initial_velocity).y() > 0.02);  // it was hit
   }
@@ -159,7 +159,7 @@ TEST_CASE("self-contact: cubes pressed together by opposite forces bear just the
   run_until(*world, 0.5);
   REQUIRE_FALSE(world->halt());
   CHECK(world->self_contact()->force == doctest::Approx(force).epsilon(1e-3));
-  CHECK(world->self_contact()->deepest <= 2e-5 * side);  // rounds end when little changes
+  CHECK(world->self_contact()->max_penetration <= 2e-5 * side);  // rounds end when little changes
 }
 
 TEST_CASE("self-contact: at equilibrium what is pressed bears on what presses it, to the solver's digits") {
@@ -177,7 +177,7 @@ TEST_CASE("self-contact: at equilibrium what is pressed bears on what presses it
   CHECK(below > 0.5);
   CHECK(below == doctest::Approx(above).epsilon(1e-6));
   CHECK(world->self_contact()->force == doctest::Approx(below).epsilon(1e-3));
-  CHECK(world->self_contact()->deepest <= 1e-4 * 3 * side);
+  CHECK(world->self_contact()->max_penetration <= 1e-4 * 3 * side);
 }
 
 TEST_CASE("self-contact: a stack at rest bears its weight, of every method") {
@@ -193,8 +193,8 @@ TEST_CASE("self-contact: a stack at rest bears its weight, of every method") {
     REQUIRE_FALSE(world->halt());
     CHECK(world->self_contact()->force == doctest::Approx(weight).epsilon(1e-3));
     CHECK(world->tables()[0].force.y() == doctest::Approx(2 * weight).epsilon(1e-3));
-    CHECK(world->self_contact()->touching >= 9);
-    CHECK(world->self_contact()->deepest <= 1e-4 * 3 * side);
+    CHECK(world->self_contact()->contact_count >= 9);
+    CHECK(world->self_contact()->max_penetration <= 1e-4 * 3 * side);
   }
 }
 
@@ -267,7 +267,7 @@ TEST_CASE("self-contact: a body that touches nothing moves by the same bits as w
     for (const auto& world : {without.get(), with.get()}) run_until(*world, 0.2);
     CHECK(with->state_hash() == without->state_hash());
     CHECK_FALSE(without->self_contact());
-    CHECK(with->self_contact()->touching == 0);
+    CHECK(with->self_contact()->contact_count == 0);
   }
 }
 
@@ -291,8 +291,8 @@ TEST_CASE("self-contact: what begins deep inside is pushed out again") {
   for (std::size_t n = lower; n < setup.mesh.nodes.size(); ++n) setup.initial_positions[n].y() -= 0.001 + deep;
   auto world = make_world(setup);
   world->tick();
-  CHECK(world->self_contact()->touching > 0);
-  CHECK(world->self_contact()->deepest > 0.8 * deep);
+  CHECK(world->self_contact()->contact_count > 0);
+  CHECK(world->self_contact()->max_penetration > 0.8 * deep);
   run_until(*world, 0.2);
   REQUIRE_FALSE(world->halt());
   const auto x = world->positions();
@@ -332,7 +332,7 @@ static void check_bits(Integrator integrator, bool single) {
   setup.solver.threads = 2;
   auto two = make_world(setup);
   for (const auto& world : {one.get(), two.get()}) run_until(*world, 0.02);
-  CHECK(one->self_contact()->touching > 0);
+  CHECK(one->self_contact()->contact_count > 0);
   CHECK(one->state_hash() == two->state_hash());
   const auto hash = one->state_hash();
   const double below = side + 0.002;  // the lower body's top: the upper one alone is cut

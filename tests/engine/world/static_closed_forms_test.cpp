@@ -101,7 +101,7 @@ TEST_CASE("static: the apex of a regular tetrahedron goes where the closed form 
   // Its base held, F = I + u ⊗ e_z/H for a displacement u of the apex, and the force there is A/3 P e_z.
   constexpr double edge = 0.1, poisson = 0.3;
   const double height = edge * std::sqrt(2.0 / 3), third_of_base = edge * edge * std::sqrt(3.0) / 12;
-  const Lame lame = lame_from(young, poisson);
+  const LameParameters lame = lame_parameters(young, poisson);
   const auto neo_hookean = [&](double t) { return lame.mu * (t - 1 / t) + lame.lambda * std::log(t) / t; };
   const auto stvk = [&](double t) { return (lame.lambda / 2 + lame.mu) * (t * t - 1) * t; };
   for (const double t : {0.8, 1 - 1e-6, 1 + 1e-6, 1.1, 1.6})

@@ -38,8 +38,8 @@ Boundary moved(const WorldSetup& setup, const Vec3& translate, double degrees = 
 
 void check_reached(World& world, double tolerance = 1e-10) {
   CHECK_FALSE(world.halt());
-  CHECK(world.solver_work().load == 1);
-  CHECK(world.solver_work().residual <= tolerance);
+  CHECK(world.solver_stats().load == 1);
+  CHECK(world.solver_stats().residual <= tolerance);
   for (const Vec3& v : world.velocities()) CHECK(v.norm() == 0);
 }
 
@@ -87,7 +87,7 @@ TEST_CASE("static: a soft cantilever hangs down from its clamp, and the clamp ca
   }
   const double weight = 1000 * 0.1 * 0.02 * 0.02 * 9.81;
   CHECK((world->reactions()[0] - Vec3(0, weight, 0)).norm() <= 1e-9 * weight);
-  CHECK(world->solver_work().iterations <= 20);
+  CHECK(world->solver_stats().iterations <= 20);
 }
 
 TEST_CASE("static: stretch by half with a quarter turn, in every law") {
@@ -120,7 +120,7 @@ TEST_CASE("static: compression by 30 % of a nearly incompressible body, kappa = 
 
 TEST_CASE("static: a free bar under balanced traction takes the stretch of the closed form") {
   const double young = 1e4, poisson = 0.3;
-  const Lame lame = lame_from(young, poisson);
+  const LameParameters lame = lame_parameters(young, poisson);
   for (const double traction : {0.5 * young, 0.05 * young, 1e-6 * young}) {
     WorldSetup setup = at_rest(soft(), 1e-8);
     setup.gravity.setZero();
@@ -218,7 +218,7 @@ TEST_CASE("static: a pressure that follows the surface is found in equilibrium")
   const auto world = make_world(setup);
   world->load_to(1);
   check_reached(*world);
-  CHECK(world->solver_work().iterations <= 40);
+  CHECK(world->solver_stats().iterations <= 40);
 }
 
 TEST_CASE("static: crushed StVK has no way on and stops at the last good state") {
@@ -228,8 +228,8 @@ TEST_CASE("static: crushed StVK has no way on and stops at the last good state")
   const auto world = make_world(setup);
   world->load_to(1);
   REQUIRE(world->halt());
-  CHECK(world->halt()->cause == Halt::Cause::not_converged);
-  const SolverWork work = world->solver_work();
+  CHECK(world->halt()->cause == StopReason::Cause::not_converged);
+  const SolverStats work = world->solver_stats();
   CHECK(work.load > 0);
   CHECK(work.load < 1);
   CHECK(work.residual <= 1e-8);
@@ -254,7 +254,7 @@ TEST_CASE("static: where round-off ends the search, it is enough, or the message
   const auto message_of = [](const WorldSetup& asked) {
     const auto world = make_world(asked);
     world->load_to(1);
-    CHECK(world->solver_work().iterations < 60);  // no shorter increments, which would bring nothing
+    CHECK(world->solver_stats().iterations < 60);  // no shorter increments, which would bring nothing
     return world->halt() ? world->halt()->message : "";
   };
   setup.solver.tolerance.reset();
@@ -273,7 +273,7 @@ TEST_CASE("static: a body that falls is told to be held, and does not crash") {
   world->load_to(1);
   REQUIRE(world->halt());
   CHECK(world->halt()->message.find("boundary") != std::string::npos);
-  CHECK(world->solver_work().load == 0);
+  CHECK(world->solver_stats().load == 0);
 }
 
 TEST_CASE("static and implicit: a body held everywhere is where it is held") {
@@ -317,7 +317,7 @@ TEST_CASE("static: stops on the way do not change where it ends") {
   straight->load_to(1);
   for (const double load : {0.0, 0.05, 0.3, 0.3, 1.0}) {
     stopping->load_to(load);
-    CHECK(stopping->solver_work().load == load);
+    CHECK(stopping->solver_stats().load == load);
   }
   const auto a = straight->positions(), b = stopping->positions();
   for (std::size_t n = 0; n < a.size(); ++n) CHECK((a[n] - b[n]).norm() <= 1e-9);
@@ -329,9 +329,9 @@ TEST_CASE("static: ticks load over the duration, all solved") {
   setup.solver.duration = 0.5;
   const auto world = make_world(setup), at_once = make_world(setup);
   for (int k = 0; k < 3; ++k) world->tick();
-  CHECK(world->solver_work().load == doctest::Approx(0.6));
+  CHECK(world->solver_stats().load == doctest::Approx(0.6));
   for (int k = 0; k < 4; ++k) world->tick();
-  CHECK(world->solver_work().load == 1);
+  CHECK(world->solver_stats().load == 1);
   CHECK(world->time() == doctest::Approx(0.7));
   at_once->load_to(1);
   const auto a = world->positions(), b = at_once->positions();
@@ -346,7 +346,7 @@ TEST_CASE("static: linear tetrahedra lock near incompressibility and averaged no
   };
   for (const Row& row : {Row{0.3, 4.12, 4.89}, Row{0.49, 1.05, 4.07}})
     for (const bool nodal_pressure : {false, true}) {
-      const Lame lame = lame_from(5e5, row.poisson);
+      const LameParameters lame = lame_parameters(5e5, row.poisson);
       WorldSetup setup = at_rest({"neo_hookean_iso", {lame.mu / 2, lame.lambda + 2 * lame.mu / 3}, 1000}, 1e-8);
       setup.mesh = six_a_cell(Vec3(0.1, 0.02, 0.02), 12, 2, 2);
       setup.boundary[0].nodes = nodes_where(setup.mesh, [](const Vec3& X) { return X.x() < 1e-9; });

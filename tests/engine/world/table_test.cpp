@@ -53,8 +53,8 @@ TEST_CASE("table: at rest it bears the weight, in a static world to the solver's
   REQUIRE_FALSE(world->halt());
   const TableState table = world->tables().front();
   CHECK((table.force - Vec3(0, weight, 0)).norm() <= 1e-6 * weight);
-  CHECK(table.touching == 16);
-  CHECK(table.deepest <= 1e-4 * side * std::sqrt(3.0));
+  CHECK(table.contact_count == 16);
+  CHECK(table.max_penetration <= 1e-4 * side * std::sqrt(3.0));
   CHECK(lowest(*world) >= -1e-4 * side * std::sqrt(3.0));
 }
 
@@ -107,7 +107,7 @@ TEST_CASE("table: pressed flat without friction a block is in uniaxial stress") 
   auto world = make_world(setup);
   world->load_to(1);
   REQUIRE_FALSE(world->halt());
-  const Lame lame = lame_from(2e4, 0.3);
+  const LameParameters lame = lame_parameters(2e4, 0.3);
   double l = 1, a = 1;
   for (int k = 0; k < 200; ++k) {  // both stresses vanish or are the pressure: Newton in two unknowns, by differences
     const auto stress = [&](double along, double across, double& s, double& t) {

@@ -16,14 +16,14 @@ using namespace heml::test;
 namespace {
 
 /// A strip 6 × 2 × 0.5 cm, its ends drawn apart by `drawn` times its length over a time, s.
-WorldSetup strip(double drawn, double over = 0.2) {
+WorldSetup strip(double drawn, double ramp_time = 0.2) {
   WorldSetup setup;
   setup.mesh = make_box(Vec3(0.06, 0.02, 0.005), {12, 4, 1});
   setup.materials = {{std::nullopt, soft()}};
   for (const double x : {0.0, 0.06}) {
     Boundary end{nodes_where(setup.mesh, [=](const Vec3& X) { return std::abs(X.x() - x) < 1e-9; })};
     end.translate = Vec3((x > 0 ? 0.06 : -0.06) * drawn / 2, 0, 0);
-    end.over = over;
+    end.ramp_time = ramp_time;
     setup.boundary.push_back(end);
   }
   setup.tearing = TearingSettings{1.6};
@@ -135,7 +135,7 @@ TEST_CASE("tearing: it moves nothing and takes no energy") {
   for (const Vec3& X : setup.mesh.nodes) setup.initial_positions.push_back(Vec3(1.7 * X.x(), 0.9 * X.y(), X.z()));
   for (Boundary& end : setup.boundary) {
     end.translate = Vec3(end.nodes[0] == 0 ? 0 : 0.7 * 0.06, 0, 0);
-    end.over = 0;
+    end.ramp_time = 0;
   }
   setup.solver.continuation = true;
   for (const bool single : {false, true}) {

@@ -23,7 +23,7 @@ WorldSetup drawn_bar(const Material& material, Integrator integrator, bool singl
   for (const double at : {0.0, length}) {
     Boundary end{nodes_where(setup.mesh, [at](const Vec3& X) { return std::abs(X.x() - at) < 1e-9; })};
     end.translate = Vec3(at / 4, at / 8, 0);
-    end.over = 0.02;
+    end.ramp_time = 0.02;
     setup.boundary.push_back(end);
   }
   setup.gravity = Vec3(0, -9.81, 0);
@@ -157,11 +157,11 @@ TEST_CASE("undo: what is grasped and pinned stays so, and preconditioners that a
           return nodes_where(setup.mesh, [&](const Vec3& Y) { return (X - Y).norm() < 1e-9; })[0];
         };
         const Vec3 tip(0.1, 0.02, 0.02);
-        const std::vector<Command> held = {Grasp{at(tip), 0.015}, MoveTool{tip + Vec3(0.01, 0.01, 0)},
-                                           PinTissue{at(Vec3(0.05, 0.02, 0.01)), 0.011}};
-        check_undone(setup, held, {RemoveElements{{{190, 60}, {}, {}, {}}}});
-        check_undone(setup, held, {blade_at(0.083)});
-        std::vector<Command> after_others = held;
+        const std::vector<Command> constrained = {Grasp{at(tip), 0.015}, MoveTool{tip + Vec3(0.01, 0.01, 0)},
+                                                  PinTissue{at(Vec3(0.05, 0.02, 0.01)), 0.011}};
+        check_undone(setup, constrained, {RemoveElements{{{190, 60}, {}, {}, {}}}});
+        check_undone(setup, constrained, {blade_at(0.083)});
+        std::vector<Command> after_others = constrained;
         after_others.push_back(RemoveElements{{{195, 61}, {}, {}, {}}});
         check_undone(setup, after_others, {RemoveElements{{{190, 60}, {}, {}, {}}}});
       }

@@ -45,9 +45,9 @@ struct Mode {
 std::vector<Mode> lowest_modes(const WorldSetup& setup, int wanted) {
   const TetMesh& mesh = setup.mesh;
   ElasticBody<double> body(mesh, std::vector<int>(mesh.tets.size(), 0), {setup.materials[0].material}, {});
-  std::vector<bool> take(mesh.nodes.size(), true);
-  for (const int n : setup.boundary[0].nodes) take[static_cast<std::size_t>(n)] = false;
-  const FreeNodes free(take);
+  std::vector<bool> is_free(mesh.nodes.size(), true);
+  for (const int n : setup.boundary[0].nodes) is_free[static_cast<std::size_t>(n)] = false;
+  const FreeNodes free(is_free);
   BlockMatrix stiffness(free, mesh.tets);
   ThreadTeam team(1);
   body.linearise(mesh.nodes[0].data(), team);

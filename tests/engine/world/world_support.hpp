@@ -6,7 +6,7 @@
 namespace heml::test {
 
 inline Material soft(const char* law = "neo_hookean", double young = 1e4, double poisson = 0.3) {
-  const Lame lame = lame_from(young, poisson);
+  const LameParameters lame = lame_parameters(young, poisson);
   return {law, {lame.lambda, lame.mu}, 1000};
 }
 

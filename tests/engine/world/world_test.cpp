@@ -42,7 +42,7 @@ TEST_CASE("a cantilever converges at the order of each integrator") {
 
 TEST_CASE("uniaxial stretch of one and of many tetrahedra gives the reaction of the closed form") {
   const double young = 1e4, poisson = 0.3, t = 1.4;
-  const Lame lame = lame_from(young, poisson);
+  const LameParameters lame = lame_parameters(young, poisson);
   // Lateral stretch of a free bar: mu (s² − 1) + lambda ln(t s²) = 0; P11 = (mu (t² − 1) + lambda ln J)/t.
   double s = 0.9;
   for (int i = 0; i < 100; ++i)
@@ -138,7 +138,7 @@ TEST_CASE("a step that is too long is reported as unstable and the last valid st
   const auto world = make_world(setup);
   for (int k = 0; k < 2000 && !world->halt(); ++k) world->tick();
   REQUIRE(world->halt());
-  CHECK(world->halt()->cause == Halt::Cause::unstable);
+  CHECK(world->halt()->cause == StopReason::Cause::unstable);
   CHECK(world->halt()->node >= 0);
   for (const Vec3& x : world->positions()) CHECK(x.allFinite());
   const auto hash = world->state_hash();
@@ -155,12 +155,12 @@ TEST_CASE("leaving the range of a law stops at the last valid state and names th
   // The far end pushed through the held one.
   Boundary crush{nodes_where(setup.mesh, [](const Vec3& X) { return X.x() > 0.0999; })};
   crush.translate = Vec3(-0.15, 0, 0);
-  crush.over = 0.1;
+  crush.ramp_time = 0.1;
   setup.boundary.push_back(crush);
   const auto world = make_world(setup);
   run_until(*world, 0.2);
   REQUIRE(world->halt());
-  CHECK(world->halt()->cause == Halt::Cause::out_of_range);
+  CHECK(world->halt()->cause == StopReason::Cause::out_of_range);
   CHECK(world->halt()->element >= 0);
   CHECK(world->time() < 0.1);
   for (const double J : world->volume_ratios()) CHECK(J > 0);
@@ -174,21 +174,21 @@ TEST_CASE("leaving the range of a law stops at the last valid state and names th
 
 TEST_CASE("however fast a continued body is crushed, explicit steps that follow its limit do not feed its swing") {
   struct Crushing {
-    double over, way;  // s, m
+    double ramp_time, displacement;  // s, m
     int fine;
   };
   constexpr Crushing crushings[] = {{0.06, 0.15, 2}, {0.11, 0.14, 2}, {0.16, 0.16, 2}, {0.2, 0.15, 2},
                                     {0.05, 0.18, 2}, {0.05, 0.15, 1}, {0.05, 0.18, 1}, {0.102, 0.149, 1}};
   for (const Crushing& crushing : crushings) {
-    CAPTURE(crushing.over);
-    CAPTURE(crushing.way);
+    CAPTURE(crushing.ramp_time);
+    CAPTURE(crushing.displacement);
     WorldSetup setup = cantilever();
     setup.mesh = make_box(Vec3(0.1, 0.02, 0.02), {10 * crushing.fine, 2 * crushing.fine, 2 * crushing.fine});
     setup.gravity.setZero();
     setup.boundary = {{nodes_where(setup.mesh, [](const Vec3& X) { return X.x() < 1e-9; })}};
     Boundary crush{nodes_where(setup.mesh, [](const Vec3& X) { return X.x() > 0.0999; })};
-    crush.translate = Vec3(-crushing.way, 0, 0);
-    crush.over = crushing.over;
+    crush.translate = Vec3(-crushing.displacement, 0, 0);
+    crush.ramp_time = crushing.ramp_time;
     setup.boundary.push_back(crush);
     setup.solver.continuation = true;
     setup.solver.damping = 50;
@@ -308,7 +308,7 @@ TEST_CASE("commands that make no sense are refused in words and change nothing")
   const auto hash = world->state_hash();
   CHECK(world->apply(Grasp{-1, 0.01})->find("node -1") != std::string::npos);
   CHECK(world->apply(Grasp{100000, 0.01}));
-  CHECK(world->apply(Grasp{0, 0})->find("held") != std::string::npos);
+  CHECK(world->apply(Grasp{0, 0})->find("constrained") != std::string::npos);
   CHECK(world->apply(Grasp{50, NAN}));
   CHECK(world->apply(MoveTool{Vec3(0, 0, 0)}));
   CHECK(world->apply(SetDamping{-1}));

@@ -60,10 +60,14 @@ void give(const Exchange& surface, const Frame& frame, tetgenio& in) {
 
 const char* reason(int code) {
   switch (code) {
-    case 3: return "TetGen finds that the surface runs through itself";
-    case 4: return "TetGen finds details too small for it";
-    case 5: return "TetGen finds triangles too close to each other";
-    default: return "TetGen cannot fill this surface";
+    case 3:
+      return "TetGen finds that the surface runs through itself";
+    case 4:
+      return "TetGen finds details too small for it";
+    case 5:
+      return "TetGen finds triangles too close to each other";
+    default:
+      return "TetGen cannot fill this surface";
   }
 }
 

@@ -19,8 +19,8 @@ Exchange read_surface(const std::string& path) {
                                  aiComponent_TEXTURES | aiComponent_LIGHTS | aiComponent_CAMERAS |
                                  aiComponent_MATERIALS;
   importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, all_but_meshes);
-  const aiScene* scene = importer.ReadFile(path, aiProcess_RemoveComponent | aiProcess_Triangulate |
-                                                     aiProcess_PreTransformVertices | aiProcess_SortByPType);
+  const aiScene* scene = importer.ReadFile(
+      path, aiProcess_RemoveComponent | aiProcess_Triangulate | aiProcess_PreTransformVertices | aiProcess_SortByPType);
   if (!scene) {
     const std::string reason = importer.GetErrorString();
     if (reason.find("bad_alloc") != std::string::npos) throw std::bad_alloc();

@@ -12,18 +12,18 @@ using namespace heml::stability;
 
 namespace {
 
-void check_holds(int number, const Way& way, bool quick = true) {
+void check_holds(int number, const CaseVariant& variant, bool quick = true) {
   const Case& c = case_numbered(number);
-  CAPTURE(to_text(way));
+  CAPTURE(to_text(variant));
   Trial trial;
-  trial.way = way;
+  trial.variant = variant;
   trial.quick = quick;
   const Outcome outcome = c.run(trial);
-  CAPTURE(outcome.figure);
+  CAPTURE(outcome.value);
   CAPTURE(outcome.note);
   CAPTURE(outcome.stopped);
   CAPTURE(outcome.broken);
-  CHECK(judge(outcome, c.limit_of(way)) <= Verdict::recovered);
+  CHECK(judge(outcome, c.limit_of(variant)) <= Verdict::recovered);
 }
 
 constexpr Integrator still = Integrator::static_equilibrium, implicit = Integrator::backward_euler,
@@ -39,12 +39,12 @@ TEST_CASE("the list of cases is whole: 33, each once, in order") {
 
 TEST_CASE("the cases of forces hold for every law, in double and float") {
   for (const int number : {1, 2, 3, 5, 24, 25})
-    for (const Way& way : ways_of(case_numbered(number), false)) check_holds(number, way);
+    for (const CaseVariant& variant : variants_of(case_numbered(number), false)) check_holds(number, variant);
 }
 
 TEST_CASE("no force 10 km from the origin, in double") {
-  for (const Way& way : ways_of(case_numbered(4), false))
-    if (!way.single) check_holds(4, way);
+  for (const CaseVariant& variant : variants_of(case_numbered(4), false))
+    if (!variant.single) check_holds(4, variant);
 }
 
 TEST_CASE("extremes: stretched to five times its length, or pressed to a fifth, in at most 60 iterations") {
@@ -75,10 +75,10 @@ TEST_CASE("extremes: one half ten thousand times heavier, both methods agree") {
 TEST_CASE("extremes: backward Euler gains no energy without load, from any start") {
   for (const char* law : {"neo_hookean", "neo_hookean_iso"}) check_holds(11, {law, implicit});
   Trial trial;
-  trial.way = {"stvk", implicit};  // which ends inside out where it starts compressed: it has no reason not to
+  trial.variant = {"stvk", implicit};  // which ends inside out where it starts compressed: it has no reason not to
   const Outcome outcome = case_numbered(11).run(trial);
   CHECK(outcome.stopped.empty());
-  CHECK(outcome.figure <= case_numbered(11).limit);
+  CHECK(outcome.value <= case_numbered(11).limit);
 }
 
 TEST_CASE("the live limit carries a soft beam through its fall, where the limit taken at rest fails") {

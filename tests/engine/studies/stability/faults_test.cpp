@@ -12,21 +12,21 @@ namespace {
 
 Verdict verdict_of(int number, const Trial& trial) {
   const Case& c = case_numbered(number);
-  return judge(c.run(trial), c.limit_of(trial.way));
+  return judge(c.run(trial), c.limit_of(trial.variant));
 }
 
 bool holds(int number, const Trial& trial) { return verdict_of(number, trial) <= Verdict::recovered; }
 
 Trial of_forces(ForceFault fault) {
   Trial trial;
-  trial.way = {"neo_hookean_iso", std::nullopt, false};
+  trial.variant = {"neo_hookean_iso", std::nullopt, false};
   trial.force_fault = std::move(fault);
   return trial;
 }
 
 Trial of_motion(Integrator integrator, std::function<void(WorldSetup&)> fault) {
   Trial trial;
-  trial.way = {"neo_hookean", integrator, false};
+  trial.variant = {"neo_hookean", integrator, false};
   trial.quick = true;
   trial.world_fault = std::move(fault);
   return trial;
@@ -51,7 +51,9 @@ void volume_term_with_wrong_sign(const TetMesh& mesh, const Material& material, 
 }
 
 /// Momentum is made: one node's force is a thousandth too large.
-void unbalanced(const TetMesh&, const Material&, const std::vector<double>&, std::vector<double>& f) { f[0] *= 1.001; }
+void relative_net_load(const TetMesh&, const Material&, const std::vector<double>&, std::vector<double>& f) {
+  f[0] *= 1.001;
+}
 
 }  // namespace
 
@@ -72,7 +74,7 @@ TEST_CASE("a wrong sign of the volume term in the forces is noticed") {
 
 TEST_CASE("forces that make momentum are noticed") {
   CHECK(verdict_of(5, of_forces({})) == Verdict::stable);
-  CHECK(verdict_of(5, of_forces(unbalanced)) == Verdict::wrong);
+  CHECK(verdict_of(5, of_forces(relative_net_load)) == Verdict::wrong);
 }
 
 TEST_CASE("a step above the stable limit is noticed") {

@@ -21,7 +21,7 @@ const std::filesystem::path committed = test::source_folder() / "assets/studies/
 /// % of rest after a collapse, order 2 ± 0.1, …
 struct Floor {
   double limit, float_limit;
-  int ways;
+  int variants;
 };
 const std::map<int, Floor> floors = {
     {1, {1e-06, 1e-05, 24}},   {2, {1e-05, 1e-05, 24}},   {3, {1e-10, 1e-05, 24}},   {4, {1e-09, 1e-09, 12}},
@@ -41,8 +41,8 @@ std::filesystem::path folder(const char* name) {
   return path;
 }
 
-Cell cell_of(Verdict verdict, double figure) {
-  Cell cell{10, {"ogden", Integrator::verlet, false}, {figure}, verdict};
+Cell cell_of(Verdict verdict, double value) {
+  Cell cell{10, {"ogden", Integrator::verlet, false}, {value}, verdict};
   return cell;
 }
 
@@ -51,22 +51,23 @@ const Promise drift{10, Integrator::verlet, false, 1e-5, {"stvk", "ogden"}};
 }  // namespace
 
 TEST_CASE("the list of promises has not shrunk and no limit is looser than the plan's") {
-  std::map<int, int> ways;
+  std::map<int, int> variants;
   for (const Promise& promise : read_promises(committed)) {
     CAPTURE(promise.number);
     REQUIRE(floors.contains(promise.number));
-    ways[promise.number] += static_cast<int>(promise.laws.size());
+    variants[promise.number] += static_cast<int>(promise.laws.size());
     const Case& c = case_numbered(promise.number);
     const Floor& floor = floors.at(promise.number);
     CHECK(promise.limit <= (promise.single ? floor.float_limit : floor.limit));
     CHECK(promise.limit <= c.limit_of({"", promise.integrator, promise.single}));
-    const auto known = ways_of(c, false);
+    const auto known = variants_of(c, false);
     for (const std::string& law : promise.laws)
-      CHECK_MESSAGE(std::count(known.begin(), known.end(), Way{law, promise.integrator, promise.single}) == 1, law);
+      CHECK_MESSAGE(std::count(known.begin(), known.end(), CaseVariant{law, promise.integrator, promise.single}) == 1,
+                    law);
   }
   for (const auto& floor : floors) {
     CAPTURE(floor.first);
-    CHECK(ways[floor.first] >= floor.second.ways);
+    CHECK(variants[floor.first] >= floor.second.variants);
   }
 }
 
@@ -103,14 +104,14 @@ TEST_CASE("a verdict needs more than being finite") {
   CHECK(judge({0.5, 0, 0, "", "not balanced"}, 1) == Verdict::wrong);
   CHECK(judge({std::numeric_limits<double>::quiet_NaN()}, 1) == Verdict::diverged);
   CHECK(worse({1}, {2, 0, 0, "ran away"}).stopped == "ran away");
-  CHECK(worse({std::numeric_limits<double>::quiet_NaN()}, {2}).figure != 2);
+  CHECK(worse({std::numeric_limits<double>::quiet_NaN()}, {2}).value != 2);
 }
 
 TEST_CASE("a promise falls short by its verdict, and by its figure alone") {
   std::vector<Cell> cells = {cell_of(Verdict::stable, 1e-6), cell_of(Verdict::stable, 2e-5),
                              cell_of(Verdict::inverted, 1e-6), cell_of(Verdict::wrong, 1)};
-  cells[3].way.law = "gent";  // not promised
-  hold_against({drift}, cells);
+  cells[3].variant.law = "gent";  // not promised
+  check_promises({drift}, cells);
   CHECK(cells[0].promised);
   CHECK_FALSE(cells[0].short_of_promise);
   CHECK(cells[1].short_of_promise);
@@ -146,13 +147,13 @@ TEST_CASE("a study goes on where it stopped, and its figures are the ones it had
   const auto second = run_study(results, options);
   CHECK(runs > 0);
   CHECK(runs < static_cast<int>(first.size()));
-  for (std::size_t k = 0; k < first.size(); ++k) CHECK(first[k].outcome.figure == second[k].outcome.figure);
+  for (std::size_t k = 0; k < first.size(); ++k) CHECK(first[k].outcome.value == second[k].outcome.value);
 }
 
 TEST_CASE("the matrix and the report show every run, its promise, and what falls short") {
   std::vector<Cell> cells = {cell_of(Verdict::stable, 1e-6), cell_of(Verdict::inverted, 1e-6)};
-  cells[1].way.law = "stvk";
-  hold_against({drift}, cells);
+  cells[1].variant.law = "stvk";
+  check_promises({drift}, cells);
   const std::string svg = matrix_svg(cells);
   CHECK(svg.find(">S</text>") != std::string::npos);
   CHECK(svg.find(">I</text>") != std::string::npos);
@@ -167,10 +168,10 @@ TEST_CASE("a penalty costs what a continuation does not, and recovery brings bac
     CAPTURE(row.method);
     if (row.method.find("penalty") != std::string::npos) {
       CHECK(row.changed_stress > 0.001);
-      CHECK(row.longest_step < 1);
+      CHECK(row.max_step < 1);
     } else {
       CHECK(row.changed_stress == 0);
-      CHECK(row.longest_step == doctest::Approx(1));
+      CHECK(row.max_step == doctest::Approx(1));
     }
     if (row.method == "StVK alone") CHECK_FALSE(row.back());
     if (row.method == "Neo-Hookean, engine's recovery") CHECK(row.back());

@@ -1,0 +1,66 @@
+#include <algorithm>
+#include <app/window/frame_history.hpp>
+
+namespace heml::window {
+namespace {
+
+std::size_t bytes_of(const Frame& frame) {
+  std::size_t bytes = sizeof(Frame) + frame.positions.size() * sizeof(Vec3f) +
+                      (frame.values.size() + frame.stretches.size()) * sizeof(float);
+  for (const Frame& comparisons : frame.comparisons) bytes += bytes_of(comparisons);
+  return bytes;
+}
+
+}  // namespace
+
+void FrameHistory::add(const Frame& frame) {
+  if (!frames_.empty() && frame.tick < frames_.back().tick) return;
+  if (!frames_.empty() && frame.tick == frames_.back().tick) {
+    bytes_ -= bytes_of(frames_.back());
+    frames_.back() = frame;
+    bytes_ += bytes_of(frame);
+    return;
+  }
+  if (!frames_.empty() && frame.tick < frames_.back().tick + spacing_) return;
+  frames_.push_back(frame);
+  bytes_ += bytes_of(frame);
+  if (bytes_ > room_) thin();
+}
+
+void FrameHistory::thin() {
+  std::vector<Frame> kept;
+  kept.reserve(frames_.size());
+  for (std::size_t k = 0; k < frames_.size(); k += 2) kept.push_back(std::move(frames_[k]));
+  frames_ = std::move(kept);
+  bytes_ = 0;
+  for (const Frame& frame : frames_) bytes_ += bytes_of(frame);
+  const long gaps = std::max<long>(1, std::ssize(frames_) - 1);
+  spacing_ = std::max(2 * spacing_, (frames_.back().tick - frames_.front().tick) / gaps);
+}
+
+void FrameHistory::cut_after(long tick) {
+  while (!frames_.empty() && frames_.back().tick > tick) {
+    bytes_ -= bytes_of(frames_.back());
+    frames_.pop_back();
+  }
+}
+
+void FrameHistory::share(const Frame& frame) {
+  for (Frame& seen : frames_) {
+    if (seen.surface_mesh->version == frame.surface_mesh->version) seen.surface_mesh = frame.surface_mesh;
+    for (std::size_t k = 0; k < std::min(seen.comparisons.size(), frame.comparisons.size()); ++k) {
+      Frame& body = seen.comparisons[k];
+      const Frame& same = frame.comparisons[k];
+      if (body.variant == same.variant && body.surface_mesh->version == same.surface_mesh->version)
+        body.surface_mesh = same.surface_mesh;
+    }
+  }
+}
+
+std::size_t FrameHistory::place_of(long tick) const {
+  const auto after =
+      std::upper_bound(frames_.begin(), frames_.end(), tick, [](long t, const Frame& frame) { return t < frame.tick; });
+  return after == frames_.begin() ? 0 : static_cast<std::size_t>(after - frames_.begin()) - 1;
+}
+
+}  // namespace heml::window

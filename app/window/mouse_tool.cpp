@@ -1,0 +1,179 @@
+#include <algorithm>
+#include <app/window/mouse_tool.hpp>
+
+namespace heml::window {
+namespace {
+constexpr float min_stroke = 4;  // pixels: what a blade goes on by
+}
+
+std::optional<render::Hit> MouseTool::under(const render::Vec2f& at, const Frame& frame,
+                                            const SurfaceMesh& surface_mesh) const {
+  return render::pick(frame, surface_mesh, controller_.ray(at));
+}
+
+bool MouseTool::press(MouseButton button, const render::Vec2f& at, bool shift, const Frame& frame,
+                      const SurfaceMesh& surface_mesh, const panel::ToolSettings& tool, std::vector<Command>& out) {
+  if (doing_ != Doing::nothing) return false;
+  button_ = button;
+  if (tool.tool != panel::Tool::suture) first_end_.reset();
+  last_ = at;
+  if (button == MouseButton::left)
+    if (const auto hit = under(at, frame, surface_mesh)) {
+      if (tool.tool == panel::Tool::grasper) return !grasp(*hit, frame, surface_mesh, tool.radius, out);
+      if (tool.tool == panel::Tool::pin) return !pin(*hit, frame, surface_mesh, tool.radius, out);
+      if (tool.tool == panel::Tool::suture) return !suture(*hit, surface_mesh, out);
+      if (tool.tool == panel::Tool::probe) {
+        begin_probing(*hit, tool, at, out);
+        return false;
+      }
+      doing_ = Doing::cutting;
+      held_point_ = hit->point;
+      depth_ = tool.depth;
+      blade_ = blade_at(at);
+      cut_to_ = at;
+      continues_stroke_ = false;
+      return false;
+    }
+  press_background(button, at, shift);
+  return false;
+}
+
+void MouseTool::press_background(MouseButton button, const render::Vec2f& at, bool shift) {
+  if (doing_ != Doing::nothing) return;
+  button_ = button;
+  last_ = at;
+  const bool pans = button == MouseButton::middle || (button == MouseButton::right && shift);
+  doing_ = pans ? Doing::panning : Doing::orbiting;
+}
+
+/// The corner nearest to a hit that the scene does not hold; none where it holds all.
+std::optional<int> MouseTool::free_corner(const render::Hit& hit, const SurfaceMesh& surface_mesh) {
+  const auto constrained = [&](int node) {
+    return std::binary_search(surface_mesh.constrained.begin(), surface_mesh.constrained.end(), node);
+  };
+  int node = hit.node;
+  for (const int corner : surface_mesh.triangles[static_cast<std::size_t>(hit.triangle)])
+    if (constrained(node)) node = corner;
+  return constrained(node) ? std::nullopt : std::optional(node);
+}
+
+/// Takes out the pin that is there, or sets one.
+bool MouseTool::pin(const render::Hit& hit, const Frame& frame, const SurfaceMesh& surface_mesh, double radius,
+                    std::vector<Command>& out) {
+  const auto corner = free_corner(hit, surface_mesh);
+  if (!corner) return false;
+  const int node = surface_mesh.nodes[static_cast<std::size_t>(*corner)];
+  const bool pinned = std::any_of(frame.pins.begin(), frame.pins.end(), [&](const PinState& pin) {
+    return std::find(pin.nodes.begin(), pin.nodes.end(), node) != pin.nodes.end();
+  });
+  if (pinned)
+    out.emplace_back(Unpin{node});
+  else
+    out.emplace_back(PinTissue{node, radius});
+  return true;
+}
+
+bool MouseTool::grasp(const render::Hit& hit, const Frame& frame, const SurfaceMesh& surface_mesh, double radius,
+                      std::vector<Command>& out) {
+  const auto corner = free_corner(hit, surface_mesh);
+  if (!corner) return false;
+  const int node = *corner;
+  doing_ = Doing::grasping;
+  held_point_ = hit.point;
+  node_offset_ = frame.positions[static_cast<std::size_t>(node)] - hit.point;
+  out.emplace_back(Grasp{surface_mesh.nodes[static_cast<std::size_t>(node)], radius});
+  return true;
+}
+
+/// The first click sets one end, the second the other.
+bool MouseTool::suture(const render::Hit& hit, const SurfaceMesh& surface_mesh, std::vector<Command>& out) {
+  const int node = surface_mesh.nodes[static_cast<std::size_t>(hit.node)];
+  if (!first_end_) {
+    first_end_ = node;
+  } else {
+    if (*first_end_ != node) out.emplace_back(SutureTissue{{*first_end_, node}, 0, 0.5});
+    first_end_.reset();
+  }
+  return true;
+}
+
+/// From before the surface, along the line of sight.
+void MouseTool::begin_probing(const render::Hit& hit, const panel::ToolSettings& tool, const render::Vec2f& at,
+                              std::vector<Command>& out) {
+  doing_ = Doing::probing;
+  held_point_ = hit.point;
+  probe_ = tool;
+  MoveProbe probe = probe_at(at);
+  const Vec3 along = -probe.shaft.normalized();
+  probe.path.insert(probe.path.begin(), probe.path.front() - (probe_.dent + 0.1 * probe_.probe_radius) * along);
+  out.emplace_back(std::move(probe));
+}
+
+/// The tip `dent` below where the surface was pressed, in the plane that faces the eye; the shaft towards the eye.
+MoveProbe MouseTool::probe_at(const render::Vec2f& at) const {
+  const Vec3 point = controller_.drag(at, held_point_).cast<double>();
+  const Vec3 along = controller_.ray(at).direction.cast<double>().normalized();
+  MoveProbe probe;
+  probe.radius = probe_.probe_radius;
+  probe.shaft = -probe_.shaft * along;
+  probe.friction = probe_.friction;
+  probe.path = {point + (probe_.dent - probe_.probe_radius) * along};
+  return probe;
+}
+
+bool MouseTool::wheel(float notches, std::vector<Command>& out) {
+  if (doing_ != Doing::probing) return false;
+  probe_.dent += 0.1 * static_cast<double>(notches) * probe_.probe_radius;
+  out.emplace_back(probe_at(last_));
+  return true;
+}
+
+/// From a little above the surface, so that it is cut too, along the line of sight.
+std::array<Vec3, 2> MouseTool::blade_at(const render::Vec2f& at) const {
+  const Vec3 point = controller_.drag(at, held_point_).cast<double>();
+  const Vec3 along = controller_.ray(at).direction.cast<double>();
+  return {point - 0.3 * depth_ * along, point + depth_ * along};
+}
+
+void MouseTool::cut(const render::Vec2f& at, const Frame& frame, const SurfaceMesh& surface_mesh,
+                    std::vector<Command>& out) {
+  if ((at - cut_to_).norm() < min_stroke) return;
+  if (const auto hit = under(at, frame, surface_mesh)) held_point_ = hit->point;  // the surface rises and falls
+  const std::array<Vec3, 2> now = blade_at(at);
+  out.emplace_back(CutTissue{{{blade_, now}}, continues_stroke_});
+  blade_ = now;
+  cut_to_ = at;
+  continues_stroke_ = true;
+}
+
+void MouseTool::move(const render::Vec2f& at, const Frame& frame, const SurfaceMesh& surface_mesh,
+                     std::vector<Command>& out) {
+  const render::Vec2f travel = at - last_;
+  last_ = at;
+  if (travel == render::Vec2f::Zero()) return;
+  if (doing_ == Doing::orbiting) controller_.orbit(travel.x(), travel.y());
+  if (doing_ == Doing::panning) controller_.pan(travel.x(), travel.y());
+  if (doing_ == Doing::probing) out.emplace_back(probe_at(at));
+  if (doing_ == Doing::cutting) cut(at, frame, surface_mesh, out);
+  if (doing_ == Doing::grasping) {
+    const Vec3f point = controller_.drag(at, held_point_);
+    out.emplace_back(MoveTool{(point + node_offset_).cast<double>()});
+  }
+}
+
+void MouseTool::release(MouseButton button, std::vector<Command>& out) {
+  if (button == button_) stop(out);
+}
+
+void MouseTool::let_go(std::vector<Command>& out) {
+  stop(out);
+  first_end_.reset();
+}
+
+void MouseTool::stop(std::vector<Command>& out) {
+  if (doing_ == Doing::grasping) out.emplace_back(Release{});
+  if (doing_ == Doing::probing) out.emplace_back(WithdrawProbe{});
+  doing_ = Doing::nothing;
+}
+
+}  // namespace heml::window

@@ -1,0 +1,128 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <app/window/glfw_window.hpp>
+#include <app/window/session_loader.hpp>
+#include <app/window/state_folder.hpp>
+#include <chrono>
+#include <thread>
+
+namespace heml::window {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Where the last recovery of a scene is kept: in the user's folder for what programs did, if there is one.
+fs::path recovery_file_of(const Scene& scene) {
+  const fs::path folder = state_folder();
+  return folder.empty() ? folder : folder / fmt::format("recovery-{}.jsonl", fs::path(scene.file).stem().string());
+}
+
+SessionOptions options_for(const Scene& scene, const std::optional<fs::path>& record) {
+  SessionOptions options;
+  options.record = record;
+  options.recovery_file = recovery_file_of(scene);
+  options.on_frame = [] { GlfwWindow::wake(); };
+  return options;
+}
+
+bool can_be_written(const fs::path& folder) { return access(folder.empty() ? "." : folder.c_str(), W_OK) == 0; }
+
+struct WakeAtEnd {
+  ~WakeAtEnd() { GlfwWindow::wake(); }
+};
+
+}  // namespace
+
+fs::path next_recording(const fs::path& file) {
+  std::error_code failed;
+  for (int number = 2;; ++number) {
+    const fs::path next = file.parent_path() / fmt::format("{}-{}.jsonl", file.stem().string(), number);
+    if (!fs::exists(next, failed)) return next;
+  }
+}
+
+OpenScene start(Scene scene, const std::optional<fs::path>& record, std::vector<std::string> comparisons) {
+  OpenScene result{std::move(scene), nullptr, record, false, std::move(comparisons), {}};
+  result.was_recorded = result.scene.recorded_ticks.has_value();
+  SessionOptions options = options_for(result.scene, record);
+  options.comparisons = result.comparisons;
+  result.session = std::make_unique<Session>(result.scene, options);
+  return result;
+}
+
+void SessionLoader::begin(const fs::path& path, const std::optional<fs::path>& record) {
+  if (under_way()) return;
+  goal_ = 0;
+  cancelled_ = false;
+  result_ = std::async(std::launch::async, [path, record] {
+    const WakeAtEnd wake_at_end;
+    OpenScene opened = start(read_scene(path), record ? std::optional(next_recording(*record)) : std::nullopt);
+    remember_file(path);
+    return opened;
+  });
+}
+
+void SessionLoader::resume(Scene scene, const std::optional<fs::path>& record, std::vector<std::string> comparisons) {
+  if (under_way()) return;
+  goal_ = std::max(1l, scene.recorded_ticks.value_or(0));
+  reached_ = 0;
+  cancelled_ = false;
+  result_ = std::async(std::launch::async,
+                       [this, scene = std::move(scene), record, comparisons = std::move(comparisons)]() mutable {
+                         const WakeAtEnd wake_at_end;
+                         return reach(std::move(scene), record, std::move(comparisons));
+                       });
+}
+
+OpenScene SessionLoader::reach(Scene scene, const std::optional<fs::path>& record,
+                               std::vector<std::string> comparisons) {
+  std::optional<fs::path> file;
+  if (record) file = next_recording(*record);
+  if (file && !can_be_written(file->parent_path()) && !state_folder().empty()) {
+    fs::create_directories(state_folder());
+    file = next_recording(state_folder() / record->filename());
+  }
+  const long target_tick = scene.recorded_ticks.value_or(0);
+  SessionOptions options = options_for(scene, file);
+  options.start_paused = true;
+  options.fast_forward_to = target_tick;
+  options.comparisons = comparisons;
+  OpenScene result{std::move(scene), nullptr, file, record.has_value(), std::move(comparisons), target_tick};
+  result.session = std::make_unique<Session>(result.scene, options);
+  while (!cancelled_) {
+    const Frame& frame = result.session->latest();
+    reached_ = frame.tick;
+    if (frame.fast_forward_target == 0) break;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  return result;
+}
+
+bool SessionLoader::is_ready() const {
+  return under_way() && result_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+}
+
+std::optional<int> SessionLoader::progress() const {
+  if (!under_way() || goal_ == 0) return std::nullopt;
+  return static_cast<int>(100 * reached_ / goal_);
+}
+
+std::optional<std::variant<OpenScene, std::string>> SessionLoader::take() {
+  if (!is_ready()) return std::nullopt;
+  try {
+    OpenScene opened = result_.get();
+    if (!cancelled_) return opened;
+    std::error_code failed;
+    if (opened.resumed && opened.recording) {  // nobody asked for its beginning alone
+      opened.session.reset();
+      fs::remove(*opened.recording, failed);
+    }
+    return std::nullopt;
+  } catch (const std::exception& error) {
+    return std::string(error.what());
+  }
+}
+
+}  // namespace heml::window

@@ -1,0 +1,84 @@
+#include <algorithm>
+#include <cmath>
+#include <heml/dynamics/single_precision_cg.hpp>
+
+namespace heml {
+namespace {
+constexpr std::size_t piece = 1024;  // rows that one number sums
+}
+
+SinglePrecisionCG::SinglePrecisionCG(const FreeNodes& free, const TetMesh& mesh, ThreadTeam& team)
+    : free_(free), team_(team), K_(free.number, mesh.tets) {
+  for (MultiVector* list : {&d_, &left_, &p_, &q_, &z_}) list->resize(K_.rows());
+  sums_.resize((K_.rows() + piece - 1) / piece);
+}
+
+bool SinglePrecisionCG::assemble(Objective& objective, double shift) {
+  K_.set_zero();
+  if (!objective.add_stiffness_single_precision(K_)) return false;
+  if (shift > 0)
+    for (const int n : free_.node) K_.add_diagonal(n, shift);
+  return true;
+}
+
+/// Sum of part(row), which may change rows on its way: within pieces in float, axis by axis, of pieces in double, in an
+/// order that no thread has a say in.
+template <class Part>
+double SinglePrecisionCG::sum(const Part& part) {
+  team_.parallel_for(sums_.size(), 4, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      Eigen::Array4f all = Eigen::Array4f::Zero();
+      const std::size_t last = std::min(K_.rows(), (k + 1) * piece);
+      for (std::size_t row = k * piece; row < last; ++row) all += part(row);
+      sums_[k] = static_cast<double>(all.sum());
+    }
+  });
+  double all = 0;
+  for (const double of_piece : sums_) all += of_piece;
+  return all;
+}
+
+double SinglePrecisionCG::dot(const MultiVector& a, const MultiVector& b) {
+  return sum([&](std::size_t row) -> Eigen::Array4f { return a[row] * b[row]; });
+}
+
+bool SinglePrecisionCG::solve(SmoothedAggregation& preconditioner, const Vector& r, double tolerance,
+                              int max_iterations, Vector& d, long& iterations) {
+  const double largest = r.cwiseAbs().maxCoeff(), scale = largest > 0 ? largest : 1;  // keeps float in its range
+  const auto place = [&](std::size_t row) { return 3 * free_.node[row]; };
+  double square = sum([&](std::size_t row) -> Eigen::Array4f {
+    left_[row] << (r.segment<3>(place(row)) / scale).cast<float>().array(), 0.0f;
+    d_[row].setZero();
+    return left_[row].square();
+  });
+  const double enough = tolerance * tolerance * square;
+  bool positive = true;
+  double progress = 0;
+  for (int k = 0; k < max_iterations && square > enough; ++k) {
+    preconditioner.apply(left_, z_);
+    const double next = dot(left_, z_);
+    const auto turn = static_cast<float>(k > 0 ? next / progress : 0);
+    progress = next;
+    for (std::size_t row = 0; row < K_.rows(); ++row) p_[row] = k > 0 ? z_[row] + turn * p_[row] : z_[row];
+    K_.multiply(p_, q_, team_);
+    ++iterations;
+    const double curvature = dot(p_, q_);
+    positive = curvature > 0 && progress > 0;
+    if (!positive) {
+      if (k == 0) d_ = p_;
+      break;
+    }
+    const auto step = static_cast<float>(progress / curvature);
+    square = sum([&](std::size_t row) -> Eigen::Array4f {
+      d_[row] += step * p_[row];
+      left_[row] -= step * q_[row];
+      return left_[row].square();
+    });
+  }
+  d.setZero(r.size());
+  for (std::size_t row = 0; row < K_.rows(); ++row)
+    d.segment<3>(place(row)) = scale * d_[row].head<3>().cast<double>().matrix();
+  return positive;
+}
+
+}  // namespace heml

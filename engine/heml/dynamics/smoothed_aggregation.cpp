@@ -1,0 +1,159 @@
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <heml/dynamics/prolongation.hpp>
+#include <heml/dynamics/smoothed_aggregation.hpp>
+#include <heml/elastic/avx2_dispatch.hpp>
+#include <numbers>
+
+namespace heml {
+namespace {
+
+constexpr std::size_t grain = 2048;    // rows below which waking a thread costs more than it brings
+constexpr double shrinks = 0.7;        // a level larger than this of the one above is not worth having
+constexpr double smoothed_from = 0.2;  // of the spectrum: eigenvalues from here to 1 are the smoother's, the rest the
+                                       // coarser levels'
+/// Steps x += w D⁻¹(b − Ax) that together are Chebyshev's polynomial on [smoothed_from, 1].
+const std::array<float, 2> weights = [] {
+  std::array<float, 2> result{};
+  for (std::size_t k = 0; k < result.size(); ++k) {
+    const double angle = std::numbers::pi * (2 * static_cast<double>(k) + 1) / (2 * static_cast<double>(result.size()));
+    result[k] = static_cast<float>(2 / (1 + smoothed_from + (1 - smoothed_from) * std::cos(angle)));
+  }
+  return result;
+}();
+
+using Rows = Eigen::SparseMatrix<float, Eigen::RowMajor>;
+typedef float Four __attribute__((vector_size(16)));
+
+[[gnu::always_inline]] inline void rows(const Rows& A, const MultiVector& x, const auto& write, std::size_t begin,
+                                        std::size_t end) {
+  const int* start = A.outerIndexPtr();
+  const int* column = A.innerIndexPtr();
+  const float* value = A.valuePtr();
+  for (std::size_t i = begin; i < end; ++i) {
+    Four sum = {}, at;
+    for (int k = start[i]; k < start[i + 1]; ++k) {
+      std::memcpy(&at, &x[static_cast<std::size_t>(column[k])], sizeof at);
+      sum += value[k] * at;
+    }
+    Eigen::Array4f of_row;
+    std::memcpy(of_row.data(), &sum, sizeof sum);
+    write(i, of_row);
+  }
+}
+
+HEML_WIDE void wide_rows(const Rows& A, const MultiVector& x, const auto& write, std::size_t begin, std::size_t end) {
+  rows(A, x, write, begin, end);
+}
+
+}  // namespace
+
+SmoothedAggregation::SmoothedAggregation(const FreeNodes& free, const TetMesh& mesh, const std::vector<double>& modulus,
+                                         const Vector& mass, std::size_t max_direct_unknowns, ThreadTeam& team)
+    : node_(free.node), team_(team), levels_(1) {
+  levels_[0].L = scalar_stiffness(free, mesh, modulus);
+  levels_[0].M = scalar_mass(free, mass);
+  for (std::size_t row = 0; row < node_.size(); ++row) {
+    if (mass[3 * node_[row]] > 0) continue;
+    excluded_rows_.push_back(row);
+    levels_[0].L.coeffRef(static_cast<int>(row), static_cast<int>(row)) += 1;
+  }
+  add_levels(max_direct_unknowns);
+}
+
+void SmoothedAggregation::add_levels(std::size_t max_direct_unknowns) {
+  while (static_cast<std::size_t>(levels_.back().L.rows()) > max_direct_unknowns) {
+    Level& fine = levels_.back();
+    const ScalarMatrix P = smoothed_prolongation(fine.L), R = P.transpose();
+    if (static_cast<double>(P.cols()) > shrinks * static_cast<double>(P.rows())) break;
+    fine.P = P.cast<float>();
+    fine.R = R.cast<float>();
+    Level coarse;
+    coarse.L = R * ScalarMatrix(fine.L * P);
+    coarse.M = R * ScalarMatrix(fine.M * P);
+    levels_.push_back(std::move(coarse));
+  }
+  for (Level& level : levels_) {
+    const auto size = static_cast<std::size_t>(level.L.rows());
+    level.b.resize(size);
+    level.x.resize(size);
+    level.scratch.resize(size);
+  }
+}
+
+bool SmoothedAggregation::set_inertia(double a) {
+  for (std::size_t l = 0; l + 1 < levels_.size(); ++l) {
+    Level& level = levels_[l];
+    const ScalarMatrix A = a * level.M + level.L;
+    level.inverse_D.clear();
+    for (const double sum : absolute_row_sums(A)) level.inverse_D.push_back(static_cast<float>(1 / sum));
+    level.A = A.cast<float>();
+  }
+  return bottom_.factor(a * levels_.back().M + levels_.back().L);
+}
+
+/// Calls write(row, (A x) there) for every row.
+template <class Write>
+void SmoothedAggregation::each_row(const Rows& A, const MultiVector& x, const Write& write) const {
+  team_.parallel_for(static_cast<std::size_t>(A.rows()), grain, [&](std::size_t begin, std::size_t end) {
+    if (has_avx2())
+      wide_rows(A, x, write, begin, end);
+    else
+      rows(A, x, write, begin, end);
+  });
+}
+
+void SmoothedAggregation::smooth(Level& level, float weight) const {
+  each_row(level.A, level.x, [&](std::size_t i, const Eigen::Array4f& Ax) {
+    level.scratch[i] = level.x[i] + weight * level.inverse_D[i] * (level.b[i] - Ax);
+  });
+  std::swap(level.x, level.scratch);
+}
+
+/// x ≈ A⁻¹ b on level l.
+void SmoothedAggregation::cycle(std::size_t l) {
+  Level& level = levels_[l];
+  if (l + 1 == levels_.size()) {
+    level.x = level.b;
+    return bottom_.solve(level.x);
+  }
+  Level& coarse = levels_[l + 1];
+  for (std::size_t i = 0; i < level.x.size(); ++i) level.x[i] = weights[0] * level.inverse_D[i] * level.b[i];
+  for (std::size_t k = 1; k < weights.size(); ++k) smooth(level, weights[k]);
+  each_row(level.A, level.x, [&](std::size_t i, const Eigen::Array4f& Ax) { level.scratch[i] = level.b[i] - Ax; });
+  each_row(level.R, level.scratch, [&](std::size_t i, const Eigen::Array4f& sum) { coarse.b[i] = sum; });
+  cycle(l + 1);
+  each_row(level.P, coarse.x, [&](std::size_t i, const Eigen::Array4f& sum) { level.x[i] += sum; });
+  for (const float weight : weights) smooth(level, weight);
+}
+
+void SmoothedAggregation::apply(const MultiVector& r, MultiVector& z) {
+  levels_.front().b = r;
+  cycle(0);
+  z = levels_.front().x;
+  for (const std::size_t row : excluded_rows_) z[row].setZero();
+}
+
+void SmoothedAggregation::apply(const Vector& r, Vector& z) {
+  const double largest = r.cwiseAbs().maxCoeff(), scale = largest > 0 ? largest : 1;  // keeps float in its range
+  Level& top = levels_.front();
+  const auto place = [&](std::size_t k) { return 3 * node_[k]; };
+  for (std::size_t k = 0; k < top.b.size(); ++k)
+    top.b[k] << (r.segment<3>(place(k)) / scale).cast<float>().array(), 0.0f;
+  cycle(0);
+  z.setZero(r.size());
+  for (std::size_t k = 0; k < top.x.size(); ++k)
+    z.segment<3>(place(k)) = scale * top.x[k].head<3>().cast<double>().matrix();
+  for (const std::size_t row : excluded_rows_) z.segment<3>(place(row)).setZero();
+}
+
+std::size_t SmoothedAggregation::bytes() const {
+  std::size_t sum = bottom_.bytes() + bytes_of(node_, excluded_rows_);
+  for (const Level& level : levels_)
+    sum += bytes_of(level.L, level.M, level.A, level.P, level.R) +
+           bytes_of(level.inverse_D, level.b, level.x, level.scratch);
+  return sum;
+}
+
+}  // namespace heml

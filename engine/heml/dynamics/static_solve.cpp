@@ -1,0 +1,133 @@
+#include <algorithm>
+#include <cmath>
+#include <heml/dynamics/incremental_potential.hpp>
+#include <heml/dynamics/static_solve.hpp>
+
+namespace heml {
+namespace {
+
+constexpr double shortest = 1.0 / 1024;  // increment, below which Newton is given up
+constexpr double relaxing = 1.0 / 64;    // increment that relaxation is tried with
+constexpr NewtonOptions newton_options{40, 1e-3};
+constexpr double far_enough = 100;  // times the tolerance: what round-off may leave
+constexpr int quick = 8;            // iterations up to which increments grow
+constexpr NewtonOptions relaxation_options{8, 1e-2};
+constexpr int max_relaxation_steps = 80;
+
+}  // namespace
+
+StaticSolve::StaticSolve(LoadDependentObjective& body, LinearSolver& linear, const Vector& mass, const FreeNodes& free,
+                         StaticTolerance limit, double inertia, Vector start)
+    : body_(body),
+      linear_(linear),
+      mass_(mass),
+      free_(free),
+      inertia_(inertia),
+      stop_{[&body](const Vector& r) { return body.relative_residual(r); }, limit.tolerance},
+      strict_(limit.strict),
+      x_(std::move(start)) {}
+
+bool StaticSolve::load_to(double fraction, const std::atomic<bool>& stop) {
+  linear_.set_inertia(inertia_);
+  if (!solved_ && fraction <= load_) return increment(load_) || relax(load_);
+  while (load_ < fraction) {
+    if (stop) return false;
+    const double next = load_ + step_ * (1 + 1e-9) >= fraction ? fraction : load_ + step_;
+    if (increment(next)) {
+      if (last_iterations_ <= quick) step_ *= 2;
+      continue;
+    }
+    if (round_off_) return false;  // weighs more the less load there is
+    step_ = (next - load_) / 2;
+    if (step_ >= shortest) continue;
+    if (!relax(std::min(fraction, load_ + relaxing))) return false;
+    step_ = relaxing;
+  }
+  return true;
+}
+
+bool StaticSolve::increment(double next) {
+  Vector x = tried_ = predict(next);
+  return solve(x) && keep(next, x);
+}
+
+/// Along the tangent at the present state: K Δx = change of the loads − what the held nodes' motion stretches.
+Vector StaticSolve::predict(double next) {
+  Vector moved = x_, r, stretched, d;
+  body_.apply_constraints(next, moved);
+  body_.set_load(next);
+  const Vector motion = moved - x_;
+  if (!body_.residual(x_, r)) return moved;
+  body_.linearise(x_);
+  body_.product(motion, stretched);
+  r -= stretched;
+  if (r.norm() == 0 || !linear_.solve(body_, r, newton_options.linear_tolerance, d)) return moved;
+  const Vector predicted = moved + d;
+  Vector unused;
+  if (!body_.residual(predicted, unused) || !unused.allFinite()) return moved;
+  if (!body_.residual(moved, unused) || !unused.allFinite()) return predicted;
+  const auto with = body_.value(predicted), without = body_.value(moved);
+  return with && !(*with < *without) ? moved : predicted;
+}
+
+bool StaticSolve::solve(Vector& x) {
+  last_iterations_ = 0;
+  do {
+    const NewtonResult newton = minimise(body_, linear_, stop_, newton_options, x);
+    iterations_ += newton.iterations;
+    last_iterations_ = std::max(last_iterations_, newton.iterations);
+    if (!is_enough(newton, x)) return false;
+  } while (body_.update_lagged(x));
+  return true;
+}
+
+/// Converged, or ended by round-off where that will do.
+bool StaticSolve::is_enough(const NewtonResult& newton, const Vector& x) {
+  round_off_.reset();
+  Vector r;
+  if (!newton.at_round_off || !body_.residual(x, r) || !body_.is_at_round_off(r)) return newton.converged();
+  if (!strict_ && newton.measure <= far_enough * stop_.limit) return true;
+  round_off_ = newton.measure;
+  return false;
+}
+
+bool StaticSolve::keep(double next, const Vector& x) {
+  if (!body_.is_admissible(x)) return false;
+  Vector r;
+  body_.residual(x, r);
+  relative_residual_ = body_.relative_residual(r);
+  x_ = x;
+  load_ = next;
+  solved_ = true;
+  ++increments_;
+  body_.accept(x_);
+  return true;
+}
+
+bool StaticSolve::relax(double next) {
+  Vector x = tried_ = predict(next), r, Kr;
+  if (!body_.residual(x, r)) return false;
+  if (r.norm() == 0) return solve(x) && keep(next, x);
+  // Inertia that matches the stiffness along the residual, then ever less.
+  const Vector push = (mass_.array() > 0).select(r.array() / mass_.array(), 0);
+  body_.linearise(x);
+  body_.product(push, Kr);
+  double a = std::abs(push.dot(Kr)) / push.dot(r);
+  IncrementalPotential inert(body_, mass_, free_);
+  bool reached = false;
+  for (int k = 0; k < max_relaxation_steps && !reached && std::isfinite(a) && a > 0; ++k) {
+    inert.set(a, x);
+    linear_.set_inertia(a);
+    const NewtonResult newton = minimise(inert, linear_, stop_, relaxation_options, x);
+    iterations_ += newton.iterations;
+    body_.residual(x, r);
+    reached = body_.relative_residual(r) <= stop_.limit && !body_.update_lagged(x);
+    a *= newton.status == NewtonResult::Status::converged ? 1.0 / 8
+         : newton.status == NewtonResult::Status::stalled ? 16
+                                                          : 1.0 / 2;
+  }
+  linear_.set_inertia(inertia_);
+  return reached && keep(next, x);
+}
+
+}  // namespace heml

@@ -1,0 +1,207 @@
+#include <algorithm>
+#include <cstring>
+#include <heml/elastic/avx2_dispatch.hpp>
+#include <heml/elastic/bsr_matrix.hpp>
+#include <heml/elastic/edge_stiffness.hpp>
+#include <heml/mesh/edit.hpp>
+
+namespace heml {
+namespace {
+
+constexpr std::size_t row_grain = 512;  // rows below which waking a thread costs more than it brings
+constexpr int side_by_side = 4;         // elements taken side by side
+
+typedef float Four __attribute__((vector_size(16)));
+
+[[gnu::always_inline]] inline Four load(const float* from) {
+  Four v;
+  std::memcpy(&v, from, sizeof v);
+  return v;
+}
+[[gnu::always_inline]] inline Four load(const double* from) {
+  typedef double Doubles __attribute__((vector_size(32)));
+  Doubles v;
+  std::memcpy(&v, from, sizeof v);
+  return __builtin_convertvector(v, Four);
+}
+
+/// Rows of numbers of four elements become a column of each: (x, y, z) of lane l in column[l], and 0.
+[[gnu::always_inline]] inline void transpose(const Four (&xyz)[3], Four (&column)[side_by_side]) {
+  const Four zero = {};
+  const Four a = __builtin_shufflevector(xyz[0], xyz[1], 0, 4, 1, 5);
+  const Four b = __builtin_shufflevector(xyz[0], xyz[1], 2, 6, 3, 7);
+  const Four c = __builtin_shufflevector(xyz[2], zero, 0, 4, 1, 5);
+  const Four d = __builtin_shufflevector(xyz[2], zero, 2, 6, 3, 7);
+  column[0] = __builtin_shufflevector(a, c, 0, 1, 4, 5);
+  column[1] = __builtin_shufflevector(a, c, 2, 3, 6, 7);
+  column[2] = __builtin_shufflevector(b, d, 0, 1, 4, 5);
+  column[3] = __builtin_shufflevector(b, d, 2, 3, 6, 7);
+}
+
+}  // namespace
+
+BsrMatrix::BsrMatrix(const std::vector<int>& number, const std::vector<Tet>& tets) : number_(number) {
+  const auto row_of = [&](int node) { return number[static_cast<std::size_t>(node)]; };
+  const auto count =
+      static_cast<std::size_t>(std::count_if(number.begin(), number.end(), [](int n) { return n >= 0; }));
+  std::vector<std::vector<int>> neighbours(count);
+  for (const int n : number)
+    if (n >= 0) neighbours[static_cast<std::size_t>(n)].push_back(n);
+  for (const Tet& tet : tets)
+    for (const int a : tet)
+      for (const int b : tet)
+        if (a != b && row_of(a) >= 0 && row_of(b) >= 0)
+          neighbours[static_cast<std::size_t>(row_of(a))].push_back(row_of(b));
+  start_.assign(1, 0);
+  for (auto& list : neighbours) {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+    column_.insert(column_.end(), list.begin(), list.end());
+    start_.push_back(static_cast<int>(column_.size()));
+  }
+  block_.resize(column_.size());
+  for (const Tet& tet : tets) {
+    Places& places = places_.emplace_back();
+    for (std::size_t k = 0; k < 16; ++k) places[k] = find(row_of(tet[k / 4]), row_of(tet[k % 4]));
+  }
+  set_zero();
+}
+
+int BsrMatrix::find(int row, int column) const {
+  if (row < 0 || column < 0) return -1;
+  const auto begin = column_.begin() + start_[static_cast<std::size_t>(row)];
+  const auto end = column_.begin() + start_[static_cast<std::size_t>(row) + 1];
+  return static_cast<int>(std::lower_bound(begin, end, column) - column_.begin());
+}
+
+void BsrMatrix::keep_elements(const std::vector<int>& elements) { places_ = with_elements(places_, elements); }
+
+void BsrMatrix::set_zero() { std::fill(block_.begin(), block_.end(), Block{}); }
+
+void BsrMatrix::add(int row, int column, const Mat3& B) {
+  const int place = find(row, column);
+  if (place < 0) return;
+  for (int j = 0; j < 3; ++j)
+    for (int i = 0; i < 3; ++i) block_[static_cast<std::size_t>(place)].column[j][i] += static_cast<float>(B(i, j));
+}
+
+void BsrMatrix::add_edge(int a, int b, const Mat3& B) {
+  const int row = number_[static_cast<std::size_t>(a)], column = number_[static_cast<std::size_t>(b)];
+  add(row, row, B);
+  add(column, column, B);
+  add(row, column, -B);
+  add(column, row, -B);
+}
+
+void BsrMatrix::add_node(int node, const Mat3& B) {
+  const int row = number_[static_cast<std::size_t>(node)];
+  add(row, row, B);
+}
+
+void BsrMatrix::add_diagonal(int node, double k) {
+  const int row = number_[static_cast<std::size_t>(node)], place = find(row, row);
+  for (int i = 0; place >= 0 && i < 3; ++i)
+    block_[static_cast<std::size_t>(place)].column[i][i] += static_cast<float>(k);
+}
+
+/// What the elements of a group have in blocks [first, last).
+template <class Real>
+[[gnu::always_inline]] inline void BsrMatrix::add_to(std::size_t first, std::size_t last, const Real* K,
+                                                     const ElementGroup<Real>& group) {
+  constexpr std::size_t packet = ElementGroup<Real>::lanes;
+  static constexpr Places nowhere{-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
+  const auto is_here = [&](int place) {
+    const auto at = static_cast<std::size_t>(static_cast<unsigned>(place));
+    return at - first < last - first;  // −1 is nowhere
+  };
+  for (std::size_t s = 0; s < group.size(); s += side_by_side) {
+    const Places* places[side_by_side];
+    bool any = false;
+    for (std::size_t l = 0; l < side_by_side; ++l) {
+      places[l] = s + l < group.size() ? &places_[static_cast<std::size_t>(group.element[s + l])] : &nowhere;
+      for (std::size_t a = 0; a < 4; ++a) any = any || is_here((*places[l])[5 * a]);
+    }
+    if (!any) continue;
+    const Real* const k = K + edge_entries * packet * (s / packet) + s % packet;
+    const auto put = [&](std::size_t a, std::size_t b, int j, const Four(&xyz)[3]) {
+      Four column[side_by_side];
+      transpose(xyz, column);
+      for (std::size_t l = 0; l < side_by_side; ++l) {
+        const int place = (*places[l])[4 * a + b];
+        if (is_here(place)) block_[static_cast<std::size_t>(place)].column[j] += column[l];
+      }
+    };
+#pragma GCC unroll 3
+    for (int j = 0; j < 3; ++j) {
+      Four of_corner_0[4][3] = {};  // corner 0 moves all edges back: minus the sums of the others' rows and columns
+#pragma GCC unroll 3
+      for (std::size_t b = 1; b < 4; ++b) {
+        Four sum[3] = {};
+#pragma GCC unroll 3
+        for (std::size_t a = 1; a < 4; ++a) {
+          Four xyz[3];
+          for (int i = 0; i < 3; ++i) {
+            const int entry = edge_entry(3 * static_cast<int>(a - 1) + i, 3 * static_cast<int>(b - 1) + j);
+            xyz[i] = load(k + packet * static_cast<std::size_t>(entry));
+            sum[i] -= xyz[i];
+            of_corner_0[a][i] -= xyz[i];
+          }
+          put(a, b, j, xyz);
+        }
+        for (int i = 0; i < 3; ++i) of_corner_0[0][i] -= sum[i];
+        put(0, b, j, sum);
+      }
+#pragma GCC unroll 4
+      for (std::size_t a = 0; a < 4; ++a) put(a, 0, j, of_corner_0[a]);
+    }
+  }
+}
+
+template <class Real>
+HEML_WIDE void BsrMatrix::add_wide(std::size_t first, std::size_t last, const Real* K,
+                                   const ElementGroup<Real>& group) {
+  add_to(first, last, K, group);
+}
+
+template <class Real>
+void BsrMatrix::add_elements(const Real* K, const ElementGroup<Real>& group, ThreadTeam& team) {
+  team.parallel_for(rows(), row_grain, [&](std::size_t begin, std::size_t end) {
+    const auto first = static_cast<std::size_t>(start_[begin]), last = static_cast<std::size_t>(start_[end]);
+    if (has_avx2())
+      add_wide(first, last, K, group);
+    else
+      add_to(first, last, K, group);
+  });
+}
+
+[[gnu::always_inline]] inline void BsrMatrix::multiply_rows(const MultiVector& x, MultiVector& y, std::size_t begin,
+                                                            std::size_t end) const {
+  for (std::size_t row = begin; row < end; ++row) {
+    Column sum[3] = {};
+    for (auto k = static_cast<std::size_t>(start_[row]); k < static_cast<std::size_t>(start_[row + 1]); ++k) {
+      const float* at = x[static_cast<std::size_t>(column_[k])].data();
+      for (int j = 0; j < 3; ++j) sum[j] += block_[k].column[j] * at[j];
+    }
+    const Column all = sum[0] + sum[1] + sum[2];
+    std::memcpy(y[row].data(), &all, sizeof all);
+  }
+}
+
+HEML_WIDE void BsrMatrix::multiply_wide(const MultiVector& x, MultiVector& y, std::size_t begin,
+                                        std::size_t end) const {
+  multiply_rows(x, y, begin, end);
+}
+
+void BsrMatrix::multiply(const MultiVector& x, MultiVector& y, ThreadTeam& team) const {
+  team.parallel_for(rows(), row_grain, [&](std::size_t begin, std::size_t end) {
+    if (has_avx2())
+      multiply_wide(x, y, begin, end);
+    else
+      multiply_rows(x, y, begin, end);
+  });
+}
+
+template void BsrMatrix::add_elements(const float*, const ElementGroup<float>&, ThreadTeam&);
+template void BsrMatrix::add_elements(const double*, const ElementGroup<double>&, ThreadTeam&);
+
+}  // namespace heml

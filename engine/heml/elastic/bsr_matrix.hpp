@@ -1,0 +1,68 @@
+#pragma once
+// The stiffness of a body between its free nodes, assembled in float: for solves that need two or three digits of their
+// solution and many products for them. A product reads a third of what it reads of the elements' own stiffnesses
+// (edge_stiffness.hpp), and a row is the work of one thread.
+//
+//   row n:   [n, n1] [n, n2] ...    n1 < n2 < ...: nodes that share an element with n, and n itself
+//   block:   x x x 0 | y y y 0 | z z z 0     its columns, one register each
+//
+// A row sums its elements in their order and is summed by one thread, so that no bit depends on how many there are.
+#include <Eigen/Core>
+#include <heml/base/thread_team.hpp>
+#include <heml/elastic/element_group.hpp>
+#include <heml/math/bytes.hpp>
+#include <heml/math/types.hpp>
+#include <heml/mesh/tet_mesh.hpp>
+#include <vector>
+
+namespace heml {
+
+using MultiVector = std::vector<Eigen::Array4f>;  ///< xyz and 0: one vector register
+
+class BsrMatrix {
+ public:
+  /// number: #V, the row of each node, −1 where it has none.
+  BsrMatrix(const std::vector<int>& number, const std::vector<Tet>& tets);
+
+  /// Leaves the given elements (ascending), numbered anew in that order. Rows and blocks stay.
+  void keep_elements(const std::vector<int>& elements);
+
+  void set_zero();
+  /// Adds the stiffnesses of the elements of a group, K as in edge_stiffness.hpp. Elements are the tets' numbers.
+  template <class Real>
+  void add_elements(const Real* K, const ElementGroup<Real>& group, ThreadTeam& team);
+  /// Adds [B −B; −B B], B symmetric, of an edge between two nodes.
+  void add_edge(int a, int b, const Mat3& B);
+  /// Adds a symmetric B to the block of a node; k to its three diagonal entries.
+  void add_node(int node, const Mat3& B);
+  void add_diagonal(int node, double k);
+
+  /// y = K x, #rows.
+  void multiply(const MultiVector& x, MultiVector& y, ThreadTeam& team) const;
+
+  std::size_t rows() const { return start_.size() - 1; }
+  std::size_t bytes() const { return bytes_of(number_, start_, column_, block_, places_); }
+
+ private:
+  typedef float Column __attribute__((vector_size(16)));
+  struct Block {
+    Column column[3];
+  };
+  using Places = std::array<int, 16>;  ///< of the blocks between an element's corners, row after row; −1: no such row
+
+  int find(int row, int column) const;
+  void add(int row, int column, const Mat3& B);
+  template <class Real>
+  void add_to(std::size_t first, std::size_t last, const Real* K, const ElementGroup<Real>& group);
+  template <class Real>
+  void add_wide(std::size_t first, std::size_t last, const Real* K, const ElementGroup<Real>& group);
+  void multiply_rows(const MultiVector& x, MultiVector& y, std::size_t begin, std::size_t end) const;
+  void multiply_wide(const MultiVector& x, MultiVector& y, std::size_t begin, std::size_t end) const;
+
+  std::vector<int> number_;
+  std::vector<int> start_, column_;
+  std::vector<Block> block_;
+  std::vector<Places> places_;  ///< #T
+};
+
+}  // namespace heml

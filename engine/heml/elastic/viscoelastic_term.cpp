@@ -1,0 +1,257 @@
+#include <algorithm>
+#include <cmath>
+#include <heml/elastic/avx2_dispatch.hpp>
+#include <heml/elastic/viscoelastic_term.hpp>
+
+namespace heml {
+namespace {
+
+/// V (η A dG A + ζ/2 (A:dG) A) / h.
+template <class Real>
+[[gnu::always_inline]] inline void add_viscous_tensions(const Real dG[6], const RestShape<Real>& rest, Real eta,
+                                                        Real zeta, Real per_step, Real T[6]) {
+  const Real* A = rest.A;
+  const Real a[3][3] = {{A[0], A[3], A[4]}, {A[3], A[1], A[5]}, {A[4], A[5], A[2]}};
+  Real AdGA[6];
+  congruence3(a, dG, AdGA);
+  const Real bulk = zeta / 2 * double_contraction3(A, dG), scale = rest.volume * per_step;
+  for (int i = 0; i < 6; ++i) T[i] += scale * (eta * AdGA[i] + bulk * A[i]);
+}
+
+/// A term that is viscous and nothing else.
+template <class Real>
+struct Viscous {
+  Real eta, zeta, per_step;
+  std::size_t stride;
+};
+
+template <class Real>
+HEML_WIDE void viscous_forces(const Viscous<Real>& of, const ElementGroup<Real>& group, const Real* x, const Real* kept,
+                              std::size_t begin, std::size_t end, Real* corner, bool add) {
+  constexpr std::size_t lanes = ElementGroup<Real>::lanes;
+  for (std::size_t p = begin; p < end; ++p) {
+    const Packet<Real, false> packet(group, x, p * lanes);
+    Real before[6][lanes], out[12][lanes];
+    for (std::size_t l = 0; l < lanes; ++l)
+      for (std::size_t i = 0; i < 6; ++i) before[i][l] = kept[of.stride * (p * lanes + l) + i];
+#pragma GCC ivdep
+    for (std::size_t l = 0; l < lanes; ++l) {
+      const Corners<Real> at(packet.x, l);
+      const RestShape<Real> rest = packet.rest(l);
+      const auto kinematics = element_kinematics<false, false, false>(at.x[0], at.x[1], at.x[2], at.x[3], rest);
+      Real dG[6], f[12];
+      for (std::size_t i = 0; i < 6; ++i) dG[i] = kinematics.G[i] - before[i][l];
+      Tensions<Real> t{};
+      add_viscous_tensions(dG, rest, of.eta, of.zeta, of.per_step, t.T);
+      forces_from_tensions<false>(t, kinematics.e, kinematics.cross, f);
+      for (int i = 0; i < 12; ++i) out[i][l] = f[i];
+    }
+    write_packet_corners(out, corner + 3 * (group.first_corner + 4 * p * lanes), add);
+  }
+}
+
+/// Squared lengths now, for the next step.
+template <class Real>
+HEML_WIDE void keep_lengths(const ElementGroup<Real>& group, const Real* x, std::size_t stride, Real* kept) {
+  constexpr std::size_t lanes = ElementGroup<Real>::lanes;
+  for (std::size_t p = 0; p < group.packets(); ++p) {
+    const Packet<Real, false> packet(group, x, p * lanes);
+    Real G[6][lanes];
+#pragma GCC ivdep
+    for (std::size_t l = 0; l < lanes; ++l) {
+      const Corners<Real> at(packet.x, l);
+      const auto kinematics =
+          element_kinematics<false, false, false>(at.x[0], at.x[1], at.x[2], at.x[3], packet.rest(l));
+      for (int i = 0; i < 6; ++i) G[i][l] = kinematics.G[i];
+    }
+    for (std::size_t l = 0; l < lanes; ++l)
+      for (std::size_t i = 0; i < 6; ++i) kept[stride * (p * lanes + l) + i] = G[i][l];
+  }
+}
+
+}  // namespace
+
+template <class Real>
+ViscoelasticTerm<Real>::ViscoelasticTerm(std::unique_ptr<GroupTerm<Real>> law, const Material& material)
+    : law_(std::move(law)),
+      eta_(static_cast<Real>(material.viscosity)),
+      zeta_(static_cast<Real>(material.bulk_viscosity)) {
+  for (const PronyTerm& term : material.relaxation) {
+    branches_.push_back({static_cast<Real>(term.gamma), static_cast<Real>(term.tau), 1, 0});
+    total_gamma_ += branches_.back().gamma;
+  }
+  stride_ = 12 + 6 * branches_.size();
+  begin_step(0);
+}
+
+template <class Real>
+void ViscoelasticTerm<Real>::begin_step(Real h) {
+  per_step_ = h > 0 ? 1 / h : 0;
+  weight_ = 0;
+  for (Branch& branch : branches_) {
+    branch.decay = natural_exp(-h / branch.tau);
+    branch.gain = branch.gamma * natural_exp(-h / (2 * branch.tau));
+    weight_ += branch.gain;
+  }
+}
+
+template <class Real>
+void ViscoelasticTerm<Real>::reset_history(const Group& group, const Real* x) {
+  kept_.assign(stride_ * group.volume.size(), 0);
+  for (std::size_t s = 0; s < group.volume.size(); ++s)
+    std::copy_n(full_kinematics(group, x, s, rest_shape(group, s)).G, 6, &kept_[stride_ * s]);
+}
+
+template <class Real>
+void ViscoelasticTerm<Real>::reshape(const std::vector<SubelementMap<Real>>& subelement_maps) {
+  for (std::size_t s = 0; s < subelement_maps.size(); ++s) {
+    Real* kept = &kept_[stride_ * s];
+    subelement_maps[s].lengths(kept);
+    for (std::size_t k = 6; k < stride_; k += 6) subelement_maps[s].tensions(kept + k);
+  }
+}
+
+template <class Real>
+void ViscoelasticTerm<Real>::commit(const Group& group, const Real* x) {
+  if (branches_.empty() && has_avx2()) return keep_lengths(group, x, stride_, kept_.data());
+  for (std::size_t s = 0; s < group.volume.size(); ++s) {
+    const auto rest = rest_shape(group, s);
+    const auto kinematics = full_kinematics(group, x, s, rest);
+    Real* kept = &kept_[stride_ * s];
+    std::copy_n(kinematics.G, 6, kept);
+    if (branches_.empty()) continue;
+    Real T[6];
+    whole_tensions(group, s, kinematics, rest, T);
+    for (std::size_t b = 0; b < branches_.size(); ++b) {
+      Real* Q = kept + 12 + 6 * b;
+      for (int i = 0; i < 6; ++i) Q[i] = branches_[b].decay * Q[i] + branches_[b].gain * (T[i] - kept[6 + i]);
+    }
+    std::copy_n(T, 6, kept + 6);
+  }
+}
+
+template <class Real>
+void ViscoelasticTerm<Real>::strain_change(std::size_t s, const ElementKinematics<Real>& kinematics, Real dG[6]) const {
+  for (std::size_t i = 0; i < 6; ++i) dG[i] = kinematics.G[i] - kept_[stride_ * s + i];
+}
+
+/// Σ_branches (decay Q − gain T_iso) of what was committed: what does not change within a step.
+template <class Real>
+Tensions<Real> ViscoelasticTerm<Real>::fixed_tensions(std::size_t s) const {
+  Tensions<Real> t{};
+  const Real* kept = &kept_[stride_ * s];
+  for (std::size_t b = 0; b < branches_.size(); ++b)
+    for (std::size_t i = 0; i < 6; ++i)
+      t.T[i] += branches_[b].decay * kept[12 + 6 * b + i] - branches_[b].gain * kept[6 + i];
+  return t;
+}
+
+template <class Real>
+void ViscoelasticTerm<Real>::add_viscous(const Real dG[6], const RestShape<Real>& rest, Real T[6]) const {
+  add_viscous_tensions(dG, rest, eta_, zeta_, per_step_, T);
+}
+
+template <class Real>
+bool ViscoelasticTerm<Real>::forces(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real* corner,
+                                    bool add) const {
+  if (!branches_.empty() || !has_avx2()) return GroupTerm<Real>::forces(group, x, begin, end, corner, add);
+  viscous_forces<Real>({eta_, zeta_, per_step_, stride_}, group, x, kept_.data(), begin, end, corner, add);
+  return true;
+}
+
+template <class Real>
+Tensions<Real> ViscoelasticTerm<Real>::tensions(const Group& group, std::size_t s,
+                                                const ElementKinematics<Real>& kinematics,
+                                                const RestShape<Real>& rest) const {
+  Tensions<Real> t = fixed_tensions(s);
+  if (!branches_.empty()) {
+    const auto law = law_->tensions(group, s, kinematics, rest);
+    for (int i = 0; i < 6; ++i) t.T[i] += weight_ * law.T[i];
+    t.wJ = weight_ * law.wJ;
+  }
+  Real dG[6];
+  strain_change(s, kinematics, dG);
+  add_viscous(dG, rest, t.T);
+  return t;
+}
+
+template <class Real>
+Tensions<Real> ViscoelasticTerm<Real>::tension_differential(const Group& group, std::size_t s,
+                                                            const ElementKinematics<Real>& kinematics,
+                                                            const RestShape<Real>& rest,
+                                                            const KinematicsDifferential<Real>& change) const {
+  Tensions<Real> dt{};
+  if (!branches_.empty()) {
+    dt = law_->tension_differential(group, s, kinematics, rest, change);
+    for (Real& value : dt.T) value *= weight_;
+    dt.wJ *= weight_;
+  }
+  add_viscous(change.G, rest, dt.T);
+  return dt;
+}
+
+template <class Real>
+Real ViscoelasticTerm<Real>::slot_frequency_bound(const Group& group, std::size_t s,
+                                                  const ElementKinematics<Real>& kinematics,
+                                                  const RestShape<Real>& rest) const {
+  if (branches_.empty()) return 0;
+  StressSum<Real> fixed;
+  fixed.add(fixed_tensions(s), rest);
+  return total_gamma_ * law_->slot_frequency_bound(group, s, kinematics, rest) +
+         4 / group.density * std::sqrt(double_contraction3(fixed.S, fixed.S)) * group.gamma[s];
+}
+
+/// uᵀDu = V/2 (η |dC|² + ζ/2 (tr dC)²).
+template <class Real>
+Real ViscoelasticTerm<Real>::damping_bound(const Group& group, const Real* x, std::size_t begin,
+                                           std::size_t end) const {
+  Real largest = 0;
+  for (std::size_t s = begin * Group::lanes; s < end * Group::lanes; ++s) {
+    const auto rest = rest_shape(group, s);
+    const auto kinematics = full_kinematics(group, x, s, rest);
+    const Real bound =
+        4 / group.density *
+        (2 * eta_ * stretch_bounds(kinematics.at).max * group.gamma[s] + zeta_ / 4 * corner_sums(kinematics, rest).n1);
+    largest = bound > largest || std::isnan(bound) ? bound : largest;
+  }
+  return largest;
+}
+
+template <class Real>
+double ViscoelasticTerm<Real>::energy(const Group& group, std::size_t s, const ElementKinematics<Real>& kinematics,
+                                      const RestShape<Real>& rest) const {
+  Real dG[6], dC[6], factor[3][3];
+  strain_change(s, kinematics, dG);
+  cholesky3(rest.A, factor);
+  into_rest_frame(factor, dG, dC);
+  const Real trace = dC[0] + dC[1] + dC[2];
+  const Real viscous = rest.volume * per_step_ * (eta_ / 4 * double_contraction3(dC, dC) + zeta_ / 8 * trace * trace);
+  const Real fixed = double_contraction3(fixed_tensions(s).T, kinematics.G) / 2;
+  const double law = branches_.empty() ? 0 : law_->energy(group, s, kinematics, rest);
+  return static_cast<double>(viscous + fixed) + static_cast<double>(weight_) * law;
+}
+
+template <class Real>
+void ViscoelasticTerm<Real>::deviatoric_stress(const Group&, std::size_t, const Real[3], Real, Real tau[3]) const {
+  std::fill_n(tau, 3, Real(0));
+}
+
+/// Tensions of the isochoric law with its wJ in them too: t_ab = wJ (cross_a·cross_b) / (36 V J). A crushed element's
+/// memory is that of one at J = 0.05.
+template <class Real>
+void ViscoelasticTerm<Real>::whole_tensions(const Group& group, std::size_t s,
+                                            const ElementKinematics<Real>& kinematics, const RestShape<Real>& rest,
+                                            Real T[6]) const {
+  const auto t = law_->tensions(group, s, kinematics, rest);
+  const Real scale = t.wJ / (36 * rest.volume * std::max(kinematics.at.J, Real(0.05)));
+  constexpr int row[6] = {0, 1, 2, 0, 0, 1}, col[6] = {0, 1, 2, 1, 2, 2};
+  for (int k = 0; k < 6; ++k) {
+    const Real *p = kinematics.cross[row[k]], *q = kinematics.cross[col[k]];
+    T[k] = t.T[k] + scale * (p[0] * q[0] + p[1] * q[1] + p[2] * q[2]);
+  }
+}
+
+template class ViscoelasticTerm<float>;
+template class ViscoelasticTerm<double>;
+
+}  // namespace heml

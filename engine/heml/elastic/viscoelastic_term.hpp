@@ -1,0 +1,70 @@
+#pragma once
+// What a material remembers of how it was deformed, in tension form: six numbers a link set, like the tensions
+// themselves, since T_ab = V g_a·S g_b is linear in S with constants of the rest shape.
+//
+//   Kelvin–Voigt: S_v = η Ċ + ζ/2 tr(Ċ) I, so T_v = V (η A ΔG A + ζ/2 (A:ΔG) A) / h with ΔG the change of the Gram
+//   matrix over the step: squared lengths alone, so a rigid motion is not damped at all, however far it turns.
+//   Relaxation (quasi-linear, Prony series on the isochoric part; Simo 1987): for every branch
+//   Q⁺ = e^(−h/τ) Q + γ e^(−h/2τ) (T_iso⁺ − T_iso).
+//
+// Both are gradients of an incremental potential, so that implicit steps can minimise it: weight·V W_iso + ½ T*:G +
+// V (η/4h |ΔC|² + ζ/8h (tr ΔC)²), T* what is fixed during the step.
+//
+//   slot s:  G0[6] T0[6] Q0[6] Q1[6] ...   as committed last
+#include <heml/elastic/group_term.hpp>
+
+namespace heml {
+
+template <class Real>
+class ViscoelasticTerm final : public GroupTerm<Real> {
+ public:
+  using Group = ElementGroup<Real>;
+
+  /// law: the isochoric part of the material's law.
+  ViscoelasticTerm(std::unique_ptr<GroupTerm<Real>> law, const Material& material);
+
+  bool forces(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real* corner,
+              bool add) const override;
+  Tensions<Real> tensions(const Group& group, std::size_t s, const ElementKinematics<Real>& kinematics,
+                          const RestShape<Real>& rest) const override;
+  Tensions<Real> tension_differential(const Group& group, std::size_t s, const ElementKinematics<Real>& kinematics,
+                                      const RestShape<Real>& rest,
+                                      const KinematicsDifferential<Real>& change) const override;
+  Real slot_frequency_bound(const Group& group, std::size_t s, const ElementKinematics<Real>& kinematics,
+                            const RestShape<Real>& rest) const override;
+  Real damping_bound(const Group& group, const Real* x, std::size_t begin, std::size_t end) const override;
+  double energy(const Group& group, std::size_t s, const ElementKinematics<Real>& kinematics,
+                const RestShape<Real>& rest) const override;
+  bool stores() const override { return false; }
+  bool valid(const Group&, std::size_t, const ElementKinematics<Real>&) const override { return true; }
+  /// None: what flows sees the elastic law alone.
+  void deviatoric_stress(const Group&, std::size_t, const Real[3], Real, Real tau[3]) const override;
+
+  /// h = 0: as it is now; infinite: all has relaxed.
+  void begin_step(Real h) override;
+  void commit(const Group& group, const Real* x) override;
+  void reset_history(const Group& group, const Real* x) override;
+  SlotMemories<Real> memory() override { return {{&kept_, stride_}}; }
+  void reshape(const std::vector<SubelementMap<Real>>& subelement_maps) override;
+
+ private:
+  struct Branch {
+    Real gamma, tau, decay, gain;
+  };
+  Tensions<Real> fixed_tensions(std::size_t s) const;
+  void add_viscous(const Real dG[6], const RestShape<Real>& rest, Real T[6]) const;
+  void whole_tensions(const Group& group, std::size_t s, const ElementKinematics<Real>& kinematics,
+                      const RestShape<Real>& rest, Real T[6]) const;
+  void strain_change(std::size_t s, const ElementKinematics<Real>& kinematics, Real dG[6]) const;
+
+  std::unique_ptr<GroupTerm<Real>> law_;
+  Real eta_, zeta_;  ///< Pa s
+  std::vector<Branch> branches_;
+  Real total_gamma_ = 0;
+  Real per_step_ = 0;        ///< 1/h
+  Real weight_ = 0;          ///< Σ gain
+  std::size_t stride_ = 12;  ///< numbers kept a slot
+  std::vector<Real> kept_;
+};
+
+}  // namespace heml

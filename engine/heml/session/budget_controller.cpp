@@ -1,0 +1,27 @@
+#include <algorithm>
+#include <heml/session/budget_controller.hpp>
+
+namespace heml {
+namespace {
+constexpr double share = 0.9;      // of the time that is filled on purpose
+constexpr double smoothing = 0.1;  // weight of the last tick
+constexpr int max_iterations = 60;
+constexpr int ticks_to_raise = 10;  // lowered at once, raised when the time has been there for a while
+}  // namespace
+
+std::optional<int> BudgetController::after(double seconds, const SolverStats& work) {
+  const long done = work.iterations - iterations_before_;
+  iterations_before_ = work.iterations;
+  if (done <= 0 || work.budget <= 0) return std::nullopt;
+  const double now = seconds / static_cast<double>(done);
+  an_iteration_ = an_iteration_ > 0 ? an_iteration_ + smoothing * (now - an_iteration_) : now;
+  // Stages of a tick: what was done is spread over them, whatever method is in use.
+  const double stages = std::max(1.0, static_cast<double>(done) / work.budget);
+  const int best = std::clamp(static_cast<int>(share * target_ / (stages * an_iteration_)), 1, max_iterations);
+  if (best >= work.budget && ++patience_ < ticks_to_raise) return std::nullopt;
+  patience_ = 0;
+  if (best == work.budget) return std::nullopt;
+  return best > work.budget ? work.budget + 1 : best;
+}
+
+}  // namespace heml

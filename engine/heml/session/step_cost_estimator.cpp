@@ -1,0 +1,20 @@
+#include <algorithm>
+#include <heml/session/step_cost_estimator.hpp>
+
+namespace heml {
+namespace {
+constexpr int ticks_to_be_sure = 200;
+constexpr double far = 1.5;  // times too much or too little
+}  // namespace
+
+std::optional<double> StepCostEstimator::after(double seconds, int steps) {
+  if (steps <= 0) return std::nullopt;
+  const double now = 1e9 * seconds / (static_cast<double>(steps) * elements_);
+  least_ = ticks_++ == 0 ? now : std::min(least_, now);
+  if (ticks_ < ticks_to_be_sure) return std::nullopt;
+  ticks_ = 0;
+  if (least_ < far * said_ && said_ < far * least_) return std::nullopt;
+  return said_ = least_;
+}
+
+}  // namespace heml

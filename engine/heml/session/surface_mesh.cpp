@@ -1,0 +1,95 @@
+#include <algorithm>
+#include <heml/mesh/surface.hpp>
+#include <heml/session/surface_mesh.hpp>
+
+namespace heml {
+
+namespace {
+
+SurfaceMesh build_surface_mesh(const WorldSetup& setup, const Topology& topology) {
+  SurfaceMesh surface_mesh;
+  surface_mesh.version = topology.version;
+  const bool is_whole = topology.elements.size() == setup.mesh.tets.size();
+  const BoundaryFaces faces = extract_boundary(is_whole ? setup.mesh : with_elements(setup.mesh, topology.elements));
+  std::vector<int> index(setup.mesh.nodes.size(), -1);
+  for (const Triangle& face : faces.triangles)
+    for (const int n : face) index[static_cast<std::size_t>(n)] = 0;
+  for (std::size_t n = 0; n < index.size(); ++n)
+    if (index[n] == 0) {
+      index[n] = static_cast<int>(surface_mesh.nodes.size());
+      surface_mesh.nodes.push_back(static_cast<int>(n));
+      surface_mesh.rest.push_back(setup.mesh.nodes[n].cast<float>());
+    }
+  for (std::size_t k = 0; k < faces.triangles.size(); ++k) {
+    Triangle face = faces.triangles[k];
+    for (int& n : face) n = index[static_cast<std::size_t>(n)];
+    surface_mesh.triangles.push_back(face);
+    surface_mesh.elements.push_back(topology.elements[static_cast<std::size_t>(faces.tets[k])]);
+    surface_mesh.regions.push_back(setup.mesh.regions[static_cast<std::size_t>(surface_mesh.elements.back())]);
+  }
+  for (const Boundary& entry : setup.boundary)
+    for (const int n : entry.nodes)
+      if (index[static_cast<std::size_t>(n)] >= 0)
+        surface_mesh.constrained.push_back(index[static_cast<std::size_t>(n)]);
+  std::sort(surface_mesh.constrained.begin(), surface_mesh.constrained.end());
+  surface_mesh.constrained.erase(std::unique(surface_mesh.constrained.begin(), surface_mesh.constrained.end()),
+                                 surface_mesh.constrained.end());
+  return surface_mesh;
+}
+
+}  // namespace
+
+std::shared_ptr<const SurfaceMesh> make_surface_mesh(const World& world, std::shared_ptr<const SurfaceMesh> last) {
+  const auto topology = world.topology();
+  if (last && last->version == topology->version) return last;
+  const WorldSetup& setup = world.setup();
+  SurfaceMesh surface_mesh = build_surface_mesh(setup, *topology);
+  if (topology->elements.size() < setup.mesh.tets.size()) {
+    if (!last) last = std::make_shared<const SurfaceMesh>(build_surface_mesh(setup, whole(setup.mesh)));
+    surface_mesh.whole = last->whole ? last->whole : last;
+  }
+  return std::make_shared<const SurfaceMesh>(std::move(surface_mesh));
+}
+
+void fill_frame(World& world, std::shared_ptr<const SurfaceMesh> surface_mesh, Field field, double ahead, Frame& frame,
+                bool with_stretches) {
+  frame.tick = world.ticks();
+  frame.time = world.time() + ahead;
+  world.write_positions(surface_mesh->nodes, ahead, frame.positions);
+  frame.field = field;
+  world.write_field(field, surface_mesh->nodes, frame.values);
+  if (with_stretches && field == Field::stretch)
+    frame.stretches = frame.values;
+  else
+    world.write_field(with_stretches ? Field::stretch : Field::none, surface_mesh->nodes, frame.stretches);
+  frame.energies = world.energies();
+  const std::vector<double> J = world.volume_ratios();
+  const auto [low, high] = std::minmax_element(J.begin(), J.end());
+  frame.min_J = *low;
+  frame.max_J = *high;
+  frame.removed = removed_count(world);
+  frame.elements = J.size() + frame.removed;
+  frame.tool = world.tool();
+  frame.pins = world.pins();
+  frame.tables = world.tables();
+  frame.probe = world.probe();
+  frame.sutures = world.sutures();
+  frame.substeps = world.substeps();
+  frame.stable_step = world.stable_step();
+  frame.recovery.reset();
+  if (const Recovery* recovery = world.recovery()) {
+    frame.recovery = *recovery;
+    if (recovery->element >= 0) {
+      const Tet& corners = world.setup().mesh.tets[static_cast<std::size_t>(recovery->element)];
+      std::vector<Vec3f> at;
+      world.write_positions(corners, ahead, at);
+      std::copy(at.begin(), at.end(), frame.recovered_element.begin());
+    }
+  }
+  frame.last_edit.reset();
+  if (!world.edits().empty()) frame.last_edit = world.edits().back();
+  frame.halted = world.halt() ? world.halt()->message : std::string();
+  frame.surface_mesh = std::move(surface_mesh);
+}
+
+}  // namespace heml

@@ -1,0 +1,113 @@
+#include <cmath>
+#include <heml/world/implicit_state.hpp>
+#include <numeric>
+
+namespace heml {
+namespace {
+
+template <class Real>
+std::vector<bool> nonzero(const std::vector<Real>& values) {
+  std::vector<bool> result;
+  for (const Real value : values) result.push_back(value > 0);
+  return result;
+}
+
+Vector thrice(const FreeNodes& free, const auto& masses) {
+  Vector result = Vector::Zero(3 * static_cast<Eigen::Index>(masses.size()));
+  for (const int n : free.node)
+    result.segment<3>(3 * n).setConstant(static_cast<double>(masses[static_cast<std::size_t>(n)]));
+  return result;
+}
+
+/// The scene's, or the body's size's; L-BFGS needs one that is made once.
+Preconditioner preconditioner_of(const SolverSettings& solver, std::size_t free_nodes) {
+  const bool once = solver.minimiser == Minimiser::lbfgs && !solver.is_static();
+  if (solver.preconditioner) {
+    const bool is_once =
+        *solver.preconditioner == Preconditioner::scalar || *solver.preconditioner == Preconditioner::multilevel;
+    if (!once || is_once) return *solver.preconditioner;
+  }
+  const Preconditioner by_size = choose_preconditioner(free_nodes, solver.is_static());
+  return once && by_size == Preconditioner::cholesky ? Preconditioner::scalar : by_size;
+}
+
+}  // namespace
+
+template <class Real>
+ImplicitState<Real>::ImplicitState(ElasticBody<Real>& elastic, const Model<Real>& model,
+                                   const std::vector<Real>& masses, const std::vector<Real>& inverse_mass,
+                                   const std::vector<double>& modulus, const std::vector<GraspSpring<Real>>& grasps,
+                                   Contacts& contacts, ThreadTeam& team, const SolverSettings& solver)
+    : free(nonzero(inverse_mass)),
+      mass(thrice(free, masses)),
+      body(elastic, model, masses, free, grasps, contacts, team),
+      linear(free, model.mesh, modulus, mass, preconditioner_of(solver, free.node.size()), solver.projection, team),
+      step(body, mass, free) {}
+
+template <class Real>
+bool ImplicitState<Real>::keep_elements(const std::vector<int>& elements, const std::vector<Real>& masses) {
+  mass = thrice(free, masses);
+  h_before = 0;  // BDF2 starts anew
+  return !equilibrium && linear.keep_elements(elements);
+}
+
+template <class Real>
+void ImplicitState<Real>::restore(const ImplicitMemory& memory) {
+  free = memory.free;  // with the nodes that have lost all elements since it was made: they have no mass
+  x_before = memory.x_before;
+  v_before = memory.v_before;
+  h_before = memory.h_before;
+  linear.restore(memory.linear);
+}
+
+template struct ImplicitState<float>;
+template struct ImplicitState<double>;
+
+std::vector<double> preconditioner_moduli(const TetMesh& mesh, const std::vector<int>& material_of,
+                                          const std::vector<RegionMaterial>& materials, Minimiser minimiser) {
+  std::vector<double> moduli;
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    const Material& material = materials[static_cast<std::size_t>(material_of[t])].material;
+    const SmallStrainModuli rest = small_strain_moduli(material);
+    if (rest.shear > 0) {
+      // Conjugate gradients weigh directions for themselves; the steps of L-BFGS are as long as this says.
+      moduli.push_back(minimiser == Minimiser::lbfgs ? rest.bulk + 4 * rest.shear / 3 : rest.shear);
+      continue;
+    }
+    // A net of springs: k over a length is a modulus.
+    const Tet& tet = mesh.tets[t];
+    const auto X = [&](std::size_t c) -> const Vec3& { return mesh.nodes[static_cast<std::size_t>(tet[c])]; };
+    moduli.push_back(material.parameters[0] / std::cbrt(signed_volume(X(0), X(1), X(2), X(3))));
+  }
+  return moduli;
+}
+
+bool is_well_constrained(const TetMesh& mesh, const std::vector<ConstrainedNode>& constrained) {
+  std::vector<int> part(mesh.nodes.size());
+  std::iota(part.begin(), part.end(), 0);
+  const auto root = [&](int n) {
+    while (part[static_cast<std::size_t>(n)] != n)
+      n = part[static_cast<std::size_t>(n)] = part[static_cast<std::size_t>(part[static_cast<std::size_t>(n)])];
+    return n;
+  };
+  for (const Tet& tet : mesh.tets)
+    for (const int n : tet) part[static_cast<std::size_t>(root(n))] = root(tet[0]);
+  std::vector<std::vector<Vec3>> points(mesh.nodes.size());  // held ones, at the root of their part
+  for (const ConstrainedNode& h : constrained)
+    points[static_cast<std::size_t>(root(h.node))].push_back(mesh.nodes[static_cast<std::size_t>(h.node)]);
+  std::vector<bool> looked_at(mesh.nodes.size(), false);
+  for (const Tet& tet : mesh.tets) {
+    const auto here = static_cast<std::size_t>(root(tet[0]));
+    if (looked_at[here]) continue;
+    looked_at[here] = true;
+    Vec3 far = Vec3::Zero();
+    double area = 0;
+    for (const Vec3& X : points[here])
+      if ((X - points[here][0]).norm() > far.norm()) far = X - points[here][0];
+    for (const Vec3& X : points[here]) area = std::max(area, far.cross(X - points[here][0]).norm());
+    if (!(area > 1e-6 * far.squaredNorm())) return false;
+  }
+  return true;
+}
+
+}  // namespace heml

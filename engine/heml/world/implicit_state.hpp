@@ -1,0 +1,54 @@
+#pragma once
+// What implicit and static methods keep of a body between steps: the free nodes, the body as an objective, a linear
+// solver with its factors, the step before. Made when first needed, and anew when the material changes.
+#include <heml/dynamics/incremental_potential.hpp>
+#include <heml/dynamics/linear_solver.hpp>
+#include <heml/dynamics/static_solve.hpp>
+#include <heml/world/body_objective.hpp>
+#include <optional>
+
+namespace heml {
+
+/// What steps to come depend on beside the state: the step before, the unknowns and what solves for them.
+struct ImplicitMemory {
+  FreeNodes free;
+  Vector x_before, v_before;
+  double h_before = 0;
+  LinearSolver::Memory linear;
+};
+
+template <class Real>
+struct ImplicitState {
+  FreeNodes free;
+  Vector mass;  ///< 3 #V, kg; 0 where not free
+  BodyObjective<Real> body;
+  LinearSolver linear;
+  IncrementalPotential step;
+  Vector x, v;                ///< 3 #V, the state in double
+  Vector x_before, v_before;  ///< one step earlier, for BDF2
+  double h_before = 0;        ///< s; 0: there was none
+  std::optional<StaticSolve> equilibrium;
+
+  /// inverse_mass: #V, 0 where not free. modulus: #T, Pa. All references must outlive this.
+  ImplicitState(ElasticBody<Real>& elastic, const Model<Real>& model, const std::vector<Real>& masses,
+                const std::vector<Real>& inverse_mass, const std::vector<double>& modulus,
+                const std::vector<GraspSpring<Real>>& grasps, Contacts& contacts, ThreadTeam& team,
+                const SolverSettings& solver);
+  /// Elements have gone: these are left, by the numbers they had; model and masses have followed. Returns false where
+  /// parts have to be made anew.
+  bool keep_elements(const std::vector<int>& elements, const std::vector<Real>& masses);
+  ImplicitMemory memory() const { return {free, x_before, v_before, h_before, linear.memory()}; }
+  /// Of parts made anew, of the body that it was: they go on as those would have.
+  void restore(const ImplicitMemory& memory);
+  ImplicitState(const ImplicitState&) = delete;
+  ImplicitState& operator=(const ImplicitState&) = delete;
+};
+
+/// Modulus of each element at rest that the scalar matrix of a linear solver stands for, Pa. material_of: #T.
+std::vector<double> preconditioner_moduli(const TetMesh& mesh, const std::vector<int>& material_of,
+                                          const std::vector<RegionMaterial>& materials, Minimiser minimiser);
+
+/// Whether every connected part of the mesh has three held nodes that are not on a line.
+bool is_well_constrained(const TetMesh& mesh, const std::vector<ConstrainedNode>& constrained);
+
+}  // namespace heml

@@ -1,0 +1,91 @@
+#include <algorithm>
+#include <cmath>
+#include <heml/world/recovery_state.hpp>
+#include <limits>
+
+namespace heml {
+namespace {
+
+constexpr double lately = 0.02;  // s: a hand's commands come in at some 60 Hz
+
+template <class Real>
+Vec3 at(const std::vector<Real>& values, int node) {
+  const Real* value = &values[3 * static_cast<std::size_t>(node)];
+  return {static_cast<double>(value[0]), static_cast<double>(value[1]), static_cast<double>(value[2])};
+}
+
+/// Radius of gyration and mean.
+template <class Real, class At>
+std::pair<double, Vec3> spread(const std::vector<Real>& masses, const At& x) {
+  const std::size_t nodes = masses.size();
+  Vec3 sum = Vec3::Zero();
+  double mass = 0, square = 0;
+  for (std::size_t n = 0; n < nodes; ++n) {
+    sum += static_cast<double>(masses[n]) * x(static_cast<int>(n));
+    mass += static_cast<double>(masses[n]);
+  }
+  const Vec3 mean = sum / mass;
+  for (std::size_t n = 0; n < nodes; ++n)
+    square += static_cast<double>(masses[n]) * (x(static_cast<int>(n)) - mean).squaredNorm();
+  return {std::sqrt(square / mass), mean};
+}
+
+}  // namespace
+
+template <class Real>
+RecoveryState<Real>::RecoveryState(const TetMesh& mesh, const std::vector<Real>& masses, double fastest_node,
+                                   const State<Real>& start)
+    : max_speed(fastest_node), last_good(start) {
+  set_mesh(mesh, masses);
+}
+
+template <class Real>
+void RecoveryState<Real>::set_mesh(const TetMesh& mesh, const std::vector<Real>& masses) {
+  rest_extent_ = spread(masses, [&](int n) { return mesh.nodes[static_cast<std::size_t>(n)]; }).first;
+  rest_volume_.clear();
+  for (const Tet& tet : mesh.tets) {
+    const auto X = [&](std::size_t c) -> const Vec3& { return mesh.nodes[static_cast<std::size_t>(tet[c])]; };
+    rest_volume_.push_back(signed_volume(X(0), X(1), X(2), X(3)));
+  }
+}
+
+template <class Real>
+StateCheck RecoveryState<Real>::check(const TetMesh& mesh, const State<Real>& state,
+                                      const std::vector<Real>& masses) const {
+  StateCheck seen;
+  for (std::size_t t = 0; t < rest_volume_.size(); ++t) {
+    const Tet& tet = mesh.tets[t];
+    const double volume =
+        signed_volume(at(state.x, tet[0]), at(state.x, tet[1]), at(state.x, tet[2]), at(state.x, tet[3]));
+    const double J = std::isfinite(volume) ? volume / rest_volume_[t] : -std::numeric_limits<double>::infinity();
+    if (!(J > 0)) ++seen.inverted;
+    if (!(J < seen.min_J)) continue;
+    seen.min_J = J;
+    seen.worst = static_cast<int>(t);
+  }
+  const Vec3 mean = spread(masses, [&](int n) { return at(state.v, n); }).second;
+  for (std::size_t n = 0; n < masses.size(); ++n) {
+    const double speed = masses[n] > 0 ? (at(state.v, static_cast<int>(n)) - mean).norm() : 0;
+    seen.speed = std::max(seen.speed, std::isfinite(speed) ? speed : std::numeric_limits<double>::infinity());
+  }
+  seen.extent = spread(masses, [&](int n) { return at(state.x, n); }).first / rest_extent_;
+  return seen;
+}
+
+template <class Real>
+void RecoveryState<Real>::track_tool(const GraspSpring<Real>* grasp, double time) {
+  if (!grasp) {
+    tool_seen_ = -1;
+    tool_speed = 0;
+    return;
+  }
+  if (tool_seen_ >= 0 && time < tool_seen_ + lately) return;
+  if (tool_seen_ >= 0) tool_speed = (grasp->target() - tool_was_).norm() / (time - tool_seen_);
+  tool_was_ = grasp->target();
+  tool_seen_ = time;
+}
+
+template class RecoveryState<float>;
+template class RecoveryState<double>;
+
+}  // namespace heml

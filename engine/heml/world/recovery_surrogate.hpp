@@ -1,0 +1,20 @@
+#pragma once
+// The body that a recovery goes on with in place of the scene's: the same mesh, loads and grasps, every material
+// replaced by a stable Neo-Hookean as stiff in shear at rest (materials/stable_neo_hookean.hpp), which no state ends.
+#include <heml/world/implicit_state.hpp>
+
+namespace heml {
+
+template <class Real>
+struct RecoverySurrogate {
+  ElasticBody<Real> body;
+  ImplicitState<Real> parts;
+
+  /// setup: the scene's, a material per index in model.material_of. masses, inverse_mass: #V, as the world's. All must
+  /// outlive this.
+  RecoverySurrogate(const Model<Real>& model, const WorldSetup& setup, const std::vector<Real>& masses,
+                    const std::vector<Real>& inverse_mass, const std::vector<GraspSpring<Real>>& grasps,
+                    Contacts& contacts, ThreadTeam& team);
+};
+
+}  // namespace heml

@@ -1,0 +1,18 @@
+#pragma once
+#include <heml/dynamics/linear_counts.hpp>
+#include <string_view>
+
+namespace heml {
+
+/// What Newton's method has done for a world.
+struct SolverStats {
+  const char* integrator = "";  ///< scene name of the method in use: what "auto" has chosen, else the scene's
+  double load = 1;              ///< fraction of motions, loads and gravity reached; below 1 in static worlds alone
+  long iterations = 0;          ///< of Newton, over all steps or increments
+  double residual = 0;  ///< of the last step or increment, relative to the forces carried (contract, "tolerance")
+  int budget = 0;       ///< iterations a stage may take now; 0: as many as it needs
+  std::string_view preconditioner;  ///< scene name; "" before the first step
+  LinearSolverStats linear;
+};
+
+}  // namespace heml

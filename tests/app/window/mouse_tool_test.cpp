@@ -1,0 +1,206 @@
+#include <doctest/doctest.h>
+
+#include <app/window/mouse_tool.hpp>
+
+namespace heml::hand_test {
+
+using namespace heml::window;
+
+namespace {
+
+const render::Size size{640, 360};
+
+/// A square of two triangles that faces the eye at +z; node 3 is held.
+struct Sheet {
+  SurfaceMesh surface_mesh;
+  Frame frame;
+  panel::CameraController controller;
+  MouseTool mouse_tool{controller};
+  std::vector<Command> commands;
+  panel::ToolSettings tool{panel::Tool::grasper, 0.01, 0.02};
+
+  void move(const render::Vec2f& at) { mouse_tool.move(at, frame, surface_mesh, commands); }
+
+  Sheet() {
+    surface_mesh.nodes = {20, 21, 22, 23};
+    surface_mesh.rest = {{-0.1f, -0.1f, 0}, {0.1f, -0.1f, 0}, {0.1f, 0.1f, 0}, {-0.1f, 0.1f, 0}};
+    surface_mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+    surface_mesh.constrained = {3};
+    frame.positions = surface_mesh.rest;
+    View view;
+    view.azimuth = view.elevation = 0;
+    controller.fit(view, surface_mesh, size, {});
+  }
+  render::Vec2f pixel(const Vec3f& point) const { return controller.camera().pixel(point, size); }
+  bool press(MouseButton button, const render::Vec2f& at, bool shift = false) {
+    return mouse_tool.press(button, at, shift, frame, surface_mesh, tool, commands);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("the left button on the body takes its nearest node and pulls it in the plane that faces the eye") {
+  Sheet sheet;
+  const Vec3f point(0.08f, -0.09f, 0);
+  CHECK_FALSE(sheet.press(MouseButton::left, sheet.pixel(point)));
+  REQUIRE(sheet.commands.size() == 1);
+  const Grasp grasp = std::get<Grasp>(sheet.commands[0]);
+  CHECK(grasp.node == 21);
+  CHECK(grasp.radius == 0.01);
+  CHECK(sheet.mouse_tool.doing() == MouseTool::Doing::grasping);
+
+  const Vec3f pulled = point + Vec3f(0.03f, 0.02f, 0);
+  sheet.move(sheet.pixel(pulled));
+  REQUIRE(sheet.commands.size() == 2);
+  const Vec3 target = std::get<MoveTool>(sheet.commands[1]).target;
+  // The node goes as far as the point under the mouse: no jump when it is taken off its centre.
+  CHECK((target - Vec3(0.13, -0.08, 0)).norm() < 1e-5);
+
+  sheet.mouse_tool.release(MouseButton::left, sheet.commands);
+  REQUIRE(sheet.commands.size() == 3);
+  CHECK(std::holds_alternative<Release>(sheet.commands[2]));
+  CHECK(sheet.mouse_tool.doing() == MouseTool::Doing::nothing);
+}
+
+TEST_CASE("a scalpel cuts along the line of sight from where it was, and each press begins a stroke of its own") {
+  Sheet sheet;
+  sheet.tool.tool = panel::Tool::scalpel;
+  for (int stroke = 0; stroke < 2; ++stroke) {
+    sheet.commands.clear();
+    CHECK_FALSE(sheet.press(MouseButton::left, sheet.pixel({-0.05f, 0, 0})));
+    CHECK(sheet.mouse_tool.doing() == MouseTool::Doing::cutting);
+    CHECK(sheet.commands.empty());
+    sheet.move(sheet.pixel({-0.0499f, 0, 0}));  // a tremor
+    CHECK(sheet.commands.empty());
+    sheet.move(sheet.pixel({0.02f, 0.01f, 0}));
+    sheet.move(sheet.pixel({0.06f, 0.01f, 0}));
+    REQUIRE(sheet.commands.size() == 2);
+    const CutTissue first = std::get<CutTissue>(sheet.commands[0]), next = std::get<CutTissue>(sheet.commands[1]);
+    CHECK_FALSE(first.continues_stroke);
+    CHECK(next.continues_stroke);
+    CHECK(first.sweep.blades[1] == next.sweep.blades[0]);  // no gap
+    const auto& [tip, end] = first.sweep.blades[0];
+    CHECK(tip.z() > 0);  // towards the eye
+    CHECK(end.z() < -0.018);
+    const double at_surface = tip.z() / (tip.z() - end.z());
+    CHECK((tip + at_surface * (end - tip) - Vec3(-0.05, 0, 0)).norm() < 1e-5);
+    sheet.mouse_tool.release(MouseButton::left, sheet.commands);
+    CHECK(sheet.commands.size() == 2);
+    CHECK(sheet.mouse_tool.doing() == MouseTool::Doing::nothing);
+  }
+}
+
+TEST_CASE("a held node is not taken, its free neighbour is") {
+  Sheet sheet;
+  CHECK_FALSE(sheet.press(MouseButton::left, sheet.pixel({-0.09f, 0.09f, 0})));
+  REQUIRE(sheet.commands.size() == 1);
+  CHECK(std::get<Grasp>(sheet.commands[0]).node != 23);
+}
+
+TEST_CASE("where all is held nothing is taken and the hand says so") {
+  Sheet sheet;
+  sheet.surface_mesh.constrained = {0, 1, 2, 3};
+  CHECK(sheet.press(MouseButton::left, sheet.pixel({0, 0.01f, 0})));
+  CHECK(sheet.commands.empty());
+  CHECK(sheet.mouse_tool.doing() == MouseTool::Doing::nothing);
+}
+
+TEST_CASE("buttons beside the body turn and move the eye and send nothing") {
+  Sheet sheet;
+  const render::Vec2f beside(5, 5);
+  struct Case {
+    MouseButton button;
+    bool shift;
+    MouseTool::Doing doing;
+  };
+  for (const auto& [button, shift, doing] : {Case{MouseButton::left, false, MouseTool::Doing::orbiting},
+                                             Case{MouseButton::right, false, MouseTool::Doing::orbiting},
+                                             Case{MouseButton::middle, false, MouseTool::Doing::panning},
+                                             Case{MouseButton::right, true, MouseTool::Doing::panning}}) {
+    const Vec3f controller = sheet.controller.camera().controller();
+    sheet.press(button, beside, shift);
+    CHECK(sheet.mouse_tool.doing() == doing);
+    sheet.move({25, 15});
+    CHECK((sheet.controller.camera().controller() - controller).norm() > 1e-3f);
+    sheet.mouse_tool.release(button, sheet.commands);
+    CHECK(sheet.mouse_tool.doing() == MouseTool::Doing::nothing);
+  }
+  CHECK(sheet.commands.empty());
+}
+
+TEST_CASE("the right button on the body turns the eye") {
+  Sheet sheet;
+  sheet.press(MouseButton::right, sheet.pixel({0, 0, 0}));
+  CHECK(sheet.mouse_tool.doing() == MouseTool::Doing::orbiting);
+  CHECK(sheet.commands.empty());
+}
+
+TEST_CASE("another button does not end a grasp, and a resting mouse sends nothing") {
+  Sheet sheet;
+  const render::Vec2f at = sheet.pixel({0.08f, -0.09f, 0});
+  sheet.press(MouseButton::left, at);
+  sheet.press(MouseButton::middle, at);
+  sheet.mouse_tool.release(MouseButton::middle, sheet.commands);
+  CHECK(sheet.mouse_tool.doing() == MouseTool::Doing::grasping);
+  sheet.move(at);
+  CHECK(sheet.commands.size() == 1);
+}
+
+TEST_CASE("a pin is set where the body is pressed, and taken out where it is") {
+  Sheet sheet;
+  sheet.tool.tool = panel::Tool::pin;
+  const render::Vec2f at = sheet.pixel(Vec3f(0.08f, -0.09f, 0));
+  CHECK_FALSE(sheet.press(MouseButton::left, at));
+  REQUIRE(sheet.commands.size() == 1);
+  CHECK(std::get<PinTissue>(sheet.commands[0]).node == 21);
+  CHECK(std::get<PinTissue>(sheet.commands[0]).radius == 0.01);
+  CHECK(sheet.mouse_tool.doing() == MouseTool::Doing::nothing);
+  PinState& pin = sheet.frame.pins.emplace_back();
+  pin.node = 20;
+  pin.nodes = {20, 21};
+  sheet.press(MouseButton::left, at);
+  REQUIRE(sheet.commands.size() == 2);
+  CHECK(std::get<Unpin>(sheet.commands[1]).node == 21);
+}
+
+TEST_CASE("a probe comes along the line of sight, goes deeper by the wheel, and leaves with the button") {
+  Sheet sheet;
+  sheet.tool.tool = panel::Tool::probe;
+  sheet.tool.probe_radius = 0.005;
+  sheet.tool.dent = 0.01;
+  sheet.tool.shaft = 0.1;
+  sheet.tool.friction = 0.4;
+  const render::Vec2f middle = sheet.pixel(Vec3f::Zero());
+  CHECK_FALSE(sheet.mouse_tool.wheel(1, sheet.commands));
+  sheet.press(MouseButton::left, middle);
+  REQUIRE(sheet.commands.size() == 1);
+  const auto pressed = std::get<MoveProbe>(sheet.commands[0]);
+  REQUIRE(pressed.path.size() == 2);
+  CHECK(pressed.path[0].z() > 0.005);                            // before the surface
+  CHECK((pressed.path[1] - Vec3(0, 0, -0.005)).norm() <= 1e-5);  // its ball 10 mm below
+  CHECK(pressed.shaft.z() == doctest::Approx(0.1).epsilon(1e-3));
+  CHECK(pressed.friction == 0.4);
+  sheet.move(sheet.pixel(Vec3f(0.02f, 0, 0)));
+  REQUIRE(sheet.commands.size() == 2);
+  const auto moved = std::get<MoveProbe>(sheet.commands[1]);
+  REQUIRE(moved.path.size() == 1);
+  CHECK(moved.path[0].x() == doctest::Approx(0.02).epsilon(0.02));
+  CHECK(sheet.mouse_tool.wheel(2, sheet.commands));
+  CHECK(std::get<MoveProbe>(sheet.commands[2]).path[0].z() < moved.path[0].z() - 5e-4);
+  sheet.mouse_tool.release(MouseButton::left, sheet.commands);
+  CHECK(std::holds_alternative<WithdrawProbe>(sheet.commands.back()));
+}
+
+TEST_CASE("a suture takes two presses, one an end") {
+  Sheet sheet;
+  sheet.tool.tool = panel::Tool::suture;
+  sheet.press(MouseButton::left, sheet.pixel(Vec3f(0.08f, -0.09f, 0)));
+  CHECK(sheet.commands.empty());
+  CHECK(sheet.mouse_tool.first_end() == 21);
+  sheet.press(MouseButton::left, sheet.pixel(Vec3f(0.08f, 0.09f, 0)));
+  REQUIRE(sheet.commands.size() == 1);
+  CHECK(std::get<SutureTissue>(sheet.commands[0]).nodes == std::array<int, 2>{21, 22});
+  CHECK_FALSE(sheet.mouse_tool.first_end());
+}
+
+}  // namespace heml::hand_test

@@ -1,0 +1,90 @@
+#include <doctest/doctest.h>
+
+#include <heml/elastic/bsr_matrix.hpp>
+
+#include "small_body.hpp"
+
+namespace heml::block_rows_test {
+
+using test::law_names;
+using test::SmallBody;
+
+namespace {
+
+/// Every third node has no row.
+std::vector<int> some_rows(std::size_t nodes) {
+  std::vector<int> number(nodes, -1);
+  int next = 0;
+  for (std::size_t n = 0; n < nodes; ++n)
+    if (n % 3 != 1) number[n] = next++;
+  return number;
+}
+
+MultiVector random_triples(std::size_t count, std::mt19937_64& random) {
+  MultiVector result(count);
+  for (auto& triple : result) triple << test::random_vector(random, 1).cast<float>().array(), 0.0f;
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("rows in float multiply like the stiffness they are assembled from, in every law and of springs") {
+  std::mt19937_64 random(71);
+  ThreadTeam team(1);
+  for (const auto law : law_names(true)) {
+    CAPTURE(std::string(law));
+    SmallBody small(random, 0.1);
+    const auto body = small.of(law, true);
+    const auto number = some_rows(small.mesh.nodes.size());
+    BsrMatrix rows(number, small.mesh.tets);
+    body->linearise(small.x.data(), team);
+    CHECK(body->add_stiffness(rows, team));
+    const MultiVector x = random_triples(rows.rows(), random);
+    MultiVector y(rows.rows());
+    rows.multiply(x, y, team);
+    std::vector<double> dx(small.x.size(), 0.0), change(small.x.size());
+    for (std::size_t n = 0; n < number.size(); ++n)
+      for (int i = 0; number[n] >= 0 && i < 3; ++i)
+        dx[3 * n + static_cast<std::size_t>(i)] = static_cast<double>(x[static_cast<std::size_t>(number[n])][i]);
+    body->force_differential(dx.data(), change.data(), team);
+    for (std::size_t n = 0; n < number.size(); ++n)
+      for (int i = 0; number[n] >= 0 && i < 4; ++i) {
+        const double expected = i < 3 ? -change[3 * n + static_cast<std::size_t>(i)] : 0;
+        const auto row = static_cast<std::size_t>(number[n]);
+        CHECK(std::abs(static_cast<double>(y[row][i]) - expected) <= 2e-6 * test::largest(change));
+      }
+  }
+}
+
+TEST_CASE("rows of averaged nodal pressure are refused") {
+  std::mt19937_64 random(72);
+  ThreadTeam team(1);
+  SmallBody small(random, 0.1);
+  const auto body = small.of(Material{"neo_hookean_iso", {500, 5e4}}, true, true);
+  BsrMatrix rows(some_rows(small.mesh.nodes.size()), small.mesh.tets);
+  body->linearise(small.x.data(), team);
+  CHECK(!body->add_stiffness(rows, team));
+}
+
+TEST_CASE("rows and their products are the same bits for any number of threads") {
+  std::mt19937_64 random(73);
+  TetMesh mesh = make_box(Vec3(0.1, 0.1, 0.1), {14, 14, 14});
+  std::vector<double> x;
+  for (const Vec3& X : mesh.nodes)
+    for (int i = 0; i < 3; ++i) x.push_back(X[i] + test::uniform(random, -1e-3, 1e-3));
+  ElasticBody<double> body(mesh, std::vector<int>(mesh.tets.size(), 0), {Material{"neo_hookean", {3.1e4, 3.4e3}}},
+                           BodyOptions{true, false});
+  BsrMatrix rows(some_rows(mesh.nodes.size()), mesh.tets);
+  const MultiVector in = random_triples(rows.rows(), random);
+  MultiVector first(rows.rows()), out(rows.rows());
+  for (const int threads : {1, 2, 3, 16}) {
+    ThreadTeam team(threads);
+    body.linearise(x.data(), team);
+    rows.set_zero();
+    body.add_stiffness(rows, team);
+    rows.multiply(in, threads == 1 ? first : out, team);
+    for (std::size_t row = 0; threads > 1 && row < rows.rows(); ++row) CHECK((out[row] == first[row]).all());
+  }
+}
+
+}  // namespace heml::block_rows_test

@@ -1,0 +1,124 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <heml/base/error.hpp>
+#include <heml/mesh/generate.hpp>
+#include <heml/session/comparison_runs.hpp>
+#include <heml/session/surface_mesh.hpp>
+
+#include "engine/world/world_support.hpp"
+
+namespace heml::companions_test {
+
+using namespace heml::test;
+
+namespace {
+
+/// The frame of a world and its companions after a number of ticks.
+Frame after(World& world, ComparisonRuns& comparison_runs, int ticks) {
+  for (int k = 0; k < ticks; ++k) comparison_runs.tick(world);
+  Frame frame;
+  fill_frame(world, make_surface_mesh(world), Field::none, 0, frame);
+  comparison_runs.fill(world, frame);
+  return frame;
+}
+
+}  // namespace
+
+TEST_CASE("companions: one of the same law and method is the body itself, to the bit") {
+  const WorldSetup setup = cantilever();
+  const auto world = make_world(setup);
+  ComparisonRuns comparison_runs(setup, {"neo_hookean", "verlet", "double+p1"});
+  const Frame frame = after(*world, comparison_runs, 50);
+  REQUIRE(frame.comparisons.size() == 3);
+  for (const Frame& comparisons : frame.comparisons) {
+    CHECK(comparisons.tick == 50);
+    CHECK(comparisons.positions == frame.positions);
+    REQUIRE(comparisons.distance);
+    CHECK(comparisons.distance->max == 0);
+  }
+  CHECK(frame.comparisons[2].variant == "double+p1");
+}
+
+TEST_CASE("companions: another method differs by its error in time, another law by what it is") {
+  const WorldSetup setup = cantilever();
+  const auto world = make_world(setup);
+  ComparisonRuns comparison_runs(setup, {"tr_bdf2", "stvk"});
+  const Frame frame = after(*world, comparison_runs, 200);
+  const double moved = (frame.positions.back() - frame.surface_mesh->rest.back()).norm();
+  REQUIRE(frame.comparisons[0].distance);
+  CHECK(frame.comparisons[0].distance->max > 0);
+  CHECK(frame.comparisons[0].distance->max < 0.01 * moved);
+  CHECK(frame.comparisons[1].distance->max > 0.01 * moved);
+  CHECK(frame.comparisons[1].distance->mean <= frame.comparisons[1].distance->max);
+}
+
+TEST_CASE("companions: what is done to the body is done to them, but for their own law and method") {
+  const WorldSetup setup = cantilever();
+  const auto world = make_world(setup), alone = make_world(setup);
+  ComparisonRuns comparison_runs(setup, {"verlet"});
+  const auto both = [&](const Command& command) {
+    CHECK_FALSE(world->apply(command));
+    comparison_runs.apply(command);
+  };
+  const int tip = nodes_where(setup.mesh, [](const Vec3& X) { return (X - Vec3(0.1, 0.02, 0.02)).norm() < 1e-9; })[0];
+  both(Grasp{tip, 0.01});
+  both(MoveTool{Vec3(0.11, 0.03, 0.02)});
+  both(SetMaterial{std::nullopt, soft("stvk", 2e4)});
+  Frame frame = after(*world, comparison_runs, 50);
+  CHECK(frame.comparisons[0].positions == frame.positions);
+  CHECK(frame.comparisons[0].tool.force == frame.tool.force);
+  CHECK(frame.variant == "stvk, verlet");
+  both(SetIntegrator{Integrator::backward_euler});
+  frame = after(*world, comparison_runs, 50);
+  CHECK(frame.comparisons[0].positions != frame.positions);
+  CHECK(frame.variant == "stvk, backward_euler");
+}
+
+TEST_CASE("companions: one that cannot go on stops and says why, the body goes on") {
+  WorldSetup setup = cantilever("stvk");
+  setup.gravity.setZero();
+  Boundary crush{nodes_where(setup.mesh, [](const Vec3& X) { return X.x() > 0.0999; })};
+  crush.translate = Vec3(-0.15, 0, 0);
+  crush.ramp_time = 0.1;
+  setup.boundary.push_back(crush);
+  const auto world = make_world(setup);
+  ComparisonRuns comparison_runs(setup, {"neo_hookean"});
+  const Frame frame = after(*world, comparison_runs, 100);
+  CHECK(frame.halted.empty());
+  CHECK(frame.tick == 100);
+  CHECK_FALSE(frame.comparisons[0].halted.empty());
+  CHECK(frame.comparisons[0].tick < 100);
+}
+
+TEST_CASE("companions: time spent for them is told apart from the body's own") {
+  WorldSetup setup = cantilever();
+  setup.mesh = make_box(Vec3(0.1, 0.02, 0.02), {20, 4, 4});
+  setup.boundary = {{nodes_where(setup.mesh, [](const Vec3& X) { return X.x() < 1e-9; })}};
+  const auto world = make_world(setup);
+  ComparisonRuns comparison_runs(setup, {"backward_euler", "tr_bdf2", "bdf2"});
+  double largest = 0;  // of all that a tick took; once is enough, whatever else the machine does
+  for (int k = 0; k < 20; ++k) {
+    const auto began = std::chrono::steady_clock::now();
+    const double waited = comparison_runs.tick(*world);
+    const double all = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+    CHECK(waited >= 0);
+    CHECK(waited <= all);
+    largest = std::max(largest, waited / all);
+  }
+  CHECK(largest > 0.5);
+}
+
+TEST_CASE("companions: wrong words are refused with those there are") {
+  for (const char* words : {"", "ogdn", "ogden+", "ogden,stvk", "static"}) {
+    CAPTURE(words);
+    CHECK_THROWS_WITH_AS(variant_of(cantilever(), words), doctest::Contains("neo_hookean, "), InputError);
+  }
+  WorldSetup at_rest = cantilever();
+  at_rest.solver.integrator = Integrator::static_equilibrium;
+  CHECK_THROWS_AS(variant_of(at_rest, "verlet"), InputError);
+  CHECK(variant_of(at_rest, "ogden+float").setup.solver.single_precision);
+}
+
+}  // namespace heml::companions_test

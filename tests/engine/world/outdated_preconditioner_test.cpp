@@ -1,0 +1,126 @@
+// Implicit steps after a removal, with what preconditioned the body before it, and with what is made anew.
+#include <doctest/doctest.h>
+
+#include <heml/dynamics/preconditioner_build.hpp>
+#include <heml/world/facts.hpp>
+#include <thread>
+
+#include "world_support.hpp"
+
+namespace heml::outdated_factor_test {
+
+using namespace heml::test;
+
+namespace {
+
+WorldSetup swinging(Preconditioner preconditioner, Integrator integrator = Integrator::backward_euler) {
+  WorldSetup setup = cantilever("stvk");
+  setup.solver.integrator = integrator;
+  setup.solver.preconditioner = preconditioner;
+  setup.solver.step = 0.005;
+  setup.solver.tolerance = 1e-11;
+  return setup;
+}
+
+/// The end, whose nodes lose all elements, and some elements here and there.
+RemoveElements end_of(const WorldSetup& setup) {
+  RemoveElements command;
+  for (std::size_t t = 0; t < setup.mesh.tets.size(); ++t) {
+    Vec3 sum = Vec3::Zero();
+    for (const int n : setup.mesh.tets[t]) sum += setup.mesh.nodes[static_cast<std::size_t>(n)];
+    if (sum.x() / 4 > 0.085 || t % 29 == 3) command.which.tets.push_back(static_cast<int>(t));
+  }
+  return command;
+}
+
+void ticks(World& world, int count) {
+  for (int k = 0; k < count; ++k) world.tick();
+  if (world.halt()) FAIL(world.halt()->message);
+}
+
+long iterations_of(World& world, int count) {
+  const long before = world.solver_stats().linear.iterations;
+  ticks(world, count);
+  return world.solver_stats().linear.iterations - before;
+}
+
+}  // namespace
+
+TEST_CASE("after a removal implicit steps go on with the factor there was, to where a body built without goes") {
+  for (const Preconditioner preconditioner : {Preconditioner::scalar, Preconditioner::multilevel})
+    for (const Integrator integrator : {Integrator::backward_euler, Integrator::bdf2}) {
+      const WorldSetup setup = swinging(preconditioner, integrator);
+      const RemoveElements command = end_of(setup);
+      const auto cut = make_world(setup);
+      cut->facts();  // makes the factor
+      const long first = cut->solver_stats().linear.factorisations;
+      REQUIRE_FALSE(cut->apply(command));
+      WorldSetup without = setup;
+      without.mesh = with_elements(setup.mesh, cut->topology()->elements);
+      const auto built = make_world(without);
+      const long old_iterations = iterations_of(*cut, 5), built_iterations = iterations_of(*built, 5);
+      CHECK(rms_difference(cut->positions(), built->positions()) <= 1e-11);
+      CHECK(rms_difference(cut->velocities(), built->velocities()) <= 1e-9);
+      CHECK(cut->solver_stats().linear.factorisations - first <= 2);  // one for each a
+      // To 1e-11, with a sixth of the body gone.
+      CHECK(old_iterations <= 3 * built_iterations);
+      REQUIRE_FALSE(cut->apply(AdoptPreconditioner{}));
+      const long new_iterations = iterations_of(*cut, 5), beside = iterations_of(*built, 5);
+      MESSAGE("iterations with the old one " << old_iterations << ", " << built_iterations << " without the elements; "
+                                             << new_iterations << " with a new one, " << beside);
+      CHECK(new_iterations <= beside + 5);
+      CHECK(rms_difference(cut->positions(), built->positions()) <= 1e-11);
+    }
+}
+
+TEST_CASE("a factor gives the same bits whether another thread has made it or it is made when taken") {
+  const WorldSetup setup = swinging(Preconditioner::multilevel);
+  const RemoveElements command = end_of(setup);
+  enum class Made { nowhere, there, elsewhere, elsewhere_for_another_body };
+  const auto run = [&](Made made) {
+    const auto world = make_world(setup);
+    CHECK(!world->preconditioner_build());
+    ticks(*world, 2);
+    CHECK(!world->preconditioner_build());
+    REQUIRE_FALSE(world->apply(RemoveElements{{{0, 1}, {}, {}, {}}}));
+    std::shared_ptr<PreconditionerBuild> work;
+    if (made == Made::elsewhere_for_another_body) work = world->preconditioner_build();
+    ticks(*world, 1);
+    RemoveElements rest = command;
+    std::erase_if(rest.which.tets, [](int t) { return t < 2; });
+    REQUIRE_FALSE(world->apply(rest));
+    if (made == Made::elsewhere) work = world->preconditioner_build();
+    std::thread other([&] {
+      if (work) work->run();
+    });
+    ticks(*world, 1);
+    REQUIRE_FALSE(world->apply(SetDamping{3}));  // another a than the work began with
+    ticks(*world, 1);
+    other.join();
+    if (made != Made::nowhere) REQUIRE_FALSE(world->apply(AdoptPreconditioner{}));
+    if (made != Made::nowhere) CHECK(!world->preconditioner_build());
+    ticks(*world, 3);
+    return world->state_hash();
+  };
+  const auto there = run(Made::there);
+  CHECK(run(Made::elsewhere) == there);
+  CHECK(run(Made::elsewhere_for_another_body) == there);
+  CHECK(run(Made::nowhere) != there);  // it is in use
+}
+
+TEST_CASE("a factor taken where there is nothing to make anew changes nothing") {
+  for (const Integrator integrator : {Integrator::verlet, Integrator::backward_euler}) {
+    WorldSetup setup = swinging(Preconditioner::scalar, integrator);
+    setup.solver.step = 1e-4;
+    const auto world = make_world(setup), other = make_world(setup);
+    for (int k = 0; k < 3; ++k) {
+      REQUIRE_FALSE(world->apply(AdoptPreconditioner{}));
+      REQUIRE_FALSE(other->apply(SetDamping{0}));
+      ticks(*world, 1);
+      ticks(*other, 1);
+    }
+    CHECK(world->state_hash() == other->state_hash());
+  }
+}
+
+}  // namespace heml::outdated_factor_test
