@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using panel::OpenChoice;
-constexpr std::size_t max_files = 2000;
+constexpr std::size_t max_listed = 2000;
 
 std::string size_text(std::uintmax_t bytes) {
   const double size = static_cast<double>(bytes);
@@ -82,8 +82,8 @@ void list_folder(const fs::path& folder, panel::OpenChoices& choices) {
     if (!entry->is_regular_file(unknown) || kind == FileKind::other) continue;
     const auto bytes = entry->file_size(unknown);
     files.push_back({entry->path(), name, fmt::format("{}, {}", name_of(kind), size_text(unknown ? 0 : bytes))});
-    if (files.size() + folders.size() > max_files) {
-      choices.problem = fmt::format("There is more than these {}; type a path that begins with /.", max_files);
+    if (files.size() + folders.size() > max_listed) {
+      choices.problem = fmt::format("There is more than these {}; type a path that begins with /.", max_listed);
       break;
     }
   }

@@ -10,7 +10,7 @@ namespace heml::window {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr std::size_t max_files = 20;
+constexpr std::size_t max_recent_files = 20;
 
 /// A path a line.
 fs::path list_file() {
@@ -29,7 +29,7 @@ fs::path state_folder() {
 std::vector<fs::path> recent_files() {
   std::vector<fs::path> files;
   std::ifstream list(list_file());
-  for (std::string line; files.size() < max_files && std::getline(list, line);)
+  for (std::string line; files.size() < max_recent_files && std::getline(list, line);)
     if (!line.empty()) files.emplace_back(line);
   return files;
 }
@@ -41,7 +41,7 @@ void remember_file(const fs::path& path) {
   std::vector<fs::path> files = recent_files();
   std::erase(files, whole);
   files.insert(files.begin(), whole);
-  files.resize(std::min(files.size(), max_files));
+  files.resize(std::min(files.size(), max_recent_files));
   fs::create_directories(list.parent_path(), failed);
   std::string text;
   for (const fs::path& file : files) text += file.string() + '\n';

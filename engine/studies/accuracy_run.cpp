@@ -186,7 +186,7 @@ std::optional<double> step_doubling_error(const Problem& problem, const Method& 
     shadow.ticked(*world);
     return true;
   });
-  if (world->time() > shadow.gone()) shadow.ticked(*world);  // the rest, less than a tick
+  if (world->time() > shadow.elapsed()) shadow.ticked(*world);  // the rest, less than a tick
   const auto error = shadow.error(world->positions());
   return error ? std::optional(error->rms) : std::nullopt;
 }

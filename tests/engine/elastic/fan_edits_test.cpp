@@ -143,7 +143,7 @@ TEST_CASE("blocks that an edit does not touch keep their layout") {
     if (!gone.contains(t)) kept.push_back(t);
   const TetMesh left = with_elements(mesh, kept);
   all.resize(kept.size());
-  FanLayout<float> after = before.edited(mesh, left, {{all}}, kept, 8, team);
+  FanLayout<float> after = before.after_edit(mesh, left, {{all}}, kept, 8, team);
   CHECK(after.elements() == kept.size());
   std::size_t same = 0, lost = 0;
   REQUIRE(after.blocks.size() == before.blocks.size());
@@ -169,7 +169,7 @@ TEST_CASE("blocks that an edit does not touch keep their layout") {
   const TetMesh less = with_elements(left, without);
   all.resize(without.size());
   const std::size_t blocks = after.blocks.size();
-  after = after.edited(left, less, {{all}}, without, 8, team);
+  after = after.after_edit(left, less, {{all}}, without, 8, team);
   CHECK(after.blocks.size() == blocks - 1);
   CHECK(after.elements() == without.size());
 }
