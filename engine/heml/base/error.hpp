@@ -1,12 +1,11 @@
 #pragma once
-// Errors that come from outside: a file, a scene, a mesh, a material. Thrown only while loading, never in a step.
+// Exceptions for bad input (file, scene, mesh, material) and wrong usage. Never thrown within a step.
 #include <stdexcept>
 #include <string>
 
 namespace heml {
 
-/// Bad input. what() is the one line a user reads: "FILE: PLACE: PROBLEM (REMEDY)"; empty parts are left out.
-/// The program ends with exit code 3.
+/// Bad input: exit code 3. what() is one line, "FILE: PLACE: PROBLEM (REMEDY)", without the parts that are empty.
 class InputError : public std::runtime_error {
  public:
   /// file: path as the user gave it. place: key path, line, element or node ("materials[1].poisson", "line 12",

@@ -1,11 +1,11 @@
 #pragma once
-// Hashes of numbers, bit for bit. Not for secrets: for telling whether two runs are the same.
+// 64-bit hashes of the bits of numbers, to compare the states of two runs. Not cryptographic.
 #include <bit>
 #include <cstdint>
 
 namespace heml {
 
-/// One step of a 64-bit mix (the finaliser of SplitMix64; Steele, Lea & Flood 2014).
+/// Mixes a word into the hash `state` and returns the new hash (finaliser of SplitMix64; Steele, Lea & Flood 2014).
 inline std::uint64_t hash_combine(std::uint64_t state, std::uint64_t word) {
   std::uint64_t z = state + 0x9e3779b97f4a7c15ull + word;
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;

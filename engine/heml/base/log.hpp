@@ -1,5 +1,5 @@
 #pragma once
-// Messages for people, on stderr: "heml: warning: ...". Results go to files and stdout, never through here.
+// Messages to the user on stderr: "heml: warning: ...". Results go to files and stdout instead.
 #include <fmt/format.h>
 
 #include <string>
@@ -7,22 +7,22 @@
 
 namespace heml {
 
-/// One line on stderr. Any thread.
+/// Writes "heml: LEVEL: TEXT" to stderr as one line; without LEVEL when it is empty. Thread-safe.
 void log_line(const std::string& level, const std::string& text);
 
-/// Something the user should know and that does not stop the work.
+/// Reports a problem that does not stop the program.
 template <class... Args>
 void warn(fmt::format_string<Args...> format, Args&&... args) {
   log_line("warning", fmt::format(format, std::forward<Args>(args)...));
 }
 
-/// What the program is doing; silenced by set_quiet().
+/// Reports progress; silenced by set_quiet().
 template <class... Args>
 void log_info(fmt::format_string<Args...> format, Args&&... args) {
   log_line("", fmt::format(format, std::forward<Args>(args)...));
 }
 
-/// Hides inform(), keeps warnings.
+/// Silences log_info(), not warn(). Thread-safe.
 void set_quiet(bool quiet);
 
 }  // namespace heml

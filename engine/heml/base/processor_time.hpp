@@ -1,11 +1,11 @@
 #pragma once
-// Processor time, which unlike wall time leaves out what other programs had the cores for.
+// CPU time, s. Unlike wall time it excludes the time in which other programs used the cores.
 #include <thread>
 
 namespace heml {
 
-double processor_seconds_of_thread();              ///< that the calling thread has had; a system call
-double processor_seconds_of(std::thread& thread);  ///< that a running thread has had
-double processor_seconds_of_process();             ///< that all threads of the process have had, those that ended too
+double processor_seconds_of_thread();              ///< of the calling thread; a system call
+double processor_seconds_of(std::thread& thread);  ///< of a running thread; 0 when the system does not tell
+double processor_seconds_of_process();             ///< of all threads of the process, including ended ones
 
 }  // namespace heml

@@ -9,17 +9,17 @@
 namespace heml {
 namespace {
 
-constexpr std::size_t chunks_a_range = 4;                 // a thread that comes late or is stopped leaves little undone
-constexpr std::size_t chunk_alignment = 16;               // items: threads write to no cache line in common
-constexpr auto max_spin = std::chrono::microseconds(50);  // about what waking a thread takes
+constexpr std::size_t chunks_a_range = 4;                 // so that others can run most of a late thread's range
+constexpr std::size_t chunk_alignment = 16;               // items; avoids false sharing of cache lines
+constexpr auto max_spin = std::chrono::microseconds(50);  // about the time it takes to wake a thread
 constexpr int looks_between_clocks = 32;
 constexpr int max_patience = 16;        // loops
-constexpr double loss_allowed = 0.02;   // of the caller's time: waiting that nothing saved makes up for
+constexpr double loss_allowed = 0.02;   // net time lost to waiting, as a fraction of the caller's time
 constexpr double max_credit = 0.002;    // s
-constexpr double max_alone = 0.25;      // s, also after a pause of the whole program, which looks like a loss
-constexpr double price_of_waiting = 3;  // a second waited costs more than one: caches, and whom it keeps from the core
-constexpr auto between_marks = std::chrono::milliseconds(1);  // shorter than what another program takes at a time
-constexpr auto max_gap = std::chrono::microseconds(100);  // between loops: in a longer one the caller may have slept
+constexpr double max_alone = 0.25;      // s; bounds the effect of a pause of the whole program, which looks like a loss
+constexpr double price_of_waiting = 3;  // weight of time waited: it also cools caches and keeps the core from others
+constexpr auto between_marks = std::chrono::milliseconds(1);  // shorter than a time slice of another program
+constexpr auto max_gap = std::chrono::microseconds(100);  // between loops; in a longer gap the caller may have slept
 
 constexpr std::uint64_t inside_mask = 0x7fff, stop_bit = 0x8000, open_bit = 0x10000;
 constexpr std::uint64_t threads_of(std::uint64_t gate) { return gate >> 17 & 0x7fff; }
@@ -83,7 +83,7 @@ void ThreadTeam::run(const Loop& loop) {
   settle_account(began, worked, own_chunks);
 }
 
-/// Lays out ranges and chunks, lets workers in and wakes those that sleep.
+/// Sets up ranges and chunks, opens the loop to workers and wakes the sleeping ones.
 void ThreadTeam::open(const Loop& loop) {
   loop_ = loop;
   chunk_ = 1 + (loop.count - 1) / (chunks_a_range * loop.threads);
@@ -102,7 +102,7 @@ void ThreadTeam::wake(Worker& worker) {
   worker.asleep.notify_one();
 }
 
-/// Does chunks until none is left, those of the own range first. Returns how many.
+/// Runs chunks until none is left, those of range `own` first. Returns the number run.
 std::size_t ThreadTeam::claim_chunks(std::size_t own) {
   std::size_t done = 0;
   for (std::size_t k = 0; k < loop_.threads; ++k) {
@@ -117,7 +117,7 @@ std::size_t ThreadTeam::claim_chunks(std::size_t own) {
   return done;
 }
 
-/// Lets no further worker in and waits for those inside.
+/// Closes the loop to further workers and waits for those inside.
 void ThreadTeam::close() {
   std::uint64_t gate = gate_.fetch_and(~open_bit, std::memory_order_acq_rel);
   const auto began = Clock::now();
@@ -130,9 +130,9 @@ void ThreadTeam::close() {
   }
 }
 
-/// Workers save the time that their chunks would have taken the caller. They cost the time that it waits for them at
-/// the end, and the time that other programs run on its core while workers occupy the others. When the account is
-/// negative, the caller goes on alone for long enough to keep the loss within what is allowed.
+/// Workers save the time that their chunks would have taken the caller. They cost the time that the caller waits for
+/// them at the end, and the time that other programs run on its core while workers occupy the other cores. When
+/// credit_ is negative, the caller runs alone for long enough to keep the loss within loss_allowed.
 void ThreadTeam::settle_account(Clock::time_point began, Clock::time_point worked, std::size_t own_chunks) {
   last_end_ = Clock::now();
   double working = seconds(worked - began), lost = 0;
@@ -165,7 +165,7 @@ void ThreadTeam::work(Worker& self, std::size_t range) {
   }
 }
 
-/// Counts this worker in; fails where the loop has been closed.
+/// Increments the count of workers inside; returns false if the loop has been closed.
 bool ThreadTeam::enter(std::uint64_t gate) {
   const std::uint64_t loop = loop_of(gate);
   while (gate & open_bit && loop_of(gate) == loop)
@@ -173,8 +173,8 @@ bool ThreadTeam::enter(std::uint64_t gate) {
   return false;
 }
 
-/// Returns the gate of a loop that has a range for this worker, or of the end. Waits awake for as long as that has paid
-/// lately, then sleeps.
+/// Waits for a loop that has a range for this worker, or for the stop bit, and returns the gate. Spins first if recent
+/// loops arrived within the spin time (patience), then sleeps.
 std::uint64_t ThreadTeam::await_loop(Worker& self, std::size_t range, std::uint64_t last) const {
   const auto is_wanted = [&](std::uint64_t gate) {
     return gate & stop_bit || (gate & open_bit && loop_of(gate) != last && range < threads_of(gate));
@@ -191,7 +191,7 @@ std::uint64_t ThreadTeam::await_loop(Worker& self, std::size_t range, std::uint6
         relax();
       }
     } while (self.patience > 0 && Clock::now() - began < max_spin);
-    self.asleep.store(1);  // then either the caller sees this, or we see its gate
+    self.asleep.store(1);  // sequentially consistent: either the caller sees this, or this worker sees its gate
     if (is_wanted(gate_.load()))
       self.asleep.store(0);
     else

@@ -1,16 +1,16 @@
 #pragma once
-// A few threads that share loops. A loop is cut into chunks by position alone and each item writes its own result, so
-// neither the number of threads nor who takes which chunk changes a bit of it.
+// Threads for parallel loops. A loop is split into contiguous chunks and each item writes its own result, so results
+// are bit-identical for any number of threads and whichever thread runs a chunk.
 //
 //   count items:  | range of the caller    | range of worker 0      | range of worker 1      |
 //   chunks:       |  c  |  c  |  c  |  c   |  c  |  c  |  c  |  c   |  c  |  c  |  c  |  c   |
 //
-// A thread claims the chunks of its own range first, which are in its cache, then those left in other ranges. So the
-// caller never waits for a worker that has not begun: it does that worker's chunks itself.
+// A thread first claims the chunks of its own range, whose data are in its cache, then those left in other ranges. So
+// the caller never waits for a worker that has not started: it runs that worker's chunks itself.
 //
 // Workers spin for some microseconds before they sleep, since waking a sleeping thread takes longer than most loops.
-// The caller keeps an account of the time that workers save, of the time it waits for them, and of the time it loses
-// its own core to other programs. Once they cost more than they save, it goes on alone for a while.
+// The caller sums the time that workers save, less the time it waits for them and the time in which other programs
+// use its core. When the sum is negative, it runs loops alone for a while.
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -24,25 +24,24 @@ namespace heml {
 
 class ThreadTeam {
  public:
-  /// threads: the caller and threads − 1 workers; 0: one a core. Where the system starts fewer, a warning says so;
-  /// loops give the same results.
+  /// Starts threads − 1 workers beside the calling thread; 0: one thread per core. Warns if the system starts fewer.
   explicit ThreadTeam(int threads);
   ~ThreadTeam();
   ThreadTeam(const ThreadTeam&) = delete;
   ThreadTeam& operator=(const ThreadTeam&) = delete;
 
-  /// Threads that may take part in a loop, the caller included.
+  /// Number of threads, the caller included.
   int size() const { return static_cast<int>(workers_.size()) + 1; }
 
-  /// At most so many threads take part from now on, the caller included; clamped to [1, size()]. Called between loops.
+  /// Sets the maximum number of threads of a loop, the caller included; clamped to [1, size()]. Not during a loop.
   void limit(int threads) { limit_ = static_cast<std::size_t>(std::clamp(threads, 1, size())); }
   int limit() const { return static_cast<int>(limit_); }
 
-  /// Processor time that the workers have had, s.
+  /// CPU time of the workers, s.
   double worker_seconds() const;
 
   /// Calls body(begin, end) on contiguous chunks that together cover [0, count), and returns when all are done.
-  /// `grain`: items that are worth a thread of their own. One caller at a time. body must not throw.
+  /// grain: least number of items per thread. Not thread-safe: one caller at a time. body must not throw.
   template <class Body>
   void parallel_for(std::size_t count, std::size_t grain, const Body& body) {
     const std::size_t threads = std::min<std::size_t>(limit_, grain ? count / grain : count);
@@ -61,15 +60,15 @@ class ThreadTeam {
     const void* body;
     std::size_t count, threads;
   };
-  /// One thread's part of a loop: [next, end) is not yet claimed.
+  /// One thread's part of a loop; [next, end) is unclaimed.
   struct alignas(64) Range {
     std::atomic<std::size_t> next{0};
     std::size_t end = 0;
   };
   struct alignas(64) Worker {
     std::thread thread;
-    std::atomic<int> asleep{0};  ///< 1 until somebody wakes it
-    int patience = 0;            ///< grows with loops that came while it waited awake; 0: it sleeps at once
+    std::atomic<int> asleep{0};  ///< 1: waits to be woken
+    int patience = 0;            ///< grows with each loop that arrives while the worker spins; 0: sleeps at once
   };
 
   void start_workers(std::size_t wanted);
@@ -85,22 +84,23 @@ class ThreadTeam {
   bool enter(std::uint64_t gate);
 
   std::vector<std::unique_ptr<Worker>> workers_;  ///< worker k has range k + 1
-  std::unique_ptr<Range[]> ranges_;               ///< one a thread, the caller's first
+  std::unique_ptr<Range[]> ranges_;               ///< one per thread, the caller's first
   std::size_t limit_ = 1;
   Loop loop_{};
-  std::size_t chunk_ = 1, chunks_ = 0;  ///< items; number of chunks
+  std::size_t chunk_ = 1, chunks_ = 0;  ///< items per chunk; number of chunks
   std::uint64_t loops_ = 0;
-  double credit_ = 0;  ///< s that workers have saved, less what they have cost
+  double credit_ = 0;  ///< time saved by workers less their cost, s
   Clock::time_point alone_until_{}, last_end_{};
   struct Mark {
     Clock::time_point wall{};
-    double processor = 0;  ///< s that this thread has had
-  } mark_;                 ///< not more than a few loops ago
-  /// Of the present loop, in bits: 0-14 workers inside, 15 the team ends, 16 open, 17-31 threads, 32-63 its number.
+    double processor = 0;  ///< CPU time of the caller, s
+  } mark_;                 ///< start of the interval in which lost CPU time is measured
+  /// Bits 0-14: workers inside the current loop; 15: stop; 16: open to workers; 17-31: threads; 32-63: loop number.
   alignas(64) std::atomic<std::uint64_t> gate_{0};
 };
 
-/// Denormals count as zero in this thread while the object lives: they are slow and never matter to a body.
+/// Treats denormals as zero in the constructing thread during its lifetime: they are slow and too small to matter.
+/// Does nothing without SSE2.
 class FlushDenormals {
  public:
   FlushDenormals();

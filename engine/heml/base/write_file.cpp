@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* disk_remedy = "check the folder, its permissions and the space left";
 
-/// 0, or why not all was written.
+/// Returns 0, or errno if not all bytes were written.
 int write_all(int descriptor, std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t count = ::write(descriptor, bytes.data(), bytes.size());
@@ -37,7 +37,7 @@ int write_all(int descriptor, std::string_view bytes) {
 
 int close_for_good(int descriptor) { return ::close(descriptor) != 0 && errno != EINTR ? errno : 0; }
 
-/// The standard stream that a path names, by /dev/stdout or by the file it was redirected to.
+/// The standard stream a file is: /dev/stdout, or the file that the stream was redirected to.
 std::optional<int> standard_stream(const struct stat& file) {
   for (const int number : {STDOUT_FILENO, STDERR_FILENO}) {
     struct stat stream;
@@ -46,14 +46,14 @@ std::optional<int> standard_stream(const struct stat& file) {
   return std::nullopt;
 }
 
-/// What stands under a path, links followed; none: nothing.
+/// Status of a path, links followed; none if it does not exist.
 std::optional<struct stat> status_of(const fs::path& path) {
   struct stat status;
   if (::stat(path.c_str(), &status) == 0) return status;
   return std::nullopt;
 }
 
-/// Where the file itself is, so that a link to it stays a link.
+/// The path with symbolic links resolved, so that a rename replaces the file and not a link to it.
 fs::path without_links(const fs::path& path) {
   std::error_code failed;
   if (!fs::is_symlink(path, failed)) return path;
@@ -61,7 +61,7 @@ fs::path without_links(const fs::path& path) {
   return failed ? path : target;
 }
 
-/// Beside the file, so that a rename stays on one disk; of this process and this call alone.
+/// A temporary name in the file's folder, so that a rename stays on one disk; unique to this process and call.
 fs::path part_of(const fs::path& path) {
   static std::atomic<int> calls{0};
   return fmt::format("{}.{}-{}.part", path.string(), ::getpid(), calls++);
@@ -69,12 +69,12 @@ fs::path part_of(const fs::path& path) {
 
 int open_part(const fs::path& part) { return ::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666); }
 
-/// 0, or why a file there must not be replaced.
+/// Returns 0, or errno if an existing file must not be replaced.
 int why_protected(const fs::path& file) { return ::access(file.c_str(), W_OK) == 0 ? 0 : errno; }
 
 bool is_written_through(const struct stat& status) { return !S_ISREG(status.st_mode) || standard_stream(status); }
 
-/// Tries to make a file in a folder, and takes it away.
+/// Creates a temporary file in a folder and removes it; returns 0, or errno.
 int why_no_file_in(const fs::path& folder) {
   const fs::path part = part_of(folder / "heml");
   const int made = open_part(part);
@@ -113,7 +113,7 @@ void write_file(const fs::path& path, std::string_view bytes) {
 
 GrowingFile::GrowingFile(fs::path path, From from) : path_(std::move(path)) {
   const auto status = status_of(path_);
-  if (const auto stream = status ? standard_stream(*status) : std::nullopt) {  // what is printed goes on after it
+  if (const auto stream = status ? standard_stream(*status) : std::nullopt) {  // flush what was printed before
     std::fflush(*stream == STDOUT_FILENO ? stdout : stderr);
     descriptor_ = ::fcntl(*stream, F_DUPFD_CLOEXEC, 0);
   } else {

@@ -59,8 +59,8 @@ void compute_for(std::chrono::microseconds time) {
   }
 }
 
-/// The threads that take part in loops, which go on until `wanted` have or `longest` is over: a busy machine may keep
-/// workers from their cores for a while.
+/// Number of threads that take part in loops. Repeats loops until `wanted` threads have or `longest` has passed:
+/// other programs may delay workers on a busy machine.
 std::size_t threads_seen(ThreadTeam& team, std::size_t wanted, std::chrono::milliseconds longest) {
   std::mutex mutex;
   std::set<std::thread::id> seen;

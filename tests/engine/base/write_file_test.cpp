@@ -24,7 +24,7 @@ std::size_t files_in(const fs::path& folder) {
   return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), {}));
 }
 
-/// No file of this process grows beyond so many bytes, as on a disk that is full, while it lives.
+/// Limits the size of this process's files during its lifetime, to imitate a full disk.
 class FullDisk {
  public:
   explicit FullDisk(rlim_t bytes) {
@@ -94,7 +94,7 @@ TEST_CASE("a file that grows replaces what was there or goes on after it, and sa
   {
     GrowingFile lines(file, GrowingFile::From::end);
     lines.write("new\n");
-    CHECK(content(file) == "old\nnew\n");  // at once
+    CHECK(content(file) == "old\nnew\n");  // before close()
     lines.close();
   }
   GrowingFile lines(file, GrowingFile::From::start);
