@@ -1,5 +1,5 @@
 #pragma once
-// Bytes of what containers hold, for accounts of memory.
+// Memory of containers in bytes: contents, not the container objects themselves.
 #include <Eigen/SparseCore>
 #include <array>
 #include <cstddef>
@@ -33,7 +33,7 @@ std::size_t bytes_of(const Eigen::SparseMatrix<Value, options, Index>& matrix) {
          static_cast<std::size_t>(matrix.outerSize() + 1) * sizeof(Index);
 }
 
-/// Of several, together.
+/// Sum over several containers.
 template <class First, class Second, class... More>
 std::size_t bytes_of(const First& first, const Second& second, const More&... more) {
   return bytes_of(first) + bytes_of(second) + (std::size_t{0} + ... + bytes_of(more));

@@ -1,12 +1,13 @@
 #pragma once
-// Nearest points of triangles and segments.
+// Closest points on triangles and segments.
 #include <algorithm>
 #include <heml/math/types.hpp>
 #include <utility>
 
 namespace heml {
 
-/// Weights of a triangle's corners at its point nearest to p (C. Ericson, Real-Time Collision Detection, 2005, 5.1.5).
+/// Barycentric weights of the point of triangle abc closest to p (C. Ericson, Real-Time Collision Detection, 2005,
+/// 5.1.5).
 inline std::array<double, 3> closest_point_weights(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
   const double d1 = ab.dot(ap), d2 = ac.dot(ap), d3 = ab.dot(bp), d4 = ac.dot(bp), d5 = ab.dot(cp), d6 = ac.dot(cp);
@@ -24,8 +25,8 @@ inline std::array<double, 3> closest_point_weights(const Vec3& p, const Vec3& a,
   return {va / sum, vb / sum, vc / sum};
 }
 
-/// Parameters 0 to 1 of the nearest points of two segments, p + s u and q + t v (Ericson 2005, 5.1.9); the first may be
-/// a point.
+/// Parameters s, t in [0, 1] of the closest points of two segments, p + s u and q + t v (Ericson 2005, 5.1.9). Segments
+/// may be points.
 inline std::pair<double, double> closest_on_segments(const Vec3& p, const Vec3& u, const Vec3& q, const Vec3& v) {
   const Vec3 r = p - q;
   const double a = u.squaredNorm(), e = v.squaredNorm(), f = v.dot(r), c = u.dot(r), b = u.dot(v);

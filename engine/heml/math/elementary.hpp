@@ -1,7 +1,7 @@
 #pragma once
-// Elementary functions of our own: the C library picks other code on other processors (with or without FMA), whose last
-// bits differ, and a replay must not. No branches: loops over them vectorise. For float and double; a scalar type of
-// another kind (math/jet.hpp, a counting scalar) brings its own overloads.
+// Elementary functions with the same bits on every processor, which replays need: the C library selects its code by
+// processor (with or without FMA), and the last bits differ. Branch-free, so that loops over them vectorise. For float
+// and double; other scalar types (math/jet.hpp, a counting scalar) provide their own overloads.
 #include <cstdint>
 #include <limits>
 #include <type_traits>
@@ -9,13 +9,13 @@
 namespace heml {
 
 namespace detail {
-// The cores, for one number (Bits an unsigned integer) or for a vector of them (Bits a vector of unsigned integers);
-// the last argument says of what.
+// Kernels for one number (Bits: an unsigned integer) or a vector (Bits: a vector of unsigned integers). The type of the
+// last argument selects double or float.
 
 template <class Bits, class V>
 [[gnu::always_inline]] inline V logarithm(V x, double) {
-  // d = bits(x) − bits(√½): its upper 12 bits are k, the rest what m is above √½. Logical shifts and a conversion by
-  // the exponent of 2⁵² (Hacker's Delight), since those vectorise everywhere.
+  // d = bits(x) − bits(√½): its upper 12 bits are k, the lower ones bits(m) − bits(√½). k becomes a double by logical
+  // shifts and the exponent of 2⁵² (Hacker's Delight), which vectorise on every target.
   constexpr std::uint64_t offset = 0x3fe6a09e667f3bcdull, mantissa = 0x000fffffffffffffull;
   const Bits d = __builtin_bit_cast(Bits, x) - offset;
   const V m = __builtin_bit_cast(V, (d & mantissa) + offset);
@@ -45,7 +45,7 @@ template <class Bits, class V>
   return n * 0x1.62e4p-1f + (n * 0x1.7f7d1cp-20f + (2 * s + 2 * s * tail));
 }
 
-/// e^x = scale (1 + rest): scale a power of two, |rest| < 0.42. x within what `scale` can hold.
+/// e^x = scale (1 + rest): scale is a power of two, |rest| < 0.42. Requires |x| small enough for `scale` to be normal.
 template <class V>
 struct Exponential {
   V scale, rest;
@@ -53,7 +53,7 @@ struct Exponential {
 
 template <class Bits, class V>
 [[gnu::always_inline]] inline Exponential<V> exponential(V x, double) {
-  // n = x / ln 2 to the nearest whole number, by adding what leaves no room for a fraction.
+  // n = x / ln 2 rounded to the nearest integer: adding 1.5·2⁵² shifts the fraction out of the mantissa.
   const V shifted = x * 0x1.71547652b82fep+0 + 0x1.8p52;
   const V n = shifted - 0x1.8p52;
   const V r = (x - n * 0x1.62e42fefap-1) - n * 0x1.cf79abc9e3b3ap-40;
@@ -92,11 +92,11 @@ template <class Bits, class V>
 inline double natural_log(double x) { return detail::logarithm<std::uint64_t>(x, x); }
 inline float natural_log(float x) { return detail::logarithm<std::uint32_t>(x, x); }
 
-/// Where e^x ends: beyond, it counts as infinite (or 0).
+/// Largest |x| for which e^x is computed; beyond, it is infinite or 0.
 template <class Real>
 inline constexpr Real max_exponent = std::numeric_limits<Real>::digits == 24 ? Real(87) : Real(709);
 
-/// Up to where a stress of e^x and its derivatives still fit in a Real.
+/// Largest x for which a stress proportional to e^x and its derivatives do not overflow a Real.
 template <class Real>
 inline constexpr Real safe_exponent = max_exponent<Real>* Real(0.9);
 
@@ -113,7 +113,7 @@ requires std::numeric_limits<Real>::is_iec559 inline Real natural_exp(Real x) {
   return x > most ? std::numeric_limits<Real>::infinity() : (x < -most ? Real(0) : value);
 }
 
-/// e^x − 1 without the loss of digits near 0.
+/// e^x − 1 without cancellation near 0.
 template <class Real>
 requires std::numeric_limits<Real>::is_iec559 inline Real natural_expm1(Real x) {
   constexpr Real most = max_exponent<Real>;

@@ -1,9 +1,9 @@
 #pragma once
-// Forward-mode differentiation: a number that carries its first and (order 2) second derivatives by N variables. What
-// is computed from jets with + − × ÷ and the functions below has exact derivatives, with no formula written twice.
+// Forward-mode automatic differentiation: a number with its first and (order 2) second derivatives by N variables.
+// Expressions of jets with + − × ÷ and the functions below carry their exact derivatives.
 //
 //   Jet<double, 2> x = variable<2>(3.0, 0), y = variable<2>(4.0, 1);
-//   (x * x * y).slope[0] == 24;  (x * x * y).curvature(0, 1) == 6
+//   (x * x * y).gradient[0] == 24;  (x * x * y).hessian(0, 1) == 6
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -19,7 +19,7 @@ struct Jet {
   std::array<Real, order == 2 ? N*(N + 1) / 2 : 0> second{};  ///< upper triangle, row after row
 
   Jet() = default;
-  Jet(Real constant) : value(constant) {}  // NOLINT: numbers are jets
+  Jet(Real constant) : value(constant) {}  // NOLINT: implicit conversion from a number
   static constexpr std::size_t at(std::size_t i, std::size_t j) {
     return i <= j ? i * N - i * (i + 1) / 2 + j : at(j, i);
   }
@@ -80,7 +80,7 @@ template <class Real, std::size_t N, int order>
   return x.chain_rule(natural_expm1(x.value), e, e);
 }
 
-/// Lane by lane, of jets of packs.
+/// condition ? a : b in each lane, for jets of packs.
 template <class LaneMask, class Real, std::size_t N, int order>
 requires(!std::is_same_v<LaneMask, bool>)
     [[gnu::always_inline]] inline Jet<Real, N, order> select(LaneMask condition, const Jet<Real, N, order>& a,
@@ -92,7 +92,7 @@ requires(!std::is_same_v<LaneMask, bool>)
   return r;
 }
 
-/// The i-th of N variables.
+/// The i-th of N independent variables.
 template <std::size_t N, int order = 2, class Real>
 [[gnu::always_inline]] inline Jet<Real, N, order> variable(Real value, std::size_t i) {
   Jet<Real, N, order> x(value);

@@ -1,8 +1,9 @@
 #pragma once
-// Numbers side by side in one register, as a scalar type: a law, or any code generic in its scalar, run on a pack runs
-// on all its lanes at once. Built on the compiler's vector types; what is generic stays free of intrinsics.
+// SIMD vectors as a scalar type: code generic in its scalar, such as a law, computes all lanes of a pack at once. Built
+// on the compiler's vector types, without intrinsics.
 //
-// Family: a type of the file that uses packs, so that files compiled for different instruction sets share no code.
+// Family: a tag type defined by the file that uses packs, so that files compiled for different instruction sets do not
+// share template instantiations.
 #include <cmath>
 #include <concepts>
 #include <cstdint>
@@ -25,7 +26,7 @@ struct BitsOf<double> {
   using Signed = std::int64_t;
 };
 
-/// Of a comparison: all bits of a lane set, or none.
+/// Result of a comparison: all bits of a lane are set, or none.
 template <class Real, int lanes, class Family>
 struct PackMask {
   using Signed = typename BitsOf<Real>::Signed;
@@ -33,7 +34,7 @@ struct PackMask {
   Vector bits;
 
   PackMask() = default;
-  [[gnu::always_inline]] PackMask(bool all) : bits(Vector{} - Signed{all}) {}  // NOLINT: a truth is one of all lanes
+  [[gnu::always_inline]] PackMask(bool all) : bits(Vector{} - Signed{all}) {}  // NOLINT: implicit, sets all lanes
   [[gnu::always_inline]] explicit PackMask(Vector b) : bits(b) {}
 
   [[gnu::always_inline]] friend PackMask operator&&(PackMask a, PackMask b) { return PackMask(a.bits & b.bits); }
@@ -57,7 +58,7 @@ struct Pack {
   Pack() = default;
   template <class Number>
   requires std::integral<Number> || std::floating_point<Number>
-  [[gnu::always_inline]] constexpr Pack(Number all) : v(static_cast<Real>(all) - Vector{}) {}  // NOLINT: as jets
+  [[gnu::always_inline]] constexpr Pack(Number all) : v(static_cast<Real>(all) - Vector{}) {}  // NOLINT: implicit
   [[gnu::always_inline]] constexpr explicit Pack(Vector vector) : v(vector) {}
 
   [[gnu::always_inline]] friend constexpr Pack operator+(Pack a, Pack b) { return Pack(a.v + b.v); }

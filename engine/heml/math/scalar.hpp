@@ -1,11 +1,11 @@
 #pragma once
-// What code that is generic in its scalar asks of it beside arithmetic, so that it runs on a number, on a jet, on a
-// counting scalar and on a pack of numbers (math/pack.hpp) alike: a choice that is no branch.
+// Operations beyond arithmetic of code that is generic in its scalar (number, jet, counting scalar, pack): selection
+// without a branch.
 #include <utility>
 
 namespace heml {
 
-/// What a comparison of two of them gives: bool, or a mask of many.
+/// Type of a comparison of two scalars: bool, or a mask with one entry per lane (math/pack.hpp).
 template <class Real>
 using Mask = decltype(std::declval<Real>() < std::declval<Real>());
 
@@ -15,7 +15,7 @@ template <class Real>
   return condition ? a : b;
 }
 
-/// The number type a scalar is made of: of a pack, that of one lane.
+/// The number type of one lane of a pack; for other scalars the scalar itself.
 template <class Real>
 struct LaneOf {
   using type = Real;

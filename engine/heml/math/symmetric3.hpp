@@ -1,6 +1,6 @@
 #pragma once
-// Symmetric 3×3 matrices as six numbers 11 22 33 12 13 23, and their eigenvalues by Jacobi's rotations: no branches, so
-// that loops over elements can be vectorised, and accurate for equal eigenvalues too.
+// Symmetric 3×3 matrices as six numbers 11 22 33 12 13 23, and their eigenvalues by Jacobi rotations: branch-free, so
+// that loops over elements vectorise, and accurate for equal eigenvalues too.
 #include <array>
 #include <cmath>
 #include <heml/math/scalar.hpp>
@@ -16,7 +16,7 @@ struct SymmetricEigen3 {
 /// All eigenvalues and eigenvectors, in no particular order; five sweeps of cyclic Jacobi (Golub & Van Loan, 8.5).
 template <class Real>
 [[gnu::always_inline]] inline SymmetricEigen3<Real> symmetric_eigen3(const Real S[6]) {
-  using std::sqrt;  // a scalar type of its own brings its own
+  using std::sqrt;  // other scalar types provide theirs
   Real a[3][3] = {{S[0], S[3], S[4]}, {S[3], S[1], S[5]}, {S[4], S[5], S[2]}};
   Real v[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};  // columns are the vectors
   constexpr int pairs[3][2] = {{0, 1}, {0, 2}, {1, 2}};
@@ -64,7 +64,7 @@ template <class Real>
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + 2 * (a[3] * b[3] + a[4] * b[4] + a[5] * b[5]);
 }
 
-/// n·S m.
+/// n·(S m).
 template <class Real>
 [[gnu::always_inline]] inline Real bilinear3(const Real n[3], const Real S[6], const Real m[3]) {
   return n[0] * (S[0] * m[0] + S[3] * m[1] + S[4] * m[2]) + n[1] * (S[3] * m[0] + S[1] * m[1] + S[5] * m[2]) +

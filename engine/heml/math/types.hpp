@@ -16,7 +16,7 @@ using Vec3 = Vector3<double>;
 using Mat3 = Matrix3<double>;
 using Vec3f = Vector3<float>;
 
-/// Cofactor matrix: ∂(det F)/∂F. Its columns are cross products of the columns of F; defined for singular F too.
+/// Cofactor matrix ∂(det F)/∂F, from cross products of the columns of F; defined for singular F too.
 template <class Real>
 Matrix3<Real> cofactor(const Matrix3<Real>& F) {
   Matrix3<Real> result;
