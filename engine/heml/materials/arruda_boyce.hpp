@@ -1,7 +1,7 @@
 #pragma once
-// Arruda & Boyce, chains along the eight half diagonals of a cube: W = μ Σ Ci λm^(2−2i) (Ī1^i − 3^i) + κ/2 (J−1)², the
-// inverse Langevin function by its first five terms. λm is the stretch of a straight chain; past it the series goes on
-// as a polynomial, and Ī1 = 3 λm² is no end of it.
+// Arruda & Boyce, chains along the eight half diagonals of a cube: W = μ Σ Ci λm^(2−2i) (Ī1^i − 3^i) + κ/2 (J−1)², with
+// five terms of the inverse Langevin function. λm is the locking stretch of a chain; the truncated series is a
+// polynomial, so W stays finite at Ī1 = 3 λm² and beyond.
 #include <heml/materials/isochoric.hpp>
 
 namespace heml {
@@ -25,18 +25,18 @@ struct ArrudaBoyce : IsochoricLaw<ArrudaBoyce<Real, continued>, Real, continued>
   static constexpr bool uses_I2 = false;
   static constexpr ForceCost cost = {13.5, 6.3};
   static constexpr auto of_moduli(double shear, double bulk) {
-    constexpr double u = 3.0 / 4;  // at rest, of λm = 2
+    constexpr double u = 3.0 / 4;  // at rest, with λm = 2
     return std::array{shear / (2 * slope(u)), 2.0, bulk};
   }
 
-  /// In u = Ī1/λm², the square of a chain's share of its full stretch three times over.
+  /// In u = Ī1/λm², which is 3 (chain stretch / λm)².
   IsochoricPart<Real> part(Real a, Real) const {
     const Real t = 1 / (lambda_m * lambda_m), u = a * t;
     return {mu / t * (value(u) - value(3 * t)), mu * slope(u), 0, mu * t * curvature(u)};
   }
 
  private:
-  /// Σ Ci u^i and two derivatives.
+  /// Σ Ci u^i and its first two derivatives.
   template <class T>
   static constexpr T value(T u) {
     return u * (T(C[0]) + u * (T(C[1]) + u * (T(C[2]) + u * (T(C[3]) + u * T(C[4])))));

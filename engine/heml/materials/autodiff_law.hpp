@@ -1,9 +1,9 @@
 #pragma once
-// The general type of the paper (Table 1, first row): a law given as nothing but its energy W(I1, I2, J). Slopes and
-// curvatures come by forward-mode differentiation (math/jet.hpp).
+// Base class of laws given by their energy W(I1, I2, J) alone (paper, Table 1, first row: the general type).
+// Forward-mode differentiation (math/jet.hpp) gives the derivatives.
 //
-// A law derives from AutodiffLaw<itself, Real, continued> and answers density(at) for invariants of any scalar:
-// yeoh.hpp is the shortest.
+// A law derives from AutodiffLaw<itself, Real, continued> and implements density(at) for invariants of any scalar;
+// yeoh.hpp is the shortest example.
 #include <heml/materials/volume.hpp>
 #include <heml/math/jet.hpp>
 

@@ -1,17 +1,17 @@
 #pragma once
-// Any law seen from a deformation gradient: P = F S + wJ cof F with S = 2 ∂W/∂C at fixed J. The engine works in tension
-// form (elastic/tension.hpp); this form serves `heml probe`, the test bench, fields for viewers, and checks.
+// Stress of any law from the deformation gradient: P = F S + wJ cof F with S = 2 ∂W/∂C at fixed J. For `heml probe`,
+// the test bench, fields for viewers, and checks; the force loop uses tensions instead (elastic/tension.hpp).
 #include <heml/materials/principal.hpp>
 #include <heml/math/types.hpp>
 
 namespace heml {
 
-/// C (six numbers), J and the fibre, all a law may ask for.
+/// Strain measures that laws depend on: C (11 22 33 12 13 23), J and the fibre direction.
 template <class Real>
 struct Strain {
   Real C[6];
   Real J;
-  Vector3<Real> fibre = Vector3<Real>::Zero();  ///< unit at rest; zero: none
+  Vector3<Real> fibre = Vector3<Real>::Zero();  ///< unit vector at rest; zero: none
 
   Invariants<Real> invariants() const {
     const Real I1 = C[0] + C[1] + C[2];
@@ -63,7 +63,7 @@ Stress<Real> stress_of(const L& law, const Strain<Real>& at) {
   }
 }
 
-/// Change of S and wJ with dC and dJ.
+/// Change of S and wJ for changes dC and dJ, Pa.
 template <class Real, Law<Real> L>
 Stress<Real> stress_differential(const L& law, const Strain<Real>& at, const Real dC[6], Real dJ) {
   if constexpr (PrincipalLaw<L, Real>) {
@@ -96,11 +96,11 @@ Matrix3<Real> first_piola(const Stress<Real>& stress, const Matrix3<Real>& F) {
   return F * from_symmetric6(stress.S) + stress.wJ * cofactor(F);
 }
 
-/// ∂P/∂F : dF, Pa, from the stress there and its change.
+/// ∂P/∂F : dF, Pa, from the stress at F and its change (stress_differential()).
 template <class Real>
 Matrix3<Real> first_piola_change(const Stress<Real>& stress, const Stress<Real>& change, const Matrix3<Real>& F,
                                  const Matrix3<Real>& dF) {
-  Matrix3<Real> dcof;  // each column is a cross product of two others
+  Matrix3<Real> dcof;  // change of cof F, whose columns are cross products of columns of F
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3, k = (i + 2) % 3;
     dcof.col(i) = dF.col(j).cross(F.col(k)) + F.col(j).cross(dF.col(k));

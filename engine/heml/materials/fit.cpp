@@ -16,15 +16,15 @@ using Matrix = Eigen::MatrixXd;
 
 constexpr int max_iterations = 150;
 constexpr double difference_step = 1e-5;     // of central differences, relative
-constexpr double min_singular_value = 1e-7;  // relative: below it a direction is left open by the data
+constexpr double min_singular_value = 1e-7;  // relative; below it the data do not determine a direction
 
-/// One number that is fitted, and how it is written into a material.
+/// One fitted variable, and how it is written into a material.
 struct Variable {
   std::string name, unit;
   double start;
-  bool has_fixed_sign;              ///< fitted as a logarithm
-  std::vector<std::size_t> moduli;  ///< indices into Material::parameters that are its value times what they were; or
-  double* (*place)(Material&, std::size_t);  ///< where the value itself stands
+  bool has_fixed_sign;                       ///< fitted as a logarithm
+  std::vector<std::size_t> moduli;           ///< indices into Material::parameters that it scales; or
+  double* (*place)(Material&, std::size_t);  ///< the location of the value itself
   std::size_t index;
 };
 
@@ -61,7 +61,7 @@ std::vector<Variable> variables_of(const Material& material, const MeasuredTest&
   return variables;
 }
 
-/// The problem in the variables u that the method moves: u = ln |value| where the sign is kept, else value / scale.
+/// The least-squares problem in the variables u = ln |value| where the sign is fixed, else value / scale.
 class Misfit {
  public:
   Misfit(const Material& material, const MeasuredTest& test, const MeasuredCurve& data, const FitOptions& options)
@@ -98,7 +98,7 @@ class Misfit {
     return result;
   }
 
-  /// Model − measured, Pa; nothing where the law has no value.
+  /// Model − measured, Pa; nothing where the law is undefined.
   std::optional<Vector> residuals(const Vector& u) const {
     const Material trial = material(u);
     if (!u.allFinite() || material_problem(trial)) return std::nullopt;
@@ -109,7 +109,7 @@ class Misfit {
     return r.allFinite() ? std::optional(r) : std::nullopt;
   }
 
-  /// ∂r/∂u by central differences, one-sided where only one side has a value.
+  /// ∂r/∂u by central differences, one-sided where the law is undefined on the other side.
   std::optional<Matrix> jacobian(const Vector& u, const Vector& r) const {
     Matrix J(r.size(), u.size());
     for (Eigen::Index i = 0; i < u.size(); ++i) {
@@ -131,7 +131,7 @@ class Misfit {
   std::vector<double> scale_;
 };
 
-/// Where the method ended.
+/// Final state of the iteration.
 struct Descent {
   Vector u, r;
   Matrix J;
@@ -172,8 +172,8 @@ Descent descend(const Misfit& problem, const std::function<void(double)>& progre
   return at;
 }
 
-/// Standard errors in u from the covariance s² (JᵀJ)⁻¹, and which variables the data leave open: those in a direction
-/// along which the residuals do not change.
+/// Standard errors in u from the covariance s² (JᵀJ)⁻¹, and the undetermined (open) variables: those with a component
+/// in a direction along which the residuals do not change.
 struct Certainty {
   Vector error;
   std::vector<bool> open;
@@ -215,7 +215,7 @@ std::optional<std::vector<double>> nominal_stresses(const Material& material, co
   }
   const BenchCurve curve = run_bench(*law, std::get<BenchTest>(test), amounts);
   if (!curve.missed.empty()) return std::nullopt;
-  // The curve is sorted, the data need not be.
+  // The curve is sorted by amount, the data need not be.
   std::vector<std::size_t> order(amounts.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return amounts[a] < amounts[b]; });

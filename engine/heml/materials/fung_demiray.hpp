@@ -2,7 +2,7 @@
 // Fung & Demiray: W = μ/(2γ) (exp(γ(Ī1−3)) − 1) + κ/2 (J−1)². (The paper's Table 1 prints exp(γ(I1−3) − 1), which is
 // too small by a factor e.)
 //
-// The exponential overflows in large stretches. `continued` goes on above γ(Ī1−3) = Q0 with its second-order Taylor
+// The exponential overflows at large stretches. `continued` replaces it above γ(Ī1−3) = Q0 by its second-order Taylor
 // polynomial: C2, and the tangent stays below 1e4 times that at rest.
 #include <heml/materials/isochoric.hpp>
 
@@ -13,7 +13,7 @@ struct ExponentialValue {
   Real exp_minus_one, first, second;  ///< of exp
 };
 
-/// exp and two derivatives at Q, continued above Q0 = ln 1e4 by its Taylor polynomial.
+/// exp(Q) and its first two derivatives, continued above Q0 = ln 1e4.
 template <bool continued, class Real>
 [[gnu::always_inline]] inline ExponentialValue<Real> bounded_exp(Real Q) {
   constexpr Real Q0 = Real(9.210340371976184);

@@ -1,6 +1,6 @@
 #pragma once
-// Gent, whose chains lock: W = −μ Jm/2 ln(1 − (Ī1−3)/Jm) + κ/2 (J−1)², defined for Ī1 − 3 < Jm. `continued` goes on
-// from 0.95 Jm with the second-order Taylor polynomial: C2.
+// Gent, chains of limited extensibility: W = −μ Jm/2 ln(1 − (Ī1−3)/Jm) + κ/2 (J−1)², defined for Ī1 − 3 < Jm.
+// `continued` replaces the logarithm above 0.95 Jm by its second-order Taylor polynomial: C2.
 #include <heml/materials/autodiff_law.hpp>
 
 namespace heml {

@@ -64,9 +64,9 @@ struct Hgo {
     Real w, w1, w2;  ///< by Ī4
   };
   Fibre fibre(Real i4) const {
-    // At Ī4 = 1 it does not, whatever a rounding of the invariant says.
+    // The margin keeps fibres inactive where Ī4 is 1 up to round-off.
     const Mask<Real> bears = i4 > 1 + 32 * std::numeric_limits<Real>::epsilon();
-    const Real s = select(bears, i4 - 1, Real(0));  // all of it is zero there, curvature apart
+    const Real s = select(bears, i4 - 1, Real(0));  // inactive: w = w1 = 0; w2 = 0 by `on`
     const auto e = bounded_exp<continued>(k2 * s * s);
     const Real on = select(bears, k1, Real(0));
     return {k1 / (2 * k2) * e.exp_minus_one, k1 * s * e.first, on * (e.first + 2 * k2 * s * s * e.second)};

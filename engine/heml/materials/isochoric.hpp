@@ -1,8 +1,7 @@
 #pragma once
-// Laws of the form W = w(Ī1, Ī2) + κ/2 (J−1)²: each says only what w and its derivatives are, and this is the chain
-// rule to I1, I2 and J.
+// Base class of laws W = w(Ī1, Ī2) + κ/2 (J−1)²: applies the chain rule from w's derivatives to I1, I2 and J.
 //
-// A law derives from IsochoricLaw<itself, Real, continued>, has a member kappa, and answers part(Ī1, Ī2).
+// A law derives from IsochoricLaw<itself, Real, continued>, has a member kappa, and implements part(Ī1, Ī2).
 #include <heml/materials/volume.hpp>
 
 namespace heml {

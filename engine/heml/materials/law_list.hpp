@@ -1,5 +1,5 @@
 #pragma once
-// The one list of laws, and the one way from a name to a type. Adding a law: engine/docs/adding.md.
+// The list of laws, and the mapping from a name to a type. How to add a law: engine/docs/adding.md.
 #include <heml/materials/arruda_boyce.hpp>
 #include <heml/materials/gent.hpp>
 #include <heml/materials/hgo.hpp>
@@ -17,7 +17,7 @@
 
 namespace heml {
 
-/// Carries a law's template, so that a list can hold it for every scalar and both continuations.
+/// Wraps a law's template, so that a tuple can list it.
 template <template <class, bool> class L>
 struct LawTag {
   template <class Real, bool continued>
@@ -25,7 +25,7 @@ struct LawTag {
   static constexpr std::string_view name = L<double, false>::name;
 };
 
-/// In the order people see them.
+/// All laws W(F), in display order.
 using LawList =
     std::tuple<LawTag<NeoHookean>, LawTag<StVK>, LawTag<NeoHookeanIso>, LawTag<MooneyRivlin>, LawTag<FungDemiray>,
                LawTag<Ogden>, LawTag<Hgo>, LawTag<Yeoh>, LawTag<Gent>, LawTag<ArrudaBoyce>, LawTag<VerondaWestmann>,
@@ -33,7 +33,7 @@ using LawList =
 
 inline constexpr std::size_t law_count = std::tuple_size_v<LawList>;
 
-/// The place of a name in LawList; law_count: it is not there.
+/// Index of a name in LawList; law_count if it is not there.
 constexpr std::size_t law_index(std::string_view name) {
   return [&]<std::size_t... k>(std::index_sequence<k...>) {
     std::size_t found = law_count;
@@ -43,9 +43,9 @@ constexpr std::size_t law_index(std::string_view name) {
   (std::make_index_sequence<law_count>{});
 }
 
-/// Calls use(tag, std::bool_constant<continued>) for the law at a place in LawList; for none past its end. A place, not
-/// a name: code for other processors (elastic/fan_avx512.hpp) must share no function with the rest, such as a
-/// comparison of names.
+/// Calls use(tag, std::bool_constant<continued>) for the law of that index in LawList; no call if there is none. By
+/// index, since code for another instruction set (elastic/fan_avx512.hpp) must share no function with other files, not
+/// even string comparison.
 template <class Use>
 void visit_law(std::size_t law, bool continued, const Use& use) {
   const auto call = [&](auto tag) { continued ? use(tag, std::true_type{}) : use(tag, std::false_type{}); };

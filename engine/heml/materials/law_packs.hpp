@@ -1,12 +1,12 @@
 #pragma once
-// A law of numbers as one of packs of numbers: the same parameters in every lane.
+// Conversion of a law of numbers to one of packs (math/pack.hpp), with the same parameters in every lane.
 #include <heml/math/pack.hpp>
 #include <iterator>
 #include <utility>
 
 namespace heml {
 
-/// The same law of another scalar.
+/// The type of law L with the scalar P.
 template <class L, class P>
 struct ReboundLaw;
 template <template <class, bool> class L, class Real, bool continued, class P>
@@ -23,7 +23,7 @@ template <class To, class From, std::size_t... i>
   ((to.*To::parameters[i].member = from.*From::parameters[i].member), ...);
 }
 
-/// A law's struct of packs from that of numbers.
+/// The law with its parameters copied to every lane.
 template <class PackLaw, class P, class L>
 [[gnu::always_inline]] inline PackLaw broadcast(const L& law) {
   if constexpr (requires { law.template broadcast<P>(); }) {

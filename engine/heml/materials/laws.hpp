@@ -1,12 +1,12 @@
 #pragma once
-// From a material to its law as a struct.
+// Conversion of a material to the struct of its law.
 #include <cassert>
 #include <heml/materials/law_list.hpp>
 #include <heml/materials/material.hpp>
 
 namespace heml {
 
-/// A law's struct from its parameters' values (contract order; lists one after the other).
+/// The law with these parameter values, in the order of LawInfo::parameters (lists one after the other).
 template <class L, class Real>
 L law_from(std::span<const double> values) {
   if constexpr (requires { L::from(values); }) {
@@ -20,8 +20,8 @@ L law_from(std::span<const double> values) {
   }
 }
 
-/// Calls use(law) with the material's law as a struct of Real, continued or not. The material must be one that
-/// material_problem() has nothing against, of a law that is a continuum.
+/// Calls use(law) with the material's law as a struct of Real, continued or not. Requires that material_problem()
+/// returns nothing and that the law is a continuum (LawInfo::is_continuum).
 template <class Real, class Use>
 void with_law(const Material& material, bool continuation, const Use& use) {
   const std::size_t index = law_index(material.law);

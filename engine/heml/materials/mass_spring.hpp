@@ -1,6 +1,6 @@
 #pragma once
-// The paper's degenerate case: forces along the edges of the mesh (elastic/springs.hpp). No energy of F, so it stands
-// in laws() without being one of LawList.
+// The paper's degenerate case: springs along the edges of the mesh (elastic/springs.hpp). It has no energy W(F), so it
+// is in laws() but not in LawList.
 #include <heml/materials/law.hpp>
 
 namespace heml {
@@ -16,7 +16,7 @@ struct MassSpring {
   static constexpr bool uses_I4 = false, has_volume_term = false, is_stress_free = true;
   static constexpr ForceCost cost = {17, 14};
   static constexpr SmallStrainModuli sample = {1e3, 5e4};
-  /// Of a mesh of 1 cm edges: Poisson's ratio is what it is.
+  /// For edges of 1 cm; Poisson's ratio cannot be chosen.
   static constexpr auto of_moduli(double shear, double) { return std::array{0.01 * shear}; }
 };
 

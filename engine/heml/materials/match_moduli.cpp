@@ -39,8 +39,8 @@ Material match_moduli(const Material& material, const LawInfo& from, const LawIn
     result.viscosity = result.bulk_viscosity = 0;
     return result;
   }
-  // Both moduli are linear in the parameters that are moduli: shear does not know the volume's, which bulk has alone
-  // (and laws with stress at rest beside others).
+  // Both moduli are linear in the parameters with unit Pa. The shear modulus does not depend on the volume parameter,
+  // which enters the bulk modulus with factor 1.
   const std::size_t volume = *volume_parameter(result, to);
   const std::vector<ParameterSlot> slots = parameter_slots(result, to);
   const double factor = wanted.shear / small_strain_moduli(result).shear;

@@ -1,13 +1,14 @@
 #pragma once
-// Parameters for another law that make a tissue behave the same under small strains.
+// Converts a material to another law with the same behaviour under small strains.
 #include <heml/materials/material.hpp>
 
 namespace heml {
 
-/// The material with another law: the same density, shear and bulk modulus at rest (small_strain_moduli()); exponents
-/// and powers start moderate, and a fibre along x where the law needs one and there was none. What the law cannot have
-/// beside it (relaxation, plasticity, a volume term, fields of the mesh) is dropped. A net of springs has no modulus of
-/// its own: it is taken as 1 cm long springs, Young's modulus times that length, with Poisson's ratio 1/4.
+/// The material with the law `to`, the same density, and the same shear and bulk modulus at rest
+/// (small_strain_moduli()). Exponents and powers take ParameterInfo::start; a fibre that the law needs and the material
+/// lacks is along x. Drops parameters from mesh fields, and relaxation, plasticity and a volume term that the law
+/// cannot have. mass_spring has no modulus: its stiffness is taken as Young's modulus times 1 cm, Poisson's ratio as
+/// 1/4.
 Material match_moduli(const Material& material, const LawInfo& from, const LawInfo& to);
 
 }  // namespace heml

@@ -55,7 +55,7 @@ static_assert(std::all_of(law_table.begin(), law_table.end(),
                           [](const LawInfo& law) { return &law == &law_table[law_index(law.name)]; }),
               "two laws of one name");
 
-/// What is wrong with one value; empty: nothing.
+/// The problem of one value; empty if it is valid.
 std::string value_problem(const ParameterInfo& info, double value) {
   const std::string unit = info.unit.empty() ? "" : fmt::format(" {}", info.unit);
   if (!std::isfinite(value)) return fmt::format("must be finite, is {}", value);
@@ -91,7 +91,7 @@ std::optional<Problem> parameter_problem(const Material& material, const LawInfo
   return std::nullopt;
 }
 
-/// What is wrong with what acts beside elasticity.
+/// The first problem of fibre, volume term, viscosity, relaxation or plasticity.
 std::optional<Problem> beside_problem(const Material& material, const LawInfo& law) {
   if (law.has_fibre && material.fibre_field.empty() && !(std::abs(material.fibre.norm() - 1) < 1e-9))
     return Problem{"fibre", "must be a direction of length 1"};
@@ -173,8 +173,8 @@ SmallStrainModuli small_strain_moduli(const Material& material) {
   if (law->has_fibre) plain.fibre = direction;
   const auto point = make_material_point(plain, true);
   const Mat3 I = Mat3::Identity();
-  // Shear across the fibre that keeps volume, and change of volume alone: laws of the paper as printed have stress at
-  // rest, which bears part of the second variation of both.
+  // Isochoric shear across the fibre, and change of volume alone. The stress at rest of the paper_* laws contributes to
+  // both second variations, hence the terms in `rest`.
   Mat3 shear = Mat3::Zero();
   shear(0, 0) = 1, shear(1, 1) = -1;
   const double mu = point->first_piola_differential(I, shear).cwiseProduct(shear).sum() / 4;

@@ -1,6 +1,6 @@
 #pragma once
-// A material as people write it: the name of a law, its parameters, a density, and what acts like elasticity beside it.
-// The engine turns it into a law's struct once, when a body is built or the law is switched (laws.hpp, with_law).
+// A material as a scene gives it: law, parameters, density, viscosity, relaxation and plasticity. The engine converts
+// it to a law's struct when a body is built or its law is switched (laws.hpp, with_law).
 #include <heml/materials/law.hpp>
 #include <heml/math/types.hpp>
 #include <optional>
@@ -12,19 +12,18 @@
 
 namespace heml {
 
-/// The term of a law with a separate volume term that keeps volume, κ its bulk modulus at rest. `quadratic` is the
-/// contract's.
+/// Volume term ψ(J) of a law that has a separate one; κ is the bulk modulus at rest. `quadratic` is the default.
 enum class VolumeTerm {
   quadratic,    ///< κ/2 (J−1)²
   logarithmic,  ///< κ/2 (ln J)²
   simo_taylor   ///< κ/4 (J² − 1 − 2 ln J)
 };
-std::span<const std::string_view> volume_term_names();  ///< in the order of the enum, as scene files spell them
+std::span<const std::string_view> volume_term_names();  ///< as in scene files, in the order of the enum
 
-/// One relaxing branch of quasi-linear viscoelasticity: G(t)/G∞ = 1 + Σ γ exp(−t/τ), on the isochoric part.
+/// One Prony branch of quasi-linear viscoelasticity: G(t)/G∞ = 1 + Σ γ exp(−t/τ), on the isochoric part.
 struct PronyTerm {
-  double gamma;  ///< strength relative to the elastic law, which is the long-term one
-  double tau;    ///< s
+  double gamma;  ///< strength relative to the elastic law, which is the long-term response
+  double tau;    ///< relaxation time, s
 
   bool operator==(const PronyTerm&) const = default;
 };
@@ -37,9 +36,9 @@ struct Plasticity {
   bool operator==(const Plasticity&) const = default;
 };
 
-/// Parameters that differ from element to element come from a field of the mesh file.
+/// A parameter whose values per element come from a field of the mesh file.
 struct FieldParameter {
-  std::size_t parameter;  ///< index into Material::parameters, which then holds the mean
+  std::size_t parameter;  ///< index into Material::parameters, whose entry is then the mean
   std::string field;      ///< name in the mesh file
 
   bool operator==(const FieldParameter&) const = default;
@@ -50,9 +49,9 @@ struct Material {
   std::vector<double> parameters;  ///< SI, in the order of LawInfo::parameters; lists one after the other
   double density = 1000.0;         ///< kg/m³
 
-  Vec3 fibre = Vec3::Zero();                ///< unit, rest shape: laws with a fibre
-  std::string fibre_field = {};             ///< per element instead, from the mesh file; empty: none
-  std::vector<FieldParameter> fields = {};  ///< per element instead, from the mesh file
+  Vec3 fibre = Vec3::Zero();                ///< unit vector at rest, for laws with a fibre
+  std::string fibre_field = {};             ///< field of the mesh file with a fibre per element; empty: none
+  std::vector<FieldParameter> fields = {};  ///< parameters with a value per element
 
   VolumeTerm volume_term = VolumeTerm::quadratic;
   double viscosity = 0;                    ///< η, Pa s: σ = 2 η ε̇ + ζ tr(ε̇) I at small strain
@@ -64,14 +63,14 @@ struct Material {
   bool has_internal_state() const { return viscosity > 0 || bulk_viscosity > 0 || !relaxation.empty() || plasticity; }
 };
 
-/// What the program knows of a law before it runs it.
+/// Description of a law, independent of the scalar type.
 struct LawInfo {
   std::string_view name;                      ///< "stvk"
   std::string_view title;                     ///< "Saint Venant–Kirchhoff"
-  std::string_view formula;                   ///< energy per unit rest volume, for people
+  std::string_view formula;                   ///< energy per unit rest volume, for display
   std::string_view source;                    ///< publication
-  std::span<const ParameterInfo> parameters;  ///< what Material::parameters holds
-  bool takes_young_poisson;                   ///< `young`, `poisson` may stand for `lambda`, `mu` in a scene
+  std::span<const ParameterInfo> parameters;  ///< of Material::parameters
+  bool takes_young_poisson;                   ///< a scene may give `young`, `poisson` instead of `lambda`, `mu`
   bool has_volume_term;                       ///< W = isochoric part + volume term with its κ
   bool has_fibre;                             ///< needs Material::fibre or fibre_field
   bool is_principal;                          ///< W of principal stretches
@@ -82,23 +81,23 @@ struct LawInfo {
   std::vector<double> (*of_moduli)(SmallStrainModuli rest);  ///< parameters of a soft tissue with these moduli
 };
 
-/// Every law this build can run, in the order the panel lists them.
+/// All laws, in display order.
 std::span<const LawInfo> laws();
 
-/// The law of that name; nullptr when there is none.
+/// The law of that name; nullptr if there is none.
 const LawInfo* find_law(std::string_view name);
 
-/// A soft material of a law, around 1 kPa unless other moduli at rest are given (Pa), defined for stretches of 0.5 to
-/// 1.6, fibres along x: what tests, benches and studies are made of.
+/// A soft material of a law for tests, benchmarks and studies: shear modulus around 1 kPa unless moduli at rest are
+/// given (Pa), defined for stretches of 0.5 to 1.6, fibres along x.
 Material sample_material(const LawInfo& law);
 Material sample_material(const LawInfo& law, SmallStrainModuli rest);
 
-/// What is wrong with the parameters or the density: (key, problem), e.g. ("mu", "must be greater than 0, is -3").
-/// Empty when nothing is.
+/// The first problem of a material as (key, problem), e.g. ("mu", "must be greater than 0 Pa, is -3"); nothing if it is
+/// valid.
 std::optional<std::pair<std::string, std::string>> material_problem(const Material& material);
 
-/// Of a fibre law across the fibre; zero where the law is no continuum. The material must be one that
-/// material_problem() has nothing against.
+/// Moduli at rest; across the fibre for a law with fibres, 0 for a law that is no continuum. Requires parameters that
+/// material_problem() accepts.
 SmallStrainModuli small_strain_moduli(const Material& material);
 
 /// Lamé parameters from engineering constants: λ = Eν/((1+ν)(1−2ν)), μ = E/(2(1+ν)).
@@ -107,7 +106,7 @@ struct LameParameters {
 };
 LameParameters lame_parameters(double young, double poisson);
 
-/// And back: E = μ(3λ+2μ)/(λ+μ), ν = λ/(2(λ+μ)).
+/// Engineering constants from Lamé parameters: E = μ(3λ+2μ)/(λ+μ), ν = λ/(2(λ+μ)).
 struct EngineeringConstants {
   double young;    ///< Pa
   double poisson;  ///< -

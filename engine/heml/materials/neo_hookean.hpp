@@ -1,9 +1,9 @@
 #pragma once
 // Neo-Hookean with a logarithmic volume term: W = μ/2 (I1−3) − μ ln J + λ/2 (ln J)², J signed.
-// (The paper's row of Table 1, K1 I1, is not free of stress at rest; the logarithm puts that right.)
+// (The paper's energy K1 I1 in Table 1 is not stress-free at rest; with the logarithm it is.)
 //
-// Defined for J > 0. `continued` replaces ln J and (ln J)² below J0 by their second-order Taylor polynomials there: C2,
-// and finite and restoring through J = 0 and beyond; off reproduces the formula.
+// Defined for J > 0. `continued` replaces ln J and (ln J)² below J0 by their second-order Taylor polynomials at J0: C2,
+// finite, and restoring through J = 0 and beyond.
 #include <heml/materials/law.hpp>
 #include <heml/math/elementary.hpp>
 
@@ -52,9 +52,9 @@ struct NeoHookean {
 
  private:
   struct Point {
-    Real beyond;  ///< J − c, zero unless continued
+    Real beyond;  ///< J − c; 0 above J0
     Real log_c;   ///< ln c
-    Real c;       ///< where the polynomials are taken: J itself, or J0
+    Real c;       ///< expansion point of the polynomials: max(J, J0); J without continuation
   };
   static Point point(Real J) {
     if constexpr (!continued) return {0, natural_log(J), J};

@@ -1,6 +1,6 @@
 #pragma once
-// Neo-Hookean with a separate volume term: W = K1 (Ī1−3) + κ/2 (J−1)². The paper's row of Table 1 with the isochoric
-// invariant, so that it is free of stress at rest.
+// Neo-Hookean with a separate volume term: W = K1 (Ī1−3) + κ/2 (J−1)². The paper's Table 1 with the isochoric
+// invariant, so that it is stress-free at rest.
 #include <heml/materials/isochoric.hpp>
 
 namespace heml {

@@ -2,11 +2,11 @@
 // Ogden with any number of terms: W = Σ_p μp/αp (λ̄1^αp + λ̄2^αp + λ̄3^αp − 3) + κ/2 (J−1)²; the shear modulus at rest
 // is Σ μp αp / 2. In c̄ = λ̄²: h(c̄) = Σ_p μp/αp (c̄^(αp/2) − 1).
 //
-// `continued` goes on with second-order Taylor polynomials in c̄ where a power would leave [0.001, 1000] on its steep
-// side, and below λ̄ = 0.2: C2, and smooth through c̄ = 0. (A polynomial in λ̄ itself would have a kink there as a
-// function of C.) What depends on C alone is the same for an element and its mirror image, so a term of negative power
-// has a hill at J = 0 that would hold an inverted element down: below J0 a quartic in J0 − J, as strong as the hill is
-// steep, is added.
+// `continued` replaces a power by its second-order Taylor polynomial in c̄ where it would exceed 1000, and below
+// λ̄ = 0.2: C2, and smooth through c̄ = 0. (A polynomial in λ̄ would have a kink there as a function of C.) A function
+// of C alone is equal for an element and its mirror image, so a term of negative power has an energy barrier at J = 0
+// that would keep an inverted element inverted. A quartic in J0 − J, scaled by the steepest slope of the barrier, is
+// added below J0 to overcome it.
 #include <algorithm>
 #include <heml/materials/principal.hpp>
 #include <memory>
@@ -19,10 +19,10 @@ namespace heml {
 template <class Real>
 struct OgdenTerm {
   Real mu, alpha;
-  Real low, high;  ///< of c̄, between which the power stands
+  Real low, high;  ///< range of c̄ in which the power is not continued
 };
 
-/// Stands for the owner of the terms where a law borrows them.
+/// Type of `owner` in a law that borrows its terms.
 struct NoOwner {};
 
 template <class Real, bool continued>
@@ -32,7 +32,7 @@ struct Ogden {
   std::size_t count = 0;
   Real steepness = 1;  ///< max |α/2 − 1| + 1
   Real kappa = 0;
-  Real upright = 0;  ///< Pa, strength of the quartic below J0
+  Real upright = 0;  ///< coefficient of the quartic below J0, Pa
   std::conditional_t<std::is_same_v<Real, Lane<Real>>, std::shared_ptr<const std::vector<Term>>, NoOwner> owner = {};
 
   static constexpr std::string_view name = "ogden";
@@ -60,7 +60,7 @@ struct Ogden {
 
   /// values: all μ, all α, κ.
   static Ogden from(std::span<const double> values) {
-    using std::abs;  // a scalar type of its own brings its own
+    using std::abs;  // other scalar types provide theirs
     const std::size_t count = (values.size() - 1) / 2;
     auto list = std::make_shared<std::vector<OgdenTerm<Real>>>();
     Ogden law;
@@ -70,7 +70,7 @@ struct Ogden {
       const Real low = std::max(Real(0.04), s < 0 ? natural_exp(far / s) : Real(0));
       const Real high = s > 0 ? natural_exp(std::min(far / s, Real(80))) : std::numeric_limits<Real>::max();
       list->push_back({mu, alpha, low, high});
-      // The slope of h at c̄ = 0, continued, where the hill is steepest.
+      // |h1| of the continued term at c̄ = 0, where the barrier is steepest.
       if (continued && s < 0) law.upright += abs(mu / 2 * (2 - s) * power(low, s - 1));
       law.steepness = std::max(law.steepness, abs(s - 1) + 1);
     }
@@ -81,7 +81,7 @@ struct Ogden {
     return law;
   }
 
-  /// The same law for many lanes; lives as long as this one.
+  /// The same law for packs. It borrows the terms, so it must not outlive this law.
   template <class Pack>
   Ogden<Pack, continued> broadcast() const {
     return {terms, count, steepness, kappa, upright};
@@ -89,7 +89,8 @@ struct Ogden {
 
   Mask<Real> valid(const Invariants<Real>& at) const {
     if constexpr (continued) return true;
-    // Powers of eigenvalues between I3/I1² and I1 must fit; seen from a bound, since valid() has no eigenvalues.
+    // Powers of the eigenvalues of C̄ must not overflow. Bounds from Ī1 and det C̄ = 1, since eigenvalues are not at
+    // hand.
     const Real p = volume_powers<continued>(at.J).p, most = p * at.I1, least = Real(4) / (p * p * at.I1 * at.I1);
     const Mask<Real> has_volume = at.J > min_volume_ratio<Real> || at.J < -min_volume_ratio<Real>;
     return has_volume && steepness * natural_log(most) < safe_exponent<Real> &&
@@ -122,7 +123,7 @@ struct Ogden {
     return v;
   }
 
-  /// Close to one another by three Gauss points of the mean of h2 between them, whose error is below 1e-12 there.
+  /// For close a and b the mean of h2 between them, by three-point Gauss quadrature with an error below 1e-12.
   Real divided_difference(Real a, Real b) const {
     const Real apart = a - b, middle = (a + b) / 2;
     const Real distance = select(apart < 0, -apart, apart), reach = apart / 2 * Real(0.7745966692414834);

@@ -1,12 +1,12 @@
 #pragma once
-// The energies of the paper's Table 1 as they stand there, misprints set right: with I1 and I2 themselves, not their
-// isochoric parts. Not free of stress at rest: a body shrinks until its volume term bears it. Here for comparison;
-// neo_hookean_iso, mooney_rivlin and fung_demiray are the ones to use.
+// The energies of the paper's Table 1 as printed, misprints corrected: in I1 and I2, not in Ī1 and Ī2. They are not
+// stress-free at rest: a body shrinks until its volume term balances that stress. For comparison only; otherwise use
+// neo_hookean_iso, mooney_rivlin and fung_demiray.
 #include <heml/materials/fung_demiray.hpp>
 
 namespace heml {
 
-/// What the three share: W = w(I1, I2) + κ/2 (J−1)², the paper's remark on incompressibility (section 2.3).
+/// Base class: W = w(I1, I2) + κ/2 (J−1)², with the volume term of the paper's section 2.3.
 template <class Self, class Real, bool continued>
 struct PaperLaw {
   static constexpr std::string_view source = "Goulette & Chendeb 2006, Table 1, as printed";

@@ -1,7 +1,7 @@
 #pragma once
-// The calculus of laws of principal stretches, W = Σ_i h(c̄_i) + ψ(J), c̄_i the eigenvalues of C̄ = p C,
-// p = J^(−2/3):
-//   S  = 2 p H,  H = Σ_i h1(c̄_i) n_i n_iᵀ            (the part of ∂W/∂C at fixed J, doubled)
+// Stress and stress differential of laws of principal stretches, W = Σ_i h(c̄_i) + ψ(J), where c̄_i and n_i are the
+// eigenvalues and eigenvectors of C̄ = p C, p = J^(−2/3):
+//   S  = 2 p H,  H = Σ_i h1(c̄_i) n_i n_iᵀ            (S = 2 ∂W/∂C at fixed J)
 //   wJ = p' H:C + ψ'(J)
 //   dH = Σ_ij h1[c̄_i, c̄_j] (n_i·dC̄ n_j) n_i n_jᵀ     (divided differences; Daleckii & Krein 1965)
 #include <heml/materials/volume.hpp>
@@ -9,7 +9,7 @@
 
 namespace heml {
 
-/// S = 2 ∂W/∂C at fixed J (six numbers) and wJ = ∂W/∂J at fixed C, Pa.
+/// S = 2 ∂W/∂C at fixed J (11 22 33 12 13 23) and wJ = ∂W/∂J at fixed C, Pa.
 template <class Real>
 struct Stress {
   Real S[6], wJ;
@@ -40,7 +40,7 @@ template <class Real, PrincipalLaw<Real> L>
   return stress;
 }
 
-/// h1[c̄_i, c̄_j] for 11 22 33 12 13 23: all that changes of the stress at one state have in common.
+/// h1[c̄_i, c̄_j] for 11 22 33 12 13 23. Independent of dC and dJ: computed once per state.
 template <class Real, PrincipalLaw<Real> L>
 [[gnu::always_inline]] inline void divided_differences(const L& law, const PrincipalState<Real>& at, Real divided[6]) {
   constexpr int row[6] = {0, 1, 2, 0, 0, 1}, col[6] = {0, 1, 2, 1, 2, 2};
@@ -48,14 +48,14 @@ template <class Real, PrincipalLaw<Real> L>
     divided[k] = law.divided_difference(at.v.p * at.e.value[row[k]], at.v.p * at.e.value[col[k]]);
 }
 
-/// Change of S and wJ with dC (six numbers) and dJ.
+/// Change of S and wJ for changes dC (11 22 33 12 13 23) and dJ, Pa.
 template <class Real, PrincipalLaw<Real> L>
 [[gnu::always_inline]] inline Stress<Real> principal_stress_differential(const L& law, const PrincipalState<Real>& at,
                                                                          const Real divided[6], const Real dC[6],
                                                                          Real J, Real dJ) {
   const auto& [p, p1, p2, q, q1, q2] = at.v;
   constexpr int row[6] = {0, 1, 2, 0, 0, 1}, col[6] = {0, 1, 2, 1, 2, 2};
-  // dC̄ in the eigenvectors' frame, then dH there.
+  // dC̄, then dH, in the frame of the eigenvectors.
   Real dH[6], HdC = 0, HC = 0, dHC = 0;
   for (int k = 0; k < 6; ++k) {
     const int i = row[k], j = col[k];

@@ -2,10 +2,9 @@
 // Stable Neo-Hookean (Smith, De Goes & Kim 2018, Eq. 14, with the constants of its section 3.4 so that λ and μ are
 // those of linear elasticity): W = 2μ/3 (I1−3 − ln((I1+1)/4)) + (λ/2 + 5μ/12)(J−1)² − μ (J−1), J signed; 0 at rest.
 //
-// Defined at every state, with finite stiffness, and without a state to be caught in: turned inside out it is pushed
-// upright, and the logarithm takes the hold away that I1 alone would have on a body shrunk to a point. So it needs no
-// continuation, and serves bodies that have to be brought back from where their own law ends
-// (world/recovery_surrogate.hpp).
+// Defined at every state, with finite stiffness, and without a stable collapsed or inverted state: inverted elements
+// are restored, and the logarithm removes the stiffness that I1 alone would give a body shrunk to a point. So it needs
+// no continuation, and it is the surrogate of bodies outside the range of their own law (world/recovery_surrogate.hpp).
 #include <heml/materials/law.hpp>
 #include <heml/math/elementary.hpp>
 

@@ -3,8 +3,8 @@
 // tr E² = (I1² − 2 I2 − 2 I1 + 3)/4 it depends on I1 and I2 alone.
 //
 // The law loses all stiffness under compression: the force of a flattened element falls to zero (paper, 2.3).
-// `continued` adds ½ κ (J1 − J)² below J1 = 1/√3, κ = λ + 2μ, which turns inverted elements upright again and keeps the
-// force monotone under confined compression; off reproduces the formula.
+// `continued` adds ½ κ (J1 − J)² below J1 = 1/√3, κ = λ + 2μ, which restores inverted elements and keeps the force
+// monotone under confined compression.
 #include <cmath>
 #include <heml/materials/law.hpp>
 

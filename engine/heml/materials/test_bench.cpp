@@ -8,9 +8,9 @@ namespace heml {
 namespace {
 
 constexpr int max_newton_steps = 60;
-constexpr int max_halvings = 12;  // of a step between two amounts, and of a Newton step
+constexpr int max_halvings = 12;  // of a step of the amount, and of a Newton step
 
-/// Axes whose faces are free in a test; the others follow the amount.
+/// Axes whose faces are free in a test; the stretches of the others are prescribed.
 std::span<const int> free_axes(BenchTest test) {
   static constexpr std::array<int, 2> across{1, 2};
   switch (test) {
@@ -25,7 +25,7 @@ std::span<const int> free_axes(BenchTest test) {
   return {};
 }
 
-/// F of a test, given the stretches along all axes of the state before: free ones are kept as they are.
+/// F of a test, with the free stretches of the previous state F.
 Mat3 prescribed(BenchTest test, double amount, Mat3 F) {
   if (test == BenchTest::shear) {
     F(0, 1) = amount;
@@ -36,8 +36,8 @@ Mat3 prescribed(BenchTest test, double amount, Mat3 F) {
   return F;
 }
 
-/// Newton's method for P_ii = 0 on the free axes, in logarithms of the stretches, each step halved until the residual
-/// falls. Nothing where the law has no value or no balance is found.
+/// Solves P_ii = 0 on the free axes by Newton's method in logarithms of the stretches, with each step halved until the
+/// residual decreases. Returns nothing where the law is undefined or the method fails.
 class Balance {
  public:
   Balance(const MaterialPoint& law, BenchTest test) : law_(law), free_(free_axes(test)) {}
@@ -53,7 +53,7 @@ class Balance {
       if (!step.allFinite()) return std::nullopt;
       if (step.cwiseAbs().maxCoeff() < round_off) return stretched(F, step);
       const auto better = improved(F, r.norm(), step);
-      // Round-off may keep the residual from falling before the step is that small.
+      // Round-off may keep the residual from decreasing before the step is that small.
       if (!better) return r.norm() < balanced * S.norm() ? std::optional(F) : std::nullopt;
       F = *better;
     }
@@ -71,7 +71,7 @@ class Balance {
     return r;
   }
 
-  /// ∂r_i/∂(ln λ_j) between free axes, Pa; the others, whose residual is 0, as if they stood alone.
+  /// ∂r_i/∂(ln λ_j) between free axes, Pa; identity on the others, whose residual is 0.
   Mat3 slope(const Mat3& F, const Mat3& P) const {
     Mat3 S = Mat3::Identity();
     for (const int j : free_) {
@@ -101,14 +101,14 @@ class Balance {
   std::span<const int> free_;
 };
 
-/// Follows the free stretches from one amount to another, in as many steps as that takes.
+/// Follows the free stretches from one amount to another, with as many steps as Newton's method needs.
 class Follower {
  public:
   Follower(const MaterialPoint& law, BenchTest test) : balance_(law, test), test_(test) {}
 
   std::optional<Mat3> at(double amount, Mat3 F) const { return balance_(prescribed(test_, amount, F)); }
 
-  /// From F at `begin`. Nothing when `end` cannot be reached.
+  /// From F at amount `begin` to amount `end`; nothing if that cannot be reached.
   std::optional<Mat3> follow(Mat3 F, double begin, double end) const {
     double step = end - begin;
     const double least = std::abs(step) * std::ldexp(1.0, -max_halvings);
@@ -153,7 +153,7 @@ BenchCurve run_bench(const MaterialPoint& law, BenchTest test, std::span<const d
   const Follower follower(law, test);
   BenchCurve curve;
   const std::optional<Mat3> start = follower.at(rest, Mat3::Identity());
-  // Away from the rest shape in both directions; the first amount that cannot be reached ends that direction.
+  // From the rest shape in both directions; the first amount that cannot be reached ends that direction.
   const auto march = [&](auto from, auto to) {
     std::optional<Mat3> F = start;
     double before = rest;

@@ -1,6 +1,6 @@
 #pragma once
-// Veronda & Westmann, made for skin: W = c1 (exp(β(Ī1−3)) − 1) − c1 β/2 (Ī2−3) + κ/2 (J−1)². The exponent goes on as
-// in fung_demiray.hpp where `continued`.
+// Veronda & Westmann, for skin: W = c1 (exp(β(Ī1−3)) − 1) − c1 β/2 (Ī2−3) + κ/2 (J−1)². `continued` replaces the
+// exponential as in fung_demiray.hpp.
 #include <heml/materials/autodiff_law.hpp>
 
 namespace heml {

@@ -1,21 +1,20 @@
 #pragma once
-// What laws with a separate volume term share: powers of J in the isochoric invariants Ī1 = J^(−2/3) I1 and
-// Ī2 = J^(−4/3) I2, and the volume terms themselves.
+// Shared by laws with a separate volume term: the powers of J in the isochoric invariants Ī1 = J^(−2/3) I1 and
+// Ī2 = J^(−4/3) I2, and volume terms.
 //
-// `continued` replaces the powers and the logarithm below J0 by their second-order Taylor polynomials there: C2, finite
-// and smooth through J = 0. Off, J^(−2/3) of an inverted element is that of |J|, as the cube root of 1/J² gives it; at
-// J = 0 there is no value.
+// `continued` replaces the powers and the logarithm below J0 by their second-order Taylor polynomials at J0: C2 and
+// finite through J = 0. Without it, J^(−2/3) of an inverted element is (1/J²)^(1/3), undefined at J = 0.
 #include <cmath>
 #include <heml/materials/law.hpp>
 #include <heml/math/elementary.hpp>
 
 namespace heml {
 
-/// Where continuations in J begin.
+/// J0, below which laws are continued.
 template <class Real>
 inline constexpr Real continuation_start = Real(0.3);
 
-/// Smallest |J| where powers of J are taken as defined.
+/// Smallest |J| at which powers of J count as defined.
 template <class Real>
 inline constexpr Real min_volume_ratio = Real(1e-12);
 
@@ -31,7 +30,7 @@ template <bool continued, class Real>
   const Real start = continuation_start<Real>, c = continued ? select(J > start, J, start) : J;
   const Real p = natural_exp(Real(-2.0 / 3) * natural_log(continued ? c : magnitude)), q = p * p;
   const Real i = 1 / c;
-  // Derivatives at c; a power of |J| has them with the sign of J in 1/J.
+  // Derivatives at c. d|J|^a/dJ = a |J|^a / J: the sign of J enters through i alone.
   const Real p1 = Real(-2.0 / 3) * p * i, p2 = Real(10.0 / 9) * p * i * i;
   const Real q1 = Real(-4.0 / 3) * q * i, q2 = Real(28.0 / 9) * q * i * i;
   if constexpr (!continued) return {p, p1, p2, q, q1, q2};
@@ -39,7 +38,7 @@ template <bool continued, class Real>
   return {p + d * (p1 + d / 2 * p2), p1 + d * p2, p2, q + d * (q1 + d / 2 * q2), q1 + d * q2, q2};
 }
 
-/// Ī1 and Ī2 of any scalar, jets included: for laws given by their energy alone.
+/// Ī1 and Ī2 for any scalar, jets included: for laws given by their energy alone (autodiff_law.hpp).
 template <bool continued, class T>
 Invariants<T> isochoric(const Invariants<T>& at) {
   const T start(0.3);
@@ -47,13 +46,13 @@ Invariants<T> isochoric(const Invariants<T>& at) {
   const T c = continued ? select(at.J > start, at.J, start) : magnitude;
   const T p = natural_exp(T(-2.0 / 3) * natural_log(c));
   if constexpr (!continued) return {p * at.I1, p * p * at.I2, at.J};
-  const T d = (at.J - c) / c;  // zero, and without slope, unless continued
+  const T d = (at.J - c) / c;  // above the start, zero with zero derivatives
   return {p * (T(1) - d * T(2.0 / 3) + d * d * T(5.0 / 9)) * at.I1,
           p * p * (T(1) - d * T(4.0 / 3) + d * d * T(14.0 / 9)) * at.I2, at.J};
 }
 
-/// Volume terms other than the contract's κ/2 (J−1)², which stands in the laws themselves: κ/2 (ln J)² and
-/// κ/4 (J² − 1 − 2 ln J) of Simo & Taylor 1982. As a law of its own, added to the isochoric part of another.
+/// Volume terms κ/2 (ln J)² and κ/4 (J² − 1 − 2 ln J) (Simo & Taylor 1982), as a law that is added to the isochoric
+/// part of another. The default κ/2 (J−1)² is part of the laws themselves.
 template <class Real, bool continued, bool simo_taylor>
 struct VolumeLaw {
   Real kappa;

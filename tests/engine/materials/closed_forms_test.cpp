@@ -9,13 +9,12 @@
 
 #include "sample_materials.hpp"
 
-// Laws against their textbook stress by principal stretches (Ogden 1984; Holzapfel 2000, chapter 6), in long double
-// and written here by hand:
+// Compares laws with textbook formulas of stress in principal stretches (Ogden 1984; Holzapfel 2000, chapter 6), in
+// long double:
 //
 //   λi Pi = 2 w1 (λ̄i² − Ī1/3) − 2 w2 (λ̄i^−2 − Ī1'/3) + κ J (J−1),  Ī1' = Σ λ̄j^−2 = Ī2,  w1 = ∂w/∂Ī1, w2 = ∂w/∂Ī2
 //
-// Free stretches are found by bisection of the closed form. The reference that every law has is in
-// tests/e2e/law_formulas.py.
+// Free stretches are found by bisection of the closed form. tests/e2e/law_formulas.py has a reference for every law.
 
 namespace heml::closed_forms_test {
 
@@ -29,7 +28,7 @@ using Stress = std::array<Long, 3>;
 
 Long product(const Stretches& s) { return s[0] * s[1] * s[2]; }
 
-/// Principal stretches without their change of volume.
+/// Isochoric principal stretches λ̄i = λi / J^(1/3).
 Stretches isochoric(const Stretches& s) {
   const Long size = std::cbrt(product(s));
   return {s[0] / size, s[1] / size, s[2] / size};
@@ -52,7 +51,7 @@ Stress split(const Stretches& s, const Slope& w1, Long w2, Long kappa) {
   return P;
 }
 
-/// The paper's laws as printed: λi Pi = 2 w1 λi² + 2 w2 λi² (I1 − λi²) + κ J (J−1).
+/// Nominal stress of the paper's laws as printed: λi Pi = 2 w1 λi² + 2 w2 λi² (I1 − λi²) + κ J (J−1).
 Stress printed(const Stretches& s, const Slope& w1, Long w2, Long kappa) {
   const Long I1 = sum_of_powers(s, 2), J = product(s);
   Stress P;
@@ -137,7 +136,7 @@ Stress closed_form(const Material& material, const Stretches& s) {
   return closed_forms().find(material.law)->second(s, material.parameters);
 }
 
-/// Calls check(material, law at a point) for every law of the table.
+/// Calls check(material, material point) for every law of the table.
 template <class Check>
 void for_every_law(const Check& check) {
   for (const auto& entry : closed_forms()) {
@@ -147,7 +146,7 @@ void for_every_law(const Check& check) {
   }
 }
 
-/// The free stretch s at which the third principal stress of stretches(s) is zero.
+/// stretches(s) with the free stretch s at which the third principal stress is zero.
 template <class Shape>
 Stretches free_of_stress(const Material& material, const Shape& stretches) {
   Long low = 0.2L, high = 5;
@@ -163,7 +162,7 @@ Stretches free_of_stress(const Material& material, const Shape& stretches) {
   return stretches((low + high) / 2);
 }
 
-/// The law at these stretches, in the frame of the axes; and that the test bench finds the same state by itself.
+/// Checks the law's stress at these stretches along the axes, and that the test bench finds the same state.
 void compare(const Material& material, const MaterialPoint& point, BenchTest test, const Stretches& s) {
   const Stress expected = closed_form(material, s);
   const Mat3 F = Vec3(static_cast<double>(s[0]), static_cast<double>(s[1]), static_cast<double>(s[2])).asDiagonal();
@@ -178,7 +177,7 @@ void compare(const Material& material, const MaterialPoint& point, BenchTest tes
   CHECK((curve.points[0].F - F).norm() <= 1e-8);
 }
 
-/// Stretches within which StVK, which softens, still has a free lateral stretch.
+/// Prescribed stretches. StVK softens, so only moderate ones have a free lateral stretch.
 std::vector<double> pulls(const Material& material) {
   if (material.law == "stvk") return {0.75, 0.9, 1.1, 1.25};
   return {0.5, 0.8, 1.2, 2.0};
@@ -199,7 +198,7 @@ TEST_CASE("uniaxial stress of laws is their closed form") {
 
 TEST_CASE("equibiaxial stress of laws is their closed form") {
   for_every_law([](const Material& material, const MaterialPoint& point) {
-    if (material.law == "hgo") return;  // its fibre lies along one of the two pulls: planar, not equibiaxial stress
+    if (material.law == "hgo") return;  // its fibre lies along one of the two axes: the stress is not equibiaxial
     for (const double pull : pulls(material)) {
       CAPTURE(pull);
       compare(material, point, BenchTest::equibiaxial, free_of_stress(material, [&](Long s) {
@@ -224,7 +223,7 @@ TEST_CASE("planar stress of laws is their closed form") {
 // is λi Pi (J = 1), and P = σ F⁻ᵀ.
 TEST_CASE("stress in simple shear of laws is their closed form") {
   for_every_law([](const Material& material, const MaterialPoint& point) {
-    if (material.law == "hgo") return;  // below
+    if (material.law == "hgo") return;  // tested below
     for (const double gamma : {-1.0, 0.2, 0.7, 1.5}) {
       CAPTURE(gamma);
       const Long g = gamma, a = g / 2 + std::sqrt(1 + g * g / 4);
@@ -241,7 +240,7 @@ TEST_CASE("stress in simple shear of laws is their closed form") {
   });
 }
 
-// A fibre across the shear is turned and stretched: F a0 = (γ, 1, 0), Ī4 = 1 + γ², and bears 2 w4 dev(F a0 ⊗ F a0).
+// Shear turns and stretches a fibre along y: F a0 = (γ, 1, 0), Ī4 = 1 + γ². Its Cauchy stress is 2 w4 dev(F a0 ⊗ F a0).
 TEST_CASE("a fibre in simple shear pulls along where it has turned, and one along the shear bears nothing") {
   Material fibres = sample_material("hgo"), matrix = sample_material("neo_hookean_iso");
   matrix.parameters = {fibres.parameters[0], fibres.parameters[1]};

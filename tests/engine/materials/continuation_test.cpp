@@ -4,7 +4,7 @@
 
 #include "every_law.hpp"
 
-// Where laws end, and how they go on past that.
+// Limits of the range of laws, and their continuations beyond.
 
 namespace heml::continuation_test {
 
@@ -25,8 +25,8 @@ TEST_CASE("a continuation changes nothing in moderate states") {
   }
 }
 
-// Along straight paths through the range of a law and beyond, in steps too small for the law to change: what jumps then
-// has a step in it.
+// Checks along straight paths through a law's range and beyond that energy, stress and stiffness have no jumps. The
+// steps are so small that a smooth law hardly changes.
 struct Path {
   std::string name;
   Vec3 from, to;
@@ -41,7 +41,7 @@ void check_smooth_along(const std::vector<Path>& paths) {
       CAPTURE(material.law);
       CAPTURE(path.name);
       const auto point = make_material_point(material, true);
-      // A fibre that begins to bear load is a jump of the law's own, and not what is asked here.
+      // The stiffness of a fibre law itself jumps where the fibre begins to bear load.
       const bool jumps = material.law == "stvk" || find_law(material.law)->has_fibre;
       const Mat3 step = turn * ((to - from) / steps).asDiagonal();
       struct At {
@@ -53,7 +53,7 @@ void check_smooth_along(const std::vector<Path>& paths) {
         return At{point->energy(F), point->first_piola(F), point->first_piola_differential(F, step),
                   point->first_piola_differential(F, direction)};
       };
-      double energy_jump = 0, stress_jump = 0, stiffness_jump = 0;  // beyond what the slopes explain, over the slopes
+      double energy_jump = 0, stress_jump = 0, stiffness_jump = 0;  // less the first-order change, relative
       At before = at(0);
       for (int k = 1; k <= steps; ++k) {
         const At now = at(k);
@@ -67,7 +67,7 @@ void check_smooth_along(const std::vector<Path>& paths) {
       CHECK(energy_jump < 1e-2 * step.norm());
       CHECK(stress_jump < (jumps ? 1 : 1e-2) * step.norm());
       if (!jumps) CHECK(stiffness_jump < 0.1);
-      if (material.law == "stvk" && to[0] < 0) CHECK(stiffness_jump > 0.1);  // so this can tell
+      if (material.law == "stvk" && to[0] < 0) CHECK(stiffness_jump > 0.1);  // the check detects a real jump
     }
 }
 

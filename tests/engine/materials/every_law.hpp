@@ -1,5 +1,5 @@
 #pragma once
-// What the tests of every law share.
+// Shared by tests that run for every law.
 #include <heml/materials/point.hpp>
 
 #include "sample_materials.hpp"
@@ -9,7 +9,7 @@ namespace heml::test {
 
 inline const Vec3 askew = Vec3(2, -1, 2) / 3;
 
-/// A sample of every law that is a continuum, fibres askew, and the two other volume terms.
+/// A sample material of every law W(F), with oblique fibres, and one of each non-default volume term.
 inline std::vector<Material> samples() {
   std::vector<Material> list;
   for (const LawInfo& law : laws()) {
@@ -24,7 +24,7 @@ inline std::vector<Material> samples() {
   return list;
 }
 
-/// Of norm 1.
+/// A random dF of norm 1.
 inline Mat3 random_direction(std::mt19937_64& random) {
   Mat3 dF;
   for (double& d : dF.reshaped()) d = uniform(random, -1, 1);
@@ -33,7 +33,7 @@ inline Mat3 random_direction(std::mt19937_64& random) {
 
 inline double inner(const Mat3& A, const Mat3& B) { return A.cwiseProduct(B).sum(); }
 
-/// Stress too small to be measured against, Pa.
+/// Lower bound, Pa, for the stress that errors are relative to.
 inline double min_stress(const Material& material) {
   const auto [shear, bulk] = small_strain_moduli(material);
   return 1e-3 * (shear + bulk);

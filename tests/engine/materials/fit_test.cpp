@@ -71,7 +71,7 @@ TEST_CASE("the bulk modulus is held, unless it is asked for and the test sees it
   CHECK(all.material.parameters[1] == doctest::Approx(3e3).epsilon(1e-5));
 }
 
-// Linear in K1, so that the textbook's ordinary least squares gives value, error and R² in closed form.
+// The stress is linear in K1, so ordinary least squares gives value, error and R² in closed form.
 TEST_CASE("errors and R² are those of ordinary least squares where the law is linear in its parameter") {
   Material truth = sample_material("neo_hookean_iso");
   truth.parameters = {500, 5e4};
@@ -99,19 +99,19 @@ TEST_CASE("errors and R² are those of ordinary least squares where the law is l
 }
 
 TEST_CASE("says which parameters the data leave open") {
-  // Simple shear sees K1 + K2 alone.
+  // The stress in simple shear depends on K1 + K2 alone.
   const Material truth = sample_material("mooney_rivlin");
   const MeasuredCurve shear = measured(truth, BenchTest::shear, evenly_spaced(-0.4, 0.4, 9));
   const FitResult fit = fit_material(truth, BenchTest::shear, shear, {});
   CHECK_FALSE(parameter(fit, "K1").determined);
   CHECK_FALSE(parameter(fit, "K2").determined);
   CHECK(std::isinf(parameter(fit, "K1").standard_error));
-  // Both from a pull.
+  // Uniaxial tension determines both.
   const FitResult pull =
       fit_material(truth, BenchTest::uniaxial, measured(truth, BenchTest::uniaxial, evenly_spaced(0.7, 1.5, 9)), {});
   CHECK(parameter(pull, "K1").determined);
   CHECK(parameter(pull, "K2").determined);
-  // A curve within noise of a straight line says nothing of how fast a tissue stiffens.
+  // A curve that is straight to within noise does not determine the stiffening γ.
   Material fung = sample_material("fung_demiray");
   MeasuredCurve nearly = measured(fung, BenchTest::uniaxial, evenly_spaced(0.99, 1.01, 9));
   std::mt19937_64 random(3);

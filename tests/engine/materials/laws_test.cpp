@@ -6,8 +6,8 @@
 
 #include "every_law.hpp"
 
-// What must hold of every law, whatever its formula; the formulas themselves are in closed_forms_test.cpp, where laws
-// end in continuation_test.cpp.
+// Properties of every law, independent of its formula. The formulas are tested in closed_forms_test.cpp, the limits of
+// laws in continuation_test.cpp.
 
 namespace heml::laws_test {
 
@@ -26,8 +26,8 @@ void for_every_law(const Check& check) {
     }
 }
 
-/// Any orientation, stretches to 5, two of them equal one time in four and all three one time in eight (to rounding, or
-/// to 1e-9), J in [0.05, 3]; in [−1, 3] for continued laws.
+/// A random F: any orientation, stretches 0.1 to 5, in 2/8 of cases two and in 1/8 all three of them equal (exactly, or
+/// to 1e-9), J in [0.05, 3], or in [−1, 3] for continued laws.
 Mat3 random_state(std::mt19937_64& random, bool continued) {
   for (;;) {
     Vec3 stretches;
@@ -43,7 +43,7 @@ Mat3 random_state(std::mt19937_64& random, bool continued) {
   }
 }
 
-/// Calls check(F) with 200 random states in the law's range. Half and more are: laws end only in extremes.
+/// Calls check(F) for those of 200 random states that are in the law's range: at least half, all for continued laws.
 template <class Check>
 void for_random_states(const MaterialPoint& point, bool continued, std::mt19937_64& random, const Check& check) {
   int outside = 0;
@@ -71,10 +71,10 @@ TEST_CASE(
     const auto point = make_material_point(material, continued);
     for_random_states(*point, continued, random, [&](const Mat3& F) {
       CAPTURE(F);
-      if (std::abs(fibre_stretch(material, F) - 1) < 1e-2) return;  // a fibre begins to bear load: the stiffness jumps
+      if (std::abs(fibre_stretch(material, F) - 1) < 1e-2) return;  // stiffness jumps where a fibre begins to bear load
       const Mat3 dF = random_direction(random), P = point->first_piola(F), dP = point->first_piola_differential(F, dF);
-      if (!continued && P.norm() > 1e12) return;  // exponentials too steep for differences
-      // Fourth order, so that truncation stays below 1e-8 of what is compared.
+      if (!continued && P.norm() > 1e12) return;  // exponentials too steep for finite differences
+      // Fourth-order differences, whose relative truncation error stays below 1e-8.
       const double h = 3e-4 * std::min(1.0, F.jacobiSvd().singularValues()[2]);
       const auto W = [&](double t) { return point->energy(F + t * dF); };
       const auto P_at = [&](double t) { return point->first_piola(F + t * dF); };
@@ -149,7 +149,7 @@ TEST_CASE("for small strains every law is Hooke's with its constants at rest") {
       strain = (strain + strain.transpose()).eval() / 2;
       const Mat3 deviatoric_stress = strain - strain.trace() / 3 * Mat3::Identity();
       if (find_law(material.law)->has_fibre && askew.dot(deviatoric_stress * askew) > -size / 20)
-        continue;  // fibres bear none
+        continue;  // only where fibres are compressed and bear no load
       const Mat3 stress = 2 * mu * deviatoric_stress + kappa * strain.trace() * Mat3::Identity();
       const Mat3 turn = random_rotation(random);
       CHECK((point->first_piola(turn * (Mat3::Identity() + strain)) - turn * stress).norm() <=

@@ -1,5 +1,5 @@
 #pragma once
-// One soft material of every law.
+// heml::sample_material() by the name of a law.
 #include <doctest/doctest.h>
 
 #include <heml/materials/material.hpp>
@@ -7,7 +7,7 @@
 
 namespace heml::test {
 
-/// heml::sample_material() of a law by its name, of its own moduli or these (Pa). Fails for a law that is not there.
+/// The law of that name; fails the test if there is none.
 inline const LawInfo& law_named(std::string_view law) {
   REQUIRE_MESSAGE(find_law(law), "no law ", std::string(law));
   return *find_law(law);

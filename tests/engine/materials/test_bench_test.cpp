@@ -11,7 +11,7 @@ namespace {
 
 constexpr BenchTest all_tests[] = {BenchTest::uniaxial, BenchTest::equibiaxial, BenchTest::planar, BenchTest::shear};
 
-/// Free of stress at rest, so that tests begin at the rest shape.
+/// Laws that are stress-free at rest, so that tests begin at the rest shape.
 bool starts_at_rest(const LawInfo& law) { return law.is_continuum && !law.name.starts_with("paper_"); }
 
 std::string name_of(BenchTest test) { return std::string(bench_test_names()[static_cast<std::size_t>(test)]); }
@@ -53,7 +53,7 @@ TEST_CASE("free faces bear no stress, and loaded ones are where the test puts th
   });
 }
 
-// Free faces do no work, so the energy of the cube changes by what the loaded faces do alone.
+// Free faces do no work, so the work of the loaded faces equals the change of the cube's energy.
 TEST_CASE("nominal stress is the slope of the energy along the test") {
   for_every_law([](const LawInfo&, const MaterialPoint& point) {
     for (const BenchTest test : all_tests) {
