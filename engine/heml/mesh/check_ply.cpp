@@ -1,5 +1,5 @@
-// PLY: G. Turk, The PLY polygon file format (1994): a header of lines, then the rows of each element one after the
-// other, as words or as bytes.
+// PLY: G. Turk, The PLY polygon file format (1994): header lines, then the rows of each element in turn, as text or
+// binary.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -29,7 +29,7 @@ constexpr std::array ply_types{
 
 struct PlyProperty {
   const PlyType* value;
-  const PlyType* length = nullptr;  ///< of a list; null: one value
+  const PlyType* length = nullptr;  ///< type of a list's length; null: a single value
 };
 
 struct PlyElement {
@@ -99,7 +99,7 @@ class PlyCheck {
     elements_.back().properties.push_back(property);
   }
 
-  // The least a value takes: its bytes, or a digit and a blank, of which the last may be missing.
+  // Minimal size of a value: its bytes, or in text a digit and a blank; the last blank may be missing.
   std::size_t bytes_of(const PlyType& type) const { return coding_ == words ? 2 : type.bytes; }
   bool can_hold(std::size_t count, std::size_t bytes) const {
     return count <= (in_.left() + (coding_ == words)) / bytes;

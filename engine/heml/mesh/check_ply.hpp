@@ -1,16 +1,15 @@
 #pragma once
-// The sizes a PLY file declares, checked against what it holds. assimp believes them: it asks for that much memory or
-// counts that far.
+// Checks the sizes that a PLY file declares against its length. assimp trusts them: it allocates that much memory or
+// loops that often.
 #include <string>
 #include <string_view>
 
 namespace heml {
 
-/// Whether a file's contents say that they are PLY, whatever the file is called.
+/// Whether the contents begin with the PLY signature, whatever the file's name.
 bool is_ply(std::string_view text);
 
-/// Throws InputError for a header that is not understood, and where elements or lists are larger than the rest of the
-/// file.
+/// Throws InputError if the header is invalid, or elements or lists are larger than the rest of the file.
 void check_ply(std::string file, std::string_view text);
 
 }  // namespace heml

@@ -1,5 +1,5 @@
 #pragma once
-// What is asked of a mesh's coordinates, and how messages show them.
+// Limits of a mesh's coordinates, and their form in messages.
 #include <fmt/format.h>
 
 #include <heml/math/types.hpp>
@@ -7,7 +7,7 @@
 
 namespace heml {
 
-/// m: past this no file means metres, and volumes leave the range of float.
+/// Largest accepted |coordinate|, m: beyond, a file is hardly in metres, and volumes overflow float.
 inline constexpr double max_coordinate = 1e12;
 
 inline std::string shown(const Vec3& x) { return fmt::format("[{}, {}, {}]", x[0], x[1], x[2]); }

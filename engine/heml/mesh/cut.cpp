@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::array<std::array<int, 2>, 6> tet_edges{{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
 
-constexpr double thin = 10;  // degrees: a smallest angle that pieces should not be under
+constexpr double thin = 10;  // degrees; pieces with a smaller dihedral angle are avoided
 
 using Edge = std::pair<int, int>;  // lower number first
 
@@ -19,22 +19,22 @@ Edge edge_of(const Tet& tet, const std::array<int, 2>& local) {
   return {std::min(a, b), std::max(a, b)};
 }
 
-/// An element, or a part of one, that touches the cut.
+/// An element, or a part of a split one, that has a node in the cut.
 struct Piece {
-  Tet tet;  ///< nodes of its place: copies do not count
-  int parent;
-  std::array<int, 4> neighbour{-1, -1, -1, -1};  ///< piece across each face; −1: none that touches the cut
-  std::array<bool, 4> comes_apart{};             ///< from that neighbour
+  Tet tet;                                       ///< nodes before copies are made
+  int parent;                                    ///< element
+  std::array<int, 4> neighbour{-1, -1, -1, -1};  ///< piece across each face; −1: none
+  std::array<bool, 4> comes_apart{};             ///< separated from that neighbour
   bool is_new = false;                           ///< its parent was split
 };
 
-/// Where the sweep goes through an edge.
+/// The intersection of the sweep with an edge.
 struct Crossing {
   double where;   ///< 0 at the edge's first node, 1 at its second
-  int node = -1;  ///< that halves it there; −1: it counts as going through an end
+  int node = -1;  ///< new node there; −1: snapped to an end
 
-  int end(const Edge& edge) const { return where < 0.5 ? edge.first : edge.second; }  ///< the nearer one
-  /// At rest, m.
+  int end(const Edge& edge) const { return where < 0.5 ? edge.first : edge.second; }  ///< nearer end
+  /// Distance to the nearer end at rest, m.
   double to_end(const TetMesh& mesh, const Edge& edge) const {
     const Vec3& a = mesh.nodes[static_cast<std::size_t>(edge.first)];
     return std::min(where, 1 - where) * (mesh.nodes[static_cast<std::size_t>(edge.second)] - a).norm();
@@ -46,7 +46,7 @@ class Cutter {
   Cutter(const SweptSurface& surface, const TetMesh& mesh, const std::vector<Vec3>& x, const Topology& topology)
       : surface_(surface), mesh_(mesh), x_(x), topology_(topology), in_cut_(mesh.nodes.size(), false) {}
 
-  /// Step 1. False: the sweep meets no edge.
+  /// Step 1. Returns false if the sweep crosses no edge.
   bool find_crossings(double snap, const std::vector<int>& stroke) {
     for (const int t : topology_.elements) {
       const Tet& tet = mesh_.tets[static_cast<std::size_t>(t)];
@@ -66,7 +66,7 @@ class Cutter {
     return !crossings_.empty();
   }
 
-  /// Step 2. Pieces that are thin, and thinner than what they are of, make more crossings go through an end.
+  /// Step 2. Repeats the split with more crossings snapped while there are pieces thinner than `thin` and their parent.
   void split(double snap) {
     do {
       halve_edges();
@@ -74,7 +74,7 @@ class Cutter {
     } while (snap_thin_pieces(snap));
   }
 
-  /// Step 3. The area that came apart, m².
+  /// Step 3. Returns the separated area, m².
   double part() {
     match_faces();
     double area = 0;
@@ -112,7 +112,6 @@ class Cutter {
   bool is_in_cut(int n) const { return in_cut_[static_cast<std::size_t>(n)]; }
   void enter(int n) { in_cut_[static_cast<std::size_t>(n)] = true; }
 
-  /// The nodes of a face.
   static std::array<int, 3> face(const Piece& piece, std::size_t f) {
     std::array<int, 3> nodes;
     for (std::size_t k = 0; k < 3; ++k) nodes[k] = piece.tet[static_cast<std::size_t>(tet_faces[f][k])];
@@ -125,7 +124,7 @@ class Cutter {
                                     piece.neighbour.begin());
   }
 
-  /// Gives crossed edges with both ends outside the cut a node each, anew.
+  /// Recreates the new nodes: one on each crossed edge with both ends outside the cut.
   void halve_edges() {
     x_.resize(mesh_.nodes.size());
     in_cut_.resize(x_.size());
@@ -142,10 +141,10 @@ class Cutter {
     }
   }
 
-  /// Elements that have a node in the cut, those with halved edges in pieces.
+  /// Recreates the pieces: the elements with a node in the cut, split at their new nodes.
   void split_elements() {
     pieces_.clear();
-    std::vector<char> is_end(mesh_.nodes.size(), 0);  // of a crossed edge; most elements have none
+    std::vector<char> is_end(mesh_.nodes.size(), 0);  // of a crossed edge: to skip most elements quickly
     for (const auto& [edge, crossing] : crossings_)
       for (const int n : {edge.first, edge.second}) is_end[static_cast<std::size_t>(n)] = 1;
     for (const int t : topology_.elements) {
@@ -167,7 +166,7 @@ class Cutter {
     }
   }
 
-  /// False: there are none, or their edges are halved too far from an end.
+  /// Snaps the crossing nearest to an end in every thin piece. Returns false if no crossing could be snapped.
   bool snap_thin_pieces(double snap) {
     std::vector<int> entering;
     for (const Piece& piece : pieces_) {
@@ -194,7 +193,7 @@ class Cutter {
     return !entering.empty();
   }
 
-  /// Of a piece at rest, degrees.
+  /// Smallest dihedral angle of a piece at rest, degrees.
   double min_angle(const Tet& tet) const {
     std::array<Vec3, 4> X;
     for (std::size_t a = 0; a < 4; ++a) {
@@ -209,7 +208,7 @@ class Cutter {
     return min_dihedral(X);
   }
 
-  /// Splits those of the pieces from `first` on that have the edge.
+  /// Splits the pieces from index `first` on that contain the edge.
   void halve(std::size_t first, const Edge& edge, int middle) {
     for (std::size_t p = first, end = pieces_.size(); p < end; ++p) {
       Tet& tet = pieces_[p].tet;
@@ -244,8 +243,8 @@ class Cutter {
     }
   }
 
-  /// Whether a piece and its neighbour across a face lie on two sides of the cut, and the face in it. Of a face all of
-  /// whose nodes an earlier sweep of the stroke has met that sweep has decided.
+  /// Whether a face lies in the cut, with its two pieces on different sides. False if all its nodes are of earlier
+  /// sweeps of the stroke, which have decided about it.
   bool is_parted(const Piece& piece, std::size_t f) const {
     const std::array<int, 3> nodes = face(piece, f);
     if (!std::all_of(nodes.begin(), nodes.end(), [this](int n) { return is_in_cut(n); })) return false;
@@ -256,7 +255,7 @@ class Cutter {
     return is_above(piece, f, nearest) != is_above(other, facing(other, &piece), nearest);
   }
 
-  /// The side of a piece is that of its node opposite the face; of one that lies in the cut whole, its centroid's.
+  /// The side of a piece: that of its node opposite the face; of its centroid if that node is in the cut.
   bool is_above(const Piece& piece, std::size_t f, const SweptSurface::Nearest& plane) const {
     Vec3 point = at(piece.tet[f]);
     if (is_in_cut(piece.tet[f]))
@@ -264,7 +263,7 @@ class Cutter {
     return (point - plane.point).dot(plane.normal) > 0;
   }
 
-  /// Gives each node in the cut a copy for every group of its pieces but the first.
+  /// Copies each node in the cut for every group of connected pieces round it except the first.
   void copy_nodes() {
     final_.reserve(pieces_.size());
     for (const Piece& piece : pieces_) final_.push_back(piece.tet);
@@ -284,7 +283,8 @@ class Cutter {
     }
   }
 
-  /// Takes the pieces that hang together with one round a node out of the node's uses (their number becomes −1).
+  /// Gives the group of pieces connected to `piece` round a node a copy of the node, or the node itself (keeps). Marks
+  /// them in `uses` by the piece −1.
   void copy_for_group(int node, std::span<std::pair<int, int>> uses, int piece, bool keeps) {
     int number = node;
     if (!keeps) {
@@ -315,13 +315,13 @@ class Cutter {
 
   const SweptSurface& surface_;
   const TetMesh& mesh_;
-  std::vector<Vec3> x_;  ///< of old nodes and new ones of crossed edges, m
+  std::vector<Vec3> x_;  ///< deformed positions of old nodes and of new ones on crossed edges, m
   const Topology& topology_;
   std::vector<bool> in_cut_, newly_in_cut_;
   std::map<Edge, Crossing> crossings_;
   std::vector<InsertedNode> new_nodes_;
   std::vector<Piece> pieces_;
-  std::vector<Tet> final_;  ///< of each piece, with copies
+  std::vector<Tet> final_;  ///< nodes of each piece, copies included
 };
 
 }  // namespace

@@ -1,13 +1,13 @@
 #pragma once
-// Cutting: elements are split where a blade went, and come apart along it. Nothing is lost and nothing moves.
+// Cutting: elements are split along the surface that a blade sweeps, and separated there. The volume is kept and no
+// node moves.
 //
-//   1 crossings   edges that go through the swept surface; one that does so near an end counts as going through that
-//                 end (snapping), so that no short edge is made; another one too, further away, where a thin piece
-//                 would be
-//   2 split       every crossed edge is halved in all elements that have it, in the order of edges: pieces of
-//                 neighbours match, and their edges lie on one side of the cut or in it
-//   3 part        faces whose nodes all lie in the cut, with a side of it each, come apart: a node is copied for each
-//                 further group of pieces that hang together round it. Where the cut ends inside, they still do.
+//   1 crossings   finds the edges that intersect the swept surface. An intersection near an end of the edge is snapped
+//                 to that node, so that no short edges result; one further away too, where it would make a thin piece
+//   2 split       divides every crossed edge in all its elements, in the order of edges, so that pieces of neighbours
+//                 match; every edge of a piece then lies on one side of the cut or in it
+//   3 part        separates pieces at faces in the cut that have a piece on each side: a node is copied for every
+//                 further group of face-connected pieces round it. Where the cut ends inside, they stay connected
 #include <heml/mesh/edit.hpp>
 #include <heml/mesh/sweep.hpp>
 
@@ -15,16 +15,17 @@ namespace heml {
 
 struct Cut {
   MeshEdit edit;
-  std::vector<int> nodes;  ///< that lie in the cut, ascending, in numbers after the edit: where a stroke goes on
-  double area = 0;         ///< m², as the body is now, of the faces that came apart
+  std::vector<int> nodes;  ///< nodes in the cut, ascending, as numbered after the edit; input of a stroke's next sweep
+  double area = 0;         ///< m², deformed area of the separated faces
 };
 
-/// The cut a sweep makes; or why there is none, in words. mesh: at rest. x: its nodes now, #V×3, m; the sweep is seen
-/// there. snap: m at rest; the cut lies within it of the sweep. stroke: Cut::nodes of the sweeps this one goes on from.
+/// Computes the cut of a sweep. Returns a message if the sweep cuts nothing. mesh: at rest. x: deformed positions,
+/// #V×3, m, in whose space the sweep is. snap: m at rest; the cut lies within this distance of the sweep. stroke:
+/// Cut::nodes of the earlier sweeps of the same stroke.
 std::optional<std::string> make_cut(const Sweep& sweep, const TetMesh& mesh, const std::vector<Vec3>& x,
                                     const Topology& topology, double snap, const std::vector<int>& stroke, Cut& cut);
 
-/// A snapping distance that suits a mesh: half its mean edge, m.
+/// Default snapping distance of a mesh: half its mean edge length, m.
 double snapping_distance(const TetMesh& mesh);
 
 }  // namespace heml

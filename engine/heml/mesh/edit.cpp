@@ -23,7 +23,7 @@ std::vector<int> elements_where(const Topology& topology, const Chooses& chooses
   return chosen;
 }
 
-/// Checks a list and brings it into order.
+/// Sorts a list of elements without duplicates and checks that they exist; returns a message if not.
 std::optional<std::string> take_list(const std::vector<int>& tets, const TetMesh& mesh, const Topology& topology,
                                      std::vector<int>& chosen) {
   const int count = static_cast<int>(mesh.tets.size());
@@ -40,7 +40,7 @@ std::optional<std::string> take_list(const std::vector<int>& tets, const TetMesh
   return std::nullopt;
 }
 
-/// Why a region, box or sphere chose nothing.
+/// Message for a region, box or sphere without elements.
 std::string nothing_chosen(const ElementSelection& which, const TetMesh& mesh, const Topology& topology) {
   if (which.region) {
     std::set<int> regions;

@@ -1,8 +1,8 @@
 #pragma once
-// Edits of a mesh's topology, as values: tools make them, a world carries them out, whoever draws follows.
+// Edits of a mesh's topology, as values: tools create them, a world applies them, views update from them.
 //
-// Numbers outlive edits. Nodes and elements are called what the mesh file calls them for as long as a body lives;
-// what is gone leaves a gap:
+// Edits do not renumber. Nodes and elements keep their numbers (those of the mesh file) for the life of a body; removed
+// elements leave a gap:
 //
 //     file          0 1 2 3 4 5 6 7
 //     MeshEdit        ×     ×       + +   removed {1, 4}, added {8, 9}
@@ -15,37 +15,37 @@
 
 namespace heml {
 
-/// A node that an edit adds, on the edge between two that were there; from == to: a copy of that one.
+/// A node that an edit adds on the edge between two existing nodes; from == to: a copy of that node.
 struct InsertedNode {
   int from, to;
-  double at;  ///< 0 at from, 1 at to; at rest and now
+  double at;  ///< 0 at from, 1 at to; in the rest and the deformed shape
 };
 
-/// What is to become of a mesh of #V nodes and #T elements.
+/// A change of a mesh of #V nodes and #T elements.
 struct MeshEdit {
-  std::vector<int> removed;         ///< elements that go, ascending, each once
-  std::vector<InsertedNode> nodes;  ///< numbers #V, #V + 1, …
-  std::vector<Tet> added;           ///< numbers #T, #T + 1, …; into old and new nodes
-  std::vector<int> parents;         ///< of each added, one of the removed, whose part it is; ascending
+  std::vector<int> removed;         ///< removed elements, ascending, each once
+  std::vector<InsertedNode> nodes;  ///< new nodes, numbered #V, #V + 1, …
+  std::vector<Tet> added;           ///< new elements, numbered #T, #T + 1, …; into old and new nodes
+  std::vector<int> parents;         ///< per new element the removed one that it is a part of; ascending
 };
 
-/// Which elements are there. Never changes: an edit makes another one, and all who draw or write share it.
+/// The existing elements of a mesh. Immutable and shared by its readers: an edit makes another Topology.
 struct Topology {
-  long version = 0;           ///< grows with every change, never comes back
+  long version = 0;           ///< increases with every change
   std::vector<int> elements;  ///< ascending
 };
 
-/// All of a mesh.
+/// The topology with all elements of a mesh.
 Topology whole(const TetMesh& mesh, long version = 0);
 
-/// What an edit leaves of a topology of a mesh of #T elements. Everything it removes must be there.
+/// The topology after an edit; elements: #T before it. All removed elements must exist.
 Topology apply_edit(const Topology& topology, const MeshEdit& edit, int elements);
 
-/// Adds an edit's nodes and elements to a mesh: at rest between those they come from, of their parent's region and
-/// fields. What it removes stays, as a gap in the topology.
+/// Appends an edit's nodes, interpolated at rest, and its elements, with the region and fields of their parents.
+/// Removed elements stay in the mesh; only the topology excludes them.
 void append(const MeshEdit& edit, TetMesh& mesh);
 
-/// Values of nodes (each × #V) continued on an edit's nodes.
+/// Appends the values of an edit's nodes, interpolated linearly, to values of nodes (each × #V).
 template <class Value>
 void append(const MeshEdit& edit, std::vector<Value>& values, std::size_t each = 1) {
   for (const InsertedNode& node : edit.nodes)
@@ -56,23 +56,23 @@ void append(const MeshEdit& edit, std::vector<Value>& values, std::size_t each =
     }
 }
 
-/// Elements chosen in one of four ways, by numbers or by what they are at rest; closed sets.
+/// Elements selected by number, or by region or by centroid at rest within a closed box or sphere.
 struct ElementSelection {
-  std::vector<int> tets;  ///< where none of the others is given
+  std::vector<int> tets;  ///< used if none of the others is given
   std::optional<int> region;
-  std::optional<std::array<Vec3, 2>> box;         ///< of centroids, lower and upper corner, m
-  std::optional<std::pair<Vec3, double>> sphere;  ///< of centroids, centre and radius, m
+  std::optional<std::array<Vec3, 2>> box;         ///< lower and upper corner, m
+  std::optional<std::pair<Vec3, double>> sphere;  ///< centre and radius, m
 };
 
-/// The edit that removes what is chosen of what is there; or what is wrong with it, in words: an element that there is
-/// not or no more, nothing chosen, nothing left. mesh: at rest.
+/// Computes the edit that removes the selected elements of a topology. Returns a message if an element does not exist
+/// or was removed before, or if no element is selected or would be left. mesh: at rest.
 std::optional<std::string> make_removal_edit(const ElementSelection& which, const TetMesh& mesh,
                                              const Topology& topology, MeshEdit& edit);
 
-/// The mesh with the given elements alone, in that order, and all its nodes and fields.
+/// The mesh with the given elements only, in that order, and all nodes and fields.
 TetMesh with_elements(const TetMesh& mesh, const std::vector<int>& elements);
 
-/// The same of one value an element, or of `each` values.
+/// The same for values of elements, `each` per element.
 template <class Value>
 std::vector<Value> with_elements(const std::vector<Value>& values, const std::vector<int>& elements,
                                  std::size_t each = 1) {

@@ -1,12 +1,12 @@
 #pragma once
-// A mesh file in memory.
+// Reads a mesh file into memory.
 #include <filesystem>
 #include <string>
 
 namespace heml {
 
-/// All bytes of a plain file. Throws InputError for anything else (a device or a pipe could go on for ever), and for
-/// more bytes than a mesh with 32-bit node numbers can have.
+/// All bytes of a regular file. Throws InputError for other kinds (a device or pipe may be endless), and for more bytes
+/// than a mesh with 32-bit node numbers can have.
 std::string file_contents(const std::filesystem::path& path);
 
 }  // namespace heml

@@ -16,7 +16,7 @@
 namespace heml {
 namespace {
 
-// What is exchanged with the helper: "#nodes #rows [#holes]", then x y z a node, then indices a row, then x y z a hole.
+// The text exchanged with the helper (mesher/exchange.hpp).
 
 std::string request_of(const TriangleMesh& surface, const std::vector<Vec3>& holes) {
   std::string text;
@@ -40,8 +40,8 @@ void read_answer(const std::string& subject, const std::string& text, std::vecto
     for (int& node : row) node = static_cast<int>(in.integer("a node", 0, static_cast<long long>(nodes.size()) - 1));
 }
 
-// assimp makes up to a hundred bytes of one, and some formats are compressed; a damaged size makes it ask for more or
-// count for hours.
+// assimp needs up to a hundred bytes per byte of the file, more if it is compressed; a corrupt size makes it allocate
+// much more or loop for hours.
 ProcessLimits reading_limits(double file_bytes) {
   return {20 + file_bytes / 5e6, 120 + file_bytes / 5e6, std::min(256e6 + 1000 * file_bytes, 4e9)};
 }
@@ -50,8 +50,8 @@ bool before(const Vec3& a, const Vec3& b) {
   return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
 }
 
-// Joins nodes at the very same place (files of triangles repeat them), drops those of no triangle and triangles that
-// lose a corner by it. Nodes keep the order of their first use.
+// Merges nodes of equal position (triangle soups repeat them); drops degenerate triangles and unused nodes. Nodes are
+// in the order of their first use.
 TriangleMesh joined(const TriangleMesh& surface) {
   std::vector<int> order(surface.nodes.size());
   std::iota(order.begin(), order.end(), 0);

@@ -1,6 +1,6 @@
 #pragma once
-// From a surface file to tetrahedra. assimp and TetGen run in a helper process (heml-mesher) with limits on time and
-// memory: TetGen ends its host on bad input, and neither is needed for a tetrahedral mesh.
+// Tetrahedral meshing of surfaces. assimp and TetGen run in a helper process (heml-mesher) with limits on time and
+// memory: TetGen terminates its host on bad input, and builds without them still read tetrahedral meshes.
 #include <filesystem>
 #include <heml/mesh/tet_mesh.hpp>
 #include <optional>
@@ -9,25 +9,27 @@
 namespace heml {
 
 struct TetgenOptions {
-  double radius_edge_ratio = 1.4;    ///< the smaller the better shaped and the more
-  std::optional<double> max_volume;  ///< m³ of one tetrahedron; only a kept surface that is coarser leaves larger ones
+  double radius_edge_ratio = 1.4;    ///< smaller: better shapes, more tetrahedra
+  std::optional<double> max_volume;  ///< m³ per tetrahedron; exceeded only at surface triangles too large for it
   double time_limit = 120;           ///< s
   double memory_limit = 4e9;         ///< bytes
 };
 
-/// Any surface assimp reads (OBJ, STL, PLY, ...), equal vertices joined, triangles only. Throws InputError.
+/// Reads a surface in any format of assimp (OBJ, STL, PLY, ...). Merges vertices of equal position; keeps triangles
+/// only. Throws InputError.
 TriangleMesh read_surface(const std::filesystem::path& path);
 
-/// Why a surface cannot be filled (open, non-manifold, self-intersecting, ...): throws InputError that names edge or
-/// triangle. Turns all triangles outward first, and smooths away creases that run through themselves (untangle.hpp).
+/// Throws InputError, naming edge or triangle, if a surface cannot be filled (open, non-manifold, self-intersecting,
+/// ...). Orients all triangles outward and smooths self-intersecting creases (untangle.hpp).
 void check_surface(TriangleMesh& surface);
 
-/// Fills a closed surface, all but its cavities; its triangles are kept, its nodes come first, in order and, as
-/// check_surface() leaves them, to the bit. Throws InputError when TetGen fails, takes too long, or makes nothing;
-/// warns of tetrahedra larger than asked for.
+/// Fills a closed surface except its cavities with tetrahedra. Keeps the triangles; the surface's nodes come first, in
+/// order, with the exact positions that check_surface() gives them. Throws InputError if TetGen fails, exceeds a limit,
+/// or returns nothing; warns of tetrahedra larger than max_volume.
 TetMesh tetrahedralize(const TriangleMesh& surface, const TetgenOptions& options = {});
 
-/// What is odd about the size of a body in metres: "18 m long: is the file in centimetres? ...", or empty.
+/// A warning if the size of a body suggests a wrong unit ("18 m long: is the file in centimetres? ..."), or empty. low,
+/// high: bounding box, m.
 std::string unit_warning(const Vec3& low, const Vec3& high);
 
 }  // namespace heml

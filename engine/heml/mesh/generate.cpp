@@ -36,8 +36,8 @@ TetMesh make_box(const Vec3& size, const std::array<int, 3>& cells, const Vec3& 
       for (int i = 0; i <= nx; ++i)
         mesh.nodes.push_back(origin + size.cwiseProduct(Vec3(double(i) / nx, double(j) / ny, double(k) / nz)));
 
-  // The nodes with i+j+k even span the tetrahedron in the middle of each cell; the other four of a cell's corners each
-  // cut one off. So the diagonals of neighbours agree. Bits of c: the corner's offset in x, y, z.
+  // In each cell the corners with i+j+k even span the central tetrahedron, and each of the other four a corner one. So
+  // the diagonals of neighbours agree. Bits of c: the corner's offset in x, y, z.
   mesh.tets.reserve(std::size_t(5) * nx * ny * nz);
   for (int k = 0; k < nz; ++k)
     for (int j = 0; j < ny; ++j)

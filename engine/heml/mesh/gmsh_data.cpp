@@ -1,4 +1,4 @@
-// Gmsh: https://gmsh.info/doc/texinfo/gmsh.html, "MSH file format", $ElementData: the same in versions 2 and 4.
+// Gmsh: https://gmsh.info/doc/texinfo/gmsh.html, "MSH file format", $ElementData, identical in versions 2 and 4.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ std::size_t tag_count(Scanner& in, std::string_view what) {
   return static_cast<std::size_t>(in.integer(what, 0, max_tags));
 }
 
-// A line of text without its quotes; what follows on it is left for need_line().
+// A name without its quotes, from the next line; need_line() then moves past that line.
 std::string name_from(Scanner& in) {
   in.need_line("the name of the data");
   std::string_view line = in.rest().substr(0, in.rest().find('\n'));
@@ -97,7 +97,7 @@ void GmshData::put(std::vector<GmshElement> tets, const Scanner& in, ReadMesh& r
       value += field.components;
     }
   }
-  // Tetrahedra of one number have the same values. Copied once at the end: for each value it would take quadratic time.
+  // Tetrahedra with equal numbers get the same values. Copied once at the end: per value would take quadratic time.
   for (ElementField& field : read.mesh.fields)
     for (std::size_t i = 1; i < tets.size(); ++i)
       if (tets[i].number == tets[i - 1].number)

@@ -1,6 +1,6 @@
 #pragma once
-// Gmsh's $ElementData: a field by element numbers, of all elements or of some. Sections may stand before the elements,
-// and one field may be spread over several of them (partitions), so they are put together when the file has ended.
+// Gmsh's $ElementData: a field by element numbers, for all elements or some. Sections may precede the elements, and a
+// field may be split into several sections (partitions), so fields are assembled at the end of the file.
 #include <heml/mesh/readers.hpp>
 #include <map>
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace heml {
 
-/// What the file calls a tetrahedron.
+/// The number of a tetrahedron in the file, and its index in the mesh.
 struct GmshElement {
   long long number;
   int tet;
@@ -16,25 +16,25 @@ struct GmshElement {
 
 class GmshData {
  public:
-  /// A section from behind its first line to before its last. Of a field given for several time steps the first is
-  /// taken, which read.more_steps tells; data of other than 1 or 3 components are passed over.
+  /// Reads a section, from after its first line to before its last. Uses only the first of several time steps of a
+  /// field and sets read.more_steps; skips data that do not have 1 or 3 components.
   void read(Scanner& in, ReadMesh& read);
 
-  /// Adds the fields that name at least one of the tetrahedra. Throws through `in`.
+  /// Adds the fields with a value for at least one of the tetrahedra. Throws InputError (Scanner::fail of `in`).
   void put(std::vector<GmshElement> tets, const Scanner& in, ReadMesh& read) const;
 
  private:
   struct Section {
     std::string name;
     long long step = 0;
-    std::size_t components = 0, count = 0;  ///< of each element; of elements
+    std::size_t components = 0, count = 0;  ///< values per element; number of elements
     std::vector<long long> elements;
     std::vector<double> values;  ///< components × #elements
   };
   static Section header(Scanner& in);
 
   std::vector<Section> sections_;
-  std::map<std::string, long long> first_step_;  ///< of each field
+  std::map<std::string, long long> first_step_;  ///< first time step of each field
 };
 
 }  // namespace heml

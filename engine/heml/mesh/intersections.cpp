@@ -6,13 +6,14 @@
 namespace heml {
 namespace {
 
-// Signs that are sure or 0. Bounds of the rounding error: J. R. Shewchuk, Adaptive precision floating-point arithmetic
-// and fast robust geometric predicates, Discrete Comput. Geom. 18 (1997), orient3d and orient2d, stage A.
+// Orientation predicates return a certain sign, or 0. Bounds of the rounding error: J. R. Shewchuk, Adaptive precision
+// floating-point arithmetic and fast robust geometric predicates, Discrete Comput. Geom. 18 (1997), orient3d and
+// orient2d, stage A.
 constexpr double half_ulp = 0x1p-53;
 
 int sign_beyond(double value, double bound) { return value > bound ? 1 : value < -bound ? -1 : 0; }
 
-// On which side of the plane abc is d?
+// The side of the plane abc on which d lies: −1, 0, 1.
 int side(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const Vec3 u = a - d, v = b - d, w = c - d;
   double value = 0, size = 0;
@@ -26,13 +27,13 @@ int side(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
 
 using Vec2 = Eigen::Vector2d;
 
-// On which side of the line ab is c?
+// The side of the line ab on which c lies: −1, 0, 1.
 int side(const Vec2& a, const Vec2& b, const Vec2& c) {
   const double left = (a[0] - c[0]) * (b[1] - c[1]), right = (a[1] - c[1]) * (b[0] - c[0]);
   return sign_beyond(left - right, (3 + 16 * half_ulp) * half_ulp * (std::abs(left) + std::abs(right)));
 }
 
-// Whether intervals overlap in x and in y: for segments on one line.
+// Whether the bounding boxes of two segments overlap; for collinear segments.
 bool boxes_meet(const Vec2& p, const Vec2& q, const Vec2& a, const Vec2& b) {
   return (p.cwiseMin(q).array() <= a.cwiseMax(b).array()).all() &&
          (a.cwiseMin(b).array() <= p.cwiseMax(q).array()).all();
@@ -44,7 +45,7 @@ bool segments_meet(const Vec2& p, const Vec2& q, const Vec2& a, const Vec2& b) {
   return a_side * b_side <= 0 && p_side * q_side <= 0;
 }
 
-// Segment and triangle in one plane, seen along the axis nearest the normal.
+// For a segment and a triangle in one plane: projects along the axis nearest to the normal.
 bool meet_in_plane(const Vec3& p, const Vec3& q, const std::array<Vec3, 3>& t) {
   int axis;
   (t[1] - t[0]).cross(t[2] - t[0]).cwiseAbs().maxCoeff(&axis);
@@ -68,7 +69,7 @@ class Pairs {
   explicit Pairs(const TriangleMesh& surface) : surface_(surface) {}
 
   bool meet(const Triangle& s, const Triangle& t) const {
-    // Shared nodes to the front of both, in the same order.
+    // Moves shared nodes to the front of both, in the same order.
     Triangle a = s, b = t;
     int shared = 0;
     for (int i = 0; i < 3; ++i) {
@@ -81,7 +82,7 @@ class Pairs {
     const auto x = corners(a), y = corners(b);
     if (shared == 3) return true;
     if (shared == 2) return folded(x[0], x[1], x[2], y[2]);
-    // Past a shared node the triangles meet just if the edge opposite to it in one meets the other.
+    // Beyond a shared node, triangles meet if and only if the edge opposite to it in one meets the other.
     if (shared == 1) return segment_meets(x[1], x[2], y) || segment_meets(y[1], y[2], x);
     for (int i = 0; i < 3; ++i)
       if (segment_meets(x[i], x[(i + 1) % 3], y) || segment_meets(y[i], y[(i + 1) % 3], x)) return true;
@@ -99,7 +100,7 @@ class Pairs {
     return {surface_.nodes[t[0]], surface_.nodes[t[1]], surface_.nodes[t[2]]};
   }
 
-  // Two triangles at the edge uv, in one plane and on the same side of it.
+  // Whether triangles uva and uvb lie in one plane and on the same side of their common edge uv.
   static bool folded(const Vec3& u, const Vec3& v, const Vec3& a, const Vec3& b) {
     return side(u, v, a, b) == 0 && (v - u).cross(a - u).dot((v - u).cross(b - u)) > 0;
   }
@@ -107,7 +108,7 @@ class Pairs {
   const TriangleMesh& surface_;
 };
 
-// What Eigen's tree asks for: which boxes and which triangles to compare; each pair once.
+// The visitor that Eigen::BVIntersect requires; compares each pair of triangles once.
 struct Search {
   using Box = Eigen::AlignedBox3d;
 

@@ -1,5 +1,5 @@
 #pragma once
-// Whether a surface runs through itself.
+// Self-intersections of a surface.
 #include <cstddef>
 #include <heml/mesh/tet_mesh.hpp>
 #include <vector>
@@ -7,14 +7,15 @@
 namespace heml {
 
 struct Intersections {
-  std::size_t pairs = 0;        ///< of triangles; counting stops at `max_pairs`
-  int first = -1, second = -1;  ///< the lowest pair found
-  std::vector<int> triangles;   ///< all that are in a pair, ascending
+  std::size_t pairs = 0;        ///< intersecting pairs of triangles; the search stops at `max_pairs`
+  int first = -1, second = -1;  ///< lexicographically first pair found
+  std::vector<int> triangles;   ///< all triangles in a pair, ascending
 };
 inline constexpr std::size_t max_pairs = 10'000;
 
-/// Pairs of triangles that cross, overlap or touch other than in nodes and edges they share. Triangles must have areas,
-/// edges at most two triangles. What rounding leaves open counts as touching.
+/// Finds pairs of triangles that cross, overlap or touch outside the nodes and edges they share. Requires triangles of
+/// nonzero area and at most two per edge. Cases that round-off leaves undecided count as touching. Uses a tree of
+/// bounding boxes: O(n log n) for n well-shaped triangles.
 Intersections self_intersections(const TriangleMesh& surface);
 
 }  // namespace heml

@@ -1,5 +1,5 @@
 #pragma once
-// Text that grows and becomes a file.
+// Builds the text of a mesh file.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -11,7 +11,7 @@
 
 namespace heml {
 
-/// 17 significant digits give every double back.
+/// Numbers have 17 significant digits, so reading gives the same double.
 class MeshText {
  public:
   template <class... Args>
@@ -22,14 +22,14 @@ class MeshText {
   void add_nodes(const Tet& tet, int first) {
     add("{} {} {} {}", tet[0] + first, tet[1] + first, tet[2] + first, tet[3] + first);
   }
-  /// The values of one element or node and the end of the line.
+  /// Adds the values of one element or node and a line end.
   template <class Field>
   void add_values(const Field& field, std::size_t which) {
     for (std::size_t i = 0; i < field.components; ++i)
       add("{:.17g}{}", field.values[field.components * which + i], i + 1 < field.components ? ' ' : '\n');
   }
 
-  /// Throws InputError when it cannot be written.
+  /// Throws InputError if the file cannot be written.
   void save(const std::filesystem::path& path) const { write_file(path, {text_.data(), text_.size()}); }
 
  private:

@@ -26,17 +26,18 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr const char* name = "heml-mesher";
-constexpr int out_of_memory = 2;   // as the helper has it
-constexpr int cannot_start = 127;  // as shells have it; also the dynamic linker's
-constexpr int answer_fd = 3;       // the helper's input and words for people are where every program's are
+constexpr int out_of_memory = 2;   // exit code of the helper (mesher/main.cpp)
+constexpr int cannot_start = 127;  // exit code of shells and the dynamic linker
+constexpr int answer_fd = 3;       // stdout and stderr are for messages
 
 #ifdef HEML_SANITIZED
-constexpr bool limits_memory = false;  // sanitizers reserve terabytes of addresses
+constexpr bool limits_memory = false;  // sanitizers reserve terabytes of address space
 #else
 constexpr bool limits_memory = true;
 #endif
 
-// $HEML_MESHER, beside this program, in the folders for programs' programs, in the build tree; empty when nowhere.
+// Searches $HEML_MESHER alone if it is set; else this program's folder, ../libexec/heml, ../lib/heml and the build
+// tree. Empty if not found.
 std::filesystem::path find_helper() {
   std::vector<std::filesystem::path> places;
   std::error_code error;
@@ -58,7 +59,7 @@ std::filesystem::path find_helper() {
   throw std::runtime_error(fmt::format("{}: {}", call, std::strerror(errno)));
 }
 
-// A file in memory, without a name: gone with the last process that has it open.
+// An anonymous file in memory: freed when the last process closes it.
 class MemoryFile {
  public:
   MemoryFile() : fd_(memfd_create(name, MFD_CLOEXEC)) {
@@ -69,7 +70,7 @@ class MemoryFile {
   MemoryFile& operator=(const MemoryFile&) = delete;
   int fd() const { return fd_; }
 
-  /// From its beginning, where the helper finds it.
+  /// Writes at offset 0 and leaves the file position there, where the helper starts reading.
   void put(std::string_view text) {
     for (off_t at = 0; !text.empty();) {
       const ssize_t count = pwrite(fd_, text.data(), text.size(), at);
@@ -95,15 +96,15 @@ class MemoryFile {
   int fd_;
 };
 
-// What the child gets in the place of its own.
+// Descriptors that become the child's streams.
 struct Streams {
   int input, words, answer;
 };
 
-// In the child, between fork and exec: only calls that are safe there.
+// Runs in the child between fork and exec: only async-signal-safe calls.
 [[noreturn]] void become_helper(char* const* arguments, Streams from, pid_t parent, const ProcessLimits& limits) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != parent) _exit(cannot_start);  // it ended before the line above
+  if (getppid() != parent) _exit(cannot_start);  // the parent ended before prctl()
   const auto limit = [](auto resource, double value, rlim_t grace = 0) {
     const rlimit both{static_cast<rlim_t>(value), static_cast<rlim_t>(value) + grace};
     setrlimit(resource, &both);
@@ -124,12 +125,12 @@ struct Streams {
 struct Ending {
   int status = 0;
   bool timed_out = false;
-  std::string words;  ///< the beginning of what it printed
+  std::string words;  ///< beginning of its output
 };
 
 std::atomic<pid_t> under_way{0};
 
-// Collects what the helper prints until it ends or its time is over, which ends it.
+// Collects the helper's output until it ends; kills it after the wall time `seconds`.
 Ending wait_for(pid_t helper, int output, double seconds) {
   constexpr std::size_t longest = 4096;
   Ending ending;
@@ -178,7 +179,7 @@ Ending run(const std::filesystem::path& helper, const HelperTask& task, const Me
   return ending;
 }
 
-// The helper's last line, as one message may hold it.
+// The last line of the helper's output, with control characters replaced.
 std::string last_line(std::string text) {
   while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
   text.erase(0, text.find_last_of('\n') + 1);

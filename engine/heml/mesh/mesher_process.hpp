@@ -1,5 +1,5 @@
 #pragma once
-// The helper process that runs assimp and TetGen, which may crash or never end.
+// Runs assimp and TetGen in a helper process (heml-mesher), since they may crash or not terminate.
 #include <string>
 #include <string_view>
 #include <vector>
@@ -7,27 +7,28 @@
 namespace heml {
 
 struct ProcessLimits {
-  double processor_seconds = 120;  ///< whole seconds are enforced
-  double seconds = 120;            ///< of the clock: for a helper that waits
-  double bytes = 4e9;              ///< of memory
+  double processor_seconds = 120;  ///< CPU time, rounded up to whole seconds
+  double seconds = 120;            ///< wall time, for a helper that waits
+  double bytes = 4e9;              ///< memory
 };
 
-/// One run of the helper, and the words for messages about it.
+/// One run of the helper, with the texts for error messages.
 struct HelperTask {
-  std::string subject;                 ///< the file or surface
+  std::string subject;                 ///< file or surface
   std::string doing;                   ///< "filling it"
   std::vector<std::string> arguments;  ///< of heml-mesher
   ProcessLimits limits;
-  std::string remedy;  ///< against taking too long or too much memory
+  std::string remedy;  ///< when a limit is exceeded
 };
 
-/// Runs `heml-mesher` with `input` to read, to its end, and returns its answer. Both pass through memory that has no
-/// name, and the helper ends with the thread that called: nothing is left behind however this program ends. Throws
-/// InputError about the subject when this build has no helper or the helper fails, crashes, or reaches a limit.
+/// Runs `heml-mesher` with `input` on stdin until it ends, and returns its answer. Both are anonymous memory files, and
+/// the kernel kills the helper when the calling thread ends, so nothing is left behind however this program ends.
+/// Throws InputError about the subject if this build has no helper, or the helper fails, crashes or exceeds a limit.
+/// One call at a time, since end_helper() tracks only one helper.
 std::string run_mesher(const HelperTask& task, std::string_view input = {});
 
-/// Ends the helper that runs, if one does, and waits for that. For handlers of signals that end the program: it calls
-/// only what is safe there. Without it the helper ends too, but stays in the system's list until somebody asks for it.
+/// Kills the running helper, if any, and reaps it. Async-signal-safe, for handlers of signals that end the program.
+/// Without this call the helper ends too, but may stay as a zombie process.
 void end_helper();
 
 }  // namespace heml

@@ -58,7 +58,8 @@ void check_indices(const TetMesh& mesh) {
   }
 }
 
-// Winding and volume. Zero is what the rounding of the coordinates themselves could make: ε × size × edge².
+// Repairs winding and sums volume. A volume counts as zero if rounding of the coordinates could cause it: ε × size ×
+// edge².
 void repair_winding(TetMesh& mesh, QualityReport& report) {
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
@@ -107,7 +108,7 @@ void measure_shape(const TetMesh& mesh, QualityReport& report) {
   report.high = box.max();
 }
 
-// Orphans, and bodies that hang together by nodes (union-find with path halving).
+// Counts orphans, and parts connected by nodes (union-find with path halving).
 void count_components(const TetMesh& mesh, QualityReport& report) {
   std::vector<int> parent(mesh.nodes.size());
   std::iota(parent.begin(), parent.end(), 0);

@@ -1,5 +1,5 @@
 #pragma once
-// What a mesh is like, said before anything is simulated with it.
+// Checks and quality report of a mesh before it is simulated.
 #include <heml/mesh/tet_mesh.hpp>
 #include <string>
 #include <vector>
@@ -11,26 +11,26 @@ struct QualityReport {
   double volume = 0;                           ///< m³
   Vec3 low, high;                              ///< m, bounding box of the tetrahedra
   int flipped = 0;                             ///< tetrahedra whose winding was repaired
-  int slivers = 0;                             ///< with a smallest dihedral angle under 5°
-  int worst_tet = -1;                          ///< file order
-  double worst_dihedral = 0;                   ///< degrees, of worst_tet
+  int slivers = 0;                             ///< tetrahedra with a dihedral angle below 5°
+  int worst_tet = -1;                          ///< tetrahedron with the smallest dihedral angle
+  double worst_dihedral = 0;                   ///< that angle, degrees
   double shortest_edge = 0, longest_edge = 0;  ///< m
   int orphans = 0;                             ///< nodes of no tetrahedron
-  int duplicates = 0;                          ///< nodes at the very place of another
-  int components = 0;                          ///< bodies not connected by a node
-  int nonmanifold_edges = 0;                   ///< of the boundary
-  std::vector<std::string> warnings;           ///< sentences, one each for what is worth a person's attention
+  int duplicates = 0;                          ///< nodes with the position of another
+  int components = 0;                          ///< parts that share no node
+  int nonmanifold_edges = 0;                   ///< boundary edges without exactly two boundary faces
+  std::vector<std::string> warnings;           ///< one sentence per finding
 };
 
-/// The smallest angle between two faces of a tetrahedron, degrees.
+/// Smallest dihedral angle of a tetrahedron, degrees.
 double min_dihedral(const std::array<Vec3, 4>& x);
 
-/// Checks a mesh and repairs winding in place. Throws InputError for what cannot be repaired: no tetrahedra, an index
-/// outside the nodes, a coordinate that is not finite, a node twice in one element, a volume of zero; it names the
-/// element.
+/// Checks a mesh and repairs winding in place. Throws InputError, naming the element or node, for no tetrahedra, fields
+/// of wrong size, an invalid index, a node twice in one element, a coordinate that is not finite or too large, or zero
+/// volume.
 QualityReport check_tets(TetMesh& mesh);
 
-/// The report as lines for a person.
+/// The report as text, in lines.
 std::string to_text(const QualityReport& report);
 
 }  // namespace heml

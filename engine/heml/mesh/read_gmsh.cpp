@@ -12,7 +12,7 @@ namespace {
 
 constexpr int gmsh_tetrahedron = 4;
 
-// Hexahedra, prisms, pyramids, and everything with a volume of higher order.
+// Hexahedra, prisms, pyramids, and all volume elements of higher order.
 bool is_other_gmsh_volume(long long type) {
   constexpr std::array volumes{5, 6, 7, 11, 12, 13, 14, 17, 18, 19, 29, 30, 31, 71, 79, 90, 91, 92, 93, 106, 118};
   return std::find(volumes.begin(), volumes.end(), type) != volumes.end();
@@ -135,7 +135,7 @@ class GmshReader {
     }
   }
 
-  // Blocks "dimension entity parametric #nodes", then all numbers, then all coordinates.
+  // Blocks "dimension entity parametric #nodes", each followed by its node numbers, then its coordinates.
   void nodes_4() {
     in_.need_line("the numbers of node blocks and nodes");
     const std::size_t blocks = in_.count("a number of blocks", 4), count = in_.count("the number of nodes", 4);
@@ -158,7 +158,7 @@ class GmshReader {
       in_.fail(fmt::format("{} nodes announced, {} in the blocks", count, read_.mesh.nodes.size()));
   }
 
-  // Blocks "dimension entity type #elements", then lines "number node ...".
+  // Blocks "dimension entity type #elements", each followed by lines "number node ...".
   void elements_4() {
     in_.need_line("the numbers of element blocks and elements");
     const std::size_t blocks = in_.count("a number of blocks", 4), count = in_.count("the number of elements", 2);

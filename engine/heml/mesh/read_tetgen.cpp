@@ -1,5 +1,5 @@
 // TetGen: H. Si, TetGen user's manual 1.5, section 5.2, files .node and .ele. The first attribute of a tetrahedron is
-// its region; those after it, which have no names, become the fields "attribute1", "attribute2", ...
+// its region; further ones, which have no names, become the fields "attribute1", "attribute2", ...
 #include <fmt/format.h>
 
 #include <cmath>
@@ -8,7 +8,7 @@
 namespace heml {
 namespace {
 
-constexpr long long max_attributes = 1000;  // attributes a line
+constexpr long long max_attributes = 1000;  // per tetrahedron
 
 // "number x y z attribute ... [marker]"
 NodeNumbers read_nodes(Scanner& in, std::vector<Vec3>& nodes) {

@@ -1,5 +1,5 @@
-// VTK legacy files: https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html ("Simple Legacy Formats"), of
-// versions up to 4 (cells as "#nodes node ...") and 5 (offsets and connectivity). Binary data is big-endian.
+// VTK legacy files: https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html ("Simple Legacy Formats"),
+// versions up to 4 (cells as "#nodes node ...") and 5 (offsets and connectivity). Binary data are big-endian.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -63,7 +63,7 @@ long long integer_value(std::string_view bytes, Type::Kind kind) {
                                       : static_cast<long long>(high >> shift);
 }
 
-// Names have %XX in the place of blanks and what else would end a word.
+// Decodes %XX, by which names encode blanks and other characters that would end a word.
 std::string decoded(std::string_view name) {
   std::string text;
   for (std::size_t i = 0; i < name.size(); ++i) {
@@ -109,8 +109,8 @@ class VtkReader {
       line.fail("the dataset is " + in_quotes(kind), "UNSTRUCTURED_GRID");
   }
 
-  // The next line with words, as a scanner of its own; raw data, if any, begins where the reader is left. Passes
-  // METADATA, which ends with an empty line.
+  // A scanner for the next line with words; in_ moves after it, where raw data may begin. Skips METADATA, which ends
+  // with an empty line.
   Scanner header_line() {
     while (lower(in_.peek()) == "metadata")
       while (in_.left() > 0 && in_.rest_of_line().find_first_not_of(" \t\r") != std::string_view::npos) continue;
@@ -206,7 +206,7 @@ class VtkReader {
     }
   }
 
-  // SCALARS and the like: what follows depends on the keyword.
+  // SCALARS, VECTORS, ...: the rest of the line and the data depend on the keyword.
   void attribute(Scanner& line, const std::string& keyword) {
     if (keyword != "lookup_table" && tuples_ == 0) line.fail("unknown section " + in_quotes(keyword));
     const std::string_view name = line.word("a name");
@@ -233,7 +233,7 @@ class VtkReader {
     }
   }
 
-  // Of an array that may be a field: `region`, or numbers of cells.
+  // Reads an array: `region` or a field if it belongs to cells and has 1 or 3 components; else skips it.
   void values_of(std::string_view name, std::size_t components, std::size_t tuples, const Type& type) {
     if (!of_cells_ || (components != 1 && components != 3)) return skip(components * tuples, type);
     if (lower(name) != "region" || components != 1) {
@@ -250,7 +250,7 @@ class VtkReader {
     skip(tuples, type);
   }
 
-  // Refuses more values than the file can hold, before anything is allocated for them.
+  // Fails if the rest of the file cannot hold so many values, before memory is allocated for them.
   void need(std::size_t count, const Type& type) {
     const std::size_t most = binary_ ? in_.left() / type.bytes : (in_.left() + 1) / 2;
     if (count > most) in_.fail(fmt::format("{} values should follow, the file ends too early for them", count));
@@ -287,8 +287,8 @@ class VtkReader {
   VtkCells cells_;
   double version_ = 0;
   bool binary_ = false;
-  bool of_cells_ = false;   ///< whether attributes that follow belong to cells
-  std::size_t tuples_ = 0;  ///< and how many there are
+  bool of_cells_ = false;   ///< whether the current attributes belong to cells
+  std::size_t tuples_ = 0;  ///< tuples per attribute
 };
 
 }  // namespace

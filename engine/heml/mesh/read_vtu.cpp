@@ -1,5 +1,5 @@
-// VTK XML files of unstructured grids, arrays as text: docs.vtk.org, "VTK XML Formats". The little of XML they need:
-// tags are taken one after the other, attributes are looked up in a tag's text.
+// VTK XML files of unstructured grids with text arrays: docs.vtk.org, "VTK XML Formats". Parses only the XML they need:
+// reads tags in sequence and looks up attributes in the text of a tag.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::string_view blanks = " \t\r\n";
 
-// The value of key="..." in a tag; empty where there is none.
+// The value of key="..." in a tag; empty if there is none.
 std::string_view attribute(std::string_view tag, std::string_view key) {
   for (std::size_t at = tag.find(key); at != std::string_view::npos; at = tag.find(key, at + 1)) {
     if (at == 0 || blanks.find(tag[at - 1]) == std::string_view::npos) continue;
@@ -131,7 +131,7 @@ class VtuReader {
     }
   }
 
-  // Arrays of other kinds than numbers in text are passed over: they need not be wanted.
+  // Skips arrays that are not numbers as text, since they may be unneeded.
   void cell_data(std::string_view name, std::string_view tag) {
     const std::string_view components = attribute(tag, "NumberOfComponents"), type = attribute(tag, "type");
     const bool integer = type.find("Int") != std::string_view::npos, scalar = components.empty() || components == "1";
@@ -163,7 +163,7 @@ class VtuReader {
   ReadMesh read_;
   bool is_vtk_ = false, in_piece_ = false;
   std::string_view section_;
-  long long points_ = 0, count_ = 0;  ///< what the piece announces
+  long long points_ = 0, count_ = 0;  ///< numbers of points and cells that the piece declares
   std::size_t first_node_ = 0;        ///< of the piece
   VtkCells cells_;
 };

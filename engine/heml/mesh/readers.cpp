@@ -8,15 +8,14 @@ namespace heml {
 namespace {
 
 constexpr int vtk_tetra = 10;
-constexpr std::size_t max_fields = 1000;  // finding one is linear in their number
-constexpr std::size_t most_values_a_byte =
-    4;  // of fields, a byte of the file: some may leave out most of the tetrahedra
+constexpr std::size_t max_fields = 1000;       // field_in() searches linearly
+constexpr std::size_t most_values_a_byte = 4;  // field values per byte of the file; fields may omit most tetrahedra
 
 void check_count(std::size_t fields, const Scanner& in) {
   if (fields > max_fields) in.fail(fmt::format("more than {} fields of elements", max_fields), "save fewer");
 }
 
-// Cells of VTK with a volume, other than the linear tetrahedron (vtkCellType.h).
+// VTK volume cells other than the linear tetrahedron (vtkCellType.h).
 bool is_other_vtk_volume(long long type) {
   return (type >= 11 && type <= 16) || (type >= 24 && type <= 27) || type == 29 || (type >= 31 && type <= 33) ||
          type == 37 || type == 42 || (type >= 71 && type <= 74) || (type >= 78 && type <= 81);
@@ -54,7 +53,7 @@ void check_sizes(const VtkCells& cells, const Scanner& in) {
               fmt::format("{} a cell", field.components));
 }
 
-// Puts the cells' values into the mesh's fields. tet_cells: the cells that became the mesh's last tetrahedra.
+// Copies the cells' values to the mesh's fields. tet_cells: the cells that are the mesh's last tetrahedra.
 void add_fields(const VtkCells& cells, const std::vector<std::size_t>& tet_cells, const Scanner& in, TetMesh& mesh) {
   for (const ElementField& field : cells.fields) field_in(mesh, field.name, field.components, in);
   pad_fields(mesh, in);
@@ -71,7 +70,7 @@ void add_fields(const VtkCells& cells, const std::vector<std::size_t>& tet_cells
 ElementField& field_in(TetMesh& mesh, std::string_view name, std::size_t components, const Scanner& in) {
   std::string plain(name);
   for (char& c : plain)
-    if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = ' ';  // so that every format can hold it on a line
+    if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = ' ';  // a name must fit on a line in every format
   const auto found = std::find_if(mesh.fields.begin(), mesh.fields.end(),
                                   [&](const ElementField& field) { return field.name == plain; });
   if (found == mesh.fields.end()) {

@@ -41,7 +41,7 @@ class Bisection {
   }
 
  private:
-  /// Longer first; of equal ones the one with the smaller numbers.
+  /// Whether edge a precedes b: the longer one, or among equal lengths the one with lower node numbers.
   bool is_longer(const Edge& a, const Edge& b) const {
     const auto length = [&](const Edge& e) {
       return (mesh_.nodes[static_cast<std::size_t>(e[0])] - mesh_.nodes[static_cast<std::size_t>(e[1])]).squaredNorm();
@@ -56,7 +56,7 @@ class Bisection {
     middles_.try_emplace(longest, -1);
   }
 
-  /// Which of its edges.
+  /// Local index of the longest marked edge.
   std::optional<std::size_t> longest_marked(const Tet& tet) const {
     std::optional<std::size_t> found;
     for (std::size_t e = 0; e < 6; ++e)
@@ -73,7 +73,7 @@ class Bisection {
     }
   }
 
-  /// Halves keep the winding: the middle takes the place of one end, then of the other.
+  /// Bisects recursively. Halves keep the winding, since the midpoint replaces one end, then the other.
   void cut(const Tet& tet, int parent) {
     const auto e = longest_marked(tet);
     if (!e) {
@@ -102,7 +102,7 @@ class Bisection {
 
   const TetMesh& mesh_;
   Refinement result_;
-  std::map<Edge, int> middles_;  ///< of marked edges: their numbers
+  std::map<Edge, int> middles_;  ///< midpoint node of each marked edge
 };
 
 }  // namespace

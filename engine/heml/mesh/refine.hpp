@@ -1,32 +1,30 @@
 #pragma once
-// A mesh that is finer where it is wanted: chosen tetrahedra are cut at their longest edge, and with them all that
-// share it, so that no node lies within another element's edge (Rivara: Algorithms for refining triangular grids
-// suitable for adaptive and multigrid techniques, International Journal for Numerical Methods in Engineering 20, 1984).
+// Local refinement by longest-edge bisection: selected tetrahedra are bisected at their longest edge together with all
+// elements that share it, so that no hanging nodes result (Rivara: Algorithms for refining triangular grids suitable
+// for adaptive and multigrid techniques, International Journal for Numerical Methods in Engineering 20, 1984).
 //
-//    marked edges:  the longest of every chosen element; then the longest of every element that has a marked one, until
-//                   there are no more
-//    an element:    cut at the longest of its marked edges, its halves at the longest of theirs
+//    marked edges:  the longest of every selected element; then the longest of every element with a marked edge, until
+//                   nothing changes
+//    an element:    is bisected at its longest marked edge, its halves recursively at theirs
 //
-// Which comes first depends on the lengths and the numbers of the nodes alone, so two elements cut the face between
-// them alike.
+// The order of edges depends only on their lengths and node numbers, so two elements divide their common face alike.
 #include <heml/mesh/tet_mesh.hpp>
 #include <vector>
 
 namespace heml {
 
 struct Refinement {
-  TetMesh
-      mesh;  ///< old nodes first, in their order, then middles; pieces with the region and fields of what they are of
-  std::vector<std::array<int, 2>> ends;  ///< of each middle, the nodes it lies between
-  std::vector<int> parents;              ///< #T: the old element each is a piece of, ascending
+  TetMesh mesh;  ///< old nodes in order, then midpoints; elements have their parent's region and fields
+  std::vector<std::array<int, 2>> ends;  ///< old nodes at the ends of each midpoint's edge
+  std::vector<int> parents;              ///< #T: the old element that each is a part of, ascending
 };
 
-/// Cuts at least the given elements of a mesh that check_tets() has left. Linear functions on the old mesh are linear
-/// functions on the new one. Shapes do not degenerate, however often it is done.
+/// Bisects at least the chosen elements of a mesh that check_tets() accepts. Piecewise linear functions on the old mesh
+/// are piecewise linear on the new one. Shapes do not degenerate under repeated refinement.
 Refinement refine_longest_edge(const TetMesh& mesh, const std::vector<int>& chosen);
 
-/// The fewest elements that have this share of a sum, greatest first; of equals the first: what to refine by an
-/// estimate of_element (Dörfler's marking). Ascending.
+/// Dörfler marking: the smallest set of elements whose estimates sum to at least `share` of the total, ascending. Of
+/// equal estimates, lower numbers first.
 std::vector<int> doerfler_marking(const std::vector<double>& of_element, double share);
 
 }  // namespace heml

@@ -6,10 +6,10 @@
 namespace heml {
 namespace {
 
-constexpr int bits = 21;  // a dimension: 63 in all
+constexpr int bits = 21;  // per dimension; 63 in total
 
-// Position along the Hilbert curve of a cell of a 2^21 grid.
-// J. Skilling, Programming the Hilbert curve, AIP Conf. Proc. 707 (2004), "AxestoTranspose" for n = 3.
+// Position of a cell along the Hilbert curve through a grid of 2^21 cells per dimension (J. Skilling, Programming the
+// Hilbert curve, AIP Conf. Proc. 707 (2004), "AxestoTranspose" for n = 3).
 std::uint64_t hilbert_key(std::array<std::uint32_t, 3> x) {
   for (std::uint32_t q = 1u << (bits - 1); q > 1; q >>= 1) {
     const std::uint32_t p = q - 1;
@@ -34,7 +34,7 @@ std::uint64_t hilbert_key(std::array<std::uint32_t, 3> x) {
   return key;
 }
 
-// Grid over the cube that holds the nodes in use.
+// Grid over the bounding cube of the nodes in use.
 struct Grid {
   Vec3 low;
   double scale;
@@ -47,7 +47,7 @@ struct Grid {
   }
 };
 
-// Items in ascending order of key, ties by number; `rank` is the inverse.
+// Sorts items by ascending key, ties by number; `rank` is the inverse of `order`.
 void sort_by_key(const std::vector<std::uint64_t>& keys, std::vector<int>& order, std::vector<int>& rank) {
   order.resize(keys.size());
   std::iota(order.begin(), order.end(), 0);
@@ -70,7 +70,7 @@ Reordering hilbert_order(const TetMesh& mesh) {
 
   Reordering order;
   std::vector<std::uint64_t> keys(mesh.nodes.size());
-  constexpr std::uint64_t last = ~std::uint64_t{0};  // orphans: past every key of 63 bits
+  constexpr std::uint64_t last = ~std::uint64_t{0};  // key of orphans, above every 63-bit key
   for (std::size_t n = 0; n < keys.size(); ++n) keys[n] = used[n] ? grid.key(mesh.nodes[n]) : last;
   sort_by_key(keys, order.file_node, order.new_node);
 

@@ -11,12 +11,12 @@ namespace {
 
 bool is_blank(char c) { return c == ' ' || ('\t' <= c && c <= '\r'); }
 
-// from_chars() takes no plus.
+// std::from_chars() accepts no leading plus.
 std::string_view without_plus(std::string_view word) {
   return word.starts_with('+') && !word.starts_with("+-") ? word.substr(1) : word;
 }
 
-// Whether a decimal number too extreme for a double is merely too close to 0.
+// Whether a decimal number out of the range of double is an underflow.
 bool is_tiny(std::string_view word) {
   const std::size_t e = word.find_first_of("eE");
   return e != std::string_view::npos && e + 1 < word.size() && word[e + 1] == '-';
@@ -139,7 +139,7 @@ long long Scanner::wide_integer(std::string_view what) {
 
 std::size_t Scanner::count(std::string_view what, std::size_t values) {
   const auto value = static_cast<std::size_t>(integer(what, 0));
-  // A value takes a digit and a blank at least; the last may end the file.
+  // A value takes at least a digit and a blank; the last one may end the file.
   if (value > (left() + 1) / (2 * values))
     fail(fmt::format("{} is {}, more than the {} bytes left in the file can hold", what, value, left()));
   return value;

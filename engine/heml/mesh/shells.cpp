@@ -13,10 +13,10 @@ namespace {
 struct Corner {
   int low, high;  ///< nodes of the edge
   int triangle;
-  bool ascending;  ///< the triangle runs from low to high
+  bool ascending;  ///< whether the triangle traverses the edge from low to high
 };
 
-// The edges of all triangles, those of one edge beside each other.
+// The edges of all triangles, sorted so that equal edges are adjacent.
 std::vector<Corner> sorted_edges(const TriangleMesh& surface) {
   std::vector<Corner> edges;
   for (std::size_t t = 0; t < surface.triangles.size(); ++t)
@@ -32,12 +32,12 @@ std::vector<Corner> sorted_edges(const TriangleMesh& surface) {
 
 struct Neighbour {
   int triangle;
-  bool alike;  ///< both run through the edge in opposite directions
+  bool alike;  ///< consistently oriented: the triangles traverse their edge in opposite directions
 };
 
 void turn(Triangle& triangle) { std::swap(triangle[1], triangle[2]); }
 
-// Six times the volume under a triangle, seen from `origin`.
+// Six times the signed volume of the tetrahedron of a triangle and `origin`.
 double volume_under(const TriangleMesh& surface, const Triangle& t, const Vec3& origin) {
   return (surface.nodes[t[0]] - origin).cross(surface.nodes[t[1]] - origin).dot(surface.nodes[t[2]] - origin);
 }
@@ -59,7 +59,7 @@ double solid_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
   return 2 * std::atan2(a.cross(b).dot(c), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
 }
 
-// How many other shells each shell lies in. They do not cross, so one point of it decides.
+// The number of shells that contain each shell. Shells do not cross, so one point of it decides.
 std::vector<int> depths(const TriangleMesh& surface, const Shells& shells) {
   std::vector<Eigen::AlignedBox3d> boxes(shells.count);
   std::vector<std::vector<int>> members(shells.count);
@@ -84,7 +84,7 @@ std::vector<int> depths(const TriangleMesh& surface, const Shells& shells) {
   return depth;
 }
 
-// Where a ray first meets the surface: the multiple of `along` (Möller, Trumbore 1997), edges counted in.
+// Parameter of a ray's first hit, in multiples of `along` (Möller & Trumbore 1997); edges count as hit.
 double first_hit(const TriangleMesh& surface, int from_triangle, const Vec3& start, const Vec3& along) {
   constexpr double slack = 1e-9;
   double nearest = std::numeric_limits<double>::infinity();

@@ -1,6 +1,6 @@
 #pragma once
-// The closed surfaces a surface consists of, and how they lie in each other. A body may have cavities and these may
-// hold bodies again:
+// Connected components (shells) of a closed surface, and their nesting. A body may have cavities, which may contain
+// further bodies:
 //
 //      ┌───────────────┐  depth 0: outside of a body
 //      │ body ┌──────┐ │  depth 1: wall of a cavity
@@ -14,18 +14,18 @@
 namespace heml {
 
 struct Shells {
-  std::vector<int> of_triangle;  ///< #F, in order of the first triangle
+  std::vector<int> of_triangle;  ///< #F, shell of each triangle; shells are numbered by their first triangle
   int count = 0;
 };
 
-/// Edge-connected parts of a closed manifold surface, their triangles turned alike (as the first of each has it).
-/// Throws InputError when that cannot be.
+/// Finds the edge-connected components of a closed manifold surface and orients the triangles of each like its first.
+/// Throws InputError if a component is not orientable.
 Shells orient_consistently(TriangleMesh& surface);
 
-/// Turns whole shells until every triangle faces away from the body.
+/// Flips whole shells so that every triangle faces out of the body. Requires consistent orientation within shells.
 void orient_outward(TriangleMesh& surface, const Shells& shells);
 
-/// A point in every cavity of a surface turned outward, m.
+/// A point in every cavity of a surface oriented outward, m.
 std::vector<Vec3> cavity_points(const TriangleMesh& surface, const Shells& shells);
 
 }  // namespace heml

@@ -4,12 +4,11 @@
 namespace heml {
 namespace {
 
-/// Local nodes of the six edges, and which edges lie opposite each other: the diagonals of the octahedron in the
-/// middle.
+/// Local nodes of the six edges. The midpoints of opposite edges are the diagonals of the inner octahedron.
 constexpr std::array<std::array<int, 2>, 6> edges{{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
 constexpr int opposite(int edge) { return 5 - edge; }
 
-/// Number of the middle between two nodes, made when first asked for.
+/// Midpoint nodes of edges, created on first use.
 class Middles {
  public:
   explicit Middles(Subdivision& to) : to_(to) {}
@@ -35,7 +34,7 @@ void add(TetMesh& mesh, Tet tet) {
   mesh.tets.push_back(tet);
 }
 
-/// Four corners, and four round the shortest diagonal of what they leave.
+/// Adds the four corner tetrahedra, and four round the shortest diagonal of the octahedron between them.
 void cut(TetMesh& mesh, const Tet& tet, const std::array<int, 6>& middle) {
   const auto m = [&](int a, int b) {
     for (std::size_t e = 0; e < 6; ++e)
@@ -52,7 +51,7 @@ void cut(TetMesh& mesh, const Tet& tet, const std::array<int, 6>& middle) {
   int axis = 0;
   for (int e = 1; e < 3; ++e)
     if (length(e) < length(axis)) axis = e;
-  // Round the diagonal: the four other middles, neighbours sharing a node of the old tetrahedron.
+  // The four other midpoints in order round the diagonal: neighbours share a node of the old tetrahedron.
   const int p = (axis + 1) % 3, q = (axis + 2) % 3;
   const std::array ring{p, q, opposite(p), opposite(q)};
   for (std::size_t k = 0; k < 4; ++k)

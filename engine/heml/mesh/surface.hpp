@@ -5,13 +5,13 @@
 
 namespace heml {
 
-/// Faces that belong to one tetrahedron only, outward by the right-hand rule for positive tetrahedra.
+/// Faces of exactly one tetrahedron, outward by the right-hand rule for tetrahedra of positive volume.
 struct BoundaryFaces {
-  std::vector<Triangle> triangles;  ///< #F×3, into the mesh's nodes
+  std::vector<Triangle> triangles;  ///< #F×3, indices of the mesh's nodes
   std::vector<int> tets;            ///< #F, the tetrahedron behind each
 };
 
-/// In ascending order of (tetrahedron, local face): depends on the mesh alone.
+/// The boundary faces in ascending order of (tetrahedron, local face).
 BoundaryFaces extract_boundary(const TetMesh& mesh);
 
 }  // namespace heml

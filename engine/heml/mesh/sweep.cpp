@@ -5,8 +5,8 @@
 namespace heml {
 namespace {
 
-/// Six times the volume a, b and the edge from p to q span. Its sign does not depend on which triangle asks: the edge
-/// is taken in one direction, then signed.
+/// Six times the signed volume of tetrahedron a, b, p, q. Computed for one fixed direction of the edge pq, so that the
+/// two triangles at that edge get exactly opposite values.
 double side_of_edge(const Vec3& a, const Vec3& b, const Vec3& p, const Vec3& q) {
   const bool in_order = std::lexicographical_compare(p.begin(), p.end(), q.begin(), q.end());
   const Vec3& first = in_order ? p : q;
@@ -15,7 +15,7 @@ double side_of_edge(const Vec3& a, const Vec3& b, const Vec3& p, const Vec3& q) 
   return in_order ? volume : -volume;
 }
 
-/// As Möller & Trumbore, with the signs above: 0 to 1 along the segment.
+/// Segment-triangle intersection as by Möller & Trumbore (1997), with the signs above: 0 at a, 1 at b.
 std::optional<double> crossing(const Vec3& a, const Vec3& b, const std::array<Vec3, 3>& t) {
   const Vec3 normal = (t[1] - t[0]).cross(t[2] - t[0]);
   const double from = normal.dot(a - t[0]), to = normal.dot(b - t[0]);
@@ -26,7 +26,7 @@ std::optional<double> crossing(const Vec3& a, const Vec3& b, const std::array<Ve
   return std::clamp(from / (from - to), 0.0, 1.0);
 }
 
-/// After C. Ericson, Real-Time Collision Detection (2005), 5.1.5.
+/// Closest point of a triangle to p (C. Ericson, Real-Time Collision Detection, 2005, 5.1.5).
 Vec3 nearest_point(const Vec3& p, const std::array<Vec3, 3>& t) {
   const Vec3 ab = t[1] - t[0], ac = t[2] - t[0], ap = p - t[0], bp = p - t[1], cp = p - t[2];
   const double d1 = ab.dot(ap), d2 = ac.dot(ap), d3 = ab.dot(bp), d4 = ac.dot(bp), d5 = ab.dot(cp), d6 = ac.dot(cp);

@@ -1,5 +1,5 @@
 #pragma once
-// The surface a blade sweeps, as triangles between its edge at one moment and the next:
+// The surface that a blade sweeps, as triangles between its cutting edge at successive times:
 //
 //     blade 0     1        2
 //        tip ●────●────────●
@@ -11,12 +11,12 @@
 
 namespace heml {
 
-/// A blade's edge, both ends, m, at successive moments: two at least.
+/// The two ends of a blade's cutting edge, m, at two or more successive times.
 struct Sweep {
   std::vector<std::array<Vec3, 2>> blades;
 };
 
-/// The surface of a sweep. Triangles that are lines or points take no part.
+/// The surface of a sweep without degenerate triangles. Queries are linear in the number of triangles.
 class SweptSurface {
  public:
   explicit SweptSurface(const Sweep& sweep);
@@ -24,11 +24,11 @@ class SweptSurface {
   bool empty() const { return triangles_.empty(); }
   const Eigen::AlignedBox3d& box() const { return box_; }
 
-  /// Where the segment from a to b first goes through: 0 at a, 1 at b. Neighbouring triangles leave no gap between
-  /// them. None too where it lies in the surface.
+  /// Parameter of the first intersection with the segment from a (0) to b (1). Watertight: no gap between neighbouring
+  /// triangles. None if there is no intersection or the segment lies in the surface.
   std::optional<double> crossing(const Vec3& a, const Vec3& b) const;
 
-  /// The triangle nearest to a point, and how far away it is, m.
+  /// Closest point on the surface, the normal of its triangle, and the distance.
   struct Nearest {
     Vec3 point, normal;  ///< m; unit
     double distance;

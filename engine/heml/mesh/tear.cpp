@@ -17,7 +17,7 @@ bool is_above(const TearOpening& opening, const TetMesh& mesh, int element) {
 
 /// A face between two elements round a node.
 struct Between {
-  int one, other;  ///< places in the list of elements round it
+  int one, other;  ///< indices in the list of elements round the node
   Triangle nodes;
 };
 
@@ -27,7 +27,7 @@ std::vector<Between> faces_round(int node, std::span<const int> elements, const 
   for (std::size_t e = 0; e < elements.size(); ++e) {
     const Tet& tet = mesh.tets[static_cast<std::size_t>(elements[e])];
     for (std::size_t f = 0; f < 4; ++f) {
-      if (tet[f] == node) continue;  // the face opposite to it
+      if (tet[f] == node) continue;  // the face opposite to the node
       Triangle face;
       for (std::size_t k = 0; k < 3; ++k) face[k] = tet[static_cast<std::size_t>(tet_faces[f][k])];
       std::sort(face.begin(), face.end());
@@ -38,7 +38,8 @@ std::vector<Between> faces_round(int node, std::span<const int> elements, const 
   return faces;
 }
 
-/// The group of each element round a node: those that hang together on one side; group 0 has the first.
+/// The group of each element round a node: elements connected by faces on one side of the plane. The first element is
+/// in group 0.
 std::vector<int> groups_of(std::span<const int> elements, const std::vector<bool>& above,
                            const std::vector<Between>& faces) {
   std::vector<int> group(elements.size());

@@ -1,17 +1,17 @@
 #pragma once
-// Tearing: elements round a node come apart along their faces, on both sides of a plane through it. Nothing is lost and
-// nothing moves.
+// Tearing: the elements round a node separate along the faces nearest to a plane through it. The volume is kept and no
+// node moves.
 //
-//      ╱╲ ╱╲          ╱╲ ╱╲       the node has a copy for each further group of its elements that hang together
-//     ╱__o__╲   ──►  ╱__o__╲      on one side; faces between groups come apart at it, and hang together still at
-//     ╲  ╱╲  ╱         o  o       their other nodes, where the tear may go on
+//      ╱╲ ╱╲          ╱╲ ╱╲       the node is copied for each further group of elements connected on one side of
+//     ╱__o__╲   ──►  ╱__o__╲      the plane; faces between groups separate at this node and stay connected at their
+//     ╲  ╱╲  ╱         o  o       other nodes, from which the tear may propagate
 //      ╲╱  ╲╱         ╲╱  ╲╱
 #include <heml/mesh/edit.hpp>
 #include <span>
 
 namespace heml {
 
-/// A node to open, and the normal of the plane at rest.
+/// A node at which the mesh tears, and the normal of the tear plane at rest.
 struct TearOpening {
   int node;
   Vec3 plane_normal;
@@ -19,11 +19,11 @@ struct TearOpening {
 
 struct Tear {
   MeshEdit edit;
-  std::size_t faces = 0;  ///< that come apart
-  double area = 0;        ///< m², of them, as the body is now
+  std::size_t faces = 0;  ///< number of separated faces
+  double area = 0;        ///< m², their deformed area
 };
 
-/// The elements that are there round each node.
+/// The existing elements round each node.
 class NodeToElements {
  public:
   NodeToElements(const TetMesh& mesh, const Topology& topology);
@@ -37,10 +37,11 @@ class NodeToElements {
   std::vector<int> list_;
 };
 
-/// Whether a node has elements on both sides of the plane.
+/// Whether a node has elements on both sides of the tear plane.
 bool can_open(const TearOpening& opening, const TetMesh& mesh, const NodeToElements& around);
 
-/// Opens nodes that share no element. mesh: at rest. x: its nodes now, #V×3, m.
+/// Computes the edit that tears the mesh at the given nodes, no two of which may share an element. mesh: at rest. x:
+/// deformed positions, #V×3, m.
 Tear make_tear(const std::vector<TearOpening>& openings, const TetMesh& mesh, const std::vector<Vec3>& x,
                const NodeToElements& around);
 

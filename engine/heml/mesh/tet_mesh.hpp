@@ -1,5 +1,5 @@
 #pragma once
-// The two kinds of mesh. Plain data: no invariants beyond what check_tets() (quality.hpp) makes sure of.
+// Tetrahedral and triangle meshes: plain data without invariants, until check_tets() (quality.hpp) has checked them.
 #include <algorithm>
 #include <array>
 #include <heml/math/types.hpp>
@@ -12,24 +12,24 @@ namespace heml {
 using Tet = std::array<int, 4>;
 using Triangle = std::array<int, 3>;
 
-/// Numbers a file gives for every tetrahedron under a name: 1 (scalars) or 3 (vectors) of them each. Not a number where
-/// it gives none; whatever uses a field checks its values.
+/// A named field of scalars or vectors per tetrahedron from a mesh file. NaN where the file gives no value; users of a
+/// field check its values.
 struct ElementField {
   std::string name;
   std::size_t components;      ///< 1 or 3
-  std::vector<double> values;  ///< components × #T, tetrahedron after tetrahedron
+  std::vector<double> values;  ///< components × #T, contiguous per tetrahedron
 };
 
-/// A tetrahedral body as its file has it.
+/// A tetrahedral mesh as in its file.
 struct TetMesh {
   std::vector<Vec3> nodes;                ///< #V×3, metres, in the file's order (orphans included)
-  std::vector<Tet> tets;                  ///< #T×4, into nodes, from 0; positive volume after check_tets()
-  std::vector<int> regions;               ///< #T, the file's integer tag; 0 where it gives none
-  std::string source;                     ///< file or generator it came from, for messages
+  std::vector<Tet> tets;                  ///< #T×4, node indices from 0; positive volume after check_tets()
+  std::vector<int> regions;               ///< #T, the file's integer tag; 0 if it gives none
+  std::string source;                     ///< file or generator, for messages
   std::vector<ElementField> fields = {};  ///< in the file's order
 };
 
-/// The field of that name; nullptr: there is none.
+/// The field of that name; nullptr if there is none.
 inline const ElementField* find_field(const TetMesh& mesh, std::string_view name) {
   const auto found = std::find_if(mesh.fields.begin(), mesh.fields.end(),
                                   [&](const ElementField& field) { return field.name == name; });
@@ -39,7 +39,7 @@ inline const ElementField* find_field(const TetMesh& mesh, std::string_view name
 /// A triangulated surface.
 struct TriangleMesh {
   std::vector<Vec3> nodes;          ///< #V×3, metres
-  std::vector<Triangle> triangles;  ///< #F×3, into nodes, outward by the right-hand rule
+  std::vector<Triangle> triangles;  ///< #F×3, node indices, outward by the right-hand rule
   std::string source;
 };
 

@@ -6,14 +6,14 @@ namespace heml {
 namespace {
 
 constexpr int rounds = 30;
-constexpr std::size_t one_in = 50;     // more crossing triangles than one in so many is no crease but another problem
-constexpr double farthest_move = 1.5;  // mean edges
+constexpr std::size_t one_in = 50;     // if more than one in so many triangles intersects, it is not just a crease
+constexpr double farthest_move = 1.5;  // mean edge lengths
 
 std::vector<std::vector<int>> neighbours_of(const TriangleMesh& surface) {
   std::vector<std::vector<int>> neighbours(surface.nodes.size());
   for (const Triangle& t : surface.triangles)
     for (std::size_t c = 0; c < 3; ++c) neighbours[static_cast<std::size_t>(t[c])].push_back(t[(c + 1) % 3]);
-  return neighbours;  // in a closed surface every edge is named once from each end
+  return neighbours;  // complete, since triangles of a closed surface traverse every edge in both directions
 }
 
 double mean_edge(const TriangleMesh& surface) {
@@ -25,7 +25,7 @@ double mean_edge(const TriangleMesh& surface) {
   return sum / (3.0 * static_cast<double>(surface.triangles.size()));
 }
 
-/// Corners of the triangles, and as many rings round them as wanted; ascending.
+/// Corners of the triangles and the given number of rings of nodes round them; ascending.
 std::vector<int> surroundings(const TriangleMesh& surface, const std::vector<int>& triangles,
                               const std::vector<std::vector<int>>& neighbours, int rings) {
   std::vector<int> nodes;
@@ -45,7 +45,7 @@ std::vector<int> surroundings(const TriangleMesh& surface, const std::vector<int
   return nodes;
 }
 
-/// Halfway to the mean of its neighbours, all nodes at once.
+/// Moves every node halfway to the mean of its neighbours, all at once (Laplacian smoothing, Jacobi).
 void smooth(TriangleMesh& surface, const std::vector<int>& nodes, const std::vector<std::vector<int>>& neighbours) {
   std::vector<Vec3> moved;
   for (const int n : nodes) {

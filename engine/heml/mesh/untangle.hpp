@@ -1,12 +1,13 @@
 #pragma once
-// Surfaces made for the eye often run through themselves in a few creases, by less than an edge.
+// Repairs small self-intersections: surfaces made for display often intersect themselves in a few creases, by less than
+// an edge length.
 #include <heml/mesh/intersections.hpp>
 
 namespace heml {
 
-/// Smooths the crossing triangles and their surroundings until none crosses, and says through warn() how far nodes
-/// moved. Only where few triangles are concerned and nodes need to move by less than an edge or so; otherwise the
-/// surface is left as it was and false returned.
+/// Smooths the intersecting triangles and their neighbourhood until none intersect, and warns how far nodes moved.
+/// Returns false and leaves the surface unchanged if more than 2 % of the triangles intersect or a node would move by
+/// more than 1.5 mean edge lengths.
 bool untangle(TriangleMesh& surface, const Intersections& found);
 
 }  // namespace heml

@@ -6,7 +6,7 @@
 namespace heml {
 namespace {
 
-// A name as one word, as VTK's own writer has it: %XX in the place of what would end it.
+// A name as one word, encoded like VTK's own writer: %XX for characters that would end a word.
 std::string encoded(const std::string& name) {
   std::string text;
   for (const char c : name)

@@ -4,7 +4,7 @@
 namespace heml {
 namespace {
 
-// A name in an XML attribute.
+// Escapes a name for an XML attribute.
 std::string escaped(const std::string& name) {
   std::string text;
   for (const char c : name)

@@ -1,5 +1,5 @@
 #pragma once
-// What ParaView opens: bodies with values at their nodes and elements, and series of them.
+// Files for ParaView: meshes with fields of nodes and elements (.vtu), and time series of them (.pvd).
 #include <filesystem>
 #include <heml/mesh/tet_mesh.hpp>
 #include <string>
@@ -7,24 +7,24 @@
 
 namespace heml {
 
-/// Values of every node under a name.
+/// A named field of nodes.
 struct NodeField {
   std::string name;
   std::size_t components;      ///< 1 or 3
-  std::vector<double> values;  ///< components × #V, node after node
+  std::vector<double> values;  ///< components × #V, contiguous per node
 };
 
-/// .vtu (ASCII, 17 significant digits) with the mesh's regions and fields, these of any number of components, and with
-/// values of nodes. Throws InputError when it cannot be written.
+/// Writes .vtu (ASCII, 17 significant digits) with the mesh's regions and fields, which may have any number of
+/// components, and with fields of nodes. Throws InputError if it cannot be written.
 void write_vtu(const std::filesystem::path& path, const TetMesh& mesh, const std::vector<NodeField>& fields = {});
 
-/// One file of a series.
+/// One file of a time series.
 struct SeriesFile {
   double time;       ///< s
-  std::string file;  ///< beside the .pvd
+  std::string file;  ///< relative to the folder of the .pvd
 };
 
-/// .pvd: the list of a series' files and their times. Throws InputError likewise.
+/// Writes .pvd: the files of a time series and their times. Throws InputError if it cannot be written.
 void write_pvd(const std::filesystem::path& path, const std::vector<SeriesFile>& files);
 
 }  // namespace heml

@@ -1,5 +1,5 @@
 #pragma once
-// Whatever bytes as a mesh file of every format: for fuzzing.
+// Reads arbitrary bytes as a mesh file of a given format, for fuzzing.
 #include <algorithm>
 #include <array>
 #include <heml/base/error.hpp>
@@ -12,9 +12,8 @@ namespace heml {
 
 inline constexpr std::array formats{"msh", "mesh", "vtk", "vtu", "tetgen", "ply"};
 
-/// Reads a text held in memory as formats[format] and checks the mesh; of PLY, the sizes it declares. TetGen's two
-/// files stand one after the other, a zero byte between. Returns whether there was a mesh fit for simulation;
-/// InputError is the other allowed outcome, and all else leaves through here.
+/// Reads a text as formats[format] and checks the mesh; for PLY, only the sizes it declares. TetGen's two files are
+/// separated by a zero byte. Returns true for a valid mesh and false for an InputError; other exceptions propagate.
 inline bool read_and_check(std::size_t format, std::string_view text) {
   try {
     ReadMesh read;

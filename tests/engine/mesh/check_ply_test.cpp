@@ -19,7 +19,7 @@ std::string refusal_of(const std::string& text) {
   return refusal([&] { check_ply("a.ply", text); });
 }
 
-// The ASCII sample with something else in one place.
+// The message for the ASCII sample with `from` replaced by `to`.
 std::string refusal_with(const std::string& from, const std::string& to) {
   return refusal_of(replaced(samples::ply, from, to));
 }

@@ -15,7 +15,7 @@ namespace heml::cut_test {
 
 namespace {
 
-/// A body and all that cuts have made of it.
+/// A body to which cuts are applied.
 struct Body {
   TetMesh mesh;
   std::vector<Vec3> x;
@@ -23,7 +23,7 @@ struct Body {
 
   explicit Body(TetMesh given) : mesh(std::move(given)), x(mesh.nodes), topology(whole(mesh)) {}
 
-  /// "": done.
+  /// Applies a cut; returns the message of make_cut(), "" on success.
   std::string cut(const Sweep& sweep, Cut& made, const std::vector<int>& stroke = {}) {
     if (const auto problem = make_cut(sweep, mesh, x, topology, snap, stroke, made)) return *problem;
     topology = apply_edit(topology, made.edit, static_cast<int>(mesh.tets.size()));
@@ -48,7 +48,7 @@ struct Body {
     return sum;
   }
 
-  /// Pieces that hang together through faces.
+  /// Number of face-connected parts.
   int components() const {
     const std::vector<Tet> all = tets();
     std::vector<int> root(all.size());
@@ -74,8 +74,8 @@ struct Body {
     return count;
   }
 
-  /// Area of the boundary at rest; checks that it is closed: every edge as often one way as the other, no face of more
-  /// than two.
+  /// Area of the boundary at rest, m². Checks that the boundary is closed (every edge traversed equally often in both
+  /// directions) and that no face has more than two elements.
   double closed_area() const {
     const std::vector<Tet> all = tets();
     const auto counts = face_counts(all, static_cast<int>(mesh.nodes.size()));
@@ -101,7 +101,7 @@ struct Body {
   double snap = 0;
 };
 
-/// A cube of 1 m, its inner nodes moved by up to an eighth of a cell.
+/// A cube of 1 m, with inner nodes displaced by up to an eighth of a cell.
 Body cube(int cells, unsigned seed = 1) {
   TetMesh mesh = make_box(Vec3(1, 1, 1), {cells, cells, cells});
   std::mt19937 random(seed);
@@ -115,7 +115,7 @@ Body cube(int cells, unsigned seed = 1) {
   return body;
 }
 
-/// A blade along z that goes from one place of the plane z = 0 to another.
+/// A blade parallel to z, from z = low to high, that moves from one point of the plane z = 0 to another.
 Sweep along(const Vec3& from, const Vec3& to, double low = -1, double high = 2) {
   const Vec3 below(0, 0, low), above(0, 0, high);
   return {{{from + below, from + above}, {to + below, to + above}}};
@@ -148,7 +148,7 @@ TEST_CASE("cut: a blade through all of a body makes two, and loses nothing") {
     const double area = body.closed_area();
     CHECK(area == doctest::Approx(6 + 2 * made.area).epsilon(1e-9));
     CHECK(made.area >= 0.9);
-    CHECK(made.area <= 1.3);  // snapped, it is not flat
+    CHECK(made.area <= 1.3);  // snapping makes the cut uneven
   }
 }
 
@@ -175,13 +175,13 @@ TEST_CASE("cut: a blade that stops inside leaves one body, parted as far as it w
   CHECK(made.area <= 0.65);
   CHECK(std::abs(body.volume() - 1) <= 1e-12);
   body.closed_area();
-  // Nodes on both sides of the slit, at one place, far from its end: they are different ones.
+  // Nodes of the slit are duplicated: two at one place.
   int pairs = 0;
   std::set<std::array<int, 2>> places;
   for (const InsertedNode& node : made.edit.nodes)
     pairs += node.from == node.to || !places.insert({node.from, node.to}).second;
   CHECK(pairs > 0);
-  // The body goes on beyond: nothing there is a copy.
+  // The body is intact beyond the slit's end: no node of the cut lies there.
   for (const int n : made.nodes) CHECK(body.mesh.nodes[static_cast<std::size_t>(n)].x() <= 0.5 + 1.0 / 8 + body.snap);
 }
 

@@ -15,7 +15,7 @@ TetMesh block() {
 
 ElementSelection tets(std::vector<int> numbers) { return {std::move(numbers), {}, {}, {}}; }
 
-/// What is wrong with a removal; "" when nothing is.
+/// The message of a removal; "" if it is valid.
 std::string problem_of(const ElementSelection& which, const Topology& topology) {
   MeshEdit edit;
   return make_removal_edit(which, block(), topology, edit).value_or("");

@@ -1,4 +1,4 @@
-// Fields of elements in every format that has them.
+// Fields of elements in every format that supports them.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -73,7 +73,7 @@ TEST_CASE("reads Gmsh element data before the elements, in parts, and of some el
 }
 
 TEST_CASE("gives Gmsh tetrahedra of one number the same data, the last, however many there are of both") {
-  constexpr int count = 300'000;  // one after the other: 9e10 copies
+  constexpr int count = 300'000;  // copying per value would take 9e10 copies
   std::string tets = fmt::format("$Elements\n{}\n", count);
   std::string data = fmt::format("$ElementData\n1\nE\n0\n3\n0 1 {}\n", count);
   for (int i = 0; i < count; ++i) {

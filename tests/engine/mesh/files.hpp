@@ -1,5 +1,5 @@
 #pragma once
-// Files for tests: a folder that goes away, and texts in it.
+// Temporary files for tests.
 #include <stdlib.h>
 
 #include <filesystem>
@@ -25,7 +25,7 @@ class TemporaryFolder {
 
   std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
 
-  /// Writes a text and returns where.
+  /// Writes a text file and returns its path.
   std::filesystem::path file(const std::string& name, const std::string& text) const {
     std::ofstream(path_ / name, std::ios::binary) << text;
     return path_ / name;
@@ -35,7 +35,7 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-/// What an InputError says; empty when none is thrown.
+/// The message of the InputError that the action throws; empty if it throws none.
 template <class Action>
 std::string refusal(Action action) {
   try {
@@ -46,7 +46,7 @@ std::string refusal(Action action) {
   return "";
 }
 
-/// Meshes made by others, beside the source tree; empty when they are not there.
+/// Path of a third-party mesh in ../shared/data of the source tree; empty if it does not exist.
 inline std::filesystem::path shared_data(const std::string& name) {
   const std::filesystem::path path = test::source_folder() / "../shared/data" / name;
   std::error_code ignored;

@@ -18,7 +18,7 @@ namespace {
 
 bool has(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
 
-// Whether this build has the helper with both libraries; says so when not.
+// Whether this build has the helper with both libraries; prints a message if not.
 bool can_mesh() {
   const TemporaryFolder folder;
   const std::string said = refusal([&] { read_surface(folder.file("a.obj", "")); }) + refusal([] {
@@ -29,7 +29,7 @@ bool can_mesh() {
   return !missing;
 }
 
-// Of the processor, by all helpers so far.
+// CPU time of all ended helpers so far, s.
 double helpers_seconds() {
   rusage used;
   getrusage(RUSAGE_CHILDREN, &used);
@@ -283,7 +283,7 @@ TEST_CASE("fills a surface by others that runs through itself in a crease, once 
   }
   if (!can_mesh()) return;
   TriangleMesh liver = read_surface(shared_data("liver-smooth.obj"));
-  CHECK(self_intersections(liver).pairs == 7);  // as exact arithmetic and TetGen's own detection (-d) have it
+  CHECK(self_intersections(liver).pairs == 7);  // agrees with exact arithmetic and with TetGen's detection (-d)
   TetMesh mesh = tetrahedralize(liver);
   check_surface(liver);
   CHECK(self_intersections(liver).pairs == 0);

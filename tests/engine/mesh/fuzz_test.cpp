@@ -1,4 +1,4 @@
-// Small valid files, damaged in thousands of ways; the same ways on every machine.
+// Fuzzing: small valid files with thousands of pseudo-random mutations, identical on every machine.
 #include <doctest/doctest.h>
 
 #include <random>
@@ -15,7 +15,7 @@ constexpr int mutations = 4000;
 
 bool is_digit(char c) { return (c >= '0' && c <= '9') || c == '-' || c == '.'; }
 
-// Puts something else in the place of a number.
+// Replaces a random number in the text by an extreme or invalid one.
 void replace_number(std::string& text, std::mt19937& random) {
   static const std::array<std::string, 14> others{
       "nan",  "inf", "1e999", "-1",         "0",           "99999999999999999999",
@@ -55,7 +55,7 @@ std::string damaged(std::string text, std::mt19937& random) {
   return text;
 }
 
-// How many damaged files are still meshes: none would mean that the damage never gets past the first check.
+// The number of damaged files that are still valid meshes. Zero would mean that no mutation gets past the first check.
 int count_survivors(std::size_t format, const std::string& text, unsigned seed) {
   REQUIRE(read_and_check(format, text));
   std::mt19937 random(seed);

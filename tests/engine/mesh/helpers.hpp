@@ -1,5 +1,5 @@
 #pragma once
-// Stand-ins for heml-mesher, and what the program finds in its environment.
+// Substitutes for heml-mesher, and environment variables for tests.
 #include <stdlib.h>
 
 #include <filesystem>
@@ -10,7 +10,7 @@
 
 namespace heml {
 
-/// Sanitizers reserve terabytes of addresses: helpers built with them have no limit on memory.
+/// Sanitizers reserve terabytes of address space, so helpers built with them have no memory limit.
 #if defined(__SANITIZE_ADDRESS__)
 inline constexpr bool helpers_have_memory_limits = false;
 #elif defined(__has_feature)
@@ -19,7 +19,7 @@ inline constexpr bool helpers_have_memory_limits = !__has_feature(address_saniti
 inline constexpr bool helpers_have_memory_limits = true;
 #endif
 
-/// A variable of the environment, for as long as this lives.
+/// Sets an environment variable during its lifetime.
 class Environment {
  public:
   Environment(const char* name, const std::string& value) : name_(name) {
@@ -35,7 +35,7 @@ class Environment {
   std::optional<std::string> old_;
 };
 
-/// A helper that does as a shell script says; its answer goes to file descriptor 3.
+/// Creates a helper that runs a shell script; its answer goes to file descriptor 3. Returns its path.
 inline std::string helper_of(const TemporaryFolder& folder, const std::string& script) {
   const auto path = folder.file("helper", "#!/bin/sh\n" + script + "\n");
   std::filesystem::permissions(path, std::filesystem::perms::owner_all);

@@ -13,12 +13,12 @@ std::size_t pairs(const std::vector<Vec3>& nodes, const std::vector<Triangle>& t
   return self_intersections({nodes, triangles, ""}).pairs;
 }
 
-// Triangle (0,0,0) (1,0,0) (0,1,0) against another without shared nodes.
+// Whether triangle (0,0,0) (1,0,0) (0,1,0) meets triangle abc, without shared nodes.
 bool meets(const Vec3& a, const Vec3& b, const Vec3& c) {
   return pairs({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, a, b, c}, {{0, 1, 2}, {3, 4, 5}}) == 1;
 }
 
-// ... against one that shares node 0.
+// Whether it meets the triangle of its node 0, a and b.
 bool meets_at_corner(const Vec3& a, const Vec3& b) {
   return pairs({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, a, b}, {{0, 1, 2}, {3, 0, 4}}) == 1;
 }

@@ -1,4 +1,4 @@
-// The helper process by itself, with shell scripts in the place of heml-mesher.
+// Tests the helper process with shell scripts instead of heml-mesher.
 #include <doctest/doctest.h>
 #include <poll.h>
 #include <sys/wait.h>
@@ -21,7 +21,8 @@ HelperTask task_with(double processor_seconds, double seconds) {
           .remedy = "remedy"};
 }
 
-// A program that waits for its helper, and a pipe whose other end both have: its end of file is the end of both.
+// A child process that runs a helper and waits for it. Both inherit the write end of a pipe, so its end of file shows
+// that both have ended.
 class Program {
  public:
   Program() {

@@ -17,7 +17,7 @@ double volume_of(const TetMesh& mesh, std::size_t t) {
   return signed_volume(at(0), at(1), at(2), at(3));
 }
 
-/// Area of the faces that only one element has: that of the box, unless there is a gap or a node within a face.
+/// Area of the faces of exactly one element: the area of the box, unless there are gaps or hanging nodes.
 double outside_area(const TetMesh& mesh) {
   std::map<std::set<int>, int> faces;
   for (const Tet& tet : mesh.tets)
@@ -41,7 +41,7 @@ TetMesh sample() {
   return mesh;
 }
 
-/// Those nearest to a corner.
+/// The `count` elements nearest to the origin, a corner of the box.
 std::vector<int> near_corner(const TetMesh& mesh, std::size_t count) {
   std::vector<double> nearness;
   for (const Tet& tet : mesh.tets) {

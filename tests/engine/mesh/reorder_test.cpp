@@ -9,8 +9,8 @@
 namespace heml::reorder_test {
 
 namespace {
-// The box with nodes and tetrahedra in a random order (mt19937 and its own arithmetic: the same everywhere), one orphan
-// first.
+// A box with nodes and tetrahedra in random order, and an orphan node first. Shuffles by hand, since std::shuffle
+// differs between standard libraries.
 TetMesh shuffled_box(int cells, unsigned seed) {
   const TetMesh box = make_box(Vec3(1, 1, 1), {cells, cells, cells});
   std::mt19937 random(seed);
@@ -33,7 +33,7 @@ TetMesh shuffled_box(int cells, unsigned seed) {
   return mesh;
 }
 
-// Mean distance in memory of the nodes of a tetrahedron.
+// Mean range of the node numbers of a tetrahedron.
 double mean_span(const TetMesh& mesh) {
   double sum = 0;
   for (const Tet& tet : mesh.tets) {
@@ -102,7 +102,7 @@ TEST_CASE("what is close in space is close in memory: neighbours along the curve
 }
 
 TEST_CASE("on a grid of 8 cells a side the curve steps from each node to a neighbour") {
-  // Centres of a 2³-fold grid as nodes: a Hilbert curve never jumps there.
+  // Nodes at the cell centres of an 8×8×8 grid, between which a Hilbert curve makes unit steps only.
   TetMesh mesh;
   for (int i = 0; i < 512; ++i) mesh.nodes.emplace_back(i % 8, i / 8 % 8, i / 64);
   for (int i = 0; i + 3 < 512; i += 4) mesh.tets.push_back({i, i + 1, i + 2, i + 3});

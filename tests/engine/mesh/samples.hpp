@@ -1,6 +1,6 @@
 #pragma once
-// Two tetrahedra in every format: nodes 0..4, elements {0,1,2,3} of region 7 and {1,2,3,4} of region −3, written by
-// hand from the descriptions of the formats, with the oddities files have (gaps in numbering, comments, other cells
+// Two tetrahedra in every format: nodes 0..4, elements {0,1,2,3} of region 7 and {1,2,3,4} of region −3. Written by
+// hand from the format specifications, with peculiarities of real files (gaps in numbering, comments, other cells
 // between).
 #include <array>
 #include <string>
@@ -86,7 +86,7 @@ $EndElements
 )";
 
 /// Data of elements a (region 7) and b (region −3): stiffness 2.5 and 4; fibre (1, 0, 0) and (0, −0.6, 0.8); a later
-/// time step of the stiffness; nine numbers an element; and data of a cell that is no tetrahedron.
+/// time step of the stiffness; a field of nine components; and data of a cell that is no tetrahedron.
 inline std::string gmsh_data(const std::string& a, const std::string& b) {
   return R"($ElementData
 1
@@ -274,13 +274,13 @@ inline const std::string ele = R"(2 4 1
 2 2 3 4 5 -3.0
 )";
 
-/// The same with two further attributes.
+/// The same elements with two further attributes.
 inline const std::string ele_attributes = R"(2 4 3
 1 1 2 3 4 7 2.5 -1
 2 2 3 4 5 -3.0 4 inf
 )";
 
-/// Text and numbers as bytes.
+/// Builds binary files from text and numbers.
 class Binary {
  public:
   explicit Binary(bool little_endian = false) : little_endian_(little_endian) {}
@@ -308,7 +308,7 @@ class Binary {
   std::string bytes_;
 };
 
-/// The legacy VTK sample in binary; big-endian, as the format has it.
+/// The legacy VTK sample in binary, which is big-endian.
 inline const std::string vtk_binary =
     Binary()
         .text("# vtk DataFile Version 2.0\ntwo tetrahedra\nBINARY\nDATASET UNSTRUCTURED_GRID\nPOINTS 5 float\n")

@@ -6,7 +6,7 @@
 
 namespace heml {
 
-/// The sides of a box, outward; every node is on it.
+/// The boundary of a box, oriented outward, without interior nodes.
 inline TriangleMesh box_surface(const Vec3& size, int cells, const Vec3& origin = Vec3::Zero()) {
   const TetMesh box = make_box(size, {cells, cells, cells}, origin);
   TriangleMesh surface;
@@ -36,7 +36,7 @@ inline TriangleMesh together(TriangleMesh a, const TriangleMesh& b) {
   return a;
 }
 
-/// Volume on the side the triangles face away from, m³.
+/// Signed volume enclosed by a surface, m³; positive if it is oriented outward.
 inline double enclosed_volume(const TriangleMesh& surface) {
   double volume = 0;
   for (const auto& [a, b, c] : surface.triangles)

@@ -7,7 +7,7 @@
 namespace heml::untangle_test {
 
 namespace {
-// A box with a dent in its top and the node beside it pushed through a wall of the dent.
+// A box with a dent in its top; the adjacent node is pushed through a wall of the dent.
 TriangleMesh creased_box() {
   TriangleMesh surface = box_surface(Vec3(1, 1, 1), 12);
   for (Vec3& x : surface.nodes) {

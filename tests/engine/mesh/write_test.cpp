@@ -12,7 +12,7 @@ namespace heml::write_test {
 
 TEST_CASE("every format gives back nodes to the bit, tetrahedra and regions") {
   TetMesh mesh = make_box(Vec3(0.1, 0.2, 1.0 / 3), {3, 2, 2}, Vec3(-1e-3, 1e5, 0.7));
-  mesh.nodes.emplace_back(4.9e-324, -0.0, 1.7976931348623157e308);  // an orphan of extreme numbers
+  mesh.nodes.emplace_back(4.9e-324, -0.0, 1.7976931348623157e308);  // an orphan with extreme coordinates
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) mesh.regions[t] = static_cast<int>(t % 3) - 1;
   const TemporaryFolder folder;
   for (const char* name : {"a.msh", "a.mesh", "a.vtk", "a.vtu", "a.node"}) {

@@ -1,6 +1,6 @@
 #pragma once
-// The plain text the engine and its helper exchange: "#nodes #rows [#holes]", then x y z a node, then indices a row,
-// then x y z a hole. The engine writes it, so the helper trusts it.
+// The text that the engine and its helper exchange: "#nodes #rows [#holes]", then x y z per node, the node indices per
+// row, x y z per hole. The helper trusts its input, which the engine writes.
 #include <cstdio>
 #include <istream>
 #include <stdexcept>
@@ -9,26 +9,26 @@
 
 namespace mesher {
 
-/// A reason to stop that the engine passes on to people.
+/// An error whose message the engine shows to the user.
 struct Failure : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
 struct Exchange {
-  std::vector<double> nodes;  ///< x y z, m
-  std::vector<int> rows;      ///< `row` indices each
-  std::vector<double> holes;  ///< x y z, m
+  std::vector<double> nodes;  ///< #V×3, m
+  std::vector<int> rows;      ///< `row` node indices per triangle (3) or tetrahedron (4)
+  std::vector<double> holes;  ///< a point in each cavity, ×3, m
 };
 
 Exchange read_exchange(std::istream& in, int row);
 void write_exchange(std::FILE* file, const Exchange& exchange, int row);
 
-/// Any surface file assimp knows: triangles as the file has them, nodes not joined. Throws Failure, and
-/// std::bad_alloc where the memory is not enough.
+/// Reads a surface in any format of assimp: triangles as in the file, nodes not merged. Throws Failure or
+/// std::bad_alloc.
 Exchange read_surface(const std::string& path);
 
-/// Tetrahedra in a closed surface; its nodes come first. max_volume: m³ of one, 0 for none. Throws Failure
-/// and std::bad_alloc.
+/// Fills a closed surface with tetrahedra; its nodes come first. max_volume: m³ per tetrahedron, 0: unlimited. Throws
+/// Failure or std::bad_alloc.
 Exchange fill_surface(const Exchange& surface, double radius_edge_ratio, double max_volume);
 
 }  // namespace mesher

@@ -1,4 +1,4 @@
-// Tetrahedra by TetGen: H. Si, TetGen, a Delaunay-based quality tetrahedral mesh generator, ACM TOMS 41 (2015).
+// TetGen: H. Si, TetGen, a Delaunay-based quality tetrahedral mesh generator, ACM TOMS 41 (2015).
 #include <tetgen.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace mesher {
 namespace {
 
-// To the unit cube and back: TetGen's tolerances are absolute.
+// Maps to the unit cube and back, since TetGen's tolerances are absolute.
 struct Frame {
   std::array<double, 3> centre;
   double size = 0;
@@ -34,7 +34,7 @@ struct Frame {
   double from_unit(double value, std::size_t i) const { return value * size + centre[i % 3]; }
 };
 
-// tetgenio frees with delete[] what it is given.
+// Allocates with new[], since tetgenio frees its arrays with delete[].
 void give(const Exchange& surface, const Frame& frame, tetgenio& in) {
   in.numberofpoints = static_cast<int>(surface.nodes.size() / 3);
   in.pointlist = new double[surface.nodes.size()];
@@ -77,7 +77,7 @@ Exchange fill_surface(const Exchange& surface, double radius_edge_ratio, double 
   const Frame frame(surface.nodes);
   tetgenio in, out;
   give(surface, frame, in);
-  // p: fill a surface; Y: keep its triangles; q: shape; a: largest volume; Q: quiet.
+  // p: fill a surface; Y: keep its triangles; q: radius-edge ratio; a: maximum volume; Q: quiet.
   char switches[128];
   if (max_volume > 0)
     std::snprintf(switches, sizeof switches, "pYq%.9ga%.17gQ", radius_edge_ratio, max_volume / std::pow(frame.size, 3));

@@ -1,8 +1,9 @@
 // heml-mesher read SURFACE
 // heml-mesher fill RADIUS_EDGE_RATIO MAX_VOLUME|none
 //
-// Run by the engine under limits on time and memory; not for people. The surface to fill is read from stdin, the answer
-// goes to file descriptor 3: the libraries print to stdout. Exit codes: 0 done; 1 a reason on stderr; 2 out of memory.
+// Helper process that the engine runs under limits on time and memory. Reads the surface to fill from stdin and writes
+// the answer to file descriptor 3, since the libraries print to stdout. Exit codes: 0 success; 1 failure, with a
+// message on stderr; 2 out of memory.
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>

@@ -1,6 +1,6 @@
-// Surfaces by assimp. Its steps JoinIdenticalVertices and FindDegenerates are left out on purpose: they join within
-// 1e-5 and drop triangles under 1e-6 in area, absolute numbers that are 10 µm and 1 mm² here. The engine joins equal
-// nodes itself.
+// Reads surfaces by assimp, without its steps JoinIdenticalVertices and FindDegenerates: they merge vertices within
+// 1e-5 and drop triangles with an area below 1e-6, which are 10 µm and 1 mm² in metres. The engine merges equal nodes
+// itself.
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
