@@ -10,7 +10,7 @@ namespace heml {
 
 template <class Real>
 struct ExponentialValue {
-  Real exp_minus_one, first, second;  ///< of exp
+  Real exp_minus_one, first, second;  ///< exp(Q) − 1, first and second derivative
 };
 
 /// exp(Q) and its first two derivatives, continued above Q0 = ln 1e4.
@@ -47,7 +47,7 @@ struct FungDemiray : IsochoricLaw<FungDemiray<Real, continued>, Real, continued>
 
   Mask<Real> valid(const Invariants<Real>& at) const {
     return Base::valid(at) && (continued || gamma * (volume_powers<continued>(at.J).p * at.I1 - 3) <
-                                                safe_exponent<Real>);  // stress and stiffness must fit too
+                                                safe_exponent<Real>);  // stress and stiffness must not overflow either
   }
 
   IsochoricPart<Real> part(Real a, Real) const {

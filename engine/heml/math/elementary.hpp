@@ -87,8 +87,8 @@ template <class Bits, class V>
 }
 }  // namespace detail
 
-/// Natural logarithm of a normal positive number, within 2 ulp. x = m 2^k with m in [√½, √2): ln x = 2 artanh s + k ln
-/// 2, s = (m−1)/(m+1), |s| < 0.172.
+/// Natural logarithm of a normal positive number, within 2 ulp: x = m 2^k with m in [√½, √2), and
+/// ln x = 2 artanh s + k ln 2 with s = (m−1)/(m+1), |s| < 0.172.
 inline double natural_log(double x) { return detail::logarithm<std::uint64_t>(x, x); }
 inline float natural_log(float x) { return detail::logarithm<std::uint32_t>(x, x); }
 

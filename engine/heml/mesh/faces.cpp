@@ -4,7 +4,7 @@
 namespace heml {
 namespace {
 struct Face {
-  int middle, highest;  ///< nodes; the lowest is the bucket
+  int middle, highest;  ///< sorted nodes; the lowest one is the index of the bucket
   int id;               ///< 4·tet + local face
 };
 

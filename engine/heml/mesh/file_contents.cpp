@@ -8,7 +8,7 @@
 namespace heml {
 
 std::string file_contents(const std::filesystem::path& path) {
-  constexpr std::uintmax_t max_bytes = 4'000'000'000;  // nodes, and faces of tetrahedra, are counted in 32 bits
+  constexpr std::uintmax_t max_bytes = 4'000'000'000;  // nodes and faces have 32-bit numbers
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status)) throw InputError(path.string(), "", "there is no such file");

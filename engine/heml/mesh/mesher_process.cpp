@@ -111,7 +111,7 @@ struct Streams {
   };
   limit(RLIMIT_CPU, std::ceil(limits.processor_seconds) + 1, 1);  // SIGXCPU first: at the hard limit it is SIGKILL
   limit(RLIMIT_CORE, 0);
-  limit(RLIMIT_FSIZE, limits.bytes);  // the answer is in memory too
+  limit(RLIMIT_FSIZE, limits.bytes);  // bounds the answer, a file in memory
   if (limits_memory) limit(RLIMIT_AS, limits.bytes);
   for (int* fd : {&from.input, &from.words, &from.answer}) *fd = fcntl(*fd, F_DUPFD_CLOEXEC, answer_fd + 1);
   dup2(from.input, STDIN_FILENO);
