@@ -1,10 +1,11 @@
 #pragma once
-// Loops compiled for AVX2 where the compiler's own target is older x86. A processor without it takes loops of the same
-// operations in the same order, none contracted, so the same bits.
+// HEML_WIDE compiles a function for AVX2 where the build targets older x86 processors; has_avx2() says at run time
+// whether to call it. Both versions do the same operations in the same order, without FMA contraction, so they give the
+// same bits.
 
 namespace heml {
 
-// Sanitizers make so much of a flat function that it would take minutes to compile.
+// A sanitized flatten function takes minutes to compile.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define HEML_SANITIZED
 #elif defined(__has_feature)
@@ -14,7 +15,7 @@ namespace heml {
 #endif
 
 #if defined(__x86_64__) && !defined(__AVX2__) && !defined(HEML_SANITIZED)
-// Flat: what is called is inlined, since a function for other processors takes packs in other registers.
+// flatten inlines all callees: a callee compiled for the baseline target would pass packs in other registers.
 #define HEML_WIDE [[gnu::target("avx2"), gnu::flatten]]
 inline bool has_avx2() {
   static const bool has = __builtin_cpu_supports("avx2");

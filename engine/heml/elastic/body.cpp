@@ -12,7 +12,7 @@
 namespace heml {
 namespace {
 
-/// J σ = F S Fᵀ + wJ J I; von Mises and the largest stretch are the same in any frame, so √C may stand for F.
+/// J σ = F S Fᵀ + wJ J I. Von Mises stress and largest stretch are invariant to rotation, so √C replaces F.
 template <class Real>
 ElementState<Real> state_of(const StressSum<Real>& stress, const Real C[6], Real J) {
   const auto e = symmetric_eigen3(C);
@@ -32,7 +32,7 @@ bool is_finite(const Tensions<Real>& t) {
   return std::isfinite(t.wJ) && std::all_of(std::begin(t.T), std::end(t.T), [](Real T) { return std::isfinite(T); });
 }
 
-/// What the vectorised loops run as here.
+/// Instruction set of the HEML_WIDE loops on this processor.
 std::string_view wide_instructions() {
 #if defined(__x86_64__)
   if (has_avx2()) return "avx2";
@@ -75,7 +75,7 @@ void ElasticBody<Real>::make_parts() {
   join_parts();
 }
 
-/// Laws go to the fast kernels but where their parameters or rest shapes are each element's own.
+/// The fan kernels run a law unless its parameters (fields) or rest shapes (plasticity) vary by element.
 template <class Real>
 typename ElasticBody<Real>::Part ElasticBody<Real>::make_part(std::size_t index,
                                                               const std::vector<int>& elements) const {
@@ -93,7 +93,7 @@ typename ElasticBody<Real>::Part ElasticBody<Real>::make_part(std::size_t index,
   return part;
 }
 
-/// What depends on all parts together, but for the fans.
+/// Rebuilds what depends on all parts together, except the fans.
 template <class Real>
 void ElasticBody<Real>::join_parts() {
   std::vector<ElementGroup<Real>*> groups;
@@ -137,7 +137,7 @@ void ElasticBody<Real>::make_fans() {
   fans_ = FanForces<Real>(mesh_, parts, options_.continuation, options_.instruction_set, team);
 }
 
-/// Of the mesh as it is now, where element t is of what origins[t] was before.
+/// Updates the fans to the present mesh, whose element t is origins[t] of the mesh `before` or a piece of it.
 template <class Real>
 void ElasticBody<Real>::update_fans(const TetMesh& before, const std::vector<int>& origins) {
   const std::vector<FanPart> parts = fan_parts();
@@ -145,7 +145,7 @@ void ElasticBody<Real>::update_fans(const TetMesh& before, const std::vector<int
   if (parts.empty() || !fans_.update_layout(before, mesh_, parts, origins, team)) make_fans();
 }
 
-/// What belongs to no element alone.
+/// Rebuilds springs and averaged nodal pressure, which belong to no single element.
 template <class Real>
 void ElasticBody<Real>::make_shared() {
   std::vector<double> stiffness(mesh_.tets.size(), 0.0);
@@ -199,7 +199,7 @@ bool ElasticBody<Real>::forces(const Real* x, Real* f, ThreadTeam& team) {
         if (!part.terms[k]->forces(part.group, x, begin, end, corner_.data(), k > first))
           valid.store(false, std::memory_order_relaxed);
       });
-    if (pressure_ && part.terms.size() == first)  // nothing else is at those corners
+    if (pressure_ && part.terms.size() == first)  // no term has written these corners
       std::fill_n(corner_.data() + 3 * corners, 12 * part.group.volume.size(), Real(0));
   }
   if (pressure_ && !pressure_->add_forces(x, corner_.data(), team)) valid = false;
@@ -210,7 +210,8 @@ bool ElasticBody<Real>::forces(const Real* x, Real* f, ThreadTeam& team) {
 
 template <class Real>
 std::vector<KernelInfo> ElasticBody<Real>::kernels() const {
-  // Of the loops: a packet's constants and nodes, corner forces written and gathered, positions and forces.
+  // Bytes per element and term of the loops: constants and nodes, corner forces written and gathered, positions and
+  // forces.
   const double corners = 4 * sizeof(int) + 7 * sizeof(Real) + 4 * (6 * sizeof(Real) + sizeof(std::size_t)) +
                          static_cast<double>(6 * sizeof(Real) * nodes()) / static_cast<double>(elements());
   std::vector<KernelInfo> result;
@@ -310,7 +311,7 @@ void ElasticBody<Real>::element_stiffness(std::size_t p, std::size_t s, ElementM
   expand_edges(k, K);
 }
 
-/// In fixed order: packets one after the other, whoever summed them.
+/// Adds packets in ascending order, so that the sum does not depend on the threads.
 template <class Real>
 double ElasticBody<Real>::sum_energies(const Real* x, bool stored, ThreadTeam& team) {
   double sum = 0;
@@ -338,7 +339,7 @@ double ElasticBody<Real>::potential(const Real* x, ThreadTeam& team) {
   return energy(x, team) + (has_internal_state() ? sum_energies(x, false, team) : 0.0);
 }
 
-/// Largest of a part's bounds, summed over its terms; then of all parts.
+/// Maximum over the parts of the sum of the bounds of their terms.
 template <class Real>
 template <class Bound>
 Real ElasticBody<Real>::max_bound(ThreadTeam& team, const Bound& bound) const {

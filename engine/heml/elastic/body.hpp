@@ -1,6 +1,6 @@
 #pragma once
-// The elastic part of a body: its groups of elements, each with the terms of its material, and what is not of one
-// element alone (springs along edges, averaged nodal pressure); and the sum of their forces at the nodes.
+// The elastic part of a body: one group of elements per material, each with its energy terms; springs along edges and
+// averaged nodal pressure, which couple elements; and the sum of all forces at the nodes.
 //
 //   forces(x):  uniform laws ──► fans ──► nodes ──────────────────────► + springs
 //               other terms ──► corner forces ──► added at nodes ─┘
@@ -24,7 +24,7 @@ namespace heml {
 
 class BsrMatrix;
 
-/// What a viewer may want to know of an element.
+/// State of one element, for display.
 template <class Real>
 struct ElementState {
   Real J;
@@ -32,72 +32,75 @@ struct ElementState {
   Real von_mises;  ///< Pa, of the Cauchy stress
 };
 
-/// How a body is made of its materials.
+/// Options of ElasticBody.
 struct BodyOptions {
   bool continuation = false;
   bool nodal_pressure = false;  ///< needs laws with a volume term, the same one in all materials
-  InstructionSet instruction_set = InstructionSet::best;  ///< of the fast kernels; must be one this processor has
-  int threads = 0;                                        ///< that lay out a large body; 0: one a core
+  InstructionSet instruction_set = InstructionSet::best;  ///< of the fan kernels; the processor must support it
+  int threads = 0;                                        ///< that build the layout of a large body; 0: one per core
 };
 
-/// What runs the forces of the elements of one material.
+/// The force kernel of one material.
 struct KernelInfo {
   std::size_t material;  ///< index into the body's materials
   std::string law;
-  std::string kernel;  ///< "fans"; "corners": the loops of its terms; "fans and corners": its law, its other terms;
-                       ///< "springs": along edges
+  std::string kernel;  ///< "fans": fan kernels; "corners": loops over corner forces; "fans and corners": fan kernels
+                       ///< for the law, loops for further terms; "springs": along edges
   std::string_view instructions;  ///< "portable", "avx2", "avx512"
   std::size_t elements;
-  double bytes_per_tet;  ///< read and written in one evaluation, each array once; 0 of springs
+  double bytes_per_tet;  ///< read and written in one force evaluation, each array counted once; 0 for springs
 };
 
-/// What is to be known of a body beside its mesh, to make it anew as it was: its materials, in which order its elements
-/// lie, what they remember, how the fast kernels have them laid out.
+/// Snapshot of a body without its mesh, for ElasticBody::restore(): materials, order of the elements in their groups,
+/// internal state and fan layout.
 template <class Real>
 struct BodyMemory {
   struct Part {
     std::size_t material;
-    std::vector<int> element;               ///< of each slot, inner numbers
-    std::vector<std::vector<Real>> values;  ///< what its slots remember (slot_memory.hpp)
+    std::vector<int> element;               ///< inner number of each slot's element
+    std::vector<std::vector<Real>> values;  ///< internal state of the slots
   };
   std::vector<Part> parts;
   std::vector<Material> materials;
   FanForces<Real> fans;
   double plastic_work = 0;  ///< J
-  Real step = 0;            ///< s, begun last
+  Real step = 0;            ///< s, of the last begin_step()
   std::size_t bytes() const;
 };
 
+/// Calls on one body must not overlap, since they share scratch arrays; each distributes its work over the given team.
 template <class Real>
 class ElasticBody {
  public:
-  /// mesh: in inner order. material_of: #T, index into materials. Materials no element has get no group. The body is at
-  /// rest, and what it remembers begins there.
+  /// mesh: in inner order, positive volumes, with the fields that the materials name. material_of: #T, indices into
+  /// materials; a material without elements gets no group. The body is at rest, without history.
   ElasticBody(const TetMesh& mesh, const std::vector<int>& material_of, const std::vector<Material>& materials,
               BodyOptions options);
   ElasticBody(const ElasticBody&) = delete;
   ElasticBody& operator=(const ElasticBody&) = delete;
 
-  /// Forces at positions x (3 #V) into f (3 #V, overwritten), N. Returns whether every law is defined there.
+  /// Writes the forces (N) at positions x (3 #V, m) into f (3 #V, overwritten). Returns whether every law is defined at
+  /// x.
   bool forces(const Real* x, Real* f, ThreadTeam& team);
 
-  /// What forces() runs, a line a material that has elements. Nodal pressure and springs are not among it.
+  /// The kernels that forces() runs, one entry per material that has elements. The work of nodal pressure and springs
+  /// is not counted.
   std::vector<KernelInfo> kernels() const;
 
-  /// Finds the stiffness K = ∂²U/∂x² at x, once for all products with it.
+  /// Evaluates the stiffness K = ∂²U/∂x² (N/m) at x, for the calls below until the next linearise().
   void linearise(const Real* x, ThreadTeam& team);
-  /// Makes every element's part of K positive, in the way named (projection.hpp; none and shift: nothing). Averaged
-  /// nodal pressure keeps its own.
+  /// Projects the part of K of every element and spring to positive semidefinite (projection.hpp); `none` and `shift`
+  /// do nothing. Averaged nodal pressure is not projected.
   void project(Projection projection, ThreadTeam& team);
-  /// −K dx into out (3 #V, overwritten), N: change of the forces with a change dx of the positions.
+  /// Writes −K dx (N), the change of the forces with a change dx of the positions, into out (3 #V, overwritten).
   void force_differential(const Real* dx, Real* out, ThreadTeam& team);
 
-  /// Adds K to rows between free nodes. Returns false, with nothing added, where they cannot hold it: averaged nodal
-  /// pressure couples nodes that share no element.
+  /// Adds K between free nodes to `rows`. Returns false and adds nothing with averaged nodal pressure, which couples
+  /// nodes that share no element.
   bool add_stiffness(BsrMatrix& rows, ThreadTeam& team) const;
 
-  /// Calls visit(nodes (4 inner numbers), K) for every element's part of K in turn. With nodal pressure its part is an
-  /// approximation of the element alone.
+  /// Calls visit(nodes (4 inner numbers), K (12×12)) for every element. With nodal pressure, K includes an
+  /// approximation that couples the nodes of the element alone.
   template <class Visit>
   void each_stiffness(const Visit& visit) {
     for (std::size_t p = 0; p < parts_.size(); ++p)
@@ -114,59 +117,62 @@ class ElasticBody {
     springs_.each_stiffness(linearisation_point_.data(), projected_, visit);
   }
 
-  /// Stored elastic energy, J (contract: W of every element).
+  /// Stored elastic energy, J: V W of every element, springs and nodal pressure; viscosity and relaxation store none.
   double energy(const Real* x, ThreadTeam& team);
-  /// What forces() is minus the gradient of, J: with the incremental potential of what remembers, for the step begun.
+  /// The potential U of forces() = −∇U, J: energy() plus the incremental potential of viscosity and relaxation for the
+  /// step of the last begin_step().
   double potential(const Real* x, ThreadTeam& team);
 
-  /// Upper bound of ω², 1/s², of small vibrations about x; not a number where a law is not defined.
+  /// Upper bound of ω² (1/s²), the largest eigenvalue of M⁻¹K at x (step_bound.hpp); NaN where a law is undefined.
   Real frequency_bound(const Real* x, ThreadTeam& team);
-  /// The same of the damping matrix, 1/s: viscosity.
+  /// Upper bound of the largest eigenvalue of M⁻¹D (1/s), D the viscous damping matrix at x.
   Real damping_bound(const Real* x, ThreadTeam& team);
 
-  /// The part of that bound which each element's own terms have, #T in inner order, 1/s²: not nodal pressure, not
-  /// springs.
+  /// Bounds of ω² (1/s²) from the terms of each element alone, #T in inner order, without nodal pressure and springs.
   std::vector<Real> element_bounds(const Real* x) const;
 
-  /// Of all that is kept.
+  /// Size of all arrays, in bytes.
   std::size_t bytes() const;
 
-  /// First element (inner number) out of its law's range, or whose forces are no numbers; −1: none, also where forces()
-  /// saw one by its own rounding.
+  /// Lowest inner number of an element outside the range of its law or with non-finite tensions; −1 if there is none.
+  /// It may be −1 although forces() returned false, whose kernels round differently.
   int first_undefined(const Real* x) const;
 
-  /// #T in inner order.
+  /// Writes the state of every element at x into out (#T in inner order, resized).
   void states(const Real* x, std::vector<ElementState<Real>>& out) const;
 
-  /// What is elastic of the first Piola–Kirchhoff stress of every element, #T in inner order, Pa, whatever its terms:
-  /// the moment of its corner forces, P = −1/V Σ_a f_a ⊗ X_a. Springs bear none.
+  /// Elastic first Piola–Kirchhoff stress of every element, #T in inner order, Pa, from its corner forces: P = −1/V Σ_a
+  /// f_a ⊗ X_a. Springs, viscosity and relaxation do not contribute.
   std::vector<Mat3> stresses(const Real* x, ThreadTeam& team);
   bool has_springs() const { return !springs_.empty(); }
 
-  /// Puts another law on the elements of one material, and forgets what they remember.
+  /// Replaces a material and resets the internal state of the body, taken as relaxed at x.
   void set_material(std::size_t index, const Material& material, const Real* x);
 
-  /// Leaves the given elements (inner numbers, ascending; at least one), numbered anew in that order. What they
-  /// remember stays with them; forces are those of a body made of them alone, to round-off: blocks of fans that lose
-  /// none keep their layout (fan_layout.hpp).
+  /// Removes all but the given elements (inner numbers, ascending; at least one) and renumbers those in that order.
+  /// They keep their internal state. Forces equal those of a body built from these elements alone to round-off, since
+  /// fan blocks that lose no element keep their layout (fan_layout.hpp).
   void keep_elements(const std::vector<int>& elements);
-  /// Another mesh, of the same nodes and further ones: element t is what origins[t] was or a piece of it, and
-  /// remembers what that did. Materials as theirs. Blocks of fans that are not touched keep their layout.
+  /// Replaces the mesh by one with the same nodes and further ones. Element t is the old element origins[t] or a piece
+  /// of it; it has the same material and inherits the internal state. Fan blocks without changed elements keep their
+  /// layout.
   void transfer_state(const TetMesh& mesh, const std::vector<int>& material_of, const std::vector<int>& origins);
-  /// What is to be known of the body beside its mesh, to come back to it as it is now, to the bit.
+  /// Snapshot for restore(), which reproduces the present state to the bit.
   BodyMemory<Real> memory();
-  /// Back to a mesh and what memory() was then. What has another material since has forgotten: it has lasted at x.
+  /// Restores a mesh and the snapshot of that time. Elements whose material has changed since lose their internal state
+  /// and are taken as relaxed at x.
   void restore(const TetMesh& mesh, const std::vector<int>& material_of, const BodyMemory<Real>& memory, const Real* x);
-  /// Another mesh, at rest, as in the constructor.
+  /// Replaces the mesh; the body is then as after construction.
   void set_mesh(const TetMesh& mesh, const std::vector<int>& material_of);
 
-  // What remembers (viscosity, relaxation, plasticity), if anything does: a step of length h begins (0: none; infinite:
-  // all has relaxed); the positions it reached are kept; all is forgotten.
+  // Internal state (viscosity, relaxation, plasticity). begin_step() starts a step of h seconds (0: no time passes;
+  // infinite: fully relaxed); commit() stores the state reached at x; reset_history() discards the state and takes x as
+  // relaxed.
   bool has_internal_state() const;
   void begin_step(Real h);
   void commit(const Real* x);
   void reset_history(const Real* x);
-  double plastic_work() const { return plastic_work_; }  ///< J, since forget()
+  double plastic_work() const { return plastic_work_; }  ///< J, since the last reset
 
   /// Lumped masses (#V, kg): each tetrahedron's density × volume / 4 on its nodes.
   std::vector<Real> masses() const;
@@ -180,15 +186,15 @@ class ElasticBody {
     ElementGroup<Real> group;
     std::vector<std::unique_ptr<GroupTerm<Real>>> terms;
     std::unique_ptr<PlasticFlow<Real>> flow;
-    std::vector<Real> stiffness;  ///< of every element (edge_stiffness.hpp), once it was asked for
-    bool in_fans;                 ///< its law's forces are run by fans_, not by the first of its terms
+    std::vector<Real> stiffness;  ///< of every element (edge_stiffness.hpp), filled by linearise()
+    bool in_fans;                 ///< fans_ evaluates the law's forces instead of the first term
 
-    std::size_t first_loop() const { return in_fans ? 1 : 0; }  ///< of its terms
-    SlotMemories<Real> memory();                                ///< of all of them
+    std::size_t first_loop() const { return in_fans ? 1 : 0; }  ///< first term that forces() loops over
+    SlotMemories<Real> memory();                                ///< of all terms and the flow
     bool has_loops(bool nodal_pressure) const { return terms.size() > first_loop() || nodal_pressure; }
   };
-  static constexpr std::size_t grain_ = 2048;       ///< elements below which waking a thread costs more than it brings
-  static constexpr std::size_t large_body_ = 8192;  ///< elements from which laying them out is worth a team
+  static constexpr std::size_t grain_ = 2048;       ///< min. elements per thread, which outweigh the cost of waking it
+  static constexpr std::size_t large_body_ = 8192;  ///< elements from which a team builds the layout
 
   std::vector<Real> at_rest() const;
   void make_parts();
@@ -207,7 +213,7 @@ class ElasticBody {
   template <class Bound>
   Real max_bound(ThreadTeam& team, const Bound& bound) const;
 
-  /// Calls visit(part, slot, whole link, rest shape) for every element.
+  /// Calls visit(part, slot, kinematics, rest shape) for every element.
   template <class Visit>
   void each_slot(const Real* x, const Visit& visit) const {
     for (const Part& part : parts_)
@@ -224,15 +230,15 @@ class ElasticBody {
   std::vector<Part> parts_;
   FanForces<Real> fans_;
   CornerMap corners_;        ///< of all parts
-  CornerMap force_corners_;  ///< of those that are not in fans
+  CornerMap force_corners_;  ///< of the parts whose forces are evaluated by loops
   Springs<Real> springs_;
   std::unique_ptr<NodalPressure<Real>> pressure_;
-  std::vector<Real> corner_;               ///< 3 a corner, written and read within forces()
+  std::vector<Real> corner_;               ///< 3 a corner, scratch
   std::vector<Real> linearisation_point_;  ///< 3 #V
-  bool projected_ = false;                 ///< whether what was found there has been made positive
-  std::vector<double> packet_energy_;      ///< written and read within energy()
+  bool projected_ = false;                 ///< whether project() was applied
+  std::vector<double> packet_energy_;      ///< scratch of energy()
   double plastic_work_ = 0;
-  Real step_ = 0;  ///< s, begun last
+  Real step_ = 0;  ///< s, of the last begin_step()
 };
 
 }  // namespace heml

@@ -1,4 +1,4 @@
-// Other elements in a body that lives.
+// Edits of an existing body: other meshes, removed and divided elements, snapshots.
 #include <algorithm>
 #include <heml/elastic/body.hpp>
 
@@ -12,7 +12,7 @@ std::array<Vec3, 4> places(const TetMesh& mesh, int element) {
   return X;
 }
 
-/// Adds the slots of more elements after all there are.
+/// Appends the slots of further elements.
 template <class Real>
 void append(const ElementGroup<Real>& more, ElementGroup<Real>& group) {
   constexpr std::size_t lanes = ElementGroup<Real>::lanes;
@@ -84,7 +84,7 @@ std::size_t BodyMemory<Real>::bytes() const {
   return sum;
 }
 
-/// number: of each element from now on, −1: gone.
+/// Renumbers the elements of a part and drops the removed ones. number: new number of each old element, −1 if removed.
 template <class Real>
 void ElasticBody<Real>::keep_numbered(Part& part, const std::vector<int>& number) {
   std::vector<std::size_t> slots;
@@ -118,7 +118,8 @@ void ElasticBody<Real>::keep_elements(const std::vector<int>& elements) {
   update_fans(before, elements);
 }
 
-/// Parts that remember are made anew, and take it from what they were; of the others slots stay with their elements.
+/// Parts with internal state are rebuilt and inherit it from the old part; the others keep the slots of unchanged
+/// elements.
 template <class Real>
 void ElasticBody<Real>::transfer_state(const TetMesh& mesh, const std::vector<int>& material_of,
                                        const std::vector<int>& origins) {

@@ -8,8 +8,8 @@
 namespace heml {
 namespace {
 
-constexpr std::size_t row_grain = 512;  // rows below which waking a thread costs more than it brings
-constexpr int side_by_side = 4;         // elements taken side by side
+constexpr std::size_t row_grain = 512;  // min. rows per thread, which outweigh the cost of waking it
+constexpr int side_by_side = 4;         // elements added together
 
 typedef float Four __attribute__((vector_size(16)));
 
@@ -25,7 +25,7 @@ typedef float Four __attribute__((vector_size(16)));
   return __builtin_convertvector(v, Four);
 }
 
-/// Rows of numbers of four elements become a column of each: (x, y, z) of lane l in column[l], and 0.
+/// Transposes x, y and z of four elements into one register (x, y, z, 0) per element.
 [[gnu::always_inline]] inline void transpose(const Four (&xyz)[3], Four (&column)[side_by_side]) {
   const Four zero = {};
   const Four a = __builtin_shufflevector(xyz[0], xyz[1], 0, 4, 1, 5);
@@ -104,7 +104,7 @@ void BsrMatrix::add_diagonal(int node, double k) {
     block_[static_cast<std::size_t>(place)].column[i][i] += static_cast<float>(k);
 }
 
-/// What the elements of a group have in blocks [first, last).
+/// Adds the stiffness of a group to blocks [first, last).
 template <class Real>
 [[gnu::always_inline]] inline void BsrMatrix::add_to(std::size_t first, std::size_t last, const Real* K,
                                                      const ElementGroup<Real>& group) {
@@ -112,7 +112,7 @@ template <class Real>
   static constexpr Places nowhere{-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
   const auto is_here = [&](int place) {
     const auto at = static_cast<std::size_t>(static_cast<unsigned>(place));
-    return at - first < last - first;  // −1 is nowhere
+    return at - first < last - first;  // false for −1, which wraps to the largest unsigned
   };
   for (std::size_t s = 0; s < group.size(); s += side_by_side) {
     const Places* places[side_by_side];
@@ -133,7 +133,7 @@ template <class Real>
     };
 #pragma GCC unroll 3
     for (int j = 0; j < 3; ++j) {
-      Four of_corner_0[4][3] = {};  // corner 0 moves all edges back: minus the sums of the others' rows and columns
+      Four of_corner_0[4][3] = {};  // minus the sums of the others, since corner 0 moves all edges back
 #pragma GCC unroll 3
       for (std::size_t b = 1; b < 4; ++b) {
         Four sum[3] = {};

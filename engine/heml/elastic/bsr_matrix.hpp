@@ -1,12 +1,12 @@
 #pragma once
-// The stiffness of a body between its free nodes, assembled in float: for solves that need two or three digits of their
-// solution and many products for them. A product reads a third of what it reads of the elements' own stiffnesses
-// (edge_stiffness.hpp), and a row is the work of one thread.
+// Block sparse row (BSR) matrix of 3×3 blocks in float: the stiffness of a body between its free nodes, for linear
+// solves to two or three digits. A product reads a third of what a product with the element stiffnesses
+// (edge_stiffness.hpp) reads.
 //
 //   row n:   [n, n1] [n, n2] ...    n1 < n2 < ...: nodes that share an element with n, and n itself
 //   block:   x x x 0 | y y y 0 | z z z 0     its columns, one register each
 //
-// A row sums its elements in their order and is summed by one thread, so that no bit depends on how many there are.
+// One thread assembles a row, adding elements in ascending order, so the bits do not depend on the number of threads.
 #include <Eigen/Core>
 #include <heml/base/thread_team.hpp>
 #include <heml/elastic/element_group.hpp>
@@ -21,19 +21,19 @@ using MultiVector = std::vector<Eigen::Array4f>;  ///< xyz and 0: one vector reg
 
 class BsrMatrix {
  public:
-  /// number: #V, the row of each node, −1 where it has none.
+  /// number: #V, row of each node, −1 for nodes without a row. tets: #T, give the sparsity pattern.
   BsrMatrix(const std::vector<int>& number, const std::vector<Tet>& tets);
 
-  /// Leaves the given elements (ascending), numbered anew in that order. Rows and blocks stay.
+  /// Removes all but the given elements (ascending) and renumbers those in that order. Rows and blocks stay.
   void keep_elements(const std::vector<int>& elements);
 
   void set_zero();
-  /// Adds the stiffnesses of the elements of a group, K as in edge_stiffness.hpp. Elements are the tets' numbers.
+  /// Adds the element stiffnesses K (N/m, edge_stiffness.hpp) of a group, whose element numbers are indices into tets.
   template <class Real>
   void add_elements(const Real* K, const ElementGroup<Real>& group, ThreadTeam& team);
-  /// Adds [B −B; −B B], B symmetric, of an edge between two nodes.
+  /// Adds [B −B; −B B], B symmetric (N/m), between two nodes. Rows that do not exist are ignored, here and below.
   void add_edge(int a, int b, const Mat3& B);
-  /// Adds a symmetric B to the block of a node; k to its three diagonal entries.
+  /// Adds a symmetric B, or k times the identity, to the diagonal block of a node.
   void add_node(int node, const Mat3& B);
   void add_diagonal(int node, double k);
 
@@ -48,7 +48,7 @@ class BsrMatrix {
   struct Block {
     Column column[3];
   };
-  using Places = std::array<int, 16>;  ///< of the blocks between an element's corners, row after row; −1: no such row
+  using Places = std::array<int, 16>;  ///< block of each pair of an element's corners, row by row; −1: no such row
 
   int find(int row, int column) const;
   void add(int row, int column, const Mat3& B);

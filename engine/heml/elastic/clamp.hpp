@@ -1,15 +1,16 @@
 #pragma once
-// How an element's stiffness is made positive (projection.hpp).
+// Projection of an element's stiffness to positive semidefinite (projection.hpp).
 #include <heml/elastic/edge_stiffness.hpp>
 
 namespace heml {
 
-/// Negative eigenvalues of an element's stiffness to 0.
+/// Sets negative eigenvalues of an element's stiffness to 0; leaves a K that is not finite.
 template <class Real>
 void clamp_element(Real K[edge_entries]);
 
-/// K = T̂_ab I + the rest, T̂ = V L Ŝ Lᵀ with all of the stress, the volume term's too (A = LLᵀ): both made positive.
-/// Near J = 0, where the volume term has no such form, as clamp_element(). t: what K was made with.
+/// Tension projection: splits K into T̂_ab I, with T̂ = V L Ŝ Lᵀ (A = LLᵀ) the tensions of the whole stress, volume
+/// term included, and a rest, and sets negative eigenvalues of Ŝ and of the rest to 0. Near J = 0 the volume term has
+/// no such form, and clamp_element() is used. t: the tensions at which K was evaluated.
 template <class Real>
 void clamp_tension(const Tensions<Real>& t, const ElementKinematics<Real>& kinematics, const RestShape<Real>& rest,
                    Real K[edge_entries]);

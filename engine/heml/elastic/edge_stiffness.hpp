@@ -1,14 +1,14 @@
 #pragma once
-// The stiffness of elements at one state, found once and multiplied many times: an implicit step asks for ten to a
-// hundred products with the stiffness of one state, and none of them needs the law again.
+// Element stiffness at one state, evaluated once and multiplied many times: an implicit step takes ten to a hundred
+// products with the stiffness of one state, and none of them evaluates the law again.
 //
-// The forces of an element depend on its edges e_a = x_a − x_0 alone, so its 12×12 stiffness is a symmetric 9×9 one in
-// them, ∂²U/∂e_a∂e_b, of which the lower half is kept:
+// The forces of an element depend on its edges e_a = x_a − x_0 alone, so its 12×12 stiffness reduces to the symmetric
+// 9×9 matrix ∂²U/∂e_a∂e_b, of which the lower half is stored:
 //     f_a = −Σ_b K_ab de_b,   f_0 = −(f_1 + f_2 + f_3),   a, b = 1..3
 //   packet p:  [45][lanes]     entry (r, c) of the lower half at r(r+1)/2 + c, r = 3(a−1) + i
 //
-// By invariants it is a few outer products of their gradients and multiples of small blocks (the paper's K = L(k) ⊗ I +
-// Gᵀ 4V W_ll G, with J beside the squared lengths).
+// For a law of invariants it is a sum of outer products of the gradients of the invariants and of multiples of 3×3
+// blocks (in the paper's notation K = L(k) ⊗ I + Gᵀ 4V W_ll G, with J in addition to the squared lengths).
 #include <heml/elastic/tension.hpp>
 
 namespace heml {
@@ -16,11 +16,11 @@ namespace heml {
 inline constexpr int edge_entries = 45;
 constexpr int edge_entry(int r, int c) { return r >= c ? r * (r + 1) / 2 + c : c * (c + 1) / 2 + r; }
 
-/// A 12×12 element stiffness, row after row; corner after corner, xyz.
+/// 12×12 element stiffness, N/m, row-major, indices [corner][xyz].
 template <class Real>
 using ElementMatrix = Real[12][12];
 
-/// Adds V Σ_kl w_kl p_k p_lᵀ, p_k the gradient of an invariant by the nine coordinates of the edges.
+/// Adds V Σ_kl w_kl p_k p_lᵀ, p_k the gradient of an invariant with respect to the nine coordinates of the edges.
 template <int count, class Real>
 [[gnu::always_inline]] inline void add_outer_products(const Real (&p)[count][9], const Real (&w)[count][count],
                                                       Real volume, Real K[edge_entries]) {
@@ -36,7 +36,7 @@ template <int count, class Real>
       for (int k = 0; k < count; ++k) K[at] += p[k][r] * q[k][c];
 }
 
-/// What a law of invariants adds beyond its tensions' T_ab I.
+/// Adds the stiffness of a law of invariants except the geometric part, T_ab I and wJ ∂²J.
 template <class Real, InvariantLaw<Real> L>
 [[gnu::always_inline]] inline void add_material_stiffness(const L& law, const ElementKinematics<Real>& kinematics,
                                                           const RestShape<Real>& rest, Real K[edge_entries]) {
@@ -56,7 +56,7 @@ template <class Real, InvariantLaw<Real> L>
       p[1][3 * k + i] = kinematics.cross[k][i] / (6 * rest.volume);
     }
   if constexpr (L::uses_I2) {
-    // ∂I2/∂e_a = 2 (I1 u_a − y_a), y = AGA e; ∂²I2 = 4 u_a u_bᵀ − 2 u_b u_aᵀ − 2 A_ab FFᵀ and what is in the tensions.
+    // ∂I2/∂e_a = 2 (I1 u_a − y_a), y = AGA e; ∂²I2 = 4 u_a u_bᵀ − 2 u_b u_aᵀ − 2 A_ab FFᵀ + a part in the tensions.
     Real FF[6] = {0, 0, 0, 0, 0, 0};
     constexpr int row[6] = {0, 1, 2, 0, 0, 1}, column[6] = {0, 1, 2, 1, 2, 2};
     for (int k = 0; k < 3; ++k) {
@@ -92,7 +92,7 @@ template <class Real, InvariantLaw<Real> L>
   add_outer_products(p, w, rest.volume, K);
 }
 
-/// Adds T_ab I and wJ ∂²J/∂e_a∂e_b: a triple product's second derivatives are edges.
+/// Adds the geometric stiffness T_ab I + V wJ ∂²J/∂e_a∂e_b; second derivatives of the triple product are edges.
 template <class Real>
 [[gnu::always_inline]] inline void add_geometric_stiffness(const Tensions<Real>& t, const Real e[3][3],
                                                            Real K[edge_entries]) {
@@ -113,7 +113,8 @@ template <class Real>
     }
 }
 
-/// Adds the stiffness made of nine changes of the edges: change(de, out[12]) gives the corner forces' change.
+/// Adds the stiffness by columns: change(de, out[12]) writes the change of the corner forces with a unit change de of
+/// the edges.
 template <class Change, class Real>
 [[gnu::always_inline]] inline void add_columns(const Change& change, Real K[edge_entries]) {
   for (int c = 0; c < 9; ++c) {
@@ -124,7 +125,7 @@ template <class Change, class Real>
   }
 }
 
-/// Adds the stiffness of a law at an element, whose link must be whole.
+/// Adds the stiffness of a law at one element. kinematics: with I2 and J, and I4 if the law uses it.
 template <class Real, Law<Real> L>
 [[gnu::always_inline]] inline void add_edge_stiffness(const L& law, const ElementKinematics<Real>& kinematics,
                                                       const RestShape<Real>& rest, Real K[edge_entries]) {
@@ -143,7 +144,7 @@ template <class Real, Law<Real> L>
   }
 }
 
-/// The 12×12 form. Moving corner 0 moves all edges back.
+/// Expands to the 12×12 form. Moving corner 0 moves all edges by the opposite.
 template <class Real>
 void expand_edges(const Real K[edge_entries], ElementMatrix<Real>& out) {
   for (std::size_t r = 0; r < 9; ++r)

@@ -1,15 +1,15 @@
 #pragma once
-// The elements of one material, laid out for the force loop, and what they share with the nodes they pull at.
+// The elements of one material in the layout of the force loops, and the map from their corners to the nodes.
 //
 //   slot s:      0 1 2 3 4 5 6 7 | 8 9 ...       elements of one material in locality order, padded to whole packets by
 //   node[4]:     . . . . . . . . |               repeating the last one
 //   A[6]:        . . . . . . . . |               A = Dm⁻¹Dm⁻ᵀ, A_ab = g_a·g_b, a, b = 1..3, as 11 22 33 12 13 23
 //   volume:      . . . . . . . . |
 //   fibre[3]:    . . . . . . . . |               m = Dm⁻¹a0 where the law has a fibre, else empty
-//   parameters:  . . . . . . . . |               of those that differ from element to element, else empty
+//   parameters:  . . . . . . . . |               material parameters that vary by element, else empty
 //
 //   corner forces: 12 numbers a slot, [slot][corner][xyz], written by the force loop,
-//   summed at each node in ascending order of corner (CornerMap): no sum depends on which thread came first.
+//   summed at each node in ascending order of corner (CornerMap), so that sums do not depend on the threads.
 #include <Eigen/Dense>
 #include <heml/materials/material.hpp>
 #include <heml/mesh/tet_mesh.hpp>
@@ -36,13 +36,13 @@ struct ElementGroup {
   std::size_t packets() const { return volume.size() / lanes; }
 };
 
-/// Lays out the given elements (inner numbers) of a mesh in inner order; positive volumes. The fields that the material
-/// names must be among the mesh's.
+/// Builds the group of the given elements (inner numbers; at least one) of a mesh in inner order with positive volumes.
+/// The mesh must have the fields that the material names (asserted).
 template <class Real>
 ElementGroup<Real> make_group(const TetMesh& mesh, const std::vector<int>& elements, const Material& material);
 
-/// An edit of a group: slot s takes what slot from[s] had, `each` values a slot. So what elements remember stays with
-/// them when others go.
+/// Reorders a list with `each` values per slot: slot s takes the values of the old slot from[s]. Internal state thus
+/// stays with its element when others are removed.
 template <class Value>
 void gather_slots(std::vector<Value>& of_slots, std::span<const std::size_t> from, std::size_t each = 1) {
   std::vector<Value> taken;
@@ -54,8 +54,8 @@ void gather_slots(std::vector<Value>& of_slots, std::span<const std::size_t> fro
   of_slots = std::move(taken);
 }
 
-/// Leaves the given slots of a group, in that order; at least one. Returns the `from` of its padded lists, for what
-/// else has a value a slot.
+/// Keeps the given slots of a group, in that order; at least one. Returns `from` for gather_slots() on further padded
+/// lists.
 template <class Real>
 std::vector<std::size_t> keep_slots(ElementGroup<Real>& group, const std::vector<std::size_t>& slots);
 
@@ -65,11 +65,11 @@ struct CornerMap {
   std::vector<std::size_t> corners;  ///< 4 #T
 };
 
-/// Numbers the groups' corners one after the other (first_corner) and finds those of each node.
+/// Numbers the corners of the groups consecutively (sets first_corner) and lists those of each node.
 template <class Real>
 CornerMap map_corners(std::vector<ElementGroup<Real>*> groups, std::size_t nodes);
 
-/// Corners that the groups have in all, padding included: the length of a corner force array is 3 times this.
+/// Number of corners of all groups, padding included; a corner force array has 3 values per corner.
 template <class Real>
 std::size_t corner_count(const std::vector<ElementGroup<Real>*>& groups);
 

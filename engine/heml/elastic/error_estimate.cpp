@@ -30,7 +30,7 @@ void add(const Mat3& F, const Mat3& P, double volume, const Tet& tet, Means& sum
   }
 }
 
-/// The products of linear functions: ∫ N_a N_b dV = V/20, V/10 where a = b.
+/// e_t² of one element, J, with ∫ N_a N_b dV = V/20, or V/10 where a = b.
 double difference(const Mat3& F, const Mat3& P, double volume, const Tet& tet, const Means& means) {
   Mat3 dF[4], dP[4], sum_F = Mat3::Zero(), sum_P = Mat3::Zero();
   double same = 0;
@@ -41,7 +41,7 @@ double difference(const Mat3& F, const Mat3& P, double volume, const Tet& tet, c
     same += dF[a].cwiseProduct(dP[a]).sum();
     sum_F += dF[a], sum_P += dP[a];
   }
-  // Where a material softens the product may be negative: nothing is known there.
+  // In a softening material the product may be negative; it then estimates nothing.
   return std::max(0.0, volume / 20 * (same + sum_F.cwiseProduct(sum_P).sum()));
 }
 

@@ -1,15 +1,15 @@
 #pragma once
-// How far linear tetrahedra are from the body they stand for, after Zienkiewicz & Zhu (International Journal for
-// Numerical Methods in Engineering 24, 1987). Stress and deformation jump from element to element; in the body they do
-// not, and their means at nodes, linear in between, are nearer to it than what they are means of. What is between the
-// two is about the error:
+// Discretisation error of linear tetrahedra, estimated after Zienkiewicz & Zhu (International Journal for Numerical
+// Methods in Engineering 24, 1987). Stress and deformation gradient are constant per element and jump between elements.
+// Their means at nodes, interpolated linearly, are closer to the continuous fields, so the difference estimates the
+// error:
 //
 //        P  ┌───┐ P*  ╱            e_t² = ∫_t (P* − P) : (F* − F) dV,   J: the squared energy norm of the error
 //       ────┘╱──└────╱             * at a node: mean over the elements of one material there, weighted by volume
 //
-// P (first Piola–Kirchhoff) and F work on one another, so no moduli are asked for and every law will do; for small
-// strains of a uniform body this is the textbook's ∫ Δσ : C⁻¹ Δσ. Means do not cross from material to material, where
-// stress may jump. On the surface they are one-sided, and less near.
+// P (first Piola–Kirchhoff) and F are work conjugate, so no moduli are needed and every law is covered; for small
+// strains of a uniform body this is the usual ∫ Δσ : C⁻¹ Δσ. Means are taken per material, since stress may jump at an
+// interface. At the surface they are one-sided and less accurate.
 #include <heml/mesh/tet_mesh.hpp>
 #include <vector>
 
@@ -20,13 +20,14 @@ struct ErrorEstimate {
   double squared = 0;              ///< J, their sum
   double stored = 0;               ///< J, elastic energy: half the squared energy norm of the deformation
 
-  /// Of the energy norm, 0 to 1: √(e² / (2 stored + e²)).
+  /// Relative error in the energy norm, 0 to 1: √(e² / (2 stored + e²)).
   double relative() const;
-  /// What each element has of that (#T, its volume-weighted rms is relative()): where a finer mesh would gain most.
+  /// Relative error of each element per volume (#T; the volume-weighted rms is relative()): largest where refinement
+  /// gains most.
   std::vector<double> densities(const TetMesh& mesh) const;
 };
 
-/// e_t² of every element. material_of, F and P (Pa): #T.
+/// e_t² (J) of every element. material_of, F and P (Pa): #T.
 std::vector<double> recovery_errors(const TetMesh& mesh, const std::vector<int>& material_of,
                                     const std::vector<Mat3>& F, const std::vector<Mat3>& P);
 

@@ -1,12 +1,12 @@
 #pragma once
-// Packs of 32 bytes, read and written through AVX2. Only for files compiled for AVX2 and FMA.
+// Fan kernels on packs of 32 bytes with AVX2 intrinsics. Only for files compiled for AVX2 and FMA.
 #include <immintrin.h>
 
 #include <heml/elastic/fan_force_kernel.hpp>
 #include <heml/elastic/fan_kernels.hpp>
 
 namespace heml {
-namespace {  // no other file may share what is compiled from this
+namespace {  // internal linkage: not merged with code for other processors
 
 struct Avx2 {
   template <class Real>

@@ -1,12 +1,12 @@
 #pragma once
-// Packs of 64 bytes, read and written through AVX-512. Only for files compiled for AVX-512 F and DQ, and FMA.
+// Fan kernels on packs of 64 bytes with AVX-512 intrinsics. Only for files compiled for AVX-512 F and DQ, and FMA.
 #include <immintrin.h>
 
 #include <heml/elastic/fan_force_kernel.hpp>
 #include <heml/elastic/fan_kernels.hpp>
 
 namespace heml {
-namespace {  // no other file may share what is compiled from this
+namespace {  // internal linkage: not merged with code for other processors
 
 struct Avx512 {
   template <class Real>

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t longest = max_fan_tets;
 
-/// Sizes of fans, those first that read fewest nodes a tetrahedron: in this order they are looked for.
+/// Fan sizes in the order of the greedy search: those that read fewest nodes per tetrahedron first.
 const std::vector<FanSize>& sizes_by_worth() {
   static const std::vector<FanSize> sizes = [] {
     std::vector<FanSize> list;
@@ -25,7 +25,7 @@ const std::vector<FanSize>& sizes_by_worth() {
   return sizes;
 }
 
-/// Where a size is in that order.
+/// Position of a size in sizes_by_worth().
 std::size_t rank_of(std::size_t tets, bool closed) {
   using Ranks = std::array<std::array<std::size_t, 2>, longest + 1>;
   static const Ranks ranks = [] {
@@ -36,7 +36,7 @@ std::size_t rank_of(std::size_t tets, bool closed) {
   return ranks[tets][closed];
 }
 
-/// One tetrahedron at one of its edges: (p, q, from, to) has positive volume.
+/// One tetrahedron seen from one of its edges pq: (p, q, from, to) has positive volume.
 struct Sector {
   int p, q, from, to;
   std::size_t tet;
@@ -69,7 +69,7 @@ std::vector<Sector> sectors_by_edge(const std::vector<Tet>& tets) {
   return sorted;
 }
 
-/// The longest chain among the sectors of one edge whose tetrahedra are not yet taken, at most `longest`.
+/// Finds the longest chain of adjacent tetrahedra round one edge that are not taken yet, at most `longest`.
 class LongestChain {
  public:
   const std::vector<const Sector*>& operator()(const Sector* begin, const Sector* end, const std::vector<char>& taken) {
@@ -88,7 +88,7 @@ class LongestChain {
   void try_from(const Sector* first) {
     chain_.clear();
     for (const Sector* s = first; s && chain_.size() < longest; s = after(s)) {
-      if (std::find(chain_.begin(), chain_.end(), s) != chain_.end()) break;  // round, or overlapping tetrahedra
+      if (std::find(chain_.begin(), chain_.end(), s) != chain_.end()) break;  // ring closed, or tetrahedra overlap
       chain_.push_back(s);
     }
     if (chain_.size() > best_.size()) std::swap(chain_, best_);
@@ -118,16 +118,16 @@ Fan fan_of(const std::vector<const Sector*>& chain) {
   return fan;
 }
 
-/// By rank of size; the best first, since what they leave is short anyway.
+/// Greedy: takes the best fans first, since the remaining ones are short in any order. Result: fans by rank of size.
 std::vector<std::vector<Fan>> greedy_fans(const std::vector<Tet>& tets) {
   const std::vector<Sector> sectors = sectors_by_edge(tets);
-  std::vector<std::pair<std::size_t, std::size_t>> edges;  // range of sectors
+  std::vector<std::pair<std::size_t, std::size_t>> edges;  // sectors [first, second) of each edge
   for (std::size_t i = 0, j; i < sectors.size(); i = j) {
     for (j = i; j < sectors.size() && sectors[j].edge() == sectors[i].edge();) ++j;
     edges.push_back({i, j});
   }
   const std::size_t ranks = sizes_by_worth().size();
-  std::vector<std::vector<std::size_t>> waiting(ranks);  // edges by a bound on the best chain they have
+  std::vector<std::vector<std::size_t>> waiting(ranks);  // edges by the best rank that their chains can have
   for (std::size_t e = edges.size(); e-- > 0;) {
     const std::size_t round = edges[e].second - edges[e].first;
     waiting[rank_of(std::min(longest, round), round > 2 && round <= longest)].push_back(e);
@@ -157,7 +157,7 @@ Fan part_of(const Fan& fan, std::size_t begin, std::size_t end) {
   return {fan.p, fan.q, {at(fan.ring, begin), at(fan.ring, end + 1)}, {at(fan.tets, begin), at(fan.tets, end)}};
 }
 
-/// Less of the same: opened, or halved. `put` takes what comes of it; a single tetrahedron stays.
+/// Opens a closed fan or halves an open one of two tetrahedra or more, and passes the result to `put`.
 template <class Put>
 void cut_shorter(Fan fan, const Put& put) {
   const std::size_t m = fan.tets.size();

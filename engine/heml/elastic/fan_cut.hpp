@@ -7,20 +7,20 @@
 
 namespace heml {
 
-/// Tetrahedra round an edge: (p, q, ring[i], ring[i+1]), each of positive volume. Where they go all round it the ring
-/// is closed: after its last node comes its first.
+/// Tetrahedra (p, q, ring[i], ring[i+1]) round the edge pq, each of positive volume. In a closed ring the last node is
+/// followed by the first.
 struct Fan {
   int p, q;
-  std::vector<int> ring;          ///< one more than tetrahedra, or as many: closed
-  std::vector<std::size_t> tets;  ///< which of those given; empty: stands for nothing (a lane left over)
+  std::vector<int> ring;          ///< one node more than tetrahedra, or as many in a closed ring
+  std::vector<std::size_t> tets;  ///< indices of the tetrahedra; empty in a dummy fan that fills a lane
   FanSize size() const {
     return {static_cast<std::uint8_t>(std::max<std::size_t>(tets.size(), 1)), static_cast<std::uint8_t>(ring.size())};
   }
 };
 
-/// Fans that together hold each of the given tetrahedra (positive volume) once, in groups of `lanes` of the same size,
-/// those that read fewest nodes a tetrahedron first: fan l of group g is result[g * lanes + l]. Fans that make no full
-/// group are opened, and cut shorter; the last group is filled with fans of no tetrahedron, whose nodes are -1. The
+/// Cuts tetrahedra (positive volume) into fans, each tetrahedron in one of them. The result has groups of `lanes` fans
+/// of one size, fan l of group g at result[g * lanes + l], sizes that read fewest nodes per tetrahedron first. Fans
+/// that fill no group are opened or halved; the last group is filled with dummy fans, whose nodes are −1. Successive
 /// fans of a lane are near one another, those of different lanes are not.
 std::vector<Fan> cut_into_fans(const std::vector<Tet>& tets, std::size_t lanes);
 

@@ -1,19 +1,19 @@
 #pragma once
 // The force kernel of every law and instruction set.
 //
-// Forces are those of elastic/tension.hpp with k = 1/6V, A* = 6V A: no division is left, and V is no constant of its
-// own. Each fan is gone through three times, so that one pass has little in registers and consecutive turns of it do
-// not wait for one another:
+// Forces are those of elastic/tension.hpp with k = 1/6V and A* = 6V A, which needs no division and no V. A fan is
+// traversed in three passes, so that a pass keeps few values in registers and its iterations do not depend on one
+// another:
 //
 //   nodes ──► spokes b, b·b, a·b ──► tensions of each tetrahedron ──► forces at each ring node ──► nodes
 //
-// Links that tetrahedra of a fan share have one tension there: f_i = −((t_ii + t'_ii) b_i + (t_ia + t'_ia) a + …). A
-// closed ring is one whose first neighbour is its last.
+// A link shared by tetrahedra of a fan has the sum of their tensions: f_i = −((t_ii + t'_ii) b_i + (t_ia + t'_ia) a +
+// …). In a closed ring the last node comes before the first.
 #include <heml/elastic/fan_parts.hpp>
 
 namespace heml::fan {
 
-/// C = k LᵀGL and T = ⅙ L S Lᵀ (here with minus signs), L the Cholesky factor of A*.
+/// C = k LᵀGL and T = ⅙ L S Lᵀ (returned with reversed sign), L the Cholesky factor of A*.
 template <class P, PrincipalLaw<P> L>
 [[gnu::always_inline]] inline FanTensions<P> fan_tensions(const L& law, const FanRest<P>& rest, const FanGram<P>& G,
                                                           P J, Mask<P>& valid) {
@@ -86,11 +86,11 @@ struct ForceKernel {
   static constexpr std::size_t constants = fan_constants(L::uses_I4), lanes = P::lanes;
 
   struct Work {
-    Spoke<P> spoke[max_fan_tets + 3];           ///< [1 .. ring]; before and after that a closed ring's others
-    FanTensions<P> tensions[max_fan_tets + 2];  ///< [1 .. m]; before and after that a closed ring's others, or zero
+    Spoke<P> spoke[max_fan_tets + 3];           ///< [1 .. ring]; [0] and [ring + 1] continue a closed ring
+    FanTensions<P> tensions[max_fan_tets + 2];  ///< [1 .. m]; [0] and [m + 1]: continue a closed ring, or zero
   };
 
-  /// Where a group's nodes and constants are, and its axis.
+  /// Nodes, constants and axis of a group.
   struct Group {
     std::size_t m, ring_nodes;
     const std::uint16_t* ring;
@@ -112,7 +112,7 @@ struct ForceKernel {
     }
   }
 
-  /// Pack by pack, since what is copied otherwise is not forwarded to the next read of it.
+  /// Copies pack by pack: a store from a struct copy is not forwarded to the next load of a pack.
   [[gnu::always_inline]] static inline void copy_spoke(Spoke<P>& to, const Spoke<P>& from) {
     for (int i = 0; i < 3; ++i) to.b[i].v = from.b[i].v;
     to.bb.v = from.bb.v, to.ab.v = from.ab.v;
@@ -120,14 +120,14 @@ struct ForceKernel {
       for (int i = 0; i < 3; ++i) to.c[i].v = from.c[i].v;
   }
 
-  /// What there is beyond the ends of an open ring.
+  /// Tensions beyond the ends of an open ring.
   [[gnu::always_inline]] static inline void zero_tensions(FanTensions<P>& t) {
     t.b00 = t.b11 = t.b01 = P(0);
     if constexpr (has_coupling<L, P>) t.a0 = t.a1 = P(0);
     if constexpr (L::uses_J) t.u = P(0);
   }
 
-  /// Returns the tension of the axis.
+  /// Evaluates the tensions of every tetrahedron. Returns their sum on the axis.
   [[gnu::always_inline]] static inline P evaluate_tensions(const L& law, const Group& group, Work& work,
                                                            Mask<P>& valid) {
     P axis = 0;
@@ -152,7 +152,7 @@ struct ForceKernel {
     return axis;
   }
 
-  /// Adds the forces at the ring's nodes, and says what is left to p and q.
+  /// Adds the forces at the ring nodes to the records and sums their reactions for p and q.
   [[gnu::always_inline]] static inline void add_ring_forces(const Group& group, const Work& work, Real* records,
                                                             P at_p[3], P at_q[3]) {
     for (std::size_t i = 1; i <= group.ring_nodes; ++i) {
@@ -178,7 +178,7 @@ struct ForceKernel {
     }
   }
 
-  /// The forces of one group of fans of length m.
+  /// Adds the forces of one group of fans to the records.
   [[gnu::always_inline]] static inline void run(const L& law, FanSize size, const std::uint16_t* index,
                                                 const Real* shape, Real* records, Work& work, Mask<P>& valid) {
     Group group{size.tets, size.ring, index + 2 * lanes, shape, shape + size.ring * lanes, {}, {}, {}};
@@ -216,7 +216,7 @@ struct ForceKernel {
   }
 };
 
-/// Of the law with that index in LawList, continued or not.
+/// Kernel of the law with that index in LawList.
 template <class Real, class Isa>
 FanKernel<Real> force_kernel(std::size_t law, bool continued) {
   using P = typename Isa::template pack<Real>;

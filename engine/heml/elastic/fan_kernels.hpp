@@ -1,11 +1,11 @@
 #pragma once
-// The force kernels this build has, by instruction set; each is a file compiled for it (engine/CMakeLists.txt).
+// The force kernels of this build by instruction set, each compiled in a file of its own (engine/CMakeLists.txt).
 #include <heml/elastic/fan_block.hpp>
 #include <heml/elastic/instruction_set.hpp>
 
 namespace heml {
 
-/// Lanes of a pack.
+/// Lanes per pack.
 template <class Real>
 constexpr std::size_t lanes_of(InstructionSet isa) {
   const std::size_t bytes = isa == InstructionSet::avx512 ? 64 : isa == InstructionSet::avx2 ? 32 : 16;
@@ -16,7 +16,7 @@ constexpr std::size_t lanes_of(InstructionSet isa) {
 template <class Real>
 FanKernel<Real> fan_kernel(InstructionSet isa, std::size_t law, bool continued);
 
-// One a file.
+// Each is defined in its own file.
 template <class Real>
 FanKernel<Real> portable_fan_kernel(std::size_t law, bool continued);
 template <class Real>

@@ -10,17 +10,17 @@
 namespace heml {
 namespace {
 
-constexpr std::size_t max_block_elements = 2560;                     // whose nodes fit the first cache
-constexpr std::size_t max_mesh_nodes_a_block = max_block_nodes - 4;  // and four that are nobody's
+constexpr std::size_t max_block_elements = 2560;                     // so that their nodes fit the first-level cache
+constexpr std::size_t max_mesh_nodes_a_block = max_block_nodes - 4;  // the other four are dummies
 
 std::size_t at(int n) { return static_cast<std::size_t>(n); }
 
-/// What a block is made of.
+/// Elements and nodes of one block of a new layout.
 struct Chunk {
   std::size_t part;
   std::vector<int> elements;
-  std::vector<int> nodes;           ///< distinct; ascending, or as the block has them that it was
-  std::optional<std::size_t> kept;  ///< the block that it was
+  std::vector<int> nodes;           ///< distinct; ascending, or in the order of the kept block
+  std::optional<std::size_t> kept;  ///< the block of the old layout that it equals
 };
 
 Chunk chunk_of(const TetMesh& mesh, std::size_t part, std::span<const int> elements) {
@@ -32,8 +32,8 @@ Chunk chunk_of(const TetMesh& mesh, std::size_t part, std::span<const int> eleme
   return chunk;
 }
 
-/// Adds a power of two of chunks, from 16 on a multiple of it, so that threads get equal shares; more where elements
-/// share few nodes.
+/// Cuts elements into a power of two of chunks, or a multiple of 16, so that threads get equal shares; doubles the
+/// number while a chunk has too many nodes.
 void add_chunks(const TetMesh& mesh, std::size_t part, std::span<const int> elements, std::vector<Chunk>& chunks) {
   if (elements.empty()) return;
   const std::size_t first = chunks.size(), size = elements.size();
@@ -50,7 +50,7 @@ void add_chunks(const TetMesh& mesh, std::size_t part, std::span<const int> elem
   }
 }
 
-/// The rest shape of one tetrahedron whose edges b0, b1 are square to its edge a, in the order of fan_block.hpp.
+/// Constants of one tetrahedron whose edges b0 and b1 are perpendicular to its edge a, in the order of fan_block.hpp.
 std::array<double, fan_constants(true)> constants_of(const Vec3& a, const Vec3& b0, const Vec3& b1, FanShape shape,
                                                      const Vec3& fibre) {
   Mat3 Dm;
@@ -64,10 +64,10 @@ std::array<double, fan_constants(true)> constants_of(const Vec3& a, const Vec3& 
   return {std::sqrt(A(0, 0)), l00, std::sqrt(A(2, 2) - l10 * l10), l10, 1 / six_volumes, 0, 0, 0};
 }
 
-/// Where each fan's nodes are: in the mesh, or, of a lane left over, a right-angled corner.
+/// Rest positions of the nodes of a fan; those of a dummy fan are a right-angled corner.
 struct FanNodes {
   Vec3 p, axis;
-  std::vector<Vec3> spoke;   ///< square to the axis
+  std::vector<Vec3> spoke;   ///< perpendicular to the axis
   std::vector<double> foot;  ///< φ
 };
 
@@ -93,7 +93,7 @@ struct Groups {
   std::vector<Real> shape;
 };
 
-/// record: where the record of a node begins.
+/// record(node, corner): offset of a node's record; corner picks the dummy node where node is −1.
 template <class Real, class Record>
 Groups<Real> groups_of(const TetMesh& mesh, const FanElements& part, const Chunk& chunk, std::size_t lanes,
                        const Record& record) {
@@ -130,7 +130,7 @@ Groups<Real> groups_of(const TetMesh& mesh, const FanElements& part, const Chunk
   return groups;
 }
 
-/// Those of all chunks that are not kept, as many at a time as the team has threads.
+/// Groups of all chunks that are not kept, one chunk per thread at a time.
 template <class Real>
 std::vector<Groups<Real>> all_groups(const TetMesh& mesh, const std::vector<FanElements>& parts,
                                      const std::vector<Chunk>& chunks, std::size_t lanes, ThreadTeam& team) {
@@ -152,14 +152,14 @@ std::vector<Groups<Real>> all_groups(const TetMesh& mesh, const std::vector<FanE
   return groups;
 }
 
-/// Adds what a kept block has in a list, from its `begin` to that of the block after it.
+/// Appends [begin, end) of a list, the data of a kept block.
 template <class List>
 void add_slice(const List& from, std::size_t begin, std::size_t end, List& to) {
   to.insert(to.end(), from.begin() + static_cast<std::ptrdiff_t>(begin),
             from.begin() + static_cast<std::ptrdiff_t>(end));
 }
 
-/// The groups of all chunks: those of kept ones out of the layout before, the others anew.
+/// Adds the groups of all chunks: copies those of kept chunks from the old layout and cuts the others.
 template <class Real>
 void add_groups(const TetMesh& mesh, const std::vector<FanElements>& parts, const std::vector<Chunk>& chunks,
                 std::size_t lanes, const FanLayout<Real>& before, FanLayout<Real>& layout, ThreadTeam& team) {
@@ -183,7 +183,7 @@ void add_groups(const TetMesh& mesh, const std::vector<FanElements>& parts, cons
   }
 }
 
-/// Which nodes are no block's own.
+/// Flags the nodes that are not the own nodes of one block. touches: number of chunks at each node.
 template <class Real>
 std::vector<char> shared_nodes(const TetMesh& mesh, const std::vector<Chunk>& chunks, const FanLayout<Real>& before,
                                std::vector<std::size_t>& touches) {

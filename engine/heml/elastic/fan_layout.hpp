@@ -1,14 +1,14 @@
 #pragma once
-// Elements cut into blocks of fans (elastic/fan_block.hpp), and which nodes blocks share. Depends on the mesh, its
-// edits and the number of lanes alone, so that threads may take any blocks and sums come out the same.
+// Elements cut into blocks of fans (elastic/fan_block.hpp), and the nodes that blocks share. The layout depends on the
+// mesh, its edits and the number of lanes alone, so sums are the same whichever thread runs a block.
 //
-// After an edit of the mesh the blocks it touched are cut anew, of what is left of them and of the pieces of what was
-// theirs; of the others only numbers of elements change:
+// After an edit of the mesh the blocks that it touched are cut again, from their remaining elements and pieces. Other
+// blocks are kept; only the numbers of their elements change:
 //
 //     before   | block 0 | block 1 | block 2 |           a cut through block 1 and its neighbour 2
 //     after    | block 0 | 1a | 1b | block 2'|           a block that has grown too large becomes several
 //
-// A node that a kept block shares stays shared in it, also where it is the last to have it.
+// A shared node of a kept block stays shared, even if no other block uses it any more.
 #include <functional>
 #include <heml/base/thread_team.hpp>
 #include <heml/elastic/fan_block.hpp>
@@ -18,7 +18,7 @@
 
 namespace heml {
 
-/// Puts data where a cache line begins.
+/// Allocator that aligns arrays to cache lines (64 bytes).
 template <class T>
 struct CacheAligned {
   using value_type = T;
@@ -30,7 +30,7 @@ struct CacheAligned {
   bool operator==(const CacheAligned&) const { return true; }
 };
 
-/// What the constants of a law's elements are.
+/// Which constants a law needs per tetrahedron (elastic/fan_block.hpp).
 enum class FanShape { plain, fibre, principal };
 
 /// The elements of one law.
@@ -57,21 +57,23 @@ struct FanLayout {
 
   // Nodes that are no block's own: those of several blocks, and those of none.
   std::vector<int> shared_node;           ///< inner numbers, ascending
-  std::vector<std::size_t> shared_start;  ///< one more than those
-  std::vector<std::size_t> shared_slot;   ///< of the k-th: shared_start[k] .. shared_start[k+1], ascending by block
+  std::vector<std::size_t> shared_start;  ///< #shared_node + 1
+  std::vector<std::size_t> shared_slot;   ///< of node k: shared_start[k] .. shared_start[k+1], ascending by block
   std::size_t shared_slots = 0;
 
   FanLayout() = default;
-  /// mesh: in inner order, positive volumes. lanes: of the kernel that will run. The same for any number of threads.
+  /// mesh: in inner order, positive volumes. lanes: of the kernel that will run. The result does not depend on the
+  /// team.
   FanLayout(const TetMesh& mesh, const std::vector<FanElements>& parts, std::size_t lanes, ThreadTeam& team);
 
-  /// The layout after an edit of the mesh: element t is what origins[t] was in the mesh before, or a piece of it, whose
-  /// nodes are among that one's or new. Parts as many as they were. Rest as in the constructor.
+  /// The layout after an edit of the mesh: element t is the old element origins[t], or a piece of it whose nodes are
+  /// those of the old element or new. The number of parts must not change. Other arguments as in the constructor.
   FanLayout after_edit(const TetMesh& before, const TetMesh& mesh, const std::vector<FanElements>& parts,
                        const std::vector<int>& origins, std::size_t lanes, ThreadTeam& team) const;
 
   std::size_t elements() const { return element.size(); }
-  /// What one evaluation of the forces reads and writes, each array once, positions and forces included.
+  /// Bytes per tetrahedron that one force evaluation reads and writes, each array counted once, positions and forces
+  /// included.
   double bytes_per_tet() const;
 };
 

@@ -1,13 +1,13 @@
 #pragma once
-// What the kernels of fans share: reading a block and its fans, and a law as packs.
+// Shared parts of the fan kernels: reading a block and its fans, writing forces.
 //
-// Isa says how wide a pack is and how it reads and writes records:
+// Isa defines the width of a pack and reads and writes records:
 //
 //   Isa::pack<Real>                        a Pack
 //   Isa::read(records, index, x)           x[3] of the nodes a pack's lanes point at
 //   Isa::add(records, index, f)            f[3] to those records, one lane after the other
-//   Isa::begin(record, x)                  makes a record of the four numbers from x on, the last of them unused
-//   Isa::end(force, f)                     its force to f[3]
+//   Isa::begin(record, x)                  writes a record from the four numbers at x, the last of them unused
+//   Isa::end(force, f)                     writes a record's force to f[3]
 #include <heml/elastic/fan_block.hpp>
 #include <heml/materials/law_list.hpp>
 #include <heml/materials/law_packs.hpp>
@@ -34,7 +34,7 @@ template <class P>
   }
 }
 
-/// A ring node as the tetrahedra on both its sides see it.
+/// A ring node, as used by the tetrahedra on both sides of it.
 template <class P>
 struct Spoke {
   P b[3];    ///< from the axis, m
@@ -54,13 +54,13 @@ struct FanGram {
   P aa, b00, b11, a0, a1, b01;
 };
 
-/// Tensions of one tetrahedron with minus signs, so that they make forces, N/m, and u = −wJ/6 of u ∂(6V J)/∂x.
+/// Tensions of one tetrahedron with reversed sign (N/m), which sum to forces; u = −wJ/6 multiplies ∂(6V J)/∂x.
 template <class P>
 struct FanTensions {
   P aa, b00, b11, a0, a1, b01, u;
 };
 
-/// Whether a law couples the axis to the ring at all: the rest shape does not.
+/// Whether a law couples axis and ring; the rest shape alone does not.
 template <class L, class P>
 inline constexpr bool has_coupling = L::uses_I2 || L::uses_I4 || PrincipalLaw<L, P>;
 
@@ -88,7 +88,8 @@ template <class P, std::size_t constants>
   return rest;
 }
 
-/// Copies nodes into records; the last of them by itself, since it may have no number after it.
+/// Copies nodes into records. Isa::begin reads four numbers, so the last node, which may end the array, is padded
+/// first.
 template <class Isa, class Real>
 [[gnu::always_inline]] inline void read_nodes(const std::uint32_t* place, std::size_t count, const Real* x,
                                               Real* record) {
@@ -100,7 +101,7 @@ template <class Isa, class Real>
   Isa::begin(record, padded);
 }
 
-/// The records of a block's nodes, and of the corner where lanes without a fan are.
+/// Fills the records of a block's nodes and of the dummy nodes, a right-angled corner.
 template <class Isa, class Real>
 [[gnu::always_inline]] inline void read_records(const FanBlock<Real>& block, const Real* x, Real* records) {
   read_nodes<Isa>(block.place, block.own, x, records);
@@ -110,7 +111,7 @@ template <class Isa, class Real>
     for (int i = 0; i < 8; ++i) record[i] = corner == i + 1 ? Real(1) : Real(0);
 }
 
-/// Three numbers of each record to where they belong.
+/// Writes the forces of own nodes to f and those of shared nodes to shared_force.
 template <class Isa, class Real>
 [[gnu::always_inline]] inline void write_forces(const FanBlock<Real>& block, const Real* record, Real* f) {
   const std::uint32_t* place = block.place;
@@ -121,7 +122,7 @@ template <class Isa, class Real>
   for (std::size_t n = own; n < nodes; ++n, record += 8, to += 3) Isa::end(record, to);
 }
 
-/// Hides where a pointer came from: what is read through it is read again rather than kept, where registers are few.
+/// Hides the origin of a pointer, so that the compiler reloads through it rather than keep values in scarce registers.
 template <class T>
 [[gnu::always_inline]] inline const T* reread(const T* pointer) {
   asm("" : "+r"(pointer));

@@ -1,10 +1,10 @@
 #pragma once
-// Packs of 16 bytes, which every processor has, and no intrinsics.
+// Fan kernels on packs of 16 bytes without intrinsics, for every processor.
 #include <heml/elastic/fan_force_kernel.hpp>
 #include <heml/elastic/fan_kernels.hpp>
 
 namespace heml {
-namespace {  // no other file may share what is compiled from this
+namespace {  // internal linkage: not merged with code for other processors
 
 struct Portable {
   template <class Real>

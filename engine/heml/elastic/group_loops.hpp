@@ -1,6 +1,6 @@
 #pragma once
-// The loops over a group of elements. Each is written once for every law and scalar; the law is a value of its own
-// type, so what a law does not use is not in the loop.
+// Loops over a group of elements, written once for every law and scalar. The law is a template argument, so a loop
+// computes only what its law uses.
 #include <algorithm>
 #include <heml/elastic/edge_stiffness.hpp>
 #include <heml/elastic/element_group.hpp>
@@ -39,7 +39,7 @@ ElementKinematics<Real> full_kinematics(const ElementGroup<Real>& group, const R
   return full_element_kinematics(n.x0, n.x1, n.x2, n.x3, rest);
 }
 
-/// What the loops read of one packet, gathered apart so that the compiler can vectorise what is computed from it.
+/// Data of one packet, gathered first so that the compiler can vectorise the computation.
 template <class Real, bool with_fibre>
 struct Packet {
   static constexpr std::size_t lanes = ElementGroup<Real>::lanes;
@@ -67,7 +67,7 @@ struct Packet {
   }
 };
 
-/// Four corners of one lane.
+/// Positions of the corners of one lane.
 template <class Real>
 struct Corners {
   Real x[4][3];
@@ -113,7 +113,7 @@ template <class Real, Law<Real> L>
   return valid;
 }
 
-/// The lanes of one register out of a packet, as packs: what a law is asked about, all of them at once.
+/// As many lanes of a packet as fit one register, as packs: the law is evaluated on all of them at once.
 template <class P, bool with_fibre>
 struct PackedElements {
   P x[4][3];
@@ -160,7 +160,7 @@ template <class P, class L>
   }
 }
 
-/// Energies of the law of packets [begin, end), J, in double, into of_packet, overwritten or added to.
+/// Energy of the law in each of packets [begin, end), J, summed in double into of_packet, overwritten or added to.
 template <class P, class L>
 [[gnu::always_inline]] inline void group_energy(const L& law, const ElementGroup<Lane<P>>& group, const Lane<P>* x,
                                                 std::size_t begin, std::size_t end, double* of_packet, bool add) {
@@ -185,7 +185,7 @@ template <class P, class L>
   }
 }
 
-/// Largest element_frequency_bound() of packets [begin, end), 1/s²; not a number where one is not.
+/// Largest element_frequency_bound() of packets [begin, end), 1/s²; NaN if one of them is.
 template <class Real, Law<Real> L>
 [[gnu::always_inline]] inline Real group_frequency_bound(const L& law, const ElementGroup<Real>& group, const Real* x,
                                                          std::size_t begin, std::size_t end) {

@@ -1,10 +1,10 @@
 #pragma once
-// One term of the energy of a group of elements, with its type erased. A material is a list of them: its law; a volume
-// term where not the law's own; its memory (viscosity, relaxation).
+// One energy term of a group of elements, type-erased. A material is a list of terms: its law; a volume term that
+// replaces the law's own; viscosity and relaxation.
 //
-// Loops over many elements are one virtual call; those of a uniform law are the vectorised ones of group_loops.hpp.
-// What is asked of one slot at a time (parameters that differ between elements, assembly, memory) goes through the
-// functions of a slot, from which the loops here are made.
+// A loop over packets is one virtual call. Terms of uniform laws override the loops with the vectorised ones of
+// group_loops.hpp. The default loops call the functions of one slot, which also serve parameters that vary by element
+// and internal state.
 #include <heml/elastic/group_loops.hpp>
 #include <heml/elastic/slot_memory.hpp>
 #include <heml/elastic/subelement_map.hpp>
@@ -29,25 +29,25 @@ class GroupTerm {
   using Group = ElementGroup<Real>;
   virtual ~GroupTerm() = default;
 
-  // Of one slot, whose link is whole.
+  // One slot; kinematics from full_element_kinematics().
   virtual Tensions<Real> tensions(const Group& group, std::size_t s, const ElementKinematics<Real>& kinematics,
                                   const RestShape<Real>& rest) const = 0;
   virtual Tensions<Real> tension_differential(const Group& group, std::size_t s,
                                               const ElementKinematics<Real>& kinematics, const RestShape<Real>& rest,
                                               const KinematicsDifferential<Real>& change) const = 0;
-  /// A bound on λ_max(M_t⁻¹K_t), 1/s².
+  /// Upper bound of λ_max(M_t⁻¹K_t), 1/s².
   virtual Real slot_frequency_bound(const Group& group, std::size_t s, const ElementKinematics<Real>& kinematics,
                                     const RestShape<Real>& rest) const = 0;
   /// V W, J.
   virtual double energy(const Group& group, std::size_t s, const ElementKinematics<Real>& kinematics,
                         const RestShape<Real>& rest) const = 0;
-  /// Whether that energy is stored elastically, or the incremental potential of what remembers.
+  /// Whether energy() is stored elastic energy, not the incremental potential of viscosity and relaxation.
   virtual bool stores() const { return true; }
   virtual bool valid(const Group& group, std::size_t s, const ElementKinematics<Real>& kinematics) const = 0;
   /// Deviatoric principal Kirchhoff stresses at eigenvalues c of C, Pa.
   virtual void deviatoric_stress(const Group& group, std::size_t s, const Real c[3], Real J, Real tau[3]) const = 0;
 
-  // Of packets [begin, end). Any number of threads on disjoint ranges.
+  // Packets [begin, end). Threads may call these on disjoint ranges.
   /// See group_forces().
   virtual bool forces(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real* corner,
                       bool add) const;
@@ -59,17 +59,17 @@ class GroupTerm {
                         bool add) const;
   /// Largest slot_frequency_bound().
   virtual Real frequency_bound(const Group& group, const Real* x, std::size_t begin, std::size_t end) const;
-  /// The same of λ_max(M_t⁻¹D_t), 1/s, D the damping matrix of the term.
+  /// Upper bound of λ_max(M_t⁻¹D_t), 1/s, D the damping matrix of the term.
   virtual Real damping_bound(const Group&, const Real*, std::size_t, std::size_t) const { return 0; }
 
-  // Terms that remember: a step of length h from what was committed last begins; what it reached is kept; all is
-  // forgotten, the state x being one that has lasted.
+  // Internal state. begin_step() starts a step of h seconds from the state committed last; commit() stores the state at
+  // x; reset_history() discards the state and takes x as relaxed.
   virtual void begin_step(Real) {}
   virtual void commit(const Group&, const Real*) {}
   virtual void reset_history(const Group&, const Real*) {}
-  /// All that the term keeps of its slots from step to step; nothing for a law.
+  /// The lists of internal state per slot; empty for a law.
   virtual SlotMemories<Real> memory() = 0;
-  /// An edit of the mesh: what slot s remembers is that of an element, of which it is a piece from now on, reshaped so.
+  /// After an edit of the mesh, transforms the internal state of every slot from the original element to its piece.
   virtual void reshape(const std::vector<SubelementMap<Real>>&) {}
 };
 
@@ -88,7 +88,7 @@ void write_edge_stiffness(const Real k[edge_entries], std::size_t s, Real* K, bo
   for (std::size_t i = 0; i < edge_entries; ++i) to[lanes * i] = add ? to[lanes * i] + k[i] : k[i];
 }
 
-/// Reads it back.
+/// Reads one slot's stiffness.
 template <class Real>
 void read_edge_stiffness(const Real* K, std::size_t s, Real k[edge_entries]) {
   constexpr std::size_t lanes = ElementGroup<Real>::lanes;
@@ -96,8 +96,8 @@ void read_edge_stiffness(const Real* K, std::size_t s, Real k[edge_entries]) {
   for (std::size_t i = 0; i < edge_entries; ++i) k[i] = from[lanes * i];
 }
 
-/// The terms of a material. without_volume: the isochoric part alone (elastic/nodal_pressure.hpp has the rest).
-/// The material must be one that material_problem() has nothing against; none for a law that is no continuum.
+/// The terms of a material that material_problem() accepts; none if its law is not a continuum. without_volume: the
+/// isochoric part alone (nodal_pressure.hpp evaluates the volume term).
 template <class Real>
 std::vector<std::unique_ptr<GroupTerm<Real>>> make_terms(const Material& material, bool continuation,
                                                          bool without_volume);

@@ -4,20 +4,20 @@
 
 namespace heml {
 
-/// What a processor may be asked for. The results of each differ from those of the others by round-off.
+/// Instruction set of the fan kernels. Results of different sets differ by round-off.
 enum class InstructionSet {
-  best,      ///< the last of these that the processor has
-  portable,  ///< what the rest of the program is compiled for; no multiplication and addition in one
+  best,      ///< the best set that the processor has
+  portable,  ///< target of the rest of the program; no fused multiply-add
   avx2,      ///< AVX2 and FMA
   avx512     ///< AVX-512 F, DQ and FMA
 };
 
 std::string_view name_of(InstructionSet isa);
 
-/// What this build and this processor have, `best` not among them; the last is the best.
+/// The sets that this build and this processor support, from `portable` to the best.
 std::span<const InstructionSet> instruction_sets();
 
-/// isa, which this processor must have; the best there is for `best`.
+/// The best supported set for `best`, else isa, which must be supported (asserted).
 InstructionSet resolve(InstructionSet isa);
 
 }  // namespace heml

@@ -1,5 +1,5 @@
 #pragma once
-// The law of one slot: the same for all, or with parameters of the element's own.
+// The law of one slot: uniform, or with parameters that vary by element.
 #include <heml/elastic/element_group.hpp>
 #include <heml/materials/laws.hpp>
 
@@ -8,7 +8,8 @@ namespace heml {
 template <class Real, class L>
 class LawSource {
  public:
-  /// members: the parameter of L that each of the group's rows is, in their order; null: none of L.
+  /// members: the parameter of L that each row of ElementGroup::parameters sets, null for a row that L does not use;
+  /// empty if the law is uniform.
   LawSource(L law, std::vector<Real L::*> members) : law_(std::move(law)), members_(std::move(members)) {}
 
   bool uniform() const { return members_.empty(); }

@@ -6,7 +6,8 @@
 
 namespace heml {
 
-// The vectorised loops. Code on packs is the file's own (math/pack.hpp): no other is compiled for the same processor.
+// The vectorised loops. Their own pack family keeps their inline code apart from that of files compiled for other
+// processors (math/pack.hpp).
 struct WideFamily {};
 template <class Real>
 using WidePack = Pack<Real, static_cast<int>(32 / sizeof(Real)), WideFamily>;

@@ -1,11 +1,12 @@
 #pragma once
-// Forces from outside that are ramped in time: dead ones, made once, and pressure, which follows the deformed surface.
+// External forces, ramped in time: dead loads, which are constant vectors, and pressure, which follows the deformed
+// surface.
 #include <heml/mesh/tet_mesh.hpp>
 #include <vector>
 
 namespace heml {
 
-/// min(t/over, 1); 1 at once where over is 0.
+/// Fraction of a load at a time (s): time / ramp_time, clamped to [0, 1]; 1 if ramp_time is 0.
 inline double ramp(double time, double ramp_time) {
   return ramp_time > 0 && time < ramp_time ? (time > 0 ? time / ramp_time : 0.0) : 1.0;
 }
@@ -24,7 +25,7 @@ struct Pressure {
   double ramp_time = 0;         ///< s
 };
 
-/// Each adds its forces at time t (s) and positions x (3 #V) to f (3 #V), in the order of its nodes or faces.
+/// Adds the forces (N) at a time (s) and positions x (3 #V, m) to f (3 #V), in the order of nodes or faces.
 template <class Real>
 void add_load(const DeadLoad<Real>& load, double time, Real* f) {
   const Real part = static_cast<Real>(ramp(time, load.ramp_time));

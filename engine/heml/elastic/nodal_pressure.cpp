@@ -18,7 +18,7 @@ ElementKinematics<Real> volume_kinematics(const ElementGroup<Real>& group, const
   return element_kinematics<false, true, false>(n.x0, n.x1, n.x2, n.x3, rest);
 }
 
-/// V J of every slot of packets.
+/// Deformed volume V J of every slot of packets [begin, end).
 template <class Real>
 HEML_WIDE void packet_volumes(const ElementGroup<Real>& group, const Real* x, std::size_t begin, std::size_t end,
                               Real* of_slot) {
@@ -35,7 +35,7 @@ HEML_WIDE void packet_volumes(const ElementGroup<Real>& group, const Real* x, st
   }
 }
 
-/// Adds the pull of the mean of four nodes' pressures to the corner forces of packets.
+/// Adds the corner forces of the mean pressure of four nodes, for packets [begin, end).
 template <class Real>
 HEML_WIDE void add_packet_pressures(const ElementGroup<Real>& group, const Real* x, const Real* pressure,
                                     std::size_t begin, std::size_t end, Real* corner) {
@@ -65,7 +65,7 @@ NodalPressure<Real>::NodalPressure(std::vector<const ElementGroup<Real>*> groups
     : groups_(std::move(groups)), corners_(corners), kappa_(kappa), term_(term), continuation_(continuation) {
   std::size_t count = 0;
   for (const auto* group : groups_) count += 4 * group->volume.size();
-  of_corner_.assign(count / 4, 0);  // a slot's four corners have the same
+  of_corner_.assign(count / 4, 0);  // one value for the four corners of a slot
   ThreadTeam alone(1);
   gather(node_volume_, alone,
          [](const ElementGroup<Real>& group, std::size_t, std::size_t s) { return group.volume[s]; });
@@ -75,7 +75,7 @@ NodalPressure<Real>::NodalPressure(std::vector<const ElementGroup<Real>*> groups
     if (node_volume_[n] > 0) node_kappa_[n] /= node_volume_[n];
 }
 
-/// Sums of_corner_ at nodes, in ascending order of corner.
+/// Sums a value of every slot at its four nodes, in ascending order of corner.
 template <class Real>
 static void sum_at_nodes(const CornerMap& corners, const std::vector<Real>& of_slot, std::vector<Real>& node_sums,
                          ThreadTeam& team) {
@@ -90,7 +90,7 @@ static void sum_at_nodes(const CornerMap& corners, const std::vector<Real>& of_s
   });
 }
 
-/// Sums a value of every element at its four nodes.
+/// Sums of_slot(group, group index, slot) at the four nodes of every slot.
 template <class Real>
 template <class OfSlot>
 void NodalPressure<Real>::gather(std::vector<Real>& node_sums, ThreadTeam& team, const OfSlot& of_slot) {
@@ -215,8 +215,8 @@ double NodalPressure<Real>::energy(const Real* x) {
   return sum;
 }
 
-/// (Σ w dJ)² ≤ Σ w (dJ)² at every node, so the averaged form is at most the one per element with κ ψ'' the largest of
-/// its corners; and p_t d²J with |d²J| ≤ 2 σ1 |dF|².
+/// (Σ w dJ)² ≤ Σ w (dJ)² at every node (Jensen), so the averaged form is bounded by the form per element with the
+/// largest κ ψ'' of its corners; p_t d²J is bounded by |d²J| ≤ 2 σ1 |dF|².
 template <class Real>
 Real NodalPressure<Real>::frequency_bound(const Real* x, ThreadTeam& team) {
   average(x, team);

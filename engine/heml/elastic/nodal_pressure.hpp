@@ -1,10 +1,10 @@
 #pragma once
-// Averaged nodal pressure against locking (Bonet & Burton 1998; Joldes, Wittek & Miller 2009): the volume term is taken
-// of the mean volume ratio round each node, the rest per tetrahedron.
+// Averaged nodal pressure against locking (Bonet & Burton 1998; Joldes, Wittek & Miller 2009): the volume term is
+// evaluated at the mean volume ratio round each node, the isochoric part per tetrahedron.
 //     J̄_a = Σ V_t J_t / ΣV_t,  E = Σ_a V_a κ_a ψ(J̄_a),  V_a = ΣV_t/4,  κ_a = ΣV_t κ_t / ΣV_t  (t: the elements at a)
 //     p_a = κ_a ψ'(J̄_a),  f = −Σ_t V_t p_t ∇J_t,  p_t = ¼ Σ_a p_a: the exact gradient of E.
 //
-//   per slot and corner (body's list of corners):  V_t J_t, then gathered to nodes in ascending order
+//   per slot:  V_t J_t, then summed at nodes in ascending order of corner
 #include <heml/base/thread_team.hpp>
 #include <heml/elastic/group_loops.hpp>
 #include <heml/math/bytes.hpp>
@@ -16,21 +16,23 @@ namespace heml {
 template <class Real>
 class NodalPressure {
  public:
-  /// kappa: Pa, one per slot (padded) of each group. All groups share the volume term.
+  /// kappa: Pa, one per slot (padded) of each group. All groups have the same volume term. groups and corners must
+  /// outlive this.
   NodalPressure(std::vector<const ElementGroup<Real>*> groups, const CornerMap& corners,
                 const std::vector<std::vector<Real>>& kappa, VolumeTerm term, bool continuation);
 
-  /// Adds to the corner forces of all groups (3 a corner). Returns whether ψ is defined at every node.
+  /// Adds the forces at x (N) to the corner forces of all groups (3 a corner). Returns whether ψ is defined at every
+  /// node.
   bool add_forces(const Real* x, Real* corner, ThreadTeam& team);
-  /// Adds −K dx likewise.
+  /// Adds −K dx (N), K the stiffness at x, to the corner forces.
   void add_force_differential(const Real* x, const Real* dx, Real* corner, ThreadTeam& team);
   double energy(const Real* x);  ///< J
-  /// A bound of λ_max(M⁻¹K) of these terms, 1/s².
+  /// Upper bound of λ_max(M⁻¹K) of these terms, 1/s².
   Real frequency_bound(const Real* x, ThreadTeam& team);
-  /// Adds one slot's share of the stiffness (elastic/edge_stiffness.hpp), its pressure held and κ_t its own: for
-  /// preconditioners.
+  /// Adds an approximation of one slot's stiffness (elastic/edge_stiffness.hpp) for preconditioners, without coupling
+  /// to other elements; κ ψ'' is averaged over its nodes. Pressures are those of the last evaluation.
   void add_stiffness(std::size_t group, const Real* x, std::size_t s, Real K[edge_entries]) const;
-  /// Mean pressure p_t of a slot after add_forces(), Pa.
+  /// Mean pressure p_t of a slot at the last evaluation, Pa.
   Real pressure(std::size_t group, std::size_t s) const;
   std::size_t bytes() const { return bytes_of(kappa_, node_volume_, node_kappa_, ratio_, pressure_, of_corner_); }
 
@@ -50,7 +52,7 @@ class NodalPressure {
   bool continuation_;
   std::vector<Real> node_volume_, node_kappa_;  ///< #V: ΣV_t; κ_a
   std::vector<Real> ratio_, pressure_;          ///< #V: J̄_a; p_a
-  std::vector<Real> of_corner_;                 ///< one a corner
+  std::vector<Real> of_corner_;                 ///< one a slot, scratch
 };
 
 }  // namespace heml

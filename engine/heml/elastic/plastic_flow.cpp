@@ -6,7 +6,7 @@
 namespace heml {
 namespace {
 
-constexpr double flattest = 0.05;                 // J below which nothing flows: the logarithm has no meaning there
+constexpr double flattest = 0.05;                 // no flow below this J, where the logarithmic strain is meaningless
 constexpr double equivalent = 0.816496580927726;  // √(2/3)
 
 template <class Real>
@@ -14,7 +14,7 @@ Real mises(const Real tau[3]) {
   return std::sqrt(Real(1.5) * (tau[0] * tau[0] + tau[1] * tau[1] + tau[2] * tau[2]));
 }
 
-/// A = L Lᵀ, and gamma = λ_max of Σ_a g_a g_aᵀ = Lᵀ(I + 1 1ᵀ)L up to a rotation.
+/// Stores A and gamma, the largest eigenvalue of Σ_a g_a g_aᵀ, similar to Lᵀ(I + 1 1ᵀ)L with A = LLᵀ.
 template <class Real>
 void put_rest_shape(ElementGroup<Real>& group, std::size_t s, const Real A[6]) {
   Real L[3][3], sum[6];
@@ -37,7 +37,7 @@ void replace_rest_shape(ElementGroup<Real>& group, std::size_t s, const Real fac
   put_rest_shape(group, s, A);
 }
 
-/// Deviator of the logarithmic strain at eigenvalues c of C, made a unit direction. Returns its length.
+/// Writes the direction n (unit) of the deviatoric logarithmic strain at eigenvalues c of C. Returns its norm.
 template <class Real>
 Real flow_direction(const Real c[3], Real n[3]) {
   Real mean = 0, length = 0;
@@ -67,7 +67,7 @@ double PlasticFlow<Real>::flow(Group& group, const Real* x) {
   double work = 0;
   for (std::size_t s = 0; s < group.volume.size(); ++s) {
     const double of_slot = return_map(group, x, s);
-    if (s < group.size()) work += of_slot;  // the rest is padding
+    if (s < group.size()) work += of_slot;  // padding does not count
   }
   return work;
 }
@@ -120,13 +120,13 @@ double PlasticFlow<Real>::return_map(Group& group, const Real* x, std::size_t s)
   if (!(mises(tau) > yield_ + hardening_ * strain_[s])) return 0;
 
   const Real length = flow_direction(e.value, n);
-  const auto beyond = [&](Real gamma) {  // of yield, after a flow of gamma; leaves the stress there in tau
+  const auto beyond = [&](Real gamma) {  // stress beyond yield after a flow of gamma; sets tau
     Real c[3];
     for (int i = 0; i < 3; ++i) c[i] = e.value[i] * natural_exp(-2 * gamma * n[i]);
     law_->deviatoric_stress(group, s, c, kinematics.at.J, tau);
     return mises(tau) - yield_ - hardening_ * (strain_[s] + Real(equivalent) * gamma);
   };
-  Real low = 0, high = length;  // nothing is left of the deviator at the upper end
+  Real low = 0, high = length;  // the deviatoric strain is 0 at the upper end
   for (int i = 0; i < 60 && high - low > Real(1e-14) * length; ++i) {
     const Real middle = (low + high) / 2;
     (beyond(middle) > 0 ? low : high) = middle;

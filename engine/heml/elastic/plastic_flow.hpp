@@ -1,10 +1,10 @@
 #pragma once
-// Finite-strain multiplicative plasticity, F = Fe Fp with det Fp = 1. In HEML's form it is nothing but a rest shape
-// that flows: the elastic law of Fe sees C through A alone, and A = Dm⁻¹ Fp⁻¹ Fp⁻ᵀ Dm⁻ᵀ. So the force loops do not
-// change; after each step, elements beyond yield have their A brought back along the deviator of the elastic
-// logarithmic strain (exponential map, principal axes kept; Simo 1992), by the Δγ that makes the von Mises Kirchhoff
-// stress equal yield + hardening · (equivalent plastic strain). For isotropic laws whose principal stresses are ordered
-// as the stretches, stress times flow is never negative: plastic work is dissipated, not made.
+// Finite-strain multiplicative plasticity, F = Fe Fp with det Fp = 1. In tension form it changes the rest shape only:
+// the elastic law of Fe sees C through A = Dm⁻¹ Fp⁻¹ Fp⁻ᵀ Dm⁻ᵀ, so the force loops stay as they are. After each step a
+// return mapping changes the A of elements beyond yield along the deviatoric elastic logarithmic strain (exponential
+// map, principal axes fixed; Simo 1992), by the Δγ at which the von Mises Kirchhoff stress equals yield + hardening ·
+// (equivalent plastic strain). For isotropic laws whose principal stresses are ordered as the stretches, stress times
+// flow is never negative: plastic work is dissipated.
 #include <heml/elastic/group_term.hpp>
 #include <memory>
 
@@ -18,16 +18,18 @@ class PlasticFlow {
   /// law: the elastic law of the group's material.
   PlasticFlow(std::unique_ptr<GroupTerm<Real>> law, const Plasticity& plasticity, const Group& group);
 
-  /// Lets elements beyond yield flow at positions x. Returns the plastic work, J.
+  /// Return mapping at positions x (3 #V, m): updates A and gamma of elements beyond yield. Returns the plastic work,
+  /// J.
   double flow(Group& group, const Real* x);
-  /// Back to the rest shape as made.
+  /// Restores the initial rest shape.
   void reset(Group& group);
-  /// An edit of the group: what slot from[s] was is slot s's from now on.
+  /// After an edit of the group: slot s takes the state of the old slot from[s].
   void gather_slots(std::span<const std::size_t> from);
-  /// What slots of another group have flowed becomes that of its pieces: slot s is one of slot from[s], reshaped so.
+  /// Inherits the flow of another group and updates the rest shapes of `group`: slot s is a piece of slot from[s],
+  /// mapped by subelement_maps[s].
   void transfer_state(const PlasticFlow& other, const Group& of_other, std::span<const std::size_t> from,
                       const std::vector<SubelementMap<Real>>& subelement_maps, Group& group);
-  /// All that has flowed: of the group too, whose rest shape it is.
+  /// The lists of internal state: the plastic strain, and A and gamma of the group.
   SlotMemories<Real> memory(Group& group);
   std::size_t bytes() const { return bytes_of(rest_A_, rest_gamma_, strain_); }
   const std::vector<Real>& plastic_strain() const { return strain_; }  ///< padded #S, equivalent
@@ -41,7 +43,7 @@ class PlasticFlow {
   std::vector<Real> rest_gamma_, strain_;
 };
 
-/// Flow of a material's elements; none where it has no plasticity.
+/// The plastic flow of a material's elements; null without plasticity.
 template <class Real>
 std::unique_ptr<PlasticFlow<Real>> make_flow(const Material& material, bool continuation,
                                              const ElementGroup<Real>& group);

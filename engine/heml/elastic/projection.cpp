@@ -7,12 +7,12 @@
 namespace heml {
 namespace {
 
-constexpr double flat = 0.05;  // |J| below which a pressure is no tension of edges
+constexpr double flat = 0.05;  // |J| below which no tensions express a pressure
 constexpr int row[6] = {0, 1, 2, 0, 0, 1}, column[6] = {0, 1, 2, 1, 2, 2};
 
 using Mat9 = Eigen::Matrix<double, 9, 9>;
 
-/// Positive part of a symmetric matrix. A Cholesky factor says at a tenth of the price that there is nothing to do.
+/// Positive part of a symmetric matrix. A Cholesky factorisation finds at a tenth of the cost that K is positive.
 template <class Matrix>
 Matrix positive_part(const Matrix& K) {
   if (K.llt().info() == Eigen::Success) return K;
@@ -35,7 +35,7 @@ void put(const Mat9& matrix, Real K[edge_entries]) {
     for (int c = 0; c <= r; ++c) K[at++] = static_cast<Real>(matrix(r, c));
 }
 
-/// A symmetric six as a matrix.
+/// The symmetric matrix of 11 22 33 12 13 23.
 template <class Real>
 Eigen::Matrix3d square(const Real six[6]) {
   Eigen::Matrix3d matrix;

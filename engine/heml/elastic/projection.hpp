@@ -1,14 +1,15 @@
 #pragma once
-// Stiffness made positive: what Newton's method takes where the exact one leads nowhere, never before it is seen to.
+// Projections of the stiffness to positive definite, for Newton iterations in which the exact stiffness fails
+// (newton.hpp).
 #include <string_view>
 
 namespace heml {
 
 enum class Projection {
-  none,  ///< the stiffness itself: |D| of its factor L D Lᵀ, or what conjugate gradients find before it turns negative
-  shift,    ///< itself with as much on the diagonal as it takes
-  element,  ///< negative eigenvalues of every element's stiffness to 0
-  tension   ///< HEML's own: negative eigenvalues of the stress that its tensions are made of to 0, and of the rest
+  none,     ///< exact stiffness: |D| of its factor L D Lᵀ, or the CG iterate before negative curvature
+  shift,    ///< a sufficient multiple of the identity added
+  element,  ///< negative eigenvalues of every element's stiffness set to 0
+  tension   ///< HEML's own: negative eigenvalues of the stress of the tensions, and of the rest, set to 0
 };
 
 /// The names scene files use, in the order of the enum.

@@ -1,7 +1,7 @@
 #pragma once
-// What elements remember of how they were deformed: lists with so many numbers a slot of their group. Whatever
-// remembers names all of its lists in one function (GroupTerm::memory(), PlasticFlow::memory()). Edits of the group,
-// undo and copies of a state carry those lists, and know nothing else of who keeps them.
+// Internal state of elements (viscosity, relaxation, plasticity): lists with a fixed number of values per slot. The
+// owner of such lists names all of them in one function (GroupTerm::memory(), PlasticFlow::memory()). Edits of the
+// group, undo and snapshots copy the lists without knowing their meaning.
 #include <heml/math/bytes.hpp>
 #include <vector>
 
@@ -10,7 +10,7 @@ namespace heml {
 template <class Real>
 struct SlotMemory {
   std::vector<Real>* values;  ///< each × padded #S
-  std::size_t each;           ///< numbers a slot
+  std::size_t each;           ///< values per slot
 };
 
 template <class Real>

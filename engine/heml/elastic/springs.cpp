@@ -11,7 +11,7 @@ constexpr int ends[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
 
 template <class Real>
 Springs<Real>::Springs(const TetMesh& mesh, const std::vector<double>& stiffness) {
-  // Which different stiffnesses meet at an edge: regions, not elements, are averaged.
+  // The distinct stiffnesses at each edge: the mean is over regions, not over elements.
   struct Edge {
     int a, b;
     double k;
@@ -64,7 +64,7 @@ void Springs<Real>::add_forces(const Real* x, Real* f, ThreadTeam& team) const {
   });
 }
 
-/// k d dᵀ/ℓ² + k (1 − L/ℓ) (I − d dᵀ/ℓ²).
+/// B = k d dᵀ/ℓ² + k (1 − L/ℓ) (I − d dᵀ/ℓ²).
 template <class Real>
 void Springs<Real>::block(const Spring& spring, const Real* x, bool positive, Real B[3][3]) const {
   Real d[3], square = 0;

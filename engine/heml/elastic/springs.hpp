@@ -1,6 +1,6 @@
 #pragma once
-// The degenerate case of HEML: a mass-spring net. Every edge of the mesh, once, is a spring of k/2 (ℓ − L)², whose
-// tension per length k (1 − L/ℓ) depends on its own length alone; an edge shared by regions takes the mean k.
+// The degenerate case of HEML: a mass-spring net. Every edge of the mesh is one spring of energy k/2 (ℓ − L)². Its
+// tension per length k (1 − L/ℓ) depends on its own length alone. An edge shared by regions has the mean k.
 //
 //   spring e:  node[2] k L          of node n: springs[start[n] .. start[n+1]), ascending, so sums have a fixed order
 #include <heml/base/thread_team.hpp>
@@ -19,11 +19,12 @@ class Springs {
   bool empty() const { return springs_.empty(); }
   std::size_t size() const { return springs_.size(); }
   std::size_t bytes() const { return bytes_of(springs_, start_, of_node_); }
-  /// Each adds to f, out (3 #V): forces, N; −K dx, N. positive: a spring that is pushed has no stiffness across itself.
+  /// Adds forces (N) to f; adds −K dx (N) to out; both 3 #V. positive: without the negative stiffness of compressed
+  /// springs.
   void add_forces(const Real* x, Real* f, ThreadTeam& team) const;
   void add_force_differential(const Real* x, const Real* dx, Real* out, bool positive, ThreadTeam& team) const;
   double energy(const Real* x) const;  ///< J
-  /// max_n 2 Σ k / m_n, 1/s²: holds at any length.
+  /// Upper bound of λ_max(M⁻¹K), 1/s², at any length: max_n 2 Σ k / m_n. mass: #V, kg.
   Real frequency_bound(const std::vector<Real>& mass) const;
 
   /// Calls visit(node a, node b, 3×3 block B) for every spring: its stiffness is [B −B; −B B].

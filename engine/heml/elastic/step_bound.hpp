@@ -1,13 +1,13 @@
 #pragma once
-// The largest step an explicit method may take, from a bound on each element's stiffness; no iteration, and safe in
-// motion because it is taken at the deformed state.
+// The stable step of explicit methods, from an upper bound of the stiffness of each element. No iteration; valid in
+// motion, since the bound is evaluated at the deformed state.
 //
-// xᵀK x = Σ_t x_tᵀK_t x_t ≤ max_t λ_max(M_t⁻¹K_t) · xᵀM x with M_t = ρV/4 on each corner, whatever the signs of the
-// rest of the spectrum. K_t/V is the quadratic form of ∂²W/∂F² in dF = Σ_a u_a ⊗ g_a, in two parts. What curves W with
-// the invariants is Σ H_αβ dI_α dI_β, H the curvatures of W: at most λ_max(H N) |u|², N_αβ = Σ_a ∂I_α/∂x_a·∂I_β/∂x_a,
-// exact for the pair I1, J. What curves the invariants themselves is bounded term by term:
+// xᵀK x = Σ_t x_tᵀK_t x_t ≤ max_t λ_max(M_t⁻¹K_t) · xᵀM x with M_t = ρV/4 on each corner, also if K_t is indefinite.
+// K_t/V is the quadratic form of ∂²W/∂F² in dF = Σ_a u_a ⊗ g_a, the sum of two parts. The second derivatives H of W by
+// the invariants give Σ H_αβ dI_α dI_β ≤ λ_max(H N) |u|², N_αβ = Σ_a ∂I_α/∂x_a·∂I_β/∂x_a, exact for the pair I1, J.
+// The second derivatives of the invariants themselves are bounded term by term:
 //   |dF|² ≤ γ|u|²,   γ = λ_max(Σ g_a g_aᵀ);      |dC|² ≤ 4 σ1² |dF|²;      d²I4 = 2 |dF a0|² ≤ 2 Σ m_a² |u|²
-//   d²I2 = (dI1)² + 2 I1 |dF|² − |dC|² − 2 C:dFᵀdF, the first of them counted with H
+//   d²I2 = (dI1)² + 2 I1 |dF|² − |dC|² − 2 C:dFᵀdF, whose first term is counted with H
 //   −√2 σ1 |dF|² ≤ d²J ≤ 2 σ1 |dF|², and for J > 0: d²J = ((dJ)² − tr((F⁻¹dF J)²))/J, which is sharper near rest.
 // σ1 ≥ σ2 ≥ σ3: principal stretches, bounded by mean and spread of the eigenvalues of C (Wolkowicz & Styan 1980).
 #include <algorithm>
@@ -16,7 +16,7 @@
 
 namespace heml {
 
-/// Sums over an element's four corners that bounds are made of.
+/// Sums over an element's four corners that the bounds use.
 template <class Real>
 struct CornerSums {
   Real n1;  ///< (dI1)² ≤ n1 |u|²
@@ -58,7 +58,7 @@ template <class Real>
   return {mean + Real(1.4142136) * spread, mean + Real(0.70710678) * spread};
 }
 
-/// Symmetric in the invariants a law uses, of which I1 always is the first. Plain numbers, so that loops vectorise.
+/// Symmetric matrix over the invariants that a law uses; I1 always is one. Plain numbers, so that loops vectorise.
 template <class Real>
 struct InvariantMatrix {
   Real n11 = 0, n12 = 0, n22 = 0, n1J = 0, n2J = 0, nJJ = 0, n14 = 0, n4J = 0, n44 = 0;
@@ -84,7 +84,7 @@ template <class L, class Real>
     const Real B[3][3] = {{AGA[0], AGA[3], AGA[4]}, {AGA[3], AGA[1], AGA[5]}, {AGA[4], AGA[5], AGA[2]}};
     const auto entry = [&](int r, int c) { return m[r][0] * B[0][c] + m[r][1] * B[1][c] + m[r][2] * B[2][c]; };
     const Real AGAGA[6] = {entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(0, 2), entry(1, 2)};
-    const Real q2 = over_corners(AGAGA), q3 = I1 * q2 - I2 * q1 + J * J * q0;  // Cayley and Hamilton
+    const Real q2 = over_corners(AGAGA), q3 = I1 * q2 - I2 * q1 + J * J * q0;  // Cayley–Hamilton
     N.n12 = 4 * (I1 * q1 - q2);
     N.n22 = 4 * (I1 * I1 * q1 - 2 * I1 * q2 + q3);
     N.n2J = 2 * J * (I1 * q0 - q1);
@@ -104,8 +104,7 @@ template <class L, class Real>
 }
 
 /// An upper bound of the largest eigenvalue of H N (real, since N is positive semidefinite) from its traces (Wolkowicz
-/// & Styan 1980); exact for rank 2. Both given by the upper triangle 11 12 13 22 23 33; a third that is not used is
-/// zero.
+/// & Styan 1980); exact for rank 2. H and N: upper triangles 11 12 13 22 23 33; an unused third row is zero.
 template <int rank, class Real>
 [[gnu::always_inline]] inline Real max_eigenvalue(const Real H[6], const Real N[6]) {
   const Real p00 = H[0] * N[0] + H[1] * N[1] + H[2] * N[2], p01 = H[0] * N[1] + H[1] * N[3] + H[2] * N[4];
@@ -125,7 +124,7 @@ template <class Real>
   return std::max((trace + std::sqrt(std::max(trace * trace - 4 * det, Real(0)))) / 2, Real(0));
 }
 
-/// The same for the invariants a law uses: I1 and two of I2, J, I4 at most.
+/// Upper bound of the largest eigenvalue of H N over the invariants a law uses: I1 and at most two of I2, J, I4.
 template <class L, class Real>
 [[gnu::always_inline]] inline Real max_curvature(const InvariantMatrix<Real>& H, const InvariantMatrix<Real>& N) {
   static_assert(!(L::uses_I2 && L::uses_I4));
@@ -142,7 +141,8 @@ template <class L, class Real>
   }
 }
 
-/// A bound on λ_max(M_t⁻¹K_t), 1/s², of an element whose Link is whole.
+/// Upper bound of λ_max(M_t⁻¹K_t), 1/s², of one element. kinematics: with I2 and J, and I4 if the law uses it. gamma:
+/// 1/m², of ElementGroup. density: kg/m³.
 template <class Real, InvariantLaw<Real> L>
 [[gnu::always_inline]] inline Real element_frequency_bound(const L& law, const ElementKinematics<Real>& kinematics,
                                                            const RestShape<Real>& rest, Real gamma, Real density) {
@@ -164,13 +164,13 @@ template <class Real, InvariantLaw<Real> L>
   const Real plain = max_curvature<L>(H, N) + (s.wJ > 0 ? 2 * s.wJ : Real(-1.4142136) * s.wJ) * sigma1 * gamma;
   H.nJJ += s.wJ / J;
   const Real sharper = max_curvature<L>(H, N) + std::abs(s.wJ) * (largest * middle / J) * gamma;
-  const Real curved = J > 0 && sharper < plain ? sharper : plain;  // chosen, not branched: the loop vectorises
+  const Real curved = J > 0 && sharper < plain ? sharper : plain;  // a select, no branch: the loop vectorises
   return 4 / density * (bound + curved);
 }
 
-/// The same for a law of principal stretches: d²W = dH:dC̄ + H:d²C̄ + ψ'' (dJ)² + ψ' d²J term by term, with
-/// d²C̄ = 2p dFᵀdF + 2p' dJ dC + (p'' (dJ)² + p' d²J) C. In the eigenvectors' frame |dC_ij|² ≤ (σi² + σj²)(X_ij² +
-/// X_ji²), X = dF there: what is compressed hard counts only with its own small σ.
+/// The same for a law of principal stretches: d²W = dH:dC̄ + H:d²C̄ + ψ'' (dJ)² + ψ' d²J term by term, with d²C̄ = 2p
+/// dFᵀdF + 2p' dJ dC + (p'' (dJ)² + p' d²J) C. In the frame of the eigenvectors, with X = dF there, |dC_ij|² ≤ (σi² +
+/// σj²)(X_ij² + X_ji²), so a strongly compressed direction counts with its own small σ only.
 template <class Real, PrincipalLaw<Real> L>
 Real element_frequency_bound(const L& law, const ElementKinematics<Real>& kinematics, const RestShape<Real>& rest,
                              Real gamma, Real density) {

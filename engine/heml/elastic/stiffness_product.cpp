@@ -5,7 +5,7 @@
 namespace heml {
 namespace {
 
-/// One register of lanes, and how many make a packet.
+/// One vector register; count: registers per packet.
 template <class Real>
 struct Register {
   typedef Real Type __attribute__((vector_size(32)));
@@ -28,7 +28,7 @@ template <class Real>
     }
     const Real* of_packet = K + edge_entries * lanes * p;
     for (std::size_t part = 0; part < Register<Real>::count; ++part) {
-      V sum[3] = {};  // of the rows, for each axis: what corner 0 takes
+      V sum[3] = {};  // of the rows, by axis: the force at corner 0
       for (int r = 0; r < 9; ++r) {
         V f = {};
 #pragma GCC unroll 9

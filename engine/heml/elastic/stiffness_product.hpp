@@ -1,12 +1,12 @@
 #pragma once
-// Products with the stiffness of many elements (edge_stiffness.hpp). No law is in them: one loop serves all.
+// Products with the stiffness of many elements (edge_stiffness.hpp); one loop serves all laws.
 #include <heml/elastic/edge_stiffness.hpp>
 #include <heml/elastic/element_group.hpp>
 
 namespace heml {
 
-/// Corner forces −K dx of packets [begin, end) of a group with a change dx of the positions (3 #V), into corner (3 a
-/// corner), overwritten. K: [packet][45][lanes].
+/// Writes the corner forces −K dx (N) of packets [begin, end) into corner (3 a corner, overwritten). dx: change of the
+/// positions, 3 #V, m. K: [packet][45][lanes].
 template <class Real>
 void multiply_stiffness(const Real* K, const ElementGroup<Real>& group, const Real* dx, std::size_t begin,
                         std::size_t end, Real* corner);

@@ -1,7 +1,8 @@
 #pragma once
-// A piece of an element, told to what the element remembers. With Dm the edges at rest as columns, those of the piece
-// are Dm B. Of the same deformation, squared lengths are Bᵀ G B; what belongs to the gradients of the shape functions,
-// the rows of (Dm B)⁻¹, changes with B⁻¹: A and, with the volume, tensions.
+// Transforms the internal state of an element to that of a piece of it. With Dm the rest edges of the element as
+// columns, those of the piece are Dm B. Under the same deformation the Gram matrix of the piece is Bᵀ G B. What is made
+// of the gradients of the shape functions, the rows of (Dm B)⁻¹, transforms with B⁻¹: A, and tensions, which also scale
+// with the volume.
 #include <heml/math/symmetric3.hpp>
 #include <heml/mesh/tet_mesh.hpp>
 
@@ -10,9 +11,9 @@ namespace heml {
 template <class Real>
 struct SubelementMap {
   Real B[3][3], inverse[3][3];
-  Real volume;  ///< of the piece, as a part of the element's
+  Real volume;  ///< of the piece, relative to the element's
 
-  /// whole, piece: nodes at rest, m, of an element and its piece (positive).
+  /// whole, piece: rest positions (m) of the nodes of an element and of its piece, both of positive volume.
   SubelementMap(const std::array<Vec3, 4>& whole, const std::array<Vec3, 4>& piece) {
     const auto edges = [](const std::array<Vec3, 4>& X) {
       Mat3 D;

@@ -2,17 +2,17 @@
 // HEML in tension form (Goulette & Chendeb 2006, Eq. 2): forces of one law on one element.
 //
 // With edges e_a = x_a − x_0 and their Gram matrix G (squared lengths in another basis: l_0a = G_aa, l_ab = G_aa + G_bb
-// − 2 G_ab), everything a law needs of C is in G and constants of the rest shape, A = Dm⁻¹Dm⁻ᵀ and m = Dm⁻¹a0:
+// − 2 G_ab), all that a law needs of C follows from G and constants of the rest shape, A = Dm⁻¹Dm⁻ᵀ and m = Dm⁻¹a0:
 //     I1 = A:G,   tr C² = (AGA):G,   J = e_1·(e_2×e_3) / 6V,   I4 = m·Gm.
 // The tensions are T_ab = V g_a·S g_b = V [2 (w1 + w2 I1) A − 2 w2 AGA + 2 w4 m mᵀ]_ab, one scalar a link (a link 0a
 // has −Σ_b T_ab), and
 //     f_a = −Σ_b T_ab e_b − V wJ ∂J/∂x_a,   f_0 = −(f_1 + f_2 + f_3);
 // F is never formed. A law of principal stretches needs C itself, up to a rotation: LᵀGL with A = LLᵀ (Cholesky) has
 // its eigenvalues, and T = V L S Lᵀ. Departures from the paper: Table 1 drops the factor 2 of the quadratic forms and
-// leaves V implicit; the volume term uses the signed J, whose gradient is a cross product of edges, since squared
-// lengths do not see a mirror image.
+// leaves V implicit; the volume term uses the signed J, whose gradient is a cross product of edges, since a mirror
+// image has the same squared lengths.
 //
-// Stiffness is the change of all that with the edges (K = L(k) ⊗ I + Gᵀ 4V W_ll G in the paper's terms).
+// The stiffness is the derivative of these forces (in the paper's notation K = L(k) ⊗ I + Gᵀ 4V W_ll G).
 #include <cmath>
 #include <heml/elastic/element_group.hpp>
 #include <heml/materials/law.hpp>
@@ -20,14 +20,14 @@
 
 namespace heml {
 
-/// What the force loop and its kin read of one element.
+/// Quantities of one deformed element that forces and stiffness use.
 template <class Real>
 struct ElementKinematics {
   Real e[3][3];   ///< edges from node 0, m
   Real G[6];      ///< Gram matrix 11 22 33 12 13 23, m²
-  Real AG[3][3];  ///< A G
+  Real AG[3][3];  ///< A G; with I2 only
   Invariants<Real> at;
-  Real cross[3][3];  ///< 6V ∂J/∂x_a, a = 1..3, m²
+  Real cross[3][3];  ///< 6V ∂J/∂x_a, a = 1..3, m²; with J only
 };
 
 /// The constants of one element's rest shape.
@@ -38,7 +38,7 @@ struct RestShape {
   Real fibre[3] = {0, 0, 0};  ///< m = Dm⁻¹a0, 1/m; zero: none
 };
 
-/// What the links of an element bear: T_ab (N/m) and wJ (Pa); or the change of both.
+/// Tensions T_ab of the links of an element (N/m) as 11 22 33 12 13 23, and wJ (Pa); or changes of them.
 template <class Real>
 struct Tensions {
   Real T[6], wJ;
@@ -56,10 +56,10 @@ template <class Real>
   }
 }
 
-/// A lower Cholesky factor of A.
+/// Lower Cholesky factor L of A = LLᵀ.
 template <class Real>
 [[gnu::always_inline]] inline void cholesky3(const Real A[6], Real L[3][3]) {
-  using std::sqrt;  // a scalar type of its own brings its own
+  using std::sqrt;  // other scalar types have their own
   L[0][1] = L[0][2] = L[1][2] = 0;
   L[0][0] = sqrt(A[0]);
   L[1][0] = A[3] / L[0][0];
@@ -69,14 +69,14 @@ template <class Real>
   L[2][2] = sqrt(A[2] - L[2][0] * L[2][0] - L[2][1] * L[2][1]);
 }
 
-/// LᵀGL: a symmetric six in the orthonormal frame of the rest shape that L stands for.
+/// C = LᵀGL: a symmetric matrix in the orthonormal rest frame that belongs to the Cholesky factor L of A.
 template <class Real>
 [[gnu::always_inline]] inline void into_rest_frame(const Real L[3][3], const Real G[6], Real C[6]) {
   const Real Lt[3][3] = {{L[0][0], L[1][0], L[2][0]}, {L[0][1], L[1][1], L[2][1]}, {L[0][2], L[1][2], L[2][2]}};
   congruence3(Lt, G, C);
 }
 
-/// Reads an element's nodes and makes its invariants. I2, J and I4 only where the law asks for them.
+/// Edges, Gram matrix and invariants of an element. Computes I2, J and I4 only if needed; else I2 = 0, J = 1, I4 = 1.
 template <bool need_I2, bool need_J, bool need_I4, class Real>
 [[gnu::always_inline]] inline ElementKinematics<Real> element_kinematics(const Real* x0, const Real* x1, const Real* x2,
                                                                          const Real* x3, const RestShape<Real>& rest) {
@@ -118,7 +118,7 @@ template <bool need_I2, bool need_J, bool need_I4, class Real>
   return kinematics;
 }
 
-/// Everything at once: for what is not done every step.
+/// element_kinematics() with I2, J and I4.
 template <class Real>
 [[gnu::always_inline]] inline ElementKinematics<Real> full_element_kinematics(const Real* x0, const Real* x1,
                                                                               const Real* x2, const Real* x3,
@@ -137,7 +137,7 @@ template <class Real>
   out[5] = AG[1][0] * A[4] + AG[1][1] * A[5] + AG[1][2] * A[2];
 }
 
-/// A symmetric pair's outer product, m mᵀ.
+/// m mᵀ as 11 22 33 12 13 23.
 template <class Real>
 [[gnu::always_inline]] inline void outer3(const Real m[3], Real out[6]) {
   out[0] = m[0] * m[0], out[1] = m[1] * m[1], out[2] = m[2] * m[2];
@@ -177,7 +177,7 @@ template <class Real, Law<Real> L>
   return t;
 }
 
-/// W of a law at an element, Pa. The link must be whole.
+/// W of a law at an element, Pa. kinematics: with I2 and J, and I4 if the law uses it.
 template <class Real, Law<Real> L>
 [[gnu::always_inline]] inline Real law_energy(const L& law, const ElementKinematics<Real>& kinematics,
                                               const RestShape<Real>& rest) {
@@ -207,7 +207,7 @@ template <class Real>
               (6 * volume)};
 }
 
-/// What all changes of the tensions of a law of principal stretches have in common at one element.
+/// Tangent of a law of principal stretches at one element: computes once what all tension differentials share.
 template <class Real, class L>
 class PrincipalTangent {
  public:
@@ -239,7 +239,7 @@ class PrincipalTangent {
   PrincipalState<Real> state_;
 };
 
-/// Change of the tensions and of wJ. The link must be whole.
+/// Change of the tensions and of wJ with d. kinematics: with I2 and J, and I4 if the law uses it.
 template <class Real, Law<Real> L>
 [[gnu::always_inline]] inline Tensions<Real> tension_differential(const L& law,
                                                                   const ElementKinematics<Real>& kinematics,

@@ -6,7 +6,7 @@
 
 namespace heml {
 
-/// The members of a law that the material's fields fill, in their order; null: of its volume term, where left out.
+/// The law's members that the material's fields set, in the order of the fields; null for an omitted volume term.
 template <class Real, class L>
 std::vector<Real L::*> members_with_fields(const Material& material, bool isochoric) {
   const LawInfo& info = *find_law(material.law);
@@ -36,7 +36,7 @@ std::unique_ptr<GroupTerm<Real>> make_law_term_of_part(const Material& material,
   return term;
 }
 
-/// Defines one part for both scalars.
+/// Instantiates one part for both scalars.
 #define HEML_TERM_PART(part)                                                                                  \
   template std::unique_ptr<GroupTerm<float>> make_law_term_of_part<float, part>(const Material&, bool, bool); \
   template std::unique_ptr<GroupTerm<double>> make_law_term_of_part<double, part>(const Material&, bool, bool)

@@ -6,7 +6,7 @@
 namespace heml {
 namespace {
 
-/// V (η A dG A + ζ/2 (A:dG) A) / h.
+/// Adds the viscous tensions V (η A dG A + ζ/2 (A:dG) A) / h.
 template <class Real>
 [[gnu::always_inline]] inline void add_viscous_tensions(const Real dG[6], const RestShape<Real>& rest, Real eta,
                                                         Real zeta, Real per_step, Real T[6]) {
@@ -18,7 +18,7 @@ template <class Real>
   for (int i = 0; i < 6; ++i) T[i] += scale * (eta * AdGA[i] + bulk * A[i]);
 }
 
-/// A term that is viscous and nothing else.
+/// Parameters of a term without relaxation.
 template <class Real>
 struct Viscous {
   Real eta, zeta, per_step;
@@ -50,7 +50,7 @@ HEML_WIDE void viscous_forces(const Viscous<Real>& of, const ElementGroup<Real>&
   }
 }
 
-/// Squared lengths now, for the next step.
+/// Stores the Gram matrices at x, from which the next step starts.
 template <class Real>
 HEML_WIDE void keep_lengths(const ElementGroup<Real>& group, const Real* x, std::size_t stride, Real* kept) {
   constexpr std::size_t lanes = ElementGroup<Real>::lanes;
@@ -135,7 +135,7 @@ void ViscoelasticTerm<Real>::strain_change(std::size_t s, const ElementKinematic
   for (std::size_t i = 0; i < 6; ++i) dG[i] = kinematics.G[i] - kept_[stride_ * s + i];
 }
 
-/// Σ_branches (decay Q − gain T_iso) of what was committed: what does not change within a step.
+/// Tensions that are constant during a step: Σ_branches (decay Q − gain T_iso) of the committed state.
 template <class Real>
 Tensions<Real> ViscoelasticTerm<Real>::fixed_tensions(std::size_t s) const {
   Tensions<Real> t{};
@@ -236,8 +236,8 @@ void ViscoelasticTerm<Real>::deviatoric_stress(const Group&, std::size_t, const 
   std::fill_n(tau, 3, Real(0));
 }
 
-/// Tensions of the isochoric law with its wJ in them too: t_ab = wJ (cross_a·cross_b) / (36 V J). A crushed element's
-/// memory is that of one at J = 0.05.
+/// Tensions of the isochoric law with its wJ expressed as tensions, wJ (cross_a·cross_b) / (36 V J). J is taken as at
+/// least 0.05, so that crushed elements keep finite values.
 template <class Real>
 void ViscoelasticTerm<Real>::whole_tensions(const Group& group, std::size_t s,
                                             const ElementKinematics<Real>& kinematics, const RestShape<Real>& rest,

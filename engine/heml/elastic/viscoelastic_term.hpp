@@ -1,16 +1,16 @@
 #pragma once
-// What a material remembers of how it was deformed, in tension form: six numbers a link set, like the tensions
-// themselves, since T_ab = V g_a·S g_b is linear in S with constants of the rest shape.
+// Viscosity and relaxation in tension form. Stresses of the past are stored as tensions, six numbers per element, since
+// T_ab = V g_a·S g_b is linear in S with constants of the rest shape.
 //
 //   Kelvin–Voigt: S_v = η Ċ + ζ/2 tr(Ċ) I, so T_v = V (η A ΔG A + ζ/2 (A:ΔG) A) / h with ΔG the change of the Gram
-//   matrix over the step: squared lengths alone, so a rigid motion is not damped at all, however far it turns.
+//   matrix over the step. G depends on squared lengths alone, so rigid motion is not damped, whatever its rotation.
 //   Relaxation (quasi-linear, Prony series on the isochoric part; Simo 1987): for every branch
 //   Q⁺ = e^(−h/τ) Q + γ e^(−h/2τ) (T_iso⁺ − T_iso).
 //
-// Both are gradients of an incremental potential, so that implicit steps can minimise it: weight·V W_iso + ½ T*:G +
-// V (η/4h |ΔC|² + ζ/8h (tr ΔC)²), T* what is fixed during the step.
+// Both are gradients of an incremental potential, so that implicit steps can minimise it: weight·V W_iso + ½ T*:G + V
+// (η/4h |ΔC|² + ζ/8h (tr ΔC)²), T* the tensions that are constant during the step.
 //
-//   slot s:  G0[6] T0[6] Q0[6] Q1[6] ...   as committed last
+//   slot s:  G0[6] T0[6] Q0[6] Q1[6] ...   at the last commit()
 #include <heml/elastic/group_term.hpp>
 
 namespace heml {
@@ -37,10 +37,10 @@ class ViscoelasticTerm final : public GroupTerm<Real> {
                 const RestShape<Real>& rest) const override;
   bool stores() const override { return false; }
   bool valid(const Group&, std::size_t, const ElementKinematics<Real>&) const override { return true; }
-  /// None: what flows sees the elastic law alone.
+  /// Zero: plastic flow depends on the elastic law alone.
   void deviatoric_stress(const Group&, std::size_t, const Real[3], Real, Real tau[3]) const override;
 
-  /// h = 0: as it is now; infinite: all has relaxed.
+  /// h: s; 0: no time passes; infinite: fully relaxed.
   void begin_step(Real h) override;
   void commit(const Group& group, const Real* x) override;
   void reset_history(const Group& group, const Real* x) override;
@@ -63,7 +63,7 @@ class ViscoelasticTerm final : public GroupTerm<Real> {
   Real total_gamma_ = 0;
   Real per_step_ = 0;        ///< 1/h
   Real weight_ = 0;          ///< Σ gain
-  std::size_t stride_ = 12;  ///< numbers kept a slot
+  std::size_t stride_ = 12;  ///< values per slot of kept_
   std::vector<Real> kept_;
 };
 
