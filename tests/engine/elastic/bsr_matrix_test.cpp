@@ -11,7 +11,7 @@ using test::SmallBody;
 
 namespace {
 
-/// Every third node has no row.
+/// Row numbers of the nodes; every third node has no row.
 std::vector<int> some_rows(std::size_t nodes) {
   std::vector<int> number(nodes, -1);
   int next = 0;

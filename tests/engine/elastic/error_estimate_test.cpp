@@ -1,4 +1,4 @@
-// The estimate of the discretisation error, held against errors that are known.
+// The estimate of the discretisation error against known errors.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -16,15 +16,15 @@ using namespace heml::test;
 namespace {
 
 constexpr double lambda = 2e3, mu = 1e3;
-constexpr double small = 1e-5;  // so that strains are, and the law is linear
+constexpr double small = 1e-5;  // small strains, so that the law is linear
 
-/// A displacement that is a quadratic function of the place, and its gradient.
+/// A displacement that is quadratic in the rest position, and its gradient.
 struct Displacement {
   std::function<Vec3(const Vec3&)> u;
   std::function<Mat3(const Vec3&)> gradient;
 };
 
-/// Pure bending of curvature c about z, of a body that shows Poisson's effect.
+/// Pure bending of curvature c about z, with Poisson's effect.
 Displacement bending() {
   const double c = small * 10, nu = lambda / (2 * (lambda + mu));
   return {[=](const Vec3& X) -> Vec3 {
@@ -38,7 +38,7 @@ Displacement bending() {
           }};
 }
 
-/// A bar that hangs, its strain growing along it, sides held.
+/// A hanging bar with constrained sides: the strain varies linearly along it.
 Displacement hanging() {
   const double c = small * 10;
   return {[=](const Vec3& X) -> Vec3 { return c * Vec3(X.x() * (0.2 - X.x()), 0, 0); },
@@ -54,7 +54,7 @@ double strain_energy_product(const Mat3& A, const Mat3& B) {
   return lambda * a.trace() * b.trace() + 2 * mu * a.cwiseProduct(b).sum();
 }
 
-/// ‖u − u_h‖² in the energy norm, J, of the interpolant u_h: gradients are linear, so corners tell all.
+/// ‖u − u_h‖² in the energy norm, J, u_h the interpolant. Gradients are linear, so corner values integrate it exactly.
 double true_error(const TetMesh& mesh, const std::vector<Mat3>& F, const Displacement& exact) {
   double sum = 0;
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) {

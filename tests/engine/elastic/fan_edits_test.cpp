@@ -1,4 +1,4 @@
-// Bodies of several blocks of fans that elements are taken from and that are cut: blocks an edit does not touch stay.
+// Removal and cutting of elements in bodies of several fan blocks: blocks that an edit does not touch are kept.
 #include <doctest/doctest.h>
 
 #include <heml/elastic/fan_layout.hpp>
@@ -21,13 +21,13 @@ TetMesh box_of(std::mt19937_64& random, const std::array<int, 3>& cells) {
   return reordered(mesh, hilbert_order(mesh));
 }
 
-/// A body as it is edited: its mesh, and where its nodes are.
+/// An edited body: its mesh and the positions of its nodes.
 struct Edited {
   TetMesh mesh;
   std::vector<int> material_of;
   std::vector<double> x;
   std::vector<Material> materials;
-  std::vector<std::unique_ptr<ElasticBody<double>>> bodies;  ///< all have the same history
+  std::vector<std::unique_ptr<ElasticBody<double>>> bodies;  ///< all with the same history of edits
 
   Edited(std::mt19937_64& random, std::vector<Material> of, const std::vector<int>& threads)
       : mesh(box_of(random, {12, 11, 11})), materials(std::move(of)) {
@@ -73,7 +73,7 @@ struct Edited {
     for (const auto& body : bodies) body->transfer_state(mesh, material_of, origins);
   }
 
-  /// All bodies have the same bits, and are the body that is made of the mesh as it is now, to round-off.
+  /// All bodies give the same bits, equal to those of a body built from the present mesh to round-off.
   void check() const {
     const auto f = forces_of(*bodies.front(), x), anew = forces_of(*make(1), x);
     for (std::size_t b = 1; b < bodies.size(); ++b) CHECK(forces_of(*bodies[b], x, static_cast<int>(b) + 1) == f);
@@ -109,7 +109,7 @@ TEST_CASE("edited bodies pull as bodies made anew, whoever lays them out") {
     body.check();
     body.cut({{{Vec3(0.06, 0.02, -1), Vec3(0.06, 0.05, -1)}, {Vec3(0.065, 0.02, 1), Vec3(0.062, 0.05, 1)}}});
     body.check();
-    std::set<int> scattered;  // of pieces too
+    std::set<int> scattered;  // pieces too
     while (scattered.size() < 60)
       scattered.insert(std::uniform_int_distribution<int>(0, static_cast<int>(body.mesh.tets.size()) - 1)(random));
     body.remove(scattered);
@@ -160,7 +160,7 @@ TEST_CASE("blocks that an edit does not touch keep their layout") {
   }
   CHECK(lost == gone.size());
   CHECK(same >= before.blocks.size() / 2);
-  // All elements of one block gone.
+  // Removes all elements of one block.
   std::vector<int> without;
   const auto& first = after.blocks.front();
   const std::set<int> of_first(&after.element[first.element], &after.element[first.element] + first.elements);

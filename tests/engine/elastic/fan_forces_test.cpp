@@ -1,4 +1,4 @@
-// The fast kernels: every law, instruction set and precision against the scalar code of one element in double.
+// The fan kernels: every law, instruction set and precision against the scalar code of one element in double.
 #include <doctest/doctest.h>
 
 #include <heml/elastic/fan_cut.hpp>
@@ -30,7 +30,7 @@ std::vector<int> all_of(const TetMesh& mesh) {
   return elements;
 }
 
-/// One element after the other, by the scalar code.
+/// Forces by the scalar code, element by element.
 template <class Real = double>
 std::vector<double> reference(const TetMesh& mesh, const Material& material, bool continuation,
                               const std::vector<double>& at) {
@@ -67,18 +67,18 @@ std::vector<Real> run(FanForces<Real>& fans, const std::vector<double>& at, int 
   return f;
 }
 
-/// Largest difference relative to the largest force.
+/// Largest difference, relative to the largest force.
 template <class Number>
 double difference(const std::vector<Number>& f, const std::vector<double>& expected) {
   double worst = 0;
   for (std::size_t i = 0; i < f.size(); ++i) {
     const double d = std::abs(static_cast<double>(f[i]) - expected[i]);
-    if (!(d <= worst)) worst = d;  // not a number counts
+    if (!(d <= worst)) worst = d;  // also true for NaN
   }
   return worst / test::largest(expected);
 }
 
-/// Positions that are floats too, so that rounding them is no error of a kernel.
+/// Positions that float represents exactly, so that rounding them adds no error.
 std::vector<double> moved(const TetMesh& mesh, std::mt19937_64& random, double noise, const Mat3& F) {
   std::vector<double> x;
   for (const Vec3& X : mesh.nodes) {
@@ -121,7 +121,8 @@ void check_kernels(InstructionSet isa, double tolerance) {
       const auto x = moved(mesh, random, pose.noise, pose.F);
       FanForces<Real> fans(mesh, {{&elements, &material}}, pose.continuation, isa, alone);
       const auto expected = reference(mesh, material, pose.continuation, x);
-      // What the scalar code of the same precision loses is the law's doing: Ogden's of a flat body, say.
+      // Scalar code in the same precision has the same error where the law is ill-conditioned, as Ogden's for a flat
+      // body.
       const double scalar = difference(reference<Real>(mesh, material, pose.continuation, x), expected);
       CHECK(difference(run(fans, x, 1), expected) <= tolerance + 3 * scalar);
     }
@@ -252,7 +253,7 @@ TEST_CASE("fans hold every tetrahedron once, upright, in groups of one size") {
   one.tets.resize(1);
   check(one, 8);
 
-  TetMesh wheel;  // more round one edge than a fan may hold
+  TetMesh wheel;  // more tetrahedra round one edge than a fan may have
   wheel.nodes = {{0, 0, 0}, {0, 0, 1}};
   for (int k = 0; k < 19; ++k) {
     wheel.nodes.push_back({std::cos(k * 2 * M_PI / 19), std::sin(k * 2 * M_PI / 19), 0.5});
@@ -260,7 +261,7 @@ TEST_CASE("fans hold every tetrahedron once, upright, in groups of one size") {
   }
   for (const std::size_t lanes : {1, 4}) check(wheel, lanes);
 
-  wheel.nodes.resize(8);  // as many as go into one
+  wheel.nodes.resize(8);  // as many as one fan may have
   wheel.tets.clear();
   for (int k = 0; k < 6; ++k) wheel.tets.push_back({0, 1, k + 2, (k + 1) % 6 + 2});
   for (int k = 0; k < 6; ++k) {
@@ -317,7 +318,7 @@ TEST_CASE("a law that stands alone is its kernel to the bit, and what stands bes
   CHECK(forces(plain, true, "fans and corners") != run(fans, x, 1));
   forces(plastic, false, "corners");
 
-  // Without its volume term a law is one of another κ.
+  // A law without its volume term equals the law with κ = 0.
   Material isochoric = plain;
   isochoric.parameters.back() = 0;
   FanForces<double> without(mesh, {{&elements, &plain, true}}, false, InstructionSet::best, alone);

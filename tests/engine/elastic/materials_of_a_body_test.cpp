@@ -1,4 +1,5 @@
-// What a material may say beside its law: parameters and fibres of each element, other volume terms, mixes of laws.
+// Options of a material besides its law: parameters and fibres per element, other volume terms, several materials in a
+// body.
 #include <doctest/doctest.h>
 
 #include <heml/materials/point.hpp>
@@ -19,7 +20,7 @@ TEST_CASE("parameters from a field act as one material an element") {
     SmallBody small(random, 0.1);
     const Material sample = sample_material(law);
     const std::size_t varied = law == "ogden" ? sample.parameters.size() - 1 : 0;
-    // Every element its own material ...
+    // One material per element ...
     std::vector<Material> materials;
     std::vector<int> material_of;
     ElementField field{"stiffness", 1, {}};
@@ -30,7 +31,7 @@ TEST_CASE("parameters from a field act as one material an element") {
       material_of.push_back(static_cast<int>(t));
     }
     ElasticBody<double> each(small.mesh, material_of, materials, {});
-    // ... is one material with a field.
+    // ... equals one material with a field.
     small.mesh.fields.push_back(field);
     Material with_field = sample;
     with_field.fields = {{varied, "stiffness"}};
@@ -52,7 +53,7 @@ TEST_CASE("fibres of each element come from a field") {
   for (std::size_t t = 0; t < small.mesh.tets.size(); ++t) {
     materials.push_back(sample_material("hgo"));
     materials.back().fibre = test::random_vector(random, 1).normalized();
-    for (const double value : Vec3(2 * materials.back().fibre)) field.values.push_back(value);  // of any length
+    for (const double value : Vec3(2 * materials.back().fibre)) field.values.push_back(value);  // not normalised
     material_of.push_back(static_cast<int>(t));
   }
   ElasticBody<double> each(small.mesh, material_of, materials, {});

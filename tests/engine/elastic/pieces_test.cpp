@@ -1,4 +1,4 @@
-// Elements in pieces: the pieces act as the whole does, and remember what it did.
+// Divided elements: the pieces act as the whole element and inherit its internal state.
 #include <doctest/doctest.h>
 
 #include <heml/mesh/cut.hpp>
@@ -11,7 +11,7 @@ using namespace heml::test;
 
 namespace {
 
-/// The small body and what a blade through it makes of it, in one numbering of nodes.
+/// The small body and the body that a cut makes of it; both have the same node numbers.
 struct CutBody {
   SmallBody small;
   MeshEdit edit;
@@ -56,7 +56,7 @@ TEST_CASE("pieces of elements do the work of the whole, and go on remembering: v
   ThreadTeam team(1);
   for (const int kind : {0, 1, 2, 3}) {
     CAPTURE(kind);
-    // Two bodies with the same past; one is cut.
+    // Two bodies with the same history; one of them is cut.
     const auto whole_body = cut.small.of(material_with(kind), true), pieces = cut.small.of(material_with(kind), true);
     std::vector<double> past = cut.small.x;
     for (int step = 0; step < 2; ++step) {
@@ -87,7 +87,7 @@ TEST_CASE("pieces of elements do the work of the whole, and go on remembering: v
           doctest::Approx(whole_body->potential(now.data(), team)).epsilon(1e-10));
     CHECK(pieces->plastic_work() == whole_body->plastic_work());
     if (kind == 3) CHECK(whole_body->plastic_work() > 0);
-    // And it matters: a body of pieces that has no past pulls otherwise.
+    // The history matters: without it the cut body has other forces.
     if (kind == 0) continue;
     pieces->set_mesh(cut.pieces, std::vector<int>(cut.pieces.tets.size(), 0));
     pieces->begin_step(0.005);

@@ -1,4 +1,4 @@
-// Elements taken out of a body: what is left is a body that was made without them, and remembers what it did.
+// Removal of elements: the rest equals a body built without them and keeps its internal state.
 #include <doctest/doctest.h>
 
 #include <heml/mesh/edit.hpp>
@@ -11,7 +11,7 @@ using namespace heml::test;
 
 namespace {
 
-/// What bodies of the small mesh are made of.
+/// Materials and options of a body of the small mesh.
 struct Made {
   std::vector<Material> materials;
   BodyOptions options;
@@ -22,7 +22,7 @@ std::unique_ptr<ElasticBody<double>> body_of(const TetMesh& mesh, const std::vec
   return std::make_unique<ElasticBody<double>>(mesh, material_of, made.materials, made.options);
 }
 
-/// Everything a body answers at x, as one list of numbers.
+/// All results of a body at x, in one list.
 std::vector<double> answers(ElasticBody<double>& body, const std::vector<double>& x) {
   ThreadTeam team(1);
   std::vector<double> all = forces_of(body, x), change(x.size()), dx(x.size());
@@ -42,7 +42,7 @@ std::vector<double> answers(ElasticBody<double>& body, const std::vector<double>
   return all;
 }
 
-/// Every second or third element and all of the last few.
+/// All elements whose number is odd or a multiple of 3, without the last four.
 std::vector<int> most_of(const TetMesh& mesh) {
   std::vector<int> kept;
   for (int t = 0; t + 4 < static_cast<int>(mesh.tets.size()); ++t)
@@ -122,7 +122,7 @@ TEST_CASE("viscosity, relaxation and plastic set of what is left go on as if the
     material.viscosity = 3;
     material.relaxation = {{0.4, 0.02}, {0.3, 0.2}};
     if (!find_law(law)->has_fibre) material.plasticity = Plasticity{50, 20};
-    if (material_problem(material)) continue;  // not one that relaxes
+    if (material_problem(material)) continue;  // relaxation is not supported with this law
     std::mt19937_64 random(8);
     const SmallBody small(random, 0.15, Mat3(Vec3(1.15, 0.9, 1).asDiagonal()));
     const std::vector<int> all(small.mesh.tets.size(), 0), kept = most_of(small.mesh);

@@ -1,5 +1,5 @@
 #pragma once
-// A small irregular body of one material, moved from rest.
+// A small irregular body of one material, displaced from rest.
 #include <heml/elastic/body.hpp>
 #include <heml/mesh/generate.hpp>
 
@@ -8,7 +8,7 @@
 
 namespace heml::test {
 
-/// Names of the laws that are continua, or all.
+/// Names of the continuum laws, or of all laws.
 inline std::vector<std::string_view> law_names(bool with_springs = false) {
   std::vector<std::string_view> names;
   for (const LawInfo& law : laws())
@@ -16,7 +16,7 @@ inline std::vector<std::string_view> law_names(bool with_springs = false) {
   return names;
 }
 
-/// A small irregular body, its nodes moved by `noise` of an edge from rest, stretched by F.
+/// A small irregular body, stretched by F and with random displacements of `noise` times an edge length.
 struct SmallBody {
   TetMesh mesh = make_box(Vec3(0.1, 0.08, 0.06), {3, 2, 2});
   std::vector<double> x;
@@ -60,7 +60,7 @@ inline double largest(const std::vector<double>& values) {
   return result;
 }
 
-/// How far −∂U/∂x by fourth-order differences is from the forces, relative to the largest.
+/// Largest difference between the forces and −∂U/∂x by fourth-order differences, relative to the largest force.
 inline double gradient_error(ElasticBody<double>& body, const std::vector<double>& at, double h = 2e-7) {
   const auto f = forces_of(body, at);
   ThreadTeam team(1);
@@ -77,7 +77,7 @@ inline double gradient_error(ElasticBody<double>& body, const std::vector<double
   return worst / largest(f);
 }
 
-/// How far −K dx is from differences of the forces along a random dx, relative to its largest entry.
+/// Largest difference between −K dx and differences of the forces along a random dx, relative to its largest entry.
 inline double stiffness_error(ElasticBody<double>& body, const std::vector<double>& at, std::mt19937_64& random) {
   std::vector<double> dx(at.size()), change(at.size());
   for (double& d : dx) d = uniform(random, -1, 1);

@@ -17,7 +17,7 @@ TEST_CASE("every edge of the mesh is one spring, however many elements share it"
   double sum = 0;
   std::vector<double> x;
   for (const Vec3& X : mesh.nodes)
-    for (const double v : X) x.push_back(1.5 * v);  // every edge half longer: U = Σ k/2 (L/2)²
+    for (const double v : X) x.push_back(1.5 * v);  // all edges 1.5 times as long: U = Σ k/2 (L/2)²
   for (const auto& [a, b] : {std::pair{0, 1}, {0, 2}, {1, 2}, {0, 3}, {1, 3}, {2, 3}, {0, 4}, {1, 4}, {2, 4}})
     sum += 10.0 / 2 *
            (mesh.nodes[static_cast<std::size_t>(a)] - mesh.nodes[static_cast<std::size_t>(b)]).squaredNorm() / 4;

@@ -1,5 +1,4 @@
-// Viscosity, relaxation and plasticity on one deformation of a whole body, driven by hand: every element has the same
-// F.
+// Viscosity, relaxation and plasticity of a body under a prescribed homogeneous deformation F.
 #include <doctest/doctest.h>
 
 #include <heml/materials/point.hpp>
@@ -14,7 +13,7 @@ using test::sample_material;
 
 namespace {
 
-/// One tetrahedron at F: its mean first Piola–Kirchhoff stress from the forces, P = −Σ f_a ⊗ X_a / V.
+/// One tetrahedron at F, and its first Piola–Kirchhoff stress from the forces, P = −Σ f_a ⊗ X_a / V.
 struct Bench {
   TetMesh mesh;
   std::unique_ptr<ElasticBody<double>> body;
@@ -31,7 +30,7 @@ struct Bench {
       for (const double v : Vec3(F * X)) x.push_back(v);
     return x;
   }
-  /// A step to F in which the body's memory goes on.
+  /// A step of h seconds to F, committed. Returns the stress.
   Mat3 step(const Mat3& F, double h) {
     const auto x = at(F);
     body->begin_step(h);
@@ -70,7 +69,7 @@ TEST_CASE("viscosity does not damp a rigid motion, however fast it turns") {
   material.viscosity = 100;
   Bench bench(material);
   const Mat3 F = Vec3(1.2, 0.9, 0.95).asDiagonal();
-  bench.step(F, 1e9);  // so slowly that no rate is left
+  bench.step(F, 1e9);  // slow enough for a strain rate of 0
   const Mat3 still = make_material_point(material, false)->first_piola(F);
   for (int k = 1; k <= 20; ++k) {
     const Mat3 R = turned(0.8 * k);
@@ -89,7 +88,7 @@ TEST_CASE("stress after a step in stretch relaxes as the Prony series says") {
   isochoric.parameters.back() = 1e-300;
   const Mat3 deviatoric = make_material_point(isochoric, false)->first_piola(F);
   const double h = 1e-3;
-  Mat3 P = bench.step(F, 1e-9);  // at once: nothing has relaxed
+  Mat3 P = bench.step(F, 1e-9);  // instantaneous: no relaxation
   CHECK((P - whole - 1.1 * deviatoric).norm() <= 1e-7 * whole.norm());
   for (int k = 1; k <= 2000; ++k) {
     P = bench.step(F, h);
@@ -131,7 +130,8 @@ TEST_CASE("creep under a steady shear stress follows the closed forms") {
     double gamma = 0;
     for (int k = 0; k < steps; ++k) {
       bench.body->begin_step(h);
-      const double at = bench.stress(bench.at(sheared(gamma)))(0, 1);  // linear at such strains: one secant step
+      const double at =
+          bench.stress(bench.at(sheared(gamma)))(0, 1);  // the response is linear, so one secant step suffices
       const double more = bench.stress(bench.at(sheared(gamma + 1e-7)))(0, 1);
       gamma += (stress - at) / (more - at) * 1e-7;
       bench.step(sheared(gamma), h);
@@ -180,7 +180,7 @@ TEST_CASE("beyond yield the stress stays on the yield surface and a permanent se
       Bench bench(material);
       double work = 0, before = 0;
       std::vector<ElementState<double>> states;
-      // Stretched without change of volume, then let go along the same way.
+      // Isochoric stretch in steps; then, below, back to the initial length.
       for (int k = 1; k <= 40; ++k) {
         const double t = 1 + 0.02 * k, s = 1 / std::sqrt(t);
         const auto x = bench.at(Vec3(t, s, s).asDiagonal());
@@ -195,7 +195,7 @@ TEST_CASE("beyond yield the stress stays on the yield surface and a permanent se
       }
       CHECK(work > 0);
       const Mat3 back = bench.stress(bench.at(Mat3::Identity()));
-      CHECK(back(0, 0) < -10);  // pushed back to its first length, it resists: it has become longer
+      CHECK(back(0, 0) < -10);  // compressed back to its initial length, it resists: its rest length has grown
       bench.body->reset_history(bench.at(Mat3::Identity()).data());
       CHECK(bench.stress(bench.at(Mat3::Identity())).norm() <= 1e-8);
     }
