@@ -130,8 +130,7 @@ TEST_CASE("creep under a steady shear stress follows the closed forms") {
     double gamma = 0;
     for (int k = 0; k < steps; ++k) {
       bench.body->begin_step(h);
-      const double at =
-          bench.stress(bench.at(sheared(gamma)))(0, 1);  // the response is linear, so one secant step suffices
+      const double at = bench.stress(bench.at(sheared(gamma)))(0, 1);  // linear response: one secant step
       const double more = bench.stress(bench.at(sheared(gamma + 1e-7)))(0, 1);
       gamma += (stress - at) / (more - at) * 1e-7;
       bench.step(sheared(gamma), h);
