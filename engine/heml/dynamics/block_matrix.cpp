@@ -44,7 +44,8 @@ BlockMatrix::BlockMatrix(const FreeNodes& free, const std::vector<Tet>& tets) : 
 
 void BlockMatrix::set_zero() { std::fill_n(matrix_.valuePtr(), matrix_.nonZeros(), 0.0); }
 
-/// Where row 3 row_block of a number column would be; of the diagonal block, rows j and on are there.
+/// The entry of row 3 row_block in scalar column 3 column_block + j. In a diagonal block only rows j and below are
+/// stored; the others must not be accessed.
 double* BlockMatrix::column_entry(int row_block, int column_block, int j) {
   double* column = matrix_.valuePtr() + matrix_.outerIndexPtr()[3 * column_block + j];
   if (row_block == column_block) return column - j;

@@ -1,9 +1,9 @@
 #pragma once
-// The stiffness of a mesh between its free nodes: a symmetric sparse matrix of 3×3 blocks, one a node and one an edge,
-// of which the lower half is kept, as a sparse matrix of numbers.
+// The stiffness of a mesh between its free nodes, for factorisation: a symmetric matrix of 3×3 blocks, one per node and
+// one per edge, whose lower half is stored as a scalar sparse matrix in double.
 //
-//   block column c:  [c, c]  [n1, c]  [n2, c] ...        n1 < n2 < ... : free neighbours above c
-//   number column 3c+j:  rows 3c+j .. 3c+2, then three rows a neighbour
+//   block column c:  [c, c]  [n1, c]  [n2, c] ...        n1 < n2 < ... : free neighbours with numbers above c
+//   scalar column 3c+j:  rows 3c+j .. 3c+2, then three rows a neighbour
 #include <Eigen/SparseCore>
 #include <heml/math/bytes.hpp>
 #include <heml/mesh/tet_mesh.hpp>
@@ -11,32 +11,32 @@
 
 namespace heml {
 
-/// Which nodes a solve may move, and their numbers among the unknowns.
+/// The free (unconstrained) nodes of a solve and their numbers among the unknowns.
 struct FreeNodes {
   std::vector<int> number;  ///< #V: −1 where not free
   std::vector<int> node;    ///< of each unknown, ascending
 
-  /// take: #V.
+  /// is_free: #V.
   explicit FreeNodes(const std::vector<bool>& is_free);
 };
 
 class BlockMatrix {
  public:
-  /// free must outlive the matrix.
+  /// free must outlive the matrix. tets give the sparsity pattern; nodes that are not free are ignored throughout.
   BlockMatrix(const FreeNodes& free, const std::vector<Tet>& tets);
 
   void set_zero();
-  /// Adds K(row, column), 12×12, of an element with these nodes: corner after corner, xyz.
+  /// Adds the element stiffness K(row, column), 12×12, indices [corner][xyz].
   template <class Entry>
   void add_element(const Tet& nodes, const Entry& K);
-  /// Adds B to the block (a, b) of two nodes of one element, and Bᵀ to (b, a).
+  /// Adds B to the block (a, b) of two nodes of one element, and so Bᵀ to (b, a).
   void add_pair(int a, int b, const Mat3& B);
   /// Adds a symmetric B to the block of a node.
   void add_node(int node, const Mat3& B);
   /// Adds k to the three diagonal entries of a node.
   void add_diagonal(int node, double k);
 
-  /// 3 #free square; the lower half alone.
+  /// 3 #free square; the lower half only.
   const Eigen::SparseMatrix<double>& lower() const { return matrix_; }
   const FreeNodes& free() const { return free_; }
   std::size_t bytes() const { return bytes_of(matrix_) + bytes_of(start_, neighbour_); }
@@ -45,7 +45,7 @@ class BlockMatrix {
   double* column_entry(int row_block, int column_block, int j);
 
   const FreeNodes& free_;
-  std::vector<std::size_t> start_;  ///< of each block column's neighbours
+  std::vector<std::size_t> start_;  ///< start of the neighbours of each block column
   std::vector<int> neighbour_;
   Eigen::SparseMatrix<double> matrix_;
 };

@@ -1,25 +1,25 @@
 #pragma once
-// The two explicit methods, each as what it does before and after the forces are taken at the new positions. A step of
-// either is first_half_step, held nodes moved, forces, second_half_step. α: mass damping, 1/s. Coordinates with inverse
-// mass 0 (of nodes held, or of no element) are not accelerated. All lists are of coordinates (3 #V), so that loops
-// vectorise; what there was before stays where it was, for a step that has to be taken back.
+// The two explicit methods, each split at the evaluation of the forces. A step is first_half_step, motion of the
+// constrained nodes, forces at the new positions, second_half_step. α: mass damping, 1/s. Coordinates with inverse mass
+// 0 (constrained nodes, nodes without elements) are not accelerated. Arrays are per coordinate (3 #V), so that loops
+// vectorise. Output arrays may be the input arrays; separate ones allow a step to be rejected.
 #include <cmath>
 #include <cstddef>
 
 namespace heml {
 
-/// What a first half reads, and where it writes.
+/// Input and output arrays of first_half_step.
 template <class Real>
 struct FirstHalfStep {
   const Real *inverse_mass, *f, *x, *v;  ///< 1/kg, N, m, m/s
   Real *x_after, *v_after;
 };
 
-/// The paper's "semi-implicit first-order Euler": v = (v + h M⁻¹ f(x)) / (1 + αh); x += h v. Damping is taken
-/// implicitly, so that the limit stays h < 2/ω_max.
+/// The paper's "semi-implicit first-order Euler": v = (v + h M⁻¹ f(x)) / (1 + αh); x += h v. Damping is implicit, so
+/// that the stability limit stays h < 2/ω_max.
 template <class Real>
 struct SymplecticEuler {
-  /// What the first half divides velocities by.
+  /// Divisor of the velocities in the first half step.
   static double damping_divisor(double h, double damping) { return 1 + damping * h; }
   static void first_half_step(Real h, Real damping, const FirstHalfStep<Real>& at, std::size_t begin, std::size_t end) {
     const auto [inverse_mass, f, x, v, x_after, v_after] = at;
@@ -50,7 +50,7 @@ struct Verlet {
                                std::size_t begin, std::size_t end) {
     const Real shrink = 1 - damping * h / 2;
     for (std::size_t i = begin; i < end; ++i) {
-      const Real keep = inverse_mass[i] > 0 ? shrink : Real(1);  // held nodes keep the velocity they were given
+      const Real keep = inverse_mass[i] > 0 ? shrink : Real(1);  // constrained nodes keep their prescribed velocity
       v[i] = keep * v[i] + h / 2 * inverse_mass[i] * f[i];
     }
   }

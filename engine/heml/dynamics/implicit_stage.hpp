@@ -1,7 +1,7 @@
 #pragma once
-// What one stage of an implicit method solves, and how methods are made of stages. A stage ends at
+// Stages of implicit methods. A stage determines x and v such that
 //     x = x̄ + d v,   v = v̄ + d (M⁻¹ f(x) − α v),
-// f with gravity, α mass damping, so it makes Φ = a/2 ‖x − y‖²_M + U(x) stationary with
+// f with gravity, α mass damping; so x makes Φ = a/2 ‖x − y‖²_M + U(x) stationary with
 //     a = (1 + αd)/d²,   y = x̄ + d v̄/(1 + αd),   and then v = (x − x̄)/d.
 #include <cmath>
 #include <heml/dynamics/objective.hpp>
@@ -19,8 +19,8 @@ struct Stage {
 
 inline Stage backward_euler_stage(const Vector& x, const Vector& v, double h) { return {h, x, v}; }
 
-/// Second order for steps of any length: before, after the step of length h_before that led to x, v from x_before,
-/// v_before (fixed coefficients lose the order).
+/// BDF2 with variable coefficients, second order for steps of any lengths (fixed coefficients lose the order).
+/// x_before, v_before: state before the last step, which had length h_before.
 inline Stage bdf2_stage(const Vector& x, const Vector& v, const Vector& x_before, const Vector& v_before, double h,
                         double h_before) {
   const double ratio = h / h_before, of_now = (1 + ratio) * (1 + ratio) / (1 + 2 * ratio),
@@ -28,13 +28,13 @@ inline Stage bdf2_stage(const Vector& x, const Vector& v, const Vector& x_before
   return {h * (1 + ratio) / (1 + 2 * ratio), of_now * x - of_before * x_before, of_now * v - of_before * v_before};
 }
 
-/// TR-BDF2 (Bank et al. 1985; Hosea & Shampine 1996): the trapezoidal rule to t + γh, then BDF2 to t + h; with
-/// γ = 2 − √2 both stages have the same d, so one factor serves both.
+/// TR-BDF2 (Bank et al. 1985; Hosea & Shampine 1996): the trapezoidal rule to t + γh, then BDF2 to t + h. With γ = 2 −
+/// √2 both stages have the same d and share one factorisation.
 namespace tr_bdf2 {
 
 inline const double gamma = 2 - std::sqrt(2.0);
 
-/// acceleration: at x, v, from all sides, damping included.
+/// acceleration: m/s² at x, v, with gravity and damping.
 inline Stage first_stage(const Vector& x, const Vector& v, const Vector& acceleration, double h) {
   const double d = gamma * h / 2;
   return {d, x + d * v, v + d * acceleration};

@@ -1,5 +1,5 @@
 #pragma once
-// Φ(x) = a/2 ‖x − y‖²_M + U(x): what one step of an implicit method minimises, whatever the method
+// The incremental potential Φ(x) = a/2 ‖x − y‖²_M + U(x), which a stage of any implicit method minimises
 // (implicit_stage.hpp).
 #include <heml/dynamics/objective.hpp>
 #include <heml/elastic/bsr_matrix.hpp>
@@ -8,7 +8,7 @@ namespace heml {
 
 class IncrementalPotential final : public Objective {
  public:
-  /// potential: U. mass: 3 #V, kg (each node's three times), 0 at nodes that are not free. Both must outlive this.
+  /// potential: U. mass: 3 #V, kg (each node's three times), 0 at nodes that are not free. All must outlive this.
   IncrementalPotential(Objective& potential, const Vector& mass, const FreeNodes& free)
       : potential_(potential), mass_(mass), free_(free) {}
 

@@ -14,7 +14,8 @@ struct Pair {
   double sy;
 };
 
-/// The inverse of the stiffness as the last steps have shown it, times r (the two-loop recursion).
+/// d = H r, H the L-BFGS approximation of the inverse stiffness (two-loop recursion). Returns false without
+/// preconditioner.
 bool apply_inverse(LinearSolver& linear, const std::deque<Pair>& pairs, const Vector& r, Vector& d) {
   std::array<double, memory> alpha;
   Vector q = r;
@@ -57,17 +58,17 @@ NewtonResult minimise_lbfgs(Objective& objective, LinearSolver& linear, const St
     if (!apply_inverse(linear, pairs, at.r, d)) break;
     if (!line_search(objective, d, at)) {
       if (pairs.empty()) break;
-      pairs.clear();  // what they remember leads nowhere
+      pairs.clear();  // their direction does not lower Φ
       continue;
     }
     Pair pair{at.x - x_before, r_before - at.r, 0};
     pair.sy = pair.s.dot(pair.y);
-    if (!(pair.sy > 1e-12 * pair.s.norm() * pair.y.norm())) continue;  // no positive curvature along it
+    if (!(pair.sy > 1e-12 * pair.s.norm() * pair.y.norm())) continue;  // no positive curvature along s
     pairs.push_back(std::move(pair));
     if (pairs.size() > memory) pairs.pop_front();
   }
   x = at.x;
-  if (result.status == Status::stalled) objective.residual(x, at.r);  // what it saw last is where it stays
+  if (result.status == Status::stalled) objective.residual(x, at.r);  // leaves the objective at x
   return result;
 }
 

@@ -5,8 +5,8 @@ namespace heml {
 namespace {
 constexpr double armijo = 1e-4;
 constexpr int max_cuts = 24;
-constexpr int cuts_against_turning = 12;  // then an element may turn inside out: it may be on its way back
-constexpr double flatter = 0.95;  // of the slope at the start: a step at round-off must make it at least this flat
+constexpr int cuts_against_turning = 12;  // cuts for which inversion is refused; later, an element may be recovering
+constexpr double flatter = 0.95;  // a step within round-off must reduce the slope to this part of its start value
 }  // namespace
 
 bool line_search(Objective& objective, const Vector& d, SearchPoint& at) {
@@ -27,7 +27,7 @@ bool line_search(Objective& objective, const Vector& d, SearchPoint& at) {
       const double noise = objective.value_round_off() + 1e-15 * std::abs(*at.value);
       if (!(*trial.value <= *at.value - armijo * s * slope + noise)) continue;
       trial.within_round_off = s * slope < 8 * noise;
-      if (trial.within_round_off && !is_flatter) continue;  // values cannot tell
+      if (trial.within_round_off && !is_flatter) continue;  // values are round-off
     }
     std::swap(at, trial);
     return true;

@@ -1,19 +1,20 @@
 #pragma once
-// How far to go along a direction: halved until Armijo's rule holds for Φ, with slack for round-off, where the slope
-// along the step decides instead (Hager & Zhang 2005, "approximate Wolfe"); where forces have no potential, by that
-// slope or by ‖r‖. States where Φ is not defined are stepped back from like any other bad one.
+// Backtracking line search: halves the step until Φ satisfies Armijo's rule. If the decrease is within round-off, the
+// slope along the step decides instead (Hager & Zhang 2005, "approximate Wolfe"). If the forces have no potential, that
+// slope or ‖r‖ decides. Steps to states where Φ is undefined are rejected, and long steps that invert elements are
+// skipped at first.
 #include <heml/dynamics/objective.hpp>
 
 namespace heml {
 
-/// Where a search stands.
+/// A point of a search.
 struct SearchPoint {
-  Vector x, r;  ///< positions; the residual there
+  Vector x, r;  ///< 3 #V: positions, m; residual, N
   std::optional<double> value;
   bool within_round_off = false;  ///< whether the step that led here changed Φ by no more than its round-off
 };
 
-/// Steps along d. Returns false and leaves `at` as it is when no step is good enough.
+/// Moves `at` along d. Returns false and leaves `at` unchanged if no step is accepted.
 bool line_search(Objective& objective, const Vector& d, SearchPoint& at);
 
 }  // namespace heml

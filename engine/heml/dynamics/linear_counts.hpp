@@ -2,7 +2,7 @@
 
 namespace heml {
 
-/// What linear solves have done so far.
+/// Work of the linear solves so far.
 struct LinearSolverStats {
   long factorisations = 0, solves = 0, iterations = 0;
 };

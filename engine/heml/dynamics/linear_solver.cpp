@@ -9,10 +9,10 @@
 namespace heml {
 namespace {
 constexpr int max_iterations = 500;
-constexpr double first_shift = 1e-4;          // of the stiffness along the residual
+constexpr double first_shift = 1e-4;          // relative to the stiffness along the residual
 constexpr double projected_tolerance = 1e-2;  // an approximation need not be solved exactly
-constexpr double still_serves = 2.0 / 3;      // of its elements, what a body must have for an outdated factor
-constexpr double changed_a_lot = 3;           // a factor of aM + L serves while a is within this of its own
+constexpr double still_serves = 2.0 / 3;      // an outdated factor serves while the body has this part of its elements
+constexpr double changed_a_lot = 3;           // a factor of aM + L serves up to this ratio between a and its own
 }  // namespace
 
 Preconditioner choose_preconditioner(std::size_t free_nodes, bool static_solve) {
@@ -41,7 +41,7 @@ void LinearSolver::assemble(Objective& objective) {
 }
 
 LinearSolver::Definiteness LinearSolver::factor() {
-  if (matrix_->lower().rows() == 0) return Definiteness::positive;  // which some factorisations do not bear
+  if (matrix_->lower().rows() == 0) return Definiteness::positive;  // some factorisations do not accept size 0
   if (!cholesky_) {
     cholesky_ = std::make_unique<Cholesky>();
     cholesky_->analyzePattern(matrix_->lower());
@@ -63,7 +63,7 @@ void LinearSolver::invert_blocks() {
         const int row = 3 * static_cast<int>(k) + i, column = 3 * static_cast<int>(k) + j;
         block(i, j) = block(j, i) = matrix_->lower().coeff(row, column);
       }
-    // A preconditioner has to be positive, or negative curvature goes unseen.
+    // The preconditioner must be positive definite, or CG does not see negative curvature.
     const Eigen::SelfAdjointEigenSolver<Mat3> eigen(block);
     const Vec3 sizes = eigen.eigenvalues().cwiseAbs();
     const Vec3 inverse = sizes.cwiseMax(1e-6 * sizes.maxCoeff()).cwiseInverse();
@@ -125,7 +125,7 @@ void LinearSolver::adopt(PreconditionerBuild& work) {
   outdated_ = false;
   ++counts_.factorisations;
   factored_a_ = work.is_definite() && work.a() == a_ ? a_ : -1;
-  factorise_scalar();  // the same factor whenever the work began
+  factorise_scalar();  // the factor does not depend on when the build began
 }
 
 LinearSolver::Memory LinearSolver::memory() const {
@@ -151,7 +151,8 @@ void LinearSolver::restore(const Memory& memory) {
   a_ = a;
 }
 
-/// Of aM + L, where it has changed a lot.
+/// Factors aM + L if a has changed a lot. First rebuilds the preconditioner if it is outdated and the body has lost too
+/// many elements since.
 bool LinearSolver::factorise_scalar() {
   if (!scalar_ || (outdated_ && static_cast<double>(modulus_.size()) < still_serves * static_cast<double>(made_of_))) {
     scalar_ = std::make_shared<SmoothedAggregation>(free_, mesh_, modulus_, mass_, max_direct_unknowns(), team_);
@@ -199,7 +200,7 @@ void LinearSolver::apply(const Vector& r, Vector& z) {
 
 bool LinearSolver::solve(Objective& objective, const Vector& r, double tolerance, Vector& d) {
   d.setZero(r.size());
-  if (r.isZero(0)) return true;  // and where nothing is free: there is no quotient to take
+  if (r.isZero(0)) return true;  // also without free nodes, where CG would divide 0 by 0
   const Definiteness sign = prepare(objective);
   if (sign == Definiteness::none) return false;
   ++counts_.solves;
@@ -212,7 +213,7 @@ bool LinearSolver::solve(Objective& objective, const Vector& r, double tolerance
   return false;
 }
 
-/// Whether float will do, with the stiffness then assembled in it.
+/// Whether the solve can run in float; if so, assembles the stiffness in float.
 bool LinearSolver::supports_single_precision(Objective& objective, double tolerance) {
   if (!scalar_ || tolerance < min_float_tolerance) return false;
   if (!single_precision_cg_) single_precision_cg_ = std::make_unique<SinglePrecisionCG>(free_, mesh_, team_);
@@ -245,12 +246,12 @@ bool LinearSolver::conjugate_gradients(Objective& objective, const Vector& r, do
   return true;
 }
 
-/// van der Vorst 1992, right preconditioned. Where it breaks down, d is the best so far.
+/// BiCGSTAB (van der Vorst 1992), right preconditioned. On breakdown d is the best iterate so far.
 bool LinearSolver::biconjugate_gradients(Objective& objective, const Vector& r, double enough, Vector& d) {
   Vector left = r, p = Vector::Zero(r.size()), q = p, z, t;
   double rho = 1, alpha = 1, omega = 1, least = r.norm();
   Vector best;
-  apply(r, best);  // at the least a direction of the symmetric part
+  apply(r, best);  // fallback: a direction of the symmetric part
   for (int k = 0; k < max_iterations && left.norm() > enough; ++k) {
     const double rho_now = r.dot(left), beta = rho_now / rho * alpha / omega;
     rho = rho_now;
@@ -287,7 +288,7 @@ void LinearSolver::solve_projected(Objective& objective, const Vector& x, const 
   while (!solve(objective, r, projected_tolerance, d)) {
     shift_ = std::max(10 * shift_, first_shift * scale);
     if (shift_ < 1e6 * scale) continue;
-    d = r;  // not a number somewhere
+    d = r;  // NaN somewhere
     break;
   }
   shift_ = 0;

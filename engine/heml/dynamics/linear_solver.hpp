@@ -1,7 +1,7 @@
 #pragma once
-// K d = r by conjugate gradients (by BiCGSTAB where K is not symmetric) on products of the stiffness, with one of four
-// preconditioners. With the Cholesky factor of the assembled stiffness they end after one iteration, or after a few
-// where the assembled matrix is an approximation.
+// K d = r by conjugate gradients (BiCGSTAB if K is not symmetric) on products with the stiffness, with one of four
+// preconditioners. With the Cholesky factor of the assembled stiffness they take one iteration, or a few if the
+// assembled matrix is an approximation.
 #include <Eigen/SparseCholesky>
 #include <heml/dynamics/linear_counts.hpp>
 #include <heml/dynamics/objective.hpp>
@@ -11,65 +11,68 @@
 
 namespace heml {
 
-/// Free nodes up to which a sparse factor a Newton iteration costs less than some tens of products;
+/// Number of free nodes up to which a sparse factor per Newton iteration costs less than some tens of products.
 constexpr std::size_t max_direct_unknowns_each_time(bool static_solve) { return static_solve ? 40000 : 400; }
-/// and up to which a factor of the scalar matrix costs less than levels of it, which need one or two iterations more: a
-/// cycle takes as long as back-solves at 1,200 nodes, a quarter at 6,500, an eighth at 21,000.
+/// Number of free nodes up to which a factor of the scalar matrix costs less than multigrid, which needs one or two
+/// iterations more: a cycle takes as long as back-solves at 1,200 nodes, a quarter at 6,500, an eighth at 21,000.
 inline constexpr std::size_t max_direct_unknowns_once = 1000;
 
-/// The choice for a body of that size, by a fixed model of cost, never by a clock.
+/// Chooses by size with a fixed cost model, never by measured time, so that the choice is reproducible.
 Preconditioner choose_preconditioner(std::size_t free_nodes, bool static_solve);
 
 class LinearSolver {
  public:
-  /// free, mass (3 #V, kg), team must outlive this. mesh: rest shape. modulus: #T, Pa, for the scalar matrix.
+  /// free, mesh (rest shape), mass (3 #V, kg) and team must outlive this. modulus: #T, Pa, for the scalar matrix.
   LinearSolver(const FreeNodes& free, const TetMesh& mesh, const std::vector<double>& modulus, const Vector& mass,
                Preconditioner preconditioner, Projection projection, ThreadTeam& team);
 
-  /// The mesh has lost elements: these are left, by the numbers they had (ascending); mass has followed, and the nodes
-  /// that lost all elements have none, though free still names them. What preconditions goes on as it is, with few
-  /// more iterations while most of the body is there, and is made anew once a third of it is gone. Returns false where
-  /// it cannot: make another solver.
+  /// To be called when the mesh has lost elements and the masses are updated. elements: those left, by their old
+  /// numbers (ascending). Nodes that lost all elements have mass 0 and stay in `free`. The preconditioner is kept, at
+  /// the cost of few more iterations, until a third of its elements is gone; then it is rebuilt. Returns false if there
+  /// is no scalar preconditioner to keep: the caller then makes another solver.
   bool keep_elements(const std::vector<int>& elements);
-  /// Whether what preconditions is of a body with more elements.
+  /// Whether the preconditioner was built for a body with more elements.
   bool is_outdated() const { return outdated_; }
-  /// Makes another of the body as it is now. Null where there is nothing to make.
+  /// If the preconditioner is outdated, returns a job that rebuilds it for the present body on any thread; pass the
+  /// result to adopt(). Null if it is up to date.
   std::shared_ptr<PreconditionerBuild> preconditioner_build() const;
-  /// What solves to come depend on beside the body: which a the scalar matrix is factored for, and the matrix where it
-  /// cannot be made again, being of a body with more elements.
+  /// State that later solves depend on besides the body: the a for which the scalar matrix is factored, and an outdated
+  /// preconditioner, which cannot be rebuilt from the present body.
   struct Memory {
-    double factored_a = -1;  ///< 1/s²; negative: it is not
+    double factored_a = -1;  ///< 1/s²; negative: not factored
     std::shared_ptr<SmoothedAggregation> outdated;
     std::vector<std::size_t> omitted_features;
     std::size_t made_of = 0;
   };
   Memory memory() const;
-  /// Of a solver made anew: goes on as that one would have.
+  /// Makes a newly constructed solver continue as the one that memory() came from.
   void restore(const Memory& memory);
-  /// Preconditions with what such work has made (done, and of the body as it is now) from now on.
+  /// Replaces the preconditioner by the result of a build, which must be done and of the present body.
   void adopt(PreconditionerBuild& work);
 
-  /// Tells the a of Φ = a/2 ‖x − y‖²_M + U. The scalar matrix is factored again where it has changed a lot.
+  /// Sets a (1/s²) of Φ = a/2 ‖x − y‖²_M + U. The scalar matrix is refactored once a has changed by more than a factor
+  /// of 3.
   void set_inertia(double a);
 
-  /// d = K⁻¹ r, to a residual of tolerance ‖r‖, K where the objective was linearised last. Returns whether the
-  /// curvature met was positive all along; if not, d still leads downhill: what was found before, or with a factor L D
-  /// Lᵀ of mixed signs L⁻ᵀ |D|⁻¹ L⁻¹ r, which near a buckling load serves far better than positive elements do. 0 where
-  /// nothing exists.
+  /// Solves K d = r to a residual of tolerance ‖r‖, K from the last linearise() of the objective. Returns whether all
+  /// curvature met was positive. If not, d is a descent direction all the same: the iterate before, or, with a factor L
+  /// D Lᵀ of mixed signs, L⁻ᵀ |D|⁻¹ L⁻¹ r, which near a buckling load serves far better than projected elements. d = 0
+  /// if no factor exists.
   bool solve(Objective& objective, const Vector& r, double tolerance, Vector& d);
 
-  /// z = what stands for K⁻¹, times r. Returns false where there is none. Not for `block_jacobi` and `cholesky`, which
-  /// are of a state.
+  /// z = P⁻¹ r, P the preconditioner `scalar` or `multilevel`; the others depend on the state (asserted). Returns false
+  /// if P cannot be factored.
   bool precondition(const Vector& r, Vector& z);
 
-  /// The same with the stiffness projected and, where that is not enough, a shifted diagonal: d always leads downhill.
+  /// solve() with the stiffness projected at x and, if that is not enough, a growing diagonal shift. d is always a
+  /// descent direction.
   void solve_projected(Objective& objective, const Vector& x, const Vector& r, Vector& d);
 
   Preconditioner preconditioner() const { return preconditioner_; }
   Projection projection() const { return projection_; }
   const LinearSolverStats& counts() const { return counts_; }
-  std::size_t levels() const { return scalar_ ? scalar_->levels() : 0; }  ///< of the scalar matrix; 0: not made yet
-  /// Of the matrix and what preconditions, as far as they were made.
+  std::size_t levels() const { return scalar_ ? scalar_->levels() : 0; }  ///< of the scalar matrix; 0: not built yet
+  /// Size of the matrices and factors built so far, in bytes.
   std::size_t bytes() const;
 
  private:
@@ -95,16 +98,16 @@ class LinearSolver {
   Projection projection_;
   double shift_ = 0;  ///< N/m, added to every diagonal entry of K
   ThreadTeam& team_;
-  std::unique_ptr<BlockMatrix> matrix_;  ///< made when first needed, like the rest
+  std::unique_ptr<BlockMatrix> matrix_;  ///< built on first use, like the members below
   std::unique_ptr<Cholesky> cholesky_;
   Vector pivots_;                                ///< |D|, in the factor's order
-  std::shared_ptr<SmoothedAggregation> scalar_;  ///< also of those that remember it
+  std::shared_ptr<SmoothedAggregation> scalar_;  ///< shared with Memory
   std::unique_ptr<SinglePrecisionCG> single_precision_cg_;
   std::vector<Mat3> inverse_blocks_;  ///< #free
   std::vector<double> modulus_;
   double a_ = 0, factored_a_ = -1;
   bool outdated_ = false;
-  std::size_t made_of_ = 0;  ///< elements, what preconditions
+  std::size_t made_of_ = 0;  ///< number of elements that the preconditioner was built for
   LinearSolverStats counts_;
 };
 

@@ -5,17 +5,17 @@
 
 namespace heml {
 namespace {
-constexpr double slow = 0.5;  // of ‖r‖ left by an iteration without positive curvature: the other remedy is tried next
-// Iterations that bring nothing, where forces are round-off, and where the potential alone is.
+constexpr double slow = 0.5;  // an iteration on negative curvature that leaves more of ‖r‖ switches the remedy
+// Tolerated iterations without progress: where forces are round-off; where only the potential is.
 constexpr int patience_of_forces = 2, patience_of_values = 5;
-constexpr double mostly = 1e-3;  // of the bound on round-off of values: what it comes to in sums of many elements
+constexpr double mostly = 1e-3;  // part of the bound on the round-off of values that sums of many elements reach
 constexpr double none = std::numeric_limits<double>::infinity();
 
-/// What happens where Φ no longer tells steps apart: several together have to lower it, or the measure has to fall, or
-/// this is as near as round-off lets it come.
+/// Detects that round-off ends progress. Where a step changes Φ by round-off only, several steps together must lower Φ,
+/// or the measure must fall.
 class AtRoundOff {
  public:
-  /// Whether it is, at a point with this measure.
+  /// Whether progress has ended at a point with this measure.
   bool is_over(const Objective& objective, const SearchPoint& at, double measure) {
     const bool is_lower = at.value && *at.value < lowest_ - mostly * objective.value_round_off();
     if (is_lower) {
@@ -54,7 +54,7 @@ NewtonResult minimise(Objective& objective, LinearSolver& linear, const Stopping
   const double first = at.r.norm();
   const auto finish = [&](NewtonResult::Status status) {
     x = at.x;
-    if (status == NewtonResult::Status::stalled) objective.residual(x, at.r);  // what it saw last is where it stays
+    if (status == NewtonResult::Status::stalled) objective.residual(x, at.r);  // leaves the objective at x
     result.status = status;
     return result;
   };

@@ -1,7 +1,7 @@
 #pragma once
-// What an implicit or static solve makes stationary: a function Φ of all positions (3 numbers a node), seen through its
-// residual −∇Φ, its stiffness ∂²Φ/∂x², and, where the forces have one, its value. Solvers know nothing else of a body,
-// so tests solve small functions of their own. All in double, whatever a body computes in.
+// The function Φ of all positions that an implicit or static solve makes stationary: its residual −∇Φ, its stiffness
+// ∂²Φ/∂x² and, if the forces have a potential, its value. Solvers know no more of a body, so tests can solve small
+// functions. All in double, whatever precision a body uses.
 #include <Eigen/Core>
 #include <heml/dynamics/block_matrix.hpp>
 #include <heml/dynamics/solver_options.hpp>
@@ -18,23 +18,24 @@ class Objective {
   virtual ~Objective() = default;
   /// r = −∇Φ at x, N; 0 at nodes that are not free. Returns whether Φ is defined there.
   virtual bool residual(const Vector& x, Vector& r) = 0;
-  /// Φ at x, J; differences alone matter. None where the forces have no potential.
+  /// Φ at x, J, up to a constant. None if the forces have no potential.
   virtual std::optional<double> value(const Vector& x) = 0;
-  /// Up to what difference values are round-off, J.
+  /// Differences of values up to this are round-off, J.
   virtual double value_round_off() const = 0;
-  /// Whether a residual is no more than the round-off of forces.
+  /// Whether a residual is within the round-off of forces.
   virtual bool is_at_round_off(const Vector&) const { return false; }
-  /// Whether a step from one x to another is long and turns elements inside out: shorter ones are tried first.
+  /// Whether a step between two x is long and inverts elements; shorter ones are then tried first.
   virtual bool inverts_elements(const Vector&, const Vector&) const { return false; }
-  /// Finds K = −∂r/∂x at x, or its projection, which the calls below are about until the next one.
+  /// Evaluates K = −∂r/∂x at x, or its projection, for the calls below until the next linearise().
   virtual void linearise(const Vector& x, Projection projection = Projection::none) = 0;
-  /// out = K dx; 0 at nodes that are not free. dx may move those.
+  /// out = K dx, N; 0 at nodes that are not free, where dx may be nonzero.
   virtual void product(const Vector& dx, Vector& out) = 0;
-  /// Whether K is: it is where the forces have a potential.
+  /// Whether K is symmetric, as it is if the forces have a potential.
   virtual bool is_symmetric() const { return true; }
-  /// Adds the blocks of K between free nodes, its symmetric part, or an approximation of it.
+  /// Adds the blocks of K between free nodes; the symmetric part or an approximation will do.
   virtual void add_stiffness(BlockMatrix& matrix) = 0;
-  /// Adds K between free nodes to rows in float, where it is symmetric and they can hold it. Returns whether.
+  /// Adds K between free nodes to a matrix in float. Returns false if K is not symmetric or does not fit the sparsity
+  /// pattern.
   virtual bool add_stiffness_single_precision(BsrMatrix&) { return false; }
 };
 

@@ -1,6 +1,6 @@
 #pragma once
-// The making of a preconditioner for a body as it is at one moment, with copies of all that it takes: for a thread of
-// its own, while steps go on with the one there is.
+// Job that builds the preconditioner of a body as it is at one moment. It owns copies of its input, so it can run on
+// another thread while steps go on with the old preconditioner.
 #include <atomic>
 #include <heml/dynamics/smoothed_aggregation.hpp>
 #include <memory>
@@ -9,8 +9,8 @@ namespace heml {
 
 class PreconditionerBuild {
  public:
-  /// As Multilevel's. a: of the steps that it will serve, 1/s². team must outlive what is made; the work does not use
-  /// it.
+  /// As the constructor of SmoothedAggregation. a: of the steps that it will serve, 1/s². team must outlive the result;
+  /// run() does not use it.
   PreconditionerBuild(FreeNodes free, TetMesh mesh, std::vector<double> modulus, Vector mass,
                       std::size_t max_direct_unknowns, double a, ThreadTeam& team)
       : free_(std::move(free)),
@@ -21,7 +21,7 @@ class PreconditionerBuild {
         a_(a),
         team_(team) {}
 
-  /// In any thread, once.
+  /// Builds the preconditioner. To be called once, on any thread.
   void run() {
     made_ = std::make_unique<SmoothedAggregation>(free_, mesh_, modulus_, mass_, max_direct_unknowns_, team_);
     is_definite_ = made_->set_inertia(a_);
@@ -29,7 +29,7 @@ class PreconditionerBuild {
   }
   bool done() const { return done_.load(std::memory_order_acquire); }
 
-  // Once it is done.
+  // Only if done().
   std::unique_ptr<SmoothedAggregation> release() { return std::move(made_); }
   bool is_definite() const { return is_definite_; }
   double a() const { return a_; }

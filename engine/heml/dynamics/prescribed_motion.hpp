@@ -1,11 +1,11 @@
 #pragma once
-// Where held nodes are at a time: contract, "boundary".
+// Prescribed motion of constrained nodes (scene key `boundary`, app/docs/scene-format.md).
 #include <heml/math/types.hpp>
 
 namespace heml {
 
-/// rotate(X − origin) + origin + translate, translation and angle ramped linearly over `over` seconds from t = 0, then
-/// held.
+/// x = rotate(X − origin) + origin + translate. Translation and angle grow linearly from t = 0 over ramp_time, then
+/// stay constant.
 struct PrescribedMotion {
   Vec3 translate, axis, origin;  ///< m; axis unit
   double radians = 0;
@@ -14,7 +14,7 @@ struct PrescribedMotion {
   struct At {
     Vec3 x, v, a;  ///< m, m/s, m/s²
   };
-  /// Position, velocity and acceleration at time t (s) of a node whose rest position is X.
+  /// Position, velocity and acceleration at a time (s) of a node with rest position X.
   At operator()(const Vec3& X, double time) const;
 };
 

@@ -7,7 +7,7 @@ namespace {
 constexpr double strong = 0.02;  // |a_ij|/√(a_ii a_jj) from which two unknowns are strongly connected
 constexpr double smoothing = 4.0 / 3;
 
-/// Strong neighbours by rows, and how strong.
+/// Strongly connected neighbours of each unknown and their strengths.
 struct Neighbours {
   std::vector<std::size_t> start{0};
   std::vector<int> node;
@@ -28,8 +28,9 @@ struct Neighbours {
   }
 };
 
-/// The aggregate of each unknown, in three passes: whole neighbourhoods that nobody has; what is left joins the
-/// aggregate it is tied to most; what has none to join makes one with its like.
+/// The aggregate of each unknown; count: number of aggregates. Three passes: (1) a neighbourhood without assigned
+/// unknowns becomes an aggregate; (2) a remaining unknown joins the aggregate of its strongest assigned neighbour; (3)
+/// one without such a neighbour forms an aggregate with its unassigned neighbours.
 std::vector<int> aggregate(const Neighbours& neighbours, int& count) {
   constexpr int unassigned = -1;
   const std::size_t size = neighbours.start.size() - 1;

@@ -1,12 +1,12 @@
 #pragma once
-// Which unknowns of a symmetric matrix become one on a coarser level, and how a coarse vector is carried to a fine one
-// (Vaněk, Mandel, Brezina 1996, "Algebraic multigrid by smoothed aggregation for second and fourth order elliptic
-// problems", sections 4 and 5).
+// Coarsening of a symmetric matrix by aggregates of unknowns, and the prolongation from coarse to fine vectors (Vaněk,
+// Mandel, Brezina 1996, "Algebraic multigrid by smoothed aggregation for second and fourth order elliptic problems",
+// sections 4 and 5).
 #include <heml/dynamics/scalar_matrix.hpp>
 
 namespace heml {
 
-/// Sums of |A| along rows: they bound the eigenvalues of D⁻¹A by 1.
+/// Row sums of |A|, the diagonal of D, which bound the eigenvalues of D⁻¹A by 1.
 std::vector<double> absolute_row_sums(const ScalarMatrix& A);
 
 /// Prolongation from aggregates of strongly connected unknowns, constant on each, then smoothed once by A. #rows of A ×

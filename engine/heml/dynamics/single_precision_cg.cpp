@@ -4,7 +4,7 @@
 
 namespace heml {
 namespace {
-constexpr std::size_t piece = 1024;  // rows that one number sums
+constexpr std::size_t piece = 1024;  // rows per partial sum
 }
 
 SinglePrecisionCG::SinglePrecisionCG(const FreeNodes& free, const TetMesh& mesh, ThreadTeam& team)
@@ -21,8 +21,8 @@ bool SinglePrecisionCG::assemble(Objective& objective, double shift) {
   return true;
 }
 
-/// Sum of part(row), which may change rows on its way: within pieces in float, axis by axis, of pieces in double, in an
-/// order that no thread has a say in.
+/// Sum of part(row) over all rows; part may also write its row. Rows are summed in float per axis within fixed pieces,
+/// and the pieces in double in ascending order, so the bits do not depend on the number of threads.
 template <class Part>
 double SinglePrecisionCG::sum(const Part& part) {
   team_.parallel_for(sums_.size(), 4, [&](std::size_t begin, std::size_t end) {
@@ -44,7 +44,7 @@ double SinglePrecisionCG::dot(const MultiVector& a, const MultiVector& b) {
 
 bool SinglePrecisionCG::solve(SmoothedAggregation& preconditioner, const Vector& r, double tolerance,
                               int max_iterations, Vector& d, long& iterations) {
-  const double largest = r.cwiseAbs().maxCoeff(), scale = largest > 0 ? largest : 1;  // keeps float in its range
+  const double largest = r.cwiseAbs().maxCoeff(), scale = largest > 0 ? largest : 1;  // keeps values in float's range
   const auto place = [&](std::size_t row) { return 3 * free_.node[row]; };
   double square = sum([&](std::size_t row) -> Eigen::Array4f {
     left_[row] << (r.segment<3>(place(row)) / scale).cast<float>().array(), 0.0f;

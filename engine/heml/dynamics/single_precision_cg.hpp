@@ -1,27 +1,28 @@
 #pragma once
-// K d = r by preconditioned conjugate gradients in float, on the assembled rows of K: what a Newton iteration needs
-// where it asks for two to four digits of its linear solution. Positions, residuals and Φ stay in double.
+// K d = r by preconditioned conjugate gradients in float, on the assembled K: enough for Newton iterations, which need
+// two to four digits of the linear solution. Positions, residuals and Φ stay in double.
 #include <heml/dynamics/smoothed_aggregation.hpp>
 
 namespace heml {
 
-/// The smallest tolerance that float reaches with bodies of any shape.
+/// The smallest tolerance that float reaches for bodies of any shape.
 inline constexpr double min_float_tolerance = 1e-4;
 
 class SinglePrecisionCG {
  public:
-  /// mesh: its elements couple nodes. free and team must outlive this.
+  /// mesh: gives the sparsity pattern. free and team must outlive this.
   SinglePrecisionCG(const FreeNodes& free, const TetMesh& mesh, ThreadTeam& team);
 
-  /// The mesh has lost elements: these are left, by the numbers they had.
+  /// To be called when the mesh has lost elements: those left, by their old numbers (ascending).
   void keep_elements(const std::vector<int>& elements) { K_.keep_elements(elements); }
 
-  /// Takes K where the objective was linearised last, plus shift, N/m, on its diagonal. Returns whether the objective
-  /// has it in float.
+  /// Assembles K from the last linearise() of the objective, plus shift (N/m) on its diagonal. Returns false if the
+  /// objective does not provide K in float.
   bool assemble(Objective& objective, double shift);
 
-  /// d = K⁻¹ r (3 #V; 0 at nodes that are not free) to a residual of tolerance ‖r‖. Returns whether the curvature met
-  /// was positive all along; if not, d is what was found before, or the first direction. iterations: added to.
+  /// Solves K d = r (3 #V; d = 0 at nodes that are not free) to a residual of tolerance ‖r‖. Returns whether all
+  /// curvature met was positive; if not, d is the iterate before, or the first direction. Adds the number of iterations
+  /// to `iterations`.
   bool solve(SmoothedAggregation& preconditioner, const Vector& r, double tolerance, int max_iterations, Vector& d,
              long& iterations);
 

@@ -9,11 +9,10 @@
 namespace heml {
 namespace {
 
-constexpr std::size_t grain = 2048;    // rows below which waking a thread costs more than it brings
-constexpr double shrinks = 0.7;        // a level larger than this of the one above is not worth having
-constexpr double smoothed_from = 0.2;  // of the spectrum: eigenvalues from here to 1 are the smoother's, the rest the
-                                       // coarser levels'
-/// Steps x += w D⁻¹(b − Ax) that together are Chebyshev's polynomial on [smoothed_from, 1].
+constexpr std::size_t grain = 2048;    // min. rows per thread, which outweigh the cost of waking it
+constexpr double shrinks = 0.7;        // max. ratio of unknowns of a level to those of the finer one
+constexpr double smoothed_from = 0.2;  // the smoother damps eigenvalues from here to 1, the coarser levels the rest
+/// Weights w of the steps x += w D⁻¹(b − Ax), which together are the Chebyshev polynomial on [smoothed_from, 1].
 const std::array<float, 2> weights = [] {
   std::array<float, 2> result{};
   for (std::size_t k = 0; k < result.size(); ++k) {
@@ -93,7 +92,7 @@ bool SmoothedAggregation::set_inertia(double a) {
   return bottom_.factor(a * levels_.back().M + levels_.back().L);
 }
 
-/// Calls write(row, (A x) there) for every row.
+/// Calls write(row, (A x)_row) for every row.
 template <class Write>
 void SmoothedAggregation::each_row(const Rows& A, const MultiVector& x, const Write& write) const {
   team_.parallel_for(static_cast<std::size_t>(A.rows()), grain, [&](std::size_t begin, std::size_t end) {
@@ -111,7 +110,7 @@ void SmoothedAggregation::smooth(Level& level, float weight) const {
   std::swap(level.x, level.scratch);
 }
 
-/// x ≈ A⁻¹ b on level l.
+/// One V-cycle from level l down: x ≈ A⁻¹ b.
 void SmoothedAggregation::cycle(std::size_t l) {
   Level& level = levels_[l];
   if (l + 1 == levels_.size()) {
@@ -136,7 +135,7 @@ void SmoothedAggregation::apply(const MultiVector& r, MultiVector& z) {
 }
 
 void SmoothedAggregation::apply(const Vector& r, Vector& z) {
-  const double largest = r.cwiseAbs().maxCoeff(), scale = largest > 0 ? largest : 1;  // keeps float in its range
+  const double largest = r.cwiseAbs().maxCoeff(), scale = largest > 0 ? largest : 1;  // keeps values in float's range
   Level& top = levels_.front();
   const auto place = [&](std::size_t k) { return 3 * node_[k]; };
   for (std::size_t k = 0; k < top.b.size(); ++k)

@@ -1,23 +1,23 @@
 #pragma once
-// How a nonlinear solve may be done: what a scene can choose beside its integrator. The defaults are right for nearly
-// every scene; studies compare the others.
+// Options of a nonlinear solve that a scene can choose in addition to its integrator. The defaults suit nearly every
+// scene; studies compare the others.
 
 #include <heml/elastic/projection.hpp>
 
 namespace heml {
 
-/// How Φ is made least.
+/// Method that minimises Φ.
 enum class Minimiser {
   newton,  ///< exact stiffness first (newton.hpp)
-  lbfgs    ///< the prefactored matrix and what the last steps have shown (lbfgs.hpp)
+  lbfgs    ///< L-BFGS on the prefactored scalar matrix (lbfgs.hpp)
 };
 
-/// What linear solves are preconditioned with.
+/// Preconditioner of the linear solves.
 enum class Preconditioner {
-  cholesky,     ///< of the assembled stiffness, anew each time: small bodies, and equilibrium to the last digit
-  scalar,       ///< of aM + Laplacian, once: bodies in motion
-  multilevel,   ///< of the same, by coarser and coarser copies of it: large bodies
-  block_jacobi  ///< 3×3 diagonal blocks: bodies whose mesh changes every step
+  cholesky,     ///< factor of the assembled stiffness, per iteration: small bodies, static solves
+  scalar,       ///< factor of the scalar matrix, rarely updated: bodies in motion
+  multilevel,   ///< smoothed aggregation of the scalar matrix: large bodies
+  block_jacobi  ///< 3×3 diagonal blocks of the stiffness: bodies whose mesh changes every step
 };
 
 // The names scene files use, in the order of the enums.

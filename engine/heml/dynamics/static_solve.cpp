@@ -6,11 +6,11 @@
 namespace heml {
 namespace {
 
-constexpr double shortest = 1.0 / 1024;  // increment, below which Newton is given up
-constexpr double relaxing = 1.0 / 64;    // increment that relaxation is tried with
+constexpr double shortest = 1.0 / 1024;  // smallest increment of Newton; below, relaxation
+constexpr double relaxing = 1.0 / 64;    // increment of relaxation
 constexpr NewtonOptions newton_options{40, 1e-3};
-constexpr double far_enough = 100;  // times the tolerance: what round-off may leave
-constexpr int quick = 8;            // iterations up to which increments grow
+constexpr double far_enough = 100;  // times the tolerance: residual that is accepted as round-off
+constexpr int quick = 8;            // Newton iterations up to which the increment doubles
 constexpr NewtonOptions relaxation_options{8, 1e-2};
 constexpr int max_relaxation_steps = 80;
 
@@ -37,7 +37,7 @@ bool StaticSolve::load_to(double fraction, const std::atomic<bool>& stop) {
       if (last_iterations_ <= quick) step_ *= 2;
       continue;
     }
-    if (round_off_) return false;  // weighs more the less load there is
+    if (round_off_) return false;  // at a smaller load, round-off is relatively larger
     step_ = (next - load_) / 2;
     if (step_ >= shortest) continue;
     if (!relax(std::min(fraction, load_ + relaxing))) return false;
@@ -51,7 +51,7 @@ bool StaticSolve::increment(double next) {
   return solve(x) && keep(next, x);
 }
 
-/// Along the tangent at the present state: K Δx = change of the loads − what the held nodes' motion stretches.
+/// Predictor along the tangent at the present state: K Δx = change of the loads − K · (motion of constrained nodes).
 Vector StaticSolve::predict(double next) {
   Vector moved = x_, r, stretched, d;
   body_.apply_constraints(next, moved);
@@ -81,7 +81,7 @@ bool StaticSolve::solve(Vector& x) {
   return true;
 }
 
-/// Converged, or ended by round-off where that will do.
+/// Whether Newton converged, or was stopped by round-off near enough to the tolerance, unless strict.
 bool StaticSolve::is_enough(const NewtonResult& newton, const Vector& x) {
   round_off_.reset();
   Vector r;
@@ -108,7 +108,7 @@ bool StaticSolve::relax(double next) {
   Vector x = tried_ = predict(next), r, Kr;
   if (!body_.residual(x, r)) return false;
   if (r.norm() == 0) return solve(x) && keep(next, x);
-  // Inertia that matches the stiffness along the residual, then ever less.
+  // Inertia starts by matching the stiffness along the residual and then falls.
   const Vector push = (mass_.array() > 0).select(r.array() / mass_.array(), 0);
   body_.linearise(x);
   body_.product(push, Kr);

@@ -1,6 +1,5 @@
 #pragma once
-// Static equilibrium of a body whose motions and loads are ramped together from 0 to 1, in increments of its own
-// choice:
+// Static equilibrium of a body whose motions and loads are ramped together from 0 to 1, in adaptive increments:
 //
 //   whole load at once ──► Newton ──► reached, longer increments
 //                            │ fails: half the increment
@@ -13,26 +12,27 @@
 
 namespace heml {
 
-/// An objective that depends on the fraction of a load.
+/// An objective that depends on a load fraction.
 class LoadDependentObjective : public Objective {
  public:
-  /// Every call after it is for that fraction, 0 to 1.
+  /// Sets the load fraction, 0 to 1, for the calls that follow.
   virtual void set_load(double fraction) = 0;
-  /// Puts the held nodes of x where they are at a fraction.
+  /// Moves the constrained nodes of x to their positions at a load fraction.
   virtual void apply_constraints(double fraction, Vector& x) const = 0;
-  /// How far the last state residual() saw, with its residual r, is from equilibrium: relative to what the body
-  /// carries.
+  /// Relative residual of the last state passed to residual(), which gave r: ‖r‖ over the larger of the norms of
+  /// external forces and reactions.
   virtual double relative_residual(const Vector& r) const = 0;
-  /// Whether an equilibrium is one the load leads to: no element turned inside out.
+  /// Whether an equilibrium is acceptable: no inverted element.
   virtual bool is_admissible(const Vector& x) const = 0;
-  /// Whether what it took for granted of a solution does not hold of x: then it is to be solved again from there.
+  /// Updates quantities that are constant during a solve (of contacts). Returns whether they changed, so that x must be
+  /// solved again.
   virtual bool update_lagged(const Vector&) { return false; }
-  /// Keeps an equilibrium: what remembers goes on from it.
+  /// Accepts an equilibrium: commits internal state and contacts at x.
   virtual void accept(const Vector& x) = 0;
 };
 
-/// When a state counts as an equilibrium: its imbalance is within the tolerance, or, unless strict, as small as
-/// round-off lets it become: of bodies with very stiff parts, or large ones in float, nothing more can be asked.
+/// A state is an equilibrium if its relative residual is within the tolerance. Unless strict, a larger residual is
+/// accepted if it is round-off, as in bodies with very stiff parts or large ones in float.
 struct StaticTolerance {
   double tolerance;
   bool strict;
@@ -40,26 +40,26 @@ struct StaticTolerance {
 
 class StaticSolve {
  public:
-  /// start: 3 #V, the state at load 0. mass: 3 #V, kg, 0 where not free. inertia: 1/s², of the scalar matrix that
-  /// preconditions; 0 where the body is held. All must outlive this.
+  /// start: 3 #V, m, the state at load 0. mass: 3 #V, kg, 0 where not free. inertia: a (1/s²) of the scalar matrix that
+  /// preconditions; 0 if the body is constrained. body, linear, mass and free must outlive this.
   StaticSolve(LoadDependentObjective& body, LinearSolver& linear, const Vector& mass, const FreeNodes& free,
               StaticTolerance limit, double inertia, Vector start);
 
-  /// Goes on to a fraction of the load. Returns false where no equilibrium is found, or when told to stop: load() and
-  /// x() are then the last ones found.
+  /// Continues to a load fraction. Returns false if no equilibrium is found or `stop` is set; load() and x() are then
+  /// those of the last equilibrium.
   bool load_to(double fraction, const std::atomic<bool>& stop);
 
-  /// What acts on the body has changed: the next load_to() solves anew, even where it is.
+  /// To be called when loads change: the next load_to() solves again, also at the same fraction.
   void invalidate() { solved_ = false; }
 
   const Vector& x() const { return x_; }
-  const Vector& tried() const { return tried_; }  ///< where the last increment was to begin
+  const Vector& tried() const { return tried_; }  ///< start of the last increment's iterations
   double load() const { return load_; }
   double relative_residual() const { return relative_residual_; }  ///< of x()
-  /// Imbalance beyond which round-off did not let the last attempt come; none where it ended otherwise.
+  /// Relative residual at which round-off ended the last attempt; none if it ended otherwise.
   std::optional<double> round_off() const { return round_off_; }
   long increments() const { return increments_; }
-  long iterations() const { return iterations_; }  ///< of Newton, those of failed increments too
+  long iterations() const { return iterations_; }  ///< of Newton, including failed increments
 
  private:
   bool increment(double next);
