@@ -9,7 +9,7 @@ namespace heml::explicit_test {
 
 namespace {
 
-/// One mass on a spring, x'' = −ω²x − αx', released at 1 from rest: position and velocity at t = 1 after n steps.
+/// Position and velocity at t = 1 after n steps of one mass on a spring, x'' = −ω²x − αx', released at x = 1 from rest.
 template <class Method>
 std::pair<double, double> oscillator(double omega, double damping, int n) {
   const double h = 1.0 / n, inverse_mass[3] = {1, 1, 1};
@@ -60,7 +60,7 @@ TEST_CASE("a moved node is where the contract says, and its velocity and acceler
   const PrescribedMotion motion{Vec3(0.05, 0, 0.01), Vec3(1, 0, 0), Vec3(0, 0.1, 0), std::numbers::pi / 2, 2.0};
   const Vec3 X(0.3, 0.2, 0);
   CHECK((motion(X, 0).x - X).norm() <= 1e-15);
-  // Arm (0.3, 0.1, 0) turned 90° about x: (0.3, 0, 0.1), then origin and translation.
+  // Arm (0.3, 0.1, 0) rotated by 90° about x: (0.3, 0, 0.1); then origin and translation.
   CHECK((motion(X, 2).x - Vec3(0.35, 0.1, 0.11)).norm() <= 1e-15);
   CHECK((motion(X, 9).x - motion(X, 2).x).norm() == 0);
   CHECK(motion(X, 9).v.norm() == 0);

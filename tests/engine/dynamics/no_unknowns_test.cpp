@@ -1,4 +1,4 @@
-// Solves with nothing to solve for: no node is free, or nothing is left of the forces.
+// Solves without unknowns, since no node is free, or without residual forces.
 #include <doctest/doctest.h>
 
 #include <heml/dynamics/incremental_potential.hpp>

@@ -25,7 +25,7 @@ struct Block {
         }()),
         mass(Vector::Constant(3 * static_cast<Eigen::Index>(mesh.nodes.size()), 1.0)) {}
 
-  /// 0 where nodes are not free.
+  /// Random vector, 0 at nodes that are not free.
   Vector random() const {
     std::mt19937_64 generator(81);
     Vector result = Vector::Zero(mass.size());
@@ -47,7 +47,7 @@ TEST_CASE("a solve in float leaves the residual that was asked for, and as many 
   IncrementalPotential objective(springs, block.mass, block.free);
   objective.set(1e-3, Vector::Zero(block.mass.size()));
   objective.linearise(Vector::Zero(block.mass.size()));
-  const Vector r = 1e30 * block.random();  // beyond what a square of floats could hold
+  const Vector r = 1e30 * block.random();  // its square overflows float
   for (const double tolerance : {1e-2, 1e-3, min_float_tolerance, min_float_tolerance / 1.01}) {
     LinearSolver solver = block.solver(team);
     solver.set_inertia(1e-3);
@@ -62,7 +62,7 @@ TEST_CASE("a solve in float leaves the residual that was asked for, and as many 
 TEST_CASE("a solve in float sees negative curvature and leads downhill") {
   const Block block(4);
   ThreadTeam team(1);
-  Wells wells(block.mesh, block.free, 1e-3);  // concave round 0
+  Wells wells(block.mesh, block.free, 1e-3);  // concave near 0
   wells.linearise(Vector::Zero(block.mass.size()));
   LinearSolver solver = block.solver(team);
   solver.set_inertia(1);
@@ -73,7 +73,7 @@ TEST_CASE("a solve in float sees negative curvature and leads downhill") {
 }
 
 TEST_CASE("a solve in float gives the same bits with any number of threads") {
-  const Block block(20);  // pieces of sums for more than one thread
+  const Block block(20);  // several partial sums, for several threads
   NodesAndSprings springs(block.mesh, block.free, 1);
   springs.linearise(Vector::Zero(block.mass.size()));
   Vector first, d;

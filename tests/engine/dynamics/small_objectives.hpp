@@ -1,12 +1,11 @@
 #pragma once
-// Functions that solvers can be tried on without a body.
+// Objectives for tests of solvers without a body.
 #include <heml/dynamics/linear_solver.hpp>
 #include <heml/mesh/generate.hpp>
 
 namespace heml::test {
 
-/// Σ over nodes of w(x_n) of one node's three numbers, and springs along the edges of a mesh: U = Σ_n w + Σ k/2
-/// |x_a−x_b|².
+/// U = Σ_n w(x_n) + Σ k/2 |x_a−x_b|²: a potential w at every free node, and springs along the edges of a mesh.
 class NodesAndSprings : public Objective {
  public:
   NodesAndSprings(const TetMesh& mesh, const FreeNodes& free, double k) : mesh_(mesh), free_(free), k_(k) {}
@@ -79,7 +78,7 @@ class NodesAndSprings : public Objective {
   bool projected_ = false;
 };
 
-/// A double well at every node: (x² − 1)²/4 each axis, concave round 0.
+/// A double well at every node, (x² − 1)²/4 per axis, concave near 0.
 class Wells final : public NodesAndSprings {
  public:
   using NodesAndSprings::NodesAndSprings;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double inertia = 3600;  // 1/s², of steps of 1/60 s
 
-/// A cube of tissue, 10 cm, n cells a side, its inner nodes shaken; held at x = 0, or free.
+/// A cube of tissue, 10 cm, n cells per side, with displaced inner nodes; constrained at x = 0, or free.
 struct Cube {
   TetMesh mesh;
   FreeNodes free;
@@ -43,7 +43,7 @@ struct Cube {
     for (const Vec3& X : mesh.nodes) result.push_back(!constrained || X.x() > 1e-9);
     return result;
   }
-  /// Half of the elements stiffer by a factor, in layers.
+  /// Multiplies the modulus of the elements with y > 5 cm by a factor.
   void stiffen(double factor) {
     for (std::size_t t = 0; t < modulus.size(); ++t)
       if (mesh.nodes[static_cast<std::size_t>(mesh.tets[t][0])].y() > 0.05) modulus[t] *= factor;
@@ -58,7 +58,7 @@ struct Cube {
     for (const int n : free.node) r.segment<3>(3 * n) = random_vector(engine, 1);
     return r;
   }
-  /// A r or A⁻¹ r, axis by axis.
+  /// Applies a scalar operator (A or A⁻¹) to each axis of r.
   template <class Apply>
   Vector by_axes(const Vector& r, const Apply& apply) const {
     Vector z = Vector::Zero(r.size()), one(static_cast<Eigen::Index>(free.node.size()));
@@ -71,7 +71,7 @@ struct Cube {
   }
 };
 
-/// Solves (aM + L) d = r by conjugate gradients to a residual of tolerance ‖r‖, in so many iterations.
+/// Solves (aM + L) d = r by conjugate gradients to a residual of tolerance ‖r‖. Returns the number of iterations.
 int solve(const Cube& cube, double a, SmoothedAggregation& levels, const Vector& r, double tolerance, Vector& d) {
   const ScalarMatrix A = cube.matrix(a);
   Vector left = r, z, p, q;

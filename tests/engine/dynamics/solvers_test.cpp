@@ -125,7 +125,7 @@ TEST_CASE("from a concave start Newton goes downhill to a minimum, with any prec
     CHECK(result.converged());
     CHECK(*wells.value(x) < before);
     for (const int n : f.free.node)
-      for (int i = 0; i < 3; ++i) CHECK(std::abs(x[3 * n + i]) > 0.5);  // no node is left on its hill
+      for (int i = 0; i < 3; ++i) CHECK(std::abs(x[3 * n + i]) > 0.5);  // no node stays at the maximum
   }
 }
 
@@ -141,7 +141,7 @@ TEST_CASE("stops with what it has when iterations run out") {
   CHECK(*wells.value(x) < before);
 }
 
-/// Springs whose forces are known to some digits only.
+/// Springs with noise in the forces, as of round-off.
 class Blurred final : public NodesAndSprings {
  public:
   using NodesAndSprings::NodesAndSprings;
@@ -170,7 +170,7 @@ TEST_CASE("where forces are round-off Newton ends soon, with the best it saw the
   CHECK(result.at_round_off);
   CHECK(result.iterations < 12);
   CHECK(result.measure == *std::min_element(seen.begin(), seen.end()));
-  CHECK(seen.back() > result.measure);  // it was not the last
+  CHECK(seen.back() > result.measure);  // the best state was not the last
 }
 
 TEST_CASE("stages of each method have its order on a damped oscillator, also when the step changes") {
