@@ -4,7 +4,7 @@
 //   whole load at once ──► Newton ──► reached, longer increments
 //                            │ fails: half the increment
 //                            └ ... too short: relaxation in pseudo-time, Φ = a/2 ‖x − y‖²_M + U with falling a, which
-//                              walks through a snap to the next stable state; fails: no equilibrium, last good state
+//                              passes a snap-through to the next stable state; fails: no equilibrium, last good state
 //                              kept
 #include <atomic>
 #include <heml/dynamics/newton.hpp>

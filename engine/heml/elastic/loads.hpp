@@ -21,7 +21,7 @@ struct DeadLoad {
 template <class Real>
 struct Pressure {
   std::vector<Triangle> faces;  ///< inner numbers, outward
-  Real pascal = 0;              ///< positive pushes inward
+  Real pascal = 0;              ///< Pa, positive pushes inward
   double ramp_time = 0;         ///< s
 };
 
