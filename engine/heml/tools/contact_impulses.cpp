@@ -6,19 +6,19 @@
 namespace heml {
 namespace {
 
-constexpr int max_rounds = 8;       // of points that share nodes
-constexpr double max_travel = 0.5;  // of a probe's radius: what it goes before it is met again
-constexpr double max_parts = 64;    // of a step, that it is met in
+constexpr int max_rounds = 8;       // of iteration over points that share nodes
+constexpr double max_travel = 0.5;  // of a probe's radius: distance between two checks along its path
+constexpr double max_parts = 64;    // checks along the path within a step
 
 }  // namespace
 
 template <class Real>
 struct ContactImpulses<Real>::StepPath {
-  double from, to;  ///< s: the step's start, and the moment in it that the surface is met at
+  double from, to;  ///< s: the step's start, and the time within the step at which the surface is checked
   double weight;
   const std::vector<Real>& inverse_mass;
   const Real* before;
-  std::vector<ContactSurface> then, now;  ///< at both moments
+  std::vector<ContactSurface> then, now;  ///< at `from` and `to`
 };
 
 template <class Real>
@@ -48,7 +48,7 @@ void ContactImpulses<Real>::first_half_step(Contacts& contacts, double time_befo
     const double to = part < parts ? time_before + part / parts * h : time_after;
     const StepPath path{time_before,          to, shrink, inverse_mass, before, contacts.surfaces(time_before),
                         contacts.surfaces(to)};
-    for (int round = 0; round < rounds; ++round)  // a table, which is fixed, has the last word
+    for (int round = 0; round < rounds; ++round)  // tables come last in a round, since they cannot move
       for (std::size_t s = contacts.reports.size(); s-- > 0;) {
         if (surfaces_[s].shape == ContactSurface::Shape::tissue)
           tissue_.push(inverse_mass, v);
@@ -74,7 +74,8 @@ void ContactImpulses<Real>::first_half_step(Contacts& contacts, double time_befo
   tissue_.publish(shrink, normal_impulse_, contacts.reports.back());
 }
 
-/// What would be inside at the end of the way is not; what was inside from the start comes out of it slowly.
+/// Stops points that would be inside surface s at path.to. Penetration at the step's start decays over
+/// contact_recovery.
 template <class Real>
 void ContactImpulses<Real>::stop_at(const StepPath& path, std::size_t s, Contacts& contacts, Real* v) {
   const double h = path.to - path.from;
@@ -99,8 +100,8 @@ void ContactImpulses<Real>::stop_at(const StepPath& path, std::size_t s, Contact
   }
 }
 
-/// Gives a point's velocity `closing`, m/s, along the normal, and takes what friction can of its sliding. weight: of
-/// the impulse in the force of the step.
+/// Adds `closing` (m/s) along the normal to a point's velocity and applies the friction impulse. weight: factor of the
+/// impulse in the reported force and work.
 template <class Real>
 void ContactImpulses<Real>::push(const Stopped& stopped, double closing, double weight,
                                  const std::vector<Real>& inverse_mass, Contacts& contacts, Real* v) {

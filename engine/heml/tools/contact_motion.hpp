@@ -1,13 +1,13 @@
 #pragma once
-// What impulses do to points of contact: sums over their nodes. Positions and velocities are 3 #V, inverse masses #V,
-// 1/kg.
+// Values and impulses at contact points, as weighted sums over their nodes. Positions and velocities are #V×3, inverse
+// masses #V, 1/kg.
 
 #include <heml/tools/contact_surface.hpp>
 #include <vector>
 
 namespace heml {
 
-/// s, in which tissue that was inside from the start comes out.
+/// s, time constant with which penetration present at a step's start decays.
 inline constexpr double contact_recovery = 0.01;
 
 template <class Real>
@@ -23,7 +23,7 @@ Vec3 at(const Real* values, const ContactPoint& point) {
   return sum;
 }
 
-/// Of a point's motion along a direction, 1/kg.
+/// Effective inverse mass of a contact point, 1/kg.
 template <class Real>
 double inverse_mass_of(const ContactPoint& point, const std::vector<Real>& inverse_mass) {
   double sum = 0;
@@ -33,7 +33,7 @@ double inverse_mass_of(const ContactPoint& point, const std::vector<Real>& inver
   return sum;
 }
 
-/// impulse: N s, on the point. Changes the velocities v of its nodes, m/s.
+/// Applies an impulse (N s) to a contact point: changes the velocities v (m/s) of its nodes.
 template <class Real>
 void apply_impulse(const ContactPoint& point, const Vec3& impulse, const std::vector<Real>& inverse_mass, Real* v) {
   for (std::size_t k = 0; k < static_cast<std::size_t>(point.count); ++k) {

@@ -7,10 +7,10 @@ namespace heml {
 namespace {
 
 constexpr int max_revisions = 16;        // of one solve
-constexpr double nearest_axis = 0.25;    // of a probe's radius: tissue that comes nearer is taken to have passed it
+constexpr double nearest_axis = 0.25;    // of a probe's radius: tissue nearer to the axis counts as passing through
 constexpr double stiffest_spring = 1e6;  // times a node's own stiffness
-constexpr double share_of_node = 0.5;    // of its stiffness, for each of the faces round it
-constexpr double same_friction = 1e-3;   // of all friction: what it may differ by from what was assumed
+constexpr double share_of_node = 0.5;    // of a node's stiffness, for each face round it
+constexpr double same_friction = 1e-3;   // of the sum of friction bounds: accepted change
 
 Vec3 at(const Vector& x, int node) { return x.segment<3>(3 * node); }
 
@@ -40,7 +40,7 @@ void ContactPotential::begin(const Vector& x, double time) {
   revisions_ = 0;
   pairs_.clear();
   meet(x);
-  if (first) {  // what touches at first sticks, until its weight is known
+  if (first) {  // initial contacts stick until their normal force is known
     find(x);
     for (const ActiveContact& touch : active_)
       if (surfaces_[touch.surface].friction > 0)
@@ -85,7 +85,7 @@ void ContactPotential::find(const Vector& x) {
   touches_at_ = x;
 }
 
-/// Takes what touches on the way to x among the pairs. Returns whether a new one is inside there.
+/// Adds to pairs_ those that touch on the way to x. Returns whether a new pair penetrates at x by more than the bound.
 bool ContactPotential::meet(const Vector& x) {
   if (!contacts_.tissue || !with_tissue_) return false;
   const auto before = [&](int n) { return at(x_before_, n); };
@@ -113,7 +113,7 @@ double ContactPotential::normal_stiffness(const ActiveContact& touch) const {
   return stiffer_[touch.surface] * stiffness_of(touch.point);
 }
 
-/// How far a point's spring is stretched, m.
+/// Stretch of a point's friction spring, m.
 Vec3 ContactPotential::sliding(const Friction& friction, const Vector& x) const {
   const auto& [surface, point] = friction.touch;
   const Vec3 displacement =
@@ -168,8 +168,8 @@ void ContactPotential::add_forces(const Vector& x, Vector& f) {
   for (const Friction& friction : friction_) add(friction.touch.point, friction_force(friction, x), f);
 }
 
-/// Where the nearest point turns about a probe, the stiffness that this takes away is left out: it is small where
-/// tissue is not deep inside.
+/// Leaves out the negative stiffness that comes of the closest point's rotation about a probe, so that the blocks stay
+/// positive semidefinite; it is small at shallow penetration.
 void ContactPotential::linearise(const Vector& x) {
   find(x);
   x_seen_ = x;
@@ -177,7 +177,7 @@ void ContactPotential::linearise(const Vector& x) {
   for (const ActiveContact& touch : active_) {
     const Vec3& n = touch.point.normal;
     Mat3 K = normal_stiffness(touch) * n * n.transpose();
-    if (touch.point.count == 2)  // a taut thread bears what is across
+    if (touch.point.count == 2)  // geometric stiffness of a taut thread
       K += normal_stiffness(touch) * -std::min(0.0, touch.point.gap) / at(x, touch.point).norm() * along(n);
     blocks_.push_back({touch.point, K});
   }
@@ -203,10 +203,10 @@ bool ContactPotential::within_elements() const {
   return std::all_of(blocks_.begin(), blocks_.end(), [](const Block& block) { return block.point.count % 2 == 1; });
 }
 
-/// By the forces at x; springs that were there stay as they are.
+/// Friction of the active contacts, bounded by the normal forces at x. Springs that exist keep their stretch.
 std::vector<ContactPotential::Friction> ContactPotential::friction_of_touches() const {
   std::vector<Friction> result;
-  std::size_t old = 0;  // both lists are in the order of surfaces and the skin
+  std::size_t old = 0;  // both lists are ordered by surface, then as each_contact() visits
   for (const ActiveContact& touch : active_) {
     const double friction = surfaces_[touch.surface].friction;
     if (!(friction > 0) || !(touch.point.gap < 0)) continue;
@@ -280,7 +280,8 @@ void ContactPotential::accept(const Vector& x) {
   for (Friction& friction : friction_) {
     const Vec3 force = friction_force(friction, x);
     publish(friction.touch, force);
-    // What has slipped is not stretched; faces slide along a probe, and their springs begin anew.
+    // A slipping spring keeps the stretch that its force explains. Closest points of faces move along a probe, so their
+    // springs restart at zero.
     const double k = stiffness_of(friction.touch.point);
     const bool stays = friction.touch.point.count == 1 || friction.touch.point.count == 4;
     friction.stretch = stays && k > 0 ? Vec3(-force / k) : Vec3(Vec3::Zero());

@@ -1,20 +1,18 @@
 #pragma once
-// Contact in implicit steps and statics: an energy that solvers minimise with all others.
+// Contact in implicit steps and statics: an energy that solvers minimise together with the others.
 //
-//   out of a surface   k/2 gap² where gap < 0; k is that of a node, m ω² of the body's highest frequency, and becomes
-//                      stiffer until no point of a solution is deeper inside than a bound (exterior penalty with
-//                      continuation: J. Nocedal, S. Wright, Numerical Optimization, 2006, 17.1). It is defined
-//                      everywhere, so that a tool may be pushed into tissue first and the solver finds the way out.
-//   along it           Coulomb's friction as a spring of the same k from where a point stuck, which slips where it
-//                      would bear more than μ N (P. Wriggers, Computational Contact Mechanics, 2006, 5.2): Huber's
-//                      function, smooth and convex. N is that of the last solution; where it differs from the new
-//                      one's, the problem is solved again (revise()).
+//   normal       k/2 gap² where gap < 0. k starts as the node's m ω², ω the body's highest frequency, and is raised
+//                until no point of a solution penetrates by more than a bound (exterior penalty with continuation:
+//                J. Nocedal, S. Wright, Numerical Optimization, 2006, 17.1). It is defined at any penetration, so a
+//                tool may be placed inside tissue and the solver finds the way out.
+//   tangential   Coulomb friction as a spring of stiffness k from the point of sticking, which slips where its force
+//                would exceed μ N (P. Wriggers, Computational Contact Mechanics, 2006, 5.2): a Huber function, smooth
+//                and convex. N is lagged: where the new solution's N differs, the problem is solved again
+//                (update_lagged()). Springs persist from step to step, so sticking contacts do not creep.
 //
-// What sticks at rest does not creep: the spring is kept from step to step.
-//
-// Which pairs of tissue and tissue are in contact (self_contact.hpp) is settled while a problem is solved, so that its
-// energy has no jumps: those that touch when a step begins, and those that a solution has let cross, for which it is
-// solved again. So nothing tunnels, however far it goes in a step.
+// The set of self-contact pairs (self_contact.hpp) is constant during a solve, so that the energy has no jumps. It
+// holds the pairs that touch when the step begins; pairs that cross in a solution are added and the problem is solved
+// again, so nothing tunnels, however large the step.
 #include <heml/dynamics/objective.hpp>
 #include <heml/tools/contacts.hpp>
 
@@ -22,43 +20,43 @@ namespace heml {
 
 class ContactPotential {
  public:
-  /// contacts must outlive this. bound: m. stiffness, before anything else: #V, N/m, of a point at each node; 0 where
-  /// it is held.
+  /// contacts must outlive this object. bound: m, accepted penetration. set_stiffness() must be called first: #V, N/m,
+  /// penalty stiffness per node, 0 at constrained nodes.
   ContactPotential(Contacts& contacts, double bound) : contacts_(contacts), bound_(bound) {}
   void set_stiffness(std::vector<double> stiffness) { stiffness_ = std::move(stiffness); }
 
   bool empty() const { return contacts_.empty(); }
 
-  /// A step, or an increment of load, begins at x, 3 #V, at a time, s: friction counts ways from here. What an attempt
-  /// that came to nothing had assumed is forgotten.
+  /// Starts a step or load increment at x (#V×3, m) and time (s). Sliding is measured from x. Assumptions of a failed
+  /// attempt are discarded.
   void begin(const Vector& x, double time);
-  /// There are other surfaces now: what was known of any is forgotten.
+  /// Discards all contact state; call it when surfaces were added or removed.
   void reset();
-  /// From now on tissue passes tissue.
+  /// Switches self-contact off for good.
   void disable_self_contact() { with_tissue_ = false; }
-  /// Surfaces are where they are at a time, s, from now on; friction is assumed as it was at the step's start.
+  /// Moves the surfaces to a time (s) and resets friction to its state at the step's start.
   void set_time(double time);
 
-  /// Whether tissue has gone through a probe on its way to x from where it was linearised last, or begun: solvers
-  /// step as far as they see fit, and on the other side nothing would push it back.
+  /// Whether tissue passes through a probe between the last point of linearise() or begin() and x. Such a solver step
+  /// must be shortened, since on the probe's far side the contact energy would not push tissue back.
   bool passes(const Vector& x) const;
   double value(const Vector& x);
   void add_forces(const Vector& x, Vector& f);
-  /// Finds the stiffness at x, which the calls below are about. It is never negative.
+  /// Evaluates the stiffness at x, positive semidefinite, for the calls below.
   void linearise(const Vector& x);
   void add_product(const Vector& dx, Vector& out) const;
-  /// Calls visit(node, node, block, 3×3) for pairs of nodes of one face, each pair once, and for single ones; of a
-  /// thread and of two pieces of tissue, which share no element, for each node alone.
+  /// Calls visit(a, b, 3×3 block in N/m) for diagonal blocks (a == b) and for pairs of corners of one face, each pair
+  /// once. Of threads and self-contact, whose nodes share no element, only diagonal blocks are visited.
   template <class Visit>
   void each_block(const Visit& visit) const;
 
-  /// Whether no block joins nodes that share no element.
+  /// Whether each_block() visits the whole stiffness: there is no active thread and no self-contact.
   bool within_elements() const;
 
-  /// Whether what was assumed of a solution x does not hold of it: then it is assumed anew, and x is to be solved
-  /// again.
+  /// Updates the lagged quantities from a solution x: contact pairs, penalty stiffness and friction bounds. Returns
+  /// true if any changed, so that the problem has to be solved again.
   bool update_lagged(const Vector& x);
-  /// Keeps a solution, and tells the contacts of it.
+  /// Takes x as the solution of the step: stores its friction state and fills the contacts' reports.
   void accept(const Vector& x);
 
  private:
@@ -86,13 +84,13 @@ class ContactPotential {
   Contacts& contacts_;
   std::vector<double> stiffness_;
   double bound_;
-  std::vector<double> stiffer_;  ///< of each surface, times
+  std::vector<double> stiffer_;  ///< factor on the penalty stiffness, per surface
   std::vector<Friction> friction_, accepted_;
   std::vector<ContactSurface> surfaces_, surfaces_before_;
   bool with_tissue_ = true;
-  std::vector<ContactPair> pairs_;  ///< of tissue, in contact or as good as; ascending
+  std::vector<ContactPair> pairs_;  ///< of self-contact, constant during a solve; ascending
   Vector x_before_, touches_at_, x_seen_;
-  std::vector<ActiveContact> active_;  ///< where touches_at_ is
+  std::vector<ActiveContact> active_;  ///< at positions touches_at_
   std::vector<Block> blocks_;
   int revisions_ = 0;
 };

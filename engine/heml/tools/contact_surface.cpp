@@ -6,7 +6,7 @@
 namespace heml {
 namespace {
 
-/// A point of a triangle by its weights, and a point of the capsule's axis.
+/// A point of a triangle, by barycentric weights, and a point of the capsule's axis.
 struct Pair {
   std::array<double, 3> weights;
   Vec3 on_axis;

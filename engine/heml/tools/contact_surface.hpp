@@ -1,8 +1,8 @@
 #pragma once
-// What tissue does not pass, and where it meets it: a table is a half space, a probe a capsule (a ball where its shaft
-// has no length), a suture a thread between two nodes that is never longer than it is. Whoever keeps tissue there, by
-// impulses or by an energy, asks all three the same: at which points of the tissue, how far it may go, and which way is
-// back.
+// Contact surfaces and contact detection: a table is a half space, a probe a capsule (a ball where its shaft has no
+// length), a suture a thread that bounds the distance of two nodes. For each, each_contact() yields contact points of
+// the tissue with gap and normal; impulses (contact_impulses.hpp) and the penalty energy (contact_potential.hpp) use
+// the same points.
 //
 //   half space: at every node          capsule: at the point of each face that is nearest to its axis
 //
@@ -10,8 +10,8 @@
 //   ──┴───┴───┴── normal ↑                     axis · · · · ·│ radius
 //   ////////////  gap < 0                      ──────────────┘
 //
-// A plane lies below all of a face that is above it with its corners; a probe may be smaller than a face. The "point"
-// of a thread is the difference of its ends, which must stay within a ball of the thread's length.
+// A face whose corners are above a plane is above it everywhere, so nodes suffice; a probe may be smaller than a face.
+// The contact point of a thread is the difference of its ends, which must stay within a ball of the thread's length.
 #include <heml/math/types.hpp>
 #include <heml/mesh/tet_mesh.hpp>
 #include <optional>
@@ -20,29 +20,29 @@
 
 namespace heml {
 
-/// A fixed half space to rest on.
+/// A fixed half space.
 struct Table {
   Vec3 point = Vec3::Zero();    ///< m, on it
   Vec3 normal = Vec3::UnitY();  ///< unit, towards the tissue
   double friction = 0;          ///< Coulomb's coefficient
 };
 
-/// A rigid ball or capsule that goes along a path at a steady speed, and stays at its end.
+/// A rigid ball or capsule whose tip follows a polyline at constant speed and stays at its end.
 class Probe {
  public:
   /// radius: m. shaft: m, from the tip's centre to the other end of the axis; 0: a ball.
   Probe(double radius, const Vec3& shaft, double friction) : radius_(radius), shaft_(shaft), friction_(friction) {}
 
-  /// Sets out at a time, s, from where it is then, or from the path's first place when it was nowhere. path: places of
-  /// the tip, m, one or more. speed: m/s.
+  /// Starts moving along `path` (one or more positions of the tip, m) at `time` (s) with `speed` (m/s), from the
+  /// current position; the first call starts at path[0].
   void go(const std::vector<Vec3>& path, double speed, double time);
-  /// Where the tip is at a time, m.
+  /// Position of the tip at a time (s), m. Requires an earlier go().
   Vec3 tip(double time) const;
 
   double radius() const { return radius_; }
   double friction() const { return friction_; }
   const Vec3& shaft() const { return shaft_; }
-  double speed() const { return speed_; }  ///< m/s, while it goes
+  double speed() const { return speed_; }  ///< m/s, while it moves
 
  private:
   double radius_;
@@ -51,15 +51,15 @@ class Probe {
   std::vector<Vec3> path_;
 };
 
-/// A thread between two nodes, drawn in steadily.
+/// A thread between two nodes whose length changes linearly over ramp_time.
 struct Suture {
-  std::array<int, 2> nodes;  ///< inner numbers
+  std::array<int, 2> nodes;  ///< internal numbers
   double from, to;           ///< m, lengths at the start and the end
   double start, ramp_time;   ///< s
   double length(double time) const;
 };
 
-/// One of them at one moment.
+/// A table, probe, suture or the tissue itself at one time.
 struct ContactSurface {
   enum class Shape { plane, capsule, thread, tissue };
   Shape shape;
@@ -74,32 +74,32 @@ ContactSurface surface_of(const Table& table);
 ContactSurface surface_of(const Probe& probe, double time);
 ContactSurface surface_of(const Suture& suture, double time);
 
-/// A point of the tissue near a surface: a sum of nodes' positions. Of a face the weights' sum is 1; of a thread's
-/// ends, and of tissue that meets tissue, where the point is the way from one to the other, it is 0.
+/// A point of the tissue near a surface, as a weighted sum of nodal positions. Weights of a node or a face sum to 1.
+/// Weights of a thread or a self-contact pair sum to 0: their point is the vector between the two sides.
 struct ContactPoint {
   std::array<int, 4> nodes;
   std::array<double, 4> weights;
   int count;    ///< of nodes: 1, 2 (a thread), 3 (a face) or 4 (self_contact.hpp)
-  double gap;   ///< m, negative where it must not be
-  Vec3 normal;  ///< unit, the way back
+  double gap;   ///< m, negative is penetration
+  Vec3 normal;  ///< unit, direction out
 };
 
-/// The point of a face (corners a, b, c, m) that is nearest to a capsule; nothing where they are further apart than
-/// `reach`, m, or where no direction is out.
+/// The point of a face (corners at a, b, c, m) nearest to a capsule; none where the gap exceeds `reach` (m) or the face
+/// meets the axis, so that the normal is undefined.
 std::optional<ContactPoint> capsule_face_contact(const ContactSurface& capsule, const Triangle& face, const Vec3& a,
                                                  const Vec3& b, const Vec3& c, double reach);
 
-/// The thread's, its ends being at a and b, m; nothing where it is slack by more than `reach`, m, or has no direction.
+/// Contact of a thread with its ends at a and b (m); none where it is slack by more than `reach` (m) or a equals b.
 std::optional<ContactPoint> thread_contact(const ContactSurface& thread, const Vec3& a, const Vec3& b, double reach);
 
-/// What of a body can touch: the nodes and the faces of its surface, inner numbers.
+/// Nodes and faces of a body's surface, internal numbers.
 struct ContactBoundary {
   std::vector<int> nodes;       ///< ascending
   std::vector<Triangle> faces;  ///< outward
 };
 
-/// Calls visit(point) for each point of the skin nearer to the surface than `reach`, m, in the skin's order.
-/// at(node): m.
+/// Calls visit(ContactPoint) for each contact point with a gap below `reach` (m), in the order of boundary.nodes or
+/// boundary.faces. at(node): position, m. Linear in the size of the boundary.
 template <class At, class Visit>
 void each_contact(const ContactSurface& surface, const ContactBoundary& boundary, double reach, const At& at,
                   const Visit& visit) {
@@ -125,7 +125,8 @@ void each_contact(const ContactSurface& surface, const ContactBoundary& boundary
   }
 }
 
-/// The gap at the nodes of a point found before, with the surface or the nodes elsewhere, m; 0 where they are apart.
+/// The gap (m) at the nodes of a point found before, after the surface or the nodes moved; 0 where a thread or capsule
+/// no longer touches.
 template <class At>
 double updated_gap(const ContactSurface& surface, const ContactPoint& point, const At& at) {
   std::optional<ContactPoint> now;

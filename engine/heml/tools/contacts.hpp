@@ -1,7 +1,6 @@
 #pragma once
-// All that tissue of a world may not pass, and what they have done to its body: a force, the work of it, how deep
-// tissue is in one. Explicit methods are stopped by impulses (contact_impulses.hpp), implicit ones by an energy
-// (contact_potential.hpp); both tell here.
+// The contact surfaces of a world and a report for each: force, work, penetration. Explicit methods resolve contact by
+// impulses (contact_impulses.hpp), implicit ones by an energy (contact_potential.hpp); both fill the reports.
 #include <heml/tools/contact_surface.hpp>
 #include <heml/tools/self_contact.hpp>
 #include <optional>
@@ -9,31 +8,31 @@
 
 namespace heml {
 
-/// What a surface has done to the body.
+/// Effect of one surface on the body.
 struct ContactReport {
-  Vec3 force = Vec3::Zero();  ///< N, on the body: of the last step, or the mean of the steps of a tick
-  double normal_force = 0;    ///< N, likewise, of tissue on tissue, whose forces have no sum: the sum of what presses
-  double work = 0;    ///< J, force times way: friction's is negative, a probe's may be positive; impacts have none
-  double energy = 0;  ///< J, that is stored in an implicit method's contact
-  double max_penetration = 0;  ///< m, that a point of the body is inside; 0: none
-  int contact_count = 0;       ///< points of the body
+  Vec3 force = Vec3::Zero();   ///< N, on the body: of the last implicit step, or the mean over the steps of a tick
+  double normal_force = 0;     ///< N, self-contact only, whose forces sum to zero: sum of the magnitudes
+  double work = 0;             ///< J, on the body: negative of friction, possibly positive of a probe, zero of impacts
+  double energy = 0;           ///< J, stored in the contact energy of an implicit method
+  double max_penetration = 0;  ///< m, 0: none
+  int contact_count = 0;       ///< points of the body in contact
 };
 
 struct Contacts {
   std::vector<Table> tables;
   std::optional<Probe> probe;
   std::vector<Suture> sutures;
-  std::optional<SelfContact> tissue;   ///< kept up with the body, where a scene asks for it
-  ContactBoundary boundary;            ///< inner numbers; kept up with the body while there is a surface
+  std::optional<SelfContact> tissue;   ///< self-contact, where a scene asks for it; rebuilt when the mesh is edited
+  ContactBoundary boundary;            ///< internal numbers; rebuilt when the mesh is edited, while there is a surface
   std::vector<ContactReport> reports;  ///< of the tables, the probe, the sutures, the tissue
 
-  /// Of one of surfaces(), by number; before the first step nothing.
+  /// Report of surfaces()[s]; zero before the first step.
   ContactReport report_of(std::size_t s) const { return s < reports.size() ? reports[s] : ContactReport(); }
 
   bool empty() const { return !has_tools() && !tissue; }
-  /// Whether there is more than the tissue itself.
+  /// Whether there is any table, probe or suture.
   bool has_tools() const { return !tables.empty() || probe || !sutures.empty(); }
-  /// Tables, the probe, sutures, the tissue itself, at a time, s.
+  /// Tables, the probe, sutures and the tissue itself, in this order, at a time (s).
   std::vector<ContactSurface> surfaces(double time) const {
     std::vector<ContactSurface> all;
     for (const Table& table : tables) all.push_back(surface_of(table));

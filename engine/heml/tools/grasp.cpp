@@ -62,7 +62,8 @@ void GraspSpring<Real>::add_forces(const Real* x, const Real* v, Real* f) const 
     Eigen::Map<Vector3<Real>>(f + 3 * nodes_[k]) += node_force(k, target, x, v);
 }
 
-/// About the grip each spring has its own energy; the grip's pull on the tool grows linearly beyond reach.
+/// Energy of the springs relative to the grip, plus that of the grip relative to the tool, which is quadratic within
+/// reach and linear beyond.
 template <class Real>
 double GraspSpring<Real>::energy(const Real* x) const {
   const Vec3 from = grip(x);

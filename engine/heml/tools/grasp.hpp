@@ -2,8 +2,8 @@
 // Grasp: a patch of nodes tied to a tool by critically damped springs, like tissue held by forceps.
 //
 // Node i of the patch gets k_i = w_i ω² m_i and c_i = 2 √w_i ω m_i, with w falling smoothly to 0 at the rim and ω a
-// fraction of the body's highest frequency: stiff for a hand, and never what limits the step. Pulled further than
-// `reach`, the springs grow no longer: the grip slips, and the force stays what it is.
+// fraction of the body's highest frequency: stiff to a user, yet never what limits the stable step. When the tool is
+// further than `reach` from the patch, the springs' force stays constant: the grip slips.
 #include <heml/math/types.hpp>
 #include <span>
 #include <vector>
@@ -13,8 +13,8 @@ namespace heml {
 template <class Real>
 class GraspSpring {
  public:
-  /// x: 3 #V positions now; rest: 3 #V; nodes: candidates (inner numbers, ascending), those within `radius` of `center`
-  /// at rest are taken, and `center` always. inverse_mass 0: held, not taken. omega: 1/s. reach: m.
+  /// Grasps `center` and those of `nodes` (internal numbers, ascending) within `radius` (m) of it at rest, except
+  /// constrained ones (inverse_mass 0). rest, x: #V×3, m. inverse_mass: #V, 1/kg. omega: 1/s. reach: m.
   GraspSpring(int center, Real radius, std::span<const int> nodes, const std::vector<Vec3>& rest, const Real* x,
               const std::vector<Real>& inverse_mass, Real omega, double reach);
 
@@ -25,14 +25,14 @@ class GraspSpring {
   void move(const Vec3& target) { target_ = target; }
   const Vec3& target() const { return target_; }
 
-  /// Masses have changed: each spring keeps its frequency. A node without mass is held no longer; a grasp may come to
-  /// hold nothing.
+  /// Adapts stiffness and damping to changed masses at constant frequency. A node without mass gets a spring of zero
+  /// stiffness.
   void update_masses(const std::vector<Real>& inverse_mass);
 
   /// Adds the springs' forces to f (3 #V, N).
   void add_forces(const Real* x, const Real* v, Real* f) const;
 
-  /// Energy of the springs, J: what their forces, damping aside, are minus the gradient of.
+  /// Energy of the springs, J; minus its gradient is their force without damping.
   double energy(const Real* x) const;
   /// Calls visit(node, stiffness N/m, damping N s/m) for every node of the patch. The stiffness is exact within reach,
   /// an upper bound beyond.
@@ -47,7 +47,7 @@ class GraspSpring {
   Vec3 force(const Real* x, const Real* v) const;
 
  private:
-  Vec3 felt_target(const Real* x) const;  // the target, brought within reach
+  Vec3 felt_target(const Real* x) const;  // the target, clamped to `reach` from the grip
   Vector3<Real> node_force(std::size_t k, const Vec3& target, const Real* x, const Real* v) const;
 
   int center_;
@@ -55,7 +55,7 @@ class GraspSpring {
   double reach_;  ///< m
   Vec3 target_;   ///< m
   std::vector<int> nodes_;
-  std::vector<Vec3> offset_;               ///< of each node from the tool when it was taken, m
+  std::vector<Vec3> offset_;               ///< m, of each node from the tool when grasped
   std::vector<Real> weight_;               ///< w
   std::vector<Real> stiffness_, damping_;  ///< N/m, N s/m
 };

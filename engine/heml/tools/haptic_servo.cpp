@@ -5,9 +5,9 @@
 namespace heml {
 namespace {
 
-constexpr double min_travel = 1e-6;  // m: below it a difference of forces says nothing of stiffness
+constexpr double min_travel = 1e-6;  // m: shorter displacements do not update the stiffness
 
-/// The symmetric part, its eigenvalues kept between 0 and the stiffest.
+/// The symmetric part of B with eigenvalues clamped to [0, max_stiffness].
 Mat3 bounded(const Mat3& B, double max_stiffness) {
   const Eigen::SelfAdjointEigenSolver<Mat3> parts((B + B.transpose()) / 2);
   const Vec3 values = parts.eigenvalues().cwiseMax(0).cwiseMin(max_stiffness);
@@ -25,7 +25,7 @@ void HapticServo::update(const ToolContact& state) {
           (state.force - last_.force - broyden_ * displacement) * displacement.transpose() / displacement.squaredNorm();
     stiffness_ = bounded(broyden_, limits_.max_stiffness);
   } else {
-    correction_ = -state.force;  // from nothing
+    correction_ = -state.force;  // blend from zero force
     between_ = 0;
     broyden_ = stiffness_ = Mat3::Zero();
   }
@@ -36,13 +36,13 @@ void HapticServo::update(const ToolContact& state) {
 
 void HapticServo::release() { touching_ = false; }
 
-/// The force on the tissue with the tool at x. Goes over to a new state within the time between the last two.
+/// The force on the tissue with the tool at x, N. Blends to a new state within the time between the last two.
 Vec3 HapticServo::modelled(const Vec3& x) const {
   const double gone_over = between_ > 0 ? std::min(1.0, since_ / between_) : 1;
   return last_.force + stiffness_ * (x - last_.tool) + (1 - gone_over) * correction_;
 }
 
-/// The force given was held all the way, so what it did on it is exact.
+/// The force was constant over the displacement, so its work is exact.
 void HapticServo::limit_energy(const Vec3& displacement, double seconds) {
   energy_ -= last_force_.dot(displacement);
   damping_ = 0;

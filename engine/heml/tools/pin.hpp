@@ -1,6 +1,6 @@
 #pragma once
-// Pin: a patch of nodes that stay exactly where they were when they were pinned, whatever pulls at them, until they are
-// released. Solvers know them by their inverse mass, which is 0, as they know nodes that the scene holds.
+// Pin: a patch of nodes that stays exactly where it was when pinned, until released. Its nodes get an inverse mass of
+// 0, as nodes constrained by the scene have.
 #include <heml/math/types.hpp>
 #include <span>
 #include <vector>
@@ -8,18 +8,18 @@
 namespace heml {
 
 struct PinnedPatch {
-  int center;               ///< inner number
-  std::vector<int> nodes;   ///< inner numbers, with the centre; what cuts add to the patch comes last
-  std::vector<Vec3> place;  ///< m, where each is
+  int center;               ///< internal number
+  std::vector<int> nodes;   ///< internal numbers, with the centre; nodes that cuts add to the patch come last
+  std::vector<Vec3> place;  ///< m, position of each
 };
 
-/// nodes: candidates (ascending), of which those within `radius` of `center` at rest are taken, and `center` always;
-/// those whose inverse mass is 0 are held by something else, or belong to no element, and are left out. x: 3 #V, m.
+/// Pins `center` and those of `nodes` (ascending) within `radius` (m) of it at rest, except nodes of inverse mass 0,
+/// which are constrained already or belong to no element. rest, x: #V×3, m. inverse_mass: #V, 1/kg.
 template <class Real>
 PinnedPatch pin_patch(int center, double radius, std::span<const int> nodes, const std::vector<Vec3>& rest,
                       const Real* x, const std::vector<Real>& inverse_mass);
 
-/// Force of the pin on the tissue at rest, N: against all others at its nodes, f (3 #V).
+/// Force of the pin on the tissue in equilibrium, N: minus the sum of the other forces f (#V×3, N) at its nodes.
 template <class Real>
 Vec3 pin_force(const PinnedPatch& pin, const Real* f);
 

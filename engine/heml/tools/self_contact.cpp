@@ -10,23 +10,23 @@
 namespace heml {
 namespace {
 
-constexpr double touch = 1e-3;   // of an edge: what is nearer may be pushed together within a step
-constexpr double slack = 0.01;   // of a face or an edge: beside it, so that nothing slips through between two
-constexpr double beside = 0.25;  // of a face or an edge: what is inside may move by this before it is looked for anew
+constexpr double touch = 1e-3;   // of an edge: nearer pairs count as touching, since a step may push them together
+constexpr double slack = 0.01;   // of a face or an edge: margin outside it, so that nothing slips between neighbours
+constexpr double beside = 0.25;  // of a face or an edge: margin within which overlapping pairs stay candidates
 constexpr double min_allowance = 0.15, max_allowance = 1;  // of an edge
 constexpr double min_sifted = 0.02, max_sifted = 0.15;     // of an edge
-constexpr double same_overlap = 1e-6;    // of an edge: overlaps at rest below are round-off of touching
-constexpr double facing = 0.1;           // cosine: what faces another surface does so at least by this
-constexpr double flat = 0.02;            // sine: edges that bend their surface less are no ridges
-constexpr double parallel = 0.3;         // sine of two edges: below, their nodes meet faces
-constexpr double same_line = 1e-3;       // sine: below, no direction is across both
-constexpr double max_penetration = 0.5;  // of an element's height: what is further in has not come from there
+constexpr double same_overlap = 1e-6;                      // of an edge: smaller overlaps at rest are round-off
+constexpr double facing = 0.1;                             // cosine, minimum between two surfaces that face each other
+constexpr double flat = 0.02;                              // sine: edges with a smaller bend are no ridges
+constexpr double parallel = 0.3;         // sine: edges closer to parallel are left to node and face pairs
+constexpr double same_line = 1e-3;       // sine: below, the common perpendicular of two edges is undefined
+constexpr double max_penetration = 0.5;  // of an element's height: deeper pairs did not enter through this face
 
 std::size_t at(int n) { return static_cast<std::size_t>(n); }
 
 Vec3 area_vector(const Vec3& a, const Vec3& b, const Vec3& c) { return (b - a).cross(c - a); }
 
-/// Whether all of a pair's weights are those of points between corners, or ends, or as little beside them.
+/// Whether a pair's weights are those of points within the face or both edges, up to a margin.
 bool is_within(const ContactPair& pair, const ContactPoint& point, double by = slack) {
   const auto& w = point.weights;
   if (pair.side == 0) return w[1] <= by && w[2] <= by && w[3] <= by;
@@ -125,7 +125,7 @@ void SelfContact::find() {
   const auto is_finite = [](const Places& places) {
     return std::all_of(places.begin(), places.end(), [](const Vec3& x) { return x.allFinite(); });
   };
-  if (!is_finite(from_) || !is_finite(to_)) return;  // the step will see for itself that it went wrong
+  if (!is_finite(from_) || !is_finite(to_)) return;  // the step detects the failure itself
   if (!covers(searched_)) broad_phase();
   if (!covers(filtered_)) filter_candidates();
   for (const Candidate& candidate : close_)
@@ -140,7 +140,7 @@ bool SelfContact::covers(const CandidateSet& set) const {
   return set.seen.size() == from_.size() && spread(set, from_) <= set.allowance && spread(set, to_) <= set.allowance;
 }
 
-/// How far nodes are at most from where they were seen, m, but for what all have in common.
+/// Largest displacement of a node from set.seen, less the mean displacement, m.
 double SelfContact::spread(const CandidateSet& set, const Places& x) const {
   Vec3 mean = Vec3::Zero();
   for (std::size_t n = 0; n < x.size(); ++n) mean += x[n] - set.seen[n];
@@ -150,10 +150,11 @@ double SelfContact::spread(const CandidateSet& set, const Places& x) const {
   return std::sqrt(most);
 }
 
-/// Of pairs that may be `allowance` from where they are.
+/// Distance (m) within which pairs can touch while each node moves by at most `allowance`.
 double SelfContact::reach_of(double allowance) const { return 2 * allowance + (touch + 4 * slack) * edge_; }
 
-/// Pairs of faces that share a cell, each once: in the cell of the lower corner of what their boxes share.
+/// Collects pairs of faces that share a grid cell, each once: in the cell of the lower corner of their boxes'
+/// intersection.
 void SelfContact::broad_phase() {
   ++broad_phase_count_;
   searched_.seen = from_;
@@ -216,7 +217,7 @@ void SelfContact::add_node_candidates(int node, int face, double reach) {
   const Triangle& corners = faces_[at(face)];
   if (std::find(corners.begin(), corners.end(), node) != corners.end()) return;
   if (squared_distance({false, node, face}) > reach * reach) return;
-  // Overlapping at rest, or of one body's thin end: no contact.
+  // A pair that overlaps at rest is no contact.
   const ContactPair pair{{node, corners[0], corners[1], corners[2]}, 0};
   const auto at_rest = point_of(pair, [this](int n) { return rest_[at(n)]; });
   if (at_rest && at_rest->gap < -same_overlap * edge_ && is_within(pair, *at_rest)) {
@@ -238,7 +239,7 @@ void SelfContact::add_edge_candidates(int one, int other, double reach) {
   near_.push_back({true, one, other});
 }
 
-/// Of the two, with nodes at from_, m².
+/// Of the candidate's two primitives with nodes at from_, m².
 double SelfContact::squared_distance(const Candidate& candidate) const {
   const auto x = [this](int n) -> const Vec3& { return from_[at(n)]; };
   if (!candidate.edges) {
@@ -254,7 +255,7 @@ double SelfContact::squared_distance(const Candidate& candidate) const {
   return (x(a) + s * u - x(c) - t * v).squaredNorm();
 }
 
-/// Of near pairs those that can meet while nodes go far less than a search allows for. What is inside already stays,
+/// Selects the near pairs that can touch while nodes move far less than the broad phase allows. Overlapping pairs stay,
 /// however deep.
 void SelfContact::filter_candidates() {
   filtered_.seen = from_;
@@ -269,7 +270,7 @@ void SelfContact::filter_candidates() {
   });
 }
 
-/// Whether what crosses lies inside, if not far beside where it crossed.
+/// Whether the pair penetrates within the face or both edges, up to a margin.
 bool SelfContact::overlaps(const Candidate& candidate) const {
   const ContactPair pair = pair_of(candidate);
   const auto point = point_of(pair, [this](int n) { return from_[at(n)]; });
@@ -290,12 +291,12 @@ Vec3 SelfContact::node_normal(int node) const {
   return sum.normalized();
 }
 
-/// Of the element behind a face, m; not positive where it is inside out.
+/// Height of the element behind a face, m; not positive where it is inverted.
 double SelfContact::height(int face) const {
   return face_normal(face, from_).dot(from_[at(faces_[at(face)][0])] - from_[at(apex_[at(face)])]);
 }
 
-/// Whether a direction lies between the normals of an edge's faces, and these bend outward.
+/// Whether an edge is convex and a direction lies between the normals of its faces.
 bool SelfContact::is_ridge_towards(const Edge& edge, const Vec3& normal) const {
   const auto [one, other] = edge.faces;
   const Vec3 n = face_normal(one, from_), m = face_normal(other, from_);
@@ -314,7 +315,7 @@ int SelfContact::side_of(const Edge& one, const Edge& other, const Places& x) co
   return u.cross(v).dot(face_normal(other.faces[0], x) + face_normal(other.faces[1], x)) > 0 ? 1 : -1;
 }
 
-/// In the skin's numbers.
+/// The pair of a candidate, by indices into nodes_.
 ContactPair SelfContact::pair_of(const Candidate& candidate) const {
   if (!candidate.edges) {
     const auto [a, b, c] = faces_[at(candidate.second)];

@@ -1,5 +1,5 @@
 #pragma once
-// Where tissue meets tissue: two bodies of one mesh, the two sides of a cut, a fold. Surfaces meet in two ways:
+// Self-contact: two bodies of one mesh, the two sides of a cut, a fold. There are two kinds of contact pair:
 //
 //      node and face                            ridge and ridge
 //        ╲      ╱                                    ╲
@@ -7,18 +7,20 @@
 //          ╲  ╱    │ gap                               ╲  ↑ normal, along both's common perpendicular
 //     a ────●─────────── b  (c behind)
 //
-// A gap is signed by which side is outside, not a distance. So it says at 0 what to do: two sides of a fresh cut lie
-// exactly on each other, may open freely, and do not pass each other again. What else lies near is told from contact by
-// this: the two surfaces face each other; what was crossed lies inside the face, or along both ridges, at the moment of
-// crossing; and what is inside is so by less than half the element behind. In a body that is not inside out no node
-// lies in an element that is not its own, so neighbours are no contact. What overlaps at rest is let be.
+// The gap is signed by the outward side, so it is well defined at 0: the two sides of a fresh cut coincide, may open
+// freely, and do not pass each other. A nearby pair is in contact only if
+//   (1) the surfaces face each other,
+//   (2) the crossing lies within the face or both edges at the time of crossing,
+//   (3) the penetration is below half the height of the element behind.
+// In a body without inverted elements no node lies in an element of its neighbours, so neighbours are no contact. Pairs
+// that overlap at rest are ignored.
 //
-//   each step   nodes at from, at to ──► have any moved by more than was allowed for? ──► search, or sift
-//               close pairs ──► those that meet between from and to
-//   search      faces in a grid of cells, in the order of cells ──► near pairs, in the order of nodes
-//   sift        near pairs ──► close pairs: nodes may go a small part of the way that a search allows for
+//   each step      nodes at from, at to ──► has any moved by more than the allowance? ──► broad phase, or filter
+//                  close pairs ──► those that touch between from and to
+//   broad phase    faces in a grid of cells, in the order of cells ──► near pairs, in the order of nodes
+//   filter         near pairs ──► close pairs: valid for a small part of the motion that the broad phase allows
 //
-// Without a scene's "self_contact" none of this is made.
+// Built only where a scene has "self_contact".
 #include <compare>
 #include <heml/tools/contact_surface.hpp>
 #include <heml/tools/settings.hpp>
@@ -26,10 +28,10 @@
 
 namespace heml {
 
-/// Two bits of surface, inner numbers: a node and a face's corners, or an edge's ends and another's.
+/// Node and face, or edge and edge, internal numbers: {node, face's corners} or {ends of one edge, ends of the other}.
 struct ContactPair {
   std::array<int, 4> nodes;
-  int side = 0;  ///< of edges, 1 or −1: times (b − a)×(d − c) it points out of what the second belongs to; 0: a face
+  int side = 0;  ///< 0: node and face; 1 or −1: edges, side (b − a)×(d − c) points out of the second edge's body
 };
 
 inline bool operator<(const ContactPair& a, const ContactPair& b) {
@@ -37,8 +39,8 @@ inline bool operator<(const ContactPair& a, const ContactPair& b) {
 }
 inline bool operator==(const ContactPair& a, const ContactPair& b) { return a.nodes == b.nodes && a.side == b.side; }
 
-/// The way from the second to the first, with its nodes at x, m: of the face's plane and of the edges' lines, however
-/// far they go on. No direction where a face is a line, or edges are parallel: none then.
+/// Contact point of a pair with its nodes at x (m): gap from the second to the first, of the face's whole plane or the
+/// edges' infinite lines. None where the face is degenerate or the edges are parallel.
 std::optional<ContactPoint> point_of(const ContactPair& pair, const std::array<Vec3, 4>& x);
 
 template <class At>
@@ -49,12 +51,13 @@ std::optional<ContactPoint> point_of(const ContactPair& pair, const At& at) {
 
 class SelfContact {
  public:
-  /// mesh: at rest, the elements that are there, inner numbers.
+  /// mesh: at rest, with the present elements only, internal numbers.
   SelfContact(const SelfContactSettings& settings, const TetMesh& mesh);
 
   double friction() const { return friction_; }
 
-  /// Pairs that touch, or cross, while nodes go straight from one place to another, m: from(node), to(node). Ascending.
+  /// Pairs that touch or cross while nodes move in straight lines from from(node) to to(node), m. Ascending; valid
+  /// until the next call. Empty where a position is not finite.
   template <class From, class To>
   const std::vector<ContactPair>& contacts_between(const From& from, const To& to) {
     from_.clear(), to_.clear();
@@ -63,7 +66,7 @@ class SelfContact {
     return met_;
   }
 
-  long broad_phase_count() const { return broad_phase_count_; }  ///< so far
+  long broad_phase_count() const { return broad_phase_count_; }  ///< broad phases run so far
   std::size_t bytes() const;
 
  private:
@@ -77,14 +80,14 @@ class SelfContact {
     auto operator<=>(const Candidate&) const = default;
   };
   using Places = std::vector<Vec3>;
-  // All numbers below are the skin's own.
+  // Node and face numbers below index nodes_ and faces_.
   void set_rest(const TetMesh& mesh);
   void make_edges();
   void find();
-  /// Places for which it is known which pairs can meet.
+  /// Reference positions, and how far nodes may move from them before the candidates must be found again.
   struct CandidateSet {
-    Places seen;           ///< empty: none yet
-    double allowance = 0;  ///< m, that nodes may be from there
+    Places seen;           ///< m; empty: none yet
+    double allowance = 0;  ///< m
   };
   bool covers(const CandidateSet& set) const;
   double spread(const CandidateSet& set, const Places& x) const;
@@ -106,17 +109,17 @@ class SelfContact {
   bool is_ridge_towards(const Edge& edge, const Vec3& normal) const;
 
   double friction_;
-  double edge_ = 0;         ///< m, mean of the surface at rest
-  std::vector<int> nodes_;  ///< inner numbers, ascending: of the surface, and those opposite to faces in their elements
+  double edge_ = 0;         ///< m, mean edge length of the surface at rest
+  std::vector<int> nodes_;  ///< internal numbers, ascending: of the surface, and those opposite its faces
   Places rest_;
   std::vector<Triangle> faces_;
-  std::vector<int> apex_;                        ///< of each face, the fourth node of its element
-  std::vector<Edge> edges_;                      ///< with two faces each
+  std::vector<int> apex_;  ///< of each face, the fourth node of its element
+  std::vector<Edge> edges_;
   std::vector<int> start_, round_;               ///< faces round each node: round_[start_[n] .. start_[n + 1])
-  std::vector<Triangle> own_nodes_, own_edges_;  ///< of each face: nodes, edges that no face before it has; −1
+  std::vector<Triangle> own_nodes_, own_edges_;  ///< of each face: nodes, edges that no earlier face has; unused: −1
   Places from_, to_;
   CandidateSet searched_, filtered_;
-  std::vector<Candidate> near_, close_;  ///< pairs that can meet: of searched_; of these, of filtered_
+  std::vector<Candidate> near_, close_;  ///< valid within searched_; the subset valid within filtered_
   std::vector<ContactPair> met_;
   long broad_phase_count_ = 0;
 };

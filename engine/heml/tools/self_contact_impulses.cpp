@@ -7,8 +7,8 @@ namespace heml {
 namespace {
 
 constexpr int max_pair_rounds = 60;
-constexpr double still = 1e-8;    // of the largest impulse: smaller changes end the rounds
-constexpr double has_met = 1e-7;  // m
+constexpr double still = 1e-8;    // of the largest impulse: smaller changes end the iteration
+constexpr double has_met = 1e-7;  // m, largest gap at which friction acts
 
 }  // namespace
 
@@ -51,7 +51,7 @@ void SelfContactImpulses<Real>::push(const std::vector<Real>& inverse_mass, Real
   }
 }
 
-/// One pair's turn. Returns how much its impulses have changed, N s.
+/// Updates one pair's impulses. Returns their change, N s.
 template <class Real>
 double SelfContactImpulses<Real>::push(ActiveContact& touch, const std::vector<Real>& inverse_mass, Real* v) const {
   const Vec3& n = touch.point.normal;

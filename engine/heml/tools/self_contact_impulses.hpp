@@ -1,15 +1,15 @@
 #pragma once
-// Tissue against tissue in explicit steps: what tables do to a node in closed form (contact_impulses.hpp), pairs that
-// share nodes find together, by Gauss and Seidel's rounds over them in order; what a pair has got in all is never
-// negative, and friction at most μ times it (M. Jean, The non-smooth contact dynamics method, 1999, 4).
+// Self-contact in explicit steps. Unlike a node on a table (contact_impulses.hpp), pairs share nodes, so impulses are
+// found by projected Gauss-Seidel over the pairs in order: a pair's accumulated normal impulse is never negative, its
+// friction impulse at most μ times that (M. Jean, The non-smooth contact dynamics method, 1999, 4).
 //
-//   first half    of pairs that meet on the way from x₀ to x₀ + h v½:   gap(x₀) + h n·Σ w v½ ≥ 0
-//   second half   of those that were pushed:                                     n·Σ w v  ≥ 0
+//   first half    pairs that touch on the way from x₀ to x₀ + h v½:   gap(x₀) + h n·Σ w v½ ≥ 0
+//   second half   pairs that got an impulse:                                   n·Σ w v  ≥ 0
 //
-// Directions and weights are those where the velocities count from, and a pair's weights have no sum: momentum is kept
-// to round-off, and of moment, which two impulses on one line have none of. So friction waits until tissue has met. A
-// state without the impulses would be one with more kinetic energy: contact alone never adds any, however few the
-// rounds.
+// Normals and weights are evaluated at x₀ and at the step's end respectively. A pair's weights sum to 0, so linear
+// momentum is conserved to round-off; so is angular momentum, since the two normal impulses lie on one line. Friction
+// impulses do so only at zero gap: friction waits until a pair touches. Contact alone never adds kinetic energy,
+// however few the rounds.
 #include <heml/tools/contacts.hpp>
 
 namespace heml {
@@ -17,18 +17,19 @@ namespace heml {
 template <class Real>
 class SelfContactImpulses {
  public:
-  /// Which pairs meet: before: positions at the step's start, after: those at its end if nothing stops them, 3 #V. h:
-  /// s.
+  /// Finds the pairs that touch during a step of h (s). before: #V×3, m, at the step's start; after: #V×3, m, at its
+  /// end without contact. inverse_mass: #V, 1/kg.
   void meet(SelfContact& contact, double h, const std::vector<Real>& inverse_mass, const Real* before,
             const Real* after);
-  /// The pairs that were pushed, as they lie now, are to come no nearer.
+  /// Keeps the pairs that got an impulse, updates them to positions x, and requires that their gaps do not shrink.
   void stop(const std::vector<Real>& inverse_mass, const Real* x);
 
   bool empty() const { return active_.empty(); }
-  /// Changes velocities, 3 #V, until all is as it is to be. It may be done again when others have changed them.
+  /// Iterates impulses on v (#V×3, m/s) until the conditions hold or the rounds are used up. May be called again after
+  /// other contacts have changed v.
   void push(const std::vector<Real>& inverse_mass, Real* v);
 
-  /// Calls visit(node) for the nodes of pairs.
+  /// Calls visit(node) for the nodes of each pair.
   template <class Visit>
   void each_node(const Visit& visit) const {
     for (const ActiveContact& touch : active_)
@@ -41,19 +42,20 @@ class SelfContactImpulses {
     for (const ActiveContact& touch : active_) visit(touch.point);
   }
 
-  /// Adds what was done since meet() or stop(), with a weight, to the deeds of a tick; of its forces, N s.
+  /// Adds the normal impulses (N s) since meet() or stop(), times weight, to normal_force, and friction's work to the
+  /// report.
   void publish(double weight, double& normal_force, ContactReport& report) const;
 
  private:
   struct ActiveContact {
     ContactPair pair;
     ContactPoint point;
-    double least;               ///< m/s, that the gap is to grow by
-    double light;               ///< 1/kg, of the pair's motion
-    bool rubs;                  ///< has met
-    double normal = 0;          ///< N s, so far
-    Vec3 along = Vec3::Zero();  ///< N s, friction's
-    double work = 0;            ///< J, friction's
+    double least;               ///< m/s, lower bound of the gap's rate
+    double light;               ///< 1/kg, effective inverse mass
+    bool rubs;                  ///< touches, so that friction acts
+    double normal = 0;          ///< N s, accumulated
+    Vec3 along = Vec3::Zero();  ///< N s, of friction
+    double work = 0;            ///< J, of friction
   };
   double push(ActiveContact& touch, const std::vector<Real>& inverse_mass, Real* v) const;
 

@@ -1,16 +1,16 @@
 #pragma once
-// What a scene asks for of tissue as a whole.
+// Settings of a scene that concern all tissue.
 
 namespace heml {
 
-/// Tissue meets tissue (self_contact.hpp).
+/// Self-contact (self_contact.hpp).
 struct SelfContactSettings {
   double friction = 0;  ///< Coulomb's coefficient
 };
 
-/// Tissue tears (tearing.hpp).
+/// Tearing (tearing.hpp).
 struct TearingSettings {
-  double stretch = 2;  ///< largest principal stretch that elements bear
+  double stretch = 2;  ///< limit of an element's largest principal stretch
 };
 
 }  // namespace heml

@@ -17,7 +17,7 @@ Mat3 edges(const Tet& tet, const std::vector<Vec3>& x) {
   return D;
 }
 
-/// Whether a symmetric matrix is positive, by its leading minors.
+/// Whether a symmetric matrix is positive definite, by its leading minors.
 bool is_positive(const Mat3& A) { return A(0, 0) > 0 && A(0, 0) * A(1, 1) > A(0, 1) * A(0, 1) && A.determinant() > 0; }
 
 }  // namespace
@@ -34,7 +34,7 @@ Mat3 Tearing::gradient(const TetMesh& mesh, const std::vector<Vec3>& x, std::siz
   return edges(mesh.tets[as_index(elements_[element])], x) * inverse_rest_[element];
 }
 
-/// The most stretched first.
+/// Elements beyond the limit, the most stretched first.
 std::vector<Tearing::TearCandidate> Tearing::beyond(const TetMesh& mesh, const std::vector<Vec3>& x, ThreadTeam& team) {
   team.parallel_for(elements_.size(), grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t e = begin; e < end; ++e) {
@@ -54,8 +54,8 @@ std::vector<Tearing::TearCandidate> Tearing::beyond(const TetMesh& mesh, const s
   return torn;
 }
 
-/// Of the element's nodes on the surface, where tears begin and go on, that with the fewest elements round it; else of
-/// all. None where each is held or has elements on one side alone.
+/// Picks the element's node with the fewest elements round it, surface nodes first, since tears begin and go on there.
+/// None where every node is constrained or has elements on one side of the plane only.
 std::optional<TearOpening> Tearing::opening_of(const TearCandidate& torn, const TetMesh& mesh,
                                                const std::function<bool(int)>& is_constrained) const {
   std::optional<TearOpening> best;
@@ -70,7 +70,7 @@ std::optional<TearOpening> Tearing::opening_of(const TearCandidate& torn, const 
 std::vector<TearOpening> Tearing::openings(const TetMesh& mesh, const std::vector<Vec3>& x,
                                            const std::function<bool(int)>& is_constrained, ThreadTeam& team) {
   std::vector<TearOpening> chosen;
-  std::vector<int> taken;  // elements that share a node with one that was looked at before
+  std::vector<int> taken;  // elements near those already chosen
   for (const TearCandidate& torn : beyond(mesh, x, team)) {
     if (!chosen.empty() && torn.stretch < overload * limit_) break;
     if (std::find(taken.begin(), taken.end(), torn.element) != taken.end()) continue;

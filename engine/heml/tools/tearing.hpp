@@ -1,11 +1,10 @@
 #pragma once
-// Tearing, where a scene asks for it: an element whose largest principal stretch passes a limit lets go at one of its
-// nodes, across that stretch (mesh/tear.hpp). Of those beyond the limit one does so that none round it is stretched
-// further than, so a tear goes on at its tip. It follows from the state alone, so it is replayed without being
-// recorded.
+// Tearing, where a scene asks for it: an element whose largest principal stretch exceeds a limit opens at one of its
+// nodes, along the plane across that stretch (mesh/tear.hpp). The most stretched element opens first, so a tear goes on
+// at its tip. Tearing depends on the state alone, so a replay repeats it without recorded commands.
 //
-// Looked at before each tick: λ₁ < limit where limit² I − FᵀF has positive minors, without a root. A limit is of a
-// mesh: what it costs to tear an area is not modelled, and finer elements tear sooner at a notch.
+// Checked before each tick: λ₁ < limit where limit² I − FᵀF has positive leading minors, which needs no eigenvalues.
+// The limit depends on the mesh: fracture energy per area is not modelled, and finer elements tear sooner at a notch.
 #include <functional>
 #include <heml/base/thread_team.hpp>
 #include <heml/mesh/tear.hpp>
@@ -15,14 +14,14 @@ namespace heml {
 
 class Tearing {
  public:
-  static constexpr double overload = 1.25;  ///< of the limit
+  static constexpr double overload = 1.25;  ///< times the limit: beyond it, more than one element may open in a tick
 
-  /// mesh: at rest; its elements that are there. All numbers are those of mesh and topology.
+  /// mesh: at rest. topology: its present elements. All numbers are those of mesh and topology.
   Tearing(const TearingSettings& settings, const TetMesh& mesh, const Topology& topology);
 
-  /// Nodes that are to open; none in most steps. One, since what it lets go unloads what is round it; others only for
-  /// elements that are overdue, and far enough off to share no element with it or its neighbours. x: #V×3, m.
-  /// is_constrained(node): such a node is not let go, as it would lie where it lies.
+  /// Nodes to open at positions x (#V×3, m), mostly none. One is opened at a time, since it unloads its surroundings;
+  /// further ones only for elements beyond `overload` that are not near those already chosen. Nodes with
+  /// is_constrained(node) are not opened, since they could not move apart. Linear in the number of elements.
   std::vector<TearOpening> openings(const TetMesh& mesh, const std::vector<Vec3>& x,
                                     const std::function<bool(int)>& is_constrained, ThreadTeam& team);
   const NodeToElements& around() const { return around_; }

@@ -13,7 +13,7 @@ const std::vector<int> all = {0, 1, 2, 3};
 }  // namespace
 
 TEST_CASE("a grasp takes the free nodes within its radius and pulls nothing before it is moved") {
-  GraspSpring<double> grasp(0, 0.02, all, rest, x.data(), {1, 1, 1, 0}, 100, 10);  // node 3 is held
+  GraspSpring<double> grasp(0, 0.02, all, rest, x.data(), {1, 1, 1, 0}, 100, 10);  // node 3 is constrained
   CHECK_FALSE(grasp.empty());
   CHECK(grasp.force(x.data(), still.data()).norm() <= 1e-12);
   CHECK(grasp.grip(x.data()).norm() <= 1e-15);

@@ -11,16 +11,16 @@ namespace {
 
 constexpr double turn = 1e-3, tick = 1.0 / 60;  // s
 
-/// Tissue that pushes back as a spring does, stiffer along one direction than along the others.
+/// Linear anisotropic spring: force (N) of the tool on the tissue at x (m).
 Vec3 spring(const Vec3& x) { return Vec3(200 * x.x() + 50 * x.y(), 50 * x.x() + 120 * x.y(), 40 * x.z()); }
 
 Vec3 handle_at(double t) { return 0.01 * Vec3(std::sin(9 * t), std::cos(5 * t), std::sin(7 * t + 1)); }
 
 struct Errors {
-  double modelled = 0, held = 0;  ///< N, rms, of the model and of holding the last state's force
+  double modelled = 0, held = 0;  ///< N, rms, of the model and of the last state's force kept constant
 };
 
-/// A hand on a path of its own; states come a tick late, as an engine's that takes all its time.
+/// A handle on a prescribed path; states come one tick late, as from an engine that uses its whole tick.
 Errors follow(const HapticLimits& limits) {
   HapticServo servo(limits);
   Vec3 held = Vec3::Zero();
@@ -36,7 +36,7 @@ Errors follow(const HapticLimits& limits) {
       servo.update({static_cast<double>(now) * tick, handle_at(then), held});
     }
     const Vec3 felt = servo.serve(handle_at(t), turn);
-    if (t < 1) continue;  // it learns
+    if (t < 1) continue;  // Broyden's update converges
     errors.modelled += (felt + spring(handle_at(t))).squaredNorm();
     errors.held += (held - spring(handle_at(t))).squaredNorm();
     ++counted;
@@ -48,7 +48,7 @@ struct Bounce {
   double energy = 0, highest = 0;  ///< J; m, of the last second
 };
 
-/// A hand of 100 g that falls on a stiff floor again and again, the states of which are two ticks late.
+/// A handle of 100 g that bounces on a stiff floor whose states are two ticks late.
 Bounce drop(const HapticLimits& limits) {
   HapticServo servo(limits);
   const double stiffness = 400, mass = 0.1;
@@ -97,7 +97,7 @@ TEST_CASE("late states feed a hand energy, and the damping that is added takes i
   HapticLimits off{1000, 100, 0}, on{1000, 100, 20};
   const Bounce wild = drop(off), tame = drop(on);
   CHECK(wild.energy < -0.01);
-  CHECK(wild.highest > 0.04);  // it was let go at 0.02
+  CHECK(wild.highest > 0.04);  // dropped from 0.02
   CHECK(tame.energy > -0.002);
   CHECK(tame.highest < 0.04);
 }
