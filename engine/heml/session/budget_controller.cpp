@@ -3,10 +3,10 @@
 
 namespace heml {
 namespace {
-constexpr double share = 0.9;      // of the time that is filled on purpose
+constexpr double share = 0.9;      // of the budget that is used
 constexpr double smoothing = 0.1;  // weight of the last tick
 constexpr int max_iterations = 60;
-constexpr int ticks_to_raise = 10;  // lowered at once, raised when the time has been there for a while
+constexpr int ticks_to_raise = 10;  // lowered at once, raised after this many ticks with time to spare
 }  // namespace
 
 std::optional<int> BudgetController::after(double seconds, const SolverStats& work) {
@@ -15,7 +15,7 @@ std::optional<int> BudgetController::after(double seconds, const SolverStats& wo
   if (done <= 0 || work.budget <= 0) return std::nullopt;
   const double now = seconds / static_cast<double>(done);
   an_iteration_ = an_iteration_ > 0 ? an_iteration_ + smoothing * (now - an_iteration_) : now;
-  // Stages of a tick: what was done is spread over them, whatever method is in use.
+  // Estimated stages per tick, for any method.
   const double stages = std::max(1.0, static_cast<double>(done) / work.budget);
   const int best = std::clamp(static_cast<int>(share * target_ / (stages * an_iteration_)), 1, max_iterations);
   if (best >= work.budget && ++patience_ < ticks_to_raise) return std::nullopt;

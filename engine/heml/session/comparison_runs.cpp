@@ -14,11 +14,11 @@ namespace {
 bool concerns(const Command& command, const Variant& variant) {
   if (std::holds_alternative<SetMaterial>(command)) return !variant.has_law;
   if (std::holds_alternative<SetIntegrator>(command)) return !variant.has_integrator;
-  // What the clock chose for the session's own world.
+  // Chosen from timings of the session's own world.
   return !std::holds_alternative<AdoptPreconditioner>(command) && !std::holds_alternative<SetStepCost>(command);
 }
 
-/// How far the nodes of two frames are from each other; none where they do not have the same.
+/// Distance between the nodes of two frames; none where the frames have different nodes.
 std::optional<Distance> distance_between(const Frame& a, const Frame& b) {
   if (a.surface_mesh->nodes != b.surface_mesh->nodes || a.positions.empty()) return std::nullopt;
   Distance distance;
@@ -40,7 +40,7 @@ ComparisonRuns::ComparisonRuns(const WorldSetup& setup, const std::vector<std::s
                      "leave some out");
   for (const std::string& word : words) {
     Variant variant = variant_of(setup, word);
-    variant.setup.solver.threads = 1;  // they are run side by side, and threads change no bit
+    variant.setup.solver.threads = 1;  // runs tick in parallel; the number of threads changes no bit
     auto world = make_world(std::move(variant.setup));
     comparison_runs_.push_back({std::move(variant), std::move(world), nullptr});
   }

@@ -1,9 +1,9 @@
 #pragma once
-// Other ways to compute a session's body, side by side with it: each is a world of its own that gets the same commands
-// and makes the same ticks. Nothing of them comes back to the session's world.
+// Comparison runs: variants of a session's body (variant.hpp) simulated in lockstep with it. Each is a separate world
+// that gets the same commands and ticks; none affects the session's world.
 //
-//    command ──► world ─┬─► companion 1 ─┬─► companion 2 …        apply(): each that it concerns
-//    tick:    [ world | companion 1 | companion 2 … ]             on as many cores as there are
+//    command ──► world ─┬─► run 1 ─┬─► run 2 …        apply(): each run that the command concerns
+//    tick:    [ world | run 1 | run 2 … ]             in parallel, on up to all cores
 #include <heml/base/thread_team.hpp>
 #include <heml/session/frame.hpp>
 #include <heml/session/variant.hpp>
@@ -12,19 +12,22 @@ namespace heml {
 
 class ComparisonRuns {
  public:
-  static constexpr std::size_t max = 3;  ///< that can be looked at
+  static constexpr std::size_t max = 3;  ///< number of runs
 
-  /// As the words say (variant_of()), of the body as it is set up. Throws InputError.
+  /// One run of `setup` for each entry of `words`, in the syntax of variant_of(). Throws InputError for an unknown word
+  /// or too many entries.
   ComparisonRuns(const WorldSetup& setup, const std::vector<std::string>& words);
 
-  /// What the world has carried out. A companion with a law of its own takes no other; of a method likewise.
+  /// Applies a command that the world has carried out. A run with its own law ignores SetMaterial, one with its own
+  /// integrator SetIntegrator.
   void apply(const Command& command);
-  /// One tick of the world and of every companion that has not halted. Returns when all have ended: how much longer
-  /// that took than the world's own tick, s, since what is learnt of the clock is to be of the world alone.
+  /// Runs one tick of the world and of every run that has not halted, and waits for all. Returns the wall time (s)
+  /// spent waiting for comparison runs, so that cost estimates can exclude it.
   double tick(World& world);
-  /// Lets a tick under way end early.
+  /// Makes a tick under way end early; may be called from any thread.
   void interrupt();
-  /// Fills Frame::beside and Frame::way of the world's frame, which is filled. ahead: as in fill_frame(), s.
+  /// Fills Frame::comparisons and Frame::variant of the world's frame, which fill_frame() has filled. ahead: s, as
+  /// there.
   void fill(const World& world, Frame& frame, double ahead = 0);
 
  private:

@@ -35,7 +35,7 @@ class HapticLoop::Impl {
       device_.apply_force(servo_.serve(handle, seconds));
       handle_positions_.back() = handle;
       handle_positions_.publish();
-      due = std::max(due + std::chrono::microseconds(1000), now);  // late once is not late ever after
+      due = std::max(due + std::chrono::microseconds(1000), now);  // no burst after a delay
       std::this_thread::sleep_until(due);
     }
     device_.apply_force(Vec3::Zero());
@@ -45,7 +45,7 @@ class HapticLoop::Impl {
   HapticServo servo_;
   Mailbox<std::optional<ToolContact>> states_;
   Mailbox<Vec3> handle_positions_;
-  std::jthread thread_;  // last: ends before what it uses
+  std::jthread thread_;  // declared last: joined before the members it uses are destroyed
 };
 
 HapticLoop::HapticLoop(HapticDevice& device, const HapticLimits& limits)

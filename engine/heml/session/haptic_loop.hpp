@@ -1,41 +1,41 @@
 #pragma once
-// A hand on a device, and the servo between it and whoever drives a session: the place where a driver is plugged in.
+// Haptic loop: a thread that runs a HapticServo at 1 kHz between a haptic device and the owner of a session. Device
+// drivers implement HapticDevice.
 //
-//    device thread, 1 kHz                     the session's driver, once a frame
+//    device thread, 1 kHz                     owner of the session, once a frame
 //    ────────────────────                     ──────────────────────────────────
 //    place() ──► servo ──► push()
 //        └────────────────── hand() ────────► post(MoveTool)
 //                  ▲──────── show() ◄──────── Frame::tool
 //
-// Neither waits for the other.
+// Neither thread waits for the other.
 #include <heml/tools/haptic_servo.hpp>
 #include <memory>
 
 namespace heml {
 
-/// A driver of a device, or what stands for one. Called on the link's thread alone, a thousand times a second; must not
-/// wait for long.
+/// Driver of a device, or a substitute for one. Called only on the loop's thread, at 1 kHz; must not block.
 class HapticDevice {
  public:
   virtual ~HapticDevice() = default;
-  virtual Vec3 position() = 0;                      ///< m, of the hand, in the body's space
-  virtual void apply_force(const Vec3& force) = 0;  ///< N, on the hand, until the next call
+  virtual Vec3 position() = 0;                      ///< m, of the handle, in the body's space
+  virtual void apply_force(const Vec3& force) = 0;  ///< N, on the handle, until the next call
 };
 
 class HapticLoop {
  public:
-  static constexpr double turn = 1e-3;  ///< s
+  static constexpr double turn = 1e-3;  ///< s, period of the loop
 
-  /// Serves the device, which must live longer, from now on.
+  /// Starts serving the device, which must outlive the loop.
   explicit HapticLoop(HapticDevice& device, const HapticLimits& limits = {});
-  ~HapticLoop();  ///< the last force is none
+  ~HapticLoop();  ///< stops the thread and sets the force to zero
   HapticLoop(const HapticLoop&) = delete;
   HapticLoop& operator=(const HapticLoop&) = delete;
 
-  // From one thread, the driver's.
-  void show(const ToolContact& state);  ///< what the newest frame has, while the tool holds something
-  void let_go();                        ///< it does not
-  Vec3 handle();                        ///< m, the newest place
+  // From one thread, the owner's. None waits.
+  void show(const ToolContact& state);  ///< passes on the newest frame's tool while it grasps something
+  void let_go();                        ///< tells that the tool grasps nothing: zero force
+  Vec3 handle();                        ///< m, newest position of the handle
 
  private:
   class Impl;

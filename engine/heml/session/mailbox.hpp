@@ -1,7 +1,8 @@
 #pragma once
-// Three slots and one atomic: a writer that never waits and a reader whose slot stays as it is while it looks.
+// Triple buffer: three slots and one atomic. One writer and one reader thread; neither waits, and the reader's slot
+// does not change while it is read.
 //
-//   writer fills [back] ──swap──► [middle, fresh?] ◄──swap── reader looks at [front]
+//   writer fills [back] ──swap──► [middle, fresh?] ◄──swap── reader reads [front]
 #include <array>
 #include <atomic>
 
@@ -10,11 +11,11 @@ namespace heml {
 template <class T>
 class Mailbox {
  public:
-  /// Writer's slot, to be filled before publish(). Holds what was there three rounds ago: no allocation once warm.
+  /// Writer's slot, to be filled before publish(). Holds an older value, whose memory can be reused.
   T& back() { return slots_[back_]; }
   void publish() { back_ = middle_.exchange(back_ | fresh, std::memory_order_acq_rel) & 3u; }
 
-  /// Reader's: the newest published, unchanged until the next call.
+  /// The newest published value; unchanged until the reader's next call.
   const T& front() {
     if (waiting()) front_ = middle_.exchange(front_, std::memory_order_acq_rel) & 3u;
     return slots_[front_];

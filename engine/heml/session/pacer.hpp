@@ -1,6 +1,6 @@
 #pragma once
-// Keeps simulated time against wall time and the account of it. Knows no thread: given the time of day, it says what is
-// due.
+// Schedules ticks against wall time and keeps statistics of it. Independent of threads and clocks: all times are passed
+// in.
 #include <chrono>
 #include <heml/session/frame.hpp>
 #include <vector>
@@ -12,21 +12,21 @@ class Pacer {
   using Clock = std::chrono::steady_clock;
   using Time = Clock::time_point;
 
-  /// tick: seconds.
+  /// tick: s, period.
   explicit Pacer(double tick);
 
   /// Starts counting from now: at the start and after a pause.
   void restart(Time now);
-  /// When the next tick is due to start.
+  /// When the next tick should start.
   Time due() const { return at(done_); }
-  /// Books one tick that ran from `began` to `ended`. When the engine is more than `patience` behind, what is owed is
-  /// forgotten: simulated time slows, and no burst follows.
+  /// Records a tick that ran from `began` to `ended`. When it is more than `patience` late, the schedule restarts from
+  /// `ended`: simulated time slows, and no burst follows.
   void book(Time began, Time ended);
   Pace pace(Time now) const;
 
  private:
   static constexpr double patience = 0.05;  ///< s
-  static constexpr double window = 1.0;     ///< s of wall time the slowdown is measured over
+  static constexpr double window = 1.0;     ///< s of wall time over which the slowdown is measured
 
   Time at(long tick) const;
 
@@ -38,10 +38,10 @@ class Pacer {
     Time wall;
     long ticks;
   };
-  std::vector<Mark> marks_;  ///< a ring of one mark every 1/16 window: ticks done so far by the wall clock
+  std::vector<Mark> marks_;  ///< ring buffer of wall time and total ticks, every 1/16 of `window`
   std::size_t next_mark_ = 0;
   long total_ = 0;
-  std::vector<float> durations_;  ///< s, a ring of the last 1000
+  std::vector<float> durations_;  ///< s, ring buffer of the last 1000 ticks
   std::size_t next_duration_ = 0;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
-// Has the preconditioner of implicit steps made anew, in a thread of its own, after elements were removed: its arrival,
-// which a clock decides, becomes a command, which is recorded like any other, so a replay needs no clock.
+// Rebuilds the preconditioner of implicit steps on another thread after the mesh was edited. The time of adoption
+// depends on the clock, so it becomes a recorded command (AdoptPreconditioner), which a replay repeats.
 #include <heml/dynamics/preconditioner_build.hpp>
 #include <heml/world/world.hpp>
 #include <thread>
@@ -10,18 +10,19 @@ namespace heml {
 class PreconditionerUpdater {
  public:
   PreconditionerUpdater() = default;
-  ~PreconditionerUpdater();  ///< waits for work under way
+  ~PreconditionerUpdater();  ///< waits for a build under way
   PreconditionerUpdater(const PreconditionerUpdater&) = delete;
   PreconditionerUpdater& operator=(const PreconditionerUpdater&) = delete;
 
-  /// Before each tick. Begins work where there is some; returns whether it has arrived for the body as it is: time for
-  /// AdoptPreconditioner. What a body has left behind meanwhile is made again.
+  /// Call before each tick. Starts a build if the topology has changed. Returns true when a build for the current
+  /// topology is done: apply AdoptPreconditioner then. A build that became outdated meanwhile is discarded and
+  /// restarted.
   bool arrived(World& world);
 
  private:
   std::shared_ptr<PreconditionerBuild> work_;  ///< under way
   std::thread thread_;
-  long version_ = 0;  ///< of the topology that was looked at last
+  long version_ = 0;  ///< of the topology last built for
 };
 
 }  // namespace heml

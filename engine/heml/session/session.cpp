@@ -23,11 +23,11 @@
 
 namespace heml {
 namespace {
-constexpr auto frame_interval = std::chrono::milliseconds(8);    // no viewer looks more often
-constexpr auto error_interval = std::chrono::milliseconds(200);  // nor reads errors
+constexpr auto frame_interval = std::chrono::milliseconds(8);    // between published frames
+constexpr auto error_interval = std::chrono::milliseconds(200);  // between estimates of the mesh error
 }  // namespace
 
-/// Whether of two commands in a row only the second counts: where the mouse was between two ticks is of no consequence.
+/// Whether `next` makes `command` redundant, as later mouse positions do between two ticks.
 static bool is_overtaken(const Command& command, const Command& next) {
   if (std::holds_alternative<MoveTool>(command)) return std::holds_alternative<MoveTool>(next);
   const auto *probe = std::get_if<MoveProbe>(&command), *further = std::get_if<MoveProbe>(&next);
@@ -65,7 +65,7 @@ class Session::Impl {
   ~Impl() {
     stopping_ = true;
     wake_.notify_all();
-    // The tick under way may end, so that the recording has its end; one that takes far too long may not.
+    // Let the tick under way end, so that the recording ends with it; interrupt it after 0.5 s.
     for (int wait = 0; wait < 100 && !finished_; ++wait) std::this_thread::sleep_for(std::chrono::milliseconds(5));
     world_->interrupt();
     if (comparison_runs_) comparison_runs_->interrupt();
@@ -73,7 +73,7 @@ class Session::Impl {
     record([this](Recorder& recorder) { recorder.end(*world_); });
   }
 
-  // Any of these from the viewer's thread.
+  // Called on the viewer's thread.
   void post(Command command) {
     {
       std::lock_guard lock(mutex_);
@@ -123,7 +123,7 @@ class Session::Impl {
   Mailbox<Frame> frames_;
 
  private:
-  // The engine thread.
+  // Called on the engine thread.
   void run() {
     pacer_.restart(Pacer::Clock::now());
     while (!stopping_) {
@@ -140,7 +140,7 @@ class Session::Impl {
     }
   }
 
-  /// Sleeps until the next tick is due, or, while paused, until somebody wants something.
+  /// Sleeps until the next tick is due or, while paused or halted, until there is a request.
   void wait_until_due() {
     std::unique_lock lock(mutex_);
     if (goal_ > 0) return;
@@ -197,7 +197,7 @@ class Session::Impl {
     history_.push_back({world_->ticks(), command});
   }
 
-  /// A disk that fills up ends the recording, not the session.
+  /// Writes to the recorder. A write error, such as a full disk, ends the recording but not the session.
   template <class Write>
   void record(const Write& write) try {
     if (recorder_) write(*recorder_);
@@ -208,7 +208,7 @@ class Session::Impl {
     show_now_ = true;
   }
 
-  /// What the scene's own script does is recorded like what the user does: each once.
+  /// The scene to record: without its events, which are recorded as they are carried out.
   static Scene without_events(Scene scene) {
     scene.events.clear();
     scene.points.clear();
@@ -218,7 +218,7 @@ class Session::Impl {
     return scene;
   }
 
-  /// The end of a hurry: what the script does at this very moment is done, and the clock counts from here on.
+  /// Ends fast-forwarding: applies the events due at this tick and restarts the pacer.
   void arrive() {
     for (const Event& event : schedule_.due(world_->ticks())) carry_out(event.command);
     goal_ = 0;
@@ -226,7 +226,7 @@ class Session::Impl {
     pacer_.restart(Pacer::Clock::now());
   }
 
-  /// Whether what comes was recorded, with all that the clock chose.
+  /// Whether the next tick is part of a recording, which contains the choices made by the clock.
   bool is_recorded() const { return world_->ticks() < recorded_ticks_; }
 
   void one_tick() {
@@ -235,7 +235,7 @@ class Session::Impl {
     for (const Event& event : schedule_.due(world_->ticks())) carry_out(event.command);
     const bool recorded = is_recorded();
     if (!recorded && preconditioner_updater_.arrived(*world_)) carry_out(AdoptPreconditioner{});
-    double waited = 0;  // s, for what is beside the body
+    double waited = 0;  // s, for comparison runs
     if (comparison_runs_)
       waited = comparison_runs_->tick(*world_);
     else
@@ -248,7 +248,7 @@ class Session::Impl {
     if (goal_ == 0) pacer_.book(began, Pacer::Clock::now());
   }
 
-  /// Leaves cores to whatever else the process does. Not recorded: the number of threads changes no bit.
+  /// Leaves cores to other threads of the process. Not recorded: the number of threads changes no bit.
   void balance_threads() {
     const double wall = std::chrono::duration<double>(Pacer::Clock::now().time_since_epoch()).count();
     if (!balance_->is_due(wall)) return;
@@ -257,7 +257,7 @@ class Session::Impl {
       world_->limit_threads(*threads);
   }
 
-  /// What was chosen by the clock becomes a command. seconds: that the tick took of the body's own.
+  /// Turns choices made by the clock into commands. seconds: wall time of the tick without comparison runs.
   void learn(double seconds) {
     if (budget_controller_)
       if (const auto iterations = budget_controller_->after(seconds, world_->solver_stats()))
@@ -267,7 +267,7 @@ class Session::Impl {
         carry_out(SetStepCost{*nanoseconds});
   }
 
-  /// A line as a recovery begins, with where to find it again, and one as it ends.
+  /// Logs a recovery when it begins and ends, and writes the recovery file.
   void tell_of_recovery() {
     const auto news = watch_.after_tick(*world_);
     if (news == RecoveryMonitor::Change::none) return;
@@ -292,7 +292,7 @@ class Session::Impl {
     options_.recovery_file.clear();
   }
 
-  /// Both errors, where somebody reads them.
+  /// Fills the frame's mesh and time errors while they are enabled.
   void find_errors(Frame& frame) {
     if (errors_ != step_doubling_scheduler_.has_value()) {
       mesh_error_.reset();
@@ -338,32 +338,32 @@ class Session::Impl {
   SessionOptions options_;
   std::unique_ptr<World> world_;
   std::shared_ptr<const SurfaceMesh> surface_mesh_;  ///< of the last frame
-  std::optional<ComparisonRuns> comparison_runs_;    ///< where the body is computed in other ways too
+  std::optional<ComparisonRuns> comparison_runs_;
   std::optional<Recorder> recorder_;
   Scene scene_;          ///< without its events
-  Schedule schedule_;    ///< which are here
-  long recorded_ticks_;  ///< of the scene, where it is a recording
+  Schedule schedule_;    ///< of the scene's events
+  long recorded_ticks_;  ///< of the scene if it is a recording, else 0
   RecoveryMonitor watch_;
-  std::vector<Event> history_;     ///< every command so far; changed under mutex_
-  std::string kept_recovery_;      ///< the file of the last one
+  std::vector<Event> history_;     ///< every command carried out; changed under mutex_
+  std::string kept_recovery_;      ///< file of the last recovery
   std::string recording_problem_;  ///< why the recording ended early
-  long refusals_ = 0;              ///< of commands
-  std::string refusal_;            ///< why the last
-  mutable std::mutex mutex_;       ///< of queue_, single_steps_ and history_; held for a swap, or by until()
+  long refusals_ = 0;              ///< number of refused commands
+  std::string refusal_;            ///< reason of the last refusal
+  mutable std::mutex mutex_;       ///< of queue_, single_steps_ and history_; locked briefly, longest by until()
   std::condition_variable wake_;
   std::vector<Command> queue_, taken_;
   long single_steps_ = 0;
   std::atomic<Field> field_;
   std::atomic<bool> playing_, stopping_{false}, finished_{false}, show_now_{false}, stretches_{false}, errors_{false};
-  std::atomic<long> goal_;  ///< the tick hurried to; 0: none
+  std::atomic<long> goal_;  ///< the tick to fast-forward to; 0: none
 
   std::optional<BudgetController> budget_controller_;     ///< where the scene's budget is in milliseconds
-  std::optional<StepCostEstimator> step_cost_estimator_;  ///< where the scene leaves the method to the engine
+  std::optional<StepCostEstimator> step_cost_estimator_;  ///< where the scene leaves the integrator to the engine
   std::optional<ThreadBalance> balance_;  ///< where the scene leaves the number of threads to the engine
   PreconditionerUpdater preconditioner_updater_;
-  std::optional<StepDoublingScheduler> step_doubling_scheduler_;  ///< while errors are read
-  std::optional<double> mesh_error_;                              ///< the last
-  Pacer::Time errors_at_{};                                       ///< when
+  std::optional<StepDoublingScheduler> step_doubling_scheduler_;  ///< while errors are enabled
+  std::optional<double> mesh_error_;                              ///< the last estimate
+  Pacer::Time errors_at_{};                                       ///< wall time of the last estimate
   Pacer pacer_;
   bool frames_published_since_pause_ = false;
   Pacer::Time published_{};

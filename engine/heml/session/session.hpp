@@ -1,6 +1,6 @@
 #pragma once
-// The engine thread: steps a world at a fixed rate of simulated against wall time, takes commands through a queue,
-// publishes immutable frames. Neither side waits for the other:
+// Session: a world on an engine thread of its own. The thread ticks the world at a fixed rate of wall time, applies
+// queued commands, and publishes immutable frames. Neither side waits for the other:
 //
 //    window thread                                    engine thread
 //    ─────────────                                    ─────────────
@@ -9,11 +9,11 @@
 //    latest() ◄────────── three frames, swapped ◄──── publish, when the viewer has taken the last one
 //                         by one atomic
 //
-// When the engine cannot keep up it slows simulated time, says so in Frame::pace, and never runs a burst to catch up.
+// When the engine cannot keep up, simulated time slows (Frame::pace) and no burst catches up.
 //
-// A recording is played as it was: until its end nothing is chosen by the clock, which it holds the choices of. An
-// earlier moment is reached by playing what led there in a session of its own (until(), fast_forward_to()): no state is
-// stored.
+// A recording contains the choices that were made by the clock (budget, step cost, preconditioner); the session makes
+// none of its own until the recording's end. An earlier time is reached by replaying the commands that led there in a
+// new session (until(), fast_forward_to()): no states are stored.
 #include <filesystem>
 #include <functional>
 #include <heml/scenario/scene.hpp>
@@ -27,13 +27,13 @@ namespace heml {
 
 struct SessionOptions {
   std::optional<std::filesystem::path> record;  ///< JSON Lines file every command and checkpoint is appended to
-  std::filesystem::path recovery_file;          ///< what led to the last recovery is written there; empty: nowhere
-  std::vector<std::string> comparisons;  ///< other ways to compute the body, side by side (variant.hpp); empty: none
+  std::filesystem::path recovery_file;          ///< recording that reproduces the last recovery; empty: none
+  std::vector<std::string> comparisons;         ///< variants for comparison runs, in the syntax of variant_of()
   bool start_paused = false;
-  long fast_forward_to = 0;  ///< a tick to go to first, as Session::fast_forward_to() does
+  long fast_forward_to = 0;  ///< tick to fast-forward to first; 0: none
   std::function<void()>
-      on_frame;  ///< called on the engine thread after a frame is published (to wake a sleeping viewer)
-  std::function<void()> before_tick;  ///< tests: called on the engine thread before each tick
+      on_frame;  ///< called on the engine thread after a frame is published, to wake a sleeping viewer
+  std::function<void()> before_tick;  ///< for tests: called on the engine thread before each tick
 };
 
 class Session {
@@ -44,20 +44,20 @@ class Session {
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  // From any one thread (the window's); none of these waits for a step.
+  // From one thread (the window's). None waits for a tick.
   void post(Command command);
   void play();
   void pause();
   void step_once();                    ///< one tick, then pause
-  void fast_forward_to(long tick);     ///< goes there as fast as it can, then on as before; a pause ends it on the way
-  void show(Field field);              ///< which scalars frames carry from now on
+  void fast_forward_to(long tick);     ///< ticks at full speed up to `tick`, then on as before; pause() ends it early
+  void show(Field field);              ///< the field in Frame::values from now on
   void enable_stretches(bool wanted);  ///< whether Frame::stretches is filled from now on
-  void enable_errors(bool wanted);     ///< whether Frame::mesh_error and time_error are found from now on
-  const Frame& latest();               ///< the newest frame; stays as it is until the next call
-  bool frame_waiting() const;          ///< true when latest() would return a newer one
+  void enable_errors(bool wanted);     ///< whether Frame::mesh_error and time_error are filled from now on
+  const Frame& latest();               ///< the newest frame; unchanged until the next call
+  bool frame_waiting() const;          ///< whether latest() would return a newer one
 
-  /// The scene with all that led to a frame of this session as its script, and Scene::recorded_ticks where that ends.
-  /// A session of it that hurries there is in the same state to the bit, and goes on from there by itself.
+  /// Returns the scene with the commands before a frame of this session as its events, and the frame's tick as
+  /// Scene::recorded_ticks. A session of it that fast-forwards there reaches the same state to the bit.
   Scene until(const Frame& moment) const;
 
  private:

@@ -4,7 +4,7 @@
 namespace heml {
 namespace {
 constexpr int ticks_to_be_sure = 200;
-constexpr double far = 1.5;  // times too much or too little
+constexpr double far = 1.5;  // ratio of old and new cost that is reported
 }  // namespace
 
 std::optional<double> StepCostEstimator::after(double seconds, int steps) {

@@ -1,6 +1,6 @@
 #pragma once
-// Tells a world that chooses its method what an explicit step costs on this machine: measured here, a recorded command
-// there, so that a replay chooses alike.
+// Measures the cost of an explicit step on this machine, for worlds that choose the integrator. The world gets it as a
+// recorded command (SetStepCost), so that a replay chooses alike.
 #include <cstddef>
 #include <optional>
 
@@ -10,14 +10,14 @@ class StepCostEstimator {
  public:
   explicit StepCostEstimator(std::size_t elements) : elements_(static_cast<double>(elements)) {}
 
-  /// After each tick of an explicit method. seconds: it took; steps: it was cut into. Returns nanoseconds an element,
-  /// where they are far from what was said last: once in a while, if ever.
+  /// Call after each tick of an explicit method. seconds: wall time of the tick; steps: substeps in it. Returns the
+  /// cost per element and substep (ns) when it differs from the last one returned by more than a factor 1.5.
   std::optional<double> after(double seconds, int steps);
 
  private:
   double elements_;
-  double said_ = 40;  ///< ns an element: what worlds begin with
-  double least_ = 0;  ///< ns an element, of the ticks since then: what else the machine did is not the step's cost
+  double said_ = 40;  ///< ns per element, last returned; initially the worlds' default
+  double least_ = 0;  ///< ns per element, minimum since the last check, which excludes other load of the machine
   int ticks_ = 0;
 };
 

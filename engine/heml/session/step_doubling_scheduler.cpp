@@ -7,7 +7,7 @@
 namespace heml {
 namespace {
 
-/// The calling thread takes what others leave.
+/// Lowers the scheduling priority of the calling thread (nice 15).
 void lower_priority() { setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), 15); }
 
 template <class Value>

@@ -1,10 +1,10 @@
 #pragma once
-// Has a shadow (world/step_doubling.hpp) follow a session's world now and then, in a thread of its own that gives way
-// to all others: what steps err by, for people to read. Nothing it finds comes back to the world.
+// Estimates the time error of a session's world now and then by step doubling (world/step_doubling.hpp), on a thread of
+// low priority. The estimate is for display only and does not affect the world.
 //
-//    world   ──────┬─────────┬──────────────────────┬─────────┬───────
-//                  │ stretch │                      │ stretch │
-//    shadow        copy      └─ goes through it ─►  copy      └─ …
+//    world       ──────┬─────────┬────────────────┬─────────┬───────
+//                      │ stretch │                │ stretch │
+//    estimator         copy      └─ repeats it ─► copy      └─ …
 #include <future>
 #include <heml/world/step_doubling.hpp>
 
@@ -12,12 +12,13 @@ namespace heml {
 
 class StepDoublingScheduler {
  public:
-  static constexpr double stretch = 0.1;  ///< s of simulated time
-  static constexpr double pause = 0.4;    ///< s, between two
+  static constexpr double stretch = 0.1;  ///< s of simulated time, interval that is repeated
+  static constexpr double pause = 0.4;    ///< s of simulated time, between two stretches
 
-  /// After a command was carried out: a stretch with another body in it tells nothing.
+  /// Call after a command was carried out. Every command but MoveTool aborts the current stretch; one that changes the
+  /// body's setup makes a new estimator necessary.
   void carried_out(const Command& command);
-  /// After each tick.
+  /// Call after each tick.
   void ticked(const World& world);
 
   const std::optional<TimeError>& latest() const { return latest_; }
@@ -27,12 +28,12 @@ class StepDoublingScheduler {
   void begin(const World& world);
 
   Doing doing_ = Doing::nothing;
-  std::unique_ptr<StepDoublingEstimator> estimator_;  ///< none until the first is made
-  bool outdated_ = false;                             ///< the body's setup has changed since it was
+  std::unique_ptr<StepDoublingEstimator> estimator_;  ///< null until the first is made
+  bool outdated_ = false;                             ///< the body's setup has changed since estimator_ was made
   double rested_at_ = -pause;                         ///< s of simulated time, end of the last stretch
   std::optional<TimeError> latest_;
   std::future<std::unique_ptr<StepDoublingEstimator>> making_;
-  std::future<std::optional<TimeError>> computing_;  ///< last: they end before what they use
+  std::future<std::optional<TimeError>> computing_;  ///< futures last: their tasks end before estimator_ is destroyed
 };
 
 }  // namespace heml

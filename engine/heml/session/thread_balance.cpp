@@ -4,7 +4,7 @@
 
 namespace heml {
 namespace {
-constexpr double tolerated = 0.15;  // of a core: what the panel of an idle window and publishing take
+constexpr double tolerated = 0.15;  // of a core: load of publishing and of the panel of an idle window
 constexpr int looks_to_be_sure = 2;
 }  // namespace
 

@@ -1,7 +1,7 @@
 #pragma once
-// How many threads stepping gets while the rest of the process (drawing, above all) needs processors too: a core that
-// is drawn on for half of the time delays every loop that waits for the thread on it. Knows no clock: it is told how
-// much processor time the others have had.
+// Chooses the number of stepping threads while the rest of the process, mainly drawing, needs cores too: a core shared
+// with drawing half of the time delays every parallel loop that waits for its thread. Depends on no clock: wall and
+// processor times are passed in.
 //
 //   free = cores − (processor time of others) / (wall time);  threads = free, rounded down, one at least
 #include <optional>
@@ -12,14 +12,14 @@ class ThreadBalance {
  public:
   explicit ThreadBalance(int cores) : cores_(cores), threads_(cores) {}
 
-  /// Whether `wall` (s, of a steady clock) is time for another look, twice a second.
+  /// Whether look() is due at `wall` (s, of a steady clock): every 0.5 s.
   bool is_due(double wall) const { return wall - wall_ >= interval; }
-  /// One look. others: processor time, s, that the rest of the process has had so far. Returns the number of threads
-  /// where it changes. More threads come only after two looks in a row that allow them.
+  /// Measures once. others: processor time (s) that the rest of the process has used so far. Returns the number of
+  /// threads if it changes; it is raised only after two calls in a row that allow it.
   std::optional<int> look(double wall, double others);
 
   int threads() const { return threads_; }
-  double load_of_others() const { return load_; }  ///< cores, over the last look
+  double load_of_others() const { return load_; }  ///< cores, between the last two looks
 
  private:
   static constexpr double interval = 0.5;  ///< s

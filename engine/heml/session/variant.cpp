@@ -10,7 +10,7 @@
 namespace heml {
 namespace {
 
-/// Changes a variant by a word. Returns whether there is such a word.
+/// Changes a variant by one word. Returns whether the word is known.
 bool take_word(std::string_view word, Variant& variant) {
   SolverSettings& solver = variant.setup.solver;
   if (const LawInfo* law = find_law(word)) {

@@ -7,7 +7,7 @@ namespace heml::budget_keeper_test {
 
 namespace {
 
-/// Ticks of two stages on a machine where an iteration takes so long, each stage using all it is allowed.
+/// Runs ticks of two stages, each using its whole budget, at `an_iteration` seconds per iteration. Returns the budget.
 int settle(BudgetController& keeper, SolverStats& work, double an_iteration, int ticks) {
   for (int k = 0; k < ticks; ++k) {
     work.iterations += 2 * work.budget;
@@ -23,8 +23,8 @@ TEST_CASE("a budget in milliseconds settles on the iterations that fit, and foll
   SolverStats work;
   work.budget = 12;
   CHECK(settle(keeper, work, 1e-3, 5) == 4);       // 4 × 2 × 1 ms fill 9 of 10 ms best
-  CHECK(settle(keeper, work, 0.4e-3, 200) == 11);  // raised step by step where the machine is free again
-  CHECK(settle(keeper, work, 1, 50) == 1);         // never less than one
+  CHECK(settle(keeper, work, 0.4e-3, 200) == 11);  // raised one by one when iterations get cheaper
+  CHECK(settle(keeper, work, 1, 50) == 1);         // at least one
 }
 
 TEST_CASE("the cost of a step is told once when it is far from what was thought, by the quietest tick") {

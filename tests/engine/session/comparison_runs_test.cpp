@@ -15,7 +15,7 @@ using namespace heml::test;
 
 namespace {
 
-/// The frame of a world and its companions after a number of ticks.
+/// The frame of a world and its comparison runs after a number of ticks.
 Frame after(World& world, ComparisonRuns& comparison_runs, int ticks) {
   for (int k = 0; k < ticks; ++k) comparison_runs.tick(world);
   Frame frame;
@@ -98,7 +98,7 @@ TEST_CASE("companions: time spent for them is told apart from the body's own") {
   setup.boundary = {{nodes_where(setup.mesh, [](const Vec3& X) { return X.x() < 1e-9; })}};
   const auto world = make_world(setup);
   ComparisonRuns comparison_runs(setup, {"backward_euler", "tr_bdf2", "bdf2"});
-  double largest = 0;  // of all that a tick took; once is enough, whatever else the machine does
+  double largest = 0;  // share of a tick; one large share suffices, since other load disturbs the timing
   for (int k = 0; k < 20; ++k) {
     const auto began = std::chrono::steady_clock::now();
     const double waited = comparison_runs.tick(*world);

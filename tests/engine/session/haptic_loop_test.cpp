@@ -8,7 +8,7 @@
 namespace heml::haptic_link_test {
 namespace {
 
-/// A hand that stands at 1 cm and counts what it is given.
+/// A device fixed at x = 1 cm that counts the forces it gets.
 class StandingHand : public HapticDevice {
  public:
   Vec3 position() override { return {0.01, 0, 0}; }

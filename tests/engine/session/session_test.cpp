@@ -18,7 +18,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-/// A small block held at one end; enough to step at 1 kHz on anything.
+/// A block fixed at one end, small enough for 1 kHz on any machine.
 Scene small_scene() {
   Scene scene;
   scene.file = "small";
@@ -34,7 +34,7 @@ Scene small_scene() {
   return scene;
 }
 
-/// Looks at frames until one is as wanted, for ten seconds at most.
+/// Polls frames until one satisfies `wanted`, for at most 10 s.
 template <class Wanted>
 const Frame& wait_for(Session& session, const Wanted& wanted) {
   for (int i = 0; i < 2000; ++i) {
@@ -100,11 +100,11 @@ TEST_CASE("a session steps by itself and publishes what a viewer needs") {
 TEST_CASE("a viewer that stalls for 50 ms does not stall the engine") {
   Session session(small_scene(), {});
   wait_for(session, [](const Frame& f) { return f.tick > 20; });
-  // A stalled engine would do no tick in these 250 ms; a free one does 250, less what the machine takes from it.
+  // A stalled engine would do no tick in these 250 ms, a free one up to 250.
   long ticks = 0;
   for (int stall = 0; stall < 5; ++stall) {
     const long before = session.latest().tick;
-    std::this_thread::sleep_for(50ms);  // drawing that hangs
+    std::this_thread::sleep_for(50ms);
     ticks += session.latest().tick - before;
   }
   CHECK(ticks >= 75);
@@ -125,7 +125,7 @@ TEST_CASE("steps that are too slow slow simulated time, and the figures say so")
   CHECK_FALSE(frame.pace.keeping_up);
   CHECK(frame.pace.missed >= 100);
   CHECK(frame.pace.p50 >= 0.005);
-  // Once steps are fast again, no burst makes up for what was lost: the 150 owed beyond patience are forgotten.
+  // Once steps are fast again, no burst makes up for the 150 ticks lost beyond Pacer::patience.
   slow = false;
   const long before = session.latest().tick;
   std::this_thread::sleep_for(200ms);
@@ -158,7 +158,7 @@ TEST_CASE("what is removed leaves the frames' skin, and a reset brings it back")
   const auto whole = session.latest().surface_mesh;
   session.post(RemoveElements{{{}, {}, std::array{Vec3(0.08, -1, -1), Vec3(1, 1, 1)}, {}}});
   const Frame& frame = wait_for(session, [&](const Frame& f) { return f.surface_mesh != whole; });
-  CHECK(frame.surface_mesh->nodes.size() == whole->nodes.size() - 9 + 1);  // the end's; the one laid bare inside
+  CHECK(frame.surface_mesh->nodes.size() == whole->nodes.size() - 9 + 1);  // −9 at the end, +1 newly exposed
   CHECK(frame.positions.size() == frame.surface_mesh->nodes.size());
   CHECK(frame.removed == 20);
   CHECK(frame.surface_mesh->whole == whole);
@@ -240,7 +240,7 @@ TEST_CASE("a recorded session replays to the same hashes, with one thread and wi
     CHECK_FALSE(result.difference);
     CHECK_FALSE(result.halt);
   }
-  // And a replay can fail: another material, another motion.
+  // The comparison can fail: another material gives another motion.
   Scene changed = read_scene(file);
   changed.materials[0].material.parameters[1] *= 1.0000001;
   const auto world = load_world(changed);
@@ -264,7 +264,7 @@ TEST_CASE("after a removal a new factor arrives from another thread, and its arr
     options.record = file;
     Session session(scene, options);
     wait_for(session, [](const Frame& f) { return f.tick > 2; });
-    for (const double x : {0.09, 0.08, 0.07}) {  // some while work is under way
+    for (const double x : {0.09, 0.08, 0.07}) {  // some during a build
       RemoveElements removal;
       removal.which.box = {Vec3(x, -1, -1), Vec3(x + 0.01, 1, 1)};
       session.post(removal);
@@ -301,7 +301,7 @@ TEST_CASE("a session of what led to a moment is there to the bit, and goes on in
     }
     session.post(SetMaterial{std::nullopt, {"stvk", {6e3, 4e3}, 900}});
     session.pause();
-    session.post(Reset{});  // the moment is after what was done while time stood still
+    session.post(Reset{});  // applied while paused, and still before the frame to return to
     moment = wait_for(session, [](const Frame& f) { return f.paused && f.time == 0; });
     CHECK(moment.tick > 50);
     session.play();
@@ -369,7 +369,7 @@ TEST_CASE("until its end a recording is played as it was: the clock chooses noth
   {
     SessionOptions options;
     options.record = first;
-    options.before_tick = [] { std::this_thread::sleep_for(20ms); };  // far more than the budget: it is learnt
+    options.before_tick = [] { std::this_thread::sleep_for(20ms); };  // far beyond the budget, which is then lowered
     Session session(scene, options);
     wait_for(session, [](const Frame& f) { return f.tick > 8; });
   }
@@ -434,7 +434,7 @@ TEST_CASE("a session closed in the middle of a tick leaves a recording with its 
   {
     Scene scene = small_scene();
     scene.mesh.box->cells = {60, 12, 12};
-    scene.solver.rate = 1;  // a tick takes far longer than anybody waits for it
+    scene.solver.rate = 1;  // a tick takes far longer than the destructor waits
     Session session(scene, options);
     std::this_thread::sleep_for(100ms);
   }
@@ -449,7 +449,7 @@ TEST_CASE("a disk that fills up ends the recording, is told to the viewer, and t
   const TemporaryFolder folder;
   const auto pipe = folder.path / "pipe";
   REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
-  std::signal(SIGPIPE, SIG_IGN);  // a write then fails, as on a full disk
+  std::signal(SIGPIPE, SIG_IGN);  // so that a write fails as on a full disk
   SessionOptions options;
   options.record = pipe;
   std::ifstream reader;

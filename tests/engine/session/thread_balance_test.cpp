@@ -4,7 +4,7 @@
 
 namespace heml::thread_balance_test {
 
-/// Looks of half a second each at others that take `load` cores; the number of threads after them.
+/// Number of threads after some looks, 0.5 s apart, with a constant `load` (cores) of others.
 int threads_after(ThreadBalance& balance, double& wall, double& others, double load, int looks) {
   for (int k = 0; k < looks; ++k) {
     wall += 0.5;
