@@ -6,7 +6,7 @@ namespace {
 constexpr double share = 0.9;      // of the budget that is used
 constexpr double smoothing = 0.1;  // weight of the last tick
 constexpr int max_iterations = 60;
-constexpr int ticks_to_raise = 10;  // lowered at once, raised after this many ticks with time to spare
+constexpr int ticks_to_raise = 10;  // lowered at once, raised after this many ticks in a row that fit
 }  // namespace
 
 std::optional<int> BudgetController::after(double seconds, const SolverStats& work) {

@@ -3,7 +3,7 @@
 // with drawing half of the time delays every parallel loop that waits for its thread. Depends on no clock: wall and
 // processor times are passed in.
 //
-//   free = cores − (processor time of others) / (wall time);  threads = free, rounded down, one at least
+//   free = cores − (processor time of others) / (wall time);  threads = free, rounded down, at least one
 #include <optional>
 
 namespace heml {
