@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* refine_key = "mesh.refine";
 constexpr const char* other_remedy = "refine it at a time of its motion instead: heml refine SCENE --at SECONDS";
-constexpr double refined_share = 0.5;  // of the squared error, a round
+constexpr double refined_share = 0.5;  // of the squared error, per round
 
 void check(const Scene& scene, const WorldSetup& setup, const std::optional<double>& time) {
   const double end = scene.solver.is_static() ? 1 : scene.solver.duration;

@@ -1,6 +1,6 @@
 #pragma once
-// Whose bits the states of a recording are. They are the same for the same scene, kernel revision, build and
-// instruction set; recordings say all of these.
+// Kernel revision and build, which recordings name: states are the same to the bit for the same scene, kernel revision,
+// build and instruction set.
 #include <string>
 
 namespace heml {
@@ -11,7 +11,7 @@ constexpr long kernel_revision = 1;
 
 std::string compiler_name();  ///< "GCC 12.2.0"
 
-/// Compiler and processor family; others round differently in places.
+/// Compiler and processor family, e.g. "GCC 12.2.0, x86_64". Others may round differently.
 std::string build_name();
 
 }  // namespace heml

@@ -24,7 +24,7 @@ inline std::string_view consume_cell(std::string_view& line) {
   return cell.substr(0, cell.find_last_not_of(" \t") + 1);
 }
 
-/// Takes the next cell off a line as a number; false when it is none.
+/// Takes the next cell off a line as a number; returns false when it is none.
 template <class Number>
 bool consume_number(std::string_view& line, Number& number) {
   const std::string_view cell = consume_cell(line);

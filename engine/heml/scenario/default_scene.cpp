@@ -1,4 +1,4 @@
-// Scenes the program makes by itself: the one it opens with, and the one round a bare mesh or surface.
+// Default scenes: the one opened without arguments, and the one made for a bare mesh or surface.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -17,10 +17,10 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double constrained_part = 0.08;  // of the height, from the top
-constexpr double sensible_size = 0.2;      // m, longest side of a body whose own size cannot be meant
-constexpr double wanted_tets = 1000;       // of a filled surface by volume; its triangles, which are kept, ask for more
+constexpr double sensible_size = 0.2;      // m, longest side given to a body whose size is implausible
+constexpr double wanted_tets = 1000;       // by volume, when filling a surface; its kept triangles may lead to more
 
-/// Places of a body before the scene scales it.
+/// Bounding box of a body before scaling, in the file's units.
 struct Extent {
   Vec3 low, high;
 };
@@ -48,7 +48,7 @@ Extent extent_of_surface(Scene& scene, const fs::path& path) {
   return {low, high};
 }
 
-/// A body that is metres long, or a speck, was not drawn in metres: unless a scene says better it gets an organ's size.
+/// Scales a body of implausible size, whose file is probably not in metres, to sensible_size, and warns.
 void settle_size(Scene& scene, const Extent& extent) {
   const std::string odd = unit_warning(extent.low, extent.high);
   if (odd.empty()) return;

@@ -11,7 +11,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// What `work` returns, its time among `startup`.
+/// Returns work() and adds its wall time to `startup`.
 template <class Work>
 auto timed(std::vector<StartupWork>& startup, std::string what, const Work& work) {
   const auto begin = Clock::now();
@@ -68,7 +68,7 @@ std::vector<MaterialFacts> materials_of(const WorldSetup& setup, const WorldFact
   return result;
 }
 
-/// The material of an element, as material_of_elements(), of a mesh that was accepted.
+/// The material of an element, as material_of_elements() assigns it. Every element must have one.
 const Material& material_at(const WorldSetup& setup, std::size_t tet) {
   const auto entry_of = [&](std::optional<int> region) {
     return std::find_if(setup.materials.begin(), setup.materials.end(),
@@ -104,7 +104,7 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-constexpr double stands_out = 4;  // of the median element's bound of ω²: half its step
+constexpr double stands_out = 4;  // times the median element's bound of ω²: half its stable step
 constexpr double flat_degrees = 15;
 
 LimitFacts limit_of(const WorldSetup& setup, const StepFacts& step) {

@@ -1,4 +1,4 @@
-// What follows from the facts of a scene: what it leaves out, and what is worth a person's attention.
+// Advice on a scene, and the features that it does not use.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,10 +9,10 @@ namespace heml {
 namespace {
 
 constexpr double locks = 0.45;  // Poisson's ratio from which linear tetrahedra visibly lock
-constexpr double bulky = 100;   // κ/μ from which pressure waves alone set the explicit step
-constexpr double waste = 1.5;   // over the longest stable step
+constexpr double bulky = 100;   // κ/μ from which pressure waves alone set the stable step
+constexpr double waste = 1.5;   // ratio of stable step to scene step from which a longer step is advised
 
-/// Computing time over simulated time of an explicit method, by the model of "auto".
+/// Computing time over simulated time of an explicit method, by the cost model of "auto".
 double explicit_share(const WorldFacts& world, const SolverSettings& solver) {
   const double stable = world.step.stable;
   return world.method.explicit_share * (solver.step ? std::max(stable / *solver.step, 1.0) : 1.0);

@@ -1,4 +1,4 @@
-// The tools of a scene: those that stand in it, and those its script takes up.
+// The tools of a scene: those present from the start, and those that its events use.
 #include <fmt/format.h>
 
 #include <heml/scenario/explain.hpp>
@@ -16,7 +16,7 @@ bool begins_a_stroke(const Command& command) {
   return cut && !cut->continues_stroke;
 }
 
-/// The commands a tool is used by, those of them that take it up, and what it does to the engine.
+/// The commands that use a tool, those of them that start its use, and its effect on the engine.
 struct ToolKind {
   const char* name;
   bool (*is_used_by)(const Command&);

@@ -1,10 +1,10 @@
 #pragma once
-// What a file is taken for, by its ending.
+// Kind of an input file, by its extension.
 #include <filesystem>
 
 namespace heml {
 
-/// other: read_scene() looks inside.
+/// other: read_scene() inspects the content.
 enum class FileKind { other, scene, recording, tetrahedra, surface };
 FileKind kind_of(const std::filesystem::path& path);
 

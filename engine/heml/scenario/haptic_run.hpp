@@ -1,7 +1,7 @@
 #pragma once
-// A scene touched by a hand that was recorded: what a haptic device would feel. The engine ticks as the scene says,
-// each tick's state reaches the hand when the tick is over, and between them a servo (tools/haptic_servo.hpp) answers a
-// thousand times a second. No clock: the same hand feels the same forces again.
+// Offline haptic run: the force on a device whose handle follows a recorded trajectory. The engine ticks at the scene's
+// rate, each tick's state reaches the device when the tick is over, and in between a servo (tools/haptic_servo.hpp)
+// computes forces at 1 kHz. No clock is read: the same trajectory gives the same forces.
 #include <filesystem>
 #include <functional>
 #include <heml/scenario/scene.hpp>
@@ -10,27 +10,28 @@
 
 namespace heml {
 
-/// Places of a hand.
+/// Positions of the handle over time.
 struct HandleTrajectory {
   std::vector<double> times;    ///< s, ascending
   std::vector<Vec3> positions;  ///< m
-  Vec3 at(double time) const;   ///< linear between them, still before and after
+  Vec3 at(double time) const;   ///< interpolated linearly, constant before and after
 };
 
-/// Reads a CSV: header `time,x,y,z`, s and m. Throws InputError naming the line.
+/// Reads a CSV with header `time,x,y,z` (s, m). Throws InputError naming the line.
 HandleTrajectory read_handle_csv(const std::filesystem::path& path);
 
-/// One turn of the servo.
+/// One cycle of the servo.
 struct HapticSample {
   double time = 0;             ///< s
   Vec3 handle = Vec3::Zero();  ///< m
-  Vec3 force = Vec3::Zero();   ///< N, on the hand
-  double energy = 0;           ///< J, the hand has put in
-  double damping = 0;          ///< N s/m, added
+  Vec3 force = Vec3::Zero();   ///< N, on the handle
+  double energy = 0;           ///< J, put in by the user so far
+  double damping = 0;          ///< N s/m, added by the servo
 };
 
-/// The scene's grasp goes where the hand goes. Its events play, without their moves of the tool. Ends with the hand or
-/// the scene, whichever is first. Throws InputError; where the world halts, with what was felt up to there in `felt`.
+/// Runs the scene with its grasp following the handle. The scene's events apply, except MoveTool. Ends with the
+/// trajectory or the scene, whichever is first, or where the world halts (HapticRun::halt, samples up to there). Throws
+/// InputError for a static scene or a refused command.
 struct HapticRun {
   std::vector<HapticSample> samples;
   std::optional<StopReason> halt;

@@ -28,7 +28,7 @@ std::vector<fs::path> input_files(const Scene& scene) {
   for (const fs::path& file : {scene.mesh.file, scene.mesh.surface, scene.initial_positions}) {
     if (file.empty()) continue;
     files.push_back(file);
-    files.push_back(fs::path(scene.file).parent_path() / file.filename());  // find_file() takes it where that is gone
+    files.push_back(fs::path(scene.file).parent_path() / file.filename());  // where find_file() looks next
     if (file.extension() == ".node" || file.extension() == ".ele")
       for (const char* half : {".node", ".ele"}) files.push_back(fs::path(file).replace_extension(half));
   }

@@ -1,5 +1,5 @@
 #pragma once
-// What a run reads is never what it writes over.
+// Checks that a run does not overwrite its own input files.
 #include <filesystem>
 #include <heml/scenario/scene.hpp>
 #include <string_view>
@@ -7,22 +7,21 @@
 
 namespace heml {
 
-/// The files a scene is made of: its own, its mesh or surface, its initial positions. None need exist.
+/// The files of a scene: its own, its mesh or surface, its initial positions. They need not exist.
 std::vector<std::filesystem::path> input_files(const Scene& scene);
 
 /// Frames of an earlier run in a folder: frame_<number>.<ending>.
 std::vector<std::filesystem::path> frames_in(const std::filesystem::path& folder, std::string_view ending);
 
-/// To be called before anything is computed. outputs: that will be replaced or taken away, those that exist and those
-/// that do not. option: what to name in the remedy. Throws InputError where an output is an input, by whatever name.
+/// Throws InputError where an output is the same file as an input, under any name. Call before computing. outputs:
+/// files that will be replaced or removed; they need not exist. option: named in the remedy.
 void refuse_overwriting(const std::vector<std::filesystem::path>& inputs,
                         const std::vector<std::filesystem::path>& outputs, std::string_view option = "--out");
 
-/// What every command asks before it computes: that its output is none of its inputs and can be written. Throws
-/// InputError.
+/// Throws InputError where the output is one of the inputs or cannot be written. Call before computing.
 void check_output_file(const std::vector<std::filesystem::path>& inputs, const std::filesystem::path& output,
                        std::string_view option = "--out");
-/// The same of a folder; outputs: the files in it.
+/// The same for a folder; outputs: the files in it.
 void check_output_folder(const std::vector<std::filesystem::path>& inputs, const std::filesystem::path& folder,
                          const std::vector<std::filesystem::path>& outputs, std::string_view option = "--out");
 

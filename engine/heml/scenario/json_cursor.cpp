@@ -28,7 +28,6 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
-/// What stands where another type was expected.
 std::string seen(const Json& value) { return "is " + shown(value); }
 
 }  // namespace
@@ -158,7 +157,7 @@ Vec3 JsonCursor::direction() const {
   const Vec3 value = vector();
   const double length = value.stableNorm();
   if (!(length > 0) || !std::isfinite(length)) refuse("must be a direction: not all of its numbers 0, none enormous");
-  // A unit vector stays as it is, so that what was written once reads back bit for bit.
+  // A unit vector is not normalised again, so that a written direction reads back bit for bit.
   const bool unit = std::abs(value.squaredNorm() - 1) < 8 * std::numeric_limits<double>::epsilon();
   return unit ? value : Vec3(value / length);
 }

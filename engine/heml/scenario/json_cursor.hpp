@@ -1,7 +1,7 @@
 #pragma once
-// A place in a JSON document, with what a reader of documents needs: checked access, and errors that name the place.
+// Checked access to a value in a JSON document, with errors that name file and key path.
 //
-//   Key scene(document, "soft.json");
+//   JsonCursor scene(document, "soft.json");
 //   scene.allow({"mesh", "solver"});                             // else: 'solvr': did you mean 'solver'?
 //   scene["solver"]["step"].positive();                          // else: soft.json: solver.step: is -1 (must be ...)
 #include <cstdint>
@@ -15,28 +15,29 @@
 
 namespace heml {
 
-/// The name closest to a misspelt one (edit distance; the first of equals). `names` must not be empty.
+/// The entry of `names` with the least edit distance to a misspelt one; the first of equals. `names` must not be empty.
 std::string_view nearest_name(std::string_view wrong, std::span<const std::string_view> names);
 
-/// Refers to the document and does not own it. Everything throws InputError with file, key path and the value seen.
+/// Refers to the document, which must outlive it. Every accessor throws InputError with file, key path and the value
+/// found where that is missing, of another type or out of range.
 class JsonCursor {
  public:
-  /// The whole document. where: what stands before every key path ("line 12"), or nothing.
+  /// Points to the whole document. where: prefix of key paths in messages ("line 12"), or empty.
   JsonCursor(const Json& document, std::string file, std::string where = "");
 
-  /// Says that the value is an object and holds no other key than these.
+  /// Throws unless the value is an object with no other keys than these.
   void allow(std::span<const std::string_view> names) const;
   void allow(std::initializer_list<std::string_view> names) const { allow(std::span(names.begin(), names.size())); }
 
   bool has(std::string_view name) const;
-  JsonCursor operator[](std::string_view name) const;           ///< missing: error
-  std::optional<JsonCursor> find(std::string_view name) const;  ///< missing: empty
-  std::size_t size() const;                                     ///< of an array; anything else: error
-  JsonCursor operator[](std::size_t index) const;               ///< entry of an array, below size()
-  /// The one key of these that is there.
+  JsonCursor operator[](std::string_view name) const;           ///< throws if missing
+  std::optional<JsonCursor> find(std::string_view name) const;  ///< empty if missing
+  std::size_t size() const;                                     ///< of an array; throws for another type
+  JsonCursor operator[](std::size_t index) const;               ///< entry of an array, index < size()
+  /// The key of `names` that the object has; throws unless it is exactly one.
   std::string only_one_of(std::initializer_list<std::string_view> names) const;
 
-  /// Calls visit(Key) for every entry of an array.
+  /// Calls visit(JsonCursor) for every entry of an array.
   template <class Visit>
   void each(const Visit& visit) const {
     for (std::size_t i = 0; i < size(); ++i) visit((*this)[i]);
@@ -45,22 +46,22 @@ class JsonCursor {
   double number() const;
   double positive() const;
   double non_negative() const;
-  double between(double low, double high) const;  ///< closed
-  long integer(long low, long high) const;        ///< closed
+  double between(double low, double high) const;  ///< in [low, high]
+  long integer(long low, long high) const;        ///< in [low, high]
   bool flag() const;
   std::string text() const;
   Vec3 vector() const;                                                ///< [x, y, z]
-  Vec3 direction() const;                                             ///< [x, y, z], normalised; zero: error
+  Vec3 direction() const;                                             ///< [x, y, z], normalised; throws if zero
   std::uint64_t hash() const;                                         ///< 16 hexadecimal digits
-  std::size_t one_of(std::span<const std::string_view> names) const;  ///< index of the name the value is
+  std::size_t one_of(std::span<const std::string_view> names) const;  ///< index of the value in `names`
 
   const Json& json() const { return *value_; }
   const std::string& file() const { return file_; }
   std::string place() const;  ///< "line 12: solver.step"
 
-  /// problem: with the value seen. remedy: what would be right.
+  /// Throws InputError. problem: with the value found. remedy: what would be accepted.
   [[noreturn]] void fail(const std::string& problem, const std::string& remedy) const;
-  /// fail() with the value seen as the problem.
+  /// fail() with "is VALUE" as the problem.
   [[noreturn]] void refuse(const std::string& remedy) const;
 
  private:

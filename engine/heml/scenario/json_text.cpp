@@ -13,7 +13,7 @@ constexpr std::size_t deepest = 32;     // no scene nests deeper than 5
 constexpr std::size_t max_keys = 1000;  // looking up a key is linear in their number
 constexpr std::size_t max_shown = 80;   // characters of a value quoted in a message
 
-/// What nlohmann says is wrong, without the parts said elsewhere in the message (exception name, line and column).
+/// nlohmann's message without exception name, line and column, which our message has already.
 std::string syntax_problem(std::string text) {
   if (const auto end = text.find("] "); end != std::string::npos) text.erase(0, end + 2);
   if (text.starts_with("parse error at")) text.erase(0, text.find(": ") + 2);

@@ -1,4 +1,4 @@
-// From a scene to a world: files read, selections resolved, and what only the mesh can tell checked.
+// Makes a world from a scene: reads files, resolves selections, and checks what depends on the mesh.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 namespace heml {
 namespace {
 
-/// Tractions and pressures act on faces: a selection without a whole face would be no load at all.
+/// Tractions and pressures act on faces, so a selection without a whole face is an error.
 void expect_a_face(const std::vector<int>& nodes, const BoundaryFaces& faces, const std::string& file,
                    const std::string& place) {
   const auto selected = [&](int node) { return std::binary_search(nodes.begin(), nodes.end(), node); };

@@ -42,7 +42,7 @@ TetMesh filled_surface(const Scene& scene) {
   check_surface(surface);
   TetgenOptions options;
   options.radius_edge_ratio = scene.mesh.radius_edge_ratio;
-  // TetGen sees the file's own units, the scene speaks of the body as scaled.
+  // TetGen works in the file's units, the scene's max_volume is of the scaled body.
   if (scene.mesh.max_volume) options.max_volume = *scene.mesh.max_volume / std::pow(scene.mesh.scale, 3);
   return tetrahedralize(surface, options);
 }

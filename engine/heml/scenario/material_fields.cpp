@@ -13,7 +13,7 @@
 namespace heml {
 namespace {
 
-/// The elements an entry of `materials` applies to, as material_of_elements() has it; ascending.
+/// The elements an entry of `materials` applies to, as material_of_elements() assigns them; ascending.
 std::vector<std::size_t> elements_of(std::optional<int> region, const std::vector<RegionMaterial>& materials,
                                      const TetMesh& mesh) {
   std::set<int> own;
@@ -34,7 +34,7 @@ std::string described(const TetMesh& mesh) {
   return fmt::format("its fields and the numbers of each an element: {}", fmt::join(names, ", "));
 }
 
-/// One material against the mesh.
+/// Checks and resolves the fields of one material.
 class Check {
  public:
   Check(const Material& material, const std::vector<std::size_t>& elements, TetMesh& mesh, std::string file,
@@ -66,7 +66,7 @@ class Check {
     return *found;
   }
 
-  /// The values of a quantity: one an element.
+  /// The checked values of a quantity, #T.
   std::vector<double> values_of(const std::string& key, const Quantity& quantity,
                                 std::string (*problem)(double)) const {
     if (quantity.field.empty()) return std::vector<double>(mesh_.tets.size(), quantity.value);
@@ -134,7 +134,7 @@ class Check {
   std::string file_, place_;
 };
 
-/// Gives every parameter that is a field its mean over the elements, weighted by volume.
+/// Sets every parameter that is a field to its mean over the elements, weighted by volume.
 void fill_means(const std::vector<std::size_t>& elements, const TetMesh& mesh, Material& material) {
   std::vector<double> volumes;
   double sum = 0;

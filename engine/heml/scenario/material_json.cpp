@@ -13,7 +13,7 @@
 namespace heml {
 namespace {
 
-/// Keys beside the parameters that some laws take and others do not.
+/// Keys other than parameters that only some laws accept.
 struct ParticularKey {
   std::string_view name;
   bool (*taken_by)(const LawInfo&);
@@ -33,7 +33,7 @@ const LawInfo& law_from(const JsonCursor& key) {
   return laws()[key.one_of(names)];
 }
 
-/// Refuses what does not go with the law: keys of other laws, and keys of none.
+/// Refuses keys that the law does not accept.
 void allow_keys_of(const LawInfo& law, const JsonCursor& entry) {
   std::vector<std::string_view> names = {"law", "region", "density", "preset"};
   if (law.takes_young_poisson) names.insert(names.end(), {"young", "poisson"});
@@ -57,7 +57,7 @@ void add_scalar(const Quantity& quantity, Material& material) {
   material.parameters.push_back(quantity.value);
 }
 
-/// λ and μ from young and poisson, by fields made of them where one of the two is a field.
+/// Adds λ and μ computed from young and poisson; as fields where one of the two is a field.
 void add_young_poisson(const YoungPoisson& pair, Material& material) {
   if (pair.young.field.empty() && pair.poisson.field.empty()) {
     const LameParameters lame = lame_parameters(pair.young.value, pair.poisson.value);
@@ -101,7 +101,7 @@ void read_fibre(const JsonCursor& key, Material& material) {
     material.fibre = key.direction();
 }
 
-/// What acts beside elasticity.
+/// Reads viscosity, relaxation and plasticity.
 void read_memory(const JsonCursor& entry, Material& material) {
   if (const auto viscosity = entry.find("viscosity")) material.viscosity = viscosity->non_negative();
   if (const auto viscosity = entry.find("bulk_viscosity")) material.bulk_viscosity = viscosity->non_negative();
@@ -118,7 +118,7 @@ void read_memory(const JsonCursor& entry, Material& material) {
   }
 }
 
-/// What can be wrong with the numbers together. Of fields, that is seen when the mesh is there.
+/// Checks the parameters together. Materials with fields are checked by resolve_fields().
 void check_values(const JsonCursor& entry, const Material& material) {
   if (!material.fields.empty()) return;
   for (const double value : material.parameters)

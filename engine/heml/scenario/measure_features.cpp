@@ -10,16 +10,16 @@ namespace heml {
 namespace {
 
 constexpr int turns = 5;
-constexpr double wanted = 0.2;  // s of computing a run of the scene as it is
+constexpr double wanted = 0.2;  // s of wall time per run of the unchanged scene
 constexpr long min_ticks = 2, max_measured_ticks = 2000;
 constexpr double static_stretch = 0.1;  // of the load
-constexpr double frames_a_second = 60;  // of a viewer that draws stretches
+constexpr double frames_a_second = 60;  // of a viewer that shows stretches
 
-/// A scene with one thing changed.
+/// A change of one feature.
 struct Change {
   std::string feature, from, to;
   std::function<void(WorldSetup&)> make = [](WorldSetup&) {};
-  bool watched = false;  ///< somebody looks at stretches
+  bool watched = false;  ///< whether stretches are computed for a viewer
 };
 
 bool any_material(const WorldSetup& setup, bool (*has)(const Material&)) {
@@ -27,7 +27,7 @@ bool any_material(const WorldSetup& setup, bool (*has)(const Material&)) {
                      [&](const RegionMaterial& entry) { return has(entry.material); });
 }
 
-/// Every world made would warn of them again.
+/// Removes materials without elements, since every world made would warn of them again.
 void drop_unused_materials(WorldSetup& setup) {
   std::erase_if(setup.materials, [&](const RegionMaterial& entry) {
     const auto& regions = setup.mesh.regions;
@@ -42,7 +42,7 @@ std::function<void(WorldSetup&)> in_materials(const Make& make) {
   };
 }
 
-/// Laws that would have to do without nodal pressure may come with an event: then the element stays.
+/// Whether events change materials: the new law may not support nodal pressure, so the element is not changed then.
 bool switches_material(const Scene& scene) {
   return std::any_of(scene.events.begin(), scene.events.end(),
                      [](const Event& event) { return std::holds_alternative<SetMaterial>(event.command); });
@@ -89,7 +89,6 @@ std::vector<Change> changes_of(const Scene& scene, const WorldSetup& setup) {
   return changes;
 }
 
-/// One run over the stretch.
 struct Run {
   double seconds = 0;
   long ticks = 0, steps = 0;
@@ -140,7 +139,7 @@ double max_distance(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
   return largest;
 }
 
-/// So many that they take the wanted time, as far as the scene goes.
+/// Number of ticks that take about `wanted` seconds, at most those of the scene.
 long ticks_for(const Scene& scene, const WorldSetup& setup) {
   if (setup.solver.is_static()) return 1;
   const long of_scene = std::max(std::lround(setup.solver.duration / setup.solver.tick()), 1L);

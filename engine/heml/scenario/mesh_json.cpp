@@ -40,7 +40,7 @@ RefineGoal refine_from(const JsonCursor& key) {
   return goal;
 }
 
-/// The name of a file in the assets' folder of meshes, and not a way out of it.
+/// The name of a mesh in the assets folder; refuses names that could lead out of the folder.
 std::string asset_from(const JsonCursor& key) {
   const std::string name = key.text();
   const bool plain = std::all_of(name.begin(), name.end(),
@@ -54,7 +54,7 @@ std::string asset_from(const JsonCursor& key) {
 std::filesystem::path path_from(const JsonCursor& key, const std::filesystem::path& folder) {
   const std::string text = key.text();
   if (text.empty() || text.find('\0') != std::string::npos) key.refuse("must be the path of a file");
-  return folder / text;  // an absolute path stays what it is
+  return folder / text;  // an absolute path replaces the folder
 }
 
 std::string path_text(const std::filesystem::path& path, const std::filesystem::path& folder) {

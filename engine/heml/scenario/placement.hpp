@@ -1,12 +1,12 @@
 #pragma once
-// Where a scene puts its mesh.
+// Placement of a scene's mesh: scale, rotation, translation.
 #include <heml/scenario/scene.hpp>
 #include <numbers>
 
 namespace heml {
 
-/// x -> rotate(scale x − origin) + origin + translate; directions are turned alone. What a scene leaves out changes no
-/// bit.
+/// x -> rotate(scale x − origin) + origin + translate, m; directions are only rotated. Without a rotation none is
+/// computed, so that positions keep their bits.
 class Placement {
  public:
   explicit Placement(const MeshSpec& mesh)

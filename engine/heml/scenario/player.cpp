@@ -3,7 +3,7 @@
 
 namespace heml {
 namespace {
-constexpr double same_tick = 1e-6;  // of a tick: a time this close to its end is meant to be its end
+constexpr double same_tick = 1e-6;  // of a tick: times this close to its end count as its end
 }
 
 Player::Player(const Scene& scene, World& world)
@@ -27,7 +27,7 @@ void Player::to(double time, const std::function<bool()>& on_tick) {
   world_.advance_within_tick(tick_start_ + (time - static_cast<double>(whole) * tick_));
 }
 
-/// Applies the events of the coming tick, once. The world's own clock starts anew at a reset.
+/// Applies the events of the next tick, once. They may include a reset, which sets the world's time to 0.
 void Player::begin_tick() {
   if (begun_ == world_.ticks()) return;
   begun_ = world_.ticks();

@@ -1,5 +1,5 @@
 #pragma once
-// Takes a world through a scene's motion: tick by tick, with the events, and to times between ticks.
+// Advances a world through a scene: tick by tick, with the scene's events, and to times between ticks.
 #include <functional>
 #include <heml/scenario/scene.hpp>
 #include <heml/scenario/schedule.hpp>
@@ -9,16 +9,16 @@ namespace heml {
 
 class Player {
  public:
-  /// world: of the scene, before its first tick; must live as long as the player. Throws InputError as Schedule does.
+  /// world: of the scene, before its first tick; must outlive the player. Throws InputError as Schedule does.
   Player(const Scene& scene, World& world);
 
-  /// On to a time, s, that is not before the last one (of a static scene: to a fraction of the load), or to where the
-  /// world halts. A time within a tick is reached by shortened steps. on_tick: after every tick; false ends it there.
-  /// Throws InputError when the world refuses an event.
+  /// Advances to a time (s; static scene: fraction of the load) not before the last one, or until the world halts. A
+  /// time within a tick is reached by shortened steps. on_tick: called after every tick; returns false to stop. Throws
+  /// InputError when the world refuses an event.
   void to(
       double time, const std::function<bool()>& on_tick = [] { return true; });
 
-  std::span<const Event> past_events() const { return schedule_.past(); }  ///< handed to the world so far
+  std::span<const Event> past_events() const { return schedule_.past(); }  ///< applied to the world so far
 
  private:
   void begin_tick();
@@ -26,7 +26,7 @@ class Player {
   World& world_;
   Schedule schedule_;
   double tick_;            ///< s
-  double tick_start_ = 0;  ///< s, by the world's clock
+  double tick_start_ = 0;  ///< s, World::time() at the start of the tick
   long begun_ = -1;
 };
 

@@ -6,10 +6,10 @@
 
 namespace heml {
 
-/// #V positions; every node from 0 to nodes − 1 must be there once, in any order. Throws InputError naming the line.
+/// #V×3, m. Every node from 0 to nodes − 1 must occur once, in any order. Throws InputError naming the line.
 std::vector<Vec3> read_positions_csv(const std::filesystem::path& path, int nodes);
 
-/// Numbers carry 17 significant digits. Throws InputError when the file cannot be written.
+/// Writes 17 significant digits. Throws InputError when the file cannot be written.
 void write_positions_csv(const std::filesystem::path& path, const std::vector<Vec3>& positions);
 
 }  // namespace heml

@@ -13,9 +13,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double modulus_tolerance = 1e-6;  // relative, between what a file says and what its law gives
+constexpr double modulus_tolerance = 1e-6;  // relative, between the file's shear modulus and that of its law
 
-/// A text, or null for what is not known.
+/// A text; empty for null, which means unknown.
 std::string text_or_nothing(const JsonCursor& key) { return key.json().is_null() ? std::string() : key.text(); }
 
 Citation citation_from(const JsonCursor& key) {

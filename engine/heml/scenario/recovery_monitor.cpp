@@ -23,7 +23,7 @@ RecoveryMonitor::Change RecoveryMonitor::after_tick(const World& world) {
   }
   if (!is_ongoing_ || (recovery && !recovery->ended)) return Change::none;
   is_ongoing_ = false;
-  return recovery ? Change::ended : Change::none;  // none: a reset came between
+  return recovery ? Change::ended : Change::none;  // none: the world was reset
 }
 
 }  // namespace heml

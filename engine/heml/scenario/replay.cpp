@@ -14,12 +14,12 @@ int first_different_node(const std::vector<std::uint16_t>& expected, const std::
   return at == expected.end() && other == actual.end() ? -1 : static_cast<int>(at - expected.begin());
 }
 
-/// Compares what a recording tells of states as the world comes past them.
+/// Compares the world with the checkpoints and the end state of a recording.
 class Comparison {
  public:
   explicit Comparison(const Scene& recording) : recording_(recording) {}
 
-  /// The world before a tick's events.
+  /// Call before the events of each tick.
   void at(const World& world, ReplayResult& result) {
     const std::vector<Checkpoint>& all = recording_.checkpoints;
     for (; next_ < all.size() && all[next_].tick == world.ticks(); ++next_) compare(all[next_], world, result);

@@ -44,7 +44,7 @@ Json edit_json(const EditReport& edit) {
   return json;
 }
 
-/// Energies are null where a law has none.
+/// Energies that are not finite, of laws without one, are written as null.
 Json switch_json(const LawSwitch& at) {
   return {{"time", at.time}, {"before", energies_json(at.before)}, {"after", energies_json(at.after)}};
 }

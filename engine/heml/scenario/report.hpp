@@ -1,5 +1,5 @@
 #pragma once
-// What `heml solve` writes about the state it reached.
+// Writes the results of `heml solve`.
 #include <filesystem>
 #include <heml/world/world.hpp>
 #include <optional>
@@ -7,19 +7,20 @@
 
 namespace heml {
 
-/// What is known of a solve besides the world's state.
+/// Facts about a solve that are not in the world's state.
 struct SolveFacts {
   bool converged = true;
   double wall_seconds = 0;
   std::optional<StopReason> halt;
-  std::optional<std::string> refused;  ///< an event that ended it, and why
+  std::optional<std::string> refused;  ///< message of the refused event that ended it
 };
 
-/// report.json; extremes of J are of the elements that are there. Throws InputError when it cannot be written.
+/// Writes report.json (app/docs/commands.md); extremes of J are of the present elements. Throws InputError when it
+/// cannot be written.
 void write_report(const std::filesystem::path& path, World& world, const SolveFacts& facts);
 
-/// Where asked for, FOLDER/STEM.csv of the positions now and FOLDER/STEM.vtu (frame_series.hpp). Throws InputError
-/// likewise.
+/// Writes the current positions to FOLDER/STEM.csv if `csv`, and the state to FOLDER/STEM.vtu (frame_series.hpp) if
+/// `vtu`. Throws InputError when a file cannot be written.
 void write_state(const std::filesystem::path& folder, const std::string& stem, World& world, bool csv, bool vtu);
 
 }  // namespace heml

@@ -1,15 +1,15 @@
 #pragma once
-// A scene file as data, and how it becomes a world. Reading checks everything that can be checked without the mesh;
-// load_setup() does the rest:
+// A scene as data, and how it becomes a world (file format: app/docs/scene-format.md). Reading checks everything that
+// does not need the mesh; load_setup() checks the rest:
 //
 //   soft.json ──► read_scene ──► Scene ──► load_setup ──► WorldSetup ──► make_world ──► World
 //   rec.jsonl ──►    (JSON)        ▲       (mesh, node      (all resolved)
 //   liver.obj ──► scene_around ────┘        numbers)
 //
-// Paths inside a scene are relative to the scene's file. A recording (recorder.hpp) writes the path of a mesh below its
-// own folder relative to that folder, so both can be moved together, and any other as absolute, so it can be written
-// anywhere; if that file is gone by the time of the replay, one of the same name beside the recording is taken, with a
-// warning. What was recorded of the mesh (MeshFingerprint) makes sure that it is the same.
+// Paths in a scene are relative to the scene's file. A recording (recorder.hpp) stores the path of a mesh below its own
+// folder relative to that folder, so that both can be moved together, and any other path as absolute. If that file is
+// gone at replay, one of the same name in the recording's folder is used, with a warning. MeshFingerprint ensures that
+// the mesh is the same.
 #include <cstdint>
 #include <filesystem>
 #include <heml/world/command.hpp>
@@ -25,32 +25,32 @@
 
 namespace heml {
 
-/// How fine a mesh is to be made where it errs most (adapt.hpp).
+/// Goal of adaptive refinement (adapt.hpp).
 struct RefineGoal {
-  double error = 0.1;  ///< of the energy norm at rest under all loads, as estimated; 0 to 1
-  int tets = 50000;    ///< and no more than so many
+  double error = 0.1;  ///< estimated, relative, in the energy norm, 0 to 1
+  int tets = 50000;    ///< maximum number of tetrahedra
 };
 
-/// Which mesh, and where it is put. Exactly one of file, surface, box, asset.
+/// Source and placement of the mesh. Exactly one of file, surface, box, asset.
 struct MeshSpec {
   struct Box {
     Vec3 size, origin;         ///< m
     std::array<int, 3> cells;  ///< 5 tetrahedra each
   };
-  std::filesystem::path file;     ///< tetrahedra, absolute or relative to the working directory
+  std::filesystem::path file;     ///< tetrahedral mesh, absolute or relative to the working directory
   std::filesystem::path surface;  ///< closed surface for TetGen
   double radius_edge_ratio = 1.4;
-  std::optional<double> max_volume;  ///< m³ of one tetrahedron, in the body as scaled
+  std::optional<double> max_volume;  ///< m³, of one tetrahedron of the scaled body
   std::optional<Box> box;
   std::string asset;  ///< "kidney", ...
   double scale = 1;
   Vec3 rotate_axis = Vec3(0, 0, 1), rotate_origin = Vec3::Zero();
   double rotate_degrees = 0;
   Vec3 translate = Vec3::Zero();
-  std::optional<RefineGoal> refine;  ///< none: as it is
+  std::optional<RefineGoal> refine;  ///< empty: no refinement
 };
 
-/// Nodes chosen in a boundary or load entry: by number, box or sphere (rest positions, closed sets).
+/// Nodes selected by an entry: by number, box or sphere (rest positions, closed sets; m).
 struct Selection {
   std::vector<int> nodes;  ///< mesh-file order
   std::optional<std::array<Vec3, 2>> box;
@@ -59,52 +59,52 @@ struct Selection {
 
 struct BoundaryEntry {
   Selection where;
-  Boundary motion;  ///< its nodes are filled by load_setup()
+  Boundary motion;  ///< load_setup() fills its nodes
 };
 struct LoadEntry {
   Selection where;
-  Load load;  ///< likewise
+  Load load;  ///< load_setup() fills its nodes
 };
 
-/// Nodes whose mean place is written while a scene is solved (trace.hpp).
+/// Nodes whose mean position is written while a scene is solved (trace.hpp).
 struct MarkerEntry {
-  std::string name;  ///< empty: its number
+  std::string name;  ///< empty: its index
   Selection where;
 };
 
-/// How a viewer starts: all optional, never part of the physics.
+/// Initial settings of a viewer; they do not affect the physics.
 struct View {
   std::optional<double> azimuth, elevation;  ///< degrees
-  std::optional<double> zoom;                ///< 1: the body fills the picture
+  std::optional<double> zoom;                ///< 1: the body fills the image
   Field field = Field::none;
   bool wireframe = false;
 };
 
-/// State of a recorded world after `tick` ticks, before the commands of the next.
+/// Hash of a recorded world's state after `tick` ticks, before the commands of the next.
 struct Checkpoint {
   long tick = 0;
   std::uint64_t hash = 0;            ///< state_hash()
   std::vector<std::uint16_t> nodes;  ///< node_hashes(); may be empty
 };
 
-/// How a recording ends. Only `tick` is there in those of format 1.
+/// End record of a recording. Format 1 has only `tick`.
 struct RecordedEnd {
   long tick = 0;
-  std::optional<long> checkpoints;    ///< that the recording holds
+  std::optional<long> checkpoints;    ///< number of checkpoints in the recording
   std::optional<std::uint64_t> hash;  ///< state_hash() before the commands of the tick
-  std::optional<std::string> halt;    ///< Halt::message, where the world stopped within the tick
+  std::optional<std::string> halt;    ///< StopReason::message, where the world halted within the tick
 };
 
-/// Who made a recording.
+/// Format and program that a recording was written with.
 struct RecordedBy {
-  int format = 1;            ///< 2: its end says how many checkpoints there are and the state it ends with
-  long kernel_revision = 0;  ///< build_identity.hpp; 0: made before there were any
-  std::string build;         ///< likewise; empty: not told
+  int format = 1;            ///< from 2 on the end record has the number of checkpoints and the final hash
+  long kernel_revision = 0;  ///< build_identity.hpp; 0: older than revisions
+  std::string build;         ///< build_name(); empty: unknown
 };
-constexpr int recording_format = 2;  ///< that this build writes
+constexpr int recording_format = 2;  ///< written by this build
 
-/// Says whether a mesh is the one a recording was made with. Hash: of positions (as placed), elements, regions
-/// and the fields that materials use.
+/// Identifies the mesh a recording was made with. Hash: of positions (as placed), elements, regions and the fields that
+/// materials use.
 struct MeshFingerprint {
   int nodes = 0, tets = 0;
   std::uint64_t hash = 0;
@@ -112,7 +112,7 @@ struct MeshFingerprint {
 };
 
 struct Scene {
-  std::string file;  ///< where it was read from, for messages
+  std::string file;  ///< path it was read from, for messages
   std::string name, title, description;
   MeshSpec mesh;
   std::vector<RegionMaterial> materials;
@@ -123,7 +123,7 @@ struct Scene {
   std::optional<TearingSettings> tearing;
   Vec3 gravity = Vec3::Zero();
   SolverSettings solver;
-  std::vector<double> output_times;  ///< s, as listed
+  std::vector<double> output_times;  ///< s (static scene: fraction of the load), as listed
   bool output_positions = true, output_vtu = false;
   std::vector<MarkerEntry> markers;
   bool output_history = false;
@@ -132,60 +132,59 @@ struct Scene {
   std::filesystem::path initial_positions;
   View view;
   std::vector<Event> events;  ///< ascending in tick
-  /// Index in `events` of a command about nodes to places in space instead: the surface nodes nearest to them.
+  /// By index in `events`: points (m) given instead of node numbers; the command gets the nearest surface nodes.
   std::map<std::size_t, std::vector<Vec3>> points;
-  std::vector<Checkpoint> checkpoints;                  ///< of a recording, ascending in tick
-  std::optional<long> recorded_ticks;                   ///< of a recording: how far it went, as far as is known
-  std::optional<RecordedEnd> recorded_end;              ///< of a recording that was not cut short
-  RecordedBy recorded_by;                               ///< of a recording
-  std::optional<MeshFingerprint> recorded_mesh;         ///< of a recording
-  std::optional<InstructionSet> recorded_instructions;  ///< of a recording: whose bits its states are
+  // Of recordings only:
+  std::vector<Checkpoint> checkpoints;      ///< ascending in tick
+  std::optional<long> recorded_ticks;       ///< length, as far as known
+  std::optional<RecordedEnd> recorded_end;  ///< empty if the recording was cut short
+  RecordedBy recorded_by;
+  std::optional<MeshFingerprint> recorded_mesh;
+  std::optional<InstructionSet> recorded_instructions;  ///< with which its states were computed
 };
 
-/// Reads a scene, a recording (either form), or puts the default scene round a bare mesh or surface file.
-/// Throws InputError.
+/// Reads a scene or a recording, or makes a default scene for a bare mesh or surface file. Throws InputError.
 Scene read_scene(const std::filesystem::path& path);
 
-/// A scene or recording from text, with paths and messages as if it stood in that file. Throws InputError.
+/// Reads a scene or recording from text; paths and messages refer to the file `as_if_from`. Throws InputError.
 Scene parse_scene(std::string_view text, const std::filesystem::path& as_if_from);
 
 /// The scene `heml` opens without arguments.
 Scene default_scene();
 
-/// The default scene round a bare mesh or surface: soft tissue, held at its top, under gravity.
+/// The default scene for a bare mesh or surface: soft tissue, fixed at its top, under gravity. Throws InputError.
 Scene scene_around(const std::filesystem::path& mesh_or_surface);
 
-/// Whether this processor has the instructions a recording names. Then its world is made to use them, and its states
-/// come out as they were; else they differ by round-off.
+/// Whether this processor supports the instruction set a recording names. Then its world uses it and reproduces the
+/// recorded states; else states differ by round-off.
 bool plays_as_recorded(const Scene& scene);
 
-/// Reads the mesh, resolves selections and fields, refines where that is asked for, checks what needs the mesh. Throws
-/// InputError.
+/// Reads the mesh, resolves selections and fields, refines if the scene asks for it, and checks what depends on the
+/// mesh. Throws InputError.
 WorldSetup load_setup(const Scene& scene);
 
-/// The same with the scene's mesh as load_mesh() (load_mesh.hpp) gives it.
+/// The same with a mesh from load_mesh() (load_mesh.hpp).
 WorldSetup load_setup(const Scene& scene, TetMesh mesh);
 
 /// make_world(load_setup(scene)).
 std::unique_ptr<World> load_world(const Scene& scene);
 
-/// Scene, event and checkpoint as JSON text on one line each (no line end), as recordings hold them; 17 significant
-/// digits.
-/// The scene goes without its events and checkpoints, which have lines of their own, and reads back to the same world
-/// from a file in `folder`; no folder: from anywhere on this machine.
+/// Lines of a recording, as JSON text without line end, 17 significant digits. scene_line() leaves out events and
+/// checkpoints, which have lines of their own. Its paths are for a file in `folder`; without a folder they are
+/// absolute.
 std::string scene_line(const Scene& scene, const std::filesystem::path& folder = {});
 std::string event_line(const Event& event);
 std::string checkpoint_line(const Checkpoint& checkpoint);
 std::string end_line(const RecordedEnd& end);
 
-/// The scene with its events, but no checkpoints, as a file in `folder` for people: indented, likewise.
+/// The scene with its events, without checkpoints, as an indented scene file; `folder` as for scene_line().
 std::string scene_text(const Scene& scene, const std::filesystem::path& folder = {});
 
-/// One entry of `materials` (contract), e.g. the file `heml probe` takes; `density` accepted. Throws InputError, also
-/// for fields, as there is no mesh.
+/// Reads a file with one entry of `materials` (app/docs/scene-format.md), as `heml probe` takes it. Throws InputError,
+/// also for fields, as there is no mesh.
 Material read_material(const std::filesystem::path& path);
 
-/// Folder that holds scenes, meshes and fonts: $HEML_ASSETS, else the installed one, else the source tree's.
+/// Folder of scenes, meshes and fonts: $HEML_ASSETS, else the installed one, else the source tree's.
 std::filesystem::path assets_folder();
 
 }  // namespace heml

@@ -21,9 +21,9 @@ namespace fs = std::filesystem;
 
 constexpr const char* recovery_file = "recovery.jsonl";
 
-/// A time the run has to land on, or in a static scene a fraction of the load, and the file its state goes to.
+/// A time the run has to land on, and the file stem of the state written there.
 struct Landing {
-  double time;  ///< s
+  double time;  ///< s; in a static scene, fraction of the load
   std::string stem;
 };
 
@@ -43,8 +43,8 @@ std::vector<Landing> landings_of(const Scene& scene) {
   return landings;
 }
 
-/// What a run writes, if asked for it. An earlier solve's are taken away first: a run that stops early must not leave
-/// them standing as its own.
+/// All files a run may write. Those of an earlier solve are removed first, so that a run that stops early does not
+/// leave them as its own.
 std::vector<fs::path> outputs_in(const fs::path& folder, const std::vector<Landing>& landings) {
   std::vector<fs::path> files;
   for (const char* file : {"report.json", recovery_file, Trace::markers_file, Trace::history_file})

@@ -1,5 +1,5 @@
 #pragma once
-// Runs a scene to its end without drawing, and writes what it reached.
+// Runs a scene to its end without drawing, and writes the results.
 #include <filesystem>
 #include <functional>
 #include <heml/scenario/scene.hpp>
@@ -9,19 +9,21 @@
 namespace heml {
 
 struct SolveResult {
-  std::optional<StopReason> halt;  ///< why it stopped early; what was reached is written all the same
+  std::optional<StopReason> halt;  ///< why it stopped early; results up to there are written all the same
   long ticks = 0, steps = 0;
   double time = 0;          ///< s, simulated
-  double wall_seconds = 0;  ///< of stepping
+  double wall_seconds = 0;  ///< spent stepping
 };
 
-/// Static equilibrium under the whole load (the scene's events of step 0 alone take part), or dynamics with the scene's
-/// events up to its duration. Writes into `out` (made when missing) positions.csv and
-/// report.json, and for outputs.times, in the order listed, positions_<k>.csv; .vtu beside them where asked for
-/// (frame_series.hpp); tables of how it went where asked for (trace.hpp); of the last recovery a recording,
-/// recovery.jsonl.
-/// progress: called now and then with the fraction done. Throws InputError; of an event that the world refuses only
-/// after what was reached is written, marked in report.json by "refused".
+/// Solves for static equilibrium under the full load (of events, only those of step 0 apply), or runs dynamics with all
+/// events up to the scene's duration. Writes into the folder `out`, created if missing:
+///   positions.csv, report.json      the final state
+///   positions_<k>.csv               for each of outputs.times, in the order listed
+///   *.vtu of these                  if the scene asks for them (frame_series.hpp)
+///   markers.csv, history.csv        if the scene asks for them (trace.hpp)
+///   recovery.jsonl                  recording of the last recovery, if there was one
+/// progress: called with the fraction done. Throws InputError; for an event that the world refuses only after the
+/// results up to there are written, with "refused" in report.json.
 SolveResult solve(const Scene& scene, const std::filesystem::path& out,
                   const std::function<void(double)>& progress = {});
 

@@ -1,12 +1,12 @@
 #pragma once
-// Whole text files, and small things to do with text.
+// Reading of text files, and small text helpers.
 #include <filesystem>
 #include <string>
 #include <string_view>
 
 namespace heml {
 
-/// A file's content. Throws InputError when there is none, it is not a regular file, or it is over 1 GB.
+/// Content of a file. Throws InputError when it is missing, unreadable, not a regular file, or over 1 GB.
 std::string read_text_file(const std::filesystem::path& path);
 
 bool is_blank(std::string_view text);           ///< spaces, tabs and line ends only

@@ -1,5 +1,5 @@
 #pragma once
-// How a run went, as tables: what a scene's `outputs.markers` and `outputs.history` ask for.
+// Tables over time that a scene's `outputs.markers` and `outputs.history` ask for.
 #include <filesystem>
 #include <heml/scenario/scene.hpp>
 #include <heml/world/world.hpp>
@@ -9,19 +9,19 @@
 
 namespace heml {
 
-/// markers.csv   time,marker,x,y,z,vx,vy,vz            a row a marker: the mean of its nodes, m and m/s
+/// markers.csv   time,marker,x,y,z,vx,vy,vz            one row per marker: mean of its nodes, m and m/s
 /// history.csv  time,kinetic,elastic,potential,      J; tool_*: force of the grasp on the tissue, N;
 ///              min_J,max_J,tool_x,...,               reaction_<k>_*: of boundary[k] on the body, N
 ///              reaction_0_x,...
 class Trace {
  public:
-  /// world: of the scene, before its first tick. Throws InputError for a marker that selects nothing.
+  /// world: of the scene, before its first tick. Throws InputError for a marker that selects no node.
   Trace(const Scene& scene, const World& world);
 
-  /// Keeps the state, if it is time to: the first at or after each multiple of outputs.every.
+  /// Call after every tick. Adds rows for the first state at or after each multiple of outputs.every.
   void sample(World& world);
 
-  /// Throws InputError when one cannot be written. Writes none that was not asked for.
+  /// Writes the tables that the scene asks for. Throws InputError when one cannot be written.
   void write(const std::filesystem::path& folder) const;
 
   static constexpr const char* markers_file = "markers.csv";

@@ -7,7 +7,7 @@
 namespace heml {
 namespace {
 
-/// Whether its states are those of other arithmetic; empty: of ours.
+/// Why states cannot be compared because another kernel revision recorded them; empty: they can.
 std::string made_by_other(const Scene& recording) {
   const RecordedBy& by = recording.recorded_by;
   if (by.format > 1 && by.kernel_revision != kernel_revision)
@@ -18,7 +18,7 @@ std::string made_by_other(const Scene& recording) {
   return "";
 }
 
-/// What may explain a difference.
+/// Suffix for a message that names another build or instruction set as a possible cause of a difference.
 std::string other_build(const Scene& recording) {
   if (recording.recorded_instructions && !plays_as_recorded(recording))
     return fmt::format(
@@ -35,7 +35,7 @@ std::string why_halts_differ(const Scene& recording, const ReplayResult& played)
   const auto& end = recording.recorded_end;
   if (!played.halt)
     return end && end->halt ? fmt::format("did not stop at step {} as recorded: {}", end->tick, *end->halt) : "";
-  if (!end) return "";  // it goes no further than its lines
+  if (!end) return "";  // a recording that was cut short may halt later
   if (!end->halt)
     return fmt::format("stopped at step {}, where the recording goes on: {}", played.ticks, played.halt->message);
   if (played.ticks == end->tick && played.halt->message == *end->halt) return "";
@@ -43,12 +43,12 @@ std::string why_halts_differ(const Scene& recording, const ReplayResult& played)
                      *end->halt);
 }
 
-/// Of format 1, whose end says nothing of what should be before it: checkpoints came every so many ticks, and one at
-/// the end unless a command of that tick had changed the state.
+/// Completeness check for format 1, whose end record has no count: checkpoints were written at regular intervals, and
+/// one at the end unless a command of that tick had changed the state.
 bool evenly_spaced(const Scene& recording) {
   const std::vector<Checkpoint>& all = recording.checkpoints;
   const long end = recording.recorded_end->tick;
-  if (all.size() == 1) return all[0].tick == end;  // what led to a recovery
+  if (all.size() == 1) return all[0].tick == end;  // recording of a recovery
   const long spacing = all[1].tick - all[0].tick;
   const bool closed = all.back().tick == end;
   const std::size_t regular = closed ? all.size() - 1 : all.size();
@@ -60,7 +60,7 @@ bool evenly_spaced(const Scene& recording) {
   return last_gap > 0 && (closed ? last_gap <= spacing : last_gap < spacing && ends_on_command);
 }
 
-/// Why a recording that has its end is not the whole of what was recorded; empty: it is.
+/// Why a recording with an end record is incomplete; empty: it is complete.
 std::string why_not_whole(const Scene& recording) {
   const RecordedEnd& end = *recording.recorded_end;
   const auto constrained = static_cast<long>(recording.checkpoints.size());

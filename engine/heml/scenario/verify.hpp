@@ -1,6 +1,6 @@
 #pragma once
-// Whether a replay proves that a recording plays as it was recorded. It has to have reached every checkpoint and the
-// end, and the recording has to be whole: what somebody dropped or moved is noticed too.
+// Decides whether a replay verifies a recording: every checkpoint and the end must have been reproduced, and the
+// recording must be complete, without dropped or moved lines.
 #include <heml/scenario/replay.hpp>
 #include <heml/scenario/scene.hpp>
 #include <string>
@@ -9,8 +9,8 @@ namespace heml {
 
 struct Verification {
   bool passed = false;
-  std::string reason;   ///< why it did not pass, one sentence; else empty
-  std::string warning;  ///< what it rests on though it passed; may be empty
+  std::string reason;   ///< why it did not pass, one sentence; empty if it passed
+  std::string warning;  ///< limits of a verification that passed; may be empty
 };
 
 /// played: replay(recording, ...). partial: the recording was cut short by a crash and need not have its end.

@@ -1,5 +1,5 @@
 #pragma once
-// The `view` object of a scene between JSON and data.
+// Reads and writes the `view` object of a scene.
 #include <heml/scenario/json_cursor.hpp>
 #include <heml/scenario/scene.hpp>
 

@@ -55,7 +55,7 @@ std::optional<YoungPoisson> young_poisson_behind(std::string_view field) {
     const JsonCursor key(json, "");
     key.allow({"young", "poisson"});
     return young_poisson_from(key);
-  } catch (const InputError&) {  // a field of the file that happens to be called so
+  } catch (const InputError&) {  // a field of the file with a similar name
     return std::nullopt;
   }
 }

@@ -54,7 +54,7 @@ class ContactPotential {
   bool within_elements() const;
 
   /// Updates the lagged quantities from a solution x: contact pairs, penalty stiffness and friction bounds. Returns
-  /// true if any changed, so that the problem has to be solved again.
+  /// true if any changed, so that the problem has to be solved again; at most 16 times per solve.
   bool update_lagged(const Vector& x);
   /// Takes x as the solution of the step: stores its friction state and fills the contacts' reports.
   void accept(const Vector& x);

@@ -15,7 +15,7 @@
 namespace heml::adapt_test {
 namespace {
 
-/// A bar held at x = 0 by the numbers of its nodes, that sags and is pulled at its other end.
+/// A bar fixed at x = 0 by node numbers, sagging and pulled at its other end.
 Scene sagging(const std::string& patch = "{}") {
   Json scene = Json::parse(test::scene_with(R"({
     "mesh": {"box": {"size": [0.2, 0.05, 0.05], "cells": [4, 1, 1]}},
@@ -44,7 +44,7 @@ TEST_CASE("a mesh is refined until its estimate is as asked for, and the error f
   CHECK(told == adapted.meshes.size());
   for (std::size_t k = 1; k < adapted.meshes.size(); ++k) {
     CHECK(adapted.meshes[k].tets > adapted.meshes[k - 1].tets);
-    CHECK(adapted.meshes[k].potential < adapted.meshes[k - 1].potential);  // nested spaces: Π can only fall
+    CHECK(adapted.meshes[k].potential < adapted.meshes[k - 1].potential);  // nested spaces: Π decreases
   }
   CHECK(adapted.meshes.back().error <= 0.4);
   CHECK(adapted.meshes[adapted.meshes.size() - 2].error > 0.4);

@@ -1,4 +1,4 @@
-// Every mistake gives one line that names the place, and says what would be right.
+// Every mistake gives a one-line message that names the place and a remedy.
 #include <doctest/doctest.h>
 
 #include <engine/mesh/files.hpp>
@@ -10,8 +10,8 @@ namespace {
 
 struct Mistake {
   const char* text;    ///< a patch of the small scene, or a whole file
-  const char* place;   ///< what the message names
-  const char* remedy;  ///< what it says would be right
+  const char* place;   ///< expected in the message
+  const char* remedy;  ///< expected in the message
 };
 
 void expect_refused(const std::string& text, const Mistake& mistake) {

@@ -14,7 +14,7 @@ using heml::test::says;
 
 namespace {
 
-/// Takes a file away when it goes.
+/// Deletes a file in its destructor.
 struct Removed {
   std::filesystem::path path;
   ~Removed() { std::filesystem::remove(path); }

@@ -1,4 +1,4 @@
-// Cuts in scenes: what is written, read, refused, replayed and reported.
+// Cuts in scenes: writing, reading, refusal, replay and report.
 #include <doctest/doctest.h>
 
 #include <engine/mesh/files.hpp>

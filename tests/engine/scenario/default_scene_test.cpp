@@ -25,7 +25,7 @@ TEST_CASE("puts soft tissue held at its top round a bare mesh") {
   CHECK(scene.solver.damping == 1);
   const WorldSetup setup = load_setup(scene);
   REQUIRE(setup.boundary.size() == 1);
-  CHECK(setup.boundary[0].nodes.size() == 8);  // the two layers of nodes at y 0.19 and 0.2
+  CHECK(setup.boundary[0].nodes.size() == 8);  // two layers of nodes, at y = 0.19 and 0.2
   for (const int node : setup.boundary[0].nodes) CHECK(setup.mesh.nodes[node].y() >= 0.2 * 0.92);
 }
 
@@ -50,7 +50,7 @@ TEST_CASE("puts a scene round meshes and surfaces made by others") {
     WorldSetup setup;
     const std::string refused = refusal([&] { setup = load_setup(read_scene(path)); });
     if (refused.find("HEML_ASSIMP") != refused.npos || refused.find("HEML_TETGEN") != refused.npos) {
-      MESSAGE("skipped: ", refused);  // this build takes no surfaces
+      MESSAGE("skipped: ", refused);  // this build cannot read surfaces
       continue;
     }
     REQUIRE(refused == "");

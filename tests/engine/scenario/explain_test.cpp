@@ -51,7 +51,7 @@ TEST_CASE("an explicit scene is explained: body, kernel, steps, no solver") {
   REQUIRE(of.materials.size() == 1);
   CHECK(of.materials[0].kernel.law == "stvk");
   CHECK(of.materials[0].kernel.elements == 10);
-  CHECK(of.materials[0].kernel.bytes_per_tet > 7 * 8);  // its constants
+  CHECK(of.materials[0].kernel.bytes_per_tet > 7 * 8);  // rest-shape constants
   CHECK(of.materials[0].poisson == doctest::Approx(0.3).epsilon(1e-12));
   CHECK(of.world.method.used == Integrator::verlet);
   CHECK_FALSE(of.world.method.lowest_frequency);
@@ -141,7 +141,7 @@ TEST_CASE("the element that limits the step is named, with its reason") {
   CHECK(stiff.limit.element == 37);
   CHECK(stiff.limit.wave_speed == doctest::Approx(std::sqrt(1000.0) * stiff.limit.median_wave_speed));
 
-  // One corner of an element is pushed nearly into the opposite face.
+  // Move one corner of an element nearly into the opposite face.
   mesh.regions[37] = 0;
   const Tet tet = mesh.tets[0];
   const Vec3 centre = (mesh.nodes[tet[1]] + mesh.nodes[tet[2]] + mesh.nodes[tet[3]]) / 3;
@@ -163,7 +163,7 @@ TEST_CASE("memory grows with the body, shrinks in float, and counts the factor")
   const double small = bytes("[8, 4, 4]", ""), large = bytes("[16, 4, 4]", "");
   CHECK(large / small == doctest::Approx(2).epsilon(0.1));
   CHECK(bytes("[8, 4, 4]", R"("precision": "float")") < 0.9 * small);
-  // Every element has at least its nodes, its constants and its corner forces.
+  // Every element has at least 4 node numbers, 7 constants and 12 components of corner forces.
   CHECK(small > 8 * 4 * 4 * 5 * (4 * 4 + 7 * 8 + 12 * 8));
   const Explanation implicit =
       explained(R"({"mesh": {"box": {"cells": [8, 4, 4]}}, "solver": {"integrator": "static"}})");
@@ -171,7 +171,7 @@ TEST_CASE("memory grows with the body, shrinks in float, and counts the factor")
   const auto factors = std::find_if(memory.begin(), memory.end(),
                                     [](const MemoryFacts& facts) { return std::string(facts.what) == "factors"; });
   REQUIRE(factors != memory.end());
-  CHECK(factors->bytes > implicit.world.solver->free_nodes * 6 * 8);  // at the least the diagonal blocks
+  CHECK(factors->bytes > implicit.world.solver->free_nodes * 6 * 8);  // at least the diagonal blocks
 }
 
 TEST_CASE("locking is warned of, with a remedy the law allows, and not where nodal pressure is on") {

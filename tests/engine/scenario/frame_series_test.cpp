@@ -13,7 +13,7 @@
 namespace heml::frame_series_test {
 namespace {
 
-/// The text between two marks.
+/// The part of `text` between `from` and `to`.
 std::string between(const std::string& text, const std::string& from, const std::string& to) {
   const std::size_t begin = text.find(from);
   REQUIRE(begin != std::string::npos);

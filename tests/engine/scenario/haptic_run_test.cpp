@@ -9,7 +9,7 @@
 namespace heml::haptic_run_test {
 namespace {
 
-/// A bar held at x = 0, grasped at its other end after the first tick.
+/// A bar fixed at x = 0, grasped at its other end after the first tick.
 Scene grasped(double step) {
   const std::string patch = fmt::format(R"({{
     "mesh": {{"box": {{"size": [0.2, 0.1, 0.1], "cells": [4, 2, 2]}}}},
@@ -19,7 +19,7 @@ Scene grasped(double step) {
   return test::small_scene_with(patch);
 }
 
-/// To and fro, slowly, from where the grasp is.
+/// A slow oscillation about the position of the grasp.
 HandleTrajectory handle() {
   HandleTrajectory path;
   for (int k = 0; k <= 120; ++k) {

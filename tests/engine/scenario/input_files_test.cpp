@@ -20,7 +20,7 @@ std::string text_of(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// A scene of files: report.json, positions.csv, mesh.vtu, all named as outputs of some command are.
+/// A scene in report.json with positions.csv and mesh.vtu: input files named like outputs of commands.
 fs::path scene_of_files(const TemporaryFolder& folder) {
   const TetMesh mesh = make_box(Vec3(0.2, 0.1, 0.1), {2, 1, 1});
   write_tet_mesh(folder / "mesh.vtu", mesh);

@@ -14,7 +14,7 @@
 namespace heml::load_test {
 namespace {
 
-// The small scene's box: nodes at x 0, 0.1, 0.2; y and z 0, 0.1; x fastest, then y, then z.
+// The small scene's box: nodes at x = 0, 0.1, 0.2; y, z = 0, 0.1; numbered with x fastest, then y, then z.
 WorldSetup setup_with(const std::string& patch) { return load_setup(test::small_scene_with(patch)); }
 std::string refusal_of(const std::string& patch) {
   return refusal([&] { setup_with(patch); });

@@ -1,4 +1,4 @@
-// Scenes whose materials take fields of the mesh.
+// Scenes whose materials use fields of the mesh.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 

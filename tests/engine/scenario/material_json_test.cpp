@@ -1,4 +1,4 @@
-// Entries of `materials`: what they become, how they are written back, what is refused.
+// Entries of `materials`: reading, writing, refusal.
 #include <doctest/doctest.h>
 
 #include <engine/materials/sample_materials.hpp>
@@ -42,7 +42,7 @@ void expect_same(const Material& a, const Material& b) {
   CHECK(a.plasticity->hardening == b.plasticity->hardening);
 }
 
-/// As text and back.
+/// Writes an entry as text and reads it back.
 RegionMaterial reread(const RegionMaterial& entry) { return read(json_text(material_json(entry), "")); }
 
 }  // namespace

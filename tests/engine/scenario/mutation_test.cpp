@@ -1,4 +1,4 @@
-// Scenes and recordings damaged at random: whatever comes in, the reader answers with a scene or an InputError.
+// Scenes and recordings with random mutations: the reader returns a scene or throws InputError.
 #include <doctest/doctest.h>
 
 #include <engine/scenario/samples.hpp>
@@ -90,7 +90,7 @@ TEST_CASE("answers damaged scenes with a scene or an InputError and nothing else
       CHECK(message.find('\n') == message.npos);
     }
   }
-  CHECK(read > 100);  // the damage reaches past the syntax
+  CHECK(read > 100);  // some mutations pass the parser
   CHECK(refused > 1000);
 }
 

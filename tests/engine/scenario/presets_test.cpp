@@ -26,13 +26,13 @@ double published(const Preset& preset, const std::string& name) {
   return 0;
 }
 
-/// Takes a file away when it goes.
+/// Deletes a file in its destructor.
 struct Removed {
   std::filesystem::path path;
   ~Removed() { std::filesystem::remove(path); }
 };
 
-/// A preset's file with parts added or replaced (JSON merge patch), read.
+/// Reads a preset's file after a JSON merge patch.
 Preset read_changed(const std::string& patch) {
   const auto source = test::source_folder() / "assets" / "materials" / "brain_ogden.json";
   Json json = parse_json(read_text_file(source), source.string());
@@ -65,7 +65,7 @@ TEST_CASE("every preset is a sound material with a source, in the order of tissu
     CHECK_FALSE(preset.convention.empty());
     CHECK_FALSE(preset.source.authors.empty());
     CHECK_FALSE(preset.published.empty());
-    CHECK_FALSE(preset.verified);  // nobody has opened the sources: set by a person who did, with this line
+    CHECK_FALSE(preset.verified);  // not compared with the sources yet; whoever does so changes file and test
     CHECK(find_preset(preset.name) == &preset);
     CHECK(preset_of(preset.material) == &preset);
   }
@@ -75,7 +75,7 @@ TEST_CASE("every preset is a sound material with a source, in the order of tissu
 }
 
 TEST_CASE("published numbers become the material's as the convention says") {
-  for (const char* name : {"brain_ogden", "brain_ogden_swine"}) {  // 2μ/α² there, μ/α here
+  for (const char* name : {"brain_ogden", "brain_ogden_swine"}) {  // coefficient 2μ/α² in the source, μ/α here
     CAPTURE(name);
     const Preset* brain = find_preset(name);
     REQUIRE(brain);

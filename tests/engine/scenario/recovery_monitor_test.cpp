@@ -9,7 +9,7 @@
 namespace heml::recovery_watch_test {
 namespace {
 
-/// A box that a blow of gravity turns inside out.
+/// A box that a short, strong gravity inverts.
 Scene struck_scene() {
   return test::small_scene_with(R"({
     "materials": [{"law": "neo_hookean", "young": 1e4, "poisson": 0.3}],
@@ -26,7 +26,7 @@ TEST_CASE("a recovery can be seen again, to the bit, from the file that solve le
   const SolveResult result = solve(struck_scene(), folder / "out");
   REQUIRE_FALSE(result.halt);
   const Scene again = read_scene(folder / "out/recovery.jsonl");
-  CHECK(again.events.size() == 4);  // not what comes after
+  CHECK(again.events.size() == 4);  // later events are not written
   CHECK(again.checkpoints.size() == 1);
   const std::unique_ptr<World> world = load_world(again);
   const ReplayResult replayed = replay(again, *world);

@@ -1,4 +1,4 @@
-// Removals as events: read, written, recorded, replayed, reported.
+// Removals as events: reading, writing, recording, replay, report.
 #include <doctest/doctest.h>
 
 #include <engine/mesh/files.hpp>
@@ -24,7 +24,7 @@ const char* const removals = R"({
     {"step": 8, "remove": {"region": 0}}
   ]})";
 
-/// The scene without its last event, which removes all there is.
+/// The scene without its last event, which removes all elements.
 Scene scene_of_removals() {
   Scene scene = test::small_scene_with(removals);
   scene.events.pop_back();
@@ -102,7 +102,7 @@ TEST_CASE("a recorded session with removals and a reset replays to the bit") {
   CHECK(!result.difference);
   CHECK(world->topology()->elements.size() == 79);
 
-  Scene other = recording;  // another element: the replay sees it
+  Scene other = recording;  // removing another element makes the replay differ
   std::get<RemoveElements>(other.events[0].command).which.tets[0] = 13;
   const auto elsewhere = load_world(other);
   CHECK(replay(other, *elsewhere).difference);

@@ -17,7 +17,7 @@ Scene session_scene() {
   return test::small_scene_with(R"({"gravity": [0, -9.81, 0], "solver": {"continuation": true}})");
 }
 
-/// A session of 50 ticks with commands of every kind; checkpoints every 10.
+/// Records 50 ticks with commands of every kind and a checkpoint every 10 ticks.
 void record(const std::filesystem::path& path, const Scene& scene) {
   const std::unique_ptr<World> world = load_world(scene);
   Recorder recorder(path, scene, *world, 10);

@@ -6,7 +6,7 @@
 
 namespace heml::test {
 
-/// A small valid scene: a box of 2×1×1 cells, held at x = 0.
+/// A small valid scene: a box of 2×1×1 cells, fixed at x = 0.
 inline Json small_scene() {
   return Json::parse(R"({
     "schema_version": 1,
@@ -17,14 +17,14 @@ inline Json small_scene() {
   })");
 }
 
-/// The small scene with parts added or replaced (JSON merge patch, RFC 7396: null takes a key away).
+/// The small scene after a JSON merge patch (RFC 7396: null removes a key).
 inline std::string scene_with(const std::string& patch) {
   Json scene = small_scene();
   scene.merge_patch(Json::parse(patch));
   return scene.dump();
 }
 
-/// Whether a message has a part.
+/// Whether a message contains a part.
 inline bool says(const std::string& message, const std::string& part) { return message.find(part) != message.npos; }
 
 inline Scene small_scene_with(const std::string& patch) { return parse_scene(scene_with(patch), "folder/scene.json"); }

@@ -1,4 +1,4 @@
-// Contact of tissue with tissue, and tearing, in scenes: what is written, read, refused, reported and replayed.
+// Self-contact and tearing in scenes: writing, reading, refusal, report and replay.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace heml::self_contact_test {
 namespace {
 
-/// A block with a slot from above, whose two lobes a probe presses together.
+/// A block with a slot from above; a probe presses its two lobes together.
 constexpr const char* lobes = R"({
   "mesh": {"box": {"size": [0.1, 0.05, 0.02], "cells": [10, 5, 2]}},
   "boundary": [{"box": [[-1, -1, -1], [1, 0, 1]], "fix": true}],
@@ -24,7 +24,7 @@ constexpr const char* lobes = R"({
              {"step": 1, "probe": {"radius": 0.006, "shaft": [0, 0, 0.06], "speed": 0.25,
                                    "path": [[0.108, 0.045, -0.02], [0.07, 0.045, -0.02]]}}]})";
 
-/// A strip that is drawn in two.
+/// A strip that is pulled apart.
 constexpr const char* strip = R"({
   "mesh": {"box": {"size": [0.06, 0.02, 0.005], "cells": [12, 4, 1]}},
   "boundary": [{"box": [[0, -1, -1], [0, 1, 1]], "fix": true},

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double g = 9.81, step = 1e-3;
 
-/// A body that falls freely: no force but gravity, so every node moves as one point does.
+/// A body in free fall: without other forces every node moves like a point mass.
 std::string falling(const std::string& patch) {
   Json scene = test::small_scene();
   scene.merge_patch(Json::parse(R"({
@@ -25,7 +25,7 @@ std::string falling(const std::string& patch) {
   return scene.dump();
 }
 
-/// Symplectic Euler in closed form, step by step: fall and speed after steps of these lengths.
+/// Free fall of a point by symplectic Euler; m, m/s.
 struct Fall {
   double y = 0, v = 0;
 };
@@ -131,7 +131,7 @@ TEST_CASE("gives the support's reaction of a held body under its weight") {
 
 namespace {
 
-/// A bar that is drawn out by half, statically.
+/// A bar that is stretched by 50 %, statically.
 std::string drawn_out(const std::string& patch) {
   Json scene = test::small_scene();
   scene.merge_patch(Json::parse(R"({

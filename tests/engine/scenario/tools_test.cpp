@@ -1,4 +1,4 @@
-// Pins, tables, probes and sutures in scenes: what is written, read, refused and replayed.
+// Pins, tables, probes and sutures in scenes: writing, reading, refusal and replay.
 #include <doctest/doctest.h>
 
 #include <engine/mesh/files.hpp>

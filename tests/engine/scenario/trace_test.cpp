@@ -12,7 +12,7 @@
 namespace heml::trace_test {
 namespace {
 
-/// Rows of a table, the header first.
+/// Cells of a CSV file by rows, the header first.
 std::vector<std::vector<std::string>> table_in(const std::filesystem::path& path) {
   std::vector<std::vector<std::string>> rows;
   std::istringstream text(read_text_file(path));
@@ -39,7 +39,7 @@ TEST_CASE("markers follow the mean of their nodes, a row a tick and one at the e
   solve(scene, folder / "");
   const auto rows = table_in(folder / "markers.csv");
   CHECK(rows[0] == std::vector<std::string>{"time", "marker", "x", "y", "z", "vx", "vy", "vz"});
-  REQUIRE(rows.size() == 1 + 2 * 12);  // at 0, after ten ticks, and at 0.0104 s
+  REQUIRE(rows.size() == 1 + 2 * 12);  // at 0, after each of ten ticks, and at 0.0104 s
   const double start = std::stod(rows[1][3]);
   CHECK(rows[1][1] == "tip");
   CHECK(rows[2][1] == "1");
@@ -64,8 +64,8 @@ TEST_CASE("rows of markers and history come as often as asked, at the first tick
     CHECK(std::stod(markers[k + 1][0]) == doctest::Approx(times[k]));
     CHECK(history[k + 1][0] == markers[k + 1][0]);
   }
-  CHECK(history[0].size() == 9);  // nothing is held: no reaction
-  // m v²/2 of free fall.
+  CHECK(history[0].size() == 9);  // no constrained nodes, so no reactions
+  // m v²/2 of free fall quadruples when the time doubles.
   CHECK(std::stod(history[5][1]) / std::stod(history[3][1]) == doctest::Approx(4).epsilon(1e-9));
 }
 

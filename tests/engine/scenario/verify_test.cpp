@@ -10,13 +10,13 @@
 namespace heml::verify_test {
 namespace {
 
-/// 20 ticks of a box that hangs and is pulled; its recording has checkpoints at 0, 5, …, 20.
+/// A box that hangs and is pulled for 20 ticks; its recording has checkpoints at 0, 5, …, 20.
 Scene pulled_scene() {
   return test::small_scene_with(R"({"gravity": [0, -9.81, 0], "solver": {"continuation": true, "duration": 0.2},
     "events": [{"step": 7, "grasp": {"node": 11, "radius": 0.05}}, {"step": 8, "move": [0.21, 0.1, 0.1]}]})");
 }
 
-/// A box that is pressed flat while its law knows no continuation: it halts within a tick.
+/// A box that is pressed flat without continuation of its law: it halts within a tick.
 Scene pressed_scene() {
   return test::small_scene_with(R"({
     "materials": [{"law": "neo_hookean", "young": 1e4, "poisson": 0.3}],
@@ -37,7 +37,7 @@ Verification verified(const Scene& scene, bool partial = false) {
   return verify(scene, replay(scene, *world), partial);
 }
 
-/// As recordings were before they said their format.
+/// The recording as format 1 stores it.
 Scene of_format_1(Scene recording) {
   recording.recorded_by = {};
   recording.recorded_end = RecordedEnd{recording.recorded_end->tick, {}, {}, {}};
@@ -127,9 +127,9 @@ TEST_CASE("a recording of format 1 verifies with a warning where its checkpoints
   };
   CHECK(passes_with({0, 1, 2, 3, 4}, 20));
   CHECK(passes_with({0, 2, 4}, 20));
-  CHECK(passes_with({4}, 20));              // what led to a recovery
-  CHECK(passes_with({0, 2, 3}, 15));        // the last one closer
-  CHECK_FALSE(passes_with({0, 1, 2}, 20));  // the second half dropped
+  CHECK(passes_with({4}, 20));              // recording of a recovery
+  CHECK(passes_with({0, 2, 3}, 15));        // last interval shorter
+  CHECK_FALSE(passes_with({0, 1, 2}, 20));  // second half dropped
   CHECK_FALSE(passes_with({0, 1, 3, 4}, 20));
   CHECK_FALSE(passes_with({1, 2, 3, 4}, 20));
   CHECK_FALSE(passes_with({0}, 20));
@@ -138,7 +138,7 @@ TEST_CASE("a recording of format 1 verifies with a warning where its checkpoints
   without_end.recorded_end.reset();
   CHECK_FALSE(verified(without_end).passed);
 
-  // One that ended on a command, which changed the state before a checkpoint could be taken.
+  // A recording whose last tick had a command, which changed the state before the checkpoint at the end.
   Scene on_command = whole;
   on_command.checkpoints.resize(4);
   on_command.recorded_ticks = on_command.recorded_end->tick = 18;
@@ -168,7 +168,7 @@ TEST_CASE("a halt is part of a recording, is shown again and verifies, another o
   other.recorded_end->hash = *other.recorded_end->hash ^ 1;
   CHECK(test::says(verified(other).reason, "differs at step"));
 
-  // Recorded anew, it is the same.
+  // Recording the replay gives the same recording.
   const Scene again = recorded(recording, folder, "again.jsonl");
   CHECK(again.recorded_end->halt == recording.recorded_end->halt);
   CHECK(verified(again).passed);
