@@ -1,4 +1,4 @@
-// Cases that hold a motion against a finer one, against its equilibrium, or against itself.
+// Cases that compare a motion with a finer one, with its equilibrium, or with its own energy.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 namespace heml::stability {
 namespace {
 
-/// The world at the end of its scene with steps of a given length.
+/// The world at the end of its scene, run with steps of a given length.
 std::unique_ptr<World> run(const Trial& trial, WorldSetup setup, Integrator integrator, double step) {
   setup.solver.integrator = integrator;
   setup.solver.step = step;
@@ -17,7 +17,7 @@ std::unique_ptr<World> run(const Trial& trial, WorldSetup setup, Integrator inte
   return world;
 }
 
-/// How far the order of convergence over two halvings of a step is from 2, in positions or velocities.
+/// |order − 2| of convergence over two halvings of the step, the larger of positions and velocities.
 Outcome distance_from_second_order(const Trial& trial, const WorldSetup& setup, double first_step, double finest) {
   const Integrator integrator = *trial.variant.integrator;
   const auto exact = run(trial, setup, Integrator::verlet, finest);
@@ -33,13 +33,13 @@ Outcome distance_from_second_order(const Trial& trial, const WorldSetup& setup, 
   return {std::max(std::abs(x - 2), std::abs(v - 2)), 0, 0, {}, {}, fmt::format("order {:.2f} and {:.2f}", x, v)};
 }
 
-/// Distance from the equilibrium of the same scene, over how far that is from rest.
+/// Rms distance from the equilibrium of the same scene, relative to that equilibrium's distance from rest.
 Outcome distance_from_equilibrium(const WorldSetup& setup, World& world) {
   WorldSetup rest = setup;
   rest.solver.integrator = Integrator::static_equilibrium;
   rest.solver.single_precision = false;
   rest.solver.tolerance = 1e-8;
-  const auto equilibrium = make_world(rest);  // what the trial is held against has no fault
+  const auto equilibrium = make_world(rest);  // the reference has no fault
   equilibrium->load_to(1);
   if (equilibrium->halt()) return stopped(*equilibrium);
   const double sag = rms_difference(equilibrium->positions(), rest.mesh.nodes);
@@ -60,7 +60,7 @@ Outcome order_of_tr_bdf2(const Trial& trial) {
 
 Outcome energy_drift(const Trial& trial) {
   const auto world = trial.world(trial.setup("10_energy_drift"));
-  // Energy ripples with the step and must not drift: means over the first and the last tenth of a second.
+  // Energy oscillates with the step but must not drift: compare means over the first and the last tenth of a second.
   double swing = 0;
   const auto mean_energy = [&](double until) {
     double sum = 0;
@@ -91,7 +91,7 @@ Outcome density_ratio(const Trial& trial) {
   WorldSetup setup = trial.setup("23_heavy_half");
   setup.solver.step.reset();
   if (!is_explicit(*trial.variant.integrator)) setup.solver.step = 5e-4;
-  WorldSetup other = setup;  // the other kind of method
+  WorldSetup other = setup;  // explicit for implicit and vice versa
   other.solver.integrator = is_explicit(*trial.variant.integrator) ? Integrator::tr_bdf2 : Integrator::verlet;
   other.solver.single_precision = false;
   other.solver.step.reset();
@@ -109,7 +109,7 @@ Outcome jittered_steps(const Trial& trial) {
   const double tick = setup.solver.tick();
   double shortest = tick, longest = 0;
   for (std::uint64_t k = 0; !world->halt() && world->time() < setup.solver.duration - 1e-9; ++k) {
-    const double part = 0.001 + 0.5 * (noise(27, k) + 1) * (tick - 0.002);  // and then what is left of the tick
+    const double part = 0.001 + 0.5 * (noise(27, k) + 1) * (tick - 0.002);  // then the remainder of the tick
     world->advance_within_tick(world->time() + part);
     world->tick();
     shortest = std::min({shortest, part, tick - part});

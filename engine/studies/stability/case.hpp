@@ -1,8 +1,7 @@
 #pragma once
-// A case of the stability study: a question with a number for an answer, asked of every law, integrator and precision
-// for which it makes sense (a Way). To add one: write `Outcome name(const Trial&)` in the file of its kind, declare it
-// below, and give it a line in cases.cpp. A case that is a scene reads its file from assets/scenes/extreme, so that
-// what is measured is what people can open and watch.
+// A case of the stability study: a measured value with a limit, for every law, integrator and precision that it applies
+// to (its variants). To add one: write `Outcome name(const Trial&)` in the file of its kind, declare it below, and give
+// it a line in cases.cpp. Cases with a scene read it from assets/scenes/extreme, so that users can open and watch it.
 //
 //   cases()  ×  variants_of(case)  ──►  Trial ──► case.run ──► Outcome ──► judge ──► Verdict
 #include <functional>
@@ -15,53 +14,53 @@
 
 namespace heml::stability {
 
-/// What a case is run with.
+/// Law, integrator and precision of one run of a case.
 struct CaseVariant {
   std::string law;                       ///< one of study_laws()
-  std::optional<Integrator> integrator;  ///< none: forces alone, nothing moves
+  std::optional<Integrator> integrator;  ///< none: forces only, no motion
   bool single = false;                   ///< float instead of double
   bool operator==(const CaseVariant&) const = default;
 };
 std::string to_text(const CaseVariant& variant);  ///< "neo_hookean verlet float"
 
-/// "No NaN" is not among them.
+/// A finite value alone is no pass.
 enum class Verdict {
   stable,     ///< holds
-  recovered,  ///< holds, after the engine brought the body back
-  inverted,   ///< elements are inside out at the end
-  diverged,   ///< stopped, ran away or never ended
-  wrong       ///< finite, and not what it has to be
+  recovered,  ///< holds, after recovery of a collapsed body
+  inverted,   ///< some elements are inverted at the end
+  diverged,   ///< stopped early, or the value is not finite
+  wrong       ///< finite, but above the limit, or another requirement is not met
 };
 const char* verdict_name(Verdict verdict);
 
 struct Outcome {
-  double value = 0;          ///< what the case measures: the smaller the better
-  int inverted = 0;          ///< elements, at the end
-  long recoveries = 0;       ///< that were needed
-  std::string stopped = {};  ///< why the world halted; empty: it did not
-  std::string broken = {};   ///< another demand of the case that was not met, in words; empty: none
-  std::string note = {};     ///< for people
+  double value = 0;          ///< the measured value; smaller is better
+  int inverted = 0;          ///< inverted elements at the end
+  long recoveries = 0;       ///< number of recoveries
+  std::string stopped = {};  ///< why the run stopped early; empty: it did not
+  std::string broken = {};   ///< another requirement of the case that is not met, in words; empty: none
+  std::string note = {};     ///< remark for the report
 };
 Verdict judge(const Outcome& outcome, double limit);
 
-/// The outcome of several runs of one way: the larger figure, all that went wrong, the last note.
+/// Combines two runs of one variant: the larger value, all failures, the last note.
 Outcome worse(const Outcome& a, const Outcome& b);
 
-/// Forces (3 #V, N) of a body of one material at positions x (3 #V), as a fault may change them.
+/// Changes the forces (3 #V, N) of a body of one material at positions x (3 #V, m) to simulate a fault.
 using ForceFault = std::function<void(const TetMesh& mesh, const Material& material, const std::vector<double>& x,
                                       std::vector<double>& forces)>;
 
-/// What a case gets. Faults are for tests, which see to it that cases notice; empty: none.
+/// The input of a case. Faults are for tests, which check that cases detect them; empty: none.
 struct Trial {
   CaseVariant variant;
   bool quick = false;
   std::function<void(WorldSetup&)> world_fault = {};
   ForceFault force_fault = {};
 
-  /// A scene of assets/scenes/extreme made of the way's law (with the moduli at rest of the scene's own), stepped by
-  /// its integrator in its precision, on one thread. Throws InputError.
+  /// A scene of assets/scenes/extreme with the variant's law (at the small-strain moduli of the scene's), integrator
+  /// and precision, on one thread. Throws InputError.
   WorldSetup setup(const std::string& scene) const;
-  /// make_world(), with the fault, if any.
+  /// make_world() of the setup after world_fault, if any.
   std::unique_ptr<World> world(WorldSetup setup) const;
 };
 
@@ -70,25 +69,25 @@ using CaseFunction = Outcome (*)(const Trial&);
 struct Case {
   int number;            ///< in the list of cases
   const char* name;      ///< a few words
-  const char* holds;     ///< what counts as holding, one sentence
+  const char* holds;     ///< when the case holds, one sentence
   const char* measured;  ///< what is measured
-  double limit;          ///< of the figure, in double
-  double float_limit;    ///< NaN: not asked in float
+  double limit;          ///< of the value, in double
+  double float_limit;    ///< of the value, in float; NaN: not run in float
   std::span<const std::string_view> laws;
-  std::vector<Integrator> integrators;   ///< empty: forces alone
+  std::vector<Integrator> integrators;   ///< empty: forces only
   std::vector<std::string_view> scenes;  ///< files in assets/scenes/extreme, without ".json"
   CaseFunction run;
   double limit_of(const CaseVariant& variant) const { return variant.single ? float_limit : limit; }
 };
 
-/// All of them, in the order of their numbers.
+/// All cases, in the order of their numbers.
 std::span<const Case> cases();
 const Case& case_numbered(int number);
 
-/// Every way a case is asked. quick: a few laws of each.
+/// All variants of a case. quick: one or two laws of each case with an integrator.
 std::vector<CaseVariant> variants_of(const Case& c, bool quick);
 
-/// Laws of the study, in the order of columns: all but those of stress at rest, which the paper's tables print.
+/// Laws of the study, in the order of columns: all but the paper's laws with stress at rest.
 std::span<const std::string_view> study_laws();
 std::span<const std::string_view> continua();  ///< without springs
 
@@ -113,7 +112,7 @@ Outcome energy_drift(const Trial&);
 Outcome stiff_and_settled(const Trial&);
 Outcome density_ratio(const Trial&);
 Outcome jittered_steps(const Trial&);
-// prescribed_motion.cpp
+// motion.cpp
 Outcome beam_drop(const Trial&);
 Outcome no_energy_from_nothing(const Trial&);
 Outcome no_energy_from_budgets(const Trial&);

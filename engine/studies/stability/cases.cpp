@@ -7,7 +7,7 @@
 namespace heml::stability {
 namespace {
 
-/// Names of all laws without stress at rest that are so.
+/// Names of all laws without stress at rest that satisfy a predicate.
 std::vector<std::string_view> those(bool (*are_so)(const LawInfo&)) {
   std::vector<std::string_view> names;
   for (const LawInfo& law : heml::laws())
@@ -25,7 +25,7 @@ const auto solids = those([](const LawInfo& law) { return law.is_continuum; });
 const auto exponentials = those(has_exponent);
 const auto of_stretches = those([](const LawInfo& law) { return law.is_principal; });
 const auto separate = those([](const LawInfo& law) { return law.has_volume_term && !law.has_fibre; });
-const std::vector<std::string_view> a_few = {"stvk", "neo_hookean", "mooney_rivlin", "mass_spring"};  // it takes long
+const std::vector<std::string_view> a_few = {"stvk", "neo_hookean", "mooney_rivlin", "mass_spring"};  // a long case
 constexpr double never = std::numeric_limits<double>::quiet_NaN();
 
 using enum Integrator;

@@ -1,4 +1,4 @@
-// Cases of bodies that are changed while they move.
+// Cases that change a body while it moves.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ Scene scene_named(const std::string& name) {
   return read_scene(assets_folder() / "scenes" / "extreme" / (name + ".json"));
 }
 
-/// Stored and kinetic energy of given elements, J, from the law's formula at their deformation gradients.
+/// Elastic and kinetic energy of given elements, J, from the law's formula at their deformation gradients.
 double energy_of(const TetMesh& mesh, const std::vector<int>& elements, const Material& material,
                  const std::vector<Vec3>& x, const std::vector<Vec3>& v) {
   const auto point = make_material_point(material, true);
@@ -95,7 +95,7 @@ Outcome law_switched(const Trial& trial) {
     }
     world->tick();
     swing = std::max(swing, std::abs(world->energies().potential));
-    double& rise = switches == 0 ? ripple : spike;  // what the method does to energy anyway
+    double& rise = switches == 0 ? ripple : spike;  // ripple: energy change by the method itself
     rise = std::max(rise, total(world->energies()) - after_switch);
   }
   if (world->halt()) return stopped(*world);

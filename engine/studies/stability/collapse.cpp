@@ -1,4 +1,4 @@
-// Cases of bodies that are beyond what their law is made for, and have to come back.
+// Cases that start with a collapsed or inverted body, which must return to rest.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 constexpr double at_rest = 1e-3;  // rms over the diagonal
 constexpr int max_steps = 60;
 
-/// Steps of 1/60 s until the body is at rest and stays so; what it is away from rest by then.
+/// Steps until the body has been at rest for six steps, at most max_steps; measures its distance from rest.
 Outcome steps_to_rest(World& world) {
   int since = 0;
   for (int step = 1; step <= max_steps && !world.halt(); ++step) {
@@ -27,7 +27,7 @@ Outcome steps_to_rest(World& world) {
   return ended(world, away_from_rest(world), since > 0 ? fmt::format("{} steps", since) : "not within 60 steps");
 }
 
-/// Backward Euler comes to rest by itself; other methods, which keep energy, with damping and in a second and a half.
+/// Backward Euler dissipates energy and comes to rest by itself; other methods get damping and 1.5 s.
 Outcome back_to_rest(const Trial& trial, const std::string& scene, double poisson) {
   WorldSetup setup = trial.setup(scene);
   const bool damps = setup.solver.integrator == Integrator::backward_euler;
@@ -44,7 +44,7 @@ Outcome back_to_rest(const Trial& trial, const std::string& scene, double poisso
   return ended(*world, away_from_rest(*world));
 }
 
-/// The slowest of several, by name.
+/// The worst outcome over scenes and Poisson's ratios; the note names the slowest.
 Outcome from_all(const Trial& trial, std::span<const char* const> scenes) {
   Outcome outcome;
   std::string slowest;

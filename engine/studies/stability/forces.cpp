@@ -1,4 +1,4 @@
-// Cases of forces and stiffness: nothing moves.
+// Cases of forces and stiffness, without motion.
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
@@ -36,7 +36,7 @@ TetMesh irregular_block() {
   return mesh;
 }
 
-/// Nodes moved by F and then by up to `reach`, m.
+/// Positions F X, each coordinate then moved at random by up to `reach`, m.
 Vector moved(const TetMesh& mesh, const Mat3& F, double reach, std::uint64_t seed) {
   Vector x;
   for (const Vec3& X : mesh.nodes)
@@ -44,7 +44,7 @@ Vector moved(const TetMesh& mesh, const Mat3& F, double reach, std::uint64_t see
   return x;
 }
 
-/// A body's forces, stiffness and energy in the precision of the trial, with its fault. Energy in double.
+/// Forces and stiffness of a body in the precision of the trial, with its fault. Energy is in double.
 class Body {
  public:
   Body(const Trial& trial, TetMesh mesh, Material material, bool continuation)
@@ -57,7 +57,7 @@ class Body {
   const TetMesh& mesh() const { return mesh_; }
   const Material& material() const { return material_; }
 
-  /// Positions as the precision holds them.
+  /// Positions rounded to the precision of the trial.
   Vector held(const Vector& x) const {
     if (!trial_.variant.single) return x;
     const std::vector<float> single(x.begin(), x.end());
@@ -111,7 +111,7 @@ class Body {
   ThreadTeam team_{1};
 };
 
-/// How far forces are from −∂U/∂x by fourth-order differences, over the largest.
+/// Largest difference of forces and −∂U/∂x by fourth-order differences, relative to the largest component.
 double gradient_error(Body& body, const Vector& x, double h = 2e-7) {
   const Vector f = body.forces(x);
   Vector slope(x.size());
@@ -126,7 +126,7 @@ double gradient_error(Body& body, const Vector& x, double h = 2e-7) {
   return largest_apart(f, slope) / largest(slope);
 }
 
-/// How far −K dx is from differences of forces along a dx, over the largest.
+/// Largest difference of −K dx and fourth-order differences of forces along dx, relative to the largest component.
 double stiffness_error(Body& body, const Vector& x, double h = 1e-7) {
   Vector dx(x.size());
   for (std::size_t i = 0; i < dx.size(); ++i) dx[i] = noise(7, i);
@@ -143,8 +143,7 @@ double stiffness_error(Body& body, const Vector& x, double h = 1e-7) {
   return largest_apart(change, slope) / largest(slope);
 }
 
-/// The error at a state in the law's range, and at one with elements inside out, where the law goes on by its
-/// continuation.
+/// The larger error of a state in the law's range and of one with inverted elements, where the law is continued.
 template <class Error>
 Outcome in_range_and_inverted(const Trial& trial, double reach_inverted, const Error& error) {
   Outcome outcome;
@@ -206,14 +205,14 @@ Outcome sums_of_forces(const Trial& trial) {
 }
 
 Outcome exponential_far_out(const Trial& trial) {
-  // Q = 200: e^Q is beyond what float holds, and beyond all tissue.
+  // Q = 200: e^Q exceeds the range of float, and any tissue.
   Material material = bench_material(trial.variant.law);
   const double gamma = 20;
   const LawInfo& law = *find_law(trial.variant.law);
   for (std::size_t k = 0; k < law.parameters.size(); ++k)
     if (law.parameters[k].kind == ParameterKind::exponent) material.parameters[k] = gamma;
   if (law.has_fibre) material.fibre = Vec3::UnitX();
-  double stretch = 1;  // of an incompressible bar, with Q(stretch) = 200
+  double stretch = 1;  // stretch of an incompressible bar with Q(stretch) = 200
   const auto Q = [&](double t) {
     const double I1 = t * t + 2 / t;
     return law.has_fibre ? gamma * std::pow(t * t - 1, 2) : gamma * (I1 - 3);

@@ -1,4 +1,4 @@
-// Cases of one body told in two ways: it has to do the same.
+// Cases that describe one body in two equivalent ways: results must agree.
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
@@ -34,8 +34,8 @@ std::vector<int> shuffled(std::size_t count, std::uint64_t seed) {
   return order;
 }
 
-/// Nodes and elements in another order, corners in another order, every third element wound the wrong way round (which
-/// loading puts right).
+/// Permutes nodes, elements and corners, and inverts the orientation of every third element, which check_tets()
+/// restores.
 WorldSetup renumbered(const WorldSetup& setup, const std::vector<int>& new_node) {
   WorldSetup other = setup;
   for (std::size_t n = 0; n < new_node.size(); ++n)
@@ -108,7 +108,8 @@ Outcome any_number_of_threads(const Trial& trial) {
   const char* name = "32_any_number_of_threads";
   const Scene scene = read_scene(assets_folder() / "scenes" / "extreme" / (std::string(name) + ".json"));
   WorldSetup setup = trial.setup(name);
-  if (setup.solver.is_static() && setup.solver.single_precision) setup.solver.tolerance = 1e-2;  // of 10,000 elements
+  if (setup.solver.is_static() && setup.solver.single_precision)
+    setup.solver.tolerance = 1e-2;  // float rounding with 10,000 elements
   std::optional<std::uint64_t> first;
   Outcome outcome;
   for (const int threads : {1, 2, 3, 5, 8, 16}) {

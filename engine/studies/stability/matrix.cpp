@@ -14,7 +14,7 @@ constexpr Integrator order[] = {Integrator::symplectic_euler, Integrator::verlet
 constexpr const char* codes[] = {"SE", "V", "BE", "B2", "TR", "ST"};
 constexpr int columns = static_cast<int>(std::size(order));
 
-/// Told apart by people who see few colours, by their lightness too (after Okabe & Ito 2008).
+/// Colour-blind safe: colours differ in lightness too (after Okabe & Ito 2008).
 struct Ink {
   const char *fill, *text;
   char letter;
@@ -25,7 +25,7 @@ constexpr Ink inks[] = {{"#cfe8de", "#1c2826", 'S'},   // stable
                         {"#222222", "#ffffff", 'D'},   // diverged
                         {"#f0e442", "#33300a", 'W'}};  // wrong
 
-/// Two panels, half of the laws each, one above the other.
+/// Two panels, one above the other, with half of the laws each.
 std::size_t laws_a_panel() { return (study_laws().size() + 1) / 2; }
 int panel_height() { return head + static_cast<int>(cases().size()) * row_height + 24; }
 
@@ -92,7 +92,7 @@ std::string legend() {
                     "fill=\"#55645f\"");
 }
 
-/// Stripes and names of one panel. first: its first law.
+/// Row stripes and case names of one panel. first: its first law.
 std::string rows(std::size_t first, int width) {
   std::string svg;
   for (std::size_t row = 0; row < cases().size(); ++row) {

@@ -1,12 +1,12 @@
 #pragma once
-// The survival matrix: cases down, law × precision × integrator across, a letter and a colour a cell; laws in two
-// panels.
+// The survival matrix: one row per case, one column per law × precision × integrator, a letter and a colour per cell;
+// laws in two panels.
 //
 //                  stvk                        neo_hookean
 //                  double        float         double   …
 //                  SE VV BE B2 TR ST SE VV …
-//   1 force = −∇U  [      S        ][    s …      a cell over all integrators: forces alone
-//   9 beam drop     I  S        …                 capital letters: promised
+//   1 force = −∇U  [      S        ][    s …      one cell over all integrators: forces only
+//   9 beam drop     I  S        …                 capital letters: promised cells
 #include <string>
 #include <studies/stability/study.hpp>
 

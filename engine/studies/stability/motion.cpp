@@ -1,4 +1,4 @@
-// Cases of long, far and wild motion.
+// Cases of long and large motion.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace heml::stability {
 namespace {
 
-/// The longest step that is stable for small vibrations about rest, s: 2/ω of the fastest, by power iteration.
+/// The longest stable step for small vibrations about rest, s: 2/ω of the highest mode, by power iteration.
 double limit_at_rest(const WorldSetup& setup) {
   std::vector<Material> materials;
   for (const RegionMaterial& entry : setup.materials) materials.push_back(entry.material);
@@ -41,7 +41,7 @@ double limit_at_rest(const WorldSetup& setup) {
   return 2 / std::sqrt(omega_squared);
 }
 
-/// Energy a body with nothing working on it has gained at most, in one step, over what it had.
+/// Largest gain of energy of an isolated body in one tick, relative to its initial energy.
 Outcome max_gain(World& world, int ticks) {
   const double first = total(world.energies());
   double before = first, worst = 0;
@@ -68,7 +68,7 @@ Outcome beam_drop(const Trial& trial) {
   }
   if (world->halt()) return stopped(*world);
   Outcome outcome = ended(*world, std::abs(total(world->energies())) / swing);
-  // What suits the body at rest has to fail, or the case could not tell.
+  // A fixed step at the limit of the rest shape must fail, or the case would not detect a wrong limit.
   setup.solver.step = 0.9 * limit_at_rest(setup);
   const auto fixed = make_world(setup);
   const bool reached = run_until(*fixed, duration);
@@ -105,7 +105,7 @@ Outcome no_energy_from_budgets(const Trial& trial) {
         setup.solver.budget = Budget{iterations, 0};
         const auto world = trial.world(setup);
         Outcome one = max_gain(*world, 15);
-        one.inverted = 0;  // 0.15 s after disorder, one iteration a step, nobody promises that
+        one.inverted = 0;  // not required 0.15 s after a random start with one iteration per step
         outcome = worse(outcome, one);
       }
   return outcome;
@@ -139,7 +139,7 @@ Outcome two_turns(const Trial& trial) {
 }
 
 Outcome sliver(const Trial& trial) {
-  // The same body without the sliver: the four parts of one tetrahedron joined again.
+  // The same body without the sliver: four parts of one tetrahedron are merged.
   WorldSetup bad = trial.setup("22_sliver"), good = bad;
   const std::size_t last = good.mesh.nodes.size() - 1;
   std::vector<Tet>& tets = good.mesh.tets;

@@ -17,11 +17,11 @@ constexpr double shear = young / (2 + 2 * poisson), bulk = young / (3 - 6 * pois
 struct Method {
   std::string name, law;
   bool continued = false;
-  double strength = 0;                                                    ///< of the penalty, over λ + 2μ
+  double strength = 0;                                                    ///< of the penalty, relative to λ + 2μ
   double stiffness() const { return strength * (bulk + 4 * shear / 3); }  ///< k, Pa
 };
 
-/// One tetrahedron's J and its slopes at the corners, 1/m.
+/// V (m³) and J of a tetrahedron, and the gradients of J by its corners, 1/m.
 struct VolumeSlope {
   double V, J;
   Vec3 g[4];
@@ -40,7 +40,7 @@ VolumeSlope volume_slope(const TetMesh& mesh, const Tet& tet, const std::vector<
   return result;
 }
 
-/// A body by one of the methods, in damped explicit steps.
+/// A body by one of the methods, integrated in damped explicit steps.
 class SteppedBody {
  public:
   SteppedBody(const Method& method, const WorldSetup& setup)
@@ -54,11 +54,11 @@ class SteppedBody {
         f_(x_.size()),
         free_(mesh_.nodes.size(), 1) {
     for (const int n : setup.boundary[0].nodes) free_[static_cast<std::size_t>(n)] = 0;
-    for (std::size_t i = 0; i < x_.size(); ++i)  // where nodes coincide no force has a direction
+    for (std::size_t i = 0; i < x_.size(); ++i)  // coincident nodes leave forces without a direction
       if (free_[i / 3]) x_[i] += 1e-6 * noise(13, i);
   }
 
-  /// Upper bound of ω², 1/s². Of the penalty: its own term, and the change of the slopes of J.
+  /// Upper bound of ω², 1/s²: that of the body plus that of the penalty, which includes the second derivatives of J.
   double bound(const std::vector<double>& x) {
     double penalty = 0;
     for (const Tet& tet : mesh_.tets) {
@@ -114,7 +114,7 @@ class SteppedBody {
   std::vector<char> free_;
 };
 
-/// Of a bar at a stretch of 1.3, its sides at 0.9: how much the penalty adds to its stress.
+/// Stress added by the penalty to a bar at stretch 1.3 (sides at 0.9), relative to that of the law.
 double changed_stress(const Method& method) {
   const Mat3 F = Vec3(1.3, 0.9, 0.9).asDiagonal();
   const auto point = make_material_point(material_of(method.law, shear, bulk), method.continued);

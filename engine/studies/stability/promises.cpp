@@ -12,7 +12,7 @@ namespace {
 
 bool holds(Verdict verdict) { return verdict == Verdict::stable || verdict == Verdict::recovered; }
 
-/// In single precision with a tenth to spare, since other processors round otherwise.
+/// Single precision needs a margin of a tenth, since rounding differs between processors.
 bool can_be_promised(const Cell& cell) {
   const double limit = case_numbered(cell.number).limit_of(cell.variant);
   return holds(cell.verdict) && cell.outcome.value <= (cell.variant.single ? 0.9 : 1) * limit;

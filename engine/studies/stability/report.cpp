@@ -22,7 +22,7 @@ std::vector<const Cell*> cells_of(const std::vector<Cell>& cells, int number, bo
 
 std::string percent(double part) { return fmt::format("{:.3g} %", 100 * part); }
 
-/// "1.2e-11 of 1e-06; 24 of 24 hold": the worst figure of those that hold, and how many do.
+/// "24 of 24: at most 1.2e-11, limit 1e-06": how many hold, and the largest value of these.
 std::string summary(const std::vector<const Cell*>& cells, double limit) {
   if (cells.empty()) return "not asked";
   double worst = -1;
@@ -97,7 +97,7 @@ TextTable table_of_penalty(const std::vector<PenaltyRow>& rows) {
   return table;
 }
 
-/// "back from 3 of 5 starts" of every method, in words.
+/// For every method, from how many starts the body comes back to rest.
 std::string penalty_answer(const std::vector<PenaltyRow>& rows) {
   std::vector<std::string> methods, words;
   for (const PenaltyRow& row : rows)

@@ -1,5 +1,5 @@
 #pragma once
-// The stability report: what a person reads.
+// The stability report as HTML, CSV and text.
 #include <string>
 #include <studies/stability/penalty.hpp>
 #include <studies/stability/study.hpp>
@@ -8,9 +8,9 @@ namespace heml::stability {
 
 std::string html_report(const std::vector<Cell>& cells, const std::vector<PenaltyRow>& penalty, bool quick);
 std::string csv_of(const std::vector<Cell>& cells);
-/// A sentence, for the terminal and the head of the report: how many promises hold.
+/// How many promises hold, in a sentence for the terminal and the head of the report.
 std::string answer(const std::vector<Cell>& cells);
-/// A line a promised cell that falls short.
+/// One line per promised cell that falls short.
 std::vector<std::string> shortfalls(const std::vector<Cell>& cells);
 
 }  // namespace heml::stability

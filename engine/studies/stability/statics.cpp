@@ -1,4 +1,4 @@
-// Cases of equilibrium.
+// Cases of static equilibrium.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 namespace heml::stability {
 namespace {
 
-/// The world at its whole load, or at its end.
+/// The world under its whole load (static) or at its end.
 std::unique_ptr<World> settled(const Trial& trial, const WorldSetup& setup) {
   auto world = trial.world(setup);
   if (setup.solver.is_static())
@@ -19,7 +19,7 @@ std::unique_ptr<World> settled(const Trial& trial, const WorldSetup& setup) {
   return world;
 }
 
-/// As tight as the precision allows.
+/// Sets the tightest tolerance that the precision allows.
 void tighten_static(WorldSetup& setup) {
   if (!is_explicit(setup.solver.integrator)) setup.solver.tolerance = setup.solver.single_precision ? 1e-4 : 1e-12;
 }
@@ -31,7 +31,7 @@ std::map<int, Vec3> targets(const WorldSetup& setup) {
   return result;
 }
 
-/// The affine map that best takes rest positions to targets.
+/// The least-squares affine map from rest positions to targets.
 Eigen::Matrix<double, 3, 4> affine_fit(const WorldSetup& setup, const std::map<int, Vec3>& to) {
   Eigen::Matrix4d A = Eigen::Matrix4d::Zero();
   Eigen::Matrix<double, 3, 4> b = Eigen::Matrix<double, 3, 4>::Zero();
@@ -43,7 +43,7 @@ Eigen::Matrix<double, 3, 4> affine_fit(const WorldSetup& setup, const std::map<i
   return b * A.inverse();
 }
 
-/// Mean of how far the far end has gone down, m.
+/// Mean sag of the far end, m.
 double sag_of(const World& world) {
   const auto& rest = world.setup().mesh.nodes;
   const auto x = world.positions();
@@ -85,7 +85,7 @@ Outcome patch(const Trial& trial) {
 }
 
 Outcome flattened(const Trial& trial) {
-  // From above to below the floor: at every height the body pushes back, and more than before.
+  // From half the height to below the floor: the reaction must grow at every height.
   WorldSetup setup = trial.setup("14_flattened");
   const double side = 0.1;
   double before = 0, min_rise = 1;
@@ -125,7 +125,7 @@ Outcome stretched_and_pressed(const Trial& trial) {
 Outcome stiffness_ratio(const Trial& trial) {
   WorldSetup stiff = trial.setup("19_stiff_half");
   if (trial.variant.single) stiff.solver.tolerance.reset();
-  WorldSetup rigid = stiff;  // all of the stiff half is held
+  WorldSetup rigid = stiff;  // all nodes of the stiff half are constrained
   for (std::size_t t = 0; t < rigid.mesh.tets.size(); ++t)
     if (rigid.mesh.regions[t] == 1)
       for (const int n : rigid.mesh.tets[t]) rigid.boundary[1].nodes.push_back(n);

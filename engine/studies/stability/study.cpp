@@ -18,7 +18,7 @@
 namespace heml::stability {
 namespace {
 
-/// Of all files the cases read.
+/// Hash of all files that the cases read.
 std::string fingerprint_of_scenes() {
   std::uint64_t hash = 0;
   for (const char* folder : {"scenes/extreme", "meshes"}) {
@@ -79,7 +79,7 @@ std::vector<Cell> run_study(const std::filesystem::path& file, const StudyOption
       cells[k].outcome = outcome_from(*known);
     else
       open.push_back(k);
-  // In no order, so that what is done says how long the rest will take.
+  // In pseudo-random order, so that the fraction done predicts the remaining time.
   std::sort(open.begin(), open.end(), [](std::size_t a, std::size_t b) {
     return hash_combine(1, static_cast<std::uint64_t>(a)) < hash_combine(1, static_cast<std::uint64_t>(b));
   });
@@ -107,7 +107,7 @@ std::vector<Cell> run_study(const std::filesystem::path& file, const StudyOption
         break;
       }
       Json json = to_json(outcome);
-      json["seconds"] = seconds;  // for people: nothing is decided by it
+      json["seconds"] = seconds;  // for information only
       cell.outcome = outcome_from(results.add(key_of(cell, options.quick, scenes), json));
       options.progress(fmt::format("{}, {}", case_numbered(cell.number).name, to_text(cell.variant)),
                        static_cast<double>(++done) / static_cast<double>(open.size()));

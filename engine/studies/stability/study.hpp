@@ -1,5 +1,5 @@
 #pragma once
-// Runs cases over all their ways, side by side on all cores, and holds what comes out against what is promised.
+// Runs all variants of the cases in parallel on all cores and checks the outcomes against the promises.
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace heml::stability {
 
-/// One way of one case, measured.
+/// One variant of one case, measured.
 struct Cell {
   int number;  ///< of the case
   CaseVariant variant;
@@ -18,7 +18,7 @@ struct Cell {
   bool short_of_promise = false;
 };
 
-/// A line of assets/studies/promised.json: these laws hold this case so, with figures of at most `limit`.
+/// A line of assets/studies/promised.json: with these laws the case holds, with values of at most `limit`.
 struct Promise {
   int number;
   std::optional<Integrator> integrator;
@@ -30,10 +30,10 @@ struct Promise {
 /// Throws InputError.
 std::vector<Promise> read_promises(const std::filesystem::path& file);
 std::filesystem::path promises_file();  ///< assets/studies/promised.json
-/// What of these cells holds, as promises of the cases' own limits; the file's text.
+/// The text of a promises file: all cells that hold, with the limits of their cases.
 std::string promises_text(const std::vector<Cell>& cells);
 
-/// Marks what is promised, and what of it falls short.
+/// Marks promised cells and those that fall short.
 void check_promises(const std::vector<Promise>& promises, std::vector<Cell>& cells);
 
 struct StudyOptions {
@@ -42,7 +42,7 @@ struct StudyOptions {
   std::function<void(const std::string& what, double fraction)> progress = [](const std::string&, double) {};
 };
 
-/// In the order of cases and ways. What is in `results` already, of this build and these scenes, is not run again.
+/// Cells in the order of cases and variants. Results of this build and these scenes found in `results` are reused.
 std::vector<Cell> run_study(const std::filesystem::path& results, const StudyOptions& options);
 
 }  // namespace heml::stability

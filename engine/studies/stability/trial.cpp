@@ -19,7 +19,7 @@ double mean_edge(const TetMesh& mesh) {
   return sum / static_cast<double>(mesh.tets.size());
 }
 
-/// Read once: what is to be warned of is said once.
+/// Reads each scene once, so that its warnings appear once.
 WorldSetup as_in_file(const std::string& scene) {
   static std::mutex door;
   static std::map<std::string, WorldSetup> known;
@@ -71,7 +71,7 @@ WorldSetup Trial::setup(const std::string& scene) const {
   }
   if (variant.integrator) setup.solver.integrator = *variant.integrator;
   setup.solver.single_precision = variant.single;
-  setup.solver.threads = 1;  // cases are run side by side, and threads change no bit
+  setup.solver.threads = 1;  // cases run in parallel; results do not depend on threads
   return setup;
 }
 
