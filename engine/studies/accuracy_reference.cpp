@@ -7,11 +7,11 @@
 namespace heml {
 namespace {
 
-constexpr double share = 0.1;            // of the least stable step on the pilot's way
-constexpr double longest = 600;          // s of computing
-constexpr std::size_t many_tets = 5000;  // from which on a step is worth sharing
+constexpr double share = 0.1;            // of the smallest stable step of the pilot run
+constexpr double longest = 600;          // s of processor time
+constexpr std::size_t many_tets = 5000;  // larger meshes run on all cores
 
-/// Steps of a share of the stable one that fill the scene's ticks, so that events come when they are meant to.
+/// Runs Verlet with about `part` of the stable step. Whole steps fill a tick, so events keep their times.
 Run fine_run(const Problem& problem, const Run& pilot, double part, const RunOptions& options) {
   const double tick = problem.scene.solver.tick();
   Method method{Integrator::verlet, tick / std::ceil(tick / (part * pilot.min_step))};

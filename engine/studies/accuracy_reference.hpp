@@ -1,30 +1,30 @@
 #pragma once
-// What errors are measured from: the same mesh and element, moved by Verlet in double at a tenth of the stable step and
-// at half of that. It holds for errors ten times what that halving changed, and says nothing of smaller ones. The
-// methods under study never see it, and it is none of them.
+// The reference of time errors: the same mesh and element, integrated by Verlet in double with a tenth of the stable
+// step and with half of that. It resolves errors down to ten times the change due to the halving. The methods under
+// study do not use it, and it is not one of them.
 #include <heml/scenario/json_text.hpp>
 #include <studies/accuracy_run.hpp>
 
 namespace heml {
 
 struct Reference {
-  std::string failure;                ///< why there is none; empty: there is one
-  double stable_step = 0;             ///< s, the least of verlet's on the way
-  double step = 0;                    ///< s, of the finer of the two
-  double change = 0;                  ///< m, rms at the set time where halving the step changed most
-  double motion = 0;                  ///< m, rms of the largest displacement at a set time: what relative errors are of
-  double seconds = 0;                 ///< of computing
-  std::vector<std::vector<Vec3>> at;  ///< #times × #V × 3, m
+  std::string failure;                ///< why there is no reference; empty: success
+  double stable_step = 0;             ///< s, smallest stable step of Verlet during the run
+  double step = 0;                    ///< s, of the finer of the two runs
+  double change = 0;                  ///< m, largest rms distance of the two runs at a set time
+  double motion = 0;                  ///< m, largest rms displacement at a set time; relative errors are divided by it
+  double seconds = 0;                 ///< s, wall time of both runs
+  std::vector<std::vector<Vec3>> at;  ///< #times × #V × 3, m, positions
   std::optional<FirstMode> first_mode;
 
-  /// m, the least error it can tell.
+  /// m, smallest error it resolves.
   double resolution() const { return 10 * change; }
 };
 
-/// pilot: verlet at the live limit. Throws nothing: what fails is a problem.
+/// pilot: Verlet with its stable steps. On failure, Reference::failure is set.
 Reference reference_of(const Problem& problem, const Run& pilot, RunOptions options);
 
-/// m, the largest of the rms distances at the set times that both have reached.
+/// m, largest rms distance of a and b (#times × #V × 3) over the set times that both reached. mass: #V, kg.
 double max_distance(const std::vector<std::vector<Vec3>>& a, const std::vector<std::vector<Vec3>>& b,
                     const std::vector<double>& mass);
 

@@ -68,7 +68,7 @@ void add_locking(HtmlPage& page, const std::vector<LockingBeam>& beams, const st
   page.table(locking_table(beams));
 }
 
-/// "5.1 times fewer": of the finest uniform mesh's tetrahedra, on the first adapted one that errs no more than it.
+/// Compares the finest uniform mesh with the first adapted one whose error is no larger.
 std::string gain_of(const RefinementStudy& study) {
   const RefinedMesh* uniform = nullptr;
   for (const RefinedMesh& mesh : study.meshes)
@@ -91,7 +91,7 @@ void add_refinement(HtmlPage& page, const RefinementStudy& study, const std::vec
   page.table(refinement_table(study));
 }
 
-/// "from 0.8 to 1.3 (57 runs)"
+/// Distribution of the effectivities of the step-doubling estimate over all runs.
 std::string spread_of_time_gauges(const AccuracyStudy& study) {
   std::vector<double> gauges;
   for (const SceneStudy& scene : study.scenes)

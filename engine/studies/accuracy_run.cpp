@@ -13,8 +13,8 @@
 namespace heml {
 namespace {
 
-constexpr double sample_every = 1e-3;  // s, of the mean motion
-constexpr double turn = 0.1;           // of the whole swing: a smaller way back is no turning point
+constexpr double sample_every = 1e-3;  // s, sampling period of the mean motion
+constexpr double turn = 0.1;           // of the whole range: smaller reversals are no turning points
 constexpr int plays = 3;
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
@@ -25,7 +25,7 @@ double percentile(std::vector<double> sorted, double share) {
   return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
 }
 
-/// Nothing takes energy out or puts it in.
+/// True if no motion, load, event, damping or inelastic material changes the total energy.
 bool keeps_energy(const Problem& problem) {
   const WorldSetup& setup = problem.setup;
   const bool still = std::all_of(setup.boundary.begin(), setup.boundary.end(),
@@ -37,7 +37,7 @@ bool keeps_energy(const Problem& problem) {
 
 double total(const Energies& e) { return e.kinetic + e.elastic + e.potential; }
 
-/// Looks at a world from time to time, with the clock of computing stopped.
+/// Samples energies and mean motion of a world between ticks, outside the measured time.
 class Observer {
  public:
   Observer(const Problem& problem, World& world) : specimen_(problem), world_(world) {
@@ -81,7 +81,7 @@ class Observer {
     means_.push_back(mean / mass_);
   }
 
-  /// The mean displacement along the axis on which it goes farthest.
+  /// The mean displacement along the coordinate axis of its largest range.
   std::vector<double> along_axis() const {
     Vec3 low = means_.front(), high = low;
     for (const Vec3& u : means_) low = low.cwiseMin(u), high = high.cwiseMax(u);
@@ -108,8 +108,8 @@ std::string failure_of(const World& world, double seconds, double longest) {
   return "";
 }
 
-/// What one play took: of each tick, and in all beside ticks. Every play does the same work tick by tick, so the least
-/// of several is what it takes without whatever else the machine did.
+/// Wall time of one run: of each tick, and the sum outside ticks. Every repetition does the same work tick by tick, so
+/// the minimum over several removes delays by other programs.
 struct Clock {
   std::vector<double> ticks;
   double beside = 0;
@@ -130,7 +130,7 @@ Run play_once(const Problem& problem, const Method& method, const RunOptions& op
   Player player(scene, *world);
   Observer observer(problem, *world);
   Run run;
-  const std::clock_t at_start = std::clock();  // of this process: others on the machine make nothing fail
+  const std::clock_t at_start = std::clock();  // processor time: load by other programs fails no run
   const auto worked = [&] { return static_cast<double>(std::clock() - at_start) / CLOCKS_PER_SEC; };
   double began = now();
   for (const double time : options.times) {
@@ -154,7 +154,7 @@ Run play_once(const Problem& problem, const Method& method, const RunOptions& op
   return run;
 }
 
-/// Where a parabola through three samples has its extreme.
+/// Vertex of a parabola through three samples.
 struct Extreme {
   double t, u;
 };
@@ -186,7 +186,7 @@ std::optional<double> step_doubling_error(const Problem& problem, const Method& 
     shadow.ticked(*world);
     return true;
   });
-  if (world->time() > shadow.elapsed()) shadow.ticked(*world);  // the rest, less than a tick
+  if (world->time() > shadow.elapsed()) shadow.ticked(*world);  // the remainder, shorter than a tick
   const auto error = shadow.error(world->positions());
   return error ? std::optional(error->rms) : std::nullopt;
 }

@@ -1,4 +1,4 @@
-// Which scenes are studied, on which meshes, and how widely.
+// The scenes of the accuracy study, their meshes, and the range of methods tried on each.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,14 +11,14 @@
 namespace heml {
 namespace {
 
-/// A scene file of the study and what is done with it.
+/// A scene file of the study and its variation.
 struct Entry {
   const char* file;  ///< below assets/
   SceneStudyOptions options;
-  double weight;                  ///< s it took where this was written
-  int halvings = 0;               ///< every tetrahedron in eight so many times
-  double young = 0, poisson = 0;  ///< of beams: instead of the file's; 0: the file's
-  std::string_view law = {};      ///< instead of the file's, the material that `heml bench` has for it
+  double weight;                  ///< s it took when written: its part of the progress
+  int halvings = 0;               ///< number of uniform subdivisions
+  double young = 0, poisson = 0;  ///< beams: Pa and Poisson's ratio; 0: those of the file
+  std::string_view law = {};      ///< bench_material() of this law; empty: that of the file
 };
 
 constexpr const char *beam = "studies/accuracy/beam.json", *cube = "studies/accuracy/cube.json";
@@ -35,12 +35,12 @@ constexpr Entry full_entries[] = {
     {"studies/accuracy/cut.json", brief, 60},
     {"studies/accuracy/collapse.json", brief, 60},
     {cube, brief, 20},
-    // Size.
+    // Mesh size.
     {beam, own, 60, 1},
     {beam, own, 150, 2},
     {cube, own, 60, 1},
     {cube, own, 200, 2},
-    // Stiffness, and how nearly volume is kept.
+    // Stiffness and compressibility.
     {beam, brief, 20, 0, 1e4, 0.3},
     {beam, brief, 20, 0, 1e4, 0.45},
     {beam, brief, 40, 0, 1e4, 0.499},
@@ -53,7 +53,7 @@ constexpr Entry full_entries[] = {
     {beam, brief, 90, 0, 1e7, 0.499},
 };
 
-/// Of the beam: as many swings as before, and a tenth of a second at least.
+/// Sets the moduli of a beam and scales its duration to as many oscillations as before, at least 0.1 s.
 void make_stiffness(Scene& scene, double young, double poisson) {
   Material& material = scene.materials.front().material;
   const double before = 9 * material.parameters[1] * 2 * material.parameters[0] /
@@ -66,7 +66,7 @@ void make_stiffness(Scene& scene, double young, double poisson) {
 
 void make_law(Scene& scene, std::string_view law) {
   scene.materials.front().material = bench_material(law);
-  scene.mesh.box->size *= 0.3;  // softer, so smaller
+  scene.mesh.box->size *= 0.3;  // smaller, as the material is softer
   scene.mesh.box->cells = {4, 4, 4};
   scene.name += fmt::format(" {}", law);
   scene.title = fmt::format("A small cube of {}", law);

@@ -8,9 +8,9 @@ namespace heml {
 namespace {
 
 constexpr double may_grow = 1.1;
-constexpr double negligible = 1e-9;    // m, or of a deviation
-constexpr double round_off = 1e-6;     // of forces: below it figures are chance
-constexpr double feature_weight = 15;  // s of two scenes' measurement, for the estimate of what is left
+constexpr double negligible = 1e-9;    // m, or relative
+constexpr double round_off = 1e-6;     // relative force: smaller residuals are rounding noise
+constexpr double feature_weight = 15;  // s a scene takes: its part of the progress
 constexpr double refined_poisson = 0.3;
 
 RefinementStudy refine_beam(const std::vector<LockingBeam>& beams, bool quick, const StudyContext& context) {
@@ -19,7 +19,7 @@ RefinementStudy refine_beam(const std::vector<LockingBeam>& beams, bool quick, c
   return study_refinement(*beam, cells_of_locking_study(quick), quick ? 5000 : 30000, context);
 }
 
-/// "beam 011b105b179f046f|p1, 200 tetrahedra|verlet": a key of results, without its hash and with commas.
+/// A key of results ("beam 011b105b179f046f|p1, 200 tetrahedra|verlet") without its hash, its parts joined by commas.
 std::string readable(const std::string& key) {
   std::string text;
   for (const char c : std::regex_replace(key, std::regex(" [0-9a-f]{16}(?=\\|)"), ""))
@@ -27,7 +27,7 @@ std::string readable(const std::string& key) {
   return text;
 }
 
-/// Shares the progress out: each part has a weight, and within it all steps count alike.
+/// Overall progress: each part has a weight; the steps of a part count equally.
 class Parts {
  public:
   Parts(const AccuracyOptions& options, double whole) : options_(options), whole_(whole) {}

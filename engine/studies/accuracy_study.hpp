@@ -1,6 +1,6 @@
 #pragma once
 // Error against run time: what `heml study accuracy` measures. The scenes are files of assets/studies/accuracy, listed
-// in accuracy_scenes.cpp; or one scene of the user's.
+// in accuracy_scenes.cpp; or one scene of the user.
 #include <studies/feature_study.hpp>
 #include <studies/law_study.hpp>
 #include <studies/locking_study.hpp>
@@ -11,7 +11,7 @@ namespace heml {
 
 struct AccuracyOptions {
   bool quick = false;
-  std::optional<Scene> scene;  ///< the user's own instead of the study's
+  std::optional<Scene> scene;  ///< the user's scene; none: those of the study
   MakeWorld make = make_world;
   Results* results = nullptr;
   std::function<void(double fraction, const std::string& doing)> progress = [](double, const std::string&) {};
@@ -23,31 +23,31 @@ struct AccuracyStudy {
   std::vector<LockingBeam> locking;
   std::optional<RefinementStudy> refinement;
   std::vector<LawCheck> laws;
-  std::vector<FeatureStudy> features;  ///< of a user's scene, too; not of a quick study
+  std::vector<FeatureStudy> features;  ///< also of a user's scene; empty in a quick study
 };
 
 /// Throws InputError.
 AccuracyStudy study_accuracy(const AccuracyOptions& options);
 
-/// A scene of the study's, ready to be measured, and how.
+/// A loaded scene of the study and how it is measured.
 struct AccuracyScene {
   std::string name;
   Problem problem;
   SceneStudyOptions options;
-  double weight;  ///< of the time it takes, for the estimate of what is left
+  double weight;  ///< expected computing time, for the progress
 };
 std::vector<AccuracyScene> accuracy_scenes(bool quick);
 
-/// A figure that is not to grow: errors in m, deviations from theory relative. Times are none.
+/// A value that must not grow: an error (m) or a relative deviation from theory; never a time.
 struct ResultValue {
   std::string name;
   double value;
 };
-/// Of methods whose result does not depend on the machine: not of float, nor of numbers of threads.
+/// Values of the methods whose results are the same on every machine: in double, on one thread.
 std::vector<ResultValue> result_values(const AccuracyStudy& study);
 Json to_json(const std::vector<ResultValue>& values);
 
-/// What is worse than what was committed, in sentences: grown by more than a tenth, or gone.
+/// One sentence for each value of `committed` that has grown by more than a tenth or is missing.
 std::vector<std::string> what_got_worse(const std::vector<ResultValue>& values, const Json& committed);
 
 }  // namespace heml

@@ -26,12 +26,12 @@ int threads_of(const Method& method) {
   return method.threads > 0 ? method.threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 }
 
-/// What an estimate says of what is known.
+/// Estimate over error; empty if unknown.
 std::string effectivity_text(const std::optional<double>& effectivity) {
   return effectivity ? fmt::format("{:.2f}", *effectivity) : "";
 }
 
-/// Of a mesh whose error is known in the energy norm.
+/// Adds a row for each mesh whose error is known in the energy norm.
 void add_gauged(TextTable& table, const std::string& body, const MeshConvergenceStudy& convergence) {
   for (const ConvergenceMesh& mesh : convergence.meshes) {
     if (!mesh.effectivity()) continue;

@@ -1,10 +1,10 @@
 #pragma once
-// A beam under its own weight, on paper: what settled beams are held against.
+// Closed-form sag of a beam under its own weight, for comparison with static solves.
 namespace heml {
 
-/// Sag of the tip of a cantilever of rectangular section that is held at one end, m: bending and shear of Timoshenko's
+/// Sag of the tip of a cantilever of rectangular section clamped at one end, m: bending and shear of Timoshenko's
 /// theory, ρ g h b L⁴/(8 E I) + ρ g L²/(2 k G), with Cowper's shear coefficient k = 10(1+ν)/(12+11ν) (Journal of
-/// Applied Mechanics 33, 1966). For sags that are small beside the length.
+/// Applied Mechanics 33, 1966). Valid for sags much smaller than the length.
 struct Cantilever {
   double length, depth;  ///< m; depth is along gravity
   double young, poisson, density, gravity;

@@ -10,7 +10,7 @@
 namespace heml {
 namespace {
 
-/// Uniform in [−1, 1], of a place in a sequence.
+/// Number `place` of a deterministic sequence, uniform in [−1, 1].
 double noise(std::uint64_t place) { return static_cast<double>(hash_combine(1, place) >> 11) * 0x1p-52 - 1; }
 
 void jitter(TetMesh& mesh, int n, double size) {

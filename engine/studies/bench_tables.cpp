@@ -8,7 +8,7 @@
 namespace heml {
 namespace {
 
-/// Notes a row carries, said once each.
+/// The notes of the rows, each once.
 std::string notes_of(std::span<const BenchRow> rows) {
   std::vector<std::string> said;
   std::string text;
@@ -22,7 +22,7 @@ std::string notes_of(std::span<const BenchRow> rows) {
   return text.empty() ? text : fmt::format("\n{}", text);
 }
 
-/// Least time and ratio of the fastest of the rows that `wanted` takes.
+/// Time and ratio of the fastest of the rows that `wanted` accepts.
 template <class Wanted>
 std::string fastest(std::span<const BenchRow> rows, const Wanted& wanted) {
   const BenchRow* best = nullptr;

@@ -1,21 +1,21 @@
 #pragma once
-// The tables of `heml bench`, a suite each: Markdown, columns aligned.
+// The tables of `heml bench`, one form per suite: aligned Markdown.
 #include <studies/bench.hpp>
 
 namespace heml {
 
-/// One suite's rows, in the form that suits it; notes of rows said once each.
+/// The rows of one suite in the form of that suite, and their notes, each once.
 std::string suite_tables(std::span<const BenchRow> rows);
 
-// What suite_tables() takes.
+// The forms that suite_tables() chooses from.
 
-/// A line a mesh and law: what a naive loop takes, then precisions and numbers of threads.
+/// One line per mesh and law: the naive loop, then each precision and number of threads.
 std::string kernel_tables(std::span<const BenchRow> rows);
-/// Tables 2 and 3 of the paper beside ours; operations of the other laws; errors of a body that is carried away.
+/// Tables 2 and 3 of the paper with values measured here; operations of the other laws; errors of a translated body.
 std::string paper_tables(std::span<const BenchRow> rows);
-/// What the machine has; then, a line a mesh, law and precision, what of it the best instruction set reaches.
+/// Peaks of the machine; then, per mesh, law and precision, the fraction the best instruction set reaches.
 std::string roofline_tables(std::span<const BenchRow> rows);
-/// A line a row.
+/// One line per row.
 std::string plain_table(std::span<const BenchRow> rows);
 
 }  // namespace heml

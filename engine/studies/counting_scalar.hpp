@@ -1,6 +1,5 @@
 #pragma once
-// A double that counts what is done to it: code that is generic over its scalar, run on this one, says how many
-// operations it takes.
+// A double that counts its operations. Code that is generic over its scalar is run with it to count what it needs.
 //
 //   const Operations cost = operations_of([&] { corner_forces(law, x0, x1, x2, x3, rest, out); });
 #include <cmath>
@@ -21,10 +20,10 @@ struct Operations {
   long multiplications_and_additions() const { return multiplications + additions; }
 };
 
-/// Of this thread, since it began.
+/// Operations of this thread since it started.
 inline thread_local Operations operations_done;
 
-/// What `work` does with counted numbers.
+/// Operations that `work` does with CountingScalars.
 template <class Work>
 Operations operations_of(const Work& work) {
   const Operations before = operations_done;
@@ -35,7 +34,7 @@ Operations operations_of(const Work& work) {
 struct CountingScalar {
   double value = 0;
   constexpr CountingScalar() = default;
-  constexpr CountingScalar(double v) : value(v) {}  // NOLINT: numbers are counted numbers
+  constexpr CountingScalar(double v) : value(v) {}  // NOLINT: implicit, so that literals convert
   explicit operator double() const { return value; }
 
   friend CountingScalar operator+(CountingScalar a, CountingScalar b) {
@@ -83,7 +82,7 @@ namespace heml {
 
 inline CountingScalar power(CountingScalar a, CountingScalar s) { return natural_exp(s * natural_log(a)); }
 
-// What the laws ask of a scalar type.
+// Constants that the laws require of a scalar type.
 template <>
 inline const CountingScalar max_exponent<CountingScalar> = CountingScalar(709);
 template <>

@@ -19,7 +19,7 @@ double seconds(const Work& work) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
 }
 
-/// A mesh, and what an edit makes of it.
+/// The mesh after an edit. origins: for each element, the element of the old mesh that it is part of.
 struct Edited {
   TetMesh mesh;
   std::vector<int> origins;
@@ -36,7 +36,7 @@ Edited edited_mesh(const TetMesh& mesh, const MeshEdit& edit) {
   return result;
 }
 
-/// A body that takes an edit, and one that is made of what it leaves: each time of the same body.
+/// Times of updating a body for an edit, and of rebuilding it from the edited mesh. Each sample starts from `mesh`.
 std::array<Timing, 2> time_body(const TetMesh& mesh, const Material& material, const MeshEdit& edit, int samples) {
   const Edited after = edited_mesh(mesh, edit);
   const std::vector<int> before_of(mesh.tets.size(), 0), after_of(after.mesh.tets.size(), 0);
@@ -79,7 +79,7 @@ std::vector<BenchRow> edit_rows(int n, bool quick) {
   const Material material = bench_material("stvk");
   const int samples = quick ? 3 : 9;
 
-  // Three cells deep into the upper face, five long; a ball of 1.8 cells about the middle.
+  // The cut: three cells deep from the face z = size, five cells long. The removal: a ball of 1.8 cells in the middle.
   const double x = middle + 0.4 * cell, y = middle - 2.5 * cell, deep = size - 2.9 * cell;
   const Sweep sweep{
       {{Vec3(x, y, deep), Vec3(x, y, 2 * size)}, {Vec3(x, y + 5 * cell, deep), Vec3(x, y + 5 * cell, 2 * size)}}};

@@ -1,5 +1,5 @@
 #pragma once
-// What each feature of a scene costs and brings (scenario/measure_features.hpp), kept as results of a study.
+// Cost and effect of each feature of a scene (scenario/measure_features.hpp), stored as results of a study.
 #include <heml/scenario/measure_features.hpp>
 #include <studies/study_context.hpp>
 

@@ -21,7 +21,7 @@ double distance(const std::vector<Real>& f, const std::vector<double>& reference
   return std::sqrt(apart / size);
 }
 
-/// Works of one body in one precision, and what they measure.
+/// The force evaluations of one body that are timed, and their entries.
 struct Contest {
   const BenchBody& body;
   const Material& material;

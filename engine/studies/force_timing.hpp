@@ -1,5 +1,6 @@
 #pragma once
-// One force evaluation of one body and law, in every way it can be made, against the naive loop: all in turn.
+// Times one force evaluation of a body and law for every instruction set, precision and number of threads, interleaved
+// with the naive loop.
 #include <string>
 #include <studies/bench.hpp>
 #include <studies/bench_bodies.hpp>
@@ -9,15 +10,16 @@
 namespace heml {
 
 struct ForceTiming {
-  std::string law, precision, isa;  ///< isa: "native" of the naive loop
+  std::string law, precision, isa;  ///< isa: "native" for the naive loop
   int threads = 1;
   bool naive = false;
   Timing time;
-  double bytes_per_tet = 0;  ///< read and written by ours, each array once
+  double bytes_per_tet = 0;  ///< read and written by the engine, each array once
   double ratio_to_naive = 1;
 };
 
-/// The naive loop first. Forces of all agree with it; what does not is an internal error (std::logic_error).
+/// The naive loop first. Throws std::logic_error where forces differ from it by more than 1e-10 (double) or 1e-2
+/// (float), relative.
 std::vector<ForceTiming> time_forces(const BenchBody& body, const Material& material, const TimingLimits& limits);
 
 /// As a row of ns/tet.

@@ -18,7 +18,7 @@ figcaption, summary { color: #55645f; font-size: .9rem; }
 pre, code { background: #f1f4f3; font-size: .9em; } pre { padding: .5rem .8rem; overflow-x: auto; }
 )";
 
-/// Escaped, with `code` set as such.
+/// Escaped text, with `code` in <code>.
 std::string marked_up(const std::string& text) {
   std::string result;
   bool inside = false;

@@ -1,5 +1,5 @@
 #pragma once
-// A report as one HTML file that needs no other: text, tables, and pictures inside it.
+// A report as one self-contained HTML file: text, tables and embedded images.
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -12,12 +12,12 @@ class HtmlPage {
   explicit HtmlPage(const std::string& title);
 
   void heading(const std::string& text);
-  /// In all of these text is plain and escaped; `code` in backquotes is set as such.
+  /// All text arguments are escaped; `code` in backquotes becomes <code>, except in command().
   void paragraph(const std::string& text);
-  void answer(const std::string& text);   ///< a paragraph that stands out: what a reader came for
-  void command(const std::string& text);  ///< a line for a terminal
+  void answer(const std::string& text);   ///< a highlighted paragraph
+  void command(const std::string& text);  ///< a command line, preformatted
   void table(const TextTable& table);
-  void details(const std::string& summary, const TextTable& table);  ///< a table that opens when asked for
+  void details(const std::string& summary, const TextTable& table);  ///< a collapsed table
   void png(const std::filesystem::path& file, const std::string& caption);
   void svg(const std::string& picture, const std::string& caption);
 

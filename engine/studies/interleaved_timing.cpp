@@ -14,7 +14,7 @@ double seconds_of(const std::function<void()>& work, long runs) {
   return now() - began;
 }
 
-/// How many runs make a sample; warms up on the way.
+/// Number of runs that make a sample of `shortest` s. Also warms up.
 long runs_of_sample(const std::function<void()>& work, double shortest) {
   work();
   long runs = 1;

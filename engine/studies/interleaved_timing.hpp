@@ -1,9 +1,9 @@
 #pragma once
-// Times that can be compared: works are run in turn, round after round, so that whatever else the machine does meets
-// all of them; a sample is as many runs as a clock can tell, its figure the time of one.
+// Comparable times: works run in turn, round after round, so that load by other programs affects all of them. A sample
+// is as many runs as last min_sample; its value is the time of one run.
 //
 //   round 1: A A A A | B | C C      (runs of one sample: 1 ms or more together)
-//   round 2: A A A A | B | C C  …   until the time is over
+//   round 2: A A A A | B | C C  …   until the time is up
 #include <functional>
 #include <vector>
 
@@ -16,15 +16,15 @@ struct Timing {
 };
 
 struct TimingLimits {
-  double seconds = 1;                    ///< of all works together, warm-up apart
-  int min_rounds = 5, max_rounds = 200;  ///< rounds, whatever the time
+  double seconds = 1;                    ///< of all works together, without warm-up
+  int min_rounds = 5, max_rounds = 200;  ///< limits on the rounds, whatever the time
   double min_sample = 1e-3;              ///< s
 };
 
-/// Of samples (s, one at least) that were taken otherwise.
+/// Statistics of given samples (s, at least one).
 Timing summary(std::vector<double> samples);
 
-/// What each of the works takes. Reads the clock: for measurements only.
+/// Times of each work. Reads the wall clock: for measurements only.
 std::vector<Timing> time_interleaved(const std::vector<std::function<void()>>& works, const TimingLimits& limits);
 
 }  // namespace heml

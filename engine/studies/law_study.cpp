@@ -32,7 +32,7 @@ Problem cube_of(const Material& material) {
   return with_masses(std::move(problem));
 }
 
-/// What the naive loops leave on free nodes beside the weight.
+/// Largest residual of naive forces and weight at a free node, relative to the largest nodal weight.
 double left_over(const Problem& problem, const std::vector<Vec3>& positions) {
   const WorldSetup& setup = problem.setup;
   const NaiveForces naive(setup.mesh, setup.materials.front().material);

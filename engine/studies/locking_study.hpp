@@ -1,7 +1,7 @@
 #pragma once
-// Locking: what the mesh error grows by when a material comes near to keeping its volume, all else the same. A beam
-// sags by a little under its own weight, which theory tells (beam_theory.hpp); linear tetrahedra are too stiff for it,
-// and ever more so as Poisson's ratio nears 1/2.
+// Locking: growth of the mesh error as a material approaches incompressibility, all else equal. A beam sags slightly
+// under its own weight, by a sag known from theory (beam_theory.hpp); linear tetrahedra are too stiff for it, the more
+// so the nearer Poisson's ratio is to 1/2.
 #include <studies/mesh_convergence_study.hpp>
 
 namespace heml {
@@ -16,18 +16,19 @@ struct LockingBeam {
   double off_theory() const { return extrapolated() / theory - 1; }        ///< relative
 };
 
-/// What is at rest there, on a mesh of so many cells.
+/// The beam of the study on a box mesh of `cells`.
 Problem beam_problem(double poisson, const std::array<int, 3>& cells);
 
-/// One of them, from a mesh of so many cells.
+/// The convergence of one beam; `cells`: of its coarsest mesh.
 LockingBeam study_beam(double poisson, const std::array<int, 3>& cells, const StudyContext& context);
 
-/// From a mesh of 8 × 2 × 2 cells (quick) or 10 × 2 × 2, and fewer Poisson's ratios (quick); the first is 0.
+/// Cells of the coarsest mesh: 8 × 2 × 2 (quick) or 10 × 2 × 2.
 std::array<int, 3> cells_of_locking_study(bool quick);
+/// One beam per Poisson's ratio, fewer if quick; the first ratio is 0.
 std::vector<LockingBeam> study_locking(bool quick, const StudyContext& context);
 std::size_t steps_of_locking_study(bool quick);
 
-/// Relative error of a mesh that is locking's: what it has beyond that of the same mesh at the first Poisson's ratio.
+/// The part of a mesh's relative error that is locking: its excess over the same mesh at the first Poisson's ratio.
 double locking_of(const std::vector<LockingBeam>& beams, const ConvergenceMesh& mesh);
 
 }  // namespace heml

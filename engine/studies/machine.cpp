@@ -18,7 +18,7 @@ std::string cpu_model() {
   return "unknown";
 }
 
-/// Data cache of a level, bytes, as Linux tells it; 0: it does not.
+/// Size of the data cache of a level, bytes, from Linux's sysfs; 0: unknown.
 std::size_t cache_size(int level) {
   const auto word = [](int index, const char* what) {
     std::ifstream file("/sys/devices/system/cpu/cpu0/cache/index" + std::to_string(index) + "/" + what);

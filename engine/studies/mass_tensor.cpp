@@ -23,7 +23,7 @@ Gradients gradients_of(const TetMesh& mesh, const Tet& tet) {
   return result;
 }
 
-/// The coefficients of one node, over its m neighbours (itself among them) in full.
+/// The coefficients of one node p as dense arrays over its m neighbours, p included.
 struct Tensors {
   std::size_t m;
   std::vector<Mat3> B;              ///< m
@@ -42,7 +42,7 @@ struct Tensors {
         shares_pair(m * m, 0),
         shares_triple(m * m * m, 0) {}
 
-  /// local: the tetrahedron's nodes among the neighbours. p: which of the four is the node.
+  /// Adds one tetrahedron. local: indices of its nodes among the neighbours. p: which of the four is the node.
   void add(const Gradients& at, const std::size_t local[4], std::size_t p, double lambda, double mu) {
     const Vec3* g = at.g;
     const double V = at.volume;

@@ -18,13 +18,13 @@
 
 namespace heml {
 
-/// Which sums equation (3) runs over.
+/// Index sets of the sums of equation (3).
 enum class MassTensorSums {
-  as_printed,    ///< all of {p, N(p)}²,³, as the paper counts them: most are of nodes that share no tetrahedron
-  without_zeros  ///< those that share one with p: what a careful program keeps
+  as_printed,    ///< all pairs and triples of {p, N(p)}, as the paper counts them; most share no tetrahedron
+  without_zeros  ///< those that share a tetrahedron with p; the other coefficients are zero
 };
 
-/// Real: float, double or Counted.
+/// Real: float, double or CountingScalar.
 template <class Real>
 class MassTensor {
  public:
@@ -46,14 +46,14 @@ class MassTensor {
   struct Pair {
     int j, k;
     Real twice_C[3], C[3];
-    std::size_t last_triple;  ///< one past its own; they begin where those of the pair before end
+    std::size_t last_triple;  ///< end of its triples; they begin at the end of the previous pair's
   };
   struct Triple {
     int l;
     Real four_D;
   };
   struct Node {
-    std::size_t last_neighbour, last_pair;  ///< one past its own
+    std::size_t last_neighbour, last_pair;  ///< ends of its neighbours and pairs
   };
 
   template <bool linear>

@@ -18,7 +18,7 @@ void tell_energies(const Problem& problem, World& world, Json& json) {
   if (const auto estimate = world.error_estimate()) json["estimated"] = estimate->squared;
 }
 
-/// At rest under the whole load. Positions are those of the first `nodes`.
+/// Static solve under the whole load. "x" has the positions of the first `nodes` nodes.
 Json settle(const Problem& problem, std::size_t nodes, const MakeWorld& make) {
   WorldSetup setup = problem.setup;
   SolverSettings& solver = setup.solver;
@@ -98,7 +98,7 @@ double ConvergenceMesh::estimated_length() const {
 std::optional<Potential> extrapolate(const std::vector<double>& potentials) {
   if (potentials.size() < 3) return std::nullopt;
   const double *last = &potentials.back(), fall = last[-1] - last[0], ratio = (last[-2] - last[-1]) / fall;
-  const double order = std::log2(ratio);  // of the squared norm: 2 in the end
+  const double order = std::log2(ratio);  // of the squared norm: 2 asymptotically
   if (!(fall > 0) || !(order >= min_order && order <= greatest_order)) return std::nullopt;
   const double as_shown = last[0] - fall / (ratio - 1), as_proven = last[0] - fall / (std::pow(2, proven_order) - 1);
   return Potential{(as_shown + as_proven) / 2, std::abs(as_shown - as_proven) / 2};

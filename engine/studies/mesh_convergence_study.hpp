@@ -1,80 +1,81 @@
 #pragma once
-// Errors of the mesh: where a body comes to rest under its loads, on its own mesh and on finer ones with every
-// tetrahedron in eight. Meshes are nested, so all are compared at the nodes of the first.
+// Mesh errors: the equilibrium of a body under its loads, on its own mesh and on uniform subdivisions of it (every
+// tetrahedron in eight). Meshes are nested, so all are compared at the nodes of the first.
 //
 //    u₀ ──d₀₁── u₁ ──d₁₂── u₂ ─ ─ ─ u*     d falls by 2^p a mesh; u* = u₂ + (u₂ − u₁)/(2^p − 1)   (Richardson)
 //
-// Coarse meshes that are too stiff show a p below the 2 that linear elements have in the end, and lead too far; 2 does
-// not lead far enough. u* is the middle of both guesses, and half their distance how far to trust it. Errors are
-// measured from the u* of whichever element it is surer of; the other element's is held against it.
+// Coarse, too stiff meshes show an order p below the asymptotic 2 of linear elements; extrapolation with that p goes
+// too far, with 2 not far enough. u* is the mean of both extrapolations and its uncertainty half their distance. Errors
+// are measured from the u* of the element with the smaller uncertainty; the u* of the other element is compared with
+// it.
 //
-// The estimate that the panel shows (elastic/error_estimate.hpp) is held against the energy norm of the error, which
-// the potential Π of the settled body tells: ‖u − u_h‖² = 2 (Π_h − Π*) to leading order, Π* extrapolated like u*. That
-// holds for linear tetrahedra, whose Π_h is never below Π*, under dead loads.
+// The error estimate of the panel (elastic/error_estimate.hpp) is compared with the energy norm of the error, which
+// follows from the potential Π at equilibrium: ‖u − u_h‖² = 2 (Π_h − Π*) to leading order, Π* extrapolated like u*.
+// This holds for linear tetrahedra, whose Π_h is never below Π*, under dead loads.
 #include <studies/study_context.hpp>
 
 namespace heml {
 
-/// A body at rest on one mesh.
+/// The equilibrium of a body on one mesh.
 struct ConvergenceMesh {
   bool nodal_pressure = false;
   int halvings = 0;
   std::size_t nodes = 0, tets = 0;
-  double seconds = 0;   ///< of computing
-  std::string failed;   ///< empty: it settled
+  double seconds = 0;   ///< wall time of the static solve
+  std::string failed;   ///< empty: the static solve converged
   double error = 0;     ///< m, mass-weighted rms over the nodes of the first mesh; at least the resolution
-  double relative = 0;  ///< of the motion
+  double relative = 0;  ///< error over the motion
   bool resolved = true;
   Vec3 far = Vec3::Zero();                    ///< m, displacement of the node that moves farthest on the first mesh
   double moved = 0;                           ///< m, rms displacement
   double stored = 0, potential = 0;           ///< J, elastic energy; Π
-  std::optional<double> estimated;            ///< J, squared energy norm of the error as the panel estimates it
-  std::optional<double> known;                ///< J, the same as finer meshes tell it
-  std::optional<double> effectivity() const;  ///< estimated / known, of the norm; 1: honest
-  double estimated_length() const;            ///< m, the share of the motion that goes with the energy: e²/‖u‖²
+  std::optional<double> estimated;            ///< J, squared energy norm of the error, as the panel estimates it
+  std::optional<double> known;                ///< J, the same, from finer meshes
+  std::optional<double> effectivity() const;  ///< √(estimated / known); 1: exact
+  double estimated_length() const;            ///< m, the motion times e²/‖u‖²
 };
 
-/// u* and how far to trust it.
+/// u* and its uncertainty.
 struct Extrapolation {
-  std::string failure;  ///< empty: there is one
+  std::string failure;  ///< empty: success
   bool nodal_pressure = false;
-  double order = 0;                                      ///< p as the three meshes show it
-  double uncertainty = 0;                                ///< m, half the rms distance of the two guesses
+  double order = 0;                                      ///< p of the three finest meshes
+  double uncertainty = 0;                                ///< m, half the rms distance of the two extrapolations
   double motion = 0;                                     ///< m, rms of u*
   Vec3 far = Vec3::Zero();                               ///< m, u* of the node that moves farthest
-  std::optional<double> between_elements;                ///< m, rms between the u* of both elements
-  double resolution() const { return 2 * uncertainty; }  ///< m, the least error it can tell
+  std::optional<double> between_elements;                ///< m, rms distance of the u* of both elements
+  double resolution() const { return 2 * uncertainty; }  ///< m, smallest error it resolves
 };
 
 struct MeshConvergenceStudy {
   Extrapolation reference;
-  std::vector<Vec3> best;  ///< u* as positions, #V of the first mesh; empty: there is none
+  std::vector<Vec3> best;  ///< u* as positions, #V of the first mesh; empty: none
   std::vector<ConvergenceMesh> meshes;
   const ConvergenceMesh* find(bool nodal_pressure, int halvings) const;
 };
 
-/// Richardson's, of nested solutions u (three or more) at the same nodes. rest: where u is 0. None where differences
-/// do not shrink regularly (order under 0.5 or over 4). best: u*.
+/// Richardson extrapolation of nested solutions x (three or more; #V × 3, m) at the same nodes. rest: positions where u
+/// is 0. Fails if the order is below 0.5 or above 4. best: u* as positions, set on success.
 Extrapolation extrapolate(const std::vector<std::vector<Vec3>>& x, const std::vector<Vec3>& rest,
                           const std::vector<double>& mass, std::vector<Vec3>& best);
 
-/// Π* of nested meshes (three or more), and half of what two guesses at it differ by, both J; none where it does not
-/// fall regularly.
+/// Π* of nested meshes (three or more) and half the difference of its two extrapolations, both J; none if Π does not
+/// fall with an order from 0.5 to 4.
 struct Potential {
   double best, uncertainty;
 };
 std::optional<Potential> extrapolate(const std::vector<double>& potentials);
 
-/// Loads are those of the scene at full size, without its events. halvings: the finest mesh. Both elements, where its
-/// laws have them.
+/// Applies the scene's full loads without its events. key: prefix in the results. halvings: subdivisions of the finest
+/// mesh. Studies both elements where the laws allow them.
 MeshConvergenceStudy study_mesh_convergence(const std::string& key, const Problem& problem, int halvings,
                                             const StudyContext& context);
 std::size_t steps_of_mesh_convergence_study(const Problem& problem, int halvings);
 
-/// Where the nodes of a specimen come to rest; empty: nowhere.
+/// Node positions at static equilibrium, #V × 3, m; empty if the solve fails.
 std::vector<Vec3> equilibrium_positions(const std::string& key, const Problem& problem, const StudyContext& context);
 
-/// How often a mesh may be cut in eight until it has `most` tetrahedra, at most `halvings` times.
+/// Number of uniform subdivisions, at most `halvings`, that keep a mesh within `most` tetrahedra.
 int halvings_within(std::size_t tets, std::size_t most, int halvings);
 
 }  // namespace heml

@@ -1,8 +1,8 @@
 #pragma once
-// What people write first: for every tetrahedron F = Ds Dm⁻¹, P = F S, and −V P Dm⁻ᵀ added to its nodes, one after the
-// other, in double. The laws are written out from their textbook stresses, apart from those of the engine: a yardstick
-// of its speed, and a second opinion on its forces. A law not written out there takes its stress from a MaterialPoint,
-// which shares its formula with the engine but not the tension form, and is slower than what people write.
+// The textbook loop: for every tetrahedron F = Ds Dm⁻¹, P = F S, and −V P Dm⁻ᵀ added to its nodes, one after the other,
+// in double. Stresses are written out from textbooks, independently of the engine: a baseline for its speed and a check
+// of its forces. A law without a loop takes its stress from a MaterialPoint, which shares its formula with the engine
+// but not the tension form, and is slower than a written-out loop.
 #include <heml/materials/point.hpp>
 #include <heml/mesh/tet_mesh.hpp>
 #include <memory>
@@ -13,8 +13,8 @@ namespace heml {
 
 class NaiveForces {
  public:
-  /// mesh: positive volumes. material: a law alone, the same everywhere, as its formula says (no continuation). loop:
-  /// that of the law; nullptr: a MaterialPoint.
+  /// mesh: positive volumes. material: one law for all elements, without viscosity, plasticity or continuation. loop:
+  /// that of the law; nullptr: uses a MaterialPoint.
   NaiveForces(const TetMesh& mesh, const Material& material) : NaiveForces(mesh, material, naive_loop(material.law)) {}
   NaiveForces(const TetMesh& mesh, const Material& material, NaiveLoop loop);
   NaiveForces(const NaiveForces&) = delete;
@@ -28,7 +28,7 @@ class NaiveForces {
   std::vector<double> Dm_inverse_, volume_, length_, parameters_;
   NaiveBody body_{};
   NaiveLoop loop_;
-  std::unique_ptr<MaterialPoint> point_;  ///< where there is no loop
+  std::unique_ptr<MaterialPoint> point_;  ///< used if there is no loop
 };
 
 }  // namespace heml

@@ -1,6 +1,6 @@
 #pragma once
-// The loops themselves, for the file that includes this and is compiled for one processor: naive_native.cpp,
-// naive_portable.cpp. Nothing in them is inline elsewhere, lest the linker take it from here for all.
+// The element loops, included by the files that compile them: naive_native.cpp and naive_portable.cpp. They use no
+// inline functions of other headers: the linker might keep the copy compiled here for the whole program.
 #include <cmath>
 #include <studies/naive_loops.hpp>
 
@@ -59,7 +59,7 @@ Matrix sum(double u, double v, const Matrix& A, double w, const Matrix& B) {
   return c;
 }
 
-/// What a law sees of an element. Inlined, so that a loop makes only what its law uses.
+/// Strain measures that laws read. Inlined, so that a loop computes only what its law uses.
 struct Strain {
   Matrix C, C_inverse;
   double J, I1, I2;
@@ -78,13 +78,13 @@ struct Strain {
   return at;
 }
 
-/// S of w(Ī1) + κ/2 (J−1)², from w's slope.
+/// S of w(Ī1) + κ/2 (J−1)², from w1 = ∂w/∂Ī1.
 Matrix isochoric_stress(const Strain& at, double w1, double kappa) {
   const double p = 1 / std::cbrt(at.J * at.J);
   return sum(2 * w1 * p, kappa * (at.J - 1) * at.J - 2 * w1 * p * at.I1 / 3, at.C_inverse);
 }
 
-/// S of w(Ī1, Ī2) + κ/2 (J−1)², from w's two slopes.
+/// S of w(Ī1, Ī2) + κ/2 (J−1)², from the first derivatives of w.
 Matrix isochoric_stress(const Strain& at, double w1, double w2, double kappa) {
   const double p = 1 / std::cbrt(at.J * at.J), q = p * p;
   const double pressure = kappa * (at.J - 1) * at.J;
@@ -95,7 +95,7 @@ Matrix isochoric_stress(const Strain& at, double w1, double w2, double kappa) {
 /// Ī1 − 3.
 double isochoric_excess(const Strain& at) { return at.I1 / std::cbrt(at.J * at.J) - 3; }
 
-/// Eigenvalues and eigenvectors (columns of V) of C by Jacobi's rotations.
+/// Eigenvalues and eigenvectors (columns of V) of C by Jacobi rotations.
 void eigen(Matrix C, double value[3], Matrix& V) {
   V = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
   for (int sweep = 0; sweep < 20; ++sweep) {

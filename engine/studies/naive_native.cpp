@@ -1,4 +1,4 @@
-// The loops of naive.hpp for the very processor that builds them.
+// The loops of naive.hpp for the processor of the build machine.
 #include <studies/naive_elements.hpp>
 
 namespace heml {

@@ -1,4 +1,4 @@
-// The loops of naive.hpp for every processor.
+// The loops of naive.hpp for any processor.
 #include <studies/naive_elements.hpp>
 
 namespace heml {

@@ -95,7 +95,7 @@ std::vector<BenchRow> count_rows(const BenchBody& body, const PaperBody& paper, 
                     mass_tensor_operations(body, lambda, mu, MassTensorSums::without_zeros), 0, careful_sums_note)};
 }
 
-/// Every other law on the same body.
+/// Operations of every continuum law on the same body.
 std::vector<BenchRow> law_rows(const BenchBody& body) {
   std::vector<BenchRow> rows;
   for (const Material& material : bench_materials()) {
@@ -111,7 +111,7 @@ std::vector<BenchRow> law_rows(const BenchBody& body) {
   return rows;
 }
 
-/// The naive loop, HEML and Mass-Tensor in both precisions, in turn, on one thread.
+/// Appends one force evaluation by Mass-Tensor for each kind of sums.
 template <class Real>
 void add_mass_tensor(const BenchBody& body, const Material& material, std::vector<std::function<void()>>& works) {
   for (const MassTensorSums sums : {MassTensorSums::as_printed, MassTensorSums::without_zeros}) {
@@ -154,7 +154,7 @@ std::vector<BenchRow> time_rows(const BenchBody& body, const PaperBody& paper, c
   return rows;
 }
 
-/// What becomes of the forces of both when a body is carried away: beside the times of one thread.
+/// Adds the force errors of a translated body to the one-thread rows of HEML and Mass-Tensor.
 template <class Real>
 void add_carried_error(const BenchBody& body, const Material& material, const char* precision,
                        std::vector<BenchRow>& rows) {

@@ -9,7 +9,7 @@ namespace {
 
 using Rows = std::span<const BenchRow>;
 
-/// The fastest of the rows that `wanted` takes.
+/// The fastest of the rows that `wanted` accepts.
 template <class Wanted>
 const BenchRow* least(Rows rows, const Wanted& wanted) {
   const BenchRow* best = nullptr;
@@ -36,7 +36,7 @@ std::string printed_thousands(const BenchRow* row) {
   return row && row->more.contains("printed") ? fmt::format("{:.0f}", row->more["printed"].get<double>() / 1000) : "";
 }
 
-/// A line a body and method: what the paper prints, and what is counted here.
+/// One line per body: operations printed in the paper and counted here.
 std::string table_3(Rows rows) {
   TextTable table;
   table.head = {"body",          "tets",          "Mass-Tensor, printed", "Mass-Tensor, counted",
@@ -83,7 +83,7 @@ std::string table_2(Rows rows) {
          markdown_text(table);
 }
 
-/// What the paper says of the other laws: that they are of the same order.
+/// Operations of the other laws, which the paper says are of the same order.
 std::string other_laws(Rows rows) {
   TextTable table;
   table.head = {"law", "multiplications", "additions", "divisions, roots, ...", "times Saint Venant-Kirchhoff"};
@@ -107,7 +107,7 @@ std::string other_laws(Rows rows) {
       most, markdown_text(table));
 }
 
-/// Errors of the largest body.
+/// Force errors of the largest body after translation.
 std::string carried(Rows rows) {
   const BenchRow* at = nullptr;
   for (const BenchRow& row : rows)

@@ -1,5 +1,5 @@
 #pragma once
-// What nothing else beats in both time and error.
+// The Pareto front of cost and error.
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
@@ -11,7 +11,7 @@ struct CostAndError {
   double cost, error;
 };
 
-/// Indices of the points of which no other is as good in one and better in the other, ascending in cost.
+/// Indices of the points that no other point dominates, ascending in cost.
 inline std::vector<std::size_t> pareto_front(const std::vector<CostAndError>& points) {
   std::vector<std::size_t> order(points.size()), front;
   std::iota(order.begin(), order.end(), std::size_t{0});

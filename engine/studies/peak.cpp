@@ -3,7 +3,7 @@
 namespace heml {
 namespace {
 
-constexpr int chains = 12;  // independent: more than a multiply-add has cycles of latency, times two units
+constexpr int chains = 12;  // independent: more than the latency of a multiply-add (cycles) times two units
 
 /// x ← m x + b in every lane of `chains` vectors. Compiled with contraction (engine/CMakeLists.txt).
 #define HEML_PEAK_LOOP(function, attributes, vector_bytes)                           \

@@ -1,5 +1,5 @@
 #pragma once
-// What a machine can do at most: arithmetic in registers, and streams of memory.
+// Peak performance of a machine: arithmetic in registers, and memory bandwidth.
 #include <cstddef>
 #include <functional>
 #include <heml/base/thread_team.hpp>
@@ -15,11 +15,11 @@ struct PeakLoop {
   double operations_per_turn;
 };
 
-/// What this processor has, in all.
+/// The loops that this processor can run, in both precisions.
 std::vector<PeakLoop> peak_loops();
 
-/// a = b + s c over three arrays of `bytes` in all, shared out among a team; each thread goes `turns` times over its
-/// own part.
+/// STREAM triad a = b + s c over three arrays of `bytes` in total, split among a team; each thread passes `turns` times
+/// over its own part.
 class Triad {
  public:
   explicit Triad(std::size_t bytes);

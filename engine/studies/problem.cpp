@@ -13,7 +13,7 @@
 namespace heml {
 namespace {
 
-constexpr double rate = 1000;  // Hz, of explicit methods at the live limit
+constexpr double rate = 1000;  // Hz, ticks of explicit methods without a given step
 
 std::vector<double> lumped_masses(const WorldSetup& setup) {
   const auto entry = material_of_elements(setup.mesh, setup.materials);
@@ -28,14 +28,14 @@ std::vector<double> lumped_masses(const WorldSetup& setup) {
   return mass;
 }
 
-/// Grasps given by a place take the node that is nearest now: finer meshes have others nearer.
+/// Resolves grasps given by a point to the nearest nodes of this mesh: finer meshes have other nodes nearer.
 void settle_grasps(Problem& problem) {
   for (const auto& [index, points] : problem.scene.points)
     set_nodes(problem.scene.events.at(index).command, problem.setup.mesh, points);
   problem.scene.points.clear();
 }
 
-/// Elements that an event removes by number become their eight parts.
+/// Replaces elements that events remove by number with their eight parts.
 void take_parts(std::vector<Event>& events) {
   for (Event& event : events)
     if (auto* remove = std::get_if<RemoveElements>(&event.command)) {

@@ -1,8 +1,8 @@
 #pragma once
-// What the accuracy study holds still and what it varies.
+// What the accuracy study fixes and what it varies.
 //
-//   Specimen   a scene with its mesh and element: time errors are of its own exact motion
-//   Method     how that motion is computed: integrator, step, iterations, precision, threads
+//   Problem   a scene with its mesh and element; time errors are relative to its own exact motion
+//   Method    how that motion is computed: integrator, step, iterations, precision, threads
 #include <functional>
 #include <heml/scenario/scene.hpp>
 #include <heml/world/world.hpp>
@@ -13,7 +13,7 @@
 
 namespace heml {
 
-/// Makes the worlds of a study; tests of the study give one that makes broken ones.
+/// Creates the worlds of a study; tests of the study pass one that creates faulty worlds.
 using MakeWorld = std::function<std::unique_ptr<World>(WorldSetup)>;
 
 struct Problem {
@@ -25,32 +25,32 @@ struct Problem {
 
 struct Method {
   Integrator integrator = Integrator::verlet;
-  std::optional<double> step = {};  ///< s; none: explicit at the live limit, in ticks of a millisecond
-  int iterations = 0;               ///< of an implicit stage; 0: as many as its tolerance asks for
+  std::optional<double> step = {};  ///< s; none: stable steps of explicit methods, in ticks of 1 ms
+  int iterations = 0;               ///< at most, per implicit stage; 0: until its tolerance is met
   bool single_precision = false;
   int threads = 1;  ///< 0: all cores
 };
 
-/// Loads a scene; one without a name gets its file's. Throws InputError.
+/// Loads a scene; one without a name is named after its file. Throws InputError.
 Problem problem_of(const Scene& scene);
-/// With the masses of its setup.
+/// With the lumped masses of its setup.
 Problem with_masses(Problem problem);
-/// On the mesh with every tetrahedron in eight; what was selected takes in the middles between what was selected.
+/// On the uniformly subdivided mesh (every tetrahedron in eight). Selections gain the midpoints of their edges.
 Problem finer(const Problem& problem);
-/// With the other kind of element.
+/// With averaged nodal pressure or without.
 Problem with_element(Problem problem, bool nodal_pressure);
 /// Whether averaged nodal pressure is defined for all its laws, at the start and after every event.
 bool takes_nodal_pressure(const Problem& problem);
-/// With averaged nodal pressure or without: the specimen's own first, then the other where it is defined.
+/// Values of nodal_pressure: that of the problem first, then the other where it is defined.
 std::vector<bool> elements_of(const Problem& problem);
-/// A name that other scenes do not have: its own and a hash of all there is in it.
+/// A unique name: that of the scene, and a hash of scene, mesh and initial positions.
 std::string key_of(const Problem& problem);
 /// Stable name of the mesh and element: "p1, 1600 tetrahedra".
 std::string text_of(const Problem& problem);
 
-/// Solved by a method. Events keep their times, as nearly as its ticks allow.
+/// The scene solved by a method. Events keep their times, rounded to its ticks.
 Scene with_method(Scene scene, const Method& method);
-/// "tr_bdf2, steps of 10 ms, 1 iteration, float, 1 thread".
+/// "tr_bdf2, steps of 10 ms, 1 iteration, float, all cores".
 std::string text_of(const Method& method);
 
 }  // namespace heml

@@ -4,8 +4,8 @@
 
 namespace heml {
 
-/// s, from s, ms or us. option: named in errors ("--within"). Throws UsageError for what is no number, has no unit or
-/// another one, or is not greater than 0.
+/// s, from s, ms or us. option: named in errors ("--within"). Throws UsageError unless the text is a number greater
+/// than 0 with one of these units.
 double seconds_from(const std::string& text, const std::string& option);
 /// m, from m, cm, mm or um; likewise.
 double metres_from(const std::string& text, const std::string& option);

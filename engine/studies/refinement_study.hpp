@@ -1,7 +1,7 @@
 #pragma once
-// What refining where the estimate says gains: a beam at rest on meshes with every tetrahedron in eight, and on meshes
-// adapted to the estimate (scenario/adapt.hpp), error against number of tetrahedra. Errors of both are known from the
-// potential, Π* extrapolated from the uniform meshes (mesh_convergence_study.hpp).
+// Gain of adaptive refinement: a beam at equilibrium on uniform subdivisions and on meshes adapted to the error
+// estimate (scenario/adapt.hpp), error against number of tetrahedra. Errors of both follow from the potential, Π*
+// extrapolated from the uniform meshes (mesh_convergence_study.hpp).
 #include <studies/locking_study.hpp>
 
 namespace heml {
@@ -9,17 +9,16 @@ namespace heml {
 struct RefinedMesh {
   bool adapted = false;
   std::size_t tets = 0;
-  double error = 0;      ///< of the energy norm
-  double estimated = 0;  ///< the same as the panel estimates it
+  double error = 0;      ///< relative, in the energy norm
+  double estimated = 0;  ///< the same, as the panel estimates it
 };
 
 struct RefinementStudy {
   double poisson = 0;
-  std::vector<RefinedMesh>
-      meshes;  ///< uniform ones, then adapted ones, each from coarse to fine; none: Π* is not known
+  std::vector<RefinedMesh> meshes;  ///< uniform ones, then adapted ones, each from coarse to fine; empty: Π* is unknown
 };
 
-/// From the first mesh of a beam at rest that is known already, to no more than so many tetrahedra.
+/// Adapts the coarsest mesh of a beam whose convergence was studied, up to max_tets tetrahedra.
 RefinementStudy study_refinement(const LockingBeam& beam, const std::array<int, 3>& cells, int max_tets,
                                  const StudyContext& context);
 

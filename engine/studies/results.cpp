@@ -13,7 +13,7 @@
 namespace heml {
 namespace {
 
-/// Of its bytes; of its version and compiler where the system does not show them.
+/// Hash of the executable's bytes; if they cannot be read, of version, compiler and flags.
 std::string identity_of_program() {
   std::ifstream program("/proc/self/exe", std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(program), {}};
@@ -35,14 +35,14 @@ Results::Results(const std::filesystem::path& file, std::string build) : file_(f
   std::string whole;
   if (std::filesystem::exists(file)) {
     const std::string text = read_text_file(file);
-    whole = text.substr(0, text.rfind('\n') + 1);  // npos + 1 == 0: not one whole line
+    whole = text.substr(0, text.rfind('\n') + 1);  // npos + 1 == 0: no complete line
     for (std::string_view rest = whole; !rest.empty();) {
       const Json line = Json::parse(consume_line(rest), nullptr, false);
       if (line.is_object() && line.value("build", "") == build_ && line.contains("key") && line.contains("result"))
         results_[line["key"]] = line["result"];
     }
   }
-  write_file(file, whole);  // without half a line at its end
+  write_file(file, whole);  // drops an incomplete last line
 }
 
 const Json* Results::find(const std::string& key) const {

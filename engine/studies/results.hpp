@@ -1,6 +1,6 @@
 #pragma once
-// What a study has measured so far, on disk: a line of JSON a result, appended as it comes, so that a run that was
-// interrupted goes on where it stopped. Results of another build of the program are not taken up.
+// The results of a study on disk: one line of JSON per result, appended as it is measured, so that an interrupted run
+// continues where it stopped. Results of other builds of the program are ignored.
 //
 //   {"key":"collapse point|stvk|verlet|double","build":"8f2c…","result":{…}}
 #include <filesystem>
@@ -12,16 +12,16 @@ namespace heml {
 
 class Results {
  public:
-  /// Reads what is there; a last line that was cut off is left out. Throws InputError when the file cannot be written.
+  /// Reads existing results; drops an incomplete last line. Throws InputError if the file cannot be written.
   explicit Results(const std::filesystem::path& file, std::string build = build_identity());
 
-  /// Null: not measured yet. key: all that decides the result but the program itself.
+  /// Null: not measured yet. key: everything that determines the result except the build.
   const Json* find(const std::string& key) const;
 
-  /// Appends a line; returns what the next run will read.
+  /// Appends a line; returns the result as the next run will read it.
   const Json& add(const std::string& key, const Json& result);
 
-  /// Of the running program: changes with every change of its code, its libraries in it, and its compiler.
+  /// Of the running executable: changes with its code, its static libraries and its compiler.
   static std::string build_identity();
 
  private:

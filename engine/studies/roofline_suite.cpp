@@ -20,7 +20,7 @@ constexpr const char* reached_note =
     "read what does not fit the registers; and results of one are waited for in the next (a fifth of the cycles of "
     "Saint Venant-Kirchhoff in float). Small bodies run on one thread whatever the number: waking another costs more";
 
-/// Best figure over threads and instruction sets: what a kernel's is held against.
+/// Peak rates by instruction set, precision and threads, with which kernels are compared.
 struct Peaks {
   std::vector<BenchRow> arithmetic, bandwidth;
 
@@ -44,7 +44,7 @@ TimingLimits limits_of(const BenchOptions& options) {
   return limits;
 }
 
-/// `amount` of something (operations, bytes) a run, as 1e9 a second.
+/// `amount` (operations, bytes) per run, as 1e9 per second.
 BenchRow rate_row(std::string name, const Timing& time, double amount, const char* unit, int threads) {
   BenchRow row;
   row.name = std::move(name);
@@ -79,7 +79,7 @@ std::vector<BenchRow> bandwidth_rows(const BenchOptions& options) {
   const Machine machine = this_machine();
   const struct {
     const char* level;
-    std::size_t bytes;  ///< of one thread; of all in what all share
+    std::size_t bytes;  ///< per thread; in total if shared
     bool shared;
   } sizes[] = {{"L1", machine.L1 / 2, false},
                {"L2", machine.L2 / 2, false},
@@ -87,7 +87,7 @@ std::vector<BenchRow> bandwidth_rows(const BenchOptions& options) {
                {"DRAM", std::max<std::size_t>(4 * machine.L3, std::size_t{1} << 28), true}};
   std::vector<BenchRow> rows;
   for (const auto& size : sizes) {
-    if (size.bytes < 4096) continue;  // no such cache, or its size is not known
+    if (size.bytes < 4096) continue;  // no such cache, or its size is unknown
     for (const int threads : bench_threads()) {
       ThreadTeam team(threads);
       Triad triad(size.bytes * static_cast<std::size_t>(size.shared ? 1 : threads));
@@ -103,18 +103,18 @@ std::vector<BenchRow> bandwidth_rows(const BenchOptions& options) {
   return rows;
 }
 
-/// The smallest level that holds what a kernel goes over.
+/// The smallest cache level that holds the data of a kernel.
 std::string level_of(double bytes, const Machine& machine, int threads) {
   if (bytes < static_cast<double>(machine.L1) * threads) return "L1";
   if (bytes < static_cast<double>(machine.L2) * threads) return "L2";
   return bytes < static_cast<double>(machine.L3) ? "L3" : "DRAM";
 }
 
-/// Divisions of the element's code by its volume and by numbers, which are constants of the kernels.
+/// Divisions in the element code by its volume and by numbers; in the kernels these are constants.
 constexpr double constant_divisions = 10;
-constexpr std::size_t shared_from = 8192;  ///< elements; below them one thread does all (elastic/fan_forces.hpp)
+constexpr std::size_t shared_from = 8192;  ///< elements; smaller bodies run on one thread (elastic/fan_forces.hpp)
 
-/// What holds a kernel back, by what it reaches. slow: divisions, roots, ... of a tetrahedron.
+/// The likely bottleneck, from the fractions of the peaks reached. slow: divisions, roots, … per tetrahedron.
 std::string limit_of(double arithmetic, double bandwidth, double slow) {
   if (bandwidth > 0.6 && bandwidth > arithmetic) return "memory";
   if (slow > 2) return "divisions and roots, and what waits for them";

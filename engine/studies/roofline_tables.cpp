@@ -13,7 +13,7 @@ std::string roofline_tables(std::span<const BenchRow> rows) {
   std::string best_isa;
   for (const BenchRow& row : rows) {
     if (row.name == "force") continue;
-    if (!row.isa.empty()) best_isa = row.isa;  // they come in order
+    if (!row.isa.empty()) best_isa = row.isa;  // rows are in ascending order of instruction sets
     peaks.rows.push_back({row.name, row.precision, row.isa, std::to_string(row.threads), short_number(row.median),
                           short_number(row.more["best"]), row.unit});
   }

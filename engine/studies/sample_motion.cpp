@@ -4,7 +4,7 @@
 namespace heml {
 namespace {
 
-/// Barycentric coordinates in a tetrahedron: inside, all four are 0 or more.
+/// Barycentric coordinates in a tetrahedron: inside it, all four are ≥ 0.
 struct Barycentric {
   std::array<double, 4> weight;
   double least() const { return *std::min_element(weight.begin(), weight.end()); }

@@ -7,7 +7,7 @@
 namespace heml {
 namespace {
 
-constexpr int finest = 2;  // times that every tetrahedron is cut in eight
+constexpr int finest = 2;  // uniform subdivisions of the finest mesh
 
 std::vector<std::string> laws_of(const WorldSetup& setup) {
   std::vector<std::string> laws;
@@ -22,7 +22,7 @@ std::vector<bool> elements_of(const Problem& problem, const SceneStudyOptions& o
 
 int halvings_of(const Problem& problem, const SceneStudyOptions& options) {
   const int halvings = halvings_within(problem.setup.mesh.tets.size(), options.max_tets, finest);
-  return halvings == finest ? finest : 0;  // fewer than three meshes tell nothing
+  return halvings == finest ? finest : 0;  // extrapolation needs three meshes
 }
 
 template <class Better, class Wanted>

@@ -1,51 +1,52 @@
 #pragma once
-// All errors of one scene, and the answer they lead to.
+// All errors of one scene, and the best method within a time or an error.
 //
 //   time error   each method against the reference on the same mesh and element      (time_study.hpp)
-//   mesh error   the same mesh and element at rest against finer meshes              (mesh_convergence_study.hpp)
-//   error        their sum: what a user sees at most
+//   mesh error   the same mesh and element at equilibrium against finer meshes       (mesh_convergence_study.hpp)
+//   error        their sum: an estimate of the total error
 #include <studies/mesh_convergence_study.hpp>
 #include <studies/time_study.hpp>
 
 namespace heml {
 
-inline constexpr double frame = 1.0 / 60;  ///< s of simulated time between two pictures: what is budgeted
+inline constexpr double frame = 1.0 / 60;  ///< s of simulated time per frame
 
-/// One method on one mesh and element with both its errors.
+/// One method on one mesh and element, with its time and mesh errors.
 struct Candidate {
   const TimeStudy* study = nullptr;
   const Measured* measured = nullptr;
-  std::optional<double> mesh_error;                                                ///< m; none: not known
+  std::optional<double> mesh_error;                                                ///< m; none: unknown
   double error() const { return measured->error + mesh_error.value_or(0); }        ///< m
-  double frame_seconds() const { return measured->seconds_per_second() * frame; }  ///< of computing
+  double frame_seconds() const { return measured->seconds_per_second() * frame; }  ///< s, wall time of a frame
   double tick() const { return measured->method.step.value_or(1e-3); }             ///< s
 };
 
 struct SceneStudy {
   std::string name, title;
   std::vector<std::string> laws;
-  std::vector<TimeStudy> time;  ///< one an element
+  std::vector<TimeStudy> time;  ///< one per kind of element
   MeshConvergenceStudy convergence;
   std::vector<std::string> notes;  ///< what could not be measured, and why
 
-  std::vector<Candidate> candidates() const;  ///< all that did not fail
+  std::vector<Candidate> candidates() const;  ///< all methods that did not fail
   std::optional<double> mesh_error(bool nodal_pressure) const;
 };
 
 struct SceneStudyOptions {
   Breadth sweep = Breadth::whole;
-  bool both_elements = true;      ///< time errors of the element the scene does not name, too
-  std::size_t max_tets = 150000;  ///< of meshes for the mesh error; 0: none is measured
+  bool both_elements = true;      ///< time errors also of the kind of element that the scene does not use
+  std::size_t max_tets = 150000;  ///< of meshes for the mesh error; 0: not measured
 };
 
-/// name: for tables. Throws InputError for a static scene and for what loading refuses.
+/// name: for tables. Throws InputError if the scene is static.
 SceneStudy study_scene(const std::string& name, const Problem& problem, const SceneStudyOptions& options,
                        const StudyContext& context);
 std::size_t steps_of_scene_study(const Problem& problem, const SceneStudyOptions& options);
 
-/// The least error whose frame is computed in that time and that has a state for every frame; none: nothing is as fast.
+/// The smallest error among methods that compute a frame in that time and whose tick is no longer than a frame; none:
+/// no method does.
 std::optional<Candidate> best_within(const std::vector<Candidate>& candidates, double frame_seconds);
-/// The least time whose error is no larger; none: nothing is as exact.
+/// The fastest method whose error is no larger; none: no method is as accurate.
 std::optional<Candidate> fastest_within(const std::vector<Candidate>& candidates, double error);
 
 /// "0.31 mm", "12 µm".

@@ -1,5 +1,5 @@
 // Whole steps of a hanging cube: explicit and implicit, Saint Venant-Kirchhoff from 320 to a million
-// tetrahedra, what is beside the law, and what an edit of the mesh takes.
+// tetrahedra, features added to a law, and mesh edits.
 #include <fmt/format.h>
 
 #include <deque>
@@ -16,12 +16,12 @@ namespace {
 struct Case {
   Material material;
   Integrator integrator;
-  int budget;  ///< iterations a step; 0: to the tolerance
+  int budget;  ///< iterations per step; 0: to the tolerance
   bool single;
   int threads;
 };
 
-/// E 10 kPa.
+/// E = 10 kPa.
 Material soft(const char* law, double poisson) {
   const LameParameters lame = lame_parameters(1e4, poisson);
   Material material;
@@ -30,7 +30,7 @@ Material soft(const char* law, double poisson) {
   return material;
 }
 
-/// Explicit and implicit, and what Poisson's ratio does to the latter.
+/// Explicit methods, and implicit ones at two Poisson's ratios.
 std::vector<Case> method_cases() {
   std::vector<Case> list;
   for (const int threads : bench_threads()) {
@@ -79,13 +79,13 @@ double poisson_of(const Material& material) {
   return lambda / (2 * (lambda + mu));
 }
 
-/// A step held against one evaluation of the naive loop, in turn with it.
+/// Times a step against one evaluation of the naive loop, interleaved.
 BenchRow measure(const BenchBody& body, const Case& which, bool quick) {
   const WorldSetup setup = setup_of(body.mesh, which);
   const auto world = make_world(setup);
   const NaiveForces naive(body.mesh, which.material);
   std::vector<double> f(body.x.size());
-  for (int k = 0; k < 3; ++k) world->tick();  // masses, factors, the first estimate of the limit
+  for (int k = 0; k < 3; ++k) world->tick();  // warm-up: masses, factorisations, first step bound
   const long steps_before = world->steps(), ticks_before = world->ticks(),
              work_before = world->solver_stats().iterations;
   TimingLimits limits;
@@ -123,7 +123,7 @@ BenchRow measure(const BenchBody& body, const Case& which, bool quick) {
   return row;
 }
 
-/// What a law may have beside it, in turn with the law alone.
+/// Steps of a law with one feature added, interleaved with the law alone.
 std::vector<BenchRow> beside_the_law(const BenchBody& body, bool single, bool quick) {
   Material bare = bench_material("neo_hookean_iso");
   Material viscous = bare, relaxing = bare, other_volume = bare;
@@ -183,7 +183,7 @@ std::vector<BenchRow> step_suite(const BenchOptions& options) {
     for (const Case& which : list)
       works.push_back([&options, &body, which](auto& rows) { rows.push_back(measure(body, which, options.quick)); });
   };
-  std::deque<BenchBody> bodies;  // works hold on to them
+  std::deque<BenchBody> bodies;  // referenced by works
   for (const int n : options.quick ? std::vector<int>{9} : std::vector<int>{9, 13, 18})
     add(bodies.emplace_back(bench_cube(n, false)), method_cases());
   for (const int n : options.quick ? std::vector<int>{27} : std::vector<int>{4, 13, 27, 58})

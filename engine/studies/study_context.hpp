@@ -1,5 +1,5 @@
 #pragma once
-// What all parts of a long study share: the results there are, how worlds are made, who looks on.
+// Shared by all parts of a long study: stored results, creation of worlds, progress.
 #include <functional>
 #include <string>
 #include <studies/problem.hpp>
@@ -8,11 +8,11 @@
 namespace heml {
 
 struct StudyContext {
-  Results* results = nullptr;  ///< none: nothing is kept
+  Results* results = nullptr;  ///< null: nothing is stored
   MakeWorld make = make_world;
-  std::function<void(const std::string& doing)> step_done = [](const std::string&) {};  ///< after each kept result
+  std::function<void(const std::string& doing)> step_done = [](const std::string&) {};  ///< called after each result
 
-  /// What was found before under that key, or what measure() gives now, which is kept.
+  /// The stored result of a key; if there is none, measures and stores it.
   Json kept(const std::string& key, const std::function<Json()>& measure) const {
     if (const Json* known = results ? results->find(key) : nullptr) {
       step_done(key);

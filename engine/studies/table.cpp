@@ -7,7 +7,7 @@
 namespace heml {
 namespace {
 
-/// Characters, not bytes: names have Greek letters in them.
+/// In characters, not bytes: names have Greek letters in them.
 std::size_t width_of(const std::string& text) {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
 }

@@ -1,5 +1,5 @@
-// Steps of a hanging cube with 1 to all threads, from 320 to a million tetrahedra, timed in turn with one thread: on an
-// idle machine, and with one core taken by another process, as drawing without a graphics card takes it.
+// Steps of a hanging cube with 1 to all threads, from 320 to a million tetrahedra, interleaved with one thread: on an
+// idle machine, and with one core taken by another process, as by drawing without a graphics card.
 #include <fmt/format.h>
 #include <signal.h>
 #include <sys/prctl.h>
@@ -15,7 +15,7 @@
 namespace heml {
 namespace {
 
-/// A process that takes all of one core while the object lives.
+/// A process that keeps one core busy for the lifetime of the object.
 class BusyProcess {
  public:
   BusyProcess() : process_(fork()) {
@@ -54,11 +54,11 @@ std::unique_ptr<World> timed_world(const BenchBody& body, const TimedMethod& met
     setup.solver.budget = Budget{1, 0};
   }
   auto world = make_world(setup);
-  for (int k = 0; k < 3; ++k) world->tick();  // masses, factors, the first estimate of the limit
+  for (int k = 0; k < 3; ++k) world->tick();  // warm-up: masses, factorisations, first step bound
   return world;
 }
 
-/// A row a number of threads, all worlds of them in turn.
+/// One row per number of threads, their worlds interleaved.
 std::vector<BenchRow> time_threads(const BenchBody& body, const TimedMethod& method, bool loaded, bool quick) {
   const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   std::vector<std::unique_ptr<World>> worlds;
@@ -76,7 +76,7 @@ std::vector<BenchRow> time_threads(const BenchBody& body, const TimedMethod& met
   TimingLimits limits;
   limits.seconds = quick ? 0.3 : 4;
   limits.min_rounds = 3;
-  limits.min_sample = quick ? 0 : 0.02;  // longer than what another program takes at a time
+  limits.min_sample = quick ? 0 : 0.02;  // s, longer than another program's time slice
   const auto times = time_interleaved(works, limits);
   std::vector<BenchRow> rows;
   for (std::size_t k = 0; k < times.size(); ++k) {

@@ -8,8 +8,8 @@ namespace heml {
 namespace {
 
 constexpr int set_time_count = 4;
-constexpr double gauged_below = 5;  // s of computing
-constexpr double above_limit = 3;   // times the stable step: it keeps a margin
+constexpr double gauged_below = 5;  // s, wall time: longer runs are not repeated for the step-doubling estimate
+constexpr double above_limit = 3;   // times the stable step, which includes a safety margin
 
 Json run_json(const Run& run) {
   Json json = {{"failed", run.failed},       {"simulated", run.simulated},
@@ -72,7 +72,7 @@ bool several_cores() { return std::thread::hardware_concurrency() > 1; }
 void add_explicit(std::vector<Method>& list, Breadth sweep, double stable_step) {
   list.push_back({Integrator::symplectic_euler});
   list.push_back({Integrator::verlet});
-  list.push_back({Integrator::verlet, above_limit * stable_step});  // fails, and is shown to
+  list.push_back({Integrator::verlet, above_limit * stable_step});  // beyond the stable step: expected to fail
   if (sweep == Breadth::brief) return;
   list.push_back({Integrator::verlet, {}, 0, true});
   if (several_cores()) list.push_back({Integrator::verlet, {}, 0, false, 0});

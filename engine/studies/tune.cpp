@@ -9,11 +9,11 @@
 namespace heml {
 namespace {
 
-constexpr std::size_t max_tets = 150000;  // of meshes that tell the error of the mesh
-constexpr double max_reference = 120;     // s of computing, expected of a finer mesh
-constexpr double finer_costs = 16;        // times that of the mesh: eight times the elements, half the step
+constexpr std::size_t max_tets = 150000;  // of meshes for the mesh error
+constexpr double max_reference = 120;     // s, wall time expected of a finer mesh's reference
+constexpr double finer_costs = 16;        // times the cost of the mesh: eight times the elements, half the step
 
-/// Whether all that refers to the mesh means places, which another mesh has as well.
+/// Whether the scene generates its mesh and refers to it by regions of space only, so that another mesh fits as well.
 bool can_be_remade(const Scene& scene) {
   const auto is_place = [](const Selection& where) { return where.nodes.empty(); };
   const auto keeps = [&](const Event& event) {
@@ -26,7 +26,8 @@ bool can_be_remade(const Scene& scene) {
          std::all_of(scene.events.begin(), scene.events.end(), keeps) && scene.initial_positions.empty();
 }
 
-/// With elements of twice (factor 2) or half the size; none: boxes whose numbers of cells are odd have no coarser mesh.
+/// With elements of twice (factor 2) or half the size (0.5); none: a box with an odd number of cells has no coarser
+/// mesh.
 std::optional<Scene> remade(Scene scene, double factor) {
   if (!scene.mesh.box) {
     *scene.mesh.max_volume *= factor * factor * factor;
@@ -45,7 +46,7 @@ std::string mesh_text(const Scene& scene, std::size_t tets) {
   return fmt::format("{} × {} × {} cells, {} tetrahedra", cells[0], cells[1], cells[2], tets);
 }
 
-/// Another mesh of the scene, with its own time errors and its distance from the first mesh's extrapolation.
+/// Adds another mesh of the scene, with its time errors and its mesh error from the first mesh's extrapolation.
 void add_mesh(Tuning& tuning, const Scene& scene, const Problem& first, const MeshConvergenceStudy& convergence,
               const std::vector<double>& times, const StudyContext& context) {
   const Problem other = problem_of(scene);
@@ -81,7 +82,7 @@ void add_other_meshes(Tuning& tuning, const Scene& scene, const Problem& first, 
     add_mesh(tuning, *remade(scene, 0.5), first, convergence, times, context);
 }
 
-/// At most: a coarser and a finer one.
+/// Upper bound: a coarser and a finer mesh.
 std::size_t steps_of_other_meshes(const Problem& problem) {
   return 2 * elements_of(problem).size() * (steps_of_time_study(Breadth::brief) + 1);
 }

@@ -1,6 +1,6 @@
 #pragma once
-// What GCC and clang may compile loops to when they are asked for one processor, by the macro that says so and by the
-// name that __builtin_cpu_supports() has for it. Nothing on other architectures.
+// Instruction set extensions that GCC and clang may use with -march=native: predefined macro and name for
+// __builtin_cpu_supports(). Empty on other architectures.
 //
 //    #define HEML_NAME(macro, name) , name
 //    const char* names[] = {"" HEML_X86_FEATURES(HEML_NAME)};
@@ -18,6 +18,6 @@
 #define HEML_X86_FEATURES(each)
 #endif
 
-/// Whether a macro is defined as 1.
+/// True if a macro is defined as 1.
 #define HEML_IS_ONE(macro) (HEML_TEXT_OF(macro)[0] == '1')
 #define HEML_TEXT_OF(text) #text
