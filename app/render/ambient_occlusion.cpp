@@ -12,7 +12,7 @@ namespace {
 
 using Box = Eigen::AlignedBox3f;
 
-// Triangles in a binary tree of boxes, halved at the median of the longest side.
+// Bounding volume hierarchy of the triangles, split at the median of the longest axis.
 class Occluder {
  public:
   explicit Occluder(const SurfaceMesh& surface_mesh)
@@ -46,8 +46,8 @@ class Occluder {
  private:
   struct Node {
     Box box;
-    int first, last;  // of order_
-    int right = -1;   // the left child follows its parent; −1: a leaf
+    int first, last;  // range in order_
+    int right = -1;   // index of the right child; the left child follows its parent; −1: leaf
   };
 
   static bool enters(const Box& box, const Vec3f& origin, const Vec3f& inverse, float reach) {
@@ -84,7 +84,7 @@ class Occluder {
   std::vector<Node> nodes_;
 };
 
-// Cosine-weighted directions about z, one in each cell of a jittered grid.
+// Cosine-weighted directions about z, stratified: one in each cell of a grid.
 std::vector<Vec3f> directions(int side, unsigned seed) {
   std::minstd_rand random(seed);
   const auto uniform = [&] { return static_cast<float>(random() % 65536) / 65536; };
@@ -99,7 +99,7 @@ std::vector<Vec3f> directions(int side, unsigned seed) {
   return result;
 }
 
-// Ray counts leave a grain; the mean with the neighbours takes it away.
+// Averages with the neighbours: removes the noise of the few rays.
 void smooth(const SurfaceMesh& surface_mesh, std::vector<float>& values) {
   std::vector<float> sum = values, weight(values.size(), 1);
   for (const Triangle& triangle : surface_mesh.triangles)

@@ -19,7 +19,7 @@ float mean_edge(const SurfaceMesh& surface_mesh) {
              : static_cast<float>(sum / (3.0 * static_cast<double>(surface_mesh.triangles.size())));
 }
 
-// Mean tint of the triangles at each corner: regions pass softly into each other.
+// Mean tint of the triangles at each corner, which blends neighbouring regions.
 std::vector<Vec3f> corner_tints(const SurfaceMesh& surface_mesh, const SurfaceTopology& topology) {
   std::vector<Vec3f> tints(topology.corner_nodes.size(), Vec3f::Zero());
   std::vector<float> counts(tints.size(), 0);

@@ -1,5 +1,5 @@
 #pragma once
-// The body on the graphics card: its smooth surface, the true edges on it, and the held nodes.
+// Vertex buffers of the body: its smooth surface, the edges of the mesh, and the constrained nodes.
 #include <app/render/bounds.hpp>
 #include <app/render/field_colours.hpp>
 #include <app/render/gl_objects.hpp>
@@ -14,35 +14,34 @@ class BodyMesh {
  public:
   BodyMesh(const SurfaceMesh& surface_mesh, const TissueLook& look);
 
-  /// Takes a frame's positions and, when it has them, its values over a range.
+  /// Uploads the positions of a frame and, if it has any, its values, scaled to a range.
   void update(const Frame& frame, const Range& range);
 
-  /// Values above 0 are hatched by programs that do so; #S, or empty for none.
+  /// Uploads the values that programs with HATCH hatch where above 0; #S, or empty for none.
   void update_hatching(std::span<const float> beyond);
 
-  /// Finds the outline as an eye (m) sees it, for draw_outline().
+  /// Finds the outline as seen from `eye` (m), for draw_outline().
   void update_outline(const Vec3f& eye, const Mat4f& view_projection, Size size);
 
   void draw_surface() const;
   void draw_outline() const;  ///< strips that fade outwards, see outline.hpp
-  void draw_flat() const;     ///< the real triangles, for shadows
+  void draw_flat() const;     ///< the triangles of the mesh, for shadows
   void draw_edges() const;
-  void draw_constrained() const;  ///< points
+  void draw_constrained() const;  ///< as points
 
-  const BoundingSphere& rest() const {
-    return rest_;
-  }  ///< of the whole body: what is removed moves neither ground nor light
-  float bead_radius() const { return bead_radius_; }  ///< m, for held nodes
+  /// At rest, of the uncut body, so that removals move neither ground nor light.
+  const BoundingSphere& rest() const { return rest_; }
+  float bead_radius() const { return bead_radius_; }  ///< m, for constrained nodes
   bool has_triangles() const { return !surface_.triangles().empty(); }
   std::size_t node_count() const { return nodes_; }
 
  private:
-  // Follows the body, each frame.
+  // Vertex data that change with each frame.
   struct Moving {
     Vec3f position, normal;
     float value;  // 0..1 over the range
   };
-  // Stays with the tissue.
+  // Vertex data at rest.
   struct Fixed {
     Vec3f rest;       // in body radii about the body's centre
     Vec3f on_sphere;  // sphere_map.hpp

@@ -1,5 +1,5 @@
 #pragma once
-// How large a body is and where it stands, for cameras, lights and line widths.
+// Bounding sphere of a body, for cameras, lights and line widths.
 #include <algorithm>
 #include <cmath>
 #include <heml/math/types.hpp>
@@ -13,8 +13,8 @@ struct BoundingSphere {
   float lowest = 0;              ///< m, least y of the points
 };
 
-/// The ball about the middle of the points' box that holds them all. Points that are not finite are left out; without
-/// any other the result is the unit ball.
+/// The smallest ball about the centre of the bounding box that contains all points. Ignores points that are not finite;
+/// the unit ball if there are no others.
 inline BoundingSphere bounding_sphere(std::span<const Vec3f> points) {
   Eigen::AlignedBox3f box;
   for (const Vec3f& point : points)

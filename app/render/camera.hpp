@@ -1,5 +1,5 @@
 #pragma once
-// The eye: turns about a target with y up. Pixels are counted from the top left corner.
+// A camera that orbits a target, with y up. Pixel coordinates start at the top left corner.
 #include <app/render/image.hpp>
 #include <heml/math/types.hpp>
 
@@ -15,11 +15,11 @@ struct Ray {
 
 class Camera {
  public:
-  /// Looks at a ball (centre and radius in m) from the front, a little from above, so that it fills most of the view.
+  /// Looks at a ball (centre and radius in m) from the front and slightly above, so that it fills most of the view.
   void fit(const Vec3f& centre, float radius, Size size);
 
-  void look(float azimuth, float elevation);   ///< sets the angles, radians; 0, 0: along −z
-  void orbit(float azimuth, float elevation);  ///< adds to the angles, radians; elevation stays within ±89°
+  void look(float azimuth, float elevation);   ///< sets the angles, rad; 0, 0: along −z
+  void orbit(float azimuth, float elevation);  ///< adds to the angles, rad; elevation stays within ±89°
   void pan(float right, float up);             ///< moves eye and target by fractions of the visible height
   void zoom(float factor);                     ///< multiplies the distance; stays between 0.2 and 50 radii
 
@@ -30,8 +30,8 @@ class Camera {
   Mat4f view() const;                                ///< world to eye space, OpenGL's convention
   Mat4f projection(Size size) const;                 ///< eye space to clip space
   Ray ray(float x, float y, Size size) const;        ///< through a point of the picture
-  Vec2f pixel(const Vec3f& point, Size size) const;  ///< where a point in front of the eye appears
-  /// Where the ray of a pixel meets the plane through `point` that faces the camera: what a dragged point follows.
+  Vec2f pixel(const Vec3f& point, Size size) const;  ///< projection of a point in front of the eye
+  /// Intersection of a pixel's ray with the plane through `point` parallel to the image plane: the target of a drag, m.
   Vec3f drag(float x, float y, Size size, const Vec3f& point) const;
 
  private:

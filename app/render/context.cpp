@@ -16,7 +16,7 @@ Image read_pixels(Size size) {
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glFinish();
   glReadPixels(0, 0, size.width, size.height, GL_RGB, GL_UNSIGNED_BYTE, image.pixels.data());
-  for (int y = 0; y < size.height / 2; ++y)  // OpenGL's rows come bottom-up
+  for (int y = 0; y < size.height / 2; ++y)  // OpenGL returns rows bottom-up
     std::swap_ranges(image.at(0, y), image.at(0, y) + std::size_t{3} * size.width, image.at(0, size.height - 1 - y));
   return image;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Where OpenGL draws: a window, or memory. One interface for both, so that pictures do not depend on which it is.
+// One interface for OpenGL contexts of a window and in memory, so that pictures are the same in both.
 #include <glad/gl.h>
 
 #include <app/render/image.hpp>
@@ -14,21 +14,21 @@ class GraphicsContext {
   /// Makes the calling thread draw here.
   virtual void make_current() = 0;
 
-  /// Of framebuffer 0, pixels.
+  /// Size of framebuffer 0, pixels.
   virtual Size size() const = 0;
 
-  /// Shows what was drawn, where there is someone to show it to.
+  /// Shows what was drawn; in memory, does nothing.
   virtual void present() = 0;
 
-  /// Finds OpenGL functions; for load_functions().
+  /// Looks up OpenGL functions, for load_functions().
   virtual GLADloadfunc loader() const = 0;
 
  protected:
-  /// To be called by constructors once the context is current. Throws std::runtime_error below OpenGL 3.3.
+  /// Constructors call this once the context is current. Throws std::runtime_error below OpenGL 3.3.
   void load_functions();
 };
 
-/// What framebuffer 0 of the current context shows, once drawing has finished.
+/// The pixels of framebuffer 0 of the current context; waits until drawing has finished.
 Image read_pixels(Size size);
 
 }  // namespace heml::render

@@ -8,7 +8,7 @@ namespace {
 
 bool is_ratio(Field field) { return field == Field::stretch || field == Field::volume_ratio; }
 
-// Polynomial of degree 6 fitted to matplotlib's viridis by Matt Zucker (public domain); off by less than 0.01.
+// Polynomial of degree 6 fitted to matplotlib's viridis by Matt Zucker (public domain); error below 0.01.
 Vec3f viridis(float t) {
   const std::array<Vec3f, 7> c = {
       Vec3f(0.2777273f, 0.0054073f, 0.3340998f),   Vec3f(0.1050930f, 1.4046135f, 1.3845902f),
@@ -20,7 +20,7 @@ Vec3f viridis(float t) {
   return sum.cwiseMax(0.0f).cwiseMin(1.0f);
 }
 
-// Moreland, "Diverging color maps for scientific visualization", 2009: his cool-warm map at nine places.
+// Moreland, "Diverging color maps for scientific visualization", 2009: the cool-warm map at nine samples.
 Vec3f cool_warm(float t) {
   const std::array<Vec3f, 9> c = {Vec3f(59, 76, 192),   Vec3f(98, 130, 234),  Vec3f(141, 176, 254),
                                   Vec3f(184, 208, 249), Vec3f(221, 221, 221), Vec3f(245, 196, 173),
@@ -30,7 +30,7 @@ Vec3f cool_warm(float t) {
   return (c[i] + (place - static_cast<float>(i)) * (c[i + 1] - c[i])) / 255;
 }
 
-// Unit prefixes for values whose greatest is `most`.
+// Label with a unit prefix that suits values up to `most`, Pa.
 FieldLabel pascals(float most) {
   if (most < 1e3f) return {"von Mises stress", "Pa", 1};
   return most < 1e6f ? FieldLabel{"von Mises stress", "kPa", 1e-3f} : FieldLabel{"von Mises stress", "MPa", 1e-6f};
@@ -45,7 +45,7 @@ Vec3f map_colour(Field field, float place) {
 
 Range natural_range(Field field, std::span<const float> values) {
   const float centre = is_ratio(field) ? 1.0f : 0.0f;
-  const float least = is_ratio(field) ? 1e-3f : 1e-9f;  // a body at rest still gets a range
+  const float least = is_ratio(field) ? 1e-3f : 1e-9f;  // half-width of the range of a body at rest
   float reach = least;
   for (const float value : values)
     if (std::isfinite(value)) reach = std::max(reach, std::abs(value - centre));
@@ -57,7 +57,7 @@ Range ColourRange::update(Field field, std::span<const float> values, float seco
   const Range wanted = natural_range(field, values);
   if (field != field_) shown_ = wanted;
   field_ = field;
-  const float settle = wanted.high > shown_.high ? 0.1f : 1.0f;  // s
+  const float settle = wanted.high > shown_.high ? 0.1f : 1.0f;  // s, time constant
   const float share = 1 - std::exp(-std::max(seconds, 0.0f) / settle);
   shown_.low += share * (wanted.low - shown_.low);
   shown_.high += share * (wanted.high - shown_.high);

@@ -1,5 +1,5 @@
 #pragma once
-// Scalars as colours: which map, over which range, under which name.
+// Colour maps of scalar fields: map, range and label.
 #include <array>
 #include <heml/session/frame.hpp>
 #include <span>
@@ -13,21 +13,21 @@ struct Range {
   bool operator==(const Range&) const = default;
 };
 
-/// sRGB, 0..1, at a place 0..1 of a field's map: viridis, or for stretch and J a diverging one that is neutral at 0.5.
+/// sRGB, 0..1, at position 0..1 of a field's map: viridis, or for stretch and J a diverging map that is neutral at 0.5.
 Vec3f map_colour(Field field, float place);
 
-/// The range a field asks for: from 0 to the greatest value; for stretch and J symmetric about 1. Never empty; values
-/// that are not finite are left out.
+/// The range of a field's values: from 0 to the maximum; for stretch and J symmetric about 1. Never empty. Ignores
+/// values that are not finite.
 Range natural_range(Field field, std::span<const float> values);
 
-/// The range that is shown: fixed, or following natural_range() without flicker.
+/// The displayed range: fixed, or natural_range() smoothed over time against flicker.
 class ColourRange {
  public:
-  void fix(Range range) { fixed_ = range; }  ///< from now on this one
-  void follow() { fixed_.reset(); }          ///< from now on what the values ask for
+  void fix(Range range) { fixed_ = range; }  ///< update() returns this range
+  void follow() { fixed_.reset(); }          ///< update() follows natural_range()
 
-  /// Takes a frame's values; seconds: since the last call. The first values of a field are followed at once; later a
-  /// wider range within about 0.1 s and a narrower one within about 1 s.
+  /// The range for a frame's values; seconds: since the last call. A new field sets the range at once; later it widens
+  /// with a time constant of 0.1 s and narrows with one of 1 s.
   Range update(Field field, std::span<const float> values, float seconds);
 
  private:
@@ -36,14 +36,14 @@ class ColourRange {
   Field field_ = Field::none;
 };
 
-/// How a field is written: title, the unit for a range, and what to multiply values with to have them in that unit.
+/// The label of a field: title, a unit that suits the range, and the factor from the field's unit to that unit.
 struct FieldLabel {
   std::string title, unit;
   float scale = 1;
 };
 FieldLabel field_label(Field field, const Range& range);
 
-/// Round numbers within a range, ascending, 3 to 7 of them, as multiples of 1, 2 or 5 times a power of ten.
+/// Tick marks: 3 to 7 ascending multiples of 1, 2 or 5 times a power of ten within a range.
 std::vector<float> ticks(const Range& range);
 
 }  // namespace heml::render

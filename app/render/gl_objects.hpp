@@ -1,6 +1,6 @@
 #pragma once
-// OpenGL names that delete themselves, and a shader program with its uniforms. All need a current context, at their end
-// too.
+// RAII wrappers of OpenGL names, and a shader program with its uniforms. Constructors and destructors need a current
+// context.
 #include <glad/gl.h>
 
 #include <app/render/image.hpp>
@@ -68,15 +68,15 @@ using Texture = GlHandle<TextureTraits>;
 using Renderbuffer = GlHandle<RenderbufferTraits>;
 using Framebuffer = GlHandle<FramebufferTraits>;
 
-/// A linked pair of shaders out of the embedded files (resources.hpp), "common.glsl" put before each.
+/// A linked pair of shaders from embedded files (resources.hpp), each preceded by "common.glsl".
 class Program {
  public:
-  /// defines: names defined in both shaders. Throws std::logic_error with the compiler's log when they do not build.
+  /// defines: macros defined in both shaders. Throws std::logic_error with the compiler's log if they do not build.
   Program(const char* vertex, const char* fragment, std::initializer_list<const char*> defines = {});
 
   void use() const { glUseProgram(name_); }
 
-  // Of the program in use. Names the compiler dropped as unused are ignored.
+  // Set uniforms; the program must be in use. Ignores names that the compiler dropped as unused.
   void set(const char* name, int value) const { glUniform1i(place(name), value); }
   void set(const char* name, float value) const { glUniform1f(place(name), value); }
   void set(const char* name, const Vec2f& value) const { glUniform2fv(place(name), 1, value.data()); }
@@ -89,7 +89,7 @@ class Program {
   GlHandle<ProgramTraits> name_;
 };
 
-/// Replaces what a buffer holds. usage: GL_STATIC_DRAW or GL_STREAM_DRAW.
+/// Replaces the contents of a buffer. usage: GL_STATIC_DRAW or GL_STREAM_DRAW.
 template <class Value>
 void upload(GLenum target, const Buffer& buffer, std::span<const Value> values, GLenum usage) {
   glBindBuffer(target, buffer);
@@ -99,15 +99,17 @@ void upload(GLenum target, const Buffer& buffer, std::span<const Value> values, 
 /// One attribute of the bound vertex array, read from the bound array buffer. Bytes are normalised to 0..1.
 void vertex_attribute(GLuint index, int components, GLenum type, std::size_t stride, std::size_t offset);
 
-/// Storage and linear filtering for a texture that is drawn into.
+/// Allocates storage for a texture, with linear filtering and clamped edges.
 void allocate_texture(const Texture& texture, GLint internal_format, GLenum format, GLenum type, Size size);
 
-/// Colour and depth of a size of its own to draw a picture into.
+/// An off-screen framebuffer with colour and depth.
 class RenderTarget {
  public:
+  /// Throws std::runtime_error if the driver refuses the size.
   explicit RenderTarget(Size size);
   void bind() const { glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_); }
-  void stretch_to_screen(int left, int bottom, Size size) const;  ///< over a part of framebuffer 0, then bound
+  void stretch_to_screen(int left, int bottom,
+                         Size size) const;  ///< scales into a rectangle of framebuffer 0 and binds it
   Size size() const { return size_; }
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-// Pictures in memory.
+// Images in memory.
 #include <cstdint>
 #include <vector>
 
@@ -12,7 +12,7 @@ struct Size {
   bool operator==(const Size&) const = default;
 };
 
-/// 8-bit sRGB, three bytes a pixel, rows from the top.
+/// 8-bit sRGB, three bytes per pixel, rows from the top.
 struct Image {
   Size size;
   std::vector<std::uint8_t> pixels;  ///< 3·width·height

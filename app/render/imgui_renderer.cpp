@@ -10,7 +10,7 @@
 namespace heml::render {
 namespace {
 
-// Dark glass with the drape's green for what can be pressed.
+// Dark translucent windows; controls in the green of the drape.
 void set_style(float scale) {
   ImGui::StyleColorsDark();
   ImGuiStyle& style = ImGui::GetStyle();
@@ -49,7 +49,7 @@ void set_style(float scale) {
 
 ImguiRenderer::ImguiRenderer(float scale) : context_(ImGui::CreateContext()) {
   ImGuiIO& io = ImGui::GetIO();
-  io.IniFilename = nullptr;  // leaves no file behind
+  io.IniFilename = nullptr;  // writes no imgui.ini
   io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
   set_style(scale);
   make_font(scale);

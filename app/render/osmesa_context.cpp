@@ -9,8 +9,8 @@
 namespace heml::render {
 namespace {
 
-// Opened by hand rather than linked: its OpenGL symbols would clash with those of a window's libGL. Never closed,
-// because contexts come and go and Mesa keeps threads of its own.
+// libOSMesa, loaded at run time: if linked, its OpenGL symbols would clash with those of a window's libGL. Never
+// closed, since Mesa keeps threads of its own between contexts.
 struct Library {
   decltype(&OSMesaCreateContextAttribs) create;
   decltype(&OSMesaDestroyContext) destroy;

@@ -1,5 +1,5 @@
 #pragma once
-// OpenGL in memory, by Mesa's software renderer: needs no display and no graphics card.
+// OpenGL in memory by Mesa's software renderer; needs neither display nor graphics card.
 #include <app/render/context.hpp>
 #include <memory>
 
@@ -8,7 +8,7 @@ namespace heml::render {
 class OsMesaContext final : public GraphicsContext {
  public:
   /// A context of a fixed size, current on the calling thread.
-  /// Throws std::runtime_error when libOSMesa is not installed or gives no OpenGL 3.3 core context.
+  /// Throws std::runtime_error if libOSMesa is not installed or offers no OpenGL 3.3 core context.
   explicit OsMesaContext(Size size);
   ~OsMesaContext() override;
 

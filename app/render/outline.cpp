@@ -6,7 +6,7 @@
 namespace heml::render {
 namespace {
 
-// For each vertex the least vertex at exactly its place.
+// For each vertex, the lowest index of a vertex with the same position.
 std::vector<std::uint32_t> weld(std::span<const Vec3f> positions) {
   std::vector<std::uint32_t> order(positions.size()), result(positions.size());
   std::iota(order.begin(), order.end(), 0);

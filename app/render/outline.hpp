@@ -1,9 +1,9 @@
 #pragma once
-// The outline of a shape as an eye sees it, for smooth edges without multisampling, which costs software OpenGL as much
-// as the whole picture: along each outline edge a strip one pixel wide is drawn that fades from the shape to nothing.
+// Antialiasing of silhouettes: along each outline edge a strip one pixel wide fades from the shape to transparent.
+// Multisampling would cost software OpenGL as much as the whole picture.
 //
 //        front face │ strip
-//     ──────────────┤▒▒░░··  ← covers what a pixel beyond the edge still shows of the shape
+//     ──────────────┤▒▒░░··  ← partial cover of the pixel beyond the edge
 //                   │
 #include <app/render/gl_objects.hpp>
 #include <span>
@@ -13,22 +13,22 @@ namespace heml::render {
 
 class Outline {
  public:
-  /// A piece of the outline, and the direction away from the shape: one pixel long, in clip units at w = 1.
+  /// An edge of the outline, and the direction away from the shape: one pixel long, in clip units at w = 1.
   struct Piece {
     std::uint32_t from, to;  ///< vertices
     Vec2f outward;
   };
 
-  /// triangles: 3 vertices each. positions: #V×3 at rest; vertices at exactly the same place count as one.
+  /// triangles: 3 vertices each. positions: #V×3 at rest; vertices with equal positions count as one.
   Outline(std::span<const std::uint32_t> triangles, std::span<const Vec3f> positions);
 
-  /// Edges between a triangle that faces the eye and one that does not, that have one triangle only, or that are sharp
-  /// and seen from both sides (they then fade into the other side); in a fixed order. eye: in the space of the
-  /// positions. to_clip: from that space to the clip space of a picture of a size in pixels.
+  /// Edges between a front and a back face, edges of one triangle only, and sharp edges between two front faces (which
+  /// fade into the other face); in a fixed order. positions: #V×3. eye: in the space of the positions. to_clip: from
+  /// that space to clip space. size: of the picture, pixels.
   const std::vector<Piece>& find(std::span<const Vec3f> positions, const Vec3f& eye, const Mat4f& to_clip, Size size);
 
-  /// Six corners of two triangles for each piece: calls corner(vertex, outward, cover), cover 1 on the edge and 0
-  /// outside.
+  /// Calls corner(vertex, outward, cover) for the six corners of two triangles of each piece; cover is 1 on the edge
+  /// and 0 outside.
   template <class Corner>
   static void for_each_corner(const std::vector<Piece>& pieces, Corner corner) {
     for (const Piece& piece : pieces)
@@ -38,10 +38,10 @@ class Outline {
 
  private:
   struct Edge {
-    std::uint32_t from, to;  // as the first triangle has them
+    std::uint32_t from, to;  // in the orientation of the first triangle
     int first, second;       // triangles; second −1: none
     std::uint32_t first_apex, second_apex;
-    bool sharp;  // its two triangles have vertices of their own
+    bool sharp;  // its two triangles do not share vertices
   };
   std::vector<std::uint32_t> triangles_;
   std::vector<Edge> edges_;

@@ -1,5 +1,5 @@
 #pragma once
-// Colours of tissue.
+// Tissue colours by region.
 #include <heml/math/types.hpp>
 
 namespace heml::render {

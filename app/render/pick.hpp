@@ -1,5 +1,5 @@
 #pragma once
-// What of the body lies under a pixel.
+// Ray picking of the body's surface.
 #include <app/render/camera.hpp>
 #include <heml/session/frame.hpp>
 #include <optional>
@@ -7,15 +7,15 @@
 namespace heml::render {
 
 struct Hit {
-  int triangle = 0;  ///< index into Skin::triangles
-  int node = 0;      ///< the triangle's node nearest to the point: an index into Skin::nodes
+  int triangle = 0;  ///< index into SurfaceMesh::triangles
+  int node = 0;      ///< the triangle's node nearest to the point; index into SurfaceMesh::nodes
   Vec3f point;       ///< m
 };
 
-/// The nearest triangle, of either side, that a ray meets; of equally near ones the first.
+/// The nearest triangle that a ray hits from either side; the first of equally near ones. None: the ray misses.
 std::optional<Hit> pick(const Frame& frame, const SurfaceMesh& surface_mesh, const Ray& ray);
 
-/// The field's value at a hit of such a frame, between its triangle's corners; none where the frame carries none.
+/// The field's value at a hit in the frame, interpolated linearly; none if the frame carries no field.
 std::optional<float> value_at(const Hit& hit, const Frame& frame, const SurfaceMesh& surface_mesh);
 
 }  // namespace heml::render

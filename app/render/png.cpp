@@ -18,8 +18,8 @@ struct CloseFile {
 };
 using File = std::unique_ptr<std::FILE, CloseFile>;
 
-// libpng reports by these two; throwing through it is safe because Debian builds it with unwind tables, and it keeps
-// destructors running, which longjmp would skip.
+// Error callbacks of libpng. Throwing through it is safe because Debian builds it with unwind tables; unlike longjmp,
+// it runs destructors.
 [[noreturn]] void throw_error(png_structp, png_const_charp message) { throw std::runtime_error(message); }
 void ignore_warning(png_structp, png_const_charp) {}
 

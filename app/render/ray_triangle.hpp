@@ -1,11 +1,11 @@
 #pragma once
-// Möller and Trumbore, "Fast, minimum storage ray/triangle intersection", 1997.
+// Ray–triangle intersection: Möller and Trumbore, "Fast, minimum storage ray/triangle intersection", 1997.
 #include <heml/math/types.hpp>
 #include <limits>
 
 namespace heml::render {
 
-/// Distance along a ray to a triangle, of either side; infinity where it misses (or where anything is not finite).
+/// Distance along a ray to a triangle, from either side; infinity if it misses or an input is not finite.
 inline float ray_meets(const Vec3f& origin, const Vec3f& direction, const Vec3f& a, const Vec3f& b, const Vec3f& c) {
   constexpr float miss = std::numeric_limits<float>::infinity();
   const Vec3f e1 = b - a, e2 = c - a;

@@ -13,11 +13,12 @@ namespace {
 
 const Vec3f key_direction = Vec3f(-0.50f, 0.78f, 0.38f).normalized();  // towards the lamp
 constexpr float ground_extent = 7;                                     // in body radii
-constexpr int ground_grid = 36;                                        // squares a side, as ground.vert has it
+constexpr int ground_grid = 36;                                        // squares a side, the same as in ground.vert
 constexpr float hatch_period = 11;                                     // pixels in a picture 720 high
 constexpr float ground_gap = 0.05f;                                    // under the body, in body radii
 
-// A colour map as a picture one pixel high; square roots, because bytes are coarse for dark linear colours.
+// Uploads a colour map as a texture one pixel high. tissue.frag squares it: bytes are too coarse for dark linear
+// colours.
 void upload_map(const Texture& texture, Field field) {
   std::array<std::uint8_t, 3 * 256> pixels;
   for (int i = 0; i < 256; ++i) {
@@ -34,7 +35,7 @@ void upload_detail(const Texture& texture) {
   constexpr int side = 768;
   allocate_texture(texture, GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, {side, side});
   glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, side, side, GL_RGBA, GL_UNSIGNED_BYTE, tissue_texture(side).data());
-  // A few smaller pictures against glitter; not all, because the map's folds would show in the smallest.
+  // Two mipmap levels against aliasing; in smaller ones the folds of the octahedral map would show.
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 2);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
   glGenerateMipmap(GL_TEXTURE_2D);
@@ -63,16 +64,16 @@ class Renderer::Impl {
   Program field_{"tissue.vert", "tissue.frag", {"FIELD"}};
   Program tissue_strip_{"tissue.vert", "tissue.frag", {"OUTLINE"}};
   Program field_strip_{"tissue.vert", "tissue.frag", {"FIELD", "OUTLINE"}};
-  std::optional<Program> hatched_tissue_, hatched_field_;  // made when first asked for
+  std::optional<Program> hatched_tissue_, hatched_field_;  // compiled on first use
   Program line_{"line.vert", "line.frag"};
   Program bead_{"bead.vert", "bead.frag"};
   Program ground_{"ground.vert", "ground.frag"};
   Program backdrop_{"screen.vert", "backdrop.frag"};
-  VertexArray nothing_;  // for shapes made of vertex numbers alone
+  VertexArray nothing_;  // for shapes that need only gl_VertexID
   Texture map_, detail_;
   std::optional<RenderTarget> canvas_;
-  std::shared_ptr<const SurfaceMesh> surface_mesh_;  // that body_ is of
-  std::shared_ptr<const SurfaceMesh> whole_;         // of the body before it lost a part
+  std::shared_ptr<const SurfaceMesh> surface_mesh_;  // the mesh of body_
+  std::shared_ptr<const SurfaceMesh> whole_;         // the mesh of the uncut body
   TissueLook whole_look_;
   std::optional<BodyMesh> body_;
   ShadowMap shadow_map_;
@@ -133,7 +134,7 @@ void Renderer::Impl::draw(const Frame& frame, const Camera& camera, const DrawOp
   } else {
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     glViewport(options.left, options.bottom, drawn.width, drawn.height);
-    glScissor(options.left, options.bottom, drawn.width, drawn.height);  // wide points and lines keep to it too
+    glScissor(options.left, options.bottom, drawn.width, drawn.height);  // also clips wide points and lines
     glEnable(GL_SCISSOR_TEST);
   }
   draw_picture(shot, frame, options);
@@ -151,7 +152,7 @@ void Renderer::Impl::draw_picture(const ViewContext& shot, const Frame& frame, c
     const Program& program = surface_program(shows_field, !options.beyond.empty());
     prepare_body(shot, program);
     program.set("hatch_period", hatch_period * static_cast<float>(shot.size.height) / 720);
-    if (frame.min_J > 0) glEnable(GL_CULL_FACE);  // the inside shows only where elements are turned inside out
+    if (frame.min_J > 0) glEnable(GL_CULL_FACE);  // back faces show only where elements are inverted
     body_->draw_surface();
     glDisable(GL_CULL_FACE);
     if (options.wireframe) draw_edges(shot);
@@ -185,7 +186,7 @@ const Program& Renderer::Impl::surface_program(bool shows_field, bool hatched) {
 void Renderer::Impl::draw_shadows(const ViewContext& shot, const Frame& frame, const DrawOptions& options) {
   const BoundingSphere ball = bounding_sphere(frame.positions);
   const BoundingSphere& rest = body_->rest();
-  // The drape gives way to a body that sinks lower than it stood.
+  // The ground moves down with a body that sinks below its rest position.
   const float ground = std::min(rest.lowest - ground_gap * rest.radius, ball.lowest - 0.02f * rest.radius);
   ground_centre_ = Vec3f(rest.centre.x(), ground, rest.centre.z());
   shadow_map_.draw(ball, key_direction, [&](const Program& program) {
@@ -207,7 +208,7 @@ void Renderer::Impl::prepare_body(const ViewContext& shot, const Program& progra
   program.set("shadow_matrix", shadow_map_.matrix());
   program.set("eye", shot.camera.eye());
   program.set("key_direction", shot.key_direction);
-  // Behind the body as the eye sees it, high on the side away from the key light.
+  // The rim light: behind the body as seen from the camera, high, on the side away from the key light.
   const Vec3f right = shot.camera.right(), up = shot.camera.up();
   program.set("rim_direction", Vec3f((0.75f * right + 0.55f * up - 0.6f * right.cross(up)).normalized()));
   const Vec3f lamp_right = shot.key_direction.cross(Vec3f::UnitZ()).normalized();

@@ -1,8 +1,8 @@
 #pragma once
-// Draws a body and what is round it. The order of drawing puts what hides most first, because software OpenGL pays for
-// every pixel it shades:
+// Draws a body, its tools and the ground. Objects that hide most are drawn first, because the cost of software OpenGL
+// is in shaded pixels:
 //
-//    shadow map, footprint ──► body ► edges ► held nodes ► tool ► ground ► backdrop ► outlines of body and tool
+//    shadow map, footprint ──► body ► edges ► constrained nodes ► tools ► ground ► backdrop ► outlines of body and tool
 #include <app/render/camera.hpp>
 #include <app/render/field_colours.hpp>
 #include <heml/session/frame.hpp>
@@ -13,29 +13,29 @@
 namespace heml::render {
 
 struct DrawOptions {
-  bool wireframe = false;         ///< the mesh's true edges over the surface
+  bool wireframe = false;         ///< the mesh's edges over the surface
   bool ground = true;             ///< the drape and the shadow on it
   bool constrained = true;        ///< beads on nodes with a boundary condition
   bool tool = true;               ///< forceps and spring while something is grasped
-  std::optional<Range> range;     ///< of the colour map; none: what the frame's values ask for
-  std::span<const float> beyond;  ///< #S, hatched where above 0; empty: no hatching, which then costs nothing
-  float resolution = 1;           ///< of the picture before it is scaled to its size, 0.25 to 1: speed for sharpness
-  int left = 0, bottom = 0;       ///< where in framebuffer 0 the picture lies, pixels from its lower left corner
+  std::optional<Range> range;     ///< of the colour map; none: natural_range() of the frame's values
+  std::span<const float> beyond;  ///< #S, hatched where above 0; empty: no hatching, at no cost
+  float resolution = 1;           ///< of rendering, relative to the picture, 0.25 to 1: lower is faster
+  int left = 0, bottom = 0;       ///< of the picture in framebuffer 0, pixels from its lower left corner
 };
 
-/// Belongs to the context that was current when it was made, and needs it current in every call.
+/// Bound to the context that is current at construction; every call needs that context current.
 class Renderer {
  public:
-  /// Throws std::runtime_error when the driver cannot do what drawing needs.
+  /// Throws std::runtime_error if the driver lacks a required framebuffer.
   Renderer();
   ~Renderer();
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  /// Draws over a rectangle of framebuffer 0, which has depth. The picture depends on the arguments alone.
-  /// A frame without a skin has no body. A skin that the frame before did not have is taken up first, which takes as
-  /// long as its ambient occlusion: about a second for 50,000 nodes, far less where a body has lost a part. Throws
-  /// std::invalid_argument for a frame or a `beyond` with another number of nodes than the skin.
+  /// Draws into a rectangle of framebuffer 0, which must have depth. The picture depends only on the arguments. A frame
+  /// without a surface mesh has no body. A surface mesh that the previous frame did not have is uploaded first, which
+  /// takes as long as its ambient occlusion: about a second for 50,000 nodes, far less after a removal. Throws
+  /// std::invalid_argument if the frame or `beyond` has another number of nodes than the surface mesh.
   void draw(const Frame& frame, const Camera& camera, const DrawOptions& options, Size size);
 
  private:

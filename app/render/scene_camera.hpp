@@ -1,12 +1,12 @@
 #pragma once
-// Where a scene wants to be seen from.
+// The camera of a scene's view.
 #include <app/render/camera.hpp>
 #include <heml/scenario/scene.hpp>
 #include <heml/session/frame.hpp>
 
 namespace heml::render {
 
-/// A camera that has the body at rest in the picture, turned and zoomed as the scene's view says.
+/// A camera fitted to the body at rest, with the azimuth, elevation and zoom of the scene's view.
 Camera camera_for(const View& view, const SurfaceMesh& surface_mesh, Size size);
 
 }  // namespace heml::render

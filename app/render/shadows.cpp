@@ -5,9 +5,9 @@
 namespace heml::render {
 namespace {
 
-constexpr int map_side = 512;        // texels; tissue.frag knows it too
+constexpr int map_side = 512;        // texels
 constexpr int footprint_side = 128;  // texels
-constexpr int border = 7;            // texels, more than the blur reaches
+constexpr int border = 7;            // texels, wider than the blur
 
 void attach(const Framebuffer& framebuffer, GLenum point, const Texture& texture) {
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
@@ -56,7 +56,7 @@ Footprint::Footprint() {
 void Footprint::draw(const Vec3f& centre, float radius, float ground, const Vec3f& key_direction,
                      const DrawCasters& draw_casters) {
   const float scale = 1 / (extent * radius);
-  // Rows: x and z on the ground as clip x and y. `lean`: how far the shadow shifts for each metre of height.
+  // Maps x and z on the ground to clip x and y. lean: shift of the shadow per metre of height.
   const auto flatten = [&](const Vec2f& lean) {
     Mat4f matrix = Mat4f::Zero();
     matrix.row(0) << scale, -scale * lean.x(), 0, scale * (lean.x() * ground - centre.x());
@@ -69,7 +69,7 @@ void Footprint::draw(const Vec3f& centre, float radius, float ground, const Vec3
   glDisable(GL_DEPTH_TEST);
   glClearColor(0, 0, 0, 0);
   glClear(GL_COLOR_BUFFER_BIT);
-  glEnable(GL_SCISSOR_TEST);  // the border stays clear: it is what the ground outside the square sees
+  glEnable(GL_SCISSOR_TEST);  // the border stays clear: clamped texture reads outside the square return it
   glScissor(border, border, footprint_side - 2 * border, footprint_side - 2 * border);
   program_.use();
   program_.set("ground", ground);

@@ -1,19 +1,19 @@
 #pragma once
-// Two cheap shadows: a depth map for the key light's shadow on body and tool, and a blurred footprint on the ground.
+// Two inexpensive shadows: a depth map for the key light's shadow on the body, and a blurred footprint on the ground.
 #include <app/render/bounds.hpp>
 #include <app/render/gl_objects.hpp>
 #include <functional>
 
 namespace heml::render {
 
-/// Draws everything that casts a shadow with the program in use; sets its uniform `model` for each part.
+/// Draws all shadow casters with the program in use; sets its uniform `model` for each part.
 using DrawCasters = std::function<void(const Program&)>;
 
-/// What the key light sees.
+/// Depth map from the key light.
 class ShadowMap {
  public:
   ShadowMap();
-  /// Everything within the ball casts and takes shadows.
+  /// Everything within the ball casts and receives shadows. key_direction: unit, towards the light.
   void draw(const BoundingSphere& ball, const Vec3f& key_direction, const DrawCasters& draw_casters);
   const Mat4f& matrix() const { return matrix_; }    ///< world to the map's clip space
   const Texture& texture() const { return depth_; }  ///< for a sampler2DShadow
@@ -25,8 +25,7 @@ class ShadowMap {
   Mat4f matrix_ = Mat4f::Identity();
 };
 
-/// What the ground sees of the body, blurred. r: key light hidden; g: nearness, for the soft dark where they almost
-/// touch.
+/// Blurred projections of the body onto the ground. r: shadow of the key light; g: proximity, for the contact shadow.
 class Footprint {
  public:
   static constexpr float extent = 3.4f;  ///< half the side of the square covered, in radii

@@ -12,7 +12,7 @@ Vec3f unit_or_zero(const Vec3f& v) {
   return length > 0 && std::isfinite(length) ? Vec3f(v / length) : Vec3f(Vec3f::Zero());
 }
 
-// Vlachos 2001, section 3.3: the normal half way along an edge, mirrored so that it follows an S-shaped edge.
+// Vlachos 2001, section 3.3: the normal at the middle of an edge, reflected so that it captures inflections.
 Vec3f middle_normal(const Vec3f& p, const Vec3f& q, const Vec3f& n, const Vec3f& m) {
   const Vec3f d = q - p;
   const float squared = d.squaredNorm();
@@ -20,7 +20,7 @@ Vec3f middle_normal(const Vec3f& p, const Vec3f& q, const Vec3f& n, const Vec3f&
   return unit_or_zero(n + m - (2 * d.dot(n + m) / squared) * d);
 }
 
-// Control point of the edge p→q near p, section 3.2: a third of the way, dropped into the tangent plane at p.
+// Control point of the edge p→q near p, section 3.2: a third of the way, projected onto the tangent plane at p.
 Vec3f control(const Vec3f& p, const Vec3f& q, const Vec3f& n) { return (2 * p + q - (q - p).dot(n) * n) / 3; }
 
 }  // namespace
@@ -131,7 +131,7 @@ void SmoothSurface::update_edges(std::span<const Vec3f> nodes) {
     const SurfaceEdge& edge = topology_.edges[e];
     const Vec3f &p = nodes[edge.from], &q = nodes[edge.to];
     Vec3f near_p = Vec3f::Zero(), near_q = Vec3f::Zero();
-    for (const auto& side : edge.sides) {  // both sheets of a sharp edge follow the mean of their two curves
+    for (const auto& side : edge.sides) {  // all sheets of a sharp edge share the mean of their curves
       near_p += control(p, q, normals_[side.from]);
       near_q += control(q, p, normals_[side.to]);
     }

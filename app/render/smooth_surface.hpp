@@ -1,10 +1,9 @@
 #pragma once
-// The deformed surface as the eye expects it: smooth normals, and every triangle bent into a curved patch that goes
-// through the real nodes (PN triangles: Vlachos, Peters, Boyd and Mitchell, "Curved PN triangles", I3D 2001). Each
-// triangle becomes `segments`² small ones; a patch meets its neighbours exactly, because the vertices along an edge
-// belong to the edge.
+// Smooth display of the deformed surface: vertex normals, and every triangle replaced with a curved patch through its
+// nodes (PN triangles: Vlachos, Peters, Boyd and Mitchell, "Curved PN triangles", I3D 2001). Each triangle becomes
+// `segments`² small ones; patches join without cracks, because neighbours share the positions along their edge.
 //
-// Vertices are numbered: corners (surface_topology.hpp), then those inside edges, then those inside triangles.
+// Order of vertices: corners (surface_topology.hpp), vertices inside edges, vertices inside triangles.
 #include <app/render/surface_topology.hpp>
 #include <array>
 #include <cstdint>
@@ -15,19 +14,19 @@ namespace heml::render {
 
 class SmoothSurface {
  public:
-  /// A vertex as a mean of three corners: exact for what varies linearly over a triangle.
+  /// A vertex as a weighted mean of three corners: exact for values that vary linearly over a triangle.
   struct Blend {
     Triangle corners;
     std::array<float, 3> weights;
   };
 
-  /// segments: parts every edge is cut into; 1 leaves the triangles flat.
+  /// segments: subdivisions of every edge; 1 leaves the triangles flat.
   SmoothSurface(const SurfaceMesh& surface_mesh, int segments);
 
-  /// Segments that suit a surface of so many triangles: at most 20,000 small ones where it is coarse.
+  /// Segments for a surface of so many triangles: subdivided surfaces get at most 20,000 small ones.
   static int suitable_segments(std::size_t triangles);
 
-  /// Follows the nodes: positions and normals. nodes: #S×3, m. Never throws; no allocation after the first call.
+  /// Recomputes positions and normals. nodes: #S×3, m. Allocates only in the first call.
   void update(std::span<const Vec3f> nodes);
 
   const std::vector<Vec3f>& positions() const { return positions_; }  ///< #P×3, m
@@ -35,10 +34,10 @@ class SmoothSurface {
   const std::vector<Blend>& blends() const { return blends_; }        ///< #P
   const SurfaceTopology& topology() const { return topology_; }
 
-  const std::vector<std::uint32_t>& triangles() const { return triangles_; }  ///< 3 a small triangle
-  const std::vector<std::uint32_t>& lines() const { return lines_; }          ///< 2 a piece of a real edge
+  const std::vector<std::uint32_t>& triangles() const { return triangles_; }  ///< 3 per small triangle
+  const std::vector<std::uint32_t>& lines() const { return lines_; }          ///< 2 per segment of an edge of the mesh
 
-  /// Values at nodes (#S) as values at vertices (#P), linear over each triangle.
+  /// Interpolates values at nodes (#S) to vertices (#P), linearly over each triangle.
   template <class Value>
   void spread(std::span<const Value> nodes, std::vector<Value>& vertices) const {
     vertices.resize(blends_.size());

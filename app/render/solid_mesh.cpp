@@ -27,7 +27,7 @@ void add_tube(SolidShape& shape, const std::vector<Ring>& rings, const Vec3f& de
       const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(k) / sides;
       const float c = std::cos(angle), s = std::sin(angle);
       const Vec3f offset = rings[i].width * c * across + rings[i].depth * s * depth_axis;
-      const Vec3f normal = rings[i].depth * c * across + rings[i].width * s * depth_axis;  // of an ellipse
+      const Vec3f normal = rings[i].depth * c * across + rings[i].width * s * depth_axis;  // normal of an ellipse
       const Vec3f cap = i == 0 ? Vec3f(-along) : i == last ? along : Vec3f(Vec3f::Zero());
       shape.vertices.push_back({rings[i].centre + offset, (normal.normalized() + 0.7f * cap).normalized()});
     }

@@ -1,12 +1,12 @@
 #pragma once
-// Shapes of instruments, made of tubes.
+// Meshes of instruments, built from tubes.
 #include <app/render/gl_objects.hpp>
 #include <app/render/outline.hpp>
 #include <vector>
 
 namespace heml::render {
 
-/// Triangles with normals, ready for the graphics card.
+/// Vertices with normals, and triangles.
 struct SolidShape {
   struct Vertex {
     Vec3f position, normal;
@@ -15,19 +15,19 @@ struct SolidShape {
   std::vector<std::uint32_t> triangles;
 };
 
-/// A ring of a tube: its centre, and half its width across and along `depth_axis`.
+/// An elliptic cross-section of a tube: its centre and semi-axes, `width` across and `depth` along `depth_axis`.
 struct Ring {
   Vec3f centre;
   float width = 0, depth = 0;
 };
 
-/// Adds a tube of elliptic rings with closed ends. depth_axis: unit, never along the tube.
+/// Adds a tube through the rings with closed ends. depth_axis: unit, never along the tube.
 void add_tube(SolidShape& shape, const std::vector<Ring>& rings, const Vec3f& depth_axis);
 
 /// Adds a ball.
 void add_ball(SolidShape& shape, const Vec3f& centre, float radius);
 
-/// A rod from the origin to (0, 1, 0), of radius 1 across.
+/// A rod from the origin to (0, 1, 0) of radius 1.
 SolidShape rod();
 
 /// Forceps that point down: tips together at the origin, the end at (0, 1, 0).
@@ -36,17 +36,18 @@ SolidShape forceps();
 /// A ball of radius 1 about the origin.
 SolidShape ball();
 
-/// A round table: radius 1, its top at y = 0, its bottom at y = −1.
+/// A disc: radius 1, its top at y = 0, its bottom at y = −1.
 SolidShape disc();
 
-/// A pin that stands on its point at the origin, its head at (0, 1, 0).
+/// A pin with its point at the origin and its head at (0, 1, 0).
 SolidShape needle();
 
 class SolidMesh {
  public:
   explicit SolidMesh(SolidShape shape);
   void draw() const;
-  /// The strips along its outline (outline.hpp). eye: in the shape's space. to_clip: from the shape's space.
+  /// Draws the strips along its outline (outline.hpp). eye: in the shape's space. to_clip: from that space to clip
+  /// space.
   void draw_outline(const Vec3f& eye, const Mat4f& to_clip, Size size);
 
  private:

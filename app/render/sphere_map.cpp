@@ -26,7 +26,7 @@ std::vector<Vec3f> sphere_map(const SurfaceMesh& surface_mesh, std::span<const s
   std::vector<Vec3f> places = surface_mesh.rest;
   normalize_all(places, bounding_sphere(uncut_surface(surface_mesh).rest).centre);
   for (std::size_t i = 0; i < known.size(); ++i) places[i] = known[i].value_or(places[i]);
-  std::vector<Triangle> triangles = surface_mesh.triangles;  // that pull at what is not known
+  std::vector<Triangle> triangles = surface_mesh.triangles;  // those with a node to place
   const auto is_known = [&](int node) { return !known.empty() && known[node].has_value(); };
   std::erase_if(triangles, [&](const Triangle& t) { return std::all_of(t.begin(), t.end(), is_known); });
   std::vector<Vec3f> sums(places.size());
@@ -45,7 +45,7 @@ std::vector<Vec3f> sphere_map(const SurfaceMesh& surface_mesh, std::span<const s
     places = sums;
     for (std::size_t i = 0; i < known.size(); ++i) places[i] = known[i].value_or(places[i]);
     normalize_all(places, Vec3f::Zero());
-    // Keeps the pattern from sliding to one side: the map of the whole surface stays centred.
+    // Recentres the map of a whole surface, which would otherwise drift to one side.
     if (area > 0 && known.empty()) normalize_all(places, 0.5f * mean / area);
   }
   return places;

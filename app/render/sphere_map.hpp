@@ -1,5 +1,5 @@
 #pragma once
-// A body's surface laid over the unit sphere, so that patterns made for the sphere lie on it evenly.
+// Parametrisation of a body's surface over the unit sphere, for textures defined on the sphere.
 #include <heml/session/frame.hpp>
 #include <optional>
 #include <span>
@@ -7,9 +7,8 @@
 
 namespace heml::render {
 
-/// #S×3, unit: starts from each node's direction from the body's centre, then lets neighbours pull (Laplacian smoothing
-/// on the sphere), which spreads what a hollow would squeeze together. known: #S, places that are kept where there is
-/// one, or empty. The same for the same skin.
+/// #S×3, unit: Laplacian smoothing on the sphere, from each node's direction as seen from the body's centre. Smoothing
+/// evens out the distortion at hollows. known: #S positions to keep where set, or empty. Deterministic.
 std::vector<Vec3f> sphere_map(const SurfaceMesh& surface_mesh, std::span<const std::optional<Vec3f>> known = {});
 
 }  // namespace heml::render

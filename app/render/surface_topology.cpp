@@ -33,7 +33,7 @@ std::vector<HalfEdge> sorted_half_edges(const SurfaceMesh& surface_mesh) {
   return result;
 }
 
-// Slots that show the same normal, joined into sets.
+// Disjoint sets of slots that share a normal (union-find).
 class Sets {
  public:
   explicit Sets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }

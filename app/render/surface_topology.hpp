@@ -1,8 +1,8 @@
 #pragma once
-// How the triangles of a skin hang together, fixed while the skin is.
+// Connectivity of a surface mesh for smooth normals.
 //
-// A node on a sharp edge is seen with several normals, one for each smooth sheet that meets there. Each (node, sheet)
-// is a "corner"; nodes on smooth parts have one:
+// A node on a sharp edge has several normals, one for each smooth sheet that meets there. Each pair (node, sheet) is a
+// "corner"; nodes on smooth parts have one:
 //
 //        sheet A                       node n  = corners 4 and 7
 //     4 ─────────                      4: normal of sheet A
@@ -14,25 +14,25 @@
 
 namespace heml::render {
 
-/// An edge a triangle has, going from node `from` to node `to`, from < to.
+/// An edge of a triangle between nodes `from` < `to`.
 struct SurfaceEdge {
   int from = 0, to = 0;
   struct Side {
     int from = 0, to = 0;  ///< corners at the two ends
     bool operator==(const Side&) const = default;
   };
-  std::vector<Side> sides;  ///< one for each different pair of corners: one where smooth, more where sharp
+  std::vector<Side> sides;  ///< the distinct pairs of corners: one if smooth, more if sharp
 };
 
 struct SurfaceTopology {
-  std::vector<int> corner_nodes;                   ///< #C: index into Skin::nodes
+  std::vector<int> corner_nodes;                   ///< #C: index into SurfaceMesh::nodes
   std::vector<Triangle> triangles;                 ///< #F×3: corners
   std::vector<SurfaceEdge> edges;                  ///< #E, in ascending order of (from, to)
   std::vector<std::array<int, 3>> triangle_edges;  ///< #F×3: the edge from vertex k to vertex k+1
 };
 
-/// crease: radians; an edge whose faces turn by more than this at rest is sharp. So is one that is not shared by
-/// exactly two.
+/// crease: rad; an edge is sharp if the normals of its faces differ by more than this at rest, or if it does not have
+/// exactly two faces.
 SurfaceTopology surface_topology(const SurfaceMesh& surface_mesh, float crease);
 
 }  // namespace heml::render

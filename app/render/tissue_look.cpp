@@ -12,7 +12,7 @@ namespace {
 
 constexpr float occlusion_reach = 0.7f;  // in body radii
 
-/// Index among the whole body's nodes; −1: laid bare since. Both lists are ascending.
+/// Index of each node among those of the uncut surface; −1: exposed by a cut. Both lists are ascending.
 std::vector<int> places_in_whole(const SurfaceMesh& surface_mesh) {
   std::vector<int> places(surface_mesh.nodes.size(), -1);
   const std::vector<int>& nodes = surface_mesh.whole->nodes;
@@ -53,7 +53,7 @@ TissueLook tissue_look(const SurfaceMesh& surface_mesh, const TissueLook* whole)
     for (std::size_t i = 0; i < place.size(); ++i) {
       if (place[i] < 0) continue;
       on_sphere[i] = whole->on_sphere[place[i]];
-      if (now[i] == before[place[i]]) openness[i] = whole->openness[place[i]];  // else it is on the rim
+      if (now[i] == before[place[i]]) openness[i] = whole->openness[place[i]];  // otherwise it is at the rim of a cut
     }
   }
   const BoundingSphere ball = bounding_sphere(uncut_surface(surface_mesh).rest);

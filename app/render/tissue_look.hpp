@@ -1,7 +1,6 @@
 #pragma once
-// What of a skin's look depends on its rest shape alone, and takes long to find. Of a body that lost a part, nodes
-// whose surroundings are those of the whole body look as they did there: the pattern does not swim, and little is to be
-// done.
+// Appearance data that depend only on the rest shape and are slow to compute. After a removal, nodes with unchanged
+// surroundings keep their values: the pattern does not move, and few nodes are recomputed.
 #include <heml/session/frame.hpp>
 #include <vector>
 
@@ -12,7 +11,7 @@ struct TissueLook {
   std::vector<float> openness;   ///< #S, ambient_occlusion.hpp
 };
 
-/// whole: the look of skin.whole, where the skin has one.
+/// whole: the look of surface_mesh.whole; null if and only if that is null.
 TissueLook tissue_look(const SurfaceMesh& surface_mesh, const TissueLook* whole);
 
 }  // namespace heml::render

@@ -11,17 +11,17 @@ namespace heml::render {
 namespace {
 
 constexpr float step = 0.005f;       // rad between points of a vessel
-constexpr float thinnest = 0.0026f;  // rad, half the width at which a vessel ends
-constexpr float blush = 0.030f;      // rad, reach of the reddening beside a vessel
-constexpr int cells = 64;            // of a grid over the cube round the sphere
+constexpr float thinnest = 0.0026f;  // rad, half-width at which a vessel ends
+constexpr float blush = 0.030f;      // rad, extent of the reddening round a vessel
+constexpr int cells = 64;            // per side of the grid over the sphere's bounding cube
 
 struct Point {
   Vec3f place;  // on the unit sphere
-  float width;  // rad, half
+  float width;  // rad, half-width
   int vessel;
 };
 
-// Points in a grid of cells wider than any reach asked for.
+// A grid of points whose cells are wider than any search radius.
 class Points {
  public:
   void add(const Point& point) { grid_[cell(point.place)].push_back(point); }
@@ -86,7 +86,7 @@ class Growth {
     buds_.push_back({place, turned(place, place.unitOrthogonal(), angle), width, parent});
   }
 
-  // Lets a vessel wander on, branch, thin out, and end where it would run into another.
+  // Grows a vessel that bends at random, branches, thins out, and ends where it would meet another.
   void follow(Bud bud, int vessel) {
     float bend = 0;
     for (int i = 0; bud.width > thinnest; ++i) {
@@ -130,7 +130,7 @@ float fade(float from, float to, float at) {
   return 1 - t * t * (3 - 2 * t);
 }
 
-// A number 0..1 for each cell of space.
+// A hash 0..1 of each cell of space.
 float lattice(int x, int y, int z) {
   std::uint32_t h = static_cast<std::uint32_t>(x) * 0x8da6b343u + static_cast<std::uint32_t>(y) * 0xd8163841u +
                     static_cast<std::uint32_t>(z) * 0xcb1ab31fu;

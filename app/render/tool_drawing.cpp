@@ -6,9 +6,9 @@ namespace heml::render {
 namespace {
 
 const Vec3f steel(0.80f, 0.83f, 0.86f);
-constexpr float half_tension = 0.5f;  // N at which the spring is half way from calm to alarming
+constexpr float half_tension = 0.5f;  // N at which the spring has its middle colour
 
-// A shape along +y from the origin, turned to `axis`, its x axis towards `side`.
+// Model matrix of a shape along +y from the origin: y to `axis`, x towards `side`.
 Mat4f place_along(const Vec3f& origin, const Vec3f& axis, const Vec3f& side, float length, float width) {
   const Vec3f y = axis.normalized();
   const Vec3f z = side.cross(y).normalized();
@@ -20,7 +20,7 @@ Mat4f place_along(const Vec3f& origin, const Vec3f& axis, const Vec3f& side, flo
   return model;
 }
 
-/// A direction that is not along an axis.
+/// A direction not parallel to `axis`.
 Vec3f across(const Vec3f& axis) {
   return std::abs(axis.normalized().y()) < 0.9f ? Vec3f(Vec3f::UnitY()) : Vec3f(Vec3f::UnitX());
 }
@@ -47,7 +47,7 @@ void ToolDrawing::place_grasp(const ToolState& tool, const ViewContext& shot) {
   const Vec3f target = tool.target.cast<float>(), grip = tool.grip.cast<float>();
   if (!target.allFinite() || !grip.allFinite()) return;
   const Vec3f right = shot.camera.right();
-  const Vec3f axis = Vec3f::UnitY() + 0.55f * right;  // leans out of the picture's middle, as a right hand holds it
+  const Vec3f axis = Vec3f::UnitY() + 0.55f * right;  // tilted to the right, as held by a right hand
   const Vec3f side = right + 0.5f * shot.camera.up().cross(right);
   const float length = 1.5f * shot.radius, thickness = 0.008f * shot.radius;
   parts_.push_back({&forceps_, place_along(target, axis, side, length, length), steel, 1});
@@ -66,7 +66,7 @@ void ToolDrawing::place_probe(const ProbeState& probe) {
   parts_.push_back({&rod_, place_along(tip, shaft, across(shaft), shaft.norm(), r), steel, 1});
 }
 
-/// As much of it as a table has, under the body.
+/// A disc of the table's plane under the body.
 void ToolDrawing::place_table(const Table& table, const Frame& frame, const ViewContext& shot) {
   if (frame.positions.empty()) return;
   Vec3f middle = Vec3f::Zero();
@@ -91,7 +91,7 @@ void ToolDrawing::place_suture(const SutureState& suture, const ViewContext& sho
                       Vec3f(0.02f, 0.02f, 0.025f), 0});
 }
 
-/// Leans towards the eye, so that the tissue never hides it.
+/// Tilts the pin towards the eye, so that the tissue does not hide it.
 void ToolDrawing::place_pin(const PinState& pin, const ViewContext& shot) {
   const Vec3f place = pin.place.cast<float>();
   if (!place.allFinite()) return;

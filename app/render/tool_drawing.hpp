@@ -1,6 +1,6 @@
 #pragma once
-// The tools: forceps at the target of a grasp and the spring to the tissue it holds, a pin where tissue is pinned, the
-// probe, a table under the body, threads of sutures.
+// Draws the tools: forceps at the target of a grasp and the spring to the grasped tissue, pins, the probe, a table
+// under the body, threads of sutures.
 #include <app/render/camera.hpp>
 #include <app/render/solid_mesh.hpp>
 #include <heml/session/frame.hpp>
@@ -8,7 +8,7 @@
 
 namespace heml::render {
 
-/// What parts of a picture share.
+/// Camera and light of a picture.
 struct ViewContext {
   const Camera& camera;
   Size size;
@@ -20,15 +20,15 @@ struct ViewContext {
 
 class ToolDrawing {
  public:
-  /// Places the tools of a frame, or none; call before the others.
+  /// Places the tools of a frame, or none if not shown. Call this first.
   void place(const Frame& frame, bool shown, const ViewContext& shot);
 
-  void cast(const Program& program) const;  ///< for shadows: sets `model`
+  void cast(const Program& program) const;  ///< draws the shadow casters; sets `model`
   void draw(const ViewContext& shot) const;
   void draw_outline(const ViewContext& shot);  ///< strips that fade outwards, see outline.hpp
 
  private:
-  // One solid at its place.
+  // A solid and its placement.
   struct Part {
     SolidMesh* mesh;
     Mat4f model = Mat4f::Identity();
