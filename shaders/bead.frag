@@ -1,4 +1,4 @@
-// The half ball turned to the eye, with its true depth so that it sits in the surface.
+// The hemisphere that faces the eye, with its depth per pixel, so that it intersects the surface correctly.
 in vec3 v_centre;
 
 uniform mat4 view;

@@ -1,4 +1,4 @@
-// A ball drawn as a square point that faces the eye.
+// A ball drawn as a point sprite.
 layout(location = 0) in vec3 a_centre;  // m
 
 uniform mat4 view;

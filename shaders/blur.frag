@@ -1,4 +1,4 @@
-// One direction of a Gaussian of about three texels, taking two texels a sample.
+// One direction of a separable Gaussian of about three texels; each sample reads two texels by linear filtering.
 in vec2 v_at;
 uniform sampler2D picture;
 uniform vec2 texel;  // one step

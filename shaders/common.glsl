@@ -1,15 +1,15 @@
-// Put before every other shader: lights, backdrop, noise, and the way from radiance to pixels.
+// Prepended to every other shader: lights, backdrop, noise, and tone mapping.
 
 const vec3 key_colour = vec3(2.12, 1.99, 1.82);
 const vec3 sky_colour = vec3(0.45, 0.51, 0.59);
 const vec3 bounce_colour = vec3(0.055, 0.085, 0.09);
 const vec3 cloth_colour = vec3(0.026, 0.070, 0.084);
 
-const float strip_lift = 0.0003;  // of outline strips towards the eye, in clip depth: over the faces they border on
+const float strip_lift = 0.0003;  // offset of outline strips towards the eye, in clip depth, so that they lie over adjacent faces
 
 float square(float x) { return x * x; }
 
-// Filmic curve of Hejl and Burgess-Dawson, with the screen's gamma in it; then a dither of one step against banding
+// Filmic curve of Hejl and Burgess-Dawson, which includes the screen's gamma; then dithering by one step against banding
 // (interleaved gradient noise, Jimenez 2014).
 vec3 to_screen(vec3 radiance, vec2 pixel) {
   vec3 x = max(vec3(0.0), radiance - 0.004);
@@ -18,7 +18,7 @@ vec3 to_screen(vec3 radiance, vec2 pixel) {
   return shown + grain / 255.0;
 }
 
-// The wall behind everything: a soft pool of light in the dark. at: 0..1 over the picture, y up.
+// The background: a radial glow on a dark wall. at: 0..1 over the picture, y up.
 vec3 backdrop(vec2 at, float aspect) {
   vec2 d = (at - vec2(0.5, 0.62)) * vec2(0.62 * aspect, 1.0);
   float glow = 1.0 / (1.0 + 4.0 * dot(d, d));

@@ -1,4 +1,4 @@
-// Body or tool as the key light sees it, or flattened onto the ground.
+// Body or tool projected along the key light, or onto the ground.
 layout(location = 0) in vec3 a_position;
 
 uniform mat4 matrix;

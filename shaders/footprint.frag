@@ -1,4 +1,4 @@
-// What the ground sees of the body. r: whether it hides the key light; g: how near it is.
+// Projection of the body onto the ground. r: shadow of the key light; g: proximity.
 in float v_height;
 out vec4 colour;
 

@@ -1,9 +1,9 @@
-// A surgical drape in a pool of light, with the shadow of what stands above it, that fades into the backdrop.
+// A surgical drape in a spot of light, with the shadows of body and tools, that fades into the backdrop.
 in vec2 v_place;
 in vec3 v_wall;
 in vec4 v_light;
 
-uniform sampler2D footprint;     // r: key light hidden, g: nearness of the body
+uniform sampler2D footprint;     // r: shadow of the key light, g: proximity of the body
 uniform float footprint_extent;  // half the side it covers, in body radii
 
 out vec4 colour;

@@ -1,4 +1,4 @@
-// The ground: a grid of GRID × GRID squares, finer in the middle, with what varies slowly worked out at its corners.
+// The ground: a grid of squares, finer in the middle; slowly varying terms are computed per vertex.
 uniform mat4 view_projection;
 uniform vec3 centre;             // on the ground, m
 uniform float radius;            // of the body, m
@@ -8,9 +8,9 @@ uniform float aspect;            // of the picture
 
 out vec2 v_place;  // in body radii from the centre
 out vec3 v_wall;   // the backdrop behind
-out vec4 v_light;  // x: of the lamp, y: of the room, z: 1 where the backdrop has taken over, w: strength of the weave
+out vec4 v_light;  // x: key light, y: ambient light, z: fraction of the backdrop, w: strength of the weave
 
-// Slope of long soft folds.
+// Gradient of the height of long folds.
 vec2 folds(vec2 p) {
   float a = dot(p, vec2(1.9, 0.7)) + 0.8 * sin(dot(p, vec2(0.6, -1.1)));
   float b = dot(p, vec2(-0.8, 2.3)) + 0.9 * sin(dot(p, vec2(1.3, 0.5)) + 1.0);

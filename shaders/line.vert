@@ -1,4 +1,4 @@
-// Edges of the mesh, drawn a little nearer than the surface they lie on.
+// Edges of the mesh, with a depth offset towards the eye.
 layout(location = 0) in vec3 a_position;
 
 uniform mat4 view_projection;

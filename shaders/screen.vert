@@ -1,4 +1,4 @@
-// One triangle over the whole picture, at the far end of the depth range.
+// One triangle over the whole picture, at maximum depth.
 out vec2 v_at;
 
 void main() {

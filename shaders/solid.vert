@@ -1,4 +1,4 @@
-// Instruments: a shape of unit size placed by a matrix.
+// Instruments: a shape of unit size placed by a model matrix.
 layout(location = 0) in vec3 a_position;
 layout(location = 1) in vec3 a_normal;
 #ifdef OUTLINE

@@ -1,5 +1,5 @@
-// Wet tissue, or (FIELD) the same surface carrying a colour map; (HATCH) with stripes where numbers are not to be relied
-// on; or (OUTLINE) the strip that fades it out.
+// Wet tissue, or with FIELD the same surface with a colour map; HATCH adds stripes where v_beyond > 0; OUTLINE draws the
+// strip that fades the silhouette.
 in vec3 v_normal;
 in vec3 v_on_sphere;
 in vec3 v_slope;
@@ -17,16 +17,16 @@ const float v_cover = 1.0;
 #endif
 
 uniform vec3 key_direction;
-uniform vec3 lamp_right, lamp_up;  // across the lamp, unit
+uniform vec3 lamp_right, lamp_up;  // the lamp's axes, unit
 uniform vec3 rim_direction;
 uniform sampler2D colour_map;
-uniform sampler2D detail_map;  // octahedral: rgb: slope of fine bumps, a: vessels
+uniform sampler2D detail_map;  // octahedral; rgb: gradient of fine bumps, a: vessels
 
 out vec4 colour;
 
 const float fine_bumps = 0.42;
 
-// Where a direction lies on the octahedral map.
+// Texture coordinates of a direction on the octahedral map.
 vec2 octahedral(vec3 d) {
   vec3 p = d / (abs(d.x) + abs(d.y) + abs(d.z));
   vec2 folded = (1.0 - abs(p.yx)) * vec2(p.x < 0.0 ? -1.0 : 1.0, p.y < 0.0 ? -1.0 : 1.0);
@@ -36,7 +36,7 @@ vec2 octahedral(vec3 d) {
 #ifdef HATCH
 uniform float hatch_period;  // pixels
 
-// Cover of diagonal stripes, as draughtsmen hatch: 0 to 0.8, with soft edges.
+// Cover of diagonal hatching, 0 to 0.8, with soft edges.
 float hatching() {
   float across = abs(fract((gl_FragCoord.x + gl_FragCoord.y) / hatch_period) - 0.5) * hatch_period;
   float stripe = 1.0 - smoothstep(0.14 * hatch_period - 0.7, 0.14 * hatch_period + 0.7, across);
@@ -45,7 +45,7 @@ float hatching() {
 }
 #endif
 
-// What a mirror on the body would show: a soft box where the key light is, a strip behind, a dim room.
+// Environment seen in direction r: a soft box at the key light, a strip light behind, a dim room.
 vec3 reflected(vec3 r) {
   float ahead = dot(r, key_direction);
   vec2 box = abs(vec2(dot(r, lamp_right), dot(r, lamp_up)));
@@ -57,7 +57,7 @@ vec3 reflected(vec3 r) {
 
 void main() {
 #ifdef OUTLINE
-  vec3 smooth_n = normalize(v_normal);  // a strip has no sides
+  vec3 smooth_n = normalize(v_normal);  // a strip has no front or back
 #else
   vec3 smooth_n = normalize(gl_FrontFacing ? v_normal : -v_normal);
 #endif
@@ -74,8 +74,8 @@ void main() {
   vec3 shade = vec3(v_visible);
 #else
   vec4 detail = texture(detail_map, octahedral(v_on_sphere));
-  // Bumps: the slope of a height field over the rest shape, laid on the deformed one. How that has turned is left out:
-  // a random field looks the same either way.
+  // Bumps: the gradient of a height field over the rest shape, applied to the deformed one. Its rotation is ignored: a
+  // random field looks the same either way.
   vec3 slope = v_slope + fine_bumps * open * open * (detail.rgb - 0.5);
   vec3 tilt = slope - dot(slope, smooth_n) * smooth_n;
   vec3 n = normalize(smooth_n - 0.7 * tilt), wet_n = normalize(smooth_n - tilt);
@@ -88,12 +88,12 @@ void main() {
   vec3 shade = vec3(sqrt(v_visible), v_visible, v_visible);
 #endif
 
-  // Light that enters the tissue leaves it redder and further on: red wraps round the shadow line and skips the bumps.
+  // Subsurface scattering: wrapped diffuse light, widest in red, whose smooth normal ignores the bumps.
   vec3 facing = vec3(dot(smooth_n, key_direction), vec2(dot(n, key_direction)));
   vec3 lit = clamp((facing + wrap) / (1.0 + wrap), 0.0, 1.0);
   vec3 ambient = mix(bounce_colour, sky_colour, 0.5 + 0.5 * n.y) * hollow;
 #ifdef OUTLINE
-  float nv = 0.2;  // as the pixels beside the strip, not the glare of its very edge
+  float nv = 0.2;  // as in the pixels next to the strip, without the glare at grazing angles
 #else
   float nv = clamp(dot(wet_n, v), 0.0, 1.0);
 #endif

@@ -2,8 +2,8 @@ layout(location = 0) in vec3 a_position;  // m
 layout(location = 1) in vec3 a_normal;
 layout(location = 2) in float a_value;    // of the field shown, 0..1 over its range
 layout(location = 3) in vec3 a_rest;      // rest position in body radii about the body's centre
-layout(location = 4) in vec3 a_on_sphere; // place on the map of fine detail
-layout(location = 5) in vec4 a_surface;   // rgb: square root of the tint, a: openness to the sky
+layout(location = 4) in vec3 a_on_sphere; // position on the unit sphere, for the detail map
+layout(location = 5) in vec4 a_surface;   // rgb: square root of the tint, a: ambient occlusion, 1: open
 #ifdef HATCH
 layout(location = 7) in float a_beyond;   // above 0: hatched
 #endif
@@ -19,10 +19,10 @@ uniform sampler2DShadow shadow_map;
 
 out vec3 v_normal;
 out vec3 v_on_sphere;
-out vec3 v_slope;     // of broad bumps, in rest coordinates
-out vec3 v_view;      // towards the eye
+out vec3 v_slope;     // gradient of broad bumps, in rest coordinates
+out vec3 v_view;      // unit, towards the eye
 out vec4 v_surface;
-out float v_visible;  // share of the key light that arrives
+out float v_visible;  // visible fraction of the key light
 out float v_value;
 #ifdef HATCH
 out float v_beyond;
@@ -31,12 +31,12 @@ out float v_beyond;
 out float v_cover;
 #endif
 
-// The lamp is wide, so its shadow is soft enough to be worked out once a vertex.
+// The lamp is wide, so its shadow is smooth enough to be computed per vertex.
 float key_visibility() {
   vec3 at = (shadow_matrix * vec4(a_position, 1.0)).xyz * 0.5 + 0.5;
   at.z -= 0.012 + 0.02 * (1.0 - clamp(dot(a_normal, key_direction), 0.0, 1.0));
   float sum = 0.0;
-  for (int i = 0; i < 12; ++i) {  // a sunflower's disc
+  for (int i = 0; i < 12; ++i) {  // Vogel's disc
     float angle = 2.39996 * float(i), r = 0.030 * sqrt((float(i) + 0.5) / 12.0);
     sum += texture(shadow_map, at + vec3(r * cos(angle), r * sin(angle), 0.0));
   }
