@@ -5,12 +5,13 @@ const vec3 sky_colour = vec3(0.45, 0.51, 0.59);
 const vec3 bounce_colour = vec3(0.055, 0.085, 0.09);
 const vec3 cloth_colour = vec3(0.026, 0.070, 0.084);
 
-const float strip_lift = 0.0003;  // offset of outline strips towards the eye, in clip depth, so that they lie over adjacent faces
+// Offset of outline strips towards the eye, in clip depth, so that they lie over adjacent faces.
+const float strip_lift = 0.0003;
 
 float square(float x) { return x * x; }
 
-// Filmic curve of Hejl and Burgess-Dawson, which includes the screen's gamma; then dithering by one step against banding
-// (interleaved gradient noise, Jimenez 2014).
+// Filmic curve of Hejl and Burgess-Dawson, which includes the screen's gamma; then dithering by one step against
+// banding (interleaved gradient noise, Jimenez 2014).
 vec3 to_screen(vec3 radiance, vec2 pixel) {
   vec3 x = max(vec3(0.0), radiance - 0.004);
   vec3 shown = (x * (6.2 * x + 0.5)) / (x * (6.2 * x + 1.7) + 0.06);

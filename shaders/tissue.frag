@@ -1,5 +1,5 @@
-// Wet tissue, or with FIELD the same surface with a colour map; HATCH adds stripes where v_beyond > 0; OUTLINE draws the
-// strip that fades the silhouette.
+// Wet tissue, or with FIELD the same surface with a colour map; HATCH adds stripes where v_beyond > 0; OUTLINE draws
+// the strip that fades the silhouette.
 in vec3 v_normal;
 in vec3 v_on_sphere;
 in vec3 v_slope;

@@ -108,8 +108,7 @@ class RenderTarget {
   /// Throws std::runtime_error if the driver refuses the size.
   explicit RenderTarget(Size size);
   void bind() const { glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_); }
-  void stretch_to_screen(int left, int bottom,
-                         Size size) const;  ///< scales into a rectangle of framebuffer 0 and binds it
+  void stretch_to_screen(int left, int bottom, Size size) const;  ///< into a part of framebuffer 0, then bound
   Size size() const { return size_; }
 
  private:

@@ -108,8 +108,7 @@ Outcome any_number_of_threads(const Trial& trial) {
   const char* name = "32_any_number_of_threads";
   const Scene scene = read_scene(assets_folder() / "scenes" / "extreme" / (std::string(name) + ".json"));
   WorldSetup setup = trial.setup(name);
-  if (setup.solver.is_static() && setup.solver.single_precision)
-    setup.solver.tolerance = 1e-2;  // float rounding with 10,000 elements
+  if (setup.solver.is_static() && setup.solver.single_precision) setup.solver.tolerance = 1e-2;  // 10,000 elements
   std::optional<std::uint64_t> first;
   Outcome outcome;
   for (const int threads : {1, 2, 3, 5, 8, 16}) {
