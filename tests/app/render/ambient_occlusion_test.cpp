@@ -21,7 +21,7 @@ TEST_CASE("the inside of a closed ball sees nothing") {
 }
 
 TEST_CASE("beside a wide wall half of the sky is hidden") {
-  // Nodes of a floor in the xz plane at the foot of a wall in the xy plane. Of cosine-weighted directions about y, half
+  // Nodes of a floor in the xz plane next to a wall in the xy plane. Half of the cosine-weighted directions about y
   // point to the side of the wall.
   SurfaceMesh surface_mesh;
   const float far = 200;

@@ -34,7 +34,7 @@ TEST_CASE("the outline of a cube seen along an axis is its four front edges") {
     const Vec3f middle = (surface_mesh.rest[piece.from] + surface_mesh.rest[piece.to]) / 2;
     CHECK(middle.z() == 0.5f);
     CHECK(piece.outward.dot(middle.head<2>()) > 0);
-    CHECK(piece.outward.norm() == doctest::Approx(2.0 / 400));  // one pixel of a picture 2 wide in clip space
+    CHECK(piece.outward.norm() == doctest::Approx(2.0 / 400));  // one pixel; the picture is 2 wide in clip space
   }
 }
 
@@ -50,7 +50,7 @@ TEST_CASE("the outline of a ball is a closed loop round its rim") {
     ++ends[piece.from];
     ++ends[piece.to];
     const Vec3f place = surface_mesh.rest[piece.from];
-    CHECK(std::abs(place.dot(camera.eye() - place)) < 0.25f * camera.eye().norm());  // near the horizon
+    CHECK(std::abs(place.dot(camera.eye() - place)) < 0.25f * camera.eye().norm());  // near the silhouette
   }
   CHECK(pieces.size() > 20);
   for (const auto& [vertex, count] : ends) CHECK(count % 2 == 0);

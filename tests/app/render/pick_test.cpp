@@ -21,7 +21,7 @@ TEST_CASE("the pixel of a node in front picks that node, on the deformed body") 
     const Vec3f to_eye = (camera.eye() - frame.positions[i]).normalized();
     if (outward.dot(to_eye) < 0.4f) continue;
     const Vec2f pixel = camera.pixel(frame.positions[i], size);
-    // A hair towards the middle, so that the ray does not slip along an edge.
+    // Slightly towards the middle of the picture, so that the ray does not pass exactly through an edge.
     const auto hit =
         pick(frame, surface_mesh, camera.ray(pixel.x() * 0.9999f + 0.032f, pixel.y() * 0.9999f + 0.018f, size));
     REQUIRE(hit);
@@ -50,7 +50,7 @@ TEST_CASE("a field is read between the nodes of what was hit, and only where the
   REQUIRE(hit);
   CHECK_FALSE(value_at(*hit, frame, surface_mesh));
   frame.field = Field::displacement;
-  CHECK_FALSE(value_at(*hit, frame, surface_mesh));  // not yet with its values
+  CHECK_FALSE(value_at(*hit, frame, surface_mesh));  // the frame has no values yet
   for (const Vec3f& node : frame.positions) frame.values.push_back(3 * node.x() - node.y() + 1);
   const auto value = value_at(*hit, frame, surface_mesh);
   REQUIRE(value);

@@ -20,7 +20,7 @@ namespace {
 
 constexpr Size size{320, 180};
 
-// A ball of 5 cm on a headless renderer.
+// A ball of radius 5 cm and a headless renderer.
 struct Stage {
   OsMesaContext context{size};
   Renderer renderer;
@@ -33,7 +33,7 @@ struct Stage {
     const BoundingSphere ball = bounding_sphere(surface_mesh.rest);
     camera.fit(ball.centre, ball.radius, size);
   }
-  // Pixels from the middle to the edge of the ball: radius r at distance d appears at the angle asin(r/d).
+  // Radius of the ball in the picture, pixels: radius r at distance d subtends the half-angle asin(r/d).
   double rim() const {
     const double sine = 0.05 / (camera.eye() - camera.target()).norm();
     return std::tan(std::asin(sine)) * camera.projection(size)(1, 1) * size.height / 2;
@@ -119,8 +119,8 @@ TEST_CASE("a field colours the body by its values over the range") {
   const Image high = stage.draw();
   CHECK(rms_difference(tissue, low) > 5);
   const int x = size.width / 2, y = size.height / 2;
-  CHECK(low.at(x, y)[2] > low.at(x, y)[1]);    // viridis begins violet
-  CHECK(high.at(x, y)[0] > high.at(x, y)[2]);  // and ends yellow
+  CHECK(low.at(x, y)[2] > low.at(x, y)[1]);    // viridis: violet at the low end
+  CHECK(high.at(x, y)[0] > high.at(x, y)[2]);  // yellow at the high end
   CHECK(high.at(x, y)[1] > high.at(x, y)[2]);
 }
 
@@ -151,7 +151,7 @@ TEST_CASE("a skin that lost a piece is taken up with its frame, and the rest of 
   stage.options.ground = false;
   const Image before = stage.draw();
   const auto whole = stage.frame.surface_mesh;
-  SurfaceMesh cut = *whole;  // open where it was cut: a picture does not mind
+  SurfaceMesh cut = *whole;  // an open surface, which is drawn all the same
   cut.version = 1;
   cut.whole = whole;
   const Vec3f right = stage.camera.right();
@@ -207,7 +207,7 @@ TEST_CASE("what a pixel shows is what it picks") {
   int wrong = 0, body = 0;
   for (int y = 0; y < size.height; y += 3)
     for (int x = 0; x < size.width; x += 3) {
-      if (std::abs(from_middle(x, y) - stage.rim()) < 2) continue;  // the fading edge, and what curved patches add
+      if (std::abs(from_middle(x, y) - stage.rim()) < 2) continue;  // antialiased edge, bulge of curved patches
       const bool shown = !same(image, background, x, y);
       const bool hit = pick(stage.frame, stage.surface_mesh, stage.camera.ray(x + 0.5f, y + 0.5f, size)).has_value();
       wrong += shown != hit;

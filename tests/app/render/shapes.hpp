@@ -1,5 +1,5 @@
 #pragma once
-// Bodies with known answers.
+// Surfaces with known geometry.
 #include <app/render/bounds.hpp>
 #include <cmath>
 #include <heml/session/frame.hpp>
@@ -8,7 +8,7 @@
 
 namespace heml::render {
 
-/// A ball's surface: an icosahedron split `rounds` times, 20·4^rounds triangles, all nodes on the sphere.
+/// The surface of a ball: an icosahedron subdivided `rounds` times, 20·4^rounds triangles, all nodes on the sphere.
 inline SurfaceMesh ball_surface(int rounds, float radius, const Vec3f& centre = Vec3f::Zero()) {
   const float g = (1 + std::sqrt(5.0f)) / 2;
   std::vector<Vec3f> nodes = {{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},

@@ -42,8 +42,8 @@ TEST_CASE("curved patches go through the nodes") {
 TEST_CASE("the curved patch of an icosahedron's face is where the paper's formulas put it") {
   const SurfaceMesh surface_mesh = ball_surface(0, 1);
   const SmoothSurface curved(surface_mesh, 3), flat(surface_mesh, 1);
-  // Along the face's axis the nodes are at h. An edge's control point is (2P + Q − ((Q − P)·P) P)/3 with Q·P = 1/√5, so
-  // at (4 − 1/√5)/3·h; the one inside is at E + (E − V)/2; the patch's middle weighs nodes, edges, inside 3:18:6.
+  // Heights along the face's axis: nodes h; control points of edges, (2P + Q − ((Q − P)·P) P)/3 with Q·P = 1/√5:
+  // (4 − 1/√5)/3·h; the inner control point: E + (E − V)/2. The patch's centre weights nodes, edges, inside by 3:18:6.
   const float h = 0.794654f;
   const float edge = (4 - 1 / std::sqrt(5.0f)) / 3 * h, inside = edge + (edge - h) / 2;
   const float middle = (3 * h + 18 * edge + 6 * inside) / 27;
@@ -55,13 +55,13 @@ TEST_CASE("the curved patch of an icosahedron's face is where the paper's formul
       ++middles;
     }
   CHECK(middles == 20);
-  CHECK(volume(flat) == doctest::Approx(2.53615).epsilon(1e-4));  // of an icosahedron of circumradius 1
-  CHECK(volume(curved) > 3.3f);                                   // of the ball: 4.19
+  CHECK(volume(flat) == doctest::Approx(2.53615).epsilon(1e-4));  // icosahedron of circumradius 1
+  CHECK(volume(curved) > 3.3f);                                   // ball: 4.19
 }
 
 TEST_CASE("patches meet without gaps") {
   const SmoothSurface surface(ball_surface(1, 1), 3);
-  // A closed surface passes every edge once each way.
+  // In a closed surface every edge occurs once in each direction.
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
   const auto& t = surface.triangles();
   for (std::size_t i = 0; i < t.size(); ++i) ++edges[{t[i], t[i % 3 == 2 ? i - 2 : i + 1]}];
@@ -75,7 +75,7 @@ TEST_CASE("patches meet without gaps") {
 TEST_CASE("a cube keeps flat faces and sharp edges") {
   const SurfaceMesh surface_mesh = cube_surface();
   const SmoothSurface surface(surface_mesh, 3);
-  CHECK(surface.topology().corner_nodes.size() == 24);  // every node once a face
+  CHECK(surface.topology().corner_nodes.size() == 24);  // every node once per face
   for (std::size_t p = 0; p < surface.positions().size(); ++p) {
     CHECK(surface.positions()[p].cwiseAbs().maxCoeff() == doctest::Approx(0.5f));
     CHECK(surface.normals()[p].cwiseAbs().maxCoeff() == doctest::Approx(1.0f));
