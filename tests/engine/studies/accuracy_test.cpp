@@ -1,4 +1,4 @@
-// The accuracy study itself: what it concludes from numbers that are known, and that it notices what is broken.
+// The accuracy study: its conclusions from known numbers, and detection of faulty engines.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -25,7 +25,7 @@ Problem small_beam() { return problem_of(parse_scene(swinging, "folder/scene.jso
 
 const std::vector<double> times{0.02, 0.04};
 
-/// Worlds whose stiffness is not what the scene says.
+/// Worlds whose stiffness is that of the scene times `stiffness`.
 MakeWorld broken(double stiffness) {
   return [=](WorldSetup setup) {
     for (RegionMaterial& entry : setup.materials) {
@@ -37,7 +37,7 @@ MakeWorld broken(double stiffness) {
   };
 }
 
-/// Worlds in which the volume term of one law pulls where it should push.
+/// Worlds in which the volume term of one law has the wrong sign.
 MakeWorld volume_of_wrong_sign(const std::string& law) {
   return [=](WorldSetup setup) {
     Material& material = setup.materials.front().material;
@@ -46,7 +46,7 @@ MakeWorld volume_of_wrong_sign(const std::string& law) {
   };
 }
 
-/// Figures that closed forms and other arithmetic stand behind, of a beam and of one law.
+/// Result values of a beam whose sag is known in closed form.
 std::vector<ResultValue> figures_with(const MakeWorld& make) {
   StudyContext context;
   context.make = make;
@@ -85,7 +85,7 @@ TEST_CASE("Richardson: solutions that converge with order 2 lead to their limit,
   CHECK(rms_distance(best, limit, mass) < 1e-12);
   CHECK(exact.uncertainty < 1e-12);
   CHECK(exact.far.z() == doctest::Approx(3));
-  // Order 1: the truth is the guess by the order shown, and lies within the uncertainty.
+  // Order 1: the limit is the extrapolation by the observed order, and lies within the uncertainty.
   const auto slow =
       extrapolate({scaled(limit, 1 - 0.4), scaled(limit, 1 - 0.2), scaled(limit, 1 - 0.1)}, rest, mass, best);
   CHECK(slow.order == doctest::Approx(1));
@@ -143,7 +143,7 @@ TEST_CASE("steps above the stable limit fail and are said to, and a figure that 
       CHECK(m.failed());
     }
   CHECK(failed == 1);
-  // Verlet at the live limit was fine before; had its step been above the limit, it would have no figure.
+  // Verlet with stable steps did not fail. If its step were above the limit, it would have no value.
   SceneStudy scene;
   scene.name = "small beam";
   scene.time = {study};

@@ -69,8 +69,8 @@ TEST_CASE("leaving zeros out changes no force of Mass-Tensor, only how many oper
   CHECK(apart(f, g) < 1e-14);
   CHECK(some.coefficients() < all.coefficients());
 
-  // By hand, of each neighbour: B 9 ×, 6 + and 3 to sum; of each pair: 3 + 3 ×, 2 + 2 +, 6 ×, 3 + 3; of each triple:
-  // 1 + 3 ×, 3 +; of each node: 3 − for its displacement.
+  // Counted by hand. Per neighbour: B 9 ×, 6 +, 3 + to sum. Per pair: 3 + 3 ×, 2 + 2 +, 6 ×, 3 + 3 +. Per triple:
+  // 1 + 3 ×, 3 +. Per node: 3 − for its displacement.
   std::vector<std::vector<char>> near(small.mesh.nodes.size(), std::vector<char>(small.mesh.nodes.size(), 0));
   for (const Tet& tet : small.mesh.tets)
     for (const int a : tet)

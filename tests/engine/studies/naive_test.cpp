@@ -23,7 +23,7 @@ std::vector<double> naive_forces(const SmallBody& small, const Material& materia
 }
 
 #define HEML_COMPILED_FOR(macro, name) , HEML_IS_ONE(macro)
-constexpr bool compiled_for[] = {true HEML_X86_FEATURES(HEML_COMPILED_FOR)};  // this file, as all but the native loops
+constexpr bool compiled_for[] = {true HEML_X86_FEATURES(HEML_COMPILED_FOR)};  // of this file: not native
 #undef HEML_COMPILED_FOR
 
 }  // namespace
@@ -62,8 +62,8 @@ TEST_CASE("naive loops made for a processor run on none that lacks what they wer
     CHECK(portable_naive_set.compiled_for[k] == compiled_for[k]);
     if (native_naive_set.compiled_for[k]) asked_for.push_back(k);
   }
-  CHECK(asked_for.empty() == (count == 1));          // SSE2 at least, where there is a list
-  const auto has = std::make_unique<bool[]>(count);  // std::vector<bool> is no array
+  CHECK(asked_for.empty() == (count == 1));          // with a list of features, at least SSE2
+  const auto has = std::make_unique<bool[]>(count);  // std::vector<bool> has no bool array
   const auto chosen_without = [&](std::size_t lacking) {
     for (std::size_t k = 0; k < count; ++k) has[k] = k != lacking;
     return &naive_set({has.get(), count});

@@ -1,4 +1,4 @@
-// The element's code is generic over its scalar: run on one that counts, it says how many operations a law takes.
+// Operation counts of the laws, from the element code run with a counting scalar.
 #include <doctest/doctest.h>
 
 #include <heml/elastic/tension.hpp>
@@ -45,7 +45,7 @@ Operations operations_of_law(const Material& material) {
 TEST_CASE("every law runs on a counting scalar, gives the same forces, and says what it costs") {
   for (std::size_t index = 0; index < law_count; ++index)
     visit_law(index, false, []<class Tag, bool continued>(Tag, std::bool_constant<continued>) {
-      if constexpr (!continued) {  // the others take no counted numbers
+      if constexpr (!continued) {  // continued laws do not support CountingScalar
         using Counting = typename Tag::template Law<CountingScalar, false>;
         CAPTURE(std::string(Tag::name));
         const Material material = test::sample_material(Tag::name);

@@ -1,4 +1,4 @@
-// Cases of the study that are quick enough to be asked with every build; `heml study stability` asks them all.
+// Cases of the study that are fast enough for every build; `heml study stability` runs all of them.
 #include <doctest/doctest.h>
 
 #include <filesystem>
@@ -75,7 +75,7 @@ TEST_CASE("extremes: one half ten thousand times heavier, both methods agree") {
 TEST_CASE("extremes: backward Euler gains no energy without load, from any start") {
   for (const char* law : {"neo_hookean", "neo_hookean_iso"}) check_holds(11, {law, implicit});
   Trial trial;
-  trial.variant = {"stvk", implicit};  // which ends inside out where it starts compressed: it has no reason not to
+  trial.variant = {"stvk", implicit};  // ends inverted when started compressed, as the law has no barrier against it
   const Outcome outcome = case_numbered(11).run(trial);
   CHECK(outcome.stopped.empty());
   CHECK(outcome.value <= case_numbered(11).limit);

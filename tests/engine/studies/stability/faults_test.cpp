@@ -1,4 +1,4 @@
-// The study has to be able to fail: engines broken on purpose are noticed.
+// The study detects deliberately faulty engines.
 #include <doctest/doctest.h>
 
 #include <heml/elastic/body.hpp>
@@ -36,7 +36,7 @@ void twice(const TetMesh&, const Material&, const std::vector<double>&, std::vec
   for (double& each : f) each *= 2;
 }
 
-/// The forces of the volume term with the other sign: less twice what the law has beyond a tiny bulk modulus.
+/// Reverses the sign of the volume term's forces: subtracts twice the difference from the law with a tiny bulk modulus.
 void volume_term_with_wrong_sign(const TetMesh& mesh, const Material& material, const std::vector<double>& x,
                                  std::vector<double>& f) {
   Material without = material;
@@ -50,7 +50,7 @@ void volume_term_with_wrong_sign(const TetMesh& mesh, const Material& material, 
   for (std::size_t i = 0; i < f.size(); ++i) f[i] -= 2 * (all[i] - isochoric[i]);
 }
 
-/// Momentum is made: one node's force is a thousandth too large.
+/// Violates conservation of momentum: one force component is too large by a thousandth.
 void relative_net_load(const TetMesh&, const Material&, const std::vector<double>&, std::vector<double>& f) {
   f[0] *= 1.001;
 }

@@ -1,4 +1,4 @@
-// What is promised may grow and become tighter; never the other way round.
+// Promises may be added and tightened, never removed or loosened.
 #include <doctest/doctest.h>
 
 #include <filesystem>
@@ -17,8 +17,7 @@ namespace {
 
 const std::filesystem::path committed = test::source_folder() / "assets/studies/promised.json";
 
-/// Limits in double and in float, and how many ways of the case were promised first. In double they are the plan's: 0.1
-/// % of rest after a collapse, order 2 ± 0.1, …
+/// Loosest limits allowed in double and in float, and the least number of promised variants of a case.
 struct Floor {
   double limit, float_limit;
   int variants;
@@ -110,7 +109,7 @@ TEST_CASE("a verdict needs more than being finite") {
 TEST_CASE("a promise falls short by its verdict, and by its figure alone") {
   std::vector<Cell> cells = {cell_of(Verdict::stable, 1e-6), cell_of(Verdict::stable, 2e-5),
                              cell_of(Verdict::inverted, 1e-6), cell_of(Verdict::wrong, 1)};
-  cells[3].variant.law = "gent";  // not promised
+  cells[3].variant.law = "gent";  // not among the promised laws
   check_promises({drift}, cells);
   CHECK(cells[0].promised);
   CHECK_FALSE(cells[0].short_of_promise);
@@ -142,7 +141,7 @@ TEST_CASE("a study goes on where it stopped, and its figures are the ones it had
   const auto first = run_study(results, options);
   CHECK(runs == static_cast<int>(first.size()));
   const std::string text = read_text_file(results);
-  write_file(results, text.substr(0, text.size() / 2));  // cut off in the middle of a line
+  write_file(results, text.substr(0, text.size() / 2));  // ends in the middle of a line
   runs = 0;
   const auto second = run_study(results, options);
   CHECK(runs > 0);
