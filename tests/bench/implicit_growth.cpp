@@ -1,12 +1,12 @@
-// How the cost of an implicit step grows with the mesh: a cube of 10 cm, 10 kPa, held at one side, falls by backward
-// Euler in steps of 1/60 s. One line a mesh; regular ones, and one whose inner nodes are shaken.
+// Growth of the cost of an implicit step with the mesh: a cube of 10 cm, 10 kPa, fixed at one side, falls by backward
+// Euler in steps of 1/60 s. One line per mesh: regular ones, and ones whose inner nodes are displaced at random.
 //
 //   ninja -C build/release bench_implicit_growth
-//   build/release/tests/bench_implicit_growth [LARGEST=1000000] [POISSON=0.3] [NEWTON ITERATIONS A STEP=as many as
-//     the tolerance takes] [THREADS=1]
+//   build/release/tests/bench_implicit_growth [LARGEST=1000000] [POISSON=0.3] [NEWTON ITERATIONS PER STEP=until
+//     the tolerance is met] [THREADS=1]
 //
-// Beside each step a naive evaluation of the same forces is timed in turn (F = Ds Dm⁻¹, P = F S, scattered, double, one
-// thread, the nodes in the mesh's own order): times alone say little on a shared machine, their ratio does.
+// A naive evaluation of the same forces (F = Ds Dm⁻¹, P = F S, double, one thread, the mesh's own order of nodes) is
+// timed after each step: on a shared machine the ratio of both times is reproducible, the times themselves are not.
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -43,7 +43,7 @@ double megabytes_at_most() {
   return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
-/// Forces of Neo-Hookean tetrahedra as a first program would find them.
+/// Forces of Neo-Hookean tetrahedra in the textbook form.
 class NaiveForces {
  public:
   NaiveForces(const TetMesh& mesh, const LameParameters& lame) : mesh_(mesh), lame_(lame) {
@@ -88,7 +88,7 @@ TetMesh cube(int cells, bool shaken) {
   return mesh;
 }
 
-/// Whether the naive forces are the program's, to round-off.
+/// Whether the naive forces equal the engine's to round-off.
 bool naive_agrees(const LameParameters& lame) {
   const TetMesh mesh = cube(4, true);
   const std::vector<int> material_of(mesh.tets.size(), 0);
@@ -125,7 +125,7 @@ void measure(int cells, bool shaken, double poisson, int iterations, int threads
   const double before = milliseconds();
   const auto world = make_world(setup);
   const double made = milliseconds();
-  world->tick();  // makes the solver
+  world->tick();  // builds the solver
   const double first = milliseconds();
   for (int k = 1; k < first_steps; ++k) world->tick();
   const SolverStats start = world->solver_stats();

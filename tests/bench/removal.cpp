@@ -1,5 +1,5 @@
-// How long a removal takes: of one element and of a hundred, without and with the step that follows, against a step
-// between removals. Milliseconds, median and least of many, taken in turn.
+// Times of removals of one element and of a hundred, of the step after one, of a later step, and of the surface update.
+// Milliseconds: median and minimum of 15 interleaved samples.
 //
 //   ninja -C build/release bench_removal && build/release/tests/bench_removal
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-"""What a window costs beside the engine: pictures a second and lateness of organs, on this machine, drawn as it draws.
+"""Frames per second and missed deadlines of the window for scenes with organs, on this machine.
 
     HEML_BINARY=build/release/app/heml python3 tests/bench/window.py [SECONDS]
 """

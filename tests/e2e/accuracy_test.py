@@ -1,4 +1,4 @@
-"""`heml study accuracy` and `heml tune` from outside. HEML_BINARY names the program."""
+"""End-to-end tests of `heml study accuracy` and `heml tune`. HEML_BINARY is the path of the program."""
 import csv
 import json
 import os
@@ -47,7 +47,7 @@ class Accuracy(unittest.TestCase):
         self.assertGreater(len(rows), 10)
         for field in ("cpu", "compiler", "commit", "threads", "time_error_m", "seconds_per_second"):
             self.assertTrue(all(row[field] for row in rows if not row["failed"]), field)
-        # What was committed shrinks to a half: now the same errors have grown.
+        # Halves the committed values, so that the same errors count as grown.
         assets = self.folder / "assets"
         shutil.copytree(pathlib.Path(__file__).parents[2] / "assets", assets)
         figures = assets / "studies" / "accuracy_quick.json"

@@ -1,4 +1,5 @@
-"""`heml bench` from outside: rows, table, pictures, refusals. No figure is compared with another. HEML_BINARY names it."""
+"""End-to-end tests of `heml bench`: rows, tables, pictures, errors. No times are compared. HEML_BINARY is the path of
+the program."""
 import json
 import os
 import pathlib
@@ -17,7 +18,7 @@ def bench(*arguments):
 
 
 def tables_in(text):
-    """Blocks of neighbouring lines of Markdown tables."""
+    """The Markdown tables of a text, each a list of its lines."""
     tables = [[]]
     for line in text.splitlines():
         if line.startswith("|"):

@@ -1,7 +1,8 @@
-"""Static equilibria of `heml solve` against CalculiX (ccx) and against fem_reference.py. HEML_BINARY names the program.
+"""Compares static equilibria of `heml solve` with CalculiX (ccx) and fem_reference.py. HEML_BINARY is the path of the
+program.
 
-A block of irregular tetrahedra is held at one end; the other is pulled and twisted. CalculiX's C3D4 is the same
-element: linear, one point.
+A block of irregular tetrahedra is fixed at one end; the other end is pulled and twisted. CalculiX's C3D4 is the same
+element: linear, with one integration point.
 """
 import csv
 import json
@@ -30,7 +31,7 @@ import fem_reference
 
 BINARY = os.environ["HEML_BINARY"]
 SIZE, CELLS = (0.2, 0.12, 0.1), (5, 4, 3)
-PULL, TWIST = (0.06, 0.01, 0.0), 40.0  # m, degrees about the block's middle
+PULL, TWIST = (0.06, 0.01, 0.0), 40.0  # m, degrees about the block's centre
 
 MATERIALS = {
     "neo_hookean_iso": {"law": "neo_hookean_iso", "K1": 500.0, "kappa": 2e4},
@@ -48,22 +49,23 @@ OTHER_MATERIALS |= {f"{law}, {term}": (MATERIALS | OTHER_MATERIALS)[law] | {"vol
 
 
 def calculix_card(material):
-    """*HYPERELASTIC of CalculiX: its volume term is (J−1)²/D1, its Ogden term 2 μi/αi² (λ̄1^αi + …)."""
+    """CalculiX's *HYPERELASTIC card; its volume term is (J−1)²/D1, its Ogden term 2 μi/αi² (λ̄1^αi + …)."""
     m, D1 = material, 2 / material["kappa"]
     if m["law"] == "neo_hookean_iso":
         return f"*HYPERELASTIC, NEO HOOKE\n{m['K1']:.15g}, {D1:.15g}\n"
     if m["law"] == "mooney_rivlin":
         return f"*HYPERELASTIC, MOONEY-RIVLIN\n{m['K1']:.15g}, {m['K2']:.15g}, {D1:.15g}\n"
     terms = [f"{mu * alpha / 2:.15g}, {alpha:.15g}" for mu, alpha in zip(m["mu"], m["alpha"])]
-    volume = [f"{D1:.15g}"] + ["1e30"] * (len(terms) - 1)  # (J−1)⁴/D2 and so on: none
+    volume = [f"{D1:.15g}"] + ["1e30"] * (len(terms) - 1)  # switches off (J−1)⁴/D2 and higher terms
     return f"*HYPERELASTIC, OGDEN, N={len(terms)}\n{', '.join(terms + volume)}\n"
 
 
-IN_TENTHS, AT_ONCE = "*STATIC, DIRECT\n0.1, 1.0", "*STATIC\n1.0, 1.0"  # or in increments of its own where that fails
+IN_TENTHS, AT_ONCE = "*STATIC, DIRECT\n0.1, 1.0", "*STATIC\n1.0, 1.0"  # CalculiX may cut the latter
 
 
 def calculix_deck(nodes, tets, material, held, target, increments=IN_TENTHS, residual=1e-10, correction=1e-10):
-    """residual: the largest, relative to the average force; correction: of displacements, relative to the increment."""
+    """CalculiX's input file. residual: convergence limit of the largest residual, relative to the average force;
+    correction: that of the largest displacement correction, relative to the largest increment."""
     lines = ["*NODE, NSET=ALL"]
     lines += [f"{i + 1}, " + ", ".join(f"{x:.12g}" for x in node) for i, node in enumerate(nodes)]
     lines += ["*ELEMENT, TYPE=C3D4, ELSET=BODY"]
@@ -80,14 +82,14 @@ def calculix_deck(nodes, tets, material, held, target, increments=IN_TENTHS, res
 
 
 def run_calculix(folder, deck):
-    """What it says of its work; nothing when it has not converged."""
+    """CalculiX's standard output; None if it has not converged."""
     (folder / "block.inp").write_text(deck)
     done = subprocess.run(["ccx", "block"], cwd=folder, capture_output=True, text=True, timeout=280)
     return None if done.returncode or "Job finished" not in done.stdout else done.stdout
 
 
 def calculix(folder, nodes, tets, material, held, target):
-    """Positions by CalculiX, to the seven digits of a displacement that it prints."""
+    """Positions by CalculiX (#V×3, m), to the seven digits of displacements that it prints."""
     if not run_calculix(folder, calculix_deck(nodes, tets, material, held, target)):
         raise RuntimeError("CalculiX has not converged")
     text = (folder / "block.dat").read_text()
@@ -102,7 +104,7 @@ def calculix(folder, nodes, tets, material, held, target):
 
 
 def mesh_file(nodes, tets):
-    """Gmsh 2.2."""
+    """The mesh in Gmsh format 2.2."""
     lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$Nodes", str(len(nodes))]
     lines += [f"{i + 1} " + " ".join(f"{x:.12g}" for x in node) for i, node in enumerate(nodes)]
     lines += ["$EndNodes", "$Elements", str(len(tets))]
@@ -128,12 +130,12 @@ class StaticEquilibrium(unittest.TestCase):
         self.folder = pathlib.Path(folder.name)
 
     def largest_difference(self, x, y):
-        """Over nodes, relative to the largest displacement."""
+        """Largest distance of a node, relative to the largest displacement."""
         moved = np.linalg.norm(y - self.nodes, axis=1).max()
         return np.linalg.norm(x - y, axis=1).max() / moved
 
     def reference(self, material):
-        """The same by fem_reference.py."""
+        """Positions and reactions by fem_reference.py."""
         body = fem_reference.Body(self.nodes, self.tets, material)
         x = fem_reference.equilibrium(body, self.held, self.target[self.held])
         gradient = body.gradient(x)
@@ -143,7 +145,7 @@ class StaticEquilibrium(unittest.TestCase):
         return calculix(self.folder, self.nodes, self.tets, material, self.held, self.target)
 
     def heml(self, material, tolerance=1e-11):
-        """Positions, and the report."""
+        """Positions and report of `heml solve`."""
         scene = {
             "schema_version": 1,
             "mesh": {"file": "block.msh"},
@@ -186,8 +188,8 @@ class StaticEquilibrium(unittest.TestCase):
                 self.assertLess(np.linalg.norm(reactions - expected), 1e-9 * np.linalg.norm(expected))
 
     def test_heml_needs_no_more_iterations_than_calculix(self):
-        """To where no residual is above a millionth of CalculiX's average force, which alone ends both. An increment's
-        prediction along the tangent counts as an iteration of heml's; of CalculiX's ways of loading the better counts."""
+        """Both stop when no residual is above a millionth of CalculiX's average force. The tangent prediction of an
+        increment counts as an iteration of heml; for CalculiX the better of both kinds of increments counts."""
         millionth = 1e-6
         for name, material in MATERIALS.items():
             with self.subTest(name):

@@ -1,4 +1,4 @@
-"""The program from outside: exit codes, messages, files. HEML_BINARY names it."""
+"""End-to-end tests of the command line: exit codes, messages, files. HEML_BINARY is the path of the program."""
 import csv
 import json
 import math
@@ -15,7 +15,7 @@ SHARED = SOURCE.parent / "shared" / "data"
 
 
 def heml(*arguments, cwd=None, env=None):
-    """Runs the program without a display; returns what it did."""
+    """Runs the program without a display; returns the completed process."""
     environment = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
     environment.update(env or {})
     return subprocess.run([BINARY, *map(str, arguments)], cwd=cwd, env=environment, capture_output=True, text=True, timeout=280)
@@ -228,7 +228,7 @@ class CommandLine(unittest.TestCase):
                 self.assertNotIn("halted", [warning["about"] for warning in told["warnings"]])
 
     def test_a_tetrahedral_scene_is_solved_without_drawing_or_meshing_libraries(self):
-        """The loader's own record of what was mapped, helpers included."""
+        """Checks the dynamic loader's log of mapped libraries, child processes included."""
         def loaded(*arguments):
             record = self.folder / "record"
             record.mkdir(exist_ok=True)

@@ -1,4 +1,5 @@
-"""What a scene does not need is not loaded, takes no memory, and changes no bit. HEML_BINARY names the program."""
+"""Features that a scene does not use load no library, take no memory and change no bit. HEML_BINARY is the path of the
+program."""
 import json
 import os
 import pathlib
@@ -23,7 +24,7 @@ SCENE = {
 
 
 def run(*arguments):
-    """Exit code, and the names of all libraries that were loaded, as the dynamic linker tells them."""
+    """Exit code and the names of all loaded libraries, from the dynamic linker's log."""
     with tempfile.TemporaryDirectory() as folder:
         environment = dict(os.environ, LD_DEBUG="libs", LD_DEBUG_OUTPUT=folder + "/linker")
         done = subprocess.run([BINARY, *map(str, arguments)], env=environment, stdout=subprocess.DEVNULL,
@@ -33,7 +34,7 @@ def run(*arguments):
 
 
 def greatest_memory(*arguments):
-    """Exit code, and bytes; in a child of its own, since a process knows the greatest of all its children only."""
+    """Exit code and peak memory, bytes; by a forked child, since RUSAGE_CHILDREN is the maximum over all children."""
     read, write = os.pipe()
     child = os.fork()
     if child == 0:

@@ -1,4 +1,4 @@
-"""A screen without a monitor, and pictures of it."""
+"""A virtual screen (Xvfb) and pictures of it."""
 import mmap
 import os
 import statistics
@@ -7,7 +7,7 @@ import subprocess
 
 
 class Display:
-    """A screen without a monitor, whose pixels are in a file."""
+    """An Xvfb screen whose pixels are in a file."""
 
     def __init__(self, folder, width, height):
         read, write = os.pipe()
@@ -25,7 +25,7 @@ class Display:
         self.server.wait()
 
     def picture(self):
-        """The screen. The file is an X window dump: 25 big-endian words, a name, colours of 12 bytes, pixels."""
+        """The screen now. The file is an X window dump: 25 big-endian words, a name, colours of 12 bytes, pixels."""
         with open(self.file, "rb") as file, mmap.mmap(file.fileno(), 0, prot=mmap.PROT_READ) as dump:
             words = struct.unpack(">25I", dump[:100])
             width, height, stride, start = words[4], words[5], words[12], words[0] + 12 * words[19]
@@ -33,7 +33,7 @@ class Display:
 
 
 class Picture:
-    """Rows of blue, green, red, nothing."""
+    """Rows of 4-byte pixels: blue, green, red, unused."""
 
     def __init__(self, width, height, stride, data):
         self.width, self.height, self.stride, self.data = width, height, stride, data
@@ -50,12 +50,12 @@ class Picture:
         return len({self.pixel(x, y) for x, y in self.places(0, self.width)})
 
     def change(self, other, left, right):
-        """Mean difference of a channel, 0 to 255, between two columns."""
+        """Mean difference per channel, 0 to 255, between columns `left` and `right`."""
         places = self.places(left, right)
         return sum(abs(a - b) for p in places for a, b in zip(self.pixel(*p), other.pixel(*p))) / (3 * len(places))
 
     def tissue(self, left, right):
-        """A place in the middle of what is red."""
+        """The red pixel nearest to the median of all red pixels: a point on the tissue."""
         def is_red(place):
             red, green, _ = self.pixel(*place)
             return red > 90 and red > 1.7 * green

@@ -1,7 +1,7 @@
-"""A second opinion on static equilibrium: a few hundred linear tetrahedra by Newton's method in numpy.
+"""Independent reference for static equilibrium: a few hundred linear tetrahedra by Newton's method in numpy.
 
 Stresses come from principal stretches (Ogden 1984), stiffnesses are differences of stresses, forces are assembled from
-F = Ds Dm⁻¹ and P: nothing of how the program computes. Slow and plain on purpose.
+F = Ds Dm⁻¹ and P: no formula is shared with the program. Slow and simple on purpose.
 """
 import numpy as np
 
@@ -12,7 +12,8 @@ ODD_CELL = [(1, 0, 3, 5), (2, 0, 3, 6), (4, 0, 5, 6), (7, 3, 5, 6), (0, 3, 5, 6)
 
 def irregular_box(size, cells, jitter, seed):
     """Nodes (#V×3, m) and tetrahedra (#T×4) of a block of cells, 5 tetrahedra each, mirrored between neighbours. Nodes
-    off the two ends in x are moved by up to `jitter` of a cell; all numbers have 12 digits, so that text keeps them."""
+    not at the two ends in x are moved by up to `jitter` of a cell. Coordinates are rounded to 12 digits, so that text
+    files keep them exactly."""
     nx, ny, nz = cells
     number = lambda i, j, k: i + (nx + 1) * (j + (ny + 1) * k)
     grid = np.array([[i, j, k] for k in range(nz + 1) for j in range(ny + 1) for i in range(nx + 1)], float)
@@ -32,7 +33,7 @@ def irregular_box(size, cells, jitter, seed):
 
 
 def volumes(nodes, tets):
-    """Signed, m³ (#T)."""
+    """Signed volumes, m³ (#T)."""
     a, b, c, d = (nodes[tets[:, k]] for k in range(4))
     return np.einsum("ti,ti->t", b - a, np.cross(c - a, d - a)) / 6
 
@@ -64,7 +65,7 @@ def stvk(stretches, lam, mu):
 
 
 def principal_stress(material, stretches):
-    """Principal Kirchhoff stress, Pa, of a material as scene files say it, without its fibres."""
+    """Principal Kirchhoff stress (#T×3, Pa) of a material of a scene file, without its fibres."""
     m = material
     J = stretches.prod(axis=1, keepdims=True)
     match m["law"]:
@@ -84,7 +85,7 @@ def principal_stress(material, stretches):
 
 
 def fibre_stress(material, F):
-    """P (#T×3×3) of hgo's fibres: w4 ∂Ī4/∂F with w4 = k1 (Ī4−1) exp(k2 (Ī4−1)²) where they are pulled."""
+    """P (#T×3×3) of the fibres of hgo: w4 ∂Ī4/∂F with w4 = k1 (Ī4−1) exp(k2 (Ī4−1)²) in tension, else 0."""
     a = np.array(material["fibre"]) / np.linalg.norm(material["fibre"])
     Fa, p = F @ a, np.cbrt(np.linalg.det(F)) ** -2
     I4 = p * (Fa * Fa).sum(axis=1)
@@ -94,7 +95,7 @@ def fibre_stress(material, F):
 
 
 def first_piola(material, F):
-    """P (#T×3×3) = F Σ τi/λi² Ni Niᵀ with the eigenvectors Ni of C; and what fibres add."""
+    """P (#T×3×3) = F Σ τi/λi² Ni Niᵀ with the eigenvectors Ni of C, plus the fibres' part."""
     squares, N = np.linalg.eigh(np.einsum("tki,tkj->tij", F, F))
     P = F @ np.einsum("ti,tai,tbi->tab", principal_stress(material, np.sqrt(squares)) / squares, N, N)
     return P + fibre_stress(material, F) if material["law"] == "hgo" else P
@@ -114,14 +115,14 @@ class Body:
         return np.einsum("tak,tal->tkl", x[self.tets], self.gradients)
 
     def gradient(self, x):
-        """Of the energy by the positions x (#V×3): minus the forces, N."""
+        """Gradient of the energy by the positions x (#V×3): minus the forces, N."""
         P = first_piola(self.material, self.deformation(x))
         g = np.zeros_like(x)
         np.add.at(g, self.tets, np.einsum("t,tkl,tal->tak", self.volumes, P, self.gradients))
         return g
 
     def stiffness(self, x):
-        """3#V×3#V, dense, by central differences of P."""
+        """Dense stiffness, 3#V×3#V, by central differences of P."""
         F, h = self.deformation(x), 1e-6
         K = np.zeros((x.size, x.size))
         for k in range(3):
@@ -136,13 +137,14 @@ class Body:
 
 
 def equilibrium(body, held, target, increments=4):
-    """Positions (#V×3) where no force is left on nodes that are not `held`; those go to `target` in straight lines."""
+    """Positions (#V×3) with no force on nodes outside `held`; constrained nodes (`held`) move to `target` linearly.
+    Raises RuntimeError if Newton's method does not converge."""
     x = body.nodes.copy()
     free = np.setdiff1d(np.arange(x.size), (3 * held[:, None] + np.arange(3)).ravel())
     for k in range(1, increments + 1):
         before = x.copy()
         x[held] = body.nodes[held] + (target - body.nodes[held]) * k / increments
-        # A first guess that moves the inside along with the ends.
+        # First guess: the linearised motion of the free nodes.
         K = body.stiffness(before)
         x.ravel()[free] -= np.linalg.solve(K[np.ix_(free, free)], K[free] @ (x - before).ravel())
         for _ in range(30):

@@ -1,4 +1,5 @@
-"""Files and streams the program writes: inputs are never lost, what cannot be written is said. HEML_BINARY names it."""
+"""Output files and streams: inputs are never overwritten, and write errors are reported. HEML_BINARY is the path of the
+program."""
 import json
 import os
 import pathlib
@@ -107,12 +108,12 @@ class Files(unittest.TestCase):
                     shutil.copy(self.folder / "scene.json", self.folder / "report.html")
                     before = self.content()
                 if named is None:
-                    continue  # without a display it captures; the window is window_test.py's
+                    continue  # without a display this would capture; the window tests cover recording in the window
                 self.assert_refused(heml(*arguments, cwd=self.folder), 3, named, "is read by this run", "another --")
                 self.assertEqual(self.content(), before)
 
     def test_what_cannot_be_written_is_said_before_the_run(self):
-        """A run that began would take hours."""
+        """If the run began before the check, it would take hours."""
         long = self.write("long.json", beam(solver={"duration": 100000, "threads": 1}))
         self.write("hand.csv", "time,x,y,z\n0,0.1,0.01,0.01\n100000,0.1,0.01,0.01\n")
         self.write("file", "")

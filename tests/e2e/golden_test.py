@@ -1,11 +1,11 @@
-"""Committed recordings play as they were recorded, with one thread and with two. HEML_BINARY names the program.
+"""Committed recordings replay to the same bits, with one thread and with two. HEML_BINARY is the path of the program.
 
-Where physics is meant to change, kernel_revision (engine/scenario/build_identity.hpp) is raised, and they are made anew from the
-scenes they are named after:
+If a change of results is intended, raise kernel_revision (engine/heml/scenario/build_identity.hpp) and record again
+from the scenes of the same names:
 
     for s in kidney_pull liver_cut kidney_on_table twist; do build/release/app/heml replay assets/scenes/$s.json --record tests/golden/$s.jsonl; done
 
-kidney_by_hand was played in a window, by play_by_hand.py.
+play_by_hand.py records kidney_by_hand in a window.
 """
 import json
 import os

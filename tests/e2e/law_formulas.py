@@ -1,14 +1,14 @@
-"""Energies of the laws as formulas, and their derivatives, in 70 digits; and materials of each to compare at.
+"""Energies of the laws and their derivatives in 70 digits, and random materials of each law for comparison.
 
-Written from the invariants and stretches of F, as in the documentation of the laws; this knows nothing of how the
-program computes. Stresses and stiffnesses are differences of the energy, which in so many digits are exact to 30.
+Written from the invariants and stretches of F, as in the documentation of the laws, independently of the program.
+Stresses and stiffnesses are differences of the energy, which at this precision are accurate to 30 digits.
 """
 from typing import Callable, NamedTuple
 
 from mpmath import mp, mpf
 
 mp.dps = 70
-STEP = mpf(10) ** -20  # of differences: truncated after its square, rounded at 1e-70 / 1e-40
+STEP = mpf(10) ** -20  # of differences: truncation error STEP², rounding error 1e-70 / 1e-40
 
 
 # ---- The formulas. F: nine mpf, row by row. ----
@@ -38,14 +38,14 @@ def invariants(F):
 
 
 def isochoric(F):
-    """Ī1, Ī2, J; of an inverted F with the cube root of 1/J²."""
+    """Ī1, Ī2, J, by the cube root of 1/J², which is defined for inverted F too."""
     I1, I2, J = invariants(F)
     p = mp.cbrt(1 / (J * J))
     return p * I1, p * p * I2, J
 
 
 def squared_stretches(C):
-    """Eigenvalues of C: the roots of its characteristic cubic by their cosines (O. K. Smith 1961)."""
+    """Eigenvalues of C by the trigonometric solution of its characteristic equation (O. K. Smith 1961)."""
     mean = trace(C) / 3
     B = [c - (mean if i % 4 == 0 else 0) for i, c in enumerate(C)]
     size = mp.sqrt(trace(product(B, B)) / 6)
@@ -65,9 +65,9 @@ def quadratic(m, J):
 
 class Law(NamedTuple):
     formula: Callable
-    draws: dict  # a value of each parameter from a random.Random, soft as tissue
-    in_range: Callable  # whether the law m is far from its end at F
-    lists: list  # parameters that are lists, of a material each
+    draws: dict  # for each parameter, a function that draws a value typical of soft tissue from a random.Random
+    in_range: Callable  # whether F is well within the range of the law with parameters m
+    lists: list  # values of parameters that are lists, one dict per material
 
 
 LAWS = {}
@@ -85,7 +85,7 @@ def uniform(low, high):
 
 
 def materials(name, r):
-    """Several of a law, as scene files say them."""
+    """Several materials of a law, in the form of scene files."""
     of = LAWS[name]
     return [{"law": name} | given | {key: draw(r) for key, draw in of.draws.items()} for given in of.lists]
 
@@ -135,7 +135,7 @@ def ogden(m, F):
 
 
 def fibre_stretch(m, F):
-    """Ī4, of a0 normalised."""
+    """Ī4 of the normalised fibre direction."""
     a = m["fibre"]
     J = determinant(F)
     stretched = [sum(F[3 * i + j] * a[j] for j in range(3)) for i in range(3)]
@@ -146,7 +146,7 @@ def fibre_stretch(m, F):
      K1=uniform(200, 2e3), kappa=uniform(1e3, 1e5), k1=uniform(100, 5e3), k2=uniform(0.05, 1),
      fibre=lambda r: [r.gauss(0, 1) for _ in range(3)])
 def hgo(m, F, bears):
-    """bears: whether the fibre bears load, Ī4 > 1. Decided once a state, so that differences stay on one side."""
+    """bears: whether the fibre is in tension, Ī4 > 1; fixed per state, so that differences do not cross the kink."""
     W = neo_hookean_iso(m, F)
     if bears:
         W += m["k1"] / (2 * m["k2"]) * (mp.exp(m["k2"] * (fibre_stretch(m, F) - 1) ** 2) - 1)
@@ -168,7 +168,7 @@ def gent(m, F):
 
 @law(mu=uniform(200, 2e3), lambda_m=uniform(1.2, 4), kappa=uniform(1e3, 1e5))
 def arruda_boyce(m, F):
-    """The work of stretching chains: the integral of the inverse Langevin function, by the first five terms of that."""
+    """The integral of the inverse Langevin function, by the first five terms of its series."""
     I1, _, J = isochoric(F)
     links = m["lambda_m"] ** 2
     terms = mpf(3), mpf(9) / 5, mpf(297) / 175, mpf(1539) / 875, mpf(126117) / 67375
@@ -185,7 +185,7 @@ def veronda_westmann(m, F):
 
 @law(mu=uniform(500, 5e3), **{"lambda": uniform(-300, 2e4)})
 def stable_neo_hookean(m, F):
-    """Smith, De Goes & Kim 2018, Eq. 14, less its value at rest."""
+    """Smith, De Goes & Kim 2018, Eq. 14, minus its value at rest."""
     I1, _, J = invariants(F)
     mu, lame = m["mu"] * 4 / 3, m["lambda"] + m["mu"] * 5 / 6
     alpha = 1 + mu / lame - mu / (4 * lame)
@@ -212,20 +212,20 @@ def paper_fung_demiray(m, F):
     return m["mu"] / (2 * m["gamma"]) * (mp.exp(m["gamma"] * (I1 - 3)) - 1) + quadratic(m, J)
 
 
-VOLUME_TERMS = {  # what replaces κ/2 (J−1)²
+VOLUME_TERMS = {  # replace κ/2 (J−1)²
     "logarithmic": lambda kappa, J: kappa / 2 * mp.log(J) ** 2,
     "simo_taylor": lambda kappa, J: kappa / 4 * (J * J - 1 - 2 * mp.log(J)),
 }
 
 
 def numbers(material):
-    """The material with mpf for its numbers, as the formulas take it."""
+    """The material with its numbers converted to mpf."""
     return {key: value if isinstance(value, str) else [mpf(x) for x in value] if isinstance(value, list) else mpf(value)
             for key, value in material.items()}
 
 
 def energy_of(material):
-    """W(F) in mpf, and which side of a fibre's kink each state is on."""
+    """Functions of F: the energy W in mpf, and whether the fibre is in tension."""
     m = numbers(material)
     formula = LAWS[material["law"]].formula
     term = VOLUME_TERMS.get(material.get("volume_term"))
@@ -238,7 +238,7 @@ def energy_of(material):
         return value
 
     def bears(F):
-        # Where Ī4 is 1 but for rounding (rest, rotations, all stretches equal), the side is that of 1: bearing nothing.
+        # If Ī4 is 1 up to rounding (rest, rotations, all stretches equal), the fibre is not in tension.
         return material["law"] == "hgo" and fibre_stretch(m, F) > 1 + mpf(10) ** -14
 
     return W, bears
@@ -249,7 +249,7 @@ def shifted(F, dF, size):
 
 
 def reference(material, F, dF):
-    """W, P (9) and dP (9) of F and dF given in floating point."""
+    """W, P (9) and dP (9) for F and dF (9 floats each)."""
     W_at, bears = energy_of(material)
     F, dF = [mpf(f) for f in F], [mpf(d) for d in dF]
     side = bears(F)

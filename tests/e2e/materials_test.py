@@ -1,4 +1,4 @@
-"""The catalogue of laws and tissues, and the test bench, from outside. HEML_BINARY names the program."""
+"""End-to-end tests of `heml materials` and `heml bench-test`. HEML_BINARY is the path of the program."""
 import csv
 import json
 import math
@@ -13,7 +13,7 @@ BINARY = os.environ["HEML_BINARY"]
 
 
 def heml(*arguments, cwd=None):
-    """Runs the program without a display; returns what it did."""
+    """Runs the program without a display; returns the completed process."""
     environment = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
     return subprocess.run([BINARY, *map(str, arguments)], cwd=cwd, env=environment, capture_output=True, text=True,
                           timeout=280)
@@ -135,9 +135,9 @@ class Materials(unittest.TestCase):
         self.assertIn("R² 0.99", done.stdout)
         picture = (self.folder / "curve.png").read_bytes()
         self.assertEqual((int.from_bytes(picture[16:20], "big"), int.from_bytes(picture[20:24], "big")), (1280, 800))
-        # The entry is one that the program reads.
+        # The program can read the fitted entry.
         self.bench(self.folder / "curve.json")
-        # Without noise the fit is exact, and what simple shear cannot tell apart is said.
+        # Without noise the fit is exact; parameters that simple shear cannot determine are reported.
         exact = "gamma,stress\n" + "".join(f"{g / 10},{2 * 700 * g / 10}\n" for g in range(-4, 5))
         mooney = self.write("mooney.json", {"law": "mooney_rivlin", "K1": 400.0, "K2": 100.0, "kappa": 1e5})
         done, _ = self.bench(mooney, "--test", "shear", "--data", self.write("exact.csv", exact))

@@ -1,4 +1,4 @@
-"""Makes tests/golden/kidney_by_hand.jsonl anew: the default scene in a window, with a real mouse and keyboard.
+"""Records tests/golden/kidney_by_hand.jsonl: the default scene in a window, with simulated mouse and keyboard input.
 
     HEML_BINARY=build/release/app/heml python3 tests/e2e/play_by_hand.py [FILE]
 """
@@ -11,14 +11,14 @@ RECORDING = pathlib.Path(__file__).resolve().parents[1] / "golden" / "kidney_by_
 
 
 class ByHand(WindowCase):
-    """Not a test: what a person does in half a minute."""
+    """Not a test: half a minute of a user's session."""
 
     def perform(self, recording):
         self.open_display(1280, 720)
         recording.unlink(missing_ok=True)
         self.begin("--record", recording, "--size", "1280x720", colours=500)
         x, y = self.display.picture().tissue(300, 1010)
-        self.drag((x, y), (70, 60))                                 # pulled, and let go
+        self.drag((x, y), (70, 60))                                 # pull and release
         self.until("material", recording, lambda: self.drag((188, 248), (14, 0), steps=3))  # Young's modulus
         self.do("key", "c")
         self.until("cut", recording, lambda: self.drag((x - 70, y + 70), (60, 50), steps=6))
@@ -30,7 +30,7 @@ class ByHand(WindowCase):
         self.do("mousemove", x, y)
         self.do("click", 1)
         self.do("key", "g")
-        self.drag((x - 40, y + 20), (-40, 50), steps=4)             # against the pin
+        self.drag((x - 40, y + 20), (-40, 50), steps=4)             # pull against the pin
         self.quit()
         print(*(f"{key}: {len(self.seen(key, recording))}" for key in
                 ("grasp", "move", "release", "material", "cut", "undo", "probe", "pin", "checkpoint")))

@@ -1,4 +1,4 @@
-"""`heml probe` against law_formulas.py: energies of the laws in 70 digits. HEML_BINARY names the program."""
+"""Compares `heml probe` with law_formulas.py, the laws in 70 digits. HEML_BINARY is the path of the program."""
 import csv
 import json
 import math
@@ -24,7 +24,7 @@ IDENTITY = [1.0, 0, 0, 0, 1.0, 0, 0, 0, 1.0]
 
 
 def stiffness(material):
-    """About how stiff, Pa: stress is rounded to this times the rounding of F."""
+    """Approximate stiffness, Pa: the rounding error of stress is this times that of F."""
     return sum(abs(x) for key, value in material.items() if key not in ("law", "fibre", "volume_term", "alpha", "Jm")
                for x in (value if isinstance(value, list) else [value]))
 
@@ -32,7 +32,7 @@ def stiffness(material):
 # ---- States. ----
 
 def rotation(r):
-    """From a random unit quaternion."""
+    """A random rotation (9 floats), from a unit quaternion."""
     q = [r.gauss(0, 1) for _ in range(4)]
     n = math.sqrt(sum(x * x for x in q))
     w, x, y, z = (a / n for a in q)
@@ -52,7 +52,7 @@ def of_volume(J, stretches):
 
 
 def states(r):
-    """Rows of F, with names for messages."""
+    """Yields names for messages and F (9 floats)."""
     yield "rest", IDENTITY
     yield "pure stretches", [1.5, 0, 0, 0, 0.8, 0, 0, 0, 1.1]
     for _ in range(4):
@@ -87,7 +87,7 @@ class Probe(unittest.TestCase):
         self.folder = pathlib.Path(folder.name)
 
     def probe(self, material, rows):
-        """Runs the program on rows of 18 numbers; returns what it did and its table, header taken off."""
+        """Runs `heml probe` on rows of 18 numbers; returns the completed process and its table without the header."""
         (self.folder / "material.json").write_text(json.dumps(material | {"density": 1000}))
         with open(self.folder / "in.csv", "w", newline="") as file:
             csv.writer(file).writerows([HEADER] + [[repr(float(x)) for x in row] for row in rows])
@@ -149,7 +149,7 @@ class Probe(unittest.TestCase):
             self.compare(material, [("rest", IDENTITY)], r)
 
     def assert_outside(self, material, *outside):
-        """Rows of nan for these states and values for one at rest between them; one warning; exit 0."""
+        """Expects rows of nan for these states, values for the rest state before and after them, a warning, exit 0."""
         done, table = self.probe(material, [F + IDENTITY for F in (IDENTITY, *outside, IDENTITY)])
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(done.stderr.count("warning"), 1, done.stderr)
@@ -185,7 +185,7 @@ class Probe(unittest.TestCase):
         self.assertEqual(done.stderr.count("error"), 1, done.stderr)
 
 
-WORST = {}  # errors met, by law, relative to what the number is and one per cent of the modulus
+WORST = {}  # largest errors by law, relative to the value plus one per cent of the modulus
 
 
 def law_test(law):

@@ -1,4 +1,5 @@
-"""Recordings that prove: what `replay --verify` notices, and what it says. HEML_BINARY names the program."""
+"""`heml replay --verify`: which alterations of recordings it detects, and its messages. HEML_BINARY is the path of the
+program."""
 import json
 import os
 import pathlib

@@ -1,5 +1,5 @@
-"""`heml study stability --quick` from outside: what is promised holds, the report is whole, a run goes on where it
-stopped, and a promise that is not kept ends with exit code 1. HEML_BINARY names the program."""
+"""End-to-end tests of `heml study stability --quick`: promises hold, the report is complete, an interrupted run
+continues where it stopped, and a broken promise gives exit code 1. HEML_BINARY is the path of the program."""
 import csv
 import json
 import os

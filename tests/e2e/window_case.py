@@ -1,5 +1,5 @@
-"""What the tests of the window share: a display (Xvfb), a real mouse and keyboard (xdotool), and waiting for what the
-program says that it has drawn. HEML_BINARY names the program."""
+"""Base class of the window tests: a display (Xvfb), mouse and keyboard input (xdotool), and waiting for what the
+program reports as drawn. HEML_BINARY is the path of the program."""
 import collections
 import json
 import os
@@ -18,9 +18,9 @@ BINARY = os.environ["HEML_BINARY"]
 MISSING = [tool for tool in ("Xvfb", "xdotool") if not shutil.which(tool)]
 if MISSING:
     print("skipped: not installed:", ", ".join(MISSING))
-PATIENCE = 180  # seconds, for what takes one on a quiet machine
+PATIENCE = 180  # s, time limit for actions that take one on an idle machine
 
-Status = collections.namedtuple("Status", "picture tick motion state key")  # of a line of `--log-pictures`
+Status = collections.namedtuple("Status", "picture tick motion state key")  # a line of `--log-pictures`
 
 
 def light_scene():
@@ -42,7 +42,7 @@ class WindowCase(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
         self.log = self.folder / "pictures.log"
-        self.descendants = None  # the end of a pipe
+        self.descendants = None  # read end of a pipe, see start()
 
     # The program.
 
@@ -52,7 +52,8 @@ class WindowCase(unittest.TestCase):
         self.environment = dict(os.environ, DISPLAY=self.display.name, XDG_STATE_HOME=str(self.folder / "state"))
 
     def start(self, *arguments):
-        """Every process that this begins has an end of a pipe: when all have ended, it has."""
+        """Starts the program. It and its child processes inherit the write end of a pipe, which closes when all of them
+        have ended."""
         self.descendants, held = os.pipe()
         with open(self.log, "w") as log:
             self.program = subprocess.Popen([BINARY, "run", "--log-pictures", *map(str, arguments)], cwd=self.folder,
@@ -62,7 +63,8 @@ class WindowCase(unittest.TestCase):
         self.addCleanup(self.end)
 
     def end(self):
-        """So that nobody writes into the folder while it is removed: a video is made to its end without the program."""
+        """Kills the program and waits for its child processes, since ffmpeg finishes a video without it and must not
+        write into the folder while that is removed."""
         if self.descendants is None:
             return
         self.program.kill()
@@ -74,7 +76,7 @@ class WindowCase(unittest.TestCase):
         self.assertTrue(ended, "what the program began goes on without it")
 
     def begin(self, *arguments, colours=200):
-        """Starts it, until it shows a scene and takes keys."""
+        """Starts the program and waits until it shows a scene and accepts keys."""
         self.start(*arguments)
         self.wait_for("a picture", lambda: self.display.picture().colours() > colours)
         self.settle()
@@ -103,7 +105,7 @@ class WindowCase(unittest.TestCase):
         subprocess.run(["xdotool", *map(str, words)], env=self.environment, check=True, stdout=subprocess.DEVNULL)
 
     def do(self, *words):
-        """Mouse and keys, until all that came of them is drawn."""
+        """Sends mouse and key input and waits until its effects are drawn."""
         self.xdo(*words)
         self.settle()
 
@@ -115,17 +117,17 @@ class WindowCase(unittest.TestCase):
         held()
         self.do("mouseup", 1)
 
-    # Waiting. Each wait ends by what the program or the screen shows; PATIENCE only bounds it.
+    # Waiting. Each wait ends on a condition of the program or the screen; PATIENCE is only the time limit.
 
     def wait_for(self, what, reached):
         end = time.monotonic() + PATIENCE
         while not reached():
             self.assertIsNone(self.program.poll(), "the program ended early")
             self.assertLess(time.monotonic(), end, f"{what}: not within {PATIENCE} s")
-            time.sleep(0.03)  # between two looks
+            time.sleep(0.03)  # polling interval
 
     def status(self):
-        """Of the last picture that was drawn."""
+        """Status line of the last picture drawn."""
         line = r"^picture (\d+), tick (\d+), (\w+), (\w+), key (\d+)$"
         lines = re.findall(line, self.log.read_text(), re.MULTILINE)
         if not lines:
@@ -134,25 +136,25 @@ class WindowCase(unittest.TestCase):
         return Status(int(picture), int(tick), motion, state, int(key))
 
     def settle(self):
-        """What was done before is done: the program has seen a key that was pressed after it, one without a meaning, and
-        has nothing left to show, open, list or film."""
-        f9, f10 = 298, 299  # as GLFW counts them
+        """Waits until earlier input is processed: sends a key without a meaning and waits until the program has seen it
+        and has nothing left to show, open, list or film."""
+        f9, f10 = 298, 299  # GLFW key codes
         key = f10 if self.status().key == f9 else f9
         self.xdo("key", "F10" if key == f10 else "F9")
         self.wait_for("an answer", lambda: self.status().key == key and self.status().state != "busy")
 
     def play(self, ticks):
-        """Until so many more have gone by in the window."""
+        """Waits until the window has advanced by so many ticks."""
         goal = self.status().tick + ticks
         self.wait_for(f"tick {goal}", lambda: self.status().tick >= goal)
 
     def steady(self):
-        """A picture after which nothing changes any more; of a paused body."""
+        """Waits until the picture of a paused body no longer changes, and returns it."""
         self.settle()
         self.wait_for("a still picture", lambda: self.status().state == "still")
         last = [None]
 
-        def same():  # the screen may come after the program
+        def same():  # the screen may lag behind the program
             before, last[0] = last[0], self.display.picture()
             return before and before.data == last[0].data
 
@@ -162,7 +164,7 @@ class WindowCase(unittest.TestCase):
     # Recordings.
 
     def events(self, file="out.jsonl"):
-        """The recording so far, without the scene and a line that is still being written."""
+        """Events of the recording so far, without the scene line and an incomplete last line."""
         lines = (self.folder / file).read_text().split("\n")[1:-1]
         return [json.loads(line) for line in lines]
 
@@ -176,13 +178,13 @@ class WindowCase(unittest.TestCase):
         self.wait_for(f"{key} in {file}", lambda: len(self.seen(key, file)) >= number)
 
     def name_in(self, file):
-        """Of the scene that is recorded there."""
+        """Name of the scene recorded in `file`; None: not written yet."""
         path = self.folder / file
         line = path.read_text().split("\n")[0] if path.exists() else ""
         return json.loads(line).get("name") if line.endswith("}") else None
 
     def wait_for_scene(self, name, file):
-        """Recorded there, and in the window."""
+        """Waits until the scene is recorded in `file` and shown in the window."""
         self.wait_for(f"{name} in {file}", lambda: self.name_in(file) == name)
         self.settle()
 

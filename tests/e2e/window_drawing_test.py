@@ -1,4 +1,5 @@
-"""How the window draws: as without a display, colours as numbers, without holding up the engine, not when it rests."""
+"""Drawing in the window: the same as without a display, field values under the mouse, no delay of the engine, nothing
+drawn while paused."""
 import json
 import os
 import pathlib
@@ -17,7 +18,7 @@ class Drawing(WindowCase):
         self.xdo("mousemove", 638, 300, "key", "space")
         x, y = self.steady().tissue(220, 640)
 
-        def light_pixels_beside():  # where the reading stands, right of the mouse
+        def light_pixels_beside():  # where the field value is shown, right of the mouse
             picture = self.display.picture()
             return sum(min(picture.pixel(a, b)) > 170 for a in range(x + 12, x + 90) for b in range(y - 8, y + 8))
 
@@ -53,7 +54,7 @@ class Drawing(WindowCase):
         done = subprocess.run(["compare", "-metric", "RMSE", shot, self.folder / "frames/frame_00000.png", "null:"],
                               stderr=subprocess.PIPE, text=True)
         normalised = float(done.stderr.split("(")[1].split(")")[0])
-        self.assertLess(normalised * 255, 3.0)  # the limit of committed frames
+        self.assertLess(normalised * 255, 3.0)  # the same limit as for committed frames
 
     def test_a_paused_window_draws_nothing(self):
         self.open_display(640, 360)
@@ -67,7 +68,7 @@ class Drawing(WindowCase):
             return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
         before, drawn = processor_time(), self.status().picture
-        time.sleep(3)  # nothing is to happen, for so long
+        time.sleep(3)  # the period in which nothing must be drawn
         self.assertLess(processor_time() - before, 0.15)
         self.assertEqual(self.status().picture, drawn)
         self.quit()

@@ -1,4 +1,4 @@
-"""Scenes, saved scenes and films of the window."""
+"""Opening scenes, saving scenes and recording films in the window."""
 import json
 import shutil
 import struct
@@ -25,7 +25,7 @@ class Scenes(WindowCase):
         self.open_by_name("cantilever")
         self.wait_for_scene("cantilever", "out-2.jsonl")
         self.do("key", "ctrl+o")
-        self.do("key", "Escape")  # closed again: the next key is the window's
+        self.do("key", "Escape")  # closes the dialog, so that the window gets the next key
         self.quit()
 
         self.begin("--record", "again.jsonl", "--size", "1280x720")
@@ -44,7 +44,7 @@ class Scenes(WindowCase):
             if not saved:
                 self.drag((125, 177), (24, 0), steps=4)
                 self.do("key", "t", "key", "w", "key", "4")
-                self.play(3)  # the table is saved as the body has it
+                self.play(3)  # the table must take effect before it is saved
             self.do("key", "ctrl+s")
             self.wait_for("a file", lambda: len(list(self.folder.glob("heml-*.json"))) > len(saved))
             self.quit()
@@ -72,19 +72,19 @@ class Scenes(WindowCase):
         self.open_display(640, 360)
         tools = self.folder / "tools"
         tools.mkdir()
-        if not shutil.which("ffmpeg"):  # one that makes a file stands for it
+        if not shutil.which("ffmpeg"):  # a stub that only writes a file
             (tools / "ffmpeg").write_text('#!/bin/sh\nfor last; do :; done\necho video > "$last"\n')
             (tools / "ffmpeg").chmod(0o755)
         self.environment["PATH"] = f"{tools}:{self.environment['PATH']}"
         self.begin_light()
         self.do("mousemove", 638, 300, "key", "v")
         self.wait_for("pictures", lambda: self.films() and len(self.frames(self.films()[0])) > 20)
-        self.do("key", "v")  # until the video is made
+        self.do("key", "v")  # returns when the video is finished
         videos = list(self.folder.glob("heml-*.mp4")) + list(self.folder.glob("heml-*.webm"))
         self.assertEqual(len(videos), 1)
         self.do("key", "v")
         self.wait_for("another film", lambda: len(self.films()) == 2 and self.frames(self.films()[1]))
-        self.quit()  # in the middle of it
+        self.quit()  # while it is recording
         for film in self.films():
             numbers = [int(path.stem[6:]) for path in self.frames(film)]
             self.assertEqual(numbers, list(range(len(numbers))))

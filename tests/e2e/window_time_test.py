@@ -1,4 +1,4 @@
-"""Earlier moments in the window, what goes on from them, and the same body computed in other ways beside itself."""
+"""The window's timeline: showing earlier times, resuming from them, and comparison runs."""
 import json
 import subprocess
 import unittest
@@ -8,7 +8,7 @@ from window_case import BINARY, WindowCase, light_scene
 
 class Time(WindowCase):
     def look_between_the_drags(self):
-        """Along the bar of time, to where the first drag has ended and the second has not begun."""
+        """Drags the timeline to a time after the first drag and before the second, by bisection."""
         after = next(event["step"] for event in self.events() if "release" in event)
         before = [event["step"] for event in self.events() if "grasp" in event][1]
         left, right = 220, 600
@@ -64,7 +64,7 @@ class Time(WindowCase):
                        stdout=subprocess.DEVNULL)
         tape = (self.folder / "tape.jsonl").read_bytes()
         self.begin("tape.jsonl", "--size", "640x360")
-        self.play(max(event["step"] for event in self.events("tape.jsonl")))  # past its end
+        self.play(max(event["step"] for event in self.events("tape.jsonl")))  # to its end
         self.xdo("mousemove", 638, 300, "key", "space")
         self.steady()
         self.do("key", "Home")
@@ -78,7 +78,7 @@ class Time(WindowCase):
     def test_laws_side_by_side_are_grasped_looked_back_at_and_resumed_together(self):
         self.open_display(1280, 720)
         self.begin_light("--beside", "stvk+backward_euler", "--record", "out.jsonl", size="1280x720")
-        panes = (300, 650), (665, 1010)  # of what the panel's columns leave free
+        panes = (300, 650), (665, 1010)  # x ranges between the panel's columns, pixels
         before = self.display.picture()
 
         def both_follow():
@@ -101,7 +101,7 @@ class Time(WindowCase):
             self.assertLess(change[0], change[1] / 2, "it was resumed elsewhere than where one looked")
         self.quit()
         self.assertEqual(len(self.seen("grasp")), 1)
-        for file in ("out.jsonl", "out-2.jsonl"):  # of the first body: what is beside it leaves no trace
+        for file in ("out.jsonl", "out-2.jsonl"):  # of the first body only: comparison runs are not recorded
             self.verify(file)
 
 

@@ -1,4 +1,4 @@
-"""The window's tools as people use them: what is done by mouse and keys is seen, recorded and replays."""
+"""The window's tools by mouse and keyboard: effects are drawn, recorded, and replay to the same bits."""
 import json
 import re
 import struct
@@ -20,20 +20,20 @@ class Tools(WindowCase):
         self.assertGreaterEqual(len(self.seen("move")), 3)
 
     def change_the_material(self, scale):
-        """The row of a parameter is dragged; which one it is depends on how the panel is laid out, and a row above it
-        may change the law on the way."""
+        """Drags rows of the panel until one changes a parameter: which row that is depends on the layout, and a row
+        above it may change the law."""
         first = json.loads((self.folder / "out.jsonl").read_text().split("\n")[0])["materials"][0]["law"]
         for row in range(10):
             self.drag((int(scale * 170), int(scale * (140 + 13 * row))), (int(scale * 24), 0), steps=4)
             self.do("key", "Escape")
-            self.play(3)  # what was done is recorded with the next tick
+            self.play(3)  # commands are recorded with the next tick
             laws = [first] + [material["law"] for material in self.seen("material")]
             if any(law == before for before, law in zip(laws, laws[1:])):
                 return
         self.fail("no row of the material was dragged")
 
     def choose_a_tissue(self):
-        """One with published numbers: the list opens under its row."""
+        """Chooses a tissue preset from the list that opens under its row."""
         before = len(self.seen("material"))
         self.do("mousemove", 195, 170)
         self.do("click", 1)
@@ -107,7 +107,7 @@ class Tools(WindowCase):
         self.assertGreater(self.steady().change(whole, 220, 640), 0.05, "the cut does not open")
         self.do("key", "ctrl+z")
         self.wait_for_event("undo")
-        self.do("key", "ctrl+z")  # there is nothing more to undo: said, not recorded
+        self.do("key", "ctrl+z")  # nothing left to undo: reported, not recorded
         self.quit()
         self.assertEqual(len(self.seen("undo")), 1)
         self.verify()
@@ -121,7 +121,7 @@ class Tools(WindowCase):
         recorded = self.events()
         self.end()
         with open(self.folder / "out.jsonl", "a") as file:
-            file.write('{"step": 99')  # as a kill in the middle of a line leaves it
+            file.write('{"step": 99')  # an incomplete line, as left by a kill
         cut = self.replay()
         self.assertEqual(cut.returncode, 1, cut.stdout + cut.stderr)
         self.assertIn("--partial", cut.stderr)
@@ -139,7 +139,7 @@ class Tools(WindowCase):
         self.do("mousemove", *place)
         self.do("click", 1)
         self.wait_for_event("pin")
-        self.play(3)  # its release asks for what the picture shows
+        self.play(3)  # the click releases what the picture shows under it
         self.do("click", 1)
         self.wait_for("its release", lambda: any("node" in value for value in self.seen("release")))
         self.do("key", "o")
