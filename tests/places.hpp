@@ -1,5 +1,5 @@
 #pragma once
-// Where tests find things. One file alone is told, so that all others compile to the same in whatever folder.
+// Paths for tests. Only places.cpp is compiled with them, so that all other objects are the same in any folder.
 #include <filesystem>
 
 namespace heml::test {

@@ -1,12 +1,12 @@
 #pragma once
-// What several tests share: seeded random states, small bodies.
+// Shared by several tests: seeded random vectors, rotations and deformation gradients.
 #include <Eigen/Geometry>
 #include <heml/math/types.hpp>
 #include <random>
 
 namespace heml::test {
 
-/// Uniform in [low, high], the same on every machine (std distributions are not).
+/// Uniform in [low, high), the same on every machine (std distributions are not).
 inline double uniform(std::mt19937_64& random, double low, double high) {
   return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
 }
@@ -20,7 +20,7 @@ inline Mat3 random_rotation(std::mt19937_64& random) {
   return Eigen::AngleAxisd(uniform(random, -3, 3), axis.normalized()).toRotationMatrix();
 }
 
-/// R1 diag(stretches) R2: any orientation, principal stretches in [low, high].
+/// R1 diag(stretches) R2 with random rotations and principal stretches in [low, high).
 inline Mat3 random_gradient(std::mt19937_64& random, double low, double high) {
   const Vec3 stretches(uniform(random, low, high), uniform(random, low, high), uniform(random, low, high));
   return random_rotation(random) * stretches.asDiagonal() * random_rotation(random);

@@ -1,4 +1,4 @@
-// libFuzzer: the first byte chooses the format, the rest is the file.
+// libFuzzer target for mesh readers: the first byte selects the format, the rest is the file.
 #include <cstddef>
 #include <cstdint>
 

@@ -1,4 +1,4 @@
-// mesh_seeds FOLDER: the hand-written samples as mesh_fuzz takes them, a byte for the format in front.
+// mesh_seeds FOLDER: writes the hand-written samples as seeds for mesh_fuzz, each preceded by its format byte.
 #include <filesystem>
 #include <fstream>
 

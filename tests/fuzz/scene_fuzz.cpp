@@ -1,4 +1,4 @@
-// libFuzzer: any bytes are a scene or an InputError.
+// libFuzzer target: any bytes parse as a scene or throw InputError.
 #include <cstddef>
 #include <cstdint>
 #include <heml/base/error.hpp>
