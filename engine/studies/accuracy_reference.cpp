@@ -11,7 +11,7 @@ constexpr double share = 0.1;            // of the smallest stable step of the p
 constexpr double longest = 600;          // s of processor time
 constexpr std::size_t many_tets = 5000;  // larger meshes run on all cores
 
-/// Runs Verlet with about `part` of the stable step. Whole steps fill a tick, so events keep their times.
+/// Runs Verlet with about `part` of the stable step. Whole steps fill a tick of the scene, so events keep their times.
 Run fine_run(const Problem& problem, const Run& pilot, double part, const RunOptions& options) {
   const double tick = problem.scene.solver.tick();
   Method method{Integrator::verlet, tick / std::ceil(tick / (part * pilot.min_step))};

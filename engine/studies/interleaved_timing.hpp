@@ -17,7 +17,7 @@ struct Timing {
 
 struct TimingLimits {
   double seconds = 1;                    ///< of all works together, without warm-up
-  int min_rounds = 5, max_rounds = 200;  ///< limits on the rounds, whatever the time
+  int min_rounds = 5, max_rounds = 200;  ///< min_rounds are made even past `seconds`
   double min_sample = 1e-3;              ///< s
 };
 
