@@ -45,7 +45,7 @@ Vec3f map_colour(Field field, float place) {
 
 Range natural_range(Field field, std::span<const float> values) {
   const float centre = is_ratio(field) ? 1.0f : 0.0f;
-  const float least = is_ratio(field) ? 1e-3f : 1e-9f;  // half-width of the range of a body at rest
+  const float least = is_ratio(field) ? 1e-3f : 1e-9f;  // a minimum, for bodies at rest
   float reach = least;
   for (const float value : values)
     if (std::isfinite(value)) reach = std::max(reach, std::abs(value - centre));
