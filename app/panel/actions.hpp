@@ -1,5 +1,6 @@
 #pragma once
-// What goes out of the panel. The panel knows no session: whoever draws it carries these out.
+// Output of the panel: commands for the world and requests to the panel's owner (window/viewer.hpp), which carries
+// them out.
 #include <filesystem>
 #include <heml/world/command.hpp>
 #include <heml/world/world.hpp>
@@ -9,7 +10,7 @@
 
 namespace heml::panel {
 
-/// What a key or a button asks the panel for.
+/// What a key or a button of the panel does.
 enum class Action {
   toggle_play,
   step,
@@ -56,19 +57,19 @@ enum class Action {
   quit
 };
 
-/// What the left button does to the body.
+/// What the left mouse button does to the body.
 enum class Tool { grasper, scalpel, pin, probe, suture };
 
-/// A tool as the user has set it.
+/// The selected tool and the settings of all tools.
 struct ToolSettings {
   Tool tool = Tool::grasper;
   double radius = 0;                             ///< m, of a grasp or a pin
-  double depth = 0;                              ///< m, that the scalpel reaches below the surface
-  double probe_radius = 0, dent = 0, shaft = 0;  ///< m, of the probe, what it goes below the surface, its length
-  double friction = 0.3;                         ///< Coulomb's coefficient, of the probe and of tables
+  double depth = 0;                              ///< m, of the blade below the surface
+  double probe_radius = 0, dent = 0, shaft = 0;  ///< m, of the probe: tip, indentation, shaft length
+  double friction = 0.3;                         ///< Coulomb coefficient of the probe and of tables
 };
 
-/// What the panel asks its owner for.
+/// What the panel asks its owner for; earlier, later, first, now and resume are about the timeline.
 enum class Request {
   play,
   pause,
@@ -91,12 +92,12 @@ enum class Request {
 struct PanelActions {
   std::vector<Command> commands;  ///< for the world, in order
   std::vector<Request> requests;
-  std::optional<Field> show;                            ///< the field that frames should carry from now on
+  std::optional<Field> show;                            ///< the field that frames carry from now on
   std::optional<std::filesystem::path> open;            ///< a file to open
-  std::optional<std::filesystem::path> list_folder;     ///< a folder to list; Request::list: where one was last
-  std::optional<std::size_t> view, keep_view;           ///< a number of Eye: to go to, to keep as it looks now
-  std::optional<std::vector<std::string>> comparisons;  ///< what is to be beside the body from now on (variant.hpp)
-  std::optional<long> seek_to;                          ///< a tick to show, of the past or of a recording ahead
+  std::optional<std::filesystem::path> list_folder;     ///< a folder to list; Request::list: the last one again
+  std::optional<std::size_t> view, keep_view;           ///< saved camera view to restore, to overwrite (index)
+  std::optional<std::vector<std::string>> comparisons;  ///< the comparison runs from now on (variant.hpp)
+  std::optional<long> seek_to;                          ///< a tick to show: past, or ahead in a recording
 };
 
 }  // namespace heml::panel

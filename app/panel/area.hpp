@@ -1,5 +1,5 @@
 #pragma once
-// Parts of the picture.
+// Rectangles and insets of the image, pixels.
 #include <imgui.h>
 
 namespace heml::panel {
@@ -12,7 +12,7 @@ struct Area {
   float height() const { return to.y - from.y; }
 };
 
-/// Columns of the picture's sides that the panel takes, pixels.
+/// Widths covered by the panel at the left and right edge of the image, pixels.
 struct Insets {
   float left = 0, right = 0;
   bool operator==(const Insets&) const = default;

@@ -39,7 +39,7 @@ class BarDrawing {
     list_.AddText({std::round(x), std::round(y)}, colour, words.c_str());
   }
 
-  /// Title, what is under it, and the legend. Returns where the bars begin.
+  /// Draws title, subtitle and legend. Returns the y where the bars begin.
   float draw_head(float x, float y) {
     {
       const UseFont font(Font::title);
@@ -77,7 +77,7 @@ class BarDrawing {
     }
   }
 
-  static constexpr float max_label_ = 0.5f;  // of the width: longer labels end in an ellipsis
+  static constexpr float max_label_ = 0.5f;  // of the width; longer labels end in an ellipsis
 
   ImDrawList& list_;
   const BarChart& chart_;

@@ -1,5 +1,5 @@
 #pragma once
-// Bars in groups, lying: one group a line, with its name before and its numbers behind the bars.
+// A horizontal bar chart: one group of bars per line, with its label on the left and a value after each bar.
 #include <app/panel/chart.hpp>
 #include <optional>
 #include <string>
@@ -10,16 +10,16 @@ namespace heml::panel {
 struct BarChart {
   struct Group {
     std::string label;
-    std::vector<double> values;  ///< one a name
+    std::vector<double> values;  ///< one per entry of names
   };
   std::string title, subtitle;
-  std::vector<std::string> names;  ///< of the bars of a group, in the legend
-  std::vector<ImU32> colours;      ///< one a name
+  std::vector<std::string> names;  ///< of the bars of a group, for the legend
+  std::vector<ImU32> colours;      ///< one per entry of names
   std::vector<Group> groups;
-  std::optional<double> mark;  ///< a line across all bars
+  std::optional<double> mark;  ///< value of a vertical line across all bars
 };
 
-/// As draw_chart(). Values that are not finite or negative have no bar.
+/// Draws as draw_chart() does. Only finite values greater than 0 have a bar.
 void draw_bars(ImDrawList& list, const Area& area, const BarChart& chart, const ChartColours& colours);
 
 }  // namespace heml::panel

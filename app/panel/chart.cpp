@@ -10,7 +10,7 @@
 namespace heml::panel {
 namespace {
 
-/// The prefix that suits the largest value, and what to multiply values with.
+/// An SI prefix and the factor that converts to it.
 struct Prefix {
   const char* text;
   double factor;
@@ -32,13 +32,13 @@ struct Span {
   double size() const { return high - low; }
 };
 
-/// What the axes show: x and y as given, y already in its unit with prefix; or their logarithms.
+/// Ranges of the axes: x as given, y in its unit with prefix; on logarithmic axes log10 of both.
 struct Axes {
   Span x, y;
   Prefix prefix;
 };
 
-/// From decade to decade, so that there are ticks.
+/// The ranges in whole decades, so that there are ticks.
 Axes logarithmic_axes(const Chart& chart) {
   Axes axes{{}, {}, {"", 1}};
   for (const ChartSeries& series : chart.series)
@@ -160,7 +160,7 @@ class Drawing {
     return words;
   }
 
-  /// In as many lines as it takes. Returns where it ends.
+  /// Breaks lines at `right`. Returns the y where the legend ends.
   float draw_legend(ImVec2 at, float right) {
     const float left = at.x, length = em(1.7f), line = ImGui::GetTextLineHeight();
     const auto entry = [&](const std::string& name, const auto& draw_sample) {
@@ -183,7 +183,7 @@ class Drawing {
     return at.y + line;
   }
 
-  /// x and y as the axes have them.
+  /// The pixel of a point in axis coordinates.
   ImVec2 place(double x, double y) const {
     const double u = (x - axes_.x.low) / axes_.x.size(), v = (y - axes_.y.low) / axes_.y.size();
     return {plot_.from.x + static_cast<float>(u) * plot_.width(), plot_.to.y - static_cast<float>(v) * plot_.height()};
@@ -220,7 +220,7 @@ class Drawing {
     list_.AddLine({plot_.from.x, zero}, {plot_.to.x, zero}, colours_.axis, chart_.small ? 1 : em(0.07f));
   }
 
-  /// Their names stand inside the plot: of upright ones at the top, each a line lower; of level ones at the right.
+  /// Labels are inside the plot: of vertical lines at the top, each a line lower; of horizontal ones at the right.
   void draw_lines() {
     const UseFont font(Font::small);
     const float gap = em(0.3f), line = ImGui::GetTextLineHeight();
@@ -241,7 +241,7 @@ class Drawing {
   }
   float across(double x) const { return std::round(place(on_axis(x), 0).x) + 0.5f; }
   float up(double y) const { return std::round(place(0, on_axis(y)).y) + 0.5f; }
-  /// Readable where lines cross it.
+  /// A label with a background, to be readable over lines.
   void name_line(const std::string& name, float x, float y) {
     const ImVec2 size = ImGui::CalcTextSize(name.c_str());
     list_.AddRectFilled({x, y}, {x + size.x, y + size.y}, colours_.paper);

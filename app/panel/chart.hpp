@@ -1,5 +1,6 @@
 #pragma once
-// Curves over an axis with round numbers: the small one of the panel, and the large one of `heml bench-test`.
+// Line and scatter charts with round numbers on the axes: small for the panel, large for `heml bench-test` and the
+// studies.
 #include <app/panel/area.hpp>
 #include <optional>
 #include <string>
@@ -14,20 +15,20 @@ struct ChartPoint {
 enum class ChartMark { line, dots, rings, crosses };
 
 struct ChartSeries {
-  std::string name;  ///< in the legend; empty: not there
+  std::string name;  ///< in the legend; empty: no entry
   std::vector<ChartPoint> points;
   ImU32 colour = 0;
-  ChartMark mark = ChartMark::line;  ///< or points of their own
+  ChartMark mark = ChartMark::line;  ///< a line, or a mark per point
   float thickness = 1;               ///< of the line, relative
 };
 
-/// A line across the plot at one x or one y, with its name at its end.
+/// A line across the plot at a constant x or y, labelled at its end.
 struct ChartLine {
   double at;
   std::string name;
 };
 
-/// Part of the x axis that is marked behind the curves.
+/// An interval of the x axis, shaded behind the curves.
 struct ChartBand {
   double from, to;
   std::string name;
@@ -35,12 +36,12 @@ struct ChartBand {
 
 struct Chart {
   std::string title, subtitle;      ///< empty: no room is taken
-  std::string x_label, y_quantity;  ///< "Stretch λ"; "Nominal stress", to which the unit is added
-  std::string y_unit;               ///< "Pa": shown with the prefix that suits
+  std::string x_label, y_quantity;  ///< "Stretch λ"; "Nominal stress"; the unit is appended
+  std::string y_unit;               ///< "Pa"; shown with an SI prefix
   std::vector<ChartSeries> series;
   std::optional<ChartBand> band;
-  std::vector<ChartLine> upright, level;  ///< at an x; at a y. In a logarithmic chart their decade is shown too
-  bool logarithmic = false;               ///< both axes: points that are not greater than 0 are left out
+  std::vector<ChartLine> upright, level;  ///< at constant x; at constant y. Logarithmic axes include them
+  bool logarithmic = false;               ///< both axes; points that are not positive are omitted
   bool small = false;                     ///< for the panel: fewer numbers, no grid, no legend
 };
 
@@ -49,7 +50,8 @@ struct ChartColours {
 };
 extern const ChartColours light_chart, dark_chart;
 
-/// Into an area of the picture, with the fonts of the current ImGui context. Points that are not finite are left out.
+/// Draws into an area of the image, with the fonts of the current ImGui context. Points that are not finite are
+/// omitted.
 void draw_chart(ImDrawList& list, const Area& area, const Chart& chart, const ChartColours& colours);
 
 }  // namespace heml::panel

@@ -1,5 +1,5 @@
 #pragma once
-// What is beside the body: the same tissue under other laws and methods, and how far each is from it.
+// The panel's section "Compare": adds and removes comparison runs and shows how far each is from the body.
 #include <app/panel/actions.hpp>
 #include <app/panel/rows.hpp>
 #include <heml/session/frame.hpp>
@@ -11,7 +11,7 @@ class CompareSection {
   void draw(Rows& rows, const Frame& frame, PanelActions& out);
 
  private:
-  int law_ = 0, method_ = 0;  ///< chosen for the next one; 0: as it is
+  int law_ = 0, method_ = 0;  ///< choices for the next comparison run; 0: the body's own
 };
 
 }  // namespace heml::panel

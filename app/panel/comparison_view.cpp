@@ -35,7 +35,7 @@ void ComparisonView::draw(const Frame& frame, CameraController& controller, cons
     render::DrawOptions here = options;
     here.left = controller.pane().left;
     here.bottom = controller.size().height - controller.pane().top - controller.pane().size.height;
-    if (pane > 0) here.beyond = {};  // which is of the first alone
+    if (pane > 0) here.beyond = {};  // computed for the body alone
     renderers_[pane]->draw(body, controller.camera(), here, controller.pane().size);
   });
 }

@@ -1,5 +1,5 @@
 #pragma once
-// The body and those beside it (Frame::beside), each in its pane of the picture.
+// Draws the body and its comparison runs (Frame::comparisons), each in a pane of the image.
 #include <app/panel/camera_controller.hpp>
 #include <app/render/renderer.hpp>
 #include <memory>
@@ -8,12 +8,12 @@
 namespace heml::panel {
 
 inline std::size_t bodies_of(const Frame& frame) { return 1 + frame.comparisons.size(); }
-/// What is in a pane.
+/// The body drawn in a pane.
 inline const Frame& body_in(const Frame& frame, std::size_t pane) {
   return pane == 0 ? frame : frame.comparisons[pane - 1];
 }
 
-/// Calls visit(pane, body) with each pane of an eye as the current one, and leaves the eye as it was.
+/// Calls visit(pane, body) for each pane, as the current one of the controller; then restores the current pane.
 template <class Visit>
 void each_pane(const Frame& frame, CameraController& controller, const Visit& visit) {
   const std::size_t before = controller.current();
@@ -24,18 +24,18 @@ void each_pane(const Frame& frame, CameraController& controller, const Visit& vi
   controller.enter_pane(before);
 }
 
-/// Belongs to the context that is current when it first draws, and needs it current in every call.
+/// Needs the OpenGL context of its first draw() to be current in every call and in the destructor.
 class ComparisonView {
  public:
-  /// Draws over all of framebuffer 0, which is of the eye's size, in as many panes as there are bodies.
+  /// Fills framebuffer 0, which has the controller's size, with one pane per body.
   void draw(const Frame& frame, CameraController& controller, const render::DrawOptions& options);
 
  private:
-  std::vector<std::unique_ptr<render::Renderer>> renderers_;  ///< one a pane: each keeps what it made of a skin
+  std::vector<std::unique_ptr<render::Renderer>> renderers_;  ///< one per pane: each caches buffers of a surface mesh
 };
 
-/// Over each of several panes: in what way its body is computed, and how far it is from the first. Into the current
-/// Dear ImGui frame, behind the panel.
+/// Labels each of several panes with the variant and its distance from the body. Draws into the current Dear ImGui
+/// frame, behind the panel.
 void draw_variant_labels(const Frame& frame, CameraController& controller);
 
 }  // namespace heml::panel

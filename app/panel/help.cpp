@@ -17,7 +17,7 @@ constexpr std::pair<const char*, const char*> mouse[] = {
     {"Drop a file", "open a scene, mesh or surface"},
 };
 
-/// Within a group: what to press, and what it does `gap` pixels from the group's left edge.
+/// A key or mouse button, and its meaning `gap` pixels from the group's left edge.
 void line(const char* left, const char* right, float gap) {
   ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(colours::text), "%s", left);
   ImGui::SameLine(gap);

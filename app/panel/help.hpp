@@ -1,10 +1,10 @@
 #pragma once
-// The page that explains mouse and keys.
+// The help page: mouse and keys.
 #include <app/panel/area.hpp>
 
 namespace heml::panel {
 
-/// Over the middle of the picture; false once the user closed it. `place`: where it was drawn.
+/// Draws the page in the middle of the image; returns false once the user closed it. `place`: set to its rectangle.
 bool draw_help(ImVec2 picture, Area& place);
 
 }  // namespace heml::panel

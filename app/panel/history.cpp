@@ -7,7 +7,7 @@ namespace heml::panel {
 
 void History::add(const Frame& frame) {
   constexpr double spacing = span / 240;
-  if (frame.tick < latest_tick_) return;  // somebody looks back
+  if (frame.tick < latest_tick_) return;  // the timeline shows the past
   latest_tick_ = frame.tick;
   if (!readings_.empty() && frame.time < readings_.back().time) readings_.clear();
   if (!readings_.empty() && frame.time < readings_.back().time + spacing) return;

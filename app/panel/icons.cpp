@@ -35,7 +35,7 @@ void draw_reset(ImDrawList& list, ImVec2 c, float half, ImU32 colour) {
   const float radius = half * 0.88f;
   list.PathArcTo(c, radius, start, end, 24);
   list.PathStroke(colour, ImDrawFlags_None, half * 0.3f);
-  // The arrow's head at the end of the arc that points back.
+  // The arrow head, at the start of the arc and pointing away from it.
   const ImVec2 tip(c.x + radius * std::cos(start), c.y + radius * std::sin(start));
   const ImVec2 along(std::sin(start), -std::cos(start)), across(std::cos(start), std::sin(start));
   const float s = half * 0.55f;

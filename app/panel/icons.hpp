@@ -1,5 +1,5 @@
 #pragma once
-// Drawings on buttons: centre and half size in pixels.
+// Icons of buttons, drawn round a centre with a half size, pixels.
 #include <imgui.h>
 
 namespace heml::panel {

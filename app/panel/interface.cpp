@@ -8,7 +8,7 @@
 namespace heml::panel {
 namespace {
 
-/// Puts the fonts of the theme into the texture of those the renderer began with.
+/// Uploads the theme's fonts into the texture that the renderer created.
 void upload_fonts(ImTextureID texture) {
   ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
   unsigned char* pixels = nullptr;
@@ -16,7 +16,7 @@ void upload_fonts(ImTextureID texture) {
   fonts.GetTexDataAsRGBA32(&pixels, &width, &height);
   glBindTexture(GL_TEXTURE_2D, static_cast<GLuint>(reinterpret_cast<std::uintptr_t>(texture)));
   glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, pixels);
-  fonts.SetTexID(texture);  // making the fonts forgot it
+  fonts.SetTexID(texture);  // rebuilding the fonts cleared it
   fonts.ClearTexData();
 }
 

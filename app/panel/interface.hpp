@@ -4,16 +4,16 @@
 
 namespace heml::panel {
 
-/// Belongs to the OpenGL context that was current when it was made; one at a time.
+/// Owns objects of the OpenGL context that is current in the constructor. At most one exists at a time.
 class Interface {
  public:
   /// scale: 1 for 15 pixels of text.
   explicit Interface(float scale);
 
-  /// The scale that suits a picture: 1 from 1280×720 up, smaller down to 0.72.
+  /// The scale for an image of a size: 1 from 1280×720 up, down to 0.72 for smaller ones.
   static float suitable_scale(render::Size size);
 
-  /// Between frames. Makes the fonts anew when the scale changes.
+  /// Rebuilds the fonts if the scale changes. Call between frames.
   void set_scale(float scale);
 
   /// size: pixels. seconds: since the last frame.

@@ -1,11 +1,11 @@
 #pragma once
-// The keyboard: one table that both the window and the help page read.
+// Key bindings: one table for the window and the help page.
 #include <app/panel/actions.hpp>
 #include <span>
 
 namespace heml::panel {
 
-/// Printable keys are their own character, letters in upper case; the rest have numbers past ASCII.
+/// Printable keys are their ASCII character, letters in upper case; other keys have numbers above ASCII.
 enum Key : int {
   key_escape = 256,
   key_tab,
@@ -29,13 +29,13 @@ struct KeyBinding {
   int key;
   bool control;  ///< with Ctrl held
   Action action;
-  const char* label;  ///< as the help page writes the key; empty: another key of the line above
+  const char* label;  ///< in the help page; empty: listed with the binding above
   const char* meaning;
 };
 
 std::span<const KeyBinding> key_bindings();
 
-/// What a key means; nothing for keys without meaning.
+/// The action bound to a key, if any.
 std::optional<Action> action_of(int key, bool control);
 
 }  // namespace heml::panel

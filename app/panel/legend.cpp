@@ -14,7 +14,7 @@ ImU32 colour_at(Field field, float place) {
   return ImGui::ColorConvertFloat4ToU32({c.x(), c.y(), c.z(), 1});
 }
 
-/// From a place of the colour map to its end.
+/// Draws the colour map from `first` (0 to 1) to its end.
 void draw_bar(ImDrawList& list, Field field, float first, const Area& bar) {
   for (int i = 0; i < colour_steps; ++i) {
     const float a = static_cast<float>(i) / colour_steps, b = static_cast<float>(i + 1) / colour_steps;

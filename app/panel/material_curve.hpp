@@ -1,5 +1,5 @@
 #pragma once
-// The small curve under a material's parameters: nominal stress against stretch of a bar that is pulled and pressed.
+// The small chart under a material's parameters: nominal stress against stretch in uniaxial tension and compression.
 #include <app/panel/chart.hpp>
 #include <heml/materials/material.hpp>
 
@@ -7,8 +7,8 @@ namespace heml::panel {
 
 class MaterialCurve {
  public:
-  /// As wide as there is room; nothing for laws that are no continuum or take numbers from fields of a mesh. Computed
-  /// anew only when the material is another than in the last call.
+  /// Draws the chart over the available width; nothing for laws that are no continuum or have parameters from mesh
+  /// fields. Recomputes the curve only if the material differs from that of the last call.
   void draw(const Material& material);
 
  private:

@@ -11,7 +11,7 @@
 namespace heml::panel {
 namespace {
 
-constexpr float tall_picture = 54;  // em: from there on the curve is open at first
+constexpr float tall_picture = 54;  // em: in images at least this high the curve starts open
 
 std::string name_of(const RegionMaterial& entry) {
   return entry.region ? fmt::format("Region {}", *entry.region) : std::string("Everywhere else");

@@ -1,5 +1,6 @@
 #pragma once
-// Tissue, law, parameters and density of each region, and what they make: stiffness at rest and a curve.
+// The panel's section "Material": tissue, law, parameters and density of each region; small-strain modulus and stress
+// curve.
 #include <app/panel/actions.hpp>
 #include <app/panel/material_curve.hpp>
 #include <app/panel/rows.hpp>
@@ -12,15 +13,15 @@ class MaterialSection {
  public:
   explicit MaterialSection(std::vector<RegionMaterial> materials) : materials_(std::move(materials)) {}
 
-  /// Adds one SetMaterial when the user changed something that material_problem() has nothing against. stretched: share
-  /// of the surface that is stretched further than its tissue was measured (stretch_monitor.hpp).
+  /// Adds one SetMaterial if the user changed the material and material_problem() has no objection. stretched: share of
+  /// surface nodes stretched beyond the measured range of their tissue (stretch_monitor.hpp).
   void draw(Rows& rows, double stretched, PanelActions& out);
 
-  /// Shows what was set elsewhere.
+  /// Updates the shown material after a command from elsewhere (a script).
   void sync(const SetMaterial& command);
 
   const std::vector<RegionMaterial>& materials() const { return materials_; }
-  int changes() const { return changes_; }  ///< counts them
+  int changes() const { return changes_; }  ///< of materials(), counted
 
  private:
   void draw_region(Rows& rows);
@@ -31,9 +32,9 @@ class MaterialSection {
   std::vector<RegionMaterial> materials_;
   MaterialCurve curve_;
   int chosen_ = 0;           ///< index into materials_
-  int changes_ = 0;          ///< of materials_
+  int changes_ = 0;          ///< of materials_, counted
   bool engineering_ = true;  ///< Young's modulus and Poisson's ratio instead of λ and μ
-  std::string problem_;      ///< with what was last asked for
+  std::string problem_;      ///< why the last edit was refused; empty: it was not
 };
 
 }  // namespace heml::panel

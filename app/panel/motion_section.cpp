@@ -4,7 +4,7 @@
 namespace heml::panel {
 namespace {
 
-/// How an integrator is called in the panel, of those a scene may name. What this build cannot do is left out.
+/// Name in scenes and title in the panel. Integrators that this build lacks are omitted.
 struct IntegratorChoice {
   const char* name;
   const char* title;

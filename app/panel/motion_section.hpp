@@ -1,5 +1,5 @@
 #pragma once
-// Gravity, damping and the integrator.
+// The panel's section "Motion": gravity, damping and the integrator.
 #include <app/panel/actions.hpp>
 #include <app/panel/rows.hpp>
 #include <heml/scenario/scene.hpp>
@@ -12,9 +12,9 @@ class MotionSection {
 
   void draw(Rows& rows, PanelActions& out);
 
-  void write_into(Scene& scene) const;  ///< what it shows
+  void write_into(Scene& scene) const;  ///< the shown settings
 
-  // Show what was set elsewhere.
+  // Update the shown settings after a command from elsewhere (a script).
   void sync(const SetGravity& command);
   void sync(const SetDamping& command) { damping_ = command.damping; }
   void sync(const SetIntegrator& command) { integrator_ = command.integrator; }

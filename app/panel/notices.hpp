@@ -1,5 +1,5 @@
 #pragma once
-// Messages over the picture: what went wrong and stays, and what is said in passing.
+// Messages over the image: failures, which stay until closed, and notices, which fade out.
 #include <app/panel/area.hpp>
 #include <app/panel/rows.hpp>
 #include <optional>
@@ -9,18 +9,18 @@ namespace heml::panel {
 
 struct Banner {
   std::string title, text;
-  std::string button;  ///< what can be pressed; empty: nothing
+  std::string button;  ///< its label; empty: no button
   ImU32 colour = colours::warning;
 };
 
 class Notices {
  public:
-  void say(std::string text);   ///< shown for some seconds
-  void fail(std::string text);  ///< shown until it is closed
-  bool close();                 ///< true when a failure was open
+  void say(std::string text);   ///< a notice, shown for some seconds
+  void fail(std::string text);  ///< a failure, shown until closed
+  bool close();                 ///< closes the failure; true if one was open
 
-  /// Draws what there is and the banner of the moment, if any, within the free part of the picture; true when the
-  /// banner's button was pressed. seconds: since the last frame.
+  /// Draws failure, banner and notice within the free area. Returns true when the banner's button was pressed. seconds:
+  /// since the last frame.
   bool draw(Rows& rows, const Area& free, const std::optional<Banner>& banner, float seconds);
 
   bool animating() const { return !said_.empty(); }

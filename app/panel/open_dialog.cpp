@@ -9,7 +9,7 @@
 namespace heml::panel {
 namespace {
 
-constexpr float widest = 78, wide_from = 58, side_column = 0.4f, cell_width = 10.5f;  // em; of the width
+constexpr float widest = 78, wide_from = 58, side_column = 0.4f, cell_width = 10.5f;  // em; side_column: of the width
 
 std::string lower_case(std::string text) {
   for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -65,7 +65,7 @@ void OpenDialog::draw_head(Rows& rows) {
   ImGui::SameLine(em(5));
   const float close_size = ImGui::GetFrameHeight();
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - close_size - em(0.7f));
-  if (!ImGui::IsAnyItemActive()) ImGui::SetKeyboardFocusHere();  // typing filters, wherever the mouse was
+  if (!ImGui::IsAnyItemActive()) ImGui::SetKeyboardFocusHere();  // typing filters at once
   if (ImGui::InputTextWithHint("##wanted", "Type to find", wanted_, sizeof wanted_)) marked_ = wanted_[0] ? 0 : -1;
   rows.explain({"Find",
                 "Shows what has these words in its name or description. Up and Down choose, Enter opens, Esc closes. "
@@ -154,7 +154,7 @@ bool OpenDialog::draw_line(Rows& rows, const OpenChoice& choice, bool marked) {
   return chosen;
 }
 
-/// All words are in it.
+/// Whether title, description and path contain all words of the search text.
 bool OpenDialog::matches(const OpenChoice& choice) const {
   const std::string text = lower_case(choice.title + ' ' + choice.about + ' ' + choice.path.string());
   std::istringstream words(lower_case(wanted_));

@@ -1,11 +1,11 @@
 #pragma once
-// What to open: scenes with pictures, what was opened last, and folders.
+// The open dialog: scenes with thumbnails, recent files, and a folder.
 //
-//    ┌ Open ───── what to look for ──────── × ┐
+//    ┌ Open ───── search text ───────────── × ┐
 //    │ Scenes              Recent             │
 //    │ ┌────┐ ┌────┐ ┌────┐ liver.json         │
 //    │ └────┘ └────┘ └────┘ Files in ~/work    │
-//    │ ┌────┐ ┌────┐        ..                 │     a narrow picture has one column
+//    │ ┌────┐ ┌────┐        ..                 │     narrow images have one column
 //    └────────────────────────────────────────┘
 #include <app/panel/actions.hpp>
 #include <app/panel/area.hpp>
@@ -17,17 +17,16 @@ namespace heml::panel {
 class OpenDialog {
  public:
   void open();
-  bool close();  ///< true when it was open
+  bool close();  ///< true if it was open
   bool is_open() const { return open_; }
 
-  /// What is marked of what the last draw() showed: goes up (−1) or down (1), and is opened.
+  /// Moves the selection among the entries of the last draw() up (−1) or down (1); opens the selected entry.
   void choose(int direction);
   void open_chosen(PanelActions& out);
 
-  /// What it shows from now on.
   void set_choices(OpenChoices choices) { choices_ = std::move(choices); }
 
-  /// Over all of a picture of a size (pixels), while it is open. A press tells what to open or to look into.
+  /// Draws over an image of a size (pixels) while open. A click sets out.open or out.list_folder.
   void draw(Rows& rows, ImVec2 picture, PanelActions& out);
 
  private:
@@ -45,10 +44,10 @@ class OpenDialog {
 
   OpenChoices choices_;
   bool open_ = false, just_opened_ = false;
-  char wanted_[256] = {};                 ///< what is looked for
-  int marked_ = -1;                       ///< place in shown_ that open_chosen() takes; −1: none
-  bool moved_ = false;                    ///< the mark, by a key
-  std::vector<const OpenChoice*> shown_;  ///< in this frame
+  char wanted_[256] = {};                 ///< search text
+  int marked_ = -1;                       ///< index of the selection in shown_; −1: none
+  bool moved_ = false;                    ///< the selection moved by a key: scroll to it
+  std::vector<const OpenChoice*> shown_;  ///< entries drawn in this frame
 };
 
 }  // namespace heml::panel

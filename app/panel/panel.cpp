@@ -14,8 +14,8 @@ namespace {
 
 constexpr float controls_width = 18.5f, readings_width = 16.0f, margin = 0.7f, two_columns_from = 66;  // em
 
-constexpr float patience = 1;   // s of being late before it is said aloud
-constexpr float shown_for = 5;  // s that a recovery is spoken of after its end
+constexpr float patience = 1;   // s of being late before the banner
+constexpr float shown_for = 5;  // s that the banner stays after a recovery
 
 constexpr ImGuiWindowFlags column_flags =
     ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |

@@ -1,7 +1,6 @@
 #pragma once
-// The panel beside the body: shows a Frame's numbers and hands out what the user wants of the world. It knows no
-// session and no window, so that the window, headless capture and tests draw the same one. Wide pictures have two
-// columns, others one:
+// The panel: shows the values of a Frame and returns what the user asked for. It depends on neither session nor window,
+// so that the window, headless capture and tests draw the same panel. Wide images have two columns, others one:
 //
 //    ┌──────────┐                       ┌──────────┐        ┌──────────┐
 //    │ title    │        banner         │ force    │        │ title    │   banner
@@ -11,7 +10,7 @@
 //    │ tool …   │        legend         │          │        │ force …  │   legend
 //    └──────────┘                       └──────────┘        └──────────┘
 //
-// A frame: take(frame), draw the body with drawing(), then between Interface::begin() and end(): draw(frame).
+// Per frame: update(frame), draw the body with drawing(), then draw(frame) between Interface::begin() and end().
 #include <app/panel/actions.hpp>
 #include <app/panel/area.hpp>
 #include <app/panel/compare_section.hpp>
@@ -30,35 +29,37 @@ namespace heml::panel {
 
 class Panel {
  public:
-  /// What it shows at first is what the scene says.
+  /// Starts with the settings of the scene.
   Panel(const Scene& scene, const SurfaceMesh& surface_mesh);
 
-  /// Takes a frame's numbers, before the body is drawn. seconds: wall time since the last call.
+  /// Updates plots, colour range and stretch monitor; call before the body is drawn. seconds: wall time since the last
+  /// call.
   void update(const Frame& frame, float seconds);
 
-  /// Draws the panel into the current ImGui frame and returns what the user did with it and with the keys since.
+  /// Draws the panel into the current ImGui frame and returns what the user asked for since the last call, by mouse and
+  /// keys.
   PanelActions draw(const Frame& frame);
 
-  void perform(Action action);                                     ///< a key; takes effect in the next draw()
-  void sync(const Command& command);                               ///< shows what was changed elsewhere
-  void say(std::string text) { notices_.say(std::move(text)); }    ///< in passing
-  void fail(std::string text) { notices_.fail(std::move(text)); }  ///< a file that could not be opened
+  void perform(Action action);        ///< queued for the next draw()
+  void sync(const Command& command);  ///< updates the shown settings after a command from elsewhere
+  void say(std::string text) { notices_.say(std::move(text)); }    ///< for some seconds
+  void fail(std::string text) { notices_.fail(std::move(text)); }  ///< until closed: a file that could not be opened
 
-  void set_choices(OpenChoices choices) { dialog_.set_choices(std::move(choices)); }  ///< what can be opened
-  void set_timeline(const Timeline& timeline) { timeline_ = timeline; }  ///< shown from now on; none: there is no bar
+  void set_choices(OpenChoices choices) { dialog_.set_choices(std::move(choices)); }  ///< entries of the open dialog
+  void set_timeline(const Timeline& timeline) { timeline_ = timeline; }               ///< shows its bar from now on
   ViewSection& view() { return view_; }
-  bool asks() const { return dialog_.is_open(); }  ///< a dialog has keys and mouse to itself
+  bool asks() const { return dialog_.is_open(); }  ///< a dialog takes keys and mouse
 
   const render::DrawOptions& drawing() const { return view_.drawing(); }
   bool wants_stretches() const { return watch_.active(); }  ///< whether frames should carry Frame::stretches
   bool wants_errors() const { return errors_open_; }        ///< whether frames should carry errors
   const ToolSettings& tool() const { return tool_.tool(); }
-  Insets insets(ImVec2 picture) const;  ///< that draw() takes in a picture of a size, pixels
-  bool covers(float x,
-              float y) const;   ///< whether a point is on the panel, as last drawn: the mouse is then not on the body
-  bool shows_recovery() const;  ///< one goes on, or has ended a moment ago
-  bool animating() const { return notices_.animating(); }  ///< whether it changes by itself
-  /// Tissue, motion and colours as they are shown: a scene that starts with them.
+  Insets insets(ImVec2 picture) const;  ///< that draw() covers of an image of a size, pixels
+  /// Whether a point (pixels) is on the panel as last drawn.
+  bool covers(float x, float y) const;
+  bool shows_recovery() const;                             ///< whether one is running or ended a few seconds ago
+  bool animating() const { return notices_.animating(); }  ///< whether it changes without input
+  /// Writes the shown materials, motion settings and view options into a scene.
   void write_into(Scene& scene) const;
   const std::string& hovered() const { return rows_.hovered(); }  ///< label of the row under the mouse; empty: none
 
@@ -77,11 +78,11 @@ class Panel {
 
   std::string title_, description_;  ///< of the scene
   ToolSection tool_;
-  long refusals_ = 0;  ///< of the session, that were told
+  long refusals_ = 0;  ///< Frame::refusals that were shown
   MaterialSection material_;
   StretchMonitor watch_;
-  long surface_version_;      ///< that the watch is of
-  int watched_changes_ = -1;  ///< MaterialSection::changes() that the watch knows of
+  long surface_version_;      ///< SurfaceMesh::version that watch_ is of
+  int watched_changes_ = -1;  ///< MaterialSection::changes() that watch_ is of
   MotionSection motion_;
   ViewSection view_;
   CompareSection comparisons_;
@@ -92,14 +93,14 @@ class Panel {
   History history_;
   render::ColourRange colour_range_;
   render::Range range_;
-  std::vector<Action> pressed_;   ///< since the last draw()
-  std::vector<Area> places_;      ///< of windows in the last draw()
-  float controls_height_ = 1e9f;  ///< pixels that all open sections take, as last drawn
-  float late_for_ = 0;            ///< s of wall time that the engine has not kept up
-  long recovery_seen_ = -1;       ///< Recovery::tick of the last one
-  float since_recovery_ = 1e9f;   ///< s of wall time since it went on
+  std::vector<Action> pressed_;   ///< queued for the next draw()
+  std::vector<Area> places_;      ///< of ImGui windows in the last draw()
+  float controls_height_ = 1e9f;  ///< pixels, of the header and all open sections, as last drawn
+  float late_for_ = 0;            ///< s of wall time since the engine last kept up
+  long recovery_seen_ = -1;       ///< Recovery::tick of the last recovery
+  float since_recovery_ = 1e9f;   ///< s of wall time since a recovery was running
   bool hidden_ = false, helping_ = false;
-  bool errors_open_ = false;  ///< somebody reads them
+  bool errors_open_ = false;  ///< the section "Accuracy" is open
 };
 
 }  // namespace heml::panel

@@ -1,4 +1,4 @@
-// What keys and buttons do.
+// Panel::carry_out(): what each action does.
 #include <app/panel/panel.hpp>
 
 namespace heml::panel {

@@ -10,16 +10,16 @@ namespace heml::panel {
 namespace {
 
 constexpr int max_terms = 6;
-constexpr double steepest = 89.9;  // degrees: further up a fibre has no direction in the plane
+constexpr double steepest = 89.9;  // degrees: a vertical fibre has no direction in the plane
 
-/// A parameter in the unit the panel shows it in.
+/// Unit, format and range of a parameter in the panel.
 struct Shown {
   double factor;  ///< shown value = factor × SI value
   std::string format;
   SliderRange range;
 };
 
-/// The power of ten at or above a size: a range that stays while a slider is dragged within it.
+/// The power of ten at or above a size: keeps the range of a slider constant while it is dragged.
 double decade_above(double size) { return std::pow(10.0, std::ceil(std::log10(size) - 1e-9)); }
 
 Shown shown_as(const ParameterSlot& slot, double value, bool one_sign) {
@@ -56,7 +56,7 @@ bool parameter_row(Rows& rows, Material& material, const ParameterSlot& slot, st
   return true;
 }
 
-/// Another term that leaves the law as it is: the last one's strength is shared. Or one term less.
+/// Adds a term without changing the law (the last term and it share its modulus), or removes the last one.
 bool term_rows(Rows& rows, Material& material, const std::vector<ParameterSlot>& slots) {
   int terms = 0;
   for (const ParameterSlot& slot : slots) terms = std::max(terms, slot.term + 1);
@@ -117,7 +117,7 @@ bool fibre_rows(Rows& rows, Material& material) {
     return false;
   }
   constexpr double degree = std::numbers::pi / 180;
-  const Vec3 d = material.fibre.y() < 0 ? Vec3(-material.fibre) : material.fibre;  // a fibre has no front
+  const Vec3 d = material.fibre.y() < 0 ? Vec3(-material.fibre) : material.fibre;  // a fibre has no sign
   double turn = std::atan2(-d.z(), d.x()) / degree, rise = std::asin(std::clamp(d.y(), -1.0, 1.0)) / degree;
   bool changed =
       rows.slider({"Fibre turn", "Direction of the fibres in the horizontal plane at rest, degrees from x towards −z."},

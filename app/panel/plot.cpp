@@ -20,7 +20,7 @@ std::string text_of(double value, std::string_view unit) {
   return takes_prefix ? quantity(value, unit) : fmt::format("{:.3g} {}", value, unit);
 }
 
-/// The smallest of 1, 1.5, 2, 3, 5, 7 times a power of ten that is not below the value: the axis then moves seldom.
+/// The smallest of 1, 1.5, 2, 3, 5, 7 times a power of ten at or above the value, so that the axis changes seldom.
 double rounded_up(double value) {
   if (!(value > 0)) return 0;
   const double power = std::pow(10.0, std::floor(std::log10(value)));
@@ -43,7 +43,7 @@ Axis axis_of(const std::deque<Reading>& readings, std::span<const Curve> curves,
   return axis.high > axis.low ? axis : Axis{style.base, style.base + 1};
 }
 
-/// A rectangle on the screen, and how times and values fall into it.
+/// A rectangle on the screen, pixels, and the mapping of times and values into it.
 struct RenderTarget {
   ImVec2 from, to;
   double latest;

@@ -1,5 +1,5 @@
 #pragma once
-// Curves over the last seconds.
+// Plots of History over the last seconds.
 #include <app/panel/history.hpp>
 #include <app/panel/theme.hpp>
 #include <span>
@@ -14,14 +14,14 @@ struct Curve {
 };
 
 struct PlotStyle {
-  std::string_view unit;  ///< of the values; of SI, or "", "%", "×", "mm", which take no prefix
-  double base = 0;        ///< always within the plot
-  double min_range = 0;   ///< of the vertical axis at least; keeps noise from filling the plot
+  std::string_view unit;  ///< of the values: SI, or "", "%", "×", "mm", which take no prefix
+  double base = 0;        ///< a value that is always within the plot
+  double min_range = 0;   ///< of the vertical axis; keeps noise from filling the plot
   float height = 4.2f;    ///< em
 };
 
-/// As wide as there is room; the newest reading is at the right edge. Both ends of the axes are written with their
-/// units. Says the values under the mouse.
+/// Draws a plot over the available width; the newest reading is at the right edge. Both ends of the axes have labels
+/// with units; a tooltip shows the values under the mouse.
 void plot(const char* id, const History& history, std::span<const Curve> curves, const PlotStyle& style);
 
 }  // namespace heml::panel

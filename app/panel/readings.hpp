@@ -1,5 +1,5 @@
 #pragma once
-// What the body and the engine say of themselves: force, energies, volume, time.
+// The sections with values and plots of body and engine: forces, energies, volume, errors, timing.
 #include <app/panel/history.hpp>
 #include <app/panel/rows.hpp>
 

@@ -7,7 +7,7 @@ namespace {
 
 constexpr float label_width = 6.4f;  // em
 
-/// Where a value is on a slider, 0 to 1.
+/// Position of a value on a slider, 0 to 1.
 float place_of(double value, const SliderRange& range) {
   const auto scaled = [&](double v) { return range.logarithmic ? std::log(v) : v; };
   const double place = (scaled(value) - scaled(range.low)) / (scaled(range.high) - scaled(range.low));
@@ -117,7 +117,7 @@ bool Rows::slider(const Label& label, double& value, const SliderRange& asked) {
   ImGui::PopID();
   ImGui::PopStyleColor(3);
   explain({label.text, label.hint + "\n\nCtrl+click to type a number."});
-  // A value that was converted on its way here and back is still the same one.
+  // Unit conversion there and back changes the last bits: not an edit.
   const bool same = std::abs(edited - value) <= 1e-9 * std::max(std::abs(edited), std::abs(value));
   if (!changed || same || !std::isfinite(edited)) return false;
   value = edited;

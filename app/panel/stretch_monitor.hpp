@@ -1,6 +1,7 @@
 #pragma once
-// Where the surface is stretched beyond what a tissue's numbers were measured in. Looks at the largest principal
-// stretch at nodes: in tissue that keeps its volume a compression shows in it too, as the stretch across.
+// Finds where the surface is stretched beyond the range in which a tissue's parameters were measured. Compares the
+// largest principal stretch at nodes, which in nearly incompressible tissue also shows a compression, as lateral
+// stretch.
 #include <heml/session/frame.hpp>
 #include <heml/world/setup.hpp>
 #include <limits>
@@ -13,17 +14,17 @@ class StretchMonitor {
  public:
   explicit StretchMonitor(const SurfaceMesh& surface_mesh);
 
-  /// Takes the limits of each region from the presets its material has.
+  /// Sets the limits of each region from the preset of its material.
   void set(std::span<const RegionMaterial> materials);
 
-  /// Whether any part of the surface has a limit: frames should then carry stretches.
+  /// Whether any node has a limit; frames must then carry stretches.
   bool active() const { return active_; }
 
-  /// Takes a frame's stretches, if it carries them.
+  /// Compares a frame's stretches with the limits; without stretches no node is beyond.
   void update(const Frame& frame);
 
   std::span<const float> beyond() const { return beyond_; }  ///< #S, stretch above its limit; empty unless active
-  double share() const { return share_; }                    ///< of the nodes with a limit that are beyond it, 0 to 1
+  double share() const { return share_; }                    ///< of nodes beyond among those with a limit, 0 to 1
 
  private:
   static constexpr float no_limit = std::numeric_limits<float>::max();

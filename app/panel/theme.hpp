@@ -1,5 +1,5 @@
 #pragma once
-// How the panel looks: charcoal and muted teal, one typeface in four sizes, and lengths in units of its text size.
+// The panel's theme: charcoal and muted teal, one typeface in four sizes, lengths in units of the text size.
 #include <imgui.h>
 
 namespace heml::panel {
@@ -28,10 +28,10 @@ enum class Font { text, small, title, number };
 
 ImFont* font(Font role);
 
-/// Lengths: multiples of the text font's size, pixels.
+/// A multiple of the text font's size, pixels.
 float em(float multiple);
 
-/// Uses a font while the object lives.
+/// Sets the current font for the lifetime of the object.
 class UseFont {
  public:
   explicit UseFont(Font role) { ImGui::PushFont(font(role)); }
@@ -40,7 +40,7 @@ class UseFont {
   UseFont& operator=(const UseFont&) = delete;
 };
 
-/// Fonts of the current ImGui context for a scale (1: 15 pixels of text), and the style to go with them.
+/// Loads the fonts of the current ImGui context for a scale (1: 15 pixels of text) and sets its style.
 void apply_theme(float scale);
 
 }  // namespace heml::panel

@@ -28,7 +28,7 @@ std::string time_hint(const Timeline& time) {
       time.frames, static_cast<double>(time.bytes) / 1e6, static_cast<double>(time.room) / 1e6);
 }
 
-/// The track, and where ticks are on it.
+/// The track and the mapping between ticks and pixels.
 struct Track {
   ImVec2 from, to;
   const Timeline& time;
@@ -66,10 +66,10 @@ void follow_mouse(Rows& rows, const Track& track, PanelActions& out) {
   if (ImGui::IsItemActive() && (ImGui::IsMouseClicked(0) || ImGui::GetIO().MouseDelta.x != 0)) {
     if (tick <= time.live) out.seek_to = tick;
   }
-  if (ImGui::IsItemDeactivated() && tick > time.live) out.seek_to = tick;  // ahead: once, where the mouse lets go
+  if (ImGui::IsItemDeactivated() && tick > time.live) out.seek_to = tick;  // ahead: once, on release
   rows.explain({"Timeline", ""});
   if (!ImGui::IsItemHovered()) return;
-  // Above the bar, whose buttons it would hide.
+  // The tooltip is above the bar, so that it does not cover the buttons.
   ImGui::SetNextWindowPos({x, track.from.y - em(0.8f)}, ImGuiCond_Always, {0.5f, 1});
   ImGui::BeginTooltip();
   ImGui::Text("%s of %s", seconds_text(static_cast<double>(tick) / time.rate).c_str(),

@@ -1,10 +1,10 @@
 #pragma once
-// The bar of a session's time, below the body: what was seen, what is recorded ahead, and which moment is looked at.
+// The timeline bar below the body: frames seen so far, a recording ahead, and the shown time.
 //
 //    ┌────────────────────────────────────────────────────┐
 //    │ 2.40 s  ████████████▌███████░░░░░░░  Resume   Now  │
-//    └───────────────┬─────┴──────┴──────┬────────────────┘
-//               seen before     the engine is here, the recording goes on to there
+//    └───────────────┬─────┬──────┬──────┬────────────────┘
+//                  seen  shown  engine  end of the recording
 #include <app/panel/actions.hpp>
 #include <app/panel/area.hpp>
 #include <app/panel/rows.hpp>
@@ -13,22 +13,23 @@
 
 namespace heml::panel {
 
-/// In ticks since the start, which resets do not set back.
+/// In ticks since the start; resets do not set them back.
 struct Timeline {
-  double rate = 1000;         ///< ticks a second
-  long first = 0, live = 0;   ///< what was seen; where the engine is
-  long end = 0;               ///< of a recording, where that is later
-  std::optional<long> shown;  ///< the moment that is looked at; none: live
-  std::size_t frames = 0;     ///< that are kept
-  std::size_t bytes = 0, room = 0;
-  long fast_forward_target = 0;  ///< a tick ahead that the engine goes to; 0: none
-  std::optional<int> returning;  ///< %, of the way back to a moment that is resumed
+  double rate = 1000;               ///< ticks per simulated second
+  long first = 0, live = 0;         ///< first frame kept; the engine's tick
+  long end = 0;                     ///< of the recording, or the engine's tick if that is later
+  std::optional<long> shown;        ///< the past tick shown; none: live
+  std::size_t frames = 0;           ///< number of frames kept
+  std::size_t bytes = 0, room = 0;  ///< memory of the frames kept; its limit
+  long fast_forward_target = 0;     ///< a tick that the engine fast-forwards to; 0: none
+  std::optional<int> returning;     ///< %, of the replay that leads to a resumed time
 };
 
-/// Height that it takes at the bottom of the picture, pixels.
+/// Height of the bar with its margin, pixels.
 float timeline_height();
 
-/// At the bottom of the free part of the picture. Adds what its buttons do to `pressed`. `place`: where it was drawn.
+/// Draws the bar at the bottom of the free area. Adds the actions of its buttons to `pressed`. `place`: set to its
+/// rectangle.
 void draw_timeline(Rows& rows, const Timeline& timeline, const Area& free, std::vector<Action>& pressed,
                    PanelActions& out, Area& place);
 

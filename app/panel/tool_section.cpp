@@ -7,7 +7,7 @@
 namespace heml::panel {
 namespace {
 
-// Of the body's radius.
+// Relative to the body's radius.
 constexpr double first_grasp = 0.12, max_grasp = 0.5, first_depth = 0.35, max_depth = 2;
 constexpr double first_probe = 0.08, max_probe = 0.4, first_dent = 0.15, max_dent = 0.6;
 constexpr double max_friction = 1.5, table_gap = 0.01;

@@ -1,5 +1,5 @@
 #pragma once
-// The tool in hand and what it is set to; pins, the table and sutures that are there.
+// The panel's section "Tool": the tool and its settings; pins, table and sutures.
 #include <app/panel/actions.hpp>
 #include <app/panel/rows.hpp>
 #include <heml/session/frame.hpp>
@@ -8,12 +8,12 @@ namespace heml::panel {
 
 class ToolSection {
  public:
-  /// body_radius: m, at rest: lengths are scaled by it. gravity: m/s²; a table lies across it.
+  /// body_radius: m, at rest; scales the settings. gravity: m/s²; tables are perpendicular to it.
   ToolSection(double body_radius, const Vec3& gravity);
 
   void draw(Rows& rows, const Frame& frame, PanelActions& out);
   void select(Tool tool) { tool_.tool = tool; }
-  /// Puts a table under the body as it is, or takes all tables away.
+  /// Adds a table under the lowest point of the body, or removes all tables.
   void toggle_table(const Frame& frame, PanelActions& out) const;
   void sync(const SetGravity& command);
 

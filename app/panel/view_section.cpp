@@ -63,7 +63,7 @@ void ViewSection::draw(Rows& rows, std::vector<Action>& pressed, PanelActions& o
     pressed.push_back(Action::save);
 }
 
-/// A button a view: goes there; keeps this one where none was kept, or with Ctrl.
+/// One button per view: restores it; saves the current view if none is saved, or with Ctrl.
 void ViewSection::draw_views(Rows& rows, std::vector<Action>& pressed) const {
   rows.name({"Views", "Four saved camera views: a press saves the current view, then goes to it."});
   const float gap = em(0.25f),

@@ -1,5 +1,5 @@
 #pragma once
-// What of the body is shown, and how.
+// The panel's section "View": field, drawing options, saved views, images and video.
 #include <app/panel/actions.hpp>
 #include <app/panel/camera_controller.hpp>
 #include <app/panel/rows.hpp>
@@ -20,8 +20,8 @@ class ViewSection {
   void set_range(const render::Range& range) { drawing_.range = range; }
   void set_beyond(std::span<const float> beyond) { drawing_.beyond = beyond; }
 
-  void set_kept(std::size_t view, bool kept) { kept_[view] = kept; }     ///< of Eye's views
-  void set_filmed(std::optional<long> pictures) { filmed_ = pictures; }  ///< none: nothing is filmed
+  void set_kept(std::size_t view, bool kept) { kept_[view] = kept; }     ///< whether a view is saved
+  void set_filmed(std::optional<long> pictures) { filmed_ = pictures; }  ///< frames recorded; none: no recording
 
   Field field() const { return field_; }
   const render::DrawOptions& drawing() const { return drawing_; }

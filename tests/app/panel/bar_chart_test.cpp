@@ -18,7 +18,7 @@ struct Extent {
   int corners = 0;
 };
 
-/// Where something is drawn in a colour.
+/// Bounding box of what is drawn in a colour.
 Extent drawn(const BarChart& chart, ImU32 colour) {
   test::ImguiContext context(1280, 720, 1);
   ImGui::NewFrame();

@@ -9,7 +9,7 @@ using namespace heml::test;
 namespace {
 const render::Size size{640, 360};
 const SurfaceMesh surface_mesh = small_surface();
-const Vec3f centre(0.05f, 0.05f, 0.05f);  // of the body's box
+const Vec3f centre(0.05f, 0.05f, 0.05f);  // of the body's bounding box
 }  // namespace
 
 TEST_CASE("the body is in the middle of what the panel leaves free") {
@@ -94,7 +94,7 @@ TEST_CASE("several bodies share what the panel leaves free, each in the middle o
       if (pane > 0) CHECK(here == doctest::Approx(extent).epsilon(0.02));
       extent = here;
       area += controller.pane().size.width * controller.pane().size.height;
-      // The ray of a pixel meets what appears there, and the mouse means the pane it is in.
+      // The ray of a pixel hits the point drawn there; entering at the pixel selects its pane.
       const render::Ray ray = controller.ray(at);
       CHECK((centre - ray.origin).cross(ray.direction).norm() < 1e-4f);
       CHECK((controller.drag(at, centre) - centre).norm() < 1e-4f);

@@ -13,7 +13,7 @@ namespace {
 const Area place{{100, 50}, {700, 450}};
 constexpr ImU32 ink = colours::rgba(0xff00ff);
 
-/// Corners of what is drawn in a colour.
+/// Vertices of what is drawn in a colour.
 std::vector<ImVec2> drawn(const Chart& chart, ImU32 colour = ink) {
   test::ImguiContext context(1280, 720, 1);
   ImGui::NewFrame();

@@ -8,11 +8,11 @@ namespace {
 
 using Ways = std::vector<std::string>;
 
-/// A panel tall enough for all sections, with this one open.
+/// A panel tall enough for all sections, with "Compare" open.
 struct Open : Driver {
   Open() : Driver(small_scene(), 1280, 1600) { click("Compare"); }
 
-  /// What the panel asks for when a button is pressed.
+  /// The comparisons that the panel asks for when a button is pressed.
   std::optional<Ways> press(const std::string& label) { return click(label, 60).comparisons; }
 
   void set_beside(const std::string& variant, double distance) {

@@ -1,5 +1,5 @@
 #pragma once
-// A panel without a window: a mouse and keys that tests move, and what the panel asked for.
+// Drives a panel without a window: moves the mouse, presses buttons, returns the panel's actions.
 #include <doctest/doctest.h>
 #include <imgui.h>
 
@@ -67,7 +67,7 @@ class Driver {
   void away() { move({640, 700}); }
   void hold(bool down) { ImGui::GetIO().MouseDown[0] = down; }
 
-  /// Moves the mouse down a column of the picture until it is on a row or an entry of that label.
+  /// Moves the mouse down a column of the image until it is on the row or entry of that label; fails if there is none.
   ImVec2 find(const std::string& label, float x = 200) {
     for (float y = 2; y < ImGui::GetIO().DisplaySize.y; y += 4) {
       move({x, y});
@@ -78,7 +78,7 @@ class Driver {
     return {};
   }
 
-  /// Presses and lets go where the mouse is; everything the panel asked for on the way.
+  /// Clicks where the mouse is. Returns all actions of the frames it takes.
   panel::PanelActions click() {
     hold(true);
     panel::PanelActions all = draw();
@@ -102,7 +102,7 @@ class Driver {
     return click();
   }
 
-  /// Opens a choice and takes one of its entries.
+  /// Opens a choice and clicks one of its entries.
   panel::PanelActions choose(const std::string& label, const std::string& entry) {
     click(label);
     return click(entry);

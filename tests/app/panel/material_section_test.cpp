@@ -160,7 +160,7 @@ TEST_CASE("a tissue brings its law and parameters, and keeps the density") {
   CHECK(material.law == preset.material.law);
   CHECK(material.parameters == preset.material.parameters);
   CHECK(material.density == 1000);
-  driver.find("Source");  // and says where it is from
+  driver.find("Source");  // with its source
   CHECK(driver.choose("Tissue", preset.title).commands.empty());
 }
 

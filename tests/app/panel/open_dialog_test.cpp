@@ -24,7 +24,7 @@ OpenChoices some_choices() {
   return choices;
 }
 
-/// With the dialog open, after what it takes to settle.
+/// Opens the dialog and draws until its layout settles.
 void open(Driver& driver) {
   driver.panel.set_choices(some_choices());
   driver.panel.perform(Action::open);
@@ -42,7 +42,7 @@ panel::PanelActions press(Driver& driver, Action key) {
   return driver.draw();
 }
 
-/// Looks for a cell or line of that title all over the picture.
+/// Moves the mouse over the whole image until it is on a cell or line of that title.
 bool shows(Driver& driver, const std::string& title) {
   for (float x = 100; x < 1240; x += 60)
     for (float y = 60; y < 740; y += 9) {

@@ -9,7 +9,7 @@ using namespace heml::test;
 
 namespace {
 
-const Preset& limited() { return *find_preset("brain_ogden_swine"); }  // to a stretch of 1.2214
+const Preset& limited() { return *find_preset("brain_ogden_swine"); }  // measured to a stretch of 1.2214
 
 Material free_material() {
   Material material;
@@ -50,7 +50,7 @@ TEST_CASE("nodes stretched past the tissue's range are counted and marked") {
   CHECK(watch.beyond()[2] == doctest::Approx(1.3 - limited().stretch_range->high));
   CHECK(watch.beyond()[3] > watch.beyond()[2]);
   CHECK(watch.share() == 0.5);
-  watch.update(frame_with({}));  // a frame from before stretches were asked for
+  watch.update(frame_with({}));  // a frame without stretches
   CHECK(watch.beyond().empty());
   CHECK(watch.share() == 0);
 }

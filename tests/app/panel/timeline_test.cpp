@@ -9,9 +9,9 @@ using panel::Timeline;
 
 namespace {
 
-constexpr float bar_y = 735;  // in a picture 760 high
+constexpr float bar_y = 735;  // pixels, in an image 760 high
 
-/// Five seconds seen of a recording of ten.
+/// A recording of ten seconds, of which five were seen.
 Timeline half_way() {
   Timeline timeline;
   timeline.rate = 100;
@@ -23,7 +23,7 @@ Timeline half_way() {
   return timeline;
 }
 
-/// A place on the track for a share of it.
+/// The x at a share (0 to 1) of the track.
 float place(Driver& driver, float share) {
   float first = -1, last = -1;
   for (float x = 280; x < 1020; x += 4) {
