@@ -1,9 +1,9 @@
 #pragma once
-// What was seen of a session, to be looked at again: frames, oldest first, in so much memory at most. When that is full
-// every second one goes, so the whole session stays, ever coarser:
+// Past frames of a session for the timeline, oldest first, within a memory limit. When it is exceeded every second
+// frame is dropped, so that the whole session stays covered, at a coarser spacing:
 //
 //    0 1 2 3 4 5 6 7        full
-//    0   2   4   6   8      from now on every second one is taken
+//    0   2   4   6   8      from now on every second frame is added
 #include <cstddef>
 #include <heml/session/frame.hpp>
 #include <vector>
@@ -12,19 +12,20 @@ namespace heml::window {
 
 class FrameHistory {
  public:
-  /// room: bytes; skins, which frames share, are not counted.
+  /// room: bytes, at most; surface meshes are shared between frames and not counted.
   explicit FrameHistory(std::size_t room = 256'000'000) : room_(room) {}
 
-  /// Takes a frame that is later than the last by the spacing of the moment, or of the same tick, which it replaces.
+  /// Appends a frame that is later than the last by the spacing; replaces the last one if it has the same tick; ignores
+  /// others.
   void add(const Frame& frame);
-  /// Forgets what is later than a tick.
+  /// Drops frames later than a tick.
   void cut_after(long tick);
-  /// Frames whose skins are of the version of this one's, or of what is beside it, have these from now on: who draws
-  /// keeps what is made of a skin.
+  /// Replaces surface meshes by those of this frame where the version is the same (for comparison runs: and the
+  /// variant), because renderers cache buffers per surface mesh.
   void share(const Frame& frame);
 
   const std::vector<Frame>& frames() const { return frames_; }  ///< ascending in tick
-  /// The frame of a tick: the last that is not later, else the first. There is one.
+  /// Index of the last frame not later than a tick, else 0. Needs at least one frame.
   std::size_t place_of(long tick) const;
   std::size_t bytes() const { return bytes_; }
   std::size_t room() const { return room_; }

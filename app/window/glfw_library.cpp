@@ -1,5 +1,5 @@
-// GLFW, opened when a window is: nothing else that the program does is to load it and the libraries of the display it
-// brings along, or to need them installed. What the window and Dear ImGui's backend call is forwarded.
+// Loads GLFW when a window is opened, so that commands without a window neither load nor need it and the display
+// libraries that it depends on. Forwards the functions that the window and Dear ImGui's backend call.
 #define GLFW_INCLUDE_NONE  // glad has the OpenGL functions
 #include <GLFW/glfw3.h>
 #include <dlfcn.h>
@@ -18,7 +18,7 @@ Function* find(const char* name) {
 
 }  // namespace
 
-// Where the library is missing, glfwInit() says so and nobody calls the others.
+// Without the library glfwInit() fails, and no other function is called.
 int glfwInit() { return library() ? find<decltype(glfwInit)>("glfwInit")() : GLFW_FALSE; }
 
 int glfwGetError(const char** description) {
@@ -48,16 +48,21 @@ FORWARD(void, glfwGetWindowSize, (GLFWwindow* window, int* width, int* height), 
 FORWARD(GLFWcharfun, glfwSetCharCallback, (GLFWwindow* window, GLFWcharfun callback), (window, callback))
 FORWARD(void, glfwSetClipboardString, (GLFWwindow* window, const char* string), (window, string))
 FORWARD(void, glfwSetCursor, (GLFWwindow* window, GLFWcursor* cursor), (window, cursor))
-FORWARD(GLFWcursorenterfun, glfwSetCursorEnterCallback, (GLFWwindow* window, GLFWcursorenterfun callback), (window, callback))
+FORWARD(GLFWcursorenterfun, glfwSetCursorEnterCallback, (GLFWwindow* window, GLFWcursorenterfun callback),
+        (window, callback))
 FORWARD(void, glfwSetCursorPos, (GLFWwindow* window, double xpos, double ypos), (window, xpos, ypos))
 FORWARD(GLFWerrorfun, glfwSetErrorCallback, (GLFWerrorfun callback), (callback))
 FORWARD(void, glfwSetInputMode, (GLFWwindow* window, int mode, int value), (window, mode, value))
 FORWARD(GLFWkeyfun, glfwSetKeyCallback, (GLFWwindow* window, GLFWkeyfun callback), (window, callback))
 FORWARD(GLFWmonitorfun, glfwSetMonitorCallback, (GLFWmonitorfun callback), (callback))
-FORWARD(GLFWmousebuttonfun, glfwSetMouseButtonCallback, (GLFWwindow* window, GLFWmousebuttonfun callback), (window, callback))
+FORWARD(GLFWmousebuttonfun, glfwSetMouseButtonCallback, (GLFWwindow* window, GLFWmousebuttonfun callback),
+        (window, callback))
 FORWARD(GLFWscrollfun, glfwSetScrollCallback, (GLFWwindow* window, GLFWscrollfun callback), (window, callback))
-FORWARD(GLFWwindowfocusfun, glfwSetWindowFocusCallback, (GLFWwindow* window, GLFWwindowfocusfun callback), (window, callback))
-FORWARD(GLFWwindow*, glfwCreateWindow, (int width, int height, const char* title, GLFWmonitor* monitor, GLFWwindow* share), (width, height, title, monitor, share))
+FORWARD(GLFWwindowfocusfun, glfwSetWindowFocusCallback, (GLFWwindow* window, GLFWwindowfocusfun callback),
+        (window, callback))
+FORWARD(GLFWwindow*, glfwCreateWindow,
+        (int width, int height, const char* title, GLFWmonitor* monitor, GLFWwindow* share),
+        (width, height, title, monitor, share))
 FORWARD(void, glfwDestroyWindow, (GLFWwindow* window), (window))
 FORWARD(const char*, glfwGetKeyName, (int key, int scancode), (key, scancode))
 FORWARD(GLFWglproc, glfwGetProcAddress, (const char* procname), (procname))
@@ -68,8 +73,10 @@ FORWARD(void, glfwPollEvents, (), ())
 FORWARD(void, glfwPostEmptyEvent, (), ())
 FORWARD(GLFWcursorposfun, glfwSetCursorPosCallback, (GLFWwindow* window, GLFWcursorposfun callback), (window, callback))
 FORWARD(GLFWdropfun, glfwSetDropCallback, (GLFWwindow* window, GLFWdropfun callback), (window, callback))
-FORWARD(GLFWframebuffersizefun, glfwSetFramebufferSizeCallback, (GLFWwindow* window, GLFWframebuffersizefun callback), (window, callback))
-FORWARD(GLFWwindowrefreshfun, glfwSetWindowRefreshCallback, (GLFWwindow* window, GLFWwindowrefreshfun callback), (window, callback))
+FORWARD(GLFWframebuffersizefun, glfwSetFramebufferSizeCallback, (GLFWwindow* window, GLFWframebuffersizefun callback),
+        (window, callback))
+FORWARD(GLFWwindowrefreshfun, glfwSetWindowRefreshCallback, (GLFWwindow* window, GLFWwindowrefreshfun callback),
+        (window, callback))
 FORWARD(void, glfwSetWindowTitle, (GLFWwindow* window, const char* title), (window, title))
 FORWARD(void, glfwSetWindowUserPointer, (GLFWwindow* window, void* pointer), (window, pointer))
 FORWARD(void, glfwSwapBuffers, (GLFWwindow* window), (window))

@@ -18,7 +18,7 @@ std::string last_error(const char* otherwise) {
   return text ? text : otherwise;
 }
 
-/// The key as the panel counts them: by what is printed on it, not by where it is.
+/// The number of a key in panel/keys.hpp: by the character printed on it, not by its position.
 int panel_key(int key, int scancode) {
   switch (key) {
     case GLFW_KEY_ESCAPE:
@@ -67,7 +67,7 @@ GlfwWindow& GlfwWindow::self(GLFWwindow* window) { return *static_cast<GlfwWindo
 WindowEvents* GlfwWindow::events_of(GLFWwindow* window) { return self(window).events_; }
 
 GlfwWindow::GlfwWindow(const std::string& title, render::Size size) {
-  // Mesa's software renderer takes one core, so that the engine has the others.
+  // Limits Mesa's software renderer to one core: the others are for the engine.
   setenv("LP_NUM_THREADS", "1", 0);
   if (!glfwInit()) throw NoDisplay(last_error("no display"));
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
@@ -75,7 +75,7 @@ GlfwWindow::GlfwWindow(const std::string& title, render::Size size) {
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
   glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
   glfwWindowHint(GLFW_DEPTH_BITS, 24);
-  glfwWindowHint(GLFW_SAMPLES, 0);  // the renderer smooths outlines by itself
+  glfwWindowHint(GLFW_SAMPLES, 0);  // the renderer antialiases by itself
   glfwWindowHintString(GLFW_X11_CLASS_NAME, "heml");
   window_ = glfwCreateWindow(size.width, size.height, title.c_str(), nullptr, nullptr);
   if (!window_) {

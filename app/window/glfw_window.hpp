@@ -1,5 +1,5 @@
 #pragma once
-// A window of the desktop with OpenGL in it, and what people do to it.
+// A desktop window with an OpenGL 3.3 context, and its input events.
 #include <app/render/camera.hpp>
 #include <app/render/context.hpp>
 #include <app/window/mouse_tool.hpp>
@@ -11,27 +11,27 @@ struct GLFWwindow;
 
 namespace heml::window {
 
-/// There can be no window: no display, or none with OpenGL 3.3. what(): why, in a few words.
+/// No window can be opened: no display, or none with OpenGL 3.3. what(): the reason in a few words.
 class NoDisplay : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Called from within GlfwWindow::wait(). Places in pixels of the picture.
+/// Called from within GlfwWindow::wait(). Positions in pixels of the framebuffer.
 class WindowEvents {
  public:
   virtual ~WindowEvents() = default;
-  virtual void key(int key, bool control, bool repeated) = 0;  ///< numbers of panel/keys.hpp
+  virtual void key(int key, bool control, bool repeated) = 0;  ///< key: as in panel/keys.hpp
   virtual void button(MouseButton button, bool down, bool shift) = 0;
   virtual void mouse(const render::Vec2f& at) = 0;
   virtual void wheel(float notches) = 0;
   virtual void dropped(const std::filesystem::path& path) = 0;
-  virtual void changed() = 0;  ///< size, focus, uncovered: draw again
+  virtual void changed() = 0;  ///< resized, focused or uncovered: draw again
 };
 
-/// One at a time, on the program's first thread.
+/// At most one exists at a time, on the program's main thread.
 class GlfwWindow final : public render::GraphicsContext {
  public:
-  /// Opens the window, its context current. Throws NoDisplay.
+  /// Opens the window and makes its context current. Throws NoDisplay.
   GlfwWindow(const std::string& title, render::Size size);
   ~GlfwWindow() override;
   GlfwWindow(const GlfwWindow&) = delete;
@@ -42,18 +42,18 @@ class GlfwWindow final : public render::GraphicsContext {
   void present() override;
   GLADloadfunc loader() const override;
 
-  /// From now on events go there and to the ImGui context of the moment, which must outlive that; nullptr: nowhere.
+  /// Sends events to `events` and to the current ImGui context, which must exist until the next call; nullptr: stops.
   void send_events_to(WindowEvents* events);
-  /// Hands the mouse to ImGui; before a frame of it begins.
+  /// Passes the mouse position to ImGui. Call before each ImGui frame.
   void prepare_imgui();
 
   void set_title(const std::string& title);
-  bool closed() const;          ///< the user wants it closed
+  bool closed() const;          ///< the user asked to close it
   bool visible() const;         ///< false while minimised
-  float content_scale() const;  ///< of the screen: 1 on ordinary ones
-  float pixel_ratio() const;    ///< pixels a unit of mouse coordinates
+  float content_scale() const;  ///< of the screen, 1 to 4
+  float pixel_ratio() const;    ///< pixels per unit of mouse coordinates
 
-  /// Sleeps until something happens, `seconds` at most.
+  /// Waits for an event or wake(), `seconds` at most, and dispatches events; 0: only dispatches.
   static void wait(double seconds);
   /// Ends a wait(); from any thread while a window is open.
   static void wake();

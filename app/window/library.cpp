@@ -37,7 +37,7 @@ const char* name_of(FileKind kind) {
   return "file";
 }
 
-/// Every scene of a folder that can be read, in the order of file names.
+/// The readable scenes of a folder, sorted by file name.
 std::vector<OpenChoice> scenes_in(const fs::path& folder) {
   std::vector<OpenChoice> choices;
   std::error_code failed;
@@ -46,7 +46,7 @@ std::vector<OpenChoice> scenes_in(const fs::path& folder) {
     try {
       const Scene scene = read_scene(entry->path());
       choices.push_back({entry->path(), scene.title.empty() ? scene.name : scene.title, scene.description});
-    } catch (const InputError&) {  // of another version: not offered
+    } catch (const InputError&) {  // unreadable, e.g. of another version: omitted
     }
   }
   std::sort(choices.begin(), choices.end(), [](const OpenChoice& a, const OpenChoice& b) { return a.path < b.path; });
@@ -63,7 +63,7 @@ void list_scenes(Listing& listing) {
     if (!fs::exists(file, failed)) continue;
     try {
       listing.pictures.emplace(choice.path, render::read_png(file));
-    } catch (const InputError&) {  // goes without
+    } catch (const InputError&) {  // no thumbnail
     }
   }
 }

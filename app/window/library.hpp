@@ -1,5 +1,5 @@
 #pragma once
-// Lists what can be opened, in a thread of its own: folders may be slow, and pictures are to be unpacked.
+// Lists the entries of the open dialog on another thread: folders may be slow, and thumbnails are decoded.
 #include <app/panel/open_choices.hpp>
 #include <app/render/gl_objects.hpp>
 #include <app/render/image.hpp>
@@ -9,31 +9,31 @@
 
 namespace heml::window {
 
-/// Scenes that come with heml, by title; files of a kind read_scene() takes, and folders; what was opened last.
+/// Installed scenes, files that read_scene() accepts, folders, and recent files.
 struct Listing {
   panel::OpenChoices choices;
-  std::map<std::filesystem::path, render::Image> pictures;  ///< of scenes, by their file
+  std::map<std::filesystem::path, render::Image> pictures;  ///< thumbnails by scene file
 };
 
-/// folder: empty for none. with_scenes: also those that come with heml, which do not change. Any thread.
+/// folder: empty for none. with_scenes: also installed scenes, which do not change. Any thread.
 Listing list_choices(const std::filesystem::path& folder, bool with_scenes);
 
-/// Belongs to the OpenGL context that is current in take().
+/// Owns textures of the OpenGL context that is current in take().
 class Library {
  public:
-  /// Begins to list a folder; the one before where it is empty.
+  /// Starts to list a folder; empty: the last one again.
   void list_folder(std::filesystem::path folder);
   bool under_way() const { return result_.valid(); }
-  bool is_ready() const;  ///< there is something to take
+  bool is_ready() const;  ///< take() returns a list
 
-  /// What came of it, once.
+  /// A finished list, once, with thumbnails uploaded; nothing before.
   std::optional<panel::OpenChoices> take();
 
  private:
   void begin();
 
   std::filesystem::path folder_;
-  bool again_ = false;  ///< another folder was asked for meanwhile
+  bool again_ = false;  ///< another list was asked for meanwhile
   std::future<Listing> result_;
   std::vector<panel::OpenChoice> scenes_, extreme_;
   std::vector<render::Texture> pictures_;

@@ -3,7 +3,7 @@
 
 namespace heml::window {
 namespace {
-constexpr float min_stroke = 4;  // pixels: what a blade goes on by
+constexpr float min_stroke = 4;  // pixels of mouse travel per cut
 }
 
 std::optional<render::Hit> MouseTool::under(const render::Vec2f& at, const Frame& frame,
@@ -46,7 +46,7 @@ void MouseTool::press_background(MouseButton button, const render::Vec2f& at, bo
   doing_ = pans ? Doing::panning : Doing::orbiting;
 }
 
-/// The corner nearest to a hit that the scene does not hold; none where it holds all.
+/// A corner of the hit triangle that is not constrained, the nearest if possible; none if all are.
 std::optional<int> MouseTool::free_corner(const render::Hit& hit, const SurfaceMesh& surface_mesh) {
   const auto constrained = [&](int node) {
     return std::binary_search(surface_mesh.constrained.begin(), surface_mesh.constrained.end(), node);
@@ -57,7 +57,7 @@ std::optional<int> MouseTool::free_corner(const render::Hit& hit, const SurfaceM
   return constrained(node) ? std::nullopt : std::optional(node);
 }
 
-/// Takes out the pin that is there, or sets one.
+/// Removes the pin at the hit, or sets one.
 bool MouseTool::pin(const render::Hit& hit, const Frame& frame, const SurfaceMesh& surface_mesh, double radius,
                     std::vector<Command>& out) {
   const auto corner = free_corner(hit, surface_mesh);
@@ -97,7 +97,7 @@ bool MouseTool::suture(const render::Hit& hit, const SurfaceMesh& surface_mesh, 
   return true;
 }
 
-/// From before the surface, along the line of sight.
+/// Starts the probe above the surface and moves it in along the line of sight.
 void MouseTool::begin_probing(const render::Hit& hit, const panel::ToolSettings& tool, const render::Vec2f& at,
                               std::vector<Command>& out) {
   doing_ = Doing::probing;
@@ -109,7 +109,7 @@ void MouseTool::begin_probing(const render::Hit& hit, const panel::ToolSettings&
   out.emplace_back(std::move(probe));
 }
 
-/// The tip `dent` below where the surface was pressed, in the plane that faces the eye; the shaft towards the eye.
+/// The tip is `dent` below the pressed point, moved in the plane that faces the camera; the shaft points to the camera.
 MoveProbe MouseTool::probe_at(const render::Vec2f& at) const {
   const Vec3 point = controller_.drag(at, held_point_).cast<double>();
   const Vec3 along = controller_.ray(at).direction.cast<double>().normalized();
@@ -128,7 +128,7 @@ bool MouseTool::wheel(float notches, std::vector<Command>& out) {
   return true;
 }
 
-/// From a little above the surface, so that it is cut too, along the line of sight.
+/// The blade along the line of sight, from a little above the surface, so that it is cut too.
 std::array<Vec3, 2> MouseTool::blade_at(const render::Vec2f& at) const {
   const Vec3 point = controller_.drag(at, held_point_).cast<double>();
   const Vec3 along = controller_.ray(at).direction.cast<double>();
@@ -138,7 +138,7 @@ std::array<Vec3, 2> MouseTool::blade_at(const render::Vec2f& at) const {
 void MouseTool::cut(const render::Vec2f& at, const Frame& frame, const SurfaceMesh& surface_mesh,
                     std::vector<Command>& out) {
   if ((at - cut_to_).norm() < min_stroke) return;
-  if (const auto hit = under(at, frame, surface_mesh)) held_point_ = hit->point;  // the surface rises and falls
+  if (const auto hit = under(at, frame, surface_mesh)) held_point_ = hit->point;  // follows the relief of the surface
   const std::array<Vec3, 2> now = blade_at(at);
   out.emplace_back(CutTissue{{{blade_, now}}, continues_stroke_});
   blade_ = now;

@@ -1,5 +1,5 @@
 #pragma once
-// What the mouse does to the body and to the eye. Pixels from the top left corner of the picture.
+// The mouse on the image: applies tools to the body and moves the camera. Pixels from the top left corner of the image.
 #include <app/panel/actions.hpp>
 #include <app/panel/camera_controller.hpp>
 #include <app/render/pick.hpp>
@@ -18,25 +18,24 @@ class MouseTool {
 
   explicit MouseTool(panel::CameraController& controller) : controller_(controller) {}
 
-  /// A button went down at a place off the panel. Left on the body takes hold of it, sets the blade
-  /// to it, or pins it. Returns
-  /// true when the body is there but cannot be taken, because the scene holds it.
+  /// A button went down off the panel: left on the body applies the tool, else the camera orbits or pans. Returns true
+  /// when the tool cannot act on the body there because its nodes are constrained.
   bool press(MouseButton button, const render::Vec2f& at, bool shift, const Frame& frame,
              const SurfaceMesh& surface_mesh, const panel::ToolSettings& tool, std::vector<Command>& out);
-  /// The same where there is nothing to take: the eye turns or moves.
+  /// The same off the body: the camera orbits or pans.
   void press_background(MouseButton button, const render::Vec2f& at, bool shift);
-  /// What is held follows; a blade cuts on from where it was.
+  /// Moves the grasp, the probe or the camera; a blade cuts on from its last position.
   void move(const render::Vec2f& at, const Frame& frame, const SurfaceMesh& surface_mesh, std::vector<Command>& out);
-  /// Pushes a probe deeper by a notch of the wheel, or back. Returns false where there is none.
+  /// Pushes an active probe deeper by notches of the wheel (negative: back). Returns false without a probe.
   bool wheel(float notches, std::vector<Command>& out);
   void release(MouseButton button, std::vector<Command>& out);
-  /// Ends whatever the hand does, and what it has begun.
+  /// Ends what the mouse does, and forgets the first end of a suture.
   void let_go(std::vector<Command>& out);
 
   Doing doing() const { return doing_; }
-  /// The end of a suture that waits for its other one: mesh-file number of a node.
+  /// The first end of an unfinished suture: mesh-file number of a node.
   std::optional<int> first_end() const { return first_end_; }
-  /// The part of the body under a point of the picture.
+  /// The point of the surface under a pixel.
   std::optional<render::Hit> under(const render::Vec2f& at, const Frame& frame, const SurfaceMesh& surface_mesh) const;
 
  private:
@@ -55,16 +54,16 @@ class MouseTool {
 
   panel::CameraController& controller_;
   Doing doing_ = Doing::nothing;
-  MouseButton button_ = MouseButton::left;        // that began it
-  render::Vec2f last_ = render::Vec2f::Zero();    // where the mouse was
-  Vec3f held_point_ = Vec3f::Zero();              // m, of the surface, where it was taken
-  Vec3f node_offset_ = Vec3f::Zero();             // m, from there to the node that was taken
+  MouseButton button_ = MouseButton::left;        // that began doing_
+  render::Vec2f last_ = render::Vec2f::Zero();    // of the mouse, pixels
+  Vec3f held_point_ = Vec3f::Zero();              // m, of the surface, where the tool began
+  Vec3f node_offset_ = Vec3f::Zero();             // m, from there to the grasped node
   double depth_ = 0;                              // m, of the blade below held_point_
-  std::array<Vec3, 2> blade_;                     // m, where it has cut up to
-  render::Vec2f cut_to_ = render::Vec2f::Zero();  // the same, in the picture
-  panel::ToolSettings probe_;                     // as it was when the probe was taken
-  std::optional<int> first_end_;                  // of a suture
-  bool continues_stroke_ = false;                 // this stroke has cut before
+  std::array<Vec3, 2> blade_;                     // m, end of the last cut
+  render::Vec2f cut_to_ = render::Vec2f::Zero();  // the same, pixels
+  panel::ToolSettings probe_;                     // of the active probe
+  std::optional<int> first_end_;                  // of an unfinished suture
+  bool continues_stroke_ = false;                 // this stroke has already cut
 };
 
 }  // namespace heml::window

@@ -1,29 +1,28 @@
 #pragma once
-// Marks over the picture, under the panel: what would be grasped, and how hard the tool pulls.
+// Marks over the image, under the panel: ring of the tool, field value, forces, suture end, bad element.
 #include <app/panel/camera_controller.hpp>
 #include <app/render/field_colours.hpp>
 #include <app/render/pick.hpp>
 
 namespace heml::window {
 
-/// A ring on the surface round the point under the mouse, of the grasp's radius (m); red where the body cannot be
-/// taken.
+/// A ring of the tool's radius (m) on the surface at a hit; red at a constrained node.
 void draw_ring(const render::Hit& hit, const Frame& frame, const SurfaceMesh& surface_mesh,
                const panel::CameraController& controller, double radius);
 
-/// What the colours say at the point under the mouse: the field's value there, in the unit of a colour range, and the
-/// nearest node. Nothing where the body shows no field.
+/// The field's value at a hit, with the unit of a colour range, and the nearest node. Nothing if the frame has no
+/// field.
 void draw_reading(const render::Hit& hit, const Frame& frame, const SurfaceMesh& surface_mesh,
                   const panel::CameraController& controller, const render::Range& range);
 
-/// Forces in newtons beside the tools that are at work: grasp, pins, probe, sutures.
+/// Forces (N) next to active grasp, pins, probe and sutures.
 void draw_forces(const Frame& frame, const panel::CameraController& controller);
 
-/// The end of a suture that waits for its other one. node: mesh-file number.
+/// The first end of an unfinished suture. node: mesh-file number.
 void draw_suture_end(int node, const Frame& frame, const SurfaceMesh& surface_mesh,
                      const panel::CameraController& controller);
 
-/// The edges of the first bad element of a frame's recovery, over everything that hides it.
+/// The edges of the first bad element of a frame's recovery, drawn over the body.
 void draw_bad_element(const Frame& frame, const panel::CameraController& controller);
 
 }  // namespace heml::window

@@ -1,12 +1,12 @@
 #pragma once
-// The piece of tissue that a mark on the surface means.
+// The elements round a node of the surface.
 #include <heml/session/frame.hpp>
 #include <vector>
 
 namespace heml::window {
 
-/// Elements behind the triangles round a node (mesh-file number) of the surface: those it has, and those whose middle
-/// is within a radius (m) of it at rest. Mesh-file numbers, ascending; empty for a node that is not on the surface.
+/// Elements behind the surface triangles that have a node (mesh-file number) or whose centroid is within a radius (m)
+/// of it at rest. Mesh-file numbers, ascending; empty for a node that is not on the surface.
 std::vector<int> elements_around(int node, const SurfaceMesh& surface_mesh, double radius);
 
 }  // namespace heml::window

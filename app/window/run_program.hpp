@@ -1,5 +1,5 @@
 #pragma once
-// Other programs beside the window.
+// Child processes.
 #include <atomic>
 #include <filesystem>
 #include <optional>
@@ -8,14 +8,14 @@
 
 namespace heml::window {
 
-/// A program on $PATH; empty where there is none.
+/// Path of a program on $PATH; empty if there is none.
 std::filesystem::path find_program(const std::string& name);
 
-/// Runs a program, silent, to its end and returns its exit code (-1: it was killed or could not start), or nothing as
-/// soon as `leave` is true: it then goes on by itself.
+/// Runs a program to its end, with its streams on /dev/null, and returns its exit code (-1: killed, or could not
+/// start). Returns nothing as soon as `leave` is true; the program keeps running.
 std::optional<int> run_program(std::vector<std::string> words, const std::atomic<bool>& leave);
 
-/// The calling thread, and programs it runs, get less of the processor than others; enough for somebody to wait for it.
+/// Gives the calling thread, and programs it runs, a nice value of 5.
 void lower_priority();
 
 }  // namespace heml::window

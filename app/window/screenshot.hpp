@@ -1,12 +1,12 @@
 #pragma once
-// Pictures of the window.
+// Files of saved images.
 #include <app/render/image.hpp>
 #include <filesystem>
 #include <string>
 
 namespace heml::window {
 
-/// heml-<name>-<local time><ending> in the working directory, or with a number where that is taken.
+/// An unused path in the working directory: heml-<name>-<local time><ending>, with a number if that exists.
 std::filesystem::path free_name(const std::string& name, const std::string& ending);
 
 /// Writes heml-<name>-<local time>.png into the working directory, never over another file. Throws InputError.

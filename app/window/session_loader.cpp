@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Where the last recovery of a scene is kept: in the user's folder for what programs did, if there is one.
+/// File of the last recovery of a scene, in state_folder(); empty if there is none.
 fs::path recovery_file_of(const Scene& scene) {
   const fs::path folder = state_folder();
   return folder.empty() ? folder : folder / fmt::format("recovery-{}.jsonl", fs::path(scene.file).stem().string());
@@ -115,7 +115,7 @@ std::optional<std::variant<OpenScene, std::string>> SessionLoader::take() {
     OpenScene opened = result_.get();
     if (!cancelled_) return opened;
     std::error_code failed;
-    if (opened.resumed && opened.recording) {  // nobody asked for its beginning alone
+    if (opened.resumed && opened.recording) {  // the file has only the replayed part
       opened.session.reset();
       fs::remove(*opened.recording, failed);
     }

@@ -1,5 +1,5 @@
 #pragma once
-// Scenes and the sessions they run in; what is opened later is read beside the running one.
+// Starts the sessions of scenes; opens further ones on another thread while a session runs.
 #include <atomic>
 #include <filesystem>
 #include <future>
@@ -13,40 +13,41 @@ namespace heml::window {
 struct OpenScene {
   Scene scene;
   std::unique_ptr<Session> session;
-  std::optional<std::filesystem::path> recording;  ///< that is being written
-  bool was_recorded = false;                       ///< the scene is a recording, or goes on from one
-  std::vector<std::string> comparisons;            ///< SessionOptions::beside
-  std::optional<long> resumed;                     ///< the tick of another session that this one goes on from
+  std::optional<std::filesystem::path> recording;  ///< file being written
+  bool was_recorded = false;                       ///< the scene is a recording, or was resumed from one
+  std::vector<std::string> comparisons;            ///< SessionOptions::comparisons
+  std::optional<long> resumed;                     ///< tick at which it resumes another session
 };
 
-/// Starts the session of a scene, with a window that is woken by its frames. record: where. Throws InputError.
+/// Starts the session of a scene, whose frames wake the window. record: file to write. Throws InputError.
 OpenScene start(Scene scene, const std::optional<std::filesystem::path>& record,
                 std::vector<std::string> comparisons = {});
 
-/// STEM-2.jsonl beside a file, or the next number that is not there yet.
+/// STEM-2.jsonl in the folder of a file, or the next number that does not exist yet.
 std::filesystem::path next_recording(const std::filesystem::path& file);
 
-/// A file or a moment of a session on its way to being a session.
+/// Prepares one session at a time on another thread: of a file, or resumed from a past time. Calls while one is under
+/// way have no effect.
 class SessionLoader {
  public:
   ~SessionLoader() { cancel(); }
 
-  /// record: of the scene the window began with; what is opened later gets the next number. A file that is opened is
-  /// remembered (state_folder.hpp).
+  /// Opens a file and adds it to the recent ones (state_folder.hpp). record: recording of the first scene, if any; this
+  /// one goes to next_recording() of it.
   void begin(const std::filesystem::path& path, const std::optional<std::filesystem::path>& record);
 
-  /// A session that goes on from what led to a moment (Session::until()), once it has played that: paused.
-  /// record: the file its own is named after, if any; where that folder cannot be written, in state_folder().
+  /// Replays a scene of Session::until() to its end; the session is then paused. record: an earlier recording, if any;
+  /// this one goes to next_recording() of it, in state_folder() if its folder is not writable.
   void resume(Scene scene, const std::optional<std::filesystem::path>& record,
               std::vector<std::string> comparisons = {});
 
   bool under_way() const { return result_.valid(); }
-  bool is_ready() const;  ///< there is something to take
-  /// Of a moment that is gone back to: how much of the way is played, %.
+  bool is_ready() const;  ///< take() has an outcome
+  /// Progress of a replay before resuming, %; none for a file.
   std::optional<int> progress() const;
   void cancel() { cancelled_ = true; }
 
-  /// What came of it, once: a session, or why there is none; nothing of what was cancelled.
+  /// The outcome, once: a session, or the error message; nothing before, or after cancel().
   std::optional<std::variant<OpenScene, std::string>> take();
 
  private:
@@ -55,7 +56,7 @@ class SessionLoader {
 
   std::atomic<bool> cancelled_{false};
   std::atomic<long> reached_{0};
-  long goal_ = 0;  ///< the tick of the moment; 0: a file is opened
+  long goal_ = 0;  ///< tick to resume at; 0: a file is opened
   std::future<OpenScene> result_;
 };
 

@@ -12,7 +12,7 @@ namespace {
 namespace fs = std::filesystem;
 constexpr std::size_t max_recent_files = 20;
 
-/// A path a line.
+/// The list of recent files, one path per line.
 fs::path list_file() {
   const fs::path folder = state_folder();
   return folder.empty() ? fs::path() : folder / "recent";
@@ -47,7 +47,7 @@ void remember_file(const fs::path& path) {
   for (const fs::path& file : files) text += file.string() + '\n';
   try {
     write_file(list, text);
-  } catch (const InputError&) {  // forgotten, then
+  } catch (const InputError&) {  // the list is optional
   }
 }
 

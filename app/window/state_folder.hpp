@@ -1,18 +1,18 @@
 #pragma once
-// What is remembered between starts.
+// Files kept between runs of the program.
 #include <filesystem>
 #include <vector>
 
 namespace heml::window {
 
-/// The user's folder for what programs remember, $XDG_STATE_HOME/heml or ~/.local/state/heml, which need not exist;
-/// empty where there is no such place.
+/// The user's state folder, $XDG_STATE_HOME/heml or ~/.local/state/heml, which need not exist; empty if neither
+/// variable is set.
 std::filesystem::path state_folder();
 
-/// Files that were opened, the latest first, twenty at most; those that have gone meanwhile too.
+/// Recently opened files, latest first, 20 at most; some may no longer exist.
 std::vector<std::filesystem::path> recent_files();
 
-/// Puts a file first among them. Says nothing where that cannot be written.
+/// Puts a file first in that list. Does nothing if the list cannot be written.
 void remember_file(const std::filesystem::path& path);
 
 }  // namespace heml::window

@@ -1,5 +1,5 @@
 #pragma once
-// Which moment of a session is looked at: now, or one that was seen before. The engine rests meanwhile.
+// Selects the frame of a session to show: live or past. The engine is paused while a past one is shown.
 #include <app/panel/timeline.hpp>
 #include <app/window/frame_history.hpp>
 #include <heml/session/session.hpp>
@@ -9,31 +9,31 @@ namespace heml::window {
 
 class TimelinePlayback {
  public:
-  /// The frame to draw, seconds (of wall time) after the last. live: the newest of the session.
+  /// The frame to draw. live: the newest of the session. seconds: of wall time since the last call.
   const Frame& select_frame(const Frame& live, float seconds, Session& session);
 
   bool active() const { return at_.has_value(); }
   bool playing() const { return active() && playing_; }
 
-  /// Looks at a tick that was seen; of one that lies ahead of the session it is sent there.
+  /// Shows a past tick and pauses the session; for a tick ahead, fast-forwards the session.
   void look(long tick, Session& session);
-  void step(int frames, Session& session);  ///< to another frame: later, or earlier where it is negative
+  void step(int frames, Session& session);  ///< by so many frames; negative: earlier
   void play(bool playing) { playing_ = playing; }
-  /// Back to the present, which goes on if it did before.
+  /// Back to the live frame; the session runs on if it ran before.
   void end(Session& session);
-  /// What was seen up to a tick stays of a session that another one goes on from, of which this is a frame.
+  /// Another session resumes at a tick: drops later frames, shares surface meshes with `frame`, its first one.
   void resumed_at(long tick, const Frame& frame);
 
-  /// Whether the session ran when one began to look back.
+  /// Whether the session ran before a past frame was shown.
   bool ran() const { return ran_; }
   panel::Timeline timeline(const Scene& scene, const Frame& live) const;
 
  private:
   FrameHistory seen_;
-  std::optional<double> at_;  ///< the tick that is looked at
-  bool playing_ = false;      ///< what was seen goes by again
+  std::optional<double> at_;  ///< the past tick shown; none: live
+  bool playing_ = false;      ///< past frames are played
   bool ran_ = false;
-  Frame shown_;  ///< of those, as it is looked at
+  Frame shown_;  ///< the past frame shown
 };
 
 }  // namespace heml::window

@@ -14,14 +14,14 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr std::size_t max_waiting = 8;
-constexpr double max_gap = 2;  // s: a longer one is cut out
+constexpr double max_gap = 2;  // s; longer ones are cut out
 
 struct Codec {
   const char* ending;
   std::vector<std::string> arguments;
 };
 
-/// In the order of preference: what a build of ffmpeg lacks it refuses.
+/// In the order of preference; ffmpeg fails for codecs that it was built without.
 const Codec codecs[] = {{".mp4", {"-c:v", "libx264", "-crf", "18", "-movflags", "+faststart"}},
                         {".webm", {"-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0"}},
                         {".mp4", {"-c:v", "mpeg4", "-q:v", "3"}}};
@@ -49,7 +49,7 @@ bool VideoRecorder::due(double time) const {
 }
 
 void VideoRecorder::add_frame(render::Image picture, double time) {
-  // What was left out for long, or comes again after one has gone back, follows the last at once.
+  // After a long gap, or a step back in time, the frame follows the last one directly.
   if (next_ == 0 || time < last_ || time - last_ > max_gap) began_ = time - static_cast<double>(next_) / rate;
   last_ = time;
   const long number = std::max(next_, std::lround(std::floor((time - began_) * rate)));
@@ -90,7 +90,7 @@ void VideoRecorder::run() {
       wake_.wait(lock, [this] { return !queue_.empty() || ends_; });
       if (queue_.empty()) break;
       lock.unlock();
-      write(queue_.front());  // which only this thread takes away
+      write(queue_.front());  // only this thread removes it
       lock.lock();
       queue_.pop_front();
     }
@@ -124,12 +124,12 @@ std::string VideoRecorder::make_video() {
     const std::string video = folder_.string() + codec.ending;
     std::vector<std::string> words{ffmpeg.string(), "-nostdin", "-y", "-loglevel", "error", "-framerate",
                                    fmt::format("{:g}", rate), "-i", (folder_ / "frame_%05d.png").string(),
-                                   // Half of the colours are stored: sides must be even.
+                                   // yuv420p halves the resolution of colours: width and height must be even.
                                    "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p"};
     words.insert(words.end(), codec.arguments.begin(), codec.arguments.end());
     words.push_back(video);
     const auto code = run_program(words, leaving_);
-    if (!code) return frames;  // the program ends before the video, which is made without it
+    if (!code) return frames;  // the program ends; ffmpeg keeps running
     if (*code == 0) return frames + ", and " + video;
     std::error_code failed;
     fs::remove(video, failed);

@@ -1,9 +1,10 @@
 #pragma once
-// Pictures of the window as numbered PNG files, even in simulated time, and a video of them where ffmpeg is installed.
+// Records frames of the window as numbered PNG files, evenly spaced in simulated time, and encodes a video of them if
+// ffmpeg is installed.
 //
-//    drawing thread: due()? take() ──► eight pictures at most ──► its own thread, which gives way: PNG … PNG, ffmpeg
+//    drawing thread: due()? add_frame() ──► queue of at most 8 ──► worker thread (nice 5): PNG … PNG, ffmpeg
 //
-// A picture that nobody has time for is left out: the file that is missing then is another name of the one before.
+// The file of a missed frame is a hard link to, or a copy of, the one before it.
 #include <app/render/image.hpp>
 #include <atomic>
 #include <condition_variable>
@@ -18,29 +19,30 @@ namespace heml::window {
 
 class VideoRecorder {
  public:
-  static constexpr double rate = 30;  ///< pictures a simulated second
+  static constexpr double rate = 30;  ///< frames per simulated second
 
-  /// Makes heml-<name>-<local time> in the working directory. size: of all pictures. Throws InputError.
+  /// Creates the folder heml-<name>-<local time> in the working directory. size: of all frames, pixels. Throws
+  /// InputError.
   VideoRecorder(const std::string& name, render::Size size);
-  /// Writes what was taken. A video that is being made goes on without the program.
+  /// Writes the queued frames. A running ffmpeg keeps running after the program ends.
   ~VideoRecorder();
 
-  /// Whether the picture of a time (s, simulated since the start) is wanted.
+  /// Whether a frame at a time (s, simulated since the start) is due and there is room for it.
   bool due(double time) const;
   void add_frame(render::Image picture, double time);
-  void finish();  ///< nothing is taken any more; the video is made
+  void finish();  ///< no more frames; encodes the video
 
   bool is_finishing() const { return finishing_; }
   long pictures() const { return next_; }
   render::Size size() const { return size_; }
-  bool is_done() const;  ///< there is an outcome to take
-  /// Once, when all is done or nothing more can be: what came of it, for people.
+  bool is_done() const;  ///< take_outcome() has a message
+  /// A message about the finished or failed recording, once.
   std::optional<std::string> take_outcome();
 
  private:
   struct Picture {
     long number;
-    long repeats;  ///< of the picture before, that come first
+    long repeats;  ///< of the frame before, to write first
     render::Image image;
   };
 
@@ -55,7 +57,7 @@ class VideoRecorder {
   long next_ = 0;
   bool finishing_ = false;
 
-  mutable std::mutex mutex_;  ///< of what follows
+  mutable std::mutex mutex_;  ///< of queue_, ends_ and outcome_
   std::condition_variable wake_;
   std::deque<Picture> queue_;
   bool ends_ = false;

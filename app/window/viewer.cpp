@@ -174,7 +174,7 @@ void Viewer::key(int key, bool control, bool repeated) {
   const bool may_repeat = chooses || *action == step || *action == seek_earlier || *action == seek_later;
   const bool is_text = ImGui::GetIO().WantTextInput && !is_asked && *action != quit;
   if (is_text || (repeated && !may_repeat)) return;
-  if (*action == quit) {  // not by the panel, which a scene that opens at this moment replaces
+  if (*action == quit) {  // not queued in the panel, which an opened scene may replace
     quits_ = true;
     return;
   }
@@ -191,7 +191,7 @@ void Viewer::button(MouseButton button, bool down, bool shift) {
   if (panel_->covers(mouse_.x(), mouse_.y())) return;
   if (past_.active() && button == MouseButton::left && mouse_tool_.under(mouse_, seen(), *seen().surface_mesh))
     panel_->say(past_is_fixed);
-  const bool has_other_surface = controller_.current() > 0 && !seen().distance;  // nodes have other numbers there
+  const bool has_other_surface = controller_.current() > 0 && !seen().distance;  // with other node numbers
   if (past_.active() || has_other_surface) return mouse_tool_.press_background(button, mouse_, shift);
   if (mouse_tool_.press(button, mouse_, shift, seen(), *seen().surface_mesh, panel_->tool(), commands))
     panel_->say("The scene holds this part; take another.");

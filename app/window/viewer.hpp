@@ -1,8 +1,8 @@
 #pragma once
-// What is in the window: the body of a session, the panel, and the hand that joins them.
+// The contents of the window: the body of a session, the panel, and the mouse tool.
 //
-//    events ──► hand ──► commands ─┐
-//       └─────► panel ──► actions ─┴─► session ──► frames ──► draw()
+//    events ─┬─► mouse tool ──► commands ─┐
+//            └─► panel ───────► actions ──┴─► session ──► frames ──► draw()
 #include <app/panel/comparison_view.hpp>
 #include <app/panel/interface.hpp>
 #include <app/panel/panel.hpp>
@@ -19,21 +19,21 @@ namespace heml::window {
 
 class Viewer final : public WindowEvents {
  public:
-  /// Starts the session. Throws InputError as Session does. The window must outlive it.
+  /// Starts the session. Throws InputError as Session does. The window must outlive the viewer.
   Viewer(GlfwWindow& window, const Scene& scene, const WindowOptions& options);
   ~Viewer() override;
 
-  /// Whether a picture would differ from the last one.
+  /// Whether the next image would differ from the last one.
   bool wants_drawing() const;
   void draw();
 
-  /// The last picture in one line, by which scripts that drive the window know when to go on: its number, its tick,
-  /// "running" or "paused"; "busy" while something done before is still to show, "still" when nothing changes by itself
-  /// any more, else "ready"; and the key that was pressed last, as the panel counts them.
+  /// The last drawn image in one line, for scripts that drive the window: its number and tick; "running" or "paused";
+  /// "busy" while results of earlier input are outstanding, "still" when nothing changes without input, else "ready";
+  /// the last key pressed (panel/keys.hpp).
   std::string status() const;
 
   bool quits() const { return quits_; }
-  long drawn() const { return drawn_; }           ///< pictures so far
+  long drawn() const { return drawn_; }           ///< images so far
   const Frame& frame() const { return *frame_; }  ///< the one drawn last
 
   void key(int key, bool control, bool repeated) override;
@@ -45,7 +45,7 @@ class Viewer final : public WindowEvents {
 
  private:
   static constexpr auto past_is_fixed = "This is the past: Resume (B) goes on from here, Esc goes back to the present.";
-  static constexpr int settling_pictures = 3;  ///< that Dear ImGui may take to settle after something was done
+  static constexpr int settling_pictures = 3;  ///< that Dear ImGui may need after an input
 
   bool is_busy() const;
   void adopt(OpenScene opened);
@@ -59,7 +59,7 @@ class Viewer final : public WindowEvents {
   void fit();
   void compare(const std::vector<std::string>& variants);
   void resume_with(const std::vector<std::string>& comparisons);
-  const Frame& seen() const { return panel::body_in(*frame_, controller_.current()); }  ///< the body in the eye's pane
+  const Frame& seen() const { return panel::body_in(*frame_, controller_.current()); }  ///< in the current pane
   void draw_interface(float seconds);
   void draw_marks();
   void carry_out(const panel::PanelActions& actions);
@@ -82,22 +82,22 @@ class Viewer final : public WindowEvents {
   SessionLoader session_loader_;
   Library library_;
   OpenScene open_;
-  Scene as_opened_;  ///< of the file, not of what one went on from
+  Scene as_opened_;  ///< as read from the file, not resumed
   TimelinePlayback past_;
   std::optional<int> shown_progress_;              ///< of session_loader_, %
-  std::unique_ptr<VideoRecorder> video_recorder_;  ///< while it goes on, and until its video is made
+  std::unique_ptr<VideoRecorder> video_recorder_;  ///< while recording and encoding
   std::optional<panel::Panel> panel_;
   const Frame* frame_ = nullptr;
 
-  std::size_t next_event_ = 0;  ///< of the scene's script that the panel has not seen
+  std::size_t next_event_ = 0;  ///< of the scene's script, that the panel does not show yet
   render::Vec2f mouse_{-1, -1};
   std::chrono::steady_clock::time_point drawn_at_{}, pressed_at_{};
   render::Vec2f pressed_where_{-1, -1};
   int pictures_wanted_ = settling_pictures;
   long drawn_ = 0;
   int last_key_ = 0;
-  bool listed_ = false;    ///< folders, before
-  bool plays_on_ = false;  ///< what goes on from here is to run
+  bool listed_ = false;    ///< a folder, before
+  bool plays_on_ = false;  ///< the resumed session is to run
   bool quits_ = false;
 };
 

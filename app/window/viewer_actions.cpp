@@ -1,4 +1,4 @@
-// What the panel asks of the window.
+// Viewer: carries out the actions and requests of the panel.
 #include <fmt/format.h>
 
 #include <app/window/patch.hpp>
@@ -18,11 +18,11 @@ void Viewer::let_go() {
 
 void Viewer::carry_out(const panel::PanelActions& actions) {
   std::vector<Command> commands = actions.commands;
-  if (!commands.empty()) {  // it is the living body that is changed
+  if (!commands.empty()) {  // they apply to the live body
     if (session_loader_.progress()) session_loader_.cancel();
     past_.end(*open_.session);
   }
-  // What is reset is let go of first: the hand would pull a body that starts anew.
+  // Releases the mouse tool before a reset: it would pull on the reset body.
   for (const Command& command : actions.commands)
     if (std::holds_alternative<Reset>(command)) let_go();
   post(commands);
@@ -83,7 +83,8 @@ void Viewer::open(const std::filesystem::path& path) {
   session_loader_.begin(path, options_.record);
 }
 
-/// No folder: the one looked into last; first the scene's, or where the program was started.
+/// folder: empty for the last one; at first for that of the scene's file, or the working directory for an installed
+/// scene.
 void Viewer::list(const std::filesystem::path& folder) {
   namespace fs = std::filesystem;
   if (!folder.empty()) return library_.list_folder(folder);
@@ -94,7 +95,7 @@ void Viewer::list(const std::filesystem::path& folder) {
   library_.list_folder(is_ours || failed ? fs::current_path(failed) : parent);
 }
 
-/// Goes on from the moment that is looked at, in a session of its own. What was recorded goes on in a new file.
+/// Resumes from the shown time in a new session; a recording goes on in a new file.
 void Viewer::resume() {
   if (!past_.active()) return panel_->say("Show a past time first: drag the timeline, or press Left.");
   if (session_loader_.under_way()) return panel_->say("Something else is still being opened.");
@@ -113,7 +114,7 @@ void Viewer::resume_with(const std::vector<std::string>& comparisons) {
   session_loader_.resume(std::move(scene), record, comparisons);
 }
 
-/// The session goes on beside others, from what led to this moment.
+/// Restarts the session with these comparison runs, replayed to the shown time.
 void Viewer::compare(const std::vector<std::string>& variants) {
   if (session_loader_.under_way()) return panel_->say("Something else is still being opened.");
   plays_on_ = past_.active() ? past_.ran() : !frame_->paused;
@@ -137,7 +138,7 @@ void Viewer::to_the_present() {
   past_.end(*open_.session);
 }
 
-/// Under the ring; where nothing is pointed at, what the hand holds.
+/// Removes the tissue under the mouse, else round the grasped node.
 void Viewer::remove_tissue() {
   if (past_.active()) return panel_->say(past_is_fixed);
   const SurfaceMesh& surface_mesh = *seen().surface_mesh;
@@ -161,7 +162,7 @@ void Viewer::save_screenshot() {
   }
 }
 
-/// As it was opened, with the settings of now; what was done by hand is what recordings are for.
+/// Writes the scene as opened, with the current settings. Tool actions are left to recordings.
 void Viewer::save_scene() {
   Scene scene = as_opened_;
   panel_->write_into(scene);
@@ -187,7 +188,7 @@ void Viewer::film() {
   }
 }
 
-/// For the film, as everything is drawn.
+/// Adds the drawn image, panel included, to the video.
 void Viewer::take_picture() {
   if (!video_recorder_) return panel_->view().set_filmed(std::nullopt);
   if (const auto outcome = video_recorder_->take_outcome()) {

@@ -12,9 +12,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 double seconds(Clock::duration d) { return std::chrono::duration<double>(d).count(); }
 
-/// When the next picture may be drawn: 60 a second at most, and after a short rest. Drawing without a graphics card
-/// takes a core, which the engine's threads get back in between; longer rests gave it a few percent for half the
-/// pictures.
+/// When the next image may be drawn: at most 60 per second, and after a pause. Software rendering takes a core, which
+/// the engine's threads get back in the pause; longer pauses gave the engine a few percent for half the images.
 class DrawingPace {
  public:
   bool due(Clock::time_point now) const { return now >= next_; }
@@ -27,7 +26,7 @@ class DrawingPace {
 
  private:
   static constexpr double shortest = 1.0 / 60;  // s
-  static constexpr double rest = 1.0 / 16;      // of what drawing took
+  static constexpr double rest = 1.0 / 16;      // of the drawing time
   Clock::time_point next_{};
 };
 

@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A folder that goes with its contents, and holds what is remembered meanwhile.
+/// A temporary folder, which also has the state folder.
 struct Folder {
   fs::path path;
   Folder() {

@@ -10,7 +10,7 @@ namespace {
 
 const render::Size size{640, 360};
 
-/// A square of two triangles that faces the eye at +z; node 3 is held.
+/// A square of two triangles that faces the camera at +z; node 3 is constrained.
 struct Sheet {
   SurfaceMesh surface_mesh;
   Frame frame;
@@ -53,7 +53,7 @@ TEST_CASE("the left button on the body takes its nearest node and pulls it in th
   sheet.move(sheet.pixel(pulled));
   REQUIRE(sheet.commands.size() == 2);
   const Vec3 target = std::get<MoveTool>(sheet.commands[1]).target;
-  // The node goes as far as the point under the mouse: no jump when it is taken off its centre.
+  // The node moves as far as the point under the mouse: no jump when it is grasped off its centre.
   CHECK((target - Vec3(0.13, -0.08, 0)).norm() < 1e-5);
 
   sheet.mouse_tool.release(MouseButton::left, sheet.commands);
@@ -70,7 +70,7 @@ TEST_CASE("a scalpel cuts along the line of sight from where it was, and each pr
     CHECK_FALSE(sheet.press(MouseButton::left, sheet.pixel({-0.05f, 0, 0})));
     CHECK(sheet.mouse_tool.doing() == MouseTool::Doing::cutting);
     CHECK(sheet.commands.empty());
-    sheet.move(sheet.pixel({-0.0499f, 0, 0}));  // a tremor
+    sheet.move(sheet.pixel({-0.0499f, 0, 0}));  // less than a stroke
     CHECK(sheet.commands.empty());
     sheet.move(sheet.pixel({0.02f, 0.01f, 0}));
     sheet.move(sheet.pixel({0.06f, 0.01f, 0}));
@@ -80,7 +80,7 @@ TEST_CASE("a scalpel cuts along the line of sight from where it was, and each pr
     CHECK(next.continues_stroke);
     CHECK(first.sweep.blades[1] == next.sweep.blades[0]);  // no gap
     const auto& [tip, end] = first.sweep.blades[0];
-    CHECK(tip.z() > 0);  // towards the eye
+    CHECK(tip.z() > 0);  // towards the camera
     CHECK(end.z() < -0.018);
     const double at_surface = tip.z() / (tip.z() - end.z());
     CHECK((tip + at_surface * (end - tip) - Vec3(-0.05, 0, 0)).norm() < 1e-5);
@@ -176,8 +176,8 @@ TEST_CASE("a probe comes along the line of sight, goes deeper by the wheel, and 
   REQUIRE(sheet.commands.size() == 1);
   const auto pressed = std::get<MoveProbe>(sheet.commands[0]);
   REQUIRE(pressed.path.size() == 2);
-  CHECK(pressed.path[0].z() > 0.005);                            // before the surface
-  CHECK((pressed.path[1] - Vec3(0, 0, -0.005)).norm() <= 1e-5);  // its ball 10 mm below
+  CHECK(pressed.path[0].z() > 0.005);                            // above the surface
+  CHECK((pressed.path[1] - Vec3(0, 0, -0.005)).norm() <= 1e-5);  // the lowest point 10 mm below
   CHECK(pressed.shaft.z() == doctest::Approx(0.1).epsilon(1e-3));
   CHECK(pressed.friction == 0.4);
   sheet.move(sheet.pixel(Vec3f(0.02f, 0, 0)));

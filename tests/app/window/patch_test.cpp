@@ -29,7 +29,7 @@ TEST_CASE("the elements round a node are those it has on the surface, and those 
       CHECK(setup.mesh.nodes[static_cast<std::size_t>(n)].x() < 0.0501);
   CHECK(elements_around(-1, *surface_mesh, 1).empty());
 
-  // What they leave bare belongs to the next skin, and so on until nothing is left at the node.
+  // Each removal exposes the next layer, until no element is left at the node.
   auto next = surface_mesh;
   for (int layer = 0; layer < 4 && !elements_around(corner, *next, 0).empty(); ++layer) {
     const auto gone = elements_around(corner, *next, 0);

@@ -14,8 +14,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A folder that goes with its contents.
-/// What is remembered is remembered there too.
+/// A temporary folder, which also has the state folder.
 struct Folder {
   fs::path path;
   Folder() {

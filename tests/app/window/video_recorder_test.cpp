@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The working folder for a while, with a PATH of its own.
+/// A temporary working directory, with a PATH of its own.
 struct Workplace {
   fs::path before = fs::current_path(), path;
   std::string search = std::getenv("PATH");
@@ -31,7 +31,7 @@ struct Workplace {
     setenv("PATH", search.c_str(), 1);
     fs::remove_all(path);
   }
-  /// A program that stands for ffmpeg: refuses the first codec, and leaves its words where the second's video belongs.
+  /// A fake ffmpeg: fails for the first codec; for the second writes its arguments into the video.
   void install_ffmpeg() const {
     fs::create_directory(path / "bin");
     std::ofstream(path / "bin" / "ffmpeg") << "#!/bin/sh\n"
@@ -55,7 +55,7 @@ render::Image grey(int level) {
   return image;
 }
 
-/// As a window does: takes what is due.
+/// As the window does: adds a frame once it is due.
 void film(VideoRecorder& filming, double time, int level) {
   for (int wait = 0; wait < 400 && filming.pictures() > 0 && !filming.due(time); ++wait)
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -80,9 +80,9 @@ TEST_CASE("pictures are even in simulated time: what was too late stands for wha
   CHECK_FALSE(filming.due(5.02));
   CHECK(filming.due(5.04));
   film(filming, 5.04, 20);   // number 1
-  film(filming, 5.14, 30);   // number 4: 2 and 3 look as 1
-  film(filming, 60.0, 40);   // a leap is cut out: number 5
-  film(filming, 1.0, 50);    // so is a way back: number 6
+  film(filming, 5.14, 30);   // number 4: 2 and 3 repeat 1
+  film(filming, 60.0, 40);   // a gap is cut out: number 5
+  film(filming, 1.0, 50);    // so is a step back: number 6
   film(filming, 1.034, 60);  // number 7
   const std::string outcome = outcome_of(filming);
   CHECK(outcome.find("8 pictures") != std::string::npos);
