@@ -291,7 +291,7 @@ int run_program(int argc, char** argv) {
   return code;
 }
 
-/// Runs the program, and says of anything thrown what it was.
+/// Runs the program; turns exceptions into messages and exit codes.
 int guarded_run(int argc, char** argv) {
   try {
     return run_program(argc, argv);
@@ -302,13 +302,13 @@ int guarded_run(int argc, char** argv) {
     log_line("error", error.what());
     return exit_usage;
   } catch (const std::exception& error) {
-    if (std::ferror(stdout)) return exit_done;  // of a print: flushed_output() says it
+    if (std::ferror(stdout)) return exit_done;  // of a print: flushed_output() reports it
     log_line("internal error", error.what());
     return exit_internal;
   }
 }
 
-/// What was printed has to have arrived: else it is said, once, and the code is that of a file that cannot be written.
+/// Flushes stdout. If that fails, reports it once and returns exit_input, or `code` if that is an error already.
 int flushed_output(int code) {
   errno = 0;
   const bool failed = std::fflush(stdout) != 0;
@@ -325,7 +325,7 @@ void end_by_signal(int signal) {
   std::raise(signal);
 }
 
-/// Signals that end the program end its helper first. Ignored ones (nohup) stay ignored.
+/// Signals that end the program end the mesher's process first. Ignored signals (nohup) stay ignored.
 void handle_signals() {
   for (const int signal : {SIGHUP, SIGINT, SIGTERM})
     if (std::signal(signal, end_by_signal) == SIG_IGN) std::signal(signal, SIG_IGN);

@@ -13,7 +13,7 @@ namespace {
 using panel::ChartMark;
 using panel::colours::rgba;
 
-// Colours that all eyes tell apart (Okabe & Ito).
+// Colours that are safe for colour-blind readers (Okabe & Ito).
 struct Ink {
   Integrator integrator;
   const char* name;
@@ -28,7 +28,7 @@ constexpr ImU32 front_colour = rgba(0x1d2527, 90), grey = rgba(0x7a8486);
 
 double cost(const Measured& m) { return m.seconds_per_second(); }
 
-/// Behind the points: from each of the front to the next.
+/// A line along the Pareto front, behind the points.
 panel::ChartSeries front_of(const TimeStudy& study) {
   std::vector<CostAndError> points;
   for (const Measured& m : study.measured)
@@ -39,7 +39,7 @@ panel::ChartSeries front_of(const TimeStudy& study) {
   return series;
 }
 
-/// A series an integrator, filled where it is explicit or solves to its tolerance, hollow where iterations are few.
+/// One series per integrator: dots for explicit methods and solves to the tolerance, rings for a few iterations.
 void add_methods(panel::Chart& chart, const TimeStudy& study) {
   for (const Ink& ink : inks) {
     panel::ChartSeries solved{ink.name, {}, ink.colour, ChartMark::dots}, cut{"", {}, ink.colour, ChartMark::rings};
@@ -53,7 +53,7 @@ void add_methods(panel::Chart& chart, const TimeStudy& study) {
   chart.series.push_back({"few iterations", {}, grey, ChartMark::rings});
 }
 
-/// At the top, above all errors.
+/// Crosses above all errors.
 void add_failed(panel::Chart& chart, const TimeStudy& study) {
   double largest = 0;
   for (const Measured& m : study.measured)

@@ -1,11 +1,11 @@
 #pragma once
-// The accuracy study, drawn.
+// Charts of the accuracy study.
 #include <studies/accuracy_report.hpp>
 
 namespace heml {
 
-/// Writes into the folder what the study has numbers for: a work-precision diagram a scene and element, and error
-/// against tetrahedra for every Poisson's ratio. Throws InputError when a file cannot be written.
+/// Writes the charts that the study has values for into the folder: work-precision per scene and element, locking,
+/// refinement, features. Throws InputError when a file cannot be written.
 std::vector<ReportPicture> write_accuracy_pictures(const std::filesystem::path& folder, const AccuracyStudy& study);
 
 }  // namespace heml

@@ -30,7 +30,7 @@ void write_json(const std::filesystem::path& path, const std::vector<BenchRow>& 
 
 int bench(const BenchArguments& arguments) {
   const auto suites = chosen_suites(arguments.suite);
-  if (arguments.json) expect_writable_file(*arguments.json, "--json");  // said now, not minutes later
+  if (arguments.json) expect_writable_file(*arguments.json, "--json");  // fails before the measurement
   if (arguments.out) make_folder(*arguments.out);
   std::vector<BenchRow> rows;
   {

@@ -15,7 +15,7 @@ using panel::colours::rgba;
 constexpr ImU32 double_colour = rgba(0x2a8578), float_colour = rgba(0xc2552d);
 constexpr ImU32 pale_double = rgba(0x9ecac3), pale_float = rgba(0xe6b7a3);
 
-/// Of the best instruction set, on the largest irregular body, one thread: a bar a law and precision.
+/// One bar per law and precision: of the best instruction set, on the largest body of the kernel suite, one thread.
 std::optional<panel::BarChart> ratios_chart(const std::vector<BenchRow>& rows) {
   const auto counts = [](const BenchRow& row) {
     return row.suite == "kernel" && row.ratio_to_naive && row.threads == 1;
@@ -39,7 +39,7 @@ std::optional<panel::BarChart> ratios_chart(const std::vector<BenchRow>& rows) {
   return chart;
 }
 
-/// Errors against distance of the largest body of the paper suite.
+/// Error of the forces against distance from the origin, for the largest body of the paper suite.
 std::optional<panel::Chart> carried_chart(const std::vector<BenchRow>& rows) {
   std::string mesh;
   for (const BenchRow& row : rows)
@@ -54,7 +54,7 @@ std::optional<panel::Chart> carried_chart(const std::vector<BenchRow>& rows) {
   for (const BenchRow& row : rows) {
     if (row.mesh != mesh || !row.more.contains("error_when_carried")) continue;
     const std::string name = row.name + ", " + row.precision;
-    if (!chart.series.empty() && chart.series.back().name == name) continue;  // of another instruction set
+    if (!chart.series.empty() && chart.series.back().name == name) continue;  // with another instruction set
     const bool is_double = row.precision == "double", is_heml = row.name == "HEML";
     panel::ChartSeries& series = chart.series.emplace_back();
     series.name = name;

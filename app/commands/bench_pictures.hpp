@@ -1,13 +1,14 @@
 #pragma once
-// What `heml bench` measured, drawn.
+// Charts of `heml bench`.
 #include <filesystem>
 #include <studies/bench.hpp>
 #include <vector>
 
 namespace heml {
 
-/// Writes what the rows have numbers for, and returns the files: `ratios.png`, how many times faster than the naive
-/// loop each law is on the largest body of the kernel suite; `carried.png`, what precision a body loses that travels.
+/// Writes the charts that the rows have values for, and returns their files: `ratios.png`, speedup of each law over the
+/// naive loop on the largest body of the kernel suite; `carried.png`, error of the forces of a body moved away from the
+/// origin.
 std::vector<std::filesystem::path> write_bench_pictures(const std::filesystem::path& folder,
                                                         const std::vector<BenchRow>& rows);
 

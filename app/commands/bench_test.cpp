@@ -26,7 +26,7 @@ constexpr ImU32 law_colour = panel::colours::rgba(0x2a8578), given_colour = pane
                 data_colour = panel::colours::rgba(0xc2552d);
 constexpr int max_points = 100000;
 
-/// What is tested, and under which name it is shown.
+/// The tested material and its title in the chart.
 struct TestedMaterial {
   Material material;
   std::string title;
@@ -68,7 +68,7 @@ MeasuredTest test_of(const BenchTestArguments& arguments) {
   return static_cast<BenchTest>(found - names.begin());
 }
 
-/// What the curve runs over.
+/// The range of the curve: stretch, γ or s.
 StretchRange range_of(const BenchTestArguments& arguments, const MeasuredTest& test, const TestedMaterial& specimen,
                       const std::optional<MeasuredCurve>& data) {
   StretchRange range{0.7, 1.5};
@@ -97,7 +97,7 @@ StretchRange range_of(const BenchTestArguments& arguments, const MeasuredTest& t
   return range;
 }
 
-/// The curve of a material as rows of numbers; the first two are amount and nominal stress.
+/// Rows of amount, nominal stress, Cauchy stress (Pa), stretch in y, stretch in z; amounts where the law has no value.
 struct CurveTable {
   std::vector<std::array<double, 5>> rows;
   std::vector<double> missed;
@@ -168,7 +168,7 @@ panel::Chart chart_of(const TestedMaterial& specimen, const MeasuredTest& test, 
   return chart;
 }
 
-/// The curve, and beside it where a fit began and what was measured.
+/// Adds the curve and, for a fit, the start curve and the measured points.
 void add_curves(panel::Chart& chart, const CurveTable& given, const CurveTable& curve,
                 const std::optional<FitResult>& fit, const std::optional<MeasuredCurve>& data) {
   if (fit) chart.series.push_back(line_of("start", given, given_colour, 0.8f));
@@ -204,7 +204,7 @@ void check_files(const BenchTestArguments& arguments) {
   if (arguments.plot) check_output_file(inputs, *arguments.plot, "--plot");
 }
 
-/// Fits, prints, and writes the entry for scenes.
+/// Fits, prints the parameters, and writes an entry for `materials` of scenes.
 FitResult fit_to(const BenchTestArguments& arguments, const MeasuredTest& test, const MeasuredCurve& data,
                  const TestedMaterial& specimen) {
   const FitOptions options{arguments.fit_all};

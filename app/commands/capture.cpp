@@ -36,8 +36,8 @@ int capture(const CaptureArguments& arguments) {
   const double tick = world->setup().solver.tick();
   Progress progress("capturing frames");
   for (int k = 0; k < arguments.frames && !world->halt(); ++k) {
-    // Whole ticks up to the frame's time, so that a capture passes through the states a replay does; what is left of
-    // the time, less than a tick, is extrapolated for the picture alone.
+    // Whole ticks up to the frame's time, so that a capture has the states of a replay. The rest, less than a tick, is
+    // extrapolated for the image alone.
     const double time = k / arguments.fps;
     while (!world->halt() && static_cast<double>(world->ticks() + 1) * tick <= time * (1 + 1e-12)) {
       schedule.apply(*world, [&](const Command& command) {

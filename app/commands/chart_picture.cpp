@@ -7,7 +7,7 @@ namespace heml {
 namespace {
 constexpr float text_scale = 1.5f;  // larger than in a panel: charts are shown small
 
-/// Calls draw(list, area) for the whole of a picture.
+/// Writes an image drawn by draw(list, area), where the area is all of it.
 template <class Draw>
 void write_picture(const std::filesystem::path& path, render::Size size, const Draw& draw) {
   render::OsMesaContext context(size);

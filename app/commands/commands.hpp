@@ -1,6 +1,6 @@
 #pragma once
-// What the program's commands do once their arguments are read (contract: "Commands"). Each returns the exit code; bad
-// input leaves as InputError, wrong usage as UsageError (main.cpp turns them into messages and codes).
+// The commands of the program (app/docs/commands.md). Each returns the exit code and throws InputError for bad input,
+// UsageError for wrong usage; main.cpp turns these into messages and codes.
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace heml {
 
-/// Contract: "Exit codes".
+/// app/docs/commands.md, "Exit codes".
 enum ExitCode {
   exit_done = 0,
   exit_check_failed = 1,
@@ -31,16 +31,16 @@ struct CaptureArguments {
   PictureSize size;
   double fps = 30;
   bool panel = false;
-  std::vector<std::string> comparisons;  ///< other ways to compute the body (heml/session/variant.hpp)
+  std::vector<std::string> comparisons;  ///< variants to run in lockstep (heml/session/variant.hpp)
 };
 int capture(const CaptureArguments& arguments);
 
 struct RunArguments {
   std::string scene;  ///< empty: the default scene
   std::optional<std::filesystem::path> record;
-  std::vector<std::string> comparisons;  ///< other ways to compute the body (heml/session/variant.hpp)
+  std::vector<std::string> comparisons;  ///< variants to run in lockstep (heml/session/variant.hpp)
   PictureSize size;
-  double exit_after = 0;  ///< s; 0: when the window is closed
+  double exit_after = 0;  ///< s until the window closes; 0: never
   double draw_stall = 0;  ///< ms added to every drawing
   bool log_pictures = false;
 };
@@ -49,7 +49,7 @@ int run(const RunArguments& arguments);
 struct ReplayArguments {
   std::filesystem::path recording;
   bool verify = false;
-  bool partial = false;  ///< the recording need not have its end
+  bool partial = false;  ///< accept a recording without an end
   std::optional<std::filesystem::path> frames, record;
   PictureSize size;
   double fps = 30;
@@ -91,38 +91,38 @@ int materials(const MaterialsArguments& arguments);
 struct BenchArguments {
   std::string suite;                          ///< one of bench_suites(); empty: all
   std::optional<std::filesystem::path> json;  ///< the rows
-  std::optional<std::filesystem::path> out;   ///< folder for pictures
+  std::optional<std::filesystem::path> out;   ///< folder for charts
   bool quick = false;
 };
 int bench(const BenchArguments& arguments);
 
 struct StudyArguments {
-  std::string kind;           ///< one of the reports of study.cpp
+  std::string kind;           ///< one of the studies in study.cpp
   std::filesystem::path out;  ///< folder of the report
   bool quick = false;
   std::vector<int> cases;  ///< of the stability study, by number; empty: all
   std::string scene;       ///< empty: the study's own
 };
 int study(const StudyArguments& arguments);
-int study_accuracy(const StudyArguments& arguments);   ///< exit_check_failed: a quick figure has grown
+int study_accuracy(const StudyArguments& arguments);   ///< exit_check_failed: a value of the quick study has grown
 int study_stability(const StudyArguments& arguments);  ///< exit_check_failed: a promised case falls short
 
 struct TuneArguments {
   std::string scene;
-  std::string within, error;  ///< one of both, with its unit
+  std::string within, error;  ///< exactly one is given, with its unit
   std::filesystem::path out;  ///< empty: NAME_tuned.json here
   bool quick = false;
 };
-int tune_scene(const TuneArguments& arguments);  ///< exit_check_failed: nothing tried is good enough
+int tune_scene(const TuneArguments& arguments);  ///< exit_check_failed: no method reaches the goal
 
 struct RefineArguments {
   std::string scene;
   std::filesystem::path out;
-  std::optional<double> error;  ///< per cent of the energy norm; else the scene's, or 10
-  std::optional<int> tets;      ///< at most; else the scene's, or 50,000
-  std::optional<double> at;     ///< s; else at rest
+  std::optional<double> error;  ///< per cent of the energy norm; none: the scene's, or 10
+  std::optional<int> tets;      ///< at most; none: the scene's, or 50,000
+  std::optional<double> at;     ///< s; none: equilibrium
 };
-int refine_scene(const RefineArguments& arguments);  ///< exit_check_failed: the error asked for takes more elements
+int refine_scene(const RefineArguments& arguments);  ///< exit_check_failed: the error needs more elements
 
 struct HapticsArguments {
   std::string scene;

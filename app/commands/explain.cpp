@@ -1,4 +1,4 @@
-// `heml explain`: what a scene makes the engine run, in half a minute's reading.
+// `heml explain`: prints what a scene makes the engine run, its costs and warnings.
 #include <fmt/format.h>
 
 #include <app/commands/commands.hpp>

@@ -23,7 +23,7 @@ int export_frames(const ExportArguments& arguments) {
     Progress progress("exporting");
     series.add_frame(*world);
     result = replay(scene, *world, [&](World& w) {
-      // The first whole tick at or after each frame's time: a state the motion passes through, with its own time.
+      // The first tick at or after each frame's time: a computed state with its own time, not interpolated.
       if (static_cast<double>(w.ticks()) * tick * arguments.fps >= series.taken() * (1 - 1e-12)) series.add_frame(w);
       progress.show(static_cast<double>(w.ticks()) / total);
     });

@@ -1,5 +1,5 @@
 #pragma once
-// A body and a headless renderer together: pictures of simulated times.
+// Renders a world headless into PNG files.
 #include <app/commands/commands.hpp>
 #include <app/panel/comparison_view.hpp>
 #include <app/panel/interface.hpp>
@@ -11,16 +11,16 @@
 
 namespace heml {
 
-/// Belongs to the thread that made it.
+/// Owns an OpenGL context: use it on the thread that made it.
 class FrameCapture {
  public:
-  /// Makes the folder. panel: the window's panel beside the body; without it a legend alone where there is a colour
-  /// map. beside: there will be companions, which are named. Throws InputError when it cannot.
+  /// Creates the folder. panel: draws the panel; otherwise only a legend, if the scene shows a field. comparisons:
+  /// there will be comparison runs, which are labelled. Throws InputError when the folder cannot be created.
   FrameCapture(const Scene& scene, const World& world, PictureSize size, bool panel, bool comparisons,
                std::filesystem::path folder);
 
-  /// Draws the world `ahead` seconds after its present state and writes frame_<number>.png. seconds: since the last
-  /// frame. companions: drawn beside it, if any.
+  /// Draws the world extrapolated by `ahead` (s) and writes frame_<number>.png. seconds: simulated since the last
+  /// frame. comparison_runs: drawn in further panes.
   void capture(World& world, double ahead, double seconds, ComparisonRuns* comparison_runs = nullptr);
 
   int taken() const { return taken_; }
@@ -33,11 +33,11 @@ class FrameCapture {
   render::Size size_;
   render::OsMesaContext context_;
   panel::ComparisonView bodies_;
-  std::shared_ptr<const SurfaceMesh> surface_mesh_;  ///< of the last picture
+  std::shared_ptr<const SurfaceMesh> surface_mesh_;  ///< of the last frame
   View view_;
   Frame frame_;
   render::ColourRange colours_;
-  std::optional<panel::Interface> interface_;  ///< none where nothing is written on the picture
+  std::optional<panel::Interface> interface_;  ///< none if only bodies are drawn
   std::optional<panel::Panel> panel_;
   int taken_ = 0;
 };

@@ -1,4 +1,4 @@
-// `heml haptics`: what a recorded hand would feel.
+// `heml haptics`: the forces on a haptic handle along a recorded motion.
 #include <fmt/format.h>
 
 #include <algorithm>

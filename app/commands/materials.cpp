@@ -1,4 +1,4 @@
-// `heml materials`: what the program knows of laws and tissues.
+// `heml materials`: lists laws and tissue presets.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t line_width = 100, indent = 4, name_width = 14;
 
-/// Columns a text takes: code points, without accents that sit on the letter before them.
+/// Terminal columns of a text: code points without combining accents.
 std::size_t columns(std::string_view text) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < text.size(); ++i) {

@@ -15,7 +15,7 @@ namespace heml {
 
 namespace {
 
-/// TetGen's meshes are two files.
+/// The files of a mesh: two for TetGen's format, else one.
 std::vector<std::filesystem::path> files_of_mesh(const std::filesystem::path& path) {
   if (path.extension() != ".node" && path.extension() != ".ele") return {path};
   return {std::filesystem::path(path).replace_extension(".node"),

@@ -20,7 +20,7 @@ std::optional<Number> number_from(const std::string& text) {
   return value;
 }
 
-/// accepts: of a number, whether it may be. CLI11 wants the problem as text, none where there is none.
+/// accepts: whether a number is valid. CLI11 takes the error message as text, empty for none.
 template <class Number, class Accepts>
 CLI::Validator validator(const Accepts& accepts, const std::string& what, const std::string& shown) {
   const auto problem = [accepts, what](const std::string& text) {

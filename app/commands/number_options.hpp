@@ -1,5 +1,5 @@
 #pragma once
-// What numbers the command line takes. CLI11's own checks let nan and inf through.
+// Validators for numbers on the command line. CLI11's own checks accept nan and inf.
 #include <CLI/CLI.hpp>
 #include <limits>
 
@@ -11,7 +11,7 @@ CLI::Validator positive_number();
 CLI::Validator number_between(double low, double high = std::numeric_limits<double>::max());
 /// A whole number, low and high included.
 CLI::Validator whole_number_between(long low, long high = std::numeric_limits<int>::max());
-/// How many threads, as scenes have it: 0 is one a core.
+/// A number of threads, as in scenes: 0 is one per core.
 CLI::Validator thread_count();
 
 }  // namespace heml

@@ -12,7 +12,7 @@ double now_in_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// ", 4 min left"; nothing in the first seconds, when nobody knows.
+/// ", 4 min left"; empty in the first 3 s, which are too short to estimate from.
 std::string left(double seconds, double fraction) {
   if (seconds < 3 || fraction <= 0.01 || fraction >= 1) return "";
   const double rest = seconds / fraction * (1 - fraction);

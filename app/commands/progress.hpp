@@ -1,5 +1,6 @@
 #pragma once
-// "heml: capturing 20 %, 40 s left" on one line of a terminal that is overwritten; nothing where stderr is a file.
+// Progress on one line of a terminal, overwritten: "heml: capturing 20 %, 40 s left". Prints nothing when stderr is
+// not a terminal.
 #include <string>
 
 namespace heml {
@@ -12,8 +13,8 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// fraction: 0 to 1, of the work that began with this object; what is left is estimated from it. doing: what just
-  /// now, behind it. Prints ten times a second at most.
+  /// fraction: 0 to 1, of the work since the constructor, from which the time left is estimated. doing: the current
+  /// part, printed after it. Prints at most ten times per second.
   void show(double fraction, const std::string& doing = "");
 
  private:

@@ -1,4 +1,4 @@
-// `heml refine`: a scene on a mesh that is finer where it errs.
+// `heml refine`: writes a scene with a mesh that is finer where the estimated error is greatest.
 #include <fmt/format.h>
 
 #include <app/commands/commands.hpp>

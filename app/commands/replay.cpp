@@ -9,7 +9,7 @@
 
 namespace heml {
 namespace {
-constexpr long ticks_between_checkpoints = 100;  // of what is recorded
+constexpr long ticks_between_checkpoints = 100;  // of the recording written
 
 void check_outputs(const ReplayArguments& arguments, const Scene& scene) {
   const std::vector<std::filesystem::path> inputs = input_files(scene);
@@ -28,7 +28,7 @@ int exit_code_of(const Verification& verification, const ReplayResult& result, c
   return exit_done;
 }
 
-/// Of a replay that proves nothing.
+/// Without --verify: a difference is only warned of.
 int exit_code_of(const ReplayResult& result, const Scene& scene) {
   if (result.difference) warn("{}: {}", scene.file, to_text(*result.difference));
   if (!result.halt) return exit_done;

@@ -1,4 +1,4 @@
-// `heml study`: which report.
+// `heml study`: runs one of the studies.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

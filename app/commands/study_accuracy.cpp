@@ -12,7 +12,7 @@
 namespace heml {
 namespace {
 
-/// Figures are compared with those of the quick study, which `cp DIR/figures.json` onto this file makes anew.
+/// Values of the quick study to compare with; `cp DIR/figures.json` onto this file updates them.
 constexpr const char* committed = "studies/accuracy_quick.json";
 
 std::vector<std::string> worse_than_committed(const AccuracyStudy& study) {
@@ -35,7 +35,7 @@ AccuracyStudy measure(const StudyArguments& arguments, Results& results) {
   return study_accuracy(options);
 }
 
-/// A scene of the user's may lie in the folder of the report, under another name than the report's files.
+/// Refuses a scene of which the report would overwrite a file.
 void check_scene(const StudyArguments& arguments) {
   if (arguments.scene.empty()) return;
   const auto files = {arguments.out / "results.jsonl", arguments.out / "runs.csv", arguments.out / "figures.json",

@@ -1,4 +1,4 @@
-// `heml tune`: the best way to solve a scene, measured on the scene itself.
+// `heml tune`: finds the best method for a scene by measuring it.
 #include <fmt/format.h>
 
 #include <app/commands/commands.hpp>

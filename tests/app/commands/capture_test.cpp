@@ -14,7 +14,7 @@ namespace heml::capture_test {
 namespace {
 
 const std::filesystem::path golden = test::source_folder() / "tests" / "golden";
-constexpr double limit = 3.0;  // of 255, per-pixel rms: drivers round differently, bodies do not move
+constexpr double limit = 3.0;  // of 255, per-pixel rms: allows for rounding of drivers
 
 struct TemporaryFolder {
   std::filesystem::path path =
@@ -75,7 +75,7 @@ TEST_CASE("a colour map brings its legend, at the bottom, the panel brings its c
   for (int y = 0; y < 180; ++y)
     for (int x = 0; x < 60; ++x) left += !std::equal(plain.at(x, y), plain.at(x, y) + 3, with_panel.at(x, y));
   CHECK(left > 60 * 180 / 2);
-  // The same scene as tissue and as displacement: the bottom of the picture, where no body is, differs by the legend.
+  // Tissue and displacement of the same scene: the bottom of the image, below the body, differs by the legend.
   std::ifstream in(scene("cube"));
   std::string text((std::istreambuf_iterator<char>(in)), {});
   const auto at = text.find("\"field\": \"");
@@ -96,7 +96,7 @@ TEST_CASE("beside the body stand the same body in other ways, each in its part o
   const TemporaryFolder folder;
   const render::Image frame = captured(scene("kidney_pull"), 3, folder, " --beside ogden,tr_bdf2,float");
   REQUIRE(frame.size == render::Size{320, 180});
-  constexpr int line = 4;  // pixels left out: what divides the parts
+  constexpr int line = 4;  // pixels left out round the lines between panes
   const auto part = [&](int column, int row, int from) {
     render::Image image({160 - line, 90 - from});
     for (int y = from; y < 90; ++y)
@@ -109,11 +109,11 @@ TEST_CASE("beside the body stand the same body in other ways, each in its part o
       CAPTURE(column);
       CHECK(coverage(part(column, row, line)) > 0.04);
     }
-  const auto apart = [&](int column, int row) {  // below the text
+  const auto apart = [&](int column, int row) {  // below the labels
     return render::rms_difference(part(0, 0, 40), part(column, row, 40));
   };
   MESSAGE("from the body: ogden " << apart(1, 0) << ", tr_bdf2 " << apart(0, 1) << ", float " << apart(1, 1));
-  CHECK(apart(1, 1) < 1);            // the same motion, another part of the backdrop's grain
+  CHECK(apart(1, 1) < 1);            // the same motion, other noise of the backdrop
   CHECK(apart(1, 0) > apart(1, 1));  // another tissue
   const std::string wrong = test::program().string() + " capture '" + scene("kidney_pull").string() + "' --out '" +
                             folder.path.string() + "' --beside ogdn 2>/dev/null";
