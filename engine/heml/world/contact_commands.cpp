@@ -1,10 +1,8 @@
-// Tables, the probe and sutures: commands, and what a world keeps for them.
+// Tables, the probe and sutures.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
-#include <heml/mesh/surface.hpp>
-#include <heml/world/typed_world.hpp>
+#include <heml/world/command_executor.hpp>
 
 namespace heml {
 namespace {
@@ -38,109 +36,74 @@ std::optional<std::string> probe_problem(const MoveProbe& probe) {
 }  // namespace
 
 template <class Real>
-std::optional<std::string> TypedWorld<Real>::execute(const SetTables& command) {
+std::optional<std::string> CommandExecutor<Real>::execute(const SetTables& command) {
   for (const Table& table : command.tables)
     if (auto problem = table_problem(table)) return problem;
-  setup_.tables = command.tables;
-  contacts_.tables = command.tables;
-  for (Table& table : contacts_.tables) table.normal.normalize();
-  update_contact_surfaces();
+  s_.setup.tables = command.tables;
+  s_.contacts.tables = command.tables;
+  for (Table& table : s_.contacts.tables) table.normal.normalize();
+  s_.update_contact_surfaces();
   return std::nullopt;
 }
 
 template <class Real>
-std::optional<std::string> TypedWorld<Real>::execute(const MoveProbe& command) {
+std::optional<std::string> CommandExecutor<Real>::execute(const MoveProbe& command) {
   if (auto problem = probe_problem(command)) return problem;
   Probe probe(command.radius, command.shaft, command.friction);
-  const bool is_new = !contacts_.probe;
-  if (!is_new) probe.go({contacts_.probe->tip(state_.time)}, command.speed, state_.time);
-  probe.go(command.path, command.speed, state_.time);
-  contacts_.probe = std::move(probe);
-  if (is_new) update_contact_surfaces();
+  const bool is_new = !s_.contacts.probe;
+  if (!is_new) probe.go({s_.contacts.probe->tip(s_.state.time)}, command.speed, s_.state.time);
+  probe.go(command.path, command.speed, s_.state.time);
+  s_.contacts.probe = std::move(probe);
+  if (is_new) s_.update_contact_surfaces();
   return std::nullopt;
 }
 
 template <class Real>
-std::optional<std::string> TypedWorld<Real>::execute(const WithdrawProbe&) {
-  contacts_.probe.reset();
-  update_contact_surfaces();
+std::optional<std::string> CommandExecutor<Real>::execute(const WithdrawProbe&) {
+  s_.contacts.probe.reset();
+  s_.update_contact_surfaces();
   return std::nullopt;
 }
 
 template <class Real>
-std::optional<std::string> TypedWorld<Real>::execute(const SutureTissue& command) {
+std::optional<std::string> CommandExecutor<Real>::execute(const SutureTissue& command) {
   Suture suture{};
   for (std::size_t end = 0; end < 2; ++end) {
     const int node = command.nodes[end];
-    if (node < 0 || static_cast<std::size_t>(node) >= mass_.size())
-      return fmt::format("suture: node {} does not exist; the body has nodes 0 to {}", node, mass_.size() - 1);
-    suture.nodes[end] = model_.order.new_node[static_cast<std::size_t>(node)];
-    if (mass_[static_cast<std::size_t>(suture.nodes[end])] == 0)
+    if (node < 0 || static_cast<std::size_t>(node) >= s_.mass.size())
+      return fmt::format("suture: node {} does not exist; the body has nodes 0 to {}", node, s_.mass.size() - 1);
+    suture.nodes[end] = s_.model.order.new_node[static_cast<std::size_t>(node)];
+    if (s_.mass[static_cast<std::size_t>(suture.nodes[end])] == 0)
       return fmt::format("suture: node {} belongs to no element", node);
   }
   const auto [a, b] = suture.nodes;
   if (a == b) return fmt::format("suture: both ends are node {}", command.nodes[0]);
-  if (inverse_mass_[static_cast<std::size_t>(a)] == 0 && inverse_mass_[static_cast<std::size_t>(b)] == 0)
+  if (s_.inverse_mass[static_cast<std::size_t>(a)] == 0 && s_.inverse_mass[static_cast<std::size_t>(b)] == 0)
     return "suture: both nodes are constrained";
   if (!(command.length >= 0) || !std::isfinite(command.length))
     return fmt::format("suture: length must be 0 m or more, is {}", command.length);
   if (!(command.ramp_time >= 0) || !std::isfinite(command.ramp_time))
     return fmt::format("suture: over must be 0 s or more, is {}", command.ramp_time);
   const auto at = [&](int n) {
-    return Vec3(Eigen::Map<const Vector3<Real>>(&state_.x[3 * static_cast<std::size_t>(n)]).template cast<double>());
+    return Vec3(Eigen::Map<const Vector3<Real>>(&s_.state.x[3 * static_cast<std::size_t>(n)]).template cast<double>());
   };
-  suture.from = std::max((at(a) - at(b)).norm(), min_suture * model_.diagonal);
-  suture.to = std::max(command.length, min_suture * model_.diagonal);
-  suture.start = state_.time;
+  suture.from = std::max((at(a) - at(b)).norm(), min_suture * s_.model.diagonal);
+  suture.to = std::max(command.length, min_suture * s_.model.diagonal);
+  suture.start = s_.state.time;
   suture.ramp_time = command.ramp_time;
-  contacts_.sutures.push_back(suture);
-  update_contact_surfaces();
+  s_.contacts.sutures.push_back(suture);
+  s_.update_contact_surfaces();
   return std::nullopt;
 }
 
 template <class Real>
-std::optional<std::string> TypedWorld<Real>::execute(const CutSutures&) {
-  contacts_.sutures.clear();
-  update_contact_surfaces();
+std::optional<std::string> CommandExecutor<Real>::execute(const CutSutures&) {
+  s_.contacts.sutures.clear();
+  s_.update_contact_surfaces();
   return std::nullopt;
 }
 
-/// There are other surfaces, or the body has another skin.
-template <class Real>
-void TypedWorld<Real>::update_contact_surfaces() {
-  update_contact_boundary();
-  contacts_.reports.assign(contacts_.surfaces(state_.time).size(), {});
-  impulses_.begin_tick();
-  if (implicit_) implicit_->body.reset_contact();
-  if (recovering()) recovery_->surrogate->parts.body.reset_contact();
-}
-
-/// The body has other elements, or begins anew.
-template <class Real>
-void TypedWorld<Real>::update_self_contact() {
-  if (setup_.self_contact) contacts_.tissue.emplace(*setup_.self_contact, model_.mesh);
-}
-
-/// The nodes of the surface that are free, and its faces where something may be smaller than they are.
-template <class Real>
-void TypedWorld<Real>::update_contact_boundary() {
-  contacts_.boundary = {};
-  if (contacts_.tables.empty() && !contacts_.probe) return;
-  for (const int n : model_.surface_nodes)
-    if (inverse_mass_[static_cast<std::size_t>(n)] > 0) contacts_.boundary.nodes.push_back(n);
-  if (contacts_.probe) contacts_.boundary.faces = extract_boundary(model_.mesh).triangles;
-}
-
-/// Those that the scene holds, and pins.
-template <class Real>
-std::vector<ConstrainedNode> TypedWorld<Real>::constrained_nodes() const {
-  std::vector<ConstrainedNode> constrained = model_.constrained;
-  for (const PinnedPatch& pin : pins_)
-    for (const int n : pin.nodes) constrained.push_back({n, -1});
-  return constrained;
-}
-
-template class TypedWorld<float>;
-template class TypedWorld<double>;
+template class CommandExecutor<float>;
+template class CommandExecutor<double>;
 
 }  // namespace heml

@@ -1,11 +1,9 @@
 #include <algorithm>
 #include <cmath>
 #include <heml/math/bytes.hpp>
-#include <heml/world/facts.hpp>
-#include <heml/world/typed_world.hpp>
+#include <heml/world/world_queries.hpp>
 
 namespace heml {
-namespace {
 
 std::size_t bytes_of_mesh(const TetMesh& mesh) {
   std::size_t sum = bytes_of(mesh.nodes, mesh.tets, mesh.regions);
@@ -24,39 +22,19 @@ std::size_t bytes_of_model(const Model<Real>& model) {
   return sum;
 }
 
-}  // namespace
-
 template <class Real>
-WorldFacts TypedWorld<Real>::facts() {
-  const FlushDenormals flush;
-  WorldFacts facts;
-  facts.nodes = setup_.mesh.nodes.size();
-  facts.tets = setup_.mesh.tets.size();
-  facts.live_tets = topology_->elements.size();
-  facts.constrained_nodes = model_.constrained.size();
-  facts.faces = model_.loaded_faces.triangles.size();
-  facts.threads = team_.size();
-  facts.kernels = body_.kernels();
-  facts.method = method_facts();
-  facts.step = step_facts();
-  facts.solver = solver_facts();
-  facts.memory = memory_facts();
-  return facts;
-}
-
-template <class Real>
-StepFacts TypedWorld<Real>::step_facts() {
+StepFacts WorldQueries<Real>::step_facts() const {
   StepFacts facts;
-  facts.tick = setup_.solver.tick();
-  facts.stable = stable_step_;
-  if (is_explicit(method_) && !setup_.solver.step && stable_step_ > 0)
-    facts.steps_per_tick = static_cast<int>(std::ceil(facts.tick / stable_step_));
-  std::vector<Real> bounds = body_.element_bounds(state_.x.data());
+  facts.tick = s_.setup.solver.tick();
+  facts.stable = s_.limit.stable;
+  if (is_explicit(s_.method) && !s_.setup.solver.step && s_.limit.stable > 0)
+    facts.steps_per_tick = static_cast<int>(std::ceil(facts.tick / s_.limit.stable));
+  std::vector<Real> bounds = s_.body.element_bounds(s_.state.x.data());
   const auto largest = std::max_element(bounds.begin(), bounds.end());
   if (!(*largest > 0)) return facts;
-  facts.element = model_.order.file_tet[static_cast<std::size_t>(largest - bounds.begin())];
+  facts.element = s_.model.order.file_tet[static_cast<std::size_t>(largest - bounds.begin())];
   const double most = static_cast<double>(*largest);
-  facts.element_share = std::min(most / static_cast<double>(body_.frequency_bound(state_.x.data(), team_)), 1.0);
+  facts.element_share = std::min(most / static_cast<double>(s_.body.frequency_bound(s_.state.x.data(), s_.team)), 1.0);
   const auto middle = bounds.begin() + static_cast<std::ptrdiff_t>(bounds.size() / 2);
   std::nth_element(bounds.begin(), middle, bounds.end());
   facts.median_ratio = most / static_cast<double>(*middle);
@@ -64,10 +42,10 @@ StepFacts TypedWorld<Real>::step_facts() {
 }
 
 template <class Real>
-std::optional<SolverFacts> TypedWorld<Real>::solver_facts() {
-  if (is_explicit(method_)) return std::nullopt;
-  const SolverSettings& solver = setup_.solver;
-  const ImplicitState<Real>& parts = implicit();
+std::optional<SolverFacts> WorldQueries<Real>::solver_facts() {
+  if (is_explicit(s_.method)) return std::nullopt;
+  const SolverSettings& solver = s_.setup.solver;
+  const ImplicitState<Real>& parts = s_.implicit_state();
   SolverFacts facts;
   facts.minimiser = solver.is_static() ? Minimiser::newton : solver.minimiser;
   facts.preconditioner = parts.linear.preconditioner();
@@ -81,37 +59,28 @@ std::optional<SolverFacts> TypedWorld<Real>::solver_facts() {
 }
 
 template <class Real>
-std::size_t TypedWorld<Real>::bytes_to_undo() const {
-  const auto of = [](const Saved& saved) {
-    return bytes_of_mesh(saved.mesh) + bytes_of_model(saved.model) + saved.body.bytes() +
-           bytes_of(saved.topology->elements, saved.state.x, saved.state.v, saved.state.f);
-  };
-  std::size_t sum = !saved_.empty() && saved_.front() == whole_ ? 0 : of(*whole_);
-  for (const auto& saved : saved_) sum += of(*saved);
-  return sum;
-}
-
-template <class Real>
-std::vector<MemoryFacts> TypedWorld<Real>::memory_facts() const {
+std::vector<MemoryFacts> WorldQueries<Real>::memory_facts(std::optional<std::size_t> history) const {
   const auto of_state = [](const State<Real>& state) { return bytes_of(state.x, state.v, state.f); };
   std::vector<MemoryFacts> facts;
-  facts.push_back({"elements", body_.bytes()});
-  std::size_t mesh = bytes_of_mesh(setup_.mesh) + bytes_of_model(model_) + bytes_of(topology_->elements);
+  facts.push_back({"elements", s_.body.bytes()});
+  std::size_t mesh = bytes_of_mesh(s_.setup.mesh) + bytes_of_model(s_.model) + bytes_of(s_.topology->elements);
   facts.push_back({"mesh", mesh});
-  if (whole_) facts.push_back({"undo", bytes_to_undo()});
-  facts.push_back({"state", of_state(state_) + of_state(last_valid_) +
-                                bytes_of(mass_, inverse_mass_, inverse_mass_per_dof_, element_states_)});
-  if (recovery_) facts.push_back({"recovery", of_state(recovery_->last_good)});
-  if (contacts_.tissue) facts.push_back({"self-contact", contacts_.tissue->bytes()});
-  if (!implicit_) return facts;
-  const ImplicitState<Real>& parts = *implicit_;
+  if (history) facts.push_back({"undo", *history});
+  facts.push_back({"state", of_state(s_.state) + of_state(s_.last_valid) +
+                                bytes_of(s_.mass, s_.inverse_mass, s_.inverse_mass_per_dof, element_states_)});
+  if (s_.recovery) facts.push_back({"recovery", of_state(s_.recovery->last_good)});
+  if (s_.contacts.tissue) facts.push_back({"self-contact", s_.contacts.tissue->bytes()});
+  if (!s_.implicit) return facts;
+  const ImplicitState<Real>& parts = *s_.implicit;
   facts.push_back({"factors", parts.linear.bytes()});
   facts.push_back({"solver vectors", bytes_of(parts.free.number, parts.free.node) +
                                          bytes_of(parts.mass, parts.x, parts.v, parts.x_before, parts.v_before)});
   return facts;
 }
 
-template class TypedWorld<float>;
-template class TypedWorld<double>;
+template std::size_t bytes_of_model(const Model<float>& model);
+template std::size_t bytes_of_model(const Model<double>& model);
+template class WorldQueries<float>;
+template class WorldQueries<double>;
 
 }  // namespace heml

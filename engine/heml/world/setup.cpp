@@ -2,24 +2,12 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <heml/base/error.hpp>
 #include <heml/base/log.hpp>
 #include <heml/world/setup.hpp>
 #include <set>
 
 namespace heml {
-namespace {
-constexpr std::array names = {"symplectic_euler", "verlet", "backward_euler", "bdf2", "tr_bdf2", "static", "auto"};
-}
-
-const char* integrator_name(Integrator integrator) { return names[static_cast<std::size_t>(integrator)]; }
-
-std::optional<Integrator> find_integrator(const std::string& name) {
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) return std::nullopt;
-  return static_cast<Integrator>(found - names.begin());
-}
 
 std::vector<int> material_of_elements(const TetMesh& mesh, const std::vector<RegionMaterial>& materials) {
   int fallback = -1;

@@ -1,6 +1,7 @@
 #pragma once
 // All that makes a world, with every file read and every selection resolved to node numbers. Scenes become this
 // (scenario/), tests write it by hand; make_world() turns it into something that steps.
+#include <heml/dynamics/integrator.hpp>
 #include <heml/dynamics/solver_options.hpp>
 #include <heml/elastic/instruction_set.hpp>
 #include <heml/materials/material.hpp>
@@ -45,22 +46,6 @@ struct Load {
   double pressure = 0;         ///< Pa for pressure
   double ramp_time = 0;        ///< s; 0: at once
 };
-
-enum class Integrator {
-  symplectic_euler,
-  verlet,
-  backward_euler,
-  bdf2,
-  tr_bdf2,
-  static_equilibrium,  ///< "static"
-  automatic            ///< "auto"
-};
-
-inline bool is_explicit(Integrator integrator) { return integrator <= Integrator::verlet; }
-
-/// The names scene files use, in the order of the enum.
-const char* integrator_name(Integrator integrator);
-std::optional<Integrator> find_integrator(const std::string& name);
 
 /// How much an implicit stage may take, for those who must be on time: at the end of it the body is where it is, never
 /// worse off than at the start, with the energy it may have (world/budget.cpp). A scene gives one of

@@ -6,10 +6,6 @@
 namespace heml {
 namespace {
 
-int order_of(Integrator integrator) {
-  return integrator == Integrator::symplectic_euler || integrator == Integrator::backward_euler ? 1 : 2;
-}
-
 /// With steps that are given, for advance_within_tick() to end.
 WorldSetup as_shadow(WorldSetup setup) {
   setup.solver.step = setup.solver.tick();
@@ -50,7 +46,7 @@ std::optional<TimeError> StepDoublingEstimator::error(const std::vector<Vec3>& r
     if (world_->halt()) return std::nullopt;
     time = tick.end;
   }
-  const double richardson = order_of(integrator_) == 1 ? 2 : 4.0 / 3;
+  const double richardson = info_of(integrator_).order == 1 ? 2 : 4.0 / 3;
   const std::vector<Vec3> x = world_->positions();
   TimeError error{0, 0, time - begin_};
   for (std::size_t n = 0; n < x.size(); ++n) {

@@ -1,0 +1,198 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <heml/materials/material.hpp>
+#include <heml/world/command_executor.hpp>
+#include <heml/world/stable_step.hpp>
+
+namespace heml {
+namespace {
+constexpr double grip_reach = 0.25;  // of the body's size: how far a spring of a grasp can be drawn out before it slips
+
+/// ω of a grasp, 1/s: about as stiff as the patch of tissue it holds, whose own frequency is √(μ/ρ)/radius, and never
+/// so stiff that it shortens the step much.
+double tool_frequency(const WorldSetup& setup, double radius, double highest) {
+  double speed = 0;  // of shear waves, m/s
+  for (const RegionMaterial& entry : setup.materials)
+    speed = std::max(speed, std::sqrt(small_strain_moduli(entry.material).shear / entry.material.density));
+  if (speed == 0) return 0.25 * highest;  // a net of springs: no continuum to ask
+  return std::min(2 * speed / std::max(radius, 0.005), 0.25 * highest);
+}
+
+bool finite(const Vec3& v) { return v.allFinite(); }
+
+bool is_edit(const Command& command) {
+  return std::holds_alternative<RemoveElements>(command) || std::holds_alternative<CutTissue>(command) ||
+         std::holds_alternative<Undo>(command);
+}
+
+std::optional<std::string> patch_problem(const char* tool, int node, double radius, std::size_t nodes) {
+  if (node < 0 || static_cast<std::size_t>(node) >= nodes)
+    return fmt::format("{}: node {} does not exist; the body has nodes 0 to {}", tool, node, nodes - 1);
+  if (!(radius >= 0) || !std::isfinite(radius))
+    return fmt::format("{}: radius must be 0 m or more, is {}", tool, radius);
+  return std::nullopt;
+}
+}  // namespace
+
+template <class Real>
+std::optional<std::string> CommandExecutor<Real>::execute(const Grasp& command) {
+  if (auto problem = patch_problem("grasp", command.node, command.radius, s_.mass.size())) return problem;
+  const int center = s_.model.order.new_node[static_cast<std::size_t>(command.node)];
+  GraspSpring<Real> grasp(
+      center, static_cast<Real>(command.radius), surface_with(center), s_.model.mesh.nodes, s_.state.x.data(),
+      s_.inverse_mass,
+      static_cast<Real>(tool_frequency(s_.setup, command.radius, static_cast<double>(s_.rest_frequency))),
+      grip_reach * s_.model.diagonal);
+  if (grasp.empty()) return fmt::format("grasp: node {} is constrained, or belongs to no element", command.node);
+  s_.grasps.assign(1, std::move(grasp));
+  ++s_.grasps_taken;
+  return std::nullopt;
+}
+
+template <class Real>
+std::optional<std::string> CommandExecutor<Real>::execute(const MoveTool& command) {
+  if (s_.grasps.empty()) return "move: nothing is grasped";
+  if (!finite(command.target)) return "move: the target is not finite";
+  s_.grasps.front().move(command.target);
+  return std::nullopt;
+}
+
+template <class Real>
+std::optional<std::string> CommandExecutor<Real>::execute(const Release&) {
+  s_.grasps.clear();
+  return std::nullopt;
+}
+
+template <class Real>
+std::optional<std::string> CommandExecutor<Real>::execute(const PinTissue& command) {
+  if (auto problem = patch_problem("pin", command.node, command.radius, s_.mass.size())) return problem;
+  const int center = s_.model.order.new_node[static_cast<std::size_t>(command.node)];
+  if (s_.inverse_mass[static_cast<std::size_t>(center)] == 0)
+    return fmt::format("pin: node {} is constrained, or belongs to no element", command.node);
+  s_.pins.push_back(
+      pin_patch(center, command.radius, surface_with(center), s_.model.mesh.nodes, s_.state.x.data(), s_.inverse_mass));
+  update_constraints();
+  return std::nullopt;
+}
+
+template <class Real>
+std::optional<std::string> CommandExecutor<Real>::execute(const Unpin& command) {
+  if (!command.node) {
+    s_.pins.clear();
+    update_constraints();
+    return std::nullopt;
+  }
+  const auto holds = [&](const PinnedPatch& pin) {
+    return std::any_of(pin.nodes.begin(), pin.nodes.end(),
+                       [&](int n) { return s_.model.order.file_node[static_cast<std::size_t>(n)] == *command.node; });
+  };
+  const auto pin = std::find_if(s_.pins.begin(), s_.pins.end(), holds);
+  if (pin == s_.pins.end()) return fmt::format("release: no pin holds node {}", *command.node);
+  s_.pins.erase(pin);
+  update_constraints();
+  return std::nullopt;
+}
+
+template <class Real>
+std::optional<std::string> CommandExecutor<Real>::execute(const SetMaterial& command) {
+  const auto entry = std::find_if(s_.setup.materials.begin(), s_.setup.materials.end(),
+                                  [&](const RegionMaterial& m) { return m.region == command.region; });
+  if (entry == s_.setup.materials.end())
+    return command.region ? fmt::format("material: no entry for region {}", *command.region)
+                          : std::string("material: there is no default entry; name a region");
+  const LawInfo* law = find_law(command.material.law);
+  if (s_.setup.solver.nodal_pressure && law && !law->has_volume_term)
+    return fmt::format("material.law: '{}' has no separate volume term, which nodal pressure needs", law->name);
+  for (const RegionMaterial& other : s_.setup.materials)
+    if (s_.setup.solver.nodal_pressure && &other != &*entry &&
+        other.material.volume_term != command.material.volume_term)
+      return "material.volume_term: with nodal pressure it must be that of the other materials";
+  if (!command.material.fields.empty() || !command.material.fibre_field.empty())
+    return "material: a switched material takes numbers, not fields";
+  if (const auto problem = material_problem(command.material))
+    return fmt::format("material.{}: {}", problem->first, problem->second);
+  entry->material = command.material;
+  s_.body.set_material(static_cast<std::size_t>(entry - s_.setup.materials.begin()), command.material,
+                       s_.state.x.data());
+  s_.update_masses();
+  s_.implicit.reset();
+  s_.lowest_frequency.reset();
+  recovery_.rebuild_surrogate();
+  find_stable_step(s_);
+  method_.choose();
+  return std::nullopt;
+}
+
+template <class Real>
+std::optional<std::string> CommandExecutor<Real>::execute(const SetDamping& command) {
+  if (!(command.damping >= 0) || !std::isfinite(command.damping))
+    return fmt::format("damping: must be 0 1/s or more, is {}", command.damping);
+  s_.setup.solver.damping = command.damping;
+  return std::nullopt;
+}
+
+template <class Real>
+std::optional<std::string> CommandExecutor<Real>::execute(const SetGravity& command) {
+  if (!finite(command.gravity)) return "gravity: not finite";
+  s_.setup.gravity = command.gravity;
+  return std::nullopt;
+}
+
+template <class Real>
+std::optional<std::string> CommandExecutor<Real>::execute(const SetIntegrator& command) {
+  if ((command.integrator == Integrator::static_equilibrium) != s_.setup.solver.is_static())
+    return "integrator: a scene is static from its start or not at all";
+  s_.setup.solver.integrator = command.integrator;
+  s_.implicit.reset();
+  method_.choose();
+  return std::nullopt;
+}
+
+template <class Real>
+std::optional<std::string> CommandExecutor<Real>::execute(const SetBudget& command) {
+  if (command.iterations < 1) return "budget: needs one iteration or more";
+  if (!s_.setup.solver.budget) s_.setup.solver.budget.emplace();
+  s_.setup.solver.budget->iterations = command.iterations;
+  return std::nullopt;
+}
+
+template <class Real>
+std::optional<std::string> CommandExecutor<Real>::execute(const SetStepCost& command) {
+  if (!(command.nanoseconds > 0) || !std::isfinite(command.nanoseconds))
+    return "step_cost: must be more than 0 ns an element";
+  method_.set_step_cost(1e-9 * command.nanoseconds);
+  return std::nullopt;
+}
+
+template <class Real>
+std::optional<std::string> CommandExecutor<Real>::execute(const AdoptPreconditioner&) {
+  implicit_.adopt_preconditioner();
+  return std::nullopt;
+}
+
+/// Boundary nodes and one more node, inner numbers, ascending, each once.
+template <class Real>
+std::vector<int> CommandExecutor<Real>::surface_with(int node) const {
+  std::vector<int> nodes = s_.model.surface_nodes;
+  const auto place = std::lower_bound(nodes.begin(), nodes.end(), node);
+  if (place == nodes.end() || *place != node) nodes.insert(place, node);
+  return nodes;
+}
+
+/// Updates what depends on the set of constrained nodes.
+template <class Real>
+void CommandExecutor<Real>::update_constraints() {
+  s_.update_masses();
+  s_.update_contact_boundary();
+  s_.move_constrained();
+  s_.implicit.reset();
+  s_.lowest_frequency.reset();
+  recovery_.rebuild_surrogate();
+}
+
+template class CommandExecutor<float>;
+template class CommandExecutor<double>;
+
+}  // namespace heml

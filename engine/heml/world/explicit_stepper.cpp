@@ -1,0 +1,128 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <heml/dynamics/integrator_list.hpp>
+#include <heml/world/explicit_stepper.hpp>
+#include <heml/world/failure.hpp>
+#include <heml/world/stable_step.hpp>
+
+namespace heml {
+namespace {
+
+constexpr std::size_t coordinate_grain = 3 * 4096;
+constexpr std::size_t cached_coordinates = 2048;  // still in the first-level cache when they are read again
+
+/// Whether |v| ≤ most for all coordinates [begin, end); false where one is NaN.
+template <class Real>
+bool all_within(const Real* v, std::size_t begin, std::size_t end, Real most) {
+  using Count = std::conditional_t<sizeof(Real) == 4, std::int32_t, std::int64_t>;  // of one size: the loop vectorises
+  Count within = 0;
+  for (std::size_t i = begin; i < end; ++i) within += std::abs(v[i]) <= most ? Count(1) : Count(0);
+  return static_cast<std::size_t>(within) == end - begin;
+}
+
+}  // namespace
+
+template <class Real>
+std::optional<StopReason> ExplicitStepper<Real>::advance(double until) {
+  while (s_.state.time < until && !s_.interrupted) {
+    const double left = until - s_.state.time;
+    double h = left;  // a given step is a whole tick
+    if (!s_.setup.solver.step) {
+      refresh_stable_step();
+      if (!(s_.limit.stable > min_step)) return StopReason{StopReason::Cause::unstable, -1, -1, why_no_step()};
+      h = left / std::ceil(left / s_.limit.stable);
+    }
+    const bool last = s_.state.time + 1.5 * h > until;
+    const double after = last ? until : s_.state.time + h;
+    const auto failure = step(static_cast<Real>(after - s_.state.time), after);
+    ++s_.substeps;
+    if (failure) return failure;
+  }
+  return std::nullopt;
+}
+
+/// Evaluates the stable step again when it may have changed.
+template <class Real>
+void ExplicitStepper<Real>::refresh_stable_step() {
+  const bool has_torn = !s_.edits.empty() && s_.edits.back().torn > 0;  // torn pieces are released under tension
+  const bool is_driven = !s_.grasps.empty() || s_.contacts.probe || has_torn;
+  const int most = is_driven ? steps_between_bounds_when_driven : steps_until_supports_strain(s_);
+  if (++s_.limit.steps_since_bound >= std::min(s_.limit.interval, most)) update_stable_step(s_);
+}
+
+template <class Real>
+std::string ExplicitStepper<Real>::why_no_step() const {
+  if (s_.limit.stable > 0)
+    return fmt::format(
+        "stopped at t = {:.6g} s: an explicit method would need steps of {:.3g} s; "
+        "soften the material or improve the mesh's worst element",
+        s_.state.time, s_.limit.stable);
+  return fmt::format(
+      "stopped at t = {:.6g} s: the stiffness of the body is no number that {} precision can hold, so far is it "
+      "stretched or crushed: no step is short enough (load it more gently{})",
+      s_.state.time, sizeof(Real) == sizeof(float) ? "single" : "double",
+      sizeof(Real) == sizeof(float) ? ", or take \"precision\": \"double\"" : "");
+}
+
+template <class Real>
+std::optional<StopReason> ExplicitStepper<Real>::step(Real h, double time_after) {
+  return visit_integrator<std::optional<StopReason>>(s_.method, [&](auto row) -> std::optional<StopReason> {
+    if constexpr (row.info.kind == IntegratorKind::explicit_steps)
+      return step_with<typename decltype(row)::template Scheme<Real>>(h, time_after);
+    assert(false);  // TypedWorld::advance calls for explicit methods alone
+    return std::nullopt;
+  });
+}
+
+template <class Real>
+template <class Method>
+std::optional<StopReason> ExplicitStepper<Real>::step_with(Real h, double time_after) {
+  State<Real>& s = s_.state;
+  const Real damping = static_cast<Real>(s_.setup.solver.damping);
+  const Real* inverse_mass_per_dof = s_.inverse_mass_per_dof.data();
+  std::swap(s.x, s_.last_valid.x);
+  std::swap(s.v, s_.last_valid.v);
+  s_.last_valid.time = s.time;
+  s.x.resize(s_.inverse_mass_per_dof.size());
+  s.v.resize(s_.inverse_mass_per_dof.size());
+
+  const FirstHalfStep<Real> first{inverse_mass_per_dof,   s.f.data(), s_.last_valid.x.data(),
+                                  s_.last_valid.v.data(), s.x.data(), s.v.data()};
+  s_.team.parallel_for(s_.inverse_mass_per_dof.size(), coordinate_grain, [&](std::size_t begin, std::size_t end) {
+    Method::first_half_step(h, damping, first, begin, end);
+  });
+  if (!s_.contacts.empty())
+    s_.impulses.first_half_step(s_.contacts, s_.last_valid.time, time_after,
+                                Method::damping_divisor(static_cast<double>(h), s_.setup.solver.damping),
+                                s_.inverse_mass, s_.last_valid.x.data(), s.x.data(), s.v.data());
+  s.time = time_after;
+  s_.move_constrained();
+  if (s_.has_internal_state) s_.body.begin_step(h);
+  if (!s_.evaluate_forces()) return restore_last_valid(s_, StopReason::Cause::out_of_range);
+  // Ten times the size of the body in a step, or NaN: the step was unstable.
+  const Real fastest = static_cast<Real>(10 * (s_.model.diagonal / h + s_.setup.initial_velocity.norm()));
+  std::atomic<bool> sane{true};
+  s_.team.parallel_for(s_.inverse_mass_per_dof.size(), coordinate_grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t some = begin; some < end; some += cached_coordinates) {
+      const std::size_t last = std::min(end, some + cached_coordinates);
+      Method::second_half_step(h, damping, inverse_mass_per_dof, s.f.data(), s.v.data(), some, last);
+      if (!all_within(s.v.data(), some, last, fastest)) sane.store(false, std::memory_order_relaxed);
+    }
+  });
+  if (!sane) return restore_last_valid(s_, StopReason::Cause::unstable);
+  if (!s_.contacts.empty()) s_.impulses.second_half_step(s_.contacts, s_.inverse_mass, s.x.data(), s.v.data());
+  if (s_.has_internal_state) {
+    s_.body.commit(s.x.data());
+    s_.body.begin_step(0);
+  }
+  ++s_.steps;
+  return std::nullopt;
+}
+
+template class ExplicitStepper<float>;
+template class ExplicitStepper<double>;
+
+}  // namespace heml

@@ -1,0 +1,293 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <heml/dynamics/integrator_list.hpp>
+#include <heml/dynamics/lbfgs.hpp>
+#include <heml/world/failure.hpp>
+#include <heml/world/implicit_stepper.hpp>
+#include <utility>
+
+namespace heml {
+namespace {
+constexpr double min_share = 1.0 / 64;    // of a tick: shorter steps are not tried
+constexpr double slack_of_motion = 1e-3;  // of gravity's acceleration: what a step may leave unbalanced
+constexpr double earth = 9.81;            // m/s²
+constexpr int max_probe_substeps = 64;    // of a probe in a step
+constexpr int quasi_patience = 5;         // iterations of L-BFGS for one of Newton's: then Newton's go on
+
+// Of an iteration, a tetrahedron, one core: the stiffness, a dozen products and back-solves, two forces and values. For
+// budgets in milliseconds where no clock may be asked; a session measures (session/budget_controller.hpp).
+constexpr double seconds_an_iteration = 0.7e-6;
+constexpr int max_iterations = 60, max_halvings = 40;
+}  // namespace
+
+template <class Real>
+std::optional<StopReason> ImplicitStepper<Real>::advance(double until) {
+  const double whole = until - s_.state.time;
+  double longest = whole;
+  while (s_.state.time < until && !s_.interrupted) {
+    const bool last = s_.state.time + 1.5 * longest > until;
+    const double after = last ? until : s_.state.time + longest;
+    if (step(after - s_.state.time, after)) {
+      ++s_.substeps;
+      continue;
+    }
+    longest /= 2;
+    if (s_.setup.solver.step || longest < min_share * whole)
+      return keep_last_solved(s_, undefined_at_.empty()
+                                      ? StopReason{StopReason::Cause::not_converged, -1, -1, why_unbalanced()}
+                                      : out_of_range(s_, undefined_at_, after));
+  }
+  return std::nullopt;
+}
+
+template <class Real>
+std::string ImplicitStepper<Real>::why_unbalanced() const {
+  return fmt::format("did not converge at t = {:.6g} s: {} (take a smaller step{})", s_.state.time,
+                     std::isfinite(s_.stats.residual)
+                         ? fmt::format("{:.3g} of the forces is left unbalanced", s_.stats.residual)
+                         : "the forces left unbalanced overflow",
+                     s_.setup.solver.tolerance ? " or a larger tolerance" : "");
+}
+
+/// Solves the stages of a step for a method of IntegratorList.
+template <class Real>
+class ImplicitStepper<Real>::StagedStep final : public ImplicitStep {
+ public:
+  StagedStep(ImplicitStepper& stepper, double length, double time_after)
+      : stepper_(stepper), start_(stepper.s_.state.time), end_(time_after) {
+    const ImplicitState<Real>& parts = *stepper.s_.implicit;
+    h = length;
+    x = parts.x;
+    v = parts.v;
+    x_start = &parts.x;
+    v_start = &parts.v;
+    x_before = &parts.x_before;
+    v_before = &parts.v_before;
+    h_before = parts.h_before;
+  }
+  bool solve(const Stage& stage, double h_end) override {
+    return stepper_.solve_stage(stage, h_end, h_end == h ? end_ : start_ + h_end, x, v);
+  }
+  Vector acceleration() const override {
+    const Simulation<Real>& s = stepper_.s_;
+    const Vector f = as_vector(s.state.f);
+    const Vector& mass = s.implicit->mass;
+    const Vector of_forces = (mass.array() > 0).select(f.array() / mass.array(), 0);
+    return of_forces - s.setup.solver.damping * *v_start;
+  }
+
+ private:
+  ImplicitStepper& stepper_;
+  double start_, end_;  // s, of the step
+};
+
+template <class Real>
+bool ImplicitStepper<Real>::step(double h, double time_after) {
+  ImplicitState<Real>& parts = s_.implicit_state();
+  parts.x = as_vector(s_.state.x);
+  parts.v = as_vector(s_.state.v);
+  parts.body.begin_step(parts.x, s_.state.time);
+  StagedStep step(*this, h, time_after);
+  const bool done = visit_integrator<bool>(s_.method, [&](auto row) {
+    if constexpr (row.info.kind == IntegratorKind::implicit_steps) return row.step(step);
+    assert(false);  // TypedWorld::advance calls for implicit methods alone
+    return false;
+  });
+  if (!done) {
+    if (s_.has_internal_state) s_.body.begin_step(0);
+    return false;
+  }
+  Vector &x = step.x, &v = step.v;
+  if (s_.setup.solver.budget) limit_energy(h, time_after, x, v);
+  parts.body.end_step(x);
+  parts.x_before = parts.x;
+  parts.v_before = parts.v;
+  parts.h_before = h;
+  s_.set_state(x, v, time_after);
+  if (s_.has_internal_state) {
+    s_.body.commit(s_.state.x.data());
+    s_.body.begin_step(0);
+  }
+  ++s_.steps;
+  return true;
+}
+
+/// From x (the start of the step or of the stage) to the end of a stage, in x and v. h: s since the start of the step.
+template <class Real>
+bool ImplicitStepper<Real>::solve_stage(const Stage& stage, double h, double time, Vector& x, Vector& v) {
+  ImplicitState<Real>& parts = s_.implicit_state();
+  const double damping = s_.setup.solver.damping;
+  if (s_.has_internal_state) s_.body.begin_step(static_cast<Real>(h));
+  parts.body.set_time(time, s_.setup.gravity);
+  parts.body.set_velocity(stage.d, stage.x_bar);
+  parts.step.set(stage.a(damping), stage.y(damping));
+  parts.linear.set_inertia(stage.a(damping));
+  const int substeps = probe_substeps(h);
+  parts.body.move_tools(time - h * (substeps - 1) / substeps);
+  x = stage_start(stage, time, x);
+  NewtonResult result;
+  for (int substep = 1; substep <= substeps; ++substep) {
+    if (substep > 1) parts.body.move_tools(time - h * (substeps - substep) / substeps);
+    do {
+      result = minimise_stage(x);
+      s_.stats.iterations += result.iterations;
+    } while (result.status != NewtonResult::Status::undefined && !s_.setup.solver.budget &&
+             parts.body.update_lagged(x));
+  }
+  Vector r;
+  parts.step.residual(x, r);
+  s_.stats.residual = parts.body.relative_residual(r);
+  undefined_at_.clear();
+  if (result.status == NewtonResult::Status::undefined) {
+    for (const double value : x) undefined_at_.push_back(static_cast<Real>(value));
+    return false;
+  }
+  if (!result.converged() && !s_.setup.solver.budget && !is_balanced_enough(stage, r)) return false;
+  v = stage.velocity(x);
+  for (const ConstrainedNode& constrained : s_.model.constrained)
+    v.segment<3>(3 * constrained.node) = prescribed_at(s_.model, constrained, time).v;
+  for (const PinnedPatch& pin : s_.pins)
+    for (const int n : pin.nodes) v.segment<3>(3 * n).setZero();
+  return true;
+}
+
+/// Into how many parts what a probe goes in h, s, is divided: it meets tissue at the end of each, and does not pass it.
+template <class Real>
+int ImplicitStepper<Real>::probe_substeps(double h) const {
+  if (!s_.contacts.probe) return 1;
+  const double travel = (s_.contacts.probe->tip(s_.state.time + h) - s_.contacts.probe->tip(s_.state.time)).norm();
+  return std::clamp(static_cast<int>(std::ceil(2 * travel / s_.contacts.probe->radius())), 1, max_probe_substeps);
+}
+
+template <class Real>
+NewtonResult ImplicitStepper<Real>::minimise_stage(Vector& x) {
+  ImplicitState<Real>& parts = s_.implicit_state();
+  const int most = s_.setup.solver.budget ? stage_iterations() : NewtonOptions{}.max_iterations;
+  if (s_.setup.solver.minimiser == Minimiser::lbfgs) {
+    const int patience = s_.setup.solver.budget ? most : quasi_patience * most;
+    const NewtonResult result = minimise_lbfgs(parts.step, parts.linear, stage_criterion(), patience, x);
+    if (result.converged() || s_.setup.solver.budget || result.status == NewtonResult::Status::undefined) return result;
+  }
+  NewtonOptions options;
+  options.max_iterations = most;
+  return minimise(parts.step, parts.linear, stage_criterion(), options, x);
+}
+
+/// Of where the body is and where it would fly: the one with the lower Φ (without this guard, methods of few iterations
+/// gain energy without bound); where held nodes move so far that neither is possible, along the tangent.
+template <class Real>
+Vector ImplicitStepper<Real>::stage_start(const Stage& stage, double time, const Vector& x) {
+  ImplicitState<Real>& parts = s_.implicit_state();
+  const auto apply_constraints = [&](Vector& to) {
+    for (const ConstrainedNode& constrained : s_.model.constrained)
+      to.segment<3>(3 * constrained.node) = prescribed_at(s_.model, constrained, time).x;
+  };
+  Vector stay = x, fly = stage.y(s_.setup.solver.damping), r_stay, r_fly, r;
+  for (Eigen::Index i = 0; i < fly.size(); ++i)
+    if (!(parts.mass[i] > 0)) fly[i] = x[i];
+  apply_constraints(stay);
+  apply_constraints(fly);
+  const auto is_defined = [&](const Vector& at, Vector& r_there) {
+    return parts.step.residual(at, r_there) && r_there.allFinite();
+  };
+  const auto staying = parts.step.value(stay), flying = parts.step.value(fly);
+  if (staying && flying) {
+    const bool flies = *flying < *staying;
+    const Vector &lower = flies ? fly : stay, &higher = flies ? stay : fly;
+    if (is_defined(lower, r)) return lower;
+    if (is_defined(higher, r)) return higher;
+  } else {
+    const bool can_stay = is_defined(stay, r_stay), can_fly = is_defined(fly, r_fly);
+    if (can_stay && can_fly) return r_fly.norm() < r_stay.norm() ? fly : stay;
+    if (can_stay || can_fly) return can_stay ? stay : fly;
+  }
+  Vector stretched, d;
+  if (!parts.step.residual(x, r)) return stay;
+  parts.step.linearise(x);
+  parts.step.product(stay - x, stretched);
+  r -= stretched;
+  return parts.linear.solve(parts.step, r, 1e-2, d) ? Vector(stay + d) : stay;
+}
+
+/// Contract: "tolerance".
+template <class Real>
+StoppingCriterion ImplicitStepper<Real>::stage_criterion() {
+  ImplicitState<Real>& parts = s_.implicit_state();
+  return {[&parts](const Vector& r) { return parts.body.relative_residual(r); }, s_.setup.solver.relative_tolerance()};
+}
+
+/// Whether a step may end where Newton's method can do no more: a tolerance that was given decides alone; without one,
+/// by what is left of acceleration, since an imbalance relative to small loads is beyond a stiff body's round-off.
+template <class Real>
+bool ImplicitStepper<Real>::is_balanced_enough(const Stage& stage, const Vector& r) {
+  if (s_.setup.solver.tolerance) return false;
+  ImplicitState<Real>& parts = s_.implicit_state();
+  const double noise =
+      parts.body.acceleration_round_off() + 0x1p-52 * stage.a(s_.setup.solver.damping) * s_.model.diagonal;
+  return parts.body.max_acceleration(r) <=
+         std::max(slack_of_motion * std::max(s_.setup.gravity.norm(), earth), 10 * noise);
+}
+
+template <class Real>
+int ImplicitStepper<Real>::stage_iterations() const {
+  const Budget& budget = *s_.setup.solver.budget;
+  if (budget.iterations > 0) return budget.iterations;
+  const double stages = info_of(s_.method).stages;
+  const double cost = seconds_an_iteration * static_cast<double>(s_.model.mesh.tets.size());
+  return std::clamp(static_cast<int>(budget.milliseconds / 1000 / (stages * cost)), 1, max_iterations);
+}
+
+/// Takes from x, v what energy a step has gained beyond the work of its loads: from the velocity while that has it to
+/// give, else by going back towards the start. Held nodes that move do work of their own, and pressure that follows the
+/// surface has no potential: nothing is known there, and nothing done.
+template <class Real>
+void ImplicitStepper<Real>::limit_energy(double h, double time, Vector& x, Vector& v) {
+  ImplicitState<Real>& parts = s_.implicit_state();
+  for (const ConstrainedNode& constrained : s_.model.constrained)
+    if (prescribed_at(s_.model, constrained, time).x != prescribed_at(s_.model, constrained, s_.state.time).x) return;
+  const auto kinetic = [&](const Vector& velocity) {
+    return (parts.mass.array() * velocity.array().square()).sum() / 2;
+  };
+  const auto at_start = parts.body.value(parts.x);  // with the loads of the end: what they do on the way is in it
+  if (!at_start) return;
+  const double may = *at_start + kinetic(parts.v);
+  double has = *parts.body.value(x);
+  for (int k = 0; has > may && k <= max_halvings; ++k) {
+    x = k < max_halvings ? Vector(parts.x + (x - parts.x) / 2) : parts.x;
+    v = (x - parts.x) / h;
+    has = *parts.body.value(x);
+  }
+  const double moving = kinetic(v), left = std::max(may - has, 0.0);
+  if (moving > left) v *= std::sqrt(left / moving);
+  Vector r;
+  parts.step.residual(x, r);  // forces are taken from what the objective saw last
+  s_.stats.residual = parts.body.relative_residual(r);
+}
+
+template <class Real>
+std::shared_ptr<PreconditionerBuild> ImplicitStepper<Real>::preconditioner_build() {
+  if (!s_.implicit) return nullptr;
+  preconditioner_build_ = s_.implicit->linear.preconditioner_build();
+  preconditioner_version_ = s_.topology->version;
+  return preconditioner_build_;
+}
+
+/// What another thread has made, where it is of the body as it is; else the same, made here and now.
+template <class Real>
+void ImplicitStepper<Real>::adopt_preconditioner() {
+  const bool serves =
+      preconditioner_build_ && preconditioner_build_->done() && preconditioner_version_ == s_.topology->version;
+  const auto work = serves ? std::exchange(preconditioner_build_, nullptr) : preconditioner_build();
+  preconditioner_build_.reset();
+  if (!work || !s_.implicit || !s_.implicit->linear.is_outdated()) return;
+  if (!serves) work->run();
+  s_.implicit->linear.adopt(*work);
+}
+
+template class ImplicitStepper<float>;
+template class ImplicitStepper<double>;
+
+}  // namespace heml

@@ -1,0 +1,44 @@
+#pragma once
+// Steps of the implicit methods: each is one or two stages (dynamics/implicit_stage.hpp), each stage one minimisation.
+#include <heml/dynamics/implicit_stage.hpp>
+#include <heml/dynamics/preconditioner_build.hpp>
+#include <heml/world/simulation.hpp>
+
+namespace heml {
+
+template <class Real>
+class ImplicitStepper {
+ public:
+  explicit ImplicitStepper(Simulation<Real>& s) : s_(s) {}
+
+  /// Steps until state.time reaches `until`, s. Obeys a given step; without one, halves the tick where a step does not
+  /// converge. Returns why it could not; the state is then the last converged one.
+  std::optional<StopReason> advance(double until);
+
+  /// Iterations that a stage may take under a budget (setup.solver.budget must be given).
+  int stage_iterations() const;
+
+  /// World::preconditioner_build().
+  std::shared_ptr<PreconditionerBuild> preconditioner_build();
+  /// Adopts the build given out last if it is done and of the current elements; else builds it here, to the same bits.
+  void adopt_preconditioner();
+
+ private:
+  class StagedStep;
+  bool step(double h, double time_after);
+  bool solve_stage(const Stage& stage, double h, double time, Vector& x, Vector& v);
+  NewtonResult minimise_stage(Vector& x);
+  int probe_substeps(double h) const;
+  Vector stage_start(const Stage& stage, double time, const Vector& x);
+  StoppingCriterion stage_criterion();
+  bool is_balanced_enough(const Stage& stage, const Vector& r);
+  void limit_energy(double h, double time, Vector& x, Vector& v);
+  std::string why_unbalanced() const;
+
+  Simulation<Real>& s_;
+  std::vector<Real> undefined_at_;  ///< 3 #V, start of the last stage whose forces were undefined; empty: defined
+  std::shared_ptr<PreconditionerBuild> preconditioner_build_;  ///< given out last
+  long preconditioner_version_ = 0;                            ///< topology version it is of
+};
+
+}  // namespace heml

@@ -1,0 +1,307 @@
+#include <fmt/format.h>
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <heml/base/hash.hpp>
+#include <heml/dynamics/backward_euler.hpp>
+#include <heml/world/recovery_controller.hpp>
+#include <heml/world/stable_step.hpp>
+#include <limits>
+#include <numbers>
+
+namespace heml {
+namespace {
+
+constexpr double worst_J = -0.2;       // an element below it is not left to its law
+constexpr double max_inverted = 0.01;  // of all elements
+constexpr double upright_J = 0.3;      // of every element, for a recovery to end
+constexpr long upright_for = 5;        // steps, if the body is calm
+constexpr long upright_long = 100;     // steps, if it is not: something moves it
+constexpr double calm = 0.03;          // of the speed of shear waves
+constexpr double far_too_fast = 10;    // times the speed of waves and of the start: no motion of tissue
+constexpr double hair = 1e-5;          // of the body's size: 1 µm for 0.1 m
+constexpr std::uint64_t hair_seed = 2018;
+constexpr double shrunk = 0.1;         // of its extent at rest
+constexpr double caught = 0.1;         // of the speed of shear waves: what is slower and inside out is caught
+constexpr long max_unfold_steps = 30;  // steps: what is inside out for longer is held so from outside
+constexpr double unfolding_small = 0.01, unfolding_caught = 0.1;  // of the way home, a step
+constexpr double weight_of_constrained = 1000;                    // beside free nodes, in what fits best
+constexpr NewtonOptions newton_options{10, 1e-2};
+constexpr double small_enough = 1e-3;     // of the first residual
+constexpr double no_acceleration = 1e-2;  // m/s²
+
+/// Least height over longest edge.
+double thinness(const TetMesh& mesh, int element) {
+  const Tet& tet = mesh.tets[static_cast<std::size_t>(element)];
+  const auto X = [&](std::size_t c) -> const Vec3& { return mesh.nodes[static_cast<std::size_t>(tet[c % 4])]; };
+  double longest = 0, largest = 0;
+  for (std::size_t a = 0; a < 4; ++a) {
+    for (std::size_t b = 0; b < a; ++b) longest = std::max(longest, (X(a) - X(b)).norm());
+    largest = std::max(largest, (X(a + 1) - X(a)).cross(X(a + 2) - X(a)).norm() / 2);
+  }
+  return 3 * signed_volume(X(0), X(1), X(2), X(3)) / largest / longest;
+}
+
+}  // namespace
+
+template <class Real>
+void RecoveryController<Real>::start() {
+  s_.recovery.reset();
+  if (!s_.setup.solver.recovery || s_.setup.solver.is_static()) return;
+  const double max_speed = far_too_fast * (max_wave_speed() + s_.setup.initial_velocity.norm());
+  s_.recovery = std::make_unique<RecoveryState<Real>>(s_.model.mesh, s_.mass, max_speed, s_.state);
+}
+
+/// They cross an element in about 2/ω_max. m/s.
+template <class Real>
+double RecoveryController<Real>::max_wave_speed() const {
+  return static_cast<double>(s_.rest_frequency) * s_.model.diagonal / std::cbrt(static_cast<double>(s_.mass.size())) /
+         2;
+}
+
+/// Of the stiffest material, m/s.
+template <class Real>
+double RecoveryController<Real>::shear_wave_speed() const {
+  double speed = 0;
+  for (const RegionMaterial& entry : s_.setup.materials)
+    speed = std::max(speed, std::sqrt(small_strain_moduli(entry.material).shear / entry.material.density));
+  return speed > 0 ? speed : max_wave_speed();  // a net of springs is no continuum
+}
+
+template <class Real>
+std::optional<StopReason> RecoveryController<Real>::monitor() {
+  if (!s_.recovery || s_.recovering() || s_.halt) return std::nullopt;
+  RecoveryState<Real>& parts = *s_.recovery;
+  parts.track_tool(s_.grasps.empty() ? nullptr : &s_.grasps.front(), s_.state.time);
+  const StateCheck seen = parts.check(s_.model.mesh, s_.state, s_.mass);
+  const double inverted = static_cast<double>(seen.inverted) / static_cast<double>(s_.model.mesh.tets.size());
+  if (!(seen.min_J < worst_J || inverted > max_inverted || seen.speed > parts.max_speed)) {
+    parts.last_good = s_.state;
+    parts.has_last_good = true;
+  } else if (is_step_hopeless()) {
+    return StopReason{
+        StopReason::Cause::unstable, -1, -1,
+        fmt::format(
+            "unstable at t = {:.6g} s: steps of {:.3g} s are too long for this body, which at rest bears {:.3g} s",
+            s_.state.time, s_.setup.solver.step.value_or(min_step), 2 / static_cast<double>(s_.rest_frequency))};
+  } else {
+    begin(seen);
+  }
+  return std::nullopt;
+}
+
+/// Whether an explicit method is told to take steps, or would need some so small, that it cannot go on even at rest.
+template <class Real>
+bool RecoveryController<Real>::is_step_hopeless() const {
+  const double limit_at_rest = 2 / static_cast<double>(s_.rest_frequency);
+  return is_explicit(s_.setup.solver.integrator) && !(limit_at_rest > s_.setup.solver.step.value_or(min_step));
+}
+
+template <class Real>
+bool RecoveryController<Real>::takes_over(const StopReason& failure) {
+  if (!s_.recovery || s_.recovering() || is_step_hopeless()) return false;
+  StateCheck seen = s_.recovery->check(s_.model.mesh, s_.state, s_.mass);
+  if (failure.cause == StopReason::Cause::not_converged && !(seen.min_J < upright_J)) return false;
+  const auto& file_tet = s_.model.order.file_tet;
+  if (failure.element >= 0)
+    seen.worst = static_cast<int>(std::find(file_tet.begin(), file_tet.end(), failure.element) - file_tet.begin());
+  begin(seen);
+  return true;
+}
+
+template <class Real>
+void RecoveryController<Real>::rebuild_surrogate() {
+  if (s_.recovering()) install_surrogate();
+}
+
+/// seen: of the state that is given up.
+template <class Real>
+void RecoveryController<Real>::begin(const StateCheck& seen) {
+  RecoveryState<Real>& parts = *s_.recovery;
+  FailureDiagnosis suspects = diagnose(seen);
+  Recovery report;
+  report.tick = s_.ticks;
+  report.element = suspects.element;
+  report.inverted = seen.inverted;
+  report.min_J = seen.min_J;
+  report.message = describe_cause(suspects);
+  s_.state.x = parts.last_good.x;
+  s_.state.v = parts.last_good.v;
+  s_.state.time = parts.last_good.time;
+  if (s_.has_internal_state) s_.body.begin_step(0);
+  report.begun.time = s_.state.time;
+  report.begun.before = s_.energies();
+  if (s_.body.first_undefined(s_.state.x.data()) >= 0)
+    report.begun.before.elastic = std::numeric_limits<double>::quiet_NaN();
+  perturb();
+  install_surrogate();
+  s_.evaluate_forces();
+  report.begun.after = s_.energies();
+  parts.last = report;
+  parts.upright_steps = parts.unfold_steps = 0;
+  parts.unfolding = false;
+  ++parts.count;
+}
+
+template <class Real>
+FailureDiagnosis RecoveryController<Real>::diagnose(const StateCheck& seen) const {
+  FailureDiagnosis s;
+  s.time = s_.state.time;
+  s.min_J = seen.min_J;
+  s.inverted = seen.inverted;
+  s.from_start = !s_.recovery->has_last_good;
+  s.tool_speed = s_.recovery->tool_speed;
+  s.pulled = !s_.grasps.empty();
+  s.wave_speed = shear_wave_speed();
+  s.thinness = thinness(s_.model.mesh, seen.worst);
+  if (s_.setup.solver.step && is_explicit(s_.setup.solver.integrator)) {
+    s.step = *s_.setup.solver.step;
+    s.limit = s_.limit.stable;
+  }
+  if (seen.min_J >= upright_J && seen.speed > s_.recovery->max_speed) return s;
+  s.element = s_.model.order.file_tet[static_cast<std::size_t>(seen.worst)];
+  const int material = s_.model.material_of[static_cast<std::size_t>(seen.worst)];
+  const SmallStrainModuli rest = small_strain_moduli(s_.setup.materials[static_cast<std::size_t>(material)].material);
+  if (rest.shear > 0) s.stiffness_ratio = rest.bulk / rest.shear;
+  return s;
+}
+
+template <class Real>
+void RecoveryController<Real>::install_surrogate() {
+  s_.recovery->surrogate = std::make_unique<RecoverySurrogate<Real>>(s_.model, s_.setup, s_.mass, s_.inverse_mass,
+                                                                     s_.grasps, s_.contacts, s_.team);
+}
+
+/// At exact coincidence all forces are zero.
+template <class Real>
+void RecoveryController<Real>::perturb() {
+  for (std::size_t n = 0; n < s_.mass.size(); ++n) {
+    if (!(s_.inverse_mass[n] > 0)) continue;
+    std::uint64_t random = hash_combine(hair_seed, static_cast<std::uint64_t>(s_.model.order.file_node[n]));
+    for (std::size_t i = 0; i < 3; ++i) {
+      random = hash_combine(random, std::uint64_t{i});
+      const double part = static_cast<double>(random >> 11) * 0x1p-52 - 1;
+      s_.state.x[3 * n + i] += static_cast<Real>(hair * s_.model.diagonal * part);
+    }
+  }
+}
+
+template <class Real>
+void RecoveryController<Real>::step(double until) {
+  step_surrogate(until);
+  RecoveryState<Real>& parts = *s_.recovery;
+  const StateCheck seen = parts.check(s_.model.mesh, s_.state, s_.mass);
+  parts.upright_steps = seen.min_J > upright_J ? parts.upright_steps + 1 : 0;
+  const bool is_calm = seen.speed <= calm * shear_wave_speed();
+  if (parts.upright_steps >= (is_calm ? upright_for : upright_long)) end();
+}
+
+/// One step, whatever Newton's method reaches: Φ does not rise.
+template <class Real>
+void RecoveryController<Real>::step_surrogate(double until) {
+  ImplicitState<Real>& parts = s_.recovery->surrogate->parts;
+  // A body too small for its forces to tell it how to grow, or caught in a tangle of lowest energy, gets a hand.
+  const StateCheck seen = s_.recovery->check(s_.model.mesh, s_.state, s_.mass);
+  if (seen.extent < shrunk) unfold(unfolding_small);
+  if (seen.inverted == 0)
+    s_.recovery->unfolding = false;
+  else if (s_.recovery->last->steps > 0 && seen.speed <= caught * shear_wave_speed())
+    s_.recovery->unfolding = true;
+  if (s_.recovery->unfolding && s_.recovery->unfold_steps < max_unfold_steps) {
+    unfold(unfolding_caught);
+    ++s_.recovery->unfold_steps;
+  }
+  const double h = until - s_.state.time;
+  parts.x = as_vector(s_.state.x);
+  parts.v = as_vector(s_.state.v);
+  const Stage stage = backward_euler_stage(parts.x, parts.v, h);
+  // Critical for the slowest mode, which is about a wave to and fro.
+  const double damping =
+      std::max(s_.setup.solver.damping, 2 * std::numbers::pi * shear_wave_speed() / s_.model.diagonal);
+  parts.body.begin_step(parts.x, s_.state.time);
+  parts.body.set_time(until, s_.setup.gravity);
+  parts.body.set_velocity(stage.d, stage.x_bar);
+  parts.step.set(stage.a(damping), stage.y(damping));
+  parts.linear.set_inertia(stage.a(damping));
+  Vector stay = parts.x, fly = (parts.mass.array() > 0).select(stage.y(damping), stay);
+  for (const ConstrainedNode& constrained : s_.model.constrained)
+    stay.segment<3>(3 * constrained.node) = fly.segment<3>(3 * constrained.node) =
+        prescribed_at(s_.model, constrained, until).x;
+  const auto staying = parts.step.value(stay), flying = parts.step.value(fly);
+  Vector x = flying && *flying < *staying ? fly : stay, r;
+  parts.step.residual(x, r);
+  const double first = r.norm();
+  const StoppingCriterion stop{
+      [&](const Vector& left) {
+        const auto push = (parts.mass.array() > 0).select(left.array() / parts.mass.array(), 0);
+        return std::min(push.abs().maxCoeff() / no_acceleration, left.norm() / (small_enough * first));
+      },
+      1};
+  s_.stats.iterations += minimise(parts.step, parts.linear, stop, newton_options, x).iterations;
+  parts.step.residual(x, r);  // whose forces are kept
+  parts.body.end_step(x);
+  s_.set_state(x, stage.velocity(x), until);
+  s_.move_constrained();
+  ++s_.steps;
+  ++s_.substeps;
+  ++s_.recovery->last->steps;
+}
+
+/// Moves free nodes a part of the way to the rest shape, placed and turned as fits the held nodes best, or, where
+/// there are too few, the body.
+template <class Real>
+void RecoveryController<Real>::unfold(double part) {
+  Vec3 x_mean = Vec3::Zero(), X_mean = Vec3::Zero();
+  double mass = 0;
+  const auto x = [&](std::size_t n) { return Eigen::Map<Vector3<Real>>(&s_.state.x[3 * n]); };
+  const auto& X = s_.model.mesh.nodes;
+  const auto weight = [&](std::size_t n) {
+    return static_cast<double>(s_.mass[n]) * (s_.inverse_mass[n] > 0 ? 1 : weight_of_constrained);
+  };
+  for (std::size_t n = 0; n < s_.mass.size(); ++n) {
+    const double m = weight(n);
+    x_mean += m * x(n).template cast<double>();
+    X_mean += m * X[n];
+    mass += m;
+  }
+  x_mean /= mass;
+  X_mean /= mass;
+  Mat3 moment = Mat3::Zero();
+  for (std::size_t n = 0; n < s_.mass.size(); ++n)
+    moment += weight(n) * (x(n).template cast<double>() - x_mean) * (X[n] - X_mean).transpose();
+  const Eigen::JacobiSVD<Mat3> svd(moment, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const double sign = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
+  const Mat3 R = svd.matrixU() * Vec3(1, 1, sign).asDiagonal() * svd.matrixV().transpose();
+  for (std::size_t n = 0; n < s_.mass.size(); ++n) {
+    if (!(s_.inverse_mass[n] > 0)) continue;
+    const Vec3 displacement = x_mean + R * (X[n] - X_mean) - x(n).template cast<double>();
+    x(n) += (part * displacement).template cast<Real>();
+  }
+}
+
+/// Unless the scene's own law is not defined where the body is: then the recovery goes on.
+template <class Real>
+void RecoveryController<Real>::end() {
+  RecoveryState<Real>& parts = *s_.recovery;
+  if (s_.body.first_undefined(s_.state.x.data()) >= 0) return;
+  LawSwitch back{s_.state.time, s_.energies(), {}};
+  parts.surrogate.reset();
+  if (s_.has_internal_state) {  // for materials that remember, all of it was one step
+    s_.body.begin_step(static_cast<Real>(s_.state.time - parts.last->begun.time));
+    s_.body.commit(s_.state.x.data());
+    s_.body.begin_step(0);
+  }
+  if (s_.implicit) s_.implicit->h_before = 0;
+  s_.evaluate_forces();
+  back.after = s_.energies();
+  parts.last->ended = back;
+  s_.last_valid = parts.last_good = s_.state;
+  find_stable_step(s_);
+  method_.choose();
+}
+
+template class RecoveryController<float>;
+template class RecoveryController<double>;
+
+}  // namespace heml

@@ -1,0 +1,174 @@
+#include <cmath>
+#include <heml/mesh/surface.hpp>
+#include <heml/world/simulation.hpp>
+
+namespace heml {
+namespace {
+
+constexpr std::size_t node_grain = 4096;
+
+std::vector<Material> materials_of(const WorldSetup& setup) {
+  std::vector<Material> materials;
+  for (const RegionMaterial& entry : setup.materials) materials.push_back(entry.material);
+  return materials;
+}
+
+}  // namespace
+
+template <class Real>
+Simulation<Real>::Simulation(WorldSetup setup_in)
+    : setup(std::move(setup_in)),
+      model(make_model<Real>(setup)),
+      topology(std::make_shared<const Topology>(whole(setup.mesh))),
+      body(model.mesh, model.material_of, materials_of(setup),
+           {setup.solver.continuation, setup.solver.nodal_pressure, setup.instruction_set, setup.solver.threads}),
+      team(setup.solver.threads) {
+  const FlushDenormals flush;
+  contacts.tables = setup.tables;
+  for (Table& table : contacts.tables) table.normal.normalize();
+  update_masses();
+}
+
+template <class Real>
+void Simulation<Real>::update_masses() {
+  has_internal_state = body.has_internal_state();
+  mass = body.masses();
+  inverse_mass.resize(mass.size());
+  for (std::size_t n = 0; n < mass.size(); ++n) inverse_mass[n] = mass[n] > 0 ? 1 / mass[n] : Real(0);
+  for (const ConstrainedNode& constrained : model.constrained)
+    inverse_mass[static_cast<std::size_t>(constrained.node)] = 0;
+  for (const PinnedPatch& pin : pins)
+    for (const int n : pin.nodes) inverse_mass[static_cast<std::size_t>(n)] = 0;
+  inverse_mass_per_dof.clear();
+  for (const Real of_node : inverse_mass) inverse_mass_per_dof.insert(inverse_mass_per_dof.end(), 3, of_node);
+  for (auto& grasp : grasps) grasp.update_masses(inverse_mass);
+}
+
+template <class Real>
+void Simulation<Real>::move_constrained() {
+  for (const ConstrainedNode& constrained : model.constrained) {
+    const PrescribedMotion::At at = prescribed_at(model, constrained, state.time);
+    Eigen::Map<Vector3<Real>>(&state.x[3 * static_cast<std::size_t>(constrained.node)]) = at.x.template cast<Real>();
+    Eigen::Map<Vector3<Real>>(&state.v[3 * static_cast<std::size_t>(constrained.node)]) = at.v.template cast<Real>();
+  }
+  for (const PinnedPatch& pin : pins)
+    for (std::size_t k = 0; k < pin.nodes.size(); ++k) {
+      const auto n = 3 * static_cast<std::size_t>(pin.nodes[k]);
+      Eigen::Map<Vector3<Real>>(&state.x[n]) = pin.place[k].template cast<Real>();
+      Eigen::Map<Vector3<Real>>(&state.v[n]).setZero();
+    }
+}
+
+template <class Real>
+Vec3 Simulation<Real>::gravity() const {
+  return (setup.solver.is_static() ? ramp(state.time, setup.solver.load_duration()) : 1) * setup.gravity;
+}
+
+template <class Real>
+bool Simulation<Real>::evaluate_forces() {
+  const Real* x = state.x.data();
+  Real* f = state.f.data();
+  const bool valid = acting_body().forces(x, f, team);
+  const Vector3<Real> g = gravity().template cast<Real>();
+  if (!g.isZero(0))
+    team.parallel_for(mass.size(), node_grain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t n = begin; n < end; ++n)
+        for (std::size_t i = 0; i < 3; ++i) f[3 * n + i] += mass[n] * g[static_cast<int>(i)];
+    });
+  for (const auto& load : model.dead) add_load(load, state.time, f);
+  for (const auto& load : model.pressures) add_load(load, state.time, x, f);
+  for (const auto& grasp : grasps) grasp.add_forces(x, state.v.data(), f);
+  if (!contacts.empty() && implicit && !is_explicit(method) && !recovering()) {
+    Vector contact = Vector::Zero(static_cast<Eigen::Index>(state.x.size()));
+    implicit->body.add_contact(as_vector(state.x), contact);
+    for (std::size_t i = 0; i < state.f.size(); ++i) f[i] += static_cast<Real>(contact[static_cast<Eigen::Index>(i)]);
+  }
+  return valid;
+}
+
+template <class Real>
+Energies Simulation<Real>::energies() {
+  Energies e;
+  const Vec3 g = gravity();
+  for (std::size_t n = 0; n < mass.size(); ++n) {
+    const double m = static_cast<double>(mass[n]);
+    const Vec3 v = Eigen::Map<const Vector3<Real>>(&state.v[3 * n]).template cast<double>();
+    const Vec3 x = Eigen::Map<const Vector3<Real>>(&state.x[3 * n]).template cast<double>();
+    e.kinetic += m / 2 * v.squaredNorm();
+    e.potential -= m * g.dot(x - model.mesh.nodes[n]);
+  }
+  e.elastic = acting_body().energy(state.x.data(), team);
+  return e;
+}
+
+template <class Real>
+void Simulation<Real>::set_state(const Vector& x, const Vector& v, double time) {
+  const Vector& f = (recovering() ? recovery->surrogate->parts : implicit_state()).body.forces();
+  for (std::size_t i = 0; i < state.x.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    state.x[i] = static_cast<Real>(x[k]);
+    state.v[i] = static_cast<Real>(v[k]);
+    state.f[i] = static_cast<Real>(f[k]);
+  }
+  state.time = time;
+  last_valid = state;
+}
+
+template <class Real>
+ImplicitState<Real>& Simulation<Real>::implicit_state() {
+  if (!implicit)
+    implicit = std::make_unique<ImplicitState<Real>>(
+        body, model, mass, inverse_mass,
+        preconditioner_moduli(model.mesh, model.material_of, setup.materials, setup.solver.minimiser), grasps, contacts,
+        team, setup.solver);
+  return *implicit;
+}
+
+template <class Real>
+std::vector<ConstrainedNode> Simulation<Real>::constrained_nodes() const {
+  std::vector<ConstrainedNode> nodes = model.constrained;
+  for (const PinnedPatch& pin : pins)
+    for (const int n : pin.nodes) nodes.push_back({n, -1});
+  return nodes;
+}
+
+template <class Real>
+std::vector<Vec3> Simulation<Real>::in_file_order(const std::vector<Real>& values) const {
+  std::vector<Vec3> result(mass.size());
+  for (std::size_t file = 0; file < result.size(); ++file) {
+    const Real* value = &values[3 * static_cast<std::size_t>(model.order.new_node[file])];
+    result[file] = Vec3(value[0], value[1], value[2]);
+  }
+  return result;
+}
+
+// There are other surfaces, or the body has another skin.
+template <class Real>
+void Simulation<Real>::update_contact_surfaces() {
+  update_contact_boundary();
+  contacts.reports.assign(contacts.surfaces(state.time).size(), {});
+  impulses.begin_tick();
+  if (implicit) implicit->body.reset_contact();
+  if (recovering()) recovery->surrogate->parts.body.reset_contact();
+}
+
+// The body has other elements, or begins anew.
+template <class Real>
+void Simulation<Real>::update_self_contact() {
+  if (setup.self_contact) contacts.tissue.emplace(*setup.self_contact, model.mesh);
+}
+
+// The nodes of the surface that are free, and its faces where something may be smaller than they are.
+template <class Real>
+void Simulation<Real>::update_contact_boundary() {
+  contacts.boundary = {};
+  if (contacts.tables.empty() && !contacts.probe) return;
+  for (const int n : model.surface_nodes)
+    if (inverse_mass[static_cast<std::size_t>(n)] > 0) contacts.boundary.nodes.push_back(n);
+  if (contacts.probe) contacts.boundary.faces = extract_boundary(model.mesh).triangles;
+}
+
+template struct Simulation<float>;
+template struct Simulation<double>;
+
+}  // namespace heml

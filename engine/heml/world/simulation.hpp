@@ -1,0 +1,115 @@
+#pragma once
+// All data of a running world of one scalar type, and the operations that every phase of a tick shares. Phases
+// (explicit_stepper.hpp, implicit_stepper.hpp, static_stepper.hpp, recovery_controller.hpp, mesh_editor.hpp,
+// command_executor.hpp, method_choice.hpp) and queries (world_queries.hpp) each hold a reference to one Simulation.
+//
+//   setup ──► model (inner order) ──► body ──► masses           not changed by steps, only by edits and commands
+//   grasps, pins, contacts                                      tools, changed by commands
+//   state, last_valid, limit, implicit, recovery, counters      changed by every step
+//
+// Nodes and elements are in inner order (mesh/reorder.hpp) unless a comment says mesh-file order.
+#include <atomic>
+#include <heml/base/thread_team.hpp>
+#include <heml/dynamics/state.hpp>
+#include <heml/elastic/body.hpp>
+#include <heml/tools/contact_impulses.hpp>
+#include <heml/tools/grasp.hpp>
+#include <heml/tools/pin.hpp>
+#include <heml/world/implicit_state.hpp>
+#include <heml/world/model.hpp>
+#include <heml/world/recovery_state.hpp>
+#include <heml/world/world.hpp>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace heml {
+
+/// The longest stable step of explicit methods, and when to evaluate it again (stable_step.hpp).
+struct StepLimit {
+  double stable = 0;          ///< s, safety factor included
+  double at_start = 0;        ///< s, at the start or the last Reset
+  int steps_since_bound = 0;  ///< steps since the frequency bound was evaluated
+  int interval = 0;           ///< steps until it is evaluated again
+};
+
+template <class Real>
+struct Simulation {
+  /// Throws InputError as make_world().
+  explicit Simulation(WorldSetup setup);
+  Simulation(const Simulation&) = delete;
+  Simulation& operator=(const Simulation&) = delete;
+
+  /// Masses and inverse masses from the body and the constraints.
+  void update_masses();
+  /// Sets constrained and pinned nodes to their prescribed positions and velocities at state.time.
+  void move_constrained();
+  /// Writes the forces of all but supports at the current state to state.f. Returns false where a law is undefined.
+  bool evaluate_forces();
+  /// m/s². In a static world gravity is ramped with all other loads.
+  Vec3 gravity() const;
+  Energies energies();
+  /// Stores the result of a solve. Forces are those that its objective evaluated last. x, v: 3 #V.
+  void set_state(const Vector& x, const Vector& v, double time);
+  /// Solver data of implicit and static methods, built on first use.
+  ImplicitState<Real>& implicit_state();
+  /// Nodes constrained by the scene's boundary entries and by pins.
+  std::vector<ConstrainedNode> constrained_nodes() const;
+  std::vector<Vec3> in_file_order(const std::vector<Real>& values) const;
+  std::vector<Vec3> positions() const { return in_file_order(state.x); }  ///< #V×3, metres, mesh-file order
+  bool recovering() const { return recovery && recovery->surrogate; }
+  /// The body that steps: the recovery surrogate while a recovery is under way.
+  ElasticBody<Real>& acting_body() { return recovering() ? recovery->surrogate->body : body; }
+  bool is_stopped() const { return halt || interrupted; }
+
+  /// Rebuilds what depends on the list of contact surfaces or on the boundary of the mesh.
+  void update_contact_surfaces();
+  /// Rebuilds self-contact for the current elements.
+  void update_self_contact();
+  /// Collects the free boundary nodes, and boundary faces for tools smaller than a face.
+  void update_contact_boundary();
+
+  WorldSetup setup;
+  Model<Real> model;
+  std::shared_ptr<const Topology> topology;
+  std::vector<EditReport> edits;  ///< since the start or the last Reset, without undone ones
+  ElasticBody<Real> body;
+  ThreadTeam team;
+
+  std::vector<GraspSpring<Real>> grasps;  ///< at most one; an empty list costs nothing
+  long grasps_taken = 0;                  ///< grasps so far: identifies the current one
+  std::vector<PinnedPatch> pins;          ///< in the order they were set
+  Contacts contacts;                      ///< empty in most worlds
+  ContactImpulses<Real> impulses;
+
+  bool has_internal_state = false;         ///< whether a material has viscosity, relaxation or plasticity
+  std::vector<Real> mass;                  ///< #V, kg
+  std::vector<Real> inverse_mass;          ///< #V, 1/kg; 0 for constrained nodes and nodes of no element
+  std::vector<Real> inverse_mass_per_dof;  ///< 3 #V, 1/kg
+  State<Real> state, last_valid;           ///< now, and before the current step
+
+  Real rest_frequency = 0;  ///< 1/s, bound of the highest frequency at rest: scales the tools
+  StepLimit limit;
+  long ticks = 0, origin_tick = 0, steps = 0;
+  int substeps = 0;           ///< of the last tick
+  long changes = 0;           ///< steps, loads and commands other than edits: unchanged, nothing but edits has happened
+  bool is_evaluated = false;  ///< whether forces and stable step belong to the state (restored by an undo)
+  std::optional<StopReason> halt;
+  std::atomic<bool> interrupted{false};
+  bool unfinished = false;
+  Integrator method = Integrator::verlet;         ///< in use: the choice of "auto", else the scene's
+  std::optional<double> lowest_frequency;         ///< 1/s, at rest; computed on demand
+  std::unique_ptr<ImplicitState<Real>> implicit;  ///< null until an implicit or static method needs it
+  std::unique_ptr<RecoveryState<Real>> recovery;  ///< null unless the scene asks for it
+  SolverStats stats;
+};
+
+/// A copy in double, 3 #V.
+template <class Real>
+Vector as_vector(const std::vector<Real>& values) {
+  return Eigen::Map<const Eigen::Matrix<Real, Eigen::Dynamic, 1>>(values.data(),
+                                                                  static_cast<Eigen::Index>(values.size()))
+      .template cast<double>();
+}
+
+}  // namespace heml

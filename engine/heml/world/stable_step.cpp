@@ -1,0 +1,66 @@
+#include <algorithm>
+#include <cmath>
+#include <heml/world/stable_step.hpp>
+
+namespace heml {
+namespace {
+// Of the live limit; the bound is evaluated again every few steps.
+constexpr double safety = 0.9;
+// Of cut tissue: a cut sets the smallest pieces swinging by as much as their own size, and the limit changes meanwhile.
+constexpr double safety_of_pieces = 0.7;
+constexpr double safety_of_shreds = 0.5;
+// The limit oscillates with a body that is crushed, lands, or hangs by a corner. Steps that grow in that rhythm feed
+// the oscillation.
+constexpr double growth_of_steps = 0.001;  // per step, at most
+// The bound is evaluated again when it may have changed by this much, judged by how fast it changed last time.
+constexpr double change_between_bounds = 0.02;
+constexpr double steps_between_bounds_when_calm = 32;  // at most: its cost is then negligible
+constexpr int steps_between_bounds_at_first = 8;
+}  // namespace
+
+template <class Real>
+void find_stable_step(Simulation<Real>& s) {
+  ElasticBody<Real>& body = s.acting_body();
+  double lambda = static_cast<double>(body.frequency_bound(s.state.x.data(), s.team)), omega = 0;
+  for (const auto& grasp : s.grasps) omega = std::max(omega, static_cast<double>(grasp.omega()));
+  lambda += omega * omega;
+  const double half =
+      omega + (s.has_internal_state ? static_cast<double>(body.damping_bound(s.state.x.data(), s.team)) / 2 : 0);
+  const bool cut = std::any_of(s.edits.begin(), s.edits.end(), [](const EditReport& edit) { return edit.split > 0; });
+  const bool torn = std::any_of(s.edits.begin(), s.edits.end(), [](const EditReport& edit) { return edit.torn > 0; });
+  const double part = torn ? safety_of_shreds : cut ? safety_of_pieces : safety;
+  s.limit.stable = part * 2 / (half + std::sqrt(half * half + lambda));
+  s.limit.steps_since_bound = 0;
+  s.limit.interval = steps_between_bounds_at_first;
+}
+
+template <class Real>
+void update_stable_step(Simulation<Real>& s) {
+  const double before = s.limit.stable;
+  const int steps = s.limit.steps_since_bound, interval = s.limit.interval;
+  find_stable_step(s);
+  const double change = std::abs(s.limit.stable / before - 1);
+  const double enough = std::isfinite(change) ? steps * change_between_bounds / std::max(change, 1e-9) : 1;
+  s.limit.interval =
+      static_cast<int>(std::clamp(enough, 1.0, std::min(2.0 * interval, steps_between_bounds_when_calm)));
+  s.limit.stable = std::min(s.limit.stable, (1 + steps * growth_of_steps) * before);
+}
+
+template <class Real>
+int steps_until_supports_strain(const Simulation<Real>& s) {
+  if (!(s.limit.stable > 0)) return steps_between_bounds_when_driven;
+  double fastest = 0;
+  for (std::size_t k = 0; k < s.model.prescribed_motions.size(); ++k)
+    if (s.state.time < s.model.prescribed_motions[k].ramp_time) fastest = std::max(fastest, s.model.speeds[k]);
+  const double steps = change_between_bounds * s.model.spacing / (fastest * s.limit.stable);
+  return static_cast<int>(std::clamp<double>(steps, steps_between_bounds_when_driven, steps_between_bounds_when_calm));
+}
+
+template void find_stable_step(Simulation<float>& s);
+template void update_stable_step(Simulation<float>& s);
+template int steps_until_supports_strain(const Simulation<float>& s);
+template void find_stable_step(Simulation<double>& s);
+template void update_stable_step(Simulation<double>& s);
+template int steps_until_supports_strain(const Simulation<double>& s);
+
+}  // namespace heml

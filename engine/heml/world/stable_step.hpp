@@ -1,0 +1,25 @@
+#pragma once
+// The stable step of explicit methods, from the live frequency bound of the elements (elastic/step_bound.hpp):
+// h with h²λ + 2h c < 4, λ the elastic bound plus the ω² of a grasp, c the damping that lags half a step.
+#include <heml/world/simulation.hpp>
+
+namespace heml {
+
+inline constexpr double min_step = 1e-9;  ///< s; a body that needs shorter steps is not soft tissue
+
+/// Evaluates the bound at the current state and sets limit.stable.
+template <class Real>
+void find_stable_step(Simulation<Real>& s);
+
+/// The same, and sets the interval to the next evaluation by how fast the bound changes.
+template <class Real>
+void update_stable_step(Simulation<Real>& s);
+
+/// Steps in which the fastest prescribed motion strains the elements next to it by as much as the bound may change
+/// between two evaluations.
+template <class Real>
+int steps_until_supports_strain(const Simulation<Real>& s);
+
+inline constexpr int steps_between_bounds_when_driven = 2;  ///< a tool can deform a body quickly
+
+}  // namespace heml
