@@ -14,16 +14,8 @@ using panel::ChartMark;
 using panel::colours::rgba;
 
 // Colours that are safe for colour-blind readers (Okabe & Ito).
-struct Ink {
-  Integrator integrator;
-  const char* name;
-  ImU32 colour;
-};
-constexpr Ink inks[] = {{Integrator::symplectic_euler, "symplectic Euler", rgba(0xe69f00)},
-                        {Integrator::verlet, "Verlet", rgba(0x0072b2)},
-                        {Integrator::backward_euler, "backward Euler", rgba(0xd55e00)},
-                        {Integrator::bdf2, "BDF2", rgba(0x009e73)},
-                        {Integrator::tr_bdf2, "TR-BDF2", rgba(0xcc79a7)}};
+constexpr ImU32 inks[] = {rgba(0xe69f00), rgba(0x0072b2), rgba(0xd55e00), rgba(0x009e73),
+                          rgba(0xcc79a7), rgba(0x56b4e9), rgba(0xf0e442)};
 constexpr ImU32 front_colour = rgba(0x1d2527, 90), grey = rgba(0x7a8486);
 
 double cost(const Measured& m) { return m.seconds_per_second(); }
@@ -41,10 +33,12 @@ panel::ChartSeries front_of(const TimeStudy& study) {
 
 /// One series per integrator: dots for explicit methods and solves to the tolerance, rings for a few iterations.
 void add_methods(panel::Chart& chart, const TimeStudy& study) {
-  for (const Ink& ink : inks) {
-    panel::ChartSeries solved{ink.name, {}, ink.colour, ChartMark::dots}, cut{"", {}, ink.colour, ChartMark::rings};
+  std::size_t next = 0;
+  for (const Integrator integrator : moving_integrators()) {
+    const ImU32 ink = inks[next++ % std::size(inks)];
+    panel::ChartSeries solved{info_of(integrator).title, {}, ink, ChartMark::dots}, cut{"", {}, ink, ChartMark::rings};
     for (const Measured& m : study.measured)
-      if (m.method.integrator == ink.integrator && !m.failed())
+      if (m.method.integrator == integrator && !m.failed())
         (m.method.iterations > 0 ? cut : solved).points.push_back({cost(m), 1e3 * m.error});
     if (solved.points.empty() && cut.points.empty()) continue;
     chart.series.push_back(std::move(solved));
@@ -90,7 +84,7 @@ panel::Chart locking_chart(const std::vector<LockingBeam>& beams) {
   chart.logarithmic = true;
   for (const bool nodal : {false, true})
     for (std::size_t b = 0; b < beams.size(); ++b) {
-      const ImU32 colour = inks[b % std::size(inks)].colour;
+      const ImU32 colour = inks[b % std::size(inks)];
       const std::string name = fmt::format("ν {}", beams[b].poisson);
       panel::ChartSeries line{nodal ? "" : name, {}, colour, ChartMark::line},
           marks{"", {}, colour, nodal ? ChartMark::rings : ChartMark::dots};
@@ -115,7 +109,7 @@ panel::Chart refinement_chart(const RefinementStudy& study) {
   chart.y_quantity = "Error of the mesh, % of the energy norm";
   chart.logarithmic = true;
   for (const bool adapted : {false, true}) {
-    const ImU32 colour = inks[adapted ? 2 : 1].colour;
+    const ImU32 colour = inks[adapted ? 2 : 1];
     panel::ChartSeries line{adapted ? "adapted" : "uniform", {}, colour, ChartMark::line},
         marks{"", {}, colour, ChartMark::dots}, estimates{"", {}, colour, ChartMark::rings};
     for (const RefinedMesh& mesh : study.meshes)
@@ -136,7 +130,7 @@ panel::BarChart feature_bars(const FeatureStudy& study) {
   chart.subtitle =
       "One thing changed at a time: computing time, of the scene as it is; in brackets how far the body errs";
   chart.names = {"time"};
-  chart.colours = {inks[1].colour};
+  chart.colours = {inks[1]};
   chart.mark = 1;
   const double as_it_is = study.measurement.changes.front().milliseconds;
   for (const MeasuredChange& c : study.measurement.changes) {

@@ -18,8 +18,11 @@ const std::vector<std::string>& law_names() {
 }
 
 const std::vector<std::string>& method_names() {
-  static const std::vector<std::string> names{"the same method", "symplectic_euler", "verlet", "backward_euler", "bdf2",
-                                              "tr_bdf2"};
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all{"the same method"};
+    for (const Integrator integrator : moving_integrators()) all.emplace_back(integrator_name(integrator));
+    return all;
+  }();
   return names;
 }
 

@@ -4,19 +4,6 @@
 namespace heml::panel {
 namespace {
 
-/// Name in scenes and title in the panel. Integrators that this build lacks are omitted.
-struct IntegratorChoice {
-  const char* name;
-  const char* title;
-};
-constexpr IntegratorChoice integrator_choices[] = {
-    {"symplectic_euler", "Symplectic Euler"},
-    {"verlet", "Verlet"},
-    {"backward_euler", "Backward Euler"},
-    {"bdf2", "BDF2"},
-    {"tr_bdf2", "TR-BDF2"},
-};
-
 struct Direction {
   const char* name;
   Vec3 vector;
@@ -79,12 +66,11 @@ void MotionSection::draw_integrator(Rows& rows, PanelActions& out) {
   std::vector<std::string> titles;
   std::vector<Integrator> integrators;
   int chosen = -1;
-  for (const auto& [name, title] : integrator_choices)
-    if (const auto integrator = find_integrator(name)) {
-      if (*integrator == integrator_) chosen = static_cast<int>(titles.size());
-      titles.emplace_back(title);
-      integrators.push_back(*integrator);
-    }
+  for (const Integrator integrator : moving_integrators()) {
+    if (integrator == integrator_) chosen = static_cast<int>(titles.size());
+    titles.emplace_back(info_of(integrator).title);
+    integrators.push_back(integrator);
+  }
   if (!rows.choice({"Integrator", "How a step in time is taken. Verlet is the more accurate of the two explicit ones."},
                    chosen, titles))
     return;

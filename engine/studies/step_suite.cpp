@@ -34,7 +34,7 @@ Material soft(const char* law, double poisson) {
 std::vector<Case> method_cases() {
   std::vector<Case> list;
   for (const int threads : bench_threads()) {
-    for (const Integrator method : {Integrator::symplectic_euler, Integrator::verlet})
+    for (const Integrator method : explicit_integrators())
       for (const bool single : {false, true}) list.push_back({soft("neo_hookean", 0.45), method, 0, single, threads});
     for (const double poisson : {0.3, 0.45})
       for (const int budget : {1, 0})

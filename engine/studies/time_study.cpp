@@ -81,7 +81,7 @@ void add_explicit(std::vector<Method>& list, Breadth sweep, double stable_step) 
 }
 
 void add_implicit(std::vector<Method>& list, Breadth sweep) {
-  constexpr Integrator integrators[] = {Integrator::backward_euler, Integrator::bdf2, Integrator::tr_bdf2};
+  const std::vector<Integrator> integrators = implicit_integrators();
   if (sweep == Breadth::brief) {
     for (const Integrator integrator : integrators)
       for (const double step : {1.0 / 60, 0.005}) list.push_back({integrator, step, 1});

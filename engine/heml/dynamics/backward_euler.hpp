@@ -8,8 +8,8 @@ namespace heml {
 inline Stage backward_euler_stage(const Vector& x, const Vector& v, double h) { return {h, x, v}; }
 
 struct BackwardEuler {
-  static constexpr IntegratorInfo info{Integrator::backward_euler, "backward_euler", "backward Euler",
-                                       IntegratorKind::implicit_steps, 1, 1};
+  static constexpr IntegratorInfo info{
+      Integrator::backward_euler, "backward_euler", "Backward Euler", "BE", IntegratorKind::implicit_steps, 1, 1};
   static bool step(ImplicitStep& s) { return s.solve(backward_euler_stage(s.x, s.v, s.h), s.h); }
 };
 

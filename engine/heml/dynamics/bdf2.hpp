@@ -14,7 +14,7 @@ inline Stage bdf2_stage(const Vector& x, const Vector& v, const Vector& x_before
 }
 
 struct Bdf2 {
-  static constexpr IntegratorInfo info{Integrator::bdf2, "bdf2", "BDF2", IntegratorKind::implicit_steps, 2, 1};
+  static constexpr IntegratorInfo info{Integrator::bdf2, "bdf2", "BDF2", "B2", IntegratorKind::implicit_steps, 2, 1};
   static bool step(ImplicitStep& s) {
     if (!(s.h_before > 0)) return TrBdf2::step(s);
     return s.solve(bdf2_stage(s.x, s.v, *s.x_before, *s.v_before, s.h, s.h_before), s.h);

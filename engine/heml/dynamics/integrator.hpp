@@ -3,6 +3,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 namespace heml {
 
@@ -29,6 +30,7 @@ struct IntegratorInfo {
   Integrator id;
   const char* name;   ///< in scene files
   const char* title;  ///< for people
+  const char* code;   ///< two letters, for narrow tables
   IntegratorKind kind;
   int order;   ///< of accuracy in time; 0: does not apply
   int stages;  ///< systems solved in a step; explicit methods: force evaluations
@@ -37,6 +39,10 @@ struct IntegratorInfo {
 const IntegratorInfo& info_of(Integrator integrator);
 /// All of them, in the order of the enum.
 std::span<const IntegratorInfo> all_integrators();
+std::vector<Integrator> explicit_integrators();
+std::vector<Integrator> implicit_integrators();
+/// Explicit and implicit ones: all that step in time by themselves.
+std::vector<Integrator> moving_integrators();
 /// The name in scene files.
 const char* integrator_name(Integrator integrator);
 /// By the name in scene files; none: there is no such integrator.

@@ -22,28 +22,31 @@ struct ExplicitMethod {
 };
 
 struct StaticEquilibrium {
-  static constexpr IntegratorInfo info{Integrator::static_equilibrium, "static", "static equilibrium",
-                                       IntegratorKind::equilibrium, 0, 1};
+  static constexpr IntegratorInfo info{
+      Integrator::static_equilibrium, "static", "Static equilibrium", "ST", IntegratorKind::equilibrium, 0, 1};
 };
 
 struct AutomaticChoice {
-  static constexpr IntegratorInfo info{Integrator::automatic, "auto", "automatic", IntegratorKind::chosen, 0, 0};
+  static constexpr IntegratorInfo info{Integrator::automatic, "auto", "Automatic", "AU", IntegratorKind::chosen, 0, 0};
 };
 
 using IntegratorList = std::tuple<ExplicitMethod<SymplecticEuler>, ExplicitMethod<Verlet>, BackwardEuler, Bdf2, TrBdf2,
                                   StaticEquilibrium, AutomaticChoice>;
 
 static_assert(std::tuple_size_v<IntegratorList> == integrator_count, "an integrator has no row in IntegratorList");
-static_assert([]<std::size_t... k>(std::index_sequence<k...>) {
-  return ((std::tuple_element_t<k, IntegratorList>::info.id == static_cast<Integrator>(k)) && ...);
-}(std::make_index_sequence<integrator_count>{}), "the rows of IntegratorList are not in the order of the enum");
+static_assert(
+    []<std::size_t... k>(std::index_sequence<k...>) {
+      return ((std::tuple_element_t<k, IntegratorList>::info.id == static_cast<Integrator>(k)) && ...);
+    }(std::make_index_sequence<integrator_count>{}),
+    "the rows of IntegratorList are not in the order of the enum");
 
 /// Calls use(type_identity of the row) for an integrator and returns its result; use must accept every row.
 template <class Result, class Use>
 Result visit_integrator(Integrator integrator, const Use& use) {
   Result result{};
   [&]<std::size_t... k>(std::index_sequence<k...>) {
-    ((static_cast<Integrator>(k) == integrator ? void(result = use(std::tuple_element_t<k, IntegratorList>{})) : void()),
+    ((static_cast<Integrator>(k) == integrator ? void(result = use(std::tuple_element_t<k, IntegratorList>{}))
+                                               : void()),
      ...);
   }
   (std::make_index_sequence<integrator_count>{});

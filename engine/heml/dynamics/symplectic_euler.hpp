@@ -9,8 +9,8 @@ namespace heml {
 /// implicit, so that the stability limit stays h < 2/ω_max.
 template <class Real>
 struct SymplecticEuler {
-  static constexpr IntegratorInfo info{Integrator::symplectic_euler, "symplectic_euler", "symplectic Euler",
-                                       IntegratorKind::explicit_steps, 1, 1};
+  static constexpr IntegratorInfo info{
+      Integrator::symplectic_euler, "symplectic_euler", "Symplectic Euler", "SE", IntegratorKind::explicit_steps, 1, 1};
   /// The divisor of velocities in the first half step.
   static double damping_divisor(double h, double damping) { return 1 + damping * h; }
   static void first_half_step(Real h, Real damping, const FirstHalfStep<Real>& at, std::size_t begin, std::size_t end) {

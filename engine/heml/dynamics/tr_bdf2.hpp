@@ -26,7 +26,8 @@ inline Stage second_stage(const Vector& x, const Vector& v, const Vector& x_gamm
 }  // namespace tr_bdf2
 
 struct TrBdf2 {
-  static constexpr IntegratorInfo info{Integrator::tr_bdf2, "tr_bdf2", "TR-BDF2", IntegratorKind::implicit_steps, 2, 2};
+  static constexpr IntegratorInfo info{
+      Integrator::tr_bdf2, "tr_bdf2", "TR-BDF2", "TR", IntegratorKind::implicit_steps, 2, 2};
   static bool step(ImplicitStep& s) {
     return s.solve(tr_bdf2::first_stage(s.x, s.v, s.acceleration(), s.h), tr_bdf2::gamma * s.h) &&
            s.solve(tr_bdf2::second_stage(*s.x_start, *s.v_start, s.x, s.v, s.h), s.h);

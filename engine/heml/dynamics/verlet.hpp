@@ -8,8 +8,8 @@ namespace heml {
 /// Velocity Verlet with damping, second order: v½ = (v + ½h a)/(1+½αh); x += h v½; v = (1−½αh) v½ + ½h a(x).
 template <class Real>
 struct Verlet {
-  static constexpr IntegratorInfo info{Integrator::verlet, "verlet", "velocity Verlet", IntegratorKind::explicit_steps, 2,
-                                       1};
+  static constexpr IntegratorInfo info{
+      Integrator::verlet, "verlet", "Verlet", "V", IntegratorKind::explicit_steps, 2, 1};
   static double damping_divisor(double h, double damping) { return 1 + damping * h / 2; }
   static void first_half_step(Real h, Real damping, const FirstHalfStep<Real>& at, std::size_t begin, std::size_t end) {
     const auto [inverse_mass, f, x, v, x_after, v_after] = at;

@@ -7,9 +7,6 @@
 namespace heml {
 namespace {
 
-/// Integrators of the scene format, whether or not this build has them.
-constexpr std::string_view known_integrators[] = {"symplectic_euler", "verlet", "backward_euler", "bdf2", "tr_bdf2",
-                                                  "static",           "auto"};
 constexpr std::string_view elements[] = {"p1", "nodal_pressure"};
 constexpr double max_ticks = 1e12;
 constexpr double fastest_rate = 1e6;   // Hz
@@ -27,30 +24,24 @@ Budget budget_from(const JsonCursor& key) {
 
 /// Hz. A step of an implicit method costs as much as dozens of explicit ones and need not be short for stability.
 double default_rate(Integrator integrator) {
-  switch (integrator) {
-    case Integrator::backward_euler:
-    case Integrator::bdf2:
-    case Integrator::tr_bdf2:
+  switch (info_of(integrator).kind) {
+    case IntegratorKind::implicit_steps:
       return 100;
-    case Integrator::static_equilibrium:
-      return 30;  // increments of the load a viewer sees
-    default:
-      return SolverSettings{}.rate;
+    case IntegratorKind::equilibrium:
+      return 30;  // increments of the load that a viewer sees
+    case IntegratorKind::explicit_steps:
+    case IntegratorKind::chosen:
+      break;
   }
+  return SolverSettings{}.rate;
 }
 
 }  // namespace
 
 Integrator integrator_from(const JsonCursor& key) {
-  const std::string name = key.text();
-  if (const auto integrator = find_integrator(name)) return *integrator;
-  std::vector<std::string_view> available;
-  std::copy_if(std::begin(known_integrators), std::end(known_integrators), std::back_inserter(available),
-               [](std::string_view known) { return find_integrator(std::string(known)).has_value(); });
-  if (std::find(std::begin(known_integrators), std::end(known_integrators), name) == std::end(known_integrators))
-    key.one_of(available);  // throws: unknown altogether
-  key.fail(fmt::format("the integrator '{}' is not part of this build", name),
-           fmt::format("available: {}", fmt::join(available, ", ")));
+  std::vector<std::string_view> names;
+  for (const IntegratorInfo& info : all_integrators()) names.emplace_back(info.name);
+  return all_integrators()[key.one_of(names)].id;
 }
 
 SolverSettings solver_from(const JsonCursor& key) {

@@ -42,9 +42,8 @@ bool take_word(std::string_view word, Variant& variant) {
 std::vector<std::string> variant_words() {
   std::vector<std::string> words;
   for (const LawInfo& law : laws()) words.emplace_back(law.name);
-  for (int k = 0; k <= static_cast<int>(Integrator::automatic); ++k)
-    if (static_cast<Integrator>(k) != Integrator::static_equilibrium)
-      words.emplace_back(integrator_name(static_cast<Integrator>(k)));
+  for (const IntegratorInfo& info : all_integrators())
+    if (info.kind != IntegratorKind::equilibrium) words.emplace_back(info.name);
   for (const char* word : {"float", "double", "p1", "nodal_pressure"}) words.emplace_back(word);
   return words;
 }

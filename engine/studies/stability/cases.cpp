@@ -29,10 +29,13 @@ const std::vector<std::string_view> a_few = {"stvk", "neo_hookean", "mooney_rivl
 constexpr double never = std::numeric_limits<double>::quiet_NaN();
 
 using enum Integrator;
-const std::vector<Integrator> none,
-    explicits = {symplectic_euler, verlet}, implicits = {backward_euler, bdf2, tr_bdf2},
-    moving = {symplectic_euler, verlet, backward_euler, bdf2, tr_bdf2},
-    every = {symplectic_euler, verlet, backward_euler, bdf2, tr_bdf2, static_equilibrium};
+std::vector<Integrator> with_statics() {
+  std::vector<Integrator> list = moving_integrators();
+  list.push_back(static_equilibrium);
+  return list;
+}
+const std::vector<Integrator> none, explicits = explicit_integrators(), implicits = implicit_integrators(),
+                                    moving = moving_integrators(), every = with_statics();
 
 // clang-format off
 const std::vector<Case>& table() {

@@ -8,11 +8,8 @@ namespace heml::stability {
 namespace {
 
 constexpr int left = 190, legend_height = 70, head = 58, cell_width = 13, row_height = 19, law_gap = 6;
-constexpr Integrator order[] = {Integrator::symplectic_euler, Integrator::verlet,
-                                Integrator::backward_euler,   Integrator::bdf2,
-                                Integrator::tr_bdf2,          Integrator::static_equilibrium};
-constexpr const char* codes[] = {"SE", "V", "BE", "B2", "TR", "ST"};
-constexpr int columns = static_cast<int>(std::size(order));
+// A column for each integrator but "auto", which is last.
+constexpr int columns = static_cast<int>(integrator_count) - 1;
 
 /// Colour-blind safe: colours differ in lightness too (after Okabe & Ito 2008).
 struct Ink {
@@ -69,8 +66,8 @@ std::string heads() {
       const double half = x_of(law, single, 0) + columns * cell_width / 2.0;
       svg += text(half, top_of(law) + 34, 11, "middle", single ? "float" : "double", "fill=\"#55645f\"");
       for (int k = 0; k < columns; ++k)
-        svg += text(x_of(law, single, k) + cell_width / 2.0, top_of(law) + head - 6, 8, "middle", codes[k],
-                    "fill=\"#55645f\"");
+        svg += text(x_of(law, single, k) + cell_width / 2.0, top_of(law) + head - 6, 8, "middle",
+                    all_integrators()[static_cast<std::size_t>(k)].code, "fill=\"#55645f\"");
     }
   }
   return svg;
@@ -119,10 +116,7 @@ std::string matrix_svg(const std::vector<Cell>& cells) {
   for (const Cell& cell : cells) {
     const auto law = static_cast<std::size_t>(std::find(study_laws().begin(), study_laws().end(), cell.variant.law) -
                                               study_laws().begin());
-    const int column = cell.variant.integrator
-                           ? static_cast<int>(std::find(std::begin(order), std::end(order), *cell.variant.integrator) -
-                                              std::begin(order))
-                           : 0;
+    const int column = cell.variant.integrator ? static_cast<int>(*cell.variant.integrator) : 0;
     svg += box(x_of(law, cell.variant.single, column), y_of(law, static_cast<std::size_t>(cell.number) - 1),
                cell.variant.integrator ? cell_width : columns * cell_width,
                inks[static_cast<std::size_t>(cell.verdict)], cell.promised, cell.short_of_promise, tip_of(cell));

@@ -73,10 +73,11 @@ bool ends_when_flat(const LawInfo& law) {
   return !make_material_point(sample_material(law.name), false)->valid(Vec3(1, 1, -0.1).asDiagonal());
 }
 
-const std::initializer_list<Integrator> all = {Integrator::symplectic_euler, Integrator::verlet,
-                                               Integrator::backward_euler,   Integrator::bdf2,
-                                               Integrator::tr_bdf2,          Integrator::static_equilibrium,
-                                               Integrator::automatic};
+const std::vector<Integrator> all = [] {
+  std::vector<Integrator> list;
+  for (const IntegratorInfo& info : all_integrators()) list.push_back(info.id);
+  return list;
+}();
 
 }  // namespace
 

@@ -29,8 +29,7 @@ WorldSetup free_block(Integrator integrator) {
 }  // namespace
 
 TEST_CASE("pin: the patch stays where it is under every method, and a release lets it go") {
-  for (const auto integrator : {Integrator::symplectic_euler, Integrator::verlet, Integrator::backward_euler,
-                                Integrator::bdf2, Integrator::tr_bdf2}) {
+  for (const auto integrator : moving_integrators()) {
     CAPTURE(integrator_name(integrator));
     auto world = make_world(free_block(integrator));
     const int node = node_at(world->setup().mesh, Vec3(0.1, 0.01, 0.01));

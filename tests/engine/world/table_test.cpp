@@ -59,8 +59,7 @@ TEST_CASE("table: at rest it bears the weight, in a static world to the solver's
 }
 
 TEST_CASE("table: every method ends at rest on it, and what it bears is the weight") {
-  for (const auto integrator : {Integrator::symplectic_euler, Integrator::verlet, Integrator::backward_euler,
-                                Integrator::bdf2, Integrator::tr_bdf2}) {
+  for (const auto integrator : moving_integrators()) {
     CAPTURE(integrator_name(integrator));
     WorldSetup setup = cube_on_table(integrator);
     setup.solver.damping = 50;

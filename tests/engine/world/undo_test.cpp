@@ -83,8 +83,7 @@ void check_undone(const WorldSetup& setup, const std::vector<Command>& before, c
   CHECK(edited->state_hash() == plain->state_hash());
 }
 
-const std::initializer_list<Integrator> moving = {Integrator::symplectic_euler, Integrator::verlet,
-                                                  Integrator::backward_euler, Integrator::bdf2, Integrator::tr_bdf2};
+const std::vector<Integrator> moving = moving_integrators();
 
 }  // namespace
 
