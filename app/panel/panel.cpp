@@ -153,7 +153,7 @@ std::optional<Banner> Panel::banner_for(const Frame& frame) const {
   if (frame.recovery && shows_recovery())
     return Banner{frame.recovery->ended ? "The tissue was brought back" : "Bringing the tissue back",
                   capitalised(frame.recovery->message) + "." +
-                      (frame.recovery_file.empty() ? "" : "\nTo see it again: heml " + frame.recovery_file),
+                      (frame.recovery_file.empty() ? "" : "\nReplay it: heml run " + frame.recovery_file),
                   "", colours::warning};
   if (late_for_ > patience && !frame.paused)
     return Banner{fmt::format("{:.1f}× slower than real time", frame.pace.slowdown),

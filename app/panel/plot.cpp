@@ -44,7 +44,7 @@ Axis axis_of(const std::deque<Reading>& readings, std::span<const Curve> curves,
 }
 
 /// A rectangle on the screen, pixels, and the mapping of times and values into it.
-struct RenderTarget {
+struct PlotCanvas {
   ImVec2 from, to;
   double latest;
   Axis axis;
@@ -55,7 +55,7 @@ struct RenderTarget {
   }
 };
 
-void draw_curve(ImDrawList& list, const RenderTarget& canvas, const std::deque<Reading>& readings, const Curve& curve) {
+void draw_curve(ImDrawList& list, const PlotCanvas& canvas, const std::deque<Reading>& readings, const Curve& curve) {
   static thread_local std::vector<ImVec2> points;
   points.clear();
   for (const Reading& reading : readings)
@@ -64,7 +64,7 @@ void draw_curve(ImDrawList& list, const RenderTarget& canvas, const std::deque<R
   list.AddPolyline(points.data(), static_cast<int>(points.size()), curve.colour, ImDrawFlags_None, em(0.09f));
 }
 
-void say_values(ImDrawList& list, const RenderTarget& canvas, const std::deque<Reading>& readings,
+void say_values(ImDrawList& list, const PlotCanvas& canvas, const std::deque<Reading>& readings,
                 std::span<const Curve> curves, std::string_view unit) {
   const float place = (ImGui::GetIO().MousePos.x - canvas.from.x) / (canvas.to.x - canvas.from.x);
   const double time = canvas.latest - History::span * (1 - static_cast<double>(place));
@@ -97,7 +97,7 @@ void plot(const char* id, const History& history, std::span<const Curve> curves,
   if (readings.empty()) return;
 
   const float inset = em(0.35f);
-  const RenderTarget canvas{
+  const PlotCanvas canvas{
       {from.x, from.y + inset}, {to.x, to.y - inset}, readings.back().time, axis_of(readings, curves, style)};
   const float base = canvas.at(canvas.latest, style.base).y;
   list.AddLine({from.x, base}, {to.x, base}, colours::rgba(0x566164, 90));

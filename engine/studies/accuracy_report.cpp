@@ -114,7 +114,7 @@ void add_gauges(HtmlPage& page, const AccuracyStudy& study) {
       "energy norm of the error that the potentials of finer meshes tell, linear tetrahedra alone. The last two "
       "columns "
       "are lengths: the share of the motion that is the share of the energy, against the error on finer meshes.");
-  page.table(step_doubling_table(study));
+  page.table(error_estimate_table(study));
   page.paragraph(
       "Of the steps: a shadow with half the steps, from the start to the first set time, held against the reference "
       "(\"gauge\" in the tables of runs): " +

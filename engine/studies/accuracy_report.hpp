@@ -21,7 +21,7 @@ TextTable locking_table(const std::vector<LockingBeam>& beams);
 /// Uniform and adapted meshes: error and the panel's estimate of it, in the energy norm.
 TextTable refinement_table(const RefinementStudy& study);
 /// Linear tetrahedra: the panel's estimate of the mesh error against the error from finer meshes.
-TextTable step_doubling_table(const AccuracyStudy& study);
+TextTable error_estimate_table(const AccuracyStudy& study);
 TextTable law_table(const std::vector<LawCheck>& laws);
 TextTable feature_table(const FeatureStudy& study);
 /// One row per run, with machine, compiler, commit and threads.

@@ -139,7 +139,7 @@ TextTable refinement_table(const RefinementStudy& study) {
   return table;
 }
 
-TextTable step_doubling_table(const AccuracyStudy& study) {
+TextTable error_estimate_table(const AccuracyStudy& study) {
   TextTable table;
   table.head = {"body", "tetrahedra", "error, of the energy norm", "estimated", "effectivity", "error", "estimated"};
   table.first_number = 1, table.end_numbers = table.head.size();

@@ -93,7 +93,7 @@ class WindowCase(unittest.TestCase):
     def finish(self):
         out, _ = self.program.communicate(timeout=PATIENCE)
         self.assertEqual(self.program.returncode, 0, self.log.read_text()[-2000:])
-        line = r"(\d+) pictures drawn, (\d+) ticks, (\d+) missed deadlines, (\S+) wall seconds .*\n"
+        line = r"(\d+) frames drawn, (\d+) ticks, (\d+) missed deadlines, (\S+) wall seconds .*\n"
         numbers = re.fullmatch(line, out)
         self.assertTrue(numbers, out)
         self.end()

@@ -132,7 +132,7 @@ LinearSolver::Memory LinearSolver::memory() const {
   Memory memory;
   memory.factored_a = factored_a_;
   if (outdated_) memory.outdated = scalar_;
-  if (outdated_) memory.omitted_features = scalar_->omitted_features();
+  if (outdated_) memory.excluded_rows = scalar_->excluded_rows();
   memory.made_of = made_of_;
   return memory;
 }
@@ -140,7 +140,7 @@ LinearSolver::Memory LinearSolver::memory() const {
 void LinearSolver::restore(const Memory& memory) {
   if (memory.outdated) {
     scalar_ = memory.outdated;
-    scalar_->exclude_rows(memory.omitted_features);
+    scalar_->exclude_rows(memory.excluded_rows);
     made_of_ = memory.made_of;
     outdated_ = true;
   }

@@ -41,7 +41,7 @@ class LinearSolver {
   struct Memory {
     double factored_a = -1;  ///< 1/s²; negative: not factored
     std::shared_ptr<SmoothedAggregation> outdated;
-    std::vector<std::size_t> omitted_features;
+    std::vector<std::size_t> excluded_rows;
     std::size_t made_of = 0;
   };
   Memory memory() const;

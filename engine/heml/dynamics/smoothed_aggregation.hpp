@@ -33,7 +33,7 @@ class SmoothedAggregation {
   /// Treats these rows, indices of free nodes, as fixed: z is 0 there. The cycle stays symmetric and positive definite,
   /// and close to that of a rebuilt preconditioner while they are few.
   void exclude_rows(std::vector<std::size_t> rows) { excluded_rows_ = std::move(rows); }
-  const std::vector<std::size_t>& omitted_features() const { return excluded_rows_; }
+  const std::vector<std::size_t>& excluded_rows() const { return excluded_rows_; }
 
   /// z ≈ (aM + L)⁻¹ r for each axis (3 #V); 0 at nodes that are not free. Uses scratch memory: one call at a time.
   void apply(const Vector& r, Vector& z);

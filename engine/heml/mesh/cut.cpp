@@ -86,8 +86,8 @@ class Cutter {
         const auto [a, b, c] = face(piece, f);
         area += (at(b) - at(a)).cross(at(c) - at(a)).norm() / 2;
         piece.comes_apart[f] = true;
-        Piece& plane_normal = pieces_[static_cast<std::size_t>(other)];
-        plane_normal.comes_apart[facing(plane_normal, &piece)] = true;
+        Piece& neighbour = pieces_[static_cast<std::size_t>(other)];
+        neighbour.comes_apart[facing(neighbour, &piece)] = true;
       }
     copy_nodes();
     return area;

@@ -63,15 +63,15 @@ bool evenly_spaced(const Scene& recording) {
 /// Why a recording with an end record is incomplete; empty: it is complete.
 std::string why_not_whole(const Scene& recording) {
   const RecordedEnd& end = *recording.recorded_end;
-  const auto constrained = static_cast<long>(recording.checkpoints.size());
+  const auto found = static_cast<long>(recording.checkpoints.size());
   if (recording.checkpoints.back().tick > end.tick)
     return fmt::format("it holds a checkpoint of step {}, after its end at step {}", recording.checkpoints.back().tick,
                        end.tick);
   if (!recording.events.empty() && recording.events.back().tick > end.tick)
     return fmt::format("it holds an event of step {}, after its end at step {}", recording.events.back().tick,
                        end.tick);
-  if (end.checkpoints && *end.checkpoints != constrained)
-    return fmt::format("it holds {} checkpoints, and its end tells of {}", constrained, *end.checkpoints);
+  if (end.checkpoints && *end.checkpoints != found)
+    return fmt::format("it holds {} checkpoints, and its end tells of {}", found, *end.checkpoints);
   if (recording.recorded_by.format > 1)
     return end.checkpoints && end.hash ? "" : "its end record lacks 'checkpoints' or 'hash'";
   return evenly_spaced(recording)

@@ -300,8 +300,8 @@ double SelfContact::height(int face) const {
 bool SelfContact::is_ridge_towards(const Edge& edge, const Vec3& normal) const {
   const auto [one, other] = edge.faces;
   const Vec3 n = face_normal(one, from_), m = face_normal(other, from_);
-  const Triangle& plane_normal = faces_[at(other)];
-  for (const int k : plane_normal) {
+  const Triangle& neighbour = faces_[at(other)];
+  for (const int k : neighbour) {
     if (k == edge.ends[0] || k == edge.ends[1]) continue;
     const Vec3 displacement = from_[at(k)] - from_[at(edge.ends[0])];
     if (!(n.dot(displacement) < -flat * displacement.norm())) return false;

@@ -19,7 +19,7 @@ class MeshEditor {
   std::optional<std::string> undo();
   /// Back to the elements of the start; the list of edits is cleared.
   void undo_all();
-  /// Separates the faces whose stress exceeds their strength, at the start of a tick, if the scene asks for it. All
+  /// Separates elements where they are stretched beyond the limit of the scene (tools/tearing.hpp), at the start of a tick, if the scene asks for it. All
   /// tearing until another edit is one edit to undo.
   void tear();
 

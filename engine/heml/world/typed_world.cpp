@@ -25,7 +25,7 @@ void TypedWorld<Real>::tick() {
   const FlushDenormals flush;
   s_.substeps = 0;
   s_.impulses.begin_tick();
-  editor_.tear();        // elements separate where the stress exceeds their strength
+  editor_.tear();        // elements separate where they are overstretched
   method_.reconsider();  // "auto": explicit or implicit
   const double until = static_cast<double>(s_.ticks - s_.origin_tick + 1) * s_.setup.solver.tick();
   advance(until);  // static increments, or steps of the method, contacts included, and recovery

@@ -22,7 +22,7 @@ std::unique_ptr<World> played(const Trial& trial, const WorldSetup& setup) {
   return world;
 }
 
-void evaluate_tensions(WorldSetup& setup) {
+void tighten_tolerance(WorldSetup& setup) {
   if (!is_explicit(setup.solver.integrator)) setup.solver.tolerance = setup.solver.single_precision ? 1e-4 : 1e-9;
 }
 
@@ -72,7 +72,7 @@ WorldSetup turned(const WorldSetup& setup, const Mat3& R) {
 
 Outcome permuted(const Trial& trial) {
   WorldSetup setup = trial.setup("30_permuted");
-  evaluate_tensions(setup);
+  tighten_tolerance(setup);
   const Mat3 R = Eigen::AngleAxisd(2.1, Vec3(2, 1, -2) / 3).toRotationMatrix();
   const auto new_node = shuffled(setup.mesh.nodes.size(), 30);
   const auto plain = played(trial, setup), other = played(trial, turned(renumbered(setup, new_node), R));
@@ -86,7 +86,7 @@ Outcome permuted(const Trial& trial) {
 
 Outcome other_units(const Trial& trial) {
   WorldSetup metres = trial.setup("31_other_units");
-  evaluate_tensions(metres);
+  tighten_tolerance(metres);
   // Lengths in mm, masses in kg, times in s: a pascal is 0.001 kg/(mm s²).
   WorldSetup millimetres = metres;
   for (Vec3& X : millimetres.mesh.nodes) X *= 1000;

@@ -85,7 +85,7 @@ TEST_CASE("pictures are even in simulated time: what was too late stands for wha
   film(filming, 1.0, 50);    // so is a step back: number 6
   film(filming, 1.034, 60);  // number 7
   const std::string outcome = outcome_of(filming);
-  CHECK(outcome.find("8 pictures") != std::string::npos);
+  CHECK(outcome.find("8 frames") != std::string::npos);
   CHECK(outcome.find("ffmpeg is not installed") != std::string::npos);
   std::vector<int> levels;
   for (const fs::path& file : workplace.all(".png")) levels.push_back(render::read_png(file).pixels[0]);

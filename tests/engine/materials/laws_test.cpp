@@ -147,10 +147,10 @@ TEST_CASE("for small strains every law is Hooke's with its constants at rest") {
       const double size = 1e-6;
       Mat3 strain = random_direction(random) * size;
       strain = (strain + strain.transpose()).eval() / 2;
-      const Mat3 deviatoric_stress = strain - strain.trace() / 3 * Mat3::Identity();
-      if (find_law(material.law)->has_fibre && askew.dot(deviatoric_stress * askew) > -size / 20)
+      const Mat3 deviatoric_strain = strain - strain.trace() / 3 * Mat3::Identity();
+      if (find_law(material.law)->has_fibre && askew.dot(deviatoric_strain * askew) > -size / 20)
         continue;  // only where fibres are compressed and bear no load
-      const Mat3 stress = 2 * mu * deviatoric_stress + kappa * strain.trace() * Mat3::Identity();
+      const Mat3 stress = 2 * mu * deviatoric_strain + kappa * strain.trace() * Mat3::Identity();
       const Mat3 turn = random_rotation(random);
       CHECK((point->first_piola(turn * (Mat3::Identity() + strain)) - turn * stress).norm() <=
             20 * size * (mu + kappa) * size);

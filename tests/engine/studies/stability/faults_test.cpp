@@ -51,7 +51,7 @@ void volume_term_with_wrong_sign(const TetMesh& mesh, const Material& material, 
 }
 
 /// Violates conservation of momentum: one force component is too large by a thousandth.
-void relative_net_load(const TetMesh&, const Material&, const std::vector<double>&, std::vector<double>& f) {
+void unbalanced_force(const TetMesh&, const Material&, const std::vector<double>&, std::vector<double>& f) {
   f[0] *= 1.001;
 }
 
@@ -74,7 +74,7 @@ TEST_CASE("a wrong sign of the volume term in the forces is noticed") {
 
 TEST_CASE("forces that make momentum are noticed") {
   CHECK(verdict_of(5, of_forces({})) == Verdict::stable);
-  CHECK(verdict_of(5, of_forces(relative_net_load)) == Verdict::wrong);
+  CHECK(verdict_of(5, of_forces(unbalanced_force)) == Verdict::wrong);
 }
 
 TEST_CASE("a step above the stable limit is noticed") {
