@@ -80,12 +80,12 @@ def draw():
     commands = Box("session", "apply commands", ["the events and commands due at this tick, recorded as they are applied"],
                    ["session/session.cpp", "world/command_executor.cpp", "world/contact_commands.cpp"])
     tear = Box("world", "tear", ["if the scene says tearing: elements beyond the limit open a node (not in static solves)"],
-               ["world/simulation.cpp", "tools/tearing.cpp", "world/mesh_editor.cpp"])
+               ["world/mesh_editor.cpp", "tools/tearing.cpp", "mesh/tear.cpp"])
     choose = Box("world", "choose method", ["the scene's integrator; auto: explicit where a cost model finds it fast enough, else implicit"],
                  ["world/method_choice.cpp", "world/step_cost.cpp"])
     methods = [
         Box("method", "explicit: substeps", ["as many as the stable step asks", "half step, forces, half step"],
-            ["world/explicit_stepper.cpp", "dynamics/explicit.hpp", "elastic/body.cpp"], column(0), COLUMN),
+            ["world/explicit_stepper.cpp", "world/stable_step.cpp", "elastic/body.cpp"], column(0), COLUMN),
         Box("method", "implicit: stages", ["one step, halved if unconverged", "each stage minimises Φ by Newton"],
             ["world/implicit_stepper.cpp", "dynamics/implicit_stage.hpp", "dynamics/newton.cpp"], column(1), COLUMN),
         Box("method", "static: increments", ["of load; each minimises U", "halved where Newton fails"],
@@ -103,6 +103,7 @@ def draw():
 
     out, y, between = [], 46.0, 26
     out.append(label(MARGIN, 28, "One tick", 18, weight="bold"))
+    out.append(label(MARGIN + 90, 28, "world/typed_world.cpp", FILE, family=MONO, colour="#3c4a5a"))
     out.append(label(WIDTH - MARGIN, 28, "files below engine/heml/", SMALL, colour="#4a5560", anchor="end"))
     middle = WIDTH / 2
     for box in (commands, tear, choose):

@@ -1,4 +1,4 @@
-"""What drawing costs the engine: frames per second, ticks per second and missed deadlines of organs in the window.
+"""Frames per second and missed deadlines of the window for scenes with organs, on this machine.
 
     HEML_BINARY=build/release/app/heml python3 tests/bench/window.py [SECONDS]
 """
