@@ -22,17 +22,17 @@ struct Stage {
 class ImplicitStep {
  public:
   virtual ~ImplicitStep() = default;
-  /// Solves a stage that ends h_end seconds after the start of the step. Writes x and v; returns false where it does not
-  /// converge.
+  /// Solves a stage that ends h_end seconds after the start of the step. Writes x and v; returns false where it does
+  /// not converge.
   virtual bool solve(const Stage& stage, double h_end) = 0;
   /// Acceleration at the start of the step from all forces, damping included, 3 #V, m/s².
   virtual Vector acceleration() const = 0;
 
-  double h = 0;                                       ///< s
-  Vector x, v;                                        ///< 3 #V, m, m/s: result of the last stage, at first the start
-  const Vector *x_start = nullptr, *v_start = nullptr;    ///< state at the start of the step
+  double h = 0;                                         ///< s
+  Vector x, v;                                          ///< 3 #V, m, m/s: result of the last stage, at first the start
+  const Vector *x_start = nullptr, *v_start = nullptr;  ///< state at the start of the step
   const Vector *x_before = nullptr, *v_before = nullptr;  ///< state one step earlier
-  double h_before = 0;                                ///< s, length of that step; 0: there was none
+  double h_before = 0;                                    ///< s, length of that step; 0: there was none
 };
 
 }  // namespace heml

@@ -13,6 +13,7 @@ enum class Integrator {
   backward_euler,
   bdf2,
   tr_bdf2,
+  sdirk2,
   static_equilibrium,  ///< "static"
   automatic            ///< "auto"; stays last
 };

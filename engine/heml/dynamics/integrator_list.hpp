@@ -5,6 +5,7 @@
 #include <heml/dynamics/backward_euler.hpp>
 #include <heml/dynamics/bdf2.hpp>
 #include <heml/dynamics/integrator.hpp>
+#include <heml/dynamics/sdirk2.hpp>
 #include <heml/dynamics/symplectic_euler.hpp>
 #include <heml/dynamics/tr_bdf2.hpp>
 #include <heml/dynamics/verlet.hpp>
@@ -31,7 +32,7 @@ struct AutomaticChoice {
 };
 
 using IntegratorList = std::tuple<ExplicitMethod<SymplecticEuler>, ExplicitMethod<Verlet>, BackwardEuler, Bdf2, TrBdf2,
-                                  StaticEquilibrium, AutomaticChoice>;
+                                  Sdirk2, StaticEquilibrium, AutomaticChoice>;
 
 static_assert(std::tuple_size_v<IntegratorList> == integrator_count, "an integrator has no row in IntegratorList");
 static_assert(
