@@ -14,11 +14,12 @@ void History::add(const Frame& frame) {
   Reading reading;
   reading.time = frame.time;
   reading.energies = frame.energies;
-  reading.force = frame.tool.active ? frame.tool.force.norm() : 0.0;
-  reading.pins = sum_of(frame.pins).norm();
-  reading.tables = sum_of(frame.tables).norm();
-  reading.probe = frame.probe.force.norm();
-  for (const SutureState& suture : frame.sutures) reading.sutures = std::max(reading.sutures, suture.force.norm());
+  reading.force = force_of<GraspState>(frame.tools).norm();
+  reading.pins = force_of<PinState>(frame.tools).norm();
+  reading.tables = force_of<TableState>(frame.tools).norm();
+  reading.probe = force_of<ProbeState>(frame.tools).norm();
+  for (const SutureState& suture : tools_of<SutureState>(frame.tools))
+    reading.sutures = std::max(reading.sutures, suture.force.norm());
   reading.typical_tick = frame.pace.p50;
   reading.slow_tick = frame.pace.p99;
   reading.min_J = frame.min_J;

@@ -12,31 +12,32 @@ constexpr ImU32 total_colour = colours::text;
 }
 
 void draw_force(Rows& rows, const Frame& frame, const History& history) {
-  const bool active = frame.tool.active;
+  const bool active = find_tool<GraspState>(frame.tools) != nullptr;
   ImGui::BeginGroup();
   {
     const UseFont number(Font::number);
     ImGui::PushStyleColor(ImGuiCol_Text, active ? colours::accent : colours::faint);
-    ImGui::TextUnformatted(newtons(active ? frame.tool.force.norm() : 0).c_str());
+    ImGui::TextUnformatted(newtons(force_of<GraspState>(frame.tools).norm()).c_str());
     ImGui::PopStyleColor();
   }
   ImGui::EndGroup();
   rows.explain({"Force", "What the grasp feels: the size of the force between tool and tissue, N (newton)."});
-  if (!frame.pins.empty())
+  if (find_tool<PinState>(frame.tools))
     rows.value({"Pins", "What the pins together bear: the size of the sum of their forces on the tissue, N."},
-               newtons(sum_of(frame.pins).norm()), colours::potential);
-  if (frame.probe.active)
+               newtons(force_of<PinState>(frame.tools).norm()), colours::potential);
+  if (find_tool<ProbeState>(frame.tools))
     rows.value({"Probe", "The size of the force between probe and tissue, friction with it, N."},
-               newtons(frame.probe.force.norm()), colours::warning);
-  if (!frame.tables.empty()) {
+               newtons(force_of<ProbeState>(frame.tools).norm()), colours::warning);
+  if (const TableState* table = find_tool<TableState>(frame.tools)) {
     rows.value({"Table", "The size of the force of the table on the tissue, N: at rest, what the tissue weighs."},
-               newtons(sum_of(frame.tables).norm()), colours::kinetic);
+               newtons(force_of<TableState>(frame.tools).norm()), colours::kinetic);
     rows.value({"Contact points", "Points of the tissue in contact with the table."},
-               fmt::format("{}", frame.tables.front().contact_count));
+               fmt::format("{}", table->contact_count));
   }
   double tightest = 0;
-  for (const SutureState& suture : frame.sutures) tightest = std::max(tightest, suture.force.norm());
-  if (!frame.sutures.empty())
+  const std::vector<SutureState> sutures = tools_of<SutureState>(frame.tools);
+  for (const SutureState& suture : sutures) tightest = std::max(tightest, suture.force.norm());
+  if (!sutures.empty())
     rows.value({"Sutures", "Tension of the tightest thread, N."}, newtons(tightest), colours::danger);
   const Curve curves[] = {{"Grasp", colours::accent, [](const Reading& r) { return r.force; }},
                           {"Pins", colours::potential, [](const Reading& r) { return r.pins; }},

@@ -46,15 +46,16 @@ void ToolSection::draw(Rows& rows, const Frame& frame, PanelActions& out) {
     tool_.tool = static_cast<Tool>(tool);
   draw_settings(rows);
   draw_friction(rows, frame, out);
-  bool table = !frame.tables.empty();
+  bool table = find_tool<TableState>(frame.tools) != nullptr;
   if (rows.check({"Table",
                   "A fixed table under the body, across gravity, where its lowest point is when it is put "
                   "there (T)."},
                  table))
     toggle_table(frame, out);
-  if (!frame.pins.empty() && rows.button({several(frame.pins.size(), "pin"), "Releases all that is pinned."}))
+  const std::size_t pins = tools_of<PinState>(frame.tools).size(), sutures = tools_of<SutureState>(frame.tools).size();
+  if (pins > 0 && rows.button({several(pins, "pin"), "Releases all that is pinned."}))
     out.commands.emplace_back(Unpin{});
-  if (!frame.sutures.empty() && rows.button({several(frame.sutures.size(), "suture"), "Cuts all threads."}))
+  if (sutures > 0 && rows.button({several(sutures, "suture"), "Cuts all threads."}))
     out.commands.emplace_back(CutSutures{});
 }
 
@@ -90,14 +91,15 @@ void ToolSection::draw_settings(Rows& rows) {
 }
 
 void ToolSection::draw_friction(Rows& rows, const Frame& frame, PanelActions& out) {
-  if (tool_.tool != Tool::probe && frame.tables.empty()) return;
-  if (!frame.tables.empty() && tool_.tool != Tool::probe) tool_.friction = frame.tables.front().table.friction;
+  const std::vector<TableState> tables = tools_of<TableState>(frame.tools);
+  if (tool_.tool != Tool::probe && tables.empty()) return;
+  if (!tables.empty() && tool_.tool != Tool::probe) tool_.friction = tables.front().table.friction;
   if (!rows.slider({"Friction", "Coulomb's coefficient of friction of tissue on probe and table, no unit."},
                    tool_.friction, {0, max_friction, "%.2f", false}) ||
-      frame.tables.empty())
+      tables.empty())
     return;
   SetTables set;
-  for (const TableState& state : frame.tables) {
+  for (const TableState& state : tables) {
     set.tables.push_back(state.table);
     set.tables.back().friction = tool_.friction;
   }
@@ -106,7 +108,7 @@ void ToolSection::draw_friction(Rows& rows, const Frame& frame, PanelActions& ou
 
 void ToolSection::toggle_table(const Frame& frame, PanelActions& out) const {
   SetTables set;
-  if (frame.tables.empty()) {
+  if (!find_tool<TableState>(frame.tools)) {
     double lowest = std::numeric_limits<double>::infinity();
     for (const Vec3f& x : frame.positions) lowest = std::min(lowest, up_.dot(x.cast<double>()));
     set.tables.push_back({(lowest - table_gap * body_radius_) * up_, up_, tool_.friction});

@@ -36,14 +36,16 @@ Vec3f tension_tint(float force) {
 void ToolDrawing::place(const Frame& frame, bool shown, const ViewContext& shot) {
   parts_.clear();
   if (!shown) return;
-  if (frame.tool.active) place_grasp(frame.tool, shot);
-  for (const PinState& pin : frame.pins) place_pin(pin, shot);
-  if (frame.probe.active) place_probe(frame.probe);
-  for (const TableState& state : frame.tables) place_table(state.table, frame, shot);
-  for (const SutureState& suture : frame.sutures) place_suture(suture, shot);
+  const ByKind placing{[&](const GraspState& grasp) { place_grasp(grasp, shot); },
+                       [&](const PinState& pin) { place_pin(pin, shot); },
+                       [&](const TableState& state) { place_table(state.table, frame, shot); },
+                       [&](const ProbeState& probe) { place_probe(probe); },
+                       [&](const SutureState& suture) { place_suture(suture, shot); },
+                       [](const SelfContactState&) {}};
+  for (const ToolState& tool : frame.tools) std::visit(placing, tool);
 }
 
-void ToolDrawing::place_grasp(const ToolState& tool, const ViewContext& shot) {
+void ToolDrawing::place_grasp(const GraspState& tool, const ViewContext& shot) {
   const Vec3f target = tool.target.cast<float>(), grip = tool.grip.cast<float>();
   if (!target.allFinite() || !grip.allFinite()) return;
   const Vec3f right = shot.camera.right();

@@ -36,7 +36,7 @@ class ToolDrawing {
     float metal = 0;  // 1: steel, 0: enamel
     bool casts = true;
   };
-  void place_grasp(const ToolState& tool, const ViewContext& shot);
+  void place_grasp(const GraspState& tool, const ViewContext& shot);
   void place_probe(const ProbeState& probe);
   void place_table(const Table& table, const Frame& frame, const ViewContext& shot);
   void place_suture(const SutureState& suture, const ViewContext& shot);

@@ -63,7 +63,8 @@ bool MouseTool::pin(const render::Hit& hit, const Frame& frame, const SurfaceMes
   const auto corner = free_corner(hit, surface_mesh);
   if (!corner) return false;
   const int node = surface_mesh.nodes[static_cast<std::size_t>(*corner)];
-  const bool pinned = std::any_of(frame.pins.begin(), frame.pins.end(), [&](const PinState& pin) {
+  const std::vector<PinState> pins = tools_of<PinState>(frame.tools);
+  const bool pinned = std::any_of(pins.begin(), pins.end(), [&](const PinState& pin) {
     return std::find(pin.nodes.begin(), pin.nodes.end(), node) != pin.nodes.end();
   });
   if (pinned)

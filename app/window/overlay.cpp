@@ -71,11 +71,14 @@ void draw_reading(const render::Hit& hit, const Frame& frame, const SurfaceMesh&
 }
 
 void draw_forces(const Frame& frame, const panel::CameraController& controller) {
-  if (frame.tool.active) draw_force(frame.tool.force, frame.tool.target, controller);
-  for (const PinState& pin : frame.pins) draw_force(pin.force, pin.place, controller);
-  if (frame.probe.active) draw_force(frame.probe.force, frame.probe.tip, controller);
-  for (const SutureState& suture : frame.sutures)
-    draw_force(suture.force, (suture.ends[0] + suture.ends[1]) / 2, controller);
+  const auto label = [&](const Vec3& force, const Vec3& place) { draw_force(force, place, controller); };
+  const ByKind labels{[&](const GraspState& grasp) { label(grasp.force, grasp.target); },
+                      [&](const PinState& pin) { label(pin.force, pin.place); },
+                      [&](const ProbeState& probe) { label(probe.force, probe.tip); },
+                      [&](const SutureState& suture) { label(suture.force, (suture.ends[0] + suture.ends[1]) / 2); },
+                      [](const TableState&) {},  // in the panel: a table has no one place
+                      [](const SelfContactState&) {}};
+  for (const ToolState& tool : frame.tools) std::visit(labels, tool);
 }
 
 void draw_suture_end(int node, const Frame& frame, const SurfaceMesh& surface_mesh,

@@ -167,7 +167,7 @@ void Viewer::save_scene() {
   Scene scene = as_opened_;
   panel_->write_into(scene);
   scene.tables.clear();
-  for (const TableState& state : frame_->tables) scene.tables.push_back(state.table);
+  for (const TableState& state : tools_of<TableState>(frame_->tools)) scene.tables.push_back(state.table);
   try {
     const auto path = free_name(scene.name, ".json");
     write_file(path, scene_text(scene, std::filesystem::current_path()));

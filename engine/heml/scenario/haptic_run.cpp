@@ -78,13 +78,16 @@ HapticRun run_with_handle(const Scene& scene, const HandleTrajectory& handle, co
   const double tick = scene.solver.tick(), end = std::min(scene.solver.duration, handle.times.back());
   for (long k = 1; static_cast<double>(k) * tick <= end * (1 + 1e-12); ++k) {
     const double now = static_cast<double>(k) * tick;
-    if (world->tool().active)
+    if (find_tool<GraspState>(world->tools()))
       if (const auto refused = world->apply(MoveTool{handle.at(now - tick)}))
         throw InputError(scene.file, "", "the tool cannot follow the handle: " + *refused, "give another trajectory");
     player.to(now);
     if ((run.halt = world->halt())) break;
-    const ToolState tool = world->tool();
-    tool.active ? servo.update({now, tool.target, tool.force}) : servo.release();
+    const std::vector<ToolState> tools = world->tools();
+    if (const GraspState* grasp = find_tool<GraspState>(tools))
+      servo.update({now, grasp->target, grasp->force});
+    else
+      servo.release();
     while (static_cast<double>(run.samples.size()) * turn < now + tick) {  // until the next tick is done
       const double time = static_cast<double>(run.samples.size()) * turn;
       const Vec3 place = handle.at(time), force = time < now ? Vec3(Vec3::Zero()) : servo.serve(place, turn);

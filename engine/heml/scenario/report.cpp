@@ -57,6 +57,26 @@ Json recovery_json(const Recovery& recovery) {
   return json;
 }
 
+/// Tables and self-contact have entries; what a user moves is in the trace.
+void add_tool(const ToolState& tool, Json& report) {
+  std::visit(
+      ByKind{[&](const TableState& table) {
+               report["tables"].push_back({{"force", vector_json(table.force)},
+                                           {"work", table.work},
+                                           {"deepest", table.max_penetration},
+                                           {"touching", table.contact_count}});
+             },
+             [&](const SelfContactState& contact) {
+               report["self_contact"] = {{"force", contact.force},
+                                         {"work", contact.work},
+                                         {"energy", contact.energy},
+                                         {"deepest", contact.max_penetration},
+                                         {"touching", contact.contact_count}};
+             },
+             [](const GraspState&) {}, [](const PinState&) {}, [](const ProbeState&) {}, [](const SutureState&) {}},
+      tool);
+}
+
 }  // namespace
 
 void write_report(const std::filesystem::path& path, World& world, const SolveFacts& facts) {
@@ -79,17 +99,7 @@ void write_report(const std::filesystem::path& path, World& world, const SolveFa
                  {"inverted", std::count_if(J.begin(), J.end(), [](double ratio) { return !(ratio > 0); })}};
   report["reaction"] = Json::array();
   for (const Vec3& force : world.reactions()) report["reaction"].push_back(vector_json(force));
-  for (const TableState& table : world.tables())
-    report["tables"].push_back({{"force", vector_json(table.force)},
-                                {"work", table.work},
-                                {"deepest", table.max_penetration},
-                                {"touching", table.contact_count}});
-  if (const auto contact = world.self_contact())
-    report["self_contact"] = {{"force", contact->force},
-                              {"work", contact->work},
-                              {"energy", contact->energy},
-                              {"deepest", contact->max_penetration},
-                              {"touching", contact->contact_count}};
+  for (const ToolState& tool : world.tools()) add_tool(tool, report);
   report["nodes"] = world.setup().mesh.nodes.size();
   const std::size_t removed = removed_count(world);
   report["tets"] = world.topology()->elements.size() + removed;

@@ -66,7 +66,7 @@ void Trace::sample_history(World& world) {
   history_rows_ += fmt::format("{:.17g}", world.time());
   for (const double value : {energies.kinetic, energies.elastic, energies.potential, *least, *most})
     add(history_rows_, value);
-  add(history_rows_, world.tool().force);
+  add(history_rows_, force_of<GraspState>(world.tools()));
   for (const Vec3& force : world.reactions()) add(history_rows_, force);
   history_rows_ += '\n';
 }

@@ -22,14 +22,6 @@ struct SurfaceMesh {
   std::shared_ptr<const SurfaceMesh> whole = nullptr;  ///< before any element was removed; null: this one
 };
 
-/// Sum of the forces of pins, tables or sutures, N.
-template <class State>
-Vec3 sum_of(const std::vector<State>& states) {
-  Vec3 sum = Vec3::Zero();
-  for (const State& state : states) sum += state.force;
-  return sum;
-}
-
 inline const SurfaceMesh& uncut_surface(const SurfaceMesh& surface_mesh) {
   return surface_mesh.whole ? *surface_mesh.whole : surface_mesh;
 }
@@ -64,11 +56,7 @@ struct Frame {
   Energies energies;
   double min_J = 1, max_J = 1;
   std::size_t elements = 0, removed = 0;  ///< elements of the mesh; of these, removed
-  ToolState tool;
-  std::vector<PinState> pins;
-  std::vector<TableState> tables;
-  ProbeState probe;
-  std::vector<SutureState> sutures;
+  std::vector<ToolState> tools;           ///< what acts on the body
   Pace pace;
   int substeps = 1;
   double stable_step = 0;  ///< s

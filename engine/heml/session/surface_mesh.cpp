@@ -69,11 +69,7 @@ void fill_frame(World& world, std::shared_ptr<const SurfaceMesh> surface_mesh, F
   frame.max_J = *high;
   frame.removed = removed_count(world);
   frame.elements = J.size() + frame.removed;
-  frame.tool = world.tool();
-  frame.pins = world.pins();
-  frame.tables = world.tables();
-  frame.probe = world.probe();
-  frame.sutures = world.sutures();
+  frame.tools = world.tools();
   frame.substeps = world.substeps();
   frame.stable_step = world.stable_step();
   frame.recovery.reset();

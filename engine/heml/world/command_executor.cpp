@@ -22,11 +22,6 @@ double tool_frequency(const WorldSetup& setup, double radius, double highest) {
 
 bool finite(const Vec3& v) { return v.allFinite(); }
 
-bool is_edit(const Command& command) {
-  return std::holds_alternative<RemoveElements>(command) || std::holds_alternative<CutTissue>(command) ||
-         std::holds_alternative<Undo>(command);
-}
-
 std::optional<std::string> patch_problem(const char* tool, int node, double radius, std::size_t nodes) {
   if (node < 0 || static_cast<std::size_t>(node) >= nodes)
     return fmt::format("{}: node {} does not exist; the body has nodes 0 to {}", tool, node, nodes - 1);

@@ -50,12 +50,7 @@ class TypedWorld final : public World {
   std::vector<Mat3> stresses() override { return queries_.stresses(); }
   std::optional<ErrorEstimate> error_estimate() override { return queries_.error_estimate(); }
   std::vector<Vec3> reactions() override { return queries_.reactions(); }
-  ToolState tool() const override { return queries_.tool(); }
-  std::vector<PinState> pins() const override { return queries_.pins(); }
-  std::vector<TableState> tables() const override { return queries_.tables(); }
-  ProbeState probe() const override { return queries_.probe(); }
-  std::vector<SutureState> sutures() const override { return queries_.sutures(); }
-  std::optional<SelfContactState> self_contact() const override { return queries_.self_contact(); }
+  std::vector<ToolState> tools() const override { return queries_.tools(); }
   std::uint64_t state_hash() const override { return queries_.state_hash(); }
   std::vector<std::uint16_t> node_hashes() const override { return queries_.node_hashes(); }
   std::shared_ptr<const Topology> topology() const override { return s_.topology; }

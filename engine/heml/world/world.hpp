@@ -10,6 +10,7 @@
 #include <heml/world/recovery.hpp>
 #include <heml/world/setup.hpp>
 #include <heml/world/solver_stats.hpp>
+#include <heml/world/tool_state.hpp>
 #include <memory>
 #include <optional>
 #include <span>
@@ -50,60 +51,6 @@ enum class Field {
   von_mises,     ///< Pa, of the Cauchy stress
   volume_ratio,  ///< J, 1 at rest
   error          ///< of the mesh, of the mean energy norm: elastic/error_estimate.hpp
-};
-
-/// The tool as the world sees it.
-struct ToolState {
-  bool active = false;
-  int node = -1;               ///< grasped node, mesh-file order
-  Vec3 target = Vec3::Zero();  ///< m, where the tool is
-  Vec3 grip = Vec3::Zero();    ///< m, where the grasped patch is (mass-weighted mean)
-  Vec3 force = Vec3::Zero();   ///< N, of the tool on the tissue
-};
-
-/// A pin as the world sees it.
-struct PinState {
-  int node = -1;              ///< its centre, mesh-file order
-  std::vector<int> nodes;     ///< that it holds, mesh-file order
-  Vec3 place = Vec3::Zero();  ///< m, of the centre
-  Vec3 force = Vec3::Zero();  ///< N, of the pin on the tissue
-};
-
-/// A table as the world sees it.
-struct TableState {
-  Table table;
-  Vec3 force = Vec3::Zero();   ///< N, on the tissue: of explicit methods the mean over the last tick
-  double work = 0;             ///< J, on the tissue, force times way: friction takes energy away
-  double energy = 0;           ///< J, stored in the contact of implicit methods
-  double max_penetration = 0;  ///< m, that tissue is inside
-  int contact_count = 0;       ///< points of tissue
-};
-
-/// The probe, likewise.
-struct ProbeState {
-  bool active = false;
-  Vec3 tip = Vec3::Zero(), end = Vec3::Zero();  ///< m, of its axis
-  double radius = 0;                            ///< m
-  Vec3 force = Vec3::Zero();                    ///< N, on the tissue
-  double work = 0, energy = 0;                  ///< J
-  double max_penetration = 0;                   ///< m
-  int contact_count = 0;
-};
-
-/// A suture as the world sees it.
-struct SutureState {
-  std::array<int, 2> nodes{};                            ///< mesh-file order
-  std::array<Vec3, 2> ends{Vec3::Zero(), Vec3::Zero()};  ///< m
-  Vec3 force = Vec3::Zero();                             ///< N, on its first node: along the link
-};
-
-/// Contact of tissue with tissue as the world sees it.
-struct SelfContactState {
-  double force = 0;   ///< N, the sum of what presses between all pairs: of explicit methods the mean over the last tick
-  double work = 0;    ///< J, of friction
-  double energy = 0;  ///< J, stored in the contact of implicit methods
-  double max_penetration = 0;  ///< m, that tissue is inside tissue
-  int contact_count = 0;       ///< pairs of a node and a face, or of two ridges
 };
 
 class PreconditionerBuild;  // dynamics/preconditioner_build.hpp
@@ -163,13 +110,8 @@ class World {
   /// Of the mesh, as the body is now; elements as topology() has them. None where springs bear what no stress tells.
   virtual std::optional<ErrorEstimate> error_estimate() = 0;
   virtual std::vector<Vec3> reactions() = 0;  ///< one per setup.boundary, N: the support's force on the body
-  virtual ToolState tool() const = 0;
-  virtual std::vector<PinState> pins() const = 0;
-  virtual std::vector<TableState> tables() const = 0;
-  virtual ProbeState probe() const = 0;
-  virtual std::vector<SutureState> sutures() const = 0;
-  /// None where the setup does not ask for it.
-  virtual std::optional<SelfContactState> self_contact() const = 0;
+  /// What acts on the body now: grasp, pins, tables, probe, sutures, self-contact, in this order.
+  virtual std::vector<ToolState> tools() const = 0;
 
   /// Takes over the motion of another world of the same setup: positions, velocities, time, what is grasped. Returns
   /// false, and does nothing, where that is not all there is to it: another mesh or precision, memory, recovery.

@@ -4,6 +4,11 @@
 #include <numeric>
 
 namespace heml {
+namespace {
+ContactState contact_state(const ContactReport& report) {
+  return {report.force, report.work, report.energy, report.max_penetration, report.contact_count};
+}
+}  // namespace
 
 template <class Real>
 void WorldQueries<Real>::write_positions(std::span<const int> nodes, double ahead, std::vector<Vec3f>& out) const {
@@ -145,82 +150,56 @@ std::vector<Vec3> WorldQueries<Real>::reactions() const {
 }
 
 template <class Real>
-ToolState WorldQueries<Real>::tool() const {
-  ToolState tool;
-  if (s_.grasps.empty()) return tool;
-  const auto& grasp = s_.grasps.front();
-  tool.active = true;
-  tool.node = s_.model.order.file_node[static_cast<std::size_t>(grasp.center())];
-  tool.target = grasp.target();
-  tool.grip = grasp.grip(s_.state.x.data());
-  tool.force = grasp.force(s_.state.x.data(), s_.state.v.data());
-  return tool;
+std::vector<ToolState> WorldQueries<Real>::tools() const {
+  const Contacts& contacts = s_.contacts;
+  std::vector<ToolState> tools;
+  for (const auto& grasp : s_.grasps) tools.push_back(state_of(grasp));
+  for (const PinnedPatch& pin : s_.pins) tools.push_back(state_of(pin));
+  std::size_t surface = 0;  // reports are in the order of Contacts::surfaces()
+  for (const Table& table : contacts.tables)
+    tools.push_back(TableState{contact_state(contacts.report_of(surface++)), table});
+  if (contacts.probe) {
+    const ContactSurface at = surface_of(*contacts.probe, s_.state.time);
+    tools.push_back(ProbeState{contact_state(contacts.report_of(surface++)), at.point, at.other, at.radius});
+  }
+  for (const Suture& suture : contacts.sutures) tools.push_back(state_of(suture, contacts.report_of(surface++)));
+  if (contacts.tissue) {
+    const ContactReport report = contacts.report_of(surface);
+    tools.push_back(SelfContactState{report.normal_force, report.work, report.energy, report.max_penetration,
+                                     report.contact_count});
+  }
+  return tools;
 }
 
 template <class Real>
-std::vector<PinState> WorldQueries<Real>::pins() const {
+GraspState WorldQueries<Real>::state_of(const GraspSpring<Real>& grasp) const {
+  return {s_.model.order.file_node[static_cast<std::size_t>(grasp.center())], grasp.target(),
+          grasp.grip(s_.state.x.data()), grasp.force(s_.state.x.data(), s_.state.v.data())};
+}
+
+template <class Real>
+PinState WorldQueries<Real>::state_of(const PinnedPatch& pin) const {
   const auto file = [this](int n) { return s_.model.order.file_node[static_cast<std::size_t>(n)]; };
-  std::vector<PinState> pins;
-  for (const PinnedPatch& pin : s_.pins) {
-    PinState& state = pins.emplace_back();
-    state.node = file(pin.center);
-    for (const int n : pin.nodes) state.nodes.push_back(file(n));
-    state.place =
-        Eigen::Map<const Vector3<Real>>(&s_.state.x[3 * static_cast<std::size_t>(pin.center)]).template cast<double>();
-    state.force = pin_force(pin, s_.state.f.data());
+  PinState state{file(pin.center), {}, position(pin.center), pin_force(pin, s_.state.f.data())};
+  for (const int n : pin.nodes) state.nodes.push_back(file(n));
+  return state;
+}
+
+template <class Real>
+SutureState WorldQueries<Real>::state_of(const Suture& suture, const ContactReport& report) const {
+  SutureState state;
+  for (std::size_t end = 0; end < 2; ++end) {
+    state.nodes[end] = s_.model.order.file_node[static_cast<std::size_t>(suture.nodes[end])];
+    state.ends[end] = position(suture.nodes[end]);
   }
-  return pins;
+  state.force = report.force;
+  return state;
 }
 
+/// m, of an internal node.
 template <class Real>
-std::vector<TableState> WorldQueries<Real>::tables() const {
-  std::vector<TableState> tables;
-  for (std::size_t s = 0; s < s_.contacts.tables.size(); ++s) {
-    const ContactReport report = s_.contacts.report_of(s);
-    tables.push_back({s_.contacts.tables[s], report.force, report.work, report.energy, report.max_penetration,
-                      report.contact_count});
-  }
-  return tables;
-}
-
-template <class Real>
-ProbeState WorldQueries<Real>::probe() const {
-  if (!s_.contacts.probe) return {};
-  const ContactSurface at = surface_of(*s_.contacts.probe, s_.state.time);
-  const ContactReport report = s_.contacts.report_of(s_.contacts.tables.size());
-  return {true,
-          at.point,
-          at.other,
-          at.radius,
-          report.force,
-          report.work,
-          report.energy,
-          report.max_penetration,
-          report.contact_count};
-}
-
-template <class Real>
-std::vector<SutureState> WorldQueries<Real>::sutures() const {
-  std::vector<SutureState> sutures;
-  for (std::size_t k = 0; k < s_.contacts.sutures.size(); ++k) {
-    SutureState& state = sutures.emplace_back();
-    for (std::size_t end = 0; end < 2; ++end) {
-      const auto n = static_cast<std::size_t>(s_.contacts.sutures[k].nodes[end]);
-      state.nodes[end] = s_.model.order.file_node[n];
-      state.ends[end] = Eigen::Map<const Vector3<Real>>(&s_.state.x[3 * n]).template cast<double>();
-    }
-    state.force = s_.contacts.report_of(s_.contacts.tables.size() + (s_.contacts.probe ? 1 : 0) + k).force;
-  }
-  return sutures;
-}
-
-template <class Real>
-std::optional<SelfContactState> WorldQueries<Real>::self_contact() const {
-  if (!s_.contacts.tissue) return std::nullopt;
-  const ContactReport report =
-      s_.contacts.report_of(s_.contacts.tables.size() + (s_.contacts.probe ? 1 : 0) + s_.contacts.sutures.size());
-  return SelfContactState{report.normal_force, report.work, report.energy, report.max_penetration,
-                          report.contact_count};
+Vec3 WorldQueries<Real>::position(int node) const {
+  return Eigen::Map<const Vector3<Real>>(&s_.state.x[3 * static_cast<std::size_t>(node)]).template cast<double>();
 }
 
 template <class Real>

@@ -16,12 +16,7 @@ class WorldQueries {
   std::vector<Mat3> stresses();
   std::optional<ErrorEstimate> error_estimate();
   std::vector<Vec3> reactions() const;
-  ToolState tool() const;
-  std::vector<PinState> pins() const;
-  std::vector<TableState> tables() const;
-  ProbeState probe() const;
-  std::vector<SutureState> sutures() const;
-  std::optional<SelfContactState> self_contact() const;
+  std::vector<ToolState> tools() const;
   std::uint64_t state_hash() const;
   std::vector<std::uint16_t> node_hashes() const;
 
@@ -36,6 +31,10 @@ class WorldQueries {
   std::vector<double> element_values(Field field);
   std::optional<ErrorEstimate> estimate();
   std::vector<Vec3> inner_positions() const;
+  Vec3 position(int node) const;
+  GraspState state_of(const GraspSpring<Real>& grasp) const;
+  PinState state_of(const PinnedPatch& pin) const;
+  SutureState state_of(const Suture& suture, const ContactReport& report) const;
 
   Simulation<Real>& s_;
   std::vector<ElementState<Real>> element_states_;  ///< scratch

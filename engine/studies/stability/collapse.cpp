@@ -80,7 +80,7 @@ Outcome yanked(const Trial& trial) {
   while (!world->halt() && world->time() < scene.solver.duration - 1e-9) {
     schedule.apply(*world);
     world->tick();
-    if (world->tool().active) farthest = std::max(farthest, away_from_rest(*world));
+    if (find_tool<GraspState>(world->tools())) farthest = std::max(farthest, away_from_rest(*world));
   }
   if (world->halt()) return stopped(*world);
   Outcome outcome = ended(*world, away_from_rest(*world), fmt::format("bent by {:.2f} of its size", farthest));

@@ -38,11 +38,10 @@ TEST_CASE("history starts afresh after a reset") {
 TEST_CASE("history takes no force from a tool that holds nothing") {
   History history;
   Frame frame = at(1);
-  frame.tool.force = Vec3(3, 4, 0);
   history.add(frame);
   CHECK(history.readings().back().force == 0);
   frame.time = 2;
-  frame.tool.active = true;
+  frame.tools.push_back(GraspState{.force = Vec3(3, 4, 0)});
   history.add(frame);
   CHECK(history.readings().back().force == 5);
 }

@@ -309,8 +309,7 @@ TEST_CASE("numbers that are not finite do not break the panel") {
   const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
   driver.frame.energies = {nan, infinity, -infinity};
   driver.frame.min_J = nan;
-  driver.frame.tool.active = true;
-  driver.frame.tool.force = Vec3(nan, 0, 0);
+  driver.frame.tools.push_back(GraspState{.force = Vec3(nan, 0, 0)});
   driver.frame.field = Field::stretch;
   driver.frame.values = {std::numeric_limits<float>::quiet_NaN(), 1, 1, 1};
   for (int k = 0; k < 20; ++k) {

@@ -138,9 +138,7 @@ TEST_CASE("edges, held nodes and the tool show when asked for") {
   stage.options.constrained = false;
   CHECK(stage.draw().pixels == plain.pixels);
 
-  stage.frame.tool.active = true;
-  stage.frame.tool.target = Vec3(0, 0.06, 0.03);
-  stage.frame.tool.grip = Vec3(0, 0.04, 0.03);
+  stage.frame.tools.push_back(GraspState{.target = Vec3(0, 0.06, 0.03), .grip = Vec3(0, 0.04, 0.03)});
   CHECK(count_different(plain, stage.draw()) > 100);
   stage.options.tool = false;
   CHECK(stage.draw().pixels == plain.pixels);

@@ -155,9 +155,7 @@ TEST_CASE("a pin is set where the body is pressed, and taken out where it is") {
   CHECK(std::get<PinTissue>(sheet.commands[0]).node == 21);
   CHECK(std::get<PinTissue>(sheet.commands[0]).radius == 0.01);
   CHECK(sheet.mouse_tool.doing() == MouseTool::Doing::nothing);
-  PinState& pin = sheet.frame.pins.emplace_back();
-  pin.node = 20;
-  pin.nodes = {20, 21};
+  sheet.frame.tools.push_back(PinState{.node = 20, .nodes = {20, 21}});
   sheet.press(MouseButton::left, at);
   REQUIRE(sheet.commands.size() == 2);
   CHECK(std::get<Unpin>(sheet.commands[1]).node == 21);

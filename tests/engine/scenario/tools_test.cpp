@@ -52,7 +52,8 @@ TEST_CASE("tables of a scene are put there, kept when it is written, and bear wh
   const auto world = load_world(again);
   world->load_to(1);
   REQUIRE_FALSE(world->halt());
-  CHECK(world->tables()[0].force.y() == doctest::Approx(0.2 * 0.1 * 0.1 * 1000 * 9.81).epsilon(1e-6));
+  CHECK(tools_of<TableState>(world->tools())[0].force.y() ==
+        doctest::Approx(0.2 * 0.1 * 0.1 * 1000 * 9.81).epsilon(1e-6));
 }
 
 TEST_CASE("places of pins and sutures become the nodes nearest to them") {

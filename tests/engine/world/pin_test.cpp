@@ -34,7 +34,7 @@ TEST_CASE("pin: the patch stays where it is under every method, and a release le
     auto world = make_world(free_block(integrator));
     const int node = node_at(world->setup().mesh, Vec3(0.1, 0.01, 0.01));
     REQUIRE_FALSE(world->apply(PinTissue{node, 0.012}));
-    const auto pinned = world->pins().front().nodes;
+    const auto pinned = tools_of<PinState>(world->tools()).front().nodes;
     CHECK(pinned.size() > 3);
     const auto before = world->positions();
     run_until(*world, 0.1);
@@ -44,7 +44,7 @@ TEST_CASE("pin: the patch stays where it is under every method, and a release le
     }
     CHECK(world->positions()[0].y() < before[0].y() - 1e-3);
     REQUIRE_FALSE(world->apply(Unpin{node}));
-    CHECK(world->pins().empty());
+    CHECK(tools_of<PinState>(world->tools()).empty());
     run_until(*world, 0.12);
     CHECK(world->positions()[static_cast<std::size_t>(node)].y() < before[static_cast<std::size_t>(node)].y());
   }
@@ -60,7 +60,7 @@ TEST_CASE("pin: at rest two pins together carry the weight") {
   REQUIRE_FALSE(world->apply(PinTissue{node_at(mesh, Vec3(0.1, 0.01, 0.01)), 0.015}));
   run_until(*world, 5);
   const double weight = 0.1 * 0.02 * 0.02 * 1000 * 9.81;
-  const Vec3 left = world->pins()[0].force, right = world->pins()[1].force;
+  const Vec3 left = tools_of<PinState>(world->tools())[0].force, right = tools_of<PinState>(world->tools())[1].force;
   CHECK((left + right - Vec3(0, weight, 0)).norm() <= 1e-6 * weight);
   CHECK(left.y() == doctest::Approx(weight / 2).epsilon(0.02));
 }
@@ -73,14 +73,15 @@ TEST_CASE("pin: the static world is held by it, and carries its load") {
   REQUIRE_FALSE(world->apply(PinTissue{node_at(world->setup().mesh, Vec3(0, 0.01, 0.01)), 0.015}));
   world->load_to(1);
   REQUIRE_FALSE(world->halt());
-  CHECK(world->pins()[0].force.y() == doctest::Approx(0.1 * 0.02 * 0.02 * 1000 * 9.81).epsilon(1e-6));
+  CHECK(tools_of<PinState>(world->tools())[0].force.y() ==
+        doctest::Approx(0.1 * 0.02 * 0.02 * 1000 * 9.81).epsilon(1e-6));
 }
 
 TEST_CASE("pin: undoing a cut brings back the pins of then, and a reset takes all away") {
   auto world = make_world(cantilever());
   const int node = node_at(world->setup().mesh, Vec3(0.1, 0.01, 0.01));
   REQUIRE_FALSE(world->apply(PinTissue{node, 0.012}));
-  const std::size_t held = world->pins()[0].nodes.size();
+  const std::size_t held = tools_of<PinState>(world->tools())[0].nodes.size();
   run_until(*world, 0.01);
   const auto before = world->state_hash();
   CutTissue cut;
@@ -88,17 +89,18 @@ TEST_CASE("pin: undoing a cut brings back the pins of then, and a reset takes al
                       {Vec3(0.085, 0.03, 0.0108), Vec3(0.12, 0.03, 0.0108)}};
   REQUIRE_FALSE(world->apply(cut));
   REQUIRE(world->edits().size() == 1);
-  CHECK(world->pins()[0].nodes.size() > held);  // nodes that the cut made within the patch are of it
+  CHECK(tools_of<PinState>(world->tools())[0].nodes.size() >
+        held);  // nodes that the cut made within the patch are of it
   run_until(*world, 0.02);
-  const auto pinned = world->pins()[0].nodes;
+  const auto pinned = tools_of<PinState>(world->tools())[0].nodes;
   for (const int n : pinned) CHECK(world->velocities()[static_cast<std::size_t>(n)] == Vec3(Vec3::Zero()));
   REQUIRE_FALSE(world->apply(Unpin{}));
   REQUIRE_FALSE(world->apply(Undo{}));
   CHECK(world->state_hash() == before);
-  REQUIRE(world->pins().size() == 1);
-  CHECK(world->pins()[0].nodes.size() == held);
+  REQUIRE(tools_of<PinState>(world->tools()).size() == 1);
+  CHECK(tools_of<PinState>(world->tools())[0].nodes.size() == held);
   REQUIRE_FALSE(world->apply(Reset{}));
-  CHECK(world->pins().empty());
+  CHECK(tools_of<PinState>(world->tools()).empty());
 }
 
 TEST_CASE("pin: what cannot be held or released is refused, and changes nothing") {
@@ -108,7 +110,7 @@ TEST_CASE("pin: what cannot be held or released is refused, and changes nothing"
   for (const Command& wrong : {Command(PinTissue{-1, 0}), Command(PinTissue{1 << 20, 0}), Command(PinTissue{free, nan}),
                                Command(PinTissue{free, -1}), Command(PinTissue{0, 0}), Command(Unpin{free})})
     CHECK(world->apply(wrong));
-  CHECK(world->pins().empty());
+  CHECK(tools_of<PinState>(world->tools()).empty());
 }
 
 }  // namespace heml::pin_test

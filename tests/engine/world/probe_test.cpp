@@ -82,8 +82,8 @@ double felt(int cells) {
   REQUIRE_FALSE(world->apply(ball(radius, {Vec3(0, radius, 0), Vec3(0, radius - depth, 0)}, depth)));
   world->load_to(1);
   REQUIRE_FALSE(world->halt());
-  CHECK(world->probe().max_penetration <= 2e-5);
-  return -world->probe().force.y() / pressed_in(1e4, 0.3, radius, depth, height);
+  CHECK(tool_of<ProbeState>(*world).max_penetration <= 2e-5);
+  return -tool_of<ProbeState>(*world).force.y() / pressed_in(1e4, 0.3, radius, depth, height);
 }
 
 }  // namespace
@@ -96,13 +96,13 @@ TEST_CASE("probe: at 1 m/s it does not pass through a thin sheet, though it is s
     for (int k = 0; world->time() < 0.08; ++k) {
       world->tick();
       REQUIRE_FALSE(world->halt());
-      const double top = height_of_top(*world, world->probe().tip);
-      CHECK(top <= world->probe().tip.y() - 0.003 + 2e-5);
+      const double top = height_of_top(*world, tool_of<ProbeState>(*world).tip);
+      CHECK(top <= tool_of<ProbeState>(*world).tip.y() - 0.003 + 2e-5);
     }
-    CHECK(world->probe().tip.y() == doctest::Approx(-0.03));
-    CHECK(world->probe().force.y() < -1e-3);
-    CHECK(world->probe().contact_count > 0);
-    CHECK(world->probe().max_penetration <= 1e-4);
+    CHECK(tool_of<ProbeState>(*world).tip.y() == doctest::Approx(-0.03));
+    CHECK(tool_of<ProbeState>(*world).force.y() < -1e-3);
+    CHECK(tool_of<ProbeState>(*world).contact_count > 0);
+    CHECK(tool_of<ProbeState>(*world).max_penetration <= 1e-4);
   }
 }
 
@@ -138,7 +138,7 @@ TEST_CASE("probe: the momentum of a free body is what the probe has given it") {
   Vec3 given = Vec3::Zero();
   for (int k = 0; k < 100; ++k) {
     world->tick();
-    given += tick * world->probe().force;
+    given += tick * tool_of<ProbeState>(*world).force;
   }
   Vec3 momentum = Vec3::Zero();
   const TetMesh& mesh = world->setup().mesh;
@@ -177,9 +177,9 @@ TEST_CASE("probe: tools and cuts together give the same bits for one thread and 
       REQUIRE_FALSE(world->apply(SutureTissue{{middle, end}, 0.03, 0.05}));
       run_until(*world, 0.025);
       REQUIRE_FALSE(world->apply(Undo{}));
-      CHECK(world->probe().active);
-      CHECK(world->pins().size() == 1);
-      CHECK(world->sutures().empty());  // it was set after the cut
+      CHECK(has_tool<ProbeState>(*world));
+      CHECK(tools_of<PinState>(world->tools()).size() == 1);
+      CHECK(tools_of<SutureState>(world->tools()).empty());  // it was set after the cut
       run_until(*world, 0.035);
       REQUIRE_FALSE(world->halt());
       return world->state_hash();
@@ -196,14 +196,14 @@ TEST_CASE("probe: what makes none is refused, and a reset takes it away") {
        {ball(0, {place}), ball(-1, {place}), ball(nan, {place}), ball(0.01, {}), ball(0.01, {Vec3(nan, 0, 0)}),
         ball(0.01, {place}, 0), ball(0.01, {place}, nan), ball(0.01, {place}, 1, -1), ball(0.01, {place}, 1, nan)})
     CHECK(world->apply(wrong));
-  CHECK_FALSE(world->probe().active);
+  CHECK_FALSE(has_tool<ProbeState>(*world));
   CHECK_FALSE(world->apply(ball(0.01, {place})));
-  CHECK(world->probe().active);
+  CHECK(has_tool<ProbeState>(*world));
   CHECK_FALSE(world->apply(WithdrawProbe{}));
-  CHECK_FALSE(world->probe().active);
+  CHECK_FALSE(has_tool<ProbeState>(*world));
   CHECK_FALSE(world->apply(ball(0.01, {place})));
   CHECK_FALSE(world->apply(Reset{}));
-  CHECK_FALSE(world->probe().active);
+  CHECK_FALSE(has_tool<ProbeState>(*world));
 }
 
 }  // namespace heml::probe_test

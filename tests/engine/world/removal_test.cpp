@@ -380,15 +380,15 @@ TEST_CASE("what is grasped may lose its elements, some or all, and stays stable"
   REQUIRE_FALSE(world->apply(Grasp{tip, 0.025}));
   REQUIRE_FALSE(world->apply(MoveTool{Vec3(0.1, 0.04, 0.02)}));
   run_until(*world, 0.1);
-  const double pull = world->tool().force.norm();
+  const double pull = tool_of<GraspState>(*world).force.norm();
   CHECK(pull > 0);
   REQUIRE_FALSE(world->apply(slab(0.09, 0.1)));  // the tip itself; the rest of the patch is still held
   run_until(*world, 0.3);
   REQUIRE_FALSE(world->halt());
-  CHECK(world->tool().active);
-  CHECK(world->tool().force.norm() > 0);
+  CHECK(has_tool<GraspState>(*world));
+  CHECK(tool_of<GraspState>(*world).force.norm() > 0);
   REQUIRE_FALSE(world->apply(slab(0.06, 0.09)));
-  CHECK(world->tool().force.isZero(0));
+  CHECK(tool_of<GraspState>(*world).force.isZero(0));
   REQUIRE_FALSE(world->apply(MoveTool{Vec3(0.2, 0.04, 0.02)}));
   run_until(*world, 0.4);
   CHECK_FALSE(world->halt());

@@ -130,7 +130,7 @@ TEST_CASE("self-contact: two boxes that collide keep momentum and moment to roun
     double max_force = 0, max_energy = 0;
     for (int tick = 0; tick < 300; ++tick) {
       world->tick();
-      max_force = std::max(max_force, world->self_contact()->force);
+      max_force = std::max(max_force, tool_of<SelfContactState>(*world).force);
       max_energy = std::max(max_energy, total(world->energies()));
     }
     REQUIRE_FALSE(world->halt());
@@ -158,8 +158,8 @@ TEST_CASE("self-contact: cubes pressed together by opposite forces bear just the
   auto world = make_world(setup);
   run_until(*world, 0.5);
   REQUIRE_FALSE(world->halt());
-  CHECK(world->self_contact()->force == doctest::Approx(force).epsilon(1e-3));
-  CHECK(world->self_contact()->max_penetration <= 2e-5 * side);  // rounds end when little changes
+  CHECK(tool_of<SelfContactState>(*world).force == doctest::Approx(force).epsilon(1e-3));
+  CHECK(tool_of<SelfContactState>(*world).max_penetration <= 2e-5 * side);  // rounds end when little changes
 }
 
 TEST_CASE("self-contact: at equilibrium what is pressed bears on what presses it, to the solver's digits") {
@@ -176,8 +176,8 @@ TEST_CASE("self-contact: at equilibrium what is pressed bears on what presses it
   const double below = world->reactions()[0].y(), above = -world->reactions()[1].y();
   CHECK(below > 0.5);
   CHECK(below == doctest::Approx(above).epsilon(1e-6));
-  CHECK(world->self_contact()->force == doctest::Approx(below).epsilon(1e-3));
-  CHECK(world->self_contact()->max_penetration <= 1e-4 * 3 * side);
+  CHECK(tool_of<SelfContactState>(*world).force == doctest::Approx(below).epsilon(1e-3));
+  CHECK(tool_of<SelfContactState>(*world).max_penetration <= 1e-4 * 3 * side);
 }
 
 TEST_CASE("self-contact: a stack at rest bears its weight, of every method") {
@@ -190,10 +190,10 @@ TEST_CASE("self-contact: a stack at rest bears its weight, of every method") {
     auto world = make_world(setup);
     run_until(*world, 0.4);
     REQUIRE_FALSE(world->halt());
-    CHECK(world->self_contact()->force == doctest::Approx(weight).epsilon(1e-3));
-    CHECK(world->tables()[0].force.y() == doctest::Approx(2 * weight).epsilon(1e-3));
-    CHECK(world->self_contact()->contact_count >= 9);
-    CHECK(world->self_contact()->max_penetration <= 1e-4 * 3 * side);
+    CHECK(tool_of<SelfContactState>(*world).force == doctest::Approx(weight).epsilon(1e-3));
+    CHECK(tools_of<TableState>(world->tools())[0].force.y() == doctest::Approx(2 * weight).epsilon(1e-3));
+    CHECK(tool_of<SelfContactState>(*world).contact_count >= 9);
+    CHECK(tool_of<SelfContactState>(*world).max_penetration <= 1e-4 * 3 * side);
   }
 }
 
@@ -243,7 +243,7 @@ TEST_CASE("self-contact: at 1 m/s nothing tunnels, faces, edges or corners first
         world->tick();
         CAPTURE((world->halt() ? world->halt()->message : ""));
         REQUIRE_FALSE(world->halt());
-        touched = std::max(touched, world->self_contact()->force);
+        touched = std::max(touched, tool_of<SelfContactState>(*world).force);
         const auto x = world->positions();
         lowest = std::min(lowest, mean(x, plate.nodes.size(), x.size()).y() - mean(x, 0, plate.nodes.size()).y());
       }
@@ -265,8 +265,8 @@ TEST_CASE("self-contact: a body that touches nothing moves by the same bits as w
     const auto with = make_world(setup);
     for (const auto& world : {without.get(), with.get()}) run_until(*world, 0.2);
     CHECK(with->state_hash() == without->state_hash());
-    CHECK_FALSE(without->self_contact());
-    CHECK(with->self_contact()->contact_count == 0);
+    CHECK_FALSE(has_tool<SelfContactState>(*without));
+    CHECK(tool_of<SelfContactState>(*with).contact_count == 0);
   }
 }
 
@@ -277,7 +277,7 @@ TEST_CASE("self-contact: what overlaps at rest stays at rest") {
     auto world = make_world(setup);
     run_until(*world, 0.1);
     CHECK(std::abs(total(world->energies())) <= 1e-15);  // of forces' round-off
-    CHECK(world->self_contact()->force == 0);
+    CHECK(tool_of<SelfContactState>(*world).force == 0);
   }
 }
 
@@ -290,8 +290,8 @@ TEST_CASE("self-contact: what begins deep inside is pushed out again") {
   for (std::size_t n = lower; n < setup.mesh.nodes.size(); ++n) setup.initial_positions[n].y() -= 0.001 + deep;
   auto world = make_world(setup);
   world->tick();
-  CHECK(world->self_contact()->contact_count > 0);
-  CHECK(world->self_contact()->max_penetration > 0.8 * deep);
+  CHECK(tool_of<SelfContactState>(*world).contact_count > 0);
+  CHECK(tool_of<SelfContactState>(*world).max_penetration > 0.8 * deep);
   run_until(*world, 0.2);
   REQUIRE_FALSE(world->halt());
   const auto x = world->positions();
@@ -317,7 +317,7 @@ TEST_CASE("self-contact: a cut opens as freely as without, and closes no further
   const auto opened = run(true, 0.2), free = run(false, 0.2);
   CHECK(rms_difference(opened->positions(), free->positions()) < 1e-6);
   const auto closed = run(true, -0.2), passed = run(false, -0.2);
-  CHECK(closed->self_contact()->force > 0.02);
+  CHECK(tool_of<SelfContactState>(*closed).force > 0.02);
   CHECK(overlapping(*closed, 2e-5) == 0);
   CHECK(overlapping(*passed, 2e-5) > 0);
 }
@@ -331,7 +331,7 @@ static void check_bits(Integrator integrator, bool single) {
   setup.solver.threads = 2;
   auto two = make_world(setup);
   for (const auto& world : {one.get(), two.get()}) run_until(*world, 0.02);
-  CHECK(one->self_contact()->contact_count > 0);
+  CHECK(tool_of<SelfContactState>(*one).contact_count > 0);
   CHECK(one->state_hash() == two->state_hash());
   const auto hash = one->state_hash();
   const double below = side + 0.002;  // the lower body's top: the upper one alone is cut

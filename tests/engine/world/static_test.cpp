@@ -304,8 +304,9 @@ TEST_CASE("static: a grasp and a change of gravity find their equilibrium at the
   CHECK_FALSE(world->apply(MoveTool{Vec3(0.1, 0.04, 0.02)}));
   world->tick();
   REQUIRE_FALSE(world->halt());
-  CHECK(world->tool().grip.y() > 0.021);
-  CHECK((world->tool().force + world->reactions()[0]).norm() <= 1e-7 * world->tool().force.norm());
+  CHECK(tool_of<GraspState>(*world).grip.y() > 0.021);
+  CHECK((tool_of<GraspState>(*world).force + world->reactions()[0]).norm() <=
+        1e-7 * tool_of<GraspState>(*world).force.norm());
   CHECK_FALSE(world->apply(Release{}));
   CHECK_FALSE(world->apply(SetGravity{Vec3(0, -1, 0)}));
   world->tick();

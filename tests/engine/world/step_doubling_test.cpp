@@ -44,7 +44,7 @@ std::optional<TimeError> shadowed(World& world, bool grasps) {
   bool moved = !grasps;
   while (world.time() < stretch * (1 - 1e-9)) {
     if (!moved && world.time() >= stretch / 2) {
-      const MoveTool move{world.tool().grip + Vec3(0, 0.01, 0.005)};
+      const MoveTool move{tool_of<GraspState>(world).grip + Vec3(0, 0.01, 0.005)};
       world.apply(move);
       shadow.move(move);
       moved = true;

@@ -53,11 +53,11 @@ TEST_CASE("suture: a thread bears the weight of what hangs on it, and is as long
     REQUIRE_FALSE(world->apply(SutureTissue{{hanging.upper, hanging.lower}, 0.01, 0.2}));
     run_until(*world, 0.8);
     REQUIRE_FALSE(world->halt());
-    const SutureState suture = world->sutures().front();
+    const SutureState suture = tools_of<SutureState>(world->tools()).front();
     CHECK((suture.force - Vec3(0, -weight, 0)).norm() <= 0.01 * weight);
     CHECK((suture.ends[0] - suture.ends[1]).norm() == doctest::Approx(0.01).epsilon(2e-3));
     REQUIRE_FALSE(world->apply(CutSutures{}));
-    CHECK(world->sutures().empty());
+    CHECK(tools_of<SutureState>(world->tools()).empty());
     run_until(*world, 1);
     CHECK(world->positions()[static_cast<std::size_t>(hanging.lower)].y() < -0.05);
   }
@@ -102,7 +102,7 @@ TEST_CASE("suture: one that cannot be is refused") {
         SutureTissue{{u, l}, -1, 1}, SutureTissue{{u, l}, nan, 1}, SutureTissue{{u, l}, 0, -1},
         SutureTissue{{u, l}, 0, nan}})
     CHECK(world->apply(wrong));
-  CHECK(world->sutures().empty());
+  CHECK(tools_of<SutureState>(world->tools()).empty());
 }
 
 }  // namespace heml::suture_test

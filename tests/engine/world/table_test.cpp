@@ -51,7 +51,7 @@ TEST_CASE("table: at rest it bears the weight, in a static world to the solver's
   auto world = make_world(cube_on_table(Integrator::static_equilibrium));
   world->load_to(1);
   REQUIRE_FALSE(world->halt());
-  const TableState table = world->tables().front();
+  const TableState table = tools_of<TableState>(world->tools()).front();
   CHECK((table.force - Vec3(0, weight, 0)).norm() <= 1e-6 * weight);
   CHECK(table.contact_count == 16);
   CHECK(table.max_penetration <= 1e-4 * side * std::sqrt(3.0));
@@ -66,7 +66,7 @@ TEST_CASE("table: every method ends at rest on it, and what it bears is the weig
     auto world = make_world(setup);
     run_until(*world, 1);
     REQUIRE_FALSE(world->halt());
-    CHECK((world->tables()[0].force - Vec3(0, weight, 0)).norm() <= 1e-3 * weight);
+    CHECK((tools_of<TableState>(world->tools())[0].force - Vec3(0, weight, 0)).norm() <= 1e-3 * weight);
     CHECK(lowest(*world) >= -1e-4 * side * std::sqrt(3.0));
     if (is_explicit(integrator)) CHECK(lowest(*world) >= -1e-12);
   }
@@ -85,7 +85,7 @@ TEST_CASE("table: a dropped body never passes it, its energy never rises, and in
     double& highest = most[static_cast<std::size_t>(tick / 500)];
     const double now = total(world->energies());
     highest = tick % 500 == 0 ? now : std::max(highest, now);
-    borne += world->tables()[0].force / 2000;
+    borne += tools_of<TableState>(world->tools())[0].force / 2000;
     if (lowest(*world) < -1e-12) CHECK(lowest(*world) >= -1e-12);
   }
   CHECK(most[0] <= start + 1e-3 * weight * 0.02);
@@ -132,7 +132,7 @@ TEST_CASE("table: pressed flat without friction a block is in uniaxial stress") 
   CHECK(l < 0.9);
   CHECK(top - lowest(*world) == doctest::Approx(l * side).epsilon(2e-4));  // it may be 1e-4 of its size inside
   CHECK(wide - narrow == doctest::Approx(a * side).epsilon(5e-4));         // and not everywhere as much
-  CHECK(world->tables()[0].force.y() == doctest::Approx(pressure * side * side).epsilon(1e-6));
+  CHECK(tools_of<TableState>(world->tools())[0].force.y() == doctest::Approx(pressure * side * side).epsilon(1e-6));
 }
 
 TEST_CASE("table: below the angle of friction a block stays, above it slides as Coulomb says") {
@@ -156,7 +156,7 @@ TEST_CASE("table: below the angle of friction a block stays, above it slides as 
     REQUIRE_FALSE(sliding->halt());
     const double angle = 35 * std::numbers::pi / 180;
     const double expected = g * (std::sin(angle) - mu * std::cos(angle));
-    CHECK(sliding->tables()[0].work < 0);
+    CHECK(tools_of<TableState>(sliding->tools())[0].work < 0);
     CHECK((mean(sliding->velocities()).x() - before) / 0.2 == doctest::Approx(expected).epsilon(0.02));
   }
 }
@@ -165,7 +165,7 @@ TEST_CASE("table: in a static world friction holds a block on a slope") {
   auto world = make_world(cube_on_table(Integrator::static_equilibrium, 0.5, 20));
   world->load_to(1);
   REQUIRE_FALSE(world->halt());
-  const Vec3 force = world->tables()[0].force;
+  const Vec3 force = tools_of<TableState>(world->tools())[0].force;
   CHECK((force + weight / g * world->setup().gravity).norm() <= 1e-6 * weight);
 }
 
@@ -191,9 +191,9 @@ TEST_CASE("table: a wrong one is refused and changes nothing") {
   CHECK(world->apply(SetTables{{{Vec3::Zero(), Vec3::Zero(), 0}}}));
   CHECK(world->apply(SetTables{{{Vec3::Zero(), Vec3::UnitY(), -1}}}));
   CHECK(world->apply(SetTables{{{Vec3::Zero(), Vec3::UnitY(), nan}}}));
-  CHECK(world->tables().size() == 1);
+  CHECK(tools_of<TableState>(world->tools()).size() == 1);
   CHECK_FALSE(world->apply(SetTables{}));
-  CHECK(world->tables().empty());
+  CHECK(tools_of<TableState>(world->tools()).empty());
 }
 
 }  // namespace heml::table_test

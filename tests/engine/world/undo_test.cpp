@@ -200,17 +200,17 @@ TEST_CASE("undo: a material that was switched since begins anew, and what was le
   REQUIRE_FALSE(world->apply(SetMaterial{std::nullopt, sample_material("stvk")}));
   tick(*world, 2);
   REQUIRE_FALSE(world->apply(Undo{}));
-  CHECK_FALSE(world->tool().active);
+  CHECK_FALSE(has_tool<GraspState>(*world));
   tick(*world, 5);
   CHECK_FALSE(world->halt());
   REQUIRE_FALSE(world->apply(Grasp{middle, 0.01}));
-  const Vec3 target = world->tool().target + Vec3(0, 0.002, 0);
+  const Vec3 target = tool_of<GraspState>(*world).target + Vec3(0, 0.002, 0);
   REQUIRE_FALSE(world->apply(removal));
   REQUIRE_FALSE(world->apply(MoveTool{target}));
   tick(*world, 2);
   REQUIRE_FALSE(world->apply(Undo{}));
-  CHECK(world->tool().active);
-  CHECK(world->tool().target == target);
+  CHECK(has_tool<GraspState>(*world));
+  CHECK(tool_of<GraspState>(*world).target == target);
   tick(*world, 5);
   CHECK_FALSE(world->halt());
 }

@@ -10,6 +10,20 @@ inline Material soft(const char* law = "neo_hookean", double young = 1e4, double
   return {law, {lame.lambda, lame.mu}, 1000};
 }
 
+/// Whether a world has a tool of a kind.
+template <class State>
+bool has_tool(const World& world) {
+  return find_tool<State>(world.tools()) != nullptr;
+}
+
+/// The first tool of a kind; the default where there is none.
+template <class State>
+State tool_of(const World& world) {
+  const std::vector<ToolState> tools = world.tools();
+  const State* state = find_tool<State>(tools);
+  return state ? *state : State{};
+}
+
 /// Nodes of a mesh that a predicate takes.
 template <class Take>
 std::vector<int> nodes_where(const TetMesh& mesh, const Take& take) {
