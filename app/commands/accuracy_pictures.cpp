@@ -31,7 +31,7 @@ panel::ChartSeries front_of(const TimeStudy& study) {
   return series;
 }
 
-/// One series per integrator: dots for explicit methods and solves to the tolerance, rings for a few iterations.
+/// One series per integrator: dots for explicit methods and solves to the tolerance, rings for an iteration budget.
 void add_methods(panel::Chart& chart, const TimeStudy& study) {
   std::size_t next = 0;
   for (const Integrator integrator : moving_integrators()) {
@@ -44,7 +44,7 @@ void add_methods(panel::Chart& chart, const TimeStudy& study) {
     chart.series.push_back(std::move(solved));
     chart.series.push_back(std::move(cut));
   }
-  chart.series.push_back({"few iterations", {}, grey, ChartMark::rings});
+  chart.series.push_back({"iteration budget", {}, grey, ChartMark::rings});
 }
 
 /// Crosses above all errors.
@@ -62,13 +62,13 @@ void add_failed(panel::Chart& chart, const TimeStudy& study) {
 panel::Chart work_precision(const SceneStudy& scene, const TimeStudy& study) {
   panel::Chart chart;
   chart.title = scene.title;
-  chart.subtitle = fmt::format("{} nodes, {} tetrahedra, {}; each mark a method, farther down and left is better",
-                               study.nodes, study.tets, study.nodal_pressure ? "averaged nodal pressure" : "linear");
-  chart.x_label = "Seconds of computing a simulated second";
-  chart.y_quantity = "Error of time, mm";
+  chart.subtitle = fmt::format("{} nodes, {} tetrahedra, {}; one mark per method, lower left is better", study.nodes,
+                               study.tets, study.nodal_pressure ? "averaged nodal pressure" : "linear");
+  chart.x_label = "Computing time per simulated second, s";
+  chart.y_quantity = "Time error, mm";
   chart.logarithmic = true;
-  chart.upright = {{0.001 / frame, "1 ms a frame"}, {1, "16 ms: real time"}, {0.033 / frame, "33 ms"}};
-  if (const auto error = scene.mesh_error(study.nodal_pressure)) chart.level = {{1e3 * *error, "error of the mesh"}};
+  chart.upright = {{0.001 / frame, "1 ms per frame"}, {1, "16 ms: real time"}, {0.033 / frame, "33 ms"}};
+  if (const auto error = scene.mesh_error(study.nodal_pressure)) chart.level = {{1e3 * *error, "discretisation error"}};
   chart.series.push_back(front_of(study));
   add_methods(chart, study);
   add_failed(chart, study);
@@ -78,9 +78,9 @@ panel::Chart work_precision(const SceneStudy& scene, const TimeStudy& study) {
 panel::Chart locking_chart(const std::vector<LockingBeam>& beams) {
   panel::Chart chart;
   chart.title = "Locking of a beam";
-  chart.subtitle = "Sag under its own weight; the closer Poisson's ratio is to 0.5, the stiffer are linear tetrahedra";
+  chart.subtitle = "Sag under self-weight; linear tetrahedra lock as Poisson's ratio approaches 0.5";
   chart.x_label = "Tetrahedra";
-  chart.y_quantity = "Error of the mesh, % of the motion";
+  chart.y_quantity = "Discretisation error, % of the motion";
   chart.logarithmic = true;
   for (const bool nodal : {false, true})
     for (std::size_t b = 0; b < beams.size(); ++b) {
@@ -104,9 +104,9 @@ panel::Chart locking_chart(const std::vector<LockingBeam>& beams) {
 panel::Chart refinement_chart(const RefinementStudy& study) {
   panel::Chart chart;
   chart.title = "Uniform and adapted meshes of a beam";
-  chart.subtitle = "At rest under its weight, Poisson's ratio 0.3; adapted: cut where the estimate is greatest";
+  chart.subtitle = "Equilibrium under its weight, Poisson's ratio 0.3; adapted: refined where the estimate is greatest";
   chart.x_label = "Tetrahedra";
-  chart.y_quantity = "Error of the mesh, % of the energy norm";
+  chart.y_quantity = "Discretisation error, % of the energy norm";
   chart.logarithmic = true;
   for (const bool adapted : {false, true}) {
     const ImU32 colour = inks[adapted ? 2 : 1];
@@ -120,7 +120,7 @@ panel::Chart refinement_chart(const RefinementStudy& study) {
     marks.points = line.points;
     for (panel::ChartSeries* series : {&line, &marks, &estimates}) chart.series.push_back(std::move(*series));
   }
-  chart.series.push_back({"as estimated", {}, grey, ChartMark::rings});
+  chart.series.push_back({"estimated", {}, grey, ChartMark::rings});
   return chart;
 }
 
@@ -128,7 +128,7 @@ panel::BarChart feature_bars(const FeatureStudy& study) {
   panel::BarChart chart;
   chart.title = study.title;
   chart.subtitle =
-      "One thing changed at a time: computing time, of the scene as it is; in brackets how far the body errs";
+      "One feature changed at a time: computing time relative to the scene as given; in brackets the rms error";
   chart.names = {"time"};
   chart.colours = {inks[1]};
   chart.mark = 1;
@@ -153,24 +153,25 @@ std::vector<ReportPicture> write_accuracy_pictures(const std::filesystem::path& 
       const auto file = folder / fmt::format("{}_{}.png", scene.name, element);
       write_chart(file, work_precision(scene, time));
       pictures.push_back({scene.name, file,
-                          fmt::format("{}, {}: error of time against computing time. Marks below the level line "
-                                      "gain nothing from smaller steps: the mesh errs by more.",
+                          fmt::format("{}, {}: time error against computing time. Marks below the horizontal line "
+                                      "gain nothing from smaller steps: the discretisation error is larger.",
                                       scene.title, time.problem)});
     }
   if (!study.locking.empty()) {
     write_chart(folder / "locking.png", locking_chart(study.locking));
-    pictures.push_back({"locking", folder / "locking.png", "Error of the mesh against its size, by Poisson's ratio."});
+    pictures.push_back(
+        {"locking", folder / "locking.png", "Discretisation error against mesh size, by Poisson's ratio."});
   }
   if (study.refinement && !study.refinement->meshes.empty()) {
     write_chart(folder / "refinement.png", refinement_chart(*study.refinement));
     pictures.push_back(
-        {"refinement", folder / "refinement.png", "Error of the mesh against its size, known and estimated."});
+        {"refinement", folder / "refinement.png", "Discretisation error against mesh size, exact and estimated."});
   }
   for (const FeatureStudy& features : study.features) {
     const auto file = folder / fmt::format("features_{}.png", features.scene);
     write_chart(file, feature_bars(features));
     pictures.push_back(
-        {"features " + features.scene, file, "Computing time with one thing changed, and the error of it."});
+        {"features " + features.scene, file, "Computing time with one feature changed, and the resulting error."});
   }
   return pictures;
 }

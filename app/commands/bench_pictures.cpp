@@ -26,7 +26,8 @@ std::optional<panel::BarChart> ratios_chart(const std::vector<BenchRow>& rows) {
   if (!largest) return std::nullopt;
   panel::BarChart chart;
   chart.title = "Forces, against a naive loop in double";
-  chart.subtitle = fmt::format("{}, {} tetrahedra, one thread; naive time / ours", largest->mesh, largest->tets);
+  chart.subtitle =
+      fmt::format("{}, {} tetrahedra, one thread; speedup over the naive loop", largest->mesh, largest->tets);
   chart.names = {"double", "float"};
   chart.colours = {double_colour, float_colour};
   chart.mark = 1;
@@ -46,9 +47,9 @@ std::optional<panel::Chart> carried_chart(const std::vector<BenchRow>& rows) {
     if (row.more.contains("error_when_carried")) mesh = row.mesh;
   if (mesh.empty()) return std::nullopt;
   panel::Chart chart;
-  chart.title = "What a body loses that travels";
+  chart.title = "Loss of precision far from the origin";
   chart.subtitle = mesh + ", Saint Venant-Kirchhoff";
-  chart.x_label = "Way, in sizes of the body";
+  chart.x_label = "Distance, body sizes";
   chart.y_quantity = "Relative error of the forces";
   chart.logarithmic = true;
   for (const BenchRow& row : rows) {

@@ -49,9 +49,10 @@ TestedMaterial tested_material(const std::string& name) {
   const Material material = read_material(name);
   const LawInfo& law = *find_law(material.law);
   if (!law.is_continuum)
-    throw UsageError(fmt::format("{}: {} is no law of a material: it has no curve of its own", name, law.name));
+    throw UsageError(fmt::format("{}: {} has no continuum energy, so no material test curve", name, law.name));
   if (!material.fields.empty() || !material.fibre_field.empty())
-    throw InputError(name, "", "takes numbers from the fields of a mesh, and a test has none", "give numbers");
+    throw InputError(name, "", "takes parameters from mesh fields, which a material test does not have",
+                     "give numbers");
   return {material, fmt::format("{} ({})", law.title, std::filesystem::path(name).filename().string()), std::nullopt};
 }
 
@@ -97,7 +98,8 @@ StretchRange range_of(const BenchTestArguments& arguments, const MeasuredTest& t
   return range;
 }
 
-/// Rows of amount, nominal stress, Cauchy stress (Pa), stretch in y, stretch in z; amounts where the law has no value.
+/// Rows of amount, nominal stress, Cauchy stress (Pa), stretch in y, stretch in z; amounts where the law is not
+/// defined.
 struct CurveTable {
   std::vector<std::array<double, 5>> rows;
   std::vector<double> missed;
@@ -186,7 +188,7 @@ void print_fit(const FitResult& fit) {
     const std::string error = std::isinf(p.standard_error) ? "not determined by these data"
                               : p.determined
                                   ? fmt::format("{:.3g} {}", p.standard_error, p.unit)
-                                  : fmt::format("{:.3g} {}: hardly determined by these data", p.standard_error, p.unit);
+                                  : fmt::format("{:.3g} {}: poorly determined by these data", p.standard_error, p.unit);
     fmt::print("{:<24} {:>14.6g}   {}\n", p.unit.empty() ? p.name : p.name + ", " + p.unit, p.value, error);
   }
   fmt::print("rms {:.4g} Pa, R² {:.6f}, {} iterations\n", fit.rms, fit.r_squared, fit.iterations);
@@ -221,7 +223,7 @@ FitResult fit_to(const BenchTestArguments& arguments, const MeasuredTest& test, 
   const SmallStrainModuli rest = small_strain_moduli(fit.material);
   if (!arguments.fit_all && rest.bulk < 10 * rest.shear)
     warn(
-        "the bulk modulus was held at {:.4g} Pa, only {:.3g} times the fitted shear modulus: the tissue is not nearly "
+        "the bulk modulus was fixed at {:.4g} Pa, only {:.3g} times the fitted shear modulus: the tissue is not nearly "
         "incompressible any more; start from a larger one",
         rest.bulk, rest.bulk / rest.shear);
   return fit;
@@ -240,7 +242,7 @@ int bench_test(const BenchTestArguments& arguments) {
   const std::optional<MeasuredCurve> data =
       arguments.data ? std::make_optional(read_curve_csv(*arguments.data, test)) : std::nullopt;
   if (std::holds_alternative<Relaxation>(test) && specimen.material.relaxation.empty())
-    throw InputError(arguments.material, "", "the material does not relax",
+    throw InputError(arguments.material, "", "the material has no relaxation",
                      "add \"relaxation\": [{\"gamma\": .., \"tau\": ..}]");
   const StretchRange range = range_of(arguments, test, specimen, data);
   const std::vector<double> amounts = evenly_spaced(range.low, range.high, arguments.points);
@@ -260,14 +262,14 @@ int bench_test(const BenchTestArguments& arguments) {
     write_chart(*arguments.plot, chart);
   }
   if (curve.rows.empty()) {
-    log_line("error",
-             fmt::format("{}: the law has no value anywhere from {} to {}", arguments.material, range.low, range.high));
+    log_line("error", fmt::format("{}: the law is not defined anywhere from {} to {}", arguments.material, range.low,
+                                  range.high));
     return exit_not_solved;
   }
   if (!curve.missed.empty())
     warn(
-        "{}: the curve runs from {:.6g} to {:.6g} only: past that the law has no value, or the free faces find no "
-        "balance",
+        "{}: the curve covers only {:.6g} to {:.6g}: outside the law is not defined, or the free faces have no "
+        "equilibrium",
         arguments.material, curve.rows.front()[0], curve.rows.back()[0]);
   if (fit && !fit->converged) {
     log_line("error",

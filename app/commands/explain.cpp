@@ -30,8 +30,8 @@ void print_body(const Explanation& explained) {
   print_line("mesh", "{} nodes, {} tetrahedra{}, {} region{}", world.nodes, world.tets,
              world.live_tets == world.tets ? "" : fmt::format(" ({} live)", world.live_tets), quality.regions,
              quality.regions == 1 ? "" : "s");
-  print_line("shape", "edges {:.3g} to {:.3g} mm, smallest dihedral angle {:.3g}° (element {})",
-             1e3 * quality.shortest_edge, 1e3 * quality.longest_edge, quality.worst_dihedral, quality.worst_tet);
+  print_line("shape", "edges {:.3g} to {:.3g} mm, min dihedral angle {:.3g}° (element {})", 1e3 * quality.shortest_edge,
+             1e3 * quality.longest_edge, quality.worst_dihedral, quality.worst_tet);
   print_line("constrained", "{} nodes", world.constrained_nodes);
 }
 
@@ -46,9 +46,10 @@ void print_materials(const Explanation& explained) {
       print_line("  at rest", "shear modulus {:.4g} Pa, bulk {:.4g} Pa, Poisson's ratio {:.4g}", material.rest.shear,
                  material.rest.bulk, material.poisson);
     if (const auto count = element_operations(explained.setup.materials[kernel.material].material))
-      print_line("  operations", "{} multiplications, {} additions, {} others a tetrahedron and force",
+      print_line("  operations", "{} multiplications, {} additions, {} others per tetrahedron and force evaluation",
                  count->multiplications, count->additions, count->others);
-    if (kernel.bytes_per_tet > 0) print_line("  traffic", "{:.0f} bytes a tetrahedron and force", kernel.bytes_per_tet);
+    if (kernel.bytes_per_tet > 0)
+      print_line("  traffic", "{:.0f} bytes per tetrahedron and force evaluation", kernel.bytes_per_tet);
   }
 }
 
@@ -61,7 +62,7 @@ void print_choice(const Explanation& explained) {
                step.tick / step.stable);
   else
     print_line("why",
-               "explicit steps would take {:.3g} of real time ({:.0f} ns an element and step); explicit up to {}",
+               "explicit steps would take {:.3g} of real time ({:.0f} ns per element and step); explicit up to {}",
                method.explicit_share, 1e9 * method.step_cost, method.enough);
   if (method.lowest_frequency && !is_explicit(method.used))
     print_line("", "tick × lowest frequency = {:.3g}; tr_bdf2 below {}, else backward_euler",
@@ -78,20 +79,20 @@ void print_method(const Explanation& explained) {
              explained.setup.solver.single_precision ? "float" : "double", world.threads,
              world.threads == 1 ? "" : "s");
   if (world.threads > 1 && explained.setup.solver.threads == 0)
-    print_line("", "one a core; in the window fewer, by the cores that drawing takes");
+    print_line("", "one per core; in the window less the cores that drawing takes");
   print_choice(explained);
   if (explained.setup.solver.is_static())
-    print_line("load", "in increments of its own choice");
+    print_line("load", "in adaptive increments");
   else
     print_line("tick", "{:.4g} ms, {} step{}", 1e3 * step.tick, step.steps_per_tick,
                step.steps_per_tick == 1 ? "" : "s");
-  print_line("stable step", "{:.4g} ms for explicit methods now; {:.3g} of real time by the model of cost",
+  print_line("stable step", "{:.4g} ms for explicit methods now; {:.3g} of real time by the cost model",
              1e3 * step.stable, world.method.explicit_share);
   if (world.method.lowest_frequency)
-    print_line("slowest motion", "{:.3g} Hz at rest", *world.method.lowest_frequency / (2 * std::numbers::pi));
+    print_line("lowest frequency", "{:.3g} Hz at rest", *world.method.lowest_frequency / (2 * std::numbers::pi));
   if (limit.element < 0) return;
-  constexpr const char* causes[] = {"no element stands out", "a sliver", "small", "stiff for its mass"};
-  print_line("limited by", "element {}: {}; {:.3g} times the median's stiffness for its mass", limit.element,
+  constexpr const char* causes[] = {"no element stands out", "a sliver", "small", "high stiffness per mass"};
+  print_line("limited by", "element {}: {}; ω² is {:.3g} times the median", limit.element,
              causes[static_cast<std::size_t>(limit.cause)], step.median_ratio);
   print_line("", "smallest angle {:.3g}°, height {:.3g} mm (median {:.3g}), waves {:.3g} m/s (median {:.3g})",
              limit.dihedral, 1e3 * limit.height, 1e3 * limit.median_height, limit.wave_speed, limit.median_wave_speed);
@@ -102,7 +103,7 @@ void print_solver(const Explanation& explained) {
   const SolverFacts& solver = *explained.world.solver;
   const bool at_rest = explained.setup.solver.is_static();
   print_head("Solver");
-  print_line("minimiser", "{}, to {:.3g} of the forces", minimiser_names[static_cast<std::size_t>(solver.minimiser)],
+  print_line("minimiser", "{}, relative residual {:.3g}", minimiser_names[static_cast<std::size_t>(solver.minimiser)],
              solver.tolerance);
   print_line("preconditioner", "{}{}", preconditioner_names[static_cast<std::size_t>(solver.preconditioner)],
              solver.levels ? fmt::format(", {} level{}", solver.levels, solver.levels == 1 ? "" : "s") : "");
@@ -111,13 +112,13 @@ void print_solver(const Explanation& explained) {
     print_line("why", "{} free nodes: cholesky up to {}, {}multilevel above", solver.free_nodes, small,
                small < max_direct_unknowns_once ? fmt::format("scalar up to {}, ", max_direct_unknowns_once) : "");
   else
-    print_line("why", "the scene asks for it; {} free nodes", solver.free_nodes);
-  print_line("projection", "{}, where the stiffness is seen not to be positive",
+    print_line("why", "set by the scene; {} free nodes", solver.free_nodes);
+  print_line("projection", "{}, where the stiffness is indefinite",
              projection_names[static_cast<std::size_t>(solver.projection)]);
   if (solver.budget)
     print_line("budget", "{}",
-               solver.budget->iterations ? fmt::format("{} iterations a stage", solver.budget->iterations)
-                                         : fmt::format("{:.3g} ms a tick", solver.budget->milliseconds));
+               solver.budget->iterations ? fmt::format("{} iterations per stage", solver.budget->iterations)
+                                         : fmt::format("{:.3g} ms per tick", solver.budget->milliseconds));
 }
 
 void print_tools(const Explanation& explained) {
@@ -140,9 +141,9 @@ void print_costs(const Explanation& explained) {
     print_line(memory.what, "{}", bytes_text(static_cast<double>(memory.bytes)));
     all += static_cast<double>(memory.bytes);
   }
-  print_line("all", "{}, {:.0f} bytes a tetrahedron", bytes_text(all),
+  print_line("total", "{}, {:.0f} bytes per tetrahedron", bytes_text(all),
              all / static_cast<double>(explained.world.live_tets));
-  print_head("Start");
+  print_head("Startup");
   for (const StartupWork& work : explained.startup) fmt::print("  {:>8.2f} ms  {}\n", 1e3 * work.seconds, work.what);
 }
 
@@ -158,9 +159,9 @@ void print_rest(const Explanation& explained) {
 void print_measured(const Explanation& explained, const Measurement& measured) {
   const bool at_rest = explained.setup.solver.is_static();
   print_head("Measured");
-  fmt::print("  {:.4g} {}; min of {} rounds; the body moved by {:.4g} mm\n", measured.stretch,
+  fmt::print("  {:.4g} {}; min of {} rounds; max displacement {:.4g} mm\n", measured.stretch,
              at_rest ? "of the load" : "s of simulated time", measured.turns, 1e3 * measured.max_motion);
-  fmt::print("  {:<20}{:<26}{:>11}{:>11}{:>10}{:>13}\n", "feature", "changed", at_rest ? "ms" : "ms a tick", "saved",
+  fmt::print("  {:<20}{:<26}{:>11}{:>11}{:>10}{:>13}\n", "feature", "changed", at_rest ? "ms" : "ms/tick", "saved",
              "steps", "rms mm");
   for (const MeasuredChange& change : measured.changes) {
     const std::string changed = change.from.empty() ? "" : change.from + " → " + change.to;

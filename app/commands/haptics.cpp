@@ -45,7 +45,8 @@ int run_haptics(const HapticsArguments& arguments) {
     energy = std::min(energy, f.energy);
   }
   fmt::print(
-      "{} cycles of 1 ms in {}: at most {:.3g} N; min energy put in {:.3g} J, damping added up to {:.3g} N s/m\n",
+      "{} cycles of 1 ms in {}: max force {:.3g} N; min energy input of the handle {:.3g} J, max added damping {:.3g} "
+      "N s/m\n",
       run.samples.size(), arguments.out.string(), max_value, energy, damping);
   return exit_done;
 }

@@ -83,15 +83,15 @@ void print_preset(const Preset& preset) {
   for (const auto& [name, value] : preset.published) published.push_back(fmt::format("{} {:.6g}", name, value));
   print_entry("published", fmt::format("{} (SI units)", fmt::join(published, ", ")));
   print_entry("convention", preset.convention);
-  if (!preset.ours.empty()) print_entry("chosen here", fmt::format("{}", fmt::join(preset.ours, ", ")));
+  if (!preset.ours.empty()) print_entry("our choice", fmt::format("{}", fmt::join(preset.ours, ", ")));
   print_entry("measured in", preset.test);
   print_entry("stretch", preset.stretch_range
                              ? fmt::format("{:.4g} to {:.4g}", preset.stretch_range->low, preset.stretch_range->high)
                              : std::string("range not known"));
   print_entry("source", to_text(preset.source));
-  print_entry("seen of it", preset.seen);
-  print_entry("verified", preset.verified ? "the numbers were compared with the source"
-                                          : "no: nobody has compared the numbers with the source itself");
+  print_entry("consulted", preset.seen);
+  print_entry("verified", preset.verified ? "the values were compared with the source"
+                                          : "no: the values were not compared with the source");
   if (!preset.note.empty()) print_entry("note", preset.note);
 }
 

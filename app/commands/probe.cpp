@@ -89,10 +89,8 @@ std::string cells_of(const Mat3& matrix) {
 int probe(const ProbeArguments& arguments) {
   const Material material = read_material(arguments.material);
   if (!find_law(material.law)->is_continuum)
-    throw UsageError(
-        fmt::format("{}: '{}' has no energy of a deformation gradient to probe: its forces are those of "
-                    "edges",
-                    arguments.material.string(), material.law));
+    throw UsageError(fmt::format("{}: '{}' has no energy of the deformation gradient to probe: it has edge forces only",
+                                 arguments.material.string(), material.law));
   check_output_file({arguments.material, arguments.gradients}, arguments.out);
   const StateTable table = read_table(arguments.gradients);
   std::string names = "W";

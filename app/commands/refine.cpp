@@ -44,7 +44,7 @@ int refine_scene(const RefineArguments& arguments) {
   write(arguments.out, scene, adaptation);
   fmt::print("written: {}\n", (arguments.out / "scene.json").string());
   if (adaptation.reached) return exit_done;
-  warn("{:.3g} % would take more than {} tetrahedra (--tets)", 100 * goal.error, goal.tets);
+  warn("{:.3g} % would need more than {} tetrahedra (--tets)", 100 * goal.error, goal.tets);
   return exit_check_failed;
 }
 

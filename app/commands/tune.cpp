@@ -47,7 +47,7 @@ int tune_scene(const TuneArguments& arguments) {
   }
   write_file(out, scene_text(tuned_scene(tuning, *best), std::filesystem::absolute(out).parent_path()));
   for (const std::string& sentence : tuning_text(goal, tuning, *best)) fmt::print("{}\n", sentence);
-  fmt::print("the scene solved that way is {}\n", out.string());
+  fmt::print("tuned scene: {}\n", out.string());
   return exit_done;
 }
 
