@@ -71,7 +71,7 @@ void list_scenes(Listing& listing) {
 void list_folder(const fs::path& folder, panel::OpenChoices& choices) {
   std::error_code failed;
   choices.folder = folder;
-  if (folder.has_relative_path()) choices.files.push_back({folder.parent_path(), "..", "folder above", nullptr, true});
+  if (folder.has_relative_path()) choices.files.push_back({folder.parent_path(), "..", "parent folder", nullptr, true});
   std::vector<OpenChoice> folders, files;
   for (fs::directory_iterator entry(folder, failed), end; !failed && entry != end; entry.increment(failed)) {
     const std::string name = entry->path().filename().string();
@@ -83,11 +83,12 @@ void list_folder(const fs::path& folder, panel::OpenChoices& choices) {
     const auto bytes = entry->file_size(unknown);
     files.push_back({entry->path(), name, fmt::format("{}, {}", name_of(kind), size_text(unknown ? 0 : bytes))});
     if (files.size() + folders.size() > max_listed) {
-      choices.problem = fmt::format("There is more than these {}; type a path that begins with /.", max_listed);
+      choices.problem =
+          fmt::format("Only the first {} entries are listed; type a path that begins with / for others.", max_listed);
       break;
     }
   }
-  if (failed) choices.problem = "It cannot be looked into: " + failed.message() + ".";
+  if (failed) choices.problem = "The folder cannot be read: " + failed.message() + ".";
   for (std::vector<OpenChoice>* part : {&folders, &files}) {
     std::sort(part->begin(), part->end(), [](const OpenChoice& a, const OpenChoice& b) { return a.title < b.title; });
     choices.files.insert(choices.files.end(), part->begin(), part->end());

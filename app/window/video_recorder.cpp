@@ -32,7 +32,7 @@ VideoRecorder::VideoRecorder(const std::string& name, render::Size size) : folde
   std::error_code failed;
   fs::create_directory(folder_, failed);
   if (failed)
-    throw InputError(folder_.string(), "", "cannot be made: " + failed.message(), "start heml in a folder of yours");
+    throw InputError(folder_.string(), "", "cannot be made: " + failed.message(), "start heml in a writable folder");
   thread_ = std::thread([this] { run(); });
 }
 
@@ -115,11 +115,11 @@ void VideoRecorder::write(const Picture& picture) {
 std::string VideoRecorder::make_video() {
   if (next_ == 0) {
     fs::remove(folder_);
-    return "Nothing was filmed: no time went by.";
+    return "Nothing was recorded: simulated time did not advance.";
   }
   const std::string frames = fmt::format("{} frames in {}", next_, folder_.string());
   const fs::path ffmpeg = find_program("ffmpeg");
-  if (ffmpeg.empty()) return frames + ". There is no video of them: ffmpeg is not installed.";
+  if (ffmpeg.empty()) return frames + ". No video: ffmpeg is not installed.";
   for (const Codec& codec : codecs) {
     const std::string video = folder_.string() + codec.ending;
     std::vector<std::string> words{ffmpeg.string(), "-nostdin", "-y", "-loglevel", "error", "-framerate",
@@ -134,7 +134,7 @@ std::string VideoRecorder::make_video() {
     std::error_code failed;
     fs::remove(video, failed);
   }
-  return frames + ". There is no video of them: ffmpeg could not make one.";
+  return frames + ". No video: ffmpeg failed.";
 }
 
 }  // namespace heml::window

@@ -66,7 +66,7 @@ bool Viewer::is_busy() const {
 
 std::string Viewer::status() const {
   const bool paused = past_.active() ? !past_.playing() : frame_->paused;
-  return fmt::format("picture {}, tick {}, {}, {}, key {}", drawn_, frame_->tick, paused ? "paused" : "running",
+  return fmt::format("frame {}, tick {}, {}, {}, key {}", drawn_, frame_->tick, paused ? "paused" : "running",
                      is_busy()                    ? "busy"
                      : paused && !wants_drawing() ? "still"
                                                   : "ready",
@@ -194,7 +194,7 @@ void Viewer::button(MouseButton button, bool down, bool shift) {
   const bool has_other_surface = controller_.current() > 0 && !seen().distance;  // with other node numbers
   if (past_.active() || has_other_surface) return mouse_tool_.press_background(button, mouse_, shift);
   if (mouse_tool_.press(button, mouse_, shift, seen(), *seen().surface_mesh, panel_->tool(), commands))
-    panel_->say("The scene holds this part; take another.");
+    panel_->say("These nodes are constrained by the scene; pick others.");
   post(commands);
   if (button != MouseButton::left || mouse_tool_.doing() != MouseTool::Doing::orbiting) return;
   const auto now = std::chrono::steady_clock::now();

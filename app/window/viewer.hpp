@@ -44,7 +44,7 @@ class Viewer final : public WindowEvents {
   void changed() override { pictures_wanted_ = settling_pictures; }
 
  private:
-  static constexpr auto past_is_fixed = "This is the past: Resume (B) goes on from here, Esc goes back to the present.";
+  static constexpr auto past_is_fixed = "Past frame: Resume (B) continues from here, Esc returns to live.";
   static constexpr int settling_pictures = 3;  ///< that Dear ImGui may need after an input
 
   bool is_busy() const;

@@ -78,7 +78,7 @@ void Viewer::carry_out(panel::Request request) {
 }
 
 void Viewer::open(const std::filesystem::path& path) {
-  if (session_loader_.under_way()) return panel_->say("Another file is still being opened.");
+  if (session_loader_.under_way()) return panel_->say("Another file is being opened.");
   panel_->say("Opening " + path.filename().string() + " …");
   session_loader_.begin(path, options_.record);
 }
@@ -98,7 +98,7 @@ void Viewer::list(const std::filesystem::path& folder) {
 /// Resumes from the shown time in a new session; a recording goes on in a new file.
 void Viewer::resume() {
   if (!past_.active()) return panel_->say("Show a past time first: drag the timeline, or press Left.");
-  if (session_loader_.under_way()) return panel_->say("Something else is still being opened.");
+  if (session_loader_.under_way()) return panel_->say("Another session is being opened.");
   plays_on_ = past_.ran();
   resume_with(open_.comparisons);
 }
@@ -116,7 +116,7 @@ void Viewer::resume_with(const std::vector<std::string>& comparisons) {
 
 /// Restarts the session with these comparison runs, replayed to the shown time.
 void Viewer::compare(const std::vector<std::string>& variants) {
-  if (session_loader_.under_way()) return panel_->say("Something else is still being opened.");
+  if (session_loader_.under_way()) return panel_->say("Another session is being opened.");
   plays_on_ = past_.active() ? past_.ran() : !frame_->paused;
   resume_with(variants);
 }
@@ -149,7 +149,7 @@ void Viewer::remove_tissue() {
                                          : -1;
   ElementSelection which;
   which.tets = elements_around(node, surface_mesh, panel_->tool().radius);
-  if (which.tets.empty()) return panel_->say("Point at the tissue to remove, or hold it.");
+  if (which.tets.empty()) return panel_->say("Point at the tissue to remove, or grasp it.");
   open_.session->post(RemoveElements{which});
 }
 
@@ -182,7 +182,7 @@ void Viewer::film() {
   if (video_recorder_) return video_recorder_->finish();
   try {
     video_recorder_ = std::make_unique<VideoRecorder>(open_.scene.name, controller_.size());
-    panel_->say("Recording video. V ends it.");
+    panel_->say("Recording video; V stops.");
   } catch (const InputError& error) {
     panel_->say(error.what());
   }
@@ -200,17 +200,17 @@ void Viewer::take_picture() {
   if (past_.active() || !video_recorder_->due(time)) return;
   if (video_recorder_->size() == controller_.size())
     return video_recorder_->add_frame(render::read_pixels(controller_.size()), time);
-  panel_->say("The window has another size now: the recording ends here.");
+  panel_->say("The window was resized: recording stopped.");
   video_recorder_->finish();
 }
 
 void Viewer::use_view(const panel::PanelActions& actions) {
   if (actions.keep_view) {
     controller_.keep(*actions.keep_view);
-    panel_->say(fmt::format("View {} is kept: F{} goes there.", *actions.keep_view + 1, *actions.keep_view + 5));
+    panel_->say(fmt::format("View {} saved: F{} restores it.", *actions.keep_view + 1, *actions.keep_view + 5));
   }
   if (actions.view && !controller_.go_to(*actions.view))
-    panel_->say(fmt::format("No view was kept there yet: Ctrl+F{} does.", *actions.view + 5));
+    panel_->say(fmt::format("No view saved there: Ctrl+F{} saves one.", *actions.view + 5));
 }
 
 }  // namespace heml::window

@@ -20,7 +20,7 @@ if MISSING:
     print("skipped: not installed:", ", ".join(MISSING))
 PATIENCE = 180  # s, time limit for actions that take one on an idle machine
 
-Status = collections.namedtuple("Status", "picture tick motion state key")  # a line of `--log-pictures`
+Status = collections.namedtuple("Status", "frame tick motion state key")  # a line of `--log-pictures`
 
 
 def light_scene():
@@ -127,13 +127,13 @@ class WindowCase(unittest.TestCase):
             time.sleep(0.03)  # polling interval
 
     def status(self):
-        """Status line of the last picture drawn."""
-        line = r"^picture (\d+), tick (\d+), (\w+), (\w+), key (\d+)$"
+        """Status line of the last frame drawn."""
+        line = r"^frame (\d+), tick (\d+), (\w+), (\w+), key (\d+)$"
         lines = re.findall(line, self.log.read_text(), re.MULTILINE)
         if not lines:
             return Status(0, 0, "running", "busy", 0)
-        picture, tick, motion, state, key = lines[-1]
-        return Status(int(picture), int(tick), motion, state, int(key))
+        frame, tick, motion, state, key = lines[-1]
+        return Status(int(frame), int(tick), motion, state, int(key))
 
     def settle(self):
         """Waits until earlier input is processed: sends a key without a meaning and waits until the program has seen it

@@ -33,9 +33,9 @@ class Drawing(WindowCase):
         self.open_display(640, 360)
         self.begin_light("--draw-stall", 1000)
         first = self.status()
-        self.wait_for("pictures", lambda: self.status().picture >= first.picture + 5)
+        self.wait_for("pictures", lambda: self.status().frame >= first.frame + 5)
         last = self.status()
-        ticks = (last.tick - first.tick) / (last.picture - first.picture)
+        ticks = (last.tick - first.tick) / (last.frame - first.frame)
         self.assertGreater(ticks, 10, "an engine that waits for pictures makes one tick for each, and 60 a second alone")
         self.quit()
 
@@ -67,10 +67,10 @@ class Drawing(WindowCase):
             fields = stat.read_text().rsplit(")", 1)[1].split()
             return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
-        before, drawn = processor_time(), self.status().picture
+        before, drawn = processor_time(), self.status().frame
         time.sleep(3)  # the period in which nothing must be drawn
         self.assertLess(processor_time() - before, 0.15)
-        self.assertEqual(self.status().picture, drawn)
+        self.assertEqual(self.status().frame, drawn)
         self.quit()
 
 
