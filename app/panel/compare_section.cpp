@@ -10,7 +10,7 @@ namespace {
 
 const std::vector<std::string>& law_names() {
   static const std::vector<std::string> names = [] {
-    std::vector<std::string> all{"the same law"};
+    std::vector<std::string> all{"same law"};
     for (const LawInfo& law : laws()) all.emplace_back(law.name);
     return all;
   }();
@@ -19,7 +19,7 @@ const std::vector<std::string>& law_names() {
 
 const std::vector<std::string>& method_names() {
   static const std::vector<std::string> names = [] {
-    std::vector<std::string> all{"the same method"};
+    std::vector<std::string> all{"same integrator"};
     for (const Integrator integrator : moving_integrators()) all.emplace_back(integrator_name(integrator));
     return all;
   }();
@@ -40,23 +40,23 @@ void CompareSection::draw(Rows& rows, const Frame& frame, PanelActions& out) {
     const Frame& body = frame.comparisons[k];
     rows.value({variants[k], !body.halted.empty() ? body.halted
                              : body.distance
-                                 ? fmt::format("Distance of its surface from the body's, m: {} in the mean, "
-                                               "{} at most.",
+                                 ? fmt::format("Distance between the surfaces, m: mean {}, max {}.",
                                                quantity(body.distance->mean, "m"), quantity(body.distance->max, "m"))
-                                 : "Its mesh was cut differently: no pairs of nodes to measure."},
+                                 : "Topology differs (other cuts): no distance can be measured."},
                distance_of(body));
   }
   if (!variants.empty() &&
-      rows.button({"Remove comparisons", "Ends all comparison runs; the body goes on from the shown time."}))
+      rows.button({"Remove comparisons", "Ends all comparison runs; the body continues from the shown time."}))
     out.comparisons.emplace();
   if (variants.size() >= ComparisonRuns::max) return;
-  rows.choice({"Another law", "The same tissue under this law, as stiff at rest, with the same things done to it."},
-              law_, law_names());
-  rows.choice({"Another method", "The same tissue under this time integrator."}, method_, method_names());
+  rows.choice(
+      {"Other law", "The same body under this law with the same small-strain moduli, driven by the same commands."},
+      law_, law_names());
+  rows.choice({"Other method", "The same body under this time integrator."}, method_, method_names());
   const bool is_same = law_ == 0 && method_ == 0;
   if (is_same) ImGui::BeginDisabled();
-  if (rows.button({"Add comparison",
-                   "Runs this variant in lockstep with the body, from the start to the shown time and on."})) {
+  if (rows.button(
+          {"Add comparison", "Replays the session to the shown time with this variant in lockstep, then continues."})) {
     std::string variant = law_ > 0 ? law_names()[static_cast<std::size_t>(law_)] : "";
     if (method_ > 0) variant += (variant.empty() ? "" : "+") + method_names()[static_cast<std::size_t>(method_)];
     variants.push_back(variant);

@@ -11,8 +11,8 @@ namespace {
 
 std::string distance_text(const Frame& body) {
   if (!body.halted.empty()) return "stopped: " + body.halted;
-  if (!body.distance) return "of another surface by now";
-  return fmt::format("{} apart in the mean, {} at most", quantity(body.distance->mean, "m"),
+  if (!body.distance) return "topology differs";
+  return fmt::format("distance: mean {}, max {}", quantity(body.distance->mean, "m"),
                      quantity(body.distance->max, "m"));
 }
 

@@ -9,10 +9,10 @@ namespace heml::panel {
 namespace {
 
 constexpr std::pair<const char*, const char*> mouse[] = {
-    {"Left, on the body", "grasp it and pull; or what the tool does"},
-    {"Left on the background, or right", "turn the camera"},
-    {"Middle, or Shift + right", "move the camera"},
-    {"Wheel", "nearer or farther"},
+    {"Left, on the body", "use the tool (grasper: hold and pull)"},
+    {"Left on the background, or right", "orbit the camera"},
+    {"Middle, or Shift + right", "pan the camera"},
+    {"Wheel", "zoom"},
     {"Double click on the background", "fit the body into view"},
     {"Drop a file", "open a scene, mesh or surface"},
 };

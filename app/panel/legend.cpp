@@ -48,7 +48,7 @@ void draw_legend(Field field, const render::Range& whole, const Area& free, bool
   list.AddRectFilled({bar.from.x - pad * 1.4f, bar.from.y - line - pad}, {bar.to.x + pad * 1.4f, bottom + pad * 0.5f},
                      colours::background, em(0.5f));
   std::string title = label.unit.empty() ? label.title : fmt::format("{}, {}", label.title, label.unit);
-  if (field == Field::volume_ratio && range.low < 0) title += " (below 0: inside out)";
+  if (field == Field::volume_ratio && range.low < 0) title += " (below 0: inverted)";
   centred(list, middle, bar.from.y - line - em(0.25f), colours::text, title);
   draw_bar(list, field, (range.low - whole.low) / (whole.high - whole.low), bar);
   for (const float tick : render::ticks({range.low * label.scale, range.high * label.scale})) {

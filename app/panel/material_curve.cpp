@@ -21,7 +21,7 @@ void MaterialCurve::compute(const Material& material) {
   const Preset* preset = preset_of(material);
   chart_ = {};
   chart_.small = true;
-  chart_.y_quantity = "Stress in a pull";
+  chart_.y_quantity = "Uniaxial stress";
   chart_.y_unit = "Pa";
   if (preset && preset->stretch_range) chart_.band = {preset->stretch_range->low, preset->stretch_range->high, ""};
   const BenchCurve curve = run_bench(*make_material_point(material, false), BenchTest::uniaxial,

@@ -14,7 +14,7 @@ namespace {
 constexpr float tall_picture = 54;  // em: in images at least this high the curve starts open
 
 std::string name_of(const RegionMaterial& entry) {
-  return entry.region ? fmt::format("Region {}", *entry.region) : std::string("Everywhere else");
+  return entry.region ? fmt::format("Region {}", *entry.region) : std::string("Default");
 }
 
 void warn_in_panel(const std::string& text) {
@@ -57,9 +57,8 @@ void MaterialSection::draw(Rows& rows, double stretched, PanelActions& out) {
 void MaterialSection::draw_region(Rows& rows) {
   std::vector<std::string> names;
   for (const RegionMaterial& entry : materials_) names.push_back(name_of(entry));
-  if (rows.choice(
-          {"Part", "Which part of the body is edited: a region of the mesh, or all that has no entry of its own."},
-          chosen_, names))
+  if (rows.choice({"Region", "The region of the mesh to edit; Default: all regions without a material of their own."},
+                  chosen_, names))
     problem_.clear();
 }
 
@@ -72,11 +71,8 @@ bool MaterialSection::draw_law(Rows& rows, Material& material) {
     hints.push_back(fmt::format("W = {}\n\n{}", law.formula, law.source));
   }
   const LawInfo* before = find_law(material.law);
-  const bool changed =
-      rows.choice({"Law",
-                   "How stress follows from strain. Switching keeps the shape, the motion and the stiffness "
-                   "under small strains."},
-                  chosen, titles, hints);
+  const bool changed = rows.choice({"Law", "Constitutive law. Switching keeps shape, motion and small-strain moduli."},
+                                   chosen, titles, hints);
   if (!changed || !before) return false;
   material = match_moduli(material, *before, laws()[static_cast<std::size_t>(chosen)]);
   return true;
@@ -87,9 +83,9 @@ bool MaterialSection::draw_numbers(Rows& rows, Material& material, const LawInfo
   if (has_pair) {
     static const std::string variants[] = {"E and ν", "λ and μ"};
     int direction = engineering_ ? 0 : 1;
-    rows.choice(
-        {"Given as", "Young's modulus and Poisson's ratio, or the two Lamé parameters: the same material either way."},
-        direction, variants);
+    rows.choice({"Parameters",
+                 "Young's modulus and Poisson's ratio, or the two Lamé parameters: the same material either way."},
+                direction, variants);
     engineering_ = direction == 0;
   }
   bool changed = has_pair && engineering_ ? engineering_rows(rows, material) : parameter_rows(rows, material, law);
@@ -104,17 +100,18 @@ void MaterialSection::draw_outcome(Rows& rows, const Material& material, double 
   const bool tall = ImGui::GetIO().DisplaySize.y >= em(tall_picture);
   const std::string hint = fmt::format(
       "Shear stress per shear strain under small strains, Pa; across the fibres where there are any. Bulk "
-      "modulus: {}.\n\nPress for the curve of a pull.",
+      "modulus: {}.\n\nClick to show the uniaxial stress curve.",
       quantity(rest.bulk, "Pa"));
   if (rest.shear > 0 && rows.folding_value({"Shear modulus at rest", hint}, quantity(rest.shear, "Pa"), tall)) {
     curve_.draw(material);
     rows.explain({"Curve",
-                  "Nominal stress (force per area at rest) against the stretch of a bar that is pulled or pressed, "
-                  "its sides free. Shaded: where a tissue's numbers were measured."});
+                  "Nominal stress (force per rest area) against stretch in uniaxial tension and compression. "
+                  "Shaded: range in which the parameters were measured."});
   }
   if (stretched > 0)
-    warn_in_panel(fmt::format("{:.0f} % of the surface (hatched) is stretched further than this tissue was measured.",
-                              std::max(1.0, std::round(100 * stretched))));
+    warn_in_panel(
+        fmt::format("{:.0f} % of the surface (hatched) is stretched beyond the measured range of this tissue.",
+                    std::max(1.0, std::round(100 * stretched))));
 }
 
 }  // namespace heml::panel

@@ -38,14 +38,13 @@ void MotionSection::sync(const SetGravity& command) {
 
 void MotionSection::draw(Rows& rows, PanelActions& out) {
   draw_gravity(rows, out);
-  if (rows.slider({"Damping", "Slows every motion in proportion to mass, 1/s. 0 lets the body swing freely."}, damping_,
-                  {0, 20, "%.2f 1/s", false}))
+  if (rows.slider({"Damping", "Mass-proportional damping, 1/s. 0: none."}, damping_, {0, 20, "%.2f 1/s", false}))
     out.commands.emplace_back(SetDamping{damping_});
   draw_integrator(rows, out);
 }
 
 void MotionSection::draw_gravity(Rows& rows, PanelActions& out) {
-  bool changed = rows.slider({"Gravity", "Acceleration that pulls at the whole body, m/s². On Earth 9.81."}, strength_,
+  bool changed = rows.slider({"Gravity", "Gravitational acceleration, m/s²; 9.81 on Earth."}, strength_,
                              {0, 20, "%.2f m/s²", false});
   std::array<std::string, 7> names;
   int chosen = 6;
@@ -55,7 +54,7 @@ void MotionSection::draw_gravity(Rows& rows, PanelActions& out) {
   }
   names[6] = "as in the scene";
   const std::span<const std::string> offered(names.data(), chosen == 6 ? 7 : 6);
-  if (rows.choice({"Towards", "Where gravity pulls."}, chosen, offered)) {
+  if (rows.choice({"Direction", "Direction of gravity."}, chosen, offered)) {
     direction_ = directions()[chosen].vector;
     changed = true;
   }
@@ -71,8 +70,8 @@ void MotionSection::draw_integrator(Rows& rows, PanelActions& out) {
     titles.emplace_back(info_of(integrator).title);
     integrators.push_back(integrator);
   }
-  if (!rows.choice({"Integrator", "How a step in time is taken. Verlet is the more accurate of the two explicit ones."},
-                   chosen, titles))
+  if (!rows.choice({"Integrator", "Time integrator. Of the two explicit ones Verlet is the more accurate."}, chosen,
+                   titles))
     return;
   integrator_ = integrators[static_cast<std::size_t>(chosen)];
   out.commands.emplace_back(SetIntegrator{integrator_});

@@ -66,12 +66,13 @@ void OpenDialog::draw_head(Rows& rows) {
   const float close_size = ImGui::GetFrameHeight();
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - close_size - em(0.7f));
   if (!ImGui::IsAnyItemActive()) ImGui::SetKeyboardFocusHere();  // typing filters at once
-  if (ImGui::InputTextWithHint("##wanted", "Type to find", wanted_, sizeof wanted_)) marked_ = wanted_[0] ? 0 : -1;
-  rows.explain({"Find",
-                "Shows what has these words in its name or description. Up and Down choose, Enter opens, Esc closes. "
-                "A path that begins with / opens that file."});
+  if (ImGui::InputTextWithHint("##wanted", "Search", wanted_, sizeof wanted_)) marked_ = wanted_[0] ? 0 : -1;
+  rows.explain(
+      {"Search",
+       "Shows entries with all these words in name, description or path. Up and Down select, Enter opens, Esc closes. "
+       "A path that begins with / opens that file."});
   ImGui::SameLine(0, em(0.7f));
-  if (rows.icon_button({"Close", "Closes this page (Esc)."}, close_size, false, draw_cross)) open_ = false;
+  if (rows.icon_button({"Close", "Closes this dialog (Esc)."}, close_size, false, draw_cross)) open_ = false;
   ImGui::Dummy({0, em(0.2f)});
 }
 
@@ -140,14 +141,14 @@ bool OpenDialog::draw_line(Rows& rows, const OpenChoice& choice, bool marked) {
   const ImVec2 from = ImGui::GetCursorScreenPos(), to(from.x + width, from.y + line + em(0.3f));
   const bool chosen = ImGui::InvisibleButton("line", {width, to.y - from.y});
   const bool warm = choice.is_there && (marked || ImGui::IsItemHovered());
-  const std::string gone = choice.is_there ? "" : "\n\nIt is no longer there.";
+  const std::string gone = choice.is_there ? "" : "\n\nThe file no longer exists.";
   rows.explain({choice.title, choice.title + "\n\n" + choice.about + gone});
   ImDrawList& list = *ImGui::GetWindowDrawList();
   if (warm)
     list.AddRectFilled({from.x - em(0.3f), from.y}, to, colours::track_hovered, ImGui::GetStyle().FrameRounding);
   const std::string title = shortened(choice.title, 0.62f * width);
   const float used = ImGui::CalcTextSize(title.c_str()).x + em(0.8f), top = from.y + em(0.15f);
-  const std::string about = shortened(choice.is_there ? choice.about : "no longer there", width - used - em(0.3f));
+  const std::string about = shortened(choice.is_there ? choice.about : "missing", width - used - em(0.3f));
   list.AddText({from.x, top}, choice.is_there ? colours::text : colours::faint, title.c_str());
   list.AddText({to.x - em(0.3f) - ImGui::CalcTextSize(about.c_str()).x, top},
                choice.is_there ? colours::muted : colours::faint, about.c_str());

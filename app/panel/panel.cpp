@@ -148,12 +148,12 @@ std::optional<Banner> Panel::banner_for(const Frame& frame) const {
   if (!frame.halted.empty())
     return Banner{
         "The simulation stopped",
-        frame.halted + "\nReset goes back to the start. A gentler pull or more damping may get past this point.",
+        frame.halted + "\nReset returns to the initial state. Smaller tool motions or more damping may avoid this.",
         "Reset (R)", colours::danger};
   if (frame.recovery && shows_recovery())
-    return Banner{frame.recovery->ended ? "The tissue was brought back" : "Bringing the tissue back",
+    return Banner{frame.recovery->ended ? "Tissue recovered" : "Recovering the tissue",
                   capitalised(frame.recovery->message) + "." +
-                      (frame.recovery_file.empty() ? "" : "\nReplay it: heml run " + frame.recovery_file),
+                      (frame.recovery_file.empty() ? "" : "\nReplay: heml run " + frame.recovery_file),
                   "", colours::warning};
   if (late_for_ > patience && !frame.paused)
     return Banner{fmt::format("{:.1f}× slower than real time", frame.pace.slowdown),
@@ -203,13 +203,13 @@ void Panel::draw_header(const Frame& frame) {
     ImGui::SameLine(0, em(0.3f));
   };
   if (frame.paused)
-    button("Play", "Lets time run (Space).", true, Action::toggle_play, draw_play);
+    button("Play", "Runs the simulation (Space).", true, Action::toggle_play, draw_play);
   else
-    button("Pause", "Holds time (Space).", true, Action::toggle_play, draw_pause);
+    button("Pause", "Pauses the simulation (Space).", true, Action::toggle_play, draw_pause);
   button("Step", "One tick of the engine, then pause (. key).", false, Action::step, draw_step);
-  button("Reset", "Back to the initial state at time 0; materials and the like stay (R).", false, Action::reset,
-         draw_reset);
-  button("Open", "Scenes that come with heml, recent files, and folders (Ctrl+O).", false, Action::open, draw_folder);
+  button("Reset", "Back to the initial state at time 0; settings stay (R).", false, Action::reset, draw_reset);
+  button("Open", "Opens installed scenes, recent files, and files in folders (Ctrl+O).", false, Action::open,
+         draw_folder);
   button("Help", "Mouse and keys (H).", false, Action::help, draw_question);
   ImGui::BeginGroup();
   text_at_right(fmt::format("{:.2f} s", frame.time), colours::text);
@@ -234,7 +234,7 @@ void Panel::draw_pace(const Frame& frame) {
                            : late         ? fmt::format("{:.1f}× slower than real time", frame.pace.slowdown)
                                           : "real time";
   const UseFont small(Font::small);
-  rows_.value({"Pace", "Whether simulated time keeps up with the clock on the wall."}, text, colour, colour);
+  rows_.value({"Speed", "Whether simulated time keeps up with wall-clock time."}, text, colour, colour);
 }
 
 void Panel::draw_readings(const Frame& frame) {

@@ -40,7 +40,7 @@ bool is_name(std::string_view text) {
 bool parameter_row(Rows& rows, Material& material, const ParameterSlot& slot, std::size_t index) {
   const std::string label = slot.symbol();
   const std::string key = is_name(label) && slot.term < 0 ? std::string() : fmt::format(" ({} in scenes)", slot.key());
-  const std::string unit(slot.info->unit.empty() ? "no unit" : slot.info->unit);
+  const std::string unit(slot.info->unit.empty() ? "dimensionless" : slot.info->unit);
   const std::string hint = fmt::format("{}{}, {}.", slot.info->meaning, key, unit);
   for (const FieldParameter& field : material.fields)
     if (field.parameter == index) {
@@ -63,11 +63,11 @@ bool term_rows(Rows& rows, Material& material, const std::vector<ParameterSlot>&
   if (terms == 0) return false;
   const float width = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
   int change = 0;
-  if (rows.button({"Add term", "One more term of the sum, which shares the strength of the last."}, width) &&
+  if (rows.button({"Add term", "Adds a term to the sum; it shares the modulus of the last one."}, width) &&
       terms < max_terms)
     change = 1;
   ImGui::SameLine();
-  if (rows.button({"Remove term", "Takes the last term away."}, width) && terms > 1) change = -1;
+  if (rows.button({"Remove term", "Removes the last term of the sum."}, width) && terms > 1) change = -1;
   if (change == 0) return false;
   std::vector<double> parameters;
   for (std::size_t i = 0; i < slots.size(); ++i) {
@@ -94,16 +94,14 @@ bool parameter_rows(Rows& rows, Material& material, const LawInfo& law) {
 bool engineering_rows(Rows& rows, Material& material) {
   const EngineeringConstants now = engineering_constants({material.parameters[0], material.parameters[1]});
   double young = now.young * 1e-3, poisson = now.poisson;
-  bool changed =
-      rows.slider({"Young's E",
-                   "Young's modulus E: stress per strain when pulled along one direction, kPa. Brain has about "
-                   "1, liver 5, muscle 20."},
-                  young, {0.01, 1e5, "%.4g kPa", true});
-  changed |=
-      rows.slider({"Poisson's ν",
-                   "Poisson's ratio ν: how much the body narrows when it is pulled, no unit. Towards 0.5 it keeps "
-                   "its volume, and steps must be shorter."},
-                  poisson, {0, 0.495, "%.3f", false});
+  bool changed = rows.slider({"Young's E",
+                              "Young's modulus E: uniaxial stress per strain, kPa. Brain has about "
+                              "1, liver 5, muscle 20."},
+                             young, {0.01, 1e5, "%.4g kPa", true});
+  changed |= rows.slider({"Poisson's ν",
+                          "Poisson's ratio ν: lateral over axial strain, dimensionless. Towards 0.5 tissue is "
+                          "incompressible, and stable steps are shorter."},
+                         poisson, {0, 0.495, "%.3f", false});
   if (!changed) return false;
   const LameParameters lame = lame_parameters(young * 1e3, poisson);
   material.parameters = {lame.lambda, lame.mu};
@@ -119,11 +117,12 @@ bool fibre_rows(Rows& rows, Material& material) {
   constexpr double degree = std::numbers::pi / 180;
   const Vec3 d = material.fibre.y() < 0 ? Vec3(-material.fibre) : material.fibre;  // a fibre has no sign
   double turn = std::atan2(-d.z(), d.x()) / degree, rise = std::asin(std::clamp(d.y(), -1.0, 1.0)) / degree;
-  bool changed =
-      rows.slider({"Fibre turn", "Direction of the fibres in the horizontal plane at rest, degrees from x towards −z."},
-                  turn, {-180, 180, "%.0f°", false});
-  changed |= rows.slider({"Fibre rise", "How steeply the fibres rise at rest, degrees from the horizontal plane to y."},
-                         rise, {0, steepest, "%.0f°", false});
+  bool changed = rows.slider(
+      {"Fibre azimuth", "Direction of the fibres in the horizontal plane at rest, degrees from x towards −z."}, turn,
+      {-180, 180, "%.0f°", false});
+  changed |= rows.slider(
+      {"Fibre elevation", "Elevation of the fibres at rest, degrees above the horizontal plane (towards y)."}, rise,
+      {0, steepest, "%.0f°", false});
   if (!changed) return false;
   const double across = std::cos(rise * degree);
   material.fibre =

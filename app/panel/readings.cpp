@@ -21,16 +21,17 @@ void draw_force(Rows& rows, const Frame& frame, const History& history) {
     ImGui::PopStyleColor();
   }
   ImGui::EndGroup();
-  rows.explain({"Force", "What the grasp feels: the size of the force between tool and tissue, N (newton)."});
+  rows.explain({"Force", "Magnitude of the force between grasper and tissue, N."});
   if (find_tool<PinState>(frame.tools))
-    rows.value({"Pins", "What the pins together bear: the size of the sum of their forces on the tissue, N."},
+    rows.value({"Pins", "Magnitude of the sum of the pins' forces on the tissue, N."},
                newtons(force_of<PinState>(frame.tools).norm()), colours::potential);
   if (find_tool<ProbeState>(frame.tools))
-    rows.value({"Probe", "The size of the force between probe and tissue, friction with it, N."},
+    rows.value({"Probe", "Magnitude of the force between probe and tissue, including friction, N."},
                newtons(force_of<ProbeState>(frame.tools).norm()), colours::warning);
   if (const TableState* table = find_tool<TableState>(frame.tools)) {
-    rows.value({"Table", "The size of the force of the table on the tissue, N: at rest, what the tissue weighs."},
-               newtons(force_of<TableState>(frame.tools).norm()), colours::kinetic);
+    rows.value(
+        {"Table", "Magnitude of the force of the table on the tissue, N; at equilibrium the weight of the tissue."},
+        newtons(force_of<TableState>(frame.tools).norm()), colours::kinetic);
     rows.value({"Contact points", "Points of the tissue in contact with the table."},
                fmt::format("{}", table->contact_count));
   }
@@ -53,7 +54,7 @@ void draw_energies(Rows& rows, const Frame& frame, const History& history) {
   rows.value({"Elastic", "Energy stored in the deformed tissue, J."}, quantity(now.elastic, "J"), colours::elastic);
   rows.value({"Gravity energy", "Potential energy of gravity, J; 0 at the rest shape."}, quantity(now.potential, "J"),
              colours::potential);
-  rows.value({"Total", "Sum of the three, J. It stays the same when nothing damps and no tool pulls."},
+  rows.value({"Total", "Sum of the three, J. Constant without damping and tools."},
              quantity(now.kinetic + now.elastic + now.potential, "J"), total_colour);
   const Curve curves[] = {
       {"Total", total_colour, [](const Reading& r) { return r.total(); }},
@@ -69,22 +70,21 @@ void draw_volume(Rows& rows, const Frame& frame, const History& history) {
   if (frame.surface_mesh) {
     const double now = enclosed_volume(*frame.surface_mesh, frame.positions),
                  rest = enclosed_volume(*frame.surface_mesh);
-    rows.value({"Whole body", "What the body takes up now, cm³ (millilitres), and as a share of its volume at rest."},
+    rows.value({"Body volume", "Volume of the body, cm³, and relative to rest."},
                fmt::format("{:.4g} cm³, {:.1f} %", now * 1e6, 100 * now / rest), total_colour);
   }
-  rows.value({"Min J", "The most compressed tetrahedron: its volume relative to rest. 0 or less: turned inside out."},
+  rows.value({"Min J", "Smallest volume ratio of a tetrahedron; 0 or less: inverted."},
              fmt::format("{:.3f}", frame.min_J), colours::potential, inverted ? colours::danger : colours::text);
-  rows.value({"Max J", "The most expanded tetrahedron: its volume relative to rest."},
-             fmt::format("{:.3f}", frame.max_J), colours::kinetic);
+  rows.value({"Max J", "Largest volume ratio of a tetrahedron."}, fmt::format("{:.3f}", frame.max_J), colours::kinetic);
   if (frame.removed > 0)
-    rows.value({"Removed", "Tetrahedra taken out of the body, of all it had. Reset brings them back."},
+    rows.value({"Removed", "Removed tetrahedra, of all. Reset restores them."},
                fmt::format("{} of {}", frame.removed, frame.elements));
   if (frame.last_edit && frame.last_edit->torn > 0)
-    rows.value({"Torn", "Area of one side of the tear, as the body was when it came apart. Undo takes all of it back."},
+    rows.value({"Torn", "Area of one side of the tear, in the state in which it tore. Undo restores all of it."},
                fmt::format("{:.3g} cm²", frame.last_edit->area * 1e4));
   if (frame.last_edit && frame.last_edit->split > 0) {
     const EditReport& cut = *frame.last_edit;
-    rows.value({"Last cut", "Area of one side of the last cut, as the body was when it was made."},
+    rows.value({"Last cut", "Area of one side of the last cut, in the state in which it was made."},
                fmt::format("{:.3g} cm²", cut.area * 1e4));
     rows.value({"Min dihedral angle",
                 "Dihedral angle of the worst new tetrahedron of the last cut, degrees, at rest. Slivers "
@@ -104,18 +104,18 @@ void draw_volume(Rows& rows, const Frame& frame, const History& history) {
 void draw_errors(Rows& rows, const Frame& frame, const History& history) {
   rows.value(
       {"Discretisation error",
-       "Estimated error of what linear tetrahedra make of the deformation, % of its energy norm (Zienkiewicz and "
-       "Zhu): stress against its mean at nodes. Halving the edges about halves it; colours (6) show where. It "
-       "does not see locking, and a body on the way may be off for other reasons."},
+       "Estimated discretisation error, % of the energy norm (Zienkiewicz and Zhu: stress against nodal averages). "
+       "Roughly proportional to edge length; colours (6) show where it is. It does not include locking or time "
+       "errors."},
       frame.mesh_error ? fmt::format("{:.1f} %", 100 * *frame.mesh_error) : "–", colours::accent);
   const auto& time = frame.time_error;
   rows.value(
       {"Time error",
-       "How far the nodes (rms) were from where infinitely short steps would have taken them at the end of a "
-       "stretch of 0.1 s, mm: a copy of the body repeats it with half the step now and then (step doubling). Not after "
-       "cuts, and not of tissue that remembers."},
+       "Estimated rms position error of the time integration over the last 0.1 s, mm, by step doubling: a copy of the "
+       "body repeats some intervals with half the step. Not after cuts, and not for tissue with internal state "
+       "(viscosity, plasticity)."},
       time ? fmt::format("{:.2g} mm", 1e3 * time->rms) : "–", colours::warning);
-  rows.value({"Max time error", "The same of the node where it is largest, mm."},
+  rows.value({"Max time error", "Time error of the worst node, mm."},
              time ? fmt::format("{:.2g} mm", 1e3 * time->max) : "–", 0);
   const Curve mesh_curve[] = {{"Mesh", colours::accent, [](const Reading& r) { return r.mesh_error; }}};
   plot("mesh error plot", history, mesh_curve, {"%", 0, 1, 2.8f});
@@ -131,26 +131,27 @@ void draw_engine(Rows& rows, const Frame& frame, const History& history) {
              time_of(pace.p50 / steps), 0);
   rows.value({"Time per tick", "Wall time of computing one tick, s: median of the last 1000."}, time_of(pace.p50),
              colours::accent);
-  rows.value({"Slowest 1 %", "99 of 100 ticks take less than this, s."}, time_of(pace.p99), colours::warning);
-  rows.value({"Rate", "Ticks of the engine a simulated second, Hz. The scene fixes it (solver.rate or solver.step)."},
+  rows.value({"99th percentile", "99th percentile of the wall time per tick, s."}, time_of(pace.p99), colours::warning);
+  rows.value({"Rate", "Ticks per simulated second, Hz; set by the scene (solver.rate or solver.step)."},
              fmt::format("{:.4g} Hz", pace.rate));
-  rows.value({"Steps per tick", "Equal integration steps that a tick is divided into for stability."},
-             fmt::format("{}", frame.substeps));
-  rows.value({"Stable step",
-              "Longest step that stays stable now, s, with a margin. Stiffer, lighter or finer makes it shorter."},
-             time_of(frame.stable_step));
-  rows.value({"Missed deadlines", "Ticks that ended later than real time asked, since the start."},
+  rows.value({"Steps per tick", "Substeps per tick, chosen for stability."}, fmt::format("{}", frame.substeps));
+  rows.value(
+      {"Stable step",
+       "Longest stable step of explicit methods now, s, safety factor included. Stiffer, lighter or finer bodies have "
+       "shorter ones."},
+      time_of(frame.stable_step));
+  rows.value({"Missed deadlines", "Ticks that ended after their deadline, since the start."},
              grouped_digits(pace.missed), 0, pace.missed > 0 && !pace.keeping_up ? colours::warning : colours::text);
   rows.value({"Threads",
-              "Threads that step the body, and how many cores the rest of the program (drawing, above all) takes. "
-              "Stepping gets what is left, unless the scene fixes solver.threads; results do not depend on it."},
+              "Threads of the engine, and cores used by the rest of the program (mostly drawing). The engine uses the "
+              "remaining cores unless the scene sets solver.threads; results do not depend on it."},
              fmt::format("{}, drawing {:.1f} cores", pace.threads, pace.others));
   const Curve curves[] = {
       {"Slowest", colours::warning, [](const Reading& r) { return r.slow_tick; }},
       {"Typical", colours::accent, [](const Reading& r) { return r.typical_tick; }},
   };
   plot("tick plot", history, curves, {"s", 0, 1e-6, 2.8f});
-  rows.value({"Slowdown", "Wall seconds a simulated second over the last second: 1 is real time, 2 half as fast."},
+  rows.value({"Slowdown", "Wall seconds per simulated second, over the last second: 1 is real time, 2 half as fast."},
              pace.slowdown < 1e8 ? fmt::format("{:.2f} ×", pace.slowdown) : "–", colours::potential);
   const Curve late[] = {{"Slowdown", colours::potential, [](const Reading& r) { return std::min(r.slowdown, 100.0); }}};
   plot("lateness plot", history, late, {"×", 1, 0.5, 2.2f});

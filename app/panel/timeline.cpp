@@ -20,11 +20,9 @@ std::string seconds_text(double seconds) {
 
 std::string time_hint(const Timeline& time) {
   return fmt::format(
-      "Simulated time since the start, s, of what is shown: ticks of the engine, which a reset does not set back. "
-      "Left, "
-      "Right and Home look back too; Resume (B) goes on from there.\n\n{} frames are kept, {:.1f} of at most {:.0f} "
-      "MB. "
-      "When that is full, every other one goes.",
+      "Shown time since the start, s; a reset does not set it back. Left, Right and Home move too; Resume (B) "
+      "continues "
+      "from there.\n\n{} frames in memory, {:.1f} of {:.0f} MB. When full, every second frame is dropped.",
       time.frames, static_cast<double>(time.bytes) / 1e6, static_cast<double>(time.room) / 1e6);
 }
 
@@ -75,7 +73,7 @@ void follow_mouse(Rows& rows, const Track& track, PanelActions& out) {
   ImGui::Text("%s of %s", seconds_text(static_cast<double>(tick) / time.rate).c_str(),
               seconds_text(static_cast<double>(time.end) / time.rate).c_str());
   if (!ImGui::IsAnyMouseDown())
-    ImGui::TextDisabled("%s", tick > time.live ? "release here to fast-forward to it" : "drag to show the past");
+    ImGui::TextDisabled("%s", tick > time.live ? "release here to fast-forward to it" : "drag to show past frames");
   ImGui::EndTooltip();
 }
 
@@ -109,15 +107,15 @@ void draw_timeline(Rows& rows, const Timeline& time, const Area& free, std::vect
     ImGui::SetCursorScreenPos({end + em(0.6f), place.from.y + em(0.3f)});
     if (time.returning) {
       ImGui::AlignTextToFramePadding();
-      ImGui::Text("Returning %d %%", *time.returning);
-      rows.explain({"Returning", "What led to that time is played again, as fast as this machine can; Esc gives up."});
+      ImGui::Text("Replaying %d %%", *time.returning);
+      rows.explain({"Replaying", "Replays the session up to that time as fast as possible; Esc cancels."});
     } else if (back) {
       if (rows.button({"Resume",
-                       "Resumes from this time: what led to it is played again, to the bit, and a recording "
-                       "that is under way, or was opened, goes on in a new file (B)."}))
+                       "Resumes from this time by replaying the session up to it, bit for bit; a recording "
+                       "(being written or opened) continues in a new file (B)."}))
         pressed.push_back(Action::resume);
       ImGui::SameLine(0, em(0.4f));
-      if (rows.button({"Now", "Back to the present (End, Esc)."})) pressed.push_back(Action::seek_now);
+      if (rows.button({"Live", "Back to the live simulation (End, Esc)."})) pressed.push_back(Action::seek_now);
     }
   }
   ImGui::End();

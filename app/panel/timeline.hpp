@@ -2,7 +2,7 @@
 // The timeline bar below the body: frames seen so far, a recording ahead, and the shown time.
 //
 //    ┌────────────────────────────────────────────────────┐
-//    │ 2.40 s  ████████████▌███████░░░░░░░  Resume   Now  │
+//    │ 2.40 s  ████████████▌███████░░░░░░░  Resume   Live │
 //    └───────────────┬─────┬──────┬──────┬────────────────┘
 //                  seen  shown  engine  end of the recording
 #include <app/panel/actions.hpp>

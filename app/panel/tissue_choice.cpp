@@ -16,7 +16,7 @@ std::string hint_of(const Preset& preset) {
   else
     text += "\nThe range of stretches is not known.";
   text += "\n\n" + to_text(preset.source);
-  text += preset.verified ? "\n\nCompared with the source." : "\n\nNumbers not verified at the source.";
+  text += preset.verified ? "\n\nVerified against the source." : "\n\nNot verified against the source.";
   if (!preset.note.empty()) text += "\n" + preset.note;
   return text;
 }
@@ -42,7 +42,7 @@ bool choose_tissue(Rows& rows, Material& material) {
     hints.push_back(hint_of(preset));
   }
   const bool changed =
-      rows.choice({"Tissue", "Published numbers for a tissue: law and parameters. None: numbers of your own."}, chosen,
+      rows.choice({"Tissue", "Tissue preset: law and parameters from the literature. –: custom parameters."}, chosen,
                   titles, hints);
   if (changed) material = with_preset(material, presets()[static_cast<std::size_t>(chosen)]);
   if (const Preset* preset = preset_of(material))

@@ -13,7 +13,7 @@ constexpr double first_probe = 0.08, max_probe = 0.4, first_dent = 0.15, max_den
 constexpr double max_friction = 1.5, table_gap = 0.01;
 
 std::string several(std::size_t count, const char* what) {
-  return fmt::format("Take out {} {}{}", count, what, count == 1 ? "" : "s");
+  return fmt::format("Remove {} {}{}", count, what, count == 1 ? "" : "s");
 }
 
 }  // namespace
@@ -34,12 +34,11 @@ void ToolSection::sync(const SetGravity& command) {
 void ToolSection::draw(Rows& rows, const Frame& frame, PanelActions& out) {
   static const std::string names[] = {"Grasper", "Scalpel", "Pin", "Probe", "Suture"};
   static const std::string hints[] = {
-      "The left button takes hold of the body and pulls (G).",
-      "The left button draws a blade through the body (C). Ctrl+Z takes a cut back.",
-      "The left button pins the body where it is; on a pin, takes it out (N).",
+      "The left button grasps the body and pulls (G).",
+      "The left button cuts along the mouse path (C). Ctrl+Z undoes a cut.",
+      "The left button pins the body; on a pin, removes it (N).",
       "The left button pushes a rigid rod with a round tip into the body, along the line of sight (O). The wheel "
-      "pushes "
-      "it deeper.",
+      "pushes it deeper.",
       "The left button sets one end of a thread, then the other; the thread draws them together (S)."};
   int tool = static_cast<int>(tool_.tool);
   if (rows.choice({"Tool", "What the left mouse button does to the body."}, tool, names, hints))
@@ -47,14 +46,12 @@ void ToolSection::draw(Rows& rows, const Frame& frame, PanelActions& out) {
   draw_settings(rows);
   draw_friction(rows, frame, out);
   bool table = find_tool<TableState>(frame.tools) != nullptr;
-  if (rows.check({"Table",
-                  "A fixed table under the body, across gravity, where its lowest point is when it is put "
-                  "there (T)."},
-                 table))
+  if (rows.check(
+          {"Table", "A fixed plane under the body, perpendicular to gravity, at its lowest point when added (T)."},
+          table))
     toggle_table(frame, out);
   const std::size_t pins = tools_of<PinState>(frame.tools).size(), sutures = tools_of<SutureState>(frame.tools).size();
-  if (pins > 0 && rows.button({several(pins, "pin"), "Releases all that is pinned."}))
-    out.commands.emplace_back(Unpin{});
+  if (pins > 0 && rows.button({several(pins, "pin"), "Removes all pins."})) out.commands.emplace_back(Unpin{});
   if (sutures > 0 && rows.button({several(sutures, "suture"), "Cuts all threads."}))
     out.commands.emplace_back(CutSutures{});
 }
@@ -73,19 +70,17 @@ void ToolSection::draw_settings(Rows& rows) {
              max_depth);
       return;
     case Tool::probe:
-      length(rows, {"Tip radius", "Of the probe's round tip, and of its shaft, mm."}, tool_.probe_radius, max_probe);
+      length(rows, {"Tip radius", "Radius of the probe's tip and shaft, mm."}, tool_.probe_radius, max_probe);
       tool_.probe_radius = std::max(tool_.probe_radius, 0.01 * body_radius_);
-      length(rows, {"Dent", "How far the tip goes below the surface when it is pressed on it, mm."}, tool_.dent,
-             max_dent);
+      length(rows, {"Indentation", "Depth of the tip below the undeformed surface, mm."}, tool_.dent, max_dent);
       return;
     case Tool::suture:
       return;
     default:
       length(rows,
              {tool_.tool == Tool::pin ? "Pin radius" : "Grasp radius",
-              "Surface nodes within this distance of where you take hold go with the tool, or stay where they are "
-              "under a pin, mm, measured on the rest shape. 0: one node alone. Delete (Del) takes out the tissue "
-              "within it, one element deep."},
+              "Surface nodes within this distance of the click follow the tool, or are fixed by a pin; mm, on the rest "
+              "shape. 0: a single node. Del removes the tissue within it, one element deep."},
              tool_.radius, max_grasp);
   }
 }
@@ -94,7 +89,7 @@ void ToolSection::draw_friction(Rows& rows, const Frame& frame, PanelActions& ou
   const std::vector<TableState> tables = tools_of<TableState>(frame.tools);
   if (tool_.tool != Tool::probe && tables.empty()) return;
   if (!tables.empty() && tool_.tool != Tool::probe) tool_.friction = tables.front().table.friction;
-  if (!rows.slider({"Friction", "Coulomb's coefficient of friction of tissue on probe and table, no unit."},
+  if (!rows.slider({"Friction", "Coulomb friction coefficient of tissue on probe and table, dimensionless."},
                    tool_.friction, {0, max_friction, "%.2f", false}) ||
       tables.empty())
     return;

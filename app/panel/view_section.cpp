@@ -9,7 +9,7 @@ namespace {
 constexpr std::array fields{Field::none,      Field::displacement, Field::stretch,
                             Field::von_mises, Field::volume_ratio, Field::error};
 const std::array<std::string, 6> field_names{"Tissue",           "Displacement",   "Stretch",
-                                             "von Mises stress", "Volume ratio J", "Error of the mesh"};
+                                             "von Mises stress", "Volume ratio J", "Mesh error"};
 constexpr float half_resolution = 0.5f;
 }  // namespace
 
@@ -23,26 +23,26 @@ void ViewSection::show(Field field, PanelActions& out) {
 void ViewSection::draw(Rows& rows, std::vector<Action>& pressed, PanelActions& out) {
   int chosen = static_cast<int>(std::find(fields.begin(), fields.end(), field_) - fields.begin());
   if (rows.choice({"Colours",
-                   "What the surface shows (keys 1 to 6): the tissue itself, the distance from the rest shape (m), the "
-                   "largest stretch, the von Mises stress (Pa), the volume relative to rest, or where the mesh is too "
-                   "coarse (the estimated error of its energy norm, of the body's mean)."},
+                   "Field shown on the surface (keys 1 to 6): none, displacement (m), largest principal stretch, von "
+                   "Mises stress (Pa), volume ratio J, or estimated discretisation error (energy norm, relative to the "
+                   "body's mean)."},
                   chosen, field_names))
     show(fields[static_cast<std::size_t>(chosen)], out);
   const float half = ImGui::GetContentRegionAvail().x / 2;
   const float left = ImGui::GetCursorPosX();
   rows.check({"Wireframe", "The mesh's edges over the surface (W)."}, drawing_.wireframe);
   ImGui::SameLine(left + half);
-  rows.check({"Constrained nodes", "Beads where the scene holds or moves the body."}, drawing_.constrained);
-  rows.check({"Ground", "The drape below, and the shadow on it."}, drawing_.ground);
+  rows.check({"Constrained nodes", "Beads at fixed and prescribed nodes."}, drawing_.constrained);
+  rows.check({"Ground", "The ground below the body, with its shadow."}, drawing_.ground);
   ImGui::SameLine(left + half);
   bool fine = drawing_.resolution == 1;
-  if (rows.check(
-          {"Sharp", "The image at the screen's full resolution. Off: half, which is faster without a graphics card."},
-          fine))
+  if (rows.check({"Full resolution",
+                  "The image at the screen's full resolution. Off: half, which is faster without a graphics card."},
+                 fine))
     drawing_.resolution = fine ? 1 : half_resolution;
   draw_views(rows, pressed);
   const float room = ImGui::GetContentRegionAvail().x - 2 * ImGui::GetStyle().ItemSpacing.x;
-  if (rows.button({"Fit view", "Turns the camera back to where the scene began (F)."}, 0.29f * room))
+  if (rows.button({"Fit view", "Resets the camera to the scene's view (F)."}, 0.29f * room))
     pressed.push_back(Action::fit);
   ImGui::SameLine();
   if (rows.button({"Save image", "Writes a PNG into the working folder (P)."}, 0.42f * room))
@@ -51,21 +51,21 @@ void ViewSection::draw(Rows& rows, std::vector<Action>& pressed, PanelActions& o
   const std::string so_far = filmed_ ? fmt::format("\n\n{} frames so far.", *filmed_) : "";
   if (rows.button({filmed_ ? "Stop recording" : "Record video",
                    "Writes 30 frames per simulated second into a folder of the working folder, and at the end a video "
-                   "beside it where ffmpeg is installed (V). As the window looks: Tab leaves the panel out." +
+                   "next to it if ffmpeg is installed (V). Includes the panel unless hidden (Tab)." +
                        so_far},
                   0.29f * room))
     pressed.push_back(Action::film);
-  if (rows.button(
-          {"Save scene",
-           "Writes the scene as it was opened, with tissue, motion, tables and colours as they are now, into the "
-           "working folder (Ctrl+S). What was done by hand is what recordings are for."},
-          ImGui::GetContentRegionAvail().x))
+  if (rows.button({"Save scene",
+                   "Writes the opened scene with the current tissue, motion, tables and colours into the working "
+                   "folder (Ctrl+S). "
+                   "Tool actions are saved by recordings only."},
+                  ImGui::GetContentRegionAvail().x))
     pressed.push_back(Action::save);
 }
 
 /// One button per view: restores it; saves the current view if none is saved, or with Ctrl.
 void ViewSection::draw_views(Rows& rows, std::vector<Action>& pressed) const {
-  rows.name({"Views", "Four saved camera views: a press saves the current view, then goes to it."});
+  rows.name({"Views", "Four camera views: the first click saves the current view, later ones restore it."});
   const float gap = em(0.25f),
               each = (ImGui::GetContentRegionAvail().x - gap * (CameraController::views - 1)) / CameraController::views;
   for (std::size_t view = 0; view < CameraController::views; ++view) {
@@ -73,9 +73,8 @@ void ViewSection::draw_views(Rows& rows, std::vector<Action>& pressed) const {
     ImGui::PushStyleColor(ImGuiCol_Text, kept_[view] ? colours::text : colours::faint);
     const std::string name = fmt::format("{}", view + 1);
     const std::string hint = fmt::format(
-        "View {0} of the eye, {1} Ctrl+press (Ctrl+F{2}) keeps how it looks now.", view + 1,
-        kept_[view] ? fmt::format("kept: press to go there (F{}).", view + 5) : "not kept: press to keep it.",
-        view + 5);
+        "Camera view {0}, {1} Ctrl+click (Ctrl+F{2}) saves the current view.", view + 1,
+        kept_[view] ? fmt::format("saved: click to restore (F{}).", view + 5) : "empty: click to save.", view + 5);
     const bool chosen = rows.button({name, hint}, each);
     ImGui::PopStyleColor();
     if (!chosen) continue;

@@ -75,7 +75,7 @@ FieldLabel field_label(Field field, const Range& range) {
     case Field::volume_ratio:
       return {"Volume ratio J", "", 1};
     case Field::error:
-      return {"Error of the mesh, of the mean energy norm", "%", 100};
+      return {"Discretisation error relative to the mean", "%", 100};
     case Field::none:
       break;
   }

@@ -29,14 +29,14 @@ struct Open : Driver {
 
 TEST_CASE("a law, a method or both are set beside the body, and what is there stays") {
   Open driver;
-  driver.choose("Another law", "ogden");
+  driver.choose("Other law", "ogden");
   CHECK(driver.press("Add comparison") == Ways{"ogden"});
   driver.set_beside("ogden", 1e-3);
-  driver.choose("Another law", "stvk");
-  driver.choose("Another method", "tr_bdf2");
+  driver.choose("Other law", "stvk");
+  driver.choose("Other method", "tr_bdf2");
   CHECK(driver.press("Add comparison") == Ways{"ogden", "stvk+tr_bdf2"});
   driver.set_beside("stvk+tr_bdf2", 2e-3);
-  driver.choose("Another method", "bdf2");
+  driver.choose("Other method", "bdf2");
   CHECK(driver.press("Add comparison") == Ways{"ogden", "stvk+tr_bdf2", "bdf2"});
 }
 

@@ -93,7 +93,7 @@ TEST_CASE("choosing the law that is there sends nothing") {
 
 TEST_CASE("a Lamé parameter is changed alone") {
   Driver driver;
-  CHECK(driver.choose("Given as", "λ and μ").commands.empty());
+  CHECK(driver.choose("Parameters", "λ and μ").commands.empty());
   const ImVec2 at = driver.find("μ");
   driver.hold(true);
   driver.draw();
@@ -107,7 +107,7 @@ TEST_CASE("a Lamé parameter is changed alone") {
 
 TEST_CASE("a region's material is changed for that region") {
   Driver driver;
-  CHECK(driver.choose("Part", "Region 2").commands.empty());
+  CHECK(driver.choose("Region", "Region 2").commands.empty());
   const ImVec2 at = driver.find("Density");
   driver.hold(true);
   driver.draw();
@@ -192,7 +192,7 @@ TEST_CASE("terms of a sum have sliders of their own and can be added without cha
 
 TEST_CASE("the fibre turns by its angle") {
   Driver driver(scene_of(find_preset("myocardium_hgo")->material));
-  const Material turned = material_of(drag(driver, "Fibre turn", 20));
+  const Material turned = material_of(drag(driver, "Fibre azimuth", 20));
   CHECK(turned.fibre.norm() == doctest::Approx(1));
   CHECK(turned.fibre.y() == doctest::Approx(0));
   CHECK(std::abs(turned.fibre.x() - 1) > 1e-3);

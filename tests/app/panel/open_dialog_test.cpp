@@ -19,7 +19,7 @@ OpenChoices some_choices() {
   choices.recent = {{"/scenes/liver.obj", "liver.obj", "/scenes"},
                     {"/scenes/gone.json", "gone.json", "/scenes", nullptr, false, false}};
   choices.folder = "/scenes/mine";
-  choices.files = {{"/scenes", "..", "folder above", nullptr, true},
+  choices.files = {{"/scenes", "..", "parent folder", nullptr, true},
                    {"/scenes/mine/a.jsonl", "a.jsonl", "recording, 2 kB"}};
   return choices;
 }

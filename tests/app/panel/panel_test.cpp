@@ -115,7 +115,7 @@ TEST_CASE("gravity, damping and the integrator are sent when changed") {
   const auto integrator = driver.choose("Integrator", "Symplectic Euler");
   REQUIRE(integrator.commands.size() == 1);
   CHECK(std::get<SetIntegrator>(integrator.commands.front()).integrator == Integrator::symplectic_euler);
-  const auto direction = driver.choose("Towards", "right (+x)");
+  const auto direction = driver.choose("Direction", "right (+x)");
   REQUIRE(direction.commands.size() == 1);
   CHECK(std::get<SetGravity>(direction.commands.front()).gravity.x() == doctest::Approx(g.norm()));
 }
@@ -164,7 +164,7 @@ TEST_CASE("errors and lateness are plotted where they are read") {
     driver.draw();
   }
   driver.find("Slowdown", 1180);
-  driver.find("Whole body", 1180);
+  driver.find("Body volume", 1180);
 }
 
 TEST_CASE("the grasp radius is the panel's to tell") {

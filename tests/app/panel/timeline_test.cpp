@@ -84,7 +84,7 @@ TEST_CASE("while one looks back there are ways on and back") {
     return std::vector<Request>();
   };
   CHECK(press("Resume") == std::vector{Request::resume});
-  CHECK(press("Now") == std::vector{Request::now});
+  CHECK(press("Live") == std::vector{Request::now});
   driver.panel.perform(Action::release);
   CHECK(driver.draw().requests == std::vector{Request::now});
   driver.panel.set_timeline(half_way());
