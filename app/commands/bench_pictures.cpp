@@ -41,7 +41,7 @@ std::optional<panel::BarChart> ratios_chart(const std::vector<BenchRow>& rows) {
 }
 
 /// Error of the forces against distance from the origin, for the largest body of the paper suite.
-std::optional<panel::Chart> carried_chart(const std::vector<BenchRow>& rows) {
+std::optional<panel::Chart> translated_precision_chart(const std::vector<BenchRow>& rows) {
   std::string mesh;
   for (const BenchRow& row : rows)
     if (row.more.contains("error_when_carried")) mesh = row.mesh;
@@ -75,7 +75,7 @@ std::vector<std::filesystem::path> write_bench_pictures(const std::filesystem::p
     files.push_back(folder / "ratios.png");
     write_chart(files.back(), *chart);
   }
-  if (const auto chart = carried_chart(rows)) {
+  if (const auto chart = translated_precision_chart(rows)) {
     files.push_back(folder / "carried.png");
     write_chart(files.back(), *chart);
   }

@@ -70,17 +70,17 @@ MeasuredTest test_of(const BenchTestArguments& arguments) {
 }
 
 /// The range of the curve: stretch, γ or s.
-StretchRange range_of(const BenchTestArguments& arguments, const MeasuredTest& test, const TestedMaterial& specimen,
+StretchRange range_of(const BenchTestArguments& arguments, const MeasuredTest& test, const TestedMaterial& tested,
                       const std::optional<MeasuredCurve>& data) {
   StretchRange range{0.7, 1.5};
   if (const auto* bench = std::get_if<BenchTest>(&test)) {
     if (*bench == BenchTest::shear)
       range = {-0.5, 0.5};
-    else if (specimen.stretch_range)
-      range = *specimen.stretch_range;
+    else if (tested.stretch_range)
+      range = *tested.stretch_range;
   } else {
     double longest = 0;
-    for (const PronyTerm& term : specimen.material.relaxation) longest = std::max(longest, term.tau);
+    for (const PronyTerm& term : tested.material.relaxation) longest = std::max(longest, term.tau);
     range = {0, longest > 0 ? 5 * longest : 1};
   }
   if (data) {
@@ -155,18 +155,18 @@ std::string parameters_text(const Material& material) {
   return text;
 }
 
-panel::Chart chart_of(const TestedMaterial& specimen, const MeasuredTest& test, const BenchTestArguments& arguments) {
+panel::Chart chart_of(const TestedMaterial& tested, const MeasuredTest& test, const BenchTestArguments& arguments) {
   panel::Chart chart;
-  chart.title = specimen.title;
+  chart.title = tested.title;
   chart.y_quantity = "Nominal stress";
   chart.y_unit = "Pa";
   const std::string_view amount = amount_name(test);
   chart.x_label = amount == "time" ? "Time, s" : amount == "gamma" ? "Shear γ" : "Stretch λ";
-  if (specimen.stretch_range && amount == "stretch")
-    chart.band = {specimen.stretch_range->low, specimen.stretch_range->high, "measured range"};
+  if (tested.stretch_range && amount == "stretch")
+    chart.band = {tested.stretch_range->low, tested.stretch_range->high, "measured range"};
   const std::string name =
       amount == "time" ? fmt::format("relaxation at a stretch of {:g}", arguments.step_stretch) : arguments.test;
-  chart.subtitle = fmt::format("{} · {}", name, parameters_text(specimen.material));
+  chart.subtitle = fmt::format("{} · {}", name, parameters_text(tested.material));
   return chart;
 }
 
@@ -207,14 +207,14 @@ void check_files(const BenchTestArguments& arguments) {
 }
 
 /// Fits, prints the parameters, and writes an entry for `materials` of scenes.
-FitResult fit_to(const BenchTestArguments& arguments, const MeasuredTest& test, const MeasuredCurve& data,
-                 const TestedMaterial& specimen) {
+FitResult fit_to_data(const BenchTestArguments& arguments, const MeasuredTest& test, const MeasuredCurve& data,
+                      const TestedMaterial& tested) {
   const FitOptions options{arguments.fit_all};
-  if (const std::string problem = fit_problem(specimen.material, test, data, options); !problem.empty())
+  if (const std::string problem = fit_problem(tested.material, test, data, options); !problem.empty())
     throw InputError(arguments.data->string(), "", problem);
   const FitResult fit = [&] {
     Progress progress("fitting");
-    return fit_material(specimen.material, test, data, options, [&](double share) { progress.show(share); });
+    return fit_material(tested.material, test, data, options, [&](double share) { progress.show(share); });
   }();
   print_fit(fit);
   const std::filesystem::path entry = fitted_entry(arguments);
@@ -238,26 +238,26 @@ int bench_test(const BenchTestArguments& arguments) {
   if (arguments.data && arguments.out.extension() == ".json")
     throw UsageError("--out must not end in .json: the fitted material is written under that name");
   check_files(arguments);
-  TestedMaterial specimen = tested_material(arguments.material);
+  TestedMaterial tested = tested_material(arguments.material);
   const std::optional<MeasuredCurve> data =
       arguments.data ? std::make_optional(read_curve_csv(*arguments.data, test)) : std::nullopt;
-  if (std::holds_alternative<Relaxation>(test) && specimen.material.relaxation.empty())
+  if (std::holds_alternative<Relaxation>(test) && tested.material.relaxation.empty())
     throw InputError(arguments.material, "", "the material has no relaxation",
                      "add \"relaxation\": [{\"gamma\": .., \"tau\": ..}]");
-  const StretchRange range = range_of(arguments, test, specimen, data);
+  const StretchRange range = range_of(arguments, test, tested, data);
   const std::vector<double> amounts = evenly_spaced(range.low, range.high, arguments.points);
 
   CurveTable given;
   std::optional<FitResult> fit;
   if (data) {
-    given = curve_of(specimen.material, test, amounts);
-    fit = fit_to(arguments, test, *data, specimen);
-    specimen.material = fit->material;
+    given = curve_of(tested.material, test, amounts);
+    fit = fit_to_data(arguments, test, *data, tested);
+    tested.material = fit->material;
   }
-  const CurveTable curve = curve_of(specimen.material, test, amounts);
+  const CurveTable curve = curve_of(tested.material, test, amounts);
   write_curve(arguments.out, curve, test);
   if (arguments.plot) {
-    panel::Chart chart = chart_of(specimen, test, arguments);
+    panel::Chart chart = chart_of(tested, test, arguments);
     add_curves(chart, given, curve, fit, data);
     write_chart(*arguments.plot, chart);
   }

@@ -12,8 +12,8 @@
 
 namespace heml {
 
-PictureSize parse_size(const std::string& text) {
-  PictureSize size{0, 0};
+ImageSize parse_size(const std::string& text) {
+  ImageSize size{0, 0};
   const char* end = text.data() + text.size();
   const auto width = std::from_chars(text.data(), end, size.width);
   const bool cross = width.ec == std::errc() && width.ptr < end && *width.ptr == 'x';

@@ -18,17 +18,17 @@ enum ExitCode {
   exit_internal = 5
 };
 
-struct PictureSize {
+struct ImageSize {
   int width = 1280, height = 720;
 };
 /// "1280x720". Throws UsageError.
-PictureSize parse_size(const std::string& text);
+ImageSize parse_size(const std::string& text);
 
 struct CaptureArguments {
   std::string scene;  ///< empty: the default scene
   std::filesystem::path out = "heml-frames";
   int frames = 60;
-  PictureSize size;
+  ImageSize size;
   double fps = 30;
   bool panel = false;
   std::vector<std::string> comparisons;  ///< variants to run in lockstep (heml/session/variant.hpp)
@@ -39,7 +39,7 @@ struct RunArguments {
   std::string scene;  ///< empty: the default scene
   std::optional<std::filesystem::path> record;
   std::vector<std::string> comparisons;  ///< variants to run in lockstep (heml/session/variant.hpp)
-  PictureSize size;
+  ImageSize size;
   double exit_after = 0;  ///< s until the window closes; 0: never
   double draw_stall = 0;  ///< ms added to every drawing
   bool log_pictures = false;
@@ -51,7 +51,7 @@ struct ReplayArguments {
   bool verify = false;
   bool partial = false;  ///< accept a recording without an end
   std::optional<std::filesystem::path> frames, record;
-  PictureSize size;
+  ImageSize size;
   double fps = 30;
   int threads = 0;  ///< 0: as the recording says
 };

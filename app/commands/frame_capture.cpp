@@ -9,7 +9,7 @@
 
 namespace heml {
 
-FrameCapture::FrameCapture(const Scene& scene, const World& world, PictureSize size, bool panel, bool comparisons,
+FrameCapture::FrameCapture(const Scene& scene, const World& world, ImageSize size, bool panel, bool comparisons,
                            std::filesystem::path folder)
     : folder_(std::move(folder)),
       size_{size.width, size.height},
@@ -39,7 +39,7 @@ void FrameCapture::draw_with_panel(float seconds) {
   panel::CameraController controller;
   controller.fit(view_, uncut_surface(*surface_mesh_), size_,
                  panel_->insets({static_cast<float>(size_.width), static_cast<float>(size_.height)}),
-                 panel::bodies_of(frame_));
+                 panel::body_count(frame_));
   bodies_.draw(frame_, controller, panel_->drawing());
   interface_->begin(size_, seconds);
   panel::draw_variant_labels(frame_, controller);
@@ -52,7 +52,7 @@ void FrameCapture::draw_alone(float seconds) {
   options.wireframe = view_.wireframe;
   if (interface_) options.range = colours_.update(frame_.field, frame_.values, seconds);
   panel::CameraController controller;
-  controller.fit(view_, uncut_surface(*surface_mesh_), size_, {}, panel::bodies_of(frame_));
+  controller.fit(view_, uncut_surface(*surface_mesh_), size_, {}, panel::body_count(frame_));
   bodies_.draw(frame_, controller, options);
   if (!interface_) return;
   interface_->begin(size_, seconds);

@@ -16,7 +16,7 @@ class FrameCapture {
  public:
   /// Creates the folder. panel: draws the panel; otherwise only a legend, if the scene shows a field. comparisons:
   /// there will be comparison runs, which are labelled. Throws InputError when the folder cannot be created.
-  FrameCapture(const Scene& scene, const World& world, PictureSize size, bool panel, bool comparisons,
+  FrameCapture(const Scene& scene, const World& world, ImageSize size, bool panel, bool comparisons,
                std::filesystem::path folder);
 
   /// Draws the world extrapolated by `ahead` (s) and writes frame_<number>.png. seconds: simulated since the last

@@ -29,31 +29,31 @@ enum class Action {
   help,
   release,
   remove,
-  take_grasper,
-  take_scalpel,
-  take_pin,
-  take_probe,
-  take_suture,
+  select_grasper,
+  select_scalpel,
+  select_pin,
+  select_probe,
+  select_suture,
   toggle_table,
   undo,
   open,
-  choose_previous,
-  choose_next,
-  open_chosen,
-  seek_earlier,
-  seek_later,
+  select_previous,
+  select_next,
+  open_selected,
+  seek_previous,
+  seek_next,
   seek_start,
-  seek_now,
+  seek_live,
   resume,
-  film,
+  record_video,
   view_1,
   view_2,
   view_3,
   view_4,
-  keep_view_1,
-  keep_view_2,
-  keep_view_3,
-  keep_view_4,
+  save_view_1,
+  save_view_2,
+  save_view_3,
+  save_view_4,
   quit
 };
 
@@ -63,13 +63,13 @@ enum class Tool { grasper, scalpel, pin, probe, suture };
 /// The selected tool and the settings of all tools.
 struct ToolSettings {
   Tool tool = Tool::grasper;
-  double radius = 0;                             ///< m, of a grasp or a pin
-  double depth = 0;                              ///< m, of the blade below the surface
-  double probe_radius = 0, dent = 0, shaft = 0;  ///< m, of the probe: tip, indentation, shaft length
-  double friction = 0.3;                         ///< Coulomb coefficient of the probe and of tables
+  double radius = 0;                                    ///< m, of a grasp or a pin
+  double depth = 0;                                     ///< m, of the blade below the surface
+  double probe_radius = 0, indentation = 0, shaft = 0;  ///< m, of the probe: tip, indentation, shaft length
+  double friction = 0.3;                                ///< Coulomb coefficient of the probe and of tables
 };
 
-/// What the panel asks its owner for; earlier, later, first, now and resume are about the timeline.
+/// What the panel asks its owner for; previous_frame, next_frame, first_frame, live and resume are about the timeline.
 enum class Request {
   play,
   pause,
@@ -80,12 +80,12 @@ enum class Request {
   release,
   remove,
   list,
-  earlier,
-  later,
-  first,
-  now,
+  previous_frame,
+  next_frame,
+  first_frame,
+  live,
   resume,
-  film,
+  record_video,
   quit
 };
 
@@ -95,7 +95,7 @@ struct PanelActions {
   std::optional<Field> show;                            ///< the field that frames carry from now on
   std::optional<std::filesystem::path> open;            ///< a file to open
   std::optional<std::filesystem::path> list_folder;     ///< a folder to list; Request::list: the last one again
-  std::optional<std::size_t> view, keep_view;           ///< saved camera view to restore, to overwrite (index)
+  std::optional<std::size_t> view, save_view;           ///< saved camera view to restore, to overwrite (index)
   std::optional<std::vector<std::string>> comparisons;  ///< the comparison runs from now on (variant.hpp)
   std::optional<long> seek_to;                          ///< a tick to show: past, or ahead in a recording
 };

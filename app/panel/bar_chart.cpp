@@ -63,7 +63,7 @@ class BarDrawing {
 
   void draw_group(const BarChart::Group& group, float y, float height) {
     const float middle = y + height / 2, half_text = ImGui::GetTextLineHeight() / 2;
-    const std::string label = shortened(group.label, widest_);
+    const std::string label = elided(group.label, widest_);
     text(bars_.from.x - em(0.7f) - ImGui::CalcTextSize(label.c_str()).x, middle - half_text, colours_.text, label);
     const float thick = 0.8f * height / static_cast<float>(std::max<std::size_t>(1, group.values.size()));
     const UseFont font(Font::small);

@@ -10,7 +10,7 @@ bool Pane::contains(const render::Vec2f& at) const {
   return x >= 0 && y >= 0 && x < static_cast<float>(size.width) && y < static_cast<float>(size.height);
 }
 
-std::vector<Pane> panes_of(render::Size picture, const Insets& covered, std::size_t count) {
+std::vector<Pane> make_panes(render::Size picture, const Insets& covered, std::size_t count) {
   const int columns = count == 4 ? 2 : static_cast<int>(count), rows = count == 4 ? 2 : 1;
   const float free = static_cast<float>(picture.width) - covered.left - covered.right;
   const auto edge = [&](int column) {
@@ -38,11 +38,11 @@ void CameraController::fit(const View& view, const SurfaceMesh& surface_mesh, re
 
 void CameraController::resize(render::Size size, const Insets& covered, std::size_t bodies) {
   size_ = size;
-  panes_ = panes_of(size, covered, bodies);
+  panes_ = make_panes(size, covered, bodies);
   current_ = std::min(current_, panes_.size() - 1);
 }
 
-void CameraController::enter(const render::Vec2f& at) {
+void CameraController::select_pane_at(const render::Vec2f& at) {
   for (std::size_t k = 0; k < panes_.size(); ++k)
     if (panes_[k].contains(at)) current_ = k;
 }
@@ -59,9 +59,9 @@ void CameraController::pan(float right, float down) {
 
 void CameraController::zoom(float notches) { centred_.zoom(std::pow(0.9f, notches)); }
 
-bool CameraController::go_to(std::size_t view) {
-  if (kept_[view]) centred_ = *kept_[view];
-  return has(view);
+bool CameraController::restore_view(std::size_t view) {
+  if (saved_[view]) centred_ = *saved_[view];
+  return has_view(view);
 }
 
 render::Camera CameraController::camera() const {

@@ -22,7 +22,7 @@ struct Pane {
 };
 
 /// Panes of up to four bodies, of the same height: one row, or two rows of two for four.
-std::vector<Pane> panes_of(render::Size picture, const Insets& covered, std::size_t count);
+std::vector<Pane> make_panes(render::Size picture, const Insets& covered, std::size_t count);
 
 class CameraController {
  public:
@@ -37,14 +37,14 @@ class CameraController {
   void zoom(float notches);             ///< of the wheel; positive: nearer
 
   static constexpr std::size_t views = 4;
-  void keep(std::size_t view) { kept_[view] = centred_; }  ///< saves the view
-  bool go_to(std::size_t view);                            ///< restores it; false: none is saved
-  bool has(std::size_t view) const { return kept_[view].has_value(); }
-  void clear_views() { kept_ = {}; }
+  void save_view(std::size_t view) { saved_[view] = centred_; }  ///< saves the view
+  bool restore_view(std::size_t view);                           ///< restores it; false: none is saved
+  bool has_view(std::size_t view) const { return saved_[view].has_value(); }
+  void clear_views() { saved_ = {}; }
 
   /// Makes the pane at a pixel the current one, to which the functions below refer.
-  void enter(const render::Vec2f& at);
-  void enter_pane(std::size_t pane) { current_ = pane; }
+  void select_pane_at(const render::Vec2f& at);
+  void select_pane(std::size_t pane) { current_ = pane; }
   std::size_t current() const { return current_; }
   const std::vector<Pane>& panes() const { return panes_; }
   const Pane& pane() const { return panes_[current_]; }
@@ -64,7 +64,7 @@ class CameraController {
   render::Size size_;       ///< pixels
   std::vector<Pane> panes_{Pane{}};
   std::size_t current_ = 0;
-  std::array<std::optional<render::Camera>, views> kept_;
+  std::array<std::optional<render::Camera>, views> saved_;
 };
 
 }  // namespace heml::panel

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <app/panel/chart.hpp>
+#include <app/panel/rows.hpp>
 #include <app/panel/theme.hpp>
 #include <app/render/field_colours.hpp>
 #include <cmath>
@@ -44,8 +45,8 @@ Axes logarithmic_axes(const Chart& chart) {
   for (const ChartSeries& series : chart.series)
     for (const ChartPoint& p : series.points)
       if (p.x > 0 && p.y > 0) axes.x.include_value(std::log10(p.x)), axes.y.include_value(std::log10(p.y));
-  for (const ChartLine& line : chart.upright) axes.x.include_value(std::log10(line.at));
-  for (const ChartLine& line : chart.level) axes.y.include_value(std::log10(line.at));
+  for (const ChartLine& line : chart.vertical) axes.x.include_value(std::log10(line.at));
+  for (const ChartLine& line : chart.horizontal) axes.y.include_value(std::log10(line.at));
   if (axes.x.low > axes.x.high) axes.x = {0, 1};
   if (axes.y.low > axes.y.high) axes.y = {0, 1};
   for (Span* span : {&axes.x, &axes.y}) {
@@ -133,7 +134,7 @@ class Drawing {
       y += ImGui::GetTextLineHeight() + em(0.15f);
     }
     if (!chart_.subtitle.empty()) {
-      text(area.from.x + margin, y, colours_.muted, shorten(chart_.subtitle, area.width() - 2 * margin));
+      text(area.from.x + margin, y, colours_.muted, elided(chart_.subtitle, area.width() - 2 * margin));
       y += ImGui::GetTextLineHeight() + em(0.3f);
     }
     y = draw_legend({area.from.x + margin, y + em(0.2f)}, area.to.x - margin) + em(0.8f);
@@ -147,17 +148,6 @@ class Drawing {
     text((plot.from.x + plot.to.x - label) / 2, area.to.y - ImGui::GetTextLineHeight() - em(0.7f), colours_.muted,
          chart_.x_label);
     return plot;
-  }
-
-  static std::string shorten(std::string words, float width) {
-    while (ImGui::CalcTextSize((words + "…").c_str()).x > width && ImGui::CalcTextSize(words.c_str()).x > width) {
-      const std::size_t space = words.find_last_of(' ');
-      if (space == std::string::npos) break;
-      words = words.substr(0, space) + " …";
-      if (space < 4) break;
-      words = words.substr(0, space);
-    }
-    return words;
   }
 
   /// Breaks lines at `right`. Returns the y where the legend ends.
@@ -224,17 +214,17 @@ class Drawing {
   void draw_lines() {
     const UseFont font(Font::small);
     const float gap = em(0.3f), line = ImGui::GetTextLineHeight();
-    for (const ChartLine& mark : chart_.upright) {
+    for (const ChartLine& mark : chart_.vertical) {
       const float x = across(mark.at);
       list_.AddLine({x, plot_.from.y}, {x, plot_.to.y}, colours_.axis, em(0.08f));
     }
-    for (const ChartLine& mark : chart_.level) {
+    for (const ChartLine& mark : chart_.horizontal) {
       const float y = up(mark.at);
       list_.AddLine({plot_.from.x, y}, {plot_.to.x, y}, colours_.axis, em(0.08f));
       name_line(mark.name, plot_.to.x - gap - ImGui::CalcTextSize(mark.name.c_str()).x, y - line - em(0.1f));
     }
     float y = plot_.from.y + gap;
-    for (const ChartLine& mark : chart_.upright) {
+    for (const ChartLine& mark : chart_.vertical) {
       name_line(mark.name, across(mark.at) + gap, y);
       y += line;
     }

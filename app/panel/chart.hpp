@@ -40,9 +40,9 @@ struct Chart {
   std::string y_unit;               ///< "Pa"; shown with an SI prefix
   std::vector<ChartSeries> series;
   std::optional<ChartBand> band;
-  std::vector<ChartLine> upright, level;  ///< at constant x; at constant y. Logarithmic axes include them
-  bool logarithmic = false;               ///< both axes; points that are not positive are omitted
-  bool small = false;                     ///< for the panel: fewer numbers, no grid, no legend
+  std::vector<ChartLine> vertical, horizontal;  ///< at constant x; at constant y. Logarithmic axes include them
+  bool logarithmic = false;                     ///< both axes; points that are not positive are omitted
+  bool small = false;                           ///< for the panel: fewer numbers, no grid, no legend
 };
 
 struct ChartColours {

@@ -30,12 +30,12 @@ void draw_line(const std::string& text, const Pane& pane, float down, ImU32 colo
 }  // namespace
 
 void ComparisonView::draw(const Frame& frame, CameraController& controller, const render::DrawOptions& options) {
-  while (renderers_.size() < bodies_of(frame)) renderers_.push_back(std::make_unique<render::Renderer>());
+  while (renderers_.size() < body_count(frame)) renderers_.push_back(std::make_unique<render::Renderer>());
   each_pane(frame, controller, [&](std::size_t pane, const Frame& body) {
     render::DrawOptions here = options;
     here.left = controller.pane().left;
     here.bottom = controller.size().height - controller.pane().top - controller.pane().size.height;
-    if (pane > 0) here.beyond = {};  // computed for the body alone
+    if (pane > 0) here.hatched = {};  // computed for the body alone
     renderers_[pane]->draw(body, controller.camera(), here, controller.pane().size);
   });
 }

@@ -7,9 +7,9 @@
 
 namespace heml::panel {
 
-inline std::size_t bodies_of(const Frame& frame) { return 1 + frame.comparisons.size(); }
+inline std::size_t body_count(const Frame& frame) { return 1 + frame.comparisons.size(); }
 /// The body drawn in a pane.
-inline const Frame& body_in(const Frame& frame, std::size_t pane) {
+inline const Frame& frame_in_pane(const Frame& frame, std::size_t pane) {
   return pane == 0 ? frame : frame.comparisons[pane - 1];
 }
 
@@ -17,11 +17,11 @@ inline const Frame& body_in(const Frame& frame, std::size_t pane) {
 template <class Visit>
 void each_pane(const Frame& frame, CameraController& controller, const Visit& visit) {
   const std::size_t before = controller.current();
-  for (std::size_t pane = 0; pane < bodies_of(frame); ++pane) {
-    controller.enter_pane(pane);
-    visit(pane, body_in(frame, pane));
+  for (std::size_t pane = 0; pane < body_count(frame); ++pane) {
+    controller.select_pane(pane);
+    visit(pane, frame_in_pane(frame, pane));
   }
-  controller.enter_pane(before);
+  controller.select_pane(before);
 }
 
 /// Needs the OpenGL context of its first draw() to be current in every call and in the destructor.

@@ -53,15 +53,15 @@ bool draw_help(ImVec2 picture, Area& place) {
                ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
                    ImGuiWindowFlags_NoNav | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoTitleBar);
   const std::span<const KeyBinding> keys = key_bindings();
-  const std::size_t beside_mouse = two_columns ? keys.size() / 3 : 0;
+  const std::size_t keys_in_first_column = two_columns ? keys.size() / 3 : 0;
   ImGui::BeginGroup();
   draw_mouse();
   ImGui::Dummy({0, em(0.5f)});
-  if (two_columns) draw_keys(keys.first(beside_mouse));
+  if (two_columns) draw_keys(keys.first(keys_in_first_column));
   ImGui::EndGroup();
   if (two_columns) ImGui::SameLine(0, em(3));
   ImGui::BeginGroup();
-  draw_keys(keys.subspan(beside_mouse));
+  draw_keys(keys.subspan(keys_in_first_column));
   ImGui::EndGroup();
   const ImVec2 from = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
   place = {from, {from.x + size.x, from.y + size.y}};

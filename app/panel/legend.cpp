@@ -30,14 +30,14 @@ void centred(ImDrawList& list, float x, float y, ImU32 colour, const std::string
 
 }  // namespace
 
-render::Range legend_range(Field field, const render::Range& range, bool turned_inside_out) {
-  const bool is_ratio = field == Field::stretch || (field == Field::volume_ratio && !turned_inside_out);
+render::Range legend_range(Field field, const render::Range& range, bool inverted) {
+  const bool is_ratio = field == Field::stretch || (field == Field::volume_ratio && !inverted);
   return {is_ratio ? std::max(range.low, 0.0f) : range.low, range.high};
 }
 
-void draw_legend(Field field, const render::Range& whole, const Area& free, bool turned_inside_out) {
+void draw_legend(Field field, const render::Range& whole, const Area& free, bool inverted) {
   if (field == Field::none) return;
-  const render::Range range = legend_range(field, whole, turned_inside_out);
+  const render::Range range = legend_range(field, whole, inverted);
   const UseFont small(Font::small);
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   const render::FieldLabel label = render::field_label(field, range);

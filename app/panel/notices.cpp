@@ -3,20 +3,20 @@
 
 namespace heml::panel {
 namespace {
-constexpr float notice_shown_for = 3.5f, fading = 0.5f;  // s
+constexpr float notice_time = 3.5f, fading = 0.5f;  // s
 constexpr ImGuiWindowFlags plain_window = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
                                           ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoFocusOnAppearing |
                                           ImGuiWindowFlags_NoNav;
 }  // namespace
 
-void Notices::say(std::string text) {
-  said_ = std::move(text);
-  said_for_ = 0;
+void Notices::notify(std::string text) {
+  notice_ = std::move(text);
+  notice_age_ = 0;
 }
 
-void Notices::fail(std::string text) {
+void Notices::show_error(std::string text) {
   failure_ = std::move(text);
-  said_.clear();
+  notice_.clear();
 }
 
 bool Notices::close() {
@@ -26,22 +26,22 @@ bool Notices::close() {
 }
 
 bool Notices::covers(float x, float y) const {
-  return std::any_of(places_.begin(), places_.end(), [&](const Area& place) { return place.contains(x, y); });
+  return std::any_of(rects_.begin(), rects_.end(), [&](const Area& place) { return place.contains(x, y); });
 }
 
 bool Notices::draw(Rows& rows, const Area& free, const std::optional<Banner>& banner, float seconds) {
-  places_.clear();
+  rects_.clear();
   if (!failure_.empty() &&
       draw_banner(rows, "failure", free, {"Could not be opened", failure_, "Close", colours::danger}))
     failure_.clear();
   const bool pressed = banner && draw_banner(rows, "banner", free, *banner);
-  if (!said_.empty()) draw_said(free, seconds);
+  if (!notice_.empty()) draw_notice(free, seconds);
   return pressed;
 }
 
 bool Notices::draw_banner(Rows& rows, const char* id, const Area& free, const Banner& banner) {
   const float margin = em(0.8f), width = std::min(free.width() - 2 * margin, em(34));
-  const float top = places_.empty() ? free.from.y + margin : places_.back().to.y + margin / 2;
+  const float top = rects_.empty() ? free.from.y + margin : rects_.back().to.y + margin / 2;
   ImGui::SetNextWindowPos({(free.from.x + free.to.x) / 2, top}, ImGuiCond_Always, {0.5f, 0});
   ImGui::SetNextWindowSizeConstraints({0, 0}, {width, free.height() * 0.7f});
   ImGui::PushStyleColor(ImGuiCol_Border, (banner.colour & 0x00ffffff) | 0x90000000);
@@ -57,21 +57,21 @@ bool Notices::draw_banner(Rows& rows, const char* id, const Area& free, const Ba
     if (!banner.button.empty()) pressed = rows.button({banner.button, ""});
   }
   const ImVec2 from = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
-  places_.push_back({from, {from.x + size.x, from.y + size.y}});
+  rects_.push_back({from, {from.x + size.x, from.y + size.y}});
   ImGui::End();
   ImGui::PopStyleColor();
   return pressed;
 }
 
-void Notices::draw_said(const Area& free, float seconds) {
-  said_for_ += seconds;
-  if (said_for_ > notice_shown_for) return said_.clear();
-  const float opacity = std::clamp((notice_shown_for - said_for_) / fading, 0.0f, 1.0f);
+void Notices::draw_notice(const Area& free, float seconds) {
+  notice_age_ += seconds;
+  if (notice_age_ > notice_time) return notice_.clear();
+  const float opacity = std::clamp((notice_time - notice_age_) / fading, 0.0f, 1.0f);
   ImGui::SetNextWindowPos({(free.from.x + free.to.x) / 2, free.to.y - em(4.2f)}, ImGuiCond_Always, {0.5f, 1});
   ImGui::PushStyleVar(ImGuiStyleVar_Alpha, opacity);
-  if (ImGui::Begin("said", nullptr, plain_window | ImGuiWindowFlags_NoInputs)) {
+  if (ImGui::Begin("notice", nullptr, plain_window | ImGuiWindowFlags_NoInputs)) {
     ImGui::PushTextWrapPos(free.width() * 0.8f);
-    ImGui::TextUnformatted(said_.c_str());
+    ImGui::TextUnformatted(notice_.c_str());
     ImGui::PopTextWrapPos();
   }
   ImGui::End();

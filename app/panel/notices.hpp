@@ -15,25 +15,25 @@ struct Banner {
 
 class Notices {
  public:
-  void say(std::string text);   ///< a notice, shown for some seconds
-  void fail(std::string text);  ///< a failure, shown until closed
-  bool close();                 ///< closes the failure; true if one was open
+  void notify(std::string text);      ///< a notice, shown for some seconds
+  void show_error(std::string text);  ///< a failure, shown until closed
+  bool close();                       ///< closes the failure; true if one was open
 
   /// Draws failure, banner and notice within the free area. Returns true when the banner's button was pressed. seconds:
   /// since the last frame.
   bool draw(Rows& rows, const Area& free, const std::optional<Banner>& banner, float seconds);
 
-  bool animating() const { return !said_.empty(); }
+  bool animating() const { return !notice_.empty(); }
   /// Whether a point was on a banner in the last frame.
   bool covers(float x, float y) const;
 
  private:
   bool draw_banner(Rows& rows, const char* id, const Area& free, const Banner& banner);
-  void draw_said(const Area& free, float seconds);
+  void draw_notice(const Area& free, float seconds);
 
-  std::string failure_, said_;
-  float said_for_ = 0;  ///< s
-  std::vector<Area> places_;
+  std::string failure_, notice_;
+  float notice_age_ = 0;  ///< s
+  std::vector<Area> rects_;
 };
 
 }  // namespace heml::panel

@@ -11,10 +11,10 @@ namespace heml::panel {
 struct OpenChoice {
   std::filesystem::path path;
   std::string title;
-  std::string about;              ///< description of a scene; "recording, 1.2 MB" for a file
-  ImTextureID picture = nullptr;  ///< thumbnail, 16:9; nullptr: none
+  std::string description;          ///< description of a scene; "recording, 1.2 MB" for a file
+  ImTextureID thumbnail = nullptr;  ///< 16:9; nullptr: none
   bool is_folder = false;
-  bool is_there = true;
+  bool exists = true;
 };
 
 struct OpenChoices {

@@ -20,8 +20,8 @@ std::string lower_case(std::string text) {
 
 void OpenDialog::open() {
   open_ = just_opened_ = true;
-  wanted_[0] = '\0';
-  marked_ = -1;
+  search_[0] = '\0';
+  selected_ = -1;
   shown_.clear();
 }
 
@@ -66,7 +66,7 @@ void OpenDialog::draw_head(Rows& rows) {
   const float close_size = ImGui::GetFrameHeight();
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - close_size - em(0.7f));
   if (!ImGui::IsAnyItemActive()) ImGui::SetKeyboardFocusHere();  // typing filters at once
-  if (ImGui::InputTextWithHint("##wanted", "Search", wanted_, sizeof wanted_)) marked_ = wanted_[0] ? 0 : -1;
+  if (ImGui::InputTextWithHint("##search", "Search", search_, sizeof search_)) selected_ = search_[0] ? 0 : -1;
   rows.explain(
       {"Search",
        "Shows entries with all these words in name, description or path. Up and Down select, Enter opens, Esc closes. "
@@ -95,7 +95,7 @@ void OpenDialog::draw_group(Rows& rows, const std::string& heading, const std::v
                             PanelActions& out) {
   if (std::none_of(choices.begin(), choices.end(), [&](const OpenChoice& choice) { return matches(choice); })) return;
   const float room = ImGui::GetContentRegionAvail().x;
-  ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(colours::accent), "%s", shortened(heading, room).c_str());
+  ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(colours::accent), "%s", elided(heading, room).c_str());
   rows.explain({heading, ""});
   const float gap = em(0.7f);
   const int columns = std::max(1, static_cast<int>((room - em(0.8f) + gap) / (em(cell_width) + gap)));
@@ -103,89 +103,88 @@ void OpenDialog::draw_group(Rows& rows, const std::string& heading, const std::v
   int column = 0;
   for (const OpenChoice& choice : choices) {
     if (!matches(choice)) continue;
-    const bool marked = std::ssize(shown_) == marked_;
+    const bool selected = std::ssize(shown_) == selected_;
     shown_.push_back(&choice);
     ImGui::PushID(&choice);
     if (shape == Shape::cell && column > 0) ImGui::SameLine(0, gap);
     column = (column + 1) % columns;
-    if (shape == Shape::cell ? draw_cell(rows, choice, width, marked) : draw_line(rows, choice, marked))
+    if (shape == Shape::cell ? draw_cell(rows, choice, width, selected) : draw_line(rows, choice, selected))
       activate(choice, out);
-    if (marked && std::exchange(moved_, false)) ImGui::SetScrollHereY();
+    if (selected && std::exchange(selection_moved_, false)) ImGui::SetScrollHereY();
     ImGui::PopID();
   }
   ImGui::Dummy({0, em(0.3f)});
 }
 
-bool OpenDialog::draw_cell(Rows& rows, const OpenChoice& choice, float width, bool marked) {
+bool OpenDialog::draw_cell(Rows& rows, const OpenChoice& choice, float width, bool selected) {
   const float height = std::round(width * 9 / 16), line = ImGui::GetTextLineHeight();
   const ImVec2 from = ImGui::GetCursorScreenPos();
   const bool chosen = ImGui::InvisibleButton("cell", {width, height + line + em(0.35f)});
-  const bool warm = marked || ImGui::IsItemHovered();
-  rows.explain({choice.title, choice.title + "\n\n" + choice.about});
+  const bool warm = selected || ImGui::IsItemHovered();
+  rows.explain({choice.title, choice.title + "\n\n" + choice.description});
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImVec2 to(from.x + width, from.y + height);
   const float rounding = ImGui::GetStyle().FrameRounding;
-  if (choice.picture)
-    list.AddImageRounded(choice.picture, from, to, {0, 0}, {1, 1}, IM_COL32_WHITE, rounding);
+  if (choice.thumbnail)
+    list.AddImageRounded(choice.thumbnail, from, to, {0, 0}, {1, 1}, IM_COL32_WHITE, rounding);
   else
     list.AddRectFilled(from, to, colours::track, rounding);
   if (warm) list.AddRect(from, to, colours::accent, rounding, ImDrawFlags_None, em(0.13f));
-  list.AddText({from.x, to.y + em(0.1f)}, warm ? colours::text : colours::muted,
-               shortened(choice.title, width).c_str());
+  list.AddText({from.x, to.y + em(0.1f)}, warm ? colours::text : colours::muted, elided(choice.title, width).c_str());
   return chosen;
 }
 
-bool OpenDialog::draw_line(Rows& rows, const OpenChoice& choice, bool marked) {
+bool OpenDialog::draw_line(Rows& rows, const OpenChoice& choice, bool selected) {
   const UseFont small(Font::small);
   const float width = ImGui::GetContentRegionAvail().x - em(0.8f), line = ImGui::GetTextLineHeight();
   const ImVec2 from = ImGui::GetCursorScreenPos(), to(from.x + width, from.y + line + em(0.3f));
   const bool chosen = ImGui::InvisibleButton("line", {width, to.y - from.y});
-  const bool warm = choice.is_there && (marked || ImGui::IsItemHovered());
-  const std::string gone = choice.is_there ? "" : "\n\nThe file no longer exists.";
-  rows.explain({choice.title, choice.title + "\n\n" + choice.about + gone});
+  const bool warm = choice.exists && (selected || ImGui::IsItemHovered());
+  const std::string gone = choice.exists ? "" : "\n\nThe file no longer exists.";
+  rows.explain({choice.title, choice.title + "\n\n" + choice.description + gone});
   ImDrawList& list = *ImGui::GetWindowDrawList();
   if (warm)
     list.AddRectFilled({from.x - em(0.3f), from.y}, to, colours::track_hovered, ImGui::GetStyle().FrameRounding);
-  const std::string title = shortened(choice.title, 0.62f * width);
+  const std::string title = elided(choice.title, 0.62f * width);
   const float used = ImGui::CalcTextSize(title.c_str()).x + em(0.8f), top = from.y + em(0.15f);
-  const std::string about = shortened(choice.is_there ? choice.about : "missing", width - used - em(0.3f));
-  list.AddText({from.x, top}, choice.is_there ? colours::text : colours::faint, title.c_str());
-  list.AddText({to.x - em(0.3f) - ImGui::CalcTextSize(about.c_str()).x, top},
-               choice.is_there ? colours::muted : colours::faint, about.c_str());
+  const std::string description = elided(choice.exists ? choice.description : "missing", width - used - em(0.3f));
+  list.AddText({from.x, top}, choice.exists ? colours::text : colours::faint, title.c_str());
+  list.AddText({to.x - em(0.3f) - ImGui::CalcTextSize(description.c_str()).x, top},
+               choice.exists ? colours::muted : colours::faint, description.c_str());
   return chosen;
 }
 
 /// Whether title, description and path contain all words of the search text.
 bool OpenDialog::matches(const OpenChoice& choice) const {
-  const std::string text = lower_case(choice.title + ' ' + choice.about + ' ' + choice.path.string());
-  std::istringstream words(lower_case(wanted_));
+  const std::string text = lower_case(choice.title + ' ' + choice.description + ' ' + choice.path.string());
+  std::istringstream words(lower_case(search_));
   for (std::string word; words >> word;)
     if (text.find(word) == std::string::npos) return false;
   return true;
 }
 
 void OpenDialog::activate(const OpenChoice& choice, PanelActions& out) {
-  if (!choice.is_there) return;
+  if (!choice.exists) return;
   if (choice.is_folder) {
     out.list_folder = choice.path;
-    wanted_[0] = '\0';
-    marked_ = -1;
+    search_[0] = '\0';
+    selected_ = -1;
     return;
   }
   out.open = choice.path;
   open_ = false;
 }
 
-void OpenDialog::choose(int direction) {
-  marked_ = std::clamp(marked_ + direction, 0, std::max(0, static_cast<int>(shown_.size()) - 1));
-  moved_ = true;
+void OpenDialog::select(int direction) {
+  selected_ = std::clamp(selected_ + direction, 0, std::max(0, static_cast<int>(shown_.size()) - 1));
+  selection_moved_ = true;
 }
 
-void OpenDialog::open_chosen(PanelActions& out) {
-  if (wanted_[0] == '/')
-    activate({wanted_, wanted_, "", nullptr, std::string_view(wanted_).ends_with('/')}, out);
-  else if (marked_ >= 0 && marked_ < std::ssize(shown_))
-    activate(*shown_[static_cast<std::size_t>(marked_)], out);
+void OpenDialog::open_selected(PanelActions& out) {
+  if (search_[0] == '/')
+    activate({search_, search_, "", nullptr, std::string_view(search_).ends_with('/')}, out);
+  else if (selected_ >= 0 && selected_ < std::ssize(shown_))
+    activate(*shown_[static_cast<std::size_t>(selected_)], out);
 }
 
 }  // namespace heml::panel

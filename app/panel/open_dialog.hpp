@@ -21,8 +21,8 @@ class OpenDialog {
   bool is_open() const { return open_; }
 
   /// Moves the selection among the entries of the last draw() up (−1) or down (1); opens the selected entry.
-  void choose(int direction);
-  void open_chosen(PanelActions& out);
+  void select(int direction);
+  void open_selected(PanelActions& out);
 
   void set_choices(OpenChoices choices) { choices_ = std::move(choices); }
 
@@ -37,16 +37,16 @@ class OpenDialog {
   void draw_files(Rows& rows, PanelActions& out);
   void draw_group(Rows& rows, const std::string& heading, const std::vector<OpenChoice>& choices, Shape shape,
                   PanelActions& out);
-  bool draw_cell(Rows& rows, const OpenChoice& choice, float width, bool marked);
-  bool draw_line(Rows& rows, const OpenChoice& choice, bool marked);
+  bool draw_cell(Rows& rows, const OpenChoice& choice, float width, bool selected);
+  bool draw_line(Rows& rows, const OpenChoice& choice, bool selected);
   bool matches(const OpenChoice& choice) const;
   void activate(const OpenChoice& choice, PanelActions& out);
 
   OpenChoices choices_;
   bool open_ = false, just_opened_ = false;
-  char wanted_[256] = {};                 ///< search text
-  int marked_ = -1;                       ///< index of the selection in shown_; −1: none
-  bool moved_ = false;                    ///< the selection moved by a key: scroll to it
+  char search_[256] = {};                 ///< search text
+  int selected_ = -1;                     ///< index of the selection in shown_; −1: none
+  bool selection_moved_ = false;          ///< the selection moved by a key: scroll to it
   std::vector<const OpenChoice*> shown_;  ///< entries drawn in this frame
 };
 

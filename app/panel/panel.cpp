@@ -14,8 +14,8 @@ namespace {
 
 constexpr float controls_width = 18.5f, readings_width = 16.0f, margin = 0.7f, two_columns_from = 66;  // em
 
-constexpr float patience = 1;   // s of being late before the banner
-constexpr float shown_for = 5;  // s that the banner stays after a recovery
+constexpr float late_delay = 1;            // s of being late before the banner
+constexpr float recovery_banner_time = 5;  // s that the banner stays after a recovery
 
 constexpr ImGuiWindowFlags column_flags =
     ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
@@ -35,31 +35,31 @@ Panel::Panel(const Scene& scene, const SurfaceMesh& surface_mesh)
       description_(scene.description),
       tool_(static_cast<double>(render::bounding_sphere(surface_mesh.rest).radius), scene.gravity),
       material_(scene.materials),
-      watch_(surface_mesh),
+      stretch_monitor_(surface_mesh),
       surface_version_(surface_mesh.version),
       motion_(scene.gravity, scene.solver),
       view_(scene.view) {
-  watch_stretches();
+  update_stretch_limits();
 }
 
-void Panel::watch_stretches() {
-  if (watched_changes_ == material_.changes()) return;
-  watched_changes_ = material_.changes();
-  watch_.set(material_.materials());
+void Panel::update_stretch_limits() {
+  if (limited_changes_ == material_.changes()) return;
+  limited_changes_ = material_.changes();
+  stretch_monitor_.set(material_.materials());
 }
 
 void Panel::update_surface(const Frame& frame) {
   if (!frame.surface_mesh || frame.surface_mesh->version == surface_version_) return;
   surface_version_ = frame.surface_mesh->version;
-  watch_ = StretchMonitor(*frame.surface_mesh);
-  watched_changes_ = -1;
+  stretch_monitor_ = StretchMonitor(*frame.surface_mesh);
+  limited_changes_ = -1;
 }
 
 void Panel::update(const Frame& frame, float seconds) {
   history_.add(frame);
-  tell_refusal(frame);
+  report_refusal(frame);
   since_recovery_ += seconds;
-  if (!frame.recovery) since_recovery_ = shown_for;
+  if (!frame.recovery) since_recovery_ = recovery_banner_time;
   if (frame.recovery && (!frame.recovery->ended || frame.recovery->tick != recovery_seen_)) {
     recovery_seen_ = frame.recovery->tick;
     since_recovery_ = 0;
@@ -68,18 +68,18 @@ void Panel::update(const Frame& frame, float seconds) {
   range_ = colour_range_.update(frame.field, frame.values, seconds);
   view_.set_range(range_);
   update_surface(frame);
-  watch_stretches();
-  watch_.update(frame);
-  view_.set_beyond(watch_.beyond());
+  update_stretch_limits();
+  stretch_monitor_.update(frame);
+  view_.set_hatched(stretch_monitor_.beyond());
 }
 
-void Panel::tell_refusal(const Frame& frame) {
+void Panel::report_refusal(const Frame& frame) {
   if (frame.refusals == refusals_) return;
   refusals_ = frame.refusals;
-  say(capitalised(frame.refusal) + ".");
+  notify(capitalised(frame.refusal) + ".");
 }
 
-bool Panel::shows_recovery() const { return since_recovery_ < shown_for; }
+bool Panel::shows_recovery() const { return since_recovery_ < recovery_banner_time; }
 
 void Panel::perform(Action action) { pressed_.push_back(action); }
 
@@ -108,19 +108,19 @@ Insets Panel::insets(ImVec2 picture) const {
 bool Panel::covers(float x, float y) const {
   constexpr ImGuiPopupFlags any = ImGuiPopupFlags_AnyPopup;
   return dialog_.is_open() || notices_.covers(x, y) || ImGui::IsPopupOpen("", any) ||
-         std::any_of(places_.begin(), places_.end(), [&](const Area& place) { return place.contains(x, y); });
+         std::any_of(rects_.begin(), rects_.end(), [&](const Area& place) { return place.contains(x, y); });
 }
 
 PanelActions Panel::draw(const Frame& frame) {
   PanelActions out;
   rows_.new_frame();
-  places_.clear();
+  rects_.clear();
   errors_open_ = false;
   const ImVec2 picture = ImGui::GetIO().DisplaySize;
   const Insets taken = insets(picture);
   Area free{{taken.left, 0}, {picture.x - taken.right, picture.y}};
   if (timeline_ && !hidden_) {
-    draw_timeline(rows_, *timeline_, free, pressed_, out, places_.emplace_back());
+    draw_timeline(rows_, *timeline_, free, pressed_, out, rects_.emplace_back());
     free.to.y -= timeline_height();
   }
   draw_legend(frame.field, range_, free, !(frame.min_J > 0));
@@ -129,19 +129,19 @@ PanelActions Panel::draw(const Frame& frame) {
     if (two_columns(picture)) draw_readings(frame);
   }
   if (notices_.draw(rows_, free, banner_for(frame), ImGui::GetIO().DeltaTime)) pressed_.push_back(Action::reset);
-  if (helping_) {
+  if (help_open_) {
     Area place;
-    helping_ = draw_help(picture, place);
-    places_.push_back(place);
+    help_open_ = draw_help(picture, place);
+    rects_.push_back(place);
   }
   dialog_.draw(rows_, picture, out);
   for (const Action action : std::exchange(pressed_, {})) carry_out(action, frame, out);
   return out;
 }
 
-void Panel::remember_place() {
+void Panel::record_window_rect() {
   const ImVec2 from = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
-  places_.push_back({from, {from.x + size.x, from.y + size.y}});
+  rects_.push_back({from, {from.x + size.x, from.y + size.y}});
 }
 
 std::optional<Banner> Panel::banner_for(const Frame& frame) const {
@@ -155,7 +155,7 @@ std::optional<Banner> Panel::banner_for(const Frame& frame) const {
                   capitalised(frame.recovery->message) + "." +
                       (frame.recovery_file.empty() ? "" : "\nReplay: heml run " + frame.recovery_file),
                   "", colours::warning};
-  if (late_for_ > patience && !frame.paused)
+  if (late_for_ > late_delay && !frame.paused)
     return Banner{fmt::format("{:.1f}× slower than real time", frame.pace.slowdown),
                   "The engine cannot keep up. A softer or denser material, a lower Poisson's ratio or a coarser mesh "
                   "allows longer steps.",
@@ -169,11 +169,11 @@ void Panel::draw_controls(const Frame& frame, bool with_readings, PanelActions& 
   ImGui::SetNextWindowSize({em(controls_width), std::min(controls_height_, picture.y - em(2 * margin))});
   if (ImGui::Begin("controls", nullptr,
                    column_flags | ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse)) {
-    remember_place();
+    record_window_rect();
     draw_header(frame);
     const float header_height = ImGui::GetCursorPosY();
     ImGui::BeginChild("sections", {0, 0}, false, ImGuiWindowFlags_NoNav);
-    if (rows_.section("Material")) material_.draw(rows_, watch_.share(), out);
+    if (rows_.section("Material")) material_.draw(rows_, stretch_monitor_.share(), out);
     if (rows_.section("Motion")) motion_.draw(rows_, out);
     if (rows_.section("Tool")) tool_.draw(rows_, frame, out);
     if (with_readings) {
@@ -194,7 +194,7 @@ void Panel::draw_controls(const Frame& frame, bool with_readings, PanelActions& 
 void Panel::draw_header(const Frame& frame) {
   {
     const UseFont large(Font::title);
-    ImGui::TextUnformatted(shortened(title_, ImGui::GetContentRegionAvail().x).c_str());
+    ImGui::TextUnformatted(elided(title_, ImGui::GetContentRegionAvail().x).c_str());
   }
   rows_.explain({"Title", description_.empty() ? title_ : title_ + "\n\n" + description_});
   const float size = em(1.95f);
@@ -242,7 +242,7 @@ void Panel::draw_readings(const Frame& frame) {
   ImGui::SetNextWindowPos({picture.x - em(margin), em(margin)}, ImGuiCond_Always, {1, 0});
   ImGui::SetNextWindowSizeConstraints({em(readings_width), 0}, {em(readings_width), picture.y - em(2 * margin)});
   if (ImGui::Begin("readings", nullptr, column_flags | ImGuiWindowFlags_AlwaysAutoResize)) {
-    remember_place();
+    record_window_rect();
     if (rows_.section("Tool force")) draw_force(rows_, frame, history_);
     if (rows_.section("Energy")) draw_energies(rows_, frame, history_);
     if (rows_.section("Volume")) draw_volume(rows_, frame, history_);

@@ -42,17 +42,18 @@ class Panel {
 
   void perform(Action action);        ///< queued for the next draw()
   void sync(const Command& command);  ///< updates the shown settings after a command from elsewhere
-  void say(std::string text) { notices_.say(std::move(text)); }    ///< for some seconds
-  void fail(std::string text) { notices_.fail(std::move(text)); }  ///< until closed: a file that could not be opened
+  void notify(std::string text) { notices_.notify(std::move(text)); }  ///< for some seconds
+  /// Shown until closed: a file that could not be opened.
+  void show_error(std::string text) { notices_.show_error(std::move(text)); }
 
   void set_choices(OpenChoices choices) { dialog_.set_choices(std::move(choices)); }  ///< entries of the open dialog
   void set_timeline(const Timeline& timeline) { timeline_ = timeline; }               ///< shows its bar from now on
   ViewSection& view() { return view_; }
-  bool asks() const { return dialog_.is_open(); }  ///< a dialog takes keys and mouse
+  bool is_modal() const { return dialog_.is_open(); }  ///< a dialog takes keys and mouse
 
   const render::DrawOptions& drawing() const { return view_.drawing(); }
-  bool wants_stretches() const { return watch_.active(); }  ///< whether frames should carry Frame::stretches
-  bool wants_errors() const { return errors_open_; }        ///< whether frames should carry errors
+  bool wants_stretches() const { return stretch_monitor_.active(); }  ///< whether frames should carry Frame::stretches
+  bool wants_errors() const { return errors_open_; }                  ///< whether frames should carry errors
   const ToolSettings& tool() const { return tool_.tool(); }
   Insets insets(ImVec2 picture) const;  ///< that draw() covers of an image of a size, pixels
   /// Whether a point (pixels) is on the panel as last drawn.
@@ -70,19 +71,19 @@ class Panel {
   void draw_pace(const Frame& frame);
   void draw_readings(const Frame& frame);
   void draw_accuracy(const Frame& frame);
-  void tell_refusal(const Frame& frame);
+  void report_refusal(const Frame& frame);
   void update_surface(const Frame& frame);
-  void watch_stretches();
+  void update_stretch_limits();
   std::optional<Banner> banner_for(const Frame& frame) const;
-  void remember_place();
+  void record_window_rect();
 
   std::string title_, description_;  ///< of the scene
   ToolSection tool_;
   long refusals_ = 0;  ///< Frame::refusals that were shown
   MaterialSection material_;
-  StretchMonitor watch_;
-  long surface_version_;      ///< SurfaceMesh::version that watch_ is of
-  int watched_changes_ = -1;  ///< MaterialSection::changes() that watch_ is of
+  StretchMonitor stretch_monitor_;
+  long surface_version_;      ///< SurfaceMesh::version that stretch_monitor_ is of
+  int limited_changes_ = -1;  ///< MaterialSection::changes() that stretch_monitor_ is of
   MotionSection motion_;
   ViewSection view_;
   CompareSection comparisons_;
@@ -94,12 +95,12 @@ class Panel {
   render::ColourRange colour_range_;
   render::Range range_;
   std::vector<Action> pressed_;   ///< queued for the next draw()
-  std::vector<Area> places_;      ///< of ImGui windows in the last draw()
+  std::vector<Area> rects_;       ///< of ImGui windows in the last draw()
   float controls_height_ = 1e9f;  ///< pixels, of the header and all open sections, as last drawn
   float late_for_ = 0;            ///< s of wall time since the engine last kept up
   long recovery_seen_ = -1;       ///< Recovery::tick of the last recovery
   float since_recovery_ = 1e9f;   ///< s of wall time since a recovery was running
-  bool hidden_ = false, helping_ = false;
+  bool hidden_ = false, help_open_ = false;
   bool errors_open_ = false;  ///< the section "Accuracy" is open
 };
 

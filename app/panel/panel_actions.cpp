@@ -5,7 +5,7 @@ namespace heml::panel {
 namespace {
 
 bool needs_dialog(Action action) {
-  return action == Action::choose_previous || action == Action::choose_next || action == Action::open_chosen;
+  return action == Action::select_previous || action == Action::select_next || action == Action::open_selected;
 }
 
 }  // namespace
@@ -45,46 +45,46 @@ void Panel::carry_out(Action action, const Frame& frame, PanelActions& out) {
       hidden_ = !hidden_;
       return;
     case Action::help:
-      helping_ = !helping_;
+      help_open_ = !help_open_;
       return;
     case Action::open:
       dialog_.open();
       return ask(Request::list);
-    case Action::choose_previous:
-      return dialog_.choose(-1);
-    case Action::choose_next:
-      return dialog_.choose(1);
-    case Action::open_chosen:
-      return dialog_.open_chosen(out);
+    case Action::select_previous:
+      return dialog_.select(-1);
+    case Action::select_next:
+      return dialog_.select(1);
+    case Action::open_selected:
+      return dialog_.open_selected(out);
     case Action::release:
       if (dialog_.close()) return;
-      if (helping_ || notices_.close()) helping_ = false;
-      return ask(timeline_ && (timeline_->shown || timeline_->returning) ? Request::now : Request::release);
-    case Action::seek_earlier:
-      return ask(Request::earlier);
-    case Action::seek_later:
-      return ask(Request::later);
+      if (help_open_ || notices_.close()) help_open_ = false;
+      return ask(timeline_ && (timeline_->shown || timeline_->resume_progress) ? Request::live : Request::release);
+    case Action::seek_previous:
+      return ask(Request::previous_frame);
+    case Action::seek_next:
+      return ask(Request::next_frame);
     case Action::seek_start:
-      return ask(Request::first);
-    case Action::seek_now:
-      return ask(Request::now);
+      return ask(Request::first_frame);
+    case Action::seek_live:
+      return ask(Request::live);
     case Action::resume:
       return ask(Request::resume);
     case Action::remove:
       return ask(Request::remove);
-    case Action::take_grasper:
+    case Action::select_grasper:
       tool_.select(Tool::grasper);
       return;
-    case Action::take_scalpel:
+    case Action::select_scalpel:
       tool_.select(Tool::scalpel);
       return;
-    case Action::take_pin:
+    case Action::select_pin:
       tool_.select(Tool::pin);
       return;
-    case Action::take_probe:
+    case Action::select_probe:
       tool_.select(Tool::probe);
       return;
-    case Action::take_suture:
+    case Action::select_suture:
       tool_.select(Tool::suture);
       return;
     case Action::toggle_table:
@@ -92,19 +92,19 @@ void Panel::carry_out(Action action, const Frame& frame, PanelActions& out) {
     case Action::undo:
       out.commands.emplace_back(Undo{});
       return;
-    case Action::film:
-      return ask(Request::film);
+    case Action::record_video:
+      return ask(Request::record_video);
     case Action::view_1:
     case Action::view_2:
     case Action::view_3:
     case Action::view_4:
       out.view = static_cast<std::size_t>(action) - static_cast<std::size_t>(Action::view_1);
       return;
-    case Action::keep_view_1:
-    case Action::keep_view_2:
-    case Action::keep_view_3:
-    case Action::keep_view_4:
-      out.keep_view = static_cast<std::size_t>(action) - static_cast<std::size_t>(Action::keep_view_1);
+    case Action::save_view_1:
+    case Action::save_view_2:
+    case Action::save_view_3:
+    case Action::save_view_4:
+      out.save_view = static_cast<std::size_t>(action) - static_cast<std::size_t>(Action::save_view_1);
       return;
     case Action::quit:
       return ask(Request::quit);

@@ -64,8 +64,8 @@ void draw_curve(ImDrawList& list, const PlotCanvas& canvas, const std::deque<Rea
   list.AddPolyline(points.data(), static_cast<int>(points.size()), curve.colour, ImDrawFlags_None, em(0.09f));
 }
 
-void say_values(ImDrawList& list, const PlotCanvas& canvas, const std::deque<Reading>& readings,
-                std::span<const Curve> curves, std::string_view unit) {
+void draw_tooltip(ImDrawList& list, const PlotCanvas& canvas, const std::deque<Reading>& readings,
+                  std::span<const Curve> curves, std::string_view unit) {
   const float place = (ImGui::GetIO().MousePos.x - canvas.from.x) / (canvas.to.x - canvas.from.x);
   const double time = canvas.latest - History::span * (1 - static_cast<double>(place));
   const auto found =
@@ -112,7 +112,7 @@ void plot(const char* id, const History& history, std::span<const Curve> curves,
                text_of(canvas.axis.high, style.unit).c_str());
   list.AddText({from.x + margin, bottom}, colours::muted, text_of(canvas.axis.low, style.unit).c_str());
   list.AddText({to.x - margin - ImGui::CalcTextSize(span.c_str()).x, bottom}, colours::faint, span.c_str());
-  if (ImGui::IsItemHovered() && !ImGui::IsAnyMouseDown()) say_values(list, canvas, readings, curves, style.unit);
+  if (ImGui::IsItemHovered() && !ImGui::IsAnyMouseDown()) draw_tooltip(list, canvas, readings, curves, style.unit);
 }
 
 }  // namespace heml::panel

@@ -46,7 +46,7 @@ void draw_chevron(ImVec2 at, bool down, ImU32 colour) {
 
 }  // namespace
 
-std::string shortened(const std::string& text, float width) {
+std::string elided(const std::string& text, float width) {
   if (ImGui::CalcTextSize(text.c_str()).x <= width) return text;
   std::string result = text;
   while (!result.empty() && ImGui::CalcTextSize((result + "…").c_str()).x > width) {
@@ -79,7 +79,7 @@ void Rows::begin(const Label& label) {
   ImGui::AlignTextToFramePadding();
   ImGui::PushStyleColor(ImGuiCol_Text, colours::muted);
   const float left = ImGui::GetCursorPosX();
-  ImGui::TextUnformatted(shortened(label.text, em(label_width) - ImGui::GetStyle().ItemSpacing.x).c_str());
+  ImGui::TextUnformatted(elided(label.text, em(label_width) - ImGui::GetStyle().ItemSpacing.x).c_str());
   ImGui::PopStyleColor();
   explain(label);
   ImGui::SameLine(left + em(label_width));
@@ -130,7 +130,7 @@ bool Rows::choice(const Label& label, int& index, std::span<const std::string> n
   ImGui::PushID(label.text.c_str());
   bool changed = false;
   const float room = ImGui::CalcItemWidth() - em(1.3f) - 2 * ImGui::GetStyle().FramePadding.x;
-  const std::string shown = index >= 0 && index < std::ssize(names) ? shortened(names[index], room) : "–";
+  const std::string shown = index >= 0 && index < std::ssize(names) ? elided(names[index], room) : "–";
   const bool open =
       ImGui::BeginCombo("##choice", shown.c_str(), ImGuiComboFlags_NoArrowButton | ImGuiComboFlags_HeightLarge);
   explain(label);

@@ -65,6 +65,6 @@ class Rows {
 void text_at_right(const std::string& text, ImU32 colour);
 
 /// The text, cut to `width` pixels with an ellipsis.
-std::string shortened(const std::string& text, float width);
+std::string elided(const std::string& text, float width);
 
 }  // namespace heml::panel

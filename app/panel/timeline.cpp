@@ -99,15 +99,15 @@ void draw_timeline(Rows& rows, const Timeline& time, const Area& free, std::vect
     ImGui::TextUnformatted(seconds_text(seconds).c_str());
     ImGui::PopStyleColor();
     rows.explain({"Shown time", time_hint(time)});
-    const float end = place.to.x - em(0.9f) - (back || time.returning ? em(buttons_width) : 0);
+    const float end = place.to.x - em(0.9f) - (back || time.resume_progress ? em(buttons_width) : 0);
     const Track track{{left + em(label_width), place.from.y + em(0.3f)}, {end, place.from.y + em(0.3f) + height}, time};
     ImGui::SetCursorScreenPos(track.from);
     draw_track(track);
     follow_mouse(rows, track, out);
     ImGui::SetCursorScreenPos({end + em(0.6f), place.from.y + em(0.3f)});
-    if (time.returning) {
+    if (time.resume_progress) {
       ImGui::AlignTextToFramePadding();
-      ImGui::Text("Replaying %d %%", *time.returning);
+      ImGui::Text("Replaying %d %%", *time.resume_progress);
       rows.explain({"Replaying", "Replays the session up to that time as fast as possible; Esc cancels."});
     } else if (back) {
       if (rows.button({"Resume",
@@ -115,7 +115,7 @@ void draw_timeline(Rows& rows, const Timeline& time, const Area& free, std::vect
                        "(being written or opened) continues in a new file (B)."}))
         pressed.push_back(Action::resume);
       ImGui::SameLine(0, em(0.4f));
-      if (rows.button({"Live", "Back to the live simulation (End, Esc)."})) pressed.push_back(Action::seek_now);
+      if (rows.button({"Live", "Back to the live simulation (End, Esc)."})) pressed.push_back(Action::seek_live);
     }
   }
   ImGui::End();

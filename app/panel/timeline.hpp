@@ -15,14 +15,14 @@ namespace heml::panel {
 
 /// In ticks since the start; resets do not set them back.
 struct Timeline {
-  double rate = 1000;               ///< ticks per simulated second
-  long first = 0, live = 0;         ///< first frame kept; the engine's tick
-  long end = 0;                     ///< of the recording, or the engine's tick if that is later
-  std::optional<long> shown;        ///< the past tick shown; none: live
-  std::size_t frames = 0;           ///< number of frames kept
-  std::size_t bytes = 0, room = 0;  ///< memory of the frames kept; its limit
-  long fast_forward_target = 0;     ///< a tick that the engine fast-forwards to; 0: none
-  std::optional<int> returning;     ///< %, of the replay that leads to a resumed time
+  double rate = 1000;                  ///< ticks per simulated second
+  long first = 0, live = 0;            ///< first frame kept; the engine's tick
+  long end = 0;                        ///< of the recording, or the engine's tick if that is later
+  std::optional<long> shown;           ///< the past tick shown; none: live
+  std::size_t frames = 0;              ///< number of frames kept
+  std::size_t bytes = 0, room = 0;     ///< memory of the frames kept; its limit
+  long fast_forward_target = 0;        ///< a tick that the engine fast-forwards to; 0: none
+  std::optional<int> resume_progress;  ///< %, of the replay that leads to a resumed time
 };
 
 /// Height of the bar with its margin, pixels.

@@ -9,7 +9,7 @@ namespace {
 
 // Relative to the body's radius.
 constexpr double first_grasp = 0.12, max_grasp = 0.5, first_depth = 0.35, max_depth = 2;
-constexpr double first_probe = 0.08, max_probe = 0.4, first_dent = 0.15, max_dent = 0.6;
+constexpr double first_probe = 0.08, max_probe = 0.4, first_indentation = 0.15, max_indentation = 0.6;
 constexpr double max_friction = 1.5, table_gap = 0.01;
 
 std::string several(std::size_t count, const char* what) {
@@ -22,7 +22,7 @@ ToolSection::ToolSection(double body_radius, const Vec3& gravity) : body_radius_
   tool_.radius = first_grasp * body_radius;
   tool_.depth = first_depth * body_radius;
   tool_.probe_radius = first_probe * body_radius;
-  tool_.dent = first_dent * body_radius;
+  tool_.indentation = first_indentation * body_radius;
   tool_.shaft = 2 * body_radius;
   sync({gravity});
 }
@@ -72,7 +72,8 @@ void ToolSection::draw_settings(Rows& rows) {
     case Tool::probe:
       length(rows, {"Tip radius", "Radius of the probe's tip and shaft, mm."}, tool_.probe_radius, max_probe);
       tool_.probe_radius = std::max(tool_.probe_radius, 0.01 * body_radius_);
-      length(rows, {"Indentation", "Depth of the tip below the undeformed surface, mm."}, tool_.dent, max_dent);
+      length(rows, {"Indentation", "Depth of the tip below the undeformed surface, mm."}, tool_.indentation,
+             max_indentation);
       return;
     case Tool::suture:
       return;

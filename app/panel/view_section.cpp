@@ -48,13 +48,13 @@ void ViewSection::draw(Rows& rows, std::vector<Action>& pressed, PanelActions& o
   if (rows.button({"Save image", "Writes a PNG into the working folder (P)."}, 0.42f * room))
     pressed.push_back(Action::screenshot);
   ImGui::SameLine();
-  const std::string so_far = filmed_ ? fmt::format("\n\n{} frames so far.", *filmed_) : "";
-  if (rows.button({filmed_ ? "Stop recording" : "Record video",
+  const std::string so_far = recorded_frames_ ? fmt::format("\n\n{} frames so far.", *recorded_frames_) : "";
+  if (rows.button({recorded_frames_ ? "Stop recording" : "Record video",
                    "Writes 30 frames per simulated second into a folder of the working folder, and at the end a video "
                    "next to it if ffmpeg is installed (V). Includes the panel unless hidden (Tab)." +
                        so_far},
                   0.29f * room))
-    pressed.push_back(Action::film);
+    pressed.push_back(Action::record_video);
   if (rows.button({"Save scene",
                    "Writes the opened scene with the current tissue, motion, tables and colours into the working "
                    "folder (Ctrl+S). "
@@ -70,17 +70,17 @@ void ViewSection::draw_views(Rows& rows, std::vector<Action>& pressed) const {
               each = (ImGui::GetContentRegionAvail().x - gap * (CameraController::views - 1)) / CameraController::views;
   for (std::size_t view = 0; view < CameraController::views; ++view) {
     if (view > 0) ImGui::SameLine(0, gap);
-    ImGui::PushStyleColor(ImGuiCol_Text, kept_[view] ? colours::text : colours::faint);
+    ImGui::PushStyleColor(ImGuiCol_Text, saved_[view] ? colours::text : colours::faint);
     const std::string name = fmt::format("{}", view + 1);
     const std::string hint = fmt::format(
         "Camera view {0}, {1} Ctrl+click (Ctrl+F{2}) saves the current view.", view + 1,
-        kept_[view] ? fmt::format("saved: click to restore (F{}).", view + 5) : "empty: click to save.", view + 5);
+        saved_[view] ? fmt::format("saved: click to restore (F{}).", view + 5) : "empty: click to save.", view + 5);
     const bool chosen = rows.button({name, hint}, each);
     ImGui::PopStyleColor();
     if (!chosen) continue;
-    const bool keeps = !kept_[view] || ImGui::GetIO().KeyCtrl;
+    const bool saves = !saved_[view] || ImGui::GetIO().KeyCtrl;
     pressed.push_back(
-        static_cast<Action>(static_cast<int>(keeps ? Action::keep_view_1 : Action::view_1) + static_cast<int>(view)));
+        static_cast<Action>(static_cast<int>(saves ? Action::save_view_1 : Action::view_1) + static_cast<int>(view)));
   }
 }
 

@@ -18,10 +18,11 @@ class ViewSection {
   void show(Field field, PanelActions& out);
   void toggle_wireframe() { drawing_.wireframe = !drawing_.wireframe; }
   void set_range(const render::Range& range) { drawing_.range = range; }
-  void set_beyond(std::span<const float> beyond) { drawing_.beyond = beyond; }
+  void set_hatched(std::span<const float> excess) { drawing_.hatched = excess; }
 
-  void set_kept(std::size_t view, bool kept) { kept_[view] = kept; }     ///< whether a view is saved
-  void set_filmed(std::optional<long> pictures) { filmed_ = pictures; }  ///< frames recorded; none: no recording
+  void set_saved(std::size_t view, bool saved) { saved_[view] = saved; }  ///< whether a view is saved
+  /// Number of frames recorded; none: no recording.
+  void set_recorded_frames(std::optional<long> count) { recorded_frames_ = count; }
 
   Field field() const { return field_; }
   const render::DrawOptions& drawing() const { return drawing_; }
@@ -30,8 +31,8 @@ class ViewSection {
   void draw_views(Rows& rows, std::vector<Action>& pressed) const;
 
   Field field_;
-  std::array<bool, CameraController::views> kept_{};
-  std::optional<long> filmed_;
+  std::array<bool, CameraController::views> saved_{};
+  std::optional<long> recorded_frames_;
   render::DrawOptions drawing_;
 };
 

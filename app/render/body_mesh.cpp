@@ -93,7 +93,7 @@ void BodyMesh::upload_fixed(const SurfaceMesh& surface_mesh, const TissueLook& l
   std::vector<float> open;
   surface_.spread(std::span<const Vec3f>(surface_mesh.rest), rest);
   surface_.spread(std::span<const Vec3f>(look.on_sphere), on_sphere);
-  surface_.spread(std::span<const float>(look.openness), open);
+  surface_.spread(std::span<const float>(look.ambient_occlusion), open);
   fixed_.resize(rest.size());
   for (std::size_t p = 0; p < fixed_.size(); ++p) {
     const auto& [c, w] = surface_.blends()[p];

@@ -49,7 +49,7 @@ class Renderer::Impl {
   void draw(const Frame& frame, const Camera& camera, const DrawOptions& options, Size size);
 
  private:
-  void take_skin(const Frame& frame);
+  void update_surface_mesh(const Frame& frame);
   const RenderTarget* canvas(const DrawOptions& options, Size size);
   void draw_picture(const ViewContext& shot, const Frame& frame, const DrawOptions& options);
   const Program& surface_program(bool shows_field, bool hatched);
@@ -69,7 +69,7 @@ class Renderer::Impl {
   Program bead_{"bead.vert", "bead.frag"};
   Program ground_{"ground.vert", "ground.frag"};
   Program backdrop_{"screen.vert", "backdrop.frag"};
-  VertexArray nothing_;  // for shapes that need only gl_VertexID
+  VertexArray empty_array_;  // for shapes that need only gl_VertexID
   Texture map_, detail_;
   std::optional<RenderTarget> canvas_;
   std::shared_ptr<const SurfaceMesh> surface_mesh_;  // the mesh of body_
@@ -91,7 +91,7 @@ const RenderTarget* Renderer::Impl::canvas(const DrawOptions& options, Size size
   return &*canvas_;
 }
 
-void Renderer::Impl::take_skin(const Frame& frame) {
+void Renderer::Impl::update_surface_mesh(const Frame& frame) {
   if (frame.surface_mesh == surface_mesh_) return;
   surface_mesh_ = frame.surface_mesh;
   body_.reset();
@@ -106,11 +106,11 @@ void Renderer::Impl::take_skin(const Frame& frame) {
 }
 
 void Renderer::Impl::draw(const Frame& frame, const Camera& camera, const DrawOptions& options, Size size) {
-  take_skin(frame);
+  update_surface_mesh(frame);
   if (body_ && frame.positions.size() != body_->node_count())
     throw std::invalid_argument("Renderer::draw: the frame has another number of nodes than the surface mesh");
-  if (body_ && !options.beyond.empty() && options.beyond.size() != body_->node_count())
-    throw std::invalid_argument("Renderer::draw: `beyond` has another number of nodes than the surface mesh");
+  if (body_ && !options.hatched.empty() && options.hatched.size() != body_->node_count())
+    throw std::invalid_argument("Renderer::draw: `hatched` has another number of nodes than the surface mesh");
   const RenderTarget* scaled = canvas(options, size);
   const Size drawn = scaled ? scaled->size() : size;
   const Mat4f sight = camera.view(), projection = camera.projection(drawn);
@@ -124,7 +124,7 @@ void Renderer::Impl::draw(const Frame& frame, const Camera& camera, const DrawOp
   tool_.place(frame, options.tool, shot);
   if (body_) {
     body_->update(frame, options.range.value_or(natural_range(frame.field, frame.values)));
-    body_->update_hatching(options.beyond);
+    body_->update_hatching(options.hatched);
     body_->update_outline(camera.eye(), shot.view_projection, drawn);
     draw_shadows(shot, frame, options);
   }
@@ -149,7 +149,7 @@ void Renderer::Impl::draw_picture(const ViewContext& shot, const Frame& frame, c
   const bool shows_field = frame.field != Field::none && body_ && frame.values.size() == body_->node_count();
   if (shows_field) upload_map(map_, frame.field);
   if (body_) {
-    const Program& program = surface_program(shows_field, !options.beyond.empty());
+    const Program& program = surface_program(shows_field, !options.hatched.empty());
     prepare_body(shot, program);
     program.set("hatch_period", hatch_period * static_cast<float>(shot.size.height) / 720);
     if (frame.min_J > 0) glEnable(GL_CULL_FACE);  // back faces show only where elements are inverted
@@ -259,14 +259,14 @@ void Renderer::Impl::draw_ground(const ViewContext& shot) const {
   ground_.set("footprint", 0);
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, footprint_.texture());
-  glBindVertexArray(nothing_);
+  glBindVertexArray(empty_array_);
   glDrawArrays(GL_TRIANGLES, 0, 6 * ground_grid * ground_grid);
 }
 
 void Renderer::Impl::draw_backdrop(const ViewContext& shot) const {
   backdrop_.use();
   backdrop_.set("aspect", shot.size.aspect());
-  glBindVertexArray(nothing_);
+  glBindVertexArray(empty_array_);
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 

@@ -13,14 +13,14 @@
 namespace heml::render {
 
 struct DrawOptions {
-  bool wireframe = false;         ///< the mesh's edges over the surface
-  bool ground = true;             ///< the drape and the shadow on it
-  bool constrained = true;        ///< beads on nodes with a boundary condition
-  bool tool = true;               ///< forceps and spring while something is grasped
-  std::optional<Range> range;     ///< of the colour map; none: natural_range() of the frame's values
-  std::span<const float> beyond;  ///< #S, hatched where above 0; empty: no hatching, at no cost
-  float resolution = 1;           ///< of rendering, relative to the picture, 0.25 to 1: lower is faster
-  int left = 0, bottom = 0;       ///< of the picture in framebuffer 0, pixels from its lower left corner
+  bool wireframe = false;          ///< the mesh's edges over the surface
+  bool ground = true;              ///< the drape and the shadow on it
+  bool constrained = true;         ///< beads on nodes with a boundary condition
+  bool tool = true;                ///< forceps and spring while something is grasped
+  std::optional<Range> range;      ///< of the colour map; none: natural_range() of the frame's values
+  std::span<const float> hatched;  ///< #S, hatched where above 0; empty: no hatching, at no cost
+  float resolution = 1;            ///< of rendering, relative to the picture, 0.25 to 1: lower is faster
+  int left = 0, bottom = 0;        ///< of the picture in framebuffer 0, pixels from its lower left corner
 };
 
 /// Bound to the context that is current at construction; every call needs that context current.
@@ -35,7 +35,7 @@ class Renderer {
   /// Draws into a rectangle of framebuffer 0, which must have depth. The picture depends only on the arguments. A frame
   /// without a surface mesh has no body. A surface mesh that the previous frame did not have is uploaded first, which
   /// takes as long as its ambient occlusion: about a second for 50,000 nodes, far less after a removal. Throws
-  /// std::invalid_argument if the frame or `beyond` has another number of nodes than the surface mesh.
+  /// std::invalid_argument if the frame or `hatched` has another number of nodes than the surface mesh.
   void draw(const Frame& frame, const Camera& camera, const DrawOptions& options, Size size);
 
  private:

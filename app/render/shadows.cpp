@@ -96,7 +96,7 @@ void Footprint::blur(int from, int to, const Vec2f& texel) const {
   blur_.set("texel", texel);
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, pictures_[from]);
-  glBindVertexArray(nothing_);
+  glBindVertexArray(empty_array_);
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 

@@ -41,7 +41,7 @@ class Footprint {
 
   Program program_{"depth.vert", "footprint.frag"};
   Program blur_{"screen.vert", "blur.frag"};
-  VertexArray nothing_;
+  VertexArray empty_array_;
   std::array<Texture, 2> pictures_;
   std::array<Framebuffer, 2> framebuffers_;
 };

@@ -44,21 +44,22 @@ std::vector<Vec3f> node_normals(const SurfaceMesh& surface_mesh) {
 TissueLook tissue_look(const SurfaceMesh& surface_mesh, const TissueLook* whole) {
   assert((whole != nullptr) == (surface_mesh.whole != nullptr));
   std::vector<std::optional<Vec3f>> on_sphere;
-  std::vector<std::optional<float>> openness;
+  std::vector<std::optional<float>> known_occlusion;
   if (whole) {
     const std::vector<int> place = places_in_whole(surface_mesh);
     const std::vector<int> now = triangle_counts(surface_mesh), before = triangle_counts(*surface_mesh.whole);
     on_sphere.resize(place.size());
-    openness.resize(place.size());
+    known_occlusion.resize(place.size());
     for (std::size_t i = 0; i < place.size(); ++i) {
       if (place[i] < 0) continue;
       on_sphere[i] = whole->on_sphere[place[i]];
-      if (now[i] == before[place[i]]) openness[i] = whole->openness[place[i]];  // otherwise it is at the rim of a cut
+      if (now[i] == before[place[i]])
+        known_occlusion[i] = whole->ambient_occlusion[place[i]];  // otherwise it is at the rim of a cut
     }
   }
   const BoundingSphere ball = bounding_sphere(uncut_surface(surface_mesh).rest);
   return {sphere_map(surface_mesh, on_sphere),
-          ambient_occlusion(surface_mesh, node_normals(surface_mesh), occlusion_reach * ball.radius, openness)};
+          ambient_occlusion(surface_mesh, node_normals(surface_mesh), occlusion_reach * ball.radius, known_occlusion)};
 }
 
 }  // namespace heml::render

@@ -7,8 +7,8 @@
 namespace heml::render {
 
 struct TissueLook {
-  std::vector<Vec3f> on_sphere;  ///< #S×3, sphere_map.hpp
-  std::vector<float> openness;   ///< #S, ambient_occlusion.hpp
+  std::vector<Vec3f> on_sphere;          ///< #S×3, sphere_map.hpp
+  std::vector<float> ambient_occlusion;  ///< #S, ambient_occlusion.hpp
 };
 
 /// whole: the look of surface_mesh.whole; null if and only if that is null.

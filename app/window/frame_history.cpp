@@ -7,7 +7,7 @@ namespace {
 std::size_t bytes_of(const Frame& frame) {
   std::size_t bytes = sizeof(Frame) + frame.positions.size() * sizeof(Vec3f) +
                       (frame.values.size() + frame.stretches.size()) * sizeof(float);
-  for (const Frame& comparisons : frame.comparisons) bytes += bytes_of(comparisons);
+  for (const Frame& comparison : frame.comparisons) bytes += bytes_of(comparison);
   return bytes;
 }
 
@@ -57,7 +57,7 @@ void FrameHistory::share(const Frame& frame) {
   }
 }
 
-std::size_t FrameHistory::place_of(long tick) const {
+std::size_t FrameHistory::index_at(long tick) const {
   const auto after =
       std::upper_bound(frames_.begin(), frames_.end(), tick, [](long t, const Frame& frame) { return t < frame.tick; });
   return after == frames_.begin() ? 0 : static_cast<std::size_t>(after - frames_.begin()) - 1;

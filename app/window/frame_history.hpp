@@ -26,7 +26,7 @@ class FrameHistory {
 
   const std::vector<Frame>& frames() const { return frames_; }  ///< ascending in tick
   /// Index of the last frame not later than a tick, else 0. Needs at least one frame.
-  std::size_t place_of(long tick) const;
+  std::size_t index_at(long tick) const;
   std::size_t bytes() const { return bytes_; }
   std::size_t room() const { return room_; }
 

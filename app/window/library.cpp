@@ -142,7 +142,7 @@ std::optional<panel::OpenChoices> Library::take() {
                     image.pixels.data());
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
     glGenerateMipmap(GL_TEXTURE_2D);
-    choice.picture = reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture));
+    choice.thumbnail = reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture));
   }
   if (!listing.choices.scenes.empty()) {
     scenes_ = listing.choices.scenes;

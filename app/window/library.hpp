@@ -23,7 +23,7 @@ class Library {
  public:
   /// Starts to list a folder; empty: the last one again.
   void list_folder(std::filesystem::path folder);
-  bool under_way() const { return result_.valid(); }
+  bool is_busy() const { return result_.valid(); }
   bool is_ready() const;  ///< take() returns a list
 
   /// A finished list, once, with thumbnails uploaded; nothing before.

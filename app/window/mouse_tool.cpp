@@ -6,19 +6,19 @@ namespace {
 constexpr float min_stroke = 4;  // pixels of mouse travel per cut
 }
 
-std::optional<render::Hit> MouseTool::under(const render::Vec2f& at, const Frame& frame,
-                                            const SurfaceMesh& surface_mesh) const {
+std::optional<render::Hit> MouseTool::pick(const render::Vec2f& at, const Frame& frame,
+                                           const SurfaceMesh& surface_mesh) const {
   return render::pick(frame, surface_mesh, controller_.ray(at));
 }
 
 bool MouseTool::press(MouseButton button, const render::Vec2f& at, bool shift, const Frame& frame,
                       const SurfaceMesh& surface_mesh, const panel::ToolSettings& tool, std::vector<Command>& out) {
-  if (doing_ != Doing::nothing) return false;
+  if (interaction_ != Interaction::none) return false;
   button_ = button;
   if (tool.tool != panel::Tool::suture) first_end_.reset();
   last_ = at;
   if (button == MouseButton::left)
-    if (const auto hit = under(at, frame, surface_mesh)) {
+    if (const auto hit = pick(at, frame, surface_mesh)) {
       if (tool.tool == panel::Tool::grasper) return !grasp(*hit, frame, surface_mesh, tool.radius, out);
       if (tool.tool == panel::Tool::pin) return !pin(*hit, frame, surface_mesh, tool.radius, out);
       if (tool.tool == panel::Tool::suture) return !suture(*hit, surface_mesh, out);
@@ -26,8 +26,8 @@ bool MouseTool::press(MouseButton button, const render::Vec2f& at, bool shift, c
         begin_probing(*hit, tool, at, out);
         return false;
       }
-      doing_ = Doing::cutting;
-      held_point_ = hit->point;
+      interaction_ = Interaction::cutting;
+      anchor_ = hit->point;
       depth_ = tool.depth;
       blade_ = blade_at(at);
       cut_to_ = at;
@@ -39,11 +39,11 @@ bool MouseTool::press(MouseButton button, const render::Vec2f& at, bool shift, c
 }
 
 void MouseTool::press_background(MouseButton button, const render::Vec2f& at, bool shift) {
-  if (doing_ != Doing::nothing) return;
+  if (interaction_ != Interaction::none) return;
   button_ = button;
   last_ = at;
   const bool pans = button == MouseButton::middle || (button == MouseButton::right && shift);
-  doing_ = pans ? Doing::panning : Doing::orbiting;
+  interaction_ = pans ? Interaction::panning : Interaction::orbiting;
 }
 
 /// A corner of the hit triangle that is not constrained, the nearest if possible; none if all are.
@@ -79,8 +79,8 @@ bool MouseTool::grasp(const render::Hit& hit, const Frame& frame, const SurfaceM
   const auto corner = free_corner(hit, surface_mesh);
   if (!corner) return false;
   const int node = *corner;
-  doing_ = Doing::grasping;
-  held_point_ = hit.point;
+  interaction_ = Interaction::grasping;
+  anchor_ = hit.point;
   node_offset_ = frame.positions[static_cast<std::size_t>(node)] - hit.point;
   out.emplace_back(Grasp{surface_mesh.nodes[static_cast<std::size_t>(node)], radius});
   return true;
@@ -101,37 +101,38 @@ bool MouseTool::suture(const render::Hit& hit, const SurfaceMesh& surface_mesh, 
 /// Starts the probe above the surface and moves it in along the line of sight.
 void MouseTool::begin_probing(const render::Hit& hit, const panel::ToolSettings& tool, const render::Vec2f& at,
                               std::vector<Command>& out) {
-  doing_ = Doing::probing;
-  held_point_ = hit.point;
+  interaction_ = Interaction::probing;
+  anchor_ = hit.point;
   probe_ = tool;
   MoveProbe probe = probe_at(at);
   const Vec3 along = -probe.shaft.normalized();
-  probe.path.insert(probe.path.begin(), probe.path.front() - (probe_.dent + 0.1 * probe_.probe_radius) * along);
+  probe.path.insert(probe.path.begin(), probe.path.front() - (probe_.indentation + 0.1 * probe_.probe_radius) * along);
   out.emplace_back(std::move(probe));
 }
 
-/// The tip is `dent` below the pressed point, moved in the plane that faces the camera; the shaft points to the camera.
+/// The tip is `indentation` below the pressed point, moved in the plane that faces the camera; the shaft points to the
+/// camera.
 MoveProbe MouseTool::probe_at(const render::Vec2f& at) const {
-  const Vec3 point = controller_.drag(at, held_point_).cast<double>();
+  const Vec3 point = controller_.drag(at, anchor_).cast<double>();
   const Vec3 along = controller_.ray(at).direction.cast<double>().normalized();
   MoveProbe probe;
   probe.radius = probe_.probe_radius;
   probe.shaft = -probe_.shaft * along;
   probe.friction = probe_.friction;
-  probe.path = {point + (probe_.dent - probe_.probe_radius) * along};
+  probe.path = {point + (probe_.indentation - probe_.probe_radius) * along};
   return probe;
 }
 
 bool MouseTool::wheel(float notches, std::vector<Command>& out) {
-  if (doing_ != Doing::probing) return false;
-  probe_.dent += 0.1 * static_cast<double>(notches) * probe_.probe_radius;
+  if (interaction_ != Interaction::probing) return false;
+  probe_.indentation += 0.1 * static_cast<double>(notches) * probe_.probe_radius;
   out.emplace_back(probe_at(last_));
   return true;
 }
 
 /// The blade along the line of sight, from a little above the surface, so that it is cut too.
 std::array<Vec3, 2> MouseTool::blade_at(const render::Vec2f& at) const {
-  const Vec3 point = controller_.drag(at, held_point_).cast<double>();
+  const Vec3 point = controller_.drag(at, anchor_).cast<double>();
   const Vec3 along = controller_.ray(at).direction.cast<double>();
   return {point - 0.3 * depth_ * along, point + depth_ * along};
 }
@@ -139,7 +140,7 @@ std::array<Vec3, 2> MouseTool::blade_at(const render::Vec2f& at) const {
 void MouseTool::cut(const render::Vec2f& at, const Frame& frame, const SurfaceMesh& surface_mesh,
                     std::vector<Command>& out) {
   if ((at - cut_to_).norm() < min_stroke) return;
-  if (const auto hit = under(at, frame, surface_mesh)) held_point_ = hit->point;  // follows the relief of the surface
+  if (const auto hit = pick(at, frame, surface_mesh)) anchor_ = hit->point;  // follows the relief of the surface
   const std::array<Vec3, 2> now = blade_at(at);
   out.emplace_back(CutTissue{{{blade_, now}}, continues_stroke_});
   blade_ = now;
@@ -152,12 +153,12 @@ void MouseTool::move(const render::Vec2f& at, const Frame& frame, const SurfaceM
   const render::Vec2f travel = at - last_;
   last_ = at;
   if (travel == render::Vec2f::Zero()) return;
-  if (doing_ == Doing::orbiting) controller_.orbit(travel.x(), travel.y());
-  if (doing_ == Doing::panning) controller_.pan(travel.x(), travel.y());
-  if (doing_ == Doing::probing) out.emplace_back(probe_at(at));
-  if (doing_ == Doing::cutting) cut(at, frame, surface_mesh, out);
-  if (doing_ == Doing::grasping) {
-    const Vec3f point = controller_.drag(at, held_point_);
+  if (interaction_ == Interaction::orbiting) controller_.orbit(travel.x(), travel.y());
+  if (interaction_ == Interaction::panning) controller_.pan(travel.x(), travel.y());
+  if (interaction_ == Interaction::probing) out.emplace_back(probe_at(at));
+  if (interaction_ == Interaction::cutting) cut(at, frame, surface_mesh, out);
+  if (interaction_ == Interaction::grasping) {
+    const Vec3f point = controller_.drag(at, anchor_);
     out.emplace_back(MoveTool{(point + node_offset_).cast<double>()});
   }
 }
@@ -166,15 +167,15 @@ void MouseTool::release(MouseButton button, std::vector<Command>& out) {
   if (button == button_) stop(out);
 }
 
-void MouseTool::let_go(std::vector<Command>& out) {
+void MouseTool::cancel(std::vector<Command>& out) {
   stop(out);
   first_end_.reset();
 }
 
 void MouseTool::stop(std::vector<Command>& out) {
-  if (doing_ == Doing::grasping) out.emplace_back(Release{});
-  if (doing_ == Doing::probing) out.emplace_back(WithdrawProbe{});
-  doing_ = Doing::nothing;
+  if (interaction_ == Interaction::grasping) out.emplace_back(Release{});
+  if (interaction_ == Interaction::probing) out.emplace_back(WithdrawProbe{});
+  interaction_ = Interaction::none;
 }
 
 }  // namespace heml::window

@@ -14,7 +14,7 @@ enum class MouseButton { left, right, middle };
 
 class MouseTool {
  public:
-  enum class Doing { nothing, grasping, cutting, probing, orbiting, panning };
+  enum class Interaction { none, grasping, cutting, probing, orbiting, panning };
 
   explicit MouseTool(panel::CameraController& controller) : controller_(controller) {}
 
@@ -30,13 +30,13 @@ class MouseTool {
   bool wheel(float notches, std::vector<Command>& out);
   void release(MouseButton button, std::vector<Command>& out);
   /// Ends what the mouse does, and forgets the first end of a suture.
-  void let_go(std::vector<Command>& out);
+  void cancel(std::vector<Command>& out);
 
-  Doing doing() const { return doing_; }
+  Interaction interaction() const { return interaction_; }
   /// The first end of an unfinished suture: mesh-file number of a node.
   std::optional<int> first_end() const { return first_end_; }
   /// The point of the surface under a pixel.
-  std::optional<render::Hit> under(const render::Vec2f& at, const Frame& frame, const SurfaceMesh& surface_mesh) const;
+  std::optional<render::Hit> pick(const render::Vec2f& at, const Frame& frame, const SurfaceMesh& surface_mesh) const;
 
  private:
   void stop(std::vector<Command>& out);
@@ -53,12 +53,12 @@ class MouseTool {
   std::array<Vec3, 2> blade_at(const render::Vec2f& at) const;
 
   panel::CameraController& controller_;
-  Doing doing_ = Doing::nothing;
-  MouseButton button_ = MouseButton::left;        // that began doing_
+  Interaction interaction_ = Interaction::none;
+  MouseButton button_ = MouseButton::left;        // that began interaction_
   render::Vec2f last_ = render::Vec2f::Zero();    // of the mouse, pixels
-  Vec3f held_point_ = Vec3f::Zero();              // m, of the surface, where the tool began
+  Vec3f anchor_ = Vec3f::Zero();                  // m, of the surface, where the tool began
   Vec3f node_offset_ = Vec3f::Zero();             // m, from there to the grasped node
-  double depth_ = 0;                              // m, of the blade below held_point_
+  double depth_ = 0;                              // m, of the blade below anchor_
   std::array<Vec3, 2> blade_;                     // m, end of the last cut
   render::Vec2f cut_to_ = render::Vec2f::Zero();  // the same, pixels
   panel::ToolSettings probe_;                     // of the active probe

@@ -8,7 +8,7 @@
 
 namespace heml::window {
 
-std::filesystem::path free_name(const std::string& name, const std::string& ending) {
+std::filesystem::path unused_path(const std::string& name, const std::string& ending) {
   std::string plain = name.empty() ? "body" : name;
   for (char& c : plain)
     if (!std::isalnum(static_cast<unsigned char>(c)) && c != '_' && c != '-') c = '-';
@@ -18,9 +18,9 @@ std::filesystem::path free_name(const std::string& name, const std::string& endi
   return path;
 }
 
-std::filesystem::path save_picture(const render::Image& picture, const std::string& name) {
-  const std::filesystem::path path = free_name(name, ".png");
-  render::write_png(path, picture);
+std::filesystem::path save_image(const render::Image& image, const std::string& name) {
+  const std::filesystem::path path = unused_path(name, ".png");
+  render::write_png(path, image);
   return path;
 }
 

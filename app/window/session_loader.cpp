@@ -53,8 +53,8 @@ OpenScene start(Scene scene, const std::optional<fs::path>& record, std::vector<
 }
 
 void SessionLoader::begin(const fs::path& path, const std::optional<fs::path>& record) {
-  if (under_way()) return;
-  goal_ = 0;
+  if (is_busy()) return;
+  target_tick_ = 0;
   cancelled_ = false;
   result_ = std::async(std::launch::async, [path, record] {
     const WakeAtEnd wake_at_end;
@@ -65,19 +65,19 @@ void SessionLoader::begin(const fs::path& path, const std::optional<fs::path>& r
 }
 
 void SessionLoader::resume(Scene scene, const std::optional<fs::path>& record, std::vector<std::string> comparisons) {
-  if (under_way()) return;
-  goal_ = std::max(1l, scene.recorded_ticks.value_or(0));
-  reached_ = 0;
+  if (is_busy()) return;
+  target_tick_ = std::max(1l, scene.recorded_ticks.value_or(0));
+  replayed_tick_ = 0;
   cancelled_ = false;
   result_ = std::async(std::launch::async,
                        [this, scene = std::move(scene), record, comparisons = std::move(comparisons)]() mutable {
                          const WakeAtEnd wake_at_end;
-                         return reach(std::move(scene), record, std::move(comparisons));
+                         return replay_to(std::move(scene), record, std::move(comparisons));
                        });
 }
 
-OpenScene SessionLoader::reach(Scene scene, const std::optional<fs::path>& record,
-                               std::vector<std::string> comparisons) {
+OpenScene SessionLoader::replay_to(Scene scene, const std::optional<fs::path>& record,
+                                   std::vector<std::string> comparisons) {
   std::optional<fs::path> file;
   if (record) file = next_recording(*record);
   if (file && !can_be_written(file->parent_path()) && !state_folder().empty()) {
@@ -93,7 +93,7 @@ OpenScene SessionLoader::reach(Scene scene, const std::optional<fs::path>& recor
   result.session = std::make_unique<Session>(result.scene, options);
   while (!cancelled_) {
     const Frame& frame = result.session->latest();
-    reached_ = frame.tick;
+    replayed_tick_ = frame.tick;
     if (frame.fast_forward_target == 0) break;
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
@@ -101,12 +101,12 @@ OpenScene SessionLoader::reach(Scene scene, const std::optional<fs::path>& recor
 }
 
 bool SessionLoader::is_ready() const {
-  return under_way() && result_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+  return is_busy() && result_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
 }
 
 std::optional<int> SessionLoader::progress() const {
-  if (!under_way() || goal_ == 0) return std::nullopt;
-  return static_cast<int>(100 * reached_ / goal_);
+  if (!is_busy() || target_tick_ == 0) return std::nullopt;
+  return static_cast<int>(100 * replayed_tick_ / target_tick_);
 }
 
 std::optional<std::variant<OpenScene, std::string>> SessionLoader::take() {

@@ -41,7 +41,7 @@ class SessionLoader {
   void resume(Scene scene, const std::optional<std::filesystem::path>& record,
               std::vector<std::string> comparisons = {});
 
-  bool under_way() const { return result_.valid(); }
+  bool is_busy() const { return result_.valid(); }
   bool is_ready() const;  ///< take() has an outcome
   /// Progress of a replay before resuming, %; none for a file.
   std::optional<int> progress() const;
@@ -51,12 +51,12 @@ class SessionLoader {
   std::optional<std::variant<OpenScene, std::string>> take();
 
  private:
-  OpenScene reach(Scene scene, const std::optional<std::filesystem::path>& record,
-                  std::vector<std::string> comparisons);
+  OpenScene replay_to(Scene scene, const std::optional<std::filesystem::path>& record,
+                      std::vector<std::string> comparisons);
 
   std::atomic<bool> cancelled_{false};
-  std::atomic<long> reached_{0};
-  long goal_ = 0;  ///< tick to resume at; 0: a file is opened
+  std::atomic<long> replayed_tick_{0};
+  long target_tick_ = 0;  ///< tick to resume at; 0: a file is opened
   std::future<OpenScene> result_;
 };
 

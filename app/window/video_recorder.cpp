@@ -28,7 +28,7 @@ const Codec codecs[] = {{".mp4", {"-c:v", "libx264", "-crf", "18", "-movflags", 
 
 }  // namespace
 
-VideoRecorder::VideoRecorder(const std::string& name, render::Size size) : folder_(free_name(name, "")), size_(size) {
+VideoRecorder::VideoRecorder(const std::string& name, render::Size size) : folder_(unused_path(name, "")), size_(size) {
   std::error_code failed;
   fs::create_directory(folder_, failed);
   if (failed)
@@ -48,14 +48,14 @@ bool VideoRecorder::due(double time) const {
   return queue_.size() < max_waiting && !outcome_;
 }
 
-void VideoRecorder::add_frame(render::Image picture, double time) {
+void VideoRecorder::add_frame(render::Image image, double time) {
   // After a long gap, or a step back in time, the frame follows the last one directly.
   if (next_ == 0 || time < last_ || time - last_ > max_gap) began_ = time - static_cast<double>(next_) / rate;
   last_ = time;
   const long number = std::max(next_, std::lround(std::floor((time - began_) * rate)));
   {
     std::lock_guard lock(mutex_);
-    queue_.push_back({number, next_ == 0 ? 0 : number - next_, std::move(picture)});
+    queue_.push_back({number, next_ == 0 ? 0 : number - next_, std::move(image)});
   }
   next_ = number + 1;
   wake_.notify_one();
@@ -103,13 +103,13 @@ void VideoRecorder::run() {
   GlfwWindow::wake();
 }
 
-void VideoRecorder::write(const Picture& picture) {
-  for (long k = picture.number - picture.repeats; k < picture.number; ++k) {
+void VideoRecorder::write(const QueuedFrame& frame) {
+  for (long k = frame.number - frame.repeats; k < frame.number; ++k) {
     std::error_code failed;
-    fs::create_hard_link(file(picture.number - picture.repeats - 1), file(k), failed);
-    if (failed) fs::copy_file(file(picture.number - picture.repeats - 1), file(k));
+    fs::create_hard_link(file(frame.number - frame.repeats - 1), file(k), failed);
+    if (failed) fs::copy_file(file(frame.number - frame.repeats - 1), file(k));
   }
-  render::write_png(file(picture.number), picture.image);
+  render::write_png(file(frame.number), frame.image);
 }
 
 std::string VideoRecorder::make_video() {

@@ -29,25 +29,25 @@ class VideoRecorder {
 
   /// Whether a frame at a time (s, simulated since the start) is due and there is room for it.
   bool due(double time) const;
-  void add_frame(render::Image picture, double time);
+  void add_frame(render::Image image, double time);
   void finish();  ///< no more frames; encodes the video
 
   bool is_finishing() const { return finishing_; }
-  long pictures() const { return next_; }
+  long frame_count() const { return next_; }
   render::Size size() const { return size_; }
   bool is_done() const;  ///< take_outcome() has a message
   /// A message about the finished or failed recording, once.
   std::optional<std::string> take_outcome();
 
  private:
-  struct Picture {
+  struct QueuedFrame {
     long number;
     long repeats;  ///< of the frame before, to write first
     render::Image image;
   };
 
   void run();
-  void write(const Picture& picture);
+  void write(const QueuedFrame& frame);
   std::filesystem::path file(long number) const;
   std::string make_video();
 
@@ -59,7 +59,7 @@ class VideoRecorder {
 
   mutable std::mutex mutex_;  ///< of queue_, ends_ and outcome_
   std::condition_variable wake_;
-  std::deque<Picture> queue_;
+  std::deque<QueuedFrame> queue_;
   bool ends_ = false;
   std::optional<std::string> outcome_;
   std::atomic<bool> leaving_{false};

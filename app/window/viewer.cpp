@@ -29,11 +29,11 @@ Viewer::~Viewer() { window_.send_events_to(nullptr); }
 
 void Viewer::adopt(OpenScene opened) {
   std::vector<Command> last;
-  mouse_tool_.let_go(last);
+  mouse_tool_.cancel(last);
   if (opened.resumed)
-    past_.resumed_at(*opened.resumed, opened.session->latest());
+    playback_.resumed_at(*opened.resumed, opened.session->latest());
   else
-    past_ = TimelinePlayback();
+    playback_ = TimelinePlayback();
   open_ = std::move(opened);
   if (!open_.resumed) as_opened_ = open_.scene;
   frame_ = &open_.session->latest();
@@ -49,23 +49,23 @@ void Viewer::fit() {
   const render::Size size = window_.size();
   controller_.fit(open_.scene.view, *frame_->surface_mesh, size,
                   panel_->insets({static_cast<float>(size.width), static_cast<float>(size.height)}),
-                  panel::bodies_of(*frame_));
+                  panel::body_count(*frame_));
 }
 
 bool Viewer::wants_drawing() const {
   return window_.visible() &&
-         (pictures_wanted_ > 0 || open_.session->frame_waiting() || panel_->animating() || past_.playing() ||
+         (frames_wanted_ > 0 || open_.session->frame_waiting() || panel_->animating() || playback_.playing() ||
           session_loader_.is_ready() || session_loader_.progress() != shown_progress_ || library_.is_ready() ||
           (video_recorder_ && video_recorder_->is_done()));
 }
 
 bool Viewer::is_busy() const {
-  return pictures_wanted_ > 0 || session_loader_.under_way() || library_.under_way() ||
+  return frames_wanted_ > 0 || session_loader_.is_busy() || library_.is_busy() ||
          (video_recorder_ && video_recorder_->is_finishing());
 }
 
 std::string Viewer::status() const {
-  const bool paused = past_.active() ? !past_.playing() : frame_->paused;
+  const bool paused = playback_.active() ? !playback_.playing() : frame_->paused;
   return fmt::format("frame {}, tick {}, {}, {}, key {}", drawn_, frame_->tick, paused ? "paused" : "running",
                      is_busy()                    ? "busy"
                      : paused && !wants_drawing() ? "still"
@@ -77,27 +77,27 @@ void Viewer::draw() {
   const auto now = std::chrono::steady_clock::now();
   const float seconds = drawn_ ? std::chrono::duration<float>(now - drawn_at_).count() : 1.0f / 60;
   drawn_at_ = now;
-  if (pictures_wanted_ > 0) --pictures_wanted_;
+  if (frames_wanted_ > 0) --frames_wanted_;
   take_opened();
   if (auto choices = library_.take()) panel_->set_choices(std::move(*choices));
   const Frame& live = open_.session->latest();
-  frame_ = &past_.select_frame(live, seconds, *open_.session);
+  frame_ = &playback_.select_frame(live, seconds, *open_.session);
   follow_script();
-  panel::Timeline timeline = past_.timeline(open_.scene, live);
-  timeline.returning = shown_progress_ = session_loader_.progress();
+  panel::Timeline timeline = playback_.timeline(open_.scene, live);
+  timeline.resume_progress = shown_progress_ = session_loader_.progress();
   panel_->set_timeline(timeline);
   for (std::size_t view = 0; view < panel::CameraController::views; ++view)
-    panel_->view().set_kept(view, controller_.has(view));
+    panel_->view().set_saved(view, controller_.has_view(view));
   panel_->update(*frame_, seconds);
   open_.session->enable_stretches(panel_->wants_stretches());
   open_.session->enable_errors(panel_->wants_errors());
   const render::Size size = window_.size();
   interface_.set_scale(panel::Interface::suitable_scale(size) * window_.content_scale());
   controller_.resize(size, panel_->insets({static_cast<float>(size.width), static_cast<float>(size.height)}),
-                     panel::bodies_of(*frame_));
+                     panel::body_count(*frame_));
   bodies_.draw(*frame_, controller_, panel_->drawing());
   draw_interface(seconds);
-  take_picture();
+  add_video_frame();
   std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(options_.draw_stall));
   window_.present();
   ++drawn_;
@@ -119,14 +119,15 @@ void Viewer::draw_marks() {
     if (panel_->shows_recovery()) draw_bad_element(body, controller_);
   });
   panel::draw_variant_labels(*frame_, controller_);
-  if (mouse_tool_.doing() == MouseTool::Doing::grasping) return ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeAll);
-  const bool free =
-      mouse_tool_.doing() == MouseTool::Doing::nothing && !ImGui::IsAnyItemActive() && ImGui::IsMousePosValid();
+  if (mouse_tool_.interaction() == MouseTool::Interaction::grasping)
+    return ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeAll);
+  const bool free = mouse_tool_.interaction() == MouseTool::Interaction::none && !ImGui::IsAnyItemActive() &&
+                    ImGui::IsMousePosValid();
   if (!free || panel_->covers(mouse_.x(), mouse_.y())) return;
-  if (const auto hit = mouse_tool_.under(mouse_, seen(), *seen().surface_mesh)) {
+  if (const auto hit = mouse_tool_.pick(mouse_, seen(), *seen().surface_mesh)) {
     if (const auto& range = panel_->drawing().range)
       draw_reading(*hit, seen(), *seen().surface_mesh, controller_, *range);
-    if (past_.active()) return;
+    if (playback_.active()) return;
     const panel::ToolSettings& tool = panel_->tool();
     const bool takes_patch = tool.tool == panel::Tool::grasper || tool.tool == panel::Tool::pin;
     draw_ring(*hit, seen(), *seen().surface_mesh, controller_,
@@ -146,16 +147,16 @@ void Viewer::follow_script() {
 void Viewer::take_opened() {
   auto result = session_loader_.take();
   if (!result) return;
-  if (auto* problem = std::get_if<std::string>(&*result)) return panel_->fail(*problem);
+  if (auto* problem = std::get_if<std::string>(&*result)) return panel_->show_error(*problem);
   OpenScene& opened = std::get<OpenScene>(*result);
-  const bool continues_stroke = opened.resumed && plays_on_;
+  const bool runs = opened.resumed && run_after_resume_;
   adopt(std::move(opened));
   if (!open_.resumed) return;
   if (open_.recording)
-    panel_->say("Resumed, recorded in " + open_.recording->string());
-  else if (past_.active() || open_.comparisons.empty())
-    panel_->say("Resumed");
-  if (continues_stroke) open_.session->play();
+    panel_->notify("Resumed, recorded in " + open_.recording->string());
+  else if (playback_.active() || open_.comparisons.empty())
+    panel_->notify("Resumed");
+  if (runs) open_.session->play();
 }
 
 void Viewer::post(std::vector<Command>& commands) {
@@ -169,9 +170,9 @@ void Viewer::key(int key, bool control, bool repeated) {
   const auto action = panel::action_of(key, control);
   if (!action) return;
   using enum panel::Action;
-  const bool chooses = *action == choose_previous || *action == choose_next;
-  const bool is_asked = panel_->asks() && (chooses || *action == open_chosen || *action == release);
-  const bool may_repeat = chooses || *action == step || *action == seek_earlier || *action == seek_later;
+  const bool chooses = *action == select_previous || *action == select_next;
+  const bool is_asked = panel_->is_modal() && (chooses || *action == open_selected || *action == release);
+  const bool may_repeat = chooses || *action == step || *action == seek_previous || *action == seek_next;
   const bool is_text = ImGui::GetIO().WantTextInput && !is_asked && *action != quit;
   if (is_text || (repeated && !may_repeat)) return;
   if (*action == quit) {  // not queued in the panel, which an opened scene may replace
@@ -189,14 +190,14 @@ void Viewer::button(MouseButton button, bool down, bool shift) {
     return post(commands);
   }
   if (panel_->covers(mouse_.x(), mouse_.y())) return;
-  if (past_.active() && button == MouseButton::left && mouse_tool_.under(mouse_, seen(), *seen().surface_mesh))
-    panel_->say(past_is_fixed);
+  if (playback_.active() && button == MouseButton::left && mouse_tool_.pick(mouse_, seen(), *seen().surface_mesh))
+    panel_->notify(past_is_read_only);
   const bool has_other_surface = controller_.current() > 0 && !seen().distance;  // with other node numbers
-  if (past_.active() || has_other_surface) return mouse_tool_.press_background(button, mouse_, shift);
+  if (playback_.active() || has_other_surface) return mouse_tool_.press_background(button, mouse_, shift);
   if (mouse_tool_.press(button, mouse_, shift, seen(), *seen().surface_mesh, panel_->tool(), commands))
-    panel_->say("These nodes are constrained by the scene; pick others.");
+    panel_->notify("These nodes are constrained by the scene; pick others.");
   post(commands);
-  if (button != MouseButton::left || mouse_tool_.doing() != MouseTool::Doing::orbiting) return;
+  if (button != MouseButton::left || mouse_tool_.interaction() != MouseTool::Interaction::orbiting) return;
   const auto now = std::chrono::steady_clock::now();
   const bool twice = now - pressed_at_ < double_click_time && (mouse_ - pressed_where_).norm() < double_click_distance;
   pressed_at_ = twice ? std::chrono::steady_clock::time_point{} : now;
@@ -207,7 +208,7 @@ void Viewer::button(MouseButton button, bool down, bool shift) {
 void Viewer::mouse(const render::Vec2f& at) {
   changed();
   mouse_ = at;
-  if (mouse_tool_.doing() == MouseTool::Doing::nothing) controller_.enter(at);
+  if (mouse_tool_.interaction() == MouseTool::Interaction::none) controller_.select_pane_at(at);
   std::vector<Command> commands;
   mouse_tool_.move(at, seen(), *seen().surface_mesh, commands);
   post(commands);

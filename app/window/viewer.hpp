@@ -41,11 +41,11 @@ class Viewer final : public WindowEvents {
   void mouse(const render::Vec2f& at) override;
   void wheel(float notches) override;
   void dropped(const std::filesystem::path& path) override;
-  void changed() override { pictures_wanted_ = settling_pictures; }
+  void changed() override { frames_wanted_ = settling_frames; }
 
  private:
-  static constexpr auto past_is_fixed = "Past frame: Resume (B) continues from here, Esc returns to live.";
-  static constexpr int settling_pictures = 3;  ///< that Dear ImGui may need after an input
+  static constexpr auto past_is_read_only = "Past frame: Resume (B) continues from here, Esc returns to live.";
+  static constexpr int settling_frames = 3;  ///< that Dear ImGui may need after an input
 
   bool is_busy() const;
   void adopt(OpenScene opened);
@@ -53,24 +53,24 @@ class Viewer final : public WindowEvents {
   void open(const std::filesystem::path& path);
   void list(const std::filesystem::path& folder);
   void resume();
-  void look(panel::Request where);
-  void to_the_present();
+  void seek(panel::Request where);
+  void go_live();
   void follow_script();
   void fit();
   void compare(const std::vector<std::string>& variants);
   void resume_with(const std::vector<std::string>& comparisons);
-  const Frame& seen() const { return panel::body_in(*frame_, controller_.current()); }  ///< in the current pane
+  const Frame& seen() const { return panel::frame_in_pane(*frame_, controller_.current()); }  ///< in the current pane
   void draw_interface(float seconds);
   void draw_marks();
   void carry_out(const panel::PanelActions& actions);
   void carry_out(panel::Request request);
   void post(std::vector<Command>& commands);
-  void let_go();
+  void release_tool();
   void remove_tissue();
   void save_screenshot();
   void save_scene();
-  void film();
-  void take_picture();
+  void toggle_recording();
+  void add_video_frame();
   void use_view(const panel::PanelActions& actions);
 
   GlfwWindow& window_;
@@ -83,7 +83,7 @@ class Viewer final : public WindowEvents {
   Library library_;
   OpenScene open_;
   Scene as_opened_;  ///< as read from the file, not resumed
-  TimelinePlayback past_;
+  TimelinePlayback playback_;
   std::optional<int> shown_progress_;              ///< of session_loader_, %
   std::unique_ptr<VideoRecorder> video_recorder_;  ///< while recording and encoding
   std::optional<panel::Panel> panel_;
@@ -93,11 +93,11 @@ class Viewer final : public WindowEvents {
   render::Vec2f mouse_{-1, -1};
   std::chrono::steady_clock::time_point drawn_at_{}, pressed_at_{};
   render::Vec2f pressed_where_{-1, -1};
-  int pictures_wanted_ = settling_pictures;
+  int frames_wanted_ = settling_frames;
   long drawn_ = 0;
   int last_key_ = 0;
-  bool listed_ = false;    ///< a folder, before
-  bool plays_on_ = false;  ///< the resumed session is to run
+  bool listed_ = false;            ///< a folder, before
+  bool run_after_resume_ = false;  ///< the resumed session is to run
   bool quits_ = false;
 };
 

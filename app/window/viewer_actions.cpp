@@ -1,7 +1,7 @@
 // Viewer: carries out the actions and requests of the panel.
 #include <fmt/format.h>
 
-#include <app/window/patch.hpp>
+#include <app/window/elements_around.hpp>
 #include <app/window/screenshot.hpp>
 #include <app/window/viewer.hpp>
 #include <heml/base/error.hpp>
@@ -10,9 +10,9 @@
 
 namespace heml::window {
 
-void Viewer::let_go() {
+void Viewer::release_tool() {
   std::vector<Command> commands;
-  mouse_tool_.let_go(commands);
+  mouse_tool_.cancel(commands);
   post(commands);
 }
 
@@ -20,45 +20,45 @@ void Viewer::carry_out(const panel::PanelActions& actions) {
   std::vector<Command> commands = actions.commands;
   if (!commands.empty()) {  // they apply to the live body
     if (session_loader_.progress()) session_loader_.cancel();
-    past_.end(*open_.session);
+    playback_.end(*open_.session);
   }
   // Releases the mouse tool before a reset: it would pull on the reset body.
   for (const Command& command : actions.commands)
-    if (std::holds_alternative<Reset>(command)) let_go();
+    if (std::holds_alternative<Reset>(command)) release_tool();
   post(commands);
   if (actions.show) open_.session->show(*actions.show);
   for (const panel::Request request : actions.requests) carry_out(request);
   if (actions.seek_to) {
-    let_go();
-    past_.look(*actions.seek_to, *open_.session);
+    release_tool();
+    playback_.seek(*actions.seek_to, *open_.session);
   }
   use_view(actions);
   if (actions.list_folder) list(*actions.list_folder);
   if (actions.open) open(*actions.open);
   if (actions.comparisons) compare(*actions.comparisons);
   if (!actions.commands.empty() || !actions.requests.empty() || actions.show || actions.seek_to ||
-      actions.list_folder || actions.open || actions.comparisons || actions.view || actions.keep_view)
+      actions.list_folder || actions.open || actions.comparisons || actions.view || actions.save_view)
     changed();
 }
 
 void Viewer::carry_out(panel::Request request) {
   switch (request) {
     case panel::Request::play:
-      return past_.active() ? past_.play(true) : open_.session->play();
+      return playback_.active() ? playback_.play(true) : open_.session->play();
     case panel::Request::pause:
-      return past_.active() ? past_.play(false) : open_.session->pause();
+      return playback_.active() ? playback_.play(false) : open_.session->pause();
     case panel::Request::step:
-      return past_.active() ? past_.step(1, *open_.session) : open_.session->step_once();
-    case panel::Request::earlier:
-    case panel::Request::later:
-    case panel::Request::first:
-      return look(request);
-    case panel::Request::now:
-      return to_the_present();
+      return playback_.active() ? playback_.step(1, *open_.session) : open_.session->step_once();
+    case panel::Request::previous_frame:
+    case panel::Request::next_frame:
+    case panel::Request::first_frame:
+      return seek(request);
+    case panel::Request::live:
+      return go_live();
     case panel::Request::resume:
       return resume();
-    case panel::Request::film:
-      return film();
+    case panel::Request::record_video:
+      return toggle_recording();
     case panel::Request::list:
       return list({});
     case panel::Request::fit:
@@ -68,7 +68,7 @@ void Viewer::carry_out(panel::Request request) {
     case panel::Request::save:
       return save_scene();
     case panel::Request::release:
-      return let_go();
+      return release_tool();
     case panel::Request::remove:
       return remove_tissue();
     case panel::Request::quit:
@@ -78,8 +78,8 @@ void Viewer::carry_out(panel::Request request) {
 }
 
 void Viewer::open(const std::filesystem::path& path) {
-  if (session_loader_.under_way()) return panel_->say("Another file is being opened.");
-  panel_->say("Opening " + path.filename().string() + " …");
+  if (session_loader_.is_busy()) return panel_->notify("Another file is being opened.");
+  panel_->notify("Opening " + path.filename().string() + " …");
   session_loader_.begin(path, options_.record);
 }
 
@@ -97,9 +97,9 @@ void Viewer::list(const std::filesystem::path& folder) {
 
 /// Resumes from the shown time in a new session; a recording goes on in a new file.
 void Viewer::resume() {
-  if (!past_.active()) return panel_->say("Show a past time first: drag the timeline, or press Left.");
-  if (session_loader_.under_way()) return panel_->say("Another session is being opened.");
-  plays_on_ = past_.ran();
+  if (!playback_.active()) return panel_->notify("Show a past time first: drag the timeline, or press Left.");
+  if (session_loader_.is_busy()) return panel_->notify("Another session is being opened.");
+  run_after_resume_ = playback_.was_running();
   resume_with(open_.comparisons);
 }
 
@@ -110,55 +110,56 @@ void Viewer::resume_with(const std::vector<std::string>& comparisons) {
   scene.view.wireframe = panel_->drawing().wireframe;
   std::optional<std::filesystem::path> record = options_.record;
   if (!record && open_.was_recorded) record = open_.scene.file;
-  past_.play(false);
+  playback_.play(false);
   session_loader_.resume(std::move(scene), record, comparisons);
 }
 
 /// Restarts the session with these comparison runs, replayed to the shown time.
 void Viewer::compare(const std::vector<std::string>& variants) {
-  if (session_loader_.under_way()) return panel_->say("Another session is being opened.");
-  plays_on_ = past_.active() ? past_.ran() : !frame_->paused;
+  if (session_loader_.is_busy()) return panel_->notify("Another session is being opened.");
+  run_after_resume_ = playback_.active() ? playback_.was_running() : !frame_->paused;
   resume_with(variants);
 }
 
-void Viewer::look(panel::Request where) {
-  let_go();
+void Viewer::seek(panel::Request where) {
+  release_tool();
   switch (where) {
-    case panel::Request::earlier:
-      return past_.step(-1, *open_.session);
-    case panel::Request::later:
-      return past_.step(1, *open_.session);
+    case panel::Request::previous_frame:
+      return playback_.step(-1, *open_.session);
+    case panel::Request::next_frame:
+      return playback_.step(1, *open_.session);
     default:
-      return past_.look(0, *open_.session);
+      return playback_.seek(0, *open_.session);
   }
 }
 
-void Viewer::to_the_present() {
+void Viewer::go_live() {
   if (session_loader_.progress()) return session_loader_.cancel();
-  past_.end(*open_.session);
+  playback_.end(*open_.session);
 }
 
 /// Removes the tissue under the mouse, else round the grasped node.
 void Viewer::remove_tissue() {
-  if (past_.active()) return panel_->say(past_is_fixed);
+  if (playback_.active()) return panel_->notify(past_is_read_only);
   const SurfaceMesh& surface_mesh = *seen().surface_mesh;
-  const bool points = mouse_tool_.doing() == MouseTool::Doing::nothing && !panel_->covers(mouse_.x(), mouse_.y());
-  const auto hit = points ? mouse_tool_.under(mouse_, seen(), surface_mesh) : std::nullopt;
+  const bool points =
+      mouse_tool_.interaction() == MouseTool::Interaction::none && !panel_->covers(mouse_.x(), mouse_.y());
+  const auto hit = points ? mouse_tool_.pick(mouse_, seen(), surface_mesh) : std::nullopt;
   const int node = hit                   ? surface_mesh.nodes[static_cast<std::size_t>(hit->node)]
                    : frame_->tool.active ? frame_->tool.node
                                          : -1;
   ElementSelection which;
   which.tets = elements_around(node, surface_mesh, panel_->tool().radius);
-  if (which.tets.empty()) return panel_->say("Point at the tissue to remove, or grasp it.");
+  if (which.tets.empty()) return panel_->notify("Point at the tissue to remove, or grasp it.");
   open_.session->post(RemoveElements{which});
 }
 
 void Viewer::save_screenshot() {
   try {
-    const auto path = save_picture(render::read_pixels(controller_.size()), open_.scene.name);
-    panel_->say("Saved " + path.string());
+    const auto path = save_image(render::read_pixels(controller_.size()), open_.scene.name);
+    panel_->notify("Saved " + path.string());
   } catch (const InputError& error) {
-    panel_->say(error.what());
+    panel_->notify(error.what());
   }
 }
 
@@ -169,48 +170,49 @@ void Viewer::save_scene() {
   scene.tables.clear();
   for (const TableState& state : tools_of<TableState>(frame_->tools)) scene.tables.push_back(state.table);
   try {
-    const auto path = free_name(scene.name, ".json");
+    const auto path = unused_path(scene.name, ".json");
     write_file(path, scene_text(scene, std::filesystem::current_path()));
-    panel_->say("Saved " + path.string());
+    panel_->notify("Saved " + path.string());
   } catch (const InputError& error) {
-    panel_->say(error.what());
+    panel_->notify(error.what());
   }
 }
 
-void Viewer::film() {
-  if (video_recorder_ && video_recorder_->is_finishing()) return panel_->say("The last video is still being encoded.");
+void Viewer::toggle_recording() {
+  if (video_recorder_ && video_recorder_->is_finishing())
+    return panel_->notify("The last video is still being encoded.");
   if (video_recorder_) return video_recorder_->finish();
   try {
     video_recorder_ = std::make_unique<VideoRecorder>(open_.scene.name, controller_.size());
-    panel_->say("Recording video; V stops.");
+    panel_->notify("Recording video; V stops.");
   } catch (const InputError& error) {
-    panel_->say(error.what());
+    panel_->notify(error.what());
   }
 }
 
 /// Adds the drawn image, panel included, to the video.
-void Viewer::take_picture() {
-  if (!video_recorder_) return panel_->view().set_filmed(std::nullopt);
+void Viewer::add_video_frame() {
+  if (!video_recorder_) return panel_->view().set_recorded_frames(std::nullopt);
   if (const auto outcome = video_recorder_->take_outcome()) {
     video_recorder_.reset();
-    return panel_->say(*outcome);
+    return panel_->notify(*outcome);
   }
-  panel_->view().set_filmed(video_recorder_->pictures());
+  panel_->view().set_recorded_frames(video_recorder_->frame_count());
   const double time = static_cast<double>(frame_->tick) / frame_->pace.rate;
-  if (past_.active() || !video_recorder_->due(time)) return;
+  if (playback_.active() || !video_recorder_->due(time)) return;
   if (video_recorder_->size() == controller_.size())
     return video_recorder_->add_frame(render::read_pixels(controller_.size()), time);
-  panel_->say("The window was resized: recording stopped.");
+  panel_->notify("The window was resized: recording stopped.");
   video_recorder_->finish();
 }
 
 void Viewer::use_view(const panel::PanelActions& actions) {
-  if (actions.keep_view) {
-    controller_.keep(*actions.keep_view);
-    panel_->say(fmt::format("View {} saved: F{} restores it.", *actions.keep_view + 1, *actions.keep_view + 5));
+  if (actions.save_view) {
+    controller_.save_view(*actions.save_view);
+    panel_->notify(fmt::format("View {} saved: F{} restores it.", *actions.save_view + 1, *actions.save_view + 5));
   }
-  if (actions.view && !controller_.go_to(*actions.view))
-    panel_->say(fmt::format("No view saved there: Ctrl+F{} saves one.", *actions.view + 5));
+  if (actions.view && !controller_.restore_view(*actions.view))
+    panel_->notify(fmt::format("No view saved there: Ctrl+F{} saves one.", *actions.view + 5));
 }
 
 }  // namespace heml::window

@@ -61,13 +61,13 @@ TEST_CASE("captured frames are those committed, and show the body") {
   }
 }
 
-TEST_CASE("the comparison can fail: a later frame differs by more than the limit") {
+TEST_CASE("a later frame differs from the committed one by more than the limit") {
   const TemporaryFolder folder;
   CHECK(render::rms_difference(captured(scene("kidney_pull"), 8, folder),
                                render::read_png(golden / "kidney_pull_5.png")) > limit);
 }
 
-TEST_CASE("a colour map brings its legend, at the bottom, the panel brings its columns") {
+TEST_CASE("a colour map adds a legend at the bottom and --panel adds the panel's columns") {
   const TemporaryFolder folder;
   const auto plain = captured(scene("irregular_cube"), 0, folder),
              with_panel = captured(scene("irregular_cube"), 0, folder, " --panel");
@@ -92,7 +92,7 @@ TEST_CASE("a colour map brings its legend, at the bottom, the panel brings its c
   CHECK(legend > 200);
 }
 
-TEST_CASE("beside the body stand the same body in other ways, each in its part of the picture") {
+TEST_CASE("each comparison run is drawn in its own pane of the frame") {
   const TemporaryFolder folder;
   const render::Image frame = captured(scene("kidney_pull"), 3, folder, " --beside ogden,tr_bdf2,float");
   REQUIRE(frame.size == render::Size{320, 180});

@@ -2,7 +2,7 @@
 
 #include "driver.hpp"
 
-namespace heml::eye_test {
+namespace heml::camera_controller_test {
 
 using namespace heml::test;
 
@@ -59,23 +59,23 @@ TEST_CASE("the wheel brings the body nearer") {
   CHECK(extent() > 1.15f * before);
 }
 
-TEST_CASE("a view that was kept is gone back to, whatever the picture has become") {
+TEST_CASE("a saved view is restored after the camera moved") {
   panel::CameraController controller;
   controller.fit({}, surface_mesh, size, {});
   controller.orbit(80, 20);
   const render::Vec2f before = controller.camera().pixel({0.1f, 0, 0}, size);
-  controller.keep(2);
+  controller.save_view(2);
   controller.orbit(-200, 50);
   controller.zoom(4);
-  CHECK_FALSE(controller.go_to(1));
+  CHECK_FALSE(controller.restore_view(1));
   CHECK((controller.camera().pixel({0.1f, 0, 0}, size) - before).norm() > 10);
-  CHECK(controller.go_to(2));
+  CHECK(controller.restore_view(2));
   CHECK((controller.camera().pixel({0.1f, 0, 0}, size) - before).norm() < 1e-3);
   controller.clear_views();
-  CHECK_FALSE(controller.has(2));
+  CHECK_FALSE(controller.has_view(2));
 }
 
-TEST_CASE("several bodies share what the panel leaves free, each in the middle of its part, all as large") {
+TEST_CASE("several bodies share the free area with equal size, each centred in its pane") {
   for (const std::size_t bodies : {2, 3, 4}) {
     CAPTURE(bodies);
     panel::CameraController controller;
@@ -86,7 +86,7 @@ TEST_CASE("several bodies share what the panel leaves free, each in the middle o
     int area = 0;
     float extent = 0;
     for (std::size_t pane = 0; pane < bodies; ++pane) {
-      controller.enter_pane(pane);
+      controller.select_pane(pane);
       const render::Vec2f at = controller.pixel(centre);
       CHECK(at.x() == doctest::Approx(200 + part * (static_cast<float>(pane % columns) + 0.5f)).epsilon(0.01));
       CHECK(at.y() == doctest::Approx(bodies == 4 ? 90 + 180 * static_cast<float>(pane / 2) : 180).epsilon(0.01));
@@ -98,12 +98,12 @@ TEST_CASE("several bodies share what the panel leaves free, each in the middle o
       const render::Ray ray = controller.ray(at);
       CHECK((centre - ray.origin).cross(ray.direction).norm() < 1e-4f);
       CHECK((controller.drag(at, centre) - centre).norm() < 1e-4f);
-      controller.enter_pane(0);
-      controller.enter(at);
+      controller.select_pane(0);
+      controller.select_pane_at(at);
       CHECK(controller.current() == pane);
     }
     CHECK(area == size.width * size.height);
   }
 }
 
-}  // namespace heml::eye_test
+}  // namespace heml::camera_controller_test

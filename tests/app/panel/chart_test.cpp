@@ -59,7 +59,7 @@ TEST_CASE("curves stay within the area, the right way up") {
   }
 }
 
-TEST_CASE("what is not finite is left out, and nothing at all is an empty chart") {
+TEST_CASE("points that are not finite are omitted and a chart without points is empty") {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinite = std::numeric_limits<double>::infinity();
   CHECK(drawn(chart_of({{1, nan}, {infinite, 2}})).empty());
   CHECK(drawn(chart_of({})).empty());
@@ -67,7 +67,7 @@ TEST_CASE("what is not finite is left out, and nothing at all is an empty chart"
   CHECK_FALSE(drawn(chart_of({{1, 0}, {1, 0}}, ChartMark::dots)).empty());  // no extent
 }
 
-TEST_CASE("a band is drawn where it meets the axis, cut to it") {
+TEST_CASE("a band is clipped to the axis") {
   Chart chart = chart_of({{1, 0}, {2, 1}});
   chart.band = {1.5, 9, ""};
   const auto corners = drawn(chart, light_chart.band);
@@ -77,7 +77,7 @@ TEST_CASE("a band is drawn where it meets the axis, cut to it") {
   CHECK(drawn(chart, light_chart.band).empty());
 }
 
-TEST_CASE("equal factors are equal lengths on logarithmic axes, and what has no logarithm is left out") {
+TEST_CASE("equal factors are equal lengths on logarithmic axes and points that are not positive are omitted") {
   Chart chart = chart_of({{0, 1}, {1, -1}, {1, 1e-15}, {1e3, 1e-9}, {1e6, 1e-3}}, ChartMark::dots);
   chart.logarithmic = true;
   chart.y_unit.clear();

@@ -93,7 +93,7 @@ class Driver {
       if (more.comparisons) all.comparisons = more.comparisons;
       if (more.seek_to) all.seek_to = more.seek_to;
       if (more.view) all.view = more.view;
-      if (more.keep_view) all.keep_view = more.keep_view;
+      if (more.save_view) all.save_view = more.save_view;
     }
     return all;
   }

@@ -35,7 +35,7 @@ TEST_CASE("history starts afresh after a reset") {
   CHECK(history.readings().front().energies.kinetic == 7);
 }
 
-TEST_CASE("history takes no force from a tool that holds nothing") {
+TEST_CASE("history records no force of an inactive tool") {
   History history;
   Frame frame = at(1);
   history.add(frame);
@@ -46,7 +46,7 @@ TEST_CASE("history takes no force from a tool that holds nothing") {
   CHECK(history.readings().back().force == 5);
 }
 
-TEST_CASE("history does not mind that somebody looks back") {
+TEST_CASE("history ignores frames of an earlier tick") {
   History history;
   Frame now = at(2), before = at(1);
   now.tick = 200;

@@ -6,7 +6,7 @@ namespace heml::legend_test {
 
 using panel::legend_range;
 
-TEST_CASE("a stretch is never shown below 0, a volume ratio only of what is turned inside out") {
+TEST_CASE("the legend starts at 0 for stretch and below 0 only for inverted volume ratios") {
   const render::Range wide{-1.5f, 3.5f};
   CHECK(legend_range(Field::stretch, wide, false).low == 0);
   CHECK(legend_range(Field::stretch, wide, true).low == 0);

@@ -60,7 +60,7 @@ TEST_CASE("dragging a slider sends the material with the new value, once a frame
   CHECK(engineering_constants({parameters[0], parameters[1]}).young > now.young);
 }
 
-TEST_CASE("a panel that nobody touches asks for nothing") {
+TEST_CASE("a panel without input returns no commands") {
   Driver driver;
   for (int k = 0; k < 30; ++k) {
     driver.frame.tick += 16;
@@ -86,7 +86,7 @@ TEST_CASE("switching the law keeps the moduli and the density") {
   CHECK_FALSE(material_problem(material));
 }
 
-TEST_CASE("choosing the law that is there sends nothing") {
+TEST_CASE("selecting the current law sends nothing") {
   Driver driver;
   CHECK(driver.choose("Law", "Neo-Hookean").commands.empty());
 }
@@ -120,7 +120,7 @@ TEST_CASE("a region's material is changed for that region") {
   CHECK(set.material.density > 1100);
 }
 
-TEST_CASE("what a script changed is what the panel goes on from") {
+TEST_CASE("the panel edits the material that a script has set") {
   Driver driver;
   driver.panel.sync(SetMaterial{std::nullopt, {"stvk", {3e4, 2e4}, 1200}});
   const ImVec2 at = driver.find("Density");
@@ -153,7 +153,7 @@ TEST_CASE("a slider typed into takes the number in the unit shown") {
   CHECK(engineering_constants({parameters[0], parameters[1]}).young == doctest::Approx(25e3));
 }
 
-TEST_CASE("a tissue brings its law and parameters, and keeps the density") {
+TEST_CASE("a tissue preset sets law and parameters and keeps the density") {
   Driver driver;
   const Preset& preset = *find_preset("liver_human");
   const Material material = material_of(driver.choose("Tissue", preset.title));
@@ -164,7 +164,7 @@ TEST_CASE("a tissue brings its law and parameters, and keeps the density") {
   CHECK(driver.choose("Tissue", preset.title).commands.empty());
 }
 
-TEST_CASE("a tissue with fibres keeps the direction that was there") {
+TEST_CASE("a tissue preset with fibres keeps the current fibre direction") {
   Material fibres = find_preset("myocardium_hgo")->material;
   fibres.fibre = Vec3::UnitZ();
   fibres.parameters[0] = 40;
@@ -190,7 +190,7 @@ TEST_CASE("terms of a sum have sliders of their own and can be added without cha
   CHECK(driver.click("Remove term").commands.empty());  // the last one stays
 }
 
-TEST_CASE("the fibre turns by its angle") {
+TEST_CASE("the azimuth slider turns the fibre") {
   Driver driver(scene_of(find_preset("myocardium_hgo")->material));
   const Material turned = material_of(drag(driver, "Fibre azimuth", 20));
   CHECK(turned.fibre.norm() == doctest::Approx(1));
@@ -198,7 +198,7 @@ TEST_CASE("the fibre turns by its angle") {
   CHECK(std::abs(turned.fibre.x() - 1) > 1e-3);
 }
 
-TEST_CASE("what comes from the mesh is named, not slid") {
+TEST_CASE("a parameter from a mesh field has no slider") {
   Material material;
   material.law = "neo_hookean";
   material.parameters = {4e3, 1e3};

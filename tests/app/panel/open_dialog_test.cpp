@@ -55,68 +55,68 @@ bool shows(Driver& driver, const std::string& title) {
 
 }  // namespace
 
-TEST_CASE("the open dialog shows scenes, recent files and a folder, and a press opens") {
+TEST_CASE("the open dialog lists scenes, recent files and a folder, and a click opens") {
   Driver driver;
-  CHECK_FALSE(driver.panel.asks());
+  CHECK_FALSE(driver.panel.is_modal());
   open(driver);
-  CHECK(driver.panel.asks());
+  CHECK(driver.panel.is_modal());
   CHECK(driver.panel.covers(640, 360));
   REQUIRE(shows(driver, "Cantilever"));
   const auto actions = driver.click();
   CHECK(actions.open == std::filesystem::path("/assets/beam.json"));
-  CHECK_FALSE(driver.panel.asks());
+  CHECK_FALSE(driver.panel.is_modal());
 }
 
-TEST_CASE("a folder is looked into, and a file that has gone is not opened") {
+TEST_CASE("a click lists a folder and does not open a missing file") {
   Driver driver;
   open(driver);
   REQUIRE(shows(driver, "gone.json"));
   CHECK_FALSE(driver.click().open);
-  CHECK(driver.panel.asks());
+  CHECK(driver.panel.is_modal());
   REQUIRE(shows(driver, ".."));
   const auto actions = driver.click();
   CHECK(actions.list_folder == std::filesystem::path("/scenes"));
   CHECK_FALSE(actions.open);
-  CHECK(driver.panel.asks());
+  CHECK(driver.panel.is_modal());
 }
 
-TEST_CASE("typing finds, arrows choose and Enter opens") {
+TEST_CASE("typing filters, arrows select and Enter opens") {
   Driver driver;
   open(driver);
   type(driver, "TURNS bar");
   CHECK(shows(driver, "Wrung by two turns"));
   CHECK_FALSE(shows(driver, "Cantilever"));
   driver.away();
-  CHECK(press(driver, Action::open_chosen).open == std::filesystem::path("/assets/twist.json"));
+  CHECK(press(driver, Action::open_selected).open == std::filesystem::path("/assets/twist.json"));
   open(driver);
-  press(driver, Action::choose_next);
-  press(driver, Action::choose_next);
-  CHECK(press(driver, Action::open_chosen).open == std::filesystem::path("/assets/beam.json"));
+  press(driver, Action::select_next);
+  press(driver, Action::select_next);
+  CHECK(press(driver, Action::open_selected).open == std::filesystem::path("/assets/beam.json"));
   open(driver);
   type(driver, "/data/x.msh");
-  CHECK(press(driver, Action::open_chosen).open == std::filesystem::path("/data/x.msh"));
+  CHECK(press(driver, Action::open_selected).open == std::filesystem::path("/data/x.msh"));
 }
 
-TEST_CASE("Esc closes the open dialog and lets go of nothing, other keys wait for it") {
+TEST_CASE("Esc closes the open dialog without releasing the tool and other keys are ignored meanwhile") {
   Driver driver;
   open(driver);
   driver.panel.perform(Action::toggle_play);
   CHECK(driver.draw().requests.empty());
   driver.panel.perform(Action::release);
   CHECK(driver.draw().requests.empty());
-  CHECK_FALSE(driver.panel.asks());
+  CHECK_FALSE(driver.panel.is_modal());
   CHECK_FALSE(driver.panel.covers(640, 360));
 }
 
-TEST_CASE("a press beside the open dialog closes it") {
+TEST_CASE("a click outside the open dialog closes it") {
   Driver driver;
   open(driver);
   driver.move({4, 400});
   CHECK_FALSE(driver.click().open);
-  CHECK_FALSE(driver.panel.asks());
+  CHECK_FALSE(driver.panel.is_modal());
 }
 
-TEST_CASE("a small picture shows the open dialog in one column that scrolls") {
+TEST_CASE("a small image shows the open dialog in one column that scrolls") {
   Driver driver(small_scene(), 640, 360, 0.72f);
   open(driver);
   driver.move({320, 200});

@@ -135,25 +135,25 @@ TEST_CASE("a gravity along no axis keeps its direction") {
   CHECK(g.y() / g.norm() == doctest::Approx(-0.8));
 }
 
-TEST_CASE("a view of the eye is kept by its first press and gone to by the next") {
+TEST_CASE("the first click on a view saves it and the next restores it") {
   Driver driver;
-  CHECK(driver.click("2", 180).keep_view == 1u);
-  driver.panel.view().set_kept(1, true);
+  CHECK(driver.click("2", 180).save_view == 1u);
+  driver.panel.view().set_saved(1, true);
   const auto again = driver.click("2", 180);
   CHECK(again.view == 1u);
-  CHECK_FALSE(again.keep_view);
-  CHECK(after(driver, Action::keep_view_4).keep_view == 3u);
+  CHECK_FALSE(again.save_view);
+  CHECK(after(driver, Action::save_view_4).save_view == 3u);
   CHECK(after(driver, Action::view_1).view == 0u);
 }
 
-TEST_CASE("the film button begins a film and ends it") {
+TEST_CASE("the video button starts and stops the recording") {
   Driver driver;
-  CHECK(driver.click("Record video", 245).requests == std::vector{Request::film});
-  driver.panel.view().set_filmed(12);
-  CHECK(driver.click("Stop recording", 245).requests == std::vector{Request::film});
+  CHECK(driver.click("Record video", 245).requests == std::vector{Request::record_video});
+  driver.panel.view().set_recorded_frames(12);
+  CHECK(driver.click("Stop recording", 245).requests == std::vector{Request::record_video});
 }
 
-TEST_CASE("errors and lateness are plotted where they are read") {
+TEST_CASE("the panel draws error and slowdown plots next to their values") {
   Driver driver;
   driver.frame.mesh_error = 0.1;
   driver.frame.time_error = TimeError{1e-4, 2e-4};
@@ -167,7 +167,7 @@ TEST_CASE("errors and lateness are plotted where they are read") {
   driver.find("Body volume", 1180);
 }
 
-TEST_CASE("the grasp radius is the panel's to tell") {
+TEST_CASE("the grasp radius is a setting of the panel") {
   Driver driver;
   const double before = driver.panel.tool().radius;
   CHECK(before > 0);
@@ -179,7 +179,7 @@ TEST_CASE("the grasp radius is the panel's to tell") {
   CHECK(driver.panel.tool().radius > before);
 }
 
-TEST_CASE("Del asks for the tissue under the ring to go, and what has gone is told") {
+TEST_CASE("Del requests the removal of tissue and the panel shows the number of removed elements") {
   Driver driver;
   driver.panel.perform(panel::Action::remove);
   CHECK(driver.draw().requests == std::vector{panel::Request::remove});
@@ -189,13 +189,13 @@ TEST_CASE("Del asks for the tissue under the ring to go, and what has gone is to
   driver.find("Removed", 1180);
 }
 
-TEST_CASE("another skin has its own nodes to watch") {
+TEST_CASE("the stretch monitor follows a new surface mesh") {
   Scene scene = small_scene();
   scene.materials = {{std::nullopt, find_preset("brain_ogden_swine")->material}};
   Driver driver(scene);
   driver.frame.stretches.assign(4, 2);
   driver.draw();
-  CHECK(driver.panel.drawing().beyond.size() == 4);
+  CHECK(driver.panel.drawing().hatched.size() == 4);
   SurfaceMesh smaller = small_surface();
   smaller.version = 1;
   smaller.nodes.pop_back();
@@ -206,10 +206,10 @@ TEST_CASE("another skin has its own nodes to watch") {
   driver.frame.positions = smaller.rest;
   driver.frame.stretches.assign(3, 2);
   driver.draw();
-  CHECK(driver.panel.drawing().beyond.size() == 3);
+  CHECK(driver.panel.drawing().hatched.size() == 3);
 }
 
-TEST_CASE("a stopped body is said with a way out") {
+TEST_CASE("a stopped body shows a banner with a reset button") {
   Driver driver;
   CHECK_FALSE(driver.panel.covers(640, 40));
   driver.frame.halted = "element 7 left the range of its law";
@@ -228,7 +228,7 @@ TEST_CASE("a stopped body is said with a way out") {
   CHECK(std::holds_alternative<Reset>(actions.commands.front()));
 }
 
-TEST_CASE("an engine that stays late is said, a moment of it is not") {
+TEST_CASE("a banner appears once the engine has been late for a second") {
   Driver driver;
   driver.frame.pace.keeping_up = false;
   driver.frame.pace.slowdown = 2.5;
@@ -241,9 +241,9 @@ TEST_CASE("an engine that stays late is said, a moment of it is not") {
   CHECK_FALSE(driver.panel.covers(640, 40));
 }
 
-TEST_CASE("a file that could not be opened is said until Esc") {
+TEST_CASE("the error of a file that cannot be opened stays until Esc") {
   Driver driver;
-  driver.panel.fail("liver.obj: line 3: no number");
+  driver.panel.show_error("liver.obj: line 3: no number");
   for (int k = 0; k < 300; ++k) driver.draw();
   CHECK(driver.panel.covers(640, 30));
   after(driver, Action::release);
@@ -251,16 +251,16 @@ TEST_CASE("a file that could not be opened is said until Esc") {
   CHECK_FALSE(driver.panel.covers(640, 30));
 }
 
-TEST_CASE("what is said in passing goes by itself") {
+TEST_CASE("a notice disappears by itself") {
   Driver driver;
-  driver.panel.say("Saved picture.png");
+  driver.panel.notify("Saved picture.png");
   driver.draw();
   CHECK(driver.panel.animating());
   for (int k = 0; k < 400; ++k) driver.draw();
   CHECK_FALSE(driver.panel.animating());
 }
 
-TEST_CASE("the mouse is on the panel over its columns alone, and nowhere when it is hidden") {
+TEST_CASE("the panel covers its columns alone and nothing when hidden") {
   Driver driver;
   CHECK(driver.panel.covers(100, 100));
   CHECK(driver.panel.covers(1200, 100));
@@ -271,7 +271,7 @@ TEST_CASE("the mouse is on the panel over its columns alone, and nowhere when it
   CHECK(driver.panel.insets({1280, 720}) == panel::Insets{});
 }
 
-TEST_CASE("an open choice keeps the mouse to itself") {
+TEST_CASE("an open choice captures the mouse") {
   Driver driver;
   driver.click("Law");
   CHECK(driver.panel.covers(640, 360));
@@ -280,7 +280,7 @@ TEST_CASE("an open choice keeps the mouse to itself") {
   CHECK_FALSE(driver.panel.covers(640, 360));
 }
 
-TEST_CASE("a small picture keeps most of its width for the body, and scrolls to every section") {
+TEST_CASE("in a small image the body keeps most of the width and the panel scrolls to every section") {
   Driver driver(small_scene(), 640, 360, 0.72f);
   const panel::Insets insets = driver.panel.insets({640, 360});
   CHECK(insets.right == 0);

@@ -47,7 +47,7 @@ TEST_CASE("without a timeline there is no bar") {
   CHECK(driver.panel.covers(640, bar_y));
 }
 
-TEST_CASE("the bar is dragged to what was seen at once, and to what lies ahead where the mouse lets go") {
+TEST_CASE("dragging the bar seeks past frames at once and later ticks on release") {
   Driver driver;
   driver.panel.set_timeline(half_way());
   const float past = place(driver, 0.3f), ahead = place(driver, 0.8f);
@@ -70,7 +70,7 @@ TEST_CASE("the bar is dragged to what was seen at once, and to what lies ahead w
   CHECK_FALSE(driver.draw().seek_to);
 }
 
-TEST_CASE("while one looks back there are ways on and back") {
+TEST_CASE("while a past frame is shown the bar has the buttons Resume and Live") {
   Driver driver;
   Timeline timeline = half_way();
   timeline.shown = 200;
@@ -84,20 +84,20 @@ TEST_CASE("while one looks back there are ways on and back") {
     return std::vector<Request>();
   };
   CHECK(press("Resume") == std::vector{Request::resume});
-  CHECK(press("Live") == std::vector{Request::now});
+  CHECK(press("Live") == std::vector{Request::live});
   driver.panel.perform(Action::release);
-  CHECK(driver.draw().requests == std::vector{Request::now});
+  CHECK(driver.draw().requests == std::vector{Request::live});
   driver.panel.set_timeline(half_way());
   driver.panel.perform(Action::release);
   CHECK(driver.draw().requests == std::vector{Request::release});
 }
 
-TEST_CASE("keys look earlier and later, at the start and at the present, and resume") {
+TEST_CASE("keys seek frames, the start and live, resume, and record a video") {
   Driver driver;
   for (const auto& [action, request] :
-       {std::pair(Action::seek_earlier, Request::earlier), std::pair(Action::seek_later, Request::later),
-        std::pair(Action::seek_start, Request::first), std::pair(Action::seek_now, Request::now),
-        std::pair(Action::resume, Request::resume), std::pair(Action::film, Request::film)}) {
+       {std::pair(Action::seek_previous, Request::previous_frame), std::pair(Action::seek_next, Request::next_frame),
+        std::pair(Action::seek_start, Request::first_frame), std::pair(Action::seek_live, Request::live),
+        std::pair(Action::resume, Request::resume), std::pair(Action::record_video, Request::record_video)}) {
     driver.panel.perform(action);
     CHECK(driver.draw().requests == std::vector{request});
   }

@@ -24,7 +24,7 @@ TEST_CASE("a corner of a cube encloses a sixth of it") {
   CHECK(enclosed_volume(surface_mesh, doubled) == doctest::Approx(8.0 / 6));
 }
 
-TEST_CASE("what is turned inside out counts negative, and nothing encloses nothing") {
+TEST_CASE("an inverted surface has negative volume and an empty one has none") {
   const SurfaceMesh surface_mesh = corner();
   std::vector<Vec3f> mirrored = surface_mesh.rest;
   for (Vec3f& x : mirrored) x.x() = -x.x();

@@ -8,19 +8,19 @@ namespace heml::ambient_occlusion_test {
 
 using namespace heml::render;
 
-TEST_CASE("a ball sees the whole sky everywhere") {
+TEST_CASE("a convex ball has no ambient occlusion") {
   const SurfaceMesh surface_mesh = ball_surface(2, 1);
   for (const float open : ambient_occlusion(surface_mesh, surface_mesh.rest, 0.7f)) CHECK(open == 1);
 }
 
-TEST_CASE("the inside of a closed ball sees nothing") {
+TEST_CASE("the inside of a closed ball is fully occluded") {
   const SurfaceMesh surface_mesh = ball_surface(2, 1);
   std::vector<Vec3f> inward;
   for (const Vec3f& node : surface_mesh.rest) inward.push_back(-node);
   for (const float open : ambient_occlusion(surface_mesh, inward, 3)) CHECK(open < 0.02f);
 }
 
-TEST_CASE("beside a wide wall half of the sky is hidden") {
+TEST_CASE("a wide wall occludes half of the hemisphere next to it") {
   // Nodes of a floor in the xz plane next to a wall in the xy plane. Half of the cosine-weighted directions about y
   // point to the side of the wall.
   SurfaceMesh surface_mesh;

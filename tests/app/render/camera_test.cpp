@@ -9,7 +9,7 @@ namespace heml::camera_test {
 
 using namespace heml::render;
 
-TEST_CASE("a fitted camera has the ball in the picture and not small") {
+TEST_CASE("a fitted camera shows the whole ball at a useful size") {
   for (const Size size : {Size{1280, 720}, Size{640, 640}, Size{300, 900}}) {
     const Vec3f centre(0.2f, -0.1f, 0.4f);
     const float radius = 0.07f;
@@ -51,7 +51,7 @@ TEST_CASE("dragging stays in the plane that faces the camera") {
   CHECK(pixel.y() == doctest::Approx(300).epsilon(1e-4));
 }
 
-TEST_CASE("turning keeps the distance and stops short of the poles") {
+TEST_CASE("orbiting keeps the distance and stops short of the poles") {
   Camera camera;
   camera.fit(Vec3f::Zero(), 1, {100, 100});
   const float distance = camera.eye().norm();

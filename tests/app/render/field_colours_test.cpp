@@ -34,7 +34,7 @@ TEST_CASE("the maps of stretch and J are neutral in the middle and cool below it
   }
 }
 
-TEST_CASE("ranges start at 0, or are symmetric about 1, and leave out what is not finite") {
+TEST_CASE("ranges start at 0 or are symmetric about 1 and omit values that are not finite") {
   const std::vector<float> values = {0.9f, 1.3f, std::numeric_limits<float>::quiet_NaN(), 1.0f};
   CHECK(natural_range(Field::von_mises, values) == Range{0, 1.3f});
   const Range stretch = natural_range(Field::stretch, values);

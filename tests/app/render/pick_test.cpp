@@ -32,7 +32,7 @@ TEST_CASE("the pixel of a node in front picks that node, on the deformed body") 
   CHECK(tried > 30);
 }
 
-TEST_CASE("a ray beside the body picks nothing, one through it the near side") {
+TEST_CASE("a ray past the body picks nothing and one through it the near side") {
   const SurfaceMesh surface_mesh = ball_surface(2, 1);
   const Frame frame = frame_at_rest(surface_mesh);
   CHECK_FALSE(pick(frame, surface_mesh, {Vec3f(0, 1.5f, 5), Vec3f(0, 0, -1)}));
@@ -42,7 +42,7 @@ TEST_CASE("a ray beside the body picks nothing, one through it the near side") {
   CHECK(hit->point.z() == doctest::Approx(std::sqrt(1 - 0.05)).epsilon(0.02));
 }
 
-TEST_CASE("a field is read between the nodes of what was hit, and only where there is one") {
+TEST_CASE("a field is interpolated between the nodes of the hit triangle if the frame has one") {
   const SurfaceMesh surface_mesh = ball_surface(2, 1);
   Frame frame = frame_at_rest(surface_mesh);
   const Ray ray{Vec3f(0.1f, 0.2f, 5), Vec3f(0, 0, -1)};

@@ -24,7 +24,7 @@ Image pattern() {
 
 }  // namespace
 
-TEST_CASE("a picture written as PNG reads back byte for byte") {
+TEST_CASE("an image written as PNG reads back byte for byte") {
   std::filesystem::create_directories(folder);
   const Image image = pattern();
   write_png(folder / "pattern.png", image);
@@ -34,7 +34,7 @@ TEST_CASE("a picture written as PNG reads back byte for byte") {
   CHECK(rms_difference(image, back) == 0);
 }
 
-TEST_CASE("the difference of pictures is a root mean square over channels") {
+TEST_CASE("the difference of images is a root mean square over channels") {
   Image a({10, 10}), b({10, 10});
   b.at(3, 4)[1] = 30;
   CHECK(rms_difference(a, b) == doctest::Approx(std::sqrt(900.0 / 300)));
@@ -53,7 +53,7 @@ TEST_CASE("refuses files that are missing, not PNG, or cut short") {
   CHECK_THROWS_AS(read_png(folder / "cut.png"), InputError);
 }
 
-TEST_CASE("refuses to write where no folder is") {
+TEST_CASE("refuses to write into a missing folder") {
   CHECK_THROWS_AS(write_png(folder / "no" / "such" / "place.png", pattern()), InputError);
 }
 

@@ -81,7 +81,7 @@ TEST_CASE("a drawn ball covers the pixels a ball covers") {
   CHECK(inside == 0);
 }
 
-TEST_CASE("the first picture has many colours and the body is red") {
+TEST_CASE("the first image has many colours and the body is red") {
   Stage stage;
   const Image image = stage.draw();
   std::set<std::array<int, 3>> colours;
@@ -124,7 +124,7 @@ TEST_CASE("a field colours the body by its values over the range") {
   CHECK(high.at(x, y)[1] > high.at(x, y)[2]);
 }
 
-TEST_CASE("edges, held nodes and the tool show when asked for") {
+TEST_CASE("edges, constrained nodes and the tool are drawn on request") {
   Stage stage;
   const Image plain = stage.draw();
   stage.options.wireframe = true;
@@ -144,7 +144,7 @@ TEST_CASE("edges, held nodes and the tool show when asked for") {
   CHECK(stage.draw().pixels == plain.pixels);
 }
 
-TEST_CASE("a skin that lost a piece is taken up with its frame, and the rest of the picture stays") {
+TEST_CASE("a surface mesh after a removal is drawn with its frame and the rest of the image stays") {
   Stage stage;
   stage.options.ground = false;
   const Image before = stage.draw();
@@ -167,11 +167,11 @@ TEST_CASE("a skin that lost a piece is taken up with its frame, and the rest of 
   CHECK(stage.draw().pixels == before.pixels);
 }
 
-TEST_CASE("what is beyond is hatched, on tissue and on a colour map, nothing else changes") {
+TEST_CASE("nodes above their limit are hatched on tissue and on a colour map, and nothing else changes") {
   Stage stage;
   stage.options.ground = false;
-  std::vector<float> beyond(stage.surface_mesh.rest.size());
-  for (std::size_t n = 0; n < beyond.size(); ++n) beyond[n] = stage.surface_mesh.rest[n].dot(stage.camera.right());
+  std::vector<float> excess(stage.surface_mesh.rest.size());
+  for (std::size_t n = 0; n < excess.size(); ++n) excess[n] = stage.surface_mesh.rest[n].dot(stage.camera.right());
   for (const bool field : {false, true}) {
     CAPTURE(field);
     if (field) {
@@ -179,9 +179,9 @@ TEST_CASE("what is beyond is hatched, on tissue and on a colour map, nothing els
       stage.frame.values.assign(stage.surface_mesh.rest.size(), 50);
       stage.options.range = Range{0, 100};
     }
-    stage.options.beyond = {};
+    stage.options.hatched = {};
     const Image plain = stage.draw();
-    stage.options.beyond = beyond;
+    stage.options.hatched = excess;
     const Image hatched = stage.draw();
     int left = 0, right = 0;
     for (int y = 0; y < size.height; ++y)
@@ -190,12 +190,12 @@ TEST_CASE("what is beyond is hatched, on tissue and on a colour map, nothing els
     const double half_disc = std::numbers::pi * stage.rim() * stage.rim() / 2;
     CHECK(right > 0.15 * half_disc);
     CHECK(right < 0.8 * half_disc);
-    stage.options.beyond = {};
+    stage.options.hatched = {};
     CHECK(stage.draw().pixels == plain.pixels);
   }
 }
 
-TEST_CASE("what a pixel shows is what it picks") {
+TEST_CASE("picking a pixel returns the drawn surface point") {
   Stage stage;
   stage.options.ground = false;
   const Image image = stage.draw();
@@ -215,7 +215,7 @@ TEST_CASE("what a pixel shows is what it picks") {
   CHECK(wrong == 0);
 }
 
-TEST_CASE("half resolution gives nearly the same picture") {
+TEST_CASE("half resolution gives nearly the same image") {
   Stage stage;
   const Image whole = stage.draw();
   stage.options.resolution = 0.5f;
@@ -224,7 +224,7 @@ TEST_CASE("half resolution gives nearly the same picture") {
   CHECK(difference < 8);
 }
 
-TEST_CASE("the ground gives way to a body that sinks") {
+TEST_CASE("the ground moves down with a sinking body") {
   Stage stage;
   const Image before = stage.draw();
   for (Vec3f& node : stage.frame.positions) node.y() -= 0.04f;
@@ -245,7 +245,7 @@ TEST_CASE("refuses a frame of another body") {
 TEST_CASE("refuses to hatch another body") {
   Stage stage;
   const float one = 1;
-  stage.options.beyond = std::span(&one, 1);
+  stage.options.hatched = std::span(&one, 1);
   CHECK_THROWS_AS(stage.draw(), std::invalid_argument);
 }
 

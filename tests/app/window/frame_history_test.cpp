@@ -2,7 +2,7 @@
 
 #include <app/window/frame_history.hpp>
 
-namespace heml::seen_frames_test {
+namespace heml::frame_history_test {
 
 using window::FrameHistory;
 
@@ -16,52 +16,52 @@ Frame at(long tick, long commands = 0) {
 }
 }  // namespace
 
-TEST_CASE("what was seen is found again by its tick") {
-  FrameHistory seen;
-  for (const long tick : {3l, 5l, 9l}) seen.add(at(tick));
-  REQUIRE(seen.frames().size() == 3);
-  CHECK(seen.place_of(0) == 0);
-  CHECK(seen.place_of(3) == 0);
-  CHECK(seen.place_of(8) == 1);
-  CHECK(seen.place_of(1000) == 2);
+TEST_CASE("frames are found by their tick") {
+  FrameHistory history;
+  for (const long tick : {3l, 5l, 9l}) history.add(at(tick));
+  REQUIRE(history.frames().size() == 3);
+  CHECK(history.index_at(0) == 0);
+  CHECK(history.index_at(3) == 0);
+  CHECK(history.index_at(8) == 1);
+  CHECK(history.index_at(1000) == 2);
 }
 
-TEST_CASE("a frame of the same tick replaces the last, one of the past is not taken") {
-  FrameHistory seen;
-  seen.add(at(4));
-  seen.add(at(7, 1));
-  seen.add(at(7, 2));
-  seen.add(at(5));
-  REQUIRE(seen.frames().size() == 2);
-  CHECK(seen.frames().back().commands == 2);
+TEST_CASE("a frame of the same tick replaces the last and an earlier one is ignored") {
+  FrameHistory history;
+  history.add(at(4));
+  history.add(at(7, 1));
+  history.add(at(7, 2));
+  history.add(at(5));
+  REQUIRE(history.frames().size() == 2);
+  CHECK(history.frames().back().commands == 2);
 }
 
-TEST_CASE("the room is never exceeded, and the whole session stays") {
+TEST_CASE("the memory limit is kept and the whole session stays covered") {
   constexpr std::size_t room = 100'000;
-  FrameHistory seen(room);
+  FrameHistory history(room);
   for (long tick = 0; tick < 20'000; ++tick) {
-    seen.add(at(tick));
-    CHECK_MESSAGE(seen.bytes() <= room, tick);
+    history.add(at(tick));
+    CHECK_MESSAGE(history.bytes() <= room, tick);
   }
-  CHECK(seen.bytes() > room / 4);
-  const auto& frames = seen.frames();
+  CHECK(history.bytes() > room / 4);
+  const auto& frames = history.frames();
   CHECK(frames.front().tick == 0);
   const long gap = 20'000 / std::ssize(frames);
   CHECK(frames.back().tick > 20'000 - 3 * gap);
   for (std::size_t k = 1; k < frames.size(); ++k) CHECK(frames[k].tick - frames[k - 1].tick <= 3 * gap);
 }
 
-TEST_CASE("what is later than a moment can be forgotten") {
-  FrameHistory seen;
-  for (long tick = 0; tick < 10; ++tick) seen.add(at(tick));
-  const std::size_t before = seen.bytes();
-  seen.cut_after(4);
-  CHECK(seen.frames().size() == 5);
-  CHECK(seen.frames().back().tick == 4);
-  CHECK(seen.bytes() == before / 2);
+TEST_CASE("frames after a tick are dropped") {
+  FrameHistory history;
+  for (long tick = 0; tick < 10; ++tick) history.add(at(tick));
+  const std::size_t before = history.bytes();
+  history.cut_after(4);
+  CHECK(history.frames().size() == 5);
+  CHECK(history.frames().back().tick == 4);
+  CHECK(history.bytes() == before / 2);
 }
 
-TEST_CASE("frames of one version share the newest skins, what is beside too where it is of the same way") {
+TEST_CASE("frames of one version share the newest surface mesh, and comparison runs of one variant too") {
   const auto surface_mesh = [](long version) {
     auto made = std::make_shared<SurfaceMesh>();
     made->version = version;
@@ -75,11 +75,11 @@ TEST_CASE("frames of one version share the newest skins, what is beside too wher
     frame.comparisons = {comparisons};
     return frame;
   };
-  FrameHistory seen;
-  for (const Frame& frame : {with(1, 0, "ogden"), with(2, 1, "ogden"), with(3, 1, "stvk")}) seen.add(frame);
+  FrameHistory history;
+  for (const Frame& frame : {with(1, 0, "ogden"), with(2, 1, "ogden"), with(3, 1, "stvk")}) history.add(frame);
   const Frame newest = with(9, 1, "ogden");
-  seen.share(newest);
-  const auto& frames = seen.frames();
+  history.share(newest);
+  const auto& frames = history.frames();
   CHECK(frames[0].surface_mesh != newest.surface_mesh);
   CHECK(frames[0].comparisons[0].surface_mesh != newest.comparisons[0].surface_mesh);
   for (const std::size_t k : {1, 2}) CHECK(frames[k].surface_mesh == newest.surface_mesh);
@@ -87,4 +87,4 @@ TEST_CASE("frames of one version share the newest skins, what is beside too wher
   CHECK(frames[2].comparisons[0].surface_mesh != newest.comparisons[0].surface_mesh);
 }
 
-}  // namespace heml::seen_frames_test
+}  // namespace heml::frame_history_test

@@ -31,7 +31,7 @@ struct Folder {
 
 }  // namespace
 
-TEST_CASE("every scene that comes with heml is offered with title, description and picture") {
+TEST_CASE("every installed scene is listed with title, description and thumbnail") {
   const Folder folder;
   const Listing listing = list_choices({}, true);
   CHECK(listing.choices.scenes.size() >= 14);
@@ -39,14 +39,14 @@ TEST_CASE("every scene that comes with heml is offered with title, description a
   for (const panel::OpenChoice& choice : listing.choices.scenes) {
     CAPTURE(choice.path.string());
     CHECK_FALSE(choice.title.empty());
-    CHECK_FALSE(choice.about.empty());
+    CHECK_FALSE(choice.description.empty());
     REQUIRE(listing.pictures.count(choice.path));
     const render::Size size = listing.pictures.at(choice.path).size;
     CHECK(size.width * 9 == size.height * 16);
   }
 }
 
-TEST_CASE("a folder shows the one above, folders, and files that can be opened") {
+TEST_CASE("a folder lists its parent, folders and files that can be opened") {
   const Folder folder;
   fs::create_directory(folder.path / "organs");
   for (const char* name : {"liver.obj", "beam.json", "notes.txt", "Beam.JSONL", ".hidden.json", "box.msh"})
@@ -58,18 +58,18 @@ TEST_CASE("a folder shows the one above, folders, and files that can be opened")
   CHECK(files[0].path == folder.path.parent_path());
   CHECK(files[1].is_folder);
   CHECK_FALSE(files[2].is_folder);
-  CHECK(files[2].about.starts_with("recording"));
-  CHECK(files[5].about.starts_with("surface"));
+  CHECK(files[2].description.starts_with("recording"));
+  CHECK(files[5].description.starts_with("surface"));
 }
 
-TEST_CASE("a folder that cannot be looked into says why") {
+TEST_CASE("a folder that cannot be read has a message") {
   const Folder folder;
   const auto choices = list_choices(folder.path / "nowhere", false).choices;
   CHECK_FALSE(choices.problem.empty());
   CHECK(choices.files.size() == 1);
 }
 
-TEST_CASE("what was opened last comes first, once, and what has gone is told") {
+TEST_CASE("recent files are listed once, latest first, and missing ones are marked") {
   const Folder folder;
   const fs::path a = fs::canonical(folder.write("a.json")), b = fs::canonical(folder.write("b.json"));
   remember_file(a);
@@ -79,8 +79,8 @@ TEST_CASE("what was opened last comes first, once, and what has gone is told") {
   fs::remove(b);
   const auto recent = list_choices({}, false).choices.recent;
   REQUIRE(recent.size() == 2);
-  CHECK(recent[0].is_there);
-  CHECK_FALSE(recent[1].is_there);
+  CHECK(recent[0].exists);
+  CHECK_FALSE(recent[1].exists);
   for (int k = 0; k < 40; ++k) remember_file(folder.path / ("c" + std::to_string(k)));
   CHECK(recent_files().size() == 20);
 }

@@ -2,7 +2,7 @@
 
 #include <app/window/mouse_tool.hpp>
 
-namespace heml::hand_test {
+namespace heml::mouse_tool_test {
 
 using namespace heml::window;
 
@@ -39,7 +39,7 @@ struct Sheet {
 
 }  // namespace
 
-TEST_CASE("the left button on the body takes its nearest node and pulls it in the plane that faces the eye") {
+TEST_CASE("the left button grasps the nearest node and moves it in the plane that faces the camera") {
   Sheet sheet;
   const Vec3f point(0.08f, -0.09f, 0);
   CHECK_FALSE(sheet.press(MouseButton::left, sheet.pixel(point)));
@@ -47,7 +47,7 @@ TEST_CASE("the left button on the body takes its nearest node and pulls it in th
   const Grasp grasp = std::get<Grasp>(sheet.commands[0]);
   CHECK(grasp.node == 21);
   CHECK(grasp.radius == 0.01);
-  CHECK(sheet.mouse_tool.doing() == MouseTool::Doing::grasping);
+  CHECK(sheet.mouse_tool.interaction() == MouseTool::Interaction::grasping);
 
   const Vec3f pulled = point + Vec3f(0.03f, 0.02f, 0);
   sheet.move(sheet.pixel(pulled));
@@ -59,16 +59,16 @@ TEST_CASE("the left button on the body takes its nearest node and pulls it in th
   sheet.mouse_tool.release(MouseButton::left, sheet.commands);
   REQUIRE(sheet.commands.size() == 3);
   CHECK(std::holds_alternative<Release>(sheet.commands[2]));
-  CHECK(sheet.mouse_tool.doing() == MouseTool::Doing::nothing);
+  CHECK(sheet.mouse_tool.interaction() == MouseTool::Interaction::none);
 }
 
-TEST_CASE("a scalpel cuts along the line of sight from where it was, and each press begins a stroke of its own") {
+TEST_CASE("a scalpel cuts along the line of sight and each press begins a stroke") {
   Sheet sheet;
   sheet.tool.tool = panel::Tool::scalpel;
   for (int stroke = 0; stroke < 2; ++stroke) {
     sheet.commands.clear();
     CHECK_FALSE(sheet.press(MouseButton::left, sheet.pixel({-0.05f, 0, 0})));
-    CHECK(sheet.mouse_tool.doing() == MouseTool::Doing::cutting);
+    CHECK(sheet.mouse_tool.interaction() == MouseTool::Interaction::cutting);
     CHECK(sheet.commands.empty());
     sheet.move(sheet.pixel({-0.0499f, 0, 0}));  // less than a stroke
     CHECK(sheet.commands.empty());
@@ -86,52 +86,52 @@ TEST_CASE("a scalpel cuts along the line of sight from where it was, and each pr
     CHECK((tip + at_surface * (end - tip) - Vec3(-0.05, 0, 0)).norm() < 1e-5);
     sheet.mouse_tool.release(MouseButton::left, sheet.commands);
     CHECK(sheet.commands.size() == 2);
-    CHECK(sheet.mouse_tool.doing() == MouseTool::Doing::nothing);
+    CHECK(sheet.mouse_tool.interaction() == MouseTool::Interaction::none);
   }
 }
 
-TEST_CASE("a held node is not taken, its free neighbour is") {
+TEST_CASE("a press on a constrained node grasps its free neighbour") {
   Sheet sheet;
   CHECK_FALSE(sheet.press(MouseButton::left, sheet.pixel({-0.09f, 0.09f, 0})));
   REQUIRE(sheet.commands.size() == 1);
   CHECK(std::get<Grasp>(sheet.commands[0]).node != 23);
 }
 
-TEST_CASE("where all is held nothing is taken and the hand says so") {
+TEST_CASE("a press where all nodes are constrained grasps nothing and is reported") {
   Sheet sheet;
   sheet.surface_mesh.constrained = {0, 1, 2, 3};
   CHECK(sheet.press(MouseButton::left, sheet.pixel({0, 0.01f, 0})));
   CHECK(sheet.commands.empty());
-  CHECK(sheet.mouse_tool.doing() == MouseTool::Doing::nothing);
+  CHECK(sheet.mouse_tool.interaction() == MouseTool::Interaction::none);
 }
 
-TEST_CASE("buttons beside the body turn and move the eye and send nothing") {
+TEST_CASE("buttons off the body orbit and pan the camera and send nothing") {
   Sheet sheet;
   const render::Vec2f beside(5, 5);
   struct Case {
     MouseButton button;
     bool shift;
-    MouseTool::Doing doing;
+    MouseTool::Interaction interaction;
   };
-  for (const auto& [button, shift, doing] : {Case{MouseButton::left, false, MouseTool::Doing::orbiting},
-                                             Case{MouseButton::right, false, MouseTool::Doing::orbiting},
-                                             Case{MouseButton::middle, false, MouseTool::Doing::panning},
-                                             Case{MouseButton::right, true, MouseTool::Doing::panning}}) {
+  for (const auto& [button, shift, interaction] : {Case{MouseButton::left, false, MouseTool::Interaction::orbiting},
+                                                   Case{MouseButton::right, false, MouseTool::Interaction::orbiting},
+                                                   Case{MouseButton::middle, false, MouseTool::Interaction::panning},
+                                                   Case{MouseButton::right, true, MouseTool::Interaction::panning}}) {
     const Vec3f eye = sheet.controller.camera().eye();
     sheet.press(button, beside, shift);
-    CHECK(sheet.mouse_tool.doing() == doing);
+    CHECK(sheet.mouse_tool.interaction() == interaction);
     sheet.move({25, 15});
     CHECK((sheet.controller.camera().eye() - eye).norm() > 1e-3f);
     sheet.mouse_tool.release(button, sheet.commands);
-    CHECK(sheet.mouse_tool.doing() == MouseTool::Doing::nothing);
+    CHECK(sheet.mouse_tool.interaction() == MouseTool::Interaction::none);
   }
   CHECK(sheet.commands.empty());
 }
 
-TEST_CASE("the right button on the body turns the eye") {
+TEST_CASE("the right button on the body orbits the camera") {
   Sheet sheet;
   sheet.press(MouseButton::right, sheet.pixel({0, 0, 0}));
-  CHECK(sheet.mouse_tool.doing() == MouseTool::Doing::orbiting);
+  CHECK(sheet.mouse_tool.interaction() == MouseTool::Interaction::orbiting);
   CHECK(sheet.commands.empty());
 }
 
@@ -141,12 +141,12 @@ TEST_CASE("another button does not end a grasp, and a resting mouse sends nothin
   sheet.press(MouseButton::left, at);
   sheet.press(MouseButton::middle, at);
   sheet.mouse_tool.release(MouseButton::middle, sheet.commands);
-  CHECK(sheet.mouse_tool.doing() == MouseTool::Doing::grasping);
+  CHECK(sheet.mouse_tool.interaction() == MouseTool::Interaction::grasping);
   sheet.move(at);
   CHECK(sheet.commands.size() == 1);
 }
 
-TEST_CASE("a pin is set where the body is pressed, and taken out where it is") {
+TEST_CASE("a press sets a pin and a press on a pin removes it") {
   Sheet sheet;
   sheet.tool.tool = panel::Tool::pin;
   const render::Vec2f at = sheet.pixel(Vec3f(0.08f, -0.09f, 0));
@@ -154,18 +154,18 @@ TEST_CASE("a pin is set where the body is pressed, and taken out where it is") {
   REQUIRE(sheet.commands.size() == 1);
   CHECK(std::get<PinTissue>(sheet.commands[0]).node == 21);
   CHECK(std::get<PinTissue>(sheet.commands[0]).radius == 0.01);
-  CHECK(sheet.mouse_tool.doing() == MouseTool::Doing::nothing);
+  CHECK(sheet.mouse_tool.interaction() == MouseTool::Interaction::none);
   sheet.frame.tools.push_back(PinState{.node = 20, .nodes = {20, 21}});
   sheet.press(MouseButton::left, at);
   REQUIRE(sheet.commands.size() == 2);
   CHECK(std::get<Unpin>(sheet.commands[1]).node == 21);
 }
 
-TEST_CASE("a probe comes along the line of sight, goes deeper by the wheel, and leaves with the button") {
+TEST_CASE("a probe moves in along the line of sight, deeper by the wheel, and withdraws on release") {
   Sheet sheet;
   sheet.tool.tool = panel::Tool::probe;
   sheet.tool.probe_radius = 0.005;
-  sheet.tool.dent = 0.01;
+  sheet.tool.indentation = 0.01;
   sheet.tool.shaft = 0.1;
   sheet.tool.friction = 0.4;
   const render::Vec2f middle = sheet.pixel(Vec3f::Zero());
@@ -189,7 +189,7 @@ TEST_CASE("a probe comes along the line of sight, goes deeper by the wheel, and 
   CHECK(std::holds_alternative<WithdrawProbe>(sheet.commands.back()));
 }
 
-TEST_CASE("a suture takes two presses, one an end") {
+TEST_CASE("a suture takes two presses, one per end") {
   Sheet sheet;
   sheet.tool.tool = panel::Tool::suture;
   sheet.press(MouseButton::left, sheet.pixel(Vec3f(0.08f, -0.09f, 0)));
@@ -201,4 +201,4 @@ TEST_CASE("a suture takes two presses, one an end") {
   CHECK_FALSE(sheet.mouse_tool.first_end());
 }
 
-}  // namespace heml::hand_test
+}  // namespace heml::mouse_tool_test

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <thread>
 
-namespace heml::filming_test {
+namespace heml::video_recorder_test {
 
 using window::VideoRecorder;
 namespace fs = std::filesystem;
@@ -20,7 +20,7 @@ struct Workplace {
   fs::path before = fs::current_path(), path;
   std::string search = std::getenv("PATH");
   Workplace() {
-    std::string name = (fs::temp_directory_path() / "heml-filming-XXXXXX").string();
+    std::string name = (fs::temp_directory_path() / "heml-recorder-XXXXXX").string();
     REQUIRE(mkdtemp(name.data()));
     path = name;
     fs::current_path(path);
@@ -56,35 +56,35 @@ render::Image grey(int level) {
 }
 
 /// As the window does: adds a frame once it is due.
-void film(VideoRecorder& filming, double time, int level) {
-  for (int wait = 0; wait < 400 && filming.pictures() > 0 && !filming.due(time); ++wait)
+void record(VideoRecorder& recorder, double time, int level) {
+  for (int wait = 0; wait < 400 && recorder.frame_count() > 0 && !recorder.due(time); ++wait)
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  filming.add_frame(grey(level), time);
+  recorder.add_frame(grey(level), time);
 }
 
-std::string outcome_of(VideoRecorder& filming) {
-  filming.finish();
+std::string outcome_of(VideoRecorder& recorder) {
+  recorder.finish();
   for (int wait = 0; wait < 3000; ++wait) {
-    if (const auto outcome = filming.take_outcome()) return *outcome;
+    if (const auto outcome = recorder.take_outcome()) return *outcome;
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
-  return "nothing came of it";
+  return "no outcome";
 }
 
 }  // namespace
 
-TEST_CASE("pictures are even in simulated time: what was too late stands for what was missed") {
+TEST_CASE("frames are evenly spaced in simulated time and a missed one repeats the frame before") {
   const Workplace workplace;
-  VideoRecorder filming("a body", {8, 6});
-  film(filming, 5.0, 10);
-  CHECK_FALSE(filming.due(5.02));
-  CHECK(filming.due(5.04));
-  film(filming, 5.04, 20);   // number 1
-  film(filming, 5.14, 30);   // number 4: 2 and 3 repeat 1
-  film(filming, 60.0, 40);   // a gap is cut out: number 5
-  film(filming, 1.0, 50);    // so is a step back: number 6
-  film(filming, 1.034, 60);  // number 7
-  const std::string outcome = outcome_of(filming);
+  VideoRecorder recorder("a body", {8, 6});
+  record(recorder, 5.0, 10);
+  CHECK_FALSE(recorder.due(5.02));
+  CHECK(recorder.due(5.04));
+  record(recorder, 5.04, 20);   // number 1
+  record(recorder, 5.14, 30);   // number 4: 2 and 3 repeat 1
+  record(recorder, 60.0, 40);   // a gap is cut out: number 5
+  record(recorder, 1.0, 50);    // so is a step back: number 6
+  record(recorder, 1.034, 60);  // number 7
+  const std::string outcome = outcome_of(recorder);
   CHECK(outcome.find("8 frames") != std::string::npos);
   CHECK(outcome.find("ffmpeg is not installed") != std::string::npos);
   std::vector<int> levels;
@@ -92,12 +92,12 @@ TEST_CASE("pictures are even in simulated time: what was too late stands for wha
   CHECK(levels == std::vector{10, 20, 20, 20, 30, 40, 50, 60});
 }
 
-TEST_CASE("a video is made of the pictures, by another codec where the first is refused") {
+TEST_CASE("the frames are encoded with the next codec if the first fails") {
   const Workplace workplace;
   workplace.install_ffmpeg();
-  VideoRecorder filming("body", {8, 6});
-  for (int k = 0; k < 5; ++k) film(filming, k / VideoRecorder::rate + 1e-4, 10 * k);
-  const std::string outcome = outcome_of(filming);
+  VideoRecorder recorder("body", {8, 6});
+  for (int k = 0; k < 5; ++k) record(recorder, k / VideoRecorder::rate + 1e-4, 10 * k);
+  const std::string outcome = outcome_of(recorder);
   CHECK(workplace.all(".png").size() == 5);
   CHECK(workplace.all(".mp4").empty());
   const auto videos = workplace.all(".webm");
@@ -109,18 +109,18 @@ TEST_CASE("a video is made of the pictures, by another codec where the first is 
   CHECK(words.find("/frame_%05d.png") != std::string::npos);
 }
 
-TEST_CASE("a film of nothing leaves nothing, and one that is left has all its pictures") {
+TEST_CASE("a recording without frames leaves no file and an abandoned one has all frames") {
   const Workplace workplace;
   {
-    VideoRecorder filming("body", {8, 6});
-    CHECK(outcome_of(filming).find("Nothing") != std::string::npos);
+    VideoRecorder recorder("body", {8, 6});
+    CHECK(outcome_of(recorder).find("Nothing") != std::string::npos);
   }
   CHECK(fs::is_empty(workplace.path));
   {
-    VideoRecorder filming("body", {8, 6});
-    for (int k = 0; k < 6; ++k) film(filming, k / VideoRecorder::rate + 1e-4, k);
+    VideoRecorder recorder("body", {8, 6});
+    for (int k = 0; k < 6; ++k) record(recorder, k / VideoRecorder::rate + 1e-4, k);
   }
   CHECK(workplace.all(".png").size() == 6);
 }
 
-}  // namespace heml::filming_test
+}  // namespace heml::video_recorder_test

@@ -1,10 +1,10 @@
 #include <doctest/doctest.h>
 
-#include <app/window/patch.hpp>
+#include <app/window/elements_around.hpp>
 #include <heml/mesh/generate.hpp>
 #include <heml/session/surface_mesh.hpp>
 
-namespace heml::patch_test {
+namespace heml::elements_around_test {
 
 using namespace heml::window;
 
@@ -44,4 +44,4 @@ TEST_CASE("the elements round a node are those it has on the surface, and those 
   CHECK(elements_around(corner, *next, 1).empty());
 }
 
-}  // namespace heml::patch_test
+}  // namespace heml::elements_around_test

@@ -1,5 +1,5 @@
 #include <algorithm>
-#include <app/window/patch.hpp>
+#include <app/window/elements_around.hpp>
 
 namespace heml::window {
 
