@@ -121,6 +121,7 @@ std::optional<std::variant<OpenScene, std::string>> SessionLoader::take() {
     }
     return std::nullopt;
   } catch (const std::exception& error) {
+    if (cancelled_) return std::nullopt;
     return std::string(error.what());
   }
 }

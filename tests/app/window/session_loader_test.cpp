@@ -117,4 +117,15 @@ TEST_CASE("a dropped file that is no scene gives a message and another file can 
   CHECK(recent_files() == std::vector{fs::canonical(folder.path / "box.json")});
 }
 
+TEST_CASE("a cancelled load that fails gives no message") {
+  const Folder folder;
+  window::SessionLoader loader;
+  loader.begin(folder.path / "missing.msh", std::nullopt);
+  loader.cancel();
+  for (int k = 0; k < 3000 && !loader.is_ready(); ++k) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  REQUIRE(loader.is_ready());
+  CHECK_FALSE(loader.take());
+  CHECK_FALSE(loader.is_busy());
+}
+
 }  // namespace heml::session_loader_test
