@@ -52,7 +52,7 @@ const Json* Results::find(const std::string& key) const {
 
 const Json& Results::add(const std::string& key, const Json& result) {
   const std::string line = json_text({{"key", key}, {"build", build_}, {"result", result}}, file_.string());
-  GrowingFile out(file_, GrowingFile::From::end);
+  AppendFile out(file_, AppendFile::OpenMode::append);
   out.write(line + '\n');
   out.close();
   return results_[key] = Json::parse(line)["result"];

@@ -1,5 +1,5 @@
+#include <heml/base/cpu_time.hpp>
 #include <heml/base/log.hpp>
-#include <heml/base/processor_time.hpp>
 #include <heml/base/thread_team.hpp>
 #include <system_error>
 #if defined(__SSE2__)
@@ -9,15 +9,16 @@
 namespace heml {
 namespace {
 
-constexpr std::size_t chunks_a_range = 4;                 // so that others can run most of a late thread's range
+constexpr std::size_t chunks_per_range = 4;               // so that others can run most of a late thread's range
 constexpr std::size_t chunk_alignment = 16;               // items; avoids false sharing of cache lines
 constexpr auto max_spin = std::chrono::microseconds(50);  // about the time it takes to wake a thread
-constexpr int looks_between_clocks = 32;
-constexpr int max_patience = 16;        // loops
-constexpr double loss_allowed = 0.02;   // net time lost to waiting, as a fraction of the caller's time
-constexpr double max_credit = 0.002;    // s
-constexpr double max_alone = 0.25;      // s; bounds the effect of a pause of the whole program, which looks like a loss
-constexpr double price_of_waiting = 3;  // weight of time waited: it also cools caches and keeps the core from others
+constexpr int spins_per_clock_check = 32;
+constexpr int max_spin_budget = 16;         // loops
+constexpr double max_loss_fraction = 0.02;  // net time lost to waiting, as a fraction of the caller's time
+constexpr double max_credit = 0.002;        // s
+constexpr double max_serial_time =
+    0.25;                             // s; bounds the effect of a pause of the whole program, which looks like a loss
+constexpr double waiting_weight = 3;  // weight of time waited: it also cools caches and keeps the core from others
 constexpr auto between_marks = std::chrono::milliseconds(1);  // shorter than a time slice of another program
 constexpr auto max_gap = std::chrono::microseconds(100);  // between loops; in a longer gap the caller may have slept
 
@@ -68,25 +69,25 @@ ThreadTeam::~ThreadTeam() {
 
 double ThreadTeam::worker_seconds() const {
   double sum = 0;
-  for (const auto& worker : workers_) sum += processor_seconds_of(worker->thread);
+  for (const auto& worker : workers_) sum += cpu_seconds_of(worker->thread);
   return sum;
 }
 
 void ThreadTeam::run(const Loop& loop) {
   const auto began = Clock::now();
-  if (began < alone_until_) return loop.call(loop.body, 0, loop.count);
-  if (began - last_end_ > max_gap) mark_ = {began, processor_seconds_of_thread()};
+  if (began < serial_until_) return loop.call(loop.body, 0, loop.count);
+  if (began - last_end_ > max_gap) mark_ = {began, cpu_seconds_of_thread()};
   open(loop);
   const std::size_t own_chunks = claim_chunks(0);
   const auto worked = Clock::now();
   close();
-  settle_account(began, worked, own_chunks);
+  update_credit(began, worked, own_chunks);
 }
 
 /// Sets up ranges and chunks, opens the loop to workers and wakes the sleeping ones.
 void ThreadTeam::open(const Loop& loop) {
   loop_ = loop;
-  chunk_ = 1 + (loop.count - 1) / (chunks_a_range * loop.threads);
+  chunk_ = 1 + (loop.count - 1) / (chunks_per_range * loop.threads);
   if (chunk_ > chunk_alignment) chunk_ = (chunk_ + chunk_alignment - 1) / chunk_alignment * chunk_alignment;
   chunks_ = (loop.count - 1) / chunk_ + 1;
   for (std::size_t r = 0; r < loop.threads; ++r) {
@@ -122,7 +123,7 @@ void ThreadTeam::close() {
   std::uint64_t gate = gate_.fetch_and(~open_bit, std::memory_order_acq_rel);
   const auto began = Clock::now();
   while (gate & inside_mask) {
-    for (int k = 0; k < looks_between_clocks && gate & inside_mask; ++k) {
+    for (int k = 0; k < spins_per_clock_check && gate & inside_mask; ++k) {
       relax();
       gate = gate_.load(std::memory_order_acquire);
     }
@@ -132,23 +133,23 @@ void ThreadTeam::close() {
 
 /// Workers save the time that their chunks would have taken the caller. They cost the time that the caller waits for
 /// them at the end, and the time that other programs run on its core while workers occupy the other cores. When
-/// credit_ is negative, the caller runs alone for long enough to keep the loss within loss_allowed.
-void ThreadTeam::settle_account(Clock::time_point began, Clock::time_point worked, std::size_t own_chunks) {
+/// credit_ is negative, the caller runs serially for long enough to keep the loss within max_loss_fraction.
+void ThreadTeam::update_credit(Clock::time_point began, Clock::time_point worked, std::size_t own_chunks) {
   last_end_ = Clock::now();
   double working = seconds(worked - began), lost = 0;
   if (last_end_ - mark_.wall > between_marks) {
-    const Mark now{last_end_, processor_seconds_of_thread()};
+    const Mark now{last_end_, cpu_seconds_of_thread()};
     lost = std::max(0.0, seconds(now.wall - mark_.wall) - (now.processor - mark_.processor));
     working = std::max(0.0, working - lost);
     mark_ = now;
   }
-  const double a_chunk = working / static_cast<double>(std::max<std::size_t>(own_chunks, 1));
-  const double saved = a_chunk * static_cast<double>(chunks_ - own_chunks);
+  const double seconds_per_chunk = working / static_cast<double>(std::max<std::size_t>(own_chunks, 1));
+  const double saved = seconds_per_chunk * static_cast<double>(chunks_ - own_chunks);
   const double waited = seconds(last_end_ - worked) + lost;
-  credit_ = std::min(credit_ + saved - price_of_waiting * waited, max_credit);
+  credit_ = std::min(credit_ + saved - waiting_weight * waited, max_credit);
   if (credit_ >= 0) return;
-  const std::chrono::duration<double> alone(std::min(-credit_ / loss_allowed, max_alone));
-  alone_until_ = last_end_ + std::chrono::duration_cast<Clock::duration>(alone);
+  const std::chrono::duration<double> serial_time(std::min(-credit_ / max_loss_fraction, max_serial_time));
+  serial_until_ = last_end_ + std::chrono::duration_cast<Clock::duration>(serial_time);
   credit_ = 0;
 }
 
@@ -174,7 +175,7 @@ bool ThreadTeam::enter(std::uint64_t gate) {
 }
 
 /// Waits for a loop that has a range for this worker, or for the stop bit, and returns the gate. Spins first if recent
-/// loops arrived within the spin time (patience), then sleeps.
+/// loops arrived within the spin time (spin_budget), then sleeps.
 std::uint64_t ThreadTeam::await_loop(Worker& self, std::size_t range, std::uint64_t last) const {
   const auto is_wanted = [&](std::uint64_t gate) {
     return gate & stop_bit || (gate & open_bit && loop_of(gate) != last && range < threads_of(gate));
@@ -182,22 +183,22 @@ std::uint64_t ThreadTeam::await_loop(Worker& self, std::size_t range, std::uint6
   for (;;) {
     const auto began = Clock::now();
     do {
-      for (int k = 0; k < looks_between_clocks; ++k) {
+      for (int k = 0; k < spins_per_clock_check; ++k) {
         const std::uint64_t gate = gate_.load(std::memory_order_acquire);
         if (is_wanted(gate)) {
-          self.patience = std::min(self.patience + 1, max_patience);
+          self.spin_budget = std::min(self.spin_budget + 1, max_spin_budget);
           return gate;
         }
         relax();
       }
-    } while (self.patience > 0 && Clock::now() - began < max_spin);
+    } while (self.spin_budget > 0 && Clock::now() - began < max_spin);
     self.asleep.store(1);  // sequentially consistent: either the caller sees this, or this worker sees its gate
     if (is_wanted(gate_.load()))
       self.asleep.store(0);
     else
       self.asleep.wait(1);
     const bool would_have_paid = Clock::now() - began < 2 * max_spin;
-    self.patience = would_have_paid ? max_patience : std::max(self.patience - 1, 0);
+    self.spin_budget = would_have_paid ? max_spin_budget : std::max(self.spin_budget - 1, 0);
   }
 }
 

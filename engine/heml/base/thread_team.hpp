@@ -10,7 +10,7 @@
 //
 // Workers spin for some microseconds before they sleep, since waking a sleeping thread takes longer than most loops.
 // The caller sums the time that workers save, less the time it waits for them and the time in which other programs
-// use its core. When the sum is negative, it runs loops alone for a while.
+// use its core. When the sum is negative, it runs loops serially for a while.
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -68,7 +68,7 @@ class ThreadTeam {
   struct alignas(64) Worker {
     std::thread thread;
     std::atomic<int> asleep{0};  ///< 1: waits to be woken
-    int patience = 0;            ///< grows with each loop that arrives while the worker spins; 0: sleeps at once
+    int spin_budget = 0;         ///< grows with each loop that arrives while the worker spins; 0: sleeps at once
   };
 
   void start_workers(std::size_t wanted);
@@ -76,7 +76,7 @@ class ThreadTeam {
   void open(const Loop& loop);
   std::size_t claim_chunks(std::size_t own);
   void close();
-  void settle_account(Clock::time_point began, Clock::time_point worked, std::size_t own_chunks);
+  void update_credit(Clock::time_point began, Clock::time_point worked, std::size_t own_chunks);
   static void wake(Worker& worker);
 
   void work(Worker& self, std::size_t range);
@@ -90,7 +90,7 @@ class ThreadTeam {
   std::size_t chunk_ = 1, chunks_ = 0;  ///< items per chunk; number of chunks
   std::uint64_t loops_ = 0;
   double credit_ = 0;  ///< time saved by workers less their cost, s
-  Clock::time_point alone_until_{}, last_end_{};
+  Clock::time_point serial_until_{}, last_end_{};
   struct Mark {
     Clock::time_point wall{};
     double processor = 0;  ///< CPU time of the caller, s

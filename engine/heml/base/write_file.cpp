@@ -62,25 +62,27 @@ fs::path without_links(const fs::path& path) {
 }
 
 /// A temporary name in the file's folder, so that a rename stays on one disk; unique to this process and call.
-fs::path part_of(const fs::path& path) {
+fs::path temporary_path(const fs::path& path) {
   static std::atomic<int> calls{0};
   return fmt::format("{}.{}-{}.part", path.string(), ::getpid(), calls++);
 }
 
-int open_part(const fs::path& part) { return ::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666); }
+int open_temporary(const fs::path& temporary) {
+  return ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+}
 
 /// Returns 0, or errno if an existing file must not be replaced.
-int why_protected(const fs::path& file) { return ::access(file.c_str(), W_OK) == 0 ? 0 : errno; }
+int replace_error(const fs::path& file) { return ::access(file.c_str(), W_OK) == 0 ? 0 : errno; }
 
-bool is_written_through(const struct stat& status) { return !S_ISREG(status.st_mode) || standard_stream(status); }
+bool is_written_directly(const struct stat& status) { return !S_ISREG(status.st_mode) || standard_stream(status); }
 
 /// Creates a temporary file in a folder and removes it; returns 0, or errno.
-int why_no_file_in(const fs::path& folder) {
-  const fs::path part = part_of(folder / "heml");
-  const int made = open_part(part);
+int create_error(const fs::path& folder) {
+  const fs::path temporary = temporary_path(folder / "heml");
+  const int made = open_temporary(temporary);
   if (made < 0) return errno;
   ::close(made);
-  ::unlink(part.c_str());
+  ::unlink(temporary.c_str());
   return 0;
 }
 
@@ -91,47 +93,47 @@ fs::path folder_of(const fs::path& file) { return file.has_parent_path() ? file.
 void write_file(const fs::path& path, std::string_view bytes) {
   const auto status = status_of(path);
   if (status && S_ISDIR(status->st_mode)) fail(path, EISDIR, "give the name of a file");
-  if (status && is_written_through(*status)) {
-    GrowingFile out(path, GrowingFile::From::end);
+  if (status && is_written_directly(*status)) {
+    AppendFile out(path, AppendFile::OpenMode::append);
     out.write(bytes);
     return out.close();
   }
-  const fs::path file = without_links(path), part = part_of(file);
+  const fs::path file = without_links(path), temporary = temporary_path(file);
   if (status)
-    if (const int error = why_protected(file)) fail(path, error, disk_remedy);
-  const int out = open_part(part);
+    if (const int error = replace_error(file)) fail(path, error, disk_remedy);
+  const int out = open_temporary(temporary);
   if (out < 0) fail(path, errno, disk_remedy);
   int error = write_all(out, bytes);
   if (!error && status && ::fchmod(out, status->st_mode & 07777) != 0) error = errno;
   const int at_end = close_for_good(out);
   if (!error) error = at_end;
-  if (!error) error = ::rename(part.c_str(), file.c_str()) ? errno : 0;
+  if (!error) error = ::rename(temporary.c_str(), file.c_str()) ? errno : 0;
   if (!error) return;
-  ::unlink(part.c_str());
+  ::unlink(temporary.c_str());
   fail(path, error, disk_remedy);
 }
 
-GrowingFile::GrowingFile(fs::path path, From from) : path_(std::move(path)) {
+AppendFile::AppendFile(fs::path path, OpenMode mode) : path_(std::move(path)) {
   const auto status = status_of(path_);
   if (const auto stream = status ? standard_stream(*status) : std::nullopt) {  // flush what was printed before
     std::fflush(*stream == STDOUT_FILENO ? stdout : stderr);
     descriptor_ = ::fcntl(*stream, F_DUPFD_CLOEXEC, 0);
   } else {
-    const int how = from == From::start && (!status || S_ISREG(status->st_mode)) ? O_TRUNC : 0;
+    const int how = mode == OpenMode::truncate && (!status || S_ISREG(status->st_mode)) ? O_TRUNC : 0;
     descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | how, 0666);
   }
   if (descriptor_ < 0) fail(path_, errno, disk_remedy);
 }
 
-GrowingFile::~GrowingFile() {
+AppendFile::~AppendFile() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-void GrowingFile::write(std::string_view bytes) {
+void AppendFile::write(std::string_view bytes) {
   if (const int error = write_all(descriptor_, bytes)) fail(path_, error, disk_remedy);
 }
 
-void GrowingFile::close() {
+void AppendFile::close() {
   if (const int error = close_for_good(std::exchange(descriptor_, -1))) fail(path_, error, disk_remedy);
 }
 
@@ -141,9 +143,9 @@ void expect_writable_file(const fs::path& path, std::string_view option) {
   const auto status = status_of(path);
   if (status && S_ISDIR(status->st_mode)) fail(path, EISDIR, "give the name of a file");
   if (status)
-    if (const int error = why_protected(path)) fail(path, error, remedy);
-  if (status && is_written_through(*status)) return;
-  if (const int error = why_no_file_in(folder_of(without_links(path)))) fail(path, error, remedy);
+    if (const int error = replace_error(path)) fail(path, error, remedy);
+  if (status && is_written_directly(*status)) return;
+  if (const int error = create_error(folder_of(without_links(path)))) fail(path, error, remedy);
 }
 
 void expect_writable_folder(const fs::path& path, std::string_view option) {
@@ -155,7 +157,7 @@ void expect_writable_folder(const fs::path& path, std::string_view option) {
   if (!status) there = ".";
   if (status && !S_ISDIR(status->st_mode))
     throw InputError(path.string(), "", fmt::format("cannot be made: '{}' is a file", there.string()), remedy);
-  if (const int error = why_no_file_in(there)) fail(path, error, remedy);
+  if (const int error = create_error(there)) fail(path, error, remedy);
 }
 
 void make_folder(const fs::path& path, std::string_view option) {

@@ -4,8 +4,8 @@
 //
 //   write_file("out/report.json")   out/report.json.4711-0.part ──(complete)──rename──► out/report.json
 //
-// Pipes, devices and standard streams are written directly. GrowingFile appends instead, for output that has to survive
-// a crash of the program.
+// Pipes, devices and standard streams are written directly. AppendFile writes at the end instead, for output that has
+// to survive a crash of the program.
 #include <filesystem>
 #include <string_view>
 
@@ -16,14 +16,14 @@ namespace heml {
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 
 /// An append-only file without buffering: a crash of the program loses nothing that was written.
-class GrowingFile {
+class AppendFile {
  public:
-  enum class From { start, end };  ///< truncate an existing file, or append to it
+  enum class OpenMode { truncate, append };  ///< of an existing file
   /// Throws InputError when it cannot be opened.
-  GrowingFile(std::filesystem::path path, From from);
-  ~GrowingFile();
-  GrowingFile(const GrowingFile&) = delete;
-  GrowingFile& operator=(const GrowingFile&) = delete;
+  AppendFile(std::filesystem::path path, OpenMode mode);
+  ~AppendFile();
+  AppendFile(const AppendFile&) = delete;
+  AppendFile& operator=(const AppendFile&) = delete;
 
   /// Throws InputError when not all bytes can be written; some of them may have been.
   void write(std::string_view bytes);

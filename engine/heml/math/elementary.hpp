@@ -45,10 +45,11 @@ template <class Bits, class V>
   return n * 0x1.62e4p-1f + (n * 0x1.7f7d1cp-20f + (2 * s + 2 * s * tail));
 }
 
-/// e^x = scale (1 + rest): scale is a power of two, |rest| < 0.42. Requires |x| small enough for `scale` to be normal.
+/// e^x = scale (1 + expm1): scale is a power of two, |expm1| < 0.42. Requires |x| small enough for `scale` to be
+/// normal.
 template <class V>
 struct Exponential {
-  V scale, rest;
+  V scale, expm1;
 };
 
 template <class Bits, class V>
@@ -57,7 +58,7 @@ template <class Bits, class V>
   const V shifted = x * 0x1.71547652b82fep+0 + 0x1.8p52;
   const V n = shifted - 0x1.8p52;
   const V r = (x - n * 0x1.62e42fefap-1) - n * 0x1.cf79abc9e3b3ap-40;
-  const V rest =
+  const V expm1 =
       r +
       r * r *
           (1.0 / 2 +
@@ -71,7 +72,7 @@ template <class Bits, class V>
                                                                                  r * (1.0 / 479001600 +
                                                                                       r * (1.0 / 6227020800))))))))))));
   const Bits power = (__builtin_bit_cast(Bits, shifted) + 1023ull) << 52;
-  return {__builtin_bit_cast(V, power), rest};
+  return {__builtin_bit_cast(V, power), expm1};
 }
 
 template <class Bits, class V>
@@ -79,11 +80,11 @@ template <class Bits, class V>
   const V shifted = x * 0x1.715476p+0f + 0x1.8p23f;
   const V n = shifted - 0x1.8p23f;
   const V r = (x - n * 0x1.62e4p-1f) - n * 0x1.7f7d1cp-20f;
-  const V rest =
+  const V expm1 =
       r +
       r * r * (1.0f / 2 + r * (1.0f / 6 + r * (1.0f / 24 + r * (1.0f / 120 + r * (1.0f / 720 + r * (1.0f / 5040))))));
   const Bits power = (__builtin_bit_cast(Bits, shifted) + 127u) << 23;
-  return {__builtin_bit_cast(V, power), rest};
+  return {__builtin_bit_cast(V, power), expm1};
 }
 }  // namespace detail
 
@@ -106,21 +107,21 @@ using UnsignedOf = std::conditional_t<sizeof(Real) == 4, std::uint32_t, std::uin
 /// e^x, within 2 ulp; infinite above max_exponent, 0 below its negative.
 template <class Real>
 requires std::numeric_limits<Real>::is_iec559 inline Real natural_exp(Real x) {
-  constexpr Real most = max_exponent<Real>;
-  const Real inside = x < most ? (x > -most ? x : -most) : most;
-  const auto [scale, rest] = detail::exponential<UnsignedOf<Real>>(inside, inside);
-  const Real value = scale + scale * rest;
-  return x > most ? std::numeric_limits<Real>::infinity() : (x < -most ? Real(0) : value);
+  constexpr Real max_value = max_exponent<Real>;
+  const Real inside = x < max_value ? (x > -max_value ? x : -max_value) : max_value;
+  const auto [scale, expm1] = detail::exponential<UnsignedOf<Real>>(inside, inside);
+  const Real value = scale + scale * expm1;
+  return x > max_value ? std::numeric_limits<Real>::infinity() : (x < -max_value ? Real(0) : value);
 }
 
 /// e^x − 1 without cancellation near 0.
 template <class Real>
 requires std::numeric_limits<Real>::is_iec559 inline Real natural_expm1(Real x) {
-  constexpr Real most = max_exponent<Real>;
-  const Real inside = x < most ? (x > -most ? x : -most) : most;
-  const auto [scale, rest] = detail::exponential<UnsignedOf<Real>>(inside, inside);
-  const Real value = scale * rest + (scale - 1);
-  return x > most ? std::numeric_limits<Real>::infinity() : value;
+  constexpr Real max_value = max_exponent<Real>;
+  const Real inside = x < max_value ? (x > -max_value ? x : -max_value) : max_value;
+  const auto [scale, expm1] = detail::exponential<UnsignedOf<Real>>(inside, inside);
+  const Real value = scale * expm1 + (scale - 1);
+  return x > max_value ? std::numeric_limits<Real>::infinity() : value;
 }
 
 /// x^s for x > 0.

@@ -81,20 +81,20 @@ struct Pack {
   }
   [[gnu::always_inline]] friend Pack natural_log(Pack a) { return Pack(detail::logarithm<Bits>(a.v, Real{})); }
   [[gnu::always_inline]] friend Pack natural_exp(Pack a) {
-    const Pack most = max_exponent<Real>;
-    const auto [scale, rest] = detail::exponential<Bits>(within(a, most).v, Real{});
-    return select(a > most, Pack(std::numeric_limits<Real>::infinity()),
-                  select(a < -most, Pack(0), Pack(scale + scale * rest)));
+    const Pack max_value = max_exponent<Real>;
+    const auto [scale, expm1] = detail::exponential<Bits>(within(a, max_value).v, Real{});
+    return select(a > max_value, Pack(std::numeric_limits<Real>::infinity()),
+                  select(a < -max_value, Pack(0), Pack(scale + scale * expm1)));
   }
   [[gnu::always_inline]] friend Pack natural_expm1(Pack a) {
-    const Pack most = max_exponent<Real>;
-    const auto [scale, rest] = detail::exponential<Bits>(within(a, most).v, Real{});
-    return select(a > most, Pack(std::numeric_limits<Real>::infinity()), Pack(scale * rest + (scale - Real(1))));
+    const Pack max_value = max_exponent<Real>;
+    const auto [scale, expm1] = detail::exponential<Bits>(within(a, max_value).v, Real{});
+    return select(a > max_value, Pack(std::numeric_limits<Real>::infinity()), Pack(scale * expm1 + (scale - Real(1))));
   }
 
  private:
-  [[gnu::always_inline]] static Pack within(Pack a, Pack most) {
-    return select(a < most, select(a > -most, a, -most), most);
+  [[gnu::always_inline]] static Pack within(Pack a, Pack max_value) {
+    return select(a < max_value, select(a > -max_value, a, -max_value), max_value);
   }
 };
 

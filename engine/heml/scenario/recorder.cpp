@@ -20,7 +20,7 @@ Recorder::Recorder(const std::filesystem::path& path, const Scene& scene, const 
   refuse_overwriting(input_files(scene), {path}, "--record");
   const std::filesystem::path folder = path.parent_path();
   const std::string first_line = scene_line(as_recorded(scene, world), folder.empty() ? "." : folder);
-  file_.emplace(path, GrowingFile::From::start);
+  file_.emplace(path, AppendFile::OpenMode::truncate);
   write(first_line);
   checkpoint(world);
 }

@@ -42,7 +42,7 @@ class Recorder {
   void write(const std::string& line);
   void checkpoint(const World& world);
 
-  std::optional<GrowingFile> file_;  ///< none once it ended
+  std::optional<AppendFile> file_;  ///< none once it ended
   long every_, checkpoints_ = 0, last_checkpoint_ = -1;
   long tick_ = 0;                  ///< the coming one
   std::uint64_t hash_ = 0;         ///< of the state before its commands

@@ -2,9 +2,9 @@
 
 #include <atomic>
 #include <condition_variable>
+#include <heml/base/cpu_time.hpp>
 #include <heml/base/error.hpp>
 #include <heml/base/log.hpp>
-#include <heml/base/processor_time.hpp>
 #include <heml/scenario/recorder.hpp>
 #include <heml/scenario/recovery_monitor.hpp>
 #include <heml/scenario/schedule.hpp>
@@ -252,9 +252,8 @@ class Session::Impl {
   void balance_threads() {
     const double wall = std::chrono::duration<double>(Pacer::Clock::now().time_since_epoch()).count();
     if (!balance_->is_due(wall)) return;
-    const double own = processor_seconds_of_thread() + world_->worker_seconds();
-    if (const auto threads = balance_->look(wall, processor_seconds_of_process() - own))
-      world_->limit_threads(*threads);
+    const double own = cpu_seconds_of_thread() + world_->worker_seconds();
+    if (const auto threads = balance_->look(wall, cpu_seconds_of_process() - own)) world_->limit_threads(*threads);
   }
 
   /// Turns choices made by the clock into commands. seconds: wall time of the tick without comparison runs.

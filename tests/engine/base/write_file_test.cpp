@@ -92,17 +92,17 @@ TEST_CASE("a file that grows replaces what was there or goes on after it, and sa
   const TemporaryFolder folder;
   const fs::path file = folder.file("lines", "old\n");
   {
-    GrowingFile lines(file, GrowingFile::From::end);
+    AppendFile lines(file, AppendFile::OpenMode::append);
     lines.write("new\n");
     CHECK(content(file) == "old\nnew\n");  // before close()
     lines.close();
   }
-  GrowingFile lines(file, GrowingFile::From::start);
+  AppendFile lines(file, AppendFile::OpenMode::truncate);
   lines.write("first\n");
   CHECK(content(file) == "first\n");
   const FullDisk disk(10);
   CHECK(refusal([&] { lines.write("and more than fits\n"); }).find(file.string() + ": cannot be written") == 0);
-  CHECK(refusal([&] { GrowingFile none(folder / "none/lines", GrowingFile::From::start); }) != "");
+  CHECK(refusal([&] { AppendFile none(folder / "none/lines", AppendFile::OpenMode::truncate); }) != "");
 }
 
 TEST_CASE("what cannot be written is known before, and asking leaves nothing behind") {

@@ -1,7 +1,7 @@
 #include <pthread.h>
 
 #include <ctime>
-#include <heml/base/processor_time.hpp>
+#include <heml/base/cpu_time.hpp>
 
 namespace heml {
 namespace {
@@ -14,11 +14,11 @@ double seconds_of(clockid_t clock) {
 
 }  // namespace
 
-double processor_seconds_of_thread() { return seconds_of(CLOCK_THREAD_CPUTIME_ID); }
-double processor_seconds_of(std::thread& thread) {
+double cpu_seconds_of_thread() { return seconds_of(CLOCK_THREAD_CPUTIME_ID); }
+double cpu_seconds_of(std::thread& thread) {
   clockid_t clock{};
   return pthread_getcpuclockid(thread.native_handle(), &clock) == 0 ? seconds_of(clock) : 0;
 }
-double processor_seconds_of_process() { return seconds_of(CLOCK_PROCESS_CPUTIME_ID); }
+double cpu_seconds_of_process() { return seconds_of(CLOCK_PROCESS_CPUTIME_ID); }
 
 }  // namespace heml
