@@ -102,7 +102,7 @@ StretchRange range_of(const BenchTestArguments& arguments, const MeasuredTest& t
 /// defined.
 struct CurveTable {
   std::vector<std::array<double, 5>> rows;
-  std::vector<double> missed;
+  std::vector<double> unreached;
 };
 
 CurveTable curve_of(const Material& material, const MeasuredTest& test, const std::vector<double>& amounts) {
@@ -110,7 +110,7 @@ CurveTable curve_of(const Material& material, const MeasuredTest& test, const st
   CurveTable table;
   if (const auto* step = std::get_if<Relaxation>(&test)) {
     const BenchCurve held = run_bench(*law, BenchTest::uniaxial, std::span(&step->stretch, 1));
-    if (!held.missed.empty()) return {{}, amounts};
+    if (!held.unreached.empty()) return {{}, amounts};
     const BenchPoint& p = held.points.front();
     for (const double time : amounts) {
       const double factor = relaxation_factor(material.relaxation, time);
@@ -120,7 +120,7 @@ CurveTable curve_of(const Material& material, const MeasuredTest& test, const st
   }
   const BenchCurve curve = run_bench(*law, std::get<BenchTest>(test), amounts);
   for (const BenchPoint& p : curve.points) table.rows.push_back({p.amount, p.nominal, p.cauchy, p.F(1, 1), p.F(2, 2)});
-  table.missed = curve.missed;
+  table.unreached = curve.unreached;
   return table;
 }
 
@@ -266,7 +266,7 @@ int bench_test(const BenchTestArguments& arguments) {
                                   range.high));
     return exit_not_solved;
   }
-  if (!curve.missed.empty())
+  if (!curve.unreached.empty())
     warn(
         "{}: the curve covers only {:.6g} to {:.6g}: outside the law is not defined, or the free faces have no "
         "equilibrium",

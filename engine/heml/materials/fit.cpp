@@ -62,9 +62,9 @@ std::vector<Variable> variables_of(const Material& material, const MeasuredTest&
 }
 
 /// The least-squares problem in the variables u = ln |value| where the sign is fixed, else value / scale.
-class Misfit {
+class LeastSquares {
  public:
-  Misfit(const Material& material, const MeasuredTest& test, const MeasuredCurve& data, const FitOptions& options)
+  LeastSquares(const Material& material, const MeasuredTest& test, const MeasuredCurve& data, const FitOptions& options)
       : material_(material), test_(test), data_(data), variables_(variables_of(material, test, options)) {
     const double modulus = small_strain_moduli(material).shear;
     for (const Variable& v : variables_)
@@ -132,15 +132,15 @@ class Misfit {
 };
 
 /// Final state of the iteration.
-struct Descent {
+struct FitIterate {
   Vector u, r;
   Matrix J;
   int iterations = 0;
   bool converged = false;
 };
 
-Descent descend(const Misfit& problem, const std::function<void(double)>& progress) {
-  Descent at{problem.start(), {}, {}};
+FitIterate levenberg_marquardt(const LeastSquares& problem, const std::function<void(double)>& progress) {
+  FitIterate at{problem.start(), {}, {}};
   at.r = *problem.residuals(at.u);
   double damping = 1e-3;
   for (; at.iterations < max_iterations && !at.converged; ++at.iterations) {
@@ -179,7 +179,7 @@ struct Certainty {
   std::vector<bool> open;
 };
 
-Certainty certainty(const Descent& end) {
+Certainty certainty(const FitIterate& end) {
   const Eigen::Index n = end.u.size(), surplus = end.r.size() - n;
   const double variance = surplus > 0 ? end.r.squaredNorm() / static_cast<double>(surplus) : 0;
   Vector norms = end.J.colwise().norm();
@@ -207,14 +207,14 @@ std::optional<std::vector<double>> nominal_stresses(const Material& material, co
   const auto law = make_material_point(material, false);
   if (const auto* step = std::get_if<Relaxation>(&test)) {
     const BenchCurve curve = run_bench(*law, BenchTest::uniaxial, std::span(&step->stretch, 1));
-    if (!curve.missed.empty()) return std::nullopt;
+    if (!curve.unreached.empty()) return std::nullopt;
     std::vector<double> stresses;
     for (const double time : amounts)
       stresses.push_back(relaxation_factor(material.relaxation, time) * curve.points.front().nominal);
     return stresses;
   }
   const BenchCurve curve = run_bench(*law, std::get<BenchTest>(test), amounts);
-  if (!curve.missed.empty()) return std::nullopt;
+  if (!curve.unreached.empty()) return std::nullopt;
   // The curve is sorted by amount, the data need not be.
   std::vector<std::size_t> order(amounts.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -239,8 +239,8 @@ std::string fit_problem(const Material& material, const MeasuredTest& test, cons
 
 FitResult fit_material(const Material& material, const MeasuredTest& test, const MeasuredCurve& data,
                        const FitOptions& options, const std::function<void(double)>& progress) {
-  const Misfit problem(material, test, data, options);
-  const Descent end = descend(problem, progress);
+  const LeastSquares problem(material, test, data, options);
+  const FitIterate end = levenberg_marquardt(problem, progress);
   const Certainty certain = certainty(end);
   FitResult fit;
   fit.material = problem.material(end.u);

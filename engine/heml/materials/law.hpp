@@ -54,7 +54,8 @@ struct ParameterInfo {
   std::string_view unit;     ///< "Pa", "" for a ratio
   std::string_view meaning;  ///< one line
   ParameterRange range = ParameterRange::any;
-  double start = 1;  ///< initial value when a material changes to this law (match_moduli.hpp then scales moduli)
+  double initial_value =
+      1;  ///< initial value when a material changes to this law (match_moduli.hpp then scales moduli)
   ParameterKind kind = ParameterKind::plain;
 
   constexpr bool is_list() const { return kind == ParameterKind::list; }

@@ -20,7 +20,7 @@ Material match_moduli(const Material& material, const LawInfo& from, const LawIn
   result.law = to.name;
   result.parameters.clear();
   result.fields.clear();
-  for (const ParameterInfo& info : to.parameters) result.parameters.push_back(info.start);
+  for (const ParameterInfo& info : to.parameters) result.parameters.push_back(info.initial_value);
   if (!to.has_fibre) {
     result.fibre = Vec3::Zero();
     result.fibre_field.clear();

@@ -92,7 +92,7 @@ std::optional<Problem> parameter_problem(const Material& material, const LawInfo
 }
 
 /// The first problem of fibre, volume term, viscosity, relaxation or plasticity.
-std::optional<Problem> beside_problem(const Material& material, const LawInfo& law) {
+std::optional<Problem> inelastic_problem(const Material& material, const LawInfo& law) {
   if (law.has_fibre && material.fibre_field.empty() && !(std::abs(material.fibre.norm() - 1) < 1e-9))
     return Problem{"fibre", "must be a direction of length 1"};
   const auto needs_split = [&](const char* key) {
@@ -159,7 +159,7 @@ std::optional<Problem> material_problem(const Material& material) {
     return Problem{"law",
                    fmt::format("'{}' takes {} parameters, got {} values", law->name, law->parameters.size(), given)};
   if (auto problem = parameter_problem(material, *law)) return problem;
-  if (auto problem = beside_problem(material, *law)) return problem;
+  if (auto problem = inelastic_problem(material, *law)) return problem;
   if (!(material.density > 0) || !std::isfinite(material.density))
     return Problem{"density", fmt::format("must be greater than 0 kg/m³, is {}", material.density)};
   return std::nullopt;

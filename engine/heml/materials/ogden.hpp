@@ -32,7 +32,7 @@ struct Ogden {
   std::size_t count = 0;
   Real steepness = 1;  ///< max |α/2 − 1| + 1
   Real kappa = 0;
-  Real upright = 0;  ///< coefficient of the quartic below J0, Pa
+  Real barrier_coefficient = 0;  ///< coefficient of the quartic below J0, Pa
   std::conditional_t<std::is_same_v<Real, Lane<Real>>, std::shared_ptr<const std::vector<Term>>, NoOwner> owner = {};
 
   static constexpr std::string_view name = "ogden";
@@ -71,7 +71,7 @@ struct Ogden {
       const Real high = s > 0 ? natural_exp(std::min(far / s, Real(80))) : std::numeric_limits<Real>::max();
       list->push_back({mu, alpha, low, high});
       // |h1| of the continued term at c̄ = 0, where the barrier is steepest.
-      if (continued && s < 0) law.upright += abs(mu / 2 * (2 - s) * power(low, s - 1));
+      if (continued && s < 0) law.barrier_coefficient += abs(mu / 2 * (2 - s) * power(low, s - 1));
       law.steepness = std::max(law.steepness, abs(s - 1) + 1);
     }
     law.terms = list->data();
@@ -84,17 +84,17 @@ struct Ogden {
   /// The same law for packs. It borrows the terms, so it must not outlive this law.
   template <class Pack>
   Ogden<Pack, continued> broadcast() const {
-    return {terms, count, steepness, kappa, upright};
+    return {terms, count, steepness, kappa, barrier_coefficient};
   }
 
   Mask<Real> valid(const Invariants<Real>& at) const {
     if constexpr (continued) return true;
     // Powers of the eigenvalues of C̄ must not overflow. Bounds from Ī1 and det C̄ = 1, since eigenvalues are not at
     // hand.
-    const Real p = volume_powers<continued>(at.J).p, most = p * at.I1, least = Real(4) / (p * p * at.I1 * at.I1);
+    const Real p = volume_powers<continued>(at.J).p, max_c = p * at.I1, min_c = Real(4) / (p * p * at.I1 * at.I1);
     const Mask<Real> has_volume = at.J > min_volume_ratio<Real> || at.J < -min_volume_ratio<Real>;
-    return has_volume && steepness * natural_log(most) < safe_exponent<Real> &&
-           -steepness * natural_log(least) < safe_exponent<Real>;
+    return has_volume && steepness * natural_log(max_c) < safe_exponent<Real> &&
+           -steepness * natural_log(min_c) < safe_exponent<Real>;
   }
 
   PrincipalDerivatives<Real> principal(Real c) const {
@@ -117,7 +117,7 @@ struct Ogden {
     VolumeDerivatives<Real> v{kappa / 2 * (J - 1) * (J - 1), kappa * (J - 1), kappa};
     if constexpr (continued) {
       constexpr Real J0 = continuation_start<Real>;
-      const Real d = select(J < J0, J0 - J, Real(0)), k = upright / (J0 * J0);
+      const Real d = select(J < J0, J0 - J, Real(0)), k = barrier_coefficient / (J0 * J0);
       v.w += k * d * d * d * d / 4, v.w1 -= k * d * d * d, v.w2 += 3 * k * d * d;
     }
     return v;

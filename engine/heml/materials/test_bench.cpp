@@ -38,9 +38,9 @@ Mat3 prescribed(BenchTest test, double amount, Mat3 F) {
 
 /// Solves P_ii = 0 on the free axes by Newton's method in logarithms of the stretches, with each step halved until the
 /// residual decreases. Returns nothing where the law is undefined or the method fails.
-class Balance {
+class FreeStretchSolver {
  public:
-  Balance(const MaterialPoint& law, BenchTest test) : law_(law), free_(free_axes(test)) {}
+  FreeStretchSolver(const MaterialPoint& law, BenchTest test) : law_(law), free_(free_axes(test)) {}
 
   std::optional<Mat3> operator()(Mat3 F) const {
     if (!law_.valid(F)) return std::nullopt;
@@ -54,15 +54,15 @@ class Balance {
       if (step.cwiseAbs().maxCoeff() < round_off) return stretched(F, step);
       const auto better = improved(F, r.norm(), step);
       // Round-off may keep the residual from decreasing before the step is that small.
-      if (!better) return r.norm() < balanced * S.norm() ? std::optional(F) : std::nullopt;
+      if (!better) return r.norm() < stress_tolerance * S.norm() ? std::optional(F) : std::nullopt;
       F = *better;
     }
     return std::nullopt;
   }
 
  private:
-  static constexpr double round_off = 1e-14;  // of the logarithm of a stretch
-  static constexpr double balanced = 1e-9;    // stress on a free face, relative to the stiffness there
+  static constexpr double round_off = 1e-14;        // of the logarithm of a stretch
+  static constexpr double stress_tolerance = 1e-9;  // stress on a free face, relative to the stiffness there
 
   /// λ_i P_ii = ∂W/∂(ln λ_i) on the free axes, 0 on the others. Pa.
   Vec3 residual(const Mat3& F, const Mat3& P) const {
@@ -102,16 +102,16 @@ class Balance {
 };
 
 /// Follows the free stretches from one amount to another, with as many steps as Newton's method needs.
-class Follower {
+class PathFollower {
  public:
-  Follower(const MaterialPoint& law, BenchTest test) : balance_(law, test), test_(test) {}
+  PathFollower(const MaterialPoint& law, BenchTest test) : solver_(law, test), test_(test) {}
 
-  std::optional<Mat3> at(double amount, Mat3 F) const { return balance_(prescribed(test_, amount, F)); }
+  std::optional<Mat3> at(double amount, Mat3 F) const { return solver_(prescribed(test_, amount, F)); }
 
   /// From F at amount `begin` to amount `end`; nothing if that cannot be reached.
   std::optional<Mat3> follow(Mat3 F, double begin, double end) const {
     double step = end - begin;
-    const double least = std::abs(step) * std::ldexp(1.0, -max_halvings);
+    const double min_step = std::abs(step) * std::ldexp(1.0, -max_halvings);
     while (begin != end) {
       const bool last = std::abs(end - begin) <= std::abs(step);
       const double next = last ? end : begin + step;
@@ -120,14 +120,14 @@ class Follower {
         begin = next;
       } else {
         step /= 2;
-        if (std::abs(step) < least) return std::nullopt;
+        if (std::abs(step) < min_step) return std::nullopt;
       }
     }
     return F;
   }
 
  private:
-  Balance balance_;
+  FreeStretchSolver solver_;
   BenchTest test_;
 };
 
@@ -150,7 +150,7 @@ BenchCurve run_bench(const MaterialPoint& law, BenchTest test, std::span<const d
   std::vector<double> sorted(amounts.begin(), amounts.end());
   std::sort(sorted.begin(), sorted.end());
   const auto middle = std::lower_bound(sorted.begin(), sorted.end(), rest);
-  const Follower follower(law, test);
+  const PathFollower follower(law, test);
   BenchCurve curve;
   const std::optional<Mat3> start = follower.at(rest, Mat3::Identity());
   // From the rest shape in both directions; the first amount that cannot be reached ends that direction.
@@ -163,12 +163,12 @@ BenchCurve run_bench(const MaterialPoint& law, BenchTest test, std::span<const d
       if (F)
         curve.points.push_back(point_at(law, test, *from, *F));
       else
-        curve.missed.push_back(*from);
+        curve.unreached.push_back(*from);
     }
   };
   march(std::make_reverse_iterator(middle), sorted.rend());
   std::reverse(curve.points.begin(), curve.points.end());
-  std::reverse(curve.missed.begin(), curve.missed.end());
+  std::reverse(curve.unreached.begin(), curve.unreached.end());
   march(middle, sorted.end());
   return curve;
 }

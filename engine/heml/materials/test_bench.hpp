@@ -25,7 +25,7 @@ struct BenchPoint {
 
 struct BenchCurve {
   std::vector<BenchPoint> points;  ///< ascending in amount: the states that could be reached
-  std::vector<double> missed;      ///< ascending: amounts outside the law's range or without equilibrium of free faces
+  std::vector<double> unreached;   ///< ascending: amounts outside the law's range or without equilibrium of free faces
 };
 
 /// Runs a test at the given amounts (any order; stretches above 0). Free stretches are followed from the rest shape and

@@ -185,7 +185,7 @@ TEST_CASE("a parameter outside its range is refused, and what a law begins with 
       };
       CHECK(refused(std::numeric_limits<double>::infinity()));
       CHECK_FALSE(refused(sample.parameters[i]));
-      CHECK_FALSE(refused(info.start));
+      CHECK_FALSE(refused(info.initial_value));
       if (info.range == ParameterRange::positive) CHECK(refused(0));
       if (info.range == ParameterRange::positive || info.range == ParameterRange::not_negative) CHECK(refused(-1));
       if (info.range == ParameterRange::not_zero) CHECK(refused(0));

@@ -150,11 +150,11 @@ TEST_CASE("the curve ends where the law does, on either side") {
   material.parameters = {1e3, 1, 5e6};
   const BenchCurve curve =
       run_bench(*make_material_point(material, false), BenchTest::shear, evenly_spaced(-2, 1.5, 36));
-  REQUIRE(curve.points.size() + curve.missed.size() == 36);
+  REQUIRE(curve.points.size() + curve.unreached.size() == 36);
   CHECK(curve.points.front().amount == doctest::Approx(-0.9));
   CHECK(curve.points.back().amount == doctest::Approx(0.9));
-  CHECK(curve.missed.front() == -2);
-  CHECK(curve.missed.back() == 1.5);
+  CHECK(curve.unreached.front() == -2);
+  CHECK(curve.unreached.back() == 1.5);
   for (std::size_t k = 1; k < curve.points.size(); ++k) CHECK(curve.points[k].nominal > curve.points[k - 1].nominal);
 
   // λ_t² = 1 − 2λ/(λ + 2μ) (x² − 1) of Saint Venant and Kirchhoff is 0 at x = 1.3229: the cube is flat.
@@ -163,7 +163,7 @@ TEST_CASE("the curve ends where the law does, on either side") {
     m.parameters = {4e3, 1e3};
     return m;
   }();
-  CHECK(run_bench(*make_material_point(flat, false), BenchTest::equibiaxial, std::array{1.32}).missed.empty());
+  CHECK(run_bench(*make_material_point(flat, false), BenchTest::equibiaxial, std::array{1.32}).unreached.empty());
   CHECK(run_bench(*make_material_point(flat, false), BenchTest::equibiaxial, std::array{1.33}).points.empty());
 }
 
