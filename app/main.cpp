@@ -320,7 +320,7 @@ int flushed_output(int code) {
 }
 
 void end_by_signal(int signal) {
-  end_helper();
+  kill_helper();
   std::signal(signal, SIG_DFL);
   std::raise(signal);
 }

@@ -29,7 +29,7 @@ Edited edited_mesh(const TetMesh& mesh, const MeshEdit& edit) {
   const auto tets = static_cast<int>(mesh.tets.size());
   TetMesh all = mesh;
   append(edit, all);
-  const auto elements = apply_edit(whole(mesh), edit, tets).elements;
+  const auto elements = apply_edit(full_topology(mesh), edit, tets).elements;
   Edited result{with_elements(all, elements), {}};
   for (const int t : elements)
     result.origins.push_back(t < tets ? t : edit.parents[static_cast<std::size_t>(t - tets)]);
@@ -87,8 +87,8 @@ std::vector<BenchRow> edit_rows(int n, bool quick) {
   removal.which.sphere = {Vec3(middle, middle, middle), 1.8 * cell};
   Cut cut;
   MeshEdit gone;
-  make_cut(sweep, body.mesh, body.mesh.nodes, whole(body.mesh), snapping_distance(body.mesh), {}, cut);
-  make_removal_edit(removal.which, body.mesh, whole(body.mesh), gone);
+  make_cut(sweep, body.mesh, body.mesh.nodes, full_topology(body.mesh), snapping_distance(body.mesh), {}, cut);
+  make_removal_edit(removal.which, body.mesh, full_topology(body.mesh), gone);
 
   std::vector<BenchRow> rows;
   const auto add = [&](std::string name, const Timing& time, std::string remark) {

@@ -67,7 +67,7 @@ Problem with_masses(Problem problem) {
 Problem finer(const Problem& problem) {
   Problem result = problem;
   Subdivision cut = subdivide_uniformly(problem.setup.mesh);
-  result.setup = on_finer_mesh(std::move(result.setup), std::move(cut.mesh), cut.ends);
+  result.setup = on_finer_mesh(std::move(result.setup), std::move(cut.mesh), cut.midpoint_edges);
   take_parts(result.scene.events);
   return with_masses(std::move(result));
 }

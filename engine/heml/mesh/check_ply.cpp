@@ -51,10 +51,10 @@ class PlyCheck {
   enum Coding { words, little_endian, big_endian };
 
   void header() {
-    in_.need_line("ply");
+    in_.expect_line("ply");
     in_.word("ply");
     for (;;) {
-      in_.need_line("end_header");
+      in_.expect_line("end_header");
       const std::string_view keyword = in_.word("a line of the header");
       if (keyword == "end_header") break;
       if (keyword == "format") {
@@ -135,7 +135,7 @@ class PlyCheck {
   }
 
   long long length_in_words() {
-    in_.need_word("the length of a list");
+    in_.expect_word("the length of a list");
     return in_.wide_integer("the length of a list");
   }
 
@@ -154,7 +154,7 @@ class PlyCheck {
       return;
     }
     for (; count > 0; --count) {
-      in_.need_word("a value");
+      in_.expect_word("a value");
       in_.word("a value");
     }
   }

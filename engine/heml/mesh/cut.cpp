@@ -24,7 +24,7 @@ struct Piece {
   Tet tet;                                       ///< nodes before copies are made
   int parent;                                    ///< element
   std::array<int, 4> neighbour{-1, -1, -1, -1};  ///< piece across each face; −1: none
-  std::array<bool, 4> comes_apart{};             ///< separated from that neighbour
+  std::array<bool, 4> separated{};               ///< separated from that neighbour
   bool is_new = false;                           ///< its parent was split
 };
 
@@ -60,9 +60,9 @@ class Cutter {
       }
     }
     for (const auto& [edge, crossing] : crossings_)
-      if (crossing.to_end(mesh_, edge) < 0.4 * snap) enter(crossing.end(edge));
+      if (crossing.to_end(mesh_, edge) < 0.4 * snap) add_to_cut(crossing.end(edge));
     newly_in_cut_ = in_cut_;
-    for (const int n : stroke) enter(n);
+    for (const int n : stroke) add_to_cut(n);
     return !crossings_.empty();
   }
 
@@ -75,19 +75,19 @@ class Cutter {
   }
 
   /// Step 3. Returns the separated area, m².
-  double part() {
+  double separate() {
     match_faces();
     double area = 0;
     for (Piece& piece : pieces_)
       for (std::size_t f = 0; f < 4; ++f) {
         const int other = piece.neighbour[f];
         if (other < 0 || &piece > &pieces_[static_cast<std::size_t>(other)]) continue;
-        if (!is_parted(piece, f)) continue;
+        if (!is_separated(piece, f)) continue;
         const auto [a, b, c] = face(piece, f);
         area += (at(b) - at(a)).cross(at(c) - at(a)).norm() / 2;
-        piece.comes_apart[f] = true;
+        piece.separated[f] = true;
         Piece& neighbour = pieces_[static_cast<std::size_t>(other)];
-        neighbour.comes_apart[facing(neighbour, &piece)] = true;
+        neighbour.separated[facing(neighbour, &piece)] = true;
       }
     copy_nodes();
     return area;
@@ -110,7 +110,7 @@ class Cutter {
   const Vec3& at(int n) const { return x_[static_cast<std::size_t>(n)]; }
   const Vec3& rest(int n) const { return mesh_.nodes[static_cast<std::size_t>(n)]; }
   bool is_in_cut(int n) const { return in_cut_[static_cast<std::size_t>(n)]; }
-  void enter(int n) { in_cut_[static_cast<std::size_t>(n)] = true; }
+  void add_to_cut(int n) { in_cut_[static_cast<std::size_t>(n)] = true; }
 
   static std::array<int, 3> face(const Piece& piece, std::size_t f) {
     std::array<int, 3> nodes;
@@ -168,7 +168,7 @@ class Cutter {
 
   /// Snaps the crossing nearest to an end in every thin piece. Returns false if no crossing could be snapped.
   bool snap_thin_pieces(double snap) {
-    std::vector<int> entering;
+    std::vector<int> snapped;
     for (const Piece& piece : pieces_) {
       if (!piece.is_new) continue;
       const double angle = min_angle(piece.tet);
@@ -184,13 +184,13 @@ class Cutter {
         nearest = distance;
         end = crossing.end({node.from, node.to});
       }
-      if (end >= 0) entering.push_back(end);
+      if (end >= 0) snapped.push_back(end);
     }
-    for (const int n : entering) {
-      enter(n);
+    for (const int n : snapped) {
+      add_to_cut(n);
       newly_in_cut_[static_cast<std::size_t>(n)] = true;
     }
-    return !entering.empty();
+    return !snapped.empty();
   }
 
   /// Smallest dihedral angle of a piece at rest, degrees.
@@ -202,7 +202,7 @@ class Cutter {
         X[a] = mesh_.nodes[n];
       } else {
         const InsertedNode& node = new_nodes_[n - mesh_.nodes.size()];
-        X[a] = rest(node.from) + node.at * (rest(node.to) - rest(node.from));
+        X[a] = rest(node.from) + node.weight * (rest(node.to) - rest(node.from));
       }
     }
     return min_dihedral(X);
@@ -245,7 +245,7 @@ class Cutter {
 
   /// Whether a face lies in the cut, with its two pieces on different sides. False if all its nodes are of earlier
   /// sweeps of the stroke, which have decided about it.
-  bool is_parted(const Piece& piece, std::size_t f) const {
+  bool is_separated(const Piece& piece, std::size_t f) const {
     const std::array<int, 3> nodes = face(piece, f);
     if (!std::all_of(nodes.begin(), nodes.end(), [this](int n) { return is_in_cut(n); })) return false;
     if (std::none_of(nodes.begin(), nodes.end(), [this](int n) { return newly_in_cut_[static_cast<std::size_t>(n)]; }))
@@ -283,11 +283,11 @@ class Cutter {
     }
   }
 
-  /// Gives the group of pieces connected to `piece` round a node a copy of the node, or the node itself (keeps). Marks
-  /// them in `uses` by the piece −1.
-  void copy_for_group(int node, std::span<std::pair<int, int>> uses, int piece, bool keeps) {
+  /// Gives the group of pieces connected to `piece` round a node a copy of the node, or the node itself (keeps_node).
+  /// Marks them in `uses` by the piece −1.
+  void copy_for_group(int node, std::span<std::pair<int, int>> uses, int piece, bool keeps_node) {
     int number = node;
-    if (!keeps) {
+    if (!keeps_node) {
       number = static_cast<int>(in_cut_.size());
       const auto known = static_cast<std::size_t>(node);
       new_nodes_.push_back(known < mesh_.nodes.size() ? InsertedNode{node, node, 0}
@@ -295,19 +295,19 @@ class Cutter {
       in_cut_.push_back(true);
     }
     std::vector<int> reached{piece};
-    const auto take = [&](int p) {
+    const auto claim = [&](int p) {
       const auto use = std::find(uses.begin(), uses.end(), std::pair(node, p));
       if (use == uses.end()) return false;
       use->second = -1;
       return true;
     };
-    take(piece);
+    claim(piece);
     for (std::size_t k = 0; k < reached.size(); ++k) {
       const Piece& at = pieces_[static_cast<std::size_t>(reached[k])];
       for (std::size_t f = 0; f < 4; ++f) {
         if (at.tet[f] == node)
           final_[static_cast<std::size_t>(reached[k])][f] = number;
-        else if (at.neighbour[f] >= 0 && !at.comes_apart[f] && take(at.neighbour[f]))
+        else if (at.neighbour[f] >= 0 && !at.separated[f] && claim(at.neighbour[f]))
           reached.push_back(at.neighbour[f]);
       }
     }
@@ -344,7 +344,7 @@ std::optional<std::string> make_cut(const Sweep& sweep, const TetMesh& mesh, con
   if (!cutter.find_crossings(snap, stroke)) return "the blade meets no edge of an element";
   cutter.split(snap);
   cut = {};
-  cut.area = cutter.part();
+  cut.area = cutter.separate();
   cutter.write(cut);
   return std::nullopt;
 }

@@ -6,7 +6,7 @@
 //                 to that node, so that no short edges result; one further away too, where it would make a thin piece
 //   2 split       divides every crossed edge in all its elements, in the order of edges, so that pieces of neighbours
 //                 match; every edge of a piece then lies on one side of the cut or in it
-//   3 part        separates pieces at faces in the cut that have a piece on each side: a node is copied for every
+//   3 separate    separates pieces at faces in the cut that have a piece on each side: a node is copied for every
 //                 further group of face-connected pieces round it. Where the cut ends inside, they stay connected
 #include <heml/mesh/edit.hpp>
 #include <heml/mesh/sweep.hpp>

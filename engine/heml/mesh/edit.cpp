@@ -24,8 +24,8 @@ std::vector<int> elements_where(const Topology& topology, const Chooses& chooses
 }
 
 /// Sorts a list of elements without duplicates and checks that they exist; returns a message if not.
-std::optional<std::string> take_list(const std::vector<int>& tets, const TetMesh& mesh, const Topology& topology,
-                                     std::vector<int>& chosen) {
+std::optional<std::string> check_elements(const std::vector<int>& tets, const TetMesh& mesh, const Topology& topology,
+                                          std::vector<int>& chosen) {
   const int count = static_cast<int>(mesh.tets.size());
   chosen = tets;
   std::sort(chosen.begin(), chosen.end());
@@ -59,7 +59,7 @@ std::string nothing_chosen(const ElementSelection& which, const TetMesh& mesh, c
 
 }  // namespace
 
-Topology whole(const TetMesh& mesh, long version) {
+Topology full_topology(const TetMesh& mesh, long version) {
   Topology topology{version, std::vector<int>(mesh.tets.size())};
   std::iota(topology.elements.begin(), topology.elements.end(), 0);
   return topology;
@@ -101,7 +101,7 @@ std::optional<std::string> make_removal_edit(const ElementSelection& which, cons
     chosen = elements_where(topology, [&, centre = centre, radius = radius](int t) {
       return (centroid(mesh, t) - centre).norm() <= radius;
     });
-  } else if (const auto problem = take_list(which.tets, mesh, topology, chosen)) {
+  } else if (const auto problem = check_elements(which.tets, mesh, topology, chosen)) {
     return problem;
   }
   if (chosen.empty()) return nothing_chosen(which, mesh, topology);

@@ -18,7 +18,7 @@ namespace heml {
 /// A node that an edit adds on the edge between two existing nodes; from == to: a copy of that node.
 struct InsertedNode {
   int from, to;
-  double at;  ///< 0 at from, 1 at to; in the rest and the deformed shape
+  double weight;  ///< 0 at from, 1 at to; in the rest and the deformed shape
 };
 
 /// A change of a mesh of #V nodes and #T elements.
@@ -36,7 +36,7 @@ struct Topology {
 };
 
 /// The topology with all elements of a mesh.
-Topology whole(const TetMesh& mesh, long version = 0);
+Topology full_topology(const TetMesh& mesh, long version = 0);
 
 /// The topology after an edit; elements: #T before it. All removed elements must exist.
 Topology apply_edit(const Topology& topology, const MeshEdit& edit, int elements);
@@ -52,7 +52,7 @@ void append(const MeshEdit& edit, std::vector<Value>& values, std::size_t each =
     for (std::size_t c = 0; c < each; ++c) {
       const Value from = values[each * static_cast<std::size_t>(node.from) + c];
       const Value to = values[each * static_cast<std::size_t>(node.to) + c];
-      values.push_back(node.from == node.to ? from : Value(from + (to - from) * node.at));
+      values.push_back(node.from == node.to ? from : Value(from + (to - from) * node.weight));
     }
 }
 

@@ -12,13 +12,13 @@ constexpr long long max_tags = 1000;
 bool by_number(const GmshElement& a, const GmshElement& b) { return a.number < b.number; }
 
 std::size_t tag_count(Scanner& in, std::string_view what) {
-  in.need_word(what);
+  in.expect_word(what);
   return static_cast<std::size_t>(in.integer(what, 0, max_tags));
 }
 
-// A name without its quotes, from the next line; need_line() then moves past that line.
+// A name without its quotes, from the next line; expect_line() then moves past that line.
 std::string name_from(Scanner& in) {
-  in.need_line("the name of the data");
+  in.expect_line("the name of the data");
   std::string_view line = in.rest().substr(0, in.rest().find('\n'));
   line = line.substr(0, line.find_last_not_of(" \t\r") + 1);
   if (line.size() >= 2 && line.front() == '"' && line.back() == '"') line = line.substr(1, line.size() - 2);
@@ -36,7 +36,7 @@ void GmshData::read(Scanner& in, ReadMesh& read) {
     wanted = false;
   }
   for (std::size_t e = 0; e < section.count; ++e) {
-    in.need_line("an element's data");
+    in.expect_line("an element's data");
     if (!wanted) continue;
     section.elements.push_back(in.wide_integer("an element number"));
     for (std::size_t i = 0; i < components; ++i) section.values.push_back(in.any_number("a value"));
@@ -52,21 +52,21 @@ GmshData::Section GmshData::header(Scanner& in) {
     const std::string text = name_from(in);
     if (i == 0) section.name = text;
   }
-  if (texts > 0) in.need_line("the number of real tags");
+  if (texts > 0) in.expect_line("the number of real tags");
   for (std::size_t left = tag_count(in, "the number of real tags"); left > 0; --left) {
-    in.need_word("a real tag");
+    in.expect_word("a real tag");
     in.any_number("a real tag");
   }
   const std::size_t integers = tag_count(in, "the number of integer tags");
   if (integers < 3) in.fail(fmt::format("{} integer tags", integers), "time step, components, number of elements");
-  in.need_word("the time step");
+  in.expect_word("the time step");
   section.step = in.integer("the time step");
-  in.need_word("the number of components");
+  in.expect_word("the number of components");
   section.components = static_cast<std::size_t>(in.integer("the number of components", 0, max_tags));
-  in.need_word("the number of elements");
+  in.expect_word("the number of elements");
   section.count = in.count("the number of elements", 1 + section.components);
   for (std::size_t i = 3; i < integers; ++i) {
-    in.need_word("an integer tag");
+    in.expect_word("an integer tag");
     in.wide_integer("an integer tag");
   }
   return section;

@@ -102,14 +102,14 @@ struct Streams {
 };
 
 // Runs in the child between fork and exec: only async-signal-safe calls.
-[[noreturn]] void become_helper(char* const* arguments, Streams from, pid_t parent, const ProcessLimits& limits) {
+[[noreturn]] void exec_helper(char* const* arguments, Streams from, pid_t parent, const ProcessLimits& limits) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(cannot_start);  // the parent ended before prctl()
   const auto limit = [](auto resource, double value, rlim_t grace = 0) {
     const rlimit both{static_cast<rlim_t>(value), static_cast<rlim_t>(value) + grace};
     setrlimit(resource, &both);
   };
-  limit(RLIMIT_CPU, std::ceil(limits.processor_seconds) + 1, 1);  // SIGXCPU first: at the hard limit it is SIGKILL
+  limit(RLIMIT_CPU, std::ceil(limits.cpu_seconds) + 1, 1);  // SIGXCPU first: at the hard limit it is SIGKILL
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_FSIZE, limits.bytes);  // bounds the answer, a file in memory
   if (limits_memory) limit(RLIMIT_AS, limits.bytes);
@@ -128,7 +128,7 @@ struct Ending {
   std::string words;  ///< beginning of its output
 };
 
-std::atomic<pid_t> under_way{0};
+std::atomic<pid_t> running_helper{0};
 
 // Collects the helper's output until it ends; kills it after the wall time `seconds`.
 Ending wait_for(pid_t helper, int output, double seconds) {
@@ -153,7 +153,7 @@ Ending wait_for(pid_t helper, int output, double seconds) {
     ending.words.append(buffer, std::min<std::size_t>(count, longest - std::min(longest, ending.words.size())));
   }
   while (waitpid(helper, &ending.status, 0) < 0 && errno == EINTR) continue;
-  under_way = 0;
+  running_helper = 0;
   return ending;
 }
 
@@ -167,13 +167,13 @@ Ending run(const std::filesystem::path& helper, const HelperTask& task, const Me
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) fail_in("pipe");
   const pid_t parent = getpid(), child = fork();
-  if (child == 0) become_helper(pointers.data(), {input.fd(), ends[1], answer.fd()}, parent, task.limits);
+  if (child == 0) exec_helper(pointers.data(), {input.fd(), ends[1], answer.fd()}, parent, task.limits);
   close(ends[1]);
   if (child < 0) {
     close(ends[0]);
     fail_in("fork");
   }
-  under_way = child;
+  running_helper = child;
   Ending ending = wait_for(child, ends[0], task.limits.seconds);
   close(ends[0]);
   return ending;
@@ -190,8 +190,8 @@ std::string last_line(std::string text) {
 
 }  // namespace
 
-void end_helper() {
-  const pid_t helper = under_way.exchange(0);
+void kill_helper() {
+  const pid_t helper = running_helper.exchange(0);
   if (helper <= 0) return;
   kill(helper, SIGKILL);
   waitpid(helper, nullptr, 0);
@@ -212,7 +212,7 @@ std::string run_mesher(const HelperTask& task, std::string_view input) {
   if (ending.timed_out) refuse(fmt::format("takes longer than {} s", task.limits.seconds));
   if (WIFSIGNALED(ending.status)) {
     const int signal = WTERMSIG(ending.status);
-    if (signal == SIGXCPU) refuse(fmt::format("takes longer than {} s", task.limits.processor_seconds));
+    if (signal == SIGXCPU) refuse(fmt::format("takes longer than {} s", task.limits.cpu_seconds));
     throw InputError(task.subject, "",
                      fmt::format("the mesher cannot handle it (signal {}, {})", signal, strsignal(signal)),
                      "repair or simplify the surface");

@@ -7,9 +7,9 @@
 namespace heml {
 
 struct ProcessLimits {
-  double processor_seconds = 120;  ///< CPU time, rounded up to whole seconds
-  double seconds = 120;            ///< wall time, for a helper that waits
-  double bytes = 4e9;              ///< memory
+  double cpu_seconds = 120;  ///< CPU time, rounded up to whole seconds
+  double seconds = 120;      ///< wall time, for a helper that waits
+  double bytes = 4e9;        ///< memory
 };
 
 /// One run of the helper, with the texts for error messages.
@@ -24,11 +24,11 @@ struct HelperTask {
 /// Runs `heml-mesher` with `input` on stdin until it ends, and returns its answer. Both are anonymous memory files, and
 /// the kernel kills the helper when the calling thread ends, so nothing is left behind however this program ends.
 /// Throws InputError about the subject if this build has no helper, or the helper fails, crashes or exceeds a limit.
-/// One call at a time, since end_helper() tracks only one helper.
+/// One call at a time, since kill_helper() tracks only one helper.
 std::string run_mesher(const HelperTask& task, std::string_view input = {});
 
 /// Kills the running helper, if any, and reaps it. Async-signal-safe, for handlers of signals that end the program.
 /// Without this call the helper ends too, but may stay as a zombie process.
-void end_helper();
+void kill_helper();
 
 }  // namespace heml

@@ -44,7 +44,7 @@ class GmshReader {
       if (has_nodes_) in_.fail("a second section " + name);
       has_nodes_ = true;
       name == "$NOD" || version_ < 4 ? nodes() : nodes_4();
-      numbers_.close(in_);
+      numbers_.finish(in_);
     } else if (name == "$ELM" || name == "$Elements") {
       if (!has_nodes_) in_.fail(name + " before the nodes");
       name == "$ELM" ? elements(1) : version_ < 4 ? elements(2) : elements_4();
@@ -64,7 +64,7 @@ class GmshReader {
   }
 
   void end(const std::string& name) {
-    in_.need_line(closing(name));
+    in_.expect_line(closing(name));
     const std::string_view found = in_.word(closing(name));
     if (found != closing(name))
       in_.fail(fmt::format("{} should end here, found {}", name, in_quotes(found)), closing(name));
@@ -72,12 +72,12 @@ class GmshReader {
 
   void skip(const std::string& name) {
     const std::string mark = closing(name);
-    do in_.need_line(mark);
+    do in_.expect_line(mark);
     while (in_.peek() != mark);
   }
 
   void format() {
-    in_.need_line("the version");
+    in_.expect_line("the version");
     version_ = in_.number("the version");
     if (version_ != 2 && version_ != 2.1 && version_ != 2.2 && version_ != 4.1)
       in_.fail(fmt::format("version {} is not read", version_), "save as Gmsh 2.2 or 4.1, ASCII");
@@ -86,11 +86,11 @@ class GmshReader {
 
   // Versions 1 and 2: "number x y z".
   void nodes() {
-    in_.need_line("the number of nodes");
+    in_.expect_line("the number of nodes");
     const std::size_t count = in_.count("the number of nodes", 4);
     reserve_nodes(count);
     for (std::size_t n = 0; n < count; ++n) {
-      in_.need_line("a node");
+      in_.expect_line("a node");
       numbers_.add(in_.wide_integer("a node number"));
       read_.mesh.nodes.push_back(in_.point("a coordinate"));
       in_.end_line("the node");
@@ -99,10 +99,10 @@ class GmshReader {
 
   // Version 1: "number type physical elementary #nodes node ...". Version 2: "number type #tags physical ... node ...".
   void elements(int version) {
-    in_.need_line("the number of elements");
+    in_.expect_line("the number of elements");
     const std::size_t count = in_.count("the number of elements", 4);
     for (std::size_t e = 0; e < count; ++e) {
-      in_.need_line("an element");
+      in_.expect_line("an element");
       const long long number = in_.wide_integer("an element number");
       const long long type = in_.integer("an element type");
       read_.ignored += is_other_gmsh_volume(type);
@@ -122,12 +122,12 @@ class GmshReader {
   }
 
   void entities_4() {
-    in_.need_line("the numbers of entities");
+    in_.expect_line("the numbers of entities");
     std::array<std::size_t, 4> counts;
     for (std::size_t& count : counts) count = in_.count("a number of entities", 1);
-    for (std::size_t e = 0; e < counts[0] + counts[1] + counts[2]; ++e) in_.need_line("an entity");
+    for (std::size_t e = 0; e < counts[0] + counts[1] + counts[2]; ++e) in_.expect_line("an entity");
     for (std::size_t e = 0; e < counts[3]; ++e) {
-      in_.need_line("a volume");
+      in_.expect_line("a volume");
       const long long tag = in_.integer("a volume's tag");
       for (int i = 0; i < 6; ++i) in_.number("a volume's bound");
       if (in_.integer("a number of physical tags", 0) > 0)
@@ -137,20 +137,20 @@ class GmshReader {
 
   // Blocks "dimension entity parametric #nodes", each followed by its node numbers, then its coordinates.
   void nodes_4() {
-    in_.need_line("the numbers of node blocks and nodes");
+    in_.expect_line("the numbers of node blocks and nodes");
     const std::size_t blocks = in_.count("a number of blocks", 4), count = in_.count("the number of nodes", 4);
     reserve_nodes(count);
     for (std::size_t b = 0; b < blocks; ++b) {
-      in_.need_line("a block of nodes");
+      in_.expect_line("a block of nodes");
       for (const char* what : {"a dimension", "an entity", "the parametric flag"}) in_.integer(what);
       const std::size_t in_block = in_.count("the number of nodes in the block", 4);
       for (std::size_t n = 0; n < in_block; ++n) {
-        in_.need_line("a node number");
+        in_.expect_line("a node number");
         numbers_.add(in_.wide_integer("a node number"));
         in_.end_line("the node number");
       }
       for (std::size_t n = 0; n < in_block; ++n) {
-        in_.need_line("a node's coordinates");
+        in_.expect_line("a node's coordinates");
         read_.mesh.nodes.push_back(in_.point("a coordinate"));
       }
     }
@@ -160,11 +160,11 @@ class GmshReader {
 
   // Blocks "dimension entity type #elements", each followed by lines "number node ...".
   void elements_4() {
-    in_.need_line("the numbers of element blocks and elements");
+    in_.expect_line("the numbers of element blocks and elements");
     const std::size_t blocks = in_.count("a number of blocks", 4), count = in_.count("the number of elements", 2);
     std::size_t found = 0;
     for (std::size_t b = 0; b < blocks; ++b) {
-      in_.need_line("a block of elements");
+      in_.expect_line("a block of elements");
       in_.integer("a dimension");
       const long long entity = in_.integer("an entity"), type = in_.integer("an element type");
       const std::size_t in_block = in_.count("the number of elements in the block", 2);
@@ -172,7 +172,7 @@ class GmshReader {
       if (is_other_gmsh_volume(type)) read_.ignored += static_cast<long>(in_block);
       const auto region = volume_region_.find(entity);
       for (std::size_t e = 0; e < in_block; ++e) {
-        in_.need_line("an element");
+        in_.expect_line("an element");
         if (type != gmsh_tetrahedron) continue;
         const long long number = in_.wide_integer("an element number");
         tetrahedron(number, region == volume_region_.end() ? 0 : region->second);

@@ -12,18 +12,18 @@ constexpr long long max_attributes = 1000;  // per tetrahedron
 
 // "number x y z attribute ... [marker]"
 NodeNumbers read_nodes(Scanner& in, std::vector<Vec3>& nodes) {
-  in.need_line("the number of nodes");
+  in.expect_line("the number of nodes");
   const std::size_t count = in.count("the number of nodes", 4);
   if (in.has_word()) in.integer("the dimension", 3, 3);
   NodeNumbers numbers;
   numbers.reserve(count);
   nodes.reserve(count);
   for (std::size_t n = 0; n < count; ++n) {
-    in.need_line("a node");
+    in.expect_line("a node");
     numbers.add(in.integer("a node number"));
     nodes.push_back(in.point("a coordinate"));
   }
-  numbers.close(in);
+  numbers.finish(in);
   if (in.next_line()) in.fail(fmt::format("lines go on after {} nodes", count));
   return numbers;
 }
@@ -43,7 +43,7 @@ ReadMesh read_tetgen(std::string node_file, std::string_view nodes, std::string 
   Scanner node_lines(std::move(node_file), nodes, '#', true);
   const NodeNumbers numbers = read_nodes(node_lines, read.mesh.nodes);
   Scanner in(std::move(ele_file), tets, '#', true);
-  in.need_line("the number of tetrahedra");
+  in.expect_line("the number of tetrahedra");
   const std::size_t count = in.count("the number of tetrahedra", 5);
   if (in.has_word()) in.integer("the nodes a tetrahedron", 4, 4);
   const long long attributes = in.has_word() ? in.integer("the attributes a tetrahedron", 0, max_attributes) : 0;
@@ -51,7 +51,7 @@ ReadMesh read_tetgen(std::string node_file, std::string_view nodes, std::string 
   read.mesh.tets.reserve(count);
   read.mesh.regions.reserve(count);
   for (std::size_t t = 0; t < count; ++t) {
-    in.need_line("a tetrahedron");
+    in.expect_line("a tetrahedron");
     in.integer("a tetrahedron's number");
     Tet tet;
     for (int& node : tet) {

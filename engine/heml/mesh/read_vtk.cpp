@@ -252,8 +252,8 @@ class VtkReader {
 
   // Fails if the rest of the file cannot hold so many values, before memory is allocated for them.
   void need(std::size_t count, const Type& type) {
-    const std::size_t most = binary_ ? in_.left() / type.bytes : (in_.left() + 1) / 2;
-    if (count > most) in_.fail(fmt::format("{} values should follow, the file ends too early for them", count));
+    const std::size_t max_count = binary_ ? in_.left() / type.bytes : (in_.left() + 1) / 2;
+    if (count > max_count) in_.fail(fmt::format("{} values should follow, the file ends too early for them", count));
   }
 
   double real(const Type& type) { return binary_ ? any_real(type) : in_.number("a value"); }

@@ -52,7 +52,7 @@ class VtuReader {
       const std::string_view tag = in_.rest().substr(0, in_.rest().find('>'));
       if (!in_.skip_past(">")) in_.fail("a tag does not end: " + in_quotes(tag));
       if (tag.starts_with("AppendedData")) break;
-      take(tag.substr(0, tag.find_first_of(" \t\r\n/", 1)), tag);
+      process_tag(tag.substr(0, tag.find_first_of(" \t\r\n/", 1)), tag);
     }
     if (!is_vtk_) in_.fail("a .vtu file should hold a VTKFile");
     if (in_piece_) in_.fail("a Piece does not end");
@@ -60,7 +60,7 @@ class VtuReader {
   }
 
  private:
-  void take(std::string_view name, std::string_view tag) {
+  void process_tag(std::string_view name, std::string_view tag) {
     if (name == "VTKFile") {
       if (const auto type = attribute(tag, "type"); type != "UnstructuredGrid")
         in_.fail("the VTKFile is of type " + in_quotes(type), "UnstructuredGrid");

@@ -8,8 +8,8 @@ namespace heml {
 namespace {
 
 constexpr int vtk_tetra = 10;
-constexpr std::size_t max_fields = 1000;       // field_in() searches linearly
-constexpr std::size_t most_values_a_byte = 4;  // field values per byte of the file; fields may omit most tetrahedra
+constexpr std::size_t max_fields = 1000;        // field_in() searches linearly
+constexpr std::size_t max_values_per_byte = 4;  // field values per byte of the file; fields may omit most tetrahedra
 
 void check_count(std::size_t fields, const Scanner& in) {
   if (fields > max_fields) in.fail(fmt::format("more than {} fields of elements", max_fields), "save fewer");
@@ -86,7 +86,7 @@ void pad_fields(TetMesh& mesh, const Scanner& in) {
   std::size_t components = 0;
   for (const ElementField& field : mesh.fields) components += field.components;
   if (mesh.fields.empty() ||
-      components <= most_values_a_byte * in.size() / std::max<std::size_t>(mesh.tets.size(), 1)) {
+      components <= max_values_per_byte * in.size() / std::max<std::size_t>(mesh.tets.size(), 1)) {
     for (ElementField& field : mesh.fields)
       field.values.resize(field.components * mesh.tets.size(), std::numeric_limits<double>::quiet_NaN());
     return;
@@ -102,7 +102,7 @@ void add_cell_field(ElementField field, const Scanner& in, VtkCells& cells) {
   check_count(cells.fields.size(), in);
 }
 
-void NodeNumbers::close(const Scanner& in) {
+void NodeNumbers::finish(const Scanner& in) {
   const auto less = [](const Entry& a, const Entry& b) { return a.number < b.number; };
   if (!std::is_sorted(numbers_.begin(), numbers_.end(), less)) std::sort(numbers_.begin(), numbers_.end(), less);
   const auto twice = std::adjacent_find(numbers_.begin(), numbers_.end(),

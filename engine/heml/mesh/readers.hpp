@@ -35,7 +35,7 @@ class NodeNumbers {
  public:
   void reserve(std::size_t count) { numbers_.reserve(count); }
   void add(long long number) { numbers_.push_back({number, static_cast<int>(numbers_.size())}); }
-  void close(const Scanner& in);                        ///< after the last add(); throws for a duplicate number
+  void finish(const Scanner& in);                       ///< after the last add(); throws for a duplicate number
   int find(long long number, const Scanner& in) const;  ///< throws for an unknown number
 
  private:
@@ -43,7 +43,7 @@ class NodeNumbers {
     long long number;
     int node;
   };
-  std::vector<Entry> numbers_;  ///< ascending after close()
+  std::vector<Entry> numbers_;  ///< ascending after finish()
 };
 
 /// Cells as VTK stores them: cell c has the nodes connectivity[offsets[c]] .. connectivity[offsets[c+1]−1], from 0.

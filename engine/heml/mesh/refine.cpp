@@ -26,17 +26,17 @@ class Bisection {
 
   void mark(const std::vector<int>& chosen) {
     for (const int t : chosen) mark_longest(mesh_.tets[static_cast<std::size_t>(t)]);
-    for (std::size_t before = 0; before != middles_.size();) {
-      before = middles_.size();
+    for (std::size_t before = 0; before != midpoints_.size();) {
+      before = midpoints_.size();
       for (const Tet& tet : mesh_.tets)
         if (longest_marked(tet)) mark_longest(tet);
     }
   }
 
   Refinement cut() {
-    number_middles();
+    number_midpoints();
     for (std::size_t t = 0; t < mesh_.tets.size(); ++t) cut(mesh_.tets[t], static_cast<int>(t));
-    resolve_fields();
+    inherit_fields();
     return std::move(result_);
   }
 
@@ -53,23 +53,24 @@ class Bisection {
     Edge longest = edge_of(tet, 0);
     for (std::size_t e = 1; e < 6; ++e)
       if (is_longer(edge_of(tet, e), longest)) longest = edge_of(tet, e);
-    middles_.try_emplace(longest, -1);
+    midpoints_.try_emplace(longest, -1);
   }
 
   /// Local index of the longest marked edge.
   std::optional<std::size_t> longest_marked(const Tet& tet) const {
     std::optional<std::size_t> found;
     for (std::size_t e = 0; e < 6; ++e)
-      if (middles_.contains(edge_of(tet, e)) && (!found || is_longer(edge_of(tet, e), edge_of(tet, *found)))) found = e;
+      if (midpoints_.contains(edge_of(tet, e)) && (!found || is_longer(edge_of(tet, e), edge_of(tet, *found))))
+        found = e;
     return found;
   }
 
-  void number_middles() {
-    for (auto& [edge, middle] : middles_) {
+  void number_midpoints() {
+    for (auto& [edge, middle] : midpoints_) {
       middle = static_cast<int>(result_.mesh.nodes.size());
       result_.mesh.nodes.push_back(
           (mesh_.nodes[static_cast<std::size_t>(edge[0])] + mesh_.nodes[static_cast<std::size_t>(edge[1])]) / 2);
-      result_.ends.push_back(edge);
+      result_.midpoint_edges.push_back(edge);
     }
   }
 
@@ -81,7 +82,7 @@ class Bisection {
       result_.parents.push_back(parent);
       return;
     }
-    const int middle = middles_.at(edge_of(tet, *e));
+    const int middle = midpoints_.at(edge_of(tet, *e));
     for (const std::size_t end : corners[*e]) {
       Tet half = tet;
       half[end] = middle;
@@ -89,7 +90,7 @@ class Bisection {
     }
   }
 
-  void resolve_fields() {
+  void inherit_fields() {
     for (const int parent : result_.parents)
       result_.mesh.regions.push_back(mesh_.regions[static_cast<std::size_t>(parent)]);
     for (const ElementField& field : mesh_.fields) {
@@ -102,7 +103,7 @@ class Bisection {
 
   const TetMesh& mesh_;
   Refinement result_;
-  std::map<Edge, int> middles_;  ///< midpoint node of each marked edge
+  std::map<Edge, int> midpoints_;  ///< midpoint node of each marked edge
 };
 
 }  // namespace

@@ -15,8 +15,8 @@ namespace heml {
 
 struct Refinement {
   TetMesh mesh;  ///< old nodes in order, then midpoints; elements have their parent's region and fields
-  std::vector<std::array<int, 2>> ends;  ///< old nodes at the ends of each midpoint's edge
-  std::vector<int> parents;              ///< #T: the old element that each is a part of, ascending
+  std::vector<std::array<int, 2>> midpoint_edges;  ///< old nodes at the ends of each midpoint's edge
+  std::vector<int> parents;                        ///< #T: the old element that each is a part of, ascending
 };
 
 /// Bisects at least the chosen elements of a mesh that check_tets() accepts. Piecewise linear functions on the old mesh

@@ -74,12 +74,12 @@ bool Scanner::next_line() {
   return position_ < text_.size();
 }
 
-void Scanner::need_line(std::string_view what) {
+void Scanner::expect_line(std::string_view what) {
   if (!next_line()) fail_missing(what);
 }
 
-void Scanner::need_word(std::string_view what) {
-  if (!has_word()) need_line(what);
+void Scanner::expect_word(std::string_view what) {
+  if (!has_word()) expect_line(what);
 }
 
 std::string_view Scanner::peek() {

@@ -19,8 +19,8 @@ class Scanner {
 
   // `what` names the expected item in error messages.
   bool next_line();                              ///< moves to the next line with a word; false if there is none
-  void need_line(std::string_view what);         ///< likewise; throws if there is none
-  void need_word(std::string_view what);         ///< moves to a later line if this one has no word left; throws if none
+  void expect_line(std::string_view what);       ///< likewise; throws if there is none
+  void expect_word(std::string_view what);       ///< moves to a later line if this one has no word left; throws if none
   bool has_word();                               ///< whether word() can read another word
   std::string_view peek();                       ///< the next word without consuming it; empty if none
   std::string_view word(std::string_view what);  ///< the next word

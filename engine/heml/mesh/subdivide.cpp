@@ -9,16 +9,16 @@ constexpr std::array<std::array<int, 2>, 6> edges{{{0, 1}, {0, 2}, {0, 3}, {1, 2
 constexpr int opposite(int edge) { return 5 - edge; }
 
 /// Midpoint nodes of edges, created on first use.
-class Middles {
+class Midpoints {
  public:
-  explicit Middles(Subdivision& to) : to_(to) {}
+  explicit Midpoints(Subdivision& to) : to_(to) {}
   int between(int a, int b) {
     const std::array ends{std::min(a, b), std::max(a, b)};
     const auto [place, is_new] = numbers_.try_emplace(ends, static_cast<int>(to_.mesh.nodes.size()));
     if (is_new) {
       to_.mesh.nodes.push_back(
           (to_.mesh.nodes[static_cast<std::size_t>(a)] + to_.mesh.nodes[static_cast<std::size_t>(b)]) / 2);
-      to_.ends.push_back(ends);
+      to_.midpoint_edges.push_back(ends);
     }
     return place->second;
   }
@@ -65,12 +65,12 @@ Subdivision subdivide_uniformly(const TetMesh& mesh) {
   Subdivision result;
   result.mesh.nodes = mesh.nodes;
   result.mesh.source = mesh.source;
-  Middles middles(result);
+  Midpoints midpoints(result);
   for (const Tet& tet : mesh.tets) {
     std::array<int, 6> middle{};
     for (std::size_t e = 0; e < 6; ++e)
       middle[e] =
-          middles.between(tet[static_cast<std::size_t>(edges[e][0])], tet[static_cast<std::size_t>(edges[e][1])]);
+          midpoints.between(tet[static_cast<std::size_t>(edges[e][0])], tet[static_cast<std::size_t>(edges[e][1])]);
     cut(result.mesh, tet, middle);
   }
   for (const int region : mesh.regions) result.mesh.regions.insert(result.mesh.regions.end(), 8, region);

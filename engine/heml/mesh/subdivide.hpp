@@ -7,7 +7,7 @@ namespace heml {
 
 struct Subdivision {
   TetMesh mesh;  ///< old nodes in order, then midpoints; element t becomes 8t to 8t+7 with the same region and fields
-  std::vector<std::array<int, 2>> ends;  ///< old nodes at the ends of each midpoint's edge
+  std::vector<std::array<int, 2>> midpoint_edges;  ///< old nodes at the ends of each midpoint's edge
 };
 
 /// mesh: as check_tets() leaves it. Piecewise linear functions on the old mesh are piecewise linear on the new one. The

@@ -72,7 +72,7 @@ NodeToElements::NodeToElements(const TetMesh& mesh, const Topology& topology) : 
     for (const int n : mesh.tets[static_cast<std::size_t>(t)]) list_[next[static_cast<std::size_t>(n)]++] = t;
 }
 
-bool can_open(const TearOpening& opening, const TetMesh& mesh, const NodeToElements& around) {
+bool can_tear(const TearOpening& opening, const TetMesh& mesh, const NodeToElements& around) {
   const auto elements = around.of(opening.node);
   return std::any_of(elements.begin(), elements.end(),
                      [&](int t) { return is_above(opening, mesh, t) != is_above(opening, mesh, elements.front()); });

@@ -38,7 +38,7 @@ class NodeToElements {
 };
 
 /// Whether a node has elements on both sides of the tear plane.
-bool can_open(const TearOpening& opening, const TetMesh& mesh, const NodeToElements& around);
+bool can_tear(const TearOpening& opening, const TetMesh& mesh, const NodeToElements& around);
 
 /// Computes the edit that tears the mesh at the given nodes, no two of which may share an element. mesh: at rest. x:
 /// deformed positions, #V×3, m.

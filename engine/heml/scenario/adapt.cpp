@@ -90,7 +90,7 @@ Adaptation adapt(const Scene& scene, WorldSetup setup, const RefineGoal& goal, c
     std::vector<int> origins;
     for (const int parent : finer.parents) origins.push_back(result.origins[static_cast<std::size_t>(parent)]);
     result.origins = std::move(origins);
-    setup = on_finer_mesh(std::move(setup), std::move(finer.mesh), finer.ends);
+    setup = on_finer_mesh(std::move(setup), std::move(finer.mesh), finer.midpoint_edges);
   }
   result.setup = std::move(setup);
   return result;

@@ -45,7 +45,7 @@ std::shared_ptr<const SurfaceMesh> make_surface_mesh(const World& world, std::sh
   const WorldSetup& setup = world.setup();
   SurfaceMesh surface_mesh = build_surface_mesh(setup, *topology);
   if (topology->elements.size() < setup.mesh.tets.size()) {
-    if (!last) last = std::make_shared<const SurfaceMesh>(build_surface_mesh(setup, whole(setup.mesh)));
+    if (!last) last = std::make_shared<const SurfaceMesh>(build_surface_mesh(setup, full_topology(setup.mesh)));
     surface_mesh.whole = last->whole ? last->whole : last;
   }
   return std::make_shared<const SurfaceMesh>(std::move(surface_mesh));

@@ -62,7 +62,7 @@ std::optional<TearOpening> Tearing::opening_of(const TearCandidate& torn, const 
   const auto rank = [this](int n) { return std::tuple(!on_surface_[as_index(n)], around_.of(n).size(), n); };
   for (const int n : mesh.tets[as_index(torn.element)]) {
     const TearOpening opening{n, torn.plane_normal};
-    if (!is_constrained(n) && can_open(opening, mesh, around_) && (!best || rank(n) < rank(best->node))) best = opening;
+    if (!is_constrained(n) && can_tear(opening, mesh, around_) && (!best || rank(n) < rank(best->node))) best = opening;
   }
   return best;
 }

@@ -4,8 +4,9 @@
 
 namespace heml {
 
-/// mesh: the setup's nodes first, in their order, then middles; ends: of each middle, the nodes it lies between. What
-/// was selected takes in the middles between what was selected; a middle starts midway between where its ends start.
-WorldSetup on_finer_mesh(WorldSetup setup, TetMesh mesh, const std::vector<std::array<int, 2>>& ends);
+/// mesh: the setup's nodes first, in their order, then midpoints of edges. midpoint_edges: the two nodes of the edge of
+/// each midpoint. A selection that contains both nodes of an edge also gets its midpoint; the initial position of a
+/// midpoint is the mean of the two.
+WorldSetup on_finer_mesh(WorldSetup setup, TetMesh mesh, const std::vector<std::array<int, 2>>& midpoint_edges);
 
 }  // namespace heml

@@ -29,7 +29,7 @@ MeshEdit in_numbers(MeshEdit edit, const std::vector<int>& node, const std::vect
   for (int& t : edit.removed) t = tet[static_cast<std::size_t>(t)];
   for (int& t : edit.parents) t = tet[static_cast<std::size_t>(t)];
   for (InsertedNode& n : edit.nodes)
-    n = {node[static_cast<std::size_t>(n.from)], node[static_cast<std::size_t>(n.to)], n.at};
+    n = {node[static_cast<std::size_t>(n.from)], node[static_cast<std::size_t>(n.to)], n.weight};
   for (Tet& added : edit.added)
     for (int& n : added)
       if (n < static_cast<int>(node.size())) n = node[static_cast<std::size_t>(n)];

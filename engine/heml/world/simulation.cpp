@@ -19,7 +19,7 @@ template <class Real>
 Simulation<Real>::Simulation(WorldSetup setup_in)
     : setup(std::move(setup_in)),
       model(make_model<Real>(setup)),
-      topology(std::make_shared<const Topology>(whole(setup.mesh))),
+      topology(std::make_shared<const Topology>(full_topology(setup.mesh))),
       body(model.mesh, model.material_of, materials_of(setup),
            {setup.solver.continuation, setup.solver.nodal_pressure, setup.instruction_set, setup.solver.threads}),
       team(setup.solver.threads) {

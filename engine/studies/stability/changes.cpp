@@ -73,7 +73,7 @@ Outcome law_switched(const Trial& trial) {
   const auto world = trial.world(trial.setup("29_law_switched"));
   const TetMesh& mesh = world->setup().mesh;
   Schedule schedule(scene, mesh);
-  const std::vector<int> all = whole(mesh).elements;
+  const std::vector<int> all = full_topology(mesh).elements;
   const std::vector<Vec3> still(mesh.nodes.size(), Vec3::Zero());
   double worst = 0, after_switch = 0, swing = 0, ripple = 0, spike = 0;
   int switches = 0;

@@ -59,12 +59,12 @@ struct Edited {
     std::vector<Vec3> at;
     for (std::size_t n = 0; n < mesh.nodes.size(); ++n) at.push_back(Eigen::Map<const Vec3>(&x[3 * n]));
     Cut cut;
-    REQUIRE_FALSE(make_cut(sweep, mesh, at, whole(mesh), snapping_distance(mesh), {}, cut));
+    REQUIRE_FALSE(make_cut(sweep, mesh, at, full_topology(mesh), snapping_distance(mesh), {}, cut));
     REQUIRE(cut.edit.added.size() > 20);
     const auto tets = static_cast<int>(mesh.tets.size());
     std::vector<int> origins, of_all = material_of;
     for (const int parent : cut.edit.parents) of_all.push_back(material_of[static_cast<std::size_t>(parent)]);
-    const auto elements = apply_edit(whole(mesh), cut.edit, tets).elements;
+    const auto elements = apply_edit(full_topology(mesh), cut.edit, tets).elements;
     append(cut.edit, mesh);
     append(cut.edit, x, 3);
     mesh = with_elements(mesh, elements);

@@ -23,12 +23,12 @@ struct CutBody {
     for (std::size_t n = 0; n < small.mesh.nodes.size(); ++n) x.push_back(Eigen::Map<const Vec3>(&small.x[3 * n]));
     const Sweep sweep{{{Vec3(0.05, -1, -1), Vec3(0.05, -1, 1)}, {Vec3(0.066, 1, -1), Vec3(0.066, 1, 1)}}};
     Cut cut;
-    REQUIRE_FALSE(make_cut(sweep, small.mesh, x, whole(small.mesh), 1e-9, {}, cut));
+    REQUIRE_FALSE(make_cut(sweep, small.mesh, x, full_topology(small.mesh), 1e-9, {}, cut));
     edit = cut.edit;
     const auto tets = static_cast<int>(small.mesh.tets.size());
     TetMesh all = small.mesh;
     append(edit, all);
-    const auto elements = apply_edit(whole(small.mesh), edit, tets).elements;
+    const auto elements = apply_edit(full_topology(small.mesh), edit, tets).elements;
     pieces = with_elements(all, elements);
     for (const int t : elements) origins.push_back(t < tets ? t : edit.parents[static_cast<std::size_t>(t - tets)]);
   }

@@ -21,7 +21,7 @@ struct Body {
   std::vector<Vec3> x;
   Topology topology;
 
-  explicit Body(TetMesh given) : mesh(std::move(given)), x(mesh.nodes), topology(whole(mesh)) {}
+  explicit Body(TetMesh given) : mesh(std::move(given)), x(mesh.nodes), topology(full_topology(mesh)) {}
 
   /// Applies a cut; returns the message of make_cut(), "" on success.
   std::string cut(const Sweep& sweep, Cut& made, const std::vector<int>& stroke = {}) {

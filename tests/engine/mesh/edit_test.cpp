@@ -27,7 +27,7 @@ bool says(const std::string& text, const char* part) { return text.find(part) !=
 
 TEST_CASE("an edit leaves the numbers of what stays") {
   const TetMesh mesh = block();
-  const Topology all = whole(mesh);
+  const Topology all = full_topology(mesh);
   CHECK(all.elements.size() == 20);
   CHECK(all.version == 0);
   MeshEdit edit;
@@ -44,7 +44,7 @@ TEST_CASE("an edit leaves the numbers of what stays") {
 
 TEST_CASE("elements are chosen by region, and by box or sphere of their centroids, of those that are there") {
   const TetMesh mesh = block();
-  Topology topology = whole(mesh);
+  Topology topology = full_topology(mesh);
   MeshEdit edit;
   REQUIRE_FALSE(make_removal_edit({{}, 3, {}, {}}, mesh, topology, edit));
   CHECK(edit.removed == std::vector<int>{0, 1, 2, 3, 4});
@@ -58,7 +58,7 @@ TEST_CASE("elements are chosen by region, and by box or sphere of their centroid
 }
 
 TEST_CASE("a removal that makes no sense is refused in words") {
-  Topology topology = apply_edit(whole(block()), {{5, 6}, {}, {}, {}}, 20);
+  Topology topology = apply_edit(full_topology(block()), {{5, 6}, {}, {}, {}}, 20);
   CHECK(problem_of(tets({20}), topology) == "element 20 does not exist; the mesh has elements 0 to 19");
   CHECK(says(problem_of(tets({3, -1}), topology), "element -1 does not exist"));
   CHECK(problem_of(tets({4, 5}), topology) == "element 5 was removed before");

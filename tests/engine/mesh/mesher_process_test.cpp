@@ -13,11 +13,11 @@ namespace heml::helper_test {
 
 namespace {
 
-HelperTask task_with(double processor_seconds, double seconds) {
+HelperTask task_with(double cpu_seconds, double seconds) {
   return {.subject = "a.obj",
           .doing = "reading it",
           .arguments = {"read"},
-          .limits = {.processor_seconds = processor_seconds, .seconds = seconds, .bytes = 4e9},
+          .limits = {.cpu_seconds = cpu_seconds, .seconds = seconds, .bytes = 4e9},
           .remedy = "remedy"};
 }
 
@@ -94,9 +94,9 @@ TEST_CASE("a program that ends in any way takes its helper with it and leaves no
 
 TEST_CASE("time is limited by the processor's and by the clock's") {
   const TemporaryFolder folder;
-  const auto told = [&](const char* script, double processor_seconds, double seconds) {
+  const auto told = [&](const char* script, double cpu_seconds, double seconds) {
     const Environment helper("HEML_MESHER", helper_of(folder, script));
-    return refusal([&] { run_mesher(task_with(processor_seconds, seconds)); });
+    return refusal([&] { run_mesher(task_with(cpu_seconds, seconds)); });
   };
   CHECK(told("while :; do :; done", 0, 600) == "a.obj: reading it takes longer than 0 s (remedy)");
   CHECK(told("exec sleep 600", 600, 0.2) == "a.obj: reading it takes longer than 0.2 s (remedy)");

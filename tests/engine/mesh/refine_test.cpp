@@ -60,7 +60,9 @@ std::vector<int> near_corner(const TetMesh& mesh, std::size_t count) {
 
 }  // namespace
 
-TEST_CASE("pieces of a refined mesh fill their parents, with their region and fields, and middles lie in the middle") {
+TEST_CASE(
+    "pieces of a refined mesh fill their parents, with their region and fields, and midpoints lie in the middle of "
+    "edges") {
   const TetMesh mesh = sample();
   const std::vector<int> chosen{0, 7, 31};
   const Refinement finer = refine_longest_edge(mesh, chosen);
@@ -81,8 +83,8 @@ TEST_CASE("pieces of a refined mesh fill their parents, with their region and fi
     CHECK(volume[t] == doctest::Approx(volume_of(mesh, t)).epsilon(1e-12));
   for (const int t : chosen) CHECK(pieces[static_cast<std::size_t>(t)] >= 2);
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n) CHECK(finer.mesh.nodes[n] == mesh.nodes[n]);
-  for (std::size_t m = 0; m < finer.ends.size(); ++m) {
-    const auto [a, b] = finer.ends[m];
+  for (std::size_t m = 0; m < finer.midpoint_edges.size(); ++m) {
+    const auto [a, b] = finer.midpoint_edges[m];
     const Vec3 middle = (mesh.nodes[static_cast<std::size_t>(a)] + mesh.nodes[static_cast<std::size_t>(b)]) / 2;
     CHECK((finer.mesh.nodes[mesh.nodes.size() + m] - middle).norm() == 0);
   }

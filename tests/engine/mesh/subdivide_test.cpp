@@ -15,17 +15,17 @@ double volume_of(const TetMesh& mesh, std::size_t t) {
 }
 }  // namespace
 
-TEST_CASE("a subdivided mesh has the same volume in eighths, old nodes first, middles between their ends") {
+TEST_CASE("a subdivided mesh has the same volume in eighths, old nodes first, then midpoints of edges") {
   TetMesh mesh = make_box(Vec3(2, 1, 1.5), {3, 2, 2});
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) mesh.regions[t] = static_cast<int>(t % 3);
   mesh.fields = {{"k", 1, std::vector<double>(mesh.tets.size())}};
   std::iota(mesh.fields[0].values.begin(), mesh.fields[0].values.end(), 0.0);
   const Subdivision finer = subdivide_uniformly(mesh);
   REQUIRE(finer.mesh.tets.size() == 8 * mesh.tets.size());
-  REQUIRE(finer.mesh.nodes.size() == mesh.nodes.size() + finer.ends.size());
+  REQUIRE(finer.mesh.nodes.size() == mesh.nodes.size() + finer.midpoint_edges.size());
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n) CHECK(finer.mesh.nodes[n] == mesh.nodes[n]);
-  for (std::size_t m = 0; m < finer.ends.size(); ++m) {
-    const auto [a, b] = finer.ends[m];
+  for (std::size_t m = 0; m < finer.midpoint_edges.size(); ++m) {
+    const auto [a, b] = finer.midpoint_edges[m];
     const Vec3 middle = (mesh.nodes[static_cast<std::size_t>(a)] + mesh.nodes[static_cast<std::size_t>(b)]) / 2;
     CHECK((finer.mesh.nodes[mesh.nodes.size() + m] - middle).norm() == 0);
   }

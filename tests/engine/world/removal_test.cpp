@@ -142,8 +142,8 @@ TEST_CASE("what remains moves like a body built without the elements that went")
     WorldSetup without = setup;
     MeshEdit edit;
     const RemoveElements command = slab(0.07, 0.08);  // the end falls off
-    REQUIRE_FALSE(make_removal_edit(command.which, setup.mesh, whole(setup.mesh), edit));
-    without.mesh = with_elements(setup.mesh, apply_edit(whole(setup.mesh), edit, 0).elements);
+    REQUIRE_FALSE(make_removal_edit(command.which, setup.mesh, full_topology(setup.mesh), edit));
+    without.mesh = with_elements(setup.mesh, apply_edit(full_topology(setup.mesh), edit, 0).elements);
     const auto world = make_world(setup), built = make_world(without);
     REQUIRE_FALSE(world->apply(command));
     CHECK((world->reactions()[0] - built->reactions()[0]).norm() <= 1e-12 * built->reactions()[0].norm());
@@ -191,8 +191,8 @@ TEST_CASE("static: what remains settles where a body built without the elements 
 
   WorldSetup without = setup;
   MeshEdit edit;
-  REQUIRE_FALSE(make_removal_edit(slab(0.08, 0.1).which, setup.mesh, whole(setup.mesh), edit));
-  without.mesh = with_elements(setup.mesh, apply_edit(whole(setup.mesh), edit, 0).elements);
+  REQUIRE_FALSE(make_removal_edit(slab(0.08, 0.1).which, setup.mesh, full_topology(setup.mesh), edit));
+  without.mesh = with_elements(setup.mesh, apply_edit(full_topology(setup.mesh), edit, 0).elements);
   const auto built = make_world(without);
   built->load_to(1);
   REQUIRE_FALSE(built->halt());
