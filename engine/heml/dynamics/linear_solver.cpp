@@ -11,8 +11,9 @@ namespace {
 constexpr int max_iterations = 500;
 constexpr double first_shift = 1e-4;          // relative to the stiffness along the residual
 constexpr double projected_tolerance = 1e-2;  // an approximation need not be solved exactly
-constexpr double still_serves = 2.0 / 3;      // an outdated factor serves while the body has this part of its elements
-constexpr double changed_a_lot = 3;           // a factor of aM + L serves up to this ratio between a and its own
+constexpr double min_element_fraction =
+    2.0 / 3;                             // an outdated factor serves while the body has this part of its elements
+constexpr double max_inertia_ratio = 3;  // a factor of aM + L serves up to this ratio between a and its own
 }  // namespace
 
 Preconditioner choose_preconditioner(std::size_t free_nodes, bool static_solve) {
@@ -121,31 +122,31 @@ std::shared_ptr<PreconditionerBuild> LinearSolver::preconditioner_build() const 
 
 void LinearSolver::adopt(PreconditionerBuild& work) {
   scalar_ = work.release();
-  made_of_ = modulus_.size();
+  built_for_elements_ = modulus_.size();
   outdated_ = false;
   ++counts_.factorisations;
   factored_a_ = work.is_definite() && work.a() == a_ ? a_ : -1;
   factorise_scalar();  // the factor does not depend on when the build began
 }
 
-LinearSolver::Memory LinearSolver::memory() const {
-  Memory memory;
-  memory.factored_a = factored_a_;
-  if (outdated_) memory.outdated = scalar_;
-  if (outdated_) memory.excluded_rows = scalar_->excluded_rows();
-  memory.made_of = made_of_;
-  return memory;
+LinearSolver::Snapshot LinearSolver::snapshot() const {
+  Snapshot snapshot;
+  snapshot.factored_a = factored_a_;
+  if (outdated_) snapshot.outdated = scalar_;
+  if (outdated_) snapshot.excluded_rows = scalar_->excluded_rows();
+  snapshot.built_for_elements = built_for_elements_;
+  return snapshot;
 }
 
-void LinearSolver::restore(const Memory& memory) {
-  if (memory.outdated) {
-    scalar_ = memory.outdated;
-    scalar_->exclude_rows(memory.excluded_rows);
-    made_of_ = memory.made_of;
+void LinearSolver::restore(const Snapshot& snapshot) {
+  if (snapshot.outdated) {
+    scalar_ = snapshot.outdated;
+    scalar_->exclude_rows(snapshot.excluded_rows);
+    built_for_elements_ = snapshot.built_for_elements;
     outdated_ = true;
   }
-  if (memory.factored_a < 0) return;
-  const double a = std::exchange(a_, memory.factored_a);
+  if (snapshot.factored_a < 0) return;
+  const double a = std::exchange(a_, snapshot.factored_a);
   factored_a_ = -1;
   factorise_scalar();
   a_ = a;
@@ -154,13 +155,14 @@ void LinearSolver::restore(const Memory& memory) {
 /// Factors aM + L if a has changed a lot. First rebuilds the preconditioner if it is outdated and the body has lost too
 /// many elements since.
 bool LinearSolver::factorise_scalar() {
-  if (!scalar_ || (outdated_ && static_cast<double>(modulus_.size()) < still_serves * static_cast<double>(made_of_))) {
+  if (!scalar_ || (outdated_ && static_cast<double>(modulus_.size()) <
+                                    min_element_fraction * static_cast<double>(built_for_elements_))) {
     scalar_ = std::make_shared<SmoothedAggregation>(free_, mesh_, modulus_, mass_, max_direct_unknowns(), team_);
-    made_of_ = modulus_.size();
+    built_for_elements_ = modulus_.size();
     outdated_ = false;
     factored_a_ = -1;
   }
-  if (factored_a_ >= 0 && a_ <= changed_a_lot * factored_a_ && factored_a_ <= changed_a_lot * a_) return true;
+  if (factored_a_ >= 0 && a_ <= max_inertia_ratio * factored_a_ && factored_a_ <= max_inertia_ratio * a_) return true;
   ++counts_.factorisations;
   const bool done = scalar_->set_inertia(a_);
   factored_a_ = done ? a_ : -1;

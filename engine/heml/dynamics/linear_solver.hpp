@@ -3,7 +3,7 @@
 // preconditioners. With the Cholesky factor of the assembled stiffness they take one iteration, or a few if the
 // assembled matrix is an approximation.
 #include <Eigen/SparseCholesky>
-#include <heml/dynamics/linear_counts.hpp>
+#include <heml/dynamics/linear_solver_stats.hpp>
 #include <heml/dynamics/objective.hpp>
 #include <heml/dynamics/preconditioner_build.hpp>
 #include <heml/dynamics/single_precision_cg.hpp>
@@ -38,15 +38,15 @@ class LinearSolver {
   std::shared_ptr<PreconditionerBuild> preconditioner_build() const;
   /// State that later solves depend on besides the body: the a for which the scalar matrix is factored, and an outdated
   /// preconditioner, which cannot be rebuilt from the present body.
-  struct Memory {
+  struct Snapshot {
     double factored_a = -1;  ///< 1/s²; negative: not factored
     std::shared_ptr<SmoothedAggregation> outdated;
     std::vector<std::size_t> excluded_rows;
-    std::size_t made_of = 0;
+    std::size_t built_for_elements = 0;
   };
-  Memory memory() const;
-  /// Makes a newly constructed solver continue as the one that memory() came from.
-  void restore(const Memory& memory);
+  Snapshot snapshot() const;
+  /// Makes a newly constructed solver continue as the one that snapshot() came from.
+  void restore(const Snapshot& snapshot);
   /// Replaces the preconditioner by the result of a build, which must be done and of the present body.
   void adopt(PreconditionerBuild& work);
 
@@ -101,13 +101,13 @@ class LinearSolver {
   std::unique_ptr<BlockMatrix> matrix_;  ///< built on first use, like the members below
   std::unique_ptr<Cholesky> cholesky_;
   Vector pivots_;                                ///< |D|, in the factor's order
-  std::shared_ptr<SmoothedAggregation> scalar_;  ///< shared with Memory
+  std::shared_ptr<SmoothedAggregation> scalar_;  ///< shared with Snapshot
   std::unique_ptr<SinglePrecisionCG> single_precision_cg_;
   std::vector<Mat3> inverse_blocks_;  ///< #free
   std::vector<double> modulus_;
   double a_ = 0, factored_a_ = -1;
   bool outdated_ = false;
-  std::size_t made_of_ = 0;  ///< number of elements that the preconditioner was built for
+  std::size_t built_for_elements_ = 0;  ///< number of elements that the preconditioner was built for
   LinearSolverStats counts_;
 };
 

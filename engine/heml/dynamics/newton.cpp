@@ -5,37 +5,38 @@
 
 namespace heml {
 namespace {
-constexpr double slow = 0.5;  // an iteration on negative curvature that leaves more of ‖r‖ switches the remedy
+constexpr double switch_ratio = 0.5;  // an iteration on negative curvature that leaves more of ‖r‖ switches the remedy
 // Tolerated iterations without progress: where forces are round-off; where only the potential is.
-constexpr int patience_of_forces = 2, patience_of_values = 5;
-constexpr double mostly = 1e-3;  // part of the bound on the round-off of values that sums of many elements reach
+constexpr int max_idle_forces = 2, max_idle_values = 5;
+constexpr double round_off_fraction =
+    1e-3;  // part of the bound on the round-off of values that sums of many elements reach
 constexpr double none = std::numeric_limits<double>::infinity();
 
 /// Detects that round-off ends progress. Where a step changes Φ by round-off only, several steps together must lower Φ,
 /// or the measure must fall.
-class AtRoundOff {
+class RoundOffDetector {
  public:
   /// Whether progress has ended at a point with this measure.
   bool is_over(const Objective& objective, const SearchPoint& at, double measure) {
-    const bool is_lower = at.value && *at.value < lowest_ - mostly * objective.value_round_off();
+    const bool is_lower = at.value && *at.value < lowest_ - round_off_fraction * objective.value_round_off();
     if (is_lower) {
       lowest_ = *at.value;
       best_measure_ = none;
     }
-    idle_ = at.within_round_off && !is_lower && measure > 0.9 * least_ ? idle_ + 1 : 0;
-    least_ = std::min(least_, measure);
+    idle_ = at.within_round_off && !is_lower && measure > 0.9 * min_measure_ ? idle_ + 1 : 0;
+    min_measure_ = std::min(min_measure_, measure);
     if (at.within_round_off && measure < best_measure_) {
       best_ = at.x;
       best_measure_ = measure;
     }
-    return idle_ >= patience_of_values || (idle_ >= patience_of_forces && objective.is_at_round_off(at.r));
+    return idle_ >= max_idle_values || (idle_ >= max_idle_forces && objective.is_at_round_off(at.r));
   }
   const Vector& best() const { return best_; }
   double best_measure() const { return best_measure_; }
 
  private:
   double lowest_ = none;  // Φ when it last fell by more than its round-off
-  double least_ = none, best_measure_ = none;
+  double min_measure_ = none, best_measure_ = none;
   Vector best_;
   int idle_ = 0;
 };
@@ -45,7 +46,7 @@ NewtonResult minimise(Objective& objective, LinearSolver& linear, const Stopping
                       const NewtonOptions& options, Vector& x) {
   NewtonResult result;
   SearchPoint at{x, Vector(), std::nullopt};
-  AtRoundOff round_off;
+  RoundOffDetector round_off;
   if (!objective.residual(at.x, at.r) || !at.r.allFinite()) return result;
   at.value = objective.value(at.x);
   Vector d;
@@ -79,7 +80,7 @@ NewtonResult minimise(Objective& objective, LinearSolver& linear, const Stopping
       linear.solve_projected(objective, at.x, at.r, d);
     }
     if (line_search(objective, d, at)) {
-      if (!positive && at.r.norm() > slow * before) by_projection = may_project && !by_projection;
+      if (!positive && at.r.norm() > switch_ratio * before) by_projection = may_project && !by_projection;
       continue;
     }
     if (!may_project || (!positive && by_projection)) return finish(NewtonResult::Status::stalled);

@@ -4,7 +4,7 @@
 namespace heml {
 namespace {
 
-constexpr double strong = 0.02;  // |a_ij|/√(a_ii a_jj) from which two unknowns are strongly connected
+constexpr double strength_threshold = 0.02;  // |a_ij|/√(a_ii a_jj) from which two unknowns are strongly connected
 constexpr double smoothing = 4.0 / 3;
 
 /// Strongly connected neighbours of each unknown and their strengths.
@@ -19,7 +19,7 @@ struct Neighbours {
       for (ScalarMatrix::InnerIterator entry(A, i); entry; ++entry) {
         const auto j = static_cast<int>(entry.col());
         const double s = std::abs(entry.value()) / std::sqrt(diagonal[i] * diagonal[j]);
-        if (j == i || !(s >= strong)) continue;
+        if (j == i || !(s >= strength_threshold)) continue;
         node.push_back(j);
         strength.push_back(s);
       }
@@ -41,9 +41,9 @@ std::vector<int> aggregate(const Neighbours& neighbours, int& count) {
       visit(of[static_cast<std::size_t>(neighbours.node[k])], neighbours.strength[k]);
   };
   for (std::size_t i = 0; i < size; ++i) {
-    bool alone = of[i] == unassigned;
-    each(i, [&](int other, double) { alone = alone && other == unassigned; });
-    if (!alone || neighbours.start[i] == neighbours.start[i + 1]) continue;
+    bool is_isolated = of[i] == unassigned;
+    each(i, [&](int other, double) { is_isolated = is_isolated && other == unassigned; });
+    if (!is_isolated || neighbours.start[i] == neighbours.start[i + 1]) continue;
     of[i] = count;
     each(i, [&](int& other, double) { other = count; });
     ++count;
@@ -51,10 +51,10 @@ std::vector<int> aggregate(const Neighbours& neighbours, int& count) {
   std::vector<int> joined = of;
   for (std::size_t i = 0; i < size; ++i) {
     if (of[i] != unassigned) continue;
-    double most = 0;
+    double max_strength = 0;
     each(i, [&](int other, double strength) {
-      if (other == unassigned || strength <= most) return;
-      most = strength;
+      if (other == unassigned || strength <= max_strength) return;
+      max_strength = strength;
       joined[i] = other;
     });
   }

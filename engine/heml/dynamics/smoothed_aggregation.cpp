@@ -9,8 +9,8 @@
 namespace heml {
 namespace {
 
-constexpr std::size_t grain = 2048;    // min. rows per thread, which outweigh the cost of waking it
-constexpr double shrinks = 0.7;        // max. ratio of unknowns of a level to those of the finer one
+constexpr std::size_t grain = 2048;           // min. rows per thread, which outweigh the cost of waking it
+constexpr double max_coarsening_ratio = 0.7;  // max. ratio of unknowns of a level to those of the finer one
 constexpr double smoothed_from = 0.2;  // the smoother damps eigenvalues from here to 1, the coarser levels the rest
 /// Weights w of the steps x += w D⁻¹(b − Ax), which together are the Chebyshev polynomial on [smoothed_from, 1].
 const std::array<float, 2> weights = [] {
@@ -65,7 +65,7 @@ void SmoothedAggregation::add_levels(std::size_t max_direct_unknowns) {
   while (static_cast<std::size_t>(levels_.back().L.rows()) > max_direct_unknowns) {
     Level& fine = levels_.back();
     const ScalarMatrix P = smoothed_prolongation(fine.L), R = P.transpose();
-    if (static_cast<double>(P.cols()) > shrinks * static_cast<double>(P.rows())) break;
+    if (static_cast<double>(P.cols()) > max_coarsening_ratio * static_cast<double>(P.rows())) break;
     fine.P = P.cast<float>();
     fine.R = R.cast<float>();
     Level coarse;

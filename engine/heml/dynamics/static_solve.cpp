@@ -6,11 +6,11 @@
 namespace heml {
 namespace {
 
-constexpr double shortest = 1.0 / 1024;  // smallest increment of Newton; below, relaxation
-constexpr double relaxing = 1.0 / 64;    // increment of relaxation
+constexpr double min_increment = 1.0 / 1024;       // smallest increment of Newton; below, relaxation
+constexpr double relaxation_increment = 1.0 / 64;  // increment of relaxation
 constexpr NewtonOptions newton_options{40, 1e-3};
-constexpr double far_enough = 100;  // times the tolerance: residual that is accepted as round-off
-constexpr int quick = 8;            // Newton iterations up to which the increment doubles
+constexpr double round_off_factor = 100;  // times the tolerance: residual that is accepted as round-off
+constexpr int growth_iterations = 8;      // Newton iterations up to which the increment doubles
 constexpr NewtonOptions relaxation_options{8, 1e-2};
 constexpr int max_relaxation_steps = 80;
 
@@ -34,20 +34,20 @@ bool StaticSolve::load_to(double fraction, const std::atomic<bool>& stop) {
     if (stop) return false;
     const double next = load_ + step_ * (1 + 1e-9) >= fraction ? fraction : load_ + step_;
     if (increment(next)) {
-      if (last_iterations_ <= quick) step_ *= 2;
+      if (last_iterations_ <= growth_iterations) step_ *= 2;
       continue;
     }
     if (round_off_) return false;  // at a smaller load, round-off is relatively larger
     step_ = (next - load_) / 2;
-    if (step_ >= shortest) continue;
-    if (!relax(std::min(fraction, load_ + relaxing))) return false;
-    step_ = relaxing;
+    if (step_ >= min_increment) continue;
+    if (!relax(std::min(fraction, load_ + relaxation_increment))) return false;
+    step_ = relaxation_increment;
   }
   return true;
 }
 
 bool StaticSolve::increment(double next) {
-  Vector x = tried_ = predict(next);
+  Vector x = initial_guess_ = predict(next);
   return solve(x) && keep(next, x);
 }
 
@@ -76,17 +76,17 @@ bool StaticSolve::solve(Vector& x) {
     const NewtonResult newton = minimise(body_, linear_, stop_, newton_options, x);
     iterations_ += newton.iterations;
     last_iterations_ = std::max(last_iterations_, newton.iterations);
-    if (!is_enough(newton, x)) return false;
+    if (!is_converged(newton, x)) return false;
   } while (body_.update_lagged(x));
   return true;
 }
 
 /// Whether Newton converged, or was stopped by round-off near enough to the tolerance, unless strict.
-bool StaticSolve::is_enough(const NewtonResult& newton, const Vector& x) {
+bool StaticSolve::is_converged(const NewtonResult& newton, const Vector& x) {
   round_off_.reset();
   Vector r;
   if (!newton.at_round_off || !body_.residual(x, r) || !body_.is_at_round_off(r)) return newton.converged();
-  if (!strict_ && newton.measure <= far_enough * stop_.limit) return true;
+  if (!strict_ && newton.measure <= round_off_factor * stop_.limit) return true;
   round_off_ = newton.measure;
   return false;
 }
@@ -105,7 +105,7 @@ bool StaticSolve::keep(double next, const Vector& x) {
 }
 
 bool StaticSolve::relax(double next) {
-  Vector x = tried_ = predict(next), r, Kr;
+  Vector x = initial_guess_ = predict(next), r, Kr;
   if (!body_.residual(x, r)) return false;
   if (r.norm() == 0) return solve(x) && keep(next, x);
   // Inertia starts by matching the stiffness along the residual and then falls.

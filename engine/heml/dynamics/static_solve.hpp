@@ -53,7 +53,7 @@ class StaticSolve {
   void invalidate() { solved_ = false; }
 
   const Vector& x() const { return x_; }
-  const Vector& tried() const { return tried_; }  ///< start of the last increment's iterations
+  const Vector& initial_guess() const { return initial_guess_; }  ///< start of the last increment's iterations
   double load() const { return load_; }
   double relative_residual() const { return relative_residual_; }  ///< of x()
   /// Relative residual at which round-off ended the last attempt; none if it ended otherwise.
@@ -65,7 +65,7 @@ class StaticSolve {
   bool increment(double next);
   Vector predict(double next);
   bool solve(Vector& x);
-  bool is_enough(const NewtonResult& newton, const Vector& x);
+  bool is_converged(const NewtonResult& newton, const Vector& x);
   bool relax(double next);
   bool keep(double next, const Vector& x);
 
@@ -76,7 +76,7 @@ class StaticSolve {
   double inertia_;
   StoppingCriterion stop_;
   bool strict_;
-  Vector x_, tried_;
+  Vector x_, initial_guess_;
   std::optional<double> round_off_;
   double load_ = 0, step_ = 1, relative_residual_ = 0;
   bool solved_ = false;  ///< whether x_ is an equilibrium at load_

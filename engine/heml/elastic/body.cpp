@@ -402,7 +402,7 @@ std::size_t ElasticBody<Real>::bytes() const {
     sum += bytes_of(group.element, group.node, group.A, group.volume, group.gamma, group.fibre, group.parameters);
     sum += bytes_of(part.stiffness) + (part.flow ? part.flow->bytes() : 0);
     for (const auto& term : part.terms)
-      for (const SlotMemory<Real>& memory : term->memory()) sum += bytes_of(*memory.values);
+      for (const SlotState<Real>& state : term->slot_states()) sum += bytes_of(*state.values);
   }
   return sum + fans_.bytes() + springs_.bytes() + (pressure_ ? pressure_->bytes() : 0);
 }
@@ -467,10 +467,10 @@ void ElasticBody<Real>::set_material(std::size_t index, const Material& material
 }
 
 template <class Real>
-SlotMemories<Real> ElasticBody<Real>::Part::memory() {
-  SlotMemories<Real> lists = flow ? flow->memory(group) : SlotMemories<Real>();
+SlotStates<Real> ElasticBody<Real>::Part::slot_states() {
+  SlotStates<Real> lists = flow ? flow->slot_states(group) : SlotStates<Real>();
   for (const auto& term : terms)
-    for (const SlotMemory<Real>& list : term->memory()) lists.push_back(list);
+    for (const SlotState<Real>& list : term->slot_states()) lists.push_back(list);
   return lists;
 }
 

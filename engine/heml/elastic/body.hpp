@@ -54,7 +54,7 @@ struct KernelInfo {
 /// Snapshot of a body without its mesh, for ElasticBody::restore(): materials, order of the elements in their groups,
 /// internal state and fan layout.
 template <class Real>
-struct BodyMemory {
+struct BodySnapshot {
   struct Part {
     std::size_t material;
     std::vector<int> element;               ///< inner number of each slot's element
@@ -158,10 +158,11 @@ class ElasticBody {
   /// layout.
   void transfer_state(const TetMesh& mesh, const std::vector<int>& material_of, const std::vector<int>& origins);
   /// Snapshot for restore(), which reproduces the present state to the bit.
-  BodyMemory<Real> memory();
+  BodySnapshot<Real> snapshot();
   /// Restores a mesh and the snapshot of that time. Elements whose material has changed since lose their internal state
   /// and are taken as relaxed at x.
-  void restore(const TetMesh& mesh, const std::vector<int>& material_of, const BodyMemory<Real>& memory, const Real* x);
+  void restore(const TetMesh& mesh, const std::vector<int>& material_of, const BodySnapshot<Real>& snapshot,
+               const Real* x);
   /// Replaces the mesh; the body is then as after construction.
   void set_mesh(const TetMesh& mesh, const std::vector<int>& material_of);
 
@@ -190,7 +191,7 @@ class ElasticBody {
     bool in_fans;                 ///< fans_ evaluates the law's forces instead of the first term
 
     std::size_t first_loop() const { return in_fans ? 1 : 0; }  ///< first term that forces() loops over
-    SlotMemories<Real> memory();                                ///< of all terms and the flow
+    SlotStates<Real> slot_states();                             ///< of all terms and the flow
     bool has_loops(bool nodal_pressure) const { return terms.size() > first_loop() || nodal_pressure; }
   };
   static constexpr std::size_t grain_ = 2048;       ///< min. elements per thread, which outweigh the cost of waking it
@@ -206,7 +207,7 @@ class ElasticBody {
   void update_fans(const TetMesh& before, const std::vector<int>& origins);
   void make_shared();
   void keep_numbered(Part& part, const std::vector<int>& number);
-  void transfer_memory(const Part& old, const TetMesh& before, const std::vector<int>& origins, Part& part) const;
+  void transfer_slot_states(const Part& old, const TetMesh& before, const std::vector<int>& origins, Part& part) const;
   void gather_corners(const CornerMap& corners, Real* f, bool add, ThreadTeam& team) const;
   double sum_energies(const Real* x, bool stored, ThreadTeam& team);
   void element_stiffness(std::size_t part, std::size_t s, ElementMatrix<Real>& K) const;

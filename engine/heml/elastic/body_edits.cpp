@@ -45,40 +45,40 @@ void ElasticBody<Real>::set_mesh(const TetMesh& mesh, const std::vector<int>& ma
 }
 
 template <class Real>
-BodyMemory<Real> ElasticBody<Real>::memory() {
-  BodyMemory<Real> memory{{}, materials_, fans_, plastic_work_, step_};
+BodySnapshot<Real> ElasticBody<Real>::snapshot() {
+  BodySnapshot<Real> snapshot{{}, materials_, fans_, plastic_work_, step_};
   for (Part& part : parts_) {
-    memory.parts.push_back({part.material, part.group.element, {}});
-    auto& of_part = memory.parts.back();
-    for (const SlotMemory<Real>& list : part.memory()) of_part.values.push_back(*list.values);
+    snapshot.parts.push_back({part.material, part.group.element, {}});
+    auto& of_part = snapshot.parts.back();
+    for (const SlotState<Real>& list : part.slot_states()) of_part.values.push_back(*list.values);
   }
-  return memory;
+  return snapshot;
 }
 
 template <class Real>
 void ElasticBody<Real>::restore(const TetMesh& mesh, const std::vector<int>& material_of,
-                                const BodyMemory<Real>& memory, const Real* x) {
+                                const BodySnapshot<Real>& snapshot, const Real* x) {
   mesh_ = mesh;
   material_of_ = material_of;
   parts_.clear();
-  step_ = memory.step;
-  for (const auto& of_part : memory.parts) {
+  step_ = snapshot.step;
+  for (const auto& of_part : snapshot.parts) {
     Part& part = parts_.emplace_back(make_part(of_part.material, of_part.element));
     for (const auto& term : part.terms) term->reset_history(part.group, x);
-    if (!(materials_[part.material] == memory.materials[part.material])) continue;
-    const SlotMemories<Real> lists = part.memory();
+    if (!(materials_[part.material] == snapshot.materials[part.material])) continue;
+    const SlotStates<Real> lists = part.slot_states();
     for (std::size_t k = 0; k < lists.size(); ++k) *lists[k].values = of_part.values[k];
   }
   join_parts();
-  plastic_work_ = memory.plastic_work;
-  if (materials_ == memory.materials)
-    fans_ = memory.fans;
+  plastic_work_ = snapshot.plastic_work;
+  if (materials_ == snapshot.materials)
+    fans_ = snapshot.fans;
   else
     make_fans();
 }
 
 template <class Real>
-std::size_t BodyMemory<Real>::bytes() const {
+std::size_t BodySnapshot<Real>::bytes() const {
   std::size_t sum = fans.bytes();
   for (const Part& part : parts) sum += bytes_of(part.element, part.values);
   return sum;
@@ -102,7 +102,7 @@ void ElasticBody<Real>::keep_numbered(Part& part, const std::vector<int>& number
   }
   const std::vector<std::size_t> from = keep_slots(part.group, slots);
   for (const auto& term : part.terms)
-    for (const SlotMemory<Real>& memory : term->memory()) gather_slots(*memory.values, from, memory.each);
+    for (const SlotState<Real>& state : term->slot_states()) gather_slots(*state.values, from, state.each);
   if (part.flow) part.flow->gather_slots(from);
 }
 
@@ -140,7 +140,7 @@ void ElasticBody<Real>::transfer_state(const TetMesh& mesh, const std::vector<in
     const std::size_t material = old.material;
     if (materials_[material].has_internal_state()) {
       parts_.push_back(make_part(material, all[material]));
-      transfer_memory(old, before, origins, parts_.back());
+      transfer_slot_states(old, before, origins, parts_.back());
       continue;
     }
     keep_numbered(old, number);
@@ -152,8 +152,8 @@ void ElasticBody<Real>::transfer_state(const TetMesh& mesh, const std::vector<in
 }
 
 template <class Real>
-void ElasticBody<Real>::transfer_memory(const Part& old, const TetMesh& before, const std::vector<int>& origins,
-                                        Part& part) const {
+void ElasticBody<Real>::transfer_slot_states(const Part& old, const TetMesh& before, const std::vector<int>& origins,
+                                             Part& part) const {
   std::vector<std::size_t> slot(before.tets.size());
   for (std::size_t s = 0; s < old.group.size(); ++s) slot[static_cast<std::size_t>(old.group.element[s])] = s;
   std::vector<std::size_t> from;
@@ -165,7 +165,7 @@ void ElasticBody<Real>::transfer_memory(const Part& old, const TetMesh& before, 
     subelement_maps.emplace_back(places(before, origin), places(mesh_, element));
   }
   for (std::size_t k = 0; k < part.terms.size(); ++k) {
-    const SlotMemories<Real> to = part.terms[k]->memory(), whole = old.terms[k]->memory();
+    const SlotStates<Real> to = part.terms[k]->slot_states(), whole = old.terms[k]->slot_states();
     for (std::size_t list = 0; list < to.size(); ++list) {
       *to[list].values = *whole[list].values;
       gather_slots(*to[list].values, from, to[list].each);
@@ -177,13 +177,13 @@ void ElasticBody<Real>::transfer_memory(const Part& old, const TetMesh& before, 
 
 template void ElasticBody<float>::set_mesh(const TetMesh&, const std::vector<int>&);
 template void ElasticBody<double>::set_mesh(const TetMesh&, const std::vector<int>&);
-template struct BodyMemory<float>;
-template struct BodyMemory<double>;
-template BodyMemory<float> ElasticBody<float>::memory();
-template BodyMemory<double> ElasticBody<double>::memory();
-template void ElasticBody<float>::restore(const TetMesh&, const std::vector<int>&, const BodyMemory<float>&,
+template struct BodySnapshot<float>;
+template struct BodySnapshot<double>;
+template BodySnapshot<float> ElasticBody<float>::snapshot();
+template BodySnapshot<double> ElasticBody<double>::snapshot();
+template void ElasticBody<float>::restore(const TetMesh&, const std::vector<int>&, const BodySnapshot<float>&,
                                           const float*);
-template void ElasticBody<double>::restore(const TetMesh&, const std::vector<int>&, const BodyMemory<double>&,
+template void ElasticBody<double>::restore(const TetMesh&, const std::vector<int>&, const BodySnapshot<double>&,
                                            const double*);
 template void ElasticBody<float>::keep_elements(const std::vector<int>&);
 template void ElasticBody<double>::keep_elements(const std::vector<int>&);

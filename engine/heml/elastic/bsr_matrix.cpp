@@ -61,7 +61,7 @@ BsrMatrix::BsrMatrix(const std::vector<int>& number, const std::vector<Tet>& tet
   }
   block_.resize(column_.size());
   for (const Tet& tet : tets) {
-    Places& places = places_.emplace_back();
+    BlockIndices& places = block_indices_.emplace_back();
     for (std::size_t k = 0; k < 16; ++k) places[k] = find(row_of(tet[k / 4]), row_of(tet[k % 4]));
   }
   set_zero();
@@ -74,7 +74,9 @@ int BsrMatrix::find(int row, int column) const {
   return static_cast<int>(std::lower_bound(begin, end, column) - column_.begin());
 }
 
-void BsrMatrix::keep_elements(const std::vector<int>& elements) { places_ = with_elements(places_, elements); }
+void BsrMatrix::keep_elements(const std::vector<int>& elements) {
+  block_indices_ = with_elements(block_indices_, elements);
+}
 
 void BsrMatrix::set_zero() { std::fill(block_.begin(), block_.end(), Block{}); }
 
@@ -109,16 +111,16 @@ template <class Real>
 [[gnu::always_inline]] inline void BsrMatrix::add_to(std::size_t first, std::size_t last, const Real* K,
                                                      const ElementGroup<Real>& group) {
   constexpr std::size_t packet = ElementGroup<Real>::lanes;
-  static constexpr Places nowhere{-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
+  static constexpr BlockIndices nowhere{-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
   const auto is_here = [&](int place) {
     const auto at = static_cast<std::size_t>(static_cast<unsigned>(place));
     return at - first < last - first;  // false for −1, which wraps to the largest unsigned
   };
   for (std::size_t s = 0; s < group.size(); s += side_by_side) {
-    const Places* places[side_by_side];
+    const BlockIndices* places[side_by_side];
     bool any = false;
     for (std::size_t l = 0; l < side_by_side; ++l) {
-      places[l] = s + l < group.size() ? &places_[static_cast<std::size_t>(group.element[s + l])] : &nowhere;
+      places[l] = s + l < group.size() ? &block_indices_[static_cast<std::size_t>(group.element[s + l])] : &nowhere;
       for (std::size_t a = 0; a < 4; ++a) any = any || is_here((*places[l])[5 * a]);
     }
     if (!any) continue;

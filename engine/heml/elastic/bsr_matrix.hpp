@@ -41,14 +41,15 @@ class BsrMatrix {
   void multiply(const MultiVector& x, MultiVector& y, ThreadTeam& team) const;
 
   std::size_t rows() const { return start_.size() - 1; }
-  std::size_t bytes() const { return bytes_of(number_, start_, column_, block_, places_); }
+  std::size_t bytes() const { return bytes_of(number_, start_, column_, block_, block_indices_); }
 
  private:
   typedef float Column __attribute__((vector_size(16)));
   struct Block {
     Column column[3];
   };
-  using Places = std::array<int, 16>;  ///< block of each pair of an element's corners, row by row; −1: no such row
+  using BlockIndices =
+      std::array<int, 16>;  ///< block of each pair of an element's corners, row by row; −1: no such row
 
   int find(int row, int column) const;
   void add(int row, int column, const Mat3& B);
@@ -62,7 +63,7 @@ class BsrMatrix {
   std::vector<int> number_;
   std::vector<int> start_, column_;
   std::vector<Block> block_;
-  std::vector<Places> places_;  ///< #T
+  std::vector<BlockIndices> block_indices_;  ///< #T
 };
 
 }  // namespace heml

@@ -7,13 +7,13 @@
 namespace heml {
 namespace {
 
-constexpr std::size_t longest = max_fan_tets;
+constexpr std::size_t max_tets = max_fan_tets;
 
 /// Fan sizes in the order of the greedy search: those that read fewest nodes per tetrahedron first.
-const std::vector<FanSize>& sizes_by_worth() {
+const std::vector<FanSize>& sizes_by_cost() {
   static const std::vector<FanSize> sizes = [] {
     std::vector<FanSize> list;
-    for (std::size_t m = longest; m > 0; --m) {
+    for (std::size_t m = max_tets; m > 0; --m) {
       const auto tets = static_cast<std::uint8_t>(m), more = static_cast<std::uint8_t>(m + 1);
       if (m > 2) list.push_back({tets, tets});
       list.push_back({tets, more});
@@ -25,12 +25,12 @@ const std::vector<FanSize>& sizes_by_worth() {
   return sizes;
 }
 
-/// Position of a size in sizes_by_worth().
+/// Position of a size in sizes_by_cost().
 std::size_t rank_of(std::size_t tets, bool closed) {
-  using Ranks = std::array<std::array<std::size_t, 2>, longest + 1>;
+  using Ranks = std::array<std::array<std::size_t, 2>, max_tets + 1>;
   static const Ranks ranks = [] {
     Ranks table{};
-    for (std::size_t k = 0; const FanSize size : sizes_by_worth()) table[size.tets][size.ring == size.tets] = k++;
+    for (std::size_t k = 0; const FanSize size : sizes_by_cost()) table[size.tets][size.ring == size.tets] = k++;
     return table;
   }();
   return ranks[tets][closed];
@@ -69,7 +69,7 @@ std::vector<Sector> sectors_by_edge(const std::vector<Tet>& tets) {
   return sorted;
 }
 
-/// Finds the longest chain of adjacent tetrahedra round one edge that are not taken yet, at most `longest`.
+/// Finds the longest chain of adjacent tetrahedra round one edge that are not taken yet, at most `max_tets`.
 class LongestChain {
  public:
   const std::vector<const Sector*>& operator()(const Sector* begin, const Sector* end, const std::vector<char>& taken) {
@@ -87,7 +87,7 @@ class LongestChain {
  private:
   void try_from(const Sector* first) {
     chain_.clear();
-    for (const Sector* s = first; s && chain_.size() < longest; s = after(s)) {
+    for (const Sector* s = first; s && chain_.size() < max_tets; s = after(s)) {
       if (std::find(chain_.begin(), chain_.end(), s) != chain_.end()) break;  // ring closed, or tetrahedra overlap
       chain_.push_back(s);
     }
@@ -126,11 +126,11 @@ std::vector<std::vector<Fan>> greedy_fans(const std::vector<Tet>& tets) {
     for (j = i; j < sectors.size() && sectors[j].edge() == sectors[i].edge();) ++j;
     edges.push_back({i, j});
   }
-  const std::size_t ranks = sizes_by_worth().size();
+  const std::size_t ranks = sizes_by_cost().size();
   std::vector<std::vector<std::size_t>> waiting(ranks);  // edges by the best rank that their chains can have
   for (std::size_t e = edges.size(); e-- > 0;) {
     const std::size_t round = edges[e].second - edges[e].first;
-    waiting[rank_of(std::min(longest, round), round > 2 && round <= longest)].push_back(e);
+    waiting[rank_of(std::min(max_tets, round), round > 2 && round <= max_tets)].push_back(e);
   }
   std::vector<char> taken(tets.size(), 0);
   std::vector<std::vector<Fan>> fans(ranks);

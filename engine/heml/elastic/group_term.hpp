@@ -6,7 +6,7 @@
 // group_loops.hpp. The default loops call the functions of one slot, which also serve parameters that vary by element
 // and internal state.
 #include <heml/elastic/group_loops.hpp>
-#include <heml/elastic/slot_memory.hpp>
+#include <heml/elastic/slot_state.hpp>
 #include <heml/elastic/subelement_map.hpp>
 #include <heml/materials/material.hpp>
 #include <memory>
@@ -68,7 +68,7 @@ class GroupTerm {
   virtual void commit(const Group&, const Real*) {}
   virtual void reset_history(const Group&, const Real*) {}
   /// The lists of internal state per slot; empty for a law.
-  virtual SlotMemories<Real> memory() = 0;
+  virtual SlotStates<Real> slot_states() = 0;
   /// After an edit of the mesh, transforms the internal state of every slot from the original element to its piece.
   virtual void reshape(const std::vector<SubelementMap<Real>>&) {}
 };

@@ -78,7 +78,7 @@ class LawTerm final : public GroupTerm<Real> {
     for (int i = 0; i < 3; ++i) tau[i] -= mean;
   }
 
-  SlotMemories<Real> memory() override { return {}; }
+  SlotStates<Real> slot_states() override { return {}; }
 
   bool forces(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real* corner,
               bool add) const override {

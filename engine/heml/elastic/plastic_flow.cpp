@@ -6,7 +6,7 @@
 namespace heml {
 namespace {
 
-constexpr double flattest = 0.05;                 // no flow below this J, where the logarithmic strain is meaningless
+constexpr double min_J = 0.05;                    // no flow below this J, where the logarithmic strain is meaningless
 constexpr double equivalent = 0.816496580927726;  // √(2/3)
 
 template <class Real>
@@ -80,10 +80,10 @@ void PlasticFlow<Real>::reset(Group& group) {
 }
 
 template <class Real>
-SlotMemories<Real> PlasticFlow<Real>::memory(Group& group) {
-  SlotMemories<Real> memory = {{&strain_, 1}, {&group.gamma, 1}};
-  for (auto& list : group.A) memory.push_back({&list, 1});
-  return memory;
+SlotStates<Real> PlasticFlow<Real>::slot_states(Group& group) {
+  SlotStates<Real> states = {{&strain_, 1}, {&group.gamma, 1}};
+  for (auto& list : group.A) states.push_back({&list, 1});
+  return states;
 }
 
 template <class Real>
@@ -111,7 +111,7 @@ template <class Real>
 double PlasticFlow<Real>::return_map(Group& group, const Real* x, std::size_t s) {
   const auto rest = rest_shape(group, s);
   const auto kinematics = full_kinematics(group, x, s, rest);
-  if (!(kinematics.at.J > Real(flattest))) return 0;
+  if (!(kinematics.at.J > Real(min_J))) return 0;
   Real factor[3][3], C[6], tau[3], n[3];
   cholesky3(rest.A, factor);
   into_rest_frame(factor, kinematics.G, C);
@@ -120,7 +120,7 @@ double PlasticFlow<Real>::return_map(Group& group, const Real* x, std::size_t s)
   if (!(mises(tau) > yield_ + hardening_ * strain_[s])) return 0;
 
   const Real length = flow_direction(e.value, n);
-  const auto beyond = [&](Real gamma) {  // stress beyond yield after a flow of gamma; sets tau
+  const auto yield_function = [&](Real gamma) {  // stress beyond yield after a flow of gamma; sets tau
     Real c[3];
     for (int i = 0; i < 3; ++i) c[i] = e.value[i] * natural_exp(-2 * gamma * n[i]);
     law_->deviatoric_stress(group, s, c, kinematics.at.J, tau);
@@ -129,9 +129,9 @@ double PlasticFlow<Real>::return_map(Group& group, const Real* x, std::size_t s)
   Real low = 0, high = length;  // the deviatoric strain is 0 at the upper end
   for (int i = 0; i < 60 && high - low > Real(1e-14) * length; ++i) {
     const Real middle = (low + high) / 2;
-    (beyond(middle) > 0 ? low : high) = middle;
+    (yield_function(middle) > 0 ? low : high) = middle;
   }
-  beyond(high);
+  yield_function(high);
   double power = 0;
   for (int i = 0; i < 3; ++i) power += static_cast<double>(tau[i] * n[i]);
   strain_[s] += Real(equivalent) * high;

@@ -30,7 +30,7 @@ class PlasticFlow {
   void transfer_state(const PlasticFlow& other, const Group& of_other, std::span<const std::size_t> from,
                       const std::vector<SubelementMap<Real>>& subelement_maps, Group& group);
   /// The lists of internal state: the plastic strain, and A and gamma of the group.
-  SlotMemories<Real> memory(Group& group);
+  SlotStates<Real> slot_states(Group& group);
   std::size_t bytes() const { return bytes_of(rest_A_, rest_gamma_, strain_); }
   const std::vector<Real>& plastic_strain() const { return strain_; }  ///< padded #S, equivalent
 

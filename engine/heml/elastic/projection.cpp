@@ -30,7 +30,7 @@ Mat9 full(const Real K[edge_entries]) {
 }
 
 template <class Real>
-void put(const Mat9& matrix, Real K[edge_entries]) {
+void store(const Mat9& matrix, Real K[edge_entries]) {
   for (int r = 0, at = 0; r < 9; ++r)
     for (int c = 0; c <= r; ++c) K[at++] = static_cast<Real>(matrix(r, c));
 }
@@ -55,7 +55,7 @@ Mat9 times_identity(const Eigen::Matrix3d& T) {
 template <class Real>
 void clamp_element(Real K[edge_entries]) {
   const Mat9 matrix = full(K);
-  if (matrix.allFinite()) put(positive_part(matrix), K);
+  if (matrix.allFinite()) store(positive_part(matrix), K);
 }
 
 template <class Real>
@@ -73,7 +73,7 @@ void clamp_tension(const Tensions<Real>& t, const ElementKinematics<Real>& kinem
   const Eigen::Matrix3d L = square(rest.A).llt().matrixL(), inverse = L.inverse();
   const Eigen::Matrix3d S = inverse * T * inverse.transpose();
   const Eigen::Matrix3d positive = L * positive_part(S) * L.transpose();
-  put(Mat9(times_identity(positive) + positive_part(Mat9(matrix - times_identity(T)))), K);
+  store(Mat9(times_identity(positive) + positive_part(Mat9(matrix - times_identity(T)))), K);
 }
 
 template void clamp_element(float[edge_entries]);

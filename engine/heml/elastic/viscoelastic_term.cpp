@@ -26,14 +26,14 @@ struct Viscous {
 };
 
 template <class Real>
-HEML_WIDE void viscous_forces(const Viscous<Real>& of, const ElementGroup<Real>& group, const Real* x, const Real* kept,
-                              std::size_t begin, std::size_t end, Real* corner, bool add) {
+HEML_WIDE void viscous_forces(const Viscous<Real>& of, const ElementGroup<Real>& group, const Real* x,
+                              const Real* state, std::size_t begin, std::size_t end, Real* corner, bool add) {
   constexpr std::size_t lanes = ElementGroup<Real>::lanes;
   for (std::size_t p = begin; p < end; ++p) {
     const Packet<Real, false> packet(group, x, p * lanes);
     Real before[6][lanes], out[12][lanes];
     for (std::size_t l = 0; l < lanes; ++l)
-      for (std::size_t i = 0; i < 6; ++i) before[i][l] = kept[of.stride * (p * lanes + l) + i];
+      for (std::size_t i = 0; i < 6; ++i) before[i][l] = state[of.stride * (p * lanes + l) + i];
 #pragma GCC ivdep
     for (std::size_t l = 0; l < lanes; ++l) {
       const Corners<Real> at(packet.x, l);
@@ -52,7 +52,7 @@ HEML_WIDE void viscous_forces(const Viscous<Real>& of, const ElementGroup<Real>&
 
 /// Stores the Gram matrices at x, from which the next step starts.
 template <class Real>
-HEML_WIDE void keep_lengths(const ElementGroup<Real>& group, const Real* x, std::size_t stride, Real* kept) {
+HEML_WIDE void store_gram(const ElementGroup<Real>& group, const Real* x, std::size_t stride, Real* state) {
   constexpr std::size_t lanes = ElementGroup<Real>::lanes;
   for (std::size_t p = 0; p < group.packets(); ++p) {
     const Packet<Real, false> packet(group, x, p * lanes);
@@ -65,7 +65,7 @@ HEML_WIDE void keep_lengths(const ElementGroup<Real>& group, const Real* x, std:
       for (int i = 0; i < 6; ++i) G[i][l] = kinematics.G[i];
     }
     for (std::size_t l = 0; l < lanes; ++l)
-      for (std::size_t i = 0; i < 6; ++i) kept[stride * (p * lanes + l) + i] = G[i][l];
+      for (std::size_t i = 0; i < 6; ++i) state[stride * (p * lanes + l) + i] = G[i][l];
   }
 }
 
@@ -97,52 +97,52 @@ void ViscoelasticTerm<Real>::begin_step(Real h) {
 
 template <class Real>
 void ViscoelasticTerm<Real>::reset_history(const Group& group, const Real* x) {
-  kept_.assign(stride_ * group.volume.size(), 0);
+  state_.assign(stride_ * group.volume.size(), 0);
   for (std::size_t s = 0; s < group.volume.size(); ++s)
-    std::copy_n(full_kinematics(group, x, s, rest_shape(group, s)).G, 6, &kept_[stride_ * s]);
+    std::copy_n(full_kinematics(group, x, s, rest_shape(group, s)).G, 6, &state_[stride_ * s]);
 }
 
 template <class Real>
 void ViscoelasticTerm<Real>::reshape(const std::vector<SubelementMap<Real>>& subelement_maps) {
   for (std::size_t s = 0; s < subelement_maps.size(); ++s) {
-    Real* kept = &kept_[stride_ * s];
-    subelement_maps[s].lengths(kept);
-    for (std::size_t k = 6; k < stride_; k += 6) subelement_maps[s].tensions(kept + k);
+    Real* state = &state_[stride_ * s];
+    subelement_maps[s].lengths(state);
+    for (std::size_t k = 6; k < stride_; k += 6) subelement_maps[s].tensions(state + k);
   }
 }
 
 template <class Real>
 void ViscoelasticTerm<Real>::commit(const Group& group, const Real* x) {
-  if (branches_.empty() && has_avx2()) return keep_lengths(group, x, stride_, kept_.data());
+  if (branches_.empty() && has_avx2()) return store_gram(group, x, stride_, state_.data());
   for (std::size_t s = 0; s < group.volume.size(); ++s) {
     const auto rest = rest_shape(group, s);
     const auto kinematics = full_kinematics(group, x, s, rest);
-    Real* kept = &kept_[stride_ * s];
-    std::copy_n(kinematics.G, 6, kept);
+    Real* state = &state_[stride_ * s];
+    std::copy_n(kinematics.G, 6, state);
     if (branches_.empty()) continue;
     Real T[6];
-    whole_tensions(group, s, kinematics, rest, T);
+    total_tensions(group, s, kinematics, rest, T);
     for (std::size_t b = 0; b < branches_.size(); ++b) {
-      Real* Q = kept + 12 + 6 * b;
-      for (int i = 0; i < 6; ++i) Q[i] = branches_[b].decay * Q[i] + branches_[b].gain * (T[i] - kept[6 + i]);
+      Real* Q = state + 12 + 6 * b;
+      for (int i = 0; i < 6; ++i) Q[i] = branches_[b].decay * Q[i] + branches_[b].gain * (T[i] - state[6 + i]);
     }
-    std::copy_n(T, 6, kept + 6);
+    std::copy_n(T, 6, state + 6);
   }
 }
 
 template <class Real>
 void ViscoelasticTerm<Real>::strain_change(std::size_t s, const ElementKinematics<Real>& kinematics, Real dG[6]) const {
-  for (std::size_t i = 0; i < 6; ++i) dG[i] = kinematics.G[i] - kept_[stride_ * s + i];
+  for (std::size_t i = 0; i < 6; ++i) dG[i] = kinematics.G[i] - state_[stride_ * s + i];
 }
 
 /// Tensions that are constant during a step: Σ_branches (decay Q − gain T_iso) of the committed state.
 template <class Real>
 Tensions<Real> ViscoelasticTerm<Real>::fixed_tensions(std::size_t s) const {
   Tensions<Real> t{};
-  const Real* kept = &kept_[stride_ * s];
+  const Real* state = &state_[stride_ * s];
   for (std::size_t b = 0; b < branches_.size(); ++b)
     for (std::size_t i = 0; i < 6; ++i)
-      t.T[i] += branches_[b].decay * kept[12 + 6 * b + i] - branches_[b].gain * kept[6 + i];
+      t.T[i] += branches_[b].decay * state[12 + 6 * b + i] - branches_[b].gain * state[6 + i];
   return t;
 }
 
@@ -155,7 +155,7 @@ template <class Real>
 bool ViscoelasticTerm<Real>::forces(const Group& group, const Real* x, std::size_t begin, std::size_t end, Real* corner,
                                     bool add) const {
   if (!branches_.empty() || !has_avx2()) return GroupTerm<Real>::forces(group, x, begin, end, corner, add);
-  viscous_forces<Real>({eta_, zeta_, per_step_, stride_}, group, x, kept_.data(), begin, end, corner, add);
+  viscous_forces<Real>({eta_, zeta_, per_step_, stride_}, group, x, state_.data(), begin, end, corner, add);
   return true;
 }
 
@@ -239,7 +239,7 @@ void ViscoelasticTerm<Real>::deviatoric_stress(const Group&, std::size_t, const 
 /// Tensions of the isochoric law with its wJ expressed as tensions, wJ (cross_a·cross_b) / (36 V J). J is taken as at
 /// least 0.05, so that crushed elements keep finite values.
 template <class Real>
-void ViscoelasticTerm<Real>::whole_tensions(const Group& group, std::size_t s,
+void ViscoelasticTerm<Real>::total_tensions(const Group& group, std::size_t s,
                                             const ElementKinematics<Real>& kinematics, const RestShape<Real>& rest,
                                             Real T[6]) const {
   const auto t = law_->tensions(group, s, kinematics, rest);

@@ -44,7 +44,7 @@ class ViscoelasticTerm final : public GroupTerm<Real> {
   void begin_step(Real h) override;
   void commit(const Group& group, const Real* x) override;
   void reset_history(const Group& group, const Real* x) override;
-  SlotMemories<Real> memory() override { return {{&kept_, stride_}}; }
+  SlotStates<Real> slot_states() override { return {{&state_, stride_}}; }
   void reshape(const std::vector<SubelementMap<Real>>& subelement_maps) override;
 
  private:
@@ -53,7 +53,7 @@ class ViscoelasticTerm final : public GroupTerm<Real> {
   };
   Tensions<Real> fixed_tensions(std::size_t s) const;
   void add_viscous(const Real dG[6], const RestShape<Real>& rest, Real T[6]) const;
-  void whole_tensions(const Group& group, std::size_t s, const ElementKinematics<Real>& kinematics,
+  void total_tensions(const Group& group, std::size_t s, const ElementKinematics<Real>& kinematics,
                       const RestShape<Real>& rest, Real T[6]) const;
   void strain_change(std::size_t s, const ElementKinematics<Real>& kinematics, Real dG[6]) const;
 
@@ -63,8 +63,8 @@ class ViscoelasticTerm final : public GroupTerm<Real> {
   Real total_gamma_ = 0;
   Real per_step_ = 0;        ///< 1/h
   Real weight_ = 0;          ///< Σ gain
-  std::size_t stride_ = 12;  ///< values per slot of kept_
-  std::vector<Real> kept_;
+  std::size_t stride_ = 12;  ///< values per slot of state_
+  std::vector<Real> state_;
 };
 
 }  // namespace heml

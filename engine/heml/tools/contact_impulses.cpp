@@ -42,7 +42,7 @@ void ContactImpulses<Real>::first_half_step(Contacts& contacts, double time_befo
     const double travel = (contacts.probe->tip(time_after) - contacts.probe->tip(time_before)).norm();
     parts = std::clamp(std::ceil(travel / (max_travel * contacts.probe->radius())), 1.0, max_parts);
   }
-  if (contacts.tissue) tissue_.meet(*contacts.tissue, h, inverse_mass, before, x);
+  if (contacts.tissue) tissue_.find_pairs(*contacts.tissue, h, inverse_mass, before, x);
   const int rounds = contacts.reports.size() > 1 ? 3 : 1;
   for (double part = 1; part <= parts; ++part) {
     const double to = part < parts ? time_before + part / parts * h : time_after;
@@ -51,9 +51,9 @@ void ContactImpulses<Real>::first_half_step(Contacts& contacts, double time_befo
     for (int round = 0; round < rounds; ++round)  // tables come last in a round, since they cannot move
       for (std::size_t s = contacts.reports.size(); s-- > 0;) {
         if (surfaces_[s].shape == ContactSurface::Shape::tissue)
-          tissue_.push(inverse_mass, v);
+          tissue_.solve(inverse_mass, v);
         else
-          stop_at(path, s, contacts, v);
+          stop_points(path, s, contacts, v);
       }
   }
   const auto less = [](const Stopped& a, const Stopped& b) {
@@ -77,7 +77,7 @@ void ContactImpulses<Real>::first_half_step(Contacts& contacts, double time_befo
 /// Stops points that would be inside surface s at path.to. Penetration at the step's start decays over
 /// contact_recovery.
 template <class Real>
-void ContactImpulses<Real>::stop_at(const StepPath& path, std::size_t s, Contacts& contacts, Real* v) {
+void ContactImpulses<Real>::stop_points(const StepPath& path, std::size_t s, Contacts& contacts, Real* v) {
   const double h = path.to - path.from;
   const ContactSurface &now = path.now[s], &then = path.then[s];
   const auto moved = [&](int n) -> Vec3 { return at(path.before, n) + h * at(v, n); };
@@ -88,14 +88,14 @@ void ContactImpulses<Real>::stop_at(const StepPath& path, std::size_t s, Contact
   for (int round = 0; deep && round < (is_capsule ? max_rounds : 1); ++round) {
     deep = false;
     each_contact(now, contacts.boundary, 0, moved, [&](const ContactPoint& point) {
-      const double may = std::min(0.0, updated_gap(then, point, was)) * std::max(0.0, 1 - h / contact_recovery);
-      const double closing = (may - point.gap) / h;
+      const double allowed_gap = std::min(0.0, updated_gap(then, point, was)) * std::max(0.0, 1 - h / contact_recovery);
+      const double closing = (allowed_gap - point.gap) / h;
       if (!(closing > 0)) return;
       const Vec3 velocity =
           is_thread ? Vec3((then.radius - now.radius) / h * point.normal) : Vec3((now.point - then.point) / h);
       stopped_.push_back({s, point, velocity});
       push(stopped_.back(), closing, path.weight, path.inverse_mass, contacts, v);
-      deep = deep || may - point.gap > 1e-6 * now.radius;
+      deep = deep || allowed_gap - point.gap > 1e-6 * now.radius;
     });
   }
 }
@@ -106,13 +106,13 @@ template <class Real>
 void ContactImpulses<Real>::push(const Stopped& stopped, double closing, double weight,
                                  const std::vector<Real>& inverse_mass, Contacts& contacts, Real* v) {
   const ContactPoint& point = stopped.point;
-  const double light = inverse_mass_of(point, inverse_mass);
-  if (!(light > 0)) return;
+  const double effective_inverse_mass = inverse_mass_of(point, inverse_mass);
+  if (!(effective_inverse_mass > 0)) return;
   const double friction = surfaces_[stopped.surface].friction;
   const Vec3 u = at(v, point) - stopped.velocity, slides = u - point.normal.dot(u) * point.normal;
-  const double p = closing / light, speed = slides.norm();
+  const double p = closing / effective_inverse_mass, speed = slides.norm();
   Vec3 impulse = p * point.normal;
-  if (speed > 0 && friction > 0) impulse -= std::min(friction * p, speed / light) / speed * slides;
+  if (speed > 0 && friction > 0) impulse -= std::min(friction * p, speed / effective_inverse_mass) / speed * slides;
   apply_impulse(point, impulse, inverse_mass, v);
   impulse_[stopped.surface] += weight * impulse;
   contacts.reports[stopped.surface].work += weight * impulse.dot(at(v, point));
@@ -121,9 +121,9 @@ void ContactImpulses<Real>::push(const Stopped& stopped, double closing, double 
 template <class Real>
 void ContactImpulses<Real>::second_half_step(Contacts& contacts, const std::vector<Real>& inverse_mass, const Real* x,
                                              Real* v) {
-  if (contacts.tissue) tissue_.stop(inverse_mass, x);
+  if (contacts.tissue) tissue_.begin_second_half(inverse_mass, x);
   for (int round = 0; round < (surfaces_.size() > 1 || contacts.probe ? max_rounds : 1); ++round) {
-    if (contacts.tissue) tissue_.push(inverse_mass, v);
+    if (contacts.tissue) tissue_.solve(inverse_mass, v);
     for (const Stopped& stopped : stopped_) {
       const double inward = stopped.point.normal.dot(stopped.velocity - at(v, stopped.point));
       if (inward > 0) push(stopped, inward, 1, inverse_mass, contacts, v);

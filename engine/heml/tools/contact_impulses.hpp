@@ -35,7 +35,7 @@ class ContactImpulses {
     Vec3 velocity;  ///< m/s, of the surface
   };
   struct StepPath;
-  void stop_at(const StepPath& path, std::size_t s, Contacts& contacts, Real* v);
+  void stop_points(const StepPath& path, std::size_t s, Contacts& contacts, Real* v);
   void push(const Stopped& at, double closing, double weight, const std::vector<Real>& inverse_mass, Contacts& contacts,
             Real* v);
   void publish(Contacts& contacts, const Real* x) const;

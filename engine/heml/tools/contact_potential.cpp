@@ -26,20 +26,20 @@ void add(const ContactPoint& point, const Vec3& force, Vector& f) {
     f.segment<3>(3 * point.nodes[k]) += point.weights[k] * force;
 }
 
-Mat3 along(const Vec3& normal) { return Mat3::Identity() - normal * normal.transpose(); }
+Mat3 tangent_projector(const Vec3& normal) { return Mat3::Identity() - normal * normal.transpose(); }
 
 }  // namespace
 
 void ContactPotential::begin(const Vector& x, double time) {
-  const bool first = stiffer_.empty();
+  const bool first = stiffness_factor_.empty();
   surfaces_before_ = surfaces_ = contacts_.surfaces(time);
-  stiffer_.resize(surfaces_.size(), 1);
+  stiffness_factor_.resize(surfaces_.size(), 1);
   contacts_.reports.resize(surfaces_.size());
   x_before_ = x_seen_ = x;
   touches_at_.resize(0);
   revisions_ = 0;
   pairs_.clear();
-  meet(x);
+  add_touching_pairs(x);
   if (first) {  // initial contacts stick until their normal force is known
     find(x);
     for (const ActiveContact& touch : active_)
@@ -51,7 +51,7 @@ void ContactPotential::begin(const Vector& x, double time) {
 }
 
 void ContactPotential::reset() {
-  stiffer_.clear();
+  stiffness_factor_.clear();
   friction_.clear();
   accepted_.clear();
   surfaces_.clear();
@@ -60,7 +60,7 @@ void ContactPotential::reset() {
 }
 
 void ContactPotential::set_time(double time) {
-  if (stiffer_.empty()) return;  // no step has begun
+  if (stiffness_factor_.empty()) return;  // no step has begun
   friction_ = accepted_;
   surfaces_ = contacts_.surfaces(time);
   touches_at_.resize(0);
@@ -86,7 +86,7 @@ void ContactPotential::find(const Vector& x) {
 }
 
 /// Adds to pairs_ those that touch on the way to x. Returns whether a new pair penetrates at x by more than the bound.
-bool ContactPotential::meet(const Vector& x) {
+bool ContactPotential::add_touching_pairs(const Vector& x) {
   if (!contacts_.tissue || !with_tissue_) return false;
   const auto before = [&](int n) { return at(x_before_, n); };
   const auto now = [&](int n) { return at(x, n); };
@@ -110,7 +110,7 @@ double ContactPotential::stiffness_of(const ContactPoint& point) const {
 }
 
 double ContactPotential::normal_stiffness(const ActiveContact& touch) const {
-  return stiffer_[touch.surface] * stiffness_of(touch.point);
+  return stiffness_factor_[touch.surface] * stiffness_of(touch.point);
 }
 
 /// Stretch of a point's friction spring, m.
@@ -118,17 +118,17 @@ Vec3 ContactPotential::sliding(const Friction& friction, const Vector& x) const 
   const auto& [surface, point] = friction.touch;
   const Vec3 displacement =
       at(x, point) - at(x_before_, point) - (surfaces_[surface].point - surfaces_before_[surface].point);
-  return along(point.normal) * (displacement + friction.stretch);
+  return tangent_projector(point.normal) * (displacement + friction.stretch);
 }
 
 Vec3 ContactPotential::friction_force(const Friction& friction, const Vector& x) const {
   const Vec3 slid = sliding(friction, x);
   const double k = stiffness_of(friction.touch.point), length = slid.norm();
-  if (k * length <= friction.most) return -k * slid;
-  return -friction.most / length * slid;
+  if (k * length <= friction.max_force) return -k * slid;
+  return -friction.max_force / length * slid;
 }
 
-bool ContactPotential::passes(const Vector& x) const {
+bool ContactPotential::crosses_probe(const Vector& x) const {
   if (!contacts_.probe || x_seen_.size() != x.size()) return false;
   double displacement = 0;
   for (const int n : contacts_.boundary.nodes)
@@ -156,7 +156,8 @@ double ContactPotential::value(const Vector& x) {
   }
   for (const Friction& friction : friction_) {
     const double k = stiffness_of(friction.touch.point), slid = sliding(friction, x).norm();
-    sum += k * slid <= friction.most ? k / 2 * slid * slid : friction.most * (slid - friction.most / (2 * k));
+    sum += k * slid <= friction.max_force ? k / 2 * slid * slid
+                                          : friction.max_force * (slid - friction.max_force / (2 * k));
   }
   return sum;
 }
@@ -178,20 +179,20 @@ void ContactPotential::linearise(const Vector& x) {
     const Vec3& n = touch.point.normal;
     Mat3 K = normal_stiffness(touch) * n * n.transpose();
     if (touch.point.count == 2)  // geometric stiffness of a taut thread
-      K += normal_stiffness(touch) * -std::min(0.0, touch.point.gap) / at(x, touch.point).norm() * along(n);
+      K += normal_stiffness(touch) * -std::min(0.0, touch.point.gap) / at(x, touch.point).norm() * tangent_projector(n);
     blocks_.push_back({touch.point, K});
   }
   for (const Friction& friction : friction_) {
     const double k = stiffness_of(friction.touch.point);
-    if (!(k > 0) || friction.most == 0) continue;
+    if (!(k > 0) || friction.max_force == 0) continue;
     const Vec3 slid = sliding(friction, x);
     const double length = slid.norm();
-    const Mat3 plane = along(friction.touch.point.normal);
-    if (k * length <= friction.most)
+    const Mat3 plane = tangent_projector(friction.touch.point.normal);
+    if (k * length <= friction.max_force)
       blocks_.push_back({friction.touch.point, k * plane});
     else
       blocks_.push_back(
-          {friction.touch.point, friction.most / length * (plane - slid * slid.transpose() / (length * length))});
+          {friction.touch.point, friction.max_force / length * (plane - slid * slid.transpose() / (length * length))});
   }
 }
 
@@ -227,26 +228,26 @@ std::vector<ContactPotential::Friction> ContactPotential::friction_of_touches() 
 
 bool ContactPotential::update_lagged(const Vector& x) {
   if (empty() || ++revisions_ > max_revisions) return false;
-  bool changes = meet(x);
+  bool changes = add_touching_pairs(x);
   find(x);
   std::vector<double> max_penetration(surfaces_.size(), 0.0);
   for (const ActiveContact& touch : active_)
     max_penetration[touch.surface] = std::max(max_penetration[touch.surface], -touch.point.gap);
   for (std::size_t s = 0; s < surfaces_.size(); ++s)
-    if (max_penetration[s] > bound_ && stiffer_[s] < stiffest_spring) {
-      stiffer_[s] *= std::clamp(2 * max_penetration[s] / bound_, 2.0, 32.0);
+    if (max_penetration[s] > bound_ && stiffness_factor_[s] < stiffest_spring) {
+      stiffness_factor_[s] *= std::clamp(2 * max_penetration[s] / bound_, 2.0, 32.0);
       changes = true;
     }
   std::vector<Friction> now = friction_of_touches();
   double sum = 0, difference = 0;
-  for (const Friction& friction : now) sum += friction.most;
+  for (const Friction& friction : now) sum += friction.max_force;
   const bool same_points =
       now.size() == friction_.size() &&
       std::equal(now.begin(), now.end(), friction_.begin(), [](const Friction& a, const Friction& b) {
         return a.touch.surface == b.touch.surface && a.touch.point.nodes == b.touch.point.nodes;
       });
   if (same_points)
-    for (std::size_t k = 0; k < now.size(); ++k) difference += std::abs(now[k].most - friction_[k].most);
+    for (std::size_t k = 0; k < now.size(); ++k) difference += std::abs(now[k].max_force - friction_[k].max_force);
   if (!now.empty() || !friction_.empty())
     if (!same_points || !(difference <= same_friction * sum)) {
       friction_ = std::move(now);

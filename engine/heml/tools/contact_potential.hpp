@@ -39,7 +39,7 @@ class ContactPotential {
 
   /// Whether tissue passes through a probe between the last point of linearise() or begin() and x. Such a solver step
   /// must be shortened, since on the probe's far side the contact energy would not push tissue back.
-  bool passes(const Vector& x) const;
+  bool crosses_probe(const Vector& x) const;
   double value(const Vector& x);
   void add_forces(const Vector& x, Vector& f);
   /// Evaluates the stiffness at x, positive semidefinite, for the calls below.
@@ -66,15 +66,15 @@ class ContactPotential {
   };
   struct Friction {
     ActiveContact touch;
-    double most;   ///< N
-    Vec3 stretch;  ///< m, of the spring at the step's start
+    double max_force;  ///< N
+    Vec3 stretch;      ///< m, of the spring at the step's start
   };
   struct Block {
     ContactPoint point;
     Mat3 K;
   };
   void find(const Vector& x);
-  bool meet(const Vector& x);
+  bool add_touching_pairs(const Vector& x);
   double stiffness_of(const ContactPoint& point) const;
   double normal_stiffness(const ActiveContact& touch) const;
   Vec3 sliding(const Friction& friction, const Vector& x) const;
@@ -84,7 +84,7 @@ class ContactPotential {
   Contacts& contacts_;
   std::vector<double> stiffness_;
   double bound_;
-  std::vector<double> stiffer_;  ///< factor on the penalty stiffness, per surface
+  std::vector<double> stiffness_factor_;  ///< factor on the penalty stiffness, per surface
   std::vector<Friction> friction_, accepted_;
   std::vector<ContactSurface> surfaces_, surfaces_before_;
   bool with_tissue_ = true;

@@ -41,7 +41,7 @@ void GraspSpring<Real>::update_masses(const std::vector<Real>& inverse_mass) {
 }
 
 template <class Real>
-Vec3 GraspSpring<Real>::felt_target(const Real* x) const {
+Vec3 GraspSpring<Real>::clamped_target(const Real* x) const {
   const Vec3 from = grip(x), pull = target_ - from;
   const double length = pull.norm();
   return length > reach_ ? Vec3(from + reach_ / length * pull) : target_;
@@ -57,7 +57,7 @@ Vector3<Real> GraspSpring<Real>::node_force(std::size_t k, const Vec3& target, c
 
 template <class Real>
 void GraspSpring<Real>::add_forces(const Real* x, const Real* v, Real* f) const {
-  const Vec3 target = felt_target(x);
+  const Vec3 target = clamped_target(x);
   for (std::size_t k = 0; k < nodes_.size(); ++k)
     Eigen::Map<Vector3<Real>>(f + 3 * nodes_[k]) += node_force(k, target, x, v);
 }
@@ -91,7 +91,7 @@ Vec3 GraspSpring<Real>::grip(const Real* x) const {
 
 template <class Real>
 Vec3 GraspSpring<Real>::force(const Real* x, const Real* v) const {
-  const Vec3 target = felt_target(x);
+  const Vec3 target = clamped_target(x);
   Vec3 sum = Vec3::Zero();
   for (std::size_t k = 0; k < nodes_.size(); ++k) sum += node_force(k, target, x, v).template cast<double>();
   return sum;

@@ -47,7 +47,7 @@ class GraspSpring {
   Vec3 force(const Real* x, const Real* v) const;
 
  private:
-  Vec3 felt_target(const Real* x) const;  // the target, clamped to `reach` from the grip
+  Vec3 clamped_target(const Real* x) const;  // the target, clamped to `reach` from the grip
   Vector3<Real> node_force(std::size_t k, const Vec3& target, const Real* x, const Real* v) const;
 
   int center_;

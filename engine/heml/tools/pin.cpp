@@ -11,7 +11,7 @@ PinnedPatch pin_patch(int center, double radius, std::span<const int> nodes, con
     if (inverse_mass[static_cast<std::size_t>(n)] == 0) continue;
     if (n != center && !((X(n) - X(center)).norm() <= radius && radius > 0)) continue;
     pin.nodes.push_back(n);
-    pin.place.push_back(Eigen::Map<const Vector3<Real>>(x + 3 * n).template cast<double>());
+    pin.positions.push_back(Eigen::Map<const Vector3<Real>>(x + 3 * n).template cast<double>());
   }
   return pin;
 }

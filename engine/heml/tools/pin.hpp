@@ -8,9 +8,9 @@
 namespace heml {
 
 struct PinnedPatch {
-  int center;               ///< internal number
-  std::vector<int> nodes;   ///< internal numbers, with the centre; nodes that cuts add to the patch come last
-  std::vector<Vec3> place;  ///< m, position of each
+  int center;                   ///< internal number
+  std::vector<int> nodes;       ///< internal numbers, with the centre; nodes that cuts add to the patch come last
+  std::vector<Vec3> positions;  ///< m, position of each
 };
 
 /// Pins `center` and those of `nodes` (ascending) within `radius` (m) of it at rest, except nodes of inverse mass 0,

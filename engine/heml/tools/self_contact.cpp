@@ -121,33 +121,35 @@ void SelfContact::make_edges() {
 }
 
 void SelfContact::find() {
-  met_.clear();
-  const auto is_finite = [](const Places& places) {
+  contacts_.clear();
+  const auto is_finite = [](const Positions& places) {
     return std::all_of(places.begin(), places.end(), [](const Vec3& x) { return x.allFinite(); });
   };
   if (!is_finite(from_) || !is_finite(to_)) return;  // the step detects the failure itself
   if (!covers(searched_)) broad_phase();
   if (!covers(filtered_)) filter_candidates();
-  for (const Candidate& candidate : close_)
+  for (const Candidate& candidate : candidates_)
     if (const ContactPair pair = pair_of(candidate); meets(candidate, pair)) {
-      met_.push_back(pair);
-      for (int& n : met_.back().nodes) n = nodes_[at(n)];
+      contacts_.push_back(pair);
+      for (int& n : contacts_.back().nodes) n = nodes_[at(n)];
     }
-  std::sort(met_.begin(), met_.end());
+  std::sort(contacts_.begin(), contacts_.end());
 }
 
 bool SelfContact::covers(const CandidateSet& set) const {
-  return set.seen.size() == from_.size() && spread(set, from_) <= set.allowance && spread(set, to_) <= set.allowance;
+  return set.reference.size() == from_.size() && spread(set, from_) <= set.allowance &&
+         spread(set, to_) <= set.allowance;
 }
 
-/// Largest displacement of a node from set.seen, less the mean displacement, m.
-double SelfContact::spread(const CandidateSet& set, const Places& x) const {
+/// Largest displacement of a node from set.reference, less the mean displacement, m.
+double SelfContact::spread(const CandidateSet& set, const Positions& x) const {
   Vec3 mean = Vec3::Zero();
-  for (std::size_t n = 0; n < x.size(); ++n) mean += x[n] - set.seen[n];
+  for (std::size_t n = 0; n < x.size(); ++n) mean += x[n] - set.reference[n];
   mean /= static_cast<double>(x.size());
-  double most = 0;
-  for (std::size_t n = 0; n < x.size(); ++n) most = std::max(most, (x[n] - set.seen[n] - mean).squaredNorm());
-  return std::sqrt(most);
+  double max_square = 0;
+  for (std::size_t n = 0; n < x.size(); ++n)
+    max_square = std::max(max_square, (x[n] - set.reference[n] - mean).squaredNorm());
+  return std::sqrt(max_square);
 }
 
 /// Distance (m) within which pairs can touch while each node moves by at most `allowance`.
@@ -157,13 +159,13 @@ double SelfContact::reach_of(double allowance) const { return 2 * allowance + (t
 /// intersection.
 void SelfContact::broad_phase() {
   ++broad_phase_count_;
-  searched_.seen = from_;
-  filtered_.seen.clear();
+  searched_.reference = from_;
+  filtered_.reference.clear();
   const double displacement = spread(searched_, to_);
   searched_.allowance =
       std::max(1.5 * displacement, std::clamp(8 * displacement, min_allowance * edge_, max_allowance * edge_));
   const double reach = reach_of(searched_.allowance);
-  near_.clear();
+  broad_candidates_.clear();
   std::vector<Eigen::AlignedBox3d> boxes(faces_.size());
   Eigen::AlignedBox3d all;
   double size = 0;
@@ -200,7 +202,7 @@ void SelfContact::broad_phase() {
         add_candidates(entries[p].second, entries[q].second, reach);
       }
   }
-  std::sort(near_.begin(), near_.end());
+  std::sort(broad_candidates_.begin(), broad_candidates_.end());
 }
 
 void SelfContact::add_candidates(int one, int other, double reach) {
@@ -225,7 +227,7 @@ void SelfContact::add_node_candidates(int node, int face, double reach) {
     const double depth = normal.dot(rest_[at(corners[0])] - rest_[at(apex_[at(face)])]);
     if (-at_rest->gap < 2 * depth) return;
   }
-  near_.push_back({false, node, face});
+  broad_candidates_.push_back({false, node, face});
 }
 
 void SelfContact::add_edge_candidates(int one, int other, double reach) {
@@ -236,7 +238,7 @@ void SelfContact::add_edge_candidates(int one, int other, double reach) {
   const ContactPair pair{{a, b, c, d}, side_of(edges_[at(one)], edges_[at(other)], rest_)};
   const auto at_rest = point_of(pair, [this](int n) { return rest_[at(n)]; });
   if (at_rest && at_rest->gap < -same_overlap * edge_ && is_within(pair, *at_rest)) return;
-  near_.push_back({true, one, other});
+  broad_candidates_.push_back({true, one, other});
 }
 
 /// Of the candidate's two primitives with nodes at from_, m².
@@ -258,16 +260,16 @@ double SelfContact::squared_distance(const Candidate& candidate) const {
 /// Selects the near pairs that can touch while nodes move far less than the broad phase allows. Overlapping pairs stay,
 /// however deep.
 void SelfContact::filter_candidates() {
-  filtered_.seen = from_;
+  filtered_.reference = from_;
   const double displacement = spread(filtered_, to_);
   filtered_.allowance =
       std::min(searched_.allowance,
                std::max(1.5 * displacement, std::clamp(8 * displacement, min_sifted * edge_, max_sifted * edge_)));
   const double reach = reach_of(filtered_.allowance);
-  close_.clear();
-  std::copy_if(near_.begin(), near_.end(), std::back_inserter(close_), [&](const Candidate& candidate) {
-    return squared_distance(candidate) <= reach * reach || overlaps(candidate);
-  });
+  candidates_.clear();
+  std::copy_if(
+      broad_candidates_.begin(), broad_candidates_.end(), std::back_inserter(candidates_),
+      [&](const Candidate& candidate) { return squared_distance(candidate) <= reach * reach || overlaps(candidate); });
 }
 
 /// Whether the pair penetrates within the face or both edges, up to a margin.
@@ -277,7 +279,7 @@ bool SelfContact::overlaps(const Candidate& candidate) const {
   return point && point->gap < 0 && is_within(pair, *point, beside);
 }
 
-Vec3 SelfContact::face_normal(int face, const Places& x) const {
+Vec3 SelfContact::face_normal(int face, const Positions& x) const {
   const auto [a, b, c] = faces_[at(face)];
   return area_vector(x[at(a)], x[at(b)], x[at(c)]).normalized();
 }
@@ -310,7 +312,7 @@ bool SelfContact::is_ridge_towards(const Edge& edge, const Vec3& normal) const {
   return p - c * q >= -slack * determinant && q - c * p >= -slack * determinant;
 }
 
-int SelfContact::side_of(const Edge& one, const Edge& other, const Places& x) const {
+int SelfContact::side_of(const Edge& one, const Edge& other, const Positions& x) const {
   const Vec3 u = x[at(one.ends[1])] - x[at(one.ends[0])], v = x[at(other.ends[1])] - x[at(other.ends[0])];
   return u.cross(v).dot(face_normal(other.faces[0], x) + face_normal(other.faces[1], x)) > 0 ? 1 : -1;
 }
@@ -353,7 +355,7 @@ bool SelfContact::meets(const Candidate& candidate, const ContactPair& pair) con
 
 std::size_t SelfContact::bytes() const {
   return bytes_of(nodes_, rest_, faces_, apex_, edges_, start_, round_, own_nodes_, own_edges_) +
-         bytes_of(from_, to_, searched_.seen, filtered_.seen, near_, close_, met_);
+         bytes_of(from_, to_, searched_.reference, filtered_.reference, broad_candidates_, candidates_, contacts_);
 }
 
 }  // namespace heml

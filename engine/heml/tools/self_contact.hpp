@@ -16,9 +16,9 @@
 // that overlap at rest are ignored.
 //
 //   each step      nodes at from, at to ──► has any moved by more than the allowance? ──► broad phase, or filter
-//                  close pairs ──► those that touch between from and to
-//   broad phase    faces in a grid of cells, in the order of cells ──► near pairs, in the order of nodes
-//   filter         near pairs ──► close pairs: valid for a small part of the motion that the broad phase allows
+//                  close candidates ──► contacts that touch between from and to
+//   broad phase    faces in a grid of cells, in the order of cells ──► candidates near each other, in the order of
+//   nodes filter         these ──► close candidates: valid for a small part of the motion that the broad phase allows
 //
 // Built only where a scene has "self_contact".
 #include <compare>
@@ -63,7 +63,7 @@ class SelfContact {
     from_.clear(), to_.clear();
     for (const int n : nodes_) from_.emplace_back(from(n)), to_.emplace_back(to(n));
     find();
-    return met_;
+    return contacts_;
   }
 
   long broad_phase_count() const { return broad_phase_count_; }  ///< broad phases run so far
@@ -79,18 +79,18 @@ class SelfContact {
     int first, second;
     auto operator<=>(const Candidate&) const = default;
   };
-  using Places = std::vector<Vec3>;
+  using Positions = std::vector<Vec3>;
   // Node and face numbers below index nodes_ and faces_.
   void set_rest(const TetMesh& mesh);
   void make_edges();
   void find();
   /// Reference positions, and how far nodes may move from them before the candidates must be found again.
   struct CandidateSet {
-    Places seen;           ///< m; empty: none yet
+    Positions reference;   ///< m; empty: none yet
     double allowance = 0;  ///< m
   };
   bool covers(const CandidateSet& set) const;
-  double spread(const CandidateSet& set, const Places& x) const;
+  double spread(const CandidateSet& set, const Positions& x) const;
   double reach_of(double allowance) const;
   void broad_phase();
   void filter_candidates();
@@ -99,10 +99,10 @@ class SelfContact {
   void add_candidates(int one, int other, double reach);
   void add_node_candidates(int node, int face, double reach);
   void add_edge_candidates(int one, int other, double reach);
-  int side_of(const Edge& one, const Edge& other, const Places& x) const;
+  int side_of(const Edge& one, const Edge& other, const Positions& x) const;
   ContactPair pair_of(const Candidate& candidate) const;
   bool meets(const Candidate& candidate, const ContactPair& pair) const;
-  Vec3 face_normal(int face, const Places& x) const;
+  Vec3 face_normal(int face, const Positions& x) const;
   Vec3 node_normal(int node) const;
   double height(int face) const;
   bool faces_node(int node, const Vec3& normal) const;
@@ -111,16 +111,16 @@ class SelfContact {
   double friction_;
   double edge_ = 0;         ///< m, mean edge length of the surface at rest
   std::vector<int> nodes_;  ///< internal numbers, ascending: of the surface, and those opposite its faces
-  Places rest_;
+  Positions rest_;
   std::vector<Triangle> faces_;
   std::vector<int> apex_;  ///< of each face, the fourth node of its element
   std::vector<Edge> edges_;
   std::vector<int> start_, round_;               ///< faces round each node: round_[start_[n] .. start_[n + 1])
   std::vector<Triangle> own_nodes_, own_edges_;  ///< of each face: nodes, edges that no earlier face has; unused: −1
-  Places from_, to_;
+  Positions from_, to_;
   CandidateSet searched_, filtered_;
-  std::vector<Candidate> near_, close_;  ///< valid within searched_; the subset valid within filtered_
-  std::vector<ContactPair> met_;
+  std::vector<Candidate> broad_candidates_, candidates_;  ///< valid within searched_; the subset valid within filtered_
+  std::vector<ContactPair> contacts_;
   long broad_phase_count_ = 0;
 };
 

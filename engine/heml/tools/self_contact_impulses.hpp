@@ -19,15 +19,15 @@ class SelfContactImpulses {
  public:
   /// Finds the pairs that touch during a step of h (s). before: #V×3, m, at the step's start; after: #V×3, m, at its
   /// end without contact. inverse_mass: #V, 1/kg.
-  void meet(SelfContact& contact, double h, const std::vector<Real>& inverse_mass, const Real* before,
-            const Real* after);
+  void find_pairs(SelfContact& contact, double h, const std::vector<Real>& inverse_mass, const Real* before,
+                  const Real* after);
   /// Keeps the pairs that got an impulse, updates them to positions x, and requires that their gaps do not shrink.
-  void stop(const std::vector<Real>& inverse_mass, const Real* x);
+  void begin_second_half(const std::vector<Real>& inverse_mass, const Real* x);
 
   bool empty() const { return active_.empty(); }
   /// Iterates impulses on v (#V×3, m/s) until the conditions hold or the rounds are used up. May be called again after
   /// other contacts have changed v.
-  void push(const std::vector<Real>& inverse_mass, Real* v);
+  void solve(const std::vector<Real>& inverse_mass, Real* v);
 
   /// Calls visit(node) for the nodes of each pair.
   template <class Visit>
@@ -42,22 +42,22 @@ class SelfContactImpulses {
     for (const ActiveContact& touch : active_) visit(touch.point);
   }
 
-  /// Adds the normal impulses (N s) since meet() or stop(), times weight, to normal_force, and friction's work to the
-  /// report.
+  /// Adds the normal impulses (N s) since find_pairs() or begin_second_half(), times weight, to normal_force, and
+  /// friction's work to the report.
   void publish(double weight, double& normal_force, ContactReport& report) const;
 
  private:
   struct ActiveContact {
     ContactPair pair;
     ContactPoint point;
-    double least;               ///< m/s, lower bound of the gap's rate
-    double light;               ///< 1/kg, effective inverse mass
-    bool rubs;                  ///< touches, so that friction acts
-    double normal = 0;          ///< N s, accumulated
-    Vec3 along = Vec3::Zero();  ///< N s, of friction
-    double work = 0;            ///< J, of friction
+    double min_gap_rate;                   ///< m/s, lower bound of the gap's rate
+    double inverse_mass;                   ///< 1/kg, effective inverse mass
+    bool has_friction;                     ///< touches, so that friction acts
+    double normal = 0;                     ///< N s, accumulated
+    Vec3 friction_impulse = Vec3::Zero();  ///< N s, of friction
+    double work = 0;                       ///< J, of friction
   };
-  double push(ActiveContact& touch, const std::vector<Real>& inverse_mass, Real* v) const;
+  double solve_pair(ActiveContact& touch, const std::vector<Real>& inverse_mass, Real* v) const;
 
   std::vector<ActiveContact> active_;
   double friction_ = 0;

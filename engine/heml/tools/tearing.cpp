@@ -23,7 +23,10 @@ bool is_positive(const Mat3& A) { return A(0, 0) > 0 && A(0, 0) * A(1, 1) > A(0,
 }  // namespace
 
 Tearing::Tearing(const TearingSettings& settings, const TetMesh& mesh, const Topology& topology)
-    : limit_(settings.stretch), around_(mesh, topology), elements_(topology.elements), is_beyond_(elements_.size()) {
+    : limit_(settings.stretch),
+      around_(mesh, topology),
+      elements_(topology.elements),
+      is_overstretched_(elements_.size()) {
   for (const int t : elements_) inverse_rest_.push_back(edges(mesh.tets[as_index(t)], mesh.nodes).inverse());
   on_surface_.assign(mesh.nodes.size(), false);
   for (const Triangle& face : extract_boundary(with_elements(mesh, elements_)).triangles)
@@ -35,16 +38,17 @@ Mat3 Tearing::gradient(const TetMesh& mesh, const std::vector<Vec3>& x, std::siz
 }
 
 /// Elements beyond the limit, the most stretched first.
-std::vector<Tearing::TearCandidate> Tearing::beyond(const TetMesh& mesh, const std::vector<Vec3>& x, ThreadTeam& team) {
+std::vector<Tearing::TearCandidate> Tearing::overstretched_elements(const TetMesh& mesh, const std::vector<Vec3>& x,
+                                                                    ThreadTeam& team) {
   team.parallel_for(elements_.size(), grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t e = begin; e < end; ++e) {
       const Mat3 F = gradient(mesh, x, e);
-      is_beyond_[e] = F.allFinite() && !is_positive(limit_ * limit_ * Mat3::Identity() - F.transpose() * F);
+      is_overstretched_[e] = F.allFinite() && !is_positive(limit_ * limit_ * Mat3::Identity() - F.transpose() * F);
     }
   });
   std::vector<TearCandidate> torn;
   for (std::size_t e = 0; e < elements_.size(); ++e) {
-    if (!is_beyond_[e]) continue;
+    if (!is_overstretched_[e]) continue;
     const Eigen::JacobiSVD<Mat3> svd(gradient(mesh, x, e), Eigen::ComputeFullV);
     torn.push_back({svd.singularValues()[0], elements_[e], svd.matrixV().col(0)});
   }
@@ -71,7 +75,7 @@ std::vector<TearOpening> Tearing::openings(const TetMesh& mesh, const std::vecto
                                            const std::function<bool(int)>& is_constrained, ThreadTeam& team) {
   std::vector<TearOpening> chosen;
   std::vector<int> taken;  // elements near those already chosen
-  for (const TearCandidate& torn : beyond(mesh, x, team)) {
+  for (const TearCandidate& torn : overstretched_elements(mesh, x, team)) {
     if (!chosen.empty() && torn.stretch < overload * limit_) break;
     if (std::find(taken.begin(), taken.end(), torn.element) != taken.end()) continue;
     const auto opening = opening_of(torn, mesh, is_constrained);

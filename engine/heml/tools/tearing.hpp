@@ -33,7 +33,7 @@ class Tearing {
     Vec3 plane_normal;  ///< at rest
   };
   Mat3 gradient(const TetMesh& mesh, const std::vector<Vec3>& x, std::size_t element) const;
-  std::vector<TearCandidate> beyond(const TetMesh& mesh, const std::vector<Vec3>& x, ThreadTeam& team);
+  std::vector<TearCandidate> overstretched_elements(const TetMesh& mesh, const std::vector<Vec3>& x, ThreadTeam& team);
   std::optional<TearOpening> opening_of(const TearCandidate& torn, const TetMesh& mesh,
                                         const std::function<bool(int)>& is_constrained) const;
 
@@ -41,7 +41,7 @@ class Tearing {
   NodeToElements around_;
   std::vector<int> elements_;
   std::vector<Mat3> inverse_rest_;  ///< Dm⁻¹, 1/m
-  std::vector<char> is_beyond_;
+  std::vector<char> is_overstretched_;
   std::vector<bool> on_surface_;  ///< #V
 };
 

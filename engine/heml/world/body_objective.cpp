@@ -233,7 +233,7 @@ template <class Real>
 void BodyObjective<Real>::find_forces(const Vector& x) {
   const Real* at_x = as_real(x, x_);
   f_.resize(x_.size());
-  is_defined_ = body_.forces(at_x, f_.data(), team_) && !contact_.passes(x);
+  is_defined_ = body_.forces(at_x, f_.data(), team_) && !contact_.crosses_probe(x);
   forces_.resize(x.size());
   for (std::size_t i = 0; i < f_.size(); ++i) forces_[static_cast<Eigen::Index>(i)] = static_cast<double>(f_[i]);
   add_external(at_x, x);

@@ -52,12 +52,12 @@ bool ImplicitState<Real>::keep_elements(const std::vector<int>& elements, const 
 }
 
 template <class Real>
-void ImplicitState<Real>::restore(const ImplicitMemory& memory) {
-  free = memory.free;  // with the nodes that have lost all elements since it was made: they have no mass
-  x_before = memory.x_before;
-  v_before = memory.v_before;
-  h_before = memory.h_before;
-  linear.restore(memory.linear);
+void ImplicitState<Real>::restore(const ImplicitSnapshot& snapshot) {
+  free = snapshot.free;  // with the nodes that have lost all elements since it was made: they have no mass
+  x_before = snapshot.x_before;
+  v_before = snapshot.v_before;
+  h_before = snapshot.h_before;
+  linear.restore(snapshot.linear);
 }
 
 template struct ImplicitState<float>;

@@ -10,11 +10,11 @@
 namespace heml {
 
 /// What steps to come depend on beside the state: the step before, the unknowns and what solves for them.
-struct ImplicitMemory {
+struct ImplicitSnapshot {
   FreeNodes free;
   Vector x_before, v_before;
   double h_before = 0;
-  LinearSolver::Memory linear;
+  LinearSolver::Snapshot linear;
 };
 
 template <class Real>
@@ -37,9 +37,9 @@ struct ImplicitState {
   /// Elements have gone: these are left, by the numbers they had; model and masses have followed. Returns false where
   /// parts have to be made anew.
   bool keep_elements(const std::vector<int>& elements, const std::vector<Real>& masses);
-  ImplicitMemory memory() const { return {free, x_before, v_before, h_before, linear.memory()}; }
+  ImplicitSnapshot snapshot() const { return {free, x_before, v_before, h_before, linear.snapshot()}; }
   /// Of parts made anew, of the body that it was: they go on as those would have.
-  void restore(const ImplicitMemory& memory);
+  void restore(const ImplicitSnapshot& snapshot);
   ImplicitState(const ImplicitState&) = delete;
   ImplicitState& operator=(const ImplicitState&) = delete;
 };

@@ -154,9 +154,9 @@ template <class Real>
 void MeshEditor<Real>::save() {
   const bool solves = s_.implicit && !s_.implicit->equilibrium;
   saved_.push_back(std::make_shared<const Saved>(
-      Saved{s_.setup.mesh, s_.setup.boundary, s_.setup.loads, s_.model, s_.topology, s_.body.memory(), s_.pins,
+      Saved{s_.setup.mesh, s_.setup.boundary, s_.setup.loads, s_.model, s_.topology, s_.body.snapshot(), s_.pins,
             s_.contacts.sutures, s_.grasps, s_.grasps_taken, s_.changes, s_.state, s_.limit, s_.lowest_frequency,
-            solves ? std::optional(s_.implicit->memory()) : std::nullopt}));
+            solves ? std::optional(s_.implicit->snapshot()) : std::nullopt}));
   if (!whole_) whole_ = saved_.back();
   if (saved_.size() > max_undo) saved_.erase(saved_.begin());
   in_stroke_ = false;
@@ -180,9 +180,10 @@ void MeshEditor<Real>::carry_out(const MeshEdit& edit) {
     s_.state.f.resize(s_.state.x.size());
     if (s_.recovery) s_.recovery->append(inner);
     for (PinnedPatch& pin : s_.pins)
-      for (std::size_t k = pin.place.size(); k < pin.nodes.size(); ++k)
-        pin.place.emplace_back(Eigen::Map<const Vector3<Real>>(&s_.state.x[3 * static_cast<std::size_t>(pin.nodes[k])])
-                                   .template cast<double>());
+      for (std::size_t k = pin.positions.size(); k < pin.nodes.size(); ++k)
+        pin.positions.emplace_back(
+            Eigen::Map<const Vector3<Real>>(&s_.state.x[3 * static_cast<std::size_t>(pin.nodes[k])])
+                .template cast<double>());
   }
   std::vector<bool> stays(s_.model.mesh.tets.size(), true);
   for (const int t : inner.removed) stays[static_cast<std::size_t>(t)] = false;

@@ -19,8 +19,8 @@ class MeshEditor {
   std::optional<std::string> undo();
   /// Back to the elements of the start; the list of edits is cleared.
   void undo_all();
-  /// Separates elements where they are stretched beyond the limit of the scene (tools/tearing.hpp), at the start of a tick, if the scene asks for it. All
-  /// tearing until another edit is one edit to undo.
+  /// Separates elements where they are stretched beyond the limit of the scene (tools/tearing.hpp), at the start of a
+  /// tick, if the scene asks for it. All tearing until another edit is one edit to undo.
   void tear();
 
   bool has_history() const { return whole_ != nullptr; }
@@ -34,7 +34,7 @@ class MeshEditor {
     std::vector<Load> loads;
     Model<Real> model;
     std::shared_ptr<const Topology> topology;
-    BodyMemory<Real> body;
+    BodySnapshot<Real> body;
     std::vector<PinnedPatch> pins;
     std::vector<Suture> sutures;
     std::vector<GraspSpring<Real>> grasps;
@@ -44,7 +44,7 @@ class MeshEditor {
     State<Real> state;
     StepLimit limit;
     std::optional<double> lowest_frequency;
-    std::optional<ImplicitMemory> implicit;
+    std::optional<ImplicitSnapshot> implicit;
   };
 
   EditReport begin_report();

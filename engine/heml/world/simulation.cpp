@@ -54,7 +54,7 @@ void Simulation<Real>::move_constrained() {
   for (const PinnedPatch& pin : pins)
     for (std::size_t k = 0; k < pin.nodes.size(); ++k) {
       const auto n = 3 * static_cast<std::size_t>(pin.nodes[k]);
-      Eigen::Map<Vector3<Real>>(&state.x[n]) = pin.place[k].template cast<Real>();
+      Eigen::Map<Vector3<Real>>(&state.x[n]) = pin.positions[k].template cast<Real>();
       Eigen::Map<Vector3<Real>>(&state.v[n]).setZero();
     }
 }

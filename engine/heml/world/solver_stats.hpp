@@ -1,5 +1,5 @@
 #pragma once
-#include <heml/dynamics/linear_counts.hpp>
+#include <heml/dynamics/linear_solver_stats.hpp>
 #include <string_view>
 
 namespace heml {

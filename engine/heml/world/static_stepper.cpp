@@ -74,7 +74,7 @@ StopReason StaticStepper<Real>::why_not_beyond(const StaticSolve& equilibrium) c
   }
   if (s_.implicit->free.node.empty()) {  // supports alone say where everything is
     std::vector<Real> x;
-    for (const double value : equilibrium.tried()) x.push_back(static_cast<Real>(value));
+    for (const double value : equilibrium.initial_guess()) x.push_back(static_cast<Real>(value));
     const int element = first_flat(x);
     if (element >= 0) {
       halt.cause = StopReason::Cause::out_of_range;
