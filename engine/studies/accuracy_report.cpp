@@ -92,20 +92,20 @@ void add_refinement(HtmlPage& page, const RefinementStudy& study, const std::vec
 }
 
 /// Distribution of the effectivities of the step-doubling estimate over all runs.
-std::string spread_of_time_gauges(const AccuracyStudy& study) {
-  std::vector<double> gauges;
+std::string spread_of_time_estimates(const AccuracyStudy& study) {
+  std::vector<double> estimates;
   for (const SceneStudy& scene : study.scenes)
     for (const TimeStudy& time : scene.time)
       for (const Measured& m : time.measured)
-        if (m.step_doubling) gauges.push_back(*m.step_doubling);
-  if (gauges.empty()) return "none of the runs could be followed";
-  std::sort(gauges.begin(), gauges.end());
-  const auto honest = std::count_if(gauges.begin(), gauges.end(), [](double g) { return g >= 0.5 && g <= 2; });
-  return fmt::format("of {} runs {} are between 0.5 and 2; half of all between {:.2f} and {:.2f}", gauges.size(),
-                     honest, gauges[gauges.size() / 4], gauges[gauges.size() * 3 / 4]);
+        if (m.step_doubling) estimates.push_back(*m.step_doubling);
+  if (estimates.empty()) return "none of the runs could be followed";
+  std::sort(estimates.begin(), estimates.end());
+  const auto honest = std::count_if(estimates.begin(), estimates.end(), [](double g) { return g >= 0.5 && g <= 2; });
+  return fmt::format("of {} runs {} are between 0.5 and 2; half of all between {:.2f} and {:.2f}", estimates.size(),
+                     honest, estimates[estimates.size() / 4], estimates[estimates.size() * 3 / 4]);
 }
 
-void add_gauges(HtmlPage& page, const AccuracyStudy& study) {
+void add_estimates(HtmlPage& page, const AccuracyStudy& study) {
   page.heading("What the panel's gauges are worth");
   page.paragraph(
       "The panel estimates both errors while a body runs. Effectivity is estimate over error; from 0.5 to 2 it is "
@@ -118,7 +118,7 @@ void add_gauges(HtmlPage& page, const AccuracyStudy& study) {
   page.paragraph(
       "Of the steps: a shadow with half the steps, from the start to the first set time, held against the reference "
       "(\"gauge\" in the tables of runs): " +
-      spread_of_time_gauges(study) + ".");
+      spread_of_time_estimates(study) + ".");
 }
 
 void add_laws(HtmlPage& page, const std::vector<LawCheck>& laws) {
@@ -178,7 +178,7 @@ std::string accuracy_page(const AccuracyStudy& study, const std::vector<ReportPi
   for (const SceneStudy& scene : study.scenes) add_scene(page, scene, pictures);
   if (!study.locking.empty()) add_locking(page, study.locking, pictures);
   if (study.refinement && !study.refinement->meshes.empty()) add_refinement(page, *study.refinement, pictures);
-  add_gauges(page, study);
+  add_estimates(page, study);
   if (!study.laws.empty()) add_laws(page, study.laws);
   for (const FeatureStudy& features : study.features) add_features(page, features, pictures);
   add_method(page, command);

@@ -40,7 +40,7 @@ double total(const Energies& e) { return e.kinetic + e.elastic + e.potential; }
 /// Samples energies and mean motion of a world between ticks, outside the measured time.
 class Observer {
  public:
-  Observer(const Problem& problem, World& world) : specimen_(problem), world_(world) {
+  Observer(const Problem& problem, World& world) : problem_(problem), world_(world) {
     mass_ = std::accumulate(problem.mass.begin(), problem.mass.end(), 0.0);
     look();
     at_start_ = total(energies_);
@@ -54,14 +54,14 @@ class Observer {
   void tell(Run& run) {
     look();
     run.min_step = min_step_;
-    if (max_kinetic_ > 0 && keeps_energy(specimen_)) run.energy_drift = (total(energies_) - at_start_) / max_kinetic_;
+    if (max_kinetic_ > 0 && keeps_energy(problem_)) run.energy_drift = (total(energies_) - at_start_) / max_kinetic_;
     if (const auto first_mode = first_mode_of(times_, along_axis())) run.first_mode = first_mode;
     const auto ratios = world_.volume_ratios();
     const auto& elements = world_.topology()->elements;
     double rest = 0, volume = 0;
     for (std::size_t k = 0; k < elements.size(); ++k) {
-      const Tet& tet = specimen_.setup.mesh.tets[static_cast<std::size_t>(elements[k])];
-      const auto at = [&](std::size_t a) { return specimen_.setup.mesh.nodes[static_cast<std::size_t>(tet[a])]; };
+      const Tet& tet = problem_.setup.mesh.tets[static_cast<std::size_t>(elements[k])];
+      const auto at = [&](std::size_t a) { return problem_.setup.mesh.nodes[static_cast<std::size_t>(tet[a])]; };
       const double V = signed_volume(at(0), at(1), at(2), at(3));
       rest += V, volume += V * ratios[k];
     }
@@ -76,7 +76,7 @@ class Observer {
     max_kinetic_ = std::max(max_kinetic_, energies_.kinetic);
     Vec3 mean = Vec3::Zero();
     const auto x = world_.positions();
-    for (std::size_t n = 0; n < x.size(); ++n) mean += specimen_.mass[n] * (x[n] - specimen_.setup.mesh.nodes[n]);
+    for (std::size_t n = 0; n < x.size(); ++n) mean += problem_.mass[n] * (x[n] - problem_.setup.mesh.nodes[n]);
     times_.push_back(world_.time());
     means_.push_back(mean / mass_);
   }
@@ -92,7 +92,7 @@ class Observer {
     return u;
   }
 
-  const Problem& specimen_;
+  const Problem& problem_;
   World& world_;
   double mass_ = 0, next_ = 0, at_start_ = 0, max_kinetic_ = 0;
   double min_step_ = std::numeric_limits<double>::infinity();
@@ -112,14 +112,14 @@ std::string failure_of(const World& world, double seconds, double longest) {
 /// the minimum over several removes delays by other programs.
 struct Clock {
   std::vector<double> ticks;
-  double beside = 0;
+  double outside_ticks = 0;
 
-  void take_least(const Clock& other) {
+  void keep_minimum(const Clock& other) {
     for (std::size_t k = 0; k < std::min(ticks.size(), other.ticks.size()); ++k)
       ticks[k] = std::min(ticks[k], other.ticks[k]);
-    beside = std::min(beside, other.beside);
+    outside_ticks = std::min(outside_ticks, other.outside_ticks);
   }
-  double seconds() const { return std::accumulate(ticks.begin(), ticks.end(), beside); }
+  double seconds() const { return std::accumulate(ticks.begin(), ticks.end(), outside_ticks); }
 };
 
 Run play_once(const Problem& problem, const Method& method, const RunOptions& options, Clock& clock) {
@@ -141,7 +141,7 @@ Run play_once(const Problem& problem, const Method& method, const RunOptions& op
       began = now();
       return worked() <= options.longest;
     });
-    clock.beside += now() - began;
+    clock.outside_ticks += now() - began;
     run.failed = failure_of(*world, worked(), options.longest);
     if (!run.failed.empty()) break;
     run.at.push_back(world->positions());
@@ -178,16 +178,16 @@ std::optional<double> step_doubling_error(const Problem& problem, const Method& 
   setup.solver = scene.solver;
   for (const Event& event : scene.events)
     if (static_cast<double>(event.tick) * setup.solver.tick() < until) return std::nullopt;
-  StepDoublingEstimator shadow(setup);
+  StepDoublingEstimator estimator(setup);
   const std::unique_ptr<World> world = options.make(std::move(setup));
   Player player(scene, *world);
-  if (!shadow.begin(*world)) return std::nullopt;
+  if (!estimator.begin(*world)) return std::nullopt;
   player.to(until, [&] {
-    shadow.ticked(*world);
+    estimator.ticked(*world);
     return true;
   });
-  if (world->time() > shadow.elapsed()) shadow.ticked(*world);  // the remainder, shorter than a tick
-  const auto error = shadow.error(world->positions());
+  if (world->time() > estimator.elapsed()) estimator.ticked(*world);  // the remainder, shorter than a tick
+  const auto error = estimator.error(world->positions());
   return error ? std::optional(error->rms) : std::nullopt;
 }
 
@@ -229,7 +229,7 @@ Run play(const Problem& problem, const Method& method, const RunOptions& options
   for (int again = 1; again < plays && clock.seconds() < options.repeat_below; ++again) {
     Clock other;
     play_once(problem, method, options, other);
-    clock.take_least(other);
+    clock.keep_minimum(other);
   }
   run.seconds = clock.seconds();
   run.median_tick = percentile(clock.ticks, 0.5);

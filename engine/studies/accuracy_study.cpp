@@ -7,7 +7,7 @@
 namespace heml {
 namespace {
 
-constexpr double may_grow = 1.1;
+constexpr double max_growth = 1.1;
 constexpr double negligible = 1e-9;    // m, or relative
 constexpr double round_off = 1e-6;     // relative force: smaller residuals are rounding noise
 constexpr double feature_weight = 15;  // s a scene takes: its part of the progress
@@ -48,7 +48,7 @@ class Parts {
   std::size_t steps_ = 1, done_ = 0;
 };
 
-std::string figure_name(const SceneStudy& scene, const TimeStudy& study, const Measured& measured) {
+std::string result_name(const SceneStudy& scene, const TimeStudy& study, const Measured& measured) {
   return fmt::format("{}; {}; {}", scene.name, study.problem, text_of(measured.method));
 }
 
@@ -100,7 +100,7 @@ std::vector<ResultValue> result_values(const AccuracyStudy& study) {
       for (const Measured& measured : time.measured)
         if (!measured.failed() && measured.resolved && !measured.method.single_precision &&
             measured.method.threads == 1)
-          values.push_back({figure_name(scene, time, measured), measured.error});
+          values.push_back({result_name(scene, time, measured), measured.error});
     for (const ConvergenceMesh& mesh : scene.convergence.meshes)
       if (mesh.failed.empty() && mesh.resolved)
         values.push_back({fmt::format("{}; at rest; {}, {} tetrahedra", scene.name,
@@ -140,7 +140,7 @@ std::vector<std::string> what_got_worse(const std::vector<ResultValue>& values, 
     const double before = value.get<double>();
     if (now == values.end())
       worse.push_back(fmt::format("{}: was {:.4g}, and is no more: it failed or was not measured", name, before));
-    else if (!(now->value <= may_grow * before + negligible))
+    else if (!(now->value <= max_growth * before + negligible))
       worse.push_back(fmt::format("{}: was {:.4g}, is {:.4g}", name, before, now->value));
   }
   return worse;

@@ -41,18 +41,18 @@ std::array<Timing, 2> time_body(const TetMesh& mesh, const Material& material, c
   const Edited after = edited_mesh(mesh, edit);
   const std::vector<int> before_of(mesh.tets.size(), 0), after_of(after.mesh.tets.size(), 0);
   ElasticBody<float> body(mesh, before_of, {material}, {});
-  std::vector<double> followed, anew;
+  std::vector<double> updated, rebuilt;
   for (int k = 0; k < samples; ++k) {
-    followed.push_back(seconds([&] {
+    updated.push_back(seconds([&] {
       if (edit.added.empty())
         body.keep_elements(after.origins);
       else
         body.transfer_state(after.mesh, after_of, after.origins);
     }));
-    anew.push_back(seconds([&] { body.set_mesh(after.mesh, after_of); }));
+    rebuilt.push_back(seconds([&] { body.set_mesh(after.mesh, after_of); }));
     body.set_mesh(mesh, before_of);
   }
-  return {summary(followed), summary(anew)};
+  return {summary(updated), summary(rebuilt)};
 }
 
 Timing time_command(const TetMesh& mesh, const Material& material, const Command& command, int samples) {
@@ -113,12 +113,12 @@ std::vector<BenchRow> edit_rows(int n, bool quick) {
     Command command;
   };
   for (const auto& [name, edit, command] : {Kind{"cut", cut.edit, CutTissue{sweep}}, Kind{"removal", gone, removal}}) {
-    const auto [followed, anew] = time_body(body.mesh, material, edit, samples);
-    add(fmt::format("{}, layout followed", name), followed,
+    const auto [updated, rebuilt] = time_body(body.mesh, material, edit, samples);
+    add(fmt::format("{}, layout followed", name), updated,
         fmt::format("{} elements go, {} come; {:.1f} times as fast as anew", edit.removed.size(), edit.added.size(),
-                    anew.min / followed.min));
+                    rebuilt.min / updated.min));
     rows.back().more.update({{"removed", edit.removed.size()}, {"added", edit.added.size()}});
-    add(fmt::format("{}, laid out anew", name), anew, "");
+    add(fmt::format("{}, laid out anew", name), rebuilt, "");
     add(fmt::format("{}, whole command", name), time_command(body.mesh, material, command, samples),
         "mesh, energies and stable step too");
   }

@@ -12,13 +12,13 @@ namespace {
 /// ‖f − reference‖ / ‖reference‖.
 template <class Real>
 double distance(const std::vector<Real>& f, const std::vector<double>& reference) {
-  double apart = 0, size = 0;
+  double difference = 0, size = 0;
   for (std::size_t i = 0; i < f.size(); ++i) {
     const double d = static_cast<double>(f[i]) - reference[i];
-    apart += d * d;
+    difference += d * d;
     size += reference[i] * reference[i];
   }
-  return std::sqrt(apart / size);
+  return std::sqrt(difference / size);
 }
 
 /// The force evaluations of one body that are timed, and their entries.
@@ -30,7 +30,7 @@ struct Contest {
   std::vector<ForceTiming> entries;
 
   template <class Real>
-  void enter(const char* precision, double most_apart) {
+  void add_variants(const char* precision, double max_difference) {
     const auto x = std::make_shared<std::vector<Real>>(as_reals<Real>(body.x));
     const auto f = std::make_shared<std::vector<Real>>(x->size());
     for (const InstructionSet isa : kernels_of(material)) {
@@ -43,9 +43,9 @@ struct Contest {
       for (const int threads : bench_threads()) {
         const auto team = std::make_shared<ThreadTeam>(threads);
         elastic->forces(x->data(), f->data(), *team);
-        if (const double apart = distance(*f, reference); !(apart < most_apart))
+        if (const double difference = distance(*f, reference); !(difference < max_difference))
           throw std::logic_error(fmt::format("forces of {} ({}, {}) are {:.1e} off the naive loop's", material.law,
-                                             precision, name, apart));
+                                             precision, name, difference));
         works.push_back([=] { elastic->forces(x->data(), f->data(), *team); });
         entries.push_back({material.law, precision, name, threads, false, {}, bytes, 1});
       }
@@ -63,8 +63,8 @@ std::vector<ForceTiming> time_forces(const BenchBody& body, const Material& mate
   Contest contest{body, material, reference, {}, {}};
   contest.works.push_back([&] { naive(body.x.data(), f.data()); });
   contest.entries.push_back({material.law, "double", "native", 1, true, {}, 0, 1});
-  contest.enter<double>("double", 1e-10);
-  contest.enter<float>("float", 1e-2);
+  contest.add_variants<double>("double", 1e-10);
+  contest.add_variants<float>("float", 1e-2);
   const auto times = time_interleaved(contest.works, limits);
   for (std::size_t k = 0; k < times.size(); ++k) {
     contest.entries[k].time = times[k];

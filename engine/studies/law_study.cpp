@@ -52,7 +52,7 @@ double left_over(const Problem& problem, const std::vector<Vec3>& positions) {
   return left / weight;
 }
 
-Json settle(const Material& material, const MakeWorld& make) {
+Json solve_statics(const Material& material, const MakeWorld& make) {
   const Problem problem = cube_of(material);
   const auto world = make(problem.setup);
   world->load_to(1);
@@ -67,7 +67,8 @@ std::size_t steps_of_law_study() { return bench_materials().size(); }
 std::vector<LawCheck> study_laws(const StudyContext& context) {
   std::vector<LawCheck> laws;
   for (const Material& material : bench_materials()) {
-    const Json found = context.kept("law at rest|" + material.law, [&] { return settle(material, context.make); });
+    const Json found =
+        context.kept("law at rest|" + material.law, [&] { return solve_statics(material, context.make); });
     laws.push_back(
         {material.law, found["failed"], found["left_over"].is_null() ? 0 : found["left_over"].get<double>()});
   }

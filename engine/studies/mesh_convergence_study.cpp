@@ -9,7 +9,7 @@
 namespace heml {
 namespace {
 
-constexpr double min_order = 0.5, greatest_order = 4, proven_order = 2;
+constexpr double min_order = 0.5, max_order = 4, proven_order = 2;
 
 void tell_energies(const Problem& problem, World& world, Json& json) {
   const Energies energies = world.energies();
@@ -19,7 +19,7 @@ void tell_energies(const Problem& problem, World& world, Json& json) {
 }
 
 /// Static solve under the whole load. "x" has the positions of the first `nodes` nodes.
-Json settle(const Problem& problem, std::size_t nodes, const MakeWorld& make) {
+Json solve_statics(const Problem& problem, std::size_t nodes, const MakeWorld& make) {
   WorldSetup setup = problem.setup;
   SolverSettings& solver = setup.solver;
   solver.integrator = Integrator::static_equilibrium;
@@ -55,7 +55,7 @@ std::size_t farthest(const std::vector<Vec3>& x, const std::vector<Vec3>& rest) 
   return best;
 }
 
-std::vector<Vec3> guess(const std::vector<Vec3>& coarse, const std::vector<Vec3>& fine, double order) {
+std::vector<Vec3> extrapolated(const std::vector<Vec3>& coarse, const std::vector<Vec3>& fine, double order) {
   std::vector<Vec3> result(fine);
   for (std::size_t n = 0; n < fine.size(); ++n) result[n] += (fine[n] - coarse[n]) / (std::pow(2, order) - 1);
   return result;
@@ -72,11 +72,11 @@ Extrapolation extrapolate(const std::vector<std::vector<Vec3>>& x, const std::ve
   }
   const auto &u0 = x[x.size() - 3], &u1 = x[x.size() - 2], &u2 = x[x.size() - 1];
   result.order = std::log2(rms_distance(u0, u1, mass) / rms_distance(u1, u2, mass));
-  if (!(result.order >= min_order && result.order <= greatest_order)) {
+  if (!(result.order >= min_order && result.order <= max_order)) {
     result.failure = fmt::format("three meshes converge with order {:.2g}: too irregular to go on from", result.order);
     return result;
   }
-  const auto as_shown = guess(u1, u2, result.order), as_proven = guess(u1, u2, proven_order);
+  const auto as_shown = extrapolated(u1, u2, result.order), as_proven = extrapolated(u1, u2, proven_order);
   result.uncertainty = rms_distance(as_shown, as_proven, mass) / 2;
   best = as_shown;
   for (std::size_t n = 0; n < best.size(); ++n) best[n] = (as_shown[n] + as_proven[n]) / 2;
@@ -99,7 +99,7 @@ std::optional<Potential> extrapolate(const std::vector<double>& potentials) {
   if (potentials.size() < 3) return std::nullopt;
   const double *last = &potentials.back(), fall = last[-1] - last[0], ratio = (last[-2] - last[-1]) / fall;
   const double order = std::log2(ratio);  // of the squared norm: 2 asymptotically
-  if (!(fall > 0) || !(order >= min_order && order <= greatest_order)) return std::nullopt;
+  if (!(fall > 0) || !(order >= min_order && order <= max_order)) return std::nullopt;
   const double as_shown = last[0] - fall / (ratio - 1), as_proven = last[0] - fall / (std::pow(2, proven_order) - 1);
   return Potential{(as_shown + as_proven) / 2, std::abs(as_shown - as_proven) / 2};
 }
@@ -118,7 +118,7 @@ int halvings_within(std::size_t tets, std::size_t most, int halvings) {
 
 std::vector<Vec3> equilibrium_positions(const std::string& key, const Problem& problem, const StudyContext& context) {
   return positions_from(context.kept(fmt::format("{}|settled|{}", key, text_of(problem)), [&] {
-    return settle(problem, problem.setup.mesh.nodes.size(), context.make);
+    return solve_statics(problem, problem.setup.mesh.nodes.size(), context.make);
   })["x"]);
 }
 
@@ -139,7 +139,7 @@ MeshConvergenceStudy study_mesh_convergence(const std::string& key, const Proble
     for (int k = 0; k <= halvings; ++k) {
       if (k > 0) now = finer(now);
       const Json found = context.kept(fmt::format("{}|settled|{}", key, text_of(now)),
-                                      [&] { return settle(now, rest.size(), context.make); });
+                                      [&] { return solve_statics(now, rest.size(), context.make); });
       ConvergenceMesh& mesh = study.meshes.emplace_back();
       mesh.nodal_pressure = nodal, mesh.halvings = k;
       mesh.nodes = found["nodes"], mesh.tets = found["tets"], mesh.seconds = found["seconds"];

@@ -29,14 +29,14 @@ std::vector<double> lumped_masses(const WorldSetup& setup) {
 }
 
 /// Resolves grasps given by a point to the nearest nodes of this mesh: finer meshes have other nodes nearer.
-void settle_grasps(Problem& problem) {
+void resolve_grasps(Problem& problem) {
   for (const auto& [index, points] : problem.scene.points)
     set_nodes(problem.scene.events.at(index).command, problem.setup.mesh, points);
   problem.scene.points.clear();
 }
 
 /// Replaces elements that events remove by number with their eight parts.
-void take_parts(std::vector<Event>& events) {
+void subdivide_removals(std::vector<Event>& events) {
   for (Event& event : events)
     if (auto* remove = std::get_if<RemoveElements>(&event.command)) {
       std::vector<int> parts;
@@ -46,7 +46,7 @@ void take_parts(std::vector<Event>& events) {
     }
 }
 
-bool splits(const Material& material, VolumeTerm volume_term) {
+bool has_separate_volume_term(const Material& material, VolumeTerm volume_term) {
   return find_law(material.law)->has_volume_term && material.volume_term == volume_term;
 }
 
@@ -55,7 +55,7 @@ bool splits(const Material& material, VolumeTerm volume_term) {
 Problem problem_of(const Scene& scene) {
   Problem problem{scene, load_setup(scene), {}};
   if (problem.scene.name.empty()) problem.scene.name = std::filesystem::path(scene.file).stem().string();
-  settle_grasps(problem);
+  resolve_grasps(problem);
   return with_masses(std::move(problem));
 }
 
@@ -68,7 +68,7 @@ Problem finer(const Problem& problem) {
   Problem result = problem;
   Subdivision cut = subdivide_uniformly(problem.setup.mesh);
   result.setup = on_finer_mesh(std::move(result.setup), std::move(cut.mesh), cut.midpoint_edges);
-  take_parts(result.scene.events);
+  subdivide_removals(result.scene.events);
   return with_masses(std::move(result));
 }
 
@@ -77,20 +77,21 @@ Problem with_element(Problem problem, bool nodal_pressure) {
   return problem;
 }
 
-bool takes_nodal_pressure(const Problem& problem) {
+bool supports_nodal_pressure(const Problem& problem) {
   const auto& materials = problem.setup.materials;
   const VolumeTerm term = materials.front().material.volume_term;
-  const bool at_start = std::all_of(materials.begin(), materials.end(),
-                                    [&](const RegionMaterial& m) { return splits(m.material, term); });
+  const bool at_start = std::all_of(materials.begin(), materials.end(), [&](const RegionMaterial& m) {
+    return has_separate_volume_term(m.material, term);
+  });
   const auto& events = problem.scene.events;
   return at_start && std::all_of(events.begin(), events.end(), [&](const Event& event) {
            const auto* change = std::get_if<SetMaterial>(&event.command);
-           return !change || splits(change->material, term);
+           return !change || has_separate_volume_term(change->material, term);
          });
 }
 
 std::vector<bool> elements_of(const Problem& problem) {
-  if (!takes_nodal_pressure(problem)) return {problem.nodal_pressure()};
+  if (!supports_nodal_pressure(problem)) return {problem.nodal_pressure()};
   return {problem.nodal_pressure(), !problem.nodal_pressure()};
 }
 

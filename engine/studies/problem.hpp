@@ -40,7 +40,7 @@ Problem finer(const Problem& problem);
 /// With averaged nodal pressure or without.
 Problem with_element(Problem problem, bool nodal_pressure);
 /// Whether averaged nodal pressure is defined for all its laws, at the start and after every event.
-bool takes_nodal_pressure(const Problem& problem);
+bool supports_nodal_pressure(const Problem& problem);
 /// Values of nodal_pressure: that of the problem first, then the other where it is defined.
 std::vector<bool> elements_of(const Problem& problem);
 /// A unique name: that of the scene, and a hash of scene, mesh and initial positions.

@@ -14,10 +14,11 @@ std::optional<int> BudgetController::after(double seconds, const SolverStats& wo
   iterations_before_ = work.iterations;
   if (done <= 0 || work.budget <= 0) return std::nullopt;
   const double now = seconds / static_cast<double>(done);
-  an_iteration_ = an_iteration_ > 0 ? an_iteration_ + smoothing * (now - an_iteration_) : now;
+  seconds_per_iteration_ =
+      seconds_per_iteration_ > 0 ? seconds_per_iteration_ + smoothing * (now - seconds_per_iteration_) : now;
   // Estimated stages per tick, for any method.
   const double stages = std::max(1.0, static_cast<double>(done) / work.budget);
-  const int best = std::clamp(static_cast<int>(share * target_ / (stages * an_iteration_)), 1, max_iterations);
+  const int best = std::clamp(static_cast<int>(share * target_ / (stages * seconds_per_iteration_)), 1, max_iterations);
   if (best >= work.budget && ++patience_ < ticks_to_raise) return std::nullopt;
   patience_ = 0;
   if (best == work.budget) return std::nullopt;

@@ -15,8 +15,8 @@ class BudgetController {
   std::optional<int> after(double seconds, const SolverStats& work);
 
  private:
-  double target_;            ///< s
-  double an_iteration_ = 0;  ///< s of a tick per iteration, smoothed
+  double target_;                     ///< s
+  double seconds_per_iteration_ = 0;  ///< s of a tick per iteration, smoothed
   long iterations_before_ = 0;
   int patience_ = 0;
 };

@@ -44,7 +44,7 @@ class Session::Impl {
         recorded_ticks_(scene.recorded_ticks.value_or(0)),
         field_(scene.view.field),
         playing_(!options_.start_paused),
-        goal_(options_.fast_forward_to),
+        fast_forward_target_(options_.fast_forward_to),
         pacer_(world_->setup().solver.tick()) {
     if (!options_.comparisons.empty()) comparison_runs_.emplace(world_->setup(), options_.comparisons);
     if (!world_->setup().solver.recovery) options_.recovery_file.clear();
@@ -86,14 +86,14 @@ class Session::Impl {
       std::lock_guard lock(mutex_);
       playing_ = playing;
       single_steps_ += steps;
-      if (!playing) goal_ = 0;
+      if (!playing) fast_forward_target_ = 0;
     }
     wake_.notify_all();
   }
   void fast_forward_to(long tick) {
     {
       std::lock_guard lock(mutex_);
-      goal_ = tick;
+      fast_forward_target_ = tick;
     }
     wake_.notify_all();
   }
@@ -132,7 +132,7 @@ class Session::Impl {
       take_commands();
       if (may_tick()) one_tick();
       if (balance_) balance_threads();
-      if (goal_ > 0 && (world_->ticks() >= goal_ || world_->halt())) arrive();
+      if (fast_forward_target_ > 0 && (world_->ticks() >= fast_forward_target_ || world_->halt())) end_fast_forward();
       const auto now = Pacer::Clock::now();
       if (show_now_.exchange(false) ||
           now - published_ >= std::max<Pacer::Clock::duration>(frame_interval, 4 * publish_cost_))
@@ -143,10 +143,12 @@ class Session::Impl {
   /// Sleeps until the next tick is due or, while paused or halted, until there is a request.
   void wait_until_due() {
     std::unique_lock lock(mutex_);
-    if (goal_ > 0) return;
-    const auto wanted = [this] { return stopping_ || show_now_ || !queue_.empty() || single_steps_ > 0 || goal_ > 0; };
+    if (fast_forward_target_ > 0) return;
+    const auto wanted = [this] {
+      return stopping_ || show_now_ || !queue_.empty() || single_steps_ > 0 || fast_forward_target_ > 0;
+    };
     if (playing_ && !world_->halt()) {
-      wake_.wait_until(lock, pacer_.due(), [this] { return stopping_ || !playing_ || goal_ > 0; });
+      wake_.wait_until(lock, pacer_.due(), [this] { return stopping_ || !playing_ || fast_forward_target_ > 0; });
       return;
     }
     if (!wanted() && !frames_published_since_pause_) {
@@ -163,7 +165,7 @@ class Session::Impl {
   bool may_tick() {
     std::lock_guard lock(mutex_);
     if (world_->halt()) return false;
-    if (goal_ > 0) return world_->ticks() < goal_;
+    if (fast_forward_target_ > 0) return world_->ticks() < fast_forward_target_;
     if (playing_) return Pacer::Clock::now() >= pacer_.due();
     if (single_steps_ == 0) return false;
     --single_steps_;
@@ -219,9 +221,9 @@ class Session::Impl {
   }
 
   /// Ends fast-forwarding: applies the events due at this tick and restarts the pacer.
-  void arrive() {
+  void end_fast_forward() {
     for (const Event& event : schedule_.due(world_->ticks())) carry_out(event.command);
-    goal_ = 0;
+    fast_forward_target_ = 0;
     show_now_ = true;
     pacer_.restart(Pacer::Clock::now());
   }
@@ -242,10 +244,10 @@ class Session::Impl {
       world_->tick();
     record([this](Recorder& recorder) { recorder.ticked(*world_); });
     if (step_doubling_scheduler_) step_doubling_scheduler_->ticked(*world_);
-    if (!recorded) learn(std::chrono::duration<double>(Pacer::Clock::now() - began).count() - waited);
+    if (!recorded) apply_clock_choices(std::chrono::duration<double>(Pacer::Clock::now() - began).count() - waited);
     if (world_->halt()) show_now_ = true;
-    tell_of_recovery();
-    if (goal_ == 0) pacer_.book(began, Pacer::Clock::now());
+    report_recovery();
+    if (fast_forward_target_ == 0) pacer_.book(began, Pacer::Clock::now());
   }
 
   /// Leaves cores to other threads of the process. Not recorded: the number of threads changes no bit.
@@ -257,7 +259,7 @@ class Session::Impl {
   }
 
   /// Turns choices made by the clock into commands. seconds: wall time of the tick without comparison runs.
-  void learn(double seconds) {
+  void apply_clock_choices(double seconds) {
     if (budget_controller_)
       if (const auto iterations = budget_controller_->after(seconds, world_->solver_stats()))
         carry_out(SetBudget{*iterations});
@@ -267,8 +269,8 @@ class Session::Impl {
   }
 
   /// Logs a recovery when it begins and ends, and writes the recovery file.
-  void tell_of_recovery() {
-    const auto news = watch_.after_tick(*world_);
+  void report_recovery() {
+    const auto news = recovery_monitor_.after_tick(*world_);
     if (news == RecoveryMonitor::Change::none) return;
     const Recovery& recovery = *world_->recovery();
     if (news == RecoveryMonitor::Change::began)
@@ -276,10 +278,10 @@ class Session::Impl {
     else
       log_info("the body came back after {} steps, {:.3g} s", recovery.steps,
                recovery.ended->time - recovery.begun.time);
-    keep_recovery(news == RecoveryMonitor::Change::began);
+    write_recovery(news == RecoveryMonitor::Change::began);
   }
 
-  void keep_recovery(bool say) try {
+  void write_recovery(bool say) try {
     if (options_.recovery_file.empty() || world_->halt() || world_->unfinished()) return;
     std::error_code ignored;
     std::filesystem::create_directories(options_.recovery_file.parent_path(), ignored);
@@ -323,7 +325,7 @@ class Session::Impl {
     if (balance_) frame.pace.others = balance_->load_of_others();
     frame.commands = std::ssize(history_);
     frame.paused = !playing_;
-    frame.fast_forward_target = goal_;
+    frame.fast_forward_target = fast_forward_target_;
     frame.recovery_file = kept_recovery_;
     frame.recording_problem = recording_problem_;
     frame.refusals = refusals_;
@@ -342,7 +344,7 @@ class Session::Impl {
   Scene scene_;          ///< without its events
   Schedule schedule_;    ///< of the scene's events
   long recorded_ticks_;  ///< of the scene if it is a recording, else 0
-  RecoveryMonitor watch_;
+  RecoveryMonitor recovery_monitor_;
   std::vector<Event> history_;     ///< every command carried out; changed under mutex_
   std::string kept_recovery_;      ///< file of the last recovery
   std::string recording_problem_;  ///< why the recording ended early
@@ -354,7 +356,7 @@ class Session::Impl {
   long single_steps_ = 0;
   std::atomic<Field> field_;
   std::atomic<bool> playing_, stopping_{false}, finished_{false}, show_now_{false}, stretches_{false}, errors_{false};
-  std::atomic<long> goal_;  ///< the tick to fast-forward to; 0: none
+  std::atomic<long> fast_forward_target_;  ///< the tick to fast-forward to; 0: none
 
   std::optional<BudgetController> budget_controller_;     ///< where the scene's budget is in milliseconds
   std::optional<StepCostEstimator> step_cost_estimator_;  ///< where the scene leaves the integrator to the engine

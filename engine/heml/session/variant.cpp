@@ -11,7 +11,7 @@ namespace heml {
 namespace {
 
 /// Changes a variant by one word. Returns whether the word is known.
-bool take_word(std::string_view word, Variant& variant) {
+bool apply_word(std::string_view word, Variant& variant) {
   SolverSettings& solver = variant.setup.solver;
   if (const LawInfo* law = find_law(word)) {
     variant.has_law = true;
@@ -61,7 +61,7 @@ Variant variant_of(WorldSetup setup, const std::string& words) {
   std::string_view rest = words;
   while (true) {
     const std::size_t end = std::min(rest.find('+'), rest.size());
-    if (!take_word(rest.substr(0, end), variant))
+    if (!apply_word(rest.substr(0, end), variant))
       throw InputError("beside", words, fmt::format("\"{}\" is no variant of a body", rest.substr(0, end)),
                        fmt::format("take of these, joined by +: {}", fmt::join(variant_words(), ", ")));
     if (end == rest.size()) break;

@@ -26,11 +26,11 @@ StopReason restore_last_valid(Simulation<Real>& s, StopReason::Cause cause) {
   if (cause == StopReason::Cause::out_of_range) {
     reason = out_of_range(s, s.state.x, reached);
   } else {
-    const auto wild = std::find_if(s.state.v.begin(), s.state.v.end(), [&](Real v) {
+    const auto runaway = std::find_if(s.state.v.begin(), s.state.v.end(), [&](Real v) {
       return !(std::abs(v) <= 10 * (s.model.diagonal / h + s.setup.initial_velocity.norm()));
     });
-    if (wild != s.state.v.end())
-      reason.node = s.model.order.file_node[static_cast<std::size_t>(wild - s.state.v.begin()) / 3];
+    if (runaway != s.state.v.end())
+      reason.node = s.model.order.file_node[static_cast<std::size_t>(runaway - s.state.v.begin()) / 3];
     reason.message = fmt::format(
         "unstable at t = {:.6g} s: node {} ran away with steps of {:.3g} s{}", reached, reason.node, h,
         std::isfinite(s.limit.at_start) ? fmt::format("; at the start the limit was {:.3g} s", s.limit.at_start) : "");

@@ -13,23 +13,23 @@
 namespace heml {
 namespace {
 
-constexpr double worst_J = -0.2;       // an element below it is not left to its law
-constexpr double max_inverted = 0.01;  // of all elements
-constexpr double upright_J = 0.3;      // of every element, for a recovery to end
-constexpr long upright_for = 5;        // steps, if the body is calm
-constexpr long upright_long = 100;     // steps, if it is not: something moves it
-constexpr double calm = 0.03;          // of the speed of shear waves
-constexpr double far_too_fast = 10;    // times the speed of waves and of the start: no motion of tissue
-constexpr double hair = 1e-5;          // of the body's size: 1 µm for 0.1 m
-constexpr std::uint64_t hair_seed = 2018;
-constexpr double shrunk = 0.1;         // of its extent at rest
-constexpr double caught = 0.1;         // of the speed of shear waves: what is slower and inside out is caught
-constexpr long max_unfold_steps = 30;  // steps: what is inside out for longer is held so from outside
-constexpr double unfolding_small = 0.01, unfolding_caught = 0.1;  // of the way home, a step
-constexpr double weight_of_constrained = 1000;                    // beside free nodes, in what fits best
+constexpr double worst_J = -0.2;         // an element below it needs a recovery
+constexpr double max_inverted = 0.01;    // of all elements
+constexpr double min_healthy_J = 0.3;    // of every element, for a recovery to end
+constexpr long calm_steps = 5;           // healthy steps that end a recovery if the body is calm
+constexpr long moving_steps = 100;       // healthy steps that end it if loads keep the body moving
+constexpr double calm_speed = 0.03;      // of the speed of shear waves
+constexpr double max_speed_factor = 10;  // times the speed of waves and of the start: faster is no motion of tissue
+constexpr double perturbation = 1e-5;    // of the body's size: 1 µm for 0.1 m
+constexpr std::uint64_t perturbation_seed = 2018;
+constexpr double collapsed_extent = 0.1;  // of the extent at rest
+constexpr double tangled_speed = 0.1;  // of the speed of shear waves: a slower body with inverted elements is tangled
+constexpr long max_moves_towards_rest = 30;  // steps: elements inverted for longer are kept so by constraints or loads
+constexpr double collapsed_fraction = 0.01, tangled_fraction = 0.1;  // of the displacement to the rest shape, a step
+constexpr double weight_of_constrained = 1000;                       // relative to free nodes, in the best fit
 constexpr NewtonOptions newton_options{10, 1e-2};
-constexpr double small_enough = 1e-3;     // of the first residual
-constexpr double no_acceleration = 1e-2;  // m/s²
+constexpr double residual_reduction = 1e-3;  // of the first residual
+constexpr double no_acceleration = 1e-2;     // m/s²
 
 /// Least height over longest edge.
 double thinness(const TetMesh& mesh, int element) {
@@ -49,18 +49,18 @@ template <class Real>
 void RecoveryController<Real>::start() {
   s_.recovery.reset();
   if (!s_.setup.solver.recovery || s_.setup.solver.is_static()) return;
-  const double max_speed = far_too_fast * (max_wave_speed() + s_.setup.initial_velocity.norm());
+  const double max_speed = max_speed_factor * (max_wave_speed() + s_.setup.initial_velocity.norm());
   s_.recovery = std::make_unique<RecoveryState<Real>>(s_.model.mesh, s_.mass, max_speed, s_.state);
 }
 
-/// They cross an element in about 2/ω_max. m/s.
+/// Speed of the fastest waves, which cross an element in about 2/ω_max, m/s.
 template <class Real>
 double RecoveryController<Real>::max_wave_speed() const {
   return static_cast<double>(s_.rest_frequency) * s_.model.diagonal / std::cbrt(static_cast<double>(s_.mass.size())) /
          2;
 }
 
-/// Of the stiffest material, m/s.
+/// Speed of shear waves in the stiffest material, m/s.
 template <class Real>
 double RecoveryController<Real>::shear_wave_speed() const {
   double speed = 0;
@@ -72,13 +72,13 @@ double RecoveryController<Real>::shear_wave_speed() const {
 template <class Real>
 std::optional<StopReason> RecoveryController<Real>::monitor() {
   if (!s_.recovery || s_.recovering() || s_.halt) return std::nullopt;
-  RecoveryState<Real>& parts = *s_.recovery;
-  parts.track_tool(s_.grasps.empty() ? nullptr : &s_.grasps.front(), s_.state.time);
-  const StateCheck seen = parts.check(s_.model.mesh, s_.state, s_.mass);
-  const double inverted = static_cast<double>(seen.inverted) / static_cast<double>(s_.model.mesh.tets.size());
-  if (!(seen.min_J < worst_J || inverted > max_inverted || seen.speed > parts.max_speed)) {
-    parts.last_good = s_.state;
-    parts.has_last_good = true;
+  RecoveryState<Real>& recovery = *s_.recovery;
+  recovery.track_tool(s_.grasps.empty() ? nullptr : &s_.grasps.front(), s_.state.time);
+  const StateCheck check = recovery.check(s_.model.mesh, s_.state, s_.mass);
+  const double inverted = static_cast<double>(check.inverted) / static_cast<double>(s_.model.mesh.tets.size());
+  if (!(check.min_J < worst_J || inverted > max_inverted || check.speed > recovery.max_speed)) {
+    recovery.last_good = s_.state;
+    recovery.has_last_good = true;
   } else if (is_step_hopeless()) {
     return StopReason{
         StopReason::Cause::unstable, -1, -1,
@@ -86,7 +86,7 @@ std::optional<StopReason> RecoveryController<Real>::monitor() {
             "unstable at t = {:.6g} s: steps of {:.3g} s are too long for this body, which at rest bears {:.3g} s",
             s_.state.time, s_.setup.solver.step.value_or(min_step), 2 / static_cast<double>(s_.rest_frequency))};
   } else {
-    begin(seen);
+    begin(check);
   }
   return std::nullopt;
 }
@@ -101,12 +101,12 @@ bool RecoveryController<Real>::is_step_hopeless() const {
 template <class Real>
 bool RecoveryController<Real>::takes_over(const StopReason& failure) {
   if (!s_.recovery || s_.recovering() || is_step_hopeless()) return false;
-  StateCheck seen = s_.recovery->check(s_.model.mesh, s_.state, s_.mass);
-  if (failure.cause == StopReason::Cause::not_converged && !(seen.min_J < upright_J)) return false;
+  StateCheck check = s_.recovery->check(s_.model.mesh, s_.state, s_.mass);
+  if (failure.cause == StopReason::Cause::not_converged && !(check.min_J < min_healthy_J)) return false;
   const auto& file_tet = s_.model.order.file_tet;
   if (failure.element >= 0)
-    seen.worst = static_cast<int>(std::find(file_tet.begin(), file_tet.end(), failure.element) - file_tet.begin());
-  begin(seen);
+    check.worst = static_cast<int>(std::find(file_tet.begin(), file_tet.end(), failure.element) - file_tet.begin());
+  begin(check);
   return true;
 }
 
@@ -115,20 +115,20 @@ void RecoveryController<Real>::rebuild_surrogate() {
   if (s_.recovering()) install_surrogate();
 }
 
-/// seen: of the state that is given up.
+/// check: of the state that the recovery replaces.
 template <class Real>
-void RecoveryController<Real>::begin(const StateCheck& seen) {
-  RecoveryState<Real>& parts = *s_.recovery;
-  FailureDiagnosis suspects = diagnose(seen);
+void RecoveryController<Real>::begin(const StateCheck& check) {
+  RecoveryState<Real>& recovery = *s_.recovery;
+  FailureDiagnosis suspects = diagnose(check);
   Recovery report;
   report.tick = s_.ticks;
   report.element = suspects.element;
-  report.inverted = seen.inverted;
-  report.min_J = seen.min_J;
+  report.inverted = check.inverted;
+  report.min_J = check.min_J;
   report.message = describe_cause(suspects);
-  s_.state.x = parts.last_good.x;
-  s_.state.v = parts.last_good.v;
-  s_.state.time = parts.last_good.time;
+  s_.state.x = recovery.last_good.x;
+  s_.state.v = recovery.last_good.v;
+  s_.state.time = recovery.last_good.time;
   if (s_.has_internal_state) s_.body.begin_step(0);
   report.begun.time = s_.state.time;
   report.begun.before = s_.energies();
@@ -138,30 +138,30 @@ void RecoveryController<Real>::begin(const StateCheck& seen) {
   install_surrogate();
   s_.evaluate_forces();
   report.begun.after = s_.energies();
-  parts.last = report;
-  parts.upright_steps = parts.unfold_steps = 0;
-  parts.unfolding = false;
-  ++parts.count;
+  recovery.last = report;
+  recovery.healthy_steps = recovery.moves_towards_rest = 0;
+  recovery.is_tangled = false;
+  ++recovery.count;
 }
 
 template <class Real>
-FailureDiagnosis RecoveryController<Real>::diagnose(const StateCheck& seen) const {
+FailureDiagnosis RecoveryController<Real>::diagnose(const StateCheck& check) const {
   FailureDiagnosis s;
   s.time = s_.state.time;
-  s.min_J = seen.min_J;
-  s.inverted = seen.inverted;
+  s.min_J = check.min_J;
+  s.inverted = check.inverted;
   s.from_start = !s_.recovery->has_last_good;
   s.tool_speed = s_.recovery->tool_speed;
   s.pulled = !s_.grasps.empty();
   s.wave_speed = shear_wave_speed();
-  s.thinness = thinness(s_.model.mesh, seen.worst);
+  s.thinness = thinness(s_.model.mesh, check.worst);
   if (s_.setup.solver.step && is_explicit(s_.setup.solver.integrator)) {
     s.step = *s_.setup.solver.step;
     s.limit = s_.limit.stable;
   }
-  if (seen.min_J >= upright_J && seen.speed > s_.recovery->max_speed) return s;
-  s.element = s_.model.order.file_tet[static_cast<std::size_t>(seen.worst)];
-  const int material = s_.model.material_of[static_cast<std::size_t>(seen.worst)];
+  if (check.min_J >= min_healthy_J && check.speed > s_.recovery->max_speed) return s;
+  s.element = s_.model.order.file_tet[static_cast<std::size_t>(check.worst)];
+  const int material = s_.model.material_of[static_cast<std::size_t>(check.worst)];
   const SmallStrainModuli rest = small_strain_moduli(s_.setup.materials[static_cast<std::size_t>(material)].material);
   if (rest.shear > 0) s.stiffness_ratio = rest.bulk / rest.shear;
   return s;
@@ -178,11 +178,11 @@ template <class Real>
 void RecoveryController<Real>::perturb() {
   for (std::size_t n = 0; n < s_.mass.size(); ++n) {
     if (!(s_.inverse_mass[n] > 0)) continue;
-    std::uint64_t random = hash_combine(hair_seed, static_cast<std::uint64_t>(s_.model.order.file_node[n]));
+    std::uint64_t random = hash_combine(perturbation_seed, static_cast<std::uint64_t>(s_.model.order.file_node[n]));
     for (std::size_t i = 0; i < 3; ++i) {
       random = hash_combine(random, std::uint64_t{i});
       const double part = static_cast<double>(random >> 11) * 0x1p-52 - 1;
-      s_.state.x[3 * n + i] += static_cast<Real>(hair * s_.model.diagonal * part);
+      s_.state.x[3 * n + i] += static_cast<Real>(perturbation * s_.model.diagonal * part);
     }
   }
 }
@@ -190,57 +190,58 @@ void RecoveryController<Real>::perturb() {
 template <class Real>
 void RecoveryController<Real>::step(double until) {
   step_surrogate(until);
-  RecoveryState<Real>& parts = *s_.recovery;
-  const StateCheck seen = parts.check(s_.model.mesh, s_.state, s_.mass);
-  parts.upright_steps = seen.min_J > upright_J ? parts.upright_steps + 1 : 0;
-  const bool is_calm = seen.speed <= calm * shear_wave_speed();
-  if (parts.upright_steps >= (is_calm ? upright_for : upright_long)) end();
+  RecoveryState<Real>& recovery = *s_.recovery;
+  const StateCheck check = recovery.check(s_.model.mesh, s_.state, s_.mass);
+  recovery.healthy_steps = check.min_J > min_healthy_J ? recovery.healthy_steps + 1 : 0;
+  const bool is_calm = check.speed <= calm_speed * shear_wave_speed();
+  if (recovery.healthy_steps >= (is_calm ? calm_steps : moving_steps)) end();
 }
 
 /// One step, whatever Newton's method reaches: Φ does not rise.
 template <class Real>
 void RecoveryController<Real>::step_surrogate(double until) {
-  ImplicitState<Real>& parts = s_.recovery->surrogate->parts;
-  // A body too small for its forces to tell it how to grow, or caught in a tangle of lowest energy, gets a hand.
-  const StateCheck seen = s_.recovery->check(s_.model.mesh, s_.state, s_.mass);
-  if (seen.extent < shrunk) unfold(unfolding_small);
-  if (seen.inverted == 0)
-    s_.recovery->unfolding = false;
-  else if (s_.recovery->last->steps > 0 && seen.speed <= caught * shear_wave_speed())
-    s_.recovery->unfolding = true;
-  if (s_.recovery->unfolding && s_.recovery->unfold_steps < max_unfold_steps) {
-    unfold(unfolding_caught);
-    ++s_.recovery->unfold_steps;
+  ImplicitState<Real>& implicit = s_.recovery->surrogate->implicit;
+  // A collapsed body, whose forces are too small to expand it, or a tangled one at a minimum of energy is moved towards
+  // its rest shape.
+  const StateCheck check = s_.recovery->check(s_.model.mesh, s_.state, s_.mass);
+  if (check.extent < collapsed_extent) move_towards_rest(collapsed_fraction);
+  if (check.inverted == 0)
+    s_.recovery->is_tangled = false;
+  else if (s_.recovery->last->steps > 0 && check.speed <= tangled_speed * shear_wave_speed())
+    s_.recovery->is_tangled = true;
+  if (s_.recovery->is_tangled && s_.recovery->moves_towards_rest < max_moves_towards_rest) {
+    move_towards_rest(tangled_fraction);
+    ++s_.recovery->moves_towards_rest;
   }
   const double h = until - s_.state.time;
-  parts.x = as_vector(s_.state.x);
-  parts.v = as_vector(s_.state.v);
-  const Stage stage = backward_euler_stage(parts.x, parts.v, h);
+  implicit.x = as_vector(s_.state.x);
+  implicit.v = as_vector(s_.state.v);
+  const Stage stage = backward_euler_stage(implicit.x, implicit.v, h);
   // Critical for the slowest mode, which is about a wave to and fro.
   const double damping =
       std::max(s_.setup.solver.damping, 2 * std::numbers::pi * shear_wave_speed() / s_.model.diagonal);
-  parts.body.begin_step(parts.x, s_.state.time);
-  parts.body.set_time(until, s_.setup.gravity);
-  parts.body.set_velocity(stage.d, stage.x_bar);
-  parts.step.set(stage.a(damping), stage.y(damping));
-  parts.linear.set_inertia(stage.a(damping));
-  Vector stay = parts.x, fly = (parts.mass.array() > 0).select(stage.y(damping), stay);
+  implicit.body.begin_step(implicit.x, s_.state.time);
+  implicit.body.set_time(until, s_.setup.gravity);
+  implicit.body.set_velocity(stage.d, stage.x_bar);
+  implicit.step.set(stage.a(damping), stage.y(damping));
+  implicit.linear.set_inertia(stage.a(damping));
+  Vector stay = implicit.x, fly = (implicit.mass.array() > 0).select(stage.y(damping), stay);
   for (const ConstrainedNode& constrained : s_.model.constrained)
     stay.segment<3>(3 * constrained.node) = fly.segment<3>(3 * constrained.node) =
         prescribed_at(s_.model, constrained, until).x;
-  const auto staying = parts.step.value(stay), flying = parts.step.value(fly);
+  const auto staying = implicit.step.value(stay), flying = implicit.step.value(fly);
   Vector x = flying && *flying < *staying ? fly : stay, r;
-  parts.step.residual(x, r);
+  implicit.step.residual(x, r);
   const double first = r.norm();
   const StoppingCriterion stop{
       [&](const Vector& left) {
-        const auto push = (parts.mass.array() > 0).select(left.array() / parts.mass.array(), 0);
-        return std::min(push.abs().maxCoeff() / no_acceleration, left.norm() / (small_enough * first));
+        const auto push = (implicit.mass.array() > 0).select(left.array() / implicit.mass.array(), 0);
+        return std::min(push.abs().maxCoeff() / no_acceleration, left.norm() / (residual_reduction * first));
       },
       1};
-  s_.stats.iterations += minimise(parts.step, parts.linear, stop, newton_options, x).iterations;
-  parts.step.residual(x, r);  // whose forces are kept
-  parts.body.end_step(x);
+  s_.stats.iterations += minimise(implicit.step, implicit.linear, stop, newton_options, x).iterations;
+  implicit.step.residual(x, r);  // whose forces are kept
+  implicit.body.end_step(x);
   s_.set_state(x, stage.velocity(x), until);
   s_.move_constrained();
   ++s_.steps;
@@ -248,10 +249,10 @@ void RecoveryController<Real>::step_surrogate(double until) {
   ++s_.recovery->last->steps;
 }
 
-/// Moves free nodes a part of the way to the rest shape, placed and turned as fits the held nodes best, or, where
-/// there are too few, the body.
+/// Moves free nodes by a part of their displacement to the rest shape, which is placed by the rigid motion that fits
+/// the constrained nodes best, or the whole body where they are too few.
 template <class Real>
-void RecoveryController<Real>::unfold(double part) {
+void RecoveryController<Real>::move_towards_rest(double part) {
   Vec3 x_mean = Vec3::Zero(), X_mean = Vec3::Zero();
   double mass = 0;
   const auto x = [&](std::size_t n) { return Eigen::Map<Vector3<Real>>(&s_.state.x[3 * n]); };
@@ -280,23 +281,23 @@ void RecoveryController<Real>::unfold(double part) {
   }
 }
 
-/// Unless the scene's own law is not defined where the body is: then the recovery goes on.
+/// Returns to the scene's law, unless it is undefined at the current positions; then the recovery continues.
 template <class Real>
 void RecoveryController<Real>::end() {
-  RecoveryState<Real>& parts = *s_.recovery;
+  RecoveryState<Real>& recovery = *s_.recovery;
   if (s_.body.first_undefined(s_.state.x.data()) >= 0) return;
   LawSwitch back{s_.state.time, s_.energies(), {}};
-  parts.surrogate.reset();
-  if (s_.has_internal_state) {  // for materials that remember, all of it was one step
-    s_.body.begin_step(static_cast<Real>(s_.state.time - parts.last->begun.time));
+  recovery.surrogate.reset();
+  if (s_.has_internal_state) {  // the recovery is one step of the internal state
+    s_.body.begin_step(static_cast<Real>(s_.state.time - recovery.last->begun.time));
     s_.body.commit(s_.state.x.data());
     s_.body.begin_step(0);
   }
   if (s_.implicit) s_.implicit->h_before = 0;
   s_.evaluate_forces();
   back.after = s_.energies();
-  parts.last->ended = back;
-  s_.last_valid = parts.last_good = s_.state;
+  recovery.last->ended = back;
+  s_.last_valid = recovery.last_good = s_.state;
   find_stable_step(s_);
   method_.choose();
 }

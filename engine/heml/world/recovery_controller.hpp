@@ -8,7 +8,7 @@
 //                    ▼
 //   a stable Neo-Hookean surrogate (recovery_surrogate.hpp) steps by backward Euler, one step a tick, strongly damped,
 //   each step ending no higher than it began in Φ = a/2 ‖x − y‖²_M + U
-//                    │ every element upright for some steps, the body calm, and the scene's law defined
+//                    │ min J > 0.3 for some steps, the body calm, and the scene's law defined
 //                    ▼
 //   back to the scene's law and method; positions and velocities are kept
 //
@@ -44,7 +44,7 @@ class RecoveryController {
   void install_surrogate();
   void perturb();
   void step_surrogate(double until);
-  void unfold(double part);
+  void move_towards_rest(double part);
   void end();
 
   Simulation<Real>& s_;

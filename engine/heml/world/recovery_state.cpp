@@ -6,7 +6,7 @@
 namespace heml {
 namespace {
 
-constexpr double lately = 0.02;  // s: a hand's commands come in at some 60 Hz
+constexpr double tool_interval = 0.02;  // s: commands that move a tool arrive at about 60 Hz
 
 template <class Real>
 Vec3 at(const std::vector<Real>& values, int node) {
@@ -52,37 +52,37 @@ void RecoveryState<Real>::set_mesh(const TetMesh& mesh, const std::vector<Real>&
 template <class Real>
 StateCheck RecoveryState<Real>::check(const TetMesh& mesh, const State<Real>& state,
                                       const std::vector<Real>& masses) const {
-  StateCheck seen;
+  StateCheck check;
   for (std::size_t t = 0; t < rest_volume_.size(); ++t) {
     const Tet& tet = mesh.tets[t];
     const double volume =
         signed_volume(at(state.x, tet[0]), at(state.x, tet[1]), at(state.x, tet[2]), at(state.x, tet[3]));
     const double J = std::isfinite(volume) ? volume / rest_volume_[t] : -std::numeric_limits<double>::infinity();
-    if (!(J > 0)) ++seen.inverted;
-    if (!(J < seen.min_J)) continue;
-    seen.min_J = J;
-    seen.worst = static_cast<int>(t);
+    if (!(J > 0)) ++check.inverted;
+    if (!(J < check.min_J)) continue;
+    check.min_J = J;
+    check.worst = static_cast<int>(t);
   }
   const Vec3 mean = spread(masses, [&](int n) { return at(state.v, n); }).second;
   for (std::size_t n = 0; n < masses.size(); ++n) {
     const double speed = masses[n] > 0 ? (at(state.v, static_cast<int>(n)) - mean).norm() : 0;
-    seen.speed = std::max(seen.speed, std::isfinite(speed) ? speed : std::numeric_limits<double>::infinity());
+    check.speed = std::max(check.speed, std::isfinite(speed) ? speed : std::numeric_limits<double>::infinity());
   }
-  seen.extent = spread(masses, [&](int n) { return at(state.x, n); }).first / rest_extent_;
-  return seen;
+  check.extent = spread(masses, [&](int n) { return at(state.x, n); }).first / rest_extent_;
+  return check;
 }
 
 template <class Real>
 void RecoveryState<Real>::track_tool(const GraspSpring<Real>* grasp, double time) {
   if (!grasp) {
-    tool_seen_ = -1;
+    tool_time_ = -1;
     tool_speed = 0;
     return;
   }
-  if (tool_seen_ >= 0 && time < tool_seen_ + lately) return;
-  if (tool_seen_ >= 0) tool_speed = (grasp->target() - tool_was_).norm() / (time - tool_seen_);
+  if (tool_time_ >= 0 && time < tool_time_ + tool_interval) return;
+  if (tool_time_ >= 0) tool_speed = (grasp->target() - tool_was_).norm() / (time - tool_time_);
   tool_was_ = grasp->target();
-  tool_seen_ = time;
+  tool_time_ = time;
 }
 
 template class RecoveryState<float>;

@@ -1,6 +1,6 @@
 #pragma once
-// What a world keeps to bring its body back: the last state nothing was wrong with, and, while a recovery goes on, the
-// body that stands in for the scene's. Made when a scene asks for it ("recovery"); worlds without it pay nothing.
+// State of recoveries: the last good state and, during a recovery, the surrogate of the body. Made if the scene has
+// "recovery"; worlds without it pay nothing.
 #include <heml/dynamics/state.hpp>
 #include <heml/mesh/edit.hpp>
 #include <heml/world/recovery.hpp>
@@ -9,7 +9,7 @@
 
 namespace heml {
 
-/// What there is to see of a state.
+/// Measures of a state by which it is judged good or bad.
 struct StateCheck {
   double min_J = 1;
   int worst = 0;      ///< inner number of the element that has it
@@ -21,37 +21,37 @@ struct StateCheck {
 template <class Real>
 class RecoveryState {
  public:
-  /// fastest: m/s, that no node can be if all is well.
+  /// max_speed: m/s; a faster node is a sign of instability.
   RecoveryState(const TetMesh& mesh, const std::vector<Real>& masses, double max_speed, const State<Real>& start);
 
-  /// Further nodes, where the last good state has them.
+  /// Adds the nodes of an edit to the last good state.
   void append(const MeshEdit& edit) {
     heml::append(edit, last_good.x, 3);
     heml::append(edit, last_good.v, 3);
   }
-  /// Other elements.
+  /// Follows a change of the elements.
   void set_mesh(const TetMesh& mesh, const std::vector<Real>& masses);
 
   StateCheck check(const TetMesh& mesh, const State<Real>& state, const std::vector<Real>& masses) const;
-  /// Keeps where the tool is, to tell how fast it was lately.
+  /// Updates tool_speed from the tool's position at a time (s).
   void track_tool(const GraspSpring<Real>* grasp, double time);
 
   const double max_speed;      ///< m/s
-  State<Real> last_good;       ///< the last one: x, v, time
-  bool has_last_good = false;  ///< whether there was any but the start
+  State<Real> last_good;       ///< x, v, time
+  bool has_last_good = false;  ///< whether there was one since the start
   std::unique_ptr<RecoverySurrogate<Real>> surrogate;
   std::optional<Recovery> last;
   long count = 0;
-  long upright_steps = 0;  ///< in a row, to now
-  bool unfolding = false;  ///< helping it out of a tangle, until it is out
-  long unfold_steps = 0;   ///< steps that was done
-  double tool_speed = 0;   ///< m/s; 0: no tool
+  long healthy_steps = 0;       ///< successive steps with a healthy min J
+  bool is_tangled = false;      ///< moved towards rest until no element is inverted
+  long moves_towards_rest = 0;  ///< steps with such a move in this recovery
+  double tool_speed = 0;        ///< m/s; 0: no tool
 
  private:
   std::vector<double> rest_volume_;  ///< #T, m³
   double rest_extent_ = 0;           ///< m
   Vec3 tool_was_ = Vec3::Zero();
-  double tool_seen_ = -1;  ///< s; negative: no tool
+  double tool_time_ = -1;  ///< s; negative: no tool
 };
 
 }  // namespace heml

@@ -1,6 +1,6 @@
 #pragma once
-// The body that a recovery goes on with in place of the scene's: the same mesh, loads and grasps, every material
-// replaced by a stable Neo-Hookean as stiff in shear at rest (materials/stable_neo_hookean.hpp), which no state ends.
+// The body that a recovery steps in place of the scene's: the same mesh, loads and grasps, with every material replaced
+// by a stable Neo-Hookean of the same shear modulus at rest (materials/stable_neo_hookean.hpp), defined in every state.
 #include <heml/world/implicit_state.hpp>
 
 namespace heml {
@@ -8,7 +8,7 @@ namespace heml {
 template <class Real>
 struct RecoverySurrogate {
   ElasticBody<Real> body;
-  ImplicitState<Real> parts;
+  ImplicitState<Real> implicit;
 
   /// setup: the scene's, a material per index in model.material_of. masses, inverse_mass: #V, as the world's. All must
   /// outlive this.

@@ -103,7 +103,7 @@ Energies Simulation<Real>::energies() {
 
 template <class Real>
 void Simulation<Real>::set_state(const Vector& x, const Vector& v, double time) {
-  const Vector& f = (recovering() ? recovery->surrogate->parts : implicit_state()).body.forces();
+  const Vector& f = (recovering() ? recovery->surrogate->implicit : implicit_state()).body.forces();
   for (std::size_t i = 0; i < state.x.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
     state.x[i] = static_cast<Real>(x[k]);
@@ -149,7 +149,7 @@ void Simulation<Real>::update_contact_surfaces() {
   contacts.reports.assign(contacts.surfaces(state.time).size(), {});
   impulses.begin_tick();
   if (implicit) implicit->body.reset_contact();
-  if (recovering()) recovery->surrogate->parts.body.reset_contact();
+  if (recovering()) recovery->surrogate->implicit.body.reset_contact();
 }
 
 // The body has other elements, or begins anew.

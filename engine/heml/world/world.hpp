@@ -1,6 +1,6 @@
 #pragma once
-// A body that lives: an immutable model and its mutable state behind one small interface, the same for float and double
-// and for every mix of laws. One thread at a time; results are the same bits for any number of threads inside.
+// A simulated body: an immutable model and its mutable state behind one interface, the same for float and double and
+// for every mix of laws. One calling thread at a time; results are bit-identical for any number of threads inside.
 //
 // Everything goes in and comes out in the mesh file's node and element order; inside both are reordered for locality.
 #include <cstdint>
@@ -19,7 +19,7 @@
 
 namespace heml {
 
-/// What an edit of the mesh has done to a body: a removal, the sweeps of a stroke, or a tear as far as it has gone.
+/// Effects of an edit of the mesh: a removal, the sweeps of a stroke, or a tear so far.
 struct EditReport {
   long tick = 0;                           ///< at whose start it began
   std::size_t removed = 0;                 ///< elements that are lost
@@ -29,12 +29,12 @@ struct EditReport {
   // Of a cut:
   std::size_t split = 0;   ///< elements, into
   std::size_t pieces = 0;  ///< so many
-  double area = 0;         ///< m², of one side of the cut, as the body was; of a tear too
+  double area = 0;         ///< m², of one side of the cut or tear, in the deformed shape
   double min_angle = 0;    ///< degrees, dihedral, of the worst piece at rest
   std::size_t torn = 0;    ///< of a tear: faces that have come apart
 };
 
-/// Why a world will not step on. The state is the last valid one.
+/// Why a world has stopped. Its state is the last valid one.
 struct StopReason {
   enum class Cause { out_of_range, unstable, not_converged };
   Cause cause;
@@ -114,7 +114,8 @@ class World {
   virtual std::vector<ToolState> tools() const = 0;
 
   /// Takes over the motion of another world of the same setup: positions, velocities, time, what is grasped. Returns
-  /// false, and does nothing, where that is not all there is to it: another mesh or precision, memory, recovery.
+  /// false, and does nothing, where that is not all there is to it: another mesh or precision, internal state,
+  /// recovery.
   virtual bool copy_motion_from(const World& leader) = 0;
 
   /// Hash of positions and velocities, bit for bit, in mesh-file order.
@@ -122,31 +123,31 @@ class World {
   /// 16-bit hash of each node's position and velocity, mesh-file order: lets a replay name the node that differs.
   virtual std::vector<std::uint16_t> node_hashes() const = 0;
 
-  /// Which elements of the mesh are there. Shared, and another one after every edit or Reset of one.
+  /// The existing elements of the mesh. Shared; every edit, or Reset after an edit, makes another one.
   virtual std::shared_ptr<const Topology> topology() const = 0;
-  /// Edits since the start or the last Reset, without those taken back.
+  /// Edits since the start or the last Reset, except those undone.
   virtual const std::vector<EditReport>& edits() const = 0;
 
-  /// Where implicit steps are preconditioned for a body that had more elements: work that makes what is right for the
-  /// body as it is now, to be run in any thread (which must end before this world does) and put to use by
-  /// AdoptPreconditioner, in time for which bodies step with what they have. Else null.
+  /// If the preconditioner of implicit steps is outdated after a removal, returns a job that rebuilds it on any thread,
+  /// which must end before this world does; pass the result to AdoptPreconditioner. Until then steps use the outdated
+  /// one. Null if it is up to date.
   virtual std::shared_ptr<PreconditionerBuild> preconditioner_build() = 0;
 
   /// As it is now: materials, damping, gravity and integrator follow the commands applied. The mesh
-  /// is the whole one, with what cuts have added; topology() says what of it is there.
+  /// is the full one, with what cuts have added; topology() lists the elements that exist.
   virtual const WorldSetup& setup() const = 0;
 
   /// How many threads may step from now on, the caller included; at most those of the setup. Never changes a result.
   virtual void limit_threads(int threads) = 0;
   virtual int threads() const = 0;            ///< that may step now
-  virtual double worker_seconds() const = 0;  ///< processor time, s, that threads beside the caller have had
+  virtual double worker_seconds() const = 0;  ///< CPU time, s, of the threads other than the caller
 
   /// What this world runs now and what that rests on, for people to read (facts.hpp). Implicit and static worlds that
   /// have not stepped yet factor their matrix for it. Steps after it are the same bits as without.
   virtual WorldFacts facts() = 0;
 };
 
-/// Elements that removals have taken, and nobody has taken back.
+/// Number of elements that removals have taken and that were not restored.
 std::size_t removed_count(const World& world);
 
 /// Builds a world. Throws InputError for what check_tets() and material_of_elements() refuse.

@@ -92,8 +92,8 @@ std::span<const std::string_view> study_laws();
 std::span<const std::string_view> continua();  ///< without springs
 
 // forces.cpp
-Outcome force_is_slope_of_energy(const Trial&);
-Outcome stiffness_is_slope_of_force(const Trial&);
+Outcome force_is_energy_gradient(const Trial&);
+Outcome stiffness_is_force_gradient(const Trial&);
 Outcome tension_form_is_gradient_form(const Trial&);
 Outcome rigid_motion_far_away(const Trial&);
 Outcome sums_of_forces(const Trial&);

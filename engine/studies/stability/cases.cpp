@@ -8,10 +8,10 @@ namespace heml::stability {
 namespace {
 
 /// Names of all laws without stress at rest that satisfy a predicate.
-std::vector<std::string_view> those(bool (*are_so)(const LawInfo&)) {
+std::vector<std::string_view> laws_where(bool (*predicate)(const LawInfo&)) {
   std::vector<std::string_view> names;
   for (const LawInfo& law : heml::laws())
-    if (law.is_stress_free && are_so(law)) names.push_back(law.name);
+    if (law.is_stress_free && predicate(law)) names.push_back(law.name);
   return names;
 }
 
@@ -20,13 +20,13 @@ bool has_exponent(const LawInfo& law) {
                      [](const ParameterInfo& info) { return info.kind == ParameterKind::exponent; });
 }
 
-const auto laws = those([](const LawInfo&) { return true; });
-const auto solids = those([](const LawInfo& law) { return law.is_continuum; });
-const auto exponentials = those(has_exponent);
-const auto of_stretches = those([](const LawInfo& law) { return law.is_principal; });
-const auto separate = those([](const LawInfo& law) { return law.has_volume_term && !law.has_fibre; });
+const auto laws = laws_where([](const LawInfo&) { return true; });
+const auto solids = laws_where([](const LawInfo& law) { return law.is_continuum; });
+const auto exponentials = laws_where(has_exponent);
+const auto principal_laws = laws_where([](const LawInfo& law) { return law.is_principal; });
+const auto with_volume_term = laws_where([](const LawInfo& law) { return law.has_volume_term && !law.has_fibre; });
 const std::vector<std::string_view> a_few = {"stvk", "neo_hookean", "mooney_rivlin", "mass_spring"};  // a long case
-constexpr double never = std::numeric_limits<double>::quiet_NaN();
+constexpr double not_run = std::numeric_limits<double>::quiet_NaN();
 
 using enum Integrator;
 std::vector<Integrator> with_statics() {
@@ -41,9 +41,9 @@ const std::vector<Integrator> none, explicits = explicit_integrators(), implicit
 const std::vector<Case>& table() {
   static const std::vector<Case> cases = {
       {1, "force = −∇U", "forces are minus the gradient of the energy, with elements inside out too",
-       "error / largest force", 1e-6, 1e-5, laws, none, {}, force_is_slope_of_energy},
+       "error / largest force", 1e-6, 1e-5, laws, none, {}, force_is_energy_gradient},
       {2, "stiffness = −∂f/∂x", "stiffness is minus the gradient of the forces, with elements inside out too",
-       "error / largest change", 1e-5, 1e-5, laws, none, {}, stiffness_is_slope_of_force},
+       "error / largest change", 1e-5, 1e-5, laws, none, {}, stiffness_is_force_gradient},
       {3, "tension form", "forces are those of the form with deformation gradients, written apart from the engine",
        "difference / largest force", 1e-10, 1e-5, laws, none, {}, tension_form_is_gradient_form},
       {4, "rigid, 10 km away", "a body turned and carried 10 km from the origin feels nothing",
@@ -53,9 +53,9 @@ const std::vector<Case>& table() {
       {6, "patch test", "inner nodes of an irregular mesh find the affine shape of its surface",
        "largest error / side", 1e-10, 2e-5, solids, every, {"06_patch"}, patch},
       {7, "order of Verlet", "halving the step quarters the error",
-       "|order − 2|", 0.1, never, laws, {verlet}, {"07_order_of_verlet"}, order_of_verlet},
+       "|order − 2|", 0.1, not_run, laws, {verlet}, {"07_order_of_verlet"}, order_of_verlet},
       {8, "order of TR-BDF2", "halving the step quarters the error",
-       "|order − 2|", 0.2, never, laws, {tr_bdf2}, {"08_order_of_tr_bdf2"}, order_of_tr_bdf2},
+       "|order − 2|", 0.2, not_run, laws, {tr_bdf2}, {"08_order_of_tr_bdf2"}, order_of_tr_bdf2},
       {9, "beam drop", "a beam of 10 kPa falls at the live limit and keeps its energy; at the limit at rest it does not",
        "energy lost or won / swing", 0.01, 0.01, laws, explicits, {"09_beam_drop"}, beam_drop},
       {10, "energy drift", "undamped, over a second",
@@ -84,7 +84,7 @@ const std::vector<Case>& table() {
       {20, "1 GPa, 20 ms", "settles on its equilibrium",
        "error / sag", 0.01, 0.01, laws, implicits, {"20_stiff_settles"}, stiff_and_settled},
       {21, "ν = 0.499", "with nodal pressure it sags like ν = 0.3 and keeps its volume to 0.5 %",
-       "difference / sag", 0.12, 0.12, separate, {static_equilibrium}, {"21_nearly_incompressible"},
+       "difference / sag", 0.12, 0.12, with_volume_term, {static_equilibrium}, {"21_nearly_incompressible"},
        nearly_incompressible},
       {22, "sliver", "explicit: the step is shorter and the element named; implicit: nothing changes",
        "explicit: share of the step left; implicit: difference / sag", 0.05, 0.05, laws, moving, {"22_sliver"}, sliver},
@@ -93,7 +93,7 @@ const std::vector<Case>& table() {
       {24, "Q = 200", "exponentials where e^Q overflows: forces are still the gradient of the energy",
        "error / largest force", 1e-6, 1e-5, exponentials, none, {"24_exponential_far_out"}, exponential_far_out},
       {25, "equal stretches", "where directions of stretch are not unique, the stiffness is",
-       "error / largest change", 1e-5, 1e-5, of_stretches, none, {}, equal_stretches},
+       "error / largest change", 1e-5, 1e-5, principal_laws, none, {}, equal_stretches},
       {26, "yanked", "a corner pulled at 10 m/s by more than its own length and let go comes back",
        "rms / size", 1e-3, 1e-3, laws, moving, {"26_yanked"}, yanked},
       {27, "jittered steps", "steps of 1 to 40 ms by chance settle on the equilibrium",

@@ -160,11 +160,11 @@ Outcome in_range_and_inverted(const Trial& trial, double reach_inverted, const E
 
 }  // namespace
 
-Outcome force_is_slope_of_energy(const Trial& trial) {
+Outcome force_is_energy_gradient(const Trial& trial) {
   return in_range_and_inverted(trial, 0.024, [](Body& body, const Vector& x) { return gradient_error(body, x); });
 }
 
-Outcome stiffness_is_slope_of_force(const Trial& trial) {
+Outcome stiffness_is_force_gradient(const Trial& trial) {
   return in_range_and_inverted(trial, 0.018, [](Body& body, const Vector& x) { return stiffness_error(body, x); });
 }
 
