@@ -45,7 +45,7 @@ class FullDisk {
 
 }  // namespace
 
-TEST_CASE("a file is written whole, with what it was before where that fails, and nothing beside it") {
+TEST_CASE("a file is written completely or keeps its old content, and no other file is left") {
   const TemporaryFolder folder;
   const fs::path file = folder / "table.csv";
   write_file(file, "first");
@@ -88,7 +88,7 @@ TEST_CASE("pipes and devices are written through") {
   CHECK(fs::is_fifo(pipe));
 }
 
-TEST_CASE("a file that grows replaces what was there or goes on after it, and says when it cannot") {
+TEST_CASE("an append file truncates or continues an existing file, and reports failures") {
   const TemporaryFolder folder;
   const fs::path file = folder.file("lines", "old\n");
   {
@@ -105,7 +105,7 @@ TEST_CASE("a file that grows replaces what was there or goes on after it, and sa
   CHECK(refusal([&] { AppendFile none(folder / "none/lines", AppendFile::OpenMode::truncate); }) != "");
 }
 
-TEST_CASE("what cannot be written is known before, and asking leaves nothing behind") {
+TEST_CASE("paths that cannot be written are refused beforehand, and the check leaves no file") {
   const TemporaryFolder folder;
   const fs::path file = folder.file("file", "kept");
   expect_writable_file(file);

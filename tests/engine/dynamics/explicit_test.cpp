@@ -56,7 +56,7 @@ TEST_CASE("both methods are stable up to 2/omega, with heavy damping too, and no
   CHECK_FALSE(std::abs(oscillator<Verlet<double>>(2.01 * n, 0, n).first) < 1e10);
 }
 
-TEST_CASE("a moved node is where the contract says, and its velocity and acceleration are the derivatives") {
+TEST_CASE("a moved node follows its ramp, and velocity and acceleration are its derivatives") {
   const PrescribedMotion motion{Vec3(0.05, 0, 0.01), Vec3(1, 0, 0), Vec3(0, 0.1, 0), std::numbers::pi / 2, 2.0};
   const Vec3 X(0.3, 0.2, 0);
   CHECK((motion(X, 0).x - X).norm() <= 1e-15);

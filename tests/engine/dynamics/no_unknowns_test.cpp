@@ -32,7 +32,7 @@ struct Body {
 
 }  // namespace
 
-TEST_CASE("no unknowns: every linear solver has the answer, whatever preconditions") {
+TEST_CASE("no unknowns: every linear solver succeeds with every preconditioner") {
   for (const bool moves : {false, true})
     for (const Preconditioner preconditioner : every_preconditioner)
       for (const Projection projection : {Projection::none, Projection::element, Projection::shift}) {
@@ -57,7 +57,7 @@ TEST_CASE("no unknowns: every linear solver has the answer, whatever preconditio
       }
 }
 
-TEST_CASE("no unknowns: what preconditions can be made and applied all the same") {
+TEST_CASE("no unknowns: every preconditioner can be built and applied") {
   Body body(false);
   ScalarCholesky factor;
   MultiVector none;

@@ -5,7 +5,7 @@
 #include "small_objectives.hpp"
 #include "support.hpp"
 
-namespace heml::float_gradients_test {
+namespace heml::single_precision_cg_test {
 
 using namespace heml::test;
 
@@ -86,4 +86,4 @@ TEST_CASE("a solve in float gives the same bits with any number of threads") {
   }
 }
 
-}  // namespace heml::float_gradients_test
+}  // namespace heml::single_precision_cg_test

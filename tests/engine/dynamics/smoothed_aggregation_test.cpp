@@ -7,7 +7,7 @@
 
 #include "support.hpp"
 
-namespace heml::multilevel_test {
+namespace heml::smoothed_aggregation_test {
 
 using namespace heml::test;
 
@@ -159,7 +159,7 @@ TEST_CASE("conjugate gradients on cycles end at the solution of a direct solver"
   CHECK((d - expected).norm() <= 1e-9 * expected.norm());
 }
 
-TEST_CASE("with nothing but its bottom a cycle is the exact factor") {
+TEST_CASE("a cycle of one level is the exact factor") {
   ThreadTeam team(1);
   const Cube cube(6);
   SmoothedAggregation levels = cube.levels(cube.free.node.size(), team);
@@ -198,4 +198,4 @@ TEST_CASE("a cycle gives the same bits with any number of threads") {
   for (const Vector& z : results) CHECK((z.array() == results[0].array()).all());
 }
 
-}  // namespace heml::multilevel_test
+}  // namespace heml::smoothed_aggregation_test

@@ -87,7 +87,7 @@ TEST_CASE("every preconditioner gives the same solution, the exact factor in one
   }
 }
 
-TEST_CASE("the preconditioner goes by the size of the body: a full factor, one of the scalar matrix, levels of it") {
+TEST_CASE("the preconditioner depends on the body's size: full factor, scalar factor, multigrid") {
   CHECK(choose_preconditioner(100, false) == Preconditioner::cholesky);
   CHECK(choose_preconditioner(800, false) == Preconditioner::scalar);
   CHECK(choose_preconditioner(6000, false) == Preconditioner::multilevel);

@@ -4,7 +4,7 @@
 
 #include "small_body.hpp"
 
-namespace heml::block_rows_test {
+namespace heml::bsr_matrix_test {
 
 using test::law_names;
 using test::SmallBody;
@@ -28,7 +28,7 @@ MultiVector random_triples(std::size_t count, std::mt19937_64& random) {
 
 }  // namespace
 
-TEST_CASE("rows in float multiply like the stiffness they are assembled from, in every law and of springs") {
+TEST_CASE("products in float equal those of the assembled stiffness, for every law and for springs") {
   std::mt19937_64 random(71);
   ThreadTeam team(1);
   for (const auto law : law_names(true)) {
@@ -56,7 +56,7 @@ TEST_CASE("rows in float multiply like the stiffness they are assembled from, in
   }
 }
 
-TEST_CASE("rows of averaged nodal pressure are refused") {
+TEST_CASE("a matrix of averaged nodal pressure is refused") {
   std::mt19937_64 random(72);
   ThreadTeam team(1);
   SmallBody small(random, 0.1);
@@ -66,7 +66,7 @@ TEST_CASE("rows of averaged nodal pressure are refused") {
   CHECK(!body->add_stiffness(rows, team));
 }
 
-TEST_CASE("rows and their products are the same bits for any number of threads") {
+TEST_CASE("the matrix and its products are bit-identical for any number of threads") {
   std::mt19937_64 random(73);
   TetMesh mesh = make_box(Vec3(0.1, 0.1, 0.1), {14, 14, 14});
   std::vector<double> x;
@@ -87,4 +87,4 @@ TEST_CASE("rows and their products are the same bits for any number of threads")
   }
 }
 
-}  // namespace heml::block_rows_test
+}  // namespace heml::bsr_matrix_test

@@ -98,7 +98,7 @@ std::set<int> near(const TetMesh& mesh, const Vec3& place, double radius) {
 
 }  // namespace
 
-TEST_CASE("edited bodies pull as bodies made anew, whoever lays them out") {
+TEST_CASE("edited bodies have the forces of bodies built anew, for every layout") {
   Material soft = sample_material("neo_hookean"), stiff = sample_material("ogden"), fibres = sample_material("hgo");
   const std::vector<std::vector<Material>> all = {{sample_material("stvk")}, {soft, stiff, fibres}};
   for (std::size_t kind = 0; kind < all.size(); ++kind) {

@@ -193,7 +193,7 @@ TEST_CASE("the layout of fans is the same whoever makes it") {
   CHECK(one.shared_slot == other.shared_slot);
 }
 
-TEST_CASE("another law takes the layout of the one before, where its constants are the same") {
+TEST_CASE("another law reuses the layout if its constants are the same") {
   std::mt19937_64 random(38);
   const TetMesh mesh = irregular_box(random, {4, 3, 3});
   const std::vector<int> elements = all_of(mesh);
@@ -220,7 +220,7 @@ TEST_CASE("another law takes the layout of the one before, where its constants a
   CHECK_FALSE(fibres.update_laws({{&elements, &across}}, false));
 }
 
-TEST_CASE("fans hold every tetrahedron once, upright, in groups of one size") {
+TEST_CASE("fans contain every tetrahedron once, not inverted, in groups of one size") {
   std::mt19937_64 random(34);
   const auto check = [](const TetMesh& mesh, std::size_t lanes) {
     const auto fans = cut_into_fans(mesh.tets, lanes);
@@ -293,7 +293,7 @@ TEST_CASE("fast kernels take elements that share no node, and nodes of no elemen
   }
 }
 
-TEST_CASE("a law that stands alone is its kernel to the bit, and what stands beside one leaves it there") {
+TEST_CASE("a law's kernel gives the same bits alone and with further terms") {
   std::mt19937_64 random(39);
   const TetMesh mesh = irregular_box(random, {4, 3, 3});
   const std::vector<int> elements = all_of(mesh), one_material(mesh.tets.size(), 0);

@@ -49,7 +49,7 @@ Material material_with(int kind) {
 
 }  // namespace
 
-TEST_CASE("pieces of elements do the work of the whole, and go on remembering: viscosity, relaxation, flow") {
+TEST_CASE("pieces of elements act as the whole element and inherit its viscosity, relaxation and flow") {
   std::mt19937_64 random(11);
   const CutBody cut(random);
   REQUIRE(cut.pieces.tets.size() > cut.small.mesh.tets.size() + 20);

@@ -75,7 +75,7 @@ TEST_CASE("what is left of a body gives the bits of a body made of it alone, in 
   }
 }
 
-TEST_CASE("a material may lose all its elements, and be set anew all the same") {
+TEST_CASE("a material may lose all its elements and can still be changed") {
   std::mt19937_64 random(6);
   const SmallBody small(random, 0.05);
   std::vector<int> material_of(small.mesh.tets.size(), 0), kept;

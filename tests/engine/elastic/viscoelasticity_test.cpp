@@ -5,7 +5,7 @@
 
 #include "small_body.hpp"
 
-namespace heml::memory_test {
+namespace heml::viscoelasticity_test {
 
 using test::forces_of;
 using test::largest;
@@ -149,7 +149,7 @@ TEST_CASE("creep under a steady shear stress follows the closed forms") {
           doctest::Approx(stress / G * (1 - 0.6 * std::exp(-steps * h / (0.2 * 2.5)))).epsilon(5e-3));
 }
 
-TEST_CASE("what remembers is the gradient of an incremental potential") {
+TEST_CASE("viscoelastic forces are the gradient of an incremental potential") {
   std::mt19937_64 random(51);
   for (const auto law : test::law_names()) {
     if (!find_law(law)->has_volume_term) continue;
@@ -210,7 +210,7 @@ TEST_CASE("below yield nothing flows, and shape of volume change alone never doe
   CHECK(bench.body->plastic_work() == 0);
 }
 
-TEST_CASE("plastic flow is the same turned") {
+TEST_CASE("plastic flow is invariant under rotations") {
   Material material = sample_material("mooney_rivlin");
   material.plasticity = Plasticity{150, 50};
   Bench straight(material), other(material);
@@ -221,4 +221,4 @@ TEST_CASE("plastic flow is the same turned") {
   CHECK((other.stress(other.at(R * F)) - R * P).norm() <= 1e-10 * P.norm());
 }
 
-}  // namespace heml::memory_test
+}  // namespace heml::viscoelasticity_test

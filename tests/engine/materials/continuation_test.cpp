@@ -80,7 +80,7 @@ TEST_CASE("continued laws are smooth far out, to the second derivative") {
   check_smooth_along({{"pulled", {1, 1, 1}, {12, 0.4, 0.3}}, {"pulled two ways", {1, 1, 1}, {9, 8, 0.05}}});
 }
 
-TEST_CASE("a continued law pushes a flat or inverted cube upright") {
+TEST_CASE("a continued law pushes a flat or inverted cube back to its orientation") {
   for (const Material& material : samples()) {
     CAPTURE(material.law);
     const auto point = make_material_point(material, true);
@@ -91,7 +91,7 @@ TEST_CASE("a continued law pushes a flat or inverted cube upright") {
   }
 }
 
-TEST_CASE("a law says where it ends: logarithms and powers of J at J = 0, exponentials where they overflow, locking") {
+TEST_CASE("laws are undefined at J = 0, where exponentials overflow, and beyond locking") {
   const Mat3 flat = Vec3(1, 1, 0).asDiagonal(), inverted = Vec3(1, 1, -1).asDiagonal();
   const Mat3 far = Mat3::Identity() + 200 * askew * askew.transpose();
   for (const Material& material : samples()) {

@@ -47,7 +47,7 @@ TEST_CASE("a curve made with known parameters gives them back, from another star
   }
 }
 
-TEST_CASE("one Ogden term keeps the sign of its power and is found from far away") {
+TEST_CASE("a fit of one Ogden term keeps the sign of its power and converges from far away") {
   Material truth = sample_material("ogden");
   truth.parameters = {-70, -19, 1e5};  // μ, α, κ
   Material start = truth;
@@ -59,7 +59,7 @@ TEST_CASE("one Ogden term keeps the sign of its power and is found from far away
   CHECK(fit.material.parameters[2] == 1e5);
 }
 
-TEST_CASE("the bulk modulus is held, unless it is asked for and the test sees it") {
+TEST_CASE("the bulk modulus is fitted only on request and if the test depends on it") {
   Material truth = sample_material("neo_hookean_iso");
   truth.parameters = {500, 3e3};
   const MeasuredCurve data = measured(truth, BenchTest::equibiaxial, evenly_spaced(0.8, 1.6, 15));
@@ -98,7 +98,7 @@ TEST_CASE("errors and R² are those of ordinary least squares where the law is l
   CHECK(fit.r_squared == doctest::Approx(1 - rest / spread).epsilon(1e-7));
 }
 
-TEST_CASE("says which parameters the data leave open") {
+TEST_CASE("a fit names the parameters that the data do not determine") {
   // The stress in simple shear depends on K1 + K2 alone.
   const Material truth = sample_material("mooney_rivlin");
   const MeasuredCurve shear = measured(truth, BenchTest::shear, evenly_spaced(-0.4, 0.4, 9));

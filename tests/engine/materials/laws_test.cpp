@@ -98,7 +98,7 @@ TEST_CASE("turning the body turns its stress and leaves its energy") {
   });
 }
 
-TEST_CASE("no direction of the rest shape is special but the fibre's") {
+TEST_CASE("every law without fibres is isotropic") {
   std::mt19937_64 random(7);
   for_every_law([&](const Material& material, bool continued) {
     const auto point = make_material_point(material, continued);
@@ -193,7 +193,7 @@ TEST_CASE("a parameter outside its range is refused, and what a law begins with 
   }
 }
 
-TEST_CASE("what is wrong with a material is named") {
+TEST_CASE("a problem of a material is named") {
   const auto key = [](std::string law, std::vector<double> parameters, double density = 1000) {
     Material material;
     material.law = std::move(law);

@@ -2,7 +2,7 @@
 
 #include <heml/materials/match_moduli.hpp>
 
-namespace heml::same_stiffness_test {
+namespace heml::match_moduli_test {
 
 namespace {
 
@@ -57,7 +57,7 @@ TEST_CASE("a net of springs is as stiff as springs of 1 cm") {
   CHECK(now.poisson == doctest::Approx(0.25));
 }
 
-TEST_CASE("what a law cannot have beside it is dropped, the rest stays") {
+TEST_CASE("settings that the new law does not support are dropped") {
   Material material = replaced(soft_tissue(), "ogden");
   material.viscosity = 3;
   material.relaxation = {{0.5, 1}};
@@ -82,4 +82,4 @@ TEST_CASE("what a law cannot have beside it is dropped, the rest stays") {
   CHECK(replaced(turned, "hgo").fibre == Vec3::UnitZ());
 }
 
-}  // namespace heml::same_stiffness_test
+}  // namespace heml::match_moduli_test

@@ -6,7 +6,7 @@ namespace heml::parameter_slots_test {
 
 using heml::test::sample_material;
 
-TEST_CASE("lists come apart into one slot a term, scalars stay whole") {
+TEST_CASE("list parameters get one slot per term, scalars one") {
   const Material ogden = sample_material("ogden");
   const auto slots = parameter_slots(ogden, *find_law("ogden"));
   REQUIRE(slots.size() == ogden.parameters.size());

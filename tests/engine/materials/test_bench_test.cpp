@@ -167,7 +167,7 @@ TEST_CASE("the curve ends where the law does, on either side") {
   CHECK(run_bench(*make_material_point(flat, false), BenchTest::equibiaxial, std::array{1.33}).points.empty());
 }
 
-TEST_CASE("a far amount is the same point whether others lie between or not, in any order") {
+TEST_CASE("a point of a curve does not depend on the other amounts or their order") {
   for_every_law([](const LawInfo&, const MaterialPoint& point) {
     const BenchCurve alone = run_bench(point, BenchTest::uniaxial, std::array{1.6});
     const BenchCurve among = run_bench(point, BenchTest::uniaxial, std::array{1.6, 1.2, 0.9, 1.4});

@@ -185,7 +185,7 @@ TEST_CASE("cut: a blade that stops inside leaves one body, parted as far as it w
   for (const int n : made.nodes) CHECK(body.mesh.nodes[static_cast<std::size_t>(n)].x() <= 0.5 + 1.0 / 8 + body.snap);
 }
 
-TEST_CASE("cut: it lies within the snapping distance of the sweep, and leaves no sliver") {
+TEST_CASE("cut: lies within the snapping distance of the sweep and leaves no sliver") {
   Body body = cube(6, 3);
   const double before = worst_angle(body);
   Cut made;
@@ -234,7 +234,7 @@ TEST_CASE("cut: 200 random sweeps, one after the other, lose nothing and turn no
                << worst_angle(body) << "°");
 }
 
-TEST_CASE("cut: a stroke in many sweeps parts what one sweep does") {
+TEST_CASE("cut: a stroke in many sweeps separates what one sweep does") {
   Body one = cube(6), many = cube(6);
   Cut made;
   REQUIRE(one.cut(along(Vec3(-0.1, 0.43, 0), Vec3(1.1, 0.52, 0)), made) == "");
@@ -264,7 +264,7 @@ TEST_CASE("cut: a deformed body is cut where it is, and splits are the same at r
   }
 }
 
-TEST_CASE("cut: what misses the body, or sweeps no area, says so") {
+TEST_CASE("cut: a sweep that misses the body, or has no area, is refused with a message") {
   Body body = cube(2);
   CHECK(body.cut(along(Vec3(3, 0, 0), Vec3(3, 1, 0))).find("meets no edge") != std::string::npos);
   CHECK(body.cut(along(Vec3(0, 0, 0), Vec3(0, 0, 0))).find("sweeps no area") != std::string::npos);

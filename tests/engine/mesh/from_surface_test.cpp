@@ -98,7 +98,7 @@ TEST_CASE("keeps cavities empty, fills bodies in cavities and bodies beside each
   CHECK(report.components == 2);
 }
 
-TEST_CASE("obeys the largest volume asked for, away from the surface whose triangles are kept") {
+TEST_CASE("obeys the requested max. volume away from the surface, whose triangles are kept") {
   if (!can_mesh()) return;
   const TriangleMesh surface = box_surface(Vec3(1, 1, 1), 6);
   const TetMesh coarse = tetrahedralize(surface), fine = tetrahedralize(surface, with_volume(1e-3));

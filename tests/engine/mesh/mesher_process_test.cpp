@@ -9,7 +9,7 @@
 
 #include "engine/mesh/helpers.hpp"
 
-namespace heml::helper_test {
+namespace heml::mesher_process_test {
 
 namespace {
 
@@ -92,7 +92,7 @@ TEST_CASE("a program that ends in any way takes its helper with it and leaves no
   }
 }
 
-TEST_CASE("time is limited by the processor's and by the clock's") {
+TEST_CASE("the helper's CPU time and wall time are limited") {
   const TemporaryFolder folder;
   const auto told = [&](const char* script, double cpu_seconds, double seconds) {
     const Environment helper("HEML_MESHER", helper_of(folder, script));
@@ -102,4 +102,4 @@ TEST_CASE("time is limited by the processor's and by the clock's") {
   CHECK(told("exec sleep 600", 600, 0.2) == "a.obj: reading it takes longer than 0.2 s (remedy)");
 }
 
-}  // namespace heml::helper_test
+}  // namespace heml::mesher_process_test

@@ -114,7 +114,7 @@ TEST_CASE("nothing chosen changes nothing, all chosen halves all at least") {
   CHECK(refine_longest_edge(mesh, all).mesh.tets.size() >= 2 * mesh.tets.size());
 }
 
-TEST_CASE("the greatest few have the share of the sum that is asked for") {
+TEST_CASE("the fewest elements that have the requested share of the sum are marked") {
   CHECK(doerfler_marking({1, 5, 2, 2}, 0.5) == std::vector<int>{1});
   CHECK(doerfler_marking({1, 5, 2, 2}, 0.6) == std::vector<int>{1, 2});
   CHECK(doerfler_marking({1, 5, 2, 2}, 1) == std::vector<int>{0, 1, 2, 3});

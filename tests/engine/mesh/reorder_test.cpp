@@ -93,7 +93,7 @@ TEST_CASE("nodes of no element come last") {
   CHECK(order.new_node[0] == static_cast<int>(mesh.nodes.size()) - 1);
 }
 
-TEST_CASE("what is close in space is close in memory: neighbours along the curve are neighbours in space") {
+TEST_CASE("neighbours along the space-filling curve are neighbours in space") {
   const TetMesh mesh = shuffled_box(16, 4);
   const TetMesh inner = reordered(mesh, hilbert_order(mesh));
   // In random order a tetrahedron spans 3/5 of all nodes on average; along a space-filling curve a small part.

@@ -59,7 +59,7 @@ TEST_CASE("no more tetrahedra are made than are allowed, and that is told") {
   CHECK(adapted.setup.mesh.tets.size() > 100);
 }
 
-TEST_CASE("what is held on a finer mesh is what lies between what was held") {
+TEST_CASE("a finer mesh constrains the midpoints between constrained nodes") {
   const Scene scene = sagging();
   const Adaptation adapted = adapt(scene, load_setup(scene), RefineGoal{0.4, 5000}, {});
   const std::vector<int>& constrained = adapted.setup.boundary[0].nodes;

@@ -8,7 +8,7 @@
 
 namespace heml::default_scene_test {
 
-TEST_CASE("puts soft tissue held at its top round a bare mesh") {
+TEST_CASE("the default scene of a bare mesh is soft tissue constrained at its top") {
   const TemporaryFolder folder;
   write_tet_mesh(folder / "beam.msh", make_box(Vec3(0.1, 0.2, 0.1), {1, 20, 1}));
   const Scene scene = read_scene(folder / "beam.msh");

@@ -200,7 +200,7 @@ TEST_CASE("a step that is too long, an implicit method without need and a slow e
     CHECK_FALSE(advice_about(fine, about));
 }
 
-TEST_CASE("asking a world for its facts changes no bit of what follows") {
+TEST_CASE("reading a world's facts changes no later bit") {
   for (const char* integrator : {"verlet", "backward_euler", "tr_bdf2", "auto", "static"}) {
     CAPTURE(integrator);
     const Scene scene = test::small_scene_with(R"({"gravity": [0, -9.81, 0], "mesh": {"box": {"cells": [4, 2, 2]}},

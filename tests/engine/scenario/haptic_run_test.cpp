@@ -56,7 +56,7 @@ TEST_CASE("the same hand feels the same forces again, to the bit") {
   for (std::size_t k = 0; k < one.samples.size(); ++k) CHECK(one.samples[k].force == again.samples[k].force);
 }
 
-TEST_CASE("a hand is read from its file, and what is wrong with it is told with its line") {
+TEST_CASE("a hand's file is read, and errors name the line") {
   const TemporaryFolder folder;
   const HandleTrajectory path = read_handle_csv(folder.file("hand.csv", "time,x,y,z\n0,0,0,0\n0.5, 1,2,3\n\n"));
   CHECK(path.at(-1) == Vec3::Zero());

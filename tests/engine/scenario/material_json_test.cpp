@@ -47,7 +47,7 @@ RegionMaterial reread(const RegionMaterial& entry) { return read(json_text(mater
 
 }  // namespace
 
-TEST_CASE("reads the contract's parameters of every law") {
+TEST_CASE("reads the documented parameters of every law") {
   CHECK(read(R"({"law": "stvk", "lambda": 3, "mu": 2})").material.parameters == Values{3, 2});
   CHECK(read(R"({"law": "neo_hookean", "mu": 2, "lambda": 3})").material.parameters == Values{3, 2});
   CHECK(read(R"({"law": "neo_hookean_iso", "K1": 1, "kappa": 20})").material.parameters == Values{1, 20});

@@ -6,7 +6,7 @@
 #include <heml/scenario/replay.hpp>
 #include <heml/scenario/solve.hpp>
 
-namespace heml::recovery_watch_test {
+namespace heml::recovery_monitor_test {
 namespace {
 
 /// A box that a short, strong gravity inverts.
@@ -21,7 +21,7 @@ Scene struck_scene() {
 
 }  // namespace
 
-TEST_CASE("a recovery can be seen again, to the bit, from the file that solve leaves, and no other run leaves one") {
+TEST_CASE("solve writes a recovery file that replays to the bit, and no file without a recovery") {
   const TemporaryFolder folder;
   const SolveResult result = solve(struck_scene(), folder / "out");
   REQUIRE_FALSE(result.halt);
@@ -43,7 +43,7 @@ TEST_CASE("a recovery can be seen again, to the bit, from the file that solve le
   CHECK_FALSE(std::filesystem::exists(folder / "out/recovery.jsonl"));
 }
 
-TEST_CASE("a watch tells of the begin and the end of a recovery, each once, and of nothing after a reset") {
+TEST_CASE("the monitor reports the begin and the end of a recovery once each, and nothing after a reset") {
   const Scene scene = struck_scene();
   for (const bool reset : {false, true}) {
     const std::unique_ptr<World> world = load_world(scene);
@@ -62,4 +62,4 @@ TEST_CASE("a watch tells of the begin and the end of a recovery, each once, and 
   }
 }
 
-}  // namespace heml::recovery_watch_test
+}  // namespace heml::recovery_monitor_test

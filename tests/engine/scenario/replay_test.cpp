@@ -75,7 +75,7 @@ TEST_CASE("replays a recorded session to the bit") {
   CHECK(!result.halt);
 }
 
-TEST_CASE("what is replayed can be recorded anew, with the same commands and checkpoints of its own") {
+TEST_CASE("a replay can be recorded, with the same commands and its own checkpoints") {
   const TemporaryFolder folder;
   record(folder / "session.jsonl", session_scene());
   const Scene recording = read_scene(folder / "session.jsonl");

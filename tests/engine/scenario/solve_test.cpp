@@ -118,7 +118,7 @@ TEST_CASE("writes what was reached when a step is unstable, and leaves no output
   CHECK(!std::filesystem::exists(folder / "positions_1.csv"));
 }
 
-TEST_CASE("gives the support's reaction of a held body under its weight") {
+TEST_CASE("gives the support's reaction of a constrained body under its weight") {
   const TemporaryFolder folder;
   const Scene scene = test::small_scene_with(
       R"({"gravity": [0, -9.81, 0], "solver": {"damping": 20, "duration": 3}, "materials": [{"law": "neo_hookean",

@@ -9,7 +9,7 @@
 
 #include "engine/world/world_support.hpp"
 
-namespace heml::companions_test {
+namespace heml::comparison_runs_test {
 
 using namespace heml::test;
 
@@ -26,7 +26,7 @@ Frame after(World& world, ComparisonRuns& comparison_runs, int ticks) {
 
 }  // namespace
 
-TEST_CASE("companions: one of the same law and method is the body itself, to the bit") {
+TEST_CASE("comparison runs: one of the same law and method gives the bits of the body") {
   const WorldSetup setup = cantilever();
   const auto world = make_world(setup);
   ComparisonRuns comparison_runs(setup, {"neo_hookean", "verlet", "double+p1"});
@@ -41,7 +41,7 @@ TEST_CASE("companions: one of the same law and method is the body itself, to the
   CHECK(frame.comparisons[2].variant == "double+p1");
 }
 
-TEST_CASE("companions: another method differs by its error in time, another law by what it is") {
+TEST_CASE("comparison runs: another method differs by its time error, another law by its stress") {
   const WorldSetup setup = cantilever();
   const auto world = make_world(setup);
   ComparisonRuns comparison_runs(setup, {"tr_bdf2", "stvk"});
@@ -54,7 +54,7 @@ TEST_CASE("companions: another method differs by its error in time, another law 
   CHECK(frame.comparisons[1].distance->mean <= frame.comparisons[1].distance->max);
 }
 
-TEST_CASE("companions: what is done to the body is done to them, but for their own law and method") {
+TEST_CASE("comparison runs: commands apply to them too, except changes of their own law and method") {
   const WorldSetup setup = cantilever();
   const auto world = make_world(setup), alone = make_world(setup);
   ComparisonRuns comparison_runs(setup, {"verlet"});
@@ -76,7 +76,7 @@ TEST_CASE("companions: what is done to the body is done to them, but for their o
   CHECK(frame.variant == "stvk, backward_euler");
 }
 
-TEST_CASE("companions: one that cannot go on stops and says why, the body goes on") {
+TEST_CASE("comparison runs: one that fails stops and reports why, the body continues") {
   WorldSetup setup = cantilever("stvk");
   setup.gravity.setZero();
   Boundary crush{nodes_where(setup.mesh, [](const Vec3& X) { return X.x() > 0.0999; })};
@@ -92,7 +92,7 @@ TEST_CASE("companions: one that cannot go on stops and says why, the body goes o
   CHECK(frame.comparisons[0].tick < 100);
 }
 
-TEST_CASE("companions: time spent for them is told apart from the body's own") {
+TEST_CASE("comparison runs: their time is measured separately from the body's") {
   WorldSetup setup = cantilever();
   setup.mesh = make_box(Vec3(0.1, 0.02, 0.02), {20, 4, 4});
   setup.boundary = {{nodes_where(setup.mesh, [](const Vec3& X) { return X.x() < 1e-9; })}};
@@ -110,7 +110,7 @@ TEST_CASE("companions: time spent for them is told apart from the body's own") {
   CHECK(largest > 0.5);
 }
 
-TEST_CASE("companions: wrong words are refused with those there are") {
+TEST_CASE("comparison runs: unknown words are refused with a list of the known ones") {
   for (const char* words : {"", "ogdn", "ogden+", "ogden,stvk", "static"}) {
     CAPTURE(words);
     CHECK_THROWS_WITH_AS(variant_of(cantilever(), words), doctest::Contains("neo_hookean, "), InputError);
@@ -121,4 +121,4 @@ TEST_CASE("companions: wrong words are refused with those there are") {
   CHECK(variant_of(at_rest, "ogden+float").setup.solver.single_precision);
 }
 
-}  // namespace heml::companions_test
+}  // namespace heml::comparison_runs_test

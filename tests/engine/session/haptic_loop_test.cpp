@@ -5,7 +5,7 @@
 #include <heml/session/haptic_loop.hpp>
 #include <thread>
 
-namespace heml::haptic_link_test {
+namespace heml::haptic_loop_test {
 namespace {
 
 /// A device fixed at x = 1 cm that counts the forces it gets.
@@ -31,7 +31,7 @@ bool comes(const StateCheck& condition) {
 
 }  // namespace
 
-TEST_CASE("a device is served by a thread of its own, is told of the tool, and is let go in the end") {
+TEST_CASE("a device is served by its own thread, learns of the tool, and is released at the end") {
   StandingHand device;
   {
     HapticLoop link(device);
@@ -48,4 +48,4 @@ TEST_CASE("a device is served by a thread of its own, is told of the tool, and i
   CHECK(device.last_x == 0);
 }
 
-}  // namespace heml::haptic_link_test
+}  // namespace heml::haptic_loop_test

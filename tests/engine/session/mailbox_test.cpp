@@ -6,7 +6,7 @@
 
 namespace heml::mailbox_test {
 
-TEST_CASE("the reader's slot stays as it is until it asks again, and then is the newest") {
+TEST_CASE("the reader's slot changes only on request, to the newest frame") {
   Mailbox<int> box;
   CHECK_FALSE(box.waiting());
   for (const int value : {1, 2, 3}) {

@@ -33,7 +33,7 @@ TEST_CASE("an engine that is fast enough runs in real time and misses nothing") 
   CHECK(pace.p50 == doctest::Approx(300e-6));
 }
 
-TEST_CASE("an engine three times too slow slows simulated time threefold and says so") {
+TEST_CASE("an engine three times too slow slows simulated time threefold and reports it") {
   Pacer pacer(1e-3);
   auto now = start;
   pacer.restart(now);
@@ -45,7 +45,7 @@ TEST_CASE("an engine three times too slow slows simulated time threefold and say
   CHECK(pace.p99 == doctest::Approx(3e-3));
 }
 
-TEST_CASE("what is owed after a long stall is forgotten, so that no burst follows") {
+TEST_CASE("ticks missed in a long stall are dropped, so that no burst follows") {
   Pacer pacer(1e-3);
   auto now = start;
   pacer.restart(now);

@@ -54,7 +54,7 @@ struct TemporaryFolder {
 
 }  // namespace
 
-TEST_CASE("frames carry stretches while somebody wants them") {
+TEST_CASE("frames contain stretches on request") {
   Session session(small_scene(), {});
   wait_for(session, [](const Frame& f) { return f.tick > 20 && f.stretches.empty(); });
   session.enable_stretches(true);
@@ -69,7 +69,7 @@ TEST_CASE("frames carry stretches while somebody wants them") {
   wait_for(session, [](const Frame& f) { return f.stretches.empty() && !f.values.empty(); });
 }
 
-TEST_CASE("frames carry errors while somebody reads them, and the body does not know") {
+TEST_CASE("frames contain error estimates on request, without effect on the body") {
   Session session(small_scene(), {});
   wait_for(session, [](const Frame& f) { return f.tick > 20 && !f.mesh_error && !f.time_error; });
   session.enable_errors(true);
@@ -110,7 +110,7 @@ TEST_CASE("a viewer that stalls for 50 ms does not stall the engine") {
   CHECK(ticks >= 75);
 }
 
-TEST_CASE("steps that are too slow slow simulated time, and the figures say so") {
+TEST_CASE("steps that are too slow slow simulated time, and the pace values report it") {
   SessionOptions options;
   std::atomic<bool> slow{true};
   options.before_tick = [&] {
@@ -151,7 +151,7 @@ TEST_CASE("pause holds the body, one step is one tick, and commands are taken wh
   CHECK(wait_for(session, [](const Frame& f) { return f.time == 0; }).tick > 50);
 }
 
-TEST_CASE("what is removed leaves the frames' skin, and a reset brings it back") {
+TEST_CASE("removed elements leave the frames' surface mesh, and a reset brings them back") {
   SessionOptions options;
   options.start_paused = true;
   Session session(small_scene(), options);
@@ -247,7 +247,7 @@ TEST_CASE("a recorded session replays to the same hashes, with one thread and wi
   CHECK(replay(changed, *world).difference);
 }
 
-TEST_CASE("after a removal a new factor arrives from another thread, and its arrival is recorded") {
+TEST_CASE("after a removal another thread builds a new factor, and its adoption is recorded") {
   TemporaryFolder folder;
   const auto file = folder.path / "removal.jsonl";
   const auto recorded = [&] {
@@ -285,7 +285,7 @@ TEST_CASE("after a removal a new factor arrives from another thread, and its arr
   }
 }
 
-TEST_CASE("a session of what led to a moment is there to the bit, and goes on in a recording of its own") {
+TEST_CASE("a session rewound to an earlier time has its bits and continues in its own recording") {
   const TemporaryFolder folder;
   const auto first = folder.path / "first.jsonl", second = folder.path / "second.jsonl";
   Frame moment, later;
@@ -339,7 +339,7 @@ TEST_CASE("a session of what led to a moment is there to the bit, and goes on in
   CHECK(untouched.recorded_ticks >= later.tick);
 }
 
-TEST_CASE("a hurry is faster than the clock, and a pause ends it on the way") {
+TEST_CASE("a fast-forward is faster than real time, and a pause ends it early") {
   Scene scene = small_scene();
   scene.solver.step = 1e-4;
   scene.mesh.box->cells = {2, 1, 1};
@@ -358,7 +358,7 @@ TEST_CASE("a hurry is faster than the clock, and a pause ends it on the way") {
   CHECK(session.latest().tick <= tick + 1);
 }
 
-TEST_CASE("until its end a recording is played as it was: the clock chooses nothing") {
+TEST_CASE("during a replay no choice depends on the clock") {
   const TemporaryFolder folder;
   const auto first = folder.path / "budget.jsonl", second = folder.path / "again.jsonl";
   Scene scene = small_scene();
@@ -390,7 +390,7 @@ TEST_CASE("until its end a recording is played as it was: the clock chooses noth
   CHECK(again.checkpoints.back().hash == recorded.checkpoints.back().hash);
 }
 
-TEST_CASE("a session that cannot go on says why and lives on to be reset") {
+TEST_CASE("a halted session reports why and can be reset") {
   Scene scene = small_scene();
   scene.solver.continuation = false;
   scene.solver.step = 0.02;  // far beyond the limit

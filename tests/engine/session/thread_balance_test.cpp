@@ -16,7 +16,7 @@ int threads_after(ThreadBalance& balance, double& wall, double& others, double l
   return balance.threads();
 }
 
-TEST_CASE("drawing that takes a core leaves stepping the other") {
+TEST_CASE("if drawing uses one of two cores, stepping uses the other") {
   ThreadBalance balance(2);
   double wall = 100, others = 7;
   CHECK(threads_after(balance, wall, others, 0, 1) == 2);
@@ -25,7 +25,7 @@ TEST_CASE("drawing that takes a core leaves stepping the other") {
   CHECK(threads_after(balance, wall, others, 5, 3) == 1);
 }
 
-TEST_CASE("a core comes back once two looks in a row find it free") {
+TEST_CASE("stepping takes a core back after two successive measurements find it free") {
   ThreadBalance balance(2);
   double wall = 0, others = 0;
   threads_after(balance, wall, others, 1, 3);
@@ -35,7 +35,7 @@ TEST_CASE("a core comes back once two looks in a row find it free") {
   CHECK(threads_after(balance, wall, others, 0.05, 1) == 2);
 }
 
-TEST_CASE("of many cores as many step as drawing leaves") {
+TEST_CASE("of many cores stepping uses those that drawing leaves") {
   ThreadBalance balance(16);
   double wall = 0, others = 0;
   CHECK(threads_after(balance, wall, others, 0.1, 4) == 16);

@@ -134,7 +134,7 @@ TEST_CASE("a reference tells errors ten times what halving its step changes, and
     if (!m.failed()) CHECK(m.error >= study.reference.resolution());
 }
 
-TEST_CASE("steps above the stable limit fail and are said to, and a figure that is gone is worse") {
+TEST_CASE("steps above the stable limit are reported as failed, and a missing result counts as worse") {
   const TimeStudy study = study_time("test", small_beam(), times, Breadth::whole, {});
   std::size_t failed = 0;
   for (const Measured& m : study.measured)
@@ -194,7 +194,7 @@ TEST_CASE("every law that settles is in balance by arithmetic that is not the en
     if (law.law != "mass_spring") CHECK((!law.failed.empty() || law.left_over > 0.01));
 }
 
-TEST_CASE("figures grow by a tenth before they are worse, and times are none") {
+TEST_CASE("results may grow by a tenth before they count as worse, and times do not count") {
   const Json committed = {{"a", 1.0}, {"b", 0.0}};
   CHECK(what_got_worse({{"a", 1.09}, {"b", 1e-12}, {"new", 5}}, committed).empty());
   CHECK(what_got_worse({{"a", 1.11}, {"b", 0}}, committed).size() == 1);

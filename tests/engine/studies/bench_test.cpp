@@ -59,7 +59,7 @@ TEST_CASE("an irregular cube keeps its surface and turns no tetrahedron over") {
   CHECK(volume == doctest::Approx(1e-3));
 }
 
-TEST_CASE("rows become JSON with the contract's fields, and a table of whole lines") {
+TEST_CASE("rows become JSON with the documented fields, and a table of whole lines") {
   BenchRow row;
   row.suite = "kernel";
   row.name = "force";

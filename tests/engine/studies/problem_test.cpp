@@ -4,7 +4,7 @@
 #include <studies/problem.hpp>
 #include <studies/sample_motion.hpp>
 
-namespace heml::specimen_test {
+namespace heml::problem_test {
 
 namespace {
 Problem block() {
@@ -21,7 +21,7 @@ Problem block() {
 }
 }  // namespace
 
-TEST_CASE("a finer specimen holds and loads the same faces, weighs the same, and removes the same piece") {
+TEST_CASE("a finer problem has the same constrained and loaded faces, mass and removals") {
   const Problem coarse = block(), fine = finer(coarse);
   CHECK(fine.setup.mesh.tets.size() == 8 * coarse.setup.mesh.tets.size());
   CHECK(fine.setup.boundary[0].nodes.size() == 9);  // a square of 3 × 3
@@ -51,7 +51,7 @@ TEST_CASE("a scene solved by another method keeps the times of its events") {
         "backward_euler, steps of 25 ms, 2 iterations, float, all cores");
 }
 
-TEST_CASE("keys of specimens differ with anything in their scene") {
+TEST_CASE("keys of problems differ with anything in their scene") {
   const Problem one = block();
   Problem other = one;
   CHECK(key_of(one) == key_of(other));
@@ -71,4 +71,4 @@ TEST_CASE("a linear motion is sampled exactly, at nodes, inside and outside") {
   for (std::size_t k = 0; k < points.size(); ++k) CHECK((there[k] - (A * points[k] + Vec3(1, 2, 3))).norm() < 1e-12);
 }
 
-}  // namespace heml::specimen_test
+}  // namespace heml::problem_test

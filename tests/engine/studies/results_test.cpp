@@ -29,7 +29,7 @@ TEST_CASE("results of a study are there for the next run, bit for bit") {
   CHECK(*again.find("b") == 2);
 }
 
-TEST_CASE("results of another build are measured anew") {
+TEST_CASE("results of another build are measured again") {
   const auto file = fresh_file("results_build.jsonl");
   Results(file, "old").add("a", 1);
   CHECK(Results(file, "new").find("a") == nullptr);
@@ -37,7 +37,7 @@ TEST_CASE("results of another build are measured anew") {
   CHECK(Results::build_identity().size() == 16);
 }
 
-TEST_CASE("a line that was cut off by an interruption is left out and written anew") {
+TEST_CASE("a line cut off by an interruption is dropped and written again") {
   const auto file = fresh_file("results_cut.jsonl");
   Results(file, "one").add("a", 1);
   std::ofstream(file, std::ios::app) << R"({"key":"b","build":"one","res)";

@@ -2,9 +2,9 @@
 
 #include <studies/translation_error.hpp>
 
-namespace heml::carried_test {
+namespace heml::translation_error_test {
 
-TEST_CASE("carried far, HEML keeps the digits that positions have, Mass-Tensor loses the cube of the way") {
+TEST_CASE("far from the origin HEML keeps the digits of positions, Mass-Tensor loses the cube of the distance") {
   const BenchBody body = bench_cube(3, true);
   const auto errors = translation_errors<double>(body, bench_material("stvk"));
   REQUIRE(errors.size() == 8);
@@ -18,4 +18,4 @@ TEST_CASE("carried far, HEML keeps the digits that positions have, Mass-Tensor l
   }
 }
 
-}  // namespace heml::carried_test
+}  // namespace heml::translation_error_test

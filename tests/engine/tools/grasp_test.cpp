@@ -27,7 +27,7 @@ TEST_CASE("a grasp takes the free nodes within its radius and pulls nothing befo
   CHECK(grasp.force(x.data(), still.data()).z() == doctest::Approx(f[2] + f[5]));
 }
 
-TEST_CASE("a grasp of held nodes alone is empty") {
+TEST_CASE("a grasp of constrained nodes only is empty") {
   CHECK(GraspSpring<double>(3, 0.001, all, rest, x.data(), {1, 1, 1, 0}, 100, 10).empty());
 }
 
@@ -49,7 +49,7 @@ TEST_CASE("a grasped mass follows the tool without overshoot") {
   CHECK(at[0] == doctest::Approx(1).epsilon(1e-6));
 }
 
-TEST_CASE("pulled further than its reach a grasp slips: the force grows no more") {
+TEST_CASE("beyond its reach a grasp slips and the force stays constant") {
   GraspSpring<double> grasp(0, 0, std::vector<int>{0}, {Vec3::Zero()}, x.data(), {1.0}, 100, 0.02);
   grasp.move(Vec3(0.015, 0, 0));
   CHECK(grasp.force(x.data(), still.data()).x() == doctest::Approx(1e4 * 0.015));

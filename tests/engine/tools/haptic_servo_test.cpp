@@ -74,7 +74,7 @@ Bounce drop(const HapticLimits& limits) {
 
 }  // namespace
 
-TEST_CASE("between states a hand feels the tissue's stiffness, which is learnt, and not steps of force") {
+TEST_CASE("between states a hand feels the estimated stiffness and no steps of force") {
   const Errors errors = follow({1000, 100, 20});
   CHECK(errors.held > 0.3);
   CHECK(errors.modelled < errors.held / 4);
@@ -93,7 +93,7 @@ TEST_CASE("the stiffness of the model is symmetric and no more than the device c
   }
 }
 
-TEST_CASE("late states feed a hand energy, and the damping that is added takes it back") {
+TEST_CASE("late states add energy to a hand, and the added damping dissipates it") {
   HapticLimits off{1000, 100, 0}, on{1000, 100, 20};
   const Bounce wild = drop(off), tame = drop(on);
   CHECK(wild.energy < -0.01);
@@ -102,7 +102,7 @@ TEST_CASE("late states feed a hand energy, and the damping that is added takes i
   CHECK(tame.highest < 0.04);
 }
 
-TEST_CASE("a hand that holds nothing feels nothing, and one that takes hold feels no step") {
+TEST_CASE("a hand without a grasp feels no force, and grasping causes no step of force") {
   HapticServo servo;
   CHECK(servo.serve(Vec3(1, 2, 3), turn).norm() == 0);
   servo.update({0, Vec3::Zero(), Vec3(1, 0, 0)});

@@ -62,7 +62,7 @@ TEST_CASE("budget: whatever it is, no step gains energy") {
   CHECK(worst <= 1e-6);
 }
 
-TEST_CASE("budget: gravity's work is the body's to have, and with enough iterations a budget changes nothing") {
+TEST_CASE("budget: energy rises by no more than gravity's work, and with enough iterations a budget changes nothing") {
   WorldSetup setup = cantilever();
   setup.solver.integrator = Integrator::backward_euler;
   setup.solver.step = 0.01;

@@ -96,7 +96,7 @@ TEST_CASE("a cut keeps mass, momentum and elastic energy, and is reported") {
   }
 }
 
-TEST_CASE("what is cut off falls, what is held stays, under every integrator") {
+TEST_CASE("a severed part falls and the constrained part stays, under every integrator") {
   for (const Integrator integrator : moving_integrators()) {
     CAPTURE(integrator_name(integrator));
     WorldSetup setup = cantilever();
@@ -182,7 +182,7 @@ TEST_CASE("a stroke in many sweeps is one edit, and undo brings back what was be
   CHECK(world->topology()->elements == elements);
 }
 
-TEST_CASE("held nodes stay held on both sides of a cut, and loads keep their sum") {
+TEST_CASE("constrained nodes stay constrained on both sides of a cut, and loads keep their sum") {
   WorldSetup setup = cantilever();
   Load force;
   force.nodes = nodes_where(setup.mesh, [](const Vec3& X) { return X.x() > 0.0999; });
@@ -220,7 +220,7 @@ TEST_CASE("a blade through the air does nothing, and one that makes no sense is 
   CHECK(world->apply(stroke(Vec3(NAN, 0, 0), Vec3(5, 1, 0)))->find("not finite") != std::string::npos);
 }
 
-TEST_CASE("a body in recovery, a grasped one and a static one can be cut") {
+TEST_CASE("a body can be cut during recovery, when grasped and in statics") {
   WorldSetup setup = moving(Integrator::backward_euler);
   setup.solver.rate = 100;
   setup.solver.recovery = true;

@@ -133,7 +133,7 @@ TEST_CASE("nothing free: supports that twist a block inside out end a static wor
     }
 }
 
-TEST_CASE("nothing free: whatever preconditions, minimises, projects, bounds or brings back") {
+TEST_CASE("nothing free: every preconditioner, minimiser and projection, with budget and with recovery") {
   for (const bool single : {false, true}) {
     for (const Integrator integrator : all)
       for (const Preconditioner preconditioner :
@@ -168,7 +168,7 @@ TEST_CASE("nothing free: whatever preconditions, minimises, projects, bounds or 
   }
 }
 
-TEST_CASE("nothing free: pins may hold what is left, and the body still remembers") {
+TEST_CASE("nothing free: pins may constrain all nodes left, and internal state is kept") {
   Material material = sample_material("mooney_rivlin");
   material.viscosity = 1;
   material.relaxation = {{0.5, 0.01}};

@@ -7,7 +7,7 @@
 
 #include "world_support.hpp"
 
-namespace heml::outdated_factor_test {
+namespace heml::outdated_preconditioner_test {
 
 using namespace heml::test;
 
@@ -46,7 +46,7 @@ long iterations_of(World& world, int count) {
 
 }  // namespace
 
-TEST_CASE("after a removal implicit steps go on with the factor there was, to where a body built without goes") {
+TEST_CASE("after a removal implicit steps with the outdated factor follow a body built without the elements") {
   for (const Preconditioner preconditioner : {Preconditioner::scalar, Preconditioner::multilevel})
     for (const Integrator integrator : {Integrator::backward_euler, Integrator::bdf2}) {
       const WorldSetup setup = swinging(preconditioner, integrator);
@@ -73,7 +73,7 @@ TEST_CASE("after a removal implicit steps go on with the factor there was, to wh
     }
 }
 
-TEST_CASE("a factor gives the same bits whether another thread has made it or it is made when taken") {
+TEST_CASE("a factor gives the same bits whether built by another thread or on adoption") {
   const WorldSetup setup = swinging(Preconditioner::multilevel);
   const RemoveElements command = end_of(setup);
   enum class Made { nowhere, there, elsewhere, elsewhere_for_another_body };
@@ -108,7 +108,7 @@ TEST_CASE("a factor gives the same bits whether another thread has made it or it
   CHECK(run(Made::nowhere) != there);  // it is in use
 }
 
-TEST_CASE("a factor taken where there is nothing to make anew changes nothing") {
+TEST_CASE("adopting a factor where none is outdated changes nothing") {
   for (const Integrator integrator : {Integrator::verlet, Integrator::backward_euler}) {
     WorldSetup setup = swinging(Preconditioner::scalar, integrator);
     setup.solver.step = 1e-4;
@@ -123,4 +123,4 @@ TEST_CASE("a factor taken where there is nothing to make anew changes nothing") 
   }
 }
 
-}  // namespace heml::outdated_factor_test
+}  // namespace heml::outdated_preconditioner_test

@@ -65,7 +65,7 @@ TEST_CASE("pin: at rest two pins together carry the weight") {
   CHECK(left.y() == doctest::Approx(weight / 2).epsilon(0.02));
 }
 
-TEST_CASE("pin: the static world is held by it, and carries its load") {
+TEST_CASE("pin: constrains a static world and carries its load") {
   WorldSetup setup = free_block(Integrator::static_equilibrium);
   setup.solver.step.reset();
   setup.solver.tolerance = 1e-10;
@@ -103,7 +103,7 @@ TEST_CASE("pin: undoing a cut brings back the pins of then, and a reset takes al
   CHECK(tools_of<PinState>(world->tools()).empty());
 }
 
-TEST_CASE("pin: what cannot be held or released is refused, and changes nothing") {
+TEST_CASE("pin: wrong pins and releases are refused and change nothing") {
   auto world = make_world(cantilever());
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const int free = node_at(world->setup().mesh, Vec3(0.1, 0.01, 0.01));

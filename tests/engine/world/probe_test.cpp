@@ -188,7 +188,7 @@ TEST_CASE("probe: tools and cuts together give the same bits for one thread and 
   }
 }
 
-TEST_CASE("probe: what makes none is refused, and a reset takes it away") {
+TEST_CASE("probe: wrong probes are refused, and a reset removes it") {
   auto world = make_world(sheet(Integrator::verlet));
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const Vec3 place(0, 0.02, 0);

@@ -115,7 +115,7 @@ TEST_CASE("recovery: a body that nothing holds comes back too, and from ten othe
 }
 
 TEST_CASE(
-    "recovery: positions go on from tick to tick, held nodes keep to their motion, an explicit method takes over") {
+    "recovery: positions are continuous, constrained nodes follow their motion, then the explicit method resumes") {
   WorldSetup setup = starting_at(cube("neo_hookean", 0.45), scattered(3));
   setup.boundary[0].translate = Vec3(0, 0.02, 0);
   setup.boundary[0].ramp_time = 0.1;

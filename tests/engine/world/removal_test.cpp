@@ -127,7 +127,7 @@ TEST_CASE("a removal takes the energy and mass of its elements, and leaves all t
   }
 }
 
-TEST_CASE("what remains moves like a body built without the elements that went") {
+TEST_CASE("after a removal the body moves like one built without the elements") {
   std::mt19937_64 random(3);
   for (const Integrator integrator : moving_integrators()) {
     CAPTURE(integrator_name(integrator));
@@ -159,7 +159,7 @@ TEST_CASE("what remains moves like a body built without the elements that went")
   }
 }
 
-TEST_CASE("static: what remains settles where a body built without the elements does, loads lose the faces that went") {
+TEST_CASE("static: after a removal the equilibrium is that of a body built without the elements and their faces") {
   WorldSetup setup = cantilever("neo_hookean", 1e5);
   setup.solver.integrator = Integrator::static_equilibrium;
   setup.gravity.setZero();
@@ -205,7 +205,7 @@ TEST_CASE("static: what remains settles where a body built without the elements 
   CHECK(worst <= 1e-8);
 }
 
-TEST_CASE("nodes that lose all elements stay where they are, and held ones go on being moved") {
+TEST_CASE("nodes that lose all elements stay in place, and prescribed ones follow their motion") {
   WorldSetup setup = cantilever();
   Boundary pulled{nodes_where(setup.mesh, [](const Vec3& X) { return X.x() > 0.0999; })};
   pulled.translate = Vec3(0.02, 0, 0);
@@ -230,7 +230,7 @@ TEST_CASE("nodes that lose all elements stay where they are, and held ones go on
   CHECK(world->reactions()[1].isZero(0));
 }
 
-TEST_CASE("the memory of what remains is kept: another block of the same mesh may go") {
+TEST_CASE("the internal state of the remaining elements is kept in a removal") {
   for (const LawInfo& law : laws()) {
     CAPTURE(std::string(law.name));
     if (!law.is_continuum || law.name.starts_with("paper_")) continue;
@@ -310,7 +310,7 @@ TEST_CASE("a thousand random tetrahedra are removed one after the other, and non
   for (const Vec3& at : world->positions()) CHECK(at.allFinite());
 }
 
-TEST_CASE("nodes laid bare are of the surface that a grasp takes, nodes of no element are not") {
+TEST_CASE("a grasp takes nodes of the new surface, and none without elements") {
   std::mt19937_64 random(9);
   const WorldSetup setup = cantilever();
   Model<double> model = make_model<double>(setup);

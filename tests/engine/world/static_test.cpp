@@ -221,7 +221,7 @@ TEST_CASE("static: a pressure that follows the surface is found in equilibrium")
   CHECK(world->solver_stats().iterations <= 40);
 }
 
-TEST_CASE("static: crushed StVK has no way on and stops at the last good state") {
+TEST_CASE("static: crushed StVK finds no equilibrium and stops at the last good state") {
   WorldSetup setup = at_rest(soft("stvk"), 1e-8);
   setup.gravity.setZero();
   setup.boundary.push_back(moved(setup, Vec3(-0.09, 0, 0)));
@@ -240,7 +240,7 @@ TEST_CASE("static: crushed StVK has no way on and stops at the last good state")
         doctest::Approx(0.1 - 0.09 * work.load).epsilon(1e-12));
 }
 
-TEST_CASE("static: where round-off ends the search, it is enough, or the message says what would do") {
+TEST_CASE("static: at round-off a solve is accepted near the tolerance, or the message names one that can be reached") {
   WorldSetup setup = at_rest(soft());
   setup.gravity.setZero();
   setup.boundary.push_back(moved(setup, Vec3(0.02, 0, 0), 40));
@@ -266,7 +266,7 @@ TEST_CASE("static: where round-off ends the search, it is enough, or the message
   CHECK(message_of(setup).find("\"precision\": \"double\"") != std::string::npos);
 }
 
-TEST_CASE("static: a body that falls is told to be held, and does not crash") {
+TEST_CASE("static: a body that falls is reported as unconstrained and does not crash") {
   WorldSetup setup = at_rest(soft());
   setup.boundary.clear();
   const auto world = make_world(setup);
@@ -276,7 +276,7 @@ TEST_CASE("static: a body that falls is told to be held, and does not crash") {
   CHECK(world->solver_stats().load == 0);
 }
 
-TEST_CASE("static and implicit: a body held everywhere is where it is held") {
+TEST_CASE("static and implicit: a body constrained everywhere is where it is prescribed") {
   for (const Integrator integrator :
        {Integrator::static_equilibrium, Integrator::backward_euler, Integrator::automatic}) {
     WorldSetup setup = at_rest(soft(), 1e-8);
@@ -313,7 +313,7 @@ TEST_CASE("static: a grasp and a change of gravity find their equilibrium at the
   CHECK(world->reactions()[0].y() == doctest::Approx(0.04).epsilon(1e-7));  // 40 g
 }
 
-TEST_CASE("static: stops on the way do not change where it ends") {
+TEST_CASE("static: intermediate load fractions do not change the final equilibrium") {
   const auto straight = make_world(at_rest(soft())), stopping = make_world(at_rest(soft()));
   straight->load_to(1);
   for (const double load : {0.0, 0.05, 0.3, 0.3, 1.0}) {

@@ -6,7 +6,7 @@
 
 #include "world_support.hpp"
 
-namespace heml::shadow_test {
+namespace heml::step_doubling_test {
 
 using namespace heml::test;
 
@@ -57,7 +57,7 @@ std::optional<TimeError> shadowed(World& world, bool grasps) {
 
 }  // namespace
 
-TEST_CASE("what a shadow says of the error of steps is within a factor of two of it") {
+TEST_CASE("step doubling estimates the error of steps within a factor of two") {
   for (const bool grasps : {false, true}) {
     const auto fine = make_world(beam(Integrator::verlet, 2e-5));
     shadowed(*fine, grasps);
@@ -78,14 +78,14 @@ TEST_CASE("what a shadow says of the error of steps is within a factor of two of
   }
 }
 
-TEST_CASE("a shadow changes no bit of what it follows") {
+TEST_CASE("step doubling changes no bit of the run") {
   const auto followed = make_world(beam(Integrator::verlet, {})), alone = make_world(beam(Integrator::verlet, {}));
   shadowed(*followed, false);
   while (alone->time() < stretch * (1 - 1e-9)) alone->tick();
   CHECK(followed->state_hash() == alone->state_hash());
 }
 
-TEST_CASE("what cannot be followed is not: memory, another precision, a body that was cut into, statics") {
+TEST_CASE("step doubling declines internal state, another precision, a cut body and statics") {
   WorldSetup viscous = beam(Integrator::verlet, {});
   viscous.materials[0].material.viscosity = 10;
   CHECK_FALSE(StepDoublingEstimator(viscous).begin(*make_world(viscous)));
@@ -127,4 +127,4 @@ TEST_CASE("a world's estimate of its mesh falls with the mesh, and nets of sprin
   CHECK_FALSE(make_world(net)->error_estimate());
 }
 
-}  // namespace heml::shadow_test
+}  // namespace heml::step_doubling_test

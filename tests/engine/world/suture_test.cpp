@@ -63,7 +63,7 @@ TEST_CASE("suture: a thread bears the weight of what hangs on it, and is as long
   }
 }
 
-TEST_CASE("suture: drawn all the way two parts of a body meet, and the body's momentum is its own") {
+TEST_CASE("suture: fully drawn, it joins two parts and keeps the body's momentum") {
   WorldSetup setup = cantilever();
   setup.boundary.clear();
   setup.gravity.setZero();
@@ -92,7 +92,7 @@ TEST_CASE("suture: drawn all the way two parts of a body meet, and the body's mo
   CHECK(momentum.norm() <= 1e-10 * speeds);
 }
 
-TEST_CASE("suture: one that cannot be is refused") {
+TEST_CASE("suture: a wrong suture is refused") {
   Hanging hanging(Integrator::verlet);
   auto world = make_world(hanging.setup);
   const double nan = std::numeric_limits<double>::quiet_NaN();

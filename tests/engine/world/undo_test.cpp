@@ -87,7 +87,7 @@ const std::vector<Integrator> moving = moving_integrators();
 
 }  // namespace
 
-TEST_CASE("undo: an edit taken back is no edit, to the bit, for all that a material may remember") {
+TEST_CASE("undo: restores the state to the bit, for every kind of internal state") {
   for (const LawInfo& law : laws()) {
     CAPTURE(std::string(law.name));
     if (law.name.starts_with("paper_")) continue;
@@ -166,7 +166,7 @@ TEST_CASE("undo: what is grasped and pinned stays so, and preconditioners that a
       }
 }
 
-TEST_CASE("undo: later, too, the body remembers what it did when the edit was made") {
+TEST_CASE("undo: later, too, the internal state of the time of the edit is restored") {
   for (const bool single : {false, true})
     for (const Integrator integrator : moving) {
       CAPTURE(integrator_name(integrator));
@@ -187,7 +187,7 @@ TEST_CASE("undo: later, too, the body remembers what it did when the edit was ma
     }
 }
 
-TEST_CASE("undo: a material that was switched since begins anew, and what was let go or grasped since stays so") {
+TEST_CASE("undo: a material switched since loses its internal state, and grasps changed since stay changed") {
   Material material = sample_material("mooney_rivlin");
   material.plasticity = Plasticity{60, 10};
   const WorldSetup setup = drawn_bar(material, Integrator::verlet, false);

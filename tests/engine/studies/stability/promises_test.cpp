@@ -49,7 +49,7 @@ const Promise drift{10, Integrator::verlet, false, 1e-5, {"stvk", "ogden"}};
 
 }  // namespace
 
-TEST_CASE("the list of promises has not shrunk and no limit is looser than the plan's") {
+TEST_CASE("the list of promises has not shrunk and no limit is looser than the reference") {
   std::map<int, int> variants;
   for (const Promise& promise : read_promises(committed)) {
     CAPTURE(promise.number);
@@ -70,14 +70,14 @@ TEST_CASE("the list of promises has not shrunk and no limit is looser than the p
   }
 }
 
-TEST_CASE("no limit of the table is looser than the plan's") {
+TEST_CASE("no limit of the table is looser than the reference") {
   for (const Case& c : cases()) {
     CHECK_MESSAGE(c.limit <= floors.at(c.number).limit, c.name);
     CHECK_MESSAGE(!(c.float_limit > floors.at(c.number).float_limit), c.name);
   }
 }
 
-TEST_CASE("what the plan names by law is promised in double: every law's forces, every law's collapse") {
+TEST_CASE("forces and collapse of every law are promised in double") {
   const auto promises = read_promises(committed);
   const auto promised = [&](int number, std::string_view law, std::optional<Integrator> integrator) {
     for (const Promise& promise : promises)
@@ -106,7 +106,7 @@ TEST_CASE("a verdict needs more than being finite") {
   CHECK(worse({std::numeric_limits<double>::quiet_NaN()}, {2}).value != 2);
 }
 
-TEST_CASE("a promise falls short by its verdict, and by its figure alone") {
+TEST_CASE("a promise can fall short by its verdict or by its value alone") {
   std::vector<Cell> cells = {cell_of(Verdict::stable, 1e-6), cell_of(Verdict::stable, 2e-5),
                              cell_of(Verdict::inverted, 1e-6), cell_of(Verdict::wrong, 1)};
   cells[3].variant.law = "gent";  // not among the promised laws
@@ -121,7 +121,7 @@ TEST_CASE("a promise falls short by its verdict, and by its figure alone") {
   CHECK(answer(cells).starts_with("1 of 3 promised runs hold; the others fall short"));
 }
 
-TEST_CASE("what holds can be promised as it is, and is read back") {
+TEST_CASE("passing cells can be promised as they are and read back") {
   const auto file = folder("promises") / "holding.json";
   write_file(file, promises_text({cell_of(Verdict::stable, 1e-6), cell_of(Verdict::diverged, 1)}));
   const auto promises = read_promises(file);
@@ -132,7 +132,7 @@ TEST_CASE("what holds can be promised as it is, and is read back") {
   CHECK(promises[0].laws == std::vector<std::string>{"ogden"});
 }
 
-TEST_CASE("a study goes on where it stopped, and its figures are the ones it had") {
+TEST_CASE("an interrupted study continues and keeps its results") {
   StudyOptions options;
   options.only = {5};
   int runs = 0;
