@@ -6,8 +6,8 @@ namespace {
 constexpr double armijo = 1e-4;
 constexpr int max_cuts = 24;
 constexpr int max_inversion_cuts = 12;  // cuts for which inversion is refused; later, an element may be recovering
-constexpr double slope_reduction =
-    0.95;  // a step within round-off must reduce the slope to this part of its start value
+// A step within round-off must reduce the slope to this part of its start value.
+constexpr double slope_reduction = 0.95;
 }  // namespace
 
 bool line_search(Objective& objective, const Vector& d, SearchPoint& at) {

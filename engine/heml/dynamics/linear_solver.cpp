@@ -11,8 +11,8 @@ namespace {
 constexpr int max_iterations = 500;
 constexpr double first_shift = 1e-4;          // relative to the stiffness along the residual
 constexpr double projected_tolerance = 1e-2;  // an approximation need not be solved exactly
-constexpr double min_element_fraction =
-    2.0 / 3;                             // an outdated factor serves while the body has this part of its elements
+// An outdated factor serves while the body has this part of its elements.
+constexpr double min_element_fraction = 2.0 / 3;
 constexpr double max_inertia_ratio = 3;  // a factor of aM + L serves up to this ratio between a and its own
 }  // namespace
 

@@ -8,8 +8,8 @@ namespace {
 constexpr double switch_ratio = 0.5;  // an iteration on negative curvature that leaves more of ‖r‖ switches the remedy
 // Tolerated iterations without progress: where forces are round-off; where only the potential is.
 constexpr int max_idle_forces = 2, max_idle_values = 5;
-constexpr double round_off_fraction =
-    1e-3;  // part of the bound on the round-off of values that sums of many elements reach
+// Part of the bound on the round-off of values that sums of many elements reach.
+constexpr double round_off_fraction = 1e-3;
 constexpr double none = std::numeric_limits<double>::infinity();
 
 /// Detects that round-off ends progress. Where a step changes Φ by round-off only, several steps together must lower Φ,

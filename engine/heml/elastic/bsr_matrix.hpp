@@ -48,8 +48,8 @@ class BsrMatrix {
   struct Block {
     Column column[3];
   };
-  using BlockIndices =
-      std::array<int, 16>;  ///< block of each pair of an element's corners, row by row; −1: no such row
+  /// Block of each pair of an element's corners, row by row; −1: no such row.
+  using BlockIndices = std::array<int, 16>;
 
   int find(int row, int column) const;
   void add(int row, int column, const Mat3& B);

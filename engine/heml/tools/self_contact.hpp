@@ -16,9 +16,9 @@
 // that overlap at rest are ignored.
 //
 //   each step      nodes at from, at to ──► has any moved by more than the allowance? ──► broad phase, or filter
-//                  close candidates ──► contacts that touch between from and to
-//   broad phase    faces in a grid of cells, in the order of cells ──► candidates near each other, in the order of
-//   nodes filter         these ──► close candidates: valid for a small part of the motion that the broad phase allows
+//                  candidates ──► contacts: pairs that touch between from and to
+//   broad phase    faces in a grid of cells, in the order of cells ──► broad candidates, in the order of nodes
+//   filter         broad candidates ──► candidates: valid for a small part of the motion that the broad phase allows
 //
 // Built only where a scene has "self_contact".
 #include <compare>
