@@ -1,8 +1,9 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <heml/dynamics/explicit.hpp>
 #include <heml/dynamics/prescribed_motion.hpp>
+#include <heml/dynamics/symplectic_euler.hpp>
+#include <heml/dynamics/verlet.hpp>
 #include <numbers>
 
 namespace heml::explicit_test {

@@ -3,9 +3,11 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <heml/dynamics/implicit_stage.hpp>
+#include <heml/dynamics/backward_euler.hpp>
+#include <heml/dynamics/bdf2.hpp>
 #include <heml/dynamics/incremental_potential.hpp>
 #include <heml/dynamics/newton.hpp>
+#include <heml/dynamics/tr_bdf2.hpp>
 #include <random>
 
 #include "small_objectives.hpp"
