@@ -336,8 +336,8 @@ double snapping_distance(const TetMesh& mesh) {
   return 0.5 * sum / static_cast<double>(6 * mesh.tets.size());
 }
 
-std::optional<std::string> make_cut(const Sweep& sweep, const TetMesh& mesh, const std::vector<Vec3>& x,
-                                    const Topology& topology, double snap, const std::vector<int>& stroke, Cut& cut) {
+Status make_cut(const Sweep& sweep, const TetMesh& mesh, const std::vector<Vec3>& x, const Topology& topology,
+                double snap, const std::vector<int>& stroke, Cut& cut) {
   const SweptSurface surface(sweep);
   if (surface.empty()) return "the blade sweeps no area; give its two ends at two or more moments, in different places";
   Cutter cutter(surface, mesh, x, topology);
@@ -346,7 +346,7 @@ std::optional<std::string> make_cut(const Sweep& sweep, const TetMesh& mesh, con
   cut = {};
   cut.area = cutter.separate();
   cutter.write(cut);
-  return std::nullopt;
+  return {};
 }
 
 }  // namespace heml

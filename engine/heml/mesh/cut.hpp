@@ -22,8 +22,8 @@ struct Cut {
 /// Computes the cut of a sweep. Returns a message if the sweep cuts nothing. mesh: at rest. x: deformed positions,
 /// #V×3, m, in whose space the sweep is. snap: m at rest; the cut lies within this distance of the sweep. stroke:
 /// Cut::nodes of the earlier sweeps of the same stroke.
-std::optional<std::string> make_cut(const Sweep& sweep, const TetMesh& mesh, const std::vector<Vec3>& x,
-                                    const Topology& topology, double snap, const std::vector<int>& stroke, Cut& cut);
+Status make_cut(const Sweep& sweep, const TetMesh& mesh, const std::vector<Vec3>& x, const Topology& topology,
+                double snap, const std::vector<int>& stroke, Cut& cut);
 
 /// Default snapping distance of a mesh: half its mean edge length, m.
 double snapping_distance(const TetMesh& mesh);

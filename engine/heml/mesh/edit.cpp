@@ -24,8 +24,8 @@ std::vector<int> elements_where(const Topology& topology, const Chooses& chooses
 }
 
 /// Sorts a list of elements without duplicates and checks that they exist; returns a message if not.
-std::optional<std::string> check_elements(const std::vector<int>& tets, const TetMesh& mesh, const Topology& topology,
-                                          std::vector<int>& chosen) {
+Status check_elements(const std::vector<int>& tets, const TetMesh& mesh, const Topology& topology,
+                      std::vector<int>& chosen) {
   const int count = static_cast<int>(mesh.tets.size());
   chosen = tets;
   std::sort(chosen.begin(), chosen.end());
@@ -37,7 +37,7 @@ std::optional<std::string> check_elements(const std::vector<int>& tets, const Te
       return fmt::format("element {} was removed before", t);
   }
   if (chosen.empty()) return "names no element; give at least one, from 0";
-  return std::nullopt;
+  return {};
 }
 
 /// Message for a region, box or sphere without elements.
@@ -84,8 +84,7 @@ void append(const MeshEdit& edit, TetMesh& mesh) {
         field.values.push_back(field.values[field.components * static_cast<std::size_t>(parent) + c]);
 }
 
-std::optional<std::string> make_removal_edit(const ElementSelection& which, const TetMesh& mesh,
-                                             const Topology& topology, MeshEdit& edit) {
+Status make_removal_edit(const ElementSelection& which, const TetMesh& mesh, const Topology& topology, MeshEdit& edit) {
   std::vector<int> chosen;
   if (which.region) {
     chosen =
@@ -101,14 +100,14 @@ std::optional<std::string> make_removal_edit(const ElementSelection& which, cons
     chosen = elements_where(topology, [&, centre = centre, radius = radius](int t) {
       return (centroid(mesh, t) - centre).norm() <= radius;
     });
-  } else if (const auto problem = check_elements(which.tets, mesh, topology, chosen)) {
-    return problem;
+  } else if (const Status known = check_elements(which.tets, mesh, topology, chosen); !known.ok()) {
+    return known;
   }
   if (chosen.empty()) return nothing_chosen(which, mesh, topology);
   if (chosen.size() == topology.elements.size())
     return fmt::format("all {} elements that are left would go; a body needs one at least", chosen.size());
   edit.removed = std::move(chosen);
-  return std::nullopt;
+  return {};
 }
 
 TetMesh with_elements(const TetMesh& mesh, const std::vector<int>& elements) {

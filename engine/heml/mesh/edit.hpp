@@ -7,6 +7,7 @@
 //     file          0 1 2 3 4 5 6 7
 //     MeshEdit        ×     ×       + +   removed {1, 4}, added {8, 9}
 //     Topology      0   2 3   5 6 7 8 9   elements; version 1
+#include <heml/base/status.hpp>
 #include <heml/mesh/tet_mesh.hpp>
 #include <optional>
 #include <string>
@@ -66,8 +67,7 @@ struct ElementSelection {
 
 /// Computes the edit that removes the selected elements of a topology. Returns a message if an element does not exist
 /// or was removed before, or if no element is selected or would be left. mesh: at rest.
-std::optional<std::string> make_removal_edit(const ElementSelection& which, const TetMesh& mesh,
-                                             const Topology& topology, MeshEdit& edit);
+Status make_removal_edit(const ElementSelection& which, const TetMesh& mesh, const Topology& topology, MeshEdit& edit);
 
 /// The mesh with the given elements only, in that order, and all nodes and fields.
 TetMesh with_elements(const TetMesh& mesh, const std::vector<int>& elements);

@@ -79,8 +79,9 @@ HapticRun run_with_handle(const Scene& scene, const HandleTrajectory& handle, co
   for (long k = 1; static_cast<double>(k) * tick <= end * (1 + 1e-12); ++k) {
     const double now = static_cast<double>(k) * tick;
     if (find_tool<GraspState>(world->tools()))
-      if (const auto refused = world->apply(MoveTool{handle.at(now - tick)}))
-        throw InputError(scene.file, "", "the tool cannot follow the handle: " + *refused, "give another trajectory");
+      if (const Status moved = world->apply(MoveTool{handle.at(now - tick)}); !moved.ok())
+        throw InputError(scene.file, "", "the tool cannot follow the handle: " + moved.message(),
+                         "give another trajectory");
     player.to(now);
     if ((run.halt = world->halt())) break;
     const std::vector<ToolState> tools = world->tools();

@@ -69,8 +69,8 @@ void Schedule::apply(World& world, const std::function<void(const Command&)>& ap
   };
   for (const Event& event : due(world.ticks())) {
     const std::size_t before = split();
-    if (const auto problem = world.apply(event.command))
-      throw InputError(file_, fmt::format("events: step {}", event.tick), *problem, event_line(event));
+    if (const Status status = world.apply(event.command); !status.ok())
+      throw InputError(file_, fmt::format("events: step {}", event.tick), status.message(), event_line(event));
     watch_stroke(event, split() != before);
     applied(event.command);
   }

@@ -49,7 +49,8 @@ ComparisonRuns::ComparisonRuns(const WorldSetup& setup, const std::vector<std::s
 void ComparisonRuns::apply(const Command& command) {
   for (ComparisonRun& run : comparison_runs_)
     if (concerns(command, run.variant))
-      if (const auto problem = run.world->apply(command)) warn("{}: {}", run.variant.name, *problem);
+      if (const Status status = run.world->apply(command); !status.ok())
+        warn("{}: {}", run.variant.name, status.message());
 }
 
 double ComparisonRuns::tick(World& world) {

@@ -186,11 +186,11 @@ class Session::Impl {
   }
 
   void carry_out(const Command& command) {
-    if (const auto problem = world_->apply(command)) {
+    if (const Status status = world_->apply(command); !status.ok()) {
       ++refusals_;
-      refusal_ = *problem;
+      refusal_ = status.message();
       show_now_ = true;
-      return warn("{}", *problem);
+      return warn("{}", status.message());
     }
     if (comparison_runs_) comparison_runs_->apply(command);
     if (step_doubling_scheduler_) step_doubling_scheduler_->carried_out(command);

@@ -22,18 +22,19 @@ double tool_frequency(const WorldSetup& setup, double radius, double highest) {
 
 bool finite(const Vec3& v) { return v.allFinite(); }
 
-std::optional<std::string> patch_problem(const char* tool, int node, double radius, std::size_t nodes) {
+Status patch_problem(const char* tool, int node, double radius, std::size_t nodes) {
   if (node < 0 || static_cast<std::size_t>(node) >= nodes)
     return fmt::format("{}: node {} does not exist; the body has nodes 0 to {}", tool, node, nodes - 1);
   if (!(radius >= 0) || !std::isfinite(radius))
     return fmt::format("{}: radius must be 0 m or more, is {}", tool, radius);
-  return std::nullopt;
+  return {};
 }
 }  // namespace
 
 template <class Real>
-std::optional<std::string> CommandExecutor<Real>::execute(const Grasp& command) {
-  if (auto problem = patch_problem("grasp", command.node, command.radius, s_.mass.size())) return problem;
+Status CommandExecutor<Real>::execute(const Grasp& command) {
+  if (const Status status = patch_problem("grasp", command.node, command.radius, s_.mass.size()); !status.ok())
+    return status;
   const int center = s_.model.order.new_node[static_cast<std::size_t>(command.node)];
   GraspSpring<Real> grasp(
       center, static_cast<Real>(command.radius), surface_with(center), s_.model.mesh.nodes, s_.state.x.data(),
@@ -43,41 +44,42 @@ std::optional<std::string> CommandExecutor<Real>::execute(const Grasp& command) 
   if (grasp.empty()) return fmt::format("grasp: node {} is constrained, or belongs to no element", command.node);
   s_.grasps.assign(1, std::move(grasp));
   ++s_.grasps_taken;
-  return std::nullopt;
+  return {};
 }
 
 template <class Real>
-std::optional<std::string> CommandExecutor<Real>::execute(const MoveTool& command) {
+Status CommandExecutor<Real>::execute(const MoveTool& command) {
   if (s_.grasps.empty()) return "move: nothing is grasped";
   if (!finite(command.target)) return "move: the target is not finite";
   s_.grasps.front().move(command.target);
-  return std::nullopt;
+  return {};
 }
 
 template <class Real>
-std::optional<std::string> CommandExecutor<Real>::execute(const Release&) {
+Status CommandExecutor<Real>::execute(const Release&) {
   s_.grasps.clear();
-  return std::nullopt;
+  return {};
 }
 
 template <class Real>
-std::optional<std::string> CommandExecutor<Real>::execute(const PinTissue& command) {
-  if (auto problem = patch_problem("pin", command.node, command.radius, s_.mass.size())) return problem;
+Status CommandExecutor<Real>::execute(const PinTissue& command) {
+  if (const Status status = patch_problem("pin", command.node, command.radius, s_.mass.size()); !status.ok())
+    return status;
   const int center = s_.model.order.new_node[static_cast<std::size_t>(command.node)];
   if (s_.inverse_mass[static_cast<std::size_t>(center)] == 0)
     return fmt::format("pin: node {} is constrained, or belongs to no element", command.node);
   s_.pins.push_back(
       pin_patch(center, command.radius, surface_with(center), s_.model.mesh.nodes, s_.state.x.data(), s_.inverse_mass));
   update_constraints();
-  return std::nullopt;
+  return {};
 }
 
 template <class Real>
-std::optional<std::string> CommandExecutor<Real>::execute(const Unpin& command) {
+Status CommandExecutor<Real>::execute(const Unpin& command) {
   if (!command.node) {
     s_.pins.clear();
     update_constraints();
-    return std::nullopt;
+    return {};
   }
   const auto holds = [&](const PinnedPatch& pin) {
     return std::any_of(pin.nodes.begin(), pin.nodes.end(),
@@ -87,11 +89,11 @@ std::optional<std::string> CommandExecutor<Real>::execute(const Unpin& command) 
   if (pin == s_.pins.end()) return fmt::format("release: no pin holds node {}", *command.node);
   s_.pins.erase(pin);
   update_constraints();
-  return std::nullopt;
+  return {};
 }
 
 template <class Real>
-std::optional<std::string> CommandExecutor<Real>::execute(const SetMaterial& command) {
+Status CommandExecutor<Real>::execute(const SetMaterial& command) {
   const auto entry = std::find_if(s_.setup.materials.begin(), s_.setup.materials.end(),
                                   [&](const RegionMaterial& m) { return m.region == command.region; });
   if (entry == s_.setup.materials.end())
@@ -117,54 +119,54 @@ std::optional<std::string> CommandExecutor<Real>::execute(const SetMaterial& com
   recovery_.rebuild_surrogate();
   find_stable_step(s_);
   method_.choose();
-  return std::nullopt;
+  return {};
 }
 
 template <class Real>
-std::optional<std::string> CommandExecutor<Real>::execute(const SetDamping& command) {
+Status CommandExecutor<Real>::execute(const SetDamping& command) {
   if (!(command.damping >= 0) || !std::isfinite(command.damping))
     return fmt::format("damping: must be 0 1/s or more, is {}", command.damping);
   s_.setup.solver.damping = command.damping;
-  return std::nullopt;
+  return {};
 }
 
 template <class Real>
-std::optional<std::string> CommandExecutor<Real>::execute(const SetGravity& command) {
+Status CommandExecutor<Real>::execute(const SetGravity& command) {
   if (!finite(command.gravity)) return "gravity: not finite";
   s_.setup.gravity = command.gravity;
-  return std::nullopt;
+  return {};
 }
 
 template <class Real>
-std::optional<std::string> CommandExecutor<Real>::execute(const SetIntegrator& command) {
+Status CommandExecutor<Real>::execute(const SetIntegrator& command) {
   if ((command.integrator == Integrator::static_equilibrium) != s_.setup.solver.is_static())
     return "integrator: a scene is static from its start or not at all";
   s_.setup.solver.integrator = command.integrator;
   s_.implicit.reset();
   method_.choose();
-  return std::nullopt;
+  return {};
 }
 
 template <class Real>
-std::optional<std::string> CommandExecutor<Real>::execute(const SetBudget& command) {
+Status CommandExecutor<Real>::execute(const SetBudget& command) {
   if (command.iterations < 1) return "budget: needs one iteration or more";
   if (!s_.setup.solver.budget) s_.setup.solver.budget.emplace();
   s_.setup.solver.budget->iterations = command.iterations;
-  return std::nullopt;
+  return {};
 }
 
 template <class Real>
-std::optional<std::string> CommandExecutor<Real>::execute(const SetStepCost& command) {
+Status CommandExecutor<Real>::execute(const SetStepCost& command) {
   if (!(command.nanoseconds > 0) || !std::isfinite(command.nanoseconds))
     return "step_cost: must be more than 0 ns an element";
   method_.set_step_cost(1e-9 * command.nanoseconds);
-  return std::nullopt;
+  return {};
 }
 
 template <class Real>
-std::optional<std::string> CommandExecutor<Real>::execute(const AdoptPreconditioner&) {
+Status CommandExecutor<Real>::execute(const AdoptPreconditioner&) {
   implicit_.adopt_preconditioner();
-  return std::nullopt;
+  return {};
 }
 
 /// Boundary nodes and one more node, inner numbers, ascending, each once.

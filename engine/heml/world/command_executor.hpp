@@ -17,31 +17,30 @@ class CommandExecutor {
       : s_(s), method_(method), implicit_(implicit), recovery_(recovery), editor_(editor) {}
 
   /// Each returns what is wrong with the command, or nothing; a wrong one changes nothing.
-  using Problem = std::optional<std::string>;
 
   // command_executor.cpp: grasp, pins, materials, settings
-  Problem execute(const Grasp& command);
-  Problem execute(const MoveTool& command);
-  Problem execute(const Release& command);
-  Problem execute(const PinTissue& command);
-  Problem execute(const Unpin& command);
-  Problem execute(const SetMaterial& command);
-  Problem execute(const SetDamping& command);
-  Problem execute(const SetGravity& command);
-  Problem execute(const SetIntegrator& command);
-  Problem execute(const SetBudget& command);
-  Problem execute(const SetStepCost& command);
-  Problem execute(const AdoptPreconditioner& command);
-  Problem execute(const RemoveElements& command) { return editor_.remove(command); }
-  Problem execute(const CutTissue& command) { return editor_.cut(command); }
-  Problem execute(const Undo&) { return editor_.undo(); }
+  Status execute(const Grasp& command);
+  Status execute(const MoveTool& command);
+  Status execute(const Release& command);
+  Status execute(const PinTissue& command);
+  Status execute(const Unpin& command);
+  Status execute(const SetMaterial& command);
+  Status execute(const SetDamping& command);
+  Status execute(const SetGravity& command);
+  Status execute(const SetIntegrator& command);
+  Status execute(const SetBudget& command);
+  Status execute(const SetStepCost& command);
+  Status execute(const AdoptPreconditioner& command);
+  Status execute(const RemoveElements& command) { return editor_.remove(command); }
+  Status execute(const CutTissue& command) { return editor_.cut(command); }
+  Status execute(const Undo&) { return editor_.undo(); }
 
   // contact_commands.cpp: tables, probe, sutures
-  Problem execute(const SetTables& command);
-  Problem execute(const MoveProbe& command);
-  Problem execute(const WithdrawProbe& command);
-  Problem execute(const SutureTissue& command);
-  Problem execute(const CutSutures& command);
+  Status execute(const SetTables& command);
+  Status execute(const MoveProbe& command);
+  Status execute(const WithdrawProbe& command);
+  Status execute(const SutureTissue& command);
+  Status execute(const CutSutures& command);
 
  private:
   std::vector<int> surface_with(int node) const;

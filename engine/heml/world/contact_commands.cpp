@@ -10,15 +10,15 @@ namespace {
 constexpr double min_suture = 1e-4;  // of the body's size: what is drawn in further has no direction
 constexpr std::size_t max_places = 10000;
 
-std::optional<std::string> table_problem(const Table& table) {
+Status table_problem(const Table& table) {
   if (!table.point.allFinite() || !table.normal.allFinite()) return "table: point and normal must be finite";
   if (!(table.normal.norm() > 0)) return "table: the normal must not be zero";
   if (!(table.friction >= 0) || !std::isfinite(table.friction))
     return fmt::format("table: friction must be 0 or more, is {}", table.friction);
-  return std::nullopt;
+  return {};
 }
 
-std::optional<std::string> probe_problem(const MoveProbe& probe) {
+Status probe_problem(const MoveProbe& probe) {
   if (!(probe.radius > 0) || !std::isfinite(probe.radius))
     return fmt::format("probe: radius must be more than 0 m, is {}", probe.radius);
   if (!probe.shaft.allFinite()) return "probe: the shaft is not finite";
@@ -30,43 +30,43 @@ std::optional<std::string> probe_problem(const MoveProbe& probe) {
     return fmt::format("probe: the path must have 1 to {} places, has {}", max_places, probe.path.size());
   for (const Vec3& place : probe.path)
     if (!place.allFinite()) return "probe: a place of the path is not finite";
-  return std::nullopt;
+  return {};
 }
 
 }  // namespace
 
 template <class Real>
-std::optional<std::string> CommandExecutor<Real>::execute(const SetTables& command) {
+Status CommandExecutor<Real>::execute(const SetTables& command) {
   for (const Table& table : command.tables)
-    if (auto problem = table_problem(table)) return problem;
+    if (const Status status = table_problem(table); !status.ok()) return status;
   s_.setup.tables = command.tables;
   s_.contacts.tables = command.tables;
   for (Table& table : s_.contacts.tables) table.normal.normalize();
   s_.update_contact_surfaces();
-  return std::nullopt;
+  return {};
 }
 
 template <class Real>
-std::optional<std::string> CommandExecutor<Real>::execute(const MoveProbe& command) {
-  if (auto problem = probe_problem(command)) return problem;
+Status CommandExecutor<Real>::execute(const MoveProbe& command) {
+  if (const Status status = probe_problem(command); !status.ok()) return status;
   Probe probe(command.radius, command.shaft, command.friction);
   const bool is_new = !s_.contacts.probe;
   if (!is_new) probe.go({s_.contacts.probe->tip(s_.state.time)}, command.speed, s_.state.time);
   probe.go(command.path, command.speed, s_.state.time);
   s_.contacts.probe = std::move(probe);
   if (is_new) s_.update_contact_surfaces();
-  return std::nullopt;
+  return {};
 }
 
 template <class Real>
-std::optional<std::string> CommandExecutor<Real>::execute(const WithdrawProbe&) {
+Status CommandExecutor<Real>::execute(const WithdrawProbe&) {
   s_.contacts.probe.reset();
   s_.update_contact_surfaces();
-  return std::nullopt;
+  return {};
 }
 
 template <class Real>
-std::optional<std::string> CommandExecutor<Real>::execute(const SutureTissue& command) {
+Status CommandExecutor<Real>::execute(const SutureTissue& command) {
   Suture suture{};
   for (std::size_t end = 0; end < 2; ++end) {
     const int node = command.nodes[end];
@@ -93,14 +93,14 @@ std::optional<std::string> CommandExecutor<Real>::execute(const SutureTissue& co
   suture.ramp_time = command.ramp_time;
   s_.contacts.sutures.push_back(suture);
   s_.update_contact_surfaces();
-  return std::nullopt;
+  return {};
 }
 
 template <class Real>
-std::optional<std::string> CommandExecutor<Real>::execute(const CutSutures&) {
+Status CommandExecutor<Real>::execute(const CutSutures&) {
   s_.contacts.sutures.clear();
   s_.update_contact_surfaces();
-  return std::nullopt;
+  return {};
 }
 
 template class CommandExecutor<float>;

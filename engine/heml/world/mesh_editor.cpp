@@ -49,10 +49,10 @@ double worst_angle(const MeshEdit& edit, const TetMesh& mesh) {
 }  // namespace
 
 template <class Real>
-std::optional<std::string> MeshEditor<Real>::remove(const RemoveElements& command) {
+Status MeshEditor<Real>::remove(const RemoveElements& command) {
   MeshEdit edit;
-  if (const auto problem = make_removal_edit(command.which, s_.setup.mesh, *s_.topology, edit))
-    return "remove: " + *problem;
+  if (const Status made = make_removal_edit(command.which, s_.setup.mesh, *s_.topology, edit); !made.ok())
+    return "remove: " + made.message();
   save();
   stroke_.clear();
   const auto mass = [this] { return std::accumulate(s_.mass.begin(), s_.mass.end(), 0.0); };
@@ -62,11 +62,11 @@ std::optional<std::string> MeshEditor<Real>::remove(const RemoveElements& comman
   carry_out(edit);
   report.mass -= mass();
   end_report(report);
-  return std::nullopt;
+  return {};
 }
 
 template <class Real>
-std::optional<std::string> MeshEditor<Real>::cut(const CutTissue& command) {
+Status MeshEditor<Real>::cut(const CutTissue& command) {
   for (const auto& [tip, end] : command.sweep.blades)
     if (!tip.allFinite() || !end.allFinite()) return "cut: a place of the blade is not finite";
   if (command.sweep.blades.size() < 2) return "cut: the sweep needs the blade at two times at least";
@@ -77,10 +77,10 @@ std::optional<std::string> MeshEditor<Real>::cut(const CutTissue& command) {
   }
   if (snap_ == 0) snap_ = snapping_distance(s_.setup.mesh);
   Cut cut;
-  if (make_cut(command.sweep, s_.setup.mesh, s_.positions(), *s_.topology, snap_, stroke_, cut))
-    return std::nullopt;  // through the air
+  if (!make_cut(command.sweep, s_.setup.mesh, s_.positions(), *s_.topology, snap_, stroke_, cut).ok())
+    return {};  // through the air
   stroke_ = cut.nodes;
-  if (cut.edit.removed.empty()) return std::nullopt;
+  if (cut.edit.removed.empty()) return {};
   missed_.reset();
   if (!in_stroke_) {
     save();
@@ -95,11 +95,11 @@ std::optional<std::string> MeshEditor<Real>::cut(const CutTissue& command) {
   report.area += cut.area;
   report.min_angle = std::min(report.min_angle, worst_angle(cut.edit, s_.setup.mesh));
   end_report(report);
-  return std::nullopt;
+  return {};
 }
 
 template <class Real>
-std::optional<std::string> MeshEditor<Real>::undo() {
+Status MeshEditor<Real>::undo() {
   if (s_.edits.empty() && missed_)
     return fmt::format("undo: nothing was cut or removed; the cut of step {} parted nothing", *missed_);
   if (s_.edits.empty()) return "undo: nothing was cut or removed";
@@ -107,7 +107,7 @@ std::optional<std::string> MeshEditor<Real>::undo() {
   s_.edits.pop_back();
   restore(*saved_.back());
   saved_.pop_back();
-  return std::nullopt;
+  return {};
 }
 
 template <class Real>

@@ -14,9 +14,9 @@ class MeshEditor {
   MeshEditor(Simulation<Real>& s, RecoveryController<Real>& recovery) : s_(s), recovery_(recovery) {}
 
   /// Each returns what is wrong with the command, or nothing; a wrong one changes nothing.
-  std::optional<std::string> remove(const RemoveElements& command);
-  std::optional<std::string> cut(const CutTissue& command);
-  std::optional<std::string> undo();
+  Status remove(const RemoveElements& command);
+  Status cut(const CutTissue& command);
+  Status undo();
   /// Back to the elements of the start; the list of edits is cleared.
   void undo_all();
   /// Separates elements where they are stretched beyond the limit of the scene (tools/tearing.hpp), at the start of a

@@ -1,8 +1,8 @@
 #include <cmath>
-#include <type_traits>
 #include <heml/world/failure.hpp>
 #include <heml/world/stable_step.hpp>
 #include <heml/world/typed_world.hpp>
+#include <type_traits>
 
 namespace heml {
 namespace {
@@ -73,30 +73,30 @@ void TypedWorld<Real>::handle(const std::optional<StopReason>& failure) {
 }
 
 template <class Real>
-std::optional<std::string> TypedWorld<Real>::apply(const Command& command) {
+Status TypedWorld<Real>::apply(const Command& command) {
   const FlushDenormals flush;
   if (!is_edit(command)) ++s_.changes;
   s_.is_evaluated = false;
   if (s_.implicit && s_.implicit->equilibrium) s_.implicit->equilibrium->invalidate();
-  std::optional<std::string> problem;
+  Status status;
   if (std::holds_alternative<Reset>(command)) {
     editor_.undo_all();
     start();
   } else {
-    problem = std::visit(
-        [this](const auto& c) -> std::optional<std::string> {
+    status = std::visit(
+        [this](const auto& c) -> Status {
           if constexpr (std::is_same_v<decltype(c), const Reset&>)
-            return std::nullopt;  // above
+            return {};  // above
           else
             return commands_.execute(c);
         },
         command);
   }
-  if (!problem && !s_.halt && !s_.is_evaluated) {
+  if (status.ok() && !s_.halt && !s_.is_evaluated) {
     if (!s_.evaluate_forces()) handle(restore_last_valid(s_, StopReason::Cause::out_of_range));
     find_stable_step(s_);
   }
-  return problem;
+  return status;
 }
 
 /// At construction and on Reset.

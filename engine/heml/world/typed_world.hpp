@@ -18,7 +18,7 @@ class TypedWorld final : public World {
  public:
   explicit TypedWorld(WorldSetup setup);
 
-  std::optional<std::string> apply(const Command& command) override;
+  Status apply(const Command& command) override;
   void tick() override;
   void advance_within_tick(double time) override;
   void load_to(double fraction) override;

@@ -4,6 +4,7 @@
 //
 // Everything goes in and comes out in the mesh file's node and element order; inside both are reordered for locality.
 #include <cstdint>
+#include <heml/base/status.hpp>
 #include <heml/elastic/error_estimate.hpp>
 #include <heml/mesh/edit.hpp>
 #include <heml/world/command.hpp>
@@ -61,7 +62,7 @@ class World {
   virtual ~World() = default;
 
   /// Takes one command, before the next tick. Returns what is wrong with it, or nothing; a wrong one changes nothing.
-  virtual std::optional<std::string> apply(const Command& command) = 0;
+  virtual Status apply(const Command& command) = 0;
 
   /// Advances one tick (solver.step, or 1/rate in as many equal substeps as stability asks; implicit methods take one,
   /// or halves where one does not converge). A static world is loaded further by tick / duration. Does nothing once

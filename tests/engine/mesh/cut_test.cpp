@@ -25,7 +25,8 @@ struct Body {
 
   /// Applies a cut; returns the message of make_cut(), "" on success.
   std::string cut(const Sweep& sweep, Cut& made, const std::vector<int>& stroke = {}) {
-    if (const auto problem = make_cut(sweep, mesh, x, topology, snap, stroke, made)) return *problem;
+    if (const Status status = make_cut(sweep, mesh, x, topology, snap, stroke, made); !status.ok())
+      return status.message();
     topology = apply_edit(topology, made.edit, static_cast<int>(mesh.tets.size()));
     append(made.edit, mesh);
     append(made.edit, x);

@@ -18,7 +18,7 @@ ElementSelection tets(std::vector<int> numbers) { return {std::move(numbers), {}
 /// The message of a removal; "" if it is valid.
 std::string problem_of(const ElementSelection& which, const Topology& topology) {
   MeshEdit edit;
-  return make_removal_edit(which, block(), topology, edit).value_or("");
+  return make_removal_edit(which, block(), topology, edit).message();
 }
 
 bool says(const std::string& text, const char* part) { return text.find(part) != text.npos; }
@@ -31,7 +31,7 @@ TEST_CASE("an edit leaves the numbers of what stays") {
   CHECK(all.elements.size() == 20);
   CHECK(all.version == 0);
   MeshEdit edit;
-  REQUIRE_FALSE(make_removal_edit(tets({7, 2, 2, 19}), mesh, all, edit));
+  REQUIRE(make_removal_edit(tets({7, 2, 2, 19}), mesh, all, edit).ok());
   CHECK(edit.removed == std::vector<int>{2, 7, 19});
   const Topology rest = apply_edit(all, edit, 20);
   CHECK(rest.version == 1);
@@ -46,14 +46,14 @@ TEST_CASE("elements are chosen by region, and by box or sphere of their centroid
   const TetMesh mesh = block();
   Topology topology = full_topology(mesh);
   MeshEdit edit;
-  REQUIRE_FALSE(make_removal_edit({{}, 3, {}, {}}, mesh, topology, edit));
+  REQUIRE(make_removal_edit({{}, 3, {}, {}}, mesh, topology, edit).ok());
   CHECK(edit.removed == std::vector<int>{0, 1, 2, 3, 4});
-  REQUIRE_FALSE(make_removal_edit({{}, {}, std::array{Vec3(0.3, -1, -1), Vec3(1, 1, 1)}, {}}, mesh, topology, edit));
+  REQUIRE(make_removal_edit({{}, {}, std::array{Vec3(0.3, -1, -1), Vec3(1, 1, 1)}, {}}, mesh, topology, edit).ok());
   CHECK(edit.removed == std::vector<int>{15, 16, 17, 18, 19});
   topology = apply_edit(topology, edit, 20);
-  REQUIRE_FALSE(make_removal_edit({{}, {}, std::array{Vec3(0.2, -1, -1), Vec3(1, 1, 1)}, {}}, mesh, topology, edit));
+  REQUIRE(make_removal_edit({{}, {}, std::array{Vec3(0.2, -1, -1), Vec3(1, 1, 1)}, {}}, mesh, topology, edit).ok());
   CHECK(edit.removed == std::vector<int>{10, 11, 12, 13, 14});
-  REQUIRE_FALSE(make_removal_edit({{}, {}, {}, std::pair{Vec3(0.05, 0.05, 0.05), 0.06}}, mesh, topology, edit));
+  REQUIRE(make_removal_edit({{}, {}, {}, std::pair{Vec3(0.05, 0.05, 0.05), 0.06}}, mesh, topology, edit).ok());
   CHECK(edit.removed == std::vector<int>{0, 1, 2, 3, 4});
 }
 

@@ -85,7 +85,7 @@ TEST_CASE("a recorded session with removals and a reset replays to the bit") {
     Recorder recorder(folder / "session.jsonl", bare, *world, 3);
     while (world->ticks() < 20) {
       for (const Event& event : schedule.due(world->ticks())) {
-        REQUIRE(!world->apply(event.command));
+        REQUIRE(world->apply(event.command).ok());
         recorder.command(*world, event.command);
       }
       world->tick();

@@ -22,7 +22,7 @@ void record(const std::filesystem::path& path, const Scene& scene) {
   const std::unique_ptr<World> world = load_world(scene);
   Recorder recorder(path, scene, *world, 10);
   const auto command = [&](const Command& given) {
-    REQUIRE(!world->apply(given));
+    REQUIRE(world->apply(given).ok());
     recorder.command(*world, given);
   };
   while (world->ticks() < 50) {
@@ -130,7 +130,7 @@ TEST_CASE("replays a session that ended on a command, with no tick after it") {
     world->tick();
     recorder.ticked(*world);
   }
-  REQUIRE(!world->apply(Reset{}));
+  REQUIRE(world->apply(Reset{}).ok());
   recorder.command(*world, Reset{});
   recorder.end(*world);
   const Scene recording = read_scene(folder / "session.jsonl");

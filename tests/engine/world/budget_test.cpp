@@ -88,9 +88,9 @@ TEST_CASE("budget: milliseconds are turned into iterations by a fixed model, or 
   setup.solver.budget = Budget{0, 1e-6};
   const auto world = make_world(setup);
   CHECK(world->solver_stats().budget == 1);
-  CHECK(!world->apply(SetBudget{7}));
+  CHECK(world->apply(SetBudget{7}).ok());
   CHECK(world->solver_stats().budget == 7);
-  CHECK(world->apply(SetBudget{0}));
+  CHECK_FALSE(world->apply(SetBudget{0}).ok());
 }
 
 TEST_CASE("L-BFGS ends where Newton's method does") {
