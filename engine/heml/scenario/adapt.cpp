@@ -66,7 +66,7 @@ Solved solved(const Scene& scene, const WorldSetup& setup, const std::optional<d
 /// "12,800"
 std::string grouped(std::size_t number) {
   std::string text = std::to_string(number);
-  for (std::size_t end = text.size(); end > 3; end -= 3) text.insert(end - 3, ",");
+  for (std::size_t end = text.size(); end > 3; end -= 3) text.insert(end - 3, 1, ',');
   return text;
 }
 

@@ -2,6 +2,7 @@
 
 #include <heml/scenario/entries_json.hpp>
 #include <heml/scenario/mesh_json.hpp>
+#include <heml/scenario/scene_keys.hpp>
 #include <heml/scenario/vector_json.hpp>
 #include <limits>
 
@@ -52,44 +53,45 @@ Json selection_json(const Selection& where) {
 }  // namespace
 
 BoundaryEntry boundary_from(const JsonCursor& key) {
-  key.allow({"nodes", "box", "sphere", "fix", "translate", "rotate", "over"});
+  const ObjectReader object(key, keys_of("boundary[]"));
   BoundaryEntry entry;
   entry.where = selection_from(key);
   const bool moved = key.has("translate") || key.has("rotate");
-  const bool fixed = key.has("fix") && key["fix"].flag();
+  bool fixed = false;
+  object.read("fix", fixed);
   if (fixed == moved)
     key.fail(fixed ? "is both fixed and moved" : "says nothing of its nodes", "give fix: true, or translate or rotate");
-  if (const auto translate = key.find("translate")) entry.motion.translate = translate->vector();
-  if (const auto rotate = key.find("rotate"))
+  object.read("translate", entry.motion.translate);
+  if (const auto rotate = object.find("rotate"))
     read_rotation(*rotate, entry.motion.axis, entry.motion.origin, entry.motion.degrees);
-  if (const auto ramp_time = key.find("over")) entry.motion.ramp_time = ramp_time->non_negative();
+  object.read("over", entry.motion.ramp_time);
   return entry;
 }
 
 LoadEntry load_from(const JsonCursor& key) {
-  key.allow({"nodes", "box", "sphere", "force", "traction", "pressure", "over"});
+  const ObjectReader object(key, keys_of("loads[]"));
   LoadEntry entry;
   entry.where = selection_from(key);
   const std::string kind = key.only_one_of({"force", "traction", "pressure"});
   if (kind == "force") {
     entry.load.kind = Load::Kind::force;
-    entry.load.vector = key["force"].vector();
+    entry.load.vector = object.get<Vec3>("force");
   } else if (kind == "traction") {
     entry.load.kind = Load::Kind::traction;
-    entry.load.vector = key["traction"].vector();
+    entry.load.vector = object.get<Vec3>("traction");
   } else {
     entry.load.kind = Load::Kind::pressure;
-    entry.load.pressure = key["pressure"].number();
+    entry.load.pressure = object.get<double>("pressure");
   }
-  if (const auto ramp_time = key.find("over")) entry.load.ramp_time = ramp_time->non_negative();
+  object.read("over", entry.load.ramp_time);
   return entry;
 }
 
 MarkerEntry marker_from(const JsonCursor& key) {
-  key.allow({"name", "nodes", "box", "sphere"});
+  const ObjectReader object(key, keys_of("outputs.markers[]"));
   MarkerEntry entry;
   entry.where = selection_from(key);
-  if (const auto name = key.find("name")) entry.name = name->text();
+  object.read("name", entry.name);
   if (entry.name.find_first_of(",\"\n\r") != std::string::npos)
     key["name"].refuse("must do in a table: without commas, quotes and line ends");
   return entry;
@@ -134,13 +136,13 @@ Json load_json(const LoadEntry& entry) {
 std::vector<Table> tables_from(const JsonCursor& key) {
   std::vector<Table> tables;
   key.each([&](const JsonCursor& entry) {
-    entry.allow({"point", "normal", "friction"});
+    const ObjectReader object(entry, keys_of("tables[]"));
     Table table;
-    table.point = entry["point"].vector();
-    table.normal = entry["normal"].vector();
+    table.point = object.get<Vec3>("point");
+    table.normal = object["normal"].vector();
     if (!(table.normal.norm() > 0)) entry["normal"].refuse("must not be zero");
     table.normal.normalize();
-    if (const auto friction = entry.find("friction")) table.friction = friction->non_negative();
+    object.read("friction", table.friction);
     tables.push_back(table);
   });
   return tables;
@@ -157,15 +159,15 @@ Json tables_json(const std::vector<Table>& tables) {
 std::optional<SelfContactSettings> self_contact_from(const JsonCursor& key) {
   if (key.json().is_boolean()) return key.flag() ? std::optional(SelfContactSettings{}) : std::nullopt;
   if (!key.json().is_object()) key.refuse("must be true, false, or {\"friction\": coefficient}");
-  key.allow({"friction"});
+  const ObjectReader object(key, keys_of("self_contact"));
   SelfContactSettings settings;
-  if (const auto friction = key.find("friction")) settings.friction = friction->non_negative();
+  object.read("friction", settings.friction);
   return settings;
 }
 
 TearingSettings tearing_from(const JsonCursor& key) {
-  key.allow({"stretch"});
-  const double stretch = key["stretch"].number();
+  const ObjectReader object(key, keys_of("tearing"));
+  const double stretch = object["stretch"].number();
   if (!(stretch > 1)) key["stretch"].refuse("must be more than 1, the stretch at rest");
   return {stretch};
 }
@@ -175,13 +177,11 @@ Json tearing_json(const TearingSettings& settings) { return {{"stretch", setting
 Json self_contact_json(const SelfContactSettings& settings) { return {{"friction", settings.friction}}; }
 
 ElementSelection elements_from(const JsonCursor& key) {
-  key.allow({"tets", "region", "box", "sphere"});
+  const ObjectReader object(key, scene_keys::elements);
   ElementSelection which;
   const std::string kind = key.only_one_of({"tets", "region", "box", "sphere"});
   if (kind == "tets") which.tets = numbers_from(key["tets"], "element");
-  if (kind == "region")
-    which.region =
-        static_cast<int>(key["region"].integer(std::numeric_limits<int>::min(), std::numeric_limits<int>::max()));
+  object.read("region", which.region);
   if (kind == "box") which.box = box_from(key["box"]);
   if (kind == "sphere") which.sphere = sphere_from(key["sphere"]);
   return which;

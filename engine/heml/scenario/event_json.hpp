@@ -1,39 +1,33 @@
 #pragma once
-// Events and checkpoints between JSON and data. One entry, in the lists `events` and `checkpoints` of a document or on
-// a line of a recording, is one of
+// Events, checkpoints and the end of a recording between JSON and data. One entry, in the lists `events` and
+// `checkpoints` of a document or on a line of a recording, is one of
 //
-//   {"step": 12, "grasp": {"node": 3, "radius": 0.01}}      take hold; or "point": [x, y, z], for the surface
-//                                                         node nearest to it at rest
-//   {"step": 13, "move": [0.1, 0, 0]}                       the tool
-//   {"step": 40, "release": true}
-//   {"step": 41, "pin": {"node": 3, "radius": 0.01}}        hold where it is; node and point as in grasp
-//   {"step": 45, "release": {"node": 3}}                    the pin that holds the node; or "pins": all
-//   {"step": 46, "tables": [{"point": [0, 0, 0], "normal": [0, 1, 0], "friction": 0.3}]}   from now on, these
-//   {"step": 47, "probe": {"radius": 0.004, "shaft": [0, 0.1, 0], "friction": 0.2, "path": [[0, 0.1, 0], …],
-//                          "speed": 0.1}}                 the tip goes on from where it is; "release": "probe"
-//   {"step": 48, "suture": {"nodes": [3, 8], "length": 0, "over": 0.5}}    drawn in to a length, m, over s; or
-//   "points":
-//                                                         [[x, y, z], [x, y, z]]; "release": "sutures"
-//   {"step": 50, "material": {"region": 2, "law": ...}}     as an entry of `materials`
-//   {"step": 60, "damping": 2}   {"step": 60, "gravity": [0, -9.81, 0]}   {"step": 60, "integrator": "verlet"}
-//   {"step": 65, "remove": {"tets": [3, 4]}}               elements by number; or "region": 2; or "box": [[..], [..]]
-//   or
-//                                                         "sphere": [[x, y, z], r], of centroids at rest
-//   {"step": 66, "cut": {"sweep": [[tip, end], [tip, end], …]}}   where the blade is, moment after moment; "goes_on":
-//                                                         true: of one stroke with the cut before
-//   {"step": 67, "undo": true}                             the last removal or stroke
-//   {"step": 70, "reset": true}
-//   {"step": 80, "checkpoint": "0123456789abcdef", "nodes": "12ab..."}    state hash; 4 hexadecimal digits a node
-//   {"step": 90, "end": true, "checkpoints": 12, "hash": "0123456789abcdef", "halt": "unstable at …"}
-//                                                         how far a recording went, how many checkpoints it holds, the
-//                                                         state before the events of this step, and why it stopped
-//                                                         there
+//   {"step": 12, "grasp": {"node": 3, "radius": 0.01}}      an event: a command by its key (command_table.hpp)
+//   {"step": 80, "checkpoint": "0123456789abcdef", "nodes": "12ab..."}
+//   {"step": 90, "end": true, "checkpoints": 12, "hash": "0123456789abcdef", "halt": "unstable at ..."}
 //
 // with "at": seconds instead of "step" where that is easier: it means the nearest tick.
-#include <heml/scenario/json_cursor.hpp>
 #include <heml/scenario/scene.hpp>
+#include <heml/scenario/scene_keys.hpp>
 
 namespace heml {
+
+inline constexpr KeyInfo script_time_keys[] = {
+    {"step", form::whole(0, 1e12), "", "one of `step`, `at`", "tick at whose start it happens, from 0"},
+    {"at", form::non_negative, "s", "one of `step`, `at`", "simulated time; means the nearest tick"},
+};
+inline constexpr KeyInfo checkpoint_keys[] = {
+    {"checkpoint", scene_keys::hash, "", required, "hash of the state before the events of this step"},
+    {"nodes", form::other("4 hexadecimal digits a node"), "", scene_keys::none,
+     "hashes of the nodes, by which `replay --verify` names the first that differs"},
+};
+inline constexpr KeyInfo end_keys[] = {
+    {"end", form::other("`true`"), "", required, "how far the recording went: to this step"},
+    {"checkpoints", form::whole(0, 1e12), "", "not told", "how many the recording holds"},
+    {"hash", scene_keys::hash, "", "not told", "hash of the state before the events of this step"},
+    {"halt", form::text, "", scene_keys::none, "why the world stopped within this step"},
+};
+static_assert(is_complete(script_time_keys) && is_complete(checkpoint_keys) && is_complete(end_keys));
 
 /// What entries of a script amount to, before sorting.
 struct Script {

@@ -98,7 +98,7 @@ JsonCursor JsonCursor::operator[](std::size_t index) const {
   return child(value_->at(index), fmt::format("{}[{}]", path_, index));
 }
 
-std::string JsonCursor::only_one_of(std::initializer_list<std::string_view> names) const {
+std::string JsonCursor::only_one_of(std::span<const std::string_view> names) const {
   std::vector<std::string_view> present;
   std::copy_if(names.begin(), names.end(), std::back_inserter(present), [&](auto name) { return has(name); });
   if (present.size() == 1) return std::string(present.front());

@@ -35,7 +35,10 @@ class JsonCursor {
   std::size_t size() const;                                     ///< of an array; throws for another type
   JsonCursor operator[](std::size_t index) const;               ///< entry of an array, index < size()
   /// The key of `names` that the object has; throws unless it is exactly one.
-  std::string only_one_of(std::initializer_list<std::string_view> names) const;
+  std::string only_one_of(std::span<const std::string_view> names) const;
+  std::string only_one_of(std::initializer_list<std::string_view> names) const {
+    return only_one_of(std::span(names.begin(), names.size()));
+  }
 
   /// Calls visit(JsonCursor) for every entry of an array.
   template <class Visit>

@@ -6,14 +6,20 @@
 #include <heml/materials/parameter_slots.hpp>
 #include <heml/scenario/material_json.hpp>
 #include <heml/scenario/presets.hpp>
+#include <heml/scenario/scene_keys.hpp>
 #include <heml/scenario/vector_json.hpp>
 #include <heml/scenario/young_poisson.hpp>
-#include <limits>
 
 namespace heml {
 namespace {
 
-/// Keys other than parameters that only some laws accept.
+const LawInfo& law_from(const JsonCursor& key) {
+  std::vector<std::string_view> names;
+  for (const LawInfo& law : laws()) names.push_back(law.name);
+  return laws()[key.one_of(names)];
+}
+
+/// Keys that only some laws accept: the last of `materials[]`.
 struct ParticularKey {
   std::string_view name;
   bool (*taken_by)(const LawInfo&);
@@ -26,17 +32,16 @@ constexpr ParticularKey particular_keys[] = {
     {"relaxation", [](const LawInfo& law) { return law.has_volume_term; }},
     {"plasticity", [](const LawInfo& law) { return law.has_volume_term && !law.has_fibre; }},
 };
-
-const LawInfo& law_from(const JsonCursor& key) {
-  std::vector<std::string_view> names;
-  for (const LawInfo& law : laws()) names.push_back(law.name);
-  return laws()[key.one_of(names)];
-}
+constexpr std::span<const KeyInfo> material_keys = keys_of("materials[]");
+static_assert(std::equal(std::begin(particular_keys), std::end(particular_keys),
+                         material_keys.last(std::size(particular_keys)).begin(),
+                         [](const ParticularKey& key, const KeyInfo& info) { return key.name == info.name; }));
 
 /// Refuses keys that the law does not accept.
-void allow_keys_of(const LawInfo& law, const JsonCursor& entry) {
-  std::vector<std::string_view> names = {"law", "region", "density", "preset"};
-  if (law.takes_young_poisson) names.insert(names.end(), {"young", "poisson"});
+ObjectReader entry_of(const LawInfo& law, const JsonCursor& entry) {
+  std::vector<std::string_view> names;
+  for (const KeyInfo& key : material_keys.first(material_keys.size() - std::size(particular_keys)))
+    if (takes_key(law, key.name)) names.push_back(key.name);
   for (const ParameterInfo& info : law.parameters) names.push_back(info.name);
   for (const ParticularKey& key : particular_keys) {
     if (key.taken_by(law)) {
@@ -49,7 +54,7 @@ void allow_keys_of(const LawInfo& law, const JsonCursor& entry) {
                   fmt::format("it goes with {}", fmt::join(others, ", ")));
     }
   }
-  entry.allow(names);
+  return ObjectReader(entry, material_keys, names);
 }
 
 void add_scalar(const Quantity& quantity, Material& material) {
@@ -102,19 +107,19 @@ void read_fibre(const JsonCursor& key, Material& material) {
 }
 
 /// Reads viscosity, relaxation and plasticity.
-void read_memory(const JsonCursor& entry, Material& material) {
-  if (const auto viscosity = entry.find("viscosity")) material.viscosity = viscosity->non_negative();
-  if (const auto viscosity = entry.find("bulk_viscosity")) material.bulk_viscosity = viscosity->non_negative();
+void read_memory(const ObjectReader& entry, Material& material) {
+  entry.read("viscosity", material.viscosity);
+  entry.read("bulk_viscosity", material.bulk_viscosity);
   if (const auto relaxation = entry.find("relaxation"))
-    relaxation->each([&](const JsonCursor& term) {
-      term.allow({"gamma", "tau"});
-      material.relaxation.push_back({term["gamma"].positive(), term["tau"].positive()});
+    relaxation->each([&](const JsonCursor& key) {
+      const ObjectReader term(key, keys_of("materials[].relaxation[]"));
+      const double gamma = term.get<double>("gamma");
+      material.relaxation.push_back({gamma, term.get<double>("tau")});
     });
-  if (const auto plasticity = entry.find("plasticity")) {
-    plasticity->allow({"yield", "hardening"});
-    material.plasticity = {(*plasticity)["yield"].positive(), 0};
-    if (const auto hardening = plasticity->find("hardening"))
-      material.plasticity->hardening = hardening->non_negative();
+  if (const auto key = entry.find("plasticity")) {
+    const ObjectReader plasticity(*key, keys_of("materials[].plasticity"));
+    material.plasticity = {plasticity.get<double>("yield"), 0};
+    plasticity.read("hardening", material.plasticity->hardening);
   }
 }
 
@@ -153,22 +158,26 @@ Json parameters_json(const Material& material, const LawInfo& law) {
 
 bool uses_fields(const Material& material) { return !material.fields.empty() || !material.fibre_field.empty(); }
 
-RegionMaterial material_from(const JsonCursor& entry) {
-  if (entry.has("preset")) return preset_entry(entry);
+bool takes_key(const LawInfo& law, std::string_view name) {
+  for (const ParticularKey& key : particular_keys)
+    if (key.name == name) return key.taken_by(law);
+  return law.takes_young_poisson || (name != "young" && name != "poisson");
+}
+
+RegionMaterial material_from(const JsonCursor& key) {
+  if (key.has("preset")) return preset_entry(key);
   RegionMaterial result;
   Material& material = result.material;
-  const LawInfo& law = law_from(entry["law"]);
-  allow_keys_of(law, entry);
+  const LawInfo& law = law_from(key["law"]);
+  const ObjectReader entry = entry_of(law, key);
   material.law = law.name;
-  if (const auto region = entry.find("region"))
-    result.region = static_cast<int>(region->integer(std::numeric_limits<int>::min(), std::numeric_limits<int>::max()));
-  if (const auto density = entry.find("density")) material.density = density->positive();
-  read_parameters(entry, law, material);
+  entry.read("region", result.region);
+  entry.read("density", material.density);
+  read_parameters(key, law, material);
   if (law.has_fibre) read_fibre(entry["fibre"], material);
-  if (const auto term = entry.find("volume_term"))
-    material.volume_term = static_cast<VolumeTerm>(term->one_of(volume_term_names()));
+  entry.read("volume_term", material.volume_term);
   read_memory(entry, material);
-  check_values(entry, material);
+  check_values(key, material);
   return result;
 }
 

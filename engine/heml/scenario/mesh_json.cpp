@@ -2,19 +2,19 @@
 
 #include <algorithm>
 #include <heml/scenario/mesh_json.hpp>
+#include <heml/scenario/scene_keys.hpp>
 #include <heml/scenario/vector_json.hpp>
 
 namespace heml {
 namespace {
 
 constexpr double max_cells = 2e6;  // ten million tetrahedra
-constexpr long max_refined = 10'000'000;
 
 MeshSpec::Box box_from(const JsonCursor& key) {
-  key.allow({"size", "cells", "origin"});
-  MeshSpec::Box box{key["size"].vector(), Vec3::Zero(), {}};
+  const ObjectReader object(key, keys_of("mesh.box"));
+  MeshSpec::Box box{object.get<Vec3>("size"), Vec3::Zero(), {}};
   if (!(box.size.minCoeff() > 0)) key["size"].refuse("must be greater than 0 along x, y and z");
-  const JsonCursor cells = key["cells"];
+  const JsonCursor cells = object["cells"];
   if (cells.size() != 3) cells.refuse("must be three whole numbers [nx, ny, nz]");
   double product = 1;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -22,21 +22,21 @@ MeshSpec::Box box_from(const JsonCursor& key) {
     product *= box.cells[i];
   }
   if (product > max_cells) cells.refuse(fmt::format("must be at most {} cells in all", max_cells));
-  if (const auto origin = key.find("origin")) box.origin = origin->vector();
+  object.read("origin", box.origin);
   return box;
 }
 
 void read_tetgen(const JsonCursor& key, MeshSpec& mesh) {
-  key.allow({"radius_edge_ratio", "max_volume"});
-  if (const auto ratio = key.find("radius_edge_ratio")) mesh.radius_edge_ratio = ratio->between(1, 100);
-  if (const auto volume = key.find("max_volume")) mesh.max_volume = volume->positive();
+  const ObjectReader object(key, keys_of("mesh.tetgen"));
+  object.read("radius_edge_ratio", mesh.radius_edge_ratio);
+  object.read("max_volume", mesh.max_volume);
 }
 
 RefineGoal refine_from(const JsonCursor& key) {
-  key.allow({"error", "tets"});
+  const ObjectReader object(key, keys_of("mesh.refine"));
   RefineGoal goal;
-  if (const auto error = key.find("error")) goal.error = error->between(0.001, 1);
-  if (const auto tets = key.find("tets")) goal.tets = static_cast<int>(tets->integer(1, max_refined));
+  object.read("error", goal.error);
+  object.read("tets", goal.tets);
   return goal;
 }
 
@@ -67,22 +67,22 @@ std::string path_text(const std::filesystem::path& path, const std::filesystem::
 }
 
 MeshSpec mesh_from(const JsonCursor& key, const std::filesystem::path& folder) {
-  key.allow({"file", "surface", "tetgen", "box", "asset", "scale", "rotate", "translate", "refine"});
+  const ObjectReader object(key, keys_of("mesh"));
   MeshSpec mesh;
   const std::string kind = key.only_one_of({"file", "surface", "box", "asset"});
   if (kind == "file") mesh.file = path_from(key["file"], folder);
   if (kind == "surface") mesh.surface = path_from(key["surface"], folder);
   if (kind == "box") mesh.box = box_from(key["box"]);
   if (kind == "asset") mesh.asset = asset_from(key["asset"]);
-  if (const auto tetgen = key.find("tetgen")) {
+  if (const auto tetgen = object.find("tetgen")) {
     if (kind != "surface") tetgen->fail("goes with a surface", "take it away, or give mesh.surface");
     read_tetgen(*tetgen, mesh);
   }
-  if (const auto scale = key.find("scale")) mesh.scale = scale->positive();
-  if (const auto rotate = key.find("rotate"))
+  object.read("scale", mesh.scale);
+  if (const auto rotate = object.find("rotate"))
     read_rotation(*rotate, mesh.rotate_axis, mesh.rotate_origin, mesh.rotate_degrees);
-  if (const auto translate = key.find("translate")) mesh.translate = translate->vector();
-  if (const auto refine = key.find("refine")) mesh.refine = refine_from(*refine);
+  object.read("translate", mesh.translate);
+  if (const auto refine = object.find("refine")) mesh.refine = refine_from(*refine);
   return mesh;
 }
 
@@ -108,10 +108,10 @@ Json mesh_json(const MeshSpec& mesh, const std::filesystem::path& folder) {
 }
 
 void read_rotation(const JsonCursor& key, Vec3& axis, Vec3& origin, double& degrees) {
-  key.allow({"axis", "origin", "degrees"});
-  axis = key["axis"].direction();
-  degrees = key["degrees"].number();
-  if (const auto given = key.find("origin")) origin = given->vector();
+  const ObjectReader object(key, keys_of("mesh.rotate"));
+  axis = object.get<Vec3>("axis");
+  degrees = object.get<double>("degrees");
+  object.read("origin", origin);
 }
 
 Json rotation_json(const Vec3& axis, const Vec3& origin, double degrees) {

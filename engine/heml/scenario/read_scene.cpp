@@ -12,10 +12,10 @@
 #include <heml/scenario/material_json.hpp>
 #include <heml/scenario/mesh_json.hpp>
 #include <heml/scenario/scene.hpp>
+#include <heml/scenario/scene_keys.hpp>
 #include <heml/scenario/solver_json.hpp>
 #include <heml/scenario/text_file.hpp>
 #include <heml/scenario/view_json.hpp>
-#include <limits>
 
 namespace heml {
 namespace {
@@ -50,37 +50,35 @@ std::vector<RegionMaterial> materials_from(const JsonCursor& key) {
 }
 
 void read_outputs(const JsonCursor& key, Scene& scene) {
-  key.allow({"times", "positions", "vtu", "markers", "history", "every"});
-  if (const auto times = key.find("times")) {
+  const ObjectReader object(key, keys_of("outputs"));
+  if (const auto times = object.find("times")) {
     times->each([&](const JsonCursor& time) {
       scene.output_times.push_back(time.non_negative());
       if (time.number() > scene.solver.duration)
         time.refuse(fmt::format("must be at most solver.duration, {} s", scene.solver.duration));
     });
   }
-  if (const auto positions = key.find("positions")) scene.output_positions = positions->flag();
-  if (const auto vtu = key.find("vtu")) scene.output_vtu = vtu->flag();
-  if (const auto markers = key.find("markers"))
+  object.read("positions", scene.output_positions);
+  object.read("vtu", scene.output_vtu);
+  if (const auto markers = object.find("markers"))
     markers->each([&](const JsonCursor& entry) { scene.markers.push_back(marker_from(entry)); });
-  if (const auto history = key.find("history")) scene.output_history = history->flag();
-  if (const auto every = key.find("every")) scene.output_every = every->positive();
+  object.read("history", scene.output_history);
+  object.read("every", scene.output_every);
 }
 
 void read_initial(const JsonCursor& key, const fs::path& folder, Scene& scene) {
-  key.allow({"velocity", "positions"});
-  if (const auto velocity = key.find("velocity")) scene.initial_velocity = velocity->vector();
-  if (const auto positions = key.find("positions")) scene.initial_positions = path_from(*positions, folder);
+  const ObjectReader object(key, keys_of("initial"));
+  object.read("velocity", scene.initial_velocity);
+  if (const auto positions = object.find("positions")) scene.initial_positions = path_from(*positions, folder);
 }
 
-MeshFingerprint identity_from(const JsonCursor& key) {
-  key.allow({"nodes", "tets", "mesh", "instructions", "format", "kernel_revision", "build"});
-  constexpr long most = std::numeric_limits<int>::max();
-  return {static_cast<int>(key["nodes"].integer(0, most)), static_cast<int>(key["tets"].integer(0, most)),
-          key["mesh"].hash()};
+MeshFingerprint identity_from(const ObjectReader& recorded) {
+  const int nodes = recorded.get<int>("nodes"), tets = recorded.get<int>("tets");
+  return {nodes, tets, recorded["mesh"].hash()};
 }
 
 /// Of a recording from before they were told: none.
-std::optional<InstructionSet> instructions_from(const JsonCursor& recorded) {
+std::optional<InstructionSet> instructions_from(const ObjectReader& recorded) {
   const auto key = recorded.find("instructions");
   if (!key) return std::nullopt;
   const std::string name = key->text();
@@ -89,44 +87,42 @@ std::optional<InstructionSet> instructions_from(const JsonCursor& recorded) {
   key->fail(fmt::format("\"{}\" is no instruction set", name), "give portable, avx2 or avx512");
 }
 
-RecordedBy recorded_by_from(const JsonCursor& recorded) {
+RecordedBy recorded_by_from(const ObjectReader& recorded) {
   RecordedBy by;
-  if (const auto format = recorded.find("format")) by.format = static_cast<int>(format->integer(1, recording_format));
-  if (const auto revision = recorded.find("kernel_revision"))
-    by.kernel_revision = revision->integer(0, std::numeric_limits<int>::max());
-  if (const auto build = recorded.find("build")) by.build = build->text();
+  recorded.read("format", by.format);
+  recorded.read("kernel_revision", by.kernel_revision);
+  recorded.read("build", by.build);
   return by;
 }
 
 /// Everything but the script.
 Scene scene_from(const JsonCursor& key, const fs::path& folder) {
   check_version(key);
-  key.allow({"schema_version", "name", "title", "description", "mesh", "materials", "boundary", "loads", "tables",
-             "self_contact", "tearing", "gravity", "solver", "outputs", "initial", "view", "events", "checkpoints",
-             "recorded"});
+  const ObjectReader object(key, keys_of(""));
   Scene scene;
   scene.file = key.file();
-  if (const auto name = key.find("name")) scene.name = name->text();
-  if (const auto title = key.find("title")) scene.title = title->text();
-  if (const auto description = key.find("description")) scene.description = description->text();
-  scene.mesh = mesh_from(key["mesh"], folder);
-  scene.materials = materials_from(key["materials"]);
-  if (const auto boundary = key.find("boundary"))
+  object.read("name", scene.name);
+  object.read("title", scene.title);
+  object.read("description", scene.description);
+  scene.mesh = mesh_from(object["mesh"], folder);
+  scene.materials = materials_from(object["materials"]);
+  if (const auto boundary = object.find("boundary"))
     boundary->each([&](const JsonCursor& entry) { scene.boundary.push_back(boundary_from(entry)); });
-  if (const auto loads = key.find("loads"))
+  if (const auto loads = object.find("loads"))
     loads->each([&](const JsonCursor& entry) { scene.loads.push_back(load_from(entry)); });
-  if (const auto tables = key.find("tables")) scene.tables = tables_from(*tables);
-  if (const auto contact = key.find("self_contact")) scene.self_contact = self_contact_from(*contact);
-  if (const auto tearing = key.find("tearing")) scene.tearing = tearing_from(*tearing);
-  if (const auto gravity = key.find("gravity")) scene.gravity = gravity->vector();
-  if (const auto solver = key.find("solver")) scene.solver = solver_from(*solver);
-  if (const auto outputs = key.find("outputs")) read_outputs(*outputs, scene);
-  if (const auto initial = key.find("initial")) read_initial(*initial, folder, scene);
-  if (const auto view = key.find("view")) scene.view = view_from(*view);
-  if (const auto recorded = key.find("recorded")) {
-    scene.recorded_mesh = identity_from(*recorded);
-    scene.recorded_instructions = instructions_from(*recorded);
-    scene.recorded_by = recorded_by_from(*recorded);
+  if (const auto tables = object.find("tables")) scene.tables = tables_from(*tables);
+  if (const auto contact = object.find("self_contact")) scene.self_contact = self_contact_from(*contact);
+  if (const auto tearing = object.find("tearing")) scene.tearing = tearing_from(*tearing);
+  object.read("gravity", scene.gravity);
+  if (const auto solver = object.find("solver")) scene.solver = solver_from(*solver);
+  if (const auto outputs = object.find("outputs")) read_outputs(*outputs, scene);
+  if (const auto initial = object.find("initial")) read_initial(*initial, folder, scene);
+  if (const auto view = object.find("view")) scene.view = view_from(*view);
+  if (const auto recorded = object.find("recorded")) {
+    const ObjectReader made(*recorded, keys_of("recorded"));
+    scene.recorded_mesh = identity_from(made);
+    scene.recorded_instructions = instructions_from(made);
+    scene.recorded_by = recorded_by_from(made);
   }
   return scene;
 }

@@ -3,17 +3,16 @@
 #include <algorithm>
 #include <heml/base/error.hpp>
 #include <heml/base/log.hpp>
+#include <heml/scenario/command_table.hpp>
 #include <heml/scenario/schedule.hpp>
 #include <heml/scenario/selection.hpp>
 
 namespace heml {
 
 void set_nodes(Command& command, const TetMesh& mesh, const std::vector<Vec3>& points) {
-  const auto node = [&](std::size_t k) { return nearest_surface_node(mesh, points.at(k)); };
-  if (auto* grasp = std::get_if<Grasp>(&command)) grasp->node = node(0);
-  if (auto* pin = std::get_if<PinTissue>(&command)) pin->node = node(0);
-  if (auto* unpin = std::get_if<Unpin>(&command)) unpin->node = node(0);
-  if (auto* suture = std::get_if<SutureTissue>(&command)) suture->nodes = {node(0), node(1)};
+  std::size_t next = 0;
+  for (const MeshReference& reference : info_of(command).references(command))
+    if (reference.kind == MeshReference::Kind::node) *reference.number = nearest_surface_node(mesh, points.at(next++));
 }
 
 Schedule::Schedule(const Scene& scene, const TetMesh& mesh) : file_(scene.file), events_(scene.events) {
@@ -21,25 +20,17 @@ Schedule::Schedule(const Scene& scene, const TetMesh& mesh) : file_(scene.file),
   // Cuts add nodes and elements: the world tells whether those are there.
   const bool cuts = std::any_of(events_.begin(), events_.end(),
                                 [](const Event& event) { return std::holds_alternative<CutTissue>(event.command); });
-  for (const Event& event : events_) {
-    if (cuts) break;
-    const auto expect = [&](int number, std::size_t count, const std::string& key, const char* kind) {
-      if (number >= 0 && static_cast<std::size_t>(number) < count) return;
-      throw InputError(file_, fmt::format("events: step {}: {}", event.tick, key), fmt::format("is {}", number),
-                       fmt::format("the mesh has {} 0 to {}", kind, count - 1));
-    };
-    if (const auto* grasp = std::get_if<Grasp>(&event.command))
-      expect(grasp->node, mesh.nodes.size(), "grasp.node", "nodes");
-    if (const auto* pin = std::get_if<PinTissue>(&event.command))
-      expect(pin->node, mesh.nodes.size(), "pin.node", "nodes");
-    if (const auto* unpin = std::get_if<Unpin>(&event.command); unpin && unpin->node)
-      expect(*unpin->node, mesh.nodes.size(), "release.node", "nodes");
-    if (const auto* suture = std::get_if<SutureTissue>(&event.command))
-      for (const int node : suture->nodes) expect(node, mesh.nodes.size(), "suture.nodes", "nodes");
-    if (const auto* remove = std::get_if<RemoveElements>(&event.command))
-      for (std::size_t k = 0; k < remove->which.tets.size(); ++k)
-        expect(remove->which.tets[k], mesh.tets.size(), fmt::format("remove.tets[{}]", k), "elements");
-  }
+  if (cuts) return;
+  for (Event& event : events_)
+    for (const MeshReference& reference : info_of(event.command).references(event.command)) {
+      const bool is_node = reference.kind == MeshReference::Kind::node;
+      const std::size_t count = is_node ? mesh.nodes.size() : mesh.tets.size();
+      const int number = *reference.number;
+      if (number >= 0 && static_cast<std::size_t>(number) < count) continue;
+      throw InputError(file_, fmt::format("events: step {}: {}", event.tick, reference.key),
+                       fmt::format("is {}", number),
+                       fmt::format("the mesh has {} 0 to {}", is_node ? "nodes" : "elements", count - 1));
+    }
 }
 
 std::span<const Event> Schedule::due(long tick) {

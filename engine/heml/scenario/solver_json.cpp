@@ -1,24 +1,21 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include <algorithm>
+#include <heml/scenario/scene_keys.hpp>
 #include <heml/scenario/solver_json.hpp>
+#include <vector>
 
 namespace heml {
 namespace {
 
-constexpr std::string_view elements[] = {"p1", "nodal_pressure"};
 constexpr double max_ticks = 1e12;
-constexpr double fastest_rate = 1e6;   // Hz
-constexpr long max_iterations = 1000;  // of a stage
 
 Budget budget_from(const JsonCursor& key) {
-  key.allow({"iterations", "milliseconds"});
+  const ObjectReader object(key, keys_of("solver.budget"));
   Budget budget;
   if (key.only_one_of({"iterations", "milliseconds"}) == "iterations")
-    budget.iterations = static_cast<int>(key["iterations"].integer(1, max_iterations));
+    budget.iterations = object.get<int>("iterations");
   else
-    budget.milliseconds = key["milliseconds"].positive();
+    budget.milliseconds = object.get<double>("milliseconds");
   return budget;
 }
 
@@ -38,41 +35,40 @@ double default_rate(Integrator integrator) {
 
 }  // namespace
 
-Integrator integrator_from(const JsonCursor& key) {
-  std::vector<std::string_view> names;
-  for (const IntegratorInfo& info : all_integrators()) names.emplace_back(info.name);
-  return all_integrators()[key.one_of(names)].id;
+std::span<const std::string_view> integrator_names() {
+  static const auto names = [] {
+    std::vector<std::string_view> all;
+    for (const IntegratorInfo& info : all_integrators()) all.emplace_back(info.name);
+    return all;
+  }();
+  return names;
 }
 
+Integrator integrator_from(const JsonCursor& key) { return static_cast<Integrator>(key.one_of(integrator_names())); }
+
 SolverSettings solver_from(const JsonCursor& key) {
-  key.allow({"integrator", "step", "rate", "duration", "damping", "precision", "threads", "element", "continuation",
-             "recovery", "tolerance", "budget", "minimiser", "projection", "preconditioner"});
+  const ObjectReader object(key, keys_of("solver"));
   SolverSettings solver;
-  if (const auto integrator = key.find("integrator")) solver.integrator = integrator_from(*integrator);
+  object.read("integrator", solver.integrator);
   if (key.has("step") && key.has("rate")) key.fail("holds step and rate", "give one: a step is one tick");
-  if (const auto step = key.find("step")) solver.step = step->positive();
+  object.read("step", solver.step);
   solver.rate = default_rate(solver.integrator);
-  if (const auto rate = key.find("rate")) solver.rate = rate->between(1, fastest_rate);
-  if (const auto duration = key.find("duration")) solver.duration = duration->non_negative();
+  object.read("rate", solver.rate);
+  object.read("duration", solver.duration);
   if (!(solver.duration / solver.tick() <= max_ticks))
     key.fail(fmt::format("a duration of {} s is too many steps of {} s", solver.duration, solver.tick()),
              fmt::format("at most {} steps", max_ticks));
-  if (const auto damping = key.find("damping")) solver.damping = damping->non_negative();
-  if (const auto precision = key.find("precision")) {
-    constexpr std::string_view names[] = {"double", "float"};
-    solver.single_precision = precision->one_of(names) == 1;
-  }
-  if (const auto threads = key.find("threads")) solver.threads = static_cast<int>(threads->integer(0, max_threads));
-  if (const auto element = key.find("element")) solver.nodal_pressure = element->one_of(elements) == 1;
-  if (const auto continuation = key.find("continuation")) solver.continuation = continuation->flag();
-  if (const auto recovery = key.find("recovery")) solver.recovery = recovery->flag();
-  if (const auto tolerance = key.find("tolerance")) solver.tolerance = tolerance->positive();
-  if (const auto budget = key.find("budget")) solver.budget = budget_from(*budget);
-  if (const auto name = key.find("minimiser")) solver.minimiser = static_cast<Minimiser>(name->one_of(minimiser_names));
-  if (const auto name = key.find("projection"))
-    solver.projection = static_cast<Projection>(name->one_of(projection_names));
-  if (const auto name = key.find("preconditioner"))
-    solver.preconditioner = static_cast<Preconditioner>(name->one_of(preconditioner_names));
+  object.read("damping", solver.damping);
+  if (const auto precision = object.choice("precision")) solver.single_precision = *precision == 1;
+  object.read("threads", solver.threads);
+  if (const auto element = object.choice("element")) solver.nodal_pressure = *element == 1;
+  object.read("continuation", solver.continuation);
+  object.read("recovery", solver.recovery);
+  object.read("tolerance", solver.tolerance);
+  if (const auto budget = object.find("budget")) solver.budget = budget_from(*budget);
+  object.read("minimiser", solver.minimiser);
+  object.read("projection", solver.projection);
+  object.read("preconditioner", solver.preconditioner);
   return solver;
 }
 
@@ -84,9 +80,9 @@ Json solver_json(const SolverSettings& solver) {
     json["rate"] = solver.rate;
   json["duration"] = solver.duration;
   json["damping"] = solver.damping;
-  json["precision"] = solver.single_precision ? "float" : "double";
+  json["precision"] = precision_names[solver.single_precision ? 1 : 0];
   json["threads"] = solver.threads;
-  json["element"] = elements[solver.nodal_pressure ? 1 : 0];
+  json["element"] = element_names[solver.nodal_pressure ? 1 : 0];
   json["continuation"] = solver.continuation;
   json["recovery"] = solver.recovery;
   if (solver.tolerance) json["tolerance"] = *solver.tolerance;

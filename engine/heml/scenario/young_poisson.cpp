@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <heml/base/error.hpp>
+#include <heml/scenario/scene_keys.hpp>
 #include <heml/scenario/young_poisson.hpp>
 
 namespace heml {
@@ -21,8 +22,7 @@ Quantity quantity_from(const JsonCursor& key) {
     if (!key.json().is_number()) key.refuse("must be a number, or {\"field\": ...} of the mesh");
     return {key.number(), ""};
   }
-  key.allow({"field"});
-  const std::string field = key["field"].text();
+  const std::string field = ObjectReader(key, keys_of("materials[].young")).get<std::string>("field");
   if (field.empty()) key["field"].refuse("must be the name of a field of the mesh");
   return {1, field};
 }

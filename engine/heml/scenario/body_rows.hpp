@@ -1,0 +1,163 @@
+#pragma once
+// Rows of the table of commands: what changes the body, its material and how its motion is computed.
+#include <heml/scenario/command_row.hpp>
+#include <heml/scenario/entries_json.hpp>
+#include <heml/scenario/material_json.hpp>
+#include <heml/scenario/scene_keys.hpp>
+#include <heml/scenario/vector_json.hpp>
+
+namespace heml::command_rows {
+
+template <>
+struct Row<SetMaterial> : CommonRow {
+  static constexpr std::string_view key = "material",
+                                    example = R"({"region": 2, "law": "neo_hookean", "young": 2e4, "poisson": 0.4})",
+                                    meaning = "replaces the material of a region, or the default; the body goes on";
+  static constexpr ValueForm value_form = form::other("entry as of the scene's `materials`, without fields");
+  static Command read(const JsonCursor& value, Points&) {
+    const RegionMaterial entry = material_from(value);
+    if (uses_fields(entry.material)) value.fail("takes a field of the mesh", "a material switched to takes numbers");
+    return SetMaterial{entry.region, entry.material};
+  }
+  static Json write(const SetMaterial& set) { return material_json({set.region, set.material}); }
+};
+
+template <>
+struct Row<SetDamping> : CommonRow {
+  static constexpr std::string_view key = "damping", example = "2", unit = "1/s",
+                                    meaning = "sets the damping proportional to mass";
+  static constexpr ValueForm value_form = form::non_negative;
+  static Command read(const JsonCursor& value, Points&) { return SetDamping{value_of<double>(value, value_form)}; }
+  static Json write(const SetDamping& set) { return set.damping; }
+};
+
+template <>
+struct Row<SetGravity> : CommonRow {
+  static constexpr std::string_view key = "gravity", example = "[0, -9.81, 0]", unit = "m/s²", meaning = "sets gravity";
+  static constexpr ValueForm value_form = form::vector;
+  static Command read(const JsonCursor& value, Points&) { return SetGravity{value_of<Vec3>(value, value_form)}; }
+  static Json write(const SetGravity& set) { return vector_json(set.gravity); }
+};
+
+template <>
+struct Row<SetIntegrator> : CommonRow {
+  static constexpr std::string_view key = "integrator", example = "\"tr_bdf2\"",
+                                    meaning = "changes the method; `static` cannot be entered or left";
+  static constexpr ValueForm value_form = form::one_of(integrator_names);
+  static Command read(const JsonCursor& value, Points&) {
+    return SetIntegrator{value_of<Integrator>(value, value_form)};
+  }
+  static Json write(const SetIntegrator& set) { return integrator_name(set.integrator); }
+};
+
+template <>
+struct Row<SetBudget> : CommonRow {
+  static constexpr std::string_view key = "budget", example = "2",
+                                    meaning =
+                                        "sets the iterations of an implicit stage; sent by sessions whose budget "
+                                        "is in milliseconds";
+  static constexpr ValueForm value_form = form::whole(1, 1000);
+  static Command read(const JsonCursor& value, Points&) { return SetBudget{value_of<int>(value, value_form)}; }
+  static Json write(const SetBudget& set) { return set.iterations; }
+};
+
+template <>
+struct Row<SetStepCost> : CommonRow {
+  static constexpr std::string_view key = "step_cost", example = "40", unit = "ns",
+                                    meaning =
+                                        "sets what an explicit step costs an element, for `auto`; sent by "
+                                        "sessions, which measure it";
+  static constexpr ValueForm value_form = form::positive;
+  static Command read(const JsonCursor& value, Points&) { return SetStepCost{value_of<double>(value, value_form)}; }
+  static Json write(const SetStepCost& set) { return set.nanoseconds; }
+};
+
+template <>
+struct Row<RemoveElements> : CommonRow {
+  static constexpr std::string_view key = "remove", example = R"({"sphere": [[0.05, 0.01, 0.01], 0.008]})",
+                                    meaning = "takes elements out of the body, with their mass and energy";
+  static constexpr ValueForm value_form = object_form;
+  static constexpr std::span<const KeyInfo> keys = scene_keys::elements;
+  static constexpr bool is_edit = true;
+  static constexpr std::optional<Tool> tool = Tool::removal;
+  static constexpr bool takes_up = true;
+  static Command read(const JsonCursor& value, Points&) { return RemoveElements{elements_from(value)}; }
+  static Json write(const RemoveElements& remove) { return elements_json(remove.which); }
+  static References references(RemoveElements& remove) {
+    References result;
+    for (std::size_t k = 0; k < remove.which.tets.size(); ++k)
+      result.push_back({MeshReference::Kind::element, &remove.which.tets[k], fmt::format("remove.tets[{}]", k)});
+    return result;
+  }
+};
+
+template <>
+struct Row<CutTissue> : CommonRow {
+  static constexpr std::string_view
+      key = "cut",
+      example = R"({"sweep": [[[0.05, 1, 1], [0.05, 1, -1]], [[0.05, -1, 1], [0.05, -1, -1]]]})",
+      meaning = "parts the tissue along what a blade sweeps";
+  static constexpr ValueForm value_form = object_form;
+  static constexpr KeyInfo cut_keys[] = {
+      {"sweep", form::other("list of `[[x, y, z], [x, y, z]]`, two or more"), "m", required,
+       "the two ends of the blade at successive times"},
+      {"goes_on", form::flag, "", "`false`", "one stroke, and one edit to undo, with the cut before"}};
+  static constexpr std::span<const KeyInfo> keys = cut_keys;
+  static constexpr bool is_edit = true;
+  static constexpr std::optional<Tool> tool = Tool::cut;
+  static bool takes_up(const CutTissue& cut) { return !cut.continues_stroke; }
+  static Command read(const JsonCursor& value, Points&) {
+    const ObjectReader object(value, keys);
+    CutTissue cut;
+    object["sweep"].each([&](const JsonCursor& blade) {
+      if (blade.size() != 2) blade.refuse("must be the two ends of the blade, [[x, y, z], [x, y, z]]");
+      cut.sweep.blades.push_back({blade[0].vector(), blade[1].vector()});
+    });
+    if (cut.sweep.blades.size() < 2) object["sweep"].refuse("must have the blade at two times at least");
+    object.read("goes_on", cut.continues_stroke);
+    return cut;
+  }
+  static Json write(const CutTissue& cut) {
+    Json sweep = Json::array();
+    for (const auto& [tip, end] : cut.sweep.blades) sweep.push_back({vector_json(tip), vector_json(end)});
+    Json json = {{"sweep", std::move(sweep)}};
+    if (cut.continues_stroke) json["goes_on"] = true;
+    return json;
+  }
+};
+
+/// Commands without a setting: their value is `true`.
+template <class C>
+struct PlainRow : CommonRow {
+  static constexpr std::string_view example = "true";
+  static constexpr ValueForm value_form = true_form;
+  static Command read(const JsonCursor& value, Points&) {
+    expect_true(value);
+    return C{};
+  }
+  static Json write(const C&) { return true; }
+};
+
+template <>
+struct Row<AdoptPreconditioner> : PlainRow<AdoptPreconditioner> {
+  static constexpr std::string_view key = "factor",
+                                    meaning =
+                                        "preconditions by the body as it is now; sent by sessions, when that has "
+                                        "arrived from another thread";
+};
+
+template <>
+struct Row<Undo> : PlainRow<Undo> {
+  static constexpr std::string_view key = "undo", meaning = "takes back the last removal or stroke";
+  static constexpr bool is_edit = true;
+  static constexpr std::optional<Tool> tool = Tool::undo;
+  static constexpr bool takes_up = true;
+};
+
+template <>
+struct Row<Reset> : PlainRow<Reset> {
+  static constexpr std::string_view key = "reset",
+                                    meaning = "puts the body back to its initial state; ticks go on counting";
+};
+
+}  // namespace heml::command_rows

@@ -1,0 +1,200 @@
+#pragma once
+// Rows of the table of commands: tools that hold, bear on and sew the body.
+#include <heml/scenario/command_row.hpp>
+#include <heml/scenario/entries_json.hpp>
+#include <heml/scenario/vector_json.hpp>
+
+namespace heml::command_rows {
+
+/// A node by its number, or by a place that the schedule finds the nearest surface node of.
+inline int node_from(const ObjectReader& object, Points& points) {
+  if (object.key().only_one_of({"node", "point"}) == "node") return object.get<int>("node");
+  points = {object.get<Vec3>("point")};
+  return 0;
+}
+
+template <class Patch>
+Patch patch_from(const JsonCursor& value, Points& points) {
+  const ObjectReader object(value, patch_keys);
+  Patch patch;
+  patch.node = node_from(object, points);
+  object.read("radius", patch.radius);
+  return patch;
+}
+
+template <>
+struct Row<Grasp> : CommonRow {
+  static constexpr std::string_view key = "grasp", example = R"({"node": 3, "radius": 0.01})",
+                                    meaning = "takes hold of surface nodes with a spring; replaces the grasp before";
+  static constexpr ValueForm value_form = object_form;
+  static constexpr std::span<const KeyInfo> keys = patch_keys;
+  static constexpr std::optional<Tool> tool = Tool::grasp;
+  static constexpr bool takes_up = true;
+  static Command read(const JsonCursor& value, Points& points) { return patch_from<Grasp>(value, points); }
+  static Json write(const Grasp& grasp) { return {{"node", grasp.node}, {"radius", grasp.radius}}; }
+  static References references(Grasp& grasp) { return {{node_kind, &grasp.node, "grasp.node"}}; }
+};
+
+template <>
+struct Row<MoveTool> : CommonRow {
+  static constexpr std::string_view key = "move", example = "[0.1, 0, 0]", unit = "m",
+                                    meaning = "moves the tool of the grasp there";
+  static constexpr ValueForm value_form = form::vector;
+  static constexpr std::optional<Tool> tool = Tool::grasp;
+  static Command read(const JsonCursor& value, Points&) { return MoveTool{value_of<Vec3>(value, value_form)}; }
+  static Json write(const MoveTool& move) { return vector_json(move.target); }
+};
+
+template <>
+struct Row<Release> : CommonRow {
+  static constexpr std::string_view key = "release", example = "true", meaning = "ends the grasp";
+  static constexpr ValueForm value_form = true_form;
+  static constexpr std::optional<Tool> tool = Tool::grasp;
+  static Command read(const JsonCursor& value, Points& points);
+  static Json write(const Release&) { return true; }
+};
+
+template <>
+struct Row<PinTissue> : CommonRow {
+  static constexpr std::string_view key = "pin", example = R"({"node": 3, "radius": 0.01})",
+                                    meaning = "holds surface nodes exactly where they are";
+  static constexpr ValueForm value_form = object_form;
+  static constexpr std::span<const KeyInfo> keys = patch_keys;
+  static constexpr std::optional<Tool> tool = Tool::pin;
+  static constexpr bool takes_up = true;
+  static Command read(const JsonCursor& value, Points& points) { return patch_from<PinTissue>(value, points); }
+  static Json write(const PinTissue& pin) { return {{"node", pin.node}, {"radius", pin.radius}}; }
+  static References references(PinTissue& pin) { return {{node_kind, &pin.node, "pin.node"}}; }
+};
+
+template <>
+struct Row<Unpin> : CommonRow {
+  static constexpr std::string_view key = "release", example = R"({"node": 3})",
+                                    meaning = "removes the pin that holds the node; `\"pins\"`: all pins";
+  static constexpr ValueForm value_form = form::other("object, or `\"pins\"`");
+  static constexpr KeyInfo unpin_keys[] = {node_row, point_row};
+  static constexpr std::span<const KeyInfo> keys = unpin_keys;
+  static constexpr std::optional<Tool> tool = Tool::pin;
+  static Json write(const Unpin& unpin) { return unpin.node ? Json{{"node", *unpin.node}} : Json("pins"); }
+  static References references(Unpin& unpin) {
+    return unpin.node ? References{{node_kind, &*unpin.node, "release.node"}} : References();
+  }
+};
+
+template <>
+struct Row<SetTables> : CommonRow {
+  static constexpr std::string_view key = "tables",
+                                    example = R"([{"point": [0, 0, 0], "normal": [0, 1, 0], "friction": 0.3}])",
+                                    meaning = "replaces all tables";
+  static constexpr ValueForm value_form = form::other("list as of the scene's `tables`");
+  static constexpr std::optional<Tool> tool = Tool::tables;
+  static constexpr bool takes_up = true;
+  static Command read(const JsonCursor& value, Points&) { return SetTables{tables_from(value)}; }
+  static Json write(const SetTables& set) { return tables_json(set.tables); }
+};
+
+template <>
+struct Row<MoveProbe> : CommonRow {
+  static constexpr std::string_view key = "probe",
+                                    example = R"({"radius": 0.004, "path": [[0, 0.1, 0], [0, 0.05, 0]]})",
+                                    meaning =
+                                        "moves a rigid rod with round ends along a path, from where it is, or from the "
+                                        "first place of the path";
+  static constexpr ValueForm value_form = object_form;
+  static constexpr KeyInfo probe_keys[] = {
+      {"radius", form::positive, "m", required, "of the tip and the rod"},
+      {"shaft", form::vector, "m", "", "from the tip's centre to the other end of the axis; 0: a ball"},
+      {"friction", form::non_negative, "", "", "Coulomb's coefficient"},
+      {"path", form::other("list of `[x, y, z]`, one or more"), "m", required, "places of the tip's centre"},
+      {"speed", form::positive, "m/s", "", "along the path"}};
+  static constexpr std::span<const KeyInfo> keys = probe_keys;
+  static constexpr std::optional<Tool> tool = Tool::probe;
+  static constexpr bool takes_up = true;
+  static Command read(const JsonCursor& value, Points&) {
+    const ObjectReader object(value, keys);
+    MoveProbe probe;
+    probe.radius = object.get<double>("radius");
+    object.read("shaft", probe.shaft);
+    object.read("friction", probe.friction);
+    object.read("speed", probe.speed);
+    object["path"].each([&](const JsonCursor& place) { probe.path.push_back(place.vector()); });
+    if (probe.path.empty()) object["path"].fail("is empty", "give one place of the tip or more");
+    return probe;
+  }
+  static Json write(const MoveProbe& probe) {
+    Json path = Json::array();
+    for (const Vec3& place : probe.path) path.push_back(vector_json(place));
+    return {{"radius", probe.radius},
+            {"shaft", vector_json(probe.shaft)},
+            {"friction", probe.friction},
+            {"path", std::move(path)},
+            {"speed", probe.speed}};
+  }
+};
+
+template <>
+struct Row<WithdrawProbe> : CommonRow {
+  static constexpr std::string_view key = "release", example = "\"probe\"", meaning = "takes the probe away";
+  static constexpr ValueForm value_form = form::other("`\"probe\"`");
+  static constexpr std::optional<Tool> tool = Tool::probe;
+  static Json write(const WithdrawProbe&) { return "probe"; }
+};
+
+template <>
+struct Row<SutureTissue> : CommonRow {
+  static constexpr std::string_view key = "suture", example = R"({"nodes": [3, 8], "length": 0, "over": 0.5})",
+                                    meaning = "ties two nodes by a stiff link that is drawn in";
+  static constexpr ValueForm value_form = object_form;
+  static constexpr std::string_view ends = "one of `nodes`, `points`";
+  static constexpr KeyInfo suture_keys[] = {
+      {"nodes", form::other("two whole numbers ≥ 0"), "", ends, "in the order of the mesh file"},
+      {"points", form::other("`[[x, y, z], [x, y, z]]`"), "m", ends,
+       "the nodes of the surface nearest to them at rest"},
+      {"length", form::non_negative, "m", "", "of the link in the end"},
+      {"over", form::non_negative, "s", "", "time of drawing in"}};
+  static constexpr std::span<const KeyInfo> keys = suture_keys;
+  static constexpr std::optional<Tool> tool = Tool::suture;
+  static constexpr bool takes_up = true;
+  static Command read(const JsonCursor& value, Points& points) {
+    const ObjectReader object(value, keys);
+    SutureTissue suture;
+    const std::string kind = value.only_one_of({"nodes", "points"});
+    if (value[kind].size() != 2) value[kind].refuse("must be two, one for each end");
+    for (std::size_t end = 0; end < 2; ++end)
+      if (kind == "nodes")
+        suture.nodes[end] = value_of<int>(value[kind][end], node_row.form);
+      else
+        points.push_back(value[kind][end].vector());
+    object.read("length", suture.length);
+    object.read("over", suture.ramp_time);
+    return suture;
+  }
+  static Json write(const SutureTissue& suture) {
+    return {{"nodes", suture.nodes}, {"length", suture.length}, {"over", suture.ramp_time}};
+  }
+  static References references(SutureTissue& suture) {
+    return {{node_kind, &suture.nodes[0], "suture.nodes"}, {node_kind, &suture.nodes[1], "suture.nodes"}};
+  }
+};
+
+template <>
+struct Row<CutSutures> : CommonRow {
+  static constexpr std::string_view key = "release", example = "\"sutures\"", meaning = "takes out all sutures";
+  static constexpr ValueForm value_form = form::other("`\"sutures\"`");
+  static constexpr std::optional<Tool> tool = Tool::suture;
+  static Json write(const CutSutures&) { return "sutures"; }
+};
+
+inline Command Row<Release>::read(const JsonCursor& value, Points& points) {
+  if (value.json().is_object()) return Unpin{node_from(ObjectReader(value, Row<Unpin>::keys), points)};
+  if (value.json().is_string()) {
+    if (value.text() == "pins") return Unpin{};
+    if (value.text() == "probe") return WithdrawProbe{};
+    if (value.text() == "sutures") return CutSutures{};
+    value.refuse("must be true (the grasp), \"pins\", \"probe\", \"sutures\", or {\"node\": n} of a pin");
+  }
+  expect_true(value);
+  return Release{};
+}
+
+}  // namespace heml::command_rows
