@@ -6,6 +6,10 @@
 #include <string>
 #include <vector>
 
+namespace CLI {
+class App;
+}
+
 namespace heml {
 
 /// app/docs/commands.md, "Exit codes".
@@ -151,5 +155,11 @@ struct MeshArguments {
   double scale = 1;
 };
 int mesh_surface(const MeshArguments& arguments);
+
+struct ReferenceArguments {
+  std::filesystem::path out;  ///< folder of the pages
+};
+/// program: the command line, as the page of commands describes it.
+int write_reference(const ReferenceArguments& arguments, const CLI::App& program);
 
 }  // namespace heml
