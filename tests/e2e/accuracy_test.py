@@ -1,37 +1,24 @@
 """End-to-end tests of `heml study accuracy` and `heml tune`. HEML_BINARY is the path of the program."""
 import csv
 import json
-import os
-import pathlib
 import shutil
-import subprocess
-import tempfile
 import unittest
 
-BINARY = os.environ["HEML_BINARY"]
-SCENE = {
-    "schema_version": 1,
-    "name": "block",
-    "mesh": {"box": {"size": [0.1, 0.02, 0.02], "cells": [4, 2, 2]}},
-    "materials": [{"law": "mooney_rivlin", "K1": 15000, "K2": 2000, "kappa": 1e5}],
-    "boundary": [{"box": [[-1, -1, -1], [1e-6, 1, 1]], "fix": True}],
-    "gravity": [0, -9.81, 0],
-    "solver": {"duration": 0.05},
-}
+import program
+from program import SOURCE, ProgramCase, beam
+
+SCENE = beam(name="block", mesh={"box": {"size": [0.1, 0.02, 0.02], "cells": [4, 2, 2]}}, solver={"duration": 0.05},
+             materials=[{"law": "mooney_rivlin", "K1": 15000, "K2": 2000, "kappa": 1e5}])
 
 
-def heml(*arguments, **environment):
-    return subprocess.run([BINARY, *map(str, arguments)], capture_output=True, text=True, timeout=550,
-                          env={**os.environ, **environment})
+def heml(*arguments, **env):
+    return program.heml(*arguments, env=env, timeout=550)
 
 
-class Accuracy(unittest.TestCase):
+class Accuracy(ProgramCase):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-        self.scene = self.folder / "block.json"
-        self.scene.write_text(json.dumps(SCENE))
+        super().setUp()
+        self.scene = self.write("block.json", SCENE)
 
     def test_no_figure_of_the_quick_study_has_grown_and_the_check_can_fail(self):
         out = self.folder / "quick"
@@ -49,7 +36,7 @@ class Accuracy(unittest.TestCase):
             self.assertTrue(all(row[field] for row in rows if not row["failed"]), field)
         # Halves the committed values, so that the same errors count as grown.
         assets = self.folder / "assets"
-        shutil.copytree(pathlib.Path(__file__).parents[2] / "assets", assets)
+        shutil.copytree(SOURCE / "assets", assets)
         figures = assets / "studies" / "accuracy_quick.json"
         figures.write_text(json.dumps({name: value / 2 for name, value in json.loads(figures.read_text()).items()}))
         again = heml("study", "accuracy", "--quick", "--out", out, HEML_ASSETS=str(assets))

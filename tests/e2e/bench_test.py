@@ -1,20 +1,17 @@
 """End-to-end tests of `heml bench`: rows, tables, pictures, errors. No times are compared. HEML_BINARY is the path of
 the program."""
 import json
-import os
-import pathlib
-import subprocess
-import tempfile
 import unittest
 
-BINARY = os.environ["HEML_BINARY"]
+from program import ProgramCase, heml
+
 FIELDS = "suite name mesh nodes tets law precision isa threads median min unit".split()
 UNITS = {"paper": {"ms", "operations"}, "kernel": {"ns/tet"}, "step": {"ms"}, "threads": {"ms"},
          "roofline": {"GB/s", "GFLOP/s"}}
 
 
 def bench(*arguments):
-    return subprocess.run([BINARY, "bench", *map(str, arguments)], capture_output=True, text=True, timeout=280)
+    return heml("bench", *arguments)
 
 
 def tables_in(text):
@@ -28,12 +25,7 @@ def tables_in(text):
     return [table for table in tables if table]
 
 
-class Bench(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
+class Bench(ProgramCase):
     def rows_of(self, suite, *more):
         done = bench(suite, "--quick", "--json", self.folder / "rows.json", *more)
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -56,7 +48,7 @@ class Bench(unittest.TestCase):
 
     def test_kernel_has_every_law_in_every_way_and_the_naive_loop(self):
         rows = self.rows_of("kernel", "--out", self.folder / "pictures")
-        laws = json.loads(subprocess.run([BINARY, "materials", "--json"], capture_output=True, text=True).stdout)["laws"]
+        laws = json.loads(heml("materials", "--json").stdout)["laws"]
         self.assertEqual({row["law"] for row in rows}, {law["name"] for law in laws})
         for row in rows:
             self.assertEqual("ratio_to_naive" in row, row["name"] == "force")
@@ -79,7 +71,7 @@ class Bench(unittest.TestCase):
         of_stvk = [row for row in rows if row["unit"] == "operations" and row["law"] == "stvk"]
         counts = {(row["mesh"], row["name"]): row["median"] for row in of_stvk}
         laws = {row["law"]: row["a_tetrahedron"] for row in rows if "a_tetrahedron" in row}
-        known = json.loads(subprocess.run([BINARY, "materials", "--json"], capture_output=True, text=True).stdout)["laws"]
+        known = json.loads(heml("materials", "--json").stdout)["laws"]
         self.assertEqual(set(laws), {law["name"] for law in known if law["is_continuum"]})
         self.assertAlmostEqual(sum(laws["stvk"][:2]), counts["Reg. Cube1", "HEML"] / 320, delta=1e-9)
         for mesh in sizes:

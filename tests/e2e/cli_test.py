@@ -2,50 +2,23 @@
 import csv
 import json
 import math
-import os
-import pathlib
-import subprocess
-import tempfile
 import unittest
 import xml.etree.ElementTree
 
-BINARY = os.environ["HEML_BINARY"]
-SOURCE = pathlib.Path(__file__).resolve().parents[2]
+from program import SOURCE, ProgramCase, beam, heml
+
 SHARED = SOURCE.parent / "shared" / "data"
 
 
-def heml(*arguments, cwd=None, env=None):
-    """Runs the program without a display; returns the completed process."""
-    environment = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
-    environment.update(env or {})
-    return subprocess.run([BINARY, *map(str, arguments)], cwd=cwd, env=environment, capture_output=True, text=True, timeout=280)
-
-
 def cantilever(**changes):
-    scene = {
-        "schema_version": 1,
+    return beam(**{
         "name": "cantilever",
         "mesh": {"box": {"size": [0.1, 0.02, 0.02], "cells": [10, 2, 2], "origin": [0, 0, 0]}},
-        "materials": [{"law": "neo_hookean", "young": 1e4, "poisson": 0.3, "density": 1000}],
-        "boundary": [{"box": [[-1, -1, -1], [1e-6, 1, 1]], "fix": True}],
-        "gravity": [0, -9.81, 0],
         "solver": {"integrator": "verlet", "duration": 0.1, "damping": 2},
-    }
-    scene.update(changes)
-    return scene
+    } | changes)
 
 
-class CommandLine(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
-    def write(self, name, content):
-        path = self.folder / name
-        path.write_text(content if isinstance(content, str) else json.dumps(content))
-        return path
-
+class CommandLine(ProgramCase):
     def positions(self, scene):
         out = self.folder / "out"
         done = heml("solve", self.write("scene.json", scene), "--out", out)
@@ -54,13 +27,6 @@ class CommandLine(unittest.TestCase):
             rows = list(csv.reader(file))
         self.assertEqual(rows[0], ["node", "x", "y", "z"])
         return [tuple(map(float, row[1:])) for row in rows[1:]]
-
-    def assert_refused(self, done, code, *words):
-        self.assertEqual(done.returncode, code, done.stderr)
-        errors = [line for line in done.stderr.splitlines() if "error" in line]
-        self.assertEqual(len(errors), 1, done.stderr)
-        for word in words:
-            self.assertIn(word, errors[0])
 
     def test_a_cut_beside_the_body_is_warned_of_and_a_refused_event_leaves_what_was_reached(self):
         def blade(x):

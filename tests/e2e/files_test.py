@@ -2,15 +2,13 @@
 program."""
 import json
 import os
-import pathlib
 import resource
 import shutil
-import subprocess
-import tempfile
 import threading
 import unittest
 
-BINARY = os.environ["HEML_BINARY"]
+from program import ProgramCase, beam, heml
+
 SURFACE = """v 0 0 0
 v 0.1 0 0
 v 0 0.1 0
@@ -24,44 +22,9 @@ TET = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 0.1 0 0\n3 0 
       "$Elements\n1\n1 4 2 1 1 1 2 3 4\n$EndElements\n"
 
 
-def heml(*arguments, cwd=None, **more):
-    environment = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
-    more.setdefault("stdout", subprocess.PIPE)
-    return subprocess.run([BINARY, *map(str, arguments)], cwd=cwd, env=environment, stderr=subprocess.PIPE, text=True,
-                          timeout=280, **more)
-
-
-def beam(**changes):
-    scene = {
-        "schema_version": 1,
-        "mesh": {"box": {"size": [0.1, 0.02, 0.02], "cells": [6, 2, 2], "origin": [0, 0, 0]}},
-        "materials": [{"law": "neo_hookean", "young": 1e4, "poisson": 0.3}],
-        "boundary": [{"box": [[-1, -1, -1], [1e-6, 1, 1]], "fix": True}],
-        "gravity": [0, -9.81, 0],
-        "solver": {"duration": 0.05, "threads": 1},
-    }
-    scene.update(changes)
-    return scene
-
-
-class Files(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
-    def write(self, name, content):
-        path = self.folder / name
-        path.write_text(content if isinstance(content, str) else json.dumps(content))
-        return path
-
-    def assert_refused(self, done, code, *words):
-        self.assertEqual(done.returncode, code, done.stderr)
-        lines = done.stderr.splitlines()
-        self.assertEqual(len(lines), 1, done.stderr)
-        self.assertNotIn("internal", lines[0])
-        for word in words:
-            self.assertIn(word, lines[0])
+class Files(ProgramCase):
+    def assert_refused(self, *arguments):
+        super().assert_refused(*arguments, alone=True)
 
     def content(self):
         return {path.relative_to(self.folder): path.read_bytes() for path in self.folder.rglob("*") if path.is_file()}

@@ -2,21 +2,10 @@
 import csv
 import json
 import math
-import os
-import pathlib
 import random
-import subprocess
-import tempfile
 import unittest
 
-BINARY = os.environ["HEML_BINARY"]
-
-
-def heml(*arguments, cwd=None):
-    """Runs the program without a display; returns the completed process."""
-    environment = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
-    return subprocess.run([BINARY, *map(str, arguments)], cwd=cwd, env=environment, capture_output=True, text=True,
-                          timeout=280)
+from program import ProgramCase, heml
 
 
 def rows_of(path):
@@ -25,29 +14,12 @@ def rows_of(path):
     return table[0], [[float(cell) for cell in row] for row in table[1:]]
 
 
-class Materials(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
-    def write(self, name, content):
-        path = self.folder / name
-        path.write_text(content if isinstance(content, str) else json.dumps(content))
-        return path
-
+class Materials(ProgramCase):
     def bench(self, material, *arguments, code=0):
         out = self.folder / "curve.csv"
         done = heml("bench-test", material, "--out", out, *arguments)
         self.assertEqual(done.returncode, code, done.stderr + done.stdout)
         return done, rows_of(out) if out.exists() else None
-
-    def assert_refused(self, done, code, *words):
-        self.assertEqual(done.returncode, code, done.stderr)
-        errors = [line for line in done.stderr.splitlines() if "error" in line]
-        self.assertEqual(len(errors), 1, done.stderr)
-        for word in words:
-            self.assertIn(word, errors[0])
 
     def test_the_list_for_programs_holds_every_law_and_every_tissue(self):
         done = heml("materials", "--json")

@@ -2,12 +2,8 @@
 import csv
 import json
 import math
-import os
-import pathlib
 import random
-import subprocess
 import sys
-import tempfile
 import unittest
 
 try:
@@ -17,8 +13,8 @@ except ImportError:
     sys.exit(77)
 
 from law_formulas import LAWS, VOLUME_TERMS, fibre_stretch, materials, norm, numbers, product, reference
+from program import ProgramCase, heml
 
-BINARY = os.environ["HEML_BINARY"]
 HEADER = [prefix + i + j for prefix in ("F", "dF") for i in "123" for j in "123"]
 IDENTITY = [1.0, 0, 0, 0, 1.0, 0, 0, 0, 1.0]
 
@@ -76,16 +72,7 @@ def states(r):
             yield f"J = {J}", turned(of_volume(J, [r.uniform(0.7, 1.4) for _ in range(3)]), r)
 
 
-def heml(*arguments):
-    return subprocess.run([BINARY, *map(str, arguments)], capture_output=True, text=True, timeout=280)
-
-
-class Probe(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
+class Probe(ProgramCase):
     def probe(self, material, rows):
         """Runs `heml probe` on rows of 18 numbers; returns the completed process and its table without the header."""
         (self.folder / "material.json").write_text(json.dumps(material | {"density": 1000}))

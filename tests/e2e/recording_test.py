@@ -1,43 +1,23 @@
 """`heml replay --verify`: which alterations of recordings it detects, and its messages. HEML_BINARY is the path of the
 program."""
 import json
-import os
-import pathlib
-import subprocess
-import tempfile
 import unittest
 
-BINARY = os.environ["HEML_BINARY"]
-SOURCE = pathlib.Path(__file__).resolve().parents[2]
+from program import SOURCE, ProgramCase, beam, heml
+
 GOLDEN = SOURCE / "tests" / "golden" / "twist.jsonl"
 
 
-def heml(*arguments, cwd=None):
-    return subprocess.run([BINARY, *map(str, arguments)], cwd=cwd, capture_output=True, text=True, timeout=280)
-
-
-def beam(**changes):
-    scene = {
-        "schema_version": 1,
+def pulled_beam(**changes):
+    return beam(**{
         "name": "beam",
-        "mesh": {"box": {"size": [0.1, 0.02, 0.02], "cells": [6, 2, 2], "origin": [0, 0, 0]}},
-        "materials": [{"law": "neo_hookean", "young": 1e4, "poisson": 0.3, "density": 1000}],
-        "boundary": [{"box": [[-1, -1, -1], [1e-6, 1, 1]], "fix": True}],
-        "gravity": [0, -9.81, 0],
         "solver": {"integrator": "verlet", "duration": 0.5, "damping": 2},
         "events": [{"step": 150, "grasp": {"point": [0.1, 0.01, 0.01], "radius": 0.012}},
                    {"step": 151, "move": [0.11, 0.02, 0.01]}, {"step": 260, "release": True}],
-    }
-    scene.update(changes)
-    return scene
+    } | changes)
 
 
-class Recordings(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
+class Recordings(ProgramCase):
     def record(self, scene, code=0):
         (self.folder / "scene.json").write_text(json.dumps(scene))
         file = self.folder / "r.jsonl"
@@ -51,7 +31,7 @@ class Recordings(unittest.TestCase):
         return heml("replay", file, "--verify", *options)
 
     def test_a_recording_ends_with_what_proves_it(self):
-        lines = self.record(beam())
+        lines = self.record(pulled_beam())
         self.assertEqual(lines[0]["recorded"]["format"], 2)
         end, checkpoints = lines[-1], [line for line in lines if "checkpoint" in line]
         self.assertEqual(end, {"step": 500, "end": True, "checkpoints": 6, "hash": checkpoints[-1]["checkpoint"]})
@@ -61,7 +41,7 @@ class Recordings(unittest.TestCase):
         self.assertEqual(done.stderr, "")
 
     def test_every_alteration_is_exit_1(self):
-        lines = self.record(beam())
+        lines = self.record(pulled_beam())
         places = [k for k, line in enumerate(lines) if "checkpoint" in line]
 
         def altered(change):
@@ -102,7 +82,7 @@ class Recordings(unittest.TestCase):
         self.assertEqual(unknown.returncode, 3, unknown.stderr)
 
     def test_partial_verifies_what_a_crash_left(self):
-        lines = self.record(beam())
+        lines = self.record(pulled_beam())
         cut = lines[:-3]
         self.assertEqual(self.verify(cut).returncode, 1)
         done = self.verify(cut, "--partial")
@@ -129,7 +109,7 @@ class Recordings(unittest.TestCase):
                 self.assertEqual(self.verify(lines).returncode, 1)
 
     def test_a_halt_is_recorded_shown_again_and_verifies(self):
-        scene = beam(events=[], gravity=[0, 0, 0])
+        scene = pulled_beam(events=[], gravity=[0, 0, 0])
         scene["boundary"].append({"box": [[0.0999, -1, -1], [1, 1, 1]], "translate": [-0.15, 0, 0], "over": 0.1})
         scene["solver"] = {"integrator": "verlet", "duration": 0.2, "rate": 30, "threads": 1}
         end = self.record(scene, code=4)[-1]
@@ -143,7 +123,7 @@ class Recordings(unittest.TestCase):
         self.assertEqual(self.verify(lines).returncode, 1)
 
     def test_the_recording_of_a_recovery_verifies(self):
-        scene = beam(gravity=[0, 0, 0], events=[{"step": 10, "gravity": [-30000, 0, 0]}, {"step": 12, "gravity": [0, 0, 0]}])
+        scene = pulled_beam(gravity=[0, 0, 0], events=[{"step": 10, "gravity": [-30000, 0, 0]}, {"step": 12, "gravity": [0, 0, 0]}])
         scene["solver"] = {"integrator": "backward_euler", "rate": 60, "duration": 2, "recovery": True}
         (self.folder / "scene.json").write_text(json.dumps(scene))
         done = heml("solve", self.folder / "scene.json", "--out", self.folder / "out")
