@@ -9,7 +9,7 @@
 
 #include "small_body.hpp"
 
-namespace heml::fan_edits_test {
+namespace heml::fan_cut_test {
 
 using namespace heml::test;
 
@@ -174,4 +174,4 @@ TEST_CASE("blocks that an edit does not touch keep their layout") {
   CHECK(after.elements() == without.size());
 }
 
-}  // namespace heml::fan_edits_test
+}  // namespace heml::fan_cut_test

@@ -8,7 +8,7 @@
 #include <studies/beam_theory.hpp>
 #include <studies/pareto.hpp>
 
-namespace heml::accuracy_test {
+namespace heml::accuracy_study_test {
 
 namespace {
 
@@ -232,4 +232,4 @@ TEST_CASE("the report begins with its answers and holds every scene") {
   CHECK(csv_text(run_table(study)).find("block,stvk,p1") != std::string::npos);
 }
 
-}  // namespace heml::accuracy_test
+}  // namespace heml::accuracy_study_test
