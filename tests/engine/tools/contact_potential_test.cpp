@@ -300,6 +300,7 @@ TEST_CASE("tissue that met tissue on the way is pushed back with the slope of it
   CHECK(sum.norm() < 1e-12 * f.norm());
   CHECK(moment.norm() < 1e-12 * f.norm());
   CHECK(gradient_error(potential, crossed + 0.01 * random_direction(random, 24)) < 1e-8);
+  potential.linearise(crossed);
   CHECK_FALSE(potential.within_elements());
   potential.disable_self_contact();
   potential.reset();
