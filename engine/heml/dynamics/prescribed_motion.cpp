@@ -1,5 +1,5 @@
-#include <Eigen/Geometry>
 #include <heml/dynamics/prescribed_motion.hpp>
+#include <heml/math/rotation.hpp>
 
 namespace heml {
 
@@ -9,7 +9,7 @@ PrescribedMotion::At PrescribedMotion::operator()(const Vec3& X, double time) co
   At at{X, Vec3::Zero(), Vec3::Zero()};
   Vec3 arm = X - origin;
   if (radians != 0) {
-    arm = Eigen::AngleAxisd(part * radians, axis) * arm;
+    arm = rotation_matrix(axis, part * radians) * arm;
     at.x = arm + origin;
   }
   at.x += part * translate;

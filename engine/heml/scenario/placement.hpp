@@ -1,5 +1,6 @@
 #pragma once
 // Placement of a scene's mesh: scale, rotation, translation.
+#include <heml/math/rotation.hpp>
 #include <heml/scenario/scene.hpp>
 #include <numbers>
 
@@ -11,7 +12,7 @@ class Placement {
  public:
   explicit Placement(const MeshSpec& mesh)
       : scale_(mesh.scale), turns_(mesh.rotate_degrees != 0), origin_(mesh.rotate_origin), translate_(mesh.translate) {
-    if (turns_) rotation_ = Eigen::AngleAxisd(mesh.rotate_degrees * std::numbers::pi / 180, mesh.rotate_axis);
+    if (turns_) rotation_ = rotation_matrix(mesh.rotate_axis, mesh.rotate_degrees * std::numbers::pi / 180);
   }
 
   Vec3 operator()(const Vec3& x) const {
