@@ -100,6 +100,17 @@ class Bench(ProgramCase):
                 self.assertGreater(row["bytes_per_tet"], 0)
                 self.assertGreater(row["operations_per_tet"], 0)
 
+    def test_threads_is_timed_with_each_number_of_them_idle_and_loaded(self):
+        kinds = {}
+        for row in self.rows_of("threads"):
+            kinds.setdefault((row["mesh"], row["precision"], row["name"]), []).append(row)
+        self.assertEqual({name.split(", ")[1] for _, _, name in kinds}, {"idle", "one core loaded"})
+        self.assertEqual(len(kinds), 12)  # two bodies, three methods
+        for rows in kinds.values():
+            self.assertEqual([row["threads"] for row in rows], list(range(1, len(rows) + 1)))
+            for row in rows:
+                self.assertGreater(row["speedup"], 0)
+
     def test_wrong_usage_and_what_cannot_be_written(self):
         done = bench("kernels")
         self.assertEqual(done.returncode, 2)

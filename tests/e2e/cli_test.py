@@ -290,6 +290,18 @@ class CommandLine(ProgramCase):
                     self.assert_refused(done, 3, *words)
                     self.assertFalse((self.folder / "out").exists(), "no surprise files")
 
+    def test_a_surface_becomes_a_mesh_that_can_be_solved(self):
+        corners, sides = [(0, 0, 0), (0.1, 0, 0), (0, 0.1, 0), (0, 0, 0.1)], [(1, 3, 2), (1, 2, 4), (1, 4, 3), (2, 3, 4)]
+        surface = self.write("s.obj", "".join(f"v {x} {y} {z}\n" for x, y, z in corners) +
+                             "".join(f"f {a} {b} {c}\n" for a, b, c in sides))
+        done = heml("mesh", surface, "--out", self.folder / "s.msh")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        scene = cantilever(mesh={"file": "s.msh"}, solver={"integrator": "static"})
+        done = heml("solve", self.write("scene.json", scene), "--out", self.folder / "out")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        report = json.loads((self.folder / "out" / "report.json").read_text())
+        self.assertEqual((report["nodes"], report["tets"]), (4, 1))
+
     def test_from_a_surface_to_frames_in_one_command(self):
         liver = SHARED / "liver2.obj"
         if not liver.exists():
