@@ -23,7 +23,7 @@ Promise promise_from(const Json& json, const std::string& file, const std::strin
     Promise promise;
     promise.number = json.at("case");
     if (json.contains("integrator")) {
-      promise.integrator = find_integrator(json["integrator"]);
+      promise.integrator = find_integrator(json["integrator"].get<std::string>());
       if (!promise.integrator) throw InputError(file, place + ".integrator", "is none of this build");
     }
     promise.single = json.at("precision") == "float";

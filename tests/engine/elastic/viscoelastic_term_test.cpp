@@ -5,7 +5,7 @@
 
 #include "small_body.hpp"
 
-namespace heml::viscoelasticity_test {
+namespace heml::viscoelastic_term_test {
 
 using test::forces_of;
 using test::largest;
@@ -221,4 +221,4 @@ TEST_CASE("plastic flow is invariant under rotations") {
   CHECK((other.stress(other.at(R * F)) - R * P).norm() <= 1e-10 * P.norm());
 }
 
-}  // namespace heml::viscoelasticity_test
+}  // namespace heml::viscoelastic_term_test
