@@ -79,7 +79,7 @@ struct Row<RemoveElements> : CommonRow {
   static constexpr ValueForm value_form = object_form;
   static constexpr std::span<const KeyInfo> keys = scene_keys::elements;
   static constexpr bool is_edit = true;
-  static constexpr std::optional<Tool> tool = Tool::removal;
+  static constexpr std::optional<CommandTool> tool = CommandTool::removal;
   static constexpr bool takes_up = true;
   static Command read(const JsonCursor& value, Points&) { return RemoveElements{elements_from(value)}; }
   static Json write(const RemoveElements& remove) { return elements_json(remove.which); }
@@ -104,7 +104,7 @@ struct Row<CutTissue> : CommonRow {
       {"goes_on", form::flag, "", "`false`", "one stroke, and one edit to undo, with the cut before"}};
   static constexpr std::span<const KeyInfo> keys = cut_keys;
   static constexpr bool is_edit = true;
-  static constexpr std::optional<Tool> tool = Tool::cut;
+  static constexpr std::optional<CommandTool> tool = CommandTool::cut;
   static bool takes_up(const CutTissue& cut) { return !cut.continues_stroke; }
   static Command read(const JsonCursor& value, Points&) {
     const ObjectReader object(value, keys);
@@ -150,7 +150,7 @@ template <>
 struct Row<Undo> : PlainRow<Undo> {
   static constexpr std::string_view key = "undo", meaning = "takes back the last removal or stroke";
   static constexpr bool is_edit = true;
-  static constexpr std::optional<Tool> tool = Tool::undo;
+  static constexpr std::optional<CommandTool> tool = CommandTool::undo;
   static constexpr bool takes_up = true;
 };
 

@@ -28,7 +28,7 @@ inline constexpr KeyInfo patch_keys[] = {node_row, point_row, radius_row};
 struct CommonRow {
   static constexpr std::string_view unit = "";
   static constexpr std::span<const KeyInfo> keys = {};
-  static constexpr std::optional<Tool> tool = {};
+  static constexpr std::optional<CommandTool> tool = {};
   static constexpr bool takes_up = false, is_edit = false;
 };
 

@@ -86,15 +86,16 @@ static_assert([] {
 }());
 
 constexpr ToolInfo tools[] = {
-    {Tool::grasp, "grasp",
+    {CommandTool::grasp, "grasp",
      "a spring at each node in reach; explicit steps look at their limit every other step meanwhile"},
-    {Tool::probe, "probe", "meets faces of the surface; explicit steps look at their limit every other step meanwhile"},
-    {Tool::pin, "pin", "nodes constrained where they are"},
-    {Tool::suture, "suture", "a stiff link that is drawn in"},
-    {Tool::tables, "tables", "other planes from then on"},
-    {Tool::cut, "cut", "elements are split, and the layout of the body is rebuilt"},
-    {Tool::removal, "removal", "loops ask which elements are there"},
-    {Tool::undo, "undo", "the body as it was before the last cut or removal"},
+    {CommandTool::probe, "probe",
+     "meets faces of the surface; explicit steps look at their limit every other step meanwhile"},
+    {CommandTool::pin, "pin", "nodes constrained where they are"},
+    {CommandTool::suture, "suture", "a stiff link that is drawn in"},
+    {CommandTool::tables, "tables", "other planes from then on"},
+    {CommandTool::cut, "cut", "elements are split, and the layout of the body is rebuilt"},
+    {CommandTool::removal, "removal", "loops ask which elements are there"},
+    {CommandTool::undo, "undo", "the body as it was before the last cut or removal"},
 };
 
 }  // namespace

@@ -21,11 +21,11 @@ struct MeshReference {
 };
 
 /// What commands of a tool are for, in the order in which `heml explain` lists them.
-enum class Tool { grasp, probe, pin, suture, tables, cut, removal, undo };
+enum class CommandTool { grasp, probe, pin, suture, tables, cut, removal, undo };
 
 /// What `heml explain` says of a tool.
 struct ToolInfo {
-  Tool tool;
+  CommandTool tool;
   std::string_view name;
   std::string_view does;  ///< to the engine
 };
@@ -40,7 +40,7 @@ struct CommandInfo {
   std::string_view unit;          ///< of the value, SI; empty: none
   std::span<const KeyInfo> keys;  ///< of a value that is an object
   bool is_edit;                   ///< changes which elements there are, or takes such a change back: what `undo` counts
-  std::optional<Tool> tool;
+  std::optional<CommandTool> tool;
   bool (*takes_up)(const Command& command);  ///< whether it is a use of its tool, and not the rest of one
   /// The command that a value of the key stands for. Of nodes that are given by places, these go into `points`. Throws
   /// InputError naming the key.

@@ -28,7 +28,7 @@ struct Row<Grasp> : CommonRow {
                                     meaning = "takes hold of surface nodes with a spring; replaces the grasp before";
   static constexpr ValueForm value_form = object_form;
   static constexpr std::span<const KeyInfo> keys = patch_keys;
-  static constexpr std::optional<Tool> tool = Tool::grasp;
+  static constexpr std::optional<CommandTool> tool = CommandTool::grasp;
   static constexpr bool takes_up = true;
   static Command read(const JsonCursor& value, Points& points) { return patch_from<Grasp>(value, points); }
   static Json write(const Grasp& grasp) { return {{"node", grasp.node}, {"radius", grasp.radius}}; }
@@ -40,7 +40,7 @@ struct Row<MoveTool> : CommonRow {
   static constexpr std::string_view key = "move", example = "[0.1, 0, 0]", unit = "m",
                                     meaning = "moves the tool of the grasp there";
   static constexpr ValueForm value_form = form::vector;
-  static constexpr std::optional<Tool> tool = Tool::grasp;
+  static constexpr std::optional<CommandTool> tool = CommandTool::grasp;
   static Command read(const JsonCursor& value, Points&) { return MoveTool{value_of<Vec3>(value, value_form)}; }
   static Json write(const MoveTool& move) { return vector_json(move.target); }
 };
@@ -49,7 +49,7 @@ template <>
 struct Row<Release> : CommonRow {
   static constexpr std::string_view key = "release", example = "true", meaning = "ends the grasp";
   static constexpr ValueForm value_form = true_form;
-  static constexpr std::optional<Tool> tool = Tool::grasp;
+  static constexpr std::optional<CommandTool> tool = CommandTool::grasp;
   static Command read(const JsonCursor& value, Points& points);
   static Json write(const Release&) { return true; }
 };
@@ -60,7 +60,7 @@ struct Row<PinTissue> : CommonRow {
                                     meaning = "holds surface nodes exactly where they are";
   static constexpr ValueForm value_form = object_form;
   static constexpr std::span<const KeyInfo> keys = patch_keys;
-  static constexpr std::optional<Tool> tool = Tool::pin;
+  static constexpr std::optional<CommandTool> tool = CommandTool::pin;
   static constexpr bool takes_up = true;
   static Command read(const JsonCursor& value, Points& points) { return patch_from<PinTissue>(value, points); }
   static Json write(const PinTissue& pin) { return {{"node", pin.node}, {"radius", pin.radius}}; }
@@ -74,7 +74,7 @@ struct Row<Unpin> : CommonRow {
   static constexpr ValueForm value_form = form::other("object, or `\"pins\"`");
   static constexpr KeyInfo unpin_keys[] = {node_row, point_row};
   static constexpr std::span<const KeyInfo> keys = unpin_keys;
-  static constexpr std::optional<Tool> tool = Tool::pin;
+  static constexpr std::optional<CommandTool> tool = CommandTool::pin;
   static Json write(const Unpin& unpin) { return unpin.node ? Json{{"node", *unpin.node}} : Json("pins"); }
   static References references(Unpin& unpin) {
     return unpin.node ? References{{node_kind, &*unpin.node, "release.node"}} : References();
@@ -87,7 +87,7 @@ struct Row<SetTables> : CommonRow {
                                     example = R"([{"point": [0, 0, 0], "normal": [0, 1, 0], "friction": 0.3}])",
                                     meaning = "replaces all tables";
   static constexpr ValueForm value_form = form::other("list as of the scene's `tables`");
-  static constexpr std::optional<Tool> tool = Tool::tables;
+  static constexpr std::optional<CommandTool> tool = CommandTool::tables;
   static constexpr bool takes_up = true;
   static Command read(const JsonCursor& value, Points&) { return SetTables{tables_from(value)}; }
   static Json write(const SetTables& set) { return tables_json(set.tables); }
@@ -108,7 +108,7 @@ struct Row<MoveProbe> : CommonRow {
       {"path", form::other("list of `[x, y, z]`, one or more"), "m", required, "places of the tip's centre"},
       {"speed", form::positive, "m/s", "", "along the path"}};
   static constexpr std::span<const KeyInfo> keys = probe_keys;
-  static constexpr std::optional<Tool> tool = Tool::probe;
+  static constexpr std::optional<CommandTool> tool = CommandTool::probe;
   static constexpr bool takes_up = true;
   static Command read(const JsonCursor& value, Points&) {
     const ObjectReader object(value, keys);
@@ -136,7 +136,7 @@ template <>
 struct Row<WithdrawProbe> : CommonRow {
   static constexpr std::string_view key = "release", example = "\"probe\"", meaning = "takes the probe away";
   static constexpr ValueForm value_form = form::other("`\"probe\"`");
-  static constexpr std::optional<Tool> tool = Tool::probe;
+  static constexpr std::optional<CommandTool> tool = CommandTool::probe;
   static Json write(const WithdrawProbe&) { return "probe"; }
 };
 
@@ -153,7 +153,7 @@ struct Row<SutureTissue> : CommonRow {
       {"length", form::non_negative, "m", "", "of the link in the end"},
       {"over", form::non_negative, "s", "", "time of drawing in"}};
   static constexpr std::span<const KeyInfo> keys = suture_keys;
-  static constexpr std::optional<Tool> tool = Tool::suture;
+  static constexpr std::optional<CommandTool> tool = CommandTool::suture;
   static constexpr bool takes_up = true;
   static Command read(const JsonCursor& value, Points& points) {
     const ObjectReader object(value, keys);
@@ -181,7 +181,7 @@ template <>
 struct Row<CutSutures> : CommonRow {
   static constexpr std::string_view key = "release", example = "\"sutures\"", meaning = "takes out all sutures";
   static constexpr ValueForm value_form = form::other("`\"sutures\"`");
-  static constexpr std::optional<Tool> tool = Tool::suture;
+  static constexpr std::optional<CommandTool> tool = CommandTool::suture;
   static Json write(const CutSutures&) { return "sutures"; }
 };
 
