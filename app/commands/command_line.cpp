@@ -8,7 +8,8 @@ namespace heml {
 namespace {
 
 constexpr CommandDefinition definitions[] = {
-    {"run", "opens the window; without a usable display captures frames into ./heml-frames", "", define_run},
+    {"run", "opens the window; without a usable display says so in one line and captures frames into ./heml-frames", "",
+     define_run},
     {"capture", "writes frames as PNG, without a display", "Frame k, frame_0000k.png, shows simulated time k/fps.",
      define_capture},
     {"replay", "plays a recorded or hand-written session headless", "", define_replay},
