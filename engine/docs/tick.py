@@ -78,7 +78,7 @@ def column(k):
 def draw():
     wide = 2 * COLUMN + GAP
     commands = Box("session", "apply commands", ["the events and commands due at this tick, recorded as they are applied"],
-                   ["session/session.cpp", "world/command_executor.cpp", "world/contact_commands.cpp"])
+                   ["session/session.cpp", "world/command_executor.cpp"])
     tear = Box("world", "tear", ["if the scene says tearing: elements beyond the limit open a node (not in static solves)"],
                ["world/mesh_editor.cpp", "tools/tearing.cpp", "mesh/tear.cpp"])
     choose = Box("world", "choose method", ["the scene's integrator; auto: explicit where a cost model finds it fast enough, else implicit"],

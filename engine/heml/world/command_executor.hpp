@@ -16,9 +16,7 @@ class CommandExecutor {
                   RecoveryController<Real>& recovery, MeshEditor<Real>& editor)
       : s_(s), method_(method), implicit_(implicit), recovery_(recovery), editor_(editor) {}
 
-  /// Each returns what is wrong with the command, or nothing; a wrong one changes nothing.
-
-  // command_executor.cpp: grasp, pins, materials, settings
+  /// Each returns what is wrong with the command; a refused command changes nothing.
   Status execute(const Grasp& command);
   Status execute(const MoveTool& command);
   Status execute(const Release& command);
@@ -34,8 +32,6 @@ class CommandExecutor {
   Status execute(const RemoveElements& command) { return editor_.remove(command); }
   Status execute(const CutTissue& command) { return editor_.cut(command); }
   Status execute(const Undo&) { return editor_.undo(); }
-
-  // contact_commands.cpp: tables, probe, sutures
   Status execute(const SetTables& command);
   Status execute(const MoveProbe& command);
   Status execute(const WithdrawProbe& command);
