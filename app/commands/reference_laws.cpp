@@ -73,7 +73,7 @@ std::string law_section(const LawInfo& law) {
   MarkdownTable parameters({"parameter", "symbol", "unit", "range", "in the panel first", "meaning"});
   for (const ParameterInfo& info : law.parameters)
     parameters.add({fmt::format("`{}`", info.name), std::string(info.symbol), std::string(info.unit),
-                    range_text(info.range), fmt::format("{}", info.start),
+                    range_text(info.range), fmt::format("{}", info.initial_value),
                     std::string(info.meaning) + kind_text(info.kind)});
   return text + facts.text() + parameters.text();
 }

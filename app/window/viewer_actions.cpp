@@ -145,9 +145,8 @@ void Viewer::remove_tissue() {
   const bool points =
       mouse_tool_.interaction() == MouseTool::Interaction::none && !panel_->covers(mouse_.x(), mouse_.y());
   const auto hit = points ? mouse_tool_.pick(mouse_, seen(), surface_mesh) : std::nullopt;
-  const int node = hit                   ? surface_mesh.nodes[static_cast<std::size_t>(hit->node)]
-                   : frame_->tool.active ? frame_->tool.node
-                                         : -1;
+  const GraspState* grasp = find_tool<GraspState>(frame_->tools);
+  const int node = hit ? surface_mesh.nodes[static_cast<std::size_t>(hit->node)] : grasp ? grasp->node : -1;
   ElementSelection which;
   which.tets = elements_around(node, surface_mesh, panel_->tool().radius);
   if (which.tets.empty()) return panel_->notify("Point at the tissue to remove, or grasp it.");
