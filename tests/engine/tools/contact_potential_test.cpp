@@ -262,9 +262,9 @@ TEST_CASE("tissue that has gone through a probe is noticed, and tissue that only
     for (int n = 0; n < 4; ++n) moved[3 * n + 2] += by;
     return moved;
   };
-  CHECK_FALSE(potential.passes(raised(0.3)));
-  CHECK(potential.passes(raised(0.7)));
-  CHECK_FALSE(potential.passes(raised(-5)));
+  CHECK_FALSE(potential.crosses_probe(raised(0.3)));
+  CHECK(potential.crosses_probe(raised(0.7)));
+  CHECK_FALSE(potential.crosses_probe(raised(-5)));
 }
 
 TEST_CASE("tissue that met tissue on the way is pushed back with the slope of its energy, in balance") {

@@ -14,7 +14,7 @@ TEST_CASE_TEMPLATE("a pin takes the free nodes within its radius at rest, each w
   const PinnedPatch pin = pin_patch(0, 0.02, all, rest, x.data(), std::vector<Real>{1, 1, 1, 2, 0});  // node 4 is held
   CHECK(pin.center == 0);
   CHECK(pin.nodes == std::vector<int>{0, 1, 3});  // node 3 lies on the radius
-  CHECK(pin.place == std::vector<Vec3>{{1, 2, 3}, {4, 5, 6}, {10, 11, 12}});
+  CHECK(pin.positions == std::vector<Vec3>{{1, 2, 3}, {4, 5, 6}, {10, 11, 12}});
 }
 
 TEST_CASE("a pin without a radius takes its centre alone, and of a held centre nothing") {

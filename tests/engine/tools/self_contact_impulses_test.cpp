@@ -43,7 +43,7 @@ struct Collision {
     return mesh;
   }
 
-  void meet() { impulses.meet(contact, h, inverse_mass, before.data(), after.data()); }
+  void meet() { impulses.find_pairs(contact, h, inverse_mass, before.data(), after.data()); }
 
   Vec3 momentum() const {
     Vec3 sum = Vec3::Zero();
@@ -83,7 +83,7 @@ TEST_CASE("tissue that would cross tissue comes to lie on it, and momentum and i
     const double energy = two.energy();
     two.meet();
     REQUIRE_FALSE(two.impulses.empty());
-    two.impulses.push(two.inverse_mass, two.v.data());
+    two.impulses.solve(two.inverse_mass, two.v.data());
     CHECK(std::abs(two.gap_after()) < 1e-9);
     CHECK((two.momentum() - momentum).norm() < 1e-13 * momentum.norm() + 1e-12);
     CHECK((two.moment(two.before) - moment).norm() < 1e-11);
@@ -101,7 +101,7 @@ TEST_CASE("one pair's impulse is what it lacks in speed by its inverse mass") {
   for (std::size_t n = 0; n < 8; ++n) light += weights[n] * weights[n] * two.inverse_mass[n];
   const double impulse = -two.gap_after() / h / light;
   two.meet();
-  two.impulses.push(two.inverse_mass, two.v.data());
+  two.impulses.solve(two.inverse_mass, two.v.data());
   for (std::size_t n = 0; n < 8; ++n) {
     CHECK(two.v[3 * n] == first[3 * n]);
     CHECK(two.v[3 * n + 1] == first[3 * n + 1]);
@@ -122,16 +122,16 @@ TEST_CASE("once met, tissue rubs: friction is at most Coulomb's, and momentum st
     const double friction = uniform(random, 0.02, 1.2);
     Collision two(random, friction, 0.02);
     two.meet();
-    two.impulses.push(two.inverse_mass, two.v.data());
+    two.impulses.solve(two.inverse_mass, two.v.data());
     // The other half of the step: pairs that were pushed, as they lie now, are not to come nearer.
     auto x = two.before;
     for (std::size_t i = 0; i < x.size(); ++i) x[i] += h * two.v[i];
     for (std::size_t n = 0; n < 4; ++n) two.v[3 * n + 2] += 2, two.v[3 * (n + 4) + 2] -= 1;
-    two.impulses.stop(two.inverse_mass, x.data());
+    two.impulses.begin_second_half(two.inverse_mass, x.data());
     const auto first = two.v;
     const Vec3 momentum = two.momentum();
     const double energy = two.energy();
-    two.impulses.push(two.inverse_mass, two.v.data());
+    two.impulses.solve(two.inverse_mass, two.v.data());
     CHECK((two.momentum() - momentum).norm() < 1e-12 * momentum.norm() + 1e-12);
     CHECK(two.energy() <= energy);
     // All of what the corner got is the pair's impulse.
@@ -163,7 +163,7 @@ TEST_CASE("what is held is not moved, and two held pieces of tissue are no pair"
   // The lower one stands still.
   for (std::size_t i = 0; i < 12; ++i) two.v[i] = 0, two.after[i] = two.before[i];
   two.meet();
-  two.impulses.push(two.inverse_mass, two.v.data());
+  two.impulses.solve(two.inverse_mass, two.v.data());
   for (std::size_t i = 0; i < 12; ++i) CHECK(two.v[i] == 0);
   CHECK(two.v[14] == doctest::Approx(-0.02 / h));
   two.v = first;

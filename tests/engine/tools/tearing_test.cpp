@@ -38,7 +38,7 @@ struct Pairs {
 
   std::vector<TearOpening> openings(const std::vector<int>& constrained = {}) const {
     ThreadTeam team(1);
-    Tearing tearing({limit}, mesh, whole(mesh));
+    Tearing tearing({limit}, mesh, full_topology(mesh));
     return tearing.openings(
         mesh, x, [&](int n) { return std::find(constrained.begin(), constrained.end(), n) != constrained.end(); },
         team);
