@@ -73,8 +73,8 @@ constexpr ExitCodeInfo exit_codes[] = {
     {exit_usage, "wrong usage", ""},
     {exit_input, "bad input",
      "file, scene, mesh or material; an event that the world refuses; an output that cannot be written"},
-    {exit_not_solved, "not converged or unstable",
-     "or left the range of a law; what was reached is written, and marked as such"},
+    {exit_not_solved, "not converged, unstable, or beyond a law's range",
+     "what was reached is written, and marked as such"},
     {exit_internal, "internal error", ""},
 };
 

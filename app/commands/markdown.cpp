@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <app/commands/markdown.hpp>
 #include <cctype>
 
@@ -13,6 +14,13 @@ std::string table_row(const Cells& cells) {
     row += cell.empty() ? "|" : " |";
   }
   return row + "\n";
+}
+
+/// "positions_<k>.csv" in prose would lose its "<k>", which Markdown takes for a tag.
+std::string without_tags(std::string_view prose) {
+  std::string text;
+  for (const char letter : prose) text += letter == '<' ? std::string("\\<") : std::string(1, letter);
+  return text;
 }
 
 }  // namespace
@@ -31,9 +39,10 @@ std::string markdown_of_help(std::string_view help) {
     const std::string_view line = help.substr(0, help.find('\n'));
     help.remove_prefix(std::min(line.size() + 1, help.size()));
     const bool is_code = line.starts_with("  ");
-    if (is_code != in_code) text += is_code ? (text.empty() ? "```\n" : "\n```\n") : "```\n\n";
+    if (is_code && !in_code) text += text.empty() || text.ends_with("\n\n") ? "```\n" : "\n```\n";
+    if (!is_code && in_code) text += "```\n\n";
     in_code = is_code;
-    if (line != "Examples:") text += std::string(is_code ? line.substr(2) : line) + "\n";
+    if (line != "Examples:") text += (is_code ? std::string(line.substr(2)) : without_tags(line)) + "\n";
   }
   if (in_code) text += "```\n";
   return text.empty() ? "" : text + "\n";
