@@ -16,13 +16,10 @@ void warn(fmt::format_string<Args...> format, Args&&... args) {
   log_line("warning", fmt::format(format, std::forward<Args>(args)...));
 }
 
-/// Reports progress; silenced by set_quiet().
+/// Reports progress.
 template <class... Args>
 void log_info(fmt::format_string<Args...> format, Args&&... args) {
   log_line("", fmt::format(format, std::forward<Args>(args)...));
 }
-
-/// Silences log_info(), not warn(). Thread-safe.
-void set_quiet(bool quiet);
 
 }  // namespace heml
