@@ -5,7 +5,7 @@
 namespace heml::render {
 namespace {
 
-constexpr float crease = 70 * std::numbers::pi_v<float> / 180;
+constexpr float crease_angle = 70 * std::numbers::pi_v<float> / 180;
 
 Vec3f unit_or_zero(const Vec3f& v) {
   const float length = v.norm();
@@ -26,7 +26,7 @@ Vec3f control(const Vec3f& p, const Vec3f& q, const Vec3f& n) { return (2 * p + 
 }  // namespace
 
 SmoothSurface::SmoothSurface(const SurfaceMesh& surface_mesh, int segments)
-    : topology_(surface_topology(surface_mesh, crease)), segments_(segments) {
+    : topology_(surface_topology(surface_mesh, crease_angle)), segments_(segments) {
   for (int c = 0; c < static_cast<int>(topology_.corner_nodes.size()); ++c) blends_.push_back({{c, c, c}, {1, 0, 0}});
   number_edges();
   number_triangles();

@@ -7,8 +7,8 @@
 namespace heml {
 namespace {
 
-constexpr double share = 0.1;            // of the smallest stable step of the pilot run
-constexpr double longest = 600;          // s of processor time
+constexpr double pilot_share = 0.1;      // of the smallest stable step of the pilot run
+constexpr double max_seconds = 600;      // s of processor time
 constexpr std::size_t many_tets = 5000;  // larger meshes run on all cores
 
 /// Runs Verlet with about `part` of the stable step. Whole steps fill a tick of the scene, so events keep their times.
@@ -43,11 +43,11 @@ Reference reference_of(const Problem& problem, const Run& pilot, RunOptions opti
     reference.failure = "verlet took no step";
     return reference;
   }
-  options.longest = longest;
+  options.longest = max_seconds;
   options.repeat_below = 0;
-  const Run coarse = fine_run(problem, pilot, share, options);
+  const Run coarse = fine_run(problem, pilot, pilot_share, options);
   if (coarse.failed.empty()) {
-    const Run fine = fine_run(problem, pilot, share / 2, options);
+    const Run fine = fine_run(problem, pilot, pilot_share / 2, options);
     reference.failure = fine.failed;
     reference.step = fine.steps > 0 ? fine.simulated / static_cast<double>(fine.steps) : 0;
     reference.change = max_distance(coarse.at, fine.at, problem.mass);

@@ -21,36 +21,37 @@ struct Entry {
   std::string_view law = {};      ///< bench_material() of this law; empty: that of the file
 };
 
-constexpr const char *beam = "studies/accuracy/beam.json", *cube = "studies/accuracy/cube.json";
+constexpr const char *beam_file = "studies/accuracy/beam.json", *cube_file = "studies/accuracy/cube.json";
 constexpr SceneStudyOptions thorough{}, brief{Breadth::brief, true, 50000}, own{Breadth::brief, false, 0};
 
-constexpr Entry quick_entries[] = {{beam, {Breadth::brief, true, 20000}, 20}, {"studies/accuracy/twist.json", own, 10}};
+constexpr Entry quick_entries[] = {{beam_file, {Breadth::brief, true, 20000}, 20},
+                                   {"studies/accuracy/twist.json", own, 10}};
 
 constexpr Entry full_entries[] = {
-    {beam, thorough, 60},
+    {beam_file, thorough, 60},
     {"scenes/kidney_pull.json", thorough, 300},
     {"studies/accuracy/twist.json", brief, 60},
     {"studies/accuracy/inclusion.json", brief, 60},
     {"studies/accuracy/fibre.json", brief, 60},
     {"studies/accuracy/cut.json", brief, 60},
     {"studies/accuracy/collapse.json", brief, 60},
-    {cube, brief, 20},
+    {cube_file, brief, 20},
     // Mesh size.
-    {beam, own, 60, 1},
-    {beam, own, 150, 2},
-    {cube, own, 60, 1},
-    {cube, own, 200, 2},
+    {beam_file, own, 60, 1},
+    {beam_file, own, 150, 2},
+    {cube_file, own, 60, 1},
+    {cube_file, own, 200, 2},
     // Stiffness and compressibility.
-    {beam, brief, 20, 0, 1e4, 0.3},
-    {beam, brief, 20, 0, 1e4, 0.45},
-    {beam, brief, 40, 0, 1e4, 0.499},
-    {beam, brief, 20, 0, 1e5, 0.3},
-    {beam, brief, 40, 0, 1e5, 0.499},
-    {beam, brief, 20, 0, 1e6, 0.3},
-    {beam, brief, 40, 0, 1e6, 0.499},
-    {beam, brief, 40, 0, 1e7, 0.3},
-    {beam, brief, 40, 0, 1e7, 0.45},
-    {beam, brief, 90, 0, 1e7, 0.499},
+    {beam_file, brief, 20, 0, 1e4, 0.3},
+    {beam_file, brief, 20, 0, 1e4, 0.45},
+    {beam_file, brief, 40, 0, 1e4, 0.499},
+    {beam_file, brief, 20, 0, 1e5, 0.3},
+    {beam_file, brief, 40, 0, 1e5, 0.499},
+    {beam_file, brief, 20, 0, 1e6, 0.3},
+    {beam_file, brief, 40, 0, 1e6, 0.499},
+    {beam_file, brief, 40, 0, 1e7, 0.3},
+    {beam_file, brief, 40, 0, 1e7, 0.45},
+    {beam_file, brief, 90, 0, 1e7, 0.499},
 };
 
 /// Sets the moduli of a beam and scales its duration to as many oscillations as before, at least 0.1 s.
@@ -98,7 +99,7 @@ std::vector<AccuracyScene> accuracy_scenes(bool quick) {
   for (const AccuracyScene& scene : scenes)
     for (const RegionMaterial& entry : scene.problem.scene.materials) missing.erase(entry.material.law);
   for (const LawInfo& law : laws())
-    if (missing.contains(law.name)) scenes.push_back(scene_of({cube, own, 5, 0, 0, 0, law.name}));
+    if (missing.contains(law.name)) scenes.push_back(scene_of({cube_file, own, 5, 0, 0, 0, law.name}));
   return scenes;
 }
 

@@ -82,7 +82,7 @@ TextTable time_table(const TimeStudy& study) {
     }
     row.insert(row.end(),
                {error_text(m), percent(m.relative), length_text(m.last_error), short_number(m.seconds_per_second()),
-                short_number(1e3 * m.seconds_per_second() * frame), short_number(1e3 * m.run.median_tick),
+                short_number(1e3 * m.seconds_per_second() * seconds_per_frame), short_number(1e3 * m.run.median_tick),
                 short_number(1e3 * m.run.slow_tick), std::to_string(m.run.steps), std::to_string(m.run.iterations),
                 m.frequency_error ? signed_percent(*m.frequency_error) : "",
                 m.added_decay ? fmt::format("{:+.2g}", *m.added_decay) : "",

@@ -88,7 +88,9 @@ SceneStudy study_scene(const std::string& name, const Problem& problem, const Sc
 std::optional<Candidate> best_within(const std::vector<Candidate>& candidates, double frame_seconds) {
   return best_of(
       candidates,
-      [&](const Candidate& c) { return c.frame_seconds() <= frame_seconds && c.tick() <= frame * (1 + 1e-9); },
+      [&](const Candidate& c) {
+        return c.frame_seconds() <= frame_seconds && c.tick() <= seconds_per_frame * (1 + 1e-9);
+      },
       [](const Candidate& a, const Candidate& b) {
         return a.error() != b.error() ? a.error() < b.error() : a.frame_seconds() < b.frame_seconds();
       });

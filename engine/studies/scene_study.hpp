@@ -9,16 +9,18 @@
 
 namespace heml {
 
-inline constexpr double frame = 1.0 / 60;  ///< s of simulated time per frame
+inline constexpr double seconds_per_frame = 1.0 / 60;  ///< s of simulated time per frame
 
 /// One method on one mesh and element, with its time and mesh errors.
 struct Candidate {
   const TimeStudy* study = nullptr;
   const Measured* measured = nullptr;
-  std::optional<double> mesh_error;                                                ///< m; none: unknown
-  double error() const { return measured->error + mesh_error.value_or(0); }        ///< m
-  double frame_seconds() const { return measured->seconds_per_second() * frame; }  ///< s, wall time of a frame
-  double tick() const { return measured->method.step.value_or(1e-3); }             ///< s
+  std::optional<double> mesh_error;                                          ///< m; none: unknown
+  double error() const { return measured->error + mesh_error.value_or(0); }  ///< m
+  double frame_seconds() const {
+    return measured->seconds_per_second() * seconds_per_frame;
+  }                                                                     ///< s, wall time of a frame
+  double tick() const { return measured->method.step.value_or(1e-3); }  ///< s
 };
 
 struct SceneStudy {

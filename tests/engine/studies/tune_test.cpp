@@ -13,7 +13,7 @@ Measured measured(double frame_milliseconds, double error, double step, bool fai
   m.method = {Integrator::tr_bdf2, step, 1};
   m.error = error;
   m.run.simulated = 1;
-  m.run.seconds = frame_milliseconds * 1e-3 / frame;
+  m.run.seconds = frame_milliseconds * 1e-3 / seconds_per_frame;
   if (failed) m.run.failed = "ran away";
   return m;
 }
