@@ -32,7 +32,7 @@ void ViewSection::draw(Rows& rows, std::vector<Action>& pressed, PanelActions& o
   const float left = ImGui::GetCursorPosX();
   rows.check({"Wireframe", "The mesh's edges over the surface (W)."}, drawing_.wireframe);
   ImGui::SameLine(left + half);
-  rows.check({"Constrained nodes", "Beads at fixed and prescribed nodes."}, drawing_.constrained);
+  rows.check({"Constraints", "Beads at fixed and prescribed nodes."}, drawing_.constrained);
   rows.check({"Ground", "The ground below the body, with its shadow."}, drawing_.ground);
   ImGui::SameLine(left + half);
   bool fine = drawing_.resolution == 1;
