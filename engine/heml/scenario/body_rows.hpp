@@ -78,7 +78,6 @@ struct Row<RemoveElements> : CommonRow {
                                     meaning = "takes elements out of the body, with their mass and energy";
   static constexpr ValueForm value_form = object_form;
   static constexpr std::span<const KeyInfo> keys = scene_keys::elements;
-  static constexpr bool is_edit = true;
   static constexpr std::optional<CommandTool> tool = CommandTool::removal;
   static constexpr bool takes_up = true;
   static Command read(const JsonCursor& value, Points&) { return RemoveElements{elements_from(value)}; }
@@ -103,7 +102,6 @@ struct Row<CutTissue> : CommonRow {
        "the two ends of the blade at successive times"},
       {"goes_on", form::flag, "", "`false`", "one stroke, and one edit to undo, with the cut before"}};
   static constexpr std::span<const KeyInfo> keys = cut_keys;
-  static constexpr bool is_edit = true;
   static constexpr std::optional<CommandTool> tool = CommandTool::cut;
   static bool takes_up(const CutTissue& cut) { return !cut.continues_stroke; }
   static Command read(const JsonCursor& value, Points&) {
@@ -149,7 +147,6 @@ struct Row<AdoptPreconditioner> : PlainRow<AdoptPreconditioner> {
 template <>
 struct Row<Undo> : PlainRow<Undo> {
   static constexpr std::string_view key = "undo", meaning = "takes back the last removal or stroke";
-  static constexpr bool is_edit = true;
   static constexpr std::optional<CommandTool> tool = CommandTool::undo;
   static constexpr bool takes_up = true;
 };

@@ -29,7 +29,7 @@ struct CommonRow {
   static constexpr std::string_view unit = "";
   static constexpr std::span<const KeyInfo> keys = {};
   static constexpr std::optional<CommandTool> tool = {};
-  static constexpr bool takes_up = false, is_edit = false;
+  static constexpr bool takes_up = false;
 };
 
 /// One for each alternative of Command.

@@ -33,7 +33,7 @@ constexpr CommandInfo info() {
                   Row<C>::value_form,
                   Row<C>::unit,
                   Row<C>::keys,
-                  Row<C>::is_edit,
+                  is_edit_command<C>,
                   Row<C>::tool,
                   takes_up<C>,
                   nullptr,

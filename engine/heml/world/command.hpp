@@ -10,6 +10,7 @@
 #include <heml/world/setup.hpp>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -108,6 +109,15 @@ struct Reset {};
 using Command = std::variant<Grasp, MoveTool, Release, PinTissue, Unpin, SetTables, MoveProbe, WithdrawProbe,
                              SutureTissue, CutSutures, SetMaterial, SetDamping, SetGravity, SetIntegrator, SetBudget,
                              SetStepCost, RemoveElements, CutTissue, Undo, AdoptPreconditioner, Reset>;
+
+/// Whether a kind of command changes which elements there are, or takes such a change back.
+template <class C>
+inline constexpr bool is_edit_command =
+    std::is_same_v<C, RemoveElements> || std::is_same_v<C, CutTissue> || std::is_same_v<C, Undo>;
+
+inline bool is_edit(const Command& command) {
+  return std::visit([]<class C>(const C&) { return is_edit_command<C>; }, command);
+}
 
 /// A command and the tick at whose start it takes effect (the first tick is 0).
 struct Event {

@@ -5,12 +5,6 @@
 #include <type_traits>
 
 namespace heml {
-namespace {
-bool is_edit(const Command& command) {
-  return std::holds_alternative<RemoveElements>(command) || std::holds_alternative<CutTissue>(command) ||
-         std::holds_alternative<Undo>(command);
-}
-}  // namespace
 
 template <class Real>
 TypedWorld<Real>::TypedWorld(WorldSetup setup) : s_(std::move(setup)) {
