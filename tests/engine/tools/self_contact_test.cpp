@@ -47,7 +47,7 @@ struct Soup {
       const Vec3 far(4.0 * t, 0, 0), place = random_vector(random, size);
       std::array<Vec3, 4> corners = regular_tet(R);
       for (Vec3& X : corners) X += far;
-      add_tet(mesh, corners);  // apart at rest: no overlap is let be
+      add_tet(mesh, corners);  // apart at rest: no initial overlap is ignored
       for (const Vec3& X : corners) from.push_back(X - far + place);
     }
     to = from;
@@ -213,7 +213,7 @@ TEST_CASE("candidates kept from earlier steps miss no pair, and are kept for som
   CHECK(counts.edges > 100);
 }
 
-TEST_CASE("what overlaps at rest is let be, however it moves after") {
+TEST_CASE("pairs that overlap at rest are ignored, however they move after") {
   std::mt19937_64 random(3);
   TetMesh mesh;
   add_tet(mesh, regular_tet());
