@@ -8,7 +8,7 @@
 
 namespace heml {
 namespace {
-constexpr int max_iterations = 500;
+constexpr int max_cg_iterations = 500;
 constexpr double first_shift = 1e-4;          // relative to the stiffness along the residual
 constexpr double projected_tolerance = 1e-2;  // an approximation need not be solved exactly
 // An outdated factor serves while the body has this part of its elements.
@@ -209,7 +209,7 @@ bool LinearSolver::solve(Objective& objective, const Vector& r, double tolerance
   const double enough = tolerance * r.norm();
   if (!objective.is_symmetric()) return biconjugate_gradients(objective, r, enough, d);
   if (supports_single_precision(objective, tolerance))
-    return single_precision_cg_->solve(*scalar_, r, tolerance, max_iterations, d, counts_.iterations);
+    return single_precision_cg_->solve(*scalar_, r, tolerance, max_cg_iterations, d, counts_.iterations);
   if (sign == Definiteness::positive) return conjugate_gradients(objective, r, enough, d);
   apply_factor(r, d);
   return false;
@@ -227,7 +227,7 @@ bool LinearSolver::conjugate_gradients(Objective& objective, const Vector& r, do
   apply(left, z);
   Vector p = z;
   double progress = left.dot(z);
-  for (int k = 0; k < max_iterations; ++k) {
+  for (int k = 0; k < max_cg_iterations; ++k) {
     objective.product(p, q);
     if (shift_ > 0) q += shift_ * p;
     ++counts_.iterations;
@@ -254,7 +254,7 @@ bool LinearSolver::biconjugate_gradients(Objective& objective, const Vector& r, 
   double rho = 1, alpha = 1, omega = 1, least = r.norm();
   Vector best;
   apply(r, best);  // fallback: a direction of the symmetric part
-  for (int k = 0; k < max_iterations && left.norm() > enough; ++k) {
+  for (int k = 0; k < max_cg_iterations && left.norm() > enough; ++k) {
     const double rho_now = r.dot(left), beta = rho_now / rho * alpha / omega;
     rho = rho_now;
     p = left + beta * (p - omega * q);

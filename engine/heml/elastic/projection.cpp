@@ -8,7 +8,7 @@ namespace heml {
 namespace {
 
 constexpr double flat = 0.05;  // |J| below which no tensions express a pressure
-constexpr int row[6] = {0, 1, 2, 0, 0, 1}, column[6] = {0, 1, 2, 1, 2, 2};
+constexpr int stress_row[6] = {0, 1, 2, 0, 0, 1}, stress_column[6] = {0, 1, 2, 1, 2, 2};
 
 using Mat9 = Eigen::Matrix<double, 9, 9>;
 
@@ -39,7 +39,8 @@ void store(const Mat9& matrix, Real K[edge_entries]) {
 template <class Real>
 Eigen::Matrix3d square(const Real six[6]) {
   Eigen::Matrix3d matrix;
-  for (int k = 0; k < 6; ++k) matrix(row[k], column[k]) = matrix(column[k], row[k]) = static_cast<double>(six[k]);
+  for (int k = 0; k < 6; ++k)
+    matrix(stress_row[k], stress_column[k]) = matrix(stress_column[k], stress_row[k]) = static_cast<double>(six[k]);
   return matrix;
 }
 

@@ -22,7 +22,7 @@ template <class Real>
 std::unique_ptr<GroupTerm<Real>> make_law_term(const Material& material, bool continuation, bool isochoric) {
   std::unique_ptr<GroupTerm<Real>> term;
   [&]<std::size_t... part>(std::index_sequence<part...>) {
-    ((term = make_law_term_of_part<Real, part>(material, continuation, isochoric), term != nullptr) || ...);
+    void(((term = make_law_term_of_part<Real, part>(material, continuation, isochoric), term != nullptr) || ...));
   }
   (std::make_index_sequence<term_parts>{});
   assert(term);

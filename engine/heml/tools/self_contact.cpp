@@ -10,9 +10,9 @@
 namespace heml {
 namespace {
 
-constexpr double touch = 1e-3;   // of an edge: nearer pairs count as touching, since a step may push them together
-constexpr double slack = 0.01;   // of a face or an edge: margin outside it, so that nothing slips between neighbours
-constexpr double beside = 0.25;  // of a face or an edge: margin within which overlapping pairs stay candidates
+constexpr double touch_gap = 1e-3;  // of an edge: nearer pairs count as touching, since a step may push them together
+constexpr double slack = 0.01;      // of a face or an edge: margin outside it, so that nothing slips between neighbours
+constexpr double beside = 0.25;     // of a face or an edge: margin within which overlapping pairs stay candidates
 constexpr double min_allowance = 0.15, max_allowance = 1;  // of an edge
 constexpr double min_sifted = 0.02, max_sifted = 0.15;     // of an edge
 constexpr double same_overlap = 1e-6;                      // of an edge: smaller overlaps at rest are round-off
@@ -153,7 +153,7 @@ double SelfContact::spread(const CandidateSet& set, const Positions& x) const {
 }
 
 /// Distance (m) within which pairs can touch while each node moves by at most `allowance`.
-double SelfContact::reach_of(double allowance) const { return 2 * allowance + (touch + 4 * slack) * edge_; }
+double SelfContact::reach_of(double allowance) const { return 2 * allowance + (touch_gap + 4 * slack) * edge_; }
 
 /// Collects pairs of faces that share a grid cell, each once: in the cell of the lower corner of their boxes'
 /// intersection.
@@ -257,8 +257,8 @@ double SelfContact::squared_distance(const Candidate& candidate) const {
   return (x(a) + s * u - x(c) - t * v).squaredNorm();
 }
 
-/// Selects the near pairs that can touch while nodes move far less than the broad phase allows. Overlapping pairs stay,
-/// however deep.
+/// Selects the near pairs that can touch while nodes move far less than the broad phase allows. Overlapping pairs
+/// stay, however deep.
 void SelfContact::filter_candidates() {
   filtered_.reference = from_;
   const double displacement = spread(filtered_, to_);
@@ -334,7 +334,7 @@ bool SelfContact::meets(const Candidate& candidate, const ContactPair& pair) con
     to[k] = to_[at(pair.nodes[k])];
   }
   const auto first = point_of(pair, from), last = point_of(pair, to);
-  if (!first || !last || !(std::min(first->gap, last->gap) <= touch * edge_)) return false;
+  if (!first || !last || !(std::min(first->gap, last->gap) <= touch_gap * edge_)) return false;
   const double part = first->gap <= 0  ? 0
                       : last->gap >= 0 ? (last->gap < first->gap ? 1 : 0)
                                        : first->gap / (first->gap - last->gap);
