@@ -41,7 +41,7 @@ static_assert(
     }(std::make_index_sequence<integrator_count>{}),
     "the rows of IntegratorList are not in the order of the enum");
 
-/// Calls use(type_identity of the row) for an integrator and returns its result; use must accept every row.
+/// Calls use(row) for the row of an integrator and returns its result; use must accept every row.
 template <class Result, class Use>
 Result visit_integrator(Integrator integrator, const Use& use) {
   Result result{};
