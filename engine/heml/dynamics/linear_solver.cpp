@@ -106,7 +106,10 @@ std::size_t LinearSolver::max_direct_unknowns() const {
 bool LinearSolver::keep_elements(const std::vector<int>& elements) {
   if (!scalar_) return false;
   modulus_ = with_elements(modulus_, elements);
-  if (single_precision_cg_) single_precision_cg_->keep_elements(elements);
+  if (single_precision_cg_) {
+    single_precision_cg_->keep_elements(elements);
+    matrix_has_lost_elements_ = true;
+  }
   std::vector<std::size_t> bare;
   for (std::size_t row = 0; row < free_.node.size(); ++row)
     if (!(mass_[3 * free_.node[row]] > 0)) bare.push_back(row);
@@ -130,26 +133,31 @@ void LinearSolver::adopt(PreconditionerBuild& work) {
 }
 
 LinearSolver::Snapshot LinearSolver::snapshot() const {
-  Snapshot snapshot;
-  snapshot.factored_a = factored_a_;
-  if (outdated_) snapshot.outdated = scalar_;
-  if (outdated_) snapshot.excluded_rows = scalar_->excluded_rows();
-  snapshot.built_for_elements = built_for_elements_;
+  Snapshot snapshot{a_, factored_a_, {}, {}, {}, built_for_elements_, outdated_, counts_};
+  if (scalar_) {
+    snapshot.hierarchy = scalar_->hierarchy();
+    snapshot.excluded_rows = scalar_->excluded_rows();
+  }
+  if (single_precision_cg_ && matrix_has_lost_elements_)
+    snapshot.matrix = std::make_shared<const BsrMatrix>(single_precision_cg_->matrix());
   return snapshot;
 }
 
 void LinearSolver::restore(const Snapshot& snapshot) {
-  if (snapshot.outdated) {
-    scalar_ = snapshot.outdated;
+  a_ = snapshot.a;
+  factored_a_ = snapshot.factored_a;
+  built_for_elements_ = snapshot.built_for_elements;
+  outdated_ = snapshot.outdated;
+  counts_ = snapshot.counts;
+  if (snapshot.hierarchy) {
+    scalar_ = std::make_unique<SmoothedAggregation>(snapshot.hierarchy, team_);
     scalar_->exclude_rows(snapshot.excluded_rows);
-    built_for_elements_ = snapshot.built_for_elements;
-    outdated_ = true;
+    if (factored_a_ >= 0) scalar_->set_inertia(factored_a_);
   }
-  if (snapshot.factored_a < 0) return;
-  const double a = std::exchange(a_, snapshot.factored_a);
-  factored_a_ = -1;
-  factorise_scalar();
-  a_ = a;
+  if (snapshot.matrix) {
+    single_precision_cg_ = std::make_unique<SinglePrecisionCG>(free_, *snapshot.matrix, team_);
+    matrix_has_lost_elements_ = true;
+  }
 }
 
 /// Factors aM + L if a has changed a lot. First rebuilds the preconditioner if it is outdated and the body has lost too
@@ -157,7 +165,7 @@ void LinearSolver::restore(const Snapshot& snapshot) {
 bool LinearSolver::factorise_scalar() {
   if (!scalar_ || (outdated_ && static_cast<double>(modulus_.size()) <
                                     min_element_fraction * static_cast<double>(built_for_elements_))) {
-    scalar_ = std::make_shared<SmoothedAggregation>(free_, mesh_, modulus_, mass_, max_direct_unknowns(), team_);
+    scalar_ = std::make_unique<SmoothedAggregation>(free_, mesh_, modulus_, mass_, max_direct_unknowns(), team_);
     built_for_elements_ = modulus_.size();
     outdated_ = false;
     factored_a_ = -1;

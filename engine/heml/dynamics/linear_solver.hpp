@@ -36,13 +36,16 @@ class LinearSolver {
   /// If the preconditioner is outdated, returns a job that rebuilds it for the present body on any thread; pass the
   /// result to adopt(). Null if it is up to date.
   std::shared_ptr<PreconditionerBuild> preconditioner_build() const;
-  /// State that later solves depend on besides the body: the a for which the scalar matrix is factored, and an outdated
-  /// preconditioner, which cannot be rebuilt from the present body.
+  /// State that later solves depend on besides the body: the a for which the scalar matrix is factored, and what may
+  /// have been built for a body with more elements. What each solve makes anew is left out.
   struct Snapshot {
-    double factored_a = -1;  ///< 1/s²; negative: not factored
-    std::shared_ptr<SmoothedAggregation> outdated;
+    double a = 0, factored_a = -1;                                    ///< 1/s²; negative: not factored
+    std::shared_ptr<const SmoothedAggregation::Hierarchy> hierarchy;  ///< null: not built yet
     std::vector<std::size_t> excluded_rows;
+    std::shared_ptr<const BsrMatrix> matrix;  ///< in float, where its pattern is of a body with more elements
     std::size_t built_for_elements = 0;
+    bool outdated = false;
+    LinearSolverStats counts;
   };
   Snapshot snapshot() const;
   /// Makes a newly constructed solver continue as the one that snapshot() came from.
@@ -100,14 +103,15 @@ class LinearSolver {
   ThreadTeam& team_;
   std::unique_ptr<BlockMatrix> matrix_;  ///< built on first use, like the members below
   std::unique_ptr<Cholesky> cholesky_;
-  Vector pivots_;                                ///< |D|, in the factor's order
-  std::shared_ptr<SmoothedAggregation> scalar_;  ///< shared with Snapshot
+  Vector pivots_;  ///< |D|, in the factor's order
+  std::unique_ptr<SmoothedAggregation> scalar_;
   std::unique_ptr<SinglePrecisionCG> single_precision_cg_;
   std::vector<Mat3> inverse_blocks_;  ///< #free
   std::vector<double> modulus_;
   double a_ = 0, factored_a_ = -1;
   bool outdated_ = false;
-  std::size_t built_for_elements_ = 0;  ///< number of elements that the preconditioner was built for
+  bool matrix_has_lost_elements_ = false;  ///< that of single_precision_cg_
+  std::size_t built_for_elements_ = 0;     ///< number of elements that the preconditioner was built for
   LinearSolverStats counts_;
 };
 

@@ -8,7 +8,10 @@ constexpr std::size_t piece = 1024;  // rows per partial sum
 }
 
 SinglePrecisionCG::SinglePrecisionCG(const FreeNodes& free, const TetMesh& mesh, ThreadTeam& team)
-    : free_(free), team_(team), K_(free.number, mesh.tets) {
+    : SinglePrecisionCG(free, BsrMatrix(free.number, mesh.tets), team) {}
+
+SinglePrecisionCG::SinglePrecisionCG(const FreeNodes& free, BsrMatrix matrix, ThreadTeam& team)
+    : free_(free), team_(team), K_(std::move(matrix)) {
   for (MultiVector* list : {&d_, &left_, &p_, &q_, &z_}) list->resize(K_.rows());
   sums_.resize((K_.rows() + piece - 1) / piece);
 }

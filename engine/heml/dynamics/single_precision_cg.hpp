@@ -12,9 +12,12 @@ class SinglePrecisionCG {
  public:
   /// mesh: gives the sparsity pattern. free and team must outlive this.
   SinglePrecisionCG(const FreeNodes& free, const TetMesh& mesh, ThreadTeam& team);
+  /// With a matrix made before, of the same free nodes.
+  SinglePrecisionCG(const FreeNodes& free, BsrMatrix matrix, ThreadTeam& team);
 
   /// To be called when the mesh has lost elements: those left, by their old numbers (ascending).
   void keep_elements(const std::vector<int>& elements) { K_.keep_elements(elements); }
+  const BsrMatrix& matrix() const { return K_; }
 
   /// Assembles K from the last linearise() of the objective, plus shift (N/m) on its diagonal. Returns false if the
   /// objective does not provide K in float.

@@ -46,50 +46,64 @@ HEML_WIDE void wide_rows(const Rows& A, const MultiVector& x, const auto& write,
   rows(A, x, write, begin, end);
 }
 
-}  // namespace
-
-SmoothedAggregation::SmoothedAggregation(const FreeNodes& free, const TetMesh& mesh, const std::vector<double>& modulus,
-                                         const Vector& mass, std::size_t max_direct_unknowns, ThreadTeam& team)
-    : node_(free.node), team_(team), levels_(1) {
-  levels_[0].L = scalar_stiffness(free, mesh, modulus);
-  levels_[0].M = scalar_mass(free, mass);
-  for (std::size_t row = 0; row < node_.size(); ++row) {
-    if (mass[3 * node_[row]] > 0) continue;
-    excluded_rows_.push_back(row);
-    levels_[0].L.coeffRef(static_cast<int>(row), static_cast<int>(row)) += 1;
-  }
-  add_levels(max_direct_unknowns);
-}
-
-void SmoothedAggregation::add_levels(std::size_t max_direct_unknowns) {
-  while (static_cast<std::size_t>(levels_.back().L.rows()) > max_direct_unknowns) {
-    Level& fine = levels_.back();
+void add_coarse_levels(SmoothedAggregation::Hierarchy& hierarchy, std::size_t max_direct_unknowns) {
+  auto& levels = hierarchy.levels;
+  while (static_cast<std::size_t>(levels.back().L.rows()) > max_direct_unknowns) {
+    auto& fine = levels.back();
     const ScalarMatrix P = smoothed_prolongation(fine.L), R = P.transpose();
     if (static_cast<double>(P.cols()) > max_coarsening_ratio * static_cast<double>(P.rows())) break;
     fine.P = P.cast<float>();
     fine.R = R.cast<float>();
-    Level coarse;
+    SmoothedAggregation::Hierarchy::Level coarse;
     coarse.L = R * ScalarMatrix(fine.L * P);
     coarse.M = R * ScalarMatrix(fine.M * P);
-    levels_.push_back(std::move(coarse));
+    levels.push_back(std::move(coarse));
   }
-  for (Level& level : levels_) {
-    const auto size = static_cast<std::size_t>(level.L.rows());
-    level.b.resize(size);
-    level.x.resize(size);
-    level.scratch.resize(size);
+}
+
+std::shared_ptr<const SmoothedAggregation::Hierarchy> make_hierarchy(const FreeNodes& free, const TetMesh& mesh,
+                                                                     const std::vector<double>& modulus,
+                                                                     const Vector& mass,
+                                                                     std::size_t max_direct_unknowns) {
+  auto hierarchy = std::make_shared<SmoothedAggregation::Hierarchy>();
+  hierarchy->node = free.node;
+  auto& finest = hierarchy->levels.emplace_back();
+  finest.L = scalar_stiffness(free, mesh, modulus);
+  finest.M = scalar_mass(free, mass);
+  for (std::size_t row = 0; row < free.node.size(); ++row) {
+    if (mass[3 * free.node[row]] > 0) continue;
+    hierarchy->bare_rows.push_back(row);
+    finest.L.coeffRef(static_cast<int>(row), static_cast<int>(row)) += 1;
+  }
+  add_coarse_levels(*hierarchy, max_direct_unknowns);
+  return hierarchy;
+}
+
+}  // namespace
+
+SmoothedAggregation::SmoothedAggregation(const FreeNodes& free, const TetMesh& mesh, const std::vector<double>& modulus,
+                                         const Vector& mass, std::size_t max_direct_unknowns, ThreadTeam& team)
+    : SmoothedAggregation(make_hierarchy(free, mesh, modulus, mass, max_direct_unknowns), team) {}
+
+SmoothedAggregation::SmoothedAggregation(std::shared_ptr<const Hierarchy> hierarchy, ThreadTeam& team)
+    : hierarchy_(std::move(hierarchy)), excluded_rows_(hierarchy_->bare_rows), team_(team) {
+  for (const Hierarchy::Level& matrices : hierarchy_->levels) {
+    const auto size = static_cast<std::size_t>(matrices.L.rows());
+    levels_.push_back({{}, {}, MultiVector(size), MultiVector(size), MultiVector(size)});
   }
 }
 
 bool SmoothedAggregation::set_inertia(double a) {
   for (std::size_t l = 0; l + 1 < levels_.size(); ++l) {
     Level& level = levels_[l];
-    const ScalarMatrix A = a * level.M + level.L;
+    const Hierarchy::Level& matrices = hierarchy_->levels[l];
+    const ScalarMatrix A = a * matrices.M + matrices.L;
     level.inverse_D.clear();
     for (const double sum : absolute_row_sums(A)) level.inverse_D.push_back(static_cast<float>(1 / sum));
     level.A = A.cast<float>();
   }
-  return bottom_.factor(a * levels_.back().M + levels_.back().L);
+  const Hierarchy::Level& bottom = hierarchy_->levels.back();
+  return bottom_.factor(a * bottom.M + bottom.L);
 }
 
 /// Calls write(row, (A x)_row) for every row.
@@ -118,12 +132,13 @@ void SmoothedAggregation::cycle(std::size_t l) {
     return bottom_.solve(level.x);
   }
   Level& coarse = levels_[l + 1];
+  const Hierarchy::Level& transfer = hierarchy_->levels[l];
   for (std::size_t i = 0; i < level.x.size(); ++i) level.x[i] = weights[0] * level.inverse_D[i] * level.b[i];
   for (std::size_t k = 1; k < weights.size(); ++k) smooth(level, weights[k]);
   each_row(level.A, level.x, [&](std::size_t i, const Eigen::Array4f& Ax) { level.scratch[i] = level.b[i] - Ax; });
-  each_row(level.R, level.scratch, [&](std::size_t i, const Eigen::Array4f& sum) { coarse.b[i] = sum; });
+  each_row(transfer.R, level.scratch, [&](std::size_t i, const Eigen::Array4f& sum) { coarse.b[i] = sum; });
   cycle(l + 1);
-  each_row(level.P, coarse.x, [&](std::size_t i, const Eigen::Array4f& sum) { level.x[i] += sum; });
+  each_row(transfer.P, coarse.x, [&](std::size_t i, const Eigen::Array4f& sum) { level.x[i] += sum; });
   for (const float weight : weights) smooth(level, weight);
 }
 
@@ -137,7 +152,7 @@ void SmoothedAggregation::apply(const MultiVector& r, MultiVector& z) {
 void SmoothedAggregation::apply(const Vector& r, Vector& z) {
   const double largest = r.cwiseAbs().maxCoeff(), scale = largest > 0 ? largest : 1;  // keeps values in float's range
   Level& top = levels_.front();
-  const auto place = [&](std::size_t k) { return 3 * node_[k]; };
+  const auto place = [&](std::size_t k) { return 3 * hierarchy_->node[k]; };
   for (std::size_t k = 0; k < top.b.size(); ++k)
     top.b[k] << (r.segment<3>(place(k)) / scale).cast<float>().array(), 0.0f;
   cycle(0);
@@ -148,10 +163,11 @@ void SmoothedAggregation::apply(const Vector& r, Vector& z) {
 }
 
 std::size_t SmoothedAggregation::bytes() const {
-  std::size_t sum = bottom_.bytes() + bytes_of(node_, excluded_rows_);
+  std::size_t sum = bottom_.bytes() + bytes_of(hierarchy_->node, hierarchy_->bare_rows, excluded_rows_);
+  for (const Hierarchy::Level& matrices : hierarchy_->levels)
+    sum += bytes_of(matrices.L, matrices.M, matrices.P, matrices.R);
   for (const Level& level : levels_)
-    sum += bytes_of(level.L, level.M, level.A, level.P, level.R) +
-           bytes_of(level.inverse_D, level.b, level.x, level.scratch);
+    sum += bytes_of(level.A) + bytes_of(level.inverse_D, level.b, level.x, level.scratch);
   return sum;
 }
 

@@ -17,15 +17,31 @@
 // threads.
 #include <heml/base/thread_team.hpp>
 #include <heml/dynamics/scalar_cholesky.hpp>
+#include <memory>
 
 namespace heml {
 
 class SmoothedAggregation {
+  using Rows = Eigen::SparseMatrix<float, Eigen::RowMajor>;
+
  public:
+  /// What is built of a mesh once, for any inertia. Immutable: snapshots and other solvers share it.
+  struct Hierarchy {
+    struct Level {
+      ScalarMatrix L, M;
+      Rows P, R;  ///< prolongation and restriction, R = Pᵀ; empty at the bottom
+    };
+    std::vector<int> node;               ///< node of each row
+    std::vector<std::size_t> bare_rows;  ///< of nodes without mass and elements
+    std::vector<Level> levels;
+  };
+
   /// mesh: rest shape. modulus: #T, Pa. mass: 3 #V, kg. max_direct_unknowns: number of unknowns up to which a level is
   /// factored, not coarsened. Nodes without mass and elements count as fixed. team must outlive this.
   SmoothedAggregation(const FreeNodes& free, const TetMesh& mesh, const std::vector<double>& modulus,
                       const Vector& mass, std::size_t max_direct_unknowns, ThreadTeam& team);
+  SmoothedAggregation(std::shared_ptr<const Hierarchy> hierarchy, ThreadTeam& team);
+  const std::shared_ptr<const Hierarchy>& hierarchy() const { return hierarchy_; }
 
   /// Sets a (1/s²) on all levels; required before apply(). Returns whether aM + L is positive definite.
   bool set_inertia(double a);
@@ -44,22 +60,18 @@ class SmoothedAggregation {
   std::size_t bytes() const;
 
  private:
-  using Rows = Eigen::SparseMatrix<float, Eigen::RowMajor>;
   struct Level {
-    ScalarMatrix L, M;
-    Rows A;                        ///< aM + L
+    Rows A;                        ///< aM + L; empty at the bottom
     std::vector<float> inverse_D;  ///< 1/Σ|A| along each row
-    Rows P, R;                     ///< prolongation and restriction, R = Pᵀ; empty at the bottom
     MultiVector b, x, scratch;
   };
 
-  void add_levels(std::size_t max_direct_unknowns);
   void cycle(std::size_t l);
   void smooth(Level& level, float weight) const;
   template <class Write>
   void each_row(const Rows& A, const MultiVector& x, const Write& write) const;
 
-  std::vector<int> node_;  ///< node of each row
+  std::shared_ptr<const Hierarchy> hierarchy_;
   std::vector<std::size_t> excluded_rows_;
   ThreadTeam& team_;
   std::vector<Level> levels_;

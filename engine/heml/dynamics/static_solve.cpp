@@ -18,14 +18,14 @@ constexpr int max_relaxation_steps = 80;
 
 StaticSolve::StaticSolve(LoadDependentObjective& body, LinearSolver& linear, const Vector& mass, const FreeNodes& free,
                          StaticTolerance limit, double inertia, Vector start)
-    : body_(body),
+    : StaticSolveMemory(std::move(start)),
+      body_(body),
       linear_(linear),
       mass_(mass),
       free_(free),
       inertia_(inertia),
       stop_{[&body](const Vector& r) { return body.relative_residual(r); }, limit.tolerance},
-      strict_(limit.strict),
-      x_(std::move(start)) {}
+      strict_(limit.strict) {}
 
 bool StaticSolve::load_to(double fraction, const std::atomic<bool>& stop) {
   linear_.set_inertia(inertia_);

@@ -38,12 +38,37 @@ struct StaticTolerance {
   bool strict;
 };
 
-class StaticSolve {
+/// How far a static solve has come.
+class StaticSolveMemory {
+ protected:
+  explicit StaticSolveMemory(Vector start) : x_(std::move(start)) {}
+
+  Vector x_, initial_guess_;
+  std::optional<double> round_off_;
+  double load_ = 0, step_ = 1, relative_residual_ = 0;
+  bool solved_ = false;  ///< whether x_ is an equilibrium at load_
+  int last_iterations_ = 0;
+  long increments_ = 0, iterations_ = 0;
+};
+
+class StaticSolve : private StaticSolveMemory {
  public:
+  struct Snapshot {
+    StaticSolveMemory memory;
+    StaticTolerance limit;
+    double inertia;
+  };
   /// start: 3 #V, m, the state at load 0. mass: 3 #V, kg, 0 where not free. inertia: a (1/s²) of the scalar matrix that
   /// preconditions; 0 if the body is constrained. body, linear, mass and free must outlive this.
   StaticSolve(LoadDependentObjective& body, LinearSolver& linear, const Vector& mass, const FreeNodes& free,
               StaticTolerance limit, double inertia, Vector start);
+  /// Goes on from where the solve of the snapshot was.
+  StaticSolve(LoadDependentObjective& body, LinearSolver& linear, const Vector& mass, const FreeNodes& free,
+              const Snapshot& snapshot)
+      : StaticSolve(body, linear, mass, free, snapshot.limit, snapshot.inertia, {}) {
+    StaticSolveMemory::operator=(snapshot.memory);
+  }
+  Snapshot snapshot() const { return {*this, {stop_.limit, strict_}, inertia_}; }
 
   /// Continues to a load fraction. Returns false if no equilibrium is found or `stop` is set; load() and x() are then
   /// those of the last equilibrium.
@@ -76,12 +101,6 @@ class StaticSolve {
   double inertia_;
   StoppingCriterion stop_;
   bool strict_;
-  Vector x_, initial_guess_;
-  std::optional<double> round_off_;
-  double load_ = 0, step_ = 1, relative_residual_ = 0;
-  bool solved_ = false;  ///< whether x_ is an equilibrium at load_
-  int last_iterations_ = 0;
-  long increments_ = 0, iterations_ = 0;
 };
 
 }  // namespace heml

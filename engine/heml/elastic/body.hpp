@@ -163,6 +163,9 @@ class ElasticBody {
   /// and are taken as relaxed at x.
   void restore(const TetMesh& mesh, const std::vector<int>& material_of, const BodySnapshot<Real>& snapshot,
                const Real* x);
+  /// Restores the materials of the snapshot too: nothing is lost.
+  void restore_all(const TetMesh& mesh, const std::vector<int>& material_of, const BodySnapshot<Real>& snapshot,
+                   const Real* x);
   /// Replaces the mesh; the body is then as after construction.
   void set_mesh(const TetMesh& mesh, const std::vector<int>& material_of);
 

@@ -78,6 +78,13 @@ void ElasticBody<Real>::restore(const TetMesh& mesh, const std::vector<int>& mat
 }
 
 template <class Real>
+void ElasticBody<Real>::restore_all(const TetMesh& mesh, const std::vector<int>& material_of,
+                                    const BodySnapshot<Real>& snapshot, const Real* x) {
+  materials_ = snapshot.materials;
+  restore(mesh, material_of, snapshot, x);
+}
+
+template <class Real>
 std::size_t BodySnapshot<Real>::bytes() const {
   std::size_t sum = fans.bytes();
   for (const Part& part : parts) sum += bytes_of(part.element, part.values);
@@ -185,6 +192,10 @@ template void ElasticBody<float>::restore(const TetMesh&, const std::vector<int>
                                           const float*);
 template void ElasticBody<double>::restore(const TetMesh&, const std::vector<int>&, const BodySnapshot<double>&,
                                            const double*);
+template void ElasticBody<float>::restore_all(const TetMesh&, const std::vector<int>&, const BodySnapshot<float>&,
+                                              const float*);
+template void ElasticBody<double>::restore_all(const TetMesh&, const std::vector<int>&, const BodySnapshot<double>&,
+                                               const double*);
 template void ElasticBody<float>::keep_elements(const std::vector<int>&);
 template void ElasticBody<double>::keep_elements(const std::vector<int>&);
 template void ElasticBody<float>::transfer_state(const TetMesh&, const std::vector<int>&, const std::vector<int>&);

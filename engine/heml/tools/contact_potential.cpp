@@ -90,14 +90,15 @@ bool ContactPotential::add_touching_pairs(const Vector& x) {
   if (!contacts_.tissue || !with_tissue_) return false;
   const auto before = [&](int n) { return at(x_before_, n); };
   const auto now = [&](int n) { return at(x, n); };
-  const auto known = static_cast<std::ptrdiff_t>(pairs_.size());
   const auto& met = contacts_.tissue->contacts_between(before, now);
-  std::set_difference(met.begin(), met.end(), pairs_.begin(), pairs_.begin() + known, std::back_inserter(pairs_));
-  const bool inside = std::any_of(pairs_.begin() + known, pairs_.end(), [&](const ContactPair& pair) {
+  std::vector<ContactPair> added, all;
+  std::set_difference(met.begin(), met.end(), pairs_.begin(), pairs_.end(), std::back_inserter(added));
+  const bool inside = std::any_of(added.begin(), added.end(), [&](const ContactPair& pair) {
     const auto point = point_of(pair, now);
     return point && point->gap < -bound_;
   });
-  std::inplace_merge(pairs_.begin(), pairs_.begin() + known, pairs_.end());
+  std::merge(pairs_.begin(), pairs_.end(), added.begin(), added.end(), std::back_inserter(all));
+  pairs_ = std::move(all);
   touches_at_.resize(0);
   return inside;
 }

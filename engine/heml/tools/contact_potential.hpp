@@ -18,7 +18,36 @@
 
 namespace heml {
 
-class ContactPotential {
+/// What the contact energy remembers of the steps so far, and of the solve under way.
+class ContactPotentialMemory {
+ protected:
+  struct ActiveContact {
+    std::size_t surface;
+    ContactPoint point;
+  };
+  struct Friction {
+    ActiveContact touch;
+    double max_force;  ///< N
+    Vec3 stretch;      ///< m, of the spring at the step's start
+  };
+  struct Block {
+    ContactPoint point;
+    Mat3 K;
+  };
+
+  std::vector<double> stiffness_;         ///< #V, N/m
+  std::vector<double> stiffness_factor_;  ///< factor on the penalty stiffness, per surface
+  std::vector<Friction> friction_, accepted_;
+  std::vector<ContactSurface> surfaces_, surfaces_before_;
+  bool with_tissue_ = true;
+  std::vector<ContactPair> pairs_;  ///< of self-contact, constant during a solve; ascending
+  Vector x_before_, touches_at_, x_seen_;
+  std::vector<ActiveContact> active_;  ///< at positions touches_at_
+  std::vector<Block> blocks_;
+  int revisions_ = 0;
+};
+
+class ContactPotential : private ContactPotentialMemory {
  public:
   /// contacts must outlive this object. bound: m, accepted penetration. set_stiffness() must be called first: #V, N/m,
   /// penalty stiffness per node, 0 at constrained nodes.
@@ -59,20 +88,10 @@ class ContactPotential {
   /// Takes x as the solution of the step: stores its friction state and fills the contacts' reports.
   void accept(const Vector& x);
 
+  const ContactPotentialMemory& memory() const { return *this; }
+  void restore(const ContactPotentialMemory& memory) { ContactPotentialMemory::operator=(memory); }
+
  private:
-  struct ActiveContact {
-    std::size_t surface;
-    ContactPoint point;
-  };
-  struct Friction {
-    ActiveContact touch;
-    double max_force;  ///< N
-    Vec3 stretch;      ///< m, of the spring at the step's start
-  };
-  struct Block {
-    ContactPoint point;
-    Mat3 K;
-  };
   void find(const Vector& x);
   bool add_touching_pairs(const Vector& x);
   double stiffness_of(const ContactPoint& point) const;
@@ -82,17 +101,7 @@ class ContactPotential {
   std::vector<Friction> friction_of_touches() const;
 
   Contacts& contacts_;
-  std::vector<double> stiffness_;
   double bound_;
-  std::vector<double> stiffness_factor_;  ///< factor on the penalty stiffness, per surface
-  std::vector<Friction> friction_, accepted_;
-  std::vector<ContactSurface> surfaces_, surfaces_before_;
-  bool with_tissue_ = true;
-  std::vector<ContactPair> pairs_;  ///< of self-contact, constant during a solve; ascending
-  Vector x_before_, touches_at_, x_seen_;
-  std::vector<ActiveContact> active_;  ///< at positions touches_at_
-  std::vector<Block> blocks_;
-  int revisions_ = 0;
 };
 
 template <class Visit>

@@ -15,9 +15,31 @@
 
 namespace heml {
 
+/// The values of a body's objective, apart from contact's: loads, the step under way, and results at the last
+/// positions.
+class BodyObjectiveMemory {
+ protected:
+  double time_ = 0, duration_ = 0, d_ = 0, regularisation_ = 0;
+  Vec3 gravity_ = Vec3::Zero(), full_gravity_ = Vec3::Zero();
+  Vector x_bar_;
+  double noise_ = 0, acceleration_round_off_ = 0;
+  int inverted_at_start_ = 0;
+  Vector forces_, external_;
+  // Solvers ask again where they have just been; both are empty where time, loads or memory have changed since.
+  Vector forces_at_;
+  std::deque<std::pair<Vector, double>> values_;  ///< positions and Φ there, of the last few
+  bool is_defined_ = true;
+  Vector linearisation_point_;  ///< 3 #V, where pressure that follows the surface is part of K, else empty
+};
+
 template <class Real>
-class BodyObjective final : public LoadDependentObjective {
+class BodyObjective final : public LoadDependentObjective, private BodyObjectiveMemory {
  public:
+  struct Snapshot {
+    BodyObjectiveMemory objective;
+    ContactPotentialMemory contact;
+  };
+
   /// mass: #V, kg. All must outlive this.
   BodyObjective(ElasticBody<Real>& body, const Model<Real>& model, const std::vector<Real>& mass, const FreeNodes& free,
                 const std::vector<GraspSpring<Real>>& grasps, Contacts& contacts, ThreadTeam& team);
@@ -70,6 +92,12 @@ class BodyObjective final : public LoadDependentObjective {
   /// Round-off of forces, as an acceleration, m/s²: the largest at any node, at rest.
   double acceleration_round_off() const { return acceleration_round_off_; }
 
+  Snapshot snapshot() const { return {*this, contact_.memory()}; }
+  void restore(const Snapshot& snapshot) {
+    BodyObjectiveMemory::operator=(snapshot.objective);
+    contact_.restore(snapshot.contact);
+  }
+
  private:
   const Real* as_real(const Vector& x, std::vector<Real>& scratch) const;
   void find_noise();
@@ -92,17 +120,6 @@ class BodyObjective final : public LoadDependentObjective {
   const std::vector<GraspSpring<Real>>& grasps_;
   ThreadTeam& team_;
   ContactPotential contact_;
-  double time_ = 0, duration_ = 0, d_ = 0, regularisation_ = 0;
-  Vec3 gravity_ = Vec3::Zero(), full_gravity_ = Vec3::Zero();
-  Vector x_bar_;
-  double noise_ = 0, acceleration_round_off_ = 0;
-  int inverted_at_start_ = 0;
-  Vector forces_, external_;
-  // Solvers ask again where they have just been; both are empty where time, loads or memory have changed since.
-  Vector forces_at_;
-  std::deque<std::pair<Vector, double>> values_;  ///< positions and Φ there, of the last few
-  bool is_defined_ = true;
-  Vector linearisation_point_;        ///< 3 #V, where pressure that follows the surface is part of K, else empty
   std::vector<Real> x_, dx_, f_, v_;  ///< scratch
 };
 

@@ -52,12 +52,25 @@ bool ImplicitState<Real>::keep_elements(const std::vector<int>& elements, const 
 }
 
 template <class Real>
-void ImplicitState<Real>::restore(const ImplicitSnapshot& snapshot) {
+ImplicitSnapshot<Real> ImplicitState<Real>::snapshot() const {
+  return {free,
+          body.snapshot(),
+          x_before,
+          v_before,
+          h_before,
+          linear.snapshot(),
+          equilibrium ? std::optional(equilibrium->snapshot()) : std::nullopt};
+}
+
+template <class Real>
+void ImplicitState<Real>::restore(const ImplicitSnapshot<Real>& snapshot) {
   free = snapshot.free;  // with the nodes that have lost all elements since it was made: they have no mass
+  body.restore(snapshot.body);
   x_before = snapshot.x_before;
   v_before = snapshot.v_before;
   h_before = snapshot.h_before;
   linear.restore(snapshot.linear);
+  if (snapshot.equilibrium) equilibrium.emplace(body, linear, mass, free, *snapshot.equilibrium);
 }
 
 template struct ImplicitState<float>;

@@ -9,12 +9,15 @@
 
 namespace heml {
 
-/// What steps to come depend on beside the state: the step before, the unknowns and what solves for them.
+/// What steps to come depend on beside the state: the step before, the unknowns, contact, and what solves for them.
+template <class Real>
 struct ImplicitSnapshot {
   FreeNodes free;
+  typename BodyObjective<Real>::Snapshot body;
   Vector x_before, v_before;
   double h_before = 0;
   LinearSolver::Snapshot linear;
+  std::optional<StaticSolve::Snapshot> equilibrium;
 };
 
 template <class Real>
@@ -37,9 +40,9 @@ struct ImplicitState {
   /// Elements have gone: these are left, by the numbers they had; model and masses have followed. Returns false where
   /// parts have to be made anew.
   bool keep_elements(const std::vector<int>& elements, const std::vector<Real>& masses);
-  ImplicitSnapshot snapshot() const { return {free, x_before, v_before, h_before, linear.snapshot()}; }
+  ImplicitSnapshot<Real> snapshot() const;
   /// Of parts made anew, of the body that it was: they go on as those would have.
-  void restore(const ImplicitSnapshot& snapshot);
+  void restore(const ImplicitSnapshot<Real>& snapshot);
   ImplicitState(const ImplicitState&) = delete;
   ImplicitState& operator=(const ImplicitState&) = delete;
 };

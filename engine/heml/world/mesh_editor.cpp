@@ -54,7 +54,7 @@ Status MeshEditor<Real>::remove(const RemoveElements& command) {
   if (const Status made = make_removal_edit(command.which, s_.setup.mesh, *s_.topology, edit); !made.ok())
     return "remove: " + made.message();
   save();
-  stroke_.clear();
+  history_.stroke.clear();
   const auto mass = [this] { return std::accumulate(s_.mass.begin(), s_.mass.end(), 0.0); };
   EditReport& report = s_.edits.emplace_back(begin_report());
   report.removed = edit.removed.size();
@@ -71,23 +71,23 @@ Status MeshEditor<Real>::cut(const CutTissue& command) {
     if (!tip.allFinite() || !end.allFinite()) return "cut: a place of the blade is not finite";
   if (command.sweep.blades.size() < 2) return "cut: the sweep needs the blade at two times at least";
   if (!command.continues_stroke) {
-    stroke_.clear();
-    in_stroke_ = false;
-    missed_ = s_.ticks;
+    history_.stroke.clear();
+    history_.in_stroke = false;
+    history_.missed = s_.ticks;
   }
-  if (snap_ == 0) snap_ = snapping_distance(s_.setup.mesh);
+  if (history_.snap == 0) history_.snap = snapping_distance(s_.setup.mesh);
   Cut cut;
-  if (!make_cut(command.sweep, s_.setup.mesh, s_.positions(), *s_.topology, snap_, stroke_, cut).ok())
+  if (!make_cut(command.sweep, s_.setup.mesh, s_.positions(), *s_.topology, history_.snap, history_.stroke, cut).ok())
     return {};  // through the air
-  stroke_ = cut.nodes;
+  history_.stroke = cut.nodes;
   if (cut.edit.removed.empty()) return {};
-  missed_.reset();
-  if (!in_stroke_) {
+  history_.missed.reset();
+  if (!history_.in_stroke) {
     save();
     s_.edits.push_back(begin_report());
     s_.edits.back().min_angle = 180;
   }
-  in_stroke_ = true;
+  history_.in_stroke = true;
   carry_out(cut.edit);
   EditReport& report = s_.edits.back();
   report.split += cut.edit.removed.size();
@@ -100,13 +100,13 @@ Status MeshEditor<Real>::cut(const CutTissue& command) {
 
 template <class Real>
 Status MeshEditor<Real>::undo() {
-  if (s_.edits.empty() && missed_)
-    return fmt::format("undo: nothing was cut or removed; the cut of step {} parted nothing", *missed_);
+  if (s_.edits.empty() && history_.missed)
+    return fmt::format("undo: nothing was cut or removed; the cut of step {} parted nothing", *history_.missed);
   if (s_.edits.empty()) return "undo: nothing was cut or removed";
-  if (saved_.empty()) return fmt::format("undo: only the last {} edits can be taken back", max_undo);
+  if (history_.saved.empty()) return fmt::format("undo: only the last {} edits can be taken back", max_undo);
   s_.edits.pop_back();
-  restore(*saved_.back());
-  saved_.pop_back();
+  undo_to(*history_.saved.back());
+  history_.saved.pop_back();
   return {};
 }
 
@@ -122,7 +122,7 @@ void MeshEditor<Real>::tear() {
   if (openings.empty()) return;
   if (s_.edits.empty() || s_.edits.back().torn == 0) {
     save();
-    stroke_.clear();
+    history_.stroke.clear();
     s_.edits.push_back(begin_report());
   }
   const Tear tear = make_tear(openings, s_.setup.mesh, x, tearing_->around());
@@ -152,14 +152,10 @@ void MeshEditor<Real>::end_report(EditReport& report) {
 /// Saves the state before an edit.
 template <class Real>
 void MeshEditor<Real>::save() {
-  const bool solves = s_.implicit && !s_.implicit->equilibrium;
-  saved_.push_back(std::make_shared<const Saved>(
-      Saved{s_.setup.mesh, s_.setup.boundary, s_.setup.loads, s_.model, s_.topology, s_.body.snapshot(), s_.pins,
-            s_.contacts.sutures, s_.grasps, s_.grasps_taken, s_.changes, s_.state, s_.limit, s_.lowest_frequency,
-            solves ? std::optional(s_.implicit->snapshot()) : std::nullopt}));
-  if (!whole_) whole_ = saved_.back();
-  if (saved_.size() > max_undo) saved_.erase(saved_.begin());
-  in_stroke_ = false;
+  history_.saved.push_back(std::make_shared<const SimulationSnapshot<Real>>(take_snapshot(s_)));
+  if (!history_.whole) history_.whole = history_.saved.back();
+  if (history_.saved.size() > max_undo) history_.saved.erase(history_.saved.begin());
+  history_.in_stroke = false;
 }
 
 /// Positions and velocities carry over to the nodes that a cut inserts; nodes of no element come to rest.
@@ -217,67 +213,70 @@ void MeshEditor<Real>::rebuild_after_edit() {
   s_.lowest_frequency.reset();
 }
 
+/// Where only edits have happened since, back to the bits of a body without the edit.
 template <class Real>
-void MeshEditor<Real>::restore(const Saved& saved) {
-  s_.setup.mesh = saved.mesh;
-  s_.setup.boundary = saved.boundary;
-  s_.setup.loads = saved.loads;
-  s_.model = saved.model;
-  s_.topology = std::make_shared<const Topology>(Topology{s_.topology->version + 1, saved.topology->elements});
-  s_.state.x = s_.last_valid.x = saved.state.x;
-  s_.state.v = s_.last_valid.v = saved.state.v;
-  s_.state.f = saved.state.f;
+void MeshEditor<Real>::undo_to(const SimulationSnapshot<Real>& before) {
+  if (before.values.changes == s_.changes) {
+    heml::restore(before, s_);
+    s_.is_evaluated = true;
+    tearing_.reset();
+  } else {
+    restore_before_edit(before);
+  }
+  history_.stroke.clear();
+  history_.in_stroke = false;
+}
+
+/// Mesh, motion, internal state, pins and sutures of before the edit; time, loads and all else as they are now.
+template <class Real>
+void MeshEditor<Real>::restore_before_edit(const SimulationSnapshot<Real>& before) {
+  const SimulationState<Real>& values = before.values;
+  s_.setup.mesh = before.mesh->mesh;
+  s_.setup.boundary = before.setup.boundary;
+  s_.setup.loads = before.setup.loads;
+  s_.model = before.mesh->model;
+  s_.topology = std::make_shared<const Topology>(Topology{s_.topology->version + 1, before.mesh->topology->elements});
+  s_.state.x = s_.last_valid.x = values.state.x;
+  s_.state.v = s_.last_valid.v = values.state.v;
+  s_.state.f = values.state.f;
   if (s_.recovery) s_.recovery->last_good = s_.state;
-  restore_grasp(saved);
-  s_.pins = saved.pins;
-  s_.contacts.sutures = saved.sutures;
-  stroke_.clear();
-  in_stroke_ = false;
-  s_.body.restore(s_.model.mesh, s_.model.material_of, saved.body, s_.state.x.data());
+  restore_grasp(before);
+  s_.pins = values.pins;
+  s_.contacts.sutures = values.contacts.sutures;
+  s_.body.restore(s_.model.mesh, s_.model.material_of, before.body, s_.state.x.data());
   s_.implicit.reset();
   rebuild_after_edit();
-  if (saved.changes == s_.changes) restore_exactly(saved);
 }
 
 /// Restores the grasp if it has been held ever since, by a tool that is where it is now.
 template <class Real>
-void MeshEditor<Real>::restore_grasp(const Saved& saved) {
-  const bool since = !s_.grasps.empty() && s_.grasps_taken == saved.grasps_taken;
+void MeshEditor<Real>::restore_grasp(const SimulationSnapshot<Real>& before) {
+  const bool since = !s_.grasps.empty() && s_.grasps_taken == before.values.grasps_taken;
   const Vec3 target = since ? s_.grasps.front().target() : Vec3::Zero();
   s_.grasps.clear();
   if (!since) return;
-  s_.grasps = saved.grasps;
+  s_.grasps = before.values.grasps;
   s_.grasps.front().move(target);
-}
-
-/// Only edits have happened since the state was saved: restores what would otherwise be computed again, so that the
-/// body goes on to the same bits as if there had been no edit.
-template <class Real>
-void MeshEditor<Real>::restore_exactly(const Saved& saved) {
-  s_.state = saved.state;
-  s_.limit = saved.limit;
-  s_.lowest_frequency = saved.lowest_frequency;
-  if (saved.implicit) s_.implicit_state().restore(*saved.implicit);
-  s_.is_evaluated = true;
 }
 
 template <class Real>
 void MeshEditor<Real>::undo_all() {
   s_.edits.clear();
-  missed_.reset();
-  saved_.clear();
-  if (whole_) restore(*whole_);
-  whole_.reset();
+  const auto whole = std::exchange(history_, {}).whole;
+  if (whole) restore_before_edit(*whole);
+}
+
+template <class Real>
+void MeshEditor<Real>::restore_history(const EditHistory<Real>& history) {
+  history_ = history;
+  tearing_.reset();
 }
 
 template <class Real>
 std::size_t MeshEditor<Real>::history_bytes() const {
-  const auto of = [](const Saved& saved) {
-    return bytes_of_mesh(saved.mesh) + bytes_of_model(saved.model) + saved.body.bytes() +
-           bytes_of(saved.topology->elements, saved.state.x, saved.state.v, saved.state.f);
-  };
-  std::size_t sum = !saved_.empty() && saved_.front() == whole_ ? 0 : of(*whole_);
-  for (const auto& saved : saved_) sum += of(*saved);
+  const auto& [whole, saved, stroke, in_stroke, missed, snap] = history_;
+  std::size_t sum = !saved.empty() && saved.front() == whole ? 0 : whole->bytes();
+  for (const auto& before : saved) sum += before->bytes();
   return sum;
 }
 

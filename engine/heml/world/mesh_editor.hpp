@@ -4,9 +4,21 @@
 #include <heml/tools/tearing.hpp>
 #include <heml/world/command.hpp>
 #include <heml/world/recovery_controller.hpp>
-#include <heml/world/simulation.hpp>
+#include <heml/world/simulation_snapshot.hpp>
 
 namespace heml {
+
+/// What edits leave behind: states to go back to, and the stroke under way.
+template <class Real>
+struct EditHistory {
+  using Saved = std::shared_ptr<const SimulationSnapshot<Real>>;
+  Saved whole;                 ///< before the first edit; null: there was none
+  std::vector<Saved> saved;    ///< before each of the last edits
+  std::vector<int> stroke;     ///< nodes in the last cut, mesh-file order
+  bool in_stroke = false;      ///< whether the current stroke has its state saved
+  std::optional<long> missed;  ///< tick of the last stroke that parted nothing
+  double snap = 0;             ///< m, snapping distance of cuts; 0: not computed yet
+};
 
 template <class Real>
 class MeshEditor {
@@ -23,48 +35,27 @@ class MeshEditor {
   /// tick, if the scene asks for it. All tearing until another edit is one edit to undo.
   void tear();
 
-  bool has_history() const { return whole_ != nullptr; }
+  bool has_history() const { return history_.whole != nullptr; }
   std::size_t history_bytes() const;
 
- private:
-  /// State before an edit, for undo.
-  struct Saved {
-    TetMesh mesh;
-    std::vector<Boundary> boundary;
-    std::vector<Load> loads;
-    Model<Real> model;
-    std::shared_ptr<const Topology> topology;
-    BodySnapshot<Real> body;
-    std::vector<PinnedPatch> pins;
-    std::vector<Suture> sutures;
-    std::vector<GraspSpring<Real>> grasps;
-    long grasps_taken;
-    // Restored only if nothing but edits has happened since:
-    long changes;
-    State<Real> state;
-    StepLimit limit;
-    std::optional<double> lowest_frequency;
-    std::optional<ImplicitSnapshot> implicit;
-  };
+  const EditHistory<Real>& history() const { return history_; }
+  /// Of a snapshot that the simulation was restored to.
+  void restore_history(const EditHistory<Real>& history);
 
+ private:
   EditReport begin_report();
   void end_report(EditReport& report);
   void carry_out(const MeshEdit& edit);
   void rebuild_after_edit();
   void save();
-  void restore(const Saved& saved);
-  void restore_grasp(const Saved& saved);
-  void restore_exactly(const Saved& saved);
+  void undo_to(const SimulationSnapshot<Real>& before);
+  void restore_before_edit(const SimulationSnapshot<Real>& before);
+  void restore_grasp(const SimulationSnapshot<Real>& before);
 
   Simulation<Real>& s_;
   RecoveryController<Real>& recovery_;
-  std::shared_ptr<const Saved> whole_;               ///< before the first edit; null: there was none
-  std::vector<std::shared_ptr<const Saved>> saved_;  ///< before each of the last edits
-  std::vector<int> stroke_;                          ///< nodes in the last cut, mesh-file order
-  bool in_stroke_ = false;                           ///< whether the current stroke has its state saved
-  std::optional<long> missed_;                       ///< tick of the last stroke that parted nothing
-  double snap_ = 0;                                  ///< m, snapping distance of cuts; 0: not computed yet
-  std::optional<Tearing> tearing_;                   ///< built on first use
+  EditHistory<Real> history_;
+  std::optional<Tearing> tearing_;  ///< built on first use
 };
 
 }  // namespace heml

@@ -64,7 +64,7 @@ double MethodChoice<Real>::explicit_share() const {
 
 template <class Real>
 double MethodChoice<Real>::step_cost() const {
-  return given_step_cost_.value_or(fixed_step_cost(s_.body.kernels(), s_.setup));
+  return s_.step_cost.value_or(fixed_step_cost(s_.body.kernels(), s_.setup));
 }
 
 /// Rayleigh's quotient of how the body gives way at rest to a field of gravity along each axis, 1/s; 0 where it is

@@ -20,7 +20,7 @@ class MethodChoice {
   /// At the start of a tick; does nothing unless the scene says "auto".
   void reconsider();
   /// seconds: of an explicit step, per element, on one core.
-  void set_step_cost(double seconds) { given_step_cost_ = seconds; }
+  void set_step_cost(double seconds) { s_.step_cost = seconds; }
   MethodFacts facts();
 
  private:
@@ -31,7 +31,6 @@ class MethodChoice {
   double lowest_frequency();
 
   Simulation<Real>& s_;
-  std::optional<double> given_step_cost_;  ///< s
 };
 
 }  // namespace heml

@@ -49,8 +49,10 @@ template <class Real>
 void RecoveryController<Real>::start() {
   s_.recovery.reset();
   if (!s_.setup.solver.recovery || s_.setup.solver.is_static()) return;
-  const double max_speed = max_speed_factor * (max_wave_speed() + s_.setup.initial_velocity.norm());
-  s_.recovery = std::make_unique<RecoveryState<Real>>(s_.model.mesh, s_.mass, max_speed, s_.state);
+  RecoveryProgress<Real> progress;
+  progress.max_speed = max_speed_factor * (max_wave_speed() + s_.setup.initial_velocity.norm());
+  progress.last_good = s_.state;
+  s_.recovery = std::make_unique<RecoveryState<Real>>(s_.model.mesh, s_.mass, std::move(progress));
 }
 
 /// Speed of the fastest waves, which cross an element in about 2/ω_max, m/s.
@@ -112,7 +114,7 @@ bool RecoveryController<Real>::takes_over(const StopReason& failure) {
 
 template <class Real>
 void RecoveryController<Real>::rebuild_surrogate() {
-  if (s_.recovering()) install_surrogate();
+  if (s_.recovering()) s_.install_surrogate();
 }
 
 /// check: of the state that the recovery replaces.
@@ -135,7 +137,7 @@ void RecoveryController<Real>::begin(const StateCheck& check) {
   if (s_.body.first_undefined(s_.state.x.data()) >= 0)
     report.begun.before.elastic = std::numeric_limits<double>::quiet_NaN();
   perturb();
-  install_surrogate();
+  s_.install_surrogate();
   s_.evaluate_forces();
   report.begun.after = s_.energies();
   recovery.last = report;
@@ -165,12 +167,6 @@ FailureDiagnosis RecoveryController<Real>::diagnose(const StateCheck& check) con
   const SmallStrainModuli rest = small_strain_moduli(s_.setup.materials[static_cast<std::size_t>(material)].material);
   if (rest.shear > 0) s.stiffness_ratio = rest.bulk / rest.shear;
   return s;
-}
-
-template <class Real>
-void RecoveryController<Real>::install_surrogate() {
-  s_.recovery->surrogate = std::make_unique<RecoverySurrogate<Real>>(s_.model, s_.setup, s_.mass, s_.inverse_mass,
-                                                                     s_.grasps, s_.contacts, s_.team);
 }
 
 /// At exact coincidence all forces are zero.

@@ -41,7 +41,6 @@ class RecoveryController {
   bool is_step_hopeless() const;
   void begin(const StateCheck& check);
   FailureDiagnosis diagnose(const StateCheck& check) const;
-  void install_surrogate();
   void perturb();
   void step_surrogate(double until);
   void move_towards_rest(double part);

@@ -33,9 +33,9 @@ std::pair<double, Vec3> spread(const std::vector<Real>& masses, const At& x) {
 }  // namespace
 
 template <class Real>
-RecoveryState<Real>::RecoveryState(const TetMesh& mesh, const std::vector<Real>& masses, double fastest_node,
-                                   const State<Real>& start)
-    : max_speed(fastest_node), last_good(start) {
+RecoveryState<Real>::RecoveryState(const TetMesh& mesh, const std::vector<Real>& masses,
+                                   RecoveryProgress<Real> progress)
+    : RecoveryProgress<Real>(std::move(progress)) {
   set_mesh(mesh, masses);
 }
 
@@ -75,14 +75,15 @@ StateCheck RecoveryState<Real>::check(const TetMesh& mesh, const State<Real>& st
 template <class Real>
 void RecoveryState<Real>::track_tool(const GraspSpring<Real>* grasp, double time) {
   if (!grasp) {
-    tool_time_ = -1;
-    tool_speed = 0;
+    this->tool_time = -1;
+    this->tool_speed = 0;
     return;
   }
-  if (tool_time_ >= 0 && time < tool_time_ + tool_interval) return;
-  if (tool_time_ >= 0) tool_speed = (grasp->target() - tool_was_).norm() / (time - tool_time_);
-  tool_was_ = grasp->target();
-  tool_time_ = time;
+  const bool known = this->tool_time >= 0;
+  if (known && time < this->tool_time + tool_interval) return;
+  if (known) this->tool_speed = (grasp->target() - this->tool_was).norm() / (time - this->tool_time);
+  this->tool_was = grasp->target();
+  this->tool_time = time;
 }
 
 template class RecoveryState<float>;

@@ -18,16 +18,38 @@ struct StateCheck {
   double extent = 1;  ///< of the body, as a part of its extent at rest (radii of gyration)
 };
 
+/// The values of recoveries, copied by snapshots.
 template <class Real>
-class RecoveryState {
+struct RecoveryProgress {
+  double max_speed = 0;        ///< m/s; a faster node is a sign of instability
+  State<Real> last_good;       ///< x, v, time
+  bool has_last_good = false;  ///< whether there was one since the start
+  std::optional<Recovery> last;
+  long count = 0;
+  long healthy_steps = 0;       ///< successive steps with a healthy min J
+  bool is_tangled = false;      ///< moved towards rest until no element is inverted
+  long moves_towards_rest = 0;  ///< steps with such a move in this recovery
+  double tool_speed = 0;        ///< m/s; 0: no tool
+  Vec3 tool_was = Vec3::Zero();
+  double tool_time = -1;  ///< s, of tool_was; negative: no tool
+};
+
+/// progress: where recoveries are. surrogate: its implicit part, while there is one.
+template <class Real>
+struct RecoverySnapshot {
+  RecoveryProgress<Real> progress;
+  std::optional<ImplicitSnapshot<Real>> surrogate;
+};
+
+template <class Real>
+class RecoveryState : public RecoveryProgress<Real> {
  public:
-  /// max_speed: m/s; a faster node is a sign of instability.
-  RecoveryState(const TetMesh& mesh, const std::vector<Real>& masses, double max_speed, const State<Real>& start);
+  RecoveryState(const TetMesh& mesh, const std::vector<Real>& masses, RecoveryProgress<Real> progress);
 
   /// Adds the nodes of an edit to the last good state.
   void append(const MeshEdit& edit) {
-    heml::append(edit, last_good.x, 3);
-    heml::append(edit, last_good.v, 3);
+    heml::append(edit, this->last_good.x, 3);
+    heml::append(edit, this->last_good.v, 3);
   }
   /// Follows a change of the elements.
   void set_mesh(const TetMesh& mesh, const std::vector<Real>& masses);
@@ -36,22 +58,11 @@ class RecoveryState {
   /// Updates tool_speed from the tool's position at a time (s).
   void track_tool(const GraspSpring<Real>* grasp, double time);
 
-  const double max_speed;      ///< m/s
-  State<Real> last_good;       ///< x, v, time
-  bool has_last_good = false;  ///< whether there was one since the start
   std::unique_ptr<RecoverySurrogate<Real>> surrogate;
-  std::optional<Recovery> last;
-  long count = 0;
-  long healthy_steps = 0;       ///< successive steps with a healthy min J
-  bool is_tangled = false;      ///< moved towards rest until no element is inverted
-  long moves_towards_rest = 0;  ///< steps with such a move in this recovery
-  double tool_speed = 0;        ///< m/s; 0: no tool
 
  private:
   std::vector<double> rest_volume_;  ///< #T, m³
   double rest_extent_ = 0;           ///< m
-  Vec3 tool_was_ = Vec3::Zero();
-  double tool_time_ = -1;  ///< s; negative: no tool
 };
 
 }  // namespace heml

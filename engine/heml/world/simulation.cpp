@@ -125,6 +125,12 @@ ImplicitState<Real>& Simulation<Real>::implicit_state() {
 }
 
 template <class Real>
+void Simulation<Real>::install_surrogate() {
+  recovery->surrogate =
+      std::make_unique<RecoverySurrogate<Real>>(model, setup, mass, inverse_mass, grasps, contacts, team);
+}
+
+template <class Real>
 std::vector<ConstrainedNode> Simulation<Real>::constrained_nodes() const {
   std::vector<ConstrainedNode> nodes = model.constrained;
   for (const PinnedPatch& pin : pins)

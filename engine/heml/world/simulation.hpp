@@ -3,9 +3,10 @@
 // (explicit_stepper.hpp, implicit_stepper.hpp, static_stepper.hpp, recovery_controller.hpp, mesh_editor.hpp,
 // command_executor.hpp, method_choice.hpp) and queries (world_queries.hpp) each hold a reference to one Simulation.
 //
-//   setup ──► model (inner order) ──► body ──► masses           not changed by steps, only by edits and commands
-//   grasps, pins, contacts                                      tools, changed by commands
-//   state, last_valid, limit, implicit, recovery, counters      changed by every step
+//   setup ──► model (inner order) ──► body         not changed by steps (but for the body's internal state)
+//   SimulationState: masses, tools, positions,     plain values, copied by snapshots (simulation_snapshot.hpp)
+//   step limit, counters
+//   implicit, recovery                             made when needed; snapshots copy what steps to come depend on
 //
 // Nodes and elements are in inner order (mesh/reorder.hpp) unless a comment says mesh-file order.
 #include <atomic>
@@ -33,8 +34,47 @@ struct StepLimit {
   int interval = 0;           ///< steps until it is evaluated again
 };
 
+/// The values of a simulation that a tick or a command changes and that refer to nothing else: whoever adds one adds it
+/// to snapshots.
 template <class Real>
-struct Simulation {
+struct SimulationState {
+  std::vector<EditReport> edits;          ///< since the start or the last Reset, without undone ones
+  std::vector<GraspSpring<Real>> grasps;  ///< at most one; an empty list costs nothing
+  long grasps_taken = 0;                  ///< grasps so far: identifies the current one
+  std::vector<PinnedPatch> pins;          ///< in the order they were set
+  Contacts contacts;                      ///< empty in most worlds
+  ContactImpulses<Real> impulses;
+
+  bool has_internal_state = false;         ///< whether a material has viscosity, relaxation or plasticity
+  std::vector<Real> mass;                  ///< #V, kg
+  std::vector<Real> inverse_mass;          ///< #V, 1/kg; 0 for constrained nodes and nodes of no element
+  std::vector<Real> inverse_mass_per_dof;  ///< 3 #V, 1/kg
+  State<Real> state, last_valid;           ///< now, and before the current step
+
+  Real rest_frequency = 0;  ///< 1/s, bound of the highest frequency at rest: scales the tools
+  StepLimit limit;
+  long ticks = 0, origin_tick = 0, steps = 0;
+  int substeps = 0;           ///< of the last tick
+  long changes = 0;           ///< steps, loads and commands other than edits: unchanged, nothing but edits has happened
+  bool is_evaluated = false;  ///< whether forces and stable step belong to the state (restored by an undo)
+  std::optional<StopReason> halt;
+  bool unfinished = false;
+  Integrator method = Integrator::verlet;  ///< in use: the choice of "auto", else the scene's
+  std::optional<double> lowest_frequency;  ///< 1/s, at rest; computed on demand
+  std::optional<double> step_cost;         ///< s, given: of an explicit step, per element, on one core
+  SolverStats stats;
+};
+
+/// What edits of the mesh alone change.
+template <class Real>
+struct MeshSnapshot {
+  TetMesh mesh;  ///< mesh-file order, with what cuts have added
+  Model<Real> model;
+  std::shared_ptr<const Topology> topology;
+};
+
+template <class Real>
+struct Simulation : SimulationState<Real> {
   /// Throws InputError as make_world().
   explicit Simulation(WorldSetup setup);
   Simulation(const Simulation&) = delete;
@@ -62,6 +102,9 @@ struct Simulation {
   ElasticBody<Real>& acting_body() { return recovering() ? recovery->surrogate->body : body; }
   bool is_stopped() const { return halt || interrupted; }
 
+  /// Makes the surrogate of a recovery for the present mesh, materials and constraints.
+  void install_surrogate();
+
   /// Rebuilds what depends on the list of contact surfaces or on the boundary of the mesh.
   void update_contact_surfaces();
   /// Rebuilds self-contact for the current elements.
@@ -69,39 +112,21 @@ struct Simulation {
   /// Collects the free boundary nodes, and boundary faces for tools smaller than a face.
   void update_contact_boundary();
 
+  using Values = SimulationState<Real>;
+  using Values::contacts, Values::grasps, Values::halt, Values::has_internal_state, Values::impulses;
+  using Values::inverse_mass, Values::inverse_mass_per_dof, Values::last_valid, Values::mass, Values::method;
+  using Values::pins, Values::state;
+
   WorldSetup setup;
   Model<Real> model;
   std::shared_ptr<const Topology> topology;
-  std::vector<EditReport> edits;  ///< since the start or the last Reset, without undone ones
+  std::weak_ptr<const MeshSnapshot<Real>> saved_mesh;  ///< of the last snapshot, which the next one may share
   ElasticBody<Real> body;
   ThreadTeam team;
 
-  std::vector<GraspSpring<Real>> grasps;  ///< at most one; an empty list costs nothing
-  long grasps_taken = 0;                  ///< grasps so far: identifies the current one
-  std::vector<PinnedPatch> pins;          ///< in the order they were set
-  Contacts contacts;                      ///< empty in most worlds
-  ContactImpulses<Real> impulses;
-
-  bool has_internal_state = false;         ///< whether a material has viscosity, relaxation or plasticity
-  std::vector<Real> mass;                  ///< #V, kg
-  std::vector<Real> inverse_mass;          ///< #V, 1/kg; 0 for constrained nodes and nodes of no element
-  std::vector<Real> inverse_mass_per_dof;  ///< 3 #V, 1/kg
-  State<Real> state, last_valid;           ///< now, and before the current step
-
-  Real rest_frequency = 0;  ///< 1/s, bound of the highest frequency at rest: scales the tools
-  StepLimit limit;
-  long ticks = 0, origin_tick = 0, steps = 0;
-  int substeps = 0;           ///< of the last tick
-  long changes = 0;           ///< steps, loads and commands other than edits: unchanged, nothing but edits has happened
-  bool is_evaluated = false;  ///< whether forces and stable step belong to the state (restored by an undo)
-  std::optional<StopReason> halt;
   std::atomic<bool> interrupted{false};
-  bool unfinished = false;
-  Integrator method = Integrator::verlet;         ///< in use: the choice of "auto", else the scene's
-  std::optional<double> lowest_frequency;         ///< 1/s, at rest; computed on demand
   std::unique_ptr<ImplicitState<Real>> implicit;  ///< null until an implicit or static method needs it
   std::unique_ptr<RecoveryState<Real>> recovery;  ///< null unless the scene asks for it
-  SolverStats stats;
 };
 
 /// A copy in double, 3 #V.

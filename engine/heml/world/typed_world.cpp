@@ -1,4 +1,5 @@
 #include <cmath>
+#include <heml/base/hash.hpp>
 #include <heml/world/failure.hpp>
 #include <heml/world/stable_step.hpp>
 #include <heml/world/typed_world.hpp>
@@ -6,8 +7,38 @@
 
 namespace heml {
 
+namespace {
+
+/// Tells bodies apart whose snapshots do not fit each other. All else of a setup is part of a snapshot.
+std::uint64_t hash_of_body(const WorldSetup& setup) {
+  std::uint64_t hash = hash_combine(std::uint64_t{setup.mesh.nodes.size()}, std::uint64_t{setup.mesh.tets.size()});
+  for (const Vec3& X : setup.mesh.nodes)
+    for (const double value : X) hash = hash_combine(hash, value);
+  for (const Tet& tet : setup.mesh.tets)
+    for (const int n : tet) hash = hash_combine(hash, static_cast<std::uint64_t>(n));
+  for (const ElementField& field : setup.mesh.fields)
+    for (const double value : field.values) hash = hash_combine(hash, value);
+  const SolverSettings& solver = setup.solver;
+  for (const bool option : {solver.continuation, solver.nodal_pressure, solver.recovery, solver.is_static()})
+    hash = hash_combine(hash, std::uint64_t{option});
+  return hash_combine(hash, static_cast<std::uint64_t>(setup.instruction_set));
+}
+
 template <class Real>
-TypedWorld<Real>::TypedWorld(WorldSetup setup) : s_(std::move(setup)) {
+struct TypedSnapshot final : WorldSnapshot {
+  std::uint64_t body = 0;  ///< hash_of_body()
+  SimulationSnapshot<Real> simulation;
+  EditHistory<Real> edits;
+
+  long ticks() const override { return simulation.values.ticks; }
+  double time() const override { return simulation.values.state.time; }
+  std::size_t bytes() const override { return simulation.bytes(); }
+};
+
+}  // namespace
+
+template <class Real>
+TypedWorld<Real>::TypedWorld(WorldSetup setup) : s_(std::move(setup)), body_hash_(hash_of_body(s_.setup)) {
   const FlushDenormals flush;
   start();
 }
@@ -142,6 +173,27 @@ void TypedWorld<Real>::set_initial_state() {
         s_.state.x[3 * n + i] = static_cast<Real>(s_.setup.initial_positions[file][axis]);
       if (s_.inverse_mass[n] > 0) s_.state.v[3 * n + i] = static_cast<Real>(s_.setup.initial_velocity[axis]);
     }
+}
+
+template <class Real>
+std::shared_ptr<const WorldSnapshot> TypedWorld<Real>::snapshot() {
+  const FlushDenormals flush;
+  auto snapshot = std::make_shared<TypedSnapshot<Real>>();
+  snapshot->body = body_hash_;
+  snapshot->simulation = take_snapshot(s_);
+  snapshot->edits = editor_.history();
+  return snapshot;
+}
+
+template <class Real>
+Status TypedWorld<Real>::restore(const WorldSnapshot& snapshot) {
+  const FlushDenormals flush;
+  const auto* of_type = dynamic_cast<const TypedSnapshot<Real>*>(&snapshot);
+  if (!of_type) return "restore: the snapshot is of a world of the other precision";
+  if (of_type->body != body_hash_) return "restore: the snapshot is of another body (mesh, or options of its solver)";
+  heml::restore(of_type->simulation, s_);
+  editor_.restore_history(of_type->edits);
+  return {};
 }
 
 template <class Real>

@@ -23,6 +23,8 @@ class TypedWorld final : public World {
   void advance_within_tick(double time) override;
   void load_to(double fraction) override;
   void interrupt() override { s_.interrupted = true; }
+  std::shared_ptr<const WorldSnapshot> snapshot() override;
+  Status restore(const WorldSnapshot& snapshot) override;
   bool copy_motion_from(const World& leader) override;
   std::shared_ptr<PreconditionerBuild> preconditioner_build() override { return implicit_.preconditioner_build(); }
   void limit_threads(int threads) override { s_.team.limit(threads); }
@@ -67,6 +69,7 @@ class TypedWorld final : public World {
   void handle(const std::optional<StopReason>& failure);
 
   Simulation<Real> s_;
+  const std::uint64_t body_hash_;  ///< tells whose snapshots fit
   ExplicitStepper<Real> explicit_{s_};
   ImplicitStepper<Real> implicit_{s_};
   StaticStepper<Real> static_{s_};

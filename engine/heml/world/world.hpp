@@ -12,6 +12,7 @@
 #include <heml/world/setup.hpp>
 #include <heml/world/solver_stats.hpp>
 #include <heml/world/tool_state.hpp>
+#include <heml/world/world_snapshot.hpp>
 #include <memory>
 #include <optional>
 #include <span>
@@ -113,6 +114,13 @@ class World {
   virtual std::vector<Vec3> reactions() = 0;  ///< one per setup.boundary, N: the support's force on the body
   /// What acts on the body now: grasp, pins, tables, probe, sutures, self-contact, in this order.
   virtual std::vector<ToolState> tools() const = 0;
+
+  /// The whole state: positions, velocities, internal state of materials, contacts with their friction, tools, pins,
+  /// sutures, elements, method and the step before, recovery, commands taken, edits to undo.
+  virtual std::shared_ptr<const WorldSnapshot> snapshot() = 0;
+  /// Returns to a snapshot of this world or of one made of an equal setup; topology() gets a higher version. Refuses,
+  /// and does nothing, where the snapshot is of another setup or precision.
+  virtual Status restore(const WorldSnapshot& snapshot) = 0;
 
   /// Takes over the motion of another world of the same setup: positions, velocities, time, what is grasped. Returns
   /// false, and does nothing, where that is not all there is to it: another mesh or precision, internal state,

@@ -1,0 +1,364 @@
+// Whole-state snapshots: restored, a world goes on to the bits of one that never stopped. The cases come from the
+// registries of laws, integrators and commands, so that a new one is tested without being named here.
+#include <doctest/doctest.h>
+
+#include <heml/materials/material.hpp>
+#include <utility>
+
+#include "engine/materials/sample_materials.hpp"
+#include "support.hpp"
+#include "world_support.hpp"
+
+namespace heml::snapshot_test {
+
+using namespace heml::test;
+
+namespace {
+
+struct Script {
+  WorldSetup setup;
+  std::vector<Event> events;
+  long snapshot_at = 5, end = 10;
+};
+
+void add(std::vector<double>& readings, const Vec3& v) { readings.insert(readings.end(), {v.x(), v.y(), v.z()}); }
+
+void add(std::vector<double>& readings, const ContactState& state) {
+  add(readings, state.force);
+  readings.insert(readings.end(), {state.work, state.energy, state.max_penetration, double(state.contact_count)});
+}
+
+/// All that can be read of a world, as numbers.
+std::vector<double> readings_of(World& world) {
+  std::vector<double> all;
+  for (const std::vector<Vec3>& list : {world.positions(), world.velocities(), world.reactions()})
+    for (const Vec3& v : list) add(all, v);
+  const Energies energies = world.energies();
+  const SolverStats stats = world.solver_stats();
+  all.insert(all.end(),
+             {energies.kinetic, energies.elastic, energies.potential, world.stable_step(), world.time(),
+              double(world.ticks()), double(world.steps()), double(world.substeps()), stats.load,
+              double(stats.iterations), stats.residual, double(stats.linear.iterations), double(world.edits().size()),
+              double(world.recoveries()), double(world.halt().has_value()), double(world.topology()->elements.size())});
+  for (const ToolState& tool : world.tools())
+    std::visit(
+        ByKind{[&](const GraspState& grasp) { add(all, grasp.target), add(all, grasp.force); },
+               [&](const PinState& pin) { add(all, pin.place), add(all, pin.force); },
+               [&](const TableState& table) { add(all, static_cast<const ContactState&>(table)); },
+               [&](const ProbeState& probe) { add(all, probe.tip), add(all, static_cast<const ContactState&>(probe)); },
+               [&](const SutureState& suture) { add(all, suture.force); },
+               [&](const SelfContactState& tissue) {
+                 all.insert(all.end(), {tissue.force, tissue.work, tissue.energy, double(tissue.contact_count)});
+               }},
+        tool);
+  for (const EditReport& edit : world.edits()) all.insert(all.end(), {edit.mass, edit.area, edit.after.elastic});
+  return all;
+}
+
+/// Plays ticks [world.ticks(), end) and appends what is read after each.
+std::vector<std::vector<double>> play(World& world, const Script& script, long end) {
+  std::vector<std::vector<double>> all;
+  for (long tick = world.ticks(); tick < end && !world.halt(); ++tick) {
+    for (const Event& event : script.events)
+      if (event.tick == tick) {
+        const Status status = world.apply(event.command);
+        REQUIRE_MESSAGE(status.ok(), status.message());
+      }
+    world.tick();
+    all.push_back(readings_of(world));
+  }
+  if (world.halt()) all.push_back({double(world.ticks()), double(world.halt()->element), double(world.halt()->node)});
+  return all;
+}
+
+bool same_bits(const std::vector<std::vector<double>>& a, const std::vector<std::vector<double>>& b) {
+  const auto bits = [](double x, double y) {
+    return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y);
+  };
+  return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(), [&](const auto& x, const auto& y) {
+           return x.size() == y.size() && std::equal(x.begin(), x.end(), y.begin(), bits);
+         });
+}
+
+void check_restored(const Script& script) {
+  const auto never_stopped = make_world(script.setup), world = make_world(script.setup);
+  play(*never_stopped, script, script.snapshot_at);
+  const auto expected = play(*never_stopped, script, script.end);
+  play(*world, script, script.snapshot_at);
+  const auto snapshot = world->snapshot();
+  CHECK(snapshot->ticks() == world->ticks());
+  CHECK(snapshot->time() == world->time());
+  CHECK(snapshot->bytes() > 0);
+  CHECK(same_bits(play(*world, script, script.end), expected));  // the snapshot has changed nothing
+  const long version = world->topology()->version;
+  const auto unused = make_world(script.setup);
+  for (World* restored : {world.get(), unused.get(), world.get()}) {
+    REQUIRE(restored->restore(*snapshot).ok());
+    CHECK(restored->ticks() == snapshot->ticks());
+    CHECK(same_bits(play(*restored, script, script.end), expected));
+  }
+  CHECK(world->topology()->version > version);
+}
+
+WorldSetup bar(const Material& material, Integrator integrator, bool single) {
+  WorldSetup setup;
+  setup.mesh = make_box(Vec3(0.06, 0.02, 0.02), {4, 1, 2});
+  setup.materials = {{std::nullopt, material}};
+  Boundary left{nodes_where(setup.mesh, [](const Vec3& X) { return X.x() < 1e-9; })};
+  left.translate = Vec3(-0.008, 0.004, 0);
+  left.ramp_time = 0.03;
+  setup.boundary = {left};
+  setup.gravity = Vec3(0, -9.81, 0);
+  setup.solver.integrator = integrator;
+  setup.solver.single_precision = single;
+  setup.solver.continuation = true;
+  setup.solver.threads = 1;
+  setup.solver.rate = 200;
+  setup.solver.duration = 0.05;
+  return setup;
+}
+
+/// What a material may remember, one after the other and all together.
+std::vector<Material> with_internal_state(const LawInfo& law) {
+  const Material plain = sample_material(law.name);
+  if (!law.is_continuum) return {plain};
+  Material viscous = plain, relaxing = plain, plastic = plain, all = plain;
+  viscous.viscosity = all.viscosity = 2;
+  relaxing.relaxation = all.relaxation = {{0.5, 0.01}, {0.2, 0.1}};
+  plastic.plasticity = all.plasticity = Plasticity{60, 10};
+  std::vector<Material> materials;
+  for (const Material& material : {plain, viscous, relaxing, plastic, all})
+    if (!material_problem(material)) materials.push_back(material);
+  return materials;
+}
+
+CutTissue blade_at(double x) {
+  CutTissue cut;
+  cut.sweep.blades = {{Vec3(x, -0.1, -0.1), Vec3(x, 0.1, -0.1)}, {Vec3(x, -0.1, 0.1), Vec3(x, 0.1, 0.1)}};
+  return cut;
+}
+
+constexpr int tip = 4, above_tip = 9;  // nodes of the bar
+
+// An example of each kind of command; one that has none does not compile.
+Command example(const Grasp&) { return Grasp{tip, 0.012}; }
+Command example(const MoveTool&) { return MoveTool{Vec3(0.07, 0.01, 0.005)}; }
+Command example(const Release&) { return Release{}; }
+Command example(const PinTissue&) { return PinTissue{above_tip, 0}; }
+Command example(const Unpin&) { return Unpin{}; }
+Command example(const SetTables&) { return SetTables{{{Vec3(0, -0.002, 0), Vec3(0.1, 1, 0), 0.4}}}; }
+Command example(const MoveProbe&) {
+  return MoveProbe{0.006, Vec3::Zero(), 0.4, {Vec3(0.04, 0.03, 0.01), Vec3(0.045, 0.02, 0.01)}, 0.4};
+}
+Command example(const WithdrawProbe&) { return WithdrawProbe{}; }
+Command example(const SutureTissue&) { return SutureTissue{{1, 3}, 0.02, 0.05}; }
+Command example(const CutSutures&) { return CutSutures{}; }
+Command example(const SetMaterial&) { return SetMaterial{std::nullopt, sample_material("stvk")}; }
+Command example(const SetDamping&) { return SetDamping{3}; }
+Command example(const SetGravity&) { return SetGravity{Vec3(0, -5, 2)}; }
+Command example(const SetIntegrator&) { return SetIntegrator{Integrator::automatic}; }
+Command example(const SetBudget&) { return SetBudget{2}; }
+Command example(const SetStepCost&) { return SetStepCost{500}; }
+Command example(const RemoveElements&) { return RemoveElements{{{3, 17, 30}, {}, {}, {}}}; }
+Command example(const CutTissue&) { return blade_at(0.034); }
+Command example(const Undo&) { return Undo{}; }
+Command example(const AdoptPreconditioner&) { return AdoptPreconditioner{}; }
+Command example(const Reset&) { return Reset{}; }
+
+template <std::size_t... kind>
+std::vector<Command> examples(std::index_sequence<kind...>) {
+  return {example(std::variant_alternative_t<kind, Command>{})...};
+}
+std::vector<Command> examples() { return examples(std::make_index_sequence<std::variant_size_v<Command>>{}); }
+
+/// What must have come before a command for it to be accepted.
+std::vector<Command> before(const Command& command) {
+  if (std::holds_alternative<MoveTool>(command)) return {example(Grasp{})};
+  if (std::holds_alternative<Undo>(command)) return {example(CutTissue{})};
+  return {};
+}
+
+/// With every contact there is, so that its state is part of all snapshots.
+WorldSetup bar_in_contact(Integrator integrator, bool single) {
+  Material material = sample_material("mooney_rivlin");
+  material.relaxation = {{0.5, 0.02}};
+  WorldSetup setup = bar(material, integrator, single);
+  setup.tables = {{Vec3(0, -0.001, 0), Vec3::UnitY(), 0.5}};
+  setup.self_contact = SelfContactSettings{0.3};
+  return setup;
+}
+
+const std::vector<Integrator> of_each_kind = {Integrator::verlet, Integrator::backward_euler, Integrator::bdf2,
+                                              Integrator::automatic};
+
+}  // namespace
+
+TEST_CASE("snapshot: every law with all that its material may remember, before and after edits") {
+  for (const LawInfo& law : laws()) {
+    CAPTURE(std::string(law.name));
+    if (law.name.starts_with("paper_")) continue;
+    for (const Material& material : with_internal_state(law))
+      for (const bool single : {false, true})
+        for (const Integrator integrator : {Integrator::verlet, Integrator::backward_euler}) {
+          CAPTURE(single);
+          CAPTURE(integrator_name(integrator));
+          const WorldSetup setup = bar(material, integrator, single);
+          check_restored({setup, {{2, blade_at(0.034)}, {6, RemoveElements{{{1, 3}, {}, {}, {}}}}, {7, Undo{}}}, 4, 9});
+        }
+  }
+}
+
+TEST_CASE("snapshot: every integrator, statics and the automatic choice too") {
+  Material material = sample_material("mooney_rivlin");
+  material.viscosity = 2;
+  material.relaxation = {{0.5, 0.01}};
+  material.plasticity = Plasticity{60, 10};
+  for (const IntegratorInfo& info : all_integrators())
+    for (const Material& of_two : {material, sample_material("neo_hookean")})
+      for (const bool single : {false, true})
+        for (const long at : {0L, 5L}) {
+          CAPTURE(info.name);
+          CAPTURE(single);
+          CAPTURE(at);
+          check_restored({bar(of_two, info.id, single), {{1, example(Grasp{})}, {6, example(MoveTool{})}}, at, 10});
+        }
+}
+
+TEST_CASE("snapshot: implicit and static solvers, whatever preconditions them, also where elements are gone") {
+  for (const Integrator integrator : {Integrator::bdf2, Integrator::static_equilibrium})
+    for (const Minimiser minimiser : {Minimiser::newton, Minimiser::lbfgs})
+      for (const Preconditioner preconditioner : {Preconditioner::cholesky, Preconditioner::block_jacobi,
+                                                  Preconditioner::scalar, Preconditioner::multilevel}) {
+        WorldSetup setup = bar(sample_material("neo_hookean"), integrator, false);
+        setup.solver.minimiser = minimiser;
+        setup.solver.preconditioner = preconditioner;
+        CAPTURE(integrator_name(integrator));
+        CAPTURE(static_cast<int>(minimiser));
+        CAPTURE(static_cast<int>(preconditioner));
+        check_restored({setup, {{2, example(RemoveElements{})}, {7, blade_at(0.05)}}, 4, 10});
+        setup.solver.nodal_pressure = true;
+        check_restored({setup, {{2, example(RemoveElements{})}}, 4, 8});
+      }
+}
+
+TEST_CASE("snapshot: every command, before the snapshot and after it, in and out of contact") {
+  for (const Command& command : examples())
+    for (const Integrator integrator : of_each_kind)
+      for (const bool single : {false, true}) {
+        CAPTURE(command.index());
+        CAPTURE(integrator_name(integrator));
+        CAPTURE(single);
+        std::vector<Event> first, later;
+        for (const Command& earlier : before(command)) first.push_back({1, earlier}), later.push_back({6, earlier});
+        first.push_back({2, command}), later.push_back({7, command});
+        for (const std::vector<Event>& events : {first, later})
+          check_restored({bar_in_contact(integrator, single), events, 5, 10});
+      }
+}
+
+TEST_CASE("snapshot: scripts of random commands, restored to random moments in any order") {
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    CAPTURE(seed);
+    std::mt19937_64 random(seed);
+    Script script{bar_in_contact(of_each_kind[seed % of_each_kind.size()], seed % 3 == 0), {}, 0, 16};
+    for (long tick = 1; tick < 14; ++tick) {
+      const std::vector<Command> all = examples();
+      const Command& command = all[random() % all.size()];
+      for (const Command& earlier : before(command)) script.events.push_back({tick, earlier});
+      script.events.push_back({tick, command});
+    }
+    // What the state makes of a command is not asked here: one that is refused changes nothing.
+    const auto play_to = [&](World& world, long end) {
+      for (long tick = world.ticks(); tick < end && !world.halt(); ++tick) {
+        for (const Event& event : script.events)
+          if (event.tick == tick) static_cast<void>(world.apply(event.command));
+        world.tick();
+      }
+      return readings_of(world);
+    };
+    const auto plain = make_world(script.setup), world = make_world(script.setup);
+    std::vector<std::shared_ptr<const WorldSnapshot>> snapshots = {world->snapshot()};
+    std::vector<std::vector<double>> expected = {readings_of(*plain)};
+    for (long tick = 1; tick <= script.end; ++tick) {
+      expected.push_back(play_to(*plain, tick));
+      play_to(*world, tick);
+      snapshots.push_back(world->snapshot());
+    }
+    for (int k = 0; k < 8; ++k) {
+      const std::size_t from = random() % snapshots.size();
+      const std::size_t to = from + random() % (snapshots.size() - from);
+      CAPTURE(from);
+      CAPTURE(to);
+      REQUIRE(world->restore(*snapshots[from]).ok());
+      play_to(*world, static_cast<long>(to));
+      CHECK(same_bits({readings_of(*world)}, {expected[to]}));
+    }
+  }
+}
+
+TEST_CASE("snapshot: during a recovery, before it and after it") {
+  for (const bool single : {false, true})
+    for (const Integrator integrator : {Integrator::verlet, Integrator::backward_euler})
+      for (const long at : {0L, 1L, 3L, 30L}) {
+        CAPTURE(integrator_name(integrator));
+        CAPTURE(at);
+        WorldSetup setup = bar(sample_material("neo_hookean"), integrator, single);
+        setup.solver.continuation = false;
+        setup.solver.recovery = true;
+        setup.solver.rate = 60;
+        for (const Vec3& X : setup.mesh.nodes)
+          setup.initial_positions.push_back(X.x() < 1e-9 ? X : Vec3(X.x() * 0.1, X.y(), 0.02 - X.z()));
+        check_restored({setup, {{2, example(Grasp{})}, {5, example(CutTissue{})}}, at, at + 12});
+      }
+}
+
+TEST_CASE("snapshot: tissue that tears") {
+  for (const Integrator integrator : {Integrator::verlet, Integrator::backward_euler}) {
+    WorldSetup setup = bar(soft(), integrator, false);
+    setup.tearing = TearingSettings{1.5};
+    Boundary right{nodes_where(setup.mesh, [](const Vec3& X) { return X.x() > 0.06 - 1e-9; })};
+    right.translate = Vec3(0.06, 0, 0);
+    right.ramp_time = 0.08;
+    setup.boundary.push_back(right);
+    const auto world = make_world(setup);
+    for (int k = 0; k < 16; ++k) world->tick();
+    REQUIRE_FALSE(world->edits().empty());
+    for (const long at : {4L, 12L, 15L}) check_restored({setup, {}, at, 20});
+  }
+}
+
+TEST_CASE("snapshot: outlives its world, and shares the mesh with others of the same elements") {
+  const WorldSetup setup = bar(sample_material("neo_hookean"), Integrator::verlet, false);
+  std::shared_ptr<const WorldSnapshot> snapshot;
+  std::uint64_t expected = 0;
+  {
+    const auto world = make_world(setup);
+    for (int k = 0; k < 3; ++k) world->tick();
+    snapshot = world->snapshot();
+    world->tick();
+    expected = world->state_hash();
+  }
+  const auto world = make_world(setup);
+  REQUIRE(world->restore(*snapshot).ok());
+  world->tick();
+  CHECK(world->state_hash() == expected);
+}
+
+TEST_CASE("snapshot: refused by a world of another body or precision, which is left as it was") {
+  const WorldSetup setup = bar(sample_material("neo_hookean"), Integrator::verlet, false);
+  const auto snapshot = make_world(setup)->snapshot();
+  WorldSetup in_float = setup, other_mesh = setup, other_options = setup;
+  in_float.solver.single_precision = true;
+  other_mesh.mesh.nodes.back().x() += 1e-6;
+  other_options.solver.nodal_pressure = true;
+  for (const WorldSetup& other : {in_float, other_mesh, other_options}) {
+    const auto world = make_world(other);
+    world->tick();
+    const std::uint64_t before = world->state_hash();
+    CHECK_FALSE(world->restore(*snapshot).ok());
+    CHECK(world->state_hash() == before);
+    CHECK(world->ticks() == 1);
+  }
+}
+
+}  // namespace heml::snapshot_test
