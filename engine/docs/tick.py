@@ -85,7 +85,7 @@ def draw():
                  ["world/method_choice.cpp", "world/step_cost.cpp"])
     methods = [
         Box("method", "explicit: substeps", ["as many as the stable step asks", "half step, forces, half step"],
-            ["world/explicit_stepper.cpp", "world/stable_step.cpp", "elastic/body.cpp"], column(0), COLUMN),
+            ["world/explicit_stepper.cpp", "world/stable_step.cpp", "elastic/body_forces.cpp"], column(0), COLUMN),
         Box("method", "implicit: stages", ["one step, halved if unconverged", "each stage minimises Φ by Newton"],
             ["world/implicit_stepper.cpp", "dynamics/implicit_stage.hpp", "dynamics/newton.cpp"], column(1), COLUMN),
         Box("method", "static: increments", ["of load; each minimises U", "halved where Newton fails"],

@@ -1,4 +1,4 @@
-// Edits of an existing body: other meshes, removed and divided elements, snapshots.
+// Edits of an existing body: other meshes and materials, removed and divided elements.
 #include <algorithm>
 #include <heml/elastic/body.hpp>
 
@@ -45,50 +45,11 @@ void ElasticBody<Real>::set_mesh(const TetMesh& mesh, const std::vector<int>& ma
 }
 
 template <class Real>
-BodySnapshot<Real> ElasticBody<Real>::snapshot() {
-  BodySnapshot<Real> snapshot{{}, materials_, fans_, plastic_work_, step_};
-  for (Part& part : parts_) {
-    snapshot.parts.push_back({part.material, part.group.element, {}});
-    auto& of_part = snapshot.parts.back();
-    for (const SlotState<Real>& list : part.slot_states()) of_part.values.push_back(*list.values);
-  }
-  return snapshot;
-}
-
-template <class Real>
-void ElasticBody<Real>::restore(const TetMesh& mesh, const std::vector<int>& material_of,
-                                const BodySnapshot<Real>& snapshot, const Real* x) {
-  mesh_ = mesh;
-  material_of_ = material_of;
-  parts_.clear();
-  step_ = snapshot.step;
-  for (const auto& of_part : snapshot.parts) {
-    Part& part = parts_.emplace_back(make_part(of_part.material, of_part.element));
-    for (const auto& term : part.terms) term->reset_history(part.group, x);
-    if (!(materials_[part.material] == snapshot.materials[part.material])) continue;
-    const SlotStates<Real> lists = part.slot_states();
-    for (std::size_t k = 0; k < lists.size(); ++k) *lists[k].values = of_part.values[k];
-  }
-  join_parts();
-  plastic_work_ = snapshot.plastic_work;
-  if (materials_ == snapshot.materials)
-    fans_ = snapshot.fans;
-  else
-    make_fans();
-}
-
-template <class Real>
-void ElasticBody<Real>::restore_all(const TetMesh& mesh, const std::vector<int>& material_of,
-                                    const BodySnapshot<Real>& snapshot, const Real* x) {
-  materials_ = snapshot.materials;
-  restore(mesh, material_of, snapshot, x);
-}
-
-template <class Real>
-std::size_t BodySnapshot<Real>::bytes() const {
-  std::size_t sum = fans.bytes();
-  for (const Part& part : parts) sum += bytes_of(part.element, part.values);
-  return sum;
+void ElasticBody<Real>::set_material(std::size_t index, const Material& material, const Real* x) {
+  materials_[index] = material;
+  make_parts();
+  if (!fans_.update_laws(fan_parts(), options_.continuation)) make_fans();
+  reset_history(x);
 }
 
 /// Renumbers the elements of a part and drops the removed ones. number: new number of each old element, −1 if removed.
@@ -184,18 +145,8 @@ void ElasticBody<Real>::transfer_slot_states(const Part& old, const TetMesh& bef
 
 template void ElasticBody<float>::set_mesh(const TetMesh&, const std::vector<int>&);
 template void ElasticBody<double>::set_mesh(const TetMesh&, const std::vector<int>&);
-template struct BodySnapshot<float>;
-template struct BodySnapshot<double>;
-template BodySnapshot<float> ElasticBody<float>::snapshot();
-template BodySnapshot<double> ElasticBody<double>::snapshot();
-template void ElasticBody<float>::restore(const TetMesh&, const std::vector<int>&, const BodySnapshot<float>&,
-                                          const float*);
-template void ElasticBody<double>::restore(const TetMesh&, const std::vector<int>&, const BodySnapshot<double>&,
-                                           const double*);
-template void ElasticBody<float>::restore_all(const TetMesh&, const std::vector<int>&, const BodySnapshot<float>&,
-                                              const float*);
-template void ElasticBody<double>::restore_all(const TetMesh&, const std::vector<int>&, const BodySnapshot<double>&,
-                                               const double*);
+template void ElasticBody<float>::set_material(std::size_t, const Material&, const float*);
+template void ElasticBody<double>::set_material(std::size_t, const Material&, const double*);
 template void ElasticBody<float>::keep_elements(const std::vector<int>&);
 template void ElasticBody<double>::keep_elements(const std::vector<int>&);
 template void ElasticBody<float>::transfer_state(const TetMesh&, const std::vector<int>&, const std::vector<int>&);

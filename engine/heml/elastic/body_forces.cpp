@@ -1,0 +1,89 @@
+// Forces at the nodes, and the kernels that evaluate them.
+#include <algorithm>
+#include <atomic>
+#include <heml/elastic/avx2_dispatch.hpp>
+#include <heml/elastic/body.hpp>
+
+namespace heml {
+namespace {
+
+/// Instruction set of the HEML_WIDE loops on this processor.
+std::string_view wide_instructions() {
+#if defined(__x86_64__)
+  if (has_avx2()) return "avx2";
+#endif
+  return "portable";
+}
+
+}  // namespace
+
+template <class Real>
+void ElasticBody<Real>::gather_corners(const CornerMap& corners, Real* f, bool add, ThreadTeam& team) const {
+  team.parallel_for(nodes(), grain_ / 4, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t n = begin; n < end; ++n) {
+      Real sum[3] = {0, 0, 0};
+      for (std::size_t k = corners.start[n]; k < corners.start[n + 1]; ++k) {
+        const Real* corner = &corner_[3 * corners.corners[k]];
+        for (int i = 0; i < 3; ++i) sum[i] += corner[i];
+      }
+      for (std::size_t i = 0; i < 3; ++i) f[3 * n + i] = add ? f[3 * n + i] + sum[i] : sum[i];
+    }
+  });
+}
+
+template <class Real>
+bool ElasticBody<Real>::forces(const Real* x, Real* f, ThreadTeam& team) {
+  std::atomic<bool> valid{true};
+  if (!fans_.empty()) valid = fans_.forces(x, f, team);
+  for (const Part& part : parts_) {
+    const std::size_t first = part.first_loop(), corners = part.group.first_corner;
+    for (std::size_t k = first; k < part.terms.size(); ++k)
+      team.parallel_for(part.group.packets(), grain_ / part.group.lanes, [&](std::size_t begin, std::size_t end) {
+        if (!part.terms[k]->forces(part.group, x, begin, end, corner_.data(), k > first))
+          valid.store(false, std::memory_order_relaxed);
+      });
+    if (pressure_ && part.terms.size() == first)  // no term has written these corners
+      std::fill_n(corner_.data() + 3 * corners, 12 * part.group.volume.size(), Real(0));
+  }
+  if (pressure_ && !pressure_->add_forces(x, corner_.data(), team)) valid = false;
+  if (fans_.empty() || !force_corners_.corners.empty()) gather_corners(force_corners_, f, !fans_.empty(), team);
+  if (!springs_.empty()) springs_.add_forces(x, f, team);
+  return valid;
+}
+
+template <class Real>
+std::vector<KernelInfo> ElasticBody<Real>::kernels() const {
+  // Bytes per element and term of the loops: constants and nodes, corner forces written and gathered, positions and
+  // forces.
+  const double corners = 4 * sizeof(int) + 7 * sizeof(Real) + 4 * (6 * sizeof(Real) + sizeof(std::size_t)) +
+                         static_cast<double>(6 * sizeof(Real) * nodes()) / static_cast<double>(elements());
+  std::vector<KernelInfo> result;
+  for (const Part& part : parts_) {
+    const Material& material = materials_[part.material];
+    KernelInfo info{part.material, material.law, "corners", "portable", part.group.size(), 0};
+    if (part.terms.empty()) {
+      info.kernel = "springs";
+    } else {
+      const bool has_loops = part.has_loops(options_.nodal_pressure);
+      if (part.in_fans) {
+        info.kernel = has_loops ? "fans and corners" : "fans";
+        info.instructions = name_of(fans_.instruction_set());
+        info.bytes_per_tet = fans_.bytes_per_tet();
+      } else if (material.fields.empty()) {
+        info.instructions = wide_instructions();  // elastic/law_term.hpp
+      }
+      info.bytes_per_tet += corners * static_cast<double>(part.terms.size() - part.first_loop());
+    }
+    result.push_back(std::move(info));
+  }
+  return result;
+}
+
+template void ElasticBody<float>::gather_corners(const CornerMap&, float*, bool, ThreadTeam&) const;
+template void ElasticBody<double>::gather_corners(const CornerMap&, double*, bool, ThreadTeam&) const;
+template bool ElasticBody<float>::forces(const float*, float*, ThreadTeam&);
+template bool ElasticBody<double>::forces(const double*, double*, ThreadTeam&);
+template std::vector<KernelInfo> ElasticBody<float>::kernels() const;
+template std::vector<KernelInfo> ElasticBody<double>::kernels() const;
+
+}  // namespace heml

@@ -1,0 +1,112 @@
+// Internal state (viscosity, relaxation, plasticity) over time, and snapshots of it.
+#include <algorithm>
+#include <heml/elastic/body.hpp>
+
+namespace heml {
+template <class Real>
+SlotStates<Real> ElasticBody<Real>::Part::slot_states() {
+  SlotStates<Real> lists = flow ? flow->slot_states(group) : SlotStates<Real>();
+  for (const auto& term : terms)
+    for (const SlotState<Real>& list : term->slot_states()) lists.push_back(list);
+  return lists;
+}
+
+template <class Real>
+bool ElasticBody<Real>::has_internal_state() const {
+  return std::any_of(parts_.begin(), parts_.end(),
+                     [&](const Part& part) { return materials_[part.material].has_internal_state(); });
+}
+
+template <class Real>
+void ElasticBody<Real>::begin_step(Real h) {
+  step_ = h;
+  for (Part& part : parts_)
+    for (const auto& term : part.terms) term->begin_step(h);
+}
+
+template <class Real>
+void ElasticBody<Real>::commit(const Real* x) {
+  for (Part& part : parts_) {
+    for (const auto& term : part.terms) term->commit(part.group, x);
+    if (part.flow) plastic_work_ += part.flow->flow(part.group, x);
+  }
+}
+
+template <class Real>
+void ElasticBody<Real>::reset_history(const Real* x) {
+  plastic_work_ = 0;
+  for (Part& part : parts_) {
+    if (part.flow) part.flow->reset(part.group);
+    for (const auto& term : part.terms) term->reset_history(part.group, x);
+  }
+}
+
+template <class Real>
+BodySnapshot<Real> ElasticBody<Real>::snapshot() {
+  BodySnapshot<Real> snapshot{{}, materials_, fans_, plastic_work_, step_};
+  for (Part& part : parts_) {
+    snapshot.parts.push_back({part.material, part.group.element, {}});
+    auto& of_part = snapshot.parts.back();
+    for (const SlotState<Real>& list : part.slot_states()) of_part.values.push_back(*list.values);
+  }
+  return snapshot;
+}
+
+template <class Real>
+void ElasticBody<Real>::restore(const TetMesh& mesh, const std::vector<int>& material_of,
+                                const BodySnapshot<Real>& snapshot, const Real* x) {
+  mesh_ = mesh;
+  material_of_ = material_of;
+  parts_.clear();
+  step_ = snapshot.step;
+  for (const auto& of_part : snapshot.parts) {
+    Part& part = parts_.emplace_back(make_part(of_part.material, of_part.element));
+    for (const auto& term : part.terms) term->reset_history(part.group, x);
+    if (!(materials_[part.material] == snapshot.materials[part.material])) continue;
+    const SlotStates<Real> lists = part.slot_states();
+    for (std::size_t k = 0; k < lists.size(); ++k) *lists[k].values = of_part.values[k];
+  }
+  join_parts();
+  plastic_work_ = snapshot.plastic_work;
+  if (materials_ == snapshot.materials)
+    fans_ = snapshot.fans;
+  else
+    make_fans();
+}
+
+template <class Real>
+void ElasticBody<Real>::restore_all(const TetMesh& mesh, const std::vector<int>& material_of,
+                                    const BodySnapshot<Real>& snapshot, const Real* x) {
+  materials_ = snapshot.materials;
+  restore(mesh, material_of, snapshot, x);
+}
+
+template <class Real>
+std::size_t BodySnapshot<Real>::bytes() const {
+  std::size_t sum = fans.bytes();
+  for (const Part& part : parts) sum += bytes_of(part.element, part.values);
+  return sum;
+}
+
+template bool ElasticBody<float>::has_internal_state() const;
+template bool ElasticBody<double>::has_internal_state() const;
+template void ElasticBody<float>::begin_step(float);
+template void ElasticBody<double>::begin_step(double);
+template void ElasticBody<float>::commit(const float*);
+template void ElasticBody<double>::commit(const double*);
+template void ElasticBody<float>::reset_history(const float*);
+template void ElasticBody<double>::reset_history(const double*);
+template struct BodySnapshot<float>;
+template struct BodySnapshot<double>;
+template BodySnapshot<float> ElasticBody<float>::snapshot();
+template BodySnapshot<double> ElasticBody<double>::snapshot();
+template void ElasticBody<float>::restore(const TetMesh&, const std::vector<int>&, const BodySnapshot<float>&,
+                                          const float*);
+template void ElasticBody<double>::restore(const TetMesh&, const std::vector<int>&, const BodySnapshot<double>&,
+                                           const double*);
+template void ElasticBody<float>::restore_all(const TetMesh&, const std::vector<int>&, const BodySnapshot<float>&,
+                                              const float*);
+template void ElasticBody<double>::restore_all(const TetMesh&, const std::vector<int>&, const BodySnapshot<double>&,
+                                               const double*);
+
+}  // namespace heml

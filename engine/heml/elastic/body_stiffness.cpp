@@ -1,0 +1,154 @@
+// The stiffness K: its evaluation, projection and products, and bounds of its eigenvalues.
+#include <cmath>
+#include <heml/elastic/body.hpp>
+#include <heml/elastic/bsr_matrix.hpp>
+#include <heml/elastic/clamp.hpp>
+#include <heml/elastic/stiffness_product.hpp>
+#include <mutex>
+
+namespace heml {
+template <class Real>
+void ElasticBody<Real>::linearise(const Real* x, ThreadTeam& team) {
+  linearisation_point_.assign(x, x + 3 * nodes());
+  projected_ = false;
+  for (Part& part : parts_) {
+    part.stiffness.resize(edge_entries * part.group.volume.size());
+    for (std::size_t k = 0; k < part.terms.size(); ++k)
+      team.parallel_for(part.group.packets(), grain_ / 4 / part.group.lanes, [&](std::size_t begin, std::size_t end) {
+        part.terms[k]->stiffness(part.group, x, begin, end, part.stiffness.data(), k > 0);
+      });
+  }
+}
+
+template <class Real>
+void ElasticBody<Real>::project(Projection projection, ThreadTeam& team) {
+  if (projection != Projection::element && projection != Projection::tension) return;
+  projected_ = true;
+  for (Part& part : parts_)
+    team.parallel_for(part.group.volume.size(), grain_ / 16, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t s = begin; s < end; ++s) {
+        Real k[edge_entries];
+        read_edge_stiffness(part.stiffness.data(), s, k);
+        if (projection == Projection::element) {
+          clamp_element(k);
+        } else {
+          const auto rest = rest_shape(part.group, s);
+          const auto kinematics = full_kinematics(part.group, linearisation_point_.data(), s, rest);
+          Tensions<Real> sum{};
+          for (const auto& term : part.terms) {
+            const Tensions<Real> t = term->tensions(part.group, s, kinematics, rest);
+            for (int i = 0; i < 6; ++i) sum.T[i] += t.T[i];
+            sum.wJ += t.wJ;
+          }
+          clamp_tension(sum, kinematics, rest, k);
+        }
+        write_edge_stiffness(k, s, part.stiffness.data(), false);
+      }
+    });
+}
+
+template <class Real>
+void ElasticBody<Real>::force_differential(const Real* dx, Real* out, ThreadTeam& team) {
+  for (const Part& part : parts_)
+    team.parallel_for(part.group.packets(), grain_ / part.group.lanes, [&](std::size_t begin, std::size_t end) {
+      multiply_stiffness(part.stiffness.data(), part.group, dx, begin, end, corner_.data());
+    });
+  const Real* x = linearisation_point_.data();
+  if (pressure_) pressure_->add_force_differential(x, dx, corner_.data(), team);
+  gather_corners(corners_, out, false, team);
+  if (!springs_.empty()) springs_.add_force_differential(x, dx, out, projected_, team);
+}
+
+template <class Real>
+bool ElasticBody<Real>::add_stiffness(BsrMatrix& rows, ThreadTeam& team) const {
+  if (pressure_) return false;
+  for (const Part& part : parts_)
+    if (!part.terms.empty()) rows.add_elements(part.stiffness.data(), part.group, team);
+  each_spring_stiffness([&](int a, int b, const Real(&block)[3][3]) {
+    Mat3 B;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) B(i, j) = static_cast<double>(block[i][j]);
+    rows.add_edge(a, b, B);
+  });
+  return true;
+}
+
+template <class Real>
+void ElasticBody<Real>::element_stiffness(std::size_t p, std::size_t s, ElementMatrix<Real>& K) const {
+  const Part& part = parts_[p];
+  Real k[edge_entries];
+  read_edge_stiffness(part.stiffness.data(), s, k);
+  if (pressure_) pressure_->add_stiffness(p, linearisation_point_.data(), s, k);
+  expand_edges(k, K);
+}
+
+/// Maximum over the parts of the sum of the bounds of their terms.
+template <class Real>
+template <class Bound>
+Real ElasticBody<Real>::max_bound(ThreadTeam& team, const Bound& bound) const {
+  Real of_all = 0;
+  std::mutex mutex;  // a maximum does not depend on the order it is taken in
+  for (const Part& part : parts_) {
+    Real of_part = 0;
+    for (const auto& term : part.terms) {
+      Real largest = 0;
+      team.parallel_for(part.group.packets(), grain_ / part.group.lanes, [&](std::size_t begin, std::size_t end) {
+        const Real value = bound(*term, part.group, begin, end);
+        std::lock_guard lock(mutex);
+        largest = value > largest || std::isnan(value) ? value : largest;
+      });
+      of_part += largest;
+    }
+    of_all = of_part > of_all || std::isnan(of_part) ? of_part : of_all;
+  }
+  return of_all;
+}
+
+template <class Real>
+Real ElasticBody<Real>::frequency_bound(const Real* x, ThreadTeam& team) {
+  Real bound = max_bound(team, [x](const auto& term, const auto& group, std::size_t begin, std::size_t end) {
+    return term.frequency_bound(group, x, begin, end);
+  });
+  if (pressure_) bound += pressure_->frequency_bound(x, team);
+  if (!springs_.empty()) bound += springs_.frequency_bound(masses());
+  return bound;
+}
+
+template <class Real>
+Real ElasticBody<Real>::damping_bound(const Real* x, ThreadTeam& team) {
+  if (!has_internal_state()) return 0;
+  return max_bound(team, [x](const auto& term, const auto& group, std::size_t begin, std::size_t end) {
+    return term.damping_bound(group, x, begin, end);
+  });
+}
+
+template <class Real>
+std::vector<Real> ElasticBody<Real>::element_bounds(const Real* x) const {
+  std::vector<Real> bounds(mesh_.tets.size(), Real(0));
+  each_slot(
+      x, [&](const Part& part, std::size_t s, const ElementKinematics<Real>& kinematics, const RestShape<Real>& rest) {
+        for (const auto& term : part.terms)
+          bounds[static_cast<std::size_t>(part.group.element[s])] +=
+              term->slot_frequency_bound(part.group, s, kinematics, rest);
+      });
+  return bounds;
+}
+
+template void ElasticBody<float>::linearise(const float*, ThreadTeam&);
+template void ElasticBody<double>::linearise(const double*, ThreadTeam&);
+template void ElasticBody<float>::project(Projection, ThreadTeam&);
+template void ElasticBody<double>::project(Projection, ThreadTeam&);
+template void ElasticBody<float>::force_differential(const float*, float*, ThreadTeam&);
+template void ElasticBody<double>::force_differential(const double*, double*, ThreadTeam&);
+template bool ElasticBody<float>::add_stiffness(BsrMatrix&, ThreadTeam&) const;
+template bool ElasticBody<double>::add_stiffness(BsrMatrix&, ThreadTeam&) const;
+template void ElasticBody<float>::element_stiffness(std::size_t, std::size_t, ElementMatrix<float>&) const;
+template void ElasticBody<double>::element_stiffness(std::size_t, std::size_t, ElementMatrix<double>&) const;
+template float ElasticBody<float>::frequency_bound(const float*, ThreadTeam&);
+template double ElasticBody<double>::frequency_bound(const double*, ThreadTeam&);
+template float ElasticBody<float>::damping_bound(const float*, ThreadTeam&);
+template double ElasticBody<double>::damping_bound(const double*, ThreadTeam&);
+template std::vector<float> ElasticBody<float>::element_bounds(const float*) const;
+template std::vector<double> ElasticBody<double>::element_bounds(const double*) const;
+
+}  // namespace heml
