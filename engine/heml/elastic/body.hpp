@@ -146,7 +146,8 @@ class ElasticBody {
   std::vector<Mat3> stresses(const Real* x, ThreadTeam& team);
   bool has_springs() const { return !springs_.empty(); }
 
-  /// Replaces a material and resets the internal state of the body, taken as relaxed at x.
+  /// Replaces a material. Its elements lose their internal state and are taken as relaxed at x; those of other
+  /// materials keep theirs. plastic_work() keeps the work done so far in all of them.
   void set_material(std::size_t index, const Material& material, const Real* x);
 
   /// Removes all but the given elements (inner numbers, ascending; at least one) and renumbers those in that order.
@@ -176,7 +177,7 @@ class ElasticBody {
   void begin_step(Real h);
   void commit(const Real* x);
   void reset_history(const Real* x);
-  double plastic_work() const { return plastic_work_; }  ///< J, since the last reset
+  double plastic_work() const { return plastic_work_; }  ///< J, of all elements since the last reset_history()
 
   /// Lumped masses (#V, kg): each tetrahedron's density × volume / 4 on its nodes.
   std::vector<Real> masses() const;
@@ -195,6 +196,7 @@ class ElasticBody {
 
     std::size_t first_loop() const { return in_fans ? 1 : 0; }  ///< first term that forces() loops over
     SlotStates<Real> slot_states();                             ///< of all terms and the flow
+    void reset_history(const Real* x);                          ///< of all terms and the flow
     bool has_loops(bool nodal_pressure) const { return terms.size() > first_loop() || nodal_pressure; }
   };
   static constexpr std::size_t grain_ = 2048;       ///< min. elements per thread, which outweigh the cost of waking it

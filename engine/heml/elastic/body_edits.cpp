@@ -47,9 +47,13 @@ void ElasticBody<Real>::set_mesh(const TetMesh& mesh, const std::vector<int>& ma
 template <class Real>
 void ElasticBody<Real>::set_material(std::size_t index, const Material& material, const Real* x) {
   materials_[index] = material;
-  make_parts();
+  for (Part& part : parts_) {
+    if (part.material != index) continue;
+    part = make_part(index, part.group.element);
+    part.reset_history(x);
+  }
+  join_parts();
   if (!fans_.update_laws(fan_parts(), options_.continuation)) make_fans();
-  reset_history(x);
 }
 
 /// Renumbers the elements of a part and drops the removed ones. number: new number of each old element, −1 if removed.

@@ -12,6 +12,12 @@ SlotStates<Real> ElasticBody<Real>::Part::slot_states() {
 }
 
 template <class Real>
+void ElasticBody<Real>::Part::reset_history(const Real* x) {
+  if (flow) flow->reset(group);
+  for (const auto& term : terms) term->reset_history(group, x);
+}
+
+template <class Real>
 bool ElasticBody<Real>::has_internal_state() const {
   return std::any_of(parts_.begin(), parts_.end(),
                      [&](const Part& part) { return materials_[part.material].has_internal_state(); });
@@ -35,10 +41,7 @@ void ElasticBody<Real>::commit(const Real* x) {
 template <class Real>
 void ElasticBody<Real>::reset_history(const Real* x) {
   plastic_work_ = 0;
-  for (Part& part : parts_) {
-    if (part.flow) part.flow->reset(part.group);
-    for (const auto& term : part.terms) term->reset_history(part.group, x);
-  }
+  for (Part& part : parts_) part.reset_history(x);
 }
 
 template <class Real>
@@ -61,7 +64,7 @@ void ElasticBody<Real>::restore(const TetMesh& mesh, const std::vector<int>& mat
   step_ = snapshot.step;
   for (const auto& of_part : snapshot.parts) {
     Part& part = parts_.emplace_back(make_part(of_part.material, of_part.element));
-    for (const auto& term : part.terms) term->reset_history(part.group, x);
+    part.reset_history(x);
     if (!(materials_[part.material] == snapshot.materials[part.material])) continue;
     const SlotStates<Real> lists = part.slot_states();
     for (std::size_t k = 0; k < lists.size(); ++k) *lists[k].values = of_part.values[k];
@@ -94,6 +97,8 @@ template void ElasticBody<float>::begin_step(float);
 template void ElasticBody<double>::begin_step(double);
 template void ElasticBody<float>::commit(const float*);
 template void ElasticBody<double>::commit(const double*);
+template void ElasticBody<float>::Part::reset_history(const float*);
+template void ElasticBody<double>::Part::reset_history(const double*);
 template void ElasticBody<float>::reset_history(const float*);
 template void ElasticBody<double>::reset_history(const double*);
 template struct BodySnapshot<float>;

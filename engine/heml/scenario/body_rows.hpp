@@ -12,7 +12,9 @@ template <>
 struct Row<SetMaterial> : CommonRow {
   static constexpr std::string_view key = "material",
                                     example = R"({"region": 2, "law": "neo_hookean", "young": 2e4, "poisson": 0.4})",
-                                    meaning = "replaces the material of a region, or the default; the body goes on";
+                                    meaning =
+                                        "replaces the material of a region, or the default; the body goes on, other "
+                                        "materials with their internal state";
   static constexpr ValueForm value_form = form::other("entry as of the scene's `materials`, without fields");
   static Command read(const JsonCursor& value, Points&) {
     const RegionMaterial entry = material_from(value);

@@ -96,4 +96,57 @@ TEST_CASE("laws may be mixed in one body, and share its nodes") {
   CHECK(test::stiffness_error(body, small.x, random) <= 1e-5);
 }
 
+TEST_CASE("a material that is replaced loses its internal state, the other materials keep theirs") {
+  std::mt19937_64 random(35);
+  SmallBody small(random, 0.15, Mat3(Vec3(1.15, 0.9, 1).asDiagonal()));
+  Material viscous = sample_material("neo_hookean_iso"), plastic = sample_material("mooney_rivlin"),
+           relaxing = sample_material("ogden");
+  viscous.viscosity = 3;
+  plastic.plasticity = Plasticity{50, 20};
+  relaxing.relaxation = {{0.4, 0.02}, {0.3, 0.2}};
+  std::vector<Material> materials{viscous, plastic, relaxing};
+  std::vector<int> material_of;
+  for (std::size_t t = 0; t < small.mesh.tets.size(); ++t) material_of.push_back(static_cast<int>(t % 3));
+  const auto states_of = [&](const ElasticBody<double>& body) {
+    std::vector<ElementState<double>> states;
+    body.states(small.x.data(), states);
+    return states;
+  };
+  for (const std::size_t replaced : {0, 1, 2}) {
+    CAPTURE(replaced);
+    ElasticBody<double> body(small.mesh, material_of, materials, {});
+    auto further = small.rest();
+    for (std::size_t i = 0; i < further.size(); ++i) further[i] += 1.2 * (small.x[i] - further[i]);
+    for (int k = 0; k < 3; ++k) {
+      body.begin_step(0.01);
+      body.commit(further.data());
+    }
+    body.begin_step(0.01);
+    const double work = body.plastic_work();
+    REQUIRE(work > 0);
+    const auto before = states_of(body);
+    Material stiffer = materials[replaced];
+    for (double& parameter : stiffer.parameters) parameter *= 1.5;
+    body.set_material(replaced, stiffer, small.x.data());
+    const auto after = states_of(body);
+
+    std::vector<Material> now = materials;
+    now[replaced] = stiffer;
+    ElasticBody<double> made(small.mesh, material_of, now, {});  // relaxed at x
+    made.reset_history(small.x.data());
+    made.begin_step(0.01);
+    const auto relaxed = states_of(made);
+    bool others_differ_from_relaxed = false;
+    for (std::size_t t = 0; t < after.size(); ++t)
+      if (static_cast<std::size_t>(material_of[t]) == replaced) {
+        CHECK(after[t].von_mises == relaxed[t].von_mises);
+      } else {
+        CHECK(after[t].von_mises == before[t].von_mises);
+        others_differ_from_relaxed = others_differ_from_relaxed || after[t].von_mises != relaxed[t].von_mises;
+      }
+    CHECK(others_differ_from_relaxed);
+    CHECK(body.plastic_work() == work);
+  }
+}
+
 }  // namespace heml::materials_of_a_body_test
