@@ -11,6 +11,7 @@ template <class Real>
 void ElasticBody<Real>::linearise(const Real* x, ThreadTeam& team) {
   linearisation_point_.assign(x, x + 3 * nodes());
   projected_ = false;
+  if (pressure_) pressure_->linearise(x, team);
   for (Part& part : parts_) {
     part.stiffness.resize(edge_entries * part.group.volume.size());
     for (std::size_t k = 0; k < part.terms.size(); ++k)

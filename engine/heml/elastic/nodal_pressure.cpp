@@ -115,42 +115,43 @@ typename NodalPressure<Real>::Value NodalPressure<Real>::psi(Real J) const {
 }
 
 template <class Real>
-void NodalPressure<Real>::average(const Real* x, ThreadTeam& team) {
+void NodalPressure<Real>::average(const Real* x, NodeValues& values, ThreadTeam& team) {
+  auto& [ratio, pressure] = values;
   if (has_avx2()) {
     for (const ElementGroup<Real>* group : groups_)
       team.parallel_for(group->packets(), slot_grain / group->lanes, [&](std::size_t begin, std::size_t end) {
         packet_volumes(*group, x, begin, end, &of_corner_[group->first_corner / 4]);
       });
-    sum_at_nodes(corners_, of_corner_, ratio_, team);
+    sum_at_nodes(corners_, of_corner_, ratio, team);
   } else {
-    gather(ratio_, team, [&](const ElementGroup<Real>& group, std::size_t, std::size_t s) {
+    gather(ratio, team, [&](const ElementGroup<Real>& group, std::size_t, std::size_t s) {
       RestShape<Real> rest;
       return group.volume[s] * volume_kinematics(group, x, s, rest).at.J;
     });
   }
-  pressure_.resize(ratio_.size());
-  for (std::size_t n = 0; n < ratio_.size(); ++n) {
-    ratio_[n] = node_volume_[n] > 0 ? ratio_[n] / node_volume_[n] : Real(1);
-    pressure_[n] = node_kappa_[n] * psi(ratio_[n]).w1;
+  pressure.resize(ratio.size());
+  for (std::size_t n = 0; n < ratio.size(); ++n) {
+    ratio[n] = node_volume_[n] > 0 ? ratio[n] / node_volume_[n] : Real(1);
+    pressure[n] = node_kappa_[n] * psi(ratio[n]).w1;
   }
 }
 
 template <class Real>
-Real NodalPressure<Real>::pressure(std::size_t g, std::size_t s) const {
+Real NodalPressure<Real>::pressure(const NodeValues& values, std::size_t g, std::size_t s) const {
   const ElementGroup<Real>& group = *groups_[g];
   Real sum = 0;
-  for (const auto& list : group.node) sum += pressure_[static_cast<std::size_t>(list[s])];
+  for (const auto& list : group.node) sum += values.pressure[static_cast<std::size_t>(list[s])];
   return sum / 4;
 }
 
 template <class Real>
 bool NodalPressure<Real>::add_forces(const Real* x, Real* corner, ThreadTeam& team) {
-  average(x, team);
+  average(x, last_, team);
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     const ElementGroup<Real>& group = *groups_[g];
     if (has_avx2()) {
       team.parallel_for(group.packets(), slot_grain / group.lanes, [&](std::size_t begin, std::size_t end) {
-        add_packet_pressures(group, x, pressure_.data(), begin, end, corner);
+        add_packet_pressures(group, x, last_.pressure.data(), begin, end, corner);
       });
       continue;
     }
@@ -159,19 +160,23 @@ bool NodalPressure<Real>::add_forces(const Real* x, Real* corner, ThreadTeam& te
         RestShape<Real> rest;
         const auto kinematics = volume_kinematics(group, x, s, rest);
         Real f[12];
-        forces_from_tensions<true>(Tensions<Real>{{}, pressure(g, s)}, kinematics.e, kinematics.cross, f);
+        forces_from_tensions<true>(Tensions<Real>{{}, pressure(last_, g, s)}, kinematics.e, kinematics.cross, f);
         Real* to = corner + 3 * (group.first_corner + 4 * s);
         for (int i = 0; i < 12; ++i) to[i] += f[i];
       }
     });
   }
   if (continuation_ || term_ == VolumeTerm::quadratic) return true;
-  return std::all_of(ratio_.begin(), ratio_.end(), [](Real J) { return J > min_volume_ratio<Real>; });
+  return std::all_of(last_.ratio.begin(), last_.ratio.end(), [](Real J) { return J > min_volume_ratio<Real>; });
+}
+
+template <class Real>
+void NodalPressure<Real>::linearise(const Real* x, ThreadTeam& team) {
+  average(x, linear_, team);
 }
 
 template <class Real>
 void NodalPressure<Real>::add_force_differential(const Real* x, const Real* dx, Real* corner, ThreadTeam& team) {
-  average(x, team);
   const auto change = [&](const ElementGroup<Real>& group, std::size_t s, const ElementKinematics<Real>& kinematics,
                           Real(&de)[3][3]) {
     const SlotNodes<Real> d(group, dx, s);
@@ -187,7 +192,7 @@ void NodalPressure<Real>::add_force_differential(const Real* x, const Real* dx, 
     return group.volume[s] * change(group, s, volume_kinematics(group, x, s, rest), de);
   });
   for (std::size_t n = 0; n < dp.size(); ++n)
-    dp[n] = node_volume_[n] > 0 ? node_kappa_[n] * psi(ratio_[n]).w2 * dp[n] / node_volume_[n] : Real(0);
+    dp[n] = node_volume_[n] > 0 ? node_kappa_[n] * psi(linear_.ratio[n]).w2 * dp[n] / node_volume_[n] : Real(0);
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     const ElementGroup<Real>& group = *groups_[g];
     team.parallel_for(group.size(), slot_grain, [&](std::size_t begin, std::size_t end) {
@@ -197,7 +202,8 @@ void NodalPressure<Real>::add_force_differential(const Real* x, const Real* dx, 
         Real de[3][3], f[12], mean = 0;
         change(group, s, kinematics, de);
         for (const auto& list : group.node) mean += dp[static_cast<std::size_t>(list[s])] / 4;
-        corner_force_differential(Tensions<Real>{{}, pressure(g, s)}, Tensions<Real>{{}, mean}, kinematics, de, f);
+        corner_force_differential(Tensions<Real>{{}, pressure(linear_, g, s)}, Tensions<Real>{{}, mean}, kinematics, de,
+                                  f);
         Real* to = corner + 3 * (group.first_corner + 4 * s);
         for (int i = 0; i < 12; ++i) to[i] += f[i];
       }
@@ -208,10 +214,10 @@ void NodalPressure<Real>::add_force_differential(const Real* x, const Real* dx, 
 template <class Real>
 double NodalPressure<Real>::energy(const Real* x) {
   ThreadTeam alone(1);
-  average(x, alone);
+  average(x, last_, alone);
   double sum = 0;
-  for (std::size_t n = 0; n < ratio_.size(); ++n)
-    sum += static_cast<double>(node_volume_[n] / 4 * node_kappa_[n]) * static_cast<double>(psi(ratio_[n]).w);
+  for (std::size_t n = 0; n < last_.ratio.size(); ++n)
+    sum += static_cast<double>(node_volume_[n] / 4 * node_kappa_[n]) * static_cast<double>(psi(last_.ratio[n]).w);
   return sum;
 }
 
@@ -219,10 +225,10 @@ double NodalPressure<Real>::energy(const Real* x) {
 /// largest κ ψ'' of its corners; p_t d²J is bounded by |d²J| ≤ 2 σ1 |dF|².
 template <class Real>
 Real NodalPressure<Real>::frequency_bound(const Real* x, ThreadTeam& team) {
-  average(x, team);
-  std::vector<Real> stiffness(ratio_.size());
+  average(x, last_, team);
+  std::vector<Real> stiffness(last_.ratio.size());
   for (std::size_t n = 0; n < stiffness.size(); ++n)
-    stiffness[n] = node_kappa_[n] * std::max(psi(ratio_[n]).w2, Real(0));
+    stiffness[n] = node_kappa_[n] * std::max(psi(last_.ratio[n]).w2, Real(0));
   Real largest = 0;
   std::mutex mutex;  // a maximum does not depend on the order it is taken in
   for (std::size_t g = 0; g < groups_.size(); ++g) {
@@ -237,7 +243,7 @@ Real NodalPressure<Real>::frequency_bound(const Real* x, ThreadTeam& team) {
         const Real bound =
             4 / group.density *
             (kappa * corner_sums(kinematics, rest).nJ +
-             2 * std::abs(pressure(g, s)) * std::sqrt(stretch_bounds(kinematics.at).max) * group.gamma[s]);
+             2 * std::abs(pressure(last_, g, s)) * std::sqrt(stretch_bounds(kinematics.at).max) * group.gamma[s]);
         most = bound > most || std::isnan(bound) ? bound : most;
       }
       std::lock_guard lock(mutex);
@@ -255,12 +261,12 @@ void NodalPressure<Real>::add_stiffness(std::size_t g, const Real* x, std::size_
   Real stiffness = 0;
   for (const auto& list : group.node) {
     const auto n = static_cast<std::size_t>(list[s]);
-    stiffness += node_kappa_[n] * psi(ratio_[n]).w2 / 4;
+    stiffness += node_kappa_[n] * psi(linear_.ratio[n]).w2 / 4;
   }
   Real gradient[1][9];  // of J
   for (int r = 0; r < 9; ++r) gradient[0][r] = kinematics.cross[r / 3][r % 3] / (6 * rest.volume);
   add_outer_products<1>(gradient, {{stiffness}}, rest.volume, K);
-  add_geometric_stiffness(Tensions<Real>{{}, pressure(g, s)}, kinematics.e, K);
+  add_geometric_stiffness(Tensions<Real>{{}, pressure(linear_, g, s)}, kinematics.e, K);
 }
 
 template class NodalPressure<float>;

@@ -24,24 +24,34 @@ class NodalPressure {
   /// Adds the forces at x (N) to the corner forces of all groups (3 a corner). Returns whether ψ is defined at every
   /// node.
   bool add_forces(const Real* x, Real* corner, ThreadTeam& team);
-  /// Adds −K dx (N), K the stiffness at x, to the corner forces.
+
+  /// Evaluates volume ratios and pressures at x for the two calls below, until the next linearise(). Other evaluations
+  /// between leave them.
+  void linearise(const Real* x, ThreadTeam& team);
+  /// Adds −K dx (N) to the corner forces; x: the point of linearise().
   void add_force_differential(const Real* x, const Real* dx, Real* corner, ThreadTeam& team);
+  /// Adds an approximation of one slot's stiffness (elastic/edge_stiffness.hpp) for preconditioners, without coupling
+  /// to other elements; κ ψ'' is averaged over its nodes. x: the point of linearise().
+  void add_stiffness(std::size_t group, const Real* x, std::size_t s, Real K[edge_entries]) const;
+
   double energy(const Real* x);  ///< J
   /// Upper bound of λ_max(M⁻¹K) of these terms, 1/s².
   Real frequency_bound(const Real* x, ThreadTeam& team);
-  /// Adds an approximation of one slot's stiffness (elastic/edge_stiffness.hpp) for preconditioners, without coupling
-  /// to other elements; κ ψ'' is averaged over its nodes. Pressures are those of the last evaluation.
-  void add_stiffness(std::size_t group, const Real* x, std::size_t s, Real K[edge_entries]) const;
-  /// Mean pressure p_t of a slot at the last evaluation, Pa.
-  Real pressure(std::size_t group, std::size_t s) const;
-  std::size_t bytes() const { return bytes_of(kappa_, node_volume_, node_kappa_, ratio_, pressure_, of_corner_); }
+  std::size_t bytes() const {
+    return bytes_of(kappa_, node_volume_, node_kappa_, last_.ratio, last_.pressure, linear_.ratio, linear_.pressure,
+                    of_corner_);
+  }
 
  private:
   struct Value {
     Real w, w1, w2;  ///< ψ and its derivatives
   };
+  struct NodeValues {
+    std::vector<Real> ratio, pressure;  ///< #V: J̄_a; p_a
+  };
   Value psi(Real J) const;
-  void average(const Real* x, ThreadTeam& team);
+  void average(const Real* x, NodeValues& values, ThreadTeam& team);
+  Real pressure(const NodeValues& values, std::size_t group, std::size_t s) const;  ///< mean p_t of a slot, Pa
   template <class OfSlot>
   void gather(std::vector<Real>& node_sums, ThreadTeam& team, const OfSlot& of_slot);
 
@@ -51,7 +61,8 @@ class NodalPressure {
   VolumeTerm term_;
   bool continuation_;
   std::vector<Real> node_volume_, node_kappa_;  ///< #V: ΣV_t; κ_a
-  std::vector<Real> ratio_, pressure_;          ///< #V: J̄_a; p_a
+  NodeValues last_;                             ///< at the x of the last evaluation, scratch
+  NodeValues linear_;                           ///< at the point of linearise()
   std::vector<Real> of_corner_;                 ///< one a slot, scratch
 };
 
