@@ -1,7 +1,8 @@
 #pragma once
-// Closest points on triangles and segments.
+// Closest points on triangles and segments, and where a segment passes through a triangle.
 #include <algorithm>
 #include <heml/math/types.hpp>
+#include <optional>
 #include <utility>
 
 namespace heml {
@@ -40,6 +41,28 @@ inline std::pair<double, double> closest_on_segments(const Vec3& p, const Vec3& 
     s = std::clamp((b * t - c) / a, 0.0, 1.0);
   }
   return {s, t};
+}
+
+/// Six times the signed volume of tetrahedron a, b, p, q. Computed for one fixed direction of the edge pq, so that the
+/// two triangles at that edge get exactly opposite values.
+inline double side_of_edge(const Vec3& a, const Vec3& b, const Vec3& p, const Vec3& q) {
+  const bool in_order = std::lexicographical_compare(p.begin(), p.end(), q.begin(), q.end());
+  const Vec3& first = in_order ? p : q;
+  const Vec3& second = in_order ? q : p;
+  const double volume = (b - a).cross(first - a).dot(second - a);
+  return in_order ? volume : -volume;
+}
+
+/// Where segment ab passes through a triangle, 0 at a, 1 at b: as by Möller & Trumbore (1997), with the signs above.
+/// None for a segment in the triangle's plane.
+inline std::optional<double> segment_triangle_crossing(const Vec3& a, const Vec3& b, const std::array<Vec3, 3>& t) {
+  const Vec3 normal = (t[1] - t[0]).cross(t[2] - t[0]);
+  const double from = normal.dot(a - t[0]), to = normal.dot(b - t[0]);
+  if ((from > 0) == (to > 0) || from == to) return std::nullopt;
+  const double s0 = side_of_edge(a, b, t[0], t[1]), s1 = side_of_edge(a, b, t[1], t[2]),
+               s2 = side_of_edge(a, b, t[2], t[0]);
+  if (!((s0 >= 0 && s1 >= 0 && s2 >= 0) || (s0 <= 0 && s1 <= 0 && s2 <= 0))) return std::nullopt;
+  return std::clamp(from / (from - to), 0.0, 1.0);
 }
 
 }  // namespace heml

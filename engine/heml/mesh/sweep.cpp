@@ -1,30 +1,10 @@
 #include <algorithm>
+#include <heml/math/closest.hpp>
 #include <heml/mesh/sweep.hpp>
 #include <limits>
 
 namespace heml {
 namespace {
-
-/// Six times the signed volume of tetrahedron a, b, p, q. Computed for one fixed direction of the edge pq, so that the
-/// two triangles at that edge get exactly opposite values.
-double side_of_edge(const Vec3& a, const Vec3& b, const Vec3& p, const Vec3& q) {
-  const bool in_order = std::lexicographical_compare(p.begin(), p.end(), q.begin(), q.end());
-  const Vec3& first = in_order ? p : q;
-  const Vec3& second = in_order ? q : p;
-  const double volume = (b - a).cross(first - a).dot(second - a);
-  return in_order ? volume : -volume;
-}
-
-/// Segment-triangle intersection as by Möller & Trumbore (1997), with the signs above: 0 at a, 1 at b.
-std::optional<double> crossing(const Vec3& a, const Vec3& b, const std::array<Vec3, 3>& t) {
-  const Vec3 normal = (t[1] - t[0]).cross(t[2] - t[0]);
-  const double from = normal.dot(a - t[0]), to = normal.dot(b - t[0]);
-  if ((from > 0) == (to > 0) || from == to) return std::nullopt;
-  const double s0 = side_of_edge(a, b, t[0], t[1]), s1 = side_of_edge(a, b, t[1], t[2]),
-               s2 = side_of_edge(a, b, t[2], t[0]);
-  if (!((s0 >= 0 && s1 >= 0 && s2 >= 0) || (s0 <= 0 && s1 <= 0 && s2 <= 0))) return std::nullopt;
-  return std::clamp(from / (from - to), 0.0, 1.0);
-}
 
 /// Closest point of a triangle to p (C. Ericson, Real-Time Collision Detection, 2005, 5.1.5).
 Vec3 nearest_point(const Vec3& p, const std::array<Vec3, 3>& t) {
@@ -62,7 +42,7 @@ std::optional<double> SweptSurface::crossing(const Vec3& a, const Vec3& b) const
   Eigen::AlignedBox3d segment(a.cwiseMin(b), a.cwiseMax(b));
   if (!segment.intersects(box_)) return first;
   for (const auto& triangle : triangles_)
-    if (const auto at = heml::crossing(a, b, triangle)) first = first ? std::min(*first, *at) : *at;
+    if (const auto at = segment_triangle_crossing(a, b, triangle)) first = first ? std::min(*first, *at) : *at;
   return first;
 }
 

@@ -35,6 +35,22 @@ Pair nearest_pair(const ContactSurface& capsule, const std::array<Vec3, 3>& x) {
   return best;
 }
 
+/// Contact of a face that the axis passes through, at `where` of it (0 at the tip): the point there, out along the
+/// face's normal over the end of the axis that is less deep. With the end on the face this is the contact of the end.
+ContactPoint pierced_face_contact(const ContactSurface& capsule, const Triangle& face, const std::array<Vec3, 3>& x,
+                                  double where) {
+  const auto [u, v, w] =
+      closest_point_weights(capsule.point + where * (capsule.other - capsule.point), x[0], x[1], x[2]);
+  const Vec3 normal = (x[1] - x[0]).cross(x[2] - x[0]).normalized();
+  const double tip = normal.dot(capsule.point - x[0]), other = normal.dot(capsule.other - x[0]);
+  const double height = std::abs(tip) < std::abs(other) ? tip : other;
+  return {{face[0], face[1], face[2], face[0]},
+          {u, v, w, 0},
+          3,
+          -std::abs(height) - capsule.radius,
+          height < 0 ? Vec3(-normal) : normal};
+}
+
 }  // namespace
 
 void Probe::go(const std::vector<Vec3>& path, double speed, double time) {
@@ -78,6 +94,8 @@ ContactSurface surface_of(const Probe& probe, double time) {
 std::optional<ContactPoint> capsule_face_contact(const ContactSurface& capsule, const Triangle& face, const Vec3& a,
                                                  const Vec3& b, const Vec3& c, double reach) {
   const std::array<Vec3, 3> x{a, b, c};
+  if (const auto where = segment_triangle_crossing(capsule.point, capsule.other, x))
+    return pierced_face_contact(capsule, face, x, *where);
   const Pair pair = nearest_pair(capsule, x);
   if (!(pair.distance < capsule.radius + reach) || !(pair.distance > 1e-9 * capsule.radius)) return std::nullopt;
   const Vec3 point = pair.weights[0] * a + pair.weights[1] * b + pair.weights[2] * c;

@@ -84,8 +84,9 @@ struct ContactPoint {
   Vec3 normal;  ///< unit, direction out
 };
 
-/// The point of a face (corners at a, b, c, m) nearest to a capsule; none where the gap exceeds `reach` (m) or the face
-/// meets the axis, so that the normal is undefined.
+/// The point of a face (corners at a, b, c, m) nearest to a capsule; none where the gap exceeds `reach` (m) or the axis
+/// touches the face without passing through it, so that the normal is undefined. Where the axis passes through the
+/// face, the gap is −(radius + depth of the less deep end below the face), and the normal takes the face over that end.
 std::optional<ContactPoint> capsule_face_contact(const ContactSurface& capsule, const Triangle& face, const Vec3& a,
                                                  const Vec3& b, const Vec3& c, double reach);
 

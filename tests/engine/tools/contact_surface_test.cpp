@@ -121,7 +121,7 @@ TEST_CASE("the gap of a capsule is the least distance of its axis and the face, 
     const std::array<Vec3, 3> x = random_triangle(random);
     const Vec3 n = (x[1] - x[0]).cross(x[2] - x[0]);
     const Vec3 tip = random_vector(random, 2), tail = random_vector(random, 2);
-    if (n.dot(tip - x[0]) * n.dot(tail - x[0]) < 0) continue;  // the axis may go through the face
+    if (n.dot(tip - x[0]) * n.dot(tail - x[0]) < 0 && distance_of(tip, tail, x) < 1e-9) continue;  // see below
     const ContactSurface capsule = capsule_at(tip, tail - tip, 0.1);
     const auto point = capsule_face_contact(capsule, {0, 1, 2}, x[0], x[1], x[2], 10);
     REQUIRE(point);
@@ -136,6 +136,47 @@ TEST_CASE("the gap of a capsule is the least distance of its axis and the face, 
     along_axis += (on_axis - tip).norm() > 0.01 && (on_axis - tail).norm() > 0.01 ? 1 : 0;
   }
   CHECK(along_axis > 20);
+}
+
+TEST_CASE("where the axis passes through a face the contact is at the crossing, out over the less deep end") {
+  std::mt19937_64 random(4);
+  int crossings = 0;
+  for (int k = 0; k < 4000; ++k) {
+    const std::array<Vec3, 3> x = random_triangle(random);
+    const Vec3 tip = random_vector(random, 1), tail = random_vector(random, 1), axis = tail - tip;
+    if (distance_of(tip, tail, x) > 1e-9) continue;
+    ++crossings;
+    const auto point = capsule_face_contact(capsule_at(tip, axis, 0.1), {0, 1, 2}, x[0], x[1], x[2], 0);
+    REQUIRE(point);
+    CHECK(distance_to_segment(place_of(*point, x), tip, tail) < 1e-9);  // no other point of the face is as near
+    const auto height = [&](const Vec3& p) { return point->normal.dot(p - x[0]); };
+    CHECK(std::abs(point->normal.dot(x[1] - x[0])) < 1e-12);
+    CHECK(std::abs(point->normal.dot(x[2] - x[0])) < 1e-12);
+    CHECK(point->normal.norm() == doctest::Approx(1));
+    // Moved along the normal by its depth, the face is free of the axis, and no shorter way along its normal frees it.
+    const double depth = -point->gap - 0.1;
+    REQUIRE(depth >= 0);
+    CHECK(std::max(height(tip), height(tail)) == doctest::Approx(depth));
+    CHECK(-std::min(height(tip), height(tail)) >= depth * (1 - 1e-12));
+    const auto moved = [&](double by) {
+      std::array<Vec3, 3> y = x;
+      for (Vec3& corner : y) corner += by * point->normal;
+      return y;
+    };
+    CHECK(distance_of(tip, tail, moved(depth + 1e-6)) > 0.9e-6);
+  }
+  CHECK(crossings > 100);
+}
+
+TEST_CASE("the gap of a capsule is continuous as its tip goes through a face") {
+  const std::array<Vec3, 3> x = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
+  for (const double height : {0.02, 1e-6, -1e-6, -0.02, -0.3}) {
+    const Vec3 tip(0.25, 0.25, height);
+    const auto point = capsule_face_contact(capsule_at(tip, Vec3(0.1, 0, 2), 0.05), {0, 1, 2}, x[0], x[1], x[2], 1);
+    REQUIRE(point);
+    CHECK(point->gap == doctest::Approx(height - 0.05));
+    CHECK((point->normal - Vec3(0, 0, -1)).norm() < 1e-12);
+  }
 }
 
 TEST_CASE("a probe meets every face within reach of it, in their order") {
