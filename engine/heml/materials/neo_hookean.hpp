@@ -5,6 +5,7 @@
 // Defined for J > 0. `continued` replaces ln J and (ln J)² below J0 by their second-order Taylor polynomials at J0: C2,
 // finite, and restoring through J = 0 and beyond.
 #include <heml/materials/law.hpp>
+#include <heml/materials/volume.hpp>
 #include <heml/math/elementary.hpp>
 
 namespace heml {
@@ -31,7 +32,7 @@ struct NeoHookean {
   static constexpr bool always_valid = continued;
   static constexpr Real J0 = Real(0.3);
 
-  Mask<Real> valid(const Invariants<Real>& at) const { return continued || at.J > Real(1e-30); }
+  Mask<Real> valid(const Invariants<Real>& at) const { return continued || at.J > min_volume_ratio<Real>; }
 
   Real energy(const Invariants<Real>& at) const {
     const auto [d, l, c] = point(at.J);

@@ -14,9 +14,10 @@ namespace heml {
 template <class Real>
 inline constexpr Real continuation_start = Real(0.3);
 
-/// Smallest |J| at which powers of J count as defined.
+/// Smallest |J| at which logarithm and powers of J count as defined. Stiffness has powers down to J^(−14/3), which at
+/// moduli of 1e6 Pa overflow a float (3e38) below 1e-8. J of such elements is round-off in float anyway.
 template <class Real>
-inline constexpr Real min_volume_ratio = Real(1e-12);
+inline constexpr Real min_volume_ratio = std::numeric_limits<Lane<Real>>::digits == 24 ? Real(1e-7) : Real(1e-12);
 
 /// p = J^(−2/3) and q = J^(−4/3) with two derivatives each.
 template <class Real>

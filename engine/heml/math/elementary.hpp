@@ -45,8 +45,7 @@ template <class Bits, class V>
   return n * 0x1.62e4p-1f + (n * 0x1.7f7d1cp-20f + (2 * s + 2 * s * tail));
 }
 
-/// e^x = scale (1 + expm1): scale is a power of two, |expm1| < 0.42. Requires |x| small enough for `scale` to be
-/// normal.
+/// e^x = scale (1 + expm1): scale is a power of two, |expm1| < 0.42. Requires |x| up to max_exponent.
 template <class V>
 struct Exponential {
   V scale, expm1;
@@ -71,7 +70,9 @@ template <class Bits, class V>
                                                                             r * (1.0 / 39916800 +
                                                                                  r * (1.0 / 479001600 +
                                                                                       r * (1.0 / 6227020800))))))))))));
-  const Bits power = (__builtin_bit_cast(Bits, shifted) + 1023ull) << 52;
+  // The exponent field of 2⁻¹⁰²³ (x below −708.74) would be 0: it is subnormal, a bit of the mantissa.
+  const Bits normal = (__builtin_bit_cast(Bits, shifted) + 1023ull) << 52;
+  const Bits power = normal | (((normal - 1) >> 63) << 51);
   return {__builtin_bit_cast(V, power), expm1};
 }
 

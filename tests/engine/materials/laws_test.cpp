@@ -1,6 +1,7 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <heml/materials/law_list.hpp>
 #include <heml/materials/parameter_slots.hpp>
 #include <limits>
 
@@ -84,6 +85,32 @@ TEST_CASE(
       CHECK((dP - change).norm() <= 1e-5 * (dP.norm() + min_stress(material)));
     });
   });
+}
+
+TEST_CASE_TEMPLATE("laws with powers of J are defined down to one limit, and finite there", Real, float, double) {
+  const auto check = [](const auto& law) {
+    for (const bool is_flat : {false, true}) {  // volume is lost along one direction or along all
+      const auto at = [&](Real J) {
+        const Real a = is_flat ? J : std::cbrt(J), b = is_flat ? Real(1) : a;
+        return Invariants<Real>{a * a + 2 * b * b, 2 * a * a * b * b + b * b * b * b, J};
+      };
+      const Invariants<Real> above = at(Real(1.001) * min_volume_ratio<Real>);
+      CHECK(law.valid(above));
+      CHECK_FALSE(law.valid(at(Real(0.999) * min_volume_ratio<Real>)));
+      const auto first = law.first_derivatives(above);
+      const auto second = law.second_derivatives(above);
+      for (const Real value : {law.energy(above), first.w1, first.w2, first.wJ, second.w11, second.w12, second.w22,
+                               second.w1J, second.w2J, second.wJJ})
+        CHECK(std::isfinite(value));
+    }
+  };
+  const Real modulus = 1e6;
+  check(NeoHookean<Real, false>{modulus, modulus});
+  check(NeoHookeanIso<Real, false>{{}, modulus, modulus});
+  check(MooneyRivlin<Real, false>{{}, modulus, modulus, modulus});
+  check(Yeoh<Real, false>{{}, modulus, modulus, modulus, modulus});
+  check(VolumeLaw<Real, false, false>{modulus});
+  check(VolumeLaw<Real, false, true>{modulus});
 }
 
 TEST_CASE("turning the body turns its stress and leaves its energy") {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <heml/math/elementary.hpp>
+#include <heml/math/pack.hpp>
 #include <limits>
 
 #include "support.hpp"
@@ -20,6 +21,33 @@ TEST_CASE_TEMPLATE("the logarithm is within 2 units in the last place of one wit
   }
   CHECK(worst <= 2.0);
   CHECK(natural_log(Real(1)) == 0);
+}
+
+TEST_CASE_TEMPLATE("the exponential is that of one with more digits over its whole range, subnormal values too", Real,
+                   float, double) {
+  constexpr Real end = max_exponent<Real>, least = std::numeric_limits<Real>::denorm_min();
+  const auto error = [](Real x) {  // in units in the last place
+    const long double exact = std::exp(static_cast<long double>(x));
+    const long double unit = std::max(exact * std::numeric_limits<Real>::epsilon(), static_cast<long double>(least));
+    return static_cast<double>(std::abs(natural_exp(x) - exact) / unit);
+  };
+  std::mt19937_64 random(3);
+  double worst = 0, worst_near_end = 0;
+  for (int i = 0; i < 100000; ++i) {
+    worst = std::max(worst, error(static_cast<Real>(test::uniform(random, -end, end))));
+    worst_near_end = std::max(worst_near_end, error(static_cast<Real>(test::uniform(random, -end, -end + 1))));
+  }
+  CHECK(worst <= 2.0);
+  CHECK(worst_near_end <= 2.0);
+  CHECK(natural_exp(-end) > 0);
+  CHECK(natural_exp(std::nextafter(-end, -2 * end)) == 0);
+  struct Family;
+  constexpr int lanes = 16 / sizeof(Real);
+  using Numbers = Pack<Real, lanes, Family>;
+  Numbers several;
+  for (int l = 0; l < lanes; ++l) several.v[l] = -end + static_cast<Real>(l) / 8;
+  const Numbers powers = natural_exp(several);
+  for (int l = 0; l < lanes; ++l) CHECK(powers.v[l] == natural_exp(several.v[l]));
 }
 
 TEST_CASE("the cofactor is the gradient of the determinant, of singular matrices too") {
