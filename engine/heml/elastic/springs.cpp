@@ -6,7 +6,6 @@
 namespace heml {
 namespace {
 constexpr std::size_t grain = 2048;
-constexpr int ends[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
 }  // namespace
 
 template <class Real>
@@ -20,8 +19,8 @@ Springs<Real>::Springs(const TetMesh& mesh, const std::vector<double>& stiffness
   std::vector<Edge> edges;
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
     if (stiffness[t] == 0) continue;
-    for (const auto& end : ends) {
-      const int p = mesh.tets[t][static_cast<std::size_t>(end[0])], q = mesh.tets[t][static_cast<std::size_t>(end[1])];
+    for (const auto& ends : tet_edges) {
+      const int p = mesh.tets[t][ends[0]], q = mesh.tets[t][ends[1]];
       edges.push_back({std::min(p, q), std::max(p, q), stiffness[t]});
     }
   }

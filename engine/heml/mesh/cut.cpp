@@ -8,14 +8,12 @@
 namespace heml {
 namespace {
 
-constexpr std::array<std::array<int, 2>, 6> tet_edges{{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
-
 constexpr double thin = 10;  // degrees; pieces with a smaller dihedral angle are avoided
 
 using Edge = std::pair<int, int>;  // lower number first
 
-Edge edge_of(const Tet& tet, const std::array<int, 2>& local) {
-  const int a = tet[static_cast<std::size_t>(local[0])], b = tet[static_cast<std::size_t>(local[1])];
+Edge edge_of(const Tet& tet, const std::array<std::size_t, 2>& local) {
+  const int a = tet[local[0]], b = tet[local[1]];
   return {std::min(a, b), std::max(a, b)};
 }
 

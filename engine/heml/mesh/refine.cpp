@@ -10,10 +10,8 @@ namespace {
 
 using Edge = std::array<int, 2>;  // nodes, ascending
 
-constexpr std::array<std::array<std::size_t, 2>, 6> corners{{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
-
 Edge edge_of(const Tet& tet, std::size_t e) {
-  const int a = tet[corners[e][0]], b = tet[corners[e][1]];
+  const int a = tet[tet_edges[e][0]], b = tet[tet_edges[e][1]];
   return {std::min(a, b), std::max(a, b)};
 }
 
@@ -83,7 +81,7 @@ class Bisection {
       return;
     }
     const int middle = midpoints_.at(edge_of(tet, *e));
-    for (const std::size_t end : corners[*e]) {
+    for (const std::size_t end : tet_edges[*e]) {
       Tet half = tet;
       half[end] = middle;
       cut(half, parent);

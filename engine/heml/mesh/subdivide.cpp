@@ -4,8 +4,7 @@
 namespace heml {
 namespace {
 
-/// Local nodes of the six edges. The midpoints of opposite edges are the diagonals of the inner octahedron.
-constexpr std::array<std::array<int, 2>, 6> edges{{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
+/// The midpoints of opposite edges are the diagonals of the inner octahedron.
 constexpr int opposite(int edge) { return 5 - edge; }
 
 /// Midpoint nodes of edges, created on first use.
@@ -36,13 +35,12 @@ void add(TetMesh& mesh, Tet tet) {
 
 /// Adds the four corner tetrahedra, and four round the shortest diagonal of the octahedron between them.
 void cut(TetMesh& mesh, const Tet& tet, const std::array<int, 6>& middle) {
-  const auto m = [&](int a, int b) {
+  const auto m = [&](std::size_t a, std::size_t b) {
     for (std::size_t e = 0; e < 6; ++e)
-      if (edges[e] == std::array{std::min(a, b), std::max(a, b)}) return middle[e];
+      if (tet_edges[e] == std::array{std::min(a, b), std::max(a, b)}) return middle[e];
     return -1;
   };
-  for (int a = 0; a < 4; ++a)
-    add(mesh, {tet[static_cast<std::size_t>(a)], m(a, (a + 1) % 4), m(a, (a + 2) % 4), m(a, (a + 3) % 4)});
+  for (std::size_t a = 0; a < 4; ++a) add(mesh, {tet[a], m(a, (a + 1) % 4), m(a, (a + 2) % 4), m(a, (a + 3) % 4)});
   const auto length = [&](int e) {
     return (mesh.nodes[static_cast<std::size_t>(middle[static_cast<std::size_t>(e)])] -
             mesh.nodes[static_cast<std::size_t>(middle[static_cast<std::size_t>(opposite(e))])])
@@ -68,9 +66,7 @@ Subdivision subdivide_uniformly(const TetMesh& mesh) {
   Midpoints midpoints(result);
   for (const Tet& tet : mesh.tets) {
     std::array<int, 6> middle{};
-    for (std::size_t e = 0; e < 6; ++e)
-      middle[e] =
-          midpoints.between(tet[static_cast<std::size_t>(edges[e][0])], tet[static_cast<std::size_t>(edges[e][1])]);
+    for (std::size_t e = 0; e < 6; ++e) middle[e] = midpoints.between(tet[tet_edges[e][0]], tet[tet_edges[e][1]]);
     cut(result.mesh, tet, middle);
   }
   for (const int region : mesh.regions) result.mesh.regions.insert(result.mesh.regions.end(), 8, region);

@@ -12,6 +12,9 @@ namespace heml {
 using Tet = std::array<int, 4>;
 using Triangle = std::array<int, 3>;
 
+/// Local nodes of the six edges of a tetrahedron; edges k and 5 − k are opposite.
+inline constexpr std::array<std::array<std::size_t, 2>, 6> tet_edges{{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
+
 /// A named field of scalars or vectors per tetrahedron from a mesh file. NaN where the file gives no value; users of a
 /// field check its values.
 struct ElementField {
