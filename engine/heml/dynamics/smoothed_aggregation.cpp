@@ -1,9 +1,9 @@
 #include <array>
-#include <cmath>
 #include <cstring>
 #include <heml/dynamics/prolongation.hpp>
 #include <heml/dynamics/smoothed_aggregation.hpp>
 #include <heml/elastic/avx2_dispatch.hpp>
+#include <heml/math/rotation.hpp>
 #include <numbers>
 
 namespace heml {
@@ -17,7 +17,7 @@ const std::array<float, 2> weights = [] {
   std::array<float, 2> result{};
   for (std::size_t k = 0; k < result.size(); ++k) {
     const double angle = std::numbers::pi * (2 * static_cast<double>(k) + 1) / (2 * static_cast<double>(result.size()));
-    result[k] = static_cast<float>(2 / (1 + smoothed_from + (1 - smoothed_from) * std::cos(angle)));
+    result[k] = static_cast<float>(2 / (1 + smoothed_from + (1 - smoothed_from) * sine_cosine(angle).cosine));
   }
   return result;
 }();

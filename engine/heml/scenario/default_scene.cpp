@@ -52,8 +52,9 @@ Extent extent_of_surface(Scene& scene, const fs::path& path) {
 void settle_size(Scene& scene, const Extent& extent) {
   const std::string odd = unit_warning(extent.low, extent.high);
   if (odd.empty()) return;
-  scene.mesh.scale = sensible_size / (extent.high - extent.low).maxCoeff();
-  if (scene.mesh.max_volume) *scene.mesh.max_volume *= std::pow(scene.mesh.scale, 3);
+  const double scale = sensible_size / (extent.high - extent.low).maxCoeff();
+  scene.mesh.scale = scale;
+  if (scene.mesh.max_volume) *scene.mesh.max_volume *= scale * scale * scale;
   warn("{}: {}", scene.file, odd);
   warn("{}: scaled by {:.6g} to {} m in this default scene; give it a scene file with mesh.scale to choose", scene.file,
        scene.mesh.scale, sensible_size);

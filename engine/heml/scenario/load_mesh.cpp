@@ -2,7 +2,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <heml/base/error.hpp>
 #include <heml/base/hash.hpp>
 #include <heml/base/log.hpp>
@@ -43,7 +42,8 @@ TetMesh filled_surface(const Scene& scene) {
   TetgenOptions options;
   options.radius_edge_ratio = scene.mesh.radius_edge_ratio;
   // TetGen works in the file's units, the scene's max_volume is of the scaled body.
-  if (scene.mesh.max_volume) options.max_volume = *scene.mesh.max_volume / std::pow(scene.mesh.scale, 3);
+  const double scale = scene.mesh.scale;
+  if (scene.mesh.max_volume) options.max_volume = *scene.mesh.max_volume / (scale * scale * scale);
   return tetrahedralize(surface, options);
 }
 

@@ -80,7 +80,8 @@ Exchange fill_surface(const Exchange& surface, double radius_edge_ratio, double 
   // p: fill a surface; Y: keep its triangles; q: radius-edge ratio; a: maximum volume; Q: quiet.
   char switches[128];
   if (max_volume > 0)
-    std::snprintf(switches, sizeof switches, "pYq%.9ga%.17gQ", radius_edge_ratio, max_volume / std::pow(frame.size, 3));
+    std::snprintf(switches, sizeof switches, "pYq%.9ga%.17gQ", radius_edge_ratio,
+                  max_volume / (frame.size * frame.size * frame.size));
   else
     std::snprintf(switches, sizeof switches, "pYq%.9gQ", radius_edge_ratio);
   try {
