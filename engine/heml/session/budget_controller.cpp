@@ -6,7 +6,7 @@ namespace {
 constexpr double share = 0.9;      // of the budget that is used
 constexpr double smoothing = 0.1;  // weight of the last tick
 constexpr int max_iterations = 60;
-constexpr int ticks_to_raise = 10;  // lowered at once, raised after this many ticks in a row that fit
+constexpr int ticks_to_raise = 10;  // lowered at once, raised after this many ticks in a row with room for more
 }  // namespace
 
 std::optional<int> BudgetController::after(double seconds, const SolverStats& work) {
@@ -19,10 +19,11 @@ std::optional<int> BudgetController::after(double seconds, const SolverStats& wo
   // Estimated stages per tick, for any method.
   const double stages = std::max(1.0, static_cast<double>(done) / work.budget);
   const int best = std::clamp(static_cast<int>(share * target_ / (stages * seconds_per_iteration_)), 1, max_iterations);
-  if (best >= work.budget && ++patience_ < ticks_to_raise) return std::nullopt;
+  const bool has_room = best > work.budget;
+  if (has_room && ++patience_ < ticks_to_raise) return std::nullopt;
   patience_ = 0;
   if (best == work.budget) return std::nullopt;
-  return best > work.budget ? work.budget + 1 : best;
+  return has_room ? work.budget + 1 : best;
 }
 
 }  // namespace heml

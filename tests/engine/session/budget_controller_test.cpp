@@ -28,6 +28,16 @@ TEST_CASE("a budget in milliseconds settles on the iterations that fit, and foll
   CHECK(settle(controller, work, 1, 50) == 1);         // at least one
 }
 
+TEST_CASE("a budget is raised after ten ticks in a row with room for more, not after ticks it just fits") {
+  BudgetController controller(10);
+  SolverStats work;
+  work.budget = 4;
+  CHECK(settle(controller, work, 0.905e-3, 9) == 4);  // 4.97 iterations fit
+  CHECK(settle(controller, work, 0.8e-3, 1) == 4);    // 5.03 fit on the average
+  CHECK(settle(controller, work, 0.8e-3, 8) == 4);
+  CHECK(settle(controller, work, 0.8e-3, 1) == 5);
+}
+
 TEST_CASE("the measured cost of a step is reported once if it is far from the estimate") {
   StepCostEstimator estimator(1000);
   const auto told = [&](double nanoseconds, int ticks) {
