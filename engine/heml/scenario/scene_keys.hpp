@@ -40,6 +40,8 @@ inline constexpr KeyInfo box_row{"box", form::other("`[[x, y, z], [x, y, z]]`"),
 inline constexpr KeyInfo sphere_row{"sphere", form::other("`[[x, y, z], radius]`"), "m", one_selection,
                                     "nodes in this sphere at rest, its surface included"};
 
+inline constexpr KeyInfo friction_row{"friction", form::non_negative, "", "", "Coulomb's coefficient"};
+
 inline constexpr KeyInfo scene[] = {
     {"schema_version", form::other("`1`"), "", required, "version of the format"},
     {"name", form::text, "", none, "for messages and reports"},
@@ -148,10 +150,10 @@ inline constexpr KeyInfo elements[] = {
 inline constexpr KeyInfo tables[] = {
     {"point", form::vector, "m", required, "a point of the plane"},
     {"normal", form::other("`[x, y, z]`, not zero"), "", required, "towards the tissue; normalised when read"},
-    {"friction", form::non_negative, "", "", "Coulomb's coefficient"},
+    friction_row,
 };
 inline constexpr KeyInfo self_contact[] = {
-    {"friction", form::non_negative, "", "", "Coulomb's coefficient"},
+    friction_row,
 };
 inline constexpr KeyInfo tearing[] = {
     {"stretch", form::other("number > 1"), "", required, "greatest principal stretch that elements bear"},

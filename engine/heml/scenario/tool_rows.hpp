@@ -2,6 +2,7 @@
 // Rows of the table of commands: tools that hold, bear on and sew the body.
 #include <heml/scenario/command_row.hpp>
 #include <heml/scenario/entries_json.hpp>
+#include <heml/scenario/scene_keys.hpp>
 #include <heml/scenario/vector_json.hpp>
 
 namespace heml::command_rows {
@@ -13,25 +14,28 @@ inline int node_from(const ObjectReader& object, Points& points) {
   return 0;
 }
 
+/// What the rows of commands that take hold of a patch of surface nodes have in common.
 template <class Patch>
-Patch patch_from(const JsonCursor& value, Points& points) {
-  const ObjectReader object(value, patch_keys);
-  Patch patch;
-  patch.node = node_from(object, points);
-  object.read("radius", patch.radius);
-  return patch;
-}
-
-template <>
-struct Row<Grasp> : CommonRow {
-  static constexpr std::string_view key = "grasp", example = R"({"node": 3, "radius": 0.01})",
-                                    meaning = "takes hold of surface nodes with a spring; replaces the grasp before";
+struct PatchRow : CommonRow {
+  static constexpr std::string_view example = R"({"node": 3, "radius": 0.01})";
   static constexpr ValueForm value_form = object_form;
   static constexpr std::span<const KeyInfo> keys = patch_keys;
-  static constexpr std::optional<CommandTool> tool = CommandTool::grasp;
   static constexpr bool takes_up = true;
-  static Command read(const JsonCursor& value, Points& points) { return patch_from<Grasp>(value, points); }
-  static Json write(const Grasp& grasp) { return {{"node", grasp.node}, {"radius", grasp.radius}}; }
+  static Command read(const JsonCursor& value, Points& points) {
+    const ObjectReader object(value, keys);
+    Patch patch;
+    patch.node = node_from(object, points);
+    object.read("radius", patch.radius);
+    return patch;
+  }
+  static Json write(const Patch& patch) { return {{"node", patch.node}, {"radius", patch.radius}}; }
+};
+
+template <>
+struct Row<Grasp> : PatchRow<Grasp> {
+  static constexpr std::string_view key = "grasp",
+                                    meaning = "takes hold of surface nodes with a spring; replaces the grasp before";
+  static constexpr std::optional<CommandTool> tool = CommandTool::grasp;
   static References references(Grasp& grasp) { return {{node_kind, &grasp.node, "grasp.node"}}; }
 };
 
@@ -55,15 +59,9 @@ struct Row<Release> : CommonRow {
 };
 
 template <>
-struct Row<PinTissue> : CommonRow {
-  static constexpr std::string_view key = "pin", example = R"({"node": 3, "radius": 0.01})",
-                                    meaning = "holds surface nodes exactly where they are";
-  static constexpr ValueForm value_form = object_form;
-  static constexpr std::span<const KeyInfo> keys = patch_keys;
+struct Row<PinTissue> : PatchRow<PinTissue> {
+  static constexpr std::string_view key = "pin", meaning = "holds surface nodes exactly where they are";
   static constexpr std::optional<CommandTool> tool = CommandTool::pin;
-  static constexpr bool takes_up = true;
-  static Command read(const JsonCursor& value, Points& points) { return patch_from<PinTissue>(value, points); }
-  static Json write(const PinTissue& pin) { return {{"node", pin.node}, {"radius", pin.radius}}; }
   static References references(PinTissue& pin) { return {{node_kind, &pin.node, "pin.node"}}; }
 };
 
@@ -104,7 +102,7 @@ struct Row<MoveProbe> : CommonRow {
   static constexpr KeyInfo probe_keys[] = {
       {"radius", form::positive, "m", required, "of the tip and the rod"},
       {"shaft", form::vector, "m", "", "from the tip's centre to the other end of the axis; 0: a ball"},
-      {"friction", form::non_negative, "", "", "Coulomb's coefficient"},
+      scene_keys::friction_row,
       {"path", form::other("list of `[x, y, z]`, one or more"), "m", required, "places of the tip's centre"},
       {"speed", form::positive, "m/s", "", "along the path"}};
   static constexpr std::span<const KeyInfo> keys = probe_keys;
