@@ -114,11 +114,11 @@ std::vector<BenchRow> edit_rows(int n, bool quick) {
   };
   for (const auto& [name, edit, command] : {Kind{"cut", cut.edit, CutTissue{sweep}}, Kind{"removal", gone, removal}}) {
     const auto [updated, rebuilt] = time_body(body.mesh, material, edit, samples);
-    add(fmt::format("{}, layout followed", name), updated,
-        fmt::format("{} elements go, {} come; {:.1f} times as fast as anew", edit.removed.size(), edit.added.size(),
+    add(fmt::format("{}, layout updated", name), updated,
+        fmt::format("{} elements go, {} come; {:.1f} times as fast as rebuilt", edit.removed.size(), edit.added.size(),
                     rebuilt.min / updated.min));
     rows.back().more.update({{"removed", edit.removed.size()}, {"added", edit.added.size()}});
-    add(fmt::format("{}, laid out anew", name), rebuilt, "");
+    add(fmt::format("{}, layout rebuilt", name), rebuilt, "");
     add(fmt::format("{}, whole command", name), time_command(body.mesh, material, command, samples),
         "mesh, energies and stable step too");
   }

@@ -92,7 +92,7 @@ class Bench(ProgramCase):
             self.assertEqual("ratio_to_naive" in row, row["name"].split(",")[0] != "backward_euler")
         names = {row["name"] for row in rows}
         self.assertTrue({"verlet, law alone", "verlet, viscosity", "verlet, nodal pressure"} <= names)
-        self.assertTrue({"cut, layout followed", "cut, laid out anew", "removal, whole command"} <= names)
+        self.assertTrue({"cut, layout updated", "cut, layout rebuilt", "removal, whole command"} <= names)
         rows = self.rows_of("roofline")
         self.assertTrue({"peak arithmetic", "triad DRAM", "force"} <= {row["name"] for row in rows})
         for row in rows:
