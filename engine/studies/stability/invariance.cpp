@@ -13,19 +13,6 @@
 namespace heml::stability {
 namespace {
 
-std::unique_ptr<World> played(const Trial& trial, const WorldSetup& setup) {
-  auto world = trial.world(setup);
-  if (setup.solver.is_static())
-    world->load_to(1);
-  else
-    run_until(*world, setup.solver.duration);
-  return world;
-}
-
-void tighten_tolerance(WorldSetup& setup) {
-  if (!is_explicit(setup.solver.integrator)) setup.solver.tolerance = setup.solver.single_precision ? 1e-4 : 1e-9;
-}
-
 /// A permutation of 0 … count − 1.
 std::vector<int> shuffled(std::size_t count, std::uint64_t seed) {
   std::vector<int> order(count);
@@ -72,10 +59,10 @@ WorldSetup turned(const WorldSetup& setup, const Mat3& R) {
 
 Outcome permuted(const Trial& trial) {
   WorldSetup setup = trial.setup("30_permuted");
-  tighten_tolerance(setup);
+  set_tolerance(setup, 1e-9);
   const Mat3 R = Eigen::AngleAxisd(2.1, Vec3(2, 1, -2) / 3).toRotationMatrix();
   const auto new_node = shuffled(setup.mesh.nodes.size(), 30);
-  const auto plain = played(trial, setup), other = played(trial, turned(renumbered(setup, new_node), R));
+  const auto plain = run_to_end(trial, setup), other = run_to_end(trial, turned(renumbered(setup, new_node), R));
   if (plain->halt()) return stopped(*plain);
   const auto x = plain->positions(), y = other->positions();
   double worst = 0;
@@ -86,7 +73,7 @@ Outcome permuted(const Trial& trial) {
 
 Outcome other_units(const Trial& trial) {
   WorldSetup metres = trial.setup("31_other_units");
-  tighten_tolerance(metres);
+  set_tolerance(metres, 1e-9);
   // Lengths in mm, masses in kg, times in s: a pascal is 0.001 kg/(mm s²).
   WorldSetup millimetres = metres;
   for (Vec3& X : millimetres.mesh.nodes) X *= 1000;
@@ -97,7 +84,7 @@ Outcome other_units(const Trial& trial) {
       entry.material = material_of(entry.material.law, ground.shear / 1000, ground.bulk / 1000);
     entry.material.density = metres.materials[0].material.density * 1e-9;
   }
-  const auto a = played(trial, metres), b = played(trial, millimetres);
+  const auto a = run_to_end(trial, metres), b = run_to_end(trial, millimetres);
   if (a->halt()) return stopped(*a);
   std::vector<Vec3> x = a->positions();
   for (Vec3& at : x) at *= 1000;

@@ -82,6 +82,19 @@ bool run_until(World& world, double time, long max_steps) {
   return !world.halt() && world.time() >= time - 1e-9;
 }
 
+std::unique_ptr<World> run_to_end(const Trial& trial, const WorldSetup& setup) {
+  auto world = trial.world(setup);
+  if (setup.solver.is_static())
+    world->load_to(1);
+  else
+    run_until(*world, setup.solver.duration);
+  return world;
+}
+
+void set_tolerance(WorldSetup& setup, double tolerance) {
+  if (!is_explicit(setup.solver.integrator)) setup.solver.tolerance = setup.solver.single_precision ? 1e-4 : tolerance;
+}
+
 Outcome ended(World& world, double value, std::string note) {
   Outcome outcome{value, inverted(world), world.recoveries(), {}, {}, std::move(note)};
   if (world.halt()) outcome.stopped = world.halt()->message;

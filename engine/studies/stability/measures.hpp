@@ -21,6 +21,11 @@ double away_from_rest(const World& world);
 /// Ticks until a time, s, with at most max_steps integration steps. Returns whether the time was reached.
 bool run_until(World& world, double time, long max_steps = 20'000'000);
 
+/// A world of the setup under its whole load (static) or at the end of its duration.
+std::unique_ptr<World> run_to_end(const Trial& trial, const WorldSetup& setup);
+/// Sets the tolerance of implicit and static solves: `tolerance` in double, 1e-4 in float.
+void set_tolerance(WorldSetup& setup, double tolerance);
+
 /// The outcome of a run that reached its end, or of a halted one.
 Outcome ended(World& world, double value, std::string note = {});
 /// The outcome of a run that stopped too early to measure.

@@ -9,21 +9,6 @@
 namespace heml::stability {
 namespace {
 
-/// The world under its whole load (static) or at its end.
-std::unique_ptr<World> settled(const Trial& trial, const WorldSetup& setup) {
-  auto world = trial.world(setup);
-  if (setup.solver.is_static())
-    world->load_to(1);
-  else
-    run_until(*world, setup.solver.duration);
-  return world;
-}
-
-/// Sets the tightest tolerance that the precision allows.
-void tighten_static(WorldSetup& setup) {
-  if (!is_explicit(setup.solver.integrator)) setup.solver.tolerance = setup.solver.single_precision ? 1e-4 : 1e-12;
-}
-
 std::map<int, Vec3> targets(const WorldSetup& setup) {
   std::map<int, Vec3> result;
   for (const Boundary& entry : setup.boundary)
@@ -72,11 +57,11 @@ double volume_of(World& world) {
 
 Outcome patch(const Trial& trial) {
   WorldSetup setup = trial.setup("06_patch");
-  tighten_static(setup);
+  set_tolerance(setup, 1e-12);
   if (!is_explicit(setup.solver.integrator)) setup.solver.step = 0.02;
   const auto to = targets(setup);
   const auto map = affine_fit(setup, to);
-  const auto world = settled(trial, setup);
+  const auto world = run_to_end(trial, setup);
   const auto x = world->positions();
   double worst = 0;
   for (std::size_t n = 0; n < x.size(); ++n)
@@ -111,7 +96,7 @@ Outcome stretched_and_pressed(const Trial& trial) {
   for (const char* scene : {"16_stretched_five_times", "16_pressed_to_a_fifth"}) {
     WorldSetup setup = trial.setup(scene);
     if (trial.variant.single) setup.solver.tolerance.reset();
-    const auto world = settled(trial, setup);
+    const auto world = run_to_end(trial, setup);
     Outcome one = ended(*world, static_cast<double>(world->solver_stats().iterations));
     const auto reactions = world->reactions();
     const double relative_net_load = (reactions[0] + reactions[1]).norm() / reactions[0].norm();
@@ -129,7 +114,7 @@ Outcome stiffness_ratio(const Trial& trial) {
   for (std::size_t t = 0; t < rigid.mesh.tets.size(); ++t)
     if (rigid.mesh.regions[t] == 1)
       for (const int n : rigid.mesh.tets[t]) rigid.boundary[1].nodes.push_back(n);
-  const auto a = settled(trial, stiff), b = settled(trial, rigid);
+  const auto a = run_to_end(trial, stiff), b = run_to_end(trial, rigid);
   if (b->halt()) return stopped(*b);
   const double moved = rms_difference(b->positions(), rigid.mesh.nodes);
   const double shape = rms_difference(a->positions(), b->positions()) / moved;
@@ -143,7 +128,7 @@ Outcome nearly_incompressible(const Trial& trial) {
   std::vector<std::unique_ptr<World>> worlds;
   for (const double poisson : {0.3, 0.499}) {
     set_young_poisson(setup, 5e5, poisson);
-    worlds.push_back(settled(trial, setup));
+    worlds.push_back(run_to_end(trial, setup));
     if (worlds.back()->halt()) return stopped(*worlds.back());
   }
   const double sag = sag_of(*worlds[1]), volume = volume_of(*worlds[1]) - 1;
