@@ -14,8 +14,8 @@ namespace heml {
 template <class Real>
 inline constexpr Real continuation_start = Real(0.3);
 
-/// Smallest |J| at which logarithm and powers of J count as defined. Stiffness has powers down to J^(−14/3), which at
-/// moduli of 1e6 Pa overflow a float (3e38) below 1e-8. J of such elements is round-off in float anyway.
+/// Smallest |J| at which the logarithm and powers of J count as defined. Stiffness has powers down to J⁻⁴ (yeoh), which
+/// at moduli of 1e6 Pa overflow a float (3e38) at 1e-8. A smaller J of a float is round-off anyway.
 template <class Real>
 inline constexpr Real min_volume_ratio = std::numeric_limits<Lane<Real>>::digits == 24 ? Real(1e-7) : Real(1e-12);
 
