@@ -197,14 +197,15 @@ TEST_CASE("snapshot: every law with all that its material may remember, before a
   for (const LawInfo& law : laws()) {
     CAPTURE(std::string(law.name));
     if (law.name.starts_with("paper_")) continue;
+    bool single = false;  // in turn
     for (const Material& material : with_internal_state(law))
-      for (const bool single : {false, true})
-        for (const Integrator integrator : {Integrator::verlet, Integrator::backward_euler}) {
-          CAPTURE(single);
-          CAPTURE(integrator_name(integrator));
-          const WorldSetup setup = bar(material, integrator, single);
-          check_restored({setup, {{2, blade_at(0.034)}, {6, RemoveElements{{{1, 3}, {}, {}, {}}}}, {7, Undo{}}}, 4, 9});
-        }
+      for (const Integrator integrator : {Integrator::verlet, Integrator::backward_euler}) {
+        single = integrator == Integrator::verlet ? !single : single;
+        CAPTURE(single);
+        CAPTURE(integrator_name(integrator));
+        const WorldSetup setup = bar(material, integrator, single);
+        check_restored({setup, {{2, blade_at(0.034)}, {6, RemoveElements{{{1, 3}, {}, {}, {}}}}, {7, Undo{}}}, 4, 9});
+      }
   }
 }
 
