@@ -5,6 +5,7 @@
 #include <cmath>
 #include <heml/tools/contact_potential.hpp>
 
+#include "engine/tools/small_tets.hpp"
 #include "support.hpp"
 
 namespace heml::contact_potential_test {
@@ -307,6 +308,32 @@ TEST_CASE("tissue that met tissue on the way is pushed back with the slope of it
   potential.begin(apart, 0);
   CHECK_FALSE(potential.update_lagged(crossed));
   CHECK(potential.value(crossed) == 0);
+}
+
+TEST_CASE("pairs of tissue that meet later are added to those that have met, each once") {
+  TetMesh mesh;
+  constexpr int copies = 6;
+  for (int k = 0; k < copies; ++k) {
+    const Vec3 place(10 * k, 0, 0);
+    add_tet(mesh, {place, place + Vec3(0, 1, 0), place + Vec3(1, 0, 0), place + Vec3(0.2, 0.2, -1)});
+    add_tet(mesh, {place + Vec3(0.2, 0.3, 0.1), place + Vec3(1, 0.3, 1), place + Vec3(-0.5, 0.9, 1),
+                   place + Vec3(0, -0.6, 1)});
+  }
+  Contacts contacts;
+  contacts.tissue.emplace(SelfContactSettings{}, mesh);
+  ContactPotential potential(contacts, bound);
+  potential.set_stiffness(std::vector<double>(mesh.nodes.size(), 100));
+  Vector x = positions(mesh.nodes);
+  const auto cross = [&](int k) {
+    for (int n = 8 * k + 4; n < 8 * k + 8; ++n) x[3 * n + 2] -= 0.2;
+  };
+  potential.begin(x, 0);
+  cross(3);
+  CHECK(potential.update_lagged(x));
+  for (const int k : {0, 1, 2, 4, 5}) cross(k);
+  CHECK(potential.update_lagged(x));
+  potential.accept(x);
+  CHECK(contacts.reports.at(0).contact_count == copies);
 }
 
 }  // namespace heml::contact_potential_test
