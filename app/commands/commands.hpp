@@ -55,6 +55,7 @@ struct ReplayArguments {
   bool verify = false;
   bool partial = false;  ///< accept a recording without an end
   std::optional<std::filesystem::path> frames, record;
+  std::string instructions;  ///< of the recording written, by name; empty: as the recording played says, else the best
   ImageSize size;
   double fps = 30;
   int threads = 0;  ///< 0: as the recording says

@@ -86,10 +86,18 @@ Action define_replay(CLI::App& command) {
   command.add_flag("--partial", given->partial, "with --verify: the recording was cut short by a crash and has no end")
       ->needs(verify);
   command.add_option("--frames", given->frames, "write frames into this folder")->type_name("DIR");
+  auto* record =
+      command
+          .add_option("--record", given->record,
+                      "write what is played as a recording, with checkpoints: of a scene with a script, or anew")
+          ->type_name("FILE");
   command
-      .add_option("--record", given->record,
-                  "write what is played as a recording, with checkpoints: of a scene with a script, or anew")
-      ->type_name("FILE");
+      .add_option("--instructions", given->instructions,
+                  "with --record: compute with these (portable, avx2, avx512) instead of the best; recordings made "
+                  "with portable ones play on every processor")
+      ->needs(record)
+      ->excludes(verify)
+      ->type_name("SET");
   add_size(command, *size, frame_size_help);
   add_fps(command, given->fps);
   command.add_option("--threads", given->threads, "in place of the recording's; never changes a bit")

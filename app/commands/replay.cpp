@@ -1,8 +1,10 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <app/commands/commands.hpp>
 #include <app/commands/frame_capture.hpp>
 #include <app/commands/progress.hpp>
+#include <heml/base/error.hpp>
 #include <heml/base/log.hpp>
 #include <heml/scenario/input_files.hpp>
 #include <heml/scenario/verify.hpp>
@@ -16,6 +18,16 @@ void check_outputs(const ReplayArguments& arguments, const Scene& scene) {
   if (arguments.record) check_output_file(inputs, *arguments.record, "--record");
   if (arguments.frames)
     check_output_folder(inputs, *arguments.frames, frames_in(*arguments.frames, ".png"), "--frames");
+}
+
+/// Throws UsageError for instructions that this processor does not have.
+InstructionSet instructions_named(const std::string& name) {
+  std::vector<std::string_view> names;
+  for (const InstructionSet isa : instruction_sets()) {
+    names.push_back(name_of(isa));
+    if (name == names.back()) return isa;
+  }
+  throw UsageError(fmt::format("--instructions: {}: this processor has {}", name, fmt::join(names, ", ")));
 }
 
 int exit_code_of(const Verification& verification, const ReplayResult& result, const Scene& scene) {
@@ -40,6 +52,7 @@ int exit_code_of(const ReplayResult& result, const Scene& scene) {
 int replay_recording(const ReplayArguments& arguments) {
   Scene scene = read_scene(arguments.recording);
   if (arguments.threads > 0) scene.solver.threads = arguments.threads;
+  if (!arguments.instructions.empty()) scene.recorded_instructions = instructions_named(arguments.instructions);
   check_outputs(arguments, scene);
   const auto world = load_world(scene);
   std::optional<FrameCapture> frame_capture;
@@ -65,8 +78,8 @@ int replay_recording(const ReplayArguments& arguments) {
         recorder ? &*recorder : nullptr);
   }
   fmt::print("{} ticks replayed, {} of {} checkpoints compared, final state {:016x}\n", result.ticks,
-             result.checkpoints, scene.checkpoints.size(), world->state_hash());
-  return arguments.verify ? exit_code_of(verify(scene, result, arguments.partial), result, scene)
+             result.checkpoints, told_checkpoints(scene), world->state_hash());
+  return arguments.verify ? exit_code_of(verify(scene, result, *world, arguments.partial), result, scene)
                           : exit_code_of(result, scene);
 }
 

@@ -13,7 +13,8 @@ def pulled_beam(**changes):
         "name": "beam",
         "solver": {"integrator": "verlet", "duration": 0.5, "damping": 2},
         "events": [{"step": 150, "grasp": {"point": [0.1, 0.01, 0.01], "radius": 0.012}},
-                   {"step": 151, "move": [0.11, 0.02, 0.01]}, {"step": 260, "release": True}],
+                   {"step": 151, "move": [0.11, 0.02, 0.01]}, {"step": 190, "move": [0.1, 0.02, 0.02]},
+                   {"step": 260, "release": True}],
     } | changes)
 
 
@@ -55,6 +56,10 @@ class Recordings(ProgramCase):
         def end_at(copy, step):
             copy[-1]["step"] = step
 
+        def swap_moves(copy):
+            first, second = (line for line in copy if "move" in line)
+            first["move"], second["move"] = second["move"], first["move"]
+
         changes = {
             "the end moved": lambda c: end_at(c, 50),
             "the end moved behind": lambda c: end_at(c, 501),
@@ -67,6 +72,7 @@ class Recordings(ProgramCase):
             "the end's count": lambda c: c[-1].update(checkpoints=5),
             "a halt that never was": lambda c: c[-1].update(halt="unstable"),
             "an event": lambda c: [line for line in c if "move" in line][0].update(move=[0.11, 0.02, 0.0101]),
+            "two events swapped": swap_moves,
             "an event dropped": lambda c: c.remove([line for line in c if "release" in line][0]),
             "another kernel revision": lambda c: c[0]["recorded"].update(kernel_revision=0),
         }
@@ -78,8 +84,55 @@ class Recordings(ProgramCase):
                 self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
         revision = self.verify(altered(changes["another kernel revision"])).stderr
         self.assertRegex(revision, r"kernel revision 0 .*revision [1-9]\d*: .*cannot be compared")
-        unknown = self.verify(altered(lambda c: c[0]["recorded"].update(format=3)))
-        self.assertEqual(unknown.returncode, 3, unknown.stderr)
+        self.assertIn("5 of 6 checkpoints compared", self.verify(altered(changes["a checkpoint dropped"])).stdout)
+        differs = self.verify(altered(changes["a state's hash"]))
+        self.assertIn("6 of 6 checkpoints compared", differs.stdout)
+        self.assertIn("differs at step 200", differs.stderr)
+        # Each line names its step: their order in the file says nothing.
+        shuffled = altered(lambda c: c.insert(3, c.pop(4)))
+        self.assertEqual(self.verify(shuffled).returncode, 0)
+
+    def test_what_is_no_recording_is_exit_3(self):
+        lines = self.record(pulled_beam())
+        text = "".join(json.dumps(line) + "\n" for line in lines)
+        last = len(lines)
+        unknown = json.loads(json.dumps(lines))
+        unknown[0]["recorded"]["format"] = 3
+        for name, content, *words in (
+                ("empty", "", "is empty"),
+                ("blank", "\n\n", "is empty"),
+                ("a later format", "".join(json.dumps(line) + "\n" for line in unknown), "recorded.format"),
+                ("garbage at the end", text + "garbage\n", f"line {last + 1}", "not valid JSON"),
+                ("garbage without line end", text + "garbage", f"line {last + 1}", "not valid JSON"),
+                ("an event after the end", text + '{"step": 500, "release": true}\n', f"line {last + 1}", "after the end"),
+                ("a second end", text + json.dumps(lines[-1]) + "\n", f"line {last + 1}", "second end")):
+            with self.subTest(name):
+                file = self.write("altered.jsonl", content)
+                self.assert_refused(heml("replay", file, "--verify"), 3, file.name, *words, alone=True)
+
+    def test_a_recording_cut_anywhere_is_exit_1(self):
+        self.record(pulled_beam())
+        text = (self.folder / "r.jsonl").read_text()
+        for size in (len(text) // 2, len(text) - 5):
+            done = heml("replay", self.write("cut.jsonl", text[:size]), "--verify")
+            self.assertEqual(done.returncode, 1, done.stderr)
+            self.assertIn("cut off in the middle", done.stderr)
+            self.assertIn("no end record", done.stderr)
+
+    def test_instructions_of_a_recording(self):
+        lines = self.record(pulled_beam())
+        file = self.folder / "portable.jsonl"
+        done = heml("replay", self.folder / "r.jsonl", "--record", file, "--instructions", "portable")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        portable = [json.loads(line) for line in file.read_text().splitlines()]
+        self.assertEqual(portable[0]["recorded"]["instructions"], "portable")
+        self.assertEqual(heml("replay", file, "--verify").returncode, 0)
+        if lines[0]["recorded"]["instructions"] != "portable":
+            self.assertNotEqual(portable[-1]["hash"], lines[-1]["hash"])
+        done = heml("replay", file, "--record", self.folder / "x.jsonl", "--instructions", "sse")
+        self.assert_refused(done, 2, "sse", "this processor has portable")
+        self.assertEqual(heml("replay", file, "--instructions", "portable").returncode, 2)
+        self.assertEqual(heml("replay", file, "--verify", "--record", self.folder / "x.jsonl", "--instructions", "portable").returncode, 2)
 
     def test_partial_verifies_what_a_crash_left(self):
         lines = self.record(pulled_beam())
@@ -119,6 +172,10 @@ class Recordings(ProgramCase):
         self.assertIn(f"stopped at step {end['step']}, as recorded: {end['halt']}", done.stdout)
         self.assertEqual(heml("replay", self.folder / "r.jsonl").returncode, 4)
         lines = [json.loads(line) for line in (self.folder / "r.jsonl").read_text().splitlines()]
+        halt = lines[-1].pop("halt")
+        done = self.verify(lines)
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertIn(f"stopped at step {end['step']}, where the recording ends without a halt: {halt}", done.stderr)
         lines[-1]["halt"] = "unstable"
         self.assertEqual(self.verify(lines).returncode, 1)
 

@@ -167,19 +167,23 @@ void read_lists(const JsonCursor& key, double tick_length, Script& script) {
       entries->each([&](const JsonCursor& entry) { read_script_entry(entry, tick_length, script); });
 }
 
-/// The lines after the first. A last line cut off is what a crash in the middle of writing leaves: it is dropped.
+/// The lines after the first. A last line cut off is what a crash in the middle of writing leaves: it is dropped. After
+/// the end nothing is written, so nothing may stand there.
 void read_lines(std::string_view text, const std::string& file, double tick_length, Script& script) {
   for (long line = 2; !text.empty(); ++line) {
     const std::size_t end = text.find('\n');
     const std::string_view entry = text.substr(0, end);
     text.remove_prefix(end == text.npos ? text.size() : end + 1);
     if (is_blank(entry)) continue;
-    if (end == text.npos && !Json::accept(entry)) {
+    const bool ended = script.end.has_value();
+    if (end == text.npos && !ended && !Json::accept(entry)) {
       warn("{}: line {}: cut off in the middle; the recording is read up to there", file, line);
       return;
     }
     const Json json = parse_json(entry, file, line);
-    read_script_entry(JsonCursor(json, file, fmt::format("line {}", line)), tick_length, script);
+    const JsonCursor key(json, file, fmt::format("line {}", line));
+    read_script_entry(key, tick_length, script);
+    if (ended) key.fail("stands after the end", "the end is the last line: take this one away");
   }
 }
 
@@ -198,6 +202,7 @@ bool looks_like_json(std::string_view text) {
 
 Scene parse_scene(std::string_view text, const fs::path& as_if_from) {
   const std::string file = as_if_from.string();
+  if (is_blank(text)) throw InputError(file, "", "is empty", "give a scene or a recording");
   const std::size_t end = is_json_lines(text) ? text.find('\n') : text.size();
   const Json document = parse_json(text.substr(0, end), file);
   const JsonCursor key(document, file);

@@ -32,10 +32,10 @@ class Comparison {
  private:
   static void compare(const Checkpoint& checkpoint, const World& world, ReplayResult& result) {
     ++result.checkpoints;
-    if (result.difference) return;
     const std::uint64_t hash = world.state_hash();
     const int node = checkpoint.nodes.empty() ? -1 : first_different_node(checkpoint.nodes, world.node_hashes());
-    if (hash != checkpoint.hash || node >= 0) result.difference = {checkpoint.tick, node, checkpoint.hash, hash};
+    if ((hash != checkpoint.hash || node >= 0) && !result.difference)
+      result.difference = {checkpoint.tick, node, checkpoint.hash, hash};
   }
 
   const Scene& recording_;

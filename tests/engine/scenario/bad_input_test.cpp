@@ -150,7 +150,8 @@ const Mistake mistakes[] = {
 };
 
 const Mistake broken_texts[] = {
-    {"", "line 1, column 1: not valid JSON", "unexpected end of input"},
+    {"", "is empty", "give a scene or a recording"},
+    {"{", "line 1, column 2: not valid JSON", "unexpected end of input"},
     {"{\n  \"schema_version\": 1,\n  oops\n}", "line 3, column 3: not valid JSON", "expected string literal"},
     {"{\"schema_version\": NaN}", "line 1, column 20: not valid JSON", "invalid literal"},
     {"{\"gravity\": [0, 1e999, 0]}", "line 1, column 21: not valid JSON", "number overflow"},

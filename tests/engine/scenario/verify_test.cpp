@@ -34,7 +34,7 @@ Scene recorded(const Scene& scene, const TemporaryFolder& folder, const std::str
 
 Verification verified(const Scene& scene, bool partial = false) {
   const std::unique_ptr<World> world = load_world(scene);
-  return verify(scene, replay(scene, *world), partial);
+  return verify(scene, replay(scene, *world), *world, partial);
 }
 
 /// The recording as format 1 stores it.
@@ -159,7 +159,7 @@ TEST_CASE("a halt is part of a recording, is shown again and verifies, another o
   CHECK(played.ticks == recording.recorded_end->tick);
   CHECK(played.halt->message == *recording.recorded_end->halt);
   CHECK_FALSE(played.difference);
-  CHECK(verify(recording, played).passed);
+  CHECK(verify(recording, played, *world).passed);
 
   Scene other = recording;
   other.recorded_end->halt = "unstable";
@@ -167,6 +167,12 @@ TEST_CASE("a halt is part of a recording, is shown again and verifies, another o
   other = recording;
   other.recorded_end->hash = *other.recorded_end->hash ^ 1;
   CHECK(test::says(verified(other).reason, "differs at step"));
+
+  // Without its halt it claims that the run was ended where it halts.
+  other = recording;
+  other.recorded_end->halt.reset();
+  other.recorded_ticks = other.recorded_end->tick;
+  CHECK(test::says(verified(other).reason, "where the recording ends without a halt: element"));
 
   // Recording the replay gives the same recording.
   const Scene again = recorded(recording, folder, "again.jsonl");
