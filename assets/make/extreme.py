@@ -44,6 +44,30 @@ def six_a_cell(size, cells):
     return box_nodes(size, cells), tets
 
 
+def five_a_cell(size, cells):
+    """Nodes and tetrahedra of a block as the program makes it: a tetrahedron inside each cell and one at four corners."""
+    nx, ny, nz = cells
+    tets = []
+    for k in range(nz):
+        for j in range(ny):
+            for i in range(nx):
+                node = lambda c: i + (c & 1) + (nx + 1) * (j + (c >> 1 & 1) + (ny + 1) * (k + (c >> 2 & 1)))
+                even = (i + j + k) % 2 == 0
+                tets.append([node(c) for c in ((0, 3, 6, 5) if even else (1, 2, 4, 7))])
+                for c in (1, 2, 4, 7) if even else (0, 3, 5, 6):
+                    tets.append([node(d) for d in ((c, c ^ 2, c ^ 1, c ^ 4) if even else (c, c ^ 1, c ^ 2, c ^ 4))])
+    return box_nodes(size, cells), tets
+
+
+def noise(seed, place):
+    """From -1 to 1, as the study's noise(): the finaliser of SplitMix64."""
+    word = lambda value: value & (2 ** 64 - 1)
+    z = word(seed + 0x9e3779b97f4a7c15 + place)
+    z = word((z ^ (z >> 30)) * 0xbf58476d1ce4e5b9)
+    z = word((z ^ (z >> 27)) * 0x94d049bb133111eb)
+    return ((z ^ (z >> 31)) >> 11) * 2 ** -52 - 1
+
+
 def write_mesh(name, nodes, tets, regions=None):
     lines = ["MeshVersionFormatted 2", "Dimension 3", "Vertices", str(len(nodes))]
     lines += [" ".join(f"{c:.17g}" for c in node) + " 0" for node in nodes]
@@ -93,6 +117,40 @@ def held_affine():
             to = [sum(F[i][j] * X[j] for j in range(3)) - X[i] for i in range(3)]
             entries.append({"nodes": [n], "translate": to, "over": 0.5})
     return entries
+
+
+def forces():
+    """Cases that look at the forces of one state: its scene lets a body go from there."""
+    nodes, tets = five_a_cell([0.1, 0.08, 0.06], [3, 2, 2])
+    nodes = [tuple(c + 0.004 * noise(1, 3 * n + i) for i, c in enumerate(X)) for n, X in enumerate(nodes)]
+    write_mesh("irregular_block", nodes, tets)
+    upright = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
+    sheared = [[1.2, 0.15, 0], [-0.1, 0.9, 0.1], [0.05, 0, 1.05]]
+    stretched = [[1.4, 0, 0], [0, 0.8, 0], [0, 0, 0.8]]
+    s, c, axis = math.sin(1.1), math.cos(1.1), [1 / 3, -2 / 3, 2 / 3]
+    cross = [[0, -axis[2], axis[1]], [axis[2], 0, -axis[0]], [-axis[1], axis[0], 0]]
+    turned = [[c * upright[i][j] + s * cross[i][j] + (1 - c) * axis[i] * axis[j] for j in range(3)] for i in range(3)]
+    explicit = lambda method: {"integrator": method, "rate": 1000, "duration": 0.2}
+    implicit = lambda method: {"integrator": method, "step": 0.01, "duration": 0.5, "continuation": True}
+    ogden = {"law": "ogden", "mu": [2564], "alpha": [3], "kappa": 8333, "density": 1000}
+    for name, title, description, F, carried, (reach, seed), solver, matter in [
+            ("01_force", "Let go inside out", "Elements are inside out: forces have to be the slope of the energy there too.",
+             upright, 0, (0.024, 2), explicit("symplectic_euler") | {"continuation": True}, material()),
+            ("02_stiffness", "Let go inside out, implicit", "Elements are inside out: the stiffness has to be the slope of the "
+             "forces there too.", upright, 0, (0.018, 2), implicit("backward_euler"), material()),
+            ("03_tension_form", "Let go sheared", "Sheared, and shaken a little: forces from edges have to be those from "
+             "deformation gradients.", sheared, 0, (0.002, 3), explicit("verlet"), material()),
+            ("04_ten_km_away", "Ten kilometres away", "Turned, 10 km from the origin: it has to feel nothing.",
+             turned, 1e4, (0, 0), explicit("verlet"), material()),
+            ("05_sums_of_forces", "Let go shaken", "Nothing holds this block: its forces must have no sum and no moment.",
+             upright, 0, (0.009, 4), implicit("tr_bdf2"), material()),
+            ("25_equal_stretches", "Let go with equal stretches", "Two principal stretches are equal, so their directions are any: "
+             "the stiffness has to be one.", stretched, 0, (1e-6, 6), implicit("bdf2"), ogden)]:
+        write_positions(name, [
+            tuple(sum(F[i][j] * X[j] for j in range(3)) + carried * (1, -1, 1)[i] + reach * noise(seed, 3 * n + i) for i in range(3))
+            for n, X in enumerate(nodes)])
+        scene(name, title, description, {"file": "irregular_block.mesh"} | ({"translate": [carried, -carried, carried]} if carried else {}),
+              [], solver, materials=[matter], initial={"positions": f"{name}.csv"})
 
 
 def statics_and_accuracy():
@@ -247,5 +305,5 @@ def sameness():
 
 if __name__ == "__main__":
     OUT.mkdir(parents=True, exist_ok=True)
-    for make in (statics_and_accuracy, starts, collapses, far_deformations, bad_bodies, what_people_do, sameness):
+    for make in (forces, statics_and_accuracy, starts, collapses, far_deformations, bad_bodies, what_people_do, sameness):
         make()

@@ -1,7 +1,8 @@
 #pragma once
 // A case of the stability study: a measured value with a limit, for every law, integrator and precision that it applies
 // to (its variants). To add one: write `Outcome name(const Trial&)` in the file of its kind, declare it below, and give
-// it a line in cases.cpp. Cases with a scene read it from assets/scenes/extreme, so that users can open and watch it.
+// it a line in cases.cpp. Every case has a scene in assets/scenes/extreme, so that users can open, watch and record it.
+// Cases of motion and statics read theirs; cases of forces make the same states in C++.
 //
 //   cases()  ×  variants_of(case)  ──►  Trial ──► case.run ──► Outcome ──► judge ──► Verdict
 #include <functional>
