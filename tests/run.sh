@@ -2,7 +2,7 @@
 # Installs what is missing, builds heml and tests it. Ends with how many tests passed and failed.
 #   bash tests/run.sh           all: release; address and undefined behaviour sanitizers and fuzzers; thread sanitizer; engine alone
 #   bash tests/run.sh --quick   release alone
-#   bash tests/run.sh --long    all, five minutes a fuzzer
+#   bash tests/run.sh --long    all, five minutes a fuzzer, recordings of whole scenes
 set -euo pipefail
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$top"
@@ -13,7 +13,7 @@ fuzz_seconds=20
 case "${1:-}" in
   '') ;;
   --quick) presets=(release) ;;
-  --long) fuzz_seconds=300 ;;
+  --long) fuzz_seconds=300; export HEML_LONG=1 ;;
   *) fail "usage: bash tests/run.sh [--quick | --long]" ;;
 esac
 
