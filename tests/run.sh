@@ -2,18 +2,18 @@
 # Installs what is missing, builds heml and tests it. Ends with how many tests passed and failed.
 #   bash tests/run.sh           all: release; address and undefined behaviour sanitizers and fuzzers; thread sanitizer; engine alone
 #   bash tests/run.sh --quick   release alone
-#   bash tests/run.sh --long    all, five minutes a fuzzer, recordings of whole scenes
+#   bash tests/run.sh --long    all, five minutes a fuzzer, thirty for whole scenes; recordings of whole scenes
 set -euo pipefail
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$top"
 source app/packages.sh
 
 presets=(release address thread smallest)
-fuzz_seconds=20
+fuzz_seconds=20 world_fuzz_seconds=100
 case "${1:-}" in
   '') ;;
   --quick) presets=(release) ;;
-  --long) fuzz_seconds=300; export HEML_LONG=1 ;;
+  --long) fuzz_seconds=300 world_fuzz_seconds=1800; export HEML_LONG=1 ;;
   *) fail "usage: bash tests/run.sh [--quick | --long]" ;;
 esac
 
@@ -29,7 +29,8 @@ for preset in "${presets[@]}"; do
   say "testing $preset"
   results+=("build/$preset/results.xml")
   rm -f "${results[-1]}"
-  HEML_FUZZ_SECONDS=$fuzz_seconds ctest --preset "$preset" -j "$(nproc)" --output-junit results.xml || true
+  HEML_FUZZ_SECONDS=$fuzz_seconds HEML_WORLD_FUZZ_SECONDS=$world_fuzz_seconds \
+    ctest --preset "$preset" -j "$(nproc)" --output-junit results.xml || true
 done
 
 # The head of each result file: <testsuite name="..." tests="120" failures="1" disabled="0" skipped="2" ...>

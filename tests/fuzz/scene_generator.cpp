@@ -26,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double size = 0.1;  // m, of a generated body, which is in [0, size]³
-constexpr int max_ticks = 12;
+constexpr int generated_ticks = 12;
 
 /// Random choices.
 class Dice {
@@ -46,9 +46,9 @@ class Dice {
   std::mt19937_64 random_;
 };
 
-constexpr double odd_numbers[] = {0,    -0.0,  1,    -1,     2,     0.5,    -0.5,   1e-30, -1e-30,    1e30,
-                                  -1e30, 1e300, 1e308, 1e-300, 5e-324, 1e9,    1e-9,   1e15,  -1e15,     1e18,
-                                  3,    7,     100,  2147483647.0, -2147483648.0, 9007199254740993.0};
+constexpr double odd_numbers[] = {
+    0,      -0.0,   1,   -1,   2,    0.5,   -0.5, 1e-30, -1e-30, 1e30, -1e30,        1e300,         1e308,
+    1e-300, 5e-324, 1e9, 1e-9, 1e15, -1e15, 1e18, 3,     7,      100,  2147483647.0, -2147483648.0, 9007199254740993.0};
 
 class Generator {
  public:
@@ -66,16 +66,27 @@ class Generator {
  private:
   // Values.
   Json odd_value() {
-    static const char* const others[] = {"null", "true", "false", "\"\"", "\"NaN\"", "\"inf\"", "[]", "{}", "[[]]",
-                                         "\"none\"", "[1, 2, 3]", "[0, 0, 0]", "[\"a\"]", "{\"field\": \"E\"}",
-                                         "18446744073709551615", "-9223372036854775808"};
+    static const char* const others[] = {"null",
+                                         "true",
+                                         "false",
+                                         "\"\"",
+                                         "\"NaN\"",
+                                         "\"inf\"",
+                                         "[]",
+                                         "{}",
+                                         "[[]]",
+                                         "\"none\"",
+                                         "[1, 2, 3]",
+                                         "[0, 0, 0]",
+                                         "[\"a\"]",
+                                         "{\"field\": \"E\"}",
+                                         "18446744073709551615",
+                                         "-9223372036854775808"};
     if (dice_.chance(0.75)) return dice_.pick(odd_numbers);
     return Json::parse(dice_.pick(others));
   }
 
-  Json vector(double low, double high) {
-    return {dice_.real(low, high), dice_.real(low, high), dice_.real(low, high)};
-  }
+  Json vector(double low, double high) { return {dice_.real(low, high), dice_.real(low, high), dice_.real(low, high)}; }
 
   /// Somewhere about the body: often on the planes in which its nodes and faces are.
   Json point() {
@@ -128,7 +139,7 @@ class Generator {
       mesh["box"] = {{"size", {size, size, size}},
                      {"cells", {1 + dice_.below(3), 1 + dice_.below(2), 1 + dice_.below(2)}}};
     } else {
-      static const char* const files[] = {"one.mesh",    "face.mesh",   "edge.mesh",    "node.mesh",  "apart.mesh",
+      static const char* const files[] = {"one.mesh",    "face.mesh",   "edge.mesh",    "node.mesh", "apart.mesh",
                                           "orphan.mesh", "sliver.mesh", "regions.mesh", "fields.vtk"};
       stem_ = dice_.pick(files);
       mesh["file"] = stem_;
@@ -225,7 +236,7 @@ class Generator {
   }
 
   Json solver() {
-    Json solver;
+    Json solver = Json::object();
     for (const KeyInfo& key : keys_of("solver"))
       if (dice_.chance(0.3) && key.form.kind != ValueForm::Kind::other)
         solver[std::string(key.name)] = value_of(key.form);
@@ -236,7 +247,7 @@ class Generator {
       solver["step"] = tick;
     else
       solver["rate"] = 1 / tick;
-    ticks_ = dice_.below(max_ticks + 1);
+    ticks_ = dice_.below(generated_ticks + 1);
     duration_ = tick * ticks_ + (dice_.chance(0.2) ? tick * dice_.real(0, 1) : 0);
     solver["duration"] = duration_;
     solver["integrator"] = dice_.pick(integrator_names());
@@ -248,7 +259,7 @@ class Generator {
   }
 
   Json outputs() {
-    Json outputs;
+    Json outputs = Json::object();
     for (const KeyInfo& key : keys_of("outputs"))
       if (dice_.chance(0.4) && key.form.kind != ValueForm::Kind::other)
         outputs[std::string(key.name)] = value_of(key.form);
@@ -258,9 +269,7 @@ class Generator {
   }
 
   // Events.
-  Json place_of_node() {
-    return dice_.chance(0.5) ? Json{{"node", dice_.below(8)}} : Json{{"point", point()}};
-  }
+  Json place_of_node() { return dice_.chance(0.5) ? Json{{"node", dice_.below(8)}} : Json{{"point", point()}}; }
 
   Json release() {
     static const char* const whats[] = {"true", "\"pins\"", "\"probe\"", "\"sutures\""};
@@ -343,9 +352,10 @@ class Generator {
   Json events() {
     Json all = Json::array();
     for (int k = dice_.below(8); k > 0; --k) {
-      const CommandInfo& command =
-          dice_.chance(0.35) ? command_with(dice_.chance(0.6) ? "cut" : dice_.chance(0.5) ? "remove" : "undo")
-                             : command_with(dice_.pick(event_keys()));
+      const CommandInfo& command = dice_.chance(0.35) ? command_with(dice_.chance(0.6)   ? "cut"
+                                                                     : dice_.chance(0.5) ? "remove"
+                                                                                         : "undo")
+                                                      : command_with(dice_.pick(event_keys()));
       all.push_back({{"step", dice_.below(ticks_ + 1)}, {std::string(command.key), value_of(command)}});
     }
     return all;

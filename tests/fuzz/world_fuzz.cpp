@@ -4,9 +4,9 @@
 //   world_fuzz [--seconds S] [--first SEED] [--cases N] [--keep FOLDER]
 //   world_fuzz SCENE.json            plays one file, in this process
 //
-// A case ends in InputError, in a halt, or well. All else is a failure: a crash, a report of a sanitizer, a leak, another
-// exception, more than 1 GB, 30 s that cannot be interrupted, a state that is not finite, a recording that does not
-// verify. A failure leaves its scene in FOLDER/SEED.
+// A case ends in InputError, in a halt, or well. All else is a failure: a crash, a report of a sanitizer, a leak,
+// another exception, more than 1 GB, 30 s that cannot be interrupted, a state that is not finite, a recording that does
+// not verify. A failure leaves its scene in FOLDER/SEED.
 #include <fmt/format.h>
 #include <sanitizer/lsan_interface.h>
 #include <sys/mman.h>
@@ -224,8 +224,8 @@ int run(const Options& options) {
   std::string pattern = (fs::temp_directory_path() / "world_fuzz_XXXXXX").string();
   const fs::path folder = mkdtemp(pattern.data());
   write_small_meshes(folder);
-  auto& shared = *static_cast<Shared*>(
-      mmap(nullptr, sizeof(Shared), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0));
+  auto& shared =
+      *static_cast<Shared*>(mmap(nullptr, sizeof(Shared), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0));
   const auto begin = Clock::now();
   const std::uint64_t end = options.first + options.cases;
   long failures = 0;

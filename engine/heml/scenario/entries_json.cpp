@@ -139,9 +139,7 @@ std::vector<Table> tables_from(const JsonCursor& key) {
     const ObjectReader object(entry, keys_of("tables[]"));
     Table table;
     table.point = object.get<Vec3>("point");
-    table.normal = object["normal"].vector();
-    if (!(table.normal.norm() > 0)) entry["normal"].refuse("must not be zero");
-    table.normal.normalize();
+    table.normal = object.get<Vec3>("normal");
     object.read("friction", table.friction);
     tables.push_back(table);
   });

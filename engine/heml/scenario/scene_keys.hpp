@@ -60,7 +60,8 @@ inline constexpr KeyInfo scene[] = {
     {"initial", object, "", "`{}`", "state at time 0"},
     {"view", object, "", "`{}`", "how the window and frames begin; no part of the physics"},
     {"events", form::other("list of [events](#events)"), "", "`[]`", "the script: what happens when"},
-    {"checkpoints", form::other("list of [checkpoints](#recordings)"), "", "`[]`", "states that `replay --verify` compares"},
+    {"checkpoints", form::other("list of [checkpoints](#recordings)"), "", "`[]`",
+     "states that `replay --verify` compares"},
     {"recorded", object, "", none, "of a recording: with which mesh and build it was made"},
 };
 inline constexpr KeyInfo mesh[] = {
@@ -149,7 +150,7 @@ inline constexpr KeyInfo elements[] = {
 };
 inline constexpr KeyInfo tables[] = {
     {"point", form::vector, "m", required, "a point of the plane"},
-    {"normal", form::other("`[x, y, z]`, not zero"), "", required, "towards the tissue; normalised when read"},
+    {"normal", form::direction, "", required, "towards the tissue; normalised when read"},
     friction_row,
 };
 inline constexpr KeyInfo self_contact[] = {

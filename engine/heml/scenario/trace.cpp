@@ -38,7 +38,8 @@ void Trace::sample(World& world) {
   if (time < last_) next_ = 0;  // after a reset
   if (time == last_ || time < next_ * (1 - 1e-12)) return;
   last_ = time;
-  if (every_ > 0) next_ = every_ * (std::floor(time / every_ * (1 + 1e-12)) + 1);
+  const double passed = std::floor(time / every_ * (1 + 1e-12));
+  next_ = std::isfinite(passed) ? every_ * (passed + 1) : time;  // not finite: every tick, or a time so short
   if (!markers_.empty()) sample_markers(world);
   if (!history_rows_.empty()) sample_history(world);
 }

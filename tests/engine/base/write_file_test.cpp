@@ -1,9 +1,13 @@
 #include <doctest/doctest.h>
+#include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <csignal>
+#include <cstdio>
+#include <cstring>
 #include <engine/mesh/files.hpp>
 #include <fstream>
 #include <heml/base/write_file.hpp>
@@ -43,7 +47,36 @@ class FullDisk {
   void (*signal_)(int) = nullptr;
 };
 
+int rename_error = 0;  // errno that rename() is to fail with; 0: it does its work
+
 }  // namespace
+}  // namespace heml::write_file_test
+
+/// The system's, for this program: can be told to fail.
+extern "C" int rename(const char* from, const char* to) noexcept {
+  if (heml::write_file_test::rename_error == 0) return renameat(AT_FDCWD, from, AT_FDCWD, to);
+  errno = heml::write_file_test::rename_error;
+  return -1;
+}
+
+namespace heml::write_file_test {
+
+TEST_CASE("a file that cannot take its name keeps its old content, and no other file is left") {
+  const TemporaryFolder folder;
+  const fs::path file = folder.file("table.csv", "old");
+  for (const int error : {EACCES, EBUSY, ENOSPC, EIO}) {
+    rename_error = error;
+    const std::string why = refusal([&] { write_file(file, "new"); });
+    const std::string none = refusal([&] { write_file(folder / "other.csv", "new"); });
+    rename_error = 0;
+    CHECK(why.find(file.string() + ": cannot be written: " + std::strerror(error)) == 0);
+    CHECK(none.find("other.csv: cannot be written") != none.npos);
+    CHECK(content(file) == "old");
+    CHECK(files_in(folder / "") == 1);
+  }
+  write_file(file, "new");
+  CHECK(content(file) == "new");
+}
 
 TEST_CASE("a file is written completely or keeps its old content, and no other file is left") {
   const TemporaryFolder folder;

@@ -69,6 +69,13 @@ TEST_CASE("rows of markers and history come as often as asked, at the first tick
   CHECK(std::stod(history[5][1]) / std::stod(history[3][1]) == doctest::Approx(4).epsilon(1e-9));
 }
 
+TEST_CASE("a time between rows that is shorter than any tick gives a row a tick") {
+  const TemporaryFolder folder;
+  solve(falling(R"({"history": true})"), folder / "a");
+  solve(falling(R"({"history": true, "every": 5e-324})"), folder / "b");
+  CHECK(table_in(folder / "b/history.csv") == table_in(folder / "a/history.csv"));
+}
+
 TEST_CASE("tables that were not asked for are not written, and those of an earlier run go") {
   const TemporaryFolder folder;
   folder.file("markers.csv", "of an earlier run");

@@ -203,6 +203,19 @@ TEST_CASE("writes every kind of event so that it reads back bit for bit") {
   reread<Reset>({5, Reset{}});
 }
 
+TEST_CASE("normals of tables read back bit for bit, of a scene and of an event") {
+  std::mt19937_64 random(11);
+  for (int k = 0; k < 100; ++k) {
+    const Json tables = {
+        {{"point", {0, 0, 0}}, {"normal", {test::uniform(random, -1, 1), test::uniform(random, -1, 1), 1}}}};
+    const std::string patch = Json{{"tables", tables}, {"events", {{{"step", 1}, {"tables", tables}}}}}.dump();
+    const Scene scene = test::small_scene_with(patch), again = parse_scene(scene_text(scene), "folder/scene.json");
+    CHECK(same_bits(again.tables[0].normal, scene.tables[0].normal));
+    const auto normal = [](const Scene& of) { return std::get<SetTables>(of.events[0].command).tables[0].normal; };
+    CHECK(same_bits(normal(again), normal(scene)));
+  }
+}
+
 TEST_CASE("writes checkpoints so that they read back") {
   const Checkpoint checkpoint{123, 0x00ab00000000cdef, {0, 1, 0xffff}};
   const Scene scene = parse_scene(test::scene_with("{}") + "\n" + checkpoint_line(checkpoint), "recording.jsonl");
