@@ -56,6 +56,14 @@ struct TooLong {};
 
 World* playing = nullptr;  // the world that SIGALRM interrupts
 
+/// Makes a world the one that is played, during its lifetime.
+struct Playing {
+  explicit Playing(World& world) { playing = &world; }
+  ~Playing() { playing = nullptr; }
+  Playing(const Playing&) = delete;
+  Playing& operator=(const Playing&) = delete;
+};
+
 /// The first alarm ends the tick under way; the second finds a world that cannot be interrupted, and ends the process.
 extern "C" void on_alarm(int) {
   std::signal(SIGALRM, SIG_DFL);
@@ -108,7 +116,7 @@ void export_frames(World& world, const fs::path& folder) {
 /// Records, and exports what was reached. Whether an event was refused: then the recording has no end.
 bool record(const Scene& scene, const fs::path& file, bool& halted) {
   const auto world = load_world(scene);
-  playing = world.get();
+  const Playing now(*world);
   Recorder recorder(file, scene, *world, 3);
   bool refused = false;
   try {
@@ -118,7 +126,6 @@ bool record(const Scene& scene, const fs::path& file, bool& halted) {
   }
   expect_finite(*world);
   export_frames(*world, file.parent_path());
-  playing = nullptr;
   return refused;
 }
 
@@ -128,9 +135,8 @@ void expect_verified(const fs::path& file, bool partial) {
     recording = read_scene(file);
     recording->solver.threads = 3 - recording->solver.threads;
     const auto world = load_world(*recording);
-    playing = world.get();
+    const Playing now(*world);
     const ReplayResult played = replay(*recording, *world, after_tick);
-    playing = nullptr;
     const Verification verified = verify(*recording, played, partial);
     expect(verified.passed, fmt::format("its recording does not verify: {}", verified.reason));
   } catch (const InputError& error) {
@@ -141,7 +147,6 @@ void expect_verified(const fs::path& file, bool partial) {
 /// The scene of a text, played in all ways.
 Outcome play(const std::string& text, const fs::path& file) {
   const fs::path folder = file.parent_path();
-  playing = nullptr;
   std::signal(SIGALRM, on_alarm);
   alarm(interrupted_after);
   try {

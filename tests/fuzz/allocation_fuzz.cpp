@@ -1,0 +1,125 @@
+// Loads scenes made from seeds (scene_generator.hpp) with one allocation failing, the n-th for many n: this ends in
+// std::bad_alloc or InputError, or goes well, and the sanitizers find neither a leak nor worse. A program of its own,
+// since it replaces operator new.
+//
+//   allocation_fuzz [--seconds S] [--first SEED]
+#include <fmt/format.h>
+
+#include <atomic>
+#include <chrono>
+#include <cstdlib>
+#include <exception>
+#include <heml/base/error.hpp>
+#include <heml/scenario/scene.hpp>
+#include <new>
+
+#include "scene_generator.hpp"
+
+namespace {
+
+std::atomic<long> allowed{-1};  // allocations until one fails; negative: none does
+std::atomic<long> made{0};
+
+void* allocate(std::size_t bytes, std::size_t alignment) {
+  ++made;
+  if (allowed >= 0 && allowed-- == 0) return nullptr;
+  bytes = std::max<std::size_t>(bytes, 1);
+  return alignment ? std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment)
+                   : std::malloc(bytes);
+}
+
+void* allocate_or_throw(std::size_t bytes, std::size_t alignment) {
+  if (void* memory = allocate(bytes, alignment)) return memory;
+  throw std::bad_alloc();
+}
+
+}  // namespace
+
+void* operator new(std::size_t bytes) { return allocate_or_throw(bytes, 0); }
+void* operator new[](std::size_t bytes) { return allocate_or_throw(bytes, 0); }
+void* operator new(std::size_t bytes, std::align_val_t a) { return allocate_or_throw(bytes, std::size_t(a)); }
+void* operator new[](std::size_t bytes, std::align_val_t a) { return allocate_or_throw(bytes, std::size_t(a)); }
+void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept { return allocate(bytes, 0); }
+void* operator new[](std::size_t bytes, const std::nothrow_t&) noexcept { return allocate(bytes, 0); }
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete[](void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory, const std::nothrow_t&) noexcept { std::free(memory); }
+void operator delete[](void* memory, const std::nothrow_t&) noexcept { std::free(memory); }
+
+namespace heml::fuzz {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+enum class Outcome { loaded, refused, out_of_memory };
+
+long failing = -1;  // the allocation that fails now, for whoever sees the program end
+std::uint64_t seed = 1;
+
+[[noreturn]] void tell_and_end() {
+  allowed = -1;
+  fmt::print(stderr, "failure: terminated as allocation {} of seed {} failed\n", failing, seed);
+  std::abort();
+}
+
+/// Loads a scene with the n-th allocation failing; n < 0: none.
+Outcome load(const std::string& text, const fs::path& file, long n) {
+  failing = n;
+  made = 0;
+  allowed = n;
+  Outcome outcome = Outcome::loaded;
+  try {
+    Scene scene = parse_scene(text, file);
+    scene.solver.threads = 1;
+    load_world(scene);
+  } catch (const InputError&) {
+    outcome = Outcome::refused;
+  } catch (const std::bad_alloc&) {
+    outcome = Outcome::out_of_memory;
+  }
+  allowed = -1;
+  return outcome;
+}
+
+int run(double seconds) {
+  std::set_terminate(tell_and_end);
+  std::string pattern = (fs::temp_directory_path() / "allocation_fuzz_XXXXXX").string();
+  const fs::path folder = mkdtemp(pattern.data());
+  write_small_meshes(folder);
+  const auto begin = Clock::now();
+  long scenes = 0, loads = 0, ended = 0;
+  for (; std::chrono::duration<double>(Clock::now() - begin).count() < seconds; ++seed) {
+    const std::string text = scene_of_seed(seed);
+    const fs::path file = folder / "scene.json";
+    if (load(text, file, -1) != Outcome::loaded) continue;  // also fills what is read once
+    load(text, file, -1);
+    const long count = made;
+    ++scenes;
+    const long stride = 1 + count / 60;
+    for (long n = static_cast<long>(seed) % stride; n < count; n += stride, ++loads)
+      ended += load(text, file, n) == Outcome::out_of_memory;
+  }
+  fs::remove_all(folder);
+  fmt::print("{} scenes loaded {} times with an allocation failing; {} ended by it\n", scenes, loads, ended);
+  return ended == 0;
+}
+
+}  // namespace
+}  // namespace heml::fuzz
+
+int main(int argc, char** argv) {
+  double seconds = 10;
+  for (int k = 1; k + 1 < argc; k += 2) {
+    const std::string name = argv[k];
+    if (name == "--seconds") seconds = std::stod(argv[k + 1]);
+    if (name == "--first") heml::fuzz::seed = std::stoull(argv[k + 1]);
+  }
+  return heml::fuzz::run(seconds);
+}
