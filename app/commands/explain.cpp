@@ -115,6 +115,8 @@ void print_solver(const Explanation& explained) {
     print_line("why", "set by the scene; {} free nodes", solver.free_nodes);
   print_line("projection", "{}, where the stiffness is indefinite",
              projection_names[static_cast<std::size_t>(solver.projection)]);
+  print_line("no convergence", "{}",
+             solver.rescues ? "halved steps, then explicit substeps, then the best iterate" : "ends the run");
   if (solver.budget)
     print_line("budget", "{}",
                solver.budget->iterations ? fmt::format("{} iterations per stage", solver.budget->iterations)

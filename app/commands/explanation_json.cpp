@@ -94,6 +94,7 @@ Json solver_json(const Explanation& explained) {
           {"levels", solver.levels},
           {"projection", projection_names[static_cast<std::size_t>(solver.projection)]},
           {"tolerance", solver.tolerance},
+          {"rescues", solver.rescues},
           {"budget_iterations", solver.budget && solver.budget->iterations ? Json(solver.budget->iterations) : Json()},
           {"budget_milliseconds",
            solver.budget && solver.budget->milliseconds > 0 ? Json(solver.budget->milliseconds) : Json()}};

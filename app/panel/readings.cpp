@@ -140,6 +140,16 @@ void draw_engine(Rows& rows, const Frame& frame, const History& history) {
        "Longest stable step of explicit methods now, s, safety factor included. Stiffer, lighter or finer bodies have "
        "shorter ones."},
       time_of(frame.stable_step));
+  if (frame.explicit_rescues > 0)
+    rows.value({"Explicit rescues",
+                "Ticks in which implicit steps did not converge and explicit substeps took their place, since the "
+                "start."},
+               grouped_digits(frame.explicit_rescues), 0, colours::warning);
+  if (frame.unconverged_steps > 0)
+    rows.value({"Unconverged steps",
+                "Implicit steps that ended with their best iterate, since neither they nor explicit substeps could "
+                "finish, since the start. Their energy is limited; their positions are inaccurate."},
+               grouped_digits(frame.unconverged_steps), 0, colours::warning);
   rows.value({"Missed deadlines", "Ticks that ended after their deadline, since the start."},
              grouped_digits(pace.missed), 0, pace.missed > 0 && !pace.keeping_up ? colours::warning : colours::text);
   rows.value({"Threads",

@@ -59,7 +59,9 @@ struct Frame {
   std::vector<ToolState> tools;           ///< what acts on the body
   Pace pace;
   int substeps = 1;
-  double stable_step = 0;  ///< s
+  double stable_step = 0;      ///< s
+  long explicit_rescues = 0;   ///< SolverStats
+  long unconverged_steps = 0;  ///< SolverStats
   bool paused = false;
   long fast_forward_target = 0;            ///< the tick being fast-forwarded to; 0: none
   std::optional<Recovery> recovery;        ///< the last one, active or ended

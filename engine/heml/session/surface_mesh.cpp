@@ -72,6 +72,9 @@ void fill_frame(World& world, std::shared_ptr<const SurfaceMesh> surface_mesh, F
   frame.tools = world.tools();
   frame.substeps = world.substeps();
   frame.stable_step = world.stable_step();
+  const SolverStats stats = world.solver_stats();
+  frame.explicit_rescues = stats.explicit_rescues;
+  frame.unconverged_steps = stats.unconverged_steps;
   frame.recovery.reset();
   if (const Recovery* recovery = world.recovery()) {
     frame.recovery = *recovery;

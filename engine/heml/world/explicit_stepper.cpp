@@ -26,8 +26,8 @@ bool all_within(const Real* v, std::size_t begin, std::size_t end, Real most) {
 }  // namespace
 
 template <class Real>
-std::optional<StopReason> ExplicitStepper<Real>::advance(double until) {
-  while (s_.state.time < until && !s_.interrupted) {
+std::optional<StopReason> ExplicitStepper<Real>::advance(double until, long most) {
+  for (long done = 0; s_.state.time < until && done < most && !s_.interrupted; ++done) {
     const double left = until - s_.state.time;
     double h = left;  // a given step is a whole tick
     if (!s_.setup.solver.step) {

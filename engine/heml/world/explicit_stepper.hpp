@@ -1,6 +1,7 @@
 #pragma once
 // Steps of the explicit methods (dynamics/integrator_list.hpp).
 #include <heml/world/simulation.hpp>
+#include <limits>
 
 namespace heml {
 
@@ -9,8 +10,9 @@ class ExplicitStepper {
  public:
   explicit ExplicitStepper(Simulation<Real>& s) : s_(s) {}
 
-  /// Steps until state.time reaches `until`, s. Returns why it could not; the state is then the last valid one.
-  std::optional<StopReason> advance(double until);
+  /// Steps until state.time reaches `until`, s, or `most` substeps are done. Returns why it could not; the state is
+  /// then the last valid one.
+  std::optional<StopReason> advance(double until, long most = std::numeric_limits<long>::max());
 
  private:
   void refresh_stable_step();

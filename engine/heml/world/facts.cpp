@@ -54,6 +54,7 @@ std::optional<SolverFacts> WorldQueries<Real>::solver_facts() {
   facts.free_nodes = parts.free.node.size();
   facts.levels = parts.linear.levels();
   facts.tolerance = solver.relative_tolerance();
+  facts.rescues = !solver.is_static() && !solver.step;
   facts.budget = solver.budget;
   return facts;
 }

@@ -37,6 +37,7 @@ struct SolverFacts {
   Projection projection = Projection::element;
   std::size_t free_nodes = 0, levels = 0;
   double tolerance = 0;
+  bool rescues = false;  ///< a step that does not converge is rescued (step_rescue.hpp); else it ends the run
   std::optional<Budget> budget;
 };
 

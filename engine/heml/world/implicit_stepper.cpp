@@ -26,16 +26,17 @@ constexpr int max_iterations = 60, max_halvings = 40;
 template <class Real>
 std::optional<StopReason> ImplicitStepper<Real>::advance(double until) {
   const double whole = until - s_.state.time;
+  const double shortest = s_.rescued_tick == s_.ticks - 1 ? whole : min_share * whole;
   double longest = whole;
   while (s_.state.time < until && !s_.interrupted) {
     const bool last = s_.state.time + 1.5 * longest > until;
     const double after = last ? until : s_.state.time + longest;
-    if (step(after - s_.state.time, after)) {
+    if (step(s_.method, after - s_.state.time, after)) {
       ++s_.substeps;
       continue;
     }
     longest /= 2;
-    if (s_.setup.solver.step || longest < min_share * whole)
+    if (s_.setup.solver.step || longest < shortest)
       return keep_last_solved(s_, undefined_at_.empty()
                                       ? StopReason{StopReason::Cause::not_converged, -1, -1, why_unbalanced()}
                                       : out_of_range(s_, undefined_at_, after));
@@ -85,13 +86,23 @@ class ImplicitStepper<Real>::StagedStep final : public ImplicitStep {
 };
 
 template <class Real>
-bool ImplicitStepper<Real>::step(double h, double time_after) {
+bool ImplicitStepper<Real>::take_best_iterate(double until) {
+  takes_best_ = true;
+  const bool done = step(Integrator::backward_euler, until - s_.state.time, until);
+  takes_best_ = false;
+  s_.implicit->h_before = 0;  // BDF2 starts anew
+  if (done) ++s_.substeps;
+  return done;
+}
+
+template <class Real>
+bool ImplicitStepper<Real>::step(Integrator method, double h, double time_after) {
   ImplicitState<Real>& parts = s_.implicit_state();
   parts.x = as_vector(s_.state.x);
   parts.v = as_vector(s_.state.v);
   parts.body.begin_step(parts.x, s_.state.time);
   StagedStep step(*this, h, time_after);
-  const bool done = visit_integrator<bool>(s_.method, [&](auto row) {
+  const bool done = visit_integrator<bool>(method, [&](auto row) {
     if constexpr (row.info.kind == IntegratorKind::implicit_steps) return row.step(step);
     assert(false);  // TypedWorld::advance calls for implicit methods alone
     return false;
@@ -101,7 +112,7 @@ bool ImplicitStepper<Real>::step(double h, double time_after) {
     return false;
   }
   Vector &x = step.x, &v = step.v;
-  if (s_.setup.solver.budget) limit_energy(h, time_after, x, v);
+  if (takes_any_iterate()) limit_energy(h, time_after, x, v);
   parts.body.end_step(x);
   parts.x_before = parts.x;
   parts.v_before = parts.v;
@@ -145,7 +156,7 @@ bool ImplicitStepper<Real>::solve_stage(const Stage& stage, double h, double tim
     for (const double value : x) undefined_at_.push_back(static_cast<Real>(value));
     return false;
   }
-  if (!result.converged() && !s_.setup.solver.budget && !is_balanced_enough(stage, r)) return false;
+  if (!result.converged() && !takes_any_iterate() && !is_balanced_enough(stage, r)) return false;
   v = stage.velocity(x);
   for (const ConstrainedNode& constrained : s_.model.constrained)
     v.segment<3>(3 * constrained.node) = prescribed_at(s_.model, constrained, time).v;
@@ -176,20 +187,22 @@ NewtonResult ImplicitStepper<Real>::minimise_stage(Vector& x) {
   return minimise(parts.step, parts.linear, stage_criterion(), options, x);
 }
 
+template <class Real>
+void ImplicitStepper<Real>::place_supports(double time, Vector& x) const {
+  for (const ConstrainedNode& constrained : s_.model.constrained)
+    x.segment<3>(3 * constrained.node) = prescribed_at(s_.model, constrained, time).x;
+}
+
 /// Of where the body is and where it would fly: the one with the lower Φ (without this guard, methods of few iterations
 /// gain energy without bound); where held nodes move so far that neither is possible, along the tangent.
 template <class Real>
 Vector ImplicitStepper<Real>::stage_start(const Stage& stage, double time, const Vector& x) {
   ImplicitState<Real>& parts = s_.implicit_state();
-  const auto apply_constraints = [&](Vector& to) {
-    for (const ConstrainedNode& constrained : s_.model.constrained)
-      to.segment<3>(3 * constrained.node) = prescribed_at(s_.model, constrained, time).x;
-  };
   Vector stay = x, fly = stage.y(s_.setup.solver.damping), r_stay, r_fly, r;
   for (Eigen::Index i = 0; i < fly.size(); ++i)
     if (!(parts.mass[i] > 0)) fly[i] = x[i];
-  apply_constraints(stay);
-  apply_constraints(fly);
+  place_supports(time, stay);
+  place_supports(time, fly);
   const auto is_defined = [&](const Vector& at, Vector& r_there) {
     return parts.step.residual(at, r_there) && r_there.allFinite();
   };
@@ -242,26 +255,31 @@ int ImplicitStepper<Real>::stage_iterations() const {
 
 /// Takes from x, v what energy a step has gained beyond the work of its loads: from the velocity while that has it to
 /// give, else by going back towards the start. Held nodes that move do work of their own, and pressure that follows the
-/// surface has no potential: nothing is known there, and nothing done.
+/// surface has no potential: nothing is known there, and nothing done under a budget. The best iterate of a step that
+/// did not converge is limited there too: to the energy with supports moved and all else as at the start; under
+/// pressure, to the kinetic energy of the start.
 template <class Real>
 void ImplicitStepper<Real>::limit_energy(double h, double time, Vector& x, Vector& v) {
   ImplicitState<Real>& parts = s_.implicit_state();
-  for (const ConstrainedNode& constrained : s_.model.constrained)
-    if (prescribed_at(s_.model, constrained, time).x != prescribed_at(s_.model, constrained, s_.state.time).x) return;
+  Vector start = parts.x;
+  if (supports_move(s_.model, s_.state.time, time)) {
+    if (!takes_best_) return;
+    place_supports(time, start);
+  }
   const auto kinetic = [&](const Vector& velocity) {
     return (parts.mass.array() * velocity.array().square()).sum() / 2;
   };
-  const auto at_start = parts.body.value(parts.x);  // with the loads of the end: what they do on the way is in it
-  if (!at_start) return;
-  const double may = *at_start + kinetic(parts.v);
-  double has = *parts.body.value(x);
+  const auto at_start = parts.body.value(start);  // with the loads of the end: what they do on the way is in it
+  if (!at_start && !takes_best_) return;
+  const double may = at_start.value_or(0) + kinetic(parts.v);
+  double has = parts.body.value(x).value_or(0);
   for (int k = 0; has > may && k <= max_halvings; ++k) {
-    x = k < max_halvings ? Vector(parts.x + (x - parts.x) / 2) : parts.x;
+    x = k < max_halvings ? Vector(start + (x - start) / 2) : start;
     v = (x - parts.x) / h;
     has = *parts.body.value(x);
   }
   const double moving = kinetic(v), left = std::max(may - has, 0.0);
-  if (moving > left) v *= std::sqrt(left / moving);
+  if (moving > left) v = (parts.mass.array() > 0).select(std::sqrt(left / moving) * v, v);
   Vector r;
   parts.step.residual(x, r);  // forces are taken from what the objective saw last
   s_.stats.residual = parts.body.relative_residual(r);

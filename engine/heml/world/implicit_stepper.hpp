@@ -12,8 +12,13 @@ class ImplicitStepper {
   explicit ImplicitStepper(Simulation<Real>& s) : s_(s) {}
 
   /// Steps until state.time reaches `until`, s. Obeys a given step; without one, halves the tick where a step does not
-  /// converge. Returns why it could not; the state is then the last converged one.
+  /// converge, unless the tick before had to be rescued. Returns why it could not; the state is then the last converged
+  /// one.
   std::optional<StopReason> advance(double until);
+
+  /// One step of backward Euler to `until`, s, to the best iterate, converged or not: Φ has not risen, and energy is
+  /// limited to that of the start with the loads and supports of the end. Returns false where no step is defined.
+  bool take_best_iterate(double until);
 
   /// Iterations that a stage may take under a budget (setup.solver.budget must be given).
   int stage_iterations() const;
@@ -25,17 +30,20 @@ class ImplicitStepper {
 
  private:
   class StagedStep;
-  bool step(double h, double time_after);
+  bool step(Integrator method, double h, double time_after);
+  bool takes_any_iterate() const { return s_.setup.solver.budget || takes_best_; }
   bool solve_stage(const Stage& stage, double h, double time, Vector& x, Vector& v);
   NewtonResult minimise_stage(Vector& x);
   int probe_substeps(double h) const;
   Vector stage_start(const Stage& stage, double time, const Vector& x);
+  void place_supports(double time, Vector& x) const;
   StoppingCriterion stage_criterion();
   bool is_balanced_enough(const Stage& stage, const Vector& r);
   void limit_energy(double h, double time, Vector& x, Vector& v);
   std::string why_unbalanced() const;
 
   Simulation<Real>& s_;
+  bool takes_best_ = false;         ///< a stage ends with its best iterate, as under a budget
   std::vector<Real> undefined_at_;  ///< 3 #V, start of the last stage whose forces were undefined; empty: defined
   std::shared_ptr<PreconditionerBuild> preconditioner_build_;  ///< given out last
   long preconditioner_version_ = 0;                            ///< topology version it is of

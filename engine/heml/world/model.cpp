@@ -205,6 +205,15 @@ void append(const WorldSetup& setup, const MeshEdit& edit, Model<Real>& model) {
   add_boundary(setup, model);
 }
 
+template <class Real>
+bool supports_move(const Model<Real>& model, double from, double to) {
+  return std::any_of(model.constrained.begin(), model.constrained.end(), [&](const ConstrainedNode& constrained) {
+    return prescribed_at(model, constrained, from).x != prescribed_at(model, constrained, to).x;
+  });
+}
+
+template bool supports_move(const Model<float>&, double, double);
+template bool supports_move(const Model<double>&, double, double);
 template void append(const WorldSetup&, const MeshEdit&, Model<float>&);
 template void append(const WorldSetup&, const MeshEdit&, Model<double>&);
 template Model<float> make_model(const WorldSetup&);

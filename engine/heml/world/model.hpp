@@ -40,6 +40,10 @@ PrescribedMotion::At prescribed_at(const Model<Real>& model, const ConstrainedNo
       model.mesh.nodes[static_cast<std::size_t>(constrained.node)], time);
 }
 
+/// Whether a held node is elsewhere at another time, s.
+template <class Real>
+bool supports_move(const Model<Real>& model, double from, double to);
+
 /// Reorders, resolves boundary and loads. Throws InputError as material_of_elements().
 template <class Real>
 Model<Real> make_model(const WorldSetup& setup);

@@ -73,7 +73,7 @@ void TypedWorld<Real>::advance(double until) {
     else if (is_explicit(s_.method))
       handle(explicit_.advance(until));
     else
-      handle(implicit_.advance(until));
+      handle_implicit(implicit_.advance(until), until);
     handle(recovery_.monitor());
   }
 }
@@ -95,6 +95,13 @@ void TypedWorld<Real>::load_to(double fraction) {
 template <class Real>
 void TypedWorld<Real>::handle(const std::optional<StopReason>& failure) {
   if (failure && !recovery_.takes_over(*failure)) s_.halt = failure;
+}
+
+/// Recovery comes first where the body is in bad shape, because a rescue keeps that shape; else the rescue ends the
+/// tick.
+template <class Real>
+void TypedWorld<Real>::handle_implicit(const std::optional<StopReason>& failure, double until) {
+  if (failure && !recovery_.takes_over(*failure)) s_.halt = rescue_.end_tick(until, *failure);
 }
 
 template <class Real>
@@ -138,6 +145,7 @@ void TypedWorld<Real>::start() {
   s_.update_contact_surfaces();
   set_initial_state();
   s_.halt.reset();
+  s_.rescued_tick = -2;
   s_.grasps.clear();
   s_.implicit.reset();
   s_.origin_tick = s_.ticks;

@@ -8,6 +8,7 @@
 #include <heml/world/recovery_controller.hpp>
 #include <heml/world/simulation.hpp>
 #include <heml/world/static_stepper.hpp>
+#include <heml/world/step_rescue.hpp>
 #include <heml/world/world.hpp>
 #include <heml/world/world_queries.hpp>
 
@@ -67,11 +68,13 @@ class TypedWorld final : public World {
   void set_initial_state();
   void advance(double until);
   void handle(const std::optional<StopReason>& failure);
+  void handle_implicit(const std::optional<StopReason>& failure, double until);
 
   Simulation<Real> s_;
   const std::uint64_t body_hash_;  ///< tells whose snapshots fit
   ExplicitStepper<Real> explicit_{s_};
   ImplicitStepper<Real> implicit_{s_};
+  StepRescue<Real> rescue_{s_, explicit_, implicit_};
   StaticStepper<Real> static_{s_};
   MethodChoice<Real> method_{s_};
   RecoveryController<Real> recovery_{s_, method_};
