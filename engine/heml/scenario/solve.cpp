@@ -104,6 +104,7 @@ SolveResult solve(const Scene& scene, const fs::path& out, const std::function<v
   facts.converged = !facts.halt && !refused;
   facts.wall_seconds = seconds;
   write_report(out / "report.json", *world, facts);
+  if (const std::string message = rescue_message(world->solver_stats()); !message.empty()) warn("{}", message);
   if (refused) {
     warn("an event was refused; what was reached before it is in {}", out.string());
     throw *refused;

@@ -247,6 +247,7 @@ class Session::Impl {
     if (!recorded) apply_clock_choices(std::chrono::duration<double>(Pacer::Clock::now() - began).count() - waited);
     if (world_->halt()) show_now_ = true;
     report_recovery();
+    report_rescue();
     if (fast_forward_target_ == 0) pacer_.book(began, Pacer::Clock::now());
   }
 
@@ -279,6 +280,14 @@ class Session::Impl {
       log_info("the body came back after {} steps, {:.3g} s", recovery.steps,
                recovery.ended->time - recovery.begun.time);
     write_recovery(news == RecoveryMonitor::Change::began);
+  }
+
+  /// Logs the first tick that did not converge; the panel counts them.
+  void report_rescue() {
+    if (rescue_reported_) return;
+    const std::string message = rescue_message(world_->solver_stats());
+    rescue_reported_ = !message.empty();
+    if (rescue_reported_) warn("{} at t = {:.6g} s (the panel counts them)", message, world_->time());
   }
 
   void write_recovery(bool say) try {
@@ -345,7 +354,8 @@ class Session::Impl {
   Schedule schedule_;    ///< of the scene's events
   long recorded_ticks_;  ///< of the scene if it is a recording, else 0
   RecoveryMonitor recovery_monitor_;
-  std::vector<Event> history_;     ///< every command carried out; changed under mutex_
+  std::vector<Event> history_;  ///< every command carried out; changed under mutex_
+  bool rescue_reported_ = false;
   std::string kept_recovery_;      ///< file of the last recovery
   std::string recording_problem_;  ///< why the recording ended early
   long refusals_ = 0;              ///< number of refused commands

@@ -1,5 +1,6 @@
 #pragma once
 #include <heml/dynamics/linear_solver_stats.hpp>
+#include <string>
 #include <string_view>
 
 namespace heml {
@@ -17,5 +18,8 @@ struct SolverStats {
   std::string_view preconditioner;  ///< scene name; "" before the first step
   LinearSolverStats linear;
 };
+
+/// How many ticks did not converge and what ended them, in words; empty: all converged.
+std::string rescue_message(const SolverStats& stats);
 
 }  // namespace heml

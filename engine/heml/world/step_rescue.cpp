@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <heml/world/failure.hpp>
@@ -6,6 +8,16 @@
 #include <utility>
 
 namespace heml {
+
+std::string rescue_message(const SolverStats& stats) {
+  if (stats.explicit_rescues + stats.unconverged_steps == 0) return {};
+  std::string message =
+      fmt::format("implicit steps did not converge: explicit substeps ended {} of the ticks", stats.explicit_rescues);
+  if (stats.unconverged_steps > 0)
+    message += fmt::format(", unconverged steps {}, which leave up to {:.3g} of the forces unbalanced",
+                           stats.unconverged_steps, stats.unconverged_residual);
+  return message;
+}
 
 /// What explicit substeps change, to undo them.
 template <class Real>

@@ -1,0 +1,204 @@
+// Ticks whose implicit steps do not converge: explicit substeps or the best iterate end them.
+#include <doctest/doctest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "world_support.hpp"
+
+namespace heml::step_rescue_test {
+
+using namespace heml::test;
+
+namespace {
+
+/// No step converges to such a tolerance.
+constexpr double out_of_reach = 1e-30;
+
+/// young: Pa; 1e4 allows explicit substeps, 1e11 would need more than max_explicit_substeps.
+WorldSetup hopeless(Integrator integrator, double young = 1e4) {
+  WorldSetup setup = cantilever("neo_hookean", young);
+  setup.solver.integrator = integrator;
+  setup.solver.rate = 60;
+  setup.solver.tolerance = out_of_reach;
+  return setup;
+}
+
+void add(TetMesh& mesh, const TetMesh& other, const Eigen::Isometry3d& place) {
+  const auto first = static_cast<int>(mesh.nodes.size());
+  for (const Vec3& X : other.nodes) mesh.nodes.push_back(place * X);
+  for (Tet tet : other.tets) {
+    for (int& n : tet) n += first;
+    mesh.tets.push_back(tet);
+  }
+  mesh.regions.insert(mesh.regions.end(), other.regions.begin(), other.regions.end());
+}
+
+/// A block that lies on another, turned about the vertical.
+WorldSetup blocks(Integrator integrator, double friction) {
+  constexpr double side = 0.04;
+  WorldSetup setup;
+  setup.mesh = make_box(Vec3(side, 0.75 * side, side), {4, 3, 4});
+  Eigen::Isometry3d place = Eigen::Isometry3d::Identity();
+  place.translate(Vec3(0.004, 0.75 * side + 2e-4, 0.014));
+  place.rotate(Eigen::AngleAxisd(0.4, Vec3::UnitY()));
+  add(setup.mesh, make_box(Vec3(0.8 * side, side / 2, 0.8 * side), {5, 2, 4}), place);
+  setup.materials = {{std::nullopt, soft("neo_hookean", 2e4, 0.45)}};
+  setup.boundary.push_back({nodes_where(setup.mesh, [](const Vec3& X) { return X.y() < 1e-6; })});
+  setup.gravity = Vec3(0, -9.81, 0);
+  setup.self_contact = SelfContactSettings{friction};
+  setup.solver.integrator = integrator;
+  setup.solver.rate = 60;
+  setup.solver.threads = 1;
+  return setup;
+}
+
+/// Along a slanted plane, through both blocks.
+const CutTissue through_both{
+    {{{Vec3(0.008, 0.051, -1), Vec3(0.008, 0.051, 1)}, {Vec3(0.032, 0.006, -1), Vec3(0.032, 0.006, 1)}}}, false};
+
+}  // namespace
+
+TEST_CASE("step rescue: explicit substeps end a tick that does not converge, as Verlet would") {
+  for (const auto integrator :
+       {Integrator::backward_euler, Integrator::bdf2, Integrator::tr_bdf2, Integrator::sdirk2}) {
+    CAPTURE(std::string(integrator_name(integrator)));
+    const auto world = make_world(hopeless(integrator));
+    WorldSetup verlet = hopeless(Integrator::verlet);
+    verlet.solver.tolerance.reset();
+    const auto reference = make_world(verlet);
+    for (World* each : {world.get(), reference.get()}) run_until(*each, 0.25);
+    REQUIRE_FALSE(world->halt());
+    CHECK(world->time() == doctest::Approx(0.25));
+    const SolverStats stats = world->solver_stats();
+    CHECK(stats.explicit_rescues == world->ticks());
+    CHECK(stats.unconverged_steps == 0);
+    CHECK(std::string(stats.integrator) == integrator_name(integrator));
+    CHECK(rms_difference(world->positions(), reference->positions()) < 1e-5);
+    CHECK(rescue_message(stats).find("explicit substeps ended 15 of the ticks") != std::string::npos);
+  }
+}
+
+TEST_CASE("step rescue: where substeps would be too many, the best iterate is taken and no energy gained") {
+  WorldSetup setup = hopeless(Integrator::backward_euler, 1e11);
+  const auto world = make_world(setup);
+  const double start = total(world->energies());
+  double most = start;
+  for (int tick = 0; tick < 15; ++tick) {
+    world->tick();
+    most = std::max(most, total(world->energies()));
+  }
+  REQUIRE_FALSE(world->halt());
+  const SolverStats stats = world->solver_stats();
+  CHECK(stats.unconverged_steps == 15);
+  CHECK(stats.explicit_rescues == 0);
+  CHECK(stats.unconverged_residual > 0);
+  CHECK(most <= start + 1e-12);
+  setup.solver.tolerance.reset();
+  const auto converged = make_world(setup);
+  run_until(*converged, 0.25);
+  CHECK(rms_difference(world->positions(), converged->positions()) < 1e-9);
+}
+
+TEST_CASE("step rescue: steps that converge are counted as such") {
+  WorldSetup setup = hopeless(Integrator::backward_euler);
+  setup.solver.tolerance.reset();
+  const auto world = make_world(setup);
+  run_until(*world, 0.25);
+  CHECK(world->solver_stats().explicit_rescues == 0);
+  CHECK(world->solver_stats().unconverged_steps == 0);
+  CHECK(rescue_message(world->solver_stats()).empty());
+}
+
+TEST_CASE("step rescue: a given step is obeyed, and halts where it does not converge") {
+  for (const double young : {1e4, 1e11}) {
+    WorldSetup setup = hopeless(Integrator::backward_euler, young);
+    setup.solver.step = 1.0 / 60;
+    const auto world = make_world(setup);
+    world->tick();
+    REQUIRE(world->halt());
+    CHECK(world->halt()->cause == StopReason::Cause::not_converged);
+    CHECK(world->solver_stats().explicit_rescues + world->solver_stats().unconverged_steps == 0);
+  }
+}
+
+TEST_CASE("step rescue: a law that supports leave no room for halts, unless it is continued") {
+  WorldSetup setup = hopeless(Integrator::backward_euler);
+  setup.solver.tolerance.reset();
+  setup.gravity.setZero();
+  std::vector<int> all;
+  for (std::size_t n = 0; n < setup.mesh.nodes.size(); ++n) all.push_back(static_cast<int>(n));
+  std::erase_if(all, [&](int n) { return setup.mesh.nodes[static_cast<std::size_t>(n)].x() < 0.05; });
+  setup.boundary.push_back({all});
+  setup.boundary.back().translate = Vec3(-0.02, 0, 0);
+  setup.boundary.back().ramp_time = 0.1;
+  const auto halted = make_world(setup);
+  run_until(*halted, 0.2);
+  REQUIRE(halted->halt());
+  CHECK(halted->halt()->cause == StopReason::Cause::out_of_range);
+  for (const double J : halted->volume_ratios()) CHECK(J > 0);
+  setup.solver.continuation = true;
+  const auto continued = make_world(setup);
+  run_until(*continued, 0.2);
+  CHECK_FALSE(continued->halt());
+}
+
+TEST_CASE("step rescue: recovery begins first where the body is in bad shape") {
+  WorldSetup setup = hopeless(Integrator::backward_euler);
+  setup.solver.recovery = setup.solver.continuation = true;
+  setup.gravity.setZero();
+  for (const Vec3& X : setup.mesh.nodes) setup.initial_positions.push_back(Vec3(X.x() * 0.2, X.y(), X.z()));
+  const auto bad = make_world(setup);
+  bad->tick();
+  CHECK(bad->recoveries() == 1);
+  CHECK(bad->solver_stats().explicit_rescues == 0);
+  setup.initial_positions.clear();
+  setup.gravity = Vec3(0, -9.81, 0);
+  const auto good = make_world(setup);
+  good->tick();
+  CHECK(good->recoveries() == 0);
+  CHECK(good->solver_stats().explicit_rescues == 1);
+  CHECK_FALSE(good->halt());
+}
+
+TEST_CASE("step rescue: any number of threads and a reset give the same bits, with what elements remember") {
+  for (const double young : {1e4, 1e11}) {
+    WorldSetup setup = hopeless(Integrator::tr_bdf2, young);
+    setup.materials[0].material.viscosity = 1;
+    const auto one = make_world(setup);
+    setup.solver.threads = 2;
+    const auto two = make_world(setup);
+    for (World* each : {one.get(), two.get()}) run_until(*each, 0.1);
+    REQUIRE_FALSE(one->halt());
+    CHECK(one->state_hash() == two->state_hash());
+    const auto hash = one->state_hash();
+    one->apply(Reset{});
+    run_until(*one, 0.1);
+    CHECK(one->state_hash() == hash);
+  }
+}
+
+TEST_CASE("step rescue: blocks cut through where they bear on each other go on") {
+  WorldSetup setup = blocks(Integrator::tr_bdf2, 0);
+  const auto run = [&](const WorldSetup& of) {
+    auto world = make_world(of);
+    run_until(*world, 0.2);
+    REQUIRE_FALSE(world->halt());
+    world->apply(through_both);
+    REQUIRE(world->edits().size() == 1);
+    run_until(*world, 0.3);
+    return world;
+  };
+  const auto world = run(setup);
+  REQUIRE_FALSE(world->halt());
+  CHECK(world->solver_stats().explicit_rescues > 0);
+  const Energies energies = world->energies();
+  CHECK(energies.kinetic + energies.elastic < 2e-3);  // what the pieces can fall
+  for (const double J : world->volume_ratios()) CHECK(J > 0.3);
+  setup.solver.step = 1.0 / 60;
+  const auto given = run(setup);
+  REQUIRE(given->halt());
+  CHECK(given->halt()->cause == StopReason::Cause::not_converged);
+}
+
+}  // namespace heml::step_rescue_test
