@@ -103,6 +103,24 @@ class CommandLine(ProgramCase):
         self.assertFalse(json.loads((out / "report.json").read_text())["converged"])
         self.assertTrue((out / "positions.csv").exists())
 
+    def test_implicit_steps_that_do_not_converge_are_rescued_and_counted_unless_a_step_is_given(self):
+        solver = {"integrator": "backward_euler", "duration": 0.1, "rate": 60, "tolerance": 1e-30}
+        out = self.folder / "out"
+        for young, counted, other in ((1e4, "explicit_rescues", "unconverged_steps"),
+                                      (1e9, "unconverged_steps", "explicit_rescues")):
+            scene = cantilever(solver=solver)
+            scene["materials"][0]["young"] = young
+            done = heml("solve", self.write("scene.json", scene), "--out", out)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn("implicit steps did not converge", done.stderr)
+            report = json.loads((out / "report.json").read_text())
+            self.assertEqual((report[counted], report[other]), (report["ticks"], 0))
+            self.assertEqual(report["converged"], report["unconverged_steps"] == 0)
+            self.assertEqual(report["unconverged_residual"] > 0, report["unconverged_steps"] > 0)
+        scene["solver"] = dict(solver, step=1 / 60)
+        self.assert_refused(heml("solve", self.write("scene.json", scene), "--out", out), 4, "did not converge")
+        self.assertEqual(json.loads((out / "report.json").read_text())["unconverged_steps"], 0)
+
     def test_leaving_the_range_of_a_law_is_exit_4_and_names_the_element(self):
         scene = cantilever()
         scene["boundary"].append({"box": [[0.0999, -1, -1], [1, 1, 1]], "translate": [-0.15, 0, 0], "over": 0.02})

@@ -101,7 +101,7 @@ SolveResult solve(const Scene& scene, const fs::path& out, const std::function<v
   SolveFacts facts;
   facts.halt = world->halt();
   if (refused) facts.refused = refused->what();
-  facts.converged = !facts.halt && !refused;
+  facts.converged = !facts.halt && !refused && world->solver_stats().unconverged_steps == 0;
   facts.wall_seconds = seconds;
   write_report(out / "report.json", *world, facts);
   if (const std::string message = rescue_message(world->solver_stats()); !message.empty()) warn("{}", message);

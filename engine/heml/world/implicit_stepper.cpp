@@ -86,13 +86,14 @@ class ImplicitStepper<Real>::StagedStep final : public ImplicitStep {
 };
 
 template <class Real>
-bool ImplicitStepper<Real>::take_best_iterate(double until) {
+std::optional<StopReason> ImplicitStepper<Real>::take_best_iterate(double until) {
   takes_best_ = true;
   const bool done = step(Integrator::backward_euler, until - s_.state.time, until);
   takes_best_ = false;
   s_.implicit->h_before = 0;  // BDF2 starts anew
-  if (done) ++s_.substeps;
-  return done;
+  if (!done) return keep_last_solved(s_, out_of_range(s_, undefined_at_, until));
+  ++s_.substeps;
+  return std::nullopt;
 }
 
 template <class Real>

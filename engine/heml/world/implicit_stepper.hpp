@@ -17,8 +17,9 @@ class ImplicitStepper {
   std::optional<StopReason> advance(double until);
 
   /// One step of backward Euler to `until`, s, to the best iterate, converged or not: Φ has not risen, and energy is
-  /// limited to that of the start with the loads and supports of the end. Returns false where no step is defined.
-  bool take_best_iterate(double until);
+  /// limited to that of the start with the loads and supports of the end. Returns the element whose law is undefined
+  /// where no step is defined; the state is then the last one.
+  std::optional<StopReason> take_best_iterate(double until);
 
   /// Iterations that a stage may take under a budget (setup.solver.budget must be given).
   int stage_iterations() const;

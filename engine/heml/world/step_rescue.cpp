@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <heml/world/failure.hpp>
 #include <heml/world/stable_step.hpp>
 #include <heml/world/step_rescue.hpp>
 #include <utility>
@@ -54,7 +53,7 @@ std::optional<StopReason> StepRescue<Real>::end_tick(double until, const StopRea
     ++s_.stats.explicit_rescues;
     return std::nullopt;
   }
-  if (!implicit_.take_best_iterate(until)) return keep_last_solved(s_, failure);
+  if (const auto undefined = implicit_.take_best_iterate(until)) return undefined;
   ++s_.stats.unconverged_steps;
   s_.stats.unconverged_residual = std::max(s_.stats.unconverged_residual, s_.stats.residual);
   return std::nullopt;

@@ -26,8 +26,8 @@ class StepRescue {
   StepRescue(Simulation<Real>& s, ExplicitStepper<Real>& explicit_steps, ImplicitStepper<Real>& implicit_steps)
       : s_(s), explicit_(explicit_steps), implicit_(implicit_steps) {}
 
-  /// From where implicit steps failed to `until`, s. Returns `failure` where a step is given, which is obeyed, or where
-  /// no step is defined; the state is then the last valid one.
+  /// From where implicit steps failed to `until`, s. Returns `failure` where a step is given, which is obeyed, and the
+  /// element out of its law's range where no step is defined; the state is then the last valid one.
   std::optional<StopReason> end_tick(double until, const StopReason& failure);
 
  private:
