@@ -5,6 +5,7 @@
 #include <heml/math/closest.hpp>
 #include <heml/mesh/surface.hpp>
 #include <heml/tools/self_contact.hpp>
+#include <limits>
 #include <tuple>
 
 namespace heml {
@@ -15,6 +16,7 @@ constexpr double slack = 0.01;      // of a face or an edge: margin outside it, 
 constexpr double beside = 0.25;     // of a face or an edge: margin within which overlapping pairs stay candidates
 constexpr double min_allowance = 0.15, max_allowance = 1;  // of an edge
 constexpr double min_sifted = 0.02, max_sifted = 0.15;     // of an edge
+constexpr double search_steps = 16, filter_steps = 8;      // as long as this one: for which candidates are found
 constexpr double same_overlap = 1e-6;                      // of an edge: smaller overlaps at rest are round-off
 constexpr double facing = 0.1;                             // cosine, minimum between two surfaces that face each other
 constexpr double flat = 0.02;                              // sine: edges with a smaller bend are no ridges
@@ -126,30 +128,41 @@ void SelfContact::find() {
     return std::all_of(places.begin(), places.end(), [](const Vec3& x) { return x.allFinite(); });
   };
   if (!is_finite(from_) || !is_finite(to_)) return;  // the step detects the failure itself
-  if (!covers(searched_)) broad_phase();
-  if (!covers(filtered_)) filter_candidates();
-  for (const Candidate& candidate : candidates_)
+  double moved = std::max(spread(filtered_.reference, from_), spread(filtered_.reference, to_));
+  if (!(moved <= filtered_.allowance)) {
+    update_candidates();
+    moved = spread(from_, to_);
+  }
+  const double reach = reach_of(moved);
+  for (const auto& [distance, candidate] : candidates_) {
+    if (distance > reach) break;
+    ++tested_count_;
     if (const ContactPair pair = pair_of(candidate); meets(candidate, pair)) {
       contacts_.push_back(pair);
       for (int& n : contacts_.back().nodes) n = nodes_[at(n)];
     }
+  }
   std::sort(contacts_.begin(), contacts_.end());
 }
 
-bool SelfContact::covers(const CandidateSet& set) const {
-  return set.reference.size() == from_.size() && spread(set, from_) <= set.allowance &&
-         spread(set, to_) <= set.allowance;
-}
-
-/// Largest displacement of a node from set.reference, less the mean displacement, m.
-double SelfContact::spread(const CandidateSet& set, const Positions& x) const {
+/// Largest displacement of a node from the reference, less the mean displacement, m. Infinite without a reference.
+double SelfContact::spread(const Positions& reference, const Positions& x) const {
+  if (reference.size() != x.size()) return std::numeric_limits<double>::infinity();
   Vec3 mean = Vec3::Zero();
-  for (std::size_t n = 0; n < x.size(); ++n) mean += x[n] - set.reference[n];
+  for (std::size_t n = 0; n < x.size(); ++n) mean += x[n] - reference[n];
   mean /= static_cast<double>(x.size());
   double max_square = 0;
   for (std::size_t n = 0; n < x.size(); ++n)
-    max_square = std::max(max_square, (x[n] - set.reference[n] - mean).squaredNorm());
+    max_square = std::max(max_square, (x[n] - reference[n] - mean).squaredNorm());
   return std::sqrt(max_square);
+}
+
+/// Filters the broad candidates, or finds them again where this step leaves what they are valid for. The filter's
+/// allowance ends where that of the broad phase does, so find() need not check both.
+void SelfContact::update_candidates() {
+  const double step = spread(from_, to_);
+  if (!(spread(searched_.reference, from_) + 1.5 * step <= searched_.allowance)) broad_phase(step);
+  filter_candidates(step);
 }
 
 /// Distance (m) within which pairs can touch while each node moves by at most `allowance`.
@@ -157,13 +170,11 @@ double SelfContact::reach_of(double allowance) const { return 2 * allowance + (t
 
 /// Collects pairs of faces that share a grid cell, each once: in the cell of the lower corner of their boxes'
 /// intersection.
-void SelfContact::broad_phase() {
+void SelfContact::broad_phase(double step) {
   ++broad_phase_count_;
   searched_.reference = from_;
-  filtered_.reference.clear();
-  const double displacement = spread(searched_, to_);
   searched_.allowance =
-      std::max(1.5 * displacement, std::clamp(8 * displacement, min_allowance * edge_, max_allowance * edge_));
+      std::max(1.5 * step, std::clamp(search_steps * step, min_allowance * edge_, max_allowance * edge_));
   const double reach = reach_of(searched_.allowance);
   broad_candidates_.clear();
   std::vector<Eigen::AlignedBox3d> boxes(faces_.size());
@@ -259,24 +270,23 @@ double SelfContact::squared_distance(const Candidate& candidate) const {
 
 /// Selects the near pairs that can touch while nodes move far less than the broad phase allows. Overlapping pairs
 /// stay, however deep.
-void SelfContact::filter_candidates() {
+void SelfContact::filter_candidates(double step) {
+  ++filter_count_;
   filtered_.reference = from_;
-  const double displacement = spread(filtered_, to_);
   filtered_.allowance =
-      std::min(searched_.allowance,
-               std::max(1.5 * displacement, std::clamp(8 * displacement, min_sifted * edge_, max_sifted * edge_)));
+      std::min(searched_.allowance - spread(searched_.reference, from_),
+               std::max(1.5 * step, std::clamp(filter_steps * step, min_sifted * edge_, max_sifted * edge_)));
   const double reach = reach_of(filtered_.allowance);
   candidates_.clear();
-  std::copy_if(
-      broad_candidates_.begin(), broad_candidates_.end(), std::back_inserter(candidates_),
-      [&](const Candidate& candidate) { return squared_distance(candidate) <= reach * reach || overlaps(candidate); });
-}
-
-/// Whether the pair penetrates within the face or both edges, up to a margin.
-bool SelfContact::overlaps(const Candidate& candidate) const {
-  const ContactPair pair = pair_of(candidate);
-  const auto point = point_of(pair, [this](int n) { return from_[at(n)]; });
-  return point && point->gap < 0 && is_within(pair, *point, beside);
+  for (const Candidate& candidate : broad_candidates_) {
+    const double distance = std::sqrt(squared_distance(candidate));
+    const ContactPair pair = pair_of(candidate);
+    const auto point = point_of(pair, [this](int n) { return from_[at(n)]; });
+    const bool is_behind = point && point->gap < 0;
+    const bool overlaps = is_behind && is_within(pair, *point, beside);
+    if (distance <= reach || overlaps) candidates_.push_back({is_behind ? 0 : distance, candidate});
+  }
+  std::sort(candidates_.begin(), candidates_.end());
 }
 
 Vec3 SelfContact::face_normal(int face, const Positions& x) const {

@@ -15,11 +15,12 @@
 // In a body without inverted elements no node lies in an element of its neighbours, so neighbours are no contact. Pairs
 // that overlap at rest are ignored.
 //
-//   each step      nodes at from, at to ──► has any moved by more than the allowance? ──► broad phase, or filter
-//                  candidates ──► contacts: pairs that touch between from and to
+//   each step      nodes at from, at to ──► has any moved by more than the allowance? ──► filter, or broad phase
+//                  candidates that the motion since the filter brings within reach ──► contacts: those that touch
+//                  between from and to; the others sleep
 //   broad phase    faces in a grid of cells, in the order of cells ──► broad candidates, in the order of nodes
-//   filter         broad candidates ──► candidates: valid for a small part of the motion that the broad phase allows
-//
+//   filter         broad candidates ──► candidates, the nearest first: valid for a small part of the motion that the
+//                  broad phase allows
 // Built only where a scene has "self_contact".
 #include <compare>
 #include <heml/tools/contact_surface.hpp>
@@ -67,6 +68,8 @@ class SelfContact {
   }
 
   long broad_phase_count() const { return broad_phase_count_; }  ///< broad phases run so far
+  long filter_count() const { return filter_count_; }            ///< filters run so far
+  long tested_count() const { return tested_count_; }            ///< candidates tested so far
   std::size_t bytes() const;
 
  private:
@@ -79,6 +82,11 @@ class SelfContact {
     int first, second;
     auto operator<=>(const Candidate&) const = default;
   };
+  struct NearCandidate {
+    double distance;  ///< m, when the filter ran; 0 where one was behind the other
+    Candidate candidate;
+    auto operator<=>(const NearCandidate&) const = default;
+  };
   using Positions = std::vector<Vec3>;
   // Node and face numbers below index nodes_ and faces_.
   void set_rest(const TetMesh& mesh);
@@ -89,13 +97,12 @@ class SelfContact {
     Positions reference;   ///< m; empty: none yet
     double allowance = 0;  ///< m
   };
-  bool covers(const CandidateSet& set) const;
-  double spread(const CandidateSet& set, const Positions& x) const;
+  double spread(const Positions& reference, const Positions& x) const;
   double reach_of(double allowance) const;
-  void broad_phase();
-  void filter_candidates();
+  void update_candidates();
+  void broad_phase(double step);
+  void filter_candidates(double step);
   double squared_distance(const Candidate& candidate) const;
-  bool overlaps(const Candidate& candidate) const;
   void add_candidates(int one, int other, double reach);
   void add_node_candidates(int node, int face, double reach);
   void add_edge_candidates(int one, int other, double reach);
@@ -119,9 +126,10 @@ class SelfContact {
   std::vector<Triangle> own_nodes_, own_edges_;  ///< of each face: nodes, edges that no earlier face has; unused: −1
   Positions from_, to_;
   CandidateSet searched_, filtered_;
-  std::vector<Candidate> broad_candidates_, candidates_;  ///< valid within searched_; the subset valid within filtered_
+  std::vector<Candidate> broad_candidates_;  ///< valid within searched_
+  std::vector<NearCandidate> candidates_;    ///< the subset valid within filtered_, ascending
   std::vector<ContactPair> contacts_;
-  long broad_phase_count_ = 0;
+  long broad_phase_count_ = 0, filter_count_ = 0, tested_count_ = 0;
 };
 
 }  // namespace heml

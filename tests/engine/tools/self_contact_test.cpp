@@ -213,6 +213,22 @@ TEST_CASE("candidates kept from earlier steps miss no pair, and are kept for som
   CHECK(counts.edges > 100);
 }
 
+TEST_CASE("tetrahedra at rest are searched once, and only near pairs are tested") {
+  std::mt19937_64 random(8);
+  Soup soup(random, 30, 1.6);
+  SelfContact contact({}, soup.mesh);
+  const auto place = [&](int n) { return soup.from[static_cast<std::size_t>(n)]; };
+  contact.contacts_between(place, place);
+  const long tested = contact.tested_count();
+  for (int step = 1; step < 50; ++step) contact.contacts_between(place, place);
+  CHECK(contact.broad_phase_count() == 1);
+  CHECK(contact.filter_count() == 1);
+  CHECK(contact.tested_count() == 50 * tested);
+  SelfContact moving({}, soup.mesh);  // the same pairs with a motion that wakes more
+  moving.contacts_between(place, [&](int n) { return (place(n) + Vec3(n % 2 ? 0.1 : 0, 0, 0)).eval(); });
+  CHECK(tested < moving.tested_count() / 2);
+}
+
 TEST_CASE("pairs that overlap at rest are ignored, however they move after") {
   std::mt19937_64 random(3);
   TetMesh mesh;
