@@ -7,6 +7,7 @@ namespace heml {
 namespace {
 
 constexpr int max_rounds = 8;       // of iteration over points that share nodes
+constexpr int tissue_rounds = 3;    // in turn over self-contact, which iterates itself, and the other surfaces
 constexpr double max_travel = 0.5;  // of a probe's radius: distance between two checks along its path
 constexpr double max_parts = 64;    // checks along the path within a step
 
@@ -19,6 +20,7 @@ struct ContactImpulses<Real>::StepPath {
   const std::vector<Real>& inverse_mass;
   const Real* before;
   std::vector<ContactSurface> then, now;  ///< at `from` and `to`
+  bool repeats;                           ///< whether surfaces are visited several times, since they share nodes
 };
 
 template <class Real>
@@ -37,17 +39,22 @@ void ContactImpulses<Real>::first_half_step(Contacts& contacts, double time_befo
   impulse_.resize(contacts.reports.size(), Vec3::Zero());
   duration_ += h;
   stopped_.clear();
+  if (memory_.time != time_before) memory_ = {};
+  memory_.time = time_after;
   double parts = 1;
   if (contacts.probe) {
     const double travel = (contacts.probe->tip(time_after) - contacts.probe->tip(time_before)).norm();
     parts = std::clamp(std::ceil(travel / (max_travel * contacts.probe->radius())), 1.0, max_parts);
   }
-  if (contacts.tissue) tissue_.find_pairs(*contacts.tissue, h, inverse_mass, before, x);
-  const int rounds = contacts.reports.size() > 1 ? 3 : 1;
+  if (contacts.tissue) {
+    tissue_.find_pairs(*contacts.tissue, h, inverse_mass, before, x, memory_.pairs);
+    tissue_.warm_start(inverse_mass, v);
+  }
+  const int rounds = contacts.reports.size() > 1 ? tissue_rounds : 1;
   for (double part = 1; part <= parts; ++part) {
     const double to = part < parts ? time_before + part / parts * h : time_after;
-    const StepPath path{time_before,          to, shrink, inverse_mass, before, contacts.surfaces(time_before),
-                        contacts.surfaces(to)};
+    const StepPath path{time_before,           to,        shrink, inverse_mass, before, contacts.surfaces(time_before),
+                        contacts.surfaces(to), rounds > 1};
     for (int round = 0; round < rounds; ++round)  // tables come last in a round, since they cannot move
       for (std::size_t s = contacts.reports.size(); s-- > 0;) {
         if (surfaces_[s].shape == ContactSurface::Shape::tissue)
@@ -56,21 +63,19 @@ void ContactImpulses<Real>::first_half_step(Contacts& contacts, double time_befo
           stop_points(path, s, contacts, v);
       }
   }
-  const auto less = [](const Stopped& a, const Stopped& b) {
-    return a.surface != b.surface ? a.surface < b.surface : a.point.nodes < b.point.nodes;
-  };
-  std::stable_sort(stopped_.begin(), stopped_.end(), less);
-  stopped_.erase(std::unique(stopped_.begin(), stopped_.end(),
-                             [&](const Stopped& a, const Stopped& b) { return !less(a, b) && !less(b, a); }),
-                 stopped_.end());
   const auto place = [&](int n) {
     if (!(inverse_mass[static_cast<std::size_t>(n)] > 0)) return;
     for (int i = 3 * n; i < 3 * n + 3; ++i) x[i] = before[i] + static_cast<Real>(h) * v[i];
   };
   for (const Stopped& stopped : stopped_)
     for (std::size_t k = 0; k < static_cast<std::size_t>(stopped.point.count); ++k) place(stopped.point.nodes[k]);
+  std::sort(stopped_.begin(), stopped_.end(), [](const Stopped& a, const Stopped& b) {
+    return std::tie(a.surface, a.point.nodes) < std::tie(b.surface, b.point.nodes);
+  });
+  update_anchors(x);
   if (!contacts.tissue) return;
   tissue_.each_node(place);
+  tissue_.remember_first_half(x, memory_.pairs);
   tissue_.publish(shrink, normal_impulse_, contacts.reports.back());
 }
 
@@ -82,8 +87,8 @@ void ContactImpulses<Real>::stop_points(const StepPath& path, std::size_t s, Con
   const ContactSurface &now = path.now[s], &then = path.then[s];
   const auto moved = [&](int n) -> Vec3 { return at(path.before, n) + h * at(v, n); };
   const auto was = [&](int n) { return at(path.before, n); };
-  const bool is_thread = now.shape == ContactSurface::Shape::thread,
-             is_capsule = now.shape == ContactSurface::Shape::capsule;
+  const bool is_capsule = now.shape == ContactSurface::Shape::capsule;
+  const bool may_stick = now.friction > 0 && (is_capsule || path.repeats);
   bool deep = true;
   for (int round = 0; deep && round < (is_capsule ? max_rounds : 1); ++round) {
     deep = false;
@@ -91,45 +96,104 @@ void ContactImpulses<Real>::stop_points(const StepPath& path, std::size_t s, Con
       const double allowed_gap = std::min(0.0, updated_gap(then, point, was)) * std::max(0.0, 1 - h / contact_recovery);
       const double closing = (allowed_gap - point.gap) / h;
       if (!(closing > 0)) return;
-      const Vec3 velocity =
-          is_thread ? Vec3((then.radius - now.radius) / h * point.normal) : Vec3((now.point - then.point) / h);
-      stopped_.push_back({s, point, velocity});
-      push(stopped_.back(), closing, path.weight, path.inverse_mass, contacts, v);
+      Stopped& stopped = stopped_at(path, s, point);
+      push(stopped, point, closing, path.weight, path.inverse_mass, contacts, v);
       deep = deep || allowed_gap - point.gap > 1e-6 * now.radius;
     });
+    for (Stopped& stopped : stopped_)
+      if (may_stick && stopped.surface == s)
+        push(stopped, stopped.point, 0, path.weight, path.inverse_mass, contacts, v);
   }
 }
 
-/// Adds `closing` (m/s) along the normal to a point's velocity and applies the friction impulse. weight: factor of the
-/// impulse in the reported force and work.
+/// The record of a point on surface s in this step, made where there is none.
 template <class Real>
-void ContactImpulses<Real>::push(const Stopped& stopped, double closing, double weight,
+auto ContactImpulses<Real>::stopped_at(const StepPath& path, std::size_t s, const ContactPoint& point) -> Stopped& {
+  const auto comes_before = [&](const Stopped& a, const ContactPoint& b) {
+    return a.surface != s ? a.surface > s : a.point.nodes < b.nodes;
+  };
+  const auto place = std::lower_bound(stopped_.begin(), stopped_.end(), point, comes_before);
+  if (place != stopped_.end() && place->surface == s && place->point.nodes == point.nodes) return *place;
+  const ContactSurface &now = path.now[s], &then = path.then[s];
+  const double h = path.to - path.from;
+  const Vec3 velocity = now.shape == ContactSurface::Shape::thread ? Vec3((then.radius - now.radius) / h * point.normal)
+                                                                   : Vec3((now.point - then.point) / h);
+  Stopped stopped{s, point, velocity, Vec3::Zero()};
+  const AnchoredPoint key{s, point.nodes, {}};
+  const auto known = std::lower_bound(memory_.points.begin(), memory_.points.end(), key);
+  if (known != memory_.points.end() && !(key < *known))
+    stopped.drift = known->anchor.drift(point, path.before, then.point, h);
+  return *stopped_.insert(place, stopped);
+}
+
+/// Adds `closing` (m/s) along the normal to the velocity of a point and applies the friction impulse. weight: factor of
+/// the impulse in the reported force and work.
+template <class Real>
+void ContactImpulses<Real>::push(Stopped& stopped, const ContactPoint& point, double closing, double weight,
                                  const std::vector<Real>& inverse_mass, Contacts& contacts, Real* v) {
-  const ContactPoint& point = stopped.point;
   const double effective_inverse_mass = inverse_mass_of(point, inverse_mass);
   if (!(effective_inverse_mass > 0)) return;
   const double friction = surfaces_[stopped.surface].friction;
-  const Vec3 u = at(v, point) - stopped.velocity, slides = u - point.normal.dot(u) * point.normal;
-  const double p = closing / effective_inverse_mass, speed = slides.norm();
+  const double p = closing / effective_inverse_mass;
   Vec3 impulse = p * point.normal;
-  if (speed > 0 && friction > 0) impulse -= std::min(friction * p, speed / effective_inverse_mass) / speed * slides;
+  stopped.normal += p;
+  if (friction > 0) {
+    const Vec3 u = at(v, point) - stopped.velocity;
+    // Velocity along the surface that friction would have to remove if it had not acted yet in this half.
+    const Vec3 slides =
+        u - point.normal.dot(u) * point.normal + stopped.drift - effective_inverse_mass * stopped.friction;
+    const double speed = slides.norm();
+    Vec3 total = Vec3::Zero();
+    if (speed > 0) total = -(std::min(friction * stopped.normal, speed / effective_inverse_mass) / speed * slides);
+    impulse += total - stopped.friction;
+    stopped.friction = total;
+  }
   apply_impulse(point, impulse, inverse_mass, v);
   impulse_[stopped.surface] += weight * impulse;
   contacts.reports[stopped.surface].work += weight * impulse.dot(at(v, point));
 }
 
+/// Updates the anchors after the first half, which ended at x.
+template <class Real>
+void ContactImpulses<Real>::update_anchors(const Real* x) {
+  std::vector<AnchoredPoint> touched;
+  for (const Stopped& stopped : stopped_) {
+    const ContactSurface& surface = surfaces_[stopped.surface];
+    if (!(surface.friction > 0)) continue;
+    AnchoredPoint& point = touched.emplace_back(AnchoredPoint{stopped.surface, stopped.point.nodes, {}});
+    const auto known = std::lower_bound(memory_.points.begin(), memory_.points.end(), point);
+    if (known != memory_.points.end() && !(point < *known)) point.anchor = known->anchor;
+    point.anchor.update(stopped.point, x, surface.point, surface.friction, stopped.normal, stopped.friction.norm());
+  }
+  remember(memory_.points, touched);
+}
+
 template <class Real>
 void ContactImpulses<Real>::second_half_step(Contacts& contacts, const std::vector<Real>& inverse_mass, const Real* x,
                                              Real* v) {
-  if (contacts.tissue) tissue_.begin_second_half(inverse_mass, x);
-  for (int round = 0; round < (surfaces_.size() > 1 || contacts.probe ? max_rounds : 1); ++round) {
+  if (contacts.tissue) {
+    tissue_.begin_second_half(inverse_mass, x);
+    tissue_.warm_start(inverse_mass, v);
+  }
+  for (Stopped& stopped : stopped_) {
+    stopped.normal = 0;
+    stopped.friction.setZero();
+    stopped.drift.setZero();
+  }
+  const bool repeats = surfaces_.size() > 1 || contacts.probe;
+  const int rounds = !repeats ? 1 : contacts.tissue ? tissue_rounds : max_rounds;
+  for (int round = 0; round < rounds; ++round) {
     if (contacts.tissue) tissue_.solve(inverse_mass, v);
-    for (const Stopped& stopped : stopped_) {
+    for (Stopped& stopped : stopped_) {
       const double inward = stopped.point.normal.dot(stopped.velocity - at(v, stopped.point));
-      if (inward > 0) push(stopped, inward, 1, inverse_mass, contacts, v);
+      const bool may_stick = repeats && stopped.normal > 0 && surfaces_[stopped.surface].friction > 0;
+      if (inward > 0 || may_stick) push(stopped, stopped.point, std::max(0.0, inward), 1, inverse_mass, contacts, v);
     }
   }
-  if (contacts.tissue) tissue_.publish(1, normal_impulse_, contacts.reports.back());
+  if (contacts.tissue) {
+    tissue_.remember_second_half(memory_.pairs);
+    tissue_.publish(1, normal_impulse_, contacts.reports.back());
+  }
   publish(contacts, x);
 }
 
@@ -148,7 +212,11 @@ void ContactImpulses<Real>::publish(Contacts& contacts, const Real* x) const {
       report.max_penetration = std::max(report.max_penetration, -point.gap);
     });
   }
-  if (contacts.tissue) contacts.reports.back().normal_force = normal_impulse_ / duration_;
+  if (contacts.tissue) {
+    contacts.reports.back().normal_force = normal_impulse_ / duration_;
+    contacts.reports.back().rounds = tissue_.rounds();
+    contacts.reports.back().residual = tissue_.residual();
+  }
   for (const Stopped& stopped : stopped_) {
     ContactReport& report = contacts.reports[stopped.surface];
     ++report.contact_count;

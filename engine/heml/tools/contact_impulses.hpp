@@ -9,7 +9,9 @@
 // The friction impulse is at most μ p and removes all sliding where that suffices: the point sticks. No contact
 // stiffness has to be chosen, the stable step is unchanged, and a node penetrates by no more than round-off. A surface
 // at rest adds no energy. Contact points within faces share nodes and are iterated a few rounds. A fast probe is
-// checked at several positions along its path within a step. Self-contact: self_contact_impulses.hpp.
+// checked at several positions along its path within a step. Friction draws sticking points back to their anchors
+// (contact_memory.hpp). Self-contact: self_contact_impulses.hpp.
+#include <heml/tools/contact_memory.hpp>
 #include <heml/tools/contacts.hpp>
 #include <heml/tools/self_contact_impulses.hpp>
 
@@ -28,21 +30,31 @@ class ContactImpulses {
   /// Removes inward velocities of the points that the first half stopped, and updates the contacts' reports.
   void second_half_step(Contacts& contacts, const std::vector<Real>& inverse_mass, const Real* x, Real* v);
 
+  /// What carries over from step to step. A step that does not begin where the last one ended starts without it.
+  const ContactMemory& memory() const { return memory_; }
+  void set_memory(ContactMemory memory) { memory_ = std::move(memory); }
+
  private:
   struct Stopped {
     std::size_t surface;
     ContactPoint point;
-    Vec3 velocity;  ///< m/s, of the surface
+    Vec3 velocity;                 ///< m/s, of the surface
+    Vec3 drift;                    ///< m/s, along the surface: friction adds it to the velocity of sliding
+    double normal = 0;             ///< N s, accumulated in this half
+    Vec3 friction = Vec3::Zero();  ///< N s, accumulated in this half
   };
   struct StepPath;
   void stop_points(const StepPath& path, std::size_t s, Contacts& contacts, Real* v);
-  void push(const Stopped& at, double closing, double weight, const std::vector<Real>& inverse_mass, Contacts& contacts,
-            Real* v);
+  Stopped& stopped_at(const StepPath& path, std::size_t s, const ContactPoint& point);
+  void push(Stopped& stopped, const ContactPoint& point, double closing, double weight,
+            const std::vector<Real>& inverse_mass, Contacts& contacts, Real* v);
+  void update_anchors(const Real* x);
   void publish(Contacts& contacts, const Real* x) const;
 
   SelfContactImpulses<Real> tissue_;
   double normal_impulse_ = 0;  ///< N s, of self-contact, since the tick began
-  std::vector<Stopped> stopped_;
+  ContactMemory memory_;
+  std::vector<Stopped> stopped_;          ///< in the first half the last surface first
   std::vector<Vec3> impulse_;             ///< N s, of each surface, since the tick began
   double duration_ = 0;                   ///< s, since the tick began
   std::vector<ContactSurface> surfaces_;  ///< at the end of the step

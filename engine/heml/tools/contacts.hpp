@@ -16,6 +16,8 @@ struct ContactReport {
   double energy = 0;           ///< J, stored in the contact energy of an implicit method
   double max_penetration = 0;  ///< m, 0: none
   int contact_count = 0;       ///< points of the body in contact
+  int rounds = 0;              ///< self-contact, explicit methods: rounds over all pairs in the last step
+  double residual = 0;         ///< and the change of an impulse in the last round, of the largest impulse
 };
 
 struct Contacts {

@@ -154,6 +154,7 @@ void Simulation<Real>::update_contact_surfaces() {
   update_contact_boundary();
   contacts.reports.assign(contacts.surfaces(state.time).size(), {});
   impulses.begin_tick();
+  impulses.set_memory({});
   if (implicit) implicit->body.reset_contact();
   if (recovering()) recovery->surrogate->implicit.body.reset_contact();
 }

@@ -216,6 +216,7 @@ bool TypedWorld<Real>::copy_motion_from(const World& leader) {
   s_.state = o.state;
   s_.last_valid = s_.state;
   s_.grasps = o.grasps;
+  s_.impulses.set_memory(o.impulses.memory());
   s_.limit.stable = o.limit.stable;
   s_.halt.reset();
   if (s_.implicit) s_.implicit->h_before = 0;  // BDF2 restarts

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <heml/tools/contact_impulses.hpp>
+#include <heml/tools/contact_motion.hpp>
 
-#include "support.hpp"
+#include "engine/tools/small_tets.hpp"
 
 namespace heml::contact_impulses_test {
 
@@ -232,6 +233,44 @@ TEST_CASE("nodes stopped by a table in single precision are below it by round-of
   impulses.begin_tick();
   impulses.first_half_step(contacts, 0, h, 1, inverse_mass, before.data(), x.data(), v.data());
   CHECK(std::abs(x[1] - 0.25f) <= 1e-7f);
+}
+
+TEST_CASE("a tetrahedron that rests on another takes a few rounds a step, searches once and does not sink or slide") {
+  constexpr double dt = 1e-3, g = 9.81;
+  TetMesh mesh;
+  add_tet(mesh, {Vec3(-3, -3, 0), Vec3(3, -3, 0), Vec3(0, 3, 0), Vec3(0, 0, -2)});
+  add_tet(mesh, {Vec3(-1, -1, 0), Vec3(1, -1, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)});
+  Contacts contacts;
+  contacts.tissue.emplace(SelfContactSettings{0.5}, mesh);
+  std::vector<double> before, v(24, 0.0), inverse_mass(8, 1.0);
+  for (const Vec3& X : mesh.nodes) before.insert(before.end(), X.begin(), X.end());
+  for (std::size_t n = 0; n < 4; ++n) inverse_mass[n] = 0;
+  const std::vector<double> start = before;
+  const Vec3 pull(0.3 * g, 0, -g);  // below the angle of friction
+  ContactImpulses<double> impulses;
+  int rounds = 0;
+  const auto accelerate = [&] {  // as a rigid body that does not turn: all its nodes get the mean velocity
+    Vec3 mean = Vec3::Zero();
+    for (int n = 4; n < 8; ++n) mean += at(v.data(), n) / 4;
+    for (int n = 4; n < 8; ++n) Eigen::Map<Vec3>(v.data() + 3 * n) = mean + dt / 2 * pull;
+  };
+  for (int step = 0; step < 300; ++step) {
+    accelerate();
+    std::vector<double> x = before;
+    for (std::size_t i = 12; i < 24; ++i) x[i] += dt * v[i];
+    impulses.begin_tick();
+    impulses.first_half_step(contacts, dt * step, dt * (step + 1), 1, inverse_mass, before.data(), x.data(), v.data());
+    accelerate();
+    impulses.second_half_step(contacts, inverse_mass, x.data(), v.data());
+    before = x;
+    if (step > 10) rounds = std::max(rounds, contacts.reports.back().rounds);
+  }
+  CHECK(rounds > 0);
+  CHECK(rounds <= 8);
+  CHECK(contacts.reports.back().residual < 0.01);
+  CHECK(contacts.tissue->broad_phase_count() == 1);
+  for (std::size_t i = 12; i < 21; ++i) CHECK(std::abs(before[i] - start[i]) < 1e-6);  // of the corners that touch
+  CHECK(impulses.memory().pairs.size() >= 3);
 }
 
 }  // namespace heml::contact_impulses_test

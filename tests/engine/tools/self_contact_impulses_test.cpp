@@ -172,4 +172,44 @@ TEST_CASE("what is held is not moved, and two held pieces of tissue are no pair"
   CHECK(two.impulses.empty());
 }
 
+TEST_CASE("remembered impulses start the rounds where the last step ended") {
+  std::mt19937_64 random(35);
+  for (int k = 0; k < 20; ++k) {
+    CAPTURE(k);
+    Collision two(random, 0.3, 0.02);
+    const auto first = two.v;
+    two.meet();
+    two.impulses.solve(two.inverse_mass, two.v.data());
+    const int cold = two.impulses.rounds();
+    const auto solved = two.v;
+    std::vector<RememberedPair> known;
+    two.impulses.remember_first_half(two.after.data(), known);
+    CHECK_FALSE(known.empty());
+
+    two.v = first;
+    two.impulses.find_pairs(two.contact, h, two.inverse_mass, two.before.data(), two.after.data(), known);
+    two.impulses.warm_start(two.inverse_mass, two.v.data());
+    two.impulses.solve(two.inverse_mass, two.v.data());
+    CHECK(two.impulses.rounds() <= std::min(cold, 4));
+    CHECK(two.impulses.residual() < 1e-4);
+    for (std::size_t i = 0; i < solved.size(); ++i) CHECK(std::abs(two.v[i] - solved[i]) < 1e-3);
+  }
+}
+
+TEST_CASE("remembered impulses that would add energy are not applied") {
+  std::mt19937_64 random(36);
+  Collision two(random, 0, 0.02);
+  two.meet();
+  two.impulses.solve(two.inverse_mass, two.v.data());
+  std::vector<RememberedPair> known;
+  two.impulses.remember_first_half(two.after.data(), known);
+  for (RememberedPair& pair : known) pair.halves[0].normal *= 10;
+  for (std::size_t i = 0; i < two.v.size(); ++i) two.v[i] *= 1e-3;  // nearly at rest
+  const double energy = two.energy();
+  two.impulses.find_pairs(two.contact, h, two.inverse_mass, two.before.data(), two.after.data(), known);
+  two.impulses.warm_start(two.inverse_mass, two.v.data());
+  two.impulses.solve(two.inverse_mass, two.v.data());
+  CHECK(two.energy() <= energy * (1 + 1e-12));
+}
+
 }  // namespace heml::self_contact_impulses_test
