@@ -251,7 +251,7 @@ int ImplicitStepper<Real>::stage_iterations() const {
   if (budget.iterations > 0) return budget.iterations;
   const double stages = info_of(s_.method).stages;
   const double cost = seconds_an_iteration * static_cast<double>(s_.model.mesh.tets.size());
-  return std::clamp(static_cast<int>(budget.milliseconds / 1000 / (stages * cost)), 1, max_iterations);
+  return static_cast<int>(std::clamp<double>(budget.milliseconds / 1000 / (stages * cost), 1, max_iterations));
 }
 
 /// Takes from x, v what energy a step has gained beyond the work of its loads: from the velocity while that has it to
