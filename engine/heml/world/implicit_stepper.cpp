@@ -26,7 +26,7 @@ constexpr int max_iterations = 60, max_halvings = 40;
 template <class Real>
 std::optional<StopReason> ImplicitStepper<Real>::advance(double until) {
   const double whole = until - s_.state.time;
-  const double shortest = s_.rescued_tick == s_.ticks - 1 ? whole : min_share * whole;
+  const double shortest = s_.ticks <= s_.explicit_until ? whole : min_share * whole;
   double longest = whole;
   while (s_.state.time < until && !s_.interrupted) {
     const bool last = s_.state.time + 1.5 * longest > until;

@@ -54,7 +54,7 @@ struct SimulationState {
   Real rest_frequency = 0;  ///< 1/s, bound of the highest frequency at rest: scales the tools
   StepLimit limit;
   long ticks = 0, origin_tick = 0, steps = 0;
-  long rescued_tick = -2;     ///< the last tick that a rescue ended (step_rescue.hpp); −2: none since the start
+  long explicit_until = -1;   ///< tick up to which a rescue goes on (step_rescue.hpp); −1: there was none
   int substeps = 0;           ///< of the last tick
   long changes = 0;           ///< steps, loads and commands other than edits: unchanged, nothing but edits has happened
   bool is_evaluated = false;  ///< whether forces and stable step belong to the state (restored by an undo)

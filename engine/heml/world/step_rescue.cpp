@@ -48,7 +48,7 @@ void StepRescue<Real>::restore(const Start& start) {
 template <class Real>
 std::optional<StopReason> StepRescue<Real>::end_tick(double until, const StopReason& failure) {
   if (s_.setup.solver.step) return failure;
-  s_.rescued_tick = s_.ticks;
+  s_.explicit_until = s_.ticks + ticks_of_rescue;
   if (take_explicit_substeps(until)) {
     ++s_.stats.explicit_rescues;
     return std::nullopt;
@@ -57,6 +57,13 @@ std::optional<StopReason> StepRescue<Real>::end_tick(double until, const StopRea
   ++s_.stats.unconverged_steps;
   s_.stats.unconverged_residual = std::max(s_.stats.unconverged_residual, s_.stats.residual);
   return std::nullopt;
+}
+
+template <class Real>
+bool StepRescue<Real>::goes_on(double until) {
+  if (s_.ticks >= s_.explicit_until || !take_explicit_substeps(until)) return false;
+  ++s_.stats.explicit_rescues;
+  return true;
 }
 
 /// Returns false, with nothing changed but the memory of implicit contact, where they do not reach `until`.

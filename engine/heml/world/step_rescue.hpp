@@ -11,14 +11,16 @@
 //   one step of backward Euler, whose best iterate is taken: Φ has not risen, and energy is limited
 //                    │ the law is undefined there, because supports leave no room: the world halts
 //
-// In the tick after a rescued one, steps are not halved: where the whole step does not converge again, halves rarely
-// do, and each costs as much. Bounds count force evaluations and iterations; no clock is read.
+// A failure costs many iterations, and what causes it rarely ends within a tick. So explicit substeps go on for the
+// next ticks; then the whole implicit step is tried once, without halves. Bounds count force evaluations and
+// iterations; no clock is read.
 #include <heml/world/explicit_stepper.hpp>
 #include <heml/world/implicit_stepper.hpp>
 
 namespace heml {
 
 inline constexpr int max_explicit_substeps = 2000;  ///< of a rescued tick, one force evaluation each
+inline constexpr long ticks_of_rescue = 8;          ///< from a failure to the next implicit step that is tried
 
 template <class Real>
 class StepRescue {
@@ -26,6 +28,9 @@ class StepRescue {
   StepRescue(Simulation<Real>& s, ExplicitStepper<Real>& explicit_steps, ImplicitStepper<Real>& implicit_steps)
       : s_(s), explicit_(explicit_steps), implicit_(implicit_steps) {}
 
+  /// Whether explicit substeps, in the ticks after a failure, have ended this tick at `until`, s, as well. Else nothing
+  /// has changed, and implicit steps are to be tried.
+  bool goes_on(double until);
   /// From where implicit steps failed to `until`, s. Returns `failure` where a step is given, which is obeyed, and the
   /// element out of its law's range where no step is defined; the state is then the last valid one.
   std::optional<StopReason> end_tick(double until, const StopReason& failure);

@@ -72,7 +72,7 @@ void TypedWorld<Real>::advance(double until) {
       recovery_.step(until);
     else if (is_explicit(s_.method))
       handle(explicit_.advance(until));
-    else
+    else if (!rescue_.goes_on(until))
       handle_implicit(implicit_.advance(until), until);
     handle(recovery_.monitor());
   }
@@ -145,7 +145,7 @@ void TypedWorld<Real>::start() {
   s_.update_contact_surfaces();
   set_initial_state();
   s_.halt.reset();
-  s_.rescued_tick = -2;
+  s_.explicit_until = -1;
   s_.grasps.clear();
   s_.implicit.reset();
   s_.origin_tick = s_.ticks;
