@@ -1,5 +1,6 @@
 // Cases of the study that are fast enough for every build; `heml study stability` runs all of them.
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -112,7 +113,7 @@ TEST_CASE("budgets of one iteration gain no energy in single precision either") 
 TEST_CASE("every case has a scene, which can be read and has a title") {
   std::set<std::string> used;
   for (const Case& c : cases()) {
-    const std::string prefix = (c.number < 10 ? "0" : "") + std::to_string(c.number) + "_";
+    const std::string prefix = fmt::format("{:02}_", c.number);
     CAPTURE(prefix);
     CHECK(std::any_of(c.scenes.begin(), c.scenes.end(), [&](auto name) { return name.starts_with(prefix); }));
     used.insert(c.scenes.begin(), c.scenes.end());
