@@ -117,7 +117,7 @@ class CommandLine(ProgramCase):
             self.assertEqual((report[counted], report[other]), (report["ticks"], 0))
             self.assertEqual(report["converged"], report["unconverged_steps"] == 0)
             self.assertEqual(report["unconverged_residual"] > 0, report["unconverged_steps"] > 0)
-        scene["solver"] = dict(solver, step=1 / 60)
+        scene["solver"]["step"] = 1 / scene["solver"].pop("rate")
         self.assert_refused(heml("solve", self.write("scene.json", scene), "--out", out), 4, "did not converge")
         self.assertEqual(json.loads((out / "report.json").read_text())["unconverged_steps"], 0)
 
