@@ -45,11 +45,12 @@ void BodyObjective<Real>::find_noise() {
   for (std::size_t n = 0; n < model_.mesh.nodes.size(); ++n)
     rest.segment<3>(3 * static_cast<int>(n)) = model_.mesh.nodes[n];
   residual(rest, r);
+  const Vector internal = forces_ - external_;
   double at_rest = 0, inertia = 0;
   for (std::size_t n = 0; n < mass_.size(); ++n) {
     const double m = static_cast<double>(mass_[n]);
     inertia += m;
-    if (m > 0) at_rest = std::max(at_rest, (forces_ - external_).segment<3>(3 * static_cast<int>(n)).norm() / m);
+    if (m > 0) at_rest = std::max(at_rest, at(internal, static_cast<int>(n)).norm() / m);
   }
   // An energy density is found as a difference of numbers of the size of a modulus: ω² m L² in all.
   constexpr double epsilon = std::numeric_limits<Real>::epsilon(), safety = 4;

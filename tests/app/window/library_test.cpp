@@ -1,4 +1,5 @@
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <app/window/library.hpp>
@@ -81,7 +82,7 @@ TEST_CASE("recent files are listed once, latest first, and missing ones are mark
   REQUIRE(recent.size() == 2);
   CHECK(recent[0].exists);
   CHECK_FALSE(recent[1].exists);
-  for (int k = 0; k < 40; ++k) remember_file(folder.path / ("c" + std::to_string(k)));
+  for (int k = 0; k < 40; ++k) remember_file(folder.path / fmt::format("c{}", k));
   CHECK(recent_files().size() == 20);
 }
 
