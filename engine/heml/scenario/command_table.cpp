@@ -85,7 +85,7 @@ static_assert([] {
   return true;
 }());
 
-constexpr ToolInfo tools[] = {
+constexpr ToolInfo tool_infos[] = {
     {CommandTool::grasp, "grasp",
      "a spring at each node in reach; explicit steps look at their limit every other step meanwhile"},
     {CommandTool::probe, "probe",
@@ -100,7 +100,7 @@ constexpr ToolInfo tools[] = {
 
 }  // namespace
 
-std::span<const ToolInfo> tool_table() { return tools; }
+std::span<const ToolInfo> tool_table() { return tool_infos; }
 
 std::span<const CommandInfo> command_table() { return commands; }
 
