@@ -87,8 +87,7 @@ its `step`. A crash loses the line that was being written and no other; such a r
 ```
 
 In a single JSON document checkpoints and the end may stand in the list `checkpoints`. `replay --verify` compares every checkpoint and the
-hashes of its nodes, the end's hash, the number of checkpoints, and the message of a halt; where the end has no halt, the next step must not
-halt. In JSON Lines the end is the last line.
+hashes of its nodes, the end's hash, the number of checkpoints, and the message of a halt. In JSON Lines the end is the last line.
 
 )";
 

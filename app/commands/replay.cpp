@@ -79,7 +79,7 @@ int replay_recording(const ReplayArguments& arguments) {
   }
   fmt::print("{} ticks replayed, {} of {} checkpoints compared, final state {:016x}\n", result.ticks,
              result.checkpoints, told_checkpoints(scene), world->state_hash());
-  return arguments.verify ? exit_code_of(verify(scene, result, *world, arguments.partial), result, scene)
+  return arguments.verify ? exit_code_of(verify(scene, result, arguments.partial), result, scene)
                           : exit_code_of(result, scene);
 }
 

@@ -137,7 +137,7 @@ void expect_verified(const fs::path& file, bool partial) {
     const auto world = load_world(*recording);
     const Playing now(*world);
     const ReplayResult played = replay(*recording, *world, after_tick);
-    const Verification verified = verify(*recording, played, *world, partial);
+    const Verification verified = verify(*recording, played, partial);
     expect(verified.passed, fmt::format("its recording does not verify: {}", verified.reason));
   } catch (const InputError& error) {
     throw Failure(fmt::format("its recording is refused: {}", error.what()));

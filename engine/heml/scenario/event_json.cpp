@@ -53,10 +53,11 @@ Checkpoint checkpoint_from(const JsonCursor& key, long tick) {
 RecordedEnd end_from(const JsonCursor& key, long tick) {
   const ObjectReader entry(key, end_keys, entry_keys);
   if (!entry["end"].flag()) key["end"].refuse("must be true, or leave the entry out");
-  RecordedEnd end{tick, {}, {}, {}};
+  RecordedEnd end{tick, {}, {}, {}, {}};
   entry.read("checkpoints", end.checkpoints);
   if (const auto hash = entry.find("hash")) end.hash = hash->hash();
   entry.read("halt", end.halt);
+  if (const auto halted = entry.find("halted")) end.halted = halted->flag();
   return end;
 }
 
@@ -125,6 +126,7 @@ std::string end_line(const RecordedEnd& end) {
   if (end.checkpoints) json["checkpoints"] = *end.checkpoints;
   if (end.hash) json["hash"] = fmt::format("{:016x}", *end.hash);
   if (end.halt) json["halt"] = *end.halt;
+  if (end.halted) json["halted"] = *end.halted;
   return json_text(json, "");
 }
 

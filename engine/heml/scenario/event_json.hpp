@@ -4,7 +4,8 @@
 //
 //   {"step": 12, "grasp": {"node": 3, "radius": 0.01}}      an event: a command by its key (command_table.hpp)
 //   {"step": 80, "checkpoint": "0123456789abcdef", "nodes": "12ab..."}
-//   {"step": 90, "end": true, "checkpoints": 12, "hash": "0123456789abcdef", "halt": "unstable at ..."}
+//   {"step": 90, "end": true, "checkpoints": 12, "hash": "0123456789abcdef", "halt": "unstable at ...",
+//    "halted": true}
 //
 // with "at": seconds instead of "step" where that is easier: it means the nearest tick.
 #include <heml/scenario/scene.hpp>
@@ -26,6 +27,7 @@ inline constexpr KeyInfo end_keys[] = {
     {"checkpoints", form::whole(0, 1e12), "", "not told", "how many the recording holds"},
     {"hash", scene_keys::hash, "", "not told", "hash of the state before the events of this step"},
     {"halt", form::text, "", scene_keys::none, "why the world stopped within this step"},
+    {"halted", form::flag, "", "not told", "whether it did: then `halt` says why"},
 };
 static_assert(is_complete(script_time_keys) && is_complete(checkpoint_keys) && is_complete(end_keys));
 

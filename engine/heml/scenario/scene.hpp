@@ -93,6 +93,7 @@ struct RecordedEnd {
   std::optional<long> checkpoints;    ///< number of checkpoints in the recording
   std::optional<std::uint64_t> hash;  ///< state_hash() before the commands of the tick
   std::optional<std::string> halt;    ///< StopReason::message, where the world halted within the tick
+  std::optional<bool> halted;         ///< whether it did; none: not told
 };
 
 /// Format and program that a recording was written with.

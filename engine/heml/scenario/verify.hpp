@@ -13,9 +13,8 @@ struct Verification {
   std::string warning;  ///< limits of a verification that passed; may be empty
 };
 
-/// played: replay(recording, world). partial: the recording was cut short by a crash and need not have its end.
-/// Where the recording ends without a halt, the world takes one tick more: it must not halt either.
-Verification verify(const Scene& recording, const ReplayResult& played, World& world, bool partial = false);
+/// played: replay(recording, …). partial: the recording was cut short by a crash and need not have its end.
+Verification verify(const Scene& recording, const ReplayResult& played, bool partial = false);
 
 /// How many checkpoints a recording tells of: by its end, or else those that it holds.
 long told_checkpoints(const Scene& recording);

@@ -423,7 +423,7 @@ TEST_CASE("a recorded session that halted verifies, after more commands too") {
     REQUIRE(recording.recorded_end);
     CHECK(recording.recorded_end->halt);
     const auto world = load_world(recording);
-    CHECK(verify(recording, replay(recording, *world), *world).reason == "");
+    CHECK(verify(recording, replay(recording, *world)).reason == "");
   }
 }
 
@@ -442,7 +442,7 @@ TEST_CASE("a session closed in the middle of a tick leaves a recording with its 
   REQUIRE(recording.recorded_end);
   CHECK(recording.recorded_end->tick == 0);
   const auto world = load_world(recording);
-  CHECK(verify(recording, replay(recording, *world), *world).reason == "");
+  CHECK(verify(recording, replay(recording, *world)).reason == "");
 }
 
 TEST_CASE("a disk that fills up ends the recording, is told to the viewer, and the session goes on") {
