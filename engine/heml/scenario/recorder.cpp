@@ -43,8 +43,8 @@ void Recorder::ticked(const World& world) {
 void Recorder::end(const World& world) {
   // A checkpoint is of the state before a tick's commands, which is gone where one of them or half a tick changed it.
   if (last_checkpoint_ != tick_ && world.ticks() == tick_ && world.state_hash() == hash_) checkpoint(world);
-  RecordedEnd end{tick_, checkpoints_, hash_, {}, world.halt().has_value()};
-  if (world.halt()) end.halt = world.halt()->message;
+  RecordedEnd end{tick_, checkpoints_, hash_, {}, {}};
+  if (world.halt()) end.halt = world.halt()->message, end.halted = true;
   write(end_line(end));
   if (file_) file_->close();
   file_.reset();

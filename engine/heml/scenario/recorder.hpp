@@ -5,7 +5,7 @@
 //   {"step": 0, "checkpoint": "...", "nodes": "..."}         state before tick 0
 //   {"step": 12, "grasp": {"node": 3, "radius": 0.01}}       commands, before the tick they act on
 //   ...
-//   {"step": 900, "end": true, "checkpoints": 3, "hash": "...", "halted": false}  the state before the commands of that
+//   {"step": 900, "end": true, "checkpoints": 3, "hash": "..."}    the state before the commands of that
 //   tick
 //
 // Every line is handed to the system before the next is made, so a crash loses the line being written and no other. A

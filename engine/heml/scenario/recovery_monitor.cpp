@@ -10,7 +10,7 @@ void write_replay(const std::filesystem::path& path, const Scene& scene, std::sp
   for (const Event& event : events) text += event_line(event) + '\n';
   const std::uint64_t hash = world.state_hash();
   text += checkpoint_line({world.ticks(), hash, world.node_hashes()}) + '\n';
-  text += end_line({world.ticks(), 1, hash, {}, false}) + '\n';
+  text += end_line({world.ticks(), 1, hash, {}, {}}) + '\n';
   write_file(path, text);
 }
 
