@@ -20,7 +20,7 @@ struct CommandDefinition {
 };
 std::span<const CommandDefinition> command_definitions();
 
-/// Contract: "Exit codes".
+/// An exit code, as help lists it.
 struct ExitCodeInfo {
   ExitCode code;
   const char* meaning;  ///< a few words

@@ -226,7 +226,7 @@ Vector ImplicitStepper<Real>::stage_start(const Stage& stage, double time, const
   return parts.linear.solve(parts.step, r, 1e-2, d) ? Vector(stay + d) : stay;
 }
 
-/// Contract: "tolerance".
+/// `solver.tolerance` of scenes: the residual relative to the forces carried.
 template <class Real>
 StoppingCriterion ImplicitStepper<Real>::stage_criterion() {
   ImplicitState<Real>& parts = s_.implicit_state();

@@ -10,9 +10,9 @@ struct SolverStats {
   const char* integrator = "";  ///< scene name of the method in use: what "auto" has chosen, else the scene's
   double load = 1;              ///< fraction of motions, loads and gravity reached; below 1 in static worlds alone
   long iterations = 0;          ///< of Newton, over all steps or increments
-  double residual = 0;        ///< of the last step or increment, relative to the forces carried (contract, "tolerance")
-  long explicit_rescues = 0;  ///< ticks that explicit substeps ended, where implicit steps did not converge
-  long unconverged_steps = 0;       ///< ended by the best iterate (step_rescue.hpp)
+  double residual = 0;          ///< of the last step or increment, relative to the forces carried (solver.tolerance)
+  long explicit_rescues = 0;    ///< ticks that explicit substeps ended, where implicit steps did not converge
+  long unconverged_steps = 0;   ///< ended by the best iterate (step_rescue.hpp)
   double unconverged_residual = 0;  ///< the largest that one of them left, relative as `residual`
   int budget = 0;                   ///< iterations a stage may take now; 0: as many as it needs
   std::string_view preconditioner;  ///< scene name; "" before the first step

@@ -1,32 +1,39 @@
+#include <algorithm>
 #include <cmath>
-#include <heml/base/hash.hpp>
 #include <heml/world/failure.hpp>
 #include <heml/world/stable_step.hpp>
 #include <heml/world/typed_world.hpp>
+#include <tuple>
 #include <type_traits>
 
 namespace heml {
 
 namespace {
 
-/// Tells bodies apart whose snapshots do not fit each other. All else of a setup is part of a snapshot.
-std::uint64_t hash_of_body(const WorldSetup& setup) {
-  std::uint64_t hash = hash_combine(std::uint64_t{setup.mesh.nodes.size()}, std::uint64_t{setup.mesh.tets.size()});
-  for (const Vec3& X : setup.mesh.nodes)
-    for (const double value : X) hash = hash_combine(hash, value);
-  for (const Tet& tet : setup.mesh.tets)
-    for (const int n : tet) hash = hash_combine(hash, static_cast<std::uint64_t>(n));
-  for (const ElementField& field : setup.mesh.fields)
-    for (const double value : field.values) hash = hash_combine(hash, value);
-  const SolverSettings& solver = setup.solver;
-  for (const bool option : {solver.continuation, solver.nodal_pressure, solver.recovery, solver.is_static()})
-    hash = hash_combine(hash, std::uint64_t{option});
-  return hash_combine(hash, static_cast<std::uint64_t>(setup.instruction_set));
+/// Whether two worlds began with the same body, so that snapshots of one fit the other; all else of a setup is part of
+/// a snapshot. Edits append to a mesh, so it begins with what it was. size: of both at the start.
+bool same_body(const MeshSize& size, const TetMesh& a, const WorldSetup& a_setup, const TetMesh& b,
+               const WorldSetup& b_setup) {
+  const auto options = [](const WorldSetup& setup) {
+    const SolverSettings& solver = setup.solver;
+    return std::tuple(solver.continuation, solver.nodal_pressure, solver.recovery, solver.is_static(),
+                      setup.instruction_set);
+  };
+  const auto begin_alike = [](const auto& one, const auto& other, std::size_t count) {
+    return std::equal(one.begin(), one.begin() + static_cast<std::ptrdiff_t>(count), other.begin());
+  };
+  return options(a_setup) == options(b_setup) && begin_alike(a.nodes, b.nodes, size.nodes) &&
+         begin_alike(a.tets, b.tets, size.tets) &&
+         std::equal(a.fields.begin(), a.fields.end(), b.fields.begin(), b.fields.end(),
+                    [&](const ElementField& one, const ElementField& other) {
+                      return one.name == other.name && one.components == other.components &&
+                             begin_alike(one.values, other.values, size.tets * one.components);
+                    });
 }
 
 template <class Real>
 struct TypedSnapshot final : WorldSnapshot {
-  std::uint64_t body = 0;  ///< hash_of_body()
+  MeshSize at_start;
   SimulationSnapshot<Real> simulation;
   EditHistory<Real> edits;
 
@@ -38,7 +45,8 @@ struct TypedSnapshot final : WorldSnapshot {
 }  // namespace
 
 template <class Real>
-TypedWorld<Real>::TypedWorld(WorldSetup setup) : s_(std::move(setup)), body_hash_(hash_of_body(s_.setup)) {
+TypedWorld<Real>::TypedWorld(WorldSetup setup)
+    : s_(std::move(setup)), at_start_{s_.setup.mesh.nodes.size(), s_.setup.mesh.tets.size()} {
   const FlushDenormals flush;
   start();
 }
@@ -187,7 +195,7 @@ template <class Real>
 std::shared_ptr<const WorldSnapshot> TypedWorld<Real>::snapshot() {
   const FlushDenormals flush;
   auto snapshot = std::make_shared<TypedSnapshot<Real>>();
-  snapshot->body = body_hash_;
+  snapshot->at_start = at_start_;
   snapshot->simulation = take_snapshot(s_);
   snapshot->edits = editor_.history();
   return snapshot;
@@ -198,8 +206,10 @@ Status TypedWorld<Real>::restore(const WorldSnapshot& snapshot) {
   const FlushDenormals flush;
   const auto* of_type = dynamic_cast<const TypedSnapshot<Real>*>(&snapshot);
   if (!of_type) return "restore: the snapshot is of a world of the other precision";
-  if (of_type->body != body_hash_) return "restore: the snapshot is of another body (mesh, or options of its solver)";
-  heml::restore(of_type->simulation, s_);
+  const SimulationSnapshot<Real>& saved = of_type->simulation;
+  if (of_type->at_start != at_start_ || !same_body(at_start_, saved.mesh->mesh, saved.setup, s_.setup.mesh, s_.setup))
+    return "restore: the snapshot is of another body (mesh, or options of its solver)";
+  heml::restore(saved, s_);
   editor_.restore_history(of_type->edits);
   return {};
 }

@@ -14,6 +14,11 @@
 
 namespace heml {
 
+struct MeshSize {
+  std::size_t nodes, tets;
+  bool operator==(const MeshSize&) const = default;
+};
+
 template <class Real>
 class TypedWorld final : public World {
  public:
@@ -71,7 +76,7 @@ class TypedWorld final : public World {
   void handle_implicit(const std::optional<StopReason>& failure, double until);
 
   Simulation<Real> s_;
-  const std::uint64_t body_hash_;  ///< tells whose snapshots fit
+  const MeshSize at_start_;  ///< with the mesh itself it tells whose snapshots fit
   ExplicitStepper<Real> explicit_{s_};
   ImplicitStepper<Real> implicit_{s_};
   StepRescue<Real> rescue_{s_, explicit_, implicit_};

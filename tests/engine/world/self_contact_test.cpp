@@ -17,16 +17,6 @@ namespace {
 constexpr double side = 0.04, g = 9.81;
 constexpr double weight = side * side * side * 1000 * g;
 
-void add(TetMesh& mesh, const TetMesh& other, const Eigen::Isometry3d& place) {
-  const auto first = static_cast<int>(mesh.nodes.size());
-  for (const Vec3& X : other.nodes) mesh.nodes.push_back(place * X);
-  for (Tet tet : other.tets) {
-    for (int& n : tet) n += first;
-    mesh.tets.push_back(tet);
-  }
-  mesh.regions.insert(mesh.regions.end(), other.regions.begin(), other.regions.end());
-}
-
 Eigen::Isometry3d at(const Vec3& place, double degrees = 0, const Vec3& axis = Vec3::UnitZ()) {
   Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
   result.translate(place);

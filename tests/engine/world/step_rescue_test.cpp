@@ -24,16 +24,6 @@ WorldSetup hopeless(Integrator integrator, double young = 1e4) {
   return setup;
 }
 
-void add(TetMesh& mesh, const TetMesh& other, const Eigen::Isometry3d& place) {
-  const auto first = static_cast<int>(mesh.nodes.size());
-  for (const Vec3& X : other.nodes) mesh.nodes.push_back(place * X);
-  for (Tet tet : other.tets) {
-    for (int& n : tet) n += first;
-    mesh.tets.push_back(tet);
-  }
-  mesh.regions.insert(mesh.regions.end(), other.regions.begin(), other.regions.end());
-}
-
 /// A block that lies on another, turned about the vertical.
 WorldSetup blocks(Integrator integrator, double friction) {
   constexpr double side = 0.04;

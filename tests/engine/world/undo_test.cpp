@@ -37,26 +37,8 @@ WorldSetup drawn_bar(const Material& material, Integrator integrator, bool singl
 
 const RemoveElements removal{{{3, 18}, {}, {}, {}}};
 
-CutTissue blade_at(double x) {
-  CutTissue cut;
-  cut.sweep.blades = {{Vec3(x, -0.1, -0.1), Vec3(x, 0.1, -0.1)}, {Vec3(x, -0.1, 0.1), Vec3(x, 0.1, 0.1)}};
-  return cut;
-}
-
 void tick(World& world, int times) {
   for (int k = 0; k < times; ++k) world.tick();
-}
-
-/// What a material may remember, one after the other and all together.
-std::vector<Material> remembering(const Material& law, bool has_fibre) {
-  Material viscous = law, relaxing = law, plastic = law, all = law;
-  viscous.viscosity = all.viscosity = 2;
-  relaxing.relaxation = all.relaxation = {{0.5, 0.01}, {0.2, 0.1}};
-  std::vector<Material> materials = {law, viscous, relaxing};
-  if (has_fibre) return materials;
-  plastic.plasticity = all.plasticity = Plasticity{60, 10};
-  materials.insert(materials.end(), {plastic, all});
-  return materials;
 }
 
 /// before: edits that stay, of both worlds: then the order of slots is no longer that of a body made anew.
@@ -92,7 +74,7 @@ TEST_CASE("undo: restores the state to the bit, for every kind of internal state
     CAPTURE(std::string(law.name));
     if (law.name.starts_with("paper_")) continue;
     const Material sample = sample_material(law.name);
-    for (const Material& material : law.is_continuum ? remembering(sample, law.has_fibre) : std::vector{sample}) {
+    for (const Material& material : law.is_continuum ? with_internal_state(sample) : std::vector{sample}) {
       if (material_problem(material)) continue;
       for (const bool single : {false, true})
         for (const Integrator integrator : {Integrator::verlet, Integrator::backward_euler}) {

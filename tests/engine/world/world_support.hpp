@@ -1,5 +1,7 @@
 #pragma once
+#include <Eigen/Geometry>
 #include <cmath>
+#include <heml/materials/material.hpp>
 #include <heml/mesh/generate.hpp>
 #include <heml/world/world.hpp>
 
@@ -31,6 +33,36 @@ std::vector<int> nodes_where(const TetMesh& mesh, const Take& take) {
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
     if (take(mesh.nodes[n])) nodes.push_back(static_cast<int>(n));
   return nodes;
+}
+
+/// Adds another mesh at a place.
+inline void add(TetMesh& mesh, const TetMesh& other, const Eigen::Isometry3d& place) {
+  const auto first = static_cast<int>(mesh.nodes.size());
+  for (const Vec3& X : other.nodes) mesh.nodes.push_back(place * X);
+  for (Tet tet : other.tets) {
+    for (int& n : tet) n += first;
+    mesh.tets.push_back(tet);
+  }
+  mesh.regions.insert(mesh.regions.end(), other.regions.begin(), other.regions.end());
+}
+
+/// A cut through a bar along x, at x.
+inline CutTissue blade_at(double x) {
+  CutTissue cut;
+  cut.sweep.blades = {{Vec3(x, -0.1, -0.1), Vec3(x, 0.1, -0.1)}, {Vec3(x, -0.1, 0.1), Vec3(x, 0.1, 0.1)}};
+  return cut;
+}
+
+/// A material with what it may remember, one after the other and all together, and without.
+inline std::vector<Material> with_internal_state(const Material& plain) {
+  Material viscous = plain, relaxing = plain, plastic = plain, all = plain;
+  viscous.viscosity = all.viscosity = 2;
+  relaxing.relaxation = all.relaxation = {{0.5, 0.01}, {0.2, 0.1}};
+  plastic.plasticity = all.plasticity = Plasticity{60, 10};
+  std::vector<Material> materials;
+  for (const Material& material : {plain, viscous, relaxing, plastic, all})
+    if (!material_problem(material)) materials.push_back(material);
+  return materials;
 }
 
 /// A block 0.1 × 0.02 × 0.02 m along x, held at x = 0, under gravity in −y.

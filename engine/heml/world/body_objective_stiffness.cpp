@@ -1,0 +1,146 @@
+// The stiffness of a body with all that acts on it: products, and assembly into matrices.
+#include <heml/elastic/bsr_matrix.hpp>
+#include <heml/world/body_objective.hpp>
+
+namespace heml {
+namespace {
+
+Mat3 cross_matrix(const Vec3& w) {
+  Mat3 result;
+  result << 0, -w.z(), w.y(), w.z(), 0, -w.x(), -w.y(), w.x(), 0;
+  return result;
+}
+
+Vec3 place_of(const Vector& x, int node) { return x.segment<3>(3 * node); }
+
+}  // namespace
+
+/// Pressure pushes each node of a face by q = p (b−a)×(c−a), p a sixth of the pressure inward, so that
+/// ∂q/∂x_j = p [w_j]×, w the opposite edges. Calls visit(face, p, w).
+template <class Real>
+template <class Visit>
+void BodyObjective<Real>::each_pressed_face(const Vector& x, const Visit& visit) const {
+  if (x.size() == 0) return;
+  for (const auto& load : model_.pressures) {
+    const double p = -static_cast<double>(load.pascal) * ramp(time_, load.ramp_time) / 6;
+    for (const Triangle& face : load.faces) {
+      const Vec3 a = place_of(x, face[0]), b = place_of(x, face[1]), c = place_of(x, face[2]);
+      visit(face, p, std::array<Vec3, 3>{c - b, a - c, b - a});
+    }
+  }
+}
+
+template <class Real>
+void BodyObjective<Real>::linearise(const Vector& x, Projection projection) {
+  body_.linearise(as_real(x, x_), team_);
+  body_.project(projection, team_);
+  const bool with_pressure = !model_.pressures.empty() && projection == Projection::none;
+  linearisation_point_ = with_pressure ? x : Vector();
+  if (!contact_.empty()) contact_.linearise(x);
+}
+
+template <class Real>
+void BodyObjective<Real>::product(const Vector& dx, Vector& out) {
+  const Real* change = as_real(dx, dx_);
+  f_.resize(dx_.size());
+  body_.force_differential(change, f_.data(), team_);
+  out.setZero(dx.size());
+  for (const int n : free_.node)
+    for (int i = 0; i < 3; ++i)
+      out[3 * n + i] = -static_cast<double>(f_[static_cast<std::size_t>(3 * n + i)]) +
+                       regularisation_ * static_cast<double>(mass_[static_cast<std::size_t>(n)]) * dx[3 * n + i];
+  const auto add = [&](int n, const Vec3& force) {
+    if (free_.number[static_cast<std::size_t>(n)] >= 0) out.segment<3>(3 * n) += force;
+  };
+  each_pressed_face(linearisation_point_, [&](const Triangle& face, double p, const std::array<Vec3, 3>& w) {
+    Vec3 push = Vec3::Zero();
+    for (std::size_t j = 0; j < 3; ++j) push += p * w[j].cross(place_of(dx, face[j]));
+    for (const int n : face) add(n, -push);
+  });
+  if (!contact_.empty()) {
+    contact_.add_product(dx, out);
+    for (std::size_t n = 0; n < free_.number.size(); ++n)
+      if (free_.number[n] < 0) out.segment<3>(3 * static_cast<int>(n)).setZero();
+  }
+  for (const auto& grasp : grasps_)
+    grasp.each_stiffness([&](int n, Real k, Real damping) {
+      add(n, (static_cast<double>(k) + (d_ > 0 ? static_cast<double>(damping) / d_ : 0)) * place_of(dx, n));
+    });
+}
+
+template <class Real>
+void BodyObjective<Real>::add_stiffness(BlockMatrix& matrix) {
+  body_.each_stiffness([&](const Tet& nodes, const ElementMatrix<Real>& K) {
+    matrix.add_element(nodes, [&](int row, int column) {
+      return static_cast<double>(K[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)]);
+    });
+  });
+  body_.each_spring_stiffness([&](int a, int b, const Real(&block)[3][3]) {
+    Mat3 B;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) B(i, j) = static_cast<double>(block[i][j]);
+    matrix.add_node(a, B);
+    matrix.add_node(b, B);
+    matrix.add_pair(a, b, -B);
+  });
+  // Of −p [w_j]× in row i: p/2 ([w_i]× − [w_j]×).
+  each_pressed_face(linearisation_point_, [&](const Triangle& face, double p, const std::array<Vec3, 3>& w) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t j = (i + 1) % 3;
+      matrix.add_pair(face[i], face[j], p / 2 * cross_matrix(w[i] - w[j]));
+    }
+  });
+  add_contact_stiffness(matrix, [&](int a, int b, const Mat3& K) { matrix.add_pair(a, b, K); });
+  add_diagonal(matrix);
+}
+
+template <class Real>
+bool BodyObjective<Real>::add_stiffness_single_precision(BsrMatrix& rows) {
+  if (!is_symmetric() || !contact_.within_elements() || !body_.add_stiffness(rows, team_)) return false;
+  add_contact_stiffness(rows, [&](int a, int b, const Mat3& K) {
+    rows.add_edge(a, b, -K);  // and away again what this adds to the nodes' own blocks
+    rows.add_node(a, K);
+    rows.add_node(b, K);
+  });
+  add_diagonal(rows);
+  return true;
+}
+
+/// What contact adds; how two nodes are joined is left to `pair`.
+template <class Real>
+template <class Matrix, class Pair>
+void BodyObjective<Real>::add_contact_stiffness(Matrix& matrix, const Pair& pair) const {
+  if (contact_.empty()) return;
+  const auto is_free = [&](int n) { return free_.number[static_cast<std::size_t>(n)] >= 0; };
+  contact_.each_block([&](int a, int b, const Mat3& K) {
+    if (!is_free(a) || !is_free(b)) return;
+    if (a == b)
+      matrix.add_node(a, K);
+    else
+      pair(a, b, K);
+  });
+}
+
+/// What grasps and the anchor have.
+template <class Real>
+template <class Matrix>
+void BodyObjective<Real>::add_diagonal(Matrix& matrix) const {
+  for (const auto& grasp : grasps_)
+    grasp.each_stiffness([&](int n, Real k, Real damping) {
+      matrix.add_diagonal(n, static_cast<double>(k) + (d_ > 0 ? static_cast<double>(damping) / d_ : 0));
+    });
+  if (regularisation_ > 0)
+    for (const int n : free_.node)
+      matrix.add_diagonal(n, regularisation_ * static_cast<double>(mass_[static_cast<std::size_t>(n)]));
+}
+
+template void BodyObjective<float>::linearise(const Vector&, Projection);
+template void BodyObjective<float>::product(const Vector&, Vector&);
+template void BodyObjective<float>::add_stiffness(BlockMatrix&);
+template bool BodyObjective<float>::add_stiffness_single_precision(BsrMatrix&);
+template void BodyObjective<double>::linearise(const Vector&, Projection);
+template void BodyObjective<double>::product(const Vector&, Vector&);
+template void BodyObjective<double>::add_stiffness(BlockMatrix&);
+template bool BodyObjective<double>::add_stiffness_single_precision(BsrMatrix&);
+
+}  // namespace heml
