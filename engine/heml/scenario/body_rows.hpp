@@ -154,6 +154,23 @@ struct Row<Undo> : PlainRow<Undo> {
 };
 
 template <>
+struct Row<StepHistory> : CommonRow {
+  static constexpr std::string_view key = "history", example = "-1",
+                                    meaning =
+                                        "takes back (-1) the last action of any kind, or brings back (1) the last one "
+                                        "taken back: the whole state of that moment; ticks go on counting";
+  static constexpr ValueForm value_form = form::other("-1 or 1");
+  static constexpr std::optional<CommandTool> tool = CommandTool::undo;
+  static constexpr bool takes_up = true;
+  static Command read(const JsonCursor& value, Points&) {
+    const int by = value_of<int>(value, form::whole(-1, 1));
+    if (by == 0) value.refuse("must be -1 (undo) or 1 (redo)");
+    return StepHistory{by};
+  }
+  static Json write(const StepHistory& step) { return step.by; }
+};
+
+template <>
 struct Row<Reset> : PlainRow<Reset> {
   static constexpr std::string_view key = "reset",
                                     meaning = "puts the body back to its initial state; ticks go on counting";

@@ -62,7 +62,7 @@ constexpr std::size_t key_count = [] {
 }();
 
 /// Keys that messages list last: those that put the whole body back.
-constexpr std::string_view last_keys[] = {"undo", "reset"};
+constexpr std::string_view last_keys[] = {"undo", "history", "reset"};
 constexpr bool is_last(std::string_view key) {
   return std::find(std::begin(last_keys), std::end(last_keys), key) != std::end(last_keys);
 }
@@ -95,7 +95,8 @@ constexpr ToolInfo tool_infos[] = {
     {CommandTool::tables, "tables", "other planes from then on"},
     {CommandTool::cut, "cut", "elements are split, and the layout of the body is rebuilt"},
     {CommandTool::removal, "removal", "loops ask which elements are there"},
-    {CommandTool::undo, "undo", "the body as it was before the last cut or removal"},
+    {CommandTool::undo, "undo",
+     "the body as it was before the last cut or removal; the state before each action is kept for `history`"},
 };
 
 }  // namespace

@@ -69,6 +69,9 @@ WorldSetup load_setup(const Scene& scene, TetMesh mesh) {
   setup.tearing = scene.tearing;
   setup.gravity = scene.gravity;
   setup.solver = scene.solver;
+  setup.keeps_actions = std::any_of(scene.events.begin(), scene.events.end(), [](const Event& event) {
+    return std::holds_alternative<StepHistory>(event.command);
+  });
   if (plays_as_recorded(scene)) setup.instruction_set = *scene.recorded_instructions;
   setup.initial_velocity = scene.initial_velocity;
   if (!scene.initial_positions.empty())

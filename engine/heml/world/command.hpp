@@ -98,6 +98,12 @@ struct CutTissue {
 /// grasped ever since stays grasped. With nothing but edits since, the body goes on as if there had been none, to the
 /// bit.
 struct Undo {};
+/// Takes back the last action of a person, or brings back the last one that was taken back: the whole state, time
+/// included, is what it was before the action, or when it was taken back; ticks go on counting. An action is a grasp, a
+/// probe's way, a stroke, a removal, a pin, a suture, a setting or a reset (is_action).
+struct StepHistory {
+  int by = -1;  ///< −1: back, 1: forth
+};
 /// Preconditions implicit steps from now on with what is made for the body as it is now, after elements were removed.
 /// Sessions send it when that has arrived from another thread (World::preconditioner_build); where none has, it is made
 /// there and then, to the same bits.
@@ -108,7 +114,7 @@ struct Reset {};
 
 using Command = std::variant<Grasp, MoveTool, Release, PinTissue, Unpin, SetTables, MoveProbe, WithdrawProbe,
                              SutureTissue, CutSutures, SetMaterial, SetDamping, SetGravity, SetIntegrator, SetBudget,
-                             SetStepCost, RemoveElements, CutTissue, Undo, AdoptPreconditioner, Reset>;
+                             SetStepCost, RemoveElements, CutTissue, Undo, StepHistory, AdoptPreconditioner, Reset>;
 
 /// Whether a kind of command changes which elements there are, or takes such a change back.
 template <class C>
@@ -117,6 +123,18 @@ inline constexpr bool is_edit_command =
 
 inline bool is_edit(const Command& command) {
   return std::visit([]<class C>(const C&) { return is_edit_command<C>; }, command);
+}
+
+/// Whether a command is an action of a person that StepHistory takes back. The rest goes on with an action, or is a
+/// choice made by the clock.
+inline bool is_action(const Command& command) {
+  return std::visit(
+      []<class C>(const C&) {
+        return !(std::is_same_v<C, MoveTool> || std::is_same_v<C, Release> || std::is_same_v<C, SetBudget> ||
+                 std::is_same_v<C, SetStepCost> || std::is_same_v<C, StepHistory> ||
+                 std::is_same_v<C, AdoptPreconditioner>);
+      },
+      command);
 }
 
 /// A command and the tick at whose start it takes effect (the first tick is 0).

@@ -90,6 +90,7 @@ struct WorldSetup {
   Vec3 initial_velocity = Vec3::Zero();                   ///< m/s, of every free node
   std::vector<Vec3> initial_positions;                    ///< #V or empty (rest shape), mesh-file order
   InstructionSet instruction_set = InstructionSet::best;  ///< of the force kernels; must be one this processor has
+  bool keeps_actions = true;  ///< keep the state before each action for StepHistory; never changes a result
 };
 
 /// One entry of `materials` per element: index into setup.materials.

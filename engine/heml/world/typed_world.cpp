@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <heml/world/failure.hpp>
@@ -36,6 +38,7 @@ struct TypedSnapshot final : WorldSnapshot {
   MeshSize at_start;
   SimulationSnapshot<Real> simulation;
   EditHistory<Real> edits;
+  ActionLists<Real> actions;
 
   long ticks() const override { return simulation.values.ticks; }
   double time() const override { return simulation.values.state.time; }
@@ -115,6 +118,17 @@ void TypedWorld<Real>::handle_implicit(const std::optional<StopReason>& failure,
 template <class Real>
 Status TypedWorld<Real>::apply(const Command& command) {
   const FlushDenormals flush;
+  if (const auto* step = std::get_if<StepHistory>(&command)) return step_history(step->by);
+  if (!s_.setup.keeps_actions) return carry_out(command);
+  const bool begins = actions_.begins_action(command, s_.ticks, s_.setup.solver.tick(), s_.contacts.probe.has_value());
+  auto before = begins ? moment() : nullptr;
+  Status status = carry_out(command);
+  if (status.ok()) actions_.carried_out(command, s_.ticks, std::move(before));
+  return status;
+}
+
+template <class Real>
+Status TypedWorld<Real>::carry_out(const Command& command) {
   if (!is_edit(command)) ++s_.changes;
   s_.is_evaluated = false;
   if (s_.implicit && s_.implicit->equilibrium) s_.implicit->equilibrium->invalidate();
@@ -124,8 +138,8 @@ Status TypedWorld<Real>::apply(const Command& command) {
     start();
   } else {
     status = std::visit(
-        [this](const auto& c) -> Status {
-          if constexpr (std::is_same_v<decltype(c), const Reset&>)
+        [this]<class C>(const C& c) -> Status {
+          if constexpr (std::is_same_v<C, Reset> || std::is_same_v<C, StepHistory>)
             return {};  // above
           else
             return commands_.execute(c);
@@ -137,6 +151,37 @@ Status TypedWorld<Real>::apply(const Command& command) {
     find_stable_step(s_);
   }
   return status;
+}
+
+/// Returns to the moment before the last action, or to the one that was left. Time goes back with the state; ticks, by
+/// which events are due, go on.
+template <class Real>
+Status TypedWorld<Real>::step_history(int by) {
+  if (by != -1 && by != 1) return fmt::format("history: must be -1 (undo) or 1 (redo), is {}", by);
+  if (!actions_.can_step(by)) return by < 0 ? "history: there is nothing to undo" : "history: there is nothing to redo";
+  const auto then = actions_.step(by, moment());
+  const long ticks = s_.ticks, since = ticks - then->simulation.values.ticks;
+  heml::restore(then->simulation, s_);
+  editor_.restore_history(then->edits);
+  s_.ticks = ticks;
+  s_.origin_tick += since;
+  if (s_.explicit_until >= 0) s_.explicit_until += since;
+  s_.is_evaluated = true;
+  return {};
+}
+
+template <class Real>
+std::shared_ptr<const Moment<Real>> TypedWorld<Real>::moment() {
+  return std::make_shared<const Moment<Real>>(Moment<Real>{take_snapshot(s_), editor_.history()});
+}
+
+template <class Real>
+ActionList TypedWorld<Real>::actions() const {
+  ActionList list;
+  for (const auto& entry : actions_.lists().past) list.past.push_back(entry.action);
+  const auto& future = actions_.lists().future;
+  for (auto entry = future.rbegin(); entry != future.rend(); ++entry) list.future.push_back(entry->action);
+  return list;
 }
 
 /// At construction and on Reset.
@@ -198,6 +243,7 @@ std::shared_ptr<const WorldSnapshot> TypedWorld<Real>::snapshot() {
   snapshot->at_start = at_start_;
   snapshot->simulation = take_snapshot(s_);
   snapshot->edits = editor_.history();
+  snapshot->actions = actions_.lists();
   return snapshot;
 }
 
@@ -211,6 +257,7 @@ Status TypedWorld<Real>::restore(const WorldSnapshot& snapshot) {
     return "restore: the snapshot is of another body (mesh, or options of its solver)";
   heml::restore(saved, s_);
   editor_.restore_history(of_type->edits);
+  actions_.restore(of_type->actions);
   return {};
 }
 
@@ -258,7 +305,9 @@ WorldFacts TypedWorld<Real>::facts() {
   facts.method = method_.facts();
   facts.step = queries_.step_facts();
   facts.solver = queries_.solver_facts();
-  facts.memory = queries_.memory_facts(editor_.has_history() ? std::optional(editor_.history_bytes()) : std::nullopt);
+  const bool has_past = editor_.has_history() || actions_.can_step(-1);
+  const std::size_t past = (editor_.has_history() ? editor_.history_bytes() : 0) + actions_.bytes();
+  facts.memory = queries_.memory_facts(has_past ? std::optional(past) : std::nullopt);
   return facts;
 }
 

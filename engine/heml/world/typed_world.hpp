@@ -1,5 +1,6 @@
 #pragma once
 // A world of one scalar type. tick() lists the phases of a tick; each phase is a type of its own, named in the members.
+#include <heml/world/action_history.hpp>
 #include <heml/world/command_executor.hpp>
 #include <heml/world/explicit_stepper.hpp>
 #include <heml/world/implicit_stepper.hpp>
@@ -63,6 +64,7 @@ class TypedWorld final : public World {
   std::vector<std::uint16_t> node_hashes() const override { return queries_.node_hashes(); }
   std::shared_ptr<const Topology> topology() const override { return s_.topology; }
   const std::vector<EditReport>& edits() const override { return s_.edits; }
+  ActionList actions() const override;
   const WorldSetup& setup() const override { return s_.setup; }
   int threads() const override { return s_.team.limit(); }
   double worker_seconds() const override { return s_.team.worker_seconds(); }
@@ -70,6 +72,9 @@ class TypedWorld final : public World {
 
  private:
   void start();
+  Status carry_out(const Command& command);
+  Status step_history(int by);
+  std::shared_ptr<const Moment<Real>> moment();
   void set_initial_state();
   void advance(double until);
   void handle(const std::optional<StopReason>& failure);
@@ -84,6 +89,7 @@ class TypedWorld final : public World {
   MethodChoice<Real> method_{s_};
   RecoveryController<Real> recovery_{s_, method_};
   MeshEditor<Real> editor_{s_, recovery_};
+  ActionHistory<Real> actions_;
   CommandExecutor<Real> commands_{s_, method_, implicit_, recovery_, editor_};
   WorldQueries<Real> queries_{s_};
 };

@@ -55,6 +55,12 @@ enum class Field {
   error          ///< of the mesh, of the mean energy norm: elastic/error_estimate.hpp
 };
 
+/// Actions that StepHistory takes back (past) and brings back (future), each by the command that began it.
+struct ActionList {
+  std::vector<Command> past;    ///< oldest first
+  std::vector<Command> future;  ///< next to bring back first
+};
+
 class PreconditionerBuild;  // dynamics/preconditioner_build.hpp
 struct WorldFacts;          // facts.hpp
 
@@ -136,6 +142,9 @@ class World {
   virtual std::shared_ptr<const Topology> topology() const = 0;
   /// Edits since the start or the last Reset, except those undone.
   virtual const std::vector<EditReport>& edits() const = 0;
+
+  /// What StepHistory can take back and bring back. At most 20 actions are kept, fewer of large bodies.
+  virtual ActionList actions() const = 0;
 
   /// If the preconditioner of implicit steps is outdated after a removal, returns a job that rebuilds it on any thread,
   /// which must end before this world does; pass the result to AdoptPreconditioner. Until then steps use the outdated
