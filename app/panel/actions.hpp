@@ -36,6 +36,7 @@ enum class Action {
   select_suture,
   toggle_table,
   undo,
+  redo,
   open,
   select_previous,
   select_next,

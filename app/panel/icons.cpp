@@ -14,6 +14,16 @@ void bar(ImDrawList& list, float left, float right, float middle, float half, Im
   list.AddRectFilled({left, middle - half}, {right, middle + half}, colour, (right - left) * 0.25f);
 }
 
+/// An arrow that goes up, over and back down to one side; direction: −1 to the left, 1 to the right.
+void turned_arrow(ImDrawList& list, ImVec2 c, float half, ImU32 colour, float direction) {
+  const auto at = [&](float x, float y) { return ImVec2(c.x + direction * x * half, c.y + y * half); };
+  list.PathLineTo(at(-0.6f, 0.8f));
+  list.PathBezierCubicCurveTo(at(-1.3f, 0.1f), at(-0.9f, -0.5f), at(0.2f, -0.35f), 16);
+  list.PathStroke(colour, ImDrawFlags_None, half * 0.3f);
+  const ImVec2 a = at(0.2f, -0.95f), b = at(1, -0.35f), d = at(0.2f, 0.25f);
+  direction > 0 ? list.AddTriangleFilled(a, b, d, colour) : list.AddTriangleFilled(a, d, b, colour);
+}
+
 }  // namespace
 
 void draw_play(ImDrawList& list, ImVec2 c, float half, ImU32 colour) {
@@ -43,6 +53,10 @@ void draw_reset(ImDrawList& list, ImVec2 c, float half, ImU32 colour) {
                          {tip.x - across.x * s, tip.y - across.y * s}, {tip.x + across.x * s, tip.y + across.y * s},
                          colour);
 }
+
+void draw_undo(ImDrawList& list, ImVec2 c, float half, ImU32 colour) { turned_arrow(list, c, half, colour, -1); }
+
+void draw_redo(ImDrawList& list, ImVec2 c, float half, ImU32 colour) { turned_arrow(list, c, half, colour, 1); }
 
 void draw_folder(ImDrawList& list, ImVec2 c, float half, ImU32 colour) {
   list.AddRectFilled({c.x - half, c.y - half * 0.75f}, {c.x - half * 0.05f, c.y}, colour, half * 0.2f);

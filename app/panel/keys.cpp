@@ -1,61 +1,72 @@
+#include <algorithm>
 #include <app/panel/keys.hpp>
 
 namespace heml::panel {
 namespace {
+using enum Modifier;
+
 constexpr KeyBinding bindings[] = {
-    {'O', true, Action::open, "Ctrl+O", "open a scene, a recording, a mesh or a surface"},
-    {key_up, false, Action::select_previous, "Up, Down", "select in the open dialog; Enter opens"},
-    {key_down, false, Action::select_next, "", ""},
-    {key_enter, false, Action::open_selected, "", ""},
-    {'S', true, Action::save, "Ctrl+S", "save the scene with the current settings"},
-    {' ', false, Action::toggle_play, "Space", "play or pause"},
-    {'.', false, Action::step, ".", "step by one tick"},
-    {key_left, false, Action::seek_previous, "Left, Right", "show the previous, next frame"},
-    {key_right, false, Action::seek_next, "", ""},
-    {key_home, false, Action::seek_start, "Home, End", "show the start; back to live"},
-    {key_end, false, Action::seek_live, "", ""},
-    {'B', false, Action::resume, "B", "resume from the shown time"},
-    {'R', false, Action::reset, "R", "reset to the initial state"},
-    {'F', false, Action::fit, "F", "fit the body into view"},
-    {'1', false, Action::show_tissue, "1", "tissue"},
-    {'2', false, Action::show_displacement, "2", "colours: displacement"},
-    {'3', false, Action::show_stretch, "3", "colours: stretch"},
-    {'4', false, Action::show_von_mises, "4", "colours: von Mises stress"},
-    {'5', false, Action::show_volume_ratio, "5", "colours: volume ratio"},
-    {'6', false, Action::show_error, "6", "colours: discretisation error"},
-    {'W', false, Action::wireframe, "W", "wireframe"},
-    {key_f5, false, Action::view_1, "F5 to F8", "restore a saved view"},
-    {key_f6, false, Action::view_2, "", ""},
-    {key_f7, false, Action::view_3, "", ""},
-    {key_f8, false, Action::view_4, "", ""},
-    {key_f5, true, Action::save_view_1, "Ctrl+F5 to F8", "save this view"},
-    {key_f6, true, Action::save_view_2, "", ""},
-    {key_f7, true, Action::save_view_3, "", ""},
-    {key_f8, true, Action::save_view_4, "", ""},
-    {'V', false, Action::record_video, "V", "start or stop recording PNG frames and a video"},
-    {'P', false, Action::screenshot, "P, F12", "save an image"},
-    {key_f12, false, Action::screenshot, "", ""},
-    {key_tab, false, Action::hide, "Tab", "hide or show the panel"},
-    {'H', false, Action::help, "H, F1", "this page"},
-    {key_f1, false, Action::help, "", ""},
-    {key_escape, false, Action::release, "Esc", "release the tool; close messages; back to live"},
-    {key_delete, false, Action::remove, "Del", "remove the tissue under the ring"},
-    {'G', false, Action::select_grasper, "G", "grasper"},
-    {'C', false, Action::select_scalpel, "C", "scalpel"},
-    {'N', false, Action::select_pin, "N", "pin (on a pin: remove it)"},
-    {'O', false, Action::select_probe, "O", "probe"},
-    {'S', false, Action::select_suture, "S", "suture: click both ends"},
-    {'T', false, Action::toggle_table, "T", "add or remove a table under the body"},
-    {'Z', true, Action::undo, "Ctrl+Z", "undo the last cut or removal"},
-    {'Q', true, Action::quit, "Ctrl+Q", "quit"},
+    {'O', control, Action::open, "Ctrl+O", "open a scene, a recording, a mesh or a surface"},
+    {key_up, none, Action::select_previous, "Up, Down", "select in the open dialog; Enter opens"},
+    {key_down, none, Action::select_next, "", ""},
+    {key_enter, none, Action::open_selected, "", ""},
+    {'S', control, Action::save, "Ctrl+S", "save the scene with the current settings"},
+    {' ', none, Action::toggle_play, "Space", "play or pause"},
+    {'.', none, Action::step, ".", "step by one tick"},
+    {key_left, none, Action::seek_previous, "Left, Right", "show the previous, next frame"},
+    {key_right, none, Action::seek_next, "", ""},
+    {key_home, none, Action::seek_start, "Home, End", "show the start; back to live"},
+    {key_end, none, Action::seek_live, "", ""},
+    {'B', none, Action::resume, "B", "resume from the shown time"},
+    {'R', none, Action::reset, "R", "reset to the initial state"},
+    {'F', none, Action::fit, "F", "fit the body into view"},
+    {'1', none, Action::show_tissue, "1", "tissue"},
+    {'2', none, Action::show_displacement, "2", "colours: displacement"},
+    {'3', none, Action::show_stretch, "3", "colours: stretch"},
+    {'4', none, Action::show_von_mises, "4", "colours: von Mises stress"},
+    {'5', none, Action::show_volume_ratio, "5", "colours: volume ratio"},
+    {'6', none, Action::show_error, "6", "colours: discretisation error"},
+    {'W', none, Action::wireframe, "W", "wireframe"},
+    {key_f5, none, Action::view_1, "F5 to F8", "restore a saved view"},
+    {key_f6, none, Action::view_2, "", ""},
+    {key_f7, none, Action::view_3, "", ""},
+    {key_f8, none, Action::view_4, "", ""},
+    {key_f5, control, Action::save_view_1, "Ctrl+F5 to F8", "save this view"},
+    {key_f6, control, Action::save_view_2, "", ""},
+    {key_f7, control, Action::save_view_3, "", ""},
+    {key_f8, control, Action::save_view_4, "", ""},
+    {'V', none, Action::record_video, "V", "start or stop recording PNG frames and a video"},
+    {'P', none, Action::screenshot, "P, F12", "save an image"},
+    {key_f12, none, Action::screenshot, "", ""},
+    {key_tab, none, Action::hide, "Tab", "hide or show the panel"},
+    {'H', none, Action::help, "H, F1", "this page"},
+    {key_f1, none, Action::help, "", ""},
+    {key_escape, none, Action::release, "Esc", "release the tool; close messages; back to live"},
+    {key_delete, none, Action::remove, "Del", "remove the tissue under the ring"},
+    {'G', none, Action::select_grasper, "G", "grasper"},
+    {'C', none, Action::select_scalpel, "C", "scalpel"},
+    {'N', none, Action::select_pin, "N", "pin (on a pin: remove it)"},
+    {'O', none, Action::select_probe, "O", "probe"},
+    {'S', none, Action::select_suture, "S", "suture: click both ends"},
+    {'T', none, Action::toggle_table, "T", "add or remove a table under the body"},
+    {'Z', control, Action::undo, "Ctrl+Z", "undo the last action"},
+    {'Z', control_shift, Action::redo, "Ctrl+Shift+Z", "redo; Ctrl+Y does too"},
+    {'Y', control, Action::redo, "", ""},
+    {'Q', control, Action::quit, "Ctrl+Q", "quit"},
 };
 }  // namespace
 
 std::span<const KeyBinding> key_bindings() { return bindings; }
 
-std::optional<Action> action_of(int key, bool control) {
+std::optional<Action> action_of(int key, bool control, bool shift) {
+  const auto is_bound = [&](Modifier modifier) {
+    return std::any_of(std::begin(bindings), std::end(bindings),
+                       [&](const KeyBinding& b) { return b.key == key && b.modifier == modifier; });
+  };
+  const Modifier with_control = shift && is_bound(control_shift) ? control_shift : Modifier::control;
+  const Modifier held = control ? with_control : none;
   for (const KeyBinding& binding : bindings)
-    if (binding.key == key && binding.control == control) return binding.action;
+    if (binding.key == key && binding.modifier == held) return binding.action;
   return std::nullopt;
 }
 

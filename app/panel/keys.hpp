@@ -25,9 +25,11 @@ enum Key : int {
   key_enter
 };
 
+enum class Modifier { none, control, control_shift };
+
 struct KeyBinding {
   int key;
-  bool control;  ///< with Ctrl held
+  Modifier modifier;
   Action action;
   const char* label;  ///< in the help page; empty: listed with the binding above
   const char* meaning;
@@ -35,7 +37,7 @@ struct KeyBinding {
 
 std::span<const KeyBinding> key_bindings();
 
-/// The action bound to a key, if any.
-std::optional<Action> action_of(int key, bool control);
+/// The action bound to a key, if any. Shift alone changes none.
+std::optional<Action> action_of(int key, bool control, bool shift = false);
 
 }  // namespace heml::panel

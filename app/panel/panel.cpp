@@ -6,6 +6,7 @@
 #include <app/panel/legend.hpp>
 #include <app/panel/panel.hpp>
 #include <app/panel/readings.hpp>
+#include <app/panel/undo_section.hpp>
 #include <app/render/bounds.hpp>
 #include <cctype>
 
@@ -58,6 +59,7 @@ void Panel::update_surface(const Frame& frame) {
 void Panel::update(const Frame& frame, float seconds) {
   history_.add(frame);
   report_refusal(frame);
+  update_settings(frame);
   since_recovery_ += seconds;
   if (!frame.recovery) since_recovery_ = recovery_banner_time;
   if (frame.recovery && (!frame.recovery->ended || frame.recovery->tick != recovery_seen_)) {
@@ -71,6 +73,14 @@ void Panel::update(const Frame& frame, float seconds) {
   update_stretch_limits();
   stretch_monitor_.update(frame);
   view_.set_hatched(stretch_monitor_.beyond());
+}
+
+/// Shows the settings that an undo or redo has restored.
+void Panel::update_settings(const Frame& frame) {
+  const UndoList* list = frame.undo_list.get();
+  const long steps = list ? list->steps : 0;
+  if (steps == std::exchange(undo_steps_, steps) || !list) return;
+  for (const Command& command : list->settings) sync(command);
 }
 
 void Panel::report_refusal(const Frame& frame) {
@@ -148,7 +158,9 @@ std::optional<Banner> Panel::banner_for(const Frame& frame) const {
   if (!frame.halted.empty())
     return Banner{
         "The simulation stopped",
-        frame.halted + "\nReset returns to the initial state. Smaller tool motions or more damping may avoid this.",
+        frame.halted +
+            "\nReset returns to the initial state. Undo (Ctrl+Z) returns to the state before the last action. "
+            "Smaller tool motions or more damping may avoid this.",
         "Reset (R)", colours::danger};
   if (frame.recovery && shows_recovery())
     return Banner{frame.recovery->ended ? "Tissue recovered" : "Recovering the tissue",
@@ -185,6 +197,7 @@ void Panel::draw_controls(const Frame& frame, bool with_readings, PanelActions& 
     }
     if (rows_.section("Compare", false)) comparisons_.draw(rows_, frame, out);
     if (rows_.section("View")) view_.draw(rows_, pressed_, out);
+    if (rows_.section("Actions", false)) draw_undo_list(rows_, frame, out);
     controls_height_ = header_height + ImGui::GetCursorPosY() + ImGui::GetStyle().WindowPadding.y;
     ImGui::EndChild();
   }
@@ -192,11 +205,17 @@ void Panel::draw_controls(const Frame& frame, bool with_readings, PanelActions& 
 }
 
 void Panel::draw_header(const Frame& frame) {
+  const std::string time = fmt::format("{:.2f} s", frame.time);
+  const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(time.c_str()).x - em(0.8f);
   {
     const UseFont large(Font::title);
-    ImGui::TextUnformatted(elided(title_, ImGui::GetContentRegionAvail().x).c_str());
+    ImGui::TextUnformatted(elided(title_, room).c_str());
   }
   rows_.explain({"Title", description_.empty() ? title_ : title_ + "\n\n" + description_});
+  ImGui::SameLine();
+  text_at_right(time, colours::text);
+  rows_.explain(
+      {"Time", fmt::format("Simulated time since the start or the last reset; tick {} of the engine.", frame.tick)});
   const float size = em(1.95f);
   const auto button = [&](const char* name, const char* hint, bool strong, Action action, const Rows::Icon& icon) {
     if (rows_.icon_button({name, hint}, size, strong, icon)) pressed_.push_back(action);
@@ -207,18 +226,13 @@ void Panel::draw_header(const Frame& frame) {
   else
     button("Pause", "Pauses the simulation (Space).", true, Action::toggle_play, draw_pause);
   button("Step", "One tick of the engine, then pause (. key).", false, Action::step, draw_step);
+  button("Undo", undo_hint(frame, -1).c_str(), false, Action::undo, draw_undo);
+  button("Redo", undo_hint(frame, 1).c_str(), false, Action::redo, draw_redo);
   button("Reset", "Back to the initial state at time 0; settings stay (R).", false, Action::reset, draw_reset);
   button("Open", "Opens installed scenes, recent files, and files in folders (Ctrl+O).", false, Action::open,
          draw_folder);
   button("Help", "Mouse and keys (H).", false, Action::help, draw_question);
-  ImGui::BeginGroup();
-  text_at_right(fmt::format("{:.2f} s", frame.time), colours::text);
-  {
-    const UseFont small(Font::small);
-    text_at_right(fmt::format("tick {}", frame.tick), colours::muted);
-  }
-  ImGui::EndGroup();
-  rows_.explain({"Time", "Simulated time, s, since the start or the last reset; ticks of the engine since the start."});
+  ImGui::NewLine();
   draw_pace(frame);
   ImGui::Separator();
 }

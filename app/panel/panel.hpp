@@ -73,11 +73,13 @@ class Panel {
   void draw_accuracy(const Frame& frame);
   void report_refusal(const Frame& frame);
   void update_surface(const Frame& frame);
+  void update_settings(const Frame& frame);
   void update_stretch_limits();
   std::optional<Banner> banner_for(const Frame& frame) const;
   void record_window_rect();
 
   std::string title_, description_;  ///< of the scene
+  long undo_steps_ = 0;              ///< UndoList::steps whose settings are shown
   ToolSection tool_;
   long refusals_ = 0;  ///< Frame::refusals that were shown
   MaterialSection material_;

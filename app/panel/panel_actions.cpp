@@ -90,7 +90,10 @@ void Panel::carry_out(Action action, const Frame& frame, PanelActions& out) {
     case Action::toggle_table:
       return tool_.toggle_table(frame, out);
     case Action::undo:
-      out.commands.emplace_back(Undo{});
+      out.commands.emplace_back(StepHistory{-1});
+      return;
+    case Action::redo:
+      out.commands.emplace_back(StepHistory{1});
       return;
     case Action::record_video:
       return ask(Request::record_video);

@@ -157,7 +157,8 @@ void GlfwWindow::install_callbacks() {
     if (!events_of(w)) return;
     ImGui_ImplGlfw_KeyCallback(w, key, scancode, action, mods);
     if (action != GLFW_RELEASE)
-      events_of(w)->key(panel_key(key, scancode), mods & GLFW_MOD_CONTROL, action == GLFW_REPEAT);
+      events_of(w)->key(panel_key(key, scancode), mods & GLFW_MOD_CONTROL, mods & GLFW_MOD_SHIFT,
+                        action == GLFW_REPEAT);
   });
   glfwSetCharCallback(window_, [](GLFWwindow* w, unsigned character) {
     if (events_of(w)) ImGui_ImplGlfw_CharCallback(w, character);

@@ -20,7 +20,7 @@ class NoDisplay : public std::runtime_error {
 class WindowEvents {
  public:
   virtual ~WindowEvents() = default;
-  virtual void key(int key, bool control, bool repeated) = 0;  ///< key: as in panel/keys.hpp
+  virtual void key(int key, bool control, bool shift, bool repeated) = 0;  ///< key: as in panel/keys.hpp
   virtual void button(MouseButton button, bool down, bool shift) = 0;
   virtual void mouse(const render::Vec2f& at) = 0;
   virtual void wheel(float notches) = 0;

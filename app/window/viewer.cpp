@@ -164,10 +164,10 @@ void Viewer::post(std::vector<Command>& commands) {
   commands.clear();
 }
 
-void Viewer::key(int key, bool control, bool repeated) {
+void Viewer::key(int key, bool control, bool shift, bool repeated) {
   changed();
   last_key_ = key;
-  const auto action = panel::action_of(key, control);
+  const auto action = panel::action_of(key, control, shift);
   if (!action) return;
   using enum panel::Action;
   const bool chooses = *action == select_previous || *action == select_next;

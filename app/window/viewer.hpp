@@ -36,7 +36,7 @@ class Viewer final : public WindowEvents {
   long drawn() const { return drawn_; }           ///< images so far
   const Frame& frame() const { return *frame_; }  ///< the one drawn last
 
-  void key(int key, bool control, bool repeated) override;
+  void key(int key, bool control, bool shift, bool repeated) override;
   void button(MouseButton button, bool down, bool shift) override;
   void mouse(const render::Vec2f& at) override;
   void wheel(float notches) override;

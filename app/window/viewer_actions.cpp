@@ -1,6 +1,7 @@
 // Viewer: carries out the actions and requests of the panel.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <app/window/elements_around.hpp>
 #include <app/window/screenshot.hpp>
 #include <app/window/viewer.hpp>
@@ -22,9 +23,13 @@ void Viewer::carry_out(const panel::PanelActions& actions) {
     if (session_loader_.progress()) session_loader_.cancel();
     playback_.end(*open_.session);
   }
-  // Releases the mouse tool before a reset: it would pull on the reset body.
+  // Releases the mouse tool before a reset or an undo, which it would pull on, and a grasp that an undo restores: no
+  // mouse button holds it.
+  const auto restores = [](const Command& command) { return std::holds_alternative<StepHistory>(command); };
+  const bool has_undo = std::any_of(commands.begin(), commands.end(), restores);
   for (const Command& command : actions.commands)
-    if (std::holds_alternative<Reset>(command)) release_tool();
+    if (std::holds_alternative<Reset>(command) || restores(command)) release_tool();
+  if (has_undo) commands.emplace_back(Release{});
   post(commands);
   if (actions.show) open_.session->show(*actions.show);
   for (const panel::Request request : actions.requests) carry_out(request);

@@ -33,7 +33,7 @@ class ByHand(WindowCase):
         self.drag((x - 40, y + 20), (-40, 50), steps=4)             # pull against the pin
         self.quit()
         print(*(f"{key}: {len(self.seen(key, recording))}" for key in
-                ("grasp", "move", "release", "material", "cut", "undo", "probe", "pin", "checkpoint")))
+                ("grasp", "move", "release", "material", "cut", "history", "probe", "pin", "checkpoint")))
 
     def until(self, key, recording, action):
         before = len(self.seen(key, recording))

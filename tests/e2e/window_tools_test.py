@@ -105,11 +105,18 @@ class Tools(WindowCase):
         self.play(120)
         self.xdo("key", "space")
         self.assertGreater(self.steady().change(whole, 220, 640), 0.05, "the cut does not open")
+        opened = self.steady()
         self.do("key", "ctrl+z")
-        self.wait_for_event("undo")
+        self.wait_for_event("history")
+        self.wait_for("the body closes", lambda: self.display.picture().change(opened, 220, 640) > 0.05)
+        self.do("key", "ctrl+shift+z")
+        self.wait_for_event("history", 2)
+        self.wait_for("the cut opens again", lambda: self.display.picture().change(opened, 220, 640) < 0.02)
+        self.do("key", "ctrl+z")
+        self.wait_for_event("history", 3)
         self.do("key", "ctrl+z")  # nothing left to undo: reported, not recorded
         self.quit()
-        self.assertEqual(len(self.seen("undo")), 1)
+        self.assertEqual(self.seen("history"), [-1, 1, -1])
         self.verify()
 
     def test_what_was_recorded_before_a_kill_replays(self):

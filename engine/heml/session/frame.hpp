@@ -1,6 +1,7 @@
 #pragma once
 // Frame: a snapshot of the body at one tick, published by the engine for viewers. Immutable once published.
 #include <array>
+#include <heml/session/undo_list.hpp>
 #include <heml/world/step_doubling.hpp>
 #include <memory>
 #include <optional>
@@ -63,18 +64,19 @@ struct Frame {
   long explicit_rescues = 0;   ///< SolverStats
   long unconverged_steps = 0;  ///< SolverStats
   bool paused = false;
-  long fast_forward_target = 0;            ///< the tick being fast-forwarded to; 0: none
-  std::optional<Recovery> recovery;        ///< the last one, active or ended
-  std::string recovery_file;               ///< recording that reproduces it; empty: none was written
-  std::array<Vec3f, 4> recovered_element;  ///< m, corners of its first invalid element, if recovery names one
-  std::string recording_problem;           ///< why the recording ended early; empty: it did not, or there is none
-  std::optional<EditReport> last_edit;     ///< of the mesh
-  long refusals = 0;                       ///< number of commands that the world refused
-  std::string refusal;                     ///< reason of the last refusal
-  std::string halted;                      ///< why the world has halted; empty while it steps
-  std::vector<Frame> comparisons;          ///< of the comparison runs, same tick (SessionOptions::comparisons)
-  std::string variant;                     ///< name of this frame's variant, where there are comparison runs
-  std::optional<Distance> distance;        ///< of a comparison run from the body; empty where their surfaces differ
+  long fast_forward_target = 0;               ///< the tick being fast-forwarded to; 0: none
+  std::optional<Recovery> recovery;           ///< the last one, active or ended
+  std::string recovery_file;                  ///< recording that reproduces it; empty: none was written
+  std::array<Vec3f, 4> recovered_element;     ///< m, corners of its first invalid element, if recovery names one
+  std::string recording_problem;              ///< why the recording ended early; empty: it did not, or there is none
+  std::optional<EditReport> last_edit;        ///< of the mesh
+  std::shared_ptr<const UndoList> undo_list;  ///< null before the first action
+  long refusals = 0;                          ///< number of commands that the world refused
+  std::string refusal;                        ///< reason of the last refusal
+  std::string halted;                         ///< why the world has halted; empty while it steps
+  std::vector<Frame> comparisons;             ///< of the comparison runs, same tick (SessionOptions::comparisons)
+  std::string variant;                        ///< name of this frame's variant, where there are comparison runs
+  std::optional<Distance> distance;           ///< of a comparison run from the body; empty where their surfaces differ
 };
 
 }  // namespace heml

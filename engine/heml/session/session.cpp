@@ -38,7 +38,7 @@ class Session::Impl {
  public:
   Impl(const Scene& scene, SessionOptions options)
       : options_(std::move(options)),
-        world_(load_world(scene)),
+        world_(world_with_undo(scene)),
         scene_(without_events(scene)),
         schedule_(scene, world_->setup().mesh),
         recorded_ticks_(scene.recorded_ticks.value_or(0)),
@@ -195,6 +195,7 @@ class Session::Impl {
     if (comparison_runs_) comparison_runs_->apply(command);
     if (step_doubling_scheduler_) step_doubling_scheduler_->carried_out(command);
     record([&](Recorder& recorder) { recorder.command(*world_, command); });
+    undo_list_ = updated(std::move(undo_list_), *world_, command);
     std::lock_guard lock(mutex_);
     history_.push_back({world_->ticks(), command});
   }
@@ -208,6 +209,12 @@ class Session::Impl {
     recording_problem_ = error.what();
     recorder_.reset();
     show_now_ = true;
+  }
+
+  static std::unique_ptr<World> world_with_undo(const Scene& scene) {
+    WorldSetup setup = load_setup(scene);
+    setup.keeps_actions = true;
+    return make_world(std::move(setup));
   }
 
   /// The scene to record: without its events, which are recorded as they are carried out.
@@ -337,6 +344,7 @@ class Session::Impl {
     frame.fast_forward_target = fast_forward_target_;
     frame.recovery_file = kept_recovery_;
     frame.recording_problem = recording_problem_;
+    frame.undo_list = undo_list_;
     frame.refusals = refusals_;
     frame.refusal = refusal_;
     frames_.publish();
@@ -356,11 +364,12 @@ class Session::Impl {
   RecoveryMonitor recovery_monitor_;
   std::vector<Event> history_;  ///< every command carried out; changed under mutex_
   bool rescue_reported_ = false;
-  std::string kept_recovery_;      ///< file of the last recovery
-  std::string recording_problem_;  ///< why the recording ended early
-  long refusals_ = 0;              ///< number of refused commands
-  std::string refusal_;            ///< reason of the last refusal
-  mutable std::mutex mutex_;       ///< of queue_, single_steps_ and history_; locked briefly, longest by until()
+  std::string kept_recovery_;                  ///< file of the last recovery
+  std::string recording_problem_;              ///< why the recording ended early
+  std::shared_ptr<const UndoList> undo_list_;  ///< null before the first action
+  long refusals_ = 0;                          ///< number of refused commands
+  std::string refusal_;                        ///< reason of the last refusal
+  mutable std::mutex mutex_;  ///< of queue_, single_steps_ and history_; locked briefly, longest by until()
   std::condition_variable wake_;
   std::vector<Command> queue_, taken_;
   long single_steps_ = 0;

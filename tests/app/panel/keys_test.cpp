@@ -19,13 +19,18 @@ TEST_CASE("keys mean what the help page says") {
   CHECK_FALSE(action_of('Q', false));
   CHECK_FALSE(action_of('R', true));
   CHECK_FALSE(action_of('Z', false));
+  CHECK(action_of('Z', true) == Action::undo);
+  CHECK(action_of('Z', true, true) == Action::redo);
+  CHECK(action_of('Y', true) == Action::redo);
+  CHECK(action_of('G', false, true) == Action::select_grasper);  // Shift alone changes nothing
+  CHECK(action_of('S', true, true) == Action::save);
 }
 
 TEST_CASE("no key is bound twice, and every action has one") {
-  std::set<std::pair<int, bool>> keys;
+  std::set<std::pair<int, Modifier>> keys;
   std::set<Action> actions;
   for (const KeyBinding& binding : key_bindings()) {
-    CHECK(keys.insert({binding.key, binding.control}).second);
+    CHECK(keys.insert({binding.key, binding.modifier}).second);
     actions.insert(binding.action);
   }
   CHECK(actions.size() == static_cast<std::size_t>(Action::quit) + 1);

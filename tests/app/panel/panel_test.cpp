@@ -36,7 +36,11 @@ TEST_CASE("buttons do what their keys do") {
   Driver driver;
   CHECK(driver.click("Pause", 38).requests == std::vector{Request::pause});
   CHECK(driver.click("Step", 75).requests == std::vector{Request::step});
-  const auto reset = driver.click("Reset", 112);
+  const auto undo = driver.click("Undo", 112), redo = driver.click("Redo", 149);
+  REQUIRE((undo.commands.size() == 1 && redo.commands.size() == 1));
+  CHECK(std::get<StepHistory>(undo.commands.front()).by == -1);
+  CHECK(std::get<StepHistory>(redo.commands.front()).by == 1);
+  const auto reset = driver.click("Reset", 186);
   REQUIRE(reset.commands.size() == 1);
   CHECK(std::holds_alternative<Reset>(reset.commands.front()));
   CHECK(driver.click("Save image", 150).requests == std::vector{Request::screenshot});
@@ -65,6 +69,32 @@ TEST_CASE("a scene is written with the tissue, the motion and the colours that a
   CHECK(scene.solver.integrator == Integrator::tr_bdf2);
   CHECK(scene.view.field == Field::stretch);
   CHECK(scene.view.wireframe);
+}
+
+TEST_CASE("the list of actions goes where it is clicked, and restored settings are shown") {
+  Scene scene = small_scene();
+  Driver driver(scene, 1280, 1600);
+  driver.click("Actions");
+  auto list = std::make_shared<UndoList>();
+  list->past = {"grasp", "cut", "pin"};
+  list->future = {"material", "reset"};
+  driver.frame.undo_list = list;
+  driver.draw();
+  const auto steps = [](const panel::PanelActions& actions) {
+    std::vector<int> by;
+    for (const Command& command : actions.commands) by.push_back(std::get<StepHistory>(command).by);
+    return by;
+  };
+  CHECK(steps(driver.click("2. cut", 60)) == std::vector{-1, -1});
+  CHECK(steps(driver.click("5. reset (undone)", 60)) == std::vector{1, 1});
+  auto stepped = std::make_shared<UndoList>(*list);
+  stepped->steps = 1;
+  stepped->settings = {SetDamping{7}, SetGravity{Vec3(0, 0, 3)}};
+  driver.frame.undo_list = stepped;
+  driver.panel.update(driver.frame, 0.1f);
+  driver.panel.write_into(scene);
+  CHECK(scene.solver.damping == 7);
+  CHECK((scene.gravity - Vec3(0, 0, 3)).norm() < 1e-15);
 }
 
 TEST_CASE("colour keys and the colour choice ask for fields") {

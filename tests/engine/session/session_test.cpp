@@ -465,4 +465,44 @@ TEST_CASE("a disk that fills up ends the recording, is told to the viewer, and t
   wait_for(session, [&](const Frame& f) { return f.tick > tick + 10; });
 }
 
+TEST_CASE("undo and redo: frames list the actions, settings come back, and the recording replays") {
+  const TemporaryFolder folder;
+  const auto recording = folder.path / "undone.jsonl";
+  {
+    SessionOptions options;
+    options.record = recording;
+    Session session(small_scene(), options);
+    CHECK(!session.latest().undo_list);
+    session.post(PinTissue{6, 0});
+    wait_for(session, [](const Frame& f) { return f.undo_list && f.undo_list->past.size() == 1; });
+    session.post(SetDamping{5});
+    const Frame& two = wait_for(session, [](const Frame& f) { return f.undo_list->past.size() == 2; });
+    CHECK(two.undo_list->past == std::vector<std::string>{"pin", "damping"});
+    const long tick = two.tick;
+    session.post(StepHistory{-1});
+    const Frame& undone = wait_for(session, [](const Frame& f) { return f.undo_list->steps == 1; });
+    CHECK(undone.tick >= tick);
+    CHECK(undone.undo_list->future == std::vector<std::string>{"damping"});
+    const auto& settings = undone.undo_list->settings;
+    const auto damping = std::find_if(settings.begin(), settings.end(), [](const Command& command) {
+      return std::holds_alternative<SetDamping>(command);
+    });
+    REQUIRE(damping != settings.end());
+    CHECK(std::get<SetDamping>(*damping).damping == 0);
+    CHECK(find_tool<PinState>(undone.tools));
+    session.post(StepHistory{-1});
+    wait_for(session, [](const Frame& f) { return !find_tool<PinState>(f.tools); });
+    session.post(StepHistory{1});
+    wait_for(session, [](const Frame& f) { return find_tool<PinState>(f.tools) != nullptr; });
+    session.post(StepHistory{1});
+    wait_for(session, [](const Frame& f) { return f.undo_list->future.empty(); });
+    session.post(StepHistory{1});
+    CHECK(wait_for(session, [](const Frame& f) { return f.refusals == 1; }).refusal ==
+          "history: there is nothing to redo");
+  }
+  const Scene recorded = read_scene(recording);
+  const auto world = load_world(recorded);
+  CHECK(verify(recorded, replay(recorded, *world)).reason == "");
+}
+
 }  // namespace heml::session_test
