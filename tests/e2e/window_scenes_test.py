@@ -42,7 +42,7 @@ class Scenes(WindowCase):
         def save(file):
             self.begin(file, "--size", "640x360")
             if not saved:
-                self.drag((125, 177), (24, 0), steps=4)
+                self.drag((125, 174), (24, 0), steps=4)
                 self.do("key", "t", "key", "w", "key", "4")
                 self.play(3)  # the table must take effect before it is saved
             self.do("key", "ctrl+s")
