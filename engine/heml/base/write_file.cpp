@@ -133,6 +133,16 @@ void AppendFile::write(std::string_view bytes) {
   if (const int error = write_all(descriptor_, bytes)) fail(path_, error, disk_remedy);
 }
 
+std::optional<std::size_t> AppendFile::size() const {
+  struct stat status;
+  if (::fstat(descriptor_, &status) != 0 || !S_ISREG(status.st_mode) || standard_stream(status)) return std::nullopt;
+  return static_cast<std::size_t>(status.st_size);
+}
+
+void AppendFile::cut(std::size_t size) {
+  if (::ftruncate(descriptor_, static_cast<off_t>(size)) != 0) fail(path_, errno, disk_remedy);
+}
+
 void AppendFile::close() {
   if (const int error = close_for_good(std::exchange(descriptor_, -1))) fail(path_, error, disk_remedy);
 }

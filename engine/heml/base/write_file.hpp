@@ -6,7 +6,9 @@
 //
 // Pipes, devices and standard streams are written directly. AppendFile writes at the end instead, for output that has
 // to survive a crash of the program.
+#include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string_view>
 
 namespace heml {
@@ -27,6 +29,10 @@ class AppendFile {
 
   /// Throws InputError when not all bytes can be written; some of them may have been.
   void write(std::string_view bytes);
+  /// Bytes written so far, those of an existing file included; none: no regular file (a pipe, a standard stream).
+  std::optional<std::size_t> size() const;
+  /// Cuts the file off after so many bytes. Throws InputError.
+  void cut(std::size_t size);
   /// Throws InputError for write errors that the system reports only on closing (network disks).
   void close();
 

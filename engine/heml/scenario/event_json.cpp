@@ -5,6 +5,7 @@
 #include <cmath>
 #include <heml/scenario/command_table.hpp>
 #include <heml/scenario/event_json.hpp>
+#include <heml/scenario/vector_json.hpp>
 
 namespace heml {
 namespace {
@@ -106,12 +107,18 @@ void install_script(Script script, Scene& scene) {
   scene.checkpoints = std::move(script.checkpoints);
 }
 
-std::string event_line(const Event& event) {
+Json event_json(const Event& event, const std::vector<Vec3>& points) {
   Json json = {{"step", event.tick}};
   const CommandInfo& info = info_of(event.command);
-  json[std::string(info.key)] = info.write(event.command);
-  return json_text(json, "");
+  Json& value = json[std::string(info.key)] = info.write(event.command);
+  if (points.empty()) return json;
+  if (value.erase("node")) value["point"] = vector_json(points.front());
+  if (value.erase("nodes"))
+    for (const Vec3& point : points) value["points"].push_back(vector_json(point));
+  return json;
 }
+
+std::string event_line(const Event& event) { return json_text(event_json(event), ""); }
 
 std::string checkpoint_line(const Checkpoint& checkpoint) {
   Json json = {{"step", checkpoint.tick}, {"checkpoint", fmt::format("{:016x}", checkpoint.hash)}};

@@ -45,6 +45,9 @@ struct Script {
 /// Adds one entry. tick_length: s. Throws InputError naming the key.
 void read_script_entry(const JsonCursor& key, double tick_length, Script& script);
 
+/// An event as an entry of `events`. points: places that stand in for its nodes, as in Scene::points.
+Json event_json(const Event& event, const std::vector<Vec3>& points = {});
+
 /// Hands a script to a scene, in ascending order of ticks; entries of one tick keep their order.
 void install_script(Script script, Scene& scene);
 

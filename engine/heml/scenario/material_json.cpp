@@ -181,6 +181,13 @@ RegionMaterial material_from(const JsonCursor& key) {
   return result;
 }
 
+Material lone_material_from(const JsonCursor& key) {
+  Material material = material_from(key).material;
+  if (uses_fields(material))
+    throw InputError(key.file(), key.place(), "takes a field of a mesh, and there is no mesh here", "give numbers");
+  return material;
+}
+
 Json material_json(const RegionMaterial& entry) {
   const Material& material = entry.material;
   Json json;

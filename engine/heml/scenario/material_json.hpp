@@ -9,6 +9,9 @@ namespace heml {
 /// field of the mesh has the value 1 until load_setup().
 RegionMaterial material_from(const JsonCursor& entry);
 
+/// The same where there is no mesh, as `heml probe` takes it: throws for fields too.
+Material lone_material_from(const JsonCursor& entry);
+
 /// Whether an entry of a law accepts a key of the table of `materials[]` (scene_keys.hpp).
 bool takes_key(const LawInfo& law, std::string_view name);
 

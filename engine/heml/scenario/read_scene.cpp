@@ -239,10 +239,7 @@ Scene read_scene(const fs::path& path) {
 
 Material read_material(const fs::path& path) {
   const Json document = parse_json(read_text_file(path), path.string());
-  const Material material = material_from(JsonCursor(document, path.string())).material;
-  if (uses_fields(material))
-    throw InputError(path.string(), "", "takes a field of a mesh, and there is no mesh here", "give numbers");
-  return material;
+  return lone_material_from(JsonCursor(document, path.string()));
 }
 
 }  // namespace heml

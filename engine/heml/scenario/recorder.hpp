@@ -15,6 +15,7 @@
 #include <heml/scenario/scene.hpp>
 #include <heml/world/world.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -26,9 +27,12 @@ Scene as_recorded(const Scene& scene, const World& world);
 /// Any of its functions throws InputError when the file takes no more; what comes after is not written any more.
 class Recorder {
  public:
-  /// Replaces the file. world: as built from the scene, before its first tick. checkpoint_every: ticks.
+  /// Replaces the file. world: as built from the scene, between two ticks and not halted. checkpoint_every: ticks.
+  /// past: every command since the world was made, which are written first; scene is then as_recorded() before them.
+  /// hash_before: state_hash() before those of the coming tick, where they may have changed it.
   /// Throws InputError when the file cannot be written or the scene reads it.
-  Recorder(const std::filesystem::path& path, const Scene& scene, const World& world, long checkpoint_every = 500);
+  Recorder(const std::filesystem::path& path, const Scene& scene, const World& world, long checkpoint_every = 500,
+           std::span<const Event> past = {}, std::optional<std::uint64_t> hash_before = {});
 
   /// A command that takes effect at the world's coming tick, and has been applied.
   void command(const World& world, const Command& command);
@@ -36,14 +40,21 @@ class Recorder {
   /// To be called after every tick: writes a checkpoint when one is due.
   void ticked(const World& world);
 
+  /// Ends the recording for now: the next line takes the place of this end. Does nothing where the file is no regular
+  /// one. For callers that others may stop at any time without a word.
+  void end_for_now(const World& world);
+
   /// The last checkpoint and the end. Nothing is written afterwards.
   void end(const World& world);
 
  private:
   void write(const std::string& line);
+  std::string last_line(const World& world) const;
   void checkpoint(const World& world);
+  bool is_before_commands(const World& world) const;
 
-  std::optional<AppendFile> file_;  ///< none once it ended
+  std::optional<AppendFile> file_;   ///< none once it ended
+  std::optional<std::size_t> size_;  ///< bytes before the end that stands for now; none: no such end stands
   long every_, checkpoints_ = 0, last_checkpoint_ = -1;
   long tick_ = 0;                  ///< the coming one
   std::uint64_t hash_ = 0;         ///< of the state before its commands

@@ -79,7 +79,7 @@ void add_tool(const ToolState& tool, Json& report) {
 
 }  // namespace
 
-void write_report(const std::filesystem::path& path, World& world, const SolveFacts& facts) {
+std::string report_text(World& world, const SolveFacts& facts, const std::string& file) {
   const Energies energies = world.energies();
   const SolverStats work = world.solver_stats();
   const std::vector<double> J = world.volume_ratios();
@@ -114,7 +114,11 @@ void write_report(const std::filesystem::path& path, World& world, const SolveFa
   if (const Recovery* recovery = world.recovery()) report["recovery"] = recovery_json(*recovery);
   if (facts.halt) report["halt"] = halt_json(*facts.halt);
   if (facts.refused) report["refused"] = *facts.refused;
-  write_file(path, json_text(report, path.string(), true) + "\n");
+  return json_text(report, file, true) + "\n";
+}
+
+void write_report(const std::filesystem::path& path, World& world, const SolveFacts& facts) {
+  write_file(path, report_text(world, facts, path.string()));
 }
 
 void write_state(const std::filesystem::path& folder, const std::string& stem, World& world, bool csv, bool vtu) {

@@ -15,6 +15,9 @@ struct SolveFacts {
   std::optional<std::string> refused;  ///< message of the refused event that ended it
 };
 
+/// The text of report.json (app/docs/commands.md), indented. file: named where a message cannot be written.
+std::string report_text(World& world, const SolveFacts& facts, const std::string& file = "");
+
 /// Writes report.json (app/docs/commands.md); extremes of J are of the present elements. Throws InputError when it
 /// cannot be written.
 void write_report(const std::filesystem::path& path, World& world, const SolveFacts& facts);

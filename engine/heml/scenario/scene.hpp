@@ -178,6 +178,9 @@ std::string event_line(const Event& event);
 std::string checkpoint_line(const Checkpoint& checkpoint);
 std::string end_line(const RecordedEnd& end);
 
+/// A recording as JSON Lines: the scene, its events, checkpoints and end; `folder` as for scene_line().
+std::string recording_text(const Scene& scene, const std::filesystem::path& folder = {});
+
 /// The scene with its events, without checkpoints, as an indented scene file; `folder` as for scene_line().
 std::string scene_text(const Scene& scene, const std::filesystem::path& folder = {});
 

@@ -39,6 +39,11 @@ std::span<const Event> Schedule::due(long tick) {
   return std::span(events_).subspan(first, next_ - first);
 }
 
+void Schedule::rewind(long tick) {
+  next_ = 0;
+  due(tick - 1);
+}
+
 /// After a cut: whether its sweep has parted anything. A stroke is over where no later cut goes on with it.
 void Schedule::watch_stroke(const Event& event, bool parted) {
   const auto* cut = std::get_if<CutTissue>(&event.command);

@@ -21,6 +21,11 @@ class Schedule {
   /// The events up to a tick that were not handed out before. Valid while the schedule lives.
   std::span<const Event> due(long tick);
 
+  /// Whether an event of a tick, or of a later one, was handed out.
+  bool has_begun(long tick) const { return next_ > 0 && events_[next_ - 1].tick >= tick; }
+  /// Hands out the events of a tick and of those after it again: for a world that went back to a snapshot.
+  void rewind(long tick);
+
   /// Those handed out so far.
   std::span<const Event> past() const { return std::span(events_).first(next_); }
 

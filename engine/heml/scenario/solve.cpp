@@ -54,6 +54,39 @@ std::vector<fs::path> outputs_in(const fs::path& folder, const std::vector<Landi
   return files;
 }
 
+/// What a solve does beside stepping. at_landing: reached tells whether the world got to the landing's time.
+struct Observers {
+  std::function<bool()> on_tick;
+  std::function<void(const Landing& landing, bool is_last, bool reached)> at_landing;
+};
+
+struct Outcome {
+  SolveFacts facts;
+  std::optional<InputError> refused;  ///< the event that ended it
+};
+
+/// Steps to every landing in turn. An event that the world refuses ends it.
+Outcome play(const std::vector<Landing>& landings, World& world, Player& player, const Observers& observers) {
+  Outcome outcome;
+  for (const Landing& landing : landings) {
+    if (!outcome.refused) {
+      const auto begin = std::chrono::steady_clock::now();
+      try {
+        player.to(landing.time, observers.on_tick);
+      } catch (const InputError& error) {
+        outcome.refused = error;
+      }
+      outcome.facts.wall_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    }
+    observers.at_landing(landing, &landing == &landings.back(), !outcome.refused && !world.halt());
+  }
+  outcome.facts.halt = world.halt();
+  if (outcome.refused) outcome.facts.refused = outcome.refused->what();
+  outcome.facts.converged = !outcome.facts.halt && !outcome.refused && world.solver_stats().unconverged_steps == 0;
+  if (const std::string message = rescue_message(world.solver_stats()); !message.empty()) warn("{}", message);
+  return outcome;
+}
+
 }  // namespace
 
 SolveResult solve(const Scene& scene, const fs::path& out, const std::function<void(double)>& progress) {
@@ -70,7 +103,8 @@ SolveResult solve(const Scene& scene, const fs::path& out, const std::function<v
   trace.sample(*world);
   const Scene recorded = scene.solver.recovery ? as_recorded(scene, *world) : scene;
   RecoveryMonitor watch;
-  const auto on_tick = [&] {
+  Observers observers;
+  observers.on_tick = [&] {
     const auto news = watch.after_tick(*world);
     if (news != RecoveryMonitor::Change::none && !world->halt())
       write_replay(out / recovery_file, recorded, player.past_events(), *world);
@@ -80,36 +114,30 @@ SolveResult solve(const Scene& scene, const fs::path& out, const std::function<v
     if (progress) progress(static_cast<double>(world->ticks()) * scene.solver.tick() / scene.solver.duration);
     return true;
   };
-  double seconds = 0;
-  std::optional<InputError> refused;
-  for (const Landing& landing : landings) {
-    const bool last = &landing == &landings.back();
-    if (!refused) {
-      const auto begin = std::chrono::steady_clock::now();
-      try {
-        player.to(landing.time, on_tick);
-      } catch (const InputError& error) {
-        refused = error;
-      }
-      seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-      trace.sample(*world);
-    }
-    const bool reached = !refused && !world->halt();
-    if (last || reached) write_state(out, landing.stem, *world, last || scene.output_positions, scene.output_vtu);
-  }
+  observers.at_landing = [&](const Landing& landing, bool is_last, bool reached) {
+    trace.sample(*world);
+    if (is_last || reached) write_state(out, landing.stem, *world, is_last || scene.output_positions, scene.output_vtu);
+  };
+  const Outcome outcome = play(landings, *world, player, observers);
   trace.write(out);
-  SolveFacts facts;
-  facts.halt = world->halt();
-  if (refused) facts.refused = refused->what();
-  facts.converged = !facts.halt && !refused && world->solver_stats().unconverged_steps == 0;
-  facts.wall_seconds = seconds;
-  write_report(out / "report.json", *world, facts);
-  if (const std::string message = rescue_message(world->solver_stats()); !message.empty()) warn("{}", message);
-  if (refused) {
+  write_report(out / "report.json", *world, outcome.facts);
+  if (outcome.refused) {
     warn("an event was refused; what was reached before it is in {}", out.string());
-    throw *refused;
+    throw *outcome.refused;
   }
-  return {world->halt(), world->ticks(), world->steps(), world->time(), seconds};
+  return {world->halt(), world->ticks(), world->steps(), world->time(), outcome.facts.wall_seconds};
+}
+
+SolveFacts solve(const Scene& scene, World& world, const std::function<bool()>& on_tick) {
+  const std::vector<Landing> landings = landings_of(scene);
+  Player player(scene, world);
+  bool stopped = false;  // by on_tick: later landings are not gone on to
+  Observers observers;
+  observers.on_tick = [&] { return !stopped && !(stopped = !on_tick()); };
+  observers.at_landing = [](const Landing&, bool, bool) {};
+  const Outcome outcome = play(landings, world, player, observers);
+  if (outcome.refused) throw *outcome.refused;
+  return outcome.facts;
 }
 
 }  // namespace heml

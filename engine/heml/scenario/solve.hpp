@@ -2,6 +2,7 @@
 // Runs a scene to its end without drawing, and writes the results.
 #include <filesystem>
 #include <functional>
+#include <heml/scenario/report.hpp>
 #include <heml/scenario/scene.hpp>
 #include <heml/world/world.hpp>
 #include <optional>
@@ -26,5 +27,10 @@ struct SolveResult {
 /// results up to there are written, with "refused" in report.json.
 SolveResult solve(const Scene& scene, const std::filesystem::path& out,
                   const std::function<void(double)>& progress = {});
+
+/// The same to the bit without files. world: load_world(scene), before its first tick. on_tick: called after every
+/// tick; returns false to stop. Throws InputError.
+SolveFacts solve(
+    const Scene& scene, World& world, const std::function<bool()>& on_tick = [] { return true; });
 
 }  // namespace heml

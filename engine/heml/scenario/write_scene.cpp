@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <heml/scenario/entries_json.hpp>
+#include <heml/scenario/event_json.hpp>
 #include <heml/scenario/material_json.hpp>
 #include <heml/scenario/mesh_json.hpp>
 #include <heml/scenario/scene.hpp>
@@ -53,17 +54,31 @@ Json scene_json(const Scene& scene, const std::filesystem::path& folder) {
   return json;
 }
 
+/// An event with the places it was given.
+Json placed_event(const Scene& scene, std::size_t index) {
+  const auto points = scene.points.find(index);
+  return event_json(scene.events[index], points == scene.points.end() ? std::vector<Vec3>() : points->second);
+}
+
 }  // namespace
 
 std::string scene_line(const Scene& scene, const std::filesystem::path& folder) {
   return json_text(scene_json(scene, folder), scene.file);
 }
 
+std::string recording_text(const Scene& scene, const std::filesystem::path& folder) {
+  std::string text = scene_line(scene, folder) + '\n';
+  for (std::size_t k = 0; k < scene.events.size(); ++k) text += json_text(placed_event(scene, k), scene.file) + '\n';
+  for (const Checkpoint& checkpoint : scene.checkpoints) text += checkpoint_line(checkpoint) + '\n';
+  if (scene.recorded_end) text += end_line(*scene.recorded_end) + '\n';
+  return text;
+}
+
 std::string scene_text(const Scene& scene, const std::filesystem::path& folder) {
   Json json = scene_json(scene, folder);
   json.erase("recorded");
   if (!scene.events.empty()) json["events"] = Json::array();
-  for (const Event& event : scene.events) json["events"].push_back(parse_json(event_line(event), scene.file));
+  for (std::size_t k = 0; k < scene.events.size(); ++k) json["events"].push_back(placed_event(scene, k));
   return json_text(json, scene.file, true) + "\n";
 }
 

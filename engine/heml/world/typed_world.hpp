@@ -48,6 +48,7 @@ class TypedWorld final : public World {
   SolverStats solver_stats() const override;
   std::vector<Vec3> positions() const override { return s_.positions(); }
   std::vector<Vec3> velocities() const override { return s_.in_file_order(s_.state.v); }
+  void write_vectors(NodeVector which, std::span<double> out) const override { queries_.write_vectors(which, out); }
   void write_positions(std::span<const int> nodes, double ahead, std::vector<Vec3f>& out) const override {
     queries_.write_positions(nodes, ahead, out);
   }

@@ -61,6 +61,13 @@ struct ActionList {
   std::vector<Command> future;  ///< next to bring back first
 };
 
+/// Vectors of nodes.
+enum class NodeVector {
+  position,  ///< m
+  velocity,  ///< m/s
+  force      ///< N: of the body, gravity, loads and tools, not of supports
+};
+
 class PreconditionerBuild;  // dynamics/preconditioner_build.hpp
 struct WorldFacts;          // facts.hpp
 
@@ -105,6 +112,8 @@ class World {
 
   virtual std::vector<Vec3> positions() const = 0;   ///< #V×3, m
   virtual std::vector<Vec3> velocities() const = 0;  ///< #V×3, m/s
+  /// Writes a vector of every node, 3 #V values, mesh-file order, without allocating.
+  virtual void write_vectors(NodeVector which, std::span<double> out) const = 0;
   /// Writes positions of given nodes as float; no allocation when `out` has the size. `ahead`: s of extrapolation by
   /// velocity.
   virtual void write_positions(std::span<const int> nodes, double ahead, std::vector<Vec3f>& out) const = 0;

@@ -11,6 +11,18 @@ ContactState contact_state(const ContactReport& report) {
 }  // namespace
 
 template <class Real>
+void WorldQueries<Real>::write_vectors(NodeVector which, std::span<double> out) const {
+  const State<Real>& state = s_.state;
+  const std::vector<Real>& values = which == NodeVector::position   ? state.x
+                                    : which == NodeVector::velocity ? state.v
+                                                                    : state.f;
+  const std::vector<int>& inner = s_.model.order.new_node;
+  for (std::size_t file = 0; file < inner.size(); ++file)
+    for (std::size_t i = 0; i < 3; ++i)
+      out[3 * file + i] = static_cast<double>(values[3 * static_cast<std::size_t>(inner[file]) + i]);
+}
+
+template <class Real>
 void WorldQueries<Real>::write_positions(std::span<const int> nodes, double ahead, std::vector<Vec3f>& out) const {
   out.resize(nodes.size());
   for (std::size_t k = 0; k < nodes.size(); ++k) {

@@ -10,6 +10,7 @@ class WorldQueries {
  public:
   explicit WorldQueries(Simulation<Real>& s) : s_(s) {}
 
+  void write_vectors(NodeVector which, std::span<double> out) const;
   void write_positions(std::span<const int> nodes, double ahead, std::vector<Vec3f>& out) const;
   void write_field(Field field, std::span<const int> nodes, std::vector<float>& out);
   std::vector<double> volume_ratios();

@@ -1,0 +1,31 @@
+#pragma once
+// Many worlds of one scene, stepped by a team of threads. Each world is computed by one thread, so its bits are those
+// of a world by itself.
+#include <app/python/live_world.hpp>
+#include <heml/base/thread_team.hpp>
+#include <memory>
+#include <vector>
+
+namespace heml::python {
+
+class Batch {
+ public:
+  /// Reads the mesh once. The layout of the elements is shared by all worlds until one is edited. threads: 0: all
+  /// cores. Throws InputError.
+  Batch(Scene scene, int count, int threads);
+
+  const std::vector<std::shared_ptr<LiveWorld>>& worlds() const { return worlds_; }
+  /// The state at the start, that of all worlds.
+  const Snapshot& start() const { return *start_; }
+
+  /// Plays up to left[i] ticks in world i until a time, and takes off what was played; nothing is left of a world that
+  /// has halted. Returns whether any are left. Throws what the first world that throws does, once all have stopped.
+  bool step(std::vector<long>& left, Clock::time_point deadline);
+
+ private:
+  std::vector<std::shared_ptr<LiveWorld>> worlds_;
+  std::shared_ptr<Snapshot> start_;
+  ThreadTeam team_;
+};
+
+}  // namespace heml::python

@@ -1,0 +1,47 @@
+"""Interactive real-time simulation of hyperelastic soft tissue.
+
+    import heml
+
+    world = heml.World("cantilever.json")
+    world.step(100)
+    print(world.time, world.positions()[:, 1].min())
+
+SI units; arrays are float64 and in the mesh file's node order. `heml.World` is a body in motion, `heml.Batch` many,
+`heml.solve` runs a scene to its end, `heml.probe` evaluates a law. All of it is described in docs/python.md.
+"""
+import importlib as _importlib
+import os as _os
+import pathlib as _pathlib
+
+# The scenes and meshes that come with heml lie in the package once it is installed.
+_assets = _pathlib.Path(__file__).parent / "assets"
+if _assets.is_dir():
+    _os.environ.setdefault("HEML_ASSETS", str(_assets))
+
+from heml._core import Batch, InputError, NotConverged, Scene, Snapshot, Unstable, World, __version__, probe, solve  # noqa: E402
+
+for _name in ("Batch", "Scene", "Snapshot", "World", "probe", "solve"):
+    try:
+        globals()[_name].__module__ = "heml"
+    except AttributeError:
+        pass  # of functions it cannot be set
+
+# What needs other packages is imported when it is asked for.
+_LAZY = ("sweep", "fit")
+_MODULES = ("gym", "show", "interchange")
+
+__all__ = ["Batch", "InputError", "NotConverged", "Scene", "Snapshot", "Unstable", "World", "__version__", "fit", "gym", "probe",
+           "solve", "sweep"]
+
+
+def __getattr__(name):
+    if name in _LAZY:  # a function of the module of its name, whose place it takes
+        globals()[name] = getattr(_importlib.import_module(f"heml.{name}"), name)
+        return globals()[name]
+    if name in _MODULES:
+        return _importlib.import_module(f"heml.{name}")
+    raise AttributeError(f"module 'heml' has no attribute '{name}'")
+
+
+def __dir__():
+    return sorted(__all__)
