@@ -11,7 +11,7 @@ import numpy as np
 
 import heml
 
-mu, poisson = 4e3, 0.4  # Pa
+mu, poisson = 1e5, 0.4  # Pa
 lame = 2 * mu * poisson / (1 - 2 * poisson)
 bulk = lame + 2 * mu / 3
 laws = {

@@ -33,7 +33,7 @@ def main() -> None:
     parser.add_argument("--scheduler", help="address; without: this machine")
     parser.add_argument("--out", help=".csv or .parquet; an interrupted sweep goes on there")
     arguments = parser.parse_args()
-    youngs, cells = ((1e4, 2e4), (1, 2)) if arguments.quick else ((1e4, 1.5e4, 2e4, 3e4, 5e4), (1, 2, 3, 4, 6))
+    youngs, cells = ((1e5, 2e5), (1, 2)) if arguments.quick else ((1e5, 1.5e5, 2e5, 3e5, 5e5), (1, 2, 3, 4, 6))
     cases = [{"young": young, "cells": count} for young in youngs for count in cells]
     table = heml.sweep(bending, cases, client=arguments.scheduler, out=arguments.out)
     print(table.drop(columns="key").to_string(index=False))
