@@ -26,21 +26,36 @@ for _name in ("Batch", "Scene", "Snapshot", "World", "probe", "solve"):
     except AttributeError:
         pass  # of functions it cannot be set
 
-# What needs other packages is imported when it is asked for.
-_LAZY = ("sweep", "fit")
+# What needs numpy or other packages is imported when it is asked for. A function has another name than its module:
+# importing a module heml.sweep would take the place of the function heml.sweep.
+_FUNCTIONS = {"FitResult": "_fit", "fit": "_fit", "sweep": "_sweep"}
 _MODULES = ("gym", "show", "interchange")
 
-__all__ = ["Batch", "InputError", "NotConverged", "Scene", "Snapshot", "Unstable", "World", "__version__", "fit", "gym", "probe",
-           "solve", "sweep"]
+__all__ = ["Batch", "FitResult", "InputError", "NotConverged", "Scene", "Snapshot", "Unstable", "World", "__version__", "fit",
+           "gym", "probe", "render", "solve", "sweep"]
 
 
 def __getattr__(name):
-    if name in _LAZY:  # a function of the module of its name, whose place it takes
-        globals()[name] = getattr(_importlib.import_module(f"heml.{name}"), name)
+    if name in _FUNCTIONS:
+        globals()[name] = getattr(_importlib.import_module(f"heml.{_FUNCTIONS[name]}"), name)
         return globals()[name]
     if name in _MODULES:
         return _importlib.import_module(f"heml.{name}")
     raise AttributeError(f"module 'heml' has no attribute '{name}'")
+
+
+def _method(module, name, text):
+    def call(self, *args, **kwargs):
+        return getattr(_importlib.import_module(f"heml.{module}"), name)(self, *args, **kwargs)
+
+    call.__name__, call.__doc__ = name, f"{text} See heml.{module}.{name}."
+    return call
+
+
+for _class in (World, Scene):
+    _class.show = _method("show", "show", "A picture for notebooks, or with interactive=True a view to turn.")
+    _class.to_meshio = _method("interchange", "to_meshio", "The body as a meshio.Mesh, with fields.")
+    _class.to_pyvista = _method("interchange", "to_pyvista", "The body as a pyvista.UnstructuredGrid, with fields.")
 
 
 def __dir__():

@@ -66,7 +66,7 @@ def _arguments(given: Sequence[str] | None) -> argparse.Namespace:
 
 def main(given: Sequence[str] | None = None) -> int:
     """Returns the exit code of the study; 4 if cases could not be measured."""
-    from heml.sweep import sweep
+    from heml._sweep import sweep
 
     distributed = require("dask.distributed", "sweep")
     arguments = _arguments(given)

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import heml
-from heml.fit import Misfit
+from heml._fit import Misfit
 
 pytest.importorskip("scipy")
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 import heml
-from heml.sweep import case_key, source_of
+from heml._sweep import case_key, source_of
 
 pandas = pytest.importorskip("pandas")
 distributed = pytest.importorskip("dask.distributed")
