@@ -19,13 +19,19 @@ Scene with_threads(Scene scene, int threads) {
   return scene;
 }
 
+/// With undo and redo, whatever the scene's events are.
+WorldSetup with_actions(WorldSetup setup) {
+  setup.keeps_actions = true;
+  return setup;
+}
+
 }  // namespace
 
 LiveWorld::LiveWorld(Scene scene, int threads) : LiveWorld(with_threads(std::move(scene), threads), WorldSetup()) {}
 
 LiveWorld::LiveWorld(Scene scene, WorldSetup setup)
     : scene_(std::move(scene)),
-      world_(make_world(setup.mesh.nodes.empty() ? load_setup(scene_) : std::move(setup))),
+      world_(make_world(with_actions(setup.mesh.nodes.empty() ? load_setup(scene_) : std::move(setup)))),
       schedule_(scene_, world_->setup().mesh),
       recorded_(std::make_shared<const Scene>(as_recorded(scene_, *world_))),
       process_(forks) {}
