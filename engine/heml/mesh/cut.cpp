@@ -72,23 +72,18 @@ class Cutter {
     } while (snap_thin_pieces(snap));
   }
 
-  /// Step 3. Returns the separated area, m².
-  double separate() {
+  /// Step 3. closed: Stroke::closed of the sweeps before.
+  void separate(const std::vector<std::array<int, 3>>& closed) {
     match_faces();
-    double area = 0;
     for (Piece& piece : pieces_)
       for (std::size_t f = 0; f < 4; ++f) {
         const int other = piece.neighbour[f];
         if (other < 0 || &piece > &pieces_[static_cast<std::size_t>(other)]) continue;
-        if (!is_separated(piece, f)) continue;
-        const auto [a, b, c] = face(piece, f);
-        area += (at(b) - at(a)).cross(at(c) - at(a)).norm() / 2;
-        piece.separated[f] = true;
-        Piece& neighbour = pieces_[static_cast<std::size_t>(other)];
-        neighbour.separated[facing(neighbour, &piece)] = true;
+        if (!is_separated(piece, f) && !std::binary_search(closed.begin(), closed.end(), sorted(face(piece, f)))) continue;
+        set_separated(piece, f, true);
       }
+    join_crumbs();
     copy_nodes();
-    return area;
   }
 
   void write(Cut& cut) {
@@ -101,7 +96,8 @@ class Cutter {
     }
     cut.edit.nodes = std::move(new_nodes_);
     for (std::size_t n = 0; n < in_cut_.size(); ++n)
-      if (in_cut_[n]) cut.nodes.push_back(static_cast<int>(n));
+      if (in_cut_[n]) cut.stroke.nodes.push_back(static_cast<int>(n));
+    write_faces(cut);
   }
 
  private:
@@ -114,6 +110,84 @@ class Cutter {
     std::array<int, 3> nodes;
     for (std::size_t k = 0; k < 3; ++k) nodes[k] = piece.tet[static_cast<std::size_t>(tet_faces[f][k])];
     return nodes;
+  }
+
+  static std::array<int, 3> sorted(std::array<int, 3> nodes) {
+    std::sort(nodes.begin(), nodes.end());
+    return nodes;
+  }
+
+  void set_separated(Piece& piece, std::size_t f, bool value) {
+    Piece& neighbour = pieces_[static_cast<std::size_t>(piece.neighbour[f])];
+    piece.separated[f] = neighbour.separated[facing(neighbour, &piece)] = value;
+  }
+
+  /// Joins each group of connected pieces that has no node outside the cut, so belongs to neither side of it, to the
+  /// neighbour across its largest face.
+  void join_crumbs() {
+    std::vector<int> group;
+    for (std::size_t p = 0; p < pieces_.size(); ++p)
+      for (bool joined = true; joined && is_all_in_cut(p);) {
+        joined = false;
+        if (!is_crumb(static_cast<int>(p), group)) break;
+        Piece* largest = nullptr;
+        std::size_t largest_face = 0;
+        double area = 0;
+        for (const int member : group)
+          for (std::size_t f = 0; f < 4; ++f) {
+            Piece& piece = pieces_[static_cast<std::size_t>(member)];
+            if (!piece.separated[f] || std::find(group.begin(), group.end(), piece.neighbour[f]) != group.end()) continue;
+            if (face_area(piece, f) <= area) continue;
+            area = face_area(piece, f);
+            largest = &piece;
+            largest_face = f;
+          }
+        if (!largest) break;
+        set_separated(*largest, largest_face, false);
+        joined = true;
+      }
+  }
+
+  bool is_all_in_cut(std::size_t p) const {
+    const Tet& tet = pieces_[p].tet;
+    return std::all_of(tet.begin(), tet.end(), [this](int n) { return is_in_cut(n); });
+  }
+
+  /// Collects the pieces connected to one. Returns false at the first that has a node outside the cut.
+  bool is_crumb(int piece, std::vector<int>& group) const {
+    group = {piece};
+    for (std::size_t k = 0; k < group.size(); ++k) {
+      const auto member = static_cast<std::size_t>(group[k]);
+      if (!is_all_in_cut(member)) return false;
+      for (std::size_t f = 0; f < 4; ++f) {
+        const int other = pieces_[member].neighbour[f];
+        if (other >= 0 && !pieces_[member].separated[f] && std::find(group.begin(), group.end(), other) == group.end())
+          group.push_back(other);
+      }
+    }
+    return true;
+  }
+
+  double face_area(const Piece& piece, std::size_t f) const {
+    const auto [a, b, c] = face(piece, f);
+    return (at(b) - at(a)).cross(at(c) - at(a)).norm() / 2;
+  }
+
+  /// Adds up the area of the faces that came apart, and lists those that are still closed.
+  void write_faces(Cut& cut) const {
+    for (std::size_t p = 0; p < pieces_.size(); ++p)
+      for (std::size_t f = 0; f < 4; ++f) {
+        const Piece& piece = pieces_[p];
+        if (!piece.separated[f] || piece.neighbour[f] < static_cast<int>(p)) continue;
+        const auto other = static_cast<std::size_t>(piece.neighbour[f]);
+        const auto nodes = sorted(face({final_[p], 0}, f)),
+                   others = sorted(face({final_[other], 0}, facing(pieces_[other], &piece)));
+        if (nodes == others)
+          cut.stroke.closed.push_back(nodes);
+        else
+          cut.area += face_area(piece, f);
+      }
+    std::sort(cut.stroke.closed.begin(), cut.stroke.closed.end());
   }
 
   std::size_t facing(const Piece& piece, const Piece* to) const {
@@ -335,14 +409,14 @@ double snapping_distance(const TetMesh& mesh) {
 }
 
 Status make_cut(const Sweep& sweep, const TetMesh& mesh, const std::vector<Vec3>& x, const Topology& topology,
-                double snap, const std::vector<int>& stroke, Cut& cut) {
-  const SweptSurface surface(sweep);
+                double snap, const Stroke& stroke, Cut& cut) {
+  const SweptSurface surface(stroke.front.join(sweep, x, snap));
   if (surface.empty()) return "the blade sweeps no area; give its two ends at two or more moments, in different places";
   Cutter cutter(surface, mesh, x, topology);
-  if (!cutter.find_crossings(snap, stroke)) return "the blade meets no edge of an element";
+  if (!cutter.find_crossings(snap, stroke.nodes)) return "the blade meets no edge of an element";
   cutter.split(snap);
   cut = {};
-  cut.area = cutter.separate();
+  cutter.separate(stroke.closed);
   cutter.write(cut);
   return {};
 }

@@ -1,0 +1,46 @@
+#pragma once
+// Where a stroke's blade stopped, in the tissue. The tissue moves between two sweeps; the next sweep starts at the
+// front as it lies then, so that the two share it and leave no gap:
+//
+//     blade      front, moved      next blade
+//       ●─────┐       ┌──────────────●
+//       ●      ╲       ╲             ●      the curve has its corners on the faces of the elements, so that it stays
+//       ●      ╱       ╱             ●      straight in each of them: no edge of an element passes it unnoticed
+//       ●─────┘       └──────────────●
+#include <heml/mesh/edit.hpp>
+#include <heml/mesh/sweep.hpp>
+
+namespace heml {
+
+class BladeFront {
+ public:
+  /// The front of a stroke that has not begun.
+  BladeFront() = default;
+  /// Attaches a blade to the elements of a topology. x: deformed positions, #V×3, m.
+  BladeFront(const std::array<Vec3, 2>& blade, const TetMesh& mesh, const std::vector<Vec3>& x,
+             const Topology& topology);
+
+  bool in_tissue() const { return !points_.empty(); }
+
+  /// The sweep from the front, as it lies now, to the end of the given sweep, by way of those passed(). The given sweep
+  /// itself if it does not start within `tolerance`, m, of where the last one ended.
+  Sweep join(const Sweep& sweep, const std::vector<Vec3>& x, double tolerance) const;
+
+  /// The blade moves on by a sweep that crosses no edge: the front stays.
+  void pass(const Sweep& sweep);
+
+ private:
+  /// A point of the blade in an element or on one of its faces.
+  struct Point {
+    double along;                   ///< 0 at the blade's first end, 1 at its second
+    Tet nodes;                      ///< as numbered in the mesh file
+    std::array<double, 4> weights;  ///< barycentric
+  };
+  void add_end(double along, const Vec3& place, const TetMesh& mesh, const std::vector<Vec3>& x,
+               const Topology& topology);
+
+  std::vector<std::array<Vec3, 2>> path_;  ///< m, the blade at the front, then where it passed; empty: not begun
+  std::vector<Point> points_;              ///< in the order of `along`
+};
+
+}  // namespace heml
