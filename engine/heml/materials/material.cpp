@@ -4,6 +4,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <heml/materials/energy_law.hpp>
 #include <heml/materials/laws.hpp>
 #include <heml/materials/mass_spring.hpp>
 #include <heml/materials/parameter_slots.hpp>
@@ -72,6 +73,16 @@ std::string value_problem(const ParameterInfo& info, double value) {
   return {};
 }
 
+/// Of a law by expression, whose moduli at rest may be any.
+std::optional<Problem> energy_problem(const Material& material) {
+  try {
+    energy_programs<double>(material);
+  } catch (const EnergyError& error) {
+    return Problem{"expression", error.what()};
+  }
+  return std::nullopt;
+}
+
 std::optional<Problem> parameter_problem(const Material& material, const LawInfo& law) {
   const std::vector<ParameterSlot> slots = parameter_slots(material, law);
   for (std::size_t i = 0; i < slots.size(); ++i)
@@ -82,6 +93,7 @@ std::optional<Problem> parameter_problem(const Material& material, const LawInfo
     if (!(3 * lambda + 2 * mu > 0))
       return Problem{"lambda", fmt::format("must be greater than -2/3 mu ({} Pa), is {}", -2 * mu / 3, lambda)};
   }
+  if (find_energy_law(material.law)) return energy_problem(material);
   if (law.is_continuum) {
     const double shear = small_strain_moduli(material).shear;
     if (!(shear > 0))
@@ -132,7 +144,8 @@ std::span<const LawInfo> laws() { return law_table; }
 const LawInfo* find_law(std::string_view name) {
   for (const LawInfo& law : laws())
     if (law.name == name) return &law;
-  return nullptr;
+  const EnergyLaw* energy = find_energy_law(name);
+  return energy ? &energy->info : nullptr;
 }
 
 Material sample_material(const LawInfo& law) { return sample_material(law, law.sample); }

@@ -2,6 +2,7 @@
 #include <heml/materials/continuum.hpp>
 #include <heml/materials/laws.hpp>
 #include <heml/materials/point.hpp>
+#include <heml/materials/stretch_energy.hpp>
 #include <vector>
 
 namespace heml {
@@ -76,6 +77,11 @@ std::unique_ptr<MaterialPoint> volume_point(VolumeTerm term, double kappa) {
 
 std::unique_ptr<MaterialPoint> make_material_point(const Material& material, bool continuation) {
   std::unique_ptr<MaterialPoint> point;
+  if (find_energy_law(material.law)) {
+    with_energy<double>(material,
+                        [&]<class L>(const L& law) { point = std::make_unique<PointOf<L>>(law, material.fibre); });
+    return point;
+  }
   double kappa = 0;
   const bool own_volume_term = material.volume_term == VolumeTerm::quadratic;
   with_law<double>(material, continuation, [&]<class L>(L law) {
