@@ -1,6 +1,12 @@
+#include <fmt/format.h>
+#include <imgui_internal.h>  // TempInputIsActive
+
 #include <algorithm>
 #include <app/panel/rows.hpp>
+#include <array>
 #include <cmath>
+#include <cstdio>
+#include <utility>
 
 namespace heml::panel {
 namespace {
@@ -26,6 +32,12 @@ void draw_track(float place) {
   list.AddRectFilled(from, to, hovered ? colours::track_hovered : colours::track, rounding);
   if (filled > from.x + rounding)
     list.AddRectFilled(from, {filled, to.y}, colours::fill, rounding, ImDrawFlags_RoundCornersLeft);
+}
+
+std::string formatted(const char* format, double value) {
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), format, value);
+  return text.data();
 }
 
 /// A small arrow head that points down, or to the right.
@@ -112,16 +124,33 @@ bool Rows::slider(const Label& label, double& value, const SliderRange& asked) {
   const ImGuiSliderFlags flags = ImGuiSliderFlags_AlwaysClamp | (range.logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
   double edited = value;
   ImGui::PushID(label.text.c_str());
-  const bool changed =
+  bool changed =
       ImGui::SliderScalar("##value", ImGuiDataType_Double, &edited, &range.low, &range.high, range.format, flags);
+  if (is_typing(ImGui::GetID("##value"), changed, edited)) changed = false;
   ImGui::PopID();
   ImGui::PopStyleColor(3);
-  explain({label.text, label.hint + "\n\nCtrl+click to type a number."});
+  explain(
+      {label.text, fmt::format("{}\n\n{} to {}. Ctrl+click to type a number: Enter sets it, Esc keeps the old one.",
+                               label.hint, formatted(range.format, range.low), formatted(range.format, range.high))});
   // Unit conversion there and back changes the last bits: not an edit.
   const bool same = std::abs(edited - value) <= 1e-9 * std::max(std::abs(edited), std::abs(value));
   if (!changed || same || !std::isfinite(edited)) return false;
   value = edited;
   return true;
+}
+
+/// ImGui changes a typed number at each keystroke. Here the last one counts when the typing ends, and none after Esc.
+/// Returns whether a number is being typed; sets `changed` and `edited` where one has been.
+bool Rows::is_typing(ImGuiID id, bool& changed, double& edited) {
+  if (ImGui::TempInputIsActive(id)) {
+    if (changed || !typed_ || typed_->id != id) typed_ = Typed{id, changed, edited};
+    return true;
+  }
+  if (!typed_ || typed_->id != id) return false;
+  const Typed typed = *std::exchange(typed_, std::nullopt);
+  changed = typed.changed && !ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
+  edited = typed.value;
+  return false;
 }
 
 bool Rows::choice(const Label& label, int& index, std::span<const std::string> names,

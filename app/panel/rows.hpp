@@ -2,6 +2,7 @@
 // The panel's rows: a label on the left, a control on the right, and a tooltip on both.
 #include <app/panel/theme.hpp>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -58,7 +59,15 @@ class Rows {
   /// Draws the label, moves the cursor to the control and sets its width.
   void begin(const Label& label);
 
+  bool is_typing(ImGuiID id, bool& changed, double& edited);
+
+  struct Typed {
+    ImGuiID id;
+    bool changed;
+    double value;
+  };
   std::string hovered_;
+  std::optional<Typed> typed_;  ///< the number that is being typed
 };
 
 /// Text aligned with the right edge of the window, on the current line.

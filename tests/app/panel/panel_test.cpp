@@ -150,6 +150,35 @@ TEST_CASE("gravity, damping and the integrator are sent when changed") {
   CHECK(std::get<SetGravity>(direction.commands.front()).gravity.x() == doctest::Approx(g.norm()));
 }
 
+TEST_CASE("a typed number is set by Enter alone, and Esc keeps the old one") {
+  Driver driver;
+  ImGuiIO& io = ImGui::GetIO();
+  io.KeyMap[ImGuiKey_Enter] = 1, io.KeyMap[ImGuiKey_Escape] = 2;
+  const auto type = [&](const char* digits, int last_key) {
+    driver.find("Damping");
+    io.KeyCtrl = true, io.KeyMods = ImGuiKeyModFlags_Ctrl;
+    driver.click();
+    io.KeyCtrl = false, io.KeyMods = 0;
+    driver.draw();
+    for (const char* digit = digits; *digit; ++digit) {
+      io.AddInputCharacter(static_cast<unsigned>(*digit));
+      CHECK(driver.draw().commands.empty());  // not at each keystroke
+    }
+    io.KeysDown[last_key] = true;
+    panel::PanelActions actions = driver.draw();
+    io.KeysDown[last_key] = false;
+    driver.draw();
+    return actions;
+  };
+  const auto set = type("12.5", 1);
+  REQUIRE(set.commands.size() == 1);
+  CHECK(std::get<SetDamping>(set.commands.front()).damping == 12.5);
+  CHECK(type("3", 2).commands.empty());
+  const auto again = type("4", 1);
+  REQUIRE(again.commands.size() == 1);
+  CHECK(std::get<SetDamping>(again.commands.front()).damping == 4);
+}
+
 TEST_CASE("a gravity along no axis keeps its direction") {
   Scene scene = small_scene();
   scene.gravity = Vec3(3, -4, 0);
