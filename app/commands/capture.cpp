@@ -33,13 +33,13 @@ int capture(const CaptureArguments& arguments) {
   if (!arguments.comparisons.empty()) comparison_runs.emplace(world->setup(), arguments.comparisons);
   FrameCapture frame_capture(scene, *world, arguments.size, arguments.panel, comparison_runs.has_value(),
                              arguments.out);
-  const double tick = world->setup().solver.tick();
   Progress progress("capturing frames");
   for (int k = 0; k < arguments.frames && !world->halt(); ++k) {
     // Whole ticks up to the frame's time, so that a capture has the states of a replay. The rest, less than a tick, is
     // extrapolated for the image alone.
     const double time = k / arguments.fps;
-    while (!world->halt() && static_cast<double>(world->ticks() + 1) * tick <= time * (1 + 1e-12)) {
+    const auto is_due = [&] { return world->elapsed() + world->setup().solver.tick() <= time * (1 + 1e-12); };
+    while (!world->halt() && is_due()) {
       schedule.apply(*world, [&](const Command& command) {
         if (comparison_runs) comparison_runs->apply(command);
       });
@@ -48,7 +48,7 @@ int capture(const CaptureArguments& arguments) {
       else
         world->tick();
     }
-    frame_capture.capture(*world, world->halt() ? 0.0 : time - static_cast<double>(world->ticks()) * tick,
+    frame_capture.capture(*world, world->halt() ? 0.0 : time - world->elapsed(),
                           1 / arguments.fps, comparison_runs ? &*comparison_runs : nullptr);
     progress.show((k + 1.0) / arguments.frames);
   }

@@ -23,6 +23,12 @@ std::string bytes_text(double bytes) {
   return bytes < 1e9 ? fmt::format("{:.1f} MB", bytes / 1e6) : fmt::format("{:.2f} GB", bytes / 1e9);
 }
 
+void print_chosen(const Explanation& explained) {
+  if (!explained.chosen) return;
+  print_head("Chosen for a bare mesh");
+  for (const BareMeshChoices::Text& text : explained.chosen->texts) print_line(text.about, "{}", text.text);
+}
+
 void print_body(const Explanation& explained) {
   const WorldFacts& world = explained.world;
   const QualityReport& quality = explained.quality;
@@ -192,6 +198,7 @@ int explain_scene(const ExplainArguments& arguments) {
     return exit_done;
   }
   fmt::print("{}\n", scene.name.empty() ? scene.file : fmt::format("{} ({})", scene.name, scene.file));
+  print_chosen(explained);
   print_body(explained);
   print_materials(explained);
   print_method(explained);

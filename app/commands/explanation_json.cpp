@@ -100,6 +100,31 @@ Json solver_json(const Explanation& explained) {
            solver.budget && solver.budget->milliseconds > 0 ? Json(solver.budget->milliseconds) : Json()}};
 }
 
+/// What was chosen for a bare mesh; null of a scene file.
+Json chosen_json(const Explanation& explained) {
+  if (!explained.chosen) return nullptr;
+  const BareMeshChoices& chosen = *explained.chosen;
+  const SolverSettings& solver = explained.setup.solver;
+  Json texts = Json::array();
+  for (const BareMeshChoices::Text& text : chosen.texts) texts.push_back({{"about", text.about}, {"text", text.text}});
+  return {{"unit", chosen.unit.empty() ? Json() : Json(chosen.unit)},
+          {"scale", chosen.scale},
+          {"length", chosen.length},
+          {"up", std::string(1, chosen.up)},
+          {"supports", chosen.supports},
+          {"supported_area", chosen.supported_area},
+          {"young", chosen.young},
+          {"poisson", chosen.poisson},
+          {"density", chosen.density},
+          {"stretch", chosen.stretch},
+          {"integrator", integrator_name(solver.integrator)},
+          {"rate", solver.rate},
+          {"budget_iterations", solver.budget ? Json(solver.budget->iterations) : Json()},
+          {"budget_linear", solver.budget ? Json(solver.budget->linear) : Json()},
+          {"load", chosen.load},
+          {"texts", texts}};
+}
+
 Json tools_json(const Explanation& explained) {
   const auto or_null = [](const std::optional<double>& value) { return value ? Json(*value) : Json(); };
   Json list = Json::array();
@@ -134,6 +159,7 @@ Json measurement_json(const Measurement& measured) {
 
 Json explanation_json(const Explanation& explained, const std::optional<Measurement>& measured) {
   Json json{{"scene", explained.file}, {"name", explained.name}};
+  json["chosen"] = chosen_json(explained);
   json["body"] = body_json(explained);
   json["materials"] = materials_json(explained);
   json["method"] = method_json(explained);

@@ -17,14 +17,13 @@ int export_frames(const ExportArguments& arguments) {
   const auto world = load_world(scene);
   FrameSeries series(arguments.out, arguments.format);
   const double total = static_cast<double>(std::max(1l, ticks_to_play(scene)));
-  const double tick = world->setup().solver.tick();
   ReplayResult result;
   {
     Progress progress("exporting");
     series.add_frame(*world);
     result = replay(scene, *world, [&](World& w) {
       // The first tick at or after each frame's time: a computed state with its own time, not interpolated.
-      if (static_cast<double>(w.ticks()) * tick * arguments.fps >= series.taken() * (1 - 1e-12)) series.add_frame(w);
+      if (w.elapsed() * arguments.fps >= series.taken() * (1 - 1e-12)) series.add_frame(w);
       progress.show(static_cast<double>(w.ticks()) / total);
     });
   }

@@ -91,7 +91,7 @@ std::string commands_page(const CLI::App& program) {
       "Written by `heml reference`. `heml COMMAND --help` prints the same. Without a command the default scene "
       "opens.\n\n"
       "SCENE is {}. A bare mesh or surface gets the default\n"
-      "scene round it: soft tissue, fixed at its top, under gravity.\n\n",
+      "scene round it: soft tissue under gravity, held so that it rests, in real time ([your own organ](your-own-organ.md)).\n\n",
       scene_files);
   MarkdownTable commands({"command", "does"});
   for (const CommandDefinition& definition : command_definitions())

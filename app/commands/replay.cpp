@@ -62,7 +62,6 @@ int replay_recording(const ReplayArguments& arguments) {
   if (arguments.record) recorder.emplace(*arguments.record, scene, *world, ticks_between_checkpoints);
 
   const double total = static_cast<double>(std::max(1l, ticks_to_play(scene)));
-  const double tick = world->setup().solver.tick();
   ReplayResult result;
   {
     Progress progress("replaying");
@@ -70,8 +69,7 @@ int replay_recording(const ReplayArguments& arguments) {
     result = replay(
         scene, *world,
         [&](World& w) {
-          const double time = static_cast<double>(w.ticks()) * tick;
-          if (frame_capture && time * arguments.fps >= frame_capture->taken())
+          if (frame_capture && w.elapsed() * arguments.fps >= frame_capture->taken())
             frame_capture->capture(w, 0, 1 / arguments.fps);
           progress.show(static_cast<double>(w.ticks()) / total);
         },

@@ -1,5 +1,10 @@
+#include <fmt/format.h>
+
 #include <app/panel/motion_section.hpp>
+#include <app/panel/quantity.hpp>
 #include <array>
+#include <cmath>
+#include <heml/scenario/suitable_method.hpp>
 
 namespace heml::panel {
 namespace {
@@ -24,10 +29,22 @@ void MotionSection::write_into(Scene& scene) const {
   scene.gravity = strength_ * direction_;
   scene.solver.damping = damping_;
   scene.solver.integrator = integrator_;
+  if (!step_given_) {
+    scene.solver.step.reset();
+    scene.solver.rate = rate_;
+  }
+  if (budget_ > 0) {
+    if (!scene.solver.budget) scene.solver.budget.emplace();
+    if (scene.solver.budget->milliseconds == 0) scene.solver.budget->iterations = budget_;
+  }
 }
 
 MotionSection::MotionSection(const Vec3& gravity, const SolverSettings& solver)
-    : damping_(solver.damping), integrator_(solver.integrator) {
+    : damping_(solver.damping),
+      integrator_(solver.integrator),
+      rate_(1 / solver.tick()),
+      step_given_(solver.step.has_value()),
+      budget_(solver.budget ? solver.budget->iterations : 0) {
   sync(SetGravity{gravity});
 }
 
@@ -36,11 +53,18 @@ void MotionSection::sync(const SetGravity& command) {
   if (strength_ > 0) direction_ = command.gravity / strength_;
 }
 
+void MotionSection::sync(const SetRate& command) {
+  rate_ = command.rate;
+  step_given_ = false;
+}
+
 void MotionSection::draw(Rows& rows, PanelActions& out) {
   draw_gravity(rows, out);
   if (rows.slider({"Damping", "Mass-proportional damping, 1/s. 0: none."}, damping_, {0, 20, "%.2f 1/s", false}))
     out.commands.emplace_back(SetDamping{damping_});
   draw_integrator(rows, out);
+  draw_rate(rows, out);
+  if (is_implicit(integrator_)) draw_budget(rows, out);
 }
 
 void MotionSection::draw_gravity(Rows& rows, PanelActions& out) {
@@ -73,8 +97,50 @@ void MotionSection::draw_integrator(Rows& rows, PanelActions& out) {
   if (!rows.choice({"Integrator", "Time integrator. Of the two explicit ones Verlet is the more accurate."}, chosen,
                    titles))
     return;
-  integrator_ = integrators[static_cast<std::size_t>(chosen)];
-  out.commands.emplace_back(SetIntegrator{integrator_});
+  const Integrator before = integrator_;
+  send(SetIntegrator{integrators[static_cast<std::size_t>(chosen)]}, out);
+  if (is_implicit(before) != is_implicit(integrator_)) send(SetRate{usual_rate(integrator_)}, out);
+}
+
+void MotionSection::draw_rate(Rows& rows, PanelActions& out) {
+  constexpr std::array<double, 11> rates{4000, 2000, 1000, 500, 250, 120, 60, 30, 20, 15, 10};
+  std::vector<std::string> names;
+  int chosen = -1;
+  for (const double rate : rates) {
+    if (std::abs(rate - rate_) < 1e-6 * rate) chosen = static_cast<int>(names.size());
+    names.push_back(fmt::format("{:.4g} Hz", rate));
+  }
+  if (chosen < 0) {
+    chosen = static_cast<int>(names.size());
+    names.push_back(fmt::format("{:.4g} Hz", rate_));
+  }
+  if (rows.choice({"Rate",
+                   "Ticks of a simulated second, Hz. Explicit methods divide a tick into stable steps; implicit ones "
+                   "take a step a tick: fewer cost less and damp more."},
+                  chosen, names) &&
+      chosen < static_cast<int>(rates.size()))
+    send(SetRate{rates[static_cast<std::size_t>(chosen)]}, out);
+  rows.value({"Step", "Length of a tick, s: 1 / rate."}, quantity(1 / rate_, "s"));
+}
+
+void MotionSection::draw_budget(Rows& rows, PanelActions& out) {
+  constexpr std::array<int, 6> iterations{1, 2, 3, 4, 8, 16};
+  std::vector<std::string> names;
+  int chosen = -1;
+  for (const int one : iterations) {
+    if (one == budget_) chosen = static_cast<int>(names.size());
+    names.push_back(fmt::format("{} iteration{}", one, one == 1 ? "" : "s"));
+  }
+  if (chosen < 0) {
+    chosen = static_cast<int>(names.size());
+    names.push_back(budget_ > 0 ? fmt::format("{} iterations", budget_) : std::string("to tolerance"));
+  }
+  if (rows.choice({"Budget",
+                   "Iterations of an implicit step. Fewer keep the pace and leave more of the forces unbalanced; the "
+                   "step never gains energy for it."},
+                  chosen, names) &&
+      chosen < static_cast<int>(iterations.size()))
+    send(SetBudget{iterations[static_cast<std::size_t>(chosen)]}, out);
 }
 
 }  // namespace heml::panel

@@ -29,23 +29,26 @@ bool Notices::covers(float x, float y) const {
   return std::any_of(rects_.begin(), rects_.end(), [&](const Area& place) { return place.contains(x, y); });
 }
 
-bool Notices::draw(Rows& rows, const Area& free, const std::optional<Banner>& banner, float seconds) {
+BannerPress Notices::draw(Rows& rows, const Area& free, const std::optional<Banner>& banner, float seconds) {
   rects_.clear();
-  if (!failure_.empty() &&
-      draw_banner(rows, "failure", free, {"Could not be opened", failure_, "Close", colours::danger}))
-    failure_.clear();
-  const bool pressed = banner && draw_banner(rows, "banner", free, *banner);
+  const Banner failure{"Could not be opened", failure_, "Close", colours::danger};
+  if (!failure_.empty() && draw_banner(rows, "failure", free, failure) == BannerPress::button) failure_.clear();
+  const BannerPress pressed = banner ? draw_banner(rows, "banner", free, *banner) : BannerPress::none;
   if (!notice_.empty()) draw_notice(free, seconds);
   return pressed;
 }
 
-bool Notices::draw_banner(Rows& rows, const char* id, const Area& free, const Banner& banner) {
-  const float margin = em(0.8f), width = std::min(free.width() - 2 * margin, em(34));
+BannerPress Notices::draw_banner(Rows& rows, const char* id, const Area& free, const Banner& banner) {
+  const float margin = em(0.8f);
+  const float width = banner.beside ? banner.beside->width() : std::min(free.width() - 2 * margin, em(34));
   const float top = rects_.empty() ? free.from.y + margin : rects_.back().to.y + margin / 2;
-  ImGui::SetNextWindowPos({(free.from.x + free.to.x) / 2, top}, ImGuiCond_Always, {0.5f, 0});
+  if (banner.beside)
+    ImGui::SetNextWindowPos(banner.beside->to, ImGuiCond_Always, {1, 1});
+  else
+    ImGui::SetNextWindowPos({(free.from.x + free.to.x) / 2, top}, ImGuiCond_Always, {0.5f, 0});
   ImGui::SetNextWindowSizeConstraints({0, 0}, {width, free.height() * 0.7f});
   ImGui::PushStyleColor(ImGuiCol_Border, (banner.colour & 0x00ffffff) | 0x90000000);
-  bool pressed = false;
+  BannerPress pressed = BannerPress::none;
   if (ImGui::Begin(id, nullptr, plain_window)) {
     ImGui::PushTextWrapPos(width - 2 * ImGui::GetStyle().WindowPadding.x);
     ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(banner.colour), "%s", banner.title.c_str());
@@ -54,7 +57,8 @@ bool Notices::draw_banner(Rows& rows, const char* id, const Area& free, const Ba
       ImGui::TextUnformatted(banner.text.c_str());
     }
     ImGui::PopTextWrapPos();
-    if (!banner.button.empty()) pressed = rows.button({banner.button, ""});
+    if (!banner.button.empty() && rows.button({banner.button, ""})) pressed = BannerPress::button;
+    if (!banner.close.empty() && rows.button({banner.close, ""})) pressed = BannerPress::close;
   }
   const ImVec2 from = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
   rects_.push_back({from, {from.x + size.x, from.y + size.y}});

@@ -11,7 +11,11 @@ struct Banner {
   std::string title, text;
   std::string button;  ///< its label; empty: no button
   ImU32 colour = colours::warning;
+  std::string close = {};           ///< label of a second button, which dismisses it; empty: none
+  std::optional<Area> beside = {};  ///< it stands in the bottom right corner of this area, off the body
 };
+
+enum class BannerPress { none, button, close };
 
 class Notices {
  public:
@@ -19,16 +23,16 @@ class Notices {
   void show_error(std::string text);  ///< a failure, shown until closed
   bool close();                       ///< closes the failure; true if one was open
 
-  /// Draws failure, banner and notice within the free area. Returns true when the banner's button was pressed. seconds:
+  /// Draws failure, banner and notice within the free area. Returns which of the banner's buttons was pressed. seconds:
   /// since the last frame.
-  bool draw(Rows& rows, const Area& free, const std::optional<Banner>& banner, float seconds);
+  BannerPress draw(Rows& rows, const Area& free, const std::optional<Banner>& banner, float seconds);
 
   bool animating() const { return !notice_.empty(); }
   /// Whether a point was on a banner in the last frame.
   bool covers(float x, float y) const;
 
  private:
-  bool draw_banner(Rows& rows, const char* id, const Area& free, const Banner& banner);
+  BannerPress draw_banner(Rows& rows, const char* id, const Area& free, const Banner& banner);
   void draw_notice(const Area& free, float seconds);
 
   std::string failure_, notice_;

@@ -101,6 +101,8 @@ void Panel::sync(const Command& command) {
   }
   if (const auto* damping = std::get_if<SetDamping>(&command)) motion_.sync(*damping);
   if (const auto* integrator = std::get_if<SetIntegrator>(&command)) motion_.sync(*integrator);
+  if (const auto* rate = std::get_if<SetRate>(&command)) motion_.sync(*rate);
+  if (const auto* budget = std::get_if<SetBudget>(&command)) motion_.sync(*budget);
 }
 
 void Panel::write_into(Scene& scene) const {
@@ -138,7 +140,7 @@ PanelActions Panel::draw(const Frame& frame) {
     draw_controls(frame, !two_columns(picture), out);
     if (two_columns(picture)) draw_readings(frame);
   }
-  if (notices_.draw(rows_, free, banner_for(frame), ImGui::GetIO().DeltaTime)) pressed_.push_back(Action::reset);
+  take_press(notices_.draw(rows_, free, banner_for(frame, free), ImGui::GetIO().DeltaTime), frame, out);
   if (help_open_) {
     Area place;
     help_open_ = draw_help(picture, place);
@@ -154,7 +156,7 @@ void Panel::record_window_rect() {
   rects_.push_back({from, {from.x + size.x, from.y + size.y}});
 }
 
-std::optional<Banner> Panel::banner_for(const Frame& frame) const {
+std::optional<Banner> Panel::banner_for(const Frame& frame, const Area& free) {
   if (!frame.halted.empty())
     return Banner{
         "The simulation stopped",
@@ -167,12 +169,35 @@ std::optional<Banner> Panel::banner_for(const Frame& frame) const {
                   capitalised(frame.recovery->message) + "." +
                       (frame.recovery_file.empty() ? "" : "\nReplay: heml run " + frame.recovery_file),
                   "", colours::warning};
-  if (late_for_ > late_delay && !frame.paused)
-    return Banner{fmt::format("{:.1f}× slower than real time", frame.pace.slowdown),
-                  "The engine cannot keep up. A softer or denser material, a lower Poisson's ratio or a coarser mesh "
-                  "allows longer steps.",
-                  "", colours::warning};
+  if (late_for_ > late_delay && !slow_dismissed_) return slow_banner(frame, free);
   return std::nullopt;
+}
+
+/// Beside the body: in the corner of the right column, or at the top where there is none.
+Banner Panel::slow_banner(const Frame& frame, const Area& free) {
+  cure_ = cure_for(frame, motion_.integrator(), motion_.budget());
+  Banner banner{fmt::format("{:.1f}× slower than real time", frame.pace.slowdown),
+                cure_ ? cure_->cost
+                      : "A coarser or better mesh would help: slivers and small elements cost the most "
+                        "(heml explain names the worst).",
+                cure_ ? cure_->button : "", colours::warning, "Dismiss"};
+  const ImVec2 picture = ImGui::GetIO().DisplaySize;
+  if (two_columns(picture) && !hidden_)
+    banner.beside = Area{{free.to.x + em(margin), 0}, {picture.x - em(margin), picture.y - em(margin)}};
+  return banner;
+}
+
+/// The banner's button resets a halted body and cures a slow one.
+void Panel::take_press(BannerPress press, const Frame& frame, PanelActions& out) {
+  if (press == BannerPress::close) slow_dismissed_ = true;
+  if (press != BannerPress::button) return;
+  if (!frame.halted.empty()) return pressed_.push_back(Action::reset);
+  if (!cure_) return;
+  for (const Command& command : cure_->commands()) {
+    sync(command);
+    out.commands.push_back(command);
+  }
+  late_for_ = 0;
 }
 
 void Panel::draw_controls(const Frame& frame, bool with_readings, PanelActions& out) {
@@ -185,6 +210,7 @@ void Panel::draw_controls(const Frame& frame, bool with_readings, PanelActions& 
     draw_header(frame);
     const float header_height = ImGui::GetCursorPosY();
     ImGui::BeginChild("sections", {0, 0}, false, ImGuiWindowFlags_NoNav);
+    if (!findings_.empty()) draw_findings();
     if (rows_.section("Material")) material_.draw(rows_, stretch_monitor_.share(), out);
     if (rows_.section("Motion")) motion_.draw(rows_, out);
     if (rows_.section("Tool")) tool_.draw(rows_, frame, out);
@@ -202,6 +228,15 @@ void Panel::draw_controls(const Frame& frame, bool with_readings, PanelActions& 
     ImGui::EndChild();
   }
   ImGui::End();
+}
+
+void Panel::draw_findings() {
+  if (!rows_.section("As opened")) return;
+  const UseFont small(Font::small);
+  ImGui::PushTextWrapPos(0);
+  for (const std::string& text : findings_) ImGui::TextUnformatted(text.c_str());
+  ImGui::PopTextWrapPos();
+  if (rows_.button({"Dismiss", "Closes this section."})) findings_.clear();
 }
 
 void Panel::draw_header(const Frame& frame) {

@@ -19,6 +19,7 @@
 #include <app/panel/motion_section.hpp>
 #include <app/panel/notices.hpp>
 #include <app/panel/open_dialog.hpp>
+#include <app/panel/slow_body.hpp>
 #include <app/panel/stretch_monitor.hpp>
 #include <app/panel/timeline.hpp>
 #include <app/panel/tool_section.hpp>
@@ -46,6 +47,8 @@ class Panel {
   /// Shown until closed: a file that could not be opened.
   void show_error(std::string text) { notices_.show_error(std::move(text)); }
 
+  /// What was found and chosen when the scene was opened; a section shows it until it is dismissed.
+  void set_findings(std::vector<std::string> findings) { findings_ = std::move(findings); }
   void set_choices(OpenChoices choices) { dialog_.set_choices(std::move(choices)); }  ///< entries of the open dialog
   void set_timeline(const Timeline& timeline) { timeline_ = timeline; }               ///< shows its bar from now on
   ViewSection& view() { return view_; }
@@ -75,7 +78,10 @@ class Panel {
   void update_surface(const Frame& frame);
   void update_settings(const Frame& frame);
   void update_stretch_limits();
-  std::optional<Banner> banner_for(const Frame& frame) const;
+  std::optional<Banner> banner_for(const Frame& frame, const Area& free);
+  Banner slow_banner(const Frame& frame, const Area& free);
+  void take_press(BannerPress press, const Frame& frame, PanelActions& out);
+  void draw_findings();
   void record_window_rect();
 
   std::string title_, description_;  ///< of the scene
@@ -99,9 +105,12 @@ class Panel {
   std::vector<Action> pressed_;   ///< queued for the next draw()
   std::vector<Area> rects_;       ///< of ImGui windows in the last draw()
   float controls_height_ = 1e9f;  ///< pixels, of the header and all open sections, as last drawn
-  float late_for_ = 0;            ///< s of wall time since the engine last kept up
-  long recovery_seen_ = -1;       ///< Recovery::tick of the last recovery
-  float since_recovery_ = 1e9f;   ///< s of wall time since a recovery was running
+  std::vector<std::string> findings_;
+  std::optional<Cure> cure_;     ///< that the banner of a slow body offers
+  bool slow_dismissed_ = false;  ///< that banner was
+  float late_for_ = 0;           ///< s of wall time since the engine last kept up
+  long recovery_seen_ = -1;      ///< Recovery::tick of the last recovery
+  float since_recovery_ = 1e9f;  ///< s of wall time since a recovery was running
   bool hidden_ = false, help_open_ = false;
   bool errors_open_ = false;  ///< the section "Accuracy" is open
 };

@@ -70,14 +70,19 @@ void follow_mouse(Rows& rows, const Track& track, PanelActions& out) {
   // The tooltip is above the bar, so that it does not cover the buttons.
   ImGui::SetNextWindowPos({x, track.from.y - em(0.8f)}, ImGuiCond_Always, {0.5f, 1});
   ImGui::BeginTooltip();
-  ImGui::Text("%s of %s", seconds_text(static_cast<double>(tick) / time.rate).c_str(),
-              seconds_text(static_cast<double>(time.end) / time.rate).c_str());
+  ImGui::Text("%s of %s", seconds_text(seconds_at(time, tick)).c_str(),
+              seconds_text(seconds_at(time, time.end)).c_str());
   if (!ImGui::IsAnyMouseDown())
     ImGui::TextDisabled("%s", tick > time.live ? "release here to fast-forward to it" : "drag to show past frames");
   ImGui::EndTooltip();
 }
 
 }  // namespace
+
+double seconds_at(const Timeline& time, long tick) {
+  if (!time.elapsed) return static_cast<double>(tick) / time.rate;
+  return *time.elapsed + static_cast<double>(tick - time.shown.value_or(time.live)) / time.rate;
+}
 
 float timeline_height() { return em(bar_height + margin); }
 
@@ -93,7 +98,7 @@ void draw_timeline(Rows& rows, const Timeline& time, const Area& free, std::vect
   if (ImGui::Begin("timeline", nullptr, bar_flags)) {
     const float height = ImGui::GetContentRegionAvail().y, left = ImGui::GetCursorScreenPos().x;
     const bool back = time.shown.has_value();
-    const double seconds = static_cast<double>(time.shown.value_or(time.live)) / time.rate;
+    const double seconds = seconds_at(time, time.shown.value_or(time.live));
     ImGui::AlignTextToFramePadding();
     ImGui::PushStyleColor(ImGuiCol_Text, back ? colours::warning : colours::text);
     ImGui::TextUnformatted(seconds_text(seconds).c_str());

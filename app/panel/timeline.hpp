@@ -15,7 +15,8 @@ namespace heml::panel {
 
 /// In ticks since the start; resets do not set them back.
 struct Timeline {
-  double rate = 1000;                  ///< ticks per simulated second
+  double rate = 1000;                  ///< ticks per simulated second, now
+  std::optional<double> elapsed;       ///< s, simulated, at the shown tick; none: by the rate
   long first = 0, live = 0;            ///< first frame kept; the engine's tick
   long end = 0;                        ///< of the recording, or the engine's tick if that is later
   std::optional<long> shown;           ///< the past tick shown; none: live
@@ -24,6 +25,9 @@ struct Timeline {
   long fast_forward_target = 0;        ///< a tick that the engine fast-forwards to; 0: none
   std::optional<int> resume_progress;  ///< %, of the replay that leads to a resumed time
 };
+
+/// Simulated seconds since the start at a tick; exact for the shown one where the rate has changed.
+double seconds_at(const Timeline& timeline, long tick);
 
 /// Height of the bar with its margin, pixels.
 float timeline_height();

@@ -6,6 +6,7 @@
 #include <app/window/session_loader.hpp>
 #include <app/window/state_folder.hpp>
 #include <chrono>
+#include <heml/base/warning_collector.hpp>
 #include <thread>
 
 namespace heml::window {
@@ -29,6 +30,18 @@ SessionOptions options_for(const Scene& scene, const std::optional<fs::path>& re
 
 bool can_be_written(const fs::path& folder) { return access(folder.empty() ? "." : folder.c_str(), W_OK) == 0; }
 
+/// What scene_around() chose, and other warnings on the way to a session, each once and without the file's path.
+std::vector<std::string> findings_of(const Scene& scene, const std::vector<std::string>& warnings) {
+  std::vector<std::string> findings;
+  if (scene.chosen)
+    for (const BareMeshChoices::Text& choice : scene.chosen->texts) findings.push_back(choice.text);
+  for (std::string text : warnings) {
+    if (text.starts_with(scene.file + ": ")) text.erase(0, scene.file.size() + 2);
+    if (std::find(findings.begin(), findings.end(), text) == findings.end()) findings.push_back(std::move(text));
+  }
+  return findings;
+}
+
 struct WakeAtEnd {
   ~WakeAtEnd() { GlfwWindow::wake(); }
 };
@@ -48,7 +61,9 @@ OpenScene start(Scene scene, const std::optional<fs::path>& record, std::vector<
   result.was_recorded = result.scene.recorded_ticks.has_value();
   SessionOptions options = options_for(result.scene, record);
   options.comparisons = result.comparisons;
+  const WarningCollector warnings;
   result.session = std::make_unique<Session>(result.scene, options);
+  result.findings = findings_of(result.scene, warnings.texts());
   return result;
 }
 

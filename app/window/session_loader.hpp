@@ -17,6 +17,7 @@ struct OpenScene {
   bool was_recorded = false;                       ///< the scene is a recording, or was resumed from one
   std::vector<std::string> comparisons;            ///< SessionOptions::comparisons
   std::optional<long> resumed;                     ///< tick at which it resumes another session
+  std::vector<std::string> findings = {};          ///< what was found and chosen on opening, for people
 };
 
 /// Starts the session of a scene, whose frames wake the window. record: file to write. Throws InputError.

@@ -62,6 +62,7 @@ panel::Timeline TimelinePlayback::timeline(const Scene& scene, const Frame& live
   timeline.first = history_.frames().empty() ? live.tick : history_.frames().front().tick;
   timeline.end = std::max({live.tick, live.fast_forward_target, scene.recorded_ticks.value_or(0)});
   if (shown_tick_) timeline.shown = shown_.tick;
+  timeline.elapsed = shown_tick_ ? shown_.elapsed : live.elapsed;
   timeline.frames = history_.frames().size();
   timeline.bytes = history_.bytes();
   timeline.room = history_.room();

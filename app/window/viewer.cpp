@@ -38,6 +38,7 @@ void Viewer::adopt(OpenScene opened) {
   if (!open_.resumed) as_opened_ = open_.scene;
   frame_ = &open_.session->latest();
   panel_.emplace(open_.scene, *frame_->surface_mesh);
+  panel_->set_findings(open_.findings);
   next_event_ = 0;
   window_.set_title(window_title(open_.scene));
   if (open_.resumed) return;

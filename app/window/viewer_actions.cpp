@@ -202,7 +202,7 @@ void Viewer::add_video_frame() {
     return panel_->notify(*outcome);
   }
   panel_->view().set_recorded_frames(video_recorder_->frame_count());
-  const double time = static_cast<double>(frame_->tick) / frame_->pace.rate;
+  const double time = frame_->elapsed;
   if (playback_.active() || !video_recorder_->due(time)) return;
   if (video_recorder_->size() == controller_.size())
     return video_recorder_->add_frame(render::read_pixels(controller_.size()), time);

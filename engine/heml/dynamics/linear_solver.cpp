@@ -28,8 +28,13 @@ LinearSolver::LinearSolver(const FreeNodes& free, const TetMesh& mesh, const std
       mass_(mass),
       preconditioner_(preconditioner),
       projection_(projection),
+      max_iterations_(max_cg_iterations),
       team_(team),
       modulus_(modulus) {}
+
+void LinearSolver::limit_iterations(int iterations) {
+  max_iterations_ = iterations > 0 ? iterations : max_cg_iterations;
+}
 
 void LinearSolver::set_inertia(double a) { a_ = a; }
 
@@ -217,7 +222,7 @@ bool LinearSolver::solve(Objective& objective, const Vector& r, double tolerance
   const double enough = tolerance * r.norm();
   if (!objective.is_symmetric()) return biconjugate_gradients(objective, r, enough, d);
   if (supports_single_precision(objective, tolerance))
-    return single_precision_cg_->solve(*scalar_, r, tolerance, max_cg_iterations, d, counts_.iterations);
+    return single_precision_cg_->solve(*scalar_, r, tolerance, max_iterations_, d, counts_.iterations);
   if (sign == Definiteness::positive) return conjugate_gradients(objective, r, enough, d);
   apply_factor(r, d);
   return false;
@@ -235,7 +240,7 @@ bool LinearSolver::conjugate_gradients(Objective& objective, const Vector& r, do
   apply(left, z);
   Vector p = z;
   double progress = left.dot(z);
-  for (int k = 0; k < max_cg_iterations; ++k) {
+  for (int k = 0; k < max_iterations_; ++k) {
     objective.product(p, q);
     if (shift_ > 0) q += shift_ * p;
     ++counts_.iterations;
@@ -262,7 +267,7 @@ bool LinearSolver::biconjugate_gradients(Objective& objective, const Vector& r, 
   double rho = 1, alpha = 1, omega = 1, least = r.norm();
   Vector best;
   apply(r, best);  // fallback: a direction of the symmetric part
-  for (int k = 0; k < max_cg_iterations && left.norm() > enough; ++k) {
+  for (int k = 0; k < max_iterations_ && left.norm() > enough; ++k) {
     const double rho_now = r.dot(left), beta = rho_now / rho * alpha / omega;
     rho = rho_now;
     p = left + beta * (p - omega * q);

@@ -57,6 +57,10 @@ class LinearSolver {
   /// of 3.
   void set_inertia(double a);
 
+  /// From now on a solve ends after so many iterations at most, and d is then inexact, but a descent direction. 0: the
+  /// usual limit, which solves rarely reach.
+  void limit_iterations(int iterations);
+
   /// Solves K d = r to a residual of tolerance ‖r‖, K from the last linearise() of the objective. Returns whether all
   /// curvature met was positive. If not, d is a descent direction all the same: the iterate before, or, with a factor L
   /// D Lᵀ of mixed signs, L⁻ᵀ |D|⁻¹ L⁻¹ r, which near a buckling load serves far better than projected elements. d = 0
@@ -99,6 +103,7 @@ class LinearSolver {
   const Vector& mass_;
   Preconditioner preconditioner_;
   Projection projection_;
+  int max_iterations_;
   double shift_ = 0;  ///< N/m, added to every diagonal entry of K
   ThreadTeam& team_;
   std::unique_ptr<BlockMatrix> matrix_;  ///< built on first use, like the members below

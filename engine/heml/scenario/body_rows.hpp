@@ -64,6 +64,17 @@ struct Row<SetBudget> : CommonRow {
 };
 
 template <>
+struct Row<SetRate> : CommonRow {
+  static constexpr std::string_view key = "rate", example = "60", unit = "Hz",
+                                    meaning =
+                                        "sets the ticks of a simulated second; `at` of later events counts by the "
+                                        "scene's own rate all the same";
+  static constexpr ValueForm value_form = form::positive;
+  static Command read(const JsonCursor& value, Points&) { return SetRate{value_of<double>(value, value_form)}; }
+  static Json write(const SetRate& set) { return set.rate; }
+};
+
+template <>
 struct Row<SetStepCost> : CommonRow {
   static constexpr std::string_view key = "step_cost", example = "40", unit = "ns",
                                     meaning =

@@ -5,32 +5,27 @@
 #include <cstdlib>
 #include <heml/base/error.hpp>
 #include <heml/base/log.hpp>
+#include <heml/base/warning_collector.hpp>
 #include <heml/mesh/from_surface.hpp>
 #include <heml/mesh/quality.hpp>
 #include <heml/mesh/read.hpp>
-#include <heml/scenario/scene.hpp>
+#include <heml/scenario/bare_mesh.hpp>
+#include <heml/scenario/body_shape.hpp>
+#include <heml/scenario/load_mesh.hpp>
+#include <heml/scenario/placement.hpp>
 #include <heml/scenario/selection.hpp>
+#include <heml/scenario/suitable_method.hpp>
 
 namespace heml {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double constrained_part = 0.08;  // of the height, from the top
-constexpr double sensible_size = 0.2;      // m, longest side given to a body whose size is implausible
-constexpr double wanted_tets = 1000;       // by volume, when filling a surface; its kept triangles may lead to more
-
-/// Bounding box of a body before scaling, in the file's units.
-struct Extent {
-  Vec3 low, high;
-};
-
-Extent extent_of_mesh(Scene& scene, const fs::path& path) {
-  scene.mesh.file = path;
-  TetMesh mesh = read_tet_mesh(path);
-  const QualityReport report = check_tets(mesh);
-  return {report.low, report.high};
-}
+constexpr double wanted_tets = 1000;      // by volume, when filling a surface; its kept triangles may lead to more
+constexpr double supported_share = 0.12;  // of the surface
+constexpr double max_stretch = 1.5;       // of a body under its own weight
+constexpr double tissue_poisson = 0.45, tissue_density = 1000;
+constexpr double mass_damping = 1;  // 1/s
 
 double volume_of(const TriangleMesh& surface, const Vec3& inside) {
   double volume = 0;
@@ -39,25 +34,122 @@ double volume_of(const TriangleMesh& surface, const Vec3& inside) {
   return std::abs(volume);
 }
 
-Extent extent_of_surface(Scene& scene, const fs::path& path) {
-  scene.mesh.surface = path;
-  TriangleMesh surface = read_surface(path);
-  check_surface(surface);
-  const auto [low, high] = bounds_of(surface.nodes);
-  scene.mesh.max_volume = volume_of(surface, low) / wanted_tets;
-  return {low, high};
+/// Names the file as the scene's mesh and reads it.
+void take_mesh(Scene& scene, const fs::path& path) {
+  if (is_tet_mesh_file(path)) {
+    scene.mesh.file = path;
+  } else {
+    scene.mesh.surface = path;
+    TriangleMesh surface = read_surface(path);
+    check_surface(surface);
+    scene.mesh.max_volume = volume_of(surface, bounds_of(surface.nodes).first) / wanted_tets;
+  }
+  scene.mesh.source = std::make_shared<const TetMesh>(read_mesh_source(scene));
 }
 
-/// Scales a body of implausible size, whose file is probably not in metres, to sensible_size, and warns.
-void settle_size(Scene& scene, const Extent& extent) {
-  const std::string odd = unit_warning(extent.low, extent.high);
-  if (odd.empty()) return;
-  const double scale = sensible_size / (extent.high - extent.low).maxCoeff();
-  scene.mesh.scale = scale;
-  if (scene.mesh.max_volume) *scene.mesh.max_volume *= scale * scale * scale;
-  warn("{}: {}", scene.file, odd);
-  warn("{}: scaled by {:.6g} to {} m in this default scene; give it a scene file with mesh.scale to choose", scene.file,
-       scene.mesh.scale, sensible_size);
+/// Adds a choice and tells it: one that changes what the file says, or what is usual, as a warning.
+void tell(Scene& scene, bool as_warning, const char* about, std::string text) {
+  const std::string line = fmt::format("{}: {}", scene.file, text);
+  if (as_warning)
+    warn("{}", line);
+  else
+    log_info("{}", line);
+  scene.chosen->texts.push_back({about, std::move(text)});
+}
+
+void choose_unit(Scene& scene, double length) {
+  const LengthUnit unit = guess_unit(length);
+  scene.mesh.scale = unit.scale;
+  if (scene.mesh.max_volume) *scene.mesh.max_volume *= unit.scale * unit.scale * unit.scale;
+  scene.chosen->unit = unit.name;
+  scene.chosen->scale = unit.scale;
+  scene.chosen->length = unit.scale * length;
+  if (unit.name.empty())
+    tell(scene, true, "unit",
+         fmt::format("{:.3g} long, which is no organ's size in metres, centimetres or millimetres: scaled by {:.6g} to "
+                     "{:.3g} m (mesh.scale of a scene file chooses)",
+                     length, unit.scale, scene.chosen->length));
+  else
+    tell(scene, unit.scale != 1, "unit",
+         fmt::format("read in {}: scaled by {:.6g}, {:.3g} m long", unit.name, unit.scale, scene.chosen->length));
+}
+
+void choose_up(Scene& scene, const TetMesh& mesh) {
+  scene.chosen->up = guess_up(mesh, shape_of(mesh));
+  if (scene.chosen->up == 'y') return tell(scene, false, "up", "y points up");
+  scene.mesh.rotate_axis = Vec3(1, 0, 0);
+  scene.mesh.rotate_degrees = -90;
+  tell(scene, true, "up",
+       "z points up, since the body has a flat base there: turned by -90 degrees about x (mesh.rotate of a scene file "
+       "chooses)");
+}
+
+void choose_supports(Scene& scene, const TetMesh& mesh) {
+  const BodyShape shape = shape_of(mesh);
+  const Support support = choose_support(mesh, shape, supported_share);
+  Vec3 low = shape.low - shape.size(), high = shape.high + shape.size();
+  (support.top ? low : high).y() = support.height;
+  scene.boundary.push_back({{{}, std::array{low, high}, std::nullopt}, {}});
+  scene.chosen->supports = support.top ? "top" : "underside";
+  scene.chosen->supported_area = support.area;
+  tell(scene, false, "supports",
+       support.top ? fmt::format("hangs from the top {:.0f} % of its surface, since it would topple on its underside",
+                                 100 * support.area)
+                   : fmt::format("rests on the lowest {:.0f} % of its surface, which is held", 100 * support.area));
+}
+
+Material tissue_of(double young) {
+  const LameParameters lame = lame_parameters(young, tissue_poisson);
+  return {"neo_hookean", {lame.lambda, lame.mu}, tissue_density};
+}
+
+/// Returns the trial run of the tissue chosen.
+TrialRun choose_tissue(Scene& scene, const TetMesh& mesh) {
+  BareMeshChoices& chosen = *scene.chosen;
+  chosen.poisson = tissue_poisson;
+  chosen.density = tissue_density;
+  TrialRun run;
+  double soft_stretch = 0;
+  for (const double young : tissue_moduli()) {
+    chosen.young = young;
+    scene.materials = {{std::nullopt, tissue_of(young)}};
+    run = try_tissue(load_setup(scene, mesh));
+    if (run.stretch <= max_stretch) break;
+    if (soft_stretch == 0) soft_stretch = run.stretch;
+  }
+  chosen.stretch = run.stretch;
+  const std::string tissue =
+      fmt::format("soft tissue of {:.3g} kPa, Poisson's ratio {}", chosen.young / 1e3, tissue_poisson);
+  const std::string stretch = fmt::format("stretches to {:.3g} at most under its weight", run.stretch);
+  if (soft_stretch == 0)
+    tell(scene, false, "tissue", tissue + ": " + stretch);
+  else
+    tell(scene, true, "tissue",
+         fmt::format("{}: {}; of {:.3g} kPa it would stretch to {:.3g}", tissue, stretch, tissue_moduli()[0] / 1e3,
+                     soft_stretch));
+  return run;
+}
+
+void choose_method(Scene& scene, const TetMesh& mesh, const ExplicitCost& cost) {
+  const SuitableMethod method = suitable_method(mesh.tets.size(), cost);
+  adopt(method, scene.solver);
+  scene.chosen->load = method.load;
+  const std::string takes = fmt::format("{:.2g} of real time on one core by the cost model", method.load);
+  if (!method.budget)
+    return tell(scene, false, "method", fmt::format("explicit steps (Verlet) at {:.4g} Hz, {}", method.rate, takes));
+  tell(scene, method.load > 1, "method",
+       fmt::format("backward Euler at {:.3g} Hz, {} iteration{} a step, {}; explicit steps would take {:.2g}",
+                   method.rate, method.budget->iterations, method.budget->iterations == 1 ? "" : "s", takes,
+                   cost.seconds / cost.stable));
+}
+
+/// Placed as load_mesh() places it, without its warnings.
+TetMesh placed_mesh(const Scene& scene) {
+  TetMesh mesh = *scene.mesh.source;
+  check_tets(mesh);
+  const Placement placement(scene.mesh);
+  for (Vec3& node : mesh.nodes) node = placement(node);
+  return mesh;
 }
 
 }  // namespace
@@ -66,20 +158,22 @@ Scene scene_around(const fs::path& path) {
   Scene scene;
   scene.file = path.string();
   scene.name = path.stem().string();
-  Extent extent = is_tet_mesh_file(path) ? extent_of_mesh(scene, path) : extent_of_surface(scene, path);
-  settle_size(scene, extent);
-  extent.low *= scene.mesh.scale;
-  extent.high *= scene.mesh.scale;
-
-  const LameParameters lame = lame_parameters(1.0e4, 0.45);
-  scene.materials = {{std::nullopt, {"neo_hookean", {lame.lambda, lame.mu}, 1000.0}}};
-  const Vec3 size = extent.high - extent.low;
-  Vec3 low = extent.low - size, high = extent.high + size;
-  low.y() = extent.high.y() - constrained_part * size.y();
-  scene.boundary.push_back({{{}, std::array{low, high}, std::nullopt}, {}});
+  scene.chosen.emplace();
+  {
+    const WarningCollector warnings;
+    take_mesh(scene, path);
+    for (const std::string& text : warnings.texts()) scene.chosen->texts.push_back({"mesh", text});
+  }
+  TetMesh mesh = placed_mesh(scene);
+  choose_unit(scene, shape_of(mesh).size().maxCoeff());
+  choose_up(scene, mesh);
+  mesh = placed_mesh(scene);
+  choose_supports(scene, mesh);
   scene.gravity = Vec3(0, -9.81, 0);
   scene.solver.continuation = scene.solver.recovery = true;
-  scene.solver.damping = 1;
+  scene.solver.damping = mass_damping;
+  const TrialRun run = choose_tissue(scene, mesh);
+  choose_method(scene, mesh, run.cost);
   return scene;
 }
 

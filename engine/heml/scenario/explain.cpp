@@ -153,6 +153,7 @@ Explanation explain(const Scene& scene) {
   if (chooses || !result.world.solver) result.startup.pop_back();
   result.file = scene.file;
   result.name = scene.name;
+  result.chosen = scene.chosen;
   TetMesh checked = setup.mesh;
   result.quality = check_tets(checked);
   result.materials = materials_of(setup, result.world);

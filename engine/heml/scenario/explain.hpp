@@ -67,6 +67,7 @@ struct Advice {
 
 struct Explanation {
   std::string file, name;
+  std::optional<BareMeshChoices> chosen;  ///< of a bare mesh
   WorldSetup setup;
   QualityReport quality;
   WorldFacts world;

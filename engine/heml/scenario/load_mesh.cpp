@@ -47,13 +47,6 @@ TetMesh filled_surface(const Scene& scene) {
   return tetrahedralize(surface, options);
 }
 
-TetMesh raw_mesh(const Scene& scene) {
-  if (!scene.mesh.file.empty()) return read_tet_mesh(find_file(scene, "mesh.file", scene.mesh.file));
-  if (!scene.mesh.surface.empty()) return filled_surface(scene);
-  if (scene.mesh.box) return make_box(scene.mesh.box->size, scene.mesh.box->cells, scene.mesh.box->origin);
-  return asset_mesh(scene);
-}
-
 }  // namespace
 
 fs::path asset_mesh_file(const std::string& name) { return assets_folder() / "meshes" / (name + ".mesh"); }
@@ -85,8 +78,16 @@ MeshFingerprint mesh_fingerprint(const TetMesh& mesh) {
   return {static_cast<int>(mesh.nodes.size()), static_cast<int>(mesh.tets.size()), hash};
 }
 
+TetMesh read_mesh_source(const Scene& scene) {
+  if (scene.mesh.source) return *scene.mesh.source;
+  if (!scene.mesh.file.empty()) return read_tet_mesh(find_file(scene, "mesh.file", scene.mesh.file));
+  if (!scene.mesh.surface.empty()) return filled_surface(scene);
+  if (scene.mesh.box) return make_box(scene.mesh.box->size, scene.mesh.box->cells, scene.mesh.box->origin);
+  return asset_mesh(scene);
+}
+
 TetMesh load_mesh(const Scene& scene) {
-  TetMesh mesh = raw_mesh(scene);
+  TetMesh mesh = read_mesh_source(scene);
   const Placement placement(scene.mesh);
   for (Vec3& node : mesh.nodes) node = placement(node);
   for (ElementField& field : mesh.fields)

@@ -5,6 +5,9 @@
 
 namespace heml {
 
+/// Reads or generates the mesh as its source has it, unchecked. Throws InputError.
+TetMesh read_mesh_source(const Scene& scene);
+
 /// Reads or generates the mesh, scales, rotates and translates it (vector fields are rotated too), and checks it;
 /// warnings go to warn(). Throws InputError.
 TetMesh load_mesh(const Scene& scene);

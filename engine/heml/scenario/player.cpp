@@ -14,25 +14,36 @@ void Player::to(double time, const std::function<bool()>& on_tick) {
     begin_tick();
     return world_.load_to(time);
   }
-  const double ticks = time / tick_, nearest = std::round(ticks);
-  const bool at_tick = std::abs(ticks - nearest) < same_tick;
-  const long whole = static_cast<long>(at_tick ? nearest : std::floor(ticks));
-  while (world_.ticks() < whole && !world_.halt()) {
+  while (world_.ticks() < end_at(time).tick && !world_.halt()) {
     begin_tick();
+    if (world_.ticks() >= end_at(time).tick) break;  // an event has made ticks longer
     world_.tick();
     if (!on_tick()) return;
   }
-  if (at_tick || world_.halt()) return;
+  if (end_at(time).rest == 0 || world_.halt()) return;
   begin_tick();
-  world_.advance_within_tick(tick_start_ + (time - static_cast<double>(whole) * tick_));
+  world_.advance_within_tick(tick_start_ + end_at(time).rest);
 }
 
-/// Applies the events of the next tick, once. They may include a reset, which sets the world's time to 0.
+Player::End Player::end_at(double time) const {
+  const double here = time - rate_start_, ticks = here / tick_, nearest = std::round(ticks);
+  const bool at_tick = std::abs(ticks - nearest) < same_tick;
+  const double whole = at_tick ? nearest : std::floor(ticks);
+  return {rate_tick_ + static_cast<long>(whole), at_tick ? 0 : here - whole * tick_};
+}
+
+/// Applies the events of the next tick, once. They may include a reset, which sets the world's time to 0, and another
+/// rate.
 void Player::begin_tick() {
   if (begun_ == world_.ticks()) return;
   begun_ = world_.ticks();
   schedule_.apply(world_);
   tick_start_ = world_.time();
+  const double tick = world_.setup().solver.tick();
+  if (tick == tick_) return;
+  rate_start_ = world_.elapsed();
+  rate_tick_ = world_.ticks();
+  tick_ = tick;
 }
 
 }  // namespace heml

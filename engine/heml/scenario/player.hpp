@@ -21,11 +21,18 @@ class Player {
   std::span<const Event> past_events() const { return schedule_.past(); }  ///< applied to the world so far
 
  private:
+  struct End {
+    long tick;    ///< whole ticks before a time
+    double rest;  ///< s after them
+  };
+  End end_at(double time) const;
   void begin_tick();
 
   World& world_;
   Schedule schedule_;
   double tick_;            ///< s
+  double rate_start_ = 0;  ///< s, simulated, since when ticks have this length
+  long rate_tick_ = 0;     ///< the tick then
   double tick_start_ = 0;  ///< s, World::time() at the start of the tick
   long begun_ = -1;
 };

@@ -47,7 +47,8 @@ struct MeshSpec {
   Vec3 rotate_axis = Vec3(0, 0, 1), rotate_origin = Vec3::Zero();
   double rotate_degrees = 0;
   Vec3 translate = Vec3::Zero();
-  std::optional<RefineGoal> refine;  ///< empty: no refinement
+  std::optional<RefineGoal> refine;       ///< empty: no refinement
+  std::shared_ptr<const TetMesh> source;  ///< of the file or surface, before placement, where it was read already
 };
 
 /// Nodes selected by an entry: by number, box or sphere (rest positions, closed sets; m).
@@ -112,6 +113,24 @@ struct MeshFingerprint {
   bool operator==(const MeshFingerprint&) const = default;
 };
 
+/// What scene_around() chose for a bare mesh (bare_mesh.hpp), and why.
+struct BareMeshChoices {
+  struct Text {
+    std::string about;  ///< unit, up, supports, tissue, method
+    std::string text;
+  };
+  std::string unit;           ///< metres, centimetres, millimetres; empty: none fits, the body was scaled
+  double scale = 1;           ///< to metres
+  double length = 0;          ///< m, longest side
+  char up = 'y';              ///< axis of the file that points up
+  std::string supports;       ///< underside, top
+  double supported_area = 0;  ///< share of the surface that is held
+  double young = 0, poisson = 0, density = 0;
+  double stretch = 0;  ///< largest of the body under its weight, means at nodes
+  double load = 0;     ///< computing time on one core over simulated time, by the cost model
+  std::vector<Text> texts;
+};
+
 struct Scene {
   std::string file;  ///< path it was read from, for messages
   std::string name, title, description;
@@ -132,7 +151,8 @@ struct Scene {
   Vec3 initial_velocity = Vec3::Zero();
   std::filesystem::path initial_positions;
   View view;
-  std::vector<Event> events;  ///< ascending in tick
+  std::optional<BareMeshChoices> chosen;  ///< of a bare mesh only
+  std::vector<Event> events;              ///< ascending in tick
   /// By index in `events`: points (m) given instead of node numbers; the command gets the nearest surface nodes.
   std::map<std::size_t, std::vector<Vec3>> points;
   // Of recordings only:
@@ -153,7 +173,8 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& as_if_from
 /// The scene `heml` opens without arguments.
 Scene default_scene();
 
-/// The default scene for a bare mesh or surface: soft tissue, fixed at its top, under gravity. Throws InputError.
+/// The default scene for a bare mesh or surface (bare_mesh.hpp): soft tissue under gravity, held so that it rests, in
+/// real time by the cost model. Says what it chose on stderr and in Scene::chosen. Throws InputError.
 Scene scene_around(const std::filesystem::path& mesh_or_surface);
 
 /// Whether this processor supports the instruction set a recording names. Then its world uses it and reproduces the

@@ -185,6 +185,8 @@ inline constexpr KeyInfo solver[] = {
 inline constexpr KeyInfo budget[] = {
     {"iterations", form::whole(1, 1000), "", "one of the two", "of the minimiser, a stage"},
     {"milliseconds", form::positive, "ms", "one of the two", "a tick; recordings hold the iterations it came to"},
+    {"linear", form::whole(1, 1000), "", none,
+     "iterations of each linear solve, so that badly shaped elements do not decide what a step costs"},
 };
 inline constexpr KeyInfo outputs[] = {
     {"times", form::other("list of numbers ≥ 0"), "s", "",

@@ -16,6 +16,7 @@ Budget budget_from(const JsonCursor& key) {
     budget.iterations = object.get<int>("iterations");
   else
     budget.milliseconds = object.get<double>("milliseconds");
+  object.read("linear", budget.linear);
   return budget;
 }
 
@@ -86,9 +87,14 @@ Json solver_json(const SolverSettings& solver) {
   json["continuation"] = solver.continuation;
   json["recovery"] = solver.recovery;
   if (solver.tolerance) json["tolerance"] = *solver.tolerance;
-  if (solver.budget)
-    json["budget"] = solver.budget->milliseconds > 0 ? Json{{"milliseconds", solver.budget->milliseconds}}
-                                                     : Json{{"iterations", solver.budget->iterations}};
+  if (solver.budget) {
+    Json& budget = json["budget"];
+    if (solver.budget->milliseconds > 0)
+      budget["milliseconds"] = solver.budget->milliseconds;
+    else
+      budget["iterations"] = solver.budget->iterations;
+    if (solver.budget->linear > 0) budget["linear"] = solver.budget->linear;
+  }
   const SolverSettings usual;
   if (solver.minimiser != usual.minimiser)
     json["minimiser"] = minimiser_names[static_cast<std::size_t>(solver.minimiser)];

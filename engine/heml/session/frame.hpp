@@ -46,7 +46,8 @@ struct Distance {
 struct Frame {
   std::shared_ptr<const SurfaceMesh> surface_mesh;
   long tick = 0;
-  double time = 0;               ///< s, simulated
+  double time = 0;               ///< s, simulated, since the start or the last reset
+  double elapsed = 0;            ///< s, simulated, since the start
   long commands = 0;             ///< carried out since the start (Session::until)
   std::vector<Vec3f> positions;  ///< #S×3, m, in the order of SurfaceMesh::nodes
   Field field = Field::none;

@@ -21,6 +21,13 @@ void Pacer::restart(Time now) {
   next_mark_ = 1;
 }
 
+void Pacer::set_tick(double tick, Time now) {
+  tick_ = tick;
+  durations_.clear();
+  next_duration_ = 0;
+  restart(now);
+}
+
 void Pacer::book(Time began, Time ended) {
   ++done_;
   ++total_;

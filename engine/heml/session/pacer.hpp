@@ -17,6 +17,8 @@ class Pacer {
 
   /// Starts counting from now: at the start and after a pause.
   void restart(Time now);
+  /// Ticks have another period from now on.
+  void set_tick(double tick, Time now);
   /// When the next tick should start.
   Time due() const { return at(done_); }
   /// Records a tick that ran from `began` to `ended`. When it is more than `patience` late, the schedule restarts from

@@ -55,6 +55,7 @@ void fill_frame(World& world, std::shared_ptr<const SurfaceMesh> surface_mesh, F
                 bool with_stretches) {
   frame.tick = world.ticks();
   frame.time = world.time() + ahead;
+  frame.elapsed = world.elapsed() + ahead;
   world.write_positions(surface_mesh->nodes, ahead, frame.positions);
   frame.field = field;
   world.write_field(field, surface_mesh->nodes, frame.values);

@@ -16,6 +16,9 @@ std::vector<Command> settings_of(const WorldSetup& setup) {
   settings.emplace_back(SetGravity{setup.gravity});
   settings.emplace_back(SetDamping{setup.solver.damping});
   settings.emplace_back(SetIntegrator{setup.solver.integrator});
+  if (!setup.solver.step) settings.emplace_back(SetRate{setup.solver.rate});
+  if (const auto& budget = setup.solver.budget; budget && budget->iterations > 0)
+    settings.emplace_back(SetBudget{budget->iterations});
   return settings;
 }
 

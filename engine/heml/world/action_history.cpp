@@ -13,7 +13,8 @@ bool sets_the_same(const Command& one, const Command& next) {
     const auto& other = std::get<SetMaterial>(next);
     return material->region == other.region && material->material.law == other.material.law;
   }
-  return std::holds_alternative<SetGravity>(one) || std::holds_alternative<SetDamping>(one);
+  return std::holds_alternative<SetGravity>(one) || std::holds_alternative<SetDamping>(one) ||
+         std::holds_alternative<SetRate>(one);
 }
 
 }  // namespace
@@ -27,6 +28,9 @@ bool ActionHistory<Real>::begins_action(const Command& command, long tick, doubl
   if (const auto* cut = std::get_if<CutTissue>(&command))
     return !cut->continues_stroke || !std::holds_alternative<CutTissue>(last);
   if (std::holds_alternative<MoveProbe>(command)) return !has_probe || !std::holds_alternative<MoveProbe>(last);
+  if (std::holds_alternative<SetRate>(command) && std::holds_alternative<SetIntegrator>(last) &&
+      tick == lists_.last_tick)
+    return false;  // the rate that suits a method is chosen with it
   return !sets_the_same(last, command) || static_cast<double>(tick - lists_.last_tick) * seconds_per_tick > pause;
 }
 

@@ -78,6 +78,10 @@ struct SetIntegrator {
 struct SetBudget {
   int iterations = 1;
 };
+/// How many ticks a simulated second has from now on. The body goes on from where it is. Replaces a given step.
+struct SetRate {
+  double rate = 1000;  ///< Hz
+};
 /// What an explicit step costs, for "auto" to choose by. Sessions send what they measure.
 struct SetStepCost {
   double nanoseconds = 40;  ///< an element
@@ -112,9 +116,10 @@ struct AdoptPreconditioner {};
 /// like stay as they are.
 struct Reset {};
 
-using Command = std::variant<Grasp, MoveTool, Release, PinTissue, Unpin, SetTables, MoveProbe, WithdrawProbe,
-                             SutureTissue, CutSutures, SetMaterial, SetDamping, SetGravity, SetIntegrator, SetBudget,
-                             SetStepCost, RemoveElements, CutTissue, Undo, StepHistory, AdoptPreconditioner, Reset>;
+using Command =
+    std::variant<Grasp, MoveTool, Release, PinTissue, Unpin, SetTables, MoveProbe, WithdrawProbe, SutureTissue,
+                 CutSutures, SetMaterial, SetDamping, SetGravity, SetIntegrator, SetBudget, SetRate, SetStepCost,
+                 RemoveElements, CutTissue, Undo, StepHistory, AdoptPreconditioner, Reset>;
 
 /// Whether a kind of command changes which elements there are, or takes such a change back.
 template <class C>

@@ -181,6 +181,19 @@ Status CommandExecutor<Real>::execute(const SetBudget& command) {
 }
 
 template <class Real>
+Status CommandExecutor<Real>::execute(const SetRate& command) {
+  if (!(command.rate > 0) || !std::isfinite(command.rate)) return "rate: must be more than 0 Hz";
+  if (s_.setup.solver.is_static()) return "rate: a static scene has no ticks of time";
+  s_.elapsed_before_rate = s_.elapsed();
+  s_.rate_tick = s_.origin_tick = s_.ticks;
+  s_.origin_time = s_.state.time;
+  s_.setup.solver.step.reset();
+  s_.setup.solver.rate = command.rate;
+  method_.choose();
+  return {};
+}
+
+template <class Real>
 Status CommandExecutor<Real>::execute(const SetStepCost& command) {
   if (!(command.nanoseconds > 0) || !std::isfinite(command.nanoseconds))
     return "step_cost: must be more than 0 ns an element";

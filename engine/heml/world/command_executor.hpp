@@ -27,6 +27,7 @@ class CommandExecutor {
   Status execute(const SetGravity& command);
   Status execute(const SetIntegrator& command);
   Status execute(const SetBudget& command);
+  Status execute(const SetRate& command);
   Status execute(const SetStepCost& command);
   Status execute(const AdoptPreconditioner& command);
   Status execute(const RemoveElements& command) { return editor_.remove(command); }

@@ -178,6 +178,7 @@ template <class Real>
 NewtonResult ImplicitStepper<Real>::minimise_stage(Vector& x) {
   ImplicitState<Real>& parts = s_.implicit_state();
   const int most = s_.setup.solver.budget ? stage_iterations() : NewtonOptions{}.max_iterations;
+  parts.linear.limit_iterations(s_.setup.solver.budget ? s_.setup.solver.budget->linear : 0);
   if (s_.setup.solver.minimiser == Minimiser::lbfgs) {
     const int patience = s_.setup.solver.budget ? most : quasi_patience * most;
     const NewtonResult result = minimise_lbfgs(parts.step, parts.linear, stage_criterion(), patience, x);

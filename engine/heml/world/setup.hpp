@@ -53,6 +53,7 @@ struct Load {
 struct Budget {
   int iterations = 0;       ///< of the minimiser, a stage; 0: what the time allows
   double milliseconds = 0;  ///< a tick; 0: none given
+  int linear = 0;           ///< iterations of a linear solve, however its elements are shaped; 0: what accuracy takes
 };
 
 struct SolverSettings {

@@ -53,9 +53,13 @@ struct SimulationState {
 
   Real rest_frequency = 0;  ///< 1/s, bound of the highest frequency at rest: scales the tools
   StepLimit limit;
-  long ticks = 0, origin_tick = 0, steps = 0;
-  long explicit_until = -1;   ///< tick up to which a rescue goes on (step_rescue.hpp); −1: there was none
-  int substeps = 0;           ///< of the last tick
+  long ticks = 0, steps = 0;
+  long origin_tick = 0;            ///< tick of the start, the last Reset, or the last change of the rate
+  double origin_time = 0;          ///< s, state.time at origin_tick
+  long rate_tick = 0;              ///< tick of the start or the last change of the rate
+  double elapsed_before_rate = 0;  ///< s, elapsed() at rate_tick
+  long explicit_until = -1;        ///< tick up to which a rescue goes on (step_rescue.hpp); −1: there was none
+  int substeps = 0;                ///< of the last tick
   long changes = 0;           ///< steps, loads and commands other than edits: unchanged, nothing but edits has happened
   bool is_evaluated = false;  ///< whether forces and stable step belong to the state (restored by an undo)
   std::optional<StopReason> halt;
@@ -102,6 +106,10 @@ struct Simulation : SimulationState<Real> {
   /// The body that steps: the recovery surrogate while a recovery is under way.
   ElasticBody<Real>& acting_body() { return recovering() ? recovery->surrogate->body : body; }
   bool is_stopped() const { return halt || interrupted; }
+  /// Simulated seconds since the start, at the rates there were; not reset by Reset.
+  double elapsed() const {
+    return this->elapsed_before_rate + static_cast<double>(this->ticks - this->rate_tick) * setup.solver.tick();
+  }
 
   /// Makes the surrogate of a recovery for the present mesh, materials and constraints.
   void install_surrogate();

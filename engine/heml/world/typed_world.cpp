@@ -63,7 +63,7 @@ void TypedWorld<Real>::tick() {
   s_.impulses.begin_tick();
   editor_.tear();        // elements separate where they are overstretched
   method_.reconsider();  // "auto": explicit or implicit
-  const double until = static_cast<double>(s_.ticks - s_.origin_tick + 1) * s_.setup.solver.tick();
+  const double until = s_.origin_time + static_cast<double>(s_.ticks - s_.origin_tick + 1) * s_.setup.solver.tick();
   advance(until);  // static increments, or steps of the method, contacts included, and recovery
   if (s_.halt) return;
   s_.unfinished = s_.state.time < until;
@@ -160,11 +160,14 @@ Status TypedWorld<Real>::step_history(int by) {
   if (by != -1 && by != 1) return fmt::format("history: must be -1 (undo) or 1 (redo), is {}", by);
   if (!actions_.can_step(by)) return by < 0 ? "history: there is nothing to undo" : "history: there is nothing to redo";
   const auto then = actions_.step(by, moment());
+  const double elapsed = s_.elapsed();
   const long ticks = s_.ticks, since = ticks - then->simulation.values.ticks;
   heml::restore(then->simulation, s_);
   editor_.restore_history(then->edits);
   s_.ticks = ticks;
   s_.origin_tick += since;
+  s_.rate_tick = ticks;
+  s_.elapsed_before_rate = elapsed;
   if (s_.explicit_until >= 0) s_.explicit_until += since;
   s_.is_evaluated = true;
   return {};
@@ -202,6 +205,7 @@ void TypedWorld<Real>::start() {
   s_.grasps.clear();
   s_.implicit.reset();
   s_.origin_tick = s_.ticks;
+  s_.origin_time = 0;
   s_.move_constrained();
   s_.body.reset_history(s_.state.x.data());
   s_.last_valid = s_.state;

@@ -41,6 +41,7 @@ class TypedWorld final : public World {
   const Recovery* recovery() const override { return s_.recovery && s_.recovery->last ? &*s_.recovery->last : nullptr; }
   long recoveries() const override { return s_.recovery ? s_.recovery->count : 0; }
   long ticks() const override { return s_.ticks; }
+  double elapsed() const override { return s_.elapsed(); }
   double time() const override { return s_.state.time; }
   long steps() const override { return s_.steps; }
   int substeps() const override { return s_.substeps; }

@@ -104,6 +104,7 @@ class World {
   virtual long recoveries() const = 0;
 
   virtual long ticks() const = 0;          ///< whole ticks done, not reset by Reset
+  virtual double elapsed() const = 0;      ///< s that these ticks took, not reset by Reset
   virtual double time() const = 0;         ///< s since start or the last Reset
   virtual long steps() const = 0;          ///< integration steps done, substeps counted
   virtual int substeps() const = 0;        ///< of the last tick

@@ -288,16 +288,29 @@ TEST_CASE("a stopped body shows a banner with a reset button") {
 }
 
 TEST_CASE("a banner appears once the engine has been late for a second") {
-  Driver driver;
+  Driver driver(small_scene(), 800, 600);  // too narrow for a column at the right, where it stands else
   driver.frame.pace.keeping_up = false;
   driver.frame.pace.slowdown = 2.5;
   for (int k = 0; k < 10; ++k) driver.draw();
-  CHECK_FALSE(driver.panel.covers(640, 40));
+  CHECK_FALSE(driver.panel.covers(500, 40));
   for (int k = 0; k < 90; ++k) driver.draw();
-  CHECK(driver.panel.covers(640, 40));
+  CHECK(driver.panel.covers(500, 40));
   driver.frame.pace.keeping_up = true;
   for (int k = 0; k < 3; ++k) driver.draw();
-  CHECK_FALSE(driver.panel.covers(640, 40));
+  CHECK_FALSE(driver.panel.covers(500, 40));
+}
+
+TEST_CASE("what was found on opening is a section until it is dismissed") {
+  Driver driver;
+  driver.panel.set_findings({"read in centimetres: scaled by 0.01", "634 slivers"});
+  driver.click("Dismiss", 40);
+  driver.away();
+  driver.draw();
+  for (float y = 4; y < 760; y += 4) {
+    driver.move({40, y});
+    driver.draw();
+    CHECK(driver.panel.hovered() != "Dismiss");
+  }
 }
 
 TEST_CASE("the error of a file that cannot be opened stays until Esc") {

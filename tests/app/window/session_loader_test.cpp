@@ -1,10 +1,13 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <app/window/session_loader.hpp>
 #include <app/window/state_folder.hpp>
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
+#include <heml/mesh/generate.hpp>
+#include <heml/mesh/write.hpp>
 #include <thread>
 
 namespace heml::session_loader_test {
@@ -126,6 +129,26 @@ TEST_CASE("a cancelled load that fails gives no message") {
   REQUIRE(loader.is_ready());
   CHECK_FALSE(loader.take());
   CHECK_FALSE(loader.is_busy());
+}
+
+TEST_CASE("what was found and chosen for a bare mesh comes with its session, each once") {
+  const Folder folder;
+  TetMesh mesh = make_box(Vec3(15, 10, 10), {2, 2, 2});
+  mesh.nodes.push_back(Vec3(0, 0, 0));  // of no tetrahedron
+  write_tet_mesh(folder.path / "organ.msh", mesh);
+  window::SessionLoader loader;
+  loader.begin(folder.path / "organ.msh", std::nullopt);
+  auto result = wait_for(loader);
+  auto* opened = std::get_if<OpenScene>(&result);
+  REQUIRE(opened);
+  const auto count = [&](const char* word) {
+    return std::count_if(opened->findings.begin(), opened->findings.end(),
+                         [&](const std::string& text) { return text.find(word) != text.npos; });
+  };
+  CHECK(count("centimetres") == 1);
+  CHECK(count("rests on the lowest") == 1);
+  CHECK(count("node") == 1);
+  CHECK(count("organ.msh") == 0);
 }
 
 }  // namespace heml::session_loader_test

@@ -187,6 +187,7 @@ TEST_CASE("writes every kind of event so that it reads back bit for bit") {
     CHECK(same_bits(reread<SetGravity>({999999999999, SetGravity{v}}).gravity, v));
   }
   CHECK(reread<SetBudget>({5, SetBudget{17}}).iterations == 17);
+  CHECK(same_bits(reread<SetRate>({5, SetRate{100.0 / 3}}).rate, 100.0 / 3));
   CHECK(same_bits(reread<SetStepCost>({5, SetStepCost{0.1 / 3}}).nanoseconds, 0.1 / 3));
   const Grasp grasp = reread<Grasp>({5, Grasp{12, 0.1 / 3}});
   CHECK(grasp.node == 12);

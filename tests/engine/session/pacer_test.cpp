@@ -64,4 +64,18 @@ TEST_CASE("a short delay is made up for") {
   CHECK(run(pacer, now, 100us, 1s) >= 1018);
 }
 
+TEST_CASE("another period counts from when it is set") {
+  Pacer pacer(1e-3);
+  auto now = start;
+  pacer.restart(now);
+  run(pacer, now, 5ms, 1s);
+  CHECK_FALSE(pacer.pace(now).keeping_up);
+  pacer.set_tick(0.1, now);
+  CHECK(run(pacer, now, 5ms, 2s) == doctest::Approx(20).epsilon(0.06));
+  const Pace pace = pacer.pace(now);
+  CHECK(pace.rate == doctest::Approx(10));
+  CHECK(pace.keeping_up);
+  CHECK(pace.p50 == doctest::Approx(5e-3));
+}
+
 }  // namespace heml::pacer_test

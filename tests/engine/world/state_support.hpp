@@ -86,6 +86,7 @@ inline Command example(const SetDamping&) { return SetDamping{3}; }
 inline Command example(const SetGravity&) { return SetGravity{Vec3(0, -5, 2)}; }
 inline Command example(const SetIntegrator&) { return SetIntegrator{Integrator::automatic}; }
 inline Command example(const SetBudget&) { return SetBudget{2}; }
+inline Command example(const SetRate&) { return SetRate{150}; }
 inline Command example(const SetStepCost&) { return SetStepCost{500}; }
 inline Command example(const RemoveElements&) { return RemoveElements{{{3, 17, 30}, {}, {}, {}}}; }
 inline Command example(const CutTissue&) { return blade_at(0.034); }
