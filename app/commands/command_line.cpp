@@ -29,7 +29,16 @@ constexpr CommandDefinition definitions[] = {
     {"materials", "prints every law with its parameters, every tissue preset with its source", "", define_materials},
     {"bench-test", "computes the curve of a material test, or fits parameters to a measured one", "",
      define_bench_test},
-    {"mesh", "fills a closed surface with tetrahedra, with a quality report; or converts a tetrahedral mesh", "",
+    {"mesh",
+     "fills a closed surface with tetrahedra, with a quality report; or converts or improves a tetrahedral mesh",
+     "Examples:\n"
+     "  heml mesh liver.stl --scale 0.001 --out liver.msh\n"
+     "  heml mesh liver.msh --out better.msh --improve                  # no angle below 10 degrees\n"
+     "  heml mesh scan.vtu --out coarse.vtu --improve --tets 20000\n"
+     "--improve keeps regions, fields and interfaces between regions, but not the order of nodes and elements.\n"
+     "It prints tets, min_dihedral_deg, slivers (below 5 degrees), explicit_step_s (10 kPa, Poisson's ratio 0.45,\n"
+     "1000 kg/m³) and surface_distance_m. Inverted elements are untangled or refused by number. Elements that the\n"
+     "surface forces below the wanted angle are listed.",
      define_mesh},
     {"refine", "writes a scene on a mesh that is finer where its estimated error is greatest",
      "Examples:\n"

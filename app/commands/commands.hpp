@@ -154,6 +154,10 @@ struct MeshArguments {
   double radius_edge_ratio = 1.4;
   std::optional<double> max_volume;  ///< m³
   double scale = 1;
+  bool improve = false;
+  std::optional<int> tets;          ///< wanted number; none: what the shapes need
+  double min_angle = 10;            ///< degrees
+  std::optional<double> tolerance;  ///< m, of the surface; none: improve.hpp's
 };
 int mesh_surface(const MeshArguments& arguments);
 

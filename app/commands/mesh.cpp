@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include <app/commands/commands.hpp>
+#include <app/commands/mesh_improve.hpp>
 #include <heml/base/error.hpp>
 #include <heml/base/log.hpp>
 #include <heml/base/write_file.hpp>
@@ -27,30 +27,37 @@ void check_files(const MeshArguments& arguments) {
   for (const std::filesystem::path& file : files_of_mesh(arguments.out)) expect_writable_file(file);
 }
 
+TetMesh read_or_fill(const MeshArguments& arguments) {
+  if (is_tet_mesh_file(arguments.surface)) {
+    TetMesh mesh = read_tet_mesh(arguments.surface);
+    for (Vec3& X : mesh.nodes) X *= arguments.scale;
+    return mesh;
+  }
+  TriangleMesh surface = read_surface(arguments.surface);
+  for (Vec3& X : surface.nodes) X *= arguments.scale;
+  check_surface(surface);
+  TetgenOptions options;
+  options.radius_edge_ratio = arguments.radius_edge_ratio;
+  options.max_volume = arguments.max_volume;
+  return tetrahedralize(surface, options);
+}
+
 }  // namespace
 
 int mesh_surface(const MeshArguments& arguments) {
   if (!is_tet_mesh_file(arguments.out))
     throw UsageError(fmt::format("--out {}: end the name in .msh, .mesh, .vtk, .vtu or .node", arguments.out.string()));
   check_files(arguments);
-  TetMesh mesh;
-  if (is_tet_mesh_file(arguments.surface)) {
-    mesh = read_tet_mesh(arguments.surface);
-    for (Vec3& X : mesh.nodes) X *= arguments.scale;
-  } else {
-    TriangleMesh surface = read_surface(arguments.surface);
-    for (Vec3& X : surface.nodes) X *= arguments.scale;
-    check_surface(surface);
-    TetgenOptions options;
-    options.radius_edge_ratio = arguments.radius_edge_ratio;
-    options.max_volume = arguments.max_volume;
-    mesh = tetrahedralize(surface, options);
-  }
+  TetMesh mesh = read_or_fill(arguments);
+  if (arguments.improve) mesh = improve_and_print(mesh, arguments);
   const QualityReport report = check_tets(mesh);
   write_tet_mesh(arguments.out, mesh);
   for (const std::string& text : report.warnings) warn("{}", text);
   if (const std::string odd = unit_warning(report.low, report.high); !odd.empty()) warn("{} (--scale changes it)", odd);
-  fmt::print("{}written to {}\n", to_text(report), arguments.out.string());
+  if (arguments.improve)  // standard output holds the lines of JSON alone
+    log_info("written to {}", arguments.out.string());
+  else
+    fmt::print("{}written to {}\n", to_text(report), arguments.out.string());
   return exit_done;
 }
 

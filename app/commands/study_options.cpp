@@ -67,6 +67,24 @@ Action define_mesh(CLI::App& command) {
   command.add_option("--max-volume", given->max_volume, "of one tetrahedron, m³")
       ->check(positive_number())
       ->type_name("V");
+  const auto improve =
+      command.add_flag("--improve", given->improve,
+                       "better shapes: moves, swaps, collapses and splits; prints JSON lines, before and after");
+  command.add_option("--tets", given->tets, "with --improve: coarsens or refines to about so many tetrahedra")
+      ->check(whole_number_between(1, 10'000'000))
+      ->needs(improve)
+      ->type_name("N");
+  command.add_option("--min-angle", given->min_angle, "with --improve: smallest dihedral angle wanted, degrees")
+      ->capture_default_str()
+      ->check(number_between(1, 30))
+      ->needs(improve)
+      ->type_name("A");
+  command
+      .add_option("--tolerance", given->tolerance,
+                  "with --improve: distance that the surface may change, m; else 0.5 % of the body's diagonal")
+      ->check(positive_number())
+      ->needs(improve)
+      ->type_name("D");
   return [given] { return mesh_surface(*given); };
 }
 

@@ -193,9 +193,13 @@ double min_dihedral(const std::array<Vec3, 4>& x) {
   return smallest * 180 / std::numbers::pi;
 }
 
-QualityReport check_tets(TetMesh& mesh) {
+void check_connectivity(const TetMesh& mesh) {
   check_indices(mesh);
   check_nodes(mesh);
+}
+
+QualityReport check_tets(TetMesh& mesh) {
+  check_connectivity(mesh);
   QualityReport report;
   report.nodes = static_cast<int>(mesh.nodes.size());
   report.tets = static_cast<int>(mesh.tets.size());

@@ -25,9 +25,11 @@ struct QualityReport {
 /// Smallest dihedral angle of a tetrahedron, degrees.
 double min_dihedral(const std::array<Vec3, 4>& x);
 
-/// Checks a mesh and repairs winding in place. Throws InputError, naming the element or node, for no tetrahedra, fields
-/// of wrong size, an invalid index, a node twice in one element, a coordinate that is not finite or too large, or zero
-/// volume.
+/// Throws InputError, naming the element or node, for no tetrahedra, fields of wrong size, an invalid index, a node twice
+/// in one element, a coordinate that is not finite or too large.
+void check_connectivity(const TetMesh& mesh);
+
+/// Checks a mesh and repairs winding in place. Throws InputError as check_connectivity(), and for zero volume.
 QualityReport check_tets(TetMesh& mesh);
 
 /// The report as text, in lines.
