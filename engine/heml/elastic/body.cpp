@@ -1,6 +1,7 @@
 // The parts of a body: their construction, and what depends on all of them together.
 #include <algorithm>
 #include <heml/elastic/body.hpp>
+#include <heml/elastic/energy_term.hpp>
 #include <heml/materials/parameter_slots.hpp>
 
 namespace heml {
@@ -37,7 +38,8 @@ void ElasticBody<Real>::make_parts() {
   join_parts();
 }
 
-/// The fan kernels run a law unless its parameters (fields) or rest shapes (plasticity) vary by element.
+/// The fan kernels run a law unless its parameters (fields) or rest shapes (plasticity) vary by element, or it is an
+/// expression of stretches.
 template <class Real>
 typename ElasticBody<Real>::Part ElasticBody<Real>::make_part(std::size_t index,
                                                               const std::vector<int>& elements) const {
@@ -51,7 +53,7 @@ typename ElasticBody<Real>::Part ElasticBody<Real>::make_part(std::size_t index,
   part.group.density = static_cast<Real>(material.density);
   for (const auto& term : part.terms) term->begin_step(step_);
   part.flow = make_flow<Real>(material, options_.continuation, part.group);
-  part.in_fans = !part.terms.empty() && material.fields.empty() && !part.flow;
+  part.in_fans = !part.terms.empty() && material.fields.empty() && !part.flow && has_fan_kernel(material);
   return part;
 }
 

@@ -1,4 +1,5 @@
 #include <atomic>
+#include <heml/elastic/fan_energy.hpp>
 #include <heml/elastic/fan_forces.hpp>
 #include <heml/materials/laws.hpp>
 #include <heml/math/bytes.hpp>
@@ -36,13 +37,20 @@ template <class Real>
 typename FanForces<Real>::Law FanForces<Real>::law_of(const FanPart& part, bool continuation) const {
   const Material& material = *part.material;
   Law result;
-  with_law<Real>(material, continuation, [&]<class L>(L law) {
-    if constexpr (L::has_volume_term)
-      if (part.isochoric) law.kappa = 0;
-    result.kernel = fan_kernel<Real>(isa_, law_index(L::name), continuation);
-    result.law = std::make_shared<const L>(law);
-    result.shape = PrincipalLaw<L, Real> ? FanShape::principal : L::uses_I4 ? FanShape::fibre : FanShape::plain;
-  });
+  if (find_energy_law(material.law))
+    with_invariant_energy<Real>(material, [&]<class L>(const L& law) {
+      result.kernel = energy_fan_kernel<Real>(isa_, L::uses_I4);
+      result.law = std::make_shared<const L>(law);
+      result.shape = L::uses_I4 ? FanShape::fibre : FanShape::plain;
+    });
+  else
+    with_law<Real>(material, continuation, [&]<class L>(L law) {
+      if constexpr (L::has_volume_term)
+        if (part.isochoric) law.kappa = 0;
+      result.kernel = fan_kernel<Real>(isa_, law_index(L::name), continuation);
+      result.law = std::make_shared<const L>(law);
+      result.shape = PrincipalLaw<L, Real> ? FanShape::principal : L::uses_I4 ? FanShape::fibre : FanShape::plain;
+    });
   const bool has_fibre = result.shape == FanShape::fibre;
   result.fibre = has_fibre && material.fibre_field.empty() ? material.fibre : Vec3::Zero();
   if (has_fibre) result.fibre_field = material.fibre_field;

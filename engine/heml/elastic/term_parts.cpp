@@ -1,6 +1,8 @@
 #include <cassert>
+#include <heml/elastic/energy_term.hpp>
 #include <heml/elastic/law_term.hpp>
 #include <heml/elastic/term_parts.hpp>
+#include <heml/materials/energy_law.hpp>
 #include <heml/materials/parameter_slots.hpp>
 
 namespace heml {
@@ -20,6 +22,7 @@ std::unique_ptr<GroupTerm<Real>> volume_term(const Material& material) {
 
 template <class Real>
 std::unique_ptr<GroupTerm<Real>> make_law_term(const Material& material, bool continuation, bool isochoric) {
+  if (find_energy_law(material.law)) return make_energy_term<Real>(material);
   std::unique_ptr<GroupTerm<Real>> term;
   [&]<std::size_t... part>(std::index_sequence<part...>) {
     void(((term = make_law_term_of_part<Real, part>(material, continuation, isochoric), term != nullptr) || ...));

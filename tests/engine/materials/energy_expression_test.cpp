@@ -11,7 +11,8 @@
 namespace heml::energy_expression_test {
 namespace {
 
-/// W of an expression at F = diag(2, 1, ½), J = 1, with fibre x and the parameters q = 3, r0 = 0.25 where it names them.
+/// W of an expression at F = diag(2, 1, ½), J = 1, with fibre x and the parameters q = 3, r0 = 0.25 where it names
+/// them.
 double value_of(const std::string& text) {
   std::vector<std::pair<std::string, double>> used;
   if (text.find('q') != std::string::npos && text.find("sqrt") == std::string::npos) used.emplace_back("q", 3);
@@ -80,7 +81,8 @@ TEST_CASE("isochoric names are those of F scaled to J = 1") {
   };
   const Mat3 C = F * F;
   CHECK(W("I1b") == doctest::Approx(C.trace() * std::pow(J, -2.0 / 3)).epsilon(1e-14));
-  CHECK(W("I2b") == doctest::Approx((C.trace() * C.trace() - (C * C).trace()) / 2 * std::pow(J, -4.0 / 3)).epsilon(1e-14));
+  CHECK(W("I2b") ==
+        doctest::Approx((C.trace() * C.trace() - (C * C).trace()) / 2 * std::pow(J, -4.0 / 3)).epsilon(1e-14));
   CHECK(W("I4b") == doctest::Approx(1.21 * std::pow(J, -2.0 / 3)).epsilon(1e-14));
   CHECK(W("I3") == doctest::Approx(J * J).epsilon(1e-14));
   CHECK(W("l3b") == doctest::Approx(0.9 / std::cbrt(J)).epsilon(1e-14));
@@ -131,8 +133,9 @@ TEST_CASE("deep and long expressions are refused") {
 
 TEST_CASE("random text is read or refused with a column") {
   std::mt19937 random(7);
-  const std::string pieces[] = {"I1", "J", "l2b", "(", ")", "+", "-", "*", "/", "^", ",", "exp(", "max(", "pow(", "1.5",
-                                "1e9", ".", " ", "C", "x", "\xce\xba", "\x01", "sqrt(", "I4", "0"};
+  const std::string pieces[] = {"I1", "J", "l2b",      "(",    ")",     "+",   "-",   "*", "/",
+                                "^",  ",", "exp(",     "max(", "pow(",  "1.5", "1e9", ".", " ",
+                                "C",  "x", "\xce\xba", "\x01", "sqrt(", "I4",  "0"};
   int read = 0;
   for (int i = 0; i < 20000; ++i) {
     std::string text;

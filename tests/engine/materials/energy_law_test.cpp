@@ -70,9 +70,9 @@ TEST_CASE("stretches that coincide, or nearly, have their limits") {
 
 TEST_CASE("derivatives are those of differences") {
   std::mt19937 random(11);
-  for (const char* text : {"exp(I1b-3)*log(1+I2)/sqrt(J+I4)", "abs(I1-4)*pow(I2, 0.3) + min(I1, I2)*J", "l1*l2^1.5/l3 + I1*J",
-                           "max(l1b-1.05, 0)^3 + l2^2*l3*I4", "pow(I1b-2, J) + pow(2, I2b)", "I3*I1/(1+exp(0-J)) - I4b^-1.3",
-                           "log(l1+l2+l3)*I2b + sqrt(l2b)"}) {
+  for (const char* text : {"exp(I1b-3)*log(1+I2)/sqrt(J+I4)", "abs(I1-4)*pow(I2, 0.3) + min(I1, I2)*J",
+                           "l1*l2^1.5/l3 + I1*J", "max(l1b-1.05, 0)^3 + l2^2*l3*I4", "pow(I1b-2, J) + pow(2, I2b)",
+                           "I3*I1/(1+exp(0-J)) - I4b^-1.3", "log(l1+l2+l3)*I2b + sqrt(l2b)"}) {
     INFO(text);
     const Material material = energy_material(text, {}, Vec3(2, -1, 2) / 3);
     REQUIRE(!material_problem(material));

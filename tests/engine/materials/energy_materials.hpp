@@ -30,8 +30,7 @@ inline std::vector<SameEnergy> same_energies() {
   return {
       {{"neo_hookean", {4e3, 1e3}},
        energy_material("mu/2*(I1-3) - mu*log(J) + lambda/2*log(J)^2", {{"mu", 1e3}, {"lambda", 4e3}})},
-      {{"neo_hookean_iso", {500, 5e4}},
-       energy_material("K1*(I1b-3) + kappa/2*(J-1)^2", {{"K1", 500}, {"kappa", 5e4}})},
+      {{"neo_hookean_iso", {500, 5e4}}, energy_material("K1*(I1b-3) + kappa/2*(J-1)^2", {{"K1", 500}, {"kappa", 5e4}})},
       {{"mooney_rivlin", {400, 100, 5e4}},
        energy_material("K1*(I1b-3) + K2*(I2b-3) + kappa/2*(J-1)^2", {{"K1", 400}, {"K2", 100}, {"kappa", 5e4}})},
       {{"yeoh", {500, -50, 80, 5e4}},
