@@ -33,7 +33,7 @@ Json materials_json(const Explanation& explained) {
       operations = {
           {"multiplications", count->multiplications}, {"additions", count->additions}, {"others", count->others}};
     list.push_back({{"region", material.region ? Json(*material.region) : Json()},
-                    {"law", kernel.law},
+                    {"law", find_law(kernel.law)->name},
                     {"tets", kernel.elements},
                     {"kernel", kernel.kernel},
                     {"instructions", kernel.instructions},

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <app/commands/commands.hpp>
+#include <heml/materials/energy_law.hpp>
 #include <heml/materials/parameter_slots.hpp>
 #include <heml/scenario/material_json.hpp>
 #include <heml/scenario/presets.hpp>
@@ -147,9 +148,29 @@ Json preset_json(const Preset& preset) {
       {"verified", preset.verified}};
 }
 
+constexpr std::string_view energy_meaning =
+    "A law of one's own: its energy W (Pa) as an expression of invariants, stretches and named parameters";
+
+void print_energy() {
+  fmt::print("\n  energy: {}\n", energy_meaning);
+  print_entry("expression", "text, e.g. \"C1*(I1b-3) + kappa/2*(J-1)^2\"");
+  print_entry("parameters", "object: a number for each name, e.g. {\"C1\": 1500, \"kappa\": 1e5}");
+  print_entry("fibre", "[x, y, z]: direction of I4 and I4b at rest");
+  print_entry("names", fmt::format("{}", fmt::join(energy_variables(), ", ")));
+  print_entry("functions", fmt::format("{}", fmt::join(energy_functions(), ", ")));
+}
+
+Json energy_json() {
+  return {{"law", "energy"},
+          {"meaning", energy_meaning},
+          {"variables", energy_variables()},
+          {"functions", energy_functions()}};
+}
+
 void print_text() {
   fmt::print("Laws: energy W per unit rest volume; C = FᵀF, J = det F, bars: of J^(−1/3) F\n");
   for (const LawInfo& law : laws()) print_law(law);
+  print_energy();
   fmt::print("\n\nTissues: \"preset\": NAME in a scene's `materials`\n");
   for (const Preset& preset : presets()) print_preset(preset);
 }
@@ -163,6 +184,7 @@ int materials(const MaterialsArguments& arguments) {
   }
   Json json{{"laws", Json::array()}, {"presets", Json::array()}};
   for (const LawInfo& law : laws()) json["laws"].push_back(law_json(law));
+  json["expressions"] = energy_json();
   for (const Preset& preset : presets()) json["presets"].push_back(preset_json(preset));
   fmt::print("{}\n", json_text(json, "", true));
   return exit_done;

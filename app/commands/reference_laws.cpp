@@ -4,6 +4,7 @@
 
 #include <app/commands/markdown.hpp>
 #include <app/commands/reference.hpp>
+#include <heml/materials/energy_law.hpp>
 #include <heml/materials/parameter_slots.hpp>
 #include <heml/scenario/material_json.hpp>
 #include <heml/scenario/presets.hpp>
@@ -100,6 +101,38 @@ std::string preset_section(const Preset& preset) {
   return text + facts.text();
 }
 
+/// The section of laws by expression, which are no entry of the register.
+std::string energy_section() {
+  std::string text =
+      "## energy\n\n"
+      "A law of one's own: W as an expression, without C++.\n\n"
+      "```json\n"
+      "{ \"law\": \"energy\", \"expression\": \"C1*(I1b-3) + kappa/2*(J-1)^2\", \"parameters\": { \"C1\": 1500, "
+      "\"kappa\": 1e5 } }\n"
+      "```\n\n";
+  MarkdownTable facts({"", ""});
+  facts.add({"names", fmt::format("`{}`", fmt::join(energy_variables(), "`, `"))});
+  facts.add({"functions", fmt::format("`{}`; `log` is the natural one", fmt::join(energy_functions(), "`, `"))});
+  facts.add(
+      {"operators", "`+ - * /` and `^`, which is right-associative and binds tighter than a sign: -x^2 is -(x^2)"});
+  facts.add({"`parameters`", "a number for each other name; every one must occur in the expression"});
+  facts.add({"`fibre`", "direction a0 of `I4`, `I4b`; required by them"});
+  facts.add({"range", "J > 0, and wherever W and its derivatives are finite"});
+  facts.add({"further keys", "`viscosity`, `bulk_viscosity`"});
+  return text + facts.text() +
+         "I1, I2, I3 are the invariants of C, l1 ≥ l2 ≥ l3 the principal stretches; b: of J^(−1/3) F. First and second "
+         "derivatives\n"
+         "are exact (differentiated forward, twice) and run on packs of elements. W must be symmetric in stretches "
+         "that "
+         "coincide.\n"
+         "Of `min`, `max` and `abs` the derivative is that of the branch taken. An error names its column. A stress at "
+         "rest and moduli\n"
+         "at rest that are not positive are warned of. There is no continuation and no separate volume term: "
+         "`continuation` true,\n"
+         "`nodal_pressure`, `relaxation` and `plasticity` are refused. `assets/scenes/energy_law.json` is an "
+         "example.\n\n";
+}
+
 }  // namespace
 
 std::string laws_page() {
@@ -126,8 +159,10 @@ std::string laws_page() {
               fmt::format("{}{}", fmt::join(names, ", "),
                           law.takes_young_poisson ? "; or `young`, `poisson` (Pa, −)" : "")});
   }
+  list.add({"[`energy`](#energy)", "An expression of one's own", "`expression`, `parameters`"});
   text += list.text();
   for (const LawInfo& law : laws()) text += law_section(law);
+  text += energy_section();
   text += "## Presets\n\n`\"preset\": NAME` in an entry of `materials` stands for law and parameters.\n\n";
   for (const Preset& preset : presets()) text += preset_section(preset);
   text.pop_back();

@@ -71,9 +71,14 @@ bool MaterialSection::draw_law(Rows& rows, Material& material) {
     hints.push_back(fmt::format("W = {}\n\n{}", law.formula, law.source));
   }
   const LawInfo* before = find_law(material.law);
+  if (chosen < 0 && before) {  // an expression of the scene's own
+    chosen = static_cast<int>(titles.size());
+    titles.emplace_back(before->title);
+    hints.push_back(fmt::format("W = {}\n\n{}", before->formula, before->source));
+  }
   const bool changed = rows.choice({"Law", "Constitutive law. Switching keeps shape, motion and small-strain moduli."},
                                    chosen, titles, hints);
-  if (!changed || !before) return false;
+  if (!changed || !before || static_cast<std::size_t>(chosen) == laws().size()) return false;
   material = match_moduli(material, *before, laws()[static_cast<std::size_t>(chosen)]);
   return true;
 }

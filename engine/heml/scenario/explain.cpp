@@ -26,8 +26,10 @@ const char* mesh_work(const MeshSpec& mesh) {
 }
 
 std::string law_detail(const Material& material, bool nodal_pressure) {
-  std::string detail = material.law;
-  if (!find_law(material.law)->has_volume_term) return detail;
+  const LawInfo& law = *find_law(material.law);
+  std::string detail(law.name);
+  if (law.name == "energy") return fmt::format("{}: {}", detail, law.formula);
+  if (!law.has_volume_term) return detail;
   if (nodal_pressure || material.volume_term != VolumeTerm::quadratic) return detail + ", its isochoric part";
   return detail + " with its volume term";
 }

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <heml/materials/energy_law.hpp>
 #include <heml/materials/parameter_slots.hpp>
+#include <heml/scenario/energy_json.hpp>
 #include <heml/scenario/material_json.hpp>
 #include <heml/scenario/presets.hpp>
 #include <heml/scenario/scene_keys.hpp>
@@ -13,11 +15,20 @@
 namespace heml {
 namespace {
 
-const LawInfo& law_from(const JsonCursor& key) {
+/// Reads `law`, and with "energy" its expression and parameters.
+const LawInfo& law_from(const JsonCursor& entry, Material& material) {
   std::vector<std::string_view> names;
   for (const LawInfo& law : laws()) names.push_back(law.name);
-  return laws()[key.one_of(names)];
+  names.push_back("energy");
+  const std::size_t which = entry["law"].one_of(names);
+  if (which < laws().size())
+    material.law = laws()[which].name;
+  else
+    read_energy(entry, material);
+  return *find_law(material.law);
 }
+
+bool is_energy(const LawInfo& law) { return law.name == "energy"; }
 
 /// Keys that only some laws accept: the last of `materials[]`.
 struct ParticularKey {
@@ -25,7 +36,9 @@ struct ParticularKey {
   bool (*taken_by)(const LawInfo&);
 };
 constexpr ParticularKey particular_keys[] = {
-    {"fibre", [](const LawInfo& law) { return law.has_fibre; }},
+    {"expression", is_energy},
+    {"parameters", is_energy},
+    {"fibre", [](const LawInfo& law) { return law.has_fibre || is_energy(law); }},
     {"volume_term", [](const LawInfo& law) { return law.has_volume_term; }},
     {"viscosity", [](const LawInfo& law) { return law.is_continuum; }},
     {"bulk_viscosity", [](const LawInfo& law) { return law.is_continuum; }},
@@ -42,7 +55,8 @@ ObjectReader entry_of(const LawInfo& law, const JsonCursor& entry) {
   std::vector<std::string_view> names;
   for (const KeyInfo& key : material_keys.first(material_keys.size() - std::size(particular_keys)))
     if (takes_key(law, key.name)) names.push_back(key.name);
-  for (const ParameterInfo& info : law.parameters) names.push_back(info.name);
+  if (!is_energy(law))
+    for (const ParameterInfo& info : law.parameters) names.push_back(info.name);
   for (const ParticularKey& key : particular_keys) {
     if (key.taken_by(law)) {
       names.push_back(key.name);
@@ -50,6 +64,7 @@ ObjectReader entry_of(const LawInfo& law, const JsonCursor& entry) {
       std::vector<std::string_view> others;
       for (const LawInfo& other : laws())
         if (key.taken_by(other)) others.push_back(other.name);
+      if (others.empty()) others.push_back("energy");
       given->fail(fmt::format("does not go with the law '{}'", law.name),
                   fmt::format("it goes with {}", fmt::join(others, ", ")));
     }
@@ -168,16 +183,18 @@ RegionMaterial material_from(const JsonCursor& key) {
   if (key.has("preset")) return preset_entry(key);
   RegionMaterial result;
   Material& material = result.material;
-  const LawInfo& law = law_from(key["law"]);
+  const LawInfo& law = law_from(key, material);
   const ObjectReader entry = entry_of(law, key);
-  material.law = law.name;
   entry.read("region", result.region);
   entry.read("density", material.density);
-  read_parameters(key, law, material);
-  if (law.has_fibre) read_fibre(entry["fibre"], material);
+  if (!is_energy(law)) read_parameters(key, law, material);
+  if (law.has_fibre) read_fibre(key["fibre"], material);
+  // An expression without I4 may have a fibre all the same.
+  if (const auto fibre = key.find("fibre"); fibre && !law.has_fibre) fibre->direction();
   entry.read("volume_term", material.volume_term);
   read_memory(entry, material);
   check_values(key, material);
+  if (is_energy(law) && material.fibre_field.empty()) warn_energy(key, material);
   return result;
 }
 
@@ -192,9 +209,10 @@ Json material_json(const RegionMaterial& entry) {
   const Material& material = entry.material;
   Json json;
   if (entry.region) json["region"] = *entry.region;
-  json["law"] = material.law;
-  if (const LawInfo* law = find_law(material.law)) {
-    json.update(parameters_json(material, *law));
+  const LawInfo* law = find_law(material.law);
+  json["law"] = law && is_energy(*law) ? law->name : std::string_view(material.law);
+  if (law) {
+    json.update(is_energy(*law) ? energy_json(material) : parameters_json(material, *law));
     if (!material.fibre_field.empty())
       json["fibre"] = {{"field", material.fibre_field}};
     else if (law->has_fibre)

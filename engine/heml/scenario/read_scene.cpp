@@ -6,6 +6,7 @@
 #include <heml/base/error.hpp>
 #include <heml/base/log.hpp>
 #include <heml/mesh/read.hpp>
+#include <heml/scenario/energy_json.hpp>
 #include <heml/scenario/entries_json.hpp>
 #include <heml/scenario/event_json.hpp>
 #include <heml/scenario/file_kind.hpp>
@@ -139,16 +140,31 @@ void check_static(const Scene& scene) {
                        "does not go with solver.integrator static", "use backward_euler with loads ramped over a time");
 }
 
+/// A law by expression has no continuation, and a body of it starts at rest.
+void check_energy_laws(const Scene& scene) {
+  const auto check = [&](const Material& material, const std::string& place) {
+    if (const std::string problem = energy_setup_problem(material, scene.solver.continuation); !problem.empty())
+      throw InputError(
+          scene.file, place + ".law", problem,
+          scene.solver.continuation ? "take another law, or \"continuation\": false" : "change the expression");
+  };
+  for (std::size_t i = 0; i < scene.materials.size(); ++i)
+    check(scene.materials[i].material, fmt::format("materials[{}]", i));
+  for (const Event& event : scene.events)
+    if (const SetMaterial* set = std::get_if<SetMaterial>(&event.command))
+      check(set->material, fmt::format("events: step {}: material", event.tick));
+}
+
 /// Averaged nodal pressure takes the volume terms of all materials together.
 void check_nodal_pressure(const Scene& scene) {
   if (!scene.solver.nodal_pressure) return;
   const VolumeTerm first = scene.materials.front().material.volume_term;
   const auto check = [&](const Material& material, const std::string& place) {
     if (!find_law(material.law)->has_volume_term)
-      throw InputError(
-          scene.file, place + ".law",
-          fmt::format("'{}' has no volume term of its own, which solver.element nodal_pressure needs", material.law),
-          "take another law, or \"element\": \"p1\"");
+      throw InputError(scene.file, place + ".law",
+                       fmt::format("'{}' has no volume term of its own, which solver.element nodal_pressure needs",
+                                   find_law(material.law)->name),
+                       "take another law, or \"element\": \"p1\"");
     if (material.volume_term != first)
       throw InputError(scene.file, place + ".volume_term", "differs from that of materials[0]",
                        "solver.element nodal_pressure needs the same in all materials");
@@ -212,6 +228,7 @@ Scene parse_scene(std::string_view text, const fs::path& as_if_from) {
   if (end < text.size()) read_lines(text.substr(end + 1), file, scene.solver.tick(), script);
   install_script(std::move(script), scene);
   check_nodal_pressure(scene);
+  check_energy_laws(scene);
   check_static(scene);
   return scene;
 }

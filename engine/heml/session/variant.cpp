@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <heml/base/error.hpp>
+#include <heml/materials/energy_law.hpp>
 #include <heml/materials/match_moduli.hpp>
 #include <heml/session/variant.hpp>
 #include <string_view>
@@ -13,7 +14,7 @@ namespace {
 /// Changes a variant by one word. Returns whether the word is known.
 bool apply_word(std::string_view word, Variant& variant) {
   SolverSettings& solver = variant.setup.solver;
-  if (const LawInfo* law = find_law(word)) {
+  if (const LawInfo* law = find_law(word); law && !find_energy_law(word)) {
     variant.has_law = true;
     for (RegionMaterial& entry : variant.setup.materials)
       if (entry.material.law != law->name)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <heml/materials/energy_law.hpp>
 #include <heml/materials/material.hpp>
 #include <heml/world/command_executor.hpp>
 #include <heml/world/stable_step.hpp>
@@ -135,6 +136,8 @@ Status CommandExecutor<Real>::execute(const SetMaterial& command) {
     return "material: a switched material takes numbers, not fields";
   if (const auto problem = material_problem(command.material))
     return fmt::format("material.{}: {}", problem->first, problem->second);
+  if (s_.setup.solver.continuation && find_energy_law(command.material.law))
+    return "material.law: a law by expression has no continuation, which solver.continuation asks for";
   entry->material = command.material;
   s_.body.set_material(static_cast<std::size_t>(entry - s_.setup.materials.begin()), command.material,
                        s_.state.x.data());
