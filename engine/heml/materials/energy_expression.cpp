@@ -11,7 +11,7 @@ namespace {
 
 using Kind = EnergyNode::Kind;
 
-constexpr std::string_view variable_names[] = {"I1", "I2", "I3", "J",  "I1b", "I2b", "I4",
+constexpr std::string_view variable_names[] = {"I1",  "I2", "I3", "J",  "I1b", "I2b", "I4",
                                                "I4b", "l1", "l2", "l3", "l1b", "l2b", "l3b"};
 constexpr std::string_view function_names[] = {"exp", "log", "sqrt", "pow", "abs", "min", "max"};
 

@@ -29,9 +29,9 @@ std::span<const std::string_view> energy_functions();
 struct EnergyNode {
   enum class Kind : std::uint8_t { number, variable, parameter, add, subtract, multiply, divide, negate, call };
   Kind kind;
-  double value = 0;         ///< of a number
-  std::size_t index = 0;    ///< EnergyVariable, parameter or EnergyFunction
-  std::size_t a = 0, b = 0; ///< operands; "^" is a call of pow
+  double value = 0;          ///< of a number
+  std::size_t index = 0;     ///< EnergyVariable, parameter or EnergyFunction
+  std::size_t a = 0, b = 0;  ///< operands; "^" is a call of pow
 };
 
 /// What is wrong with an expression, and where.

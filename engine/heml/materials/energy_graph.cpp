@@ -20,8 +20,8 @@ EnergyGraph::EnergyGraph(const EnergyExpression& expression, std::span<const dou
 }
 
 EnergyGraph::Node EnergyGraph::intern(Op operation, double value, Node a, Node b, Node c, Node d, bool positive) {
-  const auto [found, is_new] = known_.try_emplace(
-      {operation, std::bit_cast<std::uint64_t>(value), a, b, c, d}, static_cast<Node>(entries_.size()));
+  const auto [found, is_new] = known_.try_emplace({operation, std::bit_cast<std::uint64_t>(value), a, b, c, d},
+                                                  static_cast<Node>(entries_.size()));
   if (is_new) entries_.push_back({operation, value, a, b, c, d, positive});
   if (entries_.size() > max_nodes) throw EnergyError(1, "too large: its derivatives take too many operations");
   return found->second;
@@ -115,8 +115,9 @@ EnergyGraph::Node EnergyGraph::power(Node a, Node b) {
     if (is_constant(a)) {
       const double x = entries_[a].value;
       const bool zero = x == 0 && exponent > 0;
-      return constant(zero ? 0 : x > 0 && std::isnormal(x) ? heml::power(x, exponent)
-                                                           : std::numeric_limits<double>::quiet_NaN());
+      return constant(zero                        ? 0
+                      : x > 0 && std::isnormal(x) ? heml::power(x, exponent)
+                                                  : std::numeric_limits<double>::quiet_NaN());
     }
   }
   return intern(Op::pow, 0, a, b, 0, 0, entries_[a].positive);

@@ -10,7 +10,7 @@ namespace heml {
 
 enum class EnergyOperation : std::uint8_t {
   constant,
-  input,     ///< one of EnergyInput
+  input,  ///< one of EnergyInput
   add,
   subtract,
   multiply,
@@ -19,7 +19,7 @@ enum class EnergyOperation : std::uint8_t {
   exp,
   expm1,
   log,
-  pow,        ///< a^b for a ≥ 0
+  pow,  ///< a^b for a ≥ 0
   abs,
   sign,       ///< −1, 0, 1
   if_greater  ///< a > b ? c : d

@@ -68,20 +68,13 @@ class EnergyRegistry {
   static void describe(EnergyLaw& law) {
     const bool stretches = law.expression.uses_stretches();
     const double nodes = static_cast<double>(law.expression.nodes.size());
-    law.info = {"energy",
-                "Energy by expression",
-                law.text,
-                "the scene",
-                law.parameters,
-                false,
-                false,
-                law.expression.uses_fibre(),
-                stretches,
-                true,
-                true,
-                {10 + nodes + (stretches ? 150 : 0), 5 + nodes / 2 + (stretches ? 60 : 0)},
-                {1e3, 5e4},
-                [](SmallStrainModuli) { return std::vector<double>(); }};
+    law.info = {"energy",       "Energy by expression",
+                law.text,       "the scene",
+                law.parameters, false,
+                false,          law.expression.uses_fibre(),
+                stretches,      true,
+                true,           {10 + nodes + (stretches ? 150 : 0), 5 + nodes / 2 + (stretches ? 60 : 0)},
+                {1e3, 5e4},     [](SmallStrainModuli) { return std::vector<double>(); }};
   }
 
   std::map<std::string, std::unique_ptr<KnownEnergy>, std::less<>> known_;
@@ -117,8 +110,8 @@ std::shared_ptr<const EnergyPrograms<Real>> energy_programs(const Material& mate
   }
   auto& programs = known.template programs<Real>();
   if (!programs)
-    programs = std::make_shared<const EnergyPrograms<Real>>(
-        compile_energy<Real>(known.law.expression, material.parameters));
+    programs =
+        std::make_shared<const EnergyPrograms<Real>>(compile_energy<Real>(known.law.expression, material.parameters));
   return programs;
 }
 

@@ -42,8 +42,7 @@ struct EnergyLawBase {
   static constexpr std::array<int, 0> parameters{};
 
   EnergySteps<Lane<Real>> W, first, second;
-  std::conditional_t<std::is_same_v<Real, Lane<Real>>, std::shared_ptr<const EnergyPrograms<Real>>, NoOwner> owner =
-      {};
+  std::conditional_t<std::is_same_v<Real, Lane<Real>>, std::shared_ptr<const EnergyPrograms<Real>>, NoOwner> owner = {};
 
   void set(std::shared_ptr<const EnergyPrograms<Real>> programs) {
     owner = std::move(programs);

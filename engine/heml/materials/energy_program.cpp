@@ -10,7 +10,6 @@ using Step = EnergyStep<double>;
 using Code = Step::Code;
 using GraphNode = EnergyGraph::Node;
 
-
 constexpr std::size_t max_steps = 20000;
 
 std::size_t operands_of(Op operation) {
@@ -179,9 +178,7 @@ class Assembler {
     if (--uses_[node] == 0) free_.push_back(register_[node]);
   }
 
-  [[noreturn]] static void too_large() {
-    throw EnergyError(1, "too large: its derivatives take too many operations");
-  }
+  [[noreturn]] static void too_large() { throw EnergyError(1, "too large: its derivatives take too many operations"); }
 
   const EnergyGraph& graph_;
   std::vector<bool> seen_;
@@ -196,8 +193,8 @@ template <class Real>
 EnergyProgram<Real> converted(const EnergyProgram<double>& from) {
   EnergyProgram<Real> to{{}, from.results};
   for (const Step& s : from.steps)
-    to.steps.push_back({static_cast<typename EnergyStep<Real>::Code>(s.code), s.out, s.a, s.b, s.c, s.d,
-                        static_cast<Real>(s.value)});
+    to.steps.push_back(
+        {static_cast<typename EnergyStep<Real>::Code>(s.code), s.out, s.a, s.b, s.c, s.d, static_cast<Real>(s.value)});
   return to;
 }
 
@@ -207,8 +204,8 @@ template <class Real>
 EnergyPrograms<Real> compile_energy(const EnergyExpression& expression, std::span<const double> parameters) {
   EnergyGraph graph(expression, parameters);
   using enum EnergyInput;
-  const std::vector<EnergyInput> inputs = expression.uses_stretches() ? std::vector{c1, c2, c3, J, I4}
-                                                                      : std::vector{I1, I2, J, I4};
+  const std::vector<EnergyInput> inputs =
+      expression.uses_stretches() ? std::vector{c1, c2, c3, J, I4} : std::vector{I1, I2, J, I4};
   std::vector<GraphNode> first, second;
   for (const EnergyInput input : inputs) first.push_back(graph.derivative(graph.energy(), input));
   for (std::size_t i = 0; i < inputs.size(); ++i)

@@ -18,7 +18,7 @@ struct EnergyStep {
   enum class Code : std::uint16_t {
     value,
     add,
-    add_value,       ///< a + value
+    add_value,  ///< a + value
     subtract,
     value_subtract,  ///< value − a
     multiply,
