@@ -24,8 +24,12 @@ constexpr double altitude_of_median = 0.35;  // wanted of every element
 constexpr double margin = 0.08;              // of quality past the goal, for altitudes
 constexpr double goal_margin = 1.01;         // of the sine
 constexpr int max_rounds = 30;
+constexpr int max_untangling_rounds = 50;
+constexpr double volume_to_reach = 0.01;  // of the mean one
 constexpr int max_idle_rounds = 3;
 constexpr double near_enough = 0.1;  // of the wanted number of elements
+
+double volume_of_corners(const Corners& x) { return signed_volume(x[0], x[1], x[2], x[3]); }
 
 class Improver {
  public:
@@ -33,6 +37,7 @@ class Improver {
       : mesh_(mesh), guard_(guard), options_(options), goal_(mesh.measure().goal) {}
 
   void run() {
+    untangle();
     set_wanted_altitude();
     if (options_.tets)
       for (int k = 0; k < 3 && !has_wanted_number(); ++k) {
@@ -45,6 +50,22 @@ class Improver {
   }
 
  private:
+  /// Moves nodes of inverted elements to where the smallest volume round them is largest.
+  void untangle() {
+    const ShapeMeasure shape = mesh_.measure();
+    double volume = 0;
+    for (int t = 0; t < mesh_.slots(); ++t) volume += std::abs(volume_of_corners(mesh_.corners(mesh_.tet(t))));
+    mesh_.set_measure({.volume_rate = mesh_.count() / volume});
+    for (int round = 0; round < max_untangling_rounds; ++round) {
+      int moved = 0;
+      for (int t = 0; t < mesh_.slots(); ++t)
+        for (const int n : mesh_.tet(t))
+          if (!(mesh_.quality(t) > volume_to_reach)) moved += smooth_node(mesh_, guard_, n);
+      if (moved == 0) break;
+    }
+    mesh_.set_measure(shape);
+  }
+
   bool has_wanted_number() const { return std::abs(mesh_.count() - *options_.tets) <= near_enough * *options_.tets; }
 
   void resize(int tets) {

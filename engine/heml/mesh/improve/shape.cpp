@@ -44,6 +44,7 @@ Vec3 log_area_gradient(const Corners& x, const Measures& m, std::size_t face, in
 
 double ShapeMeasure::operator()(const Corners& x) const {
   const Measures m = measure(x);
+  if (volume_rate > 0) return volume_rate * m.determinant / 6;
   const double largest = *std::max_element(m.areas2.begin(), m.areas2.end());
   if (!(*std::min_element(m.areas2.begin(), m.areas2.end()) > 0)) return -1;
   double worst = goal + altitude_rate * std::max(m.determinant / largest, 0.0);
@@ -53,6 +54,11 @@ double ShapeMeasure::operator()(const Corners& x) const {
 
 void ShapeMeasure::append_terms(const Corners& x, int corner, double limit, std::vector<ShapeTerm>& terms) const {
   const Measures m = measure(x);
+  if (volume_rate > 0) {
+    const double value = volume_rate * m.determinant / 6;
+    if (value < limit) terms.push_back({value, -m.normals[corner] * (volume_rate / 6)});
+    return;
+  }
   if (!(*std::min_element(m.areas2.begin(), m.areas2.end()) > 0)) return;
   for (std::size_t e = 0; e < 6; ++e) {
     const double value = sine(m, e);

@@ -22,6 +22,8 @@ struct ShapeTerm {
 struct ShapeMeasure {
   double goal = 1;           ///< sine of the dihedral angle from which altitudes count
   double altitude_rate = 0;  ///< 1/m
+  double volume_rate = 0;  ///< 1/m³; greater than 0: quality is this times the volume, and nothing else. Concave in the
+                           ///< position of each node, so that smoothing untangles where it can be done.
 
   /// −1 for faces without area.
   double operator()(const Corners& x) const;
