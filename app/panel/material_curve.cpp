@@ -7,7 +7,7 @@ namespace heml::panel {
 namespace {
 
 constexpr double lowest_stretch = 0.7, highest_stretch = 1.5;
-constexpr int points = 41;
+constexpr int curve_points = 41;
 constexpr float height = 6.2f;  // em
 
 /// Whether two materials have the same curve.
@@ -25,7 +25,7 @@ void MaterialCurve::compute(const Material& material) {
   chart_.y_unit = "Pa";
   if (preset && preset->stretch_range) chart_.band = {preset->stretch_range->low, preset->stretch_range->high, ""};
   const BenchCurve curve = run_bench(*make_material_point(material, false), BenchTest::uniaxial,
-                                     evenly_spaced(lowest_stretch, highest_stretch, points));
+                                     evenly_spaced(lowest_stretch, highest_stretch, curve_points));
   ChartSeries series{"", {}, colours::accent, ChartMark::line, 1};
   for (const BenchPoint& p : curve.points) series.points.push_back({p.amount, p.nominal});
   chart_.series.push_back(std::move(series));

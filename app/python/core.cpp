@@ -15,4 +15,5 @@ NB_MODULE(_core, module) {
   python::bind_world(module);
   python::bind_solve(module);
   python::bind_batch(module);
+  python::bind_render(module);
 }

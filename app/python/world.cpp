@@ -139,6 +139,13 @@ void grasp(LiveWorld& live, nb::object point, nb::object node, nb::object radius
   apply_action(live, "grasp", patch);
 }
 
+void cut(LiveWorld& live, nb::object sweep) {
+  if (nb::isinstance<nb::dict>(sweep)) return apply_action(live, "cut", sweep);
+  nb::dict value;
+  value["sweep"] = sweep;
+  apply_action(live, "cut", value);
+}
+
 std::shared_ptr<Snapshot> snapshot(LiveWorld& live) {
   const Use use(live);
   return live.snapshot();
@@ -209,9 +216,10 @@ void bind_actions(nb::class_<LiveWorld>& world) {
             apply_json(live, {{"release", true}});
           },
           "Lets go.")
-      .def(
-          "cut", [](LiveWorld& live, nb::object sweep) { apply_action(live, "cut", sweep); }, "sweep"_a,
-          "Cuts along what a blade sweeps: the value of the event `cut`.")
+      .def("cut", &cut, "sweep"_a,
+           "Cuts along what a blade sweeps: a list of lines, of two or more points (m) each, from its first place to "
+           "its "
+           "last; or the whole value of the event `cut`, a dict.")
       .def(
           "undo",
           [](LiveWorld& live) {

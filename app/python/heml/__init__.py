@@ -18,7 +18,7 @@ _assets = _pathlib.Path(__file__).parent / "assets"
 if _assets.is_dir():
     _os.environ.setdefault("HEML_ASSETS", str(_assets))
 
-from heml._core import Batch, InputError, NotConverged, Scene, Snapshot, Unstable, World, __version__, probe, solve  # noqa: E402
+from heml._core import Batch, InputError, NotConverged, Scene, Snapshot, Unstable, World, __version__, probe, render, solve  # noqa: E402
 
 for _name in ("Batch", "Scene", "Snapshot", "World", "probe", "solve"):
     try:

@@ -19,7 +19,7 @@ bool same_body(const MeshSize& size, const TetMesh& a, const WorldSetup& a_setup
   const auto options = [](const WorldSetup& setup) {
     const SolverSettings& solver = setup.solver;
     return std::tuple(solver.continuation, solver.nodal_pressure, solver.recovery, solver.is_static(),
-                      setup.instruction_set);
+                      resolve(setup.instruction_set));
   };
   const auto begin_alike = [](const auto& one, const auto& other, std::size_t count) {
     return std::equal(one.begin(), one.begin() + static_cast<std::ptrdiff_t>(count), other.begin());

@@ -28,6 +28,12 @@ def box():
 
 
 @pytest.fixture
+def sweep():
+    """Of a blade through the box."""
+    return [[[0.06, -1, -1], [0.06, -1, 1]], [[0.06, 1, -1], [0.06, 1, 1]]]
+
+
+@pytest.fixture
 def program():
     """Runs the command line; returns what it printed, with `returncode`."""
     if not pathlib.Path(PROGRAM).exists():

@@ -1,0 +1,54 @@
+#include <app/panel/camera_controller.hpp>
+#include <app/panel/frame_drawing.hpp>
+#include <app/panel/legend.hpp>
+#include <heml/session/surface_mesh.hpp>
+
+namespace heml::panel {
+
+FrameDrawing::FrameDrawing(const Scene& scene, const World& world, render::Size size, bool panel, bool comparisons)
+    : size_(size), context_(size_), surface_mesh_(make_surface_mesh(world)), view_(scene.view) {
+  if (panel || comparisons || view_.field != Field::none) interface_.emplace(Interface::suitable_scale(size_));
+  if (panel) panel_.emplace(scene, *surface_mesh_);
+}
+
+render::Image FrameDrawing::draw(World& world, double ahead, double seconds, ComparisonRuns* comparison_runs) {
+  surface_mesh_ = make_surface_mesh(world, std::move(surface_mesh_));
+  fill_frame(world, surface_mesh_, view_.field, ahead, frame_, panel_ && panel_->wants_stretches());
+  if (comparison_runs) comparison_runs->fill(world, frame_, ahead);
+  frame_.pace.rate = 1 / world.setup().solver.tick();
+  if (panel_)
+    draw_with_panel(static_cast<float>(seconds));
+  else
+    draw_alone(static_cast<float>(seconds));
+  return render::read_pixels(size_);
+}
+
+void FrameDrawing::draw_with_panel(float seconds) {
+  panel_->update(frame_, seconds);
+  CameraController controller;
+  controller.fit(view_, uncut_surface(*surface_mesh_), size_,
+                 panel_->insets({static_cast<float>(size_.width), static_cast<float>(size_.height)}),
+                 body_count(frame_));
+  bodies_.draw(frame_, controller, panel_->drawing());
+  interface_->begin(size_, seconds);
+  draw_variant_labels(frame_, controller);
+  panel_->draw(frame_);
+  interface_->end();
+}
+
+void FrameDrawing::draw_alone(float seconds) {
+  render::DrawOptions options;
+  options.wireframe = view_.wireframe;
+  if (interface_) options.range = colours_.update(frame_.field, frame_.values, seconds);
+  CameraController controller;
+  controller.fit(view_, uncut_surface(*surface_mesh_), size_, {}, body_count(frame_));
+  bodies_.draw(frame_, controller, options);
+  if (!interface_) return;
+  interface_->begin(size_, seconds);
+  draw_variant_labels(frame_, controller);
+  draw_legend(frame_.field, *options.range,
+              {{0, 0}, {static_cast<float>(size_.width), static_cast<float>(size_.height)}}, !(frame_.min_J > 0));
+  interface_->end();
+}
+
+}  // namespace heml::panel

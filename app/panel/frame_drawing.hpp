@@ -1,0 +1,40 @@
+#pragma once
+// Draws a world headless: the body and its comparison runs, with the panel or a legend.
+#include <app/panel/comparison_view.hpp>
+#include <app/panel/interface.hpp>
+#include <app/panel/panel.hpp>
+#include <app/render/osmesa_context.hpp>
+#include <heml/scenario/scene.hpp>
+#include <heml/session/comparison_runs.hpp>
+#include <heml/world/world.hpp>
+#include <optional>
+
+namespace heml::panel {
+
+/// Owns an OpenGL context: use it on the thread that made it. At most one exists at a time.
+class FrameDrawing {
+ public:
+  /// panel: draws the panel; otherwise only a legend, if the scene shows a field. comparisons: there will be comparison
+  /// runs, which are labelled.
+  FrameDrawing(const Scene& scene, const World& world, render::Size size, bool panel, bool comparisons);
+
+  /// Draws the world extrapolated by `ahead` (s). seconds: simulated since the last frame. comparison_runs: drawn in
+  /// further panes.
+  render::Image draw(World& world, double ahead, double seconds, ComparisonRuns* comparison_runs = nullptr);
+
+ private:
+  void draw_with_panel(float seconds);
+  void draw_alone(float seconds);
+
+  render::Size size_;
+  render::OsMesaContext context_;
+  ComparisonView bodies_;
+  std::shared_ptr<const SurfaceMesh> surface_mesh_;  ///< of the last frame
+  View view_;
+  Frame frame_;
+  render::ColourRange colours_;
+  std::optional<Interface> interface_;  ///< none if only bodies are drawn
+  std::optional<Panel> panel_;
+};
+
+}  // namespace heml::panel
