@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import copy
 import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -14,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 import heml
 from heml._equilibrium import Equilibrium, rest_world, unsupported, with_selected_nodes
 from heml._optional import require
-from heml._scene_paths import get_number, set_number
+from heml._scene_paths import get_number, name_moduli, set_number
 
 Array = NDArray[np.float64]
 Bounds = tuple[float, float, float]
@@ -75,6 +74,7 @@ class Misfit:
         self, scene: Any, nodes: NDArray[np.intp], measured: Array, paths: Sequence[str], method: str = "auto"
     ) -> None:
         given = _as_dict(scene)
+        name_moduli(given, paths)
         frozen = with_selected_nodes(given, np.asarray(rest_world(given).positions()))
         settings = {key: value for key, value in frozen.get("solver", {}).items() if key == "element"}
         frozen["solver"] = settings | {"integrator": "static", "tolerance": 1e-11}
@@ -166,8 +166,10 @@ def fit(
         NotConverged: no equilibrium at the initial values.
     """
     optimize = require("scipy.optimize", "fit")
-    given = copy.deepcopy(_as_dict(scene))
-    bounds = {path: _bounds(given, path, value) for path, value in _named(parameters).items()}
+    given = _as_dict(scene)
+    named = _named(parameters)
+    name_moduli(given, named)
+    bounds = {path: _bounds(given, path, value) for path, value in named.items()}
     nodes, measured, sigma = _observed(observations)
     for path, (initial, _, _) in bounds.items():
         set_number(given, path, initial)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from typing import Any
 
 import heml
@@ -52,3 +53,16 @@ def set_number(scene: dict[str, Any], path: str, value: float) -> None:
     """Sets the number at `path` in place."""
     tokens = _tokens(path)
     _walk(scene, tokens[:-1], path)[tokens[-1]] = float(value)
+
+
+def name_moduli(scene: dict[str, Any], paths: Iterable[str]) -> None:
+    """Names the moduli of materials as the paths do, in place: `lambda` and `mu`, or `young` and `poisson`."""
+    for path in paths:
+        tokens = _tokens(path)
+        if tokens[0] != "materials" or len(tokens) != 3:
+            continue
+        material = _walk(scene, tokens[:2], path)
+        if tokens[2] in ("young", "poisson") and {"lambda", "mu"} <= set(material):
+            first, shear = material.pop("lambda"), material.pop("mu")
+            material["young"] = shear * (3 * first + 2 * shear) / (first + shear)
+            material["poisson"] = first / (2 * (first + shear))

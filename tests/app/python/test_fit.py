@@ -24,6 +24,7 @@ def beam(**keys):
         "materials": [{"law": "neo_hookean", "young": 5e4, "poisson": 0.4, "density": 1000}],
         "boundary": [{"box": [[-1, -1, -1], [1e-6, 1, 1]], "fix": True}],
         "gravity": [0, -9.81, 0],
+        "solver": {"integrator": "static"},
         "loads": [{"box": [[0.0999, -1, -1], [1, 1, 1]], "traction": [20, 0, 30]}, {"nodes": [40], "force": [0, 2e-3, 0]}],
         **keys,
     }
@@ -142,7 +143,7 @@ def test_bounds_hold():
         ({"nodes": [0]}, ["gravity[1]"], "keys are nodes, positions and sigma"),
         ({"nodes": [0], "positions": [[0, 0]]}, ["gravity[1]"], r"shape \(1, 3\)"),
         ({"nodes": [0.5], "positions": [[0, 0, 0]]}, ["gravity[1]"], "whole numbers"),
-        ({"nodes": [999], "positions": [[0, 0, 0]]}, ["gravity[1]"], "the mesh has 243 nodes"),
+        ({"nodes": [999], "positions": [[0, 0, 0]]}, ["gravity[1]"], "the mesh has 81 nodes"),
         ({"nodes": [0], "positions": [[0, 0, np.nan]]}, ["gravity[1]"], "finite"),
         ({"nodes": [0], "positions": [[0, 0, 0]], "sigma": 0}, ["gravity[1]"], "greater than 0"),
         ({"nodes": [0], "positions": [[0, 0, 0]]}, ["materials[1].young"], "has no 1"),

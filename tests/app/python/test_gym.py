@@ -23,13 +23,13 @@ def test_the_checker_is_content(name, observation):
 
 
 @pytest.mark.parametrize("name", ids)
-def test_scripts_succeed_and_random_actions_do_not(name):
+def test_scripts_succeed_and_gain_more_than_chance(name):
     env = gymnasium.make(name)
     scripted = heml.gym.evaluate(env, heml.gym.scripted_policy, 5)
-    chance = heml.gym.evaluate(env, heml.gym.random_policy, 2)
+    chance = heml.gym.evaluate(env, heml.gym.random_policy, 3)
     assert scripted.successes == 5
-    assert chance.successes == 0
-    assert scripted.returns.min() > chance.returns.max()
+    assert chance.successes < 3
+    assert scripted.returns.min() > chance.returns.mean()
 
 
 @pytest.mark.parametrize("name", ids)

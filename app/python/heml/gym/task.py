@@ -80,8 +80,8 @@ def sheet(size: list[float], cells: list[int], young: float, **rest: Any) -> dic
     return {
         "schema_version": 1,
         "mesh": {"box": {"size": size, "cells": cells}},
-        "materials": [{"law": "neo_hookean", "young": young, "poisson": 0.4, "density": 1000, "viscosity": 5}],
+        "materials": [{"law": "neo_hookean", "young": young, "poisson": 0.4, "density": 1000}],
         "gravity": [0, -9.81, 0],
-        "solver": {"integrator": "verlet", "rate": 1000, "damping": 5, "continuation": True, "recovery": True},
+        "solver": {"integrator": "verlet", "rate": 1000, "damping": 10, "continuation": True, "recovery": True},
         **rest,
     }
