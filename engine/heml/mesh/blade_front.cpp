@@ -2,60 +2,59 @@
 #include <heml/math/closest.hpp>
 #include <heml/mesh/blade_front.hpp>
 #include <heml/mesh/faces.hpp>
-#include <map>
+#include <set>
 
 namespace heml {
+namespace {
+
+Vec3 on_blade(const std::array<Vec3, 2>& blade, double along) { return blade[0] + along * (blade[1] - blade[0]); }
+
+std::array<double, 4> barycentric(const Vec3& place, const std::array<Vec3, 4>& corners) {
+  const double whole = signed_volume(corners[0], corners[1], corners[2], corners[3]);
+  std::array<double, 4> weights;
+  for (std::size_t a = 0; a < 4; ++a) {
+    std::array<Vec3, 4> part = corners;
+    part[a] = place;
+    weights[a] = signed_volume(part[0], part[1], part[2], part[3]) / whole;
+  }
+  return weights;
+}
+
+}  // namespace
 
 BladeFront::BladeFront(const std::array<Vec3, 2>& blade, const TetMesh& mesh, const std::vector<Vec3>& x,
                        const Topology& topology)
     : path_{blade} {
-  const auto at = [&](int n) -> const Vec3& { return x[static_cast<std::size_t>(n)]; };
   const Eigen::AlignedBox3d segment(blade[0].cwiseMin(blade[1]), blade[0].cwiseMax(blade[1]));
-  std::map<std::array<int, 3>, Point> faces;
-  for (const int t : topology.elements) {
-    const Tet& tet = mesh.tets[static_cast<std::size_t>(t)];
-    Eigen::AlignedBox3d box;
-    for (const int n : tet) box.extend(at(n));
-    if (!box.intersects(segment)) continue;
-    for (const auto& face : tet_faces) {
-      std::array<int, 3> nodes;
-      for (std::size_t k = 0; k < 3; ++k) nodes[k] = tet[static_cast<std::size_t>(face[k])];
-      std::sort(nodes.begin(), nodes.end());
-      if (faces.contains(nodes)) continue;
-      const auto [a, b, c] = nodes;
-      const auto along = segment_triangle_crossing(blade[0], blade[1], {at(a), at(b), at(c)});
-      if (!along) continue;
-      const Vec3 place = blade[0] + *along * (blade[1] - blade[0]);
-      const auto [u, v, w] = closest_point_weights(place, at(a), at(b), at(c));
-      faces[nodes] = {*along, {a, b, c, c}, {u, v, w, 0}};
-    }
-  }
-  for (const auto& [nodes, point] : faces) points_.push_back(point);
-  for (std::size_t end = 0; end < 2; ++end) add_end(static_cast<double>(end), blade[end], mesh, x, topology);
-  std::stable_sort(points_.begin(), points_.end(), [](const Point& a, const Point& b) { return a.along < b.along; });
-}
-
-/// Adds an end of the blade if it lies in an element.
-void BladeFront::add_end(double along, const Vec3& place, const TetMesh& mesh, const std::vector<Vec3>& x,
-                         const Topology& topology) {
+  std::set<std::array<int, 3>> seen;
   for (const int t : topology.elements) {
     const Tet& tet = mesh.tets[static_cast<std::size_t>(t)];
     std::array<Vec3, 4> corners;
     Eigen::AlignedBox3d box;
     for (std::size_t a = 0; a < 4; ++a) box.extend(corners[a] = x[static_cast<std::size_t>(tet[a])]);
-    if (!box.contains(place)) continue;
-    const double whole = signed_volume(corners[0], corners[1], corners[2], corners[3]);
-    if (!(whole > 0)) continue;
-    Point point{along, tet, {}};
-    for (std::size_t a = 0; a < 4; ++a) {
-      std::array<Vec3, 4> part = corners;
-      part[a] = place;
-      point.weights[a] = signed_volume(part[0], part[1], part[2], part[3]) / whole;
+    if (!box.intersects(segment) || signed_volume(corners[0], corners[1], corners[2], corners[3]) == 0) continue;
+    for (const auto& face : tet_faces) {
+      std::array<std::pair<int, Vec3>, 3> triangle;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto a = static_cast<std::size_t>(face[k]);
+        triangle[k] = {tet[a], corners[a]};
+      }
+      std::sort(triangle.begin(), triangle.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+      const auto& [a, b, c] = triangle;
+      const auto along = segment_triangle_crossing(blade[0], blade[1], {a.second, b.second, c.second});
+      if (along && seen.insert({a.first, b.first, c.first}).second) add_point(*along, tet, corners);
     }
-    if (*std::min_element(point.weights.begin(), point.weights.end()) < 0) continue;
-    points_.push_back(point);
-    return;
+    for (const double end : {0.0, 1.0})
+      if (const auto weights = barycentric(on_blade(blade, end), corners);
+          *std::min_element(weights.begin(), weights.end()) >= 0)
+        points_.push_back({end, tet, weights});
   }
+  std::stable_sort(points_.begin(), points_.end(), [](const Point& a, const Point& b) { return a.along < b.along; });
+}
+
+/// Adds the point of the blade in or on an element with corners at the given places.
+void BladeFront::add_point(double along, const Tet& tet, const std::array<Vec3, 4>& corners) {
+  points_.push_back({along, tet, barycentric(on_blade(path_.front(), along), corners)});
 }
 
 Sweep BladeFront::join(const Sweep& sweep, const std::vector<Vec3>& x, double tolerance) const {
@@ -67,31 +66,50 @@ Sweep BladeFront::join(const Sweep& sweep, const std::vector<Vec3>& x, double to
   blades.insert(blades.end(), sweep.blades.begin() + 1, sweep.blades.end());
   if (!in_tissue() || blades.size() < 2) return {std::move(blades)};
 
-  std::vector<std::pair<double, Vec3>> curve;
-  if (points_.front().along > 0) curve.emplace_back(0, blades[0][0]);
+  const std::vector<CurvePoint> curve = curve_now(x);
+  std::size_t first = 1;
+  while (first < blades.size() && !is_ahead(blades[first - 1], blades[first], curve)) ++first;
+  Sweep joined;
+  if (first == blades.size()) return joined;
+  // A strip of a short blade for each segment of the curve; between two strips the blade shrinks to a point, which
+  // sweeps no area.
+  const auto& next = blades[first];
+  for (std::size_t k = 1; k < curve.size(); ++k) {
+    const Vec3 from = on_blade(next, curve[k - 1].along), to = on_blade(next, curve[k].along);
+    joined.blades.push_back({curve[k - 1].place, curve[k].place});
+    joined.blades.push_back({from, to});
+    joined.blades.push_back({to, to});
+    joined.blades.push_back({curve[k].place, curve[k].place});
+  }
+  joined.blades.pop_back();
+  joined.blades.insert(joined.blades.end(), blades.begin() + static_cast<std::ptrdiff_t>(first), blades.end());
+  return joined;
+}
+
+/// The front as it lies now. Ends of the blade outside the tissue move with the nearest point of the front.
+std::vector<BladeFront::CurvePoint> BladeFront::curve_now(const std::vector<Vec3>& x) const {
+  const auto& blade = path_.front();
+  std::vector<CurvePoint> curve;
   for (const Point& point : points_) {
     Vec3 place = Vec3::Zero();
     for (std::size_t a = 0; a < 4; ++a) place += point.weights[a] * x[static_cast<std::size_t>(point.nodes[a])];
-    curve.emplace_back(point.along, place);
+    curve.push_back({point.along, place, true});
   }
-  if (points_.back().along < 1) curve.emplace_back(1, blades[0][1]);
+  const auto end = [&](double along, const CurvePoint& nearest) {
+    return CurvePoint{along, on_blade(blade, along) + nearest.place - on_blade(blade, nearest.along), false};
+  };
+  if (curve.front().along > 0) curve.insert(curve.begin(), end(0, curve.front()));
+  if (curve.back().along < 1) curve.push_back(end(1, curve.back()));
+  return curve;
+}
 
-  // A strip of a short blade for each segment of the curve; between two strips the blade shrinks to a point, which
-  // sweeps no area.
-  const auto& next = blades[1];
-  const auto on_next = [&](double along) -> Vec3 { return next[0] + along * (next[1] - next[0]); };
-  Sweep joined;
-  for (std::size_t k = 1; k < curve.size(); ++k) {
-    const auto& [from, start] = curve[k - 1];
-    const auto& [to, end] = curve[k];
-    joined.blades.push_back({start, end});
-    joined.blades.push_back({on_next(from), on_next(to)});
-    joined.blades.push_back({on_next(to), on_next(to)});
-    joined.blades.push_back({end, end});
-  }
-  joined.blades.back() = {on_next(1), on_next(1)};
-  joined.blades.insert(joined.blades.end(), blades.begin() + 1, blades.end());
-  return joined;
+/// Whether a blade that comes from another position has passed all points of the front that are in the tissue.
+bool BladeFront::is_ahead(const std::array<Vec3, 2>& before, const std::array<Vec3, 2>& blade,
+                          const std::vector<CurvePoint>& curve) {
+  return std::all_of(curve.begin(), curve.end(), [&](const CurvePoint& point) {
+    const Vec3 place = on_blade(blade, point.along);
+    return !point.in_tissue || (place - point.place).dot(place - on_blade(before, point.along)) >= 0;
+  });
 }
 
 void BladeFront::pass(const Sweep& sweep) {

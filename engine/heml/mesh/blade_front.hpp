@@ -22,8 +22,9 @@ class BladeFront {
 
   bool in_tissue() const { return !points_.empty(); }
 
-  /// The sweep from the front, as it lies now, to the end of the given sweep, by way of those passed(). The given sweep
-  /// itself if it does not start within `tolerance`, m, of where the last one ended.
+  /// The sweep from the front, as it lies now, to the end of the given sweep, by way of those that passed. It starts
+  /// with the first blade that is ahead of the whole front, so that it does not fold back over the cut; empty if none
+  /// is. The given sweep itself if it does not start within `tolerance`, m, of where the last one ended.
   Sweep join(const Sweep& sweep, const std::vector<Vec3>& x, double tolerance) const;
 
   /// The blade moves on by a sweep that crosses no edge: the front stays.
@@ -36,8 +37,16 @@ class BladeFront {
     Tet nodes;                      ///< as numbered in the mesh file
     std::array<double, 4> weights;  ///< barycentric
   };
-  void add_end(double along, const Vec3& place, const TetMesh& mesh, const std::vector<Vec3>& x,
-               const Topology& topology);
+  /// A corner of the front as it lies now.
+  struct CurvePoint {
+    double along;
+    Vec3 place;  ///< m
+    bool in_tissue;
+  };
+  std::vector<CurvePoint> curve_now(const std::vector<Vec3>& x) const;
+  static bool is_ahead(const std::array<Vec3, 2>& before, const std::array<Vec3, 2>& blade,
+                       const std::vector<CurvePoint>& curve);
+  void add_point(double along, const Tet& tet, const std::array<Vec3, 4>& corners);
 
   std::vector<std::array<Vec3, 2>> path_;  ///< m, the blade at the front, then where it passed; empty: not begun
   std::vector<Point> points_;              ///< in the order of `along`

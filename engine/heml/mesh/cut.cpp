@@ -42,10 +42,15 @@ struct Crossing {
 class Cutter {
  public:
   Cutter(const SweptSurface& surface, const TetMesh& mesh, const std::vector<Vec3>& x, const Topology& topology)
-      : surface_(surface), mesh_(mesh), x_(x), topology_(topology), in_cut_(mesh.nodes.size(), false) {}
+      : surface_(surface),
+        mesh_(mesh),
+        x_(x),
+        topology_(topology),
+        in_cut_(mesh.nodes.size(), false),
+        side_(mesh.nodes.size(), 0) {}
 
   /// Step 1. Returns false if the sweep crosses no edge.
-  bool find_crossings(double snap, const std::vector<int>& stroke) {
+  bool find_crossings(double snap, const Stroke& stroke) {
     for (const int t : topology_.elements) {
       const Tet& tet = mesh_.tets[static_cast<std::size_t>(t)];
       Eigen::AlignedBox3d box;
@@ -54,13 +59,18 @@ class Cutter {
       for (const auto& local : tet_edges) {
         const Edge edge = edge_of(tet, local);
         if (crossings_.contains(edge)) continue;
-        if (const auto where = surface_.crossing(at(edge.first), at(edge.second))) crossings_[edge] = {*where, -1};
+        const auto crossing = surface_.crossing(at(edge.first), at(edge.second));
+        if (!crossing) continue;
+        crossings_[edge] = {crossing->where, -1};
+        set_side(edge.first, crossing->from_top);
+        set_side(edge.second, !crossing->from_top);
       }
     }
     for (const auto& [edge, crossing] : crossings_)
       if (crossing.to_end(mesh_, edge) < 0.4 * snap) add_to_cut(crossing.end(edge));
+    for (const auto& [n, is_upper] : stroke.sides) set_side(n, is_upper);
     newly_in_cut_ = in_cut_;
-    for (const int n : stroke) add_to_cut(n);
+    for (const int n : stroke.nodes) add_to_cut(n);
     return !crossings_.empty();
   }
 
@@ -79,7 +89,8 @@ class Cutter {
       for (std::size_t f = 0; f < 4; ++f) {
         const int other = piece.neighbour[f];
         if (other < 0 || &piece > &pieces_[static_cast<std::size_t>(other)]) continue;
-        if (!is_separated(piece, f) && !std::binary_search(closed.begin(), closed.end(), sorted(face(piece, f)))) continue;
+        if (!is_separated(piece, f) && !std::binary_search(closed.begin(), closed.end(), sorted(face(piece, f))))
+          continue;
         set_separated(piece, f, true);
       }
     join_crumbs();
@@ -98,6 +109,12 @@ class Cutter {
     for (std::size_t n = 0; n < in_cut_.size(); ++n)
       if (in_cut_[n]) cut.stroke.nodes.push_back(static_cast<int>(n));
     write_faces(cut);
+    std::vector<bool> was_copied(side_.size(), false);
+    for (const InsertedNode& node : cut.edit.nodes)
+      if (node.from == node.to) was_copied[static_cast<std::size_t>(node.from)] = true;
+    for (std::size_t n = 0; n < side_.size(); ++n)
+      if (side_[n] != 0 && !was_copied[n]) cut.stroke.sides.emplace_back(static_cast<int>(n), side_[n] > 0);
+    cut.stroke.normal = surface_.last_normal();
   }
 
  private:
@@ -105,6 +122,11 @@ class Cutter {
   const Vec3& rest(int n) const { return mesh_.nodes[static_cast<std::size_t>(n)]; }
   bool is_in_cut(int n) const { return in_cut_[static_cast<std::size_t>(n)]; }
   void add_to_cut(int n) { in_cut_[static_cast<std::size_t>(n)] = true; }
+  /// Of several sides the first counts, so the sides of this sweep come before those of the sweeps before.
+  void set_side(int n, bool is_upper) {
+    int& side = side_[static_cast<std::size_t>(n)];
+    if (side == 0) side = is_upper ? 1 : -1;
+  }
 
   static std::array<int, 3> face(const Piece& piece, std::size_t f) {
     std::array<int, 3> nodes;
@@ -136,7 +158,8 @@ class Cutter {
         for (const int member : group)
           for (std::size_t f = 0; f < 4; ++f) {
             Piece& piece = pieces_[static_cast<std::size_t>(member)];
-            if (!piece.separated[f] || std::find(group.begin(), group.end(), piece.neighbour[f]) != group.end()) continue;
+            if (!piece.separated[f] || std::find(group.begin(), group.end(), piece.neighbour[f]) != group.end())
+              continue;
             if (face_area(piece, f) <= area) continue;
             area = face_area(piece, f);
             largest = &piece;
@@ -315,16 +338,30 @@ class Cutter {
     }
   }
 
-  /// Whether a face lies in the cut, with its two pieces on different sides. False if all its nodes are of earlier
-  /// sweeps of the stroke, which have decided about it.
+  /// Whether a face lies in the cut, with its two pieces on different sides. Where their nodes do not say, the plane of
+  /// the sweep decides, unless all nodes of the face are of earlier sweeps of the stroke, which have decided about it.
   bool is_separated(const Piece& piece, std::size_t f) const {
     const std::array<int, 3> nodes = face(piece, f);
     if (!std::all_of(nodes.begin(), nodes.end(), [this](int n) { return is_in_cut(n); })) return false;
+    const Piece& other = pieces_[static_cast<std::size_t>(piece.neighbour[f])];
+    if (const int one = side(piece), two = side(other); one != 0 && two != 0) return one != two;
     if (std::none_of(nodes.begin(), nodes.end(), [this](int n) { return newly_in_cut_[static_cast<std::size_t>(n)]; }))
       return false;
     const auto nearest = surface_.nearest((at(nodes[0]) + at(nodes[1]) + at(nodes[2])) / 3);
-    const Piece& other = pieces_[static_cast<std::size_t>(piece.neighbour[f])];
     return is_above(piece, f, nearest) != is_above(other, facing(other, &piece), nearest);
+  }
+
+  /// 1: the piece is on the upper side of the cut, −1: on the lower, 0: its nodes do not say. Nodes outside the cut
+  /// decide; without one, those that were snapped to it.
+  int side(const Piece& piece) const {
+    int sum = 0;
+    for (const int n : piece.tet) {
+      if (n >= static_cast<int>(side_.size())) continue;
+      const int side = side_[static_cast<std::size_t>(n)];
+      if (side != 0 && !is_in_cut(n)) return side;
+      sum += side;
+    }
+    return (sum > 0) - (sum < 0);
   }
 
   /// The side of a piece: that of its node opposite the face; of its centroid if that node is in the cut.
@@ -390,6 +427,7 @@ class Cutter {
   std::vector<Vec3> x_;  ///< deformed positions of old nodes and of new ones on crossed edges, m
   const Topology& topology_;
   std::vector<bool> in_cut_, newly_in_cut_;
+  std::vector<int> side_;  ///< per old node: 1 on the upper side of the cut, −1 on the lower, 0 not beside it
   std::map<Edge, Crossing> crossings_;
   std::vector<InsertedNode> new_nodes_;
   std::vector<Piece> pieces_;
@@ -410,10 +448,10 @@ double snapping_distance(const TetMesh& mesh) {
 
 Status make_cut(const Sweep& sweep, const TetMesh& mesh, const std::vector<Vec3>& x, const Topology& topology,
                 double snap, const Stroke& stroke, Cut& cut) {
-  const SweptSurface surface(stroke.front.join(sweep, x, snap));
+  const SweptSurface surface(stroke.front.join(sweep, x, snap), stroke.normal);
   if (surface.empty()) return "the blade sweeps no area; give its two ends at two or more moments, in different places";
   Cutter cutter(surface, mesh, x, topology);
-  if (!cutter.find_crossings(snap, stroke.nodes)) return "the blade meets no edge of an element";
+  if (!cutter.find_crossings(snap, stroke)) return "the blade meets no edge of an element";
   cutter.split(snap);
   cut = {};
   cutter.separate(stroke.closed);

@@ -16,9 +16,11 @@ namespace heml {
 
 /// What the sweeps of a stroke leave to the next one.
 struct Stroke {
-  std::vector<int> nodes;                  ///< nodes in the cut, ascending
-  std::vector<std::array<int, 3>> closed;  ///< faces in the cut that no node could be copied at yet, sorted
-  BladeFront front;                        ///< where the last sweep ended
+  std::vector<int> nodes;                   ///< nodes in the cut, ascending
+  std::vector<std::array<int, 3>> closed;   ///< faces in the cut that no node could be copied at yet, sorted
+  std::vector<std::pair<int, bool>> sides;  ///< nodes beside the cut, ascending, and whether on its upper side
+  Vec3 normal = Vec3::Zero();               ///< where the last sweep ended, to the upper side; zero: not begun
+  BladeFront front;                         ///< where the last sweep ended
 };
 
 struct Cut {

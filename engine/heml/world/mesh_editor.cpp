@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <heml/math/bytes.hpp>
-#include <heml/mesh/cut.hpp>
 #include <heml/mesh/quality.hpp>
 #include <heml/world/mesh_editor.hpp>
 #include <heml/world/stable_step.hpp>
@@ -54,7 +53,7 @@ Status MeshEditor<Real>::remove(const RemoveElements& command) {
   if (const Status made = make_removal_edit(command.which, s_.setup.mesh, *s_.topology, edit); !made.ok())
     return "remove: " + made.message();
   save();
-  history_.stroke.clear();
+  history_.stroke = {};
   const auto mass = [this] { return std::accumulate(s_.mass.begin(), s_.mass.end(), 0.0); };
   EditReport& report = s_.edits.emplace_back(begin_report());
   report.removed = edit.removed.size();
@@ -71,16 +70,21 @@ Status MeshEditor<Real>::cut(const CutTissue& command) {
     if (!tip.allFinite() || !end.allFinite()) return "cut: a place of the blade is not finite";
   if (command.sweep.blades.size() < 2) return "cut: the sweep needs the blade at two times at least";
   if (!command.continues_stroke) {
-    history_.stroke.clear();
+    history_.stroke = {};
     history_.in_stroke = false;
     history_.missed = s_.ticks;
   }
   if (history_.snap == 0) history_.snap = snapping_distance(s_.setup.mesh);
   Cut cut;
-  if (!make_cut(command.sweep, s_.setup.mesh, s_.positions(), *s_.topology, history_.snap, history_.stroke, cut).ok())
-    return {};  // through the air
-  history_.stroke = cut.nodes;
-  if (cut.edit.removed.empty()) return {};
+  if (!make_cut(command.sweep, s_.setup.mesh, s_.positions(), *s_.topology, history_.snap, history_.stroke, cut).ok()) {
+    move_front(command.sweep);  // through the air, or within an element
+    return {};
+  }
+  history_.stroke = cut.stroke;
+  if (cut.edit.removed.empty()) {
+    move_front(command.sweep);
+    return {};
+  }
   history_.missed.reset();
   if (!history_.in_stroke) {
     save();
@@ -89,6 +93,7 @@ Status MeshEditor<Real>::cut(const CutTissue& command) {
   }
   history_.in_stroke = true;
   carry_out(cut.edit);
+  move_front(command.sweep);
   EditReport& report = s_.edits.back();
   report.split += cut.edit.removed.size();
   report.pieces += cut.edit.added.size();
@@ -96,6 +101,17 @@ Status MeshEditor<Real>::cut(const CutTissue& command) {
   report.min_angle = std::min(report.min_angle, worst_angle(cut.edit, s_.setup.mesh));
   end_report(report);
   return {};
+}
+
+/// Attaches the blade to the tissue where a sweep ends. A sweep that cut nothing, of a blade in the tissue, leaves the
+/// front where it is.
+template <class Real>
+void MeshEditor<Real>::move_front(const Sweep& sweep) {
+  BladeFront& front = history_.stroke.front;
+  if (front.in_tissue())
+    front.pass(sweep);
+  else
+    front = BladeFront(sweep.blades.back(), s_.setup.mesh, s_.positions(), *s_.topology);
 }
 
 template <class Real>
@@ -122,7 +138,7 @@ void MeshEditor<Real>::tear() {
   if (openings.empty()) return;
   if (s_.edits.empty() || s_.edits.back().torn == 0) {
     save();
-    history_.stroke.clear();
+    history_.stroke = {};
     s_.edits.push_back(begin_report());
   }
   const Tear tear = make_tear(openings, s_.setup.mesh, x, tearing_->around());
@@ -223,7 +239,7 @@ void MeshEditor<Real>::undo_to(const SimulationSnapshot<Real>& before) {
   } else {
     restore_before_edit(before);
   }
-  history_.stroke.clear();
+  history_.stroke = {};
   history_.in_stroke = false;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // Edits of the mesh of a running world: removal, cuts, tears, undo. The inner layout is rebuilt; positions, velocities,
 // internal state of materials, constraints and tools carry over.
+#include <heml/mesh/cut.hpp>
 #include <heml/tools/tearing.hpp>
 #include <heml/world/command.hpp>
 #include <heml/world/recovery_controller.hpp>
@@ -14,7 +15,7 @@ struct EditHistory {
   using Saved = std::shared_ptr<const SimulationSnapshot<Real>>;
   Saved whole;                 ///< before the first edit; null: there was none
   std::vector<Saved> saved;    ///< before each of the last edits
-  std::vector<int> stroke;     ///< nodes in the last cut, mesh-file order
+  Stroke stroke;               ///< what the last cut leaves to the next one, mesh-file order
   bool in_stroke = false;      ///< whether the current stroke has its state saved
   std::optional<long> missed;  ///< tick of the last stroke that parted nothing
   double snap = 0;             ///< m, snapping distance of cuts; 0: not computed yet
@@ -46,6 +47,7 @@ class MeshEditor {
   EditReport begin_report();
   void end_report(EditReport& report);
   void carry_out(const MeshEdit& edit);
+  void move_front(const Sweep& sweep);
   void rebuild_after_edit();
   void save();
   void undo_to(const SimulationSnapshot<Real>& before);
