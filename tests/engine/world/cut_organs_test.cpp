@@ -6,6 +6,7 @@
 #include <heml/mesh/read.hpp>
 #include <heml/mesh/surface.hpp>
 #include <map>
+#include <numeric>
 #include <places.hpp>
 #include <random>
 
@@ -66,6 +67,25 @@ bool is_closed(const World& world) {
   return std::all_of(passes.begin(), passes.end(), [](const auto& edge) { return edge.second == 0; });
 }
 
+/// Number of parts that share no node and have at least a tenth of the elements.
+int large_parts(const TetMesh& mesh) {
+  std::vector<int> root(mesh.nodes.size());
+  std::iota(root.begin(), root.end(), 0);
+  const auto find = [&](int n) {
+    while (root[static_cast<std::size_t>(n)] != n) n = root[static_cast<std::size_t>(n)];
+    return n;
+  };
+  for (const Tet& tet : mesh.tets)
+    for (const int n : tet) {
+      const int a = find(tet[0]), b = find(n);
+      root[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+    }
+  std::map<int, std::size_t> elements;
+  for (const Tet& tet : mesh.tets) ++elements[find(tet[0])];
+  return static_cast<int>(std::count_if(elements.begin(), elements.end(),
+                                        [&](const auto& part) { return 10 * part.second >= mesh.tets.size(); }));
+}
+
 /// The same cuts for the same seed, each seen from where the tissue is at rest.
 std::vector<CutTissue> random_cuts(const TetMesh& mesh, int count) {
   std::mt19937 random(11);
@@ -120,6 +140,31 @@ TEST_CASE("two hundred random cuts through a liver lose nothing, leave it closed
     return;
   }
   check_cuts(liver, 200);
+}
+
+TEST_CASE("a stroke of sixty sweeps severs a hanging liver, which moves meanwhile") {
+  const auto parts_after = [](int sweeps, int ticks) {
+    const auto world = make_world(hanging(test::source_folder() / "assets/meshes/liver.mesh", 1));
+    Eigen::AlignedBox3d box;
+    for (const Vec3& X : world->setup().mesh.nodes) box.extend(X);
+    const Vec3 size = box.sizes();
+    const auto blade = [&](double way) {
+      const Vec3 at = box.center() + Vec3(0.05 * size.x() * std::sin(3 * way), (0.7 - 1.6 * way) * size.y(), 0);
+      return std::array<Vec3, 2>{at - Vec3(0, 0, size.z()), at + Vec3(0, 0, size.z())};
+    };
+    for (int k = 0; k < sweeps; ++k) {
+      CutTissue cut{{}, k > 0};
+      for (int m = 0; m <= 60 / sweeps; ++m) cut.sweep.blades.push_back(blade((k * 60.0 / sweeps + m) / 60));
+      REQUIRE(world->apply(cut).ok());
+      for (int tick = 0; tick < ticks; ++tick) world->tick();
+    }
+    CHECK(world->edits().size() == 1);
+    CHECK(is_closed(*world));
+    return large_parts(with_elements(world->setup().mesh, world->topology()->elements));
+  };
+  const int parts = parts_after(1, 0);
+  CHECK(parts >= 2);
+  CHECK(parts_after(60, 10) == parts);
 }
 
 }  // namespace heml::cut_organs_test
