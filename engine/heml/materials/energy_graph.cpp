@@ -251,8 +251,11 @@ EnergyGraph::Node EnergyGraph::differentiate(Node node, EnergyInput by, const st
       return multiply(node, d(e.a));
     case Op::expm1:
       return is(d(e.a), 0) ? constant(0) : multiply(unary(Op::exp, e.a), d(e.a));
-    case Op::log:
-      return divide(d(e.a), e.a);
+    case Op::log: {
+      const Node slope = divide(d(e.a), e.a);  // defined where the logarithm is not
+      if (entries_[e.a].positive || is(slope, 0)) return slope;
+      return if_greater(e.a, constant(0), slope, constant(std::numeric_limits<double>::quiet_NaN()));
+    }
     case Op::pow: {
       Node sum = constant(0);
       if (!is(d(e.a), 0)) {
