@@ -33,6 +33,11 @@ inline double area_of(const TriangleMesh& surface) {
 /// is the interface at x = 0.05 m.
 inline TetMesh shaken_box(int cells, double amount, std::uint64_t seed = 1) {
   TetMesh mesh = make_box(Vec3::Constant(0.1), {cells, cells, cells});
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    Vec3 centre = Vec3::Zero();
+    for (const int n : mesh.tets[t]) centre += mesh.nodes[n] / 4;
+    mesh.regions[t] = centre[0] < 0.05 ? 4 : 7;
+  }
   std::mt19937_64 random(seed);
   for (Vec3& x : mesh.nodes) {
     const Vec3 move = random_vector(random, amount * 0.1 / cells);
@@ -40,11 +45,6 @@ inline TetMesh shaken_box(int cells, double amount, std::uint64_t seed = 1) {
       const bool on_plane = x[axis] < 1e-9 || x[axis] > 0.1 - 1e-9 || (axis == 0 && std::abs(x[0] - 0.05) < 1e-9);
       if (!on_plane) x[axis] += move[axis];
     }
-  }
-  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-    Vec3 centre = Vec3::Zero();
-    for (const int n : mesh.tets[t]) centre += mesh.nodes[n] / 4;
-    mesh.regions[t] = centre[0] < 0.05 ? 4 : 7;
   }
   return mesh;
 }
