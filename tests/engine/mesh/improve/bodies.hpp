@@ -29,7 +29,7 @@ inline double area_of(const TriangleMesh& surface) {
   return area;
 }
 
-/// A box of 0.1 m in two regions, its inner nodes displaced by up to `amount` of a cell. The boundary is flat, and so
+/// A box of 0.1 m in two regions, its nodes displaced by up to `amount` of a cell. The boundary is flat, and so
 /// is the interface at x = 0.05 m.
 inline TetMesh shaken_box(int cells, double amount, std::uint64_t seed = 1) {
   TetMesh mesh = make_box(Vec3::Constant(0.1), {cells, cells, cells});
@@ -40,11 +40,13 @@ inline TetMesh shaken_box(int cells, double amount, std::uint64_t seed = 1) {
   }
   std::mt19937_64 random(seed);
   for (Vec3& x : mesh.nodes) {
-    const Vec3 move = random_vector(random, amount * 0.1 / cells);
-    for (int axis = 0; axis < 3; ++axis) {
-      const bool on_plane = x[axis] < 1e-9 || x[axis] > 0.1 - 1e-9 || (axis == 0 && std::abs(x[0] - 0.05) < 1e-9);
-      if (!on_plane) x[axis] += move[axis];
-    }
+    Vec3 move = random_vector(random, amount * 0.1 / cells);
+    Eigen::Array3i on_plane;
+    for (int axis = 0; axis < 3; ++axis)
+      on_plane[axis] = x[axis] < 1e-9 || x[axis] > 0.1 - 1e-9 || (axis == 0 && std::abs(x[0] - 0.05) < 1e-9);
+    if (on_plane.any()) move *= std::min(1.0, 0.2 / amount);  // so that no face is folded
+    for (int axis = 0; axis < 3; ++axis)
+      if (!on_plane[axis]) x[axis] += move[axis];
   }
   return mesh;
 }
