@@ -16,7 +16,8 @@ namespace heml {
 /// Young's moduli that are tried, Pa, softest first.
 std::span<const double> tissue_moduli();
 
-/// What a trial run found: backward Euler with very long steps, which come to the equilibrium under gravity.
+/// What a trial run found: backward Euler with very long steps, which come to the equilibrium under gravity
+/// that leans a little.
 struct TrialRun {
   double stretch = 0;  ///< largest principal stretch, means at nodes; infinite: the body did not hold
   ExplicitCost cost;   ///< by the cost model, at rest or under the weight, whichever allows the shorter step

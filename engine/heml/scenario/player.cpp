@@ -14,16 +14,16 @@ void Player::to(double time, const std::function<bool()>& on_tick) {
     begin_tick();
     return world_.load_to(time);
   }
-  while (world_.ticks() < end_at(time).tick && !world_.halt()) {
+  while (!world_.halt() && !is_reached(end_at(time))) {
     begin_tick();
-    if (world_.ticks() >= end_at(time).tick) break;  // an event has made ticks longer
+    const End end = end_at(time);  // an event may have changed the rate
+    if (world_.ticks() >= end.tick) return world_.advance_within_tick(tick_start_ + end.rest);
     world_.tick();
     if (!on_tick()) return;
   }
-  if (end_at(time).rest == 0 || world_.halt()) return;
-  begin_tick();
-  world_.advance_within_tick(tick_start_ + end_at(time).rest);
 }
+
+bool Player::is_reached(const End& end) const { return world_.ticks() >= end.tick && end.rest == 0; }
 
 Player::End Player::end_at(double time) const {
   const double here = time - rate_start_, ticks = here / tick_, nearest = std::round(ticks);

@@ -26,6 +26,7 @@ class Player {
     double rest;  ///< s after them
   };
   End end_at(double time) const;
+  bool is_reached(const End& end) const;
   void begin_tick();
 
   World& world_;

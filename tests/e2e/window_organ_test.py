@@ -1,0 +1,59 @@
+"""A mesh of one's own in the window: it is alive at once, and a slow body is cured by the button of its banner."""
+import json
+import unittest
+
+from organ_test import SHAPES, medit
+from window_case import WindowCase
+
+
+def slow_scene():
+    """Explicit steps that no machine takes in real time."""
+    return {
+        "schema_version": 1, "name": "slow",
+        "mesh": {"box": {"size": [0.1, 0.1, 0.1], "cells": [9, 9, 9], "origin": [0, 0, 0]}},
+        "materials": [{"law": "neo_hookean", "young": 1e8, "poisson": 0.3, "density": 1000}],
+        "boundary": [{"box": [[-1, -1, -1], [1, 1e-6, 1]], "fix": True}],
+        "gravity": [0, -9.81, 0],
+        "solver": {"rate": 1000, "continuation": True},
+    }
+
+
+class Organs(WindowCase):
+    def events(self):
+        lines = [json.loads(line) for line in (self.folder / "out.jsonl").read_text().splitlines()[1:]]
+        return [line for line in lines if "checkpoint" not in line and "end" not in line]
+
+    def test_a_bare_mesh_is_alive(self):
+        self.open_display(1280, 720)
+        mesh = self.folder / "organ.mesh"
+        mesh.write_text(medit(*SHAPES["millimetres"]))
+        self.begin(mesh, "--record", "out.jsonl", "--size", "1280x720")
+        self.play(3)
+        self.quit()
+        scene = json.loads((self.folder / "out.jsonl").read_text().splitlines()[0])
+        self.assertEqual(scene["mesh"]["scale"], 0.001)
+        self.assertEqual(len(scene["boundary"]), 1)
+        self.assertIn("rate", scene["solver"])
+
+    def test_the_button_of_a_slow_body_s_banner_changes_its_method(self):
+        self.open_display(1280, 720)
+        scene = self.folder / "slow.json"
+        scene.write_text(json.dumps(slow_scene()))
+        self.begin(scene, "--record", "out.jsonl", "--size", "1280x720")
+        self.do("mousemove", 640, 700)
+        before = self.display.picture()
+        # The banner comes after a second; it stands in the right column, below the values.
+        self.wait_for("the banner", lambda: self.display.picture().change(before, 1030, 1270) > 4)
+        self.settle()
+        for y in range(480, 716, 7):  # text does nothing; "Dismiss" is below the button
+            self.do("mousemove", 1100, y, "click", 1)
+            self.play(1)
+            if self.events():
+                break
+        kinds = {key: event[key] for event in self.events() for key in event if key != "step"}
+        self.assertEqual(kinds, {"integrator": "backward_euler", "rate": 60, "budget": 1})
+        self.quit()
+
+
+if __name__ == "__main__":
+    unittest.main()
