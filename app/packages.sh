@@ -18,7 +18,7 @@ run_packages=(
 test_packages=(
   ccache                                             # what two presets share is compiled once
   clang libclang-rt-14-dev                           # sanitizers, fuzzing
-  imagemagick python3 xauth xdotool xvfb             # a window with a mouse in it
+  imagemagick python3 python3-dev python3-venv xauth xdotool xvfb             # a window with a mouse in it
   calculix-ccx python3-mpmath python3-numpy          # results to compare with
   dpkg-dev                                           # the Debian package
 )

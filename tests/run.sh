@@ -23,6 +23,13 @@ if grep -rnE 'TEST_CASE\("[^"]*;' tests; then fail "these names of tests hold a 
 install_missing "${build_packages[@]}" "${run_packages[@]}" "${test_packages[@]}"
 # The same file compiled with the same flags is the same, whatever folder it is built in.
 export CCACHE_BASEDIR=$top CCACHE_NOHASHDIR=1
+# The Python module is part of the release build, for the Python of a venv that holds what its tests need.
+python=build/venv/bin/python
+if [[ " ${presets[*]} " == *" release "* ]]; then
+  [[ -x $python ]] || python3 -m venv build/venv
+  "$python" -m pip install -q --disable-pip-version-check nanobind numpy pytest || fail "pip could not install what the tests of the Python module need"
+  cmake --preset release -DHEML_PYTHON=ON "-DPython_EXECUTABLE=$top/$python" >/dev/null
+fi
 results=()
 for preset in "${presets[@]}"; do
   build "$preset" || fail "building $preset failed"
@@ -31,6 +38,11 @@ for preset in "${presets[@]}"; do
   rm -f "${results[-1]}"
   HEML_FUZZ_SECONDS=$fuzz_seconds HEML_WORLD_FUZZ_SECONDS=$world_fuzz_seconds \
     ctest --preset "$preset" -j "$(nproc)" --output-junit results.xml || true
+  [[ $preset == release ]] || continue
+  results+=("build/release/python-results.xml")
+  rm -f "${results[-1]}"
+  PYTHONPATH=build/release/python "$python" -m pytest -q tests/app/python --junitxml="${results[-1]}" || true
+  sed -i 's/></>\n</g; s/" /"\n/g' "${results[-1]}"  # an attribute a line, as ctest writes it
 done
 
 # The head of each result file: <testsuite name="..." tests="120" failures="1" disabled="0" skipped="2" ...>
@@ -38,7 +50,7 @@ say "${presets[*]} in $((SECONDS / 60)) min $((SECONDS % 60)) s"
 awk -F '"' '
   /<testcase/  { nextfile }
   /tests="/    { tests += $2 }
-  /failures="/ { failed += $2 }
+  /failures="|errors="/ { failed += $2 }
   /skipped="/  { skipped += $2 }
   END {
     printf "%d passed, %d failed, %d skipped\n", tests - failed - skipped, failed, skipped
