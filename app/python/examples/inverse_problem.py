@@ -9,7 +9,6 @@ their own. "Measured" points are nodes of the equilibrium with known moduli, plu
 from __future__ import annotations
 
 import argparse
-import json
 import tempfile
 import time
 from pathlib import Path
@@ -17,18 +16,19 @@ from pathlib import Path
 import numpy as np
 
 import heml
+from heml.interchange import in_region
 
 true_moduli = {"materials[0].young": 8e3, "materials[1].young": 1.5e4, "materials[2].young": 1.2e4}
 
 
 def kidney_of_three_regions(scene_file: str, folder: str) -> dict:
     """A static scene of the kidney whose lower half is region 3."""
-    scene = json.loads(Path(scene_file).read_text())
-    mesh = heml.World(heml.Scene(scene)).to_meshio(fields=["region"])
-    tets, regions = mesh.cells_dict["tetra"], mesh.cell_data["region"][0].astype(np.int32)
+    scene = heml.Scene(scene_file).to_dict()
+    mesh = heml.World(heml.Scene(scene)).to_meshio(fields=[])
+    tets, regions = mesh.cells_dict["tetra"], np.where(in_region(scene, 2), 2, 1)
     height = mesh.points[tets].mean(axis=1)[:, 1]
     regions[(regions == 1) & (height < np.median(height[regions == 1]))] = 3
-    mesh.point_data, mesh.cell_data = {}, {"medit:ref": [regions]}
+    mesh.cell_data["medit:ref"] = [regions]
     mesh.write(Path(folder) / "kidney3.mesh")
     ends = [mesh.points[np.argmin(mesh.points[:, 0])], mesh.points[np.argmax(mesh.points[:, 0])]]
     tissue = {"law": "neo_hookean", "young": 1e4, "poisson": 0.43, "density": 1050}

@@ -18,16 +18,22 @@ from numpy.typing import NDArray
 import heml
 from heml._optional import require
 from heml._scene_paths import set_number
+from heml.interchange import in_region
 
 Array = NDArray[np.float64]
 
 _without_loads = ("boundary", "loads", "events", "initial", "tables", "self_contact", "tearing", "outputs", "checkpoints")
 
 
+def bare_scene(scene: dict[str, Any]) -> dict[str, Any]:
+    """The scene's mesh and materials alone."""
+    bare = {key: value for key, value in scene.items() if key not in _without_loads}
+    return bare | {"gravity": [0, 0, 0], "solver": {"integrator": "verlet"}}
+
+
 def rest_world(scene: dict[str, Any]) -> heml.World:
     """A world of the scene's mesh and materials alone, at rest."""
-    bare = {key: value for key, value in scene.items() if key not in _without_loads}
-    return heml.World(heml.Scene(bare | {"gravity": [0, 0, 0], "solver": {"integrator": "verlet"}}), threads=1)
+    return heml.World(heml.Scene(bare_scene(scene)), threads=1)
 
 
 def select(entry: dict[str, Any], rest: Array) -> NDArray[np.intp]:
@@ -82,7 +88,7 @@ class Equilibrium:
         self.tets = np.asarray(world.tets, dtype=np.intp)
         self.surface = np.asarray(world.surface, dtype=np.intp)
         self.rest = np.asarray(world.positions())
-        self.entry_of_tet = _entries(scene["materials"], np.asarray(world.regions))
+        self.entry_of_tet = _entries(scene, len(self.tets))
         constrained = np.zeros(len(self.rest), dtype=bool)
         for support in scene.get("boundary", []):
             constrained[support["nodes"]] = True
@@ -208,13 +214,14 @@ class Equilibrium:
         return out
 
 
-def _entries(materials: list[dict[str, Any]], regions: NDArray[np.integer]) -> NDArray[np.intp]:
+def _entries(scene: dict[str, Any], elements: int) -> NDArray[np.intp]:
     """Number of the material of each element (T,): the entry of its region, else the entry without a region."""
+    materials = scene["materials"]
     default = [number for number, material in enumerate(materials) if "region" not in material]
-    chosen = np.full(len(regions), default[0] if default else -1, dtype=np.intp)
+    chosen = np.full(elements, default[0] if default else -1, dtype=np.intp)
     for number, material in enumerate(materials):
         if "region" in material:
-            chosen[regions == material["region"]] = number
+            chosen[in_region(bare_scene(scene), material["region"])] = number
     return chosen
 
 

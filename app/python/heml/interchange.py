@@ -14,14 +14,33 @@ if TYPE_CHECKING:
     import meshio
     import pyvista
 
-fields = ("displacement", "velocity", "J", "von_mises", "region")
-"""Names of the fields: displacement (V, 3) m and velocity (V, 3) m/s by node; the others by element: J (T,),
-von_mises (T,) Pa, region (T,)."""
+fields = ("velocity", "J", "von_mises")
+"""Names of the fields: velocity (V, 3) m/s by node; J (T,) and von_mises (T,) Pa by element."""
 
 
 def world_of(thing: Union[heml.World, heml.Scene]) -> heml.World:
     """The world itself, or a new one of a scene."""
     return heml.World(thing) if isinstance(thing, heml.Scene) else thing
+
+
+def in_region(scene: Any, number: int) -> np.ndarray:
+    """Which elements of a scene's mesh carry a region: (T,) bool, in the order of `World.tets`.
+
+    scene: path, dict or Scene. Found by removing the region from a world of the scene.
+    """
+    world = heml.World(scene, threads=1)
+    before = np.asarray(world.tets)
+    try:
+        world.apply({"remove": {"region": int(number)}})
+    except heml.InputError as refused:  # of all elements, or of none
+        return np.full(len(before), "no element of region" not in str(refused))
+    return ~_in_rows(before, np.asarray(world.tets))
+
+
+def _in_rows(rows: np.ndarray, others: np.ndarray) -> np.ndarray:
+    """Which rows (n, 4) are among others (m, 4)."""
+    present = set(map(tuple, others.tolist()))
+    return np.array([tuple(row) in present for row in rows.tolist()])
 
 
 def to_meshio(thing: Union[heml.World, heml.Scene], fields: Sequence[str] = fields) -> meshio.Mesh:
@@ -64,16 +83,12 @@ def _values(world: heml.World, names: Sequence[str]) -> tuple[dict[str, Any], di
     by_node: dict[str, Any] = {}
     by_element: dict[str, Any] = {}
     for name in names:
-        if name == "displacement":
-            by_node[name] = np.asarray(world.positions()) - np.asarray(world.rest)
-        elif name == "velocity":
+        if name == "velocity":
             by_node[name] = np.asarray(world.velocities())
         elif name == "J":
             by_element[name] = np.asarray(world.volume_ratios())
         elif name == "von_mises":
             by_element[name] = von_mises(np.asarray(world.stresses()))
-        elif name == "region":
-            by_element[name] = np.asarray(world.regions)
         else:
             raise heml.InputError(f"field {name!r}: the fields are {', '.join(fields)}")
     return by_node, by_element
