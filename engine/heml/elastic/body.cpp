@@ -1,21 +1,35 @@
 // The parts of a body: their construction, and what depends on all of them together.
 #include <algorithm>
+#include <cassert>
 #include <heml/elastic/body.hpp>
 #include <heml/elastic/energy_term.hpp>
 #include <heml/materials/parameter_slots.hpp>
 
 namespace heml {
+namespace {
+
+/// Values of elements as values of their integration points.
+std::vector<int> repeated(const std::vector<int>& of_elements) {
+  std::vector<int> result;
+  for (const int value : of_elements) result.insert(result.end(), element_points, value);
+  return result;
+}
+
+}  // namespace
+
 template <class Real>
 ElasticBody<Real>::ElasticBody(const TetMesh& mesh, const std::vector<int>& material_of,
-                               const std::vector<Material>& materials, BodyOptions options)
-    : mesh_(mesh),
-      material_of_(material_of),
+                               const std::vector<Material>& materials, BodyOptions options, const MidEdges& midedges)
+    : mesh_(midedges.empty() ? mesh : virtual_tets(mesh, midedges)),
+      material_of_(midedges.empty() ? material_of : repeated(material_of)),
       materials_(materials),
       options_(options),
       springs_(mesh, std::vector<double>(mesh.tets.size(), 0.0)) {
+  assert(midedges.empty() || !options.nodal_pressure);
+  if (!midedges.empty()) corners_of_points_ = std::make_unique<VirtualCorners<Real>>(mesh, midedges);
   make_parts();
   make_fans();
-  reset_history(at_rest().data());
+  for (Part& part : parts_) part.reset_history(at_rest().data());
 }
 
 template <class Real>
@@ -39,7 +53,7 @@ void ElasticBody<Real>::make_parts() {
 }
 
 /// The fan kernels run a law unless its parameters (fields) or rest shapes (plasticity) vary by element, or it is an
-/// expression of stretches.
+/// expression of stretches. Integration points have no neighbours to share a fan with.
 template <class Real>
 typename ElasticBody<Real>::Part ElasticBody<Real>::make_part(std::size_t index,
                                                               const std::vector<int>& elements) const {
@@ -51,9 +65,11 @@ typename ElasticBody<Real>::Part ElasticBody<Real>::make_part(std::size_t index,
             {},
             false};
   part.group.density = static_cast<Real>(material.density);
+  if (corners_of_points_) part.group.density /= static_cast<Real>(frequency_ratio);  // for bounds of frequencies alone
   for (const auto& term : part.terms) term->begin_step(step_);
   part.flow = make_flow<Real>(material, options_.continuation, part.group);
-  part.in_fans = !part.terms.empty() && material.fields.empty() && !part.flow && has_fan_kernel(material);
+  part.in_fans = !part.terms.empty() && material.fields.empty() && !part.flow && !corners_of_points_ &&
+                 has_fan_kernel(material);
   return part;
 }
 
@@ -64,6 +80,7 @@ void ElasticBody<Real>::join_parts() {
   for (Part& part : parts_) groups.push_back(&part.group);
   corners_ = map_corners(groups, mesh_.nodes.size());
   corner_.assign(3 * corner_count(groups), Real(0));
+  if (corners_of_points_) return corners_of_points_->follow(groups);
   force_corners_ = {std::vector<std::size_t>(nodes() + 1, 0), {}};
   const auto has_loops = [&](const Part& part) { return part.has_loops(options_.nodal_pressure); };
   const auto is_in_loops = [&](std::size_t corner) {
@@ -151,11 +168,34 @@ std::size_t ElasticBody<Real>::bytes() const {
     for (const auto& term : part.terms)
       for (const SlotState<Real>& state : term->slot_states()) sum += bytes_of(*state.values);
   }
+  if (corners_of_points_) sum += corners_of_points_->bytes() + bytes_of(virtual_x_);
   return sum + fans_.bytes() + springs_.bytes() + (pressure_ ? pressure_->bytes() : 0);
+}
+
+/// Of the integration points, in the order of mesh_, kg.
+template <class Real>
+std::vector<double> ElasticBody<Real>::point_masses() const {
+  std::vector<double> mass(mesh_.tets.size(), 0.0);
+  for (const Part& part : parts_)
+    for (std::size_t s = 0; s < part.group.size(); ++s)
+      mass[static_cast<std::size_t>(part.group.element[s])] =
+          materials_[part.material].density * static_cast<double>(part.group.volume[s]);
+  return mass;
+}
+
+template <class Real>
+std::vector<Real> ElasticBody<Real>::consistent_masses() const {
+  return corners_of_points_ ? corners_of_points_->consistent(point_masses()) : masses();
 }
 
 template <class Real>
 std::vector<Real> ElasticBody<Real>::masses() const {
+  if (corners_of_points_) {
+    const std::vector<double> of_points = point_masses();
+    std::vector<double> of_elements(elements(), 0.0);
+    for (std::size_t k = 0; k < of_points.size(); ++k) of_elements[k / element_points] += of_points[k];
+    return corners_of_points_->lumped(of_elements);
+  }
   std::vector<double> mass(nodes(), 0.0);
   for (const Part& part : parts_)
     for (std::size_t s = 0; s < part.group.size(); ++s)

@@ -5,6 +5,9 @@
 //   forces(x):  uniform laws ──► fans ──► nodes ──────────────────────► + springs
 //               other terms ──► corner forces ──► added at nodes ─┘
 //               nodal pressure ───────┘
+//
+// With mid-edge nodes the elements inside are the integration points of quadratic tetrahedra on virtual corners
+// (virtual_corners.hpp), four of each; all that goes in or out is of the ten-node elements.
 #include <heml/base/thread_team.hpp>
 #include <heml/elastic/element_group.hpp>
 #include <heml/elastic/fan_forces.hpp>
@@ -13,16 +16,22 @@
 #include <heml/elastic/plastic_flow.hpp>
 #include <heml/elastic/projection.hpp>
 #include <heml/elastic/springs.hpp>
+#include <heml/elastic/virtual_corners.hpp>
 #include <heml/mesh/edit.hpp>
 #include <heml/mesh/tet_mesh.hpp>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 namespace heml {
 
 class BsrMatrix;
+
+/// Stiffness of a quadratic element, indices [node][xyz].
+template <class Real>
+using QuadraticMatrix = Real[30][30];
 
 /// State of one element, for display.
 template <class Real>
@@ -73,9 +82,10 @@ template <class Real>
 class ElasticBody {
  public:
   /// mesh: in inner order, positive volumes, with the fields that the materials name. material_of: #T, indices into
-  /// materials; a material without elements gets no group. The body is at rest, without history.
+  /// materials; a material without elements gets no group. The body is at rest, without history. midedges: of quadratic
+  /// elements, which take no springs, nodal pressure or edits of the mesh (asserted).
   ElasticBody(const TetMesh& mesh, const std::vector<int>& material_of, const std::vector<Material>& materials,
-              BodyOptions options);
+              BodyOptions options, const MidEdges& midedges = {});
   ElasticBody(const ElasticBody&) = delete;
   ElasticBody& operator=(const ElasticBody&) = delete;
 
@@ -96,13 +106,15 @@ class ElasticBody {
   void force_differential(const Real* dx, Real* out, ThreadTeam& team);
 
   /// Adds K between free nodes to `rows`. Returns false and adds nothing with averaged nodal pressure, which couples
-  /// nodes that share no element.
+  /// nodes that share no element, and for quadratic elements, whose pattern it does not have.
   bool add_stiffness(BsrMatrix& rows, ThreadTeam& team) const;
 
-  /// Calls visit(nodes (4 inner numbers), K (12×12)) for every element. With nodal pressure, K includes an
-  /// approximation that couples the nodes of the element alone.
+  /// Calls visit(nodes (4 inner numbers), K (12×12)) for every element, or visit(nodes (10), K (30×30)) for quadratic
+  /// ones. With nodal pressure, K includes an approximation that couples the nodes of the element alone.
   template <class Visit>
   void each_stiffness(const Visit& visit) {
+    if constexpr (std::is_invocable_v<const Visit&, const std::array<int, 10>&, const QuadraticMatrix<Real>&>)
+      if (corners_of_points_) return each_quadratic_stiffness(visit);
     for (std::size_t p = 0; p < parts_.size(); ++p)
       for (std::size_t s = 0; s < parts_[p].group.size(); ++s) {
         ElementMatrix<Real> K = {};
@@ -128,7 +140,8 @@ class ElasticBody {
   /// Upper bound of the largest eigenvalue of M⁻¹D (1/s), D the viscous damping matrix at x.
   Real damping_bound(const Real* x, ThreadTeam& team);
 
-  /// Bounds of ω² (1/s²) from the terms of each element alone, #T in inner order, without nodal pressure and springs.
+  /// Bounds of ω² (1/s²) from the terms of each element alone, #T in inner order, without nodal pressure and springs;
+  /// of a quadratic element from its worst point.
   std::vector<Real> element_bounds(const Real* x) const;
 
   /// Size of all arrays, in bytes.
@@ -138,12 +151,16 @@ class ElasticBody {
   /// It may be −1 although forces() returned false, whose kernels round differently.
   int first_undefined(const Real* x) const;
 
-  /// Writes the state of every element at x into out (#T in inner order, resized).
+  /// Writes the state of every integration point at x into out (#T in inner order, resized): one an element, or the
+  /// four of each quadratic element in turn.
   void states(const Real* x, std::vector<ElementState<Real>>& out) const;
 
-  /// Elastic first Piola–Kirchhoff stress of every element, #T in inner order, Pa, from its corner forces: P = −1/V Σ_a
-  /// f_a ⊗ X_a. Springs, viscosity and relaxation do not contribute.
+  /// Elastic first Piola–Kirchhoff stress of every integration point, as states(), Pa, from its corner forces: P = −1/V
+  /// Σ_a f_a ⊗ X_a. Springs, viscosity and relaxation do not contribute.
   std::vector<Mat3> stresses(const Real* x, ThreadTeam& team);
+  /// Deformation gradients of every integration point, as states().
+  std::vector<Mat3> deformation_gradients(const Real* x) const;
+  std::size_t points_per_element() const { return corners_of_points_ ? element_points : 1; }
   bool has_springs() const { return !springs_.empty(); }
 
   /// Replaces a material. Its elements lose their internal state and are taken as relaxed at x; those of other
@@ -179,11 +196,15 @@ class ElasticBody {
   void reset_history(const Real* x);
   double plastic_work() const { return plastic_work_; }  ///< J, of all elements since the last reset_history()
 
-  /// Lumped masses (#V, kg): each tetrahedron's density × volume / 4 on its nodes.
+  /// Lumped masses (#V, kg), which are positive: each tetrahedron's density × volume / 4 on its nodes; of quadratic
+  /// ones 1/36 on corners and 4/27 on mid-edge nodes.
   std::vector<Real> masses() const;
+  /// ∫ρN of each node (#V, kg), which gravity acts on: that of quadratic elements is negative on corners; of linear
+  /// ones, masses().
+  std::vector<Real> consistent_masses() const;
 
-  std::size_t nodes() const { return corners_.start.size() - 1; }
-  std::size_t elements() const { return mesh_.tets.size(); }
+  std::size_t nodes() const { return corners_of_points_ ? corners_of_points_->nodes() : corners_.start.size() - 1; }
+  std::size_t elements() const { return mesh_.tets.size() / points_per_element(); }
 
  private:
   struct Part {
@@ -216,12 +237,36 @@ class ElasticBody {
   void gather_corners(const CornerMap& corners, Real* f, bool add, ThreadTeam& team) const;
   double sum_energies(const Real* x, bool stored, ThreadTeam& team);
   void element_stiffness(std::size_t part, std::size_t s, ElementMatrix<Real>& K) const;
+  void quadratic_stiffness(std::size_t part, std::size_t first_slot, QuadraticMatrix<Real>& K) const;
+  template <class Visit>
+  void each_quadratic_stiffness(const Visit& visit) const {
+    for (std::size_t p = 0; p < parts_.size(); ++p)
+      for (std::size_t s = 0; s < parts_[p].group.size(); s += element_points) {
+        QuadraticMatrix<Real> K = {};
+        quadratic_stiffness(p, s, K);
+        visit(corners_of_points_->nodes_of(static_cast<std::size_t>(parts_[p].group.element[s]) / element_points), K);
+      }
+  }
+  /// Positions of the nodes of the elements inside: of virtual corners, valid until the next call, or x itself.
+  const Real* inner_positions(const Real* x, ThreadTeam& team) {
+    if (!corners_of_points_) return x;
+    corners_of_points_->positions(x, virtual_x_, team);
+    return virtual_x_.data();
+  }
+  const Real* inner_positions(const Real* x, std::vector<Real>& y) const {
+    if (!corners_of_points_) return x;
+    y = corners_of_points_->positions(x);
+    return y.data();
+  }
+  std::vector<double> point_masses() const;
   template <class Bound>
   Real max_bound(ThreadTeam& team, const Bound& bound) const;
 
   /// Calls visit(part, slot, kinematics, rest shape) for every element.
   template <class Visit>
   void each_slot(const Real* x, const Visit& visit) const {
+    std::vector<Real> y;
+    x = inner_positions(x, y);
     for (const Part& part : parts_)
       for (std::size_t s = 0; s < part.group.size(); ++s) {
         const auto rest = rest_shape(part.group, s);
@@ -229,7 +274,7 @@ class ElasticBody {
       }
   }
 
-  TetMesh mesh_;  ///< inner order
+  TetMesh mesh_;  ///< inner order; of quadratic elements the integration points (mesh/quadratic.hpp)
   std::vector<int> material_of_;
   std::vector<Material> materials_;
   BodyOptions options_;
@@ -239,10 +284,12 @@ class ElasticBody {
   CornerMap force_corners_;  ///< of the parts whose forces are evaluated by loops
   Springs<Real> springs_;
   std::unique_ptr<NodalPressure<Real>> pressure_;
-  std::vector<Real> corner_;               ///< 3 a corner, scratch
-  std::vector<Real> linearisation_point_;  ///< 3 #V
-  bool projected_ = false;                 ///< whether project() was applied
-  std::vector<double> packet_energy_;      ///< scratch of energy()
+  std::unique_ptr<VirtualCorners<Real>> corners_of_points_;  ///< null: linear elements
+  std::vector<Real> virtual_x_;                              ///< scratch of inner_positions()
+  std::vector<Real> corner_;                                 ///< 3 a corner, scratch
+  std::vector<Real> linearisation_point_;                    ///< 3 a node of mesh_
+  bool projected_ = false;                                   ///< whether project() was applied
+  std::vector<double> packet_energy_;                        ///< scratch of energy()
   double plastic_work_ = 0;
   Real step_ = 0;  ///< s, of the last begin_step()
 };

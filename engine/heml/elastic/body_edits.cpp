@@ -1,5 +1,6 @@
 // Edits of an existing body: other meshes and materials, removed and divided elements.
 #include <algorithm>
+#include <cassert>
 #include <heml/elastic/body.hpp>
 
 namespace heml {
@@ -37,6 +38,7 @@ void append(const ElementGroup<Real>& more, ElementGroup<Real>& group) {
 
 template <class Real>
 void ElasticBody<Real>::set_mesh(const TetMesh& mesh, const std::vector<int>& material_of) {
+  assert(!corners_of_points_);
   mesh_ = mesh;
   material_of_ = material_of;
   make_parts();
@@ -47,6 +49,8 @@ void ElasticBody<Real>::set_mesh(const TetMesh& mesh, const std::vector<int>& ma
 template <class Real>
 void ElasticBody<Real>::set_material(std::size_t index, const Material& material, const Real* x) {
   materials_[index] = material;
+  std::vector<Real> y;
+  x = inner_positions(x, y);
   for (Part& part : parts_) {
     if (part.material != index) continue;
     part = make_part(index, part.group.element);
@@ -80,6 +84,7 @@ void ElasticBody<Real>::keep_numbered(Part& part, const std::vector<int>& number
 
 template <class Real>
 void ElasticBody<Real>::keep_elements(const std::vector<int>& elements) {
+  assert(!corners_of_points_);
   std::vector<int> number(mesh_.tets.size(), -1);
   for (std::size_t k = 0; k < elements.size(); ++k) number[static_cast<std::size_t>(elements[k])] = static_cast<int>(k);
   for (Part& part : parts_) keep_numbered(part, number);
@@ -95,6 +100,7 @@ void ElasticBody<Real>::keep_elements(const std::vector<int>& elements) {
 template <class Real>
 void ElasticBody<Real>::transfer_state(const TetMesh& mesh, const std::vector<int>& material_of,
                                        const std::vector<int>& origins) {
+  assert(!corners_of_points_);
   const TetMesh before = std::exchange(mesh_, mesh);
   std::vector<Part> old_parts = std::exchange(parts_, {});
   material_of_ = material_of;

@@ -33,6 +33,7 @@ void ElasticBody<Real>::gather_corners(const CornerMap& corners, Real* f, bool a
 
 template <class Real>
 bool ElasticBody<Real>::forces(const Real* x, Real* f, ThreadTeam& team) {
+  x = inner_positions(x, team);
   std::atomic<bool> valid{true};
   if (!fans_.empty()) valid = fans_.forces(x, f, team);
   for (const Part& part : parts_) {
@@ -44,6 +45,10 @@ bool ElasticBody<Real>::forces(const Real* x, Real* f, ThreadTeam& team) {
       });
     if (pressure_ && part.terms.size() == first)  // no term has written these corners
       std::fill_n(corner_.data() + 3 * corners, 12 * part.group.volume.size(), Real(0));
+  }
+  if (corners_of_points_) {
+    corners_of_points_->gather(corner_, f, team);
+    return valid;
   }
   if (pressure_ && !pressure_->add_forces(x, corner_.data(), team)) valid = false;
   if (fans_.empty() || !force_corners_.corners.empty()) gather_corners(force_corners_, f, !fans_.empty(), team);
@@ -73,6 +78,8 @@ std::vector<KernelInfo> ElasticBody<Real>::kernels() const {
         info.instructions = wide_instructions();  // elastic/law_term.hpp
       }
       info.bytes_per_tet += corners * static_cast<double>(part.terms.size() - part.first_loop());
+      info.elements /= points_per_element();
+      info.bytes_per_tet *= static_cast<double>(points_per_element());
     }
     result.push_back(std::move(info));
   }

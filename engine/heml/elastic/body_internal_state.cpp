@@ -32,6 +32,8 @@ void ElasticBody<Real>::begin_step(Real h) {
 
 template <class Real>
 void ElasticBody<Real>::commit(const Real* x) {
+  std::vector<Real> y;
+  x = inner_positions(x, y);
   for (Part& part : parts_) {
     for (const auto& term : part.terms) term->commit(part.group, x);
     if (part.flow) plastic_work_ += part.flow->flow(part.group, x);
@@ -41,6 +43,8 @@ void ElasticBody<Real>::commit(const Real* x) {
 template <class Real>
 void ElasticBody<Real>::reset_history(const Real* x) {
   plastic_work_ = 0;
+  std::vector<Real> y;
+  x = inner_positions(x, y);
   for (Part& part : parts_) part.reset_history(x);
 }
 
@@ -58,8 +62,12 @@ BodySnapshot<Real> ElasticBody<Real>::snapshot() {
 template <class Real>
 void ElasticBody<Real>::restore(const TetMesh& mesh, const std::vector<int>& material_of,
                                 const BodySnapshot<Real>& snapshot, const Real* x) {
-  mesh_ = mesh;
-  material_of_ = material_of;
+  std::vector<Real> y;
+  x = inner_positions(x, y);
+  if (!corners_of_points_) {
+    mesh_ = mesh;
+    material_of_ = material_of;
+  }
   parts_.clear();
   step_ = snapshot.step;
   for (const auto& of_part : snapshot.parts) {

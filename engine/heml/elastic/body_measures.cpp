@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <heml/elastic/body.hpp>
+#include <heml/elastic/error_estimate.hpp>
 
 namespace heml {
 namespace {
@@ -46,6 +47,7 @@ double ElasticBody<Real>::sum_energies(const Real* x, bool stored, ThreadTeam& t
 
 template <class Real>
 double ElasticBody<Real>::energy(const Real* x, ThreadTeam& team) {
+  x = inner_positions(x, team);
   double sum = springs_.energy(x) + sum_energies(x, true, team);
   if (pressure_) sum += pressure_->energy(x);
   return sum;
@@ -53,7 +55,8 @@ double ElasticBody<Real>::energy(const Real* x, ThreadTeam& team) {
 
 template <class Real>
 double ElasticBody<Real>::potential(const Real* x, ThreadTeam& team) {
-  return energy(x, team) + (has_internal_state() ? sum_energies(x, false, team) : 0.0);
+  const double stored = energy(x, team);
+  return stored + (has_internal_state() ? sum_energies(inner_positions(x, team), false, team) : 0.0);
 }
 
 template <class Real>
@@ -66,7 +69,7 @@ int ElasticBody<Real>::first_undefined(const Real* x) const {
             if (!term->valid(part.group, s, kinematics) || !is_finite(term->tensions(part.group, s, kinematics, rest)))
               first = part.group.element[s];
       });
-  return first;
+  return first < 0 ? first : first / static_cast<int>(points_per_element());
 }
 
 template <class Real>
@@ -85,6 +88,7 @@ void ElasticBody<Real>::states(const Real* x, std::vector<ElementState<Real>>& o
 
 template <class Real>
 std::vector<Mat3> ElasticBody<Real>::stresses(const Real* x, ThreadTeam& team) {
+  x = inner_positions(x, team);
   std::fill(corner_.begin(), corner_.end(), Real(0));
   for (const Part& part : parts_)
     for (const auto& term : part.terms)
@@ -107,6 +111,16 @@ std::vector<Mat3> ElasticBody<Real>::stresses(const Real* x, ThreadTeam& team) {
   return P;
 }
 
+template <class Real>
+std::vector<Mat3> ElasticBody<Real>::deformation_gradients(const Real* x) const {
+  std::vector<Real> y;
+  x = inner_positions(x, y);
+  std::vector<Vec3> places;
+  for (std::size_t n = 0; n < mesh_.nodes.size(); ++n)
+    places.push_back(Eigen::Map<const Vector3<Real>>(x + 3 * n).template cast<double>());
+  return heml::deformation_gradients(mesh_, places);
+}
+
 template double ElasticBody<float>::energy(const float*, ThreadTeam&);
 template double ElasticBody<double>::energy(const double*, ThreadTeam&);
 template double ElasticBody<float>::potential(const float*, ThreadTeam&);
@@ -115,6 +129,8 @@ template int ElasticBody<float>::first_undefined(const float*) const;
 template int ElasticBody<double>::first_undefined(const double*) const;
 template void ElasticBody<float>::states(const float*, std::vector<ElementState<float>>&) const;
 template void ElasticBody<double>::states(const double*, std::vector<ElementState<double>>&) const;
+template std::vector<Mat3> ElasticBody<float>::deformation_gradients(const float*) const;
+template std::vector<Mat3> ElasticBody<double>::deformation_gradients(const double*) const;
 template std::vector<Mat3> ElasticBody<float>::stresses(const float*, ThreadTeam&);
 template std::vector<Mat3> ElasticBody<double>::stresses(const double*, ThreadTeam&);
 

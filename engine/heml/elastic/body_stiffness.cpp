@@ -1,4 +1,5 @@
 // The stiffness K: its evaluation, projection and products, and bounds of its eigenvalues.
+#include <algorithm>
 #include <cmath>
 #include <heml/elastic/body.hpp>
 #include <heml/elastic/bsr_matrix.hpp>
@@ -9,7 +10,8 @@
 namespace heml {
 template <class Real>
 void ElasticBody<Real>::linearise(const Real* x, ThreadTeam& team) {
-  linearisation_point_.assign(x, x + 3 * nodes());
+  x = inner_positions(x, team);
+  linearisation_point_.assign(x, x + 3 * mesh_.nodes.size());
   projected_ = false;
   if (pressure_) pressure_->linearise(x, team);
   for (Part& part : parts_) {
@@ -50,10 +52,12 @@ void ElasticBody<Real>::project(Projection projection, ThreadTeam& team) {
 
 template <class Real>
 void ElasticBody<Real>::force_differential(const Real* dx, Real* out, ThreadTeam& team) {
+  dx = inner_positions(dx, team);
   for (const Part& part : parts_)
     team.parallel_for(part.group.packets(), grain_ / part.group.lanes, [&](std::size_t begin, std::size_t end) {
       multiply_stiffness(part.stiffness.data(), part.group, dx, begin, end, corner_.data());
     });
+  if (corners_of_points_) return corners_of_points_->gather(corner_, out, team);
   const Real* x = linearisation_point_.data();
   if (pressure_) pressure_->add_force_differential(x, dx, corner_.data(), team);
   gather_corners(corners_, out, false, team);
@@ -62,7 +66,7 @@ void ElasticBody<Real>::force_differential(const Real* dx, Real* out, ThreadTeam
 
 template <class Real>
 bool ElasticBody<Real>::add_stiffness(BsrMatrix& rows, ThreadTeam& team) const {
-  if (pressure_) return false;
+  if (pressure_ || corners_of_points_) return false;
   for (const Part& part : parts_)
     if (!part.terms.empty()) rows.add_elements(part.stiffness.data(), part.group, team);
   each_spring_stiffness([&](int a, int b, const Real(&block)[3][3]) {
@@ -81,6 +85,23 @@ void ElasticBody<Real>::element_stiffness(std::size_t p, std::size_t s, ElementM
   read_edge_stiffness(part.stiffness.data(), s, k);
   if (pressure_) pressure_->add_stiffness(p, linearisation_point_.data(), s, k);
   expand_edges(k, K);
+}
+
+/// Σ_q BᵀKB over the points of an element.
+template <class Real>
+void ElasticBody<Real>::quadratic_stiffness(std::size_t p, std::size_t first_slot, QuadraticMatrix<Real>& K) const {
+  for (std::size_t q = 0; q < element_points; ++q) {
+    ElementMatrix<Real> of_point = {};
+    element_stiffness(p, first_slot + q, of_point);
+    for (std::size_t c = 0; c < 4; ++c)
+      for (const auto& [a, weight_a] : virtual_corner(q, c))
+        for (std::size_t d = 0; d < 4; ++d)
+          for (const auto& [b, weight_b] : virtual_corner(q, d)) {
+            const Real weight = static_cast<Real>(weight_a * weight_b);
+            for (std::size_t i = 0; i < 3; ++i)
+              for (std::size_t j = 0; j < 3; ++j) K[3 * a + i][3 * b + j] += weight * of_point[3 * c + i][3 * d + j];
+          }
+  }
 }
 
 /// Maximum over the parts of the sum of the bounds of their terms.
@@ -107,6 +128,7 @@ Real ElasticBody<Real>::max_bound(ThreadTeam& team, const Bound& bound) const {
 
 template <class Real>
 Real ElasticBody<Real>::frequency_bound(const Real* x, ThreadTeam& team) {
+  x = inner_positions(x, team);
   Real bound = max_bound(team, [x](const auto& term, const auto& group, std::size_t begin, std::size_t end) {
     return term.frequency_bound(group, x, begin, end);
   });
@@ -118,6 +140,7 @@ Real ElasticBody<Real>::frequency_bound(const Real* x, ThreadTeam& team) {
 template <class Real>
 Real ElasticBody<Real>::damping_bound(const Real* x, ThreadTeam& team) {
   if (!has_internal_state()) return 0;
+  x = inner_positions(x, team);
   return max_bound(team, [x](const auto& term, const auto& group, std::size_t begin, std::size_t end) {
     return term.damping_bound(group, x, begin, end);
   });
@@ -132,6 +155,11 @@ std::vector<Real> ElasticBody<Real>::element_bounds(const Real* x) const {
           bounds[static_cast<std::size_t>(part.group.element[s])] +=
               term->slot_frequency_bound(part.group, s, kinematics, rest);
       });
+  if (corners_of_points_) {
+    for (std::size_t t = 0; t < elements(); ++t)
+      bounds[t] = *std::max_element(&bounds[element_points * t], &bounds[element_points * t] + element_points);
+    bounds.resize(elements());
+  }
   return bounds;
 }
 
@@ -145,6 +173,8 @@ template bool ElasticBody<float>::add_stiffness(BsrMatrix&, ThreadTeam&) const;
 template bool ElasticBody<double>::add_stiffness(BsrMatrix&, ThreadTeam&) const;
 template void ElasticBody<float>::element_stiffness(std::size_t, std::size_t, ElementMatrix<float>&) const;
 template void ElasticBody<double>::element_stiffness(std::size_t, std::size_t, ElementMatrix<double>&) const;
+template void ElasticBody<float>::quadratic_stiffness(std::size_t, std::size_t, QuadraticMatrix<float>&) const;
+template void ElasticBody<double>::quadratic_stiffness(std::size_t, std::size_t, QuadraticMatrix<double>&) const;
 template float ElasticBody<float>::frequency_bound(const float*, ThreadTeam&);
 template double ElasticBody<double>::frequency_bound(const double*, ThreadTeam&);
 template float ElasticBody<float>::damping_bound(const float*, ThreadTeam&);

@@ -58,10 +58,12 @@ void sort_by_key(const std::vector<std::uint64_t>& keys, std::vector<int>& order
 
 }  // namespace
 
-Reordering hilbert_order(const TetMesh& mesh) {
+Reordering hilbert_order(const TetMesh& mesh, const MidEdges& midedges) {
   std::vector<char> used(mesh.nodes.size(), 0);
   for (const Tet& tet : mesh.tets)
     for (int node : tet) used[node] = 1;
+  for (const auto& nodes : midedges)
+    for (int node : nodes) used[node] = 1;
   Eigen::AlignedBox3d box;
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
     if (used[n]) box.extend(mesh.nodes[n]);
@@ -102,6 +104,17 @@ TetMesh reordered(const TetMesh& mesh, const Reordering& order) {
     for (int t : order.file_tet)
       for (std::size_t i = 0; i < field.components; ++i)
         inner.values.push_back(field.values[field.components * static_cast<std::size_t>(t) + i]);
+  }
+  return result;
+}
+
+MidEdges reordered(const MidEdges& midedges, const Reordering& order) {
+  MidEdges result;
+  if (midedges.empty()) return result;
+  for (int t : order.file_tet) {
+    std::array<int, 6> nodes = midedges[t];
+    for (int& node : nodes) node = order.new_node[node];
+    result.push_back(nodes);
   }
   return result;
 }

@@ -1,6 +1,6 @@
 #pragma once
 // Renumbers nodes and elements for memory locality: neighbours in space are close in memory.
-#include <heml/mesh/tet_mesh.hpp>
+#include <heml/mesh/quadratic.hpp>
 #include <vector>
 
 namespace heml {
@@ -13,9 +13,11 @@ struct Reordering {
 };
 
 /// Order of tetrahedra (by centroid) and nodes along a Hilbert curve; orphan nodes last. Deterministic.
-Reordering hilbert_order(const TetMesh& mesh);
+Reordering hilbert_order(const TetMesh& mesh, const MidEdges& midedges = {});
 
 /// The mesh in internal order, fields included.
 TetMesh reordered(const TetMesh& mesh, const Reordering& order);
+/// The mid-edge nodes in internal order.
+MidEdges reordered(const MidEdges& midedges, const Reordering& order);
 
 }  // namespace heml

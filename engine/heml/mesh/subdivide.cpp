@@ -33,8 +33,10 @@ void add(TetMesh& mesh, Tet tet) {
   mesh.tets.push_back(tet);
 }
 
-/// Adds the four corner tetrahedra, and four round the shortest diagonal of the octahedron between them.
-void cut(TetMesh& mesh, const Tet& tet, const std::array<int, 6>& middle) {
+}  // namespace
+
+/// The four corner tetrahedra, and four round the shortest diagonal of the octahedron between them.
+void add_subdivision(const Tet& tet, const std::array<int, 6>& middle, TetMesh& mesh) {
   const auto m = [&](std::size_t a, std::size_t b) {
     for (std::size_t e = 0; e < 6; ++e)
       if (tet_edges[e] == std::array{std::min(a, b), std::max(a, b)}) return middle[e];
@@ -57,8 +59,6 @@ void cut(TetMesh& mesh, const Tet& tet, const std::array<int, 6>& middle) {
                middle[static_cast<std::size_t>(ring[k])], middle[static_cast<std::size_t>(ring[(k + 1) % 4])]});
 }
 
-}  // namespace
-
 Subdivision subdivide_uniformly(const TetMesh& mesh) {
   Subdivision result;
   result.mesh.nodes = mesh.nodes;
@@ -67,7 +67,7 @@ Subdivision subdivide_uniformly(const TetMesh& mesh) {
   for (const Tet& tet : mesh.tets) {
     std::array<int, 6> middle{};
     for (std::size_t e = 0; e < 6; ++e) middle[e] = midpoints.between(tet[tet_edges[e][0]], tet[tet_edges[e][1]]);
-    cut(result.mesh, tet, middle);
+    add_subdivision(tet, middle, result.mesh);
   }
   for (const int region : mesh.regions) result.mesh.regions.insert(result.mesh.regions.end(), 8, region);
   for (const ElementField& field : mesh.fields) {

@@ -16,4 +16,7 @@ struct Subdivision {
 /// shapes instead.)
 Subdivision subdivide_uniformly(const TetMesh& mesh);
 
+/// Appends the eight parts of a tetrahedron to the mesh, whose nodes are there. middle: in the order of tet_edges.
+void add_subdivision(const Tet& tet, const std::array<int, 6>& middle, TetMesh& mesh);
+
 }  // namespace heml
