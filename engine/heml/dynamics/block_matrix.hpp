@@ -26,9 +26,9 @@ class BlockMatrix {
   BlockMatrix(const FreeNodes& free, const std::vector<Tet>& tets);
 
   void set_zero();
-  /// Adds the element stiffness K(row, column), 12×12, indices [corner][xyz].
-  template <class Entry>
-  void add_element(const Tet& nodes, const Entry& K);
+  /// Adds the element stiffness K(row, column), indices [node][xyz].
+  template <std::size_t count, class Entry>
+  void add_element(const std::array<int, count>& nodes, const Entry& K);
   /// Adds B to the block (a, b) of two nodes of one element, and so Bᵀ to (b, a).
   void add_pair(int a, int b, const Mat3& B);
   /// Adds a symmetric B to the block of a node.
@@ -50,10 +50,10 @@ class BlockMatrix {
   Eigen::SparseMatrix<double> matrix_;
 };
 
-template <class Entry>
-void BlockMatrix::add_element(const Tet& nodes, const Entry& K) {
-  for (std::size_t a = 0; a < 4; ++a)
-    for (std::size_t b = 0; b < 4; ++b) {
+template <std::size_t count, class Entry>
+void BlockMatrix::add_element(const std::array<int, count>& nodes, const Entry& K) {
+  for (std::size_t a = 0; a < count; ++a)
+    for (std::size_t b = 0; b < count; ++b) {
       const int row = free_.number[static_cast<std::size_t>(nodes[a])];
       const int column = free_.number[static_cast<std::size_t>(nodes[b])];
       if (row < column || column < 0) continue;

@@ -22,9 +22,11 @@ Preconditioner choose_preconditioner(std::size_t free_nodes, bool static_solve) 
 }
 
 LinearSolver::LinearSolver(const FreeNodes& free, const TetMesh& mesh, const std::vector<double>& modulus,
-                           const Vector& mass, Preconditioner preconditioner, Projection projection, ThreadTeam& team)
+                           const Vector& mass, Preconditioner preconditioner, Projection projection, ThreadTeam& team,
+                           const std::vector<Tet>* pattern)
     : free_(free),
       mesh_(mesh),
+      pattern_(pattern),
       mass_(mass),
       preconditioner_(preconditioner),
       projection_(projection),
@@ -39,7 +41,7 @@ void LinearSolver::limit_iterations(int iterations) {
 void LinearSolver::set_inertia(double a) { a_ = a; }
 
 void LinearSolver::assemble(Objective& objective) {
-  if (!matrix_) matrix_ = std::make_unique<BlockMatrix>(free_, mesh_.tets);
+  if (!matrix_) matrix_ = std::make_unique<BlockMatrix>(free_, pattern_ ? *pattern_ : mesh_.tets);
   matrix_->set_zero();
   objective.add_stiffness(*matrix_);
   if (shift_ > 0)
@@ -230,7 +232,7 @@ bool LinearSolver::solve(Objective& objective, const Vector& r, double tolerance
 
 /// Whether the solve can run in float; if so, assembles the stiffness in float.
 bool LinearSolver::supports_single_precision(Objective& objective, double tolerance) {
-  if (!scalar_ || tolerance < min_float_tolerance) return false;
+  if (!scalar_ || pattern_ || tolerance < min_float_tolerance) return false;
   if (!single_precision_cg_) single_precision_cg_ = std::make_unique<SinglePrecisionCG>(free_, mesh_, team_);
   return single_precision_cg_->assemble(objective, shift_);
 }

@@ -22,9 +22,12 @@ Preconditioner choose_preconditioner(std::size_t free_nodes, bool static_solve);
 
 class LinearSolver {
  public:
-  /// free, mesh (rest shape), mass (3 #V, kg) and team must outlive this. modulus: #T, Pa, for the scalar matrix.
+  /// free, mesh (rest shape), mass (3 #V, kg), pattern and team must outlive this. modulus: #T, Pa, for the scalar
+  /// matrix. pattern: nodes that the stiffness couples, where these are not the elements of the mesh; the stiffness has
+  /// then no matrix in float.
   LinearSolver(const FreeNodes& free, const TetMesh& mesh, const std::vector<double>& modulus, const Vector& mass,
-               Preconditioner preconditioner, Projection projection, ThreadTeam& team);
+               Preconditioner preconditioner, Projection projection, ThreadTeam& team,
+               const std::vector<Tet>* pattern = nullptr);
 
   /// To be called when the mesh has lost elements and the masses are updated. elements: those left, by their old
   /// numbers (ascending). Nodes that lost all elements have mass 0 and stay in `free`. The preconditioner is kept, at
@@ -100,6 +103,7 @@ class LinearSolver {
 
   const FreeNodes& free_;
   const TetMesh& mesh_;
+  const std::vector<Tet>* pattern_;  ///< null: the elements of the mesh
   const Vector& mass_;
   Preconditioner preconditioner_;
   Projection projection_;

@@ -28,6 +28,7 @@ BodyObjective<Real>::BodyObjective(ElasticBody<Real>& body, const Model<Real>& m
       grasps_(grasps),
       team_(team),
       contact_(contacts, max_penetration * model.diagonal) {
+  if (!model.midedges.empty()) consistent_mass_ = body.consistent_masses();
   find_noise();
 }
 
@@ -166,6 +167,8 @@ double BodyObjective<Real>::relative_net_load() const {
 
 template <class Real>
 int BodyObjective<Real>::count_inverted(const Vector& x) const {
+  if (!model_.midedges.empty())
+    return count_inverted_points(model_.mesh.tets, model_.midedges, [&](int n) { return at(x, n); });
   return static_cast<int>(std::count_if(model_.mesh.tets.begin(), model_.mesh.tets.end(), [&](const Tet& tet) {
     return !(signed_volume(at(x, tet[0]), at(x, tet[1]), at(x, tet[2]), at(x, tet[3])) > 0);
   }));
@@ -202,11 +205,12 @@ void BodyObjective<Real>::add_external(const Real* x, const Vector& x_double) {
       }
     for (const auto& grasp : grasps_) grasp.add_forces(x, v_.data(), f_.data());
   }
+  const std::vector<Real>& heavy = gravity_mass();
   external_.resize(x_double.size());
   for (std::size_t n = 0; n < mass_.size(); ++n)
     for (std::size_t i = 0; i < 3; ++i)
       external_[static_cast<Eigen::Index>(3 * n + i)] =
-          static_cast<double>(f_[3 * n + i]) + static_cast<double>(mass_[n]) * gravity_[static_cast<int>(i)];
+          static_cast<double>(f_[3 * n + i]) + static_cast<double>(heavy[n]) * gravity_[static_cast<int>(i)];
   if (!contact_.empty()) contact_.add_forces(x_double, external_);
 }
 
@@ -251,7 +255,7 @@ double BodyObjective<Real>::find_value(const Vector& x) {
   const Real* at_x = as_real(x, x_);
   double sum = body_.potential(at_x, team_);
   for (std::size_t n = 0; n < mass_.size(); ++n)
-    sum -= static_cast<double>(mass_[n]) * gravity_.dot(at(x, static_cast<int>(n)) - model_.mesh.nodes[n]);
+    sum -= static_cast<double>(gravity_mass()[n]) * gravity_.dot(at(x, static_cast<int>(n)) - model_.mesh.nodes[n]);
   for (const auto& load : model_.dead)
     for (std::size_t k = 0; k < load.nodes.size(); ++k) {
       const Vec3 moved = at(x, load.nodes[k]) - model_.mesh.nodes[static_cast<std::size_t>(load.nodes[k])];

@@ -111,11 +111,15 @@ class BodyObjective final : public LoadDependentObjective, private BodyObjective
   void add_contact_stiffness(Matrix& matrix, const Pair& pair) const;
   template <class Visit>
   void each_pressed_face(const Vector& x, const Visit& visit) const;
+  template <class Visit>
+  void each_pressed_point(const Vector& x, const Visit& visit) const;
   int count_inverted(const Vector& x) const;
+  const std::vector<Real>& gravity_mass() const { return consistent_mass_.empty() ? mass_ : consistent_mass_; }
 
   ElasticBody<Real>& body_;
   const Model<Real>& model_;
   const std::vector<Real>& mass_;
+  std::vector<Real> consistent_mass_;  ///< #V, kg, which gravity acts on; empty: mass_
   const FreeNodes& free_;
   const std::vector<GraspSpring<Real>>& grasps_;
   ThreadTeam& team_;

@@ -30,6 +30,21 @@ void BodyObjective<Real>::each_pressed_face(const Vector& x, const Visit& visit)
   }
 }
 
+/// The same at the integration points of six-node faces, whose virtual corners are a, b, c: node k takes N_k of q.
+template <class Real>
+template <class Visit>
+void BodyObjective<Real>::each_pressed_point(const Vector& x, const Visit& visit) const {
+  if (x.size() == 0) return;
+  for (const auto& load : model_.pressures) {
+    const double p = -static_cast<double>(load.pascal) * ramp(time_, load.ramp_time) / 2;
+    for (const std::array<int, 6>& nodes : load.quadratic_faces)
+      for (const FacePoint& point : face_points) {
+        const auto [a, b, c] = virtual_face(point, [&](std::size_t k) { return place_of(x, nodes[k]); });
+        visit(nodes, point, p * point.weight, std::array<Vec3, 3>{c - b, a - c, b - a});
+      }
+  }
+}
+
 template <class Real>
 void BodyObjective<Real>::linearise(const Vector& x, Projection projection) {
   body_.linearise(as_real(x, x_), team_);
@@ -57,6 +72,13 @@ void BodyObjective<Real>::product(const Vector& dx, Vector& out) {
     for (std::size_t j = 0; j < 3; ++j) push += p * w[j].cross(place_of(dx, face[j]));
     for (const int n : face) add(n, -push);
   });
+  each_pressed_point(linearisation_point_, [&](const std::array<int, 6>& nodes, const FacePoint& point, double p,
+                                               const std::array<Vec3, 3>& w) {
+    const auto moved = virtual_face(point, [&](std::size_t k) { return place_of(dx, nodes[k]); });
+    Vec3 push = Vec3::Zero();
+    for (std::size_t j = 0; j < 3; ++j) push += p * w[j].cross(moved[j]);
+    for (std::size_t k = 0; k < 6; ++k) add(nodes[k], -point.N[k] * push);
+  });
   if (!contact_.empty()) {
     contact_.add_product(dx, out);
     for (std::size_t n = 0; n < free_.number.size(); ++n)
@@ -70,7 +92,7 @@ void BodyObjective<Real>::product(const Vector& dx, Vector& out) {
 
 template <class Real>
 void BodyObjective<Real>::add_stiffness(BlockMatrix& matrix) {
-  body_.each_stiffness([&](const Tet& nodes, const ElementMatrix<Real>& K) {
+  body_.each_stiffness([&](const auto& nodes, const auto& K) {
     matrix.add_element(nodes, [&](int row, int column) {
       return static_cast<double>(K[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)]);
     });
@@ -89,6 +111,17 @@ void BodyObjective<Real>::add_stiffness(BlockMatrix& matrix) {
       const std::size_t j = (i + 1) % 3;
       matrix.add_pair(face[i], face[j], p / 2 * cross_matrix(w[i] - w[j]));
     }
+  });
+  each_pressed_point(linearisation_point_, [&](const std::array<int, 6>& nodes, const FacePoint& point, double p,
+                                               const std::array<Vec3, 3>& w) {
+    const auto along = [&](std::size_t k) {
+      Vec3 sum = Vec3::Zero();
+      for (std::size_t j = 0; j < 3; ++j) sum += point.slope[j][k] * w[j];
+      return sum;
+    };
+    for (std::size_t i = 0; i < 6; ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        matrix.add_pair(nodes[i], nodes[j], -p / 2 * cross_matrix(point.N[i] * along(j) - point.N[j] * along(i)));
   });
   add_contact_stiffness(matrix, [&](int a, int b, const Mat3& K) { matrix.add_pair(a, b, K); });
   add_diagonal(matrix);

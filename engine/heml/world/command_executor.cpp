@@ -128,6 +128,8 @@ Status CommandExecutor<Real>::execute(const SetMaterial& command) {
   const LawInfo* law = find_law(command.material.law);
   if (s_.setup.solver.nodal_pressure && law && !law->has_volume_term)
     return fmt::format("material.law: '{}' has no separate volume term, which nodal pressure needs", law->name);
+  if (s_.setup.solver.quadratic && law && !law->is_continuum)
+    return fmt::format("material.law: '{}' has no quadratic elements", law->name);
   for (const RegionMaterial& other : s_.setup.materials)
     if (s_.setup.solver.nodal_pressure && &other != &*entry &&
         other.material.volume_term != command.material.volume_term)

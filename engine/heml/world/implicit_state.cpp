@@ -19,6 +19,12 @@ Vector thrice(const FreeNodes& free, const auto& masses) {
   return result;
 }
 
+std::vector<double> repeated(const std::vector<double>& values, std::size_t times) {
+  std::vector<double> result;
+  for (const double value : values) result.insert(result.end(), times, value);
+  return result;
+}
+
 /// The scene's, or the body's size's; L-BFGS needs one that is made once.
 Preconditioner preconditioner_of(const SolverSettings& solver, std::size_t free_nodes) {
   const bool once = solver.minimiser == Minimiser::lbfgs && !solver.is_static();
@@ -41,7 +47,11 @@ ImplicitState<Real>::ImplicitState(ElasticBody<Real>& elastic, const Model<Real>
     : free(nonzero(inverse_mass)),
       mass(thrice(free, masses)),
       body(elastic, model, masses, free, grasps, contacts, team),
-      linear(free, model.mesh, modulus, mass, preconditioner_of(solver, free.node.size()), solver.projection, team),
+      linear_mesh(model.midedges.empty() ? std::nullopt
+                                         : std::optional<TetMesh>(subdivided(model.mesh, model.midedges))),
+      pattern(linear_mesh ? coupled_nodes(model.mesh, model.midedges) : std::vector<Tet>()),
+      linear(free, linear_mesh ? *linear_mesh : model.mesh, linear_mesh ? repeated(modulus, 8) : modulus, mass,
+             preconditioner_of(solver, free.node.size()), solver.projection, team, linear_mesh ? &pattern : nullptr),
       step(body, mass, free) {}
 
 template <class Real>
@@ -95,7 +105,9 @@ std::vector<double> preconditioner_moduli(const TetMesh& mesh, const std::vector
   return moduli;
 }
 
-bool is_well_constrained(const TetMesh& mesh, const std::vector<ConstrainedNode>& constrained) {
+template <class Real>
+bool is_well_constrained(const Model<Real>& model, const std::vector<ConstrainedNode>& constrained) {
+  const TetMesh& mesh = model.mesh;
   std::vector<int> part(mesh.nodes.size());
   std::iota(part.begin(), part.end(), 0);
   const auto root = [&](int n) {
@@ -105,6 +117,8 @@ bool is_well_constrained(const TetMesh& mesh, const std::vector<ConstrainedNode>
   };
   for (const Tet& tet : mesh.tets)
     for (const int n : tet) part[static_cast<std::size_t>(root(n))] = root(tet[0]);
+  for (std::size_t t = 0; t < model.midedges.size(); ++t)
+    for (const int n : model.midedges[t]) part[static_cast<std::size_t>(root(n))] = root(mesh.tets[t][0]);
   std::vector<std::vector<Vec3>> points(mesh.nodes.size());  // held ones, at the root of their part
   for (const ConstrainedNode& h : constrained)
     points[static_cast<std::size_t>(root(h.node))].push_back(mesh.nodes[static_cast<std::size_t>(h.node)]);
@@ -122,5 +136,8 @@ bool is_well_constrained(const TetMesh& mesh, const std::vector<ConstrainedNode>
   }
   return true;
 }
+
+template bool is_well_constrained(const Model<float>&, const std::vector<ConstrainedNode>&);
+template bool is_well_constrained(const Model<double>&, const std::vector<ConstrainedNode>&);
 
 }  // namespace heml

@@ -25,6 +25,9 @@ struct ImplicitState {
   FreeNodes free;
   Vector mass;  ///< 3 #V, kg; 0 where not free
   BodyObjective<Real> body;
+  std::optional<TetMesh>
+      linear_mesh;           ///< of quadratic elements: linear ones on the same nodes, which precondition them
+  std::vector<Tet> pattern;  ///< of quadratic elements: nodes that the stiffness couples
   LinearSolver linear;
   IncrementalPotential step;
   Vector x, v;                ///< 3 #V, the state in double
@@ -51,7 +54,8 @@ struct ImplicitState {
 std::vector<double> preconditioner_moduli(const TetMesh& mesh, const std::vector<int>& material_of,
                                           const std::vector<RegionMaterial>& materials, Minimiser minimiser);
 
-/// Whether every connected part of the mesh has three held nodes that are not on a line.
-bool is_well_constrained(const TetMesh& mesh, const std::vector<ConstrainedNode>& constrained);
+/// Whether every connected part of the body has three held nodes that are not on a line.
+template <class Real>
+bool is_well_constrained(const Model<Real>& model, const std::vector<ConstrainedNode>& constrained);
 
 }  // namespace heml

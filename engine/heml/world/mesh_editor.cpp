@@ -12,6 +12,7 @@
 namespace heml {
 namespace {
 
+constexpr const char* not_quadratic = "elements p2 take no edits of the mesh (take \"element\": \"p1\")";
 constexpr std::size_t max_undo = 20;  // edits; of earlier states only the start is kept
 
 /// Appends nodes that the edit inserts between two nodes of the list, or copies from one.
@@ -49,6 +50,7 @@ double worst_angle(const MeshEdit& edit, const TetMesh& mesh) {
 
 template <class Real>
 Status MeshEditor<Real>::remove(const RemoveElements& command) {
+  if (!s_.model.midedges.empty()) return std::string("remove: ") + not_quadratic;
   MeshEdit edit;
   if (const Status made = make_removal_edit(command.which, s_.setup.mesh, *s_.topology, edit); !made.ok())
     return "remove: " + made.message();
@@ -66,6 +68,7 @@ Status MeshEditor<Real>::remove(const RemoveElements& command) {
 
 template <class Real>
 Status MeshEditor<Real>::cut(const CutTissue& command) {
+  if (!s_.model.midedges.empty()) return std::string("cut: ") + not_quadratic;
   for (const auto& [tip, end] : command.sweep.blades)
     if (!tip.allFinite() || !end.allFinite()) return "cut: a place of the blade is not finite";
   if (command.sweep.blades.size() < 2) return "cut: the sweep needs the blade at two times at least";

@@ -72,7 +72,7 @@ double MethodChoice<Real>::step_cost() const {
 template <class Real>
 double MethodChoice<Real>::lowest_frequency() {
   ImplicitState<Real>& parts = s_.implicit_state();
-  if (parts.free.node.empty() || !is_well_constrained(s_.model.mesh, s_.constrained_nodes())) return 0;
+  if (parts.free.node.empty() || !is_well_constrained(s_.model, s_.constrained_nodes())) return 0;
   Vector rest(parts.mass.size()), shape, push;
   for (std::size_t n = 0; n < s_.model.mesh.nodes.size(); ++n)
     rest.template segment<3>(3 * static_cast<int>(n)) = s_.model.mesh.nodes[n];

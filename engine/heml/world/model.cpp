@@ -3,6 +3,7 @@
 #include <heml/mesh/edit.hpp>
 #include <heml/mesh/faces.hpp>
 #include <heml/world/model.hpp>
+#include <map>
 #include <numbers>
 #include <unordered_map>
 
@@ -32,6 +33,63 @@ std::vector<bool> used_nodes(const TetMesh& mesh) {
   for (const Tet& tet : mesh.tets)
     for (const int n : tet) used[static_cast<std::size_t>(n)] = true;
   return used;
+}
+
+/// Corners and mid-edge nodes of boundary faces whose three corners are selected.
+std::vector<std::array<int, 6>> quadratic_faces_within(const BoundaryFaces& faces, const std::vector<Triangle>& middles,
+                                                       const std::vector<int>& nodes) {
+  const auto selected = [&](int n) { return std::binary_search(nodes.begin(), nodes.end(), n); };
+  std::vector<std::array<int, 6>> result;
+  for (std::size_t f = 0; f < faces.triangles.size(); ++f) {
+    const auto& [a, b, c] = faces.triangles[f];
+    const auto& [ab, bc, ca] = middles[f];
+    if (selected(a) && selected(b) && selected(c)) result.push_back({a, b, c, ab, bc, ca});
+  }
+  return result;
+}
+
+/// A dead load on quadratic elements. A force is spread evenly over the faces that are selected, where those hold all
+/// corners that are; else it is shared by these corners, or by mid-edge nodes where no corner is selected.
+template <class Real>
+DeadLoad<Real> quadratic_dead_load(const Load& load, const std::vector<int>& nodes, const Model<Real>& model) {
+  double area = 0;
+  const auto faces =
+      quadratic_faces_within(model.loaded_faces, face_midedges(model.loaded_faces, model.mesh, model.midedges), nodes);
+  std::map<int, double> part;  // m²
+  for (const auto& face : faces)
+    for (const FacePoint& point : face_points) {
+      const auto y =
+          virtual_face(point, [&](std::size_t k) { return model.mesh.nodes[static_cast<std::size_t>(face[k])]; });
+      const double here = point.weight * (y[1] - y[0]).cross(y[2] - y[0]).norm() / 2;
+      area += here;
+      for (std::size_t k = 0; k < 6; ++k) part[face[k]] += point.N[k] * here;
+    }
+  std::vector<bool> is_corner(model.mesh.nodes.size(), false), is_middle(model.mesh.nodes.size(), false);
+  for (const Tet& tet : model.mesh.tets)
+    for (const int n : tet) is_corner[static_cast<std::size_t>(n)] = true;
+  for (const auto& of_element : model.midedges)
+    for (const int n : of_element) is_middle[static_cast<std::size_t>(n)] = true;
+  const auto chosen = [&](const std::vector<bool>& kind) {
+    std::vector<int> result;
+    for (const int n : nodes)
+      if (kind[static_cast<std::size_t>(n)]) result.push_back(n);
+    return result;
+  };
+  const std::vector<int> corners = chosen(is_corner);
+  DeadLoad<Real> result{{}, {}, load.ramp_time};
+  const auto add = [&](int n, const Vec3& f) {
+    result.nodes.push_back(n);
+    for (int i = 0; i < 3; ++i) result.forces.push_back(static_cast<Real>(f[i]));
+  };
+  const bool faces_hold_all = std::all_of(corners.begin(), corners.end(), [&](int n) { return part.contains(n); });
+  if (load.kind == Load::Kind::traction || (!faces.empty() && faces_hold_all)) {
+    const Vec3 traction = load.kind == Load::Kind::traction ? load.vector : Vec3(load.vector / area);
+    for (const auto& [n, share] : part) add(n, share * traction);
+    return result;
+  }
+  const std::vector<int> bearing = corners.empty() ? chosen(is_middle) : corners;
+  for (const int n : bearing) add(n, load.vector / static_cast<double>(bearing.size()));
+  return result;
 }
 
 template <class Real>
@@ -66,9 +124,18 @@ void make_loads(const WorldSetup& setup, Model<Real>& model) {
   const std::vector<bool> used = used_nodes(model.mesh);
   for (const Load& load : setup.loads) {
     const std::vector<int> nodes = inner(load.nodes, model.order);
-    if (load.kind == Load::Kind::pressure)
+    if (!model.midedges.empty() && load.kind == Load::Kind::pressure)
       model.pressures.push_back(
-          {faces_within(model.loaded_faces, nodes), static_cast<Real>(load.pressure), load.ramp_time});
+          {{},
+           quadratic_faces_within(model.loaded_faces, face_midedges(model.loaded_faces, model.mesh, model.midedges),
+                                  nodes),
+           static_cast<Real>(load.pressure),
+           load.ramp_time});
+    else if (!model.midedges.empty())
+      model.dead.push_back(quadratic_dead_load(load, nodes, model));
+    else if (load.kind == Load::Kind::pressure)
+      model.pressures.push_back(
+          {faces_within(model.loaded_faces, nodes), {}, static_cast<Real>(load.pressure), load.ramp_time});
     else
       model.dead.push_back(dead_load<Real>(load, nodes, model.mesh, model.loaded_faces, used));
   }
@@ -110,12 +177,13 @@ template <class Real>
 Model<Real> make_model(const WorldSetup& setup) {
   Model<Real> model;
   const std::vector<int> file_materials = material_of_elements(setup.mesh, setup.materials);
-  model.order = hilbert_order(setup.mesh);
+  model.order = hilbert_order(setup.mesh, setup.midedges);
   model.mesh = reordered(setup.mesh, model.order);
+  model.midedges = reordered(setup.midedges, model.order);
   for (const int t : model.order.file_tet) model.material_of.push_back(file_materials[static_cast<std::size_t>(t)]);
   model.loaded_faces = extract_boundary(model.mesh);
   std::vector<bool> on_surface(model.mesh.nodes.size(), false);
-  for (const Triangle& face : model.loaded_faces.triangles)
+  for (const Triangle& face : fine_boundary(model.mesh, model.midedges).triangles)
     for (const int n : face) on_surface[static_cast<std::size_t>(n)] = true;
   model.surface_nodes = chosen_nodes(on_surface);
   add_boundary(setup, model);

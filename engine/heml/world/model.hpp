@@ -21,6 +21,7 @@ template <class Real>
 struct Model {
   Reordering order;                ///< new_tet: −1 for an element that is gone
   TetMesh mesh;                    ///< inner order
+  MidEdges midedges;               ///< #T of quadratic elements, else empty
   std::vector<int> material_of;    ///< #T
   BoundaryFaces loaded_faces;      ///< the surface as first made, of elements that are left: what loads act on
   std::vector<int> surface_nodes;  ///< ascending

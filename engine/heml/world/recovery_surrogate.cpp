@@ -40,7 +40,7 @@ RecoverySurrogate<Real>::RecoverySurrogate(const Model<Real>& model, const World
                                            const std::vector<GraspSpring<Real>>& grasps, Contacts& contacts,
                                            ThreadTeam& team)
     : body(model.mesh, model.material_of, surrogate_materials(model.mesh, model.material_of, setup.materials),
-           {false, false, setup.instruction_set, setup.solver.threads}),
+           {false, false, setup.instruction_set, setup.solver.threads}, model.midedges),
       implicit(body, model, masses, inverse_mass,
                preconditioner_moduli(model.mesh, model.material_of, setup.materials, Minimiser::newton), grasps,
                contacts, team, {}) {

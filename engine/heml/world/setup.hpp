@@ -5,11 +5,12 @@
 #include <heml/dynamics/solver_options.hpp>
 #include <heml/elastic/instruction_set.hpp>
 #include <heml/materials/material.hpp>
-#include <heml/mesh/tet_mesh.hpp>
+#include <heml/mesh/quadratic.hpp>
 #include <heml/tools/contact_surface.hpp>
 #include <heml/tools/settings.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace heml {
@@ -67,11 +68,13 @@ struct SolverSettings {
   bool continuation = false;   ///< continue each law past its range instead of stopping there
   bool recovery = false;  ///< bring a collapsed or wild body back instead of stopping (recovery.hpp); dynamics alone
   bool nodal_pressure = false;  ///< averaged nodal pressure instead of one a tetrahedron (elastic/nodal_pressure.hpp)
+  bool quadratic = false;       ///< ten-node tetrahedra (mesh/quadratic.hpp); not with nodal_pressure
   std::optional<double> tolerance;  ///< of implicit and static solves, relative to the forces at work (contract)
   std::optional<Budget> budget;     ///< none: every stage is solved to its tolerance
   Minimiser minimiser = Minimiser::newton;       ///< of implicit steps; statics are Newton's
   Projection projection = Projection::element;   ///< of a stiffness that is seen not to be positive
   std::optional<Preconditioner> preconditioner;  ///< none: by the body's size
+  std::string_view element() const { return quadratic ? "p2" : nodal_pressure ? "nodal_pressure" : "p1"; }
   bool is_static() const { return integrator == Integrator::static_equilibrium; }
   double load_duration() const { return duration > 0 ? duration : 1; }  ///< s, that a static world's ticks load over
   double relative_tolerance() const { return tolerance.value_or(single_precision ? 1e-4 : 1e-8); }
@@ -79,7 +82,8 @@ struct SolverSettings {
 };
 
 struct WorldSetup {
-  TetMesh mesh;  ///< checked by check_tets(): positive volumes
+  TetMesh mesh;       ///< checked by check_tets(): positive volumes
+  MidEdges midedges;  ///< nodes of the mesh, of each element; empty unless solver.quadratic
   std::vector<RegionMaterial> materials;
   std::vector<Boundary> boundary;
   std::vector<Load> loads;

@@ -21,7 +21,8 @@ Simulation<Real>::Simulation(WorldSetup setup_in)
       model(make_model<Real>(setup)),
       topology(std::make_shared<const Topology>(full_topology(setup.mesh))),
       body(model.mesh, model.material_of, materials_of(setup),
-           {setup.solver.continuation, setup.solver.nodal_pressure, setup.instruction_set, setup.solver.threads}),
+           {setup.solver.continuation, setup.solver.nodal_pressure, setup.instruction_set, setup.solver.threads},
+           model.midedges),
       team(setup.solver.threads) {
   const FlushDenormals flush;
   contacts.tables = setup.tables;
@@ -33,6 +34,7 @@ template <class Real>
 void Simulation<Real>::update_masses() {
   has_internal_state = body.has_internal_state();
   mass = body.masses();
+  if (!model.midedges.empty()) consistent_mass = body.consistent_masses();
   inverse_mass.resize(mass.size());
   for (std::size_t n = 0; n < mass.size(); ++n) inverse_mass[n] = mass[n] > 0 ? 1 / mass[n] : Real(0);
   for (const ConstrainedNode& constrained : model.constrained)
@@ -70,10 +72,11 @@ bool Simulation<Real>::evaluate_forces() {
   Real* f = state.f.data();
   const bool valid = acting_body().forces(x, f, team);
   const Vector3<Real> g = gravity().template cast<Real>();
+  const std::vector<Real>& heavy = gravity_mass();
   if (!g.isZero(0))
     team.parallel_for(mass.size(), node_grain, [&](std::size_t begin, std::size_t end) {
       for (std::size_t n = begin; n < end; ++n)
-        for (std::size_t i = 0; i < 3; ++i) f[3 * n + i] += mass[n] * g[static_cast<int>(i)];
+        for (std::size_t i = 0; i < 3; ++i) f[3 * n + i] += heavy[n] * g[static_cast<int>(i)];
     });
   for (const auto& load : model.dead) add_load(load, state.time, f);
   for (const auto& load : model.pressures) add_load(load, state.time, x, f);
@@ -95,7 +98,7 @@ Energies Simulation<Real>::energies() {
     const Vec3 v = Eigen::Map<const Vector3<Real>>(&state.v[3 * n]).template cast<double>();
     const Vec3 x = Eigen::Map<const Vector3<Real>>(&state.x[3 * n]).template cast<double>();
     e.kinetic += m / 2 * v.squaredNorm();
-    e.potential -= m * g.dot(x - model.mesh.nodes[n]);
+    e.potential -= static_cast<double>(gravity_mass()[n]) * g.dot(x - model.mesh.nodes[n]);
   }
   e.elastic = acting_body().energy(state.x.data(), team);
   return e;
@@ -172,7 +175,7 @@ void Simulation<Real>::update_contact_boundary() {
   if (contacts.tables.empty() && !contacts.probe) return;
   for (const int n : model.surface_nodes)
     if (inverse_mass[static_cast<std::size_t>(n)] > 0) contacts.boundary.nodes.push_back(n);
-  if (contacts.probe) contacts.boundary.faces = extract_boundary(model.mesh).triangles;
+  if (contacts.probe) contacts.boundary.faces = fine_boundary(model.mesh, model.midedges).triangles;
 }
 
 template struct Simulation<float>;

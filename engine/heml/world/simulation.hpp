@@ -47,6 +47,7 @@ struct SimulationState {
 
   bool has_internal_state = false;         ///< whether a material has viscosity, relaxation or plasticity
   std::vector<Real> mass;                  ///< #V, kg
+  std::vector<Real> consistent_mass;       ///< #V, kg, which gravity acts on; empty: mass
   std::vector<Real> inverse_mass;          ///< #V, 1/kg; 0 for constrained nodes and nodes of no element
   std::vector<Real> inverse_mass_per_dof;  ///< 3 #V, 1/kg
   State<Real> state, last_valid;           ///< now, and before the current step
@@ -91,6 +92,8 @@ struct Simulation : SimulationState<Real> {
   void move_constrained();
   /// Writes the forces of all but supports at the current state to state.f. Returns false where a law is undefined.
   bool evaluate_forces();
+  /// What gravity acts on, #V, kg.
+  const std::vector<Real>& gravity_mass() const { return consistent_mass.empty() ? mass : consistent_mass; }
   /// m/s². In a static world gravity is ramped with all other loads.
   Vec3 gravity() const;
   Energies energies();
@@ -122,6 +125,7 @@ struct Simulation : SimulationState<Real> {
   void update_contact_boundary();
 
   using Values = SimulationState<Real>;
+  using Values::consistent_mass;
   using Values::contacts, Values::grasps, Values::halt, Values::has_internal_state, Values::impulses;
   using Values::inverse_mass, Values::inverse_mass_per_dof, Values::last_valid, Values::mass, Values::method;
   using Values::pins, Values::state;

@@ -34,7 +34,7 @@ std::optional<StopReason> StaticStepper<Real>::load_to(double fraction) {
   parts.body.begin_static(duration, s_.setup.gravity, start);
   if (!parts.equilibrium) {
     const double highest = static_cast<double>(s_.rest_frequency * s_.rest_frequency);
-    const bool constrained = is_well_constrained(s_.model.mesh, s_.constrained_nodes());
+    const bool constrained = is_well_constrained(s_.model, s_.constrained_nodes());
     if (!constrained) parts.body.set_regularisation(anchor * highest);
     const StaticTolerance limit{s_.setup.solver.relative_tolerance(), s_.setup.solver.tolerance.has_value()};
     parts.equilibrium.emplace(parts.body, parts.linear, parts.mass, parts.free, limit,
@@ -88,7 +88,7 @@ StopReason StaticStepper<Real>::why_not_beyond(const StaticSolve& equilibrium) c
   }
   halt.message =
       fmt::format("no equilibrium found beyond {:.4g} of the load ({}): what is written is the last one", load,
-                  is_well_constrained(s_.model.mesh, s_.constrained_nodes())
+                  is_well_constrained(s_.model, s_.constrained_nodes())
                       ? "the body may snap, collapse or be crushed there, or leave the range of its law"
                       : "its constraints leave a rigid motion free: then loads must balance, in force and moment");
   return halt;
@@ -103,6 +103,9 @@ int StaticStepper<Real>::first_flat(const std::vector<Real>& x) const {
     return Vec3(Eigen::Map<const Vector3<Real>>(&x[3 * static_cast<std::size_t>(n)]).template cast<double>());
   };
   const auto& tets = s_.model.mesh.tets;
+  for (std::size_t t = 0; t < s_.model.midedges.size(); ++t)
+    if (count_inverted_points({tets[t]}, {s_.model.midedges[t]}, at) > 0) return static_cast<int>(t);
+  if (!s_.model.midedges.empty()) return -1;
   const auto flat = std::find_if(tets.begin(), tets.end(), [&](const Tet& tet) {
     return !(signed_volume(at(tet[0]), at(tet[1]), at(tet[2]), at(tet[3])) > 0);
   });

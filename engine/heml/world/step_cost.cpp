@@ -34,6 +34,8 @@ double fixed_step_cost(const std::vector<KernelInfo>& kernels, const WorldSetup&
     sum += static_cast<double>(kernel.elements) * cost_of(kernel, setup);
     elements += static_cast<double>(kernel.elements);
   }
+  // the points of a quadratic element, in loops
+  if (setup.solver.quadratic) sum = element_points * (sum + elements * a_loop);
   return 1e-9 * sum / elements;
 }
 

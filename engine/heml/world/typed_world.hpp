@@ -58,6 +58,7 @@ class TypedWorld final : public World {
   }
   Energies energies() override { return s_.energies(); }
   std::vector<double> volume_ratios() override { return queries_.volume_ratios(); }
+  std::vector<double> point_volume_ratios() override { return queries_.point_volume_ratios(); }
   std::vector<Mat3> stresses() override { return queries_.stresses(); }
   std::optional<ErrorEstimate> error_estimate() override { return queries_.error_estimate(); }
   std::vector<Vec3> reactions() override { return queries_.reactions(); }

@@ -123,6 +123,8 @@ class World {
 
   virtual Energies energies() = 0;
   virtual std::vector<double> volume_ratios() = 0;  ///< J of each element of topology(), in its order
+  /// J at the integration points of these elements: the same, or of quadratic ones four each, whose mean theirs is.
+  virtual std::vector<double> point_volume_ratios() = 0;
   /// Cauchy stress of each, Pa, in the same order; none where there are springs.
   virtual std::vector<Mat3> stresses() = 0;
   /// Of the mesh, as the body is now; elements as topology() has them. None where springs bear what no stress tells.

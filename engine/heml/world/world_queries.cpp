@@ -54,10 +54,13 @@ void WorldQueries<Real>::write_field(Field field, std::span<const int> nodes, st
     const Tet& tet = s_.model.mesh.tets[t];
     const auto X = [&](std::size_t c) -> const Vec3& { return s_.model.mesh.nodes[static_cast<std::size_t>(tet[c])]; };
     const double volume = signed_volume(X(0), X(1), X(2), X(3));
-    for (const int n : tet) {
+    const auto add = [&](int n) {
       sum[static_cast<std::size_t>(n)] += volume * values[t];
       weight[static_cast<std::size_t>(n)] += volume;
-    }
+    };
+    for (const int n : tet) add(n);
+    if (!s_.model.midedges.empty())
+      for (const int n : s_.model.midedges[t]) add(n);
   }
   for (std::size_t k = 0; k < nodes.size(); ++k) {
     const std::size_t n = inner(nodes[k]);
@@ -74,12 +77,15 @@ std::vector<double> WorldQueries<Real>::element_values(Field field) {
     return values;
   }
   s_.acting_body().states(s_.state.x.data(), element_states_);
-  for (std::size_t t = 0; t < values.size(); ++t) {
-    const auto& s = element_states_[t];
-    values[t] = static_cast<double>(field == Field::stretch     ? s.stretch
-                                    : field == Field::von_mises ? s.von_mises
-                                                                : s.J);
+  const std::size_t points = s_.body.points_per_element();
+  for (std::size_t k = 0; k < element_states_.size(); ++k) {
+    const auto& s = element_states_[k];
+    values[k / points] += static_cast<double>(field == Field::stretch     ? s.stretch
+                                              : field == Field::von_mises ? s.von_mises
+                                                                          : s.J);
   }
+  if (points > 1)
+    for (double& value : values) value /= static_cast<double>(points);
   return values;
 }
 
@@ -97,7 +103,7 @@ template <class Real>
 std::optional<ErrorEstimate> WorldQueries<Real>::estimate() {
   const FlushDenormals flush;
   ElasticBody<Real>& body = s_.acting_body();
-  if (body.has_springs()) return std::nullopt;
+  if (body.has_springs() || body.points_per_element() > 1) return std::nullopt;
   ErrorEstimate found;
   found.of_element =
       recovery_errors(s_.model.mesh, s_.model.material_of, deformation_gradients(s_.model.mesh, inner_positions()),
@@ -121,11 +127,22 @@ std::optional<ErrorEstimate> WorldQueries<Real>::error_estimate() {
 
 template <class Real>
 std::vector<double> WorldQueries<Real>::volume_ratios() {
+  const std::vector<double> of_points = point_volume_ratios();
+  const std::size_t points = s_.body.points_per_element();
+  if (points == 1) return of_points;
+  std::vector<double> result(of_points.size() / points, 0.0);
+  for (std::size_t k = 0; k < of_points.size(); ++k) result[k / points] += of_points[k] / static_cast<double>(points);
+  return result;
+}
+
+template <class Real>
+std::vector<double> WorldQueries<Real>::point_volume_ratios() {
   s_.acting_body().states(s_.state.x.data(), element_states_);
+  const std::size_t points = s_.body.points_per_element();
   std::vector<double> result;
   for (const int file : s_.topology->elements) {
     const auto t = static_cast<std::size_t>(s_.model.order.new_tet[static_cast<std::size_t>(file)]);
-    result.push_back(static_cast<double>(element_states_[t].J));
+    for (std::size_t q = 0; q < points; ++q) result.push_back(static_cast<double>(element_states_[points * t + q].J));
   }
   return result;
 }
@@ -136,12 +153,15 @@ std::vector<Mat3> WorldQueries<Real>::stresses() {
   const FlushDenormals flush;
   ElasticBody<Real>& body = s_.acting_body();
   if (body.has_springs()) return {};
-  const std::vector<Mat3> F = deformation_gradients(s_.model.mesh, inner_positions()),
+  const std::vector<Mat3> F = body.deformation_gradients(s_.state.x.data()),
                           P = body.stresses(s_.state.x.data(), s_.team);
+  const std::size_t points = body.points_per_element();
   std::vector<Mat3> result;
   for (const int file : s_.topology->elements) {
-    const auto t = static_cast<std::size_t>(s_.model.order.new_tet[static_cast<std::size_t>(file)]);
+    const auto t = points * static_cast<std::size_t>(s_.model.order.new_tet[static_cast<std::size_t>(file)]);
     result.push_back(P[t] * F[t].transpose() / F[t].determinant());
+    for (std::size_t q = 1; q < points; ++q) result.back() += P[t + q] * F[t + q].transpose() / F[t + q].determinant();
+    if (points > 1) result.back() /= static_cast<double>(points);
   }
   return result;
 }

@@ -14,6 +14,7 @@ class WorldQueries {
   void write_positions(std::span<const int> nodes, double ahead, std::vector<Vec3f>& out) const;
   void write_field(Field field, std::span<const int> nodes, std::vector<float>& out);
   std::vector<double> volume_ratios();
+  std::vector<double> point_volume_ratios();
   std::vector<Mat3> stresses();
   std::optional<ErrorEstimate> error_estimate();
   std::vector<Vec3> reactions() const;

@@ -1,0 +1,199 @@
+// Worlds of quadratic elements: loads, statics, steps, determinism, snapshots, what they refuse.
+#include <doctest/doctest.h>
+
+#include <heml/mesh/quadratic.hpp>
+#include <numeric>
+
+#include "support.hpp"
+#include "world_support.hpp"
+
+namespace heml::quadratic_world_test {
+
+using namespace heml::test;
+
+namespace {
+
+std::vector<int> end_at(const TetMesh& mesh, double x) {
+  return nodes_where(mesh, [x](const Vec3& X) { return std::abs(X.x() - x) < 1e-9; });
+}
+
+/// A bar along x of quadratic elements, without gravity; its end x = 0 is fixed.
+WorldSetup quadratic_bar(const Vec3& size, const std::array<int, 3>& cells, const Material& material) {
+  WorldSetup setup;
+  setup.mesh = make_box(size, cells);
+  setup.midedges = add_midedge_nodes(setup.mesh);
+  setup.solver.quadratic = true;
+  setup.materials.push_back({std::nullopt, material});
+  setup.boundary.push_back({end_at(setup.mesh, 0)});
+  return setup;
+}
+
+WorldSetup small_bar(const char* law = "neo_hookean") {
+  return quadratic_bar(Vec3(0.1, 0.02, 0.02), {5, 1, 1}, soft(law));
+}
+
+Load on_end(const WorldSetup& setup, Load::Kind kind, const Vec3& vector, double pressure = 0) {
+  Load load;
+  load.kind = kind;
+  load.nodes = end_at(setup.mesh, 0.1);
+  load.vector = vector;
+  load.pressure = pressure;
+  return load;
+}
+
+std::unique_ptr<World> solved(WorldSetup setup, double tolerance = 1e-10) {
+  setup.solver.integrator = Integrator::static_equilibrium;
+  setup.solver.tolerance = tolerance;
+  auto world = make_world(std::move(setup));
+  world->load_to(1);
+  REQUIRE_FALSE(world->halt());
+  return world;
+}
+
+Vec3 sum(const std::vector<Vec3>& list) { return std::accumulate(list.begin(), list.end(), Vec3(Vec3::Zero())); }
+
+double largest_difference(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+  double largest = 0;
+  for (std::size_t n = 0; n < a.size(); ++n) largest = std::max(largest, (a[n] - b[n]).norm());
+  return largest;
+}
+
+}  // namespace
+
+TEST_CASE("quadratic elements: a cantilever of few elements bends as beam theory says") {
+  // 20:1, six tetrahedra through one cell: linear ones are off by half
+  const double L = 1, h = 0.05, young = 1e6, force = -1e-3;
+  WorldSetup setup = quadratic_bar(Vec3(L, h, h), {20, 1, 1}, soft("neo_hookean", young, 0.3));
+  Load load;
+  load.kind = Load::Kind::force;
+  load.nodes = end_at(setup.mesh, L);
+  load.vector = Vec3(0, force, 0);
+  setup.loads.push_back(load);
+  const auto world = solved(setup, 1e-7);  // round-off of a slender beam
+  const double beam = force * L * L * L / (3 * young * h * h * h * h / 12);
+  double sag = 0;
+  for (const int n : load.nodes)
+    sag += (world->positions()[static_cast<std::size_t>(n)].y() - setup.mesh.nodes[static_cast<std::size_t>(n)].y()) /
+           static_cast<double>(load.nodes.size());
+  CHECK(sag == doctest::Approx(beam).epsilon(0.03));
+}
+
+TEST_CASE("quadratic elements: a homogeneous stretch is exact, and all loads reach the support") {
+  for (const auto kind : {Load::Kind::force, Load::Kind::traction, Load::Kind::pressure}) {
+    CAPTURE(static_cast<int>(kind));
+    WorldSetup setup = small_bar();
+    const double area = 0.02 * 0.02;
+    const Vec3 traction(100, -20, 30);
+    setup.loads.push_back(kind == Load::Kind::pressure
+                              ? on_end(setup, kind, Vec3::Zero(), 100)
+                              : on_end(setup, kind, kind == Load::Kind::force ? Vec3(area * traction) : traction));
+    setup.gravity = Vec3(0, 0, -9.81);
+    const auto world = solved(setup);
+    const double weight = 1000 * 0.1 * area * 9.81;
+    const Vec3 reaction = sum(world->reactions());
+    if (kind == Load::Kind::pressure)
+      CHECK(reaction.x() == doctest::Approx(100 * area).epsilon(0.1));  // the end turns and widens
+    else
+      CHECK((reaction - (Vec3(0, 0, weight) - area * traction)).norm() <= 1e-9 * reaction.norm());
+  }
+  // An even force and the traction of the same sum are the same load.
+  WorldSetup forced = small_bar(), pulled = small_bar();
+  forced.loads.push_back(on_end(forced, Load::Kind::force, Vec3(0.04, 0, 0)));
+  pulled.loads.push_back(on_end(pulled, Load::Kind::traction, Vec3(100, 0, 0)));
+  CHECK(largest_difference(solved(forced)->positions(), solved(pulled)->positions()) <= 1e-12);
+  // Uniaxial stress, ends free to narrow: x is stretched evenly.
+  pulled.boundary.clear();
+  const auto on = [&](int axis) {
+    return nodes_where(pulled.mesh, [axis](const Vec3& X) { return std::abs(X[axis]) < 1e-9; });
+  };
+  pulled.loads.push_back(pulled.loads.front());
+  pulled.loads.back().nodes = on(0);
+  pulled.loads.back().vector *= -1;
+  Boundary corner{nodes_where(pulled.mesh, [](const Vec3& X) { return X.norm() < 1e-9; })};
+  pulled.boundary.push_back(corner);
+  const auto world = solved(pulled);
+  for (const double J : world->point_volume_ratios())
+    CHECK(J == doctest::Approx(world->point_volume_ratios().front()).epsilon(1e-9));
+}
+
+TEST_CASE("quadratic elements: pressure that follows the surface converges as Newton's method does") {
+  WorldSetup setup = small_bar();
+  Load load = on_end(setup, Load::Kind::pressure, Vec3::Zero(), 3);
+  load.nodes = nodes_where(setup.mesh, [](const Vec3& X) { return std::abs(X.y() - 0.02) < 1e-9; });
+  setup.loads.push_back(load);
+  const auto world = solved(setup);
+  CHECK(world->solver_stats().iterations <= 40);
+}
+
+TEST_CASE("quadratic elements: implicit and explicit steps agree, whatever the threads") {
+  const auto at_end = [](Integrator integrator, double step, int threads) {
+    WorldSetup setup = small_bar();
+    setup.gravity = Vec3(0, -9.81, 0);
+    setup.solver.integrator = integrator;
+    if (step > 0) setup.solver.step = step;
+    setup.solver.threads = threads;
+    auto world = make_world(std::move(setup));
+    while (world->time() < 0.05 - 1e-9) {
+      world->tick();
+      REQUIRE_FALSE(world->halt());
+    }
+    return world;
+  };
+  const auto reference = at_end(Integrator::verlet, 0, 1);
+  const auto implicit = at_end(Integrator::tr_bdf2, 1e-3, 1);
+  const double motion = largest_difference(reference->positions(), small_bar().mesh.nodes);
+  CHECK(motion > 1e-3);
+  CHECK(largest_difference(reference->positions(), implicit->positions()) <= 0.01 * motion);
+  CHECK(at_end(Integrator::verlet, 0, 3)->state_hash() == reference->state_hash());
+  CHECK(at_end(Integrator::tr_bdf2, 1e-3, 3)->state_hash() == implicit->state_hash());
+}
+
+TEST_CASE("quadratic elements: the live stable step holds in motion, and twice that does not") {
+  const auto run = [](double factor) {
+    WorldSetup setup = small_bar();
+    setup.gravity = Vec3(0, -9.81, 0);
+    if (factor > 0) setup.solver.step = factor * make_world(setup)->stable_step();
+    auto world = make_world(std::move(setup));
+    while (world->time() < 0.3 && !world->halt()) world->tick();
+    return world->halt().has_value();
+  };
+  CHECK_FALSE(run(0));
+  CHECK(run(2));
+}
+
+TEST_CASE("quadratic elements: energy of free motion is kept, and of a snapshot every bit") {
+  WorldSetup setup = small_bar();
+  setup.solver.step = 0.5 * make_world(setup)->stable_step();
+  setup.gravity = Vec3(0, -9.81, 0);
+  auto world = make_world(setup);
+  const auto total = [&] {
+    const Energies e = world->energies();
+    return e.kinetic + e.elastic + e.potential;
+  };
+  double scale = 0, worst = 0;
+  for (int k = 0; k < 400; ++k) {
+    world->tick();
+    scale = std::max(scale, std::abs(world->energies().potential));
+    worst = std::max(worst, std::abs(total()));
+  }
+  CHECK(worst <= 2e-3 * scale);
+  const auto snapshot = world->snapshot();
+  for (int k = 0; k < 10; ++k) world->tick();
+  const auto hash = world->state_hash();
+  CHECK(world->restore(*snapshot).ok());
+  for (int k = 0; k < 10; ++k) world->tick();
+  CHECK(world->state_hash() == hash);
+}
+
+TEST_CASE("quadratic elements: edits are refused and change nothing") {
+  auto world = make_world(small_bar());
+  const auto hash = world->state_hash();
+  RemoveElements remove;
+  remove.which.tets = {0};
+  CHECK_FALSE(world->apply(remove).ok());
+  CHECK_FALSE(world->apply(blade_at(0.05)).ok());
+  CHECK(world->topology()->version == 0);
+  CHECK(world->state_hash() == hash);
+}
+
+}  // namespace heml::quadratic_world_test
