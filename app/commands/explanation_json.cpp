@@ -55,7 +55,7 @@ Json method_json(const Explanation& explained) {
   return {{"asked", integrator_name(method.asked)},
           {"integrator", integrator_name(method.used)},
           {"precision", solver.single_precision ? "float" : "double"},
-          {"element", solver.nodal_pressure ? "nodal_pressure" : "p1"},
+          {"element", solver.element()},
           {"threads", explained.world.threads},
           {"tick", step.tick},
           {"step_given", solver.step.has_value()},

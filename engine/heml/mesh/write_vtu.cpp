@@ -30,26 +30,32 @@ void add_fields(MeshText& out, const std::vector<Field>& fields, std::size_t cou
   }
 }
 
-void add_cells(MeshText& out, const std::vector<Tet>& tets) {
+/// Mid-edge nodes follow the corners in VTK's order: 01, 12, 02, 03, 13, 23.
+void add_cells(MeshText& out, const std::vector<Tet>& tets, const MidEdges& midedges) {
+  constexpr std::array<std::size_t, 6> vtk_edges{0, 3, 1, 2, 4, 5};
+  const bool quadratic = !midedges.empty();
   out.add("<Cells>\n");
   begin_array(out, "Int64", "connectivity");
-  for (const Tet& tet : tets) {
-    out.add_nodes(tet, 0);
+  for (std::size_t t = 0; t < tets.size(); ++t) {
+    out.add_nodes(tets[t], 0);
+    if (quadratic)
+      for (const std::size_t e : vtk_edges) out.add(" {}", midedges[t][e]);
     out.add("\n");
   }
   end_array(out);
   begin_array(out, "Int64", "offsets");
-  for (std::size_t t = 1; t <= tets.size(); ++t) out.add("{}\n", 4 * t);
+  for (std::size_t t = 1; t <= tets.size(); ++t) out.add("{}\n", (quadratic ? 10 : 4) * t);
   end_array(out);
   begin_array(out, "UInt8", "types");
-  for (std::size_t t = 0; t < tets.size(); ++t) out.add("10\n");  // VTK_TETRA
+  for (std::size_t t = 0; t < tets.size(); ++t) out.add("{}\n", quadratic ? 24 : 10);  // VTK_QUADRATIC_TETRA, VTK_TETRA
   end_array(out);
   out.add("</Cells>\n");
 }
 
 }  // namespace
 
-void write_vtu(const std::filesystem::path& path, const TetMesh& mesh, const std::vector<NodeField>& fields) {
+void write_vtu(const std::filesystem::path& path, const TetMesh& mesh, const std::vector<NodeField>& fields,
+               const MidEdges& midedges) {
   MeshText out;
   out.add(head, "UnstructuredGrid");
   out.add("<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n<Points>\n", mesh.nodes.size(),
@@ -61,7 +67,7 @@ void write_vtu(const std::filesystem::path& path, const TetMesh& mesh, const std
   }
   end_array(out);
   out.add("</Points>\n");
-  add_cells(out, mesh.tets);
+  add_cells(out, mesh.tets, midedges);
   out.add("<PointData>\n");
   add_fields(out, fields, mesh.nodes.size());
   out.add("</PointData>\n<CellData>\n");

@@ -1,7 +1,7 @@
 #pragma once
 // Files for ParaView: meshes with fields of nodes and elements (.vtu), and time series of them (.pvd).
 #include <filesystem>
-#include <heml/mesh/tet_mesh.hpp>
+#include <heml/mesh/quadratic.hpp>
 #include <string>
 #include <vector>
 
@@ -15,8 +15,10 @@ struct NodeField {
 };
 
 /// Writes .vtu (ASCII, 17 significant digits) with the mesh's regions and fields, which may have any number of
-/// components, and with fields of nodes. Throws InputError if it cannot be written.
-void write_vtu(const std::filesystem::path& path, const TetMesh& mesh, const std::vector<NodeField>& fields = {});
+/// components, and with fields of nodes; with mid-edge nodes as quadratic cells. Throws InputError if it cannot be
+/// written.
+void write_vtu(const std::filesystem::path& path, const TetMesh& mesh, const std::vector<NodeField>& fields = {},
+               const MidEdges& midedges = {});
 
 /// One file of a time series.
 struct SeriesFile {

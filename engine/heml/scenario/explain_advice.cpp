@@ -19,7 +19,7 @@ double explicit_share(const WorldFacts& world, const SolverSettings& solver) {
 }
 
 void advise_on_locking(const SolverSettings& solver, const MaterialFacts& material, std::vector<Advice>& advice) {
-  if (solver.nodal_pressure || material.poisson < locks) return;
+  if (solver.nodal_pressure || solver.quadratic || material.poisson < locks) return;
   const LawInfo& law = *find_law(material.kernel.law);
   const std::string text = fmt::format(
       "{}: Poisson's ratio is {:.4g} at rest, and linear tetrahedra (\"p1\") are too "
@@ -129,7 +129,9 @@ std::vector<OmittedFeature> omitted_features_of(const Scene& scene, const WorldS
   leave(none([](const Material& m) { return find_law(m.law)->has_fibre; }), "fibres", "no law has them");
   leave(none([](const Material& m) { return !find_law(m.law)->is_continuum; }), "springs",
         "no material is mass_spring");
-  leave(!solver.nodal_pressure, "nodal pressure", "\"element\" is \"p1\": pressure is of each tetrahedron");
+  leave(!solver.nodal_pressure, "nodal pressure",
+        fmt::format("\"element\" is \"{}\": pressure is of each {}", solver.element(),
+                    solver.quadratic ? "integration point" : "tetrahedron"));
   leave(!solver.continuation, "continuation", "off: a state outside a law's range ends the run (exit code 4)");
   leave(!solver.recovery, "recovery", "off: a body that collapses or runs away ends the run (exit code 4)");
   leave(!facts.solver.has_value(), "linear solver",

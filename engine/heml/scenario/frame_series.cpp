@@ -42,11 +42,13 @@ void write_body(const fs::path& path, World& world) {
             {{"displacement", 3, flat(displacement)},
              {"velocity", 3, flat(world.velocities())},
              field_of(world, "stretch", Field::stretch, all),
-             field_of(world, "von_mises", Field::von_mises, all)});
+             field_of(world, "von_mises", Field::von_mises, all)},
+            world.setup().midedges);
 }
 
 void write_surface_mesh(const fs::path& path, World& world) {
-  const BoundaryFaces faces = extract_boundary(with_elements(world.setup().mesh, world.topology()->elements));
+  const BoundaryFaces faces =
+      fine_boundary(with_elements(world.setup().mesh, world.topology()->elements), world.setup().midedges);
   const std::vector<Vec3> positions = world.positions();
   std::vector<int> number(positions.size(), -1), nodes;  // on the surface, in order of appearance
   TriangleMesh surface;

@@ -48,19 +48,20 @@ WorldSetup load_setup(const Scene& scene) { return load_setup(scene, load_mesh(s
 WorldSetup load_setup(const Scene& scene, TetMesh mesh) {
   WorldSetup setup;
   setup.mesh = std::move(mesh);
+  if (scene.solver.quadratic) setup.midedges = add_midedge_nodes(setup.mesh);
   setup.materials = scene.materials;
   resolve_fields(scene.file, setup);
   if (!scene.mesh.refine) check_recorded_mesh(scene, setup.mesh);
   for (std::size_t i = 0; i < scene.boundary.size(); ++i) {
     Boundary boundary = scene.boundary[i].motion;
-    boundary.nodes = select_nodes(scene.boundary[i].where, setup.mesh, scene.file, fmt::format("boundary[{}]", i));
+    boundary.nodes = select_nodes(scene.boundary[i].where, setup, scene.file, fmt::format("boundary[{}]", i));
     setup.boundary.push_back(std::move(boundary));
   }
   const BoundaryFaces faces = scene.loads.empty() ? BoundaryFaces{} : extract_boundary(setup.mesh);
   for (std::size_t i = 0; i < scene.loads.size(); ++i) {
     const std::string place = fmt::format("loads[{}]", i);
     Load load = scene.loads[i].load;
-    load.nodes = select_nodes(scene.loads[i].where, setup.mesh, scene.file, place);
+    load.nodes = select_nodes(scene.loads[i].where, setup, scene.file, place);
     if (load.kind != Load::Kind::force) expect_a_face(load.nodes, faces, scene.file, place);
     setup.loads.push_back(std::move(load));
   }

@@ -155,6 +155,29 @@ void check_energy_laws(const Scene& scene) {
       check(set->material, fmt::format("events: step {}: material", event.tick));
 }
 
+/// Quadratic elements take no springs, and nothing that changes or divides the mesh.
+void check_quadratic(const Scene& scene) {
+  if (!scene.solver.quadratic) return;
+  const auto refuse = [&](const std::string& place) {
+    throw InputError(scene.file, place, "does not go with solver.element p2", "take \"element\": \"p1\"");
+  };
+  if (scene.self_contact) refuse("self_contact");
+  if (scene.tearing) refuse("tearing");
+  if (scene.solver.recovery) refuse("solver.recovery");
+  if (scene.mesh.refine) refuse("mesh.refine");
+  const auto check = [&](const Material& material, const std::string& place) {
+    if (!find_law(material.law)->is_continuum) refuse(place + ".law");
+  };
+  for (std::size_t i = 0; i < scene.materials.size(); ++i)
+    check(scene.materials[i].material, fmt::format("materials[{}]", i));
+  for (const Event& event : scene.events) {
+    const std::string place = fmt::format("events: step {}: ", event.tick);
+    if (const SetMaterial* set = std::get_if<SetMaterial>(&event.command)) check(set->material, place + "material");
+    if (std::holds_alternative<CutTissue>(event.command)) refuse(place + "cut");
+    if (std::holds_alternative<RemoveElements>(event.command)) refuse(place + "remove");
+  }
+}
+
 /// Averaged nodal pressure takes the volume terms of all materials together.
 void check_nodal_pressure(const Scene& scene) {
   if (!scene.solver.nodal_pressure) return;
@@ -229,6 +252,7 @@ Scene parse_scene(std::string_view text, const fs::path& as_if_from) {
   install_script(std::move(script), scene);
   check_nodal_pressure(scene);
   check_energy_laws(scene);
+  check_quadratic(scene);
   check_static(scene);
   return scene;
 }

@@ -82,7 +82,7 @@ void add_tool(const ToolState& tool, Json& report) {
 std::string report_text(World& world, const SolveFacts& facts, const std::string& file) {
   const Energies energies = world.energies();
   const SolverStats work = world.solver_stats();
-  const std::vector<double> J = world.volume_ratios();
+  const std::vector<double> J = world.point_volume_ratios();
   Json report = {{"converged", facts.converged},
                  {"load", work.load},
                  {"time", world.time()},
@@ -104,6 +104,7 @@ std::string report_text(World& world, const SolveFacts& facts, const std::string
   for (const Vec3& force : world.reactions()) report["reaction"].push_back(vector_json(force));
   for (const ToolState& tool : world.tools()) add_tool(tool, report);
   report["nodes"] = world.setup().mesh.nodes.size();
+  report["corner_nodes"] = world.setup().mesh.nodes.size() - count_nodes(world.setup().midedges);
   const std::size_t removed = removed_count(world);
   report["tets"] = world.topology()->elements.size() + removed;
   report["removed"] = removed;

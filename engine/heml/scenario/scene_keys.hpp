@@ -173,7 +173,8 @@ inline constexpr KeyInfo solver[] = {
     {"precision", form::one_of<precision_names>(), "", "", "of the arithmetic"},
     {"threads", form::whole(0, max_threads), "", "", "0: all cores; never changes a bit of the result"},
     {"element", form::one_of<element_names>(), "", "",
-     "linear tetrahedra with a pressure each, or with averaged nodal pressure (near ν = 0.5)"},
+     "linear tetrahedra with a pressure each, or with averaged nodal pressure (near ν = 0.5); `p2`: quadratic "
+     "tetrahedra (`engine/docs/elements.md`)"},
     {"continuation", form::flag, "", "",
      "laws go on past the end of their range; else the run ends there (exit code 4)"},
     {"recovery", form::flag, "", "", "a collapsed body is brought back instead of ending the run; not with `static`"},

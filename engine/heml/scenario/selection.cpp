@@ -65,6 +65,23 @@ std::vector<int> select_nodes(const Selection& where, const TetMesh& mesh, const
   return nodes;
 }
 
+std::vector<int> select_nodes(const Selection& where, const WorldSetup& setup, const std::string& file,
+                              const std::string& place) {
+  std::vector<int> nodes = select_nodes(where, setup.mesh, file, place);
+  if (where.box || where.sphere || setup.midedges.empty()) return nodes;
+  const std::size_t listed = nodes.size();
+  const auto is_listed = [&](int n) {
+    return std::binary_search(nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(listed), n);
+  };
+  for (std::size_t t = 0; t < setup.mesh.tets.size(); ++t)
+    for (std::size_t e = 0; e < tet_edges.size(); ++e)
+      if (is_listed(setup.mesh.tets[t][tet_edges[e][0]]) && is_listed(setup.mesh.tets[t][tet_edges[e][1]]))
+        nodes.push_back(setup.midedges[t][e]);
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
 int nearest_surface_node(const TetMesh& mesh, const Vec3& point) {
   int nearest = 0;
   double least = std::numeric_limits<double>::infinity();

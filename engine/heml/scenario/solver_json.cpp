@@ -62,7 +62,10 @@ SolverSettings solver_from(const JsonCursor& key) {
   object.read("damping", solver.damping);
   if (const auto precision = object.choice("precision")) solver.single_precision = *precision == 1;
   object.read("threads", solver.threads);
-  if (const auto element = object.choice("element")) solver.nodal_pressure = *element == 1;
+  if (const auto element = object.choice("element")) {
+    solver.nodal_pressure = *element == 1;
+    solver.quadratic = *element == 2;
+  }
   object.read("continuation", solver.continuation);
   object.read("recovery", solver.recovery);
   object.read("tolerance", solver.tolerance);
@@ -83,7 +86,7 @@ Json solver_json(const SolverSettings& solver) {
   json["damping"] = solver.damping;
   json["precision"] = precision_names[solver.single_precision ? 1 : 0];
   json["threads"] = solver.threads;
-  json["element"] = element_names[solver.nodal_pressure ? 1 : 0];
+  json["element"] = solver.element();
   json["continuation"] = solver.continuation;
   json["recovery"] = solver.recovery;
   if (solver.tolerance) json["tolerance"] = *solver.tolerance;

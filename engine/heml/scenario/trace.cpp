@@ -62,7 +62,7 @@ void Trace::sample_markers(const World& world) {
 
 void Trace::sample_history(World& world) {
   const Energies energies = world.energies();
-  const std::vector<double> J = world.volume_ratios();
+  const std::vector<double> J = world.point_volume_ratios();
   const auto [least, most] = std::minmax_element(J.begin(), J.end());
   history_rows_ += fmt::format("{:.17g}", world.time());
   for (const double value : {energies.kinetic, energies.elastic, energies.potential, *least, *most})

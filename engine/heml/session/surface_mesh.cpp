@@ -10,7 +10,8 @@ SurfaceMesh build_surface_mesh(const WorldSetup& setup, const Topology& topology
   SurfaceMesh surface_mesh;
   surface_mesh.version = topology.version;
   const bool is_whole = topology.elements.size() == setup.mesh.tets.size();
-  const BoundaryFaces faces = extract_boundary(is_whole ? setup.mesh : with_elements(setup.mesh, topology.elements));
+  const BoundaryFaces faces = is_whole ? fine_boundary(setup.mesh, setup.midedges)
+                                       : extract_boundary(with_elements(setup.mesh, topology.elements));
   std::vector<int> index(setup.mesh.nodes.size(), -1);
   for (const Triangle& face : faces.triangles)
     for (const int n : face) index[static_cast<std::size_t>(n)] = 0;
@@ -64,12 +65,12 @@ void fill_frame(World& world, std::shared_ptr<const SurfaceMesh> surface_mesh, F
   else
     world.write_field(with_stretches ? Field::stretch : Field::none, surface_mesh->nodes, frame.stretches);
   frame.energies = world.energies();
-  const std::vector<double> J = world.volume_ratios();
+  const std::vector<double> J = world.point_volume_ratios();
   const auto [low, high] = std::minmax_element(J.begin(), J.end());
   frame.min_J = *low;
   frame.max_J = *high;
   frame.removed = removed_count(world);
-  frame.elements = J.size() + frame.removed;
+  frame.elements = world.topology()->elements.size() + frame.removed;
   frame.tools = world.tools();
   frame.substeps = world.substeps();
   frame.stable_step = world.stable_step();

@@ -31,7 +31,7 @@ bool apply_word(std::string_view word, Variant& variant) {
     solver.single_precision = word == "float";
     return true;
   }
-  if (word == "p1" || word == "nodal_pressure") {
+  if ((word == "p1" || word == "nodal_pressure") && !solver.quadratic) {
     solver.nodal_pressure = word == "nodal_pressure";
     return true;
   }
