@@ -99,10 +99,10 @@ class Improver {
     return bad;
   }
 
-  void improve_rounds(int rounds) {
+  void improve_rounds(int most) {
     std::size_t fewest = static_cast<std::size_t>(mesh_.count()) + 1;
     int idle = 0;
-    for (int round = 0; round < rounds && idle < max_idle_rounds; ++round) {
+    for (int round = 0; round < most && idle < max_idle_rounds; ++round) {
       const std::vector<int> bad = bad_elements();
       if (bad.empty()) return;
       idle = static_cast<double>(bad.size()) < 0.99 * static_cast<double>(fewest) ? 0 : idle + 1;
@@ -110,7 +110,7 @@ class Improver {
       int changes = 0;
       for (std::size_t k = 0; k < bad.size(); ++k) {
         if (k % 64 == 0)
-          show((round + static_cast<double>(k) / static_cast<double>(bad.size())) / rounds, "improving shapes");
+          show((round + static_cast<double>(k) / static_cast<double>(bad.size())) / most, "improving shapes");
         if (is_bad(bad[k]) && is_worth_trying(bad[k])) changes += try_to_improve(bad[k], round > 0);
       }
       if (changes == 0) return;
