@@ -6,7 +6,7 @@
 namespace heml {
 namespace {
 
-constexpr double explicit_enough = 0.6;                // of real time
+constexpr double explicit_enough = 0.35;                // of real time
 constexpr double explicit_rates[] = {1000, 500, 250};  // Hz; lower ones where ticks would be shorter than stable steps
 constexpr double stable_part = 0.8;                    // of the stable step that tools and motion leave
 constexpr double implicit_enough = 0.7;                // of real time

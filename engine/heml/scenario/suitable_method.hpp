@@ -4,7 +4,7 @@
 // highest rate, up to 60 Hz, at which one iteration fits, and as many iterations as fit. Many short steps err less than
 // few exact ones.
 //
-//   explicit load = rate × steps a tick × seconds a step                     of one core; at most 0.6
+//   explicit load = rate × steps a tick × seconds a step                     of one core; at most 0.35
 //   implicit load = rate × iterations × tetrahedra × seconds a tetrahedron   of one core; at most 0.7
 //
 // The iterations of each linear solve are bounded too (Budget::linear), so slivers do not decide the cost.
