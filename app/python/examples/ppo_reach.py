@@ -1,4 +1,4 @@
-"""Learns heml/Reach-v0 by PPO of stable-baselines3 (extra `ppo`), and compares it with random actions.
+"""Learns heml/Reach-v0 by PPO of stable-baselines3 (pip install stable-baselines3), and compares it with random actions.
 
     python ppo_reach.py [--steps 60000] [--episodes 20]
 """
