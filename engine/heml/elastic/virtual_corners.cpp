@@ -59,7 +59,9 @@ void VirtualCorners<Real>::positions(const Real* x, std::vector<Real>& y, Thread
     for (std::size_t t = begin; t < end; ++t) {
       Real at[10][3], out[16][3] = {};
       for (std::size_t a = 0; a < 10; ++a)
-        for (std::size_t i = 0; i < 3; ++i) at[a][i] = x[3 * static_cast<std::size_t>(nodes_[t][a]) + i];
+        for (std::size_t i = 0; i < 3; ++i)
+          at[a][i] =
+              x[3 * static_cast<std::size_t>(nodes_[t][a]) + i] - x[3 * static_cast<std::size_t>(nodes_[t][0]) + i];
 #pragma GCC unroll 64
       for (const Product& p : products)
         for (std::size_t i = 0; i < 3; ++i) out[p.corner][i] += static_cast<Real>(p.weight) * at[p.node][i];

@@ -24,7 +24,8 @@ class VirtualCorners {
   /// slots of one group.
   void follow(const std::vector<ElementGroup<Real>*>& groups);
 
-  /// Bx, 3 a virtual corner; x: 3 #V.
+  /// Bx, 3 a virtual corner, of each element relative to its first node: edges keep the digits that sums of whole
+  /// coordinates would lose. x: 3 #V.
   void positions(const Real* x, std::vector<Real>& y, ThreadTeam& team) const;
   std::vector<Real> positions(const Real* x) const;
   /// Writes Bᵀh into f (3 #V); h: corner forces of all slots.

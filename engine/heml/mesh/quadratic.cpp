@@ -64,12 +64,13 @@ TetMesh virtual_tets(const TetMesh& mesh, const MidEdges& midedges) {
   result.source = mesh.source;
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
     const std::array<int, 10> nodes = quadratic_nodes(mesh.tets[t], midedges[t]);
+    const Vec3& origin = mesh.nodes[static_cast<std::size_t>(nodes[0])];
     for (std::size_t q = 0; q < element_points; ++q) {
       const auto first = static_cast<int>(result.nodes.size());
       for (std::size_t i = 0; i < 4; ++i) {
         Vec3& corner = result.nodes.emplace_back(Vec3::Zero());
         for (const auto& [node, weight] : virtual_corner(q, i))
-          corner += weight * mesh.nodes[static_cast<std::size_t>(nodes[node])];
+          corner += weight * (mesh.nodes[static_cast<std::size_t>(nodes[node])] - origin);
       }
       result.tets.push_back({first, first + 1, first + 2, first + 3});
     }

@@ -59,8 +59,8 @@ MidEdges add_midedge_nodes(TetMesh& mesh);
 /// How many different nodes there are.
 std::size_t count_nodes(const MidEdges& midedges);
 
-/// The integration points as linear tetrahedra, 4 #T, on virtual nodes of their own, 16 #T. Regions and fields are
-/// those of the elements.
+/// The integration points as linear tetrahedra, 4 #T, on virtual nodes of their own, 16 #T, of each element
+/// relative to its first node. Regions and fields are those of the elements.
 TetMesh virtual_tets(const TetMesh& mesh, const MidEdges& midedges);
 
 /// Eight linear tetrahedra an element on the same nodes, for preconditioners and drawing.
