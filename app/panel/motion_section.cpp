@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <app/panel/motion_section.hpp>
-#include <app/panel/quantity.hpp>
 #include <array>
 #include <cmath>
 #include <heml/scenario/suitable_method.hpp>
@@ -22,6 +21,9 @@ const std::array<Direction, 6>& directions() {
                                              {"front (+z)", {0, 0, 1}}}};
   return all;
 }
+
+/// "1000 Hz, 1 ms".
+std::string name_of_rate(double rate) { return fmt::format("{:.4g} Hz, {:.3g} ms", rate, 1e3 / rate); }
 
 }  // namespace
 
@@ -108,19 +110,19 @@ void MotionSection::draw_rate(Rows& rows, PanelActions& out) {
   int chosen = -1;
   for (const double rate : rates) {
     if (std::abs(rate - rate_) < 1e-6 * rate) chosen = static_cast<int>(names.size());
-    names.push_back(fmt::format("{:.4g} Hz", rate));
+    names.push_back(name_of_rate(rate));
   }
   if (chosen < 0) {
     chosen = static_cast<int>(names.size());
-    names.push_back(fmt::format("{:.4g} Hz", rate_));
+    names.push_back(name_of_rate(rate_));
   }
   if (rows.choice({"Rate",
-                   "Ticks of a simulated second, Hz. Explicit methods divide a tick into stable steps; implicit ones "
+                   "Ticks of a simulated second, Hz, and the length of one. Explicit methods divide a tick into stable "
+                   "steps; implicit ones "
                    "take a step a tick: fewer cost less and damp more."},
                   chosen, names) &&
       chosen < static_cast<int>(rates.size()))
     send(SetRate{rates[static_cast<std::size_t>(chosen)]}, out);
-  rows.value({"Step", "Length of a tick, s: 1 / rate."}, quantity(1 / rate_, "s"));
 }
 
 void MotionSection::draw_budget(Rows& rows, PanelActions& out) {

@@ -221,8 +221,8 @@ void Panel::draw_controls(const Frame& frame, bool with_readings, PanelActions& 
       if (rows_.section("Engine")) draw_engine(rows_, frame, history_);
       draw_accuracy(frame);
     }
-    if (rows_.section("Compare", false)) comparisons_.draw(rows_, frame, out);
     if (rows_.section("View")) view_.draw(rows_, pressed_, out);
+    if (rows_.section("Compare", false)) comparisons_.draw(rows_, frame, out);
     if (rows_.section("Actions", false)) draw_undo_list(rows_, frame, out);
     controls_height_ = header_height + ImGui::GetCursorPosY() + ImGui::GetStyle().WindowPadding.y;
     ImGui::EndChild();

@@ -26,7 +26,7 @@ TEST_CASE("rate and budget are chosen and written into a saved scene, and follow
   driver.panel.write_into(unchanged);
   CHECK(unchanged.solver.step == 0.002);
   CHECK_FALSE(unchanged.solver.budget);
-  const auto rate = driver.choose("Rate", "30 Hz");
+  const auto rate = driver.choose("Rate", "30 Hz, 33.3 ms");
   REQUIRE(rate.commands.size() == 1);
   CHECK(std::get<SetRate>(rate.commands[0]).rate == 30);
   const auto budget = driver.choose("Budget", "2 iterations");

@@ -33,7 +33,7 @@ TEST_CASE("the reset key sends a reset") {
 }
 
 TEST_CASE("buttons do what their keys do") {
-  Driver driver(small_scene(), 1280, 820);
+  Driver driver(small_scene(), 1280, 900);
   CHECK(driver.click("Pause", 38).requests == std::vector{Request::pause});
   CHECK(driver.click("Step", 75).requests == std::vector{Request::step});
   const auto undo = driver.click("Undo", 112), redo = driver.click("Redo", 149);
@@ -195,7 +195,7 @@ TEST_CASE("a gravity along no axis keeps its direction") {
 }
 
 TEST_CASE("the first click on a view saves it and the next restores it") {
-  Driver driver(small_scene(), 1280, 820);
+  Driver driver(small_scene(), 1280, 900);
   CHECK(driver.click("2", 180).save_view == 1u);
   driver.panel.view().set_saved(1, true);
   const auto again = driver.click("2", 180);
@@ -206,7 +206,7 @@ TEST_CASE("the first click on a view saves it and the next restores it") {
 }
 
 TEST_CASE("the video button starts and stops the recording") {
-  Driver driver(small_scene(), 1280, 820);
+  Driver driver(small_scene(), 1280, 900);
   CHECK(driver.click("Record video", 245).requests == std::vector{Request::record_video});
   driver.panel.view().set_recorded_frames(12);
   CHECK(driver.click("Stop recording", 245).requests == std::vector{Request::record_video});
