@@ -12,7 +12,7 @@ import pytest
 from heml import study
 
 root = Path(__file__).parents[3]
-program = os.environ.get("HEML_PROGRAM")
+program = os.environ.get("HEML_BINARY", str(root / "build/release/app/heml"))
 
 
 def test_the_number_of_cases_is_that_of_the_command():
@@ -33,13 +33,14 @@ def results(folder):
     return {line["key"]: {k: v for k, v in line["result"].items() if k != "seconds"} for line in lines}
 
 
-@pytest.mark.skipif(not program, reason="HEML_PROGRAM is not set")
+@pytest.mark.skipif(not Path(program).exists(), reason=f"needs the program {program}")
 def test_the_same_results_as_on_one_machine(tmp_path):
     pytest.importorskip("dask.distributed")
     pytest.importorskip("pandas")
-    chosen = ["stability", "--quick", "--case", "1", "--case", "2", "--out"]
-    alone = subprocess.run([program, "study", *chosen, tmp_path / "alone"], capture_output=True)
-    spread = subprocess.run([sys.executable, "-m", "heml.study", *chosen, tmp_path / "spread"], capture_output=True)
-    assert spread.returncode == alone.returncode
+    chosen = ["stability", "--quick", "--case", "1", "--case", "2"]
+    alone = subprocess.run([program, "study", *chosen, "--out", tmp_path / "alone"], capture_output=True)
+    chosen += ["--program", program, "--out", tmp_path / "spread"]
+    spread = subprocess.run([sys.executable, "-m", "heml.study", *chosen], capture_output=True, text=True)
+    assert spread.returncode == alone.returncode, spread.stderr
     assert results(tmp_path / "spread") == results(tmp_path / "alone")
     assert (tmp_path / "spread/cells.csv").read_text() == (tmp_path / "alone/cells.csv").read_text()
