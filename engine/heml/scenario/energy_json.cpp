@@ -13,7 +13,8 @@ namespace heml {
 void read_energy(const JsonCursor& entry, Material& material) {
   std::vector<std::string> names;
   if (const auto parameters = entry.find("parameters")) {
-    if (!parameters->json().is_object()) parameters->refuse("an object: a number for each name of the expression");
+    if (!parameters->json().is_object())
+      parameters->refuse("must be an object: a number for each name of the expression");
     for (const auto& [name, value] : parameters->json().items()) {
       const JsonCursor key = (*parameters)[name];
       if (const std::string problem = energy_name_problem(name); !problem.empty())
@@ -38,7 +39,7 @@ void read_energy(const JsonCursor& entry, Material& material) {
 void warn_energy(const JsonCursor& entry, const Material& material) {
   const auto point = make_material_point(material, false);
   const Mat3 I = Mat3::Identity();
-  const std::string place = fmt::format("{}: {}", entry.file(), entry.place());
+  const std::string place = entry.place().empty() ? entry.file() : fmt::format("{}: {}", entry.file(), entry.place());
   if (!point->valid(I)) return warn("{}: the energy is not defined at rest", place);
   const SmallStrainModuli moduli = small_strain_moduli(material);
   const double stress = point->first_piola(I).cwiseAbs().maxCoeff();

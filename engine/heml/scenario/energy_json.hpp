@@ -8,7 +8,7 @@ namespace heml {
 /// Reads law and parameters of an entry whose law is "energy". Throws InputError with the column in the expression.
 void read_energy(const JsonCursor& entry, Material& material);
 
-/// Warns of stress at rest and of a shear modulus at rest that is not positive. where: the entry, for the message.
+/// Warns of stress at rest and of a shear modulus at rest that is not positive.
 void warn_energy(const JsonCursor& entry, const Material& material);
 
 /// Why the world cannot run a material by expression with these settings; empty if it can, or is of another law.
