@@ -149,7 +149,7 @@ Json preset_json(const Preset& preset) {
 }
 
 constexpr std::string_view energy_meaning =
-    "A law of one's own: its energy W (Pa) as an expression of invariants, stretches and named parameters";
+    "A law of one's own: W (Pa) as an expression of invariants, stretches and parameters";
 
 void print_energy() {
   fmt::print("\n  energy: {}\n", energy_meaning);
