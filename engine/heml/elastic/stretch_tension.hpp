@@ -101,7 +101,9 @@ Real element_frequency_bound(const L& law, const ElementKinematics<Real>& kinema
                              Real gamma, Real density) {
   const ElementStretchTangent<Real> element(law, kinematics, rest);
   const auto& tangent = element.tangent();
-  const auto &state = tangent.state, &second = tangent.second, &theta = tangent.theta;
+  const auto& state = tangent.state;
+  const auto& second = tangent.second;
+  const Real* theta = tangent.theta;
   const auto sums = corner_sums(kinematics, rest);
   const auto positive = [](Real value) { return std::max(value, Real(0)); };
   const Real *c = state.e.value, *h = state.first.h, J = kinematics.at.J, wJ = state.first.wJ;
