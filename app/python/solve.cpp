@@ -10,6 +10,7 @@
 #include <heml/base/error.hpp>
 #include <heml/materials/point.hpp>
 #include <heml/scenario/material_json.hpp>
+#include <heml/scenario/report.hpp>
 #include <heml/scenario/solve.hpp>
 #include <limits>
 

@@ -2,12 +2,13 @@
 // Runs a scene to its end without drawing, and writes the results.
 #include <filesystem>
 #include <functional>
-#include <heml/scenario/report.hpp>
 #include <heml/scenario/scene.hpp>
 #include <heml/world/world.hpp>
 #include <optional>
 
 namespace heml {
+
+struct SolveFacts;  // report.hpp
 
 struct SolveResult {
   std::optional<StopReason> halt;  ///< why it stopped early; results up to there are written all the same

@@ -1,7 +1,7 @@
 #pragma once
 // Frame: a snapshot of the body at one tick, published by the engine for viewers. Immutable once published.
 #include <array>
-#include <heml/session/undo_list.hpp>
+#include <heml/world/command.hpp>
 #include <heml/world/step_doubling.hpp>
 #include <memory>
 #include <optional>
@@ -41,6 +41,15 @@ struct Pace {
 /// Between corresponding nodes of two bodies, m.
 struct Distance {
   double mean = 0, max = 0;
+};
+
+/// Undo and redo: the actions by name, and the settings that a step among them has restored. Immutable and shared by
+/// frames until it changes.
+struct UndoList {
+  std::vector<std::string> past;    ///< names of the actions that can be undone, oldest first
+  std::vector<std::string> future;  ///< of those that can be redone, next first
+  long steps = 0;                   ///< steps back and forth since the start
+  std::vector<Command> settings;    ///< after the last of them: commands that set what holds since
 };
 
 struct Frame {

@@ -18,6 +18,7 @@
 #include <heml/session/step_doubling_scheduler.hpp>
 #include <heml/session/surface_mesh.hpp>
 #include <heml/session/thread_balance.hpp>
+#include <heml/session/undo_list.hpp>
 #include <mutex>
 #include <thread>
 
