@@ -1,6 +1,7 @@
-// Loads scenes made from seeds (scene_generator.hpp) with one allocation failing, the n-th for many n: this ends in
-// std::bad_alloc or InputError, or goes well, and the sanitizers find neither a leak nor worse. A program of its own,
-// since it replaces operator new.
+// Makes worlds of scenes from seeds (scene_generator.hpp) and steps them with one allocation failing, the n-th for many
+// n: this ends in std::bad_alloc or InputError, or goes well, and the sanitizers find neither a leak nor worse. A
+// program of its own, since it replaces operator new. The text is read before: the JSON library allocates in its
+// destructors and does not survive a failure.
 //
 //   allocation_fuzz [--seconds S] [--first SEED]
 #include <fmt/format.h>
@@ -60,25 +61,26 @@ using Clock = std::chrono::steady_clock;
 
 enum class Outcome { loaded, refused, out_of_memory };
 
-long failing = -1;  // the allocation that fails now, for whoever sees the program end
-std::uint64_t seed = 1;
+long failing = -1;        // the allocation that fails now, for whoever sees the program end
+std::uint64_t tried = 1;  // the seed
 
 [[noreturn]] void tell_and_end() {
   allowed = -1;
-  fmt::print(stderr, "failure: terminated as allocation {} of seed {} failed\n", failing, seed);
+  fmt::print(stderr, "failure: terminated as allocation {} of seed {} failed\n", failing, tried);
   std::abort();
 }
 
-/// Loads a scene with the n-th allocation failing; n < 0: none.
-Outcome load(const std::string& text, const fs::path& file, long n) {
+/// Makes the scene's world and steps it with the n-th allocation failing; n < 0: none.
+Outcome load(const Scene& scene, long n) {
   failing = n;
   made = 0;
   allowed = n;
   Outcome outcome = Outcome::loaded;
   try {
-    Scene scene = parse_scene(text, file);
-    scene.solver.threads = 1;
-    load_world(scene);
+    const std::unique_ptr<World> world = load_world(scene);
+    for (const Event& event : scene.events)
+      if (!world->halt()) static_cast<void>(world->apply(event.command));
+    for (int tick = 0; tick < 2 && !world->halt(); ++tick) world->tick();
   } catch (const InputError&) {
     outcome = Outcome::refused;
   } catch (const std::bad_alloc&) {
@@ -95,19 +97,26 @@ int run(double seconds) {
   write_small_meshes(folder);
   const auto begin = Clock::now();
   long scenes = 0, loads = 0, ended = 0;
-  for (; std::chrono::duration<double>(Clock::now() - begin).count() < seconds; ++seed) {
-    const std::string text = scene_of_seed(seed);
+  for (; std::chrono::duration<double>(Clock::now() - begin).count() < seconds; ++tried) {
+    const std::string text = scene_of_seed(tried);
     const fs::path file = folder / "scene.json";
-    if (load(text, file, -1) != Outcome::loaded) continue;  // also fills what is read once
-    load(text, file, -1);
+    Scene scene;
+    try {
+      scene = parse_scene(text, file);
+    } catch (const InputError&) {
+      continue;
+    }
+    scene.solver.threads = 1;
+    if (load(scene, -1) != Outcome::loaded) continue;  // also fills what is read once
+    load(scene, -1);
     const long count = made;
     ++scenes;
     const long stride = 1 + count / 60;
-    for (long n = static_cast<long>(seed) % stride; n < count; n += stride, ++loads)
-      ended += load(text, file, n) == Outcome::out_of_memory;
+    for (long n = static_cast<long>(tried) % stride; n < count; n += stride, ++loads)
+      ended += load(scene, n) == Outcome::out_of_memory;
   }
   fs::remove_all(folder);
-  fmt::print("{} scenes loaded {} times with an allocation failing; {} ended by it\n", scenes, loads, ended);
+  fmt::print("{} scenes made {} times with an allocation failing; {} ended by it\n", scenes, loads, ended);
   return ended == 0;
 }
 
@@ -119,7 +128,7 @@ int main(int argc, char** argv) {
   for (int k = 1; k + 1 < argc; k += 2) {
     const std::string name = argv[k];
     if (name == "--seconds") seconds = std::stod(argv[k + 1]);
-    if (name == "--first") heml::fuzz::seed = std::stoull(argv[k + 1]);
+    if (name == "--first") heml::fuzz::tried = std::stoull(argv[k + 1]);
   }
   return heml::fuzz::run(seconds);
 }

@@ -129,6 +129,23 @@ TEST_CASE("history: a grasp with its moves, a stroke, a probe's way and a dragge
   CHECK(world->actions().future.empty());
 }
 
+TEST_CASE("history: edits are undone as they stood at the moment that came back") {
+  const auto world = make_world(bar_in_contact(Integrator::verlet, false));
+  const auto elements = [&] { return world->topology()->elements.size(); };
+  const std::size_t whole = elements();
+  expect(world->apply(RemoveElements{{{0}, {}, {}, {}}}));
+  expect(world->apply(RemoveElements{{{1}, {}, {}, {}}}));
+  REQUIRE(elements() == whole - 2);
+  expect(world->apply(StepHistory{-1}));
+  expect(world->apply(Undo{}));
+  CHECK(elements() == whole);
+  CHECK(!world->apply(Undo{}).ok());
+  expect(world->apply(StepHistory{-1}));
+  CHECK(elements() == whole - 1);
+  expect(world->apply(Undo{}));
+  CHECK(elements() == whole);
+}
+
 TEST_CASE("history: is bounded, refuses other numbers, and is not kept where no one asks for it") {
   WorldSetup setup = bar_in_contact(Integrator::verlet, false);
   const auto world = make_world(setup);
