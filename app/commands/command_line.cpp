@@ -51,6 +51,13 @@ constexpr CommandDefinition definitions[] = {
      "Give one of --within and --error. Close other programs first: what is fast enough depends on this machine and\n"
      "its load.",
      define_tune},
+    {"fit", "finds numbers of a scene with which its nodes rest where they were measured",
+     "Examples:\n"
+     "  heml fit kidney.json --data measured.csv --parameter materials[0].young\n"
+     "  heml fit kidney.json --data measured.csv --parameter materials[0].young=8000 --parameter loads[0].force[1]\n"
+     "measured.csv has the header node,x,y,z or node,x,y,z,sigma (metres; sigma: standard deviation of a coordinate).\n"
+     "Loads act in full, events are left out. Standard errors and intervals are linearised at the solution.",
+     define_fit},
     {"haptics", "computes the force that a recorded motion of a haptic handle meets, every millisecond",
      "The force comes each millisecond, however slow the engine.", define_haptics},
     {"bench", "measures speed on this machine, against a naive loop",

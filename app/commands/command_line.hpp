@@ -51,6 +51,7 @@ Action define_mesh(CLI::App& command);
 Action define_refine(CLI::App& command);
 
 Action define_tune(CLI::App& command);
+Action define_fit(CLI::App& command);
 Action define_bench(CLI::App& command);
 Action define_study(CLI::App& command);
 Action define_reference(CLI::App& command);

@@ -120,6 +120,14 @@ struct TuneArguments {
 };
 int tune_scene(const TuneArguments& arguments);  ///< exit_check_failed: no method reaches the goal
 
+struct FitArguments {
+  std::string scene;
+  std::filesystem::path data;           ///< read_places_csv()
+  std::vector<std::string> parameters;  ///< PATH or PATH=NUMBER
+  std::filesystem::path out;            ///< empty: NAME_fitted.json here
+};
+int fit(const FitArguments& arguments);
+
 struct RefineArguments {
   std::string scene;
   std::filesystem::path out;

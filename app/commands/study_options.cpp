@@ -122,6 +122,21 @@ Action define_tune(CLI::App& command) {
   return [given] { return tune_scene(*given); };
 }
 
+Action define_fit(CLI::App& command) {
+  const auto given = std::make_shared<FitArguments>();
+  command.add_option("SCENE", given->scene, "scene, recording, mesh or surface")->required();
+  command.add_option("--data", given->data, "measured places of nodes, CSV")->type_name("FILE")->required();
+  command
+      .add_option("--parameter", given->parameters,
+                  "a number to fit, by its path in the scene, perhaps with the value to begin at; once for each")
+      ->type_name("PATH[=VALUE]")
+      ->required()
+      ->allow_extra_args(false);
+  command.add_option("--out", given->out, "the scene with the fitted numbers; else NAME_fitted.json")
+      ->type_name("FILE");
+  return [given] { return fit(*given); };
+}
+
 Action define_bench(CLI::App& command) {
   const auto given = std::make_shared<BenchArguments>();
   command.add_option("SUITE", given->suite, "one of those below; none: all");

@@ -57,6 +57,7 @@ class Files(ProgramCase):
                 (["replay", "frame_00000.png", "--frames", "."], "frame_00000.png"),
                 (["refine", "scene.json", "--out", "."], "scene.json"),
                 (["tune", "scene.json", "--within", "1s", "--quick", "--out", "scene.json"], "scene.json"),
+                (["fit", "scene.json", "--data", "m.csv", "--parameter", "gravity[1]", "--out", "m.csv"], "m.csv"),
                 (["haptics", "scene.json", "--hand", "hand.csv", "--out", "hand.csv"], "hand.csv"),
                 (["probe", "m.json", "--F", "F.csv", "--out", "F.csv"], "F.csv"),
                 (["probe", "m.json", "--F", "F.csv", "--out", "m.json"], "m.json"),

@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <heml/materials/fit.hpp>
 #include <heml/materials/parameter_slots.hpp>
+#include <heml/math/least_squares.hpp>
 #include <limits>
 #include <numeric>
 
@@ -12,11 +12,6 @@ namespace heml {
 namespace {
 
 using Vector = Eigen::VectorXd;
-using Matrix = Eigen::MatrixXd;
-
-constexpr int max_iterations = 150;
-constexpr double difference_step = 1e-5;     // of central differences, relative
-constexpr double min_singular_value = 1e-7;  // relative; below it the data do not determine a direction
 
 /// One fitted variable, and how it is written into a material.
 struct Variable {
@@ -62,9 +57,9 @@ std::vector<Variable> variables_of(const Material& material, const MeasuredTest&
 }
 
 /// The least-squares problem in the variables u = ln |value| where the sign is fixed, else value / scale.
-class LeastSquares {
+class CurveMisfit {
  public:
-  LeastSquares(const Material& material, const MeasuredTest& test, const MeasuredCurve& data, const FitOptions& options)
+  CurveMisfit(const Material& material, const MeasuredTest& test, const MeasuredCurve& data, const FitOptions& options)
       : material_(material), test_(test), data_(data), variables_(variables_of(material, test, options)) {
     const double modulus = small_strain_moduli(material).shear;
     for (const Variable& v : variables_)
@@ -109,20 +104,6 @@ class LeastSquares {
     return r.allFinite() ? std::optional(r) : std::nullopt;
   }
 
-  /// ∂r/∂u by central differences, one-sided where the law is undefined on the other side.
-  std::optional<Matrix> jacobian(const Vector& u, const Vector& r) const {
-    Matrix J(r.size(), u.size());
-    for (Eigen::Index i = 0; i < u.size(); ++i) {
-      const double h = difference_step * std::max(1.0, std::abs(u[i]));
-      Vector above = u, below = u;
-      above[i] += h, below[i] -= h;
-      const auto high = residuals(above), low = residuals(below);
-      if (!high && !low) return std::nullopt;
-      J.col(i) = ((high ? *high : r) - (low ? *low : r)) / (high && low ? 2 * h : h);
-    }
-    return J;
-  }
-
  private:
   const Material& material_;
   const MeasuredTest& test_;
@@ -130,75 +111,6 @@ class LeastSquares {
   std::vector<Variable> variables_;
   std::vector<double> scale_;
 };
-
-/// Final state of the iteration.
-struct FitIterate {
-  Vector u, r;
-  Matrix J;
-  int iterations = 0;
-  bool converged = false;
-};
-
-FitIterate levenberg_marquardt(const LeastSquares& problem, const std::function<void(double)>& progress) {
-  FitIterate at{problem.start(), {}, {}};
-  at.r = *problem.residuals(at.u);
-  double damping = 1e-3;
-  for (; at.iterations < max_iterations && !at.converged; ++at.iterations) {
-    if (progress) progress(static_cast<double>(at.iterations) / max_iterations);
-    const auto J = problem.jacobian(at.u, at.r);
-    if (!J) break;
-    at.J = *J;
-    const Matrix A = at.J.transpose() * at.J;
-    const Vector g = at.J.transpose() * at.r, diagonal = A.diagonal().cwiseMax(1e-12 * A.diagonal().maxCoeff());
-    bool better = false;
-    while (!better && damping < 1e12) {
-      Matrix damped = A;
-      damped.diagonal() += damping * diagonal;
-      const Vector step = damped.ldlt().solve(-g), next = at.u + step;
-      const auto r = step.allFinite() && step.cwiseAbs().maxCoeff() < 5 ? problem.residuals(next) : std::nullopt;
-      better = r && r->squaredNorm() < at.r.squaredNorm();
-      if (!better) {
-        damping *= 4;
-        continue;
-      }
-      at.converged = at.r.squaredNorm() - r->squaredNorm() <= 1e-14 * at.r.squaredNorm() &&
-                     step.norm() <= 1e-8 * (1 + at.u.norm());
-      at.u = next;
-      at.r = *r;
-      damping = std::max(damping / 9, 1e-12);
-    }
-    if (!better) at.converged = true;  // no step downhill is left within round-off
-  }
-  return at;
-}
-
-/// Standard errors in u from the covariance s² (JᵀJ)⁻¹, and the undetermined (open) variables: those with a component
-/// in a direction along which the residuals do not change.
-struct Certainty {
-  Vector error;
-  std::vector<bool> open;
-};
-
-Certainty certainty(const FitIterate& end) {
-  const Eigen::Index n = end.u.size(), surplus = end.r.size() - n;
-  const double variance = surplus > 0 ? end.r.squaredNorm() / static_cast<double>(surplus) : 0;
-  Vector norms = end.J.colwise().norm();
-  const double largest = norms.maxCoeff();
-  norms = norms.unaryExpr([&](double x) { return x > 1e-12 * largest ? x : 1.0; });
-  const Eigen::JacobiSVD<Matrix> svd(end.J * norms.cwiseInverse().asDiagonal(), Eigen::ComputeThinV);
-  Certainty result{Vector::Zero(n), std::vector<bool>(static_cast<std::size_t>(n), false)};
-  for (Eigen::Index k = 0; k < n; ++k) {
-    const double sigma = k < svd.singularValues().size() ? svd.singularValues()[k] : 0;
-    const bool open = !(sigma > min_singular_value * svd.singularValues()[0]);
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const double share = svd.matrixV()(i, k);
-      if (open && std::abs(share) > 0.05) result.open[static_cast<std::size_t>(i)] = true;
-      if (!open) result.error[i] += variance * share * share / (sigma * sigma * norms[i] * norms[i]);
-    }
-  }
-  result.error = result.error.cwiseSqrt();
-  return result;
-}
 
 }  // namespace
 
@@ -239,8 +151,11 @@ std::string fit_problem(const Material& material, const MeasuredTest& test, cons
 
 FitResult fit_material(const Material& material, const MeasuredTest& test, const MeasuredCurve& data,
                        const FitOptions& options, const std::function<void(double)>& progress) {
-  const LeastSquares problem(material, test, data, options);
-  const FitIterate end = levenberg_marquardt(problem, progress);
+  const CurveMisfit problem(material, test, data, options);
+  LeastSquaresOptions search;
+  search.progress = progress;
+  const LeastSquaresFit end =
+      minimise_squares({[&](const Vector& u) { return problem.residuals(u); }}, problem.start(), search);
   const Certainty certain = certainty(end);
   FitResult fit;
   fit.material = problem.material(end.u);
@@ -248,7 +163,7 @@ FitResult fit_material(const Material& material, const MeasuredTest& test, const
   fit.converged = end.converged;
   for (std::size_t i = 0; i < problem.size(); ++i) {
     const Variable& v = problem.variables()[i];
-    FittedParameter p{v.name, v.unit, problem.value(i, end.u), 0, !certain.open[i]};
+    FittedParameter p{v.name, v.unit, problem.value(i, end.u), 0, !certain.undetermined[i]};
     p.standard_error = p.determined ? certain.error[static_cast<Eigen::Index>(i)] * problem.value_per_u(i, end.u)
                                     : std::numeric_limits<double>::infinity();
     if (p.standard_error > std::abs(p.value)) p.determined = false;

@@ -1,6 +1,5 @@
 #pragma once
-// Fits the parameters of a law to measured curves: nonlinear least squares by the Levenberg-Marquardt method
-// (D. W. Marquardt: An Algorithm for Least-Squares Estimation of Nonlinear Parameters. J. SIAM 11 (2), 1963).
+// Fits the parameters of a law to measured curves (math/least_squares.hpp).
 #include <functional>
 #include <heml/materials/test_bench.hpp>
 #include <string>

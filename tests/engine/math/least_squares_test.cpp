@@ -1,0 +1,58 @@
+// Nonlinear least squares against closed forms and tables.
+#include <doctest/doctest.h>
+
+#include <Eigen/Dense>
+#include <heml/math/least_squares.hpp>
+
+namespace heml::least_squares_test {
+
+using Eigen::VectorXd;
+
+TEST_CASE("least squares: a line through points has the value, errors and residuals of linear regression") {
+  const VectorXd x = VectorXd::LinSpaced(9, 0, 4);
+  const VectorXd y = (1.5 + 0.7 * x.array() + 0.1 * (5 * x.array()).sin()).matrix();
+  const LeastSquaresFit fit = minimise_squares(
+      {[&](const VectorXd& u) { return (u[0] + u[1] * x.array() - y.array()).matrix().eval(); }}, VectorXd::Zero(2));
+  Eigen::MatrixXd A(9, 2);
+  A << VectorXd::Ones(9), x;
+  const VectorXd exact = (A.transpose() * A).inverse() * A.transpose() * y;
+  CHECK(fit.converged);
+  CHECK((fit.u - exact).norm() < 1e-9);
+  const Eigen::MatrixXd inverse = (A.transpose() * A).inverse();
+  const double variance = (A * exact - y).squaredNorm() / 7;
+  const Certainty estimated = certainty(fit), given = certainty(fit, 4);
+  for (int i = 0; i < 2; ++i) {
+    CHECK(estimated.error[i] == doctest::Approx(std::sqrt(variance * inverse(i, i))).epsilon(1e-6));
+    CHECK(given.error[i] == doctest::Approx(2 * std::sqrt(inverse(i, i))).epsilon(1e-6));
+    CHECK(!given.undetermined[static_cast<std::size_t>(i)]);
+  }
+}
+
+TEST_CASE("least squares: a curved valley is followed to its end, round where residuals are undefined") {
+  const auto valley = [](const VectorXd& u) -> std::optional<VectorXd> {
+    if (u[0] < -1.5) return std::nullopt;
+    return VectorXd{{10 * (u[1] - u[0] * u[0]), 1 - u[0]}};
+  };
+  const LeastSquaresFit fit = minimise_squares({valley}, VectorXd{{-1.2, 1.0}});
+  CHECK(fit.converged);
+  CHECK((fit.u - VectorXd::Ones(2)).norm() < 1e-8);
+}
+
+TEST_CASE("least squares: variables that the data tell only together are undetermined, others are not") {
+  const auto product = [](const VectorXd& u) -> std::optional<VectorXd> {
+    return VectorXd{{u[0] + u[1] - 3, 2 * (u[0] + u[1]) - 6.1, u[2] - 1}};
+  };
+  const LeastSquaresFit fit = minimise_squares({product}, VectorXd::Zero(3));
+  const Certainty certain = certainty(fit, 1);
+  CHECK(certain.undetermined == std::vector<bool>{true, true, false});
+  CHECK(certain.error[2] == doctest::Approx(1).epsilon(1e-6));
+}
+
+TEST_CASE("least squares: Student's quantile is that of tables") {
+  const std::pair<long, double> table[] = {{1, 12.7062}, {2, 4.3027},  {4, 2.7764},   {5, 2.5706},
+                                           {10, 2.2281}, {30, 2.0423}, {100, 1.9840}, {1000000, 1.9600}};
+  for (const auto& [freedom, value] : table) CHECK(student_quantile(freedom) == doctest::Approx(value).epsilon(3e-4));
+  CHECK(student_quantile(3) == doctest::Approx(3.1824).epsilon(2e-3));
+}
+
+}  // namespace heml::least_squares_test
