@@ -7,6 +7,7 @@
 #include <Eigen/SparseCore>
 #include <heml/math/bytes.hpp>
 #include <heml/mesh/tet_mesh.hpp>
+#include <span>
 #include <vector>
 
 namespace heml {
@@ -39,6 +40,16 @@ class BlockMatrix {
   /// 3 #free square; the lower half only.
   const Eigen::SparseMatrix<double>& lower() const { return matrix_; }
   const FreeNodes& free() const { return free_; }
+  /// Neighbours of an unknown node with higher numbers, ascending.
+  std::span<const int> later_neighbours(std::size_t node) const {
+    return {neighbour_.data() + start_[node], neighbour_.data() + start_[node + 1]};
+  }
+  /// Column j of the block of an unknown node and its n-th later neighbour (row). n = −1: of the diagonal block, rows j
+  /// and below.
+  const double* block_column(std::size_t node, int n, std::size_t j) const {
+    const double* column = matrix_.valuePtr() + matrix_.outerIndexPtr()[3 * node + j];
+    return n < 0 ? column - j : column + (3 - j) + 3 * n;
+  }
   std::size_t bytes() const { return bytes_of(matrix_) + bytes_of(start_, neighbour_); }
 
  private:

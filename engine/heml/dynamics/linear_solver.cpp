@@ -13,7 +13,8 @@ constexpr double first_shift = 1e-4;          // relative to the stiffness along
 constexpr double projected_tolerance = 1e-2;  // an approximation need not be solved exactly
 // An outdated factor serves while the body has this part of its elements.
 constexpr double min_element_fraction = 2.0 / 3;
-constexpr double max_inertia_ratio = 3;  // a factor of aM + L serves up to this ratio between a and its own
+constexpr double max_inertia_ratio = 3;    // a factor of aM + L serves up to this ratio between a and its own
+constexpr double min_pivot_ratio = 1e-12;  // smallest divisor relative to the largest pivot
 }  // namespace
 
 Preconditioner choose_preconditioner(std::size_t free_nodes, bool static_solve) {
@@ -23,7 +24,7 @@ Preconditioner choose_preconditioner(std::size_t free_nodes, bool static_solve) 
 
 LinearSolver::LinearSolver(const FreeNodes& free, const TetMesh& mesh, const std::vector<double>& modulus,
                            const Vector& mass, Preconditioner preconditioner, Projection projection, ThreadTeam& team,
-                           const std::vector<Tet>* pattern)
+                           const std::vector<Tet>* pattern, InstructionSet instruction_set)
     : free_(free),
       mesh_(mesh),
       pattern_(pattern),
@@ -32,6 +33,7 @@ LinearSolver::LinearSolver(const FreeNodes& free, const TetMesh& mesh, const std
       projection_(projection),
       max_iterations_(max_cg_iterations),
       team_(team),
+      instruction_set_(instruction_set),
       modulus_(modulus) {}
 
 void LinearSolver::limit_iterations(int iterations) {
@@ -49,17 +51,17 @@ void LinearSolver::assemble(Objective& objective) {
 }
 
 LinearSolver::Definiteness LinearSolver::factor() {
-  if (matrix_->lower().rows() == 0) return Definiteness::positive;  // some factorisations do not accept size 0
-  if (!cholesky_) {
-    cholesky_ = std::make_unique<Cholesky>();
-    cholesky_->analyzePattern(matrix_->lower());
+  if (free_.node.empty()) return Definiteness::positive;
+  if (!factor_) {
+    std::vector<Vec3> position;
+    for (const int n : free_.node) position.push_back(mesh_.nodes[static_cast<std::size_t>(n)]);
+    factor_ = std::make_unique<SupernodalLdlt>(*matrix_, position, instruction_set_, team_);
   }
-  cholesky_->factorize(matrix_->lower());
   ++counts_.factorisations;
-  if (cholesky_->info() != Eigen::Success || !cholesky_->vectorD().allFinite()) return Definiteness::none;
-  const double smallest = 1e-12 * cholesky_->vectorD().cwiseAbs().maxCoeff();
-  pivots_ = cholesky_->vectorD().cwiseAbs().cwiseMax(smallest);
-  return cholesky_->vectorD().minCoeff() > 0 ? Definiteness::positive : Definiteness::indefinite;
+  if (!factor_->factor(*matrix_)) return Definiteness::none;
+  const Vector& D = factor_->pivots();
+  divisors_ = D.cwiseAbs().cwiseMax(min_pivot_ratio * D.cwiseAbs().maxCoeff());
+  return D.minCoeff() > 0 ? Definiteness::positive : Definiteness::indefinite;
 }
 
 void LinearSolver::invert_blocks() {
@@ -96,11 +98,9 @@ LinearSolver::Definiteness LinearSolver::prepare(Objective& objective) {
 }
 
 std::size_t LinearSolver::bytes() const {
-  std::size_t sum = bytes_of(pivots_) + bytes_of(inverse_blocks_, modulus_);
+  std::size_t sum = bytes_of(divisors_) + bytes_of(inverse_blocks_, modulus_);
   if (matrix_) sum += matrix_->bytes();
-  if (cholesky_ && cholesky_->info() == Eigen::Success)
-    sum += bytes_of(cholesky_->matrixL().nestedExpression()) + bytes_of(cholesky_->vectorD()) +
-           2 * sizeof(int) * static_cast<std::size_t>(cholesky_->rows());  // and its permutation, both ways
+  if (factor_) sum += factor_->bytes();
   if (scalar_) sum += scalar_->bytes();
   if (single_precision_cg_) sum += single_precision_cg_->bytes();
   return sum;
@@ -197,11 +197,7 @@ void LinearSolver::apply_factor(const Vector& r, Vector& z) {
   Vector packed(3 * static_cast<Eigen::Index>(free_.node.size()));
   for (std::size_t k = 0; k < free_.node.size(); ++k)
     packed.segment<3>(3 * static_cast<int>(k)) = r.segment<3>(3 * free_.node[k]);
-  packed = (cholesky_->permutationP() * packed).eval();
-  cholesky_->matrixL().solveInPlace(packed);
-  packed.array() /= pivots_.array();
-  cholesky_->matrixU().solveInPlace(packed);
-  packed = (cholesky_->permutationPinv() * packed).eval();
+  factor_->solve(packed, divisors_);
   z.setZero(r.size());
   for (std::size_t k = 0; k < free_.node.size(); ++k)
     z.segment<3>(3 * free_.node[k]) = packed.segment<3>(3 * static_cast<int>(k));

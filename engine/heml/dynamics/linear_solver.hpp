@@ -2,11 +2,11 @@
 // K d = r by conjugate gradients (BiCGSTAB if K is not symmetric) on products with the stiffness, with one of four
 // preconditioners. With the Cholesky factor of the assembled stiffness they take one iteration, or a few if the
 // assembled matrix is an approximation.
-#include <Eigen/SparseCholesky>
 #include <heml/dynamics/linear_solver_stats.hpp>
 #include <heml/dynamics/objective.hpp>
 #include <heml/dynamics/preconditioner_build.hpp>
 #include <heml/dynamics/single_precision_cg.hpp>
+#include <heml/dynamics/supernodal_ldlt.hpp>
 #include <memory>
 
 namespace heml {
@@ -24,10 +24,10 @@ class LinearSolver {
  public:
   /// free, mesh (rest shape), mass (3 #V, kg), pattern and team must outlive this. modulus: #T, Pa, for the scalar
   /// matrix. pattern: nodes that the stiffness couples, where these are not the elements of the mesh; the stiffness has
-  /// then no matrix in float.
+  /// then no matrix in float. instruction_set: of the factor's kernels; the processor must support it.
   LinearSolver(const FreeNodes& free, const TetMesh& mesh, const std::vector<double>& modulus, const Vector& mass,
                Preconditioner preconditioner, Projection projection, ThreadTeam& team,
-               const std::vector<Tet>* pattern = nullptr);
+               const std::vector<Tet>* pattern = nullptr, InstructionSet instruction_set = InstructionSet::best);
 
   /// To be called when the mesh has lost elements and the masses are updated. elements: those left, by their old
   /// numbers (ascending). Nodes that lost all elements have mass 0 and stay in `free`. The preconditioner is kept, at
@@ -99,8 +99,6 @@ class LinearSolver {
   bool conjugate_gradients(Objective& objective, const Vector& r, double enough, Vector& d);
   bool biconjugate_gradients(Objective& objective, const Vector& r, double enough, Vector& d);
 
-  using Cholesky = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower>;
-
   const FreeNodes& free_;
   const TetMesh& mesh_;
   const std::vector<Tet>* pattern_;  ///< null: the elements of the mesh
@@ -110,9 +108,10 @@ class LinearSolver {
   int max_iterations_;
   double shift_ = 0;  ///< N/m, added to every diagonal entry of K
   ThreadTeam& team_;
+  InstructionSet instruction_set_;
   std::unique_ptr<BlockMatrix> matrix_;  ///< built on first use, like the members below
-  std::unique_ptr<Cholesky> cholesky_;
-  Vector pivots_;  ///< |D|, in the factor's order
+  std::unique_ptr<SupernodalLdlt> factor_;
+  Vector divisors_;  ///< |D|, in the factor's order
   std::unique_ptr<SmoothedAggregation> scalar_;
   std::unique_ptr<SinglePrecisionCG> single_precision_cg_;
   std::vector<Mat3> inverse_blocks_;  ///< #free

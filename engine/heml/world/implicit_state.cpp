@@ -43,7 +43,8 @@ template <class Real>
 ImplicitState<Real>::ImplicitState(ElasticBody<Real>& elastic, const Model<Real>& model,
                                    const std::vector<Real>& masses, const std::vector<Real>& inverse_mass,
                                    const std::vector<double>& modulus, const std::vector<GraspSpring<Real>>& grasps,
-                                   Contacts& contacts, ThreadTeam& team, const SolverSettings& solver)
+                                   Contacts& contacts, ThreadTeam& team, const SolverSettings& solver,
+                                   InstructionSet instruction_set)
     : free(nonzero(inverse_mass)),
       mass(thrice(free, masses)),
       body(elastic, model, masses, free, grasps, contacts, team),
@@ -51,7 +52,8 @@ ImplicitState<Real>::ImplicitState(ElasticBody<Real>& elastic, const Model<Real>
                                          : std::optional<TetMesh>(subdivided(model.mesh, model.midedges))),
       pattern(linear_mesh ? coupled_nodes(model.mesh, model.midedges) : std::vector<Tet>()),
       linear(free, linear_mesh ? *linear_mesh : model.mesh, linear_mesh ? repeated(modulus, 8) : modulus, mass,
-             preconditioner_of(solver, free.node.size()), solver.projection, team, linear_mesh ? &pattern : nullptr),
+             preconditioner_of(solver, free.node.size()), solver.projection, team, linear_mesh ? &pattern : nullptr,
+             instruction_set),
       step(body, mass, free) {}
 
 template <class Real>

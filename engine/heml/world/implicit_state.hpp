@@ -39,7 +39,7 @@ struct ImplicitState {
   ImplicitState(ElasticBody<Real>& elastic, const Model<Real>& model, const std::vector<Real>& masses,
                 const std::vector<Real>& inverse_mass, const std::vector<double>& modulus,
                 const std::vector<GraspSpring<Real>>& grasps, Contacts& contacts, ThreadTeam& team,
-                const SolverSettings& solver);
+                const SolverSettings& solver, InstructionSet instruction_set);
   /// Elements have gone: these are left, by the numbers they had; model and masses have followed. Returns false where
   /// parts have to be made anew.
   bool keep_elements(const std::vector<int>& elements, const std::vector<Real>& masses);

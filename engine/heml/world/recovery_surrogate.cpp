@@ -43,7 +43,7 @@ RecoverySurrogate<Real>::RecoverySurrogate(const Model<Real>& model, const World
            {false, false, setup.instruction_set, setup.solver.threads}, model.midedges),
       implicit(body, model, masses, inverse_mass,
                preconditioner_moduli(model.mesh, model.material_of, setup.materials, Minimiser::newton), grasps,
-               contacts, team, {}) {
+               contacts, team, {}, setup.instruction_set) {
   implicit.body.disable_self_contact();  // a tangle is not to hold itself
 }
 
