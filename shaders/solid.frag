@@ -1,8 +1,10 @@
-// Polished metal or enamel.
+// Polished metal or enamel. HIDDEN: the part behind the surface of the body, seen through it.
 in vec3 v_position;
 in vec3 v_normal;
 #ifdef OUTLINE
 in float v_cover;
+#elif defined(HIDDEN)
+const float v_cover = 0.42;
 #else
 const float v_cover = 1.0;
 #endif

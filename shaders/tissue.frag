@@ -1,5 +1,5 @@
-// Wet tissue, or with FIELD the same surface with a colour map; HATCH adds stripes where v_beyond > 0; OUTLINE draws
-// the strip that fades the silhouette.
+// Wet tissue; with WOUND the raw faces that a cut exposes, or with FIELD the same surface with a colour map; HATCH adds
+// stripes where v_beyond > 0; OUTLINE draws the strip that fades the silhouette.
 in vec3 v_normal;
 in vec3 v_on_sphere;
 in vec3 v_slope;
@@ -7,6 +7,10 @@ in vec3 v_view;
 in vec4 v_surface;
 in float v_visible;
 in float v_value;
+#ifdef WOUND
+in vec3 v_rest;
+in float v_depth;
+#endif
 #ifdef HATCH
 in float v_beyond;
 #endif
@@ -45,6 +49,24 @@ float hatching() {
 }
 #endif
 
+#ifdef WOUND
+// Raw tissue by its depth below the skin: the pale capsule, granular tissue under it, darker and bloodier further down;
+// vessels that the blade has cut through are dark spots with a pale wall. Returns the colour; slope: of the bumps.
+vec3 raw_tissue(vec3 tint, out vec3 slope) {
+  vec4 coarse = noise(v_rest * 21.0 + 1.7), fine = noise(v_rest * 83.0);
+  slope = 0.26 * coarse.xyz + 0.13 * fine.xyz;
+  float capsule = 1.0 - smoothstep(0.4, 1.0, v_depth / (0.008 + 0.005 * coarse.w));
+  float deep = smoothstep(0.03, 0.28, v_depth + 0.05 * coarse.w);
+  vec3 raw = tint * vec3(0.86, 0.46, 0.48) * (0.74 + 0.52 * fine.w);
+  vec3 inner = tint * vec3(0.58, 0.22, 0.28) * (0.70 + 0.60 * coarse.w);
+  vec3 result = mix(raw, inner, deep);
+  float vessel = smoothstep(0.78, 0.81, coarse.w) * smoothstep(0.02, 0.04, v_depth);
+  float lumen = smoothstep(0.83, 0.86, coarse.w);
+  result = mix(result, mix(vec3(0.30, 0.10, 0.09), vec3(0.035, 0.002, 0.004), lumen), 0.8 * vessel);
+  return mix(result, mix(tint, vec3(0.44, 0.24, 0.20), 0.7), capsule);
+}
+#endif
+
 // Environment seen in direction r: a soft box at the key light, a strip light behind, a dim room.
 vec3 reflected(vec3 r) {
   float ahead = dot(r, key_direction);
@@ -62,7 +84,11 @@ void main() {
   vec3 smooth_n = normalize(gl_FrontFacing ? v_normal : -v_normal);
 #endif
   vec3 v = normalize(v_view);
+#ifdef WOUND
+  float open = 0.12 + 0.88 * v_value;
+#else
   float open = v_surface.a;
+#endif
 
 #ifdef FIELD
   vec3 n = smooth_n, wet_n = smooth_n;
@@ -72,6 +98,15 @@ void main() {
   const float wet = 0.30;
   vec3 hollow = vec3(open);
   vec3 shade = vec3(v_visible);
+#elif defined(WOUND)
+  vec3 slope;
+  vec3 albedo = raw_tissue(v_surface.rgb, slope);
+  vec3 tilt = slope - dot(slope, smooth_n) * smooth_n;
+  vec3 n = normalize(smooth_n - 0.5 * tilt), wet_n = normalize(smooth_n - 0.8 * tilt);
+  const vec3 wrap = vec3(0.40, 0.10, 0.08);
+  const float wet = 1.25;
+  vec3 hollow = vec3(open, open * open, open * open);
+  vec3 shade = vec3(sqrt(v_visible), v_visible, v_visible) * mix(0.25, 1.0, open);
 #else
   vec4 detail = texture(detail_map, octahedral(v_on_sphere));
   // Bumps: the gradient of a height field over the rest shape, applied to the deformed one. Its rotation is ignored: a

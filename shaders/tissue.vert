@@ -1,9 +1,12 @@
 layout(location = 0) in vec3 a_position;  // m
 layout(location = 1) in vec3 a_normal;
-layout(location = 2) in float a_value;    // of the field shown, 0..1 over its range
+layout(location = 2) in float a_value;    // of the field shown, 0..1 over its range; without one, of a wound: open, 0..1
 layout(location = 3) in vec3 a_rest;      // rest position in body radii about the body's centre
 layout(location = 4) in vec3 a_on_sphere; // position on the unit sphere, for the detail map
 layout(location = 5) in vec4 a_surface;   // rgb: square root of the tint, a: ambient occlusion, 1: open
+#ifdef WOUND
+layout(location = 8) in float a_depth;   // below the original skin at rest, in body radii
+#endif
 #ifdef HATCH
 layout(location = 7) in float a_beyond;   // above 0: hatched
 #endif
@@ -24,6 +27,10 @@ out vec3 v_view;      // unit, towards the eye
 out vec4 v_surface;
 out float v_visible;  // visible fraction of the key light
 out float v_value;
+#ifdef WOUND
+out vec3 v_rest;
+out float v_depth;
+#endif
 #ifdef HATCH
 out float v_beyond;
 #endif
@@ -57,6 +64,10 @@ void main() {
   v_surface = vec4(a_surface.rgb * a_surface.rgb * (0.72 + 0.56 * broad.w), a_surface.a);
   v_visible = key_visibility();
   v_value = a_value;
+#ifdef WOUND
+  v_rest = a_rest;
+  v_depth = a_depth;
+#endif
 #ifdef HATCH
   v_beyond = a_beyond;
 #endif

@@ -1,6 +1,7 @@
 #include <app/panel/camera_controller.hpp>
 #include <app/panel/frame_drawing.hpp>
 #include <app/panel/legend.hpp>
+#include <app/panel/scripted_blade.hpp>
 #include <heml/session/surface_mesh.hpp>
 
 namespace heml::panel {
@@ -9,6 +10,13 @@ FrameDrawing::FrameDrawing(const Scene& scene, const World& world, render::Size 
     : size_(size), context_(size_), surface_mesh_(make_surface_mesh(world)), view_(scene.view) {
   if (panel || comparisons || view_.field != Field::none) interface_.emplace(Interface::suitable_scale(size_));
   if (panel) panel_.emplace(scene, *surface_mesh_);
+  for (const Event& event : scene.events)
+    if (std::holds_alternative<CutTissue>(event.command)) cuts_.push_back(event);
+}
+
+render::StrokeDrawing FrameDrawing::stroke() const {
+  // An event of tick k takes effect at the start of that tick, so that frame k does not show it yet.
+  return {scripted_blade(cuts_, frame_.tick - 1, frame_.pace.rate), {}};
 }
 
 render::Image FrameDrawing::draw(World& world, double ahead, double seconds, ComparisonRuns* comparison_runs) {
@@ -29,7 +37,9 @@ void FrameDrawing::draw_with_panel(float seconds) {
   controller.fit(view_, uncut_surface(*surface_mesh_), size_,
                  panel_->insets({static_cast<float>(size_.width), static_cast<float>(size_.height)}),
                  body_count(frame_));
-  bodies_.draw(frame_, controller, panel_->drawing());
+  render::DrawOptions options = panel_->drawing();
+  options.stroke = stroke();
+  bodies_.draw(frame_, controller, options);
   interface_->begin(size_, seconds);
   draw_variant_labels(frame_, controller);
   panel_->draw(frame_);
@@ -39,6 +49,7 @@ void FrameDrawing::draw_with_panel(float seconds) {
 void FrameDrawing::draw_alone(float seconds) {
   render::DrawOptions options;
   options.wireframe = view_.wireframe;
+  options.stroke = stroke();
   if (interface_) options.range = colours_.update(frame_.field, frame_.values, seconds);
   CameraController controller;
   controller.fit(view_, uncut_surface(*surface_mesh_), size_, {}, body_count(frame_));

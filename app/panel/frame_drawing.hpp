@@ -25,12 +25,14 @@ class FrameDrawing {
  private:
   void draw_with_panel(float seconds);
   void draw_alone(float seconds);
+  render::StrokeDrawing stroke() const;
 
   render::Size size_;
   render::OsMesaContext context_;
   ComparisonView bodies_;
   std::shared_ptr<const SurfaceMesh> surface_mesh_;  ///< of the last frame
   View view_;
+  std::vector<Event> cuts_;  ///< of the scene, for the blade
   Frame frame_;
   render::ColourRange colours_;
   std::optional<Interface> interface_;  ///< none if only bodies are drawn

@@ -113,15 +113,13 @@ void smooth(const SurfaceMesh& surface_mesh, std::vector<float>& values) {
 
 }  // namespace
 
-std::vector<float> ambient_occlusion(const SurfaceMesh& surface_mesh, const std::vector<Vec3f>& normals, float reach,
-                                     std::span<const std::optional<float>> known) {
+std::vector<float> ambient_occlusion(const SurfaceMesh& surface_mesh, const std::vector<Vec3f>& normals, float reach) {
   const Occluder occluder(surface_mesh);
   const std::vector<Vec3f> rays = directions(surface_mesh.rest.size() < 10000 ? 10 : 5, 20010301);
   std::vector<float> open(surface_mesh.rest.size(), 1);
   for (std::size_t i = 0; i < open.size(); ++i) {
     const Vec3f n = normals[i];
-    if (!known.empty() && known[i]) open[i] = *known[i];
-    if (n.isZero() || (!known.empty() && known[i])) continue;
+    if (n.isZero()) continue;
     const Eigen::Quaternionf turn = Eigen::Quaternionf::FromTwoVectors(Vec3f::UnitZ(), n);
     const Vec3f origin = surface_mesh.rest[i] + 1e-3f * reach * n;
     int blocked = 0;
@@ -130,7 +128,6 @@ std::vector<float> ambient_occlusion(const SurfaceMesh& surface_mesh, const std:
   }
   smooth(surface_mesh, open);
   smooth(surface_mesh, open);
-  for (std::size_t i = 0; i < known.size(); ++i) open[i] = known[i].value_or(open[i]);
   return open;
 }
 

@@ -34,15 +34,25 @@ std::vector<Vec3f> corner_tints(const SurfaceMesh& surface_mesh, const SurfaceTo
 
 }  // namespace
 
-BodyMesh::BodyMesh(const SurfaceMesh& surface_mesh, const TissueLook& look)
-    : surface_(surface_mesh, SmoothSurface::suitable_segments(surface_mesh.triangles.size())),
+BodyMesh::BodyMesh(const SurfaceMesh& surface_mesh, const TissueLook& look, std::optional<Wound> wound)
+    : wound_(wound && !wound->empty() ? std::move(wound) : std::nullopt),
+      surface_(surface_mesh, SmoothSurface::suitable_segments(surface_mesh.triangles.size()),
+               wound_ ? std::span<const char>(wound_->exposed()) : std::span<const char>()),
       nodes_(surface_mesh.rest.size()),
       rest_(bounding_sphere(uncut_surface(surface_mesh).rest)),
       bead_radius_(std::min(0.4f * mean_edge(uncut_surface(surface_mesh)), 0.022f * rest_.radius)),
-      outline_(surface_.triangles(), surface_.positions()) {
+      outline_(surface_.triangles(), surface_.joined_vertices()) {
+  if (wound_) find_wound_vertices();
   describe_vertices();
   upload_fixed(surface_mesh, look);
   upload_indices(surface_mesh);
+}
+
+void BodyMesh::find_wound_vertices() {
+  in_wound_.assign(surface_.blends().size(), 0);
+  for (std::size_t i = 0; i < surface_.triangles().size(); ++i)
+    in_wound_[surface_.triangles()[i]] =
+        wound_->exposed()[i / (surface_.triangles().size() / wound_->exposed().size())];
 }
 
 void BodyMesh::describe_vertices() {
@@ -55,6 +65,7 @@ void BodyMesh::describe_vertices() {
     vertex_attribute(3, 3, GL_FLOAT, stride, offset + offsetof(Fixed, rest));
     vertex_attribute(4, 3, GL_FLOAT, stride, offset + offsetof(Fixed, on_sphere));
     vertex_attribute(5, 4, GL_UNSIGNED_BYTE, stride, offset + offsetof(Fixed, surface));
+    vertex_attribute(8, 1, GL_FLOAT, stride, offset + offsetof(Fixed, depth));
   };
   glBindVertexArray(array_);
   glBindBuffer(GL_ARRAY_BUFFER, moving_buffer_);
@@ -74,7 +85,11 @@ void BodyMesh::upload_indices(const SurfaceMesh& surface_mesh) {
     upload(GL_ELEMENT_ARRAY_BUFFER, indices.buffer, std::span(values), GL_STATIC_DRAW);
     indices.count = static_cast<GLsizei>(values.size());
   };
-  fill(triangles_, surface_.triangles());
+  std::vector<std::uint32_t> skin, raw;
+  for (const std::uint32_t vertex : surface_.triangles())
+    (!in_wound_.empty() && in_wound_[vertex] ? raw : skin).push_back(vertex);
+  fill(skin_, skin);
+  fill(raw_, raw);
   fill(lines_, surface_.lines());
   std::vector<std::uint32_t> flat, constrained;
   for (const Triangle& corners : surface_.topology().triangles) flat.insert(flat.end(), corners.begin(), corners.end());
@@ -100,19 +115,24 @@ void BodyMesh::upload_fixed(const SurfaceMesh& surface_mesh, const TissueLook& l
     const Vec3f tint = (w[0] * tints[c[0]] + w[1] * tints[c[1]] + w[2] * tints[c[2]]).cwiseSqrt();
     fixed_[p] = {(rest[p] - rest_.centre) / rest_.radius,
                  on_sphere[p],
-                 {byte(tint.x()), byte(tint.y()), byte(tint.z()), byte(open[p])}};
+                 {byte(tint.x()), byte(tint.y()), byte(tint.z()), byte(open[p])},
+                 wound_ && in_wound_[p] ? wound_->skin().nearest(rest[p]).depth / rest_.radius : 0};
   }
   upload(GL_ARRAY_BUFFER, fixed_buffer_, std::span<const Fixed>(fixed_), GL_STATIC_DRAW);
 }
 
 void BodyMesh::update(const Frame& frame, const Range& range) {
-  surface_.update(frame.positions);
+  surface_.update(wound_ ? std::span<const Vec3f>(wound_->place(frame.positions)) : frame.positions);
   moving_.resize(surface_.positions().size());
   const bool has_values = frame.values.size() == nodes_;
   if (has_values) surface_.spread(std::span<const float>(frame.values), values_);
+  if (wound_ && !has_values) surface_.spread(std::span<const float>(wound_->openness()), values_);
   const float scale = 1 / std::max(range.high - range.low, 1e-30f);
   for (std::size_t p = 0; p < moving_.size(); ++p)
-    moving_[p] = {surface_.positions()[p], surface_.normals()[p], has_values ? (values_[p] - range.low) * scale : 0};
+    moving_[p] = {surface_.positions()[p], surface_.normals()[p],
+                  has_values ? (values_[p] - range.low) * scale
+                  : wound_   ? values_[p]
+                             : 0};
   upload(GL_ARRAY_BUFFER, moving_buffer_, std::span<const Moving>(moving_), GL_STREAM_DRAW);
 }
 
@@ -126,16 +146,22 @@ void BodyMesh::update_hatching(std::span<const float> beyond) {
 
 void BodyMesh::update_outline(const Vec3f& eye, const Mat4f& view_projection, Size size) {
   strips_.clear();
-  Outline::for_each_corner(outline_.find(surface_.positions(), eye, view_projection, size),
-                           [&](std::uint32_t vertex, const Vec2f& outward, float cover) {
-                             strips_.push_back({moving_[vertex], fixed_[vertex], {outward.x(), outward.y(), cover}});
-                           });
+  const std::vector<Outline::Piece>& pieces = outline_.find(surface_.positions(), eye, view_projection, size);
+  const auto add = [&](bool of_wound) {
+    Outline::for_each_corner(pieces, [&](std::uint32_t vertex, const Vec2f& outward, float cover) {
+      if (in_wound_.empty() || (in_wound_[vertex] != 0) == of_wound)
+        strips_.push_back({moving_[vertex], fixed_[vertex], {outward.x(), outward.y(), cover}});
+    });
+  };
+  add(false);
+  skin_strips_ = strips_.size();
+  if (wound_) add(true);
   upload(GL_ARRAY_BUFFER, strip_buffer_, std::span<const Strip>(strips_), GL_STREAM_DRAW);
 }
 
-void BodyMesh::draw_outline() const {
+void BodyMesh::draw_strips(std::size_t first, std::size_t last) const {
   glBindVertexArray(strip_array_);
-  glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(strips_.size()));
+  glDrawArrays(GL_TRIANGLES, static_cast<GLint>(first), static_cast<GLsizei>(last - first));
 }
 
 void BodyMesh::draw(GLenum mode, const Indices& indices) const {
@@ -144,7 +170,10 @@ void BodyMesh::draw(GLenum mode, const Indices& indices) const {
   glDrawElements(mode, indices.count, GL_UNSIGNED_INT, nullptr);
 }
 
-void BodyMesh::draw_surface() const { draw(GL_TRIANGLES, triangles_); }
+void BodyMesh::draw_skin() const { draw(GL_TRIANGLES, skin_); }
+void BodyMesh::draw_skin_outline() const { draw_strips(0, skin_strips_); }
+void BodyMesh::draw_wound() const { draw(GL_TRIANGLES, raw_); }
+void BodyMesh::draw_wound_outline() const { draw_strips(skin_strips_, strips_.size()); }
 void BodyMesh::draw_flat() const { draw(GL_TRIANGLES, flat_); }
 void BodyMesh::draw_edges() const { draw(GL_LINES, lines_); }
 void BodyMesh::draw_constrained() const { draw(GL_POINTS, constrained_); }

@@ -20,7 +20,7 @@ void check_log(GLuint object, const char* name, bool program) {
   if (!good) throw std::logic_error(std::string("shader ") + name + ": " + log.data());
 }
 
-GLuint compile(GLenum stage, const char* name, std::initializer_list<const char*> defines) {
+GLuint compile(GLenum stage, const char* name, const std::vector<const char*>& defines) {
   std::string source = "#version 330 core\n";
   for (const char* define : defines) source += std::string("#define ") + define + "\n";
   source += resource("common.glsl");
@@ -36,7 +36,7 @@ GLuint compile(GLenum stage, const char* name, std::initializer_list<const char*
 
 }  // namespace
 
-Program::Program(const char* vertex, const char* fragment, std::initializer_list<const char*> defines) {
+Program::Program(const char* vertex, const char* fragment, const std::vector<const char*>& defines) {
   const std::array<GLuint, 2> shaders = {compile(GL_VERTEX_SHADER, vertex, defines),
                                          compile(GL_FRAGMENT_SHADER, fragment, defines)};
   for (const GLuint shader : shaders) glAttachShader(name_, shader);

@@ -5,10 +5,10 @@
 
 #include <app/render/image.hpp>
 #include <heml/math/types.hpp>
-#include <initializer_list>
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace heml::render {
 
@@ -72,7 +72,7 @@ using Framebuffer = GlHandle<FramebufferTraits>;
 class Program {
  public:
   /// defines: macros defined in both shaders. Throws std::logic_error with the compiler's log if they do not build.
-  Program(const char* vertex, const char* fragment, std::initializer_list<const char*> defines = {});
+  Program(const char* vertex, const char* fragment, const std::vector<const char*>& defines = {});
 
   void use() const { glUseProgram(name_); }
 

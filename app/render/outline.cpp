@@ -1,21 +1,9 @@
 #include "app/render/outline.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 namespace heml::render {
 namespace {
-
-// For each vertex, the lowest index of a vertex with the same position.
-std::vector<std::uint32_t> weld(std::span<const Vec3f> positions) {
-  std::vector<std::uint32_t> order(positions.size()), result(positions.size());
-  std::iota(order.begin(), order.end(), 0);
-  const auto place = [&](std::uint32_t v) { return std::array{positions[v].x(), positions[v].y(), positions[v].z()}; };
-  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return place(a) < place(b); });
-  for (std::size_t i = 0; i < order.size(); ++i)
-    result[order[i]] = i > 0 && place(order[i - 1]) == place(order[i]) ? result[order[i - 1]] : order[i];
-  return result;
-}
 
 Vec2f on_screen(const Mat4f& to_clip, const Vec3f& point, Size size) {
   const Vec4f clip = to_clip * point.homogeneous();
@@ -24,9 +12,8 @@ Vec2f on_screen(const Mat4f& to_clip, const Vec3f& point, Size size) {
 
 }  // namespace
 
-Outline::Outline(std::span<const std::uint32_t> triangles, std::span<const Vec3f> positions)
+Outline::Outline(std::span<const std::uint32_t> triangles, std::span<const std::uint32_t> same)
     : triangles_(triangles.begin(), triangles.end()), facing_(triangles.size() / 3) {
-  const std::vector<std::uint32_t> same = weld(positions);
   struct Side {
     std::uint32_t low, high, from, to, apex;
     int triangle;

@@ -19,8 +19,9 @@ class Outline {
     Vec2f outward;
   };
 
-  /// triangles: 3 vertices each. positions: #V×3 at rest; vertices with equal positions count as one.
-  Outline(std::span<const std::uint32_t> triangles, std::span<const Vec3f> positions);
+  /// triangles: 3 vertices each. same: #V, for each vertex the lowest index of those that count as one with it, because
+  /// they differ in their normals alone (weld.hpp, SmoothSurface::joined_vertices).
+  Outline(std::span<const std::uint32_t> triangles, std::span<const std::uint32_t> same);
 
   /// Edges between a front and a back face, edges of one triangle only, and sharp edges between two front faces (which
   /// fade into the other face); in a fixed order. positions: #V×3. eye: in the space of the positions. to_clip: from

@@ -52,7 +52,9 @@ class Renderer::Impl {
   void update_surface_mesh(const Frame& frame);
   const RenderTarget* canvas(const DrawOptions& options, Size size);
   void draw_picture(const ViewContext& shot, const Frame& frame, const DrawOptions& options);
-  const Program& surface_program(bool shows_field, bool hatched);
+  void draw_body(const ViewContext& shot, const DrawOptions& options, bool shows_field);
+  void draw_body_outline(const ViewContext& shot, bool shows_field);
+  const Program& tissue_program(unsigned features);
   void prepare_body(const ViewContext& shot, const Program& program) const;
   void draw_shadows(const ViewContext& shot, const Frame& frame, const DrawOptions& options);
   void draw_edges(const ViewContext& shot) const;
@@ -60,11 +62,8 @@ class Renderer::Impl {
   void draw_ground(const ViewContext& shot) const;
   void draw_backdrop(const ViewContext& shot) const;
 
-  Program tissue_{"tissue.vert", "tissue.frag"};
-  Program field_{"tissue.vert", "tissue.frag", {"FIELD"}};
-  Program tissue_strip_{"tissue.vert", "tissue.frag", {"OUTLINE"}};
-  Program field_strip_{"tissue.vert", "tissue.frag", {"FIELD", "OUTLINE"}};
-  std::optional<Program> hatched_tissue_, hatched_field_;  // compiled on first use
+  enum TissueFeature : unsigned { with_field = 1, with_hatching = 2, as_outline = 4, as_wound = 8 };
+  std::array<std::optional<Program>, 16> tissue_;  // by features, compiled on first use
   Program line_{"line.vert", "line.frag"};
   Program bead_{"bead.vert", "bead.frag"};
   Program ground_{"ground.vert", "ground.frag"};
@@ -97,12 +96,15 @@ void Renderer::Impl::update_surface_mesh(const Frame& frame) {
   body_.reset();
   if (!surface_mesh_) return;
   const auto& whole = surface_mesh_->whole ? surface_mesh_->whole : surface_mesh_;
-  if (whole != whole_) whole_look_ = tissue_look(*whole, nullptr);
+  if (whole != whole_) whole_look_ = tissue_look(*whole);
   whole_ = whole;
-  if (surface_mesh_->whole)
-    body_.emplace(*surface_mesh_, tissue_look(*surface_mesh_, &whole_look_));
-  else
+  if (!surface_mesh_->whole) {
     body_.emplace(*surface_mesh_, whole_look_);
+    return;
+  }
+  Wound wound(*surface_mesh_, bounding_sphere(whole->rest).radius);
+  const TissueLook look = tissue_look(whole_look_, wound.skin());
+  body_.emplace(*surface_mesh_, look, std::move(wound));
 }
 
 void Renderer::Impl::draw(const Frame& frame, const Camera& camera, const DrawOptions& options, Size size) {
@@ -122,6 +124,7 @@ void Renderer::Impl::draw(const Frame& frame, const Camera& camera, const DrawOp
   glDisable(GL_CULL_FACE);
   glEnable(GL_PROGRAM_POINT_SIZE);
   tool_.place(frame, options.tool, shot);
+  if (options.tool) tool_.place_stroke(options.stroke, shot);
   if (body_) {
     body_->update(frame, options.range.value_or(natural_range(frame.field, frame.values)));
     body_->update_hatching(options.hatched);
@@ -149,11 +152,8 @@ void Renderer::Impl::draw_picture(const ViewContext& shot, const Frame& frame, c
   const bool shows_field = frame.field != Field::none && body_ && frame.values.size() == body_->node_count();
   if (shows_field) upload_map(map_, frame.field);
   if (body_) {
-    const Program& program = surface_program(shows_field, !options.hatched.empty());
-    prepare_body(shot, program);
-    program.set("hatch_period", hatch_period * static_cast<float>(shot.size.height) / 720);
     if (frame.min_J > 0) glEnable(GL_CULL_FACE);  // back faces show only where elements are inverted
-    body_->draw_surface();
+    draw_body(shot, options, shows_field);
     glDisable(GL_CULL_FACE);
     if (options.wireframe) draw_edges(shot);
     if (options.constrained) draw_constrained(shot);
@@ -164,23 +164,46 @@ void Renderer::Impl::draw_picture(const ViewContext& shot, const Frame& frame, c
   glEnable(GL_BLEND);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   glDepthMask(GL_FALSE);
-  if (body_) {
-    prepare_body(shot, shows_field ? field_strip_ : tissue_strip_);
-    body_->draw_outline();
-  }
+  if (body_) draw_body_outline(shot, shows_field);
   tool_.draw_outline(shot);
   glDepthMask(GL_TRUE);
   glDisable(GL_BLEND);
   glDisable(GL_DEPTH_TEST);
 }
 
-const Program& Renderer::Impl::surface_program(bool shows_field, bool hatched) {
-  if (!hatched) return shows_field ? field_ : tissue_;
-  std::optional<Program>& program = shows_field ? hatched_field_ : hatched_tissue_;
-  if (!program && shows_field)
-    program.emplace("tissue.vert", "tissue.frag", std::initializer_list<const char*>{"FIELD", "HATCH"});
-  if (!program) program.emplace("tissue.vert", "tissue.frag", std::initializer_list<const char*>{"HATCH"});
-  return *program;
+void Renderer::Impl::draw_body(const ViewContext& shot, const DrawOptions& options, bool shows_field) {
+  const unsigned features = (shows_field ? with_field : 0u) | (options.hatched.empty() ? 0u : with_hatching);
+  const auto prepare = [&](const Program& program) {
+    prepare_body(shot, program);
+    program.set("hatch_period", hatch_period * static_cast<float>(shot.size.height) / 720);
+  };
+  prepare(tissue_program(features));
+  body_->draw_skin();
+  if (!body_->has_wound()) return;
+  prepare(tissue_program(features | as_wound));
+  body_->draw_wound();
+}
+
+void Renderer::Impl::draw_body_outline(const ViewContext& shot, bool shows_field) {
+  const unsigned features = as_outline | (shows_field ? with_field : 0u);
+  prepare_body(shot, tissue_program(features));
+  body_->draw_skin_outline();
+  if (!body_->has_wound()) return;
+  prepare_body(shot, tissue_program(features | as_wound));
+  body_->draw_wound_outline();
+}
+
+/// A field is shown alike on skin and wounds.
+const Program& Renderer::Impl::tissue_program(unsigned features) {
+  if (features & with_field) features &= ~as_wound;
+  std::optional<Program>& program = tissue_[features];
+  if (program) return *program;
+  std::vector<const char*> defines;
+  if (features & with_field) defines.push_back("FIELD");
+  if (features & with_hatching) defines.push_back("HATCH");
+  if (features & as_outline) defines.push_back("OUTLINE");
+  if (features & as_wound) defines.push_back("WOUND");
+  return program.emplace("tissue.vert", "tissue.frag", defines);
 }
 
 void Renderer::Impl::draw_shadows(const ViewContext& shot, const Frame& frame, const DrawOptions& options) {

@@ -1,11 +1,14 @@
 #include "app/render/smooth_surface.hpp"
 
+#include <map>
 #include <numbers>
+#include <numeric>
 
 namespace heml::render {
 namespace {
 
 constexpr float crease_angle = 70 * std::numbers::pi_v<float> / 180;
+constexpr float rim_corner = 0.5f;  // cosine of the turn from which a rim has a corner
 
 Vec3f unit_or_zero(const Vec3f& v) {
   const float length = v.norm();
@@ -25,11 +28,12 @@ Vec3f control(const Vec3f& p, const Vec3f& q, const Vec3f& n) { return (2 * p + 
 
 }  // namespace
 
-SmoothSurface::SmoothSurface(const SurfaceMesh& surface_mesh, int segments)
-    : topology_(surface_topology(surface_mesh, crease_angle)), segments_(segments) {
+SmoothSurface::SmoothSurface(const SurfaceMesh& surface_mesh, int segments, std::span<const char> exposed)
+    : topology_(surface_topology(surface_mesh, crease_angle, exposed)), segments_(segments) {
   for (int c = 0; c < static_cast<int>(topology_.corner_nodes.size()); ++c) blends_.push_back({{c, c, c}, {1, 0, 0}});
   number_edges();
   number_triangles();
+  find_rim(exposed);
   controls_.resize(topology_.edges.size());
   update(surface_mesh.rest);
 }
@@ -38,6 +42,42 @@ int SmoothSurface::suitable_segments(std::size_t triangles) {
   if (triangles <= 700) return 4;
   if (triangles <= 1800) return 3;
   return triangles <= 5000 ? 2 : 1;
+}
+
+/// Rim edges belong to one exposed face and one of the skin.
+void SmoothSurface::find_rim(std::span<const char> exposed) {
+  std::vector<std::array<int, 2>> faces(exposed.empty() ? 0 : topology_.edges.size());  // of skin, exposed
+  for (std::size_t t = 0; t < exposed.size(); ++t)
+    for (const int e : topology_.triangle_edges[t]) ++faces[e][exposed[t] ? 1 : 0];
+  std::map<int, std::vector<int>> neighbours;  // of a node along the rim
+  for (std::size_t e = 0; e < faces.size(); ++e) {
+    if (faces[e] != std::array{1, 1}) continue;
+    const SurfaceEdge& edge = topology_.edges[e];
+    rim_.push_back({static_cast<int>(e), -1, -1});
+    neighbours[edge.from].push_back(edge.to);
+    neighbours[edge.to].push_back(edge.from);
+  }
+  const auto beyond = [&](int node, int from) {
+    const std::vector<int>& next = neighbours[node];
+    return next.size() != 2 ? -1 : next[0] == from ? next[1] : next[0];
+  };
+  for (RimEdge& rim : rim_) {
+    const SurfaceEdge& edge = topology_.edges[rim.edge];
+    rim.before = beyond(edge.from, edge.to);
+    rim.after = beyond(edge.to, edge.from);
+  }
+}
+
+std::vector<std::uint32_t> SmoothSurface::joined_vertices() const {
+  std::vector<std::uint32_t> joined(blends_.size());
+  std::iota(joined.begin(), joined.end(), 0);
+  std::map<int, std::uint32_t> first_corner;  // of a node
+  for (std::size_t c = 0; c < topology_.corner_nodes.size(); ++c)
+    joined[c] = first_corner.try_emplace(topology_.corner_nodes[c], static_cast<std::uint32_t>(c)).first->second;
+  for (const auto& firsts : edge_first_)
+    for (const std::uint32_t first : firsts)
+      for (int step = 1; step < segments_; ++step) joined[first + step - 1] = firsts[0] + step - 1;
+  return joined;
 }
 
 void SmoothSurface::number_edges() {
@@ -126,6 +166,20 @@ void SmoothSurface::update_corner_normals() {
   for (std::size_t c = 0; c < topology_.corner_nodes.size(); ++c) normals_[c] = unit_or_zero(normals_[c]);
 }
 
+void SmoothSurface::update_rim(std::span<const Vec3f> nodes) {
+  const auto inner = [&](int other, const Vec3f& p, const Vec3f& q) -> Vec3f {  // control point next to p
+    const Vec3f straight = p + (q - p) / 3;
+    if (other < 0) return straight;
+    const Vec3f back = p - nodes[other], ahead = q - p;
+    if (back.dot(ahead) < rim_corner * back.norm() * ahead.norm()) return straight;
+    return p + ahead.norm() / 3 * unit_or_zero(q - nodes[other]);
+  };
+  for (const RimEdge& rim : rim_) {
+    const Vec3f &p = nodes[topology_.edges[rim.edge].from], &q = nodes[topology_.edges[rim.edge].to];
+    controls_[rim.edge] = {inner(rim.before, p, q), inner(rim.after, q, p)};
+  }
+}
+
 void SmoothSurface::update_edges(std::span<const Vec3f> nodes) {
   for (std::size_t e = 0; e < topology_.edges.size(); ++e) {
     const SurfaceEdge& edge = topology_.edges[e];
@@ -137,6 +191,11 @@ void SmoothSurface::update_edges(std::span<const Vec3f> nodes) {
     }
     const auto count = static_cast<float>(edge.sides.size());
     controls_[e] = {near_p / count, near_q / count};
+  }
+  update_rim(nodes);
+  for (std::size_t e = 0; e < topology_.edges.size(); ++e) {
+    const SurfaceEdge& edge = topology_.edges[e];
+    const Vec3f &p = nodes[edge.from], &q = nodes[edge.to];
     for (std::size_t s = 0; s < edge.sides.size(); ++s) {
       const Vec3f &n = normals_[edge.sides[s].from], &m = normals_[edge.sides[s].to];
       const Vec3f middle = middle_normal(p, q, n, m);

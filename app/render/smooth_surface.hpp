@@ -20,8 +20,9 @@ class SmoothSurface {
     std::array<float, 3> weights;
   };
 
-  /// segments: subdivisions of every edge; 1 leaves the triangles flat.
-  SmoothSurface(const SurfaceMesh& surface_mesh, int segments);
+  /// segments: subdivisions of every edge; 1 leaves the triangles flat. exposed: #F, faces of wounds, whose rim is a
+  /// crease smoothed along itself: a Catmull-Rom curve, the same on two lips that lie together; or empty.
+  SmoothSurface(const SurfaceMesh& surface_mesh, int segments, std::span<const char> exposed = {});
 
   /// Segments for a surface of so many triangles: subdivided surfaces get at most 20,000 small ones.
   static int suitable_segments(std::size_t triangles);
@@ -34,8 +35,12 @@ class SmoothSurface {
   const std::vector<Blend>& blends() const { return blends_; }        ///< #P
   const SurfaceTopology& topology() const { return topology_; }
 
-  const std::vector<std::uint32_t>& triangles() const { return triangles_; }  ///< 3 per small triangle
-  const std::vector<std::uint32_t>& lines() const { return lines_; }          ///< 2 per segment of an edge of the mesh
+  /// Small triangles, 3 vertices each; segments² for each triangle of the mesh, in its order.
+  const std::vector<std::uint32_t>& triangles() const { return triangles_; }
+  const std::vector<std::uint32_t>& lines() const { return lines_; }  ///< 2 per segment of an edge of the mesh
+
+  /// For each vertex, the lowest index of a vertex at the same place of the mesh: on all sheets of a sharp edge.
+  std::vector<std::uint32_t> joined_vertices() const;
 
   /// Interpolates values at nodes (#S) to vertices (#P), linearly over each triangle.
   template <class Value>
@@ -50,6 +55,8 @@ class SmoothSurface {
 
  private:
   void number_edges();
+  void find_rim(std::span<const char> exposed);
+  void update_rim(std::span<const Vec3f> nodes);
   void number_triangles();
   std::uint32_t edge_vertex(int triangle, int side, int step) const;
   void update_corner_normals();
@@ -62,6 +69,11 @@ class SmoothSurface {
   std::uint32_t interior_first_ = 0;
   std::vector<Blend> blends_;
   std::vector<std::uint32_t> triangles_, lines_;
+  /// An edge of a wound's rim and the nodes next to its ends along the rim; −1: the rim ends there.
+  struct RimEdge {
+    int edge, before, after;
+  };
+  std::vector<RimEdge> rim_;
   std::vector<std::array<Vec3f, 2>> controls_;  // #E: Bézier control points near `from` and `to`
   std::vector<Vec3f> positions_, normals_;
 };

@@ -1,5 +1,6 @@
 #include "app/render/solid_mesh.hpp"
 
+#include <app/render/weld.hpp>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -120,8 +121,52 @@ SolidShape needle() {
   return shape;
 }
 
+SolidShape scalpel_blade() {
+  constexpr float thickness = 0.06f, bevel = 0.4f, shoulder = 0.3f;
+  SolidShape shape;
+  // Cross-sections from the tip up: the back comes forward to the tip below the shoulder.
+  constexpr int steps = 10;
+  const auto facet = [&](const std::array<Vec3f, 4>& corners, const Vec3f& outward) {
+    const Vec3f normal = (corners[2] - corners[0]).cross(corners[3] - corners[1]);
+    const bool turned = normal.dot(outward) < 0;
+    const auto first = static_cast<std::uint32_t>(shape.vertices.size());
+    for (std::size_t k = 0; k < 4; ++k)
+      shape.vertices.push_back({corners[turned ? 3 - k : k], (turned ? Vec3f(-normal) : normal).normalized()});
+    for (const std::uint32_t k : {0u, 1u, 2u, 0u, 2u, 3u}) shape.triangles.push_back(first + k);
+  };
+  const auto profile = [&](int step) {
+    const float y = step < steps ? shoulder * static_cast<float>(step) / steps : 1;
+    const float back = step < steps ? std::max(0.02f, std::sin(0.5f * std::numbers::pi_v<float> * y / shoulder)) : 1;
+    return std::array{Vec3f(0, y, 0), Vec3f(bevel * back, y, thickness), Vec3f(back, y, thickness),
+                      Vec3f(back, y, -thickness), Vec3f(bevel * back, y, -thickness)};
+  };
+  const std::array outwards{Vec3f(-0.2f, 0, 1), Vec3f(0, 0, 1), Vec3f(1, -0.2f, 0), Vec3f(0, 0, -1),
+                            Vec3f(-0.2f, 0, -1)};
+  for (int step = 0; step < steps; ++step) {
+    const auto low = profile(step), high = profile(step + 1);
+    for (std::size_t k = 0; k < 5; ++k) facet({low[k], low[(k + 1) % 5], high[(k + 1) % 5], high[k]}, outwards[k]);
+  }
+  const auto top = profile(steps);
+  facet({top[0], top[1], top[2], top[3]}, Vec3f::UnitY());
+  facet({top[0], top[3], top[4], top[0]}, Vec3f::UnitY());
+  return shape;
+}
+
+SolidShape scalpel_handle() {
+  SolidShape shape;
+  add_tube(shape,
+           {{Vec3f(0, -0.02f, 0), 0.028f, 0.010f},
+            {Vec3f(0, 0.05f, 0), 0.032f, 0.013f},
+            {Vec3f(0, 0.16f, 0), 0.024f, 0.014f},
+            {Vec3f(0, 0.35f, 0), 0.034f, 0.015f},
+            {Vec3f(0, 0.90f, 0), 0.036f, 0.014f},
+            {Vec3f(0, 1, 0), 0.026f, 0.010f}},
+           Vec3f::UnitZ());
+  return shape;
+}
+
 SolidMesh::SolidMesh(SolidShape shape)
-    : shape_(std::move(shape)), positions_(positions_of(shape_)), outline_(shape_.triangles, positions_) {
+    : shape_(std::move(shape)), positions_(positions_of(shape_)), outline_(shape_.triangles, weld(positions_)) {
   const auto describe = [](std::size_t stride) {
     vertex_attribute(0, 3, GL_FLOAT, stride, offsetof(SolidShape::Vertex, position));
     vertex_attribute(1, 3, GL_FLOAT, stride, offsetof(SolidShape::Vertex, normal));

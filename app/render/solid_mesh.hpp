@@ -42,6 +42,12 @@ SolidShape disc();
 /// A pin with its point at the origin and its head at (0, 1, 0).
 SolidShape needle();
 
+/// A scalpel's blade: cutting edge from its tip at the origin to (0, 1, 0), back at x = 1.
+SolidShape scalpel_blade();
+
+/// A scalpel's handle from the origin to (0, 1, 0), flat along x.
+SolidShape scalpel_handle();
+
 class SolidMesh {
  public:
   explicit SolidMesh(SolidShape shape);

@@ -22,19 +22,15 @@ void normalize_all(std::vector<Vec3f>& places, const Vec3f& centre) {
 
 }  // namespace
 
-std::vector<Vec3f> sphere_map(const SurfaceMesh& surface_mesh, std::span<const std::optional<Vec3f>> known) {
+std::vector<Vec3f> sphere_map(const SurfaceMesh& surface_mesh) {
   std::vector<Vec3f> places = surface_mesh.rest;
-  normalize_all(places, bounding_sphere(uncut_surface(surface_mesh).rest).centre);
-  for (std::size_t i = 0; i < known.size(); ++i) places[i] = known[i].value_or(places[i]);
-  std::vector<Triangle> triangles = surface_mesh.triangles;  // those with a node to place
-  const auto is_known = [&](int node) { return !known.empty() && known[node].has_value(); };
-  std::erase_if(triangles, [&](const Triangle& t) { return std::all_of(t.begin(), t.end(), is_known); });
+  normalize_all(places, bounding_sphere(surface_mesh.rest).centre);
   std::vector<Vec3f> sums(places.size());
   for (int round = 0; round < rounds; ++round) {
     for (std::size_t i = 0; i < places.size(); ++i) sums[i] = 0.5f * places[i];
     Vec3f mean = Vec3f::Zero();
     float area = 0;
-    for (const auto& [a, b, c] : triangles) {
+    for (const auto& [a, b, c] : surface_mesh.triangles) {
       const float weight =
           (surface_mesh.rest[b] - surface_mesh.rest[a]).cross(surface_mesh.rest[c] - surface_mesh.rest[a]).norm();
       const Vec3f sum = places[a] + places[b] + places[c];
@@ -43,10 +39,9 @@ std::vector<Vec3f> sphere_map(const SurfaceMesh& surface_mesh, std::span<const s
       for (const int node : {a, b, c}) sums[node] += sum - places[node];
     }
     places = sums;
-    for (std::size_t i = 0; i < known.size(); ++i) places[i] = known[i].value_or(places[i]);
     normalize_all(places, Vec3f::Zero());
-    // Recentres the map of a whole surface, which would otherwise drift to one side.
-    if (area > 0 && known.empty()) normalize_all(places, 0.5f * mean / area);
+    // Recentres the map, which would otherwise drift to one side.
+    if (area > 0) normalize_all(places, 0.5f * mean / area);
   }
   return places;
 }

@@ -86,11 +86,12 @@ void for_each_edge(const std::vector<HalfEdge>& half_edges, Action action) {
 
 }  // namespace
 
-SurfaceTopology surface_topology(const SurfaceMesh& surface_mesh, float crease) {
+SurfaceTopology surface_topology(const SurfaceMesh& surface_mesh, float crease, std::span<const char> exposed) {
   const std::vector<HalfEdge> half_edges = sorted_half_edges(surface_mesh);
   Sets sheets(half_edges.size());
   for_each_edge(half_edges, [&](const HalfEdge* first, const HalfEdge* last) {
     if (last - first != 2 || !is_smooth(surface_mesh, first[0], first[1], crease)) return;
+    if (!exposed.empty() && exposed[first[0].triangle] != exposed[first[1].triangle]) return;
     sheets.join(first[0].from_slot, first[1].from_slot);
     sheets.join(first[0].to_slot, first[1].to_slot);
   });

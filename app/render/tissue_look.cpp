@@ -1,34 +1,13 @@
-#include <algorithm>
 #include <app/render/ambient_occlusion.hpp>
 #include <app/render/bounds.hpp>
 #include <app/render/smooth_surface.hpp>
 #include <app/render/sphere_map.hpp>
 #include <app/render/tissue_look.hpp>
-#include <cassert>
-#include <limits>
 
 namespace heml::render {
 namespace {
 
 constexpr float occlusion_reach = 0.7f;  // in body radii
-
-/// Index of each node among those of the uncut surface; −1: exposed by a cut. Both lists are ascending.
-std::vector<int> places_in_whole(const SurfaceMesh& surface_mesh) {
-  std::vector<int> places(surface_mesh.nodes.size(), -1);
-  const std::vector<int>& nodes = surface_mesh.whole->nodes;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const auto at = std::lower_bound(nodes.begin(), nodes.end(), surface_mesh.nodes[i]);
-    if (at != nodes.end() && *at == surface_mesh.nodes[i]) places[i] = static_cast<int>(at - nodes.begin());
-  }
-  return places;
-}
-
-std::vector<int> triangle_counts(const SurfaceMesh& surface_mesh) {
-  std::vector<int> counts(surface_mesh.nodes.size(), 0);
-  for (const Triangle& triangle : surface_mesh.triangles)
-    for (const int node : triangle) ++counts[node];
-  return counts;
-}
 
 std::vector<Vec3f> node_normals(const SurfaceMesh& surface_mesh) {
   const SmoothSurface surface(surface_mesh, 1);
@@ -41,25 +20,24 @@ std::vector<Vec3f> node_normals(const SurfaceMesh& surface_mesh) {
 
 }  // namespace
 
-TissueLook tissue_look(const SurfaceMesh& surface_mesh, const TissueLook* whole) {
-  assert((whole != nullptr) == (surface_mesh.whole != nullptr));
-  std::vector<std::optional<Vec3f>> on_sphere;
-  std::vector<std::optional<float>> known_occlusion;
-  if (whole) {
-    const std::vector<int> place = places_in_whole(surface_mesh);
-    const std::vector<int> now = triangle_counts(surface_mesh), before = triangle_counts(*surface_mesh.whole);
-    on_sphere.resize(place.size());
-    known_occlusion.resize(place.size());
-    for (std::size_t i = 0; i < place.size(); ++i) {
-      if (place[i] < 0) continue;
-      on_sphere[i] = whole->on_sphere[place[i]];
-      if (now[i] == before[place[i]])
-        known_occlusion[i] = whole->ambient_occlusion[place[i]];  // otherwise it is at the rim of a cut
+TissueLook tissue_look(const SurfaceMesh& surface_mesh) {
+  const float reach = occlusion_reach * bounding_sphere(surface_mesh.rest).radius;
+  return {sphere_map(surface_mesh), ambient_occlusion(surface_mesh, node_normals(surface_mesh), reach)};
+}
+
+TissueLook tissue_look(const TissueLook& whole, const OriginalSkin& skin) {
+  TissueLook look;
+  for (const auto& [nodes, weights, depth] : skin.places()) {
+    Vec3f direction = Vec3f::Zero();
+    float open = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      direction += weights[k] * whole.on_sphere[nodes[k]];
+      open += weights[k] * whole.ambient_occlusion[nodes[k]];
     }
+    look.on_sphere.push_back(direction.normalized());
+    look.ambient_occlusion.push_back(open);
   }
-  const BoundingSphere ball = bounding_sphere(uncut_surface(surface_mesh).rest);
-  return {sphere_map(surface_mesh, on_sphere),
-          ambient_occlusion(surface_mesh, node_normals(surface_mesh), occlusion_reach * ball.radius, known_occlusion)};
+  return look;
 }
 
 }  // namespace heml::render

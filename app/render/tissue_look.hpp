@@ -1,6 +1,7 @@
 #pragma once
-// Appearance data that depend only on the rest shape and are slow to compute. After a removal, nodes with unchanged
-// surroundings keep their values: the pattern does not move, and few nodes are recomputed.
+// Appearance data that depend only on the rest shape and are slow to compute. After an edit of the mesh they are
+// interpolated from those of the original skin: the pattern does not move.
+#include <app/render/original_skin.hpp>
 #include <heml/session/frame.hpp>
 #include <vector>
 
@@ -11,7 +12,10 @@ struct TissueLook {
   std::vector<float> ambient_occlusion;  ///< #S, ambient_occlusion.hpp
 };
 
-/// whole: the look of surface_mesh.whole; null if and only if that is null.
-TissueLook tissue_look(const SurfaceMesh& surface_mesh, const TissueLook* whole);
+/// The look of a surface without edits.
+TissueLook tissue_look(const SurfaceMesh& surface_mesh);
+
+/// The look of an edited surface. whole: of the surface before all edits. skin: of the edited one.
+TissueLook tissue_look(const TissueLook& whole, const OriginalSkin& skin);
 
 }  // namespace heml::render

@@ -1,11 +1,14 @@
 #include "app/render/tool_drawing.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace heml::render {
 namespace {
 
 const Vec3f steel(0.80f, 0.83f, 0.86f);
+const Vec3f incision(0.050f, 0.002f, 0.003f);
+constexpr float along_sight = 0.8f;   // cosine
 constexpr float half_tension = 0.5f;  // N at which the spring has its middle colour
 
 // Model matrix of a shape along +y from the origin: y to `axis`, x towards `side`.
@@ -103,6 +106,44 @@ void ToolDrawing::place_pin(const PinState& pin, const ViewContext& shot) {
                     tension_tint(static_cast<float>(pin.force.norm())), 0});
 }
 
+void ToolDrawing::place_stroke(const StrokeDrawing& stroke, const ViewContext& shot) {
+  const float thickness = 0.0045f * shot.radius;
+  for (const auto& [from, to] : stroke.line) {
+    // The drawn skin bulges over the flat faces that the points lie on.
+    const Vec3f lift = 0.012f * shot.radius * (shot.camera.eye() - from).normalized(), along = to - from;
+    if (!along.allFinite() || along.norm() == 0) continue;
+    parts_.push_back(
+        {&rod_, place_along(from + lift, along, across(along), along.norm(), thickness), incision, 0, false});
+  }
+  if (stroke.blade) place_blade(*stroke.blade, shot);
+}
+
+/// The blade trails behind its cutting edge; its handle is at the end nearer to the eye. A blade along the line of
+/// sight would hide the tissue that it cuts and its own depth: it is drawn leaning about the point where it enters the
+/// skin.
+void ToolDrawing::place_blade(const Blade& blade, const ViewContext& shot) {
+  const Vec3f eye = shot.camera.eye();
+  Vec3f tip = blade.edge[0], top = blade.edge[1];
+  if ((tip - eye).norm() < (top - eye).norm()) std::swap(tip, top);
+  const Vec3f heading = blade.heading.norm() > 0 ? blade.heading : Vec3f(-shot.camera.right());
+  const float length = (top - tip).norm();
+  if (!std::isfinite(length) || !heading.allFinite() || length == 0) return;
+  Vec3f axis = (top - tip) / length;
+  if (axis.dot((eye - top).normalized()) > along_sight) {
+    const Vec3f entry = top + blade.entry * (tip - top);
+    axis = (0.6f * axis + 0.9f * shot.camera.up() + 0.55f * shot.camera.right()).normalized();
+    tip = entry - (1 - blade.entry) * length * axis;
+  }
+  Vec3f back = heading.dot(axis) * axis - heading;
+  back = back.norm() > 0 ? Vec3f(back.normalized()) : axis.unitOrthogonal();
+  const float drawn = std::max(1.08f * length, 0.12f * shot.radius);
+  const float width = std::clamp(0.24f * drawn, 0.05f * shot.radius, 0.12f * shot.radius);
+  parts_.push_back({&blade_, place_along(tip, axis, back, drawn, width), steel, 1, true, true});
+  parts_.push_back({&handle_,
+                    place_along(tip + drawn * axis + 0.5f * width * back, axis, back, shot.radius, shot.radius), steel,
+                    1});
+}
+
 void ToolDrawing::cast(const Program& program) const {
   for (const Part& part : parts_) {
     if (!part.casts) continue;
@@ -121,7 +162,27 @@ void ToolDrawing::prepare(const Program& program, const ViewContext& shot, const
   program.set("metal", part.metal);
 }
 
+/// Blends what is behind the body over it. Call it when the depth buffer holds the body alone.
+void ToolDrawing::draw_hidden(const ViewContext& shot) const {
+  if (std::none_of(parts_.begin(), parts_.end(), [](const Part& part) { return part.shows_through; })) return;
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  glDepthMask(GL_FALSE);
+  glDepthFunc(GL_GREATER);
+  glEnable(GL_CULL_FACE);
+  for (const Part& part : parts_) {
+    if (!part.shows_through) continue;
+    prepare(hidden_, shot, part);
+    part.mesh->draw();
+  }
+  glDisable(GL_CULL_FACE);
+  glDepthFunc(GL_LEQUAL);
+  glDepthMask(GL_TRUE);
+  glDisable(GL_BLEND);
+}
+
 void ToolDrawing::draw(const ViewContext& shot) const {
+  draw_hidden(shot);
   for (const Part& part : parts_) {
     prepare(solid_, shot, part);
     part.mesh->draw();

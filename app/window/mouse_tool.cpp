@@ -3,8 +3,9 @@
 
 namespace heml::window {
 namespace {
-constexpr float min_stroke = 4;  // pixels of mouse travel per cut
-}
+constexpr float min_stroke = 4;     // pixels of mouse travel per cut
+constexpr double above_skin = 0.3;  // of the blade, in depths
+}  // namespace
 
 std::optional<render::Hit> MouseTool::pick(const render::Vec2f& at, const Frame& frame,
                                            const SurfaceMesh& surface_mesh) const {
@@ -32,6 +33,9 @@ bool MouseTool::press(MouseButton button, const render::Vec2f& at, bool shift, c
       blade_ = blade_at(at);
       cut_to_ = at;
       continues_stroke_ = false;
+      heading_.setZero();
+      line_.clear();
+      line_.add(*hit, frame, surface_mesh);
       return false;
     }
   press_background(button, at, shift);
@@ -134,18 +138,33 @@ bool MouseTool::wheel(float notches, std::vector<Command>& out) {
 std::array<Vec3, 2> MouseTool::blade_at(const render::Vec2f& at) const {
   const Vec3 point = controller_.drag(at, anchor_).cast<double>();
   const Vec3 along = controller_.ray(at).direction.cast<double>();
-  return {point - 0.3 * depth_ * along, point + depth_ * along};
+  return {point - above_skin * depth_ * along, point + depth_ * along};
 }
 
 void MouseTool::cut(const render::Vec2f& at, const Frame& frame, const SurfaceMesh& surface_mesh,
                     std::vector<Command>& out) {
   if ((at - cut_to_).norm() < min_stroke) return;
-  if (const auto hit = pick(at, frame, surface_mesh)) anchor_ = hit->point;  // follows the relief of the surface
+  if (const auto hit = pick(at, frame, surface_mesh)) {
+    anchor_ = hit->point;  // follows the relief of the surface
+    line_.add(*hit, frame, surface_mesh);
+  } else {
+    line_.lift();
+  }
   const std::array<Vec3, 2> now = blade_at(at);
   out.emplace_back(CutTissue{{{blade_, now}}, continues_stroke_});
+  heading_ = now[0] + now[1] - blade_[0] - blade_[1];
   blade_ = now;
   cut_to_ = at;
   continues_stroke_ = true;
+}
+
+render::StrokeDrawing MouseTool::stroke(const Frame& frame, const SurfaceMesh& surface_mesh) const {
+  if (interaction_ != Interaction::cutting) return {};
+  const std::array<Vec3, 2> now = blade_at(last_);
+  return {render::Blade{{now[0].cast<float>(), now[1].cast<float>()},
+                        heading_.cast<float>(),
+                        static_cast<float>(above_skin / (1 + above_skin))},
+          line_.segments(frame, surface_mesh)};
 }
 
 void MouseTool::move(const render::Vec2f& at, const Frame& frame, const SurfaceMesh& surface_mesh,

@@ -3,6 +3,8 @@
 #include <app/panel/actions.hpp>
 #include <app/panel/camera_controller.hpp>
 #include <app/render/pick.hpp>
+#include <app/render/stroke_drawing.hpp>
+#include <app/window/stroke_line.hpp>
 #include <heml/session/frame.hpp>
 #include <heml/world/command.hpp>
 #include <optional>
@@ -35,6 +37,8 @@ class MouseTool {
   Interaction interaction() const { return interaction_; }
   /// The first end of an unfinished suture: mesh-file number of a node.
   std::optional<int> first_end() const { return first_end_; }
+  /// The scalpel and its line while it cuts, as the tissue lies in a frame; empty otherwise.
+  render::StrokeDrawing stroke(const Frame& frame, const SurfaceMesh& surface_mesh) const;
   /// The point of the surface under a pixel.
   std::optional<render::Hit> pick(const render::Vec2f& at, const Frame& frame, const SurfaceMesh& surface_mesh) const;
 
@@ -54,12 +58,14 @@ class MouseTool {
 
   panel::CameraController& controller_;
   Interaction interaction_ = Interaction::none;
-  MouseButton button_ = MouseButton::left;        // that began interaction_
-  render::Vec2f last_ = render::Vec2f::Zero();    // of the mouse, pixels
-  Vec3f anchor_ = Vec3f::Zero();                  // m, of the surface, where the tool began
-  Vec3f node_offset_ = Vec3f::Zero();             // m, from there to the grasped node
-  double depth_ = 0;                              // m, of the blade below anchor_
-  std::array<Vec3, 2> blade_;                     // m, end of the last cut
+  MouseButton button_ = MouseButton::left;      // that began interaction_
+  render::Vec2f last_ = render::Vec2f::Zero();  // of the mouse, pixels
+  Vec3f anchor_ = Vec3f::Zero();                // m, of the surface, where the tool began
+  Vec3f node_offset_ = Vec3f::Zero();           // m, from there to the grasped node
+  double depth_ = 0;                            // m, of the blade below anchor_
+  std::array<Vec3, 2> blade_;                   // m, end of the last cut
+  Vec3 heading_ = Vec3::Zero();                 // m, of the blade's last movement
+  StrokeLine line_;
   render::Vec2f cut_to_ = render::Vec2f::Zero();  // the same, pixels
   panel::ToolSettings probe_;                     // of the active probe
   std::optional<int> first_end_;                  // of an unfinished suture

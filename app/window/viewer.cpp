@@ -2,6 +2,7 @@
 #include <imgui.h>
 
 #include <app/panel/keys.hpp>
+#include <app/panel/scripted_blade.hpp>
 #include <app/window/overlay.hpp>
 #include <app/window/viewer.hpp>
 #include <thread>
@@ -96,7 +97,11 @@ void Viewer::draw() {
   interface_.set_scale(panel::Interface::suitable_scale(size) * window_.content_scale());
   controller_.resize(size, panel_->insets({static_cast<float>(size.width), static_cast<float>(size.height)}),
                      panel::body_count(*frame_));
-  bodies_.draw(*frame_, controller_, panel_->drawing());
+  render::DrawOptions drawing = panel_->drawing();
+  drawing.stroke = mouse_tool_.stroke(seen(), *seen().surface_mesh);
+  if (!drawing.stroke.blade)
+    drawing.stroke.blade = panel::scripted_blade(open_.scene.events, frame_->tick - 1, frame_->pace.rate);
+  bodies_.draw(*frame_, controller_, drawing);
   draw_interface(seconds);
   add_video_frame();
   std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(options_.draw_stall));

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <app/render/camera.hpp>
+#include <app/render/weld.hpp>
 
 #include "shapes.hpp"
 
@@ -27,7 +28,7 @@ TEST_CASE("the outline of a cube seen along an axis is its four front edges") {
   Camera camera;
   camera.fit(Vec3f::Zero(), 1, size);
   camera.look(0, 0);
-  Outline outline(indices_of(surface_mesh), surface_mesh.rest);
+  Outline outline(indices_of(surface_mesh), weld(surface_mesh.rest));
   const auto& pieces = outline.find(surface_mesh.rest, camera.eye(), camera.projection(size) * camera.view(), size);
   REQUIRE(pieces.size() == 4);
   for (const auto& piece : pieces) {
@@ -43,7 +44,7 @@ TEST_CASE("the outline of a ball is a closed loop round its rim") {
   const SurfaceMesh surface_mesh = ball_surface(3, 1);
   Camera camera;
   camera.fit(Vec3f::Zero(), 1, size);
-  Outline outline(indices_of(surface_mesh), surface_mesh.rest);
+  Outline outline(indices_of(surface_mesh), weld(surface_mesh.rest));
   const auto& pieces = outline.find(surface_mesh.rest, camera.eye(), camera.projection(size) * camera.view(), size);
   std::map<std::uint32_t, int> ends;
   for (const auto& piece : pieces) {

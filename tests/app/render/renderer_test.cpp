@@ -10,6 +10,7 @@
 #include <numbers>
 #include <set>
 
+#include "cut_body.hpp"
 #include "shapes.hpp"
 
 namespace heml::renderer_test {
@@ -165,6 +166,64 @@ TEST_CASE("a surface mesh after a removal is drawn with its frame and the rest o
   CHECK(left == 0);
   stage.frame.surface_mesh = whole;
   CHECK(stage.draw().pixels == before.pixels);
+}
+
+TEST_CASE("a scalpel is drawn over the body, its part in the tissue shows through, fainter, and so does its line") {
+  Stage stage;
+  stage.options.ground = false;
+  const Image plain = stage.draw();
+  const Vec3f back = (stage.camera.eye() - stage.camera.target()).normalized(), right = stage.camera.right();
+  // Straight down through the front of the ball, seen from the side: half of the edge is inside.
+  const Vec3f middle = 0.05f * stage.camera.up(), up = 0.02f * stage.camera.up();
+  stage.options.stroke.blade = Blade{{middle - up, middle + up}, right};
+  const Image cutting = stage.draw();
+  const auto change = [&](const Image& image, const Vec3f& point) {
+    const Vec2f pixel = stage.camera.pixel(point, size);
+    const int x = static_cast<int>(pixel.x()), y = static_cast<int>(pixel.y());
+    int sum = 0;
+    for (int k = 0; k < 3; ++k) sum += std::abs(image.at(x, y)[k] - plain.at(x, y)[k]);
+    return sum;
+  };
+  const Vec3f behind_edge = -0.0015f * right;  // the blade trails behind its edge
+  CHECK(change(cutting, middle + 0.5f * up + behind_edge) > 60);
+  CHECK(change(cutting, middle - 0.5f * up + behind_edge) > 25);
+  CHECK(change(cutting, middle - 2.0f * up + behind_edge) == 0);
+  stage.options.stroke.blade.reset();
+  stage.options.stroke.line = {{0.05f * back - 0.02f * right, 0.05f * back + 0.02f * right}};
+  CHECK(change(stage.draw(), 0.05f * back) > 60);
+  stage.options.tool = false;
+  CHECK(stage.draw().pixels == plain.pixels);
+}
+
+TEST_CASE("the faces of a cut are dark and raw where it gapes, and a closed cut is a thin dark line on the skin") {
+  const OsMesaContext context(size);
+  Renderer renderer;
+  const CutBody body;
+  Frame frame = frame_at_rest(*body.whole);
+  DrawOptions options;
+  options.ground = options.constrained = false;
+  Camera camera;
+  camera.fit(Vec3f::Constant(0.04f), 0.06f, size);
+  camera.look(0, 0.9f);
+  const auto draw = [&] {
+    renderer.draw(frame, camera, options, size);
+    return read_pixels(size);
+  };
+  const Image whole = draw();
+  frame = frame_at_rest(*body.cut);
+  frame.surface_mesh = body.cut;
+  const Image closed = draw();
+  CHECK(draw().pixels == closed.pixels);
+  const int changed = count_different(whole, closed);
+  CHECK(changed > 20);
+  CHECK(changed < 0.2 * size.width * size.height);
+  int darker = 0;
+  for (int y = 0; y < size.height; ++y)
+    for (int x = 0; x < size.width; ++x) darker += closed.at(x, y)[0] + 40 < whole.at(x, y)[0];
+  CHECK(darker > 10);
+  frame.field = Field::von_mises;  // a field is drawn on wounds as on the skin
+  frame.values.assign(frame.positions.size(), 0);
+  CHECK_NOTHROW(draw());
 }
 
 TEST_CASE("nodes above their limit are hatched on tissue and on a colour map, and nothing else changes") {

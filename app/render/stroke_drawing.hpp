@@ -1,0 +1,21 @@
+#pragma once
+// What is drawn of a stroke with the scalpel.
+#include <array>
+#include <heml/math/types.hpp>
+#include <optional>
+#include <vector>
+
+namespace heml::render {
+
+struct Blade {
+  std::array<Vec3f, 2> edge{Vec3f::Zero(), Vec3f::Zero()};  ///< m, ends of the cutting edge
+  Vec3f heading = Vec3f::Zero();                            ///< of the last movement; zero: not moved yet
+  float entry = 0;                                          ///< where it enters the skin, 0 at its upper end to 1
+};
+
+struct StrokeDrawing {
+  std::optional<Blade> blade;              ///< none: no stroke is under way
+  std::vector<std::array<Vec3f, 2>> line;  ///< m, segments of the incision line on the skin
+};
+
+}  // namespace heml::render
