@@ -66,6 +66,7 @@ constexpr CommandDefinition definitions[] = {
      "  paper      the five bodies of the paper, HEML and Mass-Tensor\n"
      "  kernel     one force evaluation, every law\n"
      "  step       whole steps\n"
+     "  terms      steps with viscosity, relaxation and the like, beside the law alone\n"
      "  threads    steps with one to all threads\n"
      "  roofline   what the machine could do\n"
      "Examples:\n"

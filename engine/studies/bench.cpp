@@ -18,6 +18,7 @@ struct Suite {
 constexpr Suite suites[] = {{"paper", paper_suite, "The bodies of Goulette & Chendeb 2006"},
                             {"kernel", kernel_suite, "One force evaluation"},
                             {"step", step_suite, "Whole steps"},
+                            {"terms", terms_suite, "Steps with one term added to a law"},
                             {"threads", threads_suite, "Steps on several threads, with and without another program"},
                             {"roofline", roofline_suite, "What the machine has, and what of it is used"}};
 

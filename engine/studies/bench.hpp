@@ -5,6 +5,7 @@
 //   paper     the five bodies of the paper: time and counted operations, HEML and Mass-Tensor
 //   kernel    one force evaluation: every law, precision, instruction set, 1 and all threads, 320 to 1M tetrahedra
 //   step      whole steps, explicit and implicit
+//   terms     whole steps with viscosity, relaxation and the like, beside steps of the law alone
 //   threads   whole steps with 1 to all threads, on an idle machine and with one core taken by another process
 //   roofline  peak arithmetic and bandwidth of the machine, and the fraction of them that the kernels reach
 #include <functional>
@@ -36,7 +37,7 @@ struct BenchOptions {
   std::function<void(const std::string& what, double fraction)> progress = [](const std::string&, double) {};
 };
 
-/// "paper", "kernel", "step", "threads", "roofline".
+/// "paper", "kernel", "step", "terms", "threads", "roofline".
 std::span<const std::string_view> bench_suites();
 
 /// suite: one of bench_suites(). Reads the wall clock; uses all cores.
@@ -53,6 +54,7 @@ std::string bench_table(const std::vector<BenchRow>& rows);
 std::vector<BenchRow> paper_suite(const BenchOptions& options);
 std::vector<BenchRow> kernel_suite(const BenchOptions& options);
 std::vector<BenchRow> step_suite(const BenchOptions& options);
+std::vector<BenchRow> terms_suite(const BenchOptions& options);
 std::vector<BenchRow> threads_suite(const BenchOptions& options);
 std::vector<BenchRow> roofline_suite(const BenchOptions& options);
 

@@ -1,5 +1,5 @@
-// Whole steps of a hanging cube: explicit and implicit; Saint Venant-Kirchhoff from 320 to a million
-// tetrahedra, features added to a law, the factor of static solves, and mesh edits.
+// Whole steps of a hanging cube: explicit and implicit, Saint Venant-Kirchhoff from 320 to a million
+// tetrahedra, the factor of static solves, and mesh edits.
 #include <fmt/format.h>
 
 #include <deque>
@@ -124,58 +124,6 @@ BenchRow measure(const BenchBody& body, const Case& which, bool quick) {
   return row;
 }
 
-/// Steps of a law with one feature added, interleaved with the law alone.
-std::vector<BenchRow> beside_the_law(const BenchBody& body, bool single, bool quick) {
-  Material bare = bench_material("neo_hookean_iso");
-  Material viscous = bare, relaxing = bare, other_volume = bare;
-  viscous.viscosity = 1;
-  relaxing.relaxation = {{0.3, 0.1}};
-  other_volume.volume_term = VolumeTerm::logarithmic;
-  struct Feature {
-    const char* name;
-    Material material;
-    bool nodal_pressure;
-  };
-  const Feature features[] = {{"law alone", bare, false},
-                              {"viscosity", viscous, false},
-                              {"relaxation", relaxing, false},
-                              {"another volume term", other_volume, false},
-                              {"nodal pressure", bare, true}};
-  std::vector<std::unique_ptr<World>> worlds;
-  std::vector<std::function<void()>> works;
-  std::vector<long> steps, ticks;
-  for (const Feature& feature : features) {
-    WorldSetup setup = setup_of(body.mesh, {feature.material, Integrator::verlet, 0, single, 1});
-    setup.solver.nodal_pressure = feature.nodal_pressure;
-    worlds.push_back(make_world(setup));
-    worlds.back()->tick();
-    works.push_back([world = worlds.back().get()] { world->tick(); });
-    steps.push_back(worlds.back()->steps());
-    ticks.push_back(worlds.back()->ticks());
-  }
-  TimingLimits limits;
-  limits.seconds = quick ? 0.5 : 5;
-  limits.min_rounds = 3;
-  limits.min_sample = 0;
-  const auto times = time_interleaved(works, limits);
-  std::vector<BenchRow> rows;
-  for (std::size_t k = 0; k < times.size(); ++k) {
-    const double a_tick =
-        static_cast<double>(worlds[k]->steps() - steps[k]) / static_cast<double>(worlds[k]->ticks() - ticks[k]);
-    BenchRow row = row_of(body, {features[k].material, Integrator::verlet, 0, single, 1});
-    row.name = fmt::format("verlet, {}", features[k].name);
-    row.median = 1e3 * times[k].median / a_tick;
-    row.min = 1e3 * times[k].min / a_tick;
-    row.more = {{"spread", times[k].spread},
-                {"samples", times[k].samples},
-                {"step_seconds", 1.0 / 60 / a_tick},
-                {"times_the_law_alone", k == 0 ? 1.0 : row.min / rows.front().min}};
-    if (k > 0) row.remark = fmt::format("{:.1f} times a step of the law alone", row.min / rows.front().min);
-    rows.push_back(std::move(row));
-  }
-  return rows;
-}
-
 }  // namespace
 
 std::vector<BenchRow> step_suite(const BenchOptions& options) {
@@ -189,11 +137,6 @@ std::vector<BenchRow> step_suite(const BenchOptions& options) {
     add(bodies.emplace_back(bench_cube(n, false)), method_cases());
   for (const int n : options.quick ? std::vector<int>{27} : std::vector<int>{4, 13, 27, 58})
     for (const bool irregular : {false, true}) add(bodies.emplace_back(bench_cube(n, irregular)), size_cases());
-  const BenchBody& middle = bodies.emplace_back(bench_cube(options.quick ? 9 : 13, false));
-  for (const bool single : {false, true})
-    works.push_back([&, single](auto& rows) {
-      for (BenchRow& row : beside_the_law(middle, single, options.quick)) rows.push_back(std::move(row));
-    });
   for (const int n : options.quick ? std::vector<int>{9} : std::vector<int>{6, 12, 20})
     works.push_back([&options, &body = bodies.emplace_back(bench_cube(n, false))](auto& rows) {
       for (BenchRow& row : factor_rows(body, options.quick)) rows.push_back(std::move(row));

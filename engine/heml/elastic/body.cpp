@@ -3,6 +3,7 @@
 #include <cassert>
 #include <heml/elastic/body.hpp>
 #include <heml/elastic/energy_term.hpp>
+#include <heml/elastic/viscoelastic_term.hpp>
 #include <heml/materials/parameter_slots.hpp>
 
 namespace heml {
@@ -68,8 +69,11 @@ typename ElasticBody<Real>::Part ElasticBody<Real>::make_part(std::size_t index,
   if (corners_of_points_) part.group.density /= static_cast<Real>(frequency_ratio);  // for bounds of frequencies alone
   for (const auto& term : part.terms) term->begin_step(step_);
   part.flow = make_flow<Real>(material, options_.continuation, part.group);
-  part.in_fans = !part.terms.empty() && material.fields.empty() && !part.flow && !corners_of_points_ &&
-                 has_fan_kernel(material);
+  part.in_fans =
+      !part.terms.empty() && material.fields.empty() && !part.flow && !corners_of_points_ && has_fan_kernel(material);
+  if (part.in_fans)
+    for (const auto& term : part.terms)
+      if (auto* memory = dynamic_cast<ViscoelasticTerm<Real>*>(term.get())) memory->leave_state_to_fans();
   return part;
 }
 
@@ -82,7 +86,8 @@ void ElasticBody<Real>::join_parts() {
   corner_.assign(3 * corner_count(groups), Real(0));
   if (corners_of_points_) return corners_of_points_->follow(groups);
   force_corners_ = {std::vector<std::size_t>(nodes() + 1, 0), {}};
-  const auto has_loops = [&](const Part& part) { return part.has_loops(options_.nodal_pressure); };
+  const bool loops_for_pressure = options_.nodal_pressure && !pressure_in_fans();
+  const auto has_loops = [&](const Part& part) { return part.has_loops(loops_for_pressure); };
   const auto is_in_loops = [&](std::size_t corner) {
     return std::any_of(parts_.begin(), parts_.end(), [&](const Part& part) {
       const std::size_t first = part.group.first_corner;
@@ -98,13 +103,20 @@ void ElasticBody<Real>::join_parts() {
   make_shared();
 }
 
+/// Whether the fans have all elements, so that they evaluate averaged nodal pressure too.
+template <class Real>
+bool ElasticBody<Real>::pressure_in_fans() const {
+  return options_.nodal_pressure &&
+         std::all_of(parts_.begin(), parts_.end(), [](const Part& part) { return part.in_fans; });
+}
+
 template <class Real>
 std::vector<FanPart> ElasticBody<Real>::fan_parts() const {
   std::vector<FanPart> parts;
   for (const Part& part : parts_) {
     const Material& material = materials_[part.material];
     const bool isochoric = options_.nodal_pressure || material.volume_term != VolumeTerm::quadratic;
-    if (part.in_fans) parts.push_back({&part.group.element, &material, isochoric});
+    if (part.in_fans) parts.push_back({&part.group.element, &material, isochoric, true, options_.nodal_pressure});
   }
   return parts;
 }
@@ -116,6 +128,7 @@ void ElasticBody<Real>::make_fans() {
   if (parts.empty()) return;
   ThreadTeam team = layout_team();
   fans_ = FanForces<Real>(mesh_, parts, options_.continuation, options_.instruction_set, team);
+  fans_.begin_step(step_);
 }
 
 /// Updates the fans to the present mesh, whose element t is origins[t] of the mesh `before` or a piece of it.
@@ -160,7 +173,7 @@ std::size_t ElasticBody<Real>::bytes() const {
   std::size_t sum = bytes_of(mesh_.nodes, mesh_.tets, mesh_.regions, material_of_);
   for (const ElementField& field : mesh_.fields) sum += bytes_of(field.values);
   sum += bytes_of(corners_.start, corners_.corners, force_corners_.start, force_corners_.corners, corner_,
-                  linearisation_point_, packet_energy_);
+                  linearisation_point_, packet_energy_, node_volume_);
   for (const Part& part : parts_) {
     const ElementGroup<Real>& group = part.group;
     sum += bytes_of(group.element, group.node, group.A, group.volume, group.gamma, group.fibre, group.parameters);

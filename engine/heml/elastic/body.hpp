@@ -2,9 +2,10 @@
 // The elastic part of a body: one group of elements per material, each with its energy terms; springs along edges and
 // averaged nodal pressure, which couple elements; and the sum of all forces at the nodes.
 //
-//   forces(x):  uniform laws ──► fans ──► nodes ──────────────────────► + springs
-//               other terms ──► corner forces ──► added at nodes ─┘
-//               nodal pressure ───────┘
+//   forces(x):  uniform laws, all their terms ──► fans ──► nodes ──────► + springs
+//               others ──► corner forces ──► added at nodes ─┘
+//
+// Nodal pressure comes with the fans if they have all elements, else with the corner forces.
 //
 // With mid-edge nodes the elements inside are the integration points of quadratic tetrahedra on virtual corners
 // (virtual_corners.hpp), four of each; all that goes in or out is of the ten-node elements.
@@ -53,8 +54,8 @@ struct BodyOptions {
 struct KernelInfo {
   std::size_t material;  ///< index into the body's materials
   std::string law;
-  std::string kernel;  ///< "fans": fan kernels; "corners": loops over corner forces; "fans and corners": fan kernels
-                       ///< for the law, loops for further terms; "springs": along edges
+  std::string kernel;  ///< "fans": fan kernels; "corners": loops over corner forces; "fans and corners": fan kernels,
+                       ///< loops for nodal pressure; "springs": along edges
   std::string_view instructions;  ///< "portable", "avx2", "avx512"
   std::size_t elements;
   double bytes_per_tet;  ///< read and written in one force evaluation, each array counted once; 0 for springs
@@ -213,11 +214,11 @@ class ElasticBody {
     std::vector<std::unique_ptr<GroupTerm<Real>>> terms;
     std::unique_ptr<PlasticFlow<Real>> flow;
     std::vector<Real> stiffness;  ///< of every element (edge_stiffness.hpp), filled by linearise()
-    bool in_fans;                 ///< fans_ evaluates the law's forces instead of the first term
+    bool in_fans;                 ///< fans_ evaluates the forces of all terms
 
-    std::size_t first_loop() const { return in_fans ? 1 : 0; }  ///< first term that forces() loops over
-    SlotStates<Real> slot_states();                             ///< of all terms and the flow
-    void reset_history(const Real* x);                          ///< of all terms and the flow
+    std::size_t first_loop() const { return in_fans ? terms.size() : 0; }  ///< first term that forces() loops over
+    SlotStates<Real> slot_states();                                        ///< of all terms and the flow
+    void reset_history(const Real* x);                                     ///< of all terms and the flow
     bool has_loops(bool nodal_pressure) const { return terms.size() > first_loop() || nodal_pressure; }
   };
   static constexpr std::size_t grain_ = 2048;       ///< min. elements per thread, which outweigh the cost of waking it
@@ -228,6 +229,9 @@ class ElasticBody {
   Part make_part(std::size_t material, const std::vector<int>& elements) const;
   void join_parts();
   std::vector<FanPart> fan_parts() const;
+  std::vector<FanSlots<Real>> fan_slots() const;
+  bool pressure_in_fans() const;
+  void update_slots() const;
   ThreadTeam layout_team() const { return ThreadTeam(mesh_.tets.size() < large_body_ ? 1 : options_.threads); }
   void make_fans();
   void update_fans(const TetMesh& before, const std::vector<int>& origins);
@@ -265,6 +269,7 @@ class ElasticBody {
   /// Calls visit(part, slot, kinematics, rest shape) for every element.
   template <class Visit>
   void each_slot(const Real* x, const Visit& visit) const {
+    update_slots();
     std::vector<Real> y;
     x = inner_positions(x, y);
     for (const Part& part : parts_)
@@ -290,8 +295,11 @@ class ElasticBody {
   std::vector<Real> linearisation_point_;                    ///< 3 a node of mesh_
   bool projected_ = false;                                   ///< whether project() was applied
   std::vector<double> packet_energy_;                        ///< scratch of energy()
+  std::vector<Real> node_volume_;                            ///< m³, scratch of forces()
   double plastic_work_ = 0;
   Real step_ = 0;  ///< s, of the last begin_step()
+  /// Whether the state by slot of the parts in fans is older than that of fans_; update_slots() copies it.
+  mutable bool slots_are_old_ = false;
 };
 
 }  // namespace heml

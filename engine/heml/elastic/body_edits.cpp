@@ -48,6 +48,8 @@ void ElasticBody<Real>::set_mesh(const TetMesh& mesh, const std::vector<int>& ma
 
 template <class Real>
 void ElasticBody<Real>::set_material(std::size_t index, const Material& material, const Real* x) {
+  update_slots();
+  fans_.forget_state();
   materials_[index] = material;
   std::vector<Real> y;
   x = inner_positions(x, y);
@@ -85,6 +87,7 @@ void ElasticBody<Real>::keep_numbered(Part& part, const std::vector<int>& number
 template <class Real>
 void ElasticBody<Real>::keep_elements(const std::vector<int>& elements) {
   assert(!corners_of_points_);
+  update_slots();
   std::vector<int> number(mesh_.tets.size(), -1);
   for (std::size_t k = 0; k < elements.size(); ++k) number[static_cast<std::size_t>(elements[k])] = static_cast<int>(k);
   for (Part& part : parts_) keep_numbered(part, number);
@@ -101,6 +104,7 @@ template <class Real>
 void ElasticBody<Real>::transfer_state(const TetMesh& mesh, const std::vector<int>& material_of,
                                        const std::vector<int>& origins) {
   assert(!corners_of_points_);
+  update_slots();
   const TetMesh before = std::exchange(mesh_, mesh);
   std::vector<Part> old_parts = std::exchange(parts_, {});
   material_of_ = material_of;

@@ -35,7 +35,16 @@ template <class Real>
 bool ElasticBody<Real>::forces(const Real* x, Real* f, ThreadTeam& team) {
   x = inner_positions(x, team);
   std::atomic<bool> valid{true};
-  if (!fans_.empty()) valid = fans_.forces(x, f, team);
+  const bool pressure_in_fans = this->pressure_in_fans(), loops_for_pressure = pressure_ && !pressure_in_fans;
+  const Real* pressure = nullptr;
+  if (pressure_in_fans) {
+    node_volume_.resize(nodes());
+    fans_.node_volumes(x, node_volume_.data(), team);
+    pressure = pressure_->at_volumes(node_volume_, team);
+    if (!pressure_->is_defined()) valid = false;
+  }
+  if (fans_.needs_state()) fans_.read_state(fan_slots());
+  if (!fans_.empty() && !fans_.forces(x, f, team, pressure)) valid = false;
   for (const Part& part : parts_) {
     const std::size_t first = part.first_loop(), corners = part.group.first_corner;
     for (std::size_t k = first; k < part.terms.size(); ++k)
@@ -43,14 +52,14 @@ bool ElasticBody<Real>::forces(const Real* x, Real* f, ThreadTeam& team) {
         if (!part.terms[k]->forces(part.group, x, begin, end, corner_.data(), k > first))
           valid.store(false, std::memory_order_relaxed);
       });
-    if (pressure_ && part.terms.size() == first)  // no term has written these corners
+    if (loops_for_pressure && part.terms.size() == first)  // no term has written these corners
       std::fill_n(corner_.data() + 3 * corners, 12 * part.group.volume.size(), Real(0));
   }
   if (corners_of_points_) {
     corners_of_points_->gather(corner_, f, team);
     return valid;
   }
-  if (pressure_ && !pressure_->add_forces(x, corner_.data(), team)) valid = false;
+  if (loops_for_pressure && !pressure_->add_forces(x, corner_.data(), team)) valid = false;
   if (fans_.empty() || !force_corners_.corners.empty()) gather_corners(force_corners_, f, !fans_.empty(), team);
   if (!springs_.empty()) springs_.add_forces(x, f, team);
   return valid;
@@ -63,17 +72,18 @@ std::vector<KernelInfo> ElasticBody<Real>::kernels() const {
   const double corners = 4 * sizeof(int) + 7 * sizeof(Real) + 4 * (6 * sizeof(Real) + sizeof(std::size_t)) +
                          static_cast<double>(6 * sizeof(Real) * nodes()) / static_cast<double>(elements());
   std::vector<KernelInfo> result;
+  std::size_t part_in_fans = 0;
   for (const Part& part : parts_) {
     const Material& material = materials_[part.material];
     KernelInfo info{part.material, material.law, "corners", "portable", part.group.size(), 0};
     if (part.terms.empty()) {
       info.kernel = "springs";
     } else {
-      const bool has_loops = part.has_loops(options_.nodal_pressure);
+      const bool has_loops = part.has_loops(options_.nodal_pressure && !pressure_in_fans());
       if (part.in_fans) {
         info.kernel = has_loops ? "fans and corners" : "fans";
         info.instructions = name_of(fans_.instruction_set());
-        info.bytes_per_tet = fans_.bytes_per_tet();
+        info.bytes_per_tet = fans_.bytes_per_tet(part_in_fans++);
       } else if (material.fields.empty()) {
         info.instructions = wide_instructions();  // elastic/law_term.hpp
       }

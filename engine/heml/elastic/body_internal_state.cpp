@@ -26,15 +26,40 @@ bool ElasticBody<Real>::has_internal_state() const {
 template <class Real>
 void ElasticBody<Real>::begin_step(Real h) {
   step_ = h;
+  fans_.begin_step(h);
   for (Part& part : parts_)
     for (const auto& term : part.terms) term->begin_step(h);
+}
+
+/// The slots of the parts in fans, in their order.
+template <class Real>
+std::vector<FanSlots<Real>> ElasticBody<Real>::fan_slots() const {
+  std::vector<FanSlots<Real>> result;
+  for (const Part& part : parts_) {
+    if (!part.in_fans) continue;
+    FanSlots<Real>& slots = result.emplace_back(FanSlots<Real>{&part.group, nullptr, 0});
+    for (const auto& term : part.terms)
+      for (const SlotState<Real>& list : term->slot_states()) slots.values = list.values, slots.each = list.each;
+  }
+  return result;
+}
+
+template <class Real>
+void ElasticBody<Real>::update_slots() const {
+  if (!slots_are_old_) return;
+  fans_.write_state(fan_slots());
+  slots_are_old_ = false;
 }
 
 template <class Real>
 void ElasticBody<Real>::commit(const Real* x) {
   std::vector<Real> y;
   x = inner_positions(x, y);
+  if (fans_.needs_state()) fans_.read_state(fan_slots());
+  if (fans_.has_state()) slots_are_old_ = true;
+  fans_.commit(x);
   for (Part& part : parts_) {
+    if (part.in_fans) continue;
     for (const auto& term : part.terms) term->commit(part.group, x);
     if (part.flow) plastic_work_ += part.flow->flow(part.group, x);
   }
@@ -46,11 +71,15 @@ void ElasticBody<Real>::reset_history(const Real* x) {
   std::vector<Real> y;
   x = inner_positions(x, y);
   for (Part& part : parts_) part.reset_history(x);
+  fans_.forget_state();
+  slots_are_old_ = false;
 }
 
 template <class Real>
 BodySnapshot<Real> ElasticBody<Real>::snapshot() {
+  update_slots();
   BodySnapshot<Real> snapshot{{}, materials_, fans_, plastic_work_, step_};
+  snapshot.fans.drop_scratch();
   for (Part& part : parts_) {
     snapshot.parts.push_back({part.material, part.group.element, {}});
     auto& of_part = snapshot.parts.back();
@@ -69,6 +98,7 @@ void ElasticBody<Real>::restore(const TetMesh& mesh, const std::vector<int>& mat
     material_of_ = material_of;
   }
   parts_.clear();
+  slots_are_old_ = false;
   step_ = snapshot.step;
   for (const auto& of_part : snapshot.parts) {
     Part& part = parts_.emplace_back(make_part(of_part.material, of_part.element));
@@ -101,6 +131,10 @@ std::size_t BodySnapshot<Real>::bytes() const {
 
 template bool ElasticBody<float>::has_internal_state() const;
 template bool ElasticBody<double>::has_internal_state() const;
+template std::vector<FanSlots<float>> ElasticBody<float>::fan_slots() const;
+template std::vector<FanSlots<double>> ElasticBody<double>::fan_slots() const;
+template void ElasticBody<float>::update_slots() const;
+template void ElasticBody<double>::update_slots() const;
 template void ElasticBody<float>::begin_step(float);
 template void ElasticBody<double>::begin_step(double);
 template void ElasticBody<float>::commit(const float*);

@@ -32,6 +32,7 @@ bool is_finite(const Tensions<Real>& t) {
 /// Adds packets in ascending order, so that the sum does not depend on the threads.
 template <class Real>
 double ElasticBody<Real>::sum_energies(const Real* x, bool stored, ThreadTeam& team) {
+  if (!stored) update_slots();
   double sum = 0;
   for (const Part& part : parts_) {
     packet_energy_.assign(part.group.packets(), 0.0);

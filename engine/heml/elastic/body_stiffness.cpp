@@ -10,6 +10,7 @@
 namespace heml {
 template <class Real>
 void ElasticBody<Real>::linearise(const Real* x, ThreadTeam& team) {
+  update_slots();
   x = inner_positions(x, team);
   linearisation_point_.assign(x, x + 3 * mesh_.nodes.size());
   projected_ = false;
@@ -132,6 +133,8 @@ Real ElasticBody<Real>::frequency_bound(const Real* x, ThreadTeam& team) {
   Real bound = max_bound(team, [x](const auto& term, const auto& group, std::size_t begin, std::size_t end) {
     return term.frequency_bound(group, x, begin, end);
   });
+  if (fans_.needs_state()) fans_.read_state(fan_slots());
+  bound += fans_.state_bound(fan_slots());
   if (pressure_) bound += pressure_->frequency_bound(x, team);
   if (!springs_.empty()) bound += springs_.frequency_bound(masses());
   return bound;

@@ -140,6 +140,12 @@ struct ForceKernel {
       work.tensions[i] = fan_tensions<P>(law, rest, G, J, valid);
       axis += work.tensions[i].aa;
     }
+    close_ring(group, work);
+    return axis;
+  }
+
+  /// Sets the tensions before the first tetrahedron and after the last.
+  [[gnu::always_inline]] static inline void close_ring(const Group& group, Work& work) {
     if (group.ring_nodes == group.m) {
       FanTensions<P>&before = work.tensions[0], &last = work.tensions[group.m];
       before.b11 = last.b11, before.b01 = last.b01;
@@ -149,7 +155,6 @@ struct ForceKernel {
       zero_tensions(work.tensions[0]);
       zero_tensions(work.tensions[group.m + 1]);
     }
-    return axis;
   }
 
   /// Adds the forces at the ring nodes to the records and sums their reactions for p and q.
@@ -178,14 +183,17 @@ struct ForceKernel {
     }
   }
 
-  /// Adds the forces of one group of fans to the records.
-  [[gnu::always_inline]] static inline void run(const L& law, FanSize size, const std::uint16_t* index,
-                                                const Real* shape, Real* records, Work& work, Mask<P>& valid) {
-    Group group{size.tets, size.ring, index + 2 * lanes, shape, shape + size.ring * lanes, {}, {}, {}};
-    read_axis<Isa>(static_cast<const Real*>(records), index, group.p, group.a);
+  /// Reads the axis and the spokes of a group.
+  [[gnu::always_inline]] static inline void read_group(Group& group, const std::uint16_t* index, const Real* records,
+                                                       Work& work) {
+    read_axis<Isa>(records, index, group.p, group.a);
     group.aa = dot(group.a, group.a);
     read_ring(group, records, work);
-    const P axis = evaluate_tensions(law, group, work, valid);
+  }
+
+  /// Adds the forces of a group to the records. axis: the sum of the tensions on the axis.
+  [[gnu::always_inline]] static inline void add_forces(const Group& group, const std::uint16_t* index, P axis,
+                                                       const Work& work, Real* records) {
     P at_p[3] = {0, 0, 0}, at_q[3] = {0, 0, 0};
     add_ring_forces(group, work, records, at_p, at_q);
     for (int i = 0; i < 3; ++i) {
@@ -194,6 +202,15 @@ struct ForceKernel {
     }
     Isa::add(records + 4, reread(index + lanes), at_q);
     Isa::add(records + 4, reread(index), at_p);
+  }
+
+  /// Adds the forces of one group of fans to the records.
+  [[gnu::always_inline]] static inline void run(const L& law, FanSize size, const std::uint16_t* index,
+                                                const Real* shape, Real* records, Work& work, Mask<P>& valid) {
+    Group group{size.tets, size.ring, index + 2 * lanes, shape, shape + size.ring * lanes, {}, {}, {}};
+    read_group(group, index, records, work);
+    const P axis = evaluate_tensions(law, group, work, valid);
+    add_forces(group, index, axis, work, records);
   }
 
   static bool block(const L& law, const FanBlock<Real>& block, const Real* x, Real* f) {

@@ -1,7 +1,11 @@
 #include <atomic>
+#include <cassert>
+#include <cstring>
 #include <heml/elastic/fan_energy.hpp>
 #include <heml/elastic/fan_forces.hpp>
+#include <heml/elastic/viscoelastic_term.hpp>
 #include <heml/materials/laws.hpp>
+#include <heml/materials/parameter_slots.hpp>
 #include <heml/math/bytes.hpp>
 
 namespace heml {
@@ -23,7 +27,7 @@ FanElements elements_of(const TetMesh& mesh, const FanPart& part, FanShape shape
 template <class Real>
 FanForces<Real>::FanForces(const TetMesh& mesh, const std::vector<FanPart>& parts, bool continuation,
                            InstructionSet isa, ThreadTeam& team)
-    : isa_(resolve(isa)) {
+    : isa_(resolve(isa)), nodes_(mesh.nodes.size()) {
   std::vector<FanElements> elements;
   for (const FanPart& part : parts) {
     laws_.push_back(law_of(part, continuation));
@@ -31,11 +35,13 @@ FanForces<Real>::FanForces(const TetMesh& mesh, const std::vector<FanPart>& part
   }
   layout_ = std::make_shared<const FanLayout<Real>>(mesh, elements, lanes_of<Real>(isa_), team);
   shared_force_.resize(3 * layout_->shared_slots);
+  begin_step(0);
 }
 
 template <class Real>
 typename FanForces<Real>::Law FanForces<Real>::law_of(const FanPart& part, bool continuation) const {
   const Material& material = *part.material;
+  const bool isochoric = part.isochoric || (part.has_terms && !material.relaxation.empty());  // what relaxes
   Law result;
   if (find_energy_law(material.law))
     with_invariant_energy<Real>(material, [&]<class L>(const L& law) {
@@ -46,7 +52,7 @@ typename FanForces<Real>::Law FanForces<Real>::law_of(const FanPart& part, bool 
   else
     with_law<Real>(material, continuation, [&]<class L>(L law) {
       if constexpr (L::has_volume_term)
-        if (part.isochoric) law.kappa = 0;
+        if (isochoric) law.kappa = 0;
       result.kernel = fan_kernel<Real>(isa_, law_index(L::name), continuation);
       result.law = std::make_shared<const L>(law);
       result.shape = PrincipalLaw<L, Real> ? FanShape::principal : L::uses_I4 ? FanShape::fibre : FanShape::plain;
@@ -54,6 +60,49 @@ typename FanForces<Real>::Law FanForces<Real>::law_of(const FanPart& part, bool 
   const bool has_fibre = result.shape == FanShape::fibre;
   result.fibre = has_fibre && material.fibre_field.empty() ? material.fibre : Vec3::Zero();
   if (has_fibre) result.fibre_field = material.fibre_field;
+  add_terms(part, continuation, result);
+  return result;
+}
+
+template <class Real>
+void FanForces<Real>::add_terms(const FanPart& part, bool continuation, Law& law) const {
+  const Material& material = *part.material;
+  const LawInfo& info = *find_law(material.law);
+  FanTerms<Real>& terms = law.terms;
+  if (part.has_terms) {
+    terms.eta = static_cast<Real>(material.viscosity);
+    terms.zeta = static_cast<Real>(material.bulk_viscosity);
+    if (terms.eta > 0 || terms.zeta > 0) terms.viscous_state = 6;
+    law.relaxation = material.relaxation;
+    const bool relaxes = !law.relaxation.empty();
+    terms.state = terms.viscous_state + (relaxes ? 6 * (1 + law.relaxation.size()) : 0);
+    if (info.has_volume_term && (relaxes || material.volume_term != VolumeTerm::quadratic)) {
+      terms.volume = material.volume_term == VolumeTerm::quadratic     ? FanVolume::quadratic
+                     : material.volume_term == VolumeTerm::logarithmic ? FanVolume::logarithmic
+                                                                       : FanVolume::simo_taylor;
+      terms.kappa = static_cast<Real>(material.parameters[*volume_parameter(material, info)]);
+    }
+  }
+  law.takes_pressure = part.nodal_pressure;
+  if (part.nodal_pressure) terms.volume = FanVolume::none;
+  if (terms.state == 0 && terms.volume == FanVolume::none && !law.takes_pressure) return;
+  terms.is_principal = law.shape == FanShape::principal;
+  terms.constants = fan_constants(law.shape == FanShape::fibre);
+  terms.is_continued = continuation;
+  const FanTermKernels<Real> kernels = fan_term_kernels<Real>(isa_);
+  law.term_kernel = find_energy_law(material.law) ? kernels.of_energy(law.shape == FanShape::fibre)
+                                                  : kernels.of_law(law_index(material.law), continuation);
+}
+
+template <class Real>
+std::vector<FanTerms<Real>> FanForces<Real>::terms_of_parts(const Real* pressure) const {
+  std::vector<FanTerms<Real>> result;
+  for (const Law& law : laws_) {
+    FanTerms<Real>& terms = result.emplace_back(law.terms);
+    terms.branches = law.branches.data();
+    terms.branch_count = law.branches.size();
+    if (law.takes_pressure) terms.pressure = pressure;
+  }
   return result;
 }
 
@@ -67,6 +116,8 @@ bool FanForces<Real>::update_laws(const std::vector<FanPart>& parts, bool contin
     if (now.shape != before.shape || now.fibre != before.fibre || now.fibre_field != before.fibre_field) return false;
   }
   laws_ = std::move(laws);
+  forget_state();
+  begin_step(step_);
   return true;
 }
 
@@ -79,46 +130,145 @@ bool FanForces<Real>::update_layout(const TetMesh& before, const TetMesh& mesh, 
   layout_ = std::make_shared<const FanLayout<Real>>(
       layout_->after_edit(before, mesh, elements, origins, lanes_of<Real>(isa_), team));
   shared_force_.assign(3 * layout_->shared_slots, Real(0));
+  forget_state();
+  nodes_ = mesh.nodes.size();
   return true;
 }
 
+/// A block whose shared nodes get so many numbers each.
 template <class Real>
-bool FanForces<Real>::forces(const Real* x, Real* f, ThreadTeam& team) {
+FanBlock<Real> FanForces<Real>::block_at(std::size_t b, std::size_t numbers) {
   const FanLayout<Real>& fans = *layout_;
-  std::atomic<bool> valid{true};
-  const std::size_t blocks_a_thread = 1 + grain_ * fans.blocks.size() / (fans.elements() + 1);
-  team.parallel_for(fans.blocks.size(), blocks_a_thread, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t b = begin; b < end; ++b) {
-      const auto& at = fans.blocks[b];
-      const Law& law = laws_[at.part];
-      const FanBlock<Real> block{&fans.size[at.group],
-                                 at.groups,
-                                 &fans.index[at.index],
-                                 &fans.shape[at.shape],
-                                 &fans.place[at.place],
-                                 at.own,
-                                 at.nodes,
-                                 shared_force_.data() + 3 * at.shared_slot};
-      if (!law.kernel(law.law.get(), block, x, f)) valid.store(false, std::memory_order_relaxed);
-    }
-  });
+  const auto& at = fans.blocks[b];
+  return {&fans.size[at.group],
+          at.groups,
+          &fans.index[at.index],
+          &fans.shape[at.shape],
+          &fans.place[at.place],
+          at.own,
+          at.nodes,
+          shared_force_.data() + numbers * at.shared_slot};
+}
+
+/// Sums what the blocks have written for shared nodes.
+template <class Real>
+template <std::size_t numbers>
+void FanForces<Real>::sum_shared(Real* of_node, ThreadTeam& team) const {
+  const FanLayout<Real>& fans = *layout_;
   team.parallel_for(fans.shared_node.size(), grain_ / 2, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
-      Real sum[3] = {0, 0, 0};
+      Real sum[numbers] = {};
       for (std::size_t s = fans.shared_start[k]; s < fans.shared_start[k + 1]; ++s)
-        for (std::size_t i = 0; i < 3; ++i) sum[i] += shared_force_[3 * fans.shared_slot[s] + i];
-      Real* to = f + 3 * fans.shared_node[k];
-      for (std::size_t i = 0; i < 3; ++i) to[i] = sum[i];
+        for (std::size_t i = 0; i < numbers; ++i) sum[i] += shared_force_[numbers * fans.shared_slot[s] + i];
+      Real* to = of_node + numbers * static_cast<std::size_t>(fans.shared_node[k]);
+      for (std::size_t i = 0; i < numbers; ++i) to[i] = sum[i];
     }
   });
+}
+
+template <class Real>
+bool FanForces<Real>::forces(const Real* x, Real* f, ThreadTeam& team, const Real* pressure) {
+  assert(!needs_state());
+  const FanLayout<Real>& fans = *layout_;
+  const std::vector<FanTerms<Real>> terms = terms_of_parts(pressure);
+  if (has_state()) {
+    state_.make_next();
+    evaluated_x_.assign(x, x + 3 * nodes_);
+    evaluated_ = true;
+  }
+  std::atomic<bool> valid{true};
+  team.parallel_for(fans.blocks.size(), blocks_a_thread(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) {
+      const std::size_t part = fans.blocks[b].part;
+      const Law& law = laws_[part];
+      const FanBlock<Real> block = block_at(b, 3);
+      const bool remembers = law.terms.state > 0;
+      const bool defined = law.term_kernel
+                               ? law.term_kernel(law.law.get(), block, terms[part], remembers ? state_.now(b) : nullptr,
+                                                 remembers ? state_.next(b) : nullptr, x, f)
+                               : law.kernel(law.law.get(), block, x, f);
+      if (!defined) valid.store(false, std::memory_order_relaxed);
+    }
+  });
+  sum_shared<3>(f, team);
   return valid;
+}
+
+template <class Real>
+void FanForces<Real>::node_volumes(const Real* x, Real* sum, ThreadTeam& team) {
+  const FanLayout<Real>& fans = *layout_;
+  const FanVolumeKernel<Real> kernel = fan_term_kernels<Real>(isa_).volumes;
+  team.parallel_for(fans.blocks.size(), blocks_a_thread(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) {
+      const std::size_t constants = fan_constants(laws_[fans.blocks[b].part].shape == FanShape::fibre);
+      kernel(block_at(b, 1), constants, x, sum);
+    }
+  });
+  sum_shared<1>(sum, team);
+}
+
+template <class Real>
+bool FanForces<Real>::has_state() const {
+  return std::any_of(laws_.begin(), laws_.end(), [](const Law& law) { return law.terms.state > 0; });
+}
+
+template <class Real>
+void FanForces<Real>::read_state(const std::vector<FanSlots<Real>>& slots) {
+  state_.read(*layout_, lanes_of<Real>(isa_), terms_of_parts(), slots);
+  evaluated_ = false;
+}
+
+template <class Real>
+void FanForces<Real>::write_state(const std::vector<FanSlots<Real>>& slots) const {
+  state_.write(*layout_, lanes_of<Real>(isa_), terms_of_parts(), slots);
+}
+
+template <class Real>
+Real FanForces<Real>::state_bound(const std::vector<FanSlots<Real>>& slots) const {
+  return has_state() ? state_.bound(*layout_, lanes_of<Real>(isa_), terms_of_parts(), slots) : Real(0);
+}
+
+template <class Real>
+void FanForces<Real>::begin_step(Real h) {
+  step_ = h;
+  evaluated_ = false;
+  for (Law& law : laws_) {
+    law.terms.per_step = h > 0 ? 1 / h : 0;
+    law.terms.weight = 0;
+    law.branches.clear();
+    for (const PronyTerm& term : law.relaxation) {
+      law.branches.push_back(branch_during(static_cast<Real>(term.gamma), static_cast<Real>(term.tau), h));
+      law.terms.weight += law.branches.back().gain;
+    }
+  }
+}
+
+template <class Real>
+void FanForces<Real>::commit(const Real* x) {
+  if (!has_state()) return;
+  assert(!needs_state());
+  if (!evaluated_ || std::memcmp(evaluated_x_.data(), x, sizeof(Real) * 3 * nodes_) != 0) {
+    ThreadTeam alone(1);
+    std::vector<Real> unused(3 * nodes_);
+    forces(x, unused.data(), alone);
+  }
+  state_.advance();
+  evaluated_ = false;
+}
+
+template <class Real>
+void FanForces<Real>::drop_scratch() {
+  state_.drop_next();
+  evaluated_x_ = {};
+  evaluated_ = false;
 }
 
 template <class Real>
 std::size_t FanForces<Real>::bytes() const {
   const FanLayout<Real>& fans = *layout_;
   return bytes_of(fans.blocks, fans.size, fans.index, fans.shape, fans.place, fans.element, fans.shared_node,
-                  fans.shared_start, fans.shared_slot, shared_force_);
+                  fans.shared_start, fans.shared_slot, shared_force_, evaluated_x_) +
+         state_.bytes();
 }
 
 template class FanForces<float>;

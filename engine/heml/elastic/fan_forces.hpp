@@ -1,11 +1,14 @@
 #pragma once
-// Forces of elements with a uniform law: blocks of fans (elastic/fan_block.hpp), each run by the kernel of its law.
+// Forces of elements with a uniform law: blocks of fans (elastic/fan_block.hpp), each run by the kernel of its law, or
+// by the one of its law and further terms (elastic/fan_terms.hpp).
 //
 //   blocks ──► forces of their own nodes ──► f
 //         └──► those of shared nodes ──► summed in the order of blocks ──► f
 #include <heml/base/thread_team.hpp>
 #include <heml/elastic/fan_kernels.hpp>
 #include <heml/elastic/fan_layout.hpp>
+#include <heml/elastic/fan_state.hpp>
+#include <heml/elastic/fan_term_kernels.hpp>
 #include <heml/materials/material.hpp>
 #include <memory>
 #include <string>
@@ -16,7 +19,9 @@ namespace heml {
 struct FanPart {
   const std::vector<int>* elements;
   const Material* material;
-  bool isochoric = false;  ///< without the volume term of the law, which must have one
+  bool isochoric = false;       ///< without the volume term of the law, which must have one
+  bool has_terms = false;       ///< with the material's viscosity, relaxation and volume term
+  bool nodal_pressure = false;  ///< forces() takes pressures in place of the volume term
 };
 
 template <class Real>
@@ -28,22 +33,43 @@ class FanForces {
             ThreadTeam& team);
 
   /// Replaces the laws of the same elements in the same parts and keeps the layout. Returns false and changes nothing
-  /// if the number of parts or the constants of a part (FanShape, fibre) would change.
+  /// if the number of parts or the constants of a part (FanShape, fibre) would change. Forgets the state.
   bool update_laws(const std::vector<FanPart>& parts, bool continuation);
 
   /// Updates the layout after an edit of the mesh (FanLayout::after_edit), keeping untouched blocks. Returns false and
-  /// changes nothing if the number of parts has changed.
+  /// changes nothing if the number of parts has changed. Forgets the state.
   bool update_layout(const TetMesh& before, const TetMesh& mesh, const std::vector<FanPart>& parts,
                      const std::vector<int>& origins, ThreadTeam& team);
 
   bool empty() const { return layout_->blocks.empty(); }
 
   /// Writes the forces (N) at positions x (3 #V, m) into f (3 #V, overwritten; zero at nodes without an element here).
-  /// Returns whether every law is defined at x. Uses scratch memory: one call at a time.
-  bool forces(const Real* x, Real* f, ThreadTeam& team);
+  /// Returns whether every law is defined at x. Uses scratch memory: one call at a time. pressure: of every node, Pa,
+  /// for parts that take it.
+  bool forces(const Real* x, Real* f, ThreadTeam& team, const Real* pressure = nullptr);
+  /// Writes the sums of V J of the tetrahedra here at each node, m³ (#V, overwritten).
+  void node_volumes(const Real* x, Real* sum, ThreadTeam& team);
+
+  // Internal state of parts with terms; as those of ElasticBody.
+  bool has_state() const;
+  /// Whether read_state() must come before forces() or commit().
+  bool needs_state() const { return has_state() && !state_.is_known(); }
+  void forget_state() { state_.forget(), evaluated_ = false; }
+  void read_state(const std::vector<FanSlots<Real>>& slots);
+  void write_state(const std::vector<FanSlots<Real>>& slots) const;
+  /// Upper bound of ω² from stress that the state holds, 1/s².
+  Real state_bound(const std::vector<FanSlots<Real>>& slots) const;
+  void begin_step(Real h);
+  /// Costs nothing where forces() were evaluated at this x last.
+  void commit(const Real* x);
+  /// Frees what the next evaluation writes again.
+  void drop_scratch();
 
   InstructionSet instruction_set() const { return isa_; }
-  double bytes_per_tet() const { return layout_->bytes_per_tet(); }
+  /// Of the elements of one part: layout, and state that is read and written.
+  double bytes_per_tet(std::size_t part = 0) const {
+    return layout_->bytes_per_tet() + static_cast<double>(2 * sizeof(Real) * laws_[part].terms.state);
+  }
   /// Size of all arrays, in bytes.
   std::size_t bytes() const;
 
@@ -56,13 +82,30 @@ class FanForces {
     FanShape shape;
     Vec3 fibre;               ///< only with FanShape::fibre
     std::string fibre_field;  ///< only with FanShape::fibre
+
+    FanTermKernel<Real> term_kernel = nullptr;  ///< null: the law alone
+    FanTerms<Real> terms;
+    std::vector<FanBranch<Real>> branches;
+    std::vector<PronyTerm> relaxation;
+    bool takes_pressure = false;
   };
   Law law_of(const FanPart& part, bool continuation) const;
+  void add_terms(const FanPart& part, bool continuation, Law& law) const;
+  std::vector<FanTerms<Real>> terms_of_parts(const Real* pressure = nullptr) const;
+  FanBlock<Real> block_at(std::size_t b, std::size_t numbers);
+  std::size_t blocks_a_thread() const { return 1 + grain_ * layout_->blocks.size() / (layout_->elements() + 1); }
+  template <std::size_t numbers>
+  void sum_shared(Real* of_node, ThreadTeam& team) const;
 
   InstructionSet isa_ = InstructionSet::portable;
   std::shared_ptr<const FanLayout<Real>> layout_ = std::make_shared<const FanLayout<Real>>();  ///< shared by copies
   std::vector<Law> laws_;                                                                      ///< of each part
   std::vector<Real> shared_force_;  ///< 3 a shared slot, scratch of forces()
+  FanState<Real> state_;
+  std::size_t nodes_ = 0;          ///< of the mesh
+  Real step_ = 0;                  ///< s, of the last begin_step()
+  std::vector<Real> evaluated_x_;  ///< where forces() wrote the next state
+  bool evaluated_ = false;         ///< whether it did, in this step
 };
 
 }  // namespace heml

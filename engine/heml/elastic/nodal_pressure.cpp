@@ -116,7 +116,7 @@ typename NodalPressure<Real>::Value NodalPressure<Real>::psi(Real J) const {
 
 template <class Real>
 void NodalPressure<Real>::average(const Real* x, NodeValues& values, ThreadTeam& team) {
-  auto& [ratio, pressure] = values;
+  std::vector<Real>& ratio = values.ratio;
   if (has_avx2()) {
     for (const ElementGroup<Real>* group : groups_)
       team.parallel_for(group->packets(), slot_grain / group->lanes, [&](std::size_t begin, std::size_t end) {
@@ -129,11 +129,33 @@ void NodalPressure<Real>::average(const Real* x, NodeValues& values, ThreadTeam&
       return group.volume[s] * volume_kinematics(group, x, s, rest).at.J;
     });
   }
+  evaluate(values, team);
+}
+
+/// Turns the sums of V J in `ratio` into ratios, and evaluates the pressures.
+template <class Real>
+void NodalPressure<Real>::evaluate(NodeValues& values, ThreadTeam& team) const {
+  std::vector<Real>&ratio = values.ratio, &pressure = values.pressure;
   pressure.resize(ratio.size());
-  for (std::size_t n = 0; n < ratio.size(); ++n) {
-    ratio[n] = node_volume_[n] > 0 ? ratio[n] / node_volume_[n] : Real(1);
-    pressure[n] = node_kappa_[n] * psi(ratio[n]).w1;
-  }
+  team.parallel_for(ratio.size(), node_grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t n = begin; n < end; ++n) {
+      ratio[n] = node_volume_[n] > 0 ? ratio[n] / node_volume_[n] : Real(1);
+      pressure[n] = node_kappa_[n] * psi(ratio[n]).w1;
+    }
+  });
+}
+
+template <class Real>
+const Real* NodalPressure<Real>::at_volumes(const std::vector<Real>& sums, ThreadTeam& team) {
+  last_.ratio = sums;
+  evaluate(last_, team);
+  return last_.pressure.data();
+}
+
+template <class Real>
+bool NodalPressure<Real>::is_defined() const {
+  if (continuation_ || term_ == VolumeTerm::quadratic) return true;
+  return std::all_of(last_.ratio.begin(), last_.ratio.end(), [](Real J) { return J > min_volume_ratio<Real>; });
 }
 
 template <class Real>
@@ -166,8 +188,7 @@ bool NodalPressure<Real>::add_forces(const Real* x, Real* corner, ThreadTeam& te
       }
     });
   }
-  if (continuation_ || term_ == VolumeTerm::quadratic) return true;
-  return std::all_of(last_.ratio.begin(), last_.ratio.end(), [](Real J) { return J > min_volume_ratio<Real>; });
+  return is_defined();
 }
 
 template <class Real>

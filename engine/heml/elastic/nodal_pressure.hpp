@@ -25,6 +25,11 @@ class NodalPressure {
   /// node.
   bool add_forces(const Real* x, Real* corner, ThreadTeam& team);
 
+  /// The pressures of the nodes (#V, Pa), valid until the next evaluation, at sums of V_t J_t at each node (#V, m³).
+  const Real* at_volumes(const std::vector<Real>& sums, ThreadTeam& team);
+  /// Whether ψ is defined at every node of the last evaluation.
+  bool is_defined() const;
+
   /// Evaluates volume ratios and pressures at x for the two calls below, until the next linearise(). Other evaluations
   /// between leave them.
   void linearise(const Real* x, ThreadTeam& team);
@@ -51,6 +56,7 @@ class NodalPressure {
   };
   Value psi(Real J) const;
   void average(const Real* x, NodeValues& values, ThreadTeam& team);
+  void evaluate(NodeValues& values, ThreadTeam& team) const;
   Real pressure(const NodeValues& values, std::size_t group, std::size_t s) const;  ///< mean p_t of a slot, Pa
   template <class OfSlot>
   void gather(std::vector<Real>& node_sums, ThreadTeam& team, const OfSlot& of_slot);

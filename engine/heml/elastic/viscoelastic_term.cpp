@@ -69,7 +69,35 @@ HEML_WIDE void store_gram(const ElementGroup<Real>& group, const Real* x, std::s
   }
 }
 
+/// Largest bound of the damping of packets [begin, end), 1/s: uᵀDu = V/2 (η |dC|² + ζ/2 (tr dC)²).
+template <class Real>
+HEML_WIDE Real viscous_bound(const Viscous<Real>& of, const ElementGroup<Real>& group, const Real* x, std::size_t begin,
+                             std::size_t end) {
+  constexpr std::size_t lanes = ElementGroup<Real>::lanes;
+  Real largest = 0;
+  for (std::size_t p = begin; p < end; ++p) {
+    const Packet<Real, false> packet(group, x, p * lanes);
+    Real bound[lanes];
+#pragma GCC ivdep
+    for (std::size_t l = 0; l < lanes; ++l) {
+      const Corners<Real> at(packet.x, l);
+      const RestShape<Real> rest = packet.rest(l);
+      const auto kinematics = element_kinematics<true, true, false>(at.x[0], at.x[1], at.x[2], at.x[3], rest);
+      bound[l] = 4 / group.density *
+                 (2 * of.eta * stretch_bounds(kinematics.at).max * group.gamma[p * lanes + l] +
+                  of.zeta / 4 * corner_sums(kinematics, rest).n1);
+    }
+    for (std::size_t l = 0; l < lanes; ++l) largest = bound[l] > largest || std::isnan(bound[l]) ? bound[l] : largest;
+  }
+  return largest;
+}
+
 }  // namespace
+
+template <class Real>
+FanBranch<Real> branch_during(Real gamma, Real tau, Real h) {
+  return {natural_exp(-h / tau), gamma * natural_exp(-h / (2 * tau))};
+}
 
 template <class Real>
 ViscoelasticTerm<Real>::ViscoelasticTerm(std::unique_ptr<GroupTerm<Real>> law, const Material& material)
@@ -77,7 +105,7 @@ ViscoelasticTerm<Real>::ViscoelasticTerm(std::unique_ptr<GroupTerm<Real>> law, c
       eta_(static_cast<Real>(material.viscosity)),
       zeta_(static_cast<Real>(material.bulk_viscosity)) {
   for (const PronyTerm& term : material.relaxation) {
-    branches_.push_back({static_cast<Real>(term.gamma), static_cast<Real>(term.tau), 1, 0});
+    branches_.push_back({static_cast<Real>(term.gamma), static_cast<Real>(term.tau), {1, 0}});
     total_gamma_ += branches_.back().gamma;
   }
   stride_ = 12 + 6 * branches_.size();
@@ -89,9 +117,8 @@ void ViscoelasticTerm<Real>::begin_step(Real h) {
   per_step_ = h > 0 ? 1 / h : 0;
   weight_ = 0;
   for (Branch& branch : branches_) {
-    branch.decay = natural_exp(-h / branch.tau);
-    branch.gain = branch.gamma * natural_exp(-h / (2 * branch.tau));
-    weight_ += branch.gain;
+    branch.step = branch_during(branch.gamma, branch.tau, h);
+    weight_ += branch.step.gain;
   }
 }
 
@@ -124,7 +151,8 @@ void ViscoelasticTerm<Real>::commit(const Group& group, const Real* x) {
     total_tensions(group, s, kinematics, rest, T);
     for (std::size_t b = 0; b < branches_.size(); ++b) {
       Real* Q = state + 12 + 6 * b;
-      for (int i = 0; i < 6; ++i) Q[i] = branches_[b].decay * Q[i] + branches_[b].gain * (T[i] - state[6 + i]);
+      for (int i = 0; i < 6; ++i)
+        Q[i] = branches_[b].step.decay * Q[i] + branches_[b].step.gain * (T[i] - state[6 + i]);
     }
     std::copy_n(T, 6, state + 6);
   }
@@ -142,7 +170,7 @@ Tensions<Real> ViscoelasticTerm<Real>::fixed_tensions(std::size_t s) const {
   const Real* state = &state_[stride_ * s];
   for (std::size_t b = 0; b < branches_.size(); ++b)
     for (std::size_t i = 0; i < 6; ++i)
-      t.T[i] += branches_[b].decay * state[12 + 6 * b + i] - branches_[b].gain * state[6 + i];
+      t.T[i] += branches_[b].step.decay * state[12 + 6 * b + i] - branches_[b].step.gain * state[6 + i];
   return t;
 }
 
@@ -195,26 +223,32 @@ Real ViscoelasticTerm<Real>::slot_frequency_bound(const Group& group, std::size_
                                                   const ElementKinematics<Real>& kinematics,
                                                   const RestShape<Real>& rest) const {
   if (branches_.empty()) return 0;
-  StressSum<Real> fixed;
-  fixed.add(fixed_tensions(s), rest);
-  return total_gamma_ * law_->slot_frequency_bound(group, s, kinematics, rest) +
-         4 / group.density * std::sqrt(double_contraction3(fixed.S, fixed.S)) * group.gamma[s];
+  return total_gamma_ * law_->slot_frequency_bound(group, s, kinematics, rest) + slot_state_bound(group, s);
 }
 
-/// uᵀDu = V/2 (η |dC|² + ζ/2 (tr dC)²).
+template <class Real>
+Real ViscoelasticTerm<Real>::slot_state_bound(const Group& group, std::size_t s) const {
+  StressSum<Real> fixed;
+  fixed.add(fixed_tensions(s), rest_shape(group, s));
+  return 4 / group.density * std::sqrt(double_contraction3(fixed.S, fixed.S)) * group.gamma[s];
+}
+
+template <class Real>
+Real ViscoelasticTerm<Real>::frequency_bound(const Group& group, const Real* x, std::size_t begin,
+                                             std::size_t end) const {
+  if (branches_.empty()) return 0;
+  Real largest = 0;
+  for (std::size_t s = begin * Group::lanes; s < end * Group::lanes && !in_fans_; ++s) {
+    const Real bound = slot_state_bound(group, s);
+    largest = bound > largest || std::isnan(bound) ? bound : largest;
+  }
+  return total_gamma_ * law_->frequency_bound(group, x, begin, end) + largest;
+}
+
 template <class Real>
 Real ViscoelasticTerm<Real>::damping_bound(const Group& group, const Real* x, std::size_t begin,
                                            std::size_t end) const {
-  Real largest = 0;
-  for (std::size_t s = begin * Group::lanes; s < end * Group::lanes; ++s) {
-    const auto rest = rest_shape(group, s);
-    const auto kinematics = full_kinematics(group, x, s, rest);
-    const Real bound =
-        4 / group.density *
-        (2 * eta_ * stretch_bounds(kinematics.at).max * group.gamma[s] + zeta_ / 4 * corner_sums(kinematics, rest).n1);
-    largest = bound > largest || std::isnan(bound) ? bound : largest;
-  }
-  return largest;
+  return eta_ > 0 || zeta_ > 0 ? viscous_bound<Real>({eta_, zeta_, per_step_, stride_}, group, x, begin, end) : Real(0);
 }
 
 template <class Real>
@@ -251,6 +285,8 @@ void ViscoelasticTerm<Real>::total_tensions(const Group& group, std::size_t s,
   }
 }
 
+template FanBranch<float> branch_during(float, float, float);
+template FanBranch<double> branch_during(double, double, double);
 template class ViscoelasticTerm<float>;
 template class ViscoelasticTerm<double>;
 

@@ -11,9 +11,17 @@
 // (η/4h |ΔC|² + ζ/8h (tr ΔC)²), T* the tensions that are constant during the step.
 //
 //   slot s:  G0[6] T0[6] Q0[6] Q1[6] ...   at the last commit()
+//
+// Where fans evaluate the forces of the group, they keep the state in their own layout (elastic/fan_state.hpp), and
+// ElasticBody copies it here for everything else.
+#include <heml/elastic/fan_terms.hpp>
 #include <heml/elastic/group_term.hpp>
 
 namespace heml {
+
+/// A branch of relaxation in a step of h seconds.
+template <class Real>
+FanBranch<Real> branch_during(Real gamma, Real tau, Real h);
 
 template <class Real>
 class ViscoelasticTerm final : public GroupTerm<Real> {
@@ -32,6 +40,7 @@ class ViscoelasticTerm final : public GroupTerm<Real> {
                                       const KinematicsDifferential<Real>& change) const override;
   Real slot_frequency_bound(const Group& group, std::size_t s, const ElementKinematics<Real>& kinematics,
                             const RestShape<Real>& rest) const override;
+  Real frequency_bound(const Group& group, const Real* x, std::size_t begin, std::size_t end) const override;
   Real damping_bound(const Group& group, const Real* x, std::size_t begin, std::size_t end) const override;
   double energy(const Group& group, std::size_t s, const ElementKinematics<Real>& kinematics,
                 const RestShape<Real>& rest) const override;
@@ -44,14 +53,18 @@ class ViscoelasticTerm final : public GroupTerm<Real> {
   void begin_step(Real h) override;
   void commit(const Group& group, const Real* x) override;
   void reset_history(const Group& group, const Real* x) override;
+  /// frequency_bound() leaves out the stress that the state holds, which the fans know (FanForces::state_bound()).
+  void leave_state_to_fans() { in_fans_ = true; }
   SlotStates<Real> slot_states() override { return {{&state_, stride_}}; }
   void reshape(const std::vector<SubelementMap<Real>>& subelement_maps) override;
 
  private:
   struct Branch {
-    Real gamma, tau, decay, gain;
+    Real gamma, tau;
+    FanBranch<Real> step;
   };
   Tensions<Real> fixed_tensions(std::size_t s) const;
+  Real slot_state_bound(const Group& group, std::size_t s) const;
   void add_viscous(const Real dG[6], const RestShape<Real>& rest, Real T[6]) const;
   void total_tensions(const Group& group, std::size_t s, const ElementKinematics<Real>& kinematics,
                       const RestShape<Real>& rest, Real T[6]) const;
@@ -65,6 +78,7 @@ class ViscoelasticTerm final : public GroupTerm<Real> {
   Real weight_ = 0;          ///< Σ gain
   std::size_t stride_ = 12;  ///< values per slot of state_
   std::vector<Real> state_;
+  bool in_fans_ = false;
 };
 
 }  // namespace heml

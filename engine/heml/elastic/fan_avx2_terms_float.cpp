@@ -1,0 +1,11 @@
+#include <heml/elastic/fan_avx2.hpp>
+#include <heml/elastic/fan_term_stages.hpp>
+
+namespace heml {
+
+template <>
+FanTermKernels<float> avx2_term_kernels() {
+  return fan::term_kernels<float, Avx2>();
+}
+
+}  // namespace heml

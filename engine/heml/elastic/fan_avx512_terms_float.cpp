@@ -1,0 +1,11 @@
+#include <heml/elastic/fan_avx512.hpp>
+#include <heml/elastic/fan_term_stages.hpp>
+
+namespace heml {
+
+template <>
+FanTermKernels<float> avx512_term_kernels() {
+  return fan::term_kernels<float, Avx512>();
+}
+
+}  // namespace heml

@@ -1,0 +1,68 @@
+#pragma once
+// Internal state of the elements in fans (viscosity, relaxation), in the layout that their kernels read and write
+// (elastic/fan_terms.hpp): once at the last commit, once after the step that is being evaluated. Stiffness, energies,
+// edits and snapshots know the state by slot (elastic/viscoelastic_term.hpp); read() and write() convert.
+//
+// With e1, e2, e3 the edges of an element and M the edges a, b0, b1 of its fan in them, G in a fan is MᵀGM, and a
+// tension is −M⁻¹TM⁻ᵀ.
+#include <heml/elastic/element_group.hpp>
+#include <heml/elastic/fan_layout.hpp>
+#include <heml/elastic/fan_terms.hpp>
+
+namespace heml {
+
+/// The state of one part by slot: `each` numbers a slot, G0 T0 Q of branch 0 …, padding included.
+template <class Real>
+struct FanSlots {
+  const ElementGroup<Real>* group;
+  std::vector<Real>* values;  ///< null: the part has no state
+  std::size_t each;
+};
+
+template <class Real>
+class FanState {
+ public:
+  bool is_known() const { return is_known_; }
+  void forget() { *this = {}; }
+
+  /// terms, slots: of each part of the layout; lanes: of its kernels.
+  void read(const FanLayout<Real>& layout, std::size_t lanes, const std::vector<FanTerms<Real>>& terms,
+            const std::vector<FanSlots<Real>>& slots);
+  /// Writes what read() reads.
+  void write(const FanLayout<Real>& layout, std::size_t lanes, const std::vector<FanTerms<Real>>& terms,
+             const std::vector<FanSlots<Real>>& slots) const;
+
+  /// Largest 4/ρ |S| γ, 1/s², with S the stress that is fixed during the step (ViscoelasticTerm::state_bound()).
+  Real bound(const FanLayout<Real>& layout, std::size_t lanes, const std::vector<FanTerms<Real>>& terms,
+             const std::vector<FanSlots<Real>>& slots) const;
+
+  const Real* now(std::size_t block) const { return now_.data() + start_[block]; }
+  Real* next(std::size_t block) { return next_.data() + start_[block]; }
+  /// Before kernels write to next().
+  void make_next() { next_.resize(now_.size()); }
+  /// The next state becomes the present one.
+  void advance() { std::swap(now_, next_); }
+  /// Frees what the next evaluation writes again.
+  void drop_next() { next_ = {}; }
+
+  std::size_t bytes() const;
+
+ private:
+  /// An element in a fan: its slot, −1 in a lane without a fan, and which of its corners are p, q, r_i, r_i+1.
+  struct Place {
+    int slot = -1;
+    std::array<std::uint8_t, 4> corner = {};
+  };
+  void find_places(const FanLayout<Real>& layout, std::size_t lanes, const std::vector<FanSlots<Real>>& slots);
+  template <class Visit>
+  void each_element(const FanLayout<Real>& layout, std::size_t lanes, const std::vector<FanTerms<Real>>& terms,
+                    const Visit& visit) const;
+
+  bool is_known_ = false;
+  std::vector<Real, CacheAligned<Real>> now_, next_;
+  std::vector<std::size_t> start_;        ///< of each block in now_
+  std::vector<Place> places_;             ///< [group][tetrahedron][lane]
+  std::vector<std::size_t> place_start_;  ///< of each block in places_
+};
+
+}  // namespace heml

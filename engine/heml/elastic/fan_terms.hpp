@@ -1,0 +1,58 @@
+#pragma once
+// Terms beside the law in the fan kernels: viscosity, relaxation, volume terms of their own, averaged nodal pressure
+// (elastic/viscoelastic_term.hpp, elastic/nodal_pressure.hpp have the formulas). A kernel with terms runs one group of
+// fans through stages, of which the second alone depends on the law:
+//
+//   nodes ──► spokes ──► tensions of the law ──► + terms ──► forces at each ring node ──► nodes
+//                                                 │  ▲
+//              next state, kept by commit() ◄─────┘  └───── state of the step's beginning
+//
+//   state: [group][tetrahedron][G0 (6)  if viscous, then T0 (6) Q of branch 0 (6) Q of branch 1 …  if relaxing][lane]
+//
+// The six numbers are of the edges a, b0, b1 of elastic/fan_block.hpp, as aa 00 11 a0 a1 01; tensions have the reversed
+// sign of the kernels.
+//
+// Plain data only: files compiled for other instruction sets include this header.
+#include <heml/elastic/fan_block.hpp>
+
+namespace heml {
+
+/// A branch of relaxation during one step of h seconds.
+template <class Real>
+struct FanBranch {
+  Real decay;  ///< e^(−h/τ)
+  Real gain;   ///< γ e^(−h/2τ)
+};
+
+/// A volume term that the law does not have: none, κ/2 (J−1)², or those of VolumeLaw.
+enum class FanVolume { none, quadratic, logarithmic, simo_taylor };
+
+template <class Real>
+struct FanTerms {
+  bool is_principal = false;      ///< the constants of the rest shape are those of a law of principal stretches
+  std::size_t constants = 0;      ///< a tetrahedron
+  Real eta = 0, zeta = 0;         ///< Pa s
+  Real per_step = 0;              ///< 1/h, or 0
+  std::size_t viscous_state = 0;  ///< numbers of state a tetrahedron: 6 or 0
+  const FanBranch<Real>* branches = nullptr;
+  std::size_t branch_count = 0;
+  Real weight = 0;        ///< Σ gain
+  std::size_t state = 0;  ///< numbers of state a tetrahedron
+  FanVolume volume = FanVolume::none;
+  bool is_continued = false;
+  Real kappa = 0;                  ///< Pa
+  const Real* pressure = nullptr;  ///< Pa, of every node; null without averaged nodal pressure
+};
+
+/// As FanKernel, for the law and these terms. `state`: of the block; `next`: state after the step, overwritten. The law
+/// has no volume term where `terms` has one or a pressure.
+template <class Real>
+using FanTermKernel = bool (*)(const void* law, const FanBlock<Real>& block, const FanTerms<Real>& terms,
+                               const Real* state, Real* next, const Real* x, Real* f);
+
+/// Writes the sums of V J (m³) of the tetrahedra at each node: those of own nodes to sum (#V), those of shared nodes to
+/// block.shared_force, one a node.
+template <class Real>
+using FanVolumeKernel = void (*)(const FanBlock<Real>& block, std::size_t constants, const Real* x, Real* sum);
+
+}  // namespace heml

@@ -1,0 +1,244 @@
+// Kernels with terms: every law, instruction set and precision against the loops by slot in double, over several steps.
+#include <doctest/doctest.h>
+
+#include <heml/elastic/fan_forces.hpp>
+#include <heml/mesh/reorder.hpp>
+
+#include "small_body.hpp"
+
+namespace heml::fan_terms_test {
+
+using test::largest;
+using test::sample_material;
+
+namespace {
+
+TetMesh irregular_box(std::mt19937_64& random, const std::array<int, 3>& cells) {
+  TetMesh mesh = make_box(Vec3(0.1, 0.08, 0.06), cells);
+  for (Vec3& X : mesh.nodes) X += test::random_vector(random, 0.012 / cells[0]);
+  return reordered(mesh, hilbert_order(mesh));
+}
+
+std::vector<double> moved(const TetMesh& mesh, std::mt19937_64& random, double noise, const Mat3& F) {
+  std::vector<double> x;
+  for (const Vec3& X : mesh.nodes) {
+    const Vec3 to = F * X + test::random_vector(random, noise * 0.03);
+    for (int i = 0; i < 3; ++i) x.push_back(static_cast<double>(static_cast<float>(to[i])));
+  }
+  return x;
+}
+
+/// The forces of a body of one material by the loops over slots.
+class LoopBody {
+ public:
+  LoopBody(const TetMesh& mesh, const Material& material, bool continuation, bool nodal_pressure = false)
+      : terms_(make_terms<double>(material, continuation, nodal_pressure)) {
+    std::vector<int> elements;
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t) elements.push_back(static_cast<int>(t));
+    group_ = make_group<double>(mesh, elements, material);
+    corners_ = map_corners<double>({&group_}, mesh.nodes.size());
+    std::vector<double> rest;
+    for (const Vec3& X : mesh.nodes) rest.insert(rest.end(), {X.x(), X.y(), X.z()});
+    for (const auto& term : terms_) term->begin_step(0), term->reset_history(group_, rest.data());
+    if (!nodal_pressure) return;
+    const std::vector<double> kappa(group_.volume.size(), material.parameters.back());
+    pressure_ = std::make_unique<NodalPressure<double>>(std::vector<const ElementGroup<double>*>{&group_}, corners_,
+                                                        std::vector<std::vector<double>>{kappa}, material.volume_term,
+                                                        continuation);
+  }
+  void begin_step(double h) {
+    for (const auto& term : terms_) term->begin_step(h);
+  }
+  void commit(const std::vector<double>& x) {
+    for (const auto& term : terms_) term->commit(group_, x.data());
+  }
+  std::vector<double> forces(const std::vector<double>& x) {
+    std::vector<double> corner(12 * group_.volume.size()), f(x.size());
+    ThreadTeam alone(1);
+    for (const auto& term : terms_) term->forces(group_, x.data(), 0, group_.packets(), corner.data(), true);
+    if (pressure_) pressure_->add_forces(x.data(), corner.data(), alone);
+    for (std::size_t n = 0; n < f.size() / 3; ++n)
+      for (std::size_t k = corners_.start[n]; k < corners_.start[n + 1]; ++k)
+        for (std::size_t i = 0; i < 3; ++i) f[3 * n + i] += corner[3 * corners_.corners[k] + i];
+    return f;
+  }
+
+ private:
+  ElementGroup<double> group_;
+  CornerMap corners_;
+  std::vector<std::unique_ptr<GroupTerm<double>>> terms_;
+  std::unique_ptr<NodalPressure<double>> pressure_;
+};
+
+template <class Real>
+std::vector<Real> forces_of(ElasticBody<Real>& body, const std::vector<double>& at, int threads = 1) {
+  ThreadTeam team(threads);
+  const std::vector<Real> x(at.begin(), at.end());
+  std::vector<Real> f(x.size());
+  body.forces(x.data(), f.data(), team);
+  return f;
+}
+
+template <class Real>
+void commit(ElasticBody<Real>& body, const std::vector<double>& at) {
+  const std::vector<Real> x(at.begin(), at.end());
+  body.commit(x.data());
+}
+
+template <class Real>
+double difference(const std::vector<Real>& f, const std::vector<double>& expected) {
+  double worst = 0;
+  for (std::size_t i = 0; i < f.size(); ++i) {
+    const double d = std::abs(static_cast<double>(f[i]) - expected[i]);
+    if (!(d <= worst)) worst = d;  // also true for NaN
+  }
+  return worst / largest(expected);
+}
+
+/// Materials of a law with each term that it takes, and with all of them.
+std::vector<std::pair<std::string, Material>> with_terms(std::string_view law) {
+  const Material plain = sample_material(law);
+  Material viscous = plain, relaxing = plain, logarithmic = plain, simo_taylor = plain;
+  viscous.viscosity = 3, viscous.bulk_viscosity = 2;
+  relaxing.relaxation = {{0.7, 0.02}, {0.4, 0.5}, {0.2, 10}};
+  logarithmic.volume_term = VolumeTerm::logarithmic;
+  simo_taylor.volume_term = VolumeTerm::simo_taylor;
+  Material all = relaxing;
+  all.viscosity = 3, all.volume_term = VolumeTerm::simo_taylor;
+  if (!find_law(law)->has_volume_term) return {{"viscous", viscous}};
+  return {{"viscous", viscous},
+          {"relaxing", relaxing},
+          {"logarithmic", logarithmic},
+          {"simo_taylor", simo_taylor},
+          {"all", all}};
+}
+
+template <class Real>
+void check_kernels(InstructionSet isa, double tolerance) {
+  std::mt19937_64 random(61);
+  const TetMesh mesh = irregular_box(random, {3, 2, 2});
+  const std::vector<int> one_material(mesh.tets.size(), 0);
+  for (const auto law : test::law_names())
+    for (const auto& [name, material] : with_terms(law))
+      for (const bool continuation : {false, true}) {
+        CAPTURE(std::string(law));
+        CAPTURE(name);
+        CAPTURE(std::string(name_of(isa)));
+        CAPTURE(continuation);
+        ElasticBody<Real> body(mesh, one_material, {material}, {continuation, false, isa});
+        CHECK(body.kernels().front().kernel == "fans");
+        LoopBody loops(mesh, material, continuation);
+        for (const double stretch : {1.05, 1.2, 1.15, 0.9}) {
+          const auto x = moved(mesh, random, 0.03, Vec3(stretch, 1, 1 / stretch).asDiagonal());
+          body.begin_step(static_cast<Real>(0.01));
+          loops.begin_step(0.01);
+          CHECK(difference(forces_of(body, x), loops.forces(x)) <= tolerance);
+          commit(body, x);
+          loops.commit(x);
+        }
+      }
+}
+
+Material remembering() {
+  Material material = sample_material("mooney_rivlin");
+  material.viscosity = 2;
+  material.relaxation = {{0.7, 0.02}, {0.4, 0.5}};
+  return material;
+}
+
+}  // namespace
+
+TEST_CASE("kernels with terms in double give the forces of the loops") {
+  for (const InstructionSet isa : instruction_sets()) check_kernels<double>(isa, 1e-12);
+}
+
+TEST_CASE("kernels with terms in float give the forces of the loops to float's precision") {
+  for (const InstructionSet isa : instruction_sets()) check_kernels<float>(isa, 1e-4);
+}
+
+TEST_CASE("crushed and inverted elements relax as in the loops") {
+  std::mt19937_64 random(62);
+  const TetMesh mesh = irregular_box(random, {3, 2, 2});
+  ElasticBody<double> body(mesh, std::vector<int>(mesh.tets.size(), 0), {remembering()}, {true});
+  LoopBody loops(mesh, remembering(), true);
+  for (const Mat3& F : {Mat3(Vec3(1, 1, 0.01).asDiagonal()), Mat3(Vec3(1, -1, 1).asDiagonal())}) {
+    const auto x = moved(mesh, random, 0.5, F);
+    body.begin_step(0.01);
+    loops.begin_step(0.01);
+    CHECK(difference(forces_of(body, x), loops.forces(x)) <= 1e-9);
+    commit(body, x);
+    loops.commit(x);
+  }
+}
+
+TEST_CASE("nodal pressure in the fans gives the forces of the loops, with terms beside it too") {
+  std::mt19937_64 random(63);
+  const TetMesh mesh = irregular_box(random, {4, 3, 3});
+  const std::vector<int> one_material(mesh.tets.size(), 0);
+  Material plain = sample_material("mooney_rivlin"), other = remembering();
+  other.volume_term = VolumeTerm::logarithmic;
+  for (const InstructionSet isa : instruction_sets())
+    for (const Material& material : {plain, other, sample_material("ogden"), sample_material("hgo")}) {
+      CAPTURE(material.law);
+      ElasticBody<double> body(mesh, one_material, {material}, {false, true, isa});
+      ElasticBody<float> single(mesh, one_material, {material}, {false, true, isa});
+      CHECK(body.kernels().front().kernel == "fans");
+      LoopBody loops(mesh, material, false, true);
+      const auto x = moved(mesh, random, 0.03, Vec3(1.1, 1, 0.9).asDiagonal());
+      body.begin_step(0.01), single.begin_step(0.01f), loops.begin_step(0.01);
+      CHECK(difference(forces_of(body, x), loops.forces(x)) <= 1e-11);
+      CHECK(difference(forces_of(single, x), loops.forces(x)) <= 1e-3);
+    }
+}
+
+TEST_CASE("the state reached does not depend on what was evaluated before commit, on threads or on a snapshot") {
+  std::mt19937_64 random(64);
+  const TetMesh mesh = irregular_box(random, {16, 12, 10});
+  const std::vector<int> one_material(mesh.tets.size(), 0);
+  const auto first = moved(mesh, random, 0.005, Vec3(1.1, 1, 0.95).asDiagonal());
+  const auto second = moved(mesh, random, 0.005, Vec3(1.15, 1, 0.9).asDiagonal());
+  ElasticBody<float> evaluated(mesh, one_material, {remembering()}, {}), other(mesh, one_material, {remembering()}, {});
+  for (const bool later : {false, true}) {
+    for (ElasticBody<float>* body : {&evaluated, &other}) body->begin_step(0.01f);
+    forces_of(evaluated, first, 2);
+    if (later) forces_of(other, second);
+    commit(evaluated, first);
+    commit(other, first);
+    const auto snapshot = other.snapshot();
+    CHECK(forces_of(evaluated, second, 3) == forces_of(other, second));
+    commit(other, second);
+    CHECK(forces_of(evaluated, first) != forces_of(other, first));
+    const std::vector<float> x(second.begin(), second.end());
+    other.restore(mesh, one_material, snapshot, x.data());
+    CHECK(forces_of(evaluated, first) == forces_of(other, first));
+    CHECK(forces_of(evaluated, second) == forces_of(other, second));
+  }
+}
+
+TEST_CASE("the state survives the way through slots that an edit of the mesh takes") {
+  std::mt19937_64 random(65);
+  const TetMesh mesh = irregular_box(random, {5, 4, 3});
+  std::vector<int> material_of, all;
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    material_of.push_back(static_cast<int>(t % 2));
+    all.push_back(static_cast<int>(t));
+  }
+  Material viscous = sample_material("ogden");
+  viscous.viscosity = 4;
+  ElasticBody<double> kept(mesh, material_of, {remembering(), viscous}, {}),
+      edited(mesh, material_of, {remembering(), viscous}, {});
+  const auto x = moved(mesh, random, 0.03, Vec3(1.1, 1, 0.9).asDiagonal());
+  for (ElasticBody<double>* body : {&kept, &edited}) {
+    body->begin_step(0.01);
+    commit(*body, x);
+    body->begin_step(0.01);
+  }
+  edited.keep_elements(all);
+  const auto next = moved(mesh, random, 0.03, Vec3(1.2, 1, 0.9).asDiagonal());
+  const auto f = forces_of(kept, next);
+  CHECK(difference(forces_of(edited, next), f) <= 1e-12);
+  edited.reset_history(x.data());
+  CHECK(difference(forces_of(edited, next), f) > 1e-3);
+}
+
+}  // namespace heml::fan_terms_test
