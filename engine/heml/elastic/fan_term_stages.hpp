@@ -104,8 +104,7 @@ struct TermStages {
   }
 
   /// T + wJ as tensions, V wJ J G⁻¹, in the order of the state. 6 V J is taken as at least 0.05 · 6 V.
-  [[gnu::always_inline]] static inline void total_tensions(const Group& group, const Work& work, std::size_t i, P k,
-                                                           P total[6]) {
+  [[gnu::always_inline]] static inline void total_tensions(const Work& work, std::size_t i, P k, P total[6]) {
     const Spoke<P>&from = work.spoke[i], &to = work.spoke[i + 1];
     const FanTensions<P>& t = work.tensions[i];
     const P d = six_volumes(work, i), least = P(0.05) / k;
@@ -118,7 +117,6 @@ struct TermStages {
     total[3] = t.a0 + scale * dot(n, to.c);
     total[4] = t.a1 - scale * dot(n, from.c);
     total[5] = t.b01 - scale * dot(from.c, to.c);
-    (void)group;
   }
 
   /// T += Σ_branches (decay Q + gain (T − T0)); the next state is Q⁺ = decay Q + gain (T − T0), T0⁺ = T.
@@ -130,7 +128,7 @@ struct TermStages {
       const P k = pack_at<P>(group.rest + ((i - 1) * terms.constants + 4) * lanes);
       FanTensions<P>& t = work.tensions[i];
       P total[6];
-      total_tensions(group, work, i, k, total);
+      total_tensions(work, i, k, total);
       P* entries[6] = {&t.aa, &t.b00, &t.b11, &t.a0, &t.a1, &t.b01};
       for (std::size_t c = 0; c < 6; ++c) {
         const P before = pack_at<P>(state + c * lanes);

@@ -57,6 +57,40 @@ HEML_WIDE void add_packet_pressures(const ElementGroup<Real>& group, const Real*
     write_packet_corners(out, corner + 3 * (group.first_corner + 4 * p * lanes), true);
   }
 }
+/// Largest bound of packets [begin, end), with the largest stiffness κ ψ'' and the mean pressure of four nodes.
+template <class Real>
+[[gnu::always_inline]] inline Real packet_bounds(const ElementGroup<Real>& group, const Real* x, const Real* stiffness,
+                                                 const Real* pressure, std::size_t begin, std::size_t end) {
+  constexpr std::size_t lanes = ElementGroup<Real>::lanes;
+  Real largest = 0;
+  for (std::size_t p = begin; p < end; ++p) {
+    const Packet<Real, false> packet(group, x, p * lanes);
+    Real kappa[lanes] = {}, mean[lanes] = {}, bound[lanes];
+    for (const auto& list : group.node)
+      for (std::size_t l = 0; l < lanes; ++l) {
+        kappa[l] = std::max(kappa[l], stiffness[list[p * lanes + l]]);
+        mean[l] += pressure[list[p * lanes + l]];
+      }
+#pragma GCC ivdep
+    for (std::size_t l = 0; l < lanes; ++l) {
+      const Corners<Real> at(packet.x, l);
+      const RestShape<Real> rest = packet.rest(l);
+      const auto kinematics = element_kinematics<true, true, false>(at.x[0], at.x[1], at.x[2], at.x[3], rest);
+      bound[l] =
+          4 / group.density *
+          (kappa[l] * corner_sums(kinematics, rest).nJ +
+           2 * std::abs(mean[l] / 4) * std::sqrt(stretch_bounds(kinematics.at).max) * group.gamma[p * lanes + l]);
+    }
+    for (std::size_t l = 0; l < lanes; ++l) largest = bound[l] > largest || std::isnan(bound[l]) ? bound[l] : largest;
+  }
+  return largest;
+}
+
+template <class Real>
+HEML_WIDE Real wide_packet_bounds(const ElementGroup<Real>& group, const Real* x, const Real* stiffness,
+                                  const Real* pressure, std::size_t begin, std::size_t end) {
+  return packet_bounds(group, x, stiffness, pressure, begin, end);
+}
 }  // namespace
 
 template <class Real>
@@ -254,19 +288,10 @@ Real NodalPressure<Real>::frequency_bound(const Real* x, ThreadTeam& team) {
   std::mutex mutex;  // a maximum does not depend on the order it is taken in
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     const ElementGroup<Real>& group = *groups_[g];
-    team.parallel_for(group.size(), slot_grain, [&](std::size_t begin, std::size_t end) {
-      Real most = 0;
-      for (std::size_t s = begin; s < end; ++s) {
-        const auto rest = rest_shape(group, s);
-        const auto kinematics = full_kinematics(group, x, s, rest);
-        Real kappa = 0;
-        for (const auto& list : group.node) kappa = std::max(kappa, stiffness[static_cast<std::size_t>(list[s])]);
-        const Real bound =
-            4 / group.density *
-            (kappa * corner_sums(kinematics, rest).nJ +
-             2 * std::abs(pressure(last_, g, s)) * std::sqrt(stretch_bounds(kinematics.at).max) * group.gamma[s]);
-        most = bound > most || std::isnan(bound) ? bound : most;
-      }
+    team.parallel_for(group.packets(), slot_grain / group.lanes, [&](std::size_t begin, std::size_t end) {
+      const Real* pressure = last_.pressure.data();
+      const Real most = has_avx2() ? wide_packet_bounds(group, x, stiffness.data(), pressure, begin, end)
+                                   : packet_bounds(group, x, stiffness.data(), pressure, begin, end);
       std::lock_guard lock(mutex);
       largest = most > largest || std::isnan(most) ? most : largest;
     });

@@ -71,8 +71,8 @@ HEML_WIDE void store_gram(const ElementGroup<Real>& group, const Real* x, std::s
 
 /// Largest bound of the damping of packets [begin, end), 1/s: uᵀDu = V/2 (η |dC|² + ζ/2 (tr dC)²).
 template <class Real>
-HEML_WIDE Real viscous_bound(const Viscous<Real>& of, const ElementGroup<Real>& group, const Real* x, std::size_t begin,
-                             std::size_t end) {
+[[gnu::always_inline]] inline Real viscous_bound(const Viscous<Real>& of, const ElementGroup<Real>& group,
+                                                 const Real* x, std::size_t begin, std::size_t end) {
   constexpr std::size_t lanes = ElementGroup<Real>::lanes;
   Real largest = 0;
   for (std::size_t p = begin; p < end; ++p) {
@@ -90,6 +90,12 @@ HEML_WIDE Real viscous_bound(const Viscous<Real>& of, const ElementGroup<Real>& 
     for (std::size_t l = 0; l < lanes; ++l) largest = bound[l] > largest || std::isnan(bound[l]) ? bound[l] : largest;
   }
   return largest;
+}
+
+template <class Real>
+HEML_WIDE Real wide_viscous_bound(const Viscous<Real>& of, const ElementGroup<Real>& group, const Real* x,
+                                  std::size_t begin, std::size_t end) {
+  return viscous_bound(of, group, x, begin, end);
 }
 
 }  // namespace
@@ -248,7 +254,9 @@ Real ViscoelasticTerm<Real>::frequency_bound(const Group& group, const Real* x, 
 template <class Real>
 Real ViscoelasticTerm<Real>::damping_bound(const Group& group, const Real* x, std::size_t begin,
                                            std::size_t end) const {
-  return eta_ > 0 || zeta_ > 0 ? viscous_bound<Real>({eta_, zeta_, per_step_, stride_}, group, x, begin, end) : Real(0);
+  if (eta_ == 0 && zeta_ == 0) return 0;
+  const Viscous<Real> of{eta_, zeta_, per_step_, stride_};
+  return has_avx2() ? wide_viscous_bound(of, group, x, begin, end) : viscous_bound(of, group, x, begin, end);
 }
 
 template <class Real>
