@@ -6,6 +6,7 @@
 #include <app/render/imgui_renderer.hpp>
 #include <app/render/osmesa_context.hpp>
 #include <app/render/pick.hpp>
+#include <app/render/wound.hpp>
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -195,7 +196,7 @@ TEST_CASE("a scalpel is drawn over the body, its part in the tissue shows throug
   CHECK(stage.draw().pixels == plain.pixels);
 }
 
-TEST_CASE("the faces of a cut are dark and raw where it gapes, and a closed cut is a thin dark line on the skin") {
+TEST_CASE("a closed cut is a dark line along the blade's path, and a gaping one shows raw faces darker than the skin") {
   const OsMesaContext context(size);
   Renderer renderer;
   const CutBody body;
@@ -203,24 +204,50 @@ TEST_CASE("the faces of a cut are dark and raw where it gapes, and a closed cut 
   DrawOptions options;
   options.ground = options.constrained = false;
   Camera camera;
-  camera.fit(Vec3f::Constant(0.04f), 0.06f, size);
-  camera.look(0, 0.9f);
+  camera.fit(Vec3f::Constant(0.04f), 0.05f, size);
+  camera.look(0, 0);  // on the face that is cut
   const auto draw = [&] {
     renderer.draw(frame, camera, options, size);
     return read_pixels(size);
   };
   const Image whole = draw();
   frame = frame_at_rest(*body.cut);
-  frame.surface_mesh = body.cut;
   const Image closed = draw();
   CHECK(draw().pixels == closed.pixels);
-  const int changed = count_different(whole, closed);
-  CHECK(changed > 20);
-  CHECK(changed < 0.2 * size.width * size.height);
-  int darker = 0;
-  for (int y = 0; y < size.height; ++y)
-    for (int x = 0; x < size.width; ++x) darker += closed.at(x, y)[0] + 40 < whole.at(x, y)[0];
-  CHECK(darker > 10);
+  const auto path = [](float y) { return Vec3f(0.033f + 0.14f * (y + 0.01f), y, 0.08f); };
+  int dark = 0, beside = 0;
+  for (float y = 0.012f; y < 0.07f; y += 0.002f) {
+    const Vec2f at = camera.pixel(path(y), size);
+    const auto is_darker = [&](int x) {
+      return closed.at(x, static_cast<int>(at.y()))[0] + 15 < whole.at(x, static_cast<int>(at.y()))[0];
+    };
+    const int x = static_cast<int>(at.x());
+    dark += is_darker(x - 1) || is_darker(x) || is_darker(x + 1);
+    beside += is_darker(x - 12) || is_darker(x + 12);
+  }
+  CHECK(dark >= 24);  // of 29
+  CHECK(beside == 0);
+
+  for (Vec3f& x : frame.positions)  // the right half turns away about the cut's lower end
+    if (const float above = x.z() - 0.041f; above > 0 && x.x() > path(x.y()).x() + 0.006f) x.x() += 0.3f * above;
+  for (const WoundSite& site : wound_sites(*body.cut, OriginalSkin(*body.cut).exposed()))
+    if (site.nodes.size() == 2) {
+      const bool first_is_right = [&] {  // its faces look to the left
+        float sum = 0;
+        for (const Triangle& t : body.cut->triangles)
+          if (std::find(t.begin(), t.end(), site.nodes[0]) != t.end())
+            for (const int n : t) sum += body.cut->rest[n].x() - body.cut->rest[site.nodes[0]].x();
+        return sum > 0;
+      }();
+      Vec3f& x = frame.positions[site.nodes[first_is_right ? 0 : 1]];
+      x.x() += 0.3f * (x.z() - 0.041f);
+    }
+  const Image gaping = draw();
+  const Vec2f at = camera.pixel(path(0.04f) + Vec3f(0.005f, 0, 0), size);
+  const std::uint8_t* raw = gaping.at(static_cast<int>(at.x()), static_cast<int>(at.y()));
+  const std::uint8_t* skin = whole.at(static_cast<int>(at.x()), static_cast<int>(at.y()));
+  CHECK(raw[0] < 0.7 * skin[0]);
+  CHECK(raw[0] > raw[1] + 5);
   frame.field = Field::von_mises;  // a field is drawn on wounds as on the skin
   frame.values.assign(frame.positions.size(), 0);
   CHECK_NOTHROW(draw());
