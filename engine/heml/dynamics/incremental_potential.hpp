@@ -30,6 +30,7 @@ class IncrementalPotential final : public Objective {
   }
   double value_round_off() const override { return potential_.value_round_off(); }
   bool is_at_round_off(const Vector& r) const override { return potential_.is_at_round_off(r); }
+  bool refine_precision() override { return potential_.refine_precision(); }
   bool inverts_elements(const Vector& from, const Vector& to) const override {
     return potential_.inverts_elements(from, to);
   }

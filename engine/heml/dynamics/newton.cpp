@@ -10,6 +10,8 @@ constexpr double switch_ratio = 0.5;  // an iteration on negative curvature that
 constexpr int max_idle_forces = 2, max_idle_values = 5;
 // Part of the bound on the round-off of values that sums of many elements reach.
 constexpr double round_off_fraction = 1e-3;
+// A step that changes Φ by round-off only and leaves more of the measure asks for a more precise objective.
+constexpr double slow_at_round_off = 0.5;
 constexpr double none = std::numeric_limits<double>::infinity();
 
 /// Detects that round-off ends progress. Where a step changes Φ by round-off only, several steps together must lower Φ,
@@ -59,9 +61,21 @@ NewtonResult minimise(Objective& objective, LinearSolver& linear, const Stopping
     result.status = status;
     return result;
   };
+  const auto refine = [&] {
+    if (!objective.refine_precision()) return false;
+    if (!objective.residual(at.x, at.r)) at.r.setConstant(none);
+    at.value = objective.value(at.x);
+    at.within_round_off = false;
+    round_off = {};
+    return true;
+  };
+  double before_step = none;
   while (true) {
+    if (!at.r.allFinite()) return finish(NewtonResult::Status::undefined);
     result.measure = stop.measure(at.r);
     if (result.measure <= stop.limit) return finish(NewtonResult::Status::converged);
+    if (at.within_round_off && result.measure > slow_at_round_off * before_step && refine()) continue;
+    before_step = result.measure;
     result.at_round_off = round_off.is_over(objective, at, result.measure);
     if (result.at_round_off) {
       at.x = round_off.best();
@@ -83,6 +97,7 @@ NewtonResult minimise(Objective& objective, LinearSolver& linear, const Stopping
       if (!positive && at.r.norm() > switch_ratio * before) by_projection = may_project && !by_projection;
       continue;
     }
+    if (refine()) continue;
     if (!may_project || (!positive && by_projection)) return finish(NewtonResult::Status::stalled);
     ++result.projected;
     linear.solve_projected(objective, at.x, at.r, d);

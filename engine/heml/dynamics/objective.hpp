@@ -24,6 +24,9 @@ class Objective {
   virtual double value_round_off() const = 0;
   /// Whether a residual is within the round-off of forces.
   virtual bool is_at_round_off(const Vector&) const { return false; }
+  /// Where values are round-off: evaluates the same function more precisely from now on. Returns false if it cannot, or
+  /// already does.
+  virtual bool refine_precision() { return false; }
   /// Whether a step between two x is long and inverts elements; shorter ones are then tried first.
   virtual bool inverts_elements(const Vector&, const Vector&) const { return false; }
   /// Evaluates K = −∂r/∂x at x, or its projection, for the calls below until the next linearise().

@@ -205,6 +205,8 @@ class ElasticBody {
   std::vector<Real> consistent_masses() const;
 
   std::size_t nodes() const { return corners_of_points_ ? corners_of_points_->nodes() : corners_.start.size() - 1; }
+  const std::vector<Material>& materials() const { return materials_; }
+  const BodyOptions& options() const { return options_; }
   std::size_t elements() const { return mesh_.tets.size() / points_per_element(); }
 
  private:

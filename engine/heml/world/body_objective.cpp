@@ -12,6 +12,9 @@ constexpr std::size_t values_remembered = 3;  // where a step began, where it wo
 constexpr double max_penetration = 1e-4;      // of the body's size: how far inside a table or a probe tissue may be
 constexpr double long_way = 0.1;              // of the spacing of nodes: a shorter step turns no good element
 constexpr double nothing = 1e-12;             // N: smaller forces count as none
+// A body in float whose values were round-off: what made them so rarely ends within a few steps, and finding out costs
+// iterations.
+constexpr int steps_in_double = 64;
 
 Vec3 at(const Vector& x, int node) { return x.segment<3>(3 * node); }
 
@@ -81,8 +84,33 @@ void BodyObjective<Real>::move_tools(double time) {
   clear_cache();
 }
 
+/// Internal state is in Real alone.
+template <class Real>
+bool BodyObjective<Real>::refine_precision() {
+  if (std::is_same_v<Real, double> || is_refined() || body_.has_internal_state()) return false;
+  steps_in_double_ = steps_in_double;
+  make_double_body();
+  clear_cache();
+  return true;
+}
+
+template <class Real>
+void BodyObjective<Real>::make_double_body() {
+  if (is_refined() && !double_body_)
+    double_body_ = std::make_unique<ElasticBody<double>>(model_.mesh, model_.material_of, body_.materials(),
+                                                         body_.options(), model_.midedges);
+}
+
+template <class Real>
+void BodyObjective<Real>::elements_changed() {
+  steps_in_double_ = 0;
+  double_body_.reset();
+  clear_cache();
+}
+
 template <class Real>
 void BodyObjective<Real>::begin_step(const Vector& x, double time) {
+  if (is_refined() && --steps_in_double_ == 0) clear_cache();
   if (!contact_.empty()) contact_.begin(x, time);
 }
 
@@ -232,9 +260,14 @@ template <class Real>
 void BodyObjective<Real>::find_forces(const Vector& x) {
   const Real* at_x = as_real(x, x_);
   f_.resize(x_.size());
-  is_defined_ = body_.forces(at_x, f_.data(), team_) && !contact_.crosses_probe(x);
   forces_.resize(x.size());
-  for (std::size_t i = 0; i < f_.size(); ++i) forces_[static_cast<Eigen::Index>(i)] = static_cast<double>(f_[i]);
+  if (is_refined()) {
+    is_defined_ = double_body_->forces(x.data(), forces_.data(), team_);
+  } else {
+    is_defined_ = body_.forces(at_x, f_.data(), team_);
+    for (std::size_t i = 0; i < f_.size(); ++i) forces_[static_cast<Eigen::Index>(i)] = static_cast<double>(f_[i]);
+  }
+  is_defined_ = is_defined_ && !contact_.crosses_probe(x);
   add_external(at_x, x);
   forces_ += external_;
   is_defined_ = is_defined_ && forces_.allFinite();  // on held nodes too: what supports bear
@@ -253,7 +286,7 @@ std::optional<double> BodyObjective<Real>::value(const Vector& x) {
 template <class Real>
 double BodyObjective<Real>::find_value(const Vector& x) {
   const Real* at_x = as_real(x, x_);
-  double sum = body_.potential(at_x, team_);
+  double sum = is_refined() ? double_body_->potential(x.data(), team_) : body_.potential(at_x, team_);
   for (std::size_t n = 0; n < mass_.size(); ++n)
     sum -= static_cast<double>(gravity_mass()[n]) * gravity_.dot(at(x, static_cast<int>(n)) - model_.mesh.nodes[n]);
   for (const auto& load : model_.dead)

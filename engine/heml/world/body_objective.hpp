@@ -4,6 +4,11 @@
 //
 // Pressure follows the surface and has no potential in general: with it value() has nothing to say, products are not
 // symmetric, and the assembled stiffness has the symmetric part of pressure's.
+//
+// A body in float is evaluated in float until a solve finds its values to be round-off (dynamics/newton.cpp). Elastic
+// forces, energy and stiffness are then those of the same elements in double, at positions that are not rounded:
+//
+//   float ──► values are round-off ──► double, for this solve and the next steps_in_double steps ──► float
 #include <deque>
 #include <heml/base/thread_team.hpp>
 #include <heml/dynamics/static_solve.hpp>
@@ -11,6 +16,8 @@
 #include <heml/tools/contact_potential.hpp>
 #include <heml/tools/grasp.hpp>
 #include <heml/world/model.hpp>
+#include <limits>
+#include <memory>
 #include <utility>
 
 namespace heml {
@@ -24,6 +31,7 @@ class BodyObjectiveMemory {
   Vector x_bar_;
   double noise_ = 0, acceleration_round_off_ = 0;
   int inverted_at_start_ = 0;
+  int steps_in_double_ = 0;  ///< steps for which elements are evaluated in double; 0: in Real
   Vector forces_, external_;
   // Solvers ask again where they have just been; both are empty where time, loads or memory have changed since.
   Vector forces_at_;
@@ -74,7 +82,8 @@ class BodyObjective final : public LoadDependentObjective, private BodyObjective
 
   bool residual(const Vector& x, Vector& r) override;
   std::optional<double> value(const Vector& x) override;
-  double value_round_off() const override { return noise_; }
+  double value_round_off() const override { return noise_ * round_off_scale(); }
+  bool refine_precision() override;
   bool inverts_elements(const Vector& from, const Vector& to) const override;
   void linearise(const Vector& x, Projection projection = Projection::none) override;
   void product(const Vector& dx, Vector& out) override;
@@ -90,15 +99,29 @@ class BodyObjective final : public LoadDependentObjective, private BodyObjective
   /// ‖M⁻¹r‖_∞, m/s².
   double max_acceleration(const Vector& r) const;
   /// Round-off of forces, as an acceleration, m/s²: the largest at any node, at rest.
-  double acceleration_round_off() const { return acceleration_round_off_; }
+  double acceleration_round_off() const { return acceleration_round_off_ * round_off_scale(); }
+  /// Whether elements are evaluated in double although the body is in float.
+  bool is_refined() const { return steps_in_double_ > 0; }
+  /// To be called when the body has lost elements.
+  void elements_changed();
 
   Snapshot snapshot() const { return {*this, contact_.memory()}; }
   void restore(const Snapshot& snapshot) {
     BodyObjectiveMemory::operator=(snapshot.objective);
     contact_.restore(snapshot.contact);
+    make_double_body();
   }
 
  private:
+  void make_double_body();
+  double round_off_scale() const {
+    return is_refined() ? std::numeric_limits<double>::epsilon() / std::numeric_limits<Real>::epsilon() : 1;
+  }
+  /// Calls use(body) with the body whose elements are evaluated, in float or double.
+  template <class Use>
+  auto with_body(const Use& use) const {
+    return is_refined() ? use(*double_body_) : use(body_);
+  }
   const Real* as_real(const Vector& x, std::vector<Real>& scratch) const;
   void find_noise();
   void clear_cache();
@@ -117,6 +140,7 @@ class BodyObjective final : public LoadDependentObjective, private BodyObjective
   const std::vector<Real>& gravity_mass() const { return consistent_mass_.empty() ? mass_ : consistent_mass_; }
 
   ElasticBody<Real>& body_;
+  std::unique_ptr<ElasticBody<double>> double_body_;  ///< null until refined
   const Model<Real>& model_;
   const std::vector<Real>& mass_;
   std::vector<Real> consistent_mass_;  ///< #V, kg, which gravity acts on; empty: mass_
@@ -124,7 +148,8 @@ class BodyObjective final : public LoadDependentObjective, private BodyObjective
   const std::vector<GraspSpring<Real>>& grasps_;
   ThreadTeam& team_;
   ContactPotential contact_;
-  std::vector<Real> x_, dx_, f_, v_;  ///< scratch
+  std::vector<Real> x_, dx_, f_, v_;  ///< scratch, like
+  Vector change_;
 };
 
 }  // namespace heml

@@ -47,8 +47,11 @@ void BodyObjective<Real>::each_pressed_point(const Vector& x, const Visit& visit
 
 template <class Real>
 void BodyObjective<Real>::linearise(const Vector& x, Projection projection) {
-  body_.linearise(as_real(x, x_), team_);
-  body_.project(projection, team_);
+  if (is_refined())
+    double_body_->linearise(x.data(), team_);
+  else
+    body_.linearise(as_real(x, x_), team_);
+  with_body([&](auto& body) { body.project(projection, team_); });
   const bool with_pressure = !model_.pressures.empty() && projection == Projection::none;
   linearisation_point_ = with_pressure ? x : Vector();
   if (!contact_.empty()) contact_.linearise(x);
@@ -56,13 +59,19 @@ void BodyObjective<Real>::linearise(const Vector& x, Projection projection) {
 
 template <class Real>
 void BodyObjective<Real>::product(const Vector& dx, Vector& out) {
-  const Real* change = as_real(dx, dx_);
-  f_.resize(dx_.size());
-  body_.force_differential(change, f_.data(), team_);
+  change_.resize(dx.size());
+  if (is_refined()) {
+    double_body_->force_differential(dx.data(), change_.data(), team_);
+  } else {
+    const Real* along = as_real(dx, dx_);
+    f_.resize(dx_.size());
+    body_.force_differential(along, f_.data(), team_);
+    for (std::size_t i = 0; i < f_.size(); ++i) change_[static_cast<Eigen::Index>(i)] = static_cast<double>(f_[i]);
+  }
   out.setZero(dx.size());
   for (const int n : free_.node)
     for (int i = 0; i < 3; ++i)
-      out[3 * n + i] = -static_cast<double>(f_[static_cast<std::size_t>(3 * n + i)]) +
+      out[3 * n + i] = -change_[3 * n + i] +
                        regularisation_ * static_cast<double>(mass_[static_cast<std::size_t>(n)]) * dx[3 * n + i];
   const auto add = [&](int n, const Vec3& force) {
     if (free_.number[static_cast<std::size_t>(n)] >= 0) out.segment<3>(3 * n) += force;
@@ -92,18 +101,20 @@ void BodyObjective<Real>::product(const Vector& dx, Vector& out) {
 
 template <class Real>
 void BodyObjective<Real>::add_stiffness(BlockMatrix& matrix) {
-  body_.each_stiffness([&](const auto& nodes, const auto& K) {
-    matrix.add_element(nodes, [&](int row, int column) {
-      return static_cast<double>(K[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)]);
+  with_body([&](auto& body) {
+    body.each_stiffness([&](const auto& nodes, const auto& K) {
+      matrix.add_element(nodes, [&](int row, int column) {
+        return static_cast<double>(K[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)]);
+      });
     });
-  });
-  body_.each_spring_stiffness([&](int a, int b, const Real(&block)[3][3]) {
-    Mat3 B;
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) B(i, j) = static_cast<double>(block[i][j]);
-    matrix.add_node(a, B);
-    matrix.add_node(b, B);
-    matrix.add_pair(a, b, -B);
+    body.each_spring_stiffness([&](int a, int b, const auto& block) {
+      Mat3 B;
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) B(i, j) = static_cast<double>(block[i][j]);
+      matrix.add_node(a, B);
+      matrix.add_node(b, B);
+      matrix.add_pair(a, b, -B);
+    });
   });
   // Of −p [w_j]× in row i: p/2 ([w_i]× − [w_j]×).
   each_pressed_face(linearisation_point_, [&](const Triangle& face, double p, const std::array<Vec3, 3>& w) {
@@ -129,7 +140,8 @@ void BodyObjective<Real>::add_stiffness(BlockMatrix& matrix) {
 
 template <class Real>
 bool BodyObjective<Real>::add_stiffness_single_precision(BsrMatrix& rows) {
-  if (!is_symmetric() || !contact_.within_elements() || !body_.add_stiffness(rows, team_)) return false;
+  if (!is_symmetric() || !contact_.within_elements()) return false;
+  if (!with_body([&](const auto& body) { return body.add_stiffness(rows, team_); })) return false;
   add_contact_stiffness(rows, [&](int a, int b, const Mat3& K) {
     rows.add_edge(a, b, -K);  // and away again what this adds to the nodes' own blocks
     rows.add_node(a, K);

@@ -60,6 +60,7 @@ template <class Real>
 bool ImplicitState<Real>::keep_elements(const std::vector<int>& elements, const std::vector<Real>& masses) {
   mass = thrice(free, masses);
   h_before = 0;  // BDF2 starts anew
+  body.elements_changed();
   return !equilibrium && linear.keep_elements(elements);
 }
 

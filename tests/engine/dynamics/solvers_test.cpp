@@ -9,6 +9,7 @@
 #include <heml/dynamics/newton.hpp>
 #include <heml/dynamics/tr_bdf2.hpp>
 #include <random>
+#include <utility>
 
 #include "small_objectives.hpp"
 #include "support.hpp"
@@ -150,14 +151,19 @@ class Blurred final : public NodesAndSprings {
   bool residual(const Vector& x, Vector& r) override {
     NodesAndSprings::residual(x, r);
     for (Eigen::Index i = 0; i < r.size(); ++i)
-      if (r[i] != 0) r[i] += 1e-4 * std::uniform_real_distribution(-1.0, 1.0)(engine_);
+      if (r[i] != 0 && !sharp_) r[i] += 1e-4 * std::uniform_real_distribution(-1.0, 1.0)(engine_);
     return true;
   }
-  double value_round_off() const override { return 1; }
+  double value_round_off() const override { return sharp_ ? 1e-14 : 1; }
   bool is_at_round_off(const Vector& r) const override { return r.norm() < 1e-2; }
+  bool refine_precision() override { return may_refine && !std::exchange(sharp_, true); }
+  bool is_refined() const { return sharp_; }
+
+  bool may_refine = false;
 
  private:
   std::mt19937_64 engine_{11};
+  bool sharp_ = false;
 };
 
 TEST_CASE("where forces are round-off Newton ends soon, with the best it saw there") {
@@ -173,6 +179,21 @@ TEST_CASE("where forces are round-off Newton ends soon, with the best it saw the
   CHECK(result.iterations < 12);
   CHECK(result.measure == *std::min_element(seen.begin(), seen.end()));
   CHECK(seen.back() > result.measure);  // the best state was not the last
+}
+
+TEST_CASE("where forces are round-off Newton goes on with more precise ones, and where it can do without it does") {
+  const Fixture f;
+  LinearSolver solver = f.solver(Preconditioner::cholesky);
+  for (const double limit : {1e-12, 1e-2}) {
+    CAPTURE(limit);
+    Blurred springs(f.mesh, f.free, 2);
+    springs.may_refine = true;
+    Vector x = f.random(0, 1);
+    const NewtonResult result = minimise(springs, solver, small_residual(limit), {}, x);
+    CHECK(result.converged());
+    CHECK(result.iterations < 8);
+    CHECK(springs.is_refined() == (limit < 1e-4));
+  }
 }
 
 TEST_CASE("stages of each method have its order on a damped oscillator, also when the step changes") {
