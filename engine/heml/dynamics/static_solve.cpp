@@ -8,6 +8,9 @@ namespace {
 
 constexpr double min_increment = 1.0 / 1024;       // smallest increment of Newton; below, relaxation
 constexpr double relaxation_increment = 1.0 / 64;  // increment of relaxation
+constexpr double min_limit_increment = 1e-7;       // smallest increment towards a limit point
+constexpr int eigenvalue_iterations = 12;
+constexpr double eigenvalue_tolerance = 1e-3;
 constexpr NewtonOptions newton_options{40, 1e-3};
 constexpr double round_off_factor = 100;  // times the tolerance: residual that is accepted as round-off
 constexpr int growth_iterations = 8;      // Newton iterations up to which the increment doubles
@@ -44,6 +47,29 @@ bool StaticSolve::load_to(double fraction, const std::atomic<bool>& stop) {
     step_ = relaxation_increment;
   }
   return true;
+}
+
+std::optional<double> StaticSolve::approach_limit(const Vector& rest, const std::atomic<bool>& stop) {
+  for (double step = min_increment; step >= min_limit_increment && !stop; step /= 2)
+    while (!stop && load_ + step <= 1 && increment(load_ + step)) continue;
+  body_.set_load(0);
+  const auto at_rest = lowest_stiffness(rest);
+  body_.set_load(load_);
+  const auto at_limit = lowest_stiffness(x_);
+  return at_limit && at_rest ? std::optional(*at_limit / *at_rest) : std::nullopt;
+}
+
+/// The lowest eigenvalue of K at x, N/m, by inverse iteration; none if a pivot of K is not positive.
+std::optional<double> StaticSolve::lowest_stiffness(const Vector& x) {
+  Vector v = (mass_.array() > 0).select(Vector::LinSpaced(x.size(), 1, 2).array().sin(), 0), r, d;
+  if (!body_.residual(x, r)) return std::nullopt;
+  body_.linearise(x);
+  for (int k = 0; k < eigenvalue_iterations; ++k) {
+    v.normalize();
+    if (!linear_.solve(body_, v, eigenvalue_tolerance, d)) return std::nullopt;
+    v = d;
+  }
+  return 1 / v.norm();
 }
 
 bool StaticSolve::increment(double next) {

@@ -5,7 +5,7 @@
 //                            │ fails: half the increment
 //                            └ ... too short: relaxation in pseudo-time, Φ = a/2 ‖x − y‖²_M + U with falling a, which
 //                              passes a snap-through to the next stable state; fails: no equilibrium, last good state
-//                              kept
+//                              kept, and approached as near as min_limit_increment if asked to (approach_limit)
 #include <atomic>
 #include <heml/dynamics/newton.hpp>
 #include <optional>
@@ -74,6 +74,12 @@ class StaticSolve : private StaticSolveMemory {
   /// those of the last equilibrium.
   bool load_to(double fraction, const std::atomic<bool>& stop);
 
+  /// Where load_to() has failed: goes on to the end of the path of equilibria, by increments halved down to
+  /// min_limit_increment. Returns the lowest eigenvalue of the stiffness there, over that at rest (3 #V, m): 0 at a
+  /// limit point or a bifurcation, beyond which no stable equilibrium continues the path. None where it is not
+  /// positive.
+  std::optional<double> approach_limit(const Vector& rest, const std::atomic<bool>& stop);
+
   /// To be called when loads change: the next load_to() solves again, also at the same fraction.
   void invalidate() { solved_ = false; }
 
@@ -87,6 +93,7 @@ class StaticSolve : private StaticSolveMemory {
   long iterations() const { return iterations_; }  ///< of Newton, including failed increments
 
  private:
+  std::optional<double> lowest_stiffness(const Vector& x);
   bool increment(double next);
   Vector predict(double next);
   bool solve(Vector& x);

@@ -9,6 +9,8 @@ namespace heml {
 namespace {
 // Of the highest ω²: what holds a body that nothing else holds, while it is solved; and what stands for it in float.
 constexpr double anchor = 1e-9, anchor_in_float = 1e-6;
+constexpr double limit_ratio = 0.02;           // of the stiffness at rest: less is that of a limit point
+constexpr std::size_t max_limit_nodes = 5000;  // free nodes of bodies whose limit point is looked for
 
 /// Whether the loads on a body that nothing holds have a sum. x: positions, 3 #V.
 template <class Real>
@@ -47,6 +49,10 @@ std::optional<StopReason> StaticStepper<Real>::load_to(double fraction) {
         s_, {StopReason::Cause::not_converged, -1, -1,
              "no equilibrium: nothing holds the body and its loads do not balance (add a boundary entry)"});
   const bool reached = equilibrium.load_to(fraction, s_.interrupted);
+  s_.stats.limit_stiffness.reset();
+  if (!reached && !s_.interrupted && !equilibrium.round_off() && !parts.free.node.empty() &&
+      parts.free.node.size() <= max_limit_nodes)
+    s_.stats.limit_stiffness = equilibrium.approach_limit(rest_positions(), s_.interrupted);
   s_.stats.load = equilibrium.load();
   s_.stats.iterations = equilibrium.iterations();
   s_.stats.residual = equilibrium.relative_residual();
@@ -57,6 +63,14 @@ std::optional<StopReason> StaticStepper<Real>::load_to(double fraction) {
   s_.set_state(equilibrium.x(), Vector::Zero(equilibrium.x().size()), equilibrium.load() * duration);
   if (!reached && !s_.interrupted) return keep_last_solved(s_, why_not_beyond(equilibrium));
   return std::nullopt;
+}
+
+template <class Real>
+Vector StaticStepper<Real>::rest_positions() const {
+  Vector rest(3 * static_cast<Eigen::Index>(s_.model.mesh.nodes.size()));
+  for (std::size_t n = 0; n < s_.model.mesh.nodes.size(); ++n)
+    rest.segment<3>(3 * static_cast<int>(n)) = s_.model.mesh.nodes[n];
+  return rest;
 }
 
 template <class Real>
@@ -85,6 +99,13 @@ StopReason StaticStepper<Real>::why_not_beyond(const StaticSolve& equilibrium) c
           load, halt.element);
       return halt;
     }
+  }
+  if (s_.stats.limit_stiffness && *s_.stats.limit_stiffness <= limit_ratio) {
+    halt.message = fmt::format(
+        "no equilibrium beyond {:.6g} of the load, a limit point: the stiffness of the body falls to {:.1e} of that at "
+        "rest there: what is written is the last one",
+        load, *s_.stats.limit_stiffness);
+    return halt;
   }
   halt.message =
       fmt::format("no equilibrium found beyond {:.4g} of the load ({}): what is written is the last one", load,

@@ -14,6 +14,7 @@ class StaticStepper {
   std::optional<StopReason> load_to(double fraction);
 
  private:
+  Vector rest_positions() const;
   StopReason why_not_beyond(const StaticSolve& equilibrium) const;
   int first_flat(const std::vector<Real>& x) const;
 
