@@ -92,6 +92,7 @@ std::string report_text(World& world, const SolveFacts& facts, const std::string
                  {"residual", work.residual},
                  {"explicit_rescues", work.explicit_rescues},
                  {"unconverged_steps", work.unconverged_steps},
+                 {"damped_steps", work.damped_steps},
                  {"unconverged_residual", work.unconverged_residual},
                  {"wall_seconds", facts.wall_seconds},
                  {"kinetic_energy", energies.kinetic},

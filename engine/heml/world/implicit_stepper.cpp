@@ -11,11 +11,12 @@
 
 namespace heml {
 namespace {
-constexpr double min_share = 1.0 / 64;    // of a tick: shorter steps are not tried
-constexpr double slack_of_motion = 1e-3;  // of gravity's acceleration: what a step may leave unbalanced
-constexpr double earth = 9.81;            // m/s²
-constexpr int max_probe_substeps = 64;    // of a probe in a step
-constexpr int quasi_patience = 5;         // iterations of L-BFGS for one of Newton's: then Newton's go on
+constexpr double min_share = 1.0 / 64;     // of a tick: shorter steps are not tried
+constexpr double slack_of_motion = 1e-3;   // of gravity's acceleration: what a step may leave unbalanced
+constexpr double earth = 9.81;             // m/s²
+constexpr int max_probe_substeps = 64;     // of a probe in a step
+constexpr double slack_of_energy = 1e-10;  // of a step's energy: what it may gain
+constexpr int quasi_patience = 5;          // iterations of L-BFGS for one of Newton's: then Newton's go on
 
 // Of an iteration, a tetrahedron, one core: the stiffness, a dozen products and back-solves, two forces and values. For
 // budgets in milliseconds where no clock may be asked; a session measures (session/budget_controller.hpp).
@@ -31,7 +32,7 @@ std::optional<StopReason> ImplicitStepper<Real>::advance(double until) {
   while (s_.state.time < until && !s_.interrupted) {
     const bool last = s_.state.time + 1.5 * longest > until;
     const double after = last ? until : s_.state.time + longest;
-    if (step(s_.method, after - s_.state.time, after)) {
+    if (step(s_.method, after - s_.state.time, after) || damped_step(after - s_.state.time, after)) {
       ++s_.substeps;
       continue;
     }
@@ -96,6 +97,16 @@ std::optional<StopReason> ImplicitStepper<Real>::take_best_iterate(double until)
   return std::nullopt;
 }
 
+/// A given step that the scene's method cannot take, by backward Euler (after Rannacher 1984): a start far from
+/// equilibrium is damped, and second-order steps go on from there.
+template <class Real>
+bool ImplicitStepper<Real>::damped_step(double h, double time_after) {
+  if (!s_.setup.solver.step || s_.method == Integrator::backward_euler) return false;
+  if (!step(Integrator::backward_euler, h, time_after)) return false;
+  ++s_.stats.damped_steps;
+  return true;
+}
+
 template <class Real>
 bool ImplicitStepper<Real>::step(Integrator method, double h, double time_after) {
   ImplicitState<Real>& parts = s_.implicit_state();
@@ -103,16 +114,17 @@ bool ImplicitStepper<Real>::step(Integrator method, double h, double time_after)
   parts.v = as_vector(s_.state.v);
   parts.body.begin_step(parts.x, s_.state.time);
   StagedStep step(*this, h, time_after);
-  const bool done = visit_integrator<bool>(method, [&](auto row) {
+  bool done = visit_integrator<bool>(method, [&](auto row) {
     if constexpr (row.info.kind == IntegratorKind::implicit_steps) return row.step(step);
     assert(false);  // TypedWorld::advance calls for implicit methods alone
     return false;
   });
+  Vector &x = step.x, &v = step.v;
+  if (done && info_of(method).order > 1 && !takes_any_iterate()) done = take_back_gain(time_after, x, v);
   if (!done) {
     if (s_.has_internal_state) s_.body.begin_step(0);
     return false;
   }
-  Vector &x = step.x, &v = step.v;
   if (takes_any_iterate()) limit_energy(h, time_after, x, v);
   parts.body.end_step(x);
   parts.x_before = parts.x;
@@ -255,6 +267,30 @@ int ImplicitStepper<Real>::stage_iterations() const {
   return static_cast<int>(std::clamp<double>(budget.milliseconds / 1000 / (stages * cost), 1, max_iterations));
 }
 
+template <class Real>
+double ImplicitStepper<Real>::kinetic(const Vector& v) const {
+  return (s_.implicit->mass.array() * v.array().square()).sum() / 2;
+}
+
+/// Methods of second order gain energy where a step is long for what it passes: at x, v that is taken from the
+/// velocity, which is an error of third order in the step, as the method's own. Returns false where the velocity has
+/// less. Known where nothing but loads with a potential does work.
+template <class Real>
+bool ImplicitStepper<Real>::take_back_gain(double time, const Vector& x, Vector& v) {
+  ImplicitState<Real>& parts = s_.implicit_state();
+  if (s_.has_internal_state || !s_.grasps.empty() || !s_.contacts.empty() ||
+      supports_move(s_.model, s_.state.time, time))
+    return true;
+  const auto after = parts.body.value(x), before = parts.body.value(parts.x);
+  if (!after || !before) return true;
+  const double moved = kinetic(parts.v), moves = kinetic(v), may = *before + moved - *after;
+  const double slack = std::max(slack_of_energy * (moved + std::abs(*before)), parts.body.value_round_off());
+  if (!(moves > may + slack)) return true;
+  if (!(may >= 0)) return false;
+  v *= std::sqrt(may / moves);
+  return true;
+}
+
 /// Takes from x, v what energy a step has gained beyond the work of its loads: from the velocity while that has it to
 /// give, else by going back towards the start. Held nodes that move do work of their own, and pressure that follows the
 /// surface has no potential: nothing is known there, and nothing done under a budget. The best iterate of a step that
@@ -268,9 +304,6 @@ void ImplicitStepper<Real>::limit_energy(double h, double time, Vector& x, Vecto
     if (!takes_best_) return;
     place_supports(time, start);
   }
-  const auto kinetic = [&](const Vector& velocity) {
-    return (parts.mass.array() * velocity.array().square()).sum() / 2;
-  };
   const auto at_start = parts.body.value(start);  // with the loads of the end: what they do on the way is in it
   if (!at_start && !takes_best_) return;
   const double may = at_start.value_or(0) + kinetic(parts.v);

@@ -11,9 +11,10 @@ class ImplicitStepper {
  public:
   explicit ImplicitStepper(Simulation<Real>& s) : s_(s) {}
 
-  /// Steps until state.time reaches `until`, s. Obeys a given step; without one, halves the tick where a step does not
-  /// converge, unless the tick before had to be rescued. Returns why it could not; the state is then the last converged
-  /// one.
+  /// Steps until state.time reaches `until`, s. A step of a second-order method fails that does not converge, or ends
+  /// with more energy than it began with and its loads gave it. A given step is then taken by backward Euler, which
+  /// damps; without one, the tick is halved, unless the tick before had to be rescued. Returns why no step converged;
+  /// the state is then the last converged one.
   std::optional<StopReason> advance(double until);
 
   /// One step of backward Euler to `until`, s, to the best iterate, converged or not: Φ has not risen, and energy is
@@ -32,6 +33,9 @@ class ImplicitStepper {
  private:
   class StagedStep;
   bool step(Integrator method, double h, double time_after);
+  bool damped_step(double h, double time_after);
+  bool take_back_gain(double time, const Vector& x, Vector& v);
+  double kinetic(const Vector& v) const;
   bool takes_any_iterate() const { return s_.setup.solver.budget || takes_best_; }
   bool solve_stage(const Stage& stage, double h, double time, Vector& x, Vector& v);
   NewtonResult minimise_stage(Vector& x);
