@@ -7,6 +7,7 @@
 #include <heml/dynamics/lbfgs.hpp>
 #include <heml/world/failure.hpp>
 #include <heml/world/implicit_stepper.hpp>
+#include <limits>
 #include <utility>
 
 namespace heml {
@@ -120,7 +121,8 @@ bool ImplicitStepper<Real>::step(Integrator method, double h, double time_after)
     return false;
   });
   Vector &x = step.x, &v = step.v;
-  if (done && info_of(method).order > 1 && !takes_any_iterate()) done = take_back_gain(time_after, x, v);
+  if (done && info_of(method).order > 1 && !takes_any_iterate())
+    done = !(s_.setup.solver.step && parts.body.inverts_elements(parts.x, x)) && take_back_gain(time_after, x, v);
   if (!done) {
     if (s_.has_internal_state) s_.body.begin_step(0);
     return false;
@@ -284,9 +286,9 @@ bool ImplicitStepper<Real>::take_back_gain(double time, const Vector& x, Vector&
   const auto after = parts.body.value(x), before = parts.body.value(parts.x);
   if (!after || !before) return true;
   const double moved = kinetic(parts.v), moves = kinetic(v), may = *before + moved - *after;
-  const double slack = std::max(slack_of_energy * (moved + std::abs(*before)), parts.body.value_round_off());
-  if (!(moves > may + slack)) return true;
-  if (!(may >= 0)) return false;
+  const double slack = std::max<double>(slack_of_energy, std::numeric_limits<Real>::epsilon());
+  if (!(moves > may + slack * (moved + std::abs(*before)))) return true;
+  if (!(may >= 0)) return moves - may <= parts.body.value_round_off();
   v *= std::sqrt(may / moves);
   return true;
 }

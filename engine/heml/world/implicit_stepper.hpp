@@ -13,8 +13,8 @@ class ImplicitStepper {
 
   /// Steps until state.time reaches `until`, s. A step of a second-order method fails that does not converge, or ends
   /// with more energy than it began with and its loads gave it. A given step is then taken by backward Euler, which
-  /// damps; without one, the tick is halved, unless the tick before had to be rescued. Returns why no step converged;
-  /// the state is then the last converged one.
+  /// damps, also where it would invert elements; without one, the tick is halved, unless the tick before had to be
+  /// rescued. Returns why no step converged; the state is then the last converged one.
   std::optional<StopReason> advance(double until);
 
   /// One step of backward Euler to `until`, s, to the best iterate, converged or not: Φ has not risen, and energy is
