@@ -4,7 +4,6 @@
 #include <heml/elastic/body.hpp>
 #include <heml/elastic/energy_term.hpp>
 #include <heml/elastic/viscoelastic_term.hpp>
-#include <heml/materials/parameter_slots.hpp>
 
 namespace heml {
 namespace {
@@ -26,7 +25,6 @@ ElasticBody<Real>::ElasticBody(const TetMesh& mesh, const std::vector<int>& mate
       materials_(materials),
       options_(options),
       springs_(mesh, std::vector<double>(mesh.tets.size(), 0.0)) {
-  assert(midedges.empty() || !options.nodal_pressure);
   if (!midedges.empty()) corners_of_points_ = std::make_unique<VirtualCorners<Real>>(mesh, midedges);
   make_parts();
   make_fans();
@@ -59,12 +57,16 @@ template <class Real>
 typename ElasticBody<Real>::Part ElasticBody<Real>::make_part(std::size_t index,
                                                               const std::vector<int>& elements) const {
   const Material& material = materials_[index];
-  Part part{index,
-            make_group<Real>(mesh_, elements, material),
-            make_terms<Real>(material, options_.continuation, options_.nodal_pressure),
-            nullptr,
-            {},
-            false};
+  Part part{index, make_group<Real>(mesh_, elements, material), {}, nullptr, nullptr, {}, false};
+  const bool by_element = options_.nodal_pressure && corners_of_points_;
+  Material of_points = material;
+  if (by_element) {
+    std::vector<Real> kappa = split_volume_modulus(of_points, part.group);
+    if (std::any_of(kappa.begin(), kappa.end(), [](Real value) { return value > 0; }))
+      part.dilatation =
+          std::make_unique<MeanDilatation<Real>>(std::move(kappa), material.volume_term, options_.continuation);
+  }
+  part.terms = make_terms<Real>(of_points, options_.continuation, options_.nodal_pressure && !by_element);
   part.group.density = static_cast<Real>(material.density);
   if (corners_of_points_) part.group.density /= static_cast<Real>(frequency_ratio);  // for bounds of frequencies alone
   for (const auto& term : part.terms) term->begin_step(step_);
@@ -157,12 +159,8 @@ void ElasticBody<Real>::make_shared() {
   std::vector<const ElementGroup<Real>*> groups;
   std::vector<std::vector<Real>> kappa;
   for (const Part& part : parts_) {
-    const Material& material = materials_[part.material];
     groups.push_back(&part.group);
-    const std::size_t slot = *volume_parameter(material, *find_law(material.law));
-    kappa.emplace_back(part.group.volume.size(), static_cast<Real>(material.parameters[slot]));
-    for (std::size_t k = 0; k < material.fields.size(); ++k)
-      if (material.fields[k].parameter == slot) kappa.back() = part.group.parameters[k];
+    kappa.push_back(volume_moduli(part.group, materials_[part.material]));
   }
   const VolumeTerm term = materials_[parts_.front().material].volume_term;
   pressure_ = std::make_unique<NodalPressure<Real>>(std::move(groups), corners_, kappa, term, options_.continuation);
@@ -178,6 +176,7 @@ std::size_t ElasticBody<Real>::bytes() const {
     const ElementGroup<Real>& group = part.group;
     sum += bytes_of(group.element, group.node, group.A, group.volume, group.gamma, group.fibre, group.parameters);
     sum += bytes_of(part.stiffness) + (part.flow ? part.flow->bytes() : 0);
+    if (part.dilatation) sum += part.dilatation->bytes();
     for (const auto& term : part.terms)
       for (const SlotState<Real>& state : term->slot_states()) sum += bytes_of(*state.values);
   }

@@ -13,6 +13,7 @@
 #include <heml/elastic/element_group.hpp>
 #include <heml/elastic/fan_forces.hpp>
 #include <heml/elastic/group_term.hpp>
+#include <heml/elastic/mean_dilatation.hpp>
 #include <heml/elastic/nodal_pressure.hpp>
 #include <heml/elastic/plastic_flow.hpp>
 #include <heml/elastic/projection.hpp>
@@ -30,10 +31,6 @@ namespace heml {
 
 class BsrMatrix;
 
-/// Stiffness of a quadratic element, indices [node][xyz].
-template <class Real>
-using QuadraticMatrix = Real[30][30];
-
 /// State of one element, for display.
 template <class Real>
 struct ElementState {
@@ -45,7 +42,8 @@ struct ElementState {
 /// Options of ElasticBody.
 struct BodyOptions {
   bool continuation = false;
-  bool nodal_pressure = false;  ///< needs laws with a volume term, the same one in all materials
+  bool nodal_pressure = false;  ///< needs laws with a volume term, the same one in all materials; of quadratic elements
+                                ///< mean dilatation, each material with a volume term of its own
   InstructionSet instruction_set = InstructionSet::best;  ///< of the fan kernels; the processor must support it
   int threads = 0;                                        ///< that build the layout of a large body; 0: one per core
 };
@@ -84,7 +82,7 @@ class ElasticBody {
  public:
   /// mesh: in inner order, positive volumes, with the fields that the materials name. material_of: #T, indices into
   /// materials; a material without elements gets no group. The body is at rest, without history. midedges: of quadratic
-  /// elements, which take no springs, nodal pressure or edits of the mesh (asserted).
+  /// elements, which take no springs or edits of the mesh (asserted).
   ElasticBody(const TetMesh& mesh, const std::vector<int>& material_of, const std::vector<Material>& materials,
               BodyOptions options, const MidEdges& midedges = {});
   ElasticBody(const ElasticBody&) = delete;
@@ -215,8 +213,9 @@ class ElasticBody {
     ElementGroup<Real> group;
     std::vector<std::unique_ptr<GroupTerm<Real>>> terms;
     std::unique_ptr<PlasticFlow<Real>> flow;
-    std::vector<Real> stiffness;  ///< of every element (edge_stiffness.hpp), filled by linearise()
-    bool in_fans;                 ///< fans_ evaluates the forces of all terms
+    std::unique_ptr<MeanDilatation<Real>> dilatation;  ///< null: the points have all of the volume term
+    std::vector<Real> stiffness;                       ///< of every element (edge_stiffness.hpp), filled by linearise()
+    bool in_fans;                                      ///< fans_ evaluates the forces of all terms
 
     std::size_t first_loop() const { return in_fans ? terms.size() : 0; }  ///< first term that forces() loops over
     SlotStates<Real> slot_states();                                        ///< of all terms and the flow
@@ -263,6 +262,14 @@ class ElasticBody {
     if (!corners_of_points_) return x;
     y = corners_of_points_->positions(x);
     return y.data();
+  }
+  /// Calls work(part, begin, end) for packets of the parts with mean dilatation.
+  template <class Work>
+  void each_dilatation(ThreadTeam& team, const Work& work) {
+    for (Part& part : parts_)
+      if (part.dilatation)
+        team.parallel_for(part.group.packets(), grain_ / 4 / part.group.lanes,
+                          [&](std::size_t begin, std::size_t end) { work(part, begin, end); });
   }
   std::vector<double> point_masses() const;
   template <class Bound>

@@ -56,6 +56,10 @@ bool ElasticBody<Real>::forces(const Real* x, Real* f, ThreadTeam& team) {
       std::fill_n(corner_.data() + 3 * corners, 12 * part.group.volume.size(), Real(0));
   }
   if (corners_of_points_) {
+    each_dilatation(team, [&](const Part& part, std::size_t begin, std::size_t end) {
+      if (!part.dilatation->add_forces(part.group, x, begin, end, corner_.data()))
+        valid.store(false, std::memory_order_relaxed);
+    });
     corners_of_points_->gather(corner_, f, team);
     return valid;
   }

@@ -41,6 +41,8 @@ double ElasticBody<Real>::sum_energies(const Real* x, bool stored, ThreadTeam& t
         team.parallel_for(part.group.packets(), grain_ / part.group.lanes, [&](std::size_t begin, std::size_t end) {
           term->energies(part.group, x, begin, end, packet_energy_.data(), true);
         });
+    if (stored && part.dilatation)
+      part.dilatation->add_energies(part.group, x, 0, part.group.packets(), packet_energy_.data());
     for (const double of_packet : packet_energy_) sum += of_packet;
   }
   return sum;
@@ -98,6 +100,9 @@ std::vector<Mat3> ElasticBody<Real>::stresses(const Real* x, ThreadTeam& team) {
           term->forces(part.group, x, begin, end, corner_.data(), true);
         });
   if (pressure_) pressure_->add_forces(x, corner_.data(), team);
+  each_dilatation(team, [&](const Part& part, std::size_t begin, std::size_t end) {
+    part.dilatation->add_forces(part.group, x, begin, end, corner_.data());
+  });
   std::vector<Mat3> P(mesh_.tets.size(), Mat3::Zero());
   for (const Part& part : parts_)
     for (std::size_t s = 0; s < part.group.size(); ++s) {

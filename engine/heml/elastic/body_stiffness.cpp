@@ -21,7 +21,11 @@ void ElasticBody<Real>::linearise(const Real* x, ThreadTeam& team) {
       team.parallel_for(part.group.packets(), grain_ / 4 / part.group.lanes, [&](std::size_t begin, std::size_t end) {
         part.terms[k]->stiffness(part.group, x, begin, end, part.stiffness.data(), k > 0);
       });
+    if (part.dilatation) part.dilatation->resize(part.group);
   }
+  each_dilatation(team, [&](Part& part, std::size_t begin, std::size_t end) {
+    part.dilatation->linearise(part.group, x, begin, end, part.stiffness.data());
+  });
 }
 
 template <class Real>
@@ -44,6 +48,7 @@ void ElasticBody<Real>::project(Projection projection, ThreadTeam& team) {
             for (int i = 0; i < 6; ++i) sum.T[i] += t.T[i];
             sum.wJ += t.wJ;
           }
+          if (part.dilatation) sum.wJ += part.dilatation->pressure(s);
           clamp_tension(sum, kinematics, rest, k);
         }
         write_edge_stiffness(k, s, part.stiffness.data(), false);
@@ -58,8 +63,13 @@ void ElasticBody<Real>::force_differential(const Real* dx, Real* out, ThreadTeam
     team.parallel_for(part.group.packets(), grain_ / part.group.lanes, [&](std::size_t begin, std::size_t end) {
       multiply_stiffness(part.stiffness.data(), part.group, dx, begin, end, corner_.data());
     });
-  if (corners_of_points_) return corners_of_points_->gather(corner_, out, team);
   const Real* x = linearisation_point_.data();
+  if (corners_of_points_) {
+    each_dilatation(team, [&](const Part& part, std::size_t begin, std::size_t end) {
+      part.dilatation->add_force_differential(part.group, x, dx, projected_, begin, end, corner_.data());
+    });
+    return corners_of_points_->gather(corner_, out, team);
+  }
   if (pressure_) pressure_->add_force_differential(x, dx, corner_.data(), team);
   gather_corners(corners_, out, false, team);
   if (!springs_.empty()) springs_.add_force_differential(x, dx, out, projected_, team);
@@ -91,6 +101,8 @@ void ElasticBody<Real>::element_stiffness(std::size_t p, std::size_t s, ElementM
 /// Σ_q BᵀKB over the points of an element.
 template <class Real>
 void ElasticBody<Real>::quadratic_stiffness(std::size_t p, std::size_t first_slot, QuadraticMatrix<Real>& K) const {
+  if (const Part& part = parts_[p]; part.dilatation)
+    part.dilatation->add_stiffness(part.group, linearisation_point_.data(), projected_, first_slot, K);
   for (std::size_t q = 0; q < element_points; ++q) {
     ElementMatrix<Real> of_point = {};
     element_stiffness(p, first_slot + q, of_point);
@@ -136,6 +148,14 @@ Real ElasticBody<Real>::frequency_bound(const Real* x, ThreadTeam& team) {
   if (fans_.needs_state()) fans_.read_state(fan_slots());
   bound += fans_.state_bound(fan_slots());
   if (pressure_) bound += pressure_->frequency_bound(x, team);
+  Real of_elements = 0;
+  std::mutex mutex;
+  each_dilatation(team, [&](const Part& part, std::size_t begin, std::size_t end) {
+    const Real value = part.dilatation->frequency_bound(part.group, x, begin, end);
+    std::lock_guard lock(mutex);
+    of_elements = value > of_elements || std::isnan(value) ? value : of_elements;
+  });
+  bound += of_elements;
   if (!springs_.empty()) bound += springs_.frequency_bound(masses());
   return bound;
 }

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <heml/elastic/avx2_dispatch.hpp>
 #include <heml/elastic/nodal_pressure.hpp>
-#include <heml/materials/volume.hpp>
+#include <heml/elastic/volume_function.hpp>
 #include <mutex>
 
 namespace heml {
@@ -138,14 +138,8 @@ void NodalPressure<Real>::gather(std::vector<Real>& node_sums, ThreadTeam& team,
 }
 
 template <class Real>
-typename NodalPressure<Real>::Value NodalPressure<Real>::psi(Real J) const {
-  if (term_ == VolumeTerm::quadratic) return {(J - 1) * (J - 1) / 2, J - 1, 1};
-  const auto of = [J](const auto& law) {
-    return Value{law.energy({3, 3, J}), law.first_derivatives({3, 3, J}).wJ, law.second_derivatives({3, 3, J}).wJJ};
-  };
-  if (term_ == VolumeTerm::simo_taylor)
-    return continuation_ ? of(VolumeLaw<Real, true, true>{1}) : of(VolumeLaw<Real, false, true>{1});
-  return continuation_ ? of(VolumeLaw<Real, true, false>{1}) : of(VolumeLaw<Real, false, false>{1});
+VolumeDerivatives<Real> NodalPressure<Real>::psi(Real J) const {
+  return unit_volume_term(term_, continuation_, J);
 }
 
 template <class Real>
@@ -188,8 +182,8 @@ const Real* NodalPressure<Real>::at_volumes(const std::vector<Real>& sums, Threa
 
 template <class Real>
 bool NodalPressure<Real>::is_defined() const {
-  if (continuation_ || term_ == VolumeTerm::quadratic) return true;
-  return std::all_of(last_.ratio.begin(), last_.ratio.end(), [](Real J) { return J > min_volume_ratio<Real>; });
+  return std::all_of(last_.ratio.begin(), last_.ratio.end(),
+                     [this](Real J) { return volume_term_defined(term_, continuation_, J); });
 }
 
 template <class Real>

@@ -48,13 +48,10 @@ class NodalPressure {
   }
 
  private:
-  struct Value {
-    Real w, w1, w2;  ///< ψ and its derivatives
-  };
   struct NodeValues {
     std::vector<Real> ratio, pressure;  ///< #V: J̄_a; p_a
   };
-  Value psi(Real J) const;
+  VolumeDerivatives<Real> psi(Real J) const;  ///< ψ
   void average(const Real* x, NodeValues& values, ThreadTeam& team);
   void evaluate(NodeValues& values, ThreadTeam& team) const;
   Real pressure(const NodeValues& values, std::size_t group, std::size_t s) const;  ///< mean p_t of a slot, Pa

@@ -8,9 +8,10 @@
 namespace heml {
 namespace {
 
-constexpr double locks = 0.45;  // Poisson's ratio from which linear tetrahedra visibly lock
-constexpr double bulky = 100;   // κ/μ from which pressure waves alone set the stable step
-constexpr double waste = 1.5;   // ratio of stable step to scene step from which a longer step is advised
+constexpr double locks = 0.45;            // Poisson's ratio from which linear tetrahedra visibly lock
+constexpr double locks_quadratic = 0.47;  // and coarse quadratic ones
+constexpr double bulky = 100;             // κ/μ from which pressure waves alone set the stable step
+constexpr double waste = 1.5;             // ratio of stable step to scene step from which a longer step is advised
 
 /// Computing time over simulated time of an explicit method, by the cost model of "auto".
 double explicit_share(const WorldFacts& world, const SolverSettings& solver) {
@@ -19,19 +20,23 @@ double explicit_share(const WorldFacts& world, const SolverSettings& solver) {
 }
 
 void advise_on_locking(const SolverSettings& solver, const MaterialFacts& material, std::vector<Advice>& advice) {
-  if (solver.nodal_pressure || solver.quadratic || material.poisson < locks) return;
+  const double from = solver.quadratic ? locks_quadratic : locks;
+  if (solver.nodal_pressure || material.poisson < from) return;
   const LawInfo& law = *find_law(material.kernel.law);
-  const std::string text = fmt::format(
-      "{}: Poisson's ratio is {:.4g} at rest, and linear tetrahedra (\"p1\") are too "
-      "stiff from {} on",
-      law.name, material.poisson, locks);
+  const std::string text =
+      fmt::format("{}: Poisson's ratio is {:.4g} at rest, and {} tetrahedra (\"{}\") are too stiff from {} on",
+                  law.name, material.poisson, solver.quadratic ? "quadratic" : "linear", solver.element(), from);
+  const char* remedy = solver.quadratic ? "p2_pressure" : "nodal_pressure";
   if (law.has_volume_term)
-    advice.push_back(
-        {"locking", text, "\"element\": \"nodal_pressure\" in solver: two more passes a force evaluation"});
-  else
     advice.push_back({"locking", text,
-                      "a law with a volume term of its own (neo_hookean_iso, ...) and \"element\": "
-                      "\"nodal_pressure\", or a finer mesh"});
+                      fmt::format("\"element\": \"{}\" in solver: {} a force evaluation", remedy,
+                                  solver.quadratic ? "one more pass" : "two more passes")});
+  else
+    advice.push_back(
+        {"locking", text,
+         fmt::format("a law with a volume term of its own (neo_hookean_iso, ...) and \"element\": \"{}\", or a finer "
+                     "mesh",
+                     remedy)});
 }
 
 void advise_on_volume(const Explanation& explained, const MaterialFacts& material, std::vector<Advice>& advice) {
@@ -129,7 +134,7 @@ std::vector<OmittedFeature> omitted_features_of(const Scene& scene, const WorldS
   leave(none([](const Material& m) { return find_law(m.law)->has_fibre; }), "fibres", "no law has them");
   leave(none([](const Material& m) { return !find_law(m.law)->is_continuum; }), "springs",
         "no material is mass_spring");
-  leave(!solver.nodal_pressure, "nodal pressure",
+  leave(!solver.nodal_pressure, solver.quadratic ? "mean dilatation" : "nodal pressure",
         fmt::format("\"element\" is \"{}\": pressure is of each {}", solver.element(),
                     solver.quadratic ? "integration point" : "tetrahedron"));
   leave(!solver.continuation, "continuation", "off: a state outside a law's range ends the run (exit code 4)");

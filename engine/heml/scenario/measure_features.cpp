@@ -75,10 +75,12 @@ std::vector<Change> changes_of(const Scene& scene, const WorldSetup& setup) {
     return find_law(entry.material.law)->has_volume_term &&
            entry.material.volume_term == setup.materials.front().material.volume_term;
   });
-  if (splits && !solver.quadratic && !switches_material(scene))
-    changes.push_back({"element", solver.nodal_pressure ? "nodal_pressure" : "p1",
-                       solver.nodal_pressure ? "p1" : "nodal_pressure",
+  if (splits && !switches_material(scene)) {
+    SolverSettings other = solver;
+    other.nodal_pressure = !solver.nodal_pressure;
+    changes.push_back({"element", std::string(solver.element()), std::string(other.element()),
                        [](WorldSetup& s) { s.solver.nodal_pressure = !s.solver.nodal_pressure; }});
+  }
   changes.push_back({"precision", solver.single_precision ? "float" : "double",
                      solver.single_precision ? "double" : "float",
                      [](WorldSetup& s) { s.solver.single_precision = !s.solver.single_precision; }});

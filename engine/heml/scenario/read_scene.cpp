@@ -159,7 +159,8 @@ void check_energy_laws(const Scene& scene) {
 void check_quadratic(const Scene& scene) {
   if (!scene.solver.quadratic) return;
   const auto refuse = [&](const std::string& place) {
-    throw InputError(scene.file, place, "does not go with solver.element p2", "take \"element\": \"p1\"");
+    throw InputError(scene.file, place, fmt::format("does not go with solver.element {}", scene.solver.element()),
+                     "take \"element\": \"p1\"");
   };
   if (scene.self_contact) refuse("self_contact");
   if (scene.tearing) refuse("tearing");
@@ -178,17 +179,17 @@ void check_quadratic(const Scene& scene) {
   }
 }
 
-/// Averaged nodal pressure takes the volume terms of all materials together.
+/// Averaged nodal pressure takes the volume terms of all materials together, mean dilatation one an element.
 void check_nodal_pressure(const Scene& scene) {
   if (!scene.solver.nodal_pressure) return;
   const VolumeTerm first = scene.materials.front().material.volume_term;
   const auto check = [&](const Material& material, const std::string& place) {
     if (!find_law(material.law)->has_volume_term)
       throw InputError(scene.file, place + ".law",
-                       fmt::format("'{}' has no volume term of its own, which solver.element nodal_pressure needs",
-                                   find_law(material.law)->name),
-                       "take another law, or \"element\": \"p1\"");
-    if (material.volume_term != first)
+                       fmt::format("'{}' has no volume term of its own, which solver.element {} needs",
+                                   find_law(material.law)->name, scene.solver.element()),
+                       fmt::format("take another law, or \"element\": \"{}\"", scene.solver.quadratic ? "p2" : "p1"));
+    if (material.volume_term != first && !scene.solver.quadratic)
       throw InputError(scene.file, place + ".volume_term", "differs from that of materials[0]",
                        "solver.element nodal_pressure needs the same in all materials");
   };

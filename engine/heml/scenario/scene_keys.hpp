@@ -174,7 +174,7 @@ inline constexpr KeyInfo solver[] = {
     {"threads", form::whole(0, max_threads), "", "", "0: all cores; never changes a bit of the result"},
     {"element", form::one_of<element_names>(), "", "",
      "linear tetrahedra with a pressure each, or with averaged nodal pressure (near ν = 0.5); `p2`: quadratic "
-     "tetrahedra (`engine/docs/elements.md`)"},
+     "tetrahedra; `p2_pressure`: with mean dilatation, near ν = 0.5 (`engine/docs/elements.md`)"},
     {"continuation", form::flag, "", "",
      "laws go on past the end of their range; else the run ends there (exit code 4)"},
     {"recovery", form::flag, "", "", "a collapsed body is brought back instead of ending the run; not with `static`"},

@@ -63,8 +63,8 @@ SolverSettings solver_from(const JsonCursor& key) {
   if (const auto precision = object.choice("precision")) solver.single_precision = *precision == 1;
   object.read("threads", solver.threads);
   if (const auto element = object.choice("element")) {
-    solver.nodal_pressure = *element == 1;
-    solver.quadratic = *element == 2;
+    solver.nodal_pressure = *element % 2 == 1;
+    solver.quadratic = *element >= 2;
   }
   object.read("continuation", solver.continuation);
   object.read("recovery", solver.recovery);

@@ -14,7 +14,7 @@ constexpr int max_threads = 256;
 std::span<const std::string_view> integrator_names();
 
 inline constexpr std::string_view precision_names[] = {"double", "float"};
-inline constexpr std::string_view element_names[] = {"p1", "nodal_pressure", "p2"};
+inline constexpr std::string_view element_names[] = {"p1", "nodal_pressure", "p2", "p2_pressure"};
 
 /// The integrator a value names. Throws InputError for one that is unknown.
 Integrator integrator_from(const JsonCursor& key);

@@ -31,8 +31,9 @@ bool apply_word(std::string_view word, Variant& variant) {
     solver.single_precision = word == "float";
     return true;
   }
-  if ((word == "p1" || word == "nodal_pressure") && !solver.quadratic) {
-    solver.nodal_pressure = word == "nodal_pressure";
+  const bool is_linear = word == "p1" || word == "nodal_pressure", is_quadratic = word == "p2" || word == "p2_pressure";
+  if (solver.quadratic ? is_quadratic : is_linear) {
+    solver.nodal_pressure = word.ends_with("pressure");
     return true;
   }
   return false;
@@ -45,7 +46,7 @@ std::vector<std::string> variant_words() {
   for (const LawInfo& law : laws()) words.emplace_back(law.name);
   for (const IntegratorInfo& info : all_integrators())
     if (info.kind != IntegratorKind::equilibrium) words.emplace_back(info.name);
-  for (const char* word : {"float", "double", "p1", "nodal_pressure"}) words.emplace_back(word);
+  for (const char* word : {"float", "double", "p1", "nodal_pressure", "p2", "p2_pressure"}) words.emplace_back(word);
   return words;
 }
 

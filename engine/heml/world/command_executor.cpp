@@ -127,11 +127,12 @@ Status CommandExecutor<Real>::execute(const SetMaterial& command) {
                           : std::string("material: there is no default entry; name a region");
   const LawInfo* law = find_law(command.material.law);
   if (s_.setup.solver.nodal_pressure && law && !law->has_volume_term)
-    return fmt::format("material.law: '{}' has no separate volume term, which nodal pressure needs", law->name);
+    return fmt::format("material.law: '{}' has no separate volume term, which element {} needs", law->name,
+                       s_.setup.solver.element());
   if (s_.setup.solver.quadratic && law && !law->is_continuum)
     return fmt::format("material.law: '{}' has no quadratic elements", law->name);
   for (const RegionMaterial& other : s_.setup.materials)
-    if (s_.setup.solver.nodal_pressure && &other != &*entry &&
+    if (s_.setup.solver.nodal_pressure && !s_.setup.solver.quadratic && &other != &*entry &&
         other.material.volume_term != command.material.volume_term)
       return "material.volume_term: with nodal pressure it must be that of the other materials";
   if (!command.material.fields.empty() || !command.material.fibre_field.empty())

@@ -67,14 +67,18 @@ struct SolverSettings {
   int threads = 0;             ///< 0: all cores. Never changes a bit of the result
   bool continuation = false;   ///< continue each law past its range instead of stopping there
   bool recovery = false;  ///< bring a collapsed or wild body back instead of stopping (recovery.hpp); dynamics alone
-  bool nodal_pressure = false;  ///< averaged nodal pressure instead of one a tetrahedron (elastic/nodal_pressure.hpp)
-  bool quadratic = false;       ///< ten-node tetrahedra (mesh/quadratic.hpp); not with nodal_pressure
+  bool nodal_pressure = false;  ///< averaged nodal pressure instead of one a tetrahedron (elastic/nodal_pressure.hpp);
+                                ///< of quadratic elements their mean dilatation (elastic/mean_dilatation.hpp)
+  bool quadratic = false;       ///< ten-node tetrahedra (mesh/quadratic.hpp)
   std::optional<double> tolerance;  ///< of implicit and static solves, relative to the forces at work (contract)
   std::optional<Budget> budget;     ///< none: every stage is solved to its tolerance
   Minimiser minimiser = Minimiser::newton;       ///< of implicit steps; statics are Newton's
   Projection projection = Projection::element;   ///< of a stiffness that is seen not to be positive
   std::optional<Preconditioner> preconditioner;  ///< none: by the body's size
-  std::string_view element() const { return quadratic ? "p2" : nodal_pressure ? "nodal_pressure" : "p1"; }
+  std::string_view element() const {
+    if (quadratic) return nodal_pressure ? "p2_pressure" : "p2";
+    return nodal_pressure ? "nodal_pressure" : "p1";
+  }
   bool is_static() const { return integrator == Integrator::static_equilibrium; }
   double load_duration() const { return duration > 0 ? duration : 1; }  ///< s, that a static world's ticks load over
   double relative_tolerance() const { return tolerance.value_or(single_precision ? 1e-4 : 1e-8); }

@@ -1,42 +1,17 @@
 // Quadratic tetrahedra against ten-node shape functions and full deformation gradients, computed here.
 #include <doctest/doctest.h>
 
-#include <Eigen/Eigenvalues>
 #include <heml/elastic/body.hpp>
 #include <heml/materials/point.hpp>
-#include <heml/mesh/quadratic.hpp>
 
-#include "small_body.hpp"
+#include "quadratic_body.hpp"
 
 namespace heml::virtual_corners_test {
 
+using test::highest_eigenvalue;
 using test::largest;
+using test::QuadraticBody;
 using test::sample_material;
-
-/// A small irregular body of quadratic elements, displaced from rest. curved: mid-edge nodes beside the edges at rest.
-struct QuadraticBody {
-  TetMesh mesh = make_box(Vec3(0.1, 0.08, 0.06), {2, 1, 1});
-  MidEdges midedges;
-  std::vector<double> x;
-
-  QuadraticBody(std::mt19937_64& random, double noise, bool curved = false) {
-    for (Vec3& X : mesh.nodes) X += test::random_vector(random, 0.004);
-    const std::size_t corners = mesh.nodes.size();
-    midedges = add_midedge_nodes(mesh);
-    for (std::size_t n = corners; curved && n < mesh.nodes.size(); ++n)
-      mesh.nodes[n] += test::random_vector(random, 2e-3);
-    for (const Vec3& X : mesh.nodes) {
-      const Vec3 moved = X + test::random_vector(random, noise * 0.03);
-      x.insert(x.end(), {moved.x(), moved.y(), moved.z()});
-    }
-  }
-  template <class Real = double>
-  std::unique_ptr<ElasticBody<Real>> of(const Material& material, bool continuation = false) const {
-    return std::make_unique<ElasticBody<Real>>(mesh, std::vector<int>(mesh.tets.size(), 0), std::vector{material},
-                                               BodyOptions{continuation}, midedges);
-  }
-  Vec3 at(int n) const { return Eigen::Map<const Vec3>(&x[3 * static_cast<std::size_t>(n)]); }
-};
 
 /// Gradients by ξ of the ten shape functions on the unit tetrahedron, λ0 = 1 − ξ1 − ξ2 − ξ3.
 Eigen::Matrix<double, 10, 3> shape_gradients(const Vec3& xi) {
@@ -201,20 +176,7 @@ TEST_CASE("the frequency bound of quadratic elements bounds the highest eigenval
     CAPTURE(law);
     const QuadraticBody small(random, 0.03);
     auto body = small.of(sample_material(law));
-    const auto mass = body->masses();
-    const auto size = static_cast<Eigen::Index>(small.x.size());
-    Eigen::MatrixXd K(size, size);
-    std::vector<double> unit(small.x.size(), 0.0), column(small.x.size());
-    body->linearise(small.x.data(), team);
-    for (Eigen::Index j = 0; j < size; ++j) {
-      unit[static_cast<std::size_t>(j)] = 1;
-      body->force_differential(unit.data(), column.data(), team);
-      unit[static_cast<std::size_t>(j)] = 0;
-      for (Eigen::Index i = 0; i < size; ++i)
-        K(i, j) = -column[static_cast<std::size_t>(i)] /
-                  std::sqrt(mass[static_cast<std::size_t>(i) / 3] * mass[static_cast<std::size_t>(j) / 3]);
-    }
-    const double highest = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(K).eigenvalues()[size - 1];
+    const double highest = highest_eigenvalue(*body, small.x);
     const double bound = body->frequency_bound(small.x.data(), team);
     CHECK(bound >= highest);
     CHECK(bound <= 4 * highest);
