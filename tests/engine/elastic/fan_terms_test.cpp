@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <heml/elastic/fan_forces.hpp>
+#include <heml/materials/parameter_slots.hpp>
 #include <heml/mesh/reorder.hpp>
 
 #include "small_body.hpp"
@@ -41,7 +42,8 @@ class LoopBody {
     for (const Vec3& X : mesh.nodes) rest.insert(rest.end(), {X.x(), X.y(), X.z()});
     for (const auto& term : terms_) term->begin_step(0), term->reset_history(group_, rest.data());
     if (!nodal_pressure) return;
-    const std::vector<double> kappa(group_.volume.size(), material.parameters.back());
+    const std::vector<double> kappa(group_.volume.size(),
+                                    material.parameters[*volume_parameter(material, *find_law(material.law))]);
     pressure_ = std::make_unique<NodalPressure<double>>(std::vector<const ElementGroup<double>*>{&group_}, corners_,
                                                         std::vector<std::vector<double>>{kappa}, material.volume_term,
                                                         continuation);
@@ -119,10 +121,11 @@ void check_kernels(InstructionSet isa, double tolerance) {
   const TetMesh mesh = irregular_box(random, {3, 2, 2});
   const std::vector<int> one_material(mesh.tets.size(), 0);
   for (const auto law : test::law_names())
-    for (const auto& [name, material] : with_terms(law))
+    for (const auto& named : with_terms(law))
       for (const bool continuation : {false, true}) {
+        const Material& material = named.second;
         CAPTURE(std::string(law));
-        CAPTURE(name);
+        CAPTURE(named.first);
         CAPTURE(std::string(name_of(isa)));
         CAPTURE(continuation);
         ElasticBody<Real> body(mesh, one_material, {material}, {continuation, false, isa});

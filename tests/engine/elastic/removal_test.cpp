@@ -22,24 +22,42 @@ std::unique_ptr<ElasticBody<double>> body_of(const TetMesh& mesh, const std::vec
   return std::make_unique<ElasticBody<double>>(mesh, material_of, made.materials, made.options);
 }
 
-/// All results of a body at x, in one list.
-std::vector<double> answers(ElasticBody<double>& body, const std::vector<double>& x) {
+/// All results of a body at x, one list for each quantity.
+std::vector<std::vector<double>> answers(ElasticBody<double>& body, const std::vector<double>& x) {
   ThreadTeam team(1);
-  std::vector<double> all = forces_of(body, x), change(x.size()), dx(x.size());
+  std::vector<double> change(x.size()), dx(x.size()), of_elements, stiffness;
   for (std::size_t i = 0; i < x.size(); ++i) dx[i] = 1e-3 * std::sin(static_cast<double>(i));
+  const std::vector<double> f = forces_of(body, x);
   body.linearise(x.data(), team);
   body.force_differential(dx.data(), change.data(), team);
-  all.insert(all.end(), change.begin(), change.end());
-  for (const double mass : body.masses()) all.push_back(mass);
   std::vector<ElementState<double>> states;
   body.states(x.data(), states);
-  for (const auto& s : states) all.insert(all.end(), {s.J, s.stretch, s.von_mises});
-  all.insert(all.end(), {body.energy(x.data(), team), body.potential(x.data(), team),
-                         body.frequency_bound(x.data(), team), body.damping_bound(x.data(), team)});
+  for (const auto& s : states) of_elements.insert(of_elements.end(), {s.J, s.stretch, s.von_mises});
   body.each_stiffness([&](const Tet&, const ElementMatrix<double>& K) {
-    for (const auto& row : K) all.insert(all.end(), row, row + 12);
+    for (const auto& row : K) stiffness.insert(stiffness.end(), row, row + 12);
   });
-  return all;
+  return {f,
+          change,
+          body.masses(),
+          of_elements,
+          stiffness,
+          {body.energy(x.data(), team)},
+          {body.potential(x.data(), team)},
+          {body.frequency_bound(x.data(), team)},
+          {body.damping_bound(x.data(), team)}};
+}
+
+/// Largest difference of two bodies, relative to the largest value of its quantity; 0: the same bits.
+double difference(const std::vector<std::vector<double>>& a, const std::vector<std::vector<double>>& b) {
+  double worst = 0;
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    REQUIRE(a[k].size() == b[k].size());
+    for (std::size_t i = 0; i < a[k].size(); ++i) {
+      const double d = std::abs(a[k][i] - b[k][i]) / std::max(largest(b[k]), 1e-300);
+      if (!(d <= worst)) worst = d;  // also true for NaN
+    }
+  }
+  return worst;
 }
 
 /// All elements whose number is odd or a multiple of 3, without the last four.
@@ -126,6 +144,7 @@ TEST_CASE("viscosity, relaxation and plastic set of what is left go on as if the
     std::mt19937_64 random(8);
     const SmallBody small(random, 0.15, Mat3(Vec3(1.15, 0.9, 1).asDiagonal()));
     const std::vector<int> all(small.mesh.tets.size(), 0), kept = most_of(small.mesh);
+    const double tolerance = material.plasticity ? 0 : 1e-11;  // an edit converts the state of elements in fans
     const Made made{{material}, {true}};
     const auto cut = body_of(small.mesh, all, made);
     const auto built = body_of(with_elements(small.mesh, kept), with_elements(all, kept), made);
@@ -141,10 +160,10 @@ TEST_CASE("viscosity, relaxation and plastic set of what is left go on as if the
       live(*built, share);
     }
     cut->keep_elements(kept);
-    CHECK(answers(*cut, small.x) == answers(*built, small.x));
+    CHECK(difference(answers(*cut, small.x), answers(*built, small.x)) <= tolerance);
     live(*cut, 0.8);
     live(*built, 0.8);
-    CHECK(answers(*cut, small.x) == answers(*built, small.x));
+    CHECK(difference(answers(*cut, small.x), answers(*built, small.x)) <= tolerance);
     cut->reset_history(small.x.data());
     built->reset_history(small.x.data());
     CHECK(answers(*cut, small.x) == answers(*built, small.x));
