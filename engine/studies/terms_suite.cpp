@@ -15,7 +15,7 @@ struct AddedTerm {
   bool nodal_pressure = false;
 };
 
-constexpr const char* field = "shear";  ///< of a material whose shear modulus varies by element
+constexpr const char* shear_field = "shear";  ///< of a material whose shear modulus varies by element
 
 std::vector<AddedTerm> added_terms() {
   const Material bare = bench_material("neo_hookean_iso");
@@ -25,7 +25,7 @@ std::vector<AddedTerm> added_terms() {
   three_branches.relaxation = {{0.3, 0.1}, {0.2, 1}, {0.1, 10}};
   other_volume.volume_term = VolumeTerm::logarithmic;
   plastic.plasticity = Plasticity{1e6, 0};  // which is never reached
-  varying.fields = {{0, field}};
+  varying.fields = {{0, shear_field}};
   return {{"law alone", bare},
           {"viscosity", viscous},
           {"relaxation", relaxing},
@@ -40,7 +40,7 @@ std::vector<AddedTerm> added_terms() {
 std::vector<BenchRow> time_terms(const BenchBody& body, bool single, bool quick) {
   TetMesh mesh = body.mesh;
   mesh.fields.push_back(
-      {field, 1, std::vector<double>(mesh.tets.size(), added_terms().front().material.parameters[0])});
+      {shear_field, 1, std::vector<double>(mesh.tets.size(), added_terms().front().material.parameters[0])});
   const std::vector<AddedTerm> terms = added_terms();
   std::vector<std::unique_ptr<World>> worlds;
   std::vector<std::function<void()>> works;
