@@ -44,22 +44,19 @@ BlockMatrix::BlockMatrix(const FreeNodes& free, const std::vector<Tet>& tets) : 
 
 void BlockMatrix::set_zero() { std::fill_n(matrix_.valuePtr(), matrix_.nonZeros(), 0.0); }
 
-/// The entry of row 3 row_block in scalar column 3 column_block + j. In a diagonal block only rows j and below are
-/// stored; the others must not be accessed.
-double* BlockMatrix::column_entry(int row_block, int column_block, int j) {
-  double* column = matrix_.valuePtr() + matrix_.outerIndexPtr()[3 * column_block + j];
-  if (row_block == column_block) return column - j;
-  const auto c = static_cast<std::size_t>(column_block);
-  const auto begin = neighbour_.begin() + static_cast<std::ptrdiff_t>(start_[c]);
-  const auto end = neighbour_.begin() + static_cast<std::ptrdiff_t>(start_[c + 1]);
-  return column + (3 - j) + 3 * (std::lower_bound(begin, end, row_block) - begin);
+/// The number of a row among the later neighbours of a column; −1 if they are the same node.
+int BlockMatrix::place(int row, int column) const {
+  if (row == column) return -1;
+  const auto neighbours = later_neighbours(static_cast<std::size_t>(column));
+  return static_cast<int>(std::lower_bound(neighbours.begin(), neighbours.end(), row) - neighbours.begin());
 }
 
 void BlockMatrix::add_pair(int a, int b, const Mat3& B) {
   const int row = free_.number[static_cast<std::size_t>(a)], column = free_.number[static_cast<std::size_t>(b)];
   if (row < 0 || column < 0) return;
+  const int first = std::min(row, column), n = place(std::max(row, column), first);
   for (int j = 0; j < 3; ++j) {
-    double* entry = column_entry(std::max(row, column), std::min(row, column), j);
+    double* entry = block_column(static_cast<std::size_t>(first), n, static_cast<std::size_t>(j));
     for (int i = 0; i < 3; ++i) entry[i] += row > column ? B(i, j) : B(j, i);
   }
 }
@@ -68,13 +65,14 @@ void BlockMatrix::add_node(int node, const Mat3& B) {
   const int n = free_.number[static_cast<std::size_t>(node)];
   if (n < 0) return;
   for (int j = 0; j < 3; ++j)
-    for (int i = j; i < 3; ++i) column_entry(n, n, j)[i] += B(i, j);
+    for (int i = j; i < 3; ++i)
+      block_column(static_cast<std::size_t>(n), -1, static_cast<std::size_t>(j))[i] += B(i, j);
 }
 
 void BlockMatrix::add_diagonal(int node, double k) {
   const int n = free_.number[static_cast<std::size_t>(node)];
   if (n < 0) return;
-  for (int j = 0; j < 3; ++j) column_entry(n, n, j)[j] += k;
+  for (int j = 0; j < 3; ++j) block_column(static_cast<std::size_t>(n), -1, static_cast<std::size_t>(j))[j] += k;
 }
 
 }  // namespace heml

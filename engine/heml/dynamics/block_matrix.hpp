@@ -8,6 +8,7 @@
 #include <heml/math/bytes.hpp>
 #include <heml/mesh/tet_mesh.hpp>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace heml {
@@ -53,7 +54,10 @@ class BlockMatrix {
   std::size_t bytes() const { return bytes_of(matrix_) + bytes_of(start_, neighbour_); }
 
  private:
-  double* column_entry(int row_block, int column_block, int j);
+  double* block_column(std::size_t node, int n, std::size_t j) {
+    return const_cast<double*>(std::as_const(*this).block_column(node, n, j));
+  }
+  int place(int row, int column) const;
 
   const FreeNodes& free_;
   std::vector<std::size_t> start_;  ///< start of the neighbours of each block column
@@ -68,10 +72,10 @@ void BlockMatrix::add_element(const std::array<int, count>& nodes, const Entry& 
       const int row = free_.number[static_cast<std::size_t>(nodes[a])];
       const int column = free_.number[static_cast<std::size_t>(nodes[b])];
       if (row < column || column < 0) continue;
+      const int n = place(row, column);
       for (int j = 0; j < 3; ++j) {
-        double* entry = column_entry(row, column, j);
-        for (int i = row == column ? j : 0; i < 3; ++i)
-          entry[i] += K(3 * static_cast<int>(a) + i, 3 * static_cast<int>(b) + j);
+        double* entry = block_column(static_cast<std::size_t>(column), n, static_cast<std::size_t>(j));
+        for (int i = n < 0 ? j : 0; i < 3; ++i) entry[i] += K(3 * static_cast<int>(a) + i, 3 * static_cast<int>(b) + j);
       }
     }
 }

@@ -8,7 +8,7 @@
 namespace heml {
 namespace {
 
-constexpr std::size_t max_part = 100;   // nodes of a part that is not divided further
+constexpr std::size_t max_part = 1000;  // nodes of a part that is not divided further
 constexpr double max_half = 0.6;        // part of the nodes that one half may have
 constexpr int max_passes = 6;           // of refinement
 constexpr std::size_t max_futile = 60;  // moves of a pass without a smaller separator
@@ -210,6 +210,7 @@ class Bisection {
 
 /// Reorders the nodes of a part by approximate minimum degree. number: #nodes of the graph, −1, scratch memory.
 void minimum_degree(const NodeGraph& graph, std::span<int> nodes, std::vector<int>& number) {
+  if (nodes.empty()) return;
   for (std::size_t k = 0; k < nodes.size(); ++k) number[static_cast<std::size_t>(nodes[k])] = static_cast<int>(k);
   std::vector<Eigen::Triplet<double>> entries;
   for (std::size_t k = 0; k < nodes.size(); ++k) {
@@ -230,6 +231,13 @@ void minimum_degree(const NodeGraph& graph, std::span<int> nodes, std::vector<in
 }
 
 }  // namespace
+
+std::vector<int> minimum_degree(const NodeGraph& graph) {
+  std::vector<int> order(graph.size()), number(graph.size(), -1);
+  std::iota(order.begin(), order.end(), 0);
+  minimum_degree(graph, order, number);
+  return order;
+}
 
 std::vector<int> nested_dissection(const NodeGraph& graph, const std::vector<Vec3>& position) {
   std::vector<int> order(graph.size());

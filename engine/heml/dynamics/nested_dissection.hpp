@@ -7,7 +7,8 @@
 //     └───────┴─┴───────┘
 //
 // A plane through the median divides the nodes; then single nodes move between the halves and the separator where that
-// makes the separator smaller (Fiduccia & Mattheyses 1982). Small parts are ordered by approximate minimum degree.
+// makes the separator smaller (Fiduccia & Mattheyses 1982). Parts of up to a thousand nodes are ordered by approximate
+// minimum degree, which alone suits long bodies: it goes from both ends to the middle.
 #include <heml/dynamics/node_graph.hpp>
 #include <heml/math/types.hpp>
 
@@ -15,5 +16,8 @@ namespace heml {
 
 /// The node eliminated k-th. position: #nodes, m; any positions give a valid order.
 std::vector<int> nested_dissection(const NodeGraph& graph, const std::vector<Vec3>& position);
+
+/// The node eliminated k-th by approximate minimum degree (Amestoy, Davis & Duff 1996).
+std::vector<int> minimum_degree(const NodeGraph& graph);
 
 }  // namespace heml

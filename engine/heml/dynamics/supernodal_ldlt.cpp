@@ -8,7 +8,8 @@
 namespace heml {
 namespace {
 
-constexpr double min_parallel_work = 2e6;  // multiplications of a factor that is worth more than one thread
+constexpr std::size_t min_dissected_nodes = 4000;  // below, minimum degree alone has less work
+constexpr double min_parallel_work = 2e6;          // multiplications of a factor that is worth more than one thread
 constexpr std::size_t max_subtrees = 16;
 constexpr double min_subtree = 1.0 / 48;         // of all multiplications: a smaller subtree is not divided
 constexpr std::size_t min_parallel_strips = 16;  // per thread, of a front
@@ -38,15 +39,13 @@ NodeGraph graph_of(const BlockMatrix& matrix) {
   return graph;
 }
 
+/// Of two orders, the one with less work. Nested dissection wins in large bodies that are not long.
 Supernodes supernodes_of(const BlockMatrix& pattern, const std::vector<Vec3>& position) {
   const NodeGraph graph = graph_of(pattern);
-  return {graph, nested_dissection(graph, position)};
-}
-
-/// Multiplications that eliminate k pivots with u updates.
-double front_work(std::size_t pivots, std::size_t updates) {
-  const auto k = static_cast<double>(pivots), u = static_cast<double>(updates);
-  return k * (k * k / 6 + k * u / 2 + u * u / 2);
+  Supernodes by_degree(graph, minimum_degree(graph));
+  if (graph.size() < min_dissected_nodes) return by_degree;
+  Supernodes dissected(graph, nested_dissection(graph, position));
+  return dissected.work() < by_degree.work() ? dissected : by_degree;
 }
 
 /// Row of a front with padding after the pivots. node: place in the front.
@@ -62,12 +61,11 @@ SupernodalLdlt::SupernodalLdlt(const BlockMatrix& pattern, const std::vector<Vec
     : supernodes_(supernodes_of(pattern, position)),
       kernels_(front_kernels(resolve(isa))),
       team_(team),
+      multiplications_(supernodes_.work()),
       children_(supernodes_.size()),
       pivots_(3 * static_cast<Eigen::Index>(supernodes_.order.size())) {
-  for (std::size_t s = 0; s < supernodes_.size(); ++s) {
+  for (std::size_t s = 0; s < supernodes_.size(); ++s)
     if (supernodes_.parent[s] >= 0) children_[static_cast<std::size_t>(supernodes_.parent[s])].push_back(s);
-    multiplications_ += front_work(3 * supernodes_.columns(s), 3 * supernodes_.rows(s).size());
-  }
   find_entries(pattern);
   find_relative_rows();
   find_tasks();
@@ -127,7 +125,7 @@ void SupernodalLdlt::find_tasks() {
   std::vector<double> work(count);
   std::vector<std::size_t> begin(count), roots;
   for (std::size_t s = 0; s < count; ++s) {
-    work[s] = front_work(3 * supernodes_.columns(s), 3 * supernodes_.rows(s).size());
+    work[s] = supernodes_.work(s);
     begin[s] = children_[s].empty() ? s : begin[children_[s].front()];
     for (const std::size_t child : children_[s]) work[s] += work[child];
     if (supernodes_.parent[s] < 0) roots.push_back(s);
@@ -272,7 +270,7 @@ void SupernodalLdlt::add_update(std::size_t child, std::size_t s, const Front& t
 /// alone: no other thread works on the factor, so all may work on this front.
 void SupernodalLdlt::eliminate(const Front& f, bool alone) const {
   const bool parallel =
-      alone && front_work(f.pivots, strip_rows * f.update_strips) >= min_parallel_front && team_.limit() > 1;
+      alone && static_cast<double>(f.panel_size()) * static_cast<double>(f.strips()) >= min_parallel_front;
   const auto each = [&](std::size_t first, std::size_t last, const auto& body) {
     if (!parallel) return body(StripRange{first, last});
     team_.parallel_for(last - first, min_parallel_strips, [&](std::size_t from, std::size_t to) {

@@ -31,7 +31,7 @@ class SupernodalLdlt {
   /// call at a time.
   void solve(Eigen::VectorXd& b, const Eigen::VectorXd& divisors) const;
 
-  double multiplications() const { return multiplications_; }  ///< of a factorisation, without padding
+  double multiplications() const { return multiplications_; }  ///< of a factorisation
   std::size_t bytes() const;
 
  private:
@@ -62,6 +62,7 @@ class SupernodalLdlt {
   Supernodes supernodes_;
   const FrontKernels& kernels_;
   ThreadTeam& team_;
+  double multiplications_;
   std::vector<std::vector<std::size_t>> children_;
   std::vector<std::size_t> entry_start_{0};
   std::vector<Entry> entries_;
@@ -69,7 +70,6 @@ class SupernodalLdlt {
   std::vector<std::size_t> panel_start_{0}, update_start_;
   std::vector<Task> subtrees_;
   Task top_;
-  double multiplications_ = 0;
   Values panels_, updates_, scaled_;
   Eigen::VectorXd pivots_;
   mutable Values front_vector_;

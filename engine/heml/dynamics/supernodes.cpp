@@ -91,8 +91,8 @@ struct MergedNode {
 
 /// Whether the zeros of a merged supernode cost less than its smaller part does.
 bool is_worth_merging(double columns, double zeros, double stored) {
-  return columns <= 4 || (columns <= 12 && zeros < 0.4 * stored) || (columns <= 24 && zeros < 0.15 * stored) ||
-         zeros < 0.05 * stored;
+  return columns <= 4 || (columns <= 8 && zeros < 0.3 * stored) || (columns <= 16 && zeros < 0.1 * stored) ||
+         zeros < 0.02 * stored;
 }
 
 /// Merges children into `into` as long as that is worth it.
@@ -154,6 +154,17 @@ Supernodes::Supernodes(const NodeGraph& graph, const std::vector<int>& little_fi
     parent.push_back(above[index_of(s)] < 0 ? -1 : number[index_of(above[index_of(s)])]);
   }
   find_rows(graph);
+}
+
+double Supernodes::work(std::size_t s) const {
+  const double k = 3 * static_cast<double>(columns(s)), u = 3 * static_cast<double>(rows(s).size());
+  return k * (k * k / 6 + k * u / 2 + u * u / 2);
+}
+
+double Supernodes::work() const {
+  double sum = 0;
+  for (std::size_t s = 0; s < size(); ++s) sum += work(s);
+  return sum;
 }
 
 void Supernodes::find_rows(const NodeGraph& graph) {

@@ -19,6 +19,9 @@ struct Supernodes {
   std::size_t size() const { return parent.size(); }
   std::size_t columns(std::size_t s) const { return static_cast<std::size_t>(first[s + 1] - first[s]); }
   std::span<const int> rows(std::size_t s) const { return {row.data() + row_start[s], row.data() + row_start[s + 1]}; }
+  /// Multiplications that eliminate a supernode of 3×3 blocks, and all of them.
+  double work(std::size_t s) const;
+  double work() const;
 
  private:
   void find_rows(const NodeGraph& graph);
