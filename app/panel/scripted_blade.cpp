@@ -3,7 +3,7 @@
 
 namespace heml::panel {
 namespace {
-constexpr double shown = 0.1;  // s after a sweep
+constexpr double blade_time = 0.1;  // s after a sweep
 }
 
 render::Blade blade_after(const Sweep& sweep) {
@@ -18,7 +18,7 @@ std::optional<render::Blade> scripted_blade(std::span<const Event> events, long 
                              [](long moment, const Event& event) { return moment < event.tick; });
   while (at != events.begin()) {
     --at;
-    if (static_cast<double>(tick - at->tick) > shown * rate) return std::nullopt;
+    if (static_cast<double>(tick - at->tick) > blade_time * rate) return std::nullopt;
     const auto* cut = std::get_if<CutTissue>(&at->command);
     if (cut && cut->sweep.blades.size() > 1) return blade_after(cut->sweep);
   }

@@ -7,7 +7,8 @@ namespace heml::render {
 namespace {
 
 const Vec3f steel(0.80f, 0.83f, 0.86f);
-const Vec3f incision(0.050f, 0.002f, 0.003f);
+const Vec3f incision(0.090f, 0.004f,
+                     0.006f);         // drawn as metal, which has no gloss of its own: the pieces look like one line
 constexpr float along_sight = 0.8f;   // cosine
 constexpr float half_tension = 0.5f;  // N at which the spring has its middle colour
 
@@ -113,7 +114,7 @@ void ToolDrawing::place_stroke(const StrokeDrawing& stroke, const ViewContext& s
     const Vec3f lift = 0.012f * shot.radius * (shot.camera.eye() - from).normalized(), along = to - from;
     if (!along.allFinite() || along.norm() == 0) continue;
     parts_.push_back(
-        {&rod_, place_along(from + lift, along, across(along), along.norm(), thickness), incision, 0, false});
+        {&rod_, place_along(from + lift, along, across(along), along.norm(), thickness), incision, 1, false});
   }
   if (stroke.blade) place_blade(*stroke.blade, shot);
 }
