@@ -92,6 +92,7 @@ class Bench(ProgramCase):
             self.assertEqual("ratio_to_naive" in row, row["name"].split(",")[0] != "backward_euler")
         names = {row["name"] for row in rows}
         self.assertTrue({"cut, layout updated", "cut, layout rebuilt", "removal, whole command"} <= names)
+        self.assertTrue({"factor of the stiffness", "solution with the factor"} <= names)
         rows = self.rows_of("roofline")
         self.assertTrue({"peak arithmetic", "triad DRAM", "force"} <= {row["name"] for row in rows})
         for row in rows:
