@@ -14,7 +14,7 @@ constexpr std::size_t max_subtrees = 16;
 constexpr double min_subtree = 1.0 / 48;         // of all multiplications: a smaller subtree is not divided
 constexpr std::size_t min_parallel_strips = 16;  // per thread, of a front
 constexpr std::size_t block_strips = 8;          // of pivots that are reduced together
-constexpr double min_parallel_front = 1e6;       // multiplications
+constexpr double min_parallel_front = 1e6;       // size of its panel times its strips
 
 NodeGraph graph_of(const BlockMatrix& matrix) {
   const std::size_t count = matrix.free().node.size();
