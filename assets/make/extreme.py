@@ -224,7 +224,7 @@ def far_deformations():
         "axis": [1, 0, 0], "origin": [0, 0.01, 0.01], "degrees": degrees}}
     scene("17_half_a_turn", "Wrung by half a turn", "In a fifth of a second, steps of 10 ms: at most 8 iterations each.",
           BAR, [CLAMP, turn(180, 0.2)], {"integrator": "backward_euler", "step": 0.01, "duration": 0.3})
-    scene("18_two_turns", "Wrung by two turns", "Stretched by half, slowly wrung: what it stores grows with every degree.",
+    scene("18_two_turns", "Wrung by two turns", "Stretched by half, slowly wrung: it never has more energy than the turning end has put in.",
           BAR, [CLAMP, turn(720, 1.0, 0.05)],
           {"integrator": "backward_euler", "step": 0.02, "duration": 1.0, "damping": 100})
     scene("24_exponential_far_out", "Fung's exponential, far out", "Pulled to three and a half times its length, where the law says "

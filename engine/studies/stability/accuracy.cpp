@@ -67,7 +67,7 @@ Outcome energy_drift(const Trial& trial) {
     int count = 0;
     for (; world->time() < until - 1e-9 && !world->halt(); ++count) {
       world->tick();
-      const Energies energies = world->energies();
+      const Energies energies = synchronous_energies(*world);
       sum += total(energies);
       swing = std::max(swing, std::abs(energies.potential));
     }

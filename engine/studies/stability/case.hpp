@@ -30,7 +30,8 @@ enum class Verdict {
   recovered,  ///< holds, after recovery of a collapsed body
   inverted,   ///< some elements are inverted at the end
   diverged,   ///< stopped early, or the value is not finite
-  wrong       ///< finite, but above the limit, or another requirement is not met
+  wrong,      ///< finite, but above the limit, or another requirement is not met
+  unsolvable  ///< stopped, or with inverted elements, where the problem is proven to have no solution
 };
 const char* verdict_name(Verdict verdict);
 
@@ -41,10 +42,13 @@ struct Outcome {
   std::string stopped = {};  ///< why the run stopped early; empty: it did not
   std::string broken = {};   ///< another requirement of the case that is not met, in words; empty: none
   std::string note = {};     ///< remark for the report
+  std::string proof = {};    ///< that there is no solution where the run ended (no_solution.hpp); empty: none
 };
 Verdict judge(const Outcome& outcome, double limit);
+/// Whether it is an end that the table may have: stable, recovered, or proven to have no solution.
+bool is_sound(Verdict verdict);
 
-/// Combines two runs of one variant: the larger value, all failures, the last note.
+/// Combines two runs of one variant: the larger value, all failures, the last note; a proof if all failures have one.
 Outcome worse(const Outcome& a, const Outcome& b);
 
 /// Changes the forces (3 #V, N) of a body of one material at positions x (3 #V, m) to simulate a fault.

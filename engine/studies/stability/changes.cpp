@@ -90,13 +90,14 @@ Outcome law_switched(const Trial& trial) {
       const double laws = energy_of(mesh, all, now, x, still) - energy_of(mesh, all, old, x, still);
       worst = std::max(worst, std::abs(after - before - laws) / std::max(after, before));
       if (world->state_hash() != hash) outcome.broken = "positions or velocities jump";
-      after_switch = total(world->energies());
+      after_switch = total(synchronous_energies(*world));
       ++switches;
     }
     world->tick();
-    swing = std::max(swing, std::abs(world->energies().potential));
+    const Energies energies = synchronous_energies(*world);
+    swing = std::max(swing, std::abs(energies.potential));
     double& rise = switches == 0 ? ripple : spike;  // ripple: energy change by the method itself
-    rise = std::max(rise, total(world->energies()) - after_switch);
+    rise = std::max(rise, total(energies) - after_switch);
   }
   if (world->halt()) return stopped(*world);
   const std::string broken = outcome.broken;

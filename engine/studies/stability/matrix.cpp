@@ -20,7 +20,8 @@ constexpr Ink inks[] = {{"#cfe8de", "#1c2826", 'S'},   // stable
                         {"#56b4e9", "#10202c", 'R'},   // recovered
                         {"#d55e00", "#ffffff", 'I'},   // inverted
                         {"#222222", "#ffffff", 'D'},   // diverged
-                        {"#f0e442", "#33300a", 'W'}};  // wrong
+                        {"#f0e442", "#33300a", 'W'},   // wrong
+                        {"#cc79a7", "#2a1020", 'N'}};  // no solution
 
 /// Two panels, one above the other, with half of the laws each.
 std::size_t laws_a_panel() { return (study_laws().size() + 1) / 2; }
@@ -51,10 +52,11 @@ std::string box(int x, int y, int width, const Ink& ink, bool promised, bool fal
 
 std::string tip_of(const Cell& cell) {
   const Case& c = case_numbered(cell.number);
-  return fmt::format("{} {}, {}: {}; {} {}, limit {}{}{}{}", cell.number, c.name, to_text(cell.variant),
+  return fmt::format("{} {}, {}: {}; {} {}, limit {}{}{}{}{}", cell.number, c.name, to_text(cell.variant),
                      verdict_name(cell.verdict), c.measured, short_number(cell.outcome.value),
                      short_number(c.limit_of(cell.variant)), cell.outcome.stopped.empty() ? "" : "; ",
-                     cell.outcome.stopped, cell.outcome.broken.empty() ? "" : "; " + cell.outcome.broken);
+                     cell.outcome.stopped, cell.outcome.broken.empty() ? "" : "; " + cell.outcome.broken,
+                     cell.outcome.proof.empty() ? "" : "; " + cell.outcome.proof);
 }
 
 std::string heads() {
@@ -74,7 +76,8 @@ std::string heads() {
 }
 
 std::string legend() {
-  constexpr const char* words[] = {"stable", "recovered", "inverted", "diverged", "wrong but finite"};
+  constexpr const char* words[] = {"stable",   "recovered",        "inverted",
+                                   "diverged", "wrong but finite", "proven to have no solution"};
   std::string svg;
   int x = left;
   for (std::size_t k = 0; k < std::size(inks); ++k) {

@@ -5,7 +5,9 @@
 #include <cassert>
 #include <cmath>
 #include <heml/base/hash.hpp>
+#include <heml/mesh/quality.hpp>
 #include <studies/stability/measures.hpp>
+#include <studies/stability/no_solution.hpp>
 
 namespace heml::stability {
 
@@ -34,6 +36,32 @@ int inverted(World& world) {
 }
 
 double total(const Energies& e) { return e.kinetic + e.elastic + e.potential; }
+
+Energies synchronous_energies(World& world) {
+  Energies energies = world.energies();
+  const WorldSetup& setup = world.setup();
+  if (setup.solver.integrator != Integrator::symplectic_euler) return energies;
+  const std::size_t nodes = setup.mesh.nodes.size();
+  std::vector<double> mass(nodes, 0.0), f(3 * nodes);
+  for (std::size_t t = 0; t < setup.mesh.tets.size(); ++t) {
+    const Tet& tet = setup.mesh.tets[t];
+    const auto X = [&](std::size_t c) { return setup.mesh.nodes[static_cast<std::size_t>(tet[c])]; };
+    for (const int n : tet)
+      mass[static_cast<std::size_t>(n)] +=
+          setup.materials[0].material.density * signed_volume(X(0), X(1), X(2), X(3)) / 4;
+  }
+  std::vector<bool> fixed(nodes, false);
+  for (const Boundary& entry : setup.boundary)
+    for (const int n : entry.nodes) fixed[static_cast<std::size_t>(n)] = true;
+  world.write_vectors(NodeVector::force, f);
+  const double half_step = setup.solver.tick() / world.substeps() / 2;
+  const std::vector<Vec3> v = world.velocities();
+  energies.kinetic = 0;
+  for (std::size_t n = 0; n < nodes; ++n)
+    if (!fixed[n])
+      energies.kinetic += mass[n] / 2 * (v[n] + half_step / mass[n] * Eigen::Map<const Vec3>(&f[3 * n])).squaredNorm();
+  return energies;
+}
 
 double rms_difference(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
   assert(a.size() == b.size());
@@ -98,6 +126,7 @@ void set_tolerance(WorldSetup& setup, double tolerance) {
 Outcome ended(World& world, double value, std::string note) {
   Outcome outcome{value, inverted(world), world.recoveries(), {}, {}, std::move(note)};
   if (world.halt()) outcome.stopped = world.halt()->message;
+  if (world.halt() || outcome.inverted > 0) outcome.proof = proof_of_no_solution(world);
   return outcome;
 }
 

@@ -12,6 +12,10 @@ void set_young_poisson(WorldSetup& setup, double young, double poisson);
 double min_J(World& world);
 int inverted(World& world);
 double total(const Energies& energies);
+/// Energies of a world that has ticked, with velocities of the same time as positions. Those of symplectic Euler lag by
+/// half a step: its positions are leapfrog's, and its velocities leapfrog's at the middle of the step. What it takes
+/// from leapfrog's energy by that is of first order in the step and comes back; it is no drift.
+Energies synchronous_energies(World& world);
 double rms_difference(const std::vector<Vec3>& a, const std::vector<Vec3>& b);  ///< of equal size, m
 double max_difference(const std::vector<Vec3>& a, const std::vector<Vec3>& b);
 double diagonal(const TetMesh& mesh);  ///< of the bounding box at rest, m

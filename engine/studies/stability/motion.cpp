@@ -41,6 +41,16 @@ double limit_at_rest(const WorldSetup& setup) {
   return 2 / std::sqrt(omega_squared);
 }
 
+/// Work of the support that carries nodes from x to x_after against forces f of the body, J. All 3 #V.
+double work_of_support(const std::vector<int>& nodes, const std::vector<double>& x, const std::vector<double>& x_after,
+                       const std::vector<double>& f) {
+  double work = 0;
+  for (const int n : nodes)
+    for (std::size_t i = 3 * static_cast<std::size_t>(n); i < 3 * static_cast<std::size_t>(n) + 3; ++i)
+      work -= f[i] * (x_after[i] - x[i]);
+  return work;
+}
+
 /// Largest gain of energy of an isolated body in one tick, relative to its initial energy.
 Outcome max_gain(World& world, int ticks) {
   const double first = total(world.energies());
@@ -125,17 +135,26 @@ Outcome half_a_turn(const Trial& trial) {
 }
 
 Outcome two_turns(const Trial& trial) {
+  // That it stores more with every angle would be too much: pressed by its own twist, a bar of a law that softens
+  // buckles into a loop and snaps, under Verlet's short steps as well.
   const WorldSetup setup = trial.setup("18_two_turns");
   const auto world = trial.world(setup);
-  double before = 0, falls = 0;
+  const std::vector<int>& end = setup.boundary[1].nodes;
+  std::vector<double> x(3 * setup.mesh.nodes.size()), x_before = flat(world->positions()), f(x.size()),
+                                                      f_before(x.size());
+  double put_in = 0, excesses = 0;
   while (!world->halt() && world->time() < setup.solver.duration - 1e-9) {
     world->tick();
-    const double now = world->energies().elastic;
-    if (!(now > before)) ++falls;
-    before = now;
+    world->write_vectors(NodeVector::position, x);
+    world->write_vectors(NodeVector::force, f);
+    put_in += std::max(work_of_support(end, x_before, x, f_before), work_of_support(end, x_before, x, f));
+    const Energies energies = world->energies();
+    if (!(energies.elastic + energies.kinetic <= put_in)) ++excesses;
+    x_before = x;
+    f_before = f;
   }
   if (world->halt()) return stopped(*world);
-  return ended(*world, falls, fmt::format("least J {:.2f}", min_J(*world)));
+  return ended(*world, excesses, fmt::format("least J {:.2f}", min_J(*world)));
 }
 
 Outcome sliver(const Trial& trial) {
@@ -156,7 +175,11 @@ Outcome sliver(const Trial& trial) {
     const int limited_by = world->facts().step.element;
     if (!run_until(*world, 0.004)) return stopped(*world);
     Outcome outcome = ended(*world, ratio, fmt::format("stable step × {:.4f}", ratio));
-    if (limited_by < static_cast<int>(bad.mesh.tets.size()) - 4) outcome.broken = "another element is told to limit it";
+    // Springs have no stiffness that grows as an element becomes flat: theirs must step on as they are.
+    if (!find_law(trial.variant.law)->is_continuum)
+      outcome.value = 0;
+    else if (limited_by < static_cast<int>(bad.mesh.tets.size()) - 4)
+      outcome.broken = "another element is told to limit it";
     return outcome;
   }
   std::vector<double> sag, iterations;

@@ -11,7 +11,7 @@
 namespace heml::stability {
 namespace {
 
-bool holds(const Cell& cell) { return cell.verdict == Verdict::stable || cell.verdict == Verdict::recovered; }
+bool holds(const Cell& cell) { return is_sound(cell.verdict) && cell.verdict != Verdict::unsolvable; }
 
 std::vector<const Cell*> cells_of(const std::vector<Cell>& cells, int number, bool single) {
   std::vector<const Cell*> found;
@@ -55,7 +55,7 @@ Cells line_of(const Cell& cell) {
   const Outcome& o = cell.outcome;
   std::string words = o.stopped;
   if (o.inverted > 0) words += fmt::format("{}{} inside out", words.empty() ? "" : "; ", o.inverted);
-  for (const std::string& more : {o.broken, o.note})
+  for (const std::string& more : {o.broken, o.proof, o.note})
     if (!more.empty()) words += (words.empty() ? "" : "; ") + more;
   return {std::to_string(cell.number),
           c.name,
@@ -111,24 +111,32 @@ std::string penalty_answer(const std::vector<PenaltyRow>& rows) {
   return fmt::format("Back at rest with nothing inside out: {}.", fmt::join(words, "; "));
 }
 
-void add_failures(HtmlPage& page, const std::vector<Cell>& cells) {
-  page.heading("What does not hold");
-  const auto failing = taken(cells, [](const Cell& cell) { return !holds(cell); });
-  if (failing.empty()) return page.paragraph("Nothing that was asked.");
-  page.paragraph(
-      "These are not promised, unless the column says so. Most are what a law or a precision cannot do, whoever steps "
-      "it: "
-      "Saint Venant-Kirchhoff, which softens without end when pressed and is not continued where the scene does not "
-      "ask for "
-      "it; single precision at 10 km from the origin, or between stiffnesses of 1 and 10⁶.");
-  std::vector<std::string> words;
+template <class Take>
+void add_by_case(HtmlPage& page, const std::vector<Cell>& cells, const Take& take) {
   for (const Case& c : cases()) {
-    const auto of_case = taken(cells, [&](const Cell& cell) { return cell.number == c.number && !holds(cell); });
+    const auto of_case = taken(cells, [&](const Cell& cell) { return cell.number == c.number && take(cell); });
     if (!of_case.empty())
       page.details(fmt::format("{} {}: {} of {}", c.number, c.name, of_case.size(),
                                taken(cells, [&](const Cell& cell) { return cell.number == c.number; }).size()),
                    table_of_cells(of_case));
   }
+}
+
+void add_failures(HtmlPage& page, const std::vector<Cell>& cells) {
+  page.heading("What does not hold");
+  if (taken(cells, [](const Cell& cell) { return !is_sound(cell.verdict); }).empty())
+    page.paragraph("Nothing that was asked.");
+  else
+    page.paragraph("These are not promised, unless the column says so.");
+  add_by_case(page, cells, [](const Cell& cell) { return !is_sound(cell.verdict); });
+  if (taken(cells, [](const Cell& cell) { return cell.verdict == Verdict::unsolvable; }).empty()) return;
+  page.heading("What has no solution");
+  page.paragraph(
+      "Saint Venant-Kirchhoff and springs soften without end when pressed. A run of them that stopped, or ended with "
+      "elements inside out, has no solution where the static solver has followed its equilibria to a limit point, or "
+      "where elements that are not inside out have lost ellipticity: the lowest eigenvalue of their acoustic tensor is "
+      "negative for some direction. The last column says which.");
+  add_by_case(page, cells, [](const Cell& cell) { return cell.verdict == Verdict::unsolvable; });
 }
 
 }  // namespace
@@ -153,12 +161,11 @@ std::string answer(const std::vector<Cell>& cells) {
     return std::count_if(cells.begin(), cells.end(), [&](const Cell& cell) { return cell.verdict == verdict; });
   };
   return fmt::format(
-      "{} of {} promised runs hold{}. Of {} runs in all {} are stable and {} recovered; {} end inverted, {} diverge, "
-      "{} are "
-      "finite and wrong, none of them promised{}.",
+      "{} of {} promised runs hold{}. Of {} runs in all {} are stable and {} recovered, {} are proven to have no "
+      "solution; {} end inverted, {} diverge, {} are finite and wrong, none of them promised{}.",
       promised.size() - missed.size(), promised.size(), missed.empty() ? "" : "; the others fall short", cells.size(),
-      count(Verdict::stable), count(Verdict::recovered), count(Verdict::inverted), count(Verdict::diverged),
-      count(Verdict::wrong), missed.empty() ? "" : fmt::format(" but {}", missed.size()));
+      count(Verdict::stable), count(Verdict::recovered), count(Verdict::unsolvable), count(Verdict::inverted),
+      count(Verdict::diverged), count(Verdict::wrong), missed.empty() ? "" : fmt::format(" but {}", missed.size()));
 }
 
 std::string csv_of(const std::vector<Cell>& cells) {

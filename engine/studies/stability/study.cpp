@@ -37,7 +37,8 @@ std::string key_of(const Cell& cell, bool quick, const std::string& scenes) {
 
 Json to_json(const Outcome& outcome) {
   return {{"figure", outcome.value},    {"inverted", outcome.inverted}, {"recoveries", outcome.recoveries},
-          {"stopped", outcome.stopped}, {"broken", outcome.broken},     {"note", outcome.note}};
+          {"stopped", outcome.stopped}, {"broken", outcome.broken},     {"note", outcome.note},
+          {"proof", outcome.proof}};
 }
 
 Outcome outcome_from(const Json& json) {
@@ -47,7 +48,8 @@ Outcome outcome_from(const Json& json) {
           json["recoveries"],
           json["stopped"],
           json["broken"],
-          json["note"]};
+          json["note"],
+          json["proof"]};
 }
 
 Outcome run_cell(const Cell& cell, bool quick) {

@@ -38,24 +38,34 @@ std::string to_text(const CaseVariant& variant) {
 }
 
 const char* verdict_name(Verdict verdict) {
-  constexpr const char* names[] = {"stable", "recovered", "inverted", "diverged", "wrong-but-finite"};
+  constexpr const char* names[] = {"stable", "recovered", "inverted", "diverged", "wrong-but-finite", "no solution"};
   return names[static_cast<std::size_t>(verdict)];
 }
 
 Verdict judge(const Outcome& outcome, double limit) {
-  if (!outcome.stopped.empty() || !std::isfinite(outcome.value)) return Verdict::diverged;
-  if (outcome.inverted > 0) return Verdict::inverted;
+  const bool is_proven = !outcome.proof.empty();
+  if (!outcome.stopped.empty() || !std::isfinite(outcome.value))
+    return is_proven ? Verdict::unsolvable : Verdict::diverged;
+  if (outcome.inverted > 0) return is_proven ? Verdict::unsolvable : Verdict::inverted;
   if (!outcome.broken.empty() || outcome.value > limit) return Verdict::wrong;
   return outcome.recoveries > 0 ? Verdict::recovered : Verdict::stable;
 }
 
+bool is_sound(Verdict verdict) {
+  return verdict == Verdict::stable || verdict == Verdict::recovered || verdict == Verdict::unsolvable;
+}
+
 Outcome worse(const Outcome& a, const Outcome& b) {
+  const auto unproven = [](const Outcome& o) {
+    return (!o.stopped.empty() || o.inverted > 0 || !std::isfinite(o.value)) && o.proof.empty();
+  };
   Outcome outcome = a.value >= b.value || std::isnan(a.value) ? a : b;
   outcome.inverted = std::max(a.inverted, b.inverted);
   outcome.recoveries = std::max(a.recoveries, b.recoveries);
   outcome.stopped = a.stopped.empty() ? b.stopped : a.stopped;
   outcome.broken = a.broken.empty() ? b.broken : a.broken;
   outcome.note = b.note.empty() ? a.note : b.note;
+  outcome.proof = unproven(a) || unproven(b) ? "" : a.proof.empty() ? b.proof : a.proof;
   return outcome;
 }
 

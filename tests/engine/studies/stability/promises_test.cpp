@@ -102,6 +102,12 @@ TEST_CASE("a verdict needs more than being finite") {
   CHECK(judge({0.5, 0, 0, "ran away"}, 1) == Verdict::diverged);
   CHECK(judge({0.5, 0, 0, "", "not balanced"}, 1) == Verdict::wrong);
   CHECK(judge({std::numeric_limits<double>::quiet_NaN()}, 1) == Verdict::diverged);
+  const Outcome proven{2, 3, 0, "", "", "", "a limit point"};
+  CHECK(judge(proven, 2) == Verdict::unsolvable);
+  CHECK(judge({1, 0, 0, "stopped", "", "", "a limit point"}, 2) == Verdict::unsolvable);
+  CHECK(judge({1, 0, 0, "", "", "", "a limit point"}, 2) == Verdict::stable);
+  CHECK(worse(proven, {1, 2}).proof.empty());  // the other has none
+  CHECK(worse({1}, proven).proof == "a limit point");
   CHECK(worse({1}, {2, 0, 0, "ran away"}).stopped == "ran away");
   CHECK(worse({std::numeric_limits<double>::quiet_NaN()}, {2}).value != 2);
 }
