@@ -12,6 +12,8 @@ constexpr int max_idle_forces = 2, max_idle_values = 5;
 constexpr double round_off_fraction = 1e-3;
 // A step that changes Φ by round-off only and leaves more of the measure asks for a more precise objective.
 constexpr double slow_at_round_off = 0.5;
+// Where no step lowers Φ, but one should by less than this many times its round-off, that may be why.
+constexpr double near_round_off = 1e3;
 constexpr double none = std::numeric_limits<double>::infinity();
 
 /// Detects that round-off ends progress. Where a step changes Φ by round-off only, several steps together must lower Φ,
@@ -97,7 +99,7 @@ NewtonResult minimise(Objective& objective, LinearSolver& linear, const Stopping
       if (!positive && at.r.norm() > switch_ratio * before) by_projection = may_project && !by_projection;
       continue;
     }
-    if (refine()) continue;
+    if (d.dot(at.r) < near_round_off * objective.value_round_off() && refine()) continue;
     if (!may_project || (!positive && by_projection)) return finish(NewtonResult::Status::stalled);
     ++result.projected;
     linear.solve_projected(objective, at.x, at.r, d);

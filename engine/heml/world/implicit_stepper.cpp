@@ -121,8 +121,10 @@ bool ImplicitStepper<Real>::step(Integrator method, double h, double time_after)
     return false;
   });
   Vector &x = step.x, &v = step.v;
-  if (done && info_of(method).order > 1 && !takes_any_iterate())
-    done = !(s_.setup.solver.step && parts.body.inverts_elements(parts.x, x)) && take_back_gain(time_after, x, v);
+  if (done && s_.method != Integrator::backward_euler && !takes_any_iterate()) {
+    const bool paid = take_back_gain(time_after, x, v), is_damped = method == Integrator::backward_euler;
+    done = is_damped || (paid && !(s_.setup.solver.step && parts.body.inverts_elements(parts.x, x)));
+  }
   if (!done) {
     if (s_.has_internal_state) s_.body.begin_step(0);
     return false;
@@ -288,9 +290,8 @@ bool ImplicitStepper<Real>::take_back_gain(double time, const Vector& x, Vector&
   const double moved = kinetic(parts.v), moves = kinetic(v), may = *before + moved - *after;
   const double slack = std::max<double>(slack_of_energy, std::numeric_limits<Real>::epsilon());
   if (!(moves > may + slack * (moved + std::abs(*before)))) return true;
-  if (!(may >= 0)) return moves - may <= parts.body.value_round_off();
-  v *= std::sqrt(may / moves);
-  return true;
+  v *= std::sqrt(std::max(may, 0.0) / moves);
+  return may >= 0 || moves - may <= parts.body.value_round_off();
 }
 
 /// Takes from x, v what energy a step has gained beyond the work of its loads: from the velocity while that has it to
