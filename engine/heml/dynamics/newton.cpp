@@ -76,10 +76,13 @@ NewtonResult minimise(Objective& objective, LinearSolver& linear, const Stopping
     if (!at.r.allFinite()) return finish(NewtonResult::Status::undefined);
     result.measure = stop.measure(at.r);
     if (result.measure <= stop.limit) return finish(NewtonResult::Status::converged);
-    if (at.within_round_off && result.measure > slow_at_round_off * before_step && refine()) continue;
+    if (at.within_round_off && result.measure > stop.round_off_limit &&
+        result.measure > slow_at_round_off * before_step && refine())
+      continue;
     before_step = result.measure;
     result.at_round_off = round_off.is_over(objective, at, result.measure);
     if (result.at_round_off) {
+      if (!objective.is_at_round_off(at.r) && refine()) continue;
       at.x = round_off.best();
       result.measure = round_off.best_measure();
       return finish(NewtonResult::Status::stalled);

@@ -15,6 +15,7 @@ namespace heml {
 struct StoppingCriterion {
   std::function<double(const Vector& r)> measure;
   double limit;
+  double round_off_limit = limit;  ///< a measure that need not fall further where values are round-off
 };
 
 struct NewtonOptions {

@@ -27,7 +27,8 @@ StaticSolve::StaticSolve(LoadDependentObjective& body, LinearSolver& linear, con
       mass_(mass),
       free_(free),
       inertia_(inertia),
-      stop_{[&body](const Vector& r) { return body.relative_residual(r); }, limit.tolerance},
+      stop_{[&body](const Vector& r) { return body.relative_residual(r); }, limit.tolerance,
+            limit.strict ? limit.tolerance : round_off_factor * limit.tolerance},
       strict_(limit.strict) {}
 
 bool StaticSolve::load_to(double fraction, const std::atomic<bool>& stop) {
@@ -112,7 +113,7 @@ bool StaticSolve::is_converged(const NewtonResult& newton, const Vector& x) {
   round_off_.reset();
   Vector r;
   if (!newton.at_round_off || !body_.residual(x, r) || !body_.is_at_round_off(r)) return newton.converged();
-  if (!strict_ && newton.measure <= round_off_factor * stop_.limit) return true;
+  if (!strict_ && newton.measure <= stop_.round_off_limit) return true;
   round_off_ = newton.measure;
   return false;
 }
