@@ -60,7 +60,7 @@ void check_indices(const TetMesh& mesh) {
 
 // Repairs winding and sums volume. A volume counts as zero if rounding of the coordinates could cause it: ε × size ×
 // edge².
-void repair_winding(TetMesh& mesh, QualityReport& report) {
+void repair_winding(TetMesh& mesh, MidEdges* midedges, QualityReport& report) {
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
     Tet& tet = mesh.tets[t];
@@ -76,6 +76,11 @@ void repair_winding(TetMesh& mesh, QualityReport& report) {
                        "remove it or move one of its nodes");
     if (volume < 0) {
       std::swap(tet[2], tet[3]);
+      if (midedges && !midedges->empty()) {
+        auto& middle = (*midedges)[t];
+        std::swap(middle[edge_between(0, 2)], middle[edge_between(0, 3)]);
+        std::swap(middle[edge_between(1, 2)], middle[edge_between(1, 3)]);
+      }
       ++report.flipped;
     }
     report.volume += std::abs(volume);
@@ -109,7 +114,7 @@ void measure_shape(const TetMesh& mesh, QualityReport& report) {
 }
 
 // Counts orphans, and parts connected by nodes (union-find with path halving).
-void count_components(const TetMesh& mesh, QualityReport& report) {
+void count_components(const TetMesh& mesh, const MidEdges* midedges, QualityReport& report) {
   std::vector<int> parent(mesh.nodes.size());
   std::iota(parent.begin(), parent.end(), 0);
   std::vector<char> used(mesh.nodes.size(), 0);
@@ -121,6 +126,11 @@ void count_components(const TetMesh& mesh, QualityReport& report) {
     for (int node : tet) {
       used[node] = 1;
       parent[root(node)] = root(tet[0]);
+    }
+  for (std::size_t t = 0; midedges && t < midedges->size(); ++t)
+    for (int node : (*midedges)[t]) {
+      used[node] = 1;
+      parent[root(node)] = root(mesh.tets[t][0]);
     }
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
     report.orphans += !used[n];
@@ -198,15 +208,15 @@ void check_connectivity(const TetMesh& mesh) {
   check_nodes(mesh);
 }
 
-QualityReport check_tets(TetMesh& mesh) {
+QualityReport check_tets(TetMesh& mesh, MidEdges* midedges) {
   check_connectivity(mesh);
   QualityReport report;
   report.nodes = static_cast<int>(mesh.nodes.size());
   report.tets = static_cast<int>(mesh.tets.size());
   report.regions = static_cast<int>(std::set<int>(mesh.regions.begin(), mesh.regions.end()).size());
-  repair_winding(mesh, report);
+  repair_winding(mesh, midedges, report);
   measure_shape(mesh, report);
-  count_components(mesh, report);
+  count_components(mesh, midedges, report);
   report.duplicates = count_duplicates(mesh.nodes);
   report.nonmanifold_edges = count_nonmanifold_edges(mesh);
   add_warnings(mesh, report);

@@ -1,6 +1,6 @@
 #pragma once
 // Checks and quality report of a mesh before it is simulated.
-#include <heml/mesh/tet_mesh.hpp>
+#include <heml/mesh/quadratic.hpp>
 #include <string>
 #include <vector>
 
@@ -25,12 +25,13 @@ struct QualityReport {
 /// Smallest dihedral angle of a tetrahedron, degrees.
 double min_dihedral(const std::array<Vec3, 4>& x);
 
-/// Throws InputError, naming the element or node, for no tetrahedra, fields of wrong size, an invalid index, a node twice
-/// in one element, a coordinate that is not finite or too large.
+/// Throws InputError, naming the element or node, for no tetrahedra, fields of wrong size, an invalid index, a node
+/// twice in one element, a coordinate that is not finite or too large.
 void check_connectivity(const TetMesh& mesh);
 
 /// Checks a mesh and repairs winding in place. Throws InputError as check_connectivity(), and for zero volume.
-QualityReport check_tets(TetMesh& mesh);
+/// midedges: of quadratic elements, whose nodes belong to elements and whose order is repaired too.
+QualityReport check_tets(TetMesh& mesh, MidEdges* midedges = nullptr);
 
 /// The report as text, in lines.
 std::string to_text(const QualityReport& report);

@@ -36,6 +36,36 @@ ReadMesh read_by_ending(const std::filesystem::path& path) {
   return read_vtu(path.string(), text);
 }
 
+/// Number of tetrahedra of four nodes.
+std::size_t count_linear(const ReadMesh& read) {
+  std::size_t quadratic = 0;
+  for (const auto& nodes : read.midedges) quadratic += nodes[0] >= 0;
+  return read.mesh.tets.size() - quadratic;
+}
+
+/// Leaves out the nodes that are in the middle of edges alone.
+void drop_midedges(const std::filesystem::path& path, std::size_t linear, ReadMesh& read) {
+  std::vector<bool> is_corner(read.mesh.nodes.size(), false), dropped(read.mesh.nodes.size(), false);
+  for (const Tet& tet : read.mesh.tets)
+    for (const int n : tet) is_corner[static_cast<std::size_t>(n)] = true;
+  for (const auto& nodes : read.midedges)
+    for (const int n : nodes)
+      if (n >= 0) dropped[static_cast<std::size_t>(n)] = !is_corner[static_cast<std::size_t>(n)];
+  std::vector<int> number(read.mesh.nodes.size(), -1);
+  std::vector<Vec3> kept;
+  for (std::size_t n = 0; n < number.size(); ++n) {
+    if (dropped[n]) continue;
+    number[n] = static_cast<int>(kept.size());
+    kept.push_back(read.mesh.nodes[n]);
+  }
+  for (Tet& tet : read.mesh.tets)
+    for (int& n : tet) n = number[static_cast<std::size_t>(n)];
+  warn("{}: {} tetrahedra have ten nodes; their {} mid-edge nodes were left out{}", path.string(),
+       read.mesh.tets.size() - linear, number.size() - kept.size(),
+       linear > 0 ? fmt::format(", since {} have four", linear) : " (solver.element p2 uses them)");
+  read.mesh.nodes = std::move(kept);
+}
+
 }  // namespace
 
 bool is_tet_mesh_file(const std::filesystem::path& path) {
@@ -43,7 +73,7 @@ bool is_tet_mesh_file(const std::filesystem::path& path) {
   return std::find(endings.begin(), endings.end(), ending_of(path)) != endings.end();
 }
 
-TetMesh read_tet_mesh(const std::filesystem::path& path) {
+TetMesh read_tet_mesh(const std::filesystem::path& path, MidEdges* midedges) {
   if (!is_tet_mesh_file(path))
     throw InputError(path.string(), "", "is no mesh of tetrahedra this program knows",
                      ".msh, .mesh, .vtk, .vtu, or .node with .ele");
@@ -51,13 +81,21 @@ TetMesh read_tet_mesh(const std::filesystem::path& path) {
   read.mesh.source = path.string();
   if (read.mesh.tets.empty())
     throw InputError(path.string(), "",
-                     fmt::format("holds {} nodes but no linear tetrahedra, and {} other cells with a volume",
+                     fmt::format("holds {} nodes but no tetrahedra, and {} other cells with a volume",
                                  read.mesh.nodes.size(), read.ignored),
                      "a surface is filled by heml mesh");
   if (read.real_regions) warn("{}: the cell array 'region' is not of integers and was ignored", path.string());
   if (read.more_steps) warn("{}: holds fields for several time steps; the first was taken", path.string());
   if (read.ignored > 0)
-    warn("{}: {} cells with a volume are not linear tetrahedra and were ignored", path.string(), read.ignored);
+    warn("{}: {} cells with a volume are not tetrahedra of four or ten nodes and were ignored", path.string(),
+         read.ignored);
+  if (midedges) midedges->clear();
+  if (read.midedges.empty()) return std::move(read.mesh);
+  const std::size_t linear = count_linear(read);
+  if (midedges && linear == 0)
+    *midedges = std::move(read.midedges);
+  else
+    drop_midedges(path, linear, read);
   return std::move(read.mesh);
 }
 

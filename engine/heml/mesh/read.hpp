@@ -1,16 +1,17 @@
 #pragma once
 // Reads tetrahedral meshes; the file name's ending selects the format.
 #include <filesystem>
-#include <heml/mesh/tet_mesh.hpp>
+#include <heml/mesh/quadratic.hpp>
 
 namespace heml {
 
 /// Reads Gmsh .msh (1.0, 2.2, 4.1 ASCII), Medit .mesh, legacy .vtk (ASCII and binary), .vtu (ASCII), and TetGen
-/// .node/.ele (either name). Keeps linear tetrahedra only, warning of other volume cells. Indices become 0-based
-/// without gaps; nodes keep the file's order. Scalars and vectors of elements (VTK cell arrays, Gmsh $ElementData,
-/// TetGen's attributes after the first) become fields. Throws InputError naming file and line. Does not call
-/// check_tets().
-TetMesh read_tet_mesh(const std::filesystem::path& path);
+/// .node/.ele (either name). Keeps tetrahedra only, warning of other volume cells. Indices become 0-based without gaps;
+/// nodes keep the file's order. Ten-node tetrahedra (Gmsh and VTK) give `midedges` where all are of ten nodes and it is
+/// not null; else their corners are taken, and nodes in the middle of edges alone are left out, with a warning. Scalars
+/// and vectors of elements (VTK cell arrays, Gmsh $ElementData, TetGen's attributes after the first) become fields.
+/// Throws InputError naming file and line. Does not call check_tets().
+TetMesh read_tet_mesh(const std::filesystem::path& path, MidEdges* midedges = nullptr);
 
 /// Whether read_tet_mesh() reads this ending. (It rejects .msh and .mesh files that hold only surfaces.)
 bool is_tet_mesh_file(const std::filesystem::path& path);

@@ -10,11 +10,13 @@
 namespace heml {
 namespace {
 
-constexpr int gmsh_tetrahedron = 4;
+constexpr int gmsh_tetrahedron = 4, gmsh_quadratic_tetrahedron = 11;
 
-// Hexahedra, prisms, pyramids, and all volume elements of higher order.
+bool is_tetrahedron(long long type) { return type == gmsh_tetrahedron || type == gmsh_quadratic_tetrahedron; }
+
+// Hexahedra, prisms, pyramids, and volume elements of higher order but tetrahedra of ten nodes.
 bool is_other_gmsh_volume(long long type) {
-  constexpr std::array volumes{5, 6, 7, 11, 12, 13, 14, 17, 18, 19, 29, 30, 31, 71, 79, 90, 91, 92, 93, 106, 118};
+  constexpr std::array volumes{5, 6, 7, 12, 13, 14, 17, 18, 19, 29, 30, 31, 71, 79, 90, 91, 92, 93, 106, 118};
   return std::find(volumes.begin(), volumes.end(), type) != volumes.end();
 }
 
@@ -106,18 +108,19 @@ class GmshReader {
       const long long number = in_.wide_integer("an element number");
       const long long type = in_.integer("an element type");
       read_.ignored += is_other_gmsh_volume(type);
-      if (type != gmsh_tetrahedron) continue;
+      if (!is_tetrahedron(type)) continue;
       int region = 0;
       if (version == 1) {
         region = static_cast<int>(in_.integer("a physical tag"));
         in_.wide_integer("an elementary tag");
-        in_.integer("the number of nodes of a tetrahedron", 4, 4);
+        const int nodes = type == gmsh_tetrahedron ? 4 : 10;
+        in_.integer("the number of nodes of a tetrahedron", nodes, nodes);
       } else {
         const long long tags = in_.integer("a number of tags", 0);
         if (tags > 0) region = static_cast<int>(in_.integer("a physical tag"));
         for (long long t = 1; t < tags; ++t) in_.wide_integer("a tag");
       }
-      tetrahedron(number, region);
+      tetrahedron(number, type, region);
     }
   }
 
@@ -173,23 +176,29 @@ class GmshReader {
       const auto region = volume_region_.find(entity);
       for (std::size_t e = 0; e < in_block; ++e) {
         in_.expect_line("an element");
-        if (type != gmsh_tetrahedron) continue;
+        if (!is_tetrahedron(type)) continue;
         const long long number = in_.wide_integer("an element number");
-        tetrahedron(number, region == volume_region_.end() ? 0 : region->second);
+        tetrahedron(number, type, region == volume_region_.end() ? 0 : region->second);
       }
     }
     if (found != count) in_.fail(fmt::format("{} elements announced, {} in the blocks", count, found));
   }
 
-  void tetrahedron(long long number, int region) {
-    Tet tet;
-    for (int& node : tet) {
+  void tetrahedron(long long number, long long type, int region) {
+    const auto node = [&] {
       const long long node_number = in_.wide_integer("a node number");
-      node = numbers_.find(node_number, in_);
-    }
-    in_.end_line("a tetrahedron's four nodes");
+      return numbers_.find(node_number, in_);
+    };
+    Tet tet;
+    for (int& corner : tet) corner = node();
     tet_numbers_.push_back({number, static_cast<int>(read_.mesh.tets.size())});
     read_.mesh.tets.push_back(tet);
+    if (type == gmsh_quadratic_tetrahedron) {
+      std::array<int, 6> middles;
+      for (int& middle : middles) middle = node();
+      add_midedges(middles, gmsh_midedges, read_);
+    }
+    in_.end_line("a tetrahedron's nodes");
     read_.mesh.regions.push_back(region);
   }
 

@@ -7,7 +7,7 @@
 namespace heml {
 namespace {
 
-constexpr int vtk_tetra = 10;
+constexpr int vtk_tetra = 10, vtk_quadratic_tetra = 24;
 constexpr std::size_t max_fields = 1000;        // field_in() searches linearly
 constexpr std::size_t max_values_per_byte = 4;  // field values per byte of the file; fields may omit most tetrahedra
 
@@ -15,23 +15,26 @@ void check_count(std::size_t fields, const Scanner& in) {
   if (fields > max_fields) in.fail(fmt::format("more than {} fields of elements", max_fields), "save fewer");
 }
 
-// VTK volume cells other than the linear tetrahedron (vtkCellType.h).
+// VTK volume cells other than tetrahedra of four or ten nodes (vtkCellType.h).
 bool is_other_vtk_volume(long long type) {
-  return (type >= 11 && type <= 16) || (type >= 24 && type <= 27) || type == 29 || (type >= 31 && type <= 33) ||
+  return (type >= 11 && type <= 16) || (type >= 25 && type <= 27) || type == 29 || (type >= 31 && type <= 33) ||
          type == 37 || type == 42 || (type >= 71 && type <= 74) || (type >= 78 && type <= 81);
 }
 
-Tet tet_of(const VtkCells& cells, std::size_t c, int first_node, const Scanner& in, const TetMesh& mesh) {
+void add_tet(const VtkCells& cells, std::size_t c, int first_node, const Scanner& in, ReadMesh& read) {
   const long long begin = cells.offsets[c], end = cells.offsets[c + 1];
-  if (end - begin != 4) in.fail(fmt::format("cell {} is a tetrahedron of {} nodes", c, end - begin), "4");
-  const long long nodes = static_cast<long long>(mesh.nodes.size()) - first_node;
-  Tet tet;
-  for (int a = 0; a < 4; ++a) {
-    const long long node = cells.connectivity[static_cast<std::size_t>(begin + a)];
+  const std::size_t count = cells.types[c] == vtk_tetra ? 4 : 10;
+  if (end - begin != static_cast<long long>(count))
+    in.fail(fmt::format("cell {} is a tetrahedron of {} nodes", c, end - begin), fmt::format("{}", count));
+  const long long nodes = static_cast<long long>(read.mesh.nodes.size()) - first_node;
+  std::array<int, 10> all{};
+  for (std::size_t a = 0; a < count; ++a) {
+    const long long node = cells.connectivity[static_cast<std::size_t>(begin) + a];
     if (node < 0 || node >= nodes) in.fail(fmt::format("cell {} names node {}, there are {}", c, node, nodes));
-    tet[a] = first_node + static_cast<int>(node);
+    all[a] = first_node + static_cast<int>(node);
   }
-  return tet;
+  read.mesh.tets.push_back({all[0], all[1], all[2], all[3]});
+  if (count == 10) add_midedges({all[4], all[5], all[6], all[7], all[8], all[9]}, vtk_midedges, read);
 }
 
 int region_of(const VtkCells& cells, std::size_t c, const Scanner& in) {
@@ -66,6 +69,11 @@ void add_fields(const VtkCells& cells, const std::vector<std::size_t>& tet_cells
 }
 
 }  // namespace
+
+void add_midedges(const std::array<int, 6>& nodes, const std::array<std::size_t, 6>& order, ReadMesh& read) {
+  read.midedges.resize(read.mesh.tets.size(), {-1, -1, -1, -1, -1, -1});
+  for (std::size_t e = 0; e < 6; ++e) read.midedges.back()[e] = nodes[order[e]];
+}
 
 ElementField& field_in(TetMesh& mesh, std::string_view name, std::size_t components, const Scanner& in) {
   std::string plain(name);
@@ -130,8 +138,8 @@ void add_vtk_cells(const VtkCells& cells, int first_node, const Scanner& in, Rea
       in.fail(fmt::format("offsets of cell {} are {} and {}", c, begin, end),
               fmt::format("ascending, up to {}", cells.connectivity.size()));
     read.ignored += is_other_vtk_volume(cells.types[c]);
-    if (cells.types[c] != vtk_tetra) continue;
-    read.mesh.tets.push_back(tet_of(cells, c, first_node, in, read.mesh));
+    if (cells.types[c] != vtk_tetra && cells.types[c] != vtk_quadratic_tetra) continue;
+    add_tet(cells, c, first_node, in, read);
     read.mesh.regions.push_back(region_of(cells, c, in));
     tet_cells.push_back(c);
   }

@@ -1,15 +1,16 @@
 #pragma once
 // One reader per format, for text in memory. Called by read_tet_mesh() and the fuzzers. All throw InputError.
+#include <heml/mesh/quadratic.hpp>
 #include <heml/mesh/scanner.hpp>
-#include <heml/mesh/tet_mesh.hpp>
 #include <string_view>
 #include <vector>
 
 namespace heml {
 
-/// Result of a reader: all nodes, the linear tetrahedra, and what was skipped.
+/// Result of a reader: all nodes, the tetrahedra, and what was skipped.
 struct ReadMesh {
   TetMesh mesh;
+  MidEdges midedges = {};     ///< of the tetrahedra up to the last of ten nodes; −1 in linear ones
   long ignored = 0;           ///< number of other volume cells
   bool real_regions = false;  ///< skipped a cell array `region` of real numbers
   bool more_steps = false;    ///< skipped further time steps of a field
@@ -20,6 +21,12 @@ ReadMesh read_medit(std::string file, std::string_view text);
 ReadMesh read_vtk(std::string file, std::string_view text);
 ReadMesh read_vtu(std::string file, std::string_view text);
 ReadMesh read_tetgen(std::string node_file, std::string_view nodes, std::string ele_file, std::string_view tets);
+
+/// Where a file format keeps each of tet_edges among the mid-edge nodes of a ten-node tetrahedron.
+inline constexpr std::array<std::size_t, 6> gmsh_midedges{0, 2, 3, 1, 5, 4}, vtk_midedges{0, 2, 3, 1, 4, 5};
+
+/// Gives the last tetrahedron of `read` its mid-edge nodes, in the order of its file.
+void add_midedges(const std::array<int, 6>& nodes, const std::array<std::size_t, 6>& order, ReadMesh& read);
 
 /// The mesh's field of that name; creates it without values if there is none. Throws (Scanner::fail of `in`) if it has
 /// another number of components, or there are too many fields.

@@ -25,23 +25,29 @@ const char* mesh_work(const MeshSpec& mesh) {
   return mesh.box ? "mesh generated" : "mesh read";
 }
 
-std::string law_detail(const Material& material, bool nodal_pressure) {
+std::string law_detail(const Material& material, const SolverSettings& solver) {
   const LawInfo& law = *find_law(material.law);
   std::string detail(law.name);
   if (law.name == "energy") return fmt::format("{}: {}", detail, law.formula);
   if (!law.has_volume_term) return detail;
-  if (nodal_pressure || material.volume_term != VolumeTerm::quadratic) return detail + ", its isochoric part";
+  if ((solver.nodal_pressure && !solver.quadratic) || material.volume_term != VolumeTerm::quadratic)
+    return detail + ", its isochoric part";
   return detail + " with its volume term";
 }
 
-std::vector<TermFacts> terms_of(const Material& material, bool nodal_pressure) {
+std::vector<TermFacts> terms_of(const Material& material, const SolverSettings& solver) {
   std::vector<TermFacts> terms;
   if (!find_law(material.law)->is_continuum) return {{"springs", "along the edges of the mesh"}};
-  terms.push_back({"law", law_detail(material, nodal_pressure)});
+  terms.push_back({"law", law_detail(material, solver)});
   const std::string volume(volume_term_names()[static_cast<std::size_t>(material.volume_term)]);
+  const bool nodal_pressure = solver.nodal_pressure && !solver.quadratic;
+  if (solver.nodal_pressure && solver.quadratic)
+    terms.push_back({"mean_dilatation", volume +
+                                            " volume term of the mean ratio of each element, past what ν = 0.3 has: "
+                                            "a pass"});
   if (nodal_pressure)
     terms.push_back({"nodal_pressure", volume + " volume term of the mean ratio round each node: two more passes"});
-  else if (material.volume_term != VolumeTerm::quadratic)
+  if (!nodal_pressure && material.volume_term != VolumeTerm::quadratic)
     terms.push_back({"volume_term", volume + ": a second pass"});
   if (material.viscosity > 0 || material.bulk_viscosity > 0)
     terms.push_back(
@@ -59,7 +65,7 @@ std::vector<MaterialFacts> materials_of(const WorldSetup& setup, const WorldFact
     const RegionMaterial& entry = setup.materials[kernel.material];
     MaterialFacts material{entry.region,
                            kernel,
-                           terms_of(entry.material, setup.solver.nodal_pressure),
+                           terms_of(entry.material, setup.solver),
                            entry.material.density,
                            small_strain_moduli(entry.material),
                            0};
@@ -141,10 +147,12 @@ const char* name_of(LimitFacts::Cause cause) {
 
 Explanation explain(const Scene& scene) {
   Explanation result;
-  TetMesh mesh = timed(result.startup, mesh_work(scene.mesh), [&] { return load_mesh(scene); });
+  MidEdges midedges;
+  TetMesh mesh = timed(result.startup, mesh_work(scene.mesh), [&] { return load_mesh(scene, &midedges); });
   const char* resolved = scene.mesh.refine ? "selections and fields resolved, mesh refined where it errs"
                                            : "selections and fields resolved";
-  result.setup = timed(result.startup, resolved, [&] { return load_setup(scene, std::move(mesh)); });
+  result.setup =
+      timed(result.startup, resolved, [&] { return load_setup(scene, std::move(mesh), std::move(midedges)); });
   const WorldSetup& setup = result.setup;
   const bool chooses = setup.solver.integrator == Integrator::automatic;
   const auto world = timed(
@@ -157,7 +165,8 @@ Explanation explain(const Scene& scene) {
   result.name = scene.name;
   result.chosen = scene.chosen;
   TetMesh checked = setup.mesh;
-  result.quality = check_tets(checked);
+  MidEdges checked_midedges = setup.midedges;
+  result.quality = check_tets(checked, &checked_midedges);
   result.materials = materials_of(setup, result.world);
   result.limit = limit_of(setup, result.world.step);
   result.tools = tools_of(scene, setup);

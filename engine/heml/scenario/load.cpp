@@ -43,12 +43,17 @@ bool plays_as_recorded(const Scene& scene) {
   return scene.recorded_instructions && *scene.recorded_instructions <= resolve(InstructionSet::best);
 }
 
-WorldSetup load_setup(const Scene& scene) { return load_setup(scene, load_mesh(scene)); }
+WorldSetup load_setup(const Scene& scene) {
+  MidEdges midedges;
+  TetMesh mesh = load_mesh(scene, &midedges);
+  return load_setup(scene, std::move(mesh), std::move(midedges));
+}
 
-WorldSetup load_setup(const Scene& scene, TetMesh mesh) {
+WorldSetup load_setup(const Scene& scene, TetMesh mesh, MidEdges midedges) {
   WorldSetup setup;
   setup.mesh = std::move(mesh);
-  if (scene.solver.quadratic) setup.midedges = add_midedge_nodes(setup.mesh);
+  setup.midedges = std::move(midedges);
+  if (scene.solver.quadratic && setup.midedges.empty()) setup.midedges = add_midedge_nodes(setup.mesh);
   setup.materials = scene.materials;
   resolve_fields(scene.file, setup);
   if (!scene.mesh.refine) check_recorded_mesh(scene, setup.mesh);

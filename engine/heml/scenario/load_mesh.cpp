@@ -27,13 +27,13 @@ std::vector<std::string> asset_names(const fs::path& folder) {
   return names;
 }
 
-TetMesh asset_mesh(const Scene& scene) {
+TetMesh asset_mesh(const Scene& scene, MidEdges* midedges) {
   const fs::path path = asset_mesh_file(scene.mesh.asset), folder = path.parent_path();
   std::error_code error;
   if (!fs::exists(path, error))
     throw InputError(scene.file, "mesh.asset", fmt::format("'{}' is not in {}", scene.mesh.asset, folder.string()),
                      fmt::format("there are: {}", fmt::join(asset_names(folder), ", ")));
-  return read_tet_mesh(path);
+  return read_tet_mesh(path, midedges);
 }
 
 TetMesh filled_surface(const Scene& scene) {
@@ -45,6 +45,21 @@ TetMesh filled_surface(const Scene& scene) {
   const double scale = scene.mesh.scale;
   if (scene.mesh.max_volume) options.max_volume = *scene.mesh.max_volume / (scale * scale * scale);
   return tetrahedralize(surface, options);
+}
+
+/// Throws InputError where curved edges turn an element inside out.
+void check_midedges(const TetMesh& mesh, const MidEdges& midedges) {
+  std::size_t first = mesh.tets.size(), count = 0;
+  for (std::size_t t = 0; t < midedges.size(); ++t) {
+    const int inverted = count_inverted_points({mesh.tets[t]}, {midedges[t]},
+                                               [&](int n) { return mesh.nodes[static_cast<std::size_t>(n)]; });
+    if (inverted > 0) first = std::min(first, t), ++count;
+  }
+  if (count > 0)
+    throw InputError(mesh.source, "",
+                     fmt::format("the mid-edge nodes turn {} of {} tetrahedra inside out, the first is {}", count,
+                                 mesh.tets.size(), first),
+                     "mesh it finer there, or take \"element\": \"p1\", which leaves them out");
 }
 
 }  // namespace
@@ -78,16 +93,17 @@ MeshFingerprint mesh_fingerprint(const TetMesh& mesh) {
   return {static_cast<int>(mesh.nodes.size()), static_cast<int>(mesh.tets.size()), hash};
 }
 
-TetMesh read_mesh_source(const Scene& scene) {
+TetMesh read_mesh_source(const Scene& scene, MidEdges* midedges) {
+  if (!scene.solver.quadratic) midedges = nullptr;
   if (scene.mesh.source) return *scene.mesh.source;
-  if (!scene.mesh.file.empty()) return read_tet_mesh(find_file(scene, "mesh.file", scene.mesh.file));
+  if (!scene.mesh.file.empty()) return read_tet_mesh(find_file(scene, "mesh.file", scene.mesh.file), midedges);
   if (!scene.mesh.surface.empty()) return filled_surface(scene);
   if (scene.mesh.box) return make_box(scene.mesh.box->size, scene.mesh.box->cells, scene.mesh.box->origin);
-  return asset_mesh(scene);
+  return asset_mesh(scene, midedges);
 }
 
-TetMesh load_mesh(const Scene& scene) {
-  TetMesh mesh = read_mesh_source(scene);
+TetMesh load_mesh(const Scene& scene, MidEdges* midedges) {
+  TetMesh mesh = read_mesh_source(scene, midedges);
   const Placement placement(scene.mesh);
   for (Vec3& node : mesh.nodes) node = placement(node);
   for (ElementField& field : mesh.fields)
@@ -95,7 +111,8 @@ TetMesh load_mesh(const Scene& scene) {
       Eigen::Map<Vec3> vector(&field.values[i]);
       vector = placement.direction(vector);
     }
-  const QualityReport report = check_tets(mesh);
+  const QualityReport report = check_tets(mesh, midedges);
+  if (midedges) check_midedges(mesh, *midedges);
   for (const std::string& warning : report.warnings) warn("{}: {}", mesh.source, warning);
   if (!scene.mesh.box)
     if (const std::string odd = unit_warning(report.low, report.high); !odd.empty()) warn("{}: {}", mesh.source, odd);

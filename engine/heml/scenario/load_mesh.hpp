@@ -1,16 +1,18 @@
 #pragma once
 // Loads and places the mesh of a scene.
-#include <heml/mesh/tet_mesh.hpp>
+#include <heml/mesh/quadratic.hpp>
 #include <heml/scenario/scene.hpp>
 
 namespace heml {
 
-/// Reads or generates the mesh as its source has it, unchecked. Throws InputError.
-TetMesh read_mesh_source(const Scene& scene);
+/// Reads or generates the mesh as its source has it, unchecked. midedges: those of a file of ten-node tetrahedra; null:
+/// they are left out with a warning. Throws InputError.
+TetMesh read_mesh_source(const Scene& scene, MidEdges* midedges = nullptr);
 
 /// Reads or generates the mesh, scales, rotates and translates it (vector fields are rotated too), and checks it;
-/// warnings go to warn(). Throws InputError.
-TetMesh load_mesh(const Scene& scene);
+/// warnings go to warn(). midedges: as above, of a scene with quadratic elements; empty where the source has none.
+/// Throws InputError.
+TetMesh load_mesh(const Scene& scene, MidEdges* midedges = nullptr);
 
 /// mesh: as load_setup() returns it, with only the fields that materials use.
 MeshFingerprint mesh_fingerprint(const TetMesh& mesh);

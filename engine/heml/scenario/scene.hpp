@@ -185,8 +185,8 @@ bool plays_as_recorded(const Scene& scene);
 /// mesh. Throws InputError.
 WorldSetup load_setup(const Scene& scene);
 
-/// The same with a mesh from load_mesh() (load_mesh.hpp).
-WorldSetup load_setup(const Scene& scene, TetMesh mesh);
+/// The same with a mesh from load_mesh() (load_mesh.hpp) and its mid-edge nodes, if it has any.
+WorldSetup load_setup(const Scene& scene, TetMesh mesh, MidEdges midedges = {});
 
 /// make_world(load_setup(scene)).
 std::unique_ptr<World> load_world(const Scene& scene);

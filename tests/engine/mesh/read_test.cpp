@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <heml/base/warning_collector.hpp>
 #include <heml/mesh/quality.hpp>
 #include <heml/mesh/read.hpp>
 #include <heml/mesh/readers.hpp>
@@ -130,9 +131,9 @@ TEST_CASE("counts other cells with a volume and keeps the tetrahedra") {
   CHECK(read_vtk("a", text).ignored == 1);
 }
 
-TEST_CASE("refuses a file without linear tetrahedra and counts what it holds") {
-  const std::string text = replaced(samples::vtk, "5 10 10", "5 24 14");
-  CHECK(says(refusal_of("a.vtk", text), {"a.vtk", "5 nodes but no linear tetrahedra", "2 other cells"}));
+TEST_CASE("refuses a file without tetrahedra and counts what it holds") {
+  const std::string text = replaced(samples::vtk, "5 10 10", "5 25 14");
+  CHECK(says(refusal_of("a.vtk", text), {"a.vtk", "5 nodes but no tetrahedra", "2 other cells"}));
 }
 
 TEST_CASE("refuses broken Gmsh files by line") {
@@ -262,6 +263,109 @@ TEST_CASE("reads meshes made by others") {
     CHECK(report.tets == tets);
     CHECK(report.components == 1);
   }
+}
+
+namespace {
+
+/// Corners of a tetrahedron, then nodes beside the middles of its edges in the order of a format, all after a node of
+/// no element.
+std::vector<Vec3> ten_nodes(const std::array<std::array<std::size_t, 2>, 6>& edges) {
+  std::vector<Vec3> nodes{{9, 9, 9}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  for (const auto& [a, b] : edges) nodes.push_back((nodes[a + 1] + nodes[b + 1]) / 2 + Vec3(0.01, 0.02, -0.01));
+  return nodes;
+}
+constexpr std::array<std::array<std::size_t, 2>, 6> gmsh_edges{{{0, 1}, {1, 2}, {0, 2}, {0, 3}, {2, 3}, {1, 3}}};
+constexpr std::array<std::array<std::size_t, 2>, 6> vtk_edges{{{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}};
+
+std::string text_of(const std::vector<Vec3>& nodes, int first_number) {
+  std::string text;
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    if (first_number > 0) text += std::to_string(first_number + static_cast<int>(n)) + ' ';
+    for (const double value : nodes[n]) text += std::to_string(value) + ' ';
+    text += '\n';
+  }
+  return text;
+}
+
+/// The same element in each format that has ten-node tetrahedra.
+std::vector<std::pair<std::string, std::string>> ten_node_files() {
+  const std::vector<Vec3> gmsh = ten_nodes(gmsh_edges), vtk = ten_nodes(vtk_edges);
+  std::string numbers, places;
+  for (int n = 1; n <= 11; ++n) numbers += std::to_string(n) + "\n";
+  for (const Vec3& X : gmsh) places += text_of({X}, 0);
+  const std::string list = "1 2 3 4 5 6 7 8 9 10";
+  return {
+      {"a.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n11\n" + text_of(gmsh, 1) +
+                    "$EndNodes\n$Elements\n1\n1 11 2 7 1 2 3 4 5 6 7 8 9 10 11\n$EndElements\n"},
+      {"b.msh", "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 11 1 11\n3 1 0 11\n" + numbers + places +
+                    "$EndNodes\n$Elements\n1 1 1 1\n3 1 11 1\n1 2 3 4 5 6 7 8 9 10 11\n$EndElements\n"},
+      {"a.vtk", "# vtk DataFile Version 3.0\nten\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 11 double\n" +
+                    text_of(vtk, 0) + "CELLS 1 11\n10 " + list + "\nCELL_TYPES 1\n24\n"},
+      {"a.vtu",
+       "<VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid><Piece NumberOfPoints=\"11\" NumberOfCells=\"1\">"
+       "<Points><DataArray NumberOfComponents=\"3\" format=\"ascii\">" +
+           text_of(vtk, 0) + "</DataArray></Points><Cells><DataArray Name=\"connectivity\" format=\"ascii\">" + list +
+           "</DataArray><DataArray Name=\"offsets\" format=\"ascii\">10</DataArray>"
+           "<DataArray Name=\"types\" format=\"ascii\">24</DataArray></Cells></Piece></UnstructuredGrid>"
+           "</VTKFile>"}};
+}
+
+}  // namespace
+
+TEST_CASE("ten-node tetrahedra keep their mid-edge nodes, each on its edge in every format") {
+  const TemporaryFolder folder;
+  for (const auto& [name, text] : ten_node_files()) {
+    CAPTURE(name);
+    MidEdges midedges;
+    TetMesh mesh = read_tet_mesh(folder.file(name, text), &midedges);
+    REQUIRE(midedges.size() == 1);
+    CHECK(mesh.nodes.size() == 11);
+    for (const bool repaired : {false, true}) {  // of an element given inside out, too
+      if (repaired) {
+        std::swap(mesh.tets[0][0], mesh.tets[0][1]);
+        std::swap(midedges[0][1], midedges[0][3]);
+        std::swap(midedges[0][2], midedges[0][4]);
+        CHECK(check_tets(mesh, &midedges).flipped == 1);
+      }
+      for (std::size_t e = 0; e < 6; ++e) {
+        const auto X = [&](int n) { return mesh.nodes[static_cast<std::size_t>(n)]; };
+        const Vec3 middle = (X(mesh.tets[0][tet_edges[e][0]]) + X(mesh.tets[0][tet_edges[e][1]])) / 2;
+        CHECK((X(midedges[0][e]) - middle - Vec3(0.01, 0.02, -0.01)).norm() <= 1e-6);
+      }
+      CHECK(check_tets(mesh, &midedges).orphans == 1);
+    }
+  }
+}
+
+TEST_CASE("ten-node tetrahedra are linear ones for who takes no mid-edge nodes, with a word") {
+  const TemporaryFolder folder;
+  for (const auto& [name, text] : ten_node_files()) {
+    CAPTURE(name);
+    const WarningCollector warnings;
+    const TetMesh mesh = read_tet_mesh(folder.file(name, text));
+    CHECK(mesh.nodes.size() == 5);
+    CHECK(mesh.tets == std::vector<Tet>{{1, 2, 3, 4}});
+    REQUIRE(warnings.texts().size() == 1);
+    CHECK(says(warnings.texts()[0], {"1 tetrahedra have ten nodes", "6 mid-edge nodes were left out"}));
+  }
+}
+
+TEST_CASE("a mesh of tetrahedra of four and of ten nodes is linear") {
+  const TemporaryFolder folder;
+  std::string text = replaced(ten_node_files()[0].second, "$Elements\n1\n", "$Elements\n2\n2 4 2 7 1 6 3 4 5\n");
+  MidEdges midedges(3);
+  const WarningCollector warnings;
+  const TetMesh mesh = read_tet_mesh(folder.file("a.msh", text), &midedges);
+  CHECK(midedges.empty());
+  CHECK(mesh.nodes.size() == 6);
+  CHECK(mesh.tets == std::vector<Tet>{{5, 2, 3, 4}, {1, 2, 3, 4}});
+  CHECK(says(warnings.texts().at(0), {"since 1 have four"}));
+}
+
+TEST_CASE("refuses ten-node tetrahedra with too few nodes") {
+  CHECK(says(refusal_of("a.msh", replaced(ten_node_files()[0].second, " 9 10 11", " 9 10")), {"a.msh", "node number"}));
+  CHECK(says(refusal_of("a.vtk", replaced(ten_node_files()[2].second, "\n24\n", "\n10\n")),
+             {"a.vtk", "tetrahedron of 10 nodes"}));
 }
 
 }  // namespace heml::read_test
