@@ -57,7 +57,7 @@ constexpr const char* how_it_is_run =
   reactions; absolute, 1e-12 N, where both vanish.
 - **`static`**: boundary motions, loads and gravity grow together from 0 to 1 in increments that the solver chooses. `over` and `duration` do
   not matter. There is no `tearing` and no `plasticity`, which depend on the way taken.
-- **`nodal_pressure`** takes laws with a separate volume term, all with the same `volume_term`.
+- **`nodal_pressure`** takes laws with a separate volume term, all with the same `volume_term`; `p2_pressure` any of each.
 - **Implicit steps that do not converge** are halved, then replaced by explicit substeps, then end with their best iterate, counted in
   `report.json` (`explicit_rescues`, `unconverged_steps`). A given `step` is obeyed: the run ends there with exit code 4, as `static` does.
 - **The end of a law's range** (ln J at J ≤ 0, overflow) ends the run at the last valid state with exit code 4, unless `continuation` is on.
