@@ -63,18 +63,22 @@ panel::Chart work_precision(const SceneStudy& scene, const TimeStudy& study) {
   panel::Chart chart;
   chart.title = scene.title;
   chart.subtitle = fmt::format("{} nodes, {} tetrahedra, {}; one mark per method, lower left is better", study.nodes,
-                               study.tets, study.nodal_pressure ? "averaged nodal pressure" : "linear");
+                               study.tets, study.element);
   chart.x_label = "Computing time per simulated second, s";
   chart.y_quantity = "Time error, mm";
   chart.logarithmic = true;
   chart.vertical = {
       {0.001 / seconds_per_frame, "1 ms per frame"}, {1, "16 ms: real time"}, {0.033 / seconds_per_frame, "33 ms"}};
-  if (const auto error = scene.mesh_error(study.nodal_pressure))
-    chart.horizontal = {{1e3 * *error, "discretisation error"}};
+  if (const auto error = scene.mesh_error(study.element)) chart.horizontal = {{1e3 * *error, "discretisation error"}};
   chart.series.push_back(front_of(study));
   add_methods(chart, study);
   add_failed(chart, study);
   return chart;
+}
+
+ChartMark mark_of(const std::string& element) {
+  if (is_quadratic(element)) return ChartMark::crosses;
+  return element == "p1" ? ChartMark::dots : ChartMark::rings;
 }
 
 panel::Chart locking_chart(const std::vector<LockingBeam>& beams) {
@@ -84,22 +88,23 @@ panel::Chart locking_chart(const std::vector<LockingBeam>& beams) {
   chart.x_label = "Tetrahedra";
   chart.y_quantity = "Discretisation error, % of the motion";
   chart.logarithmic = true;
-  for (const bool nodal : {false, true})
+  for (const std::string element : {"p1", "nodal_pressure", "p2", "p2_pressure"})
     for (std::size_t b = 0; b < beams.size(); ++b) {
       const ImU32 colour = inks[b % std::size(inks)];
       const std::string name = fmt::format("ν {}", beams[b].poisson);
-      panel::ChartSeries line{nodal ? "" : name, {}, colour, ChartMark::line},
-          marks{"", {}, colour, nodal ? ChartMark::rings : ChartMark::dots};
+      panel::ChartSeries line{element == "p1" ? name : "", {}, colour, ChartMark::line},
+          marks{"", {}, colour, mark_of(element)};
       for (const ConvergenceMesh& mesh : beams[b].convergence.meshes)
-        if (mesh.nodal_pressure == nodal && mesh.failed.empty())
+        if (mesh.element == element && mesh.failed.empty())
           line.points.push_back({static_cast<double>(mesh.tets), 100 * mesh.relative});
       marks.points = line.points;
-      if (nodal) line.thickness = 0.6f;
+      if (element != "p1") line.thickness = 0.6f;
       chart.series.push_back(std::move(line));
       chart.series.push_back(std::move(marks));
     }
   chart.series.push_back({"p1", {}, grey, ChartMark::dots});
   chart.series.push_back({"nodal pressure", {}, grey, ChartMark::rings});
+  chart.series.push_back({"p2, p2_pressure", {}, grey, ChartMark::crosses});
   return chart;
 }
 
@@ -151,8 +156,7 @@ std::vector<ReportPicture> write_accuracy_pictures(const std::filesystem::path& 
   for (const SceneStudy& scene : study.scenes)
     for (const TimeStudy& time : scene.time) {
       if (time.measured.empty()) continue;
-      const char* element = time.nodal_pressure ? "nodal_pressure" : "p1";
-      const auto file = folder / fmt::format("{}_{}.png", scene.name, element);
+      const auto file = folder / fmt::format("{}_{}.png", scene.name, time.element);
       write_chart(file, work_precision(scene, time));
       pictures.push_back({scene.name, file,
                           fmt::format("{}, {}: time error against computing time. Marks below the horizontal line "

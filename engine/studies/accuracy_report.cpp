@@ -33,10 +33,10 @@ std::string mesh_convergence_text(const MeshConvergenceStudy& convergence) {
   std::string text = fmt::format(
       "Errors of the mesh are of the body at rest under its loads, measured from three meshes, each with every "
       "tetrahedron of the one before in eight, extrapolated ({}, order {:.2f} and 2, the middle of both; ± {}",
-      e.nodal_pressure ? "nodal_pressure" : "p1", e.order, length_text(e.uncertainty));
+      e.element, e.order, length_text(e.uncertainty));
   text += ")";
   if (e.between_elements)
-    text += fmt::format("; those of the two elements differ by {}", length_text(*e.between_elements));
+    text += fmt::format("; those of other elements differ by up to {}", length_text(*e.between_elements));
   return text + ". The surface is that of the mesh as it is.";
 }
 

@@ -103,18 +103,16 @@ std::vector<ResultValue> result_values(const AccuracyStudy& study) {
           values.push_back({result_name(scene, time, measured), measured.error});
     for (const ConvergenceMesh& mesh : scene.convergence.meshes)
       if (mesh.failed.empty() && mesh.resolved)
-        values.push_back({fmt::format("{}; at rest; {}, {} tetrahedra", scene.name,
-                                      mesh.nodal_pressure ? "nodal_pressure" : "p1", mesh.tets),
-                          mesh.error});
+        values.push_back(
+            {fmt::format("{}; at rest; {}, {} tetrahedra", scene.name, mesh.element, mesh.tets), mesh.error});
   }
   for (const LockingBeam& beam : study.locking) {
     if (!beam.convergence.reference.failure.empty()) continue;
     values.push_back({fmt::format("beam off theory, poisson {}", beam.poisson), std::abs(beam.off_theory())});
     for (const ConvergenceMesh& mesh : beam.convergence.meshes)
       if (mesh.failed.empty() && mesh.resolved)
-        values.push_back({fmt::format("beam of poisson {}; {}, {} tetrahedra", beam.poisson,
-                                      mesh.nodal_pressure ? "nodal_pressure" : "p1", mesh.tets),
-                          mesh.error});
+        values.push_back(
+            {fmt::format("beam of poisson {}; {}, {} tetrahedra", beam.poisson, mesh.element, mesh.tets), mesh.error});
   }
   if (study.refinement)
     for (int round = 0; const RefinedMesh& mesh : study.refinement->meshes)

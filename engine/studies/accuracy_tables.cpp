@@ -16,7 +16,6 @@ std::string percent(double share) { return short_number(100 * share) + " %"; }
 std::string signed_percent(double share) {
   return std::abs(share) < 0.1 ? fmt::format("{:+.2g} %", 100 * share) : fmt::format("{:+.0f} %", 100 * share);
 }
-std::string element_name(bool nodal_pressure) { return nodal_pressure ? "nodal_pressure" : "p1"; }
 
 std::string error_text(const Measured& measured) {
   return (measured.resolved ? "" : "< ") + length_text(measured.error);
@@ -100,7 +99,7 @@ TextTable mesh_convergence_table(const MeshConvergenceStudy& study) {
   for (const ConvergenceMesh& mesh : study.meshes) {
     const bool is_known = mesh.failed.empty() && study.reference.failure.empty();
     const std::string error = (mesh.resolved ? "" : "< ") + length_text(mesh.error);
-    table.rows.push_back({element_name(mesh.nodal_pressure), std::to_string(mesh.tets), std::to_string(mesh.nodes),
+    table.rows.push_back({mesh.element, std::to_string(mesh.tets), std::to_string(mesh.nodes),
                           is_known ? error : mesh.failed, is_known ? percent(mesh.relative) : "",
                           short_number(mesh.seconds)});
   }
@@ -116,13 +115,12 @@ TextTable locking_table(const std::vector<LockingBeam>& beams) {
     for (const ConvergenceMesh& mesh : beam.convergence.meshes) {
       if (!mesh.failed.empty()) continue;
       if (!beam.convergence.reference.failure.empty()) {
-        table.rows.push_back({fmt::format("{}", beam.poisson), element_name(mesh.nodal_pressure),
-                              std::to_string(mesh.tets), "", beam.convergence.reference.failure,
-                              fmt::format("{:.4f}", 1e3 * beam.theory), "", ""});
+        table.rows.push_back({fmt::format("{}", beam.poisson), mesh.element, std::to_string(mesh.tets), "",
+                              beam.convergence.reference.failure, fmt::format("{:.4f}", 1e3 * beam.theory), "", ""});
         continue;
       }
-      table.rows.push_back({fmt::format("{}", beam.poisson), element_name(mesh.nodal_pressure),
-                            std::to_string(mesh.tets), fmt::format("{:.4f}", 1e3 * beam.sag(mesh)),
+      table.rows.push_back({fmt::format("{}", beam.poisson), mesh.element, std::to_string(mesh.tets),
+                            fmt::format("{:.4f}", 1e3 * beam.sag(mesh)),
                             fmt::format("{:.4f}", 1e3 * beam.extrapolated()), fmt::format("{:.4f}", 1e3 * beam.theory),
                             percent(mesh.relative), percent(std::max(0.0, locking_of(beams, mesh)))});
     }
@@ -212,7 +210,7 @@ TextTable run_table(const AccuracyStudy& study) {
         const auto error = [&](double value) { return m.failed() ? "" : fmt::format("{:.6g}", value); };
         table.rows.push_back({scene.name,
                               fmt::format("{}", fmt::join(scene.laws, " ")),
-                              element_name(time.nodal_pressure),
+                              time.element,
                               std::to_string(time.nodes),
                               std::to_string(time.tets),
                               integrator_name(m.method.integrator),
@@ -228,7 +226,7 @@ TextTable run_table(const AccuracyStudy& study) {
                                            : "no",
                               error(m.relative),
                               error(m.last_error),
-                              optional_number(scene.mesh_error(time.nodal_pressure)),
+                              optional_number(scene.mesh_error(time.element)),
                               fmt::format("{:.6g}", m.seconds_per_second()),
                               fmt::format("{:.6g}", m.run.median_tick),
                               fmt::format("{:.6g}", m.run.slow_tick),

@@ -55,7 +55,9 @@ std::vector<LockingBeam> study_locking(bool quick, const StudyContext& context) 
 }
 
 double locking_of(const std::vector<LockingBeam>& beams, const ConvergenceMesh& mesh) {
-  const ConvergenceMesh* free = beams.front().convergence.find(mesh.nodal_pressure, mesh.halvings);
+  // At the smallest Poisson's ratio p2_pressure is p2.
+  const std::string element = mesh.element == "p2_pressure" ? "p2" : mesh.element;
+  const ConvergenceMesh* free = beams.front().convergence.find(element, mesh.halvings);
   return free ? mesh.relative - free->relative : mesh.relative;
 }
 

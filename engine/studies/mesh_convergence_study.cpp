@@ -9,6 +9,11 @@
 namespace heml {
 namespace {
 
+/// A mesh of quadratic elements has as many nodes as the next one of linear ones.
+int halvings_for(const std::string& element, int halvings) {
+  return is_quadratic(element) ? std::max(halvings - 1, 0) : halvings;
+}
+
 constexpr double min_order = 0.5, max_order = 4, proven_order = 2;
 
 void tell_energies(const Problem& problem, World& world, Json& json) {
@@ -104,9 +109,9 @@ std::optional<Potential> extrapolate(const std::vector<double>& potentials) {
   return Potential{(as_shown + as_proven) / 2, std::abs(as_shown - as_proven) / 2};
 }
 
-const ConvergenceMesh* MeshConvergenceStudy::find(bool nodal_pressure, int halvings) const {
+const ConvergenceMesh* MeshConvergenceStudy::find(const std::string& element, int halvings) const {
   for (const ConvergenceMesh& mesh : meshes)
-    if (mesh.nodal_pressure == nodal_pressure && mesh.halvings == halvings && mesh.failed.empty()) return &mesh;
+    if (mesh.element == element && mesh.halvings == halvings && mesh.failed.empty()) return &mesh;
   return nullptr;
 }
 
@@ -123,58 +128,70 @@ std::vector<Vec3> equilibrium_positions(const std::string& key, const Problem& p
 }
 
 std::size_t steps_of_mesh_convergence_study(const Problem& problem, int halvings) {
-  return elements_of(problem).size() * static_cast<std::size_t>(halvings + 1);
+  std::size_t steps = 0;
+  for (const std::string& element : elements_of(problem))
+    steps += static_cast<std::size_t>(halvings_for(element, halvings) + 1);
+  return steps;
 }
 
 MeshConvergenceStudy study_mesh_convergence(const std::string& key, const Problem& problem, int halvings,
                                             const StudyContext& context) {
   MeshConvergenceStudy study;
-  const auto& rest = problem.setup.mesh.nodes;
+  const Problem first = *linear_base(problem);
+  const auto& rest = first.setup.mesh.nodes;
   std::vector<std::vector<Vec3>> all, best_of_element;
-  for (const bool nodal : elements_of(problem)) {
-    Problem now = with_element(problem, nodal);
+  for (const std::string& element : elements_of(problem)) {
+    Problem base = first;
     std::vector<std::vector<Vec3>> settled;
     std::vector<double> potentials;
     const std::size_t first_mesh = study.meshes.size();
-    for (int k = 0; k <= halvings; ++k) {
-      if (k > 0) now = finer(now);
+    for (int k = 0; k <= halvings_for(element, halvings); ++k) {
+      if (k > 0) base = finer(base);
+      const Problem now = with_element(base, element);
       const Json found = context.kept(fmt::format("{}|settled|{}", key, text_of(now)),
                                       [&] { return solve_statics(now, rest.size(), context.make); });
       ConvergenceMesh& mesh = study.meshes.emplace_back();
-      mesh.nodal_pressure = nodal, mesh.halvings = k;
+      mesh.element = element, mesh.halvings = k;
       mesh.nodes = found["nodes"], mesh.tets = found["tets"], mesh.seconds = found["seconds"];
       mesh.failed = found["failed"];
       all.push_back(positions_from(found["x"]));
       if (!mesh.failed.empty()) continue;
       settled.push_back(all.back());
-      mesh.moved = rms_distance(all.back(), rest, problem.mass);
+      mesh.moved = rms_distance(all.back(), rest, first.mass);
       mesh.stored = found["stored"];
       if (found.contains("estimated")) mesh.estimated = found["estimated"];
       if (found.contains("potential")) potentials.push_back(mesh.potential = found["potential"]);
     }
-    if (const auto limit = nodal ? std::nullopt : extrapolate(potentials))
+    if (const auto limit = element == "p1" ? extrapolate(potentials) : std::nullopt)
       for (std::size_t k = first_mesh; k < study.meshes.size(); ++k) {
         ConvergenceMesh& mesh = study.meshes[k];
         if (const double above = mesh.potential - limit->best; mesh.failed.empty() && above > 2 * limit->uncertainty)
           mesh.known = 2 * above;
       }
     std::vector<Vec3> best;
-    Extrapolation of_element = extrapolate(settled, rest, problem.mass, best);
-    of_element.nodal_pressure = nodal;
-    if (best_of_element.size() == 1 && of_element.failure.empty() && study.reference.failure.empty())
-      of_element.between_elements = study.reference.between_elements =
-          rms_distance(best, best_of_element[0], problem.mass);
-    const bool first = best_of_element.empty();
-    const bool better = of_element.failure.empty() &&
-                        (!study.reference.failure.empty() || of_element.uncertainty < study.reference.uncertainty);
-    if (first || better) study.reference = of_element, best_of_element = {best};
+    Extrapolation of_element = extrapolate(settled, rest, first.mass, best);
+    of_element.element = element;
+    const bool is_first = study.reference.element.empty(), succeeds = of_element.failure.empty();
+    if (is_first ||
+        (succeeds && (!study.reference.failure.empty() || of_element.uncertainty < study.reference.uncertainty))) {
+      study.reference = of_element;
+      study.best = best;
+    }
+    if (succeeds) best_of_element.push_back(best);
   }
-  if (!study.reference.failure.empty()) return study;
-  study.best = best_of_element[0];
+  if (best_of_element.size() > 1) {
+    double largest = 0;
+    for (const auto& best : best_of_element) largest = std::max(largest, rms_distance(best, study.best, first.mass));
+    study.reference.between_elements = largest;
+  }
+  if (!study.reference.failure.empty()) {
+    study.best.clear();
+    return study;
+  }
   for (std::size_t k = 0; k < study.meshes.size(); ++k) {
     ConvergenceMesh& mesh = study.meshes[k];
     if (!mesh.failed.empty()) continue;
-    const double error = rms_distance(all[k], study.best, problem.mass);
+    const double error = rms_distance(all[k], study.best, first.mass);
     mesh.resolved = error >= study.reference.resolution();
     mesh.error = std::max(error, study.reference.resolution());
     mesh.relative = mesh.error / study.reference.motion;

@@ -6,8 +6,9 @@
 //
 // Coarse, too stiff meshes show an order p below the asymptotic 2 of linear elements; extrapolation with that p goes
 // too far, with 2 not far enough. u* is the mean of both extrapolations and its uncertainty half their distance. Errors
-// are measured from the u* of the element with the smaller uncertainty; the u* of the other element is compared with
-// it.
+// are measured from the u* of the element with the smallest uncertainty; those of other elements are compared with it.
+// Quadratic elements, of which a mesh has as many nodes as the next of linear ones, take one subdivision less, and so
+// have no u* of their own where there are three meshes of linear ones.
 //
 // The error estimate of the panel (elastic/error_estimate.hpp) is compared with the energy norm of the error, which
 // follows from the potential Π at equilibrium: ‖u − u_h‖² = 2 (Π_h − Π*) to leading order, Π* extrapolated like u*.
@@ -18,7 +19,7 @@ namespace heml {
 
 /// The equilibrium of a body on one mesh.
 struct ConvergenceMesh {
-  bool nodal_pressure = false;
+  std::string element;  ///< name
   int halvings = 0;
   std::size_t nodes = 0, tets = 0;
   double seconds = 0;   ///< wall time of the static solve
@@ -37,13 +38,13 @@ struct ConvergenceMesh {
 
 /// u* and its uncertainty.
 struct Extrapolation {
-  std::string failure;  ///< empty: success
-  bool nodal_pressure = false;
+  std::string failure;                                   ///< empty: success
+  std::string element;                                   ///< name
   double order = 0;                                      ///< p of the three finest meshes
   double uncertainty = 0;                                ///< m, half the rms distance of the two extrapolations
   double motion = 0;                                     ///< m, rms of u*
   Vec3 far = Vec3::Zero();                               ///< m, u* of the node that moves farthest
-  std::optional<double> between_elements;                ///< m, rms distance of the u* of both elements
+  std::optional<double> between_elements;                ///< m, largest rms distance to the u* of another element
   double resolution() const { return 2 * uncertainty; }  ///< m, smallest error it resolves
 };
 
@@ -51,7 +52,7 @@ struct MeshConvergenceStudy {
   Extrapolation reference;
   std::vector<Vec3> best;  ///< u* as positions, #V of the first mesh; empty: none
   std::vector<ConvergenceMesh> meshes;
-  const ConvergenceMesh* find(bool nodal_pressure, int halvings) const;
+  const ConvergenceMesh* find(const std::string& element, int halvings) const;
 };
 
 /// Richardson extrapolation of nested solutions x (three or more; #V × 3, m) at the same nodes. rest: positions where u
@@ -67,7 +68,8 @@ struct Potential {
 std::optional<Potential> extrapolate(const std::vector<double>& potentials);
 
 /// Applies the scene's full loads without its events. key: prefix in the results. halvings: subdivisions of the finest
-/// mesh. Studies both elements where the laws allow them.
+/// mesh. Studies all of elements_of(). Requires linear_base(). best and
+/// errors are at its nodes.
 MeshConvergenceStudy study_mesh_convergence(const std::string& key, const Problem& problem, int halvings,
                                             const StudyContext& context);
 std::size_t steps_of_mesh_convergence_study(const Problem& problem, int halvings);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <heml/base/hash.hpp>
 #include <heml/mesh/subdivide.hpp>
@@ -22,8 +23,11 @@ std::vector<double> lumped_masses(const WorldSetup& setup) {
     const Tet& tet = setup.mesh.tets[t];
     const auto at = [&](std::size_t a) { return setup.mesh.nodes[static_cast<std::size_t>(tet[a])]; };
     const double density = setup.materials[static_cast<std::size_t>(entry[t])].material.density;
-    for (const int node : tet)
-      mass[static_cast<std::size_t>(node)] += density * signed_volume(at(0), at(1), at(2), at(3)) / 4;
+    const double whole = density * signed_volume(at(0), at(1), at(2), at(3));
+    const bool quadratic = !setup.midedges.empty();
+    for (const int node : tet) mass[static_cast<std::size_t>(node)] += whole * (quadratic ? 1.0 / 36 : 1.0 / 4);
+    if (quadratic)
+      for (const int node : setup.midedges[t]) mass[static_cast<std::size_t>(node)] += whole * 4 / 27;
   }
   return mass;
 }
@@ -46,6 +50,52 @@ void subdivide_removals(std::vector<Event>& events) {
     }
 }
 
+constexpr double high_poisson = 0.45;
+
+/// Without what quadratic elements refuse.
+bool supports_quadratic(const Problem& problem) {
+  const auto is_continuum = [](const Material& material) { return find_law(material.law)->is_continuum; };
+  const auto& [scene, setup, mass] = problem;
+  const auto& materials = setup.materials;
+  return !setup.self_contact && !setup.tearing && !scene.mesh.refine &&
+         std::all_of(materials.begin(), materials.end(),
+                     [&](const RegionMaterial& m) { return is_continuum(m.material); }) &&
+         std::none_of(scene.events.begin(), scene.events.end(), [&](const Event& event) {
+           const auto* change = std::get_if<SetMaterial>(&event.command);
+           return std::holds_alternative<CutTissue>(event.command) ||
+                  std::holds_alternative<RemoveElements>(event.command) || (change && !is_continuum(change->material));
+         });
+}
+
+bool is_nearly_incompressible(const Problem& problem) {
+  const auto& materials = problem.setup.materials;
+  return std::any_of(materials.begin(), materials.end(), [](const RegionMaterial& m) {
+    const auto [shear, bulk] = small_strain_moduli(m.material);
+    return (3 * bulk - 2 * shear) / (6 * bulk + 2 * shear) >= high_poisson;
+  });
+}
+
+void set_element(const std::string& element, SolverSettings& solver) {
+  solver.quadratic = is_quadratic(element);
+  solver.nodal_pressure = element.ends_with("pressure");
+  if (solver.quadratic) solver.recovery = false;
+}
+
+/// A node in the middle of each edge; lists of nodes take those between two of theirs.
+WorldSetup with_midedges(WorldSetup setup) {
+  TetMesh mesh = setup.mesh;
+  const std::size_t corners = mesh.nodes.size();
+  MidEdges midedges = add_midedge_nodes(mesh);
+  std::vector<std::array<int, 2>> edges(mesh.nodes.size() - corners);
+  for (std::size_t t = 0; t < midedges.size(); ++t)
+    for (std::size_t e = 0; e < 6; ++e)
+      edges[static_cast<std::size_t>(midedges[t][e]) - corners] = {mesh.tets[t][tet_edges[e][0]],
+                                                                   mesh.tets[t][tet_edges[e][1]]};
+  setup = on_finer_mesh(std::move(setup), std::move(mesh), edges);
+  setup.midedges = std::move(midedges);
+  return setup;
+}
+
 bool has_separate_volume_term(const Material& material, VolumeTerm volume_term) {
   return find_law(material.law)->has_volume_term && material.volume_term == volume_term;
 }
@@ -65,6 +115,7 @@ Problem with_masses(Problem problem) {
 }
 
 Problem finer(const Problem& problem) {
+  assert(problem.setup.midedges.empty());
   Problem result = problem;
   Subdivision cut = subdivide_uniformly(problem.setup.mesh);
   result.setup = on_finer_mesh(std::move(result.setup), std::move(cut.mesh), cut.midpoint_edges);
@@ -72,9 +123,32 @@ Problem finer(const Problem& problem) {
   return with_masses(std::move(result));
 }
 
-Problem with_element(Problem problem, bool nodal_pressure) {
-  problem.scene.solver.nodal_pressure = problem.setup.solver.nodal_pressure = nodal_pressure;
-  return problem;
+bool is_quadratic(const std::string& element) { return element.starts_with("p2"); }
+
+Problem with_element(Problem problem, const std::string& element) {
+  assert(problem.setup.midedges.empty() || is_quadratic(element));
+  set_element(element, problem.scene.solver);
+  set_element(element, problem.setup.solver);
+  if (!is_quadratic(element) || !problem.setup.midedges.empty()) return problem;
+  problem.setup = with_midedges(std::move(problem.setup));
+  return with_masses(std::move(problem));
+}
+
+std::optional<Problem> linear_base(const Problem& problem) {
+  if (problem.setup.midedges.empty()) return problem;
+  Problem base = problem;
+  WorldSetup& setup = base.setup;
+  const auto corners = static_cast<int>(setup.mesh.nodes.size() - count_nodes(setup.midedges));
+  for (const Tet& tet : setup.mesh.tets)
+    for (const int node : tet)
+      if (node >= corners) return std::nullopt;
+  const auto is_midedge = [&](int node) { return node >= corners; };
+  setup.midedges.clear();
+  setup.mesh.nodes.resize(static_cast<std::size_t>(corners));
+  if (!setup.initial_positions.empty()) setup.initial_positions.resize(static_cast<std::size_t>(corners));
+  for (Boundary& boundary : setup.boundary) std::erase_if(boundary.nodes, is_midedge);
+  for (Load& load : setup.loads) std::erase_if(load.nodes, is_midedge);
+  return with_masses(with_element(std::move(base), setup.solver.nodal_pressure ? "nodal_pressure" : "p1"));
 }
 
 bool supports_nodal_pressure(const Problem& problem) {
@@ -90,9 +164,17 @@ bool supports_nodal_pressure(const Problem& problem) {
          });
 }
 
-std::vector<bool> elements_of(const Problem& problem) {
-  if (!supports_nodal_pressure(problem)) return {problem.nodal_pressure()};
-  return {problem.nodal_pressure(), !problem.nodal_pressure()};
+std::vector<std::string> elements_of(const Problem& problem) {
+  std::vector<std::string> elements{problem.element()};
+  const bool splits = supports_nodal_pressure(problem);
+  if (is_quadratic(elements[0])) {
+    if (splits) elements.push_back(elements[0] == "p2" ? "p2_pressure" : "p2");
+    return elements;
+  }
+  if (splits) elements.push_back(elements[0] == "p1" ? "nodal_pressure" : "p1");
+  if (supports_quadratic(problem))
+    elements.push_back(splits && is_nearly_incompressible(problem) ? "p2_pressure" : "p2");
+  return elements;
 }
 
 std::string key_of(const Problem& problem) {
@@ -104,8 +186,7 @@ std::string key_of(const Problem& problem) {
 }
 
 std::string text_of(const Problem& problem) {
-  return fmt::format("{}, {} tetrahedra", problem.nodal_pressure() ? "nodal_pressure" : "p1",
-                     problem.setup.mesh.tets.size());
+  return fmt::format("{}, {} tetrahedra", problem.element(), problem.setup.mesh.tets.size());
 }
 
 Scene with_method(Scene scene, const Method& method) {

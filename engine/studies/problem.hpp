@@ -20,7 +20,7 @@ struct Problem {
   Scene scene;
   WorldSetup setup;          ///< load_setup(scene), perhaps on another mesh
   std::vector<double> mass;  ///< #V, kg, lumped: the weights of errors
-  bool nodal_pressure() const { return setup.solver.nodal_pressure; }
+  std::string element() const { return std::string(setup.solver.element()); }
 };
 
 struct Method {
@@ -35,17 +35,24 @@ struct Method {
 Problem problem_of(const Scene& scene);
 /// With the lumped masses of its setup.
 Problem with_masses(Problem problem);
-/// On the uniformly subdivided mesh (every tetrahedron in eight). Selections gain the midpoints of their edges.
+/// On the uniformly subdivided mesh (every tetrahedron in eight), of linear elements (asserted). Selections gain the
+/// midpoints of their edges.
 Problem finer(const Problem& problem);
-/// With averaged nodal pressure or without.
-Problem with_element(Problem problem, bool nodal_pressure);
-/// Whether averaged nodal pressure is defined for all its laws, at the start and after every event.
+/// Of linear elements: that of the problem or, of quadratic ones, on their corners alone; none where nodes of the mesh
+/// file are in the middle of edges.
+std::optional<Problem> linear_base(const Problem& problem);
+/// With another element, by name. From quadratic to linear elements only linear_base() leads. Quadratic elements take
+/// no recovery, which is switched off.
+Problem with_element(Problem problem, const std::string& element);
+bool is_quadratic(const std::string& element);
+/// Whether averaged pressure is defined for all its laws, at the start and after every event.
 bool supports_nodal_pressure(const Problem& problem);
-/// Values of nodal_pressure: that of the problem first, then the other where it is defined.
-std::vector<bool> elements_of(const Problem& problem);
+/// That of the problem first, then others that its laws and events allow: of linear elements p1, nodal_pressure, and
+/// p2, or p2_pressure where Poisson's ratio is high.
+std::vector<std::string> elements_of(const Problem& problem);
 /// A unique name: that of the scene, and a hash of scene, mesh and initial positions.
 std::string key_of(const Problem& problem);
-/// Stable name of the mesh and element: "p1, 1600 tetrahedra".
+/// Stable name of the element and mesh: "p1, 1600 tetrahedra".
 std::string text_of(const Problem& problem);
 
 /// The scene solved by a method. Events keep their times, rounded to its ticks.

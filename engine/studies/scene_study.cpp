@@ -16,13 +16,13 @@ std::vector<std::string> laws_of(const WorldSetup& setup) {
   return laws;
 }
 
-std::vector<bool> elements_of(const Problem& problem, const SceneStudyOptions& options) {
-  return options.both_elements ? elements_of(problem) : std::vector<bool>{problem.nodal_pressure()};
+std::vector<std::string> elements_of(const Problem& problem, const SceneStudyOptions& options) {
+  return options.all_elements ? elements_of(problem) : std::vector{problem.element()};
 }
 
 int halvings_of(const Problem& problem, const SceneStudyOptions& options) {
   const int halvings = halvings_within(problem.setup.mesh.tets.size(), options.max_tets, finest);
-  return halvings == finest ? finest : 0;  // extrapolation needs three meshes
+  return halvings == finest && linear_base(problem) ? finest : 0;  // extrapolation needs three meshes
 }
 
 template <class Better, class Wanted>
@@ -35,9 +35,9 @@ std::optional<Candidate> best_of(const std::vector<Candidate>& candidates, const
 
 }  // namespace
 
-std::optional<double> SceneStudy::mesh_error(bool nodal_pressure) const {
+std::optional<double> SceneStudy::mesh_error(const std::string& element) const {
   if (!convergence.reference.failure.empty()) return std::nullopt;
-  const ConvergenceMesh* mesh = convergence.find(nodal_pressure, 0);
+  const ConvergenceMesh* mesh = convergence.find(element, 0);
   return mesh ? std::optional(mesh->error) : std::nullopt;
 }
 
@@ -45,7 +45,7 @@ std::vector<Candidate> SceneStudy::candidates() const {
   std::vector<Candidate> list;
   for (const TimeStudy& study : time)
     for (const Measured& measured : study.measured)
-      if (!measured.failed()) list.push_back({&study, &measured, mesh_error(study.nodal_pressure)});
+      if (!measured.failed()) list.push_back({&study, &measured, mesh_error(study.element)});
   return list;
 }
 
@@ -65,8 +65,8 @@ SceneStudy study_scene(const std::string& name, const Problem& problem, const Sc
   study.name = name;
   study.title = problem.scene.title.empty() ? name : problem.scene.title;
   study.laws = laws_of(problem.setup);
-  for (const bool nodal : elements_of(problem, options)) {
-    const Problem now = with_element(problem, nodal);
+  for (const std::string& element : elements_of(problem, options)) {
+    const Problem now = with_element(problem, element);
     study.time.push_back(study_time(key, now, set_times(problem.scene), options.sweep, context));
     const TimeStudy& time = study.time.back();
     if (!time.reference.failure.empty())
@@ -110,8 +110,7 @@ std::string length_text(double metres) {
 }
 
 std::string text_of(const Candidate& candidate) {
-  return fmt::format("{}, {}", candidate.study->nodal_pressure ? "nodal_pressure" : "p1",
-                     text_of(candidate.measured->method));
+  return fmt::format("{}, {}", candidate.study->element, text_of(candidate.measured->method));
 }
 
 std::string answer_within(const std::vector<Candidate>& candidates, double frame_seconds) {

@@ -31,12 +31,12 @@ struct SceneStudy {
   std::vector<std::string> notes;  ///< what could not be measured, and why
 
   std::vector<Candidate> candidates() const;  ///< all methods that did not fail
-  std::optional<double> mesh_error(bool nodal_pressure) const;
+  std::optional<double> mesh_error(const std::string& element) const;
 };
 
 struct SceneStudyOptions {
   Breadth sweep = Breadth::whole;
-  bool both_elements = true;      ///< time errors also of the kind of element that the scene does not use
+  bool all_elements = true;       ///< time errors also of the elements that the scene does not use
   std::size_t max_tets = 150000;  ///< of meshes for the mesh error; 0: not measured
 };
 

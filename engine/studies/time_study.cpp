@@ -124,7 +124,7 @@ TimeStudy study_time(const std::string& key, const Problem& problem, const std::
   study.problem = text_of(problem);
   study.nodes = problem.setup.mesh.nodes.size();
   study.tets = problem.setup.mesh.tets.size();
-  study.nodal_pressure = problem.nodal_pressure();
+  study.element = problem.element();
   const std::string place = fmt::format("{}|{}", key, study.problem);
   RunOptions options{times};
   options.make = context.make;

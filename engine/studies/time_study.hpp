@@ -23,7 +23,7 @@ struct Measured {
 struct TimeStudy {
   std::string problem;  ///< text_of(problem)
   std::size_t nodes = 0, tets = 0;
-  bool nodal_pressure = false;
+  std::string element;  ///< name
   Reference reference;  ///< without positions
   std::vector<Measured> measured;
 };

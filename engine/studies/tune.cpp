@@ -50,14 +50,16 @@ std::string mesh_text(const Scene& scene, std::size_t tets) {
 void add_mesh(Tuning& tuning, const Scene& scene, const Problem& first, const MeshConvergenceStudy& convergence,
               const std::vector<double>& times, const StudyContext& context) {
   const Problem other = problem_of(scene);
-  for (const bool nodal : elements_of(other)) {
-    const Problem now = with_element(other, nodal);
+  for (const std::string& element : elements_of(other)) {
+    const Problem now = with_element(other, element);
     TunedMesh mesh{mesh_text(scene, now.setup.mesh.tets.size()), now.scene,
                    study_time(key_of(other), now, times, Breadth::brief, context), std::nullopt};
     if (convergence.reference.failure.empty()) {
       const auto x = equilibrium_positions(key_of(other), now, context);
       if (!x.empty()) {
-        const auto there = sample_motion(now.setup.mesh, x, first.setup.mesh.nodes);
+        const bool quadratic = is_quadratic(element);  // by its nodes, between which it is almost linear
+        const TetMesh mesh_of_nodes = quadratic ? subdivided(now.setup.mesh, now.setup.midedges) : now.setup.mesh;
+        const auto there = sample_motion(mesh_of_nodes, x, first.setup.mesh.nodes);
         mesh.mesh_error =
             std::max(rms_distance(there, convergence.best, first.mass), convergence.reference.resolution());
       }
@@ -141,10 +143,11 @@ Tuning measure_for_tuning(const Scene& scene, bool quick,
   Tuning tuning;
   tuning.notes = own.notes;
   for (TimeStudy& study : own.time) {
-    Scene with = with_element(problem, study.nodal_pressure).scene;
-    tuning.meshes.push_back({"the scene's mesh", std::move(with), study, own.mesh_error(study.nodal_pressure)});
+    Scene with = with_element(problem, study.element).scene;
+    tuning.meshes.push_back({"the scene's mesh", std::move(with), study, own.mesh_error(study.element)});
   }
-  if (!quick) add_other_meshes(tuning, scene, problem, own.convergence, set_times(scene), context);
+  if (!quick)
+    add_other_meshes(tuning, scene, linear_base(problem).value_or(problem), own.convergence, set_times(scene), context);
   return tuning;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 // Finds the best method for a scene: the smallest error within a time, or the shortest time within an error. Measured
-// on the scene itself: every method on its mesh with both elements, and on a coarser and a finer mesh where the scene
+// on the scene itself: every method on its mesh with all elements, and on a coarser and a finer mesh where the scene
 // can be remeshed (boxes and surfaces whose selections are boxes and spheres).
 #include <studies/scene_study.hpp>
 

@@ -217,6 +217,7 @@ TEST_CASE("the report begins with its answers and holds every scene") {
   scene.laws = {"stvk"};
   TimeStudy& time = scene.time.emplace_back();
   time.problem = "p1, 5 tetrahedra";
+  time.element = "p1";
   Measured& good = time.measured.emplace_back();
   good.error = 3e-4;
   good.run.simulated = 1, good.run.seconds = 0.5;

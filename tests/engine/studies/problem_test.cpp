@@ -60,6 +60,52 @@ TEST_CASE("keys of problems differ with anything in their scene") {
   CHECK(key_of(finer(one)) != key_of(one));
 }
 
+TEST_CASE("other elements of a problem: quadratic ones of all edges, and back to their corners") {
+  Problem linear = block();
+  CHECK(elements_of(linear) == std::vector<std::string>{"p1"});  // it removes elements
+  linear.scene.events.clear();
+  CHECK(elements_of(linear) == std::vector<std::string>{"p1", "p2"});
+  linear.scene.solver.recovery = true;
+  const Problem quadratic = with_element(linear, "p2");
+  CHECK(quadratic.element() == "p2");
+  CHECK(quadratic.scene.solver.element() == "p2");
+  CHECK_FALSE(quadratic.scene.solver.recovery);
+  CHECK(quadratic.setup.midedges.size() == linear.setup.mesh.tets.size());
+  CHECK(quadratic.setup.mesh.nodes.size() == 12 + 31);  // corners and edges
+  CHECK(quadratic.setup.boundary[0].nodes.size() == 9);
+  CHECK(quadratic.setup.loads[0].nodes.size() == 9);
+  double mass = 0;
+  for (const double m : quadratic.mass) {
+    CHECK(m > 0);
+    mass += m;
+  }
+  CHECK(mass == doctest::Approx(1));
+  CHECK(text_of(quadratic) == "p2, 10 tetrahedra");
+  CHECK(elements_of(quadratic) == std::vector<std::string>{"p2"});
+  const auto base = linear_base(quadratic);
+  REQUIRE(base);
+  CHECK(base->element() == "p1");
+  CHECK(base->setup.mesh.nodes == linear.setup.mesh.nodes);
+  CHECK(base->setup.boundary[0].nodes == linear.setup.boundary[0].nodes);
+  CHECK(base->mass == linear.mass);
+  Problem shuffled = quadratic;  // a node of the mesh file in the middle of an edge, before a corner
+  std::swap(shuffled.setup.mesh.tets[0][0], shuffled.setup.midedges[0][0]);
+  CHECK_FALSE(linear_base(shuffled));
+}
+
+TEST_CASE("elements of a problem: mean dilatation where Poisson's ratio is high") {
+  Problem problem = block();
+  problem.scene.events.clear();
+  const auto with = [&](double bulk) {
+    problem.setup.materials[0].material = sample_material(*find_law("neo_hookean_iso"), {1e3, bulk});
+    return elements_of(problem);
+  };
+  CHECK(with(2e3) == std::vector<std::string>{"p1", "nodal_pressure", "p2"});
+  CHECK(with(1e5) == std::vector<std::string>{"p1", "nodal_pressure", "p2_pressure"});
+  problem.setup.self_contact.emplace();
+  CHECK(with(1e5) == std::vector<std::string>{"p1", "nodal_pressure"});
+}
+
 TEST_CASE("a linear motion is sampled exactly, at nodes, inside and outside") {
   const TetMesh mesh = make_box(Vec3(1, 1, 1), {3, 2, 2});
   Mat3 A;

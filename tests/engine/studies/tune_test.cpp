@@ -85,13 +85,13 @@ TEST_CASE("a tuned scene is a scene, solved as was measured, and the text says w
   })",
                                   "folder/scene.json");
   const Tuning tuning = measure_for_tuning(scene, false);
-  CHECK(tuning.meshes.size() == 6);  // coarser, own, finer × two elements
+  CHECK(tuning.meshes.size() == 9);  // coarser, own, finer × three elements
   for (const TuneGoal& goal : {TuneGoal{10.0, std::nullopt}, TuneGoal{std::nullopt, 1.0}}) {
     const auto best = best_for(goal, tuning);
     REQUIRE(best);
     const Scene tuned = parse_scene(scene_text(tuned_scene(tuning, *best)), "folder/tuned.json");
     CHECK(tuned.solver.integrator == best->measured->method.integrator);
-    CHECK(tuned.solver.nodal_pressure == best->study->nodal_pressure);
+    CHECK(tuned.solver.element() == best->study->element);
     CHECK(tuned.events.size() == 1);
     CHECK(load_setup(tuned).mesh.tets.size() == best->study->tets);
     CHECK_FALSE(tuning_text(goal, tuning, *best).empty());
