@@ -186,6 +186,9 @@ TEST_CASE("locking is warned of, with a remedy the law allows, and not where nod
   const std::string split = R"({"law": "neo_hookean_iso", "K1": 1e3, "kappa": 1e5})";
   CHECK(test::says(advice(split, "p1"), "nodal_pressure"));
   CHECK(advice(split, "nodal_pressure").empty());
+  CHECK(test::says(advice(split, "p2"), "p2_pressure"));
+  CHECK(advice(split, "p2_pressure").empty());
+  CHECK(advice(R"({"law": "neo_hookean", "young": 1e4, "poisson": 0.46})", "p2").empty());
 }
 
 TEST_CASE("a step that is too long, an implicit method without need and a slow explicit one are pointed out") {
