@@ -16,7 +16,7 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "libglfw3, libgl1, libgl1-mesa-dri")
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "The heml program, its scenes, meshes and materials.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libheml-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libeigen3-dev, libfmt-dev, nlohmann-json3-dev")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libeigen3-dev, libfmt-dev, nlohmann-json3-dev, zlib1g-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS heml)         # heml-mesher, for surfaces
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "The engine as static libraries, its headers and its CMake package.")
 include(CPack)

@@ -4,7 +4,7 @@
 
 build_packages=(
   cmake g++ ninja-build                              # tools
-  libeigen3-dev libfmt-dev nlohmann-json3-dev        # engine
+  libeigen3-dev libfmt-dev nlohmann-json3-dev zlib1g-dev  # engine
   libassimp-dev libtet1.5-dev                        # its helper for surfaces
   libcli11-dev libglfw3-dev libimgui-dev             # program
   libosmesa6-dev libpng-dev
