@@ -30,11 +30,13 @@ constexpr CommandDefinition definitions[] = {
     {"bench-test", "computes the curve of a material test, or fits parameters to a measured one", "",
      define_bench_test},
     {"mesh",
-     "fills a closed surface with tetrahedra, with a quality report; or converts or improves a tetrahedral mesh",
+     "fills a closed surface or a label map with tetrahedra, with a quality report; or improves a tetrahedral mesh",
      "Examples:\n"
      "  heml mesh liver.stl --scale 0.001 --out liver.msh\n"
      "  heml mesh liver.msh --out better.msh --improve                  # no angle below 10 degrees\n"
      "  heml mesh scan.vtu --out coarse.vtu --improve --tets 20000\n"
+     "  heml mesh labels.nii.gz --out organs.msh --labels 1,3            # one region a label\n"
+     "A label map (.nii .nii.gz .nrrd .nhdr .mha .mhd) comes to metres, right, anterior and superior.\n"
      "--improve keeps regions, fields and interfaces between regions, but not the order of nodes and elements.\n"
      "It prints tets, min_dihedral_deg, slivers (below 5 degrees), explicit_step_s (10 kPa, Poisson's ratio 0.45,\n"
      "1000 kg/m³) and surface_distance_m. Inverted elements are untangled or refused by number. Elements that the\n"
@@ -114,7 +116,8 @@ std::string program_footer() {
 }  // namespace
 
 const char* const scene_files =
-    "a scene file (.json), a recording (.jsonl), or a mesh or surface file (.msh .mesh .vtk .vtu .node .obj .stl .ply)";
+    "a scene file (.json), a recording (.jsonl), or a mesh, surface or label map (.msh .mesh .vtk .vtu .node .obj .stl .ply "
+    ".nii .nrrd .mha)";
 
 std::span<const CommandDefinition> command_definitions() { return definitions; }
 

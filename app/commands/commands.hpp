@@ -163,7 +163,8 @@ struct MeshArguments {
   std::optional<double> max_volume;  ///< m³
   double scale = 1;
   bool improve = false;
-  std::optional<int> tets;          ///< wanted number; none: what the shapes need
+  std::optional<int> tets;          ///< wanted number; none: what the shapes need, or label_map_tets
+  std::vector<int> labels;          ///< of a label map; empty: all
   double min_angle = 10;            ///< degrees
   std::optional<double> tolerance;  ///< m, of the surface; none: improve.hpp's
 };

@@ -53,7 +53,10 @@ Action define_bench_test(CLI::App& command) {
 
 Action define_mesh(CLI::App& command) {
   const auto given = std::make_shared<MeshArguments>();
-  command.add_option("SURFACE", given->surface, "closed surface (.obj .stl .ply ...) or tetrahedral mesh")->required();
+  command
+      .add_option("SURFACE", given->surface,
+                  "closed surface (.obj .stl .ply ...), label map (.nii .nrrd .mha ...) or tetrahedral mesh")
+      ->required();
   command.add_option("--out", given->out, ".msh, .mesh, .vtk, .vtu or .node")->required()->type_name("FILE");
   command.add_option("--scale", given->scale, "multiplies coordinates: 0.001 for a file in millimetres")
       ->capture_default_str()
@@ -70,14 +73,16 @@ Action define_mesh(CLI::App& command) {
   const auto improve =
       command.add_flag("--improve", given->improve,
                        "better shapes: moves, swaps, collapses and splits; prints JSON lines, before and after");
-  command.add_option("--tets", given->tets, "with --improve: coarsens or refines to about so many tetrahedra")
+  command
+      .add_option("--tets", given->tets,
+                  "with --improve: coarsens or refines to about so many tetrahedra; of a label map: 20000")
       ->check(whole_number_between(1, 10'000'000))
-      ->needs(improve)
       ->type_name("N");
-  command.add_option("--min-angle", given->min_angle, "with --improve: smallest dihedral angle wanted, degrees")
+  command
+      .add_option("--min-angle", given->min_angle,
+                  "with --improve or a label map: smallest dihedral angle wanted, degrees")
       ->capture_default_str()
       ->check(number_between(1, 30))
-      ->needs(improve)
       ->type_name("A");
   command
       .add_option("--tolerance", given->tolerance,
@@ -85,6 +90,7 @@ Action define_mesh(CLI::App& command) {
       ->check(positive_number())
       ->needs(improve)
       ->type_name("D");
+  command.add_option("--labels", given->labels, "of a label map: these alone, as 1,3")->delimiter(',')->type_name("L");
   return [given] { return mesh_surface(*given); };
 }
 

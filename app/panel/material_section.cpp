@@ -13,7 +13,9 @@ namespace {
 
 constexpr float tall_picture = 54;  // em: in images at least this high the curve starts open
 
-std::string name_of(const RegionMaterial& entry) {
+std::string name_of(const RegionMaterial& entry, const std::map<int, std::string>& names) {
+  if (const auto name = entry.region ? names.find(*entry.region) : names.end(); name != names.end())
+    return fmt::format("{} ({})", name->second, *entry.region);
   return entry.region ? fmt::format("Region {}", *entry.region) : std::string("Default");
 }
 
@@ -56,7 +58,7 @@ void MaterialSection::draw(Rows& rows, double stretched, PanelActions& out) {
 
 void MaterialSection::draw_region(Rows& rows) {
   std::vector<std::string> names;
-  for (const RegionMaterial& entry : materials_) names.push_back(name_of(entry));
+  for (const RegionMaterial& entry : materials_) names.push_back(name_of(entry, names_));
   if (rows.choice({"Region", "The region of the mesh to edit; Default: all regions without a material of their own."},
                   chosen_, names))
     problem_.clear();

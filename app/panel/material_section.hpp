@@ -4,6 +4,7 @@
 #include <app/panel/actions.hpp>
 #include <app/panel/material_curve.hpp>
 #include <app/panel/rows.hpp>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,9 @@ namespace heml::panel {
 
 class MaterialSection {
  public:
-  explicit MaterialSection(std::vector<RegionMaterial> materials) : materials_(std::move(materials)) {}
+  /// names: of regions, where there are any.
+  explicit MaterialSection(std::vector<RegionMaterial> materials, std::map<int, std::string> names = {})
+      : materials_(std::move(materials)), names_(std::move(names)) {}
 
   /// Adds one SetMaterial if the user changed the material and material_problem() has no objection. stretched: share of
   /// surface nodes stretched beyond the measured range of their tissue (stretch_monitor.hpp).
@@ -30,6 +33,7 @@ class MaterialSection {
   void draw_outcome(Rows& rows, const Material& material, double stretched);
 
   std::vector<RegionMaterial> materials_;
+  std::map<int, std::string> names_;  ///< by region
   MaterialCurve curve_;
   int chosen_ = 0;           ///< index into materials_
   int changes_ = 0;          ///< of materials_, counted

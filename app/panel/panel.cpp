@@ -9,6 +9,7 @@
 #include <app/panel/undo_section.hpp>
 #include <app/render/bounds.hpp>
 #include <cctype>
+#include <heml/scenario/label_names.hpp>
 
 namespace heml::panel {
 namespace {
@@ -35,7 +36,7 @@ Panel::Panel(const Scene& scene, const SurfaceMesh& surface_mesh)
     : title_(!scene.title.empty() ? scene.title : scene.name),
       description_(scene.description),
       tool_(static_cast<double>(render::bounding_sphere(surface_mesh.rest).radius), scene.gravity),
-      material_(scene.materials),
+      material_(scene.materials, region_names(scene)),
       stretch_monitor_(surface_mesh),
       surface_version_(surface_mesh.version),
       motion_(scene.gravity, scene.solver),

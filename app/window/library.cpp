@@ -31,6 +31,8 @@ const char* name_of(FileKind kind) {
       return "tetrahedra";
     case FileKind::surface:
       return "surface";
+    case FileKind::labels:
+      return "label map";
     case FileKind::other:
       break;
   }

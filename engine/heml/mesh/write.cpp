@@ -15,9 +15,20 @@ std::string encoded(const std::string& name) {
   return text;
 }
 
-MeshText gmsh(const TetMesh& mesh) {
+MeshText gmsh(const TetMesh& mesh, const std::map<int, std::string>& region_names) {
   MeshText out;
-  out.add("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{}\n", mesh.nodes.size());
+  out.add("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n");
+  if (!region_names.empty()) {
+    out.add("$PhysicalNames\n{}\n", region_names.size());
+    for (const auto& [region, name] : region_names) {
+      std::string plain = name;
+      for (char& c : plain)
+        if (c == '"' || static_cast<unsigned char>(c) < ' ') c = ' ';
+      out.add("3 {} \"{}\"\n", region, plain);
+    }
+    out.add("$EndPhysicalNames\n");
+  }
+  out.add("$Nodes\n{}\n", mesh.nodes.size());
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
     out.add("{} ", n + 1);
     out.add_point(mesh.nodes[n]);
@@ -114,10 +125,11 @@ MeshText tetgen_tets(const TetMesh& mesh) {
 
 }  // namespace
 
-void write_tet_mesh(const std::filesystem::path& path, const TetMesh& mesh) {
+void write_tet_mesh(const std::filesystem::path& path, const TetMesh& mesh,
+                    const std::map<int, std::string>& region_names) {
   const std::string ending = path.extension().string();
   if (ending == ".mesh" || ending == ".node") warn_of_fields(path, mesh);
-  if (ending == ".msh") return gmsh(mesh).save(path);
+  if (ending == ".msh") return gmsh(mesh, region_names).save(path);
   if (ending == ".mesh") return medit(mesh).save(path);
   if (ending == ".vtk") return vtk(mesh).save(path);
   if (ending == ".vtu") return write_vtu(path, mesh);

@@ -7,6 +7,7 @@
 #include <heml/base/log.hpp>
 #include <heml/base/warning_collector.hpp>
 #include <heml/mesh/from_surface.hpp>
+#include <heml/mesh/labels/label_map.hpp>
 #include <heml/mesh/quality.hpp>
 #include <heml/mesh/read.hpp>
 #include <heml/scenario/bare_mesh.hpp>
@@ -15,6 +16,7 @@
 #include <heml/scenario/placement.hpp>
 #include <heml/scenario/selection.hpp>
 #include <heml/scenario/suitable_method.hpp>
+#include <set>
 
 namespace heml {
 namespace {
@@ -22,6 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double wanted_tets = 1000;      // by volume, when filling a surface; its kept triangles may lead to more
+constexpr int label_tets = 10000;         // of a label map: in real time on one core
 constexpr double supported_share = 0.12;  // of the surface
 constexpr double max_stretch = 1.5;       // of a body under its own weight
 constexpr double tissue_poisson = 0.45, tissue_density = 1000;
@@ -38,6 +41,9 @@ double volume_of(const TriangleMesh& surface, const Vec3& inside) {
 void take_mesh(Scene& scene, const fs::path& path) {
   if (is_tet_mesh_file(path)) {
     scene.mesh.file = path;
+  } else if (is_label_map_file(path)) {
+    scene.mesh.labels = path;
+    scene.mesh.label_tets = label_tets;
   } else {
     scene.mesh.surface = path;
     TriangleMesh surface = read_surface(path);
@@ -58,6 +64,11 @@ void tell(Scene& scene, bool as_warning, const char* about, std::string text) {
 }
 
 void choose_unit(Scene& scene, double length) {
+  if (!scene.mesh.labels.empty()) {
+    scene.chosen->unit = "metres";
+    scene.chosen->length = length;
+    return tell(scene, false, "unit", fmt::format("{:.3g} m long by the scan's header", length));
+  }
   const LengthUnit unit = guess_unit(length);
   scene.mesh.scale = unit.scale;
   if (scene.mesh.max_volume) *scene.mesh.max_volume *= unit.scale * unit.scale * unit.scale;
@@ -75,6 +86,8 @@ void choose_unit(Scene& scene, double length) {
 }
 
 void choose_up(Scene& scene, const TetMesh& mesh) {
+  if (!scene.mesh.labels.empty())
+    return tell(scene, false, "up", "y points up, which is anterior: the patient lies on the back; x right, z superior");
   scene.chosen->up = guess_up(mesh, shape_of(mesh));
   if (scene.chosen->up == 'y') return tell(scene, false, "up", "y points up");
   scene.mesh.rotate_axis = Vec3(1, 0, 0);
@@ -130,6 +143,15 @@ TrialRun choose_tissue(Scene& scene, const TetMesh& mesh) {
   return run;
 }
 
+/// Each label of a scan gets a material of its own, to be changed by itself.
+void split_materials(Scene& scene, const TetMesh& mesh) {
+  const std::set<int> regions(mesh.regions.begin(), mesh.regions.end());
+  if (scene.mesh.labels.empty() || regions.size() < 2) return;
+  const Material tissue = scene.materials.front().material;
+  scene.materials.clear();
+  for (const int region : regions) scene.materials.push_back({region, tissue});
+}
+
 void choose_method(Scene& scene, const TetMesh& mesh, const ExplicitCost& cost) {
   const SuitableMethod method = suitable_method(mesh.tets.size(), cost);
   adopt(method, scene.solver);
@@ -173,6 +195,7 @@ Scene scene_around(const fs::path& path) {
   scene.solver.continuation = scene.solver.recovery = true;
   scene.solver.damping = mass_damping;
   const TrialRun run = choose_tissue(scene, mesh);
+  split_materials(scene, mesh);
   choose_method(scene, mesh, run.cost);
   return scene;
 }

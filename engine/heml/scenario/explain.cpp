@@ -22,6 +22,7 @@ auto timed(std::vector<StartupWork>& startup, std::string what, const Work& work
 
 const char* mesh_work(const MeshSpec& mesh) {
   if (!mesh.surface.empty()) return "surface read and filled with tetrahedra";
+  if (!mesh.labels.empty()) return "label map read and meshed";
   return mesh.box ? "mesh generated" : "mesh read";
 }
 

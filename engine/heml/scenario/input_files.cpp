@@ -25,7 +25,7 @@ bool is_frame(const std::string& name, std::string_view ending) {
 
 std::vector<fs::path> input_files(const Scene& scene) {
   std::vector<fs::path> files{scene.file};
-  for (const fs::path& file : {scene.mesh.file, scene.mesh.surface, scene.initial_positions}) {
+  for (const fs::path& file : {scene.mesh.file, scene.mesh.surface, scene.mesh.labels, scene.initial_positions}) {
     if (file.empty()) continue;
     files.push_back(file);
     files.push_back(fs::path(scene.file).parent_path() / file.filename());  // where find_file() looks next

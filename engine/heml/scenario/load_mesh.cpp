@@ -7,6 +7,7 @@
 #include <heml/base/log.hpp>
 #include <heml/mesh/from_surface.hpp>
 #include <heml/mesh/generate.hpp>
+#include <heml/mesh/labels/mesh_labels.hpp>
 #include <heml/mesh/quality.hpp>
 #include <heml/mesh/read.hpp>
 #include <heml/scenario/load_mesh.hpp>
@@ -62,6 +63,12 @@ void check_midedges(const TetMesh& mesh, const MidEdges& midedges) {
                      "mesh it finer there, or take \"element\": \"p1\", which leaves them out");
 }
 
+TetMesh meshed_labels(const Scene& scene) {
+  LabelMeshOptions options;
+  options.tets = scene.mesh.label_tets;
+  return mesh_labels(read_label_map(find_file(scene, "mesh.labels", scene.mesh.labels)), options).mesh;
+}
+
 }  // namespace
 
 fs::path asset_mesh_file(const std::string& name) { return assets_folder() / "meshes" / (name + ".mesh"); }
@@ -98,6 +105,7 @@ TetMesh read_mesh_source(const Scene& scene, MidEdges* midedges) {
   if (scene.mesh.source) return *scene.mesh.source;
   if (!scene.mesh.file.empty()) return read_tet_mesh(find_file(scene, "mesh.file", scene.mesh.file), midedges);
   if (!scene.mesh.surface.empty()) return filled_surface(scene);
+  if (!scene.mesh.labels.empty()) return meshed_labels(scene);
   if (scene.mesh.box) return make_box(scene.mesh.box->size, scene.mesh.box->cells, scene.mesh.box->origin);
   return asset_mesh(scene, midedges);
 }

@@ -69,14 +69,19 @@ std::string path_text(const std::filesystem::path& path, const std::filesystem::
 MeshSpec mesh_from(const JsonCursor& key, const std::filesystem::path& folder) {
   const ObjectReader object(key, keys_of("mesh"));
   MeshSpec mesh;
-  const std::string kind = key.only_one_of({"file", "surface", "box", "asset"});
+  const std::string kind = key.only_one_of({"file", "surface", "labels", "box", "asset"});
   if (kind == "file") mesh.file = path_from(key["file"], folder);
   if (kind == "surface") mesh.surface = path_from(key["surface"], folder);
+  if (kind == "labels") mesh.labels = path_from(key["labels"], folder);
   if (kind == "box") mesh.box = box_from(key["box"]);
   if (kind == "asset") mesh.asset = asset_from(key["asset"]);
   if (const auto tetgen = object.find("tetgen")) {
     if (kind != "surface") tetgen->fail("goes with a surface", "take it away, or give mesh.surface");
     read_tetgen(*tetgen, mesh);
+  }
+  if (const auto tets = object.find("tets")) {
+    if (kind != "labels") tets->fail("goes with a label map", "take it away, or give mesh.labels");
+    object.read("tets", mesh.label_tets);
   }
   object.read("scale", mesh.scale);
   if (const auto rotate = object.find("rotate"))
@@ -94,6 +99,9 @@ Json mesh_json(const MeshSpec& mesh, const std::filesystem::path& folder) {
     json["surface"] = path_text(mesh.surface, folder);
     json["tetgen"] = {{"radius_edge_ratio", mesh.radius_edge_ratio}};
     if (mesh.max_volume) json["tetgen"]["max_volume"] = *mesh.max_volume;
+  } else if (!mesh.labels.empty()) {
+    json["labels"] = path_text(mesh.labels, folder);
+    json["tets"] = mesh.label_tets;
   } else if (mesh.box) {
     json["box"] = {
         {"size", vector_json(mesh.box->size)}, {"cells", mesh.box->cells}, {"origin", vector_json(mesh.box->origin)}};

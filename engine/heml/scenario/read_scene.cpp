@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <heml/base/error.hpp>
 #include <heml/base/log.hpp>
+#include <heml/mesh/labels/label_map.hpp>
 #include <heml/mesh/read.hpp>
 #include <heml/scenario/energy_json.hpp>
 #include <heml/scenario/entries_json.hpp>
@@ -263,18 +264,19 @@ FileKind kind_of(const fs::path& path) {
   if (ending == ".json") return FileKind::scene;
   if (ending == ".jsonl") return FileKind::recording;
   if (is_tet_mesh_file(path)) return FileKind::tetrahedra;
+  if (is_label_map_file(path)) return FileKind::labels;
   const auto surface = std::find(std::begin(surface_endings), std::end(surface_endings), ending);
   return surface != std::end(surface_endings) ? FileKind::surface : FileKind::other;
 }
 
 Scene read_scene(const fs::path& path) {
   const FileKind kind = kind_of(path);
-  if (kind == FileKind::surface || kind == FileKind::tetrahedra) return scene_around(path);
+  if (kind == FileKind::surface || kind == FileKind::tetrahedra || kind == FileKind::labels) return scene_around(path);
   const std::string text = read_text_file(path);
   if (kind == FileKind::other && !looks_like_json(text))
     throw InputError(path.string(), "", "is not a kind of file this program opens",
-                     fmt::format("a scene (.json), a recording (.jsonl), tetrahedra (.msh .mesh .vtk .vtu .node .ele) "
-                                 "or a surface ({})",
+                     fmt::format("a scene (.json), a recording (.jsonl), tetrahedra (.msh .mesh .vtk .vtu .node .ele), "
+                                 "a label map (.nii .nii.gz .nrrd .nhdr .mha .mhd) or a surface ({})",
                                  fmt::join(surface_endings, " ")));
   return parse_scene(text, path);
 }

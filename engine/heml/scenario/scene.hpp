@@ -39,6 +39,8 @@ struct MeshSpec {
   };
   std::filesystem::path file;     ///< tetrahedral mesh, absolute or relative to the working directory
   std::filesystem::path surface;  ///< closed surface for TetGen
+  std::filesystem::path labels;   ///< label map of a scan
+  int label_tets = 20000;         ///< wanted of a label map, before `scale`
   double radius_edge_ratio = 1.4;
   std::optional<double> max_volume;  ///< m³, of one tetrahedron of the scaled body
   std::optional<Box> box;
