@@ -15,6 +15,7 @@ enum class Action {
   toggle_play,
   step,
   reset,
+  reset_all,
   fit,
   wireframe,
   show_tissue,
@@ -34,6 +35,7 @@ enum class Action {
   select_pin,
   select_probe,
   select_suture,
+  select_remover,
   toggle_table,
   undo,
   redo,
@@ -59,12 +61,15 @@ enum class Action {
 };
 
 /// What the left mouse button does to the body.
-enum class Tool { grasper, scalpel, pin, probe, suture };
+enum class Tool { grasper, scalpel, pin, probe, suture, remover };
+
+/// What the mouse is doing in the image while a button is down.
+enum class Interaction { none, grasping, cutting, probing, orbiting, panning };
 
 /// The selected tool and the settings of all tools.
 struct ToolSettings {
   Tool tool = Tool::grasper;
-  double radius = 0;                                    ///< m, of a grasp or a pin
+  double radius = 0;                                    ///< m, of a grasp, a pin or a removal
   double depth = 0;                                     ///< m, of the blade below the surface
   double probe_radius = 0, indentation = 0, shaft = 0;  ///< m, of the probe: tip, indentation, shaft length
   double friction = 0.3;                                ///< Coulomb coefficient of the probe and of tables
@@ -95,9 +100,11 @@ struct PanelActions {
   std::vector<Request> requests;
   std::optional<Field> show;                            ///< the field that frames carry from now on
   std::optional<std::filesystem::path> open;            ///< a file to open
+  std::optional<std::filesystem::path> open_folder;     ///< to show in the system's file manager
   std::optional<std::filesystem::path> list_folder;     ///< a folder to list; Request::list: the last one again
   std::optional<std::size_t> view, save_view;           ///< saved camera view to restore, to overwrite (index)
   std::optional<std::vector<std::string>> comparisons;  ///< the comparison runs from now on (variant.hpp)
+  std::optional<std::size_t> answer;                    ///< to the question of Panel::ask(): index of a button
   std::optional<long> seek_to;                          ///< a tick to show: past, or ahead in a recording
 };
 

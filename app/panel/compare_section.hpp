@@ -6,6 +6,9 @@
 
 namespace heml::panel {
 
+/// A variant as people read it: "ogden+tr_bdf2" is "Ogden, TR-BDF2".
+std::string variant_title(const std::string& variant);
+
 class CompareSection {
  public:
   void draw(Rows& rows, const Frame& frame, PanelActions& out);

@@ -2,6 +2,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <app/panel/compare_section.hpp>
 #include <app/panel/comparison_view.hpp>
 #include <app/panel/quantity.hpp>
 #include <app/panel/theme.hpp>
@@ -43,7 +44,7 @@ void ComparisonView::draw(const Frame& frame, CameraController& controller, cons
 void draw_variant_labels(const Frame& frame, CameraController& controller) {
   if (frame.comparisons.empty()) return;
   each_pane(frame, controller, [&](std::size_t pane, const Frame& body) {
-    draw_line(body.variant, controller.pane(), em(0.8f), colours::text);
+    draw_line(variant_title(body.variant), controller.pane(), em(0.8f), colours::text);
     const UseFont small(Font::small);
     if (pane > 0) draw_line(distance_text(body), controller.pane(), em(2.4f), colours::muted);
     ImDrawList& list = *ImGui::GetBackgroundDrawList();

@@ -2,8 +2,9 @@
 #include <app/panel/help.hpp>
 #include <app/panel/keys.hpp>
 #include <app/panel/theme.hpp>
-#include <span>
+#include <array>
 #include <utility>
+#include <vector>
 
 namespace heml::panel {
 namespace {
@@ -17,56 +18,81 @@ constexpr std::pair<const char*, const char*> mouse[] = {
     {"Drop a file", "open a scene, mesh or surface"},
 };
 
-/// A key or mouse button, and its meaning `gap` pixels from the group's left edge.
-void line(const char* left, const char* right, float gap) {
-  ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(colours::text), "%s", left);
-  ImGui::SameLine(gap);
-  ImGui::TextDisabled("%s", right);
-}
+/// A line of the page: a key or mouse button, and its meaning.
+struct Line {
+  const char *left, *right;
+};
 
-void heading(const char* text) {
-  ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(colours::accent), "%s", text);
-  ImGui::Dummy({0, em(0.1f)});
-}
+struct Group {
+  const char* title;
+  std::vector<Line> lines;
+  float left = 0, width = 0;  ///< pixels, of the left parts and of the whole
 
-void draw_mouse() {
-  heading("Mouse");
-  for (const auto& [left, right] : mouse) line(left, right, em(12));
-}
+  void measure() {
+    left = width = 0;
+    for (const Line& line : lines) left = std::max(left, ImGui::CalcTextSize(line.left).x + ImGui::GetFontSize());
+    for (const Line& line : lines) width = std::max(width, left + ImGui::CalcTextSize(line.right).x);
+  }
+  float height() const { return static_cast<float>(lines.size() + 2) * ImGui::GetTextLineHeightWithSpacing(); }
+  void draw() const {
+    ImGui::BeginGroup();
+    ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(colours::accent), "%s", title);
+    const float from = ImGui::GetCursorPosX();
+    for (const Line& line : lines) {
+      ImGui::TextUnformatted(line.left);
+      ImGui::SameLine(from + left);
+      ImGui::TextDisabled("%s", line.right);
+    }
+    ImGui::Dummy({0, em(0.4f)});
+    ImGui::EndGroup();
+  }
+};
 
-void draw_keys(std::span<const KeyBinding> bindings) {
-  heading("Keys");
-  for (const KeyBinding& binding : bindings)
-    if (binding.label[0]) line(binding.label, binding.meaning, em(7));
+/// Mouse; the first keys, which stand below it; the other keys.
+std::array<Group, 3> groups_of_page() {
+  std::array<Group, 3> groups{Group{"Mouse", {}}, Group{"Keys", {}}, Group{"Keys", {}}};
+  for (const auto& [left, right] : mouse) groups[0].lines.push_back({left, right});
+  for (const KeyBinding& binding : key_bindings())
+    if (binding.label[0]) groups[2].lines.push_back({binding.label, binding.meaning});
+  std::vector<Line>&first = groups[1].lines, &rest = groups[2].lines;
+  first.assign(rest.begin(), rest.begin() + std::ssize(rest) / 3);
+  rest.erase(rest.begin(), rest.begin() + std::ssize(first));
+  return groups;
 }
 
 }  // namespace
 
 bool draw_help(ImVec2 picture, Area& place) {
-  const bool two_columns = picture.x > em(52);
+  std::array<Group, 3> groups = groups_of_page();
+  const ImVec2 room(picture.x - em(2), picture.y - em(2)), pad = ImGui::GetStyle().WindowPadding;
+  const auto fits = [&] {
+    for (Group& group : groups) group.measure();
+    const float width = std::max(groups[0].width, groups[1].width) + em(2.5f) + groups[2].width;
+    return width + 2 * pad.x <= room.x &&
+           std::max(groups[0].height() + groups[1].height(), groups[2].height()) + 2 * pad.y <= room.y;
+  };
+  const bool large = fits();
+  ImGui::PushFont(font(large ? Font::text : Font::small));
+  const bool two_columns = large || fits();
   ImGui::SetNextWindowPos({picture.x / 2, picture.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
-  ImGui::SetNextWindowSizeConstraints({0, 0}, {picture.x - em(2), picture.y - em(2)});
+  ImGui::SetNextWindowSizeConstraints({0, 0}, room);
   ImGui::SetNextWindowFocus();
   ImGui::SetNextWindowBgAlpha(0.97f);
   bool open = true;
   ImGui::Begin("Mouse and keys", &open,
                ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
                    ImGuiWindowFlags_NoNav | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoTitleBar);
-  const std::span<const KeyBinding> keys = key_bindings();
-  const std::size_t keys_in_first_column = two_columns ? keys.size() / 3 : 0;
   ImGui::BeginGroup();
-  draw_mouse();
-  ImGui::Dummy({0, em(0.5f)});
-  if (two_columns) draw_keys(keys.first(keys_in_first_column));
+  groups[0].draw();
+  groups[1].draw();
   ImGui::EndGroup();
-  if (two_columns) ImGui::SameLine(0, em(3));
-  ImGui::BeginGroup();
-  draw_keys(keys.subspan(keys_in_first_column));
-  ImGui::EndGroup();
+  if (two_columns) ImGui::SameLine(0, em(2.5f));
+  groups[2].draw();
   const ImVec2 from = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
   place = {from, {from.x + size.x, from.y + size.y}};
   if (ImGui::IsMouseClicked(ImGuiMouseButton_Left) && !ImGui::IsWindowHovered()) open = false;
   ImGui::End();
+  ImGui::PopFont();
   return open;
 }
 

@@ -14,4 +14,17 @@ void draw_folder(ImDrawList& list, ImVec2 centre, float half, ImU32 colour);
 void draw_cross(ImDrawList& list, ImVec2 centre, float half, ImU32 colour);
 void draw_question(ImDrawList& list, ImVec2 centre, float half, ImU32 colour);
 
+// Tools, and what is done to the picture and the scene.
+void draw_forceps(ImDrawList& list, ImVec2 centre, float half, ImU32 colour);
+void draw_scalpel(ImDrawList& list, ImVec2 centre, float half, ImU32 colour);
+void draw_pin(ImDrawList& list, ImVec2 centre, float half, ImU32 colour);
+void draw_probe(ImDrawList& list, ImVec2 centre, float half, ImU32 colour);
+void draw_needle(ImDrawList& list, ImVec2 centre, float half, ImU32 colour);
+void draw_eraser(ImDrawList& list, ImVec2 centre, float half, ImU32 colour);
+void draw_table(ImDrawList& list, ImVec2 centre, float half, ImU32 colour);
+void draw_frame(ImDrawList& list, ImVec2 centre, float half, ImU32 colour);
+void draw_camera(ImDrawList& list, ImVec2 centre, float half, ImU32 colour);
+void draw_film(ImDrawList& list, ImVec2 centre, float half, ImU32 colour);
+void draw_tray(ImDrawList& list, ImVec2 centre, float half, ImU32 colour);
+
 }  // namespace heml::panel

@@ -33,7 +33,7 @@ float Interface::suitable_scale(render::Size size) {
 }
 
 void Interface::set_scale(float scale) {
-  if (scale == scale_) return;
+  if (scale == scale_ && !has_new_letters()) return;
   scale_ = scale;
   const ImTextureID texture = ImGui::GetIO().Fonts->TexID;
   apply_theme(scale);

@@ -13,7 +13,7 @@ class Interface {
   /// The scale for an image of a size: 1 from 1280×720 up, down to 0.72 for smaller ones.
   static float suitable_scale(render::Size size);
 
-  /// Rebuilds the fonts if the scale changes. Call between frames.
+  /// Rebuilds the fonts if the scale changes or texts need further letters. Call between frames.
   void set_scale(float scale);
 
   /// size: pixels. seconds: since the last frame.

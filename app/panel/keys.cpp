@@ -18,7 +18,8 @@ constexpr KeyBinding bindings[] = {
     {key_home, none, Action::seek_start, "Home, End", "show the start; back to live"},
     {key_end, none, Action::seek_live, "", ""},
     {'B', none, Action::resume, "B", "resume from the shown time"},
-    {'R', none, Action::reset, "R", "reset to the initial state"},
+    {'R', none, Action::reset, "R", "reset to the initial state; settings stay"},
+    {'R', Modifier::shift, Action::reset_all, "Shift+R", "reset the settings too"},
     {'F', none, Action::fit, "F", "fit the body into view"},
     {'1', none, Action::show_tissue, "1", "tissue"},
     {'2', none, Action::show_displacement, "2", "colours: displacement"},
@@ -48,6 +49,7 @@ constexpr KeyBinding bindings[] = {
     {'N', none, Action::select_pin, "N", "pin (on a pin: remove it)"},
     {'O', none, Action::select_probe, "O", "probe"},
     {'S', none, Action::select_suture, "S", "suture: click both ends"},
+    {'X', none, Action::select_remover, "X", "remover: click the tissue to remove"},
     {'T', none, Action::toggle_table, "T", "add or remove a table under the body"},
     {'Z', control, Action::undo, "Ctrl+Z", "undo the last action"},
     {'Z', control_shift, Action::redo, "Ctrl+Shift+Z", "redo; Ctrl+Y does too"},
@@ -63,11 +65,25 @@ std::optional<Action> action_of(int key, bool control, bool shift) {
     return std::any_of(std::begin(bindings), std::end(bindings),
                        [&](const KeyBinding& b) { return b.key == key && b.modifier == modifier; });
   };
-  const Modifier with_control = shift && is_bound(control_shift) ? control_shift : Modifier::control;
-  const Modifier held = control ? with_control : none;
+  const Modifier with_shift = control ? control_shift : Modifier::shift;
+  const Modifier held = shift && is_bound(with_shift) ? with_shift : control ? Modifier::control : none;
   for (const KeyBinding& binding : bindings)
     if (binding.key == key && binding.modifier == held) return binding.action;
   return std::nullopt;
+}
+
+std::string key_name(Action action) {
+  for (const KeyBinding& binding : bindings) {
+    if (binding.action != action) continue;
+    const bool is_letter = binding.key > ' ' && binding.key < key_escape;
+    if (!is_letter) return binding.label;
+    const char* modifier = binding.modifier == none              ? ""
+                           : binding.modifier == Modifier::shift ? "Shift+"
+                           : binding.modifier == control         ? "Ctrl+"
+                                                                 : "Ctrl+Shift+";
+    return modifier + std::string(1, static_cast<char>(binding.key));
+  }
+  return "";
 }
 
 }  // namespace heml::panel

@@ -2,6 +2,7 @@
 // Key bindings: one table for the window and the help page.
 #include <app/panel/actions.hpp>
 #include <span>
+#include <string>
 
 namespace heml::panel {
 
@@ -25,7 +26,7 @@ enum Key : int {
   key_enter
 };
 
-enum class Modifier { none, control, control_shift };
+enum class Modifier { none, shift, control, control_shift };
 
 struct KeyBinding {
   int key;
@@ -37,7 +38,10 @@ struct KeyBinding {
 
 std::span<const KeyBinding> key_bindings();
 
-/// The action bound to a key, if any. Shift alone changes none.
+/// The action bound to a key, if any. Shift counts where a binding has it.
 std::optional<Action> action_of(int key, bool control, bool shift = false);
+
+/// The key of an action as people read it: "G", "Ctrl+S", "Space".
+std::string key_name(Action action);
 
 }  // namespace heml::panel

@@ -33,6 +33,13 @@ void MaterialSection::sync(const SetMaterial& command) {
   ++changes_;
 }
 
+bool MaterialSection::shows(const Command& command) const {
+  const auto* set = std::get_if<SetMaterial>(&command);
+  return set && std::any_of(materials_.begin(), materials_.end(), [&](const RegionMaterial& entry) {
+           return entry.region == set->region && entry.material == set->material;
+         });
+}
+
 void MaterialSection::draw(Rows& rows, double stretched, PanelActions& out) {
   if (materials_.empty()) return;
   if (materials_.size() > 1) draw_region(rows);

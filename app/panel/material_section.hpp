@@ -22,6 +22,7 @@ class MaterialSection {
 
   /// Updates the shown material after a command from elsewhere (a script).
   void sync(const SetMaterial& command);
+  bool shows(const Command& command) const;  ///< whether it sets a material to what is shown
 
   const std::vector<RegionMaterial>& materials() const { return materials_; }
   int changes() const { return changes_; }  ///< of materials(), counted

@@ -60,6 +60,21 @@ void MotionSection::sync(const SetRate& command) {
   step_given_ = false;
 }
 
+void MotionSection::add_method(std::vector<Command>& commands) const {
+  commands.emplace_back(SetIntegrator{integrator_});
+  commands.emplace_back(SetRate{rate_});
+  if (budget_ > 0) commands.emplace_back(SetBudget{budget_});
+}
+
+bool MotionSection::shows(const Command& command) const {
+  if (const auto* gravity = std::get_if<SetGravity>(&command)) return gravity->gravity.isApprox(strength_ * direction_);
+  if (const auto* damping = std::get_if<SetDamping>(&command)) return damping->damping == damping_;
+  if (const auto* integrator = std::get_if<SetIntegrator>(&command)) return integrator->integrator == integrator_;
+  if (const auto* rate = std::get_if<SetRate>(&command)) return rate->rate == rate_;
+  const auto* budget = std::get_if<SetBudget>(&command);
+  return budget && budget->iterations == budget_;
+}
+
 void MotionSection::draw(Rows& rows, PanelActions& out) {
   draw_gravity(rows, out);
   if (rows.slider({"Damping", "Mass-proportional damping, 1/s. 0: none."}, damping_, {0, 20, "%.2f 1/s", false}))

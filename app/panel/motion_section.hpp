@@ -12,7 +12,9 @@ class MotionSection {
 
   void draw(Rows& rows, PanelActions& out);
 
-  void write_into(Scene& scene) const;  ///< the shown settings
+  void write_into(Scene& scene) const;                    ///< the shown settings
+  void add_method(std::vector<Command>& commands) const;  ///< that set the shown integrator, rate and budget
+  bool shows(const Command& command) const;               ///< whether it is a setting of motion that is shown
 
   // Update the shown settings after a command from elsewhere (a script).
   void sync(const SetGravity& command);

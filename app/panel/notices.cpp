@@ -3,18 +3,21 @@
 
 namespace heml::panel {
 namespace {
-constexpr float notice_time = 3.5f, fading = 0.5f;  // s
+constexpr float notice_time = 3.5f, notice_time_with_button = 10, fading = 0.5f;  // s
 constexpr ImGuiWindowFlags plain_window = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
                                           ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoFocusOnAppearing |
                                           ImGuiWindowFlags_NoNav;
 }  // namespace
 
-void Notices::notify(std::string text) {
+void Notices::notify(std::string text, std::filesystem::path folder) {
+  need_letters(text);
   notice_ = std::move(text);
+  folder_ = std::move(folder);
   notice_age_ = 0;
 }
 
 void Notices::show_error(std::string text) {
+  need_letters(text);
   failure_ = std::move(text);
   notice_.clear();
 }
@@ -31,10 +34,11 @@ bool Notices::covers(float x, float y) const {
 
 BannerPress Notices::draw(Rows& rows, const Area& free, const std::optional<Banner>& banner, float seconds) {
   rects_.clear();
+  height_beside_ = 0;
   const Banner failure{"Could not be opened", failure_, "Close", colours::danger};
   if (!failure_.empty() && draw_banner(rows, "failure", free, failure) == BannerPress::button) failure_.clear();
   const BannerPress pressed = banner ? draw_banner(rows, "banner", free, *banner) : BannerPress::none;
-  if (!notice_.empty()) draw_notice(free, seconds);
+  if (!notice_.empty()) draw_notice(rows, free, seconds);
   return pressed;
 }
 
@@ -57,26 +61,46 @@ BannerPress Notices::draw_banner(Rows& rows, const char* id, const Area& free, c
       ImGui::TextUnformatted(banner.text.c_str());
     }
     ImGui::PopTextWrapPos();
-    if (!banner.button.empty() && rows.button({banner.button, ""})) pressed = BannerPress::button;
+    const float room = width - 2 * ImGui::GetStyle().WindowPadding.x;
+    if (!banner.button.empty() && draw_wide_button(rows, banner.button, room)) pressed = BannerPress::button;
     if (!banner.close.empty() && rows.button({banner.close, ""})) pressed = BannerPress::close;
   }
   const ImVec2 from = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
   rects_.push_back({from, {from.x + size.x, from.y + size.y}});
+  if (banner.beside) height_beside_ = size.y;
   ImGui::End();
   ImGui::PopStyleColor();
   return pressed;
 }
 
-void Notices::draw_notice(const Area& free, float seconds) {
+/// A button whose label may need smaller letters.
+bool Notices::draw_wide_button(Rows& rows, const std::string& label, float room) {
+  const ImVec2 pad = ImGui::GetStyle().FramePadding;
+  if (ImGui::CalcTextSize(label.c_str()).x + 2 * pad.x <= room) return rows.button({label, ""});
+  const UseFont small(Font::small);
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {pad.x / 2, pad.y});
+  const bool pressed = rows.button({label, label}, room);
+  ImGui::PopStyleVar();
+  return pressed;
+}
+
+void Notices::draw_notice(Rows& rows, const Area& free, float seconds) {
   notice_age_ += seconds;
-  if (notice_age_ > notice_time) return notice_.clear();
-  const float opacity = std::clamp((notice_time - notice_age_) / fading, 0.0f, 1.0f);
-  ImGui::SetNextWindowPos({(free.from.x + free.to.x) / 2, free.to.y - em(4.2f)}, ImGuiCond_Always, {0.5f, 1});
+  const float time = folder_.empty() ? notice_time : notice_time_with_button;
+  if (notice_age_ > time) return notice_.clear();
+  const float opacity = std::clamp((time - notice_age_) / fading, 0.0f, 1.0f);
+  ImGui::SetNextWindowPos({(free.from.x + free.to.x) / 2, free.to.y - em(folder_.empty() ? 4.2f : 1)}, ImGuiCond_Always,
+                          {0.5f, 1});
   ImGui::PushStyleVar(ImGuiStyleVar_Alpha, opacity);
-  if (ImGui::Begin("notice", nullptr, plain_window | ImGuiWindowFlags_NoInputs)) {
+  if (ImGui::Begin("notice", nullptr, plain_window | (folder_.empty() ? ImGuiWindowFlags_NoInputs : 0))) {
     ImGui::PushTextWrapPos(free.width() * 0.8f);
     ImGui::TextUnformatted(notice_.c_str());
     ImGui::PopTextWrapPos();
+    if (!folder_.empty()) {
+      if (rows.button({"Open folder", folder_.string()})) opened_ = folder_;
+      const ImVec2 from = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+      rects_.push_back({from, {from.x + size.x, from.y + size.y}});
+    }
   }
   ImGui::End();
   ImGui::PopStyleVar();

@@ -25,6 +25,16 @@ void OpenDialog::open() {
   shown_.clear();
 }
 
+void OpenDialog::set_choices(OpenChoices choices) {
+  choices_ = std::move(choices);
+  need_letters(choices_.folder.string());
+  for (const auto* list : {&choices_.scenes, &choices_.extreme, &choices_.recent, &choices_.files})
+    for (const OpenChoice& choice : *list) {
+      need_letters(choice.title);
+      need_letters(choice.description);
+    }
+}
+
 bool OpenDialog::close() { return std::exchange(open_, false); }
 
 void OpenDialog::draw(Rows& rows, ImVec2 picture, PanelActions& out) {
@@ -66,7 +76,10 @@ void OpenDialog::draw_head(Rows& rows) {
   const float close_size = ImGui::GetFrameHeight();
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - close_size - em(0.7f));
   if (!ImGui::IsAnyItemActive()) ImGui::SetKeyboardFocusHere();  // typing filters at once
-  if (ImGui::InputTextWithHint("##search", "Search", search_, sizeof search_)) selected_ = search_[0] ? 0 : -1;
+  if (ImGui::InputTextWithHint("##search", "Search", search_, sizeof search_)) {
+    selected_ = search_[0] ? 0 : -1;
+    need_letters(search_);
+  }
   rows.explain(
       {"Search",
        "Shows entries with all these words in name, description or path. Up and Down select, Enter opens, Esc closes. "

@@ -24,7 +24,7 @@ class OpenDialog {
   void select(int direction);
   void open_selected(PanelActions& out);
 
-  void set_choices(OpenChoices choices) { choices_ = std::move(choices); }
+  void set_choices(OpenChoices choices);
 
   /// Draws over an image of a size (pixels) while open. A click sets out.open or out.list_folder.
   void draw(Rows& rows, ImVec2 picture, PanelActions& out);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <app/panel/help.hpp>
 #include <app/panel/icons.hpp>
+#include <app/panel/keys.hpp>
 #include <app/panel/legend.hpp>
 #include <app/panel/panel.hpp>
 #include <app/panel/readings.hpp>
@@ -16,8 +17,9 @@ namespace {
 
 constexpr float controls_width = 18.5f, readings_width = 16.0f, margin = 0.7f, two_columns_from = 66;  // em
 
-constexpr float late_delay = 1;            // s of being late before the banner
-constexpr float recovery_banner_time = 5;  // s that the banner stays after a recovery
+constexpr float variant_labels_height = 3.4f;  // em
+constexpr float late_delay = 1;                // s of being late before the banner
+constexpr float recovery_banner_time = 5;      // s that the banner stays after a recovery
 
 constexpr ImGuiWindowFlags column_flags =
     ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
@@ -26,6 +28,19 @@ constexpr ImGuiWindowFlags column_flags =
 std::string capitalised(std::string text) {
   if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
   return text;
+}
+
+/// "● Filming, 36 frames · V stops" in the upper right corner.
+void draw_film_sign(const Area& free, long frames) {
+  const std::string text = fmt::format("Filming, {} frames  ·  {} stops", frames, key_name(Action::record_video));
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+  const ImVec2 to(free.to.x - em(margin), em(margin) + size.y + em(0.7f));
+  const ImVec2 from(to.x - size.x - em(2.6f), em(margin));
+  ImDrawList& list = *ImGui::GetForegroundDrawList();
+  list.AddRectFilled(from, to, colours::background, em(0.5f));
+  list.AddRect(from, to, (colours::danger & 0x00ffffff) | 0x90000000, em(0.5f));
+  list.AddCircleFilled({from.x + em(0.95f), (from.y + to.y) / 2}, em(0.36f), colours::danger, 20);
+  list.AddText({from.x + em(1.7f), from.y + em(0.35f)}, colours::text, text.c_str());
 }
 
 bool two_columns(ImVec2 picture) { return picture.x >= em(two_columns_from); }
@@ -41,7 +56,28 @@ Panel::Panel(const Scene& scene, const SurfaceMesh& surface_mesh)
       surface_version_(surface_mesh.version),
       motion_(scene.gravity, scene.solver),
       view_(scene.view) {
+  for (const RegionMaterial& entry : scene.materials)
+    as_opened_.emplace_back(SetMaterial{entry.region, entry.material});
+  as_opened_.emplace_back(SetGravity{scene.gravity});
+  as_opened_.emplace_back(SetDamping{scene.solver.damping});
+  motion_.add_method(as_opened_);
+  need_letters(title_ + description_);
   update_stretch_limits();
+}
+
+void Panel::set_findings(std::vector<std::string> findings) {
+  findings_ = std::move(findings);
+  for (const std::string& text : findings_) need_letters(text);
+}
+
+void Panel::set_interaction(Interaction interaction, bool suture_begun) {
+  interaction_ = interaction;
+  suture_begun_ = suture_begun;
+}
+
+void Panel::set_preferences(const Preferences& preferences) {
+  view_.set_hints(preferences.hints);
+  rows_.set_sections(preferences.sections);
 }
 
 void Panel::update_stretch_limits() {
@@ -120,7 +156,7 @@ Insets Panel::insets(ImVec2 picture) const {
 
 bool Panel::covers(float x, float y) const {
   constexpr ImGuiPopupFlags any = ImGuiPopupFlags_AnyPopup;
-  return dialog_.is_open() || notices_.covers(x, y) || ImGui::IsPopupOpen("", any) ||
+  return is_modal() || notices_.covers(x, y) || ImGui::IsPopupOpen("", any) ||
          std::any_of(rects_.begin(), rects_.end(), [&](const Area& place) { return place.contains(x, y); });
 }
 
@@ -132,24 +168,47 @@ PanelActions Panel::draw(const Frame& frame) {
   const ImVec2 picture = ImGui::GetIO().DisplaySize;
   const Insets taken = insets(picture);
   Area free{{taken.left, 0}, {picture.x - taken.right, picture.y}};
-  if (timeline_ && !hidden_) {
-    draw_timeline(rows_, *timeline_, free, pressed_, out, rects_.emplace_back());
-    free.to.y -= timeline_height();
-  }
+  const float palette = hidden_ ? 0 : draw_edges(frame, free, out);
   draw_legend(frame.field, range_, free, !(frame.min_J > 0));
   if (!hidden_) {
     draw_controls(frame, !two_columns(picture), out);
     if (two_columns(picture)) draw_readings(frame);
   }
-  take_press(notices_.draw(rows_, free, banner_for(frame, free), ImGui::GetIO().DeltaTime), frame, out);
+  const float labels = frame.comparisons.empty() ? 0 : em(variant_labels_height);  // of comparison runs, at the top
+  const Area between{{free.from.x + palette, free.from.y + labels}, {free.to.x - palette, free.to.y}};
+  take_press(notices_.draw(rows_, between, banner_for(frame, free), ImGui::GetIO().DeltaTime), frame, out);
+  out.open_folder = notices_.take_folder();
   if (help_open_) {
     Area place;
     help_open_ = draw_help(picture, place);
     rects_.push_back(place);
   }
   dialog_.draw(rows_, picture, out);
+  out.answer = question_.draw(rows_, picture);
   for (const Action action : std::exchange(pressed_, {})) carry_out(action, frame, out);
   return out;
+}
+
+/// Draws what stands at the edges of the free area and takes its height off it. Returns the width of the palette.
+float Panel::draw_edges(const Frame& frame, Area& free, PanelActions& out) {
+  if (timeline_) {
+    draw_timeline(rows_, *timeline_, free, pressed_, out, rects_.emplace_back());
+    free.to.y -= timeline_height();
+  }
+  const bool has_table = find_tool<TableState>(frame.tools) != nullptr;
+  Area& palette = rects_.emplace_back();
+  draw_palette(rows_, {tool_.tool().tool, has_table, filmed_frames_}, free, pressed_, palette);
+  const float width = palette.to.x - free.from.x;
+  if (filmed_frames_) draw_film_sign(free, *filmed_frames_);
+  if (!view_.hints()) return width;
+  draw_hints(situation(frame), free);
+  free.to.y -= hint_height();
+  return width;
+}
+
+Situation Panel::situation(const Frame& frame) const {
+  return {tool_.tool().tool, interaction_,          suture_begun_,
+          frame.paused,      !frame.halted.empty(), timeline_ && timeline_->shown.has_value()};
 }
 
 void Panel::record_window_rect() {
@@ -264,7 +323,8 @@ void Panel::draw_header(const Frame& frame) {
   button("Step", "One tick of the engine, then pause (. key).", false, Action::step, draw_step);
   button("Undo", undo_hint(frame, -1).c_str(), false, Action::undo, draw_undo);
   button("Redo", undo_hint(frame, 1).c_str(), false, Action::redo, draw_redo);
-  button("Reset", "Back to the initial state at time 0; settings stay (R).", false, Action::reset, draw_reset);
+  button("Reset", "Back to the initial state at time 0; settings stay (R). Shift+R resets the settings too.", false,
+         Action::reset, draw_reset);
   button("Open", "Opens installed scenes, recent files, and files in folders (Ctrl+O).", false, Action::open,
          draw_folder);
   button("Help", "Mouse and keys (H).", false, Action::help, draw_question);
@@ -290,7 +350,9 @@ void Panel::draw_pace(const Frame& frame) {
 void Panel::draw_readings(const Frame& frame) {
   const ImVec2 picture = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({picture.x - em(margin), em(margin)}, ImGuiCond_Always, {1, 0});
-  ImGui::SetNextWindowSizeConstraints({em(readings_width), 0}, {em(readings_width), picture.y - em(2 * margin)});
+  const float banner = notices_.height_beside() > 0 ? notices_.height_beside() + em(margin) : 0;
+  ImGui::SetNextWindowSizeConstraints({em(readings_width), 0},
+                                      {em(readings_width), picture.y - em(2 * margin) - banner});
   if (ImGui::Begin("readings", nullptr, column_flags | ImGuiWindowFlags_AlwaysAutoResize)) {
     record_window_rect();
     if (rows_.section("Tool force")) draw_force(rows_, frame, history_);

@@ -2,23 +2,27 @@
 // The panel: shows the values of a Frame and returns what the user asked for. It depends on neither session nor window,
 // so that the window, headless capture and tests draw the same panel. Wide images have two columns, others one:
 //
-//    ┌──────────┐                       ┌──────────┐        ┌──────────┐
-//    │ title    │        banner         │ force    │        │ title    │   banner
-//    │ ▶ ▸| ↺   │                       │ energies │        │ ▶ ▸| ↺   │
-//    │ material │         body          │ volume   │        │ material │    body
-//    │ motion   │                       │ engine   │        │ ...      │
-//    │ tool …   │        legend         │          │        │ force …  │   legend
+//    ┌──────────┐┌─┐                    ┌──────────┐        ┌──────────┐┌─┐
+//    │ title    ││p│      banner        │ force    │        │ title    ││p│ banner
+//    │ ▶ ▸| ↺   ││a│                    │ energies │        │ ▶ ▸| ↺   ││a│
+//    │ material ││l│       body         │ volume   │        │ material ││l│  body
+//    │ motion   ││.│      legend        │ engine   │        │ ...      ││.│ legend
+//    │ tool …   │└─┘ hints, timeline    │          │        │ force …  │└─┘ hints, timeline
 //    └──────────┘                       └──────────┘        └──────────┘
 //
 // Per frame: update(frame), draw the body with drawing(), then draw(frame) between Interface::begin() and end().
 #include <app/panel/actions.hpp>
 #include <app/panel/area.hpp>
 #include <app/panel/compare_section.hpp>
+#include <app/panel/hints.hpp>
 #include <app/panel/history.hpp>
 #include <app/panel/material_section.hpp>
 #include <app/panel/motion_section.hpp>
 #include <app/panel/notices.hpp>
 #include <app/panel/open_dialog.hpp>
+#include <app/panel/palette.hpp>
+#include <app/panel/preferences.hpp>
+#include <app/panel/question.hpp>
 #include <app/panel/slow_body.hpp>
 #include <app/panel/stretch_monitor.hpp>
 #include <app/panel/timeline.hpp>
@@ -43,16 +47,29 @@ class Panel {
 
   void perform(Action action);        ///< queued for the next draw()
   void sync(const Command& command);  ///< updates the shown settings after a command from elsewhere
-  void notify(std::string text) { notices_.notify(std::move(text)); }  ///< for some seconds
+  /// For some seconds. folder: that a button offers to open; empty: none.
+  void notify(std::string text, std::filesystem::path folder = {}) {
+    notices_.notify(std::move(text), std::move(folder));
+  }
   /// Shown until closed: a file that could not be opened.
   void show_error(std::string text) { notices_.show_error(std::move(text)); }
 
   /// What was found and chosen when the scene was opened; a section shows it until it is dismissed.
-  void set_findings(std::vector<std::string> findings) { findings_ = std::move(findings); }
+  void set_findings(std::vector<std::string> findings);
   void set_choices(OpenChoices choices) { dialog_.set_choices(std::move(choices)); }  ///< entries of the open dialog
   void set_timeline(const Timeline& timeline) { timeline_ = timeline; }               ///< shows its bar from now on
   ViewSection& view() { return view_; }
-  bool is_modal() const { return dialog_.is_open(); }  ///< a dialog takes keys and mouse
+  /// What the mouse does, and whether the first end of a suture is set: for the hints.
+  void set_interaction(Interaction interaction, bool suture_begun);
+  void set_filmed_frames(std::optional<long> count) { filmed_frames_ = count; }  ///< none: no film is made
+  void set_preferences(const Preferences& preferences);
+  Preferences preferences() const { return {view_.hints(), rows_.sections()}; }
+  /// Asks in the middle of the image; PanelActions::answer has the answer. The last one is that of Esc.
+  void ask(std::string title, std::string text, std::vector<std::string> answers) {
+    question_.ask(std::move(title), std::move(text), std::move(answers));
+  }
+  bool asks() const { return question_.is_open(); }
+  bool is_modal() const { return dialog_.is_open() || question_.is_open(); }  ///< takes keys and mouse
 
   const render::DrawOptions& drawing() const { return view_.drawing(); }
   bool wants_stretches() const { return stretch_monitor_.active(); }  ///< whether frames should carry Frame::stretches
@@ -69,6 +86,9 @@ class Panel {
 
  private:
   void carry_out(Action action, const Frame& frame, PanelActions& out);
+  void reset_settings(PanelActions& out);
+  float draw_edges(const Frame& frame, Area& free, PanelActions& out);
+  Situation situation(const Frame& frame) const;
   void draw_controls(const Frame& frame, bool with_readings, PanelActions& out);
   void draw_header(const Frame& frame);
   void draw_pace(const Frame& frame);
@@ -85,7 +105,11 @@ class Panel {
   void record_window_rect();
 
   std::string title_, description_;  ///< of the scene
-  long undo_steps_ = 0;              ///< UndoList::steps whose settings are shown
+  std::vector<Command> as_opened_;   ///< the settings of the scene
+  Interaction interaction_ = Interaction::none;
+  bool suture_begun_ = false;
+  std::optional<long> filmed_frames_;
+  long undo_steps_ = 0;  ///< UndoList::steps whose settings are shown
   ToolSection tool_;
   long refusals_ = 0;  ///< Frame::refusals that were shown
   MaterialSection material_;
@@ -97,6 +121,7 @@ class Panel {
   CompareSection comparisons_;
   Notices notices_;
   OpenDialog dialog_;
+  Question question_;
   std::optional<Timeline> timeline_;
   Rows rows_;
   History history_;

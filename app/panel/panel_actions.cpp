@@ -12,6 +12,7 @@ bool needs_dialog(Action action) {
 
 void Panel::carry_out(Action action, const Frame& frame, PanelActions& out) {
   const auto ask = [&](Request request) { out.requests.push_back(request); };
+  if (question_.is_open()) return question_.press(action);
   if (dialog_.is_open() != needs_dialog(action) && action != Action::release && action != Action::quit) return;
   switch (action) {
     case Action::toggle_play:
@@ -21,6 +22,9 @@ void Panel::carry_out(Action action, const Frame& frame, PanelActions& out) {
     case Action::reset:
       out.commands.emplace_back(Reset{});
       return;
+    case Action::reset_all:
+      out.commands.emplace_back(Reset{});
+      return reset_settings(out);
     case Action::fit:
       return ask(Request::fit);
     case Action::wireframe:
@@ -57,7 +61,7 @@ void Panel::carry_out(Action action, const Frame& frame, PanelActions& out) {
     case Action::open_selected:
       return dialog_.open_selected(out);
     case Action::release:
-      if (dialog_.close()) return;
+      if (Rows::close_choices() || dialog_.close()) return;
       if (help_open_ || notices_.close()) help_open_ = false;
       return ask(timeline_ && (timeline_->shown || timeline_->resume_progress) ? Request::live : Request::release);
     case Action::seek_previous:
@@ -87,6 +91,9 @@ void Panel::carry_out(Action action, const Frame& frame, PanelActions& out) {
     case Action::select_suture:
       tool_.select(Tool::suture);
       return;
+    case Action::select_remover:
+      tool_.select(Tool::remover);
+      return;
     case Action::toggle_table:
       return tool_.toggle_table(frame, out);
     case Action::undo:
@@ -111,6 +118,15 @@ void Panel::carry_out(Action action, const Frame& frame, PanelActions& out) {
       return;
     case Action::quit:
       return ask(Request::quit);
+  }
+}
+
+/// Sets what differs from the scene as it was opened: each change is an action of the undo list.
+void Panel::reset_settings(PanelActions& out) {
+  for (const Command& command : as_opened_) {
+    if (material_.shows(command) || motion_.shows(command)) continue;
+    sync(command);
+    out.commands.push_back(command);
   }
 }
 

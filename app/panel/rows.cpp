@@ -1,5 +1,5 @@
 #include <fmt/format.h>
-#include <imgui_internal.h>  // TempInputIsActive
+#include <imgui_internal.h>  // TempInputIsActive, ClosePopupToLevel
 
 #include <algorithm>
 #include <app/panel/rows.hpp>
@@ -100,16 +100,17 @@ void Rows::begin(const Label& label) {
 
 bool Rows::section(const char* title, bool open_at_first) {
   ImGui::SetCursorPosY(ImGui::GetCursorPosY() + em(0.1f));
-  bool* open = ImGui::GetStateStorage()->GetBoolRef(ImGui::GetID(title), open_at_first);
+  const auto known = sections_.find(title);
+  bool open = known == sections_.end() ? open_at_first : known->second;
   const ImVec2 from = ImGui::GetCursorScreenPos(), size(ImGui::GetContentRegionAvail().x, em(1.45f));
-  if (ImGui::InvisibleButton(title, size)) *open = !*open;
+  if (ImGui::InvisibleButton(title, size)) sections_[title] = open = !open;
   const bool hovered = ImGui::IsItemHovered();
   if (hovered) hovered_ = title;
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddText({from.x, from.y + (size.y - ImGui::GetFontSize()) / 2}, hovered ? colours::text : colours::accent,
                title);
-  draw_chevron({from.x + size.x - em(0.8f), from.y + size.y / 2}, *open, hovered ? colours::text : colours::faint);
-  return *open;
+  draw_chevron({from.x + size.x - em(0.8f), from.y + size.y / 2}, open, hovered ? colours::text : colours::faint);
+  return open;
 }
 
 bool Rows::slider(const Label& label, double& value, const SliderRange& asked) {
@@ -179,6 +180,12 @@ bool Rows::choice(const Label& label, int& index, std::span<const std::string> n
   }
   ImGui::PopID();
   return changed;
+}
+
+bool Rows::close_choices() {
+  if (!ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup)) return false;
+  ImGui::ClosePopupToLevel(0, true);
+  return true;
 }
 
 bool Rows::check(const Label& label, bool& value) {

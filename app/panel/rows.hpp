@@ -2,6 +2,7 @@
 // The panel's rows: a label on the left, a control on the right, and a tooltip on both.
 #include <app/panel/theme.hpp>
 #include <functional>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -24,7 +25,7 @@ struct SliderRange {
 /// Draws rows and records which one is under the mouse.
 class Rows {
  public:
-  /// A foldable section; true while open.
+  /// A foldable section; true while open. open_at_first: where it was neither opened nor closed before.
   bool section(const char* title, bool open_at_first = true);
 
   /// True when the user changed the value.
@@ -32,6 +33,8 @@ class Rows {
   /// hints: a tooltip per name, or none. An index outside the names shows "–".
   bool choice(const Label& label, int& index, std::span<const std::string> names,
               std::span<const std::string> hints = {});
+  /// Closes what choice() has opened; true if anything was open.
+  static bool close_choices();
   bool check(const Label& label, bool& value);
 
   /// The label of a row whose controls follow.
@@ -48,6 +51,10 @@ class Rows {
   /// A square button with an icon: draw(list, centre, half size, colour).
   using Icon = std::function<void(ImDrawList&, ImVec2, float, ImU32)>;
   bool icon_button(const Label& label, float size, bool strong, const Icon& icon);
+
+  /// Sections that were opened or closed by hand, by title.
+  const std::map<std::string, bool>& sections() const { return sections_; }
+  void set_sections(std::map<std::string, bool> sections) { sections_ = std::move(sections); }
 
   void new_frame() { hovered_.clear(); }
   /// Shows the tooltip of the item just drawn when the mouse is on it.
@@ -67,6 +74,7 @@ class Rows {
     double value;
   };
   std::string hovered_;
+  std::map<std::string, bool> sections_;
   std::optional<Typed> typed_;  ///< the number that is being typed
 };
 

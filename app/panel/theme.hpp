@@ -2,6 +2,8 @@
 // The panel's theme: charcoal and muted teal, one typeface in four sizes, lengths in units of the text size.
 #include <imgui.h>
 
+#include <string_view>
+
 namespace heml::panel {
 
 namespace colours {
@@ -39,6 +41,11 @@ class UseFont {
   UseFont(const UseFont&) = delete;
   UseFont& operator=(const UseFont&) = delete;
 };
+
+/// Makes the fonts have the letters of a text (UTF-8), with fonts of the system where the panel's has none, from the
+/// next apply_theme() on. Texts of the program itself need no call.
+void need_letters(std::string_view text);
+bool has_new_letters();  ///< apply_theme() is to be called for them
 
 /// Loads the fonts of the current ImGui context for a scale (1: 15 pixels of text) and sets its style.
 void apply_theme(float scale);

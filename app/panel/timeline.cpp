@@ -8,7 +8,8 @@
 namespace heml::panel {
 namespace {
 
-constexpr float bar_height = 2.1f, margin = 0.7f, widest = 60, buttons_width = 9.5f, label_width = 4.6f;  // em
+constexpr float bar_height = 2.1f, timeline_margin = 0.7f, widest_timeline = 60, buttons_width = 9.5f,
+                time_width = 4.6f;  // em
 
 constexpr ImGuiWindowFlags bar_flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                                        ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoFocusOnAppearing;
@@ -60,7 +61,13 @@ void follow_mouse(Rows& rows, const Track& track, PanelActions& out) {
   const ImVec2 size(track.to.x - track.from.x, track.to.y - track.from.y);
   ImGui::InvisibleButton("track", size);
   const float x = ImGui::GetIO().MousePos.x;
-  const long tick = track.tick_at(x);
+  long tick = track.tick_at(x);
+  double seconds = seconds_at(time, tick);
+  if (time.moment_at && tick <= time.live) {  // what is told is what a click shows
+    const TimelineMoment moment = time.moment_at(tick);
+    tick = moment.tick;
+    seconds = moment.elapsed;
+  }
   if (ImGui::IsItemActive() && (ImGui::IsMouseClicked(0) || ImGui::GetIO().MouseDelta.x != 0)) {
     if (tick <= time.live) out.seek_to = tick;
   }
@@ -70,8 +77,7 @@ void follow_mouse(Rows& rows, const Track& track, PanelActions& out) {
   // The tooltip is above the bar, so that it does not cover the buttons.
   ImGui::SetNextWindowPos({x, track.from.y - em(0.8f)}, ImGuiCond_Always, {0.5f, 1});
   ImGui::BeginTooltip();
-  ImGui::Text("%s of %s", seconds_text(seconds_at(time, tick)).c_str(),
-              seconds_text(seconds_at(time, time.end)).c_str());
+  ImGui::Text("%s of %s", seconds_text(seconds).c_str(), seconds_text(seconds_at(time, time.end)).c_str());
   if (!ImGui::IsAnyMouseDown())
     ImGui::TextDisabled("%s", tick > time.live ? "release here to fast-forward to it" : "drag to show past frames");
   ImGui::EndTooltip();
@@ -84,11 +90,12 @@ double seconds_at(const Timeline& time, long tick) {
   return *time.elapsed + static_cast<double>(tick - time.shown.value_or(time.live)) / time.rate;
 }
 
-float timeline_height() { return em(bar_height + margin); }
+float timeline_height() { return em(bar_height + timeline_margin); }
 
 void draw_timeline(Rows& rows, const Timeline& time, const Area& free, std::vector<Action>& pressed, PanelActions& out,
                    Area& place) {
-  const float width = std::min(free.width() - em(2 * margin), em(widest)), middle = (free.from.x + free.to.x) / 2;
+  const float width = std::min(free.width() - em(2 * timeline_margin), em(widest_timeline)),
+              middle = (free.from.x + free.to.x) / 2;
   const float top = free.to.y - timeline_height();
   place = {{middle - width / 2, top}, {middle + width / 2, top + em(bar_height)}};
   ImGui::SetNextWindowPos(place.from);
@@ -104,8 +111,8 @@ void draw_timeline(Rows& rows, const Timeline& time, const Area& free, std::vect
     ImGui::TextUnformatted(seconds_text(seconds).c_str());
     ImGui::PopStyleColor();
     rows.explain({"Shown time", time_hint(time)});
-    const float end = place.to.x - em(0.9f) - (back || time.resume_progress ? em(buttons_width) : 0);
-    const Track track{{left + em(label_width), place.from.y + em(0.3f)}, {end, place.from.y + em(0.3f) + height}, time};
+    const float end = place.to.x - em(0.9f) - em(buttons_width);  // also without buttons: the track is not to move
+    const Track track{{left + em(time_width), place.from.y + em(0.3f)}, {end, place.from.y + em(0.3f) + height}, time};
     ImGui::SetCursorScreenPos(track.from);
     draw_track(track);
     follow_mouse(rows, track, out);

@@ -9,17 +9,26 @@
 #include <app/panel/area.hpp>
 #include <app/panel/rows.hpp>
 #include <cstddef>
+#include <functional>
 #include <optional>
 
 namespace heml::panel {
 
+/// A frame that can be shown.
+struct TimelineMoment {
+  long tick = 0;
+  double elapsed = 0;  ///< s, simulated, since the start
+};
+
 /// In ticks since the start; resets do not set them back.
 struct Timeline {
-  double rate = 1000;                  ///< ticks per simulated second, now
-  std::optional<double> elapsed;       ///< s, simulated, at the shown tick; none: by the rate
-  long first = 0, live = 0;            ///< first frame kept; the engine's tick
-  long end = 0;                        ///< of the recording, or the engine's tick if that is later
-  std::optional<long> shown;           ///< the past tick shown; none: live
+  double rate = 1000;             ///< ticks per simulated second, now
+  std::optional<double> elapsed;  ///< s, simulated, at the shown tick; none: by the rate
+  long first = 0, live = 0;       ///< first frame kept; the engine's tick
+  long end = 0;                   ///< of the recording, or the engine's tick if that is later
+  std::optional<long> shown;      ///< the past tick shown; none: live
+  /// The frame that is shown for a past tick; empty function: any tick has one.
+  std::function<TimelineMoment(long tick)> moment_at = {};
   std::size_t frames = 0;              ///< number of frames kept
   std::size_t bytes = 0, room = 0;     ///< memory of the frames kept; its limit
   long fast_forward_target = 0;        ///< a tick that the engine fast-forwards to; 0: none

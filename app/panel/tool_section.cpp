@@ -32,24 +32,8 @@ void ToolSection::sync(const SetGravity& command) {
 }
 
 void ToolSection::draw(Rows& rows, const Frame& frame, PanelActions& out) {
-  static const std::string names[] = {"Grasper", "Scalpel", "Pin", "Probe", "Suture"};
-  static const std::string hints[] = {
-      "The left button grasps the body and pulls (G).",
-      "The left button cuts along the mouse path (C). Ctrl+Z undoes a cut.",
-      "The left button pins the body; on a pin, removes it (N).",
-      "The left button pushes a rigid rod with a round tip into the body, along the line of sight (O). The wheel "
-      "pushes it deeper.",
-      "The left button sets one end of a thread, then the other; the thread draws them together (S)."};
-  int tool = static_cast<int>(tool_.tool);
-  if (rows.choice({"Tool", "What the left mouse button does to the body."}, tool, names, hints))
-    tool_.tool = static_cast<Tool>(tool);
   draw_settings(rows);
   draw_friction(rows, frame, out);
-  bool table = find_tool<TableState>(frame.tools) != nullptr;
-  if (rows.check(
-          {"Table", "A fixed plane under the body, perpendicular to gravity, at its lowest point when added (T)."},
-          table))
-    toggle_table(frame, out);
   const std::size_t pins = tools_of<PinState>(frame.tools).size(), sutures = tools_of<SutureState>(frame.tools).size();
   if (pins > 0 && rows.button({several(pins, "pin"), "Removes all pins."})) out.commands.emplace_back(Unpin{});
   if (sutures > 0 && rows.button({several(sutures, "suture"), "Cuts all threads."}))
@@ -76,12 +60,18 @@ void ToolSection::draw_settings(Rows& rows) {
              max_indentation);
       return;
     case Tool::suture:
+      rows.value({"Suture", "A thread has no settings: it draws its ends together within half a second."},
+                 "no settings");
       return;
-    default:
+    case Tool::grasper:
+    case Tool::pin:
+    case Tool::remover:
       length(rows,
-             {tool_.tool == Tool::pin ? "Pin radius" : "Grasp radius",
+             {tool_.tool == Tool::pin       ? "Pin radius"
+              : tool_.tool == Tool::remover ? "Remover radius"
+                                            : "Grasp radius",
               "Surface nodes within this distance of the click follow the tool, or are fixed by a pin; mm, on the rest "
-              "shape. 0: a single node. Del removes the tissue within it, one element deep."},
+              "shape. 0: a single node. The remover, and Del, remove the tissue within it, one element deep."},
              tool_.radius, max_grasp);
   }
 }

@@ -1,5 +1,5 @@
 #pragma once
-// The panel's section "Tool": the tool and its settings; pins, table and sutures.
+// The panel's section "Tool": settings of the selected tool (palette.hpp); pins and sutures.
 #include <app/panel/actions.hpp>
 #include <app/panel/rows.hpp>
 #include <heml/session/frame.hpp>

@@ -41,26 +41,7 @@ void ViewSection::draw(Rows& rows, std::vector<Action>& pressed, PanelActions& o
                  fine))
     drawing_.resolution = fine ? 1 : half_resolution;
   draw_views(rows, pressed);
-  const float room = ImGui::GetContentRegionAvail().x - 2 * ImGui::GetStyle().ItemSpacing.x;
-  if (rows.button({"Fit view", "Resets the camera to the scene's view (F)."}, 0.29f * room))
-    pressed.push_back(Action::fit);
-  ImGui::SameLine();
-  if (rows.button({"Save image", "Writes a PNG into the working folder (P)."}, 0.42f * room))
-    pressed.push_back(Action::screenshot);
-  ImGui::SameLine();
-  const std::string so_far = recorded_frames_ ? fmt::format("\n\n{} frames so far.", *recorded_frames_) : "";
-  if (rows.button({recorded_frames_ ? "Stop recording" : "Record video",
-                   "Writes 30 frames per simulated second into a folder of the working folder, and at the end a video "
-                   "next to it if ffmpeg is installed (V). Includes the panel unless hidden (Tab)." +
-                       so_far},
-                  0.29f * room))
-    pressed.push_back(Action::record_video);
-  if (rows.button({"Save scene",
-                   "Writes the opened scene with the current tissue, motion, tables and colours into the working "
-                   "folder (Ctrl+S). "
-                   "Tool actions are saved by recordings only."},
-                  ImGui::GetContentRegionAvail().x))
-    pressed.push_back(Action::save);
+  rows.check({"Hints", "The line below the body that says what mouse and keys do."}, hints_);
 }
 
 /// One button per view: restores it; saves the current view if none is saved, or with Ctrl.

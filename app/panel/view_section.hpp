@@ -1,5 +1,5 @@
 #pragma once
-// The panel's section "View": field, drawing options, saved views, images and video.
+// The panel's section "View": field, drawing options, saved views.
 #include <app/panel/actions.hpp>
 #include <app/panel/camera_controller.hpp>
 #include <app/panel/rows.hpp>
@@ -21,8 +21,8 @@ class ViewSection {
   void set_hatched(std::span<const float> excess) { drawing_.hatched = excess; }
 
   void set_saved(std::size_t view, bool saved) { saved_[view] = saved; }  ///< whether a view is saved
-  /// Number of frames recorded; none: no recording.
-  void set_recorded_frames(std::optional<long> count) { recorded_frames_ = count; }
+  void set_hints(bool shown) { hints_ = shown; }
+  bool hints() const { return hints_; }  ///< whether the hint line is shown
 
   Field field() const { return field_; }
   const render::DrawOptions& drawing() const { return drawing_; }
@@ -32,7 +32,7 @@ class ViewSection {
 
   Field field_;
   std::array<bool, CameraController::views> saved_{};
-  std::optional<long> recorded_frames_;
+  bool hints_ = true;
   render::DrawOptions drawing_;
 };
 

@@ -77,6 +77,7 @@ FORWARD(GLFWframebuffersizefun, glfwSetFramebufferSizeCallback, (GLFWwindow* win
         (window, callback))
 FORWARD(GLFWwindowrefreshfun, glfwSetWindowRefreshCallback, (GLFWwindow* window, GLFWwindowrefreshfun callback),
         (window, callback))
+FORWARD(void, glfwSetWindowShouldClose, (GLFWwindow* window, int value), (window, value))
 FORWARD(void, glfwSetWindowTitle, (GLFWwindow* window, const char* title), (window, title))
 FORWARD(void, glfwSetWindowUserPointer, (GLFWwindow* window, void* pointer), (window, pointer))
 FORWARD(void, glfwSwapBuffers, (GLFWwindow* window), (window))

@@ -127,6 +127,7 @@ void GlfwWindow::prepare_imgui() {
 
 void GlfwWindow::set_title(const std::string& title) { glfwSetWindowTitle(window_, title.c_str()); }
 bool GlfwWindow::closed() const { return glfwWindowShouldClose(window_); }
+void GlfwWindow::stay_open() { glfwSetWindowShouldClose(window_, GLFW_FALSE); }
 bool GlfwWindow::visible() const {
   return size().width > 0 && size().height > 0 && !glfwGetWindowAttrib(window_, GLFW_ICONIFIED);
 }

@@ -49,6 +49,7 @@ class GlfwWindow final : public render::GraphicsContext {
 
   void set_title(const std::string& title);
   bool closed() const;          ///< the user asked to close it
+  void stay_open();             ///< takes that request back
   bool visible() const;         ///< false while minimised
   float content_scale() const;  ///< of the screen, 1 to 4
   float pixel_ratio() const;    ///< pixels per unit of mouse coordinates

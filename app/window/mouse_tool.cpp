@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <app/window/elements_around.hpp>
 #include <app/window/mouse_tool.hpp>
 
 namespace heml::window {
@@ -23,6 +24,7 @@ bool MouseTool::press(MouseButton button, const render::Vec2f& at, bool shift, c
       if (tool.tool == panel::Tool::grasper) return !grasp(*hit, frame, surface_mesh, tool.radius, out);
       if (tool.tool == panel::Tool::pin) return !pin(*hit, frame, surface_mesh, tool.radius, out);
       if (tool.tool == panel::Tool::suture) return !suture(*hit, surface_mesh, out);
+      if (tool.tool == panel::Tool::remover) return !remove(*hit, surface_mesh, tool.radius, out);
       if (tool.tool == panel::Tool::probe) {
         begin_probing(*hit, tool, at, out);
         return false;
@@ -75,6 +77,15 @@ bool MouseTool::pin(const render::Hit& hit, const Frame& frame, const SurfaceMes
     out.emplace_back(Unpin{node});
   else
     out.emplace_back(PinTissue{node, radius});
+  return true;
+}
+
+/// Removes the elements round the hit.
+bool MouseTool::remove(const render::Hit& hit, const SurfaceMesh& surface_mesh, double radius,
+                       std::vector<Command>& out) {
+  RemoveElements which;
+  which.which.tets = elements_around(surface_mesh.nodes[static_cast<std::size_t>(hit.node)], surface_mesh, radius);
+  if (!which.which.tets.empty()) out.emplace_back(std::move(which));
   return true;
 }
 

@@ -16,7 +16,7 @@ enum class MouseButton { left, right, middle };
 
 class MouseTool {
  public:
-  enum class Interaction { none, grasping, cutting, probing, orbiting, panning };
+  using Interaction = panel::Interaction;
 
   explicit MouseTool(panel::CameraController& controller) : controller_(controller) {}
 
@@ -51,6 +51,7 @@ class MouseTool {
   bool suture(const render::Hit& hit, const SurfaceMesh& surface_mesh, std::vector<Command>& out);
   bool pin(const render::Hit& hit, const Frame& frame, const SurfaceMesh& surface_mesh, double radius,
            std::vector<Command>& out);
+  static bool remove(const render::Hit& hit, const SurfaceMesh& surface_mesh, double radius, std::vector<Command>& out);
   bool grasp(const render::Hit& hit, const Frame& frame, const SurfaceMesh& surface_mesh, double radius,
              std::vector<Command>& out);
   void cut(const render::Vec2f& at, const Frame& frame, const SurfaceMesh& surface_mesh, std::vector<Command>& out);

@@ -46,6 +46,14 @@ std::optional<int> run_program(std::vector<std::string> words, const std::atomic
   }
 }
 
+void start_program(std::vector<std::string> words) {
+  std::thread([words = std::move(words)] {  // waits for it, so that no zombie stays
+    const std::atomic<bool> never{false};
+    run_program(words, never);
+  })
+      .detach();
+}
+
 void lower_priority() { setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), 5); }
 
 }  // namespace heml::window

@@ -13,8 +13,9 @@ std::filesystem::path unused_path(const std::string& name, const std::string& en
   for (char& c : plain)
     if (!std::isalnum(static_cast<unsigned char>(c)) && c != '_' && c != '-') c = '-';
   const std::string stem = fmt::format("heml-{}-{:%Y%m%d-%H%M%S}", plain, fmt::localtime(std::time(nullptr)));
-  std::filesystem::path path = stem + ending;
-  for (int k = 2; std::filesystem::exists(path); ++k) path = fmt::format("{}-{}{}", stem, k, ending);
+  const std::filesystem::path folder = std::filesystem::current_path();
+  std::filesystem::path path = folder / (stem + ending);
+  for (int k = 2; std::filesystem::exists(path); ++k) path = folder / fmt::format("{}-{}{}", stem, k, ending);
   return path;
 }
 

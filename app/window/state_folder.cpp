@@ -4,6 +4,7 @@
 #include <fstream>
 #include <heml/base/error.hpp>
 #include <heml/base/write_file.hpp>
+#include <iterator>
 #include <string>
 
 namespace heml::window {
@@ -12,10 +13,25 @@ namespace {
 namespace fs = std::filesystem;
 constexpr std::size_t max_recent_files = 20;
 
-/// The list of recent files, one path per line.
-fs::path list_file() {
+/// A file of the state folder; empty: there is none.
+fs::path state_file(const char* name) {
   const fs::path folder = state_folder();
-  return folder.empty() ? fs::path() : folder / "recent";
+  return folder.empty() ? fs::path() : folder / name;
+}
+
+/// The list of recent files, one path per line.
+fs::path list_file() { return state_file("recent"); }
+fs::path preferences_file() { return state_file("panel"); }
+
+/// Writes a file that the program can do without.
+void write_optional(const fs::path& file, const std::string& text) {
+  std::error_code failed;
+  if (file.empty()) return;
+  fs::create_directories(file.parent_path(), failed);
+  try {
+    write_file(file, text);
+  } catch (const InputError&) {
+  }
 }
 
 }  // namespace
@@ -42,13 +58,18 @@ void remember_file(const fs::path& path) {
   std::erase(files, whole);
   files.insert(files.begin(), whole);
   files.resize(std::min(files.size(), max_recent_files));
-  fs::create_directories(list.parent_path(), failed);
   std::string text;
   for (const fs::path& file : files) text += file.string() + '\n';
-  try {
-    write_file(list, text);
-  } catch (const InputError&) {  // the list is optional
-  }
+  write_optional(list, text);
+}
+
+panel::Preferences read_preferences() {
+  std::ifstream file(preferences_file());
+  return panel::preferences_from(std::string(std::istreambuf_iterator<char>(file), {}));
+}
+
+void write_preferences(const panel::Preferences& preferences) {
+  write_optional(preferences_file(), to_text(preferences));
 }
 
 }  // namespace heml::window

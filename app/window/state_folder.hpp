@@ -1,5 +1,6 @@
 #pragma once
 // Files kept between runs of the program.
+#include <app/panel/preferences.hpp>
 #include <filesystem>
 #include <vector>
 
@@ -14,5 +15,10 @@ std::vector<std::filesystem::path> recent_files();
 
 /// Puts a file first in that list. Does nothing if the list cannot be written.
 void remember_file(const std::filesystem::path& path);
+
+/// What the panel remembers; as at first where nothing was written or can be read.
+panel::Preferences read_preferences();
+/// Does nothing if it cannot be written.
+void write_preferences(const panel::Preferences& preferences);
 
 }  // namespace heml::window

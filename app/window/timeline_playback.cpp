@@ -63,6 +63,11 @@ panel::Timeline TimelinePlayback::timeline(const Scene& scene, const Frame& live
   timeline.end = std::max({live.tick, live.fast_forward_target, scene.recorded_ticks.value_or(0)});
   if (shown_tick_) timeline.shown = shown_.tick;
   timeline.elapsed = shown_tick_ ? shown_.elapsed : live.elapsed;
+  timeline.moment_at = [this](long tick) -> panel::TimelineMoment {
+    if (history_.frames().empty()) return {};
+    const Frame& frame = history_.frames()[history_.index_at(tick)];
+    return {frame.tick, frame.elapsed};
+  };
   timeline.frames = history_.frames().size();
   timeline.bytes = history_.bytes();
   timeline.room = history_.room();

@@ -24,6 +24,7 @@ Viewer::Viewer(GlfwWindow& window, const Scene& scene, const WindowOptions& opti
       interface_(panel::Interface::suitable_scale(window.size()) * window.content_scale()) {
   adopt(start(scene, options.record, options.comparisons));
   window_.send_events_to(this);
+  offer_left_work();
 }
 
 Viewer::~Viewer() { window_.send_events_to(nullptr); }
@@ -39,12 +40,19 @@ void Viewer::adopt(OpenScene opened) {
   if (!open_.resumed) as_opened_ = open_.scene;
   frame_ = &open_.session->latest();
   panel_.emplace(open_.scene, *frame_->surface_mesh);
+  panel_->set_preferences(preferences_);
   panel_->set_findings(open_.findings);
   next_event_ = 0;
-  window_.set_title(window_title(open_.scene));
+  update_title();
   if (open_.resumed) return;
   controller_.clear_views();
   fit();
+}
+
+/// A film has a sign here too, since the panel may be hidden.
+void Viewer::update_title() {
+  const bool films = video_recorder_ && !video_recorder_->is_finishing();
+  window_.set_title((films ? "● filming – " : "") + window_title(open_.scene));
 }
 
 void Viewer::fit() {
@@ -58,7 +66,7 @@ bool Viewer::wants_drawing() const {
   return window_.visible() &&
          (frames_wanted_ > 0 || open_.session->frame_waiting() || panel_->animating() || playback_.playing() ||
           session_loader_.is_ready() || session_loader_.progress() != shown_progress_ || library_.is_ready() ||
-          (video_recorder_ && video_recorder_->is_done()));
+          unsaved_.is_due() || (video_recorder_ && video_recorder_->is_done()));
 }
 
 bool Viewer::is_busy() const {
@@ -83,6 +91,7 @@ void Viewer::draw() {
   take_opened();
   if (auto choices = library_.take()) panel_->set_choices(std::move(*choices));
   const Frame& live = open_.session->latest();
+  if (unsaved_.is_due()) unsaved_.save(open_.session->until(live));
   frame_ = &playback_.select_frame(live, seconds, *open_.session);
   follow_script();
   panel::Timeline timeline = playback_.timeline(open_.scene, live);
@@ -90,6 +99,7 @@ void Viewer::draw() {
   panel_->set_timeline(timeline);
   for (std::size_t view = 0; view < panel::CameraController::views; ++view)
     panel_->view().set_saved(view, controller_.has_view(view));
+  panel_->set_interaction(mouse_tool_.interaction(), mouse_tool_.first_end().has_value());
   panel_->update(*frame_, seconds);
   open_.session->enable_stretches(panel_->wants_stretches());
   open_.session->enable_errors(panel_->wants_errors());
@@ -115,7 +125,15 @@ void Viewer::draw_interface(float seconds) {
   draw_marks();
   const panel::PanelActions actions = panel_->draw(*frame_);
   interface_.end();
+  remember_preferences();
   carry_out(actions);
+}
+
+void Viewer::remember_preferences() {
+  panel::Preferences now = panel_->preferences();
+  if (now == preferences_) return;
+  preferences_ = std::move(now);
+  write_preferences(preferences_);
 }
 
 void Viewer::draw_marks() {
@@ -135,7 +153,8 @@ void Viewer::draw_marks() {
       draw_reading(*hit, seen(), *seen().surface_mesh, controller_, *range);
     if (playback_.active()) return;
     const panel::ToolSettings& tool = panel_->tool();
-    const bool takes_patch = tool.tool == panel::Tool::grasper || tool.tool == panel::Tool::pin;
+    const bool takes_patch =
+        tool.tool == panel::Tool::grasper || tool.tool == panel::Tool::pin || tool.tool == panel::Tool::remover;
     draw_ring(*hit, seen(), *seen().surface_mesh, controller_,
               takes_patch                       ? tool.radius
               : tool.tool == panel::Tool::probe ? tool.probe_radius
@@ -153,10 +172,20 @@ void Viewer::follow_script() {
 void Viewer::take_opened() {
   auto result = session_loader_.take();
   if (!result) return;
-  if (auto* problem = std::get_if<std::string>(&*result)) return panel_->show_error(*problem);
+  if (auto* problem = std::get_if<std::string>(&*result)) {
+    restores_ = false;
+    return panel_->show_error(*problem);
+  }
   OpenScene& opened = std::get<OpenScene>(*result);
   const bool runs = opened.resumed && run_after_resume_;
+  const bool restored = std::exchange(restores_, false);
+  if (restored) opened.resumed.reset();  // a scene as any other from here on
+  if (!opened.resumed || opened.recording) unsaved_.saved();
   adopt(std::move(opened));
+  if (restored) {
+    unsaved_.adopt(*left_work_);
+    panel_->notify("Restored as it was left; Space runs.");
+  }
   if (!open_.resumed) return;
   if (open_.recording)
     panel_->notify("Resumed, recorded in " + open_.recording->string());
@@ -166,7 +195,10 @@ void Viewer::take_opened() {
 }
 
 void Viewer::post(std::vector<Command>& commands) {
-  for (Command& command : commands) open_.session->post(std::move(command));
+  for (Command& command : commands) {
+    if (!open_.recording) unsaved_.done(command);
+    open_.session->post(std::move(command));
+  }
   commands.clear();
 }
 
@@ -177,12 +209,13 @@ void Viewer::key(int key, bool control, bool shift, bool repeated) {
   if (!action) return;
   using enum panel::Action;
   const bool chooses = *action == select_previous || *action == select_next;
-  const bool is_asked = panel_->is_modal() && (chooses || *action == open_selected || *action == release);
+  const bool is_asked =
+      panel_->asks() || (panel_->is_modal() && (chooses || *action == open_selected || *action == release));
   const bool may_repeat = chooses || *action == step || *action == seek_previous || *action == seek_next;
   const bool is_text = ImGui::GetIO().WantTextInput && !is_asked && *action != quit;
   if (is_text || (repeated && !may_repeat)) return;
   if (*action == quit) {  // not queued in the panel, which an opened scene may replace
-    quits_ = true;
+    ask_to_quit();
     return;
   }
   panel_->perform(*action);

@@ -10,10 +10,13 @@
 #include <app/window/library.hpp>
 #include <app/window/mouse_tool.hpp>
 #include <app/window/session_loader.hpp>
+#include <app/window/state_folder.hpp>
 #include <app/window/timeline_playback.hpp>
+#include <app/window/unsaved_work.hpp>
 #include <app/window/video_recorder.hpp>
 #include <app/window/window.hpp>
 #include <chrono>
+#include <functional>
 
 namespace heml::window {
 
@@ -33,6 +36,7 @@ class Viewer final : public WindowEvents {
   std::string status() const;
 
   bool quits() const { return quits_; }
+  void ask_to_quit();                             ///< quits, or asks first what is to become of unsaved work
   long drawn() const { return drawn_; }           ///< images so far
   const Frame& frame() const { return *frame_; }  ///< the one drawn last
 
@@ -56,17 +60,26 @@ class Viewer final : public WindowEvents {
   void seek(panel::Request where);
   void go_live();
   void follow_script();
+  void update_title();
   void fit();
   void compare(const std::vector<std::string>& variants);
   void resume_with(const std::vector<std::string>& comparisons);
   const Frame& seen() const { return panel::frame_in_pane(*frame_, controller_.current()); }  ///< in the current pane
   void draw_interface(float seconds);
+  void remember_preferences();
   void draw_marks();
   void carry_out(const panel::PanelActions& actions);
   void carry_out(panel::Request request);
   void post(std::vector<Command>& commands);
+  void ask_about_work(const std::string& title, std::function<void()> then);
+  void offer_left_work();
+  void answer(std::size_t which);
+  bool save_work();
+  void restore_work(const std::filesystem::path& file);
+  void open_now(const std::filesystem::path& path);
   void release_tool();
   void remove_tissue();
+  void notify_saved(const std::string& text, const std::filesystem::path& folder);
   void save_screenshot();
   void save_scene();
   void toggle_recording();
@@ -86,6 +99,7 @@ class Viewer final : public WindowEvents {
   TimelinePlayback playback_;
   std::optional<int> shown_progress_;              ///< of session_loader_, %
   std::unique_ptr<VideoRecorder> video_recorder_;  ///< while recording and encoding
+  panel::Preferences preferences_ = read_preferences();
   std::optional<panel::Panel> panel_;
   const Frame* frame_ = nullptr;
 
@@ -98,6 +112,10 @@ class Viewer final : public WindowEvents {
   int last_key_ = 0;
   bool listed_ = false;            ///< a folder, before
   bool run_after_resume_ = false;  ///< the resumed session is to run
+  UnsavedWork unsaved_;
+  std::optional<std::filesystem::path> left_work_;  ///< of another run of the program: it is asked about, or restored
+  bool restores_ = false;                           ///< the session being prepared is that of left_work_
+  std::function<void()> after_question_;            ///< unless it is cancelled
   bool quits_ = false;
 };
 

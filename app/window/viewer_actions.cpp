@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <app/window/elements_around.hpp>
+#include <app/window/run_program.hpp>
 #include <app/window/screenshot.hpp>
 #include <app/window/viewer.hpp>
 #include <heml/base/error.hpp>
@@ -40,8 +41,10 @@ void Viewer::carry_out(const panel::PanelActions& actions) {
   use_view(actions);
   if (actions.list_folder) list(*actions.list_folder);
   if (actions.open) open(*actions.open);
+  if (actions.answer) answer(*actions.answer);
+  if (actions.open_folder) start_program({find_program("xdg-open").string(), actions.open_folder->string()});
   if (actions.comparisons) compare(*actions.comparisons);
-  if (!actions.commands.empty() || !actions.requests.empty() || actions.show || actions.seek_to ||
+  if (!actions.commands.empty() || !actions.requests.empty() || actions.answer || actions.show || actions.seek_to ||
       actions.list_folder || actions.open || actions.comparisons || actions.view || actions.save_view)
     changed();
 }
@@ -63,7 +66,8 @@ void Viewer::carry_out(panel::Request request) {
     case panel::Request::resume:
       return resume();
     case panel::Request::record_video:
-      return toggle_recording();
+      toggle_recording();
+      return update_title();
     case panel::Request::list:
       return list({});
     case panel::Request::fit:
@@ -77,12 +81,15 @@ void Viewer::carry_out(panel::Request request) {
     case panel::Request::remove:
       return remove_tissue();
     case panel::Request::quit:
-      quits_ = true;
-      return;
+      return ask_to_quit();
   }
 }
 
 void Viewer::open(const std::filesystem::path& path) {
+  ask_about_work("Save what was done before another scene is opened?", [this, path] { open_now(path); });
+}
+
+void Viewer::open_now(const std::filesystem::path& path) {
   if (session_loader_.is_busy()) return panel_->notify("Another file is being opened.");
   panel_->notify("Opening " + path.filename().string() + " …");
   session_loader_.begin(path, options_.record);
@@ -155,13 +162,19 @@ void Viewer::remove_tissue() {
   ElementSelection which;
   which.tets = elements_around(node, surface_mesh, panel_->tool().radius);
   if (which.tets.empty()) return panel_->notify("Point at the tissue to remove, or grasp it.");
-  open_.session->post(RemoveElements{which});
+  std::vector<Command> commands{RemoveElements{which}};
+  post(commands);
+}
+
+/// Says where something is, with a button that opens the folder where the system can.
+void Viewer::notify_saved(const std::string& text, const std::filesystem::path& folder) {
+  panel_->notify(text, find_program("xdg-open").empty() ? std::filesystem::path() : folder);
 }
 
 void Viewer::save_screenshot() {
   try {
     const auto path = save_image(render::read_pixels(controller_.size()), open_.scene.name);
-    panel_->notify("Saved " + path.string());
+    notify_saved("Saved " + path.string(), path.parent_path());
   } catch (const InputError& error) {
     panel_->notify(error.what());
   }
@@ -176,7 +189,8 @@ void Viewer::save_scene() {
   try {
     const auto path = unused_path(scene.name, ".json");
     write_file(path, scene_text(scene, std::filesystem::current_path()));
-    panel_->notify("Saved " + path.string());
+    unsaved_.scene_saved();
+    notify_saved("Saved " + path.string(), path.parent_path());
   } catch (const InputError& error) {
     panel_->notify(error.what());
   }
@@ -188,7 +202,7 @@ void Viewer::toggle_recording() {
   if (video_recorder_) return video_recorder_->finish();
   try {
     video_recorder_ = std::make_unique<VideoRecorder>(open_.scene.name, controller_.size());
-    panel_->notify("Recording video; V stops.");
+    panel_->notify("Filming; V stops.");
   } catch (const InputError& error) {
     panel_->notify(error.what());
   }
@@ -196,18 +210,20 @@ void Viewer::toggle_recording() {
 
 /// Adds the drawn image, panel included, to the video.
 void Viewer::add_video_frame() {
-  if (!video_recorder_) return panel_->view().set_recorded_frames(std::nullopt);
+  if (!video_recorder_) return panel_->set_filmed_frames(std::nullopt);
   if (const auto outcome = video_recorder_->take_outcome()) {
     video_recorder_.reset();
-    return panel_->notify(*outcome);
+    return notify_saved(*outcome, std::filesystem::current_path());
   }
-  panel_->view().set_recorded_frames(video_recorder_->frame_count());
+  panel_->set_filmed_frames(video_recorder_->is_finishing() ? std::nullopt
+                                                            : std::optional(video_recorder_->frame_count()));
   const double time = frame_->elapsed;
   if (playback_.active() || !video_recorder_->due(time)) return;
   if (video_recorder_->size() == controller_.size())
     return video_recorder_->add_frame(render::read_pixels(controller_.size()), time);
-  panel_->notify("The window was resized: recording stopped.");
+  panel_->notify("The window was resized: the film ends here.");
   video_recorder_->finish();
+  update_title();
 }
 
 void Viewer::use_view(const panel::PanelActions& actions) {

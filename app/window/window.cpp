@@ -34,7 +34,12 @@ void show(window::GlfwWindow& window, window::Viewer& viewer, const WindowOption
   constexpr double max_sleep = 1;  // s
   const auto began = Clock::now();
   DrawingPace pace;
-  while (!window.closed() && !viewer.quits()) {
+  while (!viewer.quits()) {
+    if (window.closed()) {
+      window.stay_open();
+      viewer.ask_to_quit();
+      continue;
+    }
     const auto now = Clock::now();
     const double left = options.exit_after > 0 ? options.exit_after - seconds(now - began) : max_sleep;
     if (left <= 0) return;

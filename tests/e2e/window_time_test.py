@@ -11,7 +11,7 @@ class Time(WindowCase):
         """Drags the timeline to a time after the first drag and before the second, by bisection."""
         after = next(event["step"] for event in self.events() if "release" in event)
         before = [event["step"] for event in self.events() if "grasp" in event][1]
-        left, right = 220, 600
+        left, right = 278, 510  # x of the track, left of its buttons
         self.do("mousemove", right, 341)
         self.do("mousedown", 1)
         while not after < self.status().tick < before:
@@ -54,6 +54,28 @@ class Time(WindowCase):
         self.assertGreater(len(new), shared)
         for file in ("out.jsonl", "out-2.jsonl"):
             self.verify(file)
+
+    def test_clicks_on_the_timeline_show_what_is_under_the_mouse(self):
+        self.open_display(1280, 720)
+        self.begin_light("--record", "out.jsonl", size="1280x720")
+        self.play(500)
+        self.xdo("mousemove", 1270, 715, "key", "space")
+        self.steady()
+        live = self.status().tick
+        first, last = 378, 863  # x of the track's ends, pixels
+        shown = []
+        for k in range(20):
+            x = first + (last - first) * (2 * k + 1) // 40
+            self.do("mousemove", x, 693)
+            self.do("click", 1)  # the buttons that come with the first click move nothing
+            shown.append(self.status().tick)
+            under_mouse = live * (x - first) / (last - first)  # a frame is shown for the ticks up to the next
+            self.assertLessEqual(shown[-1], under_mouse + 2 * live / (last - first), f"x = {x}")
+            self.do("click", 1)
+            self.assertEqual(self.status().tick, shown[-1], "the same place shows another time")
+        self.assertEqual(shown, sorted(shown))
+        self.assertGreater(len(set(shown)), 5)
+        self.quit()
 
     def test_a_recording_is_resumed_beside_itself(self):
         self.open_display(640, 360)

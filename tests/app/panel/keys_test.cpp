@@ -22,8 +22,17 @@ TEST_CASE("keys mean what the help page says") {
   CHECK(action_of('Z', true) == Action::undo);
   CHECK(action_of('Z', true, true) == Action::redo);
   CHECK(action_of('Y', true) == Action::redo);
-  CHECK(action_of('G', false, true) == Action::select_grasper);  // Shift alone changes nothing
+  CHECK(action_of('G', false, true) == Action::select_grasper);  // Shift counts where it is bound
+  CHECK(action_of('R', false, true) == Action::reset_all);
   CHECK(action_of('S', true, true) == Action::save);
+}
+
+TEST_CASE("keys have names that people read") {
+  CHECK(key_name(Action::select_grasper) == "G");
+  CHECK(key_name(Action::reset_all) == "Shift+R");
+  CHECK(key_name(Action::save) == "Ctrl+S");
+  CHECK(key_name(Action::redo) == "Ctrl+Shift+Z");
+  CHECK(key_name(Action::toggle_play) == "Space");
 }
 
 TEST_CASE("no key is bound twice, and every action has one") {

@@ -43,10 +43,6 @@ TEST_CASE("buttons do what their keys do") {
   const auto reset = driver.click("Reset", 186);
   REQUIRE(reset.commands.size() == 1);
   CHECK(std::holds_alternative<Reset>(reset.commands.front()));
-  CHECK(driver.click("Save image", 150).requests == std::vector{Request::screenshot});
-  CHECK(driver.click("Fit view", 60).requests == std::vector{Request::fit});
-  Driver tall(small_scene(), 1280, 900);
-  CHECK(tall.click("Save scene", 100).requests == std::vector{Request::save});
 }
 
 TEST_CASE("a scene is written with the tissue, the motion and the colours that are shown") {
@@ -205,11 +201,76 @@ TEST_CASE("the first click on a view saves it and the next restores it") {
   CHECK(after(driver, Action::view_1).view == 0u);
 }
 
-TEST_CASE("the video button starts and stops the recording") {
-  Driver driver(small_scene(), 1280, 900);
-  CHECK(driver.click("Record video", 245).requests == std::vector{Request::record_video});
-  driver.panel.view().set_recorded_frames(12);
-  CHECK(driver.click("Stop recording", 245).requests == std::vector{Request::record_video});
+TEST_CASE("Shift+R resets the body and the settings that differ from the scene as opened") {
+  Driver driver;
+  CHECK(after(driver, Action::reset_all).commands.size() == 1);
+  driver.panel.sync(SetDamping{7});
+  driver.panel.sync(SetIntegrator{Integrator::tr_bdf2});
+  driver.panel.sync(SetRate{60});
+  const auto actions = after(driver, Action::reset_all);
+  REQUIRE(actions.commands.size() == 4);
+  CHECK(std::holds_alternative<Reset>(actions.commands[0]));
+  CHECK(std::get<SetDamping>(actions.commands[1]).damping == 0);
+  CHECK(std::get<SetIntegrator>(actions.commands[2]).integrator == Integrator::verlet);
+  CHECK(std::get<SetRate>(actions.commands[3]).rate == 1000);
+  CHECK(after(driver, Action::reset_all).commands.size() == 1);
+}
+
+TEST_CASE("Esc closes an open choice and nothing else") {
+  Driver driver;
+  driver.click("Law");
+  CHECK(driver.panel.covers(640, 500));
+  CHECK(after(driver, Action::release).requests.empty());
+  driver.draw();
+  CHECK_FALSE(driver.panel.covers(640, 500));
+  CHECK(after(driver, Action::release).requests == std::vector{Request::release});
+}
+
+TEST_CASE("sections that are closed by hand and hints that are switched off stay so in another panel") {
+  panel::Preferences kept;
+  {
+    Driver driver;
+    driver.click("Motion", 60);
+    driver.click("Hints", 40);
+    kept = driver.panel.preferences();
+  }
+  CHECK(kept.sections == std::map<std::string, bool>{{"Motion", false}});
+  CHECK_FALSE(kept.hints);
+  Driver driver;
+  driver.panel.set_preferences(kept);
+  CHECK(driver.panel.preferences() == kept);
+  for (float y = 4; y < 760; y += 4) {
+    driver.move({200, y});
+    driver.draw();
+    CHECK(driver.panel.hovered() != "Gravity");
+  }
+}
+
+TEST_CASE("every row of the panel is in a picture of 1280x720 without scrolling") {
+  Driver driver(small_scene(), 1280, 720);
+  for (const char* label : {"Law", "Gravity", "Rate", "Grasp radius", "Colours", "Wireframe", "Hints"})
+    driver.find(label, 40);
+  driver.find("4", 250);  // a view
+}
+
+TEST_CASE("what was saved offers its folder to be opened") {
+  Driver driver;
+  driver.panel.notify("Saved /home/me/picture.png", "/home/me");
+  for (int k = 0; k < 3; ++k) driver.draw();
+  bool found = false;
+  for (float y = 640; y < 756 && !found; y += 5)
+    for (float x = 460; x < 800 && !found; x += 15) {
+      driver.move({x, y});
+      driver.draw();
+      found = driver.panel.hovered() == "Open folder";
+    }
+  REQUIRE(found);
+  driver.hold(true);
+  auto actions = driver.draw();
+  driver.hold(false);
+  actions = driver.draw();
+  CHECK(actions.open_folder == std::filesystem::path("/home/me"));
+  CHECK_FALSE(driver.draw().open_folder);
 }
 
 TEST_CASE("the panel draws error and slowdown plots next to their values") {

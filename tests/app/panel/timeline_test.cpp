@@ -92,6 +92,21 @@ TEST_CASE("while a past frame is shown the bar has the buttons Resume and Live")
   CHECK(driver.draw().requests == std::vector{Request::release});
 }
 
+TEST_CASE("a click shows the frame that the tooltip tells, and the track stays where it is") {
+  Driver driver;
+  Timeline timeline = half_way();
+  timeline.moment_at = [](long tick) { return panel::TimelineMoment{tick / 40 * 40, 0.1}; };  // frames 40 ticks apart
+  driver.panel.set_timeline(timeline);
+  const float here = place(driver, 0.33f);
+  driver.move({here, bar_y});
+  const auto actions = driver.click();
+  REQUIRE(actions.seek_to);
+  CHECK(*actions.seek_to == 320);
+  timeline.shown = 320;
+  driver.panel.set_timeline(timeline);
+  CHECK(place(driver, 0.33f) == here);
+}
+
 TEST_CASE("keys seek frames, the start and live, resume, and record a video") {
   Driver driver;
   for (const auto& [action, request] :

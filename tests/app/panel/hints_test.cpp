@@ -1,0 +1,53 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <app/panel/hints.hpp>
+
+namespace heml::hints_test {
+
+using namespace heml::panel;
+
+namespace {
+bool says(const Situation& situation, const std::string& words) {
+  const std::vector<std::string> hints = hints_for(situation);
+  return std::any_of(hints.begin(), hints.end(),
+                     [&](const std::string& hint) { return hint.find(words) != std::string::npos; });
+}
+}  // namespace
+
+TEST_CASE("the hints follow the tool and what the mouse does") {
+  Situation now;
+  CHECK(hints_for(now).front() == "drag the tissue to pull it");
+  CHECK(says(now, "C to cut"));
+  now.interaction = Interaction::grasping;
+  CHECK(says(now, "let go"));
+  now = {};
+  now.tool = Tool::scalpel;
+  CHECK(says(now, "G to grasp"));
+  now.interaction = Interaction::cutting;
+  CHECK(says(now, "Esc leaves"));
+  now = {};
+  now.tool = Tool::suture;
+  CHECK(says(now, "one end"));
+  now.suture_begun = true;
+  CHECK(says(now, "the other end"));
+}
+
+TEST_CASE("a pause, a past frame and a stopped body have hints of their own") {
+  Situation now;
+  now.paused = true;
+  CHECK(hints_for(now).front() == "paused: Space runs");
+  now.past = true;
+  CHECK(says(now, "B goes on from here"));
+  now.halted = true;
+  CHECK(says(now, "R starts again"));
+  CHECK_FALSE(says(now, "drag the tissue"));
+}
+
+TEST_CASE("every tool and every interaction has hints") {
+  for (int tool = 0; tool <= static_cast<int>(Tool::remover); ++tool)
+    for (int doing = 0; doing <= static_cast<int>(Interaction::panning); ++doing)
+      CHECK_FALSE(hints_for({static_cast<Tool>(tool), static_cast<Interaction>(doing)}).empty());
+}
+
+}  // namespace heml::hints_test

@@ -1,0 +1,20 @@
+#include <doctest/doctest.h>
+
+#include <app/panel/preferences.hpp>
+
+namespace heml::preferences_test {
+
+using namespace heml::panel;
+
+TEST_CASE("preferences come back from their text") {
+  const Preferences kept{false, {{"Tool force", true}, {"Motion", false}}};
+  CHECK(preferences_from(to_text(kept)) == kept);
+  CHECK(preferences_from(to_text({})) == Preferences{});
+  CHECK(to_text({}).empty());
+}
+
+TEST_CASE("lines that are not understood are skipped") {
+  CHECK(preferences_from("hints blue\n\nclosed Motion\nopened\n") == Preferences{true, {{"Motion", false}}});
+}
+
+}  // namespace heml::preferences_test
