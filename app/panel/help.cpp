@@ -37,10 +37,9 @@ struct Group {
   void draw() const {
     ImGui::BeginGroup();
     ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(colours::accent), "%s", title);
-    const float from = ImGui::GetCursorPosX();
     for (const Line& line : lines) {
       ImGui::TextUnformatted(line.left);
-      ImGui::SameLine(from + left);
+      ImGui::SameLine(left);  // from the left edge of the group
       ImGui::TextDisabled("%s", line.right);
     }
     ImGui::Dummy({0, em(0.4f)});

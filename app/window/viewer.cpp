@@ -38,7 +38,7 @@ void Viewer::adopt(OpenScene opened) {
     playback_ = TimelinePlayback();
   open_ = std::move(opened);
   if (!open_.resumed) as_opened_ = open_.scene;
-  frame_ = &open_.session->latest();
+  frame_ = live_ = &open_.session->latest();
   panel_.emplace(open_.scene, *frame_->surface_mesh);
   panel_->set_preferences(preferences_);
   panel_->set_findings(open_.findings);
@@ -92,6 +92,7 @@ void Viewer::draw() {
   if (auto choices = library_.take()) panel_->set_choices(std::move(*choices));
   const Frame& live = open_.session->latest();
   if (unsaved_.is_due()) unsaved_.save(open_.session->until(live));
+  live_ = &live;
   frame_ = &playback_.select_frame(live, seconds, *open_.session);
   follow_script();
   panel::Timeline timeline = playback_.timeline(open_.scene, live);

@@ -102,6 +102,7 @@ class Viewer final : public WindowEvents {
   panel::Preferences preferences_ = read_preferences();
   std::optional<panel::Panel> panel_;
   const Frame* frame_ = nullptr;
+  const Frame* live_ = nullptr;  ///< the engine's newest, while frame_ may be a past one
 
   std::size_t next_event_ = 0;  ///< of the scene's script, that the panel does not show yet
   render::Vec2f mouse_{-1, -1};

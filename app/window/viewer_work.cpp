@@ -65,7 +65,7 @@ void Viewer::answer(std::size_t which) {
 bool Viewer::save_work() {
   try {
     const auto path = unused_path(open_.scene.name, ".jsonl");
-    write_file(path, recording_of(open_.session->until(open_.session->latest()), path.parent_path()));
+    write_file(path, recording_of(open_.session->until(*live_), path.parent_path()));
     log_info("what was done is in {}", path.string());
     notify_saved("Saved " + path.string(), path.parent_path());
     return true;

@@ -9,8 +9,8 @@ using namespace heml::panel;
 TEST_CASE("preferences come back from their text") {
   const Preferences kept{false, {{"Tool force", true}, {"Motion", false}}};
   CHECK(preferences_from(to_text(kept)) == kept);
-  CHECK(preferences_from(to_text({})) == Preferences{});
-  CHECK(to_text({}).empty());
+  CHECK(preferences_from(to_text(Preferences{})) == Preferences{});
+  CHECK(to_text(Preferences{}).empty());
 }
 
 TEST_CASE("lines that are not understood are skipped") {
