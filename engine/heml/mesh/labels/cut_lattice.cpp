@@ -93,7 +93,7 @@ class LatticeCutter {
     const double volume = min_volume * std::pow(lattice_.cell, 3) / 12;
     for (int n = 0; n < static_cast<int>(lattice_.nodes.size()); ++n) {
       double nearest = std::numeric_limits<double>::infinity();
-      Vec3 target;
+      Vec3 target = Vec3::Zero();
       for (const int e : edges_of_node_[n]) {
         const CutEdge& edge = edges_[e];
         if (!is_open(edge)) continue;
