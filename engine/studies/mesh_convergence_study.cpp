@@ -10,8 +10,8 @@ namespace heml {
 namespace {
 
 /// A mesh of quadratic elements has as many nodes as the next one of linear ones.
-int halvings_for(const std::string& element, int halvings) {
-  return is_quadratic(element) ? std::max(halvings - 1, 0) : halvings;
+int halvings_for(const std::string& element, int times) {
+  return is_quadratic(element) ? std::max(times - 1, 0) : times;
 }
 
 constexpr double min_order = 0.5, max_order = 4, proven_order = 2;

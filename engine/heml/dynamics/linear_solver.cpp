@@ -194,6 +194,10 @@ bool LinearSolver::precondition(const Vector& r, Vector& z) {
 }
 
 void LinearSolver::apply_factor(const Vector& r, Vector& z) {
+  if (free_.node.empty()) {
+    z.setZero(r.size());
+    return;
+  }
   Vector packed(3 * static_cast<Eigen::Index>(free_.node.size()));
   for (std::size_t k = 0; k < free_.node.size(); ++k)
     packed.segment<3>(3 * static_cast<int>(k)) = r.segment<3>(3 * free_.node[k]);
