@@ -80,8 +80,7 @@ Action define_mesh(CLI::App& command) {
       ->type_name("N");
   command
       .add_option("--min-angle", given->min_angle,
-                  "with --improve or a label map: smallest dihedral angle wanted, degrees")
-      ->capture_default_str()
+                  "with --improve or a label map: smallest dihedral angle wanted, degrees; else 10")
       ->check(number_between(1, 30))
       ->type_name("A");
   command

@@ -64,7 +64,7 @@ NewtonResult minimise(Objective& objective, LinearSolver& linear, const Stopping
     return result;
   };
   const auto refine = [&] {
-    if (!objective.refine_precision()) return false;
+    if (!options.refines || !objective.refine_precision()) return false;
     if (!objective.residual(at.x, at.r)) at.r.setConstant(none);
     at.value = objective.value(at.x);
     at.within_round_off = false;

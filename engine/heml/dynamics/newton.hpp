@@ -22,6 +22,7 @@ struct NewtonOptions {
   int max_iterations = 60;
   double linear_tolerance = 1e-2;                     ///< first ‖residual‖/‖r‖; tightened as Newton converges
   double min_linear_tolerance = min_float_tolerance;  ///< lower bound of the tightened tolerance
+  bool refines = true;                                ///< asks for a more precise Φ where its values are round-off
 };
 
 struct NewtonResult {

@@ -11,7 +11,8 @@ constexpr double relaxation_increment = 1.0 / 64;  // increment of relaxation
 constexpr double min_limit_increment = 1e-7;       // smallest increment towards a limit point
 constexpr int eigenvalue_iterations = 12;
 constexpr double eigenvalue_tolerance = 1e-3;
-constexpr NewtonOptions newton_options{40, 1e-3};
+// Where float fails, load_to() asks for double: Newton itself would ask earlier, and take as many iterations as double.
+constexpr NewtonOptions newton_options{40, 1e-3, min_float_tolerance, false};
 constexpr double round_off_factor = 100;  // times the tolerance: residual that is accepted as round-off
 constexpr int growth_iterations = 8;      // Newton iterations up to which the increment doubles
 constexpr NewtonOptions relaxation_options{8, 1e-2};
@@ -33,7 +34,8 @@ StaticSolve::StaticSolve(LoadDependentObjective& body, LinearSolver& linear, con
 
 bool StaticSolve::load_to(double fraction, const std::atomic<bool>& stop) {
   linear_.set_inertia(inertia_);
-  if (!solved_ && fraction <= load_) return increment(load_) || relax(load_);
+  if (!solved_ && fraction <= load_)
+    return increment(load_) || (body_.refine_precision() && increment(load_)) || relax(load_);
   while (load_ < fraction) {
     if (stop) return false;
     const double next = load_ + step_ * (1 + 1e-9) >= fraction ? fraction : load_ + step_;
@@ -41,9 +43,16 @@ bool StaticSolve::load_to(double fraction, const std::atomic<bool>& stop) {
       if (last_iterations_ <= growth_iterations) step_ *= 2;
       continue;
     }
-    if (round_off_) return false;  // at a smaller load, round-off is relatively larger
+    if (round_off_) {  // at a smaller load, round-off is relatively larger
+      if (body_.refine_precision()) continue;
+      return false;
+    }
     step_ = (next - load_) / 2;
     if (step_ >= min_increment) continue;
+    if (body_.refine_precision()) {
+      step_ = relaxation_increment;
+      continue;
+    }
     if (!relax(std::min(fraction, load_ + relaxation_increment))) return false;
     step_ = relaxation_increment;
   }
