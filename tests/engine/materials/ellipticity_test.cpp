@@ -25,7 +25,7 @@ TEST_CASE("ellipticity: at rest the lowest eigenvalue is the shear modulus") {
     CHECK(lowest(law, Mat3::Identity()) == doctest::Approx(mu).epsilon(1e-6));
 }
 
-TEST_CASE("ellipticity: pressed along one axis StVK loses it, first along oblique waves; Neo-Hookean never") {
+TEST_CASE("ellipticity: pressed along one axis StVK loses it, first along oblique waves, and neo-Hookean never") {
   CHECK(lowest("stvk", stretched(0.72, 1, 1)) > 0);
   CHECK(lowest("stvk", stretched(0.69, 1, 1)) < 0);
   for (const double s : {0.72, 0.69, 0.6, 0.5}) {
