@@ -165,9 +165,8 @@ struct MeshArguments {
   bool improve = false;
   std::optional<int> tets;          ///< wanted number; none: what the shapes need, or label_map_tets
   std::vector<int> labels;          ///< of a label map; empty: all
-  std::optional<double> min_angle;  ///< degrees; none: 10
+  std::optional<double> min_angle;  ///< degrees; none: default_min_angle
   std::optional<double> tolerance;  ///< m, of the surface; none: improve.hpp's
-  double wanted_angle() const { return min_angle.value_or(10); }
 };
 int mesh_surface(const MeshArguments& arguments);
 

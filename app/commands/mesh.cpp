@@ -51,14 +51,15 @@ TetMesh mesh_label_map(const MeshArguments& arguments, const std::map<int, std::
   Progress progress("meshing labels");
   LabelMeshOptions options;
   options.tets = arguments.tets.value_or(options.tets);
-  options.min_angle = arguments.wanted_angle();
+  options.min_angle = arguments.min_angle.value_or(default_min_angle);
   options.progress = [&](double fraction, const char* doing) { progress.show(fraction, doing); };
   LabelMeshing meshing = mesh_labels(read_label_map(arguments.surface, arguments.labels), options);
   for (const LabelMeshing::Label& label : meshing.labels)
     fmt::print("{}: {:.6g} ml, its voxels {:.6g} ml\n", name_of_label(label.value, names), 1e6 * label.mesh_volume,
                1e6 * label.voxel_volume);
   if (!meshing.below.empty())
-    warn("{} elements below {:g}° left, the first {}", meshing.below.size(), arguments.wanted_angle(), meshing.below[0]);
+    warn("{} elements below {:g}° left, the first {}", meshing.below.size(),
+         arguments.min_angle.value_or(default_min_angle), meshing.below[0]);
   for (Vec3& X : meshing.mesh.nodes) X *= arguments.scale;
   return std::move(meshing.mesh);
 }

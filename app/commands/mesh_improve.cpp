@@ -69,8 +69,8 @@ void warn_of_remaining(const Improvement& improved, const MeshArguments& argumen
       listed.push_back(
           fmt::format("{} ({:.3g}°)", improved.below[k], min_dihedral(corners_of(improved.mesh, improved.below[k]))));
     warn("{} element{} below {:g}° left, where the surface allows no more within {:.3g} m: {}{}", count,
-         count == 1 ? "" : "s", arguments.wanted_angle(), improved.surface_tolerance, fmt::join(listed, ", "),
-         count > max_listed ? ", ..." : "");
+         count == 1 ? "" : "s", arguments.min_angle.value_or(default_min_angle), improved.surface_tolerance,
+         fmt::join(listed, ", "), count > max_listed ? ", ..." : "");
   }
   if (arguments.tets &&
       std::abs(static_cast<double>(improved.mesh.tets.size()) - *arguments.tets) > 0.25 * *arguments.tets)
@@ -85,7 +85,7 @@ TetMesh improve_and_print(const TetMesh& mesh, const MeshArguments& arguments) {
   print_measures("before", mesh, 0);
   Progress progress("improving the mesh");
   ImproveOptions options;
-  options.min_angle = arguments.wanted_angle();
+  options.min_angle = arguments.min_angle.value_or(default_min_angle);
   options.tets = arguments.tets;
   options.surface_tolerance = arguments.tolerance;
   options.progress = [&](double fraction, const char* doing) { progress.show(fraction, doing); };

@@ -5,6 +5,8 @@
 
 namespace heml {
 
+constexpr double default_min_angle = 10;  ///< degrees
+
 /// The improved mesh. Prints a line of JSON before and after, and warns of elements that miss the wanted angle.
 TetMesh improve_and_print(const TetMesh& mesh, const MeshArguments& arguments);
 

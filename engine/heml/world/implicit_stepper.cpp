@@ -282,7 +282,7 @@ double ImplicitStepper<Real>::kinetic(const Vector& v) const {
 template <class Real>
 bool ImplicitStepper<Real>::take_back_gain(double time, const Vector& x, Vector& v) {
   ImplicitState<Real>& parts = s_.implicit_state();
-  if (s_.has_internal_state || !s_.grasps.empty() || !s_.contacts.empty() ||
+  if (parts.free.node.empty() || s_.has_internal_state || !s_.grasps.empty() || !s_.contacts.empty() ||
       supports_move(s_.model, s_.state.time, time))
     return true;
   const auto after = parts.body.value(x), before = parts.body.value(parts.x);
