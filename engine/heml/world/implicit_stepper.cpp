@@ -288,10 +288,11 @@ bool ImplicitStepper<Real>::take_back_gain(double time, const Vector& x, Vector&
   const auto after = parts.body.value(x), before = parts.body.value(parts.x);
   if (!after || !before) return true;
   const double moved = kinetic(parts.v), moves = kinetic(v), may = *before + moved - *after;
-  const double slack = std::max<double>(slack_of_energy, std::numeric_limits<Real>::epsilon());
-  if (!(moves > may + slack * (moved + std::abs(*before)))) return true;
+  // What round-off makes of energies is no gain: taken from every step of a long motion it would add up.
+  const double round_off = parts.body.value_round_off() + std::numeric_limits<Real>::epsilon() * moved;
+  if (!(moves > may + slack_of_energy * (moved + std::abs(*before)) + round_off)) return true;
   v *= std::sqrt(std::max(may, 0.0) / moves);
-  return may >= 0 || moves - may <= parts.body.value_round_off();
+  return may >= 0 || moves - may <= round_off;
 }
 
 /// Takes from x, v what energy a step has gained beyond the work of its loads: from the velocity while that has it to
