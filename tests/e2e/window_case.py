@@ -78,7 +78,8 @@ class WindowCase(unittest.TestCase):
     def begin(self, *arguments, colours=200):
         """Starts the program and waits until it shows a scene and accepts keys."""
         self.start(*arguments)
-        self.wait_for("a picture", lambda: self.display.picture().colours() > colours)
+        # The display may still show what a program before drew: the log tells of this one.
+        self.wait_for("a picture", lambda: self.status().frame > 0 and self.display.picture().colours() > colours)
         self.settle()
 
     def begin_light(self, *arguments, scene=None, size="640x360"):
