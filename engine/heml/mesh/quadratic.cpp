@@ -14,11 +14,11 @@ std::array<int, 10> quadratic_nodes(const Tet& tet, const std::array<int, 6>& mi
 }
 
 MidEdges add_midedge_nodes(TetMesh& mesh) {
-  using Edge = std::pair<int, int>;
+  using Ends = std::pair<int, int>;
   const auto edge_of = [](const Tet& tet, std::size_t e) {
-    return Edge(std::minmax(tet[tet_edges[e][0]], tet[tet_edges[e][1]]));
+    return Ends(std::minmax(tet[tet_edges[e][0]], tet[tet_edges[e][1]]));
   };
-  std::vector<Edge> edges;
+  std::vector<Ends> edges;
   edges.reserve(6 * mesh.tets.size());
   for (const Tet& tet : mesh.tets)
     for (std::size_t e = 0; e < 6; ++e) edges.push_back(edge_of(tet, e));

@@ -165,7 +165,7 @@ Measurement measure_features(const Scene& scene, WorldSetup setup, const std::fu
     measured.changes.back().milliseconds = std::numeric_limits<double>::infinity();
   }
   std::vector<Vec3> as_it_is;
-  for (int turn = 0; turn < turns; ++turn)
+  for (int round = 0; round < turns; ++round)
     for (std::size_t k = 0; k < changes.size(); ++k) {
       const Run done = run(scene, setup, changes[k], ticks);
       MeasuredChange& change = measured.changes[k];
@@ -176,7 +176,7 @@ Measurement measure_features(const Scene& scene, WorldSetup setup, const std::fu
       if (k == 0) as_it_is = done.positions;
       change.error = rms_distance(done.positions, as_it_is);
       if (progress)
-        progress(static_cast<double>(turn * static_cast<int>(changes.size()) + static_cast<int>(k) + 1) /
+        progress(static_cast<double>(round * static_cast<int>(changes.size()) + static_cast<int>(k) + 1) /
                  static_cast<double>(turns * static_cast<int>(changes.size())));
     }
   measured.max_motion = max_distance(setup.mesh.nodes, as_it_is);
