@@ -314,7 +314,8 @@ std::vector<std::pair<std::string, std::string>> ten_node_files() {
 
 TEST_CASE("ten-node tetrahedra keep their mid-edge nodes, each on its edge in every format") {
   const TemporaryFolder folder;
-  for (const auto& [name, text] : ten_node_files()) {
+  for (const auto& file : ten_node_files()) {
+    const std::string &name = file.first, &text = file.second;
     CAPTURE(name);
     MidEdges midedges;
     TetMesh mesh = read_tet_mesh(folder.file(name, text), &midedges);
@@ -339,7 +340,8 @@ TEST_CASE("ten-node tetrahedra keep their mid-edge nodes, each on its edge in ev
 
 TEST_CASE("ten-node tetrahedra are linear ones for who takes no mid-edge nodes, with a word") {
   const TemporaryFolder folder;
-  for (const auto& [name, text] : ten_node_files()) {
+  for (const auto& file : ten_node_files()) {
+    const std::string &name = file.first, &text = file.second;
     CAPTURE(name);
     const WarningCollector warnings;
     const TetMesh mesh = read_tet_mesh(folder.file(name, text));
