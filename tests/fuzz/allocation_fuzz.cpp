@@ -96,8 +96,9 @@ int run(double seconds) {
   const fs::path folder = mkdtemp(pattern.data());
   write_small_meshes(folder);
   const auto begin = Clock::now();
+  const auto over = [&] { return std::chrono::duration<double>(Clock::now() - begin).count() >= seconds; };
   long scenes = 0, loads = 0, ended = 0;
-  for (; std::chrono::duration<double>(Clock::now() - begin).count() < seconds; ++tried) {
+  for (; !over(); ++tried) {
     const std::string text = scene_of_seed(tried);
     const fs::path file = folder / "scene.json";
     Scene scene;
@@ -112,7 +113,7 @@ int run(double seconds) {
     const long count = made;
     ++scenes;
     const long stride = 1 + count / 60;
-    for (long n = static_cast<long>(tried) % stride; n < count; n += stride, ++loads)
+    for (long n = static_cast<long>(tried) % stride; n < count && !over(); n += stride, ++loads)
       ended += load(scene, n) == Outcome::out_of_memory;
   }
   fs::remove_all(folder);
