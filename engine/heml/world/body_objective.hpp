@@ -148,8 +148,8 @@ class BodyObjective final : public LoadDependentObjective, private BodyObjective
   const std::vector<GraspSpring<Real>>& grasps_;
   ThreadTeam& team_;
   ContactPotential contact_;
-  std::vector<Real> x_, dx_, f_, v_;  ///< scratch, like
-  Vector change_;
+  std::vector<Real> x_, dx_, f_, v_;  ///< scratch
+  Vector change_;                     ///< scratch: of forces, N
 };
 
 }  // namespace heml

@@ -5,24 +5,17 @@
 #include <heml/elastic/fan_forces.hpp>
 #include <heml/elastic/tension.hpp>
 #include <heml/materials/laws.hpp>
-#include <heml/mesh/reorder.hpp>
 #include <numeric>
 
 #include "small_body.hpp"
 
 namespace heml::fan_forces_test {
 
+using test::irregular_box;
 using test::law_names;
 using test::sample_material;
 
 namespace {
-
-/// A box of irregular tetrahedra in inner order.
-TetMesh irregular_box(std::mt19937_64& random, const std::array<int, 3>& cells) {
-  TetMesh mesh = make_box(Vec3(0.1, 0.08, 0.06), cells);
-  for (Vec3& X : mesh.nodes) X += test::random_vector(random, 0.012 / cells[0]);
-  return reordered(mesh, hilbert_order(mesh));
-}
 
 std::vector<int> all_of(const TetMesh& mesh) {
   std::vector<int> elements(mesh.tets.size());

@@ -3,22 +3,16 @@
 
 #include <heml/elastic/fan_forces.hpp>
 #include <heml/materials/parameter_slots.hpp>
-#include <heml/mesh/reorder.hpp>
 
 #include "small_body.hpp"
 
 namespace heml::fan_terms_test {
 
+using test::irregular_box;
 using test::largest;
 using test::sample_material;
 
 namespace {
-
-TetMesh irregular_box(std::mt19937_64& random, const std::array<int, 3>& cells) {
-  TetMesh mesh = make_box(Vec3(0.1, 0.08, 0.06), cells);
-  for (Vec3& X : mesh.nodes) X += test::random_vector(random, 0.012 / cells[0]);
-  return reordered(mesh, hilbert_order(mesh));
-}
 
 std::vector<double> moved(const TetMesh& mesh, std::mt19937_64& random, double noise, const Mat3& F) {
   std::vector<double> x;

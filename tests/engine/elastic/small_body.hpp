@@ -2,6 +2,7 @@
 // A small irregular body of one material, displaced from rest.
 #include <heml/elastic/body.hpp>
 #include <heml/mesh/generate.hpp>
+#include <heml/mesh/reorder.hpp>
 
 #include "engine/materials/sample_materials.hpp"
 #include "support.hpp"
@@ -14,6 +15,13 @@ inline std::vector<std::string_view> law_names(bool with_springs = false) {
   for (const LawInfo& law : laws())
     if (law.is_continuum || with_springs) names.push_back(law.name);
   return names;
+}
+
+/// A box of irregular tetrahedra in inner order.
+inline TetMesh irregular_box(std::mt19937_64& random, const std::array<int, 3>& cells) {
+  TetMesh mesh = make_box(Vec3(0.1, 0.08, 0.06), cells);
+  for (Vec3& X : mesh.nodes) X += random_vector(random, 0.012 / cells[0]);
+  return reordered(mesh, hilbert_order(mesh));
 }
 
 /// A small irregular body, stretched by F and with random displacements of `noise` times an edge length.
