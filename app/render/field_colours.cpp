@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace heml::render {
 namespace {
@@ -84,7 +85,7 @@ FieldLabel field_label(Field field, const Range& range) {
 
 std::vector<float> ticks(const Range& range) {
   const float span = range.high - range.low;
-  if (!(span > 0) || !std::isfinite(span)) return {range.low};
+  if (!(span > 10 * std::numeric_limits<float>::min()) || !std::isfinite(span)) return {range.low};
   const float decade = std::pow(10.0f, std::floor(std::log10(span / 3)));
   float step = decade;
   for (const float factor : {2.0f, 5.0f, 10.0f})

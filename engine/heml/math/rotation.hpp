@@ -4,6 +4,7 @@
 // ones.
 #include <cmath>
 #include <heml/math/types.hpp>
+#include <limits>
 
 namespace heml {
 
@@ -59,6 +60,8 @@ double alternating_series(double z) {
 /// Of an angle, radians. Within 0.501 units in the last place up to a million; beyond that as exact as the angle is.
 inline SineCosine sine_cosine(double angle) {
   using detail::DoubleDouble;
+  if (!std::isfinite(angle))
+    return {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
   // π/2 in three parts; multiples of the first two, of 33 bits each, are exact.
   constexpr double first = 0x1.921fb544p+0, second = 0x1.0b4611a6p-34, third = 0x1.3198a2e037073p-69;
   const double turns = std::nearbyint(angle * 0x1.45f306dc9c883p-1);

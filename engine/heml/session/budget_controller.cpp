@@ -18,7 +18,8 @@ std::optional<int> BudgetController::after(double seconds, const SolverStats& wo
       seconds_per_iteration_ > 0 ? seconds_per_iteration_ + smoothing * (now - seconds_per_iteration_) : now;
   // Estimated stages per tick, for any method.
   const double stages = std::max(1.0, static_cast<double>(done) / work.budget);
-  const int best = std::clamp(static_cast<int>(share * target_ / (stages * seconds_per_iteration_)), 1, max_iterations);
+  const int best =
+      static_cast<int>(std::clamp(share * target_ / (stages * seconds_per_iteration_), 1.0, 1.0 * max_iterations));
   const bool has_room = best > work.budget;
   if (has_room && ++patience_ < ticks_to_raise) return std::nullopt;
   patience_ = 0;

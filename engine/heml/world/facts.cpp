@@ -24,11 +24,12 @@ std::size_t bytes_of_model(const Model<Real>& model) {
 
 template <class Real>
 StepFacts WorldQueries<Real>::step_facts() const {
+  constexpr int most_steps = 1'000'000'000;  // a body may be too stiff for any number of them
   StepFacts facts;
   facts.tick = s_.setup.solver.tick();
   facts.stable = s_.limit.stable;
   if (is_explicit(s_.method) && !s_.setup.solver.step && s_.limit.stable > 0)
-    facts.steps_per_tick = static_cast<int>(std::ceil(facts.tick / s_.limit.stable));
+    facts.steps_per_tick = static_cast<int>(std::clamp(std::ceil(facts.tick / s_.limit.stable), 1.0, 1.0 * most_steps));
   std::vector<Real> bounds = s_.body.element_bounds(s_.state.x.data());
   const auto largest = std::max_element(bounds.begin(), bounds.end());
   if (!(*largest > 0)) return facts;

@@ -187,7 +187,8 @@ template <class Real>
 int ImplicitStepper<Real>::probe_substeps(double h) const {
   if (!s_.contacts.probe) return 1;
   const double travel = (s_.contacts.probe->tip(s_.state.time + h) - s_.contacts.probe->tip(s_.state.time)).norm();
-  return std::clamp(static_cast<int>(std::ceil(2 * travel / s_.contacts.probe->radius())), 1, max_probe_substeps);
+  const double parts = std::ceil(2 * travel / s_.contacts.probe->radius());
+  return static_cast<int>(std::clamp(parts, 1.0, 1.0 * max_probe_substeps));
 }
 
 template <class Real>

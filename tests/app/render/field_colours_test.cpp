@@ -74,6 +74,7 @@ TEST_CASE("ticks are few, round and inside the range") {
     CHECK(places.back() <= range.high + 1e-4f * (range.high - range.low));
   }
   CHECK(ticks({0, 8.3f}) == std::vector<float>{0, 2, 4, 6, 8});
+  CHECK(ticks({0, 1e-44f}) == std::vector<float>{0});  // no step is that small
 }
 
 }  // namespace heml::field_colours_test

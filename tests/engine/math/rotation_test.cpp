@@ -39,6 +39,7 @@ TEST_CASE("sine and cosine of no angle are exact, and those of quarters what the
     CHECK(s == static_cast<double>(std::sin(static_cast<long double>(angle))));
     CHECK(c == static_cast<double>(std::cos(static_cast<long double>(angle))));
   }
+  CHECK(std::isnan(sine_cosine(std::numeric_limits<double>::infinity()).sine));
 }
 
 TEST_CASE("a rotation turns by the right hand about its axis, and keeps lengths") {

@@ -64,6 +64,11 @@ TEST_CASE("an explicit scene is explained: body, kernel, steps, no solver") {
   CHECK(of.startup.size() == 3);
 }
 
+TEST_CASE("a body too stiff for any number of steps is explained with a great number of them") {
+  const Explanation of = explained(R"({"materials": [{"law": "stvk", "young": 1e50, "poisson": 0.3}]})");
+  CHECK(of.world.step.steps_per_tick == 1'000'000'000);
+}
+
 TEST_CASE("terms of a material are those the scene asks for, and what is no term is left out") {
   const Explanation plain = explained("{}");
   CHECK(terms(plain) == Names{"law"});
