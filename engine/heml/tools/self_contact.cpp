@@ -161,6 +161,11 @@ double SelfContact::spread(const Positions& reference, const Positions& x) const
 /// allowance ends where that of the broad phase does, so find() need not check both.
 void SelfContact::update_candidates() {
   const double step = spread(from_, to_);
+  if (!std::isfinite(step)) {  // of a body about to leave the range of numbers, which meets nothing on its way
+    candidates_.clear();
+    filtered_ = {};
+    return;
+  }
   if (!(spread(searched_.reference, from_) + 1.5 * step <= searched_.allowance)) broad_phase(step);
   filter_candidates(step);
 }

@@ -57,6 +57,8 @@ void SelfContactImpulses<Real>::begin_second_half(const std::vector<Real>& inver
     touch.drift.setZero();
     touch.friction_impulse.setZero();
   }
+  // A pair that met at a face's free corner may have slid to its fixed side, where nothing can move it.
+  std::erase_if(active_, [](const ActiveContact& touch) { return !(touch.inverse_mass > 0); });
 }
 
 template <class Real>

@@ -37,6 +37,7 @@ std::optional<StopReason> ImplicitStepper<Real>::advance(double until) {
       ++s_.substeps;
       continue;
     }
+    if (s_.interrupted) break;
     longest /= 2;
     if (s_.setup.solver.step || longest < shortest)
       return keep_last_solved(s_, undefined_at_.empty()
@@ -162,6 +163,7 @@ bool ImplicitStepper<Real>::solve_stage(const Stage& stage, double h, double tim
     do {
       result = minimise_stage(x);
       s_.stats.iterations += result.iterations;
+      if (s_.interrupted) return false;
     } while (result.status != NewtonResult::Status::undefined && !s_.setup.solver.budget &&
              parts.body.update_lagged(x));
   }

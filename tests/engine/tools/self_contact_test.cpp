@@ -254,6 +254,20 @@ TEST_CASE("places that are no numbers make no pairs") {
   CHECK(contact.contacts_between(nan, nan).empty());
 }
 
+TEST_CASE("tissue thrown out of the range of numbers meets nothing, and meets again once it is back") {
+  TetMesh mesh;
+  add_tet(mesh, {Vec3(-1, -1, 0), Vec3(1, -1, 0), Vec3(0, 1, 0), Vec3(0, 0, -2)});
+  add_tet(mesh, {Vec3(0, -0.2, 0.5), Vec3(-1, -1, 2.5), Vec3(1, -1, 2.5), Vec3(0, 1, 2.5)});
+  SelfContact contact({}, mesh);
+  const auto at = [&](double by) {
+    return [&mesh, by](int n) -> Vec3 {
+      return mesh.nodes[static_cast<std::size_t>(n)] - (n < 4 ? 0 : by) * Vec3::UnitZ();
+    };
+  };
+  CHECK(contact.contacts_between(at(0), at(1e300)).empty());
+  CHECK(contact.contacts_between(at(0), at(0.6)).size() == 1);
+}
+
 TEST_CASE("the gap of a node and a face, and of two edges, is that along their common normal") {
   const std::array<Vec3, 4> face = {Vec3(0.2, 0.3, 0.7), Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
   const auto above = point_of(ContactPair{{0, 1, 2, 3}, 0}, face);
