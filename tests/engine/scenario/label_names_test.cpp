@@ -1,35 +1,29 @@
 #include <doctest/doctest.h>
 
-#include <filesystem>
-#include <fstream>
+#include <engine/mesh/files.hpp>
 #include <heml/base/warning_collector.hpp>
 #include <heml/scenario/label_names.hpp>
 
 namespace heml::label_names_test {
 namespace {
 
-namespace fs = std::filesystem;
 using Names = std::map<int, std::string>;
 
 /// A folder with a MetaImage file, whose header alone is read.
-class Folder {
+class ScanFolder {
  public:
-  Folder() {
-    fs::create_directories(path_);
-    write("scan.mha", "NDims = 3\nDimSize = 1 1 1\nElementType = MET_UCHAR\nElementDataFile = LOCAL\n1");
-  }
-  ~Folder() { fs::remove_all(path_); }
-  void write(const char* name, const char* text) const { std::ofstream(path_ / name) << text; }
-  Names names() const { return label_names(path_ / "scan.mha"); }
+  ScanFolder() { write("scan.mha", "NDims = 3\nDimSize = 1 1 1\nElementType = MET_UCHAR\nElementDataFile = LOCAL\n1"); }
+  void write(const char* name, const char* text) const { folder_.file(name, text); }
+  Names names() const { return label_names(folder_ / "scan.mha"); }
 
  private:
-  fs::path path_ = fs::temp_directory_path() / "heml_label_names";
+  TemporaryFolder folder_;
 };
 
 }  // namespace
 
 TEST_CASE("names of labels in JSON, either way round, plain or under labels") {
-  const Folder folder;
+  const ScanFolder folder;
   CHECK(folder.names().empty());
   const Names names{{1, "liver"}, {7, "vein"}};
   for (const char* text : {R"({"1": "liver", "7": "vein"})", R"({"liver": 1, "vein": 7})",
@@ -40,7 +34,7 @@ TEST_CASE("names of labels in JSON, either way round, plain or under labels") {
 }
 
 TEST_CASE("names of labels in descriptions of ITK-SNAP") {
-  const Folder folder;
+  const ScanFolder folder;
   folder.write("scan.txt",
                "# ITK-SnAP Label Description File\n    0     0    0    0        0  0  0    \"Clear Label\"\n"
                "    1   255    0    0        1  1  1    \"left lobe\"\n");
@@ -48,7 +42,7 @@ TEST_CASE("names of labels in descriptions of ITK-SNAP") {
 }
 
 TEST_CASE("a file of names that cannot be read is warned of") {
-  const Folder folder;
+  const ScanFolder folder;
   folder.write("scan.json", "{1: liver}");
   const WarningCollector warnings;
   CHECK(folder.names().empty());

@@ -2,7 +2,7 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
-#include <fstream>
+#include <engine/mesh/files.hpp>
 #include <heml/base/error.hpp>
 #include <heml/scenario/report.hpp>
 #include <heml/scenario/solve.hpp>
@@ -95,11 +95,8 @@ TEST_CASE("scene fit: what the places do not tell is said") {
 }
 
 TEST_CASE("scene fit: a table of places is read, or refused by line") {
-  const auto path = std::filesystem::temp_directory_path() / "heml_places_test.csv";
-  const auto read = [&](const char* text) {
-    std::ofstream(path) << text;
-    return read_places_csv(path);
-  };
+  const TemporaryFolder folder;
+  const auto read = [&](const char* text) { return read_places_csv(folder.file("places.csv", text)); };
   const MeasuredPlaces measured = read("# scan\nnode,x,y,z,sigma\n3,1,2,3,0.5\n\n7,4,5e-1,6,1\n");
   CHECK(measured.nodes == std::vector{3, 7});
   CHECK(measured.places[1] == Vec3(4, 0.5, 6));
@@ -111,7 +108,6 @@ TEST_CASE("scene fit: a table of places is read, or refused by line") {
     CAPTURE(text);
     CHECK_THROWS_AS(read(text), InputError);
   }
-  std::filesystem::remove(path);
 }
 
 }  // namespace heml::scene_fit_test

@@ -167,10 +167,10 @@ TEST_CASE("NRRD raw, gzip and ascii, turned from left and posterior, with names 
 
 TEST_CASE("NRRD and MetaImage with voxels in another file") {
   const VolumeFile data("f.raw", "1234" + raw<std::int16_t>());
-  const VolumeFile header("f.nhdr", nrrd("raw", "byte skip: 4\ndata file: heml_labels_f.raw\n"));
+  const VolumeFile header("f.nhdr", nrrd("raw", "byte skip: 4\ndata file: f.raw\n"));
   check_voxels(read_label_map(header.path()));
   const VolumeFile plain("g.raw", raw<std::uint16_t>());
-  const VolumeFile meta("g.mhd", metaimage("heml_labels_g.raw"));
+  const VolumeFile meta("g.mhd", metaimage("g.raw"));
   check_voxels(read_label_map(meta.path()));
 }
 

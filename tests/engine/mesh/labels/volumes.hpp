@@ -6,25 +6,27 @@
 #include <bit>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <heml/mesh/labels/label_map.hpp>
 #include <string>
 
+#include "engine/mesh/files.hpp"
+
 namespace heml::test {
 
-/// A file in the folder of temporary ones, removed at the end.
+/// A file in one folder of this process, removed at the end.
 class VolumeFile {
  public:
-  VolumeFile(const std::string& name, const std::string& bytes)
-      : path_(std::filesystem::temp_directory_path() / ("heml_labels_" + name)) {
-    std::ofstream(path_, std::ios::binary) << bytes;
-  }
+  VolumeFile(const std::string& name, const std::string& bytes) : path_(folder().file(name, bytes)) {}
   ~VolumeFile() { std::filesystem::remove(path_); }
   VolumeFile(const VolumeFile&) = delete;
   VolumeFile& operator=(const VolumeFile&) = delete;
   const std::filesystem::path& path() const { return path_; }
 
  private:
+  static const TemporaryFolder& folder() {
+    static const TemporaryFolder shared;
+    return shared;
+  }
   std::filesystem::path path_;
 };
 
