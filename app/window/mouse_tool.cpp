@@ -19,25 +19,17 @@ bool MouseTool::press(MouseButton button, const render::Vec2f& at, bool shift, c
   button_ = button;
   if (tool.tool != panel::Tool::suture) first_end_.reset();
   last_ = at;
+  if (button == MouseButton::left && tool.tool == panel::Tool::scalpel) {
+    begin_stroke(at, tool.depth, frame, surface_mesh);
+    return false;
+  }
   if (button == MouseButton::left)
     if (const auto hit = pick(at, frame, surface_mesh)) {
       if (tool.tool == panel::Tool::grasper) return !grasp(*hit, frame, surface_mesh, tool.radius, out);
       if (tool.tool == panel::Tool::pin) return !pin(*hit, frame, surface_mesh, tool.radius, out);
       if (tool.tool == panel::Tool::suture) return !suture(*hit, surface_mesh, out);
       if (tool.tool == panel::Tool::remover) return !remove(*hit, surface_mesh, tool.radius, out);
-      if (tool.tool == panel::Tool::probe) {
-        begin_probing(*hit, tool, at, out);
-        return false;
-      }
-      interaction_ = Interaction::cutting;
-      anchor_ = hit->point;
-      depth_ = tool.depth;
-      blade_ = blade_at(at);
-      cut_to_ = at;
-      continues_stroke_ = false;
-      heading_.setZero();
-      line_.clear();
-      line_.add(*hit, frame, surface_mesh);
+      begin_probing(*hit, tool, at, out);
       return false;
     }
   press_background(button, at, shift);
@@ -152,8 +144,38 @@ std::array<Vec3, 2> MouseTool::blade_at(const render::Vec2f& at) const {
   return {point - above_skin * depth_ * along, point + depth_ * along};
 }
 
+/// A stroke may begin beside the body: it enters where the mouse first meets tissue.
+void MouseTool::begin_stroke(const render::Vec2f& at, double depth, const Frame& frame,
+                             const SurfaceMesh& surface_mesh) {
+  interaction_ = Interaction::cutting;
+  depth_ = depth;
+  has_entered_ = continues_stroke_ = false;
+  beside_.reset();
+  heading_.setZero();
+  line_.clear();
+  enter(at, frame, surface_mesh);
+}
+
+/// Puts the blade where the mouse last was beside the body, as far from the eye as the tissue that it meets at `at`:
+/// the cut then takes the body's edge with it. Returns whether it meets tissue.
+bool MouseTool::enter(const render::Vec2f& at, const Frame& frame, const SurfaceMesh& surface_mesh) {
+  const auto hit = pick(at, frame, surface_mesh);
+  if (!hit) {
+    beside_ = at;
+    return false;
+  }
+  anchor_ = hit->point;
+  cut_to_ = beside_.value_or(at);
+  beside_.reset();
+  blade_ = blade_at(cut_to_);
+  line_.add(*hit, frame, surface_mesh);
+  has_entered_ = true;
+  return true;
+}
+
 void MouseTool::cut(const render::Vec2f& at, const Frame& frame, const SurfaceMesh& surface_mesh,
                     std::vector<Command>& out) {
+  if (!has_entered_ && !enter(at, frame, surface_mesh)) return;
   if ((at - cut_to_).norm() < min_stroke) return;
   if (const auto hit = pick(at, frame, surface_mesh)) {
     anchor_ = hit->point;  // follows the relief of the surface
@@ -170,7 +192,7 @@ void MouseTool::cut(const render::Vec2f& at, const Frame& frame, const SurfaceMe
 }
 
 render::StrokeDrawing MouseTool::stroke(const Frame& frame, const SurfaceMesh& surface_mesh) const {
-  if (interaction_ != Interaction::cutting) return {};
+  if (interaction_ != Interaction::cutting || !has_entered_) return {};
   const std::array<Vec3, 2> now = blade_at(last_);
   return {render::Blade{{now[0].cast<float>(), now[1].cast<float>()},
                         heading_.cast<float>(),

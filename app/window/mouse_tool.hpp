@@ -20,8 +20,9 @@ class MouseTool {
 
   explicit MouseTool(panel::CameraController& controller) : controller_(controller) {}
 
-  /// A button went down off the panel: left on the body applies the tool, else the camera orbits or pans. Returns true
-  /// when the tool cannot act on the body there because its nodes are constrained.
+  /// A button went down off the panel: left on the body applies the tool (a scalpel's stroke may begin beside it), else
+  /// the camera orbits or pans. Returns true when the tool cannot act on the body there because its nodes are
+  /// constrained.
   bool press(MouseButton button, const render::Vec2f& at, bool shift, const Frame& frame,
              const SurfaceMesh& surface_mesh, const panel::ToolSettings& tool, std::vector<Command>& out);
   /// The same off the body: the camera orbits or pans.
@@ -35,6 +36,10 @@ class MouseTool {
   void cancel(std::vector<Command>& out);
 
   Interaction interaction() const { return interaction_; }
+  /// Whether the press under way has met no tissue: it turns the camera, or its stroke has not entered yet.
+  bool is_beside_body() const {
+    return interaction_ == Interaction::orbiting || (interaction_ == Interaction::cutting && !has_entered_);
+  }
   /// The first end of an unfinished suture: mesh-file number of a node.
   std::optional<int> first_end() const { return first_end_; }
   /// The scalpel and its line while it cuts, as the tissue lies in a frame; empty otherwise.
@@ -54,6 +59,8 @@ class MouseTool {
   static bool remove(const render::Hit& hit, const SurfaceMesh& surface_mesh, double radius, std::vector<Command>& out);
   bool grasp(const render::Hit& hit, const Frame& frame, const SurfaceMesh& surface_mesh, double radius,
              std::vector<Command>& out);
+  void begin_stroke(const render::Vec2f& at, double depth, const Frame& frame, const SurfaceMesh& surface_mesh);
+  bool enter(const render::Vec2f& at, const Frame& frame, const SurfaceMesh& surface_mesh);
   void cut(const render::Vec2f& at, const Frame& frame, const SurfaceMesh& surface_mesh, std::vector<Command>& out);
   std::array<Vec3, 2> blade_at(const render::Vec2f& at) const;
 
@@ -70,6 +77,8 @@ class MouseTool {
   render::Vec2f cut_to_ = render::Vec2f::Zero();  // the same, pixels
   panel::ToolSettings probe_;                     // of the active probe
   std::optional<int> first_end_;                  // of an unfinished suture
+  std::optional<render::Vec2f> beside_;           // pixels, where a stroke that has not entered was last
+  bool has_entered_ = false;                      // this stroke has met tissue
   bool continues_stroke_ = false;                 // this stroke has already cut
 };
 

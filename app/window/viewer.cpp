@@ -237,7 +237,7 @@ void Viewer::button(MouseButton button, bool down, bool shift) {
   if (mouse_tool_.press(button, mouse_, shift, seen(), *seen().surface_mesh, panel_->tool(), commands))
     panel_->notify("These nodes are constrained by the scene; pick others.");
   post(commands);
-  if (button != MouseButton::left || mouse_tool_.interaction() != MouseTool::Interaction::orbiting) return;
+  if (button != MouseButton::left || !mouse_tool_.is_beside_body()) return;
   const auto now = std::chrono::steady_clock::now();
   const bool twice = now - pressed_at_ < double_click_time && (mouse_ - pressed_where_).norm() < double_click_distance;
   pressed_at_ = twice ? std::chrono::steady_clock::time_point{} : now;

@@ -119,6 +119,21 @@ class Tools(WindowCase):
         self.assertEqual(self.seen("history"), [-1, 1, -1])
         self.verify()
 
+    def test_a_stroke_from_beside_the_body_to_its_other_side_takes_the_edges_along(self):
+        self.open_display(1280, 720)
+        self.begin_light("--record", "out.jsonl", size="1280x720")
+        self.xdo("mousemove", 1278, 718, "key", "c", "key", "space")
+        whole = self.steady()
+        place = whole.tissue(220, 1280)
+        self.drag((place[0] - 300, place[1]), (600, 0), steps=30)
+        self.wait_for_event("cut", 3)
+        self.quit()
+        sweeps = [cut["sweep"] for cut in self.seen("cut")]
+        for tip, end in (sweeps[0][0], sweeps[-1][1]):  # neither blade touches the box
+            along = [[a + k / 100 * (b - a) for a, b in zip(tip, end)] for k in range(101)]
+            self.assertFalse([x for x in along if all(0 <= c <= 0.1 for c in x)])
+        self.verify()
+
     def test_what_was_recorded_before_a_kill_replays(self):
         self.open_display(640, 480)
         self.begin("--record", "out.jsonl", "--size", "640x480", colours=500)

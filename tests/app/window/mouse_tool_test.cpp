@@ -90,6 +90,47 @@ TEST_CASE("a scalpel cuts along the line of sight and each press begins a stroke
   }
 }
 
+TEST_CASE("a stroke that begins beside the body cuts from there once it meets tissue") {
+  Sheet sheet;
+  sheet.tool.tool = panel::Tool::scalpel;
+  const Vec3f eye = sheet.controller.camera().eye();
+  CHECK_FALSE(sheet.press(MouseButton::left, sheet.pixel({-0.15f, 0, 0})));
+  CHECK(sheet.mouse_tool.interaction() == MouseTool::Interaction::cutting);
+  sheet.move(sheet.pixel({-0.12f, 0, 0}));
+  CHECK(sheet.commands.empty());
+  CHECK(sheet.mouse_tool.is_beside_body());
+  CHECK_FALSE(sheet.mouse_tool.stroke(sheet.frame, sheet.surface_mesh).blade);
+  sheet.move(sheet.pixel({-0.05f, 0, 0}));
+  CHECK_FALSE(sheet.mouse_tool.is_beside_body());
+  REQUIRE(sheet.commands.size() == 1);
+  const CutTissue entry = std::get<CutTissue>(sheet.commands[0]);
+  CHECK_FALSE(entry.continues_stroke);
+  const auto& [tip, end] = entry.sweep.blades[0];
+  const double at_surface = tip.z() / (tip.z() - end.z());
+  CHECK((tip + at_surface * (end - tip) - Vec3(-0.12, 0, 0)).norm() < 1e-5);
+  CHECK(end.z() < -0.018);
+  sheet.move(sheet.pixel({0.15f, 0, 0}));  // and out on the other side
+  REQUIRE(sheet.commands.size() == 2);
+  const CutTissue exit = std::get<CutTissue>(sheet.commands[1]);
+  CHECK(exit.continues_stroke);
+  CHECK(exit.sweep.blades[1][0].x() > 0.1);
+  CHECK((sheet.controller.camera().eye() - eye).norm() == 0);
+}
+
+TEST_CASE("a stroke that meets no tissue cuts nothing, and the next begins where it is pressed") {
+  Sheet sheet;
+  sheet.tool.tool = panel::Tool::scalpel;
+  sheet.press(MouseButton::left, sheet.pixel({-0.15f, 0.13f, 0}));
+  sheet.move(sheet.pixel({0.15f, 0.13f, 0}));
+  sheet.mouse_tool.release(MouseButton::left, sheet.commands);
+  CHECK(sheet.commands.empty());
+  sheet.press(MouseButton::left, sheet.pixel({0, 0, 0}));
+  sheet.move(sheet.pixel({0.05f, 0, 0}));
+  REQUIRE(sheet.commands.size() == 1);
+  const auto& [tip, end] = std::get<CutTissue>(sheet.commands[0]).sweep.blades[0];
+  CHECK((tip + tip.z() / (tip.z() - end.z()) * (end - tip)).norm() < 1e-5);
+}
+
 TEST_CASE("a press on a constrained node grasps its free neighbour") {
   Sheet sheet;
   CHECK_FALSE(sheet.press(MouseButton::left, sheet.pixel({-0.09f, 0.09f, 0})));
