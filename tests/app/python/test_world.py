@@ -1,4 +1,5 @@
 import json
+import signal
 import threading
 import time
 
@@ -200,7 +201,15 @@ def test_a_second_thread_is_refused(box):
     assert world.ticks == 200
 
 
-def test_ctrl_c_stops_between_ticks(box):
+@pytest.fixture
+def interruptible():
+    """SIGINT raises KeyboardInterrupt, also where the tests run in the background of a shell, which ignores it."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+def test_ctrl_c_stops_between_ticks(box, interruptible):
     import _thread
 
     world = heml.World(box(), threads=1)
