@@ -104,7 +104,7 @@ void draw_volume(Rows& rows, const Frame& frame, const History& history) {
 void draw_errors(Rows& rows, const Frame& frame, const History& history) {
   rows.value(
       {"Discretisation error",
-       "Estimated discretisation error, % of the energy norm (Zienkiewicz and Zhu: stress against nodal averages). "
+       "Estimated discretisation error, % of the energy norm (Zienkiewicz and Zhu: stress against fits to patches). "
        "Roughly proportional to edge length; colours (6) show where it is. It does not include locking or time "
        "errors."},
       frame.mesh_error ? fmt::format("{:.1f} %", 100 * *frame.mesh_error) : "–", colours::accent);

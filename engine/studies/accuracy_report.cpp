@@ -109,7 +109,7 @@ void add_estimates(HtmlPage& page, const AccuracyStudy& study) {
   page.heading("What the panel's gauges are worth");
   page.paragraph(
       "The panel estimates both errors while a body runs. Effectivity is estimate over error; from 0.5 to 2 it is "
-      "honest. Of the mesh: stress and deformation against their means at nodes (Zienkiewicz and Zhu), held against "
+      "honest. Of the mesh: stress and deformation against linear fits round nodes (Zienkiewicz and Zhu), held against "
       "the "
       "energy norm of the error that the potentials of finer meshes tell, linear tetrahedra alone. The last two "
       "columns "

@@ -5,6 +5,9 @@
 namespace heml {
 namespace {
 
+constexpr std::size_t min_patch = 8;  // elements: twice the unknowns of a linear fit
+constexpr double flat_patch = 1e-6;   // of the spread: keeps the fit from following patches that are nearly flat
+
 const Vec3& at(const std::vector<Vec3>& x, const Tet& tet, std::size_t corner) {
   return x[static_cast<std::size_t>(tet[corner])];
 }
@@ -17,27 +20,96 @@ Mat3 edges(const std::vector<Vec3>& x, const Tet& tet) {
 
 double volume_of(const TetMesh& mesh, std::size_t t) { return edges(mesh.nodes, mesh.tets[t]).determinant() / 6; }
 
-/// Sums over the elements of one material at every node.
-struct Means {
-  std::vector<Mat3> F, P;
-  std::vector<double> volume;
+Vec3 centroid(const TetMesh& mesh, std::size_t t) {
+  const Tet& tet = mesh.tets[t];
+  return (at(mesh.nodes, tet, 0) + at(mesh.nodes, tet, 1) + at(mesh.nodes, tet, 2) + at(mesh.nodes, tet, 3)) / 4;
+}
+
+/// Patches of elements round nodes, of one material.
+class Patches {
+ public:
+  Patches(const TetMesh& mesh, const std::vector<std::size_t>& elements)
+      : mesh_(mesh), start_(mesh.nodes.size() + 1, 0), taken_by_(mesh.tets.size(), -1) {
+    for (const std::size_t t : elements)
+      for (const int n : mesh.tets[t]) ++start_[static_cast<std::size_t>(n) + 1];
+    for (std::size_t n = 1; n < start_.size(); ++n) start_[n] += start_[n - 1];
+    around_.resize(start_.back());
+    std::vector<std::size_t> next(start_.begin(), start_.end() - 1);
+    for (const std::size_t t : elements)
+      for (const int n : mesh.tets[t]) around_[next[static_cast<std::size_t>(n)]++] = t;
+  }
+
+  /// The elements at a node, and as many rings of their neighbours as a fit needs; empty: none of this material.
+  const std::vector<std::size_t>& of(int node) {
+    patch_.clear();
+    add_around(node, node);
+    for (std::size_t ring_begin = 0; patch_.size() < min_patch && ring_begin < patch_.size();) {
+      const std::size_t ring_end = patch_.size();
+      for (; ring_begin < ring_end; ++ring_begin)
+        for (const int n : mesh_.tets[patch_[ring_begin]]) add_around(n, node);
+    }
+    return patch_;
+  }
+
+ private:
+  void add_around(int n, int node) {
+    for (std::size_t k = start_[static_cast<std::size_t>(n)]; k < start_[static_cast<std::size_t>(n) + 1]; ++k) {
+      if (taken_by_[around_[k]] == node) continue;
+      taken_by_[around_[k]] = node;
+      patch_.push_back(around_[k]);
+    }
+  }
+
+  const TetMesh& mesh_;
+  std::vector<std::size_t> start_, around_;  ///< elements at node n: around_[start_[n], start_[n + 1])
+  std::vector<int> taken_by_;                ///< #T, node whose patch last took the element
+  std::vector<std::size_t> patch_;
 };
 
-void add(const Mat3& F, const Mat3& P, double volume, const Tet& tet, Means& sums) {
-  for (const int node : tet) {
-    const auto n = static_cast<std::size_t>(node);
-    sums.F[n] += volume * F, sums.P[n] += volume * P, sums.volume[n] += volume;
+/// The fields of one material at nodes, #V.
+struct Recovered {
+  std::vector<Mat3> F, P;
+};
+
+/// At a node X: the weighted linear fit of a patch, which is a weighted sum of its values. With the patch's volume V,
+/// centroid c and second moments M, an element t weighs V_t (1/V + (c_t − c) · M⁻¹ (X − c)).
+Recovered recover(const TetMesh& mesh, const std::vector<std::size_t>& elements, const std::vector<Mat3>& F,
+                  const std::vector<Mat3>& P) {
+  const std::size_t nodes = mesh.nodes.size();
+  Recovered result{std::vector<Mat3>(nodes, Mat3::Zero()), std::vector<Mat3>(nodes, Mat3::Zero())};
+  Patches patches(mesh, elements);
+  for (std::size_t n = 0; n < nodes; ++n) {
+    const std::vector<std::size_t>& patch = patches.of(static_cast<int>(n));
+    double volume = 0;
+    Vec3 middle = Vec3::Zero();
+    for (const std::size_t t : patch) volume += volume_of(mesh, t), middle += volume_of(mesh, t) * centroid(mesh, t);
+    if (!(volume > 0)) continue;
+    middle /= volume;
+    Mat3 moments = Mat3::Zero();
+    for (const std::size_t t : patch) {
+      const Vec3 d = centroid(mesh, t) - middle;
+      moments += volume_of(mesh, t) * d * d.transpose();
+    }
+    const double spread = moments.trace();
+    moments.diagonal().array() += flat_patch * spread;
+    const Vec3 slope = spread > 0 ? Vec3(moments.llt().solve(mesh.nodes[n] - middle)) : Vec3::Zero();
+    for (const std::size_t t : patch) {
+      const double weight = volume_of(mesh, t) * (1 / volume + (centroid(mesh, t) - middle).dot(slope));
+      result.F[n] += weight * F[t];
+      result.P[n] += weight * P[t];
+    }
   }
+  return result;
 }
 
 /// e_t² of one element, J, with ∫ N_a N_b dV = V/20, or V/10 where a = b.
-double difference(const Mat3& F, const Mat3& P, double volume, const Tet& tet, const Means& means) {
+double difference(const Mat3& F, const Mat3& P, double volume, const Tet& tet, const Recovered& smooth) {
   Mat3 dF[4], dP[4], sum_F = Mat3::Zero(), sum_P = Mat3::Zero();
   double same = 0;
   for (std::size_t a = 0; a < 4; ++a) {
     const auto n = static_cast<std::size_t>(tet[a]);
-    dF[a] = means.F[n] / means.volume[n] - F;
-    dP[a] = means.P[n] / means.volume[n] - P;
+    dF[a] = smooth.F[n] - F;
+    dP[a] = smooth.P[n] - P;
     same += dF[a].cwiseProduct(dP[a]).sum();
     sum_F += dF[a], sum_P += dP[a];
   }
@@ -66,14 +138,11 @@ std::vector<double> recovery_errors(const TetMesh& mesh, const std::vector<int>&
                                     const std::vector<Mat3>& F, const std::vector<Mat3>& P) {
   std::vector<double> errors(mesh.tets.size(), 0.0);
   const int materials = material_of.empty() ? 0 : 1 + *std::max_element(material_of.begin(), material_of.end());
-  const std::size_t nodes = mesh.nodes.size();
-  for (int m = 0; m < materials; ++m) {
-    Means sums{std::vector<Mat3>(nodes, Mat3::Zero()), std::vector<Mat3>(nodes, Mat3::Zero()),
-               std::vector<double>(nodes, 0.0)};
-    for (std::size_t t = 0; t < errors.size(); ++t)
-      if (material_of[t] == m) add(F[t], P[t], volume_of(mesh, t), mesh.tets[t], sums);
-    for (std::size_t t = 0; t < errors.size(); ++t)
-      if (material_of[t] == m) errors[t] = difference(F[t], P[t], volume_of(mesh, t), mesh.tets[t], sums);
+  std::vector<std::vector<std::size_t>> elements(static_cast<std::size_t>(materials));
+  for (std::size_t t = 0; t < errors.size(); ++t) elements[static_cast<std::size_t>(material_of[t])].push_back(t);
+  for (const auto& of_one : elements) {
+    const Recovered smooth = recover(mesh, of_one, F, P);
+    for (const std::size_t t : of_one) errors[t] = difference(F[t], P[t], volume_of(mesh, t), mesh.tets[t], smooth);
   }
   return errors;
 }

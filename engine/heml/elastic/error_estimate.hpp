@@ -1,15 +1,16 @@
 #pragma once
 // Discretisation error of linear tetrahedra, estimated after Zienkiewicz & Zhu (International Journal for Numerical
-// Methods in Engineering 24, 1987). Stress and deformation gradient are constant per element and jump between elements.
-// Their means at nodes, interpolated linearly, are closer to the continuous fields, so the difference estimates the
-// error:
+// Methods in Engineering 24, 1987), with fields recovered from patches (33, 1992). Stress and deformation gradient are
+// constant per element and jump between elements. Linear fits to their values round each node, interpolated linearly,
+// are closer to the continuous fields, so the difference estimates the error:
 //
 //        P  ┌───┐ P*  ╱            e_t² = ∫_t (P* − P) : (F* − F) dV,   J: the squared energy norm of the error
-//       ────┘╱──└────╱             * at a node: mean over the elements of one material there, weighted by volume
+//       ────┘╱──└────╱             * at a node: value there of the fit to the elements of one material round it
 //
 // P (first Piola–Kirchhoff) and F are work conjugate, so no moduli are needed and every law is covered; for small
-// strains of a uniform body this is the usual ∫ Δσ : C⁻¹ Δσ. Means are taken per material, since stress may jump at an
-// interface. At the surface they are one-sided and less accurate.
+// strains of a uniform body this is the usual ∫ Δσ : C⁻¹ Δσ. Fits are made per material, since stress may jump at an
+// interface. A node at the surface has elements on one side and often few of them: its patch grows by rings until a fit
+// is determined twice over, and the fit extrapolates to it, where a mean would keep the value from inside the body.
 #include <heml/mesh/tet_mesh.hpp>
 #include <vector>
 
