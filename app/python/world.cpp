@@ -12,6 +12,7 @@
 #include <heml/base/error.hpp>
 #include <heml/mesh/surface.hpp>
 #include <heml/scenario/event_json.hpp>
+#include <heml/scenario/label_names.hpp>
 
 namespace heml::python {
 
@@ -48,15 +49,22 @@ nb::object vectors(LiveWorld& live, nb::object out) {
   return node_vectors(live.world(), which, std::move(out));
 }
 
+/// An int32 array, filled by a function.
+template <class Fill>
+nb::object int_array(const Shape& shape, const Fill& fill) {
+  nb::object array = make_array(shape, ElementType::int32);
+  const ArrayMemory memory(array, "", shape, ArrayMemory::Access::write, ElementType::int32);
+  fill(memory.data<std::int32_t>());
+  return array;
+}
+
 /// (n, corners) of lists of node numbers.
 template <class Corners>
 nb::object index_array(const std::vector<Corners>& rows) {
-  constexpr std::size_t columns = std::tuple_size_v<Corners>;
-  nb::object array = make_array({static_cast<Py_ssize_t>(rows.size()), columns}, ElementType::int32);
-  const ArrayMemory memory(array, "", {-1, columns}, ArrayMemory::Access::write, ElementType::int32);
-  auto* value = memory.data<std::int32_t>();
-  for (const Corners& row : rows) value = std::copy(row.begin(), row.end(), value);
-  return array;
+  constexpr Py_ssize_t columns = std::tuple_size_v<Corners>;
+  return int_array({static_cast<Py_ssize_t>(rows.size()), columns}, [&](std::int32_t* value) {
+    for (const Corners& row : rows) value = std::copy(row.begin(), row.end(), value);
+  });
 }
 
 nb::object tets(World& world) {
@@ -71,6 +79,27 @@ nb::object surface(World& world) {
   const std::vector<int>& elements = world.topology()->elements;
   const bool is_whole = elements.size() == mesh.tets.size();
   return index_array(extract_boundary(is_whole ? mesh : with_elements(mesh, elements)).triangles);
+}
+
+nb::object regions(World& world) {
+  const std::vector<int> present = with_elements(world.setup().mesh.regions, world.topology()->elements);
+  return int_array({static_cast<Py_ssize_t>(present.size())},
+                   [&](std::int32_t* value) { std::copy(present.begin(), present.end(), value); });
+}
+
+nb::object rest_positions(LiveWorld& live, nb::object out) {
+  const Use use(live);
+  const std::vector<Vec3>& nodes = live.world().setup().mesh.nodes;
+  return filled(std::move(out), {static_cast<Py_ssize_t>(nodes.size()), 3}, [&](double* values) {
+    for (const Vec3& node : nodes) values = std::copy(node.begin(), node.end(), values);
+  });
+}
+
+nb::dict names_of_regions(LiveWorld& live) {
+  const Use use(live);
+  nb::dict names;
+  for (const auto& [region, name] : region_names(live.scene())) names[nb::int_(region)] = name;
+  return names;
 }
 
 nb::object volume_ratios(World& world) {
@@ -183,6 +212,12 @@ void bind_state(nb::class_<LiveWorld>& world) {
       .def_prop_ro("tets", method(tets),
                    "(T, 4) int32: corners of the elements that are there, by node, in the mesh file's order.")
       .def_prop_ro("surface", method(surface), "(F, 3) int32: triangles of their boundary, by node, seen from outside.")
+      .def("regions", method(regions),
+           "(T,) int32: region of each element of `tets`, the mesh file's number; 0 where it gives none.")
+      .def("region_names", &names_of_regions,
+           "dict: names of regions by their number, where the label map that the mesh is of names them.")
+      .def("rest_positions", &rest_positions, "out"_a = nb::none(),
+           "(V, 3) float64, m: positions at rest, without load; nodes as in positions(); a copy, or `out`.")
       .def("positions", &vectors<NodeVector::position>, "out"_a = nb::none(),
            "(V, 3) float64, m, in the mesh file's node order; a copy, or `out`.")
       .def("velocities", &vectors<NodeVector::velocity>, "out"_a = nb::none(), "(V, 3) float64, m/s; a copy, or `out`.")

@@ -16,7 +16,6 @@ from pathlib import Path
 import numpy as np
 
 import heml
-from heml.interchange import in_region
 
 true_moduli = {"materials[0].young": 8e3, "materials[1].young": 1.5e4, "materials[2].young": 1.2e4}
 
@@ -24,8 +23,9 @@ true_moduli = {"materials[0].young": 8e3, "materials[1].young": 1.5e4, "material
 def kidney_of_three_regions(scene_file: str, folder: str) -> dict:
     """A static scene of the kidney whose lower half is region 3."""
     scene = heml.Scene(scene_file).to_dict()
-    mesh = heml.World(heml.Scene(scene)).to_meshio(fields=[])
-    tets, regions = mesh.cells_dict["tetra"], np.where(in_region(scene, 2), 2, 1)
+    world = heml.World(heml.Scene(scene))
+    mesh, regions = world.to_meshio(fields=[]), np.where(world.regions() == 2, 2, 1)
+    tets = mesh.cells_dict["tetra"]
     height = mesh.points[tets].mean(axis=1)[:, 1]
     regions[(regions == 1) & (height < np.median(height[regions == 1]))] = 3
     mesh.cell_data["medit:ref"] = [regions]

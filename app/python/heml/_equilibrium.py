@@ -18,7 +18,6 @@ from numpy.typing import NDArray
 import heml
 from heml._optional import require
 from heml._scene_paths import set_number
-from heml.interchange import in_region
 
 Array = NDArray[np.float64]
 
@@ -88,7 +87,7 @@ class Equilibrium:
         self.tets = np.asarray(world.tets, dtype=np.intp)
         self.surface = np.asarray(world.surface, dtype=np.intp)
         self.rest = np.asarray(world.positions())
-        self.entry_of_tet = _entries(scene, len(self.tets))
+        self.entry_of_tet = _entries(scene, world.regions())
         constrained = np.zeros(len(self.rest), dtype=bool)
         for support in scene.get("boundary", []):
             constrained[support["nodes"]] = True
@@ -214,14 +213,14 @@ class Equilibrium:
         return out
 
 
-def _entries(scene: dict[str, Any], elements: int) -> NDArray[np.intp]:
+def _entries(scene: dict[str, Any], regions: NDArray[np.int32]) -> NDArray[np.intp]:
     """Number of the material of each element (T,): the entry of its region, else the entry without a region."""
     materials = scene["materials"]
     default = [number for number, material in enumerate(materials) if "region" not in material]
-    chosen = np.full(elements, default[0] if default else -1, dtype=np.intp)
+    chosen = np.full(len(regions), default[0] if default else -1, dtype=np.intp)
     for number, material in enumerate(materials):
         if "region" in material:
-            chosen[in_region(bare_scene(scene), material["region"])] = number
+            chosen[regions == material["region"]] = number
     return chosen
 
 

@@ -23,26 +23,6 @@ def world_of(thing: Union[heml.World, heml.Scene]) -> heml.World:
     return heml.World(thing) if isinstance(thing, heml.Scene) else thing
 
 
-def in_region(scene: Any, number: int) -> np.ndarray:
-    """Which elements of a scene's mesh carry a region: (T,) bool, in the order of `World.tets`.
-
-    scene: path, dict or Scene. Found by removing the region from a world of the scene.
-    """
-    world = heml.World(scene, threads=1)
-    before = np.asarray(world.tets)
-    try:
-        world.apply({"remove": {"region": int(number)}})
-    except heml.InputError as refused:  # of all elements, or of none
-        return np.full(len(before), "no element of region" not in str(refused))
-    return ~_in_rows(before, np.asarray(world.tets))
-
-
-def _in_rows(rows: np.ndarray, others: np.ndarray) -> np.ndarray:
-    """Which rows (n, 4) are among others (m, 4)."""
-    present = set(map(tuple, others.tolist()))
-    return np.array([tuple(row) in present for row in rows.tolist()])
-
-
 def to_meshio(thing: Union[heml.World, heml.Scene], fields: Sequence[str] = fields) -> meshio.Mesh:
     """The body as it is now, in file order.
 
