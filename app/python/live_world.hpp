@@ -65,6 +65,8 @@ class LiveWorld {
 
   /// Ends its recording and frees all. Any later use is refused.
   void close();
+  /// Whether it is; for the thread that may close it.
+  bool is_closed() const { return !world_; }
 
  private:
   void finish_call();

@@ -194,6 +194,13 @@ void record(LiveWorld& live, nb::object path) {
     live.record(nb::cast<std::string>(nb::module_::import_("os").attr("fsdecode")(path)));
 }
 
+/// Of a closed one it does nothing, as of files. The GIL is held throughout.
+void close(LiveWorld& live) {
+  if (live.is_closed()) return;
+  const Use use(live);
+  live.close();
+}
+
 nb::object report(LiveWorld& live) {
   const Use use(live);
   return report_object(live.world(), live.facts());
@@ -267,18 +274,9 @@ void bind_actions(nb::class_<LiveWorld>& world) {
       .def("record", &record, "path"_a.none(),
            "Records from now on into a file that `heml replay --verify` plays; what was done before is written first. "
            "The file is complete after every call. None ends the recording.")
-      .def(
-          "close",
-          [](LiveWorld& live) {
-            const Use use(live);
-            live.close();
-          },
-          "Ends the recording and frees the world; any later use is an error.")
+      .def("close", &close, "Ends the recording and frees the world; any later use is an error, but for closing it.")
       .def("__enter__", [](nb::handle self) { return nb::borrow(self); })
-      .def("__exit__", [](LiveWorld& live, const nb::args&) {
-        const Use use(live);
-        live.close();
-      });
+      .def("__exit__", [](LiveWorld& live, const nb::args&) { close(live); });
 }
 
 }  // namespace

@@ -12,20 +12,37 @@ import heml
     (np.empty((45, 3), np.float32), "type 'f'"),
     (np.empty((3, 45)).T, "contiguous"),
     (np.empty((45, 6))[:, ::2], "contiguous"),
+    (np.empty((45, 3), ">f8"), "type '>d'"),
+    (np.empty((45, 3), np.int64), "type 'l'"),
+    (np.empty((45, 3), object), "type 'O'"),
+    (np.empty((45, 3, 1)), "shape (45, 3, 1)"),
+    (np.empty(135), "shape (135,)"),
+    (np.empty((45, 3))[::-1], "contiguous"),
+    (bytes(1080), "type 'B'"),
     ([[0, 0, 0]] * 45, "array"),
     ("text", "array"),
 ])
 def test_a_wrong_out_is_refused(box, out, words):
-    with pytest.raises(heml.InputError) as error:
-        heml.World(box(), threads=1).positions(out=out)
-    assert words in str(error.value) and "(45, 3)" in str(error.value)
+    world = heml.World(box(), threads=1)
+    for name in ("positions", "velocities", "forces", "rest_positions"):
+        with pytest.raises(heml.InputError) as error:
+            getattr(world, name)(out=out)
+        assert words in str(error.value) and "(45, 3)" in str(error.value)
 
 
-def test_a_read_only_out_is_refused(box):
-    out = np.empty((45, 3))
+def test_a_wrong_out_of_a_batch_is_refused(box):
+    batch = heml.Batch(box(), 2, threads=1)
+    for out in (np.empty((45, 3)), np.empty((3, 45, 3)), np.empty((2, 45, 3), np.float32), np.empty((4, 45, 3))[::2]):
+        with pytest.raises(heml.InputError, match=r"^out: .*\(2, 45, 3\)"):
+            batch.positions(out=out)
+
+
+def test_a_read_only_out_is_refused_and_keeps_its_values(box):
+    out = np.full((45, 3), 7.0)
     out.flags.writeable = False
     with pytest.raises(heml.InputError, match="read-only"):
         heml.World(box(), threads=1).velocities(out=out)
+    assert (out == 7).all()
 
 
 @pytest.mark.parametrize("call, words", [
@@ -38,6 +55,16 @@ def test_a_read_only_out_is_refused(box):
     (lambda w: w.grasp(node=1, point=[0, 0, 0]), "point"),
     (lambda w: w.move([0, 0]), "move"),
     (lambda w: w.move([0, 0, float("nan")]), "move[2]"),
+    (lambda w: w.move(np.full(3, np.nan)), "move[0]"),
+    (lambda w: w.apply({"gravity": np.array([0, np.nan, 0], np.float32)}), "gravity[1]"),
+    (lambda w: w.apply({"gravity": [0, 0, float("inf")]}), "gravity[2]"),
+    (lambda w: w.apply({"gravity": np.ones((3, 3))}), "gravity"),
+    (lambda w: w.grasp(point=[np.nan, 0, 0]), "grasp.point[0]"),
+    (lambda w: w.grasp(node=1, radius=np.nan), "grasp.radius"),
+    (lambda w: w.cut(np.full((2, 2, 3), np.nan)), "cut.sweep[0][0][0]"),
+    (lambda w: w.apply({"material": {"law": "neo_hookean", "young": np.nan, "poisson": 0.4}}), "material.young"),
+    (lambda w: w.apply({"remove": {"sphere": [[np.nan, 0, 0], 1]}}), "remove.sphere[0][0]"),
+    (lambda w: w.step(np.nan), "step"),
     (lambda w: w.undo(), "undo"),
     (lambda w: w.record("/no/such/folder/r.jsonl"), "/no/such/folder"),
     (lambda w: heml.World(w.positions()), ""),
@@ -53,9 +80,32 @@ def test_wrong_calls_say_what_is_wrong_and_change_nothing(box, call, words):
     world.step(1)
 
 
-def test_a_closed_world_is_refused(box):
+def test_every_use_of_a_closed_world_is_refused(box, sweep, tmp_path):
     world = heml.World(box(), threads=1)
+    snapshot = world.snapshot()
     world.close()
+    arguments = {"apply": [{"gravity": [0, 0, 0]}], "move": [[0, 0, 0]], "cut": [sweep], "restore": [snapshot],
+                 "record": [tmp_path / "r.jsonl"]}
+    # to_pyvista asks for its package first; it and the like go through those below.
+    for name in set(dir(heml.World)) - {"close", "show", "to_meshio", "to_pyvista"}:
+        if name.startswith("_"):
+            continue
+        with pytest.raises(RuntimeError, match="this world is closed"):
+            value = getattr(world, name)
+            value(*arguments.get(name, []))
+    with pytest.raises(RuntimeError, match="closed"):
+        heml.render(world)
+    world.close()
+    other = heml.World(box(), threads=1)
+    other.restore(snapshot)
+    assert other.ticks == 0
+
+
+def test_a_block_may_close_its_world(box):
+    with heml.World(box(), threads=1) as world:
+        world.close()
+    with pytest.raises(ZeroDivisionError), heml.World(box(), threads=1) as world:
+        1 / 0
     with pytest.raises(RuntimeError, match="closed"):
         world.step()
 
