@@ -12,7 +12,6 @@
 namespace heml {
 namespace {
 
-constexpr const char* not_quadratic = "elements p2 take no edits of the mesh (take \"element\": \"p1\")";
 constexpr std::size_t max_undo = 20;  // edits; of earlier states only the start is kept
 
 /// Appends nodes that the edit inserts between two nodes of the list, or copies from one.
@@ -36,6 +35,10 @@ MeshEdit in_numbers(MeshEdit edit, const std::vector<int>& node, const std::vect
   return edit;
 }
 
+std::string not_editable(const char* command, const SolverSettings& solver) {
+  return fmt::format("{}: element {} takes no edits of the mesh; take \"element\": \"p1\"", command, solver.element());
+}
+
 double worst_angle(const MeshEdit& edit, const TetMesh& mesh) {
   double worst = 180;
   for (const Tet& tet : edit.added) {
@@ -50,7 +53,7 @@ double worst_angle(const MeshEdit& edit, const TetMesh& mesh) {
 
 template <class Real>
 Status MeshEditor<Real>::remove(const RemoveElements& command) {
-  if (!s_.model.midedges.empty()) return std::string("remove: ") + not_quadratic;
+  if (!s_.model.midedges.empty()) return not_editable("remove", s_.setup.solver);
   MeshEdit edit;
   if (const Status made = make_removal_edit(command.which, s_.setup.mesh, *s_.topology, edit); !made.ok())
     return "remove: " + made.message();
@@ -68,7 +71,7 @@ Status MeshEditor<Real>::remove(const RemoveElements& command) {
 
 template <class Real>
 Status MeshEditor<Real>::cut(const CutTissue& command) {
-  if (!s_.model.midedges.empty()) return std::string("cut: ") + not_quadratic;
+  if (!s_.model.midedges.empty()) return not_editable("cut", s_.setup.solver);
   for (const auto& [tip, end] : command.sweep.blades)
     if (!tip.allFinite() || !end.allFinite()) return "cut: a place of the blade is not finite";
   if (command.sweep.blades.size() < 2) return "cut: the sweep needs the blade at two times at least";

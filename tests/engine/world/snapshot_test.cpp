@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <heml/materials/material.hpp>
+#include <heml/mesh/quadratic.hpp>
 #include <utility>
 
 #include "state_support.hpp"
@@ -134,6 +135,29 @@ TEST_CASE("snapshot: every command, before the snapshot and after it, in and out
         for (const std::vector<Event>& events : {first, later})
           check_restored({bar_in_contact(integrator, single), events, 5, 10});
       }
+}
+
+TEST_CASE("snapshot: quadratic elements, every command that does not edit the mesh, before the snapshot and after it") {
+  for (const Command& command : examples()) {
+    if (is_edit(command)) continue;
+    for (const Integrator integrator : {Integrator::verlet, Integrator::bdf2, Integrator::static_equilibrium})
+      for (const bool mean_dilatation : {false, true}) {
+        CAPTURE(command.index());
+        CAPTURE(integrator_name(integrator));
+        CAPTURE(mean_dilatation);
+        WorldSetup setup = bar_in_contact(integrator, mean_dilatation != (integrator == Integrator::bdf2));
+        setup.self_contact.reset();
+        setup.midedges = add_midedge_nodes(setup.mesh);
+        setup.solver.quadratic = true;
+        setup.solver.nodal_pressure = mean_dilatation;
+        Command accepted = command;
+        if (auto* change = std::get_if<SetMaterial>(&accepted)) change->material = sample_material("neo_hookean_iso");
+        std::vector<Event> first, later;
+        for (const Command& earlier : before(command)) first.push_back({1, earlier}), later.push_back({5, earlier});
+        first.push_back({2, accepted}), later.push_back({6, accepted});
+        for (const std::vector<Event>& events : {first, later}) check_restored({setup, events, 4, 8});
+      }
+  }
 }
 
 TEST_CASE("snapshot: scripts of random commands, restored to random moments in any order") {
