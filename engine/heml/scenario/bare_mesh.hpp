@@ -1,5 +1,6 @@
 #pragma once
 // What a bare mesh or surface lacks to be a scene, chosen in this order; scene_around() (scene.hpp) puts it together.
+// The first three can be given instead (bare_mesh_options.hpp).
 //
 //   unit      by its length                                    body_shape.hpp
 //   up        y, or z where the body has a flat base there

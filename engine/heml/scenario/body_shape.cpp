@@ -49,25 +49,6 @@ bool is_inside(const std::vector<Point>& hull, const Point& p) {
   return true;
 }
 
-/// The end of the surface along y with a share of its area. sign: 1 from the low end, −1 from the high one.
-Support end_of(const TetMesh& mesh, const BodyShape& shape, double share, double sign) {
-  const auto height = [&](const Triangle& face) {
-    return (mesh.nodes[face[0]].y() + mesh.nodes[face[1]].y() + mesh.nodes[face[2]].y()) / 3;
-  };
-  std::vector<std::size_t> order(shape.faces.triangles.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return sign * height(shape.faces.triangles[a]) < sign * height(shape.faces.triangles[b]);
-  });
-  double area = 0, reached = 0;
-  for (const std::size_t k : order) {
-    reached = height(shape.faces.triangles[k]);
-    area += area_vector(mesh, shape.faces.triangles[k]).norm();
-    if (area >= share * shape.area) break;
-  }
-  return {sign < 0, reached + sign * round_off * shape.size().y(), area / shape.area};
-}
-
 /// Whether the centre of the body's volume is above or below the nodes of a support.
 bool is_balanced(const TetMesh& mesh, const BodyShape& shape, const Support& support) {
   std::vector<Point> points;
@@ -77,6 +58,8 @@ bool is_balanced(const TetMesh& mesh, const BodyShape& shape, const Support& sup
   }
   return points.size() >= 3 && is_inside(hull_of(std::move(points)), Point(shape.centre.x(), shape.centre.z()));
 }
+
+bool is_plausible(double length) { return unit_warning(Vec3::Zero(), Vec3::Constant(length)).empty(); }
 
 }  // namespace
 
@@ -107,10 +90,18 @@ BodyShape shape_of(const TetMesh& mesh) {
 }
 
 LengthUnit guess_unit(double length) {
-  if (unit_warning(Vec3::Zero(), Vec3::Constant(length)).empty()) return {"metres", 1};
+  if (is_plausible(length)) return {"metres", 1};
   for (const LengthUnit& unit : {LengthUnit{"centimetres", 0.01}, LengthUnit{"millimetres", 0.001}})
     if (length * unit.scale >= min_organ && length * unit.scale <= max_organ) return unit;
   return {"", sensible_size / length};
+}
+
+std::vector<LengthUnit> plausible_units(double length) {
+  std::vector<LengthUnit> units{{"metres", 1},          {"decimetres", 0.1},   {"centimetres", 0.01},
+                                {"millimetres", 0.001}, {"micrometres", 1e-6}, {"inches", 0.0254}};
+  std::erase_if(units, [&](const LengthUnit& unit) { return !is_plausible(unit.scale * length); });
+  units.push_back({"", sensible_size / length});
+  return units;
 }
 
 double flat_base(const TetMesh& mesh, const BodyShape& shape, int axis) {
@@ -126,14 +117,33 @@ double flat_base(const TetMesh& mesh, const BodyShape& shape, int axis) {
   return area * size[axis] / size.prod();
 }
 
-char guess_up(const TetMesh& mesh, const BodyShape& shape) {
-  return flat_base(mesh, shape, 2) >= is_base && flat_base(mesh, shape, 1) < is_no_base ? 'z' : 'y';
+UpAxis guess_up(const TetMesh& mesh, const BodyShape& shape) {
+  return flat_base(mesh, shape, 2) >= is_base && flat_base(mesh, shape, 1) < is_no_base ? UpAxis::z : UpAxis::y;
+}
+
+Support support_at(bool top, const TetMesh& mesh, const BodyShape& shape, double share) {
+  const double sign = top ? -1 : 1;
+  const auto height = [&](const Triangle& face) {
+    return (mesh.nodes[face[0]].y() + mesh.nodes[face[1]].y() + mesh.nodes[face[2]].y()) / 3;
+  };
+  std::vector<std::size_t> order(shape.faces.triangles.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return sign * height(shape.faces.triangles[a]) < sign * height(shape.faces.triangles[b]);
+  });
+  double area = 0, reached = 0;
+  for (const std::size_t k : order) {
+    reached = height(shape.faces.triangles[k]);
+    area += area_vector(mesh, shape.faces.triangles[k]).norm();
+    if (area >= share * shape.area) break;
+  }
+  return {top, reached + sign * round_off * shape.size().y(), area / shape.area};
 }
 
 Support choose_support(const TetMesh& mesh, const BodyShape& shape, double share) {
-  const Support underside = end_of(mesh, shape, share, 1);
+  const Support underside = support_at(false, mesh, shape, share);
   if (is_balanced(mesh, shape, underside)) return underside;
-  const Support top = end_of(mesh, shape, share, -1);
+  const Support top = support_at(true, mesh, shape, share);
   return is_balanced(mesh, shape, top) ? top : underside;
 }
 

@@ -26,7 +26,8 @@ namespace fs = std::filesystem;
 constexpr double wanted_tets = 1000;      // by volume, when filling a surface; its kept triangles may lead to more
 constexpr int label_tets = 10000;         // of a label map: in real time on one core
 constexpr double supported_share = 0.12;  // of the surface
-constexpr double max_stretch = 1.5;       // of a body under its own weight
+constexpr double table_friction = 0.5;
+constexpr double max_stretch = 1.5;  // of a body under its own weight
 constexpr double tissue_poisson = 0.45, tissue_density = 1000;
 constexpr double mass_damping = 1;  // 1/s
 
@@ -64,18 +65,23 @@ void tell(Scene& scene, bool as_warning, const char* about, std::string text) {
 }
 
 void choose_unit(Scene& scene, double length) {
-  if (!scene.mesh.labels.empty()) {
+  const std::optional<LengthUnit>& given = scene.chosen->given.unit;
+  if (!given && !scene.mesh.labels.empty()) {
     scene.chosen->unit = "metres";
     scene.chosen->length = length;
     return tell(scene, false, "unit", fmt::format("{:.3g} m long by the scan's header", length));
   }
-  const LengthUnit unit = guess_unit(length);
+  const LengthUnit unit = given ? *given : guess_unit(length);
   scene.mesh.scale = unit.scale;
   if (scene.mesh.max_volume) *scene.mesh.max_volume *= unit.scale * unit.scale * unit.scale;
   scene.chosen->unit = unit.name;
   scene.chosen->scale = unit.scale;
   scene.chosen->length = unit.scale * length;
-  if (unit.name.empty())
+  if (given)
+    tell(scene, false, "unit",
+         fmt::format("{}, as chosen: scaled by {:.6g}, {:.3g} m long",
+                     unit.name.empty() ? "of no unit" : "read in " + unit.name, unit.scale, scene.chosen->length));
+  else if (unit.name.empty())
     tell(scene, true, "unit",
          fmt::format("{:.3g} long, which is no organ's size in metres, centimetres or millimetres: scaled by {:.6g} to "
                      "{:.3g} m (mesh.scale of a scene file chooses)",
@@ -86,29 +92,47 @@ void choose_unit(Scene& scene, double length) {
 }
 
 void choose_up(Scene& scene, const TetMesh& mesh) {
-  if (!scene.mesh.labels.empty())
-    return tell(scene, false, "up", "y points up, which is anterior: the patient lies on the back; x right, z superior");
-  scene.chosen->up = guess_up(mesh, shape_of(mesh));
-  if (scene.chosen->up == 'y') return tell(scene, false, "up", "y points up");
-  scene.mesh.rotate_axis = Vec3(1, 0, 0);
-  scene.mesh.rotate_degrees = -90;
-  tell(scene, true, "up",
-       "z points up, since the body has a flat base there: turned by -90 degrees about x (mesh.rotate of a scene file "
-       "chooses)");
+  const std::optional<UpAxis>& given = scene.chosen->given.up;
+  if (!given && !scene.mesh.labels.empty())
+    return tell(scene, false, "up",
+                "y points up, which is anterior: the patient lies on the back; x right, z superior");
+  scene.chosen->up = given ? *given : guess_up(mesh, shape_of(mesh));
+  const UpAxisInfo& up = info_of(scene.chosen->up);
+  std::string text = fmt::format("{} points up{}", up.name, given ? ", as chosen" : "");
+  if (up.degrees == 0) return tell(scene, false, "up", std::move(text));
+  scene.mesh.rotate_axis = up.about;
+  scene.mesh.rotate_degrees = up.degrees;
+  if (!given) text += ", since the body has a flat base there";
+  text += fmt::format(": turned by {} degrees about {}", up.degrees, up.about.x() != 0 ? 'x' : 'z');
+  if (!given) text += " (mesh.rotate of a scene file chooses)";
+  tell(scene, !given, "up", std::move(text));
+}
+
+void put_on_table(Scene& scene, const BodyShape& shape) {
+  scene.tables.push_back({Vec3(0, shape.low.y(), 0), Vec3::UnitY(), table_friction});
+  scene.chosen->supports = SupportKind::table;
+  tell(scene, false, "supports", fmt::format("lies loose on a table, as chosen, with friction {}", table_friction));
 }
 
 void choose_supports(Scene& scene, const TetMesh& mesh) {
+  const std::optional<SupportKind>& given = scene.chosen->given.supports;
   const BodyShape shape = shape_of(mesh);
-  const Support support = choose_support(mesh, shape, supported_share);
+  if (given == SupportKind::table) return put_on_table(scene, shape);
+  const Support support = given ? support_at(given == SupportKind::top, mesh, shape, supported_share)
+                                : choose_support(mesh, shape, supported_share);
   Vec3 low = shape.low - shape.size(), high = shape.high + shape.size();
   (support.top ? low : high).y() = support.height;
   scene.boundary.push_back({{{}, std::array{low, high}, std::nullopt}, {}});
-  scene.chosen->supports = support.top ? "top" : "underside";
+  scene.chosen->supports = support.top ? SupportKind::top : SupportKind::underside;
   scene.chosen->supported_area = support.area;
-  tell(scene, false, "supports",
-       support.top ? fmt::format("hangs from the top {:.0f} % of its surface, since it would topple on its underside",
-                                 100 * support.area)
-                   : fmt::format("rests on the lowest {:.0f} % of its surface, which is held", 100 * support.area));
+  std::string text =
+      support.top ? fmt::format("hangs from the top {:.0f} % of its surface", 100 * support.area)
+                  : fmt::format("rests on the lowest {:.0f} % of its surface, which is held", 100 * support.area);
+  if (given)
+    text += ", as chosen";
+  else if (support.top)
+    text += ", since it would topple on its underside";
+  tell(scene, false, "supports", std::move(text));
 }
 
 Material tissue_of(double young) {
@@ -176,11 +200,11 @@ TetMesh placed_mesh(const Scene& scene) {
 
 }  // namespace
 
-Scene scene_around(const fs::path& path) {
+Scene scene_around(const fs::path& path, const BareMeshOptions& options) {
   Scene scene;
   scene.file = path.string();
   scene.name = path.stem().string();
-  scene.chosen.emplace();
+  scene.chosen.emplace().given = options;
   {
     const WarningCollector warnings;
     take_mesh(scene, path);

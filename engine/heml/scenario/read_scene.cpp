@@ -269,9 +269,10 @@ FileKind kind_of(const fs::path& path) {
   return surface != std::end(surface_endings) ? FileKind::surface : FileKind::other;
 }
 
-Scene read_scene(const fs::path& path) {
+Scene read_scene(const fs::path& path, const BareMeshOptions& options) {
   const FileKind kind = kind_of(path);
-  if (kind == FileKind::surface || kind == FileKind::tetrahedra || kind == FileKind::labels) return scene_around(path);
+  if (kind == FileKind::surface || kind == FileKind::tetrahedra || kind == FileKind::labels)
+    return scene_around(path, options);
   const std::string text = read_text_file(path);
   if (kind == FileKind::other && !looks_like_json(text))
     throw InputError(path.string(), "", "is not a kind of file this program opens",

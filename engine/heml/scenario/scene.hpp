@@ -12,6 +12,7 @@
 // the mesh is the same.
 #include <cstdint>
 #include <filesystem>
+#include <heml/scenario/bare_mesh_options.hpp>
 #include <heml/world/command.hpp>
 #include <heml/world/setup.hpp>
 #include <heml/world/world.hpp>
@@ -121,11 +122,12 @@ struct BareMeshChoices {
     std::string about;  ///< unit, up, supports, tissue, method
     std::string text;
   };
-  std::string unit;           ///< metres, centimetres, millimetres; empty: none fits, the body was scaled
-  double scale = 1;           ///< to metres
-  double length = 0;          ///< m, longest side
-  char up = 'y';              ///< axis of the file that points up
-  std::string supports;       ///< underside, top
+  BareMeshOptions given;  ///< what was given; the rest was guessed
+  std::string unit;       ///< LengthUnit::name
+  double scale = 1;       ///< to metres
+  double length = 0;      ///< m, longest side
+  UpAxis up = UpAxis::y;
+  SupportKind supports = SupportKind::underside;
   double supported_area = 0;  ///< share of the surface that is held
   double young = 0, poisson = 0, density = 0;
   double stretch = 0;  ///< largest of the body under its weight, means at nodes
@@ -166,8 +168,9 @@ struct Scene {
   std::optional<InstructionSet> recorded_instructions;  ///< with which its states were computed
 };
 
-/// Reads a scene or a recording, or makes a default scene for a bare mesh or surface file. Throws InputError.
-Scene read_scene(const std::filesystem::path& path);
+/// Reads a scene or a recording, or makes a default scene for a bare mesh or surface file. options: of that one. Throws
+/// InputError.
+Scene read_scene(const std::filesystem::path& path, const BareMeshOptions& options = {});
 
 /// Reads a scene or recording from text; paths and messages refer to the file `as_if_from`. Throws InputError.
 Scene parse_scene(std::string_view text, const std::filesystem::path& as_if_from);
@@ -177,7 +180,7 @@ Scene default_scene();
 
 /// The default scene for a bare mesh or surface (bare_mesh.hpp): soft tissue under gravity, held so that it rests, in
 /// real time by the cost model. Says what it chose on stderr and in Scene::chosen. Throws InputError.
-Scene scene_around(const std::filesystem::path& mesh_or_surface);
+Scene scene_around(const std::filesystem::path& mesh_or_surface, const BareMeshOptions& options = {});
 
 /// Whether this processor supports the instruction set a recording names. Then its world uses it and reproduces the
 /// recorded states; else states differ by round-off.

@@ -56,12 +56,12 @@ TEST_CASE("a unit is one in which the body is an organ's size") {
 
 TEST_CASE("z points up where a body is flat below z alone") {
   const TetMesh body = dome();
-  CHECK(guess_up(body, shape_of(body)) == 'z');
+  CHECK(guess_up(body, shape_of(body)) == UpAxis::z);
   TetMesh turned = body;
   for (Vec3& x : turned.nodes) x = Vec3(x.x(), x.z(), -x.y());
-  CHECK(guess_up(turned, shape_of(turned)) == 'y');
+  CHECK(guess_up(turned, shape_of(turned)) == UpAxis::y);
   const TetMesh box = make_box(Vec3(1, 1, 1), {2, 2, 2});
-  CHECK(guess_up(box, shape_of(box)) == 'y');
+  CHECK(guess_up(box, shape_of(box)) == UpAxis::y);
 }
 
 TEST_CASE("a box rests on its underside, which is a sixth of its surface") {
