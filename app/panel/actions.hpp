@@ -2,6 +2,7 @@
 // Output of the panel: commands for the world and requests to the panel's owner (window/viewer.hpp), which carries
 // them out.
 #include <filesystem>
+#include <heml/scenario/bare_mesh_options.hpp>
 #include <heml/world/command.hpp>
 #include <heml/world/world.hpp>
 #include <optional>
@@ -100,6 +101,7 @@ struct PanelActions {
   std::vector<Request> requests;
   std::optional<Field> show;                            ///< the field that frames carry from now on
   std::optional<std::filesystem::path> open;            ///< a file to open
+  std::optional<BareMeshOptions> mesh_options;          ///< with which to open the bare mesh again
   std::optional<std::filesystem::path> open_folder;     ///< to show in the system's file manager
   std::optional<std::filesystem::path> list_folder;     ///< a folder to list; Request::list: the last one again
   std::optional<std::size_t> view, save_view;           ///< saved camera view to restore, to overwrite (index)

@@ -51,6 +51,7 @@ Panel::Panel(const Scene& scene, const SurfaceMesh& surface_mesh)
     : title_(!scene.title.empty() ? scene.title : scene.name),
       description_(scene.description),
       tool_(static_cast<double>(render::bounding_sphere(surface_mesh.rest).radius), scene.gravity),
+      mesh_(scene),
       material_(scene.materials, region_names(scene)),
       stretch_monitor_(surface_mesh),
       surface_version_(surface_mesh.version),
@@ -270,7 +271,7 @@ void Panel::draw_controls(const Frame& frame, bool with_readings, PanelActions& 
     draw_header(frame);
     const float header_height = ImGui::GetCursorPosY();
     ImGui::BeginChild("sections", {0, 0}, false, ImGuiWindowFlags_NoNav);
-    if (!findings_.empty()) draw_findings();
+    if (mesh_.is_shown() || !findings_.empty()) draw_findings(out);
     if (rows_.section("Material")) material_.draw(rows_, stretch_monitor_.share(), out);
     if (rows_.section("Motion")) motion_.draw(rows_, out);
     if (rows_.section("Tool")) tool_.draw(rows_, frame, out);
@@ -290,13 +291,15 @@ void Panel::draw_controls(const Frame& frame, bool with_readings, PanelActions& 
   ImGui::End();
 }
 
-void Panel::draw_findings() {
-  if (!rows_.section("As opened")) return;
+void Panel::draw_findings(PanelActions& out) {
+  if (!rows_.section(mesh_.is_shown() ? "This mesh" : "As opened")) return;
+  mesh_.draw(rows_, out);
+  if (findings_.empty()) return;
   const UseFont small(Font::small);
   ImGui::PushTextWrapPos(0);
   for (const std::string& text : findings_) ImGui::TextUnformatted(text.c_str());
   ImGui::PopTextWrapPos();
-  if (rows_.button({"Dismiss", "Closes this section."})) findings_.clear();
+  if (rows_.button({"Dismiss", "Hides this text."})) findings_.clear();
 }
 
 void Panel::draw_header(const Frame& frame) {

@@ -17,6 +17,7 @@
 #include <app/panel/hints.hpp>
 #include <app/panel/history.hpp>
 #include <app/panel/material_section.hpp>
+#include <app/panel/mesh_section.hpp>
 #include <app/panel/motion_section.hpp>
 #include <app/panel/notices.hpp>
 #include <app/panel/open_dialog.hpp>
@@ -54,7 +55,7 @@ class Panel {
   /// Shown until closed: a file that could not be opened.
   void show_error(std::string text) { notices_.show_error(std::move(text)); }
 
-  /// What was found and chosen when the scene was opened; a section shows it until it is dismissed.
+  /// What was found and chosen when the scene was opened; a section tells it until it is dismissed.
   void set_findings(std::vector<std::string> findings);
   void set_choices(OpenChoices choices) { dialog_.set_choices(std::move(choices)); }  ///< entries of the open dialog
   void set_timeline(const Timeline& timeline) { timeline_ = timeline; }               ///< shows its bar from now on
@@ -101,7 +102,7 @@ class Panel {
   std::optional<Banner> banner_for(const Frame& frame, const Area& free);
   Banner slow_banner(const Frame& frame, const Area& free);
   void take_press(BannerPress press, const Frame& frame, PanelActions& out);
-  void draw_findings();
+  void draw_findings(PanelActions& out);
   void record_window_rect();
 
   std::string title_, description_;  ///< of the scene
@@ -112,6 +113,7 @@ class Panel {
   long undo_steps_ = 0;  ///< UndoList::steps whose settings are shown
   ToolSection tool_;
   long refusals_ = 0;  ///< Frame::refusals that were shown
+  MeshSection mesh_;
   MaterialSection material_;
   StretchMonitor stretch_monitor_;
   long surface_version_;      ///< SurfaceMesh::version that stretch_monitor_ is of

@@ -67,13 +67,15 @@ OpenScene start(Scene scene, const std::optional<fs::path>& record, std::vector<
   return result;
 }
 
-void SessionLoader::begin(const fs::path& path, const std::optional<fs::path>& record) {
+void SessionLoader::begin(const fs::path& path, const std::optional<fs::path>& record, const BareMeshOptions& options,
+                          std::vector<std::string> comparisons) {
   if (is_busy()) return;
   target_tick_ = 0;
   cancelled_ = false;
-  result_ = std::async(std::launch::async, [path, record] {
+  result_ = std::async(std::launch::async, [path, record, options, comparisons = std::move(comparisons)]() mutable {
     const WakeAtEnd wake_at_end;
-    OpenScene opened = start(read_scene(path), record ? std::optional(next_recording(*record)) : std::nullopt);
+    OpenScene opened = start(read_scene(path, options), record ? std::optional(next_recording(*record)) : std::nullopt,
+                             std::move(comparisons));
     remember_file(path);
     return opened;
   });

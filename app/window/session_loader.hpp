@@ -34,8 +34,9 @@ class SessionLoader {
   ~SessionLoader() { cancel(); }
 
   /// Opens a file and adds it to the recent ones (state_folder.hpp). record: recording of the first scene, if any; this
-  /// one goes to next_recording() of it.
-  void begin(const std::filesystem::path& path, const std::optional<std::filesystem::path>& record);
+  /// one goes to next_recording() of it. options: of a bare mesh.
+  void begin(const std::filesystem::path& path, const std::optional<std::filesystem::path>& record,
+             const BareMeshOptions& options = {}, std::vector<std::string> comparisons = {});
 
   /// Replays a scene of Session::until() to its end; the session is then paused. record: an earlier recording, if any;
   /// this one goes to next_recording() of it, in state_folder() if its folder is not writable.

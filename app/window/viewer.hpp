@@ -55,6 +55,7 @@ class Viewer final : public WindowEvents {
   void adopt(OpenScene opened);
   void take_opened();
   void open(const std::filesystem::path& path);
+  void open_again(const BareMeshOptions& options);
   void list(const std::filesystem::path& folder);
   void resume();
   void seek(panel::Request where);
@@ -76,7 +77,8 @@ class Viewer final : public WindowEvents {
   void answer(std::size_t which);
   bool save_work();
   void restore_work(const std::filesystem::path& file);
-  void open_now(const std::filesystem::path& path);
+  void open_now(const std::filesystem::path& path, const BareMeshOptions& options = {},
+                const std::vector<std::string>& comparisons = {});
   void release_tool();
   void remove_tissue();
   void notify_saved(const std::string& text, const std::filesystem::path& folder);

@@ -41,11 +41,13 @@ void Viewer::carry_out(const panel::PanelActions& actions) {
   use_view(actions);
   if (actions.list_folder) list(*actions.list_folder);
   if (actions.open) open(*actions.open);
+  if (actions.mesh_options) open_again(*actions.mesh_options);
   if (actions.answer) answer(*actions.answer);
   if (actions.open_folder) start_program({find_program("xdg-open").string(), actions.open_folder->string()});
   if (actions.comparisons) compare(*actions.comparisons);
   if (!actions.commands.empty() || !actions.requests.empty() || actions.answer || actions.show || actions.seek_to ||
-      actions.list_folder || actions.open || actions.comparisons || actions.view || actions.save_view)
+      actions.list_folder || actions.open || actions.mesh_options || actions.comparisons || actions.view ||
+      actions.save_view)
     changed();
 }
 
@@ -89,10 +91,17 @@ void Viewer::open(const std::filesystem::path& path) {
   ask_about_work("Save what was done before another scene is opened?", [this, path] { open_now(path); });
 }
 
-void Viewer::open_now(const std::filesystem::path& path) {
+/// Reads the bare mesh of the scene again.
+void Viewer::open_again(const BareMeshOptions& options) {
+  ask_about_work("Save what was done before the mesh is read again?",
+                 [this, options] { open_now(open_.scene.file, options, open_.comparisons); });
+}
+
+void Viewer::open_now(const std::filesystem::path& path, const BareMeshOptions& options,
+                      const std::vector<std::string>& comparisons) {
   if (session_loader_.is_busy()) return panel_->notify("Another file is being opened.");
   panel_->notify("Opening " + path.filename().string() + " …");
-  session_loader_.begin(path, options_.record);
+  session_loader_.begin(path, options_.record, options, comparisons);
 }
 
 /// folder: empty for the last one; at first for that of the scene's file, or the working directory for an installed

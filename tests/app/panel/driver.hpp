@@ -89,6 +89,7 @@ class Driver {
       all.requests.insert(all.requests.end(), more.requests.begin(), more.requests.end());
       if (more.show) all.show = more.show;
       if (more.open) all.open = more.open;
+      if (more.mesh_options) all.mesh_options = more.mesh_options;
       if (more.list_folder) all.list_folder = more.list_folder;
       if (more.comparisons) all.comparisons = more.comparisons;
       if (more.seek_to) all.seek_to = more.seek_to;

@@ -151,4 +151,23 @@ TEST_CASE("what was found and chosen for a bare mesh comes with its session, eac
   CHECK(count("organ.msh") == 0);
 }
 
+TEST_CASE("a bare mesh is opened again with what was chosen, and compared as before") {
+  const Folder folder;
+  write_tet_mesh(folder.path / "organ.msh", make_box(Vec3(15, 10, 10), {2, 2, 2}));
+  BareMeshOptions options;
+  options.unit = LengthUnit{"millimetres", 0.001};
+  options.supports = SupportKind::top;
+  window::SessionLoader loader;
+  loader.begin(folder.path / "organ.msh", folder.path / "out.jsonl", options, {"verlet"});
+  auto result = wait_for(loader);
+  auto* opened = std::get_if<OpenScene>(&result);
+  REQUIRE(opened);
+  CHECK(opened->scene.chosen->given == options);
+  CHECK(opened->comparisons == std::vector<std::string>{"verlet"});
+  opened->session.reset();
+  const Scene recorded = read_scene(folder.path / "out-2.jsonl");
+  CHECK(recorded.mesh.scale == 0.001);
+  CHECK(load_setup(recorded).boundary[0].nodes == load_setup(opened->scene).boundary[0].nodes);
+}
+
 }  // namespace heml::session_loader_test
