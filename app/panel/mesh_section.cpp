@@ -38,8 +38,11 @@ std::vector<Offer<LengthUnit>> unit_offers(const BareMeshChoices& chosen) {
   const double length = chosen.length / chosen.scale;  // in the file
   for (const LengthUnit& unit : plausible_units(length)) {
     const std::string metres = fmt::format("{:.3g} m", unit.scale * length);
-    offers.push_back({unit.name.empty() ? "scaled to " + metres : unit.name + ", " + metres,
-                      "Makes the body " + metres + " long.", unit, unit.name == chosen.unit});
+    const bool is_now = unit.name == chosen.unit;  // the closed choice has no room for the length
+    offers.push_back({unit.name.empty() ? "scaled to " + metres
+                      : is_now          ? unit.name
+                                        : unit.name + ", " + metres,
+                      "Makes the body " + metres + " long.", unit, is_now});
   }
   return offers;
 }
