@@ -35,6 +35,29 @@ class Organs(WindowCase):
         self.assertEqual(len(scene["boundary"]), 1)
         self.assertIn("rate", scene["solver"])
 
+    def scene_in(self, file):
+        return json.loads((self.folder / file).read_text().splitlines()[0])
+
+    def test_a_choice_opens_the_mesh_again(self):
+        self.open_display(1280, 720)
+        mesh = self.folder / "organ.mesh"
+        mesh.write_text(medit(*SHAPES["millimetres"]))
+        self.begin(mesh, "--record", "out.jsonl", "--size", "1280x720")
+        # The unit is the first choice of the left column: a click opens its list, one on the first entry takes it.
+        self.do("mousemove", 200, 141, "click", 1)
+        self.do("mousemove", 180, 170)
+        self.do("click", 1)
+        self.wait_for("the mesh in another unit", lambda: (self.folder / "out-2.jsonl").exists())
+        self.play(3)
+        self.do("key", "ctrl+s")
+        self.quit()
+        before, after = self.scene_in("out.jsonl"), self.scene_in("out-2.jsonl")
+        self.assertEqual(before["mesh"]["scale"], 0.001)
+        self.assertEqual(after["mesh"]["scale"], 0.01)
+        self.assertEqual(before["mesh"]["file"], after["mesh"]["file"])
+        saved, = self.folder.glob("heml-organ-*.json")
+        self.assertEqual(json.loads(saved.read_text())["mesh"]["scale"], 0.01)
+
     def test_the_button_of_a_slow_body_s_banner_changes_its_method(self):
         self.open_display(1280, 720)
         scene = self.folder / "slow.json"
