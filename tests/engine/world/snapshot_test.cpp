@@ -138,25 +138,32 @@ TEST_CASE("snapshot: every command, before the snapshot and after it, in and out
 }
 
 TEST_CASE("snapshot: quadratic elements, every command that does not edit the mesh, before the snapshot and after it") {
+  bool mean_dilatation = false;  // in turn
   for (const Command& command : examples()) {
     if (is_edit(command)) continue;
-    for (const Integrator integrator : {Integrator::verlet, Integrator::bdf2, Integrator::static_equilibrium})
-      for (const bool mean_dilatation : {false, true}) {
-        CAPTURE(command.index());
-        CAPTURE(integrator_name(integrator));
-        CAPTURE(mean_dilatation);
-        WorldSetup setup = bar_in_contact(integrator, mean_dilatation != (integrator == Integrator::bdf2));
-        setup.self_contact.reset();
-        setup.midedges = add_midedge_nodes(setup.mesh);
-        setup.solver.quadratic = true;
-        setup.solver.nodal_pressure = mean_dilatation;
-        Command accepted = command;
-        if (auto* change = std::get_if<SetMaterial>(&accepted)) change->material = sample_material("neo_hookean_iso");
-        std::vector<Event> first, later;
-        for (const Command& earlier : before(command)) first.push_back({1, earlier}), later.push_back({5, earlier});
-        first.push_back({2, accepted}), later.push_back({6, accepted});
-        for (const std::vector<Event>& events : {first, later}) check_restored({setup, events, 4, 8});
-      }
+    mean_dilatation = !mean_dilatation;
+    for (const Integrator integrator : {Integrator::verlet, Integrator::bdf2, Integrator::static_equilibrium}) {
+      const bool is_implicit = integrator != Integrator::verlet;
+      if (is_implicit && !std::holds_alternative<Grasp>(command) && !std::holds_alternative<MoveProbe>(command))
+        continue;
+      CAPTURE(command.index());
+      CAPTURE(integrator_name(integrator));
+      CAPTURE(mean_dilatation);
+      WorldSetup setup = bar_in_contact(integrator, integrator == Integrator::verlet && mean_dilatation);
+      setup.mesh = make_box(Vec3(0.06, 0.02, 0.02), {4, 1, 1});
+      setup.self_contact.reset();
+      setup.boundary[0].nodes = nodes_where(setup.mesh, [](const Vec3& X) { return X.x() < 1e-9; });
+      setup.midedges = add_midedge_nodes(setup.mesh);
+      setup.solver.quadratic = true;
+      setup.solver.nodal_pressure = mean_dilatation;
+      Command accepted = command;
+      if (auto* change = std::get_if<SetMaterial>(&accepted)) change->material = sample_material("neo_hookean_iso");
+      std::vector<Event> events;
+      for (const Command& earlier : before(command)) events.push_back({is_implicit ? 3 : 1, earlier});
+      events.push_back({1, accepted});
+      if (is_implicit) events.back().tick = 4;
+      check_restored({setup, events, 2, 5});
+    }
   }
 }
 
