@@ -71,7 +71,8 @@ TEST_CASE("a recording of quadratic elements verifies, whatever the threads") {
       CAPTURE(integrator);
       Scene scene = test::small_scene_with(fmt::format(R"({{"gravity": [0, -9.81, 0],
         "materials": [{{"law": "neo_hookean_iso", "K1": 2e3, "kappa": 4e4}}],
-        "solver": {{"element": "{}", "integrator": "{}", "duration": 0.2}}, "tables": [{{"point": [0, -0.01, 0], "normal": [0, 1, 0]}}],
+        "solver": {{"element": "{}", "integrator": "{}", "duration": 0.2}},
+        "tables": [{{"point": [0, -0.01, 0], "normal": [0, 1, 0]}}],
         "events": [{{"step": 3, "pin": {{"node": 11, "radius": 0.05}}}}, {{"step": 6, "history": -1}},
                    {{"step": 7, "grasp": {{"node": 11, "radius": 0.05}}}}, {{"step": 8, "move": [0.21, 0.1, 0.1]}},
                    {{"step": 14, "release": true}}]}})",
