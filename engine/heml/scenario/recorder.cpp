@@ -1,4 +1,5 @@
 #include <heml/base/error.hpp>
+#include <heml/base/write_file.hpp>
 #include <heml/scenario/build_identity.hpp>
 #include <heml/scenario/input_files.hpp>
 #include <heml/scenario/load_mesh.hpp>
@@ -25,11 +26,15 @@ Recorder::Recorder(const std::filesystem::path& path, const Scene& scene, const 
   const std::filesystem::path folder = path.parent_path();
   const std::string first_line =
       scene_line(past.empty() ? as_recorded(scene, world) : scene, folder.empty() ? "." : folder);
-  file_.emplace(path, AppendFile::OpenMode::truncate);
+  file_ = std::make_unique<AppendFile>(path, AppendFile::OpenMode::truncate);
   write(first_line);
   for (const Event& event : past) write(event_line(event));
   if (is_before_commands(world)) checkpoint(world);
 }
+
+Recorder::Recorder(Recorder&&) noexcept = default;
+Recorder& Recorder::operator=(Recorder&&) noexcept = default;
+Recorder::~Recorder() = default;
 
 void Recorder::command(const World& world, const Command& command) {
   moot_.push_back(event_line({world.ticks(), command}));

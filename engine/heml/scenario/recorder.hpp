@@ -11,15 +11,17 @@
 // Every line is handed to the system before the next is made, so a crash loses the line being written and no other. A
 // world that halts stops within a tick: the end then names that tick, the state before it, and why ("halt").
 #include <filesystem>
-#include <heml/base/write_file.hpp>
 #include <heml/scenario/scene.hpp>
 #include <heml/world/world.hpp>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace heml {
+
+class AppendFile;
 
 /// A scene as its recordings hold it: with which mesh it was, and whose bits its states are. world: as built from it.
 Scene as_recorded(const Scene& scene, const World& world);
@@ -33,6 +35,9 @@ class Recorder {
   /// Throws InputError when the file cannot be written or the scene reads it.
   Recorder(const std::filesystem::path& path, const Scene& scene, const World& world, long checkpoint_every = 500,
            std::span<const Event> past = {}, std::optional<std::uint64_t> hash_before = {});
+  Recorder(Recorder&&) noexcept;
+  Recorder& operator=(Recorder&&) noexcept;
+  ~Recorder();
 
   /// A command that takes effect at the world's coming tick, and has been applied.
   void command(const World& world, const Command& command);
@@ -53,8 +58,8 @@ class Recorder {
   void checkpoint(const World& world);
   bool is_before_commands(const World& world) const;
 
-  std::optional<AppendFile> file_;   ///< none once it ended
-  std::optional<std::size_t> size_;  ///< bytes before the end that stands for now; none: no such end stands
+  std::unique_ptr<AppendFile> file_;  ///< none once it ended
+  std::optional<std::size_t> size_;   ///< bytes before the end that stands for now; none: no such end stands
   long every_, checkpoints_ = 0, last_checkpoint_ = -1;
   long tick_ = 0;                  ///< the coming one
   std::uint64_t hash_ = 0;         ///< of the state before its commands
