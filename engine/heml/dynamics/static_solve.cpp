@@ -2,6 +2,7 @@
 #include <cmath>
 #include <heml/dynamics/incremental_potential.hpp>
 #include <heml/dynamics/static_solve.hpp>
+#include <limits>
 
 namespace heml {
 namespace {
@@ -12,9 +13,11 @@ constexpr double min_limit_increment = 1e-7;       // smallest increment towards
 constexpr int eigenvalue_iterations = 12;
 constexpr double eigenvalue_tolerance = 1e-3;
 // Where float fails, load_to() asks for double: Newton itself would ask earlier, and take as many iterations as double.
-constexpr NewtonOptions newton_options{40, 1e-3, min_float_tolerance, false};
-constexpr double round_off_factor = 100;  // times the tolerance: residual that is accepted as round-off
-constexpr int growth_iterations = 8;      // Newton iterations up to which the increment doubles
+constexpr NewtonOptions newton_options{60, 1e-3, min_float_tolerance, false};
+constexpr double round_off_factor = 100;   // times the tolerance: residual that is accepted as round-off
+constexpr double parabola_part = 1.0 / 8;  // of an increment: here Φ is compared with that at its end
+constexpr double max_above_parabola = 100;
+constexpr int growth_iterations = 8;  // Newton iterations up to which the increment doubles
 constexpr NewtonOptions relaxation_options{8, 1e-2};
 constexpr int max_relaxation_steps = 80;
 
@@ -43,6 +46,7 @@ bool StaticSolve::load_to(double fraction, const std::atomic<bool>& stop) {
       if (last_iterations_ <= growth_iterations) step_ *= 2;
       continue;
     }
+    if (stalled_ && body_.refine_precision()) continue;
     if (round_off_) {  // at a smaller load, round-off is relatively larger
       if (body_.refine_precision()) continue;
       return false;
@@ -60,6 +64,7 @@ bool StaticSolve::load_to(double fraction, const std::atomic<bool>& stop) {
 }
 
 std::optional<double> StaticSolve::approach_limit(const Vector& rest, const std::atomic<bool>& stop) {
+  body_.refine_precision();
   for (double step = min_increment; step >= min_limit_increment && !stop; step /= 2)
     while (!stop && load_ + step <= 1 && increment(load_ + step)) continue;
   body_.set_load(0);
@@ -84,7 +89,25 @@ std::optional<double> StaticSolve::lowest_stiffness(const Vector& x) {
 
 bool StaticSolve::increment(double next) {
   Vector x = initial_guess_ = predict(next);
+  stalled_ = false;
+  if (next - load_ > 2 * min_increment && is_far(x)) return false;
   return solve(x) && keep(next, x);
+}
+
+/// Whether a start is so far that shorter increments cost less: with inverted elements, or with a Φ far above the
+/// parabola that its growth at the beginning of the increment suggests. Newton lowers the Φ of an exponential law by a
+/// factor e an iteration.
+bool StaticSolve::is_far(const Vector& start) {
+  Vector r;
+  const auto value_at = [&](const Vector& x) {
+    return body_.residual(x, r) && r.allFinite() ? body_.value(x)
+                                                 : std::optional(std::numeric_limits<double>::infinity());
+  };
+  if (!body_.is_admissible(start)) return true;
+  const auto here = value_at(x_), near = value_at(x_ + parabola_part * (start - x_)), there = value_at(start);
+  if (!here || !near || !there) return false;  // no potential
+  const double parabola = std::abs(*near - *here) / (parabola_part * parabola_part);
+  return std::isinf(*near) || *there - *here > max_above_parabola * (parabola + std::abs(*here));
 }
 
 /// Predictor along the tangent at the present state: K Δx = change of the loads − K · (motion of constrained nodes).
@@ -111,6 +134,7 @@ bool StaticSolve::solve(Vector& x) {
   do {
     const NewtonResult newton = minimise(body_, linear_, stop_, newton_options, x);
     iterations_ += newton.iterations;
+    stalled_ = newton.status == NewtonResult::Status::stalled;
     last_iterations_ = std::max(last_iterations_, newton.iterations);
     if (!is_converged(newton, x)) return false;
   } while (body_.update_lagged(x));

@@ -48,6 +48,7 @@ class StaticSolveMemory {
   double load_ = 0, step_ = 1, relative_residual_ = 0;
   bool solved_ = false;  ///< whether x_ is an equilibrium at load_
   int last_iterations_ = 0;
+  bool stalled_ = false;  ///< whether the last attempt stalled
   long increments_ = 0, iterations_ = 0;
 };
 
@@ -96,6 +97,7 @@ class StaticSolve : private StaticSolveMemory {
   std::optional<double> lowest_stiffness(const Vector& x);
   bool increment(double next);
   Vector predict(double next);
+  bool is_far(const Vector& start);
   bool solve(Vector& x);
   bool is_converged(const NewtonResult& newton, const Vector& x);
   bool relax(double next);

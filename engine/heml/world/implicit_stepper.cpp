@@ -12,12 +12,13 @@
 
 namespace heml {
 namespace {
-constexpr double min_share = 1.0 / 64;     // of a tick: shorter steps are not tried
-constexpr double slack_of_motion = 1e-3;   // of gravity's acceleration: what a step may leave unbalanced
-constexpr double earth = 9.81;             // m/s²
-constexpr int max_probe_substeps = 64;     // of a probe in a step
-constexpr double slack_of_energy = 1e-10;  // of a step's energy: what it may gain
-constexpr int quasi_patience = 5;          // iterations of L-BFGS for one of Newton's: then Newton's go on
+constexpr double min_share = 1.0 / 64;       // of a tick: shorter steps are not tried
+constexpr double slack_of_motion = 1e-3;     // of gravity's acceleration: what a step may leave unbalanced
+constexpr double earth = 9.81;               // m/s²
+constexpr int max_probe_substeps = 64;       // of a probe in a step
+constexpr double slack_of_energy = 1e-10;    // of a step's energy: what it may gain
+constexpr double round_off_fraction = 1e-3;  // of the bound on the round-off of energies: what sums of elements reach
+constexpr int quasi_patience = 5;            // iterations of L-BFGS for one of Newton's: then Newton's go on
 
 // Of an iteration, a tetrahedron, one core: the stiffness, a dozen products and back-solves, two forces and values. For
 // budgets in milliseconds where no clock may be asked; a session measures (session/budget_controller.hpp).
@@ -292,7 +293,8 @@ bool ImplicitStepper<Real>::take_back_gain(double time, const Vector& x, Vector&
   if (!after || !before) return true;
   const double moved = kinetic(parts.v), moves = kinetic(v), may = *before + moved - *after;
   // What round-off makes of energies is no gain: taken from every step of a long motion it would add up.
-  const double round_off = parts.body.value_round_off() + std::numeric_limits<Real>::epsilon() * moved;
+  const double round_off =
+      round_off_fraction * parts.body.value_round_off() + std::numeric_limits<Real>::epsilon() * moved;
   if (!(moves > may + slack_of_energy * (moved + std::abs(*before)) + round_off)) return true;
   v *= std::sqrt(std::max(may, 0.0) / moves);
   return may >= 0 || moves - may <= round_off;

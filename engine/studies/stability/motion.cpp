@@ -7,6 +7,7 @@
 #include <heml/mesh/quality.hpp>
 #include <heml/world/facts.hpp>
 #include <studies/stability/measures.hpp>
+#include <studies/stability/no_solution.hpp>
 
 namespace heml::stability {
 namespace {
@@ -55,14 +56,25 @@ double work_of_support(const std::vector<int>& nodes, const std::vector<double>&
 Outcome max_gain(World& world, int ticks) {
   const double first = total(world.energies());
   double before = first, worst = 0;
+  std::string lost_upright;  // ellipticity, before the first element was inverted
   for (int k = 0; k < ticks && !world.halt(); ++k) {
+    if (lost_upright.empty() && inverted(world) == 0) lost_upright = proof_of_no_solution(world);
     world.tick();
     const double now = total(world.energies());
     worst = std::max(worst, (now - before) / first);
     before = now;
   }
   if (world.halt()) return stopped(world);
-  return ended(world, worst);
+  Outcome outcome = ended(world, worst);
+  if (outcome.inverted > 0 && outcome.proof.empty()) outcome.proof = lost_upright;
+  return outcome;
+}
+
+/// The proof for a world that inverts elements in its first tick: from its motion in steps a tenth as long.
+std::string proof_by_short_steps(const Trial& trial, WorldSetup setup, const World& inverted_world) {
+  setup.solver.step = *setup.solver.step / 10;
+  const auto world = trial.world(std::move(setup));
+  return max_gain(*world, 10 * static_cast<int>(inverted_world.ticks())).proof;
 }
 
 }  // namespace
@@ -99,7 +111,9 @@ Outcome no_energy_from_nothing(const Trial& trial) {
       set_young_poisson(setup, 1e4, poisson);
       const auto world = trial.world(setup);
       if (world->halt()) return stopped(*world);
-      outcome = worse(outcome, max_gain(*world, 25));
+      Outcome one = max_gain(*world, 25);
+      if (one.inverted > 0 && one.proof.empty()) one.proof = proof_by_short_steps(trial, setup, *world);
+      outcome = worse(outcome, one);
     }
   return outcome;
 }
