@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <app/panel/legend.hpp>
 #include <app/panel/theme.hpp>
+#include <heml/world/field_list.hpp>
 
 namespace heml::panel {
 namespace {
@@ -31,7 +32,8 @@ void centred(ImDrawList& list, float x, float y, ImU32 colour, const std::string
 }  // namespace
 
 render::Range legend_range(Field field, const render::Range& range, bool inverted) {
-  const bool is_ratio = field == Field::stretch || (field == Field::volume_ratio && !inverted);
+  const bool may_invert = field == Field::volume_ratio && inverted;
+  const bool is_ratio = info(field).scale == FieldScale::about_one && !may_invert;
   return {is_ratio ? std::max(range.low, 0.0f) : range.low, range.high};
 }
 

@@ -1,16 +1,30 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <app/panel/view_section.hpp>
-#include <array>
+#include <heml/world/field_list.hpp>
 
 namespace heml::panel {
 namespace {
-constexpr std::array fields{Field::none,      Field::displacement, Field::stretch,
-                            Field::von_mises, Field::volume_ratio, Field::error};
-const std::array<std::string, 6> field_names{"Tissue",           "Displacement",   "Stretch",
-                                             "von Mises stress", "Volume ratio J", "Mesh error"};
 constexpr float half_resolution = 0.5f;
+
+/// Of the list of fields, for a choice: titles, and what each means.
+const std::vector<std::string>& titles() {
+  static const auto all = [] {
+    std::vector<std::string> texts;
+    for (const FieldInfo& row : field_list) texts.emplace_back(row.title);
+    return texts;
+  }();
+  return all;
+}
+const std::vector<std::string>& meanings() {
+  static const auto all = [] {
+    std::vector<std::string> texts;
+    for (const FieldInfo& row : field_list)
+      texts.push_back(row.unit.empty() ? std::string(row.meaning) : fmt::format("{} ({})", row.meaning, row.unit));
+    return texts;
+  }();
+  return all;
+}
 }  // namespace
 
 ViewSection::ViewSection(const View& view) : field_(view.field) { drawing_.wireframe = view.wireframe; }
@@ -21,13 +35,12 @@ void ViewSection::show(Field field, PanelActions& out) {
 }
 
 void ViewSection::draw(Rows& rows, std::vector<Action>& pressed, PanelActions& out) {
-  int chosen = static_cast<int>(std::find(fields.begin(), fields.end(), field_) - fields.begin());
+  int chosen = static_cast<int>(field_);
   if (rows.choice({"Colours",
-                   "Field shown on the surface (keys 1 to 6): none, displacement (m), largest principal stretch, von "
-                   "Mises stress (Pa), volume ratio J, or estimated discretisation error (energy norm, relative to the "
-                   "body's mean)."},
-                  chosen, field_names))
-    show(fields[static_cast<std::size_t>(chosen)], out);
+                   "Field shown on the surface (keys 1 to 6: the first six): displacement, stretch, stresses, strains, "
+                   "or the estimated discretisation error."},
+                  chosen, titles(), meanings()))
+    show(static_cast<Field>(chosen), out);
   const float half = ImGui::GetContentRegionAvail().x / 2;
   const float left = ImGui::GetCursorPosX();
   rows.check({"Wireframe", "The mesh's edges over the surface (W)."}, drawing_.wireframe);

@@ -2,12 +2,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <heml/world/field_list.hpp>
 #include <limits>
 
 namespace heml::render {
 namespace {
 
-bool is_ratio(Field field) { return field == Field::stretch || field == Field::volume_ratio; }
+/// The value in the middle of a diverging map; none: the map goes from 0 to the maximum.
+std::optional<float> centre_of(Field field) {
+  switch (info(field).scale) {
+    case FieldScale::from_zero:
+      return std::nullopt;
+    case FieldScale::about_one:
+      return 1.0f;
+    case FieldScale::about_zero:
+      return 0.0f;
+  }
+  return std::nullopt;
+}
 
 // Polynomial of degree 6 fitted to matplotlib's viridis by Matt Zucker (public domain); error below 0.01.
 Vec3f viridis(float t) {
@@ -31,26 +43,35 @@ Vec3f cool_warm(float t) {
   return (c[i] + (place - static_cast<float>(i)) * (c[i + 1] - c[i])) / 255;
 }
 
-// Label with a unit prefix that suits values up to `most`, Pa.
-FieldLabel pascals(float most) {
-  if (most < 1e3f) return {"von Mises stress", "Pa", 1};
-  return most < 1e6f ? FieldLabel{"von Mises stress", "kPa", 1e-3f} : FieldLabel{"von Mises stress", "MPa", 1e-6f};
+struct DisplayUnit {
+  const char* name;
+  float scale;  // from the field's unit
+};
+
+/// A unit that suits values up to `most`.
+DisplayUnit display_unit(std::string_view unit, float most) {
+  if (unit == "m") return {"mm", 1e3f};
+  if (unit == "%") return {"%", 100};
+  if (unit != "Pa") return {"", 1};
+  if (most < 1e3f) return {"Pa", 1};
+  return most < 1e6f ? DisplayUnit{"kPa", 1e-3f} : DisplayUnit{"MPa", 1e-6f};
 }
 
 }  // namespace
 
 Vec3f map_colour(Field field, float place) {
   const float t = std::clamp(place, 0.0f, 1.0f);
-  return is_ratio(field) ? cool_warm(t) : viridis(t);
+  return centre_of(field) ? cool_warm(t) : viridis(t);
 }
 
 Range natural_range(Field field, std::span<const float> values) {
-  const float centre = is_ratio(field) ? 1.0f : 0.0f;
-  const float least = is_ratio(field) ? 1e-3f : 1e-9f;  // a minimum, for bodies at rest
+  const std::optional<float> middle = centre_of(field);
+  const float centre = middle.value_or(0.0f);
+  const float least = centre > 0 ? 1e-3f : 1e-9f;  // a minimum, for bodies at rest
   float reach = least;
   for (const float value : values)
     if (std::isfinite(value)) reach = std::max(reach, std::abs(value - centre));
-  return is_ratio(field) ? Range{1 - reach, 1 + reach} : Range{0, reach};
+  return middle ? Range{centre - reach, centre + reach} : Range{0, reach};
 }
 
 Range ColourRange::update(Field field, std::span<const float> values, float seconds) {
@@ -66,21 +87,10 @@ Range ColourRange::update(Field field, std::span<const float> values, float seco
 }
 
 FieldLabel field_label(Field field, const Range& range) {
-  switch (field) {
-    case Field::displacement:
-      return {"Displacement", "mm", 1e3f};
-    case Field::stretch:
-      return {"Largest stretch", "", 1};
-    case Field::von_mises:
-      return pascals(range.high);
-    case Field::volume_ratio:
-      return {"Volume ratio J", "", 1};
-    case Field::error:
-      return {"Discretisation error relative to the mean", "%", 100};
-    case Field::none:
-      break;
-  }
-  return {};
+  if (field == Field::none) return {};
+  const FieldInfo& row = info(field);
+  const DisplayUnit unit = display_unit(row.unit, std::max(std::abs(range.low), std::abs(range.high)));
+  return {std::string(row.label), unit.name, unit.scale};
 }
 
 std::vector<float> ticks(const Range& range) {

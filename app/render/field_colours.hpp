@@ -13,10 +13,11 @@ struct Range {
   bool operator==(const Range&) const = default;
 };
 
-/// sRGB, 0..1, at position 0..1 of a field's map: viridis, or for stretch and J a diverging map that is neutral at 0.5.
+/// sRGB, 0..1, at position 0..1 of a field's map: viridis, or for fields about 0 or 1 a diverging map that
+/// is neutral at 0.5.
 Vec3f map_colour(Field field, float place);
 
-/// The range of a field's values: from 0 to the maximum; for stretch and J symmetric about 1. Never empty. Ignores
+/// The range of a field's values: from 0 to the maximum, or symmetric about 0 or 1 (FieldScale). Never empty. Ignores
 /// values that are not finite.
 Range natural_range(Field field, std::span<const float> values);
 

@@ -6,6 +6,7 @@
 #include <heml/scenario/key_table.hpp>
 #include <heml/scenario/solver_json.hpp>
 #include <heml/scenario/view_json.hpp>
+#include <heml/world/field_list.hpp>
 
 namespace heml {
 
@@ -219,7 +220,7 @@ inline constexpr KeyInfo view[] = {
     {"azimuth", form::between(-360, 360), "°", "the window's own", "of the camera, about the vertical"},
     {"elevation", form::between(-90, 90), "°", "the window's own", "of the camera, above the horizon"},
     {"zoom", form::between(0.01, 100), "", "1", "1: the body fills the picture"},
-    {"field", form::one_of<view_field_names>(), "", "", "colours of the surface"},
+    {"field", form::one_of<field_names>(), "", "", "colours of the surface"},
     {"wireframe", form::flag, "", "", "edges of the mesh"},
 };
 inline constexpr KeyInfo recorded[] = {

@@ -1,5 +1,6 @@
 #include <heml/scenario/scene_keys.hpp>
 #include <heml/scenario/view_json.hpp>
+#include <heml/world/field_list.hpp>
 
 namespace heml {
 
@@ -15,7 +16,7 @@ View view_from(const JsonCursor& key) {
 }
 
 Json view_json(const View& view) {
-  Json json = {{"field", view_field_names[static_cast<std::size_t>(view.field)]}, {"wireframe", view.wireframe}};
+  Json json = {{"field", info(view.field).name}, {"wireframe", view.wireframe}};
   if (view.azimuth) json["azimuth"] = *view.azimuth;
   if (view.elevation) json["elevation"] = *view.elevation;
   if (view.zoom) json["zoom"] = *view.zoom;

@@ -5,9 +5,6 @@
 
 namespace heml {
 
-/// In the order of Field.
-inline constexpr std::string_view view_field_names[] = {"none", "displacement", "stretch", "von_mises", "J", "error"};
-
 /// Throws InputError naming the key.
 View view_from(const JsonCursor& key);
 

@@ -45,15 +45,37 @@ struct StopReason {
   std::string message;  ///< one sentence for people, with what to do
 };
 
-/// Scalars a viewer may ask for, one a node (element values averaged by volume).
+/// Scalars a viewer may ask for, one a node (element values averaged by volume). field_list.hpp says what each is.
 enum class Field {
   none,
   displacement,  ///< m, distance from the rest position
   stretch,       ///< largest principal stretch, 1 at rest
   von_mises,     ///< Pa, of the Cauchy stress
   volume_ratio,  ///< J, 1 at rest
-  error          ///< of the mesh, of the mean energy norm: elastic/error_estimate.hpp
+  error,         ///< of the mesh, of the mean energy norm: elastic/error_estimate.hpp
+  displacement_x,
+  displacement_y,
+  displacement_z,
+  stress_max,  ///< Pa, principal Cauchy stress
+  stress_min,
+  pressure,
+  max_shear,
+  stress_xx,
+  stress_yy,
+  stress_zz,
+  stress_xy,
+  stress_yz,
+  stress_zx,
+  strain_max,  ///< principal Green–Lagrange strain
+  strain_min,
+  strain_xx,
+  strain_yy,
+  strain_zz,
+  strain_xy,
+  strain_yz,
+  strain_zx
 };
+inline constexpr std::size_t field_count = static_cast<std::size_t>(Field::strain_zx) + 1;
 
 /// Actions that StepHistory takes back (past) and brings back (future), each by the command that began it.
 struct ActionList {

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <heml/base/hash.hpp>
+#include <heml/world/field_list.hpp>
 #include <heml/world/world_queries.hpp>
 #include <numeric>
 
@@ -40,11 +41,11 @@ void WorldQueries<Real>::write_field(Field field, std::span<const int> nodes, st
   const auto inner = [&](int file) {
     return static_cast<std::size_t>(s_.model.order.new_node[static_cast<std::size_t>(file)]);
   };
-  if (field == Field::displacement) {
+  if (const auto of_node = info(field).of_node) {
     for (std::size_t k = 0; k < nodes.size(); ++k) {
       const std::size_t n = inner(nodes[k]);
       const Vec3 x = Eigen::Map<const Vector3<Real>>(&s_.state.x[3 * n]).template cast<double>();
-      out[k] = static_cast<float>((x - s_.model.mesh.nodes[n]).norm());
+      out[k] = static_cast<float>(of_node(s_.model.mesh.nodes[n], x));
     }
     return;
   }
@@ -76,13 +77,21 @@ std::vector<double> WorldQueries<Real>::element_values(Field field) {
     if (const auto found = estimate()) values = found->densities(s_.model.mesh);
     return values;
   }
-  s_.acting_body().states(s_.state.x.data(), element_states_);
   const std::size_t points = s_.body.points_per_element();
-  for (std::size_t k = 0; k < element_states_.size(); ++k) {
-    const auto& s = element_states_[k];
-    values[k / points] += static_cast<double>(field == Field::stretch     ? s.stretch
-                                              : field == Field::von_mises ? s.von_mises
-                                                                          : s.J);
+  if (const auto of_state = info(field).of_state) {
+    s_.acting_body().states(s_.state.x.data(), element_states_);
+    for (std::size_t k = 0; k < element_states_.size(); ++k) {
+      const ElementState<Real>& s = element_states_[k];
+      values[k / points] +=
+          of_state({static_cast<double>(s.J), static_cast<double>(s.stretch), static_cast<double>(s.von_mises)});
+    }
+  } else if (const auto of_tensors = info(field).of_tensors) {
+    const FlushDenormals flush;
+    ElasticBody<Real>& body = s_.acting_body();
+    const std::vector<Mat3> P = body.stresses(s_.state.x.data(), s_.team),
+                            F = body.deformation_gradients(s_.state.x.data());
+    for (std::size_t k = 0; k < F.size(); ++k)
+      values[k / points] += of_tensors({F[k], P[k] * F[k].transpose() / F[k].determinant()});
   }
   if (points > 1)
     for (double& value : values) value /= static_cast<double>(points);
