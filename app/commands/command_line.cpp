@@ -76,9 +76,10 @@ constexpr CommandDefinition definitions[] = {
      "  heml bench kernel --json rows.json            # all laws, 320 to a million tetrahedra; takes a while\n"
      "  heml bench paper --out pictures               # the paper's tables, printed and measured",
      define_bench},
-    {"study", "reports what the engine can be trusted with: accuracy, stability",
+    {"study", "reports what the engine can be trusted with: accuracy, stability, validation",
      "A run that was interrupted goes on where it stopped when it is given the same --out.\n"
-     "Exit code 1: a promised case falls short, or an error of the quick accuracy study has grown.",
+     "Exit code 1: a promised case falls short, an error of the quick accuracy study has grown, or a benchmark misses "
+     "its limit.",
      define_study},
     {"reference", "writes the reference pages: commands.md, scene-format.md, laws.md",
      "The pages are made from the tables by which the program reads commands, scenes and laws.", define_reference},
@@ -116,7 +117,8 @@ std::string program_footer() {
 }  // namespace
 
 const char* const scene_files =
-    "a scene file (.json), a recording (.jsonl), or a mesh, surface or label map (.msh .mesh .vtk .vtu .node .obj .stl .ply "
+    "a scene file (.json), a recording (.jsonl), or a mesh, surface or label map (.msh .mesh .vtk .vtu .node .obj .stl "
+    ".ply "
     ".nii .nrrd .mha)";
 
 std::span<const CommandDefinition> command_definitions() { return definitions; }

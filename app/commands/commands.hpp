@@ -109,8 +109,9 @@ struct StudyArguments {
   std::string scene;       ///< empty: the study's own
 };
 int study(const StudyArguments& arguments);
-int study_accuracy(const StudyArguments& arguments);   ///< exit_check_failed: a value of the quick study has grown
-int study_stability(const StudyArguments& arguments);  ///< exit_check_failed: a promised case falls short
+int study_accuracy(const StudyArguments& arguments);    ///< exit_check_failed: a value of the quick study has grown
+int study_stability(const StudyArguments& arguments);   ///< exit_check_failed: a promised case falls short
+int study_validation(const StudyArguments& arguments);  ///< exit_check_failed: a value misses its limit
 
 struct TuneArguments {
   std::string scene;

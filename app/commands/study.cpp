@@ -14,7 +14,8 @@ struct Study {
   int (*run)(const StudyArguments&);
   bool takes_scene;
 };
-constexpr Study studies[] = {{"accuracy", study_accuracy, true}, {"stability", study_stability, false}};
+constexpr Study studies[] = {
+    {"accuracy", study_accuracy, true}, {"stability", study_stability, false}, {"validation", study_validation, false}};
 
 }  // namespace
 

@@ -153,7 +153,10 @@ Action define_bench(CLI::App& command) {
 
 Action define_study(CLI::App& command) {
   const auto given = std::make_shared<StudyArguments>();
-  command.add_option("KIND", given->kind, "accuracy: error against run time; stability: stiff and extreme cases")
+  command
+      .add_option("KIND", given->kind,
+                  "accuracy: error against run time; stability: stiff and extreme cases; validation: published and "
+                  "closed-form benchmarks")
       ->required();
   command.add_option("--out", given->out, "folder for report.html, its tables and charts")
       ->required()

@@ -1,0 +1,174 @@
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <heml/mesh/quadratic.hpp>
+#include <map>
+#include <numbers>
+#include <studies/validation/body.hpp>
+
+namespace heml::validation {
+namespace {
+
+/// Local nodes of the faces of a hexahedron whose node k has the coordinates of k's bits.
+constexpr std::array<std::array<std::size_t, 4>, 6> hexahedron_faces{
+    {{0, 2, 6, 4}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 1, 3, 2}, {4, 5, 7, 6}}};
+
+void add_tet(TetMesh& mesh, Tet tet) {
+  const auto at = [&](std::size_t a) { return mesh.nodes[static_cast<std::size_t>(tet[a])]; };
+  if (signed_volume(at(0), at(1), at(2), at(3)) < 0) std::swap(tet[2], tet[3]);
+  mesh.tets.push_back(tet);
+}
+
+/// Nodes by lattice coordinates, numbered as they are asked for.
+struct Lattice {
+  std::map<std::array<int, 4>, int> known = {};
+  std::vector<Vec3> nodes = {};
+  int at(const std::array<int, 4>& key, const Vec3& place) {
+    const auto [found, is_new] = known.try_emplace(key, static_cast<int>(nodes.size()));
+    if (is_new) nodes.push_back(place);
+    return found->second;
+  }
+};
+
+double between(double from, double to, int part, int parts) { return from + (to - from) * part / parts; }
+
+/// Angle of equal steps for a coordinate in [−1, 1].
+double warped(double u) { return std::tan(std::numbers::pi / 4 * u); }
+
+}  // namespace
+
+TetMesh split_hexahedra(std::vector<Vec3> nodes, const std::vector<std::array<int, 8>>& hexahedra) {
+  TetMesh mesh{std::move(nodes), {}, {}, "hexahedra"};
+  for (const auto& hexahedron : hexahedra) {
+    const int first = *std::min_element(hexahedron.begin(), hexahedron.end());
+    for (const auto& face : hexahedron_faces) {
+      std::array<int, 4> quad{};
+      for (std::size_t k = 0; k < 4; ++k) quad[k] = hexahedron[face[k]];
+      if (std::find(quad.begin(), quad.end(), first) != quad.end()) continue;
+      std::rotate(quad.begin(), std::min_element(quad.begin(), quad.end()), quad.end());
+      add_tet(mesh, {first, quad[0], quad[1], quad[2]});
+      add_tet(mesh, {first, quad[0], quad[2], quad[3]});
+    }
+  }
+  mesh.regions.assign(mesh.tets.size(), 0);
+  return mesh;
+}
+
+TetMesh cubic_shell(int n, int layers, double inner, double outer) {
+  Lattice lattice;
+  std::vector<std::array<int, 8>> hexahedra;
+  for (int side = 0; side < 6; ++side)
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j)
+        for (int layer = 0; layer < layers; ++layer) {
+          std::array<int, 8> hexahedron{};
+          for (int k = 0; k < 8; ++k) {
+            const int axis = side / 2, depth = layer + (k >> 2 & 1);
+            std::array<int, 4> key{};
+            key[static_cast<std::size_t>(axis)] = side % 2 == 0 ? 0 : n;
+            key[static_cast<std::size_t>((axis + 1) % 3)] = i + (k & 1);
+            key[static_cast<std::size_t>((axis + 2) % 3)] = j + (k >> 1 & 1);
+            key[3] = depth;
+            const Vec3 on_cube(between(-1, 1, key[0], n), between(-1, 1, key[1], n), between(-1, 1, key[2], n));
+            hexahedron[static_cast<std::size_t>(k)] = lattice.at(key, between(inner, outer, depth, layers) * on_cube);
+          }
+          hexahedra.push_back(hexahedron);
+        }
+  return split_hexahedra(std::move(lattice.nodes), hexahedra);
+}
+
+TetMesh square_tube(int n, int layers, double inner, double outer, int storeys, double height) {
+  Lattice lattice;
+  std::vector<std::array<int, 8>> hexahedra;
+  for (int side = 0; side < 4; ++side)
+    for (int i = 0; i < n; ++i)
+      for (int layer = 0; layer < layers; ++layer)
+        for (int storey = 0; storey < storeys; ++storey) {
+          std::array<int, 8> hexahedron{};
+          for (int k = 0; k < 8; ++k) {
+            const int axis = side / 2, depth = layer + (k >> 1 & 1), floor = storey + (k >> 2 & 1);
+            std::array<int, 4> key{};
+            key[static_cast<std::size_t>(axis)] = side % 2 == 0 ? 0 : n;
+            key[static_cast<std::size_t>(1 - axis)] = i + (k & 1);
+            key[2] = floor, key[3] = depth;
+            Vec3 place =
+                between(inner, outer, depth, layers) * Vec3(between(-1, 1, key[0], n), between(-1, 1, key[1], n), 0);
+            place.z() = between(0, height, floor, storeys);
+            hexahedron[static_cast<std::size_t>(k)] = lattice.at(key, place);
+          }
+          hexahedra.push_back(hexahedron);
+        }
+  return split_hexahedra(std::move(lattice.nodes), hexahedra);
+}
+
+Vec3 cube_to_sphere(const Vec3& x) {
+  const double radius = x.cwiseAbs().maxCoeff();
+  return radius * Vec3(x / radius).unaryExpr(&warped).normalized();
+}
+
+Vec3 square_to_circle(const Vec3& x) {
+  const double radius = x.head<2>().cwiseAbs().maxCoeff();
+  Vec3 round = radius * Vec3(warped(x.x() / radius), warped(x.y() / radius), 0).normalized();
+  round.z() = x.z();
+  return round;
+}
+
+WorldSetup make_body(TetMesh mesh, const std::string& element, const Material& material, const Map& map) {
+  WorldSetup setup;
+  setup.mesh = std::move(mesh);
+  setup.solver.quadratic = is_quadratic(element);
+  setup.solver.nodal_pressure = element.ends_with("pressure");
+  if (setup.solver.quadratic) setup.midedges = add_midedge_nodes(setup.mesh);
+  if (map)
+    for (Vec3& node : setup.mesh.nodes) node = map(node);
+  setup.materials = {{std::nullopt, material}};
+  setup.solver.threads = 1;
+  return setup;
+}
+
+Material rubber(double shear, double bulk) {
+  Material material;
+  material.law = "neo_hookean_iso";
+  material.parameters = {shear / 2, bulk};
+  return material;
+}
+
+double bulk_of(double shear, double poisson) { return 2 * shear * (1 + poisson) / (3 * (1 - 2 * poisson)); }
+
+std::vector<int> nodes_where(const WorldSetup& setup, const std::function<bool(const Vec3&)>& chosen) {
+  std::vector<int> nodes;
+  for (std::size_t n = 0; n < setup.mesh.nodes.size(); ++n)
+    if (chosen(setup.mesh.nodes[n])) nodes.push_back(static_cast<int>(n));
+  return nodes;
+}
+
+Boundary moved(int node, const Vec3& displacement, double ramp_time) {
+  Boundary boundary;
+  boundary.nodes = {node};
+  boundary.translate = displacement;
+  boundary.ramp_time = ramp_time;
+  return boundary;
+}
+
+Solved solve(const Trial& trial, WorldSetup setup, double tolerance) {
+  setup.solver.integrator = Integrator::static_equilibrium;
+  setup.solver.tolerance = tolerance;
+  Solved solved;
+  solved.unknowns = 3 * setup.mesh.nodes.size();
+  for (const Boundary& boundary : setup.boundary) solved.unknowns -= 3 * boundary.nodes.size();
+  const auto began = std::chrono::steady_clock::now();
+  const auto world = trial.make(std::move(setup));
+  world->load_to(1);
+  solved.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  solved.x = world->positions();
+  solved.reactions = world->reactions();
+  if (world->halt()) solved.failed = world->halt()->message;
+  return solved;
+}
+
+Row row_of(const Solved& solved, const std::string& quantity, const std::string& unit, double ours, double reference,
+           const std::string& source, double limit, const std::string& method) {
+  return {{}, quantity, unit, ours, reference, source, limit, method, solved.unknowns, solved.seconds, solved.failed};
+}
+
+}  // namespace heml::validation

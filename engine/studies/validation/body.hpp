@@ -1,0 +1,50 @@
+#pragma once
+// Bodies and static solves of the benchmarks.
+#include <studies/validation/benchmark.hpp>
+
+namespace heml::validation {
+
+using Map = std::function<Vec3(const Vec3&)>;
+
+/// A structured mesh of hexahedra, each split into six tetrahedra. Faces are split by the diagonal through their node
+/// with the smallest number, so that neighbours agree.
+TetMesh split_hexahedra(std::vector<Vec3> nodes, const std::vector<std::array<int, 8>>& hexahedra);
+
+/// A shell of cubes: the surface of the cube [−1, 1]³ in n × n squares a side, times `layers` of radius
+/// (largest coordinate) from `inner` to `outer`.
+TetMesh cubic_shell(int n, int layers, double inner, double outer);
+/// A tube of squares: the boundary of the square [−1, 1]² in n pieces a side, times `layers` of radius, times `storeys`
+/// along z, from 0 to `height`.
+TetMesh square_tube(int n, int layers, double inner, double outer, int storeys, double height);
+
+/// Maps a shell of cubes to one of spheres, a tube of squares to a round one, of equal angles.
+Vec3 cube_to_sphere(const Vec3& x);
+Vec3 square_to_circle(const Vec3& x);
+
+/// A body of one material and element. Nodes, with those in the middle of edges, are moved by `map`: elements of
+/// quadratic bodies are curved.
+WorldSetup make_body(TetMesh mesh, const std::string& element, const Material& material, const Map& map = {});
+
+/// Neo-Hookean with a volume term of its own ("neo_hookean_iso"), of these moduli at rest.
+Material rubber(double shear, double bulk);
+double bulk_of(double shear, double poisson);
+
+std::vector<int> nodes_where(const WorldSetup& setup, const std::function<bool(const Vec3&)>& chosen);
+/// A node moved by a displacement, ramped over ramp_time.
+Boundary moved(int node, const Vec3& displacement, double ramp_time = 0);
+
+/// A world under its full load.
+struct Solved {
+  std::vector<Vec3> x;  ///< m
+  std::vector<Vec3> reactions;
+  std::size_t unknowns = 0;
+  double seconds = 0;
+  std::string failed;  ///< empty: converged
+};
+Solved solve(const Trial& trial, WorldSetup setup, double tolerance = 1e-8);
+
+/// A row of a solve.
+Row row_of(const Solved& solved, const std::string& quantity, const std::string& unit, double ours, double reference,
+           const std::string& source, double limit, const std::string& method);
+
+}  // namespace heml::validation
