@@ -46,7 +46,7 @@ void add_beam(Finding& finding, const Trial& trial, const std::string& element, 
   row("across", u.y(), exact.across * length);
   row("along", -u.x(), (1 - exact.along) * length);
   if (!is_quadratic(element)) return;
-  finding.curves.push_back({fmt::format("exact, {}", load), true, exact.shape});
+  finding.curves.push_back({fmt::format("F L²/EI = {}, exact", load), true, exact.shape});
   Curve ours{fmt::format("{}, {}", element, load)};
   for (const int n : nodes_where(setup, [](const Vec3& X) { return X.y() < 1e-9 && X.z() < 1e-9; }))
     ours.points.push_back({solved.x[static_cast<std::size_t>(n)].x(), solved.x[static_cast<std::size_t>(n)].y()});
