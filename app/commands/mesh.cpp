@@ -5,8 +5,8 @@
 #include <heml/base/error.hpp>
 #include <heml/base/log.hpp>
 #include <heml/base/write_file.hpp>
-#include <heml/mesh/from_surface.hpp>
 #include <heml/mesh/labels/mesh_labels.hpp>
+#include <heml/mesh/mend/mend.hpp>
 #include <heml/mesh/quality.hpp>
 #include <heml/mesh/read.hpp>
 #include <heml/mesh/write.hpp>
@@ -72,11 +72,10 @@ TetMesh read_or_fill(const MeshArguments& arguments) {
   }
   TriangleMesh surface = read_surface(arguments.surface);
   for (Vec3& X : surface.nodes) X *= arguments.scale;
-  check_surface(surface);
   TetgenOptions options;
   options.radius_edge_ratio = arguments.radius_edge_ratio;
   options.max_volume = arguments.max_volume;
-  return tetrahedralize(surface, options);
+  return tetrahedralize(mend_surface(std::move(surface)), options);
 }
 
 }  // namespace

@@ -32,10 +32,14 @@ void check_triangles(const TriangleMesh& surface) {
     for (int node : triangle)
       if (node < 0 || node >= nodes)
         throw InputError(surface.source, triangle_place(t), fmt::format("names node {}, there are {}", node, nodes));
+  }
+}
+
+void check_areas(const TriangleMesh& surface) {
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const Triangle& triangle = surface.triangles[t];
     const Vec3 &a = surface.nodes[triangle[0]], &b = surface.nodes[triangle[1]], &c = surface.nodes[triangle[2]];
-    const double edge = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
-    const double size = std::max({a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff(), c.cwiseAbs().maxCoeff()});
-    if (!((b - a).cross(c - a).norm() > 4 * std::numeric_limits<double>::epsilon() * edge * (edge + size)))
+    if (!has_area(a, b, c))
       throw InputError(surface.source, triangle_place(t),
                        fmt::format("has no area (corners {}, {}, {})", shown(a), shown(b), shown(c)),
                        "collapse its shortest edge or flip its longest");
@@ -95,9 +99,20 @@ void check_intersections(TriangleMesh& surface) {
 
 }  // namespace
 
-void check_surface(TriangleMesh& surface) {
+bool has_area(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const double edge = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
+  const double size = std::max({a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff(), c.cwiseAbs().maxCoeff()});
+  return (b - a).cross(c - a).norm() > 4 * std::numeric_limits<double>::epsilon() * edge * (edge + size);
+}
+
+void check_numbers(const TriangleMesh& surface) {
   check_nodes(surface);
   check_triangles(surface);
+}
+
+void check_surface(TriangleMesh& surface) {
+  check_numbers(surface);
+  check_areas(surface);
   check_duplicates(surface);
   check_edges(surface);
   const Shells shells = orient_consistently(surface);

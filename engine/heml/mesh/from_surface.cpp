@@ -7,11 +7,11 @@
 #include <heml/mesh/check_ply.hpp>
 #include <heml/mesh/file_contents.hpp>
 #include <heml/mesh/from_surface.hpp>
+#include <heml/mesh/merge_nodes.hpp>
 #include <heml/mesh/mesher_process.hpp>
 #include <heml/mesh/scanner.hpp>
 #include <heml/mesh/shells.hpp>
 #include <iterator>
-#include <numeric>
 
 namespace heml {
 namespace {
@@ -46,39 +46,7 @@ ProcessLimits reading_limits(double file_bytes) {
   return {20 + file_bytes / 5e6, 120 + file_bytes / 5e6, std::min(256e6 + 1000 * file_bytes, 4e9)};
 }
 
-bool before(const Vec3& a, const Vec3& b) {
-  return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
-}
-
-// Merges nodes of equal position (triangle soups repeat them); drops degenerate triangles and unused nodes. Nodes are
-// in the order of their first use.
-TriangleMesh joined(const TriangleMesh& surface) {
-  std::vector<int> order(surface.nodes.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](int a, int b) {
-    const Vec3 &x = surface.nodes[a], &y = surface.nodes[b];
-    return before(x, y) || (!before(y, x) && a < b);
-  });
-  std::vector<int> same(surface.nodes.size());
-  for (std::size_t i = 0; i < order.size(); ++i)
-    same[order[i]] = i > 0 && surface.nodes[order[i]] == surface.nodes[order[i - 1]] ? same[order[i - 1]] : order[i];
-  TriangleMesh result;
-  result.source = surface.source;
-  std::vector<int> number(surface.nodes.size(), -1);
-  for (Triangle triangle : surface.triangles) {
-    for (int& node : triangle) node = same[node];
-    if (triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0]) continue;
-    for (int& node : triangle) {
-      if (number[node] < 0) {
-        number[node] = static_cast<int>(result.nodes.size());
-        result.nodes.push_back(surface.nodes[node]);
-      }
-      node = number[node];
-    }
-    result.triangles.push_back(triangle);
-  }
-  return result;
-}
+}  // namespace
 
 void check_options(const TriangleMesh& surface, const TetgenOptions& options) {
   if (!(options.radius_edge_ratio >= 1) || !std::isfinite(options.radius_edge_ratio))
@@ -88,8 +56,6 @@ void check_options(const TriangleMesh& surface, const TetgenOptions& options) {
     throw InputError(surface.source, "tetgen.max_volume", fmt::format("is {}", *options.max_volume),
                      "a volume in m³ greater than 0");
 }
-
-}  // namespace
 
 TriangleMesh read_surface(const std::filesystem::path& path) {
   HelperTask task{.subject = path.string(),
@@ -105,7 +71,7 @@ TriangleMesh read_surface(const std::filesystem::path& path) {
   TriangleMesh surface;
   surface.source = task.subject;
   read_answer(surface.source, run_mesher(task), surface.nodes, surface.triangles);
-  return joined(surface);
+  return merge_nodes(surface, equal_nodes(surface));
 }
 
 TetMesh tetrahedralize(const TriangleMesh& surface, const TetgenOptions& options) {

@@ -19,9 +19,18 @@ struct TetgenOptions {
 /// only. Throws InputError.
 TriangleMesh read_surface(const std::filesystem::path& path);
 
+/// Throws InputError for no triangles, indices of no node, and positions that are not finite or too large.
+void check_numbers(const TriangleMesh& surface);
+
+/// Whether a triangle has an area beyond round-off of its corners.
+bool has_area(const Vec3& a, const Vec3& b, const Vec3& c);
+
 /// Throws InputError, naming edge or triangle, if a surface cannot be filled (open, non-manifold, self-intersecting,
 /// ...). Orients all triangles outward and smooths self-intersecting creases (untangle.hpp).
 void check_surface(TriangleMesh& surface);
+
+/// Throws InputError for options without sense.
+void check_options(const TriangleMesh& surface, const TetgenOptions& options);
 
 /// Fills a closed surface except its cavities with tetrahedra. Keeps the triangles; the surface's nodes come first, in
 /// order, with the exact positions that check_surface() gives them. Throws InputError if TetGen fails, exceeds a limit,

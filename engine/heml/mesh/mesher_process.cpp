@@ -213,16 +213,16 @@ std::string run_mesher(const HelperTask& task, std::string_view input) {
   if (WIFSIGNALED(ending.status)) {
     const int signal = WTERMSIG(ending.status);
     if (signal == SIGXCPU) refuse(fmt::format("takes longer than {} s", task.limits.cpu_seconds));
-    throw InputError(task.subject, "",
-                     fmt::format("the mesher cannot handle it (signal {}, {})", signal, strsignal(signal)),
-                     "repair or simplify the surface");
+    throw MesherFailure(task.subject, "",
+                        fmt::format("the mesher cannot handle it (signal {}, {})", signal, strsignal(signal)),
+                        "repair or simplify the surface");
   }
   const int code = WEXITSTATUS(ending.status);
   if (code == out_of_memory) refuse(fmt::format("takes more than {:.0f} MB of memory", task.limits.bytes / 1e6));
   if (code == cannot_start)
     throw InputError(task.subject, "", fmt::format("the helper {} cannot be started", helper.string()),
                      last_line(ending.words));
-  if (code != 0) throw InputError(task.subject, "", last_line(ending.words));
+  if (code != 0) throw MesherFailure(task.subject, "", last_line(ending.words));
   return answer.contents();
 }
 

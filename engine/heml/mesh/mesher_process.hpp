@@ -1,10 +1,16 @@
 #pragma once
 // Runs assimp and TetGen in a helper process (heml-mesher), since they may crash or not terminate.
+#include <heml/base/error.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace heml {
+
+/// The helper cannot do what was asked, for a reason of the surface; limits are another matter.
+struct MesherFailure : InputError {
+  using InputError::InputError;
+};
 
 struct ProcessLimits {
   double cpu_seconds = 120;  ///< CPU time, rounded up to whole seconds
@@ -23,7 +29,8 @@ struct HelperTask {
 
 /// Runs `heml-mesher` with `input` on stdin until it ends, and returns its answer. Both are anonymous memory files, and
 /// the kernel kills the helper when the calling thread ends, so nothing is left behind however this program ends.
-/// Throws InputError about the subject if this build has no helper, or the helper fails, crashes or exceeds a limit.
+/// Throws InputError about the subject if this build has no helper or the helper exceeds a limit, MesherFailure if it
+/// fails or crashes.
 /// One call at a time, since kill_helper() tracks only one helper.
 std::string run_mesher(const HelperTask& task, std::string_view input = {});
 

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <heml/base/error.hpp>
 #include <heml/mesh/shells.hpp>
+#include <heml/mesh/solid_angle.hpp>
 #include <limits>
 #include <numbers>
+#include <span>
 
 namespace heml {
 namespace {
@@ -51,12 +53,6 @@ std::vector<double> shell_volumes(const TriangleMesh& surface, const Shells& she
     volumes[shell] += volume_under(surface, surface.triangles[t], surface.nodes[first[shell]]);
   }
   return volumes;
-}
-
-// Solid angle of a triangle: A. van Oosterom, J. Strackee, IEEE Trans. Biomed. Eng. 30 (1983), equation 8.
-double solid_angle(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const double la = a.norm(), lb = b.norm(), lc = c.norm();
-  return 2 * std::atan2(a.cross(b).dot(c), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
 }
 
 // The number of shells that contain each shell. Shells do not cross, so one point of it decides.
@@ -106,7 +102,9 @@ Shells orient_consistently(TriangleMesh& surface) {
   const std::vector<Corner> edges = sorted_edges(surface);
   std::vector<std::array<Neighbour, 3>> neighbours(surface.triangles.size());
   std::vector<int> known(surface.triangles.size(), 0);
-  for (std::size_t e = 0; e + 1 < edges.size(); e += 2) {
+  for (std::size_t e = 0, end = 0; e < edges.size(); e = end) {
+    while (end < edges.size() && edges[end].low == edges[e].low && edges[end].high == edges[e].high) ++end;
+    if (end - e != 2) continue;
     const Corner &a = edges[e], &b = edges[e + 1];
     neighbours[a.triangle][known[a.triangle]++] = {b.triangle, a.ascending != b.ascending};
     neighbours[b.triangle][known[b.triangle]++] = {a.triangle, a.ascending != b.ascending};
@@ -121,7 +119,7 @@ Shells orient_consistently(TriangleMesh& surface) {
     while (!front.empty()) {
       const int t = front.back();
       front.pop_back();
-      for (const Neighbour& next : neighbours[t]) {
+      for (const Neighbour& next : std::span(neighbours[t].data(), static_cast<std::size_t>(known[t]))) {
         const char wanted = turned[t] ^ !next.alike;
         if (shells.of_triangle[next.triangle] < 0) {
           shells.of_triangle[next.triangle] = shells.count;

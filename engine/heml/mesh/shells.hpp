@@ -1,5 +1,5 @@
 #pragma once
-// Connected components (shells) of a closed surface, and their nesting. A body may have cavities, which may contain
+// Connected components (shells) of a surface, and their nesting. A body may have cavities, which may contain
 // further bodies:
 //
 //      ┌───────────────┐  depth 0: outside of a body
@@ -18,7 +18,8 @@ struct Shells {
   int count = 0;
 };
 
-/// Finds the edge-connected components of a closed manifold surface and orients the triangles of each like its first.
+/// Finds the components that edges of two triangles connect, and orients the triangles of each like its first. (Open
+/// edges and those of more triangles bound components, which a closed manifold surface does not have.)
 /// Throws InputError if a component is not orientable.
 Shells orient_consistently(TriangleMesh& surface);
 

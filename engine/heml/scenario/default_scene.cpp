@@ -6,8 +6,8 @@
 #include <heml/base/error.hpp>
 #include <heml/base/log.hpp>
 #include <heml/base/warning_collector.hpp>
-#include <heml/mesh/from_surface.hpp>
 #include <heml/mesh/labels/label_map.hpp>
+#include <heml/mesh/mend/mend.hpp>
 #include <heml/mesh/quality.hpp>
 #include <heml/mesh/read.hpp>
 #include <heml/scenario/bare_mesh.hpp>
@@ -47,9 +47,12 @@ void take_mesh(Scene& scene, const fs::path& path) {
     scene.mesh.label_tets = label_tets;
   } else {
     scene.mesh.surface = path;
-    TriangleMesh surface = read_surface(path);
-    check_surface(surface);
-    scene.mesh.max_volume = volume_of(surface, bounds_of(surface.nodes).first) / wanted_tets;
+    const MendedSurface mended = mend_surface(read_surface(path));
+    const TriangleMesh& surface = mended.surface;
+    if (mended.report.unmended.empty())
+      scene.mesh.max_volume = volume_of(surface, bounds_of(surface.nodes).first) / wanted_tets;
+    scene.mesh.source = std::make_shared<const TetMesh>(filled_surface(scene, mended));
+    return;
   }
   scene.mesh.source = std::make_shared<const TetMesh>(read_mesh_source(scene));
 }

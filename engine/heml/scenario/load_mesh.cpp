@@ -5,9 +5,9 @@
 #include <heml/base/error.hpp>
 #include <heml/base/hash.hpp>
 #include <heml/base/log.hpp>
-#include <heml/mesh/from_surface.hpp>
 #include <heml/mesh/generate.hpp>
 #include <heml/mesh/labels/mesh_labels.hpp>
+#include <heml/mesh/mend/mend.hpp>
 #include <heml/mesh/quality.hpp>
 #include <heml/mesh/read.hpp>
 #include <heml/scenario/load_mesh.hpp>
@@ -37,17 +37,6 @@ TetMesh asset_mesh(const Scene& scene, MidEdges* midedges) {
   return read_tet_mesh(path, midedges);
 }
 
-TetMesh filled_surface(const Scene& scene) {
-  TriangleMesh surface = read_surface(find_file(scene, "mesh.surface", scene.mesh.surface));
-  check_surface(surface);
-  TetgenOptions options;
-  options.radius_edge_ratio = scene.mesh.radius_edge_ratio;
-  // TetGen works in the file's units, the scene's max_volume is of the scaled body.
-  const double scale = scene.mesh.scale;
-  if (scene.mesh.max_volume) options.max_volume = *scene.mesh.max_volume / (scale * scale * scale);
-  return tetrahedralize(surface, options);
-}
-
 /// Throws InputError where curved edges turn an element inside out.
 void check_midedges(const TetMesh& mesh, const MidEdges& midedges) {
   std::size_t first = mesh.tets.size(), count = 0;
@@ -72,6 +61,15 @@ TetMesh meshed_labels(const Scene& scene) {
 }  // namespace
 
 fs::path asset_mesh_file(const std::string& name) { return assets_folder() / "meshes" / (name + ".mesh"); }
+
+TetMesh filled_surface(const Scene& scene, const MendedSurface& surface) {
+  TetgenOptions options;
+  options.radius_edge_ratio = scene.mesh.radius_edge_ratio;
+  // TetGen works in the file's units, the scene's max_volume is of the scaled body.
+  const double scale = scene.mesh.scale;
+  if (scene.mesh.max_volume) options.max_volume = *scene.mesh.max_volume / (scale * scale * scale);
+  return tetrahedralize(surface, options);
+}
 
 fs::path find_file(const Scene& scene, const std::string& key, const fs::path& path) {
   std::error_code error;
@@ -104,7 +102,8 @@ TetMesh read_mesh_source(const Scene& scene, MidEdges* midedges) {
   if (!scene.solver.quadratic) midedges = nullptr;
   if (scene.mesh.source) return *scene.mesh.source;
   if (!scene.mesh.file.empty()) return read_tet_mesh(find_file(scene, "mesh.file", scene.mesh.file), midedges);
-  if (!scene.mesh.surface.empty()) return filled_surface(scene);
+  if (!scene.mesh.surface.empty())
+    return filled_surface(scene, mend_surface(read_surface(find_file(scene, "mesh.surface", scene.mesh.surface))));
   if (!scene.mesh.labels.empty()) return meshed_labels(scene);
   if (scene.mesh.box) return make_box(scene.mesh.box->size, scene.mesh.box->cells, scene.mesh.box->origin);
   return asset_mesh(scene, midedges);

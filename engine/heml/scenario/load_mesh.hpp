@@ -5,9 +5,14 @@
 
 namespace heml {
 
+struct MendedSurface;
+
 /// Reads or generates the mesh as its source has it, unchecked. midedges: those of a file of ten-node tetrahedra; null:
 /// they are left out with a warning. Throws InputError.
 TetMesh read_mesh_source(const Scene& scene, MidEdges* midedges = nullptr);
+
+/// Fills a surface as the scene wants its tetrahedra, in the file's units.
+TetMesh filled_surface(const Scene& scene, const MendedSurface& surface);
 
 /// Reads or generates the mesh, scales, rotates and translates it (vector fields are rotated too), and checks it;
 /// warnings go to warn(). midedges: as above, of a scene with quadratic elements; empty where the source has none.

@@ -12,6 +12,16 @@ namespace {
 
 constexpr int triangles_of_leaf = 4;
 
+/// Of a ray's hit, in multiples of `along` (Möller & Trumbore 1997); −1 for none.
+double ray_triangle_distance(const Vec3& start, const Vec3& along, const std::array<Vec3, 3>& t) {
+  const Vec3 ab = t[1] - t[0], ac = t[2] - t[0], cross = along.cross(ac), offset = start - t[0];
+  const double determinant = ab.dot(cross);
+  if (determinant == 0) return -1;
+  const Vec3 other = offset.cross(ab);
+  const double u = offset.dot(cross) / determinant, v = along.dot(other) / determinant;
+  return u >= 0 && v >= 0 && u + v <= 1 ? ac.dot(other) / determinant : -1;
+}
+
 double one_sided_distance(const SurfaceTree& from, const SurfaceTree& to) {
   double farthest = 0;
   for (const auto& samples : samples_of(from.surface()))
@@ -102,6 +112,34 @@ std::vector<int> SurfaceTree::overlapping(const Eigen::AlignedBox3d& box) const 
   }
   std::sort(found.begin(), found.end());
   return found;
+}
+
+bool SurfaceTree::is_hit(const Vec3& start, const Vec3& along, double after) const {
+  const Vec3 inverse = along.cwiseInverse();
+  const auto meets_box = [&](const Eigen::AlignedBox3d& box) {
+    double from = after, to = std::numeric_limits<double>::infinity();
+    for (int d = 0; d < 3; ++d) {
+      const double a = (box.min()[d] - start[d]) * inverse[d], b = (box.max()[d] - start[d]) * inverse[d];
+      from = std::max(from, std::min(a, b));
+      to = std::min(to, std::max(a, b));
+    }
+    return from <= to;
+  };
+  std::vector<int> open;
+  if (!branches_.empty()) open.push_back(0);
+  while (!open.empty()) {
+    const int b = open.back();
+    open.pop_back();
+    if (!meets_box(branches_[b].box)) continue;
+    if (branches_[b].second < 0) {
+      for (const int t : triangles_of(branches_[b]))
+        if (ray_triangle_distance(start, along, corners(t)) > after) return true;
+    } else {
+      open.push_back(b + 1);
+      open.push_back(branches_[b].second);
+    }
+  }
+  return false;
 }
 
 Vec3 nearest_on_triangle(const Vec3& x, const std::array<Vec3, 3>& triangle) {

@@ -2,6 +2,7 @@
 // A surface to measure distances from: a tree of boxes round its triangles.
 #include <heml/mesh/tet_mesh.hpp>
 #include <limits>
+#include <span>
 #include <vector>
 
 namespace heml {
@@ -23,15 +24,23 @@ class SurfaceTree {
   /// The triangles whose boxes overlap a box, ascending.
   std::vector<int> overlapping(const Eigen::AlignedBox3d& box) const;
 
+  /// Whether a ray from `start` along `along` meets a triangle farther away than `after`, in multiples of `along`.
+  bool is_hit(const Vec3& start, const Vec3& along, double after) const;
+
   const TriangleMesh& surface() const { return surface_; }
   std::array<Vec3, 3> corners(int triangle) const;
 
- private:
   struct Branch {
     Eigen::AlignedBox3d box;
-    int first, last;  ///< of order_
+    int first, last;  ///< of the order of triangles
     int second = -1;  ///< its second half; the first half follows it. −1: a leaf
   };
+  const std::vector<Branch>& branches() const { return branches_; }  ///< the whole first, parts after what they are of
+  std::span<const int> triangles_of(const Branch& branch) const {
+    return {order_.data() + branch.first, order_.data() + branch.last};
+  }
+
+ private:
   Nearest nearest(const Vec3& x, double within, bool any) const;  ///< any: the first one found
   void build(int first, int last, const std::vector<Vec3>& centres);
 

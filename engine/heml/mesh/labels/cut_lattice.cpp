@@ -23,7 +23,7 @@ struct CutEdge {
 
 class LatticeCutter {
  public:
-  LatticeCutter(Lattice lattice, const LabelField& field) : lattice_(std::move(lattice)), field_(field) {}
+  LatticeCutter(Lattice lattice, const RegionField& field) : lattice_(std::move(lattice)), field_(field) {}
 
   TetMesh cut() {
     find_cut_edges();
@@ -179,7 +179,7 @@ class LatticeCutter {
   }
 
   Lattice lattice_;
-  const LabelField& field_;
+  const RegionField& field_;
   std::vector<CutEdge> edges_;  ///< ascending by ends
   std::vector<std::vector<int>> edges_of_node_, tets_of_node_;
   std::vector<char> is_moved_;  ///< nodes on an interface
@@ -189,6 +189,8 @@ class LatticeCutter {
 
 }  // namespace
 
-TetMesh cut_lattice(Lattice lattice, const LabelField& field) { return LatticeCutter(std::move(lattice), field).cut(); }
+TetMesh cut_lattice(Lattice lattice, const RegionField& field) {
+  return LatticeCutter(std::move(lattice), field).cut();
+}
 
 }  // namespace heml

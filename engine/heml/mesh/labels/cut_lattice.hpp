@@ -5,7 +5,7 @@
 
 namespace heml {
 
-/// regions: labels (LabelField's numbers), none outside. Elements are positive. source is left empty.
-TetMesh cut_lattice(Lattice lattice, const LabelField& field);
+/// regions: labels (the field's numbers), none outside. Elements are positive. source is left empty.
+TetMesh cut_lattice(Lattice lattice, const RegionField& field);
 
 }  // namespace heml

@@ -2,19 +2,18 @@
 // Which label a point has: the one whose indicator, smoothed over voxels, is largest there. Two labels meet where
 // theirs are equal, which is a smooth surface where the voxels' faces are steps.
 #include <heml/mesh/labels/label_map.hpp>
+#include <heml/mesh/labels/region_field.hpp>
 
 namespace heml {
 
-class LabelField {
+class LabelField : public RegionField {
  public:
   /// Throws InputError for labels that take more memory than a limit.
   explicit LabelField(const LabelMap& map);
 
   int labels() const { return static_cast<int>(indicators_.size()); }  ///< outside (0) included
-  /// The label at a point (m).
-  int label_at(const Vec3& x) const;
-  /// How much label a outweighs label b at a point: 0 on their interface.
-  double difference(int a, int b, const Vec3& x) const;
+  int label_at(const Vec3& x) const override;
+  double difference(int a, int b, const Vec3& x) const override;
 
   /// Weights that are added to the labels' indicators, so that volumes can be met; outside: 0. Moves the interfaces of
   /// label k by about weight · offset_of_weight() voxels.

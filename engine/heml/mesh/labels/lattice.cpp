@@ -60,7 +60,7 @@ bool is_any_near(const CellGrid<char>& grid, int x, int y, int z) {
 
 class LatticeBuilder {
  public:
-  LatticeBuilder(const LabelField& field, const Vec3& low, const Cell& size, double cell)
+  LatticeBuilder(const RegionField& field, const Vec3& low, const Cell& size, double cell)
       : cell_(cell),
         low_(low),
         corner_labels_(grown(size), 0),
@@ -236,7 +236,7 @@ class LatticeBuilder {
 
 }  // namespace
 
-Lattice make_lattice(const LabelField& field, const Vec3& low, const Vec3& high, double cell,
+Lattice make_lattice(const RegionField& field, const Vec3& low, const Vec3& high, double cell,
                      const std::string& source) {
   Cell size;
   double cells = 1;

@@ -1,5 +1,5 @@
 #pragma once
-// A body-centred cubic lattice of tetrahedra over a label field, finest where labels meet, twice and four times as
+// A body-centred cubic lattice of tetrahedra over a field of regions, finest where labels meet, twice and four times as
 // coarse inside (after F. Labelle & J. Shewchuk, Isosurface stuffing, ACM Transactions on Graphics 26(3), 2007).
 //
 //      two cells of equal size share a face      a tetrahedron has both centres c, c' and one edge of the face; where
@@ -7,7 +7,8 @@
 //         |  c  |  c' |
 //         +-----+-----+                          cells of unequal size: each centre with the triangles (M, m, C) of
 //                                                the larger face's middle, an edge's middle and a corner
-#include <heml/mesh/labels/label_field.hpp>
+#include <cstdint>
+#include <heml/mesh/labels/region_field.hpp>
 #include <heml/mesh/tet_mesh.hpp>
 
 namespace heml {
@@ -21,7 +22,7 @@ struct Lattice {
 
 /// low, high: box of the labels, m. cell: side of the finest cells, m. An element with several labels has nodes of
 /// finest cells only. Throws InputError for more than 2·10⁸ cells.
-Lattice make_lattice(const LabelField& field, const Vec3& low, const Vec3& high, double cell,
+Lattice make_lattice(const RegionField& field, const Vec3& low, const Vec3& high, double cell,
                      const std::string& source);
 
 }  // namespace heml

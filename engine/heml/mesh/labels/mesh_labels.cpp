@@ -8,6 +8,7 @@
 #include <heml/mesh/improve/improve.hpp>
 #include <heml/mesh/labels/clean_labels.hpp>
 #include <heml/mesh/labels/cut_lattice.hpp>
+#include <heml/mesh/labels/label_field.hpp>
 #include <heml/mesh/labels/merge_scraps.hpp>
 #include <heml/mesh/labels/mesh_labels.hpp>
 #include <limits>
