@@ -85,6 +85,14 @@ void MeshSection::draw(Rows& rows, PanelActions& out) const {
   std::vector<Offer<SupportKind>> supports;
   for (const SupportKind kind : support_kinds) supports.push_back(support_offer(kind, kind == chosen_->supports));
   changed |= choose(rows, {"Supports", "What carries the body. " + reason("supports")}, supports, options.supports);
+  std::string notes;
+  int count = 0;
+  for (const BareMeshChoices::Text& text : chosen_->texts)
+    if (text.about == "mesh") {
+      notes += fmt::format("{}{}", count > 0 ? "\n\n" : "", text.text);
+      ++count;
+    }
+  if (count > 0) rows.value({"Found", notes}, fmt::format("{} note{}", count, count == 1 ? "" : "s"));
   if (changed) out.mesh_options = options;
 }
 

@@ -13,7 +13,7 @@ namespace {
 constexpr double crack_of_edge = 0.1;
 constexpr double junction_of_edge = 2e-3;
 constexpr int max_split_rounds = 8;
-constexpr std::size_t max_candidates = 200'000'000;  // that a repair looks at; those past it are left as they are
+constexpr std::size_t max_candidates = 20'000'000;  // that a repair looks at; those past it are left as they are
 
 /// A tree of nodes, each a triangle of no extent.
 class NodeTree {

@@ -219,15 +219,16 @@ FilledHoles fill_holes(TriangleMesh& surface) {
   fill_loops(surface, holes);
   const std::vector<char> is_sheet = find_sheets(surface, components, holes);
   result.sheets = static_cast<int>(std::count(is_sheet.begin(), is_sheet.end(), 1));
-  result.is_sheet_alone = result.sheets == components.count;
-  if (result.is_sheet_alone) return result;
   std::vector<Triangle> triangles;
-  double area = 0, largest = 0;
-  for (std::size_t t = 0; t < surface.triangles.size(); ++t)
-    if (!is_sheet[components.of_triangle[t]]) {
-      triangles.push_back(surface.triangles[t]);
-      area += area_of(surface, surface.triangles[t]);
-    }
+  double area = 0, sheet_area = 0, largest = 0;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const Triangle& triangle = surface.triangles[t];
+    const bool is_kept = !is_sheet[components.of_triangle[t]];
+    (is_kept ? area : sheet_area) += area_of(surface, triangle);
+    if (is_kept) triangles.push_back(triangle);
+  }
+  result.sheet_area = sheet_area / (area + sheet_area);
+  if (triangles.empty()) return result;
   for (const Hole& hole : holes) {
     if (is_sheet[hole.component]) continue;
     result.left_open += !hole.is_filled;

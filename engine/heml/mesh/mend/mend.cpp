@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::size_t max_triangles = 4'000'000;
 constexpr double weld_of_diagonal = 1e-6;
+constexpr double max_sheet_area = 0.5;       // of the surface, that may be left out
 constexpr double min_volume_of_area = 1e-6;  // of area^1.5; a sphere has 0.094, a plate a thousandth thick 3e-4
 
 /// Which way triangles are turned, by their nodes' positions in ascending order.
@@ -104,11 +105,12 @@ void close_holes(TriangleMesh& surface, MendReport& report) {
   report.walls = remove_walls(surface);
   if (surface.triangles.empty()) throw InputError(surface.source, "", "no triangle has an area", "a closed surface");
   report.holes = fill_holes(surface);
-  if (report.holes.is_sheet_alone)
-    throw InputError(surface.source, "",
-                     fmt::format("the surface is open: it is a sheet, whose opening is {:.0f} % as large as itself",
-                                 100 * report.holes.largest_share),
-                     "a surface round a body; holes in it may be open");
+  if (report.holes.sheet_area > max_sheet_area)
+    throw InputError(
+        surface.source, "",
+        fmt::format("the surface is open: {:.0f} % of it is sheets, whose openings are as large as they are",
+                    100 * report.holes.sheet_area),
+        "a surface round a body; holes in it may be open");
 }
 
 void expect_volume(const TriangleMesh& surface) {

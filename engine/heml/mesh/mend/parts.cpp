@@ -11,7 +11,7 @@ namespace heml {
 namespace {
 
 constexpr double crumb_share = 0.002;  // of the largest part's area
-constexpr int rays_of_part = 96;
+constexpr int max_rays_of_part = 96, min_rays_of_part = 4, max_rays = 200'000;
 constexpr double ray_start = 1e-6;  // of the box's diagonal, from the triangle
 
 Vec3 area_vector(const TriangleMesh& surface, const Triangle& t) {
@@ -80,6 +80,7 @@ std::vector<Sky> cast_rays(const TriangleMesh& surface, const Shells& parts) {
   const SurfaceTree tree(surface);
   const std::vector<double> areas = areas_of(surface, parts);
   const double start = ray_start * (tree.branches().empty() ? 0 : tree.branches()[0].box.diagonal().norm());
+  const int rays_of_part = std::clamp(max_rays / std::max(parts.count, 1), min_rays_of_part, max_rays_of_part);
   std::vector<Sky> sky(parts.count);
   std::vector<double> passed(parts.count, 0.0);
   std::vector<int> cast(parts.count, 0);

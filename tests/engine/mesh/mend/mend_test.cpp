@@ -202,13 +202,13 @@ TEST_CASE("sheets are refused, and left out beside a body") {
   std::erase_if(sheet.triangles, [&](const Triangle& t) {
     return sheet.nodes[t[0]].z() + sheet.nodes[t[1]].z() + sheet.nodes[t[2]].z() > 1e-9;
   });
-  CHECK(has(refusal([&] { mend_surface(sheet); }), "it is a sheet"));
+  CHECK(has(refusal([&] { mend_surface(sheet); }), "100 % of it is sheets"));
   for (Vec3& x : sheet.nodes) x += Vec3(5, 0, 0);
   const MendReport report = mended_to(enclosed_volume(sphere()), together(sphere(), sheet), 1e-12);
   CHECK(report.holes.sheets == 1);
   TriangleMesh two_sided = sheet;
   for (const Triangle& t : sheet.triangles) two_sided.triangles.push_back({t[0], t[2], t[1]});
-  CHECK(has(refusal([&] { mend_surface(two_sided); }), "it is a sheet"));
+  CHECK(has(refusal([&] { mend_surface(two_sided); }), "100 % of it is sheets"));
 }
 
 TEST_CASE("a wall between two rooms and a fin are left out") {
@@ -250,6 +250,22 @@ TEST_CASE("meshing anew keeps cavities, spans what is open still, and follows th
   CHECK(volume_of(coarse) == doctest::Approx(whole).epsilon(0.03));
   CHECK(volume_of(fine) == doctest::Approx(whole).epsilon(0.02));
   CHECK(fine.tets.size() > 1.3 * static_cast<double>(coarse.tets.size()));
+}
+
+TEST_CASE("a scan by others with holes in its base is closed and filled") {
+  if (shared_data("bunny.obj").empty()) {
+    MESSAGE("skipped: no surfaces by others here");
+    return;
+  }
+  TriangleMesh bunny;
+  const std::string said = refusal([&] { bunny = read_surface(shared_data("bunny.obj")); });
+  if (has(said, "HEML_ASSIMP")) return;
+  const MendedSurface mended = mend_surface(bunny);
+  CHECK(open_edges(mended.surface) == 0);
+  CHECK(to_lines(mended.report).size() == 1);
+  CHECK(mended.report.holes.holes == 4);
+  CHECK(mended.report.holes.edges == 42);
+  CHECK(mended.surface.nodes == bunny.nodes);
 }
 
 TEST_CASE("what has no volume, no place or no triangles is refused") {
@@ -320,7 +336,7 @@ TEST_CASE("any damage gives a closed surface, one to be meshed anew, or an error
   CHECK(refused < 20);
 }
 
-TEST_CASE("soups of triangles end, in a mesh or an error") {
+TEST_CASE("soups of triangles are refused, in any number") {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> place(-1, 1);
   for (const int count : {1, 2, 10, 300, 3000}) {
@@ -330,7 +346,7 @@ TEST_CASE("soups of triangles end, in a mesh or an error") {
     const auto node = [&] { return static_cast<int>(random() % soup.nodes.size()); };
     for (int t = 0; t < count; ++t) soup.triangles.push_back({node(), node(), node()});
     const std::string said = refusal([&] { tetrahedralize(mend_surface(soup)); });
-    MESSAGE(count, ": ", said);
+    CHECK(has(said, "soup: "));
   }
 }
 
