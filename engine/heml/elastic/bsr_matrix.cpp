@@ -8,8 +8,9 @@
 namespace heml {
 namespace {
 
-constexpr std::size_t row_grain = 512;  // min. rows per thread, which outweigh the cost of waking it
-constexpr int side_by_side = 4;         // elements added together
+constexpr std::size_t row_grain = 512;          // min. rows per thread, which outweigh the cost of waking it
+constexpr std::size_t sections_per_thread = 2;  // fewer wait longer for a late thread, more have longer borders
+constexpr int side_by_side = 4;                 // elements added together
 
 typedef float Four __attribute__((vector_size(16)));
 
@@ -38,6 +39,41 @@ typedef float Four __attribute__((vector_size(16)));
   column[3] = __builtin_shufflevector(b, d, 2, 3, 6, 7);
 }
 
+/// Calls put(corner a, corner b, j, columns) with column j of block (a, b) of each of four elements. k: their
+/// stiffness.
+template <class Real>
+[[gnu::always_inline]] inline void each_column(const Real* k, const auto& put) {
+  constexpr std::size_t packet = ElementGroup<Real>::lanes;
+  const auto put_column = [&](std::size_t a, std::size_t b, int j, const Four(&xyz)[3]) {
+    Four column[side_by_side];
+    transpose(xyz, column);
+    put(a, b, j, column);
+  };
+#pragma GCC unroll 3
+  for (int j = 0; j < 3; ++j) {
+    Four of_corner_0[4][3] = {};  // minus the sums of the others, since corner 0 moves all edges back
+#pragma GCC unroll 3
+    for (std::size_t b = 1; b < 4; ++b) {
+      Four sum[3] = {};
+#pragma GCC unroll 3
+      for (std::size_t a = 1; a < 4; ++a) {
+        Four xyz[3];
+        for (int i = 0; i < 3; ++i) {
+          const int entry = edge_entry(3 * static_cast<int>(a - 1) + i, 3 * static_cast<int>(b - 1) + j);
+          xyz[i] = load(k + packet * static_cast<std::size_t>(entry));
+          sum[i] -= xyz[i];
+          of_corner_0[a][i] -= xyz[i];
+        }
+        put_column(a, b, j, xyz);
+      }
+      for (int i = 0; i < 3; ++i) of_corner_0[0][i] -= sum[i];
+      put_column(0, b, j, sum);
+    }
+#pragma GCC unroll 4
+    for (std::size_t a = 0; a < 4; ++a) put_column(a, 0, j, of_corner_0[a]);
+  }
+}
+
 }  // namespace
 
 BsrMatrix::BsrMatrix(const std::vector<int>& number, const std::vector<Tet>& tets) : number_(number) {
@@ -64,7 +100,23 @@ BsrMatrix::BsrMatrix(const std::vector<int>& number, const std::vector<Tet>& tet
     BlockIndices& places = block_indices_.emplace_back();
     for (std::size_t k = 0; k < 16; ++k) places[k] = find(row_of(tet[k / 4]), row_of(tet[k % 4]));
   }
+  for (std::size_t row = 0; row < count; ++row) diagonal_.push_back(find(static_cast<int>(row), static_cast<int>(row)));
+  find_sections(tets);
   set_zero();
+}
+
+void BsrMatrix::find_sections(const std::vector<Tet>& tets) {
+  std::vector<SectionMask> section_of(rows());
+  for (std::size_t section = 0; section < sections; ++section)
+    for (std::size_t row = first_row(section); row < first_row(section + 1); ++row)
+      section_of[row] = SectionMask{1} << section;
+  for (const Tet& tet : tets) {
+    SectionMask& mask = sections_.emplace_back(0);
+    for (const int node : tet) {
+      const int row = number_[static_cast<std::size_t>(node)];
+      mask |= row < 0 ? no_row : section_of[static_cast<std::size_t>(row)];
+    }
+  }
 }
 
 int BsrMatrix::find(int row, int column) const {
@@ -76,6 +128,7 @@ int BsrMatrix::find(int row, int column) const {
 
 void BsrMatrix::keep_elements(const std::vector<int>& elements) {
   block_indices_ = with_elements(block_indices_, elements);
+  sections_ = with_elements(sections_, elements);
 }
 
 void BsrMatrix::set_zero() { std::fill(block_.begin(), block_.end(), Block{}); }
@@ -101,74 +154,60 @@ void BsrMatrix::add_node(int node, const Mat3& B) {
 }
 
 void BsrMatrix::add_diagonal(int node, double k) {
-  const int row = number_[static_cast<std::size_t>(node)], place = find(row, row);
+  const int row = number_[static_cast<std::size_t>(node)];
+  const int place = row < 0 ? -1 : diagonal_[static_cast<std::size_t>(row)];
   for (int i = 0; place >= 0 && i < 3; ++i)
     block_[static_cast<std::size_t>(place)].column[i][i] += static_cast<float>(k);
 }
 
-/// Adds the stiffness of a group to blocks [first, last).
+/// Adds the stiffness of a group to the rows of sections [begin, end).
 template <class Real>
-[[gnu::always_inline]] inline void BsrMatrix::add_to(std::size_t first, std::size_t last, const Real* K,
+[[gnu::always_inline]] inline void BsrMatrix::add_to(std::size_t begin, std::size_t end, const Real* K,
                                                      const ElementGroup<Real>& group) {
   constexpr std::size_t packet = ElementGroup<Real>::lanes;
   static constexpr BlockIndices nowhere{-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
-  const auto is_here = [&](int place) {
-    const auto at = static_cast<std::size_t>(static_cast<unsigned>(place));
-    return at - first < last - first;  // false for −1, which wraps to the largest unsigned
-  };
+  const SectionMask mine = (SectionMask{1} << end) - (SectionMask{1} << begin);
+  const auto first = static_cast<std::size_t>(start_[first_row(begin)]);
+  const auto last = static_cast<std::size_t>(start_[first_row(end)]);
   for (std::size_t s = 0; s < group.size(); s += side_by_side) {
     const BlockIndices* places[side_by_side];
-    bool any = false;
+    SectionMask touched = 0;
     for (std::size_t l = 0; l < side_by_side; ++l) {
-      places[l] = s + l < group.size() ? &block_indices_[static_cast<std::size_t>(group.element[s + l])] : &nowhere;
-      for (std::size_t a = 0; a < 4; ++a) any = any || is_here((*places[l])[5 * a]);
+      const bool exists = s + l < group.size();
+      const auto element = exists ? static_cast<std::size_t>(group.element[s + l]) : 0;
+      places[l] = exists ? &block_indices_[element] : &nowhere;
+      touched |= exists ? sections_[element] : no_row;
     }
-    if (!any) continue;
+    if (!(touched & mine)) continue;
     const Real* const k = K + edge_entries * packet * (s / packet) + s % packet;
-    const auto put = [&](std::size_t a, std::size_t b, int j, const Four(&xyz)[3]) {
-      Four column[side_by_side];
-      transpose(xyz, column);
-      for (std::size_t l = 0; l < side_by_side; ++l) {
-        const int place = (*places[l])[4 * a + b];
-        if (is_here(place)) block_[static_cast<std::size_t>(place)].column[j] += column[l];
-      }
+    const auto block_of = [&](std::size_t l, std::size_t a, std::size_t b) {
+      return static_cast<std::size_t>(static_cast<unsigned>((*places[l])[4 * a + b]));  // −1 becomes the largest
     };
-#pragma GCC unroll 3
-    for (int j = 0; j < 3; ++j) {
-      Four of_corner_0[4][3] = {};  // minus the sums of the others, since corner 0 moves all edges back
-#pragma GCC unroll 3
-      for (std::size_t b = 1; b < 4; ++b) {
-        Four sum[3] = {};
-#pragma GCC unroll 3
-        for (std::size_t a = 1; a < 4; ++a) {
-          Four xyz[3];
-          for (int i = 0; i < 3; ++i) {
-            const int entry = edge_entry(3 * static_cast<int>(a - 1) + i, 3 * static_cast<int>(b - 1) + j);
-            xyz[i] = load(k + packet * static_cast<std::size_t>(entry));
-            sum[i] -= xyz[i];
-            of_corner_0[a][i] -= xyz[i];
-          }
-          put(a, b, j, xyz);
+    if (!(touched & ~mine))
+      each_column(k, [&](std::size_t a, std::size_t b, int j, const Four(&column)[side_by_side]) {
+        for (std::size_t l = 0; l < side_by_side; ++l) block_[block_of(l, a, b)].column[j] += column[l];
+      });
+    else
+      each_column(k, [&](std::size_t a, std::size_t b, int j, const Four(&column)[side_by_side]) {
+        for (std::size_t l = 0; l < side_by_side; ++l) {
+          const std::size_t block = block_of(l, a, b);
+          if (block - first < last - first) block_[block].column[j] += column[l];
         }
-        for (int i = 0; i < 3; ++i) of_corner_0[0][i] -= sum[i];
-        put(0, b, j, sum);
-      }
-#pragma GCC unroll 4
-      for (std::size_t a = 0; a < 4; ++a) put(a, 0, j, of_corner_0[a]);
-    }
+      });
   }
 }
 
 template <class Real>
-HEML_WIDE void BsrMatrix::add_wide(std::size_t first, std::size_t last, const Real* K,
-                                   const ElementGroup<Real>& group) {
-  add_to(first, last, K, group);
+HEML_WIDE void BsrMatrix::add_wide(std::size_t begin, std::size_t end, const Real* K, const ElementGroup<Real>& group) {
+  add_to(begin, end, K, group);
 }
 
 template <class Real>
 void BsrMatrix::add_elements(const Real* K, const ElementGroup<Real>& group, ThreadTeam& team) {
-  team.parallel_for(rows(), row_grain, [&](std::size_t begin, std::size_t end) {
-    const auto first = static_cast<std::size_t>(start_[begin]), last = static_cast<std::size_t>(start_[end]);
+  const std::size_t threads = std::min<std::size_t>(rows() / row_grain, static_cast<std::size_t>(team.limit()));
+  const std::size_t parts = std::min(std::max<std::size_t>(sections_per_thread * threads, 1), sections);
+  team.parallel_for(parts, sections_per_thread, [&](std::size_t begin, std::size_t end) {
+    const std::size_t first = sections * begin / parts, last = sections * end / parts;
     if (has_avx2())
       add_wide(first, last, K, group);
     else

@@ -7,7 +7,10 @@
 //   block:   x x x 0 | y y y 0 | z z z 0     its columns, one register each
 //
 // One thread assembles a row, adding elements in ascending order, so the bits do not depend on the number of threads.
+// For this the rows are divided into sections, and each element names the sections of its corners: a thread passes over
+// the elements outside its sections, and those at the border of two are computed by both.
 #include <Eigen/Core>
+#include <cstdint>
 #include <heml/base/thread_team.hpp>
 #include <heml/elastic/element_group.hpp>
 #include <heml/math/bytes.hpp>
@@ -41,7 +44,7 @@ class BsrMatrix {
   void multiply(const MultiVector& x, MultiVector& y, ThreadTeam& team) const;
 
   std::size_t rows() const { return start_.size() - 1; }
-  std::size_t bytes() const { return bytes_of(number_, start_, column_, block_, block_indices_); }
+  std::size_t bytes() const { return bytes_of(number_, start_, column_, diagonal_, block_, block_indices_, sections_); }
 
  private:
   typedef float Column __attribute__((vector_size(16)));
@@ -51,19 +54,28 @@ class BsrMatrix {
   /// Block of each pair of an element's corners, row by row; −1: no such row.
   using BlockIndices = std::array<int, 16>;
 
+  /// Bit k: a corner has its row in section k; bit `sections`: a corner has no row.
+  using SectionMask = std::uint32_t;
+  static constexpr std::size_t sections = 16;
+  static constexpr SectionMask no_row = SectionMask{1} << sections;
+
+  std::size_t first_row(std::size_t section) const { return rows() * section / sections; }
+  void find_sections(const std::vector<Tet>& tets);
   int find(int row, int column) const;
   void add(int row, int column, const Mat3& B);
   template <class Real>
-  void add_to(std::size_t first, std::size_t last, const Real* K, const ElementGroup<Real>& group);
+  void add_to(std::size_t begin, std::size_t end, const Real* K, const ElementGroup<Real>& group);
   template <class Real>
-  void add_wide(std::size_t first, std::size_t last, const Real* K, const ElementGroup<Real>& group);
+  void add_wide(std::size_t begin, std::size_t end, const Real* K, const ElementGroup<Real>& group);
   void multiply_rows(const MultiVector& x, MultiVector& y, std::size_t begin, std::size_t end) const;
   void multiply_wide(const MultiVector& x, MultiVector& y, std::size_t begin, std::size_t end) const;
 
   std::vector<int> number_;
   std::vector<int> start_, column_;
+  std::vector<int> diagonal_;  ///< block of each row
   std::vector<Block> block_;
   std::vector<BlockIndices> block_indices_;  ///< #T
+  std::vector<SectionMask> sections_;        ///< #T
 };
 
 }  // namespace heml

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <heml/elastic/bsr_matrix.hpp>
+#include <numeric>
 
 #include "small_body.hpp"
 
@@ -74,16 +75,55 @@ TEST_CASE("the matrix and its products are bit-identical for any number of threa
     for (int i = 0; i < 3; ++i) x.push_back(X[i] + test::uniform(random, -1e-3, 1e-3));
   ElasticBody<double> body(mesh, std::vector<int>(mesh.tets.size(), 0), {Material{"neo_hookean", {3.1e4, 3.4e3}}},
                            BodyOptions{true, false});
-  BsrMatrix rows(some_rows(mesh.nodes.size()), mesh.tets);
-  const MultiVector in = random_triples(rows.rows(), random);
-  MultiVector first(rows.rows()), out(rows.rows());
-  for (const int threads : {1, 2, 3, 16}) {
+  const auto check = [&](BsrMatrix& rows) {
+    const MultiVector in = random_triples(rows.rows(), random);
+    MultiVector first(rows.rows()), out(rows.rows());
+    for (const int threads : {1, 2, 3, 5, 16}) {
+      CAPTURE(threads);
+      ThreadTeam team(threads);
+      body.linearise(x.data(), team);
+      rows.set_zero();
+      body.add_stiffness(rows, team);
+      rows.multiply(in, threads == 1 ? first : out, team);
+      for (std::size_t row = 0; threads > 1 && row < rows.rows(); ++row) CHECK((out[row] == first[row]).all());
+    }
+  };
+  std::vector<int> all_rows(mesh.nodes.size());
+  std::iota(all_rows.begin(), all_rows.end(), 0);
+  BsrMatrix some(some_rows(mesh.nodes.size()), mesh.tets), all(all_rows, mesh.tets);
+  check(some);
+  check(all);
+}
+
+TEST_CASE("a matrix that lost elements has the bits of one made of those left, for any number of threads") {
+  std::mt19937_64 random(74);
+  TetMesh mesh = make_box(Vec3(0.1, 0.1, 0.1), {12, 12, 12}), less = mesh;
+  std::vector<int> kept;
+  less.tets.clear();
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    if (t % 5 == 2) continue;
+    kept.push_back(static_cast<int>(t));
+    less.tets.push_back(mesh.tets[t]);
+  }
+  std::vector<double> x;
+  for (const Vec3& X : mesh.nodes)
+    for (int i = 0; i < 3; ++i) x.push_back(X[i] + test::uniform(random, -1e-3, 1e-3));
+  ElasticBody<double> body(less, std::vector<int>(less.tets.size(), 0), {Material{"neo_hookean", {3.1e4, 3.4e3}}},
+                           BodyOptions{true, false});
+  BsrMatrix cut(some_rows(mesh.nodes.size()), mesh.tets), fresh(some_rows(mesh.nodes.size()), less.tets);
+  cut.keep_elements(kept);
+  const MultiVector in = random_triples(cut.rows(), random);
+  MultiVector of_cut(cut.rows()), of_fresh(cut.rows());
+  for (const int threads : {1, 2, 5}) {
+    CAPTURE(threads);
     ThreadTeam team(threads);
     body.linearise(x.data(), team);
-    rows.set_zero();
-    body.add_stiffness(rows, team);
-    rows.multiply(in, threads == 1 ? first : out, team);
-    for (std::size_t row = 0; threads > 1 && row < rows.rows(); ++row) CHECK((out[row] == first[row]).all());
+    for (BsrMatrix* rows : {&cut, &fresh}) {
+      rows->set_zero();
+      body.add_stiffness(*rows, team);
+      rows->multiply(in, rows == &cut ? of_cut : of_fresh, team);
+    }
+    for (std::size_t row = 0; row < cut.rows(); ++row) CHECK((of_cut[row] == of_fresh[row]).all());
   }
 }
 
