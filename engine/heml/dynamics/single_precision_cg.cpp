@@ -4,8 +4,9 @@
 
 namespace heml {
 namespace {
-constexpr std::size_t piece = 1024;  // rows per partial sum
-}
+constexpr std::size_t piece = 1024;         // rows per partial sum
+constexpr std::size_t update_grain = 4096;  // min. rows per thread, which outweigh the cost of a fork
+}  // namespace
 
 SinglePrecisionCG::SinglePrecisionCG(const FreeNodes& free, const TetMesh& mesh, ThreadTeam& team)
     : SinglePrecisionCG(free, BsrMatrix(free.number, mesh.tets), team) {}
@@ -62,7 +63,9 @@ bool SinglePrecisionCG::solve(SmoothedAggregation& preconditioner, const Vector&
     const double next = dot(left_, z_);
     const auto turn = static_cast<float>(k > 0 ? next / progress : 0);
     progress = next;
-    for (std::size_t row = 0; row < K_.rows(); ++row) p_[row] = k > 0 ? z_[row] + turn * p_[row] : z_[row];
+    team_.parallel_for(K_.rows(), update_grain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t row = begin; row < end; ++row) p_[row] = k > 0 ? z_[row] + turn * p_[row] : z_[row];
+    });
     K_.multiply(p_, q_, team_);
     ++iterations;
     const double curvature = dot(p_, q_);
@@ -79,8 +82,10 @@ bool SinglePrecisionCG::solve(SmoothedAggregation& preconditioner, const Vector&
     });
   }
   d.setZero(r.size());
-  for (std::size_t row = 0; row < K_.rows(); ++row)
-    d.segment<3>(place(row)) = scale * d_[row].head<3>().cast<double>().matrix();
+  team_.parallel_for(K_.rows(), update_grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t row = begin; row < end; ++row)
+      d.segment<3>(place(row)) = scale * d_[row].head<3>().cast<double>().matrix();
+  });
   return positive;
 }
 

@@ -1,15 +1,13 @@
 #include <array>
-#include <cstring>
 #include <heml/dynamics/prolongation.hpp>
 #include <heml/dynamics/smoothed_aggregation.hpp>
-#include <heml/elastic/avx2_dispatch.hpp>
 #include <heml/math/rotation.hpp>
 #include <numbers>
 
 namespace heml {
 namespace {
 
-constexpr std::size_t grain = 2048;           // min. rows per thread, which outweigh the cost of waking it
+constexpr std::size_t vector_grain = 4096;    // min. rows per thread of loops without products
 constexpr double max_coarsening_ratio = 0.7;  // max. ratio of unknowns of a level to those of the finer one
 constexpr double smoothed_from = 0.2;  // the smoother damps eigenvalues from here to 1, the coarser levels the rest
 /// Weights w of the steps x += w D⁻¹(b − Ax), which together are the Chebyshev polynomial on [smoothed_from, 1].
@@ -22,38 +20,14 @@ const std::array<float, 2> weights = [] {
   return result;
 }();
 
-using Rows = Eigen::SparseMatrix<float, Eigen::RowMajor>;
-typedef float Four __attribute__((vector_size(16)));
-
-[[gnu::always_inline]] inline void rows(const Rows& A, const MultiVector& x, const auto& write, std::size_t begin,
-                                        std::size_t end) {
-  const int* start = A.outerIndexPtr();
-  const int* column = A.innerIndexPtr();
-  const float* value = A.valuePtr();
-  for (std::size_t i = begin; i < end; ++i) {
-    Four sum = {}, at;
-    for (int k = start[i]; k < start[i + 1]; ++k) {
-      std::memcpy(&at, &x[static_cast<std::size_t>(column[k])], sizeof at);
-      sum += value[k] * at;
-    }
-    Eigen::Array4f of_row;
-    std::memcpy(of_row.data(), &sum, sizeof sum);
-    write(i, of_row);
-  }
-}
-
-HEML_WIDE void wide_rows(const Rows& A, const MultiVector& x, const auto& write, std::size_t begin, std::size_t end) {
-  rows(A, x, write, begin, end);
-}
-
 void add_coarse_levels(SmoothedAggregation::Hierarchy& hierarchy, std::size_t max_direct_unknowns) {
   auto& levels = hierarchy.levels;
   while (static_cast<std::size_t>(levels.back().L.rows()) > max_direct_unknowns) {
     auto& fine = levels.back();
     const ScalarMatrix P = smoothed_prolongation(fine.L), R = P.transpose();
     if (static_cast<double>(P.cols()) > max_coarsening_ratio * static_cast<double>(P.rows())) break;
-    fine.P = P.cast<float>();
-    fine.R = R.cast<float>();
+    fine.P = SlicedEllMatrix(P);
+    fine.R = SlicedEllMatrix(R);
     SmoothedAggregation::Hierarchy::Level coarse;
     coarse.L = R * ScalarMatrix(fine.L * P);
     coarse.M = R * ScalarMatrix(fine.M * P);
@@ -100,52 +74,41 @@ bool SmoothedAggregation::set_inertia(double a) {
     const ScalarMatrix A = a * matrices.M + matrices.L;
     level.inverse_D.clear();
     for (const double sum : absolute_row_sums(A)) level.inverse_D.push_back(static_cast<float>(1 / sum));
-    level.A = A.cast<float>();
+    level.A = SlicedEllMatrix(A);
   }
   const Hierarchy::Level& bottom = hierarchy_->levels.back();
   return bottom_.factor(a * bottom.M + bottom.L);
 }
 
-/// Calls write(row, (A x)_row) for every row.
-template <class Write>
-void SmoothedAggregation::each_row(const Rows& A, const MultiVector& x, const Write& write) const {
-  team_.parallel_for(static_cast<std::size_t>(A.rows()), grain, [&](std::size_t begin, std::size_t end) {
-    if (has_avx2())
-      wide_rows(A, x, write, begin, end);
-    else
-      rows(A, x, write, begin, end);
+void SmoothedAggregation::smooth(Level& level, float weight, const MultiVector& b, MultiVector& x) const {
+  level.A.each_product(x, team_, [&](std::size_t i, const Eigen::Array4f& Ax) {
+    level.scratch[i] = x[i] + weight * level.inverse_D[i] * (b[i] - Ax);
   });
-}
-
-void SmoothedAggregation::smooth(Level& level, float weight) const {
-  each_row(level.A, level.x, [&](std::size_t i, const Eigen::Array4f& Ax) {
-    level.scratch[i] = level.x[i] + weight * level.inverse_D[i] * (level.b[i] - Ax);
-  });
-  std::swap(level.x, level.scratch);
+  std::swap(x, level.scratch);
 }
 
 /// One V-cycle from level l down: x ≈ A⁻¹ b.
-void SmoothedAggregation::cycle(std::size_t l) {
-  Level& level = levels_[l];
+void SmoothedAggregation::cycle(std::size_t l, const MultiVector& b, MultiVector& x) {
   if (l + 1 == levels_.size()) {
-    level.x = level.b;
-    return bottom_.solve(level.x);
+    x = b;
+    return bottom_.solve(x);
   }
-  Level& coarse = levels_[l + 1];
+  Level &level = levels_[l], &coarse = levels_[l + 1];
   const Hierarchy::Level& transfer = hierarchy_->levels[l];
-  for (std::size_t i = 0; i < level.x.size(); ++i) level.x[i] = weights[0] * level.inverse_D[i] * level.b[i];
-  for (std::size_t k = 1; k < weights.size(); ++k) smooth(level, weights[k]);
-  each_row(level.A, level.x, [&](std::size_t i, const Eigen::Array4f& Ax) { level.scratch[i] = level.b[i] - Ax; });
-  each_row(transfer.R, level.scratch, [&](std::size_t i, const Eigen::Array4f& sum) { coarse.b[i] = sum; });
-  cycle(l + 1);
-  each_row(transfer.P, coarse.x, [&](std::size_t i, const Eigen::Array4f& sum) { level.x[i] += sum; });
-  for (const float weight : weights) smooth(level, weight);
+  team_.parallel_for(x.size(), vector_grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) x[i] = weights[0] * level.inverse_D[i] * b[i];
+  });
+  for (std::size_t k = 1; k < weights.size(); ++k) smooth(level, weights[k], b, x);
+  level.A.each_product(x, team_, [&](std::size_t i, const Eigen::Array4f& Ax) { level.scratch[i] = b[i] - Ax; });
+  transfer.R.each_product(level.scratch, team_, [&](std::size_t i, const Eigen::Array4f& sum) { coarse.b[i] = sum; });
+  cycle(l + 1, coarse.b, coarse.x);
+  transfer.P.each_product(coarse.x, team_, [&](std::size_t i, const Eigen::Array4f& sum) { x[i] += sum; });
+  for (const float weight : weights) smooth(level, weight, b, x);
 }
 
 void SmoothedAggregation::apply(const MultiVector& r, MultiVector& z) {
-  levels_.front().b = r;
-  cycle(0);
-  z = levels_.front().x;
+  z.resize(r.size());
+  cycle(0, r, z);
   for (const std::size_t row : excluded_rows_) z[row].setZero();
 }
 
@@ -155,7 +118,7 @@ void SmoothedAggregation::apply(const Vector& r, Vector& z) {
   const auto place = [&](std::size_t k) { return 3 * hierarchy_->node[k]; };
   for (std::size_t k = 0; k < top.b.size(); ++k)
     top.b[k] << (r.segment<3>(place(k)) / scale).cast<float>().array(), 0.0f;
-  cycle(0);
+  cycle(0, top.b, top.x);
   z.setZero(r.size());
   for (std::size_t k = 0; k < top.x.size(); ++k)
     z.segment<3>(place(k)) = scale * top.x[k].head<3>().cast<double>().matrix();
@@ -165,9 +128,9 @@ void SmoothedAggregation::apply(const Vector& r, Vector& z) {
 std::size_t SmoothedAggregation::bytes() const {
   std::size_t sum = bottom_.bytes() + bytes_of(hierarchy_->node, hierarchy_->bare_rows, excluded_rows_);
   for (const Hierarchy::Level& matrices : hierarchy_->levels)
-    sum += bytes_of(matrices.L, matrices.M, matrices.P, matrices.R);
+    sum += bytes_of(matrices.L, matrices.M) + matrices.P.bytes() + matrices.R.bytes();
   for (const Level& level : levels_)
-    sum += bytes_of(level.A) + bytes_of(level.inverse_D, level.b, level.x, level.scratch);
+    sum += level.A.bytes() + bytes_of(level.inverse_D, level.b, level.x, level.scratch);
   return sum;
 }
 

@@ -17,19 +17,18 @@
 // threads.
 #include <heml/base/thread_team.hpp>
 #include <heml/dynamics/scalar_cholesky.hpp>
+#include <heml/dynamics/sliced_ell_matrix.hpp>
 #include <memory>
 
 namespace heml {
 
 class SmoothedAggregation {
-  using Rows = Eigen::SparseMatrix<float, Eigen::RowMajor>;
-
  public:
   /// What is built of a mesh once, for any inertia. Immutable: snapshots and other solvers share it.
   struct Hierarchy {
     struct Level {
       ScalarMatrix L, M;
-      Rows P, R;  ///< prolongation and restriction, R = Pᵀ; empty at the bottom
+      SlicedEllMatrix P, R;  ///< prolongation and restriction, R = Pᵀ; empty at the bottom
     };
     std::vector<int> node;               ///< node of each row
     std::vector<std::size_t> bare_rows;  ///< of nodes without mass and elements
@@ -61,15 +60,13 @@ class SmoothedAggregation {
 
  private:
   struct Level {
-    Rows A;                        ///< aM + L; empty at the bottom
+    SlicedEllMatrix A;             ///< aM + L; empty at the bottom
     std::vector<float> inverse_D;  ///< 1/Σ|A| along each row
     MultiVector b, x, scratch;
   };
 
-  void cycle(std::size_t l);
-  void smooth(Level& level, float weight) const;
-  template <class Write>
-  void each_row(const Rows& A, const MultiVector& x, const Write& write) const;
+  void cycle(std::size_t l, const MultiVector& b, MultiVector& x);
+  void smooth(Level& level, float weight, const MultiVector& b, MultiVector& x) const;
 
   std::shared_ptr<const Hierarchy> hierarchy_;
   std::vector<std::size_t> excluded_rows_;
