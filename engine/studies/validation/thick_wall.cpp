@@ -89,9 +89,9 @@ Finding thick_wall(const Trial& trial, int directions) {
     setup.loads.push_back(load);
     const Solved solved = solve(trial, setup);
     const std::string method = fmt::format("{}, ν {}", element, poisson);
-    const auto add = [&](const char* where, double radius, double reference) {
+    const auto add = [&, most = limit](const char* where, double radius, double reference) {
       finding.rows.push_back(row_of(solved, fmt::format("displacement of the {} wall", where), "m",
-                                    mean_displacement(setup, solved.x, radius, directions), reference, source, limit,
+                                    mean_displacement(setup, solved.x, radius, directions), reference, source, most,
                                     method));
     };
     add("inner", inner, state.inner - inner);
