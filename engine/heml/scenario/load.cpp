@@ -83,6 +83,10 @@ WorldSetup load_setup(const Scene& scene, TetMesh mesh, MidEdges midedges) {
   if (!scene.initial_positions.empty())
     setup.initial_positions = read_positions_csv(find_file(scene, "initial.positions", scene.initial_positions),
                                                  static_cast<int>(setup.mesh.nodes.size()));
+  if (use_double_far_away(setup))
+    warn("{}: solver.precision: float does not resolve a body so far from the origin; it is computed in double "
+         "(\"translate\" in the mesh brings it near)",
+         scene.file);
   return scene.mesh.refine ? refined_setup(scene, std::move(setup)) : setup;
 }
 

@@ -174,7 +174,8 @@ inline constexpr KeyInfo solver[] = {
      "ticks a second, where no step is given; explicit methods take as many stable steps a tick as it needs"},
     {"duration", form::non_negative, "s", "", "of `heml solve`"},
     {"damping", form::non_negative, "1/s", "", "proportional to mass"},
-    {"precision", form::one_of<precision_names>(), "", "", "of the arithmetic"},
+    {"precision", form::one_of<precision_names>(), "", "",
+     "of the arithmetic; `\"float\"` computes in double what lies farther from the origin than 32 of its diagonals"},
     {"threads", form::whole(0, max_threads), "", "", "0: all cores; never changes a bit of the result"},
     {"element", form::one_of<element_names>(), "", "",
      "linear tetrahedra with a pressure each, or with averaged nodal pressure (near ν = 0.5); `p2`: quadratic "

@@ -5,9 +5,30 @@
 #include <heml/base/error.hpp>
 #include <heml/base/log.hpp>
 #include <heml/world/setup.hpp>
+#include <limits>
 #include <set>
 
 namespace heml {
+
+bool fits_single_precision(const WorldSetup& setup) {
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  double farthest = 0;
+  for (const Vec3& X : setup.mesh.nodes) {
+    low = low.cwiseMin(X);
+    high = high.cwiseMax(X);
+    farthest = std::max(farthest, X.cwiseAbs().maxCoeff());
+  }
+  for (const Vec3& x : setup.initial_positions) farthest = std::max(farthest, x.cwiseAbs().maxCoeff());
+  return setup.mesh.nodes.empty() || farthest <= 32 * (high - low).norm();
+}
+
+bool use_double_far_away(WorldSetup& setup) {
+  SolverSettings& solver = setup.solver;
+  if (!solver.single_precision || fits_single_precision(setup)) return false;
+  solver.tolerance = solver.relative_tolerance();
+  solver.single_precision = false;
+  return true;
+}
 
 std::vector<int> material_of_elements(const TetMesh& mesh, const std::vector<RegionMaterial>& materials) {
   int fallback = -1;

@@ -102,6 +102,14 @@ struct WorldSetup {
   bool keeps_actions = true;  ///< keep the state before each action for StepHistory; never changes a result
 };
 
+/// Whether float resolves the body where it is: no node is farther from the origin, at rest or at the start, than 32
+/// diagonals of the body, so that at most five of float's 24 bits tell where the body is rather than what shape it has.
+bool fits_single_precision(const WorldSetup& setup);
+
+/// Computes in double what float does not resolve; the tolerance of solves stays that of float. Returns whether it
+/// changed the setup. make_world() does this too.
+bool use_double_far_away(WorldSetup& setup);
+
 /// One entry of `materials` per element: index into setup.materials.
 /// Throws InputError for a region without material and for two entries of one region; warns of an entry that matches
 /// nothing.
