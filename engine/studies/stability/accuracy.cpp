@@ -46,6 +46,23 @@ Outcome distance_from_equilibrium(const WorldSetup& setup, World& world) {
   return ended(world, rms_difference(world.positions(), equilibrium->positions()) / sag);
 }
 
+/// Holds the far end of a beam along x too, a fifth of its length away, and starts from the equilibrium there: where
+/// fibres slacken their stiffness jumps, and no method has its order.
+void pull_taut(WorldSetup& setup) {
+  Boundary far_end;
+  far_end.translate = Vec3(0.2 * 0.1, 0, 0);
+  for (std::size_t n = 0; n < setup.mesh.nodes.size(); ++n)
+    if (setup.mesh.nodes[n].x() > 0.1 - 1e-9) far_end.nodes.push_back(static_cast<int>(n));
+  setup.boundary.push_back(far_end);
+  WorldSetup rest = setup;
+  rest.loads.clear();
+  rest.solver.integrator = Integrator::static_equilibrium;
+  rest.solver.step.reset();
+  const auto equilibrium = make_world(rest);
+  equilibrium->load_to(1);
+  setup.initial_positions = equilibrium->positions();
+}
+
 }  // namespace
 
 Outcome order_of_verlet(const Trial& trial) {
@@ -55,7 +72,9 @@ Outcome order_of_verlet(const Trial& trial) {
 Outcome order_of_tr_bdf2(const Trial& trial) {
   WorldSetup setup = trial.setup("08_order_of_tr_bdf2");
   setup.solver.tolerance = 1e-9;
-  return distance_from_second_order(trial, setup, 0.01, 5e-5);
+  const bool taut = find_law(trial.variant.law)->has_fibre;  // and swings faster than a beam that is free at its end
+  if (taut) pull_taut(setup);
+  return distance_from_second_order(trial, setup, taut ? 0.005 : 0.01, 5e-5);
 }
 
 Outcome energy_drift(const Trial& trial) {
