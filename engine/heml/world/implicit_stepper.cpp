@@ -295,7 +295,7 @@ bool ImplicitStepper<Real>::take_back_gain(double time, const Vector& x, Vector&
   // What round-off makes of energies is no gain: taken from every step of a long motion it would add up.
   const double round_off =
       round_off_fraction * parts.body.value_round_off() + std::numeric_limits<Real>::epsilon() * moved;
-  if (!(moves > may + slack_of_energy * (moved + std::abs(*before)) + round_off)) return true;
+  if (moves == 0 || !(moves > may + slack_of_energy * (moved + std::abs(*before)) + round_off)) return true;
   v *= std::sqrt(std::max(may, 0.0) / moves);
   return may >= 0 || moves - may <= round_off;
 }
