@@ -17,6 +17,7 @@ constexpr NewtonOptions newton_options{60, 1e-3, min_float_tolerance, false};
 constexpr double round_off_factor = 100;   // times the tolerance: residual that is accepted as round-off
 constexpr double parabola_part = 1.0 / 8;  // of an increment: here Φ is compared with that at its end
 constexpr double max_above_parabola = 100;
+constexpr double double_tolerance = 1e-8;  // of a body in float that begins again in double
 constexpr int growth_iterations = 8;  // Newton iterations up to which the increment doubles
 constexpr NewtonOptions relaxation_options{8, 1e-2};
 constexpr int max_relaxation_steps = 80;
@@ -37,8 +38,30 @@ StaticSolve::StaticSolve(LoadDependentObjective& body, LinearSolver& linear, con
 
 bool StaticSolve::load_to(double fraction, const std::atomic<bool>& stop) {
   linear_.set_inertia(inertia_);
-  if (!solved_ && fraction <= load_)
-    return increment(load_) || (body_.refine_precision() && increment(load_)) || relax(load_);
+  if (!solved_ && fraction <= load_) return increment(load_) || (refine() && increment(load_)) || relax(load_);
+  const StaticSolveMemory start = *this;
+  refined_ = false;
+  if (follow_path(fraction, stop)) return true;
+  if (stop || !refined_) return false;
+  // In float the path may have left that of double before double was asked for, at a branch.
+  const long tried = iterations_;
+  StaticSolveMemory::operator=(start);
+  iterations_ = tried;
+  refine();
+  const StoppingCriterion asked = stop_;
+  stop_.limit = std::min(stop_.limit, double_tolerance);
+  const bool reached = follow_path(fraction, stop);
+  stop_ = asked;
+  return reached;
+}
+
+bool StaticSolve::refine() {
+  if (!body_.refine_precision()) return false;
+  refined_ = true;
+  return true;
+}
+
+bool StaticSolve::follow_path(double fraction, const std::atomic<bool>& stop) {
   while (load_ < fraction) {
     if (stop) return false;
     const double next = load_ + step_ * (1 + 1e-9) >= fraction ? fraction : load_ + step_;
@@ -46,14 +69,14 @@ bool StaticSolve::load_to(double fraction, const std::atomic<bool>& stop) {
       if (last_iterations_ <= growth_iterations) step_ *= 2;
       continue;
     }
-    if (stalled_ && body_.refine_precision()) continue;
+    if (stalled_ && refine()) continue;
     if (round_off_) {  // at a smaller load, round-off is relatively larger
-      if (body_.refine_precision()) continue;
+      if (refine()) continue;
       return false;
     }
     step_ = (next - load_) / 2;
     if (step_ >= min_increment) continue;
-    if (body_.refine_precision()) {
+    if (refine()) {
       step_ = relaxation_increment;
       continue;
     }

@@ -5,7 +5,8 @@
 //                            │ fails: half the increment
 //                            └ ... too short: relaxation in pseudo-time, Φ = a/2 ‖x − y‖²_M + U with falling a, which
 //                              passes a snap-through to the next stable state; fails: no equilibrium, last good state
-//                              kept, and approached as near as min_limit_increment if asked to (approach_limit)
+//                              kept, and approached as near as min_limit_increment if asked to (approach_limit). A
+//                              body in float that fails begins again in double
 #include <atomic>
 #include <heml/dynamics/newton.hpp>
 #include <optional>
@@ -95,6 +96,10 @@ class StaticSolve : private StaticSolveMemory {
 
  private:
   std::optional<double> lowest_stiffness(const Vector& x);
+  /// load_to() from where it is; false where no equilibrium is found or `stop` is set.
+  bool follow_path(double fraction, const std::atomic<bool>& stop);
+  /// Asks for double. Returns whether that changes anything.
+  bool refine();
   bool increment(double next);
   Vector predict(double next);
   bool is_far(const Vector& start);
@@ -110,6 +115,7 @@ class StaticSolve : private StaticSolveMemory {
   double inertia_;
   StoppingCriterion stop_;
   bool strict_;
+  bool refined_ = false;  ///< whether the load_to() under way has asked for double
 };
 
 }  // namespace heml
