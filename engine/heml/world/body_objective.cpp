@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t values_remembered = 3;  // where a step began, where it would fly, where it has come
 constexpr double max_penetration = 1e-4;      // of the body's size: how far inside a table or a probe tissue may be
-constexpr double long_way = 0.1;              // of the spacing of nodes: a shorter step turns no good element
+constexpr double long_way = 0.02;             // of the spacing of nodes: a shorter step turns no good element
 constexpr double nothing = 1e-12;             // N: smaller forces count as none
 // A body in float whose values were round-off: what made them so rarely ends within a few steps, and finding out costs
 // iterations.
