@@ -48,7 +48,7 @@ void ContactImpulses<Real>::first_half_step(Contacts& contacts, double time_befo
   }
   if (contacts.tissue) {
     tissue_.find_pairs(*contacts.tissue, h, inverse_mass, before, x, memory_.pairs);
-    tissue_.warm_start(inverse_mass, v);
+    tissue_.warm_start(v);
   }
   const int rounds = contacts.reports.size() > 1 ? tissue_rounds : 1;
   for (double part = 1; part <= parts; ++part) {
@@ -58,7 +58,7 @@ void ContactImpulses<Real>::first_half_step(Contacts& contacts, double time_befo
     for (int round = 0; round < rounds; ++round)  // tables come last in a round, since they cannot move
       for (std::size_t s = contacts.reports.size(); s-- > 0;) {
         if (surfaces_[s].shape == ContactSurface::Shape::tissue)
-          tissue_.solve(inverse_mass, v);
+          tissue_.solve(v);
         else
           stop_points(path, s, contacts, v);
       }
@@ -173,7 +173,7 @@ void ContactImpulses<Real>::second_half_step(Contacts& contacts, const std::vect
                                              Real* v) {
   if (contacts.tissue) {
     tissue_.begin_second_half(inverse_mass, x);
-    tissue_.warm_start(inverse_mass, v);
+    tissue_.warm_start(v);
   }
   for (Stopped& stopped : stopped_) {
     stopped.normal = 0;
@@ -183,7 +183,7 @@ void ContactImpulses<Real>::second_half_step(Contacts& contacts, const std::vect
   const bool repeats = surfaces_.size() > 1 || contacts.probe;
   const int rounds = !repeats ? 1 : contacts.tissue ? tissue_rounds : max_rounds;
   for (int round = 0; round < rounds; ++round) {
-    if (contacts.tissue) tissue_.solve(inverse_mass, v);
+    if (contacts.tissue) tissue_.solve(v);
     for (Stopped& stopped : stopped_) {
       const double inward = stopped.point.normal.dot(stopped.velocity - at(v, stopped.point));
       const bool may_stick = repeats && stopped.normal > 0 && surfaces_[stopped.surface].friction > 0;

@@ -68,6 +68,9 @@ std::optional<ContactPoint> point_of(const ContactPair& pair, const std::array<V
 SelfContact::SelfContact(const SelfContactSettings& settings, const TetMesh& mesh) : friction_(settings.friction) {
   set_rest(mesh);
   make_edges();
+  nodes_now_.resize(nodes_.size());
+  faces_now_.resize(faces_.size());
+  edges_now_.resize(edges_.size());
 }
 
 void SelfContact::set_rest(const TetMesh& mesh) {
@@ -124,6 +127,7 @@ void SelfContact::make_edges() {
 
 void SelfContact::find() {
   contacts_.clear();
+  ++step_count_;
   const auto is_finite = [](const Positions& places) {
     return std::all_of(places.begin(), places.end(), [](const Vec3& x) { return x.allFinite(); });
   };
@@ -137,6 +141,7 @@ void SelfContact::find() {
   for (const auto& [distance, candidate] : candidates_) {
     if (distance > reach) break;
     ++tested_count_;
+    if (!can_meet(candidate)) continue;
     if (const ContactPair pair = pair_of(candidate); meets(candidate, pair)) {
       contacts_.push_back(pair);
       for (int& n : contacts_.back().nodes) n = nodes_[at(n)];
@@ -299,30 +304,43 @@ Vec3 SelfContact::face_normal(int face, const Positions& x) const {
   return area_vector(x[at(a)], x[at(b)], x[at(c)]).normalized();
 }
 
-Vec3 SelfContact::node_normal(int node) const {
+const SelfContact::FaceNow& SelfContact::face_now(int face) {
+  FaceNow& now = faces_now_[at(face)];
+  if (now.step == step_count_) return now;
+  const Vec3 normal = face_normal(face, from_);
+  return now = {step_count_, normal, normal.dot(from_[at(faces_[at(face)][0])] - from_[at(apex_[at(face)])])};
+}
+
+const Vec3& SelfContact::normal_now(int node) {
+  NodeNow& now = nodes_now_[at(node)];
+  if (now.step == step_count_) return now.normal;
   Vec3 sum = Vec3::Zero();
   for (int k = start_[at(node)]; k < start_[at(node) + 1]; ++k) {
     const auto [a, b, c] = faces_[at(round_[at(k)])];
     sum += area_vector(from_[at(a)], from_[at(b)], from_[at(c)]);
   }
-  return sum.normalized();
+  now = {step_count_, sum.normalized()};
+  return now.normal;
 }
 
-/// Height of the element behind a face, m; not positive where it is inverted.
-double SelfContact::height(int face) const {
-  return face_normal(face, from_).dot(from_[at(faces_[at(face)][0])] - from_[at(apex_[at(face)])]);
-}
-
-/// Whether an edge is convex and a direction lies between the normals of its faces.
-bool SelfContact::is_ridge_towards(const Edge& edge, const Vec3& normal) const {
-  const auto [one, other] = edge.faces;
-  const Vec3 n = face_normal(one, from_), m = face_normal(other, from_);
-  const Triangle& neighbour = faces_[at(other)];
-  for (const int k : neighbour) {
-    if (k == edge.ends[0] || k == edge.ends[1]) continue;
-    const Vec3 displacement = from_[at(k)] - from_[at(edge.ends[0])];
-    if (!(n.dot(displacement) < -flat * displacement.norm())) return false;
+const SelfContact::EdgeNow& SelfContact::edge_now(int edge) {
+  EdgeNow& now = edges_now_[at(edge)];
+  if (now.step == step_count_) return now;
+  now = {step_count_, true};
+  const auto& [ends, faces] = edges_[at(edge)];
+  const Vec3& n = face_now(faces[0]).normal;
+  for (const int k : faces_[at(faces[1])]) {
+    if (k == ends[0] || k == ends[1]) continue;
+    const Vec3 displacement = from_[at(k)] - from_[at(ends[0])];
+    now.is_ridge = now.is_ridge && n.dot(displacement) < -flat * displacement.norm();
   }
+  return now;
+}
+
+/// Whether a direction lies between the normals of a ridge's faces.
+bool SelfContact::is_ridge_towards(int edge, const Vec3& normal) {
+  const auto [one, other] = edges_[at(edge)].faces;
+  const Vec3 &n = face_now(one).normal, &m = face_now(other).normal;
   const double c = n.dot(m), p = normal.dot(n), q = normal.dot(m), determinant = 1 - c * c;
   return p - c * q >= -slack * determinant && q - c * p >= -slack * determinant;
 }
@@ -342,34 +360,46 @@ ContactPair SelfContact::pair_of(const Candidate& candidate) const {
   return {{one.ends[0], one.ends[1], other.ends[0], other.ends[1]}, side_of(one, other, from_)};
 }
 
-bool SelfContact::meets(const Candidate& candidate, const ContactPair& pair) const {
+/// Whether the surfaces face each other, or both edges are convex: all that positions at the step's start decide, asked
+/// first, since most pairs of edges on flat surfaces at rest on each other end here.
+bool SelfContact::can_meet(const Candidate& candidate) {
+  if (candidate.edges) return edge_now(candidate.first).is_ridge && edge_now(candidate.second).is_ridge;
+  return normal_now(candidate.first).dot(face_now(candidate.second).normal) < -facing;
+}
+
+/// Of a candidate that can meet.
+bool SelfContact::meets(const Candidate& candidate, const ContactPair& pair) {
   std::array<Vec3, 4> from, to;
   for (std::size_t k = 0; k < 4; ++k) {
     from[k] = from_[at(pair.nodes[k])];
     to[k] = to_[at(pair.nodes[k])];
   }
-  const auto first = point_of(pair, from), last = point_of(pair, to);
-  if (!first || !last || !(std::min(first->gap, last->gap) <= touch_gap * edge_)) return false;
-  const double part = first->gap <= 0  ? 0
-                      : last->gap >= 0 ? (last->gap < first->gap ? 1 : 0)
-                                       : first->gap / (first->gap - last->gap);
-  const auto there = point_of(pair, between(from, to, part));
-  if (!there || !is_within(pair, *there)) return false;
-  if (!candidate.edges)
-    return node_normal(candidate.first).dot(first->normal) < -facing &&
-           (first->gap >= 0 || -first->gap < max_penetration * height(candidate.second));
+  const auto first = point_of(pair, from);
+  if (!first) return false;
+  const bool overlaps = first->gap <= 0;
+  if (overlaps && !is_within(pair, *first)) return false;
+  const auto last = point_of(pair, to);
+  if (!last || !(std::min(first->gap, last->gap) <= touch_gap * edge_)) return false;
+  if (!overlaps) {
+    const double part = last->gap < 0 ? first->gap / (first->gap - last->gap) : last->gap < first->gap ? 1 : 0;
+    const auto there = point_of(pair, between(from, to, part));
+    if (!there || !is_within(pair, *there)) return false;
+  }
+  if (!candidate.edges) return first->gap >= 0 || -first->gap < max_penetration * face_now(candidate.second).height;
   const Vec3 u = from[1] - from[0], v = from[3] - from[2];
   if (u.cross(v).norm() < parallel * u.norm() * v.norm()) return false;
-  const Edge &one = edges_[at(candidate.first)], &other = edges_[at(candidate.second)];
-  if (!is_ridge_towards(one, -first->normal) || !is_ridge_towards(other, first->normal)) return false;
+  if (!is_ridge_towards(candidate.first, -first->normal) || !is_ridge_towards(candidate.second, first->normal))
+    return false;
   if (first->gap >= 0) return true;
-  double least = height(one.faces[0]);
-  for (const int face : {one.faces[1], other.faces[0], other.faces[1]}) least = std::min(least, height(face));
+  const Edge &one = edges_[at(candidate.first)], &other = edges_[at(candidate.second)];
+  double least = face_now(one.faces[0]).height;
+  for (const int face : {one.faces[1], other.faces[0], other.faces[1]}) least = std::min(least, face_now(face).height);
   return -first->gap < max_penetration * least;
 }
 
 std::size_t SelfContact::bytes() const {
   return bytes_of(nodes_, rest_, faces_, apex_, edges_, start_, round_, own_nodes_, own_edges_) +
+         bytes_of(nodes_now_, faces_now_, edges_now_) +
          bytes_of(from_, to_, searched_.reference, filtered_.reference, broad_candidates_, candidates_, contacts_);
 }
 

@@ -88,6 +88,20 @@ class SelfContact {
     auto operator<=>(const NearCandidate&) const = default;
   };
   using Positions = std::vector<Vec3>;
+  // What several candidates of a step ask of the surface at from_, evaluated for the first that asks.
+  struct NodeNow {
+    long step = 0;  ///< evaluated in, as in step_count_
+    Vec3 normal;    ///< unit
+  };
+  struct FaceNow {
+    long step = 0;
+    Vec3 normal;    ///< unit
+    double height;  ///< m, of the element behind; not positive where it is inverted
+  };
+  struct EdgeNow {
+    long step = 0;
+    bool is_ridge;  ///< convex
+  };
   // Node and face numbers below index nodes_ and faces_.
   void set_rest(const TetMesh& mesh);
   void make_edges();
@@ -108,12 +122,13 @@ class SelfContact {
   void add_edge_candidates(int one, int other, double reach);
   int side_of(const Edge& one, const Edge& other, const Positions& x) const;
   ContactPair pair_of(const Candidate& candidate) const;
-  bool meets(const Candidate& candidate, const ContactPair& pair) const;
+  bool can_meet(const Candidate& candidate);
+  bool meets(const Candidate& candidate, const ContactPair& pair);
   Vec3 face_normal(int face, const Positions& x) const;
-  Vec3 node_normal(int node) const;
-  double height(int face) const;
-  bool faces_node(int node, const Vec3& normal) const;
-  bool is_ridge_towards(const Edge& edge, const Vec3& normal) const;
+  const FaceNow& face_now(int face);
+  const Vec3& normal_now(int node);
+  const EdgeNow& edge_now(int edge);
+  bool is_ridge_towards(int edge, const Vec3& normal);
 
   double friction_;
   double edge_ = 0;         ///< m, mean edge length of the surface at rest
@@ -125,6 +140,10 @@ class SelfContact {
   std::vector<int> start_, round_;               ///< faces round each node: round_[start_[n] .. start_[n + 1])
   std::vector<Triangle> own_nodes_, own_edges_;  ///< of each face: nodes, edges that no earlier face has; unused: −1
   Positions from_, to_;
+  long step_count_ = 0;  ///< calls of find()
+  std::vector<NodeNow> nodes_now_;
+  std::vector<FaceNow> faces_now_;
+  std::vector<EdgeNow> edges_now_;
   CandidateSet searched_, filtered_;
   std::vector<Candidate> broad_candidates_;  ///< valid within searched_
   std::vector<NearCandidate> candidates_;    ///< the subset valid within filtered_, ascending

@@ -16,6 +16,28 @@ constexpr Limit warm_limit{4, 1e-4};   // where all were there in earlier steps:
 
 constexpr double touching_gap = 1e-7;  // m, largest gap at which friction acts
 
+/// What apply_impulse() multiplies an impulse with, 1/kg.
+template <class Real>
+std::array<double, 4> mobility_of(const ContactPoint& point, const std::vector<Real>& inverse_mass) {
+  std::array<double, 4> mobility;
+  for (std::size_t k = 0; k < 4; ++k)
+    mobility[k] = point.weights[k] * static_cast<double>(inverse_mass[static_cast<std::size_t>(point.nodes[k])]);
+  return mobility;
+}
+
+/// at() and apply_impulse() for the four nodes of a pair, where most of the time goes.
+template <class Real>
+Vec3 velocity_of(const ContactPoint& point, const Real* v) {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t k = 0; k < 4; ++k) sum += point.weights[k] * heml::at(v, point.nodes[k]);
+  return sum;
+}
+template <class Real>
+void add_impulse(const ContactPoint& point, const std::array<double, 4>& mobility, const Vec3& impulse, Real* v) {
+  for (std::size_t k = 0; k < 4; ++k)
+    Eigen::Map<Vector3<Real>>(v + 3 * point.nodes[k]) += (mobility[k] * impulse).template cast<Real>();
+}
+
 }  // namespace
 
 template <class Real>
@@ -40,7 +62,7 @@ void SelfContactImpulses<Real>::find_pairs(SelfContact& contact, double h, const
     const double allowed_gap = std::min(0.0, point->gap) * std::max(0.0, 1 - h / contact_recovery);
     const Vec3 drift = is_known ? memory.anchor.drift(*point, before, Vec3::Zero(), h) : Vec3::Zero();
     active_.push_back({memory, is_known, *point, (allowed_gap - point->gap) / h, effective_inverse_mass,
-                       point->gap <= touching_gap, drift});
+                       mobility_of(*point, inverse_mass), point->gap <= touching_gap, drift});
   }
 }
 
@@ -52,6 +74,7 @@ void SelfContactImpulses<Real>::begin_second_half(const std::vector<Real>& inver
   for (ActiveContact& touch : active_) {
     if (const auto now = point_of(touch.memory.pair, [&](int n) { return at(x, n); })) touch.point = *now;
     touch.inverse_mass = inverse_mass_of(touch.point, inverse_mass);
+    touch.mobility = mobility_of(touch.point, inverse_mass);
     touch.min_gap_rate = touch.normal = touch.work = 0;
     touch.has_friction = true;
     touch.drift.setZero();
@@ -62,40 +85,40 @@ void SelfContactImpulses<Real>::begin_second_half(const std::vector<Real>& inver
 }
 
 template <class Real>
-void SelfContactImpulses<Real>::warm_start(const std::vector<Real>& inverse_mass, Real* v) {
+void SelfContactImpulses<Real>::warm_start(Real* v) {
   // The rounds minimise the kinetic energy plus the impulses' work against the required velocities.
   double energy = 0;
   const auto start = [&](ActiveContact& touch) {
     const auto& last = touch.memory.halves[half_];
     if (!touch.is_known || touch.memory.anchor.idle > 0 || !(last.normal > 0)) return;
     const Vec3& n = touch.point.normal;
-    const Vec3 u = at(v, touch.point);
+    const Vec3 u = velocity_of(touch.point, v);
     touch.normal = last.normal;
     if (touch.has_friction) touch.friction_impulse = last.friction - n.dot(last.friction) * n;
     const Vec3 impulse = touch.normal * n + touch.friction_impulse;
     energy += impulse.dot(u + impulse * (touch.inverse_mass / 2)) - touch.normal * touch.min_gap_rate +
               touch.friction_impulse.dot(touch.drift);
     touch.work = touch.friction_impulse.dot(u + touch.friction_impulse * (touch.inverse_mass / 2));
-    apply_impulse(touch.point, impulse, inverse_mass, v);
+    add_impulse(touch.point, touch.mobility, impulse, v);
   };
   for (ActiveContact& touch : active_) start(touch);
   is_warm_ = energy <= 0;
   if (is_warm_) return;
   for (ActiveContact& touch : active_) {
-    apply_impulse(touch.point, -touch.normal * touch.point.normal - touch.friction_impulse, inverse_mass, v);
+    add_impulse(touch.point, touch.mobility, -touch.normal * touch.point.normal - touch.friction_impulse, v);
     touch.normal = touch.work = 0;
     touch.friction_impulse.setZero();
   }
 }
 
 template <class Real>
-void SelfContactImpulses<Real>::solve(const std::vector<Real>& inverse_mass, Real* v) {
+void SelfContactImpulses<Real>::solve(Real* v) {
   if (active_.empty()) return;
   for (int round = 1;; ++round) {
     double largest = 0, change = 0;
     bool is_cold = !is_warm_;
     for (ActiveContact& touch : active_) {
-      change = std::max(change, solve_pair(touch, inverse_mass, v));
+      change = std::max(change, solve_pair(touch, v));
       largest = std::max(largest, touch.normal);
       is_cold = is_cold || (touch.normal > 0 && !touch.is_known);
     }
@@ -129,22 +152,22 @@ void SelfContactImpulses<Real>::remember_second_half(std::vector<RememberedPair>
 
 /// Updates one pair's impulses. Returns their change, N s.
 template <class Real>
-double SelfContactImpulses<Real>::solve_pair(ActiveContact& touch, const std::vector<Real>& inverse_mass,
-                                             Real* v) const {
+double SelfContactImpulses<Real>::solve_pair(ActiveContact& touch, Real* v) const {
   const Vec3& n = touch.point.normal;
-  const double normal =
-      std::max(0.0, touch.normal + (touch.min_gap_rate - n.dot(at(v, touch.point))) / touch.inverse_mass);
+  const double closing = touch.min_gap_rate - n.dot(velocity_of(touch.point, v));
+  if (touch.normal == 0 && !(closing > 0)) return 0;  // most pairs that touch at rest: others bear the load
+  const double normal = std::max(0.0, touch.normal + closing / touch.inverse_mass);
   double change = std::abs(normal - touch.normal);
-  if (change > 0) apply_impulse(touch.point, (normal - touch.normal) * n, inverse_mass, v);
+  if (change > 0) add_impulse(touch.point, touch.mobility, (normal - touch.normal) * n, v);
   touch.normal = normal;
   if (!(friction_ > 0) || !touch.has_friction || (!(normal > 0) && !(change > 0))) return change;
-  const Vec3 u = at(v, touch.point);
+  const Vec3 u = velocity_of(touch.point, v);
   Vec3 friction_impulse = touch.friction_impulse - (u - n.dot(u) * n + touch.drift) / touch.inverse_mass;
   const double size = friction_impulse.norm(), max_friction = friction_ * normal;
   if (size > max_friction) friction_impulse *= max_friction / size;
   const Vec3 correction = friction_impulse - touch.friction_impulse;
   touch.friction_impulse = friction_impulse;
-  if (!correction.isZero(0)) apply_impulse(touch.point, correction, inverse_mass, v);
+  if (!correction.isZero(0)) add_impulse(touch.point, touch.mobility, correction, v);
   touch.work += correction.dot(u + correction * (touch.inverse_mass / 2));
   return std::max(change, correction.norm());
 }

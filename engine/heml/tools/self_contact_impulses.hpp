@@ -30,10 +30,10 @@ class SelfContactImpulses {
   bool empty() const { return active_.empty(); }
   /// Applies the impulses of the last step's same half to v (#V×3, m/s), unless they would add energy. At most once,
   /// before solve().
-  void warm_start(const std::vector<Real>& inverse_mass, Real* v);
+  void warm_start(Real* v);
   /// Iterates impulses on v (#V×3, m/s) until the conditions hold or the rounds are used up: at most 60, or 4 where all
   /// pairs are of earlier steps. May be called again after other contacts have changed v.
-  void solve(const std::vector<Real>& inverse_mass, Real* v);
+  void solve(Real* v);
   /// Updates the memory after the first half, which ended at x (#V×3, m); call it before begin_second_half().
   void remember_first_half(const Real* x, std::vector<RememberedPair>& known) const;
   void remember_second_half(std::vector<RememberedPair>& known) const;
@@ -65,13 +65,14 @@ class SelfContactImpulses {
     ContactPoint point;
     double min_gap_rate;                   ///< m/s, lower bound of the gap's rate
     double inverse_mass;                   ///< 1/kg, effective inverse mass
+    std::array<double, 4> mobility;        ///< 1/kg, velocities of the nodes for an impulse of 1 N s
     bool has_friction;                     ///< touches, so that friction acts
     Vec3 drift;                            ///< m/s, velocity along the surface that friction adds to that of sliding
     double normal = 0;                     ///< N s, accumulated
     Vec3 friction_impulse = Vec3::Zero();  ///< N s, of friction
     double work = 0;                       ///< J, of friction
   };
-  double solve_pair(ActiveContact& touch, const std::vector<Real>& inverse_mass, Real* v) const;
+  double solve_pair(ActiveContact& touch, Real* v) const;
 
   std::vector<ActiveContact> active_;
   double friction_ = 0;
