@@ -76,6 +76,13 @@ struct BodySnapshot {
   std::size_t bytes() const;
 };
 
+/// Internal state of all slots, while elements and materials stay the same.
+template <class Real>
+struct InternalState {
+  std::vector<std::vector<Real>> values;  ///< of each list of each part
+  double plastic_work = 0;                ///< J
+};
+
 /// Calls on one body must not overlap, since they share scratch arrays; each distributes its work over the given team.
 template <class Real>
 class ElasticBody {
@@ -193,6 +200,9 @@ class ElasticBody {
   void begin_step(Real h);
   void commit(const Real* x);
   void reset_history(const Real* x);
+  InternalState<Real> internal_state();
+  /// Goes back to a state of this body with its present elements and materials (sizes asserted), to round-off.
+  void set_internal_state(const InternalState<Real>& state);
   double plastic_work() const { return plastic_work_; }  ///< J, of all elements since the last reset_history()
 
   /// Lumped masses (#V, kg), which are positive: each tetrahedron's density × volume / 4 on its nodes; of quadratic

@@ -1,5 +1,6 @@
 // Internal state (viscosity, relaxation, plasticity) over time, and snapshots of it.
 #include <algorithm>
+#include <cassert>
 #include <heml/elastic/body.hpp>
 
 namespace heml {
@@ -76,6 +77,28 @@ void ElasticBody<Real>::reset_history(const Real* x) {
 }
 
 template <class Real>
+InternalState<Real> ElasticBody<Real>::internal_state() {
+  update_slots();
+  InternalState<Real> state{{}, plastic_work_};
+  for (Part& part : parts_)
+    for (const SlotState<Real>& list : part.slot_states()) state.values.push_back(*list.values);
+  return state;
+}
+
+template <class Real>
+void ElasticBody<Real>::set_internal_state(const InternalState<Real>& state) {
+  auto values = state.values.begin();
+  for (Part& part : parts_)
+    for (const SlotState<Real>& list : part.slot_states()) {
+      assert(values != state.values.end() && values->size() == list.values->size());
+      *list.values = *values++;
+    }
+  plastic_work_ = state.plastic_work;
+  fans_.forget_state();
+  slots_are_old_ = false;
+}
+
+template <class Real>
 BodySnapshot<Real> ElasticBody<Real>::snapshot() {
   update_slots();
   BodySnapshot<Real> snapshot{{}, materials_, fans_, plastic_work_, step_};
@@ -145,6 +168,10 @@ template void ElasticBody<float>::reset_history(const float*);
 template void ElasticBody<double>::reset_history(const double*);
 template struct BodySnapshot<float>;
 template struct BodySnapshot<double>;
+template InternalState<float> ElasticBody<float>::internal_state();
+template InternalState<double> ElasticBody<double>::internal_state();
+template void ElasticBody<float>::set_internal_state(const InternalState<float>&);
+template void ElasticBody<double>::set_internal_state(const InternalState<double>&);
 template BodySnapshot<float> ElasticBody<float>::snapshot();
 template BodySnapshot<double> ElasticBody<double>::snapshot();
 template void ElasticBody<float>::restore(const TetMesh&, const std::vector<int>&, const BodySnapshot<float>&,

@@ -147,7 +147,7 @@ Status CommandExecutor<Real>::execute(const SetMaterial& command) {
   s_.update_masses();
   s_.implicit.reset();
   s_.lowest_frequency.reset();
-  recovery_.rebuild_surrogate();
+  recovery_.follow_change();
   find_stable_step(s_);
   method_.choose();
   return {};
@@ -230,7 +230,7 @@ void CommandExecutor<Real>::update_constraints() {
   s_.move_constrained();
   s_.implicit.reset();
   s_.lowest_frequency.reset();
-  recovery_.rebuild_surrogate();
+  recovery_.follow_change();
 }
 
 // Tables, the probe, sutures.

@@ -231,7 +231,7 @@ void MeshEditor<Real>::rebuild_after_edit() {
     if (s_.mass[n] == 0) Eigen::Map<Vector3<Real>>(&s_.state.v[3 * n]).setZero();
   s_.move_constrained();  // nodes of no element too
   if (s_.recovery) s_.recovery->set_mesh(s_.model.mesh, s_.mass);
-  recovery_.rebuild_surrogate();
+  recovery_.follow_change();
   s_.lowest_frequency.reset();
 }
 

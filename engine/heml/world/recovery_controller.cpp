@@ -52,6 +52,7 @@ void RecoveryController<Real>::start() {
   RecoveryProgress<Real> progress;
   progress.max_speed = max_speed_factor * (max_wave_speed() + s_.setup.initial_velocity.norm());
   progress.last_good = s_.state;
+  if (s_.has_internal_state) progress.last_good_internal = s_.body.internal_state();
   s_.recovery = std::make_unique<RecoveryState<Real>>(s_.model.mesh, s_.mass, std::move(progress));
 }
 
@@ -79,7 +80,7 @@ std::optional<StopReason> RecoveryController<Real>::monitor() {
   const StateCheck check = recovery.check(s_.model.mesh, s_.state, s_.mass);
   const double inverted = static_cast<double>(check.inverted) / static_cast<double>(s_.model.mesh.tets.size());
   if (!(check.min_J < worst_J || inverted > max_inverted || check.speed > recovery.max_speed)) {
-    recovery.last_good = s_.state;
+    keep_state();
     recovery.has_last_good = true;
   } else if (is_step_hopeless()) {
     return StopReason{
@@ -113,8 +114,31 @@ bool RecoveryController<Real>::takes_over(const StopReason& failure) {
 }
 
 template <class Real>
-void RecoveryController<Real>::rebuild_surrogate() {
-  if (s_.recovering()) s_.install_surrogate();
+void RecoveryController<Real>::follow_change() {
+  if (s_.recovering())
+    s_.install_surrogate();
+  else if (s_.recovery)
+    keep_state();
+}
+
+template <class Real>
+void RecoveryController<Real>::keep_state() {
+  s_.recovery->last_good = s_.state;
+  s_.recovery->last_good_internal = s_.has_internal_state ? s_.body.internal_state() : InternalState<Real>();
+}
+
+/// To the last good state. Time that passed since has not acted on the materials, and friction begins anew.
+template <class Real>
+void RecoveryController<Real>::go_back() {
+  const RecoveryState<Real>& recovery = *s_.recovery;
+  s_.state.x = recovery.last_good.x;
+  s_.state.v = recovery.last_good.v;
+  s_.state.time = recovery.last_good.time;
+  s_.impulses.set_memory({});
+  if (s_.implicit) s_.implicit->body.reset_contact();
+  if (!s_.has_internal_state) return;
+  s_.body.set_internal_state(recovery.last_good_internal);
+  s_.body.begin_step(0);
 }
 
 /// check: of the state that the recovery replaces.
@@ -128,10 +152,7 @@ void RecoveryController<Real>::begin(const StateCheck& check) {
   report.inverted = check.inverted;
   report.min_J = check.min_J;
   report.message = describe_cause(suspects);
-  s_.state.x = recovery.last_good.x;
-  s_.state.v = recovery.last_good.v;
-  s_.state.time = recovery.last_good.time;
-  if (s_.has_internal_state) s_.body.begin_step(0);
+  go_back();
   report.begun.time = s_.state.time;
   report.begun.before = s_.energies();
   if (s_.body.first_undefined(s_.state.x.data()) >= 0)
@@ -293,7 +314,8 @@ void RecoveryController<Real>::end() {
   s_.evaluate_forces();
   back.after = s_.energies();
   recovery.last->ended = back;
-  s_.last_valid = recovery.last_good = s_.state;
+  s_.last_valid = s_.state;
+  keep_state();
   find_stable_step(s_);
   method_.choose();
 }

@@ -1,7 +1,8 @@
 #pragma once
 // Recovery of a body that was inverted, became unstable or collapsed:
 //
-//   after a tick ──► check: min J, inverted elements, speeds ──► nothing wrong: the state is kept as the last good one
+//   after a tick ──► check: min J, inverted elements, speeds ──► nothing wrong: the state is kept as the last good one,
+//                    │                                              with what the materials remember
 //                    │ something is wrong, or a step failed
 //                    ▼
 //   the last good state, or the current one where there never was any; its nodes perturbed by 1e-5 of the body's size
@@ -32,13 +33,16 @@ class RecoveryController {
   bool takes_over(const StopReason& failure);
   /// One step of the surrogate, and the return to the scene's law when the body has recovered.
   void step(double until);
-  /// Rebuilds the surrogate for changed elements, masses, materials or constraints, if there is one.
-  void rebuild_surrogate();
+  /// Follows changed elements, masses, materials or constraints, between ticks: rebuilds the surrogate if there is one,
+  /// else keeps the state anew.
+  void follow_change();
 
  private:
   double max_wave_speed() const;
   double shear_wave_speed() const;
   bool is_step_hopeless() const;
+  void keep_state();
+  void go_back();
   void begin(const StateCheck& check);
   FailureDiagnosis diagnose(const StateCheck& check) const;
   void perturb();

@@ -2,6 +2,7 @@
 // State of recoveries: the last good state and, during a recovery, the surrogate of the body. Made if the scene has
 // "recovery"; worlds without it pay nothing.
 #include <heml/dynamics/state.hpp>
+#include <heml/elastic/body.hpp>
 #include <heml/mesh/edit.hpp>
 #include <heml/world/recovery.hpp>
 #include <heml/world/recovery_surrogate.hpp>
@@ -24,6 +25,7 @@ struct RecoveryProgress {
   double max_speed = 0;        ///< m/s; a faster node is a sign of instability
   State<Real> last_good;       ///< x, v, time
   bool has_last_good = false;  ///< whether there was one since the start
+  InternalState<Real> last_good_internal;  ///< of the body then; empty where no material has any
   std::optional<Recovery> last;
   long count = 0;
   long healthy_steps = 0;       ///< successive steps with a healthy min J

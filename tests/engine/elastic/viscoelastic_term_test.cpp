@@ -221,4 +221,45 @@ TEST_CASE("plastic flow is invariant under rotations") {
   CHECK((other.stress(other.at(R * F)) - R * P).norm() <= 1e-10 * P.norm());
 }
 
+TEST_CASE("a body goes back to an earlier internal state, of every law and all that its material remembers") {
+  std::mt19937_64 random(21);
+  const test::SmallBody good(random, 0.05), bad(random, 0.3, Mat3(1.2 * Mat3::Identity())), next(random, 0.1);
+  const double h = 0.01;
+  for (const std::string_view law : test::law_names()) {
+    if (law.starts_with("paper_")) continue;
+    Material viscous = sample_material(law), relaxing = viscous, plastic = viscous;
+    viscous.viscosity = 2;
+    relaxing.relaxation = {{0.5, 0.01}, {0.2, 0.1}};
+    plastic.plasticity = Plasticity{60, 10};
+    for (const Material& material : {viscous, relaxing, plastic}) {
+      if (material_problem(material)) continue;
+      CAPTURE(law);
+      CAPTURE(material.viscosity);
+      CAPTURE(material.relaxation.size());
+      const auto body = good.of(material, true);
+      const auto step_to = [&](const test::SmallBody& place) {
+        body->begin_step(h);
+        const auto f = forces_of(*body, place.x);
+        body->commit(place.x.data());
+        return f;
+      };
+      step_to(good);
+      const InternalState<double> kept = body->internal_state();
+      const auto expected = step_to(next);
+      const double work = body->plastic_work();
+      step_to(bad);
+      const auto away = [&](const std::vector<double>& f) {  // of the expected forces, relative
+        double most = 0;
+        for (std::size_t i = 0; i < f.size(); ++i) most = std::max(most, std::abs(f[i] - expected[i]));
+        return most / largest(expected);
+      };
+      CHECK(away(step_to(next)) > 1e-3);
+      step_to(bad);
+      body->set_internal_state(kept);
+      CHECK(away(step_to(next)) < 1e-12);
+      CHECK(body->plastic_work() == work);
+    }
+  }
+}
+
 }  // namespace heml::viscoelastic_term_test
