@@ -41,11 +41,16 @@ void print_body(const Explanation& explained) {
   print_line("constrained", "{} nodes", world.constrained_nodes);
 }
 
+std::string region_text(const TetMesh& mesh, int region) {
+  const auto name = mesh.region_names.find(region);
+  return fmt::format("region {}{}", region, name == mesh.region_names.end() ? "" : ", " + name->second);
+}
+
 void print_materials(const Explanation& explained) {
   print_head("Elements");
   for (const MaterialFacts& material : explained.materials) {
     const KernelInfo& kernel = material.kernel;
-    print_line(material.region ? fmt::format("region {}", *material.region) : "default",
+    print_line(material.region ? region_text(explained.setup.mesh, *material.region) : "default",
                "{} tetrahedra, kernel {} ({})", kernel.elements, kernel.kernel, kernel.instructions);
     for (const TermFacts& term : material.terms) print_line("  " + term.name, "{}", term.detail);
     if (material.rest.shear > 0)

@@ -47,7 +47,8 @@ std::string name_of_label(int label, const std::map<int, std::string>& names) {
   return name == names.end() ? fmt::format("label {}", label) : fmt::format("label {} ({})", label, name->second);
 }
 
-TetMesh mesh_label_map(const MeshArguments& arguments, const std::map<int, std::string>& names) {
+TetMesh mesh_label_map(const MeshArguments& arguments) {
+  const std::map<int, std::string> names = label_names(arguments.surface);
   Progress progress("meshing labels");
   LabelMeshOptions options;
   options.tets = arguments.tets.value_or(options.tets);
@@ -61,6 +62,7 @@ TetMesh mesh_label_map(const MeshArguments& arguments, const std::map<int, std::
     warn("{} elements below {:g}° left, the first {}", meshing.below.size(),
          arguments.min_angle.value_or(default_min_angle), meshing.below[0]);
   for (Vec3& X : meshing.mesh.nodes) X *= arguments.scale;
+  meshing.mesh.region_names = names;
   return std::move(meshing.mesh);
 }
 
@@ -81,16 +83,14 @@ TetMesh read_or_fill(const MeshArguments& arguments) {
 }  // namespace
 
 int mesh_surface(const MeshArguments& arguments) {
-  if (!is_tet_mesh_file(arguments.out))
+  if (!is_written_mesh_file(arguments.out))
     throw UsageError(fmt::format("--out {}: end the name in .msh, .mesh, .vtk, .vtu or .node", arguments.out.string()));
   check_options(arguments);
   check_files(arguments);
-  const bool is_label_map = is_label_map_file(arguments.surface);
-  const auto names = is_label_map ? label_names(arguments.surface) : std::map<int, std::string>();
-  TetMesh mesh = is_label_map ? mesh_label_map(arguments, names) : read_or_fill(arguments);
+  TetMesh mesh = is_label_map_file(arguments.surface) ? mesh_label_map(arguments) : read_or_fill(arguments);
   if (arguments.improve) mesh = improve_and_print(mesh, arguments);
   const QualityReport report = check_tets(mesh);
-  write_tet_mesh(arguments.out, mesh, names);
+  write_tet_mesh(arguments.out, mesh);
   for (const std::string& text : report.warnings) warn("{}", text);
   if (const std::string odd = unit_warning(report.low, report.high); !odd.empty()) warn("{} (--scale changes it)", odd);
   if (arguments.improve)  // standard output holds the lines of JSON alone

@@ -10,7 +10,6 @@
 #include <app/panel/undo_section.hpp>
 #include <app/render/bounds.hpp>
 #include <cctype>
-#include <heml/scenario/label_names.hpp>
 
 namespace heml::panel {
 namespace {
@@ -47,12 +46,12 @@ bool two_columns(ImVec2 picture) { return picture.x >= em(two_columns_from); }
 
 }  // namespace
 
-Panel::Panel(const Scene& scene, const SurfaceMesh& surface_mesh)
+Panel::Panel(const Scene& scene, const SurfaceMesh& surface_mesh, std::map<int, std::string> region_names)
     : title_(!scene.title.empty() ? scene.title : scene.name),
       description_(scene.description),
       tool_(static_cast<double>(render::bounding_sphere(surface_mesh.rest).radius), scene.gravity),
       mesh_(scene),
-      material_(scene.materials, region_names(scene)),
+      material_(scene.materials, std::move(region_names)),
       stretch_monitor_(surface_mesh),
       surface_version_(surface_mesh.version),
       motion_(scene.gravity, scene.solver),

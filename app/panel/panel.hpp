@@ -35,8 +35,8 @@ namespace heml::panel {
 
 class Panel {
  public:
-  /// Starts with the settings of the scene.
-  Panel(const Scene& scene, const SurfaceMesh& surface_mesh);
+  /// Starts with the settings of the scene. region_names: of the mesh.
+  Panel(const Scene& scene, const SurfaceMesh& surface_mesh, std::map<int, std::string> region_names = {});
 
   /// Updates plots, colour range and stretch monitor; call before the body is drawn. seconds: wall time since the last
   /// call.

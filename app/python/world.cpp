@@ -12,7 +12,6 @@
 #include <heml/base/error.hpp>
 #include <heml/mesh/surface.hpp>
 #include <heml/scenario/event_json.hpp>
-#include <heml/scenario/label_names.hpp>
 
 namespace heml::python {
 
@@ -98,7 +97,7 @@ nb::object rest_positions(LiveWorld& live, nb::object out) {
 nb::dict names_of_regions(LiveWorld& live) {
   const Use use(live);
   nb::dict names;
-  for (const auto& [region, name] : region_names(live.scene())) names[nb::int_(region)] = name;
+  for (const auto& [region, name] : live.world().setup().mesh.region_names) names[nb::int_(region)] = name;
   return names;
 }
 
@@ -222,7 +221,7 @@ void bind_state(nb::class_<LiveWorld>& world) {
       .def("regions", method(regions),
            "(T,) int32: region of each element of `tets`, the mesh file's number; 0 where it gives none.")
       .def("region_names", &names_of_regions,
-           "dict: names of regions by their number, where the label map that the mesh is of names them.")
+           "dict: names of regions by their number, where the mesh file or the label map names them.")
       .def("rest_positions", &rest_positions, "out"_a = nb::none(),
            "(V, 3) float64, m: positions at rest, without load; nodes as in positions(); a copy, or `out`.")
       .def("positions", &vectors<NodeVector::position>, "out"_a = nb::none(),

@@ -39,7 +39,7 @@ void Viewer::adopt(OpenScene opened) {
   open_ = std::move(opened);
   if (!open_.resumed) as_opened_ = open_.scene;
   frame_ = live_ = &open_.session->latest();
-  panel_.emplace(open_.scene, *frame_->surface_mesh);
+  panel_.emplace(open_.scene, *frame_->surface_mesh, open_.session->region_names());
   panel_->set_preferences(preferences_);
   panel_->set_findings(open_.findings);
   next_event_ = 0;

@@ -112,6 +112,7 @@ Status make_removal_edit(const ElementSelection& which, const TetMesh& mesh, con
 
 TetMesh with_elements(const TetMesh& mesh, const std::vector<int>& elements) {
   TetMesh result{mesh.nodes, with_elements(mesh.tets, elements), with_elements(mesh.regions, elements), mesh.source};
+  result.region_names = mesh.region_names;
   for (const ElementField& field : mesh.fields)
     result.fields.push_back({field.name, field.components, with_elements(field.values, elements, field.components)});
   return result;

@@ -27,7 +27,7 @@ std::string name_from(Scanner& in) {
 
 }  // namespace
 
-void GmshData::read(Scanner& in, ReadMesh& read) {
+void GmshData::read(Scanner& in, GmshNumbers& numbers, ReadMesh& read) {
   Section section = header(in);
   const std::size_t components = section.components;
   bool wanted = (components == 1 || components == 3) && !section.name.empty();
@@ -35,12 +35,14 @@ void GmshData::read(Scanner& in, ReadMesh& read) {
     read.more_steps = true;
     wanted = false;
   }
+  numbers.begin_binary();
+  if (numbers.binary() && !wanted) return numbers.skip(section.count, sizeof(int) + components * sizeof(double));
   for (std::size_t e = 0; e < section.count; ++e) {
-    in.expect_line("an element's data");
+    numbers.line("an element's data");
     if (!wanted) continue;
-    section.elements.push_back(in.wide_integer("an element number"));
-    for (std::size_t i = 0; i < components; ++i) section.values.push_back(in.any_number("a value"));
-    in.end_line("the element's data");
+    section.elements.push_back(numbers.wide_integer("an element number", false));
+    for (std::size_t i = 0; i < components; ++i) section.values.push_back(numbers.any_number("a value"));
+    numbers.end_line("the element's data");
   }
   if (wanted) sections_.push_back(std::move(section));
 }
@@ -64,7 +66,7 @@ GmshData::Section GmshData::header(Scanner& in) {
   in.expect_word("the number of components");
   section.components = static_cast<std::size_t>(in.integer("the number of components", 0, max_tags));
   in.expect_word("the number of elements");
-  section.count = in.count("the number of elements", 1 + section.components);
+  section.count = in.count("the number of elements", 1 + section.components);  // fewer bytes than binary values take
   for (std::size_t i = 3; i < integers; ++i) {
     in.expect_word("an integer tag");
     in.wide_integer("an integer tag");

@@ -1,6 +1,7 @@
 #pragma once
 // Gmsh's $ElementData: a field by element numbers, for all elements or some. Sections may precede the elements, and a
 // field may be split into several sections (partitions), so fields are assembled at the end of the file.
+#include <heml/mesh/gmsh_numbers.hpp>
 #include <heml/mesh/readers.hpp>
 #include <map>
 #include <string>
@@ -18,7 +19,7 @@ class GmshData {
  public:
   /// Reads a section, from after its first line to before its last. Uses only the first of several time steps of a
   /// field and sets read.more_steps; skips data that do not have 1 or 3 components.
-  void read(Scanner& in, ReadMesh& read);
+  void read(Scanner& in, GmshNumbers& numbers, ReadMesh& read);
 
   /// Adds the fields with a value for at least one of the tetrahedra. Throws InputError (Scanner::fail of `in`).
   void put(std::vector<GmshElement> tets, const Scanner& in, ReadMesh& read) const;

@@ -4,37 +4,36 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <heml/mesh/binary_values.hpp>
 #include <heml/mesh/readers.hpp>
 
 namespace heml {
 namespace {
 
 struct Type {
-  enum Kind { real, signed_integer, unsigned_integer };
   std::string_view name;
   std::size_t bytes;
-  Kind kind;
+  NumberKind kind;
 };
 
 constexpr std::array types{
-    Type{"float", 4, Type::real},
-    Type{"double", 8, Type::real},
-    Type{"char", 1, Type::signed_integer},
-    Type{"signed_char", 1, Type::signed_integer},
-    Type{"unsigned_char", 1, Type::unsigned_integer},
-    Type{"short", 2, Type::signed_integer},
-    Type{"unsigned_short", 2, Type::unsigned_integer},
-    Type{"int", 4, Type::signed_integer},
-    Type{"unsigned_int", 4, Type::unsigned_integer},
-    Type{"long", 8, Type::signed_integer},
-    Type{"unsigned_long", 8, Type::unsigned_integer},
-    Type{"vtkidtype", 4, Type::signed_integer},
-    Type{"vtktypeint64", 8, Type::signed_integer},
-    Type{"vtktypeuint64", 8, Type::unsigned_integer},
+    Type{"float", 4, NumberKind::real},
+    Type{"double", 8, NumberKind::real},
+    Type{"char", 1, NumberKind::signed_integer},
+    Type{"signed_char", 1, NumberKind::signed_integer},
+    Type{"unsigned_char", 1, NumberKind::unsigned_integer},
+    Type{"short", 2, NumberKind::signed_integer},
+    Type{"unsigned_short", 2, NumberKind::unsigned_integer},
+    Type{"int", 4, NumberKind::signed_integer},
+    Type{"unsigned_int", 4, NumberKind::unsigned_integer},
+    Type{"long", 8, NumberKind::signed_integer},
+    Type{"unsigned_long", 8, NumberKind::unsigned_integer},
+    Type{"vtkidtype", 4, NumberKind::signed_integer},
+    Type{"vtktypeint64", 8, NumberKind::signed_integer},
+    Type{"vtktypeuint64", 8, NumberKind::unsigned_integer},
 };
 constexpr const Type& int_type = types[7];
 constexpr const Type& byte_type = types[4];
@@ -43,24 +42,6 @@ std::string lower(std::string_view word) {
   std::string text(word);
   for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return text;
-}
-
-std::uint64_t big_endian(std::string_view bytes) {
-  std::uint64_t value = 0;
-  for (char byte : bytes) value = value << 8 | static_cast<unsigned char>(byte);
-  return value;
-}
-
-double real_value(std::string_view bytes) {
-  return bytes.size() == 4 ? std::bit_cast<float>(static_cast<std::uint32_t>(big_endian(bytes)))
-                           : std::bit_cast<double>(big_endian(bytes));
-}
-
-long long integer_value(std::string_view bytes, Type::Kind kind) {
-  const auto shift = 64 - 8 * static_cast<int>(bytes.size());
-  const std::uint64_t high = big_endian(bytes) << shift;
-  return kind == Type::signed_integer ? static_cast<std::int64_t>(high) >> shift
-                                      : static_cast<long long>(high >> shift);
 }
 
 // Decodes %XX, by which names encode blanks and other characters that would end a word.
@@ -242,7 +223,7 @@ class VtkReader {
       for (double& value : field.values) value = any_real(type);
       return add_cell_field(std::move(field), in_, cells_);
     }
-    if (type.kind != Type::real) {
+    if (type.kind != NumberKind::real) {
       cells_.regions = integers(tuples, type);
       return;
     }
@@ -261,15 +242,16 @@ class VtkReader {
   double any_real(const Type& type) {
     if (!binary_) return in_.any_number("a value");
     const std::string_view bytes = in_.bytes(type.bytes);
-    return type.kind == Type::real ? real_value(bytes) : static_cast<double>(integer_value(bytes, type.kind));
+    return type.kind == NumberKind::real ? real_value(bytes, std::endian::big)
+                                         : static_cast<double>(integer_value(bytes, type.kind, std::endian::big));
   }
 
   std::vector<long long> integers(std::size_t count, const Type& type) {
-    if (type.kind == Type::real) in_.fail("values of type " + std::string(type.name), "integers");
+    if (type.kind == NumberKind::real) in_.fail("values of type " + std::string(type.name), "integers");
     need(count, type);
     std::vector<long long> values(count);
     for (long long& value : values)
-      value = binary_ ? integer_value(in_.bytes(type.bytes), type.kind) : in_.wide_integer("a value");
+      value = binary_ ? integer_value(in_.bytes(type.bytes), type.kind, std::endian::big) : in_.wide_integer("a value");
     return values;
   }
 

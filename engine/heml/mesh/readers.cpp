@@ -11,6 +11,23 @@ constexpr int vtk_tetra = 10, vtk_quadratic_tetra = 24;
 constexpr std::size_t max_fields = 1000;        // field_in() searches linearly
 constexpr std::size_t max_values_per_byte = 4;  // field values per byte of the file; fields may omit most tetrahedra
 
+/// How many bytes the first character takes; 0: they are not UTF-8 (RFC 3629).
+std::size_t utf8_length(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(i < text.size() ? text[i] : 0); };
+  const unsigned first = byte(0), second = byte(1);
+  const std::size_t length = first < 0x80   ? 1
+                             : first < 0xc2 ? 0
+                             : first < 0xe0 ? 2
+                             : first < 0xf0 ? 3
+                             : first < 0xf5 ? 4
+                                            : 0;
+  for (std::size_t i = 1; i < length; ++i)
+    if ((byte(i) & 0xc0) != 0x80) return 0;
+  const bool bad = (first == 0xe0 && second < 0xa0) || (first == 0xed && second >= 0xa0) ||
+                   (first == 0xf0 && second < 0x90) || (first == 0xf4 && second >= 0x90);
+  return bad ? 0 : length;
+}
+
 void check_count(std::size_t fields, const Scanner& in) {
   if (fields > max_fields) in.fail(fmt::format("more than {} fields of elements", max_fields), "save fewer");
 }
@@ -75,10 +92,20 @@ void add_midedges(const std::array<int, 6>& nodes, const std::array<std::size_t,
   for (std::size_t e = 0; e < 6; ++e) read.midedges.back()[e] = nodes[order[e]];
 }
 
-ElementField& field_in(TetMesh& mesh, std::string_view name, std::size_t components, const Scanner& in) {
+std::string plain_name(std::string_view name) {
   std::string plain(name);
   for (char& c : plain)
-    if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = ' ';  // a name must fit on a line in every format
+    if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = ' ';
+  for (std::size_t i = 0; i < plain.size();) {
+    const std::size_t length = utf8_length(std::string_view(plain).substr(i));
+    if (length == 0) plain[i] = '?';
+    i += std::max<std::size_t>(length, 1);
+  }
+  return plain;
+}
+
+ElementField& field_in(TetMesh& mesh, std::string_view name, std::size_t components, const Scanner& in) {
+  const std::string plain = plain_name(name);
   const auto found = std::find_if(mesh.fields.begin(), mesh.fields.end(),
                                   [&](const ElementField& field) { return field.name == plain; });
   if (found == mesh.fields.end()) {

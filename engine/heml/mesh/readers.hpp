@@ -16,6 +16,7 @@ struct ReadMesh {
   bool more_steps = false;    ///< skipped further time steps of a field
 };
 
+ReadMesh read_abaqus(std::string file, std::string_view text);
 ReadMesh read_gmsh(std::string file, std::string_view text);
 ReadMesh read_medit(std::string file, std::string_view text);
 ReadMesh read_vtk(std::string file, std::string_view text);
@@ -27,6 +28,9 @@ inline constexpr std::array<std::size_t, 6> gmsh_midedges{0, 2, 3, 1, 5, 4}, vtk
 
 /// Gives the last tetrahedron of `read` its mid-edge nodes, in the order of its file.
 void add_midedges(const std::array<int, 6>& nodes, const std::array<std::size_t, 6>& order, ReadMesh& read);
+
+/// A name that fits on a line of every format: without control characters, and with ? for bytes that are not UTF-8.
+std::string plain_name(std::string_view name);
 
 /// The mesh's field of that name; creates it without values if there is none. Throws (Scanner::fail of `in`) if it has
 /// another number of components, or there are too many fields.

@@ -89,6 +89,7 @@ class Bisection {
   }
 
   void inherit_fields() {
+    result_.mesh.region_names = mesh_.region_names;
     for (const int parent : result_.parents)
       result_.mesh.regions.push_back(mesh_.regions[static_cast<std::size_t>(parent)]);
     for (const ElementField& field : mesh_.fields) {

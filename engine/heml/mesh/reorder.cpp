@@ -88,6 +88,7 @@ Reordering hilbert_order(const TetMesh& mesh, const MidEdges& midedges) {
 TetMesh reordered(const TetMesh& mesh, const Reordering& order) {
   TetMesh result;
   result.source = mesh.source;
+  result.region_names = mesh.region_names;
   result.nodes.reserve(mesh.nodes.size());
   for (int node : order.file_node) result.nodes.push_back(mesh.nodes[node]);
   result.tets.reserve(mesh.tets.size());

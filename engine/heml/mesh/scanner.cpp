@@ -40,7 +40,7 @@ Scanner::Scanner(std::string file, std::string_view text, char comment, bool by_
 std::size_t Scanner::line() const { return 1 + std::count(text_.begin(), text_.begin() + last_, '\n'); }
 
 void Scanner::fail(const std::string& problem, const std::string& remedy) const {
-  throw InputError(file_, fmt::format("line {}", line()), problem, remedy);
+  throw InputError(file_, by_byte_ ? fmt::format("byte {}", last_) : fmt::format("line {}", line()), problem, remedy);
 }
 
 void Scanner::fail_missing(std::string_view what) {
@@ -159,8 +159,9 @@ std::string_view Scanner::rest_of_line() {
 
 std::string_view Scanner::bytes(std::size_t n) {
   if (n > left()) fail(fmt::format("{} bytes of data should follow, the file holds {} more", n, left()));
+  last_ = position_;
   position_ += n;
-  return text_.substr(position_ - n, n);
+  return text_.substr(last_, n);
 }
 
 Scanner Scanner::until(char stop) {

@@ -46,7 +46,8 @@ class Scanner {
   /// Moves after the next occurrence of `mark`; false, without moving, if there is none.
   bool skip_past(std::string_view mark);
 
-  std::size_t line() const;  ///< line number of the last word read, from 1
+  std::size_t line() const;               ///< line number of the last word read, from 1
+  void tell_bytes() { by_byte_ = true; }  ///< errors name the byte, not the line: for binary files
   [[noreturn]] void fail(const std::string& problem, const std::string& remedy = "") const;
 
  private:
@@ -56,7 +57,7 @@ class Scanner {
   std::string file_;
   std::string_view text_;
   char comment_;
-  bool by_line_;
+  bool by_line_, by_byte_ = false;
   bool started_ = false;  ///< whether there is a current line
   std::size_t position_ = 0;
   std::size_t last_ = 0;  ///< start of the last word

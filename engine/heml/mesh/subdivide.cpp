@@ -63,6 +63,7 @@ Subdivision subdivide_uniformly(const TetMesh& mesh) {
   Subdivision result;
   result.mesh.nodes = mesh.nodes;
   result.mesh.source = mesh.source;
+  result.mesh.region_names = mesh.region_names;
   Midpoints midpoints(result);
   for (const Tet& tet : mesh.tets) {
     std::array<int, 6> middle{};

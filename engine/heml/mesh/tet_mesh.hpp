@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <heml/math/types.hpp>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,11 +26,12 @@ struct ElementField {
 
 /// A tetrahedral mesh as in its file.
 struct TetMesh {
-  std::vector<Vec3> nodes;                ///< #V×3, metres, in the file's order (orphans included)
-  std::vector<Tet> tets;                  ///< #T×4, node indices from 0; positive volume after check_tets()
-  std::vector<int> regions;               ///< #T, the file's integer tag; 0 if it gives none
-  std::string source;                     ///< file or generator, for messages
-  std::vector<ElementField> fields = {};  ///< in the file's order
+  std::vector<Vec3> nodes;                       ///< #V×3, metres, in the file's order (orphans included)
+  std::vector<Tet> tets;                         ///< #T×4, node indices from 0; positive volume after check_tets()
+  std::vector<int> regions;                      ///< #T, the file's integer tag; 0 if it gives none
+  std::string source;                            ///< file or generator, for messages
+  std::vector<ElementField> fields = {};         ///< in the file's order
+  std::map<int, std::string> region_names = {};  ///< where the file names regions
 };
 
 /// The field of that name; nullptr if there is none.

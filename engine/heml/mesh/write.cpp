@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <array>
 #include <heml/base/log.hpp>
 #include <heml/mesh/mesh_text.hpp>
 #include <heml/mesh/write.hpp>
@@ -15,12 +17,12 @@ std::string encoded(const std::string& name) {
   return text;
 }
 
-MeshText gmsh(const TetMesh& mesh, const std::map<int, std::string>& region_names) {
+MeshText gmsh(const TetMesh& mesh) {
   MeshText out;
   out.add("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n");
-  if (!region_names.empty()) {
-    out.add("$PhysicalNames\n{}\n", region_names.size());
-    for (const auto& [region, name] : region_names) {
+  if (!mesh.region_names.empty()) {
+    out.add("$PhysicalNames\n{}\n", mesh.region_names.size());
+    for (const auto& [region, name] : mesh.region_names) {
       std::string plain = name;
       for (char& c : plain)
         if (c == '"' || static_cast<unsigned char>(c) < ' ') c = ' ';
@@ -125,11 +127,15 @@ MeshText tetgen_tets(const TetMesh& mesh) {
 
 }  // namespace
 
-void write_tet_mesh(const std::filesystem::path& path, const TetMesh& mesh,
-                    const std::map<int, std::string>& region_names) {
+bool is_written_mesh_file(const std::filesystem::path& path) {
+  constexpr std::array endings{".msh", ".mesh", ".vtk", ".vtu", ".node"};
+  return std::find(endings.begin(), endings.end(), path.extension().string()) != endings.end();
+}
+
+void write_tet_mesh(const std::filesystem::path& path, const TetMesh& mesh) {
   const std::string ending = path.extension().string();
   if (ending == ".mesh" || ending == ".node") warn_of_fields(path, mesh);
-  if (ending == ".msh") return gmsh(mesh, region_names).save(path);
+  if (ending == ".msh") return gmsh(mesh).save(path);
   if (ending == ".mesh") return medit(mesh).save(path);
   if (ending == ".vtk") return vtk(mesh).save(path);
   if (ending == ".vtu") return write_vtu(path, mesh);

@@ -170,10 +170,10 @@ TrialRun choose_tissue(Scene& scene, const TetMesh& mesh) {
   return run;
 }
 
-/// Each label of a scan gets a material of its own, to be changed by itself.
+/// Each label of a scan, and each region where a file names one, gets a material of its own, to be changed by itself.
 void split_materials(Scene& scene, const TetMesh& mesh) {
   const std::set<int> regions(mesh.regions.begin(), mesh.regions.end());
-  if (scene.mesh.labels.empty() || regions.size() < 2) return;
+  if ((scene.mesh.labels.empty() && mesh.region_names.empty()) || regions.size() < 2) return;
   const Material tissue = scene.materials.front().material;
   scene.materials.clear();
   for (const int region : regions) scene.materials.push_back({region, tissue});

@@ -6,7 +6,6 @@
 #include <heml/mesh/labels/label_map.hpp>
 #include <heml/scenario/json_text.hpp>
 #include <heml/scenario/label_names.hpp>
-#include <heml/scenario/load_mesh.hpp>
 #include <heml/scenario/text_file.hpp>
 #include <optional>
 
@@ -72,15 +71,6 @@ std::map<int, std::string> label_names(const fs::path& label_map) {
     break;
   }
   return names;
-}
-
-std::map<int, std::string> region_names(const Scene& scene) {
-  if (scene.mesh.labels.empty()) return {};
-  try {
-    return label_names(find_file(scene, "mesh.labels", scene.mesh.labels));
-  } catch (const InputError&) {
-    return {};
-  }
 }
 
 }  // namespace heml

@@ -1,7 +1,6 @@
 #pragma once
 // Names of the labels of a label map.
 #include <filesystem>
-#include <heml/scenario/scene.hpp>
 #include <map>
 #include <string>
 
@@ -17,8 +16,5 @@ namespace heml {
 /// Labels without a name are not in it. Throws InputError for a header that cannot be read; a file of names that cannot
 /// be read is warned of.
 std::map<int, std::string> label_names(const std::filesystem::path& label_map);
-
-/// The names of a scene's regions: those of its label map's labels; none without one, or where its file is gone.
-std::map<int, std::string> region_names(const Scene& scene);
 
 }  // namespace heml

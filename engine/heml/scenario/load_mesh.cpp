@@ -10,6 +10,7 @@
 #include <heml/mesh/mend/mend.hpp>
 #include <heml/mesh/quality.hpp>
 #include <heml/mesh/read.hpp>
+#include <heml/scenario/label_names.hpp>
 #include <heml/scenario/load_mesh.hpp>
 #include <heml/scenario/placement.hpp>
 #include <heml/scenario/selection.hpp>
@@ -55,7 +56,10 @@ void check_midedges(const TetMesh& mesh, const MidEdges& midedges) {
 TetMesh meshed_labels(const Scene& scene) {
   LabelMeshOptions options;
   options.tets = scene.mesh.label_tets;
-  return mesh_labels(read_label_map(find_file(scene, "mesh.labels", scene.mesh.labels)), options).mesh;
+  const fs::path path = find_file(scene, "mesh.labels", scene.mesh.labels);
+  TetMesh mesh = mesh_labels(read_label_map(path), options).mesh;
+  mesh.region_names = label_names(path);
+  return mesh;
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <heml/base/error.hpp>
 #include <heml/materials/energy_law.hpp>
 #include <heml/materials/parameter_slots.hpp>
 #include <heml/scenario/energy_json.hpp>

@@ -40,6 +40,7 @@ class Session::Impl {
   Impl(const Scene& scene, SessionOptions options)
       : options_(std::move(options)),
         world_(world_with_undo(scene)),
+        region_names_(world_->setup().mesh.region_names),
         scene_(without_events(scene)),
         schedule_(scene, world_->setup().mesh),
         recorded_ticks_(scene.recorded_ticks.value_or(0)),
@@ -75,6 +76,7 @@ class Session::Impl {
   }
 
   // Called on the viewer's thread.
+  const std::map<int, std::string>& region_names() const { return region_names_; }
   void post(Command command) {
     {
       std::lock_guard lock(mutex_);
@@ -358,6 +360,7 @@ class Session::Impl {
 
   SessionOptions options_;
   std::unique_ptr<World> world_;
+  const std::map<int, std::string> region_names_;
   std::shared_ptr<const SurfaceMesh> surface_mesh_;  ///< of the last frame
   std::optional<ComparisonRuns> comparison_runs_;
   std::optional<Recorder> recorder_;
@@ -402,6 +405,7 @@ void Session::play() { impl_->set_playing(true); }
 void Session::pause() { impl_->set_playing(false); }
 void Session::step_once() { impl_->set_playing(false, 1); }
 void Session::fast_forward_to(long tick) { impl_->fast_forward_to(tick); }
+const std::map<int, std::string>& Session::region_names() const { return impl_->region_names(); }
 Scene Session::until(const Frame& moment) const { return impl_->until(moment); }
 void Session::show(Field field) { impl_->show(field); }
 void Session::enable_stretches(bool wanted) { impl_->enable_stretches(wanted); }

@@ -18,6 +18,7 @@
 #include <functional>
 #include <heml/scenario/scene.hpp>
 #include <heml/session/frame.hpp>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -53,6 +54,7 @@ class Session {
   void show(Field field);              ///< the field in Frame::values from now on
   void enable_stretches(bool wanted);  ///< whether Frame::stretches is filled from now on
   void enable_errors(bool wanted);     ///< whether Frame::mesh_error and time_error are filled from now on
+  const std::map<int, std::string>& region_names() const;  ///< those that the mesh's file names
   const Frame& latest();               ///< the newest frame; unchanged until the next call
   bool frame_waiting() const;          ///< whether latest() would return a newer one
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "engine/mesh/any_format.hpp"
+#include "engine/mesh/binary_samples.hpp"
 #include "engine/mesh/samples.hpp"
 
 namespace heml::fuzz_test {
@@ -72,6 +73,8 @@ TEST_CASE("damaged Gmsh files give a mesh or one clear error") {
   CHECK(count_survivors(0, samples::gmsh_4, 3) > 0);
   CHECK(count_survivors(0, samples::gmsh_2_data, 11) > 0);
   CHECK(count_survivors(0, samples::gmsh_4_data, 12) > 0);
+  CHECK(count_survivors(0, samples::gmsh_4_binary(true), 17) > 0);
+  CHECK(count_survivors(0, samples::gmsh_2_binary(), 18) > 0);
 }
 TEST_CASE("damaged Medit files give a mesh or one clear error") { CHECK(count_survivors(1, samples::medit, 4) > 0); }
 TEST_CASE("damaged VTK files give a mesh or one clear error") {
@@ -80,7 +83,14 @@ TEST_CASE("damaged VTK files give a mesh or one clear error") {
   CHECK(count_survivors(2, samples::vtk_binary, 7) > 0);
   CHECK(count_survivors(2, samples::vtk_5_binary, 8) > 0);
 }
-TEST_CASE("damaged VTK XML files give a mesh or one clear error") { CHECK(count_survivors(3, samples::vtu, 9) > 0); }
+TEST_CASE("damaged VTK XML files give a mesh or one clear error") {
+  CHECK(count_survivors(3, samples::vtu, 9) > 0);
+  CHECK(count_survivors(3, samples::vtu_base64, 19) > 0);
+  CHECK(count_survivors(3, samples::vtu_compressed, 20) > 0);
+  CHECK(count_survivors(3, samples::vtu_raw, 21) > 0);
+  CHECK(count_survivors(3, samples::vtu_raw_compressed, 22) > 0);
+}
+TEST_CASE("damaged Abaqus files give a mesh or one clear error") { CHECK(count_survivors(6, samples::abaqus, 23) > 0); }
 TEST_CASE("damaged TetGen files give a mesh or one clear error") {
   CHECK(count_survivors(4, samples::node + '\0' + samples::ele, 10) > 0);
   CHECK(count_survivors(4, samples::node + '\0' + samples::ele_attributes, 13) > 0);

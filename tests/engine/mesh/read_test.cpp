@@ -141,7 +141,8 @@ TEST_CASE("refuses broken Gmsh files by line") {
     return refusal_of("a.msh", replaced(samples::gmsh_2, from, to));
   };
   CHECK(says(told("2.2 0 8", "4.0 0 8"), {"a.msh: line 2", "version 4", "4.1"}));
-  CHECK(says(told("2.2 0 8", "2.2 1 8"), {"line 2", "binary", "ASCII"}));
+  CHECK(says(told("2.2 0 8", "2.2 1 8"), {"line 3", "the number 1", "damaged"}));
+  CHECK(says(told("3 7 \"left lobe\"", "3 7 left lobe"), {"line 6", "name in quotes"}));
   CHECK(says(told("21 0 1 0", "21 0 l 0"), {"line 12", "number", "'l'"}));
   CHECK(says(told("21 0 1 0", "21 0 1"), {"line 12", "ends"}));
   CHECK(says(told("21 0 1 0", "21 0 1 nan"), {"line 12", "not finite", "nan"}));
@@ -206,7 +207,7 @@ TEST_CASE("refuses broken VTK XML by line") {
   };
   CHECK(says(told("type=\"UnstructuredGrid\"", "type=\"PolyData\""), {"a.vtu: line 3", "PolyData"}));
   CHECK(says(told("NumberOfComponents=\"3\" format=\"ascii\"", "NumberOfComponents=\"3\" format=\"binary\""),
-             {"line 11", "binary", "ASCII"}));
+             {"line 12", "'Points'", "cut off"}));
   CHECK(says(told("NumberOfPoints=\"5\"", "NumberOfPoints=\"6\""), {"6 points announced, 5 given"}));
   CHECK(says(told("NumberOfPoints=\"5\"", "NumberOfPoints=\"99999999999999999999\""), {"line 5", "99999"}));
   CHECK(says(told("3 7 11", "3 7 12"), {"offsets of cell 2"}));

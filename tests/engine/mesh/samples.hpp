@@ -252,7 +252,7 @@ inline const std::string vtu = R"(<?xml version="1.0"?>
         <DataArray type="Float32" Name="fibre direction" format="ascii" NumberOfComponents="3">
           7 7 7 1 0 0 0 -0.6 0.8</DataArray>
         <DataArray type="Int8" Name="a &lt;&quot;&amp;&apos;&gt; b" format="ascii">1 2 3</DataArray>
-        <DataArray type="Float64" Name="packed" format="binary">AAAA</DataArray>
+        <DataArray type="String" Name="packed" format="binary">AAAA</DataArray>
       </CellData>
     </Piece>
   </UnstructuredGrid>

@@ -213,6 +213,7 @@ Improvement improve(TetMesh mesh, const ImproveOptions& options) {
   Improver(local, guard, options).run();
   expect_untangled(mesh, inverted, local);
   result.mesh = local.extract(mesh.source);
+  result.mesh.region_names = mesh.region_names;
   transfer_fields(mesh, result.mesh);
   result.surface_distance = surface_distance(guard.original(), SurfaceTree(constrained_surface(result.mesh)));
   result.below = elements_below(result.mesh, options.min_angle);
