@@ -20,7 +20,8 @@ constexpr CommandDefinition definitions[] = {
     {"export", "plays a scene or recording into files for other programs",
      "Examples:\n"
      "  heml export session.jsonl --out frames              # then open frames/frames.pvd in ParaView\n"
-     "  heml export scene.json --out shape --format ply     # surfaces for Blender or MeshLab",
+     "  heml export scene.json --out shape --format ply     # surfaces for Blender or MeshLab\n"
+     "  heml export scene.json --out film.glb               # the moving surface for Blender and the web",
      define_export},
     {"explain", "says what a scene makes the engine run, what it leaves out and why, what it costs, what to change", "",
      define_explain},
@@ -117,9 +118,8 @@ std::string program_footer() {
 }  // namespace
 
 const char* const scene_files =
-    "a scene file (.json), a recording (.jsonl), or a mesh, surface or label map (.msh .mesh .vtk .vtu .node .obj .stl "
-    ".ply "
-    ".nii .nrrd .mha)";
+    "a scene file (.json), a recording (.jsonl), or a mesh, surface or label map (.msh .mesh .vtk .vtu .inp .node .obj "
+    ".stl .ply .nii .nrrd .mha)";
 
 std::span<const CommandDefinition> command_definitions() { return definitions; }
 

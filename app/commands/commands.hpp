@@ -71,7 +71,7 @@ int solve_scene(const SolveArguments& arguments);
 struct ExportArguments {
   std::string scene;
   std::filesystem::path out;
-  std::string format = "vtu";  ///< vtu, ply or obj
+  std::string format;  ///< vtu, ply, obj, glb or usda; empty: glb or usda where `out` ends so, else vtu
   double fps = 30;
 };
 int export_frames(const ExportArguments& arguments);

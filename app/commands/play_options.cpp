@@ -119,13 +119,15 @@ Action define_solve(CLI::App& command) {
 Action define_export(CLI::App& command) {
   const auto given = std::make_shared<ExportArguments>();
   command.add_option("SCENE", given->scene, scene_help)->required();
-  command.add_option("--out", given->out, "folder for frame_00000.vtu ...")->required()->type_name("DIR");
+  command.add_option("--out", given->out, "folder for frame_00000.vtu ..., or a file name in .glb or .usda")
+      ->required()
+      ->type_name("DIR");
   command
       .add_option("--format", given->format,
                   "vtu: the body with its fields, and frames.pvd for ParaView; ply: the surface with scalars of its "
-                  "nodes; obj: the surface")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"vtu", "ply", "obj"}))
+                  "nodes; obj: the surface; glb: the surface as one animated file for Blender and the web; usda: "
+                  "surface and tetrahedra as one animated file of OpenUSD. Default: by the ending of --out, else vtu")
+      ->check(CLI::IsMember({"vtu", "ply", "obj", "glb", "usda"}))
       ->type_name("F");
   add_fps(command, given->fps);
   return [given] { return export_frames(*given); };

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
 #include <heml/base/write_file.hpp>
-#include <heml/mesh/surface.hpp>
 #include <heml/mesh/write_surface.hpp>
+#include <heml/scenario/animation.hpp>
 #include <heml/scenario/frame_series.hpp>
 #include <numeric>
 #include <utility>
@@ -47,25 +47,14 @@ void write_body(const fs::path& path, World& world) {
 }
 
 void write_surface_mesh(const fs::path& path, World& world) {
-  const BoundaryFaces faces =
-      fine_boundary(with_elements(world.setup().mesh, world.topology()->elements), world.setup().midedges);
+  WorldSurface surface = surface_of(world);
   const std::vector<Vec3> positions = world.positions();
-  std::vector<int> number(positions.size(), -1), nodes;  // on the surface, in order of appearance
-  TriangleMesh surface;
-  for (Triangle triangle : faces.triangles) {
-    for (int& n : triangle) {
-      int& own = number[static_cast<std::size_t>(n)];
-      if (own < 0) {
-        own = static_cast<int>(nodes.size());
-        nodes.push_back(n);
-        surface.nodes.push_back(positions[static_cast<std::size_t>(n)]);
-      }
-      n = own;
-    }
-    surface.triangles.push_back(triangle);
-  }
+  TriangleMesh mesh;
+  for (const int n : surface.nodes) mesh.nodes.push_back(positions[static_cast<std::size_t>(n)]);
+  mesh.triangles = std::move(surface.triangles);
+  const std::vector<int>& nodes = surface.nodes;
   write_surface(
-      path, surface,
+      path, mesh,
       {field_of(world, "displacement", Field::displacement, nodes), field_of(world, "stretch", Field::stretch, nodes),
        field_of(world, "von_mises", Field::von_mises, nodes),
        field_of(world, "volume_ratio", Field::volume_ratio, nodes)});
