@@ -44,6 +44,9 @@ Json materials_json(const Explanation& explained) {
                     {"shear_modulus", material.rest.shear},
                     {"bulk_modulus", material.rest.bulk},
                     {"poisson", material.poisson}});
+    const auto& names = explained.setup.mesh.region_names;
+    if (const auto name = material.region ? names.find(*material.region) : names.end(); name != names.end())
+      list.back()["name"] = name->second;
   }
   return list;
 }

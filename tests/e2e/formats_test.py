@@ -150,6 +150,8 @@ class Reading(ProgramCase):
         told = heml("explain", self.folder / "organ.msh")
         self.assertEqual(told.returncode, 0, told.stderr)
         self.assertIn("region 2, portal vein", told.stdout)
+        told = json.loads(heml("explain", "--json", self.folder / "organ.msh").stdout)
+        self.assertEqual({m["region"]: m.get("name") for m in told["materials"]}, {1: "liver", 2: "portal vein"})
 
     def test_an_include_is_refused_with_a_word(self):
         path = self.write("organ.inp", "*INCLUDE, INPUT=nodes.inp\n")

@@ -1,8 +1,12 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <heml/mesh/edit.hpp>
 #include <heml/mesh/generate.hpp>
 #include <heml/mesh/read.hpp>
+#include <heml/mesh/refine.hpp>
+#include <heml/mesh/reorder.hpp>
+#include <heml/mesh/subdivide.hpp>
 #include <heml/mesh/write.hpp>
 #include <limits>
 
@@ -50,6 +54,29 @@ TEST_CASE("Gmsh, VTK and VTU give back fields to the bit, their names and places
       }
     }
   }
+}
+
+TEST_CASE("Gmsh files give back names of regions, without what would break a line") {
+  TetMesh mesh = make_box(Vec3(1, 1, 1), {1, 1, 1});
+  mesh.regions = {3, 3, -1, -1, 3};
+  mesh.region_names = {{-1, "Vena cava µ"}, {3, "the \"left\"\nlobe"}, {9, "not there"}};
+  const TemporaryFolder folder;
+  write_tet_mesh(folder / "a.msh", mesh);
+  const TetMesh back = read_tet_mesh(folder / "a.msh");
+  CHECK(back.regions == mesh.regions);
+  CHECK(back.region_names == std::map<int, std::string>{{-1, "Vena cava µ"}, {3, "the  left  lobe"}, {9, "not there"}});
+  mesh.region_names = {{3, "Le\xe9r \xf0\x80\x80\x80"}};  // Latin-1, and a character longer than it need be
+  write_tet_mesh(folder / "b.msh", mesh);
+  CHECK(read_tet_mesh(folder / "b.msh").region_names == std::map<int, std::string>{{3, "Le?r ????"}});
+}
+
+TEST_CASE("names of regions stay through orders, edits and refinement") {
+  TetMesh mesh = make_box(Vec3(1, 1, 1), {1, 1, 1});
+  mesh.region_names = {{0, "liver"}};
+  CHECK(reordered(mesh, hilbert_order(mesh)).region_names == mesh.region_names);
+  CHECK(with_elements(mesh, std::vector<int>{0, 1}).region_names == mesh.region_names);
+  CHECK(subdivide_uniformly(mesh).mesh.region_names == mesh.region_names);
+  CHECK(refine_longest_edge(mesh, {0}).mesh.region_names == mesh.region_names);
 }
 
 TEST_CASE("Medit and TetGen files leave fields out and keep the mesh") {

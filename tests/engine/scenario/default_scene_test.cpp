@@ -39,6 +39,21 @@ TEST_CASE("a body that cannot be meant in metres is read in the unit that makes 
   CHECK(scene.chosen->unit == "millimetres");
 }
 
+TEST_CASE("regions that a mesh file names get a material each, others share one") {
+  const TemporaryFolder folder;
+  TetMesh mesh = make_box(Vec3(0.1, 0.1, 0.1), {2, 2, 2});
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) mesh.regions[t] = t < 20 ? 4 : 7;
+  write_tet_mesh(folder / "plain.msh", mesh);
+  mesh.region_names = {{4, "liver"}, {7, "tumour"}};
+  write_tet_mesh(folder / "named.msh", mesh);
+  CHECK(scene_around(folder / "plain.msh").materials.size() == 1);
+  const Scene scene = scene_around(folder / "named.msh");
+  REQUIRE(scene.materials.size() == 2);
+  CHECK(scene.materials[0].region == 4);
+  CHECK(scene.materials[1].region == 7);
+  CHECK(load_setup(scene).mesh.region_names == mesh.region_names);
+}
+
 TEST_CASE("the scene of a bare mesh is the same whenever it is made, and reads the mesh once") {
   const TemporaryFolder folder;
   write_tet_mesh(folder / "block.msh", make_box(Vec3(0.1, 0.1, 0.1), {4, 4, 4}));

@@ -26,13 +26,15 @@ TetMesh ball(int cells, double amount) {
 }  // namespace
 
 TEST_CASE("slivers go, and the body, its regions and its interface stay") {
-  const TetMesh before = test::shaken_box(6, 0.45);
+  TetMesh before = test::shaken_box(6, 0.45);
+  before.region_names = {{0, "liver"}};
   REQUIRE(worst_angle(before) < 5);
   const Improvement improved = improve(before);
   CHECK(improved.below.empty());
   CHECK(worst_angle(improved.mesh) >= 10);
   CHECK(improved.surface_distance < 1e-12);
   test::check_same_body(before, improved.mesh);
+  CHECK(improved.mesh.region_names == before.region_names);
 }
 
 TEST_CASE("improving is deterministic") {
