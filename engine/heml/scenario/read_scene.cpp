@@ -275,10 +275,11 @@ Scene read_scene(const fs::path& path, const BareMeshOptions& options) {
     return scene_around(path, options);
   const std::string text = read_text_file(path);
   if (kind == FileKind::other && !looks_like_json(text))
-    throw InputError(path.string(), "", "is not a kind of file this program opens",
-                     fmt::format("a scene (.json), a recording (.jsonl), tetrahedra (.msh .mesh .vtk .vtu .inp .node .ele), "
-                                 "a label map (.nii .nii.gz .nrrd .nhdr .mha .mhd) or a surface ({})",
-                                 fmt::join(surface_endings, " ")));
+    throw InputError(
+        path.string(), "", "is not a kind of file this program opens",
+        fmt::format("a scene (.json), a recording (.jsonl), tetrahedra (.msh .mesh .vtk .vtu .inp .node .ele), "
+                    "a label map (.nii .nii.gz .nrrd .nhdr .mha .mhd) or a surface ({})",
+                    fmt::join(surface_endings, " ")));
   return parse_scene(text, path);
 }
 
