@@ -18,6 +18,7 @@ uniform mat4 view_projection;
 uniform mat4 shadow_matrix;
 uniform vec3 key_direction;
 uniform vec3 eye;
+uniform vec4 section;  // section plane: below 0 in product with points that are left out
 uniform sampler2DShadow shadow_map;
 
 out vec3 v_normal;
@@ -52,6 +53,7 @@ float key_visibility() {
 
 void main() {
   gl_Position = view_projection * vec4(a_position, 1.0);
+  gl_ClipDistance[0] = dot(section, vec4(a_position, 1.0));
 #ifdef OUTLINE
   gl_Position.xyz += vec3(a_strip.xy, -strip_lift) * gl_Position.w;
   v_cover = a_strip.z;
@@ -62,7 +64,11 @@ void main() {
   vec4 broad = noise(a_rest * 4.1 + 3.7);
   v_slope = 0.10 * broad.xyz;
   v_surface = vec4(a_surface.rgb * a_surface.rgb * (0.72 + 0.56 * broad.w), a_surface.a);
+#ifdef CAP
+  v_visible = 1.0;  // the shadow map holds the whole body
+#else
   v_visible = key_visibility();
+#endif
   v_value = a_value;
 #ifdef WOUND
   v_rest = a_rest;

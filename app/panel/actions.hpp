@@ -19,6 +19,7 @@ enum class Action {
   reset_all,
   fit,
   wireframe,
+  section,
   show_tissue,
   show_displacement,
   show_stretch,

@@ -2,6 +2,7 @@
 #include <app/panel/frame_drawing.hpp>
 #include <app/panel/legend.hpp>
 #include <app/panel/scripted_blade.hpp>
+#include <app/panel/section_control.hpp>
 #include <heml/session/surface_mesh.hpp>
 
 namespace heml::panel {
@@ -22,6 +23,7 @@ render::StrokeDrawing FrameDrawing::stroke() const {
 render::Image FrameDrawing::draw(World& world, double ahead, double seconds, ComparisonRuns* comparison_runs) {
   surface_mesh_ = make_surface_mesh(world, std::move(surface_mesh_));
   fill_frame(world, surface_mesh_, view_.field, ahead, frame_, panel_ && panel_->wants_stretches());
+  if (view_.section) fill_solid(world, ahead, solid_, frame_);
   if (comparison_runs) comparison_runs->fill(world, frame_, ahead);
   frame_.pace.rate = 1 / world.setup().solver.tick();
   if (panel_)
@@ -49,6 +51,7 @@ void FrameDrawing::draw_with_panel(float seconds) {
 void FrameDrawing::draw_alone(float seconds) {
   render::DrawOptions options;
   options.wireframe = view_.wireframe;
+  if (view_.section) options.section = SectionControl(view_, *surface_mesh_).plane();
   options.stroke = stroke();
   if (interface_) options.range = colours_.update(frame_.field, frame_.values, seconds);
   CameraController controller;

@@ -31,6 +31,7 @@ class FrameDrawing {
   render::OsMesaContext context_;
   ComparisonView bodies_;
   std::shared_ptr<const SurfaceMesh> surface_mesh_;  ///< of the last frame
+  std::shared_ptr<const Solid> solid_;                ///< of the last frame, for a section
   View view_;
   std::vector<Event> cuts_;  ///< of the scene, for the blade
   Frame frame_;

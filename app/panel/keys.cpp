@@ -28,6 +28,7 @@ constexpr KeyBinding bindings[] = {
     {'5', none, Action::show_volume_ratio, "5", "colours: volume ratio"},
     {'6', none, Action::show_error, "6", "colours: discretisation error"},
     {'W', none, Action::wireframe, "W", "wireframe"},
+    {'K', none, Action::section, "K", "section plane: cut the drawn body open, or whole again"},
     {key_f5, none, Action::view_1, "F5 to F8", "restore a saved view"},
     {key_f6, none, Action::view_2, "", ""},
     {key_f7, none, Action::view_3, "", ""},

@@ -55,7 +55,7 @@ Panel::Panel(const Scene& scene, const SurfaceMesh& surface_mesh, std::map<int, 
       stretch_monitor_(surface_mesh),
       surface_version_(surface_mesh.version),
       motion_(scene.gravity, scene.solver),
-      view_(scene.view) {
+      view_(scene.view, surface_mesh) {
   for (const RegionMaterial& entry : scene.materials)
     as_opened_.emplace_back(SetMaterial{entry.region, entry.material});
   as_opened_.emplace_back(SetGravity{scene.gravity});
@@ -147,6 +147,7 @@ void Panel::write_into(Scene& scene) const {
   motion_.write_into(scene);
   scene.view.field = view_.field();
   scene.view.wireframe = view_.drawing().wireframe;
+  view_.section().write_into(scene.view);
 }
 
 Insets Panel::insets(ImVec2 picture) const {

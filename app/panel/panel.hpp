@@ -60,6 +60,7 @@ class Panel {
   void set_choices(OpenChoices choices) { dialog_.set_choices(std::move(choices)); }  ///< entries of the open dialog
   void set_timeline(const Timeline& timeline) { timeline_ = timeline; }               ///< shows its bar from now on
   ViewSection& view() { return view_; }
+  const ViewSection& view() const { return view_; }
   /// What the mouse does, and whether the first end of a suture is set: for the hints.
   void set_interaction(Interaction interaction, bool suture_begun);
   void set_filmed_frames(std::optional<long> count) { filmed_frames_ = count; }  ///< none: no film is made
@@ -72,7 +73,7 @@ class Panel {
   bool asks() const { return question_.is_open(); }
   bool is_modal() const { return dialog_.is_open() || question_.is_open(); }  ///< takes keys and mouse
 
-  const render::DrawOptions& drawing() const { return view_.drawing(); }
+  render::DrawOptions drawing() const { return view_.drawing(); }
   bool wants_stretches() const { return stretch_monitor_.active(); }  ///< whether frames should carry Frame::stretches
   bool wants_errors() const { return errors_open_; }                  ///< whether frames should carry errors
   const ToolSettings& tool() const { return tool_.tool(); }

@@ -29,6 +29,8 @@ void Panel::carry_out(Action action, const Frame& frame, PanelActions& out) {
       return ask(Request::fit);
     case Action::wireframe:
       return view_.toggle_wireframe();
+    case Action::section:
+      return view_.section().toggle();
     case Action::show_tissue:
       return view_.show(Field::none, out);
     case Action::show_displacement:

@@ -27,7 +27,16 @@ const std::vector<std::string>& meanings() {
 }
 }  // namespace
 
-ViewSection::ViewSection(const View& view) : field_(view.field) { drawing_.wireframe = view.wireframe; }
+ViewSection::ViewSection(const View& view, const SurfaceMesh& surface_mesh)
+    : field_(view.field), section_(view, surface_mesh) {
+  drawing_.wireframe = view.wireframe;
+}
+
+render::DrawOptions ViewSection::drawing() const {
+  render::DrawOptions options = drawing_;
+  options.section = section_.plane();
+  return options;
+}
 
 void ViewSection::show(Field field, PanelActions& out) {
   field_ = field;
@@ -53,6 +62,7 @@ void ViewSection::draw(Rows& rows, std::vector<Action>& pressed, PanelActions& o
                   "The image at the screen's full resolution. Off: half, which is faster without a graphics card."},
                  fine))
     drawing_.resolution = fine ? 1 : half_resolution;
+  section_.draw(rows);
   draw_views(rows, pressed);
   rows.check({"Hints", "The line below the body that says what mouse and keys do."}, hints_);
 }

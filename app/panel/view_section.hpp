@@ -3,6 +3,7 @@
 #include <app/panel/actions.hpp>
 #include <app/panel/camera_controller.hpp>
 #include <app/panel/rows.hpp>
+#include <app/panel/section_control.hpp>
 #include <app/render/renderer.hpp>
 #include <heml/scenario/scene.hpp>
 
@@ -10,12 +11,14 @@ namespace heml::panel {
 
 class ViewSection {
  public:
-  explicit ViewSection(const View& view);
+  ViewSection(const View& view, const SurfaceMesh& surface_mesh);
 
   /// Adds the actions of buttons to `pressed`.
   void draw(Rows& rows, std::vector<Action>& pressed, PanelActions& out);
 
   void show(Field field, PanelActions& out);
+  SectionControl& section() { return section_; }
+  const SectionControl& section() const { return section_; }
   void toggle_wireframe() { drawing_.wireframe = !drawing_.wireframe; }
   void set_range(const render::Range& range) { drawing_.range = range; }
   void set_hatched(std::span<const float> excess) { drawing_.hatched = excess; }
@@ -25,13 +28,14 @@ class ViewSection {
   bool hints() const { return hints_; }  ///< whether the hint line is shown
 
   Field field() const { return field_; }
-  const render::DrawOptions& drawing() const { return drawing_; }
+  render::DrawOptions drawing() const;
 
  private:
   void draw_views(Rows& rows, std::vector<Action>& pressed) const;
 
   Field field_;
   std::array<bool, CameraController::views> saved_{};
+  SectionControl section_;
   bool hints_ = true;
   render::DrawOptions drawing_;
 };

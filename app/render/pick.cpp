@@ -6,7 +6,19 @@
 
 namespace heml::render {
 
-std::optional<Hit> pick(const Frame& frame, const SurfaceMesh& surface_mesh, const Ray& ray) {
+namespace {
+
+bool is_met_from_inside(const Hit& hit, const Frame& frame, const SurfaceMesh& surface_mesh, const Ray& ray) {
+  const auto& [a, b, c] = surface_mesh.triangles[static_cast<std::size_t>(hit.triangle)];
+  const Vec3f normal =
+      (frame.positions[b] - frame.positions[a]).cross(frame.positions[c] - frame.positions[a]);
+  return normal.dot(ray.direction) > 0;
+}
+
+}  // namespace
+
+std::optional<Hit> pick(const Frame& frame, const SurfaceMesh& surface_mesh, const Ray& ray,
+                        const std::optional<SectionPlane>& section) {
   float nearest = std::numeric_limits<float>::infinity();
   std::optional<Hit> hit;
   for (std::size_t t = 0; t < surface_mesh.triangles.size(); ++t) {
@@ -14,10 +26,12 @@ std::optional<Hit> pick(const Frame& frame, const SurfaceMesh& surface_mesh, con
     const float distance =
         ray_meets(ray.origin, ray.direction, frame.positions[a], frame.positions[b], frame.positions[c]);
     if (!(distance < nearest)) continue;
+    if (section && section->beyond(ray.origin + distance * ray.direction) > 0) continue;
     nearest = distance;
     hit = Hit{static_cast<int>(t), a, ray.origin + distance * ray.direction};
   }
   if (!hit) return hit;
+  if (section && is_met_from_inside(*hit, frame, surface_mesh, ray)) return std::nullopt;
   for (const int node : surface_mesh.triangles[hit->triangle])
     if ((frame.positions[node] - hit->point).squaredNorm() < (frame.positions[hit->node] - hit->point).squaredNorm())
       hit->node = node;

@@ -1,6 +1,7 @@
 #pragma once
 // Ray picking of the body's surface.
 #include <app/render/camera.hpp>
+#include <app/render/section.hpp>
 #include <heml/session/frame.hpp>
 #include <optional>
 
@@ -13,7 +14,10 @@ struct Hit {
 };
 
 /// The nearest triangle that a ray hits from either side; the first of equally near ones. None: the ray misses.
-std::optional<Hit> pick(const Frame& frame, const SurfaceMesh& surface_mesh, const Ray& ray);
+/// With a section plane the ray passes what lies beyond it, and ends where it would meet the surface from inside: the
+/// section's cap hides it.
+std::optional<Hit> pick(const Frame& frame, const SurfaceMesh& surface_mesh, const Ray& ray,
+                        const std::optional<SectionPlane>& section = std::nullopt);
 
 /// The field's value at a hit in the frame, interpolated linearly; none if the frame carries no field.
 std::optional<float> value_at(const Hit& hit, const Frame& frame, const SurfaceMesh& surface_mesh);

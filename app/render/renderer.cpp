@@ -1,6 +1,7 @@
 #include "app/render/renderer.hpp"
 
 #include <app/render/body_mesh.hpp>
+#include <app/render/section_cap.hpp>
 #include <app/render/shadows.hpp>
 #include <app/render/tissue_texture.hpp>
 #include <app/render/tool_drawing.hpp>
@@ -52,7 +53,9 @@ class Renderer::Impl {
   void update_surface_mesh(const Frame& frame);
   const RenderTarget* canvas(const DrawOptions& options, Size size);
   void draw_picture(const ViewContext& shot, const Frame& frame, const DrawOptions& options);
+  void update_section(const Frame& frame, const DrawOptions& options, const Range& range);
   void draw_body(const ViewContext& shot, const DrawOptions& options, bool shows_field);
+  void draw_cap(const ViewContext& shot, bool shows_field);
   void draw_body_outline(const ViewContext& shot, bool shows_field);
   const Program& tissue_program(unsigned features);
   void prepare_body(const ViewContext& shot, const Program& program) const;
@@ -62,8 +65,8 @@ class Renderer::Impl {
   void draw_ground(const ViewContext& shot) const;
   void draw_backdrop(const ViewContext& shot) const;
 
-  enum TissueFeature : unsigned { with_field = 1, with_hatching = 2, as_outline = 4, as_wound = 8 };
-  std::array<std::optional<Program>, 16> tissue_;  // by features, compiled on first use
+  enum TissueFeature : unsigned { with_field = 1, with_hatching = 2, as_outline = 4, as_wound = 8, as_cap = 16 };
+  std::array<std::optional<Program>, 32> tissue_;  // by features, compiled on first use
   Program line_{"line.vert", "line.frag"};
   Program bead_{"bead.vert", "bead.frag"};
   Program ground_{"ground.vert", "ground.frag"};
@@ -75,6 +78,8 @@ class Renderer::Impl {
   std::shared_ptr<const SurfaceMesh> whole_;         // the mesh of the uncut body
   TissueLook whole_look_;
   std::optional<BodyMesh> body_;
+  std::optional<SectionCap> cap_;  // made on first use
+  Vec4f section_ = Vec4f::Zero();  // the product with a point is negative beyond the section plane
   ShadowMap shadow_map_;
   Footprint footprint_;
   ToolDrawing tool_;
@@ -126,7 +131,9 @@ void Renderer::Impl::draw(const Frame& frame, const Camera& camera, const DrawOp
   tool_.place(frame, options.tool, shot);
   if (options.tool) tool_.place_stroke(options.stroke, shot);
   if (body_) {
-    body_->update(frame, options.range.value_or(natural_range(frame.field, frame.values)));
+    const Range range = options.range.value_or(natural_range(frame.field, frame.values));
+    body_->update(frame, range);
+    update_section(frame, options, range);
     body_->update_hatching(options.hatched);
     body_->update_outline(camera.eye(), shot.view_projection, drawn);
     draw_shadows(shot, frame, options);
@@ -152,11 +159,15 @@ void Renderer::Impl::draw_picture(const ViewContext& shot, const Frame& frame, c
   const bool shows_field = frame.field != Field::none && body_ && frame.values.size() == body_->node_count();
   if (shows_field) upload_map(map_, frame.field);
   if (body_) {
-    if (frame.min_J > 0) glEnable(GL_CULL_FACE);  // back faces show only where elements are inverted
+    // Back faces show only where elements are inverted, and between a section's cap and the skin, which is smoothed.
+    if (frame.min_J > 0 && !options.section) glEnable(GL_CULL_FACE);
+    if (options.section) glEnable(GL_CLIP_DISTANCE0);
     draw_body(shot, options, shows_field);
     glDisable(GL_CULL_FACE);
     if (options.wireframe) draw_edges(shot);
     if (options.constrained) draw_constrained(shot);
+    glDisable(GL_CLIP_DISTANCE0);
+    if (options.section) draw_cap(shot, shows_field);
     tool_.draw(shot);
     if (options.ground && shot.camera.eye().y() > ground_centre_.y()) draw_ground(shot);
   }
@@ -164,11 +175,25 @@ void Renderer::Impl::draw_picture(const ViewContext& shot, const Frame& frame, c
   glEnable(GL_BLEND);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   glDepthMask(GL_FALSE);
+  if (options.section) glEnable(GL_CLIP_DISTANCE0);
   if (body_) draw_body_outline(shot, shows_field);
+  glDisable(GL_CLIP_DISTANCE0);
   tool_.draw_outline(shot);
   glDepthMask(GL_TRUE);
   glDisable(GL_BLEND);
   glDisable(GL_DEPTH_TEST);
+}
+
+void Renderer::Impl::update_section(const Frame& frame, const DrawOptions& options, const Range& range) {
+  if (!options.section) return;
+  section_ << -options.section->normal, options.section->offset;
+  if (!cap_) cap_.emplace();
+  cap_->update(frame, *options.section, range, body_->rest());
+}
+
+void Renderer::Impl::draw_cap(const ViewContext& shot, bool shows_field) {
+  prepare_body(shot, tissue_program(as_wound | as_cap | (shows_field ? with_field : 0u)));
+  cap_->draw();
 }
 
 void Renderer::Impl::draw_body(const ViewContext& shot, const DrawOptions& options, bool shows_field) {
@@ -203,6 +228,7 @@ const Program& Renderer::Impl::tissue_program(unsigned features) {
   if (features & with_hatching) defines.push_back("HATCH");
   if (features & as_outline) defines.push_back("OUTLINE");
   if (features & as_wound) defines.push_back("WOUND");
+  if (features & as_cap) defines.push_back("CAP");
   return program.emplace("tissue.vert", "tissue.frag", defines);
 }
 
@@ -230,6 +256,7 @@ void Renderer::Impl::prepare_body(const ViewContext& shot, const Program& progra
   program.set("view_projection", shot.view_projection);
   program.set("shadow_matrix", shadow_map_.matrix());
   program.set("eye", shot.camera.eye());
+  program.set("section", section_);
   program.set("key_direction", shot.key_direction);
   // The rim light: behind the body as seen from the camera, high, on the side away from the key light.
   const Vec3f right = shot.camera.right(), up = shot.camera.up();
@@ -250,6 +277,7 @@ void Renderer::Impl::prepare_body(const ViewContext& shot, const Program& progra
 void Renderer::Impl::draw_edges(const ViewContext& shot) const {
   line_.use();
   line_.set("view_projection", shot.view_projection);
+  line_.set("section", section_);
   line_.set("tint", Vec4f(0.03f, 0.02f, 0.02f, 0.55f));
   glEnable(GL_LINE_SMOOTH);
   glEnable(GL_BLEND);
@@ -266,6 +294,7 @@ void Renderer::Impl::draw_constrained(const ViewContext& shot) const {
   bead_.set("bead_radius", body_->bead_radius());
   bead_.set("height", static_cast<float>(shot.size.height));
   bead_.set("key_direction", shot.key_direction);
+  bead_.set("section", section_);
   bead_.set("tint", Vec3f(0.62f, 0.70f, 0.74f));
   body_->draw_constrained();
 }

@@ -5,6 +5,7 @@
 //    shadow map, footprint ──► body ► edges ► constrained nodes ► tools ► ground ► backdrop ► outlines of body and tool
 #include <app/render/camera.hpp>
 #include <app/render/field_colours.hpp>
+#include <app/render/section.hpp>
 #include <app/render/stroke_drawing.hpp>
 #include <heml/session/frame.hpp>
 #include <memory>
@@ -19,6 +20,7 @@ struct DrawOptions {
   bool constrained = true;         ///< beads on nodes with a boundary condition
   bool tool = true;                ///< forceps and spring while something is grasped, scalpel
   StrokeDrawing stroke;            ///< of the scalpel
+  std::optional<SectionPlane> section;  ///< leaves out what lies beyond; closed by a cap where the frame has a solid
   std::optional<Range> range;      ///< of the colour map; none: natural_range() of the frame's values
   std::span<const float> hatched;  ///< #S, hatched where above 0; empty: no hatching, at no cost
   float resolution = 1;            ///< of rendering, relative to the picture, 0.25 to 1: lower is faster

@@ -6,7 +6,8 @@ namespace {
 
 std::size_t bytes_of(const Frame& frame) {
   std::size_t bytes = sizeof(Frame) + frame.positions.size() * sizeof(Vec3f) +
-                      (frame.values.size() + frame.stretches.size()) * sizeof(float);
+                      (frame.values.size() + frame.stretches.size() + frame.solid_values.size()) * sizeof(float) +
+                      frame.solid_positions.size() * sizeof(Vec3f);
   for (const Frame& comparison : frame.comparisons) bytes += bytes_of(comparison);
   return bytes;
 }

@@ -10,7 +10,7 @@ constexpr double above_skin = 0.3;  // of the blade, in depths
 
 std::optional<render::Hit> MouseTool::pick(const render::Vec2f& at, const Frame& frame,
                                            const SurfaceMesh& surface_mesh) const {
-  return render::pick(frame, surface_mesh, controller_.ray(at));
+  return render::pick(frame, surface_mesh, controller_.ray(at), section_);
 }
 
 bool MouseTool::press(MouseButton button, const render::Vec2f& at, bool shift, const Frame& frame,

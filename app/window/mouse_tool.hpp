@@ -35,6 +35,9 @@ class MouseTool {
   /// Ends what the mouse does, and forgets the first end of a suture.
   void cancel(std::vector<Command>& out);
 
+  /// What lies beyond the plane is not drawn, and no tool meets it.
+  void set_section(const std::optional<render::SectionPlane>& plane) { section_ = plane; }
+
   Interaction interaction() const { return interaction_; }
   /// Whether the press under way has met no tissue: it turns the camera, or its stroke has not entered yet.
   bool is_beside_body() const {
@@ -74,6 +77,7 @@ class MouseTool {
   std::array<Vec3, 2> blade_;                   // m, end of the last cut
   Vec3 heading_ = Vec3::Zero();                 // m, of the blade's last movement
   StrokeLine line_;
+  std::optional<render::SectionPlane> section_;
   render::Vec2f cut_to_ = render::Vec2f::Zero();  // the same, pixels
   panel::ToolSettings probe_;                     // of the active probe
   std::optional<int> first_end_;                  // of an unfinished suture

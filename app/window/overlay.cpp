@@ -105,4 +105,28 @@ void draw_bad_element(const Frame& frame, const panel::CameraController& control
       list.AddLine({at[a].x(), at[a].y()}, {at[b].x(), at[b].y()}, panel::colours::danger, panel::em(0.14f));
 }
 
+void draw_section(const render::SectionPlane& plane, const Vec3f& handle, float radius, bool hovered,
+                  const panel::CameraController& controller) {
+  const Vec3f across = plane.normal.unitOrthogonal(), along = plane.normal.cross(across);
+  const ImU32 colour = hovered ? panel::colours::text : panel::colours::accent;
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  const auto pixel = [&](const Vec3f& point) -> ImVec2 {
+    const render::Vec2f at = controller.pixel(point);
+    return {at.x(), at.y()};
+  };
+  const auto is_drawable = [](const ImVec2& at) { return std::abs(at.x) < 1e5f && std::abs(at.y) < 1e5f; };
+  std::array<ImVec2, 4> corners;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const float a = k == 0 || k == 3 ? -radius : radius, b = k < 2 ? -radius : radius;
+    corners[k] = pixel(handle + a * across + b * along);
+    if (!is_drawable(corners[k])) return;
+  }
+  list.AddPolyline(corners.data(), 4, (colour & 0x00ffffffu) | 0x60000000u, ImDrawFlags_Closed, panel::em(0.08f));
+  const ImVec2 middle = pixel(handle), tip = pixel(handle + 0.25f * radius * plane.normal);
+  if (!is_drawable(middle) || !is_drawable(tip)) return;
+  list.AddLine(middle, tip, colour, panel::em(0.14f));
+  list.AddCircleFilled(middle, panel::em(0.5f), panel::colours::background, 24);
+  list.AddCircle(middle, panel::em(0.5f), colour, 24, panel::em(hovered ? 0.2f : 0.14f));
+}
+
 }  // namespace heml::window

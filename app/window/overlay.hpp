@@ -25,4 +25,11 @@ void draw_suture_end(int node, const Frame& frame, const SurfaceMesh& surface_me
 /// The edges of the first bad element of a frame's recovery, drawn over the body.
 void draw_bad_element(const Frame& frame, const panel::CameraController& controller);
 
+/// Radius of the handle of a section plane, em.
+inline constexpr float section_handle = 0.8f;
+
+/// The frame of a section plane about its handle, and the handle. radius: m, of the body.
+void draw_section(const render::SectionPlane& plane, const Vec3f& handle, float radius, bool hovered,
+                  const panel::CameraController& controller);
+
 }  // namespace heml::window

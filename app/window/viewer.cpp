@@ -103,6 +103,8 @@ void Viewer::draw() {
   panel_->set_interaction(mouse_tool_.interaction(), mouse_tool_.first_end().has_value());
   panel_->update(*frame_, seconds);
   open_.session->enable_stretches(panel_->wants_stretches());
+  open_.session->enable_solid(panel_->view().section().is_on());
+  mouse_tool_.set_section(panel_->drawing().section);
   open_.session->enable_errors(panel_->wants_errors());
   const render::Size size = window_.size();
   interface_.set_scale(panel::Interface::suitable_scale(size) * window_.content_scale());
@@ -144,6 +146,12 @@ void Viewer::draw_marks() {
     if (panel_->shows_recovery()) draw_bad_element(body, controller_);
   });
   panel::draw_variant_labels(*frame_, controller_);
+  if (const auto plane = panel_->drawing().section)
+    panel::each_pane(*frame_, controller_, [&](std::size_t, const Frame&) {
+      const panel::SectionControl& section = panel_->view().section();
+      draw_section(*plane, section.handle(), section.radius(), drags_section_ || is_on_section_handle(), controller_);
+    });
+  if (drags_section_ || is_on_section_handle()) return ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeAll);
   if (mouse_tool_.interaction() == MouseTool::Interaction::grasping)
     return ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeAll);
   const bool free = mouse_tool_.interaction() == MouseTool::Interaction::none && !ImGui::IsAnyItemActive() &&
@@ -162,6 +170,13 @@ void Viewer::draw_marks() {
                                                 : 0);
     if (takes_patch) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
   }
+}
+
+bool Viewer::is_on_section_handle() const {
+  const panel::SectionControl& section = panel_->view().section();
+  if (!section.is_on() || mouse_tool_.interaction() != MouseTool::Interaction::none) return false;
+  return !panel_->covers(mouse_.x(), mouse_.y()) &&
+         (controller_.pixel(section.handle()) - mouse_).norm() < panel::em(section_handle);
 }
 
 void Viewer::follow_script() {
@@ -226,10 +241,15 @@ void Viewer::button(MouseButton button, bool down, bool shift) {
   changed();
   std::vector<Command> commands;
   if (!down) {
+    if (button == MouseButton::left) drags_section_ = false;
     mouse_tool_.release(button, commands);
     return post(commands);
   }
   if (panel_->covers(mouse_.x(), mouse_.y())) return;
+  if (button == MouseButton::left && is_on_section_handle()) {
+    drags_section_ = true;
+    return;
+  }
   if (playback_.active() && button == MouseButton::left && mouse_tool_.pick(mouse_, seen(), *seen().surface_mesh))
     panel_->notify(past_is_read_only);
   const bool has_other_surface = controller_.current() > 0 && !seen().distance;  // with other node numbers
@@ -247,7 +267,9 @@ void Viewer::button(MouseButton button, bool down, bool shift) {
 
 void Viewer::mouse(const render::Vec2f& at) {
   changed();
+  if (drags_section_) panel_->view().section().drag(mouse_, at, controller_);
   mouse_ = at;
+  if (drags_section_) return;
   if (mouse_tool_.interaction() == MouseTool::Interaction::none) controller_.select_pane_at(at);
   std::vector<Command> commands;
   mouse_tool_.move(at, seen(), *seen().surface_mesh, commands);

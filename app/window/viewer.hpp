@@ -69,6 +69,7 @@ class Viewer final : public WindowEvents {
   void draw_interface(float seconds);
   void remember_preferences();
   void draw_marks();
+  bool is_on_section_handle() const;  ///< the mouse
   void carry_out(const panel::PanelActions& actions);
   void carry_out(panel::Request request);
   void post(std::vector<Command>& commands);
@@ -119,6 +120,7 @@ class Viewer final : public WindowEvents {
   std::optional<std::filesystem::path> left_work_;  ///< of another run of the program: it is asked about, or restored
   bool restores_ = false;                           ///< the session being prepared is that of left_work_
   std::function<void()> after_question_;            ///< unless it is cancelled
+  bool drags_section_ = false;  ///< the left button went down on the handle of the section plane
   bool quits_ = false;
 };
 

@@ -129,6 +129,7 @@ void Viewer::resume_with(const std::vector<std::string>& comparisons) {
   scene.view = open_.scene.view;
   scene.view.field = frame_->field;
   scene.view.wireframe = panel_->drawing().wireframe;
+  panel_->view().section().write_into(scene.view);
   std::optional<std::filesystem::path> record = options_.record;
   if (!record && open_.was_recorded) record = open_.scene.file;
   playback_.play(false);

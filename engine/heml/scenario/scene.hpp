@@ -82,6 +82,8 @@ struct View {
   std::optional<double> zoom;                ///< 1: the body fills the image
   Field field = Field::none;
   bool wireframe = false;
+  std::optional<Vec3> section;  ///< unit normal of the section plane, towards what is cut away; none: no plane
+  double section_at = 0;        ///< m, of the plane along its normal, from the centre of the body at rest
 };
 
 /// Hash of a recorded world's state after `tick` ticks, before the commands of the next.

@@ -223,6 +223,9 @@ inline constexpr KeyInfo view[] = {
     {"zoom", form::between(0.01, 100), "", "1", "1: the body fills the picture"},
     {"field", form::one_of<field_names>(), "", "", "colours of the surface"},
     {"wireframe", form::flag, "", "", "edges of the mesh"},
+    {"section", form::direction, "", "no section",
+     "normal of a plane that cuts the drawn body open, towards what is left out; normalised when read"},
+    {"section_at", form::number, "m", "0", "of that plane along its normal, from the centre of the body at rest"},
 };
 inline constexpr KeyInfo recorded[] = {
     {"nodes", count, "", required, "of the mesh"},

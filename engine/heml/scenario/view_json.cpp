@@ -1,4 +1,5 @@
 #include <heml/scenario/scene_keys.hpp>
+#include <heml/scenario/vector_json.hpp>
 #include <heml/scenario/view_json.hpp>
 #include <heml/world/field_list.hpp>
 
@@ -12,6 +13,8 @@ View view_from(const JsonCursor& key) {
   object.read("zoom", view.zoom);
   object.read("field", view.field);
   object.read("wireframe", view.wireframe);
+  object.read("section", view.section);
+  object.read("section_at", view.section_at);
   return view;
 }
 
@@ -20,6 +23,10 @@ Json view_json(const View& view) {
   if (view.azimuth) json["azimuth"] = *view.azimuth;
   if (view.elevation) json["elevation"] = *view.elevation;
   if (view.zoom) json["zoom"] = *view.zoom;
+  if (view.section) {
+    json["section"] = vector_json(*view.section);
+    json["section_at"] = view.section_at;
+  }
   return json;
 }
 

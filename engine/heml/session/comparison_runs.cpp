@@ -42,7 +42,7 @@ ComparisonRuns::ComparisonRuns(const WorldSetup& setup, const std::vector<std::s
     Variant variant = variant_of(setup, word);
     variant.setup.solver.threads = 1;  // runs tick in parallel; the number of threads changes no bit
     auto world = make_world(std::move(variant.setup));
-    comparison_runs_.push_back({std::move(variant), std::move(world), nullptr});
+    comparison_runs_.push_back({std::move(variant), std::move(world), nullptr, nullptr});
   }
 }
 
@@ -84,6 +84,10 @@ void ComparisonRuns::fill(const World& world, Frame& frame, double ahead) {
     Frame& comparisons = frame.comparisons[k];
     run.surface_mesh = make_surface_mesh(*run.world, std::move(run.surface_mesh));
     fill_frame(*run.world, run.surface_mesh, frame.field, ahead, comparisons);
+    if (frame.solid)
+      fill_solid(*run.world, ahead, run.solid, comparisons);
+    else
+      clear_solid(comparisons);
     comparisons.variant = run.variant.name;
     comparisons.distance = distance_between(frame, comparisons);
   }

@@ -35,6 +35,7 @@ class ComparisonRuns {
     Variant variant;  ///< without its setup
     std::unique_ptr<World> world;
     std::shared_ptr<const SurfaceMesh> surface_mesh;
+    std::shared_ptr<const Solid> solid;
   };
   std::vector<ComparisonRun> comparison_runs_;
   ThreadTeam team_;

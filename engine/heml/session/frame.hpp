@@ -52,6 +52,14 @@ struct UndoList {
   std::vector<Command> settings;    ///< after the last of them: commands that set what holds since
 };
 
+/// The elements behind the surface, for pictures of the inside. Immutable and shared by frames.
+struct Solid {
+  long version = 0;          ///< Topology::version
+  std::vector<Vec3f> rest;   ///< #N×3, m, of all nodes of the mesh
+  std::vector<Tet> tets;     ///< #T: corners of the present elements, indices into `rest`
+  std::vector<int> regions;  ///< #T
+};
+
 struct Frame {
   std::shared_ptr<const SurfaceMesh> surface_mesh;
   long tick = 0;
@@ -62,6 +70,9 @@ struct Frame {
   Field field = Field::none;
   std::vector<float> values;            ///< #S in the field's unit; empty for Field::none
   std::vector<float> stretches;         ///< #S, largest principal stretch; empty unless asked for
+  std::shared_ptr<const Solid> solid;   ///< null unless asked for
+  std::vector<Vec3f> solid_positions;   ///< #N×3, m, in the order of Solid::rest
+  std::vector<float> solid_values;      ///< #N in the field's unit; empty for Field::none
   std::optional<double> mesh_error;     ///< relative, in the energy norm, 0 to 1; empty unless asked for and known
   std::optional<TimeError> time_error;  ///< of the last interval estimated; empty unless asked for and known
   Energies energies;

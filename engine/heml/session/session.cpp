@@ -117,6 +117,11 @@ class Session::Impl {
     show_now_ = true;
     wake_.notify_all();
   }
+  void enable_solid(bool wanted) {
+    if (solid_wanted_.exchange(wanted) == wanted) return;
+    show_now_ = true;
+    wake_.notify_all();
+  }
   void show(Field field) {
     field_ = field;
     show_now_ = true;
@@ -339,6 +344,10 @@ class Session::Impl {
     Frame& frame = frames_.back();
     surface_mesh_ = make_surface_mesh(*world_, std::move(surface_mesh_));
     fill_frame(*world_, surface_mesh_, field_, 0, frame, stretches_);
+    if (solid_wanted_)
+      fill_solid(*world_, 0, solid_, frame);
+    else
+      clear_solid(frame);
     if (comparison_runs_) comparison_runs_->fill(*world_, frame);
     find_errors(frame);
     frame.pace = pacer_.pace(began);
@@ -362,6 +371,7 @@ class Session::Impl {
   std::unique_ptr<World> world_;
   const std::map<int, std::string> region_names_;
   std::shared_ptr<const SurfaceMesh> surface_mesh_;  ///< of the last frame
+  std::shared_ptr<const Solid> solid_;               ///< of the last frame that had one
   std::optional<ComparisonRuns> comparison_runs_;
   std::optional<Recorder> recorder_;
   Scene scene_;          ///< without its events
@@ -381,6 +391,7 @@ class Session::Impl {
   long single_steps_ = 0;
   std::atomic<Field> field_;
   std::atomic<bool> playing_, stopping_{false}, finished_{false}, show_now_{false}, stretches_{false}, errors_{false};
+  std::atomic<bool> solid_wanted_{false};
   std::atomic<long> fast_forward_target_;  ///< the tick to fast-forward to; 0: none
 
   std::optional<BudgetController> budget_controller_;     ///< where the scene's budget is in milliseconds
@@ -410,6 +421,7 @@ Scene Session::until(const Frame& moment) const { return impl_->until(moment); }
 void Session::show(Field field) { impl_->show(field); }
 void Session::enable_stretches(bool wanted) { impl_->enable_stretches(wanted); }
 void Session::enable_errors(bool wanted) { impl_->enable_errors(wanted); }
+void Session::enable_solid(bool wanted) { impl_->enable_solid(wanted); }
 const Frame& Session::latest() { return impl_->frames_.front(); }
 bool Session::frame_waiting() const { return impl_->frames_.waiting(); }
 

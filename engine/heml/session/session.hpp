@@ -55,6 +55,7 @@ class Session {
   void enable_stretches(bool wanted);  ///< whether Frame::stretches is filled from now on
   void enable_errors(bool wanted);     ///< whether Frame::mesh_error and time_error are filled from now on
   const std::map<int, std::string>& region_names() const;  ///< those that the mesh's file names
+  void enable_solid(bool wanted);      ///< whether Frame::solid and what goes with it is filled from now on
   const Frame& latest();               ///< the newest frame; unchanged until the next call
   bool frame_waiting() const;          ///< whether latest() would return a newer one
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <heml/mesh/surface.hpp>
 #include <heml/session/surface_mesh.hpp>
+#include <numeric>
 
 namespace heml {
 
@@ -91,6 +92,32 @@ void fill_frame(World& world, std::shared_ptr<const SurfaceMesh> surface_mesh, F
   if (!world.edits().empty()) frame.last_edit = world.edits().back();
   frame.halted = world.halt() ? world.halt()->message : std::string();
   frame.surface_mesh = std::move(surface_mesh);
+}
+
+void fill_solid(World& world, double ahead, std::shared_ptr<const Solid>& last, Frame& frame) {
+  const auto topology = world.topology();
+  const TetMesh& mesh = world.setup().mesh;
+  if (!last || last->version != topology->version) {
+    Solid solid;
+    solid.version = topology->version;
+    for (const Vec3& x : mesh.nodes) solid.rest.push_back(x.cast<float>());
+    for (const int t : topology->elements) {
+      solid.tets.push_back(mesh.tets[static_cast<std::size_t>(t)]);
+      solid.regions.push_back(mesh.regions[static_cast<std::size_t>(t)]);
+    }
+    last = std::make_shared<const Solid>(std::move(solid));
+  }
+  frame.solid = last;
+  std::vector<int> nodes(last->rest.size());
+  std::iota(nodes.begin(), nodes.end(), 0);
+  world.write_positions(nodes, ahead, frame.solid_positions);
+  world.write_field(frame.field, nodes, frame.solid_values);
+}
+
+void clear_solid(Frame& frame) {
+  frame.solid.reset();
+  frame.solid_positions.clear();
+  frame.solid_values.clear();
 }
 
 }  // namespace heml

@@ -15,4 +15,11 @@ std::shared_ptr<const SurfaceMesh> make_surface_mesh(const World& world,
 void fill_frame(World& world, std::shared_ptr<const SurfaceMesh> surface_mesh, Field field, double ahead, Frame& frame,
                 bool with_stretches = false);
 
+/// Fills the frame's solid, its positions and its values of Frame::field; call after fill_frame(). `last`: the solid of
+/// the last fill, shared while the topology is the same.
+void fill_solid(World& world, double ahead, std::shared_ptr<const Solid>& last, Frame& frame);
+
+/// Removes it from the frame.
+void clear_solid(Frame& frame);
+
 }  // namespace heml

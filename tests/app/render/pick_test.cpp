@@ -42,6 +42,19 @@ TEST_CASE("a ray past the body picks nothing and one through it the near side") 
   CHECK(hit->point.z() == doctest::Approx(std::sqrt(1 - 0.05)).epsilon(0.02));
 }
 
+TEST_CASE("beyond a section plane nothing is picked, nor through its cap") {
+  const SurfaceMesh surface_mesh = ball_surface(2, 1);
+  const Frame frame = frame_at_rest(surface_mesh);
+  const Ray from_front{Vec3f(0.1f, 0.2f, 5), Vec3f(0, 0, -1)}, from_behind{Vec3f(0.1f, 0.2f, -5), Vec3f(0, 0, 1)};
+  const SectionPlane front_half{Vec3f::UnitZ(), 0};  // leaves out z > 0
+  CHECK_FALSE(pick(frame, surface_mesh, from_front, front_half));
+  const auto hit = pick(frame, surface_mesh, from_behind, front_half);
+  REQUIRE(hit);
+  CHECK(hit->point.z() < -0.9f);
+  CHECK(pick(frame, surface_mesh, from_front, SectionPlane{Vec3f::UnitX(), 0.5f}));
+  CHECK_FALSE(pick(frame, surface_mesh, from_front, SectionPlane{Vec3f::UnitX(), 0}));
+}
+
 TEST_CASE("a field is interpolated between the nodes of the hit triangle if the frame has one") {
   const SurfaceMesh surface_mesh = ball_surface(2, 1);
   Frame frame = frame_at_rest(surface_mesh);

@@ -341,4 +341,31 @@ TEST_CASE("survives frames with positions that are not finite") {
   CHECK_NOTHROW(stage.draw());
 }
 
+TEST_CASE("a section plane lays the inside open in the field's colours; one beside the body changes nothing") {
+  Stage stage;
+  const int middle = static_cast<int>(stage.surface_mesh.rest.size());
+  Solid solid;
+  solid.rest = stage.surface_mesh.rest;
+  solid.rest.emplace_back(Vec3f::Zero());
+  for (const auto& [a, b, c] : stage.surface_mesh.triangles) solid.tets.push_back({middle, a, b, c});
+  solid.regions.assign(solid.tets.size(), 0);
+  stage.frame.field = Field::displacement;
+  stage.frame.values.assign(stage.surface_mesh.rest.size(), 0);
+  stage.frame.solid = std::make_shared<const Solid>(solid);
+  stage.frame.solid_positions = solid.rest;
+  stage.frame.solid_values.assign(solid.rest.size(), 0);
+  stage.options.range = Range{0, 1};
+  const Image whole = stage.draw();
+  stage.options.section = SectionPlane{Vec3f::UnitZ(), 0.06f};
+  CHECK(count_different(whole, stage.draw()) == 0);
+  stage.options.section = SectionPlane{Vec3f::UnitZ(), 0};
+  const Image opened = stage.draw();
+  CHECK(count_different(whole, opened) > 1000);
+  stage.frame.solid_values.back() = 1;
+  const Image coloured = stage.draw();
+  CHECK_FALSE(same(opened, coloured, size.width / 2, size.height / 2));
+  stage.options.section.reset();
+  CHECK(count_different(whole, stage.draw()) == 0);
+}
+
 }  // namespace heml::renderer_test

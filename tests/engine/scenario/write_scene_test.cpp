@@ -69,7 +69,7 @@ Scene scene_of_everything() {
   scene.output_vtu = true;
   scene.initial_velocity = vector();
   scene.initial_positions = "/folder/start.csv";
-  scene.view = {number(), number(), number(), Field::von_mises, true};
+  scene.view = {number(), number(), number(), Field::von_mises, true, Vec3(0.6, 0, -0.8), number()};
   scene.recorded_mesh = MeshFingerprint{60, 120, 0xfedcba9876543210};
   return scene;
 }
@@ -139,6 +139,9 @@ TEST_CASE("writes a scene on one line that reads back bit for bit") {
   CHECK(back.view.zoom == scene.view.zoom);
   CHECK(back.view.field == Field::von_mises);
   CHECK(back.view.wireframe);
+  REQUIRE(back.view.section);
+  CHECK((*back.view.section - *scene.view.section).norm() < 1e-15);
+  CHECK(back.view.section_at == scene.view.section_at);
   CHECK(back.recorded_mesh == scene.recorded_mesh);
 }
 

@@ -69,6 +69,24 @@ TEST_CASE("frames contain stretches on request") {
   wait_for(session, [](const Frame& f) { return f.stretches.empty() && !f.values.empty(); });
 }
 
+TEST_CASE("frames contain the solid with the field inside on request") {
+  Session session(small_scene(), {});
+  wait_for(session, [](const Frame& f) { return f.tick > 20 && !f.solid && f.solid_positions.empty(); });
+  session.show(Field::displacement);
+  session.enable_solid(true);
+  const Frame& frame = wait_for(session, [](const Frame& f) { return f.solid && !f.solid_values.empty(); });
+  CHECK(frame.solid->tets.size() == frame.elements);
+  REQUIRE(frame.solid_positions.size() == frame.solid->rest.size());
+  REQUIRE(frame.solid_values.size() == frame.solid->rest.size());
+  for (std::size_t k = 0; k < frame.surface_mesh->nodes.size(); ++k) {
+    const auto node = static_cast<std::size_t>(frame.surface_mesh->nodes[k]);
+    CHECK(frame.solid_positions[node] == frame.positions[k]);
+    CHECK(frame.solid_values[node] == frame.values[k]);
+  }
+  session.enable_solid(false);
+  wait_for(session, [](const Frame& f) { return !f.solid && f.solid_positions.empty() && f.solid_values.empty(); });
+}
+
 TEST_CASE("frames contain error estimates on request, without effect on the body") {
   Session session(small_scene(), {});
   wait_for(session, [](const Frame& f) { return f.tick > 20 && !f.mesh_error && !f.time_error; });
