@@ -79,7 +79,7 @@ class Renderer::Impl {
   TissueLook whole_look_;
   std::optional<BodyMesh> body_;
   std::optional<SectionCap> cap_;  // made on first use
-  Vec4f section_ = Vec4f::Zero();  // the product with a point is negative beyond the section plane
+  Vec4f section_ = Vec4f::UnitW();  // the product with a point is negative beyond the section plane
   ShadowMap shadow_map_;
   Footprint footprint_;
   ToolDrawing tool_;
@@ -185,6 +185,7 @@ void Renderer::Impl::draw_picture(const ViewContext& shot, const Frame& frame, c
 }
 
 void Renderer::Impl::update_section(const Frame& frame, const DrawOptions& options, const Range& range) {
+  section_ = Vec4f::UnitW();  // leaves out nothing: OSMesa still clips in the first picture without a plane
   if (!options.section) return;
   section_ << -options.section->normal, options.section->offset;
   if (!cap_) cap_.emplace();
