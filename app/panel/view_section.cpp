@@ -62,9 +62,9 @@ void ViewSection::draw(Rows& rows, std::vector<Action>& pressed, PanelActions& o
                   "The image at the screen's full resolution. Off: half, which is faster without a graphics card."},
                  fine))
     drawing_.resolution = fine ? 1 : half_resolution;
-  section_.draw(rows);
   draw_views(rows, pressed);
   rows.check({"Hints", "The line below the body that says what mouse and keys do."}, hints_);
+  section_.draw(rows);
 }
 
 /// One button per view: restores it; saves the current view if none is saved, or with Ctrl.

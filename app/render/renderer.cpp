@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace heml::render {
 namespace {
@@ -193,8 +194,11 @@ void Renderer::Impl::update_section(const Frame& frame, const DrawOptions& optio
 }
 
 void Renderer::Impl::draw_cap(const ViewContext& shot, bool shows_field) {
+  // The cap lies in the plane itself, and OSMesa clips by the distance that a shader writes although clipping is off.
+  const Vec4f plane = std::exchange(section_, Vec4f::UnitW());
   prepare_body(shot, tissue_program(as_wound | as_cap | (shows_field ? with_field : 0u)));
   cap_->draw();
+  section_ = plane;
 }
 
 void Renderer::Impl::draw_body(const ViewContext& shot, const DrawOptions& options, bool shows_field) {
