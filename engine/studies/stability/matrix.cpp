@@ -88,7 +88,7 @@ std::string legend() {
   return svg + text(left, 48, 12, "start",
                     "Capital letters are promised, a red frame falls short, empty is not asked. SE symplectic Euler, V "
                     "Verlet, "
-                    "BE backward Euler, B2 BDF2, TR TR-BDF2, ST static",
+                    "BE backward Euler, B2 BDF2, TR TR-BDF2, SD SDIRK2, ST static",
                     "fill=\"#55645f\"");
 }
 
