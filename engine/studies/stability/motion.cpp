@@ -78,8 +78,8 @@ std::string proof_by_short_steps(const Trial& trial, WorldSetup setup, const Wor
   return max_gain(*world, 10 * static_cast<int>(inverted_world.ticks())).proof;
 }
 
-/// The proof for a law that stores a finite energy where an element is flat: Verlet's method, in live stable steps, turns
-/// elements inside out too, so that a method that did not would be wrong. Empty where it does not.
+/// The proof for a law that stores a finite energy where an element is flat: Verlet's method, in live stable steps,
+/// turns elements inside out too, so that a method that did not would be wrong. Empty where it does not.
 std::string proof_by_explicit_motion(const Trial& trial, WorldSetup setup, double duration) {
   const Mat3 flat = Vec3(1, 1, 0).asDiagonal();
   if (!make_material_point(setup.materials[0].material, setup.solver.continuation)->valid(flat)) return {};

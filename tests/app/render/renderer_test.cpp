@@ -341,7 +341,7 @@ TEST_CASE("survives frames with positions that are not finite") {
   CHECK_NOTHROW(stage.draw());
 }
 
-TEST_CASE("a section plane lays the inside open in the field's colours; one beside it leaves the body whole") {
+TEST_CASE("a section plane lays the inside open in the field's colours, and one beside it leaves the body whole") {
   Stage stage;
   const int middle = static_cast<int>(stage.surface_mesh.rest.size());
   Solid solid;
