@@ -54,12 +54,16 @@ class Picture:
         places = self.places(left, right)
         return sum(abs(a - b) for p in places for a, b in zip(self.pixel(*p), other.pixel(*p))) / (3 * len(places))
 
-    def tissue(self, left, right):
-        """The red pixel nearest to the median of all red pixels: a point on the tissue."""
+    def red(self, left, right):
+        """Places of red pixels: of tissue."""
         def is_red(place):
             red, green, _ = self.pixel(*place)
             return red > 90 and red > 1.7 * green
 
-        red = [place for place in self.places(left, right) if is_red(place)]
+        return [place for place in self.places(left, right) if is_red(place)]
+
+    def tissue(self, left, right):
+        """The red pixel nearest to the median of all red pixels: a point on the tissue."""
+        red = self.red(left, right)
         middle = statistics.median(x for x, _ in red), statistics.median(y for _, y in red)
         return min(red, key=lambda p: (p[0] - middle[0]) ** 2 + (p[1] - middle[1]) ** 2)

@@ -56,6 +56,27 @@ class Drawing(WindowCase):
         normalised = float(done.stderr.split("(")[1].split(")")[0])
         self.assertLess(normalised * 255, 3.0)  # the same limit as for committed frames
 
+    def test_a_section_opens_the_body_and_what_it_leaves_out_is_not_grasped(self):
+        self.open_display(640, 360)
+        self.begin_light("--record", "out.jsonl", scene=dict(light_scene(), gravity=[0, 0, 0]))
+        self.xdo("mousemove", 638, 358, "key", "space")
+        whole = self.steady()
+        self.do("key", "k")
+        opened = self.steady()
+        self.assertGreater(opened.change(whole, 220, 640), 1)
+        red = [set(picture.red(220, 640)) for picture in (whole, opened)]
+        left_out = sorted(red[0] - red[1])
+        self.assertGreater(len(left_out), len(red[0]) / 10, "nothing is left out")
+        self.do("key", "k")
+        self.assertLess(self.steady().change(whole, 220, 640), 0.1, "the whole body does not come back")
+        self.do("key", "k")
+        self.do("key", "space")
+        self.drag(left_out[len(left_out) // 2], (-10, 0))  # turns the view, if anything
+        self.assertEqual(self.seen("grasp"), [])
+        self.drag(self.display.picture().tissue(220, 640), (-10, 0))
+        self.wait_for_event("grasp")
+        self.quit()
+
     def test_a_paused_window_draws_nothing(self):
         self.open_display(640, 360)
         self.begin_light()
