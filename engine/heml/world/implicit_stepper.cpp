@@ -24,6 +24,7 @@ constexpr int quasi_patience = 5;            // iterations of L-BFGS for one of 
 // budgets in milliseconds where no clock may be asked; a session measures (session/budget_controller.hpp).
 constexpr double seconds_an_iteration = 0.7e-6;
 constexpr int max_iterations = 60, max_halvings = 40;
+constexpr long max_failed_iterations = 120;  // of a tick's attempts that fail between bodies in contact
 }  // namespace
 
 template <class Real>
@@ -31,16 +32,21 @@ std::optional<StopReason> ImplicitStepper<Real>::advance(double until) {
   const double whole = until - s_.state.time;
   const double shortest = s_.ticks <= s_.explicit_until ? whole : min_share * whole;
   double longest = whole;
+  long failed_iterations = 0;
   while (s_.state.time < until && !s_.interrupted) {
     const bool last = s_.state.time + 1.5 * longest > until;
     const double after = last ? until : s_.state.time + longest;
+    const long iterations_before = s_.stats.iterations;
     if (step(s_.method, after - s_.state.time, after) || damped_step(after - s_.state.time, after)) {
       ++s_.substeps;
       continue;
     }
     if (s_.interrupted) break;
     longest /= 2;
-    if (s_.setup.solver.step || longest < shortest)
+    failed_iterations += s_.stats.iterations - iterations_before;
+    // Pairs in contact are fixed during a solve: where they do not fit, shorter steps fail as well, at the same cost.
+    const bool is_hopeless = !s_.contacts.empty() && failed_iterations > max_failed_iterations;
+    if (s_.setup.solver.step || longest < shortest || is_hopeless)
       return keep_last_solved(s_, undefined_at_.empty()
                                       ? StopReason{StopReason::Cause::not_converged, -1, -1, why_unbalanced()}
                                       : out_of_range(s_, undefined_at_, after));
