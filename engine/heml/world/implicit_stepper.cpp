@@ -24,7 +24,7 @@ constexpr int quasi_patience = 5;            // iterations of L-BFGS for one of 
 // budgets in milliseconds where no clock may be asked; a session measures (session/budget_controller.hpp).
 constexpr double seconds_an_iteration = 0.7e-6;
 constexpr int max_iterations = 60, max_halvings = 40;
-constexpr long max_failed_iterations = 120;  // of a tick's attempts that fail between bodies in contact
+constexpr long max_failed_iterations = 120;  // in contact: of a tick's attempts that fail, of a stage's solves
 }  // namespace
 
 template <class Real>
@@ -165,14 +165,19 @@ bool ImplicitStepper<Real>::solve_stage(const Stage& stage, double h, double tim
   parts.body.move_tools(time - h * (substeps - 1) / substeps);
   x = stage_start(stage, time, x);
   NewtonResult result;
+  bool is_lagging = false;  // contact pairs or friction still change with each solve
   for (int substep = 1; substep <= substeps; ++substep) {
     if (substep > 1) parts.body.move_tools(time - h * (substeps - substep) / substeps);
+    long spent = 0;
     do {
       result = minimise_stage(x);
       s_.stats.iterations += result.iterations;
+      spent += result.iterations;
       if (s_.interrupted) return false;
-    } while (result.status != NewtonResult::Status::undefined && !s_.setup.solver.budget &&
-             parts.body.update_lagged(x));
+      is_lagging = result.status != NewtonResult::Status::undefined && !s_.setup.solver.budget &&
+                   parts.body.update_lagged(x);
+    } while (is_lagging && (s_.setup.solver.step || takes_any_iterate() || spent <= max_failed_iterations));
+    if (is_lagging) break;
   }
   Vector r;
   parts.step.residual(x, r);
@@ -182,6 +187,7 @@ bool ImplicitStepper<Real>::solve_stage(const Stage& stage, double h, double tim
     for (const double value : x) undefined_at_.push_back(static_cast<Real>(value));
     return false;
   }
+  if (is_lagging) return false;
   if (!result.converged() && !takes_any_iterate() && !is_balanced_enough(stage, r)) return false;
   v = stage.velocity(x);
   for (const ConstrainedNode& constrained : s_.model.constrained)
