@@ -17,7 +17,7 @@ constexpr double slack_of_motion = 1e-3;     // of gravity's acceleration: what 
 constexpr double earth = 9.81;               // m/s²
 constexpr int max_probe_substeps = 64;       // of a probe in a step
 constexpr double slack_of_energy = 1e-10;    // of a step's energy: what it may gain
-constexpr double round_off_fraction = 1e-2;     // of the bound on the round-off of energies: what sums of elements reach
+constexpr double round_off_fraction = 1e-2;  // of the bound on the round-off of energies: what sums of elements reach
 constexpr int quasi_patience = 5;            // iterations of L-BFGS for one of Newton's: then Newton's go on
 
 // Of an iteration, a tetrahedron, one core: the stiffness, a dozen products and back-solves, two forces and values. For

@@ -364,6 +364,18 @@ TEST_CASE("a section plane lays the inside open in the field's colours, and one 
   stage.frame.solid_values.back() = 1;
   const Image coloured = stage.draw();
   CHECK_FALSE(same(opened, coloured, size.width / 2, size.height / 2));
+  stage.frame.solid_values.back() = 0;
+  stage.options.section = SectionPlane{Vec3f(0.3f, 0.2f, 1).normalized(), 0.0031f};  // where round-off is either side
+  const Image oblique = stage.draw();
+  int least = 255, most = 0;
+  for (int x = size.width / 2 - 30; x <= size.width / 2 + 30; x += 3)
+    for (int y = size.height / 2 - 30; y <= size.height / 2 + 30; y += 3) {
+      const int blue = oblique.at(x, y)[2];
+      least = std::min(least, blue);
+      most = std::max(most, blue);
+    }
+  CAPTURE(least);
+  CHECK(most - least < 30);  // the cap has no holes
   stage.options.section.reset();
   CHECK(count_different(whole, stage.draw()) == 0);
 }
