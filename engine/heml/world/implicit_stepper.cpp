@@ -101,7 +101,10 @@ std::optional<StopReason> ImplicitStepper<Real>::take_best_iterate(double until)
   const bool done = step(Integrator::backward_euler, until - s_.state.time, until);
   takes_best_ = false;
   s_.implicit->h_before = 0;  // BDF2 starts anew
-  if (!done) return keep_last_solved(s_, out_of_range(s_, undefined_at_, until));
+  if (!done) {
+    if (s_.interrupted) return std::nullopt;
+    return keep_last_solved(s_, out_of_range(s_, undefined_at_, until));
+  }
   ++s_.substeps;
   return std::nullopt;
 }

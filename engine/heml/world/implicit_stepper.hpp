@@ -19,7 +19,7 @@ class ImplicitStepper {
 
   /// One step of backward Euler to `until`, s, to the best iterate, converged or not: Φ has not risen, and energy is
   /// limited to that of the start with the loads and supports of the end. Returns the element whose law is undefined
-  /// where no step is defined; the state is then the last one.
+  /// where no step is defined; the state is then the last one, as after an interrupt, which is no failure.
   std::optional<StopReason> take_best_iterate(double until);
 
   /// Iterations that a stage may take under a budget (setup.solver.budget must be given).

@@ -54,6 +54,7 @@ std::optional<StopReason> StepRescue<Real>::end_tick(double until, const StopRea
     return std::nullopt;
   }
   if (const auto undefined = implicit_.take_best_iterate(until)) return undefined;
+  if (s_.state.time < until) return std::nullopt;  // interrupted
   ++s_.stats.unconverged_steps;
   s_.stats.unconverged_residual = std::max(s_.stats.unconverged_residual, s_.stats.residual);
   return std::nullopt;

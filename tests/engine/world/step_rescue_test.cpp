@@ -2,7 +2,9 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
+#include <chrono>
 #include <cmath>
+#include <thread>
 
 #include "world_support.hpp"
 
@@ -67,6 +69,28 @@ TEST_CASE("step rescue: explicit substeps end a tick that does not converge, as 
     CHECK(std::string(stats.integrator) == integrator_name(integrator));
     CHECK(rms_difference(world->positions(), reference->positions()) < 5e-4);
     CHECK(rescue_message(stats).find("explicit substeps ended 15 of the ticks") != std::string::npos);
+  }
+}
+
+TEST_CASE("step rescue: an interrupt leaves the tick unfinished, wherever it comes") {
+  using Clock = std::chrono::steady_clock;
+  const WorldSetup setup = hopeless(Integrator::backward_euler, 1e9);
+  const auto start = Clock::now();
+  make_world(setup)->tick();
+  const Clock::duration whole = Clock::now() - start;
+  constexpr int moments = 60;
+  for (int k = 0; k < moments; ++k) {
+    CAPTURE(k);
+    const auto world = make_world(setup);
+    std::thread user([&] {
+      std::this_thread::sleep_for(whole * k / moments);
+      world->interrupt();
+    });
+    world->tick();
+    user.join();
+    CHECK_FALSE(world->halt());
+    CHECK(world->unfinished() == (world->ticks() == 0));
+    CHECK(world->solver_stats().unconverged_steps == world->ticks());
   }
 }
 
