@@ -19,7 +19,9 @@ declare -A selection=(
 case "${1:-}" in
   '') ;;
   --quick) presets=(release) ;;
-  --long) fuzz_seconds=300 world_fuzz_seconds=1800 selection=(); export HEML_LONG=1 ;;
+  --long)
+    fuzz_seconds=300 world_fuzz_seconds=1800 selection=()
+    export HEML_LONG=1 HEML_FUZZ_CASES=1000000000 HEML_WORLD_FUZZ_CASES=1000000000 ;;
   *) fail "usage: bash tests/run.sh [--quick | --long]" ;;
 esac
 

@@ -3,7 +3,7 @@
 // program of its own, since it replaces operator new. The text is read before: the JSON library allocates in its
 // destructors and does not survive a failure.
 //
-//   allocation_fuzz [--seconds S] [--first SEED]
+//   allocation_fuzz [--seconds S] [--first SEED] [--cases N]
 #include <fmt/format.h>
 
 #include <atomic>
@@ -90,7 +90,7 @@ Outcome load(const Scene& scene, long n) {
   return outcome;
 }
 
-int run(double seconds) {
+int run(double seconds, std::uint64_t cases) {
   std::set_terminate(tell_and_end);
   std::string pattern = (fs::temp_directory_path() / "allocation_fuzz_XXXXXX").string();
   const fs::path folder = mkdtemp(pattern.data());
@@ -98,7 +98,8 @@ int run(double seconds) {
   const auto begin = Clock::now();
   const auto over = [&] { return std::chrono::duration<double>(Clock::now() - begin).count() >= seconds; };
   long scenes = 0, loads = 0, ended = 0;
-  for (; !over(); ++tried) {
+  const std::uint64_t end = tried + cases;
+  for (; tried < end && !over(); ++tried) {
     const std::string text = scene_of_seed(tried);
     const fs::path file = folder / "scene.json";
     Scene scene;
@@ -126,10 +127,12 @@ int run(double seconds) {
 
 int main(int argc, char** argv) {
   double seconds = 10;
+  std::uint64_t cases = ~0ull >> 1;
   for (int k = 1; k + 1 < argc; k += 2) {
     const std::string name = argv[k];
     if (name == "--seconds") seconds = std::stod(argv[k + 1]);
     if (name == "--first") heml::fuzz::tried = std::stoull(argv[k + 1]);
+    if (name == "--cases") cases = std::stoull(argv[k + 1]);
   }
-  return heml::fuzz::run(seconds);
+  return heml::fuzz::run(seconds, cases);
 }

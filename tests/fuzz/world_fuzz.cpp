@@ -5,12 +5,13 @@
 //   world_fuzz SCENE.json            plays one file, in this process
 //
 // A case ends in InputError, in a halt, or well. All else is a failure: a crash, a report of a sanitizer, a leak,
-// another exception, more than 1 GB, 30 s that cannot be interrupted, a state that is not finite, a recording that does
+// another exception, more than 1 GB, 30 s of computing that cannot be interrupted, a state that is not finite, a recording that does
 // not verify. A failure leaves its scene in FOLDER/SEED.
 #include <fmt/format.h>
 #include <sanitizer/lsan_interface.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
+#include <sys/time.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -43,7 +44,8 @@ constexpr const char* outcome_names[] = {"played", "halted", "event refused", "r
 
 constexpr long max_ticks = 20;
 constexpr int max_cells = 200, max_refined = 400;
-constexpr unsigned interrupted_after = 3, hangs_after = 30;  // s
+constexpr int interrupted_after = 3, hangs_after = 30;       // s of the process's computing: others may load the machine
+constexpr unsigned stands_still_after = 300;                 // s
 constexpr long max_memory = 1 << 20;                         // KiB more than before a batch
 constexpr int batch = 20;                                    // cases a process
 
@@ -54,7 +56,7 @@ struct Failure : std::logic_error {
 /// A case that needs more time than it may have.
 struct TooLong {};
 
-World* playing = nullptr;  // the world that SIGALRM interrupts
+World* playing = nullptr;  // the world that SIGPROF interrupts
 
 /// Makes a world the one that is played, during its lifetime.
 struct Playing {
@@ -64,11 +66,17 @@ struct Playing {
   Playing& operator=(const Playing&) = delete;
 };
 
-/// The first alarm ends the tick under way; the second finds a world that cannot be interrupted, and ends the process.
-extern "C" void on_alarm(int) {
-  std::signal(SIGALRM, SIG_DFL);
+/// Sends SIGPROF once the process has computed for so long; never with 0.
+void limit_computing(int seconds) {
+  const itimerval limit{{0, 0}, {seconds, 0}};
+  setitimer(ITIMER_PROF, &limit, nullptr);
+}
+
+/// The first SIGPROF ends the tick under way; the second finds a world that cannot be interrupted, and ends the process.
+extern "C" void on_limit(int) {
+  std::signal(SIGPROF, SIG_DFL);
   if (playing) playing->interrupt();
-  alarm(hangs_after - interrupted_after);
+  limit_computing(hangs_after - interrupted_after);
 }
 
 void expect(bool holds, const std::string& what) {
@@ -147,8 +155,9 @@ void expect_verified(const fs::path& file, bool partial) {
 /// The scene of a text, played in all ways.
 Outcome play(const std::string& text, const fs::path& file) {
   const fs::path folder = file.parent_path();
-  std::signal(SIGALRM, on_alarm);
-  alarm(interrupted_after);
+  std::signal(SIGPROF, on_limit);
+  limit_computing(interrupted_after);
+  alarm(stands_still_after);
   try {
     Scene scene = parse_scene(text, file);
     expect_same_when_read_back(scene, folder);
@@ -199,6 +208,7 @@ struct Shared {
       _exit(1);
     }
   }
+  limit_computing(0);
   alarm(0);
   if (__lsan_do_recoverable_leak_check()) {
     fmt::print(stderr, "failure: a leak in seeds {} to {}\n", first, end - 1);
@@ -214,7 +224,8 @@ std::string cause_of(const fs::path& messages, int status) {
   for (std::string line; std::getline(in, line);)
     for (const char* word : {"failure: ", "ERROR: ", "runtime error: ", "terminate called", "Assertion", "terminating"})
       if (const auto at = line.find(word); at != line.npos) return line;
-  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM) return "hangs";
+  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGPROF) return "computes on when interrupted";
+  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM) return "stands still";
   return WIFSIGNALED(status) ? fmt::format("ended by signal {}", WTERMSIG(status))
                              : fmt::format("ended with {}", WEXITSTATUS(status));
 }
