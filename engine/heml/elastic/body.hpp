@@ -160,6 +160,8 @@ class ElasticBody {
   /// Writes the state of every integration point at x into out (#T in inner order, resized): one an element, or the
   /// four of each quadratic element in turn.
   void states(const Real* x, std::vector<ElementState<Real>>& out) const;
+  /// The same of signed volume ratios alone, at a small part of the cost.
+  void volume_ratios(const Real* x, std::vector<Real>& out) const;
 
   /// Elastic first Piola–Kirchhoff stress of every integration point, as states(), Pa, from its corner forces: P = −1/V
   /// Σ_a f_a ⊗ X_a. Springs, viscosity and relaxation do not contribute.

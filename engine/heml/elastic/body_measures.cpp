@@ -90,6 +90,14 @@ void ElasticBody<Real>::states(const Real* x, std::vector<ElementState<Real>>& o
 }
 
 template <class Real>
+void ElasticBody<Real>::volume_ratios(const Real* x, std::vector<Real>& out) const {
+  out.resize(mesh_.tets.size());
+  each_slot(x, [&](const Part& part, std::size_t s, const ElementKinematics<Real>& kinematics, const RestShape<Real>&) {
+    out[static_cast<std::size_t>(part.group.element[s])] = kinematics.at.J;
+  });
+}
+
+template <class Real>
 std::vector<Mat3> ElasticBody<Real>::stresses(const Real* x, ThreadTeam& team) {
   x = inner_positions(x, team);
   std::fill(corner_.begin(), corner_.end(), Real(0));
@@ -135,6 +143,8 @@ template int ElasticBody<float>::first_undefined(const float*) const;
 template int ElasticBody<double>::first_undefined(const double*) const;
 template void ElasticBody<float>::states(const float*, std::vector<ElementState<float>>&) const;
 template void ElasticBody<double>::states(const double*, std::vector<ElementState<double>>&) const;
+template void ElasticBody<float>::volume_ratios(const float*, std::vector<float>&) const;
+template void ElasticBody<double>::volume_ratios(const double*, std::vector<double>&) const;
 template std::vector<Mat3> ElasticBody<float>::deformation_gradients(const float*) const;
 template std::vector<Mat3> ElasticBody<double>::deformation_gradients(const double*) const;
 template std::vector<Mat3> ElasticBody<float>::stresses(const float*, ThreadTeam&);

@@ -146,12 +146,13 @@ std::vector<double> WorldQueries<Real>::volume_ratios() {
 
 template <class Real>
 std::vector<double> WorldQueries<Real>::point_volume_ratios() {
-  s_.acting_body().states(s_.state.x.data(), element_states_);
+  std::vector<Real> ratios;
+  s_.acting_body().volume_ratios(s_.state.x.data(), ratios);
   const std::size_t points = s_.body.points_per_element();
   std::vector<double> result;
   for (const int file : s_.topology->elements) {
     const auto t = static_cast<std::size_t>(s_.model.order.new_tet[static_cast<std::size_t>(file)]);
-    for (std::size_t q = 0; q < points; ++q) result.push_back(static_cast<double>(element_states_[points * t + q].J));
+    for (std::size_t q = 0; q < points; ++q) result.push_back(static_cast<double>(ratios[points * t + q]));
   }
   return result;
 }

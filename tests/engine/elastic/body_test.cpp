@@ -221,6 +221,10 @@ TEST_CASE("stretch and von Mises stress of a pulled bar are those of uniaxial te
                                                           BodyOptions{false, false});
   std::vector<ElementState<double>> states;
   body->states(x.data(), states);
+  std::vector<double> ratios;
+  body->volume_ratios(x.data(), ratios);
+  REQUIRE(ratios.size() == states.size());
+  for (std::size_t k = 0; k < states.size(); ++k) CHECK(ratios[k] == states[k].J);
   const double von_mises = 3.4e3 * (t * t - s * s) / (t * s * s);  // mu (t² − s²)/J
   for (const auto& state : states) {
     CHECK(state.J == doctest::Approx(t * s * s).epsilon(1e-12));
