@@ -9,13 +9,14 @@
 namespace heml::recovery_monitor_test {
 namespace {
 
-/// A box that a short, strong gravity inverts.
+/// A box that a short, strong gravity inverts. Saint Venant-Kirchhoff lets it, with any instruction set; a law whose
+/// energy grows without bound towards J = 0 fails there or not as round-off decides.
 Scene struck_scene() {
   return test::small_scene_with(R"({
-    "materials": [{"law": "neo_hookean", "young": 1e4, "poisson": 0.3}],
+    "materials": [{"law": "stvk", "young": 1e4, "poisson": 0.3}],
     "solver": {"rate": 60, "integrator": "backward_euler", "recovery": true, "duration": 2},
     "events": [{"step": 5, "grasp": {"point": [0.2, 0, 0], "radius": 0.01}}, {"step": 6, "release": true},
-               {"step": 10, "gravity": [-30000, 0, 0]}, {"step": 12, "gravity": [0, 0, 0]},
+               {"step": 10, "gravity": [-10000, 0, 0]}, {"step": 12, "gravity": [0, 0, 0]},
                {"step": 119, "damping": 1}]})");
 }
 
