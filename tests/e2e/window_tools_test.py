@@ -4,7 +4,7 @@ import re
 import struct
 import unittest
 
-from window_case import WindowCase
+from window_case import WindowCase, light_scene
 
 
 class Tools(WindowCase):
@@ -121,11 +121,11 @@ class Tools(WindowCase):
 
     def test_a_stroke_from_beside_the_body_to_its_other_side_takes_the_edges_along(self):
         self.open_display(1280, 720)
-        self.begin_light("--record", "out.jsonl", size="1280x720")
+        at_rest = {**light_scene(), "gravity": [0, 0, 0]}  # whenever it is paused
+        self.begin_light("--record", "out.jsonl", scene=at_rest, size="1280x720")
         self.xdo("mousemove", 1278, 718, "key", "c", "key", "space")
-        whole = self.steady()
-        place = whole.tissue(220, 1280)
-        self.drag((place[0] - 300, place[1]), (600, 0), steps=30)
+        self.steady()
+        self.drag((360, 450), (620, 0), steps=31)  # from between palette and box to between box and panel
         self.wait_for_event("cut", 3)
         self.quit()
         sweeps = [cut["sweep"] for cut in self.seen("cut")]
