@@ -1,9 +1,9 @@
 #include "app/render/renderer.hpp"
 
 #include <app/render/body_mesh.hpp>
+#include <app/render/resources.hpp>
 #include <app/render/section_cap.hpp>
 #include <app/render/shadows.hpp>
-#include <app/render/tissue_texture.hpp>
 #include <app/render/tool_drawing.hpp>
 #include <array>
 #include <cmath>
@@ -34,9 +34,10 @@ void upload_map(const Texture& texture, Field field) {
 }
 
 void upload_detail(const Texture& texture) {
-  constexpr int side = 768;
+  const std::string_view texels = resource("tissue.rgba");  // a square of make/tissue_texture.hpp
+  const auto side = static_cast<int>(std::lround(std::sqrt(static_cast<double>(texels.size()) / 4)));
   allocate_texture(texture, GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, {side, side});
-  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, side, side, GL_RGBA, GL_UNSIGNED_BYTE, tissue_texture(side).data());
+  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, side, side, GL_RGBA, GL_UNSIGNED_BYTE, texels.data());
   // Two mipmap levels against aliasing; in smaller ones the folds of the octahedral map would show.
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 2);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);

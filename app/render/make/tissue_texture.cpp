@@ -1,4 +1,4 @@
-#include "app/render/tissue_texture.hpp"
+#include "app/render/make/tissue_texture.hpp"
 
 #include <algorithm>
 #include <array>
