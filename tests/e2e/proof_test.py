@@ -18,7 +18,8 @@ LONG = "HEML_LONG" in os.environ
 SCENES = sorted((SOURCE / "assets" / "scenes").rglob("*.json"))
 INTEGRATORS = ["symplectic_euler", "verlet", "backward_euler", "bdf2", "tr_bdf2", "sdirk2", "auto"]
 EXPLICIT = INTEGRATORS[:2]
-FEW = {"large_cube": 3, "uterus": 12, "twist": 20, "21_nearly_incompressible": 2}  # ticks of large bodies
+# Ticks where one takes long.
+FEW = {"kidney_on_pad": 20, "large_cube": 3, "uterus": 12, "twist": 20, "21_nearly_incompressible": 2}
 MANY = 100_000  # of a million
 
 
