@@ -10,6 +10,7 @@
 #include <heml/scenario/energy_json.hpp>
 #include <heml/scenario/entries_json.hpp>
 #include <heml/scenario/event_json.hpp>
+#include <heml/scenario/feb_scene.hpp>
 #include <heml/scenario/file_kind.hpp>
 #include <heml/scenario/material_json.hpp>
 #include <heml/scenario/mesh_json.hpp>
@@ -261,7 +262,7 @@ Scene parse_scene(std::string_view text, const fs::path& as_if_from) {
 
 FileKind kind_of(const fs::path& path) {
   const std::string ending = lower_case(path.extension().string());
-  if (ending == ".json") return FileKind::scene;
+  if (ending == ".json" || is_feb_file(path)) return FileKind::scene;
   if (ending == ".jsonl") return FileKind::recording;
   if (is_tet_mesh_file(path)) return FileKind::tetrahedra;
   if (is_label_map_file(path)) return FileKind::labels;
@@ -270,16 +271,17 @@ FileKind kind_of(const fs::path& path) {
 }
 
 Scene read_scene(const fs::path& path, const BareMeshOptions& options) {
+  if (is_feb_file(path)) return scene_from_feb(path, options);
   const FileKind kind = kind_of(path);
   if (kind == FileKind::surface || kind == FileKind::tetrahedra || kind == FileKind::labels)
     return scene_around(path, options);
   const std::string text = read_text_file(path);
   if (kind == FileKind::other && !looks_like_json(text))
-    throw InputError(
-        path.string(), "", "is not a kind of file this program opens",
-        fmt::format("a scene (.json), a recording (.jsonl), tetrahedra (.msh .mesh .vtk .vtu .inp .node .ele), "
-                    "a label map (.nii .nii.gz .nrrd .nhdr .mha .mhd) or a surface ({})",
-                    fmt::join(surface_endings, " ")));
+    throw InputError(path.string(), "", "is not a kind of file this program opens",
+                     fmt::format("a scene (.json), a recording (.jsonl), a model of FEBio (.feb), "
+                                 "tetrahedra (.msh .mesh .vtk .vtu .inp .node .ele), "
+                                 "a label map (.nii .nii.gz .nrrd .nhdr .mha .mhd) or a surface ({})",
+                                 fmt::join(surface_endings, " ")));
   return parse_scene(text, path);
 }
 

@@ -66,7 +66,8 @@ inline constexpr KeyInfo scene[] = {
     {"recorded", object, "", none, "of a recording: with which mesh and build it was made"},
 };
 inline constexpr KeyInfo mesh[] = {
-    {"file", form::text, "", one_mesh, "tetrahedra: `.msh`, `.mesh`, `.vtk`, `.vtu`, `.inp`, `.node` with `.ele`"},
+    {"file", form::text, "", one_mesh,
+     "tetrahedra: `.msh`, `.mesh`, `.vtk`, `.vtu`, `.inp`, `.feb`, `.node` with `.ele`"},
     {"surface", form::text, "", one_mesh,
      "closed surface, filled with tetrahedra by TetGen: `.obj`, `.stl`, `.ply` ..."},
     {"tetgen", object, "", "`{}`", "how a surface is filled"},
