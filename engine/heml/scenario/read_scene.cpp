@@ -120,6 +120,7 @@ Scene scene_from(const JsonCursor& key, const fs::path& folder) {
   if (const auto solver = object.find("solver")) scene.solver = solver_from(*solver);
   if (const auto outputs = object.find("outputs")) read_outputs(*outputs, scene);
   if (const auto initial = object.find("initial")) read_initial(*initial, folder, scene);
+  if (const auto skin = object.find("skin")) scene.skin = skin_from(*skin, folder);
   if (const auto view = object.find("view")) scene.view = view_from(*view);
   if (const auto recorded = object.find("recorded")) {
     const ObjectReader made(*recorded, keys_of("recorded"));
