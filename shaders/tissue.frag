@@ -1,5 +1,5 @@
 // Wet tissue; with WOUND the raw faces that a cut exposes, or with FIELD the same surface with a colour map; HATCH adds
-// stripes where v_beyond > 0; OUTLINE draws the strip that fades the silhouette.
+// stripes where v_beyond > 0; PAINTED has colours of its own; OUTLINE draws the strip that fades the silhouette.
 in vec3 v_normal;
 in vec3 v_on_sphere;
 in vec3 v_slope;
@@ -10,6 +10,10 @@ in float v_value;
 #ifdef WOUND
 in vec3 v_rest;
 in float v_depth;
+#endif
+#ifdef PAINTED
+in vec2 v_place;
+in vec3 v_colour;
 #endif
 #ifdef HATCH
 in float v_beyond;
@@ -25,6 +29,10 @@ uniform vec3 lamp_right, lamp_up;  // the lamp's axes, unit
 uniform vec3 rim_direction;
 uniform sampler2D colour_map;
 uniform sampler2D detail_map;  // octahedral; rgb: gradient of fine bumps, a: vessels
+
+#ifdef PAINTED
+uniform sampler2D paint;
+#endif
 
 out vec4 colour;
 
@@ -107,6 +115,15 @@ void main() {
   const float wet = 1.25;
   vec3 hollow = vec3(open, open * open, open * open);
   vec3 shade = vec3(sqrt(v_visible), v_visible, v_visible) * mix(0.25, 1.0, open);
+#elif defined(PAINTED)
+  // The picture has the colours and details; light and wetness are those of tissue.
+  vec3 n = smooth_n, wet_n = smooth_n;
+  vec3 painted = v_colour * texture(paint, v_place).rgb;
+  vec3 albedo = painted * painted;  // near enough to sRGB's curve
+  const vec3 wrap = vec3(0.45, 0.16, 0.12);
+  const float wet = 0.8;
+  vec3 hollow = vec3(open, open * open, open * open);
+  vec3 shade = vec3(sqrt(v_visible), v_visible, v_visible);
 #else
   vec4 detail = texture(detail_map, octahedral(v_on_sphere));
   // Bumps: the gradient of a height field over the rest shape, applied to the deformed one. Its rotation is ignored: a

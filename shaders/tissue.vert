@@ -10,6 +10,10 @@ layout(location = 8) in float a_depth;   // below the original skin at rest, in 
 #ifdef HATCH
 layout(location = 7) in float a_beyond;   // above 0: hatched
 #endif
+#ifdef PAINTED
+layout(location = 9) in vec2 a_place;     // in the texture
+layout(location = 10) in vec4 a_colour;   // sRGB
+#endif
 #ifdef OUTLINE
 layout(location = 6) in vec3 a_strip;     // xy: away from the shape in clip units, z: cover
 #endif
@@ -31,6 +35,10 @@ out float v_value;
 #ifdef WOUND
 out vec3 v_rest;
 out float v_depth;
+#endif
+#ifdef PAINTED
+out vec2 v_place;
+out vec3 v_colour;
 #endif
 #ifdef HATCH
 out float v_beyond;
@@ -73,6 +81,10 @@ void main() {
 #ifdef WOUND
   v_rest = a_rest;
   v_depth = a_depth;
+#endif
+#ifdef PAINTED
+  v_place = a_place;
+  v_colour = a_colour.rgb;
 #endif
 #ifdef HATCH
   v_beyond = a_beyond;

@@ -118,8 +118,8 @@ std::string program_footer() {
 }  // namespace
 
 const char* const scene_files =
-    "a scene file (.json), a recording (.jsonl), or a mesh, surface or label map (.msh .mesh .vtk .vtu .inp .node .obj "
-    ".stl .ply .nii .nrrd .mha)";
+    "a scene file (.json), a recording (.jsonl), a model of FEBio (.feb), or a mesh, surface or label map (.msh .mesh "
+    ".vtk .vtu .inp .node .obj .stl .ply .nii .nrrd .mha)";
 
 std::span<const CommandDefinition> command_definitions() { return definitions; }
 

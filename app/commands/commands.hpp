@@ -78,6 +78,7 @@ int export_frames(const ExportArguments& arguments);
 
 struct ExplainArguments {
   std::string scene;
+  std::optional<std::filesystem::path> save;  ///< the scene as a file to edit
   bool json = false;
   bool measure = false;
 };

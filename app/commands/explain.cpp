@@ -4,7 +4,9 @@
 #include <app/commands/commands.hpp>
 #include <app/commands/explanation_json.hpp>
 #include <app/commands/progress.hpp>
+#include <heml/base/write_file.hpp>
 #include <heml/dynamics/linear_solver.hpp>
+#include <heml/scenario/input_files.hpp>
 #include <numbers>
 #include <studies/operation_count.hpp>
 
@@ -192,6 +194,10 @@ void print_measured(const Explanation& explained, const Measurement& measured) {
 
 int explain_scene(const ExplainArguments& arguments) {
   const Scene scene = read_scene(arguments.scene);
+  if (arguments.save) {
+    check_output_file(input_files(scene), *arguments.save);
+    write_file(*arguments.save, scene_text(scene, std::filesystem::absolute(*arguments.save).parent_path()));
+  }
   const Explanation explained = explain(scene);
   std::optional<Measurement> measured;
   if (arguments.measure) {

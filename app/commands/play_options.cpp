@@ -139,6 +139,10 @@ Action define_explain(CLI::App& command) {
   command.add_flag("--json", given->json, "for programs: numbers with 17 digits");
   command.add_flag("--measure", given->measure,
                    "run each feature on and off: its cost, and the error of leaving it out");
+  command
+      .add_option("--save", given->save,
+                  "write the scene that is run as a scene file: what was chosen for a mesh, or read from a .feb model")
+      ->type_name("FILE");
   return [given] { return explain_scene(*given); };
 }
 

@@ -3,12 +3,16 @@
 #include <app/panel/legend.hpp>
 #include <app/panel/scripted_blade.hpp>
 #include <app/panel/section_control.hpp>
-#include <heml/session/surface_mesh.hpp>
+#include <heml/scenario/skin.hpp>
 
 namespace heml::panel {
 
 FrameDrawing::FrameDrawing(const Scene& scene, const World& world, render::Size size, bool panel, bool comparisons)
-    : size_(size), context_(size_), surface_mesh_(make_surface_mesh(world)), view_(scene.view) {
+    : size_(size),
+      context_(size_),
+      surface_mesh_(make_surface_mesh(world)),
+      skin_(load_skin(scene, world.setup().mesh)),
+      view_(scene.view) {
   if (panel || comparisons || view_.field != Field::none) interface_.emplace(Interface::suitable_scale(size_));
   if (panel) panel_.emplace(scene, *surface_mesh_);
   for (const Event& event : scene.events)
@@ -23,7 +27,8 @@ render::StrokeDrawing FrameDrawing::stroke() const {
 render::Image FrameDrawing::draw(World& world, double ahead, double seconds, ComparisonRuns* comparison_runs) {
   surface_mesh_ = make_surface_mesh(world, std::move(surface_mesh_));
   fill_frame(world, surface_mesh_, view_.field, ahead, frame_, panel_ && panel_->wants_stretches());
-  if (view_.section) fill_solid(world, ahead, solid_, frame_);
+  if (view_.section || skin_.exists()) fill_solid(world, ahead, solid_, frame_);
+  skin_.attach(frame_);
   if (comparison_runs) comparison_runs->fill(world, frame_, ahead);
   frame_.pace.rate = 1 / world.setup().solver.tick();
   if (panel_)

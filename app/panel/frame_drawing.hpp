@@ -6,6 +6,7 @@
 #include <app/render/osmesa_context.hpp>
 #include <heml/scenario/scene.hpp>
 #include <heml/session/comparison_runs.hpp>
+#include <heml/session/surface_mesh.hpp>
 #include <heml/world/world.hpp>
 #include <optional>
 
@@ -31,7 +32,8 @@ class FrameDrawing {
   render::OsMesaContext context_;
   ComparisonView bodies_;
   std::shared_ptr<const SurfaceMesh> surface_mesh_;  ///< of the last frame
-  std::shared_ptr<const Solid> solid_;                ///< of the last frame, for a section
+  std::shared_ptr<const Solid> solid_;                ///< of the last frame, for a section or a skin
+  SkinAttachment skin_;
   View view_;
   std::vector<Event> cuts_;  ///< of the scene, for the blade
   Frame frame_;

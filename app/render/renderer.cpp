@@ -1,6 +1,7 @@
 #include "app/render/renderer.hpp"
 
 #include <app/render/body_mesh.hpp>
+#include <app/render/fine_skin.hpp>
 #include <app/render/resources.hpp>
 #include <app/render/section_cap.hpp>
 #include <app/render/shadows.hpp>
@@ -53,6 +54,7 @@ class Renderer::Impl {
 
  private:
   void update_surface_mesh(const Frame& frame);
+  void update_skin(const Frame& frame);
   const RenderTarget* canvas(const DrawOptions& options, Size size);
   void draw_picture(const ViewContext& shot, const Frame& frame, const DrawOptions& options);
   void update_section(const Frame& frame, const DrawOptions& options, const Range& range);
@@ -61,14 +63,22 @@ class Renderer::Impl {
   void draw_body_outline(const ViewContext& shot, bool shows_field);
   const Program& tissue_program(unsigned features);
   void prepare_body(const ViewContext& shot, const Program& program) const;
+  void draw_casters(const Program& program) const;
   void draw_shadows(const ViewContext& shot, const Frame& frame, const DrawOptions& options);
   void draw_edges(const ViewContext& shot) const;
   void draw_constrained(const ViewContext& shot) const;
   void draw_ground(const ViewContext& shot) const;
   void draw_backdrop(const ViewContext& shot) const;
 
-  enum TissueFeature : unsigned { with_field = 1, with_hatching = 2, as_outline = 4, as_wound = 8, as_cap = 16 };
-  std::array<std::optional<Program>, 32> tissue_;  // by features, compiled on first use
+  enum TissueFeature : unsigned {
+    with_field = 1,
+    with_hatching = 2,
+    as_outline = 4,
+    as_wound = 8,
+    as_cap = 16,
+    as_painted = 32
+  };
+  std::array<std::optional<Program>, 64> tissue_;  // by features, compiled on first use
   Program line_{"line.vert", "line.frag"};
   Program bead_{"bead.vert", "bead.frag"};
   Program ground_{"ground.vert", "ground.frag"};
@@ -80,7 +90,9 @@ class Renderer::Impl {
   std::shared_ptr<const SurfaceMesh> whole_;         // the mesh of the uncut body
   TissueLook whole_look_;
   std::optional<BodyMesh> body_;
-  std::optional<SectionCap> cap_;  // made on first use
+  std::optional<FineSkin> skin_;  // in place of the body's surface; kept while a cut body has none
+  bool shows_skin_ = false;
+  std::optional<SectionCap> cap_;   // made on first use
   Vec4f section_ = Vec4f::UnitW();  // the product with a point is negative beyond the section plane
   ShadowMap shadow_map_;
   Footprint footprint_;
@@ -114,12 +126,24 @@ void Renderer::Impl::update_surface_mesh(const Frame& frame) {
   body_.emplace(*surface_mesh_, look, std::move(wound));
 }
 
+void Renderer::Impl::update_skin(const Frame& frame) {
+  shows_skin_ = body_ && frame.skin && frame.solid;
+  if (!shows_skin_) return;
+  if (frame.solid_positions.size() != frame.solid->rest.size())
+    throw std::invalid_argument("Renderer::draw: the frame has another number of nodes than its solid");
+  if (!skin_ || skin_->source() != frame.skin) {
+    skin_.reset();
+    skin_.emplace(frame.skin, *whole_, whole_look_, body_->rest());
+  }
+}
+
 void Renderer::Impl::draw(const Frame& frame, const Camera& camera, const DrawOptions& options, Size size) {
   update_surface_mesh(frame);
   if (body_ && frame.positions.size() != body_->node_count())
     throw std::invalid_argument("Renderer::draw: the frame has another number of nodes than the surface mesh");
   if (body_ && !options.hatched.empty() && options.hatched.size() != body_->node_count())
     throw std::invalid_argument("Renderer::draw: `hatched` has another number of nodes than the surface mesh");
+  update_skin(frame);
   const RenderTarget* scaled = canvas(options, size);
   const Size drawn = scaled ? scaled->size() : size;
   const Mat4f sight = camera.view(), projection = camera.projection(drawn);
@@ -136,8 +160,14 @@ void Renderer::Impl::draw(const Frame& frame, const Camera& camera, const DrawOp
     const Range range = options.range.value_or(natural_range(frame.field, frame.values));
     body_->update(frame, range);
     update_section(frame, options, range);
-    body_->update_hatching(options.hatched);
-    body_->update_outline(camera.eye(), shot.view_projection, drawn);
+    if (shows_skin_) {
+      skin_->update(frame, range);
+      skin_->update_hatching(options.hatched);
+      skin_->update_outline(camera.eye(), shot.view_projection, drawn);
+    } else {
+      body_->update_hatching(options.hatched);
+      body_->update_outline(camera.eye(), shot.view_projection, drawn);
+    }
     draw_shadows(shot, frame, options);
   }
   if (scaled) {
@@ -208,6 +238,10 @@ void Renderer::Impl::draw_body(const ViewContext& shot, const DrawOptions& optio
     prepare_body(shot, program);
     program.set("hatch_period", hatch_period * static_cast<float>(shot.size.height) / 720);
   };
+  if (shows_skin_) {
+    prepare(tissue_program(features | (skin_->is_painted() ? as_painted : 0u)));
+    return skin_->draw();
+  }
   prepare(tissue_program(features));
   body_->draw_skin();
   if (!body_->has_wound()) return;
@@ -217,6 +251,10 @@ void Renderer::Impl::draw_body(const ViewContext& shot, const DrawOptions& optio
 
 void Renderer::Impl::draw_body_outline(const ViewContext& shot, bool shows_field) {
   const unsigned features = as_outline | (shows_field ? with_field : 0u);
+  if (shows_skin_) {
+    prepare_body(shot, tissue_program(features | (skin_->is_painted() ? as_painted : 0u)));
+    return skin_->draw_outline();
+  }
   prepare_body(shot, tissue_program(features));
   body_->draw_skin_outline();
   if (!body_->has_wound()) return;
@@ -224,9 +262,9 @@ void Renderer::Impl::draw_body_outline(const ViewContext& shot, bool shows_field
   body_->draw_wound_outline();
 }
 
-/// A field is shown alike on skin and wounds.
+/// A field is shown alike on skin and wounds, painted or not.
 const Program& Renderer::Impl::tissue_program(unsigned features) {
-  if (features & with_field) features &= ~as_wound;
+  if (features & with_field) features &= ~(as_wound | as_painted);
   std::optional<Program>& program = tissue_[features];
   if (program) return *program;
   std::vector<const char*> defines;
@@ -235,6 +273,7 @@ const Program& Renderer::Impl::tissue_program(unsigned features) {
   if (features & as_outline) defines.push_back("OUTLINE");
   if (features & as_wound) defines.push_back("WOUND");
   if (features & as_cap) defines.push_back("CAP");
+  if (features & as_painted) defines.push_back("PAINTED");
   return program.emplace("tissue.vert", "tissue.frag", defines);
 }
 
@@ -244,17 +283,18 @@ void Renderer::Impl::draw_shadows(const ViewContext& shot, const Frame& frame, c
   // The ground moves down with a body that sinks below its rest position.
   const float ground = std::min(rest.lowest - ground_gap * rest.radius, ball.lowest - 0.02f * rest.radius);
   ground_centre_ = Vec3f(rest.centre.x(), ground, rest.centre.z());
-  shadow_map_.draw(ball, key_direction, [&](const Program& program) {
-    program.set("model", Mat4f(Mat4f::Identity()));
+  const auto casters = [&](const Program& program) { draw_casters(program); };
+  shadow_map_.draw(ball, key_direction, casters);
+  if (options.ground) footprint_.draw(rest.centre, rest.radius, ground, shot.key_direction, casters);
+}
+
+void Renderer::Impl::draw_casters(const Program& program) const {
+  program.set("model", Mat4f(Mat4f::Identity()));
+  if (shows_skin_)
+    skin_->draw();
+  else
     body_->draw_flat();
-    tool_.cast(program);
-  });
-  if (!options.ground) return;
-  footprint_.draw(rest.centre, rest.radius, ground, shot.key_direction, [&](const Program& program) {
-    program.set("model", Mat4f(Mat4f::Identity()));
-    body_->draw_flat();
-    tool_.cast(program);
-  });
+  tool_.cast(program);
 }
 
 void Renderer::Impl::prepare_body(const ViewContext& shot, const Program& program) const {
@@ -275,6 +315,7 @@ void Renderer::Impl::prepare_body(const ViewContext& shot, const Program& progra
     glActiveTexture(GL_TEXTURE0 + unit);
     glBindTexture(GL_TEXTURE_2D, texture);
   };
+  if (shows_skin_ && skin_->is_painted()) bind(3, "paint", skin_->texture());
   bind(2, "shadow_map", shadow_map_.texture());
   bind(1, "colour_map", map_);
   bind(0, "detail_map", detail_);

@@ -2,11 +2,13 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <app/render/png.hpp>
 #include <app/window/glfw_window.hpp>
 #include <app/window/session_loader.hpp>
 #include <app/window/state_folder.hpp>
 #include <chrono>
 #include <heml/base/warning_collector.hpp>
+#include <heml/scenario/skin.hpp>
 #include <thread>
 
 namespace heml::window {
@@ -42,6 +44,11 @@ std::vector<std::string> findings_of(const Scene& scene, const std::vector<std::
   return findings;
 }
 
+/// A texture is read when it is first drawn, where nothing can be refused: it is tried here. Throws InputError.
+void try_texture(const Frame& frame) {
+  if (frame.skin && !frame.skin->surface.texture.empty()) render::read_png(frame.skin->surface.texture);
+}
+
 struct WakeAtEnd {
   ~WakeAtEnd() { GlfwWindow::wake(); }
 };
@@ -63,6 +70,7 @@ OpenScene start(Scene scene, const std::optional<fs::path>& record, std::vector<
   options.comparisons = result.comparisons;
   const WarningCollector warnings;
   result.session = std::make_unique<Session>(result.scene, options);
+  try_texture(result.session->latest());
   result.findings = findings_of(result.scene, warnings.texts());
   return result;
 }

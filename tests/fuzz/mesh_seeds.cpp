@@ -35,4 +35,5 @@ int main(int argc, char** argv) {
   write("ply_little_endian", 5, ply_little_endian);
   write("ply_big_endian", 5, ply_big_endian);
   write("abaqus", 6, abaqus);
+  write("feb", 7, feb);
 }

@@ -40,12 +40,6 @@ void read_answer(const std::string& subject, const std::string& text, std::vecto
     for (int& node : row) node = static_cast<int>(in.integer("a node", 0, static_cast<long long>(nodes.size()) - 1));
 }
 
-// assimp needs up to a hundred bytes per byte of the file, more if it is compressed; a corrupt size makes it allocate
-// much more or loop for hours.
-ProcessLimits reading_limits(double file_bytes) {
-  return {20 + file_bytes / 5e6, 120 + file_bytes / 5e6, std::min(256e6 + 1000 * file_bytes, 4e9)};
-}
-
 }  // namespace
 
 void check_options(const TriangleMesh& surface, const TetgenOptions& options) {
@@ -57,6 +51,12 @@ void check_options(const TriangleMesh& surface, const TetgenOptions& options) {
                      "a volume in m³ greater than 0");
 }
 
+// assimp needs up to a hundred bytes per byte of the file, more if it is compressed; a corrupt size makes it allocate
+// much more or loop for hours.
+ProcessLimits surface_reading_limits(double file_bytes) {
+  return {20 + file_bytes / 5e6, 120 + file_bytes / 5e6, std::min(256e6 + 1000 * file_bytes, 4e9)};
+}
+
 TriangleMesh read_surface(const std::filesystem::path& path) {
   HelperTask task{.subject = path.string(),
                   .doing = "reading it",
@@ -66,7 +66,7 @@ TriangleMesh read_surface(const std::filesystem::path& path) {
   {
     const std::string text = file_contents(path);
     if (is_ply(text)) check_ply(task.subject, text);
-    task.limits = reading_limits(static_cast<double>(text.size()));
+    task.limits = surface_reading_limits(static_cast<double>(text.size()));
   }
   TriangleMesh surface;
   surface.source = task.subject;

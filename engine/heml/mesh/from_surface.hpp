@@ -2,6 +2,7 @@
 // Tetrahedral meshing of surfaces. assimp and TetGen run in a helper process (heml-mesher) with limits on time and
 // memory: TetGen terminates its host on bad input, and builds without them still read tetrahedral meshes.
 #include <filesystem>
+#include <heml/mesh/mesher_process.hpp>
 #include <heml/mesh/tet_mesh.hpp>
 #include <optional>
 #include <string>
@@ -18,6 +19,9 @@ struct TetgenOptions {
 /// Reads a surface in any format of assimp (OBJ, STL, PLY, ...). Merges vertices of equal position; keeps triangles
 /// only. Throws InputError.
 TriangleMesh read_surface(const std::filesystem::path& path);
+
+/// Limits of the helper that reads a surface of so many bytes.
+ProcessLimits surface_reading_limits(double file_bytes);
 
 /// Throws InputError for no triangles, indices of no node, and positions that are not finite or too large.
 void check_numbers(const TriangleMesh& surface);

@@ -31,6 +31,7 @@ ReadMesh read_by_ending(const std::filesystem::path& path) {
   }
   const std::string text = file_contents(path);
   if (ending == ".inp") return read_abaqus(path.string(), text);
+  if (ending == ".feb") return read_feb(path.string(), text);
   if (ending == ".msh") return read_gmsh(path.string(), text);
   if (ending == ".mesh") return read_medit(path.string(), text);
   if (ending == ".vtk") return read_vtk(path.string(), text);
@@ -70,14 +71,14 @@ void drop_midedges(const std::filesystem::path& path, std::size_t linear, ReadMe
 }  // namespace
 
 bool is_tet_mesh_file(const std::filesystem::path& path) {
-  constexpr std::array endings{".msh", ".mesh", ".vtk", ".vtu", ".inp", ".node", ".ele"};
+  constexpr std::array endings{".msh", ".mesh", ".vtk", ".vtu", ".inp", ".feb", ".node", ".ele"};
   return std::find(endings.begin(), endings.end(), ending_of(path)) != endings.end();
 }
 
 TetMesh read_tet_mesh(const std::filesystem::path& path, MidEdges* midedges) {
   if (!is_tet_mesh_file(path))
     throw InputError(path.string(), "", "is no mesh of tetrahedra this program knows",
-                     ".msh, .mesh, .vtk, .vtu, .inp, or .node with .ele");
+                     ".msh, .mesh, .vtk, .vtu, .inp, .feb, or .node with .ele");
   ReadMesh read = read_by_ending(path);
   read.mesh.source = path.string();
   if (read.mesh.tets.empty())

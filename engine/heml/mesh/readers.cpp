@@ -145,15 +145,19 @@ void NodeNumbers::finish(const Scanner& in) {
   if (twice != numbers_.end()) in.fail(fmt::format("node number {} is given twice", twice->number));
 }
 
+int NodeNumbers::find_or_none(long long number) const {
+  if (numbers_.empty() || number < numbers_.front().number || number > numbers_.back().number) return -1;
+  const auto guess = static_cast<std::size_t>(number) - static_cast<std::size_t>(numbers_.front().number);
+  if (guess < numbers_.size() && numbers_[guess].number == number) return numbers_[guess].node;
+  const auto at = std::lower_bound(numbers_.begin(), numbers_.end(), number,
+                                   [](const Entry& entry, long long value) { return entry.number < value; });
+  return at->number == number ? at->node : -1;
+}
+
 int NodeNumbers::find(long long number, const Scanner& in) const {
-  if (!numbers_.empty() && number >= numbers_.front().number && number <= numbers_.back().number) {
-    const auto guess = static_cast<std::size_t>(number) - static_cast<std::size_t>(numbers_.front().number);
-    if (guess < numbers_.size() && numbers_[guess].number == number) return numbers_[guess].node;
-    const auto at = std::lower_bound(numbers_.begin(), numbers_.end(), number,
-                                     [](const Entry& entry, long long value) { return entry.number < value; });
-    if (at->number == number) return at->node;
-  }
-  in.fail(fmt::format("names node {}, which the file does not give", number));
+  const int node = find_or_none(number);
+  if (node < 0) in.fail(fmt::format("names node {}, which the file does not give", number));
+  return node;
 }
 
 void add_vtk_cells(const VtkCells& cells, int first_node, const Scanner& in, ReadMesh& read) {

@@ -17,6 +17,7 @@ struct ReadMesh {
 };
 
 ReadMesh read_abaqus(std::string file, std::string_view text);
+ReadMesh read_feb(std::string file, std::string_view text);  ///< feb_mesh.hpp
 ReadMesh read_gmsh(std::string file, std::string_view text);
 ReadMesh read_medit(std::string file, std::string_view text);
 ReadMesh read_vtk(std::string file, std::string_view text);
@@ -48,6 +49,7 @@ class NodeNumbers {
   void add(long long number) { numbers_.push_back({number, static_cast<int>(numbers_.size())}); }
   void finish(const Scanner& in);                       ///< after the last add(); throws for a duplicate number
   int find(long long number, const Scanner& in) const;  ///< throws for an unknown number
+  int find_or_none(long long number) const;             ///< −1 for an unknown number
 
  private:
   struct Entry {

@@ -32,6 +32,9 @@ std::vector<fs::path> input_files(const Scene& scene) {
     if (file.extension() == ".node" || file.extension() == ".ele")
       for (const char* half : {".node", ".ele"}) files.push_back(fs::path(file).replace_extension(half));
   }
+  if (scene.skin)
+    for (const fs::path& file : {scene.skin->file, scene.skin->texture})
+      if (!file.empty()) files.push_back(file);
   if (!scene.mesh.asset.empty()) files.push_back(asset_mesh_file(scene.mesh.asset));
   return files;
 }

@@ -10,6 +10,7 @@
 #include <heml/mesh/mend/mend.hpp>
 #include <heml/mesh/quality.hpp>
 #include <heml/mesh/read.hpp>
+#include <heml/scenario/feb_scene.hpp>
 #include <heml/scenario/label_names.hpp>
 #include <heml/scenario/load_mesh.hpp>
 #include <heml/scenario/placement.hpp>
@@ -125,7 +126,7 @@ TetMesh load_mesh(const Scene& scene, MidEdges* midedges) {
   const QualityReport report = check_tets(mesh, midedges);
   if (midedges) check_midedges(mesh, *midedges);
   for (const std::string& warning : report.warnings) warn("{}: {}", mesh.source, warning);
-  if (!scene.mesh.box)
+  if (!scene.mesh.box && !is_feb_file(scene.mesh.file))  // a model has all of its numbers in its unit
     if (const std::string odd = unit_warning(report.low, report.high); !odd.empty()) warn("{}: {}", mesh.source, odd);
   return mesh;
 }

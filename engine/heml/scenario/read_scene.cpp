@@ -10,6 +10,7 @@
 #include <heml/scenario/energy_json.hpp>
 #include <heml/scenario/entries_json.hpp>
 #include <heml/scenario/event_json.hpp>
+#include <heml/scenario/feb_scene.hpp>
 #include <heml/scenario/file_kind.hpp>
 #include <heml/scenario/material_json.hpp>
 #include <heml/scenario/mesh_json.hpp>
@@ -119,6 +120,7 @@ Scene scene_from(const JsonCursor& key, const fs::path& folder) {
   if (const auto solver = object.find("solver")) scene.solver = solver_from(*solver);
   if (const auto outputs = object.find("outputs")) read_outputs(*outputs, scene);
   if (const auto initial = object.find("initial")) read_initial(*initial, folder, scene);
+  if (const auto skin = object.find("skin")) scene.skin = skin_from(*skin, folder);
   if (const auto view = object.find("view")) scene.view = view_from(*view);
   if (const auto recorded = object.find("recorded")) {
     const ObjectReader made(*recorded, keys_of("recorded"));
@@ -261,7 +263,7 @@ Scene parse_scene(std::string_view text, const fs::path& as_if_from) {
 
 FileKind kind_of(const fs::path& path) {
   const std::string ending = lower_case(path.extension().string());
-  if (ending == ".json") return FileKind::scene;
+  if (ending == ".json" || is_feb_file(path)) return FileKind::scene;
   if (ending == ".jsonl") return FileKind::recording;
   if (is_tet_mesh_file(path)) return FileKind::tetrahedra;
   if (is_label_map_file(path)) return FileKind::labels;
@@ -270,16 +272,17 @@ FileKind kind_of(const fs::path& path) {
 }
 
 Scene read_scene(const fs::path& path, const BareMeshOptions& options) {
+  if (is_feb_file(path)) return scene_from_feb(path, options);
   const FileKind kind = kind_of(path);
   if (kind == FileKind::surface || kind == FileKind::tetrahedra || kind == FileKind::labels)
     return scene_around(path, options);
   const std::string text = read_text_file(path);
   if (kind == FileKind::other && !looks_like_json(text))
-    throw InputError(
-        path.string(), "", "is not a kind of file this program opens",
-        fmt::format("a scene (.json), a recording (.jsonl), tetrahedra (.msh .mesh .vtk .vtu .inp .node .ele), "
-                    "a label map (.nii .nii.gz .nrrd .nhdr .mha .mhd) or a surface ({})",
-                    fmt::join(surface_endings, " ")));
+    throw InputError(path.string(), "", "is not a kind of file this program opens",
+                     fmt::format("a scene (.json), a recording (.jsonl), a model of FEBio (.feb), "
+                                 "tetrahedra (.msh .mesh .vtk .vtu .inp .node .ele), "
+                                 "a label map (.nii .nii.gz .nrrd .nhdr .mha .mhd) or a surface ({})",
+                                 fmt::join(surface_endings, " ")));
   return parse_scene(text, path);
 }
 

@@ -76,6 +76,12 @@ struct MarkerEntry {
   Selection where;
 };
 
+/// A fine surface that is drawn in place of the body's own (skin.hpp); it does not affect the physics.
+struct SkinSpec {
+  std::filesystem::path file;     ///< surface, placed as the mesh is
+  std::filesystem::path texture;  ///< PNG; empty: the one that the surface names, if any
+};
+
 /// Initial settings of a viewer; they do not affect the physics.
 struct View {
   std::optional<double> azimuth, elevation;  ///< degrees
@@ -157,6 +163,7 @@ struct Scene {
   Vec3 initial_velocity = Vec3::Zero();
   std::filesystem::path initial_positions;
   View view;
+  std::optional<SkinSpec> skin;
   std::optional<BareMeshChoices> chosen;  ///< of a bare mesh only
   std::vector<Event> events;              ///< ascending in tick
   /// By index in `events`: points (m) given instead of node numbers; the command gets the nearest surface nodes.

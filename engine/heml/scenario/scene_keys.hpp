@@ -60,13 +60,15 @@ inline constexpr KeyInfo scene[] = {
     {"outputs", object, "", "`{}`", "what `heml solve` writes"},
     {"initial", object, "", "`{}`", "state at time 0"},
     {"view", object, "", "`{}`", "how the window and frames begin; no part of the physics"},
+    {"skin", object, "", none, "a fine surface that is drawn in place of the body's own; no part of the physics"},
     {"events", form::other("list of [events](#events)"), "", "`[]`", "the script: what happens when"},
     {"checkpoints", form::other("list of [checkpoints](#recordings)"), "", "`[]`",
      "states that `replay --verify` compares"},
     {"recorded", object, "", none, "of a recording: with which mesh and build it was made"},
 };
 inline constexpr KeyInfo mesh[] = {
-    {"file", form::text, "", one_mesh, "tetrahedra: `.msh`, `.mesh`, `.vtk`, `.vtu`, `.inp`, `.node` with `.ele`"},
+    {"file", form::text, "", one_mesh,
+     "tetrahedra: `.msh`, `.mesh`, `.vtk`, `.vtu`, `.inp`, `.feb`, `.node` with `.ele`"},
     {"surface", form::text, "", one_mesh,
      "closed surface, filled with tetrahedra by TetGen: `.obj`, `.stl`, `.ply` ..."},
     {"tetgen", object, "", "`{}`", "how a surface is filled"},
@@ -239,6 +241,12 @@ inline constexpr KeyInfo recorded[] = {
     {"build", form::text, "", "not told", "of the program that recorded"},
 };
 
+inline constexpr KeyInfo skin[] = {
+    {"file", form::text, "", required,
+     "surface in the place and unit of the mesh, of any resolution: `.obj`, `.ply` ..."},
+    {"texture", form::text, "", "the one that the surface names", "image, `.png`, over its texture coordinates"},
+};
+
 }  // namespace scene_keys
 
 /// In the order of the reference page.
@@ -277,6 +285,8 @@ inline constexpr ObjectInfo scene_objects[] = {
     {"initial", "State at time 0. Without it the body starts at rest in its rest shape.", scene_keys::initial,
      R"({"initial": {}})"},
     {"view", "How a viewer begins.", scene_keys::view, R"({"view": {}})"},
+    {"skin", "Drawn while the body is whole; a body that is cut is drawn by its own surface.", scene_keys::skin,
+     R"({"skin": {"file": "a.obj"}})"},
     {"recorded", "Written by the program.", scene_keys::recorded,
      R"({"recorded": {"nodes": 8, "tets": 5, "mesh": "0123456789abcdef"}})"},
 };

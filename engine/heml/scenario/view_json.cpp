@@ -1,3 +1,4 @@
+#include <heml/scenario/mesh_json.hpp>
 #include <heml/scenario/scene_keys.hpp>
 #include <heml/scenario/vector_json.hpp>
 #include <heml/scenario/view_json.hpp>
@@ -27,6 +28,20 @@ Json view_json(const View& view) {
     json["section"] = vector_json(*view.section);
     json["section_at"] = view.section_at;
   }
+  return json;
+}
+
+SkinSpec skin_from(const JsonCursor& key, const std::filesystem::path& folder) {
+  const ObjectReader object(key, keys_of("skin"));
+  SkinSpec skin;
+  skin.file = path_from(object["file"], folder);
+  if (const auto texture = object.find("texture")) skin.texture = path_from(*texture, folder);
+  return skin;
+}
+
+Json skin_json(const SkinSpec& skin, const std::filesystem::path& folder) {
+  Json json = {{"file", path_text(skin.file, folder)}};
+  if (!skin.texture.empty()) json["texture"] = path_text(skin.texture, folder);
   return json;
 }
 

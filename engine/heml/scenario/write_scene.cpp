@@ -40,6 +40,7 @@ Json scene_json(const Scene& scene, const std::filesystem::path& folder) {
   json["initial"] = {{"velocity", vector_json(scene.initial_velocity)}};
   if (!scene.initial_positions.empty()) json["initial"]["positions"] = path_text(scene.initial_positions, folder);
   json["view"] = view_json(scene.view);
+  if (scene.skin) json["skin"] = skin_json(*scene.skin, folder);
   if (scene.recorded_mesh)
     json["recorded"] = {{"nodes", scene.recorded_mesh->nodes},
                         {"tets", scene.recorded_mesh->tets},

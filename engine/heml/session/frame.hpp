@@ -27,6 +27,8 @@ inline const SurfaceMesh& uncut_surface(const SurfaceMesh& surface_mesh) {
   return surface_mesh.whole ? *surface_mesh.whole : surface_mesh;
 }
 
+struct Skin;  // scenario/skin.hpp
+
 /// How well the engine keeps up with the wall clock.
 struct Pace {
   double rate = 0;          ///< Hz, ticks per simulated second
@@ -68,12 +70,13 @@ struct Frame {
   long commands = 0;             ///< carried out since the start (Session::until)
   std::vector<Vec3f> positions;  ///< #S×3, m, in the order of SurfaceMesh::nodes
   Field field = Field::none;
-  std::vector<float> values;            ///< #S in the field's unit; empty for Field::none
-  std::vector<float> stretches;         ///< #S, largest principal stretch; empty unless asked for
-  std::shared_ptr<const Solid> solid;   ///< null unless asked for
-  std::vector<Vec3f> solid_positions;   ///< #N×3, m, in the order of Solid::rest
-  std::vector<float> solid_values;      ///< #N in the field's unit; empty for Field::none
-  std::optional<double> mesh_error;     ///< relative, in the energy norm, 0 to 1; empty unless asked for and known
+  std::vector<float> values;           ///< #S in the field's unit; empty for Field::none
+  std::vector<float> stretches;        ///< #S, largest principal stretch; empty unless asked for
+  std::shared_ptr<const Solid> solid;  ///< null unless asked for
+  std::vector<Vec3f> solid_positions;  ///< #N×3, m, in the order of Solid::rest
+  std::vector<float> solid_values;     ///< #N in the field's unit; empty for Field::none
+  std::shared_ptr<const Skin> skin;    ///< drawn in place of the surface, with `solid`; null: there is none, or no more
+  std::optional<double> mesh_error;    ///< relative, in the energy norm, 0 to 1; empty unless asked for and known
   std::optional<TimeError> time_error;  ///< of the last interval estimated; empty unless asked for and known
   Energies energies;
   double min_J = 1, max_J = 1;

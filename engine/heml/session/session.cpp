@@ -8,6 +8,7 @@
 #include <heml/scenario/recorder.hpp>
 #include <heml/scenario/recovery_monitor.hpp>
 #include <heml/scenario/schedule.hpp>
+#include <heml/scenario/skin.hpp>
 #include <heml/session/budget_controller.hpp>
 #include <heml/session/comparison_runs.hpp>
 #include <heml/session/mailbox.hpp>
@@ -41,6 +42,7 @@ class Session::Impl {
       : options_(std::move(options)),
         world_(world_with_undo(scene)),
         region_names_(world_->setup().mesh.region_names),
+        skin_(load_skin(scene, world_->setup().mesh)),
         scene_(without_events(scene)),
         schedule_(scene, world_->setup().mesh),
         recorded_ticks_(scene.recorded_ticks.value_or(0)),
@@ -344,10 +346,11 @@ class Session::Impl {
     Frame& frame = frames_.back();
     surface_mesh_ = make_surface_mesh(*world_, std::move(surface_mesh_));
     fill_frame(*world_, surface_mesh_, field_, 0, frame, stretches_);
-    if (solid_wanted_)
+    if (solid_wanted_ || skin_.exists())
       fill_solid(*world_, 0, solid_, frame);
     else
       clear_solid(frame);
+    skin_.attach(frame);
     if (comparison_runs_) comparison_runs_->fill(*world_, frame);
     find_errors(frame);
     frame.pace = pacer_.pace(began);
@@ -370,6 +373,7 @@ class Session::Impl {
   SessionOptions options_;
   std::unique_ptr<World> world_;
   const std::map<int, std::string> region_names_;
+  SkinAttachment skin_;
   std::shared_ptr<const SurfaceMesh> surface_mesh_;  ///< of the last frame
   std::shared_ptr<const Solid> solid_;               ///< of the last frame that had one
   std::optional<ComparisonRuns> comparison_runs_;

@@ -1,7 +1,10 @@
 #include <algorithm>
+#include <heml/base/log.hpp>
 #include <heml/mesh/surface.hpp>
+#include <heml/scenario/skin.hpp>
 #include <heml/session/surface_mesh.hpp>
 #include <numeric>
+#include <utility>
 
 namespace heml {
 
@@ -112,6 +115,18 @@ void fill_solid(World& world, double ahead, std::shared_ptr<const Solid>& last, 
   std::iota(nodes.begin(), nodes.end(), 0);
   world.write_positions(nodes, ahead, frame.solid_positions);
   world.write_field(frame.field, nodes, frame.solid_values);
+}
+
+bool is_uncut(const SurfaceMesh& surface_mesh) {
+  const SurfaceMesh& whole = uncut_surface(surface_mesh);
+  return surface_mesh.nodes == whole.nodes && surface_mesh.triangles == whole.triangles;
+}
+
+void SkinAttachment::attach(Frame& frame) {
+  const bool whole = skin_ && frame.surface_mesh && is_uncut(*frame.surface_mesh);
+  frame.skin = whole ? skin_ : nullptr;
+  if (skin_ && !whole && !std::exchange(told_, true))
+    warn("{}: the skin is not cut: from now on the body is drawn by its own surface", skin_->surface.mesh.source);
 }
 
 void clear_solid(Frame& frame) {

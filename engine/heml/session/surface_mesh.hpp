@@ -22,4 +22,21 @@ void fill_solid(World& world, double ahead, std::shared_ptr<const Solid>& last, 
 /// Removes it from the frame.
 void clear_solid(Frame& frame);
 
+/// Whether a surface is that of the body before all edits: none was made, or all are undone.
+bool is_uncut(const SurfaceMesh& surface_mesh);
+
+/// A scene's skin, shown while the body is as it was made. Copies share the skin.
+class SkinAttachment {
+ public:
+  SkinAttachment() = default;  ///< no skin
+  explicit SkinAttachment(std::shared_ptr<const Skin> skin) : skin_(std::move(skin)) {}
+  bool exists() const { return skin_ != nullptr; }
+  /// Gives the skin to a frame with a solid, or takes it away where the mesh has been edited, of which it warns once.
+  void attach(Frame& frame);
+
+ private:
+  std::shared_ptr<const Skin> skin_;
+  bool told_ = false;
+};
+
 }  // namespace heml

@@ -10,7 +10,7 @@
 
 namespace heml {
 
-inline constexpr std::array formats{"msh", "mesh", "vtk", "vtu", "tetgen", "ply", "inp"};
+inline constexpr std::array formats{"msh", "mesh", "vtk", "vtu", "tetgen", "ply", "inp", "feb"};
 
 /// Reads a text as formats[format] and checks the mesh; for PLY, only the sizes it declares. TetGen's two files are
 /// separated by a zero byte. Returns true for a valid mesh and false for an InputError; other exceptions propagate.
@@ -36,6 +36,9 @@ inline bool read_and_check(std::size_t format, std::string_view text) {
         return true;
       case 6:
         read = read_abaqus("fuzz", text);
+        break;
+      case 7:
+        read = read_feb("fuzz", text);
         break;
       default:
         read = read_tetgen("fuzz.node", text.substr(0, zero), "fuzz.ele", text.substr(std::min(zero + 1, text.size())));

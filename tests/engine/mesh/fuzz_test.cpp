@@ -91,6 +91,8 @@ TEST_CASE("damaged VTK XML files give a mesh or one clear error") {
   CHECK(count_survivors(3, samples::vtu_raw_compressed, 22) > 0);
 }
 TEST_CASE("damaged Abaqus files give a mesh or one clear error") { CHECK(count_survivors(6, samples::abaqus, 23) > 0); }
+
+TEST_CASE("damaged FEBio files give a mesh or one clear error") { CHECK(count_survivors(7, samples::feb, 24) > 0); }
 TEST_CASE("damaged TetGen files give a mesh or one clear error") {
   CHECK(count_survivors(4, samples::node + '\0' + samples::ele, 10) > 0);
   CHECK(count_survivors(4, samples::node + '\0' + samples::ele_attributes, 13) > 0);

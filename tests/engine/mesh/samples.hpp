@@ -8,6 +8,32 @@
 
 namespace heml::samples {
 
+inline const std::string feb = R"(<?xml version="1.0" encoding="ISO-8859-1"?>
+<febio_spec version="2.5">
+  <Geometry>
+    <!-- two tetrahedra and a shell -->
+    <Nodes name="Object01">
+      <node id="10">0,0,0</node>
+      <node id="20"> 1, 0, 0 </node>
+      <node id="21">0,1,0</node>
+      <node id="33">0,0,1</node>
+      <node id="40">1,1,1.5</node>
+    </Nodes>
+    <Elements type="tet4" mat="1" name="left lobe">
+      <elem id="3">10,20,21,33</elem>
+    </Elements>
+    <Elements type="tet4" mat="2" name="right">
+      <elem id="7">20,21,33,40</elem>
+    </Elements>
+    <Elements type="tri3" mat="3" name="skin">
+      <elem id="8">10,20,21</elem>
+    </Elements>
+    <NodeSet name="base"><node id="10"/><node id="20"/></NodeSet>
+    <Surface name="under"><tri3 id="1">10,21,20</tri3></Surface>
+  </Geometry>
+</febio_spec>
+)";
+
 inline const std::string gmsh_1 = R"($NOD
 5
 10 0 0 0

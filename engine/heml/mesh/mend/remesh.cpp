@@ -13,10 +13,10 @@ namespace {
 
 constexpr double max_tets = 12000, min_tets = 4000;  // of finest cells alone; inside they are coarser
 constexpr double tets_of_cell = 12;
-constexpr double max_cells = 1.5e6;  // of the box
-constexpr double growth = 2.4;       // of the number of elements: this power of 1 / cell, about
+constexpr double max_cells = 1.5e6;    // of the box
+constexpr double remesh_growth = 2.4;  // of the number of elements: this power of 1 / cell, about
 constexpr int max_passes = 4;
-constexpr double tolerance_of_cell = 0.01;
+constexpr double remesh_tolerance_of_cell = 0.01;
 
 class Remesher {
  public:
@@ -31,7 +31,7 @@ class Remesher {
     merge_scraps(mesh);
     if (mesh.tets.empty()) refuse();
     ImproveOptions improving;
-    improving.surface_tolerance = tolerance_of_cell * cell_;
+    improving.surface_tolerance = remesh_tolerance_of_cell * cell_;
     mesh = improve(std::move(mesh), improving).mesh;
     mesh.regions.assign(mesh.tets.size(), 0);
     warn("{}: meshed anew with {} elements about {:.3g} long at the surface, which lies within {:.2g} of the file's",
@@ -53,7 +53,7 @@ class Remesher {
       mesh = cut_lattice(make_lattice(winding_, box_.min(), box_.max(), cell_, surface().source), winding_);
       const double ratio = static_cast<double>(mesh.tets.size()) / max_tets;
       if (max_volume_ || ratio <= 1.25) break;
-      cell_ *= std::pow(ratio, 1 / growth);
+      cell_ *= std::pow(ratio, 1 / remesh_growth);
     }
     return mesh;
   }

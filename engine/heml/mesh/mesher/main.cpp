@@ -1,4 +1,5 @@
 // heml-mesher read SURFACE
+// heml-mesher skin SURFACE
 // heml-mesher fill RADIUS_EDGE_RATIO MAX_VOLUME|none
 //
 // Helper process that the engine runs under limits on time and memory. Reads the surface to fill from stdin and writes
@@ -40,6 +41,10 @@ void write_exchange(std::FILE* file, const Exchange& exchange, int row) {
 Exchange read_surface(const std::string&) {
   throw Failure("this build does not read surfaces (build with HEML_ASSIMP on)");
 }
+Skin read_skin(const std::string&) {
+  throw Failure("this build does not read surfaces (build with HEML_ASSIMP on)");
+}
+void write_skin(std::FILE*, const Skin&) {}
 #endif
 #ifndef HEML_TETGEN
 Exchange fill_surface(const Exchange&, double, double) {
@@ -51,6 +56,8 @@ static void run(const std::vector<std::string>& words) {
   std::FILE* answer = fdopen(3, "wb");
   if (answer && words.size() == 2 && words[0] == "read") {
     write_exchange(answer, read_surface(words[1]), 3);
+  } else if (answer && words.size() == 2 && words[0] == "skin") {
+    write_skin(answer, read_skin(words[1]));
   } else if (answer && words.size() == 3 && words[0] == "fill") {
     const double ratio = std::strtod(words[1].c_str(), nullptr);
     const double max_volume = words[2] == "none" ? 0 : std::strtod(words[2].c_str(), nullptr);

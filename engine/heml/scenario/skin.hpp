@@ -1,0 +1,21 @@
+#pragma once
+// A fine surface that is drawn in place of the body's own (scene key `skin`). It is no part of the physics.
+#include <heml/mesh/embedding.hpp>
+#include <heml/mesh/textured_surface.hpp>
+#include <heml/scenario/scene.hpp>
+#include <memory>
+
+namespace heml {
+
+/// Immutable, shared by frames.
+struct Skin {
+  TexturedSurface surface;  ///< as placed, m, outward
+  Embedding embedding;      ///< of its vertices, in the mesh at rest
+};
+
+/// The skin of a scene; null if it names none. mesh: as load_setup() returns it. Scaled, turned and moved as the mesh
+/// is. Warns of a surface that lies far from the body, or of a surface much smaller or larger. Throws InputError for
+/// files that are missing or of another kind.
+std::shared_ptr<const Skin> load_skin(const Scene& scene, const TetMesh& mesh);
+
+}  // namespace heml
