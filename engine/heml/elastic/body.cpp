@@ -20,12 +20,8 @@ std::vector<int> repeated(const std::vector<int>& of_elements) {
 template <class Real>
 ElasticBody<Real>::ElasticBody(const TetMesh& mesh, const std::vector<int>& material_of,
                                const std::vector<Material>& materials, BodyOptions options, const MidEdges& midedges)
-    : mesh_(midedges.empty() ? mesh : virtual_tets(mesh, midedges)),
-      material_of_(midedges.empty() ? material_of : repeated(material_of)),
-      materials_(materials),
-      options_(options),
-      springs_(mesh, std::vector<double>(mesh.tets.size(), 0.0)) {
-  if (!midedges.empty()) corners_of_points_ = std::make_unique<VirtualCorners<Real>>(mesh, midedges);
+    : materials_(materials), options_(options), springs_(mesh, std::vector<double>(mesh.tets.size(), 0.0)) {
+  set_elements(mesh, material_of, midedges);
   make_parts();
   make_fans();
   for (Part& part : parts_) part.reset_history(at_rest().data());
@@ -37,6 +33,14 @@ std::vector<Real> ElasticBody<Real>::at_rest() const {
   for (const Vec3& X : mesh_.nodes)
     for (const double value : X) x.push_back(static_cast<Real>(value));
   return x;
+}
+
+template <class Real>
+void ElasticBody<Real>::set_elements(const TetMesh& mesh, const std::vector<int>& material_of,
+                                     const MidEdges& midedges) {
+  mesh_ = midedges.empty() ? mesh : virtual_tets(mesh, midedges);
+  material_of_ = midedges.empty() ? material_of : repeated(material_of);
+  corners_of_points_ = midedges.empty() ? nullptr : std::make_unique<VirtualCorners<Real>>(mesh, midedges);
 }
 
 template <class Real>

@@ -89,7 +89,7 @@ class ElasticBody {
  public:
   /// mesh: in inner order, positive volumes, with the fields that the materials name. material_of: #T, indices into
   /// materials; a material without elements gets no group. The body is at rest, without history. midedges: of quadratic
-  /// elements, which take no springs or edits of the mesh (asserted).
+  /// elements, which take no springs; they are edited by transfer_state() alone (asserted).
   ElasticBody(const TetMesh& mesh, const std::vector<int>& material_of, const std::vector<Material>& materials,
               BodyOptions options, const MidEdges& midedges = {});
   ElasticBody(const ElasticBody&) = delete;
@@ -181,17 +181,19 @@ class ElasticBody {
   void keep_elements(const std::vector<int>& elements);
   /// Replaces the mesh by one with the same nodes and further ones. Element t is the old element origins[t] or a piece
   /// of it; it has the same material and inherits the internal state. Fan blocks without changed elements keep their
-  /// layout.
-  void transfer_state(const TetMesh& mesh, const std::vector<int>& material_of, const std::vector<int>& origins);
+  /// layout. Quadratic elements: with the mesh's mid-edge nodes and the present positions x (3 #V, m). A point of
+  /// a piece inherits from the nearest one of the whole how its state differs from a state at x.
+  void transfer_state(const TetMesh& mesh, const std::vector<int>& material_of, const std::vector<int>& origins,
+                      const MidEdges& midedges = {}, const Real* x = nullptr);
   /// Snapshot for restore(), which reproduces the present state to the bit.
   BodySnapshot<Real> snapshot();
   /// Restores a mesh and the snapshot of that time. Elements whose material has changed since lose their internal state
   /// and are taken as relaxed at x.
   void restore(const TetMesh& mesh, const std::vector<int>& material_of, const BodySnapshot<Real>& snapshot,
-               const Real* x);
+               const Real* x, const MidEdges& midedges = {});
   /// Restores the materials of the snapshot too: nothing is lost.
   void restore_all(const TetMesh& mesh, const std::vector<int>& material_of, const BodySnapshot<Real>& snapshot,
-                   const Real* x);
+                   const Real* x, const MidEdges& midedges = {});
   /// Replaces the mesh; the body is then as after construction.
   void set_mesh(const TetMesh& mesh, const std::vector<int>& material_of);
 
@@ -238,6 +240,7 @@ class ElasticBody {
   static constexpr std::size_t large_body_ = 8192;  ///< elements from which a team builds the layout
 
   std::vector<Real> at_rest() const;
+  void set_elements(const TetMesh& mesh, const std::vector<int>& material_of, const MidEdges& midedges);
   void make_parts();
   Part make_part(std::size_t material, const std::vector<int>& elements) const;
   void join_parts();
@@ -250,7 +253,15 @@ class ElasticBody {
   void update_fans(const TetMesh& before, const std::vector<int>& origins);
   void make_shared();
   void keep_numbered(Part& part, const std::vector<int>& number);
-  void transfer_slot_states(const Part& old, const TetMesh& before, const std::vector<int>& origins, Part& part) const;
+  /// Of quadratic elements in an edit: which points are of pieces (4 #T), and all virtual corners before and after.
+  struct PointsInEdit {
+    std::vector<bool> is_of_piece;
+    std::vector<Real> before, after;
+  };
+  std::vector<int> point_origins(const TetMesh& mesh, const VirtualCorners<Real>& whole,
+                                 const std::vector<int>& element_origins, std::vector<bool>& is_of_piece) const;
+  void transfer_slot_states(const Part& old, const TetMesh& before, const std::vector<int>& origins,
+                            const PointsInEdit& points, Part& part) const;
   void gather_corners(const CornerMap& corners, Real* f, bool add, ThreadTeam& team) const;
   double sum_energies(const Real* x, bool stored, ThreadTeam& team);
   void element_stiffness(std::size_t part, std::size_t s, ElementMatrix<Real>& K) const;

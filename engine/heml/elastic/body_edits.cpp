@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cassert>
 #include <heml/elastic/body.hpp>
+#include <heml/elastic/viscoelastic_term.hpp>
+#include <limits>
 
 namespace heml {
 namespace {
@@ -11,6 +13,28 @@ std::array<Vec3, 4> places(const TetMesh& mesh, int element) {
   for (std::size_t c = 0; c < 4; ++c)
     X[c] = mesh.nodes[static_cast<std::size_t>(mesh.tets[static_cast<std::size_t>(element)][c])];
   return X;
+}
+
+std::array<Vec3, element_points> point_places(const TetMesh& mesh, const std::array<int, 10>& nodes) {
+  std::array<Vec3, element_points> X;
+  for (std::size_t q = 0; q < element_points; ++q) {
+    X[q].setZero();
+    const std::array<double, 10> N = shape_functions(point_place(q));
+    for (std::size_t a = 0; a < 10; ++a) X[q] += N[a] * mesh.nodes[static_cast<std::size_t>(nodes[a])];
+  }
+  return X;
+}
+
+/// The point that each point of a quadratic element's piece inherits from: the nearest at rest. A mean of several would
+/// be no state that the material can have: plastic flow would not keep the volume.
+std::array<std::size_t, element_points> nearest_points(const TetMesh& mesh, const std::array<int, 10>& piece,
+                                                       const std::array<int, 10>& whole) {
+  const auto of_piece = point_places(mesh, piece), of_whole = point_places(mesh, whole);
+  std::array<std::size_t, element_points> nearest{};
+  for (std::size_t q = 0; q < element_points; ++q)
+    for (std::size_t p = 1; p < element_points; ++p)
+      if ((of_whole[p] - of_piece[q]).norm() < (of_whole[nearest[q]] - of_piece[q]).norm()) nearest[q] = p;
+  return nearest;
 }
 
 /// Appends the slots of further elements.
@@ -39,8 +63,7 @@ void append(const ElementGroup<Real>& more, ElementGroup<Real>& group) {
 template <class Real>
 void ElasticBody<Real>::set_mesh(const TetMesh& mesh, const std::vector<int>& material_of) {
   assert(!corners_of_points_);
-  mesh_ = mesh;
-  material_of_ = material_of;
+  set_elements(mesh, material_of, {});
   make_parts();
   make_fans();
   reset_history(at_rest().data());
@@ -98,16 +121,24 @@ void ElasticBody<Real>::keep_elements(const std::vector<int>& elements) {
   update_fans(before, elements);
 }
 
-/// Parts with internal state are rebuilt and inherit it from the old part; the others keep the slots of unchanged
-/// elements.
+/// Parts with internal state, and those of quadratic elements, are rebuilt and inherit it from the old part; the others
+/// keep the slots of unchanged elements.
 template <class Real>
 void ElasticBody<Real>::transfer_state(const TetMesh& mesh, const std::vector<int>& material_of,
-                                       const std::vector<int>& origins) {
-  assert(!corners_of_points_);
+                                       const std::vector<int>& element_origins, const MidEdges& midedges,
+                                       const Real* x) {
+  assert(midedges.empty() == !corners_of_points_);
   update_slots();
-  const TetMesh before = std::exchange(mesh_, mesh);
+  const TetMesh before = std::move(mesh_);
+  const auto whole = std::move(corners_of_points_);
   std::vector<Part> old_parts = std::exchange(parts_, {});
-  material_of_ = material_of;
+  set_elements(mesh, material_of, midedges);
+  PointsInEdit points;
+  std::vector<int> origins = element_origins;
+  if (whole) {
+    points = {{}, whole->positions(x), corners_of_points_->positions(x)};
+    origins = point_origins(mesh, *whole, element_origins, points.is_of_piece);
+  }
   std::vector<int> number(before.tets.size(), -1);
   std::vector<std::vector<int>> all(materials_.size()), pieces(materials_.size());
   for (std::size_t t = 0; t < mesh_.tets.size(); ++t) {
@@ -120,9 +151,10 @@ void ElasticBody<Real>::transfer_state(const TetMesh& mesh, const std::vector<in
   }
   for (Part& old : old_parts) {
     const std::size_t material = old.material;
-    if (materials_[material].has_internal_state()) {
+    if (all[material].empty()) continue;
+    if (materials_[material].has_internal_state() || corners_of_points_) {
       parts_.push_back(make_part(material, all[material]));
-      transfer_slot_states(old, before, origins, parts_.back());
+      transfer_slot_states(old, before, origins, points, parts_.back());
       continue;
     }
     keep_numbered(old, number);
@@ -133,28 +165,53 @@ void ElasticBody<Real>::transfer_state(const TetMesh& mesh, const std::vector<in
   update_fans(before, origins);
 }
 
+/// The point of the mesh before that each integration point inherits from; says which are of pieces.
+template <class Real>
+std::vector<int> ElasticBody<Real>::point_origins(const TetMesh& mesh, const VirtualCorners<Real>& whole,
+                                                  const std::vector<int>& element_origins,
+                                                  std::vector<bool>& is_of_piece) const {
+  std::vector<int> origins;
+  for (std::size_t t = 0; t < element_origins.size(); ++t) {
+    const auto &nodes = corners_of_points_->nodes_of(t),
+               &of_whole = whole.nodes_of(static_cast<std::size_t>(element_origins[t]));
+    const bool is_piece = nodes != of_whole;
+    std::array<std::size_t, element_points> from{0, 1, 2, 3};
+    if (is_piece) from = nearest_points(mesh, nodes, of_whole);
+    for (const std::size_t q : from)
+      origins.push_back(static_cast<int>(element_points) * element_origins[t] + static_cast<int>(q));
+    is_of_piece.insert(is_of_piece.end(), element_points, is_piece);
+  }
+  return origins;
+}
+
 template <class Real>
 void ElasticBody<Real>::transfer_slot_states(const Part& old, const TetMesh& before, const std::vector<int>& origins,
-                                             Part& part) const {
+                                             const PointsInEdit& points, Part& part) const {
   std::vector<std::size_t> slot(before.tets.size());
   for (std::size_t s = 0; s < old.group.size(); ++s) slot[static_cast<std::size_t>(old.group.element[s])] = s;
-  std::vector<std::size_t> from;
+  std::vector<std::size_t> from, of_pieces;
   std::vector<SubelementMap<Real>> subelement_maps;
   for (std::size_t s = 0; s < part.group.volume.size(); ++s) {
     const int element = part.group.element[std::min(s, part.group.size() - 1)];
     const int origin = origins[static_cast<std::size_t>(element)];
     from.push_back(slot[static_cast<std::size_t>(origin)]);
     subelement_maps.emplace_back(places(before, origin), places(mesh_, element));
+    if (!points.is_of_piece.empty() && points.is_of_piece[static_cast<std::size_t>(element)]) of_pieces.push_back(s);
   }
+  if (part.flow) part.flow->transfer_state(*old.flow, old.group, from, subelement_maps, part.group);
   for (std::size_t k = 0; k < part.terms.size(); ++k) {
     const SlotStates<Real> to = part.terms[k]->slot_states(), whole = old.terms[k]->slot_states();
     for (std::size_t list = 0; list < to.size(); ++list) {
       *to[list].values = *whole[list].values;
       gather_slots(*to[list].values, from, to[list].each);
     }
+    auto* memory = of_pieces.empty() ? nullptr : dynamic_cast<ViscoelasticTerm<Real>*>(part.terms[k].get());
+    for (const std::size_t s : memory ? of_pieces : std::vector<std::size_t>())
+      memory->add_present(old.group, from[s], points.before.data(), Real(-1), memory->state_of(s));
     part.terms[k]->reshape(subelement_maps);
+    for (const std::size_t s : memory ? of_pieces : std::vector<std::size_t>())
+      memory->add_present(part.group, s, points.after.data(), Real(1), memory->state_of(s));
   }
-  if (part.flow) part.flow->transfer_state(*old.flow, old.group, from, subelement_maps, part.group);
 }
 
 template void ElasticBody<float>::set_mesh(const TetMesh&, const std::vector<int>&);
@@ -163,7 +220,9 @@ template void ElasticBody<float>::set_material(std::size_t, const Material&, con
 template void ElasticBody<double>::set_material(std::size_t, const Material&, const double*);
 template void ElasticBody<float>::keep_elements(const std::vector<int>&);
 template void ElasticBody<double>::keep_elements(const std::vector<int>&);
-template void ElasticBody<float>::transfer_state(const TetMesh&, const std::vector<int>&, const std::vector<int>&);
-template void ElasticBody<double>::transfer_state(const TetMesh&, const std::vector<int>&, const std::vector<int>&);
+template void ElasticBody<float>::transfer_state(const TetMesh&, const std::vector<int>&, const std::vector<int>&,
+                                                 const MidEdges&, const float*);
+template void ElasticBody<double>::transfer_state(const TetMesh&, const std::vector<int>&, const std::vector<int>&,
+                                                  const MidEdges&, const double*);
 
 }  // namespace heml

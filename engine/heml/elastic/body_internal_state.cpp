@@ -113,13 +113,10 @@ BodySnapshot<Real> ElasticBody<Real>::snapshot() {
 
 template <class Real>
 void ElasticBody<Real>::restore(const TetMesh& mesh, const std::vector<int>& material_of,
-                                const BodySnapshot<Real>& snapshot, const Real* x) {
+                                const BodySnapshot<Real>& snapshot, const Real* x, const MidEdges& midedges) {
+  set_elements(mesh, material_of, midedges);
   std::vector<Real> y;
   x = inner_positions(x, y);
-  if (!corners_of_points_) {
-    mesh_ = mesh;
-    material_of_ = material_of;
-  }
   parts_.clear();
   slots_are_old_ = false;
   step_ = snapshot.step;
@@ -140,9 +137,9 @@ void ElasticBody<Real>::restore(const TetMesh& mesh, const std::vector<int>& mat
 
 template <class Real>
 void ElasticBody<Real>::restore_all(const TetMesh& mesh, const std::vector<int>& material_of,
-                                    const BodySnapshot<Real>& snapshot, const Real* x) {
+                                    const BodySnapshot<Real>& snapshot, const Real* x, const MidEdges& midedges) {
   materials_ = snapshot.materials;
-  restore(mesh, material_of, snapshot, x);
+  restore(mesh, material_of, snapshot, x, midedges);
 }
 
 template <class Real>
@@ -175,12 +172,12 @@ template void ElasticBody<double>::set_internal_state(const InternalState<double
 template BodySnapshot<float> ElasticBody<float>::snapshot();
 template BodySnapshot<double> ElasticBody<double>::snapshot();
 template void ElasticBody<float>::restore(const TetMesh&, const std::vector<int>&, const BodySnapshot<float>&,
-                                          const float*);
+                                          const float*, const MidEdges&);
 template void ElasticBody<double>::restore(const TetMesh&, const std::vector<int>&, const BodySnapshot<double>&,
-                                           const double*);
+                                           const double*, const MidEdges&);
 template void ElasticBody<float>::restore_all(const TetMesh&, const std::vector<int>&, const BodySnapshot<float>&,
-                                              const float*);
+                                              const float*, const MidEdges&);
 template void ElasticBody<double>::restore_all(const TetMesh&, const std::vector<int>&, const BodySnapshot<double>&,
-                                               const double*);
+                                               const double*, const MidEdges&);
 
 }  // namespace heml

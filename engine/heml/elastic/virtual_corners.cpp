@@ -5,12 +5,6 @@ namespace heml {
 namespace {
 
 constexpr std::size_t element_grain = 512, gather_grain = 1024;
-constexpr std::array<std::array<double, 4>, 4> lambda = [] {
-  std::array<std::array<double, 4>, 4> values{};
-  for (std::size_t q = 0; q < 4; ++q)
-    for (std::size_t i = 0; i < 4; ++i) values[q][i] = point_coordinate(q, i);
-  return values;
-}();
 
 /// Node and weight of all 64 products of an element, unrolled by the compiler.
 struct Product {
@@ -113,12 +107,11 @@ template <class Real>
 std::vector<Real> VirtualCorners<Real>::consistent(const std::vector<double>& point_mass) const {
   std::vector<double> mass(nodes(), 0.0);
   for (std::size_t t = 0; t < nodes_.size(); ++t)
-    for (std::size_t q = 0; q < element_points; ++q)
-      for (std::size_t a = 0; a < 10; ++a) {
-        const double N = a < 4 ? lambda[q][a] * (2 * lambda[q][a] - 1)
-                               : 4 * lambda[q][tet_edges[a - 4][0]] * lambda[q][tet_edges[a - 4][1]];
-        mass[static_cast<std::size_t>(nodes_[t][a])] += N * point_mass[element_points * t + q];
-      }
+    for (std::size_t q = 0; q < element_points; ++q) {
+      const std::array<double, 10> N = shape_functions(point_place(q));
+      for (std::size_t a = 0; a < 10; ++a)
+        mass[static_cast<std::size_t>(nodes_[t][a])] += N[a] * point_mass[element_points * t + q];
+    }
   return {mass.begin(), mass.end()};
 }
 

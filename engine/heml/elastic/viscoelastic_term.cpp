@@ -145,6 +145,18 @@ void ViscoelasticTerm<Real>::reshape(const std::vector<SubelementMap<Real>>& sub
 }
 
 template <class Real>
+void ViscoelasticTerm<Real>::add_present(const Group& group, std::size_t s, const Real* x, Real sign,
+                                         Real* state) const {
+  const auto rest = rest_shape(group, s);
+  const auto kinematics = full_kinematics(group, x, s, rest);
+  for (int i = 0; i < 6; ++i) state[i] += sign * kinematics.G[i];
+  if (branches_.empty()) return;
+  Real T[6];
+  total_tensions(group, s, kinematics, rest, T);
+  for (int i = 0; i < 6; ++i) state[6 + i] += sign * T[i];
+}
+
+template <class Real>
 void ViscoelasticTerm<Real>::commit(const Group& group, const Real* x) {
   if (branches_.empty() && has_avx2()) return store_gram(group, x, stride_, state_.data());
   for (std::size_t s = 0; s < group.volume.size(); ++s) {

@@ -57,6 +57,9 @@ class ViscoelasticTerm final : public GroupTerm<Real> {
   void leave_state_to_fans() { in_fans_ = true; }
   SlotStates<Real> slot_states() override { return {{&state_, stride_}}; }
   void reshape(const std::vector<SubelementMap<Real>>& subelement_maps) override;
+  /// Adds to a slot's state, `sign` times, what a commit at x would store of x itself: G0 and T0.
+  void add_present(const Group& group, std::size_t s, const Real* x, Real sign, Real* state) const;
+  Real* state_of(std::size_t s) { return &state_[stride_ * s]; }
 
  private:
   struct Branch {

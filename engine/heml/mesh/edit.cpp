@@ -118,4 +118,9 @@ TetMesh with_elements(const TetMesh& mesh, const std::vector<int>& elements) {
   return result;
 }
 
+BoundaryFaces fine_boundary(const TetMesh& mesh, const MidEdges& midedges, const Topology& topology) {
+  if (topology.elements.size() == mesh.tets.size()) return fine_boundary(mesh, midedges);
+  return fine_boundary(with_elements(mesh, topology.elements), with_elements(midedges, topology.elements));
+}
+
 }  // namespace heml

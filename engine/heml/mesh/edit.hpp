@@ -7,19 +7,36 @@
 //     file          0 1 2 3 4 5 6 7
 //     MeshEdit        ×     ×       + +   removed {1, 4}, added {8, 9}
 //     Topology      0   2 3   5 6 7 8 9   elements; version 1
+#include <algorithm>
 #include <heml/base/status.hpp>
-#include <heml/mesh/tet_mesh.hpp>
+#include <heml/mesh/quadratic.hpp>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 namespace heml {
 
+/// An existing node and its weight in the values of a new one.
+struct NodeShare {
+  int node;
+  double weight;
+};
+
 /// A node that an edit adds on the edge between two existing nodes; from == to: a copy of that node.
 struct InsertedNode {
   int from, to;
-  double weight;  ///< 0 at from, 1 at to; in the rest and the deformed shape
+  double weight;                    ///< 0 at from, 1 at to; in the rest and the deformed shape
+  std::vector<NodeShare> sum = {};  ///< in a quadratic element, unless a copy: the nodes that it follows instead, by
+                                    ///< shape functions; weights of 1 in all
+
+  /// Whether has(node) is true of all nodes that it follows: it is held or loaded where these are.
+  template <class Has>
+  bool lies_among(const Has& has) const {
+    if (sum.empty()) return has(from) && has(to);
+    return std::all_of(sum.begin(), sum.end(), [&](const NodeShare& share) { return has(share.node); });
+  }
 };
 
 /// A change of a mesh of #V nodes and #T elements.
@@ -28,6 +45,7 @@ struct MeshEdit {
   std::vector<InsertedNode> nodes;  ///< new nodes, numbered #V, #V + 1, …
   std::vector<Tet> added;           ///< new elements, numbered #T, #T + 1, …; into old and new nodes
   std::vector<int> parents;         ///< per new element the removed one that it is a part of; ascending
+  MidEdges midedges = {};           ///< of new elements, if they are quadratic (mesh/quadratic_edit.hpp); else empty
 };
 
 /// The existing elements of a mesh. Immutable and shared by its readers: an edit makes another Topology.
@@ -46,14 +64,21 @@ Topology apply_edit(const Topology& topology, const MeshEdit& edit, int elements
 /// Removed elements stay in the mesh; only the topology excludes them.
 void append(const MeshEdit& edit, TetMesh& mesh);
 
-/// Appends the values of an edit's nodes, interpolated linearly, to values of nodes (each × #V).
+/// Appends the values of an edit's nodes, interpolated between those that each follows, to values of nodes (each × #V).
 template <class Value>
 void append(const MeshEdit& edit, std::vector<Value>& values, std::size_t each = 1) {
+  using Wide = std::conditional_t<std::is_floating_point_v<Value>, double, Value>;
   for (const InsertedNode& node : edit.nodes)
     for (std::size_t c = 0; c < each; ++c) {
-      const Value from = values[each * static_cast<std::size_t>(node.from) + c];
-      const Value to = values[each * static_cast<std::size_t>(node.to) + c];
-      values.push_back(node.from == node.to ? from : Value(from + (to - from) * node.weight));
+      const auto at = [&](int n) { return values[each * static_cast<std::size_t>(n) + c]; };
+      const Value from = at(node.from), to = at(node.to);
+      Value value = node.from == node.to ? from : Value(from + (to - from) * node.weight);
+      if (!node.sum.empty()) {
+        Wide sum(from);  // relative to one of them, for the digits far from the origin
+        for (const auto& [n, weight] : node.sum) sum += (Wide(at(n)) - Wide(from)) * weight;
+        value = Value(sum);
+      }
+      values.push_back(value);
     }
 }
 
@@ -72,11 +97,12 @@ Status make_removal_edit(const ElementSelection& which, const TetMesh& mesh, con
 /// The mesh with the given elements only, in that order, and all nodes and fields.
 TetMesh with_elements(const TetMesh& mesh, const std::vector<int>& elements);
 
-/// The same for values of elements, `each` per element.
+/// The same for values of elements, `each` per element; none of an empty list.
 template <class Value>
 std::vector<Value> with_elements(const std::vector<Value>& values, const std::vector<int>& elements,
                                  std::size_t each = 1) {
   std::vector<Value> taken;
+  if (values.empty()) return taken;
   taken.reserve(each * elements.size());
   for (const int t : elements) {
     const auto first = values.begin() + static_cast<std::ptrdiff_t>(each * static_cast<std::size_t>(t));
@@ -84,5 +110,8 @@ std::vector<Value> with_elements(const std::vector<Value>& values, const std::ve
   }
   return taken;
 }
+
+/// The boundary of the elements of a topology (mesh/quadratic.hpp); it names them by their index there.
+BoundaryFaces fine_boundary(const TetMesh& mesh, const MidEdges& midedges, const Topology& topology);
 
 }  // namespace heml

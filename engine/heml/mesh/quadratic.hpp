@@ -50,6 +50,19 @@ constexpr std::array<WeightedNode, 4> virtual_corner(std::size_t q, std::size_t 
   return nodes;
 }
 
+/// The ten shape functions at a place in an element, given by its barycentric coordinates.
+constexpr std::array<double, 10> shape_functions(const std::array<double, 4>& place) {
+  std::array<double, 10> N{};
+  for (std::size_t i = 0; i < 4; ++i) N[i] = place[i] * (2 * place[i] - 1);
+  for (std::size_t e = 0; e < 6; ++e) N[4 + e] = 4 * place[tet_edges[e][0]] * place[tet_edges[e][1]];
+  return N;
+}
+
+/// Barycentric coordinates of integration point q.
+constexpr std::array<double, 4> point_place(std::size_t q) {
+  return {point_coordinate(q, 0), point_coordinate(q, 1), point_coordinate(q, 2), point_coordinate(q, 3)};
+}
+
 /// The ten nodes of an element.
 std::array<int, 10> quadratic_nodes(const Tet& tet, const std::array<int, 6>& midedges);
 

@@ -2,16 +2,15 @@
 
 #include <heml/base/error.hpp>
 #include <heml/mesh/edit.hpp>
-#include <heml/mesh/quadratic.hpp>
 #include <heml/scenario/animation.hpp>
 
 namespace heml {
 
 WorldSurface surface_of(World& world) {
-  const TetMesh mesh = with_elements(world.setup().mesh, world.topology()->elements);
-  BoundaryFaces faces = fine_boundary(mesh, world.setup().midedges);
+  const WorldSetup& setup = world.setup();
+  BoundaryFaces faces = fine_boundary(setup.mesh, setup.midedges, *world.topology());
   WorldSurface surface;
-  std::vector<int> number(mesh.nodes.size(), -1);
+  std::vector<int> number(setup.mesh.nodes.size(), -1);
   for (Triangle& triangle : faces.triangles)
     for (int& n : triangle) {
       int& own = number[static_cast<std::size_t>(n)];

@@ -27,7 +27,9 @@ NodeField field_of(World& world, const char* name, Field field, const std::vecto
 }
 
 void write_body(const fs::path& path, World& world) {
-  TetMesh mesh = with_elements(world.setup().mesh, world.topology()->elements);
+  const WorldSetup& setup = world.setup();
+  const std::vector<int>& elements = world.topology()->elements;
+  TetMesh mesh = with_elements(setup.mesh, elements);
   std::vector<int> all(mesh.nodes.size());
   std::iota(all.begin(), all.end(), 0);
   std::vector<Vec3> displacement = world.positions();
@@ -43,7 +45,7 @@ void write_body(const fs::path& path, World& world) {
              {"velocity", 3, flat(world.velocities())},
              field_of(world, "stretch", Field::stretch, all),
              field_of(world, "von_mises", Field::von_mises, all)},
-            world.setup().midedges);
+            with_elements(setup.midedges, elements));
 }
 
 void write_surface_mesh(const fs::path& path, World& world) {

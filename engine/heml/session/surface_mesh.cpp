@@ -13,9 +13,7 @@ namespace {
 SurfaceMesh build_surface_mesh(const WorldSetup& setup, const Topology& topology) {
   SurfaceMesh surface_mesh;
   surface_mesh.version = topology.version;
-  const bool is_whole = topology.elements.size() == setup.mesh.tets.size();
-  const BoundaryFaces faces = is_whole ? fine_boundary(setup.mesh, setup.midedges)
-                                       : extract_boundary(with_elements(setup.mesh, topology.elements));
+  const BoundaryFaces faces = fine_boundary(setup.mesh, setup.midedges, topology);
   std::vector<int> index(setup.mesh.nodes.size(), -1);
   for (const Triangle& face : faces.triangles)
     for (const int n : face) index[static_cast<std::size_t>(n)] = 0;

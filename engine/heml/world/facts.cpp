@@ -15,6 +15,7 @@ template <class Real>
 std::size_t bytes_of_model(const Model<Real>& model) {
   std::size_t sum = bytes_of_mesh(model.mesh);
   sum += bytes_of(model.order.new_node, model.order.file_node, model.order.new_tet, model.order.file_tet);
+  sum += bytes_of(model.midedges, model.spread_area);
   sum += bytes_of(model.material_of, model.loaded_faces.triangles, model.loaded_faces.tets, model.surface_nodes);
   sum += bytes_of(model.constrained, model.prescribed_motions, model.speeds);
   for (const DeadLoad<Real>& load : model.dead) sum += bytes_of(load.nodes, load.forces);

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <heml/math/bytes.hpp>
+#include <heml/mesh/quadratic_edit.hpp>
 #include <heml/mesh/quality.hpp>
 #include <heml/world/mesh_editor.hpp>
 #include <heml/world/stable_step.hpp>
 #include <heml/world/world_queries.hpp>
 #include <numeric>
+#include <set>
 #include <utility>
 
 namespace heml {
@@ -14,29 +16,45 @@ namespace {
 
 constexpr std::size_t max_undo = 20;  // edits; of earlier states only the start is kept
 
-/// Appends nodes that the edit inserts between two nodes of the list, or copies from one.
+/// Appends nodes that the edit inserts between nodes of the list, or copies from one.
 void update_after_edit(const MeshEdit& edit, int nodes, std::vector<int>& list) {
   std::vector<int> sorted = list;
   std::sort(sorted.begin(), sorted.end());
   const auto has = [&](int n) { return std::binary_search(sorted.begin(), sorted.end(), n); };
   for (std::size_t k = 0; k < edit.nodes.size(); ++k)
-    if (has(edit.nodes[k].from) && has(edit.nodes[k].to)) list.push_back(nodes + static_cast<int>(k));
+    if (edit.nodes[k].lies_among(has)) list.push_back(nodes + static_cast<int>(k));
+}
+
+/// Appends the middles of an edit's edges whose ends are in the list: a load acts on faces whatever is said of these.
+void add_middles(const MeshEdit& edit, const WorldSetup& setup, std::vector<int>& list) {
+  if (setup.midedges.empty()) return;
+  std::set<int> has(list.begin(), list.end());
+  for (const int t : edit.removed)
+    for (std::size_t e = 0; e < 6; ++e) {
+      const Tet& tet = setup.mesh.tets[static_cast<std::size_t>(t)];
+      const int middle = setup.midedges[static_cast<std::size_t>(t)][e];
+      if (has.contains(tet[tet_edges[e][0]]) && has.contains(tet[tet_edges[e][1]]) && has.insert(middle).second)
+        list.push_back(middle);
+    }
 }
 
 /// Renumbers an edit by maps of nodes and elements; new ones keep their order, after all old ones.
 MeshEdit in_numbers(MeshEdit edit, const std::vector<int>& node, const std::vector<int>& tet) {
   for (int& t : edit.removed) t = tet[static_cast<std::size_t>(t)];
   for (int& t : edit.parents) t = tet[static_cast<std::size_t>(t)];
-  for (InsertedNode& n : edit.nodes)
-    n = {node[static_cast<std::size_t>(n.from)], node[static_cast<std::size_t>(n.to)], n.weight};
+  const auto renumber = [&](int& n) {
+    if (n < static_cast<int>(node.size())) n = node[static_cast<std::size_t>(n)];
+  };
+  for (InsertedNode& inserted : edit.nodes) {
+    renumber(inserted.from);
+    renumber(inserted.to);
+    for (NodeShare& share : inserted.sum) renumber(share.node);
+  }
   for (Tet& added : edit.added)
-    for (int& n : added)
-      if (n < static_cast<int>(node.size())) n = node[static_cast<std::size_t>(n)];
+    for (int& n : added) renumber(n);
+  for (auto& of_element : edit.midedges)
+    for (int& n : of_element) renumber(n);
   return edit;
-}
-
-std::string not_editable(const char* command, const SolverSettings& solver) {
-  return fmt::format("{}: element {} takes no edits of the mesh; take \"element\": \"p1\"", command, solver.element());
 }
 
 double worst_angle(const MeshEdit& edit, const TetMesh& mesh) {
@@ -53,7 +71,6 @@ double worst_angle(const MeshEdit& edit, const TetMesh& mesh) {
 
 template <class Real>
 Status MeshEditor<Real>::remove(const RemoveElements& command) {
-  if (!s_.model.midedges.empty()) return not_editable("remove", s_.setup.solver);
   MeshEdit edit;
   if (const Status made = make_removal_edit(command.which, s_.setup.mesh, *s_.topology, edit); !made.ok())
     return "remove: " + made.message();
@@ -71,7 +88,6 @@ Status MeshEditor<Real>::remove(const RemoveElements& command) {
 
 template <class Real>
 Status MeshEditor<Real>::cut(const CutTissue& command) {
-  if (!s_.model.midedges.empty()) return not_editable("cut", s_.setup.solver);
   for (const auto& [tip, end] : command.sweep.blades)
     if (!tip.allFinite() || !end.allFinite()) return "cut: a place of the blade is not finite";
   if (command.sweep.blades.size() < 2) return "cut: the sweep needs the blade at two times at least";
@@ -86,6 +102,7 @@ Status MeshEditor<Real>::cut(const CutTissue& command) {
     move_front(command.sweep);  // through the air, or within an element
     return {};
   }
+  if (const Status complete = add_midedge_nodes(cut.edit); !complete.ok()) return complete;
   history_.stroke = cut.stroke;
   if (cut.edit.removed.empty()) {
     move_front(command.sweep);
@@ -107,6 +124,19 @@ Status MeshEditor<Real>::cut(const CutTissue& command) {
   report.min_angle = std::min(report.min_angle, worst_angle(cut.edit, s_.setup.mesh));
   end_report(report);
   return {};
+}
+
+/// Completes an edit of the corners where elements are quadratic.
+template <class Real>
+Status MeshEditor<Real>::add_midedge_nodes(MeshEdit& edit) const {
+  if (s_.setup.midedges.empty()) return {};
+  heml::add_midedge_nodes(s_.setup.mesh, s_.setup.midedges, edit);
+  const int inverted = count_inverted_points(s_.setup.mesh, edit);
+  if (inverted == 0) return {};
+  return fmt::format(
+      "cut: {} integration points of the pieces would be inverted at rest, since the elements are curved; cut elsewhere, "
+      "or take a mesh with straight edges",
+      inverted);
 }
 
 /// Attaches the blade to the tissue where a sweep ends. A sweep that cut nothing, of a blade in the tissue, leaves the
@@ -190,8 +220,12 @@ void MeshEditor<Real>::carry_out(const MeshEdit& edit) {
   const std::size_t before = s_.model.mesh.tets.size();
   if (!edit.added.empty()) {
     append(edit, s_.setup.mesh);
+    s_.setup.midedges.insert(s_.setup.midedges.end(), edit.midedges.begin(), edit.midedges.end());
     for (Boundary& entry : s_.setup.boundary) update_after_edit(edit, file_nodes, entry.nodes);
-    for (Load& load : s_.setup.loads) update_after_edit(edit, file_nodes, load.nodes);
+    for (Load& load : s_.setup.loads) {
+      add_middles(edit, s_.setup, load.nodes);
+      update_after_edit(edit, file_nodes, load.nodes);
+    }
     for (PinnedPatch& pin : s_.pins) update_after_edit(inner, static_cast<int>(s_.mass.size()), pin.nodes);
     append(s_.setup, inner, s_.model);
     for (auto* values : {&s_.state.x, &s_.state.v, &s_.last_valid.x, &s_.last_valid.v}) append(inner, *values, 3);
@@ -212,12 +246,13 @@ void MeshEditor<Real>::carry_out(const MeshEdit& edit) {
     origins.push_back(t < before ? static_cast<int>(t) : inner.parents[t - before]);
   }
   keep_elements(s_.setup, elements, s_.model);
-  if (edit.added.empty())
+  const bool closes_up = edit.added.empty() && s_.model.midedges.empty();
+  if (closes_up)
     s_.body.keep_elements(elements);
   else
-    s_.body.transfer_state(s_.model.mesh, s_.model.material_of, origins);
+    s_.body.transfer_state(s_.model.mesh, s_.model.material_of, origins, s_.model.midedges, s_.state.x.data());
   rebuild_after_edit();
-  if (s_.implicit && !(edit.added.empty() && s_.implicit->keep_elements(elements, s_.mass))) s_.implicit.reset();
+  if (s_.implicit && !(closes_up && s_.implicit->keep_elements(elements, s_.mass))) s_.implicit.reset();
 }
 
 /// Updates what depends on the set of elements.
@@ -254,6 +289,7 @@ template <class Real>
 void MeshEditor<Real>::restore_before_edit(const SimulationSnapshot<Real>& before) {
   const SimulationState<Real>& values = before.values;
   s_.setup.mesh = before.mesh->mesh;
+  s_.setup.midedges = before.mesh->midedges;
   s_.setup.boundary = before.setup.boundary;
   s_.setup.loads = before.setup.loads;
   s_.model = before.mesh->model;
@@ -265,7 +301,7 @@ void MeshEditor<Real>::restore_before_edit(const SimulationSnapshot<Real>& befor
   restore_grasp(before);
   s_.pins = values.pins;
   s_.contacts.sutures = values.contacts.sutures;
-  s_.body.restore(s_.model.mesh, s_.model.material_of, before.body, s_.state.x.data());
+  s_.body.restore(s_.model.mesh, s_.model.material_of, before.body, s_.state.x.data(), s_.model.midedges);
   s_.implicit.reset();
   rebuild_after_edit();
 }

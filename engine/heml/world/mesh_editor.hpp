@@ -44,6 +44,7 @@ class MeshEditor {
   void restore_history(const EditHistory<Real>& history);
 
  private:
+  Status add_midedge_nodes(MeshEdit& edit) const;
   EditReport begin_report();
   void end_report(EditReport& report);
   void carry_out(const MeshEdit& edit);

@@ -28,10 +28,12 @@ std::vector<Triangle> faces_within(const BoundaryFaces& faces, const std::vector
 }
 
 /// Whether an element has the node: loads push nothing else.
-std::vector<bool> used_nodes(const TetMesh& mesh) {
+std::vector<bool> used_nodes(const TetMesh& mesh, const MidEdges& midedges) {
   std::vector<bool> used(mesh.nodes.size(), false);
   for (const Tet& tet : mesh.tets)
     for (const int n : tet) used[static_cast<std::size_t>(n)] = true;
+  for (const auto& of_element : midedges)
+    for (const int n : of_element) used[static_cast<std::size_t>(n)] = true;
   return used;
 }
 
@@ -48,47 +50,72 @@ std::vector<std::array<int, 6>> quadratic_faces_within(const BoundaryFaces& face
   return result;
 }
 
-/// A dead load on quadratic elements. A force is spread evenly over the faces that are selected, where those hold all
-/// corners that are; else it is shared by these corners, or by mid-edge nodes where no corner is selected.
+/// The nodes of a list that are corners, or mid-edge nodes, of elements there are or have been.
 template <class Real>
-DeadLoad<Real> quadratic_dead_load(const Load& load, const std::vector<int>& nodes, const Model<Real>& model) {
-  double area = 0;
-  const auto faces =
-      quadratic_faces_within(model.loaded_faces, face_midedges(model.loaded_faces, model.mesh, model.midedges), nodes);
-  std::map<int, double> part;  // m²
-  for (const auto& face : faces)
+std::vector<int> chosen_of(const std::vector<int>& nodes, const auto& elements, const Model<Real>& model) {
+  std::vector<bool> is_one(model.mesh.nodes.size(), false);
+  for (const auto& of_element : elements)
+    for (const int n : of_element)
+      is_one[static_cast<std::size_t>(model.order.new_node[static_cast<std::size_t>(n)])] = true;
+  std::vector<int> result;
+  for (const int n : nodes)
+    if (is_one[static_cast<std::size_t>(n)]) result.push_back(n);
+  return result;
+}
+
+struct FaceShares {
+  std::map<int, double> of_node;  ///< m², ∫N
+  double area = 0;                ///< m²
+};
+
+/// Of the faces within a list of nodes.
+template <class Real>
+FaceShares face_shares(const std::vector<int>& nodes, const Model<Real>& model) {
+  FaceShares shares;
+  for (const auto& face : quadratic_faces_within(
+           model.loaded_faces, face_midedges(model.loaded_faces, model.mesh, model.midedges), nodes))
     for (const FacePoint& point : face_points) {
       const auto y =
           virtual_face(point, [&](std::size_t k) { return model.mesh.nodes[static_cast<std::size_t>(face[k])]; });
       const double here = point.weight * (y[1] - y[0]).cross(y[2] - y[0]).norm() / 2;
-      area += here;
-      for (std::size_t k = 0; k < 6; ++k) part[face[k]] += point.N[k] * here;
+      shares.area += here;
+      for (std::size_t k = 0; k < 6; ++k) shares.of_node[face[k]] += point.N[k] * here;
     }
-  std::vector<bool> is_corner(model.mesh.nodes.size(), false), is_middle(model.mesh.nodes.size(), false);
-  for (const Tet& tet : model.mesh.tets)
-    for (const int n : tet) is_corner[static_cast<std::size_t>(n)] = true;
-  for (const auto& of_element : model.midedges)
-    for (const int n : of_element) is_middle[static_cast<std::size_t>(n)] = true;
-  const auto chosen = [&](const std::vector<bool>& kind) {
-    std::vector<int> result;
-    for (const int n : nodes)
-      if (kind[static_cast<std::size_t>(n)]) result.push_back(n);
-    return result;
-  };
-  const std::vector<int> corners = chosen(is_corner);
+  return shares;
+}
+
+/// The area that a force on quadratic elements is spread over evenly: the faces within its nodes, where those hold all
+/// corners that are. 0: it is shared by nodes.
+template <class Real>
+double area_spread_over(const Load& load, const WorldSetup& setup, const Model<Real>& model) {
+  if (load.kind != Load::Kind::force || model.midedges.empty()) return 0;
+  const std::vector<int> nodes = inner(load.nodes, model.order);
+  const FaceShares shares = face_shares(nodes, model);
+  const std::vector<int> corners = chosen_of(nodes, setup.mesh.tets, model);
+  const bool hold_all =
+      std::all_of(corners.begin(), corners.end(), [&](int n) { return shares.of_node.contains(n); });
+  return hold_all ? shares.area : 0;
+}
+
+/// A dead load on quadratic elements. spread_area: area_spread_over() when the body was whole; without it a force is
+/// shared by the corners that are selected, or by mid-edge nodes where no corner is.
+template <class Real>
+DeadLoad<Real> quadratic_dead_load(const Load& load, double spread_area, const std::vector<int>& nodes,
+                                   const WorldSetup& setup, const std::vector<bool>& used, const Model<Real>& model) {
   DeadLoad<Real> result{{}, {}, load.ramp_time};
   const auto add = [&](int n, const Vec3& f) {
     result.nodes.push_back(n);
     for (int i = 0; i < 3; ++i) result.forces.push_back(static_cast<Real>(f[i]));
   };
-  const bool faces_hold_all = std::all_of(corners.begin(), corners.end(), [&](int n) { return part.contains(n); });
-  if (load.kind == Load::Kind::traction || (!faces.empty() && faces_hold_all)) {
-    const Vec3 traction = load.kind == Load::Kind::traction ? load.vector : Vec3(load.vector / area);
-    for (const auto& [n, share] : part) add(n, share * traction);
+  if (load.kind == Load::Kind::traction || spread_area > 0) {
+    const Vec3 traction = load.kind == Load::Kind::traction ? load.vector : Vec3(load.vector / spread_area);
+    for (const auto& [n, share] : face_shares(nodes, model).of_node) add(n, share * traction);
     return result;
   }
-  const std::vector<int> bearing = corners.empty() ? chosen(is_middle) : corners;
-  for (const int n : bearing) add(n, load.vector / static_cast<double>(bearing.size()));
+  std::vector<int> bearing = chosen_of(nodes, setup.mesh.tets, model);
+  if (bearing.empty()) bearing = chosen_of(nodes, setup.midedges, model);
+  for (const int n : bearing)
+    if (used[static_cast<std::size_t>(n)]) add(n, load.vector / static_cast<double>(bearing.size()));
   return result;
 }
 
@@ -121,8 +148,9 @@ template <class Real>
 void make_loads(const WorldSetup& setup, Model<Real>& model) {
   model.dead.clear();
   model.pressures.clear();
-  const std::vector<bool> used = used_nodes(model.mesh);
-  for (const Load& load : setup.loads) {
+  const std::vector<bool> used = used_nodes(model.mesh, model.midedges);
+  for (std::size_t k = 0; k < setup.loads.size(); ++k) {
+    const Load& load = setup.loads[k];
     const std::vector<int> nodes = inner(load.nodes, model.order);
     if (!model.midedges.empty() && load.kind == Load::Kind::pressure)
       model.pressures.push_back(
@@ -132,7 +160,7 @@ void make_loads(const WorldSetup& setup, Model<Real>& model) {
            static_cast<Real>(load.pressure),
            load.ramp_time});
     else if (!model.midedges.empty())
-      model.dead.push_back(quadratic_dead_load(load, nodes, model));
+      model.dead.push_back(quadratic_dead_load(load, model.spread_area[k], nodes, setup, used, model));
     else if (load.kind == Load::Kind::pressure)
       model.pressures.push_back(
           {faces_within(model.loaded_faces, nodes), {}, static_cast<Real>(load.pressure), load.ramp_time});
@@ -150,6 +178,14 @@ std::vector<int> chosen_nodes(const std::vector<bool>& chosen) {
   for (std::size_t n = 0; n < chosen.size(); ++n)
     if (chosen[n]) nodes.push_back(static_cast<int>(n));
   return nodes;
+}
+
+template <class Real>
+std::vector<int> boundary_nodes(const Model<Real>& model) {
+  std::vector<bool> on_surface(model.mesh.nodes.size(), false);
+  for (const Triangle& face : fine_boundary(model.mesh, model.midedges).triangles)
+    for (const int n : face) on_surface[static_cast<std::size_t>(n)] = true;
+  return chosen_nodes(on_surface);
 }
 
 template <class Real>
@@ -182,11 +218,9 @@ Model<Real> make_model(const WorldSetup& setup) {
   model.midedges = reordered(setup.midedges, model.order);
   for (const int t : model.order.file_tet) model.material_of.push_back(file_materials[static_cast<std::size_t>(t)]);
   model.loaded_faces = extract_boundary(model.mesh);
-  std::vector<bool> on_surface(model.mesh.nodes.size(), false);
-  for (const Triangle& face : fine_boundary(model.mesh, model.midedges).triangles)
-    for (const int n : face) on_surface[static_cast<std::size_t>(n)] = true;
-  model.surface_nodes = chosen_nodes(on_surface);
+  model.surface_nodes = boundary_nodes(model);
   add_boundary(setup, model);
+  for (const Load& load : setup.loads) model.spread_area.push_back(area_spread_over(load, setup, model));
   make_loads(setup, model);
   Eigen::AlignedBox3d box;
   for (const Vec3& X : model.mesh.nodes) box.extend(X);
@@ -205,6 +239,7 @@ void keep_elements(const WorldSetup& setup, const std::vector<int>& elements, Mo
     if (number[t] < 0)
       for (const int n : model.mesh.tets[t]) on_surface[static_cast<std::size_t>(n)] = true;
   model.mesh = with_elements(model.mesh, elements);
+  model.midedges = with_elements(model.midedges, elements);
   model.material_of = with_elements(model.material_of, elements);
   model.order.file_tet = with_elements(model.order.file_tet, elements);
   for (int& t : model.order.new_tet)
@@ -217,9 +252,9 @@ void keep_elements(const WorldSetup& setup, const std::vector<int>& elements, Mo
     left.tets.push_back(t);
   }
   model.loaded_faces = std::move(left);
-  const std::vector<bool> used = used_nodes(model.mesh);
+  const std::vector<bool> used = used_nodes(model.mesh, model.midedges);
   for (std::size_t n = 0; n < used.size(); ++n) on_surface[n] = on_surface[n] && used[n];
-  model.surface_nodes = chosen_nodes(on_surface);
+  model.surface_nodes = model.midedges.empty() ? chosen_nodes(on_surface) : boundary_nodes(model);
   make_loads(setup, model);
 }
 
@@ -268,6 +303,7 @@ void append(const WorldSetup& setup, const MeshEdit& edit, Model<Real>& model) {
       }
   }
   append(edit, model.mesh);
+  model.midedges.insert(model.midedges.end(), edit.midedges.begin(), edit.midedges.end());
   model.constrained.clear();
   model.prescribed_motions.clear();
   add_boundary(setup, model);

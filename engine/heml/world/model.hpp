@@ -30,6 +30,8 @@ struct Model {
   std::vector<double> speeds;                        ///< m/s, of each while it moves: of the fastest node
   std::vector<DeadLoad<Real>> dead;
   std::vector<Pressure<Real>> pressures;
+  std::vector<double> spread_area;  ///< m², one per setup.loads: of the faces of quadratic elements that a force was
+                                    ///< spread over at first; 0: other loads
   double diagonal = 0;  ///< m, of the rest bounding box
   double spacing = 0;   ///< m, of nodes, about
 };
@@ -54,7 +56,7 @@ template <class Real>
 void keep_elements(const WorldSetup& setup, const std::vector<int>& elements, Model<Real>& model);
 
 /// Adds nodes and elements of an edit, in the mesh's own numbers: nodes after all others, elements too; what it removes
-/// is still there. setup: with the edit's nodes in its mesh, boundary and loads.
+/// is still there. setup: with the edit's nodes and elements, and its nodes in boundary and loads.
 template <class Real>
 void append(const WorldSetup& setup, const MeshEdit& edit, Model<Real>& model);
 

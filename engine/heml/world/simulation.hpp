@@ -74,7 +74,8 @@ struct SimulationState {
 /// What edits of the mesh alone change.
 template <class Real>
 struct MeshSnapshot {
-  TetMesh mesh;  ///< mesh-file order, with what cuts have added
+  TetMesh mesh;       ///< mesh-file order, with what cuts have added
+  MidEdges midedges;  ///< of its elements, if they are quadratic
   Model<Real> model;
   std::shared_ptr<const Topology> topology;
 };

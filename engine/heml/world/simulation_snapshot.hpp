@@ -13,7 +13,7 @@ namespace heml {
 template <class Real>
 struct SimulationSnapshot {
   std::shared_ptr<const MeshSnapshot<Real>> mesh;
-  WorldSetup setup;  ///< without its mesh
+  WorldSetup setup;  ///< without its mesh and mid-edge nodes
   SimulationState<Real> values;
   BodySnapshot<Real> body;
   std::optional<ImplicitSnapshot<Real>> implicit;

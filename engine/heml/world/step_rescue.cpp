@@ -38,7 +38,8 @@ typename StepRescue<Real>::Start StepRescue<Real>::save() {
 template <class Real>
 void StepRescue<Real>::restore(const Start& start) {
   s_.state = s_.last_valid = start.state;
-  if (start.body) s_.body.restore(s_.model.mesh, s_.model.material_of, *start.body, s_.state.x.data());
+  if (start.body) s_.body.restore(s_.model.mesh, s_.model.material_of, *start.body, s_.state.x.data(),
+                                 s_.model.midedges);
   s_.contacts.reports = start.reports;
   s_.steps = start.steps;
   s_.substeps = start.substeps;

@@ -75,6 +75,8 @@ TEST_CASE("a recording of quadratic elements verifies, whatever the threads") {
         "tables": [{{"point": [0, -0.01, 0], "normal": [0, 1, 0]}}],
         "events": [{{"step": 3, "pin": {{"node": 11, "radius": 0.05}}}}, {{"step": 6, "history": -1}},
                    {{"step": 7, "grasp": {{"node": 11, "radius": 0.05}}}}, {{"step": 8, "move": [0.21, 0.1, 0.1]}},
+                   {{"step": 10, "cut": {{"sweep": [[[0.13, -1, -1], [0.13, -1, 1]], [[0.13, 1, -1], [0.13, 1, 1]]]}}}},
+                   {{"step": 12, "remove": {{"tets": [1]}}}}, {{"step": 13, "undo": true}},
                    {{"step": 14, "release": true}}]}})",
                                                        element, integrator));
       for (const int threads : {1, 3}) {

@@ -272,26 +272,4 @@ TEST_CASE("quadratic elements: actions are undone and redone to the bit, time in
   });
 }
 
-TEST_CASE("quadratic elements: edits of the mesh are refused in one line that names the remedy") {
-  for (const bool mean_dilatation : {false, true}) {
-    auto world = make_world(cube(Integrator::verlet, mean_dilatation, 1));
-    for (int k = 0; k < 3; ++k) world->tick();
-    const std::uint64_t hash = world->state_hash();
-    const std::string element = mean_dilatation ? "p2_pressure" : "p2";
-    const auto says = [&](const Command& command, const std::string& first) {
-      const Status status = world->apply(command);
-      REQUIRE_FALSE(status.ok());
-      CHECK(status.message() ==
-            first + ": element " + element + " takes no edits of the mesh; take \"element\": \"p1\"");
-    };
-    says(blade_at(side / 3), "cut");
-    says(RemoveElements{{{0}, {}, {}, {}}}, "remove");
-    CHECK(world->apply(Undo{}).message() == "undo: nothing was cut or removed");
-    CHECK(world->edits().empty());
-    CHECK(world->topology()->version == 0);
-    CHECK(world->actions().past.empty());
-    CHECK(world->state_hash() == hash);
-  }
-}
-
 }  // namespace heml::quadratic_tools_test
