@@ -4,6 +4,7 @@ in vec3 v_normal;
 in vec3 v_on_sphere;
 in vec3 v_slope;
 in vec3 v_view;
+in vec3 v_position;
 in vec4 v_surface;
 in float v_visible;
 in float v_value;
@@ -27,6 +28,8 @@ const float v_cover = 1.0;
 uniform vec3 key_direction;
 uniform vec3 lamp_right, lamp_up;  // the lamp's axes, unit
 uniform vec3 rim_direction;
+uniform vec3 tool_from, tool_to;   // m, axis of an instrument that casts a fine shadow
+uniform float tool_width;          // m; 0: there is none
 uniform sampler2D colour_map;
 uniform sampler2D detail_map;  // octahedral; rgb: gradient of fine bumps, a: vessels
 
@@ -56,6 +59,19 @@ float hatching() {
   return 0.8 * stripe * smoothstep(0.0, soft, v_beyond);
 }
 #endif
+
+// Key light that passes the instrument, 0.3 to 1: by the distance of the ray to the lamp from the instrument's axis.
+// The shadow is sharp where the instrument touches the skin and softens with the distance from it.
+float past_tool() {
+  if (tool_width == 0.0) return 1.0;
+  vec3 axis = tool_to - tool_from, w = v_position - tool_from;
+  float aa = dot(axis, axis), ak = dot(axis, key_direction), aw = dot(axis, w), kw = dot(key_direction, w);
+  float s = clamp((aw - kw * ak) / max(aa - ak * ak, 1e-6 * aa), 0.0, 1.0), t = s * ak - kw;
+  if (t < 0.0) return 1.0;
+  float edge = tool_width + 0.35 * t;
+  float cover = 1.0 - smoothstep(0.0, edge, length(w + t * key_direction - s * axis));
+  return 1.0 - 0.7 * cover * sqrt(tool_width / edge);
+}
 
 #ifdef WOUND
 // Raw tissue by its depth below the skin: the pale capsule, granular tissue under it, darker and bloodier further down;
@@ -140,6 +156,8 @@ void main() {
   vec3 shade = vec3(sqrt(v_visible), v_visible, v_visible);
 #endif
 
+  float past = past_tool();
+  shade *= past;
   // Subsurface scattering: wrapped diffuse light, widest in red, whose smooth normal ignores the bumps.
   vec3 facing = vec3(dot(smooth_n, key_direction), vec2(dot(n, key_direction)));
   vec3 lit = clamp((facing + wrap) / (1.0 + wrap), 0.0, 1.0);
@@ -155,8 +173,8 @@ void main() {
 
   float fresnel = 0.03 + 0.55 * grazing;
   float nh = clamp(dot(n, normalize(key_direction + v)), 0.0, 1.0);
-  float broad = 0.05 * square(square(square(square(nh)))) * clamp(4.0 * facing.y, 0.0, 1.0) * v_visible;
-  radiance += wet * (fresnel * mix(0.35, 1.0, v_visible) * open * reflected(reflect(-v, wet_n)) +
+  float broad = 0.05 * square(square(square(square(nh)))) * clamp(4.0 * facing.y, 0.0, 1.0) * v_visible * past;
+  radiance += wet * (fresnel * mix(0.35, 1.0, v_visible * past) * open * reflected(reflect(-v, wet_n)) +
                      broad * vec3(1.0, 0.72, 0.66) * key_colour);
   colour = vec4(to_screen(radiance, gl_FragCoord.xy), v_cover);
 #ifdef HATCH

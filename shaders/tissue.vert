@@ -43,6 +43,7 @@ out vec3 v_colour;
 #ifdef HATCH
 out float v_beyond;
 #endif
+out vec3 v_position;
 #ifdef OUTLINE
 out float v_cover;
 #endif
@@ -66,6 +67,7 @@ void main() {
   gl_Position.xyz += vec3(a_strip.xy, -strip_lift) * gl_Position.w;
   v_cover = a_strip.z;
 #endif
+  v_position = a_position;
   v_view = normalize(eye - a_position);
   v_normal = a_normal;
   v_on_sphere = a_on_sphere;

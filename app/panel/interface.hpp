@@ -18,8 +18,8 @@ class Interface {
 
   /// size: pixels. seconds: since the last frame.
   void begin(render::Size size, float seconds) { renderer_.begin_frame(size, seconds); }
-  /// Draws over framebuffer 0.
-  void end() { renderer_.end_frame(); }
+  /// Draws over framebuffer 0. opacity: of the panel, 0 to 1.
+  void end(float opacity = 1) { renderer_.end_frame(opacity); }
 
  private:
   render::ImguiRenderer renderer_;

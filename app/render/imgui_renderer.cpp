@@ -90,7 +90,19 @@ void ImguiRenderer::begin_frame(Size size, float seconds) {
   ImGui::NewFrame();
 }
 
-void ImguiRenderer::end_frame() {
+namespace {
+
+void fade(ImDrawList& list, float opacity) {
+  for (ImDrawVert& vertex : list.VtxBuffer) {
+    const auto alpha = static_cast<float>(vertex.col >> IM_COL32_A_SHIFT & 0xffu);
+    vertex.col = (vertex.col & ~IM_COL32_A_MASK) | static_cast<ImU32>(alpha * opacity) << IM_COL32_A_SHIFT;
+  }
+}
+
+}  // namespace
+
+void ImguiRenderer::end_frame(float opacity) {
+  const ImDrawList* marks = ImGui::GetBackgroundDrawList();
   ImGui::Render();
   const ImDrawData& data = *ImGui::GetDrawData();
   const ImVec2 origin = data.DisplayPos, size = data.DisplaySize;
@@ -107,7 +119,8 @@ void ImguiRenderer::end_frame() {
   program_.set("picture", 0);
   glBindVertexArray(array_);
   for (int i = 0; i < data.CmdListsCount; ++i) {
-    const ImDrawList& list = *data.CmdLists[i];
+    ImDrawList& list = *data.CmdLists[i];
+    if (opacity < 1 && &list != marks) fade(list, opacity);
     upload(GL_ARRAY_BUFFER, vertices_, std::span<const ImDrawVert>(list.VtxBuffer.Data, list.VtxBuffer.Size),
            GL_STREAM_DRAW);
     upload(GL_ELEMENT_ARRAY_BUFFER, indices_, std::span<const ImDrawIdx>(list.IdxBuffer.Data, list.IdxBuffer.Size),

@@ -19,8 +19,8 @@ class ImguiRenderer {
   /// Starts a frame, `seconds` after the previous one. Call the window's input backend first.
   void begin_frame(Size size, float seconds);
 
-  /// Ends the frame and draws it over framebuffer 0.
-  void end_frame();
+  /// Ends the frame and draws it over framebuffer 0. opacity: of the windows, 0 to 1; marks on the image keep theirs.
+  void end_frame(float opacity = 1);
 
  private:
   void make_font(float scale);

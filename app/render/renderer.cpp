@@ -154,7 +154,7 @@ void Renderer::Impl::draw(const Frame& frame, const Camera& camera, const DrawOp
   glDisable(GL_SCISSOR_TEST);
   glDisable(GL_CULL_FACE);
   glEnable(GL_PROGRAM_POINT_SIZE);
-  tool_.place(frame, options.tool, shot);
+  tool_.place(frame, options.hold, options.tool, shot);
   if (options.tool) tool_.place_stroke(options.stroke, shot);
   if (body_) {
     const Range range = options.range.value_or(natural_range(frame.field, frame.values));
@@ -306,6 +306,9 @@ void Renderer::Impl::prepare_body(const ViewContext& shot, const Program& progra
   program.set("key_direction", shot.key_direction);
   // The rim light: behind the body as seen from the camera, high, on the side away from the key light.
   const Vec3f right = shot.camera.right(), up = shot.camera.up();
+  program.set("tool_from", tool_.shade().from);
+  program.set("tool_to", tool_.shade().to);
+  program.set("tool_width", tool_.shade().width);
   program.set("rim_direction", Vec3f((0.75f * right + 0.55f * up - 0.6f * right.cross(up)).normalized()));
   const Vec3f lamp_right = shot.key_direction.cross(Vec3f::UnitZ()).normalized();
   program.set("lamp_right", lamp_right);

@@ -5,6 +5,7 @@
 //    shadow map, footprint ──► body ► edges ► constrained nodes ► tools ► ground ► backdrop ► outlines of body and tool
 #include <app/render/camera.hpp>
 #include <app/render/field_colours.hpp>
+#include <app/render/grasp_pose.hpp>
 #include <app/render/section.hpp>
 #include <app/render/stroke_drawing.hpp>
 #include <heml/session/frame.hpp>
@@ -18,7 +19,8 @@ struct DrawOptions {
   bool wireframe = false;          ///< the mesh's edges over the surface
   bool ground = true;              ///< the drape and the shadow on it
   bool constrained = true;         ///< beads on nodes with a boundary condition
-  bool tool = true;                ///< forceps and spring while something is grasped, scalpel
+  bool tool = true;                ///< forceps while something is grasped, pins, scalpel and the like
+  std::optional<Hold> hold;        ///< of the mouse; none: forceps are at the grasped node
   StrokeDrawing stroke;            ///< of the scalpel
   std::optional<SectionPlane> section;  ///< leaves out what lies beyond; closed by a cap where the frame has a solid
   std::optional<Range> range;      ///< of the colour map; none: natural_range() of the frame's values

@@ -7,7 +7,6 @@
 namespace heml::render {
 namespace {
 
-constexpr float crease_angle = 70 * std::numbers::pi_v<float> / 180;
 constexpr float rim_corner = 0.5f;  // cosine of the turn from which a rim has a corner
 
 Vec3f unit_or_zero(const Vec3f& v) {

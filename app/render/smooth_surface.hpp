@@ -7,10 +7,14 @@
 #include <app/render/surface_topology.hpp>
 #include <array>
 #include <cstdint>
+#include <numbers>
 #include <span>
 #include <vector>
 
 namespace heml::render {
+
+/// rad; edges of the mesh that are sharper at rest stay sharp.
+inline constexpr float crease_angle = 70 * std::numbers::pi_v<float> / 180;
 
 class SmoothSurface {
  public:

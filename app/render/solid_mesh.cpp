@@ -65,20 +65,18 @@ SolidShape rod() {
   return shape;
 }
 
-SolidShape forceps() {
+SolidShape forceps_jaw() {
   SolidShape shape;
-  for (const float side : {-1.0f, 1.0f}) {
-    std::vector<Ring> rings;
-    constexpr int steps = 28;
-    for (int i = 0; i <= steps; ++i) {
-      const float t = static_cast<float>(i) / steps;
-      const float bow = std::pow(std::sin(std::numbers::pi_v<float> * std::pow(t, 0.8f)), 1.2f);
-      const float swell = std::sin(0.5f * std::numbers::pi_v<float> * std::min(1.0f, 1.6f * t));
-      rings.push_back(
-          {Vec3f(side * (0.006f + 0.052f * bow), t, 0), 0.006f + 0.004f * t, 0.007f + 0.020f * std::pow(swell, 1.5f)});
-    }
-    add_tube(shape, rings, Vec3f::UnitZ());
+  std::vector<Ring> rings;
+  constexpr int steps = 28;
+  for (int i = 0; i <= steps; ++i) {
+    const float t = static_cast<float>(i) / steps;
+    const float bow = std::pow(std::sin(std::numbers::pi_v<float> * std::pow(t, 0.8f)), 1.2f);
+    const float swell = std::sin(0.5f * std::numbers::pi_v<float> * std::min(1.0f, 1.6f * t));
+    rings.push_back(
+        {Vec3f(0.006f + 0.052f * bow, t, 0), 0.006f + 0.004f * t, 0.007f + 0.020f * std::pow(swell, 1.5f)});
   }
+  add_tube(shape, rings, Vec3f::UnitZ());
   add_tube(shape, {{Vec3f(0, 0.93f, 0), 0.012f, 0.024f}, {Vec3f(0, 1.03f, 0), 0.014f, 0.022f}}, Vec3f::UnitZ());
   return shape;
 }

@@ -30,8 +30,8 @@ void add_ball(SolidShape& shape, const Vec3f& centre, float radius);
 /// A rod from the origin to (0, 1, 0) of radius 1.
 SolidShape rod();
 
-/// Forceps that point down: tips together at the origin, the end at (0, 1, 0).
-SolidShape forceps();
+/// One jaw of forceps that point down, at x ≥ 0: its tip at the origin, the joint with the other at (0, 1, 0).
+SolidShape forceps_jaw();
 
 /// A ball of radius 1 about the origin.
 SolidShape ball();

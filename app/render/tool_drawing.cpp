@@ -1,6 +1,7 @@
 #include "app/render/tool_drawing.hpp"
 
 #include <algorithm>
+#include <app/render/placement.hpp>
 #include <cmath>
 
 namespace heml::render {
@@ -10,24 +11,9 @@ const Vec3f steel(0.80f, 0.83f, 0.86f);
 const Vec3f incision(0.090f, 0.004f,
                      0.006f);         // drawn as metal, which has no gloss of its own: the pieces look like one line
 constexpr float along_sight = 0.8f;   // cosine
-constexpr float half_tension = 0.5f;  // N at which the spring has its middle colour
-
-// Model matrix of a shape along +y from the origin: y to `axis`, x towards `side`.
-Mat4f place_along(const Vec3f& origin, const Vec3f& axis, const Vec3f& side, float length, float width) {
-  const Vec3f y = axis.normalized();
-  const Vec3f z = side.cross(y).normalized();
-  Mat4f model = Mat4f::Identity();
-  model.block<3, 1>(0, 0) = width * y.cross(z);
-  model.block<3, 1>(0, 1) = length * y;
-  model.block<3, 1>(0, 2) = width * z;
-  model.block<3, 1>(0, 3) = origin;
-  return model;
-}
-
-/// A direction not parallel to `axis`.
-Vec3f across(const Vec3f& axis) {
-  return std::abs(axis.normalized().y()) < 0.9f ? Vec3f(Vec3f::UnitY()) : Vec3f(Vec3f::UnitX());
-}
+constexpr float half_tension = 0.5f;  // N at which the line of a pull has its middle colour
+constexpr float shade_width = 0.035f;  // body radii
+constexpr float slack = 0.03f;        // body radii: tissue that is nearer to the hand follows it
 
 Vec3f tension_tint(float force) {
   const float strain = force / (force + half_tension);
@@ -37,10 +23,14 @@ Vec3f tension_tint(float force) {
 
 }  // namespace
 
-void ToolDrawing::place(const Frame& frame, bool shown, const ViewContext& shot) {
+void ToolDrawing::place(const Frame& frame, const std::optional<Hold>& hold, bool shown, const ViewContext& shot) {
   parts_.clear();
+  shade_ = {};
   if (!shown) return;
-  const ByKind placing{[&](const GraspState& grasp) { place_grasp(grasp, shot); },
+  const auto held = [&](const GraspState& grasp) {
+    return held_patch(grasp, hold, frame, frame.surface_mesh.get(), shot.camera.eye());
+  };
+  const ByKind placing{[&](const GraspState& grasp) { place_grasp(grasp, held(grasp), shot); },
                        [&](const PinState& pin) { place_pin(pin, shot); },
                        [&](const TableState& state) { place_table(state.table, frame, shot); },
                        [&](const ProbeState& probe) { place_probe(probe); },
@@ -49,18 +39,16 @@ void ToolDrawing::place(const Frame& frame, bool shown, const ViewContext& shot)
   for (const ToolState& tool : frame.tools) std::visit(placing, tool);
 }
 
-void ToolDrawing::place_grasp(const GraspState& tool, const ViewContext& shot) {
-  const Vec3f target = tool.target.cast<float>(), grip = tool.grip.cast<float>();
-  if (!target.allFinite() || !grip.allFinite()) return;
-  const Vec3f right = shot.camera.right();
-  const Vec3f axis = Vec3f::UnitY() + 0.55f * right;  // tilted to the right, as held by a right hand
-  const Vec3f side = right + 0.5f * shot.camera.up().cross(right);
-  const float length = 1.5f * shot.radius, thickness = 0.008f * shot.radius;
-  parts_.push_back({&forceps_, place_along(target, axis, side, length, length), steel, 1});
-  const Vec3f reach = target - grip;
-  if (reach.norm() <= thickness) return;
-  parts_.push_back({&rod_, place_along(grip, reach, across(reach), reach.norm(), thickness),
-                    tension_tint(static_cast<float>(tool.force.norm())), 0, false});
+void ToolDrawing::place_grasp(const GraspState& tool, const HeldPatch& patch, const ViewContext& shot) {
+  if (!patch.place.allFinite() || !patch.normal.allFinite() || !patch.pull.allFinite()) return;
+  const auto jaws = jaw_models(patch, shot.camera, shot.radius);
+  for (const Mat4f& model : jaws) parts_.push_back({&jaw_, model, steel, 1, true, true});
+  const Vec3f end = (jaws[0] * Vec3f::UnitY().homogeneous()).head<3>();
+  shade_ = {patch.place, end, shade_width * shot.radius};
+  const float distance = patch.pull.norm();
+  if (distance <= slack * shot.radius) return;
+  parts_.push_back({&rod_, place_along(patch.place, patch.pull, across(patch.pull), distance, 0.004f * shot.radius),
+                    tension_tint(static_cast<float>(tool.force.norm())), 0, false, true});
 }
 
 void ToolDrawing::place_probe(const ProbeState& probe) {
@@ -68,6 +56,7 @@ void ToolDrawing::place_probe(const ProbeState& probe) {
   if (!tip.allFinite() || !shaft.allFinite()) return;
   const float r = static_cast<float>(probe.radius);
   parts_.push_back({&ball_, place_along(tip, Vec3f::UnitY(), Vec3f::UnitX(), r, r), steel, 1});
+  shade_ = {tip, tip + shaft, r};
   if (shaft.norm() == 0) return;
   parts_.push_back({&rod_, place_along(tip, shaft, across(shaft), shaft.norm(), r), steel, 1});
 }
@@ -140,6 +129,7 @@ void ToolDrawing::place_blade(const Blade& blade, const ViewContext& shot) {
   const float drawn = std::max(1.08f * length, 0.12f * shot.radius);
   const float width = std::clamp(0.24f * drawn, 0.05f * shot.radius, 0.12f * shot.radius);
   parts_.push_back({&blade_, place_along(tip, axis, back, drawn, width), steel, 1, true, true});
+  shade_ = {tip, tip + (drawn + shot.radius) * axis, shade_width * shot.radius};
   parts_.push_back({&handle_,
                     place_along(tip + drawn * axis + 0.5f * width * back, axis, back, shot.radius, shot.radius), steel,
                     1});

@@ -1,7 +1,8 @@
 #pragma once
-// Draws the tools: forceps at the target of a grasp and the spring to the grasped tissue, pins, the probe, a table
-// under the body, threads of sutures, a scalpel that shows through the tissue, and the line that it has drawn.
+// Draws the tools: forceps on the grasped tissue and the line of their pull, pins, the probe, a table under the body,
+// threads of sutures, a scalpel, and the line that it has drawn. Forceps and scalpel show through the tissue.
 #include <app/render/camera.hpp>
+#include <app/render/grasp_pose.hpp>
 #include <app/render/solid_mesh.hpp>
 #include <app/render/stroke_drawing.hpp>
 #include <heml/session/frame.hpp>
@@ -19,14 +20,22 @@ struct ViewContext {
   float radius;         ///< m, of the body at rest
 };
 
+/// The axis of an instrument that casts a fine shadow on the tissue.
+struct Shade {
+  Vec3f from = Vec3f::Zero(), to = Vec3f::Zero();  ///< m
+  float width = 0;                                 ///< m; 0: there is none
+};
+
 class ToolDrawing {
  public:
-  /// Places the tools of a frame, or none if not shown. Call this first.
-  void place(const Frame& frame, bool shown, const ViewContext& shot);
+  /// Places the tools of a frame, or none if not shown. hold: of the mouse. Call this first.
+  void place(const Frame& frame, const std::optional<Hold>& hold, bool shown, const ViewContext& shot);
 
   /// Adds the scalpel and its line to them.
   void place_stroke(const StrokeDrawing& stroke, const ViewContext& shot);
 
+  /// Of the instrument in use: forceps, probe or scalpel.
+  const Shade& shade() const { return shade_; }
   void cast(const Program& program) const;  ///< draws the shadow casters; sets `model`
   void draw(const ViewContext& shot) const;
   void draw_outline(const ViewContext& shot);  ///< strips that fade outwards, see outline.hpp
@@ -41,7 +50,7 @@ class ToolDrawing {
     bool casts = true;
     bool shows_through = false;  // its part inside the tissue is drawn too, fainter
   };
-  void place_grasp(const GraspState& tool, const ViewContext& shot);
+  void place_grasp(const GraspState& tool, const HeldPatch& patch, const ViewContext& shot);
   void place_probe(const ProbeState& probe);
   void place_table(const Table& table, const Frame& frame, const ViewContext& shot);
   void place_suture(const SutureState& suture, const ViewContext& shot);
@@ -53,9 +62,10 @@ class ToolDrawing {
   Program solid_{"solid.vert", "solid.frag"};
   Program strip_{"solid.vert", "solid.frag", {"OUTLINE"}};
   Program hidden_{"solid.vert", "solid.frag", {"HIDDEN"}};
-  SolidMesh forceps_{forceps()}, rod_{rod()}, needle_{needle()}, ball_{ball()}, disc_{disc()};
+  SolidMesh jaw_{forceps_jaw()}, rod_{rod()}, needle_{needle()}, ball_{ball()}, disc_{disc()};
   SolidMesh blade_{scalpel_blade()}, handle_{scalpel_handle()};
   std::vector<Part> parts_;
+  Shade shade_;
 };
 
 }  // namespace heml::render

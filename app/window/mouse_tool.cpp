@@ -88,9 +88,15 @@ bool MouseTool::grasp(const render::Hit& hit, const Frame& frame, const SurfaceM
   const int node = *corner;
   interaction_ = Interaction::grasping;
   anchor_ = hit.point;
+  held_ = render::surface_point(hit, frame, surface_mesh);
   node_offset_ = frame.positions[static_cast<std::size_t>(node)] - hit.point;
   out.emplace_back(Grasp{surface_mesh.nodes[static_cast<std::size_t>(node)], radius});
   return true;
+}
+
+std::optional<render::Hold> MouseTool::hold() const {
+  if (interaction_ != Interaction::grasping) return std::nullopt;
+  return render::Hold{held_, controller_.drag(last_, anchor_)};
 }
 
 /// The first click sets one end, the second the other.

@@ -2,7 +2,7 @@
 // The mouse on the image: applies tools to the body and moves the camera. Pixels from the top left corner of the image.
 #include <app/panel/actions.hpp>
 #include <app/panel/camera_controller.hpp>
-#include <app/render/pick.hpp>
+#include <app/render/grasp_pose.hpp>
 #include <app/render/stroke_drawing.hpp>
 #include <app/window/stroke_line.hpp>
 #include <heml/session/frame.hpp>
@@ -43,8 +43,15 @@ class MouseTool {
   bool is_beside_body() const {
     return interaction_ == Interaction::orbiting || (interaction_ == Interaction::cutting && !has_entered_);
   }
+  /// Whether a tool is being used on the body, not the camera.
+  bool acts() const {
+    return interaction_ != Interaction::none && interaction_ != Interaction::orbiting &&
+           interaction_ != Interaction::panning;
+  }
   /// The first end of an unfinished suture: mesh-file number of a node.
   std::optional<int> first_end() const { return first_end_; }
+  /// What the grasper holds, where the mouse is now; none: it holds nothing.
+  std::optional<render::Hold> hold() const;
   /// The scalpel and its line while it cuts, as the tissue lies in a frame; empty otherwise.
   render::StrokeDrawing stroke(const Frame& frame, const SurfaceMesh& surface_mesh) const;
   /// The point of the surface under a pixel.
@@ -73,6 +80,7 @@ class MouseTool {
   render::Vec2f last_ = render::Vec2f::Zero();  // of the mouse, pixels
   Vec3f anchor_ = Vec3f::Zero();                // m, of the surface, where the tool began
   Vec3f node_offset_ = Vec3f::Zero();           // m, from there to the grasped node
+  render::SurfacePoint held_;                   // where the grasper took hold
   double depth_ = 0;                            // m, of the blade below anchor_
   std::array<Vec3, 2> blade_;                   // m, end of the last cut
   Vec3 heading_ = Vec3::Zero();                 // m, of the blade's last movement

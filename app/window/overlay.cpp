@@ -41,12 +41,19 @@ void draw_ring(const render::Hit& hit, const Frame& frame, const SurfaceMesh& su
 
 namespace {
 
-/// A label to the right of a point of the body.
+/// A label to the right of a point of the body, within what the panel leaves free of the pane.
 void draw_label(const Vec3f& place, const std::string& text, ImU32 colour, const panel::CameraController& controller) {
   const render::Vec2f at = controller.pixel(place);
   if (!at.allFinite()) return;
   const ImVec2 size = ImGui::CalcTextSize(text.c_str());
-  const ImVec2 from(at.x() + panel::em(1.4f), at.y() - size.y / 2), pad(panel::em(0.5f), panel::em(0.25f));
+  const ImVec2 pad(panel::em(0.5f), panel::em(0.25f));
+  const panel::Pane& pane = controller.pane();
+  const auto within = [](float wanted, float low, float high) { return std::max(low, std::min(wanted, high)); };
+  const float left = static_cast<float>(pane.left) + pane.covered.left, top = static_cast<float>(pane.top);
+  const float right = static_cast<float>(pane.left + pane.size.width) - pane.covered.right;
+  const ImVec2 from(within(at.x() + panel::em(1.4f), left + pad.x, right - size.x - pad.x),
+                    within(at.y() - size.y / 2, top + pad.y,
+                           top + static_cast<float>(pane.size.height) - size.y - pad.y));
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   list.AddRectFilled({from.x - pad.x, from.y - pad.y}, {from.x + size.x + pad.x, from.y + size.y + pad.y},
                      panel::colours::background, panel::em(0.4f));
@@ -70,9 +77,14 @@ void draw_reading(const render::Hit& hit, const Frame& frame, const SurfaceMesh&
              panel::colours::text, controller);
 }
 
-void draw_forces(const Frame& frame, const panel::CameraController& controller) {
+void draw_forces(const Frame& frame, const std::optional<render::Hold>& hold,
+                 const panel::CameraController& controller) {
   const auto label = [&](const Vec3& force, const Vec3& place) { draw_force(force, place, controller); };
-  const ByKind labels{[&](const GraspState& grasp) { label(grasp.force, grasp.target); },
+  const auto held = [&](const GraspState& grasp) -> Vec3 {
+    return render::held_patch(grasp, hold, frame, frame.surface_mesh.get(), controller.camera().eye())
+        .place.cast<double>();
+  };
+  const ByKind labels{[&](const GraspState& grasp) { label(grasp.force, held(grasp)); },
                       [&](const PinState& pin) { label(pin.force, pin.place); },
                       [&](const ProbeState& probe) { label(probe.force, probe.tip); },
                       [&](const SutureState& suture) { label(suture.force, (suture.ends[0] + suture.ends[1]) / 2); },

@@ -2,6 +2,7 @@
 // Marks over the image, under the panel: ring of the tool, field value, forces, suture end, bad element.
 #include <app/panel/camera_controller.hpp>
 #include <app/render/field_colours.hpp>
+#include <app/render/grasp_pose.hpp>
 #include <app/render/pick.hpp>
 
 namespace heml::window {
@@ -15,8 +16,9 @@ void draw_ring(const render::Hit& hit, const Frame& frame, const SurfaceMesh& su
 void draw_reading(const render::Hit& hit, const Frame& frame, const SurfaceMesh& surface_mesh,
                   const panel::CameraController& controller, const render::Range& range);
 
-/// Forces (N) next to active grasp, pins, probe and sutures.
-void draw_forces(const Frame& frame, const panel::CameraController& controller);
+/// Forces (N) next to active grasp, pins, probe and sutures, kept beside the panel. hold: of the mouse.
+void draw_forces(const Frame& frame, const std::optional<render::Hold>& hold,
+                 const panel::CameraController& controller);
 
 /// The first end of an unfinished suture. node: mesh-file number.
 void draw_suture_end(int node, const Frame& frame, const SurfaceMesh& surface_mesh,

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <app/window/stroke_line.hpp>
-#include <heml/math/closest.hpp>
 #include <optional>
 #include <utility>
 
@@ -16,35 +15,18 @@ float longest_side(const std::array<Vec3f, 3>& x) {
 }  // namespace
 
 void StrokeLine::add(const render::Hit& hit, const Frame& frame, const SurfaceMesh& surface_mesh) {
-  Point point;
-  std::array<Vec3f, 3> x;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const auto node = static_cast<std::size_t>(surface_mesh.triangles[static_cast<std::size_t>(hit.triangle)][k]);
-    point.nodes[k] = surface_mesh.nodes[node];
-    x[k] = frame.positions[node];
-  }
-  const auto weights =
-      closest_point_weights(hit.point.cast<double>(), x[0].cast<double>(), x[1].cast<double>(), x[2].cast<double>());
-  for (std::size_t k = 0; k < 3; ++k) point.weights[k] = static_cast<float>(weights[k]);
-  point.extent = longest_side(x);
-  point.begins = std::exchange(lifted_, false) || points_.empty();
-  points_.push_back(point);
+  const render::SurfacePoint at = render::surface_point(hit, frame, surface_mesh);
+  points_.push_back({at, longest_side(*render::corners_of(at, frame, surface_mesh)),
+                     std::exchange(lifted_, false) || points_.empty()});
 }
 
 void StrokeLine::lift() { lifted_ = true; }
 
 std::vector<std::array<Vec3f, 2>> StrokeLine::segments(const Frame& frame, const SurfaceMesh& surface_mesh) const {
   const auto place = [&](const Point& point) -> std::optional<Vec3f> {
-    std::array<Vec3f, 3> x;
-    Vec3f sum = Vec3f::Zero();
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto at = std::lower_bound(surface_mesh.nodes.begin(), surface_mesh.nodes.end(), point.nodes[k]);
-      if (at == surface_mesh.nodes.end() || *at != point.nodes[k]) return std::nullopt;
-      x[k] = frame.positions[static_cast<std::size_t>(at - surface_mesh.nodes.begin())];
-      sum += point.weights[k] * x[k];
-    }
-    if (longest_side(x) > parted * point.extent) return std::nullopt;
-    return sum;
+    const auto corners = render::corners_of(point.at, frame, surface_mesh);
+    if (!corners || longest_side(*corners) > parted * point.extent) return std::nullopt;
+    return point.at.among(*corners);
   };
   std::vector<std::array<Vec3f, 2>> segments;
   std::optional<Vec3f> last;

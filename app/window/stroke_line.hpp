@@ -1,7 +1,7 @@
 #pragma once
 // The line that a scalpel's stroke has drawn on the skin. Its points move with the tissue; where that has parted, the
 // line ends and the wound shows.
-#include <app/render/pick.hpp>
+#include <app/render/surface_point.hpp>
 #include <array>
 #include <heml/session/frame.hpp>
 #include <vector>
@@ -20,8 +20,7 @@ class StrokeLine {
 
  private:
   struct Point {
-    std::array<int, 3> nodes;  // of the triangle, mesh-file numbers
-    std::array<float, 3> weights;
+    render::SurfacePoint at;
     float extent;  // m, longest side of the triangle when it was hit
     bool begins;   // a piece of the line
   };

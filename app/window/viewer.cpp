@@ -11,6 +11,7 @@ namespace heml::window {
 namespace {
 constexpr auto double_click_time = std::chrono::milliseconds(350);
 constexpr float double_click_distance = 6;  // pixels
+constexpr float passed_panel_opacity = 0.2f;
 
 std::string window_title(const Scene& scene) {
   const std::string& title = !scene.title.empty() ? scene.title : scene.name;
@@ -113,6 +114,7 @@ void Viewer::draw() {
   controller_.resize(size, panel_->insets({static_cast<float>(size.width), static_cast<float>(size.height)}),
                      panel::body_count(*frame_));
   render::DrawOptions drawing = panel_->drawing();
+  drawing.hold = mouse_tool_.hold();
   drawing.stroke = mouse_tool_.stroke(seen(), *seen().surface_mesh);
   if (!drawing.stroke.blade)
     drawing.stroke.blade = panel::scripted_blade(open_.scene.events, frame_->tick - 1, frame_->pace.rate);
@@ -129,7 +131,8 @@ void Viewer::draw_interface(float seconds) {
   interface_.begin(controller_.size(), seconds);
   draw_marks();
   const panel::PanelActions actions = panel_->draw(*frame_);
-  interface_.end();
+  // A tool that is dragged under the panel stays visible.
+  interface_.end(mouse_tool_.acts() && panel_->covers(mouse_.x(), mouse_.y()) ? passed_panel_opacity : 1);
   remember_preferences();
   carry_out(actions);
 }
@@ -143,7 +146,7 @@ void Viewer::remember_preferences() {
 
 void Viewer::draw_marks() {
   panel::each_pane(*frame_, controller_, [&](std::size_t, const Frame& body) {
-    draw_forces(body, controller_);
+    draw_forces(body, mouse_tool_.hold(), controller_);
     if (mouse_tool_.first_end()) draw_suture_end(*mouse_tool_.first_end(), body, *body.surface_mesh, controller_);
     if (panel_->shows_recovery()) draw_bad_element(body, controller_);
   });

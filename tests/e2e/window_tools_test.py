@@ -91,6 +91,30 @@ class Tools(WindowCase):
     def test_a_small_window_is_as_usable(self):
         self.play_a_session(640, 360)
 
+    def test_forceps_close_where_the_mouse_is_and_stay_in_sight_under_a_panel(self):
+        self.open_display(1280, 720)
+        self.begin_light("--record", "out.jsonl", size="1280x720")
+        before = self.display.picture()
+        x, y = before.tissue(300, 1010)
+
+        def changed(left, right, top, bottom):
+            now = self.display.picture()
+            places = [(a, b) for a in range(left, right, 2) for b in range(top, bottom, 2)]
+            return sum(max(abs(p - q) for p, q in zip(now.pixel(*at), before.pixel(*at))) > 40 for at in places)
+
+        self.do("mousemove", x, y)
+        self.do("mousedown", 1)
+        self.wait_for_event("grasp")
+        self.wait_for("jaws on the tissue", lambda: changed(x - 15, x + 15, y - 15, y + 15) > 10)
+        for step in range(1, 9):
+            self.do("mousemove", x + (120 - x) * step // 8, y)
+        self.wait_for("a panel that fades", lambda: self.display.picture().change(before, 30, 220) > 5)
+        self.do("mouseup", 1)
+        self.wait_for_event("release")
+        self.wait_for("the panel", lambda: self.display.picture().change(before, 30, 220) < 4)
+        self.quit()
+        self.verify()
+
     def test_a_scalpel_cuts_and_undo_takes_it_back(self):
         self.open_display(640, 360)
         self.begin_light("--record", "out.jsonl")

@@ -146,6 +146,25 @@ TEST_CASE("edges, constrained nodes and the tool are drawn on request") {
   CHECK(stage.draw().pixels == plain.pixels);
 }
 
+TEST_CASE("an instrument over the skin casts a fine shadow towards which the lamp does not shine") {
+  Stage stage;
+  stage.options.ground = false;
+  const Image plain = stage.draw();
+  const Vec3f lamp = Vec3f(-0.50f, 0.78f, 0.38f).normalized();
+  const Vec3f skin = 0.05f * lamp, tip = 0.08f * lamp - 0.02f * stage.camera.right();
+  stage.frame.tools.push_back(ProbeState{
+      {}, tip.cast<double>(), (tip + 0.04f * stage.camera.right()).cast<double>(), 0.003});
+  const Image shaded = stage.draw();
+  const auto brightness = [&](const Image& image, const Vec3f& point) {
+    const Vec2f pixel = stage.camera.pixel(point, size);
+    const auto colour = image.at(static_cast<int>(pixel.x()), static_cast<int>(pixel.y()));
+    return static_cast<int>(colour[0]) + static_cast<int>(colour[1]) + static_cast<int>(colour[2]);
+  };
+  CHECK(brightness(shaded, skin) < 0.9 * brightness(plain, skin));
+  const Vec3f away = 0.05f * (lamp - 1.2f * stage.camera.up()).normalized();
+  CHECK(brightness(shaded, away) == brightness(plain, away));
+}
+
 TEST_CASE("a surface mesh after a removal is drawn with its frame and the rest of the image stays") {
   Stage stage;
   stage.options.ground = false;

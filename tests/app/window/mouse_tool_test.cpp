@@ -62,6 +62,23 @@ TEST_CASE("the left button grasps the nearest node and moves it in the plane tha
   CHECK(sheet.mouse_tool.interaction() == MouseTool::Interaction::none);
 }
 
+TEST_CASE("the hold stays at the point of the tissue that was pressed, and its hand is where the mouse is") {
+  Sheet sheet;
+  CHECK_FALSE(sheet.mouse_tool.hold());
+  const Vec3f point(0.05f, -0.06f, 0), pulled(0.09f, 0.02f, 0);
+  sheet.press(MouseButton::left, sheet.pixel(point));
+  REQUIRE(sheet.mouse_tool.hold());
+  CHECK((sheet.mouse_tool.hold()->hand - point).norm() < 1e-5f);
+  sheet.move(sheet.pixel(pulled));
+  for (Vec3f& x : sheet.frame.positions) x.z() += 0.01f;
+  const render::Hold hold = *sheet.mouse_tool.hold();
+  CHECK((hold.hand - pulled).norm() < 1e-5f);
+  CHECK((hold.at.among(*render::corners_of(hold.at, sheet.frame, sheet.surface_mesh)) - point - Vec3f(0, 0, 0.01f))
+            .norm() < 1e-5f);
+  sheet.mouse_tool.release(MouseButton::left, sheet.commands);
+  CHECK_FALSE(sheet.mouse_tool.hold());
+}
+
 TEST_CASE("a scalpel cuts along the line of sight and each press begins a stroke") {
   Sheet sheet;
   sheet.tool.tool = panel::Tool::scalpel;
