@@ -81,21 +81,6 @@ void set_element(const std::string& element, SolverSettings& solver) {
   if (solver.quadratic) solver.recovery = false;
 }
 
-/// A node in the middle of each edge; lists of nodes take those between two of theirs.
-WorldSetup with_midedges(WorldSetup setup) {
-  TetMesh mesh = setup.mesh;
-  const std::size_t corners = mesh.nodes.size();
-  MidEdges midedges = add_midedge_nodes(mesh);
-  std::vector<std::array<int, 2>> edges(mesh.nodes.size() - corners);
-  for (std::size_t t = 0; t < midedges.size(); ++t)
-    for (std::size_t e = 0; e < 6; ++e)
-      edges[static_cast<std::size_t>(midedges[t][e]) - corners] = {mesh.tets[t][tet_edges[e][0]],
-                                                                   mesh.tets[t][tet_edges[e][1]]};
-  setup = on_finer_mesh(std::move(setup), std::move(mesh), edges);
-  setup.midedges = std::move(midedges);
-  return setup;
-}
-
 bool has_separate_volume_term(const Material& material, VolumeTerm volume_term) {
   return find_law(material.law)->has_volume_term && material.volume_term == volume_term;
 }

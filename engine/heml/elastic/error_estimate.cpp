@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <heml/elastic/error_estimate.hpp>
+#include <heml/elastic/node_patches.hpp>
 
 namespace heml {
 namespace {
@@ -25,47 +26,6 @@ Vec3 centroid(const TetMesh& mesh, std::size_t t) {
   return (at(mesh.nodes, tet, 0) + at(mesh.nodes, tet, 1) + at(mesh.nodes, tet, 2) + at(mesh.nodes, tet, 3)) / 4;
 }
 
-/// Patches of elements round nodes, of one material.
-class Patches {
- public:
-  Patches(const TetMesh& mesh, const std::vector<std::size_t>& elements)
-      : mesh_(mesh), start_(mesh.nodes.size() + 1, 0), taken_by_(mesh.tets.size(), -1) {
-    for (const std::size_t t : elements)
-      for (const int n : mesh.tets[t]) ++start_[static_cast<std::size_t>(n) + 1];
-    for (std::size_t n = 1; n < start_.size(); ++n) start_[n] += start_[n - 1];
-    around_.resize(start_.back());
-    std::vector<std::size_t> next(start_.begin(), start_.end() - 1);
-    for (const std::size_t t : elements)
-      for (const int n : mesh.tets[t]) around_[next[static_cast<std::size_t>(n)]++] = t;
-  }
-
-  /// The elements at a node, and as many rings of their neighbours as a fit needs; empty: none of this material.
-  const std::vector<std::size_t>& of(int node) {
-    patch_.clear();
-    add_around(node, node);
-    for (std::size_t ring_begin = 0; patch_.size() < min_patch && ring_begin < patch_.size();) {
-      const std::size_t ring_end = patch_.size();
-      for (; ring_begin < ring_end; ++ring_begin)
-        for (const int n : mesh_.tets[patch_[ring_begin]]) add_around(n, node);
-    }
-    return patch_;
-  }
-
- private:
-  void add_around(int n, int node) {
-    for (std::size_t k = start_[static_cast<std::size_t>(n)]; k < start_[static_cast<std::size_t>(n) + 1]; ++k) {
-      if (taken_by_[around_[k]] == node) continue;
-      taken_by_[around_[k]] = node;
-      patch_.push_back(around_[k]);
-    }
-  }
-
-  const TetMesh& mesh_;
-  std::vector<std::size_t> start_, around_;  ///< elements at node n: around_[start_[n], start_[n + 1])
-  std::vector<int> taken_by_;                ///< #T, node whose patch last took the element
-  std::vector<std::size_t> patch_;
-};
-
 /// The fields of one material at nodes, #V.
 struct Recovered {
   std::vector<Mat3> F, P;
@@ -77,7 +37,7 @@ Recovered recover(const TetMesh& mesh, const std::vector<std::size_t>& elements,
                   const std::vector<Mat3>& P) {
   const std::size_t nodes = mesh.nodes.size();
   Recovered result{std::vector<Mat3>(nodes, Mat3::Zero()), std::vector<Mat3>(nodes, Mat3::Zero())};
-  Patches patches(mesh, elements);
+  NodePatches patches(mesh, elements, min_patch);
   for (std::size_t n = 0; n < nodes; ++n) {
     const std::vector<std::size_t>& patch = patches.of(static_cast<int>(n));
     double volume = 0;

@@ -11,8 +11,8 @@
 
 namespace heml {
 
-/// Completes an edit of the corners of quadratic elements, whose new corners are on their edges: new nodes get the nodes
-/// that they follow, new elements their mid-edge nodes. Middles of edges between old corners stay; those at a copy of a
+/// Completes an edit of the corners of quadratic elements, whose new corners are on their edges: new corners get the
+/// nodes that they follow, new elements their mid-edge nodes. Middles of edges between old corners stay; those at a copy of a
 /// corner are copies; all others are numbered after the new corners, by ascending (smaller, larger) end node.
 void add_midedge_nodes(const TetMesh& mesh, const MidEdges& midedges, MeshEdit& edit);
 

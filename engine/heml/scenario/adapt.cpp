@@ -17,6 +17,9 @@ constexpr const char* other_remedy = "refine it at a time of its motion instead:
 constexpr double refined_share = 0.5;  // of the squared error, per round
 
 void check(const Scene& scene, const WorldSetup& setup, const std::optional<double>& time) {
+  if (!has_straight_edges(setup))
+    throw InputError(scene.file, refine_key, "divides straight edges, and the elements of this mesh are curved",
+                     "take a mesh of four-node tetrahedra, or leave it out");
   const double end = scene.solver.is_static() ? 1 : scene.solver.duration;
   if (time && *time > end)
     throw InputError(scene.file, "", fmt::format("ends at {} s and is to be refined at {} s", end, *time),
@@ -85,12 +88,14 @@ Adaptation adapt(const Scene& scene, WorldSetup setup, const RefineGoal& goal, c
     if (told) told(result.meshes.back());
     result.reached = error.relative() <= goal.error;
     if (result.reached) break;
-    Refinement finer = refine_longest_edge(setup.mesh, doerfler_marking(error.of_element, refined_share));
+    WorldSetup corners = corners_of(setup);
+    Refinement finer = refine_longest_edge(corners.mesh, doerfler_marking(error.of_element, refined_share));
     if (finer.mesh.tets.size() > static_cast<std::size_t>(goal.tets)) break;
     std::vector<int> origins;
     for (const int parent : finer.parents) origins.push_back(result.origins[static_cast<std::size_t>(parent)]);
     result.origins = std::move(origins);
-    setup = on_finer_mesh(std::move(setup), std::move(finer.mesh), finer.midpoint_edges);
+    corners = on_finer_mesh(std::move(corners), std::move(finer.mesh), finer.midpoint_edges);
+    setup = setup.midedges.empty() ? std::move(corners) : with_midedges(std::move(corners));
   }
   result.setup = std::move(setup);
   return result;
@@ -103,7 +108,8 @@ AdaptedScene adapted_scene(const Scene& scene, const Adaptation& adaptation, con
           scene.file, "events",
           fmt::format("step {} removes tetrahedra by numbers, which a finer mesh has others for", event.tick),
           "give it a region, a box or a sphere");
-  AdaptedScene result{scene, adaptation.setup.mesh};
+  const WorldSetup corners = corners_of(adaptation.setup);  // middles of edges are made on reading
+  AdaptedScene result{scene, corners.mesh};
   result.mesh.fields.clear();
   for (const ElementField& field : load_mesh(scene).fields) {
     ElementField& pieces = result.mesh.fields.emplace_back(ElementField{field.name, field.components, {}});
@@ -116,9 +122,9 @@ AdaptedScene adapted_scene(const Scene& scene, const Adaptation& adaptation, con
   finer.mesh = MeshSpec();
   finer.mesh.file = mesh_file;
   for (std::size_t k = 0; k < scene.boundary.size(); ++k)
-    if (auto& nodes = finer.boundary[k].where.nodes; !nodes.empty()) nodes = adaptation.setup.boundary[k].nodes;
+    if (auto& nodes = finer.boundary[k].where.nodes; !nodes.empty()) nodes = corners.boundary[k].nodes;
   for (std::size_t k = 0; k < scene.loads.size(); ++k)
-    if (auto& nodes = finer.loads[k].where.nodes; !nodes.empty()) nodes = adaptation.setup.loads[k].nodes;
+    if (auto& nodes = finer.loads[k].where.nodes; !nodes.empty()) nodes = corners.loads[k].nodes;
   finer.checkpoints.clear();
   finer.recorded_ticks.reset(), finer.recorded_end.reset(), finer.recorded_by = {}, finer.recorded_mesh.reset(),
                                                             finer.recorded_instructions.reset();

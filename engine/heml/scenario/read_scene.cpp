@@ -158,7 +158,7 @@ void check_energy_laws(const Scene& scene) {
       check(set->material, fmt::format("events: step {}: material", event.tick));
 }
 
-/// Quadratic elements take no springs, and no self-contact, tearing, recovery or refinement.
+/// Quadratic elements take no springs, and no self-contact, tearing or recovery.
 void check_quadratic(const Scene& scene) {
   if (!scene.solver.quadratic) return;
   const auto refuse = [&](const std::string& place) {
@@ -168,7 +168,6 @@ void check_quadratic(const Scene& scene) {
   if (scene.self_contact) refuse("self_contact");
   if (scene.tearing) refuse("tearing");
   if (scene.solver.recovery) refuse("solver.recovery");
-  if (scene.mesh.refine) refuse("mesh.refine");
   const auto check = [&](const Material& material, const std::string& place) {
     if (!find_law(material.law)->is_continuum) refuse(place + ".law");
   };

@@ -134,8 +134,8 @@ Status MeshEditor<Real>::add_midedge_nodes(MeshEdit& edit) const {
   const int inverted = count_inverted_points(s_.setup.mesh, edit);
   if (inverted == 0) return {};
   return fmt::format(
-      "cut: {} integration points of the pieces would be inverted at rest, since the elements are curved; cut elsewhere, "
-      "or take a mesh with straight edges",
+      "cut: {} integration points of the pieces would be inverted at rest, since the elements are curved; cut "
+      "elsewhere, or take a mesh with straight edges",
       inverted);
 }
 

@@ -68,8 +68,8 @@ void restore(const SimulationSnapshot<Real>& snapshot, Simulation<Real>& s) {
 
 template <class Real>
 std::size_t SimulationSnapshot<Real>::bytes() const {
-  std::size_t sum = bytes_of_mesh(mesh->mesh) + bytes_of_model(mesh->model) + bytes_of(mesh->midedges, mesh->topology->elements) +
-                    body.bytes() + (values.contacts.tissue ? values.contacts.tissue->bytes() : 0);
+  std::size_t sum = bytes_of_mesh(mesh->mesh) + bytes_of_model(mesh->model) +
+                    bytes_of(mesh->midedges, mesh->topology->elements) + body.bytes() + (values.contacts.tissue ? values.contacts.tissue->bytes() : 0);
   for (const State<Real>* state : {&values.state, &values.last_valid}) sum += bytes_of(state->x, state->v, state->f);
   return sum + bytes_of(values.mass, values.inverse_mass, values.inverse_mass_per_dof);
 }

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <heml/base/hash.hpp>
+#include <heml/elastic/quadratic_error.hpp>
 #include <heml/world/field_list.hpp>
 #include <heml/world/world_queries.hpp>
 #include <numeric>
@@ -112,11 +113,15 @@ template <class Real>
 std::optional<ErrorEstimate> WorldQueries<Real>::estimate() {
   const FlushDenormals flush;
   ElasticBody<Real>& body = s_.acting_body();
-  if (body.has_springs() || body.points_per_element() > 1) return std::nullopt;
+  if (body.has_springs()) return std::nullopt;
   ErrorEstimate found;
+  const std::vector<Mat3> P = body.stresses(s_.state.x.data(), s_.team);
   found.of_element =
-      recovery_errors(s_.model.mesh, s_.model.material_of, deformation_gradients(s_.model.mesh, inner_positions()),
-                      body.stresses(s_.state.x.data(), s_.team));
+      s_.model.midedges.empty()
+          ? recovery_errors(s_.model.mesh, s_.model.material_of,
+                            deformation_gradients(s_.model.mesh, inner_positions()), P)
+          : quadratic_recovery_errors(s_.model.mesh, s_.model.material_of,
+                                      body.deformation_gradients(s_.state.x.data()), P);
   found.squared = std::accumulate(found.of_element.begin(), found.of_element.end(), 0.0);
   found.stored = body.energy(s_.state.x.data(), s_.team);
   return found;

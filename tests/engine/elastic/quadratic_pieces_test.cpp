@@ -158,7 +158,7 @@ TEST_CASE("pieces of quadratic elements at rest in a bent state: viscosity feels
   for (const double change : changes) CHECK(std::abs(change) <= 0.1 * largest);
 }
 
-TEST_CASE("quadratic elements that are left after a removal act as a body made of them alone, and remember as it does") {
+TEST_CASE("quadratic elements left by a removal act as a body made of them alone, and remember as it does") {
   std::mt19937_64 random(8);
   const QuadraticBody whole(random, 0.1);
   MeshEdit edit;

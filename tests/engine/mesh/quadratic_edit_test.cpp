@@ -178,6 +178,29 @@ TEST_CASE("a cut of quadratic elements: half through it opens, and further sweep
   CHECK(body.volume() == doctest::Approx(volume).epsilon(1e-14));
 }
 
+TEST_CASE("the boundary of quadratic elements after edits has four triangles a face, closes, and holds their volume") {
+  Body body([](const Vec3& X) { return X; });
+  body.sweep(across());
+  body.topology.elements.erase(body.topology.elements.begin() + 3, body.topology.elements.begin() + 9);
+  const BoundaryFaces fine = fine_boundary(body.mesh, body.midedges, body.topology);
+  const BoundaryFaces coarse = extract_boundary(with_elements(body.mesh, body.topology.elements));
+  CHECK(fine.triangles.size() == 4 * coarse.triangles.size());
+  std::map<std::pair<int, int>, int> balance;
+  double enclosed = 0;
+  for (std::size_t f = 0; f < fine.triangles.size(); ++f) {
+    const auto& [a, b, c] = fine.triangles[f];
+    enclosed += body.rest(a).dot(body.rest(b).cross(body.rest(c))) / 6;
+    for (const auto& [from, to] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
+      ++balance[{from, to}];
+      --balance[{to, from}];
+    }
+    const auto nodes = body.nodes_of(body.topology.elements[static_cast<std::size_t>(fine.tets[f])]);
+    CHECK(std::find(nodes.begin(), nodes.end(), a) != nodes.end());
+  }
+  for (const auto& [edge, count] : balance) CHECK(count == 0);
+  CHECK(enclosed == doctest::Approx(body.volume()).epsilon(1e-12));
+}
+
 TEST_CASE("a cut of curved quadratic elements: a piece lies where the element's map has it, at rest and deformed") {
   Body body([](const Vec3& X) { return Vec3(X.x() + X.y() * X.z(), 1.1 * X.y(), X.z() - X.x() * X.x()); }, 2e-3);
   const MeshEdit edit = body.sweep(across());

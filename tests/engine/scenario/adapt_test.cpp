@@ -12,6 +12,7 @@
 #include <heml/scenario/recorder.hpp>
 #include <heml/scenario/replay.hpp>
 #include <heml/scenario/text_file.hpp>
+#include <heml/world/finer_setup.hpp>
 
 namespace heml::adapt_test {
 namespace {
@@ -102,6 +103,47 @@ TEST_CASE("a mesh is refined until its estimate is as asked for, and the error f
   CHECK(adapted.meshes.back().error <= 0.4);
   CHECK(adapted.meshes[adapted.meshes.size() - 2].error > 0.4);
   CHECK(adapted.meshes.back().tets == adapted.setup.mesh.tets.size());
+}
+
+TEST_CASE("a mesh of quadratic elements is refined likewise, and supports and loads hold the middles between their nodes") {
+  for (const char* element : {"p2", "p2_pressure"}) {
+    CAPTURE(element);
+    const Scene scene = sagging(R"({"materials": [{"law": "neo_hookean_iso", "K1": 2e3, "kappa": 4e3}],
+                                    "solver": {"element": ")" + std::string(element) + "\"}}");
+    const Adaptation adapted = adapt(scene, load_setup(scene), RefineGoal{0.12, 5000}, {});
+    CHECK(adapted.reached);
+    REQUIRE(adapted.meshes.size() > 2);
+    for (std::size_t k = 1; k < adapted.meshes.size(); ++k) {
+      CHECK(adapted.meshes[k].tets > adapted.meshes[k - 1].tets);
+      CHECK(adapted.meshes[k].potential < adapted.meshes[k - 1].potential);  // nested spaces: Π decreases
+      CHECK(adapted.meshes[k].nodes > adapted.meshes[k].tets);
+    }
+    const WorldSetup& setup = adapted.setup;
+    REQUIRE(setup.midedges.size() == setup.mesh.tets.size());
+    CHECK(has_straight_edges(setup));
+    const auto at_x = [&](double x) {
+      return std::count_if(setup.mesh.nodes.begin(), setup.mesh.nodes.end(), [x](const Vec3& X) { return X.x() == x; });
+    };
+    CHECK(std::ssize(setup.boundary[0].nodes) == at_x(0));
+    CHECK(std::ssize(setup.loads[0].nodes) == at_x(0.2));
+    const AdaptedScene written = adapted_scene(scene, adapted, "finer.msh");
+    CHECK(written.mesh.nodes.size() == setup.mesh.nodes.size() - count_nodes(setup.midedges));
+    for (const int n : written.scene.boundary[0].where.nodes)
+      CHECK(static_cast<std::size_t>(n) < written.mesh.nodes.size());
+    const int limit = static_cast<int>(setup.mesh.tets.size()) - 1;
+    const Adaptation limited = adapt(scene, load_setup(scene), RefineGoal{0.01, limit}, {});
+    CHECK(!limited.reached);
+    CHECK(limited.setup.midedges.size() == limited.setup.mesh.tets.size());
+  }
+}
+
+TEST_CASE("a mesh of curved elements is not refined, and the message names what to do") {
+  const Scene scene = sagging(R"({"solver": {"element": "p2"}})");
+  WorldSetup setup = load_setup(scene);
+  setup.mesh.nodes.back() += Vec3(1e-3, 0, 0);
+  const std::string said = refusal([&] { adapt(scene, setup, RefineGoal{0.3, 500}, {}); });
+  CHECK(test::says(said, "mesh.refine: divides straight edges"));
+  CHECK(test::says(said, "four-node tetrahedra"));
 }
 
 TEST_CASE("no more tetrahedra are made than are allowed, and that is told") {

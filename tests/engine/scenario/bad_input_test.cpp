@@ -122,8 +122,6 @@ const Mistake mistakes[] = {
      "\"element\": \"p1\""},
     {R"({"solver": {"element": "p2"}, "tearing": {"stretch": 2}})", "tearing: does not go with solver.element p2",
      "\"element\": \"p1\""},
-    {R"({"solver": {"element": "p2"}, "mesh": {"refine": {"error": 0.1}}})",
-     "mesh.refine: does not go with solver.element p2", "\"element\": \"p1\""},
     {R"({"solver": {"element": "p2"}, "materials": [{"law": "mass_spring", "stiffness": 10}]})",
      "materials[0].law: does not go with solver.element p2", "\"element\": \"p1\""},
     {R"({"solver": {"tolerance": 0}})", "solver.tolerance: is 0", "greater than 0"},

@@ -91,7 +91,9 @@ Vec3 momentum_of(const World& world) { return weighted(world, world.velocities()
 Energies energies_of(const World& world, int t, const std::vector<Vec3>& x, const std::vector<Vec3>& v) {
   const auto nodes = nodes_of(world, t);
   const auto& X = world.setup().mesh.nodes;
-  const auto at = [&](const std::vector<Vec3>& list, std::size_t a) { return list[static_cast<std::size_t>(nodes[a])]; };
+  const auto at = [&](const std::vector<Vec3>& list, std::size_t a) {
+    return list[static_cast<std::size_t>(nodes[a])];
+  };
   Mat3 Dm;
   Dm << at(X, 1) - at(X, 0), at(X, 2) - at(X, 0), at(X, 3) - at(X, 0);
   Eigen::Matrix<double, 4, 3> gradient;
@@ -159,7 +161,7 @@ Vec3 borne(const WorldSetup& setup, const std::optional<Command>& edit) {
 
 }  // namespace
 
-TEST_CASE("quadratic elements: a removal takes the energy and mass of its elements, and leaves all that moves as it is") {
+TEST_CASE("quadratic elements: a removal takes energy and mass of its elements, and leaves all that moves as it is") {
   for (const Integrator integrator : {Integrator::verlet, Integrator::backward_euler}) {
     CAPTURE(integrator_name(integrator));
     const auto world = make_world(bar(false, integrator));
@@ -321,7 +323,8 @@ TEST_CASE("quadratic elements: a severed part falls freely and the held part sta
         for (const int t : world->topology()->elements) {
           Vec3 middle = Vec3::Zero();
           const auto nodes = nodes_of(*world, t);
-          for (std::size_t c = 0; c < 4; ++c) middle += world->setup().mesh.nodes[static_cast<std::size_t>(nodes[c])] / 4;
+          for (std::size_t c = 0; c < 4; ++c)
+            middle += world->setup().mesh.nodes[static_cast<std::size_t>(nodes[c])] / 4;
           if (middle.x() < half_way) continue;
           for (std::size_t k = 0; k < 10; ++k) {
             const double share = volume_of(*world, t) * (k < 4 ? 1.0 / 36 : 4.0 / 27);
@@ -344,7 +347,8 @@ TEST_CASE("quadratic elements: a stroke of many sweeps through a moving body is 
   each_element([](bool mean_dilatation) {
     for (const Integrator integrator : {Integrator::verlet, Integrator::bdf2}) {
       CAPTURE(integrator_name(integrator));
-      const auto world = make_world(bar(mean_dilatation, integrator)), plain = make_world(bar(mean_dilatation, integrator));
+      const WorldSetup setup = bar(mean_dilatation, integrator);
+      const auto world = make_world(setup), plain = make_world(setup);
       for (int k = 0; k < 4; ++k) world->tick(), plain->tick();
       for (int k = 0; k < 8; ++k) {
         const auto at = [](int m) { return Vec3(0.052, 0.03 - 0.06 * m / 8, 0); };

@@ -198,4 +198,32 @@ TEST_CASE("quadratic elements: energy of free motion is kept, and of a snapshot 
   CHECK(world->state_hash() == hash);
 }
 
+TEST_CASE("quadratic elements: a world's estimate of its mesh is near the error that energies show, and falls") {
+  const auto total_of = [](const std::array<int, 3>& cells, const char* law, bool mean_dilatation, double* relative) {
+    WorldSetup setup = quadratic_bar(Vec3(0.1, 0.02, 0.02), cells, soft(law));
+    setup.solver.nodal_pressure = mean_dilatation;
+    setup.gravity = Vec3(0, -1e-3, 0);  // so little that the law is linear
+    const auto world = solved(setup, 1e-9);
+    const auto estimate = world->error_estimate();
+    REQUIRE(estimate);
+    CHECK(estimate->of_element.size() == setup.mesh.tets.size());
+    *relative = estimate->relative();
+    return total(world->energies());
+  };
+  for (const bool mean_dilatation : {false, true}) {
+    const char* law = mean_dilatation ? "neo_hookean_iso" : "neo_hookean";
+    double estimated[2], finest;
+    const double coarse = total_of({5, 1, 1}, law, mean_dilatation, &estimated[0]),
+                 fine = total_of({10, 2, 2}, law, mean_dilatation, &estimated[1]),
+                 reference = total_of({25, 5, 5}, law, mean_dilatation, &finest);
+    // Relative errors in the energy norm: the stored energy of the solution is minus its total.
+    const double errors[2] = {std::sqrt((coarse - reference) / -reference), std::sqrt((fine - reference) / -reference)};
+    MESSAGE("estimated " << estimated[0] << ", " << estimated[1] << "; energies show " << errors[0] << ", "
+                         << errors[1]);
+    for (int k = 0; k < 2; ++k) CHECK(estimated[k] / errors[k] > 0.5);
+    for (int k = 0; k < 2; ++k) CHECK(estimated[k] / errors[k] < 1.5);
+    CHECK(estimated[1] < 0.7 * estimated[0]);
+  }
+}
+
 }  // namespace heml::quadratic_world_test
