@@ -2,6 +2,7 @@
 
 #include <app/commands/commands.hpp>
 #include <heml/base/log.hpp>
+#include <heml/base/warning_collector.hpp>
 #if HEML_WINDOW
 #include <app/window/window.hpp>
 #endif
@@ -11,9 +12,11 @@ namespace heml {
 int run(const RunArguments& arguments) {
   std::string reason = "this build has no window";
 #if HEML_WINDOW
+  const WarningCollector warnings;
   const Scene scene = arguments.scene.empty() ? default_scene() : read_scene(arguments.scene);
   WindowOptions options;
   options.record = arguments.record;
+  options.warnings = warnings.texts();
   options.comparisons = arguments.comparisons;
   options.size = {arguments.size.width, arguments.size.height};
   options.exit_after = arguments.exit_after;

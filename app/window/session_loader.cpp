@@ -63,15 +63,17 @@ fs::path next_recording(const fs::path& file) {
   }
 }
 
-OpenScene start(Scene scene, const std::optional<fs::path>& record, std::vector<std::string> comparisons) {
+OpenScene start(Scene scene, const std::optional<fs::path>& record, std::vector<std::string> comparisons,
+                std::vector<std::string> warnings) {
   OpenScene result{std::move(scene), nullptr, record, false, std::move(comparisons), {}};
   result.was_recorded = result.scene.recorded_ticks.has_value();
   SessionOptions options = options_for(result.scene, record);
   options.comparisons = result.comparisons;
-  const WarningCollector warnings;
+  const WarningCollector further;
   result.session = std::make_unique<Session>(result.scene, options);
   try_texture(result.session->latest());
-  result.findings = findings_of(result.scene, warnings.texts());
+  warnings.insert(warnings.end(), further.texts().begin(), further.texts().end());
+  result.findings = findings_of(result.scene, warnings);
   return result;
 }
 
@@ -82,8 +84,10 @@ void SessionLoader::begin(const fs::path& path, const std::optional<fs::path>& r
   cancelled_ = false;
   result_ = std::async(std::launch::async, [path, record, options, comparisons = std::move(comparisons)]() mutable {
     const WakeAtEnd wake_at_end;
-    OpenScene opened = start(read_scene(path, options), record ? std::optional(next_recording(*record)) : std::nullopt,
-                             std::move(comparisons));
+    const WarningCollector warnings;
+    Scene scene = read_scene(path, options);
+    OpenScene opened = start(std::move(scene), record ? std::optional(next_recording(*record)) : std::nullopt,
+                             std::move(comparisons), warnings.texts());
     remember_file(path);
     return opened;
   });

@@ -20,9 +20,10 @@ struct OpenScene {
   std::vector<std::string> findings = {};          ///< what was found and chosen on opening, for people
 };
 
-/// Starts the session of a scene, whose frames wake the window. record: file to write. Throws InputError.
+/// Starts the session of a scene, whose frames wake the window. record: file to write. warnings: of reading the scene.
+/// Throws InputError.
 OpenScene start(Scene scene, const std::optional<std::filesystem::path>& record,
-                std::vector<std::string> comparisons = {});
+                std::vector<std::string> comparisons = {}, std::vector<std::string> warnings = {});
 
 /// STEM-2.jsonl in the folder of a file, or the next number that does not exist yet.
 std::filesystem::path next_recording(const std::filesystem::path& file);

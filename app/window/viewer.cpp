@@ -23,7 +23,7 @@ Viewer::Viewer(GlfwWindow& window, const Scene& scene, const WindowOptions& opti
     : window_(window),
       options_(options),
       interface_(panel::Interface::suitable_scale(window.size()) * window.content_scale()) {
-  adopt(start(scene, options.record, options.comparisons));
+  adopt(start(scene, options.record, options.comparisons, options.warnings));
   window_.send_events_to(this);
   offer_left_work();
 }

@@ -12,6 +12,7 @@ namespace heml {
 struct WindowOptions {
   std::optional<std::filesystem::path> record;  ///< file for a recording of the session
   std::vector<std::string> comparisons;         ///< variants to run in lockstep (heml/session/variant.hpp)
+  std::vector<std::string> warnings;            ///< of reading the scene, for people
   render::Size size{1280, 720};                 ///< pixels
   double exit_after = 0;                        ///< s of wall time until the window closes by itself; 0: never
   double draw_stall = 0;                        ///< ms added to every drawing, to test that the engine is not delayed

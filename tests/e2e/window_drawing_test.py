@@ -8,6 +8,8 @@ import subprocess
 import time
 import unittest
 
+from program import beam
+from skin_test import png, tube
 from window_case import BINARY, WindowCase, light_scene
 
 
@@ -75,6 +77,28 @@ class Drawing(WindowCase):
         self.assertEqual(self.seen("grasp"), [])
         self.drag(self.display.picture().tissue(220, 640), (-10, 0))
         self.wait_for_event("grasp")
+        self.quit()
+
+    def test_a_fine_skin_is_drawn_until_the_body_is_cut_and_after_undo(self):
+        (self.folder / "tube.obj").write_text(tube())
+        (self.folder / "tube.mtl").write_text("newmtl skin\nKd 1 1 1\nmap_Kd paint.png\n")
+        (self.folder / "paint.png").write_bytes(png(8, 8, lambda x, y: (30, 200, 40)))
+        cut = {"sweep": [[[0.05, -0.01, -0.01], [0.05, -0.01, 0.03]], [[0.05, 0.03, -0.01], [0.05, 0.03, 0.03]]]}
+        bar = beam(name="bar", skin={"file": "tube.obj"}, gravity=[0, 0, 0], solver={"rate": 100},
+                   events=[{"step": 200, "cut": cut}])
+
+        def green():
+            picture = self.display.picture()
+            return sum(g > 60 and g > 1.6 * r and g > 1.6 * b
+                       for r, g, b in (picture.pixel(*place) for place in picture.places(220, 640)))
+
+        self.open_display(640, 360)
+        self.begin_light("--record", "out.jsonl", scene=bar)
+        self.wait_for("the skin", lambda: green() > 50)
+        self.wait_for("the cut body", lambda: self.status().tick > 200 and green() < 5)
+        self.assertEqual(self.log.read_text().count("the skin is not cut"), 1)
+        self.do("key", "ctrl+z")
+        self.wait_for("the skin again", lambda: green() > 50)
         self.quit()
 
     def test_a_paused_window_draws_nothing(self):

@@ -14,8 +14,7 @@ struct Skin {
 };
 
 /// The skin of a scene; null if it names none. mesh: as load_setup() returns it. Scaled, turned and moved as the mesh
-/// is. Warns of a surface that lies far from the body, or of a surface much smaller or larger. Throws InputError for
-/// files that are missing or of another kind.
+/// is. Warns of a surface far from the body. Throws InputError for files that are missing or of another kind.
 std::shared_ptr<const Skin> load_skin(const Scene& scene, const TetMesh& mesh);
 
 }  // namespace heml

@@ -1,8 +1,10 @@
 #pragma once
 // Substitutes for heml-mesher, and environment variables for tests.
+#include <doctest/doctest.h>
 #include <stdlib.h>
 
 #include <filesystem>
+#include <heml/mesh/textured_surface.hpp>
 #include <optional>
 #include <string>
 
@@ -34,6 +36,15 @@ class Environment {
   const char* name_;
   std::optional<std::string> old_;
 };
+
+/// Whether this build reads surfaces to be drawn; prints a message if not.
+inline bool reads_skins() {
+  const TemporaryFolder folder;
+  const std::string said = refusal([&] { read_textured_surface(folder.file("a.obj", "")); });
+  const bool missing = said.find("HEML_ASSIMP") != said.npos;
+  if (missing) MESSAGE("skipped: ", said);
+  return !missing;
+}
 
 /// Creates a helper that runs a shell script; its answer goes to file descriptor 3. Returns its path.
 inline std::string helper_of(const TemporaryFolder& folder, const std::string& script) {

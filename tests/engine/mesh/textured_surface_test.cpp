@@ -3,6 +3,7 @@
 #include <heml/mesh/textured_surface.hpp>
 
 #include "engine/mesh/files.hpp"
+#include "engine/mesh/helpers.hpp"
 
 namespace heml::textured_surface_test {
 
@@ -21,6 +22,7 @@ bool holds(const std::string& text, const std::string& part) {
 }  // namespace
 
 TEST_CASE("a surface has its texture coordinates, seams apart, and the image beside it") {
+  if (!reads_skins()) return;
   const TemporaryFolder folder;
   folder.file("s.mtl", "newmtl skin\nKd 1 1 1\nmap_Kd C:\\elsewhere\\skin.png\n");
   folder.file("skin.png", "an image");
@@ -41,6 +43,7 @@ TEST_CASE("a surface has its texture coordinates, seams apart, and the image bes
 }
 
 TEST_CASE("a missing image is refused with its name, unless the scene names another") {
+  if (!reads_skins()) return;
   const TemporaryFolder folder;
   folder.file("s.mtl", "newmtl skin\nmap_Kd gone.png\n");
   const auto file = folder.file("s.obj", square);
@@ -49,6 +52,7 @@ TEST_CASE("a missing image is refused with its name, unless the scene names anot
 }
 
 TEST_CASE("colours are those of vertices or materials, and none where the file gives none") {
+  if (!reads_skins()) return;
   const TemporaryFolder folder;
   const TexturedSurface painted =
       read_textured_surface(folder.file("p.obj", "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 0.5\nf 1 2 3\n"));
@@ -67,6 +71,7 @@ TEST_CASE("colours are those of vertices or materials, and none where the file g
 }
 
 TEST_CASE("what is no surface is refused by its name") {
+  if (!reads_skins()) return;
   const TemporaryFolder folder;
   CHECK(holds(refusal([&] { read_textured_surface(folder / "none.obj"); }), "none.obj: there is no such file"));
   CHECK(holds(refusal([&] { read_textured_surface(folder.file("a.obj", "v 0 0 0\n")); }), "a.obj"));
