@@ -285,6 +285,7 @@ void append(const WorldSetup& setup, const MeshEdit& edit, Model<Real>& model) {
   for (std::size_t k = 0; k < edit.nodes.size(); ++k) {
     model.order.file_node.push_back(static_cast<int>(model.order.new_node.size()));
     model.order.new_node.push_back(nodes + static_cast<int>(k));
+    model.surface_nodes.push_back(nodes + static_cast<int>(k));  // of a wound, or on its front
   }
   BoundaryFaces& faces = model.loaded_faces;
   std::unordered_map<int, std::vector<Triangle>> loaded;  // of the parents

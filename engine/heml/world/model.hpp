@@ -24,7 +24,7 @@ struct Model {
   MidEdges midedges;               ///< #T of quadratic elements, else empty
   std::vector<int> material_of;    ///< #T
   BoundaryFaces loaded_faces;      ///< the surface as first made, of elements that are left: what loads act on
-  std::vector<int> surface_nodes;  ///< ascending
+  std::vector<int> surface_nodes;  ///< ascending, also those in wounds and on the front of a cut
   std::vector<ConstrainedNode> constrained;          ///< ascending in node
   std::vector<PrescribedMotion> prescribed_motions;  ///< one per setup.boundary
   std::vector<double> speeds;                        ///< m/s, of each while it moves: of the fastest node

@@ -58,6 +58,31 @@ Vec3 momentum_of(const World& world) {
 
 }  // namespace
 
+TEST_CASE("what a cut has laid bare rests on a table") {
+  constexpr double cut_at = 0.052, table = 0.045;  // m, between two layers of nodes, and below
+  for (const Integrator integrator : {Integrator::verlet, Integrator::backward_euler}) {
+    CAPTURE(integrator_name(integrator));
+    WorldSetup setup = cantilever();
+    setup.solver.integrator = integrator;
+    setup.solver.damping = 20;
+    setup.gravity = Vec3(-9.81, 0, 0);
+    setup.boundary.clear();
+    setup.tables = {{Vec3(table, 0, 0), Vec3::UnitX(), 0.4}};
+    const auto world = make_world(setup);
+    REQUIRE(world->apply(stroke(Vec3(cut_at, -1, 0), Vec3(cut_at, 1, 0))).ok());
+    REQUIRE(world->apply(RemoveElements{{{}, {}, std::array{Vec3(-1, -1, -1), Vec3(cut_at, 1, 1)}, {}}}).ok());
+    run_until(*world, 0.3);
+    REQUIRE_FALSE(world->halt());
+    const auto x = world->positions();
+    double lowest = 1;
+    for (const int t : world->topology()->elements)
+      for (const int n : world->setup().mesh.tets[static_cast<std::size_t>(t)])
+        lowest = std::min(lowest, x[static_cast<std::size_t>(n)].x());
+    CHECK(lowest >= table - (is_explicit(integrator) ? 1e-12 : 1e-5));
+    CHECK(lowest <= table + 1e-3);
+  }
+}
+
 TEST_CASE("a cut keeps mass, momentum and elastic energy, and is reported") {
   for (const bool single : {false, true}) {
     WorldSetup setup = moving();
