@@ -10,6 +10,7 @@
 #include <heml/scenario/feb_model.hpp>
 #include <heml/scenario/feb_scene.hpp>
 #include <heml/scenario/selection.hpp>
+#include <heml/scenario/solver_json.hpp>
 #include <heml/scenario/text_file.hpp>
 
 namespace heml {
@@ -188,6 +189,7 @@ void set_method(FebModel& model, Scene& scene) {
   if (solver.quadratic) model.findings.note(model.mesh.parts.front().tag, "tet10 elements: \"element\": \"p2\"");
   if (!model.control.dynamic) {
     solver.integrator = Integrator::static_equilibrium;
+    solver.rate = default_rate(solver.integrator);
     return;
   }
   solver.integrator = Integrator::tr_bdf2;

@@ -20,7 +20,9 @@ Budget budget_from(const JsonCursor& key) {
   return budget;
 }
 
-/// Hz. A step of an implicit method costs as much as dozens of explicit ones and need not be short for stability.
+}  // namespace
+
+// A step of an implicit method costs as much as dozens of explicit ones and need not be short for stability.
 double default_rate(Integrator integrator) {
   switch (info_of(integrator).kind) {
     case IntegratorKind::implicit_steps:
@@ -33,8 +35,6 @@ double default_rate(Integrator integrator) {
   }
   return SolverSettings{}.rate;
 }
-
-}  // namespace
 
 std::span<const std::string_view> integrator_names() {
   static const auto names = [] {

@@ -19,6 +19,9 @@ inline constexpr std::string_view element_names[] = {"p1", "nodal_pressure", "p2
 /// The integrator a value names. Throws InputError for one that is unknown.
 Integrator integrator_from(const JsonCursor& key);
 
+/// Ticks a second, Hz, where a scene gives no rate.
+double default_rate(Integrator integrator);
+
 /// Throws InputError naming the key.
 SolverSettings solver_from(const JsonCursor& key);
 

@@ -98,6 +98,7 @@ TEST_CASE("the cube of every version becomes the same scene") {
     CHECK(scene.mesh.scale == 1);
     CHECK(scene.solver.is_static());
     CHECK(scene.solver.duration == 1);
+    CHECK(scene.solver.rate == 30);  // as of scenes
     CHECK_FALSE(scene.solver.quadratic);
     REQUIRE(scene.materials.size() == 2);
     CHECK(scene.materials[0].region == 1);
