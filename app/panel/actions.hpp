@@ -32,8 +32,10 @@ enum class Action {
   help,
   release,
   remove,
+  leave_clamp,
   select_grasper,
   select_scalpel,
+  select_scissors,
   select_pin,
   select_probe,
   select_suture,
@@ -63,16 +65,18 @@ enum class Action {
 };
 
 /// What the left mouse button does to the body.
-enum class Tool { grasper, scalpel, pin, probe, suture, remover };
+enum class Tool { grasper, scalpel, scissors, pin, probe, suture, remover };
 
 /// What the mouse is doing in the image while a button is down.
-enum class Interaction { none, grasping, cutting, probing, orbiting, panning };
+enum class Interaction { none, grasping, cutting, snipping, probing, orbiting, panning };
 
 /// The selected tool and the settings of all tools.
 struct ToolSettings {
   Tool tool = Tool::grasper;
   double radius = 0;                                    ///< m, of a grasp, a pin or a removal
   double depth = 0;                                     ///< m, of the blade below the surface
+  double jaw_length = 0, jaw_opening = 0;               ///< m, of scissors: length and depth of a snip
+  double jaw_direction = 90;                            ///< degrees, of a click with them, from the picture's right
   double probe_radius = 0, indentation = 0, shaft = 0;  ///< m, of the probe: tip, indentation, shaft length
   double friction = 0.3;                                ///< Coulomb coefficient of the probe and of tables
 };
@@ -87,6 +91,7 @@ enum class Request {
   save,
   release,
   remove,
+  leave_clamp,
   list,
   previous_frame,
   next_frame,

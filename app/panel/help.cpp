@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::pair<const char*, const char*> mouse[] = {
     {"Left, on the body", "use the tool (grasper: hold and pull)"},
+    {"Left on a clamp, with the grasper", "take it up again"},
     {"Left on the background, or right", "orbit the camera"},
     {"Middle, or Shift + right", "pan the camera"},
     {"Wheel", "zoom"},

@@ -18,6 +18,9 @@ std::vector<std::string> tool_hints(const Situation& now) {
     case Tool::scalpel:
       return {"draw across the tissue to cut", "right-drag to turn", with_key(Action::select_grasper, "to grasp"),
               with_key(Action::undo, "takes a cut back")};
+    case Tool::scissors:
+      return {"click to snip along the line, drag to snip on", "right-drag to turn",
+              with_key(Action::select_grasper, "to grasp"), with_key(Action::undo, "takes snips back")};
     case Tool::pin:
       return {"click the tissue to pin it, a pin to remove it", "right-drag to turn",
               with_key(Action::select_grasper, "to grasp")};
@@ -49,9 +52,11 @@ std::vector<std::string> hints_for(const Situation& now) {
     case Interaction::none:
       return idle_hints(now);
     case Interaction::grasping:
-      return {"move to pull", "let go to release"};
+      return {"move to pull", "let go to release", with_key(Action::leave_clamp, "leaves a clamp")};
     case Interaction::cutting:
       return {"draw across the tissue", "Esc leaves"};
+    case Interaction::snipping:
+      return {"drag to snip on", "let go to close the jaws", "Esc leaves"};
     case Interaction::probing:
       return {"move along the tissue", "the wheel pushes deeper", "let go to withdraw"};
     case Interaction::orbiting:

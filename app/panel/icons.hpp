@@ -17,6 +17,7 @@ void draw_question(ImDrawList& list, ImVec2 centre, float half, ImU32 colour);
 // Tools, and what is done to the picture and the scene.
 void draw_forceps(ImDrawList& list, ImVec2 centre, float half, ImU32 colour);
 void draw_scalpel(ImDrawList& list, ImVec2 centre, float half, ImU32 colour);
+void draw_scissors(ImDrawList& list, ImVec2 centre, float half, ImU32 colour);
 void draw_pin(ImDrawList& list, ImVec2 centre, float half, ImU32 colour);
 void draw_probe(ImDrawList& list, ImVec2 centre, float half, ImU32 colour);
 void draw_needle(ImDrawList& list, ImVec2 centre, float half, ImU32 colour);

@@ -78,11 +78,16 @@ void Panel::carry_out(Action action, const Frame& frame, PanelActions& out) {
       return ask(Request::resume);
     case Action::remove:
       return ask(Request::remove);
+    case Action::leave_clamp:
+      return ask(Request::leave_clamp);
     case Action::select_grasper:
       tool_.select(Tool::grasper);
       return;
     case Action::select_scalpel:
       tool_.select(Tool::scalpel);
+      return;
+    case Action::select_scissors:
+      tool_.select(Tool::scissors);
       return;
     case Action::select_pin:
       tool_.select(Tool::pin);

@@ -62,6 +62,14 @@ void draw_scalpel(ImDrawList& list, ImVec2 centre, float half, ImU32 colour) {
   pen.area({{-0.15f, -0.12f}, {0.3f, 0.22f}, {-0.2f, 0.75f}, {-1, 1}});
 }
 
+void draw_scissors(ImDrawList& list, ImVec2 centre, float half, ImU32 colour) {
+  const Pen pen(list, centre, half, colour);
+  pen.line({{-0.5f, -1}, {0.42f, 0.42f}}, 0.22f);
+  pen.line({{0.5f, -1}, {-0.42f, 0.42f}}, 0.22f);
+  pen.arc({-0.55f, 0.65f}, 0.3f, 0, 2, 0.2f);
+  pen.arc({0.55f, 0.65f}, 0.3f, 0, 2, 0.2f);
+}
+
 void draw_pin(ImDrawList& list, ImVec2 centre, float half, ImU32 colour) {
   const Pen pen(list, centre, half, colour);
   pen.disc({0.4f, -0.5f}, 0.5f);

@@ -10,6 +10,7 @@ namespace {
 // Relative to the body's radius.
 constexpr double first_grasp = 0.12, max_grasp = 0.5, first_depth = 0.35, max_depth = 2;
 constexpr double first_probe = 0.08, max_probe = 0.4, first_indentation = 0.15, max_indentation = 0.6;
+constexpr double first_jaw = 0.3, min_jaw = 0.02, max_jaw = 1;
 constexpr double max_friction = 1.5, table_gap = 0.01;
 
 std::string several(std::size_t count, const char* what) {
@@ -21,6 +22,8 @@ std::string several(std::size_t count, const char* what) {
 ToolSection::ToolSection(double body_radius, const Vec3& gravity) : body_radius_(body_radius) {
   tool_.radius = first_grasp * body_radius;
   tool_.depth = first_depth * body_radius;
+  tool_.jaw_length = first_jaw * body_radius;
+  tool_.jaw_opening = first_depth * body_radius;
   tool_.probe_radius = first_probe * body_radius;
   tool_.indentation = first_indentation * body_radius;
   tool_.shaft = 2 * body_radius;
@@ -52,6 +55,17 @@ void ToolSection::draw_settings(Rows& rows) {
     case Tool::scalpel:
       length(rows, {"Depth", "How far the blade reaches below the surface, mm, along the line of sight."}, tool_.depth,
              max_depth);
+      return;
+    case Tool::scissors:
+      length(rows, {"Jaw length", "Length of a snip along the jaw line, mm."}, tool_.jaw_length, max_jaw);
+      tool_.jaw_length = std::max(tool_.jaw_length, min_jaw * body_radius_);
+      length(rows,
+             {"Opening", "How far the jaws open, mm: the lower one reaches so far below the surface, along the line of "
+                         "sight, and what is between them is cut."},
+             tool_.jaw_opening, max_depth);
+      rows.slider({"Direction", "Direction of the jaw line of a click, degrees from the right of the image, "
+                                "anticlockwise. A drag snips along its own way."},
+                  tool_.jaw_direction, {0, 360, "%.0f\u00b0", false});
       return;
     case Tool::probe:
       length(rows, {"Tip radius", "Radius of the probe's tip and shaft, mm."}, tool_.probe_radius, max_probe);

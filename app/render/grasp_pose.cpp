@@ -68,8 +68,35 @@ Vec3f node_normal(std::size_t index, const Frame& frame, const SurfaceMesh& surf
   return sum;
 }
 
-/// From the tips to the end of the handle. It leans to the upper right, as held by a right hand, so that one does not
-/// look along it where the skin faces the eye, and it follows the pull; it always rises from the skin.
+/// otherwise: m, the place where the node is not on the surface; it then faces the eye.
+HeldPatch at_node(int node, const Vec3f& otherwise, const Frame& frame, const SurfaceMesh* surface_mesh,
+                  const Vec3f& eye) {
+  const auto index = surface_mesh ? surface_index(node, *surface_mesh) : std::nullopt;
+  HeldPatch patch;
+  patch.place = index ? frame.positions[*index] : otherwise;
+  patch.normal = unit_or(index ? node_normal(*index, frame, *surface_mesh) : Vec3f(Vec3f::Zero()),
+                         unit_or(eye - patch.place, Vec3f::UnitY()));
+  return patch;
+}
+
+}  // namespace
+
+HeldPatch held_patch(const PinState& pin, const Frame& frame, const SurfaceMesh* surface_mesh, const Vec3f& eye) {
+  return at_node(pin.node, pin.place.cast<float>(), frame, surface_mesh, eye);
+}
+
+HeldPatch held_patch(const GraspState& grasp, const std::optional<Hold>& hold, const Frame& frame,
+                     const SurfaceMesh* surface_mesh, const Vec3f& eye) {
+  if (surface_mesh && hold)
+    if (auto patch = at_hold(hold->at, frame, *surface_mesh)) {
+      patch->pull = hold->hand - patch->place;
+      return *patch;
+    }
+  HeldPatch patch = at_node(grasp.node, grasp.grip.cast<float>(), frame, surface_mesh, eye);
+  patch.pull = grasp.target.cast<float>() - patch.place;
+  return patch;
+}
+
 Vec3f handle_axis(const HeldPatch& patch, const Camera& camera, float radius) {
   const Vec3f& n = patch.normal;
   const Vec3f hand = camera.up() + 0.55f * camera.right();
@@ -82,22 +109,16 @@ Vec3f handle_axis(const HeldPatch& patch, const Camera& camera, float radius) {
   return (least_rise * n + std::sqrt(1 - least_rise * least_rise) * along).normalized();
 }
 
-}  // namespace
-
-HeldPatch held_patch(const GraspState& grasp, const std::optional<Hold>& hold, const Frame& frame,
-                     const SurfaceMesh* surface_mesh, const Vec3f& eye) {
-  if (surface_mesh && hold)
-    if (auto patch = at_hold(hold->at, frame, *surface_mesh)) {
-      patch->pull = hold->hand - patch->place;
-      return *patch;
-    }
-  const auto index = surface_mesh ? surface_index(grasp.node, *surface_mesh) : std::nullopt;
-  HeldPatch patch;
-  patch.place = index ? frame.positions[*index] : Vec3f(grasp.grip.cast<float>());
-  patch.normal = unit_or(index ? node_normal(*index, frame, *surface_mesh) : Vec3f(Vec3f::Zero()),
-                         unit_or(eye - patch.place, Vec3f::UnitY()));
-  patch.pull = grasp.target.cast<float>() - patch.place;
-  return patch;
+std::array<Mat4f, 2> clamp_models(const HeldPatch& patch, const Camera& camera, float radius) {
+  constexpr float shape_length = 2.37f;  // of scissors_half() from tip to ring
+  const float length = clamp_length / shape_length * radius;
+  const Vec3f axis = handle_axis(patch, camera, radius);
+  const Vec3f beside = unit_or(patch.normal.cross(axis), camera.right());
+  const Vec3f pivot = patch.place + tip_height * jaw_length * radius * patch.normal + length * axis;
+  std::array<Mat4f, 2> models;
+  for (std::size_t k = 0; k < 2; ++k)
+    models[k] = place_along(pivot, -axis, k == 0 ? beside : Vec3f(-beside), length, length);
+  return models;
 }
 
 std::array<Mat4f, 2> jaw_models(const HeldPatch& patch, const Camera& camera, float radius) {

@@ -20,6 +20,12 @@ struct Hold {
   Vec3f hand = Vec3f::Zero();  ///< m
 };
 
+/// What the person at the window holds; empty in replays and captures.
+struct InHand {
+  std::optional<Hold> hold;  ///< of the mouse; none: forceps are drawn at the grasped node
+  std::vector<int> clamps;   ///< centres of pins that are drawn as clamps, mesh-file numbers
+};
+
 /// Held tissue as it lies in a frame.
 struct HeldPatch {
   Vec3f place = Vec3f::Zero();   ///< m, on the drawn skin
@@ -31,6 +37,19 @@ struct HeldPatch {
 /// node. A node that is not on the surface has the tool's own place and faces the eye.
 HeldPatch held_patch(const GraspState& grasp, const std::optional<Hold>& hold, const Frame& frame,
                      const SurfaceMesh* surface_mesh, const Vec3f& eye);
+
+/// The patch of a pin that was left as a clamp; without a pull.
+HeldPatch held_patch(const PinState& pin, const Frame& frame, const SurfaceMesh* surface_mesh, const Vec3f& eye);
+
+/// From the tips to the end of the handle, unit. It leans to the upper right, as held by a right hand, so that one does
+/// not look along it where the skin faces the eye, and it follows the pull; it always rises from the skin. radius: m.
+Vec3f handle_axis(const HeldPatch& patch, const Camera& camera, float radius);
+
+/// Length of a drawn clamp from its tips to its rings, in body radii.
+inline constexpr float clamp_length = 0.8f;
+
+/// Placements of the two halves of a clamp (scissors_half(), solid_mesh.hpp), closed, tips on the patch.
+std::array<Mat4f, 2> clamp_models(const HeldPatch& patch, const Camera& camera, float radius);
 
 /// Placements of the two jaws (forceps_jaw(), solid_mesh.hpp). radius: m, of the body at rest.
 std::array<Mat4f, 2> jaw_models(const HeldPatch& patch, const Camera& camera, float radius);

@@ -163,6 +163,32 @@ SolidShape scalpel_handle() {
   return shape;
 }
 
+SolidShape scissors_half() {
+  constexpr float beside = 0.014f;  // the halves lie on each other
+  SolidShape shape;
+  add_tube(shape,
+           {{Vec3f(0, -0.06f, beside), 0.030f, 0.012f},
+            {Vec3f(0.006f, 0.05f, beside), 0.050f, 0.013f},
+            {Vec3f(0.010f, 0.5f, beside), 0.040f, 0.011f},
+            {Vec3f(0.004f, 0.9f, beside), 0.018f, 0.009f},
+            {Vec3f(0, 1, beside), 0.004f, 0.004f}},
+           Vec3f::UnitZ());
+  add_tube(shape,
+           {{Vec3f(0, 0, beside), 0.040f, 0.014f},
+            {Vec3f(-0.02f, -0.3f, beside), 0.026f, 0.018f},
+            {Vec3f(-0.06f, -0.8f, beside), 0.024f, 0.020f},
+            {Vec3f(-0.10f, -1.02f, beside), 0.022f, 0.020f}},
+           Vec3f::UnitZ());
+  std::vector<Ring> rings;
+  constexpr int steps = 20;
+  for (int i = 0; i <= steps; ++i) {
+    const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(i) / steps;
+    rings.push_back({Vec3f(-0.15f + 0.13f * std::sin(angle), -1.18f + 0.17f * std::cos(angle), beside), 0.024f, 0.022f});
+  }
+  add_tube(shape, rings, Vec3f::UnitZ());
+  return shape;
+}
+
 SolidMesh::SolidMesh(SolidShape shape)
     : shape_(std::move(shape)), positions_(positions_of(shape_)), outline_(shape_.triangles, weld(positions_)) {
   const auto describe = [](std::size_t stride) {

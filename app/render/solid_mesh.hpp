@@ -48,6 +48,9 @@ SolidShape scalpel_blade();
 /// A scalpel's handle from the origin to (0, 1, 0), flat along x.
 SolidShape scalpel_handle();
 
+/// One half of scissors: blade from the pivot at the origin to its tip at (0, 1, 0), grip with its ring at x < 0 below.
+SolidShape scissors_half();
+
 class SolidMesh {
  public:
   explicit SolidMesh(SolidShape shape);

@@ -1,5 +1,5 @@
 #pragma once
-// What is drawn of a stroke with the scalpel.
+// What is drawn of a stroke with scalpel or scissors.
 #include <array>
 #include <heml/math/types.hpp>
 #include <optional>
@@ -13,9 +13,16 @@ struct Blade {
   float entry = 0;                                          ///< where it enters the skin, 0 at its upper end to 1
 };
 
+struct Scissors {
+  Vec3f from = Vec3f::Zero(), to = Vec3f::Zero();  ///< m, ends of the jaw line on the skin; the tips are at `to`
+  float opening = 0;                               ///< m, between the tips
+  float closed = 0;                                ///< 0: open, 1: closed
+};
+
 struct StrokeDrawing {
   std::optional<Blade> blade;              ///< none: no stroke is under way
   std::vector<std::array<Vec3f, 2>> line;  ///< m, segments of the incision line on the skin
+  std::optional<Scissors> scissors = std::nullopt;
 };
 
 }  // namespace heml::render

@@ -10,6 +10,7 @@ namespace {
 const Vec3f steel(0.80f, 0.83f, 0.86f);
 const Vec3f incision(0.090f, 0.004f,
                      0.006f);         // drawn as metal, which has no gloss of its own: the pieces look like one line
+const Vec3f jaw_line(0.85f, 0.80f, 0.55f);
 constexpr float along_sight = 0.8f;   // cosine
 constexpr float half_tension = 0.5f;  // N at which the line of a pull has its middle colour
 constexpr float shade_width = 0.035f;  // body radii
@@ -23,15 +24,19 @@ Vec3f tension_tint(float force) {
 
 }  // namespace
 
-void ToolDrawing::place(const Frame& frame, const std::optional<Hold>& hold, bool shown, const ViewContext& shot) {
+void ToolDrawing::place(const Frame& frame, const InHand& hand, bool shown, const ViewContext& shot) {
   parts_.clear();
   shade_ = {};
   if (!shown) return;
   const auto held = [&](const GraspState& grasp) {
-    return held_patch(grasp, hold, frame, frame.surface_mesh.get(), shot.camera.eye());
+    return held_patch(grasp, hand.hold, frame, frame.surface_mesh.get(), shot.camera.eye());
   };
   const ByKind placing{[&](const GraspState& grasp) { place_grasp(grasp, held(grasp), shot); },
-                       [&](const PinState& pin) { place_pin(pin, shot); },
+                       [&](const PinState& pin) {
+                         if (std::find(hand.clamps.begin(), hand.clamps.end(), pin.node) == hand.clamps.end())
+                           return place_pin(pin, shot);
+                         place_clamp(held_patch(pin, frame, frame.surface_mesh.get(), shot.camera.eye()), shot);
+                       },
                        [&](const TableState& state) { place_table(state.table, frame, shot); },
                        [&](const ProbeState& probe) { place_probe(probe); },
                        [&](const SutureState& suture) { place_suture(suture, shot); },
@@ -96,6 +101,12 @@ void ToolDrawing::place_pin(const PinState& pin, const ViewContext& shot) {
                     tension_tint(static_cast<float>(pin.force.norm())), 0});
 }
 
+void ToolDrawing::place_clamp(const HeldPatch& patch, const ViewContext& shot) {
+  if (!patch.place.allFinite() || !patch.normal.allFinite()) return;
+  for (const Mat4f& model : clamp_models(patch, shot.camera, shot.radius))
+    parts_.push_back({&scissors_, model, steel, 1, true, true});
+}
+
 void ToolDrawing::place_stroke(const StrokeDrawing& stroke, const ViewContext& shot) {
   const float thickness = 0.0045f * shot.radius;
   for (const auto& [from, to] : stroke.line) {
@@ -106,6 +117,27 @@ void ToolDrawing::place_stroke(const StrokeDrawing& stroke, const ViewContext& s
         {&rod_, place_along(from + lift, along, across(along), along.norm(), thickness), incision, 1, false});
   }
   if (stroke.blade) place_blade(*stroke.blade, shot);
+  if (stroke.scissors) place_scissors(*stroke.scissors, shot);
+}
+
+/// Scissors lie over the jaw line with a blade on each side of it: along the line of sight, in which they cut, one would
+/// see them edge-on. The tips touch the skin and the grips are nearer to the eye.
+void ToolDrawing::place_scissors(const Scissors& scissors, const ViewContext& shot) {
+  const Vec3f line = scissors.to - scissors.from, sight = (shot.camera.eye() - scissors.to).normalized();
+  const Vec3f flat = line - line.dot(sight) * sight;
+  if (!line.allFinite() || !(flat.norm() > 0)) return;
+  constexpr float steepness = 0.5f;  // sine of the blades' angle with the picture
+  const Vec3f axis = std::sqrt(1 - steepness * steepness) * flat.normalized() - steepness * sight;
+  const float length = std::max(1.15f * line.norm(), 0.3f * shot.radius);
+  const float half = std::clamp(std::atan(0.5f * scissors.opening / length), 0.14f, 0.4f) * (1 - 0.9f * scissors.closed);
+  const Vec3f lift = 0.02f * shot.radius * sight;
+  const Vec3f pivot = scissors.to + lift - length * std::cos(half) * axis, side = axis.cross(sight);
+  for (const Vec3f& beside : {side, Vec3f(-side)})
+    parts_.push_back({&scissors_, place_along(pivot, axis, beside, length, length) * turned_about(Vec3f::Zero(), -half),
+                      steel, 1});
+  shade_ = {scissors.to, pivot - length * axis, shade_width * shot.radius};
+  parts_.push_back({&rod_, place_along(scissors.from + lift, line, across(line), line.norm(), 0.004f * shot.radius),
+                    jaw_line, 0, false});
 }
 
 /// The blade trails behind its cutting edge; its handle is at the end nearer to the eye. A blade along the line of

@@ -1,6 +1,6 @@
 #pragma once
-// Draws the tools: forceps on the grasped tissue and the line of their pull, pins, the probe, a table under the body,
-// threads of sutures, a scalpel, and the line that it has drawn. Forceps and scalpel show through the tissue.
+// Draws the tools: forceps on the grasped tissue and the line of their pull, clamps, pins, the probe, a table under the body,
+// threads of sutures, scalpel or scissors, and the line that they have cut. Forceps and scalpel show through the tissue.
 #include <app/render/camera.hpp>
 #include <app/render/grasp_pose.hpp>
 #include <app/render/solid_mesh.hpp>
@@ -28,13 +28,13 @@ struct Shade {
 
 class ToolDrawing {
  public:
-  /// Places the tools of a frame, or none if not shown. hold: of the mouse. Call this first.
-  void place(const Frame& frame, const std::optional<Hold>& hold, bool shown, const ViewContext& shot);
+  /// Places the tools of a frame, or none if not shown. Call this first.
+  void place(const Frame& frame, const InHand& hand, bool shown, const ViewContext& shot);
 
-  /// Adds the scalpel and its line to them.
+  /// Adds scalpel or scissors and their line to them.
   void place_stroke(const StrokeDrawing& stroke, const ViewContext& shot);
 
-  /// Of the instrument in use: forceps, probe or scalpel.
+  /// Of the instrument in use: forceps, probe, scalpel or scissors.
   const Shade& shade() const { return shade_; }
   void cast(const Program& program) const;  ///< draws the shadow casters; sets `model`
   void draw(const ViewContext& shot) const;
@@ -55,15 +55,17 @@ class ToolDrawing {
   void place_table(const Table& table, const Frame& frame, const ViewContext& shot);
   void place_suture(const SutureState& suture, const ViewContext& shot);
   void place_blade(const Blade& blade, const ViewContext& shot);
+  void place_scissors(const Scissors& scissors, const ViewContext& shot);
   void draw_hidden(const ViewContext& shot) const;
   void place_pin(const PinState& pin, const ViewContext& shot);
+  void place_clamp(const HeldPatch& patch, const ViewContext& shot);
   void prepare(const Program& program, const ViewContext& shot, const Part& part) const;
 
   Program solid_{"solid.vert", "solid.frag"};
   Program strip_{"solid.vert", "solid.frag", {"OUTLINE"}};
   Program hidden_{"solid.vert", "solid.frag", {"HIDDEN"}};
   SolidMesh jaw_{forceps_jaw()}, rod_{rod()}, needle_{needle()}, ball_{ball()}, disc_{disc()};
-  SolidMesh blade_{scalpel_blade()}, handle_{scalpel_handle()};
+  SolidMesh blade_{scalpel_blade()}, handle_{scalpel_handle()}, scissors_{scissors_half()};
   std::vector<Part> parts_;
   Shade shade_;
 };

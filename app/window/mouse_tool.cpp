@@ -3,11 +3,6 @@
 #include <app/window/mouse_tool.hpp>
 
 namespace heml::window {
-namespace {
-constexpr float min_stroke = 4;     // pixels of mouse travel per cut
-constexpr double above_skin = 0.3;  // of the blade, in depths
-}  // namespace
-
 std::optional<render::Hit> MouseTool::pick(const render::Vec2f& at, const Frame& frame,
                                            const SurfaceMesh& surface_mesh) const {
   return render::pick(frame, surface_mesh, controller_.ray(at), section_);
@@ -23,12 +18,20 @@ bool MouseTool::press(MouseButton button, const render::Vec2f& at, bool shift, c
     begin_stroke(at, tool.depth, frame, surface_mesh);
     return false;
   }
+  if (button == MouseButton::left && tool.tool == panel::Tool::grasper)
+    if (const auto clamp = clamps_.at(at, frame, surface_mesh, controller_))
+      return !take_up(*clamp, at, frame, surface_mesh, tool.radius, out);
   if (button == MouseButton::left)
     if (const auto hit = pick(at, frame, surface_mesh)) {
       if (tool.tool == panel::Tool::grasper) return !grasp(*hit, frame, surface_mesh, tool.radius, out);
       if (tool.tool == panel::Tool::pin) return !pin(*hit, frame, surface_mesh, tool.radius, out);
       if (tool.tool == panel::Tool::suture) return !suture(*hit, surface_mesh, out);
       if (tool.tool == panel::Tool::remover) return !remove(*hit, surface_mesh, tool.radius, out);
+      if (tool.tool == panel::Tool::scissors) {
+        interaction_ = Interaction::snipping;
+        scissors_.press(*hit, at, tool, {frame, surface_mesh, section_});
+        return false;
+      }
       begin_probing(*hit, tool, at, out);
       return false;
     }
@@ -90,8 +93,45 @@ bool MouseTool::grasp(const render::Hit& hit, const Frame& frame, const SurfaceM
   anchor_ = hit.point;
   held_ = render::surface_point(hit, frame, surface_mesh);
   node_offset_ = frame.positions[static_cast<std::size_t>(node)] - hit.point;
-  out.emplace_back(Grasp{surface_mesh.nodes[static_cast<std::size_t>(node)], radius});
+  grasp_ = {surface_mesh.nodes[static_cast<std::size_t>(node)], radius};
+  out.emplace_back(grasp_);
   return true;
+}
+
+/// Takes a clamp into the hand: the hand moves it from where it holds the tissue, wherever on it the mouse is.
+bool MouseTool::take_up(int clamp, const render::Vec2f& at, const Frame& frame, const SurfaceMesh& surface_mesh,
+                        double radius, std::vector<Command>& out) {
+  const auto index = render::surface_index(clamp, surface_mesh);
+  if (!index) return false;
+  const auto is_corner = [&](const Triangle& triangle) {
+    return std::find(triangle.begin(), triangle.end(), static_cast<int>(*index)) != triangle.end();
+  };
+  const auto triangle = std::find_if(surface_mesh.triangles.begin(), surface_mesh.triangles.end(), is_corner);
+  const Vec3f& place = frame.positions[*index];
+  interaction_ = Interaction::grasping;
+  held_ = render::surface_point({static_cast<int>(triangle - surface_mesh.triangles.begin()), 0, place}, frame,
+                                surface_mesh);
+  anchor_ = controller_.drag(at, place);
+  node_offset_ = place - anchor_;
+  grasp_ = {clamp, radius};
+  out.emplace_back(Unpin{clamp});
+  out.emplace_back(grasp_);
+  return true;
+}
+
+bool MouseTool::leave_clamp(std::vector<Command>& out) {
+  if (interaction_ != Interaction::grasping) return false;
+  out.emplace_back(PinTissue{grasp_.node, grasp_.radius});
+  clamps_.add(grasp_.node);
+  stop(out);
+  return true;
+}
+
+bool MouseTool::remove_clamp(const render::Vec2f& at, const Frame& frame, const SurfaceMesh& surface_mesh,
+                             std::vector<Command>& out) const {
+  const auto clamp = clamps_.at(at, frame, surface_mesh, controller_);
+  if (clamp) out.emplace_back(Unpin{*clamp});
+  return clamp.has_value();
 }
 
 std::optional<render::Hold> MouseTool::hold() const {
@@ -143,13 +183,6 @@ bool MouseTool::wheel(float notches, std::vector<Command>& out) {
   return true;
 }
 
-/// The blade along the line of sight, from a little above the surface, so that it is cut too.
-std::array<Vec3, 2> MouseTool::blade_at(const render::Vec2f& at) const {
-  const Vec3 point = controller_.drag(at, anchor_).cast<double>();
-  const Vec3 along = controller_.ray(at).direction.cast<double>();
-  return {point - above_skin * depth_ * along, point + depth_ * along};
-}
-
 /// A stroke may begin beside the body: it enters where the mouse first meets tissue.
 void MouseTool::begin_stroke(const render::Vec2f& at, double depth, const Frame& frame,
                              const SurfaceMesh& surface_mesh) {
@@ -173,7 +206,7 @@ bool MouseTool::enter(const render::Vec2f& at, const Frame& frame, const Surface
   anchor_ = hit->point;
   cut_to_ = beside_.value_or(at);
   beside_.reset();
-  blade_ = blade_at(cut_to_);
+  blade_ = blade_at(controller_, cut_to_, anchor_, depth_);
   line_.add(*hit, frame, surface_mesh);
   has_entered_ = true;
   return true;
@@ -189,7 +222,7 @@ void MouseTool::cut(const render::Vec2f& at, const Frame& frame, const SurfaceMe
   } else {
     line_.lift();
   }
-  const std::array<Vec3, 2> now = blade_at(at);
+  const std::array<Vec3, 2> now = blade_at(controller_, at, anchor_, depth_);
   out.emplace_back(CutTissue{{{blade_, now}}, continues_stroke_});
   heading_ = now[0] + now[1] - blade_[0] - blade_[1];
   blade_ = now;
@@ -198,12 +231,14 @@ void MouseTool::cut(const render::Vec2f& at, const Frame& frame, const SurfaceMe
 }
 
 render::StrokeDrawing MouseTool::stroke(const Frame& frame, const SurfaceMesh& surface_mesh) const {
+  if (interaction_ == Interaction::snipping) return scissors_.drawing(frame, surface_mesh);
   if (interaction_ != Interaction::cutting || !has_entered_) return {};
-  const std::array<Vec3, 2> now = blade_at(last_);
+  const std::array<Vec3, 2> now = blade_at(controller_, last_, anchor_, depth_);
   return {render::Blade{{now[0].cast<float>(), now[1].cast<float>()},
                         heading_.cast<float>(),
                         static_cast<float>(above_skin / (1 + above_skin))},
-          line_.segments(frame, surface_mesh)};
+          line_.segments(frame, surface_mesh),
+          std::nullopt};
 }
 
 void MouseTool::move(const render::Vec2f& at, const Frame& frame, const SurfaceMesh& surface_mesh,
@@ -214,6 +249,7 @@ void MouseTool::move(const render::Vec2f& at, const Frame& frame, const SurfaceM
   if (interaction_ == Interaction::orbiting) controller_.orbit(travel.x(), travel.y());
   if (interaction_ == Interaction::panning) controller_.pan(travel.x(), travel.y());
   if (interaction_ == Interaction::probing) out.emplace_back(probe_at(at));
+  if (interaction_ == Interaction::snipping) scissors_.drag(at, {frame, surface_mesh, section_}, out);
   if (interaction_ == Interaction::cutting) cut(at, frame, surface_mesh, out);
   if (interaction_ == Interaction::grasping) {
     const Vec3f point = controller_.drag(at, anchor_);
@@ -221,8 +257,11 @@ void MouseTool::move(const render::Vec2f& at, const Frame& frame, const SurfaceM
   }
 }
 
-void MouseTool::release(MouseButton button, std::vector<Command>& out) {
-  if (button == button_) stop(out);
+void MouseTool::release(MouseButton button, const Frame& frame, const SurfaceMesh& surface_mesh,
+                        std::vector<Command>& out) {
+  if (button != button_) return;
+  if (interaction_ == Interaction::snipping) scissors_.release({frame, surface_mesh, section_}, out);
+  stop(out);
 }
 
 void MouseTool::cancel(std::vector<Command>& out) {

@@ -4,7 +4,8 @@
 #include <app/panel/camera_controller.hpp>
 #include <app/render/grasp_pose.hpp>
 #include <app/render/stroke_drawing.hpp>
-#include <app/window/stroke_line.hpp>
+#include <app/window/clamps.hpp>
+#include <app/window/scissors.hpp>
 #include <heml/session/frame.hpp>
 #include <heml/world/command.hpp>
 #include <optional>
@@ -31,7 +32,15 @@ class MouseTool {
   void move(const render::Vec2f& at, const Frame& frame, const SurfaceMesh& surface_mesh, std::vector<Command>& out);
   /// Pushes an active probe deeper by notches of the wheel (negative: back). Returns false without a probe.
   bool wheel(float notches, std::vector<Command>& out);
-  void release(MouseButton button, std::vector<Command>& out);
+  void release(MouseButton button, const Frame& frame, const SurfaceMesh& surface_mesh, std::vector<Command>& out);
+  /// Leaves the grasp under way where it is, as a clamp. Returns false without a grasp.
+  bool leave_clamp(std::vector<Command>& out);
+  /// Removes the clamp drawn under a pixel. Returns false where there is none.
+  bool remove_clamp(const render::Vec2f& at, const Frame& frame, const SurfaceMesh& surface_mesh,
+                    std::vector<Command>& out) const;
+  const Clamps& clamps() const { return clamps_; }
+  /// For another session.
+  void forget_clamps() { clamps_.clear(); }
   /// Ends what the mouse does, and forgets the first end of a suture.
   void cancel(std::vector<Command>& out);
 
@@ -52,12 +61,18 @@ class MouseTool {
   std::optional<int> first_end() const { return first_end_; }
   /// What the grasper holds, where the mouse is now; none: it holds nothing.
   std::optional<render::Hold> hold() const;
-  /// The scalpel and its line while it cuts, as the tissue lies in a frame; empty otherwise.
+  /// Open scissors over a hit, before a press.
+  render::Scissors scissors_over(const render::Hit& hit, const panel::ToolSettings& tool) const {
+    return scissors_.over(hit, tool);
+  }
+  /// Scalpel or scissors and their line while they cut, as the tissue lies in a frame; empty otherwise.
   render::StrokeDrawing stroke(const Frame& frame, const SurfaceMesh& surface_mesh) const;
   /// The point of the surface under a pixel.
   std::optional<render::Hit> pick(const render::Vec2f& at, const Frame& frame, const SurfaceMesh& surface_mesh) const;
 
  private:
+  bool take_up(int clamp, const render::Vec2f& at, const Frame& frame, const SurfaceMesh& surface_mesh, double radius,
+               std::vector<Command>& out);
   void stop(std::vector<Command>& out);
   static std::optional<int> free_corner(const render::Hit& hit, const SurfaceMesh& surface_mesh);
   void begin_probing(const render::Hit& hit, const panel::ToolSettings& tool, const render::Vec2f& at,
@@ -72,7 +87,6 @@ class MouseTool {
   void begin_stroke(const render::Vec2f& at, double depth, const Frame& frame, const SurfaceMesh& surface_mesh);
   bool enter(const render::Vec2f& at, const Frame& frame, const SurfaceMesh& surface_mesh);
   void cut(const render::Vec2f& at, const Frame& frame, const SurfaceMesh& surface_mesh, std::vector<Command>& out);
-  std::array<Vec3, 2> blade_at(const render::Vec2f& at) const;
 
   panel::CameraController& controller_;
   Interaction interaction_ = Interaction::none;
@@ -81,10 +95,13 @@ class MouseTool {
   Vec3f anchor_ = Vec3f::Zero();                // m, of the surface, where the tool began
   Vec3f node_offset_ = Vec3f::Zero();           // m, from there to the grasped node
   render::SurfacePoint held_;                   // where the grasper took hold
+  Grasp grasp_;                                 // under way
+  Clamps clamps_;
   double depth_ = 0;                            // m, of the blade below anchor_
   std::array<Vec3, 2> blade_;                   // m, end of the last cut
   Vec3 heading_ = Vec3::Zero();                 // m, of the blade's last movement
   StrokeLine line_;
+  Scissors scissors_{controller_};
   std::optional<render::SectionPlane> section_;
   render::Vec2f cut_to_ = render::Vec2f::Zero();  // the same, pixels
   panel::ToolSettings probe_;                     // of the active probe

@@ -33,6 +33,7 @@ Viewer::~Viewer() { window_.send_events_to(nullptr); }
 void Viewer::adopt(OpenScene opened) {
   std::vector<Command> last;
   mouse_tool_.cancel(last);
+  if (!opened.resumed) mouse_tool_.forget_clamps();
   if (opened.resumed)
     playback_.resumed_at(*opened.resumed, opened.session->latest());
   else
@@ -114,9 +115,11 @@ void Viewer::draw() {
   controller_.resize(size, panel_->insets({static_cast<float>(size.width), static_cast<float>(size.height)}),
                      panel::body_count(*frame_));
   render::DrawOptions drawing = panel_->drawing();
-  drawing.hold = mouse_tool_.hold();
+  drawing.hand = {mouse_tool_.hold(), mouse_tool_.clamps().in(seen())};
   drawing.stroke = mouse_tool_.stroke(seen(), *seen().surface_mesh);
-  if (!drawing.stroke.blade)
+  if (const auto hit = hovered(); hit && panel_->tool().tool == panel::Tool::scissors && !playback_.active())
+    drawing.stroke.scissors = mouse_tool_.scissors_over(*hit, panel_->tool());
+  if (!drawing.stroke.blade && !drawing.stroke.scissors)
     drawing.stroke.blade = panel::scripted_blade(open_.scene.events, frame_->tick - 1, frame_->pace.rate);
   bodies_.draw(*frame_, controller_, drawing);
   draw_interface(seconds);
@@ -159,10 +162,8 @@ void Viewer::draw_marks() {
   if (drags_section_ || is_on_section_handle()) return ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeAll);
   if (mouse_tool_.interaction() == MouseTool::Interaction::grasping)
     return ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeAll);
-  const bool free = mouse_tool_.interaction() == MouseTool::Interaction::none && !ImGui::IsAnyItemActive() &&
-                    ImGui::IsMousePosValid();
-  if (!free || panel_->covers(mouse_.x(), mouse_.y())) return;
-  if (const auto hit = mouse_tool_.pick(mouse_, seen(), *seen().surface_mesh)) {
+  if (panel_->tool().tool == panel::Tool::grasper && is_on_clamp()) return ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
+  if (const auto hit = hovered()) {
     if (const auto& range = panel_->drawing().range)
       draw_reading(*hit, seen(), *seen().surface_mesh, controller_, *range);
     if (playback_.active()) return;
@@ -175,6 +176,19 @@ void Viewer::draw_marks() {
                                                 : 0);
     if (takes_patch) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
   }
+}
+
+/// The surface under a mouse that does nothing yet.
+std::optional<render::Hit> Viewer::hovered() const {
+  const bool free = mouse_tool_.interaction() == MouseTool::Interaction::none && !ImGui::IsAnyItemActive() &&
+                    ImGui::IsMousePosValid();
+  if (!free || panel_->covers(mouse_.x(), mouse_.y())) return std::nullopt;
+  return mouse_tool_.pick(mouse_, seen(), *seen().surface_mesh);
+}
+
+bool Viewer::is_on_clamp() const {
+  return mouse_tool_.interaction() == MouseTool::Interaction::none && !panel_->covers(mouse_.x(), mouse_.y()) &&
+         mouse_tool_.clamps().at(mouse_, seen(), *seen().surface_mesh, controller_).has_value();
 }
 
 bool Viewer::is_on_section_handle() const {
@@ -247,7 +261,7 @@ void Viewer::button(MouseButton button, bool down, bool shift) {
   std::vector<Command> commands;
   if (!down) {
     if (button == MouseButton::left) drags_section_ = false;
-    mouse_tool_.release(button, commands);
+    mouse_tool_.release(button, seen(), *seen().surface_mesh, commands);
     return post(commands);
   }
   if (panel_->covers(mouse_.x(), mouse_.y())) return;

@@ -69,6 +69,8 @@ class Viewer final : public WindowEvents {
   void draw_interface(float seconds);
   void remember_preferences();
   void draw_marks();
+  std::optional<render::Hit> hovered() const;
+  bool is_on_clamp() const;           ///< the mouse
   bool is_on_section_handle() const;  ///< the mouse
   void carry_out(const panel::PanelActions& actions);
   void carry_out(panel::Request request);
@@ -81,6 +83,7 @@ class Viewer final : public WindowEvents {
   void open_now(const std::filesystem::path& path, const BareMeshOptions& options = {},
                 const std::vector<std::string>& comparisons = {});
   void release_tool();
+  void leave_clamp();
   void remove_tissue();
   void notify_saved(const std::string& text, const std::filesystem::path& folder);
   void save_screenshot();

@@ -80,6 +80,8 @@ void Viewer::carry_out(panel::Request request) {
       return save_scene();
     case panel::Request::release:
       return release_tool();
+    case panel::Request::leave_clamp:
+      return leave_clamp();
     case panel::Request::remove:
       return remove_tissue();
     case panel::Request::quit:
@@ -160,10 +162,19 @@ void Viewer::go_live() {
   playback_.end(*open_.session);
 }
 
-/// Removes the tissue under the mouse, else round the grasped node.
+void Viewer::leave_clamp() {
+  std::vector<Command> commands;
+  if (!mouse_tool_.leave_clamp(commands))
+    return panel_->notify("Pull the tissue first: L then leaves the grasp there as a clamp.");
+  post(commands);
+}
+
+/// Removes the clamp under the mouse, else the tissue there, else the tissue round the grasped node.
 void Viewer::remove_tissue() {
   if (playback_.active()) return panel_->notify(past_is_read_only);
   const SurfaceMesh& surface_mesh = *seen().surface_mesh;
+  std::vector<Command> unpin;
+  if (mouse_tool_.remove_clamp(mouse_, seen(), surface_mesh, unpin)) return post(unpin);
   const bool points =
       mouse_tool_.interaction() == MouseTool::Interaction::none && !panel_->covers(mouse_.x(), mouse_.y());
   const auto hit = points ? mouse_tool_.pick(mouse_, seen(), surface_mesh) : std::nullopt;

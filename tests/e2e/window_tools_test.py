@@ -8,6 +8,19 @@ from window_case import WindowCase, light_scene
 
 
 class Tools(WindowCase):
+    def rings_of_the_clamp(self, bare):
+        """The place of steel that is farthest up beside the body: the end of the handle, which leans to the upper right.
+        bare: a picture without a clamp."""
+        now = self.steady_enough()
+        bright = [place for place in now.places(400, 1000, 2)
+                  if min(now.pixel(*place)) > 110 and max(abs(a - b) for a, b in
+                                                          zip(now.pixel(*place), bare.pixel(*place))) > 60]
+        return max(bright, key=lambda place: place[0] - place[1])
+
+    def steady_enough(self):
+        self.settle()
+        return self.display.picture()
+
     def pull_the_body(self, left, right, by):
         before = self.display.picture()
 
@@ -115,6 +128,42 @@ class Tools(WindowCase):
         self.quit()
         self.verify()
 
+    def test_a_grasp_is_left_as_a_clamp_taken_up_again_and_removed(self):
+        self.open_display(1280, 720)
+        self.begin_light("--record", "out.jsonl", size="1280x720")
+        x, y = self.display.picture().tissue(300, 1010)
+        self.do("mousemove", x, y)
+        before = self.display.picture()
+        self.do("mousedown", 1)
+        self.wait_for_event("grasp")
+        self.do("key", "l")
+        self.wait_for_event("pin")
+        self.wait_for_event("release")
+        self.do("mouseup", 1)
+        self.do("mousemove", 1278, 718)
+        self.wait_for("a drawn clamp", lambda: self.display.picture().change(before, 300, 1010) > 0.3)
+        pin = self.seen("pin")[0]
+        self.assertEqual(pin["node"], self.seen("grasp")[0]["node"])
+        self.drag((x - 60, y + 30), (-30, 20))  # the hand is free for a second grasp
+        self.wait_for_event("grasp", 2)
+        self.wait_for_event("release", 2)
+        rings = self.rings_of_the_clamp(before)
+        self.do("mousemove", *rings)
+        self.do("mousedown", 1)
+        self.wait_for_event("grasp", 3)
+        self.assertEqual(self.seen("grasp")[2]["node"], pin["node"])
+        self.do("mousemove", rings[0] + 20, rings[1] + 10)
+        self.do("key", "l")
+        self.wait_for_event("pin", 2)
+        self.do("mouseup", 1)
+        self.play(20)
+        self.do("mousemove", *self.rings_of_the_clamp(before))
+        self.do("key", "Delete")
+        self.wait_for("its removal", lambda: sum(value == {"node": pin["node"]} for value in self.seen("release")) == 2)
+        self.assertFalse(self.seen("remove"), "tissue is left alone")
+        self.quit()
+        self.verify()
+
     def test_a_scalpel_cuts_and_undo_takes_it_back(self):
         self.open_display(640, 360)
         self.begin_light("--record", "out.jsonl")
@@ -141,6 +190,34 @@ class Tools(WindowCase):
         self.do("key", "ctrl+z")  # nothing left to undo: reported, not recorded
         self.quit()
         self.assertEqual(self.seen("history"), [-1, 1, -1])
+        self.verify()
+
+    def test_scissors_snip_at_a_click_and_on_along_a_drag_and_undo_takes_snips_back(self):
+        self.open_display(1280, 720)
+        self.begin_light("--record", "out.jsonl", size="1280x720")
+        self.xdo("mousemove", 1278, 718, "key", "i", "key", "space")
+        whole = self.steady()
+        x, y = whole.tissue(300, 1010)
+        self.do("mousemove", x, y + 40)
+        self.wait_for("open scissors", lambda: self.display.picture().change(whole, 300, 1010) > 0.1)
+        self.do("click", 1)
+        self.wait_for_event("cut")
+        self.assertEqual(len(self.seen("cut")), 1)
+        self.drag((x - 120, y), (240, 0), steps=6)
+        self.wait_for_event("cut", 3)
+        cuts = self.seen("cut")
+        self.assertEqual([cut.get("goes_on", False) for cut in cuts], [False, False] + [True] * (len(cuts) - 2))
+        for before, after in zip(cuts[1:], cuts[2:]):
+            self.assertEqual(before["sweep"][-1], after["sweep"][0], "snips join")
+        self.do("mousemove", 1278, 718)
+        cut = self.steady()
+        self.assertGreater(cut.change(whole, 300, 1010), 0.01)
+        self.do("key", "ctrl+z")
+        self.wait_for_event("history")
+        self.do("key", "ctrl+z")
+        self.wait_for_event("history", 2)
+        self.assertLess(self.steady().change(whole, 300, 1010), 0.01, "undo leaves no snip")
+        self.quit()
         self.verify()
 
     def test_a_stroke_from_beside_the_body_to_its_other_side_takes_the_edges_along(self):

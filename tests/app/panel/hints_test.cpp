@@ -21,11 +21,17 @@ TEST_CASE("the hints follow the tool and what the mouse does") {
   CHECK(says(now, "C to cut"));
   now.interaction = Interaction::grasping;
   CHECK(says(now, "let go"));
+  CHECK(says(now, "L leaves a clamp"));
   now = {};
   now.tool = Tool::scalpel;
   CHECK(says(now, "G to grasp"));
   now.interaction = Interaction::cutting;
   CHECK(says(now, "Esc leaves"));
+  now = {};
+  now.tool = Tool::scissors;
+  CHECK(says(now, "click to snip"));
+  now.interaction = Interaction::snipping;
+  CHECK(says(now, "snip on"));
   now = {};
   now.tool = Tool::suture;
   CHECK(says(now, "one end"));

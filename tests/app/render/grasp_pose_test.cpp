@@ -94,6 +94,27 @@ TEST_CASE("without a mouse, or where its triangle is gone, the jaws hold the gra
   CHECK(held_patch(grasp, std::nullopt, frame, nullptr, eye).place == grasp.grip.cast<float>());
 }
 
+TEST_CASE("a clamp stands on the pinned node with its rings away from the skin") {
+  const Frame frame = frame_at_rest(ball_surface(3, radius));
+  const Camera camera = camera_on_ball();
+  for (const int node : {0, 5, 40, 100}) {
+    const PinState pin{.node = node};
+    const HeldPatch patch = held_patch(pin, frame, frame.surface_mesh.get(), camera.eye());
+    CHECK(patch.place == frame.positions[static_cast<std::size_t>(node)]);
+    float nearest = 1, to_node = 1, farthest = 0;
+    for (const Mat4f& half : clamp_models(patch, camera, radius))
+      for (const SolidShape::Vertex& vertex : scissors_half().vertices) {
+        const Vec3f x = (half * vertex.position.homogeneous()).head<3>();
+        nearest = std::min(nearest, x.norm());
+        to_node = std::min(to_node, (x - patch.place).norm());
+        farthest = std::max(farthest, (x - patch.place).norm());
+      }
+    CHECK(nearest > 0.985f * radius);
+    CHECK(to_node < 0.03f * radius);
+    CHECK(farthest == doctest::Approx(clamp_length * radius).epsilon(0.06));
+  }
+}
+
 TEST_CASE("beyond an edge of a box the skin is not drawn rounder, and the jaws stand on the flat face") {
   const Frame frame = frame_at_rest(cube_surface());
   const Vec3f point(0.2f, 0.1f, 0.5f);

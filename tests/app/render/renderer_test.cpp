@@ -165,6 +165,36 @@ TEST_CASE("an instrument over the skin casts a fine shadow towards which the lam
   CHECK(brightness(shaded, away) == brightness(plain, away));
 }
 
+TEST_CASE("scissors are drawn over the jaw line with a blade on each side, and meet on it when closed") {
+  Stage stage;
+  stage.options.ground = false;
+  const Image plain = stage.draw();
+  const Vec3f front = 0.05f * (stage.camera.eye() - stage.camera.target()).normalized(), up = stage.camera.up();
+  const Vec3f right = stage.camera.right();
+  const auto change = [&](const Image& image, const Vec3f& point) {
+    const Vec2f pixel = stage.camera.pixel(point, size);
+    const int x = static_cast<int>(pixel.x()), y = static_cast<int>(pixel.y());
+    int sum = 0;
+    for (int k = 0; k < 3; ++k) sum += std::abs(image.at(x, y)[k] - plain.at(x, y)[k]);
+    return sum;
+  };
+  stage.options.stroke.scissors = Scissors{front, front + 0.02f * up, 0.02f, 0};
+  const Image open = stage.draw();
+  stage.options.stroke.scissors->closed = 1;
+  const Image closed = stage.draw();
+  const Vec3f beside = front + 0.016f * up;
+  for (const float side : {-1.0f, 1.0f}) {
+    int opened = 0, shut = 0;
+    for (int k = 6; k < 24; ++k) {
+      opened += change(open, beside + 0.0005f * static_cast<float>(k) * side * right) > 60;
+      shut += change(closed, beside + 0.0005f * static_cast<float>(k) * side * right) > 60;
+    }
+    CHECK(opened > shut + 2);
+  }
+  stage.options.tool = false;
+  CHECK(stage.draw().pixels == plain.pixels);
+}
+
 TEST_CASE("a surface mesh after a removal is drawn with its frame and the rest of the image stays") {
   Stage stage;
   stage.options.ground = false;

@@ -56,7 +56,7 @@ TEST_CASE("the left button grasps the nearest node and moves it in the plane tha
   // The node moves as far as the point under the mouse: no jump when it is grasped off its centre.
   CHECK((target - Vec3(0.13, -0.08, 0)).norm() < 1e-5);
 
-  sheet.mouse_tool.release(MouseButton::left, sheet.commands);
+  sheet.mouse_tool.release(MouseButton::left, sheet.frame, sheet.surface_mesh, sheet.commands);
   REQUIRE(sheet.commands.size() == 3);
   CHECK(std::holds_alternative<Release>(sheet.commands[2]));
   CHECK(sheet.mouse_tool.interaction() == MouseTool::Interaction::none);
@@ -75,8 +75,45 @@ TEST_CASE("the hold stays at the point of the tissue that was pressed, and its h
   CHECK((hold.hand - pulled).norm() < 1e-5f);
   CHECK((hold.at.among(*render::corners_of(hold.at, sheet.frame, sheet.surface_mesh)) - point - Vec3f(0, 0, 0.01f))
             .norm() < 1e-5f);
-  sheet.mouse_tool.release(MouseButton::left, sheet.commands);
+  sheet.mouse_tool.release(MouseButton::left, sheet.frame, sheet.surface_mesh, sheet.commands);
   CHECK_FALSE(sheet.mouse_tool.hold());
+}
+
+TEST_CASE("a grasp is left as a clamp, taken up again by a press on it, and removed") {
+  Sheet sheet;
+  const Vec3f point(0.08f, -0.09f, 0);
+  CHECK_FALSE(sheet.mouse_tool.leave_clamp(sheet.commands));  // nothing is held
+  sheet.press(MouseButton::left, sheet.pixel(point));
+  sheet.move(sheet.pixel({0.09f, -0.05f, 0}));
+  sheet.commands.clear();
+  CHECK(sheet.mouse_tool.leave_clamp(sheet.commands));
+  REQUIRE(sheet.commands.size() == 2);
+  CHECK(std::get<PinTissue>(sheet.commands[0]).node == 21);
+  CHECK(std::get<PinTissue>(sheet.commands[0]).radius == 0.01);
+  CHECK(std::holds_alternative<Release>(sheet.commands[1]));
+  sheet.commands.clear();
+  sheet.mouse_tool.release(MouseButton::left, sheet.frame, sheet.surface_mesh, sheet.commands);
+  CHECK(sheet.commands.empty());  // the hand is free already
+  CHECK(sheet.mouse_tool.clamps().in(sheet.frame).empty());  // the engine has not answered yet
+  sheet.frame.tools = {PinState{.node = 21, .nodes = {21}}, PinState{.node = 20, .nodes = {20}}};
+  CHECK(sheet.mouse_tool.clamps().in(sheet.frame) == std::vector{21});  // the other was set by a pin
+
+  const render::Vec2f on_clamp = sheet.pixel(sheet.frame.positions[1]) + render::Vec2f(2, -2);
+  CHECK_FALSE(sheet.mouse_tool.remove_clamp(sheet.pixel({-0.05f, 0, 0}), sheet.frame, sheet.surface_mesh,
+                                            sheet.commands));
+  CHECK(sheet.mouse_tool.remove_clamp(on_clamp, sheet.frame, sheet.surface_mesh, sheet.commands));
+  CHECK(std::get<Unpin>(sheet.commands.at(0)).node == 21);
+
+  sheet.commands.clear();
+  CHECK_FALSE(sheet.press(MouseButton::left, on_clamp));
+  REQUIRE(sheet.commands.size() == 2);
+  CHECK(std::get<Unpin>(sheet.commands[0]).node == 21);
+  CHECK(std::get<Grasp>(sheet.commands[1]).node == 21);
+  CHECK(sheet.mouse_tool.interaction() == MouseTool::Interaction::grasping);
+  sheet.move(on_clamp + render::Vec2f(0, -30));
+  const Vec3 target = std::get<MoveTool>(sheet.commands.at(2)).target;
+  CHECK(target.x() == doctest::Approx(0.1).epsilon(1e-3));  // it moves from the node, not from the mouse
+  CHECK(target.y() > -0.1);
 }
 
 TEST_CASE("a scalpel cuts along the line of sight and each press begins a stroke") {
@@ -101,7 +138,7 @@ TEST_CASE("a scalpel cuts along the line of sight and each press begins a stroke
     CHECK(end.z() < -0.018);
     const double at_surface = tip.z() / (tip.z() - end.z());
     CHECK((tip + at_surface * (end - tip) - Vec3(-0.05, 0, 0)).norm() < 1e-5);
-    sheet.mouse_tool.release(MouseButton::left, sheet.commands);
+    sheet.mouse_tool.release(MouseButton::left, sheet.frame, sheet.surface_mesh, sheet.commands);
     CHECK(sheet.commands.size() == 2);
     CHECK(sheet.mouse_tool.interaction() == MouseTool::Interaction::none);
   }
@@ -139,7 +176,7 @@ TEST_CASE("a stroke that meets no tissue cuts nothing, and the next begins where
   sheet.tool.tool = panel::Tool::scalpel;
   sheet.press(MouseButton::left, sheet.pixel({-0.15f, 0.13f, 0}));
   sheet.move(sheet.pixel({0.15f, 0.13f, 0}));
-  sheet.mouse_tool.release(MouseButton::left, sheet.commands);
+  sheet.mouse_tool.release(MouseButton::left, sheet.frame, sheet.surface_mesh, sheet.commands);
   CHECK(sheet.commands.empty());
   sheet.press(MouseButton::left, sheet.pixel({0, 0, 0}));
   sheet.move(sheet.pixel({0.05f, 0, 0}));
@@ -180,7 +217,7 @@ TEST_CASE("buttons off the body orbit and pan the camera and send nothing") {
     CHECK(sheet.mouse_tool.interaction() == interaction);
     sheet.move({25, 15});
     CHECK((sheet.controller.camera().eye() - eye).norm() > 1e-3f);
-    sheet.mouse_tool.release(button, sheet.commands);
+    sheet.mouse_tool.release(button, sheet.frame, sheet.surface_mesh, sheet.commands);
     CHECK(sheet.mouse_tool.interaction() == MouseTool::Interaction::none);
   }
   CHECK(sheet.commands.empty());
@@ -198,7 +235,7 @@ TEST_CASE("another button does not end a grasp, and a resting mouse sends nothin
   const render::Vec2f at = sheet.pixel({0.08f, -0.09f, 0});
   sheet.press(MouseButton::left, at);
   sheet.press(MouseButton::middle, at);
-  sheet.mouse_tool.release(MouseButton::middle, sheet.commands);
+  sheet.mouse_tool.release(MouseButton::middle, sheet.frame, sheet.surface_mesh, sheet.commands);
   CHECK(sheet.mouse_tool.interaction() == MouseTool::Interaction::grasping);
   sheet.move(at);
   CHECK(sheet.commands.size() == 1);
@@ -243,7 +280,7 @@ TEST_CASE("a probe moves in along the line of sight, deeper by the wheel, and wi
   CHECK(moved.path[0].x() == doctest::Approx(0.02).epsilon(0.02));
   CHECK(sheet.mouse_tool.wheel(2, sheet.commands));
   CHECK(std::get<MoveProbe>(sheet.commands[2]).path[0].z() < moved.path[0].z() - 5e-4);
-  sheet.mouse_tool.release(MouseButton::left, sheet.commands);
+  sheet.mouse_tool.release(MouseButton::left, sheet.frame, sheet.surface_mesh, sheet.commands);
   CHECK(std::holds_alternative<WithdrawProbe>(sheet.commands.back()));
 }
 
