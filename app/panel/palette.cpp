@@ -16,14 +16,15 @@ constexpr ImGuiWindowFlags palette_flags = ImGuiWindowFlags_NoDecoration | ImGui
                                            ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoScrollWithMouse;
 
 constexpr ToolInfo tools[] = {
-    {Tool::grasper, "Grasper", "Grasps the tissue under the ring and pulls it along. L leaves it there as a clamp; a press on a clamp takes it up again, "
-     "Del removes it.", Action::select_grasper,
-     draw_forceps},
+    {Tool::grasper, "Grasper",
+     "Grasps the tissue under the ring and pulls it along. L leaves it there as a clamp; a press on a clamp takes it up "
+     "again, Del removes it.",
+     Action::select_grasper, draw_forceps},
     {Tool::scalpel, "Scalpel", "Cuts along the mouse's path, as deep as the blade reaches.", Action::select_scalpel,
      draw_scalpel},
     {Tool::scissors, "Scissors",
-     "Closes the jaws on the tissue along the line at the mouse and cuts what is between them. Dragged, it snips on along "
-     "the way.",
+     "Closes the jaws on the tissue along the line at the mouse and cuts what is between them. Dragged, it snips on "
+     "along the way.",
      Action::select_scissors, draw_scissors},
     {Tool::pin, "Pin", "Fixes the tissue under the ring; a click on a pin removes it.", Action::select_pin, draw_pin},
     {Tool::probe, "Probe",
