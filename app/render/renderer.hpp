@@ -41,8 +41,8 @@ class Renderer {
   /// Draws into a rectangle of framebuffer 0, which must have depth. The picture depends only on the arguments. A frame
   /// without a surface mesh has no body. A surface mesh that the previous frame did not have is uploaded first, which
   /// takes as long as its ambient occlusion: about a second for 50,000 nodes, far less after a removal. A frame with a
-  /// skin and a solid shows the skin in place of the uncut body. Throws std::invalid_argument if the frame, its solid or
-  /// `hatched` has another number of nodes than its mesh, and InputError for a skin's texture that cannot be read.
+  /// skin and a solid shows the skin in place of the uncut body. Throws std::invalid_argument if the frame, its solid
+  /// or `hatched` has another number of nodes than its mesh, and InputError for a skin's texture that cannot be read.
   void draw(const Frame& frame, const Camera& camera, const DrawOptions& options, Size size);
 
  private:

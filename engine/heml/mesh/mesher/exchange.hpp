@@ -37,7 +37,8 @@ Exchange read_surface(const std::string& path);
 
 /// Reads a surface in any format of assimp with what it says of colours. Throws Failure or std::bad_alloc.
 Skin read_skin(const std::string& path);
-/// "#has_places #has_colours", the texture in a line of its own, then as write_exchange() with five more numbers a node.
+/// "#has_places #has_colours", the texture in a line of its own, then as write_exchange() with five more numbers a
+/// node.
 void write_skin(std::FILE* file, const Skin& skin);
 
 /// Fills a closed surface with tetrahedra; its nodes come first. max_volume: m³ per tetrahedron, 0: unlimited. Throws
