@@ -115,12 +115,22 @@ class Tools(WindowCase):
         self.quit()
         self.verify()
 
-    def test_a_grasp_is_left_as_a_clamp_and_the_hand_is_free(self):
+    def on_the_clamp(self, bare):
+        """A place on the shaft of a clamp that stands over the body: of pixels that were tissue in the picture `bare` and
+        are steel now, the one nearest to their middle."""
+        self.settle()
+        now, red = self.display.picture(), set(bare.red(300, 1010))
+        steel = [at for at in red if max(now.pixel(*at)) - min(now.pixel(*at)) < 40 < max(now.pixel(*at))]
+        middle = [sum(at[k] for at in steel) / len(steel) for k in range(2)]
+        return min(steel, key=lambda at: (at[0] - middle[0]) ** 2 + (at[1] - middle[1]) ** 2)
+
+    def test_a_grasp_is_left_as_a_clamp_taken_up_again_and_removed(self):
         self.open_display(1280, 720)
-        self.begin_light("--record", "out.jsonl", size="1280x720")
-        x, y = self.display.picture().tissue(300, 1010)
-        self.do("mousemove", x, y)
+        box = {"size": [0.1, 0.1, 0.1], "cells": [4, 4, 4], "origin": [0, 0, 0]}
+        scene = {**light_scene(), "gravity": [0, 0, 0], "mesh": {"box": box}}
+        self.begin_light("--record", "out.jsonl", scene=scene, size="1280x720")
         before = self.display.picture()
+        self.do("mousemove", 640, 380)
         self.do("mousedown", 1)
         self.wait_for_event("grasp")
         self.do("key", "l")
@@ -131,9 +141,23 @@ class Tools(WindowCase):
         self.wait_for("a drawn clamp", lambda: self.display.picture().change(before, 300, 1010) > 0.3)
         pin = self.seen("pin")[0]
         self.assertEqual(pin["node"], self.seen("grasp")[0]["node"])
-        self.drag((x - 60, y + 30), (-30, 20))  # the hand is free for a second grasp
+        self.drag((480, 520), (-30, 20))  # the hand is free for a second grasp, of other nodes
         self.wait_for_event("grasp", 2)
         self.wait_for_event("release", 2)
+        self.do("mousemove", 1278, 718)
+        self.do("mousemove", *self.on_the_clamp(before))
+        self.do("mousedown", 1)
+        self.wait_for_event("grasp", 3)
+        self.assertEqual(self.seen("grasp")[2]["node"], pin["node"])
+        self.assertIn({"node": pin["node"]}, self.seen("release"))
+        self.do("key", "l")
+        self.wait_for_event("pin", 2)
+        self.do("mouseup", 1)
+        self.do("mousemove", 1278, 718)
+        self.do("mousemove", *self.on_the_clamp(before))
+        self.do("key", "Delete")
+        self.wait_for("its removal", lambda: self.seen("release").count({"node": pin["node"]}) == 2)
+        self.assertFalse(self.seen("remove"), "tissue is left alone")
         self.quit()
         self.verify()
 
