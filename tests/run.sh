@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds heml and tests it. Ends with how many tests passed and failed.
+# Installs what is missing, builds heml and tests it. Ends with the tests that failed and how many passed.
 #   bash tests/run.sh           all: release; address and undefined behaviour sanitizers and fuzzers; thread sanitizer; engine alone
 #   bash tests/run.sh --quick   release alone
 #   bash tests/run.sh --long    all, five minutes a fuzzer, thirty for whole scenes; recordings of whole scenes
@@ -51,17 +51,7 @@ for preset in "${presets[@]}"; do
   results+=("build/release/python-results.xml")
   rm -f "${results[-1]}"
   PYTHONPATH=build/release/python "$python" -m pytest -q tests/app/python --junitxml="${results[-1]}" || true
-  sed -i 's/></>\n</g; s/" /"\n/g' "${results[-1]}"  # an attribute a line, as ctest writes it
 done
 
-# The head of each result file: <testsuite name="..." tests="120" failures="1" disabled="0" skipped="2" ...>
 say "${presets[*]} in $((SECONDS / 60)) min $((SECONDS % 60)) s"
-awk -F '"' '
-  /<testcase/  { nextfile }
-  /tests="/    { tests += $2 }
-  /failures="|errors="/ { failed += $2 }
-  /skipped="/  { skipped += $2 }
-  END {
-    printf "%d passed, %d failed, %d skipped\n", tests - failed - skipped, failed, skipped
-    exit failed > 0 || tests == 0
-  }' "${results[@]}"
+python3 tests/summary.py "${results[@]}"
