@@ -10,6 +10,7 @@ source app/packages.sh
 
 presets=(release address thread smallest)
 fuzz_seconds=20 world_fuzz_seconds=100
+studies=OFF  # and laws, under sanitizers: many minutes
 # What a preset leaves out but for --long: under sanitizers, cases that take minutes there and repeat others for every
 # law, command or size; of the engine alone, what does not change without the program and the helpers for surfaces.
 declare -A selection=(
@@ -20,10 +21,12 @@ case "${1:-}" in
   '') ;;
   --quick) presets=(release) ;;
   --long)
-    fuzz_seconds=300 world_fuzz_seconds=1800 selection=()
+    fuzz_seconds=300 world_fuzz_seconds=1800 selection=() studies=ON
     export HEML_LONG=1 HEML_FUZZ_CASES=1000000000 HEML_WORLD_FUZZ_CASES=1000000000 ;;
   *) fail "usage: bash tests/run.sh [--quick | --long]" ;;
 esac
+
+minutes() { printf '%d:%02d' $(($1 / 60)) $(($1 % 60)); }
 
 # CMake splits lists at semicolons: ctest would look for halves of such a name, find none, and pass.
 if grep -rnE 'TEST_CASE\("[^"]*;' tests; then fail "these names of tests hold a semicolon and would never run"; fi
@@ -38,20 +41,25 @@ if [[ " ${presets[*]} " == *" release "* ]]; then
   "$python" -m pip install -q --disable-pip-version-check nanobind numpy pytest || fail "pip could not install what the tests of the Python module need"
   cmake --preset release -DHEML_PYTHON=ON "-DPython_EXECUTABLE=$top/$python" >/dev/null
 fi
-results=()
+results=() times=()
 for preset in "${presets[@]}"; do
+  start=$SECONDS
+  cmake --preset "$preset" "-DHEML_SANITIZE_STUDIES=$studies" >/dev/null
   build "$preset" || fail "building $preset failed"
+  built=$SECONDS
   say "testing $preset"
   results+=("build/$preset/results.xml")
   rm -f "${results[-1]}"
   # shellcheck disable=SC2086  # an option and its argument
   HEML_FUZZ_SECONDS=$fuzz_seconds HEML_WORLD_FUZZ_SECONDS=$world_fuzz_seconds \
     ctest --preset "$preset" -j "$(nproc)" --output-junit results.xml ${selection[$preset]:-} || true
-  [[ $preset == release ]] || continue
-  results+=("build/release/python-results.xml")
-  rm -f "${results[-1]}"
-  PYTHONPATH=build/release/python "$python" -m pytest -q tests/app/python --junitxml="${results[-1]}" || true
+  if [[ $preset == release ]]; then
+    results+=("build/release/python-results.xml")
+    rm -f "${results[-1]}"
+    PYTHONPATH=build/release/python "$python" -m pytest -q tests/app/python --junitxml="${results[-1]}" || true
+  fi
+  times+=("$preset $(minutes $((built - start))) + $(minutes $((SECONDS - built)))")
 done
 
-say "${presets[*]} in $((SECONDS / 60)) min $((SECONDS % 60)) s"
+say "$(minutes $SECONDS) min, build + tests: $(IFS=,; echo "${times[*]}")"
 python3 tests/summary.py "${results[@]}"
