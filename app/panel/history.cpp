@@ -14,7 +14,7 @@ void History::add(const Frame& frame) {
   Reading reading;
   reading.time = frame.time;
   reading.energies = frame.energies;
-  reading.force = force_of<GraspState>(frame.tools).norm();
+  if (const GraspState* grasp = find_grasp(frame.tools, 0)) reading.force = grasp->force.norm();
   reading.pins = force_of<PinState>(frame.tools).norm();
   reading.tables = force_of<TableState>(frame.tools).norm();
   reading.probe = force_of<ProbeState>(frame.tools).norm();

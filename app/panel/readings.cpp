@@ -12,16 +12,22 @@ constexpr ImU32 total_colour = colours::text;
 }
 
 void draw_force(Rows& rows, const Frame& frame, const History& history) {
-  const bool active = find_tool<GraspState>(frame.tools) != nullptr;
+  const GraspState* grasp = find_grasp(frame.tools, 0);
   ImGui::BeginGroup();
   {
     const UseFont number(Font::number);
-    ImGui::PushStyleColor(ImGuiCol_Text, active ? colours::accent : colours::faint);
-    ImGui::TextUnformatted(newtons(force_of<GraspState>(frame.tools).norm()).c_str());
+    ImGui::PushStyleColor(ImGuiCol_Text, grasp ? colours::accent : colours::faint);
+    ImGui::TextUnformatted(newtons(grasp ? grasp->force.norm() : 0).c_str());
     ImGui::PopStyleColor();
   }
   ImGui::EndGroup();
   rows.explain({"Force", "Magnitude of the force between grasper and tissue, N."});
+  double clamps = 0;
+  std::size_t clamp_count = 0;
+  for (const GraspState& clamp : tools_of<GraspState>(frame.tools))
+    if (clamp.hand != 0) clamps = std::max(clamps, clamp.force.norm()), ++clamp_count;
+  if (clamp_count > 0)
+    rows.value({"Clamps", "The largest force of a clamp on the tissue, N."}, newtons(clamps), colours::potential);
   if (find_tool<PinState>(frame.tools))
     rows.value({"Pins", "Magnitude of the sum of the pins' forces on the tissue, N."},
                newtons(force_of<PinState>(frame.tools).norm()), colours::potential);

@@ -39,6 +39,10 @@ void ToolSection::draw(Rows& rows, const Frame& frame, PanelActions& out) {
   draw_friction(rows, frame, out);
   const std::size_t pins = tools_of<PinState>(frame.tools).size(), sutures = tools_of<SutureState>(frame.tools).size();
   if (pins > 0 && rows.button({several(pins, "pin"), "Removes all pins."})) out.commands.emplace_back(Unpin{});
+  std::size_t clamps = 0;
+  for (const GraspState& grasp : tools_of<GraspState>(frame.tools)) clamps += grasp.hand != 0 ? 1 : 0;
+  if (clamps > 0 && rows.button({several(clamps, "clamp"), "Removes all clamps, and ends a grasp."}))
+    out.commands.emplace_back(Release{std::nullopt});
   if (sutures > 0 && rows.button({several(sutures, "suture"), "Cuts all threads."}))
     out.commands.emplace_back(CutSutures{});
 }

@@ -159,11 +159,12 @@ void apply_action(LiveWorld& live, const char* action, nb::handle value) {
   apply_json(live, {{action, json_from(value, "event", action)}});
 }
 
-void grasp(LiveWorld& live, nb::object point, nb::object node, nb::object radius) {
+void grasp(LiveWorld& live, nb::object point, nb::object node, nb::object radius, nb::object hand) {
   nb::dict patch;
   if (!point.is_none()) patch["point"] = point;
   if (!node.is_none()) patch["node"] = node;
   patch["radius"] = radius;
+  patch["hand"] = hand;
   apply_action(live, "grasp", patch);
 }
 
@@ -246,17 +247,25 @@ void bind_actions(nb::class_<LiveWorld>& world) {
            "Applies an event now: a dict as in a scene's `events`, e.g. {'gravity': [0, 0, 0]}; its `step` and `at` "
            "are ignored.")
       .def("grasp", &grasp, nb::kw_only(), "point"_a = nb::none(), "node"_a = nb::none(), "radius"_a = 0,
+           "hand"_a = 0,
            "Takes hold of the surface nodes within `radius` (m, at rest) of a node, or of the surface node that was "
-           "nearest to `point` (m) at rest.")
+           "nearest to `point` (m) at rest. Each hand (0 to 15) holds one patch, and all hold at once.")
       .def(
-          "move", [](LiveWorld& live, nb::object point) { apply_action(live, "move", point); }, "point"_a,
-          "Moves the tool of the grasp to a point (m).")
+          "move",
+          [](LiveWorld& live, nb::object point, nb::object hand) {
+            nb::dict move;
+            move["to"] = point, move["hand"] = hand;
+            apply_action(live, "move", move);
+          },
+          "point"_a, nb::kw_only(), "hand"_a = 0, "Moves the tool of a hand's grasp to a point (m).")
       .def(
           "release",
-          [](LiveWorld& live) {
-            apply_json(live, {{"release", true}});
+          [](LiveWorld& live, nb::object hand) {
+            nb::dict release;
+            release["hand"] = hand;
+            apply_action(live, "release", release);
           },
-          "Lets go.")
+          nb::kw_only(), "hand"_a = 0, "Lets go.")
       .def("cut", &cut, "sweep"_a,
            "Cuts along what a blade sweeps: a list of lines, of two or more points (m) each, from its first place to "
            "its "

@@ -81,10 +81,6 @@ HeldPatch at_node(int node, const Vec3f& otherwise, const Frame& frame, const Su
 
 }  // namespace
 
-HeldPatch held_patch(const PinState& pin, const Frame& frame, const SurfaceMesh* surface_mesh, const Vec3f& eye) {
-  return at_node(pin.node, pin.place.cast<float>(), frame, surface_mesh, eye);
-}
-
 HeldPatch held_patch(const GraspState& grasp, const std::optional<Hold>& hold, const Frame& frame,
                      const SurfaceMesh* surface_mesh, const Vec3f& eye) {
   if (surface_mesh && hold)

@@ -20,12 +20,6 @@ struct Hold {
   Vec3f hand = Vec3f::Zero();  ///< m
 };
 
-/// What the person at the window holds; empty in replays and captures.
-struct InHand {
-  std::optional<Hold> hold;  ///< of the mouse; none: forceps are drawn at the grasped node
-  std::vector<int> clamps;   ///< centres of pins that are drawn as clamps, mesh-file numbers
-};
-
 /// Held tissue as it lies in a frame.
 struct HeldPatch {
   Vec3f place = Vec3f::Zero();   ///< m, on the drawn skin
@@ -33,13 +27,13 @@ struct HeldPatch {
   Vec3f pull = Vec3f::Zero();    ///< m, from there to where the tool pulls it
 };
 
+/// Whether a grasp is drawn as a clamp: forceps are those of hand 0.
+inline bool is_clamp(const GraspState& grasp) { return grasp.hand != 0; }
+
 /// The patch of a grasp: at the mouse's hold, else, where the script holds or a cut took that triangle, at the grasped
 /// node. A node that is not on the surface has the tool's own place and faces the eye.
 HeldPatch held_patch(const GraspState& grasp, const std::optional<Hold>& hold, const Frame& frame,
                      const SurfaceMesh* surface_mesh, const Vec3f& eye);
-
-/// The patch of a pin that was left as a clamp; without a pull.
-HeldPatch held_patch(const PinState& pin, const Frame& frame, const SurfaceMesh* surface_mesh, const Vec3f& eye);
 
 /// From the tips to the end of the handle, unit. It leans to the upper right, as held by a right hand, so that one does
 /// not look along it where the skin faces the eye, and it follows the pull; it always rises from the skin. radius: m.

@@ -24,19 +24,18 @@ Vec3f tension_tint(float force) {
 
 }  // namespace
 
-void ToolDrawing::place(const Frame& frame, const InHand& hand, bool shown, const ViewContext& shot) {
+void ToolDrawing::place(const Frame& frame, const std::optional<Hold>& hold, bool shown, const ViewContext& shot) {
   parts_.clear();
   shade_ = {};
   if (!shown) return;
-  const auto held = [&](const GraspState& grasp) {
-    return held_patch(grasp, hand.hold, frame, frame.surface_mesh.get(), shot.camera.eye());
+  const auto held = [&](const GraspState& grasp, const std::optional<Hold>& by) {
+    return held_patch(grasp, by, frame, frame.surface_mesh.get(), shot.camera.eye());
   };
-  const ByKind placing{[&](const GraspState& grasp) { place_grasp(grasp, held(grasp), shot); },
-                       [&](const PinState& pin) {
-                         if (std::find(hand.clamps.begin(), hand.clamps.end(), pin.node) == hand.clamps.end())
-                           return place_pin(pin, shot);
-                         place_clamp(held_patch(pin, frame, frame.surface_mesh.get(), shot.camera.eye()), shot);
+  const ByKind placing{[&](const GraspState& grasp) {
+                         if (is_clamp(grasp)) return place_clamp(held(grasp, std::nullopt), shot);
+                         place_grasp(grasp, held(grasp, hold), shot);
                        },
+                       [&](const PinState& pin) { place_pin(pin, shot); },
                        [&](const TableState& state) { place_table(state.table, frame, shot); },
                        [&](const ProbeState& probe) { place_probe(probe); },
                        [&](const SutureState& suture) { place_suture(suture, shot); },

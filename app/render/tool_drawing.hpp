@@ -29,7 +29,7 @@ struct Shade {
 class ToolDrawing {
  public:
   /// Places the tools of a frame, or none if not shown. Call this first.
-  void place(const Frame& frame, const InHand& hand, bool shown, const ViewContext& shot);
+  void place(const Frame& frame, const std::optional<Hold>& hold, bool shown, const ViewContext& shot);
 
   /// Adds scalpel or scissors and their line to them.
   void place_stroke(const StrokeDrawing& stroke, const ViewContext& shot);

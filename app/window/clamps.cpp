@@ -2,6 +2,7 @@
 #include <app/render/bounds.hpp>
 #include <app/render/grasp_pose.hpp>
 #include <app/window/clamps.hpp>
+#include <heml/world/command.hpp>
 
 namespace heml::window {
 namespace {
@@ -17,30 +18,29 @@ float distance_to_segment(const render::Vec2f& point, const render::Vec2f& from,
 
 }  // namespace
 
-std::vector<int> Clamps::in(const Frame& frame) const {
-  std::vector<int> there;
-  for (const PinState& pin : tools_of<PinState>(frame.tools))
-    if (std::find(nodes_.begin(), nodes_.end(), pin.node) != nodes_.end()) there.push_back(pin.node);
-  return there;
-}
-
-std::optional<int> Clamps::at(const render::Vec2f& pixel, const Frame& frame, const SurfaceMesh& surface_mesh,
-                              const panel::CameraController& controller) const {
-  std::optional<int> nearest;
-  float least = reach;
-  if (nodes_.empty()) return nearest;
-  const float radius = render::bounding_sphere(uncut_surface(surface_mesh).rest).radius;
-  for (const PinState& pin : tools_of<PinState>(frame.tools)) {
-    if (std::find(nodes_.begin(), nodes_.end(), pin.node) == nodes_.end()) continue;
-    const render::HeldPatch patch = render::held_patch(pin, frame, &surface_mesh, controller.camera().eye());
+std::optional<GraspState> clamp_at(const render::Vec2f& pixel, const Frame& frame, const SurfaceMesh& surface_mesh,
+                                   const panel::CameraController& controller) {
+  std::optional<GraspState> nearest;
+  float least = reach, radius = 0;
+  for (const GraspState& grasp : tools_of<GraspState>(frame.tools)) {
+    if (!render::is_clamp(grasp)) continue;
+    if (radius == 0) radius = render::bounding_sphere(uncut_surface(surface_mesh).rest).radius;
+    const render::HeldPatch patch =
+        render::held_patch(grasp, std::nullopt, frame, &surface_mesh, controller.camera().eye());
     const Vec3f end = patch.place + render::clamp_length * radius *
                                         render::handle_axis(patch, controller.camera(), radius);
     const float distance = distance_to_segment(pixel, controller.pixel(patch.place), controller.pixel(end));
     if (!(distance < least)) continue;
     least = distance;
-    nearest = pin.node;
+    nearest = grasp;
   }
   return nearest;
+}
+
+std::optional<int> free_hand(const Frame& frame) {
+  for (int hand = 1; hand < max_hands; ++hand)
+    if (!find_grasp(frame.tools, hand)) return hand;
+  return std::nullopt;
 }
 
 }  // namespace heml::window

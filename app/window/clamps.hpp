@@ -1,27 +1,16 @@
 #pragma once
-// Clamps: grasps that were left in place. For the engine each is a pin; which pins were left by the grasper is known
-// here alone, so that a replay shows them as pins.
+// Clamps: grasps that were left in place. A person grasps with hand 0; what other hands hold is drawn as clamps.
 #include <app/panel/camera_controller.hpp>
 #include <heml/session/frame.hpp>
 #include <optional>
-#include <vector>
 
 namespace heml::window {
 
-class Clamps {
- public:
-  /// node: mesh-file number of the pin's centre.
-  void add(int node) { nodes_.push_back(node); }
-  void clear() { nodes_.clear(); }
+/// The clamp drawn under a pixel; none: there is none.
+std::optional<GraspState> clamp_at(const render::Vec2f& pixel, const Frame& frame, const SurfaceMesh& surface_mesh,
+                                   const panel::CameraController& controller);
 
-  /// Centres of those that are still there in a frame, mesh-file numbers.
-  std::vector<int> in(const Frame& frame) const;
-  /// The clamp drawn under a pixel; none: there is none.
-  std::optional<int> at(const render::Vec2f& pixel, const Frame& frame, const SurfaceMesh& surface_mesh,
-                        const panel::CameraController& controller) const;
-
- private:
-  std::vector<int> nodes_;
-};
+/// A hand for another clamp; none: all are in use.
+std::optional<int> free_hand(const Frame& frame);
 
 }  // namespace heml::window

@@ -19,8 +19,8 @@ bool MouseTool::press(MouseButton button, const render::Vec2f& at, bool shift, c
     return false;
   }
   if (button == MouseButton::left && tool.tool == panel::Tool::grasper)
-    if (const auto clamp = clamps_.at(at, frame, surface_mesh, controller_))
-      return !take_up(*clamp, at, frame, surface_mesh, tool.radius, out);
+    if (const auto clamp = clamp_at(at, frame, surface_mesh, controller_))
+      return !take_up(*clamp, at, frame, surface_mesh, out);
   if (button == MouseButton::left)
     if (const auto hit = pick(at, frame, surface_mesh)) {
       if (tool.tool == panel::Tool::grasper) return !grasp(*hit, frame, surface_mesh, tool.radius, out);
@@ -92,16 +92,17 @@ bool MouseTool::grasp(const render::Hit& hit, const Frame& frame, const SurfaceM
   interaction_ = Interaction::grasping;
   anchor_ = hit.point;
   held_ = render::surface_point(hit, frame, surface_mesh);
-  node_offset_ = frame.positions[static_cast<std::size_t>(node)] - hit.point;
+  tool_offset_ = frame.positions[static_cast<std::size_t>(node)] - hit.point;
+  hand_offset_.setZero();
   grasp_ = {surface_mesh.nodes[static_cast<std::size_t>(node)], radius};
   out.emplace_back(grasp_);
   return true;
 }
 
-/// Takes a clamp into the hand: the hand moves it from where it holds the tissue, wherever on it the mouse is.
-bool MouseTool::take_up(int clamp, const render::Vec2f& at, const Frame& frame, const SurfaceMesh& surface_mesh,
-                        double radius, std::vector<Command>& out) {
-  const auto index = render::surface_index(clamp, surface_mesh);
+/// Takes a clamp into the hand: the hand moves it from where it is, wherever on it the mouse is.
+bool MouseTool::take_up(const GraspState& clamp, const render::Vec2f& at, const Frame& frame,
+                        const SurfaceMesh& surface_mesh, std::vector<Command>& out) {
+  const auto index = render::surface_index(clamp.node, surface_mesh);
   if (!index) return false;
   const auto is_corner = [&](const Triangle& triangle) {
     return std::find(triangle.begin(), triangle.end(), static_cast<int>(*index)) != triangle.end();
@@ -112,31 +113,31 @@ bool MouseTool::take_up(int clamp, const render::Vec2f& at, const Frame& frame, 
   held_ = render::surface_point({static_cast<int>(triangle - surface_mesh.triangles.begin()), 0, place}, frame,
                                 surface_mesh);
   anchor_ = controller_.drag(at, place);
-  node_offset_ = place - anchor_;
-  grasp_ = {clamp, radius};
-  out.emplace_back(Unpin{clamp});
+  tool_offset_ = hand_offset_ = clamp.target.cast<float>() - anchor_;
+  grasp_ = {clamp.node, clamp.radius};
   out.emplace_back(grasp_);
   return true;
 }
 
-bool MouseTool::leave_clamp(std::vector<Command>& out) {
-  if (interaction_ != Interaction::grasping) return false;
-  out.emplace_back(PinTissue{grasp_.node, grasp_.radius});
-  clamps_.add(grasp_.node);
-  stop(out);
-  return true;
+Status MouseTool::leave_clamp(const Frame& frame, std::vector<Command>& out) {
+  if (interaction_ != Interaction::grasping) return "Pull the tissue first: L then leaves the grasp there as a clamp.";
+  const auto hand = free_hand(frame);
+  if (!hand) return "There are as many clamps as can be: Del over one removes it.";
+  out.emplace_back(Grasp{grasp_.node, grasp_.radius, *hand});
+  interaction_ = Interaction::none;
+  return {};
 }
 
 bool MouseTool::remove_clamp(const render::Vec2f& at, const Frame& frame, const SurfaceMesh& surface_mesh,
                              std::vector<Command>& out) const {
-  const auto clamp = clamps_.at(at, frame, surface_mesh, controller_);
-  if (clamp) out.emplace_back(Unpin{*clamp});
+  const auto clamp = clamp_at(at, frame, surface_mesh, controller_);
+  if (clamp) out.emplace_back(Release{clamp->hand});
   return clamp.has_value();
 }
 
 std::optional<render::Hold> MouseTool::hold() const {
   if (interaction_ != Interaction::grasping) return std::nullopt;
-  return render::Hold{held_, controller_.drag(last_, anchor_)};
+  return render::Hold{held_, controller_.drag(last_, anchor_) + hand_offset_};
 }
 
 /// The first click sets one end, the second the other.
@@ -253,7 +254,7 @@ void MouseTool::move(const render::Vec2f& at, const Frame& frame, const SurfaceM
   if (interaction_ == Interaction::cutting) cut(at, frame, surface_mesh, out);
   if (interaction_ == Interaction::grasping) {
     const Vec3f point = controller_.drag(at, anchor_);
-    out.emplace_back(MoveTool{(point + node_offset_).cast<double>()});
+    out.emplace_back(MoveTool{(point + tool_offset_).cast<double>()});
   }
 }
 

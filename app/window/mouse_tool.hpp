@@ -33,14 +33,11 @@ class MouseTool {
   /// Pushes an active probe deeper by notches of the wheel (negative: back). Returns false without a probe.
   bool wheel(float notches, std::vector<Command>& out);
   void release(MouseButton button, const Frame& frame, const SurfaceMesh& surface_mesh, std::vector<Command>& out);
-  /// Leaves the grasp under way where it is, as a clamp. Returns false without a grasp.
-  bool leave_clamp(std::vector<Command>& out);
+  /// Leaves the grasp under way where it is, as a clamp. Returns why it cannot.
+  Status leave_clamp(const Frame& frame, std::vector<Command>& out);
   /// Removes the clamp drawn under a pixel. Returns false where there is none.
   bool remove_clamp(const render::Vec2f& at, const Frame& frame, const SurfaceMesh& surface_mesh,
                     std::vector<Command>& out) const;
-  const Clamps& clamps() const { return clamps_; }
-  /// For another session.
-  void forget_clamps() { clamps_.clear(); }
   /// Ends what the mouse does, and forgets the first end of a suture.
   void cancel(std::vector<Command>& out);
 
@@ -71,7 +68,7 @@ class MouseTool {
   std::optional<render::Hit> pick(const render::Vec2f& at, const Frame& frame, const SurfaceMesh& surface_mesh) const;
 
  private:
-  bool take_up(int clamp, const render::Vec2f& at, const Frame& frame, const SurfaceMesh& surface_mesh, double radius,
+  bool take_up(const GraspState& clamp, const render::Vec2f& at, const Frame& frame, const SurfaceMesh& surface_mesh,
                std::vector<Command>& out);
   void stop(std::vector<Command>& out);
   static std::optional<int> free_corner(const render::Hit& hit, const SurfaceMesh& surface_mesh);
@@ -93,10 +90,10 @@ class MouseTool {
   MouseButton button_ = MouseButton::left;      // that began interaction_
   render::Vec2f last_ = render::Vec2f::Zero();  // of the mouse, pixels
   Vec3f anchor_ = Vec3f::Zero();                // m, of the surface, where the tool began
-  Vec3f node_offset_ = Vec3f::Zero();           // m, from there to the grasped node
+  Vec3f tool_offset_ = Vec3f::Zero();           // m, from there to the tool of the grasp
+  Vec3f hand_offset_ = Vec3f::Zero();           // m, from there to where the hand is drawn
   render::SurfacePoint held_;                   // where the grasper took hold
   Grasp grasp_;                                 // under way
-  Clamps clamps_;
   double depth_ = 0;                            // m, of the blade below anchor_
   std::array<Vec3, 2> blade_;                   // m, end of the last cut
   Vec3 heading_ = Vec3::Zero();                 // m, of the blade's last movement

@@ -33,7 +33,6 @@ Viewer::~Viewer() { window_.send_events_to(nullptr); }
 void Viewer::adopt(OpenScene opened) {
   std::vector<Command> last;
   mouse_tool_.cancel(last);
-  if (!opened.resumed) mouse_tool_.forget_clamps();
   if (opened.resumed)
     playback_.resumed_at(*opened.resumed, opened.session->latest());
   else
@@ -115,7 +114,7 @@ void Viewer::draw() {
   controller_.resize(size, panel_->insets({static_cast<float>(size.width), static_cast<float>(size.height)}),
                      panel::body_count(*frame_));
   render::DrawOptions drawing = panel_->drawing();
-  drawing.hand = {mouse_tool_.hold(), mouse_tool_.clamps().in(seen())};
+  drawing.hold = mouse_tool_.hold();
   drawing.stroke = mouse_tool_.stroke(seen(), *seen().surface_mesh);
   if (const auto hit = hovered(); hit && panel_->tool().tool == panel::Tool::scissors && !playback_.active())
     drawing.stroke.scissors = mouse_tool_.scissors_over(*hit, panel_->tool());
@@ -188,7 +187,7 @@ std::optional<render::Hit> Viewer::hovered() const {
 
 bool Viewer::is_on_clamp() const {
   return mouse_tool_.interaction() == MouseTool::Interaction::none && !panel_->covers(mouse_.x(), mouse_.y()) &&
-         mouse_tool_.clamps().at(mouse_, seen(), *seen().surface_mesh, controller_).has_value();
+         clamp_at(mouse_, seen(), *seen().surface_mesh, controller_).has_value();
 }
 
 bool Viewer::is_on_section_handle() const {

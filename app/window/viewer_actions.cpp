@@ -164,8 +164,7 @@ void Viewer::go_live() {
 
 void Viewer::leave_clamp() {
   std::vector<Command> commands;
-  if (!mouse_tool_.leave_clamp(commands))
-    return panel_->notify("Pull the tissue first: L then leaves the grasp there as a clamp.");
+  if (const Status left = mouse_tool_.leave_clamp(seen(), commands); !left.ok()) return panel_->notify(left.message());
   post(commands);
 }
 
@@ -173,12 +172,12 @@ void Viewer::leave_clamp() {
 void Viewer::remove_tissue() {
   if (playback_.active()) return panel_->notify(past_is_read_only);
   const SurfaceMesh& surface_mesh = *seen().surface_mesh;
-  std::vector<Command> unpin;
-  if (mouse_tool_.remove_clamp(mouse_, seen(), surface_mesh, unpin)) return post(unpin);
+  std::vector<Command> release;
+  if (mouse_tool_.remove_clamp(mouse_, seen(), surface_mesh, release)) return post(release);
   const bool points =
       mouse_tool_.interaction() == MouseTool::Interaction::none && !panel_->covers(mouse_.x(), mouse_.y());
   const auto hit = points ? mouse_tool_.pick(mouse_, seen(), surface_mesh) : std::nullopt;
-  const GraspState* grasp = find_tool<GraspState>(frame_->tools);
+  const GraspState* grasp = find_grasp(frame_->tools, 0);
   const int node = hit ? surface_mesh.nodes[static_cast<std::size_t>(hit->node)] : grasp ? grasp->node : -1;
   ElementSelection which;
   which.tets = elements_around(node, surface_mesh, panel_->tool().radius);

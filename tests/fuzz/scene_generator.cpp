@@ -356,7 +356,10 @@ class Generator {
                                                                      : dice_.chance(0.5) ? "remove"
                                                                                          : "undo")
                                                       : command_with(dice_.pick(event_keys()));
-      all.push_back({{"step", dice_.below(ticks_ + 1)}, {std::string(command.key), value_of(command)}});
+      Json value = value_of(command);
+      if (k % 2 != 0 && command.key == "grasp") value["hand"] = k;
+      if (k % 2 != 0 && command.key == "move") value = {{"to", value}, {"hand", k - 2}};
+      all.push_back({{"step", dice_.below(ticks_ + 1)}, {std::string(command.key), std::move(value)}});
     }
     return all;
   }

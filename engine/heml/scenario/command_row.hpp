@@ -22,6 +22,8 @@ inline constexpr KeyInfo point_row{"point", form::vector, "m", "one of `node`, `
                                    "the node of the surface nearest to it at rest"};
 inline constexpr KeyInfo radius_row{"radius", form::non_negative, "m", "",
                                     "surface nodes so near at rest belong to it; 0: that node alone"};
+inline constexpr KeyInfo hand_row{"hand", form::whole(0, max_hands - 1), "", "`0`",
+                                  "which: each holds one patch, and all hold at once"};
 inline constexpr KeyInfo patch_keys[] = {node_row, point_row, radius_row};
 
 /// What most rows have in common. Rows hide what they have of their own.

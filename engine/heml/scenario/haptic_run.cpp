@@ -78,14 +78,14 @@ HapticRun run_with_handle(const Scene& scene, const HandleTrajectory& handle, co
   const double tick = scene.solver.tick(), end = std::min(scene.solver.duration, handle.times.back());
   for (long k = 1; static_cast<double>(k) * tick <= end * (1 + 1e-12); ++k) {
     const double now = static_cast<double>(k) * tick;
-    if (find_tool<GraspState>(world->tools()))
+    if (find_grasp(world->tools(), 0))
       if (const Status moved = world->apply(MoveTool{handle.at(now - tick)}); !moved.ok())
         throw InputError(scene.file, "", "the tool cannot follow the handle: " + moved.message(),
                          "give another trajectory");
     player.to(now);
     if ((run.halt = world->halt())) break;
     const std::vector<ToolState> tools = world->tools();
-    if (const GraspState* grasp = find_tool<GraspState>(tools))
+    if (const GraspState* grasp = find_grasp(tools, 0))
       servo.update({now, grasp->target, grasp->force});
     else
       servo.release();

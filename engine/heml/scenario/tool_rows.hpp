@@ -34,7 +34,22 @@ struct PatchRow : CommonRow {
 template <>
 struct Row<Grasp> : PatchRow<Grasp> {
   static constexpr std::string_view key = "grasp",
-                                    meaning = "takes hold of surface nodes with a spring; replaces the grasp before";
+                                    meaning = "takes hold of surface nodes with a spring; replaces what the hand held";
+  static constexpr KeyInfo grasp_keys[] = {node_row, point_row, radius_row, hand_row};
+  static constexpr std::span<const KeyInfo> keys = grasp_keys;
+  static Command read(const JsonCursor& value, Points& points) {
+    const ObjectReader object(value, keys);
+    Grasp grasp;
+    grasp.node = node_from(object, points);
+    object.read("radius", grasp.radius);
+    object.read("hand", grasp.hand);
+    return grasp;
+  }
+  static Json write(const Grasp& grasp) {
+    Json value = PatchRow::write(grasp);
+    if (grasp.hand != 0) value["hand"] = grasp.hand;
+    return value;
+  }
   static constexpr std::optional<CommandTool> tool = CommandTool::grasp;
   static References references(Grasp& grasp) { return {{node_kind, &grasp.node, "grasp.node"}}; }
 };
@@ -42,20 +57,39 @@ struct Row<Grasp> : PatchRow<Grasp> {
 template <>
 struct Row<MoveTool> : CommonRow {
   static constexpr std::string_view key = "move", example = "[0.1, 0, 0]", unit = "m",
-                                    meaning = "moves the tool of the grasp there";
-  static constexpr ValueForm value_form = form::vector;
+                                    meaning = "moves the tool of the grasp there; of another hand than 0: "
+                                              "`{\"to\": [x, y, z], \"hand\": 1}`";
+  static constexpr ValueForm value_form = form::other("list of three numbers, or object");
+  static constexpr KeyInfo move_keys[] = {{"to", form::vector, "m", required, "where the tool is from now on"}, hand_row};
+  static constexpr std::span<const KeyInfo> keys = move_keys;
   static constexpr std::optional<CommandTool> tool = CommandTool::grasp;
-  static Command read(const JsonCursor& value, Points&) { return MoveTool{value_of<Vec3>(value, value_form)}; }
-  static Json write(const MoveTool& move) { return vector_json(move.target); }
+  static Command read(const JsonCursor& value, Points&) {
+    if (!value.json().is_object()) return MoveTool{value_of<Vec3>(value, form::vector)};
+    const ObjectReader object(value, keys);
+    MoveTool move{object.get<Vec3>("to")};
+    object.read("hand", move.hand);
+    return move;
+  }
+  static Json write(const MoveTool& move) {
+    if (move.hand == 0) return vector_json(move.target);
+    return {{"to", vector_json(move.target)}, {"hand", move.hand}};
+  }
 };
 
 template <>
 struct Row<Release> : CommonRow {
-  static constexpr std::string_view key = "release", example = "true", meaning = "ends the grasp";
-  static constexpr ValueForm value_form = true_form;
+  static constexpr std::string_view key = "release", example = "true",
+                                    meaning = "ends the grasp of hand 0; `{\"hand\": 1}`: of another hand; "
+                                              "`\"grasps\"`: of all";
+  static constexpr ValueForm value_form = form::other("`true`, object, or `\"grasps\"`");
+  static constexpr KeyInfo release_keys[] = {hand_row};
+  static constexpr std::span<const KeyInfo> keys = release_keys;
   static constexpr std::optional<CommandTool> tool = CommandTool::grasp;
   static Command read(const JsonCursor& value, Points& points);
-  static Json write(const Release&) { return true; }
+  static Json write(const Release& release) {
+    if (!release.hand) return "grasps";
+    return *release.hand == 0 ? Json(true) : Json{{"hand", *release.hand}};
+  }
 };
 
 template <>
@@ -184,12 +218,16 @@ struct Row<CutSutures> : CommonRow {
 };
 
 inline Command Row<Release>::read(const JsonCursor& value, Points& points) {
+  if (value.json().is_object() && value.json().contains("hand"))
+    return Release{ObjectReader(value, Row<Release>::keys).get<int>("hand")};
   if (value.json().is_object()) return Unpin{node_from(ObjectReader(value, Row<Unpin>::keys), points)};
   if (value.json().is_string()) {
+    if (value.text() == "grasps") return Release{std::nullopt};
     if (value.text() == "pins") return Unpin{};
     if (value.text() == "probe") return WithdrawProbe{};
     if (value.text() == "sutures") return CutSutures{};
-    value.refuse("must be true (the grasp), \"pins\", \"probe\", \"sutures\", or {\"node\": n} of a pin");
+    value.refuse("must be true (the grasp), {\"hand\": n} (another hand's), \"grasps\", {\"node\": n} (a pin), \"pins\", "
+        "\"probe\", or \"sutures\"");
   }
   expect_true(value);
   return Release{};

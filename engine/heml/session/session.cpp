@@ -31,7 +31,10 @@ constexpr auto error_interval = std::chrono::milliseconds(200);  // between esti
 
 /// Whether `next` makes `command` redundant, as later mouse positions do between two ticks.
 static bool is_overtaken(const Command& command, const Command& next) {
-  if (std::holds_alternative<MoveTool>(command)) return std::holds_alternative<MoveTool>(next);
+  if (const auto* move = std::get_if<MoveTool>(&command)) {
+    const auto* later = std::get_if<MoveTool>(&next);
+    return later && later->hand == move->hand;
+  }
   const auto *probe = std::get_if<MoveProbe>(&command), *further = std::get_if<MoveProbe>(&next);
   return probe && further && probe->path.size() == 1 && further->path.size() == 1;
 }

@@ -5,9 +5,10 @@
 namespace heml {
 
 template <class Real>
-GraspSpring<Real>::GraspSpring(int center, Real radius, std::span<const int> nodes, const std::vector<Vec3>& rest,
-                               const Real* x, const std::vector<Real>& inverse_mass, Real omega, double reach)
-    : center_(center), omega_(omega), reach_(reach) {
+GraspSpring<Real>::GraspSpring(GraspId id, int center, Real radius, std::span<const int> nodes,
+                               const std::vector<Vec3>& rest, const Real* x, const std::vector<Real>& inverse_mass,
+                               Real omega, double reach)
+    : id_(id), center_(center), radius_(radius), omega_(omega), reach_(reach) {
   const auto at = [x](int n) { return Vec3(Eigen::Map<const Vector3<Real>>(x + 3 * n).template cast<double>()); };
   target_ = at(center);
   const auto take = [&](int n, Real weight) {

@@ -10,17 +10,26 @@
 
 namespace heml {
 
+/// Which grasp a spring is.
+struct GraspId {
+  int hand = 0;
+  long serial = 0;  ///< of all grasps of a world, from 1
+};
+
 template <class Real>
 class GraspSpring {
  public:
   /// Grasps `center` and those of `nodes` (internal numbers, ascending) within `radius` (m) of it at rest, except
   /// constrained ones (inverse_mass 0). rest, x: #V×3, m. inverse_mass: #V, 1/kg. omega: 1/s. reach: m.
-  GraspSpring(int center, Real radius, std::span<const int> nodes, const std::vector<Vec3>& rest, const Real* x,
-              const std::vector<Real>& inverse_mass, Real omega, double reach);
+  GraspSpring(GraspId id, int center, Real radius, std::span<const int> nodes, const std::vector<Vec3>& rest,
+              const Real* x, const std::vector<Real>& inverse_mass, Real omega, double reach);
 
+  const GraspId& id() const { return id_; }
+  void hand_over(int hand) { id_.hand = hand; }
   bool empty() const { return nodes_.empty(); }
   Real omega() const { return omega_; }
   int center() const { return center_; }
+  Real radius() const { return radius_; }  ///< m
 
   void move(const Vec3& target) { target_ = target; }
   const Vec3& target() const { return target_; }
@@ -50,8 +59,9 @@ class GraspSpring {
   Vec3 clamped_target(const Real* x) const;  // the target, clamped to `reach` from the grip
   Vector3<Real> node_force(std::size_t k, const Vec3& target, const Real* x, const Real* v) const;
 
+  GraspId id_;
   int center_;
-  Real omega_;
+  Real radius_, omega_;
   double reach_;  ///< m
   Vec3 target_;   ///< m
   std::vector<int> nodes_;

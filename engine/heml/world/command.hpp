@@ -16,18 +16,27 @@
 
 namespace heml {
 
+/// A body is held by at most so many hands at once. Hand 0 is that of a person at the window; others are second hands of
+/// scripts, and clamps that were left in place.
+inline constexpr int max_hands = 16;
+
 /// Takes hold of the surface nodes within `radius` of a node, by a critically damped spring to a tool that starts where
-/// the node is now. Replaces what was grasped before.
+/// the node is now. Replaces what this hand held before. What a hand holds already by this node and radius is handed
+/// over as it is, with its tool and tension: so a clamp is left, and taken up again.
 struct Grasp {
   int node = 0;       ///< mesh-file order
   double radius = 0;  ///< m, rest shape; 0: that node alone
+  int hand = 0;       ///< 0 to max_hands - 1
 };
-/// Moves the tool of the grasp.
+/// Moves the tool of a grasp.
 struct MoveTool {
   Vec3 target = Vec3::Zero();  ///< m
+  int hand = 0;
 };
 /// Lets go.
-struct Release {};
+struct Release {
+  std::optional<int> hand = 0;  ///< none: all hands
+};
 /// Holds the surface nodes within `radius` of a node exactly where they are, beside all that is pinned already.
 struct PinTissue {
   int node = 0;       ///< mesh-file order

@@ -33,6 +33,12 @@ Status patch_problem(const char* tool, int node, double radius, std::size_t node
   return {};
 }
 
+Status hand_problem(const char* tool, int hand) {
+  if (hand < 0 || hand >= max_hands)
+    return fmt::format("{}: hand must be 0 to {}, is {}", tool, max_hands - 1, hand);
+  return {};
+}
+
 Status table_problem(const Table& table) {
   if (!table.point.allFinite() || !table.normal.allFinite()) return "table: point and normal must be finite";
   if (!(table.normal.norm() > 0)) return "table: the normal must not be zero";
@@ -57,33 +63,70 @@ Status probe_problem(const MoveProbe& probe) {
 }
 }  // namespace
 
+/// The grasp of a hand, or the place in the list where it would be.
+template <class Real>
+auto CommandExecutor<Real>::grasp_of(int hand) {
+  return std::lower_bound(s_.grasps.begin(), s_.grasps.end(), hand,
+                          [](const GraspSpring<Real>& grasp, int number) { return grasp.id().hand < number; });
+}
+
 template <class Real>
 Status CommandExecutor<Real>::execute(const Grasp& command) {
   if (const Status status = patch_problem("grasp", command.node, command.radius, s_.mass.size()); !status.ok())
     return status;
+  if (const Status status = hand_problem("grasp", command.hand); !status.ok()) return status;
   const int center = s_.model.order.new_node[static_cast<std::size_t>(command.node)];
+  const auto radius = static_cast<Real>(command.radius);
+  const auto held = std::find_if(s_.grasps.begin(), s_.grasps.end(), [&](const GraspSpring<Real>& grasp) {
+    return grasp.center() == center && grasp.radius() == radius;
+  });
+  if (held != s_.grasps.end()) {
+    GraspSpring<Real> grasp = std::move(*held);
+    s_.grasps.erase(held);
+    put_into_hand(std::move(grasp), command.hand);
+    return {};
+  }
   GraspSpring<Real> grasp(
-      center, static_cast<Real>(command.radius), surface_with(center), s_.model.mesh.nodes, s_.state.x.data(),
-      s_.inverse_mass,
+      {command.hand, s_.grasps_taken + 1}, center, radius, surface_with(center), s_.model.mesh.nodes,
+      s_.state.x.data(), s_.inverse_mass,
       static_cast<Real>(tool_frequency(s_.setup, command.radius, static_cast<double>(s_.rest_frequency))),
       grip_reach * s_.model.diagonal);
   if (grasp.empty()) return fmt::format("grasp: node {} is constrained, or belongs to no element", command.node);
-  s_.grasps.assign(1, std::move(grasp));
+  put_into_hand(std::move(grasp), command.hand);
   ++s_.grasps_taken;
   return {};
 }
 
+/// What the hand held before it lets go.
+template <class Real>
+void CommandExecutor<Real>::put_into_hand(GraspSpring<Real> grasp, int hand) {
+  grasp.hand_over(hand);
+  const auto place = grasp_of(hand);
+  if (place != s_.grasps.end() && place->id().hand == hand)
+    *place = std::move(grasp);
+  else
+    s_.grasps.insert(place, std::move(grasp));
+}
+
 template <class Real>
 Status CommandExecutor<Real>::execute(const MoveTool& command) {
-  if (s_.grasps.empty()) return "move: nothing is grasped";
+  if (const Status status = hand_problem("move", command.hand); !status.ok()) return status;
+  const auto grasp = grasp_of(command.hand);
+  if (grasp == s_.grasps.end() || grasp->id().hand != command.hand)
+    return command.hand == 0 ? "move: nothing is grasped" : fmt::format("move: hand {} holds nothing", command.hand);
   if (!finite(command.target)) return "move: the target is not finite";
-  s_.grasps.front().move(command.target);
+  grasp->move(command.target);
   return {};
 }
 
 template <class Real>
-Status CommandExecutor<Real>::execute(const Release&) {
-  s_.grasps.clear();
+Status CommandExecutor<Real>::execute(const Release& command) {
+  if (!command.hand) {
+    s_.grasps.clear();
+    return {};
+  }
+  if (const Status status = hand_problem("release", *command.hand); !status.ok()) return status;
+  std::erase_if(s_.grasps, [&](const GraspSpring<Real>& grasp) { return grasp.id().hand == *command.hand; });
   return {};
 }
 

@@ -40,6 +40,8 @@ class CommandExecutor {
   Status execute(const CutSutures& command);
 
  private:
+  auto grasp_of(int hand);
+  void put_into_hand(GraspSpring<Real> grasp, int hand);
   std::vector<int> surface_with(int node) const;
   void update_constraints();
 

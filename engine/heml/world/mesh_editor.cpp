@@ -298,7 +298,7 @@ void MeshEditor<Real>::restore_before_edit(const SimulationSnapshot<Real>& befor
   s_.state.v = s_.last_valid.v = values.state.v;
   s_.state.f = values.state.f;
   if (s_.recovery) s_.recovery->last_good = s_.state;
-  restore_grasp(before);
+  restore_grasps(before);
   s_.pins = values.pins;
   s_.contacts.sutures = values.contacts.sutures;
   s_.body.restore(s_.model.mesh, s_.model.material_of, before.body, s_.state.x.data(), s_.model.midedges);
@@ -306,15 +306,16 @@ void MeshEditor<Real>::restore_before_edit(const SimulationSnapshot<Real>& befor
   rebuild_after_edit();
 }
 
-/// Restores the grasp if it has been held ever since, by a tool that is where it is now.
+/// Restores the grasps that have been held ever since, by tools that are where they are now.
 template <class Real>
-void MeshEditor<Real>::restore_grasp(const SimulationSnapshot<Real>& before) {
-  const bool since = !s_.grasps.empty() && s_.grasps_taken == before.values.grasps_taken;
-  const Vec3 target = since ? s_.grasps.front().target() : Vec3::Zero();
-  s_.grasps.clear();
-  if (!since) return;
-  s_.grasps = before.values.grasps;
-  s_.grasps.front().move(target);
+void MeshEditor<Real>::restore_grasps(const SimulationSnapshot<Real>& before) {
+  const std::vector<GraspSpring<Real>> now = std::exchange(s_.grasps, {});
+  for (const auto& grasp : now)
+    for (const auto& held : before.values.grasps) {
+      if (held.id().serial != grasp.id().serial) continue;
+      s_.grasps.push_back(held);
+      s_.grasps.back().move(grasp.target());
+    }
 }
 
 template <class Real>

@@ -76,7 +76,7 @@ template <class Real>
 std::optional<StopReason> RecoveryController<Real>::monitor() {
   if (!s_.recovery || s_.recovering() || s_.halt) return std::nullopt;
   RecoveryState<Real>& recovery = *s_.recovery;
-  recovery.track_tool(s_.grasps.empty() ? nullptr : &s_.grasps.front(), s_.state.time);
+  recovery.track_tools(s_.grasps, s_.state.time);
   const StateCheck check = recovery.check(s_.model.mesh, s_.state, s_.mass);
   const double inverted = static_cast<double>(check.inverted) / static_cast<double>(s_.model.mesh.tets.size());
   if (!(check.min_J < worst_J || inverted > max_inverted || check.speed > recovery.max_speed)) {

@@ -73,16 +73,17 @@ StateCheck RecoveryState<Real>::check(const TetMesh& mesh, const State<Real>& st
 }
 
 template <class Real>
-void RecoveryState<Real>::track_tool(const GraspSpring<Real>* grasp, double time) {
-  if (!grasp) {
-    this->tool_time = -1;
-    this->tool_speed = 0;
-    return;
-  }
-  const bool known = this->tool_time >= 0;
-  if (known && time < this->tool_time + tool_interval) return;
-  if (known) this->tool_speed = (grasp->target() - this->tool_was).norm() / (time - this->tool_time);
-  this->tool_was = grasp->target();
+void RecoveryState<Real>::track_tools(const std::vector<GraspSpring<Real>>& grasps, double time) {
+  auto& before = this->tools_were;
+  if (!grasps.empty() && !before.empty() && time < this->tool_time + tool_interval) return;
+  this->tool_speed = 0;
+  for (const auto& grasp : grasps)
+    for (const auto& tool : before)
+      if (tool.serial == grasp.id().serial)
+        this->tool_speed =
+            std::max(this->tool_speed, (grasp.target() - tool.place).norm() / (time - this->tool_time));
+  before.clear();
+  for (const auto& grasp : grasps) before.push_back({grasp.id().serial, grasp.target()});
   this->tool_time = time;
 }
 

@@ -31,9 +31,13 @@ struct RecoveryProgress {
   long healthy_steps = 0;       ///< successive steps with a healthy min J
   bool is_tangled = false;      ///< moved towards rest until no element is inverted
   long moves_towards_rest = 0;  ///< steps with such a move in this recovery
-  double tool_speed = 0;        ///< m/s; 0: no tool
-  Vec3 tool_was = Vec3::Zero();
-  double tool_time = -1;  ///< s, of tool_was; negative: no tool
+  double tool_speed = 0;        ///< m/s, of the fastest; 0: no tool
+  struct Tool {
+    long serial;
+    Vec3 place;  ///< m
+  };
+  std::vector<Tool> tools_were;  ///< that hold something
+  double tool_time = 0;          ///< s, of tools_were
 };
 
 /// progress: where recoveries are. surrogate: its implicit part, while there is one.
@@ -57,8 +61,8 @@ class RecoveryState : public RecoveryProgress<Real> {
   void set_mesh(const TetMesh& mesh, const std::vector<Real>& masses);
 
   StateCheck check(const TetMesh& mesh, const State<Real>& state, const std::vector<Real>& masses) const;
-  /// Updates tool_speed from the tool's position at a time (s).
-  void track_tool(const GraspSpring<Real>* grasp, double time);
+  /// Updates tool_speed from the tools' positions at a time (s).
+  void track_tools(const std::vector<GraspSpring<Real>>& grasps, double time);
 
   std::unique_ptr<RecoverySurrogate<Real>> surrogate;
 

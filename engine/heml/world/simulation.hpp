@@ -39,8 +39,8 @@ struct StepLimit {
 template <class Real>
 struct SimulationState {
   std::vector<EditReport> edits;          ///< since the start or the last Reset, without undone ones
-  std::vector<GraspSpring<Real>> grasps;  ///< at most one; an empty list costs nothing
-  long grasps_taken = 0;                  ///< grasps so far: identifies the current one
+  std::vector<GraspSpring<Real>> grasps;  ///< ascending hands, one each; an empty list costs nothing
+  long grasps_taken = 0;                  ///< so far: the serial number of the last
   std::vector<PinnedPatch> pins;          ///< in the order they were set
   Contacts contacts;                      ///< empty in most worlds
   ContactImpulses<Real> impulses;

@@ -22,8 +22,10 @@ template <class Real>
 void find_stable_step(Simulation<Real>& s) {
   ElasticBody<Real>& body = s.acting_body();
   double lambda = static_cast<double>(body.frequency_bound(s.state.x.data(), s.team)), omega = 0;
-  for (const auto& grasp : s.grasps) omega = std::max(omega, static_cast<double>(grasp.omega()));
-  lambda += omega * omega;
+  for (const auto& grasp : s.grasps) {  // hands may hold the same node: all that pulls at one
+    lambda += static_cast<double>(grasp.omega()) * static_cast<double>(grasp.omega());
+    omega += static_cast<double>(grasp.omega());
+  }
   const double half =
       omega + (s.has_internal_state ? static_cast<double>(body.damping_bound(s.state.x.data(), s.team)) / 2 : 0);
   const bool cut = std::any_of(s.edits.begin(), s.edits.end(), [](const EditReport& edit) { return edit.split > 0; });

@@ -19,7 +19,7 @@ WorldSetup as_shadow(WorldSetup setup) {
 StepDoublingEstimator::StepDoublingEstimator(WorldSetup setup) : world_(make_world(as_shadow(std::move(setup)))) {}
 
 bool StepDoublingEstimator::begin(const World& leader) {
-  ticks_.clear(), move_.reset();
+  ticks_.clear(), moves_.clear();
   if (leader.setup().solver.is_static() || !world_->copy_motion_from(leader)) return false;
   integrator_ = *find_integrator(leader.solver_stats().integrator);
   begin_ = leader.time();
@@ -29,7 +29,7 @@ bool StepDoublingEstimator::begin(const World& leader) {
 }
 
 void StepDoublingEstimator::ticked(const World& leader) {
-  ticks_.push_back({leader.time(), leader.substeps(), std::exchange(move_, std::nullopt)});
+  ticks_.push_back({leader.time(), leader.substeps(), std::exchange(moves_, {})});
   lost_ |= leader.halt() || leader.recoveries() != recoveries_ ||
            find_integrator(leader.solver_stats().integrator) != integrator_;
 }
@@ -39,7 +39,7 @@ std::optional<TimeError> StepDoublingEstimator::error(const std::vector<Vec3>& r
   if (world_->setup().solver.integrator != integrator_) world_->apply(SetIntegrator{integrator_});
   double time = begin_;
   for (const Tick& tick : ticks_) {
-    if (tick.move) world_->apply(*tick.move);
+    for (const MoveTool& move : tick.moves) world_->apply(move);
     const int steps = 2 * std::max(tick.steps, 1);
     for (int k = 1; k <= steps; ++k)
       world_->advance_within_tick(k == steps ? tick.end : time + (tick.end - time) * k / steps);

@@ -27,8 +27,8 @@ class StepDoublingEstimator {
 
   /// A stretch begins. Returns false where the leader cannot be followed (World::follow(), statics).
   bool begin(const World& leader);
-  /// In it, before a tick: the tool is moved.
-  void move(const MoveTool& command) { move_ = command; }
+  /// In it, before a tick: a tool is moved.
+  void move(const MoveTool& command) { moves_.push_back(command); }
   /// After a tick of the leader.
   void ticked(const World& leader);
   /// s, since begin().
@@ -42,7 +42,7 @@ class StepDoublingEstimator {
   struct Tick {
     double end;  ///< s
     int steps;
-    std::optional<MoveTool> move;
+    std::vector<MoveTool> moves;
   };
 
   std::unique_ptr<World> world_;
@@ -51,7 +51,7 @@ class StepDoublingEstimator {
   long recoveries_ = 0;
   bool lost_ = false;
   std::vector<Tick> ticks_;
-  std::optional<MoveTool> move_;  ///< of the coming tick
+  std::vector<MoveTool> moves_;  ///< of the coming tick
 };
 
 }  // namespace heml

@@ -12,7 +12,10 @@
 namespace heml {
 
 struct GraspState {
+  int hand = 0;                ///< that holds
+  long serial = 0;             ///< of all grasps of the world so far; the latest has the highest
   int node = -1;               ///< grasped node, mesh-file order
+  double radius = 0;           ///< m, of the patch at rest
   Vec3 target = Vec3::Zero();  ///< m, where the tool is
   Vec3 grip = Vec3::Zero();    ///< m, where the grasped patch is (mass-weighted mean)
   Vec3 force = Vec3::Zero();   ///< N, of the tool on the tissue
@@ -82,6 +85,13 @@ template <class State>
 const State* find_tool(const std::vector<ToolState>& tools) {
   for (const ToolState& tool : tools)
     if (const State* state = std::get_if<State>(&tool)) return state;
+  return nullptr;
+}
+
+/// What a hand holds; null: nothing. Valid as long as the list.
+inline const GraspState* find_grasp(const std::vector<ToolState>& tools, int hand) {
+  for (const ToolState& tool : tools)
+    if (const GraspState* grasp = std::get_if<GraspState>(&tool); grasp && grasp->hand == hand) return grasp;
   return nullptr;
 }
 

@@ -220,7 +220,8 @@ std::vector<ToolState> WorldQueries<Real>::tools() const {
 
 template <class Real>
 GraspState WorldQueries<Real>::state_of(const GraspSpring<Real>& grasp) const {
-  return {s_.model.order.file_node[static_cast<std::size_t>(grasp.center())], grasp.target(),
+  return {grasp.id().hand, grasp.id().serial, s_.model.order.file_node[static_cast<std::size_t>(grasp.center())],
+          static_cast<double>(grasp.radius()), grasp.target(),
           grasp.grip(s_.state.x.data()), grasp.force(s_.state.x.data(), s_.state.v.data())};
 }
 

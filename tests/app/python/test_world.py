@@ -77,6 +77,28 @@ def test_the_scene_and_apply_give_the_same_bits(box):
     assert driven.ticks == 40 and driven.time == pytest.approx(0.04)
 
 
+def test_two_hands_hold_at_once_with_the_bits_of_a_scene(box):
+    events = [{"step": 2, "grasp": {"node": 4, "radius": 0.02}}, {"step": 2, "grasp": {"node": 9, "radius": 0.02, "hand": 1}},
+              {"step": 5, "move": {"to": [0.1, 0.1, 0.05], "hand": 1}}, {"step": 20, "release": {"hand": 1}}]
+    played = heml.World(box(events=events), threads=1)
+    played.step(40)
+    driven = heml.World(box(), threads=1)
+    driven.step(2)
+    driven.grasp(node=4, radius=0.02)
+    driven.grasp(node=9, radius=0.02, hand=1)
+    driven.step(3)
+    driven.move([0.1, 0.1, 0.05], hand=1)
+    driven.step(15)
+    driven.release(hand=1)
+    driven.step(20)
+    assert driven.hash() == played.hash()
+    driven.move([0.1, 0, 0])  # hand 0 still holds
+    with pytest.raises(heml.InputError, match="hand 1 holds nothing"):
+        driven.move([0.1, 0, 0], hand=1)
+    with pytest.raises(heml.InputError, match="hand"):
+        driven.grasp(node=4, hand=16)
+
+
 def test_a_cut_raises_the_topology_version_and_undo_takes_it_back(box, sweep):
     world = heml.World(box(), threads=1)
     before = world.topology_version

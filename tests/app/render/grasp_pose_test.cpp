@@ -94,12 +94,14 @@ TEST_CASE("without a mouse, or where its triangle is gone, the jaws hold the gra
   CHECK(held_patch(grasp, std::nullopt, frame, nullptr, eye).place == grasp.grip.cast<float>());
 }
 
-TEST_CASE("a clamp stands on the pinned node with its rings away from the skin") {
+TEST_CASE("a clamp stands on the grasped node with its rings away from the skin") {
   const Frame frame = frame_at_rest(ball_surface(3, radius));
   const Camera camera = camera_on_ball();
   for (const int node : {0, 5, 40, 100}) {
-    const PinState pin{.node = node};
-    const HeldPatch patch = held_patch(pin, frame, frame.surface_mesh.get(), camera.eye());
+    const Vec3 place = frame.positions[static_cast<std::size_t>(node)].cast<double>();
+    const GraspState clamp{.hand = 3, .node = node, .target = place};
+    CHECK(is_clamp(clamp));
+    const HeldPatch patch = held_patch(clamp, std::nullopt, frame, frame.surface_mesh.get(), camera.eye());
     CHECK(patch.place == frame.positions[static_cast<std::size_t>(node)]);
     float nearest = 1, to_node = 1, farthest = 0;
     for (const Mat4f& half : clamp_models(patch, camera, radius))

@@ -82,38 +82,52 @@ TEST_CASE("the hold stays at the point of the tissue that was pressed, and its h
 TEST_CASE("a grasp is left as a clamp, taken up again by a press on it, and removed") {
   Sheet sheet;
   const Vec3f point(0.08f, -0.09f, 0);
-  CHECK_FALSE(sheet.mouse_tool.leave_clamp(sheet.commands));  // nothing is held
+  CHECK_FALSE(sheet.mouse_tool.leave_clamp(sheet.frame, sheet.commands).ok());  // nothing is held
   sheet.press(MouseButton::left, sheet.pixel(point));
   sheet.move(sheet.pixel({0.09f, -0.05f, 0}));
   sheet.commands.clear();
-  CHECK(sheet.mouse_tool.leave_clamp(sheet.commands));
-  REQUIRE(sheet.commands.size() == 2);
-  CHECK(std::get<PinTissue>(sheet.commands[0]).node == 21);
-  CHECK(std::get<PinTissue>(sheet.commands[0]).radius == 0.01);
-  CHECK(std::holds_alternative<Release>(sheet.commands[1]));
+  sheet.frame.tools = {GraspState{.hand = 1, .node = 20}};
+  CHECK(sheet.mouse_tool.leave_clamp(sheet.frame, sheet.commands).ok());
+  REQUIRE(sheet.commands.size() == 1);
+  const Grasp left = std::get<Grasp>(sheet.commands[0]);
+  CHECK(left.node == 21);
+  CHECK(left.radius == 0.01);
+  CHECK(left.hand == 2);
   sheet.commands.clear();
   sheet.mouse_tool.release(MouseButton::left, sheet.frame, sheet.surface_mesh, sheet.commands);
   CHECK(sheet.commands.empty());  // the hand is free already
-  CHECK(sheet.mouse_tool.clamps().in(sheet.frame).empty());  // the engine has not answered yet
-  sheet.frame.tools = {PinState{.node = 21, .nodes = {21}}, PinState{.node = 20, .nodes = {20}}};
-  CHECK(sheet.mouse_tool.clamps().in(sheet.frame) == std::vector{21});  // the other was set by a pin
+  sheet.frame.tools = {GraspState{.node = 20}, GraspState{.hand = 2, .node = 21, .radius = 0.01, .target = Vec3(0.1, -0.1, 0.02)},
+                       PinState{.node = 22, .nodes = {22}}};
 
   const render::Vec2f on_clamp = sheet.pixel(sheet.frame.positions[1]) + render::Vec2f(2, -2);
   CHECK_FALSE(sheet.mouse_tool.remove_clamp(sheet.pixel({-0.05f, 0, 0}), sheet.frame, sheet.surface_mesh,
                                             sheet.commands));
   CHECK(sheet.mouse_tool.remove_clamp(on_clamp, sheet.frame, sheet.surface_mesh, sheet.commands));
-  CHECK(std::get<Unpin>(sheet.commands.at(0)).node == 21);
+  CHECK(std::get<Release>(sheet.commands.at(0)).hand == 2);
 
   sheet.commands.clear();
   CHECK_FALSE(sheet.press(MouseButton::left, on_clamp));
-  REQUIRE(sheet.commands.size() == 2);
-  CHECK(std::get<Unpin>(sheet.commands[0]).node == 21);
-  CHECK(std::get<Grasp>(sheet.commands[1]).node == 21);
+  REQUIRE(sheet.commands.size() == 1);
+  const Grasp taken = std::get<Grasp>(sheet.commands[0]);
+  CHECK(taken.node == 21);
+  CHECK(taken.radius == 0.01);  // that of the clamp
+  CHECK(taken.hand == 0);
   CHECK(sheet.mouse_tool.interaction() == MouseTool::Interaction::grasping);
   sheet.move(on_clamp + render::Vec2f(0, -30));
-  const Vec3 target = std::get<MoveTool>(sheet.commands.at(2)).target;
-  CHECK(target.x() == doctest::Approx(0.1).epsilon(1e-3));  // it moves from the node, not from the mouse
+  const Vec3 target = std::get<MoveTool>(sheet.commands.at(1)).target;
+  CHECK(target.x() == doctest::Approx(0.1).epsilon(1e-3));  // it moves from where it was, not from the mouse
   CHECK(target.y() > -0.1);
+  CHECK(target.z() == doctest::Approx(0.02).epsilon(1e-3));
+}
+
+TEST_CASE("when all hands hold something, no clamp can be left") {
+  Sheet sheet;
+  sheet.press(MouseButton::left, sheet.pixel({0.08f, -0.09f, 0}));
+  for (int hand = 1; hand < max_hands; ++hand) sheet.frame.tools.emplace_back(GraspState{.hand = hand, .node = 20});
+  sheet.commands.clear();
+  CHECK_FALSE(sheet.mouse_tool.leave_clamp(sheet.frame, sheet.commands).ok());
+  CHECK(sheet.commands.empty());
+  CHECK(sheet.mouse_tool.interaction() == MouseTool::Interaction::grasping);
 }
 
 TEST_CASE("a scalpel cuts along the line of sight and each press begins a stroke") {

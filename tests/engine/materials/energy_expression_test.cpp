@@ -69,8 +69,8 @@ TEST_CASE("expressions are evaluated as written") {
       {"(J-1)^3 + J", 1},
       {"exp(J-1) - 1", 0},
   };
-  for (const auto& [text, expected] : cases)
-    CHECK_MESSAGE(value_of(text) == doctest::Approx(expected).epsilon(1e-14), text);
+  for (const auto& entry : cases)
+    CHECK_MESSAGE(value_of(entry.first) == doctest::Approx(entry.second).epsilon(1e-14), entry.first);
 }
 
 TEST_CASE("isochoric names are those of F scaled to J = 1") {
