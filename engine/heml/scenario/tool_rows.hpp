@@ -66,8 +66,9 @@ struct Row<MoveTool> : CommonRow {
   static Command read(const JsonCursor& value, Points&) {
     if (!value.json().is_object()) return MoveTool{value_of<Vec3>(value, form::vector)};
     const ObjectReader object(value, keys);
-    MoveTool move{object.get<Vec3>("to")};
+    MoveTool move;
     object.read("hand", move.hand);
+    move.target = object.get<Vec3>("to");
     return move;
   }
   static Json write(const MoveTool& move) {
