@@ -62,21 +62,23 @@ void SelfContactImpulses<Real>::find_pairs(SelfContact& contact, double h, const
   is_warm_ = true;
   rounds_ = 0;
   residual_ = 0;
-  const auto from = [&](int n) { return at(before, n); };
   auto next = known.begin();
-  for (const ContactPair& pair : contact.contacts_between(from, [&](int n) { return at(after, n); })) {
-    const auto point = point_of(pair, from);
-    const double effective_inverse_mass = inverse_mass_of(*point, inverse_mass);
+  const auto& pairs =
+      contact.contacts_between([&](int n) { return at(before, n); }, [&](int n) { return at(after, n); });
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const ContactPair& pair = pairs[i];
+    const ContactPoint& point = contact.contact_points()[i];
+    const double effective_inverse_mass = inverse_mass_of(point, inverse_mass);
     if (!(effective_inverse_mass > 0)) continue;
-    Row& row = rows_.emplace_back(row_of(*point, effective_inverse_mass, inverse_mass));
-    Touch& touch = touches_.emplace_back(Touch{pair, *point, -1, false, {}});
-    const double allowed_gap = std::min(0.0, point->gap) * std::max(0.0, 1 - h / contact_recovery);
-    row.min_gap_rate = (allowed_gap - point->gap) / h;
-    row.has_friction = point->gap <= touching_gap;
+    Row& row = rows_.emplace_back(row_of(point, effective_inverse_mass, inverse_mass));
+    Touch& touch = touches_.emplace_back(Touch{pair, point, -1, false, {}});
+    const double allowed_gap = std::min(0.0, point.gap) * std::max(0.0, 1 - h / contact_recovery);
+    row.min_gap_rate = (allowed_gap - point.gap) / h;
+    row.has_friction = point.gap <= touching_gap;
     while (next != known.end() && next->pair < pair) ++next;
     if (next == known.end() || !(next->pair == pair)) continue;
     row.is_known = true;
-    row.drift = padded(next->anchor.drift(*point, before, Vec3::Zero(), h));
+    row.drift = padded(next->anchor.drift(point, before, Vec3::Zero(), h));
     touch.known = next - known.begin();
     touch.starts_warm = next->anchor.idle == 0;
     touch.last = next->halves;
