@@ -2,10 +2,11 @@
 // without table, self-contact and gravity. Ticks of both worlds in turn; microseconds a step, median and minimum.
 //
 //   ninja -C build/release bench_resting_contact && build/release/tests/bench_resting_contact [SECONDS=5]
+#include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <heml/world/world.hpp>
-#include <studies/interleaved_timing.hpp>
 
 #include "engine/world/world_support.hpp"
 
@@ -37,17 +38,37 @@ WorldSetup three_blocks(bool in_contact, bool single) {
   return setup;
 }
 
+/// Times of a step, s, in the order of their size.
+struct Steps {
+  std::vector<double> all;
+
+  /// Of `ticks` ticks.
+  void sample(World& world, int ticks) {
+    const auto began = std::chrono::steady_clock::now();
+    const long before = world.steps();
+    for (int k = 0; k < ticks; ++k) world.tick();
+    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - began;
+    all.push_back(passed.count() / static_cast<double>(world.steps() - before));
+  }
+  double microseconds(double part) const { return 1e6 * all[static_cast<std::size_t>(part * (all.size() - 1.0))]; }
+};
+
 void measure(bool single, double seconds) {
   const auto resting = make_world(three_blocks(true, single)), free = make_world(three_blocks(false, single));
   while (resting->time() < settled) resting->tick();
   free->tick();
-  const auto times = time_interleaved({[&] { resting->tick(); }, [&] { free->tick(); }}, {seconds, 5, 100000});
+  Steps with, without;
+  const auto began = std::chrono::steady_clock::now();
+  while (std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count() < seconds) {
+    with.sample(*resting, 30);
+    without.sample(*free, 300);
+  }
   if (resting->halt() || free->halt()) std::exit(1);
-  const double each = 1e6 / resting->substeps(), of_free = 1e6 / free->substeps();
+  for (Steps* steps : {&with, &without}) std::sort(steps->all.begin(), steps->all.end());
+  const double a = with.microseconds(0.5), a_min = with.microseconds(0), b = without.microseconds(0.5),
+               b_min = without.microseconds(0);
   std::printf("%s: in contact %.1f (min %.1f), free %.2f (min %.2f) us a step; ratio %.1f (min %.1f)\n",
-              single ? "float" : "double", each * times[0].median, each * times[0].min,
-              of_free * times[1].median, of_free * times[1].min,
-              each * times[0].median / (of_free * times[1].median), each * times[0].min / (of_free * times[1].min));
+              single ? "float" : "double", a, a_min, b, b_min, a / b, a_min / b_min);
   std::printf("  %zu tetrahedra, %d pairs with an impulse in the last step\n", resting->setup().mesh.tets.size(),
               tool_of<SelfContactState>(*resting).contact_count);
 }

@@ -291,9 +291,10 @@ void SelfContact::filter_candidates(double step) {
   awake_reach_ = 0;
 }
 
-/// Selects the candidates within reach of twice the motion so far, those with the same first node or edge together.
+/// Selects the candidates within reach of little more than the motion so far, and puts those of one node or edge
+/// together.
 void SelfContact::wake_candidates(double moved) {
-  awake_reach_ = reach_of(2 * moved);
+  awake_reach_ = reach_of(1.2 * moved);
   awake_.clear();
   for (const auto& [distance, candidate] : candidates_) {
     if (distance > awake_reach_) break;
@@ -345,7 +346,8 @@ bool SelfContact::is_ridge_now(int edge) {
   for (const int k : faces_[at(faces[1])]) {
     if (k == ends[0] || k == ends[1]) continue;
     const Vec3 displacement = from_[at(k)] - from_[at(ends[0])];
-    now.is_ridge = now.is_ridge && is_below(face.area.dot(displacement), -flat, face.square * displacement.squaredNorm());
+    const double square = face.square * displacement.squaredNorm();
+    now.is_ridge = now.is_ridge && is_below(face.area.dot(displacement), -flat, square);
   }
   return now.is_ridge;
 }
@@ -367,7 +369,8 @@ int SelfContact::side_of(const Edge& one, const Edge& other, const Positions& x)
 /// As side_of(), at from_.
 int SelfContact::side_now(const Candidate& candidate) {
   const Edge &one = edges_[at(candidate.first)], &other = edges_[at(candidate.second)];
-  const Vec3 u = from_[at(one.ends[1])] - from_[at(one.ends[0])], v = from_[at(other.ends[1])] - from_[at(other.ends[0])];
+  const Vec3 u = from_[at(one.ends[1])] - from_[at(one.ends[0])];
+  const Vec3 v = from_[at(other.ends[1])] - from_[at(other.ends[0])];
   const FaceNow &first = face_now(other.faces[0]), &second = face_now(other.faces[1]);
   const Vec3 N = u.cross(v);
   return N.dot(first.area) / std::sqrt(first.square) + N.dot(second.area) / std::sqrt(second.square) > 0 ? 1 : -1;
@@ -393,38 +396,43 @@ bool SelfContact::can_meet(const Candidate& candidate) {
   return is_below(node.area.dot(face.area), -facing, node.square * face.square);
 }
 
-/// Of a candidate that can meet: its crossing at from_, if it touches on the way to to_.
+/// Of a candidate that can meet: its crossing at from_, if it touches there or on the way to to_.
 std::optional<PairCrossing> SelfContact::crossing_if_met(const Candidate& candidate, const ContactPair& pair) {
-  std::array<Vec3, 4> from, to;
-  for (std::size_t k = 0; k < 4; ++k) {
-    from[k] = from_[at(pair.nodes[k])];
-    to[k] = to_[at(pair.nodes[k])];
-  }
+  const auto places = [&pair](const Positions& x) -> std::array<Vec3, 4> {
+    const auto [a, b, c, d] = pair.nodes;
+    return {x[at(a)], x[at(b)], x[at(c)], x[at(d)]};
+  };
+  const std::array<Vec3, 4> from = places(from_);
   const auto first = crossing_of(pair.side, from);
   if (!first) return std::nullopt;
-  const bool overlaps = first->height <= 0;
-  if (overlaps && !first->is_within(pair.side, slack)) return std::nullopt;
-  const auto last = crossing_of(pair.side, to);
-  if (!last) return std::nullopt;
-  const double gap = first->gap();
-  if (!overlaps) {
-    const double then = last->gap();
-    if (!(std::min(gap, then) <= touch_gap * edge_)) return std::nullopt;
-    const double part = then < 0 ? gap / (gap - then) : then < gap ? 1 : 0;
-    const auto there = crossing_of(pair.side, between(from, to, part));
-    if (!there || !there->is_within(pair.side, slack)) return std::nullopt;
+  const double near = touch_gap * edge_, height = first->height;
+  if (height <= 0 || height * height <= near * near * first->square) {  // touches: most pairs at rest end here
+    if (!first->is_within(pair.side, slack)) return std::nullopt;
+  } else if (!crosses_later(pair.side, from, places(to_), first->gap())) {
+    return std::nullopt;
   }
-  double height = std::numeric_limits<double>::infinity();
-  if (candidate.edges) {
-    if (!is_out_of_both(candidate, from, *first)) return std::nullopt;
-    if (gap >= 0) return first;
-    const Edge &one = edges_[at(candidate.first)], &other = edges_[at(candidate.second)];
-    for (const int face : {one.faces[0], one.faces[1], other.faces[0], other.faces[1]})
-      height = std::min(height, height_now(face));
-  } else if (gap < 0) {
-    height = height_now(candidate.second);
-  }
-  return gap >= 0 || -gap < max_penetration * height ? first : std::nullopt;
+  if (candidate.edges && !is_out_of_both(candidate, from, *first)) return std::nullopt;
+  if (height >= 0 || -first->gap() < max_penetration * height_behind(candidate)) return first;
+  return std::nullopt;
+}
+
+/// Whether a pair whose gap (m) is open at `from` comes to touch within its face or edges on the way to `to`.
+bool SelfContact::crosses_later(int side, const std::array<Vec3, 4>& from, const std::array<Vec3, 4>& to,
+                                double gap) const {
+  const auto last = crossing_of(side, to);
+  if (!last) return false;
+  const double then = last->gap();
+  if (!(then <= touch_gap * edge_)) return false;
+  const auto there = crossing_of(side, between(from, to, then < 0 ? gap / (gap - then) : 1));
+  return there && there->is_within(side, slack);
+}
+
+/// Least height (m) of the elements behind a candidate's faces; of a node and a face, behind the face.
+double SelfContact::height_behind(const Candidate& candidate) {
+  if (!candidate.edges) return height_now(candidate.second);
+  const Edge &one = edges_[at(candidate.first)], &other = edges_[at(candidate.second)];
+  return std::min({height_now(one.faces[0]), height_now(one.faces[1]), height_now(other.faces[0]),
+                   height_now(other.faces[1])});
 }
 
 /// Whether edges are far enough from parallel, and their normal lies between those of the faces of both.

@@ -10,7 +10,8 @@
 // The gap is signed by the outward side, so it is well defined at 0: the two sides of a fresh cut coincide, may open
 // freely, and do not pass each other. A nearby pair is in contact only if
 //   (1) the surfaces face each other,
-//   (2) the crossing lies within the face or both edges at the time of crossing,
+//   (2) the crossing lies within the face or both edges: at the step's start where the pair touches, else at the time
+//       of crossing,
 //   (3) the penetration is below half the height of the element behind.
 // In a body without inverted elements no node lies in an element of its neighbours, so neighbours are no contact. Pairs
 // that overlap at rest are ignored.
@@ -21,9 +22,9 @@
 //   broad phase    faces in a grid of cells, in the order of cells ──► broad candidates, in the order of nodes
 //   filter         broad candidates ──► candidates, the nearest first: valid for a small part of the motion that the
 //                  broad phase allows
-//   wake           candidates ──► awake candidates, in the order of pairs: within reach of twice the motion since the
-//                  filter. Pairs of the same edge lie together, so that one test passes over all of an edge that is no
-//                  ridge; on flat surfaces most are none.
+//   wake           candidates ──► awake candidates, in the order of pairs: within reach of little more than the
+//                  motion since the filter. Pairs of an edge lie together, so that one test passes over all of an edge
+//                  that is no ridge; on flat surfaces most are none.
 // Built only where a scene has "self_contact".
 #include <compare>
 #include <heml/tools/contact_pair.hpp>
@@ -117,6 +118,8 @@ class SelfContact {
   std::array<int, 4> nodes_of(const Candidate& candidate) const;
   bool can_meet(const Candidate& candidate);
   std::optional<PairCrossing> crossing_if_met(const Candidate& candidate, const ContactPair& pair);
+  bool crosses_later(int side, const std::array<Vec3, 4>& from, const std::array<Vec3, 4>& to, double gap) const;
+  double height_behind(const Candidate& candidate);
   bool is_out_of_both(const Candidate& candidate, const std::array<Vec3, 4>& from, const PairCrossing& first);
   void wake_candidates(double moved);
   Vec3 face_normal(int face, const Positions& x) const;

@@ -12,7 +12,7 @@ struct Limit {
   double tolerance;  ///< of the largest impulse: smaller changes end it
 };
 constexpr Limit cold_limit{60, 1e-8};  // where a pair is new
-constexpr Limit warm_limit{4, 1e-4};   // where all were there in earlier steps: the next step goes on from here
+constexpr Limit warm_limit{4, 1e-2};   // where all were there in earlier steps: the next step goes on from here
 
 constexpr double touching_gap = 1e-7;  // m, largest gap at which friction acts
 
