@@ -55,13 +55,15 @@ void ContactImpulses<Real>::first_half_step(Contacts& contacts, double time_befo
     const double to = part < parts ? time_before + part / parts * h : time_after;
     const StepPath path{time_before,           to,        shrink, inverse_mass, before, contacts.surfaces(time_before),
                         contacts.surfaces(to), rounds > 1};
-    for (int round = 0; round < rounds; ++round)  // tables come last in a round, since they cannot move
+    for (int round = 0; round < rounds; ++round) {  // tables come last in a round, since they cannot move
       for (std::size_t s = contacts.reports.size(); s-- > 0;) {
-        if (surfaces_[s].shape == ContactSurface::Shape::tissue)
-          tissue_.solve(v);
-        else
+        if (surfaces_[s].shape != ContactSurface::Shape::tissue)
           stop_points(path, s, contacts, v);
+        else if (round == 0 || tissue_is_touched())
+          tissue_.solve(v);
       }
+      if (!takes_turns(contacts)) break;
+    }
   }
   const auto place = [&](int n) {
     if (!(inverse_mass[static_cast<std::size_t>(n)] > 0)) return;
@@ -74,9 +76,24 @@ void ContactImpulses<Real>::first_half_step(Contacts& contacts, double time_befo
   });
   update_anchors(x);
   if (!contacts.tissue) return;
-  tissue_.each_node(place);
+  for (const int n : tissue_.nodes()) place(n);
   tissue_.remember_first_half(x, memory_.pairs);
   tissue_.publish(shrink, normal_impulse_, contacts.reports.back());
+}
+
+/// Whether another surface stopped a node of a self-contact pair, so that the two must be solved in turn.
+template <class Real>
+bool ContactImpulses<Real>::tissue_is_touched() const {
+  return std::any_of(stopped_.begin(), stopped_.end(), [this](const Stopped& stopped) {
+    const auto nodes = stopped.point.nodes.begin();
+    return std::any_of(nodes, nodes + stopped.point.count, [this](int n) { return tissue_.has_node(n); });
+  });
+}
+
+/// Whether contacts may share nodes, so that one round over all surfaces is not enough.
+template <class Real>
+bool ContactImpulses<Real>::takes_turns(const Contacts& contacts) const {
+  return !contacts.tissue || contacts.probe || contacts.reports.size() > 2 || tissue_is_touched();
 }
 
 /// Stops points that would be inside surface s at path.to. Penetration at the step's start decays over
@@ -182,13 +199,15 @@ void ContactImpulses<Real>::second_half_step(Contacts& contacts, const std::vect
   }
   const bool repeats = surfaces_.size() > 1 || contacts.probe;
   const int rounds = !repeats ? 1 : contacts.tissue ? tissue_rounds : max_rounds;
+  const bool touched = contacts.tissue && tissue_is_touched();
   for (int round = 0; round < rounds; ++round) {
-    if (contacts.tissue) tissue_.solve(v);
+    if (contacts.tissue && (round == 0 || touched)) tissue_.solve(v);
     for (Stopped& stopped : stopped_) {
       const double inward = stopped.point.normal.dot(stopped.velocity - at(v, stopped.point));
       const bool may_stick = repeats && stopped.normal > 0 && surfaces_[stopped.surface].friction > 0;
       if (inward > 0 || may_stick) push(stopped, stopped.point, std::max(0.0, inward), 1, inverse_mass, contacts, v);
     }
+    if (!takes_turns(contacts)) break;
   }
   if (contacts.tissue) {
     tissue_.remember_second_half(memory_.pairs);

@@ -48,6 +48,8 @@ class ContactImpulses {
   Stopped& stopped_at(const StepPath& path, std::size_t s, const ContactPoint& point);
   void push(Stopped& stopped, const ContactPoint& point, double closing, double weight,
             const std::vector<Real>& inverse_mass, Contacts& contacts, Real* v);
+  bool tissue_is_touched() const;
+  bool takes_turns(const Contacts& contacts) const;
   void update_anchors(const Real* x);
   void publish(Contacts& contacts, const Real* x) const;
 

@@ -21,10 +21,12 @@ constexpr double same_overlap = 1e-6;                      // of an edge: smalle
 constexpr double facing = 0.1;                             // cosine, minimum between two surfaces that face each other
 constexpr double flat = 0.02;                              // sine: edges with a smaller bend are no ridges
 constexpr double parallel = 0.3;         // sine: edges closer to parallel are left to node and face pairs
-constexpr double same_line = 1e-3;       // sine: below, the common perpendicular of two edges is undefined
 constexpr double max_penetration = 0.5;  // of an element's height: deeper pairs did not enter through this face
 
 std::size_t at(int n) { return static_cast<std::size_t>(n); }
+
+/// Whether a / √square < threshold, where the threshold is negative.
+bool is_below(double a, double threshold, double square) { return a < 0 && a * a > threshold * threshold * square; }
 
 Vec3 area_vector(const Vec3& a, const Vec3& b, const Vec3& c) { return (b - a).cross(c - a); }
 
@@ -43,34 +45,14 @@ std::array<Vec3, 4> between(const std::array<Vec3, 4>& a, const std::array<Vec3,
 
 }  // namespace
 
-std::optional<ContactPoint> point_of(const ContactPair& pair, const std::array<Vec3, 4>& x) {
-  ContactPoint point{pair.nodes, {}, 4, 0, Vec3::Zero()};
-  if (pair.side == 0) {
-    const Vec3 ab = x[2] - x[1], ac = x[3] - x[1], r = x[0] - x[1], N = ab.cross(ac);
-    const double square = N.squaredNorm();
-    if (!(square > 1e-24 * ab.squaredNorm() * ac.squaredNorm())) return std::nullopt;
-    const double b = r.cross(ac).dot(N) / square, c = ab.cross(r).dot(N) / square;
-    point.weights = {1, b + c - 1, -b, -c};
-    point.normal = N / std::sqrt(square);
-    point.gap = point.normal.dot(r);
-    return point;
-  }
-  const Vec3 u = x[1] - x[0], v = x[3] - x[2], r = x[0] - x[2], N = pair.side * u.cross(v);
-  const double square = N.squaredNorm(), uu = u.squaredNorm(), vv = v.squaredNorm(), uv = u.dot(v);
-  if (!(square > same_line * same_line * uu * vv)) return std::nullopt;
-  const double s = (uv * v.dot(r) - vv * u.dot(r)) / square, t = (uu * v.dot(r) - uv * u.dot(r)) / square;
-  point.weights = {1 - s, s, t - 1, -t};
-  point.normal = N / std::sqrt(square);
-  point.gap = point.normal.dot(r);
-  return point;
-}
-
 SelfContact::SelfContact(const SelfContactSettings& settings, const TetMesh& mesh) : friction_(settings.friction) {
   set_rest(mesh);
   make_edges();
   nodes_now_.resize(nodes_.size());
   faces_now_.resize(faces_.size());
   edges_now_.resize(edges_.size());
+  from_.resize(nodes_.size());
+  to_.resize(nodes_.size());
 }
 
 void SelfContact::set_rest(const TetMesh& mesh) {
@@ -127,6 +109,7 @@ void SelfContact::make_edges() {
 
 void SelfContact::find() {
   contacts_.clear();
+  points_.clear();
   ++step_count_;
   const auto is_finite = [](const Positions& places) {
     return std::all_of(places.begin(), places.end(), [](const Vec3& x) { return x.allFinite(); });
@@ -138,16 +121,23 @@ void SelfContact::find() {
     moved = spread(from_, to_);
   }
   const double reach = reach_of(moved);
-  for (const auto& [distance, candidate] : candidates_) {
-    if (distance > reach) break;
+  if (!(reach <= awake_reach_)) wake_candidates(moved);
+  for (std::size_t i = 0; i < awake_.size();) {
+    const auto& [distance, nodes, candidate, others] = awake_[i];
     ++tested_count_;
-    if (!can_meet(candidate)) continue;
-    if (const ContactPair pair = pair_of(candidate); meets(candidate, pair)) {
-      contacts_.push_back(pair);
-      for (int& n : contacts_.back().nodes) n = nodes_[at(n)];
+    if (candidate.edges && !is_ridge_now(candidate.first)) {
+      i = others;
+      continue;
     }
+    ++i;
+    if (distance > reach || !can_meet(candidate)) continue;
+    ContactPair pair{nodes, candidate.edges ? side_now(candidate) : 0};
+    const auto crossing = crossing_if_met(candidate, pair);
+    if (!crossing) continue;
+    for (int& n : pair.nodes) n = nodes_[at(n)];
+    contacts_.push_back(pair);
+    points_.push_back(point_of(pair, *crossing));
   }
-  std::sort(contacts_.begin(), contacts_.end());
 }
 
 /// Largest displacement of a node from the reference, less the mean displacement, m. Infinite without a reference.
@@ -169,6 +159,7 @@ void SelfContact::update_candidates() {
   if (!std::isfinite(step)) {  // of a body about to leave the range of numbers, which meets nothing on its way
     candidates_.clear();
     filtered_ = {};
+    awake_reach_ = 0;
     return;
   }
   if (!(spread(searched_.reference, from_) + 1.5 * step <= searched_.allowance)) broad_phase(step);
@@ -290,13 +281,32 @@ void SelfContact::filter_candidates(double step) {
   candidates_.clear();
   for (const Candidate& candidate : broad_candidates_) {
     const double distance = std::sqrt(squared_distance(candidate));
-    const ContactPair pair = pair_of(candidate);
+    const ContactPair pair{nodes_of(candidate), candidate.edges ? side_now(candidate) : 0};
     const auto point = point_of(pair, [this](int n) { return from_[at(n)]; });
     const bool is_behind = point && point->gap < 0;
     const bool overlaps = is_behind && is_within(pair, *point, beside);
     if (distance <= reach || overlaps) candidates_.push_back({is_behind ? 0 : distance, candidate});
   }
   std::sort(candidates_.begin(), candidates_.end());
+  awake_reach_ = 0;
+}
+
+/// Selects the candidates within reach of little more than the motion so far, and puts those of one node or edge
+/// together.
+void SelfContact::wake_candidates(double moved) {
+  awake_reach_ = reach_of(1.2 * moved);
+  awake_.clear();
+  for (const auto& [distance, candidate] : candidates_) {
+    if (distance > awake_reach_) break;
+    awake_.push_back({distance, nodes_of(candidate), candidate, 0});
+  }
+  std::sort(awake_.begin(), awake_.end(),
+            [](const AwakeCandidate& a, const AwakeCandidate& b) { return a.nodes < b.nodes; });
+  for (std::size_t i = awake_.size(); i-- > 0;) {
+    const auto starts = [&](std::size_t k) { return std::pair(awake_[k].candidate.edges, awake_[k].candidate.first); };
+    const bool is_last = i + 1 == awake_.size() || starts(i) != starts(i + 1);
+    awake_[i].others = is_last ? i + 1 : awake_[i + 1].others;
+  }
 }
 
 Vec3 SelfContact::face_normal(int face, const Positions& x) const {
@@ -307,40 +317,46 @@ Vec3 SelfContact::face_normal(int face, const Positions& x) const {
 const SelfContact::FaceNow& SelfContact::face_now(int face) {
   FaceNow& now = faces_now_[at(face)];
   if (now.step == step_count_) return now;
-  const Vec3 normal = face_normal(face, from_);
-  return now = {step_count_, normal, normal.dot(from_[at(faces_[at(face)][0])] - from_[at(apex_[at(face)])])};
+  const auto [a, b, c] = faces_[at(face)];
+  const Vec3 area = area_vector(from_[at(a)], from_[at(b)], from_[at(c)]);
+  return now = {step_count_, area, area.squaredNorm()};
 }
 
-const Vec3& SelfContact::normal_now(int node) {
+/// Height (m) of the element behind a face; not positive where it is inverted.
+double SelfContact::height_now(int face) {
+  const auto& [step, area, square] = face_now(face);
+  return area.dot(from_[at(faces_[at(face)][0])] - from_[at(apex_[at(face)])]) / std::sqrt(square);
+}
+
+const SelfContact::NodeNow& SelfContact::node_now(int node) {
   NodeNow& now = nodes_now_[at(node)];
-  if (now.step == step_count_) return now.normal;
+  if (now.step == step_count_) return now;
   Vec3 sum = Vec3::Zero();
-  for (int k = start_[at(node)]; k < start_[at(node) + 1]; ++k) {
-    const auto [a, b, c] = faces_[at(round_[at(k)])];
-    sum += area_vector(from_[at(a)], from_[at(b)], from_[at(c)]);
-  }
-  now = {step_count_, sum.normalized()};
-  return now.normal;
+  for (int k = start_[at(node)]; k < start_[at(node) + 1]; ++k) sum += face_now(round_[at(k)]).area;
+  return now = {step_count_, sum, sum.squaredNorm()};
 }
 
-const SelfContact::EdgeNow& SelfContact::edge_now(int edge) {
+/// Whether an edge is convex.
+bool SelfContact::is_ridge_now(int edge) {
   EdgeNow& now = edges_now_[at(edge)];
-  if (now.step == step_count_) return now;
+  if (now.step == step_count_) return now.is_ridge;
   now = {step_count_, true};
   const auto& [ends, faces] = edges_[at(edge)];
-  const Vec3& n = face_now(faces[0]).normal;
+  const FaceNow& face = face_now(faces[0]);
   for (const int k : faces_[at(faces[1])]) {
     if (k == ends[0] || k == ends[1]) continue;
     const Vec3 displacement = from_[at(k)] - from_[at(ends[0])];
-    now.is_ridge = now.is_ridge && n.dot(displacement) < -flat * displacement.norm();
+    const double square = face.square * displacement.squaredNorm();
+    now.is_ridge = now.is_ridge && is_below(face.area.dot(displacement), -flat, square);
   }
-  return now;
+  return now.is_ridge;
 }
 
 /// Whether a direction lies between the normals of a ridge's faces.
 bool SelfContact::is_ridge_towards(int edge, const Vec3& normal) {
   const auto [one, other] = edges_[at(edge)].faces;
-  const Vec3 &n = face_now(one).normal, &m = face_now(other).normal;
+  const FaceNow &first = face_now(one), &second = face_now(other);
+  const Vec3 n = first.area / std::sqrt(first.square), m = second.area / std::sqrt(second.square);
   const double c = n.dot(m), p = normal.dot(n), q = normal.dot(m), determinant = 1 - c * c;
   return p - c * q >= -slack * determinant && q - c * p >= -slack * determinant;
 }
@@ -350,57 +366,89 @@ int SelfContact::side_of(const Edge& one, const Edge& other, const Positions& x)
   return u.cross(v).dot(face_normal(other.faces[0], x) + face_normal(other.faces[1], x)) > 0 ? 1 : -1;
 }
 
-/// The pair of a candidate, by indices into nodes_.
-ContactPair SelfContact::pair_of(const Candidate& candidate) const {
+/// As side_of(), at from_.
+int SelfContact::side_now(const Candidate& candidate) {
+  const Edge &one = edges_[at(candidate.first)], &other = edges_[at(candidate.second)];
+  const Vec3 u = from_[at(one.ends[1])] - from_[at(one.ends[0])];
+  const Vec3 v = from_[at(other.ends[1])] - from_[at(other.ends[0])];
+  const FaceNow &first = face_now(other.faces[0]), &second = face_now(other.faces[1]);
+  const Vec3 N = u.cross(v);
+  return N.dot(first.area) / std::sqrt(first.square) + N.dot(second.area) / std::sqrt(second.square) > 0 ? 1 : -1;
+}
+
+/// The nodes of a candidate's pair, by indices into nodes_.
+std::array<int, 4> SelfContact::nodes_of(const Candidate& candidate) const {
   if (!candidate.edges) {
     const auto [a, b, c] = faces_[at(candidate.second)];
-    return {{candidate.first, a, b, c}, 0};
+    return {candidate.first, a, b, c};
   }
-  const Edge &one = edges_[at(candidate.first)], &other = edges_[at(candidate.second)];
-  return {{one.ends[0], one.ends[1], other.ends[0], other.ends[1]}, side_of(one, other, from_)};
+  const auto [a, b] = edges_[at(candidate.first)].ends;
+  const auto [c, d] = edges_[at(candidate.second)].ends;
+  return {a, b, c, d};
 }
 
 /// Whether the surfaces face each other, or both edges are convex: all that positions at the step's start decide, asked
 /// first, since most pairs of edges on flat surfaces at rest on each other end here.
 bool SelfContact::can_meet(const Candidate& candidate) {
-  if (candidate.edges) return edge_now(candidate.first).is_ridge && edge_now(candidate.second).is_ridge;
-  return normal_now(candidate.first).dot(face_now(candidate.second).normal) < -facing;
+  if (candidate.edges) return is_ridge_now(candidate.first) && is_ridge_now(candidate.second);
+  const NodeNow& node = node_now(candidate.first);
+  const FaceNow& face = face_now(candidate.second);
+  return is_below(node.area.dot(face.area), -facing, node.square * face.square);
 }
 
-/// Of a candidate that can meet.
-bool SelfContact::meets(const Candidate& candidate, const ContactPair& pair) {
-  std::array<Vec3, 4> from, to;
-  for (std::size_t k = 0; k < 4; ++k) {
-    from[k] = from_[at(pair.nodes[k])];
-    to[k] = to_[at(pair.nodes[k])];
+/// Of a candidate that can meet: its crossing at from_, if it touches there or on the way to to_.
+std::optional<PairCrossing> SelfContact::crossing_if_met(const Candidate& candidate, const ContactPair& pair) {
+  const auto places = [&pair](const Positions& x) -> std::array<Vec3, 4> {
+    const auto [a, b, c, d] = pair.nodes;
+    return {x[at(a)], x[at(b)], x[at(c)], x[at(d)]};
+  };
+  const std::array<Vec3, 4> from = places(from_);
+  const auto first = crossing_of(pair.side, from);
+  if (!first) return std::nullopt;
+  const double near = touch_gap * edge_, height = first->height;
+  if (height <= 0 || height * height <= near * near * first->square) {  // touches: most pairs at rest end here
+    if (!first->is_within(pair.side, slack)) return std::nullopt;
+  } else if (!crosses_later(pair.side, from, places(to_), first->gap())) {
+    return std::nullopt;
   }
-  const auto first = point_of(pair, from);
-  if (!first) return false;
-  const bool overlaps = first->gap <= 0;
-  if (overlaps && !is_within(pair, *first)) return false;
-  const auto last = point_of(pair, to);
-  if (!last || !(std::min(first->gap, last->gap) <= touch_gap * edge_)) return false;
-  if (!overlaps) {
-    const double part = last->gap < 0 ? first->gap / (first->gap - last->gap) : last->gap < first->gap ? 1 : 0;
-    const auto there = point_of(pair, between(from, to, part));
-    if (!there || !is_within(pair, *there)) return false;
-  }
-  if (!candidate.edges) return first->gap >= 0 || -first->gap < max_penetration * face_now(candidate.second).height;
-  const Vec3 u = from[1] - from[0], v = from[3] - from[2];
-  if (u.cross(v).norm() < parallel * u.norm() * v.norm()) return false;
-  if (!is_ridge_towards(candidate.first, -first->normal) || !is_ridge_towards(candidate.second, first->normal))
-    return false;
-  if (first->gap >= 0) return true;
+  if (candidate.edges && !is_out_of_both(candidate, from, *first)) return std::nullopt;
+  if (height >= 0 || -first->gap() < max_penetration * height_behind(candidate)) return first;
+  return std::nullopt;
+}
+
+/// Whether a pair whose gap (m) is open at `from` comes to touch within its face or edges on the way to `to`.
+bool SelfContact::crosses_later(int side, const std::array<Vec3, 4>& from, const std::array<Vec3, 4>& to,
+                                double gap) const {
+  const auto last = crossing_of(side, to);
+  if (!last) return false;
+  const double then = last->gap();
+  if (!(then <= touch_gap * edge_)) return false;
+  const auto there = crossing_of(side, between(from, to, then < 0 ? gap / (gap - then) : 1));
+  return there && there->is_within(side, slack);
+}
+
+/// Least height (m) of the elements behind a candidate's faces; of a node and a face, behind the face.
+double SelfContact::height_behind(const Candidate& candidate) {
+  if (!candidate.edges) return height_now(candidate.second);
   const Edge &one = edges_[at(candidate.first)], &other = edges_[at(candidate.second)];
-  double least = face_now(one.faces[0]).height;
-  for (const int face : {one.faces[1], other.faces[0], other.faces[1]}) least = std::min(least, face_now(face).height);
-  return -first->gap < max_penetration * least;
+  return std::min({height_now(one.faces[0]), height_now(one.faces[1]), height_now(other.faces[0]),
+                   height_now(other.faces[1])});
+}
+
+/// Whether edges are far enough from parallel, and their normal lies between those of the faces of both.
+bool SelfContact::is_out_of_both(const Candidate& candidate, const std::array<Vec3, 4>& from,
+                                 const PairCrossing& first) {
+  const Vec3 u = from[1] - from[0], v = from[3] - from[2];
+  if (first.square < parallel * parallel * u.squaredNorm() * v.squaredNorm()) return false;
+  const Vec3 normal = first.normal / std::sqrt(first.square);
+  return is_ridge_towards(candidate.first, -normal) && is_ridge_towards(candidate.second, normal);
 }
 
 std::size_t SelfContact::bytes() const {
   return bytes_of(nodes_, rest_, faces_, apex_, edges_, start_, round_, own_nodes_, own_edges_) +
          bytes_of(nodes_now_, faces_now_, edges_now_) +
-         bytes_of(from_, to_, searched_.reference, filtered_.reference, broad_candidates_, candidates_, contacts_);
+         bytes_of(from_, to_, searched_.reference, filtered_.reference, broad_candidates_, candidates_) +
+         bytes_of(awake_, contacts_, points_);
 }
 
 }  // namespace heml

@@ -10,45 +10,27 @@
 // The gap is signed by the outward side, so it is well defined at 0: the two sides of a fresh cut coincide, may open
 // freely, and do not pass each other. A nearby pair is in contact only if
 //   (1) the surfaces face each other,
-//   (2) the crossing lies within the face or both edges at the time of crossing,
+//   (2) the crossing lies within the face or both edges: at the step's start where the pair touches, else at the time
+//       of crossing,
 //   (3) the penetration is below half the height of the element behind.
 // In a body without inverted elements no node lies in an element of its neighbours, so neighbours are no contact. Pairs
 // that overlap at rest are ignored.
 //
-//   each step      nodes at from, at to ──► has any moved by more than the allowance? ──► filter, or broad phase
-//                  candidates that the motion since the filter brings within reach ──► contacts: those that touch
-//                  between from and to; the others sleep
+//   each step      nodes at from, at to ──► has any moved by more than the allowance? ──► wake, filter, or broad phase
+//                  candidates awake that the motion since the filter brings within reach ──► contacts: those that
+//                  touch between from and to
 //   broad phase    faces in a grid of cells, in the order of cells ──► broad candidates, in the order of nodes
 //   filter         broad candidates ──► candidates, the nearest first: valid for a small part of the motion that the
 //                  broad phase allows
+//   wake           candidates ──► awake candidates, in the order of pairs: within reach of little more than the
+//                  motion since the filter. Pairs of an edge lie together, so that one test passes over all of an edge
+//                  that is no ridge; on flat surfaces most are none.
 // Built only where a scene has "self_contact".
 #include <compare>
-#include <heml/tools/contact_surface.hpp>
+#include <heml/tools/contact_pair.hpp>
 #include <heml/tools/settings.hpp>
-#include <tuple>
 
 namespace heml {
-
-/// Node and face, or edge and edge, internal numbers: {node, face's corners} or {ends of one edge, ends of the other}.
-struct ContactPair {
-  std::array<int, 4> nodes;
-  int side = 0;  ///< 0: node and face; 1 or −1: edges, side (b − a)×(d − c) points out of the second edge's body
-};
-
-inline bool operator<(const ContactPair& a, const ContactPair& b) {
-  return std::tie(a.nodes, a.side) < std::tie(b.nodes, b.side);
-}
-inline bool operator==(const ContactPair& a, const ContactPair& b) { return a.nodes == b.nodes && a.side == b.side; }
-
-/// Contact point of a pair with its nodes at x (m): gap from the second to the first, of the face's whole plane or the
-/// edges' infinite lines. None where the face is degenerate or the edges are parallel.
-std::optional<ContactPoint> point_of(const ContactPair& pair, const std::array<Vec3, 4>& x);
-
-template <class At>
-std::optional<ContactPoint> point_of(const ContactPair& pair, const At& at) {
-  const auto [a, b, c, d] = pair.nodes;
-  return point_of(pair, std::array<Vec3, 4>{at(a), at(b), at(c), at(d)});
-}
 
 class SelfContact {
  public:
@@ -61,11 +43,15 @@ class SelfContact {
   /// until the next call. Empty where a position is not finite.
   template <class From, class To>
   const std::vector<ContactPair>& contacts_between(const From& from, const To& to) {
-    from_.clear(), to_.clear();
-    for (const int n : nodes_) from_.emplace_back(from(n)), to_.emplace_back(to(n));
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+      from_[i] = from(nodes_[i]);
+      to_[i] = to(nodes_[i]);
+    }
     find();
     return contacts_;
   }
+  /// Of each of these pairs, its point while the nodes are at from(node).
+  const std::vector<ContactPoint>& contact_points() const { return points_; }
 
   long broad_phase_count() const { return broad_phase_count_; }  ///< broad phases run so far
   long filter_count() const { return filter_count_; }            ///< filters run so far
@@ -87,16 +73,23 @@ class SelfContact {
     Candidate candidate;
     auto operator<=>(const NearCandidate&) const = default;
   };
+  struct AwakeCandidate {
+    double distance;
+    std::array<int, 4> nodes;  ///< indices into nodes_, as in ContactPair
+    Candidate candidate;
+    std::size_t others;  ///< place of the next one with another first node or edge
+  };
   using Positions = std::vector<Vec3>;
   // What several candidates of a step ask of the surface at from_, evaluated for the first that asks.
   struct NodeNow {
     long step = 0;  ///< evaluated in, as in step_count_
-    Vec3 normal;    ///< unit
+    Vec3 area;      ///< m², sum of the area vectors of its faces
+    double square;  ///< m⁴, of it
   };
   struct FaceNow {
     long step = 0;
-    Vec3 normal;    ///< unit
-    double height;  ///< m, of the element behind; not positive where it is inverted
+    Vec3 area;      ///< m², twice the face's, along its normal
+    double square;  ///< m⁴, of it
   };
   struct EdgeNow {
     long step = 0;
@@ -121,13 +114,19 @@ class SelfContact {
   void add_node_candidates(int node, int face, double reach);
   void add_edge_candidates(int one, int other, double reach);
   int side_of(const Edge& one, const Edge& other, const Positions& x) const;
-  ContactPair pair_of(const Candidate& candidate) const;
+  int side_now(const Candidate& candidate);
+  std::array<int, 4> nodes_of(const Candidate& candidate) const;
   bool can_meet(const Candidate& candidate);
-  bool meets(const Candidate& candidate, const ContactPair& pair);
+  std::optional<PairCrossing> crossing_if_met(const Candidate& candidate, const ContactPair& pair);
+  bool crosses_later(int side, const std::array<Vec3, 4>& from, const std::array<Vec3, 4>& to, double gap) const;
+  double height_behind(const Candidate& candidate);
+  bool is_out_of_both(const Candidate& candidate, const std::array<Vec3, 4>& from, const PairCrossing& first);
+  void wake_candidates(double moved);
   Vec3 face_normal(int face, const Positions& x) const;
   const FaceNow& face_now(int face);
-  const Vec3& normal_now(int node);
-  const EdgeNow& edge_now(int edge);
+  double height_now(int face);
+  const NodeNow& node_now(int node);
+  bool is_ridge_now(int edge);
   bool is_ridge_towards(int edge, const Vec3& normal);
 
   double friction_;
@@ -145,9 +144,12 @@ class SelfContact {
   std::vector<FaceNow> faces_now_;
   std::vector<EdgeNow> edges_now_;
   CandidateSet searched_, filtered_;
+  double awake_reach_ = 0;  ///< m, of awake_
   std::vector<Candidate> broad_candidates_;  ///< valid within searched_
   std::vector<NearCandidate> candidates_;    ///< the subset valid within filtered_, ascending
+  std::vector<AwakeCandidate> awake_;        ///< and of these, valid within awake_reach_, in the order of pairs
   std::vector<ContactPair> contacts_;
+  std::vector<ContactPoint> points_;  ///< of contacts_
   long broad_phase_count_ = 0, filter_count_ = 0, tested_count_ = 0;
 };
 

@@ -27,7 +27,7 @@ class SelfContactImpulses {
   /// Keeps the pairs that got an impulse, updates them to positions x, and requires that their gaps do not shrink.
   void begin_second_half(const std::vector<Real>& inverse_mass, const Real* x);
 
-  bool empty() const { return active_.empty(); }
+  bool empty() const { return rows_.empty(); }
   /// Applies the impulses of the last step's same half to v (#V×3, m/s), unless they would add energy. At most once,
   /// before solve().
   void warm_start(Real* v);
@@ -35,23 +35,21 @@ class SelfContactImpulses {
   /// pairs are of earlier steps. May be called again after other contacts have changed v.
   void solve(Real* v);
   /// Updates the memory after the first half, which ended at x (#V×3, m); call it before begin_second_half().
+  /// known: as in find_pairs().
   void remember_first_half(const Real* x, std::vector<RememberedPair>& known) const;
   void remember_second_half(std::vector<RememberedPair>& known) const;
 
   int rounds() const { return rounds_; }         ///< since find_pairs()
   double residual() const { return residual_; }  ///< change of an impulse in the last round, of the largest impulse
 
-  /// Calls visit(node) for the nodes of each pair.
-  template <class Visit>
-  void each_node(const Visit& visit) const {
-    for (const ActiveContact& touch : active_)
-      for (const int n : touch.point.nodes) visit(n);
-  }
+  /// Nodes of the pairs that find_pairs() found, each once.
+  const std::vector<int>& nodes() const { return nodes_; }
+  bool has_node(int n) const { return static_cast<std::size_t>(n) < local_.size() && local_[index(n)] >= 0; }
 
   /// Calls visit(point) for each pair.
   template <class Visit>
   void each_contact_point(const Visit& visit) const {
-    for (const ActiveContact& touch : active_) visit(touch.point);
+    for (const Touch& touch : touches_) visit(touch.point);
   }
 
   /// Adds the normal impulses (N s) since find_pairs() or begin_second_half(), times weight, to normal_force, and
@@ -59,22 +57,42 @@ class SelfContactImpulses {
   void publish(double weight, double& normal_force, ContactReport& report) const;
 
  private:
-  struct ActiveContact {
-    RememberedPair memory;  ///< of earlier steps, where is_known
-    bool is_known;
+  using Vec4 = Eigen::Vector4d;  ///< x, y, z, 0: two registers of any processor, and no remainder
+  /// What a pair is, and what it carries over.
+  struct Touch {
+    ContactPair pair;
     ContactPoint point;
-    double min_gap_rate;                   ///< m/s, lower bound of the gap's rate
-    double inverse_mass;                   ///< 1/kg, effective inverse mass
-    std::array<double, 4> mobility;        ///< 1/kg, velocities of the nodes for an impulse of 1 N s
-    bool has_friction;                     ///< touches, so that friction acts
-    Vec3 drift;                            ///< m/s, velocity along the surface that friction adds to that of sliding
-    double normal = 0;                     ///< N s, accumulated
-    Vec3 friction_impulse = Vec3::Zero();  ///< N s, of friction
-    double work = 0;                       ///< J, of friction
+    std::ptrdiff_t known;  ///< place among the pairs of earlier steps; −1: new
+    bool starts_warm;      ///< got an impulse in the last step
+    std::array<RememberedPair::Impulse, 2> last;
   };
-  double solve_pair(ActiveContact& touch, Real* v) const;
+  /// What the rounds read and write: small, so that all pairs stay in the first-level cache.
+  struct Row {
+    Vec4 normal, drift;                ///< drift: m/s, velocity along the surface that friction adds to that of sliding
+    Vec4 friction_impulse;             ///< N s
+    std::array<int, 4> nodes;          ///< indices into velocities_
+    std::array<double, 4> weights;
+    std::array<double, 4> mobility;    ///< 1/kg, velocities of the nodes for an impulse of 1 N s
+    double min_gap_rate;               ///< m/s, lower bound of the gap's rate
+    double inverse_mass, mass;         ///< 1/kg and kg, effective
+    double normal_impulse = 0;         ///< N s, accumulated
+    double work = 0;                   ///< J, of friction
+    bool has_friction;                 ///< touches, so that friction acts
+    bool is_known;
+  };
+  static std::size_t index(int n) { return static_cast<std::size_t>(n); }
+  Row row_of(const ContactPoint& point, double effective_inverse_mass, const std::vector<Real>& inverse_mass);
+  Vec4 velocity_of(const Row& row) const;
+  void add_impulse(const Row& row, const Vec4& impulse);
+  double solve_pair(Row& row);
+  void load(const Real* v);
+  void store(Real* v) const;
 
-  std::vector<ActiveContact> active_;
+  std::vector<Touch> touches_;
+  std::vector<Row> rows_;         ///< of each touch
+  std::vector<int> nodes_;        ///< of all rows
+  std::vector<int> local_;        ///< of each node of the body, its index in nodes_; −1: in no pair
+  std::vector<Vec4> velocities_;  ///< m/s, of nodes_ while the rounds run
   double friction_ = 0;
   std::size_t half_ = 0;  ///< 0: the first
   bool is_warm_ = true;   ///< the impulses of the last step were a good start

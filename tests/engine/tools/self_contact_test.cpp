@@ -175,6 +175,16 @@ void compare(SelfContact& contact, const Soup& soup, Counts& counts) {
   std::set<Key> found;
   for (const ContactPair& pair : pairs) found.insert(key_of(pair));
   CHECK(found.size() == pairs.size());
+  REQUIRE(contact.contact_points().size() == pairs.size());
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const auto point = point_of(pairs[i], place(soup.from));
+    const ContactPoint& given = contact.contact_points()[i];
+    REQUIRE(point);
+    CHECK(given.nodes == pairs[i].nodes);
+    CHECK(given.weights == point->weights);
+    CHECK(given.gap == point->gap);
+    CHECK(given.normal == point->normal);
+  }
   const Expected expected = search_all(soup);
   CHECK(std::includes(found.begin(), found.end(), expected.sure.begin(), expected.sure.end()));
   CHECK(std::includes(expected.possible.begin(), expected.possible.end(), found.begin(), found.end()));
@@ -211,6 +221,22 @@ TEST_CASE("candidates kept from earlier steps miss no pair, and are kept for som
   CHECK(contact.broad_phase_count() < 30);
   CHECK(counts.faces > 100);
   CHECK(counts.edges > 100);
+}
+
+TEST_CASE("a pair that touches within its face is in contact, one that touches the face's plane outside is not") {
+  TetMesh mesh;
+  add_tet(mesh, {Vec3(-1, -1, 0), Vec3(1, -1, 0), Vec3(0, 1, 0), Vec3(0, 0, -2)});
+  add_tet(mesh, {Vec3(0, 0, 3), Vec3(-1, -1, 5), Vec3(1, -1, 5), Vec3(0, 1, 5)});
+  for (const double y : {0.5, 1.1})
+    for (const double gap : {1e-4, -1e-4}) {
+      CAPTURE(y);
+      CAPTURE(gap);
+      SelfContact contact({}, mesh);
+      const auto place = [&](int n) -> Vec3 {
+        return mesh.nodes[static_cast<std::size_t>(n)] + (n < 4 ? Vec3(0, 0, 0) : Vec3(0, y, gap - 3));
+      };
+      CHECK(contact.contacts_between(place, place).size() == (y < 1 ? 1 : 0));
+    }
 }
 
 TEST_CASE("tetrahedra at rest are searched once, and only near pairs are tested") {
