@@ -88,23 +88,32 @@ std::vector<Triangle> face_midedges(const BoundaryFaces& faces, const TetMesh& m
 /// The boundary of a mesh as triangles between neighbouring nodes: four a face of quadratic tetrahedra.
 BoundaryFaces fine_boundary(const TetMesh& mesh, const MidEdges& midedges);
 
+/// Signed volumes (m³) of the integration points of an element, at positions given by position(node).
+template <class Position>
+std::array<double, element_points> point_volumes(const Tet& tet, const std::array<int, 6>& midedges,
+                                                 const Position& position) {
+  const std::array<int, 10> nodes = quadratic_nodes(tet, midedges);
+  std::array<Vec3, 10> x;
+  for (std::size_t a = 0; a < 10; ++a) x[a] = position(nodes[a]);
+  std::array<double, element_points> volumes;
+  for (std::size_t q = 0; q < element_points; ++q) {
+    std::array<Vec3, 4> y;
+    for (std::size_t i = 0; i < 4; ++i) {
+      y[i].setZero();
+      for (const auto& [node, weight] : virtual_corner(q, i)) y[i] += weight * x[node];
+    }
+    volumes[q] = signed_volume(y[0], y[1], y[2], y[3]);
+  }
+  return volumes;
+}
+
 /// Number of integration points whose volume ratio is not positive at positions given by position(node).
 template <class Position>
 int count_inverted_points(const std::vector<Tet>& tets, const MidEdges& midedges, const Position& position) {
   int count = 0;
-  for (std::size_t t = 0; t < tets.size(); ++t) {
-    const std::array<int, 10> nodes = quadratic_nodes(tets[t], midedges[t]);
-    std::array<Vec3, 10> x;
-    for (std::size_t a = 0; a < 10; ++a) x[a] = position(nodes[a]);
-    for (std::size_t q = 0; q < element_points; ++q) {
-      std::array<Vec3, 4> y;
-      for (std::size_t i = 0; i < 4; ++i) {
-        y[i].setZero();
-        for (const auto& [node, weight] : virtual_corner(q, i)) y[i] += weight * x[node];
-      }
-      if (!(signed_volume(y[0], y[1], y[2], y[3]) > 0)) ++count;
-    }
-  }
+  for (std::size_t t = 0; t < tets.size(); ++t)
+    for (const double volume : point_volumes(tets[t], midedges[t], position))
+      if (!(volume > 0)) ++count;
   return count;
 }
 

@@ -175,9 +175,6 @@ void read_contact(FebModel& model, Scene& scene) {
     }
   if (!friction) return;
   scene.self_contact = SelfContactSettings{*friction};
-  if (scene.solver.quadratic)
-    model.findings.refuse(model.sections("Contact").front(),
-                          "contact of tet10 elements, which heml does not compute: take tet4");
 }
 
 void set_method(FebModel& model, Scene& scene) {

@@ -62,15 +62,14 @@ std::vector<Change> changes_of(const Scene& scene, const WorldSetup& setup) {
   if (any_material(setup, [](const Material& m) { return m.plasticity.has_value(); }))
     changes.push_back({"plasticity", "on", "off", in_materials([](Material& m) { m.plasticity.reset(); })});
   flag("continuation", solver.continuation, &SolverSettings::continuation);
-  if (!solver.is_static() && !solver.quadratic) flag("recovery", solver.recovery, &SolverSettings::recovery);
-  if (!solver.quadratic)
-    changes.push_back(
-        {"self-contact", setup.self_contact ? "on" : "off", setup.self_contact ? "off" : "on", [](WorldSetup& s) {
-           if (s.self_contact)
-             s.self_contact.reset();
-           else
-             s.self_contact.emplace();
-         }});
+  if (!solver.is_static()) flag("recovery", solver.recovery, &SolverSettings::recovery);
+  changes.push_back(
+      {"self-contact", setup.self_contact ? "on" : "off", setup.self_contact ? "off" : "on", [](WorldSetup& s) {
+         if (s.self_contact)
+           s.self_contact.reset();
+         else
+           s.self_contact.emplace();
+       }});
   const bool splits = std::all_of(setup.materials.begin(), setup.materials.end(), [&](const RegionMaterial& entry) {
     return find_law(entry.material.law)->has_volume_term &&
            entry.material.volume_term == setup.materials.front().material.volume_term;

@@ -158,16 +158,14 @@ void check_energy_laws(const Scene& scene) {
       check(set->material, fmt::format("events: step {}: material", event.tick));
 }
 
-/// Quadratic elements take no springs, and no self-contact, tearing or recovery.
+/// Quadratic elements take no springs and no tearing.
 void check_quadratic(const Scene& scene) {
   if (!scene.solver.quadratic) return;
   const auto refuse = [&](const std::string& place) {
     throw InputError(scene.file, place, fmt::format("does not go with solver.element {}", scene.solver.element()),
                      "take \"element\": \"p1\"");
   };
-  if (scene.self_contact) refuse("self_contact");
   if (scene.tearing) refuse("tearing");
-  if (scene.solver.recovery) refuse("solver.recovery");
   const auto check = [&](const Material& material, const std::string& place) {
     if (!find_law(material.law)->is_continuum) refuse(place + ".law");
   };

@@ -265,7 +265,7 @@ void MeshEditor<Real>::rebuild_after_edit() {
   for (std::size_t n = 0; n < s_.mass.size(); ++n)
     if (s_.mass[n] == 0) Eigen::Map<Vector3<Real>>(&s_.state.v[3 * n]).setZero();
   s_.move_constrained();  // nodes of no element too
-  if (s_.recovery) s_.recovery->set_mesh(s_.model.mesh, s_.mass);
+  if (s_.recovery) s_.recovery->set_mesh(s_.model, s_.mass);
   recovery_.follow_change();
   s_.lowest_frequency.reset();
 }

@@ -53,7 +53,7 @@ void RecoveryController<Real>::start() {
   progress.max_speed = max_speed_factor * (max_wave_speed() + s_.setup.initial_velocity.norm());
   progress.last_good = s_.state;
   if (s_.has_internal_state) progress.last_good_internal = s_.body.internal_state();
-  s_.recovery = std::make_unique<RecoveryState<Real>>(s_.model.mesh, s_.mass, std::move(progress));
+  s_.recovery = std::make_unique<RecoveryState<Real>>(s_.model, s_.mass, std::move(progress));
 }
 
 /// Speed of the fastest waves, which cross an element in about 2/ω_max, m/s.
@@ -77,7 +77,7 @@ std::optional<StopReason> RecoveryController<Real>::monitor() {
   if (!s_.recovery || s_.recovering() || s_.halt) return std::nullopt;
   RecoveryState<Real>& recovery = *s_.recovery;
   recovery.track_tools(s_.grasps, s_.state.time);
-  const StateCheck check = recovery.check(s_.model.mesh, s_.state, s_.mass);
+  const StateCheck check = recovery.check(s_.model, s_.state, s_.mass);
   const double inverted = static_cast<double>(check.inverted) / static_cast<double>(s_.model.mesh.tets.size());
   if (!(check.min_J < worst_J || inverted > max_inverted || check.speed > recovery.max_speed)) {
     keep_state();
@@ -104,7 +104,7 @@ bool RecoveryController<Real>::is_step_hopeless() const {
 template <class Real>
 bool RecoveryController<Real>::takes_over(const StopReason& failure) {
   if (!s_.recovery || s_.recovering() || is_step_hopeless()) return false;
-  StateCheck check = s_.recovery->check(s_.model.mesh, s_.state, s_.mass);
+  StateCheck check = s_.recovery->check(s_.model, s_.state, s_.mass);
   if (failure.cause == StopReason::Cause::not_converged && !(check.min_J < min_healthy_J)) return false;
   const auto& file_tet = s_.model.order.file_tet;
   if (failure.element >= 0)
@@ -208,7 +208,7 @@ template <class Real>
 void RecoveryController<Real>::step(double until) {
   step_surrogate(until);
   RecoveryState<Real>& recovery = *s_.recovery;
-  const StateCheck check = recovery.check(s_.model.mesh, s_.state, s_.mass);
+  const StateCheck check = recovery.check(s_.model, s_.state, s_.mass);
   recovery.healthy_steps = check.min_J > min_healthy_J ? recovery.healthy_steps + 1 : 0;
   const bool is_calm = check.speed <= calm_speed * shear_wave_speed();
   if (recovery.healthy_steps >= (is_calm ? calm_steps : moving_steps)) end();
@@ -220,9 +220,9 @@ void RecoveryController<Real>::step_surrogate(double until) {
   ImplicitState<Real>& implicit = s_.recovery->surrogate->implicit;
   // A collapsed body, whose forces are too small to expand it, or a tangled one at a minimum of energy is moved towards
   // its rest shape.
-  const StateCheck check = s_.recovery->check(s_.model.mesh, s_.state, s_.mass);
+  const StateCheck check = s_.recovery->check(s_.model, s_.state, s_.mass);
   if (check.extent < collapsed_extent) move_towards_rest(collapsed_fraction);
-  if (check.inverted == 0)
+  if (check.inverted == 0 && !s_.recovery->is_folded(s_.state))
     s_.recovery->is_tangled = false;
   else if (s_.recovery->last->steps > 0 && check.speed <= tangled_speed * shear_wave_speed())
     s_.recovery->is_tangled = true;

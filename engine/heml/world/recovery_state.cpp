@@ -30,45 +30,73 @@ std::pair<double, Vec3> spread(const std::vector<Real>& masses, const At& x) {
   return {std::sqrt(square / mass), mean};
 }
 
+template <class Position>
+bool is_upright(const Tet& tet, const Position& position) {
+  return signed_volume(position(tet[0]), position(tet[1]), position(tet[2]), position(tet[3])) > 0;
+}
+
+/// Calls visit(element, m³) with the signed volume of each point at positions given by position(node).
+template <class Real, class Position, class Visit>
+void each_volume(const Model<Real>& model, const Position& position, const Visit& visit) {
+  for (std::size_t t = 0; t < model.mesh.tets.size(); ++t) {
+    const Tet& tet = model.mesh.tets[t];
+    if (model.midedges.empty())
+      visit(t, signed_volume(position(tet[0]), position(tet[1]), position(tet[2]), position(tet[3])));
+    else
+      for (const double volume : point_volumes(tet, model.midedges[t], position)) visit(t, volume);
+  }
+}
+
 }  // namespace
 
 template <class Real>
-RecoveryState<Real>::RecoveryState(const TetMesh& mesh, const std::vector<Real>& masses,
+RecoveryState<Real>::RecoveryState(const Model<Real>& model, const std::vector<Real>& masses,
                                    RecoveryProgress<Real> progress)
     : RecoveryProgress<Real>(std::move(progress)) {
-  set_mesh(mesh, masses);
+  set_mesh(model, masses);
 }
 
 template <class Real>
-void RecoveryState<Real>::set_mesh(const TetMesh& mesh, const std::vector<Real>& masses) {
-  rest_extent_ = spread(masses, [&](int n) { return mesh.nodes[static_cast<std::size_t>(n)]; }).first;
+void RecoveryState<Real>::set_mesh(const Model<Real>& model, const std::vector<Real>& masses) {
+  const auto X = [&](int n) -> const Vec3& { return model.mesh.nodes[static_cast<std::size_t>(n)]; };
+  rest_extent_ = spread(masses, X).first;
   rest_volume_.clear();
-  for (const Tet& tet : mesh.tets) {
-    const auto X = [&](std::size_t c) -> const Vec3& { return mesh.nodes[static_cast<std::size_t>(tet[c])]; };
-    rest_volume_.push_back(signed_volume(X(0), X(1), X(2), X(3)));
-  }
+  each_volume(model, X, [&](std::size_t, double volume) { rest_volume_.push_back(volume); });
+  eighths_.clear();
+  if (model.midedges.empty()) return;
+  eighths_ = subdivided(model.mesh, model.midedges).tets;
+  std::erase_if(eighths_, [&](const Tet& tet) { return !is_upright(tet, X); });
 }
 
 template <class Real>
-StateCheck RecoveryState<Real>::check(const TetMesh& mesh, const State<Real>& state,
+bool RecoveryState<Real>::is_folded(const State<Real>& state) const {
+  const auto x = [&](int n) { return at(state.x, n); };
+  return std::any_of(eighths_.begin(), eighths_.end(), [&](const Tet& tet) { return !is_upright(tet, x); });
+}
+
+template <class Real>
+StateCheck RecoveryState<Real>::check(const Model<Real>& model, const State<Real>& state,
                                       const std::vector<Real>& masses) const {
   StateCheck check;
-  for (std::size_t t = 0; t < rest_volume_.size(); ++t) {
-    const Tet& tet = mesh.tets[t];
-    const double volume =
-        signed_volume(at(state.x, tet[0]), at(state.x, tet[1]), at(state.x, tet[2]), at(state.x, tet[3]));
-    const double J = std::isfinite(volume) ? volume / rest_volume_[t] : -std::numeric_limits<double>::infinity();
-    if (!(J > 0)) ++check.inverted;
-    if (!(J < check.min_J)) continue;
+  std::size_t point = 0, last_inverted = rest_volume_.size();
+  const auto x = [&](int n) { return at(state.x, n); };
+  each_volume(model, x, [&](std::size_t t, double volume) {
+    const double rest = rest_volume_[point++];
+    const double J = std::isfinite(volume) ? volume / rest : -std::numeric_limits<double>::infinity();
+    if (!(J > 0) && t != last_inverted) {
+      ++check.inverted;
+      last_inverted = t;
+    }
+    if (!(J < check.min_J)) return;
     check.min_J = J;
     check.worst = static_cast<int>(t);
-  }
+  });
   const Vec3 mean = spread(masses, [&](int n) { return at(state.v, n); }).second;
   for (std::size_t n = 0; n < masses.size(); ++n) {
     const double speed = masses[n] > 0 ? (at(state.v, static_cast<int>(n)) - mean).norm() : 0;
     check.speed = std::max(check.speed, std::isfinite(speed) ? speed : std::numeric_limits<double>::infinity());
   }
-  check.extent = spread(masses, [&](int n) { return at(state.x, n); }).first / rest_extent_;
+  check.extent = spread(masses, x).first / rest_extent_;
   return check;
 }
 

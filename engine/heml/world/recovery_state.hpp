@@ -14,7 +14,7 @@ namespace heml {
 struct StateCheck {
   double min_J = 1;
   int worst = 0;      ///< inner number of the element that has it
-  int inverted = 0;   ///< elements with J ≤ 0, or none at all
+  int inverted = 0;   ///< elements with J ≤ 0, or none at all, at any of their points
   double speed = 0;   ///< m/s, of the fastest node beside the mean velocity; infinite where a node is nowhere
   double extent = 1;  ///< of the body, as a part of its extent at rest (radii of gyration)
 };
@@ -50,7 +50,7 @@ struct RecoverySnapshot {
 template <class Real>
 class RecoveryState : public RecoveryProgress<Real> {
  public:
-  RecoveryState(const TetMesh& mesh, const std::vector<Real>& masses, RecoveryProgress<Real> progress);
+  RecoveryState(const Model<Real>& model, const std::vector<Real>& masses, RecoveryProgress<Real> progress);
 
   /// Adds the nodes of an edit to the last good state.
   void append(const MeshEdit& edit) {
@@ -58,16 +58,19 @@ class RecoveryState : public RecoveryProgress<Real> {
     heml::append(edit, this->last_good.v, 3);
   }
   /// Follows a change of the elements.
-  void set_mesh(const TetMesh& mesh, const std::vector<Real>& masses);
+  void set_mesh(const Model<Real>& model, const std::vector<Real>& masses);
 
-  StateCheck check(const TetMesh& mesh, const State<Real>& state, const std::vector<Real>& masses) const;
+  StateCheck check(const Model<Real>& model, const State<Real>& state, const std::vector<Real>& masses) const;
+  /// Whether an element is folded: a quadratic one can be, while its points are upright. Of linear ones: false.
+  bool is_folded(const State<Real>& state) const;
   /// Updates tool_speed from the tools' positions at a time (s).
   void track_tools(const std::vector<GraspSpring<Real>>& grasps, double time);
 
   std::unique_ptr<RecoverySurrogate<Real>> surrogate;
 
  private:
-  std::vector<double> rest_volume_;  ///< #T, m³
+  std::vector<double> rest_volume_;  ///< m³, of the points of each element: one, of quadratic ones four
+  std::vector<Tet> eighths_;  ///< linear tetrahedra on the nodes of quadratic ones, eight each, those upright at rest
   double rest_extent_ = 0;           ///< m
 };
 

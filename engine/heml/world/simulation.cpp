@@ -162,10 +162,14 @@ void Simulation<Real>::update_contact_surfaces() {
   if (recovering()) recovery->surrogate->implicit.body.reset_contact();
 }
 
-// The body has other elements, or begins anew.
+// The body has other elements, or begins anew. Quadratic ones bear on each other as the linear ones on their nodes.
 template <class Real>
 void Simulation<Real>::update_self_contact() {
-  if (setup.self_contact) contacts.tissue.emplace(*setup.self_contact, model.mesh);
+  if (!setup.self_contact) return;
+  if (model.midedges.empty())
+    contacts.tissue.emplace(*setup.self_contact, model.mesh);
+  else
+    contacts.tissue.emplace(*setup.self_contact, subdivided(model.mesh, model.midedges));
 }
 
 // The nodes of the surface that are free, and its faces where something may be smaller than they are.

@@ -31,7 +31,7 @@ RecoverySnapshot<Real> snapshot_of(const RecoveryState<Real>& recovery) {
 
 template <class Real>
 void restore(const RecoverySnapshot<Real>& snapshot, Simulation<Real>& s) {
-  s.recovery = std::make_unique<RecoveryState<Real>>(s.model.mesh, s.mass, snapshot.progress);
+  s.recovery = std::make_unique<RecoveryState<Real>>(s.model, s.mass, snapshot.progress);
   if (!snapshot.surrogate) return;
   s.install_surrogate();
   s.recovery->surrogate->implicit.restore(*snapshot.surrogate);

@@ -164,6 +164,10 @@ TEST_CASE("quadratic tetrahedra become p2, with mid-edge nodes held and moved as
   const auto world = solved(import.scene);
   CHECK(world->setup().mesh.nodes.size() == 10);
   CHECK((sum(world->reactions()) - Vec3(-1, 0, -2)).norm() < 1e-6);
+  std::string touching = file("1,2,3,5,6,7");
+  touching.insert(touching.find("<Loads>"), "<Contact><contact name=\"c\" type=\"sliding-elastic\" surface_pair=\"p\"/>"
+                                            "</Contact>");
+  CHECK(Import(touching).scene.self_contact);
   CHECK(refuses(file("1,2,3,5,6"), "but not node 6 (from 0) in its middle"));
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <heml/mesh/quadratic.hpp>
 #include <heml/world/recovery_cause.hpp>
 
 #include "engine/materials/sample_materials.hpp"
@@ -75,8 +76,9 @@ double away_from_rest(const std::vector<Vec3>& x, const std::vector<Vec3>& rest)
   return std::sqrt(sum / static_cast<double>(x.size())) / (std::sqrt(3.0) * side);
 }
 
+/// Of integration points.
 int inverted(World& world) {
-  const std::vector<double> J = world.volume_ratios();
+  const std::vector<double> J = world.point_volume_ratios();
   return static_cast<int>(std::count_if(J.begin(), J.end(), [](double ratio) { return !(ratio > 0); }));
 }
 
@@ -93,7 +95,86 @@ int steps_to_rest(World& world) {
   return world.halt() ? 0 : since;
 }
 
+/// A damped cube of an element, stepped by a method.
+WorldSetup cube_of(bool quadratic, bool pressure, Integrator integrator) {
+  WorldSetup setup = cube("neo_hookean_iso", 0.45);
+  if (quadratic) {
+    setup.midedges = add_midedge_nodes(setup.mesh);
+    setup.boundary[0].nodes = nodes_where(setup.mesh, [](const Vec3& X) { return X.x() < 1e-9; });
+  }
+  setup.solver.quadratic = quadratic;
+  setup.solver.nodal_pressure = pressure;
+  setup.solver.integrator = integrator;
+  setup.solver.damping = 20;
+  setup.solver.step.reset();
+  setup.solver.rate = is_explicit(integrator) ? 1000 : 60;
+  return setup;
+}
+
+template <class Visit>
+void each_element_and_method(const Visit& visit) {
+  for (const bool quadratic : {false, true})
+    for (const bool pressure : {false, true})
+      for (const Integrator integrator : moving_integrators()) {
+        const WorldSetup setup = cube_of(quadratic, pressure, integrator);
+        CAPTURE(std::string(setup.solver.element()));
+        CAPTURE(std::string(integrator_name(integrator)));
+        visit(setup);
+      }
+}
+
 }  // namespace
+
+TEST_CASE("recovery: of every element and by every method, what begins mirrored, flat or scattered is whole again") {
+  each_element_and_method([](const WorldSetup& setup) {
+    for (const Place& place : {Place(mirrored), Place(to_plane), scattered(8)}) {
+      const auto world = make_world(starting_at(setup, place));
+      REQUIRE(world->recovery());
+      CHECK(world->recovery()->inverted > 0);
+      run_until(*world, 1);
+      REQUIRE_FALSE(world->halt());
+      CHECK(world->recovery()->ended);
+      CHECK(inverted(*world) == 0);
+      CHECK(away_from_rest(world->positions(), setup.mesh.nodes) <= 1e-3);
+    }
+  });
+}
+
+TEST_CASE("recovery: of every element and by every method, a load too heavy for the law is survived") {
+  each_element_and_method([](WorldSetup setup) {
+    const auto world = make_world(setup);
+    for (int tick = 0; tick < 6; ++tick) world->tick();
+    REQUIRE(world->recoveries() == 0);
+    for (double G = 1e5; G < 1e14 && world->recoveries() == 0; G *= 10) {
+      REQUIRE(world->apply(SetGravity{Vec3(-G, 0, 0)}).ok());
+      world->tick();
+      REQUIRE_FALSE(world->halt());
+    }
+    REQUIRE(world->recoveries() == 1);
+    REQUIRE(world->apply(SetGravity{Vec3::Zero()}).ok());
+    run_until(*world, world->time() + 1.5);
+    REQUIRE_FALSE(world->halt());
+    CHECK(world->recovery()->ended);
+    CHECK(away_from_rest(world->positions(), setup.mesh.nodes) <= 1e-3);
+  });
+}
+
+TEST_CASE("recovery: a quadratic element is judged at its points, whatever its corners do") {
+  WorldSetup setup = cube_of(true, false, Integrator::backward_euler);
+  setup.initial_positions = setup.mesh.nodes;  // corners at rest, the middles of one element's edges through its middle
+  const std::array<int, 10> nodes = quadratic_nodes(setup.mesh.tets[7], setup.midedges[7]);
+  Vec3 centre = Vec3::Zero();
+  for (std::size_t c = 0; c < 4; ++c) centre += setup.mesh.nodes[static_cast<std::size_t>(nodes[c])] / 4;
+  for (std::size_t a = 4; a < 10; ++a) {
+    Vec3& x = setup.initial_positions[static_cast<std::size_t>(nodes[a])];
+    x = 2 * centre - x;
+  }
+  const auto world = make_world(setup);
+  REQUIRE(world->recovery());
+  CHECK(world->recovery()->inverted > 0);
+  CHECK(world->recovery()->min_J < 0);
+  CHECK(steps_to_rest(*world) > 0);
+}
 
 TEST_CASE("recovery: a body that nothing holds comes back too, and from ten other scatters, and in float") {
   int slowest = 0;
@@ -234,6 +315,26 @@ TEST_CASE("recovery: the same bits on every run, with any number of threads") {
   }
   CHECK(hashes[0] == hashes[1]);
   CHECK(hashes[0] == hashes[2]);
+}
+
+TEST_CASE("recovery: quadratic elements give the same bits with any number of threads, and from a snapshot within it") {
+  for (const bool pressure : {false, true}) {
+    WorldSetup setup = starting_at(cube_of(true, pressure, Integrator::backward_euler), scattered(5));
+    const auto one = make_world(setup);
+    setup.solver.threads = 3;
+    const auto three = make_world(setup);
+    for (const auto& world : {one.get(), three.get()})
+      for (int k = 0; k < 6; ++k) world->tick();
+    REQUIRE_FALSE(one->recovery()->ended);
+    CHECK(one->state_hash() == three->state_hash());
+    const auto kept = one->snapshot();
+    for (int k = 0; k < 40; ++k) one->tick(), three->tick();
+    CHECK(one->recovery()->ended);
+    CHECK(one->state_hash() == three->state_hash());
+    REQUIRE(one->restore(*kept).ok());
+    for (int k = 0; k < 40; ++k) one->tick();
+    CHECK(one->state_hash() == three->state_hash());
+  }
 }
 
 TEST_CASE("recovery: a body thrown against its support is whole again afterwards") {
