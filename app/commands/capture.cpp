@@ -8,6 +8,7 @@
 #include <heml/base/log.hpp>
 #include <heml/scenario/input_files.hpp>
 #include <heml/scenario/schedule.hpp>
+#include <heml/scenario/standard_view.hpp>
 #include <heml/session/comparison_runs.hpp>
 
 namespace heml {
@@ -24,8 +25,23 @@ ImageSize parse_size(const std::string& text) {
   return size;
 }
 
+namespace {
+
+void set_view(View& view, const CaptureArguments& arguments) {
+  for (std::size_t k = 0; k < standard_view_names.size(); ++k)
+    if (standard_view_names[k] == arguments.side) {
+      const ViewAngles angles = angles_of(static_cast<StandardView>(k));
+      view.azimuth = angles.azimuth;
+      view.elevation = angles.elevation;
+    }
+  view.orthographic = view.orthographic || arguments.orthographic;
+}
+
+}  // namespace
+
 int capture(const CaptureArguments& arguments) {
-  const Scene scene = arguments.scene.empty() ? default_scene() : read_scene(arguments.scene);
+  Scene scene = arguments.scene.empty() ? default_scene() : read_scene(arguments.scene);
+  set_view(scene.view, arguments);
   check_output_folder(input_files(scene), arguments.out, frames_in(arguments.out, ".png"));
   const auto world = load_world(scene);
   Schedule schedule(scene, world->setup().mesh);

@@ -35,6 +35,8 @@ struct CaptureArguments {
   ImageSize size;
   double fps = 30;
   bool panel = false;
+  std::string side;           ///< StandardView by name; empty: as the scene says
+  bool orthographic = false;  ///< even where the scene does not say so
   std::vector<std::string> comparisons;  ///< variants to run in lockstep (heml/session/variant.hpp)
 };
 int capture(const CaptureArguments& arguments);

@@ -70,6 +70,10 @@ Action define_capture(CLI::App& command) {
   add_fps(command, given->fps);
   add_comparisons(command, given->comparisons);
   command.add_flag("--panel", given->panel, "draw the panel too");
+  command.add_option("--view", given->side, "the side that faces the camera, in place of the scene's view")
+      ->check(CLI::IsMember(std::vector<std::string>(standard_view_names.begin(), standard_view_names.end())))
+      ->type_name("SIDE");
+  command.add_flag("--orthographic", given->orthographic, "without perspective");
   return [given, size] {
     given->size = parse_size(*size);
     return capture(*given);

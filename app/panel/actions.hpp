@@ -3,6 +3,7 @@
 // them out.
 #include <filesystem>
 #include <heml/scenario/bare_mesh_options.hpp>
+#include <heml/scenario/standard_view.hpp>
 #include <heml/world/command.hpp>
 #include <heml/world/world.hpp>
 #include <optional>
@@ -40,6 +41,7 @@ enum class Action {
   select_probe,
   select_suture,
   select_remover,
+  select_measure,
   toggle_table,
   undo,
   redo,
@@ -61,11 +63,18 @@ enum class Action {
   save_view_2,
   save_view_3,
   save_view_4,
+  look_front,  // the order of StandardView
+  look_back,
+  look_left,
+  look_right,
+  look_top,
+  look_bottom,
+  orthographic,
   quit
 };
 
 /// What the left mouse button does to the body.
-enum class Tool { grasper, scalpel, scissors, pin, probe, suture, remover };
+enum class Tool { grasper, scalpel, scissors, pin, probe, suture, remover, measure };
 
 /// What the mouse is doing in the image while a button is down.
 enum class Interaction { none, grasping, cutting, snipping, probing, orbiting, panning };
@@ -99,6 +108,7 @@ enum class Request {
   live,
   resume,
   record_video,
+  save_measured,
   quit
 };
 
@@ -111,6 +121,8 @@ struct PanelActions {
   std::optional<std::filesystem::path> open_folder;     ///< to show in the system's file manager
   std::optional<std::filesystem::path> list_folder;     ///< a folder to list; Request::list: the last one again
   std::optional<std::size_t> view, save_view;           ///< saved camera view to restore, to overwrite (index)
+  std::optional<StandardView> look;                     ///< a standard view to turn to
+  std::optional<bool> orthographic;                     ///< whether the camera is, from now on
   std::optional<std::vector<std::string>> comparisons;  ///< the comparison runs from now on (variant.hpp)
   std::optional<std::size_t> answer;                    ///< to the question of Panel::ask(): index of a button
   std::optional<long> seek_to;                          ///< a tick to show: past, or ahead in a recording

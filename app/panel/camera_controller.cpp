@@ -47,9 +47,16 @@ void CameraController::select_pane_at(const render::Vec2f& at) {
     if (panes_[k].contains(at)) current_ = k;
 }
 
-void CameraController::orbit(float right, float down) {
+void CameraController::orbit(float right, float down, const std::optional<Vec3f>& pivot) {
   const float radians = std::numbers::pi_v<float> / static_cast<float>(pane().size.height);
-  centred_.orbit(-right * radians, down * radians);
+  if (!pivot) return centred_.orbit(-right * radians, down * radians);
+  centred_.orbit(-right * radians, down * radians, *pivot);
+}
+
+void CameraController::look(StandardView view) {
+  constexpr double degree = std::numbers::pi / 180;
+  const ViewAngles angles = angles_of(view);
+  centred_.look(static_cast<float>(angles.azimuth * degree), static_cast<float>(angles.elevation * degree));
 }
 
 void CameraController::pan(float right, float down) {

@@ -32,9 +32,15 @@ class CameraController {
   /// Updates the panes for another image size, panel or number of bodies; the view stays.
   void resize(render::Size size, const Insets& covered, std::size_t bodies = 1);
 
-  void orbit(float right, float down);  ///< by pixels of mouse travel; the body turns with the mouse
+  /// By pixels of mouse travel; the body turns with the mouse. pivot: m, stays where it is in the image; none: the
+  /// middle of the view.
+  void orbit(float right, float down, const std::optional<Vec3f>& pivot = std::nullopt);
   void pan(float right, float down);    ///< by pixels of mouse travel; the body moves with the mouse
   void zoom(float notches);             ///< of the wheel; positive: nearer
+
+  void look(StandardView view);  ///< turns there about the middle of the view
+  void set_orthographic(bool on) { centred_.set_orthographic(on); }
+  bool is_orthographic() const { return centred_.is_orthographic(); }
 
   static constexpr std::size_t views = 4;
   void save_view(std::size_t view) { saved_[view] = centred_; }  ///< saves the view

@@ -10,11 +10,13 @@ namespace heml::panel {
 FrameDrawing::FrameDrawing(const Scene& scene, const World& world, render::Size size, bool panel, bool comparisons)
     : size_(size),
       context_(size_),
-      surface_mesh_(make_surface_mesh(world)),
+      surface_mesh_(make_surface_mesh(world, nullptr, scene.view.hidden)),
       skin_(load_skin(scene, world.setup().mesh)),
       view_(scene.view) {
   if (panel || comparisons || view_.field != Field::none) interface_.emplace(Interface::suitable_scale(size_));
   if (panel) panel_.emplace(scene, *surface_mesh_);
+  if (view_.range)
+    colours_.fix({static_cast<float>((*view_.range)[0]), static_cast<float>((*view_.range)[1])});
   for (const Event& event : scene.events)
     if (std::holds_alternative<CutTissue>(event.command)) cuts_.push_back(event);
 }
@@ -25,7 +27,7 @@ render::StrokeDrawing FrameDrawing::stroke() const {
 }
 
 render::Image FrameDrawing::draw(World& world, double ahead, double seconds, ComparisonRuns* comparison_runs) {
-  surface_mesh_ = make_surface_mesh(world, std::move(surface_mesh_));
+  surface_mesh_ = make_surface_mesh(world, std::move(surface_mesh_), view_.hidden);
   fill_frame(world, surface_mesh_, view_.field, ahead, frame_, panel_ && panel_->wants_stretches());
   if (view_.section || skin_.exists()) fill_solid(world, ahead, solid_, frame_);
   skin_.attach(frame_);

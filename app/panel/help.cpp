@@ -12,7 +12,8 @@ namespace {
 constexpr std::pair<const char*, const char*> mouse[] = {
     {"Left, on the body", "use the tool (grasper: hold and pull)"},
     {"Left on a clamp, with the grasper", "take it up again"},
-    {"Left on the background, or right", "orbit the camera"},
+    {"Left on the background, or right", "orbit the camera; right: about the tissue under the mouse"},
+    {"An end of the axes in the corner", "look along that axis"},
     {"Middle, or Shift + right", "pan the camera"},
     {"Wheel", "zoom"},
     {"Double click on the background", "fit the body into view"},

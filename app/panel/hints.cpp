@@ -29,6 +29,8 @@ std::vector<std::string> tool_hints(const Situation& now) {
     case Tool::suture:
       if (now.suture_begun) return {"click the other end of the thread", "Esc forgets the first"};
       return {"click one end of the thread", "right-drag to turn", with_key(Action::select_grasper, "to grasp")};
+    case Tool::measure:
+      return {"click points: 2 distance, 3 angle", "right-drag to turn", with_key(Action::select_grasper, "to grasp")};
     case Tool::remover:
       return {"click the tissue to remove it", "right-drag to turn", with_key(Action::undo, "brings it back")};
   }

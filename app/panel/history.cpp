@@ -5,7 +5,7 @@
 
 namespace heml::panel {
 
-void History::add(const Frame& frame) {
+void History::add(const Frame& frame, const Measured& measured) {
   constexpr double spacing = span / 240;
   if (frame.tick < latest_tick_) return;  // the timeline shows the past
   latest_tick_ = frame.tick;
@@ -30,6 +30,8 @@ void History::add(const Frame& frame) {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   reading.mesh_error = frame.mesh_error ? 100 * *frame.mesh_error : unknown;
   reading.time_error = frame.time_error ? 1e3 * frame.time_error->rms : unknown;
+  reading.measured = measured;
+  reading.measured.places.clear();
   readings_.push_back(reading);
   while (readings_.front().time < frame.time - span) readings_.pop_front();
 }

@@ -1,5 +1,6 @@
 #pragma once
 // The plotted values of the last seconds.
+#include <app/panel/measure.hpp>
 #include <deque>
 #include <heml/session/frame.hpp>
 
@@ -17,6 +18,7 @@ struct Reading {
   double volume = 1;                      ///< of the whole body, relative to rest
   double slowdown = 1;                    ///< wall seconds per simulated second
   double mesh_error = 0, time_error = 0;  ///< %, mm; NaN while not known
+  Measured measured;                      ///< without its places
   double total() const { return energies.kinetic + energies.elastic + energies.potential; }
 };
 
@@ -26,7 +28,7 @@ class History {
  public:
   static constexpr double span = 8;  ///< s
 
-  void add(const Frame& frame);
+  void add(const Frame& frame, const Measured& measured = {});
   const std::deque<Reading>& readings() const { return readings_; }  ///< ascending in time
 
  private:

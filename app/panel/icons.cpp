@@ -74,4 +74,14 @@ void draw_question(ImDrawList& list, ImVec2 c, float, ImU32 colour) {
   list.AddText({c.x - size.x / 2, c.y - size.y / 2}, colour, "?");
 }
 
+void draw_eye(ImDrawList& list, ImVec2 centre, float half, ImU32 colour, bool open) {
+  const float wide = 1.5f * half, high = 1.3f * half, line = 0.26f * half;
+  const ImVec2 left(centre.x - wide, centre.y), right(centre.x + wide, centre.y);
+  list.PathLineTo(left);
+  list.PathBezierQuadraticCurveTo({centre.x, centre.y + (open ? -1.6f : 1.2f) * high}, right, 16);
+  if (open) list.PathBezierQuadraticCurveTo({centre.x, centre.y + 1.6f * high}, left, 16);
+  list.PathStroke(colour, ImDrawFlags_None, line);
+  if (open) list.AddCircleFilled(centre, 0.5f * half, colour, 16);
+}
+
 }  // namespace heml::panel

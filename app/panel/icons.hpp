@@ -13,6 +13,7 @@ void draw_redo(ImDrawList& list, ImVec2 centre, float half, ImU32 colour);
 void draw_folder(ImDrawList& list, ImVec2 centre, float half, ImU32 colour);
 void draw_cross(ImDrawList& list, ImVec2 centre, float half, ImU32 colour);
 void draw_question(ImDrawList& list, ImVec2 centre, float half, ImU32 colour);
+void draw_eye(ImDrawList& list, ImVec2 centre, float half, ImU32 colour, bool open);
 
 // Tools, and what is done to the picture and the scene.
 void draw_forceps(ImDrawList& list, ImVec2 centre, float half, ImU32 colour);
@@ -22,6 +23,7 @@ void draw_pin(ImDrawList& list, ImVec2 centre, float half, ImU32 colour);
 void draw_probe(ImDrawList& list, ImVec2 centre, float half, ImU32 colour);
 void draw_needle(ImDrawList& list, ImVec2 centre, float half, ImU32 colour);
 void draw_eraser(ImDrawList& list, ImVec2 centre, float half, ImU32 colour);
+void draw_ruler(ImDrawList& list, ImVec2 centre, float half, ImU32 colour);
 void draw_table(ImDrawList& list, ImVec2 centre, float half, ImU32 colour);
 void draw_frame(ImDrawList& list, ImVec2 centre, float half, ImU32 colour);
 void draw_camera(ImDrawList& list, ImVec2 centre, float half, ImU32 colour);

@@ -23,7 +23,11 @@ enum Key : int {
   key_end,
   key_up,
   key_down,
-  key_enter
+  key_enter,
+  key_pad_1,
+  key_pad_3,
+  key_pad_5,
+  key_pad_7
 };
 
 enum class Modifier { none, shift, control, control_shift };

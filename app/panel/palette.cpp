@@ -35,6 +35,10 @@ constexpr ToolInfo tools[] = {
      Action::select_suture, draw_needle},
     {Tool::remover, "Remover", "Removes the tissue under the ring, one element deep.", Action::select_remover,
      draw_eraser},
+    {Tool::measure, "Measure",
+     "Clicks set up to three points that follow the tissue: field, distance, angle; area and volume of the piece. A "
+     "fourth point begins anew.",
+     Action::select_measure, draw_ruler},
 };
 
 struct Button {

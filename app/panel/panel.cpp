@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <app/panel/axes.hpp>
 #include <app/panel/help.hpp>
 #include <app/panel/icons.hpp>
 #include <app/panel/keys.hpp>
 #include <app/panel/legend.hpp>
+#include <app/panel/measure_section.hpp>
 #include <app/panel/panel.hpp>
 #include <app/panel/readings.hpp>
 #include <app/panel/undo_section.hpp>
@@ -29,8 +31,8 @@ std::string capitalised(std::string text) {
   return text;
 }
 
-/// "● Filming, 36 frames · V stops" in the upper right corner.
-void draw_film_sign(const Area& free, long frames) {
+/// "● Filming, 36 frames · V stops" in the upper right corner. Returns its lower edge, pixels.
+float draw_film_sign(const Area& free, long frames) {
   const std::string text = fmt::format("Filming, {} frames  ·  {} stops", frames, key_name(Action::record_video));
   const ImVec2 size = ImGui::CalcTextSize(text.c_str());
   const ImVec2 to(free.to.x - em(margin), em(margin) + size.y + em(0.7f));
@@ -40,20 +42,24 @@ void draw_film_sign(const Area& free, long frames) {
   list.AddRect(from, to, (colours::danger & 0x00ffffff) | 0x90000000, em(0.5f));
   list.AddCircleFilled({from.x + em(0.95f), (from.y + to.y) / 2}, em(0.36f), colours::danger, 20);
   list.AddText({from.x + em(1.7f), from.y + em(0.35f)}, colours::text, text.c_str());
+  return to.y;
 }
 
 bool two_columns(ImVec2 picture) { return picture.x >= em(two_columns_from); }
 
 }  // namespace
 
-Panel::Panel(const Scene& scene, const SurfaceMesh& surface_mesh, std::map<int, std::string> region_names)
+Panel::Panel(const Scene& scene, const SurfaceMesh& surface_mesh, std::map<int, std::string> region_names,
+             std::vector<int> regions)
     : title_(!scene.title.empty() ? scene.title : scene.name),
       description_(scene.description),
       tool_(static_cast<double>(render::bounding_sphere(surface_mesh.rest).radius), scene.gravity),
       mesh_(scene),
-      material_(scene.materials, std::move(region_names)),
+      material_(scene.materials, region_names),
       stretch_monitor_(surface_mesh),
       surface_version_(surface_mesh.version),
+      surface_hidden_(surface_mesh.hidden),
+      regions_(std::move(regions), std::move(region_names), scene.view.hidden),
       motion_(scene.gravity, scene.solver),
       view_(scene.view, surface_mesh) {
   for (const RegionMaterial& entry : scene.materials)
@@ -75,6 +81,11 @@ void Panel::set_interaction(Interaction interaction, bool suture_begun) {
   suture_begun_ = suture_begun;
 }
 
+void Panel::set_camera(const render::Camera& camera) {
+  camera_ = camera;
+  view_.set_orthographic(camera.is_orthographic());
+}
+
 void Panel::set_preferences(const Preferences& preferences) {
   view_.set_hints(preferences.hints);
   rows_.set_sections(preferences.sections);
@@ -87,14 +98,17 @@ void Panel::update_stretch_limits() {
 }
 
 void Panel::update_surface(const Frame& frame) {
-  if (!frame.surface_mesh || frame.surface_mesh->version == surface_version_) return;
+  if (!frame.surface_mesh) return;
+  if (frame.surface_mesh->version == surface_version_ && frame.surface_mesh->hidden == surface_hidden_) return;
   surface_version_ = frame.surface_mesh->version;
+  surface_hidden_ = frame.surface_mesh->hidden;
   stretch_monitor_ = StretchMonitor(*frame.surface_mesh);
   limited_changes_ = -1;
 }
 
 void Panel::update(const Frame& frame, float seconds) {
-  history_.add(frame);
+  measure_.update(frame);
+  history_.add(frame, measure_.now());
   report_refusal(frame);
   update_settings(frame);
   since_recovery_ += seconds;
@@ -104,6 +118,10 @@ void Panel::update(const Frame& frame, float seconds) {
     since_recovery_ = 0;
   }
   late_for_ = frame.paused || frame.pace.keeping_up ? 0 : late_for_ + seconds;
+  if (view_.fixed_range())
+    colour_range_.fix(*view_.fixed_range());
+  else
+    colour_range_.follow();
   range_ = colour_range_.update(frame.field, frame.values, seconds);
   view_.set_range(range_);
   update_surface(frame);
@@ -147,7 +165,10 @@ void Panel::write_into(Scene& scene) const {
   motion_.write_into(scene);
   scene.view.field = view_.field();
   scene.view.wireframe = view_.drawing().wireframe;
+  scene.view.orthographic = view_.is_orthographic();
   view_.section().write_into(scene.view);
+  view_.write_range_into(scene.view);
+  scene.view.hidden = regions_.hidden();
 }
 
 Insets Panel::insets(ImVec2 picture) const {
@@ -200,7 +221,8 @@ float Panel::draw_edges(const Frame& frame, Area& free, PanelActions& out) {
   Area& palette = rects_.emplace_back();
   draw_palette(rows_, {tool_.tool().tool, has_table, filmed_frames_}, free, pressed_, palette);
   const float width = palette.to.x - free.from.x;
-  if (filmed_frames_) draw_film_sign(free, *filmed_frames_);
+  const float sign = filmed_frames_ ? draw_film_sign(free, *filmed_frames_) : 0;
+  if (camera_) draw_axes(rows_, *camera_, free, sign, pressed_, rects_.emplace_back());
   if (!view_.hints()) return width;
   draw_hints(situation(frame), free);
   free.to.y -= hint_height();
@@ -272,6 +294,8 @@ void Panel::draw_controls(const Frame& frame, bool with_readings, PanelActions& 
     const float header_height = ImGui::GetCursorPosY();
     ImGui::BeginChild("sections", {0, 0}, false, ImGuiWindowFlags_NoNav);
     if (mesh_.is_shown() || !findings_.empty()) draw_findings(out);
+    if ((tool_.tool().tool == Tool::measure || !measure_.is_empty()) && rows_.section("Measure"))
+      draw_measure(rows_, measure_, history_, out);
     if (rows_.section("Material")) material_.draw(rows_, stretch_monitor_.share(), out);
     if (rows_.section("Motion")) motion_.draw(rows_, out);
     if (rows_.section("Tool")) tool_.draw(rows_, frame, out);
@@ -282,6 +306,7 @@ void Panel::draw_controls(const Frame& frame, bool with_readings, PanelActions& 
       if (rows_.section("Engine")) draw_engine(rows_, frame, history_);
       draw_accuracy(frame);
     }
+    if (regions_.has_choice() && rows_.section("Regions", false)) regions_.draw(rows_);
     if (rows_.section("View")) view_.draw(rows_, pressed_, out);
     if (rows_.section("Compare", false)) comparisons_.draw(rows_, frame, out);
     if (rows_.section("Actions", false)) draw_undo_list(rows_, frame, out);

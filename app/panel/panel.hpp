@@ -17,6 +17,7 @@
 #include <app/panel/hints.hpp>
 #include <app/panel/history.hpp>
 #include <app/panel/material_section.hpp>
+#include <app/panel/measure.hpp>
 #include <app/panel/mesh_section.hpp>
 #include <app/panel/motion_section.hpp>
 #include <app/panel/notices.hpp>
@@ -24,6 +25,7 @@
 #include <app/panel/palette.hpp>
 #include <app/panel/preferences.hpp>
 #include <app/panel/question.hpp>
+#include <app/panel/region_section.hpp>
 #include <app/panel/slow_body.hpp>
 #include <app/panel/stretch_monitor.hpp>
 #include <app/panel/timeline.hpp>
@@ -35,8 +37,10 @@ namespace heml::panel {
 
 class Panel {
  public:
-  /// Starts with the settings of the scene. region_names: of the mesh.
-  Panel(const Scene& scene, const SurfaceMesh& surface_mesh, std::map<int, std::string> region_names = {});
+  /// Starts with the settings of the scene. regions: of the mesh, ascending; empty: they are not told apart.
+  /// region_names: of the mesh.
+  Panel(const Scene& scene, const SurfaceMesh& surface_mesh, std::map<int, std::string> region_names = {},
+        std::vector<int> regions = {});
 
   /// Updates plots, colour range and stretch monitor; call before the body is drawn. seconds: wall time since the last
   /// call.
@@ -59,6 +63,11 @@ class Panel {
   void set_findings(std::vector<std::string> findings);
   void set_choices(OpenChoices choices) { dialog_.set_choices(std::move(choices)); }  ///< entries of the open dialog
   void set_timeline(const Timeline& timeline) { timeline_ = timeline; }               ///< shows its bar from now on
+  /// Shows its axes in the corner of the image from now on.
+  void set_camera(const render::Camera& camera);
+  const std::vector<int>& hidden_regions() const { return regions_.hidden(); }  ///< ascending
+  Measure& measure() { return measure_; }
+  const Measure& measure() const { return measure_; }
   ViewSection& view() { return view_; }
   const ViewSection& view() const { return view_; }
   /// What the mouse does, and whether the first end of a suture is set: for the hints.
@@ -119,6 +128,8 @@ class Panel {
   StretchMonitor stretch_monitor_;
   long surface_version_;      ///< SurfaceMesh::version that stretch_monitor_ is of
   int limited_changes_ = -1;  ///< MaterialSection::changes() that stretch_monitor_ is of
+  std::vector<int> surface_hidden_;  ///< SurfaceMesh::hidden that it is of
+  RegionSection regions_;
   MotionSection motion_;
   ViewSection view_;
   CompareSection comparisons_;
@@ -126,8 +137,10 @@ class Panel {
   OpenDialog dialog_;
   Question question_;
   std::optional<Timeline> timeline_;
+  std::optional<render::Camera> camera_;
   Rows rows_;
   History history_;
+  Measure measure_;
   render::ColourRange colour_range_;
   render::Range range_;
   std::vector<Action> pressed_;   ///< queued for the next draw()

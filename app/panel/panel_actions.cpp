@@ -101,6 +101,9 @@ void Panel::carry_out(Action action, const Frame& frame, PanelActions& out) {
     case Action::select_remover:
       tool_.select(Tool::remover);
       return;
+    case Action::select_measure:
+      tool_.select(Tool::measure);
+      return;
     case Action::toggle_table:
       return tool_.toggle_table(frame, out);
     case Action::undo:
@@ -122,6 +125,17 @@ void Panel::carry_out(Action action, const Frame& frame, PanelActions& out) {
     case Action::save_view_3:
     case Action::save_view_4:
       out.save_view = static_cast<std::size_t>(action) - static_cast<std::size_t>(Action::save_view_1);
+      return;
+    case Action::look_front:
+    case Action::look_back:
+    case Action::look_left:
+    case Action::look_right:
+    case Action::look_top:
+    case Action::look_bottom:
+      out.look = static_cast<StandardView>(static_cast<int>(action) - static_cast<int>(Action::look_front));
+      return;
+    case Action::orthographic:
+      out.orthographic = !view_.is_orthographic();
       return;
     case Action::quit:
       return ask(Request::quit);

@@ -16,7 +16,7 @@ struct Axis {
 std::string text_of(double value, std::string_view unit) {
   if (!std::isfinite(value)) return "–";
   if (unit.empty()) return fmt::format("{:.3f}", value);
-  const bool takes_prefix = unit != "%" && unit != "×" && unit != "mm";
+  const bool takes_prefix = unit != "%" && unit != "×" && unit != "mm" && unit != "°";
   return takes_prefix ? quantity(value, unit) : fmt::format("{:.3g} {}", value, unit);
 }
 

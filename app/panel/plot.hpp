@@ -14,7 +14,7 @@ struct Curve {
 };
 
 struct PlotStyle {
-  std::string_view unit;  ///< of the values: SI, or "", "%", "×", "mm", which take no prefix
+  std::string_view unit;  ///< of the values: SI, or "", "%", "×", "mm", "°", which take no prefix
   double base = 0;        ///< a value that is always within the plot
   double min_range = 0;   ///< of the vertical axis; keeps noise from filling the plot
   float height = 4.2f;    ///< em

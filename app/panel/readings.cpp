@@ -76,7 +76,7 @@ void draw_volume(Rows& rows, const Frame& frame, const History& history) {
   if (frame.surface_mesh) {
     const double now = enclosed_volume(*frame.surface_mesh, frame.positions),
                  rest = enclosed_volume(*frame.surface_mesh);
-    rows.value({"Body volume", "Volume of the body, cm³, and relative to rest."},
+    rows.value({"Body volume", "Volume of the shown regions, cm³, and relative to rest."},
                fmt::format("{:.4g} cm³, {:.1f} %", now * 1e6, 100 * now / rest), total_colour);
   }
   rows.value({"Min J", "Smallest volume ratio of a tetrahedron; 0 or less: inverted."},

@@ -97,6 +97,12 @@ void draw_eraser(ImDrawList& list, ImVec2 centre, float half, ImU32 colour) {
   pen.line({{0.05f, 0.85f}, {0.95f, 0.85f}}, 0.2f);
 }
 
+void draw_ruler(ImDrawList& list, ImVec2 centre, float half, ImU32 colour) {
+  const Pen pen(list, centre, half, colour);
+  pen.line({{-1.1f, 0.5f}, {0.5f, -1.1f}, {1.1f, -0.5f}, {-0.5f, 1.1f}}, 0.2f, true);
+  for (const float k : {-0.4f, 0.0f, 0.4f}) pen.line({{k - 0.3f, -k - 0.3f}, {k, -k}}, 0.16f);
+}
+
 void draw_table(ImDrawList& list, ImVec2 centre, float half, ImU32 colour) {
   const Pen pen(list, centre, half, colour);
   pen.disc({0, -0.35f}, 0.46f);

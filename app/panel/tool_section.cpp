@@ -81,6 +81,9 @@ void ToolSection::draw_settings(Rows& rows) {
       rows.value({"Suture", "A thread has no settings: it draws its ends together within half a second."},
                  "no settings");
       return;
+    case Tool::measure:
+      rows.value({"Measure", "The section above shows what is measured."}, "no settings");
+      return;
     case Tool::grasper:
     case Tool::pin:
     case Tool::remover:

@@ -39,7 +39,10 @@ nb::object render_world(LiveWorld& live, nb::object given_size, const nb::kwargs
   const render::Size size = size_from(given_size);
   Scene scene = live.scene();
   Json keys = view_json(scene.view);
-  keys.update(json_from(view, "view"));
+  const Json asked = json_from(view, "view");
+  if (asked.contains("side"))  // stands for both
+    for (const char* angle : {"azimuth", "elevation"}) keys.erase(angle);
+  keys.update(asked);
   scene.view = view_from(JsonCursor(keys, "view"));
   render::Image image;
   {
@@ -58,8 +61,9 @@ nb::object render_world(LiveWorld& live, nb::object given_size, const nb::kwargs
 void bind_render(nb::module_& module) {
   module.def("render", &render_world, "world"_a, "size"_a = nb::make_tuple(1280, 720), "view"_a,
              "A picture of a world as `heml capture` draws it, without a display: (height, width, 3) uint8, sRGB, rows "
-             "from the top. view: keys of a scene's `view` (azimuth and elevation in degrees, zoom, field, wireframe), "
-             "in place of the scene's own. Needs libOSMesa.");
+             "from the top. view: keys of a scene's `view` (azimuth and elevation in degrees, or side: 'front', "
+             "'back', 'left', 'right', 'top' or 'bottom'; zoom, orthographic, field, wireframe), in place of the scene's "
+             "own. Needs libOSMesa.");
 }
 
 }  // namespace heml::python

@@ -10,6 +10,7 @@ namespace {
 constexpr float degree = std::numbers::pi_v<float> / 180;
 constexpr float field_of_view = 30 * degree;  // vertical; narrow, as a portrait lens
 constexpr float margin = 1.22f;               // air round the fitted ball
+constexpr float far_eye = 1000;               // distances from an orthographic camera's target to its eye
 
 }  // namespace
 
@@ -30,7 +31,13 @@ void Camera::look(float azimuth, float elevation) {
 
 void Camera::orbit(float azimuth, float elevation) {
   azimuth_ = std::remainder(azimuth_ + azimuth, 360 * degree);
-  elevation_ = std::clamp(elevation_ + elevation, -89 * degree, 89 * degree);
+  elevation_ = std::clamp(elevation_ + elevation, -90 * degree, 90 * degree);
+}
+
+void Camera::orbit(float azimuth, float elevation, const Vec3f& pivot) {
+  const Vec3f arm = target_ - pivot, seen(arm.dot(right()), arm.dot(up()), arm.dot(backward()));
+  orbit(azimuth, elevation);
+  target_ = pivot + seen.x() * right() + seen.y() * up() + seen.z() * backward();
 }
 
 void Camera::pan(float right_fraction, float up_fraction) {
@@ -44,7 +51,10 @@ Vec3f Camera::backward() const {
   return {std::cos(elevation_) * std::sin(azimuth_), std::sin(elevation_), std::cos(elevation_) * std::cos(azimuth_)};
 }
 
-Vec3f Camera::eye() const { return target_ + distance_ * backward(); }
+Vec3f Camera::eye() const { return orthographic_ ? target_ + far_eye * distance_ * backward() : viewpoint(); }
+
+// Wide enough for the ground; so wide that the depth offsets of lines and outlines are as long as in perspective.
+float Camera::half_depth() const { return 10 * distance_ + 12 * radius_; }
 
 Vec3f Camera::right() const { return {std::cos(azimuth_), 0, -std::sin(azimuth_)}; }
 
@@ -55,15 +65,23 @@ Mat4f Camera::view() const {
   matrix.block<1, 3>(0, 0) = right().transpose();
   matrix.block<1, 3>(1, 0) = up().transpose();
   matrix.block<1, 3>(2, 0) = backward().transpose();
-  matrix.block<3, 1>(0, 3) = -matrix.block<3, 3>(0, 0) * eye();
+  matrix.block<3, 1>(0, 3) = -matrix.block<3, 3>(0, 0) * viewpoint();
   return matrix;
 }
 
 Mat4f Camera::projection(Size size) const {
-  const float near = 0.05f * distance_;
-  const float far = distance_ + 40 * radius_;
   const float cotangent = 1 / std::tan(field_of_view / 2);
   Mat4f matrix = Mat4f::Zero();
+  if (orthographic_) {
+    matrix(0, 0) = cotangent / distance_ / size.aspect();
+    matrix(1, 1) = cotangent / distance_;
+    matrix(2, 2) = -1 / half_depth();
+    matrix(2, 3) = -distance_ / half_depth();
+    matrix(3, 3) = 1;
+    return matrix;
+  }
+  const float near = 0.05f * distance_;
+  const float far = distance_ + 40 * radius_;
   matrix(0, 0) = cotangent / size.aspect();
   matrix(1, 1) = cotangent;
   matrix(2, 2) = (far + near) / (near - far);
@@ -76,7 +94,9 @@ Ray Camera::ray(float x, float y, Size size) const {
   const float half_height = std::tan(field_of_view / 2);
   const float across = (2 * x / static_cast<float>(size.width) - 1) * half_height * size.aspect();
   const float upward = (1 - 2 * y / static_cast<float>(size.height)) * half_height;
-  return {eye(), (across * right() + upward * up() - backward()).normalized()};
+  if (orthographic_)
+    return {target_ + distance_ * (across * right() + upward * up()) + half_depth() * backward(), -backward()};
+  return {viewpoint(), (across * right() + upward * up() - backward()).normalized()};
 }
 
 Vec2f Camera::pixel(const Vec3f& point, Size size) const {
@@ -89,6 +109,13 @@ Vec3f Camera::drag(float x, float y, Size size, const Vec3f& point) const {
   const Ray through = ray(x, y, size);
   const float depth = (point - through.origin).dot(backward()) / through.direction.dot(backward());
   return through.origin + depth * through.direction;
+}
+
+Vec3f direction_of(StandardView view) {
+  Camera camera;
+  const ViewAngles angles = angles_of(view);
+  camera.look(static_cast<float>(angles.azimuth) * degree, static_cast<float>(angles.elevation) * degree);
+  return camera.backward();
 }
 
 }  // namespace heml::render

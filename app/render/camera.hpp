@@ -2,6 +2,7 @@
 // A camera that orbits a target, with y up. Pixel coordinates start at the top left corner.
 #include <app/render/image.hpp>
 #include <heml/math/types.hpp>
+#include <heml/scenario/standard_view.hpp>
 
 namespace heml::render {
 
@@ -19,12 +20,18 @@ class Camera {
   void fit(const Vec3f& centre, float radius, Size size);
 
   void look(float azimuth, float elevation);   ///< sets the angles, rad; 0, 0: along −z
-  void orbit(float azimuth, float elevation);  ///< adds to the angles, rad; elevation stays within ±89°
+  void orbit(float azimuth, float elevation);  ///< adds to the angles, rad; elevation stays within ±90°
+  /// The same about a point (m), which stays where it is in the picture.
+  void orbit(float azimuth, float elevation, const Vec3f& pivot);
   void pan(float right, float up);             ///< moves eye and target by fractions of the visible height
   void zoom(float factor);                     ///< multiplies the distance; stays between 0.2 and 50 radii
 
+  void set_orthographic(bool on) { orthographic_ = on; }  ///< what lies at the target keeps its size
+  bool is_orthographic() const { return orthographic_; }
+
   const Vec3f& target() const { return target_; }
-  Vec3f eye() const;                                 ///< m
+  Vec3f backward() const;                            ///< unit, from the target to the eye
+  Vec3f eye() const;                                 ///< m; of an orthographic camera: far away, for directions alone
   Vec3f right() const;                               ///< unit, along the picture's x axis
   Vec3f up() const;                                  ///< unit, against the picture's y axis
   Mat4f view() const;                                ///< world to eye space, OpenGL's convention
@@ -35,12 +42,17 @@ class Camera {
   Vec3f drag(float x, float y, Size size, const Vec3f& point) const;
 
  private:
-  Vec3f backward() const;  // unit, from target to eye
+  Vec3f viewpoint() const { return target_ + distance_ * backward(); }
+  float half_depth() const;  // m, of what an orthographic camera shows before and behind the target
 
   Vec3f target_ = Vec3f::Zero();
   float radius_ = 1;    // of the ball last fitted, m
   float distance_ = 4;  // eye to target, m
   float azimuth_ = 0, elevation_ = 0;
+  bool orthographic_ = false;
 };
+
+/// Unit, from the body to the eye.
+Vec3f direction_of(StandardView view);
 
 }  // namespace heml::render

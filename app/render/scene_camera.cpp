@@ -12,6 +12,7 @@ Camera camera_for(const View& view, const SurfaceMesh& surface_mesh, Size size) 
   camera.look(static_cast<float>(view.azimuth.value_or(24) * degree),
               static_cast<float>(view.elevation.value_or(20) * degree));
   if (view.zoom) camera.zoom(static_cast<float>(1 / *view.zoom));
+  camera.set_orthographic(view.orthographic);
   return camera;
 }
 

@@ -47,13 +47,15 @@ void FrameHistory::cut_after(long tick) {
 }
 
 void FrameHistory::share(const Frame& frame) {
+  const auto is_same = [](const Frame& a, const Frame& b) {
+    return a.surface_mesh->version == b.surface_mesh->version && a.surface_mesh->hidden == b.surface_mesh->hidden;
+  };
   for (Frame& seen : frames_) {
-    if (seen.surface_mesh->version == frame.surface_mesh->version) seen.surface_mesh = frame.surface_mesh;
+    if (is_same(seen, frame)) seen.surface_mesh = frame.surface_mesh;
     for (std::size_t k = 0; k < std::min(seen.comparisons.size(), frame.comparisons.size()); ++k) {
       Frame& body = seen.comparisons[k];
       const Frame& same = frame.comparisons[k];
-      if (body.variant == same.variant && body.surface_mesh->version == same.surface_mesh->version)
-        body.surface_mesh = same.surface_mesh;
+      if (body.variant == same.variant && is_same(body, same)) body.surface_mesh = same.surface_mesh;
     }
   }
 }

@@ -51,6 +51,14 @@ int panel_key(int key, int scancode) {
     case GLFW_KEY_ENTER:
     case GLFW_KEY_KP_ENTER:
       return panel::key_enter;
+    case GLFW_KEY_KP_1:
+      return panel::key_pad_1;
+    case GLFW_KEY_KP_3:
+      return panel::key_pad_3;
+    case GLFW_KEY_KP_5:
+      return panel::key_pad_5;
+    case GLFW_KEY_KP_7:
+      return panel::key_pad_7;
     case GLFW_KEY_KP_DECIMAL:
       return '.';
     default:

@@ -21,7 +21,7 @@ bool MouseTool::press(MouseButton button, const render::Vec2f& at, bool shift, c
   if (button == MouseButton::left && tool.tool == panel::Tool::grasper)
     if (const auto clamp = clamp_at(at, frame, surface_mesh, controller_))
       return !take_up(*clamp, at, frame, surface_mesh, out);
-  if (button == MouseButton::left)
+  if (button == MouseButton::left && tool.tool != panel::Tool::measure)
     if (const auto hit = pick(at, frame, surface_mesh)) {
       if (tool.tool == panel::Tool::grasper) return !grasp(*hit, frame, surface_mesh, tool.radius, out);
       if (tool.tool == panel::Tool::pin) return !pin(*hit, frame, surface_mesh, tool.radius, out);
@@ -35,16 +35,20 @@ bool MouseTool::press(MouseButton button, const render::Vec2f& at, bool shift, c
       begin_probing(*hit, tool, at, out);
       return false;
     }
-  press_background(button, at, shift);
+  press_background(button, at, shift, frame, surface_mesh);
   return false;
 }
 
-void MouseTool::press_background(MouseButton button, const render::Vec2f& at, bool shift) {
+void MouseTool::press_background(MouseButton button, const render::Vec2f& at, bool shift, const Frame& frame,
+                                 const SurfaceMesh& surface_mesh) {
   if (interaction_ != Interaction::none) return;
   button_ = button;
   last_ = at;
   const bool pans = button == MouseButton::middle || (button == MouseButton::right && shift);
   interaction_ = pans ? Interaction::panning : Interaction::orbiting;
+  pivot_.reset();
+  if (pans || button != MouseButton::right) return;
+  if (const auto hit = pick(at, frame, surface_mesh)) pivot_ = hit->point;
 }
 
 /// A corner of the hit triangle that is not constrained, the nearest if possible; none if all are.
@@ -247,7 +251,7 @@ void MouseTool::move(const render::Vec2f& at, const Frame& frame, const SurfaceM
   const render::Vec2f travel = at - last_;
   last_ = at;
   if (travel == render::Vec2f::Zero()) return;
-  if (interaction_ == Interaction::orbiting) controller_.orbit(travel.x(), travel.y());
+  if (interaction_ == Interaction::orbiting) controller_.orbit(travel.x(), travel.y(), pivot_);
   if (interaction_ == Interaction::panning) controller_.pan(travel.x(), travel.y());
   if (interaction_ == Interaction::probing) out.emplace_back(probe_at(at));
   if (interaction_ == Interaction::snipping) scissors_.drag(at, {frame, surface_mesh, section_}, out);

@@ -26,8 +26,9 @@ class MouseTool {
   /// constrained.
   bool press(MouseButton button, const render::Vec2f& at, bool shift, const Frame& frame,
              const SurfaceMesh& surface_mesh, const panel::ToolSettings& tool, std::vector<Command>& out);
-  /// The same off the body: the camera orbits or pans.
-  void press_background(MouseButton button, const render::Vec2f& at, bool shift);
+  /// The same without a tool: the camera orbits or pans. A right drag that begins on tissue orbits about that point.
+  void press_background(MouseButton button, const render::Vec2f& at, bool shift, const Frame& frame,
+                        const SurfaceMesh& surface_mesh);
   /// Moves the grasp, the probe or the camera; a blade cuts on from its last position.
   void move(const render::Vec2f& at, const Frame& frame, const SurfaceMesh& surface_mesh, std::vector<Command>& out);
   /// Pushes an active probe deeper by notches of the wheel (negative: back). Returns false without a probe.
@@ -64,6 +65,8 @@ class MouseTool {
   }
   /// Scalpel or scissors and their line while they cut, as the tissue lies in a frame; empty otherwise.
   render::StrokeDrawing stroke(const Frame& frame, const SurfaceMesh& surface_mesh) const;
+  /// What the camera turns about while it orbits, m; none: the middle of the view.
+  std::optional<Vec3f> pivot() const { return interaction_ == Interaction::orbiting ? pivot_ : std::nullopt; }
   /// The point of the surface under a pixel.
   std::optional<render::Hit> pick(const render::Vec2f& at, const Frame& frame, const SurfaceMesh& surface_mesh) const;
 
@@ -89,6 +92,7 @@ class MouseTool {
   Interaction interaction_ = Interaction::none;
   MouseButton button_ = MouseButton::left;      // that began interaction_
   render::Vec2f last_ = render::Vec2f::Zero();  // of the mouse, pixels
+  std::optional<Vec3f> pivot_;                  // m, of the orbit
   Vec3f anchor_ = Vec3f::Zero();                // m, of the surface, where the tool began
   Vec3f tool_offset_ = Vec3f::Zero();           // m, from there to the tool of the grasp
   Vec3f hand_offset_ = Vec3f::Zero();           // m, from there to where the hand is drawn

@@ -2,6 +2,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <app/panel/measure_section.hpp>
 #include <app/panel/quantity.hpp>
 #include <app/panel/theme.hpp>
 #include <app/window/overlay.hpp>
@@ -102,6 +103,35 @@ void draw_suture_end(int node, const Frame& frame, const SurfaceMesh& surface_me
   if (!at.allFinite()) return;
   ImGui::GetBackgroundDrawList()->AddCircle({at.x(), at.y()}, panel::em(0.45f), panel::colours::warning, 16,
                                             panel::em(0.16f));
+}
+
+void draw_measured(const panel::Measured& measured, const panel::CameraController& controller) {
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  std::vector<ImVec2> line;
+  for (const Vec3f& place : measured.places) {
+    const render::Vec2f at = controller.pixel(place);
+    if (!at.allFinite()) return;
+    line.emplace_back(at.x(), at.y());
+  }
+  list.AddPolyline(line.data(), static_cast<int>(line.size()), panel::colours::background, ImDrawFlags_None,
+                   panel::em(0.3f));
+  list.AddPolyline(line.data(), static_cast<int>(line.size()), panel::colours::warning, ImDrawFlags_None,
+                   panel::em(0.14f));
+  for (const ImVec2& at : line) {
+    list.AddCircleFilled(at, panel::em(0.3f), panel::colours::background, 20);
+    list.AddCircleFilled(at, panel::em(0.2f), panel::colours::warning, 20);
+  }
+  const std::string text = panel::measured_text(measured);
+  if (text.empty()) return;
+  draw_label((measured.places[0] + measured.places[1]) / 2, text, panel::colours::warning, controller);
+}
+
+void draw_pivot(const Vec3f& point, const panel::CameraController& controller) {
+  const render::Vec2f at = controller.pixel(point);
+  if (!at.allFinite()) return;
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  list.AddCircleFilled({at.x(), at.y()}, panel::em(0.18f), panel::colours::accent, 16);
+  list.AddCircle({at.x(), at.y()}, panel::em(0.5f), panel::colours::accent, 24, panel::em(0.1f));
 }
 
 void draw_bad_element(const Frame& frame, const panel::CameraController& controller) {

@@ -1,6 +1,7 @@
 #pragma once
 // Marks over the image, under the panel: ring of the tool, field value, forces, suture end, bad element.
 #include <app/panel/camera_controller.hpp>
+#include <app/panel/measure.hpp>
 #include <app/render/field_colours.hpp>
 #include <app/render/grasp_pose.hpp>
 #include <app/render/pick.hpp>
@@ -23,6 +24,12 @@ void draw_forces(const Frame& frame, const std::optional<render::Hold>& hold,
 /// The first end of an unfinished suture. node: mesh-file number.
 void draw_suture_end(int node, const Frame& frame, const SurfaceMesh& surface_mesh,
                      const panel::CameraController& controller);
+
+/// The points of a measure and their lines, with the numbers beside them.
+void draw_measured(const panel::Measured& measured, const panel::CameraController& controller);
+
+/// The point (m) that the camera turns about.
+void draw_pivot(const Vec3f& point, const panel::CameraController& controller);
 
 /// The edges of the first bad element of a frame's recovery, drawn over the body.
 void draw_bad_element(const Frame& frame, const panel::CameraController& controller);

@@ -40,13 +40,17 @@ void Viewer::adopt(OpenScene opened) {
   open_ = std::move(opened);
   if (!open_.resumed) as_opened_ = open_.scene;
   frame_ = live_ = &open_.session->latest();
-  panel_.emplace(open_.scene, *frame_->surface_mesh, open_.session->region_names());
+  const panel::Measure measure = open_.resumed && panel_ ? panel_->measure() : panel::Measure();
+  panel_.emplace(open_.scene, *frame_->surface_mesh, open_.session->region_names(),
+                 open_.session->regions());
+  panel_->measure() = measure;
   panel_->set_preferences(preferences_);
   panel_->set_findings(open_.findings);
   next_event_ = 0;
   update_title();
   if (open_.resumed) return;
   controller_.clear_views();
+  controller_.set_orthographic(open_.scene.view.orthographic);
   fit();
 }
 
@@ -58,7 +62,9 @@ void Viewer::update_title() {
 
 void Viewer::fit() {
   const render::Size size = window_.size();
-  controller_.fit(open_.scene.view, *frame_->surface_mesh, size,
+  View view = open_.scene.view;
+  view.orthographic = controller_.is_orthographic();
+  controller_.fit(view, *frame_->surface_mesh, size,
                   panel_->insets({static_cast<float>(size.width), static_cast<float>(size.height)}),
                   panel::body_count(*frame_));
 }
@@ -106,13 +112,15 @@ void Viewer::draw() {
   panel_->set_interaction(mouse_tool_.interaction(), mouse_tool_.first_end().has_value());
   panel_->update(*frame_, seconds);
   open_.session->enable_stretches(panel_->wants_stretches());
-  open_.session->enable_solid(panel_->view().section().is_on());
+  open_.session->hide_regions(panel_->hidden_regions());
+  open_.session->enable_solid(panel_->view().section().is_on() || !panel_->measure().is_empty());
   mouse_tool_.set_section(panel_->drawing().section);
   open_.session->enable_errors(panel_->wants_errors());
   const render::Size size = window_.size();
   interface_.set_scale(panel::Interface::suitable_scale(size) * window_.content_scale());
   controller_.resize(size, panel_->insets({static_cast<float>(size.width), static_cast<float>(size.height)}),
                      panel::body_count(*frame_));
+  panel_->set_camera(controller_.camera());
   render::DrawOptions drawing = panel_->drawing();
   drawing.hold = mouse_tool_.hold();
   drawing.stroke = mouse_tool_.stroke(seen(), *seen().surface_mesh);
@@ -147,7 +155,8 @@ void Viewer::remember_preferences() {
 }
 
 void Viewer::draw_marks() {
-  panel::each_pane(*frame_, controller_, [&](std::size_t, const Frame& body) {
+  panel::each_pane(*frame_, controller_, [&](std::size_t pane, const Frame& body) {
+    if (pane == 0) draw_measured(panel_->measure().now(), controller_);
     draw_forces(body, mouse_tool_.hold(), controller_);
     if (mouse_tool_.first_end()) draw_suture_end(*mouse_tool_.first_end(), body, *body.surface_mesh, controller_);
     if (panel_->shows_recovery()) draw_bad_element(body, controller_);
@@ -158,6 +167,7 @@ void Viewer::draw_marks() {
       const panel::SectionControl& section = panel_->view().section();
       draw_section(*plane, section.handle(), section.radius(), drags_section_ || is_on_section_handle(), controller_);
     });
+  if (mouse_tool_.pivot()) draw_pivot(*mouse_tool_.pivot(), controller_);
   if (drags_section_ || is_on_section_handle()) return ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeAll);
   if (mouse_tool_.interaction() == MouseTool::Interaction::grasping)
     return ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeAll);
@@ -268,10 +278,12 @@ void Viewer::button(MouseButton button, bool down, bool shift) {
     drags_section_ = true;
     return;
   }
+  if (button == MouseButton::left && measures_at_mouse()) return;
   if (playback_.active() && button == MouseButton::left && mouse_tool_.pick(mouse_, seen(), *seen().surface_mesh))
     panel_->notify(past_is_read_only);
   const bool has_other_surface = controller_.current() > 0 && !seen().distance;  // with other node numbers
-  if (playback_.active() || has_other_surface) return mouse_tool_.press_background(button, mouse_, shift);
+  if (playback_.active() || has_other_surface)
+    return mouse_tool_.press_background(button, mouse_, shift, seen(), *seen().surface_mesh);
   if (mouse_tool_.press(button, mouse_, shift, seen(), *seen().surface_mesh, panel_->tool(), commands))
     panel_->notify("These nodes are constrained by the scene; pick others.");
   post(commands);
@@ -281,6 +293,19 @@ void Viewer::button(MouseButton button, bool down, bool shift) {
   pressed_at_ = twice ? std::chrono::steady_clock::time_point{} : now;
   pressed_where_ = mouse_;
   if (twice) panel_->perform(panel::Action::fit);
+}
+
+/// Sets a point of the measure at the mouse; the timeline's past can be measured too. False: there is nothing to set.
+bool Viewer::measures_at_mouse() {
+  if (panel_->tool().tool != panel::Tool::measure || mouse_tool_.interaction() != MouseTool::Interaction::none)
+    return false;
+  const auto hit = mouse_tool_.pick(mouse_, seen(), *seen().surface_mesh);
+  if (!hit) return false;
+  if (controller_.current() > 0)
+    panel_->notify("The body itself is measured, not its comparison runs.");
+  else
+    panel_->measure().add(render::surface_point(*hit, seen(), *seen().surface_mesh));
+  return true;
 }
 
 void Viewer::mouse(const render::Vec2f& at) {

@@ -88,6 +88,8 @@ class Viewer final : public WindowEvents {
   void notify_saved(const std::string& text, const std::filesystem::path& folder);
   void save_screenshot();
   void save_scene();
+  void save_measured();
+  bool measures_at_mouse();
   void toggle_recording();
   void add_video_frame();
   void use_view(const panel::PanelActions& actions);

@@ -47,7 +47,7 @@ void Viewer::carry_out(const panel::PanelActions& actions) {
   if (actions.comparisons) compare(*actions.comparisons);
   if (!actions.commands.empty() || !actions.requests.empty() || actions.answer || actions.show || actions.seek_to ||
       actions.list_folder || actions.open || actions.mesh_options || actions.comparisons || actions.view ||
-      actions.save_view)
+      actions.save_view || actions.look || actions.orthographic)
     changed();
 }
 
@@ -84,6 +84,8 @@ void Viewer::carry_out(panel::Request request) {
       return leave_clamp();
     case panel::Request::remove:
       return remove_tissue();
+    case panel::Request::save_measured:
+      return save_measured();
     case panel::Request::quit:
       return ask_to_quit();
   }
@@ -131,7 +133,10 @@ void Viewer::resume_with(const std::vector<std::string>& comparisons) {
   scene.view = open_.scene.view;
   scene.view.field = frame_->field;
   scene.view.wireframe = panel_->drawing().wireframe;
+  scene.view.orthographic = controller_.is_orthographic();
   panel_->view().section().write_into(scene.view);
+  panel_->view().write_range_into(scene.view);
+  scene.view.hidden = panel_->hidden_regions();
   std::optional<std::filesystem::path> record = options_.record;
   if (!record && open_.was_recorded) record = open_.scene.file;
   playback_.play(false);
@@ -216,6 +221,16 @@ void Viewer::save_scene() {
   }
 }
 
+void Viewer::save_measured() {
+  try {
+    const auto path = unused_path(open_.scene.name + "-measured", ".csv");
+    write_file(path, panel_->measure().csv());
+    notify_saved("Saved " + path.string(), path.parent_path());
+  } catch (const InputError& error) {
+    panel_->notify(error.what());
+  }
+}
+
 void Viewer::toggle_recording() {
   if (video_recorder_ && video_recorder_->is_finishing())
     return panel_->notify("The last video is still being encoded.");
@@ -251,6 +266,8 @@ void Viewer::use_view(const panel::PanelActions& actions) {
     controller_.save_view(*actions.save_view);
     panel_->notify(fmt::format("View {} saved: F{} restores it.", *actions.save_view + 1, *actions.save_view + 5));
   }
+  if (actions.look) controller_.look(*actions.look);
+  if (actions.orthographic) controller_.set_orthographic(*actions.orthographic);
   if (actions.view && !controller_.restore_view(*actions.view))
     panel_->notify(fmt::format("No view saved there: Ctrl+F{} saves one.", *actions.view + 5));
 }

@@ -86,10 +86,13 @@ struct SkinSpec {
 struct View {
   std::optional<double> azimuth, elevation;  ///< degrees
   std::optional<double> zoom;                ///< 1: the body fills the image
+  bool orthographic = false;                 ///< without perspective
   Field field = Field::none;
   bool wireframe = false;
   std::optional<Vec3> section;  ///< unit normal of the section plane, towards what is cut away; none: no plane
   double section_at = 0;        ///< m, of the plane along its normal, from the centre of the body at rest
+  std::vector<int> hidden = {};              ///< regions that are not drawn, ascending
+  std::optional<std::array<double, 2>> range = {};  ///< of the colours, in the field's unit; none: of the values
 };
 
 /// Hash of a recorded world's state after `tick` ticks, before the commands of the next.

@@ -5,6 +5,7 @@
 #include <heml/materials/material.hpp>
 #include <heml/scenario/key_table.hpp>
 #include <heml/scenario/solver_json.hpp>
+#include <heml/scenario/standard_view.hpp>
 #include <heml/scenario/view_json.hpp>
 #include <heml/world/field_list.hpp>
 
@@ -222,12 +223,17 @@ inline constexpr KeyInfo initial[] = {
 inline constexpr KeyInfo view[] = {
     {"azimuth", form::between(-360, 360), "°", "the window's own", "of the camera, about the vertical"},
     {"elevation", form::between(-90, 90), "°", "the window's own", "of the camera, above the horizon"},
+    {"side", form::one_of<standard_view_names>(), "", "none",
+     "that faces the camera, in place of `azimuth` and `elevation`"},
     {"zoom", form::between(0.01, 100), "", "1", "1: the body fills the picture"},
+    {"orthographic", form::flag, "", "`false`", "without perspective"},
     {"field", form::one_of<field_names>(), "", "", "colours of the surface"},
     {"wireframe", form::flag, "", "", "edges of the mesh"},
     {"section", form::direction, "", "no section",
      "normal of a plane that cuts the drawn body open, towards what is left out; normalised when read"},
     {"section_at", form::number, "m", "0", "of that plane along its normal, from the centre of the body at rest"},
+    {"range", form::other("[low, high]"), "the field's", "of the values shown", "of the colours"},
+    {"hidden", form::other("list of whole numbers"), "", "none", "regions that are not drawn"},
 };
 inline constexpr KeyInfo recorded[] = {
     {"nodes", count, "", required, "of the mesh"},

@@ -82,7 +82,7 @@ void ComparisonRuns::fill(const World& world, Frame& frame, double ahead) {
   for (std::size_t k = 0; k < comparison_runs_.size(); ++k) {
     ComparisonRun& run = comparison_runs_[k];
     Frame& comparisons = frame.comparisons[k];
-    run.surface_mesh = make_surface_mesh(*run.world, std::move(run.surface_mesh));
+    run.surface_mesh = make_surface_mesh(*run.world, std::move(run.surface_mesh), frame.surface_mesh->hidden);
     fill_frame(*run.world, run.surface_mesh, frame.field, ahead, comparisons);
     if (frame.solid)
       fill_solid(*run.world, ahead, run.solid, comparisons);

@@ -14,6 +14,7 @@ namespace heml {
 /// version, on which a viewer rebuilds its buffers. Indices are into SurfaceMesh::nodes.
 struct SurfaceMesh {
   long version = 0;                                    ///< Topology::version
+  std::vector<int> hidden = {};                        ///< regions that are left out, ascending
   std::vector<int> nodes;                              ///< #S: mesh-file numbers of the surface's nodes
   std::vector<Vec3f> rest;                             ///< #S×3, m
   std::vector<Triangle> triangles;                     ///< #F×3, outward
@@ -21,6 +22,7 @@ struct SurfaceMesh {
   std::vector<int> elements;                           ///< #F: its mesh-file number
   std::vector<int> constrained;                        ///< indices of nodes with a boundary condition
   std::shared_ptr<const SurfaceMesh> whole = nullptr;  ///< before any element was removed; null: this one
+  std::size_t uncut_elements = 0;                      ///< of the mesh before any cut, shown or not
 };
 
 inline const SurfaceMesh& uncut_surface(const SurfaceMesh& surface_mesh) {
@@ -57,8 +59,9 @@ struct UndoList {
 /// The elements behind the surface, for pictures of the inside. Immutable and shared by frames.
 struct Solid {
   long version = 0;          ///< Topology::version
+  std::vector<int> hidden;   ///< regions that are left out, ascending
   std::vector<Vec3f> rest;   ///< #N×3, m, of all nodes of the mesh
-  std::vector<Tet> tets;     ///< #T: corners of the present elements, indices into `rest`
+  std::vector<Tet> tets;     ///< #T: corners of the present and shown elements, indices into `rest`
   std::vector<int> regions;  ///< #T
 };
 

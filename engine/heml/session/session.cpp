@@ -21,6 +21,7 @@
 #include <heml/session/thread_balance.hpp>
 #include <heml/session/undo_list.hpp>
 #include <mutex>
+#include <set>
 #include <thread>
 
 namespace heml {
@@ -39,16 +40,23 @@ static bool is_overtaken(const Command& command, const Command& next) {
   return probe && further && probe->path.size() == 1 && further->path.size() == 1;
 }
 
+static std::vector<int> regions_of(const TetMesh& mesh) {
+  const std::set<int> regions(mesh.regions.begin(), mesh.regions.end());
+  return {regions.begin(), regions.end()};
+}
+
 class Session::Impl {
  public:
   Impl(const Scene& scene, SessionOptions options)
       : options_(std::move(options)),
         world_(world_with_undo(scene)),
+        regions_(regions_of(world_->setup().mesh)),
         region_names_(world_->setup().mesh.region_names),
         skin_(load_skin(scene, world_->setup().mesh)),
         scene_(without_events(scene)),
         schedule_(scene, world_->setup().mesh),
         recorded_ticks_(scene.recorded_ticks.value_or(0)),
+        hidden_(scene.view.hidden),
         field_(scene.view.field),
         playing_(!options_.start_paused),
         fast_forward_target_(options_.fast_forward_to),
@@ -81,6 +89,7 @@ class Session::Impl {
   }
 
   // Called on the viewer's thread.
+  const std::vector<int>& regions() const { return regions_; }
   const std::map<int, std::string>& region_names() const { return region_names_; }
   void post(Command command) {
     {
@@ -124,6 +133,15 @@ class Session::Impl {
   }
   void enable_solid(bool wanted) {
     if (solid_wanted_.exchange(wanted) == wanted) return;
+    show_now_ = true;
+    wake_.notify_all();
+  }
+  void hide_regions(const std::vector<int>& regions) {
+    {
+      std::lock_guard lock(mutex_);
+      if (hidden_ == regions) return;
+      hidden_ = regions;
+    }
     show_now_ = true;
     wake_.notify_all();
   }
@@ -347,7 +365,11 @@ class Session::Impl {
   void publish() {
     const auto began = Pacer::Clock::now();
     Frame& frame = frames_.back();
-    surface_mesh_ = make_surface_mesh(*world_, std::move(surface_mesh_));
+    const std::vector<int> hidden = [&] {
+      std::lock_guard lock(mutex_);
+      return hidden_;
+    }();
+    surface_mesh_ = make_surface_mesh(*world_, std::move(surface_mesh_), hidden);
     fill_frame(*world_, surface_mesh_, field_, 0, frame, stretches_);
     if (solid_wanted_ || skin_.exists())
       fill_solid(*world_, 0, solid_, frame);
@@ -375,6 +397,7 @@ class Session::Impl {
 
   SessionOptions options_;
   std::unique_ptr<World> world_;
+  const std::vector<int> regions_;
   const std::map<int, std::string> region_names_;
   SkinAttachment skin_;
   std::shared_ptr<const SurfaceMesh> surface_mesh_;  ///< of the last frame
@@ -395,6 +418,7 @@ class Session::Impl {
   mutable std::mutex mutex_;  ///< of queue_, single_steps_ and history_; locked briefly, longest by until()
   std::condition_variable wake_;
   std::vector<Command> queue_, taken_;
+  std::vector<int> hidden_;  ///< regions, ascending; under mutex_
   long single_steps_ = 0;
   std::atomic<Field> field_;
   std::atomic<bool> playing_, stopping_{false}, finished_{false}, show_now_{false}, stretches_{false}, errors_{false};
@@ -423,9 +447,11 @@ void Session::play() { impl_->set_playing(true); }
 void Session::pause() { impl_->set_playing(false); }
 void Session::step_once() { impl_->set_playing(false, 1); }
 void Session::fast_forward_to(long tick) { impl_->fast_forward_to(tick); }
+const std::vector<int>& Session::regions() const { return impl_->regions(); }
 const std::map<int, std::string>& Session::region_names() const { return impl_->region_names(); }
 Scene Session::until(const Frame& moment) const { return impl_->until(moment); }
 void Session::show(Field field) { impl_->show(field); }
+void Session::hide_regions(const std::vector<int>& regions) { impl_->hide_regions(regions); }
 void Session::enable_stretches(bool wanted) { impl_->enable_stretches(wanted); }
 void Session::enable_errors(bool wanted) { impl_->enable_errors(wanted); }
 void Session::enable_solid(bool wanted) { impl_->enable_solid(wanted); }

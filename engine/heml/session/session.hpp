@@ -52,8 +52,11 @@ class Session {
   void step_once();                    ///< one tick, then pause
   void fast_forward_to(long tick);     ///< ticks at full speed up to `tick`, then on as before; pause() ends it early
   void show(Field field);              ///< the field in Frame::values from now on
+  /// Leaves regions (ascending) out of the frames from now on; the simulation goes on with them.
+  void hide_regions(const std::vector<int>& regions);
   void enable_stretches(bool wanted);  ///< whether Frame::stretches is filled from now on
   void enable_errors(bool wanted);     ///< whether Frame::mesh_error and time_error are filled from now on
+  const std::vector<int>& regions() const;  ///< of the mesh, ascending
   const std::map<int, std::string>& region_names() const;  ///< those that the mesh's file names
   void enable_solid(bool wanted);      ///< whether Frame::solid and what goes with it is filled from now on
   const Frame& latest();               ///< the newest frame; unchanged until the next call

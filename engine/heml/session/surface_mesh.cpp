@@ -10,9 +10,22 @@ namespace heml {
 
 namespace {
 
-SurfaceMesh build_surface_mesh(const WorldSetup& setup, const Topology& topology) {
+bool is_hidden(int region, const std::vector<int>& hidden) {
+  return std::binary_search(hidden.begin(), hidden.end(), region);
+}
+
+Topology without_hidden(const TetMesh& mesh, Topology topology, const std::vector<int>& hidden) {
+  if (!hidden.empty())
+    std::erase_if(topology.elements,
+                  [&](int t) { return is_hidden(mesh.regions[static_cast<std::size_t>(t)], hidden); });
+  return topology;
+}
+
+SurfaceMesh build_surface_mesh(const WorldSetup& setup, const Topology& all, const std::vector<int>& hidden) {
   SurfaceMesh surface_mesh;
+  const Topology topology = without_hidden(setup.mesh, all, hidden);
   surface_mesh.version = topology.version;
+  surface_mesh.hidden = hidden;
   const BoundaryFaces faces = fine_boundary(setup.mesh, setup.midedges, topology);
   std::vector<int> index(setup.mesh.nodes.size(), -1);
   for (const Triangle& face : faces.triangles)
@@ -42,13 +55,21 @@ SurfaceMesh build_surface_mesh(const WorldSetup& setup, const Topology& topology
 
 }  // namespace
 
-std::shared_ptr<const SurfaceMesh> make_surface_mesh(const World& world, std::shared_ptr<const SurfaceMesh> last) {
+std::shared_ptr<const SurfaceMesh> make_surface_mesh(const World& world, std::shared_ptr<const SurfaceMesh> last,
+                                                     const std::vector<int>& hidden) {
   const auto topology = world.topology();
-  if (last && last->version == topology->version) return last;
   const WorldSetup& setup = world.setup();
-  SurfaceMesh surface_mesh = build_surface_mesh(setup, *topology);
+  const std::size_t uncut_elements = last ? last->uncut_elements : setup.mesh.tets.size();
+  if (last && last->hidden != hidden) last.reset();
+  if (last && last->version == topology->version) return last;
+  SurfaceMesh surface_mesh = build_surface_mesh(setup, *topology, hidden);
+  surface_mesh.uncut_elements = uncut_elements;
   if (topology->elements.size() < setup.mesh.tets.size()) {
-    if (!last) last = std::make_shared<const SurfaceMesh>(build_surface_mesh(setup, full_topology(setup.mesh)));
+    if (!last) {
+      Topology uncut = full_topology(setup.mesh);
+      uncut.elements.resize(uncut_elements);
+      last = std::make_shared<const SurfaceMesh>(build_surface_mesh(setup, uncut, hidden));
+    }
     surface_mesh.whole = last->whole ? last->whole : last;
   }
   return std::make_shared<const SurfaceMesh>(std::move(surface_mesh));
@@ -98,11 +119,14 @@ void fill_frame(World& world, std::shared_ptr<const SurfaceMesh> surface_mesh, F
 void fill_solid(World& world, double ahead, std::shared_ptr<const Solid>& last, Frame& frame) {
   const auto topology = world.topology();
   const TetMesh& mesh = world.setup().mesh;
-  if (!last || last->version != topology->version) {
+  const std::vector<int>& hidden = frame.surface_mesh->hidden;
+  if (!last || last->version != topology->version || last->hidden != hidden) {
     Solid solid;
     solid.version = topology->version;
+    solid.hidden = hidden;
     for (const Vec3& x : mesh.nodes) solid.rest.push_back(x.cast<float>());
     for (const int t : topology->elements) {
+      if (is_hidden(mesh.regions[static_cast<std::size_t>(t)], hidden)) continue;
       solid.tets.push_back(mesh.tets[static_cast<std::size_t>(t)]);
       solid.regions.push_back(mesh.regions[static_cast<std::size_t>(t)]);
     }
@@ -122,7 +146,7 @@ bool is_uncut(const SurfaceMesh& surface_mesh) {
 
 void SkinAttachment::attach(Frame& frame) {
   const bool whole = skin_ && frame.surface_mesh && is_uncut(*frame.surface_mesh);
-  frame.skin = whole ? skin_ : nullptr;
+  frame.skin = whole && frame.surface_mesh->hidden.empty() ? skin_ : nullptr;
   if (skin_ && !whole && !std::exchange(told_, true))
     warn("{}: the skin is not cut: from now on the body is drawn by its own surface", skin_->surface.mesh.source);
 }

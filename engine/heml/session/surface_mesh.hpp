@@ -5,9 +5,11 @@
 namespace heml {
 
 /// Boundary of the present elements with its constrained nodes and regions. last: the previous result for the same
-/// world, if any; it is returned again while the topology version is the same.
+/// world, if any; it is returned again while the topology version is the same. hidden: regions that are left out,
+/// ascending; the boundary is that of the others, closed where they meet hidden ones.
 std::shared_ptr<const SurfaceMesh> make_surface_mesh(const World& world,
-                                                     std::shared_ptr<const SurfaceMesh> last = nullptr);
+                                                     std::shared_ptr<const SurfaceMesh> last = nullptr,
+                                                     const std::vector<int>& hidden = {});
 
 /// Fills a frame with the world's current state. surface_mesh: make_surface_mesh(world). ahead: s, extrapolation of
 /// positions by velocity, for frames between two ticks. with_stretches: whether Frame::stretches is filled. Leaves
@@ -15,8 +17,8 @@ std::shared_ptr<const SurfaceMesh> make_surface_mesh(const World& world,
 void fill_frame(World& world, std::shared_ptr<const SurfaceMesh> surface_mesh, Field field, double ahead, Frame& frame,
                 bool with_stretches = false);
 
-/// Fills the frame's solid, its positions and its values of Frame::field; call after fill_frame(). `last`: the solid of
-/// the last fill, shared while the topology is the same.
+/// Fills the frame's solid, its positions and its values of Frame::field; call after fill_frame(). It leaves out the
+/// regions that the frame's surface does. `last`: the solid of the last fill, shared while the topology is the same.
 void fill_solid(World& world, double ahead, std::shared_ptr<const Solid>& last, Frame& frame);
 
 /// Removes it from the frame.
@@ -25,7 +27,7 @@ void clear_solid(Frame& frame);
 /// Whether a surface is that of the body before all edits: none was made, or all are undone.
 bool is_uncut(const SurfaceMesh& surface_mesh);
 
-/// A scene's skin, shown while the body is as it was made. Copies share the skin.
+/// A scene's skin, shown while the body is as it was made and no region is hidden. Copies share the skin.
 class SkinAttachment {
  public:
   SkinAttachment() = default;  ///< no skin

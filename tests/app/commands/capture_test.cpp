@@ -47,6 +47,18 @@ double coverage(const render::Image& image) {
 
 }  // namespace
 
+TEST_CASE("a capture looks from the side that is asked for, without perspective where asked") {
+  const TemporaryFolder folder;
+  const render::Image given = captured(scene("kidney_pull"), 0, folder);
+  const render::Image front = captured(scene("kidney_pull"), 0, folder, " --view front");
+  const render::Image flat = captured(scene("kidney_pull"), 0, folder, " --view front --orthographic");
+  CHECK(render::rms_difference(given, front) > 5);
+  CHECK(render::rms_difference(front, flat) > 1);
+  CHECK(coverage(flat) == doctest::Approx(coverage(front)).epsilon(0.1));  // of the same size
+  const std::string wrong = test::program().string() + " capture --out x --view above 2>/dev/null >/dev/null";
+  CHECK(std::system(wrong.c_str()) != 0);
+}
+
 TEST_CASE("captured frames are those committed, and show the body") {
   const TemporaryFolder folder;
   for (const char* name : {"kidney_pull", "uterus"}) {

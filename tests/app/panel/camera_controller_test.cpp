@@ -36,6 +36,33 @@ TEST_CASE("the body stays in the middle while it is turned, and fits between the
   }
 }
 
+TEST_CASE("the body turns about a point that stays where it is, beside the panel and in panes") {
+  for (const std::size_t bodies : {1, 4}) {
+    panel::CameraController controller;
+    controller.fit({}, surface_mesh, size, {200, 0}, bodies);
+    controller.select_pane(bodies - 1);
+    const Vec3f& pivot = surface_mesh.rest[1];
+    const render::Vec2f before = controller.pixel(pivot), far = controller.pixel(surface_mesh.rest[2]);
+    controller.orbit(40, 15, pivot);
+    CHECK((controller.pixel(pivot) - before).norm() < 0.05f);
+    CHECK((controller.pixel(surface_mesh.rest[2]) - far).norm() > 5);
+  }
+}
+
+TEST_CASE("a standard view keeps what is in the middle there") {
+  panel::CameraController controller;
+  controller.fit({}, surface_mesh, size, {200, 0});
+  const render::Vec2f before = controller.pixel(centre);
+  controller.look(StandardView::top);
+  CHECK((controller.pixel(centre) - before).norm() < 0.05f);
+  // x to the right, z down.
+  const render::Vec2f x = controller.pixel(centre + Vec3f(0.01f, 0, 0));
+  const render::Vec2f z = controller.pixel(centre + Vec3f(0, 0, 0.01f));
+  CHECK(x.x() > before.x() + 1);
+  CHECK(x.y() == doctest::Approx(before.y()).epsilon(0.01));
+  CHECK(z.y() > before.y() + 1);
+}
+
 TEST_CASE("panning moves the body with the mouse") {
   panel::CameraController controller;
   controller.fit({}, surface_mesh, size, {});

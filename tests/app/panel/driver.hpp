@@ -48,8 +48,10 @@ inline SurfaceMesh small_surface() {
 
 class Driver {
  public:
-  explicit Driver(const Scene& scene = small_scene(), float width = 1280, float height = 760, float scale = 1)
-      : context_(width, height, scale), panel(scene, small_surface()) {
+  explicit Driver(const Scene& scene = small_scene(), float width = 1280, float height = 760, float scale = 1,
+                  std::map<int, std::string> region_names = {}, std::vector<int> regions = {})
+      : context_(width, height, scale),
+        panel(scene, small_surface(), std::move(region_names), std::move(regions)) {
     frame.positions = small_surface().rest;
     away();
     for (int k = 0; k < 3; ++k) draw();
@@ -94,6 +96,8 @@ class Driver {
       if (more.comparisons) all.comparisons = more.comparisons;
       if (more.seek_to) all.seek_to = more.seek_to;
       if (more.view) all.view = more.view;
+      if (more.look) all.look = more.look;
+      if (more.orthographic) all.orthographic = more.orthographic;
       if (more.save_view) all.save_view = more.save_view;
     }
     return all;

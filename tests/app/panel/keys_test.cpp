@@ -35,6 +35,17 @@ TEST_CASE("keys have names that people read") {
   CHECK(key_name(Action::toggle_play) == "Space");
 }
 
+TEST_CASE("the numpad turns to standard views as in other programs, with Ctrl to the opposite ones") {
+  CHECK(action_of(key_pad_1, false) == Action::look_front);
+  CHECK(action_of(key_pad_1, true) == Action::look_back);
+  CHECK(action_of(key_pad_3, false, true) == Action::look_right);  // Num Lock may come with Shift
+  CHECK(action_of(key_pad_3, true) == Action::look_left);
+  CHECK(action_of(key_pad_7, false) == Action::look_top);
+  CHECK(action_of(key_pad_7, true) == Action::look_bottom);
+  CHECK(action_of(key_pad_5, false) == Action::orthographic);
+  CHECK(action_of('1', false) == Action::show_tissue);
+}
+
 TEST_CASE("no key is bound twice, and every action has one") {
   std::set<std::pair<int, Modifier>> keys;
   std::set<Action> actions;

@@ -190,11 +190,31 @@ TEST_CASE("a gravity along no axis keeps its direction") {
   CHECK(g.y() / g.norm() == doctest::Approx(-0.8));
 }
 
+TEST_CASE("a fixed range of colours stays when the values grow, until another field is shown") {
+  Scene scene = small_scene();
+  Driver driver(scene, 1280, 900);
+  after(driver, Action::show_von_mises);
+  driver.frame.field = Field::von_mises;
+  driver.frame.values = {0, 1000, 2000, 500};
+  driver.draw();
+  driver.click("Fixed range", 30);
+  driver.frame.values = {0, 9000, 2000, 500};
+  for (int k = 0; k < 60; ++k) driver.draw();
+  REQUIRE(driver.panel.drawing().range);
+  CHECK(*driver.panel.drawing().range == render::Range{0, 2000});
+  driver.find("Highest");
+  driver.panel.write_into(scene);
+  REQUIRE(scene.view.range);
+  CHECK((*scene.view.range)[1] == 2000);
+  after(driver, Action::show_stretch);
+  CHECK_FALSE(driver.panel.view().fixed_range());
+}
+
 TEST_CASE("the first click on a view saves it and the next restores it") {
   Driver driver(small_scene(), 1280, 900);
-  CHECK(driver.click("2", 180).save_view == 1u);
+  CHECK(driver.click("2", 215).save_view == 1u);
   driver.panel.view().set_saved(1, true);
-  const auto again = driver.click("2", 180);
+  const auto again = driver.click("2", 215);
   CHECK(again.view == 1u);
   CHECK_FALSE(again.save_view);
   CHECK(after(driver, Action::save_view_4).save_view == 3u);
@@ -248,8 +268,9 @@ TEST_CASE("sections that are closed by hand and hints that are switched off stay
 
 TEST_CASE("every row of the panel is in a picture of 1280x720 without scrolling") {
   Driver driver(small_scene(), 1280, 720);
-  for (const char* label : {"Law", "Gravity", "Rate", "Grasp radius", "Colours", "Wireframe", "Hints"})
+  for (const char* label : {"Law", "Gravity", "Rate", "Grasp radius", "Colours", "Wireframe", "Hints", "Front"})
     driver.find(label, 40);
+  driver.find("Orthographic", 170);
   driver.find("4", 250);  // a view
 }
 

@@ -62,6 +62,26 @@ TEST_CASE("the left button grasps the nearest node and moves it in the plane tha
   CHECK(sheet.mouse_tool.interaction() == MouseTool::Interaction::none);
 }
 
+TEST_CASE("a right drag turns about the tissue under the mouse, a drag beside it about the middle") {
+  Sheet sheet;
+  const Vec3f point(0.08f, -0.07f, 0);
+  const render::Vec2f at = sheet.pixel(point);
+  sheet.press(MouseButton::right, at);
+  REQUIRE(sheet.mouse_tool.pivot());
+  CHECK((*sheet.mouse_tool.pivot() - point).norm() < 1e-4f);
+  CHECK((sheet.pixel(point) - at).norm() < 0.05f);  // no jump
+  sheet.move(at + render::Vec2f(60, 25));
+  CHECK((sheet.pixel(point) - at).norm() < 0.05f);
+  CHECK((sheet.pixel(-point) - at).norm() > 20);
+  sheet.mouse_tool.release(MouseButton::right, sheet.frame, sheet.surface_mesh, sheet.commands);
+  CHECK_FALSE(sheet.mouse_tool.pivot());
+  CHECK(sheet.commands.empty());
+
+  sheet.press(MouseButton::right, {3, 3});
+  CHECK_FALSE(sheet.mouse_tool.pivot());
+  CHECK(sheet.mouse_tool.interaction() == MouseTool::Interaction::orbiting);
+}
+
 TEST_CASE("the hold stays at the point of the tissue that was pressed, and its hand is where the mouse is") {
   Sheet sheet;
   CHECK_FALSE(sheet.mouse_tool.hold());

@@ -84,6 +84,25 @@ TEST_CASE("reads a scene with every key of the format") {
   CHECK(scene.view.wireframe);
 }
 
+TEST_CASE("a view has a side in place of two angles, hidden regions, and a range of colours") {
+  const auto read = [](const std::string& view) {
+    return parse_scene(R"({"schema_version": 1, "mesh": {"file": "/meshes/a.msh"},
+                           "materials": [{"law": "stvk", "young": 1, "poisson": 0}], "view": )" + view + "}",
+                       "scene.json");
+  };
+  const Scene scene = read(R"({"side": "left", "orthographic": true})");
+  CHECK(scene.view.azimuth == -90);
+  CHECK(scene.view.elevation == 0);
+  CHECK(scene.view.orthographic);
+  CHECK_FALSE(read("{}").view.orthographic);
+  const View inside = read(R"({"hidden": [5, 1, 5], "range": [-2, 3.5]})").view;
+  CHECK(inside.hidden == std::vector<int>{1, 5});
+  CHECK(inside.range == std::array<double, 2>{-2, 3.5});
+  CHECK_THROWS_WITH_AS(read(R"({"range": [3, 3]})"), doctest::Contains("range"), InputError);
+  CHECK_THROWS_WITH_AS(read(R"({"hidden": [0.5]})"), doctest::Contains("hidden"), InputError);
+  CHECK_THROWS_WITH_AS(read(R"({"side": "left", "azimuth": 3})"), doctest::Contains("azimuth"), InputError);
+}
+
 TEST_CASE("gives what a scene leaves out its documented default") {
   const Scene scene = parse_scene(
       R"({"schema_version": 1, "mesh": {"file": "/meshes/a.msh"},

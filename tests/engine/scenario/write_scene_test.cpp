@@ -69,7 +69,9 @@ Scene scene_of_everything() {
   scene.output_vtu = true;
   scene.initial_velocity = vector();
   scene.initial_positions = "/folder/start.csv";
-  scene.view = {number(), number(), number(), Field::von_mises, true, Vec3(0.6, 0, -0.8), number()};
+  scene.view = {number(), number(), number(), true, Field::von_mises, true, Vec3(0.6, 0, -0.8), number()};
+  scene.view.hidden = {2, 5};
+  scene.view.range = {-1.5, number()};
   scene.recorded_mesh = MeshFingerprint{60, 120, 0xfedcba9876543210};
   return scene;
 }
@@ -138,7 +140,10 @@ TEST_CASE("writes a scene on one line that reads back bit for bit") {
   CHECK(back.view.elevation == scene.view.elevation);
   CHECK(back.view.zoom == scene.view.zoom);
   CHECK(back.view.field == Field::von_mises);
+  CHECK(back.view.orthographic);
   CHECK(back.view.wireframe);
+  CHECK(back.view.hidden == scene.view.hidden);
+  CHECK(back.view.range == scene.view.range);
   REQUIRE(back.view.section);
   CHECK((*back.view.section - *scene.view.section).norm() < 1e-15);
   CHECK(back.view.section_at == scene.view.section_at);
