@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Prints which tests failed, with the end of their output, and how many passed: last of all, where a log is read from its end.
+"""Prints which tests failed, with the end of their output, and how many passed: last of all in a log.
 
     python3 tests/summary.py build/release/results.xml ...
 
-Reads JUnit files as ctest and pytest write them. Exits with 1 if a test failed, a file is missing, or there was no test.
+Reads JUnit files as ctest and pytest write them. Exits with 1 if a test failed, a file is missing, or there was none.
 """
 import re
 import sys

@@ -82,7 +82,8 @@ void draw_forces(const Frame& frame, const std::optional<render::Hold>& hold,
                  const panel::CameraController& controller) {
   const auto label = [&](const Vec3& force, const Vec3& place) { draw_force(force, place, controller); };
   const auto held = [&](const GraspState& grasp) -> Vec3 {
-    return render::held_patch(grasp, render::is_clamp(grasp) ? std::nullopt : hold, frame, frame.surface_mesh.get(), controller.camera().eye())
+    const auto by = render::is_clamp(grasp) ? std::nullopt : hold;
+    return render::held_patch(grasp, by, frame, frame.surface_mesh.get(), controller.camera().eye())
         .place.cast<double>();
   };
   const ByKind labels{[&](const GraspState& grasp) { label(grasp.force, held(grasp)); },

@@ -47,7 +47,8 @@ class Killed(ProgramCase):
         def run(moment):
             """Whether it was killed, and how long it was there, s."""
             begin = time.monotonic()
-            started = subprocess.Popen([BINARY, *map(str, arguments)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            started = subprocess.Popen([BINARY, *map(str, arguments)], stdout=subprocess.DEVNULL,
+                                       stderr=subprocess.DEVNULL)
             try:
                 started.wait(moment)
             except subprocess.TimeoutExpired:

@@ -116,7 +116,7 @@ class Tools(WindowCase):
         self.verify()
 
     def on_the_clamp(self, bare):
-        """A place on the shaft of a clamp that stands over the body: of pixels that were tissue in the picture `bare` and
+        """A place on the shaft of a clamp that stands over the body: of pixels that were tissue in `bare` and
         are steel now, the one nearest to their middle."""
         self.settle()
         now, red = self.display.picture(), set(bare.red(300, 1010))

@@ -60,7 +60,8 @@ struct Row<MoveTool> : CommonRow {
                                     meaning = "moves the tool of the grasp there; of another hand than 0: "
                                               "`{\"to\": [x, y, z], \"hand\": 1}`";
   static constexpr ValueForm value_form = form::other("list of three numbers, or object");
-  static constexpr KeyInfo move_keys[] = {{"to", form::vector, "m", required, "where the tool is from now on"}, hand_row};
+  static constexpr KeyInfo move_keys[] = {{"to", form::vector, "m", required, "where the tool is from now on"},
+                                          hand_row};
   static constexpr std::span<const KeyInfo> keys = move_keys;
   static constexpr std::optional<CommandTool> tool = CommandTool::grasp;
   static Command read(const JsonCursor& value, Points&) {
@@ -227,8 +228,8 @@ inline Command Row<Release>::read(const JsonCursor& value, Points& points) {
     if (value.text() == "pins") return Unpin{};
     if (value.text() == "probe") return WithdrawProbe{};
     if (value.text() == "sutures") return CutSutures{};
-    value.refuse("must be true (the grasp), {\"hand\": n} (another hand's), \"grasps\", {\"node\": n} (a pin), \"pins\", "
-        "\"probe\", or \"sutures\"");
+    value.refuse("must be true (the grasp), {\"hand\": n} (another hand's), \"grasps\", {\"node\": n} (a pin), "
+                 "\"pins\", \"probe\", or \"sutures\"");
   }
   expect_true(value);
   return Release{};

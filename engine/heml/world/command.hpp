@@ -16,8 +16,8 @@
 
 namespace heml {
 
-/// A body is held by at most so many hands at once. Hand 0 is that of a person at the window; others are second hands of
-/// scripts, and clamps that were left in place.
+/// A body is held by at most so many hands at once. Hand 0 is that of a person at the window; others are second hands
+/// of scripts, and clamps that were left in place.
 inline constexpr int max_hands = 16;
 
 /// Takes hold of the surface nodes within `radius` of a node, by a critically damped spring to a tool that starts where

@@ -78,7 +78,8 @@ def test_the_scene_and_apply_give_the_same_bits(box):
 
 
 def test_two_hands_hold_at_once_with_the_bits_of_a_scene(box):
-    events = [{"step": 2, "grasp": {"node": 4, "radius": 0.02}}, {"step": 2, "grasp": {"node": 9, "radius": 0.02, "hand": 1}},
+    events = [{"step": 2, "grasp": {"node": 4, "radius": 0.02}},
+              {"step": 2, "grasp": {"node": 9, "radius": 0.02, "hand": 1}},
               {"step": 5, "move": {"to": [0.1, 0.1, 0.05], "hand": 1}}, {"step": 20, "release": {"hand": 1}}]
     played = heml.World(box(events=events), threads=1)
     played.step(40)

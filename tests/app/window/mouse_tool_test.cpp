@@ -116,7 +116,8 @@ TEST_CASE("a grasp is left as a clamp, taken up again by a press on it, and remo
   sheet.commands.clear();
   sheet.mouse_tool.release(MouseButton::left, sheet.frame, sheet.surface_mesh, sheet.commands);
   CHECK(sheet.commands.empty());  // the hand is free already
-  sheet.frame.tools = {GraspState{.node = 20}, GraspState{.hand = 2, .node = 21, .radius = 0.01, .target = Vec3(0.1, -0.1, 0.02)},
+  sheet.frame.tools = {GraspState{.node = 20},
+                       GraspState{.hand = 2, .node = 21, .radius = 0.01, .target = Vec3(0.1, -0.1, 0.02)},
                        PinState{.node = 22, .nodes = {22}}};
 
   const render::Vec2f on_clamp = sheet.pixel(sheet.frame.positions[1]) + render::Vec2f(2, -2);
