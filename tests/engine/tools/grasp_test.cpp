@@ -13,7 +13,7 @@ const std::vector<int> all = {0, 1, 2, 3};
 }  // namespace
 
 TEST_CASE("a grasp takes the free nodes within its radius and pulls nothing before it is moved") {
-  GraspSpring<double> grasp(0, 0.02, all, rest, x.data(), {1, 1, 1, 0}, 100, 10);  // node 3 is constrained
+  GraspSpring<double> grasp({}, 0, 0.02, all, rest, x.data(), {1, 1, 1, 0}, 100, 10);  // node 3 is constrained
   CHECK_FALSE(grasp.empty());
   CHECK(grasp.force(x.data(), still.data()).norm() <= 1e-12);
   CHECK(grasp.grip(x.data()).norm() <= 1e-15);
@@ -28,13 +28,13 @@ TEST_CASE("a grasp takes the free nodes within its radius and pulls nothing befo
 }
 
 TEST_CASE("a grasp of constrained nodes only is empty") {
-  CHECK(GraspSpring<double>(3, 0.001, all, rest, x.data(), {1, 1, 1, 0}, 100, 10).empty());
+  CHECK(GraspSpring<double>({}, 3, 0.001, all, rest, x.data(), {1, 1, 1, 0}, 100, 10).empty());
 }
 
 TEST_CASE("a grasped mass follows the tool without overshoot") {
   const double omega = 50, h = 1e-4;
   std::vector<double> at = {0, 0, 0}, v = {0, 0, 0};
-  GraspSpring<double> grasp(0, 0, std::vector<int>{0}, {Vec3::Zero()}, at.data(), {2.0}, omega, 10);
+  GraspSpring<double> grasp({}, 0, 0, std::vector<int>{0}, {Vec3::Zero()}, at.data(), {2.0}, omega, 10);
   grasp.move(Vec3(1, 0, 0));
   double largest = 0;
   for (int k = 0; k < 5000; ++k) {
@@ -50,7 +50,7 @@ TEST_CASE("a grasped mass follows the tool without overshoot") {
 }
 
 TEST_CASE("beyond its reach a grasp slips and the force stays constant") {
-  GraspSpring<double> grasp(0, 0, std::vector<int>{0}, {Vec3::Zero()}, x.data(), {1.0}, 100, 0.02);
+  GraspSpring<double> grasp({}, 0, 0, std::vector<int>{0}, {Vec3::Zero()}, x.data(), {1.0}, 100, 0.02);
   grasp.move(Vec3(0.015, 0, 0));
   CHECK(grasp.force(x.data(), still.data()).x() == doctest::Approx(1e4 * 0.015));
   grasp.move(Vec3(0, 5, 0));
