@@ -120,6 +120,7 @@ Json chosen_json(const Explanation& explained) {
           {"poisson", chosen.poisson},
           {"density", chosen.density},
           {"stretch", chosen.stretch},
+          {"element", solver.element()},
           {"integrator", integrator_name(solver.integrator)},
           {"rate", solver.rate},
           {"budget_iterations", solver.budget ? Json(solver.budget->iterations) : Json()},

@@ -5,6 +5,7 @@
 //   unit      by its length                                    body_shape.hpp
 //   up        y, or z where the body has a flat base there
 //   supports  the underside, or the top where it would topple
+//   element   quadratic (p2) where its implicit step fits 60 Hz, else linear (p1)
 //   tissue    10 kPa, stiffer where it stretches by more than 1.5 under its weight: a trial run
 //   method    explicit, or backward Euler within a budget: a model of cost, no clock (suitable_method.hpp)
 //

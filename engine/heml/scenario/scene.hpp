@@ -130,7 +130,7 @@ struct MeshFingerprint {
 /// What scene_around() chose for a bare mesh (bare_mesh.hpp), and why.
 struct BareMeshChoices {
   struct Text {
-    std::string about;  ///< unit, up, supports, tissue, method
+    std::string about;  ///< unit, up, supports, element, tissue, method
     std::string text;
   };
   BareMeshOptions given;  ///< what was given; the rest was guessed

@@ -15,7 +15,7 @@ constexpr int max_iterations = 4;  // a stage: at 60 Hz more change nothing that
 constexpr int linear_iterations = 20;
 // s a tetrahedron and Newton iteration of at most linear_iterations, one core: tests/bench/organ.py. Solves of longer
 // steps take more iterations, up to the bound.
-constexpr double seconds_per_tet = 2e-6;
+constexpr double seconds_per_tet = 2e-6, seconds_per_quadratic_tet = 7.8e-6;
 
 }  // namespace
 
@@ -34,14 +34,18 @@ SuitableMethod suitable_implicit_method(double seconds_per_iteration) {
   return method;
 }
 
-double seconds_per_iteration(std::size_t tets) { return seconds_per_tet * static_cast<double>(tets); }
+double seconds_per_iteration(std::size_t tets, bool quadratic) {
+  return (quadratic ? seconds_per_quadratic_tet : seconds_per_tet) * static_cast<double>(tets);
+}
 
-SuitableMethod suitable_method(std::size_t tets, const ExplicitCost& cost) {
+bool affords_quadratic(std::size_t tets) { return seconds_per_iteration(tets, true) * rates[0] <= implicit_enough; }
+
+SuitableMethod suitable_method(std::size_t tets, const ExplicitCost& cost, bool quadratic) {
   for (const double rate : explicit_rates) {
     const double load = rate * std::ceil(1 / (rate * stable_part * cost.stable)) * cost.seconds;
     if (load <= explicit_enough) return {Integrator::verlet, rate, {}, load};
   }
-  return suitable_implicit_method(seconds_per_iteration(tets));
+  return suitable_implicit_method(seconds_per_iteration(tets, quadratic));
 }
 
 double usual_rate(Integrator integrator) { return is_implicit(integrator) ? rates[0] : SolverSettings{}.rate; }

@@ -26,10 +26,15 @@ struct ExplicitCost {
   double stable = 0;   ///< s, the longest step
 };
 
-SuitableMethod suitable_method(std::size_t tets, const ExplicitCost& cost);
+/// quadratic: of quadratic elements.
+SuitableMethod suitable_method(std::size_t tets, const ExplicitCost& cost, bool quadratic = false);
 
 /// Of a Newton iteration of backward Euler within suitable_method()'s budget, s on one core.
-double seconds_per_iteration(std::size_t tets);
+double seconds_per_iteration(std::size_t tets, bool quadratic = false);
+
+/// Whether an iteration of so many quadratic elements fits a step at the highest rate. They then err several times
+/// less than linear ones on the same mesh, by more than longer or less exact steps cost.
+bool affords_quadratic(std::size_t tets);
 
 /// The implicit method for a body whose iterations take this long. seconds: of an iteration on what computes it.
 SuitableMethod suitable_implicit_method(double seconds_per_iteration);

@@ -79,7 +79,7 @@ TEST_CASE("the axis that is given points up, and the lowest part along it carrie
       REQUIRE(signed_volume(x[tet[0]], x[tet[1]], x[tet[2]], x[tet[3]]) > 0);
     }
     REQUIRE(setup.boundary.size() == 1);
-    CHECK(setup.boundary[0].nodes.size() == 16);
+    CHECK(setup.boundary[0].nodes.size() == 49);  // a layer of quadratic elements
     for (const int node : setup.boundary[0].nodes) CHECK(setup.mesh.nodes[node].y() == doctest::Approx(lowest));
   }
 }
@@ -95,7 +95,7 @@ TEST_CASE("supports that are given hold the body where they say") {
     CHECK(scene.tables.empty());
     const WorldSetup setup = load_setup(scene);
     REQUIRE(setup.boundary.size() == 1);
-    CHECK(setup.boundary[0].nodes.size() == 16);
+    CHECK(setup.boundary[0].nodes.size() == 49);  // a layer of quadratic elements
     for (const int node : setup.boundary[0].nodes) CHECK(setup.mesh.nodes[node].y() == doctest::Approx(top ? 0.1 : 0));
   }
 }

@@ -19,7 +19,9 @@ Scene scene_of(const TetMesh& mesh, const char* name) {
 
 /// Largest principal stretch at a node in equilibrium.
 double stretch_at_rest(WorldSetup setup) {
+  const bool quadratic = setup.solver.quadratic;
   setup.solver = SolverSettings();
+  setup.solver.quadratic = quadratic;
   setup.solver.integrator = Integrator::static_equilibrium;
   setup.solver.continuation = true;
   const auto world = make_world(std::move(setup));
@@ -37,6 +39,7 @@ double stretch_at_rest(WorldSetup setup) {
 TEST_CASE("a trial run comes to the stretch of the body in equilibrium") {
   const Scene scene = scene_of(make_box(Vec3(0.1, 0.12, 0.1), {3, 4, 3}), "block.msh");
   const WorldSetup setup = load_setup(scene);
+  CHECK(setup.solver.quadratic);
   CHECK(try_tissue(setup).stretch == doctest::Approx(stretch_at_rest(setup)).epsilon(0.02));  // gravity leans
   CHECK(try_tissue(setup).stretch == scene.chosen->stretch);
 }
@@ -74,7 +77,7 @@ TEST_CASE("all that was chosen is told") {
   const Scene scene = scene_of(make_box(Vec3(15, 10, 10), {3, 3, 3}), "cm.msh");
   std::vector<std::string> about;
   for (const BareMeshChoices::Text& text : scene.chosen->texts) about.push_back(text.about);
-  CHECK(about == std::vector<std::string>{"unit", "up", "supports", "tissue", "method"});
+  CHECK(about == std::vector<std::string>{"unit", "up", "supports", "element", "tissue", "method"});
   CHECK(scene.chosen->unit == "centimetres");
   CHECK(scene.chosen->length == doctest::Approx(0.15));
   CHECK(scene.chosen->texts[0].text.find("centimetres") != std::string::npos);

@@ -25,7 +25,7 @@ TEST_CASE("the default scene of a bare mesh is soft tissue that rests on its und
   CHECK(scene.solver.damping == 1);
   const WorldSetup setup = load_setup(scene);
   REQUIRE(setup.boundary.size() == 1);
-  CHECK(setup.boundary[0].nodes.size() == 4);  // the layer at y = 0
+  CHECK(setup.boundary[0].nodes.size() == 9);  // the layer at y = 0, of quadratic elements
   for (const int node : setup.boundary[0].nodes) CHECK(setup.mesh.nodes[node].y() == 0);
 }
 
