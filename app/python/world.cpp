@@ -253,6 +253,7 @@ void bind_actions(nb::class_<LiveWorld>& world) {
       .def(
           "move",
           [](LiveWorld& live, nb::object point, nb::object hand) {
+            if (hand.equal(nb::int_(0))) return apply_action(live, "move", point);
             nb::dict move;
             move["to"] = point, move["hand"] = hand;
             apply_action(live, "move", move);

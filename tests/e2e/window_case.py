@@ -118,6 +118,19 @@ class WindowCase(unittest.TestCase):
         held()
         self.do("mouseup", 1)
 
+    def take_hold(self, left, right):
+        """Presses on the tissue, and again where it swung from under the mouse: the picture may be old on a busy
+        machine. Returns the place. out.jsonl has no grasp yet."""
+        for _ in range(3):
+            place = self.display.picture().tissue(left, right)
+            self.do("mousemove", *place)
+            self.do("mousedown", 1)
+            self.play(3)  # commands are recorded with the next tick
+            if self.seen("grasp"):
+                return place
+            self.do("mouseup", 1)
+        self.fail("the tissue was missed three times")
+
     # Waiting. Each wait ends on a condition of the program or the screen; PATIENCE is only the time limit.
 
     def wait_for(self, what, reached):

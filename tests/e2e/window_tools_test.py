@@ -8,14 +8,14 @@ from window_case import WindowCase, light_scene
 
 
 class Tools(WindowCase):
-    def pull_the_body(self, left, right, by):
+    def pull_the_body(self, left, right, by, steps=8):
         before = self.display.picture()
-
-        def follows():
-            self.wait_for("a picture that follows the drag",
-                          lambda: self.display.picture().change(before, left, right) > 1)
-
-        self.drag(before.tissue(left, right), by, held=follows)
+        x, y = self.take_hold(left, right)
+        for k in range(1, steps + 1):
+            self.do("mousemove", x + by[0] * k // steps, y + by[1] * k // steps)
+        self.wait_for("a picture that follows the drag",
+                      lambda: self.display.picture().change(before, left, right) > 1)
+        self.do("mouseup", 1)
         self.wait_for_event("release")
         self.assertGreaterEqual(len(self.seen("move")), 3)
 
@@ -238,7 +238,9 @@ class Tools(WindowCase):
     def test_what_was_recorded_before_a_kill_replays(self):
         self.open_display(640, 480)
         self.begin("--record", "out.jsonl", "--size", "640x480", colours=500)
-        self.drag(self.display.picture().tissue(220, 640), (30, 40), steps=4)
+        x, y = self.take_hold(220, 640)
+        self.do("mousemove", x + 30, y + 40)
+        self.do("mouseup", 1)
         self.wait_for_event("release")
         self.wait_for("a checkpoint after it", lambda: "checkpoint" in self.events()[-1])
         recorded = self.events()
