@@ -118,11 +118,17 @@ class Tools(WindowCase):
     def on_the_clamp(self, bare):
         """A place on the shaft of a clamp that stands over the body: of pixels that were tissue in `bare` and
         are steel now, the one nearest to their middle."""
-        self.settle()
-        now, red = self.display.picture(), set(bare.red(300, 1010))
+        now, red = self.steady(), set(bare.red(300, 1010))
         steel = [at for at in red if max(now.pixel(*at)) - min(now.pixel(*at)) < 40 < max(now.pixel(*at))]
         middle = [sum(at[k] for at in steel) / len(steel) for k in range(2)]
         return min(steel, key=lambda at: (at[0] - middle[0]) ** 2 + (at[1] - middle[1]) ** 2)
+
+    def at_the_clamp(self, bare, *act):
+        """Moves the mouse onto a clamp and acts there, while the body is paused: it swings."""
+        self.do("mousemove", 1278, 718, "key", "space")
+        self.do("mousemove", *self.on_the_clamp(bare))
+        self.do(*act)
+        self.do("key", "space")
 
     def test_a_grasp_is_left_as_a_clamp_taken_up_again_and_removed(self):
         self.open_display(1280, 720)
@@ -144,23 +150,21 @@ class Tools(WindowCase):
         self.drag((480, 520), (-30, 20))  # the hand is free for a second grasp, of other nodes
         self.wait_for_event("grasp", 3)
         self.wait_for_event("release")
-        self.do("mousemove", 1278, 718)
-        self.do("mousemove", *self.on_the_clamp(before))
-        self.do("mousedown", 1)
+        self.at_the_clamp(before, "mousedown", 1)
         self.wait_for_event("grasp", 4)
         self.assertEqual(self.seen("grasp")[3], taken)
         self.do("key", "l")
         self.wait_for_event("grasp", 5)
         self.do("mouseup", 1)
-        self.do("mousemove", 1278, 718)
-        self.do("mousemove", *self.on_the_clamp(before))
-        self.do("key", "Delete")
+        self.at_the_clamp(before, "key", "Delete")
         self.wait_for("its removal", lambda: {"hand": 1} in self.seen("release"))
         self.assertFalse(self.seen("remove"), "tissue is left alone")
         self.do("key", "ctrl+z")
         self.wait_for_event("history")
-        self.do("mousemove", 1278, 718)
-        self.do("mousemove", *self.on_the_clamp(before))  # it is there again
+        self.at_the_clamp(before, "mousedown", 1)
+        self.wait_for_event("grasp", 6)
+        self.assertEqual(self.seen("grasp")[5], taken, "it is there again and is taken up")
+        self.do("mouseup", 1)
         self.quit()
         self.verify()
 

@@ -27,8 +27,7 @@ std::vector<Command> settings_of(const WorldSetup& setup) {
 std::shared_ptr<const UndoList> updated(std::shared_ptr<const UndoList> last, const World& world,
                                         const Command& command) {
   const bool is_step = std::holds_alternative<StepHistory>(command);
-  const bool may_be_one = is_action(command) || std::holds_alternative<Release>(command);
-  if (last && !is_step && !may_be_one) return last;
+  if (last && !is_step && !is_action(command)) return last;
   auto list = std::make_shared<UndoList>();
   const ActionList actions = world.actions();
   list->past = action_names(actions.past);

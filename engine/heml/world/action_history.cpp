@@ -22,10 +22,6 @@ bool sets_the_same(const Command& one, const Command& next) {
 template <class Real>
 bool ActionHistory<Real>::begins_action(const Command& command, long tick, double seconds_per_tick,
                                         bool has_probe) const {
-  if (const auto* release = std::get_if<Release>(&command)) {
-    const auto* grasp = lists_.last ? std::get_if<Grasp>(&*lists_.last) : nullptr;
-    return !grasp || grasp->hand != release->hand;
-  }
   if (!is_action(command)) return false;
   if (lists_.past.empty() || !lists_.last) return true;
   const Command& last = *lists_.last;
@@ -40,7 +36,7 @@ bool ActionHistory<Real>::begins_action(const Command& command, long tick, doubl
 
 template <class Real>
 void ActionHistory<Real>::carried_out(const Command& command, long tick, std::shared_ptr<const Moment<Real>> before) {
-  if (!is_action(command) && !before) return;
+  if (!is_action(command)) return;
   lists_.future.clear();
   lists_.last = command;
   lists_.last_tick = tick;

@@ -35,11 +35,10 @@ class ActionHistory {
  public:
   static constexpr std::size_t max_actions = 20, max_bytes = std::size_t{512} << 20;
 
-  /// Whether a command begins an action: it is one, and goes on with none. A release is one if it does not end the last
-  /// action: a hand lets go of what it has held for a while. seconds_per_tick: s.
+  /// Whether a command begins an action: it is one, and goes on with none. seconds_per_tick: s.
   bool begins_action(const Command& command, long tick, double seconds_per_tick, bool has_probe) const;
 
-  /// Adds an action that was carried out. before: null where it goes on with the last one, or is none.
+  /// Adds an action that was carried out. before: null where it goes on with the last one.
   void carried_out(const Command& command, long tick, std::shared_ptr<const Moment<Real>> before);
 
   /// The moment to return to, one action back (by < 0) or forth; null: there is none. now: the state that is left.

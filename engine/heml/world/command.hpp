@@ -140,11 +140,12 @@ inline bool is_edit(const Command& command) {
 }
 
 /// Whether a command is an action of a person that StepHistory takes back. The rest goes on with an action, or is a
-/// choice made by the clock.
+/// choice made by the clock. Hand 0 letting go ends its grasp; that another does, which may be a clamp, is an action.
 inline bool is_action(const Command& command) {
+  if (const auto* release = std::get_if<Release>(&command)) return release->hand != 0;
   return std::visit(
       []<class C>(const C&) {
-        return !(std::is_same_v<C, MoveTool> || std::is_same_v<C, Release> || std::is_same_v<C, SetBudget> ||
+        return !(std::is_same_v<C, MoveTool> || std::is_same_v<C, SetBudget> ||
                  std::is_same_v<C, SetStepCost> || std::is_same_v<C, StepHistory> ||
                  std::is_same_v<C, AdoptPreconditioner>);
       },

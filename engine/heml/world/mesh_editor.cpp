@@ -314,6 +314,7 @@ void MeshEditor<Real>::restore_grasps(const SimulationSnapshot<Real>& before) {
     for (const auto& held : before.values.grasps) {
       if (held.id().serial != grasp.id().serial) continue;
       s_.grasps.push_back(held);
+      s_.grasps.back().hand_over(grasp.id().hand);
       s_.grasps.back().move(grasp.target());
     }
 }

@@ -115,23 +115,12 @@ void TypedWorld<Real>::handle_implicit(const std::optional<StopReason>& failure,
   if (failure && !recovery_.takes_over(*failure)) s_.halt = rescue_.end_tick(until, *failure);
 }
 
-/// Whether there is something to let go of.
-template <class Real>
-bool TypedWorld<Real>::holds(const Release& release) const {
-  return std::any_of(s_.grasps.begin(), s_.grasps.end(), [&](const GraspSpring<Real>& grasp) {
-    return !release.hand || grasp.id().hand == *release.hand;
-  });
-}
-
 template <class Real>
 Status TypedWorld<Real>::apply(const Command& command) {
   const FlushDenormals flush;
   if (const auto* step = std::get_if<StepHistory>(&command)) return step_history(step->by);
   if (!s_.setup.keeps_actions) return carry_out(command);
-  const auto* release = std::get_if<Release>(&command);
-  const bool begins =
-      !(release && !holds(*release)) &&
-      actions_.begins_action(command, s_.ticks, s_.setup.solver.tick(), s_.contacts.probe.has_value());
+  const bool begins = actions_.begins_action(command, s_.ticks, s_.setup.solver.tick(), s_.contacts.probe.has_value());
   auto before = begins ? moment() : nullptr;
   Status status = carry_out(command);
   if (status.ok()) actions_.carried_out(command, s_.ticks, std::move(before));

@@ -75,7 +75,6 @@ class TypedWorld final : public World {
 
  private:
   void start();
-  bool holds(const Release& release) const;
   Status carry_out(const Command& command);
   Status step_history(int by);
   std::shared_ptr<const Moment<Real>> moment();

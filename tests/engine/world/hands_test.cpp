@@ -114,8 +114,6 @@ TEST_CASE("hands: a clamp that was removed comes back by undo, and a grasp with 
   expect(world->apply(Grasp{13, 0.01}));
   expect(world->apply(Release{}));
   CHECK(count() == 3);
-  expect(world->apply(Release{2}));  // of nothing
-  CHECK(count() == 3);
   const auto before = world->positions();
   const Vec3 force = held(world->tools(), 1).force;
   expect(world->apply(Release{1}));
@@ -126,6 +124,34 @@ TEST_CASE("hands: a clamp that was removed comes back by undo, and a grasp with 
   CHECK(held(world->tools(), 1).force == force);
   expect(world->apply(StepHistory{1}));
   CHECK_FALSE(find_grasp(world->tools(), 1));
+}
+
+TEST_CASE("hands: letting go of what undo gave back to hand 0 leaves redo as it is") {
+  const auto world = make_world(bar(sample_material("neo_hookean"), Integrator::verlet, false));
+  expect(world->apply(Grasp{tip, 0.012}));
+  expect(world->apply(Grasp{tip, 0.012, 1}));
+  tick(*world, 2);
+  const auto left = world->positions();
+  expect(world->apply(StepHistory{-1}));
+  expect(world->apply(Release{}));  // as the window does: no button holds it
+  expect(world->apply(StepHistory{1}));
+  CHECK(world->positions() == left);
+  CHECK(find_grasp(world->tools(), 1));
+}
+
+TEST_CASE("hands: an undone cut leaves grasps in the hands that they were given to since") {
+  const auto world = make_world(bar(sample_material("neo_hookean"), Integrator::verlet, false));
+  expect(world->apply(Grasp{tip, 0.012}));
+  expect(world->apply(Grasp{above_tip, 0, 1}));
+  tick(*world, 2);
+  expect(world->apply(blade_at(0.034)));
+  expect(world->apply(Grasp{above_tip, 0, 5}));
+  expect(world->apply(Grasp{tip, 0.012, 7}));
+  expect(world->apply(Undo{}));
+  REQUIRE(world->tools().size() == 2);
+  CHECK(held(world->tools(), 5).node == above_tip);
+  CHECK(held(world->tools(), 7).node == tip);
+  expect(world->apply(MoveTool{Vec3(0.07, 0, 0), 7}));
 }
 
 TEST_CASE("hands: an undone cut leaves those that have held ever since, with their tools where they are") {
