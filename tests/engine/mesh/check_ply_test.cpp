@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <heml/mesh/check_ply.hpp>
+#include <messages.hpp>
 
 #include "engine/mesh/files.hpp"
 #include "engine/mesh/samples.hpp"
@@ -8,12 +9,6 @@
 namespace heml::check_ply_test {
 
 namespace {
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  REQUIRE(at != std::string::npos);
-  return text.replace(at, from.size(), to);
-}
 
 std::string refusal_of(const std::string& text) {
   return refusal([&] { check_ply("a.ply", text); });

@@ -3,6 +3,7 @@
 
 #include <heml/mesh/from_surface.hpp>
 #include <limits>
+#include <messages.hpp>
 
 #include "engine/mesh/files.hpp"
 #include "engine/mesh/solids.hpp"
@@ -13,7 +14,6 @@ namespace {
 std::string refusal_of(TriangleMesh surface) {
   return refusal([&] { check_surface(surface); });
 }
-bool has(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
 }  // namespace
 
 TEST_CASE("turns scattered triangles outward") {
@@ -41,11 +41,11 @@ TEST_CASE("refuses an open surface: how many edges, and where one is") {
   const Triangle gone = surface.triangles.back();
   surface.triangles.pop_back();
   const std::string said = refusal_of(surface);
-  CHECK(has(said, "the surface is open: 3 edges"));
+  CHECK(says(said, "the surface is open: 3 edges"));
   bool names_one = false;
   for (int node : gone) {
     const Vec3& x = surface.nodes[node];
-    names_one = names_one || has(said, fmt::format("edge from [{}, {}, {}]", x[0], x[1], x[2]).c_str());
+    names_one = names_one || says(said, fmt::format("edge from [{}, {}, {}]", x[0], x[1], x[2]).c_str());
   }
   CHECK(names_one);
 }
@@ -54,7 +54,7 @@ TEST_CASE("refuses edges of more than two triangles") {
   const TriangleMesh surface{{{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}},
                              {{0, 2, 1}, {0, 3, 2}, {1, 2, 3}, {0, 1, 3}, {0, 4, 1}, {0, 5, 4}, {1, 4, 5}, {0, 1, 5}},
                              ""};
-  CHECK(has(refusal_of(surface), "1 edges have more than two triangles"));
+  CHECK(says(refusal_of(surface), "1 edges have more than two triangles"));
 }
 
 TEST_CASE("refuses triangles given twice, in any order of corners") {
@@ -62,7 +62,7 @@ TEST_CASE("refuses triangles given twice, in any order of corners") {
   const auto [a, b, c] = surface.triangles[5];
   surface.triangles.push_back({c, a, b});
   surface.triangles.push_back({b, a, c});
-  CHECK(has(refusal_of(surface), "lies on triangle 5; 2 such"));
+  CHECK(says(refusal_of(surface), "lies on triangle 5; 2 such"));
 }
 
 TEST_CASE("refuses a surface of one side only") {
@@ -71,30 +71,30 @@ TEST_CASE("refuses a surface of one side only") {
       {{0, 0, 0}, {1, 0.1, 0}, {0.2, 1, 0.1}, {0.1, 0.3, 1}, {1, 0.9, 0.4}, {0.7, 0.2, 1.1}},
       {{0, 1, 2}, {0, 1, 3}, {0, 2, 4}, {0, 3, 5}, {0, 4, 5}, {1, 2, 5}, {1, 3, 4}, {1, 4, 5}, {2, 3, 4}, {2, 3, 5}},
       ""};
-  CHECK(has(refusal_of(surface), "one side only"));
+  CHECK(says(refusal_of(surface), "one side only"));
 }
 
 TEST_CASE("refuses bodies that cross: which triangles, how many pairs") {
   const std::string said = refusal_of(together(cube(1, Vec3(0, 0, 0)), cube(1, Vec3(0.3, 0.31, 0.32))));
-  CHECK(has(said, "meets triangle"));
-  CHECK(has(said, "pairs of triangles"));
+  CHECK(says(said, "meets triangle"));
+  CHECK(says(said, "pairs of triangles"));
 }
 
 TEST_CASE("refuses bodies that touch") {
-  CHECK(has(refusal_of(together(cube(1, Vec3(0, 0, 0)), cube(1, Vec3(1, 0.1, 0.1)))), "meets triangle"));
+  CHECK(says(refusal_of(together(cube(1, Vec3(0, 0, 0)), cube(1, Vec3(1, 0.1, 0.1)))), "meets triangle"));
 }
 
 TEST_CASE("refuses what is no surface at all") {
   TriangleMesh surface = cube(1, Vec3(0, 0, 0));
   surface.triangles[7][1] = 999;
-  CHECK(has(refusal_of(surface), "triangle 7: names node 999"));
+  CHECK(says(refusal_of(surface), "triangle 7: names node 999"));
   surface = cube(1, Vec3(0, 0, 0));
   surface.nodes[3][2] = std::numeric_limits<double>::quiet_NaN();
-  CHECK(has(refusal_of(surface), "node 3"));
+  CHECK(says(refusal_of(surface), "node 3"));
   surface = cube(1, Vec3(0, 0, 0));
   surface.triangles[4][1] = surface.triangles[4][0];
-  CHECK(has(refusal_of(surface), "triangle 4: has no area"));
-  CHECK(has(refusal_of({}), "no triangles"));
+  CHECK(says(refusal_of(surface), "triangle 4: has no area"));
+  CHECK(says(refusal_of({}), "no triangles"));
 }
 
 }  // namespace heml::check_surface_test

@@ -2,6 +2,7 @@
 
 #include <heml/mesh/edit.hpp>
 #include <heml/mesh/generate.hpp>
+#include <messages.hpp>
 
 namespace heml::edit_test {
 
@@ -20,8 +21,6 @@ std::string problem_of(const ElementSelection& which, const Topology& topology) 
   MeshEdit edit;
   return make_removal_edit(which, block(), topology, edit).message();
 }
-
-bool says(const std::string& text, const char* part) { return text.find(part) != text.npos; }
 
 }  // namespace
 

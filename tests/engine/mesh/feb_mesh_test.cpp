@@ -2,6 +2,7 @@
 
 #include <heml/mesh/feb_mesh.hpp>
 #include <heml/mesh/read.hpp>
+#include <messages.hpp>
 
 #include "engine/mesh/files.hpp"
 #include "engine/mesh/samples.hpp"
@@ -16,12 +17,6 @@ using Names = std::map<int, std::string>;
 FebMesh mesh_of(const std::string& text) {
   const XmlDocument document("a.feb", text);
   return read_feb_mesh(feb_root(document));
-}
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  REQUIRE(at != std::string::npos);
-  return text.replace(at, from.size(), to);
 }
 
 bool refuses(const std::string& text, const std::string& part) {

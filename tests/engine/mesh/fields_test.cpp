@@ -7,6 +7,7 @@
 #include <heml/mesh/quality.hpp>
 #include <heml/mesh/readers.hpp>
 #include <limits>
+#include <messages.hpp>
 
 #include "engine/mesh/files.hpp"
 #include "engine/mesh/samples.hpp"
@@ -16,12 +17,6 @@ namespace heml::fields_test {
 namespace {
 
 using Values = std::vector<double>;
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  REQUIRE(at != std::string::npos);
-  return text.replace(at, from.size(), to);
-}
 
 std::vector<std::string> names_of(const TetMesh& mesh) {
   std::vector<std::string> names;
@@ -35,15 +30,6 @@ const Values& values(const TetMesh& mesh, const std::string& name, std::size_t c
   CHECK(field->components == components);
   CHECK(field->values.size() == components * mesh.tets.size());
   return field->values;
-}
-
-bool says(const std::string& message, std::initializer_list<const char*> parts) {
-  for (const char* part : parts)
-    if (message.find(part) == std::string::npos) {
-      MESSAGE("'", message, "' does not say '", std::string(part), "'");
-      return false;
-    }
-  return true;
 }
 
 }  // namespace

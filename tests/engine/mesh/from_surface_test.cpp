@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
+#include <messages.hpp>
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -16,15 +17,13 @@ namespace heml::from_surface_test {
 
 namespace {
 
-bool has(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
-
 // Whether this build has the helper with both libraries; prints a message if not.
 bool can_mesh() {
   const TemporaryFolder folder;
   const std::string said = refusal([&] { read_surface(folder.file("a.obj", "")); }) + refusal([] {
                              tetrahedralize(cube(1, {0, 0, 0}));
                            });
-  const bool missing = has(said, "HEML_ASSIMP") || has(said, "HEML_TETGEN");
+  const bool missing = says(said, "HEML_ASSIMP") || says(said, "HEML_TETGEN");
   if (missing) MESSAGE("skipped: ", said);
   return !missing;
 }
@@ -116,9 +115,9 @@ TEST_CASE("obeys the requested max. volume away from the surface, whose triangle
 TEST_CASE("refuses options without sense") {
   const TriangleMesh surface = cube(1, {0, 0, 0});
   for (double ratio : {0.5, -1.0, std::nan("")})
-    CHECK(has(refusal([&] { tetrahedralize(surface, with_ratio(ratio)); }), "radius_edge_ratio"));
+    CHECK(says(refusal([&] { tetrahedralize(surface, with_ratio(ratio)); }), "radius_edge_ratio"));
   for (double volume : {0.0, -1.0, std::nan("")})
-    CHECK(has(refusal([&] { tetrahedralize(surface, with_volume(volume)); }), "max_volume"));
+    CHECK(says(refusal([&] { tetrahedralize(surface, with_volume(volume)); }), "max_volume"));
 }
 
 TEST_CASE("reads surfaces with joined nodes: OBJ of several parts and quadrilaterals, STL, PLY, OFF") {
@@ -177,11 +176,11 @@ TEST_CASE("reads a surface of tiny triangles whole") {
 TEST_CASE("refuses files that hold no surface") {
   if (!can_mesh()) return;
   const TemporaryFolder folder;
-  CHECK(has(refusal([&] { read_surface(folder / "none.obj"); }), "no such file"));
-  CHECK(has(refusal([&] { read_surface(folder.file("a.obj", "v 0 0 0\nv 1 0 0\n")); }), "a.obj"));
-  CHECK(has(refusal([&] { read_surface(folder.file("a.stl", std::string(84, '\1'))); }), "a.stl"));
-  CHECK(has(refusal([&] { read_surface(folder.file("a.xyz", "1 2 3")); }), "assimp"));
-  CHECK(has(refusal([&] { read_surface(folder.file("points.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n")); }), "points.obj"));
+  CHECK(says(refusal([&] { read_surface(folder / "none.obj"); }), "no such file"));
+  CHECK(says(refusal([&] { read_surface(folder.file("a.obj", "v 0 0 0\nv 1 0 0\n")); }), "a.obj"));
+  CHECK(says(refusal([&] { read_surface(folder.file("a.stl", std::string(84, '\1'))); }), "a.stl"));
+  CHECK(says(refusal([&] { read_surface(folder.file("a.xyz", "1 2 3")); }), "assimp"));
+  CHECK(says(refusal([&] { read_surface(folder.file("points.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n")); }), "points.obj"));
 }
 
 TEST_CASE("refuses surfaces of sizes that the file cannot hold, at once") {
@@ -195,12 +194,12 @@ TEST_CASE("refuses surfaces of sizes that the file cannot hold, at once") {
   };
   const std::string end = "property list uint int vertex_indices\nend_header\n", huge = "2147483648";
   const std::string ply = "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nelement face 1\n";
-  CHECK(has(said_of("list.ply", ply + end + "0\n" + huge + " 0 1 2\n"), "list of 2147483648 values"));
-  CHECK(has(said_of("cut.ply", ply + "property float zchar int vertex_indices\nen 3\n3 1 " + huge + " 3\n"), "line 6"));
+  CHECK(says(said_of("list.ply", ply + end + "0\n" + huge + " 0 1 2\n"), "list of 2147483648 values"));
+  CHECK(says(said_of("cut.ply", ply + "property float zchar int vertex_indices\nen 3\n3 1 " + huge + " 3\n"), "line 6"));
   if (helpers_have_memory_limits)
-    CHECK(has(said_of("a.off", "OFF\n4000000000 4000000000 0\n0 0 0\n"), "reading it takes more than 256 MB"));
-  CHECK(has(said_of("a.stl", std::string(80, '\0') + std::string(4, '\xff') + std::string(100, '\0')), "a.stl"));
-  CHECK(has(said_of("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 2147483647\n"), "a.obj"));
+    CHECK(says(said_of("a.off", "OFF\n4000000000 4000000000 0\n0 0 0\n"), "reading it takes more than 256 MB"));
+  CHECK(says(said_of("a.stl", std::string(80, '\0') + std::string(4, '\xff') + std::string(100, '\0')), "a.stl"));
+  CHECK(says(said_of("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 2147483647\n"), "a.obj"));
 }
 
 TEST_CASE("reading that takes too long or too much memory is said of reading, not of filling") {
@@ -208,14 +207,14 @@ TEST_CASE("reading that takes too long or too much memory is said of reading, no
   const auto surface = folder.file("a.obj", "v 0 0 0\n");
   const Environment helper("HEML_MESHER", helper_of(folder, "exit 2"));
   const std::string said = refusal([&] { read_surface(surface); });
-  CHECK(has(said, "reading it takes more than 256 MB of memory (is a size that the file declares damaged?)"));
+  CHECK(says(said, "reading it takes more than 256 MB of memory (is a size that the file declares damaged?)"));
 }
 
 TEST_CASE("says which option adds the helper when it is not there") {
   const Environment none("HEML_MESHER", "/nonexistent");
   const std::string said = refusal([] { tetrahedralize(cube(1, {0, 0, 0})); });
-  CHECK(has(said, "tetrahedral meshes only"));
-  CHECK(has(said, "HEML_TETGEN"));
+  CHECK(says(said, "tetrahedral meshes only"));
+  CHECK(says(said, "HEML_TETGEN"));
 }
 
 TEST_CASE("survives a helper that hangs, crashes, complains or answers nonsense, and leaves no files") {
@@ -226,15 +225,15 @@ TEST_CASE("survives a helper that hangs, crashes, complains or answers nonsense,
     const Environment helper("HEML_MESHER", helper_of(folder, script));
     return refusal([&] { tetrahedralize(surface, with_time(0.5)); });
   };
-  CHECK(has(told("exec sleep 60"), "longer than 0.5 s"));
-  CHECK(has(told("while :; do echo x; done"), "longer than 0.5 s"));
-  CHECK(has(told("kill -SEGV $$"), "signal 11"));
-  CHECK(has(told("exit 2"), "filling it takes more than 4000 MB"));
-  CHECK(has(told("echo first >&2; echo 'too small' >&2; exit 1"), "box: too small"));
-  CHECK(has(told("exit 0"), "box"));
-  CHECK(has(told("echo '8 4000000' >&3"), "is 8, more than"));
-  CHECK(has(told("echo '1 1 0 0 0 0 0 0 7' >&3"), "'7'"));
-  CHECK(has(told("echo '1 0 0 0 0' >&3"), "filled nothing"));
+  CHECK(says(told("exec sleep 60"), "longer than 0.5 s"));
+  CHECK(says(told("while :; do echo x; done"), "longer than 0.5 s"));
+  CHECK(says(told("kill -SEGV $$"), "signal 11"));
+  CHECK(says(told("exit 2"), "filling it takes more than 4000 MB"));
+  CHECK(says(told("echo first >&2; echo 'too small' >&2; exit 1"), "box: too small"));
+  CHECK(says(told("exit 0"), "box"));
+  CHECK(says(told("echo '8 4000000' >&3"), "is 8, more than"));
+  CHECK(says(told("echo '1 1 0 0 0 0 0 0 7' >&3"), "'7'"));
+  CHECK(says(told("echo '1 0 0 0 0' >&3"), "filled nothing"));
   CHECK(std::filesystem::is_empty(scratch / ""));
 }
 
@@ -242,7 +241,7 @@ TEST_CASE("a fine mesh that takes too long is stopped") {
   if (!can_mesh()) return;
   const TriangleMesh surface = box_surface(Vec3(1, 1, 1), 4);
   const std::string said = refusal([&] { tetrahedralize(surface, with_volume(1e-8, 0.3)); });
-  CHECK(has(said, "longer than 0.3 s"));
+  CHECK(says(said, "longer than 0.3 s"));
 }
 
 TEST_CASE("suspects bodies of no organ's size") {
@@ -250,10 +249,10 @@ TEST_CASE("suspects bodies of no organ's size") {
     return unit_warning(Vec3(0, 0, 0), Vec3(length / 2, length, length / 3));
   };
   for (double length : {0.005, 0.15, 0.5, 1.9}) CHECK(suspicion(length).empty());
-  CHECK(has(suspicion(18), "18 m long: is the file in centimetres? \"scale\": 0.01 would make it 0.18 m"));
-  CHECK(has(suspicion(180), "millimetres? \"scale\": 0.001 would make it 0.18 m"));
-  CHECK(has(suspicion(1e6), "is the scale right"));
-  CHECK(has(suspicion(2e-4), "is the scale right"));
+  CHECK(says(suspicion(18), "18 m long: is the file in centimetres? \"scale\": 0.01 would make it 0.18 m"));
+  CHECK(says(suspicion(180), "millimetres? \"scale\": 0.001 would make it 0.18 m"));
+  CHECK(says(suspicion(1e6), "is the scale right"));
+  CHECK(says(suspicion(2e-4), "is the scale right"));
 }
 
 TEST_CASE("fills surfaces made by others and refuses those that cannot be filled") {
@@ -273,7 +272,7 @@ TEST_CASE("fills surfaces made by others and refuses those that cannot be filled
     TriangleMesh surface = read_surface(shared_data(name));
     return refusal([&] { check_surface(surface); });
   };
-  CHECK(has(refusal_of("bunny.obj"), "open: 42 edges"));
+  CHECK(says(refusal_of("bunny.obj"), "open: 42 edges"));
 }
 
 TEST_CASE("fills a surface by others that runs through itself in a crease, once smoothed there") {

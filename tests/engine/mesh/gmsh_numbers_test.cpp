@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <heml/mesh/readers.hpp>
+#include <messages.hpp>
 
 #include "engine/mesh/binary_samples.hpp"
 #include "engine/mesh/files.hpp"
@@ -19,12 +20,6 @@ void check_mesh(const TetMesh& mesh) {
   CHECK(mesh.tets == std::vector<Tet>{{0, 1, 2, 3}, {1, 2, 3, 4}});
   CHECK(mesh.regions == std::vector<int>{7, -3});
   CHECK(mesh.region_names == std::map<int, std::string>{{7, "left lobe"}});
-}
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  REQUIRE(at != std::string::npos);
-  return text.replace(at, from.size(), to);
 }
 
 }  // namespace

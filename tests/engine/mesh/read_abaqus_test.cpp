@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <heml/mesh/readers.hpp>
+#include <messages.hpp>
 
 #include "engine/mesh/binary_samples.hpp"
 #include "engine/mesh/files.hpp"
@@ -13,21 +14,6 @@ using Names = std::map<int, std::string>;
 
 std::string refusal_of(const std::string& text) {
   return refusal([&] { read_abaqus("a.inp", text); });
-}
-
-bool holds(const std::string& text, std::initializer_list<const char*> parts) {
-  for (const char* part : parts)
-    if (text.find(part) == std::string::npos) {
-      MESSAGE("'", text, "' does not say '", std::string(part), "'");
-      return false;
-    }
-  return true;
-}
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  REQUIRE(at != std::string::npos);
-  return text.replace(at, from.size(), to);
 }
 
 }  // namespace
@@ -63,7 +49,7 @@ TEST_CASE("reads one part in an assembly and passes over the assembly's own node
   const TetMesh mesh = read_abaqus("a.inp", replaced(text, "two tetrahedra, 1\n", "")).mesh;
   CHECK(mesh.nodes.size() == 5);
   CHECK(mesh.tets.size() == 2);
-  CHECK(holds(refusal_of(samples::abaqus + "*PART, NAME=b\n*END PART\n*PART, NAME=c\n"),
+  CHECK(says(refusal_of(samples::abaqus + "*PART, NAME=b\n*END PART\n*PART, NAME=c\n"),
               {"a.inp: line 26", "second PART", "one part alone"}));
 }
 
@@ -76,17 +62,17 @@ TEST_CASE("refuses what an Abaqus file cannot say, by line, with a remedy") {
   const auto told = [](const std::string& from, const std::string& to) {
     return refusal_of(replaced(samples::abaqus, from, to));
   };
-  CHECK(holds(told("*STEP", "*INCLUDE, INPUT=mesh.inp"), {"a.inp: line 22", "'mesh.inp'", "put its lines here"}));
-  CHECK(holds(told("12, 20, 30, 40, 55", "12, 20, 30, 40, 56"), {"line 9", "node 56"}));
-  CHECK(holds(told("12, 20, 30, 40, 55", "12, 20, 30, 40"), {"line 10", "element 12 has 3 nodes", "4"}));
-  CHECK(holds(told("12, 20, 30, 40, 55", "12, 20, 30, 40, 55, 10"), {"line 9", "more than 4"}));
-  CHECK(holds(told("12, 20, 30, 40, 55", "12, 20, 30, 40, x"), {"line 9", "'x'", "whole number"}));
-  CHECK(holds(told("30, , 1.e+0", "30, , one"), {"line 13", "'one'"}));
-  CHECK(holds(told("30, , 1.e+0", "30, , nan"), {"line 13", "'nan'"}));
-  CHECK(holds(told("55, 1, 1, 1.5", "40, 1, 1, 1.5"), {"node number 40", "twice"}));
-  CHECK(holds(told("7, 12, 5", "7, 12, 0"), {"line 17", "step is 0"}));
-  CHECK(holds(told("12,\n", "middle\n"), {"line 19", "'middle'", "not given before"}));
-  CHECK(holds(refusal_of("5 2 0 0 0\n1 0 0 0\n"), {"line 1", "keyword", "*NODE"}));
+  CHECK(says(told("*STEP", "*INCLUDE, INPUT=mesh.inp"), {"a.inp: line 22", "'mesh.inp'", "put its lines here"}));
+  CHECK(says(told("12, 20, 30, 40, 55", "12, 20, 30, 40, 56"), {"line 9", "node 56"}));
+  CHECK(says(told("12, 20, 30, 40, 55", "12, 20, 30, 40"), {"line 10", "element 12 has 3 nodes", "4"}));
+  CHECK(says(told("12, 20, 30, 40, 55", "12, 20, 30, 40, 55, 10"), {"line 9", "more than 4"}));
+  CHECK(says(told("12, 20, 30, 40, 55", "12, 20, 30, 40, x"), {"line 9", "'x'", "whole number"}));
+  CHECK(says(told("30, , 1.e+0", "30, , one"), {"line 13", "'one'"}));
+  CHECK(says(told("30, , 1.e+0", "30, , nan"), {"line 13", "'nan'"}));
+  CHECK(says(told("55, 1, 1, 1.5", "40, 1, 1, 1.5"), {"node number 40", "twice"}));
+  CHECK(says(told("7, 12, 5", "7, 12, 0"), {"line 17", "step is 0"}));
+  CHECK(says(told("12,\n", "middle\n"), {"line 19", "'middle'", "not given before"}));
+  CHECK(says(refusal_of("5 2 0 0 0\n1 0 0 0\n"), {"line 1", "keyword", "*NODE"}));
 }
 
 }  // namespace heml::read_abaqus_test

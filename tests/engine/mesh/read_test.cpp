@@ -4,6 +4,7 @@
 #include <heml/mesh/quality.hpp>
 #include <heml/mesh/read.hpp>
 #include <heml/mesh/readers.hpp>
+#include <messages.hpp>
 #include <regex>
 
 #include "engine/mesh/files.hpp"
@@ -20,21 +21,6 @@ TetMesh from_text(const std::string& name, const std::string& text) {
 
 std::string refusal_of(const std::string& name, const std::string& text) {
   return refusal([&] { from_text(name, text); });
-}
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  REQUIRE(at != std::string::npos);
-  return text.replace(at, from.size(), to);
-}
-
-bool says(const std::string& message, std::initializer_list<const char*> parts) {
-  for (const char* part : parts)
-    if (message.find(part) == std::string::npos) {
-      MESSAGE("'", message, "' does not say '", std::string(part), "'");
-      return false;
-    }
-  return true;
 }
 
 void check_sample(const TetMesh& mesh) {

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <heml/mesh/textured_surface.hpp>
+#include <messages.hpp>
 
 #include "engine/mesh/files.hpp"
 #include "engine/mesh/helpers.hpp"
@@ -12,12 +13,6 @@ namespace {
 constexpr const char* square =
     "mtllib s.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvt 0.5 0.25\nusemtl skin\n"
     "f 1/1 2/2 3/3\nf 1/5 3/3 4/4\n";
-
-bool holds(const std::string& text, const std::string& part) {
-  if (text.find(part) != text.npos) return true;
-  MESSAGE("'", text, "' does not say '", part, "'");
-  return false;
-}
 
 }  // namespace
 
@@ -47,7 +42,7 @@ TEST_CASE("a missing image is refused with its name, unless the scene names anot
   const TemporaryFolder folder;
   folder.file("s.mtl", "newmtl skin\nmap_Kd gone.png\n");
   const auto file = folder.file("s.obj", square);
-  CHECK(holds(refusal([&] { read_textured_surface(file); }), "names the texture 'gone.png', which is not there"));
+  CHECK(says(refusal([&] { read_textured_surface(file); }), "names the texture 'gone.png', which is not there"));
   CHECK(read_textured_surface(file, false).texture.empty());
 }
 
@@ -73,8 +68,8 @@ TEST_CASE("colours are those of vertices or materials, and none where the file g
 TEST_CASE("what is no surface is refused by its name") {
   if (!reads_skins()) return;
   const TemporaryFolder folder;
-  CHECK(holds(refusal([&] { read_textured_surface(folder / "none.obj"); }), "none.obj: there is no such file"));
-  CHECK(holds(refusal([&] { read_textured_surface(folder.file("a.obj", "v 0 0 0\n")); }), "a.obj"));
+  CHECK(says(refusal([&] { read_textured_surface(folder / "none.obj"); }), "none.obj: there is no such file"));
+  CHECK(says(refusal([&] { read_textured_surface(folder.file("a.obj", "v 0 0 0\n")); }), "a.obj"));
 }
 
 }  // namespace heml::textured_surface_test

@@ -3,6 +3,7 @@
 
 #include <heml/mesh/quality.hpp>
 #include <heml/mesh/readers.hpp>
+#include <messages.hpp>
 
 #include "engine/mesh/binary_samples.hpp"
 #include "engine/mesh/files.hpp"
@@ -16,21 +17,6 @@ using samples::VtuForm;
 
 std::string refusal_of(const std::string& text) {
   return refusal([&] { read_vtu("a.vtu", text); });
-}
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  REQUIRE(at != std::string::npos);
-  return text.replace(at, from.size(), to);
-}
-
-bool holds(const std::string& text, std::initializer_list<const char*> parts) {
-  for (const char* part : parts)
-    if (text.find(part) == std::string::npos) {
-      MESSAGE("'", text, "' does not say '", std::string(part), "'");
-      return false;
-    }
-  return true;
 }
 
 }  // namespace
@@ -66,30 +52,30 @@ TEST_CASE("a binary file that is cut off anywhere is refused, or nothing of the 
 TEST_CASE("binary arrays that cannot be are refused by name, with a remedy") {
   const std::string plain = binary_vtu({}), appended = binary_vtu({.appended = true, .raw = true}),
                     compressed = binary_vtu({.compressed = true});
-  CHECK(holds(refusal_of(replaced(compressed, "vtkZLib", "vtkLZ4")), {"a.vtu: line", "vtkLZ4", "zlib"}));
-  CHECK(holds(refusal_of(replaced(appended, "offset=\"0\"", "offset=\"99999\"")), {"'region'", "99999", "cut off"}));
-  CHECK(holds(refusal_of(replaced(appended, "offset=\"0\"", "offset=\"-1\"")), {"'region'", "'-1'"}));
-  CHECK(holds(refusal_of(replaced(appended, "<AppendedData", "<AppendedDat")), {"AppendedData", "cut off"}));
-  CHECK(holds(refusal_of(replaced(appended, "raw", "hex")), {"encoding 'hex'", "raw or base64"}));
-  CHECK(holds(refusal_of(replaced(plain, "\"Int64\" Name=\"connectivity\"", "\"Float64\" Name=\"connectivity\"")),
+  CHECK(says(refusal_of(replaced(compressed, "vtkZLib", "vtkLZ4")), {"a.vtu: line", "vtkLZ4", "zlib"}));
+  CHECK(says(refusal_of(replaced(appended, "offset=\"0\"", "offset=\"99999\"")), {"'region'", "99999", "cut off"}));
+  CHECK(says(refusal_of(replaced(appended, "offset=\"0\"", "offset=\"-1\"")), {"'region'", "'-1'"}));
+  CHECK(says(refusal_of(replaced(appended, "<AppendedData", "<AppendedDat")), {"AppendedData", "cut off"}));
+  CHECK(says(refusal_of(replaced(appended, "raw", "hex")), {"encoding 'hex'", "raw or base64"}));
+  CHECK(says(refusal_of(replaced(plain, "\"Int64\" Name=\"connectivity\"", "\"Float64\" Name=\"connectivity\"")),
               {"'connectivity'", "real", "integers"}));
-  CHECK(holds(refusal_of(replaced(plain, "\"Int32\" Name=\"offsets\"", "\"Int64\" Name=\"offsets\"")),
+  CHECK(says(refusal_of(replaced(plain, "\"Int32\" Name=\"offsets\"", "\"Int64\" Name=\"offsets\"")),
               {"'offsets'", "12 bytes"}));
-  CHECK(holds(refusal_of(replaced(plain, "\nAwAAAA", "\n!wAAAA")), {"'region'", "'!'"}));
+  CHECK(says(refusal_of(replaced(plain, "\nAwAAAA", "\n!wAAAA")), {"'region'", "'!'"}));
 }
 
 TEST_CASE("sizes that a file cannot hold are refused before memory is taken") {
   // 2 GB announced before 3 bytes.
   const std::string plain = binary_vtu({}), wide = binary_vtu({.wide_header = true});
-  CHECK(holds(refusal_of(replaced(plain, "\nAwAAAA", "\n////fw")), {"'region'", "2147483647 bytes", "cut off"}));
-  CHECK(holds(refusal_of(replaced(wide, "\nAwAAAAAAAAA", "\n/////////38")), {"'region'", "announces"}));
+  CHECK(says(refusal_of(replaced(plain, "\nAwAAAA", "\n////fw")), {"'region'", "2147483647 bytes", "cut off"}));
+  CHECK(says(refusal_of(replaced(wide, "\nAwAAAAAAAAA", "\n/////////38")), {"'region'", "announces"}));
   // A block of 1 GB in 11 compressed bytes.
   const std::string compressed = binary_vtu({.appended = true, .raw = true, .compressed = true});
   const std::string header = samples::Binary(true).integers<int>({1, 16, 3}),
                     bomb = samples::Binary(true).integers<int>({1, 1 << 30, 1 << 30});
-  CHECK(holds(refusal_of(replaced(compressed, header, bomb)), {"'region'", "1073741824 bytes", "compressed"}));
+  CHECK(says(refusal_of(replaced(compressed, header, bomb)), {"'region'", "1073741824 bytes", "compressed"}));
   const std::string many = samples::Binary(true).integers<int>({1 << 30, 16, 3});
-  CHECK(holds(refusal_of(replaced(compressed, header, many)), {"'region'", "cut off"}));
+  CHECK(says(refusal_of(replaced(compressed, header, many)), {"'region'", "cut off"}));
 }
 
 TEST_CASE("arrays that share one compressed block may not fill the memory") {
@@ -101,7 +87,7 @@ TEST_CASE("arrays that share one compressed block may not fill the memory") {
     text += "<DataArray type=\"Int8\" Name=\"f" + std::to_string(f) + "\" format=\"appended\" offset=\"0\"/>";
   text += "</CellData></Piece></UnstructuredGrid><AppendedData encoding=\"raw\">_";
   text += samples::Binary(true).integers<int>({1, 1 << 20, 0, static_cast<long long>(packed.size())});
-  CHECK(holds(refusal_of(text + packed + "</AppendedData></VTKFile>"), {"announces 1048576 bytes"}));
+  CHECK(says(refusal_of(text + packed + "</AppendedData></VTKFile>"), {"announces 1048576 bytes"}));
 }
 
 }  // namespace heml::vtk_xml_data_test

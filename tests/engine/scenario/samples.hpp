@@ -2,6 +2,7 @@
 // Scenes for tests, as text.
 #include <heml/scenario/json_text.hpp>
 #include <heml/scenario/scene.hpp>
+#include <messages.hpp>
 #include <string>
 
 namespace heml::test {
@@ -25,8 +26,6 @@ inline std::string scene_with(const std::string& patch) {
 }
 
 /// Whether a message contains a part.
-inline bool says(const std::string& message, const std::string& part) { return message.find(part) != message.npos; }
-
 inline Scene small_scene_with(const std::string& patch) { return parse_scene(scene_with(patch), "folder/scene.json"); }
 
 }  // namespace heml::test

@@ -1,0 +1,2 @@
+#define HALF 2
+double macro_fourth() { return HALF; }
