@@ -1,9 +1,9 @@
 # heml_unity_groups(DIRECTORY)
 #
 # Chooses which files of each target in DIRECTORY and below are compiled together (unity builds): up to
-# CMAKE_UNITY_BUILD_BATCH_SIZE in the order of the target, none that declares a name in an unnamed namespace, or a macro, that
-# another of the batch declares too. So such names need not be unique; a name that has come to clash since is seen when CMake
-# runs again.
+# CMAKE_UNITY_BUILD_BATCH_SIZE in the order of the target, none that declares a name in an unnamed namespace, or a macro,
+# that another of the batch declares too. So such names need not be unique; a name that has come to clash since is seen
+# when CMake runs again.
 function(heml_unity_groups directory)
   get_property(below DIRECTORY ${directory} PROPERTY SUBDIRECTORIES)
   foreach(each IN LISTS below)
@@ -80,7 +80,7 @@ function(heml_names_of_file path result)
       string(REGEX REPLACE " //.*$" "" code "${line}")
       string(REPLACE ";" "=" code "${code}")  # which CMake would take for the end of a list's item
       string(REGEX MATCHALL "[A-Za-z_][A-Za-z0-9_]*( : | *[({=[])" found "${code}")
-      list(FILTER found EXCLUDE REGEX "^(void|bool|int|double|float|auto|decltype|requires|alignas|static_assert|TEST_CASE.*)[({[]")
+      list(FILTER found EXCLUDE REGEX "^(void|bool|int|double|float|auto|decltype|requires|alignas|static_assert)[({[]")
       if(NOT found MATCHES "^[A-Za-z0-9_]* *=")  # a function or a type: what follows are its parameters
         list(SUBLIST found 0 1 found)
       endif()

@@ -1,6 +1,7 @@
 // Options of the commands that play a scene.
 #include <app/commands/command_line.hpp>
 #include <app/commands/number_options.hpp>
+#include <heml/scenario/standard_view.hpp>
 #include <memory>
 
 namespace heml {
