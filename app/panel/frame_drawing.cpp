@@ -8,11 +8,22 @@
 namespace heml::panel {
 
 FrameDrawing::FrameDrawing(const Scene& scene, const World& world, render::Size size, bool panel, bool comparisons)
-    : size_(size),
-      context_(size_),
-      surface_mesh_(make_surface_mesh(world, nullptr, scene.view.hidden)),
-      skin_(load_skin(scene, world.setup().mesh)),
-      view_(scene.view) {
+    : size_(size), context_(size_) {
+  show(scene, world, panel, comparisons, false);
+}
+
+void FrameDrawing::show(const Scene& scene, const World& world, bool panel, bool comparisons, bool is_same_world) {
+  if (!is_same_world) {
+    surface_mesh_ = nullptr;
+    solid_ = nullptr;
+    skin_ = SkinAttachment(load_skin(scene, world.setup().mesh));
+  }
+  surface_mesh_ = make_surface_mesh(world, std::move(surface_mesh_), scene.view.hidden);
+  view_ = scene.view;
+  colours_ = {};
+  panel_.reset();
+  interface_.reset();
+  cuts_.clear();
   if (panel || comparisons || view_.field != Field::none) interface_.emplace(Interface::suitable_scale(size_));
   if (panel) panel_.emplace(scene, *surface_mesh_);
   if (view_.range)

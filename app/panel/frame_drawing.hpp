@@ -12,12 +12,19 @@
 
 namespace heml::panel {
 
-/// Owns an OpenGL context: use it on the thread that made it. At most one exists at a time.
+/// Owns an OpenGL context: one thread at a time. At most one drawing exists at a time.
 class FrameDrawing {
  public:
   /// panel: draws the panel; otherwise only a legend, if the scene shows a field. comparisons: there will be comparison
   /// runs, which are labelled.
   FrameDrawing(const Scene& scene, const World& world, render::Size size, bool panel, bool comparisons);
+
+  /// Draws a world from now on as if the drawing had been made for it, at the price of a frame: shaders are kept, and of
+  /// the world that it has drawn the surface too. panel, comparisons: as of the constructor.
+  void show(const Scene& scene, const World& world, bool panel, bool comparisons, bool is_same_world);
+  /// Another thread may draw then, after take_up().
+  void lay_down() { context_.release(); }
+  void take_up() { context_.make_current(); }
 
   /// Draws the world extrapolated by `ahead` (s). seconds: simulated since the last frame. comparison_runs: drawn in
   /// further panes.

@@ -14,6 +14,8 @@ constexpr long ticks_between_checkpoints = 500;
 std::atomic<long> forks{0};
 const int counts_forks = pthread_atfork(nullptr, nullptr, [] { ++forks; });
 
+std::atomic<std::uint64_t> numbers{0};  // of worlds
+
 Scene with_threads(Scene scene, int threads) {
   if (threads > 0) scene.solver.threads = threads;
   return scene;
@@ -30,7 +32,8 @@ WorldSetup with_actions(WorldSetup setup) {
 LiveWorld::LiveWorld(Scene scene, int threads) : LiveWorld(with_threads(std::move(scene), threads), WorldSetup()) {}
 
 LiveWorld::LiveWorld(Scene scene, WorldSetup setup)
-    : scene_(std::move(scene)),
+    : number_(++numbers),
+      scene_(std::move(scene)),
       world_(make_world(with_actions(setup.mesh.nodes.empty() ? load_setup(scene_) : std::move(setup)))),
       schedule_(scene_, world_->setup().mesh),
       recorded_(std::make_shared<const Scene>(as_recorded(scene_, *world_))),

@@ -4,6 +4,7 @@
 #include <app/python/snapshot.hpp>
 #include <atomic>
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <heml/scenario/recorder.hpp>
 #include <heml/scenario/report.hpp>
@@ -41,6 +42,8 @@ class LiveWorld {
     LiveWorld& live_;
   };
 
+  /// Another one for every world of the process, closed ones too.
+  std::uint64_t number() const { return number_; }
   World& world() { return *world_; }
   const Scene& scene() const { return scene_; }
 
@@ -72,6 +75,7 @@ class LiveWorld {
   void finish_call();
   void remember_state(const Command& command);
 
+  const std::uint64_t number_;
   Scene scene_;
   std::unique_ptr<World> world_;
   Schedule schedule_;

@@ -1,14 +1,17 @@
 // heml.render()
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <app/panel/frame_drawing.hpp>
 #include <app/python/arrays.hpp>
 #include <app/python/bindings.hpp>
 #include <app/python/json_objects.hpp>
+#include <atomic>
 #include <heml/base/error.hpp>
 #include <heml/scenario/view_json.hpp>
 #include <mutex>
+#include <utility>
 
 namespace heml::python {
 
@@ -19,12 +22,43 @@ namespace {
 
 constexpr int min_size = 16, max_size = 8192;  // pixels, as of `heml capture`
 
-std::mutex drawing_mutex;  // one drawing exists at a time
+// The drawing of the last picture, for the next one of its size: a new context compiles its shaders again, which takes
+// longer than many pictures. Never freed: Mesa may be gone before the module is.
+struct Easel {
+  panel::FrameDrawing drawing;
+  render::Size size;
+  std::uint64_t world;
+};
+struct LayDown {  // so that any thread can draw the next one
+  explicit LayDown(panel::FrameDrawing& laid_down) : drawing(laid_down) {}
+  ~LayDown() { drawing.lay_down(); }
+  LayDown(const LayDown&) = delete;
+  LayDown& operator=(const LayDown&) = delete;
+
+  panel::FrameDrawing& drawing;
+};
+std::mutex easel_mutex;  // one drawing exists at a time
+Easel* easel = nullptr;
+std::atomic<pid_t> draws_here{0};  // the process that has drawn
 
 render::Image draw(LiveWorld& live, const Scene& scene, render::Size size) {
-  const std::scoped_lock lock(drawing_mutex);
-  panel::FrameDrawing drawing(scene, live.world(), size, false, false);
-  return drawing.draw(live.world(), 0, 0);
+  pid_t none = 0;
+  if (!draws_here.compare_exchange_strong(none, getpid()) && none != getpid())
+    throw std::runtime_error(
+        "this process was forked from one that has drawn, whose drawing threads it lacks: draw in a process that is "
+        "spawned (multiprocessing.get_context('spawn')), or fork before the first picture");
+  const std::scoped_lock lock(easel_mutex);
+  if (easel && easel->size == size) {
+    easel->drawing.take_up();
+    easel->drawing.show(scene, live.world(), false, false, easel->world == live.number());
+  } else {
+    if (easel) easel->drawing.take_up();
+    delete std::exchange(easel, nullptr);
+    easel = new Easel{{scene, live.world(), size, false, false}, size, 0};
+  }
+  easel->world = live.number();
+  const LayDown at_the_end(easel->drawing);
+  return easel->drawing.draw(live.world(), 0, 0);
 }
 
 render::Size size_from(nb::handle given) {

@@ -80,6 +80,8 @@ void OsMesaContext::make_current() {
     throw std::runtime_error("libOSMesa cannot draw into an image of this size");
 }
 
+void OsMesaContext::release() { library().make_current(nullptr, nullptr, 0, 0, 0); }
+
 Size OsMesaContext::size() const { return impl_->size; }
 
 GLADloadfunc OsMesaContext::loader() const { return library().get_proc_address; }

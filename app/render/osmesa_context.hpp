@@ -13,6 +13,8 @@ class OsMesaContext final : public GraphicsContext {
   ~OsMesaContext() override;
 
   void make_current() override;
+  /// The calling thread draws nowhere; another one may make it current.
+  void release();
   Size size() const override;
   void present() override {}
   GLADloadfunc loader() const override;

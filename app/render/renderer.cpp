@@ -1,11 +1,13 @@
 #include "app/render/renderer.hpp"
 
+#include <app/render/background.hpp>
 #include <app/render/body_mesh.hpp>
 #include <app/render/fine_skin.hpp>
 #include <app/render/resources.hpp>
 #include <app/render/section_cap.hpp>
 #include <app/render/shadows.hpp>
 #include <app/render/tool_drawing.hpp>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <stdexcept>
@@ -15,8 +17,6 @@ namespace heml::render {
 namespace {
 
 const Vec3f key_direction = Vec3f(-0.50f, 0.78f, 0.38f).normalized();  // towards the lamp
-constexpr float ground_extent = 7;                                     // in body radii
-constexpr int ground_grid = 36;                                        // squares a side, the same as in ground.vert
 constexpr float hatch_period = 11;                                     // pixels in a picture 720 high
 constexpr float ground_gap = 0.05f;                                    // under the body, in body radii
 
@@ -56,7 +56,8 @@ class Renderer::Impl {
   void update_surface_mesh(const Frame& frame);
   void update_skin(const Frame& frame);
   const RenderTarget* canvas(const DrawOptions& options, Size size);
-  void draw_picture(const ViewContext& shot, const Frame& frame, const DrawOptions& options);
+  void draw_picture(const ViewContext& shot, const Frame& frame, const DrawOptions& options,
+                    const Background::Place& place);
   void update_section(const Frame& frame, const DrawOptions& options, const Range& range);
   void draw_body(const ViewContext& shot, const DrawOptions& options, bool shows_field);
   void draw_cap(const ViewContext& shot, bool shows_field);
@@ -67,8 +68,7 @@ class Renderer::Impl {
   void draw_shadows(const ViewContext& shot, const Frame& frame, const DrawOptions& options);
   void draw_edges(const ViewContext& shot) const;
   void draw_constrained(const ViewContext& shot) const;
-  void draw_ground(const ViewContext& shot) const;
-  void draw_backdrop(const ViewContext& shot) const;
+  Background::Ground ground(const ViewContext& shot, const Frame& frame, const DrawOptions& options) const;
 
   enum TissueFeature : unsigned {
     with_field = 1,
@@ -81,13 +81,12 @@ class Renderer::Impl {
   std::array<std::optional<Program>, 64> tissue_;  // by features, compiled on first use
   Program line_{"line.vert", "line.frag"};
   Program bead_{"bead.vert", "bead.frag"};
-  Program ground_{"ground.vert", "ground.frag"};
-  Program backdrop_{"screen.vert", "backdrop.frag"};
-  VertexArray empty_array_;  // for shapes that need only gl_VertexID
+  Background background_;
   Texture map_, detail_;
   std::optional<RenderTarget> canvas_;
   std::shared_ptr<const SurfaceMesh> surface_mesh_;  // the mesh of body_
   std::shared_ptr<const SurfaceMesh> whole_;         // the mesh of the uncut body
+  TissueLooks looks_;
   TissueLook whole_look_;
   std::optional<BodyMesh> body_;
   std::optional<FineSkin> skin_;  // in place of the body's surface; kept while a cut body has none
@@ -98,6 +97,7 @@ class Renderer::Impl {
   Footprint footprint_;
   ToolDrawing tool_;
   Vec3f ground_centre_ = Vec3f::Zero();
+  bool has_shadows_ = false;  // of surface_mesh_, in both maps
 };
 
 const RenderTarget* Renderer::Impl::canvas(const DrawOptions& options, Size size) {
@@ -112,10 +112,11 @@ const RenderTarget* Renderer::Impl::canvas(const DrawOptions& options, Size size
 void Renderer::Impl::update_surface_mesh(const Frame& frame) {
   if (frame.surface_mesh == surface_mesh_) return;
   surface_mesh_ = frame.surface_mesh;
+  has_shadows_ = false;
   body_.reset();
   if (!surface_mesh_) return;
   const auto& whole = surface_mesh_->whole ? surface_mesh_->whole : surface_mesh_;
-  if (whole != whole_) whole_look_ = tissue_look(*whole);
+  if (whole != whole_) whole_look_ = looks_.of(whole);
   whole_ = whole;
   if (!surface_mesh_->whole) {
     body_.emplace(*surface_mesh_, whole_look_);
@@ -168,7 +169,7 @@ void Renderer::Impl::draw(const Frame& frame, const Camera& camera, const DrawOp
       body_->update_hatching(options.hatched);
       body_->update_outline(camera.eye(), shot.view_projection, drawn);
     }
-    draw_shadows(shot, frame, options);
+    if (!options.old_shadows || !has_shadows_) draw_shadows(shot, frame, options);
   }
   if (scaled) {
     scaled->bind();
@@ -179,14 +180,18 @@ void Renderer::Impl::draw(const Frame& frame, const Camera& camera, const DrawOp
     glScissor(options.left, options.bottom, drawn.width, drawn.height);  // also clips wide points and lines
     glEnable(GL_SCISSOR_TEST);
   }
-  draw_picture(shot, frame, options);
+  draw_picture(shot, frame, options,
+               scaled ? Background::Place{} : Background::Place{options.left, options.bottom});
   glDisable(GL_SCISSOR_TEST);
   if (scaled) scaled->stretch_to_screen(options.left, options.bottom, size);
 }
 
-void Renderer::Impl::draw_picture(const ViewContext& shot, const Frame& frame, const DrawOptions& options) {
+void Renderer::Impl::draw_picture(const ViewContext& shot, const Frame& frame, const DrawOptions& options,
+                                  const Background::Place& place) {
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LEQUAL);
+  const Background::Ground ground = this->ground(shot, frame, options);
+  background_.prepare(shot, ground, place);
   glClear(GL_DEPTH_BUFFER_BIT);
   const bool shows_field = frame.field != Field::none && body_ && frame.values.size() == body_->node_count();
   if (shows_field) upload_map(map_, frame.field);
@@ -201,9 +206,8 @@ void Renderer::Impl::draw_picture(const ViewContext& shot, const Frame& frame, c
     glDisable(GL_CLIP_DISTANCE0);
     if (options.section) draw_cap(shot, shows_field);
     tool_.draw(shot);
-    if (options.ground && shot.camera.eye().y() > ground_centre_.y()) draw_ground(shot);
   }
-  draw_backdrop(shot);
+  background_.draw(shot, ground);
   glEnable(GL_BLEND);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   glDepthMask(GL_FALSE);
@@ -286,6 +290,7 @@ void Renderer::Impl::draw_shadows(const ViewContext& shot, const Frame& frame, c
   const auto casters = [&](const Program& program) { draw_casters(program); };
   shadow_map_.draw(ball, key_direction, casters);
   if (options.ground) footprint_.draw(rest.centre, rest.radius, ground, shot.key_direction, casters);
+  has_shadows_ = options.ground;
 }
 
 void Renderer::Impl::draw_casters(const Program& program) const {
@@ -349,27 +354,22 @@ void Renderer::Impl::draw_constrained(const ViewContext& shot) const {
   body_->draw_constrained();
 }
 
-void Renderer::Impl::draw_ground(const ViewContext& shot) const {
-  ground_.use();
-  ground_.set("view_projection", shot.view_projection);
-  ground_.set("centre", ground_centre_);
-  ground_.set("radius", shot.radius);
-  ground_.set("extent", ground_extent);
-  ground_.set("footprint_extent", Footprint::extent);
-  ground_.set("aspect", shot.size.aspect());
-  ground_.set("key_direction", shot.key_direction);
-  ground_.set("footprint", 0);
-  glActiveTexture(GL_TEXTURE0);
-  glBindTexture(GL_TEXTURE_2D, footprint_.texture());
-  glBindVertexArray(empty_array_);
-  glDrawArrays(GL_TRIANGLES, 0, 6 * ground_grid * ground_grid);
-}
-
-void Renderer::Impl::draw_backdrop(const ViewContext& shot) const {
-  backdrop_.use();
-  backdrop_.set("aspect", shot.size.aspect());
-  glBindVertexArray(empty_array_);
-  glDrawArrays(GL_TRIANGLES, 0, 3);
+Background::Ground Renderer::Impl::ground(const ViewContext& shot, const Frame& frame,
+                                          const DrawOptions& options) const {
+  Background::Ground ground;
+  ground.centre = ground_centre_;
+  ground.radius = shot.radius;
+  ground.footprint = footprint_.texture();
+  ground.shown = body_ && options.ground && shot.camera.eye().y() > ground.centre.y();
+  if (!ground.shown) return ground;
+  std::vector<Eigen::AlignedBox3f> boxes = tool_.boxes();
+  ground.is_lowest = !shows_skin_;  // a skin may be larger than the body
+  for (const auto& box : boxes) ground.is_lowest = ground.is_lowest && box.min().y() > ground.centre.y();
+  Eigen::AlignedBox3f& body = boxes.emplace_back();
+  for (const Vec3f& x : frame.positions)
+    if (x.allFinite()) body.extend(x);
+  ground.shadowed = Footprint::reach(boxes, ground.centre, ground.radius, ground.centre.y(), shot.key_direction);
+  return ground;
 }
 
 Renderer::Renderer() : impl_(std::make_unique<Impl>()) {}

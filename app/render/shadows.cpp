@@ -90,6 +90,24 @@ void Footprint::draw(const Vec3f& centre, float radius, float ground, const Vec3
   blur(1, 0, {0, 1.0f / footprint_side});
 }
 
+Eigen::AlignedBox2f Footprint::reach(std::span<const Eigen::AlignedBox3f> boxes, const Vec3f& centre, float radius,
+                                     float ground, const Vec3f& key_direction) {
+  Eigen::AlignedBox2f shadows;
+  for (const Eigen::AlignedBox3f& box : boxes)
+    for (int k = 0; k < 8; ++k) {
+      const Vec3f corner = box.corner(static_cast<Eigen::AlignedBox3f::CornerType>(k));
+      if (!corner.allFinite()) continue;
+      const Vec2f below = Vec2f(corner.x() - centre.x(), corner.z() - centre.z()) / radius;
+      const float height = (corner.y() - ground) / (key_direction.y() * radius);
+      const Vec2f lean = height * Vec2f(key_direction.x(), key_direction.z());
+      shadows.extend(below);
+      shadows.extend(Vec2f(below - lean));
+    }
+  const Vec2f blurred = Vec2f::Constant((border + 1) * 2 * extent / footprint_side);
+  if (!shadows.isEmpty()) shadows = {shadows.min() - blurred, shadows.max() + blurred};
+  return shadows;
+}
+
 void Footprint::blur(int from, int to, const Vec2f& texel) const {
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffers_[to]);
   blur_.use();

@@ -3,6 +3,7 @@
 #include <app/render/bounds.hpp>
 #include <app/render/gl_objects.hpp>
 #include <functional>
+#include <span>
 
 namespace heml::render {
 
@@ -35,6 +36,9 @@ class Footprint {
   void draw(const Vec3f& centre, float radius, float ground, const Vec3f& key_direction,
             const DrawCasters& draw_casters);
   const Texture& texture() const { return pictures_[0]; }
+  /// Where the shadows of what lies in the boxes (m) may be other than 0: in radii from the centre. As of draw().
+  static Eigen::AlignedBox2f reach(std::span<const Eigen::AlignedBox3f> boxes, const Vec3f& centre, float radius,
+                                   float ground, const Vec3f& key_direction);
 
  private:
   void blur(int from, int to, const Vec2f& texel) const;

@@ -191,6 +191,7 @@ SolidShape scissors_half() {
 
 SolidMesh::SolidMesh(SolidShape shape)
     : shape_(std::move(shape)), positions_(positions_of(shape_)), outline_(shape_.triangles, weld(positions_)) {
+  for (const Vec3f& position : positions_) box_.extend(position);
   const auto describe = [](std::size_t stride) {
     vertex_attribute(0, 3, GL_FLOAT, stride, offsetof(SolidShape::Vertex, position));
     vertex_attribute(1, 3, GL_FLOAT, stride, offsetof(SolidShape::Vertex, normal));

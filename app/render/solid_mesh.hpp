@@ -55,6 +55,7 @@ class SolidMesh {
  public:
   explicit SolidMesh(SolidShape shape);
   void draw() const;
+  const Eigen::AlignedBox3f& box() const { return box_; }  ///< of its shape
   /// Draws the strips along its outline (outline.hpp). eye: in the shape's space. to_clip: from that space to clip
   /// space.
   void draw_outline(const Vec3f& eye, const Mat4f& to_clip, Size size);
@@ -66,6 +67,7 @@ class SolidMesh {
   };
   SolidShape shape_;
   std::vector<Vec3f> positions_;
+  Eigen::AlignedBox3f box_;
   Outline outline_;
   std::vector<Strip> strips_;
   VertexArray array_, strip_array_;

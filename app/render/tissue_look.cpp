@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <app/render/ambient_occlusion.hpp>
 #include <app/render/bounds.hpp>
 #include <app/render/smooth_surface.hpp>
@@ -8,6 +9,7 @@ namespace heml::render {
 namespace {
 
 constexpr float occlusion_reach = 0.7f;  // in body radii
+constexpr std::size_t max_known = 8;
 
 std::vector<Vec3f> node_normals(const SurfaceMesh& surface_mesh) {
   const SmoothSurface surface(surface_mesh, 1);
@@ -23,6 +25,20 @@ std::vector<Vec3f> node_normals(const SurfaceMesh& surface_mesh) {
 TissueLook tissue_look(const SurfaceMesh& surface_mesh) {
   const float reach = occlusion_reach * bounding_sphere(surface_mesh.rest).radius;
   return {sphere_map(surface_mesh), ambient_occlusion(surface_mesh, node_normals(surface_mesh), reach)};
+}
+
+const TissueLook& TissueLooks::of(const std::shared_ptr<const SurfaceMesh>& surface_mesh) {
+  auto found = std::find_if(known_.begin(), known_.end(), [&](const Known& known) {
+    return known.surface_mesh == surface_mesh || (known.surface_mesh->rest == surface_mesh->rest &&
+                                                  known.surface_mesh->triangles == surface_mesh->triangles);
+  });
+  if (found == known_.end()) {
+    if (known_.size() == max_known) known_.erase(known_.begin());
+    known_.push_back({surface_mesh, tissue_look(*surface_mesh)});
+  } else {
+    std::rotate(found, found + 1, known_.end());
+  }
+  return known_.back().look;
 }
 
 TissueLook tissue_look(const TissueLook& whole, const OriginalSkin& skin) {

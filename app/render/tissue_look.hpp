@@ -3,6 +3,7 @@
 // interpolated from those of the original skin: the pattern does not move.
 #include <app/render/original_skin.hpp>
 #include <heml/session/frame.hpp>
+#include <memory>
 #include <vector>
 
 namespace heml::render {
@@ -14,6 +15,20 @@ struct TissueLook {
 
 /// The look of a surface without edits.
 TissueLook tissue_look(const SurfaceMesh& surface_mesh);
+
+/// Looks of the surfaces without edits that were asked for last, since a viewer may go back and forth between bodies.
+class TissueLooks {
+ public:
+  /// Of this surface, or of an equal one. Valid until the next call.
+  const TissueLook& of(const std::shared_ptr<const SurfaceMesh>& surface_mesh);
+
+ private:
+  struct Known {
+    std::shared_ptr<const SurfaceMesh> surface_mesh;
+    TissueLook look;
+  };
+  std::vector<Known> known_;  ///< the last one asked for at the end
+};
 
 /// The look of an edited surface. whole: of the surface before all edits. skin: of the edited one.
 TissueLook tissue_look(const TissueLook& whole, const OriginalSkin& skin);

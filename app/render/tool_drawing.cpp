@@ -174,6 +174,18 @@ void ToolDrawing::cast(const Program& program) const {
   }
 }
 
+std::vector<Eigen::AlignedBox3f> ToolDrawing::boxes() const {
+  std::vector<Eigen::AlignedBox3f> boxes;
+  for (const Part& part : parts_) {
+    Eigen::AlignedBox3f& box = boxes.emplace_back();
+    for (int k = 0; k < 8; ++k) {
+      const Vec3f corner = part.mesh->box().corner(static_cast<Eigen::AlignedBox3f::CornerType>(k));
+      box.extend((part.model * corner.homogeneous()).head<3>());
+    }
+  }
+  return boxes;
+}
+
 void ToolDrawing::prepare(const Program& program, const ViewContext& shot, const Part& part) const {
   program.use();
   program.set("view_projection", shot.view_projection);

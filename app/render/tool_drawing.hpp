@@ -37,6 +37,7 @@ class ToolDrawing {
   /// Of the instrument in use: forceps, probe, scalpel or scissors.
   const Shade& shade() const { return shade_; }
   void cast(const Program& program) const;  ///< draws the shadow casters; sets `model`
+  std::vector<Eigen::AlignedBox3f> boxes() const;  ///< round every part, m
   void draw(const ViewContext& shot) const;
   void draw_outline(const ViewContext& shot);  ///< strips that fade outwards, see outline.hpp
 

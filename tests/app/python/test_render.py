@@ -1,3 +1,5 @@
+import concurrent.futures
+import os
 import subprocess
 import sys
 
@@ -15,6 +17,43 @@ def test_a_picture_shows_the_body(box):
     assert (picture == heml.render(world, size=(200, 120))).all()
     assert (picture != heml.render(world, size=(200, 120), azimuth=70)).any()
     assert (picture != heml.render(world, size=(200, 120), field="stretch")).any()
+
+
+def test_a_picture_does_not_depend_on_those_before(box):
+    asked = [(box(), {}), (box(mesh={"box": {"size": [0.1, 0.1, 0.1], "cells": [2, 2, 2], "origin": [0, 0, 0]}}), {}),
+             (box(), {"field": "stretch"}), (box(), {"size": (100, 120)})]
+    worlds = [heml.World(scene, threads=1) for scene, _ in asked]
+    for world in worlds:
+        world.step(3)
+
+    def draw(k):
+        return heml.render(worlds[k], **{"size": (200, 120)} | asked[k][1])
+
+    alone = [draw(k) for k in range(4)]
+    worlds.append(heml.World(box(), threads=1))  # a closed world's memory may be another's
+    worlds[0].close()
+    worlds[0] = worlds.pop()
+    worlds[0].step(3)
+    for k in (3, 1, 0, 0, 2, 1, 2, 0, 3, 3):
+        assert (draw(k) == alone[k]).all()
+    with concurrent.futures.ThreadPoolExecutor(1) as another_thread:
+        assert (another_thread.submit(draw, 1).result() == alone[1]).all()
+    assert (draw(1) == alone[1]).all()
+
+
+def test_a_process_forked_from_one_that_draws_is_told_to_be_spawned(box):
+    heml.render(heml.World(box(), threads=1), size=(64, 64))
+    read, write = os.pipe()
+    child = os.fork()
+    if child == 0:
+        try:
+            heml.render(heml.World(box(), threads=1), size=(64, 64))
+            os.write(write, b"drawn")
+        except RuntimeError as error:
+            os.write(write, str(error).encode())
+        os._exit(0)
+    os.waitpid(child, 0)
+    assert b"spawn" in os.read(read, 1000)
 
 
 def test_a_side_stands_for_two_angles(box):

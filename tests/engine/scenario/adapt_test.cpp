@@ -142,8 +142,8 @@ TEST_CASE("a mesh of curved elements is not refined, and the message names what 
   WorldSetup setup = load_setup(scene);
   setup.mesh.nodes.back() += Vec3(1e-3, 0, 0);
   const std::string said = refusal([&] { adapt(scene, setup, RefineGoal{0.3, 500}, {}); });
-  CHECK(test::says(said, "mesh.refine: divides straight edges"));
-  CHECK(test::says(said, "four-node tetrahedra"));
+  CHECK(says(said, "mesh.refine: divides straight edges"));
+  CHECK(says(said, "four-node tetrahedra"));
 }
 
 TEST_CASE("no more tetrahedra are made than are allowed, and that is told") {
@@ -173,8 +173,8 @@ TEST_CASE("a scene that asks for it is refined as it is loaded, and written and 
   REQUIRE(again.mesh.refine);
   CHECK(again.mesh.refine->error == 0.4);
   CHECK(again.mesh.refine->tets == 5000);
-  CHECK(test::says(refusal([] { sagging(R"({"mesh": {"refine": {"error": 2}}})"); }), "mesh.refine.error: is 2"));
-  CHECK(test::says(refusal([] { sagging(R"({"mesh": {"refine": {"at": 2}}})"); }), "mesh.refine.at: unknown key"));
+  CHECK(says(refusal([] { sagging(R"({"mesh": {"refine": {"error": 2}}})"); }), "mesh.refine.error: is 2"));
+  CHECK(says(refusal([] { sagging(R"({"mesh": {"refine": {"at": 2}}})"); }), "mesh.refine.at: unknown key"));
 }
 
 TEST_CASE("a recorded session on a refined mesh replays to the bit, though it removes elements by their new numbers") {
@@ -221,17 +221,17 @@ TEST_CASE("the refined scene, written with its mesh and fields, moves as the ref
 }
 
 TEST_CASE("what cannot be refined is refused with what would do") {
-  CHECK(test::says(refused(sagging(R"({"gravity": [0, 0, 0], "loads": []})")), "nothing deforms the body"));
-  CHECK(test::says(refused(sagging(R"({"gravity": [0, 0, 0], "loads": []})")), "heml refine SCENE --at SECONDS"));
-  CHECK(test::says(refused(sagging(), 5), "ends at 0.1 s"));
+  CHECK(says(refused(sagging(R"({"gravity": [0, 0, 0], "loads": []})")), "nothing deforms the body"));
+  CHECK(says(refused(sagging(R"({"gravity": [0, 0, 0], "loads": []})")), "heml refine SCENE --at SECONDS"));
+  CHECK(says(refused(sagging(), 5), "ends at 0.1 s"));
   Scene springs = sagging();
   springs.materials[0].material = Material();
   springs.materials[0].material.law = "mass_spring";
   springs.materials[0].material.parameters = {1000};
-  CHECK(test::says(refused(springs), "springs have no stress"));
+  CHECK(says(refused(springs), "springs have no stress"));
   Scene removing = sagging();
   removing.events.push_back({1, RemoveElements{{{3}, {}, {}, {}}}});
-  CHECK(test::says(refusal([&] {
+  CHECK(says(refusal([&] {
                      adapted_scene(removing, adapt(removing, load_setup(removing), RefineGoal{0.9, 500}, {}), "m.vtu");
                    }),
                    "step 1 removes tetrahedra by numbers"));

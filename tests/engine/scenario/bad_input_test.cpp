@@ -20,8 +20,8 @@ void expect_refused(const std::string& text, const Mistake& mistake) {
   CAPTURE(message);
   CHECK(message.starts_with("folder/bad.json: "));
   CHECK(message.find('\n') == message.npos);
-  CHECK(test::says(message, std::string(": ") + mistake.place));
-  CHECK(test::says(message, mistake.remedy));
+  CHECK(says(message, std::string(": ") + mistake.place));
+  CHECK(says(message, mistake.remedy));
 }
 
 const Mistake mistakes[] = {
@@ -182,30 +182,30 @@ TEST_CASE("says which integrators are available where a known one is not part of
         refusal([&] { test::small_scene_with(std::string("{\"solver\": {\"integrator\": \"") + name + "\"}}"); });
     CHECK(message.empty() == find_integrator(name).has_value());
     if (message.empty()) continue;
-    CHECK(test::says(message, std::string("solver.integrator: the integrator '") + name + "' is not part"));
-    CHECK(test::says(message, "symplectic_euler, verlet"));
+    CHECK(says(message, std::string("solver.integrator: the integrator '") + name + "' is not part"));
+    CHECK(says(message, "symplectic_euler, verlet"));
   }
 }
 
 TEST_CASE("refuses nesting without end") {
   const std::string message = refusal([] { parse_scene(std::string(100000, '['), "deep.json"); });
-  CHECK(test::says(message, "nested too deeply"));
+  CHECK(says(message, "nested too deeply"));
 }
 
 TEST_CASE("shortens enormous values in its message") {
   const std::string patch = "{\"gravity\": \"" + std::string(100000, 'x') + "\"}";
   const std::string message = refusal([&] { test::small_scene_with(patch); });
-  CHECK(test::says(message, "gravity: is \"xxx"));
+  CHECK(says(message, "gravity: is \"xxx"));
   CHECK(message.size() < 400);
 }
 
 TEST_CASE("refuses files that are missing, folders, and kinds it does not open") {
   const TemporaryFolder folder;
-  CHECK(test::says(refusal([&] { read_scene(folder / "missing.json"); }), "missing.json: cannot be read"));
+  CHECK(says(refusal([&] { read_scene(folder / "missing.json"); }), "missing.json: cannot be read"));
   std::filesystem::create_directory(folder / "scene.json");
-  CHECK(test::says(refusal([&] { read_scene(folder / "scene.json"); }), "is not a file"));
+  CHECK(says(refusal([&] { read_scene(folder / "scene.json"); }), "is not a file"));
   const std::string message = refusal([&] { read_scene(folder.file("notes.txt", "hello")); });
-  for (const char* ending : {".json", ".jsonl", ".msh", ".vtu", ".obj", ".stl"}) CHECK(test::says(message, ending));
+  for (const char* ending : {".json", ".jsonl", ".msh", ".vtu", ".obj", ".stl"}) CHECK(says(message, ending));
 }
 
 TEST_CASE("reads one material entry as a file, and refuses a wrong one with its key") {
@@ -217,7 +217,7 @@ TEST_CASE("reads one material entry as a file, and refuses a wrong one with its 
   CHECK(material.parameters == std::vector<double>{3, 2});
   CHECK(material.density == 7);
   const std::string message = refusal([&] { read_material(wrong); });
-  CHECK(test::says(message, "bad.json: lamda: unknown key (did you mean 'lambda'?"));
+  CHECK(says(message, "bad.json: lamda: unknown key (did you mean 'lambda'?"));
 }
 
 }  // namespace heml::bad_input_test

@@ -50,7 +50,7 @@ TEST_CASE("every key of a command that its table describes is read, and has a va
       for (const KeyInfo& other : row.keys)
         if (other.usual == key.usual && key.usual.starts_with("one of")) value.erase(std::string(other.name));
       value[std::string(key.name)] = {{"zzz", 1}};
-      CHECK(test::says(refused(row, value), std::string(row.key) + "." + std::string(key.name)));
+      CHECK(says(refused(row, value), std::string(row.key) + "." + std::string(key.name)));
     }
 }
 
@@ -69,8 +69,8 @@ TEST_CASE("commands of another hand than 0 read back as they are written, and th
   CHECK(std::get<Release>(scene_with_event("release", {{"hand", 0}}).events[0].command).hand == 0);
   CHECK(std::get<MoveTool>(scene_with_event("move", {{"to", {1, 2, 3}}}).events[0].command).hand == 0);
   for (const Json& hand : {Json(-1), Json(16), Json(0.5), Json("left")}) {
-    CHECK(test::says(refusal([&] { scene_with_event("release", {{"hand", hand}}); }), "release.hand"));
-    CHECK(test::says(refusal([&] { scene_with_event("move", {{"to", {1, 2, 3}}, {"hand", hand}}); }), "move.hand"));
+    CHECK(says(refusal([&] { scene_with_event("release", {{"hand", hand}}); }), "release.hand"));
+    CHECK(says(refusal([&] { scene_with_event("move", {{"to", {1, 2, 3}}, {"hand", hand}}); }), "move.hand"));
   }
 }
 

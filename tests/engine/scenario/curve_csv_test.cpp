@@ -10,8 +10,6 @@
 
 namespace heml::curve_csv_test {
 
-using heml::test::says;
-
 namespace {
 
 /// Deletes a file in its destructor.

@@ -42,13 +42,13 @@ TEST_CASE("a cut that cannot be meant is refused, with its place") {
   const auto refused = [](const std::string& cut) {
     return refusal([&] { scene_with_events(R"([{"step": 1, "cut": )" + cut + "}]"); });
   };
-  CHECK(test::says(refused("{}"), "events[0].cut"));
-  CHECK(test::says(refused("{}"), "sweep"));
-  CHECK(test::says(refused(R"({"sweep": [[[0, 0, 0], [1, 0, 0]]]})"), "two times"));
-  CHECK(test::says(refused(R"({"sweep": [[[0, 0, 0]], [[1, 0, 0]]]})"), "two ends"));
-  CHECK(test::says(refused(R"({"sweep": [[[0, 0], [1, 0, 0]], [[0, 0, 0], [1, 0, 0]]]})"), "sweep[0][0]"));
-  CHECK(test::says(refused(R"({"sweeps": []})"), "unknown key"));
-  CHECK(test::says(refused("true"), "must be an object"));
+  CHECK(says(refused("{}"), "events[0].cut"));
+  CHECK(says(refused("{}"), "sweep"));
+  CHECK(says(refused(R"({"sweep": [[[0, 0, 0], [1, 0, 0]]]})"), "two times"));
+  CHECK(says(refused(R"({"sweep": [[[0, 0, 0]], [[1, 0, 0]]]})"), "two ends"));
+  CHECK(says(refused(R"({"sweep": [[[0, 0], [1, 0, 0]], [[0, 0, 0], [1, 0, 0]]]})"), "sweep[0][0]"));
+  CHECK(says(refused(R"({"sweeps": []})"), "unknown key"));
+  CHECK(says(refused("true"), "must be an object"));
 }
 
 TEST_CASE("solve reports a cut, and writes what it added after the nodes of the file") {
@@ -85,8 +85,8 @@ TEST_CASE("an event refused on the way ends a solve in words, and what was reach
   std::filesystem::create_directory(folder / "out");
   folder.file("out/positions_1.csv", "of an earlier run");
   const std::string problem = refusal([&] { solve(scene, folder / "out"); });
-  CHECK(test::says(problem, "events: step 4"));
-  CHECK(test::says(problem, "the cut of step 2 parted nothing"));
+  CHECK(says(problem, "events: step 4"));
+  CHECK(says(problem, "the cut of step 2 parted nothing"));
   std::ifstream file(folder / "out/report.json");
   const Json report = Json::parse(file);
   CHECK(report.at("converged") == false);

@@ -187,11 +187,11 @@ TEST_CASE("locking is warned of, with a remedy the law allows, and not where nod
     return locking ? locking->remedy : "";
   };
   CHECK(advice(R"({"law": "neo_hookean", "young": 1e4, "poisson": 0.44})", "p1").empty());
-  CHECK(test::says(advice(R"({"law": "neo_hookean", "young": 1e4, "poisson": 0.46})", "p1"), "neo_hookean_iso"));
+  CHECK(says(advice(R"({"law": "neo_hookean", "young": 1e4, "poisson": 0.46})", "p1"), "neo_hookean_iso"));
   const std::string split = R"({"law": "neo_hookean_iso", "K1": 1e3, "kappa": 1e5})";
-  CHECK(test::says(advice(split, "p1"), "nodal_pressure"));
+  CHECK(says(advice(split, "p1"), "nodal_pressure"));
   CHECK(advice(split, "nodal_pressure").empty());
-  CHECK(test::says(advice(split, "p2"), "p2_pressure"));
+  CHECK(says(advice(split, "p2"), "p2_pressure"));
   CHECK(advice(split, "p2_pressure").empty());
   CHECK(advice(R"({"law": "neo_hookean", "young": 1e4, "poisson": 0.46})", "p2").empty());
 }

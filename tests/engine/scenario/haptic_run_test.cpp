@@ -65,12 +65,12 @@ TEST_CASE("a hand's file is read, and errors name the line") {
   const auto refused = [&](const std::string& text) {
     return refusal([&] { read_handle_csv(folder.file("wrong.csv", text)); });
   };
-  CHECK(test::says(refused("t,x\n"), "line 1: is 't,x' (must be the header time,x,y,z"));
-  CHECK(test::says(refused("time,x,y,z\n0,0,0\n"), "line 2: is '0,0,0'"));
-  CHECK(test::says(refused("time,x,y,z\n0,0,0,0\n0,1,1,1\n"), "line 3: is of 0 s, after 0 s"));
-  CHECK(test::says(refused("time,x,y,z\n0,0,nan,0\n"), "line 2"));
-  CHECK(test::says(refused("time,x,y,z\n"), "has no position of the handle"));
-  CHECK(test::says(
+  CHECK(says(refused("t,x\n"), "line 1: is 't,x' (must be the header time,x,y,z"));
+  CHECK(says(refused("time,x,y,z\n0,0,0\n"), "line 2: is '0,0,0'"));
+  CHECK(says(refused("time,x,y,z\n0,0,0,0\n0,1,1,1\n"), "line 3: is of 0 s, after 0 s"));
+  CHECK(says(refused("time,x,y,z\n0,0,nan,0\n"), "line 2"));
+  CHECK(says(refused("time,x,y,z\n"), "has no position of the handle"));
+  CHECK(says(
       refusal([&] { run_with_handle(test::small_scene_with(R"({"solver": {"integrator": "static"}})"), path); }),
       "solver.integrator"));
 }

@@ -51,8 +51,8 @@ TEST_CASE("what is read is not written over, by whatever name") {
   fs::create_directory(folder / "sub");
   for (const fs::path& output : {input, folder / "link.csv", folder / "hard.csv", folder / "sub/../in.csv"}) {
     const std::string why = refusal([&] { refuse_overwriting({input}, {output}, "--plot"); });
-    CHECK(test::says(why, output.string() + ": is read by this run"));
-    CHECK(test::says(why, "give another --plot"));
+    CHECK(says(why, output.string() + ": is read by this run"));
+    CHECK(says(why, "give another --plot"));
   }
   CHECK(refusal([&] { refuse_overwriting({input}, {folder / "out.csv", folder / "sub"}); }) == "");
   CHECK(refusal([&] { refuse_overwriting({"/dev/null"}, {"/dev/null"}); }) == "");
@@ -62,9 +62,9 @@ TEST_CASE("solve refuses to replace or take away what its scene reads, before it
   const TemporaryFolder folder;
   const fs::path file = scene_of_files(folder);
   const std::string text = text_of(file), positions = text_of(folder / "positions.csv");
-  CHECK(test::says(refusal([&] { solve(read_scene(file), folder / ""); }), "report.json: is read by this run"));
+  CHECK(says(refusal([&] { solve(read_scene(file), folder / ""); }), "report.json: is read by this run"));
   fs::rename(file, folder / "scene.json");
-  CHECK(test::says(refusal([&] { solve(read_scene(folder / "scene.json"), folder / ""); }),
+  CHECK(says(refusal([&] { solve(read_scene(folder / "scene.json"), folder / ""); }),
                    "positions.csv: is read by this run"));
   CHECK(text_of(folder / "scene.json") == text);
   CHECK(text_of(folder / "positions.csv") == positions);

@@ -47,20 +47,20 @@ TEST_CASE("refuses a selection of nothing with its key path and where the body i
   CHECK(refusal_of(R"({"boundary": [{"nodes": [0], "fix": true}, {"box": [[1, 1, 1], [2, 2, 2]], "fix": true}]})")
             .find("folder/scene.json: boundary[1]: its box selects no node "
                   "(the body reaches from [0, 0, 0] to [0.2, 0.1, 0.1] m)") == 0);
-  CHECK(test::says(refusal_of(R"({"loads": [{"sphere": [[9, 9, 9], 0.1], "force": [0, 0, 1]}]})"),
+  CHECK(says(refusal_of(R"({"loads": [{"sphere": [[9, 9, 9], 0.1], "force": [0, 0, 1]}]})"),
                    "loads[0]: its sphere selects"));
-  CHECK(test::says(refusal_of(R"({"boundary": [{"nodes": [0, 12], "fix": true}]})"),
+  CHECK(says(refusal_of(R"({"boundary": [{"nodes": [0, 12], "fix": true}]})"),
                    "boundary[0].nodes[1]: is 12 (the mesh has nodes 0 to 11)"));
   CHECK(
-      test::says(refusal_of(R"({"loads": [{"nodes": [0, 1], "pressure": 3}]})"), "loads[0]: its 2 nodes hold no face"));
+      says(refusal_of(R"({"loads": [{"nodes": [0, 1], "pressure": 3}]})"), "loads[0]: its 2 nodes hold no face"));
   CHECK(refusal_of(R"({"loads": [{"nodes": [0, 1], "force": [0, 0, 3]}]})").empty());
 }
 
 TEST_CASE("refuses meshes that are not there, naming the key") {
   CHECK(refusal_of(R"({"mesh": {"box": null, "file": "none.msh"}})")
             .find("folder/scene.json: mesh.file: there is no file 'folder/none.msh'") == 0);
-  CHECK(test::says(refusal_of(R"({"mesh": {"box": null, "surface": "none.stl"}})"), "mesh.surface: there is no file"));
-  CHECK(test::says(refusal_of(R"({"mesh": {"box": null, "asset": "spleen"}})"), "mesh.asset: 'spleen' is not in"));
+  CHECK(says(refusal_of(R"({"mesh": {"box": null, "surface": "none.stl"}})"), "mesh.surface: there is no file"));
+  CHECK(says(refusal_of(R"({"mesh": {"box": null, "asset": "spleen"}})"), "mesh.asset: 'spleen' is not in"));
 }
 
 TEST_CASE("takes assets from the folder the environment names") {
@@ -69,7 +69,7 @@ TEST_CASE("takes assets from the folder the environment names") {
   write_tet_mesh(folder / "meshes/cube.mesh", make_box(Vec3(1, 1, 1), {1, 1, 1}));
   setenv("HEML_ASSETS", (folder / "").c_str(), 1);
   CHECK(setup_with(R"({"mesh": {"box": null, "asset": "cube"}, "boundary": []})").mesh.tets.size() == 5);
-  CHECK(test::says(refusal_of(R"({"mesh": {"box": null, "asset": "spleen"}})"), "there are: cube"));
+  CHECK(says(refusal_of(R"({"mesh": {"box": null, "asset": "spleen"}})"), "there are: cube"));
   unsetenv("HEML_ASSETS");
   CHECK(std::filesystem::is_directory(assets_folder()));
 }
@@ -86,12 +86,12 @@ TEST_CASE("reads initial positions of every node, in any order") {
   const std::vector<Vec3> positions = load("node,x,y,z\r\n" + lines + "\n");
   REQUIRE(positions.size() == 12);
   for (int node = 0; node < 12; ++node) CHECK(positions[node] == Vec3(0.5, node, -1e-3));
-  CHECK(test::says(message("node,x,y\n"), "start.csv: line 1: is 'node,x,y' (must be the header node,x,y,z)"));
-  CHECK(test::says(message("node,x,y,z\n" + lines + "3,0,0,0\n"), "line 14: is of node 3 once more"));
-  CHECK(test::says(message("node,x,y,z\n12,0,0,0\n"), "line 2: is of node 12 (the mesh has nodes 0 to 11)"));
+  CHECK(says(message("node,x,y\n"), "start.csv: line 1: is 'node,x,y' (must be the header node,x,y,z)"));
+  CHECK(says(message("node,x,y,z\n" + lines + "3,0,0,0\n"), "line 14: is of node 3 once more"));
+  CHECK(says(message("node,x,y,z\n12,0,0,0\n"), "line 2: is of node 12 (the mesh has nodes 0 to 11)"));
   for (const char* line : {"0,0,0", "0,0,0,0,0", "0,0,x,0", "0,nan,0,0", "0,0,0,inf", "0.5,0,0,0", "0,0,0,"})
-    CHECK(test::says(message(std::string("node,x,y,z\n") + line + "\n"), "line 2: is '"));
-  CHECK(test::says(message("node,x,y,z\n0,0,0,0\n"), "start.csv: gives 1 of 12 nodes"));
+    CHECK(says(message(std::string("node,x,y,z\n") + line + "\n"), "line 2: is '"));
+  CHECK(says(message("node,x,y,z\n0,0,0,0\n"), "start.csv: gives 1 of 12 nodes"));
 }
 
 TEST_CASE("refuses a recording on another mesh than its own") {
@@ -100,7 +100,7 @@ TEST_CASE("refuses a recording on another mesh than its own") {
   CHECK(refusal([&] { load_setup(scene); }).empty());
   scene.mesh.translate.x() = 1e-9;
   scene.boundary.clear();
-  CHECK(test::says(refusal([&] { load_setup(scene); }),
+  CHECK(says(refusal([&] { load_setup(scene); }),
                    "recorded: was recorded on a mesh of 12 nodes and 10 tetrahedra (hash"));
 }
 
@@ -110,7 +110,7 @@ TEST_CASE("finds the mesh of a moved recording beside it, and of a plain scene o
   write_tet_mesh(folder / "cube.msh", mesh);
   Scene scene = test::small_scene_with(R"({"mesh": {"box": null, "file": "/gone/cube.msh"}, "boundary": []})");
   scene.file = (folder / "recording.jsonl").string();
-  CHECK(test::says(refusal([&] { load_setup(scene); }), "there is no file '/gone/cube.msh'"));
+  CHECK(says(refusal([&] { load_setup(scene); }), "there is no file '/gone/cube.msh'"));
   scene.recorded_mesh = mesh_fingerprint(mesh);
   CHECK(load_setup(scene).mesh.tets.size() == 5);
 }
@@ -126,7 +126,7 @@ TEST_CASE("resolves a grasp of a place to the surface node nearest at rest, and 
   CHECK(schedule.due(2).empty());
   CHECK(nearest_surface_node(mesh, Vec3(0.19, 0.08, 0.3)) == 11);
   std::get<Grasp>(scene.events[0].command).node = 12;
-  CHECK(test::says(refusal([&] { Schedule(scene, mesh); }), "events: step 1: grasp.node: is 12"));
+  CHECK(says(refusal([&] { Schedule(scene, mesh); }), "events: step 1: grasp.node: is 12"));
 }
 
 }  // namespace heml::load_test

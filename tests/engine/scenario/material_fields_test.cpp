@@ -135,8 +135,8 @@ TEST_CASE("refuses fields the mesh has not, of other size, or with values that a
   const auto says = [&](const std::string& material, std::initializer_list<const char*> parts) {
     const std::string message = body.refusal_of("[" + material + "]");
     CAPTURE(message);
-    CHECK(test::says(message, "scene.json: materials[0]."));
-    for (const char* part : parts) CHECK(test::says(message, part));
+    CHECK(says(message, "scene.json: materials[0]."));
+    for (const char* part : parts) CHECK(says(message, part));
   };
   says(R"({"law": "stvk", "lambda": 0, "mu": {"field": "e"}})",
        {"materials[0].mu: ", "body.vtu has no field 'e'", "E (1), nu (1), bad (1), direction (3)"});
@@ -169,7 +169,7 @@ TEST_CASE("says that a mesh has no fields") {
   const std::string message = refusal([] {
     load_setup(test::small_scene_with(R"({"materials": [{"law": "stvk", "lambda": 0, "mu": {"field": "E"}}]})"));
   });
-  CHECK(test::says(message, "has no field 'E' (it has none)"));
+  CHECK(says(message, "has no field 'E' (it has none)"));
 }
 
 TEST_CASE("refuses fields in a switch of material") {
@@ -177,7 +177,7 @@ TEST_CASE("refuses fields in a switch of material") {
     test::small_scene_with(
         R"({"events": [{"step": 2, "material": {"law": "stvk", "lambda": 1, "mu": {"field": "E"}}}]})");
   });
-  CHECK(test::says(message, "events[0].material: takes a field of the mesh"));
+  CHECK(says(message, "events[0].material: takes a field of the mesh"));
 }
 
 TEST_CASE("a recording knows the fields its materials use, and no others") {
@@ -205,13 +205,13 @@ TEST_CASE("nodal pressure is refused for laws without a volume term, and with di
   const std::string stvk = R"({"region": 2, "law": "stvk", "lambda": 1, "mu": 1})";
   CHECK(told("[" + iso + "]", "{}") == "");
   CHECK(
-      test::says(told("[" + iso + "," + stvk + "]", "{}"), "scene.json: materials[1].law: 'stvk' has no volume term"));
+      says(told("[" + iso + "," + stvk + "]", "{}"), "scene.json: materials[1].law: 'stvk' has no volume term"));
   CHECK(told("[" + iso + "," + stvk + "]", R"({"solver": {"element": "p1"}})") == "");
-  CHECK(test::says(told("[" + iso + R"(, {"region": 2, "law": "gent", "mu": 1, "Jm": 3, "kappa": 9,
+  CHECK(says(told("[" + iso + R"(, {"region": 2, "law": "gent", "mu": 1, "Jm": 3, "kappa": 9,
                         "volume_term": "logarithmic"}])",
                         "{}"),
                    "materials[1].volume_term: differs"));
-  CHECK(test::says(told("[" + iso + "]", R"({"events": [{"step": 3, "material": )" + stvk + "}]}"),
+  CHECK(says(told("[" + iso + "]", R"({"events": [{"step": 3, "material": )" + stvk + "}]}"),
                    "events: step 3: material.law: 'stvk'"));
 }
 

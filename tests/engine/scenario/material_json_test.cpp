@@ -195,7 +195,7 @@ TEST_CASE("refuses mistakes in a material with the key and what would be right")
     CAPTURE(mistake.text);
     CAPTURE(message);
     CHECK(message.starts_with(std::string("m.json: ") + mistake.place));
-    CHECK(test::says(message, mistake.remedy));
+    CHECK(says(message, mistake.remedy));
   }
 }
 
@@ -205,8 +205,8 @@ TEST_CASE("refuses fields where there is no mesh") {
     const auto path = folder.file("m.json", text);
     return refusal([&] { read_material(path); });
   };
-  CHECK(test::says(told(R"({"law": "stvk", "young": {"field": "E"}, "poisson": 0.3})"), "there is no mesh here"));
-  CHECK(test::says(told(R"({"law": "hgo", "K1": 1, "kappa": 9, "k1": 1, "k2": 1, "fibre": {"field": "f"}})"),
+  CHECK(says(told(R"({"law": "stvk", "young": {"field": "E"}, "poisson": 0.3})"), "there is no mesh here"));
+  CHECK(says(told(R"({"law": "hgo", "K1": 1, "kappa": 9, "k1": 1, "k2": 1, "fibre": {"field": "f"}})"),
                    "there is no mesh here"));
 }
 

@@ -15,8 +15,6 @@
 
 namespace heml::presets_test {
 
-using heml::test::says;
-
 namespace {
 
 double published(const Preset& preset, const std::string& name) {

@@ -192,12 +192,12 @@ TEST_CASE("refuses any other broken line with its number") {
   const auto message = [&](const std::string& lines) {
     return refusal([&] { parse_scene(scene + lines, "recording.jsonl"); });
   };
-  CHECK(test::says(message("{\"step\": 1, \"release\": true}\n{\"step\": 2, \"mo\n{\"step\": 3, \"release\": true}\n"),
+  CHECK(says(message("{\"step\": 1, \"release\": true}\n{\"step\": 2, \"mo\n{\"step\": 3, \"release\": true}\n"),
                    "recording.jsonl: line 3, column"));
-  CHECK(test::says(message("{\"step\": 1, \"move\": 4}\n"), "line 2: move: is 4 (must be three"));
-  CHECK(test::says(message("{\"step\": 1, \"mve\": 4}\n"), "line 2: mve: unknown key (did you mean 'move'?"));
-  CHECK(test::says(message("{\"step\": 1, \"step\": 4}\n"), "line 2: step: stands twice"));
-  CHECK(test::says(message("{\"step\": 1, \"end\": true}\n{\"step\": 2, \"end\": true}\n"), "line 3: a second end"));
+  CHECK(says(message("{\"step\": 1, \"move\": 4}\n"), "line 2: move: is 4 (must be three"));
+  CHECK(says(message("{\"step\": 1, \"mve\": 4}\n"), "line 2: mve: unknown key (did you mean 'move'?"));
+  CHECK(says(message("{\"step\": 1, \"step\": 4}\n"), "line 2: step: stands twice"));
+  CHECK(says(message("{\"step\": 1, \"end\": true}\n{\"step\": 2, \"end\": true}\n"), "line 3: a second end"));
 }
 
 TEST_CASE("a scene may name a tissue instead of a law, with what it says beside it") {

@@ -52,12 +52,12 @@ TEST_CASE("a removal reads the same from what it is written as") {
 }
 
 TEST_CASE("a removal that cannot be meant is refused where it stands") {
-  CHECK(test::says(refused(R"([{"step": 1, "remove": {"tets": []}}])"), "events[0].remove.tets: is empty"));
-  CHECK(test::says(refused(R"([{"step": 1, "remove": {"tets": [1.5]}}])"), "events[0].remove.tets[0]: is 1.5"));
-  CHECK(test::says(refused(R"([{"step": 1, "remove": [3]}])"), "events[0].remove: is [3] (must be an object"));
-  CHECK(test::says(refused(R"([{"step": 1, "remove": {}}])"), "give exactly one of tets, region, box, sphere"));
-  CHECK(test::says(refused(R"([{"step": 1, "remove": {"nodes": [3]}}])"), "events[0].remove.nodes: unknown key"));
-  CHECK(test::says(refused(R"([{"step": 1, "remove": {"box": [[1, 1, 1], [0, 0, 0]]}}])"), "lower corner first"));
+  CHECK(says(refused(R"([{"step": 1, "remove": {"tets": []}}])"), "events[0].remove.tets: is empty"));
+  CHECK(says(refused(R"([{"step": 1, "remove": {"tets": [1.5]}}])"), "events[0].remove.tets[0]: is 1.5"));
+  CHECK(says(refused(R"([{"step": 1, "remove": [3]}])"), "events[0].remove: is [3] (must be an object"));
+  CHECK(says(refused(R"([{"step": 1, "remove": {}}])"), "give exactly one of tets, region, box, sphere"));
+  CHECK(says(refused(R"([{"step": 1, "remove": {"nodes": [3]}}])"), "events[0].remove.nodes: unknown key"));
+  CHECK(says(refused(R"([{"step": 1, "remove": {"box": [[1, 1, 1], [0, 0, 0]]}}])"), "lower corner first"));
   const auto played = [](const std::string& events) {
     return refusal([&] {
       const Scene scene = test::small_scene_with(R"({"events": )" + events + "}");
@@ -65,11 +65,11 @@ TEST_CASE("a removal that cannot be meant is refused where it stands") {
       replay(scene, *world);
     });
   };
-  CHECK(test::says(played(R"([{"step": 1, "remove": {"tets": [4, 10]}}])"),
+  CHECK(says(played(R"([{"step": 1, "remove": {"tets": [4, 10]}}])"),
                    "events: step 1: remove.tets[1]: is 10 (the mesh has elements 0 to 9)"));
-  CHECK(test::says(played(R"([{"step": 1, "remove": {"tets": [4]}}, {"step": 2, "remove": {"tets": [4]}}])"),
+  CHECK(says(played(R"([{"step": 1, "remove": {"tets": [4]}}, {"step": 2, "remove": {"tets": [4]}}])"),
                    "events: step 2: remove: element 4 was removed before"));
-  CHECK(test::says(played(R"([{"step": 1, "remove": {"region": 0}}])"), "all 10 elements that are left would go"));
+  CHECK(says(played(R"([{"step": 1, "remove": {"region": 0}}])"), "all 10 elements that are left would go"));
 }
 
 TEST_CASE("a recorded session with removals and a reset replays to the bit") {

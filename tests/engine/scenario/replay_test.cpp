@@ -168,7 +168,7 @@ TEST_CASE("names the first step and node that differ") {
   CHECK(result.difference->node == 5);
   CHECK(result.difference->expected == other.checkpoints[2].hash);
   CHECK(result.difference->actual == recording.checkpoints[2].hash);
-  CHECK(test::says(to_text(*result.difference), "step 20, node 5"));
+  CHECK(says(to_text(*result.difference), "step 20, node 5"));
 
   std::get<MoveTool>(recording.events[10].command).target.x() += 1e-12;  // at tick 13
   const ReplayResult moved = replay_of(recording);
@@ -195,8 +195,8 @@ TEST_CASE("refuses to record over the scene itself or into nowhere") {
   const TemporaryFolder folder;
   const Scene scene = read_scene(folder.file("scene.json", test::scene_with("{}")));
   const std::unique_ptr<World> world = load_world(scene);
-  CHECK(test::says(refusal([&] { Recorder(folder / "scene.json", scene, *world); }), "is read by this run"));
-  CHECK(test::says(refusal([&] { Recorder(folder / "none/r.jsonl", scene, *world); }), "cannot be written"));
+  CHECK(says(refusal([&] { Recorder(folder / "scene.json", scene, *world); }), "is read by this run"));
+  CHECK(says(refusal([&] { Recorder(folder / "none/r.jsonl", scene, *world); }), "cannot be written"));
   CHECK(text_of(folder / "scene.json") == test::scene_with("{}"));
 }
 

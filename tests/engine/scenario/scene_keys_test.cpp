@@ -22,7 +22,7 @@ TEST_CASE("every key of a scene that the tables describe is read, and has a valu
       place[std::string(key.name)] = {{"zzz", 1}};
       const std::string message = refusal([&] { parse_scene(scene.dump(), "scene.json"); });
       CAPTURE(message);
-      CHECK(test::says(message, key.name.data()));
+      CHECK(says(message, key.name.data()));
     }
   }
 }

@@ -59,14 +59,14 @@ TEST_CASE("self-contact and tearing read back as they were written, and are off 
 
 TEST_CASE("self-contact and tearing that cannot be meant are refused, with their place") {
   const auto refused = [](const char* patch) { return refusal([&] { test::small_scene_with(patch); }); };
-  CHECK(test::says(refused(R"({"self_contact": 1})"), "self_contact: is 1"));
-  CHECK(test::says(refused(R"({"self_contact": 1})"), "true, false, or"));
-  CHECK(test::says(refused(R"({"self_contact": {"frction": 1}})"), "did you mean 'friction'?"));
-  CHECK(test::says(refused(R"({"self_contact": {"friction": -1}})"), "self_contact.friction: is -1"));
-  CHECK(test::says(refused(R"({"tearing": true})"), "must be an object"));
-  CHECK(test::says(refused(R"({"tearing": {}})"), "'stretch' is missing"));
-  CHECK(test::says(refused(R"({"tearing": {"stretch": 1}})"), "more than 1"));
-  CHECK(test::says(refused(R"({"tearing": {"stretch": 2}, "solver": {"integrator": "static"}})"),
+  CHECK(says(refused(R"({"self_contact": 1})"), "self_contact: is 1"));
+  CHECK(says(refused(R"({"self_contact": 1})"), "true, false, or"));
+  CHECK(says(refused(R"({"self_contact": {"frction": 1}})"), "did you mean 'friction'?"));
+  CHECK(says(refused(R"({"self_contact": {"friction": -1}})"), "self_contact.friction: is -1"));
+  CHECK(says(refused(R"({"tearing": true})"), "must be an object"));
+  CHECK(says(refused(R"({"tearing": {}})"), "'stretch' is missing"));
+  CHECK(says(refused(R"({"tearing": {"stretch": 1}})"), "more than 1"));
+  CHECK(says(refused(R"({"tearing": {"stretch": 2}, "solver": {"integrator": "static"}})"),
                    "does not go with solver.integrator static"));
 }
 

@@ -195,7 +195,7 @@ TEST_CASE("refuses output times that are no fractions of a static load") {
   const TemporaryFolder folder;
   for (const char* times : {"1.5", "2"}) {
     const std::string patch = std::string(R"({"outputs": {"times": [0.5, )") + times + "]}}";
-    CHECK(test::says(refusal([&] { solve(parse_scene(drawn_out(patch), "draw.json"), folder / ""); }),
+    CHECK(says(refusal([&] { solve(parse_scene(drawn_out(patch), "draw.json"), folder / ""); }),
                      "fractions of the load"));
   }
 }
@@ -218,8 +218,8 @@ TEST_CASE("runs a scene by each implicit method") {
 TEST_CASE("refuses an output folder that is a file") {
   const TemporaryFolder folder;
   const std::filesystem::path file = folder.file("out", "");
-  CHECK(test::says(refusal([&] { solve(test::small_scene_with("{}"), file); }), "out: cannot be made"));
-  CHECK(test::says(refusal([&] { solve(test::small_scene_with("{}"), file / "in"); }), "cannot be made"));
+  CHECK(says(refusal([&] { solve(test::small_scene_with("{}"), file); }), "out: cannot be made"));
+  CHECK(says(refusal([&] { solve(test::small_scene_with("{}"), file / "in"); }), "cannot be made"));
 }
 
 }  // namespace heml::solve_test

@@ -73,25 +73,25 @@ TEST_CASE("places of pins and sutures become the nodes nearest to them") {
 }
 
 TEST_CASE("tools that cannot be meant are refused, with their place") {
-  CHECK(test::says(refused(R"("pin": {})"), "events[0].pin"));
-  CHECK(test::says(refused(R"("pin": {"node": -1})"), "events[0].pin.node"));
-  CHECK(test::says(refused(R"("pin": {"node": 1, "radius": -1})"), "pin.radius"));
-  CHECK(test::says(refused(R"("pin": {"node": 1, "point": [0, 0, 0]})"), "pin"));
-  CHECK(test::says(refused(R"("release": "pin")"), "\"pins\""));
-  CHECK(test::says(refused(R"("release": {"nodes": 3})"), "unknown key"));
-  CHECK(test::says(refused(R"("tables": [{"point": [0, 0, 0]}])"), "normal"));
-  CHECK(test::says(refused(R"("tables": [{"point": [0, 0, 0], "normal": [0, 0, 0]}])"), "must be a direction"));
-  CHECK(test::says(refused(R"("tables": [{"point": [0, 0, 0], "normal": [0, 1, 0], "friction": -0.1}])"), "friction"));
-  CHECK(test::says(refused(R"("probe": {"path": [[0, 0, 0]]})"), "radius"));
-  CHECK(test::says(refused(R"("probe": {"radius": 0, "path": [[0, 0, 0]]})"), "probe.radius"));
-  CHECK(test::says(refused(R"("probe": {"radius": 1, "path": []})"), "probe.path"));
-  CHECK(test::says(refused(R"("probe": {"radius": 1, "path": [[0, 0, null]]})"), "probe.path[0]"));
-  CHECK(test::says(refused(R"("probe": {"radius": 1, "path": [[0, 0, 0]], "speed": 0})"), "probe.speed"));
-  CHECK(test::says(refused(R"("suture": {"nodes": [1]})"), "must be two"));
-  CHECK(test::says(refused(R"("suture": {"nodes": [1, 2], "length": -1})"), "suture.length"));
-  CHECK(test::says(refused(R"("suture": {"nodes": [1, 2], "over": -1})"), "suture.over"));
+  CHECK(says(refused(R"("pin": {})"), "events[0].pin"));
+  CHECK(says(refused(R"("pin": {"node": -1})"), "events[0].pin.node"));
+  CHECK(says(refused(R"("pin": {"node": 1, "radius": -1})"), "pin.radius"));
+  CHECK(says(refused(R"("pin": {"node": 1, "point": [0, 0, 0]})"), "pin"));
+  CHECK(says(refused(R"("release": "pin")"), "\"pins\""));
+  CHECK(says(refused(R"("release": {"nodes": 3})"), "unknown key"));
+  CHECK(says(refused(R"("tables": [{"point": [0, 0, 0]}])"), "normal"));
+  CHECK(says(refused(R"("tables": [{"point": [0, 0, 0], "normal": [0, 0, 0]}])"), "must be a direction"));
+  CHECK(says(refused(R"("tables": [{"point": [0, 0, 0], "normal": [0, 1, 0], "friction": -0.1}])"), "friction"));
+  CHECK(says(refused(R"("probe": {"path": [[0, 0, 0]]})"), "radius"));
+  CHECK(says(refused(R"("probe": {"radius": 0, "path": [[0, 0, 0]]})"), "probe.radius"));
+  CHECK(says(refused(R"("probe": {"radius": 1, "path": []})"), "probe.path"));
+  CHECK(says(refused(R"("probe": {"radius": 1, "path": [[0, 0, null]]})"), "probe.path[0]"));
+  CHECK(says(refused(R"("probe": {"radius": 1, "path": [[0, 0, 0]], "speed": 0})"), "probe.speed"));
+  CHECK(says(refused(R"("suture": {"nodes": [1]})"), "must be two"));
+  CHECK(says(refused(R"("suture": {"nodes": [1, 2], "length": -1})"), "suture.length"));
+  CHECK(says(refused(R"("suture": {"nodes": [1, 2], "over": -1})"), "suture.over"));
   const Scene far = scene_with_events(R"([{"step": 1, "suture": {"nodes": [1, 2000]}}])");
-  CHECK(test::says(refusal([&] { Schedule(far, load_setup(far).mesh); }), "suture.nodes"));
+  CHECK(says(refusal([&] { Schedule(far, load_setup(far).mesh); }), "suture.nodes"));
 }
 
 TEST_CASE("a recorded session with every tool replays to the bit, by explicit and by implicit steps") {

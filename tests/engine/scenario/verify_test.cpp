@@ -107,20 +107,20 @@ TEST_CASE("whatever is altered, dropped or moved in a recording is noticed") {
     return verification.reason;
   };
   CHECK(reason([](Scene&) {}) == "");
-  CHECK(test::says(reason([](Scene& r) { r.checkpoints[2].hash ^= 1; }), "differs at step 10: state"));
-  CHECK(test::says(reason([](Scene& r) { r.checkpoints[2].nodes[3] ^= 1; }), "differs at step 10, node 3"));
-  CHECK(test::says(reason([](Scene& r) { r.checkpoints[2].nodes.pop_back(); }), "differs at step 10, node 11"));
-  CHECK(test::says(reason([](Scene& r) { r.checkpoints.erase(r.checkpoints.begin() + 2); }),
+  CHECK(says(reason([](Scene& r) { r.checkpoints[2].hash ^= 1; }), "differs at step 10: state"));
+  CHECK(says(reason([](Scene& r) { r.checkpoints[2].nodes[3] ^= 1; }), "differs at step 10, node 3"));
+  CHECK(says(reason([](Scene& r) { r.checkpoints[2].nodes.pop_back(); }), "differs at step 10, node 11"));
+  CHECK(says(reason([](Scene& r) { r.checkpoints.erase(r.checkpoints.begin() + 2); }),
                    "4 checkpoints, and its end tells of 5"));
-  CHECK(test::says(reason([](Scene& r) { r.checkpoints.clear(); }), "no checkpoint"));
-  CHECK(test::says(reason([](Scene& r) { *r.recorded_end->hash ^= 1; }), "differs at step 20"));
-  CHECK(test::says(reason([](Scene& r) { r.recorded_end->hash.reset(); }), "lacks"));
-  CHECK(test::says(reason([](Scene& r) { r.recorded_end->checkpoints.reset(); }), "lacks"));
-  CHECK(test::says(reason([](Scene& r) { r.recorded_end.reset(); }), "no end record"));
-  CHECK(test::says(reason([](Scene& r) { r.recorded_end->halt = "unstable"; }), "did not stop at step 20"));
-  CHECK(test::says(reason([](Scene& r) { r.events.push_back({21, Release{}}); }), "event of step 21"));
-  CHECK(test::says(reason([](Scene& r) { r.recorded_by.kernel_revision = 0; }), "kernel revision 0"));
-  CHECK(test::says(reason([](Scene& r) {
+  CHECK(says(reason([](Scene& r) { r.checkpoints.clear(); }), "no checkpoint"));
+  CHECK(says(reason([](Scene& r) { *r.recorded_end->hash ^= 1; }), "differs at step 20"));
+  CHECK(says(reason([](Scene& r) { r.recorded_end->hash.reset(); }), "lacks"));
+  CHECK(says(reason([](Scene& r) { r.recorded_end->checkpoints.reset(); }), "lacks"));
+  CHECK(says(reason([](Scene& r) { r.recorded_end.reset(); }), "no end record"));
+  CHECK(says(reason([](Scene& r) { r.recorded_end->halt = "unstable"; }), "did not stop at step 20"));
+  CHECK(says(reason([](Scene& r) { r.events.push_back({21, Release{}}); }), "event of step 21"));
+  CHECK(says(reason([](Scene& r) { r.recorded_by.kernel_revision = 0; }), "kernel revision 0"));
+  CHECK(says(reason([](Scene& r) {
                      r.recorded_by.build = "GCC 1";
                      r.checkpoints[1].hash ^= 1;
                    }),
@@ -130,7 +130,7 @@ TEST_CASE("whatever is altered, dropped or moved in a recording is noticed") {
     r.recorded_ticks = r.recorded_end->tick = tick;
     r.recorded_end->hash = hash;
   };
-  CHECK(test::says(reason([&](Scene& r) { end_at(r, 10, r.checkpoints[2].hash); }),
+  CHECK(says(reason([&](Scene& r) { end_at(r, 10, r.checkpoints[2].hash); }),
                    "checkpoint of step 20, after its end"));
 }
 
@@ -150,7 +150,7 @@ TEST_CASE("a recording of format 1 verifies with a warning where its checkpoints
   const TemporaryFolder folder;
   const Scene whole = of_format_1(recorded(pulled_scene(), folder));
   CHECK(verified(whole).passed);
-  CHECK(test::says(verified(whole).warning, "format 1"));
+  CHECK(says(verified(whole).warning, "format 1"));
   const auto passes_with = [&](const std::vector<std::size_t>& kept, long end) {
     Scene recording = whole;
     recording.checkpoints.clear();
@@ -196,16 +196,16 @@ TEST_CASE("a halt is part of a recording, is shown again and verifies, another o
 
   Scene other = recording;
   other.recorded_end->halt = "unstable";
-  CHECK(test::says(verified(other).reason, "recorded at step"));
+  CHECK(says(verified(other).reason, "recorded at step"));
   other = recording;
   other.recorded_end->hash = *other.recorded_end->hash ^ 1;
-  CHECK(test::says(verified(other).reason, "differs at step"));
+  CHECK(says(verified(other).reason, "differs at step"));
 
   // A recording whose halt is taken out is noticed; one that was ended before the tick that would halt verifies.
   other = recording;
   other.recorded_end->halt.reset();
   other.recorded_ticks = other.recorded_end->tick;
-  CHECK(test::says(verified(other).reason, "says that the run halted, and not why"));
+  CHECK(says(verified(other).reason, "says that the run halted, and not why"));
   other.recorded_end->halted = false;
   CHECK(verified(other).passed);
 
@@ -249,7 +249,7 @@ TEST_CASE("commands to a world that has halted count from a reset on, and else n
 TEST_CASE("a recorder says when its file takes no more, once") {
   const Scene scene = pulled_scene();
   const std::unique_ptr<World> world = load_world(scene);
-  CHECK(test::says(refusal([&] { Recorder(std::filesystem::path("/dev/full"), scene, *world); }),
+  CHECK(says(refusal([&] { Recorder(std::filesystem::path("/dev/full"), scene, *world); }),
                    "/dev/full: cannot be written: No space left"));
 }
 

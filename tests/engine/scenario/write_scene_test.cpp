@@ -237,7 +237,7 @@ TEST_CASE("writes checkpoints so that they read back") {
 TEST_CASE("refuses to write what is not UTF-8") {
   Scene scene = test::small_scene_with("{}");
   scene.name = std::string("\xff");
-  CHECK(test::says(refusal([&] { scene_line(scene); }), "not UTF-8"));
+  CHECK(says(refusal([&] { scene_line(scene); }), "not UTF-8"));
 }
 
 }  // namespace heml::write_scene_test

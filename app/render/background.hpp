@@ -1,0 +1,65 @@
+#pragma once
+// What is behind and under the body: a backdrop, and a drape with the shadows of body and tools. Software renderers
+// spend a third of a picture on them. So while camera and ground stay, both are kept without shadows, and a picture is
+//
+//   body and tools, then
+//   the squares of the drape that shadows fall on, then
+//   what is kept, where nothing has been drawn yet,
+//
+// with the same bits as if drape and backdrop were drawn.
+#include <app/render/gl_objects.hpp>
+#include <app/render/tool_drawing.hpp>
+#include <optional>
+
+namespace heml::render {
+
+class Background {
+ public:
+  /// The drape, a plane of constant y.
+  struct Ground {
+    bool shown = true;             ///< and the eye is above it
+    Vec3f centre = Vec3f::Zero();  ///< m
+    float radius = 1;              ///< m, of the body at rest
+    GLuint footprint = 0;          ///< texture of shadows, shadows.hpp
+    Eigen::AlignedBox2f shadowed;  ///< where that is not 0, in radii from the centre
+    bool is_lowest = true;         ///< nothing that is drawn reaches below it, and could be hidden by it
+  };
+  /// The picture's lower left corner in the bound framebuffer, pixels.
+  struct Place {
+    int left = 0, bottom = 0;
+  };
+
+  Background();
+  /// Sees what is kept. Leaves any colours and depths where the view is that of the last call. Before a picture.
+  void prepare(const ViewContext& shot, const Ground& ground, const Place& place);
+  /// Fills the rest of the picture.
+  void draw(const ViewContext& shot, const Ground& ground) const;
+
+ private:
+  /// All that backdrop and drape depend on, but for shadows.
+  struct Scenery {
+    Mat4f view_projection;
+    Size size;
+    int left, bottom;
+    bool with_ground;
+    Vec3f centre;
+    float radius;
+    bool operator==(const Scenery&) const = default;
+  };
+  void keep(const ViewContext& shot, const Ground& ground, const Place& place);
+  void draw_all(const ViewContext& shot, const Ground& ground) const;
+  void draw_ground(const ViewContext& shot, const Ground& ground, const Eigen::AlignedBox2f* within) const;
+  void fill() const;
+
+  Program ground_{"ground.vert", "ground.frag"};
+  Program backdrop_{"screen.vert", "backdrop.frag"};
+  Program copy_{"screen.vert", "kept.frag"};
+  VertexArray empty_array_;  // for shapes that need only gl_VertexID
+  Texture no_shadow_;        // one texel
+  std::optional<Scenery> last_;
+  Texture kept_;
+  Size kept_size_{0, 0};
+  bool is_kept_ = false;  // of last_
+};
+
+}  // namespace heml::render
