@@ -73,6 +73,10 @@ TEST_CASE("what is kept gives the bytes of a first picture, whatever instruments
   CHECK(probe({0.02, 0.06, 0.02}, {0.3, 0.3, 0.1}));
   CHECK(probe({0.06, -0.2, 0.06}, {0.06, 0.1, 0.06}));  // through the ground
   CHECK(probe({-0.1, -0.4, 0}, {0.1, -0.3, 0}));        // below it
+  stage.camera.fit(Vec3f::Zero(), 0.2f, whole);
+  const Vec3 side = stage.camera.right().cast<double>(), ahead = Vec3::UnitY().cross(side).normalized();
+  const Vec3 hidden = 0.1 * side - 0.15 * ahead - Vec3(0, 0.1, 0);  // by ground that no shadow falls on
+  CHECK(probe(hidden, hidden + 0.02 * side));
   stage.frame.tools.clear();
   stage.camera.pan(0.1f, -0.4f);
   CHECK(stage.is_like_fresh());
