@@ -207,7 +207,17 @@ PanelActions Panel::draw(const Frame& frame) {
   }
   dialog_.draw(rows_, picture, out);
   out.answer = question_.draw(rows_, picture);
+  perform_queued(frame, out);
+  return out;
+}
+
+void Panel::perform_queued(const Frame& frame, PanelActions& out) {
   for (const Action action : std::exchange(pressed_, {})) carry_out(action, frame, out);
+}
+
+PanelActions Panel::perform_now(const Frame& frame) {
+  PanelActions out;
+  perform_queued(frame, out);
   return out;
 }
 

@@ -50,7 +50,8 @@ class Panel {
   /// keys.
   PanelActions draw(const Frame& frame);
 
-  void perform(Action action);        ///< queued for the next draw()
+  void perform(Action action);        ///< queued for the next draw() or perform_now()
+  PanelActions perform_now(const Frame& frame);  ///< performs what is queued, and returns what draw() would
   void sync(const Command& command);  ///< updates the shown settings after a command from elsewhere
   /// For some seconds. folder: that a button offers to open; empty: none.
   void notify(std::string text, std::filesystem::path folder = {}) {
@@ -97,6 +98,7 @@ class Panel {
 
  private:
   void carry_out(Action action, const Frame& frame, PanelActions& out);
+  void perform_queued(const Frame& frame, PanelActions& out);
   void reset_settings(PanelActions& out);
   float draw_edges(const Frame& frame, Area& free, PanelActions& out);
   Situation situation(const Frame& frame) const;

@@ -5,6 +5,7 @@
 #include <app/render/grasp_pose.hpp>
 #include <app/render/stroke_drawing.hpp>
 #include <app/window/clamps.hpp>
+#include <app/window/input_queue.hpp>
 #include <app/window/scissors.hpp>
 #include <heml/session/frame.hpp>
 #include <heml/world/command.hpp>
@@ -12,8 +13,6 @@
 #include <vector>
 
 namespace heml::window {
-
-enum class MouseButton { left, right, middle };
 
 class MouseTool {
  public:

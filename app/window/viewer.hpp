@@ -15,6 +15,7 @@
 #include <app/window/unsaved_work.hpp>
 #include <app/window/video_recorder.hpp>
 #include <app/window/window.hpp>
+#include <array>
 #include <chrono>
 #include <functional>
 
@@ -40,11 +41,8 @@ class Viewer final : public WindowEvents {
   long drawn() const { return drawn_; }           ///< images so far
   const Frame& frame() const { return *frame_; }  ///< the one drawn last
 
-  void key(int key, bool control, bool shift, bool repeated) override;
-  void button(MouseButton button, bool down, bool shift) override;
-  void mouse(const render::Vec2f& at) override;
-  void wheel(float notches) override;
-  void dropped(const std::filesystem::path& path) override;
+  void apply_input();  ///< what came since the last call, in its order; some of it after the next picture
+  void came(Input input) override;
   void changed() override { frames_wanted_ = settling_frames; }
 
  private:
@@ -52,6 +50,15 @@ class Viewer final : public WindowEvents {
   static constexpr int settling_frames = 3;  ///< that Dear ImGui may need after an input
 
   bool is_busy() const;
+  int apply(const KeyInput& key);  // as InputQueue wants it; so are the others
+  int apply(const CharacterInput&) { return 0; }
+  int apply(const ButtonInput& button);
+  int apply(const MotionInput& motion);
+  int apply(const WheelInput& wheel);
+  int apply(const DropInput& drop);
+  void perform(panel::Action action);
+  bool panel_takes(const ButtonInput& button);
+  void press(const ButtonInput& button);
   void adopt(OpenScene opened);
   void take_opened();
   void open(const std::filesystem::path& path);
@@ -112,6 +119,8 @@ class Viewer final : public WindowEvents {
   const Frame* frame_ = nullptr;
   const Frame* live_ = nullptr;  ///< the engine's newest, while frame_ may be a past one
 
+  InputQueue input_;
+  std::array<bool, 3> panel_has_{};  ///< the press of a button, by number
   std::size_t next_event_ = 0;  ///< of the scene's script, that the panel does not show yet
   render::Vec2f mouse_{-1, -1};
   std::chrono::steady_clock::time_point drawn_at_{}, pressed_at_{};
