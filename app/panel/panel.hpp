@@ -26,6 +26,7 @@
 #include <app/panel/preferences.hpp>
 #include <app/panel/question.hpp>
 #include <app/panel/region_section.hpp>
+#include <app/panel/selection_section.hpp>
 #include <app/panel/slow_body.hpp>
 #include <app/panel/stretch_monitor.hpp>
 #include <app/panel/timeline.hpp>
@@ -69,6 +70,8 @@ class Panel {
   const std::vector<int>& hidden_regions() const { return regions_.hidden(); }  ///< ascending
   Measure& measure() { return measure_; }
   const Measure& measure() const { return measure_; }
+  SelectionSection& selecting() { return selecting_; }
+  const SelectionSection& selecting() const { return selecting_; }
   ViewSection& view() { return view_; }
   const ViewSection& view() const { return view_; }
   /// What the mouse does, and whether the first end of a suture is set: for the hints.
@@ -132,6 +135,7 @@ class Panel {
   int limited_changes_ = -1;  ///< MaterialSection::changes() that stretch_monitor_ is of
   std::vector<int> surface_hidden_;  ///< SurfaceMesh::hidden that it is of
   RegionSection regions_;
+  SelectionSection selecting_;
   MotionSection motion_;
   ViewSection view_;
   CompareSection comparisons_;

@@ -35,8 +35,12 @@ void Viewer::adopt(OpenScene opened) {
   else
     playback_ = TimelinePlayback();
   open_ = std::move(opened);
-  if (!open_.resumed) as_opened_ = open_.scene;
   frame_ = live_ = &open_.session->latest();
+  if (!open_.resumed) {
+    as_opened_ = open_.scene;
+    opened_conditions_ = frame_->conditions;
+  }
+  selection_drag_.cancel();
   const panel::Measure measure = open_.resumed && panel_ ? panel_->measure() : panel::Measure();
   panel_.emplace(open_.scene, *frame_->surface_mesh, open_.session->region_names(),
                  open_.session->regions());
@@ -106,7 +110,8 @@ void Viewer::draw() {
   panel_->set_timeline(timeline);
   for (std::size_t view = 0; view < panel::CameraController::views; ++view)
     panel_->view().set_saved(view, controller_.has_view(view));
-  panel_->set_interaction(mouse_tool_.interaction(), mouse_tool_.first_end().has_value());
+  panel_->set_interaction(selection_drag_.is_on() ? panel::Interaction::selecting : mouse_tool_.interaction(),
+                          mouse_tool_.first_end().has_value());
   panel_->update(*frame_, seconds);
   open_.session->enable_stretches(panel_->wants_stretches());
   open_.session->hide_regions(panel_->hidden_regions());
@@ -154,11 +159,17 @@ void Viewer::remember_preferences() {
 
 void Viewer::draw_marks() {
   panel::each_pane(*frame_, controller_, [&](std::size_t pane, const Frame& body) {
+    if (pane == 0 && (panel_->tool().tool == panel::Tool::select || !panel_->selecting().selection().is_empty())) {
+      draw_nodes(panel_->selecting().selection().nodes(), body, *body.surface_mesh, controller_);
+      if (selection_drag_.is_on()) draw_nodes(selection_drag_.painted(), body, *body.surface_mesh, controller_);
+      draw_loads(body.conditions->loads, body, *body.surface_mesh, controller_);
+    }
     if (pane == 0) draw_measured(panel_->measure().now(), controller_);
     draw_forces(body, mouse_tool_.hold(), controller_);
     if (mouse_tool_.first_end()) draw_suture_end(*mouse_tool_.first_end(), body, *body.surface_mesh, controller_);
     if (panel_->shows_recovery()) draw_bad_element(body, controller_);
   });
+  draw_outline(selection_drag_.outline());
   panel::draw_variant_labels(*frame_, controller_);
   if (const auto plane = panel_->drawing().section)
     panel::each_pane(*frame_, controller_, [&](std::size_t, const Frame&) {
@@ -177,8 +188,10 @@ void Viewer::draw_marks() {
     const panel::ToolSettings& tool = panel_->tool();
     const bool takes_patch =
         tool.tool == panel::Tool::grasper || tool.tool == panel::Tool::pin || tool.tool == panel::Tool::remover;
+    const bool paints =
+        tool.tool == panel::Tool::select && panel_->selecting().drag() == panel::SelectionSection::Drag::paint;
     draw_ring(*hit, seen(), *seen().surface_mesh, controller_,
-              takes_patch                       ? tool.radius
+              takes_patch || paints                       ? tool.radius
               : tool.tool == panel::Tool::probe ? tool.probe_radius
                                                 : 0);
     if (takes_patch) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);

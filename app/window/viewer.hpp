@@ -9,6 +9,7 @@
 #include <app/window/glfw_window.hpp>
 #include <app/window/library.hpp>
 #include <app/window/mouse_tool.hpp>
+#include <app/window/selection_drag.hpp>
 #include <app/window/session_loader.hpp>
 #include <app/window/state_folder.hpp>
 #include <app/window/timeline_playback.hpp>
@@ -97,6 +98,11 @@ class Viewer final : public WindowEvents {
   void save_scene();
   void save_measured();
   bool measures_at_mouse();
+  bool selects_at_mouse(const ButtonInput& input);
+  SelectionDrag::View selection_view() const { return {seen(), *seen().surface_mesh, controller_, mouse_tool_.section()}; }
+  void end_selection();
+  void forget_selection();
+  void write_conditions(Scene& scene) const;
   void toggle_recording();
   void add_video_frame();
   void use_view(const panel::PanelActions& actions);
@@ -111,6 +117,7 @@ class Viewer final : public WindowEvents {
   Library library_;
   OpenScene open_;
   Scene as_opened_;  ///< as read from the file, not resumed
+  std::shared_ptr<const Conditions> opened_conditions_;  ///< of its first frame
   TimelinePlayback playback_;
   std::optional<int> shown_progress_;              ///< of session_loader_, %
   std::unique_ptr<VideoRecorder> video_recorder_;  ///< while recording and encoding
@@ -120,6 +127,7 @@ class Viewer final : public WindowEvents {
   const Frame* live_ = nullptr;  ///< the engine's newest, while frame_ may be a past one
 
   InputQueue input_;
+  SelectionDrag selection_drag_;
   std::array<bool, 3> panel_has_{};  ///< the press of a button, by number
   std::size_t next_event_ = 0;  ///< of the scene's script, that the panel does not show yet
   render::Vec2f mouse_{-1, -1};

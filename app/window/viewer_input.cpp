@@ -63,7 +63,10 @@ int Viewer::apply(const ButtonInput& button) {
     if (!panel_->covers(mouse_.x(), mouse_.y())) press(button);
     return pictures;
   }
-  if (button.button == MouseButton::left) drags_section_ = false;
+  if (button.button == MouseButton::left) {
+    drags_section_ = false;
+    end_selection();
+  }
   std::vector<Command> commands;
   mouse_tool_.release(button.button, seen(), *seen().surface_mesh, commands);
   post(commands);
@@ -77,15 +80,17 @@ void Viewer::press(const ButtonInput& input) {
     drags_section_ = true;
     return;
   }
-  if (button == MouseButton::left && measures_at_mouse()) return;
+  if (button == MouseButton::left && (measures_at_mouse() || selects_at_mouse(input))) return;
   if (playback_.active() && button == MouseButton::left && mouse_tool_.pick(mouse_, seen(), *seen().surface_mesh))
     panel_->notify(past_is_read_only);
   const bool has_other_surface = controller_.current() > 0 && !seen().distance;  // with other node numbers
   if (playback_.active() || has_other_surface)
     return mouse_tool_.press_background(button, mouse_, input.shift, seen(), *seen().surface_mesh);
   std::vector<Command> commands;
-  if (mouse_tool_.press(button, mouse_, input.shift, seen(), *seen().surface_mesh, panel_->tool(), commands))
-    panel_->notify("These nodes are constrained by the scene; pick others.");
+  if (const Status pressed = mouse_tool_.press(button, mouse_, input.shift, seen(), *seen().surface_mesh,
+                                               panel_->tool(), commands);
+      !pressed.ok())
+    panel_->notify(pressed.message());
   post(commands);
   if (button != MouseButton::left || !mouse_tool_.is_beside_body()) return;
   const auto now = std::chrono::steady_clock::now();
@@ -108,10 +113,44 @@ bool Viewer::measures_at_mouse() {
   return true;
 }
 
+/// Begins a selection; the timeline's past can be selected of too. False: another tool is chosen.
+bool Viewer::selects_at_mouse(const ButtonInput& input) {
+  if (panel_->tool().tool != panel::Tool::select || mouse_tool_.interaction() != MouseTool::Interaction::none)
+    return false;
+  if (controller_.current() > 0) {
+    panel_->notify("Nodes of the body itself are selected, not of its comparison runs.");
+    return true;
+  }
+  using How = panel::NodeSelection::How;
+  const panel::SelectionSection& section = panel_->selecting();
+  selection_drag_.press(mouse_,
+                        {section.drag(), section.through(), panel_->tool().radius,
+                         input.shift     ? How::add
+                         : input.control ? How::remove
+                                         : How::replace},
+                        selection_view());
+  return true;
+}
+
+void Viewer::end_selection() {
+  if (!selection_drag_.is_on()) return;
+  const std::vector<int> nodes = selection_drag_.release(selection_view());
+  panel_->selecting().selection().take(nodes, selection_drag_.how());
+}
+
+void Viewer::forget_selection() {
+  if (selection_drag_.is_on()) return selection_drag_.cancel();
+  if (panel_->tool().tool == panel::Tool::select) panel_->selecting().selection().clear();
+}
+
 int Viewer::apply(const MotionInput& motion) {
   if (drags_section_) panel_->view().section().drag(mouse_, motion.at, controller_);
   mouse_ = motion.at;
   if (drags_section_) return 0;
+  if (selection_drag_.is_on()) {
+    selection_drag_.move(mouse_, selection_view());
+    return 0;
+  }
   if (mouse_tool_.interaction() == MouseTool::Interaction::none) controller_.select_pane_at(mouse_);
   std::vector<Command> commands;
   mouse_tool_.move(mouse_, seen(), *seen().surface_mesh, commands);
