@@ -11,7 +11,8 @@ namespace {
 
 const render::Size size{640, 360};
 
-/// Two sheets that face the camera at +z, one 0.1 m behind the other, as grids of 5 by 5 nodes: 0 to 24 and 25 to 49.
+/// Two sheets that face the camera at +z, as grids of 5 by 5 nodes, 100 to 124 and 125 to 149; the second is smaller, and
+/// 0.1 m behind the other.
 struct Sheets {
   SurfaceMesh surface_mesh;
   Frame frame;
@@ -24,7 +25,8 @@ struct Sheets {
       const int first = 25 * sheet;
       for (int k = 0; k < 25; ++k) {
         surface_mesh.nodes.push_back(100 + first + k);
-        surface_mesh.rest.push_back({0.05f * static_cast<float>(k % 5 - 2), 0.05f * static_cast<float>(k / 5 - 2),
+        const float side = sheet == 0 ? 0.05f : 0.045f;
+        surface_mesh.rest.push_back({side * static_cast<float>(k % 5 - 2), side * static_cast<float>(k / 5 - 2),
                                      -0.1f * static_cast<float>(sheet)});
       }
       for (int y = 0; y < 4; ++y)
