@@ -41,8 +41,8 @@ constexpr ToolInfo tools[] = {
      "fourth point begins anew.",
      Action::select_measure, draw_ruler},
     {Tool::select, "Select",
-     "Clicks and drags select nodes of the surface, which the section Selection fixes, frees and loads. Shift adds, Ctrl "
-     "takes away.",
+     "Clicks and drags select nodes of the surface, which the section Selection fixes, frees and loads. Shift adds, "
+     "Ctrl takes away.",
      Action::select_nodes, draw_marquee},
 };
 

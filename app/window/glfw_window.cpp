@@ -135,7 +135,8 @@ void GlfwWindow::pass_to_imgui(const Input& input) {
   if (const auto* motion = std::get_if<MotionInput>(&input)) mouse_ = motion->at;
   if (const auto* button = std::get_if<ButtonInput>(&input)) {
     down_[static_cast<std::size_t>(button->button)] = button->down;
-    ImGui_ImplGlfw_MouseButtonCallback(window_, static_cast<int>(button->button), button->down ? GLFW_PRESS : GLFW_RELEASE, 0);
+    ImGui_ImplGlfw_MouseButtonCallback(window_, static_cast<int>(button->button),
+                                       button->down ? GLFW_PRESS : GLFW_RELEASE, 0);
   }
 }
 
@@ -192,8 +193,8 @@ void GlfwWindow::install_callbacks() {
   });
   glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int mods) {
     if (!events_of(w) || button > GLFW_MOUSE_BUTTON_MIDDLE) return;
-    events_of(w)->came(ButtonInput{static_cast<MouseButton>(button), action == GLFW_PRESS, (mods & GLFW_MOD_CONTROL) != 0,
-                                   (mods & GLFW_MOD_SHIFT) != 0});
+    events_of(w)->came(ButtonInput{static_cast<MouseButton>(button), action == GLFW_PRESS,
+                                   (mods & GLFW_MOD_CONTROL) != 0, (mods & GLFW_MOD_SHIFT) != 0});
   });
   glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double x, double y) {
     if (events_of(w))

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <app/window/selection_drag.hpp>
 #include <iterator>
+#include <tuple>
 
 namespace heml::window {
 namespace {

@@ -72,7 +72,8 @@ void Viewer::fit() {
 
 bool Viewer::wants_drawing() const {
   return window_.visible() &&
-         (frames_wanted_ > 0 || input_.needs_picture() || open_.session->frame_waiting() || panel_->animating() || playback_.playing() ||
+         (frames_wanted_ > 0 || input_.needs_picture() || open_.session->frame_waiting() || panel_->animating() ||
+          playback_.playing() ||
           session_loader_.is_ready() || session_loader_.progress() != shown_progress_ || library_.is_ready() ||
           unsaved_.is_due() || (video_recorder_ && video_recorder_->is_done()));
 }

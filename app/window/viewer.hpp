@@ -99,7 +99,9 @@ class Viewer final : public WindowEvents {
   void save_measured();
   bool measures_at_mouse();
   bool selects_at_mouse(const ButtonInput& input);
-  SelectionDrag::View selection_view() const { return {seen(), *seen().surface_mesh, controller_, mouse_tool_.section()}; }
+  SelectionDrag::View selection_view() const {
+    return {seen(), *seen().surface_mesh, controller_, mouse_tool_.section()};
+  }
   void end_selection();
   void forget_selection();
   void write_conditions(Scene& scene) const;

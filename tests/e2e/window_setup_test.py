@@ -68,7 +68,8 @@ class Setup(WindowCase):
         self.wait_for("a saved scene", lambda: list(self.folder.glob("heml-light-*.json")))
         self.quit()
 
-        front = {"fixed": nodes(lambda x, y, z: y == 4 and z == 4), "pulled": nodes(lambda x, y, z: y == 0 and z == 4 and x == 3)}
+        front = {"fixed": nodes(lambda x, y, z: y == 4 and z == 4),
+                 "pulled": nodes(lambda x, y, z: y == 0 and z == 4 and x == 3)}
         fixed, freed = self.seen("boundary")
         self.assertEqual([entry["nodes"] for entry in fixed], [front["fixed"]])
         self.assertEqual(freed, [])

@@ -137,9 +137,10 @@ struct AdoptPreconditioner {};
 struct Reset {};
 
 using Command =
-    std::variant<Grasp, MoveTool, Release, PinTissue, Unpin, SetTables, SetBoundary, SetLoads, MoveProbe, WithdrawProbe,
-                 SutureTissue, CutSutures, SetMaterial, SetDamping, SetGravity, SetIntegrator, SetBudget, SetRate, SetStepCost,
-                 RemoveElements, CutTissue, Undo, StepHistory, AdoptPreconditioner, Reset>;
+    std::variant<Grasp, MoveTool, Release, PinTissue, Unpin, SetTables, SetBoundary, SetLoads, MoveProbe,
+                 WithdrawProbe, SutureTissue, CutSutures, SetMaterial, SetDamping, SetGravity, SetIntegrator,
+                 SetBudget, SetRate, SetStepCost, RemoveElements, CutTissue, Undo, StepHistory, AdoptPreconditioner,
+                 Reset>;
 
 /// Whether a kind of command changes which elements there are, or takes such a change back.
 template <class C>

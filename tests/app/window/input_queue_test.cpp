@@ -25,7 +25,9 @@ struct Listener {
   }
 
   void apply() {
-    queue.apply([this](const Input& input) { return std::visit([this](const auto& one) { return (*this)(one); }, input); });
+    queue.apply([this](const Input& input) {
+      return std::visit([this](const auto& one) { return (*this)(one); }, input);
+    });
   }
   void select_and_draw_a_stroke() {
     queue.add(KeyInput{'C', true});

@@ -11,8 +11,8 @@ namespace {
 
 const render::Size size{640, 360};
 
-/// Two sheets that face the camera at +z, as grids of 5 by 5 nodes, 100 to 124 and 125 to 149; the second is smaller, and
-/// 0.1 m behind the other.
+/// Two sheets that face the camera at +z, as grids of 5 by 5 nodes, 100 to 124 and 125 to 149; the second is smaller,
+/// and 0.1 m behind the other.
 struct Sheets {
   SurfaceMesh surface_mesh;
   Frame frame;

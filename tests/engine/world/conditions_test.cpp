@@ -22,7 +22,9 @@ struct Conditions {
   std::vector<Load> loads;
 };
 Conditions conditions_of(const TetMesh& mesh) {
-  const auto at = [&](double x) { return nodes_where(mesh, [x](const Vec3& X) { return std::abs(X.x() - x) < 1e-9; }); };
+  const auto at = [&](double x) {
+    return nodes_where(mesh, [x](const Vec3& X) { return std::abs(X.x() - x) < 1e-9; });
+  };
   Boundary moved{at(0.06)};
   moved.translate = Vec3(0.002, 0, 0);
   moved.ramp_time = 0.02;
