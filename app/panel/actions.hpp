@@ -42,6 +42,7 @@ enum class Action {
   select_suture,
   select_remover,
   select_measure,
+  select_nodes,
   toggle_table,
   undo,
   redo,
@@ -74,10 +75,10 @@ enum class Action {
 };
 
 /// What the left mouse button does to the body.
-enum class Tool { grasper, scalpel, scissors, pin, probe, suture, remover, measure };
+enum class Tool { grasper, scalpel, scissors, pin, probe, suture, remover, measure, select };
 
 /// What the mouse is doing in the image while a button is down.
-enum class Interaction { none, grasping, cutting, snipping, probing, orbiting, panning };
+enum class Interaction { none, grasping, cutting, snipping, probing, selecting, orbiting, panning };
 
 /// The selected tool and the settings of all tools.
 struct ToolSettings {

@@ -31,6 +31,9 @@ std::vector<std::string> tool_hints(const Situation& now) {
       return {"click one end of the thread", "right-drag to turn", with_key(Action::select_grasper, "to grasp")};
     case Tool::measure:
       return {"click points: 2 distance, 3 angle", "right-drag to turn", with_key(Action::select_grasper, "to grasp")};
+    case Tool::select:
+      return {"click or drag to select", "Shift adds, Ctrl takes away", "right-drag to turn", "Esc forgets",
+              with_key(Action::select_grasper, "to grasp")};
     case Tool::remover:
       return {"click the tissue to remove it", "right-drag to turn", with_key(Action::undo, "brings it back")};
   }
@@ -42,6 +45,8 @@ std::vector<std::string> idle_hints(const Situation& now) {
   if (now.past)
     return {"a past moment", with_key(Action::resume, "goes on from here"), "Left, Right: a picture", "Esc: live"};
   std::vector<std::string> hints = tool_hints(now);
+  if (now.hides && (now.tool == Tool::scalpel || now.tool == Tool::scissors))
+    hints.insert(hints.begin() + 1, "hidden tissue is cut too");
   if (now.paused) hints.insert(hints.begin(), "paused: Space runs");
   hints.push_back("H for help");
   return hints;
@@ -56,11 +61,14 @@ std::vector<std::string> hints_for(const Situation& now) {
     case Interaction::grasping:
       return {"move to pull", "let go to release", with_key(Action::leave_clamp, "leaves a clamp")};
     case Interaction::cutting:
+      if (now.hides) return {"draw across the tissue", "hidden tissue is cut too", "Esc leaves"};
       return {"draw across the tissue", "Esc leaves"};
     case Interaction::snipping:
       return {"drag to snip on", "let go to close the jaws", "Esc leaves"};
     case Interaction::probing:
       return {"move along the tissue", "the wheel pushes deeper", "let go to withdraw"};
+    case Interaction::selecting:
+      return {"let go to select", "Esc leaves"};
     case Interaction::orbiting:
       return {"drag to turn", "Shift + right-drag to move", "wheel to zoom", with_key(Action::fit, "fits the body")};
     case Interaction::panning:

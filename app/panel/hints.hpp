@@ -15,7 +15,8 @@ struct Situation {
   Interaction interaction = Interaction::none;
   bool suture_begun = false;  ///< its first end is set
   bool paused = false, halted = false;
-  bool past = false;  ///< a past frame is shown
+  bool past = false;       ///< a past frame is shown
+  bool hides = false;      ///< regions are hidden
 };
 
 /// The hints of a situation, most useful first: every hint there is.

@@ -24,6 +24,7 @@ void draw_probe(ImDrawList& list, ImVec2 centre, float half, ImU32 colour);
 void draw_needle(ImDrawList& list, ImVec2 centre, float half, ImU32 colour);
 void draw_eraser(ImDrawList& list, ImVec2 centre, float half, ImU32 colour);
 void draw_ruler(ImDrawList& list, ImVec2 centre, float half, ImU32 colour);
+void draw_marquee(ImDrawList& list, ImVec2 centre, float half, ImU32 colour);
 void draw_table(ImDrawList& list, ImVec2 centre, float half, ImU32 colour);
 void draw_frame(ImDrawList& list, ImVec2 centre, float half, ImU32 colour);
 void draw_camera(ImDrawList& list, ImVec2 centre, float half, ImU32 colour);

@@ -61,6 +61,7 @@ constexpr KeyBinding bindings[] = {
     {'S', none, Action::select_suture, "S", "suture: click both ends"},
     {'X', none, Action::select_remover, "X", "remover: click the tissue to remove"},
     {'M', none, Action::select_measure, "M", "measure: click one to three points"},
+    {'E', none, Action::select_nodes, "E", "select nodes to fix or load: click, drag; Shift adds, Ctrl takes away"},
     {'T', none, Action::toggle_table, "T", "add or remove a table under the body"},
     {'Z', control, Action::undo, "Ctrl+Z", "undo the last action"},
     {'Z', control_shift, Action::redo, "Ctrl+Shift+Z", "redo; Ctrl+Y does too"},

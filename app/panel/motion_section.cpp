@@ -51,6 +51,7 @@ MotionSection::MotionSection(const Vec3& gravity, const SolverSettings& solver)
 }
 
 void MotionSection::sync(const SetGravity& command) {
+  typed_ = command.gravity;
   strength_ = command.gravity.norm();
   if (strength_ > 0) direction_ = command.gravity / strength_;
 }
@@ -93,10 +94,18 @@ void MotionSection::draw_gravity(Rows& rows, PanelActions& out) {
     names[i] = directions()[i].name;
     if ((directions()[i].vector - direction_).norm() < 1e-9) chosen = i;
   }
-  names[6] = "as in the scene";
-  const std::span<const std::string> offered(names.data(), chosen == 6 ? 7 : 6);
-  if (rows.choice({"Direction", "Direction of gravity."}, chosen, offered)) {
-    direction_ = directions()[chosen].vector;
+  names[6] = "x, y, z";
+  if (is_typed_) chosen = 6;
+  if (rows.choice({"Direction", "Direction of gravity; x, y, z: typed below."}, chosen, names)) {
+    is_typed_ = chosen == 6;
+    if (!is_typed_) {
+      direction_ = directions()[chosen].vector;
+      changed = true;
+    }
+  }
+  if (changed) typed_ = strength_ * direction_;
+  if (chosen == 6 && rows.vector({"Gravity x, y, z", "The same by its components, m/s²."}, typed_, "%.4g")) {
+    sync(SetGravity{typed_});
     changed = true;
   }
   if (changed) out.commands.emplace_back(SetGravity{strength_ * direction_});

@@ -38,6 +38,8 @@ class MotionSection {
     out.commands.emplace_back(command);
   }
 
+  bool is_typed_ = false;      // by its components
+  Vec3 typed_ = Vec3::Zero();  // m/s², gravity as its components are shown
   double strength_ = 0;              ///< of gravity, m/s²
   Vec3 direction_ = Vec3(0, -1, 0);  ///< of gravity, unit; kept while the strength is 0
   double damping_;                   ///< 1/s

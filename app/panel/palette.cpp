@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <app/panel/icons.hpp>
 #include <app/panel/keys.hpp>
 #include <app/panel/palette.hpp>
@@ -39,6 +40,10 @@ constexpr ToolInfo tools[] = {
      "Clicks set up to three points that follow the tissue: field, distance, angle; area and volume of the piece. A "
      "fourth point begins anew.",
      Action::select_measure, draw_ruler},
+    {Tool::select, "Select",
+     "Clicks and drags select nodes of the surface, which the section Selection fixes, frees and loads. Shift adds, "
+     "Ctrl takes away.",
+     Action::select_nodes, draw_marquee},
 };
 
 struct Button {
@@ -83,8 +88,7 @@ void draw_key(const std::string& key, ImVec2 corner, ImU32 colour) {
                                       key.c_str());
 }
 
-void draw_button(Rows& rows, const Button& button, std::vector<Action>& pressed) {
-  const float size = em(button_size);
+void draw_button(Rows& rows, const Button& button, float size, std::vector<Action>& pressed) {
   const ImVec2 from = ImGui::GetCursorScreenPos();
   const std::string key = key_name(button.action);
   const Rows::Icon icon = [&](ImDrawList& list, ImVec2 centre, float half, ImU32 colour) {
@@ -100,6 +104,12 @@ void draw_button(Rows& rows, const Button& button, std::vector<Action>& pressed)
                                         ImGui::GetStyle().FrameRounding * 1.4f, ImDrawFlags_None, em(0.1f));
 }
 
+/// Of a button, em: less where the free area is too low for all.
+float size_for(std::size_t buttons, float room) {
+  const float others = static_cast<float>(buttons) * button_gap + group_gap + 2 * (palette_pad + palette_margin);
+  return std::min(button_size, (room / em(1) - others) / static_cast<float>(buttons));
+}
+
 }  // namespace
 
 std::span<const ToolInfo> tool_table() { return tools; }
@@ -112,9 +122,11 @@ void draw_palette(Rows& rows, const PaletteState& state, const Area& free, std::
   ImGui::PopStyleVar(2);  // not of its tooltips
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, em(button_gap)});
   if (shown) {
-    for (const Button& button : tool_buttons(state)) draw_button(rows, button, pressed);
+    const std::vector<Button> first = tool_buttons(state), second = other_buttons(state);
+    const float size = em(size_for(first.size() + second.size(), free.height()));
+    for (const Button& button : first) draw_button(rows, button, size, pressed);
     ImGui::Dummy({0, em(group_gap - button_gap)});
-    for (const Button& button : other_buttons(state)) draw_button(rows, button, pressed);
+    for (const Button& button : second) draw_button(rows, button, size, pressed);
   }
   const ImVec2 from = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
   place = {from, {from.x + size.x, from.y + size.y}};

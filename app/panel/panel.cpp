@@ -207,7 +207,17 @@ PanelActions Panel::draw(const Frame& frame) {
   }
   dialog_.draw(rows_, picture, out);
   out.answer = question_.draw(rows_, picture);
+  perform_queued(frame, out);
+  return out;
+}
+
+void Panel::perform_queued(const Frame& frame, PanelActions& out) {
   for (const Action action : std::exchange(pressed_, {})) carry_out(action, frame, out);
+}
+
+PanelActions Panel::perform_now(const Frame& frame) {
+  PanelActions out;
+  perform_queued(frame, out);
   return out;
 }
 
@@ -231,7 +241,8 @@ float Panel::draw_edges(const Frame& frame, Area& free, PanelActions& out) {
 
 Situation Panel::situation(const Frame& frame) const {
   return {tool_.tool().tool, interaction_,          suture_begun_,
-          frame.paused,      !frame.halted.empty(), timeline_ && timeline_->shown.has_value()};
+          frame.paused,      !frame.halted.empty(), timeline_ && timeline_->shown.has_value(),
+          !regions_.hidden().empty()};
 }
 
 void Panel::record_window_rect() {
@@ -296,6 +307,8 @@ void Panel::draw_controls(const Frame& frame, bool with_readings, PanelActions& 
     if (mesh_.is_shown() || !findings_.empty()) draw_findings(out);
     if ((tool_.tool().tool == Tool::measure || !measure_.is_empty()) && rows_.section("Measure"))
       draw_measure(rows_, measure_, history_, out);
+    if ((tool_.tool().tool == Tool::select || !selecting_.selection().is_empty()) && rows_.section("Selection"))
+      selecting_.draw(rows_, frame, out);
     if (rows_.section("Material")) material_.draw(rows_, stretch_monitor_.share(), out);
     if (rows_.section("Motion")) motion_.draw(rows_, out);
     if (rows_.section("Tool")) tool_.draw(rows_, frame, out);

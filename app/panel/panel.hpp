@@ -26,6 +26,7 @@
 #include <app/panel/preferences.hpp>
 #include <app/panel/question.hpp>
 #include <app/panel/region_section.hpp>
+#include <app/panel/selection_section.hpp>
 #include <app/panel/slow_body.hpp>
 #include <app/panel/stretch_monitor.hpp>
 #include <app/panel/timeline.hpp>
@@ -50,7 +51,8 @@ class Panel {
   /// keys.
   PanelActions draw(const Frame& frame);
 
-  void perform(Action action);        ///< queued for the next draw()
+  void perform(Action action);        ///< queued for the next draw() or perform_now()
+  PanelActions perform_now(const Frame& frame);  ///< performs what is queued, and returns what draw() would
   void sync(const Command& command);  ///< updates the shown settings after a command from elsewhere
   /// For some seconds. folder: that a button offers to open; empty: none.
   void notify(std::string text, std::filesystem::path folder = {}) {
@@ -68,6 +70,8 @@ class Panel {
   const std::vector<int>& hidden_regions() const { return regions_.hidden(); }  ///< ascending
   Measure& measure() { return measure_; }
   const Measure& measure() const { return measure_; }
+  SelectionSection& selecting() { return selecting_; }
+  const SelectionSection& selecting() const { return selecting_; }
   ViewSection& view() { return view_; }
   const ViewSection& view() const { return view_; }
   /// What the mouse does, and whether the first end of a suture is set: for the hints.
@@ -97,6 +101,7 @@ class Panel {
 
  private:
   void carry_out(Action action, const Frame& frame, PanelActions& out);
+  void perform_queued(const Frame& frame, PanelActions& out);
   void reset_settings(PanelActions& out);
   float draw_edges(const Frame& frame, Area& free, PanelActions& out);
   Situation situation(const Frame& frame) const;
@@ -130,6 +135,7 @@ class Panel {
   int limited_changes_ = -1;  ///< MaterialSection::changes() that stretch_monitor_ is of
   std::vector<int> surface_hidden_;  ///< SurfaceMesh::hidden that it is of
   RegionSection regions_;
+  SelectionSection selecting_;
   MotionSection motion_;
   ViewSection view_;
   CompareSection comparisons_;

@@ -104,6 +104,9 @@ void Panel::carry_out(Action action, const Frame& frame, PanelActions& out) {
     case Action::select_measure:
       tool_.select(Tool::measure);
       return;
+    case Action::select_nodes:
+      tool_.select(Tool::select);
+      return;
     case Action::toggle_table:
       return tool_.toggle_table(frame, out);
     case Action::undo:

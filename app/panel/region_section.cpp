@@ -66,7 +66,8 @@ void RegionSection::draw_region(Rows& rows, int region) {
     draw_eye(list, centre, half, shown ? colour : colours::faint, shown);
   };
   if (rows.icon_button({"Eye of " + name, fmt::format("{} {} (region {}): a hidden region is not drawn, and the mouse "
-                                                      "reaches what lies behind it. It goes on being simulated. Frames "
+                                                      "reaches what lies behind it. It goes on being simulated; "
+                                                      "grasps and pins leave it out, a blade cuts it too. Frames "
                                                       "of the timeline from before stay as they were.",
                                                       shown ? "Hides" : "Shows", name, region)},
                        size, false, eye))

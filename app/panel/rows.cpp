@@ -140,6 +140,15 @@ bool Rows::slider(const Label& label, double& value, const SliderRange& asked) {
   return true;
 }
 
+bool Rows::vector(const Label& label, Vec3& value, const char* format) {
+  begin(label);
+  ImGui::InputScalarN(("##" + label.text).c_str(), ImGuiDataType_Double, value.data(), 3, nullptr, nullptr, format);
+  const bool done = ImGui::IsItemDeactivatedAfterEdit();
+  explain({label.text, label.hint + "\n\nClick one to type it."});
+  if (!value.allFinite()) value = value.array().isFinite().select(value, 0.0);
+  return done;
+}
+
 /// ImGui changes a typed number at each keystroke. Here the last one counts when the typing ends, and none after Esc.
 /// Returns whether a number is being typed; sets `changed` and `edited` where one has been.
 bool Rows::is_typing(ImGuiID id, bool& changed, double& edited) {

@@ -2,6 +2,7 @@
 // The panel's rows: a label on the left, a control on the right, and a tooltip on both.
 #include <app/panel/theme.hpp>
 #include <functional>
+#include <heml/math/types.hpp>
 #include <map>
 #include <optional>
 #include <span>
@@ -30,6 +31,8 @@ class Rows {
 
   /// True when the user changed the value.
   bool slider(const Label& label, double& value, const SliderRange& range);
+  /// Three numbers to type. True when one was changed: on Enter, Tab, or a click elsewhere.
+  bool vector(const Label& label, Vec3& value, const char* format);
   /// hints: a tooltip per name, or none. An index outside the names shows "–".
   bool choice(const Label& label, int& index, std::span<const std::string> names,
               std::span<const std::string> hints = {});

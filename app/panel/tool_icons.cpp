@@ -103,6 +103,17 @@ void draw_ruler(ImDrawList& list, ImVec2 centre, float half, ImU32 colour) {
   for (const float k : {-0.4f, 0.0f, 0.4f}) pen.line({{k - 0.3f, -k - 0.3f}, {k, -k}}, 0.16f);
 }
 
+void draw_marquee(ImDrawList& list, ImVec2 centre, float half, ImU32 colour) {
+  const Pen pen(list, centre, half, colour);
+  for (const float side : {-0.9f, 0.9f})
+    for (const float from : {-0.9f, -0.2f, 0.5f}) {
+      pen.line({{from, side}, {from + 0.4f, side}}, 0.2f);
+      pen.line({{side, from}, {side, from + 0.4f}}, 0.2f);
+    }
+  pen.disc({-0.3f, 0.15f}, 0.24f);
+  pen.disc({0.3f, -0.25f}, 0.24f);
+}
+
 void draw_table(ImDrawList& list, ImVec2 centre, float half, ImU32 colour) {
   const Pen pen(list, centre, half, colour);
   pen.disc({0, -0.35f}, 0.46f);

@@ -87,12 +87,15 @@ void ToolSection::draw_settings(Rows& rows) {
     case Tool::grasper:
     case Tool::pin:
     case Tool::remover:
+    case Tool::select:
       length(rows,
              {tool_.tool == Tool::pin       ? "Pin radius"
               : tool_.tool == Tool::remover ? "Remover radius"
+              : tool_.tool == Tool::select  ? "Paint radius"
                                             : "Grasp radius",
               "Surface nodes within this distance of the click follow the tool, or are fixed by a pin; mm, on the rest "
-              "shape. 0: a single node. The remover, and Del, remove the tissue within it, one element deep."},
+              "shape. 0: a single node. The remover, and Del, remove the tissue within it, one element deep; "
+              "paint selects within it."},
              tool_.radius, max_grasp);
   }
 }

@@ -48,7 +48,8 @@ void FrameHistory::cut_after(long tick) {
 
 void FrameHistory::share(const Frame& frame) {
   const auto is_same = [](const Frame& a, const Frame& b) {
-    return a.surface_mesh->version == b.surface_mesh->version && a.surface_mesh->hidden == b.surface_mesh->hidden;
+    return a.surface_mesh->version == b.surface_mesh->version && a.surface_mesh->hidden == b.surface_mesh->hidden &&
+           a.surface_mesh->constrained == b.surface_mesh->constrained;
   };
   for (Frame& seen : frames_) {
     if (is_same(seen, frame)) seen.surface_mesh = frame.surface_mesh;

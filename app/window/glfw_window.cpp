@@ -126,11 +126,31 @@ void GlfwWindow::send_events_to(WindowEvents* events) {
   if (events_) ImGui_ImplGlfw_InitForOpenGL(window_, false);
 }
 
-void GlfwWindow::prepare_imgui() {
+void GlfwWindow::pass_to_imgui(const Input& input) {
+  if (const auto* key = std::get_if<KeyInput>(&input))
+    ImGui_ImplGlfw_KeyCallback(window_, key->code, key->scancode, key->action, key->modifiers);
+  if (const auto* typed = std::get_if<CharacterInput>(&input)) ImGui_ImplGlfw_CharCallback(window_, typed->character);
+  if (const auto* wheel = std::get_if<WheelInput>(&input))
+    ImGui_ImplGlfw_ScrollCallback(window_, static_cast<double>(wheel->across), static_cast<double>(wheel->notches));
+  if (const auto* motion = std::get_if<MotionInput>(&input)) mouse_ = motion->at;
+  if (const auto* button = std::get_if<ButtonInput>(&input)) {
+    down_[static_cast<std::size_t>(button->button)] = button->down;
+    ImGui_ImplGlfw_MouseButtonCallback(window_, static_cast<int>(button->button),
+                                       button->down ? GLFW_PRESS : GLFW_RELEASE, 0);
+  }
+}
+
+/// Dear ImGui's own look at the mouse is ahead where input waits.
+void GlfwWindow::prepare_imgui(bool more_waits) {
   ImGui_ImplGlfw_NewFrame();
-  ImVec2& mouse = ImGui::GetIO().MousePos;
-  if (!ImGui::IsMousePosValid(&mouse)) return;
-  mouse = {mouse.x * pixel_ratio(), mouse.y * pixel_ratio()};
+  ImGuiIO& io = ImGui::GetIO();
+  if (!ImGui::IsMousePosValid(&io.MousePos)) return;
+  if (!more_waits) {
+    io.MousePos = {io.MousePos.x * pixel_ratio(), io.MousePos.y * pixel_ratio()};
+    return;
+  }
+  io.MousePos = {mouse_.x(), mouse_.y()};
+  std::copy(down_.begin(), down_.end(), io.MouseDown);
 }
 
 void GlfwWindow::set_title(const std::string& title) { glfwSetWindowTitle(window_, title.c_str()); }
@@ -163,25 +183,23 @@ void GlfwWindow::wake() { glfwPostEmptyEvent(); }
 
 void GlfwWindow::install_callbacks() {
   glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int scancode, int action, int mods) {
-    if (!events_of(w)) return;
-    ImGui_ImplGlfw_KeyCallback(w, key, scancode, action, mods);
-    if (action != GLFW_RELEASE)
-      events_of(w)->key(panel_key(key, scancode), mods & GLFW_MOD_CONTROL, mods & GLFW_MOD_SHIFT,
-                        action == GLFW_REPEAT);
+    if (events_of(w))
+      events_of(w)->came(KeyInput{panel_key(key, scancode), action != GLFW_RELEASE, action == GLFW_REPEAT,
+                                  (mods & GLFW_MOD_CONTROL) != 0, (mods & GLFW_MOD_SHIFT) != 0, key, scancode, action,
+                                  mods});
   });
   glfwSetCharCallback(window_, [](GLFWwindow* w, unsigned character) {
-    if (events_of(w)) ImGui_ImplGlfw_CharCallback(w, character);
+    if (events_of(w)) events_of(w)->came(CharacterInput{character});
   });
   glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int mods) {
-    if (!events_of(w)) return;
-    ImGui_ImplGlfw_MouseButtonCallback(w, button, action, mods);
-    if (button > GLFW_MOUSE_BUTTON_MIDDLE) return;
-    constexpr MouseButton buttons[] = {MouseButton::left, MouseButton::right, MouseButton::middle};
-    events_of(w)->button(buttons[button], action == GLFW_PRESS, mods & GLFW_MOD_SHIFT);
+    if (!events_of(w) || button > GLFW_MOUSE_BUTTON_MIDDLE) return;
+    events_of(w)->came(ButtonInput{static_cast<MouseButton>(button), action == GLFW_PRESS,
+                                   (mods & GLFW_MOD_CONTROL) != 0, (mods & GLFW_MOD_SHIFT) != 0});
   });
   glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double x, double y) {
     if (events_of(w))
-      events_of(w)->mouse(self(w).pixel_ratio() * render::Vec2f(static_cast<float>(x), static_cast<float>(y)));
+      events_of(w)->came(
+          MotionInput{self(w).pixel_ratio() * render::Vec2f(static_cast<float>(x), static_cast<float>(y))});
   });
   glfwSetCursorEnterCallback(window_, [](GLFWwindow* w, int entered) {
     if (!events_of(w)) return;
@@ -189,15 +207,13 @@ void GlfwWindow::install_callbacks() {
     events_of(w)->changed();
   });
   glfwSetScrollCallback(window_, [](GLFWwindow* w, double x, double y) {
-    if (!events_of(w)) return;
-    ImGui_ImplGlfw_ScrollCallback(w, x, y);
-    events_of(w)->wheel(static_cast<float>(y));
+    if (events_of(w)) events_of(w)->came(WheelInput{static_cast<float>(x), static_cast<float>(y)});
   });
   glfwSetWindowFocusCallback(window_, [](GLFWwindow* w, int focused) {
     if (events_of(w)) ImGui_ImplGlfw_WindowFocusCallback(w, focused);
   });
   glfwSetDropCallback(window_, [](GLFWwindow* w, int count, const char** paths) {
-    if (events_of(w) && count > 0) events_of(w)->dropped(paths[0]);
+    if (events_of(w) && count > 0) events_of(w)->came(DropInput{paths[0]});
   });
   glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* w, int, int) {
     if (events_of(w)) events_of(w)->changed();

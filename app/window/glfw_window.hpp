@@ -2,8 +2,8 @@
 // A desktop window with an OpenGL 3.3 context, and its input events.
 #include <app/render/camera.hpp>
 #include <app/render/context.hpp>
-#include <app/window/mouse_tool.hpp>
-#include <filesystem>
+#include <app/window/input_queue.hpp>
+#include <array>
 #include <stdexcept>
 #include <string>
 
@@ -16,15 +16,11 @@ class NoDisplay : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Called from within GlfwWindow::wait(). Positions in pixels of the framebuffer.
+/// Called from within GlfwWindow::wait().
 class WindowEvents {
  public:
   virtual ~WindowEvents() = default;
-  virtual void key(int key, bool control, bool shift, bool repeated) = 0;  ///< key: as in panel/keys.hpp
-  virtual void button(MouseButton button, bool down, bool shift) = 0;
-  virtual void mouse(const render::Vec2f& at) = 0;
-  virtual void wheel(float notches) = 0;
-  virtual void dropped(const std::filesystem::path& path) = 0;
+  virtual void came(Input input) = 0;
   virtual void changed() = 0;  ///< resized, focused or uncovered: draw again
 };
 
@@ -42,10 +38,13 @@ class GlfwWindow final : public render::GraphicsContext {
   void present() override;
   GLADloadfunc loader() const override;
 
-  /// Sends events to `events` and to the current ImGui context, which must exist until the next call; nullptr: stops.
+  /// Sends events to `events` from now on; the current ImGui context must exist until the next call; nullptr: stops.
   void send_events_to(WindowEvents* events);
-  /// Passes the mouse position to ImGui. Call before each ImGui frame.
-  void prepare_imgui();
+  /// Passes an input to ImGui, when it is applied.
+  void pass_to_imgui(const Input& input);
+  /// Passes the mouse to ImGui as the input applied so far has it. Call before each ImGui frame. more_waits: whether
+  /// there is input that is not applied yet.
+  void prepare_imgui(bool more_waits);
 
   void set_title(const std::string& title);
   bool closed() const;          ///< the user asked to close it
@@ -66,6 +65,8 @@ class GlfwWindow final : public render::GraphicsContext {
 
   GLFWwindow* window_ = nullptr;
   WindowEvents* events_ = nullptr;
+  render::Vec2f mouse_ = render::Vec2f::Zero();  // of the input applied so far, pixels
+  std::array<bool, 3> down_{};                   // buttons, likewise
 };
 
 }  // namespace heml::window

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <app/window/elements_around.hpp>
+#include <app/window/free_nodes.hpp>
 #include <app/window/mouse_tool.hpp>
 
 namespace heml::window {
@@ -8,35 +9,36 @@ std::optional<render::Hit> MouseTool::pick(const render::Vec2f& at, const Frame&
   return render::pick(frame, surface_mesh, controller_.ray(at), section_);
 }
 
-bool MouseTool::press(MouseButton button, const render::Vec2f& at, bool shift, const Frame& frame,
-                      const SurfaceMesh& surface_mesh, const panel::ToolSettings& tool, std::vector<Command>& out) {
-  if (interaction_ != Interaction::none) return false;
+Status MouseTool::press(MouseButton button, const render::Vec2f& at, bool shift, const Frame& frame,
+                        const SurfaceMesh& surface_mesh, const panel::ToolSettings& tool, std::vector<Command>& out) {
+  if (interaction_ != Interaction::none) return {};
   button_ = button;
   if (tool.tool != panel::Tool::suture) first_end_.reset();
   last_ = at;
   if (button == MouseButton::left && tool.tool == panel::Tool::scalpel) {
     begin_stroke(at, tool.depth, frame, surface_mesh);
-    return false;
+    return {};
   }
   if (button == MouseButton::left && tool.tool == panel::Tool::grasper)
     if (const auto clamp = clamp_at(at, frame, surface_mesh, controller_))
-      return !take_up(*clamp, at, frame, surface_mesh, out);
-  if (button == MouseButton::left && tool.tool != panel::Tool::measure)
+      return take_up(*clamp, at, frame, surface_mesh, out);
+  const bool is_no_instrument = tool.tool == panel::Tool::measure || tool.tool == panel::Tool::select;
+  if (button == MouseButton::left && !is_no_instrument)
     if (const auto hit = pick(at, frame, surface_mesh)) {
-      if (tool.tool == panel::Tool::grasper) return !grasp(*hit, frame, surface_mesh, tool.radius, out);
-      if (tool.tool == panel::Tool::pin) return !pin(*hit, frame, surface_mesh, tool.radius, out);
-      if (tool.tool == panel::Tool::suture) return !suture(*hit, surface_mesh, out);
-      if (tool.tool == panel::Tool::remover) return !remove(*hit, surface_mesh, tool.radius, out);
+      if (tool.tool == panel::Tool::grasper) return grasp(*hit, frame, surface_mesh, tool.radius, out);
+      if (tool.tool == panel::Tool::pin) return pin(*hit, frame, surface_mesh, tool.radius, out);
+      if (tool.tool == panel::Tool::suture) return suture(*hit, surface_mesh, out);
+      if (tool.tool == panel::Tool::remover) return remove(*hit, surface_mesh, tool.radius, out);
       if (tool.tool == panel::Tool::scissors) {
         interaction_ = Interaction::snipping;
         scissors_.press(*hit, at, tool, {frame, surface_mesh, section_});
-        return false;
+        return {};
       }
       begin_probing(*hit, tool, at, out);
-      return false;
+      return {};
     }
   press_background(button, at, shift, frame, surface_mesh);
-  return false;
+  return {};
 }
 
 void MouseTool::press_background(MouseButton button, const render::Vec2f& at, bool shift, const Frame& frame,
@@ -51,63 +53,51 @@ void MouseTool::press_background(MouseButton button, const render::Vec2f& at, bo
   if (const auto hit = pick(at, frame, surface_mesh)) pivot_ = hit->point;
 }
 
-/// A corner of the hit triangle that is not constrained, the nearest if possible; none if all are.
-std::optional<int> MouseTool::free_corner(const render::Hit& hit, const SurfaceMesh& surface_mesh) {
-  const auto constrained = [&](int node) {
-    return std::binary_search(surface_mesh.constrained.begin(), surface_mesh.constrained.end(), node);
-  };
-  int node = hit.node;
-  for (const int corner : surface_mesh.triangles[static_cast<std::size_t>(hit.triangle)])
-    if (constrained(node)) node = corner;
-  return constrained(node) ? std::nullopt : std::optional(node);
-}
-
 /// Removes the pin at the hit, or sets one.
-bool MouseTool::pin(const render::Hit& hit, const Frame& frame, const SurfaceMesh& surface_mesh, double radius,
-                    std::vector<Command>& out) {
-  const auto corner = free_corner(hit, surface_mesh);
-  if (!corner) return false;
-  const int node = surface_mesh.nodes[static_cast<std::size_t>(*corner)];
-  const std::vector<PinState> pins = tools_of<PinState>(frame.tools);
-  const bool pinned = std::any_of(pins.begin(), pins.end(), [&](const PinState& pin) {
-    return std::find(pin.nodes.begin(), pin.nodes.end(), node) != pin.nodes.end();
-  });
-  if (pinned)
+Status MouseTool::pin(const render::Hit& hit, const Frame& frame, const SurfaceMesh& surface_mesh, double radius,
+                      std::vector<Command>& out) {
+  const FreeNodes free(frame, surface_mesh);
+  if (const int node = surface_mesh.nodes[static_cast<std::size_t>(hit.node)]; free.is_pinned(hit.node)) {
     out.emplace_back(Unpin{node});
-  else
-    out.emplace_back(PinTissue{node, radius});
-  return true;
+    return {};
+  }
+  const auto nearest = free.nearest(hit, radius);
+  if (!nearest) return free.why_none(hit);
+  const int node = surface_mesh.nodes[static_cast<std::size_t>(*nearest)];
+  out.emplace_back(PinTissue{node, radius, surface_mesh.hidden});
+  return {};
 }
 
 /// Removes the elements round the hit.
-bool MouseTool::remove(const render::Hit& hit, const SurfaceMesh& surface_mesh, double radius,
-                       std::vector<Command>& out) {
+Status MouseTool::remove(const render::Hit& hit, const SurfaceMesh& surface_mesh, double radius,
+                         std::vector<Command>& out) {
   RemoveElements which;
   which.which.tets = elements_around(surface_mesh.nodes[static_cast<std::size_t>(hit.node)], surface_mesh, radius);
   if (!which.which.tets.empty()) out.emplace_back(std::move(which));
-  return true;
+  return {};
 }
 
-bool MouseTool::grasp(const render::Hit& hit, const Frame& frame, const SurfaceMesh& surface_mesh, double radius,
-                      std::vector<Command>& out) {
-  const auto corner = free_corner(hit, surface_mesh);
-  if (!corner) return false;
-  const int node = *corner;
+Status MouseTool::grasp(const render::Hit& hit, const Frame& frame, const SurfaceMesh& surface_mesh, double radius,
+                        std::vector<Command>& out) {
+  const FreeNodes free(frame, surface_mesh);
+  const auto nearest = free.nearest(hit, radius);
+  if (!nearest) return free.why_none(hit);
+  const int node = *nearest;
   interaction_ = Interaction::grasping;
   anchor_ = hit.point;
   held_ = render::surface_point(hit, frame, surface_mesh);
   tool_offset_ = frame.positions[static_cast<std::size_t>(node)] - hit.point;
   hand_offset_.setZero();
-  grasp_ = {surface_mesh.nodes[static_cast<std::size_t>(node)], radius};
+  grasp_ = {surface_mesh.nodes[static_cast<std::size_t>(node)], radius, 0, surface_mesh.hidden};
   out.emplace_back(grasp_);
-  return true;
+  return {};
 }
 
 /// Takes a clamp into the hand: the hand moves it from where it is, wherever on it the mouse is.
-bool MouseTool::take_up(const GraspState& clamp, const render::Vec2f& at, const Frame& frame,
-                        const SurfaceMesh& surface_mesh, std::vector<Command>& out) {
+Status MouseTool::take_up(const GraspState& clamp, const render::Vec2f& at, const Frame& frame,
+                          const SurfaceMesh& surface_mesh, std::vector<Command>& out) {
   const auto index = render::surface_index(clamp.node, surface_mesh);
-  if (!index) return false;
+  if (!index) return "What this clamp holds is hidden.";
   const auto is_corner = [&](const Triangle& triangle) {
     return std::find(triangle.begin(), triangle.end(), static_cast<int>(*index)) != triangle.end();
   };
@@ -118,16 +108,16 @@ bool MouseTool::take_up(const GraspState& clamp, const render::Vec2f& at, const 
                                 surface_mesh);
   anchor_ = controller_.drag(at, place);
   tool_offset_ = hand_offset_ = clamp.target.cast<float>() - anchor_;
-  grasp_ = {clamp.node, clamp.radius};
+  grasp_ = {clamp.node, clamp.radius, 0, surface_mesh.hidden};
   out.emplace_back(grasp_);
-  return true;
+  return {};
 }
 
 Status MouseTool::leave_clamp(const Frame& frame, std::vector<Command>& out) {
   if (interaction_ != Interaction::grasping) return "Pull the tissue first: L then leaves the grasp there as a clamp.";
   const auto hand = free_hand(frame);
   if (!hand) return "There are as many clamps as can be: Del over one removes it.";
-  out.emplace_back(Grasp{grasp_.node, grasp_.radius, *hand});
+  out.emplace_back(Grasp{grasp_.node, grasp_.radius, *hand, grasp_.hidden});
   interaction_ = Interaction::none;
   return {};
 }
@@ -145,7 +135,7 @@ std::optional<render::Hold> MouseTool::hold() const {
 }
 
 /// The first click sets one end, the second the other.
-bool MouseTool::suture(const render::Hit& hit, const SurfaceMesh& surface_mesh, std::vector<Command>& out) {
+Status MouseTool::suture(const render::Hit& hit, const SurfaceMesh& surface_mesh, std::vector<Command>& out) {
   const int node = surface_mesh.nodes[static_cast<std::size_t>(hit.node)];
   if (!first_end_) {
     first_end_ = node;
@@ -153,7 +143,7 @@ bool MouseTool::suture(const render::Hit& hit, const SurfaceMesh& surface_mesh, 
     if (*first_end_ != node) out.emplace_back(SutureTissue{{*first_end_, node}, 0, 0.5});
     first_end_.reset();
   }
-  return true;
+  return {};
 }
 
 /// Starts the probe above the surface and moves it in along the line of sight.

@@ -5,6 +5,7 @@
 #include <app/render/grasp_pose.hpp>
 #include <app/render/stroke_drawing.hpp>
 #include <app/window/clamps.hpp>
+#include <app/window/input_queue.hpp>
 #include <app/window/scissors.hpp>
 #include <heml/session/frame.hpp>
 #include <heml/world/command.hpp>
@@ -13,8 +14,6 @@
 
 namespace heml::window {
 
-enum class MouseButton { left, right, middle };
-
 class MouseTool {
  public:
   using Interaction = panel::Interaction;
@@ -22,10 +21,9 @@ class MouseTool {
   explicit MouseTool(panel::CameraController& controller) : controller_(controller) {}
 
   /// A button went down off the panel: left on the body applies the tool (a scalpel's stroke may begin beside it), else
-  /// the camera orbits or pans. Returns true when the tool cannot act on the body there because its nodes are
-  /// constrained.
-  bool press(MouseButton button, const render::Vec2f& at, bool shift, const Frame& frame,
-             const SurfaceMesh& surface_mesh, const panel::ToolSettings& tool, std::vector<Command>& out);
+  /// the camera orbits or pans. Returns why the tool cannot act on the body there.
+  Status press(MouseButton button, const render::Vec2f& at, bool shift, const Frame& frame,
+               const SurfaceMesh& surface_mesh, const panel::ToolSettings& tool, std::vector<Command>& out);
   /// The same without a tool: the camera orbits or pans. A right drag that begins on tissue orbits about that point.
   void press_background(MouseButton button, const render::Vec2f& at, bool shift, const Frame& frame,
                         const SurfaceMesh& surface_mesh);
@@ -44,6 +42,8 @@ class MouseTool {
 
   /// What lies beyond the plane is not drawn, and no tool meets it.
   void set_section(const std::optional<render::SectionPlane>& plane) { section_ = plane; }
+
+  const std::optional<render::SectionPlane>& section() const { return section_; }
 
   Interaction interaction() const { return interaction_; }
   /// Whether the press under way has met no tissue: it turns the camera, or its stroke has not entered yet.
@@ -71,19 +71,19 @@ class MouseTool {
   std::optional<render::Hit> pick(const render::Vec2f& at, const Frame& frame, const SurfaceMesh& surface_mesh) const;
 
  private:
-  bool take_up(const GraspState& clamp, const render::Vec2f& at, const Frame& frame, const SurfaceMesh& surface_mesh,
-               std::vector<Command>& out);
+  Status take_up(const GraspState& clamp, const render::Vec2f& at, const Frame& frame, const SurfaceMesh& surface_mesh,
+                 std::vector<Command>& out);
   void stop(std::vector<Command>& out);
-  static std::optional<int> free_corner(const render::Hit& hit, const SurfaceMesh& surface_mesh);
   void begin_probing(const render::Hit& hit, const panel::ToolSettings& tool, const render::Vec2f& at,
                      std::vector<Command>& out);
   MoveProbe probe_at(const render::Vec2f& at) const;
-  bool suture(const render::Hit& hit, const SurfaceMesh& surface_mesh, std::vector<Command>& out);
-  bool pin(const render::Hit& hit, const Frame& frame, const SurfaceMesh& surface_mesh, double radius,
-           std::vector<Command>& out);
-  static bool remove(const render::Hit& hit, const SurfaceMesh& surface_mesh, double radius, std::vector<Command>& out);
-  bool grasp(const render::Hit& hit, const Frame& frame, const SurfaceMesh& surface_mesh, double radius,
-             std::vector<Command>& out);
+  Status suture(const render::Hit& hit, const SurfaceMesh& surface_mesh, std::vector<Command>& out);
+  static Status pin(const render::Hit& hit, const Frame& frame, const SurfaceMesh& surface_mesh, double radius,
+                    std::vector<Command>& out);
+  static Status remove(const render::Hit& hit, const SurfaceMesh& surface_mesh, double radius,
+                       std::vector<Command>& out);
+  Status grasp(const render::Hit& hit, const Frame& frame, const SurfaceMesh& surface_mesh, double radius,
+               std::vector<Command>& out);
   void begin_stroke(const render::Vec2f& at, double depth, const Frame& frame, const SurfaceMesh& surface_mesh);
   bool enter(const render::Vec2f& at, const Frame& frame, const SurfaceMesh& surface_mesh);
   void cut(const render::Vec2f& at, const Frame& frame, const SurfaceMesh& surface_mesh, std::vector<Command>& out);

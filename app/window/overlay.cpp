@@ -5,6 +5,7 @@
 #include <app/panel/measure_section.hpp>
 #include <app/panel/quantity.hpp>
 #include <app/panel/theme.hpp>
+#include <app/render/bounds.hpp>
 #include <app/window/overlay.hpp>
 #include <cmath>
 #include <numbers>
@@ -170,6 +171,57 @@ void draw_section(const render::SectionPlane& plane, const Vec3f& handle, float 
   list.AddLine(middle, tip, colour, panel::em(0.14f));
   list.AddCircleFilled(middle, panel::em(0.5f), panel::colours::background, 24);
   list.AddCircle(middle, panel::em(0.5f), colour, 24, panel::em(hovered ? 0.2f : 0.14f));
+}
+
+void draw_nodes(const std::vector<int>& nodes, const Frame& frame, const SurfaceMesh& surface_mesh,
+                const panel::CameraController& controller) {
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  for (const int node : nodes) {
+    const auto index = render::surface_index(node, surface_mesh);
+    if (!index) continue;
+    const render::Vec2f at = controller.pixel(frame.positions[*index]);
+    if (!at.allFinite()) continue;
+    list.AddCircleFilled({at.x(), at.y()}, panel::em(0.24f), panel::colours::background, 10);
+    list.AddCircleFilled({at.x(), at.y()}, panel::em(0.17f), panel::colours::accent, 10);
+  }
+}
+
+void draw_loads(const std::vector<Load>& loads, const Frame& frame, const SurfaceMesh& surface_mesh,
+                const panel::CameraController& controller) {
+  constexpr double longest = 0.25;  // of the body's size
+  double most = 0;
+  for (const Load& load : loads)
+    if (load.kind == Load::Kind::force) most = std::max(most, load.vector.norm());
+  if (!(most > 0)) return;
+  const double reach = longest * static_cast<double>(render::bounding_sphere(surface_mesh.rest).radius);
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  for (const Load& load : loads) {
+    if (load.kind != Load::Kind::force || load.vector.norm() == 0) continue;
+    Vec3f sum = Vec3f::Zero();
+    float count = 0;
+    for (const int node : load.nodes)
+      if (const auto index = render::surface_index(node, surface_mesh)) {
+        sum += frame.positions[*index];
+        ++count;
+      }
+    if (count == 0) continue;
+    const Vec3f from = sum / count, to = from + (reach / most * load.vector).cast<float>();
+    const render::Vec2f a = controller.pixel(from), b = controller.pixel(to);
+    if (!a.allFinite() || !b.allFinite()) continue;
+    const render::Vec2f along = (b - a).normalized(), across(-along.y(), along.x());
+    const float head = panel::em(0.6f);
+    const render::Vec2f left = b - head * along + 0.5f * head * across, right = b - head * along - 0.5f * head * across;
+    list.AddLine({a.x(), a.y()}, {b.x(), b.y()}, panel::colours::warning, panel::em(0.14f));
+    if ((b - a).norm() > head)
+      list.AddTriangleFilled({b.x(), b.y()}, {left.x(), left.y()}, {right.x(), right.y()}, panel::colours::warning);
+    draw_label(to, panel::quantity(load.vector.norm(), "N"), panel::colours::warning, controller);
+  }
+}
+
+void draw_outline(const std::vector<render::Vec2f>& outline) {
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  for (const render::Vec2f& at : outline) list.PathLineTo({at.x(), at.y()});
+  list.PathStroke(panel::colours::accent, ImDrawFlags_Closed, panel::em(0.11f));
 }
 
 }  // namespace heml::window

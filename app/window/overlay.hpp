@@ -5,6 +5,7 @@
 #include <app/render/field_colours.hpp>
 #include <app/render/grasp_pose.hpp>
 #include <app/render/pick.hpp>
+#include <vector>
 
 namespace heml::window {
 
@@ -24,6 +25,17 @@ void draw_forces(const Frame& frame, const std::optional<render::Hold>& hold,
 /// The first end of an unfinished suture. node: mesh-file number.
 void draw_suture_end(int node, const Frame& frame, const SurfaceMesh& surface_mesh,
                      const panel::CameraController& controller);
+
+/// Selected nodes (mesh-file numbers, ascending) that the surface has, as dots.
+void draw_nodes(const std::vector<int>& nodes, const Frame& frame, const SurfaceMesh& surface_mesh,
+                const panel::CameraController& controller);
+
+/// The forces (N) of loads on nodes, as arrows from the middle of theirs, the longest a quarter of the body's radius.
+void draw_loads(const std::vector<Load>& loads, const Frame& frame, const SurfaceMesh& surface_mesh,
+                const panel::CameraController& controller);
+
+/// A closed line, pixels.
+void draw_outline(const std::vector<render::Vec2f>& outline);
 
 /// The points of a measure and their lines, with the numbers beside them.
 void draw_measured(const panel::Measured& measured, const panel::CameraController& controller);

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include <app/panel/keys.hpp>
 #include <app/panel/scripted_blade.hpp>
 #include <app/window/overlay.hpp>
 #include <app/window/viewer.hpp>
@@ -9,8 +8,6 @@
 
 namespace heml::window {
 namespace {
-constexpr auto double_click_time = std::chrono::milliseconds(350);
-constexpr float double_click_distance = 6;  // pixels
 constexpr float passed_panel_opacity = 0.2f;
 
 std::string window_title(const Scene& scene) {
@@ -38,8 +35,12 @@ void Viewer::adopt(OpenScene opened) {
   else
     playback_ = TimelinePlayback();
   open_ = std::move(opened);
-  if (!open_.resumed) as_opened_ = open_.scene;
   frame_ = live_ = &open_.session->latest();
+  if (!open_.resumed) {
+    as_opened_ = open_.scene;
+    opened_conditions_ = frame_->conditions;
+  }
+  selection_drag_.cancel();
   const panel::Measure measure = open_.resumed && panel_ ? panel_->measure() : panel::Measure();
   panel_.emplace(open_.scene, *frame_->surface_mesh, open_.session->region_names(),
                  open_.session->regions());
@@ -71,13 +72,14 @@ void Viewer::fit() {
 
 bool Viewer::wants_drawing() const {
   return window_.visible() &&
-         (frames_wanted_ > 0 || open_.session->frame_waiting() || panel_->animating() || playback_.playing() ||
+         (frames_wanted_ > 0 || input_.needs_picture() || open_.session->frame_waiting() || panel_->animating() ||
+          playback_.playing() ||
           session_loader_.is_ready() || session_loader_.progress() != shown_progress_ || library_.is_ready() ||
           unsaved_.is_due() || (video_recorder_ && video_recorder_->is_done()));
 }
 
 bool Viewer::is_busy() const {
-  return frames_wanted_ > 0 || session_loader_.is_busy() || library_.is_busy() ||
+  return frames_wanted_ > 0 || !input_.empty() || session_loader_.is_busy() || library_.is_busy() ||
          (video_recorder_ && video_recorder_->is_finishing());
 }
 
@@ -109,7 +111,8 @@ void Viewer::draw() {
   panel_->set_timeline(timeline);
   for (std::size_t view = 0; view < panel::CameraController::views; ++view)
     panel_->view().set_saved(view, controller_.has_view(view));
-  panel_->set_interaction(mouse_tool_.interaction(), mouse_tool_.first_end().has_value());
+  panel_->set_interaction(selection_drag_.is_on() ? panel::Interaction::selecting : mouse_tool_.interaction(),
+                          mouse_tool_.first_end().has_value());
   panel_->update(*frame_, seconds);
   open_.session->enable_stretches(panel_->wants_stretches());
   open_.session->hide_regions(panel_->hidden_regions());
@@ -134,11 +137,12 @@ void Viewer::draw() {
   add_video_frame();
   std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(options_.draw_stall));
   window_.present();
+  input_.drew();
   ++drawn_;
 }
 
 void Viewer::draw_interface(float seconds) {
-  window_.prepare_imgui();
+  window_.prepare_imgui(!input_.empty());
   interface_.begin(controller_.size(), seconds);
   draw_marks();
   const panel::PanelActions actions = panel_->draw(*frame_);
@@ -157,11 +161,17 @@ void Viewer::remember_preferences() {
 
 void Viewer::draw_marks() {
   panel::each_pane(*frame_, controller_, [&](std::size_t pane, const Frame& body) {
+    if (pane == 0 && (panel_->tool().tool == panel::Tool::select || !panel_->selecting().selection().is_empty())) {
+      draw_nodes(panel_->selecting().selection().nodes(), body, *body.surface_mesh, controller_);
+      if (selection_drag_.is_on()) draw_nodes(selection_drag_.painted(), body, *body.surface_mesh, controller_);
+      draw_loads(body.conditions->loads, body, *body.surface_mesh, controller_);
+    }
     if (pane == 0) draw_measured(panel_->measure().now(), controller_);
     draw_forces(body, mouse_tool_.hold(), controller_);
     if (mouse_tool_.first_end()) draw_suture_end(*mouse_tool_.first_end(), body, *body.surface_mesh, controller_);
     if (panel_->shows_recovery()) draw_bad_element(body, controller_);
   });
+  draw_outline(selection_drag_.outline());
   panel::draw_variant_labels(*frame_, controller_);
   if (const auto plane = panel_->drawing().section)
     panel::each_pane(*frame_, controller_, [&](std::size_t, const Frame&) {
@@ -180,8 +190,10 @@ void Viewer::draw_marks() {
     const panel::ToolSettings& tool = panel_->tool();
     const bool takes_patch =
         tool.tool == panel::Tool::grasper || tool.tool == panel::Tool::pin || tool.tool == panel::Tool::remover;
+    const bool paints =
+        tool.tool == panel::Tool::select && panel_->selecting().drag() == panel::SelectionSection::Drag::paint;
     draw_ring(*hit, seen(), *seen().surface_mesh, controller_,
-              takes_patch                       ? tool.radius
+              takes_patch || paints                       ? tool.radius
               : tool.tool == panel::Tool::probe ? tool.probe_radius
                                                 : 0);
     if (takes_patch) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
@@ -245,91 +257,6 @@ void Viewer::post(std::vector<Command>& commands) {
     open_.session->post(std::move(command));
   }
   commands.clear();
-}
-
-void Viewer::key(int key, bool control, bool shift, bool repeated) {
-  changed();
-  last_key_ = key;
-  const auto action = panel::action_of(key, control, shift);
-  if (!action) return;
-  using enum panel::Action;
-  const bool chooses = *action == select_previous || *action == select_next;
-  const bool is_asked =
-      panel_->asks() || (panel_->is_modal() && (chooses || *action == open_selected || *action == release));
-  const bool may_repeat = chooses || *action == step || *action == seek_previous || *action == seek_next;
-  const bool is_text = ImGui::GetIO().WantTextInput && !is_asked && *action != quit;
-  if (is_text || (repeated && !may_repeat)) return;
-  if (*action == quit) {  // not queued in the panel, which an opened scene may replace
-    ask_to_quit();
-    return;
-  }
-  panel_->perform(*action);
-}
-
-void Viewer::button(MouseButton button, bool down, bool shift) {
-  changed();
-  std::vector<Command> commands;
-  if (!down) {
-    if (button == MouseButton::left) drags_section_ = false;
-    mouse_tool_.release(button, seen(), *seen().surface_mesh, commands);
-    return post(commands);
-  }
-  if (panel_->covers(mouse_.x(), mouse_.y())) return;
-  if (button == MouseButton::left && is_on_section_handle()) {
-    drags_section_ = true;
-    return;
-  }
-  if (button == MouseButton::left && measures_at_mouse()) return;
-  if (playback_.active() && button == MouseButton::left && mouse_tool_.pick(mouse_, seen(), *seen().surface_mesh))
-    panel_->notify(past_is_read_only);
-  const bool has_other_surface = controller_.current() > 0 && !seen().distance;  // with other node numbers
-  if (playback_.active() || has_other_surface)
-    return mouse_tool_.press_background(button, mouse_, shift, seen(), *seen().surface_mesh);
-  if (mouse_tool_.press(button, mouse_, shift, seen(), *seen().surface_mesh, panel_->tool(), commands))
-    panel_->notify("These nodes are constrained by the scene; pick others.");
-  post(commands);
-  if (button != MouseButton::left || !mouse_tool_.is_beside_body()) return;
-  const auto now = std::chrono::steady_clock::now();
-  const bool twice = now - pressed_at_ < double_click_time && (mouse_ - pressed_where_).norm() < double_click_distance;
-  pressed_at_ = twice ? std::chrono::steady_clock::time_point{} : now;
-  pressed_where_ = mouse_;
-  if (twice) panel_->perform(panel::Action::fit);
-}
-
-/// Sets a point of the measure at the mouse; the timeline's past can be measured too. False: there is nothing to set.
-bool Viewer::measures_at_mouse() {
-  if (panel_->tool().tool != panel::Tool::measure || mouse_tool_.interaction() != MouseTool::Interaction::none)
-    return false;
-  const auto hit = mouse_tool_.pick(mouse_, seen(), *seen().surface_mesh);
-  if (!hit) return false;
-  if (controller_.current() > 0)
-    panel_->notify("The body itself is measured, not its comparison runs.");
-  else
-    panel_->measure().add(render::surface_point(*hit, seen(), *seen().surface_mesh));
-  return true;
-}
-
-void Viewer::mouse(const render::Vec2f& at) {
-  changed();
-  if (drags_section_) panel_->view().section().drag(mouse_, at, controller_);
-  mouse_ = at;
-  if (drags_section_) return;
-  if (mouse_tool_.interaction() == MouseTool::Interaction::none) controller_.select_pane_at(at);
-  std::vector<Command> commands;
-  mouse_tool_.move(at, seen(), *seen().surface_mesh, commands);
-  post(commands);
-}
-
-void Viewer::wheel(float notches) {
-  changed();
-  std::vector<Command> commands;
-  if (mouse_tool_.wheel(notches, commands)) return post(commands);
-  if (!panel_->covers(mouse_.x(), mouse_.y())) controller_.zoom(notches);
-}
-
-void Viewer::dropped(const std::filesystem::path& path) {
-  changed();
-  open(path);
 }
 
 }  // namespace heml::window

@@ -9,12 +9,14 @@
 #include <app/window/glfw_window.hpp>
 #include <app/window/library.hpp>
 #include <app/window/mouse_tool.hpp>
+#include <app/window/selection_drag.hpp>
 #include <app/window/session_loader.hpp>
 #include <app/window/state_folder.hpp>
 #include <app/window/timeline_playback.hpp>
 #include <app/window/unsaved_work.hpp>
 #include <app/window/video_recorder.hpp>
 #include <app/window/window.hpp>
+#include <array>
 #include <chrono>
 #include <functional>
 
@@ -40,11 +42,8 @@ class Viewer final : public WindowEvents {
   long drawn() const { return drawn_; }           ///< images so far
   const Frame& frame() const { return *frame_; }  ///< the one drawn last
 
-  void key(int key, bool control, bool shift, bool repeated) override;
-  void button(MouseButton button, bool down, bool shift) override;
-  void mouse(const render::Vec2f& at) override;
-  void wheel(float notches) override;
-  void dropped(const std::filesystem::path& path) override;
+  void apply_input();  ///< what came since the last call, in its order; some of it after the next picture
+  void came(Input input) override;
   void changed() override { frames_wanted_ = settling_frames; }
 
  private:
@@ -52,6 +51,15 @@ class Viewer final : public WindowEvents {
   static constexpr int settling_frames = 3;  ///< that Dear ImGui may need after an input
 
   bool is_busy() const;
+  int apply(const KeyInput& key);  // as InputQueue wants it; so are the others
+  int apply(const CharacterInput&) { return 0; }
+  int apply(const ButtonInput& button);
+  int apply(const MotionInput& motion);
+  int apply(const WheelInput& wheel);
+  int apply(const DropInput& drop);
+  void perform(panel::Action action);
+  bool panel_takes(const ButtonInput& button);
+  void press(const ButtonInput& button);
   void adopt(OpenScene opened);
   void take_opened();
   void open(const std::filesystem::path& path);
@@ -90,6 +98,13 @@ class Viewer final : public WindowEvents {
   void save_scene();
   void save_measured();
   bool measures_at_mouse();
+  bool selects_at_mouse(const ButtonInput& input);
+  SelectionDrag::View selection_view() const {
+    return {seen(), *seen().surface_mesh, controller_, mouse_tool_.section()};
+  }
+  void end_selection();
+  void forget_selection();
+  void write_conditions(Scene& scene) const;
   void toggle_recording();
   void add_video_frame();
   void use_view(const panel::PanelActions& actions);
@@ -104,6 +119,7 @@ class Viewer final : public WindowEvents {
   Library library_;
   OpenScene open_;
   Scene as_opened_;  ///< as read from the file, not resumed
+  std::shared_ptr<const Conditions> opened_conditions_;  ///< of its first frame
   TimelinePlayback playback_;
   std::optional<int> shown_progress_;              ///< of session_loader_, %
   std::unique_ptr<VideoRecorder> video_recorder_;  ///< while recording and encoding
@@ -112,6 +128,9 @@ class Viewer final : public WindowEvents {
   const Frame* frame_ = nullptr;
   const Frame* live_ = nullptr;  ///< the engine's newest, while frame_ may be a past one
 
+  InputQueue input_;
+  SelectionDrag selection_drag_;
+  std::array<bool, 3> panel_has_{};  ///< the press of a button, by number
   std::size_t next_event_ = 0;  ///< of the scene's script, that the panel does not show yet
   render::Vec2f mouse_{-1, -1};
   std::chrono::steady_clock::time_point drawn_at_{}, pressed_at_{};

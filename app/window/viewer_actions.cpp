@@ -79,6 +79,7 @@ void Viewer::carry_out(panel::Request request) {
     case panel::Request::save:
       return save_scene();
     case panel::Request::release:
+      forget_selection();
       return release_tool();
     case panel::Request::leave_clamp:
       return leave_clamp();
@@ -211,6 +212,7 @@ void Viewer::save_scene() {
   panel_->write_into(scene);
   scene.tables.clear();
   for (const TableState& state : tools_of<TableState>(frame_->tools)) scene.tables.push_back(state.table);
+  write_conditions(scene);
   try {
     const auto path = unused_path(scene.name, ".json");
     write_file(path, scene_text(scene, std::filesystem::current_path()));
@@ -219,6 +221,25 @@ void Viewer::save_scene() {
   } catch (const InputError& error) {
     panel_->notify(error.what());
   }
+}
+
+/// Boundary and loads where they are not as opened; nodes that cuts have added are of no use to the scene.
+void Viewer::write_conditions(Scene& scene) const {
+  const auto of_scene = [&](std::vector<int> nodes) {
+    std::erase_if(nodes, [&](int node) { return static_cast<std::size_t>(node) >= opened_conditions_->mesh_nodes; });
+    return Selection{std::move(nodes), {}, {}};
+  };
+  const auto is_empty = [](const auto& entry) { return entry.where.nodes.empty(); };
+  const Conditions& now = *live_->conditions;
+  if (now.boundary != opened_conditions_->boundary) {
+    scene.boundary.clear();
+    for (const Boundary& entry : now.boundary) scene.boundary.push_back({of_scene(entry.nodes), entry});
+    std::erase_if(scene.boundary, is_empty);
+  }
+  if (now.loads == opened_conditions_->loads) return;
+  scene.loads.clear();
+  for (const Load& entry : now.loads) scene.loads.push_back({of_scene(entry.nodes), entry});
+  std::erase_if(scene.loads, is_empty);
 }
 
 void Viewer::save_measured() {

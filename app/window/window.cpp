@@ -45,9 +45,11 @@ void show(window::GlfwWindow& window, window::Viewer& viewer, const WindowOption
     if (left <= 0) return;
     if (!viewer.wants_drawing() || !pace.due(now)) {
       window.wait(std::min({left, max_sleep, viewer.wants_drawing() ? pace.until_due(now) : max_sleep}));
+      viewer.apply_input();
       continue;
     }
     window.wait(0);
+    viewer.apply_input();
     viewer.draw();
     pace.drew(now, Clock::now());
     if (options.log_pictures) fmt::print(stderr, "{}\n", viewer.status());

@@ -239,6 +239,28 @@ class Tools(WindowCase):
             self.assertFalse([x for x in along if all(0 <= c <= 0.1 for c in x)])
         self.verify()
 
+    def test_input_within_one_slow_picture_is_applied_in_its_order(self):
+        self.open_display(1280, 720)
+        at_rest = {**light_scene(), "gravity": [0, 0, 0]}
+        self.begin_light("--record", "out.jsonl", "--draw-stall", 600, scene=at_rest, size="1280x720")
+        x, y = self.display.picture().tissue(300, 1010)
+
+        def stroke():
+            return ["mousemove", x - 60, y, "mousedown", 1, "mousemove", x, y, "mousemove", x + 60, y, "mouseup", 1]
+
+        self.do("key", "c", *stroke(), "key", "g", *stroke())
+        self.wait_for_event("release")
+        used = [key for event in self.events() for key in ("cut", "grasp", "move") if key in event]
+        self.assertEqual(used[:4], ["cut", "cut", "grasp", "move"])
+        self.assertLessEqual(set(used[4:]), {"move"})  # a tick has the last of its moves
+        self.do("mousemove", 318, 60, "click", 1, *stroke())  # the second of the palette: the scalpel
+        self.wait_for_event("cut", 4)
+        self.do("mousemove", 318, 25, "click", 1, *stroke())
+        self.wait_for_event("grasp", 2)
+        self.assertEqual(len(self.seen("cut")), 4)
+        self.quit()
+        self.verify()
+
     def test_what_was_recorded_before_a_kill_replays(self):
         self.open_display(640, 480)
         self.begin("--record", "out.jsonl", "--size", "640x480", colours=500)

@@ -131,6 +131,7 @@ class Views(WindowCase):
         self.do("key", "space")
         self.drag(closed[len(closed) // 2], (10, 4))
         self.wait_for_event("grasp")
+        self.assertEqual(self.seen("grasp")[0]["hidden"], [1])
         self.do("key", "space", "key", "KP_1")
         self.do("mousemove", *eye, "click", 1)
         self.do("mousemove", 1276, 716)

@@ -35,6 +35,20 @@ MidEdges add_midedge_nodes(TetMesh& mesh) {
   return midedges;
 }
 
+void add_midedges_between(const TetMesh& mesh, const MidEdges& midedges, std::vector<int>& nodes) {
+  std::sort(nodes.begin(), nodes.end());
+  const std::size_t listed = nodes.size();
+  const auto is_listed = [&](int n) {
+    return std::binary_search(nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(listed), n);
+  };
+  for (std::size_t t = 0; t < midedges.size(); ++t)
+    for (std::size_t e = 0; e < tet_edges.size(); ++e)
+      if (is_listed(mesh.tets[t][tet_edges[e][0]]) && is_listed(mesh.tets[t][tet_edges[e][1]]))
+        nodes.push_back(midedges[t][e]);
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+}
+
 std::size_t count_nodes(const MidEdges& midedges) {
   std::vector<int> nodes;
   for (const auto& of_element : midedges) nodes.insert(nodes.end(), of_element.begin(), of_element.end());

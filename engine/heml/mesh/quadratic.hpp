@@ -69,6 +69,9 @@ std::array<int, 10> quadratic_nodes(const Tet& tet, const std::array<int, 6>& mi
 /// Appends a node in the middle of each edge to the mesh, by ascending (smaller, larger) end node.
 MidEdges add_midedge_nodes(TetMesh& mesh);
 
+/// Adds the mid-edge nodes between two nodes of a list, which becomes ascending, each once.
+void add_midedges_between(const TetMesh& mesh, const MidEdges& midedges, std::vector<int>& nodes);
+
 /// How many different nodes there are.
 std::size_t count_nodes(const MidEdges& midedges);
 

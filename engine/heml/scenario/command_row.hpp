@@ -24,7 +24,9 @@ inline constexpr KeyInfo radius_row{"radius", form::non_negative, "m", "",
                                     "surface nodes so near at rest belong to it; 0: that node alone"};
 inline constexpr KeyInfo hand_row{"hand", form::whole(0, max_hands - 1), "", "`0`",
                                   "which: each holds one patch, and all hold at once"};
-inline constexpr KeyInfo patch_keys[] = {node_row, point_row, radius_row};
+inline constexpr KeyInfo hidden_row{"hidden", form::other("list of whole numbers"), "", "none",
+                                    "regions that are left out: the surface is that of the others"};
+inline constexpr KeyInfo patch_keys[] = {node_row, point_row, radius_row, hidden_row};
 
 /// What most rows have in common. Rows hide what they have of their own.
 struct CommonRow {

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <heml/scenario/entries_json.hpp>
 #include <heml/scenario/mesh_json.hpp>
 #include <heml/scenario/scene_keys.hpp>
@@ -173,6 +174,17 @@ TearingSettings tearing_from(const JsonCursor& key) {
 Json tearing_json(const TearingSettings& settings) { return {{"stretch", settings.stretch}}; }
 
 Json self_contact_json(const SelfContactSettings& settings) { return {{"friction", settings.friction}}; }
+
+std::vector<int> regions_from(const JsonCursor& key) {
+  std::vector<int> regions;
+  key.each([&](const JsonCursor& region) {
+    regions.push_back(
+        static_cast<int>(region.integer(std::numeric_limits<int>::min(), std::numeric_limits<int>::max())));
+  });
+  std::sort(regions.begin(), regions.end());
+  regions.erase(std::unique(regions.begin(), regions.end()), regions.end());
+  return regions;
+}
 
 ElementSelection elements_from(const JsonCursor& key) {
   const ObjectReader object(key, scene_keys::elements);

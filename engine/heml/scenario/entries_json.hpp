@@ -24,6 +24,9 @@ Json tables_json(const std::vector<Table>& tables);
 Json tearing_json(const TearingSettings& settings);
 Json self_contact_json(const SelfContactSettings& settings);
 
+/// A list of regions, ascending, each once.
+std::vector<int> regions_from(const JsonCursor& key);
+
 /// {"tets": [3, 4]}, {"region": 2}, {"box": [[..], [..]]} or {"sphere": [[x, y, z], r]}. Throws likewise.
 ElementSelection elements_from(const JsonCursor& key);
 Json elements_json(const ElementSelection& which);

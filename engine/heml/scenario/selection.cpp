@@ -69,16 +69,7 @@ std::vector<int> select_nodes(const Selection& where, const WorldSetup& setup, c
                               const std::string& place) {
   std::vector<int> nodes = select_nodes(where, setup.mesh, file, place);
   if (where.box || where.sphere || setup.midedges.empty()) return nodes;
-  const std::size_t listed = nodes.size();
-  const auto is_listed = [&](int n) {
-    return std::binary_search(nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(listed), n);
-  };
-  for (std::size_t t = 0; t < setup.mesh.tets.size(); ++t)
-    for (std::size_t e = 0; e < tet_edges.size(); ++e)
-      if (is_listed(setup.mesh.tets[t][tet_edges[e][0]]) && is_listed(setup.mesh.tets[t][tet_edges[e][1]]))
-        nodes.push_back(setup.midedges[t][e]);
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  add_midedges_between(setup.mesh, setup.midedges, nodes);
   return nodes;
 }
 

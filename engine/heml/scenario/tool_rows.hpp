@@ -23,25 +23,31 @@ struct PatchRow : CommonRow {
   static constexpr bool takes_up = true;
   static Command read(const JsonCursor& value, Points& points) {
     const ObjectReader object(value, keys);
+    return patch_from(object, points);
+  }
+  static Patch patch_from(const ObjectReader& object, Points& points) {
     Patch patch;
     patch.node = node_from(object, points);
     object.read("radius", patch.radius);
+    if (const auto hidden = object.find("hidden")) patch.hidden = regions_from(*hidden);
     return patch;
   }
-  static Json write(const Patch& patch) { return {{"node", patch.node}, {"radius", patch.radius}}; }
+  static Json write(const Patch& patch) {
+    Json value = {{"node", patch.node}, {"radius", patch.radius}};
+    if (!patch.hidden.empty()) value["hidden"] = patch.hidden;
+    return value;
+  }
 };
 
 template <>
 struct Row<Grasp> : PatchRow<Grasp> {
   static constexpr std::string_view key = "grasp",
                                     meaning = "takes hold of surface nodes with a spring; replaces what the hand held";
-  static constexpr KeyInfo grasp_keys[] = {node_row, point_row, radius_row, hand_row};
+  static constexpr KeyInfo grasp_keys[] = {node_row, point_row, radius_row, hidden_row, hand_row};
   static constexpr std::span<const KeyInfo> keys = grasp_keys;
   static Command read(const JsonCursor& value, Points& points) {
     const ObjectReader object(value, keys);
-    Grasp grasp;
-    grasp.node = node_from(object, points);
-    object.read("radius", grasp.radius);
+    Grasp grasp = patch_from(object, points);
     object.read("hand", grasp.hand);
     return grasp;
   }
@@ -125,6 +131,64 @@ struct Row<SetTables> : CommonRow {
   static constexpr bool takes_up = true;
   static Command read(const JsonCursor& value, Points&) { return SetTables{tables_from(value)}; }
   static Json write(const SetTables& set) { return tables_json(set.tables); }
+};
+
+/// An event has its nodes by number: only the mesh tells which a place chooses.
+inline std::vector<int> numbers_of(const Selection& where, const JsonCursor& entry) {
+  if (where.nodes.empty()) entry.fail("chooses nodes by their place", "an event names them: nodes: [0, 1]");
+  return where.nodes;
+}
+
+template <>
+struct Row<SetBoundary> : CommonRow {
+  static constexpr std::string_view key = "boundary", example = R"([{"nodes": [0, 3], "fix": true}])",
+                                    meaning = "replaces what is held and moved; nodes go to their place at once";
+  static constexpr ValueForm value_form = form::other("list as of the scene's `boundary`, with `nodes`");
+  static Command read(const JsonCursor& value, Points&) {
+    SetBoundary set;
+    value.each([&](const JsonCursor& entry) {
+      BoundaryEntry read = boundary_from(entry);
+      read.motion.nodes = numbers_of(read.where, entry);
+      set.entries.push_back(std::move(read.motion));
+    });
+    return set;
+  }
+  static Json write(const SetBoundary& set) {
+    Json json = Json::array();
+    for (const Boundary& motion : set.entries) {
+      BoundaryEntry entry;
+      entry.where.nodes = motion.nodes;
+      entry.motion = motion;
+      json.push_back(boundary_json(entry));
+    }
+    return json;
+  }
+};
+
+template <>
+struct Row<SetLoads> : CommonRow {
+  static constexpr std::string_view key = "loads", example = R"([{"nodes": [3, 8], "force": [0, 0.1, 0]}])",
+                                    meaning = "replaces all loads";
+  static constexpr ValueForm value_form = form::other("list as of the scene's `loads`, with `nodes`");
+  static Command read(const JsonCursor& value, Points&) {
+    SetLoads set;
+    value.each([&](const JsonCursor& entry) {
+      LoadEntry read = load_from(entry);
+      read.load.nodes = numbers_of(read.where, entry);
+      set.entries.push_back(std::move(read.load));
+    });
+    return set;
+  }
+  static Json write(const SetLoads& set) {
+    Json json = Json::array();
+    for (const Load& load : set.entries) {
+      LoadEntry entry;
+      entry.where.nodes = load.nodes;
+      entry.load = load;
+      json.push_back(load_json(entry));
+    }
+    return json;
+  }
 };
 
 template <>

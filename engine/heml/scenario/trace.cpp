@@ -27,7 +27,8 @@ Trace::Trace(const Scene& scene, const World& world) : every_(scene.output_every
   if (!markers_.empty()) marker_rows_ = "time,marker,x,y,z,vx,vy,vz\n";
   if (!scene.output_history) return;
   history_rows_ = "time,kinetic,elastic,potential,min_J,max_J,tool_x,tool_y,tool_z";
-  for (std::size_t k = 0; k < scene.boundary.size(); ++k)
+  boundary_entries_ = scene.boundary.size();
+  for (std::size_t k = 0; k < boundary_entries_; ++k)
     for (const char axis : {'x', 'y', 'z'}) history_rows_ += fmt::format(",reaction_{}_{}", k, axis);
   history_rows_ += '\n';
 }
@@ -68,7 +69,9 @@ void Trace::sample_history(World& world) {
   for (const double value : {energies.kinetic, energies.elastic, energies.potential, *least, *most})
     add(history_rows_, value);
   add(history_rows_, force_of<GraspState>(world.tools()));
-  for (const Vec3& force : world.reactions()) add(history_rows_, force);
+  std::vector<Vec3> reactions = world.reactions();
+  reactions.resize(boundary_entries_, Vec3::Zero());  // an event may have set others
+  for (const Vec3& force : reactions) add(history_rows_, force);
   history_rows_ += '\n';
 }
 

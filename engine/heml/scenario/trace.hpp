@@ -38,6 +38,7 @@ class Trace {
   std::vector<Marker> markers_;
   double every_;  ///< s; 0: every tick
   double next_ = 0, last_ = -1;
+  std::size_t boundary_entries_ = 0;  // that history_rows_ has columns for
   std::string marker_rows_, history_rows_;
 };
 

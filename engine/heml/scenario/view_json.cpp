@@ -1,4 +1,4 @@
-#include <algorithm>
+#include <heml/scenario/entries_json.hpp>
 #include <heml/scenario/mesh_json.hpp>
 #include <heml/scenario/scene_keys.hpp>
 #include <heml/scenario/standard_view.hpp>
@@ -31,14 +31,7 @@ View view_from(const JsonCursor& key) {
     view.range = {(*range)[0].number(), (*range)[1].number()};
     if (!((*view.range)[0] < (*view.range)[1])) range->refuse("must name the lower number first");
   }
-  if (const auto hidden = object.find("hidden")) {
-    hidden->each([&](const JsonCursor& region) {
-      view.hidden.push_back(static_cast<int>(region.integer(std::numeric_limits<int>::min(),
-                                                            std::numeric_limits<int>::max())));
-    });
-    std::sort(view.hidden.begin(), view.hidden.end());
-    view.hidden.erase(std::unique(view.hidden.begin(), view.hidden.end()), view.hidden.end());
-  }
+  if (const auto hidden = object.find("hidden")) view.hidden = regions_from(*hidden);
   return view;
 }
 

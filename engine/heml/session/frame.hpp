@@ -56,6 +56,14 @@ struct UndoList {
   std::vector<Command> settings;    ///< after the last of them: commands that set what holds since
 };
 
+/// What holds, moves and loads the body. Immutable and shared by frames until it changes.
+struct Conditions {
+  std::vector<Boundary> boundary;
+  std::vector<Load> loads;
+  std::size_t mesh_nodes = 0;  ///< of the mesh as it is now
+  bool operator==(const Conditions&) const = default;
+};
+
 /// The elements behind the surface, for pictures of the inside. Immutable and shared by frames.
 struct Solid {
   long version = 0;          ///< Topology::version
@@ -81,6 +89,7 @@ struct Frame {
   std::shared_ptr<const Skin> skin;    ///< drawn in place of the surface, with `solid`; null: there is none, or no more
   std::optional<double> mesh_error;    ///< relative, in the energy norm, 0 to 1; empty unless asked for and known
   std::optional<TimeError> time_error;  ///< of the last interval estimated; empty unless asked for and known
+  std::shared_ptr<const Conditions> conditions;
   Energies energies;
   double min_J = 1, max_J = 1;
   std::size_t elements = 0, removed = 0;  ///< elements of the mesh; of these, removed

@@ -21,6 +21,29 @@ Topology without_hidden(const TetMesh& mesh, Topology topology, const std::vecto
   return topology;
 }
 
+/// Which of the surface's nodes (mesh-file numbers, ascending) have a boundary condition: their indices.
+std::vector<int> constrained_of(const std::vector<Boundary>& boundary, const std::vector<int>& nodes) {
+  std::vector<int> indices;
+  for (const Boundary& entry : boundary)
+    for (const int n : entry.nodes) {
+      const auto place = std::lower_bound(nodes.begin(), nodes.end(), n);
+      if (place != nodes.end() && *place == n) indices.push_back(static_cast<int>(place - nodes.begin()));
+    }
+  std::sort(indices.begin(), indices.end());
+  indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
+  return indices;
+}
+
+/// The same surface with other boundary conditions, or the same mesh where they are as they were.
+std::shared_ptr<const SurfaceMesh> with_conditions(std::shared_ptr<const SurfaceMesh> last,
+                                                   const std::vector<Boundary>& boundary) {
+  std::vector<int> constrained = constrained_of(boundary, last->nodes);
+  if (constrained == last->constrained) return last;
+  SurfaceMesh changed = *last;
+  changed.constrained = std::move(constrained);
+  return std::make_shared<const SurfaceMesh>(std::move(changed));
+}
+
 SurfaceMesh build_surface_mesh(const WorldSetup& setup, const Topology& all, const std::vector<int>& hidden) {
   SurfaceMesh surface_mesh;
   const Topology topology = without_hidden(setup.mesh, all, hidden);
@@ -43,13 +66,7 @@ SurfaceMesh build_surface_mesh(const WorldSetup& setup, const Topology& all, con
     surface_mesh.elements.push_back(topology.elements[static_cast<std::size_t>(faces.tets[k])]);
     surface_mesh.regions.push_back(setup.mesh.regions[static_cast<std::size_t>(surface_mesh.elements.back())]);
   }
-  for (const Boundary& entry : setup.boundary)
-    for (const int n : entry.nodes)
-      if (index[static_cast<std::size_t>(n)] >= 0)
-        surface_mesh.constrained.push_back(index[static_cast<std::size_t>(n)]);
-  std::sort(surface_mesh.constrained.begin(), surface_mesh.constrained.end());
-  surface_mesh.constrained.erase(std::unique(surface_mesh.constrained.begin(), surface_mesh.constrained.end()),
-                                 surface_mesh.constrained.end());
+  surface_mesh.constrained = constrained_of(setup.boundary, surface_mesh.nodes);
   return surface_mesh;
 }
 
@@ -61,7 +78,7 @@ std::shared_ptr<const SurfaceMesh> make_surface_mesh(const World& world, std::sh
   const WorldSetup& setup = world.setup();
   const std::size_t uncut_elements = last ? last->uncut_elements : setup.mesh.tets.size();
   if (last && last->hidden != hidden) last.reset();
-  if (last && last->version == topology->version) return last;
+  if (last && last->version == topology->version) return with_conditions(std::move(last), setup.boundary);
   SurfaceMesh surface_mesh = build_surface_mesh(setup, *topology, hidden);
   surface_mesh.uncut_elements = uncut_elements;
   if (topology->elements.size() < setup.mesh.tets.size()) {
@@ -87,6 +104,10 @@ void fill_frame(World& world, std::shared_ptr<const SurfaceMesh> surface_mesh, F
     frame.stretches = frame.values;
   else
     world.write_field(with_stretches ? Field::stretch : Field::none, surface_mesh->nodes, frame.stretches);
+  const WorldSetup& setup = world.setup();
+  Conditions conditions{setup.boundary, setup.loads, setup.mesh.nodes.size()};
+  if (!frame.conditions || *frame.conditions != conditions)
+    frame.conditions = std::make_shared<const Conditions>(std::move(conditions));
   frame.energies = world.energies();
   const std::vector<double> J = world.point_volume_ratios();
   const auto [low, high] = std::minmax_element(J.begin(), J.end());

@@ -27,6 +27,7 @@ struct Grasp {
   int node = 0;       ///< mesh-file order
   double radius = 0;  ///< m, rest shape; 0: that node alone
   int hand = 0;       ///< 0 to max_hands - 1
+  std::vector<int> hidden = {};  ///< regions, ascending: the surface is that of the others
 };
 /// Moves the tool of a grasp.
 struct MoveTool {
@@ -41,6 +42,7 @@ struct Release {
 struct PinTissue {
   int node = 0;       ///< mesh-file order
   double radius = 0;  ///< m, rest shape; 0: that node alone
+  std::vector<int> hidden = {};  ///< regions, ascending: the surface is that of the others
 };
 /// Releases the pin that holds a node.
 struct Unpin {
@@ -49,6 +51,15 @@ struct Unpin {
 /// The tables that there are from now on: these.
 struct SetTables {
   std::vector<Table> tables;
+};
+/// The nodes that are held or moved by the scene from now on: these. Each goes to its place at once. Ramps begin at the
+/// start of simulated time.
+struct SetBoundary {
+  std::vector<Boundary> entries;
+};
+/// The loads that there are from now on: these, ramped likewise.
+struct SetLoads {
+  std::vector<Load> entries;
 };
 /// Sets the probe on its way: from where it is, or, where there is none, from the path's first place.
 struct MoveProbe {
@@ -126,9 +137,10 @@ struct AdoptPreconditioner {};
 struct Reset {};
 
 using Command =
-    std::variant<Grasp, MoveTool, Release, PinTissue, Unpin, SetTables, MoveProbe, WithdrawProbe, SutureTissue,
-                 CutSutures, SetMaterial, SetDamping, SetGravity, SetIntegrator, SetBudget, SetRate, SetStepCost,
-                 RemoveElements, CutTissue, Undo, StepHistory, AdoptPreconditioner, Reset>;
+    std::variant<Grasp, MoveTool, Release, PinTissue, Unpin, SetTables, SetBoundary, SetLoads, MoveProbe,
+                 WithdrawProbe, SutureTissue, CutSutures, SetMaterial, SetDamping, SetGravity, SetIntegrator,
+                 SetBudget, SetRate, SetStepCost, RemoveElements, CutTissue, Undo, StepHistory, AdoptPreconditioner,
+                 Reset>;
 
 /// Whether a kind of command changes which elements there are, or takes such a change back.
 template <class C>

@@ -47,6 +47,36 @@ Status table_problem(const Table& table) {
   return {};
 }
 
+/// nodes: of the body, how many.
+Status nodes_problem(const char* what, const std::vector<int>& chosen, std::size_t nodes) {
+  if (chosen.empty()) return fmt::format("{}: an entry names no node", what);
+  for (const int node : chosen)
+    if (node < 0 || static_cast<std::size_t>(node) >= nodes)
+      return fmt::format("{}: node {} does not exist; the body has nodes 0 to {}", what, node, nodes - 1);
+  return {};
+}
+
+Status ramp_problem(const char* what, double ramp_time) {
+  if (!(ramp_time >= 0) || !std::isfinite(ramp_time))
+    return fmt::format("{}: over must be 0 s or more, is {}", what, ramp_time);
+  return {};
+}
+
+Status boundary_problem(const Boundary& entry, std::size_t nodes) {
+  if (const Status status = nodes_problem("boundary", entry.nodes, nodes); !status.ok()) return status;
+  if (!entry.translate.allFinite() || !entry.axis.allFinite() || !entry.origin.allFinite() ||
+      !std::isfinite(entry.degrees))
+    return "boundary: translation and rotation must be finite";
+  if (!(entry.axis.norm() > 0)) return "boundary: the axis must not be zero";
+  return ramp_problem("boundary", entry.ramp_time);
+}
+
+Status load_problem(const Load& entry, std::size_t nodes) {
+  if (const Status status = nodes_problem("loads", entry.nodes, nodes); !status.ok()) return status;
+  if (!entry.vector.allFinite() || !std::isfinite(entry.pressure)) return "loads: a load is not finite";
+  return ramp_problem("loads", entry.ramp_time);
+}
+
 Status probe_problem(const MoveProbe& probe) {
   if (!(probe.radius > 0) || !std::isfinite(probe.radius))
     return fmt::format("probe: radius must be more than 0 m, is {}", probe.radius);
@@ -87,7 +117,7 @@ Status CommandExecutor<Real>::execute(const Grasp& command) {
     return {};
   }
   GraspSpring<Real> grasp(
-      {command.hand, s_.grasps_taken + 1}, center, radius, surface_with(center), s_.model.mesh.nodes,
+      {command.hand, s_.grasps_taken + 1}, center, radius, surface_with(center, command.hidden), s_.model.mesh.nodes,
       s_.state.x.data(), s_.inverse_mass,
       static_cast<Real>(tool_frequency(s_.setup, command.radius, static_cast<double>(s_.rest_frequency))),
       grip_reach * s_.model.diagonal);
@@ -137,8 +167,8 @@ Status CommandExecutor<Real>::execute(const PinTissue& command) {
   const int center = s_.model.order.new_node[static_cast<std::size_t>(command.node)];
   if (s_.inverse_mass[static_cast<std::size_t>(center)] == 0)
     return fmt::format("pin: node {} is constrained, or belongs to no element", command.node);
-  s_.pins.push_back(
-      pin_patch(center, command.radius, surface_with(center), s_.model.mesh.nodes, s_.state.x.data(), s_.inverse_mass));
+  s_.pins.push_back(pin_patch(center, command.radius, surface_with(center, command.hidden), s_.model.mesh.nodes,
+                              s_.state.x.data(), s_.inverse_mass));
   update_constraints();
   return {};
 }
@@ -256,10 +286,41 @@ Status CommandExecutor<Real>::execute(const AdoptPreconditioner&) {
   return {};
 }
 
-/// Boundary nodes and one more node, inner numbers, ascending, each once.
 template <class Real>
-std::vector<int> CommandExecutor<Real>::surface_with(int node) const {
-  std::vector<int> nodes = s_.model.surface_nodes;
+Status CommandExecutor<Real>::execute(const SetBoundary& command) {
+  for (const Boundary& entry : command.entries)
+    if (const Status status = boundary_problem(entry, s_.mass.size()); !status.ok()) return status;
+  s_.setup.boundary = command.entries;
+  for (Boundary& entry : s_.setup.boundary) add_midedges_between(s_.setup.mesh, s_.setup.midedges, entry.nodes);
+  set_boundary(s_.setup, s_.model);
+  follow_conditions();
+  update_constraints();
+  return {};
+}
+
+template <class Real>
+Status CommandExecutor<Real>::execute(const SetLoads& command) {
+  for (const Load& entry : command.entries)
+    if (const Status status = load_problem(entry, s_.mass.size()); !status.ok()) return status;
+  s_.setup.loads = command.entries;
+  for (Load& entry : s_.setup.loads) add_midedges_between(s_.setup.mesh, s_.setup.midedges, entry.nodes);
+  set_loads(s_.setup, s_.model);
+  follow_conditions();
+  s_.implicit.reset();
+  return {};
+}
+
+/// The model has changed and the mesh has not: snapshots share no model from before.
+template <class Real>
+void CommandExecutor<Real>::follow_conditions() {
+  ++s_.condition_changes;
+  s_.saved_mesh.reset();
+}
+
+/// Boundary nodes of what is not hidden and one more node, inner numbers, ascending, each once.
+template <class Real>
+std::vector<int> CommandExecutor<Real>::surface_with(int node, const std::vector<int>& hidden) const {
+  std::vector<int> nodes = hidden.empty() ? s_.model.surface_nodes : surface_nodes_without(s_.model, hidden);
   const auto place = std::lower_bound(nodes.begin(), nodes.end(), node);
   if (place == nodes.end() || *place != node) nodes.insert(place, node);
   return nodes;

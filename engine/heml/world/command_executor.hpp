@@ -34,6 +34,8 @@ class CommandExecutor {
   Status execute(const CutTissue& command) { return editor_.cut(command); }
   Status execute(const Undo&) { return editor_.undo(); }
   Status execute(const SetTables& command);
+  Status execute(const SetBoundary& command);
+  Status execute(const SetLoads& command);
   Status execute(const MoveProbe& command);
   Status execute(const WithdrawProbe& command);
   Status execute(const SutureTissue& command);
@@ -42,7 +44,8 @@ class CommandExecutor {
  private:
   auto grasp_of(int hand);
   void put_into_hand(GraspSpring<Real> grasp, int hand);
-  std::vector<int> surface_with(int node) const;
+  std::vector<int> surface_with(int node, const std::vector<int>& hidden) const;
+  void follow_conditions();
   void update_constraints();
 
   Simulation<Real>& s_;

@@ -290,9 +290,13 @@ void MeshEditor<Real>::restore_before_edit(const SimulationSnapshot<Real>& befor
   const SimulationState<Real>& values = before.values;
   s_.setup.mesh = before.mesh->mesh;
   s_.setup.midedges = before.mesh->midedges;
-  s_.setup.boundary = before.setup.boundary;
-  s_.setup.loads = before.setup.loads;
   s_.model = before.mesh->model;
+  if (values.condition_changes == s_.condition_changes) {
+    s_.setup.boundary = before.setup.boundary;
+    s_.setup.loads = before.setup.loads;
+  } else {
+    keep_conditions();
+  }
   s_.topology = std::make_shared<const Topology>(Topology{s_.topology->version + 1, before.mesh->topology->elements});
   s_.state.x = s_.last_valid.x = values.state.x;
   s_.state.v = s_.last_valid.v = values.state.v;
@@ -304,6 +308,19 @@ void MeshEditor<Real>::restore_before_edit(const SimulationSnapshot<Real>& befor
   s_.body.restore(s_.model.mesh, s_.model.material_of, before.body, s_.state.x.data(), s_.model.midedges);
   s_.implicit.reset();
   rebuild_after_edit();
+}
+
+/// Boundary and loads were set since: they stay, without nodes that the mesh has no more.
+template <class Real>
+void MeshEditor<Real>::keep_conditions() {
+  const auto nodes = static_cast<int>(s_.setup.mesh.nodes.size());
+  const auto trim = [&](auto& entries) {
+    for (auto& entry : entries) std::erase_if(entry.nodes, [&](int n) { return n >= nodes; });
+  };
+  trim(s_.setup.boundary);
+  trim(s_.setup.loads);
+  set_boundary(s_.setup, s_.model);
+  set_loads(s_.setup, s_.model);
 }
 
 /// Restores the grasps that have been held ever since, by tools that are where they are now.

@@ -53,6 +53,7 @@ class MeshEditor {
   void save();
   void undo_to(const SimulationSnapshot<Real>& before);
   void restore_before_edit(const SimulationSnapshot<Real>& before);
+  void keep_conditions();
   void restore_grasps(const SimulationSnapshot<Real>& before);
 
   Simulation<Real>& s_;

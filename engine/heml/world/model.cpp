@@ -180,16 +180,19 @@ std::vector<int> chosen_nodes(const std::vector<bool>& chosen) {
   return nodes;
 }
 
-template <class Real>
-std::vector<int> boundary_nodes(const Model<Real>& model) {
-  std::vector<bool> on_surface(model.mesh.nodes.size(), false);
-  for (const Triangle& face : fine_boundary(model.mesh, model.midedges).triangles)
+std::vector<int> boundary_nodes(const TetMesh& mesh, const MidEdges& midedges) {
+  std::vector<bool> on_surface(mesh.nodes.size(), false);
+  for (const Triangle& face : fine_boundary(mesh, midedges).triangles)
     for (const int n : face) on_surface[static_cast<std::size_t>(n)] = true;
   return chosen_nodes(on_surface);
 }
 
+}  // namespace
+
 template <class Real>
-void add_boundary(const WorldSetup& setup, Model<Real>& model) {
+void set_boundary(const WorldSetup& setup, Model<Real>& model) {
+  model.constrained.clear();
+  model.prescribed_motions.clear();
   std::vector<int> winner(model.mesh.nodes.size(), -1);
   for (std::size_t b = 0; b < setup.boundary.size(); ++b) {
     const Boundary& entry = setup.boundary[b];
@@ -207,7 +210,21 @@ void add_boundary(const WorldSetup& setup, Model<Real>& model) {
   }
 }
 
-}  // namespace
+template <class Real>
+void set_loads(const WorldSetup& setup, Model<Real>& model) {
+  model.spread_area.clear();
+  for (const Load& load : setup.loads) model.spread_area.push_back(area_spread_over(load, setup, model));
+  make_loads(setup, model);
+}
+
+template <class Real>
+std::vector<int> surface_nodes_without(const Model<Real>& model, const std::vector<int>& regions) {
+  std::vector<int> others;
+  for (std::size_t t = 0; t < model.mesh.tets.size(); ++t)
+    if (!std::binary_search(regions.begin(), regions.end(), model.mesh.regions[t]))
+      others.push_back(static_cast<int>(t));
+  return boundary_nodes(with_elements(model.mesh, others), with_elements(model.midedges, others));
+}
 
 template <class Real>
 Model<Real> make_model(const WorldSetup& setup) {
@@ -218,10 +235,9 @@ Model<Real> make_model(const WorldSetup& setup) {
   model.midedges = reordered(setup.midedges, model.order);
   for (const int t : model.order.file_tet) model.material_of.push_back(file_materials[static_cast<std::size_t>(t)]);
   model.loaded_faces = extract_boundary(model.mesh);
-  model.surface_nodes = boundary_nodes(model);
-  add_boundary(setup, model);
-  for (const Load& load : setup.loads) model.spread_area.push_back(area_spread_over(load, setup, model));
-  make_loads(setup, model);
+  model.surface_nodes = boundary_nodes(model.mesh, model.midedges);
+  set_boundary(setup, model);
+  set_loads(setup, model);
   Eigen::AlignedBox3d box;
   for (const Vec3& X : model.mesh.nodes) box.extend(X);
   model.diagonal = box.diagonal().norm();
@@ -254,7 +270,7 @@ void keep_elements(const WorldSetup& setup, const std::vector<int>& elements, Mo
   model.loaded_faces = std::move(left);
   const std::vector<bool> used = used_nodes(model.mesh, model.midedges);
   for (std::size_t n = 0; n < used.size(); ++n) on_surface[n] = on_surface[n] && used[n];
-  model.surface_nodes = model.midedges.empty() ? chosen_nodes(on_surface) : boundary_nodes(model);
+  model.surface_nodes = model.midedges.empty() ? chosen_nodes(on_surface) : boundary_nodes(model.mesh, model.midedges);
   make_loads(setup, model);
 }
 
@@ -305,9 +321,7 @@ void append(const WorldSetup& setup, const MeshEdit& edit, Model<Real>& model) {
   }
   append(edit, model.mesh);
   model.midedges.insert(model.midedges.end(), edit.midedges.begin(), edit.midedges.end());
-  model.constrained.clear();
-  model.prescribed_motions.clear();
-  add_boundary(setup, model);
+  set_boundary(setup, model);
 }
 
 template <class Real>
@@ -321,6 +335,12 @@ template bool supports_move(const Model<float>&, double, double);
 template bool supports_move(const Model<double>&, double, double);
 template void append(const WorldSetup&, const MeshEdit&, Model<float>&);
 template void append(const WorldSetup&, const MeshEdit&, Model<double>&);
+template void set_boundary(const WorldSetup&, Model<float>&);
+template void set_boundary(const WorldSetup&, Model<double>&);
+template void set_loads(const WorldSetup&, Model<float>&);
+template void set_loads(const WorldSetup&, Model<double>&);
+template std::vector<int> surface_nodes_without(const Model<float>&, const std::vector<int>&);
+template std::vector<int> surface_nodes_without(const Model<double>&, const std::vector<int>&);
 template Model<float> make_model(const WorldSetup&);
 template Model<double> make_model(const WorldSetup&);
 template void keep_elements(const WorldSetup&, const std::vector<int>&, Model<float>&);

@@ -47,6 +47,17 @@ PrescribedMotion::At prescribed_at(const Model<Real>& model, const ConstrainedNo
 template <class Real>
 bool supports_move(const Model<Real>& model, double from, double to);
 
+/// Take the boundary entries and the loads of a setup in place of those before.
+template <class Real>
+void set_boundary(const WorldSetup& setup, Model<Real>& model);
+template <class Real>
+void set_loads(const WorldSetup& setup, Model<Real>& model);
+
+/// Nodes of the boundary that the elements outside some regions have (ascending, as the result): also where they meet
+/// those regions. Linear in the size of the mesh.
+template <class Real>
+std::vector<int> surface_nodes_without(const Model<Real>& model, const std::vector<int>& regions);
+
 /// Reorders, resolves boundary and loads. Throws InputError as material_of_elements().
 template <class Real>
 Model<Real> make_model(const WorldSetup& setup);

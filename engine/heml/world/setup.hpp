@@ -31,6 +31,7 @@ struct Boundary {
   Vec3 origin = Vec3::Zero();     ///< m
   double degrees = 0;             ///< right-handed about axis
   double ramp_time = 0;           ///< s; 0: at once
+  bool operator==(const Boundary&) const = default;
 };
 
 /// A load on selected nodes, ramped linearly over `over` seconds from t = 0. What is removed of the body takes its
@@ -46,6 +47,7 @@ struct Load {
   Vec3 vector = Vec3::Zero();  ///< N for force, Pa for traction
   double pressure = 0;         ///< Pa for pressure
   double ramp_time = 0;        ///< s; 0: at once
+  bool operator==(const Load&) const = default;
 };
 
 /// How much an implicit stage may take, for those who must be on time: at the end of it the body is where it is, never

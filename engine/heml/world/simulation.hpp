@@ -62,6 +62,7 @@ struct SimulationState {
   long explicit_until = -1;        ///< tick up to which a rescue goes on (step_rescue.hpp); −1: there was none
   int substeps = 0;                ///< of the last tick
   long changes = 0;           ///< steps, loads and commands other than edits: unchanged, nothing but edits has happened
+  long condition_changes = 0;  ///< commands that set boundary or loads
   bool is_evaluated = false;  ///< whether forces and stable step belong to the state (restored by an undo)
   std::optional<StopReason> halt;
   bool unfinished = false;

@@ -27,6 +27,13 @@ TEST_CASE("the hints follow the tool and what the mouse does") {
   CHECK(says(now, "G to grasp"));
   now.interaction = Interaction::cutting;
   CHECK(says(now, "Esc leaves"));
+  CHECK_FALSE(says(now, "hidden"));
+  now.hides = true;
+  CHECK(says(now, "hidden tissue is cut too"));
+  now.interaction = Interaction::none;
+  CHECK(says(now, "hidden tissue is cut too"));
+  now.tool = Tool::grasper;
+  CHECK_FALSE(says(now, "hidden"));
   now = {};
   now.tool = Tool::scissors;
   CHECK(says(now, "click to snip"));

@@ -39,4 +39,17 @@ TEST_CASE("rate and budget are chosen and written into a saved scene, and follow
   CHECK(scene.solver.budget->iterations == 3);
 }
 
+TEST_CASE("gravity is typed by components") {
+  Driver driver;
+  CHECK(driver.choose("Direction", "x, y, z").commands.empty());
+  driver.find("Gravity x, y, z", 130);
+  driver.click();
+  ImGui::GetIO().AddInputCharactersUTF8("2.5");
+  CHECK(driver.draw().commands.empty());  // not at each keystroke
+  driver.away();
+  const auto commands = driver.click().commands;
+  REQUIRE(commands.size() == 1);
+  CHECK(std::get<SetGravity>(commands[0]).gravity.isApprox(Vec3(2.5, -9.81, 0)));
+}
+
 }  // namespace heml::motion_section_test

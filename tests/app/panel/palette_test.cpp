@@ -15,7 +15,7 @@ constexpr float edge = 318;  // pixels, the middle of the palette at scale 1
 
 TEST_CASE("every tool is in the palette, and a click or its key selects it") {
   Driver driver(small_scene(), 1280, 720);
-  CHECK(panel::tool_table().size() == static_cast<std::size_t>(Tool::measure) + 1);
+  CHECK(panel::tool_table().size() == static_cast<std::size_t>(Tool::select) + 1);
   for (const panel::ToolInfo& info : panel::tool_table()) {
     driver.click(info.title, edge);
     CHECK(driver.panel.tool().tool == info.tool);

@@ -32,8 +32,9 @@ struct Sheet {
     controller.fit(view, surface_mesh, size, {});
   }
   render::Vec2f pixel(const Vec3f& point) const { return controller.camera().pixel(point, size); }
+  /// Whether the tool cannot act there.
   bool press(MouseButton button, const render::Vec2f& at, bool shift = false) {
-    return mouse_tool.press(button, at, shift, frame, surface_mesh, tool, commands);
+    return !mouse_tool.press(button, at, shift, frame, surface_mesh, tool, commands).ok();
   }
 };
 
@@ -233,6 +234,42 @@ TEST_CASE("a press where all nodes are constrained grasps nothing and is reporte
   CHECK(sheet.press(MouseButton::left, sheet.pixel({0, 0.01f, 0})));
   CHECK(sheet.commands.empty());
   CHECK(sheet.mouse_tool.interaction() == MouseTool::Interaction::none);
+}
+
+TEST_CASE("a press on a pin grasps the nearest free tissue within the radius, or says why it grasps nothing") {
+  Sheet sheet;
+  const Vec3f point(0.09f, -0.09f, 0);
+  sheet.frame.tools = {PinState{.node = 21, .nodes = {21, 22}}};
+  CHECK_FALSE(sheet.press(MouseButton::left, sheet.pixel(point)));
+  REQUIRE(sheet.commands.size() == 1);
+  CHECK(std::get<Grasp>(sheet.commands[0]).node == 20);  // the free corner of the triangle
+  sheet.mouse_tool.cancel(sheet.commands);
+  sheet.commands.clear();
+
+  sheet.frame.tools = {PinState{.node = 21, .nodes = {20, 21, 22}}};
+  const Status pressed = sheet.mouse_tool.press(MouseButton::left, sheet.pixel(point), false, sheet.frame,
+                                                sheet.surface_mesh, sheet.tool, sheet.commands);
+  CHECK(pressed.message().find("pinned") != std::string::npos);
+  CHECK(sheet.commands.empty());
+  CHECK(sheet.mouse_tool.interaction() == MouseTool::Interaction::none);
+
+  sheet.surface_mesh.constrained.clear();  // node 23 is free, and 0.2 √2 from node 21
+  sheet.tool.radius = 0.3;
+  CHECK_FALSE(sheet.press(MouseButton::left, sheet.pixel(point)));
+  REQUIRE(sheet.commands.size() == 1);
+  CHECK(std::get<Grasp>(sheet.commands[0]).node == 23);
+}
+
+TEST_CASE("grasps and pins leave hidden regions out") {
+  Sheet sheet;
+  sheet.surface_mesh.hidden = {3, 5};
+  sheet.press(MouseButton::left, sheet.pixel({0.08f, -0.09f, 0}));
+  CHECK(std::get<Grasp>(sheet.commands.at(0)).hidden == std::vector{3, 5});
+  CHECK(sheet.mouse_tool.leave_clamp(sheet.frame, sheet.commands).ok());
+  CHECK(std::get<Grasp>(sheet.commands.at(1)).hidden == std::vector{3, 5});
+  sheet.tool.tool = panel::Tool::pin;
+  sheet.press(MouseButton::left, sheet.pixel({0.08f, -0.09f, 0}));
+  CHECK(std::get<PinTissue>(sheet.commands.at(2)).hidden == std::vector{3, 5});
 }
 
 TEST_CASE("buttons off the body orbit and pan the camera and send nothing") {

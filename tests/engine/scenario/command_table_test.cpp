@@ -57,6 +57,8 @@ TEST_CASE("every key of a command that its table describes is read, and has a va
 TEST_CASE("commands of another hand than 0 read back as they are written, and those of hand 0 are short") {
   for (const auto& [key, value] : std::vector<std::pair<std::string, Json>>{
            {"grasp", {{"node", 1}, {"radius", 0.5}, {"hand", 3}}},
+           {"grasp", {{"node", 1}, {"radius", 0.5}, {"hidden", {2, 5}}}},
+           {"pin", {{"node", 1}, {"radius", 0.5}, {"hidden", {-2}}}},
            {"grasp", {{"node", 1}, {"radius", 0.5}}},
            {"move", {{"to", {1, 2, 3}}, {"hand", 15}}},
            {"move", {1, 2, 3}},

@@ -50,6 +50,44 @@ TEST_CASE("pin: the patch stays where it is under every method, and a release le
   }
 }
 
+TEST_CASE("pin: hidden regions are left out, and what they cover is surface") {
+  WorldSetup setup = free_block(Integrator::verlet);
+  const TetMesh& mesh = setup.mesh;
+  const double middle = 0.05;
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    Vec3 centroid = Vec3::Zero();
+    for (const int n : mesh.tets[t]) centroid += mesh.nodes[static_cast<std::size_t>(n)] / 4;
+    setup.mesh.regions[t] = centroid.x() < middle ? 1 : 2;
+  }
+  const auto world = make_world(setup);
+  const int node = node_at(mesh, Vec3(middle, 0.01, 0.01));
+  const auto pinned = [&](const std::vector<int>& hidden) {
+    REQUIRE(world->apply(PinTissue{node, 0.012, hidden}).ok());
+    const std::vector<int> nodes = tools_of<PinState>(world->tools()).front().nodes;
+    REQUIRE(world->apply(Unpin{}).ok());
+    return nodes;
+  };
+  const auto within = [&](const auto& takes) {
+    return nodes_where(mesh, [&](const Vec3& X) {
+      return (X - Vec3(middle, 0.01, 0.01)).norm() <= 0.012 && takes(X);
+    });
+  };
+  const auto is_outside = [](const Vec3& X) {
+    return X.y() < 1e-9 || X.y() > 0.02 - 1e-9 || X.z() < 1e-9 || X.z() > 0.02 - 1e-9;
+  };
+  const auto is_middle = [&](const Vec3& X) { return std::abs(X.x() - middle) < 1e-9; };
+  const auto sorted = [](std::vector<int> nodes) {
+    std::sort(nodes.begin(), nodes.end());
+    return nodes;
+  };
+  const auto is_centre = [&](const Vec3& X) { return (X - Vec3(middle, 0.01, 0.01)).norm() < 1e-9; };
+  CHECK(sorted(pinned({})) == within([&](const Vec3& X) { return is_outside(X) || is_centre(X); }));
+  CHECK(sorted(pinned({1})) ==
+        within([&](const Vec3& X) { return is_middle(X) || (X.x() > middle && is_outside(X)); }));
+  CHECK(sorted(pinned({2})) ==
+        within([&](const Vec3& X) { return is_middle(X) || (X.x() < middle && is_outside(X)); }));
+}
+
 TEST_CASE("pin: at rest two pins together carry the weight") {
   WorldSetup setup = free_block(Integrator::backward_euler);
   setup.solver.tolerance = 1e-9;

@@ -1,0 +1,94 @@
+#include <algorithm>
+#include <app/window/selection_drag.hpp>
+#include <iterator>
+#include <tuple>
+
+namespace heml::window {
+namespace {
+
+constexpr float min_drag = 4;      // pixels
+constexpr float tolerance = 1e-3f;  // of the distance from the eye: a node is seen where a ray to it ends
+
+/// Whether a polygon holds a point, by the number of its sides to the right of it.
+bool holds(const std::vector<render::Vec2f>& polygon, const render::Vec2f& at) {
+  bool inside = false;
+  for (std::size_t k = 0, last = polygon.size() - 1; k < polygon.size(); last = k++) {
+    const render::Vec2f &a = polygon[k], &b = polygon[last];
+    if ((a.y() > at.y()) == (b.y() > at.y())) continue;
+    if (at.x() < a.x() + (at.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x())) inside = !inside;
+  }
+  return inside;
+}
+
+bool is_seen(int node, const render::Vec2f& at, const SelectionDrag::View& view) {
+  const render::Ray ray = view.controller.ray(at);
+  const Vec3f& place = view.frame.positions[static_cast<std::size_t>(node)];
+  const auto hit = render::pick(view.frame, view.surface_mesh, ray, view.section);
+  if (!hit) return !view.section || view.section->beyond(place) <= 0;  // at the rim
+  const float distance = (place - ray.origin).norm();
+  return (hit->point - ray.origin).norm() > (1 - tolerance) * distance;
+}
+
+}  // namespace
+
+void SelectionDrag::press(const render::Vec2f& at, const Settings& settings, const View& view) {
+  on_ = true;
+  settings_ = settings;
+  path_ = {at};
+  painted_.clear();
+  if (settings_.drag == Drag::paint) paint(at, view);
+}
+
+void SelectionDrag::move(const render::Vec2f& at, const View& view) {
+  if (!on_) return;
+  if (settings_.drag == Drag::rectangle && path_.size() > 1) path_.pop_back();
+  path_.push_back(at);
+  if (settings_.drag == Drag::paint) paint(at, view);
+}
+
+bool SelectionDrag::is_click() const {
+  return std::all_of(path_.begin(), path_.end(),
+                     [&](const render::Vec2f& at) { return (at - path_.front()).norm() < min_drag; });
+}
+
+/// Takes the node under a pixel and those within the radius of it at rest.
+void SelectionDrag::paint(const render::Vec2f& at, const View& view) {
+  const auto hit = render::pick(view.frame, view.surface_mesh, view.controller.ray(at), view.section);
+  if (!hit) return;
+  const auto& [rest, nodes] = std::tie(view.surface_mesh.rest, view.surface_mesh.nodes);
+  const Vec3f& centre = rest[static_cast<std::size_t>(hit->node)];
+  std::vector<int> near;
+  for (std::size_t n = 0; n < nodes.size(); ++n)
+    if (static_cast<int>(n) == hit->node || static_cast<double>((rest[n] - centre).norm()) <= settings_.radius)
+      near.push_back(nodes[n]);
+  std::vector<int> all;
+  std::set_union(painted_.begin(), painted_.end(), near.begin(), near.end(), std::back_inserter(all));
+  painted_ = std::move(all);
+}
+
+std::vector<render::Vec2f> SelectionDrag::outline() const {
+  if (!on_ || settings_.drag == Drag::paint || is_click()) return {};
+  if (settings_.drag == Drag::lasso) return path_;
+  const render::Vec2f &a = path_.front(), &b = path_.back();
+  return {a, {b.x(), a.y()}, b, {a.x(), b.y()}};
+}
+
+std::vector<int> SelectionDrag::release(const View& view) {
+  const std::vector<render::Vec2f> polygon = outline();
+  on_ = false;
+  if (settings_.drag == Drag::paint) return painted_;
+  std::vector<int> found;
+  if (polygon.empty()) {
+    const auto hit = render::pick(view.frame, view.surface_mesh, view.controller.ray(path_.front()), view.section);
+    if (hit) found.push_back(view.surface_mesh.nodes[static_cast<std::size_t>(hit->node)]);
+    return found;
+  }
+  for (std::size_t n = 0; n < view.surface_mesh.nodes.size(); ++n) {
+    const render::Vec2f at = view.controller.pixel(view.frame.positions[n]);
+    if (!at.allFinite() || !holds(polygon, at)) continue;
+    if (settings_.through || is_seen(static_cast<int>(n), at, view)) found.push_back(view.surface_mesh.nodes[n]);
+  }
+  return found;
+}
+
+}  // namespace heml::window
