@@ -20,9 +20,12 @@ void SelfContactImpulses<Real>::find_pairs(SelfContact& contact, double h, const
   friction_ = contact.friction();
   touches_.clear();
   rows_.clear(inverse_mass.size());
+  held_.clear();
+  for (const RememberedPair& pair : known)
+    if (pair.anchor.idle == 0) held_.push_back(pair.pair);
   auto next = known.begin();
   const auto& pairs =
-      contact.contacts_between([&](int n) { return at(before, n); }, [&](int n) { return at(after, n); });
+      contact.contacts_between([&](int n) { return at(before, n); }, [&](int n) { return at(after, n); }, held_);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const ContactPair& pair = pairs[i];
     const ContactPoint& point = contact.contact_points()[i];

@@ -65,6 +65,7 @@ class SelfContactImpulses {
 
   ContactRows<Real> rows_;  ///< of each touch
   std::vector<Touch> touches_;
+  std::vector<ContactPair> held_;  ///< that got an impulse in the last step
   double friction_ = 0;
 };
 
