@@ -6,8 +6,7 @@
 namespace heml {
 namespace {
 
-constexpr int max_rounds = 8;       // of iteration over points that share nodes
-constexpr int tissue_rounds = 3;    // in turn over self-contact, which iterates itself, and the other surfaces
+constexpr int turns = 3;            // of surfaces that may share nodes; self-contact and a probe iterate themselves
 constexpr double max_travel = 0.5;  // of a probe's radius: distance between two checks along its path
 constexpr double max_parts = 64;    // checks along the path within a step
 
@@ -50,14 +49,20 @@ void ContactImpulses<Real>::first_half_step(Contacts& contacts, double time_befo
     tissue_.find_pairs(*contacts.tissue, h, inverse_mass, before, x, memory_.pairs);
     tissue_.warm_start(v);
   }
-  const int rounds = contacts.reports.size() > 1 ? tissue_rounds : 1;
+  probe_.clear(inverse_mass.size());
+  const int rounds = contacts.reports.size() > 1 ? turns : 1;
   for (double part = 1; part <= parts; ++part) {
     const double to = part < parts ? time_before + part / parts * h : time_after;
     const StepPath path{time_before,           to,        shrink, inverse_mass, before, contacts.surfaces(time_before),
                         contacts.surfaces(to), rounds > 1};
     for (int round = 0; round < rounds; ++round) {  // tables come last in a round, since they cannot move
       for (std::size_t s = contacts.reports.size(); s-- > 0;) {
-        if (surfaces_[s].shape != ContactSurface::Shape::tissue)
+        const auto shape = surfaces_[s].shape;
+        if (shape == ContactSurface::Shape::capsule)
+          probe_.stop({path.then[s], path.now[s], to - time_before, s, parts == 1, inverse_mass, contacts.boundary,
+                       before},
+                      memory_.points, v);
+        else if (shape != ContactSurface::Shape::tissue)
           stop_points(path, s, contacts, v);
         else if (round == 0 || tissue_is_touched())
           tissue_.solve(v);
@@ -71,6 +76,8 @@ void ContactImpulses<Real>::first_half_step(Contacts& contacts, double time_befo
   };
   for (const Stopped& stopped : stopped_)
     for (std::size_t k = 0; k < static_cast<std::size_t>(stopped.point.count); ++k) place(stopped.point.nodes[k]);
+  for (const int n : probe_.nodes()) place(n);
+  if (contacts.probe) report_probe(shrink, contacts, v);
   std::sort(stopped_.begin(), stopped_.end(), [](const Stopped& a, const Stopped& b) {
     return std::tie(a.surface, a.point.nodes) < std::tie(b.surface, b.point.nodes);
   });
@@ -84,9 +91,11 @@ void ContactImpulses<Real>::first_half_step(Contacts& contacts, double time_befo
 /// Whether another surface stopped a node of a self-contact pair, so that the two must be solved in turn.
 template <class Real>
 bool ContactImpulses<Real>::tissue_is_touched() const {
-  return std::any_of(stopped_.begin(), stopped_.end(), [this](const Stopped& stopped) {
+  const auto is_of_tissue = [this](int n) { return tissue_.has_node(n); };
+  if (std::any_of(probe_.nodes().begin(), probe_.nodes().end(), is_of_tissue)) return true;
+  return std::any_of(stopped_.begin(), stopped_.end(), [&](const Stopped& stopped) {
     const auto nodes = stopped.point.nodes.begin();
-    return std::any_of(nodes, nodes + stopped.point.count, [this](int n) { return tissue_.has_node(n); });
+    return std::any_of(nodes, nodes + stopped.point.count, is_of_tissue);
   });
 }
 
@@ -104,23 +113,24 @@ void ContactImpulses<Real>::stop_points(const StepPath& path, std::size_t s, Con
   const ContactSurface &now = path.now[s], &then = path.then[s];
   const auto moved = [&](int n) -> Vec3 { return at(path.before, n) + h * at(v, n); };
   const auto was = [&](int n) { return at(path.before, n); };
-  const bool is_capsule = now.shape == ContactSurface::Shape::capsule;
-  const bool may_stick = now.friction > 0 && (is_capsule || path.repeats);
-  bool deep = true;
-  for (int round = 0; deep && round < (is_capsule ? max_rounds : 1); ++round) {
-    deep = false;
-    each_contact(now, contacts.boundary, 0, moved, [&](const ContactPoint& point) {
-      const double allowed_gap = std::min(0.0, updated_gap(then, point, was)) * std::max(0.0, 1 - h / contact_recovery);
-      const double closing = (allowed_gap - point.gap) / h;
-      if (!(closing > 0)) return;
-      Stopped& stopped = stopped_at(path, s, point);
-      push(stopped, point, closing, path.weight, path.inverse_mass, contacts, v);
-      deep = deep || allowed_gap - point.gap > 1e-6 * now.radius;
-    });
-    for (Stopped& stopped : stopped_)
-      if (may_stick && stopped.surface == s)
-        push(stopped, stopped.point, 0, path.weight, path.inverse_mass, contacts, v);
-  }
+  each_contact(now, contacts.boundary, 0, moved, [&](const ContactPoint& point) {
+    const double allowed_gap = std::min(0.0, updated_gap(then, point, was)) * std::max(0.0, 1 - h / contact_recovery);
+    const double closing = (allowed_gap - point.gap) / h;
+    if (closing > 0) push(stopped_at(path, s, point), point, closing, path.weight, path.inverse_mass, contacts, v);
+  });
+  if (!(now.friction > 0) || !path.repeats) return;
+  for (Stopped& stopped : stopped_)
+    if (stopped.surface == s) push(stopped, stopped.point, 0, path.weight, path.inverse_mass, contacts, v);
+}
+
+/// Adds the impulses of the probe in the last half to its report; v: #V×3, m/s, at the end of the half.
+template <class Real>
+void ContactImpulses<Real>::report_probe(double weight, Contacts& contacts, const Real* v) {
+  const std::size_t s = probe_surface(contacts);
+  probe_.each_impulse([&](const ContactPoint& point, const Vec3& impulse) {
+    impulse_[s] += weight * impulse;
+    contacts.reports[s].work += weight * impulse.dot(at(v, point));
+  });
 }
 
 /// The record of a point on surface s in this step, made where there is none.
@@ -182,6 +192,10 @@ void ContactImpulses<Real>::update_anchors(const Real* x) {
     if (known != memory_.points.end() && !(point < *known)) point.anchor = known->anchor;
     point.anchor.update(stopped.point, x, surface.point, surface.friction, stopped.normal, stopped.friction.norm());
   }
+  for (std::size_t s = 0; s < surfaces_.size(); ++s)
+    if (surfaces_[s].shape == ContactSurface::Shape::capsule)
+      probe_.remember_first_half(surfaces_[s], s, x, memory_.points, touched);
+  std::sort(touched.begin(), touched.end());
   remember(memory_.points, touched);
 }
 
@@ -192,22 +206,29 @@ void ContactImpulses<Real>::second_half_step(Contacts& contacts, const std::vect
     tissue_.begin_second_half(inverse_mass, x);
     tissue_.warm_start(v);
   }
+  if (contacts.probe)
+    probe_.begin_second_half(surfaces_[probe_surface(contacts)], inverse_mass, x, memory_.points, v);
   for (Stopped& stopped : stopped_) {
     stopped.normal = 0;
     stopped.friction.setZero();
     stopped.drift.setZero();
   }
-  const bool repeats = surfaces_.size() > 1 || contacts.probe;
-  const int rounds = !repeats ? 1 : contacts.tissue ? tissue_rounds : max_rounds;
+  const bool repeats = surfaces_.size() > 1;
+  const int rounds = repeats ? turns : 1;
   const bool touched = contacts.tissue && tissue_is_touched();
   for (int round = 0; round < rounds; ++round) {
     if (contacts.tissue && (round == 0 || touched)) tissue_.solve(v);
+    probe_.solve(v);
     for (Stopped& stopped : stopped_) {
       const double inward = stopped.point.normal.dot(stopped.velocity - at(v, stopped.point));
       const bool may_stick = repeats && stopped.normal > 0 && surfaces_[stopped.surface].friction > 0;
       if (inward > 0 || may_stick) push(stopped, stopped.point, std::max(0.0, inward), 1, inverse_mass, contacts, v);
     }
     if (!takes_turns(contacts)) break;
+  }
+  if (contacts.probe) {
+    probe_.remember_second_half(memory_.points);
+    report_probe(1, contacts, v);
   }
   if (contacts.tissue) {
     tissue_.remember_second_half(memory_.pairs);
@@ -236,12 +257,14 @@ void ContactImpulses<Real>::publish(Contacts& contacts, const Real* x) const {
     contacts.reports.back().rounds = tissue_.rounds();
     contacts.reports.back().residual = tissue_.residual();
   }
-  for (const Stopped& stopped : stopped_) {
-    ContactReport& report = contacts.reports[stopped.surface];
+  const auto count = [&](std::size_t s, const ContactPoint& point) {
+    ContactReport& report = contacts.reports[s];
     ++report.contact_count;
-    const double gap = updated_gap(surfaces_[stopped.surface], stopped.point, [&](int n) { return at(x, n); });
+    const double gap = updated_gap(surfaces_[s], point, [&](int n) { return at(x, n); });
     report.max_penetration = std::max(report.max_penetration, -gap);
-  }
+  };
+  for (const Stopped& stopped : stopped_) count(stopped.surface, stopped.point);
+  probe_.each_impulse([&](const ContactPoint& point, const Vec3&) { count(probe_surface(contacts), point); });
 }
 
 template class ContactImpulses<float>;

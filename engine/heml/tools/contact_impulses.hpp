@@ -8,11 +8,12 @@
 //
 // The friction impulse is at most μ p and removes all sliding where that suffices: the point sticks. No contact
 // stiffness has to be chosen, the stable step is unchanged, and a node penetrates by no more than round-off. A surface
-// at rest adds no energy. Contact points within faces share nodes and are iterated a few rounds. A fast probe is
-// checked at several positions along its path within a step. Friction draws sticking points back to their anchors
-// (contact_memory.hpp). Self-contact: self_contact_impulses.hpp.
+// at rest adds no energy. A fast probe is checked at several positions along its path within a step. Friction draws
+// sticking points back to their anchors (contact_memory.hpp). Points that share nodes: probe_impulses.hpp,
+// self_contact_impulses.hpp.
 #include <heml/tools/contact_memory.hpp>
 #include <heml/tools/contacts.hpp>
+#include <heml/tools/probe_impulses.hpp>
 #include <heml/tools/self_contact_impulses.hpp>
 
 namespace heml {
@@ -48,12 +49,16 @@ class ContactImpulses {
   Stopped& stopped_at(const StepPath& path, std::size_t s, const ContactPoint& point);
   void push(Stopped& stopped, const ContactPoint& point, double closing, double weight,
             const std::vector<Real>& inverse_mass, Contacts& contacts, Real* v);
+  std::size_t probe_surface(const Contacts& contacts) const { return contacts.tables.size(); }
   bool tissue_is_touched() const;
   bool takes_turns(const Contacts& contacts) const;
   void update_anchors(const Real* x);
   void publish(Contacts& contacts, const Real* x) const;
 
+  void report_probe(double weight, Contacts& contacts, const Real* v);
+
   SelfContactImpulses<Real> tissue_;
+  ProbeImpulses<Real> probe_;
   double normal_impulse_ = 0;  ///< N s, of self-contact, since the tick began
   ContactMemory memory_;
   std::vector<Stopped> stopped_;          ///< in the first half the last surface first

@@ -50,11 +50,19 @@ struct ContactAnchor {
   }
 };
 
+/// Of one half of a step.
+struct ContactImpulse {
+  double normal = 0;             ///< N s
+  Vec3 friction = Vec3::Zero();  ///< N s
+};
+
 /// A point of the body on a table or a probe.
 struct AnchoredPoint {
   std::size_t surface;
   std::array<int, 4> nodes;
   ContactAnchor anchor;
+  std::array<double, 4> weights{};         ///< of a probe's point, when it last touched
+  std::array<ContactImpulse, 2> halves{};  ///< of a probe's point, in the last step's halves
 };
 
 inline bool operator<(const AnchoredPoint& a, const AnchoredPoint& b) {
@@ -63,13 +71,9 @@ inline bool operator<(const AnchoredPoint& a, const AnchoredPoint& b) {
 
 /// A self-contact pair.
 struct RememberedPair {
-  struct Impulse {
-    double normal = 0;             ///< N s
-    Vec3 friction = Vec3::Zero();  ///< N s
-  };
   ContactPair pair;
   ContactAnchor anchor;
-  std::array<Impulse, 2> halves{};  ///< of the last step's halves
+  std::array<ContactImpulse, 2> halves{};  ///< of the last step's halves
 };
 
 inline bool operator<(const RememberedPair& a, const RememberedPair& b) { return a.pair < b.pair; }

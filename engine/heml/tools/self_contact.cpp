@@ -16,10 +16,13 @@ constexpr double slack = 0.01;      // of a face or an edge: margin outside it, 
 constexpr double beside = 0.25;     // of a face or an edge: margin within which overlapping pairs stay candidates
 constexpr double min_allowance = 0.15, max_allowance = 1;  // of an edge
 constexpr double min_sifted = 0.02, max_sifted = 0.15;     // of an edge
+constexpr double min_woken = 1e-4, max_woken = 0.05;       // of an edge
+constexpr int brief = 32, lasting = 512;                   // steps between which candidates stay awake
 constexpr double search_steps = 16, filter_steps = 8;      // as long as this one: for which candidates are found
 constexpr double same_overlap = 1e-6;                      // of an edge: smaller overlaps at rest are round-off
 constexpr double facing = 0.1;                             // cosine, minimum between two surfaces that face each other
 constexpr double flat = 0.02;                              // sine: edges with a smaller bend are no ridges
+constexpr double still_ridge = -0.02, still_out = 0.3;     // the same, and the margin of normals, of pairs that bear
 constexpr double parallel = 0.3;         // sine: edges closer to parallel are left to node and face pairs
 constexpr double max_penetration = 0.5;  // of an element's height: deeper pairs did not enter through this face
 
@@ -107,7 +110,7 @@ void SelfContact::make_edges() {
     if (start_[n] < start_[n + 1]) give(own_nodes_[at(round_[at(start_[n])])], static_cast<int>(n));
 }
 
-void SelfContact::find() {
+void SelfContact::find(const std::vector<ContactPair>& held) {
   contacts_.clear();
   points_.clear();
   ++step_count_;
@@ -116,21 +119,16 @@ void SelfContact::find() {
   };
   if (!is_finite(from_) || !is_finite(to_)) return;  // the step detects the failure itself
   double moved = std::max(spread(filtered_.reference, from_), spread(filtered_.reference, to_));
-  if (!(moved <= filtered_.allowance)) {
+  if (!(moved <= filtered_.allowance) || woken_steps_ > lasting) {
     update_candidates();
     moved = spread(from_, to_);
   }
   const double reach = reach_of(moved);
-  if (!(reach <= awake_reach_)) wake_candidates(moved);
-  for (std::size_t i = 0; i < awake_.size();) {
-    const auto& [distance, nodes, candidate, others] = awake_[i];
+  if (!(reach <= awake_reach_ && spread(woken_.reference, from_) <= woken_.allowance)) wake_candidates(moved);
+  ++woken_steps_;
+  for (const auto& [distance, nodes, candidate, is_certain] : awake_) {
     ++tested_count_;
-    if (candidate.edges && !is_ridge_now(candidate.first)) {
-      i = others;
-      continue;
-    }
-    ++i;
-    if (distance > reach || !can_meet(candidate)) continue;
+    if (distance > reach || !(is_certain || can_meet(candidate))) continue;
     ContactPair pair{nodes, candidate.edges ? side_now(candidate) : 0};
     const auto crossing = crossing_if_met(candidate, pair);
     if (!crossing) continue;
@@ -138,6 +136,55 @@ void SelfContact::find() {
     contacts_.push_back(pair);
     points_.push_back(point_of(pair, *crossing));
   }
+  add_held(held);
+}
+
+/// Adds pairs of edges that have borne a load and have lost nothing but their bend. A load flattens ridges; if that
+/// ended their contact, they would fall in and be pushed out in turn, step by step.
+void SelfContact::add_held(const std::vector<ContactPair>& held) {
+  const std::size_t found = contacts_.size();
+  for (const ContactPair& pair : held) {
+    if (pair.side == 0) continue;
+    const auto end = contacts_.begin() + static_cast<std::ptrdiff_t>(found);
+    const auto place = std::lower_bound(contacts_.begin(), end, pair);
+    if (place != end && *place == pair) continue;
+    std::array<int, 4> local;
+    for (std::size_t k = 0; k < 4; ++k)
+      local[k] = static_cast<int>(std::lower_bound(nodes_.begin(), nodes_.end(), pair.nodes[k]) - nodes_.begin());
+    const auto edge_of = [this](int a, int b) {
+      const auto before = [](const Edge& edge, const std::array<int, 2>& ends) { return edge.ends < ends; };
+      return static_cast<int>(std::lower_bound(edges_.begin(), edges_.end(), std::array<int, 2>{a, b}, before) -
+                              edges_.begin());
+    };
+    const Candidate candidate{true, edge_of(local[0], local[1]), edge_of(local[2], local[3])};
+    const std::array<Vec3, 4> from{from_[at(local[0])], from_[at(local[1])], from_[at(local[2])],
+                                   from_[at(local[3])]};
+    const auto crossing = crossing_of(pair.side, from);
+    if (!crossing || !crossing->is_within(pair.side, slack) || crossing->gap() > touch_gap * edge_) continue;
+    if (bend_now(candidate.first) < still_ridge || bend_now(candidate.second) < still_ridge) continue;
+    if (!is_out_of_both(candidate, from, *crossing, still_out)) continue;
+    if (crossing->height < 0 && -crossing->gap() >= max_penetration * height_behind(candidate)) continue;
+    contacts_.push_back(pair);
+    points_.push_back(point_of(pair, *crossing));
+  }
+  for (std::size_t i = found; i < contacts_.size(); ++i)
+    for (std::size_t k = i; k > 0 && contacts_[k] < contacts_[k - 1]; --k) {
+      std::swap(contacts_[k], contacts_[k - 1]);
+      std::swap(points_[k], points_[k - 1]);
+    }
+}
+
+/// Sine of an edge's bend at from_, positive where it is convex; the least of both where they differ.
+double SelfContact::bend_now(int edge) {
+  const auto& [ends, faces] = edges_[at(edge)];
+  const FaceNow& face = face_now(faces[0]);
+  double least = 1;
+  for (const int k : faces_[at(faces[1])]) {
+    if (k == ends[0] || k == ends[1]) continue;
+    const Vec3 displacement = from_[at(k)] - from_[at(ends[0])];
+    least = std::min(least, -face.area.dot(displacement) / std::sqrt(face.square * displacement.squaredNorm()));
+  }
+  return least;
 }
 
 /// Largest displacement of a node from the reference, less the mean displacement, m. Infinite without a reference.
@@ -291,22 +338,90 @@ void SelfContact::filter_candidates(double step) {
   awake_reach_ = 0;
 }
 
-/// Selects the candidates within reach of little more than the motion so far, and puts those of one node or edge
-/// together.
+/// Selects the candidates within reach of little more than the motion so far, except those that positions near those
+/// of now rule out. Positions at a step's start may move by as much as makes this worth its time.
 void SelfContact::wake_candidates(double moved) {
   awake_reach_ = reach_of(1.2 * moved);
+  double allowance = std::max(woken_.allowance, min_woken * edge_);
+  if (woken_steps_ < brief) allowance = std::min(2 * allowance, max_woken * edge_);
+  if (woken_steps_ > lasting) allowance = std::max(allowance / 4, min_woken * edge_);
+  woken_ = {from_, allowance};
+  woken_steps_ = 0;
+  // Of starts and ends, from from_.
+  const double all_motion = allowance + 1.2 * moved + spread(filtered_.reference, from_);
   awake_.clear();
   for (const auto& [distance, candidate] : candidates_) {
     if (distance > awake_reach_) break;
-    awake_.push_back({distance, nodes_of(candidate), candidate, 0});
+    const Answer answer = can_meet_within(candidate, allowance);
+    const AwakeCandidate awake{distance, nodes_of(candidate), candidate, answer == Answer::yes};
+    if (answer != Answer::no && !is_outside_within(awake, all_motion)) awake_.push_back(awake);
   }
   std::sort(awake_.begin(), awake_.end(),
             [](const AwakeCandidate& a, const AwakeCandidate& b) { return a.nodes < b.nodes; });
-  for (std::size_t i = awake_.size(); i-- > 0;) {
-    const auto starts = [&](std::size_t k) { return std::pair(awake_[k].candidate.edges, awake_[k].candidate.first); };
-    const bool is_last = i + 1 == awake_.size() || starts(i) != starts(i + 1);
-    awake_[i].others = is_last ? i + 1 : awake_[i + 1].others;
+}
+
+/// What can_meet() says at all positions within `allowance` (m) of from_, each by its mean displacement at most.
+auto SelfContact::can_meet_within(const Candidate& candidate, double allowance) -> Answer {
+  if (candidate.edges) {
+    const Answer one = is_ridge_within(candidate.first, allowance);
+    const Answer other = is_ridge_within(candidate.second, allowance);
+    if (one == Answer::no || other == Answer::no) return Answer::no;
+    return one == Answer::yes && other == Answer::yes ? Answer::yes : Answer::unsure;
   }
+  const NodeNow& node = node_now(candidate.first);
+  const FaceNow& face = face_now(candidate.second);
+  const auto change_of = [&](int f) {  // m², of a face's area vector
+    const auto [a, b, c] = faces_[at(f)];
+    const double sides = (from_[at(b)] - from_[at(a)]).norm() + (from_[at(c)] - from_[at(a)]).norm();
+    return 2 * allowance * (sides + 2 * allowance);
+  };
+  double change = 0;
+  for (int k = start_[at(candidate.first)]; k < start_[at(candidate.first) + 1]; ++k)
+    change += change_of(round_[at(k)]);
+  const double cosine = node.area.dot(face.area) / std::sqrt(node.square * face.square);
+  const double margin =
+      2 * (change / std::sqrt(node.square) + change_of(candidate.second) / std::sqrt(face.square));
+  if (cosine <= -facing - margin) return Answer::yes;
+  return cosine >= -facing + margin ? Answer::no : Answer::unsure;
+}
+
+/// What is_ridge_now() says at all positions within `allowance` (m) of from_. A face turns by at most 2 allowance over
+/// its least height, a segment by that over its length; a half more is for terms of higher order.
+auto SelfContact::is_ridge_within(int edge, double allowance) -> Answer {
+  const auto& [ends, faces] = edges_[at(edge)];
+  const FaceNow& face = face_now(faces[0]);
+  const auto [a, b, c] = faces_[at(faces[0])];
+  const double longest = std::max({(from_[at(b)] - from_[at(a)]).norm(), (from_[at(c)] - from_[at(b)]).norm(),
+                                   (from_[at(a)] - from_[at(c)]).norm()});
+  const double height = std::sqrt(face.square) / longest;
+  Answer answer = Answer::yes;
+  for (const int k : faces_[at(faces[1])]) {
+    if (k == ends[0] || k == ends[1]) continue;
+    const Vec3 displacement = from_[at(k)] - from_[at(ends[0])];
+    const double length = displacement.norm();
+    const double sine = -face.area.dot(displacement) / (std::sqrt(face.square) * length);
+    const double margin = 3 * allowance * (1 / height + 1 / length);
+    if (!(allowance < 0.1 * std::min(height, length))) return Answer::unsure;
+    if (sine <= flat - margin) return Answer::no;
+    if (!(sine >= flat + margin)) answer = Answer::unsure;
+  }
+  return answer;
+}
+
+/// Whether the foot of a node is outside its face for all positions within `allowance` (m) of from_.
+bool SelfContact::is_outside_within(const AwakeCandidate& awake, double allowance) const {
+  if (awake.candidate.edges) return false;
+  const auto [a, b, c, d] = awake.nodes;
+  const std::array<Vec3, 4> x{from_[at(a)], from_[at(b)], from_[at(c)], from_[at(d)]};
+  const auto crossing = crossing_of(0, x);
+  if (!crossing) return false;
+  const double longest = std::sqrt(std::max({(x[2] - x[1]).squaredNorm(), (x[3] - x[2]).squaredNorm(),
+                                             (x[1] - x[3]).squaredNorm()}));
+  const double height = std::sqrt(crossing->square) / longest;  // the face's least
+  const double away = (x[0] - x[1]).norm() + longest + 2 * allowance;
+  // The foot moves against the face's corners by their motion and by the turn of the face times its distance.
+  const double margin = 4 * allowance / height * (1 + away / height);
+  return allowance < 0.1 * height && !crossing->is_within(0, slack + margin);
 }
 
 Vec3 SelfContact::face_normal(int face, const Positions& x) const {
@@ -353,12 +468,12 @@ bool SelfContact::is_ridge_now(int edge) {
 }
 
 /// Whether a direction lies between the normals of a ridge's faces.
-bool SelfContact::is_ridge_towards(int edge, const Vec3& normal) {
+bool SelfContact::is_ridge_towards(int edge, const Vec3& normal, double margin) {
   const auto [one, other] = edges_[at(edge)].faces;
   const FaceNow &first = face_now(one), &second = face_now(other);
   const Vec3 n = first.area / std::sqrt(first.square), m = second.area / std::sqrt(second.square);
   const double c = n.dot(m), p = normal.dot(n), q = normal.dot(m), determinant = 1 - c * c;
-  return p - c * q >= -slack * determinant && q - c * p >= -slack * determinant;
+  return p - c * q >= -margin * determinant && q - c * p >= -margin * determinant;
 }
 
 int SelfContact::side_of(const Edge& one, const Edge& other, const Positions& x) const {
@@ -411,7 +526,7 @@ std::optional<PairCrossing> SelfContact::crossing_if_met(const Candidate& candid
   } else if (!crosses_later(pair.side, from, places(to_), first->gap())) {
     return std::nullopt;
   }
-  if (candidate.edges && !is_out_of_both(candidate, from, *first)) return std::nullopt;
+  if (candidate.edges && !is_out_of_both(candidate, from, *first, slack)) return std::nullopt;
   if (height >= 0 || -first->gap() < max_penetration * height_behind(candidate)) return first;
   return std::nullopt;
 }
@@ -437,18 +552,18 @@ double SelfContact::height_behind(const Candidate& candidate) {
 
 /// Whether edges are far enough from parallel, and their normal lies between those of the faces of both.
 bool SelfContact::is_out_of_both(const Candidate& candidate, const std::array<Vec3, 4>& from,
-                                 const PairCrossing& first) {
+                                 const PairCrossing& first, double margin) {
   const Vec3 u = from[1] - from[0], v = from[3] - from[2];
   if (first.square < parallel * parallel * u.squaredNorm() * v.squaredNorm()) return false;
   const Vec3 normal = first.normal / std::sqrt(first.square);
-  return is_ridge_towards(candidate.first, -normal) && is_ridge_towards(candidate.second, normal);
+  return is_ridge_towards(candidate.first, -normal, margin) && is_ridge_towards(candidate.second, normal, margin);
 }
 
 std::size_t SelfContact::bytes() const {
   return bytes_of(nodes_, rest_, faces_, apex_, edges_, start_, round_, own_nodes_, own_edges_) +
          bytes_of(nodes_now_, faces_now_, edges_now_) +
          bytes_of(from_, to_, searched_.reference, filtered_.reference, broad_candidates_, candidates_) +
-         bytes_of(awake_, contacts_, points_);
+         bytes_of(awake_, woken_.reference, contacts_, points_);
 }
 
 }  // namespace heml

@@ -23,8 +23,8 @@
 //   filter         broad candidates ──► candidates, the nearest first: valid for a small part of the motion that the
 //                  broad phase allows
 //   wake           candidates ──► awake candidates, in the order of pairs: within reach of little more than the
-//                  motion since the filter. Pairs of an edge lie together, so that one test passes over all of an edge
-//                  that is no ridge; on flat surfaces most are none.
+//                  motion since the filter, and not certain to fail (1) or (2) until nodes have moved further than they
+//                  move at rest. On flat surfaces most edges are no ridges, and most crossings lie far outside.
 // Built only where a scene has "self_contact".
 #include <compare>
 #include <heml/tools/contact_pair.hpp>
@@ -40,14 +40,16 @@ class SelfContact {
   double friction() const { return friction_; }
 
   /// Pairs that touch or cross while nodes move in straight lines from from(node) to to(node), m. Ascending; valid
-  /// until the next call. Empty where a position is not finite.
+  /// until the next call. Empty where a position is not finite. held: pairs that bore a load in the last step,
+  /// ascending; edges among them stay in contact until their bend is clearly gone.
   template <class From, class To>
-  const std::vector<ContactPair>& contacts_between(const From& from, const To& to) {
+  const std::vector<ContactPair>& contacts_between(const From& from, const To& to,
+                                                   const std::vector<ContactPair>& held = {}) {
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
       from_[i] = from(nodes_[i]);
       to_[i] = to(nodes_[i]);
     }
-    find();
+    find(held);
     return contacts_;
   }
   /// Of each of these pairs, its point while the nodes are at from(node).
@@ -77,8 +79,10 @@ class SelfContact {
     double distance;
     std::array<int, 4> nodes;  ///< indices into nodes_, as in ContactPair
     Candidate candidate;
-    std::size_t others;  ///< place of the next one with another first node or edge
+    bool can_meet;  ///< for certain, as can_meet() tells
   };
+  /// Whether something holds for all positions near those of now.
+  enum class Answer { no, unsure, yes };
   using Positions = std::vector<Vec3>;
   // What several candidates of a step ask of the surface at from_, evaluated for the first that asks.
   struct NodeNow {
@@ -98,7 +102,9 @@ class SelfContact {
   // Node and face numbers below index nodes_ and faces_.
   void set_rest(const TetMesh& mesh);
   void make_edges();
-  void find();
+  void find(const std::vector<ContactPair>& held);
+  void add_held(const std::vector<ContactPair>& held);
+  double bend_now(int edge);
   /// Reference positions, and how far nodes may move from them before the candidates must be found again.
   struct CandidateSet {
     Positions reference;   ///< m; empty: none yet
@@ -117,17 +123,21 @@ class SelfContact {
   int side_now(const Candidate& candidate);
   std::array<int, 4> nodes_of(const Candidate& candidate) const;
   bool can_meet(const Candidate& candidate);
+  Answer can_meet_within(const Candidate& candidate, double allowance);
+  Answer is_ridge_within(int edge, double allowance);
+  bool is_outside_within(const AwakeCandidate& awake, double allowance) const;
   std::optional<PairCrossing> crossing_if_met(const Candidate& candidate, const ContactPair& pair);
   bool crosses_later(int side, const std::array<Vec3, 4>& from, const std::array<Vec3, 4>& to, double gap) const;
   double height_behind(const Candidate& candidate);
-  bool is_out_of_both(const Candidate& candidate, const std::array<Vec3, 4>& from, const PairCrossing& first);
+  bool is_out_of_both(const Candidate& candidate, const std::array<Vec3, 4>& from, const PairCrossing& first,
+                      double margin);
   void wake_candidates(double moved);
   Vec3 face_normal(int face, const Positions& x) const;
   const FaceNow& face_now(int face);
   double height_now(int face);
   const NodeNow& node_now(int node);
   bool is_ridge_now(int edge);
-  bool is_ridge_towards(int edge, const Vec3& normal);
+  bool is_ridge_towards(int edge, const Vec3& normal, double margin);
 
   double friction_;
   double edge_ = 0;         ///< m, mean edge length of the surface at rest
@@ -144,7 +154,9 @@ class SelfContact {
   std::vector<FaceNow> faces_now_;
   std::vector<EdgeNow> edges_now_;
   CandidateSet searched_, filtered_;
+  CandidateSet woken_;      ///< of awake_, for positions at a step's start
   double awake_reach_ = 0;  ///< m, of awake_
+  int woken_steps_ = 0;     ///< since awake_ was made
   std::vector<Candidate> broad_candidates_;  ///< valid within searched_
   std::vector<NearCandidate> candidates_;    ///< the subset valid within filtered_, ascending
   std::vector<AwakeCandidate> awake_;        ///< and of these, valid within awake_reach_, in the order of pairs

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <heml/mesh/generate.hpp>
 #include <heml/tools/self_contact.hpp>
 #include <set>
 
@@ -221,6 +222,63 @@ TEST_CASE("candidates kept from earlier steps miss no pair, and are kept for som
   CHECK(contact.broad_phase_count() < 30);
   CHECK(counts.faces > 100);
   CHECK(counts.edges > 100);
+}
+
+TEST_CASE("pairs that sleep by what is certain are those that a new search rejects, on flat surfaces that tremble") {
+  TetMesh mesh = make_box(Vec3(3, 3, 3), {3, 3, 3});
+  const TetMesh upper = make_box(Vec3(3, 2, 3), {2, 2, 3}, Vec3(0.3, 3, 0.2));
+  for (Tet tet : upper.tets) {
+    for (int& n : tet) n += static_cast<int>(mesh.nodes.size());
+    mesh.tets.push_back(tet);
+  }
+  mesh.nodes.insert(mesh.nodes.end(), upper.nodes.begin(), upper.nodes.end());
+  mesh.regions.assign(mesh.tets.size(), 0);
+  std::mt19937_64 random(17);
+  SelfContact kept({}, mesh);
+  std::size_t met = 0, changes = 0, last = 0;
+  for (int step = 0; step < 400; ++step) {
+    CAPTURE(step);
+    // Bends of up to twice the sine of a ridge; from step to step far less.
+    const double phase = 0.01 * step, tremor = step % 100 < 80 ? 1e-4 : 1e-2;
+    std::vector<Vec3> from = mesh.nodes, to;
+    for (Vec3& x : from) x.y() += 0.04 * std::sin(2.1 * x.x() + phase) * std::cos(1.7 * x.z() - 2 * phase);
+    for (Vec3& x : from) x += random_vector(random, tremor);
+    for (const Vec3& x : from) to.push_back(x + random_vector(random, 10 * tremor));
+    const auto at_from = [&](int n) { return from[static_cast<std::size_t>(n)]; };
+    const auto at_to = [&](int n) { return to[static_cast<std::size_t>(n)]; };
+    SelfContact anew({}, mesh);
+    const std::vector<ContactPair> expected = anew.contacts_between(at_from, at_to);
+    CHECK(kept.contacts_between(at_from, at_to) == expected);
+    met += expected.size();
+    changes += expected.size() != last;
+    last = expected.size();
+  }
+  CHECK(met > 4000);
+  CHECK(changes > 50);
+}
+
+TEST_CASE("edges that bore a load stay in contact while their bend is not clearly gone") {
+  // Two roofs, ridge across ridge; the lower one's ridge sinks until it is a valley.
+  TetMesh mesh;
+  add_tet(mesh, {Vec3(-1, 0, 0), Vec3(1, 0, 0), Vec3(0, -1, -0.3), Vec3(0, 1, -0.3)});
+  add_tet(mesh, {Vec3(0, -2, 0), Vec3(0, 2, 0), Vec3(1, 0, 0.3), Vec3(-1, 0, 0.3)});
+  const auto place = [&](double bend) {
+    return [&mesh, bend](int n) -> Vec3 {
+      Vec3 x = mesh.nodes[static_cast<std::size_t>(n)];
+      if (n == 2 || n == 3) x.z() = -bend;
+      return x;
+    };
+  };
+  SelfContact contact({}, mesh);
+  const std::vector<ContactPair> borne = contact.contacts_between(place(0.3), place(0.3));
+  REQUIRE(borne.size() == 1);
+  REQUIRE(borne[0].side != 0);
+  for (const double bend : {0.012, 0.005}) {
+    CHECK(contact.contacts_between(place(bend), place(bend)).empty());
+    CHECK(contact.contacts_between(place(bend), place(bend), borne) == borne);
+  }
+  const auto& sunk = contact.contacts_between(place(-0.05), place(-0.05), borne);
+  CHECK(std::find(sunk.begin(), sunk.end(), borne[0]) == sunk.end());
 }
 
 TEST_CASE("a pair that touches within its face is in contact, one that touches the face's plane outside is not") {
