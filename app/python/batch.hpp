@@ -1,8 +1,8 @@
 #pragma once
-// Many worlds of one scene, stepped by a team of threads. Each world is computed by one thread, so its bits are those
+// Many worlds of one scene, stepped by a pool of threads. Each world is computed by one thread, so its bits are those
 // of a world by itself.
 #include <app/python/live_world.hpp>
-#include <heml/base/thread_team.hpp>
+#include <app/python/worker_pool.hpp>
 #include <memory>
 #include <vector>
 
@@ -10,9 +10,13 @@ namespace heml::python {
 
 class Batch {
  public:
-  /// Reads the mesh once. The layout of the elements is shared by all worlds until one is edited. threads: 0: all
-  /// cores. Throws InputError.
+  /// Reads the scene once. All worlds share what no step changes: setup, mesh and layout, until one is edited. threads:
+  /// 0: all cores. Throws InputError.
   Batch(Scene scene, int count, int threads);
+
+  ~Batch();
+  Batch(const Batch&) = delete;
+  Batch& operator=(const Batch&) = delete;
 
   const std::vector<std::shared_ptr<LiveWorld>>& worlds() const { return worlds_; }
   /// The state at the start, that of all worlds.
@@ -25,7 +29,8 @@ class Batch {
  private:
   std::vector<std::shared_ptr<LiveWorld>> worlds_;
   std::shared_ptr<Snapshot> start_;
-  ThreadTeam team_;
+  std::unique_ptr<WorkerPool> pool_;
+  long process_;  ///< that the threads of the pool belong to
 };
 
 }  // namespace heml::python

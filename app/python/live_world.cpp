@@ -27,13 +27,18 @@ WorldSetup with_actions(WorldSetup setup) {
 
 }  // namespace
 
-LiveWorld::LiveWorld(Scene scene, int threads) : LiveWorld(with_threads(std::move(scene), threads), WorldSetup()) {}
+LiveWorld::LiveWorld(Scene scene, int threads)
+    : scene_(std::make_shared<const Scene>(with_threads(std::move(scene), threads))),
+      world_(make_world(with_actions(load_setup(*scene_)))),
+      schedule_(*scene_, world_->setup().mesh),
+      recorded_(std::make_shared<const Scene>(as_recorded(*scene_, *world_))),
+      process_(forks) {}
 
-LiveWorld::LiveWorld(Scene scene, WorldSetup setup)
-    : scene_(std::move(scene)),
-      world_(make_world(with_actions(setup.mesh.nodes.empty() ? load_setup(scene_) : std::move(setup)))),
-      schedule_(scene_, world_->setup().mesh),
-      recorded_(std::make_shared<const Scene>(as_recorded(scene_, *world_))),
+LiveWorld::LiveWorld(const LiveWorld& first, const Snapshot& start)
+    : scene_(first.scene_),
+      world_(make_world(*start.state())),
+      schedule_(*scene_, world_->setup().mesh),
+      recorded_(first.recorded_),
       process_(forks) {}
 
 LiveWorld::~LiveWorld() {
