@@ -3,6 +3,7 @@
 // of a world by itself.
 #include <app/python/live_world.hpp>
 #include <app/python/worker_pool.hpp>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -22,9 +23,11 @@ class Batch {
   /// The state at the start, that of all worlds.
   const Snapshot& start() const { return *start_; }
 
-  /// Plays up to left[i] ticks in world i until a time, and takes off what was played; nothing is left of a world that
-  /// has halted. Returns whether any are left. Throws what the first world that throws does, once all have stopped.
-  bool step(std::vector<long>& left, Clock::time_point deadline);
+  /// Plays ticks in every world that has not halted. Threads take worlds in turn, each for a slice of time, so that
+  /// none waits for another but at the end; the calling one asks interrupted() between slices, and while it waits.
+  /// Returns false where that said so: worlds are then some ticks apart. Throws what the first world that throws does,
+  /// once all have stopped.
+  bool step(long ticks, Clock::duration slice, const std::function<bool()>& interrupted);
 
  private:
   std::vector<std::shared_ptr<LiveWorld>> worlds_;

@@ -36,7 +36,7 @@ LiveWorld::LiveWorld(Scene scene, int threads)
 
 LiveWorld::LiveWorld(const LiveWorld& first, const Snapshot& start)
     : scene_(first.scene_),
-      world_(make_world(*start.state())),
+      world_(make_world_from(*start.state())),
       schedule_(*scene_, world_->setup().mesh),
       recorded_(first.recorded_),
       process_(forks) {}

@@ -1,8 +1,14 @@
 #include <algorithm>
 #include <app/python/worker_pool.hpp>
+#include <chrono>
 #include <system_error>
 
 namespace heml::python {
+namespace {
+
+constexpr std::chrono::milliseconds waiting_interval{50};
+
+}  // namespace
 
 WorkerPool::WorkerPool(int threads) {
   const auto wanted = threads > 0 ? static_cast<unsigned>(threads) : std::max(1u, std::thread::hardware_concurrency());
@@ -22,23 +28,21 @@ WorkerPool::~WorkerPool() {
   for (std::thread& worker : workers_) worker.join();
 }
 
-void WorkerPool::for_each(std::size_t count, const std::function<void(std::size_t)>& work) {
+void WorkerPool::run(const std::function<void()>& work, const std::function<void()>& waiting) {
   {
     const std::scoped_lock lock(mutex_);
     work_ = &work;
-    count_ = count;
-    next_ = 0;
     working_ = workers_.size();
     ++call_;
   }
   called_.notify_all();
-  take_items();
+  work();
   std::unique_lock lock(mutex_);
-  done_.wait(lock, [this] { return working_ == 0; });
-}
-
-void WorkerPool::take_items() {
-  for (std::size_t item = next_++; item < count_; item = next_++) (*work_)(item);
+  while (!done_.wait_for(lock, waiting_interval, [this] { return working_ == 0; })) {
+    lock.unlock();
+    waiting();
+    lock.lock();
+  }
 }
 
 void WorkerPool::wait_for_work() {
@@ -49,7 +53,7 @@ void WorkerPool::wait_for_work() {
     if (ends_) return;
     last = call_;
     lock.unlock();
-    take_items();
+    (*work_)();
     lock.lock();
     if (--working_ == 0) done_.notify_one();
   }

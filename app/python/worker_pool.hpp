@@ -1,8 +1,7 @@
 #pragma once
-// Threads for work of milliseconds and more: each item goes to whichever thread is free, so that none waits for a slower
-// one but at the end. base/thread_team.hpp is for loops of microseconds: it computes alone for a while where other
-// programs on its cores keep it waiting, which for a batch would cost half its speed.
-#include <atomic>
+// Threads for work of milliseconds and more, which all of them do together. base/thread_team.hpp is for loops of
+// microseconds: it computes alone for a while where other programs on its cores keep it waiting, which would cost a
+// batch half its speed.
 #include <condition_variable>
 #include <cstddef>
 #include <functional>
@@ -20,20 +19,17 @@ class WorkerPool {
   WorkerPool(const WorkerPool&) = delete;
   WorkerPool& operator=(const WorkerPool&) = delete;
 
-  /// Calls work(item) for every item of [0, count) and returns when all are done. One caller at a time. work must not
-  /// throw.
-  void for_each(std::size_t count, const std::function<void(std::size_t)>& work);
+  /// Calls work() once on every thread, the calling one too, and returns when all have ended; calls waiting() now and
+  /// then while it waits for others. One caller at a time. Neither may throw.
+  void run(const std::function<void()>& work, const std::function<void()>& waiting);
 
  private:
-  void take_items();
   void wait_for_work();
 
   std::mutex mutex_;
   std::condition_variable called_, done_;
-  const std::function<void(std::size_t)>* work_ = nullptr;
-  std::size_t count_ = 0;
-  std::atomic<std::size_t> next_{0};
-  long call_ = 0;           ///< number of the last call of for_each()
+  const std::function<void()>* work_ = nullptr;
+  long call_ = 0;            ///< number of the last call of run()
   std::size_t working_ = 0;  ///< workers that have not ended it
   bool ends_ = false;
   std::vector<std::thread> workers_;

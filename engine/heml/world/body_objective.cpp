@@ -21,9 +21,9 @@ Vec3 at(const Vector& x, int node) { return x.segment<3>(3 * node); }
 }  // namespace
 
 template <class Real>
-BodyObjective<Real>::BodyObjective(ElasticBody<Real>& body, const Shared<Model<Real>>& model, const std::vector<Real>& mass,
-                                   const FreeNodes& free, const std::vector<GraspSpring<Real>>& grasps,
-                                   Contacts& contacts, ThreadTeam& team)
+BodyObjective<Real>::BodyObjective(ElasticBody<Real>& body, const Shared<Model<Real>>& model,
+                                   const std::vector<Real>& mass, const FreeNodes& free,
+                                   const std::vector<GraspSpring<Real>>& grasps, Contacts& contacts, ThreadTeam& team)
     : body_(body),
       model_(model),
       mass_(mass),

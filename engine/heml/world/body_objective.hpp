@@ -49,8 +49,9 @@ class BodyObjective final : public LoadDependentObjective, private BodyObjective
   };
 
   /// mass: #V, kg. All must outlive this.
-  BodyObjective(ElasticBody<Real>& body, const Shared<Model<Real>>& model, const std::vector<Real>& mass, const FreeNodes& free,
-                const std::vector<GraspSpring<Real>>& grasps, Contacts& contacts, ThreadTeam& team);
+  BodyObjective(ElasticBody<Real>& body, const Shared<Model<Real>>& model, const std::vector<Real>& mass,
+                const FreeNodes& free, const std::vector<GraspSpring<Real>>& grasps, Contacts& contacts,
+                ThreadTeam& team);
 
   /// Loads as at time t, s. gravity: m/s².
   void set_time(double time, const Vec3& gravity);

@@ -34,8 +34,7 @@ Status patch_problem(const char* tool, int node, double radius, std::size_t node
 }
 
 Status hand_problem(const char* tool, int hand) {
-  if (hand < 0 || hand >= max_hands)
-    return fmt::format("{}: hand must be 0 to {}, is {}", tool, max_hands - 1, hand);
+  if (hand < 0 || hand >= max_hands) return fmt::format("{}: hand must be 0 to {}, is {}", tool, max_hands - 1, hand);
   return {};
 }
 
@@ -137,8 +136,8 @@ Status CommandExecutor<Real>::execute(const PinTissue& command) {
   const int center = s_.model->order.new_node[static_cast<std::size_t>(command.node)];
   if (s_.inverse_mass[static_cast<std::size_t>(center)] == 0)
     return fmt::format("pin: node {} is constrained, or belongs to no element", command.node);
-  s_.pins.push_back(
-      pin_patch(center, command.radius, surface_with(center), s_.model->mesh.nodes, s_.state.x.data(), s_.inverse_mass));
+  s_.pins.push_back(pin_patch(center, command.radius, surface_with(center), s_.model->mesh.nodes, s_.state.x.data(),
+                              s_.inverse_mass));
   update_constraints();
   return {};
 }

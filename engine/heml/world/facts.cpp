@@ -72,8 +72,7 @@ std::vector<MemoryFacts> WorldQueries<Real>::memory_facts(std::optional<std::siz
   facts.push_back({"state", of_state(s_.state) + of_state(s_.last_valid) +
                                 bytes_of(s_.mass, s_.inverse_mass, s_.inverse_mass_per_dof, element_states_)});
   if (s_.recovery)
-    facts.push_back(
-        {"recovery", of_state(s_.recovery->last_good) + bytes_of(s_.recovery->last_good_internal.values)});
+    facts.push_back({"recovery", of_state(s_.recovery->last_good) + bytes_of(s_.recovery->last_good_internal.values)});
   if (s_.contacts.tissue) facts.push_back({"self-contact", s_.contacts.tissue->bytes()});
   if (!s_.implicit) return facts;
   const ImplicitState<Real>& parts = *s_.implicit;

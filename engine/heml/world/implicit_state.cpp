@@ -49,7 +49,7 @@ ImplicitState<Real>::ImplicitState(ElasticBody<Real>& elastic, const Shared<Mode
       mass(thrice(free, masses)),
       body(elastic, model, masses, free, grasps, contacts, team),
       linear_mesh(model->midedges.empty() ? std::nullopt
-                                         : std::optional<TetMesh>(subdivided(model->mesh, model->midedges))),
+                                          : std::optional<TetMesh>(subdivided(model->mesh, model->midedges))),
       pattern(linear_mesh ? coupled_nodes(model->mesh, model->midedges) : std::vector<Tet>()),
       linear(free, linear_mesh ? *linear_mesh : model->mesh, linear_mesh ? repeated(modulus, 8) : modulus, mass,
              preconditioner_of(solver, free.node.size()), solver.projection, team, linear_mesh ? &pattern : nullptr,

@@ -40,8 +40,8 @@ struct ImplicitState {
                 const std::vector<Real>& inverse_mass, const std::vector<double>& modulus,
                 const std::vector<GraspSpring<Real>>& grasps, Contacts& contacts, ThreadTeam& team,
                 const SolverSettings& solver, InstructionSet instruction_set);
-  /// Elements have gone: these are left, by the numbers they had; model (with this mesh) and masses have followed. Returns false where
-  /// parts have to be made anew.
+  /// Elements have gone: these are left, by the numbers they had; model (with this mesh) and masses have followed.
+  /// Returns false where parts have to be made anew.
   bool keep_elements(const TetMesh& mesh, const std::vector<int>& elements, const std::vector<Real>& masses);
   ImplicitSnapshot<Real> snapshot() const;
   /// Of parts made anew, of the body that it was: they go on as those would have.

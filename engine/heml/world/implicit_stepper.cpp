@@ -177,8 +177,8 @@ bool ImplicitStepper<Real>::solve_stage(const Stage& stage, double h, double tim
       s_.stats.iterations += result.iterations;
       spent += result.iterations;
       if (s_.interrupted) return false;
-      is_lagging = result.status != NewtonResult::Status::undefined && !s_.setup->solver.budget &&
-                   parts.body.update_lagged(x);
+      is_lagging =
+          result.status != NewtonResult::Status::undefined && !s_.setup->solver.budget && parts.body.update_lagged(x);
     } while (is_lagging && (s_.setup->solver.step || takes_any_iterate() || spent <= max_failed_iterations));
     if (is_lagging) break;
   }
@@ -217,7 +217,8 @@ NewtonResult ImplicitStepper<Real>::minimise_stage(Vector& x) {
   if (s_.setup->solver.minimiser == Minimiser::lbfgs) {
     const int patience = s_.setup->solver.budget ? most : quasi_patience * most;
     const NewtonResult result = minimise_lbfgs(parts.step, parts.linear, stage_criterion(), patience, x);
-    if (result.converged() || s_.setup->solver.budget || result.status == NewtonResult::Status::undefined) return result;
+    if (result.converged() || s_.setup->solver.budget || result.status == NewtonResult::Status::undefined)
+      return result;
   }
   NewtonOptions options;
   options.max_iterations = most;

@@ -98,7 +98,8 @@ Status MeshEditor<Real>::cut(const CutTissue& command) {
   }
   if (history_.snap == 0) history_.snap = snapping_distance(s_.setup->mesh);
   Cut cut;
-  if (!make_cut(command.sweep, s_.setup->mesh, s_.positions(), *s_.topology, history_.snap, history_.stroke, cut).ok()) {
+  if (!make_cut(command.sweep, s_.setup->mesh, s_.positions(), *s_.topology, history_.snap, history_.stroke, cut)
+           .ok()) {
     move_front(command.sweep);  // through the air, or within an element
     return {};
   }

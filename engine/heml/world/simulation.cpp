@@ -135,8 +135,8 @@ ImplicitState<Real>& Simulation<Real>::implicit_state() {
   if (!implicit)
     implicit = std::make_unique<ImplicitState<Real>>(
         body, model, mass, inverse_mass,
-        preconditioner_moduli(model->mesh, model->material_of, setup->materials, setup->solver.minimiser), grasps, contacts,
-        team, setup->solver, setup->instruction_set);
+        preconditioner_moduli(model->mesh, model->material_of, setup->materials, setup->solver.minimiser), grasps,
+        contacts, team, setup->solver, setup->instruction_set);
   return *implicit;
 }
 

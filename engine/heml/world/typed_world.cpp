@@ -315,7 +315,7 @@ std::unique_ptr<World> make_world(WorldSetup setup) {
   return std::make_unique<TypedWorld<double>>(std::move(setup));
 }
 
-std::unique_ptr<World> make_world(const WorldSnapshot& snapshot) {
+std::unique_ptr<World> make_world_from(const WorldSnapshot& snapshot) {
   if (const auto* single = dynamic_cast<const TypedSnapshot<float>*>(&snapshot))
     return std::make_unique<TypedWorld<float>>(*single);
   return std::make_unique<TypedWorld<double>>(dynamic_cast<const TypedSnapshot<double>&>(snapshot));

@@ -208,6 +208,6 @@ std::unique_ptr<World> make_world(WorldSetup setup);
 
 /// Builds another world in the state of a snapshot, without reading or resolving anything anew. The two share the setup,
 /// the mesh and the layout of its elements until one of them is edited; both go on to the same bits.
-std::unique_ptr<World> make_world(const WorldSnapshot& snapshot);
+std::unique_ptr<World> make_world_from(const WorldSnapshot& snapshot);
 
 }  // namespace heml

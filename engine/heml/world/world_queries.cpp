@@ -116,12 +116,11 @@ std::optional<ErrorEstimate> WorldQueries<Real>::estimate() {
   if (body.has_springs()) return std::nullopt;
   ErrorEstimate found;
   const std::vector<Mat3> P = body.stresses(s_.state.x.data(), s_.team);
-  found.of_element =
-      s_.model->midedges.empty()
-          ? recovery_errors(s_.model->mesh, s_.model->material_of,
-                            deformation_gradients(s_.model->mesh, inner_positions()), P)
-          : quadratic_recovery_errors(s_.model->mesh, s_.model->material_of,
-                                      body.deformation_gradients(s_.state.x.data()), P);
+  found.of_element = s_.model->midedges.empty()
+                         ? recovery_errors(s_.model->mesh, s_.model->material_of,
+                                           deformation_gradients(s_.model->mesh, inner_positions()), P)
+                         : quadratic_recovery_errors(s_.model->mesh, s_.model->material_of,
+                                                     body.deformation_gradients(s_.state.x.data()), P);
   found.squared = std::accumulate(found.of_element.begin(), found.of_element.end(), 0.0);
   found.stored = body.energy(s_.state.x.data(), s_.team);
   return found;
@@ -220,9 +219,13 @@ std::vector<ToolState> WorldQueries<Real>::tools() const {
 
 template <class Real>
 GraspState WorldQueries<Real>::state_of(const GraspSpring<Real>& grasp) const {
-  return {grasp.id().hand, grasp.id().serial, s_.model->order.file_node[static_cast<std::size_t>(grasp.center())],
-          static_cast<double>(grasp.radius()), grasp.target(),
-          grasp.grip(s_.state.x.data()), grasp.force(s_.state.x.data(), s_.state.v.data())};
+  return {grasp.id().hand,
+          grasp.id().serial,
+          s_.model->order.file_node[static_cast<std::size_t>(grasp.center())],
+          static_cast<double>(grasp.radius()),
+          grasp.target(),
+          grasp.grip(s_.state.x.data()),
+          grasp.force(s_.state.x.data(), s_.state.v.data())};
 }
 
 template <class Real>

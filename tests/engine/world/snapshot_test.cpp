@@ -66,7 +66,7 @@ void check_restored(const Script& script) {
   }
   CHECK(world->topology()->version > version);
   // Worlds that share, in step: none changes what another has.
-  const auto another = make_world(*snapshot), third = make_world(*snapshot);
+  const auto another = make_world_from(*snapshot), third = make_world_from(*snapshot);
   CHECK(&another->setup().mesh == &third->setup().mesh);
   REQUIRE(world->restore(*snapshot).ok());
   std::vector<std::vector<double>> of_another, of_world;
