@@ -1,5 +1,5 @@
-"""Learns heml/Reach-v0 by PPO of stable-baselines3 (pip install 'heml[gym]' stable-baselines3), and compares it with random
-actions and with the script of the task, on the same episodes.
+"""Learns heml/Reach-v0 by PPO of stable-baselines3 (pip install 'heml[gym]' stable-baselines3), and compares it with
+random actions and with the script of the task, on the same episodes.
 
     python ppo_reach.py [--steps 30000] [--episodes 20]
 """

@@ -91,8 +91,8 @@ typename ElasticBody<Real>::Part ElasticBody<Real>::make_part(std::size_t index,
   if (part.group->density != density) part.group.write().density = density;
   for (const auto& term : part.terms) term->begin_step(step_);
   part.flow = make_flow<Real>(material, options_.continuation, *part.group);
-  part.in_fans =
-      !part.terms.empty() && material.fields.empty() && !part.flow && !layout_->virtual_corners && has_fan_kernel(material);
+  part.in_fans = !part.terms.empty() && material.fields.empty() && !part.flow && !layout_->virtual_corners &&
+                 has_fan_kernel(material);
   if (part.in_fans)
     for (const auto& term : part.terms)
       if (auto* memory = dynamic_cast<ViscoelasticTerm<Real>*>(term.get())) memory->leave_state_to_fans();
@@ -224,7 +224,8 @@ void ElasticBody<Real>::make_pressure() {
     kappa.push_back(volume_moduli(*part.group, materials_[part.material]));
   }
   const VolumeTerm term = materials_[parts_.front().material].volume_term;
-  pressure_ = std::make_unique<NodalPressure<Real>>(std::move(groups), layout_->joints.corners, kappa, term, options_.continuation);
+  pressure_ = std::make_unique<NodalPressure<Real>>(std::move(groups), layout_->joints.corners, kappa, term,
+                                                    options_.continuation);
 }
 
 template <class Real>

@@ -9,8 +9,8 @@
 //
 // With mid-edge nodes the elements inside are the integration points of quadratic tetrahedra on virtual corners
 // (virtual_corners.hpp), four of each; all that goes in or out is of the ten-node elements.
-#include <heml/base/thread_team.hpp>
 #include <heml/base/shared.hpp>
+#include <heml/base/thread_team.hpp>
 #include <heml/elastic/body_layout.hpp>
 #include <heml/elastic/element_group.hpp>
 #include <heml/elastic/fan_forces.hpp>
@@ -283,7 +283,9 @@ class ElasticBody {
       for (std::size_t s = 0; s < parts_[p].group->size(); s += element_points) {
         QuadraticMatrix<Real> K = {};
         quadratic_stiffness(p, s, K);
-        visit(layout_->virtual_corners->nodes_of(static_cast<std::size_t>(parts_[p].group->element[s]) / element_points), K);
+        visit(
+            layout_->virtual_corners->nodes_of(static_cast<std::size_t>(parts_[p].group->element[s]) / element_points),
+            K);
       }
   }
   /// Positions of the nodes of the elements inside: of virtual corners, valid until the next call, or x itself.

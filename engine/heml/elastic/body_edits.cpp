@@ -147,7 +147,8 @@ void ElasticBody<Real>::transfer_state(const TetMesh& mesh, const std::vector<in
   std::vector<int> number(before.tets.size(), -1);
   std::vector<std::vector<int>> all(materials_.size()), pieces(materials_.size());
   for (std::size_t t = 0; t < layout_->mesh.tets.size(); ++t) {
-    const auto origin = static_cast<std::size_t>(origins[t]), material = static_cast<std::size_t>(layout_->material_of[t]);
+    const auto origin = static_cast<std::size_t>(origins[t]),
+               material = static_cast<std::size_t>(layout_->material_of[t]);
     all[material].push_back(static_cast<int>(t));
     if (layout_->mesh.tets[t] == before.tets[origin])
       number[origin] = static_cast<int>(t);
@@ -163,7 +164,8 @@ void ElasticBody<Real>::transfer_state(const TetMesh& mesh, const std::vector<in
       continue;
     }
     keep_numbered(old, number);
-    if (!pieces[material].empty()) append(make_group<Real>(layout_->mesh, pieces[material], materials_[material]), old.group.write());
+    if (!pieces[material].empty())
+      append(make_group<Real>(layout_->mesh, pieces[material], materials_[material]), old.group.write());
     if (old.group->size() > 0) parts_.push_back(std::move(old));
   }
   join_parts();

@@ -66,7 +66,8 @@ bool ElasticBody<Real>::forces(const Real* x, Real* f, ThreadTeam& team) {
     return valid;
   }
   if (loops_for_pressure && !pressure_->add_forces(x, corner, team)) valid = false;
-  if (fans_.empty() || !layout_->joints.force_corners.corners.empty()) gather_corners(layout_->joints.force_corners, f, !fans_.empty(), team);
+  if (fans_.empty() || !layout_->joints.force_corners.corners.empty())
+    gather_corners(layout_->joints.force_corners, f, !fans_.empty(), team);
   if (!layout_->joints.springs.empty()) layout_->joints.springs.add_forces(x, f, team);
   return valid;
 }

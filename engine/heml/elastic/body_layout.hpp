@@ -1,7 +1,7 @@
 #pragma once
-// What no step changes of a body: its elements, and where their corners and springs meet at the nodes. Edits make another
-// one; bodies of other worlds, snapshots and the undo history share it (base/shared.hpp). The elements of each material
-// (element_group.hpp) and the fans (fan_layout.hpp) are shared in the same way.
+// What no step changes of a body: its elements, and where their corners and springs meet at the nodes. Edits make
+// another one; bodies of other worlds, snapshots and the undo history share it (base/shared.hpp). The elements of each
+// material (element_group.hpp) and the fans (fan_layout.hpp) are shared in the same way.
 #include <heml/elastic/element_group.hpp>
 #include <heml/elastic/springs.hpp>
 #include <heml/elastic/virtual_corners.hpp>

@@ -65,13 +65,13 @@ double ElasticBody<Real>::potential(const Real* x, ThreadTeam& team) {
 template <class Real>
 int ElasticBody<Real>::first_undefined(const Real* x) const {
   int first = -1;
-  each_slot(
-      x, [&](const Part& part, std::size_t s, const ElementKinematics<Real>& kinematics, const RestShape<Real>& rest) {
-        for (const auto& term : part.terms)
-          if (first < 0 || part.group->element[s] < first)
-            if (!term->valid(*part.group, s, kinematics) || !is_finite(term->tensions(*part.group, s, kinematics, rest)))
-              first = part.group->element[s];
-      });
+  each_slot(x, [&](const Part& part, std::size_t s, const ElementKinematics<Real>& kinematics,
+                   const RestShape<Real>& rest) {
+    for (const auto& term : part.terms)
+      if (first < 0 || part.group->element[s] < first)
+        if (!term->valid(*part.group, s, kinematics) || !is_finite(term->tensions(*part.group, s, kinematics, rest)))
+          first = part.group->element[s];
+  });
   return first < 0 ? first : first / static_cast<int>(points_per_element());
 }
 
@@ -116,7 +116,9 @@ std::vector<Mat3> ElasticBody<Real>::stresses(const Real* x, ThreadTeam& team) {
   for (const Part& part : parts_)
     for (std::size_t s = 0; s < part.group->size(); ++s) {
       const auto t = static_cast<std::size_t>(part.group->element[s]);
-      const auto X = [&](std::size_t a) { return layout_->mesh.nodes[static_cast<std::size_t>(part.group->node[a][s])]; };
+      const auto X = [&](std::size_t a) {
+        return layout_->mesh.nodes[static_cast<std::size_t>(part.group->node[a][s])];
+      };
       const double volume = signed_volume(X(0), X(1), X(2), X(3));
       for (std::size_t a = 1; a < 4; ++a) {
         const Real* f = &corner[3 * (part.group->first_corner + 4 * s + a)];

@@ -31,7 +31,7 @@ struct ElementGroup {
   std::array<std::vector<Real>, 3> fibre;     ///< 3 × padded #S, 1/m, or empty
   std::vector<std::vector<Real>> parameters;  ///< of each FieldParameter of the material, padded #S
   Real density = 1000;                        ///< kg/m³
-  std::size_t first_corner = 0;               ///< of slot 0, in the body's list of corners: after those of the groups before
+  std::size_t first_corner = 0;  ///< of slot 0, in the body's list of corners: after those of the groups before
 
   std::size_t size() const { return element.size(); }
   std::size_t packets() const { return volume.size() / lanes; }

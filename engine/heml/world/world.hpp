@@ -206,8 +206,8 @@ std::size_t removed_count(const World& world);
 /// Builds a world. Throws InputError for what check_tets() and material_of_elements() refuse.
 std::unique_ptr<World> make_world(WorldSetup setup);
 
-/// Builds another world in the state of a snapshot, without reading or resolving anything anew. The two share the setup,
-/// the mesh and the layout of its elements until one of them is edited; both go on to the same bits.
+/// Builds another world in the state of a snapshot, without reading or resolving anything anew. The two share the
+/// setup, the mesh and the layout of its elements until one of them is edited; both go on to the same bits.
 std::unique_ptr<World> make_world_from(const WorldSnapshot& snapshot);
 
 }  // namespace heml
