@@ -32,14 +32,14 @@ class UseAll {
 void step_batch(Batch& batch, long ticks) {
   const UseAll use(batch);
   if (ticks < 0) throw InputError("", "ticks", fmt::format("is {}", ticks), "give 0 or more");
-  std::vector<long> left(batch.worlds().size(), ticks);
-  for (bool goes_on = ticks > 0; goes_on;) {
-    {
-      const nb::gil_scoped_release others_run;
-      goes_on = batch.step(left, Clock::now() + signal_interval);
-    }
-    check_signals();
-  }
+  const nb::gil_scoped_release others_run;
+  const bool done = batch.step(ticks, signal_interval, [] {
+    const nb::gil_scoped_acquire python;
+    return PyErr_CheckSignals() != 0;
+  });
+  if (done) return;
+  const nb::gil_scoped_acquire python;
+  nb::raise_python_error();
 }
 
 template <NodeVector which>

@@ -29,14 +29,20 @@ WorldSetup with_actions(WorldSetup setup) {
 
 }  // namespace
 
-LiveWorld::LiveWorld(Scene scene, int threads) : LiveWorld(with_threads(std::move(scene), threads), WorldSetup()) {}
-
-LiveWorld::LiveWorld(Scene scene, WorldSetup setup)
+LiveWorld::LiveWorld(Scene scene, int threads)
     : number_(++numbers),
-      scene_(std::move(scene)),
-      world_(make_world(with_actions(setup.mesh.nodes.empty() ? load_setup(scene_) : std::move(setup)))),
-      schedule_(scene_, world_->setup().mesh),
-      recorded_(std::make_shared<const Scene>(as_recorded(scene_, *world_))),
+      scene_(std::make_shared<const Scene>(with_threads(std::move(scene), threads))),
+      world_(make_world(with_actions(load_setup(*scene_)))),
+      schedule_(*scene_, world_->setup().mesh),
+      recorded_(std::make_shared<const Scene>(as_recorded(*scene_, *world_))),
+      process_(forks) {}
+
+LiveWorld::LiveWorld(const LiveWorld& first, const Snapshot& start)
+    : number_(++numbers),
+      scene_(first.scene_),
+      world_(make_world_from(*start.state())),
+      schedule_(*scene_, world_->setup().mesh),
+      recorded_(first.recorded_),
       process_(forks) {}
 
 LiveWorld::~LiveWorld() {

@@ -23,8 +23,8 @@ class LiveWorld {
  public:
   /// threads: 0: as the scene says. Throws InputError.
   LiveWorld(Scene scene, int threads);
-  /// setup: load_setup(scene), or a copy of it.
-  LiveWorld(Scene scene, WorldSetup setup);
+  /// Another world at the start that a snapshot of `first` is of, which shares with it what no step changes.
+  LiveWorld(const LiveWorld& first, const Snapshot& start);
   ~LiveWorld();
   LiveWorld(const LiveWorld&) = delete;
   LiveWorld& operator=(const LiveWorld&) = delete;
@@ -45,7 +45,7 @@ class LiveWorld {
   /// Another one for every world of the process, closed ones too.
   std::uint64_t number() const { return number_; }
   World& world() { return *world_; }
-  const Scene& scene() const { return scene_; }
+  const Scene& scene() const { return *scene_; }
 
   /// Plays up to so many ticks with the events of the scene, until a time. Returns how many are left; none once the
   /// world has halted. Throws InputError when the world refuses an event.
@@ -56,9 +56,6 @@ class LiveWorld {
   std::shared_ptr<Snapshot> snapshot();
   /// Throws InputError where the snapshot does not fit; then nothing has changed. Ends a recording, and throws too.
   void restore(const Snapshot& snapshot);
-
-  /// Shares the layout of a world of the same setup, at whose start the snapshot was taken. Before the first tick.
-  void share(const Snapshot& start) { static_cast<void>(world_->restore(*start.state())); }
 
   /// Records from now on, the past first. Throws InputError.
   void record(const std::filesystem::path& path);
@@ -76,7 +73,7 @@ class LiveWorld {
   void remember_state(const Command& command);
 
   const std::uint64_t number_;
-  Scene scene_;
+  std::shared_ptr<const Scene> scene_;
   std::unique_ptr<World> world_;
   Schedule schedule_;
   std::shared_ptr<const Scene> recorded_;  ///< as_recorded()

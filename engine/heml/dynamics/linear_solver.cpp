@@ -26,7 +26,7 @@ LinearSolver::LinearSolver(const FreeNodes& free, const TetMesh& mesh, const std
                            const Vector& mass, Preconditioner preconditioner, Projection projection, ThreadTeam& team,
                            const std::vector<Tet>* pattern, InstructionSet instruction_set)
     : free_(free),
-      mesh_(mesh),
+      mesh_(&mesh),
       pattern_(pattern),
       mass_(mass),
       preconditioner_(preconditioner),
@@ -43,7 +43,7 @@ void LinearSolver::limit_iterations(int iterations) {
 void LinearSolver::set_inertia(double a) { a_ = a; }
 
 void LinearSolver::assemble(Objective& objective) {
-  if (!matrix_) matrix_ = std::make_unique<BlockMatrix>(free_, pattern_ ? *pattern_ : mesh_.tets);
+  if (!matrix_) matrix_ = std::make_unique<BlockMatrix>(free_, pattern_ ? *pattern_ : mesh_->tets);
   matrix_->set_zero();
   objective.add_stiffness(*matrix_);
   if (shift_ > 0)
@@ -54,7 +54,7 @@ LinearSolver::Definiteness LinearSolver::factor() {
   if (free_.node.empty()) return Definiteness::positive;
   if (!factor_) {
     std::vector<Vec3> position;
-    for (const int n : free_.node) position.push_back(mesh_.nodes[static_cast<std::size_t>(n)]);
+    for (const int n : free_.node) position.push_back(mesh_->nodes[static_cast<std::size_t>(n)]);
     factor_ = std::make_unique<SupernodalLdlt>(*matrix_, position, instruction_set_, team_);
   }
   ++counts_.factorisations;
@@ -110,7 +110,8 @@ std::size_t LinearSolver::max_direct_unknowns() const {
   return preconditioner_ == Preconditioner::multilevel ? max_direct_unknowns_once : free_.node.size();
 }
 
-bool LinearSolver::keep_elements(const std::vector<int>& elements) {
+bool LinearSolver::keep_elements(const TetMesh& mesh, const std::vector<int>& elements) {
+  mesh_ = &mesh;
   if (!scalar_) return false;
   modulus_ = with_elements(modulus_, elements);
   if (single_precision_cg_) {
@@ -127,7 +128,7 @@ bool LinearSolver::keep_elements(const std::vector<int>& elements) {
 
 std::shared_ptr<PreconditionerBuild> LinearSolver::preconditioner_build() const {
   if (!outdated_) return nullptr;
-  return std::make_shared<PreconditionerBuild>(free_, mesh_, modulus_, mass_, max_direct_unknowns(), a_, team_);
+  return std::make_shared<PreconditionerBuild>(free_, *mesh_, modulus_, mass_, max_direct_unknowns(), a_, team_);
 }
 
 void LinearSolver::adopt(PreconditionerBuild& work) {
@@ -172,7 +173,7 @@ void LinearSolver::restore(const Snapshot& snapshot) {
 bool LinearSolver::factorise_scalar() {
   if (!scalar_ || (outdated_ && static_cast<double>(modulus_.size()) <
                                     min_element_fraction * static_cast<double>(built_for_elements_))) {
-    scalar_ = std::make_unique<SmoothedAggregation>(free_, mesh_, modulus_, mass_, max_direct_unknowns(), team_);
+    scalar_ = std::make_unique<SmoothedAggregation>(free_, *mesh_, modulus_, mass_, max_direct_unknowns(), team_);
     built_for_elements_ = modulus_.size();
     outdated_ = false;
     factored_a_ = -1;
@@ -233,7 +234,7 @@ bool LinearSolver::solve(Objective& objective, const Vector& r, double tolerance
 /// Whether the solve can run in float; if so, assembles the stiffness in float.
 bool LinearSolver::supports_single_precision(Objective& objective, double tolerance) {
   if (!scalar_ || pattern_ || tolerance < min_float_tolerance) return false;
-  if (!single_precision_cg_) single_precision_cg_ = std::make_unique<SinglePrecisionCG>(free_, mesh_, team_);
+  if (!single_precision_cg_) single_precision_cg_ = std::make_unique<SinglePrecisionCG>(free_, *mesh_, team_);
   return single_precision_cg_->assemble(objective, shift_);
 }
 

@@ -29,11 +29,12 @@ class LinearSolver {
                Preconditioner preconditioner, Projection projection, ThreadTeam& team,
                const std::vector<Tet>* pattern = nullptr, InstructionSet instruction_set = InstructionSet::best);
 
-  /// To be called when the mesh has lost elements and the masses are updated. elements: those left, by their old
-  /// numbers (ascending). Nodes that lost all elements have mass 0 and stay in `free`. The preconditioner is kept, at
-  /// the cost of few more iterations, until a third of its elements is gone; then it is rebuilt. Returns false if there
-  /// is no scalar preconditioner to keep: the caller then makes another solver.
-  bool keep_elements(const std::vector<int>& elements);
+  /// To be called when the body has lost elements and the masses are updated. mesh: as it is now, which
+  /// may be elsewhere. elements: those left, by their old numbers (ascending). Nodes that lost all elements have mass 0
+  /// and stay in `free`. The preconditioner is kept, at the cost of few more iterations, until a third of its elements
+  /// is gone; then it is rebuilt. Returns false if there is no scalar preconditioner to keep: the caller then makes
+  /// another solver.
+  bool keep_elements(const TetMesh& mesh, const std::vector<int>& elements);
   /// Whether the preconditioner was built for a body with more elements.
   bool is_outdated() const { return outdated_; }
   /// If the preconditioner is outdated, returns a job that rebuilds it for the present body on any thread; pass the
@@ -100,7 +101,7 @@ class LinearSolver {
   bool biconjugate_gradients(Objective& objective, const Vector& r, double enough, Vector& d);
 
   const FreeNodes& free_;
-  const TetMesh& mesh_;
+  const TetMesh* mesh_;
   const std::vector<Tet>* pattern_;  ///< null: the elements of the mesh
   const Vector& mass_;
   Preconditioner preconditioner_;

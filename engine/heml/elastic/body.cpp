@@ -20,7 +20,7 @@ std::vector<int> repeated(const std::vector<int>& of_elements) {
 template <class Real>
 ElasticBody<Real>::ElasticBody(const TetMesh& mesh, const std::vector<int>& material_of,
                                const std::vector<Material>& materials, BodyOptions options, const MidEdges& midedges)
-    : materials_(materials), options_(options), springs_(mesh, std::vector<double>(mesh.tets.size(), 0.0)) {
+    : materials_(materials), options_(options) {
   set_elements(mesh, material_of, midedges);
   make_parts();
   make_fans();
@@ -28,9 +28,15 @@ ElasticBody<Real>::ElasticBody(const TetMesh& mesh, const std::vector<int>& mate
 }
 
 template <class Real>
+ElasticBody<Real>::ElasticBody(const BodySnapshot<Real>& snapshot, BodyOptions options, const Real* x)
+    : materials_(snapshot.materials), options_(options) {
+  restore(snapshot, x);
+}
+
+template <class Real>
 std::vector<Real> ElasticBody<Real>::at_rest() const {
   std::vector<Real> x;
-  for (const Vec3& X : mesh_.nodes)
+  for (const Vec3& X : layout_->mesh.nodes)
     for (const double value : X) x.push_back(static_cast<Real>(value));
   return x;
 }
@@ -38,9 +44,11 @@ std::vector<Real> ElasticBody<Real>::at_rest() const {
 template <class Real>
 void ElasticBody<Real>::set_elements(const TetMesh& mesh, const std::vector<int>& material_of,
                                      const MidEdges& midedges) {
-  mesh_ = midedges.empty() ? mesh : virtual_tets(mesh, midedges);
-  material_of_ = midedges.empty() ? material_of : repeated(material_of);
-  corners_of_points_ = midedges.empty() ? nullptr : std::make_unique<VirtualCorners<Real>>(mesh, midedges);
+  BodyLayout<Real> layout;
+  layout.mesh = midedges.empty() ? mesh : virtual_tets(mesh, midedges);
+  layout.material_of = midedges.empty() ? material_of : repeated(material_of);
+  if (!midedges.empty()) layout.virtual_corners.emplace(mesh, midedges);
+  layout_ = std::move(layout);
 }
 
 template <class Real>
@@ -48,8 +56,8 @@ void ElasticBody<Real>::make_parts() {
   parts_.clear();
   for (std::size_t m = 0; m < materials_.size(); ++m) {
     std::vector<int> elements;
-    for (std::size_t t = 0; t < material_of_.size(); ++t)
-      if (material_of_[t] == static_cast<int>(m)) elements.push_back(static_cast<int>(t));
+    for (std::size_t t = 0; t < layout_->material_of.size(); ++t)
+      if (layout_->material_of[t] == static_cast<int>(m)) elements.push_back(static_cast<int>(t));
     if (!elements.empty()) parts_.push_back(make_part(m, elements));
   }
   join_parts();
@@ -60,9 +68,16 @@ void ElasticBody<Real>::make_parts() {
 template <class Real>
 typename ElasticBody<Real>::Part ElasticBody<Real>::make_part(std::size_t index,
                                                               const std::vector<int>& elements) const {
+  return make_part(index, make_group<Real>(layout_->mesh, elements, materials_[index]));
+}
+
+template <class Real>
+typename ElasticBody<Real>::Part ElasticBody<Real>::make_part(std::size_t index,
+                                                              Shared<ElementGroup<Real>> at_rest) const {
   const Material& material = materials_[index];
-  Part part{index, make_group<Real>(mesh_, elements, material), {}, nullptr, nullptr, {}, false};
-  const bool by_element = options_.nodal_pressure && corners_of_points_;
+  if (material.plasticity) at_rest = ElementGroup<Real>(*at_rest);  // flow changes it
+  Part part{index, std::move(at_rest), {}, nullptr, nullptr, {}, false};
+  const bool by_element = options_.nodal_pressure && layout_->virtual_corners;
   Material of_points = material;
   if (by_element) {
     std::vector<Real> kappa = split_volume_modulus(of_points, part.group);
@@ -71,42 +86,79 @@ typename ElasticBody<Real>::Part ElasticBody<Real>::make_part(std::size_t index,
           std::make_unique<MeanDilatation<Real>>(std::move(kappa), material.volume_term, options_.continuation);
   }
   part.terms = make_terms<Real>(of_points, options_.continuation, options_.nodal_pressure && !by_element);
-  part.group.density = static_cast<Real>(material.density);
-  if (corners_of_points_) part.group.density /= static_cast<Real>(frequency_ratio);  // for bounds of frequencies alone
+  auto density = static_cast<Real>(material.density);
+  if (layout_->virtual_corners) density /= static_cast<Real>(frequency_ratio);  // for bounds of frequencies alone
+  if (part.group->density != density) part.group.write().density = density;
   for (const auto& term : part.terms) term->begin_step(step_);
-  part.flow = make_flow<Real>(material, options_.continuation, part.group);
-  part.in_fans =
-      !part.terms.empty() && material.fields.empty() && !part.flow && !corners_of_points_ && has_fan_kernel(material);
+  part.flow = make_flow<Real>(material, options_.continuation, *part.group);
+  part.in_fans = !part.terms.empty() && material.fields.empty() && !part.flow && !layout_->virtual_corners &&
+                 has_fan_kernel(material);
   if (part.in_fans)
     for (const auto& term : part.terms)
       if (auto* memory = dynamic_cast<ViscoelasticTerm<Real>*>(term.get())) memory->leave_state_to_fans();
   return part;
 }
 
+/// The part of a group that was made for another material, which may be the group of this one too.
+template <class Real>
+typename ElasticBody<Real>::Part ElasticBody<Real>::remake_part(std::size_t index, const Material& before,
+                                                                Shared<ElementGroup<Real>> at_rest) const {
+  const Material& now = materials_[index];
+  const bool splits_fields = options_.nodal_pressure && layout_->virtual_corners;  // split_volume_modulus()
+  const bool same = find_law(before.law)->has_fibre == find_law(now.law)->has_fibre && before.fibre == now.fibre &&
+                    before.fibre_field == now.fibre_field && before.fields == now.fields &&
+                    !(splits_fields && !now.fields.empty());
+  return same ? make_part(index, std::move(at_rest)) : make_part(index, at_rest->element);
+}
+
+/// Numbers the corners of all parts consecutively; returns how many there are, padding included.
+template <class Real>
+std::size_t ElasticBody<Real>::number_corners() {
+  std::size_t next = 0;
+  for (Part& part : parts_) {
+    if (part.group->first_corner != next) part.group.write().first_corner = next;
+    next += 4 * part.group->volume.size();
+  }
+  corner_ = {};
+  return next;
+}
+
 /// Rebuilds what depends on all parts together, except the fans.
 template <class Real>
 void ElasticBody<Real>::join_parts() {
-  std::vector<ElementGroup<Real>*> groups;
-  for (Part& part : parts_) groups.push_back(&part.group);
-  corners_ = map_corners(groups, mesh_.nodes.size());
-  corner_.assign(3 * corner_count(groups), Real(0));
-  if (corners_of_points_) return corners_of_points_->follow(groups);
-  force_corners_ = {std::vector<std::size_t>(nodes() + 1, 0), {}};
+  typename BodyLayout<Real>::Joints joints;
+  joints.corner_count = number_corners();
+  std::vector<const ElementGroup<Real>*> groups;
+  for (const Part& part : parts_) groups.push_back(&*part.group);
+  joints.corners = map_corners(groups, layout_->mesh.nodes.size());
+  if (layout_->virtual_corners) {
+    layout_.write().virtual_corners->follow(groups);
+  } else {
+    joints.force_corners = force_corners(joints.corners);
+    joints.springs = Springs<Real>(layout_->mesh, spring_stiffness());
+  }
+  if (!(joints == layout_->joints)) layout_.write().joints = std::move(joints);
+  make_pressure();
+}
+
+template <class Real>
+CornerMap ElasticBody<Real>::force_corners(const CornerMap& all) const {
+  CornerMap result{std::vector<std::size_t>(nodes() + 1, 0), {}};
   const bool loops_for_pressure = options_.nodal_pressure && !pressure_in_fans();
   const auto has_loops = [&](const Part& part) { return part.has_loops(loops_for_pressure); };
   const auto is_in_loops = [&](std::size_t corner) {
     return std::any_of(parts_.begin(), parts_.end(), [&](const Part& part) {
-      const std::size_t first = part.group.first_corner;
-      return has_loops(part) && corner >= first && corner < first + 4 * part.group.volume.size();
+      const std::size_t first = part.group->first_corner;
+      return has_loops(part) && corner >= first && corner < first + 4 * part.group->volume.size();
     });
   };
-  const bool any_loops = std::any_of(parts_.begin(), parts_.end(), has_loops);
-  for (std::size_t n = 0; n < nodes() && any_loops; ++n) {
-    for (std::size_t k = corners_.start[n]; k < corners_.start[n + 1]; ++k)
-      if (is_in_loops(corners_.corners[k])) force_corners_.corners.push_back(corners_.corners[k]);
-    force_corners_.start[n + 1] = force_corners_.corners.size();
+  if (std::none_of(parts_.begin(), parts_.end(), has_loops)) return result;
+  for (std::size_t n = 0; n < nodes(); ++n) {
+    for (std::size_t k = all.start[n]; k < all.start[n + 1]; ++k)
+      if (is_in_loops(all.corners[k])) result.corners.push_back(all.corners[k]);
+    result.start[n + 1] = result.corners.size();
   }
-  make_shared();
+  return result;
 }
 
 /// Whether the fans have all elements, so that they evaluate averaged nodal pressure too.
@@ -122,7 +174,7 @@ std::vector<FanPart> ElasticBody<Real>::fan_parts() const {
   for (const Part& part : parts_) {
     const Material& material = materials_[part.material];
     const bool isochoric = options_.nodal_pressure || material.volume_term != VolumeTerm::quadratic;
-    if (part.in_fans) parts.push_back({&part.group.element, &material, isochoric, true, options_.nodal_pressure});
+    if (part.in_fans) parts.push_back({&part.group->element, &material, isochoric, true, options_.nodal_pressure});
   }
   return parts;
 }
@@ -133,7 +185,7 @@ void ElasticBody<Real>::make_fans() {
   const std::vector<FanPart> parts = fan_parts();
   if (parts.empty()) return;
   ThreadTeam team = layout_team();
-  fans_ = FanForces<Real>(mesh_, parts, options_.continuation, options_.instruction_set, team);
+  fans_ = FanForces<Real>(layout_->mesh, parts, options_.continuation, options_.instruction_set, team);
   fans_.begin_step(step_);
 }
 
@@ -142,82 +194,84 @@ template <class Real>
 void ElasticBody<Real>::update_fans(const TetMesh& before, const std::vector<int>& origins) {
   const std::vector<FanPart> parts = fan_parts();
   ThreadTeam team = layout_team();
-  if (parts.empty() || !fans_.update_layout(before, mesh_, parts, origins, team)) make_fans();
+  if (parts.empty() || !fans_.update_layout(before, layout_->mesh, parts, origins, team)) make_fans();
 }
 
-/// Rebuilds springs and averaged nodal pressure, which belong to no single element.
+/// Of each element, N/m; 0 where it has no springs.
 template <class Real>
-void ElasticBody<Real>::make_shared() {
-  std::vector<double> stiffness(mesh_.tets.size(), 0.0);
+std::vector<double> ElasticBody<Real>::spring_stiffness() const {
+  std::vector<double> stiffness(layout_->mesh.tets.size(), 0.0);
   for (std::size_t t = 0; t < stiffness.size(); ++t) {
-    const Material& material = materials_[static_cast<std::size_t>(material_of_[t])];
+    const Material& material = materials_[static_cast<std::size_t>(layout_->material_of[t])];
     if (!find_law(material.law)->is_continuum) stiffness[t] = material.parameters[0];
   }
   for (const Part& part : parts_)  // stiffness from a field
-    if (!find_law(materials_[part.material].law)->is_continuum && !part.group.parameters.empty())
-      for (std::size_t s = 0; s < part.group.size(); ++s)
-        stiffness[static_cast<std::size_t>(part.group.element[s])] = static_cast<double>(part.group.parameters[0][s]);
-  springs_ = Springs<Real>(mesh_, stiffness);
+    if (!find_law(materials_[part.material].law)->is_continuum && !part.group->parameters.empty())
+      for (std::size_t s = 0; s < part.group->size(); ++s)
+        stiffness[static_cast<std::size_t>(part.group->element[s])] = static_cast<double>(part.group->parameters[0][s]);
+  return stiffness;
+}
+
+/// After all else of the parts, to which it refers: plastic flow writes to groups of which there is no other user.
+template <class Real>
+void ElasticBody<Real>::make_pressure() {
   pressure_.reset();
-  if (!options_.nodal_pressure) return;
+  if (!options_.nodal_pressure || layout_->virtual_corners) return;
   std::vector<const ElementGroup<Real>*> groups;
   std::vector<std::vector<Real>> kappa;
   for (const Part& part : parts_) {
-    groups.push_back(&part.group);
-    kappa.push_back(volume_moduli(part.group, materials_[part.material]));
+    groups.push_back(&*part.group);
+    kappa.push_back(volume_moduli(*part.group, materials_[part.material]));
   }
   const VolumeTerm term = materials_[parts_.front().material].volume_term;
-  pressure_ = std::make_unique<NodalPressure<Real>>(std::move(groups), corners_, kappa, term, options_.continuation);
+  pressure_ = std::make_unique<NodalPressure<Real>>(std::move(groups), layout_->joints.corners, kappa, term,
+                                                    options_.continuation);
 }
 
 template <class Real>
 std::size_t ElasticBody<Real>::bytes() const {
-  std::size_t sum = bytes_of(mesh_.nodes, mesh_.tets, mesh_.regions, material_of_);
-  for (const ElementField& field : mesh_.fields) sum += bytes_of(field.values);
-  sum += bytes_of(corners_.start, corners_.corners, force_corners_.start, force_corners_.corners, corner_,
-                  linearisation_point_, packet_energy_, node_volume_);
+  std::size_t sum = layout_->bytes() + bytes_of(corner_, of_element_, virtual_x_);
+  sum += bytes_of(linearisation_point_, packet_energy_, node_volume_);
   for (const Part& part : parts_) {
-    const ElementGroup<Real>& group = part.group;
-    sum += bytes_of(group.element, group.node, group.A, group.volume, group.gamma, group.fibre, group.parameters);
+    sum += part.group->bytes();
     sum += bytes_of(part.stiffness) + (part.flow ? part.flow->bytes() : 0);
     if (part.dilatation) sum += part.dilatation->bytes();
     for (const auto& term : part.terms)
       for (const SlotState<Real>& state : term->slot_states()) sum += bytes_of(*state.values);
   }
-  if (corners_of_points_) sum += corners_of_points_->bytes() + bytes_of(virtual_x_);
-  return sum + fans_.bytes() + springs_.bytes() + (pressure_ ? pressure_->bytes() : 0);
+  return sum + fans_.bytes() + (pressure_ ? pressure_->bytes() : 0);
 }
 
-/// Of the integration points, in the order of mesh_, kg.
+/// Of the integration points, in the order of layout_->mesh, kg.
 template <class Real>
 std::vector<double> ElasticBody<Real>::point_masses() const {
-  std::vector<double> mass(mesh_.tets.size(), 0.0);
+  std::vector<double> mass(layout_->mesh.tets.size(), 0.0);
   for (const Part& part : parts_)
-    for (std::size_t s = 0; s < part.group.size(); ++s)
-      mass[static_cast<std::size_t>(part.group.element[s])] =
-          materials_[part.material].density * static_cast<double>(part.group.volume[s]);
+    for (std::size_t s = 0; s < part.group->size(); ++s)
+      mass[static_cast<std::size_t>(part.group->element[s])] =
+          materials_[part.material].density * static_cast<double>(part.group->volume[s]);
   return mass;
 }
 
 template <class Real>
 std::vector<Real> ElasticBody<Real>::consistent_masses() const {
-  return corners_of_points_ ? corners_of_points_->consistent(point_masses()) : masses();
+  return layout_->virtual_corners ? layout_->virtual_corners->consistent(point_masses()) : masses();
 }
 
 template <class Real>
 std::vector<Real> ElasticBody<Real>::masses() const {
-  if (corners_of_points_) {
+  if (layout_->virtual_corners) {
     const std::vector<double> of_points = point_masses();
     std::vector<double> of_elements(elements(), 0.0);
     for (std::size_t k = 0; k < of_points.size(); ++k) of_elements[k / element_points] += of_points[k];
-    return corners_of_points_->lumped(of_elements);
+    return layout_->virtual_corners->lumped(of_elements);
   }
   std::vector<double> mass(nodes(), 0.0);
   for (const Part& part : parts_)
-    for (std::size_t s = 0; s < part.group.size(); ++s)
-      for (const auto& list : part.group.node)
+    for (std::size_t s = 0; s < part.group->size(); ++s)
+      for (const auto& list : part.group->node)
         mass[static_cast<std::size_t>(list[s])] +=
-            static_cast<double>(part.group.density) * static_cast<double>(part.group.volume[s]) / 4;
+            static_cast<double>(part.group->density) * static_cast<double>(part.group->volume[s]) / 4;
   return {mass.begin(), mass.end()};
 }
 

@@ -9,7 +9,9 @@
 //
 // With mid-edge nodes the elements inside are the integration points of quadratic tetrahedra on virtual corners
 // (virtual_corners.hpp), four of each; all that goes in or out is of the ten-node elements.
+#include <heml/base/shared.hpp>
 #include <heml/base/thread_team.hpp>
+#include <heml/elastic/body_layout.hpp>
 #include <heml/elastic/element_group.hpp>
 #include <heml/elastic/fan_forces.hpp>
 #include <heml/elastic/group_term.hpp>
@@ -17,8 +19,6 @@
 #include <heml/elastic/nodal_pressure.hpp>
 #include <heml/elastic/plastic_flow.hpp>
 #include <heml/elastic/projection.hpp>
-#include <heml/elastic/springs.hpp>
-#include <heml/elastic/virtual_corners.hpp>
 #include <heml/mesh/edit.hpp>
 #include <heml/mesh/tet_mesh.hpp>
 #include <memory>
@@ -59,15 +59,15 @@ struct KernelInfo {
   double bytes_per_tet;  ///< read and written in one force evaluation, each array counted once; 0 for springs
 };
 
-/// Snapshot of a body without its mesh, for ElasticBody::restore(): materials, order of the elements in their groups,
-/// internal state and fan layout.
+/// Snapshot of a body: materials and internal state, and what steps do not change, which it shares with the body.
 template <class Real>
 struct BodySnapshot {
   struct Part {
     std::size_t material;
-    std::vector<int> element;               ///< inner number of each slot's element
+    Shared<ElementGroup<Real>> group;       ///< at rest: before any plastic flow
     std::vector<std::vector<Real>> values;  ///< internal state of the slots
   };
+  Shared<BodyLayout<Real>> layout;
   std::vector<Part> parts;
   std::vector<Material> materials;
   FanForces<Real> fans;
@@ -92,6 +92,8 @@ class ElasticBody {
   /// elements, which take no springs; they are edited by transfer_state() alone (asserted).
   ElasticBody(const TetMesh& mesh, const std::vector<int>& material_of, const std::vector<Material>& materials,
               BodyOptions options, const MidEdges& midedges = {});
+  /// As the body of a snapshot was, which had the same options. x: positions then, 3 #V, m.
+  ElasticBody(const BodySnapshot<Real>& snapshot, BodyOptions options, const Real* x);
   ElasticBody(const ElasticBody&) = delete;
   ElasticBody& operator=(const ElasticBody&) = delete;
 
@@ -120,19 +122,19 @@ class ElasticBody {
   template <class Visit>
   void each_stiffness(const Visit& visit) {
     if constexpr (std::is_invocable_v<const Visit&, const std::array<int, 10>&, const QuadraticMatrix<Real>&>)
-      if (corners_of_points_) return each_quadratic_stiffness(visit);
+      if (layout_->virtual_corners) return each_quadratic_stiffness(visit);
     for (std::size_t p = 0; p < parts_.size(); ++p)
-      for (std::size_t s = 0; s < parts_[p].group.size(); ++s) {
+      for (std::size_t s = 0; s < parts_[p].group->size(); ++s) {
         ElementMatrix<Real> K = {};
         element_stiffness(p, s, K);
-        const auto& node = parts_[p].group.node;
+        const auto& node = parts_[p].group->node;
         visit(std::array<int, 4>{node[0][s], node[1][s], node[2][s], node[3][s]}, K);
       }
   }
   /// Calls visit(node a, node b, 3×3 block B) for every spring: its part of K is [B −B; −B B].
   template <class Visit>
   void each_spring_stiffness(const Visit& visit) const {
-    springs_.each_stiffness(linearisation_point_.data(), projected_, visit);
+    layout_->joints.springs.each_stiffness(linearisation_point_.data(), projected_, visit);
   }
 
   /// Stored elastic energy, J: V W of every element, springs and nodal pressure; viscosity and relaxation store none.
@@ -168,8 +170,8 @@ class ElasticBody {
   std::vector<Mat3> stresses(const Real* x, ThreadTeam& team);
   /// Deformation gradients of every integration point, as states().
   std::vector<Mat3> deformation_gradients(const Real* x) const;
-  std::size_t points_per_element() const { return corners_of_points_ ? element_points : 1; }
-  bool has_springs() const { return !springs_.empty(); }
+  std::size_t points_per_element() const { return layout_->virtual_corners ? element_points : 1; }
+  bool has_springs() const { return !layout_->joints.springs.empty(); }
 
   /// Replaces a material. Its elements lose their internal state and are taken as relaxed at x; those of other
   /// materials keep theirs. plastic_work() keeps the work done so far in all of them.
@@ -187,13 +189,11 @@ class ElasticBody {
                       const MidEdges& midedges = {}, const Real* x = nullptr);
   /// Snapshot for restore(), which reproduces the present state to the bit.
   BodySnapshot<Real> snapshot();
-  /// Restores a mesh and the snapshot of that time. Elements whose material has changed since lose their internal state
-  /// and are taken as relaxed at x.
-  void restore(const TetMesh& mesh, const std::vector<int>& material_of, const BodySnapshot<Real>& snapshot,
-               const Real* x, const MidEdges& midedges = {});
+  /// Restores the elements and the state of a snapshot. Elements whose material has changed since lose their internal
+  /// state and are taken as relaxed at x.
+  void restore(const BodySnapshot<Real>& snapshot, const Real* x);
   /// Restores the materials of the snapshot too: nothing is lost.
-  void restore_all(const TetMesh& mesh, const std::vector<int>& material_of, const BodySnapshot<Real>& snapshot,
-                   const Real* x, const MidEdges& midedges = {});
+  void restore_all(const BodySnapshot<Real>& snapshot, const Real* x);
   /// Replaces the mesh; the body is then as after construction.
   void set_mesh(const TetMesh& mesh, const std::vector<int>& material_of);
 
@@ -216,21 +216,22 @@ class ElasticBody {
   /// ones, masses().
   std::vector<Real> consistent_masses() const;
 
-  std::size_t nodes() const { return corners_of_points_ ? corners_of_points_->nodes() : corners_.start.size() - 1; }
+  std::size_t nodes() const { return layout_->nodes(); }
   const std::vector<Material>& materials() const { return materials_; }
   const BodyOptions& options() const { return options_; }
-  std::size_t elements() const { return mesh_.tets.size() / points_per_element(); }
+  std::size_t elements() const { return layout_->mesh.tets.size() / points_per_element(); }
 
  private:
   struct Part {
     std::size_t material;
-    ElementGroup<Real> group;
+    Shared<ElementGroup<Real>> group;  ///< a body's own if plastic flow changes its rest shapes
     std::vector<std::unique_ptr<GroupTerm<Real>>> terms;
     std::unique_ptr<PlasticFlow<Real>> flow;
     std::unique_ptr<MeanDilatation<Real>> dilatation;  ///< null: the points have all of the volume term
     std::vector<Real> stiffness;                       ///< of every element (edge_stiffness.hpp), filled by linearise()
     bool in_fans;                                      ///< fans_ evaluates the forces of all terms
 
+    Shared<ElementGroup<Real>> group_at_rest() const { return flow ? flow->at_rest(*group) : group; }
     std::size_t first_loop() const { return in_fans ? terms.size() : 0; }  ///< first term that forces() loops over
     SlotStates<Real> slot_states();                                        ///< of all terms and the flow
     void reset_history(const Real* x);                                     ///< of all terms and the flow
@@ -243,15 +244,20 @@ class ElasticBody {
   void set_elements(const TetMesh& mesh, const std::vector<int>& material_of, const MidEdges& midedges);
   void make_parts();
   Part make_part(std::size_t material, const std::vector<int>& elements) const;
+  Part make_part(std::size_t material, Shared<ElementGroup<Real>> at_rest) const;
+  Part remake_part(std::size_t material, const Material& before, Shared<ElementGroup<Real>> at_rest) const;
   void join_parts();
   std::vector<FanPart> fan_parts() const;
   std::vector<FanSlots<Real>> fan_slots() const;
   bool pressure_in_fans() const;
   void update_slots() const;
-  ThreadTeam layout_team() const { return ThreadTeam(mesh_.tets.size() < large_body_ ? 1 : options_.threads); }
+  ThreadTeam layout_team() const { return ThreadTeam(layout_->mesh.tets.size() < large_body_ ? 1 : options_.threads); }
   void make_fans();
   void update_fans(const TetMesh& before, const std::vector<int>& origins);
-  void make_shared();
+  std::size_t number_corners();
+  CornerMap force_corners(const CornerMap& all) const;
+  std::vector<double> spring_stiffness() const;
+  void make_pressure();
   void keep_numbered(Part& part, const std::vector<int>& number);
   /// Of quadratic elements in an edit: which points are of pieces (4 #T), and all virtual corners before and after.
   struct PointsInEdit {
@@ -262,6 +268,11 @@ class ElasticBody {
                                  const std::vector<int>& element_origins, std::vector<bool>& is_of_piece) const;
   void transfer_slot_states(const Part& old, const TetMesh& before, const std::vector<int>& origins,
                             const PointsInEdit& points, Part& part) const;
+  /// 3 a corner, N: scratch, made on first use, since fans alone do without it.
+  std::vector<Real>& corner_forces() {
+    corner_.resize(3 * layout_->joints.corner_count);
+    return corner_;
+  }
   void gather_corners(const CornerMap& corners, Real* f, bool add, ThreadTeam& team) const;
   double sum_energies(const Real* x, bool stored, ThreadTeam& team);
   void element_stiffness(std::size_t part, std::size_t s, ElementMatrix<Real>& K) const;
@@ -269,21 +280,23 @@ class ElasticBody {
   template <class Visit>
   void each_quadratic_stiffness(const Visit& visit) const {
     for (std::size_t p = 0; p < parts_.size(); ++p)
-      for (std::size_t s = 0; s < parts_[p].group.size(); s += element_points) {
+      for (std::size_t s = 0; s < parts_[p].group->size(); s += element_points) {
         QuadraticMatrix<Real> K = {};
         quadratic_stiffness(p, s, K);
-        visit(corners_of_points_->nodes_of(static_cast<std::size_t>(parts_[p].group.element[s]) / element_points), K);
+        visit(
+            layout_->virtual_corners->nodes_of(static_cast<std::size_t>(parts_[p].group->element[s]) / element_points),
+            K);
       }
   }
   /// Positions of the nodes of the elements inside: of virtual corners, valid until the next call, or x itself.
   const Real* inner_positions(const Real* x, ThreadTeam& team) {
-    if (!corners_of_points_) return x;
-    corners_of_points_->positions(x, virtual_x_, team);
+    if (!layout_->virtual_corners) return x;
+    layout_->virtual_corners->positions(x, virtual_x_, team);
     return virtual_x_.data();
   }
   const Real* inner_positions(const Real* x, std::vector<Real>& y) const {
-    if (!corners_of_points_) return x;
-    y = corners_of_points_->positions(x);
+    if (!layout_->virtual_corners) return x;
+    y = layout_->virtual_corners->positions(x);
     return y.data();
   }
   /// Calls work(part, begin, end) for packets of the parts with mean dilatation.
@@ -291,7 +304,7 @@ class ElasticBody {
   void each_dilatation(ThreadTeam& team, const Work& work) {
     for (Part& part : parts_)
       if (part.dilatation)
-        team.parallel_for(part.group.packets(), grain_ / 4 / part.group.lanes,
+        team.parallel_for(part.group->packets(), grain_ / 4 / part.group->lanes,
                           [&](std::size_t begin, std::size_t end) { work(part, begin, end); });
   }
   std::vector<double> point_masses() const;
@@ -305,29 +318,25 @@ class ElasticBody {
     std::vector<Real> y;
     x = inner_positions(x, y);
     for (const Part& part : parts_)
-      for (std::size_t s = 0; s < part.group.size(); ++s) {
-        const auto rest = rest_shape(part.group, s);
-        visit(part, s, full_kinematics(part.group, x, s, rest), rest);
+      for (std::size_t s = 0; s < part.group->size(); ++s) {
+        const auto rest = rest_shape(*part.group, s);
+        visit(part, s, full_kinematics(*part.group, x, s, rest), rest);
       }
   }
 
-  TetMesh mesh_;  ///< inner order; of quadratic elements the integration points (mesh/quadratic.hpp)
-  std::vector<int> material_of_;
+  Shared<BodyLayout<Real>> layout_;
   std::vector<Material> materials_;
   BodyOptions options_;
   std::vector<Part> parts_;
   FanForces<Real> fans_;
-  CornerMap corners_;        ///< of all parts
-  CornerMap force_corners_;  ///< of the parts whose forces are evaluated by loops
-  Springs<Real> springs_;
   std::unique_ptr<NodalPressure<Real>> pressure_;
-  std::unique_ptr<VirtualCorners<Real>> corners_of_points_;  ///< null: linear elements
-  std::vector<Real> virtual_x_;                              ///< scratch of inner_positions()
-  std::vector<Real> corner_;                                 ///< 3 a corner, scratch
-  std::vector<Real> linearisation_point_;                    ///< 3 a node of mesh_
-  bool projected_ = false;                                   ///< whether project() was applied
-  std::vector<double> packet_energy_;                        ///< scratch of energy()
-  std::vector<Real> node_volume_;                            ///< m³, scratch of forces()
+  std::vector<Real> virtual_x_;            ///< scratch of inner_positions()
+  std::vector<Real> corner_;               ///< corner_forces()
+  std::vector<Real> of_element_;           ///< scratch of VirtualCorners::gather()
+  std::vector<Real> linearisation_point_;  ///< 3 a node of the layout's mesh
+  bool projected_ = false;                 ///< whether project() was applied
+  std::vector<double> packet_energy_;      ///< scratch of energy()
+  std::vector<Real> node_volume_;          ///< m³, scratch of forces()
   double plastic_work_ = 0;
   Real step_ = 0;  ///< s, of the last begin_step()
   /// Whether the state by slot of the parts in fans is older than that of fans_; update_slots() copies it.

@@ -62,7 +62,7 @@ void append(const ElementGroup<Real>& more, ElementGroup<Real>& group) {
 
 template <class Real>
 void ElasticBody<Real>::set_mesh(const TetMesh& mesh, const std::vector<int>& material_of) {
-  assert(!corners_of_points_);
+  assert(!layout_->virtual_corners);
   set_elements(mesh, material_of, {});
   make_parts();
   make_fans();
@@ -73,12 +73,12 @@ template <class Real>
 void ElasticBody<Real>::set_material(std::size_t index, const Material& material, const Real* x) {
   update_slots();
   fans_.forget_state();
-  materials_[index] = material;
+  const Material before = std::exchange(materials_[index], material);
   std::vector<Real> y;
   x = inner_positions(x, y);
   for (Part& part : parts_) {
     if (part.material != index) continue;
-    part = make_part(index, part.group.element);
+    part = remake_part(index, before, part.group_at_rest());
     part.reset_history(x);
   }
   join_parts();
@@ -89,19 +89,20 @@ void ElasticBody<Real>::set_material(std::size_t index, const Material& material
 template <class Real>
 void ElasticBody<Real>::keep_numbered(Part& part, const std::vector<int>& number) {
   std::vector<std::size_t> slots;
-  for (std::size_t s = 0; s < part.group.size(); ++s) {
-    int& element = part.group.element[s];
+  ElementGroup<Real>& group = part.group.write();
+  for (std::size_t s = 0; s < group.size(); ++s) {
+    int& element = group.element[s];
     element = number[static_cast<std::size_t>(element)];
     if (element >= 0) slots.push_back(s);
   }
-  if (slots.size() == part.group.size()) return;
+  if (slots.size() == group.size()) return;
   if (slots.empty()) {
-    part.group = {};
-    part.group.density = static_cast<Real>(materials_[part.material].density);
-    part.group.parameters.resize(materials_[part.material].fields.size());
+    group = {};
+    group.density = static_cast<Real>(materials_[part.material].density);
+    group.parameters.resize(materials_[part.material].fields.size());
     return;
   }
-  const std::vector<std::size_t> from = keep_slots(part.group, slots);
+  const std::vector<std::size_t> from = keep_slots(group, slots);
   for (const auto& term : part.terms)
     for (const SlotState<Real>& state : term->slot_states()) gather_slots(*state.values, from, state.each);
   if (part.flow) part.flow->gather_slots(from);
@@ -109,16 +110,19 @@ void ElasticBody<Real>::keep_numbered(Part& part, const std::vector<int>& number
 
 template <class Real>
 void ElasticBody<Real>::keep_elements(const std::vector<int>& elements) {
-  assert(!corners_of_points_);
+  assert(!layout_->virtual_corners);
   update_slots();
-  std::vector<int> number(mesh_.tets.size(), -1);
+  std::vector<int> number(layout_->mesh.tets.size(), -1);
   for (std::size_t k = 0; k < elements.size(); ++k) number[static_cast<std::size_t>(elements[k])] = static_cast<int>(k);
   for (Part& part : parts_) keep_numbered(part, number);
-  std::erase_if(parts_, [](const Part& part) { return part.group.size() == 0; });
-  const TetMesh before = std::exchange(mesh_, with_elements(mesh_, elements));
-  material_of_ = with_elements(material_of_, elements);
+  std::erase_if(parts_, [](const Part& part) { return part.group->size() == 0; });
+  const Shared<BodyLayout<Real>> before = layout_;
+  BodyLayout<Real> left;
+  left.mesh = with_elements(before->mesh, elements);
+  left.material_of = with_elements(before->material_of, elements);
+  layout_ = std::move(left);
   join_parts();
-  update_fans(before, elements);
+  update_fans(before->mesh, elements);
 }
 
 /// Parts with internal state, and those of quadratic elements, are rebuilt and inherit it from the old part; the others
@@ -127,24 +131,26 @@ template <class Real>
 void ElasticBody<Real>::transfer_state(const TetMesh& mesh, const std::vector<int>& material_of,
                                        const std::vector<int>& element_origins, const MidEdges& midedges,
                                        const Real* x) {
-  assert(midedges.empty() == !corners_of_points_);
+  assert(midedges.empty() == !layout_->virtual_corners);
   update_slots();
-  const TetMesh before = std::move(mesh_);
-  const auto whole = std::move(corners_of_points_);
+  const Shared<BodyLayout<Real>> old_layout = layout_;
+  const TetMesh& before = old_layout->mesh;
+  const auto& whole = old_layout->virtual_corners;
   std::vector<Part> old_parts = std::exchange(parts_, {});
   set_elements(mesh, material_of, midedges);
   PointsInEdit points;
   std::vector<int> origins = element_origins;
   if (whole) {
-    points = {{}, whole->positions(x), corners_of_points_->positions(x)};
+    points = {{}, whole->positions(x), layout_->virtual_corners->positions(x)};
     origins = point_origins(mesh, *whole, element_origins, points.is_of_piece);
   }
   std::vector<int> number(before.tets.size(), -1);
   std::vector<std::vector<int>> all(materials_.size()), pieces(materials_.size());
-  for (std::size_t t = 0; t < mesh_.tets.size(); ++t) {
-    const auto origin = static_cast<std::size_t>(origins[t]), material = static_cast<std::size_t>(material_of_[t]);
+  for (std::size_t t = 0; t < layout_->mesh.tets.size(); ++t) {
+    const auto origin = static_cast<std::size_t>(origins[t]),
+               material = static_cast<std::size_t>(layout_->material_of[t]);
     all[material].push_back(static_cast<int>(t));
-    if (mesh_.tets[t] == before.tets[origin])
+    if (layout_->mesh.tets[t] == before.tets[origin])
       number[origin] = static_cast<int>(t);
     else
       pieces[material].push_back(static_cast<int>(t));
@@ -152,14 +158,15 @@ void ElasticBody<Real>::transfer_state(const TetMesh& mesh, const std::vector<in
   for (Part& old : old_parts) {
     const std::size_t material = old.material;
     if (all[material].empty()) continue;
-    if (materials_[material].has_internal_state() || corners_of_points_) {
+    if (materials_[material].has_internal_state() || layout_->virtual_corners) {
       parts_.push_back(make_part(material, all[material]));
       transfer_slot_states(old, before, origins, points, parts_.back());
       continue;
     }
     keep_numbered(old, number);
-    if (!pieces[material].empty()) append(make_group<Real>(mesh_, pieces[material], materials_[material]), old.group);
-    if (old.group.size() > 0) parts_.push_back(std::move(old));
+    if (!pieces[material].empty())
+      append(make_group<Real>(layout_->mesh, pieces[material], materials_[material]), old.group.write());
+    if (old.group->size() > 0) parts_.push_back(std::move(old));
   }
   join_parts();
   update_fans(before, origins);
@@ -172,7 +179,7 @@ std::vector<int> ElasticBody<Real>::point_origins(const TetMesh& mesh, const Vir
                                                   std::vector<bool>& is_of_piece) const {
   std::vector<int> origins;
   for (std::size_t t = 0; t < element_origins.size(); ++t) {
-    const auto &nodes = corners_of_points_->nodes_of(t),
+    const auto &nodes = layout_->virtual_corners->nodes_of(t),
                &of_whole = whole.nodes_of(static_cast<std::size_t>(element_origins[t]));
     const bool is_piece = nodes != of_whole;
     std::array<std::size_t, element_points> from{0, 1, 2, 3};
@@ -188,17 +195,17 @@ template <class Real>
 void ElasticBody<Real>::transfer_slot_states(const Part& old, const TetMesh& before, const std::vector<int>& origins,
                                              const PointsInEdit& points, Part& part) const {
   std::vector<std::size_t> slot(before.tets.size());
-  for (std::size_t s = 0; s < old.group.size(); ++s) slot[static_cast<std::size_t>(old.group.element[s])] = s;
+  for (std::size_t s = 0; s < old.group->size(); ++s) slot[static_cast<std::size_t>(old.group->element[s])] = s;
   std::vector<std::size_t> from, of_pieces;
   std::vector<SubelementMap<Real>> subelement_maps;
-  for (std::size_t s = 0; s < part.group.volume.size(); ++s) {
-    const int element = part.group.element[std::min(s, part.group.size() - 1)];
+  for (std::size_t s = 0; s < part.group->volume.size(); ++s) {
+    const int element = part.group->element[std::min(s, part.group->size() - 1)];
     const int origin = origins[static_cast<std::size_t>(element)];
     from.push_back(slot[static_cast<std::size_t>(origin)]);
-    subelement_maps.emplace_back(places(before, origin), places(mesh_, element));
+    subelement_maps.emplace_back(places(before, origin), places(layout_->mesh, element));
     if (!points.is_of_piece.empty() && points.is_of_piece[static_cast<std::size_t>(element)]) of_pieces.push_back(s);
   }
-  if (part.flow) part.flow->transfer_state(*old.flow, old.group, from, subelement_maps, part.group);
+  if (part.flow) part.flow->transfer_state(*old.flow, *old.group, from, subelement_maps, part.group.write());
   for (std::size_t k = 0; k < part.terms.size(); ++k) {
     const SlotStates<Real> to = part.terms[k]->slot_states(), whole = old.terms[k]->slot_states();
     for (std::size_t list = 0; list < to.size(); ++list) {
@@ -207,10 +214,10 @@ void ElasticBody<Real>::transfer_slot_states(const Part& old, const TetMesh& bef
     }
     auto* memory = of_pieces.empty() ? nullptr : dynamic_cast<ViscoelasticTerm<Real>*>(part.terms[k].get());
     for (const std::size_t s : memory ? of_pieces : std::vector<std::size_t>())
-      memory->add_present(old.group, from[s], points.before.data(), Real(-1), memory->state_of(s));
+      memory->add_present(*old.group, from[s], points.before.data(), Real(-1), memory->state_of(s));
     part.terms[k]->reshape(subelement_maps);
     for (const std::size_t s : memory ? of_pieces : std::vector<std::size_t>())
-      memory->add_present(part.group, s, points.after.data(), Real(1), memory->state_of(s));
+      memory->add_present(*part.group, s, points.after.data(), Real(1), memory->state_of(s));
   }
 }
 

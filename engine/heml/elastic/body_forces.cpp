@@ -45,27 +45,30 @@ bool ElasticBody<Real>::forces(const Real* x, Real* f, ThreadTeam& team) {
   }
   if (fans_.needs_state()) fans_.read_state(fan_slots());
   if (!fans_.empty() && !fans_.forces(x, f, team, pressure)) valid = false;
+  const bool has_loops = layout_->virtual_corners || !layout_->joints.force_corners.corners.empty();
+  Real* corner = has_loops ? corner_forces().data() : nullptr;
   for (const Part& part : parts_) {
-    const std::size_t first = part.first_loop(), corners = part.group.first_corner;
+    const std::size_t first = part.first_loop(), corners = part.group->first_corner;
     for (std::size_t k = first; k < part.terms.size(); ++k)
-      team.parallel_for(part.group.packets(), grain_ / part.group.lanes, [&](std::size_t begin, std::size_t end) {
-        if (!part.terms[k]->forces(part.group, x, begin, end, corner_.data(), k > first))
+      team.parallel_for(part.group->packets(), grain_ / part.group->lanes, [&](std::size_t begin, std::size_t end) {
+        if (!part.terms[k]->forces(*part.group, x, begin, end, corner, k > first))
           valid.store(false, std::memory_order_relaxed);
       });
     if (loops_for_pressure && part.terms.size() == first)  // no term has written these corners
-      std::fill_n(corner_.data() + 3 * corners, 12 * part.group.volume.size(), Real(0));
+      std::fill_n(corner + 3 * corners, 12 * part.group->volume.size(), Real(0));
   }
-  if (corners_of_points_) {
+  if (layout_->virtual_corners) {
     each_dilatation(team, [&](const Part& part, std::size_t begin, std::size_t end) {
-      if (!part.dilatation->add_forces(part.group, x, begin, end, corner_.data()))
+      if (!part.dilatation->add_forces(*part.group, x, begin, end, corner))
         valid.store(false, std::memory_order_relaxed);
     });
-    corners_of_points_->gather(corner_, f, team);
+    layout_->virtual_corners->gather(corner_, of_element_, f, team);
     return valid;
   }
-  if (loops_for_pressure && !pressure_->add_forces(x, corner_.data(), team)) valid = false;
-  if (fans_.empty() || !force_corners_.corners.empty()) gather_corners(force_corners_, f, !fans_.empty(), team);
-  if (!springs_.empty()) springs_.add_forces(x, f, team);
+  if (loops_for_pressure && !pressure_->add_forces(x, corner, team)) valid = false;
+  if (fans_.empty() || !layout_->joints.force_corners.corners.empty())
+    gather_corners(layout_->joints.force_corners, f, !fans_.empty(), team);
+  if (!layout_->joints.springs.empty()) layout_->joints.springs.add_forces(x, f, team);
   return valid;
 }
 
@@ -79,7 +82,7 @@ std::vector<KernelInfo> ElasticBody<Real>::kernels() const {
   std::size_t part_in_fans = 0;
   for (const Part& part : parts_) {
     const Material& material = materials_[part.material];
-    KernelInfo info{part.material, material.law, "corners", "portable", part.group.size(), 0};
+    KernelInfo info{part.material, material.law, "corners", "portable", part.group->size(), 0};
     if (part.terms.empty()) {
       info.kernel = "springs";
     } else {

@@ -6,7 +6,7 @@
 namespace heml {
 template <class Real>
 SlotStates<Real> ElasticBody<Real>::Part::slot_states() {
-  SlotStates<Real> lists = flow ? flow->slot_states(group) : SlotStates<Real>();
+  SlotStates<Real> lists = flow ? flow->slot_states(group.write()) : SlotStates<Real>();
   for (const auto& term : terms)
     for (const SlotState<Real>& list : term->slot_states()) lists.push_back(list);
   return lists;
@@ -14,8 +14,8 @@ SlotStates<Real> ElasticBody<Real>::Part::slot_states() {
 
 template <class Real>
 void ElasticBody<Real>::Part::reset_history(const Real* x) {
-  if (flow) flow->reset(group);
-  for (const auto& term : terms) term->reset_history(group, x);
+  if (flow) flow->reset(group.write());
+  for (const auto& term : terms) term->reset_history(*group, x);
 }
 
 template <class Real>
@@ -38,7 +38,7 @@ std::vector<FanSlots<Real>> ElasticBody<Real>::fan_slots() const {
   std::vector<FanSlots<Real>> result;
   for (const Part& part : parts_) {
     if (!part.in_fans) continue;
-    FanSlots<Real>& slots = result.emplace_back(FanSlots<Real>{&part.group, nullptr, 0});
+    FanSlots<Real>& slots = result.emplace_back(FanSlots<Real>{&*part.group, nullptr, 0});
     for (const auto& term : part.terms)
       for (const SlotState<Real>& list : term->slot_states()) slots.values = list.values, slots.each = list.each;
   }
@@ -61,8 +61,8 @@ void ElasticBody<Real>::commit(const Real* x) {
   fans_.commit(x);
   for (Part& part : parts_) {
     if (part.in_fans) continue;
-    for (const auto& term : part.terms) term->commit(part.group, x);
-    if (part.flow) plastic_work_ += part.flow->flow(part.group, x);
+    for (const auto& term : part.terms) term->commit(*part.group, x);
+    if (part.flow) plastic_work_ += part.flow->flow(part.group.write(), x);
   }
 }
 
@@ -101,10 +101,10 @@ void ElasticBody<Real>::set_internal_state(const InternalState<Real>& state) {
 template <class Real>
 BodySnapshot<Real> ElasticBody<Real>::snapshot() {
   update_slots();
-  BodySnapshot<Real> snapshot{{}, materials_, fans_, plastic_work_, step_};
+  BodySnapshot<Real> snapshot{layout_, {}, materials_, fans_, plastic_work_, step_};
   snapshot.fans.drop_scratch();
   for (Part& part : parts_) {
-    snapshot.parts.push_back({part.material, part.group.element, {}});
+    snapshot.parts.push_back({part.material, part.group_at_rest(), {}});
     auto& of_part = snapshot.parts.back();
     for (const SlotState<Real>& list : part.slot_states()) of_part.values.push_back(*list.values);
   }
@@ -112,40 +112,42 @@ BodySnapshot<Real> ElasticBody<Real>::snapshot() {
 }
 
 template <class Real>
-void ElasticBody<Real>::restore(const TetMesh& mesh, const std::vector<int>& material_of,
-                                const BodySnapshot<Real>& snapshot, const Real* x, const MidEdges& midedges) {
-  set_elements(mesh, material_of, midedges);
+void ElasticBody<Real>::restore(const BodySnapshot<Real>& snapshot, const Real* x) {
+  layout_ = snapshot.layout;
   std::vector<Real> y;
   x = inner_positions(x, y);
   parts_.clear();
   slots_are_old_ = false;
   step_ = snapshot.step;
   for (const auto& of_part : snapshot.parts) {
-    Part& part = parts_.emplace_back(make_part(of_part.material, of_part.element));
+    const Material& before = snapshot.materials[of_part.material];
+    Part& part = parts_.emplace_back(remake_part(of_part.material, before, of_part.group));
     part.reset_history(x);
-    if (!(materials_[part.material] == snapshot.materials[part.material])) continue;
+    if (!(materials_[part.material] == before)) continue;
     const SlotStates<Real> lists = part.slot_states();
     for (std::size_t k = 0; k < lists.size(); ++k) *lists[k].values = of_part.values[k];
   }
-  join_parts();
   plastic_work_ = snapshot.plastic_work;
-  if (materials_ == snapshot.materials)
+  if (materials_ == snapshot.materials) {
+    number_corners();
+    make_pressure();
     fans_ = snapshot.fans;
-  else
+  } else {
+    join_parts();
     make_fans();
+  }
 }
 
 template <class Real>
-void ElasticBody<Real>::restore_all(const TetMesh& mesh, const std::vector<int>& material_of,
-                                    const BodySnapshot<Real>& snapshot, const Real* x, const MidEdges& midedges) {
+void ElasticBody<Real>::restore_all(const BodySnapshot<Real>& snapshot, const Real* x) {
   materials_ = snapshot.materials;
-  restore(mesh, material_of, snapshot, x, midedges);
+  restore(snapshot, x);
 }
 
 template <class Real>
 std::size_t BodySnapshot<Real>::bytes() const {
-  std::size_t sum = fans.bytes();
-  for (const Part& part : parts) sum += bytes_of(part.element, part.values);
+  std::size_t sum = fans.bytes() + layout->bytes();
+  for (const Part& part : parts) sum += part.group->bytes() + bytes_of(part.values);
   return sum;
 }
 
@@ -171,13 +173,9 @@ template void ElasticBody<float>::set_internal_state(const InternalState<float>&
 template void ElasticBody<double>::set_internal_state(const InternalState<double>&);
 template BodySnapshot<float> ElasticBody<float>::snapshot();
 template BodySnapshot<double> ElasticBody<double>::snapshot();
-template void ElasticBody<float>::restore(const TetMesh&, const std::vector<int>&, const BodySnapshot<float>&,
-                                          const float*, const MidEdges&);
-template void ElasticBody<double>::restore(const TetMesh&, const std::vector<int>&, const BodySnapshot<double>&,
-                                           const double*, const MidEdges&);
-template void ElasticBody<float>::restore_all(const TetMesh&, const std::vector<int>&, const BodySnapshot<float>&,
-                                              const float*, const MidEdges&);
-template void ElasticBody<double>::restore_all(const TetMesh&, const std::vector<int>&, const BodySnapshot<double>&,
-                                               const double*, const MidEdges&);
+template void ElasticBody<float>::restore(const BodySnapshot<float>&, const float*);
+template void ElasticBody<double>::restore(const BodySnapshot<double>&, const double*);
+template void ElasticBody<float>::restore_all(const BodySnapshot<float>&, const float*);
+template void ElasticBody<double>::restore_all(const BodySnapshot<double>&, const double*);
 
 }  // namespace heml

@@ -35,14 +35,14 @@ double ElasticBody<Real>::sum_energies(const Real* x, bool stored, ThreadTeam& t
   if (!stored) update_slots();
   double sum = 0;
   for (const Part& part : parts_) {
-    packet_energy_.assign(part.group.packets(), 0.0);
+    packet_energy_.assign(part.group->packets(), 0.0);
     for (const auto& term : part.terms)
       if (term->stores() == stored)
-        team.parallel_for(part.group.packets(), grain_ / part.group.lanes, [&](std::size_t begin, std::size_t end) {
-          term->energies(part.group, x, begin, end, packet_energy_.data(), true);
+        team.parallel_for(part.group->packets(), grain_ / part.group->lanes, [&](std::size_t begin, std::size_t end) {
+          term->energies(*part.group, x, begin, end, packet_energy_.data(), true);
         });
     if (stored && part.dilatation)
-      part.dilatation->add_energies(part.group, x, 0, part.group.packets(), packet_energy_.data());
+      part.dilatation->add_energies(*part.group, x, 0, part.group->packets(), packet_energy_.data());
     for (const double of_packet : packet_energy_) sum += of_packet;
   }
   return sum;
@@ -51,7 +51,7 @@ double ElasticBody<Real>::sum_energies(const Real* x, bool stored, ThreadTeam& t
 template <class Real>
 double ElasticBody<Real>::energy(const Real* x, ThreadTeam& team) {
   x = inner_positions(x, team);
-  double sum = springs_.energy(x) + sum_energies(x, true, team);
+  double sum = layout_->joints.springs.energy(x) + sum_energies(x, true, team);
   if (pressure_) sum += pressure_->energy(x);
   return sum;
 }
@@ -65,60 +65,63 @@ double ElasticBody<Real>::potential(const Real* x, ThreadTeam& team) {
 template <class Real>
 int ElasticBody<Real>::first_undefined(const Real* x) const {
   int first = -1;
-  each_slot(
-      x, [&](const Part& part, std::size_t s, const ElementKinematics<Real>& kinematics, const RestShape<Real>& rest) {
-        for (const auto& term : part.terms)
-          if (first < 0 || part.group.element[s] < first)
-            if (!term->valid(part.group, s, kinematics) || !is_finite(term->tensions(part.group, s, kinematics, rest)))
-              first = part.group.element[s];
-      });
+  each_slot(x, [&](const Part& part, std::size_t s, const ElementKinematics<Real>& kinematics,
+                   const RestShape<Real>& rest) {
+    for (const auto& term : part.terms)
+      if (first < 0 || part.group->element[s] < first)
+        if (!term->valid(*part.group, s, kinematics) || !is_finite(term->tensions(*part.group, s, kinematics, rest)))
+          first = part.group->element[s];
+  });
   return first < 0 ? first : first / static_cast<int>(points_per_element());
 }
 
 template <class Real>
 void ElasticBody<Real>::states(const Real* x, std::vector<ElementState<Real>>& out) const {
-  out.resize(mesh_.tets.size());
+  out.resize(layout_->mesh.tets.size());
   each_slot(
       x, [&](const Part& part, std::size_t s, const ElementKinematics<Real>& kinematics, const RestShape<Real>& rest) {
         StressSum<Real> stress;
-        for (const auto& term : part.terms) stress.add(term->tensions(part.group, s, kinematics, rest), rest);
+        for (const auto& term : part.terms) stress.add(term->tensions(*part.group, s, kinematics, rest), rest);
         Real factor[3][3], C[6];
         cholesky3(rest.A, factor);
         into_rest_frame(factor, kinematics.G, C);
-        out[static_cast<std::size_t>(part.group.element[s])] = state_of(stress, C, kinematics.at.J);
+        out[static_cast<std::size_t>(part.group->element[s])] = state_of(stress, C, kinematics.at.J);
       });
 }
 
 template <class Real>
 void ElasticBody<Real>::volume_ratios(const Real* x, std::vector<Real>& out) const {
-  out.resize(mesh_.tets.size());
+  out.resize(layout_->mesh.tets.size());
   each_slot(x, [&](const Part& part, std::size_t s, const ElementKinematics<Real>& kinematics, const RestShape<Real>&) {
-    out[static_cast<std::size_t>(part.group.element[s])] = kinematics.at.J;
+    out[static_cast<std::size_t>(part.group->element[s])] = kinematics.at.J;
   });
 }
 
 template <class Real>
 std::vector<Mat3> ElasticBody<Real>::stresses(const Real* x, ThreadTeam& team) {
   x = inner_positions(x, team);
-  std::fill(corner_.begin(), corner_.end(), Real(0));
+  std::vector<Real>& corner = corner_forces();
+  std::fill(corner.begin(), corner.end(), Real(0));
   for (const Part& part : parts_)
     for (const auto& term : part.terms)
       if (term->stores())
-        team.parallel_for(part.group.packets(), grain_ / part.group.lanes, [&](std::size_t begin, std::size_t end) {
-          term->forces(part.group, x, begin, end, corner_.data(), true);
+        team.parallel_for(part.group->packets(), grain_ / part.group->lanes, [&](std::size_t begin, std::size_t end) {
+          term->forces(*part.group, x, begin, end, corner.data(), true);
         });
-  if (pressure_) pressure_->add_forces(x, corner_.data(), team);
+  if (pressure_) pressure_->add_forces(x, corner.data(), team);
   each_dilatation(team, [&](const Part& part, std::size_t begin, std::size_t end) {
-    part.dilatation->add_forces(part.group, x, begin, end, corner_.data());
+    part.dilatation->add_forces(*part.group, x, begin, end, corner.data());
   });
-  std::vector<Mat3> P(mesh_.tets.size(), Mat3::Zero());
+  std::vector<Mat3> P(layout_->mesh.tets.size(), Mat3::Zero());
   for (const Part& part : parts_)
-    for (std::size_t s = 0; s < part.group.size(); ++s) {
-      const auto t = static_cast<std::size_t>(part.group.element[s]);
-      const auto X = [&](std::size_t a) { return mesh_.nodes[static_cast<std::size_t>(part.group.node[a][s])]; };
+    for (std::size_t s = 0; s < part.group->size(); ++s) {
+      const auto t = static_cast<std::size_t>(part.group->element[s]);
+      const auto X = [&](std::size_t a) {
+        return layout_->mesh.nodes[static_cast<std::size_t>(part.group->node[a][s])];
+      };
       const double volume = signed_volume(X(0), X(1), X(2), X(3));
       for (std::size_t a = 1; a < 4; ++a) {
-        const Real* f = &corner_[3 * (part.group.first_corner + 4 * s + a)];
+        const Real* f = &corner[3 * (part.group->first_corner + 4 * s + a)];
         P[t] -= Vec3(f[0], f[1], f[2]) * (X(a) - X(0)).transpose() / volume;
       }
     }
@@ -130,9 +133,9 @@ std::vector<Mat3> ElasticBody<Real>::deformation_gradients(const Real* x) const 
   std::vector<Real> y;
   x = inner_positions(x, y);
   std::vector<Vec3> places;
-  for (std::size_t n = 0; n < mesh_.nodes.size(); ++n)
+  for (std::size_t n = 0; n < layout_->mesh.nodes.size(); ++n)
     places.push_back(Eigen::Map<const Vector3<Real>>(x + 3 * n).template cast<double>());
-  return heml::deformation_gradients(mesh_, places);
+  return heml::deformation_gradients(layout_->mesh, places);
 }
 
 template double ElasticBody<float>::energy(const float*, ThreadTeam&);

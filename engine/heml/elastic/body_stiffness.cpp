@@ -12,19 +12,19 @@ template <class Real>
 void ElasticBody<Real>::linearise(const Real* x, ThreadTeam& team) {
   update_slots();
   x = inner_positions(x, team);
-  linearisation_point_.assign(x, x + 3 * mesh_.nodes.size());
+  linearisation_point_.assign(x, x + 3 * layout_->mesh.nodes.size());
   projected_ = false;
   if (pressure_) pressure_->linearise(x, team);
   for (Part& part : parts_) {
-    part.stiffness.resize(edge_entries * part.group.volume.size());
+    part.stiffness.resize(edge_entries * part.group->volume.size());
     for (std::size_t k = 0; k < part.terms.size(); ++k)
-      team.parallel_for(part.group.packets(), grain_ / 4 / part.group.lanes, [&](std::size_t begin, std::size_t end) {
-        part.terms[k]->stiffness(part.group, x, begin, end, part.stiffness.data(), k > 0);
+      team.parallel_for(part.group->packets(), grain_ / 4 / part.group->lanes, [&](std::size_t begin, std::size_t end) {
+        part.terms[k]->stiffness(*part.group, x, begin, end, part.stiffness.data(), k > 0);
       });
-    if (part.dilatation) part.dilatation->resize(part.group);
+    if (part.dilatation) part.dilatation->resize(*part.group);
   }
   each_dilatation(team, [&](Part& part, std::size_t begin, std::size_t end) {
-    part.dilatation->linearise(part.group, x, begin, end, part.stiffness.data());
+    part.dilatation->linearise(*part.group, x, begin, end, part.stiffness.data());
   });
 }
 
@@ -33,18 +33,18 @@ void ElasticBody<Real>::project(Projection projection, ThreadTeam& team) {
   if (projection != Projection::element && projection != Projection::tension) return;
   projected_ = true;
   for (Part& part : parts_)
-    team.parallel_for(part.group.volume.size(), grain_ / 16, [&](std::size_t begin, std::size_t end) {
+    team.parallel_for(part.group->volume.size(), grain_ / 16, [&](std::size_t begin, std::size_t end) {
       for (std::size_t s = begin; s < end; ++s) {
         Real k[edge_entries];
         read_edge_stiffness(part.stiffness.data(), s, k);
         if (projection == Projection::element) {
           clamp_element(k);
         } else {
-          const auto rest = rest_shape(part.group, s);
-          const auto kinematics = full_kinematics(part.group, linearisation_point_.data(), s, rest);
+          const auto rest = rest_shape(*part.group, s);
+          const auto kinematics = full_kinematics(*part.group, linearisation_point_.data(), s, rest);
           Tensions<Real> sum{};
           for (const auto& term : part.terms) {
-            const Tensions<Real> t = term->tensions(part.group, s, kinematics, rest);
+            const Tensions<Real> t = term->tensions(*part.group, s, kinematics, rest);
             for (int i = 0; i < 6; ++i) sum.T[i] += t.T[i];
             sum.wJ += t.wJ;
           }
@@ -59,27 +59,28 @@ void ElasticBody<Real>::project(Projection projection, ThreadTeam& team) {
 template <class Real>
 void ElasticBody<Real>::force_differential(const Real* dx, Real* out, ThreadTeam& team) {
   dx = inner_positions(dx, team);
+  Real* corner = corner_forces().data();
   for (const Part& part : parts_)
-    team.parallel_for(part.group.packets(), grain_ / part.group.lanes, [&](std::size_t begin, std::size_t end) {
-      multiply_stiffness(part.stiffness.data(), part.group, dx, begin, end, corner_.data());
+    team.parallel_for(part.group->packets(), grain_ / part.group->lanes, [&](std::size_t begin, std::size_t end) {
+      multiply_stiffness(part.stiffness.data(), *part.group, dx, begin, end, corner);
     });
   const Real* x = linearisation_point_.data();
-  if (corners_of_points_) {
+  if (layout_->virtual_corners) {
     each_dilatation(team, [&](const Part& part, std::size_t begin, std::size_t end) {
-      part.dilatation->add_force_differential(part.group, x, dx, projected_, begin, end, corner_.data());
+      part.dilatation->add_force_differential(*part.group, x, dx, projected_, begin, end, corner);
     });
-    return corners_of_points_->gather(corner_, out, team);
+    return layout_->virtual_corners->gather(corner_, of_element_, out, team);
   }
-  if (pressure_) pressure_->add_force_differential(x, dx, corner_.data(), team);
-  gather_corners(corners_, out, false, team);
-  if (!springs_.empty()) springs_.add_force_differential(x, dx, out, projected_, team);
+  if (pressure_) pressure_->add_force_differential(x, dx, corner, team);
+  gather_corners(layout_->joints.corners, out, false, team);
+  if (!layout_->joints.springs.empty()) layout_->joints.springs.add_force_differential(x, dx, out, projected_, team);
 }
 
 template <class Real>
 bool ElasticBody<Real>::add_stiffness(BsrMatrix& rows, ThreadTeam& team) const {
-  if (pressure_ || corners_of_points_) return false;
+  if (pressure_ || layout_->virtual_corners) return false;
   for (const Part& part : parts_)
-    if (!part.terms.empty()) rows.add_elements(part.stiffness.data(), part.group, team);
+    if (!part.terms.empty()) rows.add_elements(part.stiffness.data(), *part.group, team);
   each_spring_stiffness([&](int a, int b, const Real(&block)[3][3]) {
     Mat3 B;
     for (int i = 0; i < 3; ++i)
@@ -102,7 +103,7 @@ void ElasticBody<Real>::element_stiffness(std::size_t p, std::size_t s, ElementM
 template <class Real>
 void ElasticBody<Real>::quadratic_stiffness(std::size_t p, std::size_t first_slot, QuadraticMatrix<Real>& K) const {
   if (const Part& part = parts_[p]; part.dilatation)
-    part.dilatation->add_stiffness(part.group, linearisation_point_.data(), projected_, first_slot, K);
+    part.dilatation->add_stiffness(*part.group, linearisation_point_.data(), projected_, first_slot, K);
   for (std::size_t q = 0; q < element_points; ++q) {
     ElementMatrix<Real> of_point = {};
     element_stiffness(p, first_slot + q, of_point);
@@ -127,8 +128,8 @@ Real ElasticBody<Real>::max_bound(ThreadTeam& team, const Bound& bound) const {
     Real of_part = 0;
     for (const auto& term : part.terms) {
       Real largest = 0;
-      team.parallel_for(part.group.packets(), grain_ / part.group.lanes, [&](std::size_t begin, std::size_t end) {
-        const Real value = bound(*term, part.group, begin, end);
+      team.parallel_for(part.group->packets(), grain_ / part.group->lanes, [&](std::size_t begin, std::size_t end) {
+        const Real value = bound(*term, *part.group, begin, end);
         std::lock_guard lock(mutex);
         largest = value > largest || std::isnan(value) ? value : largest;
       });
@@ -151,12 +152,12 @@ Real ElasticBody<Real>::frequency_bound(const Real* x, ThreadTeam& team) {
   Real of_elements = 0;
   std::mutex mutex;
   each_dilatation(team, [&](const Part& part, std::size_t begin, std::size_t end) {
-    const Real value = part.dilatation->frequency_bound(part.group, x, begin, end);
+    const Real value = part.dilatation->frequency_bound(*part.group, x, begin, end);
     std::lock_guard lock(mutex);
     of_elements = value > of_elements || std::isnan(value) ? value : of_elements;
   });
   bound += of_elements;
-  if (!springs_.empty()) bound += springs_.frequency_bound(masses());
+  if (!layout_->joints.springs.empty()) bound += layout_->joints.springs.frequency_bound(masses());
   return bound;
 }
 
@@ -171,14 +172,14 @@ Real ElasticBody<Real>::damping_bound(const Real* x, ThreadTeam& team) {
 
 template <class Real>
 std::vector<Real> ElasticBody<Real>::element_bounds(const Real* x) const {
-  std::vector<Real> bounds(mesh_.tets.size(), Real(0));
+  std::vector<Real> bounds(layout_->mesh.tets.size(), Real(0));
   each_slot(
       x, [&](const Part& part, std::size_t s, const ElementKinematics<Real>& kinematics, const RestShape<Real>& rest) {
         for (const auto& term : part.terms)
-          bounds[static_cast<std::size_t>(part.group.element[s])] +=
-              term->slot_frequency_bound(part.group, s, kinematics, rest);
+          bounds[static_cast<std::size_t>(part.group->element[s])] +=
+              term->slot_frequency_bound(*part.group, s, kinematics, rest);
       });
-  if (corners_of_points_) {
+  if (layout_->virtual_corners) {
     for (std::size_t t = 0; t < elements(); ++t)
       bounds[t] = *std::max_element(&bounds[element_points * t], &bounds[element_points * t] + element_points);
     bounds.resize(elements());

@@ -77,16 +77,12 @@ std::vector<std::size_t> keep_slots(ElementGroup<Real>& group, const std::vector
 }
 
 template <class Real>
-CornerMap map_corners(std::vector<ElementGroup<Real>*> groups, std::size_t nodes) {
+CornerMap map_corners(const std::vector<const ElementGroup<Real>*>& groups, std::size_t nodes) {
   CornerMap map;
   map.start.assign(nodes + 1, 0);
-  std::size_t next = 0;
-  for (auto* group : groups) {
-    group->first_corner = next;
-    next += 4 * group->volume.size();
+  for (const auto* group : groups)
     for (std::size_t s = 0; s < group->size(); ++s)
       for (const auto& list : group->node) ++map.start[static_cast<std::size_t>(list[s]) + 1];
-  }
   for (std::size_t n = 0; n < nodes; ++n) map.start[n + 1] += map.start[n];
   map.corners.resize(map.start[nodes]);
   std::vector<std::size_t> fill(map.start.begin(), map.start.end() - 1);
@@ -97,22 +93,13 @@ CornerMap map_corners(std::vector<ElementGroup<Real>*> groups, std::size_t nodes
   return map;
 }
 
-template <class Real>
-std::size_t corner_count(const std::vector<ElementGroup<Real>*>& groups) {
-  std::size_t count = 0;
-  for (const auto* group : groups) count += 4 * group->volume.size();
-  return count;
-}
-
 template struct ElementGroup<float>;
 template struct ElementGroup<double>;
 template ElementGroup<float> make_group(const TetMesh&, const std::vector<int>&, const Material&);
 template ElementGroup<double> make_group(const TetMesh&, const std::vector<int>&, const Material&);
 template std::vector<std::size_t> keep_slots(ElementGroup<float>&, const std::vector<std::size_t>&);
 template std::vector<std::size_t> keep_slots(ElementGroup<double>&, const std::vector<std::size_t>&);
-template CornerMap map_corners(std::vector<ElementGroup<float>*>, std::size_t);
-template CornerMap map_corners(std::vector<ElementGroup<double>*>, std::size_t);
-template std::size_t corner_count(const std::vector<ElementGroup<float>*>&);
-template std::size_t corner_count(const std::vector<ElementGroup<double>*>&);
+template CornerMap map_corners(const std::vector<const ElementGroup<float>*>&, std::size_t);
+template CornerMap map_corners(const std::vector<const ElementGroup<double>*>&, std::size_t);
 
 }  // namespace heml

@@ -12,6 +12,7 @@
 //   summed at each node in ascending order of corner (CornerMap), so that sums do not depend on the threads.
 #include <Eigen/Dense>
 #include <heml/materials/material.hpp>
+#include <heml/math/bytes.hpp>
 #include <heml/mesh/tet_mesh.hpp>
 #include <span>
 #include <vector>
@@ -30,10 +31,11 @@ struct ElementGroup {
   std::array<std::vector<Real>, 3> fibre;     ///< 3 × padded #S, 1/m, or empty
   std::vector<std::vector<Real>> parameters;  ///< of each FieldParameter of the material, padded #S
   Real density = 1000;                        ///< kg/m³
-  std::size_t first_corner = 0;               ///< of slot 0, in the body's list of corners
+  std::size_t first_corner = 0;  ///< of slot 0, in the body's list of corners: after those of the groups before
 
   std::size_t size() const { return element.size(); }
   std::size_t packets() const { return volume.size() / lanes; }
+  std::size_t bytes() const { return bytes_of(element, node, A, volume, gamma, fibre, parameters); }
 };
 
 /// Builds the group of the given elements (inner numbers; at least one) of a mesh in inner order with positive volumes.
@@ -63,14 +65,11 @@ std::vector<std::size_t> keep_slots(ElementGroup<Real>& group, const std::vector
 struct CornerMap {
   std::vector<std::size_t> start;    ///< #V+1
   std::vector<std::size_t> corners;  ///< 4 #T
+  bool operator==(const CornerMap&) const = default;
 };
 
-/// Numbers the corners of the groups consecutively (sets first_corner) and lists those of each node.
+/// Lists the corners of each node, by the first_corner of the groups.
 template <class Real>
-CornerMap map_corners(std::vector<ElementGroup<Real>*> groups, std::size_t nodes);
-
-/// Number of corners of all groups, padding included; a corner force array has 3 values per corner.
-template <class Real>
-std::size_t corner_count(const std::vector<ElementGroup<Real>*>& groups);
+CornerMap map_corners(const std::vector<const ElementGroup<Real>*>& groups, std::size_t nodes);
 
 }  // namespace heml

@@ -34,7 +34,6 @@ FanForces<Real>::FanForces(const TetMesh& mesh, const std::vector<FanPart>& part
     elements.push_back(elements_of(mesh, part, laws_.back().shape));
   }
   layout_ = std::make_shared<const FanLayout<Real>>(mesh, elements, lanes_of<Real>(isa_), team);
-  shared_force_.resize(3 * layout_->shared_slots);
   begin_step(0);
 }
 
@@ -129,7 +128,6 @@ bool FanForces<Real>::update_layout(const TetMesh& before, const TetMesh& mesh, 
   for (std::size_t p = 0; p < parts.size(); ++p) elements.push_back(elements_of(mesh, parts[p], laws_[p].shape));
   layout_ = std::make_shared<const FanLayout<Real>>(
       layout_->after_edit(before, mesh, elements, origins, lanes_of<Real>(isa_), team));
-  shared_force_.assign(3 * layout_->shared_slots, Real(0));
   forget_state();
   nodes_ = mesh.nodes.size();
   return true;
@@ -176,6 +174,7 @@ bool FanForces<Real>::forces(const Real* x, Real* f, ThreadTeam& team, const Rea
     evaluated_x_.assign(x, x + 3 * nodes_);
     evaluated_ = true;
   }
+  shared_force_.resize(3 * fans.shared_slots);
   std::atomic<bool> valid{true};
   team.parallel_for(fans.blocks.size(), blocks_a_thread(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
@@ -197,6 +196,7 @@ bool FanForces<Real>::forces(const Real* x, Real* f, ThreadTeam& team, const Rea
 template <class Real>
 void FanForces<Real>::node_volumes(const Real* x, Real* sum, ThreadTeam& team) {
   const FanLayout<Real>& fans = *layout_;
+  shared_force_.resize(3 * fans.shared_slots);
   const FanVolumeKernel<Real> kernel = fan_term_kernels<Real>(isa_).volumes;
   team.parallel_for(fans.blocks.size(), blocks_a_thread(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
@@ -260,6 +260,7 @@ template <class Real>
 void FanForces<Real>::drop_scratch() {
   state_.drop_next();
   evaluated_x_ = {};
+  shared_force_ = {};
   evaluated_ = false;
 }
 

@@ -100,8 +100,8 @@ std::vector<Real> volume_moduli(const ElementGroup<Real>& group, const Material&
 }
 
 template <class Real>
-std::vector<Real> split_volume_modulus(Material& material, ElementGroup<Real>& group) {
-  std::vector<Real> rest = volume_moduli(group, material);
+std::vector<Real> split_volume_modulus(Material& material, Shared<ElementGroup<Real>>& group) {
+  std::vector<Real> rest = volume_moduli(*group, material);
   const std::size_t parameter = *volume_parameter(material, *find_law(material.law));
   Material of_slot = material;
   of_slot.fields.clear();
@@ -109,15 +109,17 @@ std::vector<Real> split_volume_modulus(Material& material, ElementGroup<Real>& g
   for (std::size_t s = 0; s < rest.size(); ++s) {
     if (!material.fields.empty()) {
       for (std::size_t k = 0; k < material.fields.size(); ++k)
-        of_slot.parameters[material.fields[k].parameter] = static_cast<double>(group.parameters[k][s]);
+        of_slot.parameters[material.fields[k].parameter] = static_cast<double>(group->parameters[k][s]);
       limit = point_share * small_strain_moduli(of_slot).shear;
     }
     rest[s] = std::max(rest[s] - static_cast<Real>(limit), Real(0));
   }
   if (material.fields.empty()) material.parameters[parameter] = std::min(material.parameters[parameter], limit);
   for (std::size_t k = 0; k < material.fields.size(); ++k)
-    if (material.fields[k].parameter == parameter)
-      for (std::size_t s = 0; s < rest.size(); ++s) group.parameters[k][s] -= rest[s];
+    if (material.fields[k].parameter == parameter) {
+      std::vector<Real>& of_slots = group.write().parameters[k];
+      for (std::size_t s = 0; s < rest.size(); ++s) of_slots[s] -= rest[s];
+    }
   return rest;
 }
 
@@ -224,8 +226,8 @@ Real MeanDilatation<Real>::frequency_bound(const Group& group, const Real* x, st
 
 template std::vector<float> volume_moduli(const ElementGroup<float>&, const Material&);
 template std::vector<double> volume_moduli(const ElementGroup<double>&, const Material&);
-template std::vector<float> split_volume_modulus(Material&, ElementGroup<float>&);
-template std::vector<double> split_volume_modulus(Material&, ElementGroup<double>&);
+template std::vector<float> split_volume_modulus(Material&, Shared<ElementGroup<float>>&);
+template std::vector<double> split_volume_modulus(Material&, Shared<ElementGroup<double>>&);
 template class MeanDilatation<float>;
 template class MeanDilatation<double>;
 

@@ -7,6 +7,7 @@
 // The points keep κ − κ̄ = min(κ, 13/6 μ), the bulk modulus of Poisson's ratio 0.3, and the element takes the rest κ̄.
 // With J̄ alone, a dilatation that varies linearly within an element would cost nothing, and conformal displacements,
 // which bend without shear, are of that kind: a beam of one element across would be 50 % too soft.
+#include <heml/base/shared.hpp>
 #include <heml/elastic/group_loops.hpp>
 #include <heml/math/bytes.hpp>
 #include <vector>
@@ -24,7 +25,7 @@ std::vector<Real> volume_moduli(const ElementGroup<Real>& group, const Material&
 /// Leaves the points of a material with a volume term their share of κ, in the material or in the group's parameters,
 /// and returns the rest of each slot (padded), Pa.
 template <class Real>
-std::vector<Real> split_volume_modulus(Material& material, ElementGroup<Real>& group);
+std::vector<Real> split_volume_modulus(Material& material, Shared<ElementGroup<Real>>& group);
 
 /// Of the elements of one group, four consecutive slots each; two fill a packet. Threads may call the functions of
 /// packets [begin, end) on disjoint ranges. x: positions of virtual corners.

@@ -73,9 +73,15 @@ double PlasticFlow<Real>::flow(Group& group, const Real* x) {
 }
 
 template <class Real>
-void PlasticFlow<Real>::reset(Group& group) {
+ElementGroup<Real> PlasticFlow<Real>::at_rest(Group group) const {
   group.A = rest_A_;
   group.gamma = rest_gamma_;
+  return group;
+}
+
+template <class Real>
+void PlasticFlow<Real>::reset(Group& group) {
+  group = at_rest(std::move(group));
   std::fill(strain_.begin(), strain_.end(), Real(0));
 }
 

@@ -21,6 +21,8 @@ class PlasticFlow {
   /// Return mapping at positions x (3 #V, m): updates A and gamma of elements beyond yield. Returns the plastic work,
   /// J.
   double flow(Group& group, const Real* x);
+  /// A copy with the initial rest shape.
+  Group at_rest(Group group) const;
   /// Restores the initial rest shape.
   void reset(Group& group);
   /// After an edit of the group: slot s takes the state of the old slot from[s].

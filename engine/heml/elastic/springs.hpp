@@ -13,8 +13,10 @@ namespace heml {
 template <class Real>
 class Springs {
  public:
+  Springs() = default;  ///< none
   /// stiffness: #T, N/m; 0 where an element has no springs.
   Springs(const TetMesh& mesh, const std::vector<double>& stiffness);
+  bool operator==(const Springs&) const = default;
 
   bool empty() const { return springs_.empty(); }
   std::size_t size() const { return springs_.size(); }
@@ -41,11 +43,12 @@ class Springs {
   struct Spring {
     int a, b;
     Real k, length;
+    bool operator==(const Spring&) const = default;
   };
   void block(const Spring& spring, const Real* x, bool positive, Real B[3][3]) const;
 
   std::vector<Spring> springs_;
-  std::vector<std::size_t> start_, of_node_;
+  std::vector<std::size_t> start_ = {0}, of_node_;
 };
 
 }  // namespace heml

@@ -35,11 +35,10 @@ VirtualCorners<Real>::VirtualCorners(const TetMesh& mesh, const MidEdges& midedg
   std::vector<std::size_t> next(start_.begin(), start_.end() - 1);
   for (std::size_t t = 0; t < nodes_.size(); ++t)
     for (std::size_t a = 0; a < 10; ++a) places_[next[static_cast<std::size_t>(nodes_[t][a])]++] = 10 * t + a;
-  of_element_.resize(30 * nodes_.size());
 }
 
 template <class Real>
-void VirtualCorners<Real>::follow(const std::vector<ElementGroup<Real>*>& groups) {
+void VirtualCorners<Real>::follow(const std::vector<const ElementGroup<Real>*>& groups) {
   first_corner_.assign(nodes_.size(), 0);
   for (const auto* group : groups)
     for (std::size_t s = 0; s < group->size(); s += element_points)
@@ -73,7 +72,9 @@ std::vector<Real> VirtualCorners<Real>::positions(const Real* x) const {
 }
 
 template <class Real>
-void VirtualCorners<Real>::gather(const std::vector<Real>& h, Real* f, ThreadTeam& team) {
+void VirtualCorners<Real>::gather(const std::vector<Real>& h, std::vector<Real>& of_element, Real* f,
+                                  ThreadTeam& team) const {
+  of_element.resize(30 * nodes_.size());  // N
   team.parallel_for(nodes_.size(), element_grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t) {
       const Real* corner = &h[3 * first_corner_[t]];
@@ -81,14 +82,14 @@ void VirtualCorners<Real>::gather(const std::vector<Real>& h, Real* f, ThreadTea
 #pragma GCC unroll 64
       for (const Product& p : products)
         for (std::size_t i = 0; i < 3; ++i) out[p.node][i] += static_cast<Real>(p.weight) * corner[3 * p.corner + i];
-      std::copy_n(&out[0][0], 30, of_element_.data() + 30 * t);
+      std::copy_n(&out[0][0], 30, of_element.data() + 30 * t);
     }
   });
   team.parallel_for(nodes(), gather_grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n) {
       Real sum[3] = {0, 0, 0};
       for (std::size_t k = start_[n]; k < start_[n + 1]; ++k)
-        for (std::size_t i = 0; i < 3; ++i) sum[i] += of_element_[3 * places_[k] + i];
+        for (std::size_t i = 0; i < 3; ++i) sum[i] += of_element[3 * places_[k] + i];
       for (std::size_t i = 0; i < 3; ++i) f[3 * n + i] = sum[i];
     }
   });

@@ -21,17 +21,17 @@ Vec3 at(const Vector& x, int node) { return x.segment<3>(3 * node); }
 }  // namespace
 
 template <class Real>
-BodyObjective<Real>::BodyObjective(ElasticBody<Real>& body, const Model<Real>& model, const std::vector<Real>& mass,
-                                   const FreeNodes& free, const std::vector<GraspSpring<Real>>& grasps,
-                                   Contacts& contacts, ThreadTeam& team)
+BodyObjective<Real>::BodyObjective(ElasticBody<Real>& body, const Shared<Model<Real>>& model,
+                                   const std::vector<Real>& mass, const FreeNodes& free,
+                                   const std::vector<GraspSpring<Real>>& grasps, Contacts& contacts, ThreadTeam& team)
     : body_(body),
       model_(model),
       mass_(mass),
       free_(free),
       grasps_(grasps),
       team_(team),
-      contact_(contacts, max_penetration * model.diagonal) {
-  if (!model.midedges.empty()) consistent_mass_ = body.consistent_masses();
+      contact_(contacts, max_penetration * model->diagonal) {
+  if (!model->midedges.empty()) consistent_mass_ = body.consistent_masses();
   find_noise();
 }
 
@@ -39,9 +39,9 @@ BodyObjective<Real>::BodyObjective(ElasticBody<Real>& body, const Model<Real>& m
 /// at rest, and some meshes numbers without round-off.
 template <class Real>
 void BodyObjective<Real>::find_noise() {
-  Vector rest(3 * static_cast<Eigen::Index>(model_.mesh.nodes.size())), r;
-  for (std::size_t n = 0; n < model_.mesh.nodes.size(); ++n)
-    rest.segment<3>(3 * static_cast<int>(n)) = model_.mesh.nodes[n];
+  Vector rest(3 * static_cast<Eigen::Index>(model_->mesh.nodes.size())), r;
+  for (std::size_t n = 0; n < model_->mesh.nodes.size(); ++n)
+    rest.segment<3>(3 * static_cast<int>(n)) = model_->mesh.nodes[n];
   residual(rest, r);
   const Vector internal = forces_ - external_;
   double at_rest = 0, inertia = 0;
@@ -59,8 +59,8 @@ void BodyObjective<Real>::find_noise() {
     stiffness[k] = bound * static_cast<double>(mass_[k]);
   }
   contact_.set_stiffness(std::move(stiffness));
-  noise_ = epsilon * bound * inertia * model_.spacing * model_.spacing;
-  const double worst = epsilon * bound * model_.diagonal;
+  noise_ = epsilon * bound * inertia * model_->spacing * model_->spacing;
+  const double worst = epsilon * bound * model_->diagonal;
   acceleration_round_off_ = std::clamp(safety * at_rest, worst / 10, worst);
 }
 
@@ -97,8 +97,8 @@ bool BodyObjective<Real>::refine_precision() {
 template <class Real>
 void BodyObjective<Real>::make_double_body() {
   if (is_refined() && !double_body_)
-    double_body_ = std::make_unique<ElasticBody<double>>(model_.mesh, model_.material_of, body_.materials(),
-                                                         body_.options(), model_.midedges);
+    double_body_ = std::make_unique<ElasticBody<double>>(model_->mesh, model_->material_of, body_.materials(),
+                                                         body_.options(), model_->midedges);
 }
 
 template <class Real>
@@ -151,8 +151,8 @@ void BodyObjective<Real>::set_load(double fraction) {
 
 template <class Real>
 void BodyObjective<Real>::apply_constraints(double fraction, Vector& x) const {
-  for (const ConstrainedNode& constrained : model_.constrained)
-    x.segment<3>(3 * constrained.node) = prescribed_at(model_, constrained, fraction * duration_).x;
+  for (const ConstrainedNode& constrained : model_->constrained)
+    x.segment<3>(3 * constrained.node) = prescribed_at(*model_, constrained, fraction * duration_).x;
 }
 
 template <class Real>
@@ -195,16 +195,16 @@ double BodyObjective<Real>::relative_net_load() const {
 
 template <class Real>
 int BodyObjective<Real>::count_inverted(const Vector& x) const {
-  if (!model_.midedges.empty())
-    return count_inverted_points(model_.mesh.tets, model_.midedges, [&](int n) { return at(x, n); });
-  return static_cast<int>(std::count_if(model_.mesh.tets.begin(), model_.mesh.tets.end(), [&](const Tet& tet) {
+  if (!model_->midedges.empty())
+    return count_inverted_points(model_->mesh.tets, model_->midedges, [&](int n) { return at(x, n); });
+  return static_cast<int>(std::count_if(model_->mesh.tets.begin(), model_->mesh.tets.end(), [&](const Tet& tet) {
     return !(signed_volume(at(x, tet[0]), at(x, tet[1]), at(x, tet[2]), at(x, tet[3])) > 0);
   }));
 }
 
 template <class Real>
 bool BodyObjective<Real>::inverts_elements(const Vector& from, const Vector& to) const {
-  return (to - from).template lpNorm<Eigen::Infinity>() > long_way * model_.spacing &&
+  return (to - from).template lpNorm<Eigen::Infinity>() > long_way * model_->spacing &&
          count_inverted(to) > count_inverted(from);
 }
 
@@ -222,8 +222,8 @@ void BodyObjective<Real>::accept(const Vector& x) {
 template <class Real>
 void BodyObjective<Real>::add_external(const Real* x, const Vector& x_double) {
   f_.assign(f_.size(), Real(0));
-  for (const auto& load : model_.dead) add_load(load, time_, f_.data());
-  for (const auto& load : model_.pressures) add_load(load, time_, x, f_.data());
+  for (const auto& load : model_->dead) add_load(load, time_, f_.data());
+  for (const auto& load : model_->pressures) add_load(load, time_, x, f_.data());
   if (!grasps_.empty()) {
     v_.assign(f_.size(), Real(0));
     if (d_ > 0)
@@ -276,7 +276,7 @@ void BodyObjective<Real>::find_forces(const Vector& x) {
 
 template <class Real>
 std::optional<double> BodyObjective<Real>::value(const Vector& x) {
-  if (!model_.pressures.empty()) return std::nullopt;
+  if (!model_->pressures.empty()) return std::nullopt;
   for (const auto& [at, value] : values_)
     if (at == x) return value;
   if (values_.size() == values_remembered) values_.pop_front();
@@ -288,10 +288,10 @@ double BodyObjective<Real>::find_value(const Vector& x) {
   const Real* at_x = as_real(x, x_);
   double sum = is_refined() ? double_body_->potential(x.data(), team_) : body_.potential(at_x, team_);
   for (std::size_t n = 0; n < mass_.size(); ++n)
-    sum -= static_cast<double>(gravity_mass()[n]) * gravity_.dot(at(x, static_cast<int>(n)) - model_.mesh.nodes[n]);
-  for (const auto& load : model_.dead)
+    sum -= static_cast<double>(gravity_mass()[n]) * gravity_.dot(at(x, static_cast<int>(n)) - model_->mesh.nodes[n]);
+  for (const auto& load : model_->dead)
     for (std::size_t k = 0; k < load.nodes.size(); ++k) {
-      const Vec3 moved = at(x, load.nodes[k]) - model_.mesh.nodes[static_cast<std::size_t>(load.nodes[k])];
+      const Vec3 moved = at(x, load.nodes[k]) - model_->mesh.nodes[static_cast<std::size_t>(load.nodes[k])];
       for (int i = 0; i < 3; ++i)
         sum -= ramp(time_, load.ramp_time) * static_cast<double>(load.forces[3 * k + static_cast<std::size_t>(i)]) *
                moved[i];

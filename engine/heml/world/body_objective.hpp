@@ -49,8 +49,9 @@ class BodyObjective final : public LoadDependentObjective, private BodyObjective
   };
 
   /// mass: #V, kg. All must outlive this.
-  BodyObjective(ElasticBody<Real>& body, const Model<Real>& model, const std::vector<Real>& mass, const FreeNodes& free,
-                const std::vector<GraspSpring<Real>>& grasps, Contacts& contacts, ThreadTeam& team);
+  BodyObjective(ElasticBody<Real>& body, const Shared<Model<Real>>& model, const std::vector<Real>& mass,
+                const FreeNodes& free, const std::vector<GraspSpring<Real>>& grasps, Contacts& contacts,
+                ThreadTeam& team);
 
   /// Loads as at time t, s. gravity: m/s².
   void set_time(double time, const Vec3& gravity);
@@ -141,7 +142,7 @@ class BodyObjective final : public LoadDependentObjective, private BodyObjective
 
   ElasticBody<Real>& body_;
   std::unique_ptr<ElasticBody<double>> double_body_;  ///< null until refined
-  const Model<Real>& model_;
+  const Shared<Model<Real>>& model_;
   const std::vector<Real>& mass_;
   std::vector<Real> consistent_mass_;  ///< #V, kg, which gravity acts on; empty: mass_
   const FreeNodes& free_;

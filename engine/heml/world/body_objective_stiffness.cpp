@@ -21,7 +21,7 @@ template <class Real>
 template <class Visit>
 void BodyObjective<Real>::each_pressed_face(const Vector& x, const Visit& visit) const {
   if (x.size() == 0) return;
-  for (const auto& load : model_.pressures) {
+  for (const auto& load : model_->pressures) {
     const double p = -static_cast<double>(load.pascal) * ramp(time_, load.ramp_time) / 6;
     for (const Triangle& face : load.faces) {
       const Vec3 a = place_of(x, face[0]), b = place_of(x, face[1]), c = place_of(x, face[2]);
@@ -35,7 +35,7 @@ template <class Real>
 template <class Visit>
 void BodyObjective<Real>::each_pressed_point(const Vector& x, const Visit& visit) const {
   if (x.size() == 0) return;
-  for (const auto& load : model_.pressures) {
+  for (const auto& load : model_->pressures) {
     const double p = -static_cast<double>(load.pascal) * ramp(time_, load.ramp_time) / 2;
     for (const std::array<int, 6>& nodes : load.quadratic_faces)
       for (const FacePoint& point : face_points) {
@@ -52,7 +52,7 @@ void BodyObjective<Real>::linearise(const Vector& x, Projection projection) {
   else
     body_.linearise(as_real(x, x_), team_);
   with_body([&](auto& body) { body.project(projection, team_); });
-  const bool with_pressure = !model_.pressures.empty() && projection == Projection::none;
+  const bool with_pressure = !model_->pressures.empty() && projection == Projection::none;
   linearisation_point_ = with_pressure ? x : Vector();
   if (!contact_.empty()) contact_.linearise(x);
 }

@@ -34,8 +34,7 @@ Status patch_problem(const char* tool, int node, double radius, std::size_t node
 }
 
 Status hand_problem(const char* tool, int hand) {
-  if (hand < 0 || hand >= max_hands)
-    return fmt::format("{}: hand must be 0 to {}, is {}", tool, max_hands - 1, hand);
+  if (hand < 0 || hand >= max_hands) return fmt::format("{}: hand must be 0 to {}, is {}", tool, max_hands - 1, hand);
   return {};
 }
 
@@ -105,7 +104,7 @@ Status CommandExecutor<Real>::execute(const Grasp& command) {
   if (const Status status = patch_problem("grasp", command.node, command.radius, s_.mass.size()); !status.ok())
     return status;
   if (const Status status = hand_problem("grasp", command.hand); !status.ok()) return status;
-  const int center = s_.model.order.new_node[static_cast<std::size_t>(command.node)];
+  const int center = s_.model->order.new_node[static_cast<std::size_t>(command.node)];
   const auto radius = static_cast<Real>(command.radius);
   const auto held = std::find_if(s_.grasps.begin(), s_.grasps.end(), [&](const GraspSpring<Real>& grasp) {
     return grasp.center() == center && grasp.radius() == radius;
@@ -117,10 +116,10 @@ Status CommandExecutor<Real>::execute(const Grasp& command) {
     return {};
   }
   GraspSpring<Real> grasp(
-      {command.hand, s_.grasps_taken + 1}, center, radius, surface_with(center, command.hidden), s_.model.mesh.nodes,
+      {command.hand, s_.grasps_taken + 1}, center, radius, surface_with(center, command.hidden), s_.model->mesh.nodes,
       s_.state.x.data(), s_.inverse_mass,
-      static_cast<Real>(tool_frequency(s_.setup, command.radius, static_cast<double>(s_.rest_frequency))),
-      grip_reach * s_.model.diagonal);
+      static_cast<Real>(tool_frequency(*s_.setup, command.radius, static_cast<double>(s_.rest_frequency))),
+      grip_reach * s_.model->diagonal);
   if (grasp.empty()) return fmt::format("grasp: node {} is constrained, or belongs to no element", command.node);
   put_into_hand(std::move(grasp), command.hand);
   ++s_.grasps_taken;
@@ -164,10 +163,10 @@ template <class Real>
 Status CommandExecutor<Real>::execute(const PinTissue& command) {
   if (const Status status = patch_problem("pin", command.node, command.radius, s_.mass.size()); !status.ok())
     return status;
-  const int center = s_.model.order.new_node[static_cast<std::size_t>(command.node)];
+  const int center = s_.model->order.new_node[static_cast<std::size_t>(command.node)];
   if (s_.inverse_mass[static_cast<std::size_t>(center)] == 0)
     return fmt::format("pin: node {} is constrained, or belongs to no element", command.node);
-  s_.pins.push_back(pin_patch(center, command.radius, surface_with(center, command.hidden), s_.model.mesh.nodes,
+  s_.pins.push_back(pin_patch(center, command.radius, surface_with(center, command.hidden), s_.model->mesh.nodes,
                               s_.state.x.data(), s_.inverse_mass));
   update_constraints();
   return {};
@@ -182,7 +181,7 @@ Status CommandExecutor<Real>::execute(const Unpin& command) {
   }
   const auto holds = [&](const PinnedPatch& pin) {
     return std::any_of(pin.nodes.begin(), pin.nodes.end(),
-                       [&](int n) { return s_.model.order.file_node[static_cast<std::size_t>(n)] == *command.node; });
+                       [&](int n) { return s_.model->order.file_node[static_cast<std::size_t>(n)] == *command.node; });
   };
   const auto pin = std::find_if(s_.pins.begin(), s_.pins.end(), holds);
   if (pin == s_.pins.end()) return fmt::format("release: no pin holds node {}", *command.node);
@@ -193,30 +192,30 @@ Status CommandExecutor<Real>::execute(const Unpin& command) {
 
 template <class Real>
 Status CommandExecutor<Real>::execute(const SetMaterial& command) {
-  const auto entry = std::find_if(s_.setup.materials.begin(), s_.setup.materials.end(),
+  const auto entry = std::find_if(s_.setup->materials.begin(), s_.setup->materials.end(),
                                   [&](const RegionMaterial& m) { return m.region == command.region; });
-  if (entry == s_.setup.materials.end())
+  if (entry == s_.setup->materials.end())
     return command.region ? fmt::format("material: no entry for region {}", *command.region)
                           : std::string("material: there is no default entry; name a region");
   const LawInfo* law = find_law(command.material.law);
-  if (s_.setup.solver.nodal_pressure && law && !law->has_volume_term)
+  if (s_.setup->solver.nodal_pressure && law && !law->has_volume_term)
     return fmt::format("material.law: '{}' has no separate volume term, which element {} needs", law->name,
-                       s_.setup.solver.element());
-  if (s_.setup.solver.quadratic && law && !law->is_continuum)
+                       s_.setup->solver.element());
+  if (s_.setup->solver.quadratic && law && !law->is_continuum)
     return fmt::format("material.law: '{}' has no quadratic elements", law->name);
-  for (const RegionMaterial& other : s_.setup.materials)
-    if (s_.setup.solver.nodal_pressure && !s_.setup.solver.quadratic && &other != &*entry &&
+  for (const RegionMaterial& other : s_.setup->materials)
+    if (s_.setup->solver.nodal_pressure && !s_.setup->solver.quadratic && &other != &*entry &&
         other.material.volume_term != command.material.volume_term)
       return "material.volume_term: with nodal pressure it must be that of the other materials";
   if (!command.material.fields.empty() || !command.material.fibre_field.empty())
     return "material: a switched material takes numbers, not fields";
   if (const auto problem = material_problem(command.material))
     return fmt::format("material.{}: {}", problem->first, problem->second);
-  if (s_.setup.solver.continuation && find_energy_law(command.material.law))
+  if (s_.setup->solver.continuation && find_energy_law(command.material.law))
     return "material.law: a law by expression has no continuation, which solver.continuation asks for";
-  entry->material = command.material;
-  s_.body.set_material(static_cast<std::size_t>(entry - s_.setup.materials.begin()), command.material,
-                       s_.state.x.data());
+  const auto index = static_cast<std::size_t>(entry - s_.setup->materials.begin());
+  s_.setup.write().materials[index].material = command.material;
+  s_.body.set_material(index, command.material, s_.state.x.data());
   s_.update_masses();
   s_.implicit.reset();
   s_.lowest_frequency.reset();
@@ -230,22 +229,22 @@ template <class Real>
 Status CommandExecutor<Real>::execute(const SetDamping& command) {
   if (!(command.damping >= 0) || !std::isfinite(command.damping))
     return fmt::format("damping: must be 0 1/s or more, is {}", command.damping);
-  s_.setup.solver.damping = command.damping;
+  s_.setup.write().solver.damping = command.damping;
   return {};
 }
 
 template <class Real>
 Status CommandExecutor<Real>::execute(const SetGravity& command) {
   if (!finite(command.gravity)) return "gravity: not finite";
-  s_.setup.gravity = command.gravity;
+  s_.setup.write().gravity = command.gravity;
   return {};
 }
 
 template <class Real>
 Status CommandExecutor<Real>::execute(const SetIntegrator& command) {
-  if ((command.integrator == Integrator::static_equilibrium) != s_.setup.solver.is_static())
+  if ((command.integrator == Integrator::static_equilibrium) != s_.setup->solver.is_static())
     return "integrator: a scene is static from its start or not at all";
-  s_.setup.solver.integrator = command.integrator;
+  s_.setup.write().solver.integrator = command.integrator;
   s_.implicit.reset();
   method_.choose();
   return {};
@@ -254,20 +253,21 @@ Status CommandExecutor<Real>::execute(const SetIntegrator& command) {
 template <class Real>
 Status CommandExecutor<Real>::execute(const SetBudget& command) {
   if (command.iterations < 1) return "budget: needs one iteration or more";
-  if (!s_.setup.solver.budget) s_.setup.solver.budget.emplace();
-  s_.setup.solver.budget->iterations = command.iterations;
+  std::optional<Budget>& budget = s_.setup.write().solver.budget;
+  if (!budget) budget.emplace();
+  budget->iterations = command.iterations;
   return {};
 }
 
 template <class Real>
 Status CommandExecutor<Real>::execute(const SetRate& command) {
   if (!(command.rate > 0) || !std::isfinite(command.rate)) return "rate: must be more than 0 Hz";
-  if (s_.setup.solver.is_static()) return "rate: a static scene has no ticks of time";
+  if (s_.setup->solver.is_static()) return "rate: a static scene has no ticks of time";
   s_.elapsed_before_rate = s_.elapsed();
   s_.rate_tick = s_.origin_tick = s_.ticks;
   s_.origin_time = s_.state.time;
-  s_.setup.solver.step.reset();
-  s_.setup.solver.rate = command.rate;
+  s_.setup.write().solver.step.reset();
+  s_.setup.write().solver.rate = command.rate;
   method_.choose();
   return {};
 }
@@ -290,10 +290,11 @@ template <class Real>
 Status CommandExecutor<Real>::execute(const SetBoundary& command) {
   for (const Boundary& entry : command.entries)
     if (const Status status = boundary_problem(entry, s_.mass.size()); !status.ok()) return status;
-  s_.setup.boundary = command.entries;
-  for (Boundary& entry : s_.setup.boundary) add_midedges_between(s_.setup.mesh, s_.setup.midedges, entry.nodes);
-  set_boundary(s_.setup, s_.model);
-  follow_conditions();
+  WorldSetup& setup = s_.setup.write();
+  setup.boundary = command.entries;
+  for (Boundary& entry : setup.boundary) add_midedges_between(setup.mesh, setup.midedges, entry.nodes);
+  set_boundary(setup, s_.model.write());
+  ++s_.condition_changes;
   update_constraints();
   return {};
 }
@@ -302,25 +303,19 @@ template <class Real>
 Status CommandExecutor<Real>::execute(const SetLoads& command) {
   for (const Load& entry : command.entries)
     if (const Status status = load_problem(entry, s_.mass.size()); !status.ok()) return status;
-  s_.setup.loads = command.entries;
-  for (Load& entry : s_.setup.loads) add_midedges_between(s_.setup.mesh, s_.setup.midedges, entry.nodes);
-  set_loads(s_.setup, s_.model);
-  follow_conditions();
+  WorldSetup& setup = s_.setup.write();
+  setup.loads = command.entries;
+  for (Load& entry : setup.loads) add_midedges_between(setup.mesh, setup.midedges, entry.nodes);
+  set_loads(setup, s_.model.write());
+  ++s_.condition_changes;
   s_.implicit.reset();
   return {};
-}
-
-/// The model has changed and the mesh has not: snapshots share no model from before.
-template <class Real>
-void CommandExecutor<Real>::follow_conditions() {
-  ++s_.condition_changes;
-  s_.saved_mesh.reset();
 }
 
 /// Boundary nodes of what is not hidden and one more node, inner numbers, ascending, each once.
 template <class Real>
 std::vector<int> CommandExecutor<Real>::surface_with(int node, const std::vector<int>& hidden) const {
-  std::vector<int> nodes = hidden.empty() ? s_.model.surface_nodes : surface_nodes_without(s_.model, hidden);
+  std::vector<int> nodes = hidden.empty() ? s_.model->surface_nodes : surface_nodes_without(*s_.model, hidden);
   const auto place = std::lower_bound(nodes.begin(), nodes.end(), node);
   if (place == nodes.end() || *place != node) nodes.insert(place, node);
   return nodes;
@@ -343,7 +338,7 @@ template <class Real>
 Status CommandExecutor<Real>::execute(const SetTables& command) {
   for (const Table& table : command.tables)
     if (const Status status = table_problem(table); !status.ok()) return status;
-  s_.setup.tables = command.tables;
+  s_.setup.write().tables = command.tables;
   s_.contacts.tables = command.tables;
   for (Table& table : s_.contacts.tables) table.normal.normalize();
   s_.update_contact_surfaces();
@@ -376,7 +371,7 @@ Status CommandExecutor<Real>::execute(const SutureTissue& command) {
     const int node = command.nodes[end];
     if (node < 0 || static_cast<std::size_t>(node) >= s_.mass.size())
       return fmt::format("suture: node {} does not exist; the body has nodes 0 to {}", node, s_.mass.size() - 1);
-    suture.nodes[end] = s_.model.order.new_node[static_cast<std::size_t>(node)];
+    suture.nodes[end] = s_.model->order.new_node[static_cast<std::size_t>(node)];
     if (s_.mass[static_cast<std::size_t>(suture.nodes[end])] == 0)
       return fmt::format("suture: node {} belongs to no element", node);
   }
@@ -391,8 +386,8 @@ Status CommandExecutor<Real>::execute(const SutureTissue& command) {
   const auto at = [&](int n) {
     return Vec3(Eigen::Map<const Vector3<Real>>(&s_.state.x[3 * static_cast<std::size_t>(n)]).template cast<double>());
   };
-  suture.from = std::max((at(a) - at(b)).norm(), min_suture * s_.model.diagonal);
-  suture.to = std::max(command.length, min_suture * s_.model.diagonal);
+  suture.from = std::max((at(a) - at(b)).norm(), min_suture * s_.model->diagonal);
+  suture.to = std::max(command.length, min_suture * s_.model->diagonal);
   suture.start = s_.state.time;
   suture.ramp_time = command.ramp_time;
   s_.contacts.sutures.push_back(suture);

@@ -45,7 +45,6 @@ class CommandExecutor {
   auto grasp_of(int hand);
   void put_into_hand(GraspSpring<Real> grasp, int hand);
   std::vector<int> surface_with(int node, const std::vector<int>& hidden) const;
-  void follow_conditions();
   void update_constraints();
 
   Simulation<Real>& s_;

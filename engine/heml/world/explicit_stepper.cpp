@@ -30,7 +30,7 @@ std::optional<StopReason> ExplicitStepper<Real>::advance(double until, long most
   for (long done = 0; s_.state.time < until && done < most && !s_.interrupted; ++done) {
     const double left = until - s_.state.time;
     double h = left;  // a given step is a whole tick
-    if (!s_.setup.solver.step) {
+    if (!s_.setup->solver.step) {
       refresh_stable_step();
       if (!(s_.limit.stable > min_step)) return StopReason{StopReason::Cause::unstable, -1, -1, why_no_step()};
       h = left / std::ceil(left / s_.limit.stable);
@@ -81,7 +81,7 @@ template <class Real>
 template <class Method>
 std::optional<StopReason> ExplicitStepper<Real>::step_with(Real h, double time_after) {
   State<Real>& s = s_.state;
-  const Real damping = static_cast<Real>(s_.setup.solver.damping);
+  const Real damping = static_cast<Real>(s_.setup->solver.damping);
   const Real* inverse_mass_per_dof = s_.inverse_mass_per_dof.data();
   std::swap(s.x, s_.last_valid.x);
   std::swap(s.v, s_.last_valid.v);
@@ -96,14 +96,14 @@ std::optional<StopReason> ExplicitStepper<Real>::step_with(Real h, double time_a
   });
   if (!s_.contacts.empty())
     s_.impulses.first_half_step(s_.contacts, s_.last_valid.time, time_after,
-                                Method::damping_divisor(static_cast<double>(h), s_.setup.solver.damping),
+                                Method::damping_divisor(static_cast<double>(h), s_.setup->solver.damping),
                                 s_.inverse_mass, s_.last_valid.x.data(), s.x.data(), s.v.data());
   s.time = time_after;
   s_.move_constrained();
   if (s_.has_internal_state) s_.body.begin_step(h);
   if (!s_.evaluate_forces()) return restore_last_valid(s_, StopReason::Cause::out_of_range);
   // Ten times the size of the body in a step, or NaN: the step was unstable.
-  const Real fastest = static_cast<Real>(10 * (s_.model.diagonal / h + s_.setup.initial_velocity.norm()));
+  const Real fastest = static_cast<Real>(10 * (s_.model->diagonal / h + s_.setup->initial_velocity.norm()));
   std::atomic<bool> sane{true};
   s_.team.parallel_for(s_.inverse_mass_per_dof.size(), coordinate_grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t some = begin; some < end; some += cached_coordinates) {

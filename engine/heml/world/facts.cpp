@@ -27,14 +27,14 @@ template <class Real>
 StepFacts WorldQueries<Real>::step_facts() const {
   constexpr int most_steps = 1'000'000'000;  // a body may be too stiff for any number of them
   StepFacts facts;
-  facts.tick = s_.setup.solver.tick();
+  facts.tick = s_.setup->solver.tick();
   facts.stable = s_.limit.stable;
-  if (is_explicit(s_.method) && !s_.setup.solver.step && s_.limit.stable > 0)
+  if (is_explicit(s_.method) && !s_.setup->solver.step && s_.limit.stable > 0)
     facts.steps_per_tick = static_cast<int>(std::clamp(std::ceil(facts.tick / s_.limit.stable), 1.0, 1.0 * most_steps));
   std::vector<Real> bounds = s_.body.element_bounds(s_.state.x.data());
   const auto largest = std::max_element(bounds.begin(), bounds.end());
   if (!(*largest > 0)) return facts;
-  facts.element = s_.model.order.file_tet[static_cast<std::size_t>(largest - bounds.begin())];
+  facts.element = s_.model->order.file_tet[static_cast<std::size_t>(largest - bounds.begin())];
   const double most = static_cast<double>(*largest);
   facts.element_share = std::min(most / static_cast<double>(s_.body.frequency_bound(s_.state.x.data(), s_.team)), 1.0);
   const auto middle = bounds.begin() + static_cast<std::ptrdiff_t>(bounds.size() / 2);
@@ -46,7 +46,7 @@ StepFacts WorldQueries<Real>::step_facts() const {
 template <class Real>
 std::optional<SolverFacts> WorldQueries<Real>::solver_facts() {
   if (is_explicit(s_.method)) return std::nullopt;
-  const SolverSettings& solver = s_.setup.solver;
+  const SolverSettings& solver = s_.setup->solver;
   const ImplicitState<Real>& parts = s_.implicit_state();
   SolverFacts facts;
   facts.minimiser = solver.is_static() ? Minimiser::newton : solver.minimiser;
@@ -66,14 +66,13 @@ std::vector<MemoryFacts> WorldQueries<Real>::memory_facts(std::optional<std::siz
   const auto of_state = [](const State<Real>& state) { return bytes_of(state.x, state.v, state.f); };
   std::vector<MemoryFacts> facts;
   facts.push_back({"elements", s_.body.bytes()});
-  std::size_t mesh = bytes_of_mesh(s_.setup.mesh) + bytes_of_model(s_.model) + bytes_of(s_.topology->elements);
+  std::size_t mesh = bytes_of_mesh(s_.setup->mesh) + bytes_of_model(*s_.model) + bytes_of(s_.topology->elements);
   facts.push_back({"mesh", mesh});
   if (history) facts.push_back({"undo", *history});
   facts.push_back({"state", of_state(s_.state) + of_state(s_.last_valid) +
                                 bytes_of(s_.mass, s_.inverse_mass, s_.inverse_mass_per_dof, element_states_)});
   if (s_.recovery)
-    facts.push_back(
-        {"recovery", of_state(s_.recovery->last_good) + bytes_of(s_.recovery->last_good_internal.values)});
+    facts.push_back({"recovery", of_state(s_.recovery->last_good) + bytes_of(s_.recovery->last_good_internal.values)});
   if (s_.contacts.tissue) facts.push_back({"self-contact", s_.contacts.tissue->bytes()});
   if (!s_.implicit) return facts;
   const ImplicitState<Real>& parts = *s_.implicit;

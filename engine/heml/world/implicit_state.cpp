@@ -40,7 +40,7 @@ Preconditioner preconditioner_of(const SolverSettings& solver, std::size_t free_
 }  // namespace
 
 template <class Real>
-ImplicitState<Real>::ImplicitState(ElasticBody<Real>& elastic, const Model<Real>& model,
+ImplicitState<Real>::ImplicitState(ElasticBody<Real>& elastic, const Shared<Model<Real>>& model,
                                    const std::vector<Real>& masses, const std::vector<Real>& inverse_mass,
                                    const std::vector<double>& modulus, const std::vector<GraspSpring<Real>>& grasps,
                                    Contacts& contacts, ThreadTeam& team, const SolverSettings& solver,
@@ -48,20 +48,21 @@ ImplicitState<Real>::ImplicitState(ElasticBody<Real>& elastic, const Model<Real>
     : free(nonzero(inverse_mass)),
       mass(thrice(free, masses)),
       body(elastic, model, masses, free, grasps, contacts, team),
-      linear_mesh(model.midedges.empty() ? std::nullopt
-                                         : std::optional<TetMesh>(subdivided(model.mesh, model.midedges))),
-      pattern(linear_mesh ? coupled_nodes(model.mesh, model.midedges) : std::vector<Tet>()),
-      linear(free, linear_mesh ? *linear_mesh : model.mesh, linear_mesh ? repeated(modulus, 8) : modulus, mass,
+      linear_mesh(model->midedges.empty() ? std::nullopt
+                                          : std::optional<TetMesh>(subdivided(model->mesh, model->midedges))),
+      pattern(linear_mesh ? coupled_nodes(model->mesh, model->midedges) : std::vector<Tet>()),
+      linear(free, linear_mesh ? *linear_mesh : model->mesh, linear_mesh ? repeated(modulus, 8) : modulus, mass,
              preconditioner_of(solver, free.node.size()), solver.projection, team, linear_mesh ? &pattern : nullptr,
              instruction_set),
       step(body, mass, free) {}
 
 template <class Real>
-bool ImplicitState<Real>::keep_elements(const std::vector<int>& elements, const std::vector<Real>& masses) {
+bool ImplicitState<Real>::keep_elements(const TetMesh& mesh, const std::vector<int>& elements,
+                                        const std::vector<Real>& masses) {
   mass = thrice(free, masses);
   h_before = 0;  // BDF2 starts anew
   body.elements_changed();
-  return !equilibrium && linear.keep_elements(elements);
+  return !equilibrium && linear.keep_elements(mesh, elements);
 }
 
 template <class Real>

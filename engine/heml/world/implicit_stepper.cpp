@@ -46,7 +46,7 @@ std::optional<StopReason> ImplicitStepper<Real>::advance(double until) {
     failed_iterations += s_.stats.iterations - iterations_before;
     // Pairs in contact are fixed during a solve: where they do not fit, shorter steps fail as well, at the same cost.
     const bool is_hopeless = !s_.contacts.empty() && failed_iterations > max_failed_iterations;
-    if (s_.setup.solver.step || longest < shortest || is_hopeless)
+    if (s_.setup->solver.step || longest < shortest || is_hopeless)
       return keep_last_solved(s_, undefined_at_.empty()
                                       ? StopReason{StopReason::Cause::not_converged, -1, -1, why_unbalanced()}
                                       : out_of_range(s_, undefined_at_, after));
@@ -60,7 +60,7 @@ std::string ImplicitStepper<Real>::why_unbalanced() const {
                      std::isfinite(s_.stats.residual)
                          ? fmt::format("{:.3g} of the forces is left unbalanced", s_.stats.residual)
                          : "the forces left unbalanced overflow",
-                     s_.setup.solver.tolerance ? " or a larger tolerance" : "");
+                     s_.setup->solver.tolerance ? " or a larger tolerance" : "");
 }
 
 /// Solves the stages of a step for a method of IntegratorList.
@@ -87,7 +87,7 @@ class ImplicitStepper<Real>::StagedStep final : public ImplicitStep {
     const Vector f = as_vector(s.state.f);
     const Vector& mass = s.implicit->mass;
     const Vector of_forces = (mass.array() > 0).select(f.array() / mass.array(), 0);
-    return of_forces - s.setup.solver.damping * *v_start;
+    return of_forces - s.setup->solver.damping * *v_start;
   }
 
  private:
@@ -113,7 +113,7 @@ std::optional<StopReason> ImplicitStepper<Real>::take_best_iterate(double until)
 /// equilibrium is damped, and second-order steps go on from there.
 template <class Real>
 bool ImplicitStepper<Real>::damped_step(double h, double time_after) {
-  if (!s_.setup.solver.step || s_.method == Integrator::backward_euler) return false;
+  if (!s_.setup->solver.step || s_.method == Integrator::backward_euler) return false;
   if (!step(Integrator::backward_euler, h, time_after)) return false;
   ++s_.stats.damped_steps;
   return true;
@@ -134,7 +134,7 @@ bool ImplicitStepper<Real>::step(Integrator method, double h, double time_after)
   Vector &x = step.x, &v = step.v;
   if (done && s_.method != Integrator::backward_euler && !takes_any_iterate()) {
     const bool paid = take_back_gain(time_after, x, v), is_damped = method == Integrator::backward_euler;
-    done = is_damped || (paid && !(s_.setup.solver.step && parts.body.inverts_elements(parts.x, x)));
+    done = is_damped || (paid && !(s_.setup->solver.step && parts.body.inverts_elements(parts.x, x)));
   }
   if (!done) {
     if (s_.has_internal_state) s_.body.begin_step(0);
@@ -158,9 +158,9 @@ bool ImplicitStepper<Real>::step(Integrator method, double h, double time_after)
 template <class Real>
 bool ImplicitStepper<Real>::solve_stage(const Stage& stage, double h, double time, Vector& x, Vector& v) {
   ImplicitState<Real>& parts = s_.implicit_state();
-  const double damping = s_.setup.solver.damping;
+  const double damping = s_.setup->solver.damping;
   if (s_.has_internal_state) s_.body.begin_step(static_cast<Real>(h));
-  parts.body.set_time(time, s_.setup.gravity);
+  parts.body.set_time(time, s_.setup->gravity);
   parts.body.set_velocity(stage.d, stage.x_bar);
   parts.step.set(stage.a(damping), stage.y(damping));
   parts.linear.set_inertia(stage.a(damping));
@@ -177,9 +177,9 @@ bool ImplicitStepper<Real>::solve_stage(const Stage& stage, double h, double tim
       s_.stats.iterations += result.iterations;
       spent += result.iterations;
       if (s_.interrupted) return false;
-      is_lagging = result.status != NewtonResult::Status::undefined && !s_.setup.solver.budget &&
-                   parts.body.update_lagged(x);
-    } while (is_lagging && (s_.setup.solver.step || takes_any_iterate() || spent <= max_failed_iterations));
+      is_lagging =
+          result.status != NewtonResult::Status::undefined && !s_.setup->solver.budget && parts.body.update_lagged(x);
+    } while (is_lagging && (s_.setup->solver.step || takes_any_iterate() || spent <= max_failed_iterations));
     if (is_lagging) break;
   }
   Vector r;
@@ -193,8 +193,8 @@ bool ImplicitStepper<Real>::solve_stage(const Stage& stage, double h, double tim
   if (is_lagging) return false;
   if (!result.converged() && !takes_any_iterate() && !is_balanced_enough(stage, r)) return false;
   v = stage.velocity(x);
-  for (const ConstrainedNode& constrained : s_.model.constrained)
-    v.segment<3>(3 * constrained.node) = prescribed_at(s_.model, constrained, time).v;
+  for (const ConstrainedNode& constrained : s_.model->constrained)
+    v.segment<3>(3 * constrained.node) = prescribed_at(*s_.model, constrained, time).v;
   for (const PinnedPatch& pin : s_.pins)
     for (const int n : pin.nodes) v.segment<3>(3 * n).setZero();
   return true;
@@ -212,12 +212,13 @@ int ImplicitStepper<Real>::probe_substeps(double h) const {
 template <class Real>
 NewtonResult ImplicitStepper<Real>::minimise_stage(Vector& x) {
   ImplicitState<Real>& parts = s_.implicit_state();
-  const int most = s_.setup.solver.budget ? stage_iterations() : NewtonOptions{}.max_iterations;
-  parts.linear.limit_iterations(s_.setup.solver.budget ? s_.setup.solver.budget->linear : 0);
-  if (s_.setup.solver.minimiser == Minimiser::lbfgs) {
-    const int patience = s_.setup.solver.budget ? most : quasi_patience * most;
+  const int most = s_.setup->solver.budget ? stage_iterations() : NewtonOptions{}.max_iterations;
+  parts.linear.limit_iterations(s_.setup->solver.budget ? s_.setup->solver.budget->linear : 0);
+  if (s_.setup->solver.minimiser == Minimiser::lbfgs) {
+    const int patience = s_.setup->solver.budget ? most : quasi_patience * most;
     const NewtonResult result = minimise_lbfgs(parts.step, parts.linear, stage_criterion(), patience, x);
-    if (result.converged() || s_.setup.solver.budget || result.status == NewtonResult::Status::undefined) return result;
+    if (result.converged() || s_.setup->solver.budget || result.status == NewtonResult::Status::undefined)
+      return result;
   }
   NewtonOptions options;
   options.max_iterations = most;
@@ -226,8 +227,8 @@ NewtonResult ImplicitStepper<Real>::minimise_stage(Vector& x) {
 
 template <class Real>
 void ImplicitStepper<Real>::place_supports(double time, Vector& x) const {
-  for (const ConstrainedNode& constrained : s_.model.constrained)
-    x.segment<3>(3 * constrained.node) = prescribed_at(s_.model, constrained, time).x;
+  for (const ConstrainedNode& constrained : s_.model->constrained)
+    x.segment<3>(3 * constrained.node) = prescribed_at(*s_.model, constrained, time).x;
 }
 
 /// Of where the body is and where it would fly: the one with the lower Φ (without this guard, methods of few iterations
@@ -235,7 +236,7 @@ void ImplicitStepper<Real>::place_supports(double time, Vector& x) const {
 template <class Real>
 Vector ImplicitStepper<Real>::stage_start(const Stage& stage, double time, const Vector& x) {
   ImplicitState<Real>& parts = s_.implicit_state();
-  Vector stay = x, fly = stage.y(s_.setup.solver.damping), r_stay, r_fly, r;
+  Vector stay = x, fly = stage.y(s_.setup->solver.damping), r_stay, r_fly, r;
   for (Eigen::Index i = 0; i < fly.size(); ++i)
     if (!(parts.mass[i] > 0)) fly[i] = x[i];
   place_supports(time, stay);
@@ -266,27 +267,27 @@ Vector ImplicitStepper<Real>::stage_start(const Stage& stage, double time, const
 template <class Real>
 StoppingCriterion ImplicitStepper<Real>::stage_criterion() {
   ImplicitState<Real>& parts = s_.implicit_state();
-  return {[&parts](const Vector& r) { return parts.body.relative_residual(r); }, s_.setup.solver.relative_tolerance()};
+  return {[&parts](const Vector& r) { return parts.body.relative_residual(r); }, s_.setup->solver.relative_tolerance()};
 }
 
 /// Whether a step may end where Newton's method can do no more: a tolerance that was given decides alone; without one,
 /// by what is left of acceleration, since an imbalance relative to small loads is beyond a stiff body's round-off.
 template <class Real>
 bool ImplicitStepper<Real>::is_balanced_enough(const Stage& stage, const Vector& r) {
-  if (s_.setup.solver.tolerance) return false;
+  if (s_.setup->solver.tolerance) return false;
   ImplicitState<Real>& parts = s_.implicit_state();
   const double noise =
-      parts.body.acceleration_round_off() + 0x1p-52 * stage.a(s_.setup.solver.damping) * s_.model.diagonal;
+      parts.body.acceleration_round_off() + 0x1p-52 * stage.a(s_.setup->solver.damping) * s_.model->diagonal;
   return parts.body.max_acceleration(r) <=
-         std::max(slack_of_motion * std::max(s_.setup.gravity.norm(), earth), 10 * noise);
+         std::max(slack_of_motion * std::max(s_.setup->gravity.norm(), earth), 10 * noise);
 }
 
 template <class Real>
 int ImplicitStepper<Real>::stage_iterations() const {
-  const Budget& budget = *s_.setup.solver.budget;
+  const Budget& budget = *s_.setup->solver.budget;
   if (budget.iterations > 0) return budget.iterations;
   const double stages = info_of(s_.method).stages;
-  const double cost = seconds_an_iteration * static_cast<double>(s_.model.mesh.tets.size());
+  const double cost = seconds_an_iteration * static_cast<double>(s_.model->mesh.tets.size());
   return static_cast<int>(std::clamp<double>(budget.milliseconds / 1000 / (stages * cost), 1, max_iterations));
 }
 
@@ -302,7 +303,7 @@ template <class Real>
 bool ImplicitStepper<Real>::take_back_gain(double time, const Vector& x, Vector& v) {
   ImplicitState<Real>& parts = s_.implicit_state();
   if (parts.free.node.empty() || s_.has_internal_state || !s_.grasps.empty() || !s_.contacts.empty() ||
-      supports_move(s_.model, s_.state.time, time))
+      supports_move(*s_.model, s_.state.time, time))
     return true;
   const auto after = parts.body.value(x), before = parts.body.value(parts.x);
   if (!after || !before) return true;
@@ -324,7 +325,7 @@ template <class Real>
 void ImplicitStepper<Real>::limit_energy(double h, double time, Vector& x, Vector& v) {
   ImplicitState<Real>& parts = s_.implicit_state();
   Vector start = parts.x;
-  if (supports_move(s_.model, s_.state.time, time)) {
+  if (supports_move(*s_.model, s_.state.time, time)) {
     if (!takes_best_) return;
     place_supports(time, start);
   }

@@ -36,7 +36,7 @@ class ImplicitStepper {
   bool damped_step(double h, double time_after);
   bool take_back_gain(double time, const Vector& x, Vector& v);
   double kinetic(const Vector& v) const;
-  bool takes_any_iterate() const { return s_.setup.solver.budget || takes_best_; }
+  bool takes_any_iterate() const { return s_.setup->solver.budget || takes_best_; }
   bool solve_stage(const Stage& stage, double h, double time, Vector& x, Vector& v);
   NewtonResult minimise_stage(Vector& x);
   int probe_substeps(double h) const;

@@ -72,7 +72,7 @@ double worst_angle(const MeshEdit& edit, const TetMesh& mesh) {
 template <class Real>
 Status MeshEditor<Real>::remove(const RemoveElements& command) {
   MeshEdit edit;
-  if (const Status made = make_removal_edit(command.which, s_.setup.mesh, *s_.topology, edit); !made.ok())
+  if (const Status made = make_removal_edit(command.which, s_.setup->mesh, *s_.topology, edit); !made.ok())
     return "remove: " + made.message();
   save();
   history_.stroke = {};
@@ -96,9 +96,10 @@ Status MeshEditor<Real>::cut(const CutTissue& command) {
     history_.in_stroke = false;
     history_.missed = s_.ticks;
   }
-  if (history_.snap == 0) history_.snap = snapping_distance(s_.setup.mesh);
+  if (history_.snap == 0) history_.snap = snapping_distance(s_.setup->mesh);
   Cut cut;
-  if (!make_cut(command.sweep, s_.setup.mesh, s_.positions(), *s_.topology, history_.snap, history_.stroke, cut).ok()) {
+  if (!make_cut(command.sweep, s_.setup->mesh, s_.positions(), *s_.topology, history_.snap, history_.stroke, cut)
+           .ok()) {
     move_front(command.sweep);  // through the air, or within an element
     return {};
   }
@@ -121,7 +122,7 @@ Status MeshEditor<Real>::cut(const CutTissue& command) {
   report.split += cut.edit.removed.size();
   report.pieces += cut.edit.added.size();
   report.area += cut.area;
-  report.min_angle = std::min(report.min_angle, worst_angle(cut.edit, s_.setup.mesh));
+  report.min_angle = std::min(report.min_angle, worst_angle(cut.edit, s_.setup->mesh));
   end_report(report);
   return {};
 }
@@ -129,9 +130,9 @@ Status MeshEditor<Real>::cut(const CutTissue& command) {
 /// Completes an edit of the corners where elements are quadratic.
 template <class Real>
 Status MeshEditor<Real>::add_midedge_nodes(MeshEdit& edit) const {
-  if (s_.setup.midedges.empty()) return {};
-  heml::add_midedge_nodes(s_.setup.mesh, s_.setup.midedges, edit);
-  const int inverted = count_inverted_points(s_.setup.mesh, edit);
+  if (s_.setup->midedges.empty()) return {};
+  heml::add_midedge_nodes(s_.setup->mesh, s_.setup->midedges, edit);
+  const int inverted = count_inverted_points(s_.setup->mesh, edit);
   if (inverted == 0) return {};
   return fmt::format(
       "cut: {} integration points of the pieces would be inverted at rest, since the elements are curved; cut "
@@ -147,7 +148,7 @@ void MeshEditor<Real>::move_front(const Sweep& sweep) {
   if (front.in_tissue())
     front.pass(sweep);
   else
-    front = BladeFront(sweep.blades.back(), s_.setup.mesh, s_.positions(), *s_.topology);
+    front = BladeFront(sweep.blades.back(), s_.setup->mesh, s_.positions(), *s_.topology);
 }
 
 template <class Real>
@@ -164,20 +165,20 @@ Status MeshEditor<Real>::undo() {
 
 template <class Real>
 void MeshEditor<Real>::tear() {
-  if (!s_.setup.tearing || s_.recovering() || s_.setup.solver.is_static()) return;
-  if (!tearing_) tearing_.emplace(*s_.setup.tearing, s_.setup.mesh, *s_.topology);
+  if (!s_.setup->tearing || s_.recovering() || s_.setup->solver.is_static()) return;
+  if (!tearing_) tearing_.emplace(*s_.setup->tearing, s_.setup->mesh, *s_.topology);
   const std::vector<Vec3> x = s_.positions();
   const auto is_constrained = [this](int n) {
-    return s_.inverse_mass[static_cast<std::size_t>(s_.model.order.new_node[static_cast<std::size_t>(n)])] == 0;
+    return s_.inverse_mass[static_cast<std::size_t>(s_.model->order.new_node[static_cast<std::size_t>(n)])] == 0;
   };
-  const std::vector<TearOpening> openings = tearing_->openings(s_.setup.mesh, x, is_constrained, s_.team);
+  const std::vector<TearOpening> openings = tearing_->openings(s_.setup->mesh, x, is_constrained, s_.team);
   if (openings.empty()) return;
   if (s_.edits.empty() || s_.edits.back().torn == 0) {
     save();
     history_.stroke = {};
     s_.edits.push_back(begin_report());
   }
-  const Tear tear = make_tear(openings, s_.setup.mesh, x, tearing_->around());
+  const Tear tear = make_tear(openings, s_.setup->mesh, x, tearing_->around());
   carry_out(tear.edit);
   s_.evaluate_forces();
   s_.edits.back().torn += tear.faces;
@@ -213,21 +214,22 @@ void MeshEditor<Real>::save() {
 /// Positions and velocities carry over to the nodes that a cut inserts; nodes of no element come to rest.
 template <class Real>
 void MeshEditor<Real>::carry_out(const MeshEdit& edit) {
-  const auto file_nodes = static_cast<int>(s_.setup.mesh.nodes.size()),
-             file_tets = static_cast<int>(s_.setup.mesh.tets.size());
-  const MeshEdit inner = in_numbers(edit, s_.model.order.new_node, s_.model.order.new_tet);
+  const auto file_nodes = static_cast<int>(s_.setup->mesh.nodes.size()),
+             file_tets = static_cast<int>(s_.setup->mesh.tets.size());
+  const MeshEdit inner = in_numbers(edit, s_.model->order.new_node, s_.model->order.new_tet);
   s_.topology = std::make_shared<const Topology>(apply_edit(*s_.topology, edit, file_tets));
-  const std::size_t before = s_.model.mesh.tets.size();
+  const std::size_t before = s_.model->mesh.tets.size();
   if (!edit.added.empty()) {
-    append(edit, s_.setup.mesh);
-    s_.setup.midedges.insert(s_.setup.midedges.end(), edit.midedges.begin(), edit.midedges.end());
-    for (Boundary& entry : s_.setup.boundary) update_after_edit(edit, file_nodes, entry.nodes);
-    for (Load& load : s_.setup.loads) {
-      add_middles(edit, s_.setup, load.nodes);
+    WorldSetup& setup = s_.setup.write();
+    append(edit, setup.mesh);
+    setup.midedges.insert(setup.midedges.end(), edit.midedges.begin(), edit.midedges.end());
+    for (Boundary& entry : setup.boundary) update_after_edit(edit, file_nodes, entry.nodes);
+    for (Load& load : setup.loads) {
+      add_middles(edit, setup, load.nodes);
       update_after_edit(edit, file_nodes, load.nodes);
     }
     for (PinnedPatch& pin : s_.pins) update_after_edit(inner, static_cast<int>(s_.mass.size()), pin.nodes);
-    append(s_.setup, inner, s_.model);
+    append(setup, inner, s_.model.write());
     for (auto* values : {&s_.state.x, &s_.state.v, &s_.last_valid.x, &s_.last_valid.v}) append(inner, *values, 3);
     s_.state.f.resize(s_.state.x.size());
     if (s_.recovery) s_.recovery->append(inner);
@@ -237,7 +239,7 @@ void MeshEditor<Real>::carry_out(const MeshEdit& edit) {
             Eigen::Map<const Vector3<Real>>(&s_.state.x[3 * static_cast<std::size_t>(pin.nodes[k])])
                 .template cast<double>());
   }
-  std::vector<bool> stays(s_.model.mesh.tets.size(), true);
+  std::vector<bool> stays(s_.model->mesh.tets.size(), true);
   for (const int t : inner.removed) stays[static_cast<std::size_t>(t)] = false;
   std::vector<int> elements, origins;
   for (std::size_t t = 0; t < stays.size(); ++t) {
@@ -245,14 +247,14 @@ void MeshEditor<Real>::carry_out(const MeshEdit& edit) {
     elements.push_back(static_cast<int>(t));
     origins.push_back(t < before ? static_cast<int>(t) : inner.parents[t - before]);
   }
-  keep_elements(s_.setup, elements, s_.model);
-  const bool closes_up = edit.added.empty() && s_.model.midedges.empty();
+  keep_elements(*s_.setup, elements, s_.model.write());
+  const bool closes_up = edit.added.empty() && s_.model->midedges.empty();
   if (closes_up)
     s_.body.keep_elements(elements);
   else
-    s_.body.transfer_state(s_.model.mesh, s_.model.material_of, origins, s_.model.midedges, s_.state.x.data());
+    s_.body.transfer_state(s_.model->mesh, s_.model->material_of, origins, s_.model->midedges, s_.state.x.data());
   rebuild_after_edit();
-  if (s_.implicit && !(closes_up && s_.implicit->keep_elements(elements, s_.mass))) s_.implicit.reset();
+  if (s_.implicit && !(closes_up && s_.implicit->keep_elements(s_.model->mesh, elements, s_.mass))) s_.implicit.reset();
 }
 
 /// Updates what depends on the set of elements.
@@ -265,7 +267,7 @@ void MeshEditor<Real>::rebuild_after_edit() {
   for (std::size_t n = 0; n < s_.mass.size(); ++n)
     if (s_.mass[n] == 0) Eigen::Map<Vector3<Real>>(&s_.state.v[3 * n]).setZero();
   s_.move_constrained();  // nodes of no element too
-  if (s_.recovery) s_.recovery->set_mesh(s_.model, s_.mass);
+  if (s_.recovery) s_.recovery->set_mesh(*s_.model, s_.mass);
   recovery_.follow_change();
   s_.lowest_frequency.reset();
 }
@@ -288,16 +290,17 @@ void MeshEditor<Real>::undo_to(const SimulationSnapshot<Real>& before) {
 template <class Real>
 void MeshEditor<Real>::restore_before_edit(const SimulationSnapshot<Real>& before) {
   const SimulationState<Real>& values = before.values;
-  s_.setup.mesh = before.mesh->mesh;
-  s_.setup.midedges = before.mesh->midedges;
-  s_.model = before.mesh->model;
+  WorldSetup& setup = s_.setup.write();
+  setup.mesh = before.setup->mesh;
+  setup.midedges = before.setup->midedges;
+  s_.model = before.model;
   if (values.condition_changes == s_.condition_changes) {
-    s_.setup.boundary = before.setup.boundary;
-    s_.setup.loads = before.setup.loads;
+    setup.boundary = before.setup->boundary;
+    setup.loads = before.setup->loads;
   } else {
     keep_conditions();
   }
-  s_.topology = std::make_shared<const Topology>(Topology{s_.topology->version + 1, before.mesh->topology->elements});
+  s_.topology = std::make_shared<const Topology>(Topology{s_.topology->version + 1, before.topology->elements});
   s_.state.x = s_.last_valid.x = values.state.x;
   s_.state.v = s_.last_valid.v = values.state.v;
   s_.state.f = values.state.f;
@@ -305,7 +308,7 @@ void MeshEditor<Real>::restore_before_edit(const SimulationSnapshot<Real>& befor
   restore_grasps(before);
   s_.pins = values.pins;
   s_.contacts.sutures = values.contacts.sutures;
-  s_.body.restore(s_.model.mesh, s_.model.material_of, before.body, s_.state.x.data(), s_.model.midedges);
+  s_.body.restore(before.body, s_.state.x.data());
   s_.implicit.reset();
   rebuild_after_edit();
 }
@@ -313,14 +316,15 @@ void MeshEditor<Real>::restore_before_edit(const SimulationSnapshot<Real>& befor
 /// Boundary and loads were set since: they stay, without nodes that the mesh has no more.
 template <class Real>
 void MeshEditor<Real>::keep_conditions() {
-  const auto nodes = static_cast<int>(s_.setup.mesh.nodes.size());
+  WorldSetup& setup = s_.setup.write();
+  const auto nodes = static_cast<int>(setup.mesh.nodes.size());
   const auto trim = [&](auto& entries) {
     for (auto& entry : entries) std::erase_if(entry.nodes, [&](int n) { return n >= nodes; });
   };
-  trim(s_.setup.boundary);
-  trim(s_.setup.loads);
-  set_boundary(s_.setup, s_.model);
-  set_loads(s_.setup, s_.model);
+  trim(setup.boundary);
+  trim(setup.loads);
+  set_boundary(setup, s_.model.write());
+  set_loads(setup, s_.model.write());
 }
 
 /// Restores the grasps that have been held ever since, by tools that are where they are now.

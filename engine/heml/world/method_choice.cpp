@@ -13,7 +13,7 @@ constexpr double resolved = 0.3;      // h ω of a motion that steps of h follow
 
 template <class Real>
 Integrator MethodChoice<Real>::chosen() {
-  const SolverSettings& solver = s_.setup.solver;
+  const SolverSettings& solver = s_.setup->solver;
   if (solver.integrator != Integrator::automatic || s_.halt) return solver.integrator;
   if (explicit_load() <= 1) return Integrator::verlet;
   if (!s_.lowest_frequency) s_.lowest_frequency = lowest_frequency();
@@ -23,7 +23,7 @@ Integrator MethodChoice<Real>::chosen() {
 template <class Real>
 MethodFacts MethodChoice<Real>::facts() {
   MethodFacts facts;
-  facts.asked = s_.setup.solver.integrator;
+  facts.asked = s_.setup->solver.integrator;
   facts.used = s_.method;
   facts.step_cost = step_cost();
   facts.explicit_share = explicit_share();
@@ -41,7 +41,7 @@ void MethodChoice<Real>::choose() {
 
 template <class Real>
 void MethodChoice<Real>::reconsider() {
-  if (s_.setup.solver.integrator != Integrator::automatic) return;
+  if (s_.setup->solver.integrator != Integrator::automatic) return;
   find_stable_step(s_);
   const bool keep = is_explicit(s_.method) ? explicit_load() <= margin : explicit_load() > 1 / margin;
   if (keep) return;
@@ -53,18 +53,18 @@ void MethodChoice<Real>::reconsider() {
 /// the stable one.
 template <class Real>
 double MethodChoice<Real>::explicit_load() const {
-  const SolverSettings& solver = s_.setup.solver;
+  const SolverSettings& solver = s_.setup->solver;
   return solver.step ? *solver.step / s_.limit.stable : explicit_share() / enough;
 }
 
 template <class Real>
 double MethodChoice<Real>::explicit_share() const {
-  return bound_share * step_cost() * static_cast<double>(s_.model.mesh.tets.size()) / s_.limit.stable;
+  return bound_share * step_cost() * static_cast<double>(s_.model->mesh.tets.size()) / s_.limit.stable;
 }
 
 template <class Real>
 double MethodChoice<Real>::step_cost() const {
-  return s_.step_cost.value_or(fixed_step_cost(s_.body.kernels(), s_.setup));
+  return s_.step_cost.value_or(fixed_step_cost(s_.body.kernels(), *s_.setup));
 }
 
 /// Rayleigh's quotient of how the body gives way at rest to a field of gravity along each axis, 1/s; 0 where it is
@@ -72,10 +72,10 @@ double MethodChoice<Real>::step_cost() const {
 template <class Real>
 double MethodChoice<Real>::lowest_frequency() {
   ImplicitState<Real>& parts = s_.implicit_state();
-  if (parts.free.node.empty() || !is_well_constrained(s_.model, s_.constrained_nodes())) return 0;
+  if (parts.free.node.empty() || !is_well_constrained(*s_.model, s_.constrained_nodes())) return 0;
   Vector rest(parts.mass.size()), shape, push;
-  for (std::size_t n = 0; n < s_.model.mesh.nodes.size(); ++n)
-    rest.template segment<3>(3 * static_cast<int>(n)) = s_.model.mesh.nodes[n];
+  for (std::size_t n = 0; n < s_.model->mesh.nodes.size(); ++n)
+    rest.template segment<3>(3 * static_cast<int>(n)) = s_.model->mesh.nodes[n];
   double least = 0;
   parts.body.linearise(rest);
   for (int axis = 0; axis < 3; ++axis) {

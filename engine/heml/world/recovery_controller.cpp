@@ -48,18 +48,18 @@ double thinness(const TetMesh& mesh, int element) {
 template <class Real>
 void RecoveryController<Real>::start() {
   s_.recovery.reset();
-  if (!s_.setup.solver.recovery || s_.setup.solver.is_static()) return;
+  if (!s_.setup->solver.recovery || s_.setup->solver.is_static()) return;
   RecoveryProgress<Real> progress;
-  progress.max_speed = max_speed_factor * (max_wave_speed() + s_.setup.initial_velocity.norm());
+  progress.max_speed = max_speed_factor * (max_wave_speed() + s_.setup->initial_velocity.norm());
   progress.last_good = s_.state;
   if (s_.has_internal_state) progress.last_good_internal = s_.body.internal_state();
-  s_.recovery = std::make_unique<RecoveryState<Real>>(s_.model, s_.mass, std::move(progress));
+  s_.recovery = std::make_unique<RecoveryState<Real>>(*s_.model, s_.mass, std::move(progress));
 }
 
 /// Speed of the fastest waves, which cross an element in about 2/ω_max, m/s.
 template <class Real>
 double RecoveryController<Real>::max_wave_speed() const {
-  return static_cast<double>(s_.rest_frequency) * s_.model.diagonal / std::cbrt(static_cast<double>(s_.mass.size())) /
+  return static_cast<double>(s_.rest_frequency) * s_.model->diagonal / std::cbrt(static_cast<double>(s_.mass.size())) /
          2;
 }
 
@@ -67,7 +67,7 @@ double RecoveryController<Real>::max_wave_speed() const {
 template <class Real>
 double RecoveryController<Real>::shear_wave_speed() const {
   double speed = 0;
-  for (const RegionMaterial& entry : s_.setup.materials)
+  for (const RegionMaterial& entry : s_.setup->materials)
     speed = std::max(speed, std::sqrt(small_strain_moduli(entry.material).shear / entry.material.density));
   return speed > 0 ? speed : max_wave_speed();  // a net of springs is no continuum
 }
@@ -77,8 +77,8 @@ std::optional<StopReason> RecoveryController<Real>::monitor() {
   if (!s_.recovery || s_.recovering() || s_.halt) return std::nullopt;
   RecoveryState<Real>& recovery = *s_.recovery;
   recovery.track_tools(s_.grasps, s_.state.time);
-  const StateCheck check = recovery.check(s_.model, s_.state, s_.mass);
-  const double inverted = static_cast<double>(check.inverted) / static_cast<double>(s_.model.mesh.tets.size());
+  const StateCheck check = recovery.check(*s_.model, s_.state, s_.mass);
+  const double inverted = static_cast<double>(check.inverted) / static_cast<double>(s_.model->mesh.tets.size());
   if (!(check.min_J < worst_J || inverted > max_inverted || check.speed > recovery.max_speed)) {
     keep_state();
     recovery.has_last_good = true;
@@ -87,7 +87,7 @@ std::optional<StopReason> RecoveryController<Real>::monitor() {
         StopReason::Cause::unstable, -1, -1,
         fmt::format(
             "unstable at t = {:.6g} s: steps of {:.3g} s are too long for this body, which at rest bears {:.3g} s",
-            s_.state.time, s_.setup.solver.step.value_or(min_step), 2 / static_cast<double>(s_.rest_frequency))};
+            s_.state.time, s_.setup->solver.step.value_or(min_step), 2 / static_cast<double>(s_.rest_frequency))};
   } else {
     begin(check);
   }
@@ -98,15 +98,15 @@ std::optional<StopReason> RecoveryController<Real>::monitor() {
 template <class Real>
 bool RecoveryController<Real>::is_step_hopeless() const {
   const double limit_at_rest = 2 / static_cast<double>(s_.rest_frequency);
-  return is_explicit(s_.setup.solver.integrator) && !(limit_at_rest > s_.setup.solver.step.value_or(min_step));
+  return is_explicit(s_.setup->solver.integrator) && !(limit_at_rest > s_.setup->solver.step.value_or(min_step));
 }
 
 template <class Real>
 bool RecoveryController<Real>::takes_over(const StopReason& failure) {
   if (!s_.recovery || s_.recovering() || is_step_hopeless()) return false;
-  StateCheck check = s_.recovery->check(s_.model, s_.state, s_.mass);
+  StateCheck check = s_.recovery->check(*s_.model, s_.state, s_.mass);
   if (failure.cause == StopReason::Cause::not_converged && !(check.min_J < min_healthy_J)) return false;
-  const auto& file_tet = s_.model.order.file_tet;
+  const auto& file_tet = s_.model->order.file_tet;
   if (failure.element >= 0)
     check.worst = static_cast<int>(std::find(file_tet.begin(), file_tet.end(), failure.element) - file_tet.begin());
   begin(check);
@@ -177,15 +177,15 @@ FailureDiagnosis RecoveryController<Real>::diagnose(const StateCheck& check) con
   s.tool_speed = s_.recovery->tool_speed;
   s.pulled = !s_.grasps.empty();
   s.wave_speed = shear_wave_speed();
-  s.thinness = thinness(s_.model.mesh, check.worst);
-  if (s_.setup.solver.step && is_explicit(s_.setup.solver.integrator)) {
-    s.step = *s_.setup.solver.step;
+  s.thinness = thinness(s_.model->mesh, check.worst);
+  if (s_.setup->solver.step && is_explicit(s_.setup->solver.integrator)) {
+    s.step = *s_.setup->solver.step;
     s.limit = s_.limit.stable;
   }
   if (check.min_J >= min_healthy_J && check.speed > s_.recovery->max_speed) return s;
-  s.element = s_.model.order.file_tet[static_cast<std::size_t>(check.worst)];
-  const int material = s_.model.material_of[static_cast<std::size_t>(check.worst)];
-  const SmallStrainModuli rest = small_strain_moduli(s_.setup.materials[static_cast<std::size_t>(material)].material);
+  s.element = s_.model->order.file_tet[static_cast<std::size_t>(check.worst)];
+  const int material = s_.model->material_of[static_cast<std::size_t>(check.worst)];
+  const SmallStrainModuli rest = small_strain_moduli(s_.setup->materials[static_cast<std::size_t>(material)].material);
   if (rest.shear > 0) s.stiffness_ratio = rest.bulk / rest.shear;
   return s;
 }
@@ -195,11 +195,11 @@ template <class Real>
 void RecoveryController<Real>::perturb() {
   for (std::size_t n = 0; n < s_.mass.size(); ++n) {
     if (!(s_.inverse_mass[n] > 0)) continue;
-    std::uint64_t random = hash_combine(perturbation_seed, static_cast<std::uint64_t>(s_.model.order.file_node[n]));
+    std::uint64_t random = hash_combine(perturbation_seed, static_cast<std::uint64_t>(s_.model->order.file_node[n]));
     for (std::size_t i = 0; i < 3; ++i) {
       random = hash_combine(random, std::uint64_t{i});
       const double part = static_cast<double>(random >> 11) * 0x1p-52 - 1;
-      s_.state.x[3 * n + i] += static_cast<Real>(perturbation * s_.model.diagonal * part);
+      s_.state.x[3 * n + i] += static_cast<Real>(perturbation * s_.model->diagonal * part);
     }
   }
 }
@@ -208,7 +208,7 @@ template <class Real>
 void RecoveryController<Real>::step(double until) {
   step_surrogate(until);
   RecoveryState<Real>& recovery = *s_.recovery;
-  const StateCheck check = recovery.check(s_.model, s_.state, s_.mass);
+  const StateCheck check = recovery.check(*s_.model, s_.state, s_.mass);
   recovery.healthy_steps = check.min_J > min_healthy_J ? recovery.healthy_steps + 1 : 0;
   const bool is_calm = check.speed <= calm_speed * shear_wave_speed();
   if (recovery.healthy_steps >= (is_calm ? calm_steps : moving_steps)) end();
@@ -220,7 +220,7 @@ void RecoveryController<Real>::step_surrogate(double until) {
   ImplicitState<Real>& implicit = s_.recovery->surrogate->implicit;
   // A collapsed body, whose forces are too small to expand it, or a tangled one at a minimum of energy is moved towards
   // its rest shape.
-  const StateCheck check = s_.recovery->check(s_.model, s_.state, s_.mass);
+  const StateCheck check = s_.recovery->check(*s_.model, s_.state, s_.mass);
   if (check.extent < collapsed_extent) move_towards_rest(collapsed_fraction);
   if (check.inverted == 0 && !s_.recovery->is_folded(s_.state))
     s_.recovery->is_tangled = false;
@@ -236,16 +236,16 @@ void RecoveryController<Real>::step_surrogate(double until) {
   const Stage stage = backward_euler_stage(implicit.x, implicit.v, h);
   // Critical for the slowest mode, which is about a wave to and fro.
   const double damping =
-      std::max(s_.setup.solver.damping, 2 * std::numbers::pi * shear_wave_speed() / s_.model.diagonal);
+      std::max(s_.setup->solver.damping, 2 * std::numbers::pi * shear_wave_speed() / s_.model->diagonal);
   implicit.body.begin_step(implicit.x, s_.state.time);
-  implicit.body.set_time(until, s_.setup.gravity);
+  implicit.body.set_time(until, s_.setup->gravity);
   implicit.body.set_velocity(stage.d, stage.x_bar);
   implicit.step.set(stage.a(damping), stage.y(damping));
   implicit.linear.set_inertia(stage.a(damping));
   Vector stay = implicit.x, fly = (implicit.mass.array() > 0).select(stage.y(damping), stay);
-  for (const ConstrainedNode& constrained : s_.model.constrained)
+  for (const ConstrainedNode& constrained : s_.model->constrained)
     stay.segment<3>(3 * constrained.node) = fly.segment<3>(3 * constrained.node) =
-        prescribed_at(s_.model, constrained, until).x;
+        prescribed_at(*s_.model, constrained, until).x;
   const auto staying = implicit.step.value(stay), flying = implicit.step.value(fly);
   Vector x = flying && *flying < *staying ? fly : stay, r;
   implicit.step.residual(x, r);
@@ -273,7 +273,7 @@ void RecoveryController<Real>::move_towards_rest(double part) {
   Vec3 x_mean = Vec3::Zero(), X_mean = Vec3::Zero();
   double mass = 0;
   const auto x = [&](std::size_t n) { return Eigen::Map<Vector3<Real>>(&s_.state.x[3 * n]); };
-  const auto& X = s_.model.mesh.nodes;
+  const auto& X = s_.model->mesh.nodes;
   const auto weight = [&](std::size_t n) {
     return static_cast<double>(s_.mass[n]) * (s_.inverse_mass[n] > 0 ? 1 : weight_of_constrained);
   };

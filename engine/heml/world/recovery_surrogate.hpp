@@ -12,7 +12,7 @@ struct RecoverySurrogate {
 
   /// setup: the scene's, a material per index in model.material_of. masses, inverse_mass: #V, as the world's. All must
   /// outlive this.
-  RecoverySurrogate(const Model<Real>& model, const WorldSetup& setup, const std::vector<Real>& masses,
+  RecoverySurrogate(const Shared<Model<Real>>& model, const WorldSetup& setup, const std::vector<Real>& masses,
                     const std::vector<Real>& inverse_mass, const std::vector<GraspSpring<Real>>& grasps,
                     Contacts& contacts, ThreadTeam& team);
 };

@@ -13,31 +13,44 @@ std::vector<Material> materials_of(const WorldSetup& setup) {
   return materials;
 }
 
+BodyOptions options_of(const WorldSetup& setup) {
+  return {setup.solver.continuation, setup.solver.nodal_pressure, setup.instruction_set, setup.solver.threads};
+}
+
 }  // namespace
 
 template <class Real>
 Simulation<Real>::Simulation(WorldSetup setup_in)
     : setup(std::move(setup_in)),
-      model(make_model<Real>(setup)),
-      topology(std::make_shared<const Topology>(full_topology(setup.mesh))),
-      body(model.mesh, model.material_of, materials_of(setup),
-           {setup.solver.continuation, setup.solver.nodal_pressure, setup.instruction_set, setup.solver.threads},
-           model.midedges),
-      team(setup.solver.threads) {
+      model(make_model<Real>(*setup)),
+      topology(std::make_shared<const Topology>(full_topology(setup->mesh))),
+      body(model->mesh, model->material_of, materials_of(*setup), options_of(*setup), model->midedges),
+      team(setup->solver.threads) {
   const FlushDenormals flush;
-  contacts.tables = setup.tables;
+  contacts.tables = setup->tables;
   for (Table& table : contacts.tables) table.normal.normalize();
   update_masses();
+}
+
+template <class Real>
+Simulation<Real>::Simulation(const SimulationSnapshot<Real>& snapshot)
+    : setup(snapshot.setup),
+      model(snapshot.model),
+      topology(snapshot.topology),
+      body(snapshot.body, options_of(*setup), snapshot.values.state.x.data()),
+      team(setup->solver.threads) {
+  const FlushDenormals flush;
+  restore(snapshot, *this);
 }
 
 template <class Real>
 void Simulation<Real>::update_masses() {
   has_internal_state = body.has_internal_state();
   mass = body.masses();
-  if (!model.midedges.empty()) consistent_mass = body.consistent_masses();
+  if (!model->midedges.empty()) consistent_mass = body.consistent_masses();
   inverse_mass.resize(mass.size());
   for (std::size_t n = 0; n < mass.size(); ++n) inverse_mass[n] = mass[n] > 0 ? 1 / mass[n] : Real(0);
-  for (const ConstrainedNode& constrained : model.constrained)
+  for (const ConstrainedNode& constrained : model->constrained)
     inverse_mass[static_cast<std::size_t>(constrained.node)] = 0;
   for (const PinnedPatch& pin : pins)
     for (const int n : pin.nodes) inverse_mass[static_cast<std::size_t>(n)] = 0;
@@ -48,8 +61,8 @@ void Simulation<Real>::update_masses() {
 
 template <class Real>
 void Simulation<Real>::move_constrained() {
-  for (const ConstrainedNode& constrained : model.constrained) {
-    const PrescribedMotion::At at = prescribed_at(model, constrained, state.time);
+  for (const ConstrainedNode& constrained : model->constrained) {
+    const PrescribedMotion::At at = prescribed_at(*model, constrained, state.time);
     Eigen::Map<Vector3<Real>>(&state.x[3 * static_cast<std::size_t>(constrained.node)]) = at.x.template cast<Real>();
     Eigen::Map<Vector3<Real>>(&state.v[3 * static_cast<std::size_t>(constrained.node)]) = at.v.template cast<Real>();
   }
@@ -63,7 +76,7 @@ void Simulation<Real>::move_constrained() {
 
 template <class Real>
 Vec3 Simulation<Real>::gravity() const {
-  return (setup.solver.is_static() ? ramp(state.time, setup.solver.load_duration()) : 1) * setup.gravity;
+  return (setup->solver.is_static() ? ramp(state.time, setup->solver.load_duration()) : 1) * setup->gravity;
 }
 
 template <class Real>
@@ -78,8 +91,8 @@ bool Simulation<Real>::evaluate_forces() {
       for (std::size_t n = begin; n < end; ++n)
         for (std::size_t i = 0; i < 3; ++i) f[3 * n + i] += heavy[n] * g[static_cast<int>(i)];
     });
-  for (const auto& load : model.dead) add_load(load, state.time, f);
-  for (const auto& load : model.pressures) add_load(load, state.time, x, f);
+  for (const auto& load : model->dead) add_load(load, state.time, f);
+  for (const auto& load : model->pressures) add_load(load, state.time, x, f);
   for (const auto& grasp : grasps) grasp.add_forces(x, state.v.data(), f);
   if (!contacts.empty() && implicit && !is_explicit(method) && !recovering()) {
     Vector contact = Vector::Zero(static_cast<Eigen::Index>(state.x.size()));
@@ -98,7 +111,7 @@ Energies Simulation<Real>::energies() {
     const Vec3 v = Eigen::Map<const Vector3<Real>>(&state.v[3 * n]).template cast<double>();
     const Vec3 x = Eigen::Map<const Vector3<Real>>(&state.x[3 * n]).template cast<double>();
     e.kinetic += m / 2 * v.squaredNorm();
-    e.potential -= static_cast<double>(gravity_mass()[n]) * g.dot(x - model.mesh.nodes[n]);
+    e.potential -= static_cast<double>(gravity_mass()[n]) * g.dot(x - model->mesh.nodes[n]);
   }
   e.elastic = acting_body().energy(state.x.data(), team);
   return e;
@@ -122,20 +135,20 @@ ImplicitState<Real>& Simulation<Real>::implicit_state() {
   if (!implicit)
     implicit = std::make_unique<ImplicitState<Real>>(
         body, model, mass, inverse_mass,
-        preconditioner_moduli(model.mesh, model.material_of, setup.materials, setup.solver.minimiser), grasps, contacts,
-        team, setup.solver, setup.instruction_set);
+        preconditioner_moduli(model->mesh, model->material_of, setup->materials, setup->solver.minimiser), grasps,
+        contacts, team, setup->solver, setup->instruction_set);
   return *implicit;
 }
 
 template <class Real>
 void Simulation<Real>::install_surrogate() {
   recovery->surrogate =
-      std::make_unique<RecoverySurrogate<Real>>(model, setup, mass, inverse_mass, grasps, contacts, team);
+      std::make_unique<RecoverySurrogate<Real>>(model, *setup, mass, inverse_mass, grasps, contacts, team);
 }
 
 template <class Real>
 std::vector<ConstrainedNode> Simulation<Real>::constrained_nodes() const {
-  std::vector<ConstrainedNode> nodes = model.constrained;
+  std::vector<ConstrainedNode> nodes = model->constrained;
   for (const PinnedPatch& pin : pins)
     for (const int n : pin.nodes) nodes.push_back({n, -1});
   return nodes;
@@ -145,7 +158,7 @@ template <class Real>
 std::vector<Vec3> Simulation<Real>::in_file_order(const std::vector<Real>& values) const {
   std::vector<Vec3> result(mass.size());
   for (std::size_t file = 0; file < result.size(); ++file) {
-    const Real* value = &values[3 * static_cast<std::size_t>(model.order.new_node[file])];
+    const Real* value = &values[3 * static_cast<std::size_t>(model->order.new_node[file])];
     result[file] = Vec3(value[0], value[1], value[2]);
   }
   return result;
@@ -165,11 +178,11 @@ void Simulation<Real>::update_contact_surfaces() {
 // The body has other elements, or begins anew. Quadratic ones bear on each other as the linear ones on their nodes.
 template <class Real>
 void Simulation<Real>::update_self_contact() {
-  if (!setup.self_contact) return;
-  if (model.midedges.empty())
-    contacts.tissue.emplace(*setup.self_contact, model.mesh);
+  if (!setup->self_contact) return;
+  if (model->midedges.empty())
+    contacts.tissue.emplace(*setup->self_contact, model->mesh);
   else
-    contacts.tissue.emplace(*setup.self_contact, subdivided(model.mesh, model.midedges));
+    contacts.tissue.emplace(*setup->self_contact, subdivided(model->mesh, model->midedges));
 }
 
 // The nodes of the surface that are free, and its faces where something may be smaller than they are.
@@ -177,9 +190,9 @@ template <class Real>
 void Simulation<Real>::update_contact_boundary() {
   contacts.boundary = {};
   if (contacts.tables.empty() && !contacts.probe) return;
-  for (const int n : model.surface_nodes)
+  for (const int n : model->surface_nodes)
     if (inverse_mass[static_cast<std::size_t>(n)] > 0) contacts.boundary.nodes.push_back(n);
-  if (contacts.probe) contacts.boundary.faces = fine_boundary(model.mesh, model.midedges).triangles;
+  if (contacts.probe) contacts.boundary.faces = fine_boundary(model->mesh, model->midedges).triangles;
 }
 
 template struct Simulation<float>;

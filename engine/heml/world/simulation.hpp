@@ -3,13 +3,15 @@
 // (explicit_stepper.hpp, implicit_stepper.hpp, static_stepper.hpp, recovery_controller.hpp, mesh_editor.hpp,
 // command_executor.hpp, method_choice.hpp) and queries (world_queries.hpp) each hold a reference to one Simulation.
 //
-//   setup ──► model (inner order) ──► body         not changed by steps (but for the body's internal state)
+//   setup ──► model (inner order) ──► body         not changed by steps (but for the body's internal state), shared by
+//                                                  worlds of one scene and their snapshots (base/shared.hpp)
 //   SimulationState: masses, tools, positions,     plain values, copied by snapshots (simulation_snapshot.hpp)
 //   step limit, counters
 //   implicit, recovery                             made when needed; snapshots copy what steps to come depend on
 //
 // Nodes and elements are in inner order (mesh/reorder.hpp) unless a comment says mesh-file order.
 #include <atomic>
+#include <heml/base/shared.hpp>
 #include <heml/base/thread_team.hpp>
 #include <heml/dynamics/state.hpp>
 #include <heml/elastic/body.hpp>
@@ -72,19 +74,15 @@ struct SimulationState {
   SolverStats stats;
 };
 
-/// What edits of the mesh alone change.
 template <class Real>
-struct MeshSnapshot {
-  TetMesh mesh;       ///< mesh-file order, with what cuts have added
-  MidEdges midedges;  ///< of its elements, if they are quadratic
-  Model<Real> model;
-  std::shared_ptr<const Topology> topology;
-};
+struct SimulationSnapshot;
 
 template <class Real>
 struct Simulation : SimulationState<Real> {
   /// Throws InputError as make_world().
   explicit Simulation(WorldSetup setup);
+  /// That of a snapshot, with which it shares what steps do not change.
+  explicit Simulation(const SimulationSnapshot<Real>& snapshot);
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
@@ -113,7 +111,7 @@ struct Simulation : SimulationState<Real> {
   bool is_stopped() const { return halt || interrupted; }
   /// Simulated seconds since the start, at the rates there were; not reset by Reset.
   double elapsed() const {
-    return this->elapsed_before_rate + static_cast<double>(this->ticks - this->rate_tick) * setup.solver.tick();
+    return this->elapsed_before_rate + static_cast<double>(this->ticks - this->rate_tick) * setup->solver.tick();
   }
 
   /// Makes the surrogate of a recovery for the present mesh, materials and constraints.
@@ -132,10 +130,9 @@ struct Simulation : SimulationState<Real> {
   using Values::inverse_mass, Values::inverse_mass_per_dof, Values::last_valid, Values::mass, Values::method;
   using Values::pins, Values::state;
 
-  WorldSetup setup;
-  Model<Real> model;
+  Shared<WorldSetup> setup;
+  Shared<Model<Real>> model;
   std::shared_ptr<const Topology> topology;
-  std::weak_ptr<const MeshSnapshot<Real>> saved_mesh;  ///< of the last snapshot, which the next one may share
   ElasticBody<Real> body;
   ThreadTeam team;
 

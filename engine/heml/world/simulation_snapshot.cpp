@@ -6,24 +6,6 @@
 namespace heml {
 namespace {
 
-WorldSetup without_mesh(WorldSetup& setup) {
-  TetMesh mesh = std::exchange(setup.mesh, {});
-  MidEdges midedges = std::exchange(setup.midedges, {});
-  WorldSetup rest = setup;
-  setup.mesh = std::move(mesh);
-  setup.midedges = std::move(midedges);
-  return rest;
-}
-
-template <class Real>
-std::shared_ptr<const MeshSnapshot<Real>> mesh_of(Simulation<Real>& s) {
-  if (const auto saved = s.saved_mesh.lock(); saved && saved->topology == s.topology) return saved;
-  const auto mesh = std::make_shared<const MeshSnapshot<Real>>(
-      MeshSnapshot<Real>{s.setup.mesh, s.setup.midedges, s.model, s.topology});
-  s.saved_mesh = mesh;
-  return mesh;
-}
-
 template <class Real>
 RecoverySnapshot<Real> snapshot_of(const RecoveryState<Real>& recovery) {
   return {recovery, recovery.surrogate ? std::optional(recovery.surrogate->implicit.snapshot()) : std::nullopt};
@@ -31,7 +13,7 @@ RecoverySnapshot<Real> snapshot_of(const RecoveryState<Real>& recovery) {
 
 template <class Real>
 void restore(const RecoverySnapshot<Real>& snapshot, Simulation<Real>& s) {
-  s.recovery = std::make_unique<RecoveryState<Real>>(s.model, s.mass, snapshot.progress);
+  s.recovery = std::make_unique<RecoveryState<Real>>(*s.model, s.mass, snapshot.progress);
   if (!snapshot.surrogate) return;
   s.install_surrogate();
   s.recovery->surrogate->implicit.restore(*snapshot.surrogate);
@@ -42,8 +24,9 @@ void restore(const RecoverySnapshot<Real>& snapshot, Simulation<Real>& s) {
 template <class Real>
 SimulationSnapshot<Real> take_snapshot(Simulation<Real>& s) {
   SimulationSnapshot<Real> snapshot;
-  snapshot.mesh = mesh_of(s);
-  snapshot.setup = without_mesh(s.setup);
+  snapshot.setup = s.setup;
+  snapshot.model = s.model;
+  snapshot.topology = s.topology;
   snapshot.values = s;
   snapshot.body = s.body.snapshot();
   if (s.implicit) snapshot.implicit = s.implicit->snapshot();
@@ -56,20 +39,19 @@ void restore(const SimulationSnapshot<Real>& snapshot, Simulation<Real>& s) {
   s.recovery.reset();
   s.implicit.reset();
   s.setup = snapshot.setup;
-  s.setup.mesh = snapshot.mesh->mesh;
-  s.setup.midedges = snapshot.mesh->midedges;
-  s.model = snapshot.mesh->model;
-  s.topology = std::make_shared<const Topology>(Topology{s.topology->version + 1, snapshot.mesh->topology->elements});
+  s.model = snapshot.model;
+  s.topology = std::make_shared<const Topology>(Topology{s.topology->version + 1, snapshot.topology->elements});
   static_cast<SimulationState<Real>&>(s) = snapshot.values;
-  s.body.restore_all(s.model.mesh, s.model.material_of, snapshot.body, s.state.x.data(), s.model.midedges);
+  s.body.restore_all(snapshot.body, s.state.x.data());
   if (snapshot.implicit) s.implicit_state().restore(*snapshot.implicit);
   if (snapshot.recovery) restore(*snapshot.recovery, s);
 }
 
 template <class Real>
 std::size_t SimulationSnapshot<Real>::bytes() const {
-  std::size_t sum = bytes_of_mesh(mesh->mesh) + bytes_of_model(mesh->model) +
-                    bytes_of(mesh->midedges, mesh->topology->elements) + body.bytes() + (values.contacts.tissue ? values.contacts.tissue->bytes() : 0);
+  std::size_t sum = bytes_of_mesh(setup->mesh) + bytes_of_model(*model);
+  sum += bytes_of(setup->midedges, topology->elements) + body.bytes();
+  if (values.contacts.tissue) sum += values.contacts.tissue->bytes();
   for (const State<Real>* state : {&values.state, &values.last_valid}) sum += bytes_of(state->x, state->v, state->f);
   return sum + bytes_of(values.mass, values.inverse_mass, values.inverse_mass_per_dof);
 }

@@ -2,8 +2,8 @@
 // A simulation's data at one moment. Undo keeps one per edit, World::snapshot() adds what the phases remember.
 //
 //   values      copied whole: SimulationState
-//   mesh        shared by all snapshots between two edits of the mesh
-//   body        slot order, fan layout (shared), internal state of every term
+//   setup, model, topology    shared with the simulation until it is edited
+//   body        elements (shared), internal state of every term
 //   implicit    the step before, contact's friction, factors' inertia; matrices are made anew
 //   recovery    the last good state, and the surrogate's implicit part; the surrogate itself is made anew
 #include <heml/world/simulation.hpp>
@@ -12,8 +12,9 @@ namespace heml {
 
 template <class Real>
 struct SimulationSnapshot {
-  std::shared_ptr<const MeshSnapshot<Real>> mesh;
-  WorldSetup setup;  ///< without its mesh and mid-edge nodes
+  Shared<WorldSetup> setup;
+  Shared<Model<Real>> model;
+  std::shared_ptr<const Topology> topology;
   SimulationState<Real> values;
   BodySnapshot<Real> body;
   std::optional<ImplicitSnapshot<Real>> implicit;

@@ -52,9 +52,9 @@ template <class Real>
 int steps_until_supports_strain(const Simulation<Real>& s) {
   if (!(s.limit.stable > 0)) return steps_between_bounds_when_driven;
   double fastest = 0;
-  for (std::size_t k = 0; k < s.model.prescribed_motions.size(); ++k)
-    if (s.state.time < s.model.prescribed_motions[k].ramp_time) fastest = std::max(fastest, s.model.speeds[k]);
-  const double steps = change_between_bounds * s.model.spacing / (fastest * s.limit.stable);
+  for (std::size_t k = 0; k < s.model->prescribed_motions.size(); ++k)
+    if (s.state.time < s.model->prescribed_motions[k].ramp_time) fastest = std::max(fastest, s.model->speeds[k]);
+  const double steps = change_between_bounds * s.model->spacing / (fastest * s.limit.stable);
   return static_cast<int>(std::clamp<double>(steps, steps_between_bounds_when_driven, steps_between_bounds_when_calm));
 }
 

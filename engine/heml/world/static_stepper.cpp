@@ -27,18 +27,18 @@ std::optional<StopReason> StaticStepper<Real>::load_to(double fraction) {
   ++s_.changes;
   const FlushDenormals flush;
   ImplicitState<Real>& parts = s_.implicit_state();
-  const double duration = s_.setup.solver.load_duration();
+  const double duration = s_.setup->solver.load_duration();
   if (s_.has_internal_state)
     s_.body.begin_step(std::numeric_limits<Real>::infinity());  // at rest for long: all has relaxed
   const auto size = static_cast<Eigen::Index>(s_.state.x.size());
   const Vector start =
       Eigen::Map<const Eigen::Matrix<Real, Eigen::Dynamic, 1>>(s_.state.x.data(), size).template cast<double>();
-  parts.body.begin_static(duration, s_.setup.gravity, start);
+  parts.body.begin_static(duration, s_.setup->gravity, start);
   if (!parts.equilibrium) {
     const double highest = static_cast<double>(s_.rest_frequency * s_.rest_frequency);
-    const bool constrained = is_well_constrained(s_.model, s_.constrained_nodes());
+    const bool constrained = is_well_constrained(*s_.model, s_.constrained_nodes());
     if (!constrained) parts.body.set_regularisation(anchor * highest);
-    const StaticTolerance limit{s_.setup.solver.relative_tolerance(), s_.setup.solver.tolerance.has_value()};
+    const StaticTolerance limit{s_.setup->solver.relative_tolerance(), s_.setup->solver.tolerance.has_value()};
     parts.equilibrium.emplace(parts.body, parts.linear, parts.mass, parts.free, limit,
                               constrained ? 0 : anchor_in_float * highest, start);
   }
@@ -67,9 +67,9 @@ std::optional<StopReason> StaticStepper<Real>::load_to(double fraction) {
 
 template <class Real>
 Vector StaticStepper<Real>::rest_positions() const {
-  Vector rest(3 * static_cast<Eigen::Index>(s_.model.mesh.nodes.size()));
-  for (std::size_t n = 0; n < s_.model.mesh.nodes.size(); ++n)
-    rest.segment<3>(3 * static_cast<int>(n)) = s_.model.mesh.nodes[n];
+  Vector rest(3 * static_cast<Eigen::Index>(s_.model->mesh.nodes.size()));
+  for (std::size_t n = 0; n < s_.model->mesh.nodes.size(); ++n)
+    rest.segment<3>(3 * static_cast<int>(n)) = s_.model->mesh.nodes[n];
   return rest;
 }
 
@@ -82,7 +82,7 @@ StopReason StaticStepper<Real>::why_not_beyond(const StaticSolve& equilibrium) c
         "no equilibrium to within {:.1e} of the forces beyond {:.4g} of the load: round-off leaves {:.1e} of them "
         "({}): "
         "what is written is the last one",
-        s_.setup.solver.relative_tolerance(), load, *equilibrium.round_off(),
+        s_.setup->solver.relative_tolerance(), load, *equilibrium.round_off(),
         sizeof(Real) == sizeof(float) ? "solve with \"precision\": \"double\"" : "allow a larger \"tolerance\"");
     return halt;
   }
@@ -92,7 +92,7 @@ StopReason StaticStepper<Real>::why_not_beyond(const StaticSolve& equilibrium) c
     const int element = first_flat(x);
     if (element >= 0) {
       halt.cause = StopReason::Cause::out_of_range;
-      halt.element = s_.model.order.file_tet[static_cast<std::size_t>(element)];
+      halt.element = s_.model->order.file_tet[static_cast<std::size_t>(element)];
       halt.message = fmt::format(
           "no equilibrium beyond {:.4g} of the load: the supports, which hold every node, press element {} flat, turn "
           "it inside out or out of the range of its law (move them less): what is written is the last one",
@@ -109,7 +109,7 @@ StopReason StaticStepper<Real>::why_not_beyond(const StaticSolve& equilibrium) c
   }
   halt.message =
       fmt::format("no equilibrium found beyond {:.4g} of the load ({}): what is written is the last one", load,
-                  is_well_constrained(s_.model, s_.constrained_nodes())
+                  is_well_constrained(*s_.model, s_.constrained_nodes())
                       ? "the body may snap, collapse or be crushed there, or leave the range of its law"
                       : "its constraints leave a rigid motion free: then loads must balance, in force and moment");
   return halt;
@@ -123,10 +123,10 @@ int StaticStepper<Real>::first_flat(const std::vector<Real>& x) const {
   const auto at = [&](int n) {
     return Vec3(Eigen::Map<const Vector3<Real>>(&x[3 * static_cast<std::size_t>(n)]).template cast<double>());
   };
-  const auto& tets = s_.model.mesh.tets;
-  for (std::size_t t = 0; t < s_.model.midedges.size(); ++t)
-    if (count_inverted_points({tets[t]}, {s_.model.midedges[t]}, at) > 0) return static_cast<int>(t);
-  if (!s_.model.midedges.empty()) return -1;
+  const auto& tets = s_.model->mesh.tets;
+  for (std::size_t t = 0; t < s_.model->midedges.size(); ++t)
+    if (count_inverted_points({tets[t]}, {s_.model->midedges[t]}, at) > 0) return static_cast<int>(t);
+  if (!s_.model->midedges.empty()) return -1;
   const auto flat = std::find_if(tets.begin(), tets.end(), [&](const Tet& tet) {
     return !(signed_volume(at(tet[0]), at(tet[1]), at(tet[2]), at(tet[3])) > 0);
   });

@@ -38,8 +38,7 @@ typename StepRescue<Real>::Start StepRescue<Real>::save() {
 template <class Real>
 void StepRescue<Real>::restore(const Start& start) {
   s_.state = s_.last_valid = start.state;
-  if (start.body) s_.body.restore(s_.model.mesh, s_.model.material_of, *start.body, s_.state.x.data(),
-                                 s_.model.midedges);
+  if (start.body) s_.body.restore(*start.body, s_.state.x.data());
   s_.contacts.reports = start.reports;
   s_.steps = start.steps;
   s_.substeps = start.substeps;
@@ -48,7 +47,7 @@ void StepRescue<Real>::restore(const Start& start) {
 
 template <class Real>
 std::optional<StopReason> StepRescue<Real>::end_tick(double until, const StopReason& failure) {
-  if (s_.setup.solver.step) return failure;
+  if (s_.setup->solver.step) return failure;
   s_.explicit_until = s_.ticks + ticks_of_rescue;
   if (take_explicit_substeps(until)) {
     ++s_.stats.explicit_rescues;
@@ -104,11 +103,11 @@ bool StepRescue<Real>::limit_gain(double before, double until) {
 /// where something else does: pressure, supports, a probe or sutures that move.
 template <class Real>
 std::optional<double> StepRescue<Real>::energy(double time) {
-  if (s_.contacts.probe || !s_.contacts.sutures.empty() || supports_move(s_.model, s_.state.time, time))
+  if (s_.contacts.probe || !s_.contacts.sutures.empty() || supports_move(*s_.model, s_.state.time, time))
     return std::nullopt;
   BodyObjective<Real>& body = s_.implicit_state().body;
   const Vector x = as_vector(s_.state.x);
-  body.set_time(time, s_.setup.gravity);
+  body.set_time(time, s_.setup->gravity);
   body.set_velocity(0, x);
   const std::optional<double> potential = body.value(x);
   if (!potential) return std::nullopt;

@@ -14,8 +14,7 @@ namespace {
 
 /// Whether two worlds began with the same body, so that snapshots of one fit the other; all else of a setup is part of
 /// a snapshot. Edits append to a mesh, so it begins with what it was. size: of both at the start.
-bool same_body(const MeshSize& size, const TetMesh& a, const WorldSetup& a_setup, const TetMesh& b,
-               const WorldSetup& b_setup) {
+bool same_body(const MeshSize& size, const WorldSetup& a, const WorldSetup& b) {
   const auto options = [](const WorldSetup& setup) {
     const SolverSettings& solver = setup.solver;
     return std::tuple(solver.continuation, solver.nodal_pressure, solver.recovery, solver.is_static(),
@@ -24,34 +23,29 @@ bool same_body(const MeshSize& size, const TetMesh& a, const WorldSetup& a_setup
   const auto begin_alike = [](const auto& one, const auto& other, std::size_t count) {
     return std::equal(one.begin(), one.begin() + static_cast<std::ptrdiff_t>(count), other.begin());
   };
-  return options(a_setup) == options(b_setup) && begin_alike(a.nodes, b.nodes, size.nodes) &&
-         begin_alike(a.tets, b.tets, size.tets) &&
-         std::equal(a.fields.begin(), a.fields.end(), b.fields.begin(), b.fields.end(),
+  return options(a) == options(b) && begin_alike(a.mesh.nodes, b.mesh.nodes, size.nodes) &&
+         begin_alike(a.mesh.tets, b.mesh.tets, size.tets) &&
+         std::equal(a.mesh.fields.begin(), a.mesh.fields.end(), b.mesh.fields.begin(), b.mesh.fields.end(),
                     [&](const ElementField& one, const ElementField& other) {
                       return one.name == other.name && one.components == other.components &&
                              begin_alike(one.values, other.values, size.tets * one.components);
                     });
 }
 
-template <class Real>
-struct TypedSnapshot final : WorldSnapshot {
-  MeshSize at_start;
-  SimulationSnapshot<Real> simulation;
-  EditHistory<Real> edits;
-  ActionLists<Real> actions;
-
-  long ticks() const override { return simulation.values.ticks; }
-  double time() const override { return simulation.values.state.time; }
-  std::size_t bytes() const override { return simulation.bytes(); }
-};
-
 }  // namespace
 
 template <class Real>
 TypedWorld<Real>::TypedWorld(WorldSetup setup)
-    : s_(std::move(setup)), at_start_{s_.setup.mesh.nodes.size(), s_.setup.mesh.tets.size()} {
+    : s_(std::move(setup)), at_start_{s_.setup->mesh.nodes.size(), s_.setup->mesh.tets.size()} {
   const FlushDenormals flush;
   start();
+}
+
+template <class Real>
+TypedWorld<Real>::TypedWorld(const TypedSnapshot<Real>& snapshot)
+    : s_(snapshot.simulation), at_start_(snapshot.at_start) {
+  editor_.restore_history(snapshot.edits);
+  actions_.restore(snapshot.actions);
 }
 
 /// The phases of a tick. Commands were applied before it (apply), what it did is read after it (queries_).
@@ -63,7 +57,7 @@ void TypedWorld<Real>::tick() {
   s_.impulses.begin_tick();
   editor_.tear();        // elements separate where they are overstretched
   method_.reconsider();  // "auto": explicit or implicit
-  const double until = s_.origin_time + static_cast<double>(s_.ticks - s_.origin_tick + 1) * s_.setup.solver.tick();
+  const double until = s_.origin_time + static_cast<double>(s_.ticks - s_.origin_tick + 1) * s_.setup->solver.tick();
   advance(until);  // static increments, or steps of the method, contacts included, and recovery
   if (s_.halt) return;
   s_.unfinished = s_.state.time < until;
@@ -73,8 +67,8 @@ void TypedWorld<Real>::tick() {
 template <class Real>
 void TypedWorld<Real>::advance(double until) {
   ++s_.changes;
-  if (s_.setup.solver.is_static()) {
-    load_to(ramp(until, s_.setup.solver.load_duration()));
+  if (s_.setup->solver.is_static()) {
+    load_to(ramp(until, s_.setup->solver.load_duration()));
     if (!s_.is_stopped()) s_.state.time = until;
     return;
   }
@@ -119,8 +113,8 @@ template <class Real>
 Status TypedWorld<Real>::apply(const Command& command) {
   const FlushDenormals flush;
   if (const auto* step = std::get_if<StepHistory>(&command)) return step_history(step->by);
-  if (!s_.setup.keeps_actions) return carry_out(command);
-  const bool begins = actions_.begins_action(command, s_.ticks, s_.setup.solver.tick(), s_.contacts.probe.has_value());
+  if (!s_.setup->keeps_actions) return carry_out(command);
+  const bool begins = actions_.begins_action(command, s_.ticks, s_.setup->solver.tick(), s_.contacts.probe.has_value());
   auto before = begins ? moment() : nullptr;
   Status status = carry_out(command);
   if (status.ok()) actions_.carried_out(command, s_.ticks, std::move(before));
@@ -221,22 +215,22 @@ void TypedWorld<Real>::start() {
 /// Positions and velocities of the scene, or the rest shape; bounds the frequency at rest.
 template <class Real>
 void TypedWorld<Real>::set_initial_state() {
-  const std::size_t nodes = s_.model.mesh.nodes.size();
+  const std::size_t nodes = s_.model->mesh.nodes.size();
   s_.state.x.resize(3 * nodes);
   s_.state.v.assign(3 * nodes, 0);
   s_.state.f.assign(3 * nodes, 0);
   s_.state.time = 0;
   for (std::size_t n = 0; n < nodes; ++n)
     for (std::size_t i = 0; i < 3; ++i)
-      s_.state.x[3 * n + i] = static_cast<Real>(s_.model.mesh.nodes[n][static_cast<int>(i)]);
+      s_.state.x[3 * n + i] = static_cast<Real>(s_.model->mesh.nodes[n][static_cast<int>(i)]);
   s_.rest_frequency = std::sqrt(s_.body.frequency_bound(s_.state.x.data(), s_.team));
   for (std::size_t n = 0; n < nodes; ++n)
     for (std::size_t i = 0; i < 3; ++i) {
-      const auto file = static_cast<std::size_t>(s_.model.order.file_node[n]);
+      const auto file = static_cast<std::size_t>(s_.model->order.file_node[n]);
       const int axis = static_cast<int>(i);
-      if (!s_.setup.initial_positions.empty())
-        s_.state.x[3 * n + i] = static_cast<Real>(s_.setup.initial_positions[file][axis]);
-      if (s_.inverse_mass[n] > 0) s_.state.v[3 * n + i] = static_cast<Real>(s_.setup.initial_velocity[axis]);
+      if (!s_.setup->initial_positions.empty())
+        s_.state.x[3 * n + i] = static_cast<Real>(s_.setup->initial_positions[file][axis]);
+      if (s_.inverse_mass[n] > 0) s_.state.v[3 * n + i] = static_cast<Real>(s_.setup->initial_velocity[axis]);
     }
 }
 
@@ -257,7 +251,7 @@ Status TypedWorld<Real>::restore(const WorldSnapshot& snapshot) {
   const auto* of_type = dynamic_cast<const TypedSnapshot<Real>*>(&snapshot);
   if (!of_type) return "restore: the snapshot is of a world of the other precision";
   const SimulationSnapshot<Real>& saved = of_type->simulation;
-  if (of_type->at_start != at_start_ || !same_body(at_start_, saved.mesh->mesh, saved.setup, s_.setup.mesh, s_.setup))
+  if (of_type->at_start != at_start_ || !same_body(at_start_, *saved.setup, *s_.setup))
     return "restore: the snapshot is of another body (mesh, or options of its solver)";
   heml::restore(saved, s_);
   editor_.restore_history(of_type->edits);
@@ -271,7 +265,7 @@ bool TypedWorld<Real>::copy_motion_from(const World& leader) {
   if (!other) return false;
   const Simulation<Real>& o = other->s_;
   if (o.halt || o.has_internal_state || s_.has_internal_state || o.recovering() || s_.recovering()) return false;
-  if (o.model.order.file_node != s_.model.order.file_node || o.model.order.file_tet != s_.model.order.file_tet)
+  if (o.model->order.file_node != s_.model->order.file_node || o.model->order.file_tet != s_.model->order.file_tet)
     return false;
   ++s_.changes;
   s_.state = o.state;
@@ -288,7 +282,7 @@ template <class Real>
 SolverStats TypedWorld<Real>::solver_stats() const {
   SolverStats stats = s_.stats;
   stats.integrator = integrator_name(s_.method);
-  if (s_.setup.solver.budget) stats.budget = implicit_.stage_iterations();
+  if (s_.setup->solver.budget) stats.budget = implicit_.stage_iterations();
   if (!s_.implicit) return stats;
   stats.preconditioner = preconditioner_names[static_cast<std::size_t>(s_.implicit->linear.preconditioner())];
   stats.linear = s_.implicit->linear.counts();
@@ -299,11 +293,11 @@ template <class Real>
 WorldFacts TypedWorld<Real>::facts() {
   const FlushDenormals flush;
   WorldFacts facts;
-  facts.nodes = s_.setup.mesh.nodes.size();
-  facts.tets = s_.setup.mesh.tets.size();
+  facts.nodes = s_.setup->mesh.nodes.size();
+  facts.tets = s_.setup->mesh.tets.size();
   facts.live_tets = s_.topology->elements.size();
-  facts.constrained_nodes = s_.model.constrained.size();
-  facts.faces = s_.model.loaded_faces.triangles.size();
+  facts.constrained_nodes = s_.model->constrained.size();
+  facts.faces = s_.model->loaded_faces.triangles.size();
   facts.threads = s_.team.size();
   facts.kernels = s_.body.kernels();
   facts.method = method_.facts();
@@ -319,6 +313,12 @@ std::unique_ptr<World> make_world(WorldSetup setup) {
   use_double_far_away(setup);
   if (setup.solver.single_precision) return std::make_unique<TypedWorld<float>>(std::move(setup));
   return std::make_unique<TypedWorld<double>>(std::move(setup));
+}
+
+std::unique_ptr<World> make_world_from(const WorldSnapshot& snapshot) {
+  if (const auto* single = dynamic_cast<const TypedSnapshot<float>*>(&snapshot))
+    return std::make_unique<TypedWorld<float>>(*single);
+  return std::make_unique<TypedWorld<double>>(dynamic_cast<const TypedSnapshot<double>&>(snapshot));
 }
 
 template class TypedWorld<float>;

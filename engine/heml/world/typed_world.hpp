@@ -21,9 +21,22 @@ struct MeshSize {
 };
 
 template <class Real>
+struct TypedSnapshot final : WorldSnapshot {
+  MeshSize at_start;
+  SimulationSnapshot<Real> simulation;
+  EditHistory<Real> edits;
+  ActionLists<Real> actions;
+
+  long ticks() const override { return simulation.values.ticks; }
+  double time() const override { return simulation.values.state.time; }
+  std::size_t bytes() const override { return simulation.bytes(); }
+};
+
+template <class Real>
 class TypedWorld final : public World {
  public:
   explicit TypedWorld(WorldSetup setup);
+  explicit TypedWorld(const TypedSnapshot<Real>& snapshot);
 
   Status apply(const Command& command) override;
   void tick() override;
@@ -68,7 +81,7 @@ class TypedWorld final : public World {
   std::shared_ptr<const Topology> topology() const override { return s_.topology; }
   const std::vector<EditReport>& edits() const override { return s_.edits; }
   ActionList actions() const override;
-  const WorldSetup& setup() const override { return s_.setup; }
+  const WorldSetup& setup() const override { return *s_.setup; }
   int threads() const override { return s_.team.limit(); }
   double worker_seconds() const override { return s_.team.worker_seconds(); }
   WorldFacts facts() override;

@@ -186,7 +186,8 @@ class World {
   virtual std::shared_ptr<PreconditionerBuild> preconditioner_build() = 0;
 
   /// As it is now: materials, damping, gravity and integrator follow the commands applied. The mesh
-  /// is the full one, with what cuts have added; topology() lists the elements that exist.
+  /// is the full one, with what cuts have added; topology() lists the elements that exist. The reference holds until
+  /// the next command, edit or restore.
   virtual const WorldSetup& setup() const = 0;
 
   /// How many threads may step from now on, the caller included; at most those of the setup. Never changes a result.
@@ -204,5 +205,9 @@ std::size_t removed_count(const World& world);
 
 /// Builds a world. Throws InputError for what check_tets() and material_of_elements() refuse.
 std::unique_ptr<World> make_world(WorldSetup setup);
+
+/// Builds another world in the state of a snapshot, without reading or resolving anything anew. The two share the
+/// setup, the mesh and the layout of its elements until one of them is edited; both go on to the same bits.
+std::unique_ptr<World> make_world_from(const WorldSnapshot& snapshot);
 
 }  // namespace heml

@@ -18,7 +18,7 @@ void WorldQueries<Real>::write_vectors(NodeVector which, std::span<double> out) 
   const std::vector<Real>& values = which == NodeVector::position   ? state.x
                                     : which == NodeVector::velocity ? state.v
                                                                     : state.f;
-  const std::vector<int>& inner = s_.model.order.new_node;
+  const std::vector<int>& inner = s_.model->order.new_node;
   for (std::size_t file = 0; file < inner.size(); ++file)
     for (std::size_t i = 0; i < 3; ++i)
       out[3 * file + i] = static_cast<double>(values[3 * static_cast<std::size_t>(inner[file]) + i]);
@@ -28,7 +28,7 @@ template <class Real>
 void WorldQueries<Real>::write_positions(std::span<const int> nodes, double ahead, std::vector<Vec3f>& out) const {
   out.resize(nodes.size());
   for (std::size_t k = 0; k < nodes.size(); ++k) {
-    const std::size_t n = 3 * static_cast<std::size_t>(s_.model.order.new_node[static_cast<std::size_t>(nodes[k])]);
+    const std::size_t n = 3 * static_cast<std::size_t>(s_.model->order.new_node[static_cast<std::size_t>(nodes[k])]);
     for (std::size_t i = 0; i < 3; ++i)
       out[k][static_cast<int>(i)] =
           static_cast<float>(s_.state.x[n + i] + static_cast<Real>(ahead) * s_.state.v[n + i]);
@@ -40,29 +40,29 @@ void WorldQueries<Real>::write_field(Field field, std::span<const int> nodes, st
   if (field == Field::none) return out.clear();
   out.resize(nodes.size());
   const auto inner = [&](int file) {
-    return static_cast<std::size_t>(s_.model.order.new_node[static_cast<std::size_t>(file)]);
+    return static_cast<std::size_t>(s_.model->order.new_node[static_cast<std::size_t>(file)]);
   };
   if (const auto of_node = info(field).of_node) {
     for (std::size_t k = 0; k < nodes.size(); ++k) {
       const std::size_t n = inner(nodes[k]);
       const Vec3 x = Eigen::Map<const Vector3<Real>>(&s_.state.x[3 * n]).template cast<double>();
-      out[k] = static_cast<float>(of_node(s_.model.mesh.nodes[n], x));
+      out[k] = static_cast<float>(of_node(s_.model->mesh.nodes[n], x));
     }
     return;
   }
   const std::vector<double> values = element_values(field);
   std::vector<double> sum(s_.mass.size(), 0.0), weight(s_.mass.size(), 0.0);
-  for (std::size_t t = 0; t < s_.model.mesh.tets.size(); ++t) {
-    const Tet& tet = s_.model.mesh.tets[t];
-    const auto X = [&](std::size_t c) -> const Vec3& { return s_.model.mesh.nodes[static_cast<std::size_t>(tet[c])]; };
+  for (std::size_t t = 0; t < s_.model->mesh.tets.size(); ++t) {
+    const Tet& tet = s_.model->mesh.tets[t];
+    const auto X = [&](std::size_t c) -> const Vec3& { return s_.model->mesh.nodes[static_cast<std::size_t>(tet[c])]; };
     const double volume = signed_volume(X(0), X(1), X(2), X(3));
     const auto add = [&](int n) {
       sum[static_cast<std::size_t>(n)] += volume * values[t];
       weight[static_cast<std::size_t>(n)] += volume;
     };
     for (const int n : tet) add(n);
-    if (!s_.model.midedges.empty())
-      for (const int n : s_.model.midedges[t]) add(n);
+    if (!s_.model->midedges.empty())
+      for (const int n : s_.model->midedges[t]) add(n);
   }
   for (std::size_t k = 0; k < nodes.size(); ++k) {
     const std::size_t n = inner(nodes[k]);
@@ -73,9 +73,9 @@ void WorldQueries<Real>::write_field(Field field, std::span<const int> nodes, st
 /// #T in inner order.
 template <class Real>
 std::vector<double> WorldQueries<Real>::element_values(Field field) {
-  std::vector<double> values(s_.model.mesh.tets.size(), 0.0);
+  std::vector<double> values(s_.model->mesh.tets.size(), 0.0);
   if (field == Field::error) {
-    if (const auto found = estimate()) values = found->densities(s_.model.mesh);
+    if (const auto found = estimate()) values = found->densities(s_.model->mesh);
     return values;
   }
   const std::size_t points = s_.body.points_per_element();
@@ -116,12 +116,11 @@ std::optional<ErrorEstimate> WorldQueries<Real>::estimate() {
   if (body.has_springs()) return std::nullopt;
   ErrorEstimate found;
   const std::vector<Mat3> P = body.stresses(s_.state.x.data(), s_.team);
-  found.of_element =
-      s_.model.midedges.empty()
-          ? recovery_errors(s_.model.mesh, s_.model.material_of,
-                            deformation_gradients(s_.model.mesh, inner_positions()), P)
-          : quadratic_recovery_errors(s_.model.mesh, s_.model.material_of,
-                                      body.deformation_gradients(s_.state.x.data()), P);
+  found.of_element = s_.model->midedges.empty()
+                         ? recovery_errors(s_.model->mesh, s_.model->material_of,
+                                           deformation_gradients(s_.model->mesh, inner_positions()), P)
+                         : quadratic_recovery_errors(s_.model->mesh, s_.model->material_of,
+                                                     body.deformation_gradients(s_.state.x.data()), P);
   found.squared = std::accumulate(found.of_element.begin(), found.of_element.end(), 0.0);
   found.stored = body.energy(s_.state.x.data(), s_.team);
   return found;
@@ -135,7 +134,7 @@ std::optional<ErrorEstimate> WorldQueries<Real>::error_estimate() {
   found->of_element.clear();
   for (const int file : s_.topology->elements)
     found->of_element.push_back(
-        inner[static_cast<std::size_t>(s_.model.order.new_tet[static_cast<std::size_t>(file)])]);
+        inner[static_cast<std::size_t>(s_.model->order.new_tet[static_cast<std::size_t>(file)])]);
   return found;
 }
 
@@ -156,7 +155,7 @@ std::vector<double> WorldQueries<Real>::point_volume_ratios() {
   const std::size_t points = s_.body.points_per_element();
   std::vector<double> result;
   for (const int file : s_.topology->elements) {
-    const auto t = static_cast<std::size_t>(s_.model.order.new_tet[static_cast<std::size_t>(file)]);
+    const auto t = static_cast<std::size_t>(s_.model->order.new_tet[static_cast<std::size_t>(file)]);
     for (std::size_t q = 0; q < points; ++q) result.push_back(static_cast<double>(ratios[points * t + q]));
   }
   return result;
@@ -173,7 +172,7 @@ std::vector<Mat3> WorldQueries<Real>::stresses() {
   const std::size_t points = body.points_per_element();
   std::vector<Mat3> result;
   for (const int file : s_.topology->elements) {
-    const auto t = points * static_cast<std::size_t>(s_.model.order.new_tet[static_cast<std::size_t>(file)]);
+    const auto t = points * static_cast<std::size_t>(s_.model->order.new_tet[static_cast<std::size_t>(file)]);
     result.push_back(P[t] * F[t].transpose() / F[t].determinant());
     for (std::size_t q = 1; q < points; ++q) result.back() += P[t + q] * F[t + q].transpose() / F[t + q].determinant();
     if (points > 1) result.back() /= static_cast<double>(points);
@@ -184,14 +183,14 @@ std::vector<Mat3> WorldQueries<Real>::stresses() {
 /// A support gives what the node's motion asks for and nothing else does: m (a + α v) − f, at rest −f.
 template <class Real>
 std::vector<Vec3> WorldQueries<Real>::reactions() const {
-  std::vector<Vec3> result(s_.setup.boundary.size(), Vec3::Zero());
-  const double inertia = s_.setup.solver.is_static() ? 0 : 1;
-  for (const ConstrainedNode& constrained : s_.model.constrained) {
+  std::vector<Vec3> result(s_.setup->boundary.size(), Vec3::Zero());
+  const double inertia = s_.setup->solver.is_static() ? 0 : 1;
+  for (const ConstrainedNode& constrained : s_.model->constrained) {
     const auto n = static_cast<std::size_t>(constrained.node);
-    const PrescribedMotion::At at = prescribed_at(s_.model, constrained, s_.state.time);
+    const PrescribedMotion::At at = prescribed_at(*s_.model, constrained, s_.state.time);
     const Vec3 f = Eigen::Map<const Vector3<Real>>(&s_.state.f[3 * n]).template cast<double>();
     result[static_cast<std::size_t>(constrained.entry)] +=
-        inertia * static_cast<double>(s_.mass[n]) * (at.a + s_.setup.solver.damping * at.v) - f;
+        inertia * static_cast<double>(s_.mass[n]) * (at.a + s_.setup->solver.damping * at.v) - f;
   }
   return result;
 }
@@ -220,14 +219,18 @@ std::vector<ToolState> WorldQueries<Real>::tools() const {
 
 template <class Real>
 GraspState WorldQueries<Real>::state_of(const GraspSpring<Real>& grasp) const {
-  return {grasp.id().hand, grasp.id().serial, s_.model.order.file_node[static_cast<std::size_t>(grasp.center())],
-          static_cast<double>(grasp.radius()), grasp.target(),
-          grasp.grip(s_.state.x.data()), grasp.force(s_.state.x.data(), s_.state.v.data())};
+  return {grasp.id().hand,
+          grasp.id().serial,
+          s_.model->order.file_node[static_cast<std::size_t>(grasp.center())],
+          static_cast<double>(grasp.radius()),
+          grasp.target(),
+          grasp.grip(s_.state.x.data()),
+          grasp.force(s_.state.x.data(), s_.state.v.data())};
 }
 
 template <class Real>
 PinState WorldQueries<Real>::state_of(const PinnedPatch& pin) const {
-  const auto file = [this](int n) { return s_.model.order.file_node[static_cast<std::size_t>(n)]; };
+  const auto file = [this](int n) { return s_.model->order.file_node[static_cast<std::size_t>(n)]; };
   PinState state{file(pin.center), {}, position(pin.center), pin_force(pin, s_.state.f.data())};
   for (const int n : pin.nodes) state.nodes.push_back(file(n));
   return state;
@@ -237,7 +240,7 @@ template <class Real>
 SutureState WorldQueries<Real>::state_of(const Suture& suture, const ContactReport& report) const {
   SutureState state;
   for (std::size_t end = 0; end < 2; ++end) {
-    state.nodes[end] = s_.model.order.file_node[static_cast<std::size_t>(suture.nodes[end])];
+    state.nodes[end] = s_.model->order.file_node[static_cast<std::size_t>(suture.nodes[end])];
     state.ends[end] = position(suture.nodes[end]);
   }
   state.force = report.force;
@@ -252,7 +255,7 @@ Vec3 WorldQueries<Real>::position(int node) const {
 
 template <class Real>
 std::uint64_t WorldQueries<Real>::node_hash(std::size_t file_node) const {
-  const std::size_t n = 3 * static_cast<std::size_t>(s_.model.order.new_node[file_node]);
+  const std::size_t n = 3 * static_cast<std::size_t>(s_.model->order.new_node[file_node]);
   std::uint64_t hash = 0;
   for (std::size_t i = 0; i < 3; ++i) hash = hash_combine(hash_combine(hash, s_.state.x[n + i]), s_.state.v[n + i]);
   return hash;

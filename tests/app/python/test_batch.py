@@ -1,3 +1,5 @@
+import ctypes
+
 import numpy as np
 import pytest
 
@@ -66,3 +68,33 @@ def test_a_halted_world_does_not_stop_the_others(box):
     batch.step(50)
     assert batch.worlds[0].halt and batch.worlds[1].halt is None
     assert batch.worlds[1].ticks == 50
+
+
+class Mallinfo2(ctypes.Structure):
+    _fields_ = [(f"field{k}", ctypes.c_size_t) for k in range(10)]
+
+    def in_use(self):
+        """Bytes: uordblks and hblkhd."""
+        return self.field7 + self.field4
+
+
+def test_worlds_share_what_no_step_changes():
+    libc = ctypes.CDLL(None)
+    if not hasattr(libc, "mallinfo2"):
+        pytest.skip("the C library tells no memory")
+    libc.mallinfo2.restype = Mallinfo2
+    scene = heml.Scene(
+        {
+            "schema_version": 1,
+            "mesh": {"box": {"size": [0.1, 0.1, 0.1], "cells": [8, 8, 8]}},
+            "materials": [{"law": "neo_hookean", "young": 1e4, "poisson": 0.4, "density": 1000}],
+            "solver": {"integrator": "verlet", "rate": 1000},
+        }
+    )  # fmt: skip
+    heml.Batch(scene, 1, threads=1)  # what is made once
+    before = libc.mallinfo2().in_use()
+    batch = heml.Batch(scene, 33, threads=1)
+    batch.step(2)
+    each = (libc.mallinfo2().in_use() - before) / 33
+    nodes = batch.positions().shape[1]
+    assert each < 2.5 * nodes * 3 * 3 * 2 * 8  # x, v, f, now and before the step; masses, scratch, and its share

@@ -206,7 +206,7 @@ TEST_CASE("the state reached does not depend on what was evaluated before commit
     commit(other, second);
     CHECK(forces_of(evaluated, first) != forces_of(other, first));
     const std::vector<float> x(second.begin(), second.end());
-    other.restore(mesh, one_material, snapshot, x.data());
+    other.restore(snapshot, x.data());
     CHECK(forces_of(evaluated, first) == forces_of(other, first));
     CHECK(forces_of(evaluated, second) == forces_of(other, second));
   }

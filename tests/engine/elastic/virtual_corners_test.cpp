@@ -195,8 +195,7 @@ TEST_CASE("quadratic elements remember a viscous stress at every point") {
   body->commit(small.x.data());
   auto snapshot = body->snapshot();
   auto other = small.of(material);
-  other->restore_all(small.mesh, std::vector<int>(small.mesh.tets.size(), 0), snapshot, small.x.data(),
-                     small.midedges);
+  other->restore_all(snapshot, small.x.data());
   std::vector<double> f(small.x.size()), g(small.x.size());
   body->forces(small.x.data(), f.data(), team);
   other->forces(small.x.data(), g.data(), team);

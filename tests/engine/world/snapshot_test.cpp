@@ -65,6 +65,18 @@ void check_restored(const Script& script) {
     CHECK(same_bits(play(*restored, script, script.end), expected));
   }
   CHECK(world->topology()->version > version);
+  // Worlds that share, in step: none changes what another has.
+  const auto another = make_world_from(*snapshot), third = make_world_from(*snapshot);
+  CHECK(&another->setup().mesh == &third->setup().mesh);
+  REQUIRE(world->restore(*snapshot).ok());
+  std::vector<std::vector<double>> of_another, of_world;
+  for (long tick = snapshot->ticks() + 1; tick <= script.end; ++tick) {
+    for (auto [played, all] : {std::pair(another.get(), &of_another), std::pair(world.get(), &of_world)})
+      for (auto& readings : play(*played, script, tick)) all->push_back(std::move(readings));
+  }
+  CHECK(same_bits(of_another, expected));
+  CHECK(same_bits(of_world, expected));
+  CHECK(same_bits(play(*third, script, script.end), expected));
 }
 
 const std::vector<Integrator> of_each_kind = {Integrator::verlet, Integrator::backward_euler, Integrator::bdf2,

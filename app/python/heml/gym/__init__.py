@@ -16,12 +16,12 @@ from heml._optional import require
 gymnasium = require("gymnasium", "gym")
 
 from heml.gym.environment import TissueEnv  # noqa: E402
-from heml.gym.policies import evaluate, random_policy, scripted_policy  # noqa: E402
+from heml.gym.policies import Policy, evaluate, random_policy, scripted_policy  # noqa: E402
 from heml.gym.task import Task  # noqa: E402
 from heml.gym.tasks import tasks  # noqa: E402
 from heml.gym.vector import TissueVectorEnv  # noqa: E402
 
-__all__ = ["Task", "TissueEnv", "TissueVectorEnv", "evaluate", "random_policy", "register", "scripted_policy", "tasks"]
+__all__ = ["Policy", "Task", "TissueEnv", "TissueVectorEnv", "evaluate", "random_policy", "register", "scripted_policy", "tasks"]
 
 
 def register() -> None:
