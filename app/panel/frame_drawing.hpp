@@ -19,8 +19,8 @@ class FrameDrawing {
   /// runs, which are labelled.
   FrameDrawing(const Scene& scene, const World& world, render::Size size, bool panel, bool comparisons);
 
-  /// Draws a world from now on as if the drawing had been made for it, at the price of a frame: shaders are kept, and of
-  /// the world that it has drawn the surface too. panel, comparisons: as of the constructor.
+  /// Draws a world from now on as if the drawing had been made for it, at the price of a frame: shaders are kept, and
+  /// of the world that it has drawn the surface too. panel, comparisons: as of the constructor.
   void show(const Scene& scene, const World& world, bool panel, bool comparisons, bool is_same_world);
   /// Another thread may draw then, after take_up().
   void lay_down() { context_.release(); }

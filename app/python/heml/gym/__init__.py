@@ -21,7 +21,9 @@ from heml.gym.task import Task  # noqa: E402
 from heml.gym.tasks import tasks  # noqa: E402
 from heml.gym.vector import TissueVectorEnv  # noqa: E402
 
-__all__ = ["Policy", "Task", "TissueEnv", "TissueVectorEnv", "evaluate", "random_policy", "register", "scripted_policy", "tasks"]
+__all__ = [
+    "Policy", "Task", "TissueEnv", "TissueVectorEnv", "evaluate", "random_policy", "register", "scripted_policy", "tasks",
+]  # fmt: skip
 
 
 def register() -> None:
