@@ -132,28 +132,28 @@ TEST_CASE("fibres become unit vectors and turn with the mesh") {
 
 TEST_CASE("refuses fields the mesh has not, of other size, or with values that are wrong, naming the element") {
   const Body body;
-  const auto says = [&](const std::string& material, std::initializer_list<const char*> parts) {
+  const auto refuses = [&](const std::string& material, std::initializer_list<const char*> parts) {
     const std::string message = body.refusal_of("[" + material + "]");
     CAPTURE(message);
     CHECK(says(message, "scene.json: materials[0]."));
     for (const char* part : parts) CHECK(says(message, part));
   };
-  says(R"({"law": "stvk", "lambda": 0, "mu": {"field": "e"}})",
+  refuses(R"({"law": "stvk", "lambda": 0, "mu": {"field": "e"}})",
        {"materials[0].mu: ", "body.vtu has no field 'e'", "E (1), nu (1), bad (1), direction (3)"});
-  says(R"({"law": "stvk", "lambda": 0, "mu": {"field": "direction"}})",
+  refuses(R"({"law": "stvk", "lambda": 0, "mu": {"field": "direction"}})",
        {"materials[0].mu: the field 'direction' of", "has 3 numbers an element (1 are wanted)"});
-  says(R"({"law": "hgo", "K1": 5, "kappa": 500, "k1": 8, "k2": 2, "fibre": {"field": "E"}})",
+  refuses(R"({"law": "hgo", "K1": 5, "kappa": 500, "k1": 8, "k2": 2, "fibre": {"field": "E"}})",
        {"materials[0].fibre: the field 'E' of", "has 1 numbers an element (3 are wanted)"});
-  says(R"({"law": "hgo", "K1": 5, "kappa": 500, "k1": 8, "k2": 2, "fibre": {"field": "direction"}})",
+  refuses(R"({"law": "hgo", "K1": 5, "kappa": 500, "k1": 8, "k2": 2, "fibre": {"field": "direction"}})",
        {"materials[0].fibre: the field 'direction' is [0, 0, 0] in element 4", "not all of its numbers 0"});
-  says(R"({"law": "stvk", "lambda": 0, "mu": {"field": "bad"}})",
+  refuses(R"({"law": "stvk", "lambda": 0, "mu": {"field": "bad"}})",
        {"materials[0].mu: the field 'bad' in element 1: must be finite, is nan"});
-  says(R"({"law": "stvk", "lambda": -900, "mu": {"field": "E"}})", {"materials[0].lambda: in element 0: "});
-  says(R"({"law": "stvk", "young": {"field": "bad"}, "poisson": 0.3})",
+  refuses(R"({"law": "stvk", "lambda": -900, "mu": {"field": "E"}})", {"materials[0].lambda: in element 0: "});
+  refuses(R"({"law": "stvk", "young": {"field": "bad"}, "poisson": 0.3})",
        {"materials[0].young: the field 'bad' is nan in element 1 (must be greater than 0)"});
-  says(R"({"law": "stvk", "young": 100, "poisson": {"field": "bad"}})",
+  refuses(R"({"law": "stvk", "young": 100, "poisson": {"field": "bad"}})",
        {"materials[0].poisson: the field 'bad' is 1 in element 0 (must be greater than -1 and less than 0.5)"});
-  says(R"({"law": "stvk", "young": 100, "poisson": {"field": "Nu"}})", {"materials[0].poisson: ", "has no field 'Nu'"});
+  refuses(R"({"law": "stvk", "young": 100, "poisson": {"field": "Nu"}})", {"materials[0].poisson: ", "has no field 'Nu'"});
 }
 
 TEST_CASE("values of elements that do not use a field may be anything") {
