@@ -20,9 +20,16 @@ std::vector<std::string> worse_than_committed(const AccuracyStudy& study) {
   return what_got_worse(result_values(study), parse_json(read_text_file(file), file.string()));
 }
 
+std::string cases_of(const StudyArguments& arguments) {
+  std::string words;
+  for (const int number : arguments.cases) words += fmt::format(" --case {}", number);
+  return words;
+}
+
 std::string command_of(const StudyArguments& arguments) {
   return fmt::format("heml study accuracy --out {}{}{}", arguments.out.string(), arguments.quick ? " --quick" : "",
-                     arguments.scene.empty() ? "" : " --scene " + arguments.scene);
+                     arguments.scene.empty() ? "" : " --scene " + arguments.scene) +
+         cases_of(arguments);
 }
 
 AccuracyStudy measure(const StudyArguments& arguments, Results& results) {
@@ -30,9 +37,21 @@ AccuracyStudy measure(const StudyArguments& arguments, Results& results) {
   AccuracyOptions options;
   options.quick = arguments.quick;
   if (!arguments.scene.empty()) options.scene = read_scene(arguments.scene);
+  options.only = arguments.cases;
   options.results = &results;
   options.progress = [&](double fraction, const std::string& doing) { progress.show(fraction, doing); };
   return study_accuracy(options);
+}
+
+/// Refuses cases that the study has not.
+void check_cases(const StudyArguments& arguments) {
+  if (arguments.cases.empty()) return;
+  if (!arguments.scene.empty()) throw UsageError("study accuracy: --case chooses among the study's own, without --scene");
+  const int last = accuracy_case_count(arguments.quick);
+  for (const int number : arguments.cases)
+    if (number > last)
+      throw UsageError(fmt::format("study accuracy: --case is {}, the cases{} are 1 to {}", number,
+                                   arguments.quick ? " with --quick" : "", last));
 }
 
 /// Refuses a scene of which the report would overwrite a file.
@@ -54,10 +73,11 @@ void write_files(const StudyArguments& arguments, const AccuracyStudy& study, co
 }  // namespace
 
 int study_accuracy(const StudyArguments& arguments) {
+  check_cases(arguments);
   check_scene(arguments);
   Results results(arguments.out / "results.jsonl");
   const AccuracyStudy study = measure(arguments, results);
-  const bool has_figures = arguments.quick && arguments.scene.empty();
+  const bool has_figures = arguments.quick && arguments.scene.empty() && arguments.cases.empty();
   const auto worse = has_figures ? worse_than_committed(study) : std::vector<std::string>{};
   write_files(arguments, study, worse);
   for (const std::string& answer : answers_of(study)) fmt::print("{}\n", answer);

@@ -64,33 +64,58 @@ AccuracyStudy study_users_scene(const AccuracyOptions& options) {
   return study;
 }
 
-AccuracyStudy study_own_scenes(const AccuracyOptions& options) {
-  const double locking_weight = options.quick ? 5 : 60, refinement_weight = options.quick ? 3 : 20, laws_weight = 2;
-  const std::vector<AccuracyScene> scenes = accuracy_scenes(options.quick);
-  std::vector<Scene> featured;
-  if (!options.quick)
-    for (const char* name : {"kidney_pull", "brain_block"})
-      featured.push_back(read_scene(assets_folder() / "scenes" / fmt::format("{}.json", name)));
-  double whole =
-      locking_weight + refinement_weight + laws_weight + feature_weight * static_cast<double>(featured.size());
-  for (const AccuracyScene& scene : scenes) whole += scene.weight;
+/// What can be measured by itself.
+struct Case {
+  double weight;  ///< expected computing time, for the progress
+  std::size_t steps;
+  std::function<void(const StudyContext&, AccuracyStudy&)> measure;
+};
 
+std::vector<Case> own_cases(bool quick) {
+  std::vector<Case> cases;
+  cases.push_back({2, steps_of_law_study(), [](const StudyContext& context, AccuracyStudy& study) {
+                     study.laws = study_laws(context);
+                   }});
+  cases.push_back({quick ? 8.0 : 80.0, steps_of_locking_study(quick) + 1,
+                   [quick](const StudyContext& context, AccuracyStudy& study) {
+                     study.locking = study_locking(quick, context);
+                     study.refinement = refine_beam(study.locking, quick, context);
+                   }});
+  for (AccuracyScene& scene : accuracy_scenes(quick))
+    cases.push_back({scene.weight, steps_of_scene_study(scene.problem, scene.options),
+                     [scene](const StudyContext& context, AccuracyStudy& study) {
+                       study.scenes.push_back(study_scene(scene.name, scene.problem, scene.options, context));
+                     }});
+  if (quick) return cases;
+  for (const char* name : {"kidney_pull", "brain_block"})
+    cases.push_back({feature_weight, 1, [name](const StudyContext& context, AccuracyStudy& study) {
+                       const auto file = assets_folder() / "scenes" / fmt::format("{}.json", name);
+                       study.features.push_back(study_features(read_scene(file), context));
+                     }});
+  return cases;
+}
+
+AccuracyStudy study_own_cases(const AccuracyOptions& options) {
+  std::vector<Case> cases;
+  for (int number = 1; Case& one : own_cases(options.quick)) {
+    if (options.only.empty() || std::count(options.only.begin(), options.only.end(), number))
+      cases.push_back(std::move(one));
+    ++number;
+  }
+  double whole = 0;
+  for (const Case& one : cases) whole += one.weight;
   Parts parts(options, whole);
   AccuracyStudy study;
-  study.laws = study_laws(parts.part(laws_weight, steps_of_law_study()));
-  study.locking = study_locking(options.quick, parts.part(locking_weight, steps_of_locking_study(options.quick)));
-  study.refinement = refine_beam(study.locking, options.quick, parts.part(refinement_weight, 1));
-  for (const AccuracyScene& scene : scenes)
-    study.scenes.push_back(study_scene(scene.name, scene.problem, scene.options,
-                                       parts.part(scene.weight, steps_of_scene_study(scene.problem, scene.options))));
-  for (const Scene& scene : featured) study.features.push_back(study_features(scene, parts.part(feature_weight, 1)));
+  for (const Case& one : cases) one.measure(parts.part(one.weight, one.steps), study);
   return study;
 }
 
 }  // namespace
 
+int accuracy_case_count(bool quick) { return static_cast<int>(own_cases(quick).size()); }
+
 AccuracyStudy study_accuracy(const AccuracyOptions& options) {
-  return options.scene ? study_users_scene(options) : study_own_scenes(options);
+  return options.scene ? study_users_scene(options) : study_own_cases(options);
 }
 
 std::vector<ResultValue> result_values(const AccuracyStudy& study) {

@@ -12,6 +12,7 @@ namespace heml {
 struct AccuracyOptions {
   bool quick = false;
   std::optional<Scene> scene;  ///< the user's scene; none: those of the study
+  std::vector<int> only = {};  ///< of the study's own cases these, by number from 1; empty: all
   MakeWorld make = make_world;
   Results* results = nullptr;
   std::function<void(double fraction, const std::string& doing)> progress = [](double, const std::string&) {};
@@ -25,6 +26,9 @@ struct AccuracyStudy {
   std::vector<LawCheck> laws;
   std::vector<FeatureStudy> features;  ///< also of a user's scene; empty in a quick study
 };
+
+/// The study's own cases: laws, beams, each scene, and in a full study each scene that features are measured in.
+int accuracy_case_count(bool quick);
 
 /// Throws InputError.
 AccuracyStudy study_accuracy(const AccuracyOptions& options);

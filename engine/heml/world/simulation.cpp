@@ -1,6 +1,7 @@
 #include <cmath>
 #include <heml/mesh/surface.hpp>
 #include <heml/world/simulation.hpp>
+#include <heml/world/simulation_snapshot.hpp>
 
 namespace heml {
 namespace {

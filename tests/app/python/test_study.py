@@ -15,9 +15,18 @@ root = Path(__file__).parents[3]
 program = os.environ.get("HEML_BINARY", str(root / "build/release/app/heml"))
 
 
-def test_the_number_of_cases_is_that_of_the_command():
-    commands = (root / "app/docs/commands.md").read_text()
-    assert re.search(r"`--case N` .*1 to (\d+)", commands)[1] == str(study.stability_cases)
+needs_program = pytest.mark.skipif(not Path(program).exists(), reason=f"needs the program {program}")
+
+
+@needs_program
+@pytest.mark.parametrize("kind, quick", study.case_counts)
+def test_the_number_of_cases_is_that_of_the_command(kind, quick, tmp_path):
+    beyond = str(study.case_counts[kind, quick] + 1)
+    command = [program, "study", kind, "--out", tmp_path, "--case", beyond, *["--quick"] * quick]
+    done = subprocess.run(command, capture_output=True, text=True)
+    assert done.returncode == 2
+    assert re.search(r"1 to (\d+)|\[1 - (\d+)\]|1 and (\d+)", done.stderr), done.stderr
+    assert str(study.case_counts[kind, quick]) in done.stderr
 
 
 def test_results_are_gathered_once(tmp_path):
@@ -33,7 +42,7 @@ def results(folder):
     return {line["key"]: {k: v for k, v in line["result"].items() if k != "seconds"} for line in lines}
 
 
-@pytest.mark.skipif(not Path(program).exists(), reason=f"needs the program {program}")
+@needs_program
 def test_the_same_results_as_on_one_machine(tmp_path):
     pytest.importorskip("dask.distributed")
     pytest.importorskip("pandas")
@@ -44,3 +53,16 @@ def test_the_same_results_as_on_one_machine(tmp_path):
     assert spread.returncode == alone.returncode, spread.stderr
     assert results(tmp_path / "spread") == results(tmp_path / "alone")
     assert (tmp_path / "spread/cells.csv").read_text() == (tmp_path / "alone/cells.csv").read_text()
+
+
+@needs_program
+def test_cases_of_accuracy_find_the_errors_of_the_whole_study(tmp_path):
+    pytest.importorskip("dask.distributed")
+    pytest.importorskip("pandas")
+    whole = [program, "study", "accuracy", "--quick", "--out", tmp_path / "alone"]
+    assert subprocess.run(whole, capture_output=True).returncode == 0
+    spread = [sys.executable, "-m", "heml.study", "accuracy", "--quick", "--program", program, "--out", tmp_path / "spread"]
+    done = subprocess.run(spread, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    figures = [json.loads((tmp_path / folder / "figures.json").read_text()) for folder in ("alone", "spread")]
+    assert figures[0] == figures[1]
