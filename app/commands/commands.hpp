@@ -108,10 +108,12 @@ struct StudyArguments {
   std::string kind;           ///< one of the studies in study.cpp
   std::filesystem::path out;  ///< folder of the report
   bool quick = false;
-  std::vector<int> cases;  ///< of the stability study, by number; empty: all
+  std::vector<int> cases;  ///< by number; empty: all
   std::string scene;       ///< empty: the study's own
 };
 int study(const StudyArguments& arguments);
+/// Throws UsageError where a number of `--case` is beyond the study's last.
+void check_case_numbers(const StudyArguments& arguments, int last);
 int study_accuracy(const StudyArguments& arguments);    ///< exit_check_failed: a value of the quick study has grown
 int study_stability(const StudyArguments& arguments);   ///< exit_check_failed: a promised case falls short
 int study_validation(const StudyArguments& arguments);  ///< exit_check_failed: a value misses its limit

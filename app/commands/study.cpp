@@ -12,12 +12,20 @@ namespace {
 struct Study {
   std::string_view kind;
   int (*run)(const StudyArguments&);
-  bool takes_scene;
+  bool takes_scene, takes_cases;
 };
-constexpr Study studies[] = {
-    {"accuracy", study_accuracy, true}, {"stability", study_stability, false}, {"validation", study_validation, false}};
+constexpr Study studies[] = {{"accuracy", study_accuracy, true, true},
+                             {"stability", study_stability, false, true},
+                             {"validation", study_validation, false, false}};
 
 }  // namespace
+
+void check_case_numbers(const StudyArguments& arguments, int last) {
+  for (const int number : arguments.cases)
+    if (number > last)
+      throw UsageError(fmt::format("study {}{}: --case is {}, the cases are 1 to {}", arguments.kind,
+                                   arguments.quick ? " --quick" : "", number, last));
+}
 
 int study(const StudyArguments& arguments) {
   std::vector<std::string_view> kinds;
@@ -26,6 +34,8 @@ int study(const StudyArguments& arguments) {
     if (study.kind != arguments.kind) continue;
     if (!study.takes_scene && !arguments.scene.empty())
       throw UsageError(fmt::format("study {}: takes no --scene", study.kind));
+    if (!study.takes_cases && !arguments.cases.empty())
+      throw UsageError(fmt::format("study {}: takes no --case", study.kind));
     make_folder(arguments.out);
     return study.run(arguments);
   }

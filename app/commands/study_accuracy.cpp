@@ -46,12 +46,9 @@ AccuracyStudy measure(const StudyArguments& arguments, Results& results) {
 /// Refuses cases that the study has not.
 void check_cases(const StudyArguments& arguments) {
   if (arguments.cases.empty()) return;
-  if (!arguments.scene.empty()) throw UsageError("study accuracy: --case chooses among the study's own, without --scene");
-  const int last = accuracy_case_count(arguments.quick);
-  for (const int number : arguments.cases)
-    if (number > last)
-      throw UsageError(fmt::format("study accuracy: --case is {}, the cases{} are 1 to {}", number,
-                                   arguments.quick ? " with --quick" : "", last));
+  if (!arguments.scene.empty())
+    throw UsageError("study accuracy: --case chooses among the study's own, without --scene");
+  check_case_numbers(arguments, accuracy_case_count(arguments.quick));
 }
 
 /// Refuses a scene of which the report would overwrite a file.

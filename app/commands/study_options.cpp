@@ -163,8 +163,10 @@ Action define_study(CLI::App& command) {
       ->type_name("DIR");
   command.add_flag("--quick", given->quick, "within two minutes: fewer and smaller cases");
   command.add_option("--scene", given->scene, "accuracy: of this scene instead of the study's own")->type_name("FILE");
-  command.add_option("--case", given->cases, "stability and accuracy: these cases alone, by number (may be given often)")
-      ->check(whole_number_between(1, 33))
+  command
+      .add_option("--case", given->cases,
+                  "stability and accuracy: these of its cases alone, by number (may be given often)")
+      ->check(whole_number_between(1, 99))
       ->type_name("N");
   return [given] { return study(*given); };
 }

@@ -12,6 +12,7 @@ namespace heml {
 
 int study_stability(const StudyArguments& arguments) {
   using namespace stability;
+  check_case_numbers(arguments, static_cast<int>(stability::cases().size()));
   const auto promises = read_promises(promises_file());
   std::vector<Cell> cells;
   {
