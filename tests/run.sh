@@ -14,7 +14,7 @@ studies=OFF  # and laws, under sanitizers: many minutes
 # What a preset leaves out but for --long: under sanitizers, cases that take minutes there and repeat others for every
 # law, command or size; of the engine alone, what does not change without the program and the helpers for surfaces.
 declare -A selection=(
-  [address]='-E ^world:.?(snapshot:.(every|quadratic)|step.rescue:.blocks|undo:.(the.same|restores)|history:.every|two.hundred|a.thousand|self-contact:.two.boxes|quadratic.contact:.(a.stack|boxes)|recovery:.of.every.element|vibration)|^scenario:.?a.recording.of.every.element|^mesh:.?cut:.a.stroke'
+  [address]='-E ^world:.?(snapshot:.(every|quadratic)|step.rescue:.blocks|undo:.(the.same|restores)|history:.every|two.hundred|a.thousand|self-contact:.two.boxes|quadratic.contact:.(a.stack|boxes)|recovery:.of.every.element|capstan|vibration)|^scenario:.?a.recording.of.every.element|^mesh:.?cut:.a.stroke'
   [smallest]='-R ^(assets|base|floors|install|mesh|scenario|session):'
 )
 case "${1:-}" in
