@@ -84,7 +84,7 @@ bool Viewer::is_busy() const {
 }
 
 std::string Viewer::status() const {
-  const bool paused = playback_.active() ? !playback_.playing() : frame_->paused;
+  const bool paused = is_paused();
   return fmt::format("frame {}, tick {}, {}, {}, key {}", drawn_, frame_->tick, paused ? "paused" : "running",
                      is_busy()                    ? "busy"
                      : paused && !wants_drawing() ? "still"
@@ -131,7 +131,7 @@ void Viewer::draw() {
     drawing.stroke.scissors = mouse_tool_.scissors_over(*hit, panel_->tool());
   if (!drawing.stroke.blade && !drawing.stroke.scissors)
     drawing.stroke.blade = panel::scripted_blade(open_.scene.events, frame_->tick - 1, frame_->pace.rate);
-  drawing.old_shadows = drawn_ % 2 == 1 && !frame_->paused;  // soft as they are, nobody sees it
+  drawing.old_shadows = drawn_ % 2 == 1 && !is_paused();  // soft as they are, nobody sees it
   bodies_.draw(*frame_, controller_, drawing);
   draw_interface(seconds);
   add_video_frame();

@@ -51,6 +51,7 @@ class Viewer final : public WindowEvents {
   static constexpr int settling_frames = 3;  ///< that Dear ImGui may need after an input
 
   bool is_busy() const;
+  bool is_paused() const { return playback_.active() ? !playback_.playing() : frame_->paused; }
   int apply(const KeyInput& key);  // as InputQueue wants it; so are the others
   int apply(const CharacterInput&) { return 0; }
   int apply(const ButtonInput& button);
