@@ -309,6 +309,7 @@ Status CommandExecutor<Real>::execute(const SetLoads& command) {
   set_loads(setup, s_.model.write());
   ++s_.condition_changes;
   s_.implicit.reset();
+  if (s_.recovering()) s_.install_surrogate();  // its solver may be of a model that snapshots alone hold now
   return {};
 }
 
