@@ -159,6 +159,27 @@ TEST_CASE("recovery: of every element and by every method, a load too heavy for 
   });
 }
 
+TEST_CASE("recovery: loads change while it is under way, also where no state from before is kept any more") {
+  const auto end_of = [](bool keeps_actions) {
+    WorldSetup setup = starting_at(cube("neo_hookean", 0.3), mirrored);
+    setup.keeps_actions = keeps_actions;
+    const auto world = make_world(setup);
+    world->tick();
+    REQUIRE_FALSE(world->recovery()->ended);
+    const auto loaded = nodes_where(setup.mesh, [](const Vec3& X) { return X.x() > side - 1e-9; });
+    REQUIRE(world->apply(SetLoads{{{Load::Kind::force, loaded, Vec3(0, 0, 2)}}}).ok());
+    for (int k = 1; k <= 40; ++k) {  // more actions than are kept
+      REQUIRE(world->apply(SetDamping{0.01 * k}).ok());
+      world->tick();
+    }
+    run_until(*world, 1.5);
+    REQUIRE_FALSE(world->halt());
+    CHECK(world->recovery()->ended);
+    return world->positions();
+  };
+  CHECK(end_of(true) == end_of(false));
+}
+
 TEST_CASE("recovery: a quadratic element is judged at its points, whatever its corners do") {
   WorldSetup setup = cube_of(true, false, Integrator::backward_euler);
   setup.initial_positions = setup.mesh.nodes;  // corners at rest, the middles of one element's edges through its middle
