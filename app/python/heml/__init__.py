@@ -10,15 +10,8 @@ SI units; arrays are float64 and in the mesh file's node order. `heml.World` is 
 `heml.solve` runs a scene to its end, `heml.probe` evaluates a law. All of it is described in docs/python.md.
 """
 import importlib as _importlib
-import os as _os
-import pathlib as _pathlib
 
-# The scenes and meshes that come with heml lie in the package once it is installed.
-_assets = _pathlib.Path(__file__).parent / "assets"
-if _assets.is_dir():
-    _os.environ.setdefault("HEML_ASSETS", str(_assets))
-
-from heml._core import Batch, InputError, NotConverged, Scene, Snapshot, Unstable, World, __version__, probe, render, solve  # noqa: E402
+from heml._core import Batch, InputError, NotConverged, Scene, Snapshot, Unstable, World, __version__, probe, render, solve
 
 for _name in ("Batch", "Scene", "Snapshot", "World", "probe", "solve"):
     try:

@@ -1,4 +1,5 @@
 // Default scenes: the one opened without arguments, and the one made for a bare mesh or surface.
+#include <dlfcn.h>
 #include <fmt/format.h>
 
 #include <cmath>
@@ -258,8 +259,14 @@ fs::path assets_folder() {
   if (const char* given = std::getenv("HEML_ASSETS"); given && *given) return given;
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  const fs::path installed = program.parent_path().parent_path() / "share" / "heml";
-  if (!error && fs::is_directory(installed, error)) return installed;
+  if (const fs::path share = program.parent_path().parent_path() / "share" / "heml"; fs::is_directory(share, error))
+    return share;
+  // In a Python package they lie beside the module that holds this code, for which alone dladdr tells a whole path.
+  Dl_info module{};
+  if (dladdr(reinterpret_cast<const void*>(&assets_folder), &module) != 0 && module.dli_fname) {
+    const fs::path file = module.dli_fname, beside = file.parent_path() / "assets";
+    if (file.is_absolute() && file != program && fs::is_directory(beside, error)) return beside;
+  }
   return HEML_SOURCE_ASSETS;
 }
 

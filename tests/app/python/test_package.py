@@ -19,6 +19,11 @@ def test_import_is_quick_and_loads_no_numpy():
     assert best < 0.2
 
 
+def test_import_leaves_the_environment_alone():
+    program = "import os; before = dict(os.environ); import heml; print(before == os.environ)"
+    assert subprocess.run([sys.executable, "-c", program], capture_output=True, text=True).stdout == "True\n"
+
+
 def test_the_stub_has_every_name_of_the_module():
     stub = pathlib.Path(heml.__file__).with_suffix(".pyi").read_text()
     told = set(re.findall(r"(?:def|class) (\w+)|^(__version__)|\b\w+ as (\w+)", stub, re.MULTILINE))
