@@ -13,7 +13,7 @@ namespace {
 constexpr int max_depth = 100;  // of lists and dicts in one another, which may hold themselves
 
 [[noreturn]] void refuse(nb::handle object, const std::string& file, const std::string& place) {
-  throw InputError(file, place, fmt::format("is of type {}", Py_TYPE(object.ptr())->tp_name),
+  throw InputError(file, place, fmt::format("is of type {}", nb::str(object.type().attr("__name__")).c_str()),
                    "give dicts, lists, numbers, text, True, False or None");
 }
 
