@@ -5,12 +5,17 @@
 
 namespace heml {
 
+/// What a state is taken back to.
 template <class Real>
-struct State {
+struct Motion {
   std::vector<Real> x;  ///< positions, m
   std::vector<Real> v;  ///< velocities, m/s
-  std::vector<Real> f;  ///< forces at x without reactions, gravity included, N
   double time = 0;      ///< s
+};
+
+template <class Real>
+struct State : Motion<Real> {
+  std::vector<Real> f;  ///< forces at x without reactions, gravity included, N
 };
 
 }  // namespace heml

@@ -22,16 +22,15 @@ Vec3 at(const Vector& x, int node) { return x.segment<3>(3 * node); }
 
 template <class Real>
 BodyObjective<Real>::BodyObjective(ElasticBody<Real>& body, const Shared<Model<Real>>& model,
-                                   const std::vector<Real>& mass, const FreeNodes& free,
+                                   const Shared<NodeMasses<Real>>& masses, const FreeNodes& free,
                                    const std::vector<GraspSpring<Real>>& grasps, Contacts& contacts, ThreadTeam& team)
     : body_(body),
       model_(model),
-      mass_(mass),
+      masses_(masses),
       free_(free),
       grasps_(grasps),
       team_(team),
       contact_(contacts, max_penetration * model->diagonal) {
-  if (!model->midedges.empty()) consistent_mass_ = body.consistent_masses();
   find_noise();
 }
 
@@ -45,18 +44,18 @@ void BodyObjective<Real>::find_noise() {
   residual(rest, r);
   const Vector internal = forces_ - external_;
   double at_rest = 0, inertia = 0;
-  for (std::size_t n = 0; n < mass_.size(); ++n) {
-    const double m = static_cast<double>(mass_[n]);
+  for (std::size_t n = 0; n < masses_->lumped.size(); ++n) {
+    const double m = static_cast<double>(masses_->lumped[n]);
     inertia += m;
     if (m > 0) at_rest = std::max(at_rest, at(internal, static_cast<int>(n)).norm() / m);
   }
   // An energy density is found as a difference of numbers of the size of a modulus: ω² m L² in all.
   constexpr double epsilon = std::numeric_limits<Real>::epsilon(), safety = 4;
   const double bound = static_cast<double>(body_.frequency_bound(x_.data(), team_));
-  std::vector<double> stiffness(mass_.size(), 0.0);
+  std::vector<double> stiffness(masses_->lumped.size(), 0.0);
   for (const int n : free_.node) {
     const auto k = static_cast<std::size_t>(n);
-    stiffness[k] = bound * static_cast<double>(mass_[k]);
+    stiffness[k] = bound * static_cast<double>(masses_->lumped[k]);
   }
   contact_.set_stiffness(std::move(stiffness));
   noise_ = epsilon * bound * inertia * model_->spacing * model_->spacing;
@@ -170,7 +169,7 @@ template <class Real>
 double BodyObjective<Real>::max_acceleration(const Vector& r) const {
   double largest = 0;
   for (const int n : free_.node) {
-    const double mass = static_cast<double>(mass_[static_cast<std::size_t>(n)]);
+    const double mass = static_cast<double>(masses_->lumped[static_cast<std::size_t>(n)]);
     largest = std::max(largest, at(r, n).template lpNorm<Eigen::Infinity>() / mass);
   }
   return largest;
@@ -233,9 +232,9 @@ void BodyObjective<Real>::add_external(const Real* x, const Vector& x_double) {
       }
     for (const auto& grasp : grasps_) grasp.add_forces(x, v_.data(), f_.data());
   }
-  const std::vector<Real>& heavy = gravity_mass();
+  const std::vector<Real>& heavy = masses_->heavy();
   external_.resize(x_double.size());
-  for (std::size_t n = 0; n < mass_.size(); ++n)
+  for (std::size_t n = 0; n < masses_->lumped.size(); ++n)
     for (std::size_t i = 0; i < 3; ++i)
       external_[static_cast<Eigen::Index>(3 * n + i)] =
           static_cast<double>(f_[3 * n + i]) + static_cast<double>(heavy[n]) * gravity_[static_cast<int>(i)];
@@ -287,8 +286,8 @@ template <class Real>
 double BodyObjective<Real>::find_value(const Vector& x) {
   const Real* at_x = as_real(x, x_);
   double sum = is_refined() ? double_body_->potential(x.data(), team_) : body_.potential(at_x, team_);
-  for (std::size_t n = 0; n < mass_.size(); ++n)
-    sum -= static_cast<double>(gravity_mass()[n]) * gravity_.dot(at(x, static_cast<int>(n)) - model_->mesh.nodes[n]);
+  for (std::size_t n = 0; n < masses_->lumped.size(); ++n)
+    sum -= static_cast<double>(masses_->heavy()[n]) * gravity_.dot(at(x, static_cast<int>(n)) - model_->mesh.nodes[n]);
   for (const auto& load : model_->dead)
     for (std::size_t k = 0; k < load.nodes.size(); ++k) {
       const Vec3 moved = at(x, load.nodes[k]) - model_->mesh.nodes[static_cast<std::size_t>(load.nodes[k])];

@@ -16,6 +16,7 @@
 #include <heml/tools/contact_potential.hpp>
 #include <heml/tools/grasp.hpp>
 #include <heml/world/model.hpp>
+#include <heml/world/node_masses.hpp>
 #include <limits>
 #include <memory>
 #include <utility>
@@ -48,8 +49,8 @@ class BodyObjective final : public LoadDependentObjective, private BodyObjective
     ContactPotentialMemory contact;
   };
 
-  /// mass: #V, kg. All must outlive this.
-  BodyObjective(ElasticBody<Real>& body, const Shared<Model<Real>>& model, const std::vector<Real>& mass,
+  /// All must outlive this.
+  BodyObjective(ElasticBody<Real>& body, const Shared<Model<Real>>& model, const Shared<NodeMasses<Real>>& masses,
                 const FreeNodes& free, const std::vector<GraspSpring<Real>>& grasps, Contacts& contacts,
                 ThreadTeam& team);
 
@@ -138,13 +139,11 @@ class BodyObjective final : public LoadDependentObjective, private BodyObjective
   template <class Visit>
   void each_pressed_point(const Vector& x, const Visit& visit) const;
   int count_inverted(const Vector& x) const;
-  const std::vector<Real>& gravity_mass() const { return consistent_mass_.empty() ? mass_ : consistent_mass_; }
 
   ElasticBody<Real>& body_;
   std::unique_ptr<ElasticBody<double>> double_body_;  ///< null until refined
   const Shared<Model<Real>>& model_;
-  const std::vector<Real>& mass_;
-  std::vector<Real> consistent_mass_;  ///< #V, kg, which gravity acts on; empty: mass_
+  const Shared<NodeMasses<Real>>& masses_;
   const FreeNodes& free_;
   const std::vector<GraspSpring<Real>>& grasps_;
   ThreadTeam& team_;

@@ -69,10 +69,10 @@ void BodyObjective<Real>::product(const Vector& dx, Vector& out) {
     for (std::size_t i = 0; i < f_.size(); ++i) change_[static_cast<Eigen::Index>(i)] = static_cast<double>(f_[i]);
   }
   out.setZero(dx.size());
-  for (const int n : free_.node)
-    for (int i = 0; i < 3; ++i)
-      out[3 * n + i] = -change_[3 * n + i] +
-                       regularisation_ * static_cast<double>(mass_[static_cast<std::size_t>(n)]) * dx[3 * n + i];
+  for (const int n : free_.node) {
+    const double a = regularisation_ * static_cast<double>(masses_->lumped[static_cast<std::size_t>(n)]);
+    for (int i = 0; i < 3; ++i) out[3 * n + i] = -change_[3 * n + i] + a * dx[3 * n + i];
+  }
   const auto add = [&](int n, const Vec3& force) {
     if (free_.number[static_cast<std::size_t>(n)] >= 0) out.segment<3>(3 * n) += force;
   };
@@ -176,7 +176,7 @@ void BodyObjective<Real>::add_diagonal(Matrix& matrix) const {
     });
   if (regularisation_ > 0)
     for (const int n : free_.node)
-      matrix.add_diagonal(n, regularisation_ * static_cast<double>(mass_[static_cast<std::size_t>(n)]));
+      matrix.add_diagonal(n, regularisation_ * static_cast<double>(masses_->lumped[static_cast<std::size_t>(n)]));
 }
 
 template void BodyObjective<float>::linearise(const Vector&, Projection);

@@ -101,7 +101,7 @@ auto CommandExecutor<Real>::grasp_of(int hand) {
 
 template <class Real>
 Status CommandExecutor<Real>::execute(const Grasp& command) {
-  if (const Status status = patch_problem("grasp", command.node, command.radius, s_.mass.size()); !status.ok())
+  if (const Status status = patch_problem("grasp", command.node, command.radius, node_count()); !status.ok())
     return status;
   if (const Status status = hand_problem("grasp", command.hand); !status.ok()) return status;
   const int center = s_.model->order.new_node[static_cast<std::size_t>(command.node)];
@@ -117,7 +117,7 @@ Status CommandExecutor<Real>::execute(const Grasp& command) {
   }
   GraspSpring<Real> grasp(
       {command.hand, s_.grasps_taken + 1}, center, radius, surface_with(center, command.hidden), s_.model->mesh.nodes,
-      s_.state.x.data(), s_.inverse_mass,
+      s_.state.x.data(), s_.masses->inverse,
       static_cast<Real>(tool_frequency(*s_.setup, command.radius, static_cast<double>(s_.rest_frequency))),
       grip_reach * s_.model->diagonal);
   if (grasp.empty()) return fmt::format("grasp: node {} is constrained, or belongs to no element", command.node);
@@ -161,13 +161,13 @@ Status CommandExecutor<Real>::execute(const Release& command) {
 
 template <class Real>
 Status CommandExecutor<Real>::execute(const PinTissue& command) {
-  if (const Status status = patch_problem("pin", command.node, command.radius, s_.mass.size()); !status.ok())
+  if (const Status status = patch_problem("pin", command.node, command.radius, node_count()); !status.ok())
     return status;
   const int center = s_.model->order.new_node[static_cast<std::size_t>(command.node)];
-  if (s_.inverse_mass[static_cast<std::size_t>(center)] == 0)
+  if (s_.masses->inverse[static_cast<std::size_t>(center)] == 0)
     return fmt::format("pin: node {} is constrained, or belongs to no element", command.node);
   s_.pins.push_back(pin_patch(center, command.radius, surface_with(center, command.hidden), s_.model->mesh.nodes,
-                              s_.state.x.data(), s_.inverse_mass));
+                              s_.state.x.data(), s_.masses->inverse));
   update_constraints();
   return {};
 }
@@ -289,7 +289,7 @@ Status CommandExecutor<Real>::execute(const AdoptPreconditioner&) {
 template <class Real>
 Status CommandExecutor<Real>::execute(const SetBoundary& command) {
   for (const Boundary& entry : command.entries)
-    if (const Status status = boundary_problem(entry, s_.mass.size()); !status.ok()) return status;
+    if (const Status status = boundary_problem(entry, node_count()); !status.ok()) return status;
   WorldSetup& setup = s_.setup.write();
   setup.boundary = command.entries;
   for (Boundary& entry : setup.boundary) add_midedges_between(setup.mesh, setup.midedges, entry.nodes);
@@ -302,7 +302,7 @@ Status CommandExecutor<Real>::execute(const SetBoundary& command) {
 template <class Real>
 Status CommandExecutor<Real>::execute(const SetLoads& command) {
   for (const Load& entry : command.entries)
-    if (const Status status = load_problem(entry, s_.mass.size()); !status.ok()) return status;
+    if (const Status status = load_problem(entry, node_count()); !status.ok()) return status;
   WorldSetup& setup = s_.setup.write();
   setup.loads = command.entries;
   for (Load& entry : setup.loads) add_midedges_between(setup.mesh, setup.midedges, entry.nodes);
@@ -370,15 +370,15 @@ Status CommandExecutor<Real>::execute(const SutureTissue& command) {
   Suture suture{};
   for (std::size_t end = 0; end < 2; ++end) {
     const int node = command.nodes[end];
-    if (node < 0 || static_cast<std::size_t>(node) >= s_.mass.size())
-      return fmt::format("suture: node {} does not exist; the body has nodes 0 to {}", node, s_.mass.size() - 1);
+    if (node < 0 || static_cast<std::size_t>(node) >= node_count())
+      return fmt::format("suture: node {} does not exist; the body has nodes 0 to {}", node, node_count() - 1);
     suture.nodes[end] = s_.model->order.new_node[static_cast<std::size_t>(node)];
-    if (s_.mass[static_cast<std::size_t>(suture.nodes[end])] == 0)
+    if (s_.masses->lumped[static_cast<std::size_t>(suture.nodes[end])] == 0)
       return fmt::format("suture: node {} belongs to no element", node);
   }
   const auto [a, b] = suture.nodes;
   if (a == b) return fmt::format("suture: both ends are node {}", command.nodes[0]);
-  if (s_.inverse_mass[static_cast<std::size_t>(a)] == 0 && s_.inverse_mass[static_cast<std::size_t>(b)] == 0)
+  if (s_.masses->inverse[static_cast<std::size_t>(a)] == 0 && s_.masses->inverse[static_cast<std::size_t>(b)] == 0)
     return "suture: both nodes are constrained";
   if (!(command.length >= 0) || !std::isfinite(command.length))
     return fmt::format("suture: length must be 0 m or more, is {}", command.length);

@@ -46,6 +46,7 @@ class CommandExecutor {
   void put_into_hand(GraspSpring<Real> grasp, int hand);
   std::vector<int> surface_with(int node, const std::vector<int>& hidden) const;
   void update_constraints();
+  std::size_t node_count() const { return s_.masses->lumped.size(); }
 
   Simulation<Real>& s_;
   MethodChoice<Real>& method_;

@@ -82,22 +82,22 @@ template <class Method>
 std::optional<StopReason> ExplicitStepper<Real>::step_with(Real h, double time_after) {
   State<Real>& s = s_.state;
   const Real damping = static_cast<Real>(s_.setup->solver.damping);
-  const Real* inverse_mass_per_dof = s_.inverse_mass_per_dof.data();
+  const Real* inverse_mass_per_dof = s_.masses->inverse_per_dof.data();
   std::swap(s.x, s_.last_valid.x);
   std::swap(s.v, s_.last_valid.v);
   s_.last_valid.time = s.time;
-  s.x.resize(s_.inverse_mass_per_dof.size());
-  s.v.resize(s_.inverse_mass_per_dof.size());
+  s.x.resize(s_.masses->inverse_per_dof.size());
+  s.v.resize(s_.masses->inverse_per_dof.size());
 
   const FirstHalfStep<Real> first{inverse_mass_per_dof,   s.f.data(), s_.last_valid.x.data(),
                                   s_.last_valid.v.data(), s.x.data(), s.v.data()};
-  s_.team.parallel_for(s_.inverse_mass_per_dof.size(), coordinate_grain, [&](std::size_t begin, std::size_t end) {
+  s_.team.parallel_for(s_.masses->inverse_per_dof.size(), coordinate_grain, [&](std::size_t begin, std::size_t end) {
     Method::first_half_step(h, damping, first, begin, end);
   });
   if (!s_.contacts.empty())
     s_.impulses.first_half_step(s_.contacts, s_.last_valid.time, time_after,
                                 Method::damping_divisor(static_cast<double>(h), s_.setup->solver.damping),
-                                s_.inverse_mass, s_.last_valid.x.data(), s.x.data(), s.v.data());
+                                s_.masses->inverse, s_.last_valid.x.data(), s.x.data(), s.v.data());
   s.time = time_after;
   s_.move_constrained();
   if (s_.has_internal_state) s_.body.begin_step(h);
@@ -105,7 +105,7 @@ std::optional<StopReason> ExplicitStepper<Real>::step_with(Real h, double time_a
   // Ten times the size of the body in a step, or NaN: the step was unstable.
   const Real fastest = static_cast<Real>(10 * (s_.model->diagonal / h + s_.setup->initial_velocity.norm()));
   std::atomic<bool> sane{true};
-  s_.team.parallel_for(s_.inverse_mass_per_dof.size(), coordinate_grain, [&](std::size_t begin, std::size_t end) {
+  s_.team.parallel_for(s_.masses->inverse_per_dof.size(), coordinate_grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t some = begin; some < end; some += cached_coordinates) {
       const std::size_t last = std::min(end, some + cached_coordinates);
       Method::second_half_step(h, damping, inverse_mass_per_dof, s.f.data(), s.v.data(), some, last);
@@ -113,7 +113,7 @@ std::optional<StopReason> ExplicitStepper<Real>::step_with(Real h, double time_a
     }
   });
   if (!sane) return restore_last_valid(s_, StopReason::Cause::unstable);
-  if (!s_.contacts.empty()) s_.impulses.second_half_step(s_.contacts, s_.inverse_mass, s.x.data(), s.v.data());
+  if (!s_.contacts.empty()) s_.impulses.second_half_step(s_.contacts, s_.masses->inverse, s.x.data(), s.v.data());
   if (s_.has_internal_state) {
     s_.body.commit(s.x.data());
     s_.body.begin_step(0);

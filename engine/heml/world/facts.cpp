@@ -63,16 +63,16 @@ std::optional<SolverFacts> WorldQueries<Real>::solver_facts() {
 
 template <class Real>
 std::vector<MemoryFacts> WorldQueries<Real>::memory_facts(std::optional<std::size_t> history) const {
-  const auto of_state = [](const State<Real>& state) { return bytes_of(state.x, state.v, state.f); };
+  const auto of_motion = [](const Motion<Real>& motion) { return bytes_of(motion.x, motion.v); };
   std::vector<MemoryFacts> facts;
   facts.push_back({"elements", s_.body.bytes()});
   std::size_t mesh = bytes_of_mesh(s_.setup->mesh) + bytes_of_model(*s_.model) + bytes_of(s_.topology->elements);
   facts.push_back({"mesh", mesh});
   if (history) facts.push_back({"undo", *history});
-  facts.push_back({"state", of_state(s_.state) + of_state(s_.last_valid) +
-                                bytes_of(s_.mass, s_.inverse_mass, s_.inverse_mass_per_dof, element_states_)});
+  facts.push_back({"state", of_motion(s_.state) + of_motion(s_.last_valid) + bytes_of(s_.state.f, element_states_) +
+                                s_.masses->bytes()});
   if (s_.recovery)
-    facts.push_back({"recovery", of_state(s_.recovery->last_good) + bytes_of(s_.recovery->last_good_internal.values)});
+    facts.push_back({"recovery", of_motion(s_.recovery->last_good) + bytes_of(s_.recovery->last_good_internal.values)});
   if (s_.contacts.tissue) facts.push_back({"self-contact", s_.contacts.tissue->bytes()});
   if (!s_.implicit) return facts;
   const ImplicitState<Real>& parts = *s_.implicit;

@@ -35,9 +35,7 @@ StopReason restore_last_valid(Simulation<Real>& s, StopReason::Cause cause) {
         "unstable at t = {:.6g} s: node {} ran away with steps of {:.3g} s{}", reached, reason.node, h,
         std::isfinite(s.limit.at_start) ? fmt::format("; at the start the limit was {:.3g} s", s.limit.at_start) : "");
   }
-  s.state.x = s.last_valid.x;
-  s.state.v = s.last_valid.v;
-  s.state.time = s.last_valid.time;
+  static_cast<Motion<Real>&>(s.state) = s.last_valid;
   if (s.has_internal_state) s.body.begin_step(0);
   s.evaluate_forces();
   return reason;

@@ -41,12 +41,12 @@ Preconditioner preconditioner_of(const SolverSettings& solver, std::size_t free_
 
 template <class Real>
 ImplicitState<Real>::ImplicitState(ElasticBody<Real>& elastic, const Shared<Model<Real>>& model,
-                                   const std::vector<Real>& masses, const std::vector<Real>& inverse_mass,
+                                   const Shared<NodeMasses<Real>>& masses,
                                    const std::vector<double>& modulus, const std::vector<GraspSpring<Real>>& grasps,
                                    Contacts& contacts, ThreadTeam& team, const SolverSettings& solver,
                                    InstructionSet instruction_set)
-    : free(nonzero(inverse_mass)),
-      mass(thrice(free, masses)),
+    : free(nonzero(masses->inverse)),
+      mass(thrice(free, masses->lumped)),
       body(elastic, model, masses, free, grasps, contacts, team),
       linear_mesh(model->midedges.empty() ? std::nullopt
                                           : std::optional<TetMesh>(subdivided(model->mesh, model->midedges))),

@@ -35,11 +35,10 @@ struct ImplicitState {
   double h_before = 0;        ///< s; 0: there was none
   std::optional<StaticSolve> equilibrium;
 
-  /// inverse_mass: #V, 0 where not free. modulus: #T, Pa. All references must outlive this.
-  ImplicitState(ElasticBody<Real>& elastic, const Shared<Model<Real>>& model, const std::vector<Real>& masses,
-                const std::vector<Real>& inverse_mass, const std::vector<double>& modulus,
-                const std::vector<GraspSpring<Real>>& grasps, Contacts& contacts, ThreadTeam& team,
-                const SolverSettings& solver, InstructionSet instruction_set);
+  /// modulus: #T, Pa. All references must outlive this.
+  ImplicitState(ElasticBody<Real>& elastic, const Shared<Model<Real>>& model, const Shared<NodeMasses<Real>>& masses,
+                const std::vector<double>& modulus, const std::vector<GraspSpring<Real>>& grasps, Contacts& contacts,
+                ThreadTeam& team, const SolverSettings& solver, InstructionSet instruction_set);
   /// Elements have gone: these are left, by the numbers they had; model (with this mesh) and masses have followed.
   /// Returns false where parts have to be made anew.
   bool keep_elements(const TetMesh& mesh, const std::vector<int>& elements, const std::vector<Real>& masses);

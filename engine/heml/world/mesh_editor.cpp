@@ -76,7 +76,7 @@ Status MeshEditor<Real>::remove(const RemoveElements& command) {
     return "remove: " + made.message();
   save();
   history_.stroke = {};
-  const auto mass = [this] { return std::accumulate(s_.mass.begin(), s_.mass.end(), 0.0); };
+  const auto mass = [this] { return std::accumulate(s_.masses->lumped.begin(), s_.masses->lumped.end(), 0.0); };
   EditReport& report = s_.edits.emplace_back(begin_report());
   report.removed = edit.removed.size();
   report.mass = mass();
@@ -169,7 +169,7 @@ void MeshEditor<Real>::tear() {
   if (!tearing_) tearing_.emplace(*s_.setup->tearing, s_.setup->mesh, *s_.topology);
   const std::vector<Vec3> x = s_.positions();
   const auto is_constrained = [this](int n) {
-    return s_.inverse_mass[static_cast<std::size_t>(s_.model->order.new_node[static_cast<std::size_t>(n)])] == 0;
+    return s_.masses->inverse[static_cast<std::size_t>(s_.model->order.new_node[static_cast<std::size_t>(n)])] == 0;
   };
   const std::vector<TearOpening> openings = tearing_->openings(s_.setup->mesh, x, is_constrained, s_.team);
   if (openings.empty()) return;
@@ -228,7 +228,7 @@ void MeshEditor<Real>::carry_out(const MeshEdit& edit) {
       add_middles(edit, setup, load.nodes);
       update_after_edit(edit, file_nodes, load.nodes);
     }
-    for (PinnedPatch& pin : s_.pins) update_after_edit(inner, static_cast<int>(s_.mass.size()), pin.nodes);
+    for (PinnedPatch& pin : s_.pins) update_after_edit(inner, static_cast<int>(s_.masses->lumped.size()), pin.nodes);
     append(setup, inner, s_.model.write());
     for (auto* values : {&s_.state.x, &s_.state.v, &s_.last_valid.x, &s_.last_valid.v}) append(inner, *values, 3);
     s_.state.f.resize(s_.state.x.size());
@@ -254,7 +254,8 @@ void MeshEditor<Real>::carry_out(const MeshEdit& edit) {
   else
     s_.body.transfer_state(s_.model->mesh, s_.model->material_of, origins, s_.model->midedges, s_.state.x.data());
   rebuild_after_edit();
-  if (s_.implicit && !(closes_up && s_.implicit->keep_elements(s_.model->mesh, elements, s_.mass))) s_.implicit.reset();
+  if (s_.implicit && !(closes_up && s_.implicit->keep_elements(s_.model->mesh, elements, s_.masses->lumped)))
+    s_.implicit.reset();
 }
 
 /// Updates what depends on the set of elements.
@@ -264,10 +265,10 @@ void MeshEditor<Real>::rebuild_after_edit() {
   tearing_.reset();
   s_.update_self_contact();
   s_.update_contact_surfaces();
-  for (std::size_t n = 0; n < s_.mass.size(); ++n)
-    if (s_.mass[n] == 0) Eigen::Map<Vector3<Real>>(&s_.state.v[3 * n]).setZero();
+  for (std::size_t n = 0; n < s_.masses->lumped.size(); ++n)
+    if (s_.masses->lumped[n] == 0) Eigen::Map<Vector3<Real>>(&s_.state.v[3 * n]).setZero();
   s_.move_constrained();  // nodes of no element too
-  if (s_.recovery) s_.recovery->set_mesh(*s_.model, s_.mass);
+  if (s_.recovery) s_.recovery->reference = make_recovery_reference(*s_.model, s_.masses->lumped);
   recovery_.follow_change();
   s_.lowest_frequency.reset();
 }

@@ -47,20 +47,22 @@ double thinness(const TetMesh& mesh, int element) {
 
 template <class Real>
 void RecoveryController<Real>::start() {
-  s_.recovery.reset();
+  const auto before = std::move(s_.recovery);
   if (!s_.setup->solver.recovery || s_.setup->solver.is_static()) return;
   RecoveryProgress<Real> progress;
   progress.max_speed = max_speed_factor * (max_wave_speed() + s_.setup->initial_velocity.norm());
   progress.last_good = s_.state;
   if (s_.has_internal_state) progress.last_good_internal = s_.body.internal_state();
-  s_.recovery = std::make_unique<RecoveryState<Real>>(*s_.model, s_.mass, std::move(progress));
+  progress.reference = make_recovery_reference(*s_.model, s_.masses->lumped);
+  if (before && *before->reference == *progress.reference) progress.reference = before->reference;  // which others may share
+  s_.recovery = std::make_unique<RecoveryState<Real>>(std::move(progress));
 }
 
 /// Speed of the fastest waves, which cross an element in about 2/ω_max, m/s.
 template <class Real>
 double RecoveryController<Real>::max_wave_speed() const {
-  return static_cast<double>(s_.rest_frequency) * s_.model->diagonal / std::cbrt(static_cast<double>(s_.mass.size())) /
-         2;
+  const double nodes = static_cast<double>(s_.masses->lumped.size());
+  return static_cast<double>(s_.rest_frequency) * s_.model->diagonal / std::cbrt(nodes) / 2;
 }
 
 /// Speed of shear waves in the stiffest material, m/s.
@@ -77,7 +79,7 @@ std::optional<StopReason> RecoveryController<Real>::monitor() {
   if (!s_.recovery || s_.recovering() || s_.halt) return std::nullopt;
   RecoveryState<Real>& recovery = *s_.recovery;
   recovery.track_tools(s_.grasps, s_.state.time);
-  const StateCheck check = recovery.check(*s_.model, s_.state, s_.mass);
+  const StateCheck check = recovery.check(*s_.model, s_.state, s_.masses->lumped);
   const double inverted = static_cast<double>(check.inverted) / static_cast<double>(s_.model->mesh.tets.size());
   if (!(check.min_J < worst_J || inverted > max_inverted || check.speed > recovery.max_speed)) {
     keep_state();
@@ -104,7 +106,7 @@ bool RecoveryController<Real>::is_step_hopeless() const {
 template <class Real>
 bool RecoveryController<Real>::takes_over(const StopReason& failure) {
   if (!s_.recovery || s_.recovering() || is_step_hopeless()) return false;
-  StateCheck check = s_.recovery->check(*s_.model, s_.state, s_.mass);
+  StateCheck check = s_.recovery->check(*s_.model, s_.state, s_.masses->lumped);
   if (failure.cause == StopReason::Cause::not_converged && !(check.min_J < min_healthy_J)) return false;
   const auto& file_tet = s_.model->order.file_tet;
   if (failure.element >= 0)
@@ -131,9 +133,7 @@ void RecoveryController<Real>::keep_state() {
 template <class Real>
 void RecoveryController<Real>::go_back() {
   const RecoveryState<Real>& recovery = *s_.recovery;
-  s_.state.x = recovery.last_good.x;
-  s_.state.v = recovery.last_good.v;
-  s_.state.time = recovery.last_good.time;
+  static_cast<Motion<Real>&>(s_.state) = recovery.last_good;
   s_.impulses.set_memory({});
   if (s_.implicit) s_.implicit->body.reset_contact();
   if (!s_.has_internal_state) return;
@@ -193,8 +193,8 @@ FailureDiagnosis RecoveryController<Real>::diagnose(const StateCheck& check) con
 /// At exact coincidence all forces are zero.
 template <class Real>
 void RecoveryController<Real>::perturb() {
-  for (std::size_t n = 0; n < s_.mass.size(); ++n) {
-    if (!(s_.inverse_mass[n] > 0)) continue;
+  for (std::size_t n = 0; n < s_.masses->lumped.size(); ++n) {
+    if (!(s_.masses->inverse[n] > 0)) continue;
     std::uint64_t random = hash_combine(perturbation_seed, static_cast<std::uint64_t>(s_.model->order.file_node[n]));
     for (std::size_t i = 0; i < 3; ++i) {
       random = hash_combine(random, std::uint64_t{i});
@@ -208,7 +208,7 @@ template <class Real>
 void RecoveryController<Real>::step(double until) {
   step_surrogate(until);
   RecoveryState<Real>& recovery = *s_.recovery;
-  const StateCheck check = recovery.check(*s_.model, s_.state, s_.mass);
+  const StateCheck check = recovery.check(*s_.model, s_.state, s_.masses->lumped);
   recovery.healthy_steps = check.min_J > min_healthy_J ? recovery.healthy_steps + 1 : 0;
   const bool is_calm = check.speed <= calm_speed * shear_wave_speed();
   if (recovery.healthy_steps >= (is_calm ? calm_steps : moving_steps)) end();
@@ -220,7 +220,7 @@ void RecoveryController<Real>::step_surrogate(double until) {
   ImplicitState<Real>& implicit = s_.recovery->surrogate->implicit;
   // A collapsed body, whose forces are too small to expand it, or a tangled one at a minimum of energy is moved towards
   // its rest shape.
-  const StateCheck check = s_.recovery->check(*s_.model, s_.state, s_.mass);
+  const StateCheck check = s_.recovery->check(*s_.model, s_.state, s_.masses->lumped);
   if (check.extent < collapsed_extent) move_towards_rest(collapsed_fraction);
   if (check.inverted == 0 && !s_.recovery->is_folded(s_.state))
     s_.recovery->is_tangled = false;
@@ -275,9 +275,9 @@ void RecoveryController<Real>::move_towards_rest(double part) {
   const auto x = [&](std::size_t n) { return Eigen::Map<Vector3<Real>>(&s_.state.x[3 * n]); };
   const auto& X = s_.model->mesh.nodes;
   const auto weight = [&](std::size_t n) {
-    return static_cast<double>(s_.mass[n]) * (s_.inverse_mass[n] > 0 ? 1 : weight_of_constrained);
+    return static_cast<double>(s_.masses->lumped[n]) * (s_.masses->inverse[n] > 0 ? 1 : weight_of_constrained);
   };
-  for (std::size_t n = 0; n < s_.mass.size(); ++n) {
+  for (std::size_t n = 0; n < s_.masses->lumped.size(); ++n) {
     const double m = weight(n);
     x_mean += m * x(n).template cast<double>();
     X_mean += m * X[n];
@@ -286,13 +286,13 @@ void RecoveryController<Real>::move_towards_rest(double part) {
   x_mean /= mass;
   X_mean /= mass;
   Mat3 moment = Mat3::Zero();
-  for (std::size_t n = 0; n < s_.mass.size(); ++n)
+  for (std::size_t n = 0; n < s_.masses->lumped.size(); ++n)
     moment += weight(n) * (x(n).template cast<double>() - x_mean) * (X[n] - X_mean).transpose();
   const Eigen::JacobiSVD<Mat3> svd(moment, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const double sign = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
   const Mat3 R = svd.matrixU() * Vec3(1, 1, sign).asDiagonal() * svd.matrixV().transpose();
-  for (std::size_t n = 0; n < s_.mass.size(); ++n) {
-    if (!(s_.inverse_mass[n] > 0)) continue;
+  for (std::size_t n = 0; n < s_.masses->lumped.size(); ++n) {
+    if (!(s_.masses->inverse[n] > 0)) continue;
     const Vec3 displacement = x_mean + R * (X[n] - X_mean) - x(n).template cast<double>();
     x(n) += (part * displacement).template cast<Real>();
   }

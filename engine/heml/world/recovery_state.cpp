@@ -50,38 +50,33 @@ void each_volume(const Model<Real>& model, const Position& position, const Visit
 }  // namespace
 
 template <class Real>
-RecoveryState<Real>::RecoveryState(const Model<Real>& model, const std::vector<Real>& masses,
-                                   RecoveryProgress<Real> progress)
-    : RecoveryProgress<Real>(std::move(progress)) {
-  set_mesh(model, masses);
-}
-
-template <class Real>
-void RecoveryState<Real>::set_mesh(const Model<Real>& model, const std::vector<Real>& masses) {
+RecoveryReference make_recovery_reference(const Model<Real>& model, const std::vector<Real>& masses) {
   const auto X = [&](int n) -> const Vec3& { return model.mesh.nodes[static_cast<std::size_t>(n)]; };
-  rest_extent_ = spread(masses, X).first;
-  rest_volume_.clear();
-  each_volume(model, X, [&](std::size_t, double volume) { rest_volume_.push_back(volume); });
-  eighths_.clear();
-  if (model.midedges.empty()) return;
-  eighths_ = subdivided(model.mesh, model.midedges).tets;
-  std::erase_if(eighths_, [&](const Tet& tet) { return !is_upright(tet, X); });
+  RecoveryReference rest;
+  rest.extent = spread(masses, X).first;
+  rest.volume.reserve(model.mesh.tets.size() * (model.midedges.empty() ? 1 : 4));
+  each_volume(model, X, [&](std::size_t, double volume) { rest.volume.push_back(volume); });
+  if (model.midedges.empty()) return rest;
+  rest.eighths = subdivided(model.mesh, model.midedges).tets;
+  std::erase_if(rest.eighths, [&](const Tet& tet) { return !is_upright(tet, X); });
+  return rest;
 }
 
 template <class Real>
 bool RecoveryState<Real>::is_folded(const State<Real>& state) const {
   const auto x = [&](int n) { return at(state.x, n); };
-  return std::any_of(eighths_.begin(), eighths_.end(), [&](const Tet& tet) { return !is_upright(tet, x); });
+  const std::vector<Tet>& eighths = this->reference->eighths;
+  return std::any_of(eighths.begin(), eighths.end(), [&](const Tet& tet) { return !is_upright(tet, x); });
 }
 
 template <class Real>
 StateCheck RecoveryState<Real>::check(const Model<Real>& model, const State<Real>& state,
                                       const std::vector<Real>& masses) const {
   StateCheck check;
-  std::size_t point = 0, last_inverted = rest_volume_.size();
+  std::size_t point = 0, last_inverted = this->reference->volume.size();
   const auto x = [&](int n) { return at(state.x, n); };
   each_volume(model, x, [&](std::size_t t, double volume) {
-    const double rest = rest_volume_[point++];
+    const double rest = this->reference->volume[point++];
     const double J = std::isfinite(volume) ? volume / rest : -std::numeric_limits<double>::infinity();
     if (!(J > 0) && t != last_inverted) {
       ++check.inverted;
@@ -96,7 +91,7 @@ StateCheck RecoveryState<Real>::check(const Model<Real>& model, const State<Real
     const double speed = masses[n] > 0 ? (at(state.v, static_cast<int>(n)) - mean).norm() : 0;
     check.speed = std::max(check.speed, std::isfinite(speed) ? speed : std::numeric_limits<double>::infinity());
   }
-  check.extent = spread(masses, x).first / rest_extent_;
+  check.extent = spread(masses, x).first / this->reference->extent;
   return check;
 }
 
@@ -115,6 +110,8 @@ void RecoveryState<Real>::track_tools(const std::vector<GraspSpring<Real>>& gras
   this->tool_time = time;
 }
 
+template RecoveryReference make_recovery_reference(const Model<float>&, const std::vector<float>&);
+template RecoveryReference make_recovery_reference(const Model<double>&, const std::vector<double>&);
 template class RecoveryState<float>;
 template class RecoveryState<double>;
 

@@ -1,6 +1,7 @@
 #pragma once
 // State of recoveries: the last good state and, during a recovery, the surrogate of the body. Made if the scene has
 // "recovery"; worlds without it pay nothing.
+#include <heml/base/shared.hpp>
 #include <heml/dynamics/state.hpp>
 #include <heml/elastic/body.hpp>
 #include <heml/mesh/edit.hpp>
@@ -19,11 +20,25 @@ struct StateCheck {
   double extent = 1;  ///< of the body, as a part of its extent at rest (radii of gyration)
 };
 
+/// What a shape is compared with.
+struct RecoveryReference {
+  std::vector<double> volume;  ///< m³, of the points of each element: one, of quadratic ones four
+  std::vector<Tet> eighths;    ///< linear tetrahedra on the nodes of quadratic ones, eight each, those upright at rest
+  double extent = 0;           ///< m, radius of gyration
+
+  bool operator==(const RecoveryReference&) const = default;
+};
+
+/// masses: #V, kg.
+template <class Real>
+RecoveryReference make_recovery_reference(const Model<Real>& model, const std::vector<Real>& masses);
+
 /// The values of recoveries, copied by snapshots.
 template <class Real>
 struct RecoveryProgress {
+  Shared<RecoveryReference> reference;  ///< of the elements there are
   double max_speed = 0;        ///< m/s; a faster node is a sign of instability
-  State<Real> last_good;       ///< x, v, time
+  Motion<Real> last_good;
   bool has_last_good = false;  ///< whether there was one since the start
   InternalState<Real> last_good_internal;  ///< of the body then; empty where no material has any
   std::optional<Recovery> last;
@@ -50,15 +65,13 @@ struct RecoverySnapshot {
 template <class Real>
 class RecoveryState : public RecoveryProgress<Real> {
  public:
-  RecoveryState(const Model<Real>& model, const std::vector<Real>& masses, RecoveryProgress<Real> progress);
+  explicit RecoveryState(RecoveryProgress<Real> progress) : RecoveryProgress<Real>(std::move(progress)) {}
 
   /// Adds the nodes of an edit to the last good state.
   void append(const MeshEdit& edit) {
     heml::append(edit, this->last_good.x, 3);
     heml::append(edit, this->last_good.v, 3);
   }
-  /// Follows a change of the elements.
-  void set_mesh(const Model<Real>& model, const std::vector<Real>& masses);
 
   StateCheck check(const Model<Real>& model, const State<Real>& state, const std::vector<Real>& masses) const;
   /// Whether an element is folded: a quadratic one can be, while its points are upright. Of linear ones: false.
@@ -67,11 +80,6 @@ class RecoveryState : public RecoveryProgress<Real> {
   void track_tools(const std::vector<GraspSpring<Real>>& grasps, double time);
 
   std::unique_ptr<RecoverySurrogate<Real>> surrogate;
-
- private:
-  std::vector<double> rest_volume_;  ///< m³, of the points of each element: one, of quadratic ones four
-  std::vector<Tet> eighths_;  ///< linear tetrahedra on the nodes of quadratic ones, eight each, those upright at rest
-  double rest_extent_ = 0;           ///< m
 };
 
 }  // namespace heml

@@ -36,12 +36,12 @@ std::vector<Material> surrogate_materials(const TetMesh& mesh, const std::vector
 
 template <class Real>
 RecoverySurrogate<Real>::RecoverySurrogate(const Shared<Model<Real>>& model, const WorldSetup& setup,
-                                           const std::vector<Real>& masses, const std::vector<Real>& inverse_mass,
+                                           const Shared<NodeMasses<Real>>& masses,
                                            const std::vector<GraspSpring<Real>>& grasps, Contacts& contacts,
                                            ThreadTeam& team)
     : body(model->mesh, model->material_of, surrogate_materials(model->mesh, model->material_of, setup.materials),
            {false, false, setup.instruction_set, setup.solver.threads}, model->midedges),
-      implicit(body, model, masses, inverse_mass,
+      implicit(body, model, masses,
                preconditioner_moduli(model->mesh, model->material_of, setup.materials, Minimiser::newton), grasps,
                contacts, team, {}, setup.instruction_set) {
   implicit.body.disable_self_contact();  // a tangle is not to hold itself

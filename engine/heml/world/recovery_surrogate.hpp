@@ -10,10 +10,9 @@ struct RecoverySurrogate {
   ElasticBody<Real> body;
   ImplicitState<Real> implicit;
 
-  /// setup: the scene's, a material per index in model.material_of. masses, inverse_mass: #V, as the world's. All must
-  /// outlive this.
-  RecoverySurrogate(const Shared<Model<Real>>& model, const WorldSetup& setup, const std::vector<Real>& masses,
-                    const std::vector<Real>& inverse_mass, const std::vector<GraspSpring<Real>>& grasps,
+  /// setup: the scene's, a material per index in model.material_of. masses: as the world's. All must outlive this.
+  RecoverySurrogate(const Shared<Model<Real>>& model, const WorldSetup& setup, const Shared<NodeMasses<Real>>& masses,
+                    const std::vector<GraspSpring<Real>>& grasps,
                     Contacts& contacts, ThreadTeam& team);
 };
 

@@ -47,17 +47,19 @@ Simulation<Real>::Simulation(const SimulationSnapshot<Real>& snapshot)
 template <class Real>
 void Simulation<Real>::update_masses() {
   has_internal_state = body.has_internal_state();
-  mass = body.masses();
-  if (!model->midedges.empty()) consistent_mass = body.consistent_masses();
-  inverse_mass.resize(mass.size());
-  for (std::size_t n = 0; n < mass.size(); ++n) inverse_mass[n] = mass[n] > 0 ? 1 / mass[n] : Real(0);
+  NodeMasses<Real> now;
+  now.lumped = body.masses();
+  if (!model->midedges.empty()) now.consistent = body.consistent_masses();
+  now.inverse.reserve(now.lumped.size());
+  for (const Real m : now.lumped) now.inverse.push_back(m > 0 ? 1 / m : Real(0));
   for (const ConstrainedNode& constrained : model->constrained)
-    inverse_mass[static_cast<std::size_t>(constrained.node)] = 0;
+    now.inverse[static_cast<std::size_t>(constrained.node)] = 0;
   for (const PinnedPatch& pin : pins)
-    for (const int n : pin.nodes) inverse_mass[static_cast<std::size_t>(n)] = 0;
-  inverse_mass_per_dof.clear();
-  for (const Real of_node : inverse_mass) inverse_mass_per_dof.insert(inverse_mass_per_dof.end(), 3, of_node);
-  for (auto& grasp : grasps) grasp.update_masses(inverse_mass);
+    for (const int n : pin.nodes) now.inverse[static_cast<std::size_t>(n)] = 0;
+  now.inverse_per_dof.reserve(3 * now.inverse.size());
+  for (const Real of_node : now.inverse) now.inverse_per_dof.insert(now.inverse_per_dof.end(), 3, of_node);
+  if (now != *masses) masses = std::move(now);  // else others may share them still
+  for (auto& grasp : grasps) grasp.update_masses(masses->inverse);
 }
 
 template <class Real>
@@ -86,9 +88,9 @@ bool Simulation<Real>::evaluate_forces() {
   Real* f = state.f.data();
   const bool valid = acting_body().forces(x, f, team);
   const Vector3<Real> g = gravity().template cast<Real>();
-  const std::vector<Real>& heavy = gravity_mass();
+  const std::vector<Real>& heavy = masses->heavy();
   if (!g.isZero(0))
-    team.parallel_for(mass.size(), node_grain, [&](std::size_t begin, std::size_t end) {
+    team.parallel_for(heavy.size(), node_grain, [&](std::size_t begin, std::size_t end) {
       for (std::size_t n = begin; n < end; ++n)
         for (std::size_t i = 0; i < 3; ++i) f[3 * n + i] += heavy[n] * g[static_cast<int>(i)];
     });
@@ -107,12 +109,12 @@ template <class Real>
 Energies Simulation<Real>::energies() {
   Energies e;
   const Vec3 g = gravity();
-  for (std::size_t n = 0; n < mass.size(); ++n) {
-    const double m = static_cast<double>(mass[n]);
+  for (std::size_t n = 0; n < masses->lumped.size(); ++n) {
+    const double m = static_cast<double>(masses->lumped[n]);
     const Vec3 v = Eigen::Map<const Vector3<Real>>(&state.v[3 * n]).template cast<double>();
     const Vec3 x = Eigen::Map<const Vector3<Real>>(&state.x[3 * n]).template cast<double>();
     e.kinetic += m / 2 * v.squaredNorm();
-    e.potential -= static_cast<double>(gravity_mass()[n]) * g.dot(x - model->mesh.nodes[n]);
+    e.potential -= static_cast<double>(masses->heavy()[n]) * g.dot(x - model->mesh.nodes[n]);
   }
   e.elastic = acting_body().energy(state.x.data(), team);
   return e;
@@ -135,7 +137,7 @@ template <class Real>
 ImplicitState<Real>& Simulation<Real>::implicit_state() {
   if (!implicit)
     implicit = std::make_unique<ImplicitState<Real>>(
-        body, model, mass, inverse_mass,
+        body, model, masses,
         preconditioner_moduli(model->mesh, model->material_of, setup->materials, setup->solver.minimiser), grasps,
         contacts, team, setup->solver, setup->instruction_set);
   return *implicit;
@@ -144,7 +146,7 @@ ImplicitState<Real>& Simulation<Real>::implicit_state() {
 template <class Real>
 void Simulation<Real>::install_surrogate() {
   recovery->surrogate =
-      std::make_unique<RecoverySurrogate<Real>>(model, *setup, mass, inverse_mass, grasps, contacts, team);
+      std::make_unique<RecoverySurrogate<Real>>(model, *setup, masses, grasps, contacts, team);
 }
 
 template <class Real>
@@ -157,7 +159,7 @@ std::vector<ConstrainedNode> Simulation<Real>::constrained_nodes() const {
 
 template <class Real>
 std::vector<Vec3> Simulation<Real>::in_file_order(const std::vector<Real>& values) const {
-  std::vector<Vec3> result(mass.size());
+  std::vector<Vec3> result(values.size() / 3);
   for (std::size_t file = 0; file < result.size(); ++file) {
     const Real* value = &values[3 * static_cast<std::size_t>(model->order.new_node[file])];
     result[file] = Vec3(value[0], value[1], value[2]);
@@ -192,7 +194,7 @@ void Simulation<Real>::update_contact_boundary() {
   contacts.boundary = {};
   if (contacts.tables.empty() && !contacts.probe) return;
   for (const int n : model->surface_nodes)
-    if (inverse_mass[static_cast<std::size_t>(n)] > 0) contacts.boundary.nodes.push_back(n);
+    if (masses->inverse[static_cast<std::size_t>(n)] > 0) contacts.boundary.nodes.push_back(n);
   if (contacts.probe) contacts.boundary.faces = fine_boundary(model->mesh, model->midedges).triangles;
 }
 

@@ -20,6 +20,7 @@
 #include <heml/tools/pin.hpp>
 #include <heml/world/implicit_state.hpp>
 #include <heml/world/model.hpp>
+#include <heml/world/node_masses.hpp>
 #include <heml/world/recovery_state.hpp>
 #include <heml/world/world.hpp>
 #include <memory>
@@ -47,12 +48,10 @@ struct SimulationState {
   Contacts contacts;                      ///< empty in most worlds
   ContactImpulses<Real> impulses;
 
-  bool has_internal_state = false;         ///< whether a material has viscosity, relaxation or plasticity
-  std::vector<Real> mass;                  ///< #V, kg
-  std::vector<Real> consistent_mass;       ///< #V, kg, which gravity acts on; empty: mass
-  std::vector<Real> inverse_mass;          ///< #V, 1/kg; 0 for constrained nodes and nodes of no element
-  std::vector<Real> inverse_mass_per_dof;  ///< 3 #V, 1/kg
-  State<Real> state, last_valid;           ///< now, and before the current step
+  bool has_internal_state = false;  ///< whether a material has viscosity, relaxation or plasticity
+  Shared<NodeMasses<Real>> masses;  ///< made anew when elements or constraints change
+  State<Real> state;
+  Motion<Real> last_valid;  ///< before the current step
 
   Real rest_frequency = 0;  ///< 1/s, bound of the highest frequency at rest: scales the tools
   StepLimit limit;
@@ -92,8 +91,6 @@ struct Simulation : SimulationState<Real> {
   void move_constrained();
   /// Writes the forces of all but supports at the current state to state.f. Returns false where a law is undefined.
   bool evaluate_forces();
-  /// What gravity acts on, #V, kg.
-  const std::vector<Real>& gravity_mass() const { return consistent_mass.empty() ? mass : consistent_mass; }
   /// m/s². In a static world gravity is ramped with all other loads.
   Vec3 gravity() const;
   Energies energies();
@@ -125,10 +122,8 @@ struct Simulation : SimulationState<Real> {
   void update_contact_boundary();
 
   using Values = SimulationState<Real>;
-  using Values::consistent_mass;
   using Values::contacts, Values::grasps, Values::halt, Values::has_internal_state, Values::impulses;
-  using Values::inverse_mass, Values::inverse_mass_per_dof, Values::last_valid, Values::mass, Values::method;
-  using Values::pins, Values::state;
+  using Values::last_valid, Values::masses, Values::method, Values::pins, Values::state;
 
   Shared<WorldSetup> setup;
   Shared<Model<Real>> model;

@@ -13,7 +13,7 @@ RecoverySnapshot<Real> snapshot_of(const RecoveryState<Real>& recovery) {
 
 template <class Real>
 void restore(const RecoverySnapshot<Real>& snapshot, Simulation<Real>& s) {
-  s.recovery = std::make_unique<RecoveryState<Real>>(*s.model, s.mass, snapshot.progress);
+  s.recovery = std::make_unique<RecoveryState<Real>>(snapshot.progress);
   if (!snapshot.surrogate) return;
   s.install_surrogate();
   s.recovery->surrogate->implicit.restore(*snapshot.surrogate);
@@ -52,8 +52,8 @@ std::size_t SimulationSnapshot<Real>::bytes() const {
   std::size_t sum = bytes_of_mesh(setup->mesh) + bytes_of_model(*model);
   sum += bytes_of(setup->midedges, topology->elements) + body.bytes();
   if (values.contacts.tissue) sum += values.contacts.tissue->bytes();
-  for (const State<Real>* state : {&values.state, &values.last_valid}) sum += bytes_of(state->x, state->v, state->f);
-  return sum + bytes_of(values.mass, values.inverse_mass, values.inverse_mass_per_dof);
+  sum += bytes_of(values.state.x, values.state.v, values.state.f, values.last_valid.x, values.last_valid.v);
+  return sum + values.masses->bytes();
 }
 
 template struct SimulationSnapshot<float>;

@@ -37,7 +37,8 @@ typename StepRescue<Real>::Start StepRescue<Real>::save() {
 
 template <class Real>
 void StepRescue<Real>::restore(const Start& start) {
-  s_.state = s_.last_valid = start.state;
+  s_.state = start.state;
+  s_.last_valid = start.state;
   if (start.body) s_.body.restore(*start.body, s_.state.x.data());
   s_.contacts.reports = start.reports;
   s_.steps = start.steps;
@@ -95,7 +96,7 @@ bool StepRescue<Real>::limit_gain(double before, double until) {
   if (!(gain <= kinetic)) return false;
   const Real kept = static_cast<Real>(std::sqrt(1 - gain / kinetic));
   for (std::size_t i = 0; i < s_.state.v.size(); ++i)
-    if (s_.inverse_mass_per_dof[i] > 0) s_.state.v[i] *= kept;
+    if (s_.masses->inverse_per_dof[i] > 0) s_.state.v[i] *= kept;
   return true;
 }
 

@@ -230,7 +230,7 @@ void TypedWorld<Real>::set_initial_state() {
       const int axis = static_cast<int>(i);
       if (!s_.setup->initial_positions.empty())
         s_.state.x[3 * n + i] = static_cast<Real>(s_.setup->initial_positions[file][axis]);
-      if (s_.inverse_mass[n] > 0) s_.state.v[3 * n + i] = static_cast<Real>(s_.setup->initial_velocity[axis]);
+      if (s_.masses->inverse[n] > 0) s_.state.v[3 * n + i] = static_cast<Real>(s_.setup->initial_velocity[axis]);
     }
 }
 

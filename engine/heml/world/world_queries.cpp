@@ -51,7 +51,7 @@ void WorldQueries<Real>::write_field(Field field, std::span<const int> nodes, st
     return;
   }
   const std::vector<double> values = element_values(field);
-  std::vector<double> sum(s_.mass.size(), 0.0), weight(s_.mass.size(), 0.0);
+  std::vector<double> sum(s_.masses->lumped.size(), 0.0), weight(s_.masses->lumped.size(), 0.0);
   for (std::size_t t = 0; t < s_.model->mesh.tets.size(); ++t) {
     const Tet& tet = s_.model->mesh.tets[t];
     const auto X = [&](std::size_t c) -> const Vec3& { return s_.model->mesh.nodes[static_cast<std::size_t>(tet[c])]; };
@@ -102,7 +102,7 @@ std::vector<double> WorldQueries<Real>::element_values(Field field) {
 /// #V in inner order, m.
 template <class Real>
 std::vector<Vec3> WorldQueries<Real>::inner_positions() const {
-  std::vector<Vec3> x(s_.mass.size());
+  std::vector<Vec3> x(s_.masses->lumped.size());
   for (std::size_t n = 0; n < x.size(); ++n)
     x[n] = Eigen::Map<const Vector3<Real>>(&s_.state.x[3 * n]).template cast<double>();
   return x;
@@ -190,7 +190,7 @@ std::vector<Vec3> WorldQueries<Real>::reactions() const {
     const PrescribedMotion::At at = prescribed_at(*s_.model, constrained, s_.state.time);
     const Vec3 f = Eigen::Map<const Vector3<Real>>(&s_.state.f[3 * n]).template cast<double>();
     result[static_cast<std::size_t>(constrained.entry)] +=
-        inertia * static_cast<double>(s_.mass[n]) * (at.a + s_.setup->solver.damping * at.v) - f;
+        inertia * static_cast<double>(s_.masses->lumped[n]) * (at.a + s_.setup->solver.damping * at.v) - f;
   }
   return result;
 }
@@ -264,13 +264,13 @@ std::uint64_t WorldQueries<Real>::node_hash(std::size_t file_node) const {
 template <class Real>
 std::uint64_t WorldQueries<Real>::state_hash() const {
   std::uint64_t hash = 0;
-  for (std::size_t n = 0; n < s_.mass.size(); ++n) hash = hash_combine(hash, node_hash(n));
+  for (std::size_t n = 0; n < s_.masses->lumped.size(); ++n) hash = hash_combine(hash, node_hash(n));
   return hash;
 }
 
 template <class Real>
 std::vector<std::uint16_t> WorldQueries<Real>::node_hashes() const {
-  std::vector<std::uint16_t> hashes(s_.mass.size());
+  std::vector<std::uint16_t> hashes(s_.masses->lumped.size());
   for (std::size_t n = 0; n < hashes.size(); ++n) hashes[n] = static_cast<std::uint16_t>(node_hash(n));
   return hashes;
 }
