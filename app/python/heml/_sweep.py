@@ -77,7 +77,7 @@ def sweep(
             key = futures[future]
             rows[key] = {**wanted[key], **_outcome(future), "key": key}
             table.add(rows[key])
-            progress.show(bool(rows[key]["error"]))
+            progress.show(rows[key]["error"])
             future.release()
     return pandas.DataFrame([rows[key] for key in wanted])
 
@@ -153,10 +153,12 @@ class _Progress:
     def __init__(self, total: int, found: int) -> None:
         self.total, self.done, self.found, self.failed, self.start = total, found, found, 0, time.monotonic()
 
-    def show(self, failed: bool) -> None:
+    def show(self, error: str) -> None:
         self.done += 1
-        self.failed += failed
+        self.failed += error != ""
         terminal = sys.stderr.isatty()
+        if error and self.failed == 1:
+            sys.stderr.write(("\r\x1b[K" if terminal else "") + f"sweep: the first that fails: {error}\n")
         tenth = max(self.total // 10, 1)
         if not terminal and self.done % tenth and self.done != self.total:
             return

@@ -27,12 +27,13 @@ def half(case):
     return {"half": case["x"] / 2, "list": [case["x"]]}
 
 
-def test_results_in_order_and_failures_as_rows(client):
+def test_results_in_order_and_failures_as_rows(client, capfd):
     table = heml.sweep(half, [{"x": x} for x in (5, 3, 1)], client)
     assert table["x"].tolist() == [5, 3, 1]
     assert table["half"].tolist()[::2] == [2.5, 0.5]
     assert table["error"].tolist() == ["", "ValueError: three", ""]
     assert table["list"][0] == "[5]"
+    assert capfd.readouterr().err.count("sweep: the first that fails: ValueError: three\n") == 1
 
 
 @pytest.mark.parametrize("name", ["rows.csv", "rows.parquet"])
