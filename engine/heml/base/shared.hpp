@@ -6,7 +6,6 @@
 //   b.write().tets.push_back(t);                     b alone has it: nothing is copied
 //
 // Worlds, their snapshots and their undo history share so what steps do not change.
-#include <atomic>
 #include <memory>
 #include <utility>
 
@@ -25,7 +24,8 @@ class Shared {
   /// The value to be changed; a copy first, where others share it. References from before may be of the old one.
   T& write() {
     if (value_.use_count() > 1) value_ = std::make_shared<T>(*value_);
-    std::atomic_thread_fence(std::memory_order_acquire);  // after the last read by who shared it
+    // A copy that goes at once: its count is changed after that of who shared the value last, and so after their reads.
+    std::shared_ptr<T>(value_).reset();
     return *value_;
   }
   /// Whether both are one value in memory.

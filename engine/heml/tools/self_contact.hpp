@@ -28,6 +28,7 @@
 // Built only where a scene has "self_contact".
 #include <compare>
 #include <heml/tools/contact_pair.hpp>
+#include <heml/tools/contact_skin.hpp>
 #include <heml/tools/settings.hpp>
 
 namespace heml {
@@ -45,10 +46,8 @@ class SelfContact {
   template <class From, class To>
   const std::vector<ContactPair>& contacts_between(const From& from, const To& to,
                                                    const std::vector<ContactPair>& held = {}) {
-    for (std::size_t i = 0; i < nodes_.size(); ++i) {
-      from_[i] = from(nodes_[i]);
-      to_[i] = to(nodes_[i]);
-    }
+    skin_.begin_step(from);
+    for (std::size_t i = 0; i < to_.size(); ++i) to_[i] = to(skin_.nodes()[i]);
     find(held);
     return contacts_;
   }
@@ -61,10 +60,9 @@ class SelfContact {
   std::size_t bytes() const;
 
  private:
-  struct Edge {
-    std::array<int, 2> ends, faces;
-  };
-  /// A node and a face, or two edges.
+  using Positions = ContactSkin::Positions;
+  using Answer = ContactSkin::Answer;
+  /// A node and a face, or two edges, as skin_ numbers them.
   struct Candidate {
     bool edges;
     int first, second;
@@ -77,86 +75,52 @@ class SelfContact {
   };
   struct AwakeCandidate {
     double distance;
-    std::array<int, 4> nodes;  ///< indices into nodes_, as in ContactPair
+    std::array<int, 4> nodes;  ///< as in ContactPair, as skin_ numbers them
     Candidate candidate;
     bool can_meet;  ///< for certain, as can_meet() tells
   };
-  /// Whether something holds for all positions near those of now.
-  enum class Answer { no, unsure, yes };
-  using Positions = std::vector<Vec3>;
-  // What several candidates of a step ask of the surface at from_, evaluated for the first that asks.
-  struct NodeNow {
-    long step = 0;  ///< evaluated in, as in step_count_
-    Vec3 area;      ///< m², sum of the area vectors of its faces
-    double square;  ///< m⁴, of it
-  };
-  struct FaceNow {
-    long step = 0;
-    Vec3 area;      ///< m², twice the face's, along its normal
-    double square;  ///< m⁴, of it
-  };
-  struct EdgeNow {
-    long step = 0;
-    bool is_ridge;  ///< convex
-  };
-  // Node and face numbers below index nodes_ and faces_.
-  void set_rest(const TetMesh& mesh);
-  void make_edges();
-  void find(const std::vector<ContactPair>& held);
-  void add_held(const std::vector<ContactPair>& held);
-  double bend_now(int edge);
   /// Reference positions, and how far nodes may move from them before the candidates must be found again.
   struct CandidateSet {
     Positions reference;   ///< m; empty: none yet
     double allowance = 0;  ///< m
   };
-  double spread(const Positions& reference, const Positions& x) const;
-  double reach_of(double allowance) const;
-  void update_candidates();
-  void broad_phase(double step);
-  void filter_candidates(double step);
-  double squared_distance(const Candidate& candidate) const;
-  void add_candidates(int one, int other, double reach);
-  void add_node_candidates(int node, int face, double reach);
-  void add_edge_candidates(int one, int other, double reach);
-  int side_of(const Edge& one, const Edge& other, const Positions& x) const;
-  int side_now(const Candidate& candidate);
+  static constexpr double touch_gap = 1e-3;  // of an edge: nearer pairs touch, since a step may push them together
+  static constexpr double slack = 0.01;      // of a face or an edge: margin, so that nothing slips between neighbours
+  static constexpr int lasting = 512;        // steps for which candidates stay awake
+
+  void find(const std::vector<ContactPair>& held);
+  void add_held(const std::vector<ContactPair>& held);
   std::array<int, 4> nodes_of(const Candidate& candidate) const;
+  int side_of(const Candidate& candidate);
   bool can_meet(const Candidate& candidate);
-  Answer can_meet_within(const Candidate& candidate, double allowance);
-  Answer is_ridge_within(int edge, double allowance);
-  bool is_outside_within(const AwakeCandidate& awake, double allowance) const;
   std::optional<PairCrossing> crossing_if_met(const Candidate& candidate, const ContactPair& pair);
   bool crosses_later(int side, const std::array<Vec3, 4>& from, const std::array<Vec3, 4>& to, double gap) const;
   double height_behind(const Candidate& candidate);
   bool is_out_of_both(const Candidate& candidate, const std::array<Vec3, 4>& from, const PairCrossing& first,
                       double margin);
+
+  // self_contact_search.cpp
+  double spread(const Positions& reference, const Positions& x) const;
+  double reach_of(double allowance) const;
+  void update_candidates();
+  void broad_phase(double step);
+  void filter_candidates(double step);
   void wake_candidates(double moved);
-  Vec3 face_normal(int face, const Positions& x) const;
-  const FaceNow& face_now(int face);
-  double height_now(int face);
-  const NodeNow& node_now(int node);
-  bool is_ridge_now(int edge);
-  bool is_ridge_towards(int edge, const Vec3& normal, double margin);
+  double squared_distance(const Candidate& candidate) const;
+  void add_candidates(int one, int other, double reach);
+  void add_node_candidates(int node, int face, double reach);
+  void add_edge_candidates(int one, int other, double reach);
+  Answer can_meet_within(const Candidate& candidate, double allowance);
+  bool is_outside_within(const AwakeCandidate& awake, double allowance) const;
 
   double friction_;
-  double edge_ = 0;         ///< m, mean edge length of the surface at rest
-  std::vector<int> nodes_;  ///< internal numbers, ascending: of the surface, and those opposite its faces
-  Positions rest_;
-  std::vector<Triangle> faces_;
-  std::vector<int> apex_;  ///< of each face, the fourth node of its element
-  std::vector<Edge> edges_;
-  std::vector<int> start_, round_;               ///< faces round each node: round_[start_[n] .. start_[n + 1])
-  std::vector<Triangle> own_nodes_, own_edges_;  ///< of each face: nodes, edges that no earlier face has; unused: −1
-  Positions from_, to_;
-  long step_count_ = 0;  ///< calls of find()
-  std::vector<NodeNow> nodes_now_;
-  std::vector<FaceNow> faces_now_;
-  std::vector<EdgeNow> edges_now_;
+  ContactSkin skin_;  ///< at the step's start
+  double edge_;       ///< m, mean length at rest
+  Positions to_;      ///< m, at its end
   CandidateSet searched_, filtered_;
-  CandidateSet woken_;      ///< of awake_, for positions at a step's start
-  double awake_reach_ = 0;  ///< m, of awake_
-  int woken_steps_ = 0;     ///< since awake_ was made
+  CandidateSet woken_;                       ///< of awake_, for positions at a step's start
+  double awake_reach_ = 0;                   ///< m, of awake_
+  int woken_steps_ = 0;                      ///< since awake_ was made
   std::vector<Candidate> broad_candidates_;  ///< valid within searched_
   std::vector<NearCandidate> candidates_;    ///< the subset valid within filtered_, ascending
   std::vector<AwakeCandidate> awake_;        ///< and of these, valid within awake_reach_, in the order of pairs

@@ -1,6 +1,8 @@
 #include <doctest/doctest.h>
 
 #include <heml/base/shared.hpp>
+#include <optional>
+#include <thread>
 #include <vector>
 
 namespace heml::shared_test {
@@ -36,6 +38,22 @@ TEST_CASE("a value that its first holder has left stays with the others") {
   CHECK(b->front() == 1);
   b.write().front() = 3;
   CHECK(a->front() == 2);
+}
+
+// A race is seen by the thread sanitizer.
+TEST_CASE("a value is written to after who shared it has read it") {
+  for (int k = 0; k < 200; ++k) {
+    Shared<std::vector<int>> a = std::vector<int>(1000, 1);
+    int sum = 0;
+    std::thread reader([&sum, b = std::optional(a)]() mutable {
+      for (const int value : **b) sum += value;
+      b.reset();
+    });
+    for (int n = 0; n < 1000; ++n) a.write()[0] = 2;
+    reader.join();
+    CHECK(sum == 1000);
+    CHECK(a->front() == 2);
+  }
 }
 
 }  // namespace heml::shared_test
