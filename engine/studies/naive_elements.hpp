@@ -191,6 +191,37 @@ struct Hgo {
   }
 };
 
+/// ∂Q/∂Ē = 2 bt Ē + 2 (bf + bt − 2 bfs) (a·Ēa) a aᵀ + 2 (bfs − bt) (a (Ēa)ᵀ + Ēa aᵀ) of the strain Ē itself.
+struct Guccione {
+  static Matrix stress(const Strain& at, const NaiveBody& body) {
+    const double bf = body.parameter[1], bt = body.parameter[2], bfs = body.parameter[3];
+    const double* a = body.fibre;
+    const double p = 1 / std::cbrt(at.J * at.J);
+    Matrix E, Q1;
+    double Ea[3], along = 0, squares = 0, shear = 0, volumetric = 0;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) E.m[i][j] = (p * at.C.m[i][j] - (i == j ? 1 : 0)) / 2;
+    for (int i = 0; i < 3; ++i) {
+      Ea[i] = E.m[i][0] * a[0] + E.m[i][1] * a[1] + E.m[i][2] * a[2];
+      along += a[i] * Ea[i], shear += Ea[i] * Ea[i];
+      for (int j = 0; j < 3; ++j) squares += E.m[i][j] * E.m[i][j];
+    }
+    const double Q = bt * squares + (bf + bt - 2 * bfs) * along * along + 2 * (bfs - bt) * shear;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) {
+        Q1.m[i][j] = 2 * bt * E.m[i][j] + 2 * (bf + bt - 2 * bfs) * along * a[i] * a[j] +
+                     2 * (bfs - bt) * (a[i] * Ea[j] + Ea[i] * a[j]);
+        volumetric += Q1.m[i][j] * at.C.m[i][j];
+      }
+    const double scale = body.parameter[0] / 2 * std::exp(Q) * p;
+    const double pressure = body.parameter[4] * (at.J - 1) * at.J - scale * volumetric / 3;
+    Matrix S{};
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) S.m[i][j] = scale * Q1.m[i][j] + pressure * at.C_inverse.m[i][j];
+    return S;
+  }
+};
+
 struct Yeoh {
   static Matrix stress(const Strain& at, const NaiveBody& body) {
     const double e = isochoric_excess(at);
@@ -295,6 +326,7 @@ constexpr NaiveSet::Entry loops[] = {{"stvk", element_loop<StVK>},
                                      {"fung_demiray", element_loop<FungDemiray>},
                                      {"ogden", element_loop<Ogden>},
                                      {"hgo", element_loop<Hgo>},
+                                     {"guccione", element_loop<Guccione>},
                                      {"yeoh", element_loop<Yeoh>},
                                      {"gent", element_loop<Gent>},
                                      {"veronda_westmann", element_loop<VerondaWestmann>},

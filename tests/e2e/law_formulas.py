@@ -153,6 +153,33 @@ def hgo(m, F, bears):
     return W
 
 
+def in_fibre_frame(m, S):
+    """Components of a symmetric tensor on orthonormal axes, the first along the fibre."""
+    dot = lambda u, v: sum(x * y for x, y in zip(u, v))
+    axes = []
+    for v in [m["fibre"], *([mpf(k == i) for i in range(3)] for k in range(3))]:
+        for u in axes:
+            v = [x - dot(u, v) * y for x, y in zip(v, u)]
+        if len(axes) < 3 and mp.sqrt(dot(v, v)) > mpf("0.1"):
+            axes.append([x / mp.sqrt(dot(v, v)) for x in v])
+    return [[sum(u[i] * S[3 * i + j] * v[j] for i in range(3) for j in range(3)) for v in axes] for u in axes]
+
+
+def guccione_exponent(m, F):
+    """Q of the components of Ē."""
+    p = mp.cbrt(1 / determinant(F) ** 2)
+    E = in_fibre_frame(m, [(p * c - (1 if i % 4 == 0 else 0)) / 2 for i, c in enumerate(right_cauchy_green(F))])
+    return (m["bf"] * E[0][0] ** 2 + m["bt"] * (E[1][1] ** 2 + E[2][2] ** 2 + 2 * E[1][2] ** 2) +
+            m["bfs"] * (2 * E[0][1] ** 2 + 2 * E[0][2] ** 2))
+
+
+@law(lambda m, F: guccione_exponent(m, F) < 600,
+     C=uniform(200, 2e3), bf=uniform(0.5, 20), bt=uniform(0.5, 8), bfs=uniform(0.5, 8), kappa=uniform(1e3, 1e5),
+     fibre=lambda r: [r.choice([-1, 1]) * r.uniform(0.5, 1) for _ in range(3)])
+def guccione(m, F):
+    return m["C"] / 2 * (mp.exp(guccione_exponent(m, F)) - 1) + quadratic(m, determinant(F))
+
+
 @law(C10=uniform(200, 2e3), C20=uniform(-50, 50), C30=uniform(0, 20), kappa=uniform(1e3, 1e5))
 def yeoh(m, F):
     I1, _, J = isochoric(F)

@@ -36,6 +36,76 @@ template <int count, class Real>
       for (int k = 0; k < count; ++k) K[at] += p[k][r] * q[k][c];
 }
 
+/// Σ_a m_a e_a: F a0, or F C a0 with n for m.
+template <class Real>
+[[gnu::always_inline]] inline void sum_of_edges(const Real m[3], const Real e[3][3], Real out[3]) {
+  for (int i = 0; i < 3; ++i) out[i] = m[0] * e[0][i] + m[1] * e[1][i] + m[2] * e[2][i];
+}
+
+/// Places of the invariants that a law uses among their gradients: I1, J, then I2, I4 and I5 where it has them.
+template <class L>
+struct GradientOrder {
+  static constexpr bool with_I5 = FibreShearLaw<L>;
+  static constexpr int I2 = 2, I4 = L::uses_I2 ? 3 : 2, I5 = 4;
+  static constexpr int count = 2 + (L::uses_I2 ? 1 : 0) + (L::uses_I4 ? 1 : 0) + (with_I5 ? 1 : 0);
+};
+
+/// Gradients p of the invariants by the coordinates of the edges, and u_a = Σ_b A_ab e_b.
+template <class L, class Real>
+[[gnu::always_inline]] inline void invariant_gradients(const ElementKinematics<Real>& kinematics,
+                                                       const RestShape<Real>& rest, Real u[3][3],
+                                                       Real p[GradientOrder<L>::count][9]) {
+  using At = GradientOrder<L>;
+  const Real* A = rest.A;
+  const Real a[3][3] = {{A[0], A[3], A[4]}, {A[3], A[1], A[5]}, {A[4], A[5], A[2]}};
+  const auto& e = kinematics.e;
+  for (int k = 0; k < 3; ++k)
+    for (int i = 0; i < 3; ++i) {
+      u[k][i] = a[k][0] * e[0][i] + a[k][1] * e[1][i] + a[k][2] * e[2][i];
+      p[0][3 * k + i] = 2 * u[k][i];
+      p[1][3 * k + i] = kinematics.cross[k][i] / (6 * rest.volume);
+    }
+  if constexpr (L::uses_I2)  // ∂I2/∂e_a = 2 (I1 u_a − y_a), y = AGA e
+    for (int k = 0; k < 3; ++k)
+      for (int i = 0; i < 3; ++i) {
+        const Real y = kinematics.AG[k][0] * u[0][i] + kinematics.AG[k][1] * u[1][i] + kinematics.AG[k][2] * u[2][i];
+        p[At::I2][3 * k + i] = 2 * (kinematics.at.I1 * u[k][i] - y);
+      }
+  Real along[3];
+  if constexpr (L::uses_I4) {
+    sum_of_edges(rest.fibre, e, along);
+    for (int k = 0; k < 3; ++k)
+      for (int i = 0; i < 3; ++i) p[At::I4][3 * k + i] = 2 * rest.fibre[k] * along[i];
+  }
+  if constexpr (At::with_I5) {  // ∂I5/∂e_a = 2 (n_a F a0 + m_a F C a0)
+    Real turned[3];
+    sum_of_edges(kinematics.n, e, turned);
+    for (int k = 0; k < 3; ++k)
+      for (int i = 0; i < 3; ++i)
+        p[At::I5][3 * k + i] = 2 * (kinematics.n[k] * along[i] + rest.fibre[k] * turned[i]);
+  }
+}
+
+/// Adds factor · ½ ∂²I5 without the part in the tensions: (dG m)·A (dG m), where dG m = de_a·F a0 + e_a·Σ_b m_b de_b.
+template <class Real>
+[[gnu::always_inline]] inline void add_fibre_shear_stiffness(const ElementKinematics<Real>& kinematics,
+                                                             const RestShape<Real>& rest, const Real u[3][3],
+                                                             Real factor, Real K[edge_entries]) {
+  constexpr int pair[3][3] = {{0, 3, 4}, {3, 1, 5}, {4, 5, 2}};
+  const Real *A = rest.A, *m = rest.fibre;
+  Real along[3], FF[3][3];
+  sum_of_edges(m, kinematics.e, along);
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      FF[i][j] = u[0][i] * kinematics.e[0][j] + u[1][i] * kinematics.e[1][j] + u[2][i] * kinematics.e[2][j];
+  for (int r = 0, at = 0; r < 9; ++r)
+    for (int c = 0; c <= r; ++c, ++at) {
+      const int k = r / 3, i = r % 3, l = c / 3, j = c % 3;
+      K[at] += factor * (A[pair[k][l]] * along[i] * along[j] + along[i] * m[l] * u[k][j] + m[k] * u[l][i] * along[j] +
+                         m[k] * m[l] * FF[i][j]);
+    }
+}
+
 /// Adds the stiffness of a law of invariants except the geometric part, T_ab I and wJ ∂²J.
 template <class Real, InvariantLaw<Real> L>
 [[gnu::always_inline]] inline void add_material_stiffness(const L& law, const ElementKinematics<Real>& kinematics,
@@ -44,28 +114,16 @@ template <class Real, InvariantLaw<Real> L>
   const SecondDerivatives<Real> c = law.second_derivatives(kinematics.at);
   const Real* A = rest.A;
   const Real a[3][3] = {{A[0], A[3], A[4]}, {A[3], A[1], A[5]}, {A[4], A[5], A[2]}};
-  const auto& e = kinematics.e;
-  Real u[3][3];  // u_a = Σ_b A_ab e_b: half of ∂I1/∂e_a
-  for (int k = 0; k < 3; ++k)
-    for (int i = 0; i < 3; ++i) u[k][i] = a[k][0] * e[0][i] + a[k][1] * e[1][i] + a[k][2] * e[2][i];
-  constexpr int count = 2 + (L::uses_I2 ? 1 : 0) + (L::uses_I4 ? 1 : 0), I2 = 2, I4 = count - 1;
-  Real p[count][9], w[count][count] = {{c.w11, c.w1J}, {c.w1J, c.wJJ}};
-  for (int k = 0; k < 3; ++k)
-    for (int i = 0; i < 3; ++i) {
-      p[0][3 * k + i] = 2 * u[k][i];
-      p[1][3 * k + i] = kinematics.cross[k][i] / (6 * rest.volume);
-    }
+  using At = GradientOrder<L>;
+  constexpr int I2 = At::I2, I4 = At::I4, I5 = At::I5;
+  Real u[3][3], p[At::count][9], w[At::count][At::count] = {{c.w11, c.w1J}, {c.w1J, c.wJJ}};
+  invariant_gradients<L>(kinematics, rest, u, p);
   if constexpr (L::uses_I2) {
-    // ∂I2/∂e_a = 2 (I1 u_a − y_a), y = AGA e; ∂²I2 = 4 u_a u_bᵀ − 2 u_b u_aᵀ − 2 A_ab FFᵀ + a part in the tensions.
+    // ∂²I2 = 4 u_a u_bᵀ − 2 u_b u_aᵀ − 2 A_ab FFᵀ + a part in the tensions.
     Real FF[6] = {0, 0, 0, 0, 0, 0};
     constexpr int row[6] = {0, 1, 2, 0, 0, 1}, column[6] = {0, 1, 2, 1, 2, 2};
-    for (int k = 0; k < 3; ++k) {
-      for (int i = 0; i < 3; ++i) {
-        const Real y = kinematics.AG[k][0] * u[0][i] + kinematics.AG[k][1] * u[1][i] + kinematics.AG[k][2] * u[2][i];
-        p[I2][3 * k + i] = 2 * (kinematics.at.I1 * u[k][i] - y);
-      }
-      for (int m = 0; m < 6; ++m) FF[m] += u[k][row[m]] * e[k][column[m]];
-    }
+    for (int k = 0; k < 3; ++k)
+      for (int m = 0; m < 6; ++m) FF[m] += u[k][row[m]] * kinematics.e[k][column[m]];
     w[0][I2] = w[I2][0] = c.w12;
     w[1][I2] = w[I2][1] = c.w2J;
     w[I2][I2] = c.w22;
@@ -79,15 +137,16 @@ template <class Real, InvariantLaw<Real> L>
       }
   }
   if constexpr (L::uses_I4) {
-    const Real* m = rest.fibre;
-    for (int i = 0; i < 3; ++i) {
-      const Real along = m[0] * e[0][i] + m[1] * e[1][i] + m[2] * e[2][i];
-      for (int k = 0; k < 3; ++k) p[I4][3 * k + i] = 2 * m[k] * along;
-    }
     w[0][I4] = w[I4][0] = c.w14;
     w[1][I4] = w[I4][1] = c.w4J;
     if constexpr (L::uses_I2) w[I2][I4] = w[I4][I2] = c.w24;
     w[I4][I4] = c.w44;
+  }
+  if constexpr (At::with_I5) {
+    const Real second[4] = {c.w15, c.w5J, c.w25, c.w45};
+    for (int k = 0; k < I5; ++k) w[k][I5] = w[I5][k] = second[k];
+    w[I5][I5] = c.w55;
+    add_fibre_shear_stiffness(kinematics, rest, u, 2 * rest.volume * s.w5, K);
   }
   add_outer_products(p, w, rest.volume, K);
 }
@@ -125,7 +184,7 @@ template <class Change, class Real>
   }
 }
 
-/// Adds the stiffness of a law at one element. kinematics: with I2 and J, and I4 if the law uses it.
+/// Adds the stiffness of a law at one element. kinematics: of law_kinematics().
 template <class Real, Law<Real> L>
 [[gnu::always_inline]] inline void add_edge_stiffness(const L& law, const ElementKinematics<Real>& kinematics,
                                                       const RestShape<Real>& rest, Real K[edge_entries]) {

@@ -58,7 +58,7 @@ HEML_WIDE Real energy_group_bound(const L& law, const ElementGroup<Real>& group,
     Real d[14][lanes], bound[lanes];
     for (std::size_t first = 0; first < lanes; first += width) {
       const PackedElements<P, L::uses_I4> at(packet, first);
-      const auto in = element_kinematics<true, true, L::uses_I4>(at.x[0], at.x[1], at.x[2], at.x[3], at.rest).at;
+      const auto in = law_kinematics<L>(at.x[0], at.x[1], at.x[2], at.x[3], at.rest).at;
       const FirstDerivatives<P> s = many.first_derivatives(in);
       const SecondDerivatives<P> c = many.second_derivatives(in);
       const P values[14] = {s.w1,  s.w2,  s.wJ,  s.w4,  c.w11, c.w12, c.w22,
@@ -72,7 +72,7 @@ HEML_WIDE Real energy_group_bound(const L& law, const ElementGroup<Real>& group,
           {d[0][l], d[1][l], d[2][l], d[3][l]},
           {d[4][l], d[5][l], d[6][l], d[7][l], d[8][l], d[9][l], d[10][l], d[11][l], d[12][l], d[13][l]}};
       bound[l] = evaluated_bound<L::uses_I4>(
-          evaluated, element_kinematics<true, true, L::uses_I4>(at.x[0], at.x[1], at.x[2], at.x[3], rest), rest,
+          evaluated, law_kinematics<L>(at.x[0], at.x[1], at.x[2], at.x[3], rest), rest,
           group.gamma[p * lanes + l], group.density);
     }
     for (std::size_t l = 0; l < lanes; ++l) largest = bound[l] > largest || std::isnan(bound[l]) ? bound[l] : largest;
@@ -103,7 +103,7 @@ HEML_WIDE bool energy_forces(const L& law, const ElementGroup<Real>& group, cons
     Real out[12][lanes];
     for (std::size_t first = 0; first < lanes; first += width) {
       const PackedElements<P, L::uses_I4> at(packet, first);
-      const auto kinematics = element_kinematics<true, true, L::uses_I4>(at.x[0], at.x[1], at.x[2], at.x[3], at.rest);
+      const auto kinematics = law_kinematics<L>(at.x[0], at.x[1], at.x[2], at.x[3], at.rest);
       P f[12];
       forces_from_tensions<true>(checked_tensions(many, kinematics, at.rest, valid), kinematics.e, kinematics.cross, f);
       for (int i = 0; i < 12; ++i) __builtin_memcpy(out[i] + first, &f[i].v, sizeof f[i].v);

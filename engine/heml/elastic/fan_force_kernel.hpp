@@ -32,7 +32,8 @@ template <class P, PrincipalLaw<P> L>
       l006 * r10,      stress.wJ * sixth};
 }
 
-/// T = ⅓ [(w1 + w2 I1) A* − w2 k A*GA* + w4 m* m*ᵀ] with I1 = k A*:G, tr C² = k² tr(A*G)², I4 = k m*·G m*.
+/// T = ⅓ [(w1 + w2 I1) A* − w2 k A*GA* + w4 m* m*ᵀ + w5 k (m* n*ᵀ + n* m*ᵀ)] with I1 = k A*:G, tr C² = k² tr(A*G)²,
+/// I4 = k m*·G m*, n* = A*G m* and I5 = k² n*·G m*.
 template <class P, InvariantLaw<P> L>
 [[gnu::always_inline]] inline FanTensions<P> fan_tensions(const L& law, const FanRest<P>& rest, const FanGram<P>& G,
                                                           P J, Mask<P>& valid) {
@@ -56,6 +57,13 @@ template <class P, InvariantLaw<P> L>
     mm[3] = m[0] * m[1], mm[4] = m[0] * m[2], mm[5] = m[1] * m[2];
     at.I4 = k * (mm[0] * G.aa + mm[1] * G.b00 + mm[2] * G.b11 + P(2) * (mm[3] * G.a0 + mm[4] * G.a1 + mm[5] * G.b01));
   }
+  [[maybe_unused]] P n[3];
+  if constexpr (FibreShearLaw<L>) {
+    const P h0 = G.aa * m[0] + G.a0 * m[1] + G.a1 * m[2], h1 = G.a0 * m[0] + G.b00 * m[1] + G.b01 * m[2];
+    const P h2 = G.a1 * m[0] + G.b01 * m[1] + G.b11 * m[2];
+    n[0] = p * h0, n[1] = q00 * h1 + q01 * h2, n[2] = q01 * h1 + q11 * h2;
+    at.I5 = k * k * (h0 * n[0] + h1 * n[1] + h2 * n[2]);
+  }
   if constexpr (!L::always_valid) valid = valid && law.valid(at);
 
   const FirstDerivatives<P> s = law.first_derivatives(at);
@@ -75,6 +83,12 @@ template <class P, InvariantLaw<P> L>
     const P w4 = s.w4 * third;
     t.aa += w4 * mm[0], t.b00 += w4 * mm[1], t.b11 += w4 * mm[2];
     t.a0 += w4 * mm[3], t.a1 += w4 * mm[4], t.b01 += w4 * mm[5];
+  }
+  if constexpr (FibreShearLaw<L>) {
+    const P w5 = s.w5 * third * k, twice = w5 + w5;
+    t.aa += twice * (m[0] * n[0]), t.b00 += twice * (m[1] * n[1]), t.b11 += twice * (m[2] * n[2]);
+    t.a0 += w5 * (m[0] * n[1] + m[1] * n[0]), t.a1 += w5 * (m[0] * n[2] + m[2] * n[0]);
+    t.b01 += w5 * (m[1] * n[2] + m[2] * n[1]);
   }
   if constexpr (L::uses_J) t.u = s.wJ * P(-1.0 / 6);
   return t;

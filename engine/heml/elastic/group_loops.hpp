@@ -145,7 +145,7 @@ template <class P, class L>
     const Packet<Real, L::uses_I4> packet(group, x, p * lanes);
     for (std::size_t first = 0; first < lanes; first += width) {
       const PackedElements<P, L::uses_I4> at(packet, first);
-      const auto kinematics = element_kinematics<true, true, L::uses_I4>(at.x[0], at.x[1], at.x[2], at.x[3], at.rest);
+      const auto kinematics = law_kinematics<L>(at.x[0], at.x[1], at.x[2], at.x[3], at.rest);
       P k[edge_entries];
       for (P& entry : k) entry = P(0);
       add_edge_stiffness<P>(many, kinematics, at.rest, k);
@@ -173,7 +173,7 @@ template <class P, class L>
     Real density[lanes];
     for (std::size_t first = 0; first < lanes; first += width) {
       const PackedElements<P, L::uses_I4> at(packet, first);
-      const auto kinematics = element_kinematics<true, true, L::uses_I4>(at.x[0], at.x[1], at.x[2], at.x[3], at.rest);
+      const auto kinematics = law_kinematics<L>(at.x[0], at.x[1], at.x[2], at.x[3], at.rest);
       const P W = law_energy<P>(many, kinematics, at.rest);
       __builtin_memcpy(density + first, &W.v, sizeof W.v);
     }
@@ -198,7 +198,7 @@ template <class Real, Law<Real> L>
     for (std::size_t l = 0; l < lanes; ++l) {
       const Corners<Real> at(packet.x, l);
       const RestShape<Real> rest = packet.rest(l);
-      const auto kinematics = element_kinematics<true, true, L::uses_I4>(at.x[0], at.x[1], at.x[2], at.x[3], rest);
+      const auto kinematics = law_kinematics<L>(at.x[0], at.x[1], at.x[2], at.x[3], rest);
       bound[l] = element_frequency_bound(law, kinematics, rest, group.gamma[p * lanes + l], group.density);
     }
     for (std::size_t l = 0; l < lanes; ++l) largest = bound[l] > largest || std::isnan(bound[l]) ? bound[l] : largest;

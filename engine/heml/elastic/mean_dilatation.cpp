@@ -14,7 +14,7 @@ constexpr double point_share = 13.0 / 6;  // κ/μ at Poisson's ratio 0.3
 template <class Real>
 ElementKinematics<Real> volume_kinematics_of(const ElementGroup<Real>& group, const Real* x, std::size_t s) {
   const SlotNodes<Real> n(group, x, s);
-  return element_kinematics<false, true, false>(n.x0, n.x1, n.x2, n.x3, rest_shape(group, s));
+  return element_kinematics<false, true, false, false>(n.x0, n.x1, n.x2, n.x3, rest_shape(group, s));
 }
 
 /// V and V J̄ of the element whose first slot is s.
@@ -40,7 +40,7 @@ template <class Real, class Pressure>
     for (std::size_t l = 0; l < lanes; ++l) {
       const Corners<Real> at(packet.x, l);
       volume[l] = packet.volume[l] *
-                  element_kinematics<false, true, false>(at.x[0], at.x[1], at.x[2], at.x[3], packet.rest(l)).at.J;
+                  element_kinematics<false, true, false, false>(at.x[0], at.x[1], at.x[2], at.x[3], packet.rest(l)).at.J;
     }
     for (std::size_t first = 0; first < lanes; first += element_points) {
       Real rest = 0, deformed = 0;
@@ -54,7 +54,7 @@ template <class Real, class Pressure>
     for (std::size_t l = 0; l < lanes; ++l) {
       const Corners<Real> at(packet.x, l);
       const auto kinematics =
-          element_kinematics<false, true, false>(at.x[0], at.x[1], at.x[2], at.x[3], packet.rest(l));
+          element_kinematics<false, true, false, false>(at.x[0], at.x[1], at.x[2], at.x[3], packet.rest(l));
       Real f[12];
       forces_from_tensions<true>(Tensions<Real>{{}, of_point[l]}, kinematics.e, kinematics.cross, f);
       for (int i = 0; i < 12; ++i) out[i][l] = f[i];

@@ -15,7 +15,7 @@ ElementKinematics<Real> volume_kinematics(const ElementGroup<Real>& group, const
                                           RestShape<Real>& rest) {
   rest = rest_shape(group, s);
   const SlotNodes<Real> n(group, x, s);
-  return element_kinematics<false, true, false>(n.x0, n.x1, n.x2, n.x3, rest);
+  return element_kinematics<false, true, false, false>(n.x0, n.x1, n.x2, n.x3, rest);
 }
 
 /// Deformed volume V J of every slot of packets [begin, end).
@@ -30,7 +30,7 @@ HEML_WIDE void packet_volumes(const ElementGroup<Real>& group, const Real* x, st
     for (std::size_t l = 0; l < lanes; ++l) {
       const Corners<Real> at(packet.x, l);
       const RestShape<Real> rest = packet.rest(l);
-      to[l] = rest.volume * element_kinematics<false, true, false>(at.x[0], at.x[1], at.x[2], at.x[3], rest).at.J;
+      to[l] = rest.volume * element_kinematics<false, true, false, false>(at.x[0], at.x[1], at.x[2], at.x[3], rest).at.J;
     }
   }
 }
@@ -49,7 +49,7 @@ HEML_WIDE void add_packet_pressures(const ElementGroup<Real>& group, const Real*
     for (std::size_t l = 0; l < lanes; ++l) {
       const Corners<Real> at(packet.x, l);
       const auto kinematics =
-          element_kinematics<false, true, false>(at.x[0], at.x[1], at.x[2], at.x[3], packet.rest(l));
+          element_kinematics<false, true, false, false>(at.x[0], at.x[1], at.x[2], at.x[3], packet.rest(l));
       Real f[12];
       forces_from_tensions<true>(Tensions<Real>{{}, mean[l] / 4}, kinematics.e, kinematics.cross, f);
       for (int i = 0; i < 12; ++i) out[i][l] = f[i];
@@ -75,7 +75,7 @@ template <class Real>
     for (std::size_t l = 0; l < lanes; ++l) {
       const Corners<Real> at(packet.x, l);
       const RestShape<Real> rest = packet.rest(l);
-      const auto kinematics = element_kinematics<true, true, false>(at.x[0], at.x[1], at.x[2], at.x[3], rest);
+      const auto kinematics = element_kinematics<true, true, false, false>(at.x[0], at.x[1], at.x[2], at.x[3], rest);
       bound[l] =
           4 / group.density *
           (kappa[l] * corner_sums(kinematics, rest).nJ +

@@ -7,12 +7,13 @@
 // the invariants give Σ H_αβ dI_α dI_β ≤ λ_max(H N) |u|², N_αβ = Σ_a ∂I_α/∂x_a·∂I_β/∂x_a, exact for the pair I1, J.
 // The second derivatives of the invariants themselves are bounded term by term:
 //   |dF|² ≤ γ|u|²,   γ = λ_max(Σ g_a g_aᵀ);      |dC|² ≤ 4 σ1² |dF|²;      d²I4 = 2 |dF a0|² ≤ 2 Σ m_a² |u|²
+//   d²I5 = 2 |dC a0|² + 4 (dF a0)·(dF C a0),   |dC a0| ≤ (√(I4 γ) + σ1 √(Σ m_a²)) |u|
 //   d²I2 = (dI1)² + 2 I1 |dF|² − |dC|² − 2 C:dFᵀdF, whose first term is counted with H
 //   −√2 σ1 |dF|² ≤ d²J ≤ 2 σ1 |dF|², and for J > 0: d²J = ((dJ)² − tr((F⁻¹dF J)²))/J, which is sharper near rest.
 // σ1 ≥ σ2 ≥ σ3: principal stretches, bounded by mean and spread of the eigenvalues of C (Wolkowicz & Styan 1980).
 #include <algorithm>
 #include <cmath>
-#include <heml/elastic/tension.hpp>
+#include <heml/elastic/edge_stiffness.hpp>
 
 namespace heml {
 
@@ -71,7 +72,7 @@ template <class L, class Real>
                                                                       const CornerSums<Real>& sums) {
   const Real* A = rest.A;
   const auto over_corners = [](const Real S[6]) { return 2 * (S[0] + S[1] + S[2] + S[3] + S[4] + S[5]); };
-  const auto& [I1, I2, J, I4] = kinematics.at;
+  const auto& [I1, I2, J, I4, I5] = kinematics.at;
   const Real q0 = over_corners(A), q1 = sums.n1 / 4;  // Σ_a g_a·Cᵏ g_a
   InvariantMatrix<Real> N;
   N.n11 = sums.n1;
@@ -141,8 +142,64 @@ template <class L, class Real>
   }
 }
 
-/// Upper bound of λ_max(M_t⁻¹K_t), 1/s², of one element. kinematics: with I2 and J, and I4 if the law uses it. gamma:
-/// 1/m², of ElementGroup. density: kg/m³.
+/// As max_curvature(), for a law with I5: over I1, J, I2, I4 and I5. c: the derivatives by I4 and I5.
+template <class Real>
+[[gnu::always_inline]] inline Real max_fibre_curvature(const Real (&N)[5][5], const InvariantMatrix<Real>& H,
+                                                       const SecondDerivatives<Real>& c) {
+  const Real h[5][5] = {{H.n11, H.n1J, H.n12, c.w14, c.w15},
+                        {H.n1J, H.nJJ, H.n2J, c.w4J, c.w5J},
+                        {H.n12, H.n2J, H.n22, c.w24, c.w25},
+                        {c.w14, c.w4J, c.w24, c.w44, c.w45},
+                        {c.w15, c.w5J, c.w25, c.w45, c.w55}};
+  Real p[5][5], trace = 0, square = 0;
+  for (int i = 0; i < 5; ++i)
+    for (int j = 0; j < 5; ++j) {
+      p[i][j] = 0;
+      for (int k = 0; k < 5; ++k) p[i][j] += h[i][k] * N[k][j];
+    }
+  for (int i = 0; i < 5; ++i) {
+    trace += p[i][i];
+    for (int j = 0; j < 5; ++j) square += p[i][j] * p[j][i];
+  }
+  const Real mean = trace / 5, spread = std::max(square / 5 - mean * mean, Real(0));
+  return std::max(mean + std::sqrt(4 * spread), Real(0));
+}
+
+/// N_αβ over I1, J, I2, I4, I5 at the four corners.
+template <class L, class Real>
+[[gnu::always_inline]] inline void all_gradient_products(const ElementKinematics<Real>& kinematics,
+                                                         const RestShape<Real>& rest, Real (&N)[5][5]) {
+  Real u[3][3], p[5][9];
+  invariant_gradients<L>(kinematics, rest, u, p);
+  for (int k = 0; k < 5; ++k)
+    for (int l = 0; l < 5; ++l) {
+      N[k][l] = 0;
+      for (int i = 0; i < 3; ++i) {
+        const Real *a = p[k] + i, *b = p[l] + i;
+        N[k][l] += a[0] * b[0] + a[3] * b[3] + a[6] * b[6] + (a[0] + a[3] + a[6]) * (b[0] + b[3] + b[6]);
+      }
+    }
+}
+
+/// Bounds of S:(dFᵀdF) with S = 2 w4 a0 a0ᵀ + 2 w5 (a0 (C a0)ᵀ + C a0 a0ᵀ), and of 2 w5 |dC a0|².
+template <class Real>
+[[gnu::always_inline]] inline Real fibre_bound(const FirstDerivatives<Real>& s,
+                                               const ElementKinematics<Real>& kinematics, const RestShape<Real>& rest,
+                                               const CornerSums<Real>& sums, Real largest, Real gamma) {
+  // The first is rank two in the corners: m qᵀ + q mᵀ with q = w4 m + 2 w5 n, whose larger eigenvalue is m·q + |m||q|.
+  const Real *m = rest.fibre, *n = kinematics.n;
+  Real q[3], mq = 0, qq = 0, total = 0;
+  for (int a = 0; a < 3; ++a) {
+    q[a] = s.w4 * m[a] + 2 * s.w5 * n[a];
+    mq += m[a] * q[a], qq += q[a] * q[a], total += q[a];
+  }
+  mq += (m[0] + m[1] + m[2]) * total, qq += total * total;
+  const Real side = std::sqrt(std::max(kinematics.at.I4, Real(0)) * gamma) + std::sqrt(largest * sums.m);  // |dC a0|
+  return mq + std::sqrt(sums.m * qq) + 2 * std::max(s.w5, Real(0)) * side * side;
+}
+
+/// Upper bound of λ_max(M_t⁻¹K_t), 1/s², of one element. kinematics: of law_kinematics(). gamma: 1/m², of ElementGroup.
+/// density: kg/m³.
 template <class Real, InvariantLaw<Real> L>
 [[gnu::always_inline]] inline Real element_frequency_bound(const L& law, const ElementKinematics<Real>& kinematics,
                                                            const RestShape<Real>& rest, Real gamma, Real density) {
@@ -157,13 +214,24 @@ template <class Real, InvariantLaw<Real> L>
   // S:(dFᵀdF) with S = 2 (w1 + I1 w2) I − 2 w2 C + 2 w4 a0 a0ᵀ, and −w2 |dC|².
   Real bound = positive(2 * (s.w1 + I1 * s.w2) + 2 * positive(-s.w2) * largest) * gamma;
   bound += positive(-s.w2) * 4 * largest * gamma;
-  if constexpr (L::uses_I4) bound += 2 * positive(s.w4) * sums.m;
+  if constexpr (FibreShearLaw<L>)
+    bound += fibre_bound(s, kinematics, rest, sums, largest, gamma);
+  else if constexpr (L::uses_I4)
+    bound += 2 * positive(s.w4) * sums.m;
 
-  const InvariantMatrix<Real> N = gradient_products<L>(kinematics, rest, sums);
   InvariantMatrix<Real> H{c.w11 + s.w2, c.w12, c.w22, c.w1J, c.w2J, c.wJJ, c.w14, c.w4J, c.w44};
-  const Real plain = max_curvature<L>(H, N) + (s.wJ > 0 ? 2 * s.wJ : Real(-1.4142136) * s.wJ) * sigma1 * gamma;
+  const auto curvature = [&] {
+    if constexpr (FibreShearLaw<L>) {
+      Real N[5][5];
+      all_gradient_products<L>(kinematics, rest, N);
+      return max_fibre_curvature(N, H, c);
+    } else {
+      return max_curvature<L>(H, gradient_products<L>(kinematics, rest, sums));
+    }
+  };
+  const Real plain = curvature() + (s.wJ > 0 ? 2 * s.wJ : Real(-1.4142136) * s.wJ) * sigma1 * gamma;
   H.nJJ += s.wJ / J;
-  const Real sharper = max_curvature<L>(H, N) + std::abs(s.wJ) * (largest * middle / J) * gamma;
+  const Real sharper = curvature() + std::abs(s.wJ) * (largest * middle / J) * gamma;
   const Real curved = J > 0 && sharper < plain ? sharper : plain;  // a select, no branch: the loop vectorises
   return 4 / density * (bound + curved);
 }

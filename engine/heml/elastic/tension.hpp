@@ -3,9 +3,9 @@
 //
 // With edges e_a = x_a − x_0 and their Gram matrix G (squared lengths in another basis: l_0a = G_aa, l_ab = G_aa + G_bb
 // − 2 G_ab), all that a law needs of C follows from G and constants of the rest shape, A = Dm⁻¹Dm⁻ᵀ and m = Dm⁻¹a0:
-//     I1 = A:G,   tr C² = (AGA):G,   J = e_1·(e_2×e_3) / 6V,   I4 = m·Gm.
-// The tensions are T_ab = V g_a·S g_b = V [2 (w1 + w2 I1) A − 2 w2 AGA + 2 w4 m mᵀ]_ab, one scalar a link (a link 0a
-// has −Σ_b T_ab), and
+//     I1 = A:G,   tr C² = (AGA):G,   J = e_1·(e_2×e_3) / 6V,   I4 = m·Gm,   I5 = n·Gm with n = AGm.
+// The tensions are T_ab = V g_a·S g_b = V [2 (w1 + w2 I1) A − 2 w2 AGA + 2 w4 m mᵀ + 2 w5 (m nᵀ + n mᵀ)]_ab, one
+// scalar a link (a link 0a has −Σ_b T_ab), and
 //     f_a = −Σ_b T_ab e_b − V wJ ∂J/∂x_a,   f_0 = −(f_1 + f_2 + f_3);
 // F is never formed. A law of principal stretches needs C itself, up to a rotation: LᵀGL with A = LLᵀ (Cholesky) has
 // its eigenvalues, and T = V L S Lᵀ. Departures from the paper: Table 1 drops the factor 2 of the quadratic forms and
@@ -26,6 +26,7 @@ struct ElementKinematics {
   Real e[3][3];   ///< edges from node 0, m
   Real G[6];      ///< Gram matrix 11 22 33 12 13 23, m²
   Real AG[3][3];  ///< A G; with I2 only
+  Real n[3];      ///< A G m, 1/m; with I5 only
   Invariants<Real> at;
   Real cross[3][3];  ///< 6V ∂J/∂x_a, a = 1..3, m²; with J only
 };
@@ -76,8 +77,9 @@ template <class Real>
   congruence3(Lt, G, C);
 }
 
-/// Edges, Gram matrix and invariants of an element. Computes I2, J and I4 only if needed; else I2 = 0, J = 1, I4 = 1.
-template <bool need_I2, bool need_J, bool need_I4, class Real>
+/// Edges, Gram matrix and invariants of an element. Computes I2, J, I4 and I5 only if needed; else I2 = 0 and the
+/// others are 1.
+template <bool need_I2, bool need_J, bool need_I4, bool need_I5, class Real>
 [[gnu::always_inline]] inline ElementKinematics<Real> element_kinematics(const Real* x0, const Real* x1, const Real* x2,
                                                                          const Real* x3, const RestShape<Real>& rest) {
   ElementKinematics<Real> kinematics;
@@ -100,6 +102,7 @@ template <bool need_I2, bool need_J, bool need_I4, class Real>
   kinematics.at.I2 = 0;
   kinematics.at.J = 1;
   kinematics.at.I4 = 1;
+  kinematics.at.I5 = 1;
   if constexpr (need_I2) {
     const Real a[3][3] = {{A[0], A[3], A[4]}, {A[3], A[1], A[5]}, {A[4], A[5], A[2]}};
     const Real g[3][3] = {{G[0], G[3], G[4]}, {G[3], G[1], G[5]}, {G[4], G[5], G[2]}};
@@ -115,15 +118,28 @@ template <bool need_I2, bool need_J, bool need_I4, class Real>
     kinematics.at.J = dot(e[0], kinematics.cross[0]) / (6 * rest.volume);
   }
   if constexpr (need_I4) kinematics.at.I4 = bilinear3(rest.fibre, G, rest.fibre);
+  if constexpr (need_I5) {
+    Real Gm[3];
+    times3(G, rest.fibre, Gm);
+    times3(A, Gm, kinematics.n);
+    kinematics.at.I5 = dot(Gm, kinematics.n);
+  }
   return kinematics;
 }
 
-/// element_kinematics() with I2, J and I4.
+/// element_kinematics() with I2, J and what else the law L uses.
+template <class L, class Real>
+[[gnu::always_inline]] inline ElementKinematics<Real> law_kinematics(const Real* x0, const Real* x1, const Real* x2,
+                                                                     const Real* x3, const RestShape<Real>& rest) {
+  return element_kinematics<true, true, L::uses_I4, FibreShearLaw<L>>(x0, x1, x2, x3, rest);
+}
+
+/// element_kinematics() with all invariants.
 template <class Real>
 [[gnu::always_inline]] inline ElementKinematics<Real> full_element_kinematics(const Real* x0, const Real* x1,
                                                                               const Real* x2, const Real* x3,
                                                                               const RestShape<Real>& rest) {
-  return element_kinematics<true, true, true>(x0, x1, x2, x3, rest);
+  return element_kinematics<true, true, true, true>(x0, x1, x2, x3, rest);
 }
 
 /// AGA as 11 22 33 12 13 23.
@@ -142,6 +158,13 @@ template <class Real>
 [[gnu::always_inline]] inline void outer3(const Real m[3], Real out[6]) {
   out[0] = m[0] * m[0], out[1] = m[1] * m[1], out[2] = m[2] * m[2];
   out[3] = m[0] * m[1], out[4] = m[0] * m[2], out[5] = m[1] * m[2];
+}
+
+/// m nᵀ + n mᵀ as 11 22 33 12 13 23.
+template <class Real>
+[[gnu::always_inline]] inline void symmetric_product3(const Real m[3], const Real n[3], Real out[6]) {
+  for (int i = 0; i < 3; ++i) out[i] = 2 * m[i] * n[i];
+  out[3] = m[0] * n[1] + m[1] * n[0], out[4] = m[0] * n[2] + m[2] * n[0], out[5] = m[1] * n[2] + m[2] * n[1];
 }
 
 /// Tensions and wJ of a law at an element.
@@ -172,12 +195,17 @@ template <class Real, Law<Real> L>
       outer3(rest.fibre, mm);
       for (int i = 0; i < 6; ++i) t.T[i] += 2 * rest.volume * s.w4 * mm[i];
     }
+    if constexpr (FibreShearLaw<L>) {
+      Real mn[6];
+      symmetric_product3(rest.fibre, kinematics.n, mn);
+      for (int i = 0; i < 6; ++i) t.T[i] += 2 * rest.volume * s.w5 * mn[i];
+    }
     t.wJ = s.wJ;
   }
   return t;
 }
 
-/// W of a law at an element, Pa. kinematics: with I2 and J, and I4 if the law uses it.
+/// W of a law at an element, Pa. kinematics: of law_kinematics().
 template <class Real, Law<Real> L>
 [[gnu::always_inline]] inline Real law_energy(const L& law, const ElementKinematics<Real>& kinematics,
                                               const RestShape<Real>& rest) {
@@ -239,7 +267,7 @@ class PrincipalTangent {
   PrincipalState<Real> state_;
 };
 
-/// Change of the tensions and of wJ with d. kinematics: with I2 and J, and I4 if the law uses it.
+/// Change of the tensions and of wJ with d. kinematics: of law_kinematics().
 template <class Real, Law<Real> L>
 [[gnu::always_inline]] inline Tensions<Real> tension_differential(const L& law,
                                                                   const ElementKinematics<Real>& kinematics,
@@ -257,8 +285,15 @@ template <class Real, Law<Real> L>
     product_AGA(A, kinematics.AG, AGA);
     const Real dI1 = double_contraction3(A, d.G), dI2 = kinematics.at.I1 * dI1 - double_contraction3(AGA, d.G);
     const Real dI4 = L::uses_I4 ? bilinear3(rest.fibre, d.G, rest.fibre) : Real(0);
-    const Real dw1 = c.w11 * dI1 + c.w12 * dI2 + c.w1J * d.J + c.w14 * dI4;
-    const Real dw2 = c.w12 * dI1 + c.w22 * dI2 + c.w2J * d.J + c.w24 * dI4;
+    Real dw1 = c.w11 * dI1 + c.w12 * dI2 + c.w1J * d.J + c.w14 * dI4;
+    Real dw2 = c.w12 * dI1 + c.w22 * dI2 + c.w2J * d.J + c.w24 * dI4;
+    [[maybe_unused]] Real dGm[3], dI5 = 0;
+    if constexpr (FibreShearLaw<L>) {
+      times3(d.G, rest.fibre, dGm);
+      dI5 = 2 * (kinematics.n[0] * dGm[0] + kinematics.n[1] * dGm[1] + kinematics.n[2] * dGm[2]);
+      dw1 += c.w15 * dI5;
+      dw2 += c.w25 * dI5;
+    }
     const Real pull = dw1 + dw2 * kinematics.at.I1 + s.w2 * dI1;
     for (int i = 0; i < 6; ++i) t.T[i] = 2 * rest.volume * pull * A[i];
     if constexpr (L::uses_I2) {
@@ -269,9 +304,19 @@ template <class Real, Law<Real> L>
     if constexpr (L::uses_I4) {
       Real mm[6];
       outer3(rest.fibre, mm);
-      const Real dw4 = c.w14 * dI1 + c.w24 * dI2 + c.w4J * d.J + c.w44 * dI4;
+      Real dw4 = c.w14 * dI1 + c.w24 * dI2 + c.w4J * d.J + c.w44 * dI4;
+      if constexpr (FibreShearLaw<L>) dw4 += c.w45 * dI5;
       for (int i = 0; i < 6; ++i) t.T[i] += 2 * rest.volume * dw4 * mm[i];
       t.wJ += c.w4J * dI4;
+    }
+    if constexpr (FibreShearLaw<L>) {
+      Real dn[3], mn[6], mdn[6];
+      times3(A, dGm, dn);
+      symmetric_product3(rest.fibre, kinematics.n, mn);
+      symmetric_product3(rest.fibre, dn, mdn);
+      const Real dw5 = c.w15 * dI1 + c.w25 * dI2 + c.w5J * d.J + c.w45 * dI4 + c.w55 * dI5;
+      for (int i = 0; i < 6; ++i) t.T[i] += 2 * rest.volume * (dw5 * mn[i] + s.w5 * mdn[i]);
+      t.wJ += c.w5J * dI5;
     }
   }
   return t;
@@ -299,7 +344,7 @@ template <class Real, Law<Real> L>
 [[gnu::always_inline]] inline bool corner_forces(const L& law, const Real* x0, const Real* x1, const Real* x2,
                                                  const Real* x3, const RestShape<Real>& rest, Real out[12]) {
   const ElementKinematics<Real> kinematics =
-      element_kinematics<L::uses_I2, L::uses_J, L::uses_I4>(x0, x1, x2, x3, rest);
+      element_kinematics<L::uses_I2, L::uses_J, L::uses_I4, FibreShearLaw<L>>(x0, x1, x2, x3, rest);
   forces_from_tensions<L::uses_J>(tensions(law, kinematics, rest), kinematics.e, kinematics.cross, out);
   return law.valid(kinematics.at);
 }

@@ -38,7 +38,7 @@ HEML_WIDE void viscous_forces(const Viscous<Real>& of, const ElementGroup<Real>&
     for (std::size_t l = 0; l < lanes; ++l) {
       const Corners<Real> at(packet.x, l);
       const RestShape<Real> rest = packet.rest(l);
-      const auto kinematics = element_kinematics<false, false, false>(at.x[0], at.x[1], at.x[2], at.x[3], rest);
+      const auto kinematics = element_kinematics<false, false, false, false>(at.x[0], at.x[1], at.x[2], at.x[3], rest);
       Real dG[6], f[12];
       for (std::size_t i = 0; i < 6; ++i) dG[i] = kinematics.G[i] - before[i][l];
       Tensions<Real> t{};
@@ -61,7 +61,7 @@ HEML_WIDE void store_gram(const ElementGroup<Real>& group, const Real* x, std::s
     for (std::size_t l = 0; l < lanes; ++l) {
       const Corners<Real> at(packet.x, l);
       const auto kinematics =
-          element_kinematics<false, false, false>(at.x[0], at.x[1], at.x[2], at.x[3], packet.rest(l));
+          element_kinematics<false, false, false, false>(at.x[0], at.x[1], at.x[2], at.x[3], packet.rest(l));
       for (int i = 0; i < 6; ++i) G[i][l] = kinematics.G[i];
     }
     for (std::size_t l = 0; l < lanes; ++l)
@@ -82,7 +82,7 @@ template <class Real>
     for (std::size_t l = 0; l < lanes; ++l) {
       const Corners<Real> at(packet.x, l);
       const RestShape<Real> rest = packet.rest(l);
-      const auto kinematics = element_kinematics<true, true, false>(at.x[0], at.x[1], at.x[2], at.x[3], rest);
+      const auto kinematics = element_kinematics<true, true, false, false>(at.x[0], at.x[1], at.x[2], at.x[3], rest);
       bound[l] = 4 / group.density *
                  (2 * of.eta * stretch_bounds(kinematics.at).max * group.gamma[p * lanes + l] +
                   of.zeta / 4 * corner_sums(kinematics, rest).n1);

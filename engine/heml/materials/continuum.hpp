@@ -15,7 +15,14 @@ struct Strain {
 
   Invariants<Real> invariants() const {
     const Real I1 = C[0] + C[1] + C[2];
-    return {I1, (I1 * I1 - double_contraction3(C, C)) / 2, J, bilinear3(fibre.data(), C, fibre.data())};
+    return {I1, (I1 * I1 - double_contraction3(C, C)) / 2, J, bilinear3(fibre.data(), C, fibre.data()),
+            times_fibre(C).squaredNorm()};
+  }
+  /// S a0 of a symmetric S.
+  Vector3<Real> times_fibre(const Real S[6]) const {
+    Vector3<Real> product;
+    times3(S, fibre.data(), product.data());
+    return product;
   }
 };
 
@@ -39,6 +46,12 @@ Strain<Real> strain_measures(const Matrix3<Real>& F, const Vector3<Real>& fibre)
   return strain;
 }
 
+/// a bᵀ + b aᵀ.
+template <class Real>
+Matrix3<Real> symmetric_product(const Vector3<Real>& a, const Vector3<Real>& b) {
+  return a * b.transpose() + b * a.transpose();
+}
+
 template <class Real, Law<Real> L>
 Real energy_density(const L& law, const Strain<Real>& at) {
   if constexpr (PrincipalLaw<L, Real>)
@@ -54,8 +67,9 @@ Stress<Real> stress_of(const L& law, const Strain<Real>& at) {
   } else {
     const auto i = at.invariants();
     const FirstDerivatives<Real> s = law.first_derivatives(i);
-    const Matrix3<Real> S = 2 * (s.w1 + s.w2 * i.I1) * Matrix3<Real>::Identity() - 2 * s.w2 * from_symmetric6(at.C) +
-                            2 * s.w4 * at.fibre * at.fibre.transpose();
+    Matrix3<Real> S = 2 * (s.w1 + s.w2 * i.I1) * Matrix3<Real>::Identity() - 2 * s.w2 * from_symmetric6(at.C) +
+                      2 * s.w4 * at.fibre * at.fibre.transpose();
+    if constexpr (FibreShearLaw<L>) S += 2 * s.w5 * symmetric_product<Real>(at.fibre, at.times_fibre(at.C));
     Stress<Real> stress;
     to_symmetric6(S, stress.S);
     stress.wJ = s.wJ;
@@ -77,15 +91,24 @@ Stress<Real> stress_differential(const L& law, const Strain<Real>& at, const Rea
     const SecondDerivatives<Real> c = law.second_derivatives(i);
     const Real dI1 = dC[0] + dC[1] + dC[2], dI2 = i.I1 * dI1 - double_contraction3(at.C, dC);
     const Real dI4 = bilinear3(at.fibre.data(), dC, at.fibre.data());
-    const Real dw1 = c.w11 * dI1 + c.w12 * dI2 + c.w1J * dJ + c.w14 * dI4;
-    const Real dw2 = c.w12 * dI1 + c.w22 * dI2 + c.w2J * dJ + c.w24 * dI4;
-    const Real dw4 = c.w14 * dI1 + c.w24 * dI2 + c.w4J * dJ + c.w44 * dI4;
-    const Matrix3<Real> dS = 2 * (dw1 + dw2 * i.I1 + s.w2 * dI1) * Matrix3<Real>::Identity() -
-                             2 * (dw2 * from_symmetric6(at.C) + s.w2 * from_symmetric6(dC)) +
-                             2 * dw4 * at.fibre * at.fibre.transpose();
+    Real dw1 = c.w11 * dI1 + c.w12 * dI2 + c.w1J * dJ + c.w14 * dI4;
+    Real dw2 = c.w12 * dI1 + c.w22 * dI2 + c.w2J * dJ + c.w24 * dI4;
+    Real dw4 = c.w14 * dI1 + c.w24 * dI2 + c.w4J * dJ + c.w44 * dI4;
+    Matrix3<Real> of_I5 = Matrix3<Real>::Zero();
     Stress<Real> change;
-    to_symmetric6(dS, change.S);
     change.wJ = c.w1J * dI1 + c.w2J * dI2 + c.wJJ * dJ + c.w4J * dI4;
+    if constexpr (FibreShearLaw<L>) {
+      const Vector3<Real> Ca0 = at.times_fibre(at.C), dCa0 = at.times_fibre(dC);
+      const Real dI5 = 2 * Ca0.dot(dCa0);
+      const Real dw5 = c.w15 * dI1 + c.w25 * dI2 + c.w5J * dJ + c.w45 * dI4 + c.w55 * dI5;
+      dw1 += c.w15 * dI5, dw2 += c.w25 * dI5, dw4 += c.w45 * dI5, change.wJ += c.w5J * dI5;
+      of_I5 = 2 * symmetric_product<Real>(at.fibre, dw5 * Ca0 + s.w5 * dCa0);
+    }
+    Matrix3<Real> dS = 2 * (dw1 + dw2 * i.I1 + s.w2 * dI1) * Matrix3<Real>::Identity() -
+                       2 * (dw2 * from_symmetric6(at.C) + s.w2 * from_symmetric6(dC)) +
+                       2 * dw4 * at.fibre * at.fibre.transpose();
+    if constexpr (FibreShearLaw<L>) dS += of_I5;
+    to_symmetric6(dS, change.S);
     return change;
   }
 }

@@ -2,12 +2,12 @@
 // Interface of hyperelastic laws: the energy W per unit rest volume and its derivatives by the invariants of C = FᵀF.
 // Concepts distinguish two kinds of law:
 //
-//   edges ──► C = FᵀF ──► I1, I2, (I4) ─┐
-//                                       ├─► InvariantLaw ──► W(I1, I2, J, I4), its first and second derivatives
-//   triple product ──► J (signed) ──────┤
-//                                       └─► PrincipalLaw ──► Σ h(c̄_i) + volume term, c̄_i: eigenvalues of J^(−2/3) C
+//   edges ──► C = FᵀF ──► I1, I2, (I4, I5) ─┐
+//                                           ├─► InvariantLaw ──► W(I1, I2, J, I4, I5), first and second derivatives
+//   triple product ──► J (signed) ──────────┤
+//                                           └─► PrincipalLaw ──► Σ h(c̄_i) + volume term, c̄_i: eigenvalues of J^(−2/3) C
 //
-// I1, I2 and I4 are functions of squared edge lengths alone (paper, Appendix). J is the signed det F: squared lengths
+// I1, I2, I4 and I5 are functions of squared edge lengths alone (paper, Appendix). J is the signed det F: squared lengths
 // do not distinguish an element from its mirror image. elastic/tension.hpp computes tensions from the derivatives.
 #include <array>
 #include <concepts>
@@ -18,23 +18,24 @@
 
 namespace heml {
 
-/// Invariants of C = FᵀF and the signed volume ratio: I1 = tr C, I2 = ½(tr²C − tr C²), J = det F, I4 = a0·C a0, where
-/// the unit vector a0 is the fibre direction at rest.
+/// Invariants of C = FᵀF and the signed volume ratio: I1 = tr C, I2 = ½(tr²C − tr C²), J = det F, I4 = a0·C a0, I5 = a0·C² a0,
+/// where the unit vector a0 is the fibre direction at rest.
 template <class Real>
 struct Invariants {
-  Real I1, I2, J, I4 = Real(1);
+  Real I1, I2, J, I4 = Real(1), I5 = Real(1);
 };
 
 /// First derivatives of W, Pa.
 template <class Real>
 struct FirstDerivatives {
-  Real w1, w2, wJ, w4 = Real(0);
+  Real w1, w2, wJ, w4 = Real(0), w5 = Real(0);
 };
 
 /// Second derivatives of W, Pa.
 template <class Real>
 struct SecondDerivatives {
   Real w11, w12, w22, w1J, w2J, wJJ, w14 = Real(0), w24 = Real(0), w4J = Real(0), w44 = Real(0);
+  Real w15 = Real(0), w25 = Real(0), w5J = Real(0), w45 = Real(0), w55 = Real(0);
 };
 
 /// Range of a parameter; all must be finite.
@@ -90,6 +91,10 @@ concept AnyLaw = requires {
   { L::uses_J } -> std::convertible_to<bool>;   ///< false: W does not depend on J, and wJ = 0
   { L::uses_I4 } -> std::convertible_to<bool>;  ///< false: no fibre
 };
+
+/// Whether a law depends on I5: it says so by a true `uses_I5`, and then uses I2, J and I4 too.
+template <class L>
+concept FibreShearLaw = requires { requires L::uses_I5 && L::uses_I2 && L::uses_J && L::uses_I4; };
 
 template <class L, class Real>
 concept InvariantLaw = AnyLaw<L> && requires(const L law, Invariants<Real> at) {

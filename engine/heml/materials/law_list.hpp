@@ -2,6 +2,7 @@
 // The list of laws, and the mapping from a name to a type. How to add a law: engine/docs/adding.md.
 #include <heml/materials/arruda_boyce.hpp>
 #include <heml/materials/gent.hpp>
+#include <heml/materials/guccione.hpp>
 #include <heml/materials/hgo.hpp>
 #include <heml/materials/mooney_rivlin.hpp>
 #include <heml/materials/neo_hookean.hpp>
@@ -28,8 +29,9 @@ struct LawTag {
 /// All laws W(F), in display order.
 using LawList =
     std::tuple<LawTag<NeoHookean>, LawTag<StVK>, LawTag<NeoHookeanIso>, LawTag<MooneyRivlin>, LawTag<FungDemiray>,
-               LawTag<Ogden>, LawTag<Hgo>, LawTag<Yeoh>, LawTag<Gent>, LawTag<ArrudaBoyce>, LawTag<VerondaWestmann>,
-               LawTag<StableNeoHookean>, LawTag<PaperNeoHookean>, LawTag<PaperMooneyRivlin>, LawTag<PaperFungDemiray>>;
+               LawTag<Ogden>, LawTag<Hgo>, LawTag<Guccione>, LawTag<Yeoh>, LawTag<Gent>, LawTag<ArrudaBoyce>,
+               LawTag<VerondaWestmann>, LawTag<StableNeoHookean>, LawTag<PaperNeoHookean>, LawTag<PaperMooneyRivlin>,
+               LawTag<PaperFungDemiray>>;
 
 inline constexpr std::size_t law_count = std::tuple_size_v<LawList>;
 

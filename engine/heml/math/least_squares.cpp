@@ -9,6 +9,8 @@ namespace {
 using Vector = Eigen::VectorXd;
 using Matrix = Eigen::MatrixXd;
 
+constexpr double round_off_column = 1e-9;  // norm, relative to the largest
+
 std::optional<Matrix> jacobian(const LeastSquaresProblem& problem, const Vector& u, const Vector& r) {
   Matrix J(r.size(), u.size());
   for (Eigen::Index i = 0; i < u.size(); ++i) {
@@ -19,6 +21,10 @@ std::optional<Matrix> jacobian(const LeastSquaresProblem& problem, const Vector&
     if (!high && !low) return std::nullopt;
     J.col(i) = ((high ? *high : r) - (low ? *low : r)) / (high && low ? 2 * h : h);
   }
+  // A variable without influence has a column of round-off, along which steps would lead anywhere.
+  const double largest = J.colwise().norm().maxCoeff();
+  for (Eigen::Index i = 0; i < u.size(); ++i)
+    if (J.col(i).norm() <= round_off_column * largest) J.col(i).setZero();
   return J;
 }
 

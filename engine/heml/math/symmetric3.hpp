@@ -71,6 +71,14 @@ template <class Real>
          n[2] * (S[4] * m[0] + S[5] * m[1] + S[2] * m[2]);
 }
 
+/// S m.
+template <class Real>
+[[gnu::always_inline]] inline void times3(const Real S[6], const Real m[3], Real out[3]) {
+  out[0] = S[0] * m[0] + S[3] * m[1] + S[4] * m[2];
+  out[1] = S[3] * m[0] + S[1] * m[1] + S[5] * m[2];
+  out[2] = S[4] * m[0] + S[5] * m[1] + S[2] * m[2];
+}
+
 /// M S Mᵀ of a general M and a symmetric S.
 template <class Real>
 [[gnu::always_inline]] inline void congruence3(const Real M[3][3], const Real S[6], Real out[6]) {

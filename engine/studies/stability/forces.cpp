@@ -218,6 +218,7 @@ Outcome exponential_far_out(const Trial& trial) {
   double stretch = 1;  // stretch of an incompressible bar with Q(stretch) = 200
   const auto Q = [&](double t) {
     const double I1 = t * t + 2 / t;
+    if (law.name == "guccione") return gamma * (std::pow(t * t - 1, 2) + 2 * std::pow(1 / t - 1, 2)) / 4;
     return law.has_fibre ? gamma * std::pow(t * t - 1, 2) : gamma * (I1 - 3);
   };
   while (Q(stretch) < 200) stretch += 1e-4;

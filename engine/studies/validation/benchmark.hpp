@@ -72,5 +72,7 @@ Finding thick_cylinder(const Trial&);
 Finding elastica(const Trial&);
 Finding cook_membrane(const Trial&);
 Finding relaxation(const Trial&);
+Finding land_beam(const Trial&);
+Finding land_ventricle(const Trial&);
 
 }  // namespace heml::validation

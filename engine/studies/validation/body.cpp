@@ -2,8 +2,10 @@
 #include <chrono>
 #include <cmath>
 #include <heml/mesh/quadratic.hpp>
+#include <limits>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <studies/validation/body.hpp>
 
 namespace heml::validation {
@@ -31,6 +33,47 @@ struct Lattice {
 };
 
 double between(double from, double to, int part, int parts) { return from + (to - from) * part / parts; }
+
+/// An element's map from barycentric coordinates to places.
+class ElementMap {
+ public:
+  ElementMap(const WorldSetup& setup, std::size_t t) : nodes_(setup.mesh.nodes) {
+    const Tet& tet = setup.mesh.tets[t];
+    node_.assign(tet.begin(), tet.end());
+    if (!setup.midedges.empty()) node_.insert(node_.end(), setup.midedges[t].begin(), setup.midedges[t].end());
+  }
+  Vec3 at(const std::vector<Vec3>& x, const std::array<double, 4>& place) const {
+    Vec3 sum = Vec3::Zero();
+    const auto N = shape_functions(place);
+    for (std::size_t k = 0; k < node_.size(); ++k)
+      sum += (node_.size() == 4 ? place[k] : N[k]) * x[static_cast<std::size_t>(node_[k])];
+    return sum;
+  }
+  /// The place of a point at rest by Newton's method with differences, of points in the element or near it.
+  std::optional<std::array<double, 4>> place_of(const Vec3& point) const {
+    const auto full = [](const Vec3& b) { return std::array{1 - b.sum(), b.x(), b.y(), b.z()}; };
+    const auto corner = [&](std::size_t k) { return nodes_[static_cast<std::size_t>(node_[k])]; };
+    const double size = (corner(1) - corner(0)).norm() + (corner(2) - corner(0)).norm() + (corner(3) - corner(0)).norm();
+    if ((point - corner(0)).norm() > size) return std::nullopt;
+    Vec3 b(0.25, 0.25, 0.25);
+    for (int k = 0; k < 12; ++k) {
+      Mat3 slope;
+      for (int i = 0; i < 3; ++i) {
+        const Vec3 step = 1e-5 * Vec3::Unit(i);
+        slope.col(i) = (at(nodes_, full(b + step)) - at(nodes_, full(b - step))) / 2e-5;
+      }
+      const Vec3 change = slope.inverse() * (point - at(nodes_, full(b)));
+      b += change;
+      if (!(b.norm() < 10)) return std::nullopt;
+      if (change.norm() < 1e-12) return full(b);
+    }
+    return std::nullopt;
+  }
+
+ private:
+  const std::vector<Vec3>& nodes_;
+  std::vector<int> node_;
+};
 
 /// Angle of equal steps for a coordinate in [−1, 1].
 double warped(double u) { return std::tan(std::numbers::pi / 4 * u); }
@@ -74,6 +117,33 @@ TetMesh cubic_shell(int n, int layers, double inner, double outer) {
           }
           hexahedra.push_back(hexahedron);
         }
+  return split_hexahedra(std::move(lattice.nodes), hexahedra);
+}
+
+TetMesh cubic_cup(int n, int storeys, int layers, double inner, double outer) {
+  Lattice lattice;
+  std::vector<std::array<int, 8>> hexahedra;
+  const auto add = [&](const std::array<std::array<int, 3>, 4>& face) {  // corners by place along x, y and upwards
+    for (int layer = 0; layer < layers; ++layer) {
+      std::array<int, 8> hexahedron{};
+      for (int k = 0; k < 8; ++k) {
+        const auto& [i, j, up] = face[static_cast<std::size_t>(k & 3)];
+        const int depth = layer + (k >> 2 & 1);
+        const Vec3 on_cube(between(-1, 1, i, n), between(-1, 1, j, n), between(-1, 1, up, storeys));
+        hexahedron[static_cast<std::size_t>(k)] =
+            lattice.at({i, j, up, depth}, between(inner, outer, depth, layers) * on_cube);
+      }
+      hexahedra.push_back(hexahedron);
+    }
+  };
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) add({{{i, j, 0}, {i + 1, j, 0}, {i, j + 1, 0}, {i + 1, j + 1, 0}}});
+  for (int i = 0; i < n; ++i)
+    for (int up = 0; up < storeys; ++up)
+      for (const int side : {0, n}) {
+        add({{{i, side, up}, {i + 1, side, up}, {i, side, up + 1}, {i + 1, side, up + 1}}});
+        add({{{side, i, up}, {side, i + 1, up}, {side, i, up + 1}, {side, i + 1, up + 1}}});
+      }
   return split_hexahedra(std::move(lattice.nodes), hexahedra);
 }
 
@@ -148,6 +218,22 @@ Boundary moved(int node, const Vec3& displacement, double ramp_time) {
   boundary.translate = displacement;
   boundary.ramp_time = ramp_time;
   return boundary;
+}
+
+std::vector<Vec3> carried(const WorldSetup& setup, const std::vector<Vec3>& x, const std::vector<Vec3>& points) {
+  std::vector<Vec3> result;
+  for (const Vec3& point : points) {
+    Vec3 best = Vec3::Zero();
+    double deepest = -std::numeric_limits<double>::infinity();
+    for (std::size_t t = 0; t < setup.mesh.tets.size() && deepest < -1e-9; ++t) {
+      const ElementMap element(setup, t);
+      const auto place = element.place_of(point);
+      const double depth = place ? *std::min_element(place->begin(), place->end()) : deepest;
+      if (depth > deepest) deepest = depth, best = element.at(x, *place);
+    }
+    result.push_back(best);
+  }
+  return result;
 }
 
 Solved solve(const Trial& trial, WorldSetup setup, double tolerance) {

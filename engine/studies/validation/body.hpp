@@ -17,6 +17,10 @@ TetMesh cubic_shell(int n, int layers, double inner, double outer);
 /// along z, from 0 to `height`.
 TetMesh square_tube(int n, int layers, double inner, double outer, int storeys, double height);
 
+/// A cup of cubes: the surface of the cube [−1, 1]³ without its top, in n × n squares at the bottom and n × `storeys` on
+/// each side, times `layers` of radius from `inner` to `outer`.
+TetMesh cubic_cup(int n, int storeys, int layers, double inner, double outer);
+
 /// Maps a shell of cubes to one of spheres, a tube of squares to a round one, of equal angles.
 Vec3 cube_to_sphere(const Vec3& x);
 Vec3 square_to_circle(const Vec3& x);
@@ -32,6 +36,10 @@ double bulk_of(double shear, double poisson);
 std::vector<int> nodes_where(const WorldSetup& setup, const std::function<bool(const Vec3&)>& chosen);
 /// A node moved by a displacement, ramped over ramp_time.
 Boundary moved(int node, const Vec3& displacement, double ramp_time = 0);
+
+/// Positions of material points given at rest: interpolated by the shape functions of linear or quadratic elements.
+/// setup: as made by make_body(), not yet moved into a world. x: positions of its nodes.
+std::vector<Vec3> carried(const WorldSetup& setup, const std::vector<Vec3>& x, const std::vector<Vec3>& points);
 
 /// A world under its full load.
 struct Solved {

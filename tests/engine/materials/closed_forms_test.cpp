@@ -18,6 +18,7 @@
 
 namespace heml::closed_forms_test {
 
+using test::law_named;
 using test::sample_material;
 
 namespace {
@@ -117,6 +118,20 @@ const std::map<std::string, ClosedForm, std::less<>>& closed_forms() {
          for (int i = 0; i < 3; ++i) P[i] += 2 * v[2] * e * std::exp(v[3] * e * e) * I4 * ((i == 0) - 1 / 3.0L) / s[i];
          return P;
        }},
+      {"guccione",  // fibre along the first axis: λi Pi = λ̄i² S̄i − ⅓ Σj λ̄j² S̄j + κ J (J−1), S̄i = C exp(Q) bi Ēi
+       [](const S& s, const V& v) {
+         const Stretches bar = isochoric(s);
+         Stress pull;
+         Long Q = 0, sum = 0;
+         for (int i = 0; i < 3; ++i) {
+           const Long E = (bar[i] * bar[i] - 1) / 2, b = i == 0 ? v[1] : v[2];
+           pull[i] = bar[i] * bar[i] * v[0] * b * E;
+           Q += b * E * E, sum += pull[i];
+         }
+         Stress P = split(s, constant(0), 0, v[4]);
+         for (int i = 0; i < 3; ++i) P[i] += std::exp(Q) * (pull[i] - sum / 3) / s[i];
+         return P;
+       }},
       {"stable_neo_hookean",  // μ' (1 − 1/(I1+1)) λi + λ' (J − α) J/λi, with the publication's own constants
        [](const S& s, const V& v) {
          const Long mu = 4 * v[1] / 3.0L, lambda = v[0] + 5 * v[1] / 6.0L, alpha = 1 + 3 * mu / (4 * lambda);
@@ -198,7 +213,7 @@ TEST_CASE("uniaxial stress of laws is their closed form") {
 
 TEST_CASE("equibiaxial stress of laws is their closed form") {
   for_every_law([](const Material& material, const MaterialPoint& point) {
-    if (material.law == "hgo") return;  // its fibre lies along one of the two axes: the stress is not equibiaxial
+    if (law_named(material.law).has_fibre) return;  // along one of the two axes: the stress is not equibiaxial
     for (const double pull : pulls(material)) {
       CAPTURE(pull);
       compare(material, point, BenchTest::equibiaxial, free_of_stress(material, [&](Long s) {
@@ -223,7 +238,7 @@ TEST_CASE("planar stress of laws is their closed form") {
 // is λi Pi (J = 1), and P = σ F⁻ᵀ.
 TEST_CASE("stress in simple shear of laws is their closed form") {
   for_every_law([](const Material& material, const MaterialPoint& point) {
-    if (material.law == "hgo") return;  // tested below
+    if (law_named(material.law).has_fibre) return;  // tested below
     for (const double gamma : {-1.0, 0.2, 0.7, 1.5}) {
       CAPTURE(gamma);
       const Long g = gamma, a = g / 2 + std::sqrt(1 + g * g / 4);
@@ -260,6 +275,52 @@ TEST_CASE("a fibre in simple shear pulls along where it has turned, and one alon
     CHECK((across->first_piola(F) - expected).norm() <= 1e-12 * expected.norm());
     CHECK((along->first_piola(F) - plain->first_piola(F)).norm() <= 1e-12 * expected.norm());
   }
+}
+
+// With the fibre along the third axis λ1 and λ2 are across it, and the closed form has its stretches in another order.
+TEST_CASE("uniaxial stress of guccione across the fibre is its closed form") {
+  Material across = sample_material("guccione");
+  const Material along = across;
+  across.fibre = Vec3::UnitZ();
+  const auto point = make_material_point(across, false);
+  for (const Stretches s : {Stretches{1.3L, 0.9L, 0.8L}, Stretches{0.7L, 1.2L, 1.1L}, Stretches{0.9L, 0.95L, 1.4L}}) {
+    const Stress turned = closed_form(along, {s[2], s[0], s[1]});
+    const Vec3 expected(static_cast<double>(turned[1]), static_cast<double>(turned[2]), static_cast<double>(turned[0]));
+    const Mat3 F = Vec3(static_cast<double>(s[0]), static_cast<double>(s[1]), static_cast<double>(s[2])).asDiagonal();
+    CHECK((point->first_piola(F).diagonal() - expected).norm() <= 1e-12 * expected.norm());
+  }
+}
+
+// F = I + γ e1 e2ᵀ has E12 = γ/2 and E22 = γ²/2; W = C/2 (exp(Q) − 1) with J = 1 and trace of E not zero.
+TEST_CASE("guccione in simple shear takes the components of the strain along its fibre") {
+  Material material = sample_material("guccione");
+  const auto [C, bf, bt, bfs] = std::array{material.parameters[0], 7.0, 2.5, 4.5};
+  material.parameters = {C, bf, bt, bfs, 1e5};
+  for (const double gamma : {-0.6, 0.2, 0.9}) {
+    CAPTURE(gamma);
+    const double shear = gamma * gamma / 4, long_way = gamma * gamma * gamma * gamma / 4;  // E12², E22²
+    const Mat3 F = Mat3::Identity() + gamma * Vec3::UnitX() * Vec3::UnitY().transpose();
+    const auto energy = [&](const Vec3& fibre) {
+      material.fibre = fibre;
+      return make_material_point(material, false)->energy(F);
+    };
+    const auto W = [C = C](double Q) { return C / 2 * std::expm1(Q); };
+    CHECK(energy(Vec3::UnitX()) == doctest::Approx(W(bt * long_way + 2 * bfs * shear)).epsilon(1e-12));
+    CHECK(energy(Vec3::UnitY()) == doctest::Approx(W(bf * long_way + 2 * bfs * shear)).epsilon(1e-12));
+    CHECK(energy(Vec3::UnitZ()) == doctest::Approx(W(bt * (long_way + 2 * shear))).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("guccione with three equal exponents is isotropic") {
+  Material material = sample_material("guccione");
+  for (const std::size_t k : {1, 2, 3}) material.parameters[k] = 3;
+  const auto along = make_material_point(material, false);
+  material.fibre = Vec3(2, -1, 2) / 3;
+  const auto oblique = make_material_point(material, false);
+  Mat3 F;
+  F << 1.2, 0.3, -0.1, 0.05, 0.9, 0.2, -0.15, 0.1, 1.1;
+  const Mat3 P = along->first_piola(F);
+  CHECK((oblique->first_piola(F) - P).norm() <= 1e-13 * P.norm());
 }
 
 TEST_CASE("whichever the volume term, constants at rest are the same") {

@@ -30,7 +30,8 @@ TEST_CASE("a curve made with known parameters gives them back, from another star
     if (!info.is_continuum || info.is_principal) continue;
     const std::string law(info.name);
     CAPTURE(law);
-    const Material truth = sample_material(law);
+    Material truth = sample_material(law);
+    if (law == "guccione") truth.fibre = Vec3(1, 1, 0).normalized();  // else its shear has no influence
     const MeasuredCurve data = measured(truth, BenchTest::uniaxial, evenly_spaced(0.7, 1.6, 19));
     Material start = truth;
     const bool lame = find_law(law)->takes_young_poisson;
@@ -96,6 +97,19 @@ TEST_CASE("errors and R² are those of ordinary least squares where the law is l
   CHECK(parameter(fit, "K1").standard_error == doctest::Approx(std::sqrt(rest / 11 / xx)).epsilon(1e-5));
   CHECK(fit.rms == doctest::Approx(std::sqrt(rest / 12)).epsilon(1e-7));
   CHECK(fit.r_squared == doctest::Approx(1 - rest / spread).epsilon(1e-7));
+}
+
+TEST_CASE("a parameter without influence is left and named, and the others are found") {
+  const Material truth = sample_material("guccione");  // pulled along its fibre, without shear
+  Material start = truth;
+  start.parameters = {1400, 5.6, 2.8, 3, truth.parameters[4]};
+  const FitResult fit =
+      fit_material(start, BenchTest::uniaxial, measured(truth, BenchTest::uniaxial, evenly_spaced(0.7, 1.6, 19)), {});
+  CHECK(fit.converged);
+  for (const std::size_t i : {0, 1, 2})
+    CHECK(fit.material.parameters[i] == doctest::Approx(truth.parameters[i]).epsilon(1e-5));
+  CHECK(fit.material.parameters[3] == doctest::Approx(3).epsilon(1e-12));
+  CHECK_FALSE(parameter(fit, "bfs").determined);
 }
 
 TEST_CASE("a fit names the parameters that the data do not determine") {

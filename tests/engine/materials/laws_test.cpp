@@ -168,6 +168,7 @@ TEST_CASE("for small strains every law is Hooke's with its constants at rest") {
   std::mt19937_64 random(9);
   for_every_law([&](const Material& material, bool continued) {
     if (!find_law(material.law)->is_stress_free) return;
+    if (material.law == "guccione") return;  // its fibres bear compression too: Hooke's law of another symmetry
     const auto point = make_material_point(material, continued);
     const auto [mu, kappa] = small_strain_moduli(material);
     for (int i = 0; i < 20; ++i) {

@@ -95,6 +95,10 @@ TEST_CASE("published numbers become the material's as the convention says") {
   CHECK(heart.material.parameters[0] == published(heart, "a") / 2);
   CHECK(heart.material.parameters[2] == published(heart, "a_f"));
   CHECK(heart.material.parameters[3] == published(heart, "b_f"));
+  const Preset& muscle = *find_preset("myocardium_guccione");
+  const std::vector<double> numbers = {published(muscle, "C"), published(muscle, "b_f"), published(muscle, "b_t"),
+                                       published(muscle, "b_fs"), 1e5};
+  CHECK(muscle.material.parameters == numbers);
 }
 
 TEST_CASE("bulk moduli of this project's choice are those of Poisson's ratio 0.49") {

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <studies/validation/body.hpp>
 #include <studies/validation/study.hpp>
 
 namespace heml::validation_study_test {
@@ -47,6 +48,33 @@ TEST_CASE("validation: pressure of another strength is noticed by the thick wall
     return make_world(std::move(setup));
   };
   CHECK(shortfalls_of(thick_cylinder({true, make_world})) < shortfalls_of(thick_cylinder({true, weaker})));
+}
+
+TEST_CASE("validation: Land's beam holds, and a softer one is noticed") {
+  CHECK(shortfalls_of(land_beam({true, make_world})) == 0);
+  const MakeWorld softer = [](WorldSetup setup) {
+    setup.materials[0].material.parameters[1] *= 0.95;  // bf
+    return make_world(std::move(setup));
+  };
+  CHECK(shortfalls_of(land_beam({true, softer})) > 0);
+}
+
+TEST_CASE("validation: material points are carried by the motion of their elements") {
+  const Material material = rubber(1e3, 1e4);
+  const auto curved = [](const Vec3& X) { return Vec3(X.x() + 0.1 * X.y() * X.y(), X.y(), X.z()); };
+  for (const char* element : {"p1", "p2"}) {
+    const bool quadratic = element[1] == '2';
+    const Map map = quadratic ? Map(curved) : Map();
+    const WorldSetup setup = make_body(cubic_cup(2, 2, 1, 1, 2), element, material, map);
+    std::vector<Vec3> x;
+    Mat3 F;
+    F << 1.2, 0.1, 0, -0.2, 0.9, 0.3, 0.1, 0, 1.1;
+    for (const Vec3& X : setup.mesh.nodes) x.push_back(F * X);
+    for (const Vec3& cube : {Vec3(0.1, -0.2, -1.3), Vec3(1.6, 0.3, 0.5), Vec3(-0.4, -1.1, 0.9)}) {
+      const Vec3 point = quadratic ? curved(cube) : cube;
+      CHECK((carried(setup, x, {point}).front() - F * point).norm() < 1e-9);
+    }
+  }
 }
 
 }  // namespace heml::validation_study_test
