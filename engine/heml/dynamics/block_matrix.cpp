@@ -1,9 +1,11 @@
 #include <algorithm>
+#include <cmath>
 #include <heml/dynamics/block_matrix.hpp>
 
 namespace heml {
 
-FreeNodes::FreeNodes(const std::vector<bool>& is_free) : number(is_free.size(), -1) {
+FreeNodes::FreeNodes(const std::vector<bool>& is_free, std::vector<int> held_coordinates)
+    : number(is_free.size(), -1), held(std::move(held_coordinates)) {
   for (std::size_t n = 0; n < is_free.size(); ++n)
     if (is_free[n]) {
       number[n] = static_cast<int>(node.size());
@@ -43,6 +45,18 @@ BlockMatrix::BlockMatrix(const FreeNodes& free, const std::vector<Tet>& tets) : 
 }
 
 void BlockMatrix::set_zero() { std::fill_n(matrix_.valuePtr(), matrix_.nonZeros(), 0.0); }
+
+void BlockMatrix::isolate_held() {
+  if (free_.held.empty()) return;
+  std::vector<bool> is_held(static_cast<std::size_t>(matrix_.rows()), false);
+  for (const int i : free_.held) is_held[static_cast<std::size_t>(free_.row_of(i))] = true;
+  for (int column = 0; column < matrix_.outerSize(); ++column)
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(matrix_, column); entry; ++entry) {
+      const auto row = static_cast<std::size_t>(entry.row());
+      if (!is_held[row] && !is_held[static_cast<std::size_t>(column)]) continue;
+      entry.valueRef() = entry.row() != column ? 0 : entry.value() != 0 ? std::abs(entry.value()) : 1;
+    }
+}
 
 /// The number of a row among the later neighbours of a column; −1 if they are the same node.
 int BlockMatrix::place(int row, int column) const {

@@ -17,9 +17,19 @@ namespace heml {
 struct FreeNodes {
   std::vector<int> number;  ///< #V: −1 where not free
   std::vector<int> node;    ///< of each unknown, ascending
+  /// Coordinates (3 node + axis) of free nodes that are held all the same, ascending: residuals, products and solutions
+  /// are 0 there, and matrices have nothing there but their diagonal.
+  std::vector<int> held;
 
   /// is_free: #V.
-  explicit FreeNodes(const std::vector<bool>& is_free);
+  explicit FreeNodes(const std::vector<bool>& is_free, std::vector<int> held = {});
+  /// Row of a held coordinate in a matrix between free nodes.
+  int row_of(int coordinate) const { return 3 * number[static_cast<std::size_t>(coordinate / 3)] + coordinate % 3; }
+  /// values: 3 #V.
+  template <class Values>
+  void clear_held(Values& values) const {
+    for (const int i : held) values[i] = 0;
+  }
 };
 
 class BlockMatrix {
@@ -37,6 +47,9 @@ class BlockMatrix {
   void add_node(int node, const Mat3& B);
   /// Adds k to the three diagonal entries of a node.
   void add_diagonal(int node, double k);
+
+  /// Leaves of the rows and columns of held coordinates nothing but the diagonal, which becomes positive.
+  void isolate_held();
 
   /// 3 #free square; the lower half only.
   const Eigen::SparseMatrix<double>& lower() const { return matrix_; }

@@ -8,7 +8,7 @@ namespace heml {
 
 class IncrementalPotential final : public Objective {
  public:
-  /// potential: U. mass: 3 #V, kg (each node's three times), 0 at nodes that are not free. All must outlive this.
+  /// potential: U. mass: 3 #V, kg (each node's three times), 0 where not free or held. All must outlive this.
   IncrementalPotential(Objective& potential, const Vector& mass, const FreeNodes& free)
       : potential_(potential), mass_(mass), free_(free) {}
 
@@ -44,11 +44,11 @@ class IncrementalPotential final : public Objective {
   bool is_symmetric() const override { return potential_.is_symmetric(); }
   void add_stiffness(BlockMatrix& matrix) override {
     potential_.add_stiffness(matrix);
-    for (const int n : free_.node) matrix.add_diagonal(n, a_ * mass_[3 * n]);
+    for (const int n : free_.node) matrix.add_diagonal(n, a_ * mass_of_node(mass_, n));
   }
   bool add_stiffness_single_precision(BsrMatrix& rows) override {
     if (!potential_.add_stiffness_single_precision(rows)) return false;
-    for (const int n : free_.node) rows.add_diagonal(n, a_ * mass_[3 * n]);
+    for (const int n : free_.node) rows.add_diagonal(n, a_ * mass_of_node(mass_, n));
     return true;
   }
 

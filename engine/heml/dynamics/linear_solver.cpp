@@ -48,6 +48,7 @@ void LinearSolver::assemble(Objective& objective) {
   objective.add_stiffness(*matrix_);
   if (shift_ > 0)
     for (const int n : free_.node) matrix_->add_diagonal(n, shift_);
+  matrix_->isolate_held();
 }
 
 LinearSolver::Definiteness LinearSolver::factor() {
@@ -120,7 +121,7 @@ bool LinearSolver::keep_elements(const TetMesh& mesh, const std::vector<int>& el
   }
   std::vector<std::size_t> bare;
   for (std::size_t row = 0; row < free_.node.size(); ++row)
-    if (!(mass_[3 * free_.node[row]] > 0)) bare.push_back(row);
+    if (!(mass_of_node(mass_, free_.node[row]) > 0)) bare.push_back(row);
   scalar_->exclude_rows(std::move(bare));
   outdated_ = true;
   return true;
@@ -190,7 +191,7 @@ bool LinearSolver::precondition(const Vector& r, Vector& z) {
   if (r.isZero(0)) return true;
   assert(preconditioner_ == Preconditioner::scalar || preconditioner_ == Preconditioner::multilevel);
   if (!factorise_scalar()) return false;
-  scalar_->apply(r, z);
+  apply(r, z);
   return true;
 }
 
@@ -210,7 +211,10 @@ void LinearSolver::apply_factor(const Vector& r, Vector& z) {
 
 void LinearSolver::apply(const Vector& r, Vector& z) {
   if (preconditioner_ == Preconditioner::cholesky) return apply_factor(r, z);
-  if (scalar_) return scalar_->apply(r, z);
+  if (scalar_) {
+    scalar_->apply(r, z);
+    return free_.clear_held(z);
+  }
   z.setZero(r.size());
   for (std::size_t k = 0; k < free_.node.size(); ++k)
     z.segment<3>(3 * free_.node[k]) = inverse_blocks_[k] * r.segment<3>(3 * free_.node[k]);

@@ -13,6 +13,9 @@ class BsrMatrix;
 
 using Vector = Eigen::VectorXd;  ///< 3 #V: node after node
 
+/// The mass (kg) of a node that is free in one direction at least. masses: 3 #V, kg, 0 where not free.
+inline double mass_of_node(const Vector& masses, int node) { return masses.segment<3>(3 * node).maxCoeff(); }
+
 class Objective {
  public:
   virtual ~Objective() = default;

@@ -31,7 +31,7 @@ ScalarMatrix scalar_mass(const FreeNodes& free, const Vector& mass) {
   const auto count = static_cast<Eigen::Index>(free.node.size());
   ScalarMatrix M(count, count);
   M.setIdentity();
-  for (Eigen::Index k = 0; k < count; ++k) M.valuePtr()[k] = mass[3 * free.node[static_cast<std::size_t>(k)]];
+  for (Eigen::Index k = 0; k < count; ++k) M.valuePtr()[k] = mass_of_node(mass, free.node[static_cast<std::size_t>(k)]);
   return M;
 }
 

@@ -15,6 +15,7 @@ SinglePrecisionCG::SinglePrecisionCG(const FreeNodes& free, BsrMatrix matrix, Th
     : free_(free), team_(team), K_(std::move(matrix)) {
   for (MultiVector* list : {&d_, &left_, &p_, &q_, &z_}) list->resize(K_.rows());
   sums_.resize((K_.rows() + piece - 1) / piece);
+  for (const int i : free.held) held_rows_.push_back(free.row_of(i));
 }
 
 bool SinglePrecisionCG::assemble(Objective& objective, double shift) {
@@ -22,6 +23,7 @@ bool SinglePrecisionCG::assemble(Objective& objective, double shift) {
   if (!objective.add_stiffness_single_precision(K_)) return false;
   if (shift > 0)
     for (const int n : free_.node) K_.add_diagonal(n, shift);
+  K_.isolate(held_rows_);
   return true;
 }
 
@@ -60,6 +62,7 @@ bool SinglePrecisionCG::solve(SmoothedAggregation& preconditioner, const Vector&
   double progress = 0;
   for (int k = 0; k < max_iterations && square > enough; ++k) {
     preconditioner.apply(left_, z_);
+    for (const int row : held_rows_) z_[static_cast<std::size_t>(row) / 3][row % 3] = 0;
     const double next = dot(left_, z_);
     const auto turn = static_cast<float>(k > 0 ? next / progress : 0);
     progress = next;

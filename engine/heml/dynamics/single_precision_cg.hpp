@@ -41,6 +41,7 @@ class SinglePrecisionCG {
   BsrMatrix K_;
   MultiVector d_, left_, p_, q_, z_;
   std::vector<double> sums_;
+  std::vector<int> held_rows_;  ///< 3 row + axis of held coordinates
 };
 
 }  // namespace heml

@@ -45,7 +45,7 @@ std::shared_ptr<const SmoothedAggregation::Hierarchy> make_hierarchy(const FreeN
   finest.L = scalar_stiffness(free, mesh, modulus);
   finest.M = scalar_mass(free, mass);
   for (std::size_t row = 0; row < free.node.size(); ++row) {
-    if (mass[3 * free.node[row]] > 0) continue;
+    if (mass_of_node(mass, free.node[row]) > 0) continue;
     hierarchy->bare_rows.push_back(row);
     finest.L.coeffRef(static_cast<int>(row), static_cast<int>(row)) += 1;
   }

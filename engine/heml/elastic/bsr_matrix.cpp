@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstring>
 #include <heml/elastic/avx2_dispatch.hpp>
 #include <heml/elastic/bsr_matrix.hpp>
@@ -158,6 +160,22 @@ void BsrMatrix::add_diagonal(int node, double k) {
   const int place = row < 0 ? -1 : diagonal_[static_cast<std::size_t>(row)];
   for (int i = 0; place >= 0 && i < 3; ++i)
     block_[static_cast<std::size_t>(place)].column[i][i] += static_cast<float>(k);
+}
+
+void BsrMatrix::isolate(const std::vector<int>& held) {
+  if (held.empty()) return;
+  std::vector<std::array<bool, 3>> is_held(rows(), {false, false, false});
+  for (const int r : held) is_held[static_cast<std::size_t>(r) / 3][static_cast<std::size_t>(r) % 3] = true;
+  for (std::size_t row = 0; row < rows(); ++row)
+    for (auto k = static_cast<std::size_t>(start_[row]); k < static_cast<std::size_t>(start_[row + 1]); ++k) {
+      const auto column = static_cast<std::size_t>(column_[k]);
+      for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j) {
+          if (!is_held[row][i] && !is_held[column][j]) continue;
+          const float entry = block_[k].column[j][i];
+          block_[k].column[j][i] = row != column || i != j ? 0 : entry != 0 ? std::abs(entry) : 1;
+        }
+    }
 }
 
 /// Adds the stiffness of a group to the rows of sections [begin, end).

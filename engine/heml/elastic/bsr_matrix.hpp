@@ -40,6 +40,9 @@ class BsrMatrix {
   void add_node(int node, const Mat3& B);
   void add_diagonal(int node, double k);
 
+  /// Leaves of these rows and columns (3 row + axis) nothing but the diagonal, which becomes positive.
+  void isolate(const std::vector<int>& rows);
+
   /// y = K x, #rows.
   void multiply(const MultiVector& x, MultiVector& y, ThreadTeam& team) const;
 

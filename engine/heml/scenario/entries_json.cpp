@@ -53,6 +53,29 @@ Json selection_json(const Selection& where) {
 
 }  // namespace
 
+namespace {
+
+Axes axes_from(const JsonCursor& key) {
+  const auto text = key.text();
+  Axes axes = Axes::none();
+  for (const char letter : text) {
+    const auto i = static_cast<std::size_t>(letter - 'x');
+    if (i > 2 || axes.has[i]) key.refuse("must be some of x, y and z, each once: \"xz\"");
+    axes.has[i] = true;
+  }
+  if (axes.are_none()) key.refuse("must be some of x, y and z, each once: \"xz\"");
+  return axes;
+}
+
+std::string axes_text(const Axes& axes) {
+  std::string text;
+  for (std::size_t i = 0; i < 3; ++i)
+    if (axes.has[i]) text += "xyz"[i];
+  return text;
+}
+
+}  // namespace
+
 BoundaryEntry boundary_from(const JsonCursor& key) {
   const ObjectReader object(key, keys_of("boundary[]"));
   BoundaryEntry entry;
@@ -65,6 +88,9 @@ BoundaryEntry boundary_from(const JsonCursor& key) {
   object.read("translate", entry.motion.translate);
   if (const auto rotate = object.find("rotate"))
     read_rotation(*rotate, entry.motion.axis, entry.motion.origin, entry.motion.degrees);
+  if (const auto axes = object.find("axes")) entry.motion.axes = axes_from(*axes);
+  if (key.has("rotate") && !entry.motion.axes.are_all())
+    key["axes"].refuse("must be all, or left out, where nodes are rotated");
   object.read("over", entry.motion.ramp_time);
   return entry;
 }
@@ -111,8 +137,9 @@ Json boundary_json(const BoundaryEntry& entry) {
     json["fix"] = true;
   } else {
     json["translate"] = vector_json(motion.translate);
-    json["rotate"] = rotation_json(motion.axis, motion.origin, motion.degrees);
+    if (motion.axes.are_all()) json["rotate"] = rotation_json(motion.axis, motion.origin, motion.degrees);
   }
+  if (!motion.axes.are_all()) json["axes"] = axes_text(motion.axes);
   json["over"] = motion.ramp_time;
   return json;
 }

@@ -1,4 +1,4 @@
-// Conditions of single coordinates become motions of nodes: heml moves a node in x, y and z together, or not at all.
+// Conditions of single coordinates become motions of nodes: of all coordinates together where a node has all three.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +8,8 @@
 #include <heml/scenario/feb_material.hpp>
 #include <heml/scenario/feb_model.hpp>
 #include <map>
+#include <set>
+#include <tuple>
 
 namespace heml {
 namespace {
@@ -20,6 +22,7 @@ struct FebCourse {
   double ramp_time = 0;  ///< s; of no meaning where at_end is 0
   std::size_t source;    ///< in FebBoundaryReader::sources_
   bool same(const FebCourse& other) const { return at_end == other.at_end && ramp_time == other.ramp_time; }
+  double ramp() const { return at_end == 0 ? 0 : ramp_time; }
 };
 
 using NodeCourses = std::array<std::optional<FebCourse>, 3>;
@@ -50,27 +53,36 @@ class FebBoundaryReader {
     }
   }
 
+  /// An entry for the nodes of each motion that is prescribed in all directions; then, for each coordinate that some
+  /// node leaves others of free, one for all nodes of its course, so that it has the nodes between them too.
   void put(Scene& scene) {
     std::map<std::array<double, 4>, std::vector<int>> groups;
-    std::map<std::size_t, std::vector<int>> partial;
+    std::set<std::tuple<std::size_t, double, double>> single;  // axis, at the end, ramp
     for (const auto& [node, courses] : nodes_) {
-      const auto missing = std::find(courses.begin(), courses.end(), std::nullopt);
-      const auto given = std::find_if(courses.begin(), courses.end(), [](const auto& c) { return c.has_value(); });
-      if (missing != courses.end())
-        partial[(*given)->source].push_back(node);
-      else if (const auto ramp = common_ramp(courses))
-        groups[{courses[0]->at_end, courses[1]->at_end, courses[2]->at_end, *ramp}].push_back(node);
+      if (std::find(courses.begin(), courses.end(), std::nullopt) == courses.end()) {
+        if (const auto ramp = common_ramp(courses))
+          groups[{courses[0]->at_end, courses[1]->at_end, courses[2]->at_end, *ramp}].push_back(node);
+        continue;
+      }
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        if (const auto& course = courses[axis]) single.emplace(axis, course->at_end, course->ramp());
     }
-    for (const auto& [source, nodes] : partial)
-      model_.findings.refuse(sources_[source],
-                             fmt::format("{} leaves {} nodes, the first is {} (from 0), free in a direction: heml "
-                                         "holds or moves a node in x, y and z together",
-                                         feb_name(sources_[source]), nodes.size(), nodes.front()));
     for (const auto& [motion, nodes] : groups) {
       BoundaryEntry entry;
       entry.where.nodes = nodes;
       entry.motion.translate = Vec3(motion[0], motion[1], motion[2]);
       entry.motion.ramp_time = motion[3];
+      scene.boundary.push_back(std::move(entry));
+    }
+    for (const auto& [axis, at_end, ramp] : single) {
+      BoundaryEntry entry;
+      entry.motion.axes = Axes::none();
+      entry.motion.axes.has[axis] = true;
+      entry.motion.translate[static_cast<int>(axis)] = at_end;
+      entry.motion.ramp_time = ramp;
+      for (const auto& [node, courses] : nodes_)
+        if (const auto& course = courses[axis]; course && course->at_end == at_end && course->ramp() == ramp)
+          entry.where.nodes.push_back(node);
       scene.boundary.push_back(std::move(entry));
     }
     check_midedges(scene);
@@ -159,10 +171,15 @@ class FebBoundaryReader {
   /// A scene's list takes the nodes in the middle of edges between its nodes: the file has to want the same.
   void check_midedges(const Scene& scene) {
     if (!scene.solver.quadratic) return;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (!has_its_midedges(scene, axis)) return;
+  }
+
+  bool has_its_midedges(const Scene& scene, std::size_t axis) {
     const auto& tets = model_.mesh.read.mesh.tets;
-    std::map<int, std::size_t> entry_of;
     std::vector<std::size_t> entry(model_.mesh.read.mesh.nodes.size(), 0), wanted(entry.size(), 0);
     for (std::size_t b = 0; b < scene.boundary.size(); ++b) {
+      if (!scene.boundary[b].motion.axes.has[axis]) continue;
       std::vector<bool> listed(entry.size(), false);
       for (const int n : scene.boundary[b].where.nodes) listed[static_cast<std::size_t>(n)] = true;
       for (std::size_t n = 0; n < listed.size(); ++n)
@@ -174,11 +191,12 @@ class FebBoundaryReader {
             entry[static_cast<std::size_t>(model_.mesh.read.midedges[t][e])] = b + 1;
     }
     const auto [at, other] = std::mismatch(entry.begin(), entry.end(), wanted.begin());
-    if (at != entry.end())
-      model_.findings.refuse(
-          sources_.front(), fmt::format("the sets of nodes hold both ends of an edge of a tet10, but not node {} (from "
-                                        "0) in its middle, which heml holds and moves with them",
-                                        at - entry.begin()));
+    if (at == entry.end()) return true;
+    model_.findings.refuse(
+        sources_.front(), fmt::format("the sets of nodes hold both ends of an edge of a tet10, but not node {} (from "
+                                      "0) in its middle, which heml holds and moves with them",
+                                      at - entry.begin()));
+    return false;
   }
 
   FebModel& model_;

@@ -51,7 +51,7 @@ inline constexpr KeyInfo scene[] = {
     {"description", form::text, "", none, "for the window's list of scenes"},
     {"mesh", object, "", required, "the body at rest"},
     {"materials", objects, "", required, "what it is made of, one or more"},
-    {"boundary", objects, "", "`[]`", "supports; of several on one node the last holds"},
+    {"boundary", objects, "", "`[]`", "supports; of several on one coordinate of a node the last holds"},
     {"loads", objects, "", "`[]`", "forces and pressures; they add up"},
     {"tables", objects, "", "`[]`", "planes that the body cannot pass"},
     {"self_contact", form::other("`true`, `false` or object"), "", "`false`", "whether tissue bears on tissue"},
@@ -140,6 +140,8 @@ inline constexpr KeyInfo boundary[] = {
     {"fix", form::flag, "", one_motion, "the nodes stay where they are at rest"},
     {"translate", form::vector, "m", one_motion, "of the rest position, after `rotate`"},
     {"rotate", object, "", one_motion, "of the rest position"},
+    {"axes", form::text, "", "`\"xyz\"`",
+     "the coordinates that are fixed or translated, the others stay free: `\"y\"` is a roller on a plane y = const"},
     {"over", form::non_negative, "s", "", "translation and angle grow linearly over this time; 0: at once"},
 };
 inline constexpr KeyInfo loads[] = {

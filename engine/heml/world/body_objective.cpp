@@ -151,7 +151,7 @@ void BodyObjective<Real>::set_load(double fraction) {
 template <class Real>
 void BodyObjective<Real>::apply_constraints(double fraction, Vector& x) const {
   for (const ConstrainedNode& constrained : model_->constrained)
-    x.segment<3>(3 * constrained.node) = prescribed_at(*model_, constrained, fraction * duration_).x;
+    set_along(constrained.axes, constrained.node, prescribed_at(*model_, constrained, fraction * duration_).x, x);
 }
 
 template <class Real>
@@ -159,6 +159,7 @@ double BodyObjective<Real>::relative_residual(const Vector& r) const {
   double reactions = 0;
   for (std::size_t n = 0; n < free_.number.size(); ++n)
     if (free_.number[n] < 0) reactions += forces_.segment<3>(3 * static_cast<int>(n)).squaredNorm();
+  for (const int i : free_.held) reactions += forces_[i] * forces_[i];
   const double carried = std::max(std::sqrt(reactions), external_.norm());
   const double left = r.norm();
   if (carried <= nothing) return left <= nothing ? 0 : left / nothing;
@@ -252,6 +253,7 @@ bool BodyObjective<Real>::residual(const Vector& x, Vector& r) {
   if (forces_at_.size() == 0 || forces_at_ != x) find_forces(x);
   r.setZero(x.size());
   for (const int n : free_.node) r.segment<3>(3 * n) = forces_.segment<3>(3 * n);
+  free_.clear_held(r);
   return is_defined_;
 }
 

@@ -97,6 +97,7 @@ void BodyObjective<Real>::product(const Vector& dx, Vector& out) {
     grasp.each_stiffness([&](int n, Real k, Real damping) {
       add(n, (static_cast<double>(k) + (d_ > 0 ? static_cast<double>(damping) / d_ : 0)) * place_of(dx, n));
     });
+  free_.clear_held(out);
 }
 
 template <class Real>

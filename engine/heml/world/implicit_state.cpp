@@ -1,3 +1,4 @@
+#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <heml/world/implicit_state.hpp>
 #include <numeric>
@@ -16,6 +17,18 @@ Vector thrice(const FreeNodes& free, const auto& masses) {
   Vector result = Vector::Zero(3 * static_cast<Eigen::Index>(masses.size()));
   for (const int n : free.node)
     result.segment<3>(3 * n).setConstant(static_cast<double>(masses[static_cast<std::size_t>(n)]));
+  free.clear_held(result);
+  return result;
+}
+
+/// Coordinates of free nodes that are held.
+template <class Real>
+std::vector<int> held_coordinates(const Model<Real>& model, const std::vector<Real>& inverse_mass) {
+  std::vector<int> result;
+  const std::vector<Axes> axes = held_axes(model);
+  for (std::size_t n = 0; n < axes.size(); ++n)
+    for (std::size_t i = 0; i < 3; ++i)
+      if (inverse_mass[n] > 0 && axes[n].has[i]) result.push_back(static_cast<int>(3 * n + i));
   return result;
 }
 
@@ -45,7 +58,7 @@ ImplicitState<Real>::ImplicitState(ElasticBody<Real>& elastic, const Shared<Mode
                                    const std::vector<double>& modulus, const std::vector<GraspSpring<Real>>& grasps,
                                    Contacts& contacts, ThreadTeam& team, const SolverSettings& solver,
                                    InstructionSet instruction_set)
-    : free(nonzero(masses->inverse)),
+    : free(nonzero(masses->inverse), held_coordinates(*model, masses->inverse)),
       mass(thrice(free, masses->lumped)),
       body(elastic, model, masses, free, grasps, contacts, team),
       linear_mesh(model->midedges.empty() ? std::nullopt
@@ -109,6 +122,30 @@ std::vector<double> preconditioner_moduli(const TetMesh& mesh, const std::vector
   return moduli;
 }
 
+namespace {
+
+/// Whether no rigid motion leaves all these coordinates of points (m) where they are.
+bool holds_all_rigid_motions(const std::vector<std::pair<Vec3, Axes>>& held) {
+  if (held.empty()) return false;
+  const Vec3& origin = held[0].first;
+  double size = 0;
+  for (const auto& [X, axes] : held) size = std::max(size, (X - origin).norm());
+  if (!(size > 0)) return false;
+  Eigen::Matrix<double, 6, 6> sum = Eigen::Matrix<double, 6, 6>::Zero();
+  for (const auto& [X, axes] : held)
+    for (int i = 0; i < 3; ++i) {
+      if (!axes.has[static_cast<std::size_t>(i)]) continue;
+      Eigen::Matrix<double, 6, 1> row;  // of translations, and of rotations by an angle of 1 over the size
+      row << Vec3::Unit(i), ((X - origin) / size).cross(Vec3::Unit(i));
+      sum += row * row.transpose();
+    }
+  const auto values = Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>>(sum, Eigen::EigenvaluesOnly)
+                          .eigenvalues();
+  return values[0] > 1e-12 * values[5];
+}
+
+}  // namespace
+
 template <class Real>
 bool is_well_constrained(const Model<Real>& model, const std::vector<ConstrainedNode>& constrained) {
   const TetMesh& mesh = model.mesh;
@@ -123,20 +160,15 @@ bool is_well_constrained(const Model<Real>& model, const std::vector<Constrained
     for (const int n : tet) part[static_cast<std::size_t>(root(n))] = root(tet[0]);
   for (std::size_t t = 0; t < model.midedges.size(); ++t)
     for (const int n : model.midedges[t]) part[static_cast<std::size_t>(root(n))] = root(mesh.tets[t][0]);
-  std::vector<std::vector<Vec3>> points(mesh.nodes.size());  // held ones, at the root of their part
+  std::vector<std::vector<std::pair<Vec3, Axes>>> held(mesh.nodes.size());  // at the root of their part
   for (const ConstrainedNode& h : constrained)
-    points[static_cast<std::size_t>(root(h.node))].push_back(mesh.nodes[static_cast<std::size_t>(h.node)]);
+    held[static_cast<std::size_t>(root(h.node))].emplace_back(mesh.nodes[static_cast<std::size_t>(h.node)], h.axes);
   std::vector<bool> looked_at(mesh.nodes.size(), false);
   for (const Tet& tet : mesh.tets) {
     const auto here = static_cast<std::size_t>(root(tet[0]));
     if (looked_at[here]) continue;
     looked_at[here] = true;
-    Vec3 far = Vec3::Zero();
-    double area = 0;
-    for (const Vec3& X : points[here])
-      if ((X - points[here][0]).norm() > far.norm()) far = X - points[here][0];
-    for (const Vec3& X : points[here]) area = std::max(area, far.cross(X - points[here][0]).norm());
-    if (!(area > 1e-6 * far.squaredNorm())) return false;
+    if (!holds_all_rigid_motions(held[here])) return false;
   }
   return true;
 }

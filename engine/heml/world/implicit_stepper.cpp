@@ -194,7 +194,7 @@ bool ImplicitStepper<Real>::solve_stage(const Stage& stage, double h, double tim
   if (!result.converged() && !takes_any_iterate() && !is_balanced_enough(stage, r)) return false;
   v = stage.velocity(x);
   for (const ConstrainedNode& constrained : s_.model->constrained)
-    v.segment<3>(3 * constrained.node) = prescribed_at(*s_.model, constrained, time).v;
+    set_along(constrained.axes, constrained.node, prescribed_at(*s_.model, constrained, time).v, v);
   for (const PinnedPatch& pin : s_.pins)
     for (const int n : pin.nodes) v.segment<3>(3 * n).setZero();
   return true;
@@ -228,7 +228,7 @@ NewtonResult ImplicitStepper<Real>::minimise_stage(Vector& x) {
 template <class Real>
 void ImplicitStepper<Real>::place_supports(double time, Vector& x) const {
   for (const ConstrainedNode& constrained : s_.model->constrained)
-    x.segment<3>(3 * constrained.node) = prescribed_at(*s_.model, constrained, time).x;
+    set_along(constrained.axes, constrained.node, prescribed_at(*s_.model, constrained, time).x, x);
 }
 
 /// Of where the body is and where it would fly: the one with the lower Φ (without this guard, methods of few iterations

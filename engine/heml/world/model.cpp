@@ -193,16 +193,24 @@ template <class Real>
 void set_boundary(const WorldSetup& setup, Model<Real>& model) {
   model.constrained.clear();
   model.prescribed_motions.clear();
-  std::vector<int> winner(model.mesh.nodes.size(), -1);
+  std::vector<std::array<int, 3>> winners(model.mesh.nodes.size(), {-1, -1, -1});  // of each coordinate
   for (std::size_t b = 0; b < setup.boundary.size(); ++b) {
     const Boundary& entry = setup.boundary[b];
     const double ramp_time = setup.solver.is_static() ? setup.solver.load_duration() : entry.ramp_time;
     model.prescribed_motions.push_back(
         {entry.translate, entry.axis.normalized(), entry.origin, entry.degrees * std::numbers::pi / 180, ramp_time});
-    for (const int n : inner(entry.nodes, model.order)) winner[static_cast<std::size_t>(n)] = static_cast<int>(b);
+    for (const int n : inner(entry.nodes, model.order))
+      for (std::size_t i = 0; i < 3; ++i)
+        if (entry.axes.has[i]) winners[static_cast<std::size_t>(n)][i] = static_cast<int>(b);
   }
-  for (std::size_t n = 0; n < winner.size(); ++n)
-    if (winner[n] >= 0) model.constrained.push_back({static_cast<int>(n), winner[n]});
+  for (std::size_t n = 0; n < winners.size(); ++n) {
+    const auto& winner = winners[n];
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (winner[i] < 0 || std::find(winner.begin(), winner.begin() + i, winner[i]) != winner.begin() + i) continue;
+      const Axes axes{{winner[0] == winner[i], winner[1] == winner[i], winner[2] == winner[i]}};
+      model.constrained.push_back({static_cast<int>(n), winner[i], axes});
+    }
+  }
   model.speeds.assign(model.prescribed_motions.size(), 0);
   for (const ConstrainedNode& constrained : model.constrained) {
     double& speed = model.speeds[static_cast<std::size_t>(constrained.entry)];
@@ -325,12 +333,24 @@ void append(const WorldSetup& setup, const MeshEdit& edit, Model<Real>& model) {
 }
 
 template <class Real>
+std::vector<Axes> held_axes(const Model<Real>& model) {
+  std::vector<Axes> axes(model.mesh.nodes.size(), Axes::none());
+  for (const ConstrainedNode& constrained : model.constrained) {
+    Axes& of_node = axes[static_cast<std::size_t>(constrained.node)];
+    of_node = of_node.with(constrained.axes);
+  }
+  return axes;
+}
+
+template <class Real>
 bool supports_move(const Model<Real>& model, double from, double to) {
   return std::any_of(model.constrained.begin(), model.constrained.end(), [&](const ConstrainedNode& constrained) {
     return prescribed_at(model, constrained, from).x != prescribed_at(model, constrained, to).x;
   });
 }
 
+template std::vector<Axes> held_axes(const Model<float>&);
+template std::vector<Axes> held_axes(const Model<double>&);
 template bool supports_move(const Model<float>&, double, double);
 template bool supports_move(const Model<double>&, double, double);
 template void append(const WorldSetup&, const MeshEdit&, Model<float>&);

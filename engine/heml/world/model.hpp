@@ -11,10 +11,11 @@
 
 namespace heml {
 
-/// A node with a boundary condition; entry: which of setup.boundary won.
+/// A node with a boundary condition; entry: which of setup.boundary won these coordinates. −1: a pin.
 struct ConstrainedNode {
   int node;
   int entry;
+  Axes axes = {};
 };
 
 template <class Real>
@@ -25,7 +26,7 @@ struct Model {
   std::vector<int> material_of;    ///< #T
   BoundaryFaces loaded_faces;      ///< the surface as first made, of elements that are left: what loads act on
   std::vector<int> surface_nodes;  ///< ascending, also those in wounds and on the front of a cut
-  std::vector<ConstrainedNode> constrained;          ///< ascending in node
+  std::vector<ConstrainedNode> constrained;          ///< ascending in node; several of one have other coordinates
   std::vector<PrescribedMotion> prescribed_motions;  ///< one per setup.boundary
   std::vector<double> speeds;                        ///< m/s, of each while it moves: of the fastest node
   std::vector<DeadLoad<Real>> dead;
@@ -42,6 +43,10 @@ PrescribedMotion::At prescribed_at(const Model<Real>& model, const ConstrainedNo
   return model.prescribed_motions[static_cast<std::size_t>(constrained.entry)](
       model.mesh.nodes[static_cast<std::size_t>(constrained.node)], time);
 }
+
+/// Of each node, the coordinates that the boundary entries hold.
+template <class Real>
+std::vector<Axes> held_axes(const Model<Real>& model);
 
 /// Whether a held node is elsewhere at another time, s.
 template <class Real>

@@ -10,8 +10,8 @@ template <class Real>
 struct NodeMasses {
   std::vector<Real> lumped;           ///< #V, kg
   std::vector<Real> consistent;       ///< #V, kg, which gravity acts on; empty: lumped
-  std::vector<Real> inverse;          ///< #V, 1/kg, of lumped; 0 for constrained nodes and nodes of no element
-  std::vector<Real> inverse_per_dof;  ///< 3 #V, 1/kg
+  std::vector<Real> inverse;          ///< #V, 1/kg, of lumped; 0 for nodes held in all directions and of no element
+  std::vector<Real> inverse_per_dof;  ///< 3 #V, 1/kg; 0 for each coordinate that is held
 
   std::size_t bytes() const { return bytes_of(lumped, consistent, inverse, inverse_per_dof); }
   bool operator==(const NodeMasses&) const = default;

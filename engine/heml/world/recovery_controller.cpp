@@ -244,8 +244,8 @@ void RecoveryController<Real>::step_surrogate(double until) {
   implicit.linear.set_inertia(stage.a(damping));
   Vector stay = implicit.x, fly = (implicit.mass.array() > 0).select(stage.y(damping), stay);
   for (const ConstrainedNode& constrained : s_.model->constrained)
-    stay.segment<3>(3 * constrained.node) = fly.segment<3>(3 * constrained.node) =
-        prescribed_at(*s_.model, constrained, until).x;
+    for (Vector* x : {&stay, &fly})
+      set_along(constrained.axes, constrained.node, prescribed_at(*s_.model, constrained, until).x, *x);
   const auto staying = implicit.step.value(stay), flying = implicit.step.value(fly);
   Vector x = flying && *flying < *staying ? fly : stay, r;
   implicit.step.residual(x, r);

@@ -1,6 +1,7 @@
 #pragma once
 // All that makes a world, with every file read and every selection resolved to node numbers. Scenes become this
 // (scenario/), tests write it by hand; make_world() turns it into something that steps.
+#include <heml/dynamics/axes.hpp>
 #include <heml/dynamics/integrator.hpp>
 #include <heml/dynamics/solver_options.hpp>
 #include <heml/elastic/instruction_set.hpp>
@@ -22,8 +23,8 @@ struct RegionMaterial {
 };
 
 /// Nodes held or moved. A moved node goes to rotate(X − origin) + origin + translate of its rest position X,
-/// translation and angle ramped linearly over `over` seconds from t = 0, then held. Of several on one node the last
-/// wins.
+/// translation and angle ramped linearly over `over` seconds from t = 0, then held. Of several on one coordinate of a
+/// node the last wins.
 struct Boundary {
   std::vector<int> nodes;         ///< mesh-file order
   Vec3 translate = Vec3::Zero();  ///< m
@@ -31,6 +32,7 @@ struct Boundary {
   Vec3 origin = Vec3::Zero();     ///< m
   double degrees = 0;             ///< right-handed about axis
   double ramp_time = 0;           ///< s; 0: at once
+  Axes axes = {};                 ///< coordinates that are prescribed; the others are free
   bool operator==(const Boundary&) const = default;
 };
 

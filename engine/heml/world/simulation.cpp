@@ -52,12 +52,14 @@ void Simulation<Real>::update_masses() {
   if (!model->midedges.empty()) now.consistent = body.consistent_masses();
   now.inverse.reserve(now.lumped.size());
   for (const Real m : now.lumped) now.inverse.push_back(m > 0 ? 1 / m : Real(0));
-  for (const ConstrainedNode& constrained : model->constrained)
-    now.inverse[static_cast<std::size_t>(constrained.node)] = 0;
+  const std::vector<Axes> held = held_axes(*model);
+  for (std::size_t n = 0; n < held.size(); ++n)
+    if (held[n].are_all()) now.inverse[n] = 0;
   for (const PinnedPatch& pin : pins)
     for (const int n : pin.nodes) now.inverse[static_cast<std::size_t>(n)] = 0;
   now.inverse_per_dof.reserve(3 * now.inverse.size());
-  for (const Real of_node : now.inverse) now.inverse_per_dof.insert(now.inverse_per_dof.end(), 3, of_node);
+  for (std::size_t n = 0; n < held.size(); ++n)
+    for (const bool is_held : held[n].has) now.inverse_per_dof.push_back(is_held ? Real(0) : now.inverse[n]);
   if (now != *masses) masses = std::move(now);  // else others may share them still
   for (auto& grasp : grasps) grasp.update_masses(masses->inverse);
 }
@@ -66,8 +68,8 @@ template <class Real>
 void Simulation<Real>::move_constrained() {
   for (const ConstrainedNode& constrained : model->constrained) {
     const PrescribedMotion::At at = prescribed_at(*model, constrained, state.time);
-    Eigen::Map<Vector3<Real>>(&state.x[3 * static_cast<std::size_t>(constrained.node)]) = at.x.template cast<Real>();
-    Eigen::Map<Vector3<Real>>(&state.v[3 * static_cast<std::size_t>(constrained.node)]) = at.v.template cast<Real>();
+    set_along(constrained.axes, constrained.node, at.x, state.x);
+    set_along(constrained.axes, constrained.node, at.v, state.v);
   }
   for (const PinnedPatch& pin : pins)
     for (std::size_t k = 0; k < pin.nodes.size(); ++k) {

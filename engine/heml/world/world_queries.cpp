@@ -189,8 +189,11 @@ std::vector<Vec3> WorldQueries<Real>::reactions() const {
     const auto n = static_cast<std::size_t>(constrained.node);
     const PrescribedMotion::At at = prescribed_at(*s_.model, constrained, s_.state.time);
     const Vec3 f = Eigen::Map<const Vector3<Real>>(&s_.state.f[3 * n]).template cast<double>();
-    result[static_cast<std::size_t>(constrained.entry)] +=
+    const Vec3 reaction =
         inertia * static_cast<double>(s_.masses->lumped[n]) * (at.a + s_.setup->solver.damping * at.v) - f;
+    for (int i = 0; i < 3; ++i)
+      if (constrained.axes.has[static_cast<std::size_t>(i)])
+        result[static_cast<std::size_t>(constrained.entry)][i] += reaction[i];
   }
   return result;
 }
