@@ -19,7 +19,8 @@ TEST_CASE("reads a scene with every key of the format") {
     "boundary": [
       {"nodes": [0, 4, 7], "fix": true},
       {"box": [[0.099, -1, -1], [0.101, 1, 1]], "translate": [0.05, 0, 0],
-       "rotate": {"axis": [3, 0, 0], "origin": [0, 0.1, 0], "degrees": 45}, "over": 1.5}
+       "rotate": {"axis": [3, 0, 0], "origin": [0, 0.1, 0], "degrees": 45}, "over": 1.5},
+      {"nodes": [1], "fix": true, "axes": "zx"}
     ],
     "loads": [
       {"box": [[0.099, -1, -1], [0.101, 1, 1]], "traction": [0, -20, 0]},
@@ -50,7 +51,8 @@ TEST_CASE("reads a scene with every key of the format") {
   CHECK(scene.materials[1].region == 2);
   CHECK(scene.materials[1].material.density == 1000);
   CHECK(scene.materials[1].material.parameters == std::vector<double>{3e4, 2e4});
-  REQUIRE(scene.boundary.size() == 2);
+  REQUIRE(scene.boundary.size() == 3);
+  CHECK(scene.boundary[2].motion.axes == Axes{{true, false, true}});
   CHECK(scene.boundary[0].where.nodes == std::vector<int>{0, 4, 7});
   CHECK(scene.boundary[1].motion.translate == Vec3(0.05, 0, 0));
   CHECK(scene.boundary[1].motion.axis == Vec3(1, 0, 0));

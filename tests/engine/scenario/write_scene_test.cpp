@@ -42,6 +42,9 @@ Scene scene_of_everything() {
                      {-3, {"neo_hookean_iso", {number(), number()}, number()}}};
   scene.boundary.push_back({{{1, 2}, {}, {}}, {{}, vector(), vector().normalized(), vector(), number(), number()}});
   scene.boundary.push_back({{{}, std::array{Vec3(-1, -1, -1), Vec3(1, 2, number())}, {}}, {}});
+  scene.boundary.push_back({{{3}, {}, {}}, {}});
+  scene.boundary.back().motion.translate = vector();
+  scene.boundary.back().motion.axes = {{true, false, true}};
   scene.loads.push_back({{{}, {}, std::pair{vector(), number()}}, {Load::Kind::force, {}, vector(), 0, number()}});
   scene.loads.push_back({{{4}, {}, {}}, {Load::Kind::traction, {}, vector(), 0, 0}});
   scene.loads.push_back({{{4}, {}, {}}, {Load::Kind::pressure, {}, Vec3::Zero(), -number(), 0}});
@@ -107,6 +110,7 @@ TEST_CASE("writes a scene on one line that reads back bit for bit") {
     CHECK(same_bits(back.boundary[i].motion.axis, scene.boundary[i].motion.axis));
     CHECK(same_bits(back.boundary[i].motion.degrees, scene.boundary[i].motion.degrees));
     CHECK(same_bits(back.boundary[i].motion.ramp_time, scene.boundary[i].motion.ramp_time));
+    CHECK(back.boundary[i].motion.axes == scene.boundary[i].motion.axes);
   }
   for (int i = 0; i < 3; ++i) {
     CHECK(back.loads[i].where.nodes == scene.loads[i].where.nodes);
