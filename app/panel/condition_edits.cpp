@@ -7,8 +7,8 @@ namespace {
 
 bool is_among(int node, const std::vector<int>& nodes) { return std::binary_search(nodes.begin(), nodes.end(), node); }
 
-bool is_fix(const Boundary& entry) {
-  return entry.translate.isZero(0) && entry.origin.isZero(0) && entry.degrees == 0;
+bool is_fix_of(const Boundary& entry, const Axes& axes) {
+  return entry.translate.isZero(0) && entry.origin.isZero(0) && entry.degrees == 0 && entry.axes == axes;
 }
 
 /// Takes nodes from all entries. A force is as large on each node that is left as it was.
@@ -30,10 +30,10 @@ bool take_from(std::vector<Entry>& entries, const std::vector<int>& nodes) {
 
 }  // namespace
 
-SetBoundary fixed(const Conditions& conditions, const std::vector<int>& nodes) {
+SetBoundary fixed(const Conditions& conditions, const std::vector<int>& nodes, const Axes& axes) {
   SetBoundary set{conditions.boundary};
-  if (set.entries.empty() || !is_fix(set.entries.back())) set.entries.emplace_back();
-  std::vector<int> all;  // of several entries on a node the last holds
+  if (set.entries.empty() || !is_fix_of(set.entries.back(), axes)) set.entries.emplace_back().axes = axes;
+  std::vector<int> all;  // of several entries on a coordinate the last holds
   std::vector<int> before = set.entries.back().nodes;
   std::sort(before.begin(), before.end());
   std::set_union(before.begin(), before.end(), nodes.begin(), nodes.end(), std::back_inserter(all));

@@ -6,8 +6,8 @@
 
 namespace heml::panel {
 
-/// The nodes are fixed where they are at rest, whatever held or moved them.
-SetBoundary fixed(const Conditions& conditions, const std::vector<int>& nodes);
+/// These coordinates of the nodes are fixed as at rest, whatever held or moved them.
+SetBoundary fixed(const Conditions& conditions, const std::vector<int>& nodes, const Axes& axes = {});
 /// Nothing holds or moves the nodes; none: nothing does.
 std::optional<SetBoundary> freed(const Conditions& conditions, const std::vector<int>& nodes);
 

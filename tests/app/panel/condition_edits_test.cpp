@@ -32,6 +32,18 @@ TEST_CASE("nodes are fixed by the last entry, which wins") {
   CHECK(fixed({}, {4}).entries == std::vector{Boundary{{4}}});
 }
 
+TEST_CASE("single coordinates are fixed by an entry of their own") {
+  const Axes across{{true, false, false}};
+  const SetBoundary set = fixed(some(), {3, 9}, across);
+  REQUIRE(set.entries.size() == 3);
+  CHECK(set.entries[1] == some().boundary[1]);
+  CHECK(set.entries[2].nodes == std::vector{3, 9});
+  CHECK(set.entries[2].axes == across);
+  const SetBoundary more = fixed({set.entries, {}, 0}, {4}, across);
+  REQUIRE(more.entries.size() == 3);
+  CHECK(more.entries[2].nodes == std::vector{3, 4, 9});
+}
+
 TEST_CASE("freed nodes are in no entry, and entries without nodes go") {
   const auto set = freed(some(), {0, 1, 2, 3, 11});
   REQUIRE(set);
