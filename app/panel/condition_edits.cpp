@@ -7,7 +7,7 @@ namespace {
 
 bool is_among(int node, const std::vector<int>& nodes) { return std::binary_search(nodes.begin(), nodes.end(), node); }
 
-bool is_fix_of(const Boundary& entry, const Axes& axes) {
+bool is_fix_of(const Boundary& entry, const AxisSet& axes) {
   return entry.translate.isZero(0) && entry.origin.isZero(0) && entry.degrees == 0 && entry.axes == axes;
 }
 
@@ -30,7 +30,7 @@ bool take_from(std::vector<Entry>& entries, const std::vector<int>& nodes) {
 
 }  // namespace
 
-SetBoundary fixed(const Conditions& conditions, const std::vector<int>& nodes, const Axes& axes) {
+SetBoundary fixed(const Conditions& conditions, const std::vector<int>& nodes, const AxisSet& axes) {
   SetBoundary set{conditions.boundary};
   if (set.entries.empty() || !is_fix_of(set.entries.back(), axes)) set.entries.emplace_back().axes = axes;
   std::vector<int> all;  // of several entries on a coordinate the last holds

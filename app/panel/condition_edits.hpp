@@ -7,7 +7,7 @@
 namespace heml::panel {
 
 /// These coordinates of the nodes are fixed as at rest, whatever held or moved them.
-SetBoundary fixed(const Conditions& conditions, const std::vector<int>& nodes, const Axes& axes = {});
+SetBoundary fixed(const Conditions& conditions, const std::vector<int>& nodes, const AxisSet& axes = {});
 /// Nothing holds or moves the nodes; none: nothing does.
 std::optional<SetBoundary> freed(const Conditions& conditions, const std::vector<int>& nodes);
 

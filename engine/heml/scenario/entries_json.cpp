@@ -55,9 +55,9 @@ Json selection_json(const Selection& where) {
 
 namespace {
 
-Axes axes_from(const JsonCursor& key) {
+AxisSet axes_from(const JsonCursor& key) {
   const auto text = key.text();
-  Axes axes = Axes::none();
+  AxisSet axes = AxisSet::none();
   for (const char letter : text) {
     const auto i = static_cast<std::size_t>(letter - 'x');
     if (i > 2 || axes.has[i]) key.refuse("must be some of x, y and z, each once: \"xz\"");
@@ -67,7 +67,7 @@ Axes axes_from(const JsonCursor& key) {
   return axes;
 }
 
-std::string axes_text(const Axes& axes) {
+std::string axes_text(const AxisSet& axes) {
   std::string text;
   for (std::size_t i = 0; i < 3; ++i)
     if (axes.has[i]) text += "xyz"[i];

@@ -76,7 +76,7 @@ class FebBoundaryReader {
     }
     for (const auto& [axis, at_end, ramp] : single) {
       BoundaryEntry entry;
-      entry.motion.axes = Axes::none();
+      entry.motion.axes = AxisSet::none();
       entry.motion.axes.has[axis] = true;
       entry.motion.translate[static_cast<int>(axis)] = at_end;
       entry.motion.ramp_time = ramp;

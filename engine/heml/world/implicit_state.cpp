@@ -25,7 +25,7 @@ Vector thrice(const FreeNodes& free, const auto& masses) {
 template <class Real>
 std::vector<int> held_coordinates(const Model<Real>& model, const std::vector<Real>& inverse_mass) {
   std::vector<int> result;
-  const std::vector<Axes> axes = held_axes(model);
+  const std::vector<AxisSet> axes = held_axes(model);
   for (std::size_t n = 0; n < axes.size(); ++n)
     for (std::size_t i = 0; i < 3; ++i)
       if (inverse_mass[n] > 0 && axes[n].has[i]) result.push_back(static_cast<int>(3 * n + i));
@@ -125,7 +125,7 @@ std::vector<double> preconditioner_moduli(const TetMesh& mesh, const std::vector
 namespace {
 
 /// Whether no rigid motion leaves all these coordinates of points (m) where they are.
-bool holds_all_rigid_motions(const std::vector<std::pair<Vec3, Axes>>& held) {
+bool holds_all_rigid_motions(const std::vector<std::pair<Vec3, AxisSet>>& held) {
   if (held.empty()) return false;
   const Vec3& origin = held[0].first;
   double size = 0;
@@ -160,7 +160,7 @@ bool is_well_constrained(const Model<Real>& model, const std::vector<Constrained
     for (const int n : tet) part[static_cast<std::size_t>(root(n))] = root(tet[0]);
   for (std::size_t t = 0; t < model.midedges.size(); ++t)
     for (const int n : model.midedges[t]) part[static_cast<std::size_t>(root(n))] = root(mesh.tets[t][0]);
-  std::vector<std::vector<std::pair<Vec3, Axes>>> held(mesh.nodes.size());  // at the root of their part
+  std::vector<std::vector<std::pair<Vec3, AxisSet>>> held(mesh.nodes.size());  // at the root of their part
   for (const ConstrainedNode& h : constrained)
     held[static_cast<std::size_t>(root(h.node))].emplace_back(mesh.nodes[static_cast<std::size_t>(h.node)], h.axes);
   std::vector<bool> looked_at(mesh.nodes.size(), false);

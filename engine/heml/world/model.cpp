@@ -207,7 +207,7 @@ void set_boundary(const WorldSetup& setup, Model<Real>& model) {
     const auto& winner = winners[n];
     for (std::size_t i = 0; i < 3; ++i) {
       if (winner[i] < 0 || std::find(winner.begin(), winner.begin() + i, winner[i]) != winner.begin() + i) continue;
-      const Axes axes{{winner[0] == winner[i], winner[1] == winner[i], winner[2] == winner[i]}};
+      const AxisSet axes{{winner[0] == winner[i], winner[1] == winner[i], winner[2] == winner[i]}};
       model.constrained.push_back({static_cast<int>(n), winner[i], axes});
     }
   }
@@ -333,10 +333,10 @@ void append(const WorldSetup& setup, const MeshEdit& edit, Model<Real>& model) {
 }
 
 template <class Real>
-std::vector<Axes> held_axes(const Model<Real>& model) {
-  std::vector<Axes> axes(model.mesh.nodes.size(), Axes::none());
+std::vector<AxisSet> held_axes(const Model<Real>& model) {
+  std::vector<AxisSet> axes(model.mesh.nodes.size(), AxisSet::none());
   for (const ConstrainedNode& constrained : model.constrained) {
-    Axes& of_node = axes[static_cast<std::size_t>(constrained.node)];
+    AxisSet& of_node = axes[static_cast<std::size_t>(constrained.node)];
     of_node = of_node.with(constrained.axes);
   }
   return axes;
@@ -349,8 +349,8 @@ bool supports_move(const Model<Real>& model, double from, double to) {
   });
 }
 
-template std::vector<Axes> held_axes(const Model<float>&);
-template std::vector<Axes> held_axes(const Model<double>&);
+template std::vector<AxisSet> held_axes(const Model<float>&);
+template std::vector<AxisSet> held_axes(const Model<double>&);
 template bool supports_move(const Model<float>&, double, double);
 template bool supports_move(const Model<double>&, double, double);
 template void append(const WorldSetup&, const MeshEdit&, Model<float>&);

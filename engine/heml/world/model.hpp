@@ -15,7 +15,7 @@ namespace heml {
 struct ConstrainedNode {
   int node;
   int entry;
-  Axes axes = {};
+  AxisSet axes = {};
 };
 
 template <class Real>
@@ -46,7 +46,7 @@ PrescribedMotion::At prescribed_at(const Model<Real>& model, const ConstrainedNo
 
 /// Of each node, the coordinates that the boundary entries hold.
 template <class Real>
-std::vector<Axes> held_axes(const Model<Real>& model);
+std::vector<AxisSet> held_axes(const Model<Real>& model);
 
 /// Whether a held node is elsewhere at another time, s.
 template <class Real>

@@ -1,7 +1,7 @@
 #pragma once
 // All that makes a world, with every file read and every selection resolved to node numbers. Scenes become this
 // (scenario/), tests write it by hand; make_world() turns it into something that steps.
-#include <heml/dynamics/axes.hpp>
+#include <heml/dynamics/axis_set.hpp>
 #include <heml/dynamics/integrator.hpp>
 #include <heml/dynamics/solver_options.hpp>
 #include <heml/elastic/instruction_set.hpp>
@@ -32,7 +32,7 @@ struct Boundary {
   Vec3 origin = Vec3::Zero();     ///< m
   double degrees = 0;             ///< right-handed about axis
   double ramp_time = 0;           ///< s; 0: at once
-  Axes axes = {};                 ///< coordinates that are prescribed; the others are free
+  AxisSet axes = {};                 ///< coordinates that are prescribed; the others are free
   bool operator==(const Boundary&) const = default;
 };
 

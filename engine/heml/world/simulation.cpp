@@ -52,7 +52,7 @@ void Simulation<Real>::update_masses() {
   if (!model->midedges.empty()) now.consistent = body.consistent_masses();
   now.inverse.reserve(now.lumped.size());
   for (const Real m : now.lumped) now.inverse.push_back(m > 0 ? 1 / m : Real(0));
-  const std::vector<Axes> held = held_axes(*model);
+  const std::vector<AxisSet> held = held_axes(*model);
   for (std::size_t n = 0; n < held.size(); ++n)
     if (held[n].are_all()) now.inverse[n] = 0;
   for (const PinnedPatch& pin : pins)

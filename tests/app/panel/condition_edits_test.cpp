@@ -33,7 +33,7 @@ TEST_CASE("nodes are fixed by the last entry, which wins") {
 }
 
 TEST_CASE("single coordinates are fixed by an entry of their own") {
-  const Axes across{{true, false, false}};
+  const AxisSet across{{true, false, false}};
   const SetBoundary set = fixed(some(), {3, 9}, across);
   REQUIRE(set.entries.size() == 3);
   CHECK(set.entries[1] == some().boundary[1]);

@@ -52,7 +52,7 @@ TEST_CASE("reads a scene with every key of the format") {
   CHECK(scene.materials[1].material.density == 1000);
   CHECK(scene.materials[1].material.parameters == std::vector<double>{3e4, 2e4});
   REQUIRE(scene.boundary.size() == 3);
-  CHECK(scene.boundary[2].motion.axes == Axes{{true, false, true}});
+  CHECK(scene.boundary[2].motion.axes == AxisSet{{true, false, true}});
   CHECK(scene.boundary[0].where.nodes == std::vector<int>{0, 4, 7});
   CHECK(scene.boundary[1].motion.translate == Vec3(0.05, 0, 0));
   CHECK(scene.boundary[1].motion.axis == Vec3(1, 0, 0));

@@ -15,8 +15,8 @@ namespace {
 
 constexpr double side = 0.1, pressed = 0.8;
 
-Axes along(int axis) {
-  Axes axes = Axes::none();
+AxisSet along(int axis) {
+  AxisSet axes = AxisSet::none();
   axes.has[static_cast<std::size_t>(axis)] = true;
   return axes;
 }
