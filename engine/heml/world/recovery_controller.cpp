@@ -54,7 +54,8 @@ void RecoveryController<Real>::start() {
   progress.last_good = s_.state;
   if (s_.has_internal_state) progress.last_good_internal = s_.body.internal_state();
   progress.reference = make_recovery_reference(*s_.model, s_.masses->lumped);
-  if (before && *before->reference == *progress.reference) progress.reference = before->reference;  // which others may share
+  // The one before may be shared.
+  if (before && *before->reference == *progress.reference) progress.reference = before->reference;
   s_.recovery = std::make_unique<RecoveryState<Real>>(std::move(progress));
 }
 

@@ -53,7 +53,8 @@ class ElementMap {
   std::optional<std::array<double, 4>> place_of(const Vec3& point) const {
     const auto full = [](const Vec3& b) { return std::array{1 - b.sum(), b.x(), b.y(), b.z()}; };
     const auto corner = [&](std::size_t k) { return nodes_[static_cast<std::size_t>(node_[k])]; };
-    const double size = (corner(1) - corner(0)).norm() + (corner(2) - corner(0)).norm() + (corner(3) - corner(0)).norm();
+    const double size =
+        (corner(1) - corner(0)).norm() + (corner(2) - corner(0)).norm() + (corner(3) - corner(0)).norm();
     if ((point - corner(0)).norm() > size) return std::nullopt;
     Vec3 b(0.25, 0.25, 0.25);
     for (int k = 0; k < 12; ++k) {

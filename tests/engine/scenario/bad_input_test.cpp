@@ -95,7 +95,7 @@ const Mistake mistakes[] = {
      "0 or greater"},
     {R"({"boundary": [{"nodes": [0], "rotate": {"axis": [1, 0, 0]}}]})", "boundary[0].rotate: 'degrees' is missing",
      "add \"degrees\""},
-    {R"({"boundary": [{"nodes": [0], "fix": true, "axes": "xw"}]})", "boundary[0].axes: is \"xw\"", "some of x, y and z"},
+    {R"({"boundary": [{"nodes": [0], "fix": true, "axes": "xw"}]})", "axes: is \"xw\"", "some of x, y and z"},
     {R"({"boundary": [{"nodes": [0], "fix": true, "axes": "yy"}]})", "boundary[0].axes: is \"yy\"", "each once"},
     {R"({"boundary": [{"nodes": [0], "fix": true, "axes": ""}]})", "boundary[0].axes: is \"\"", "some of x, y and z"},
     {R"({"boundary": [{"nodes": [0], "rotate": {"degrees": 9, "axis": [0, 0, 1]}, "axes": "x"}]})",
