@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <app/render/pick_grid.hpp>
 #include <app/window/selection_drag.hpp>
 #include <iterator>
 #include <tuple>
@@ -20,10 +21,12 @@ bool holds(const std::vector<render::Vec2f>& polygon, const render::Vec2f& at) {
   return inside;
 }
 
-bool is_seen(int node, const render::Vec2f& at, const SelectionDrag::View& view) {
-  const render::Ray ray = view.controller.ray(at);
+/// picks: of the pane, whose corner is at `corner`, pixels.
+bool is_seen(int node, const render::Vec2f& corner, const render::PickGrid& picks, const SelectionDrag::View& view) {
   const Vec3f& place = view.frame.positions[static_cast<std::size_t>(node)];
-  const auto hit = render::pick(view.frame, view.surface_mesh, ray, view.section);
+  const render::Vec2f at = view.controller.pixel(place);
+  const render::Ray ray = view.controller.ray(at);
+  const auto hit = picks.pick(at - corner, view.section);
   if (!hit) return !view.section || view.section->beyond(place) <= 0;  // at the rim
   const float distance = (place - ray.origin).norm();
   return (hit->point - ray.origin).norm() > (1 - tolerance) * distance;
@@ -83,10 +86,14 @@ std::vector<int> SelectionDrag::release(const View& view) {
     if (hit) found.push_back(view.surface_mesh.nodes[static_cast<std::size_t>(hit->node)]);
     return found;
   }
+  const panel::Pane& pane = view.controller.pane();
+  const render::Vec2f corner(static_cast<float>(pane.left), static_cast<float>(pane.top));
+  std::optional<render::PickGrid> picks;
+  if (!settings_.through) picks.emplace(view.frame, view.surface_mesh, view.controller.camera(), pane.size);
   for (std::size_t n = 0; n < view.surface_mesh.nodes.size(); ++n) {
     const render::Vec2f at = view.controller.pixel(view.frame.positions[n]);
     if (!at.allFinite() || !holds(polygon, at)) continue;
-    if (settings_.through || is_seen(static_cast<int>(n), at, view)) found.push_back(view.surface_mesh.nodes[n]);
+    if (!picks || is_seen(static_cast<int>(n), corner, *picks, view)) found.push_back(view.surface_mesh.nodes[n]);
   }
   return found;
 }
