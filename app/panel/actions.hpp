@@ -43,6 +43,8 @@ enum class Action {
   select_remover,
   select_measure,
   select_nodes,
+  pin_selected,
+  unpin_selected,
   toggle_table,
   undo,
   redo,
@@ -78,7 +80,7 @@ enum class Action {
 enum class Tool { grasper, scalpel, scissors, pin, probe, suture, remover, measure, select };
 
 /// What the mouse is doing in the image while a button is down.
-enum class Interaction { none, grasping, cutting, snipping, probing, selecting, orbiting, panning };
+enum class Interaction { none, grasping, cutting, snipping, probing, selecting, aiming, orbiting, panning };
 
 /// The selected tool and the settings of all tools.
 struct ToolSettings {

@@ -69,6 +69,8 @@ std::vector<std::string> hints_for(const Situation& now) {
       return {"move along the tissue", "the wheel pushes deeper", "let go to withdraw"};
     case Interaction::selecting:
       return {"let go to select", "Esc leaves"};
+    case Interaction::aiming:
+      return {"drag to set direction and size", "Shift: along an axis", "Esc gives it back"};
     case Interaction::orbiting:
       return {"drag to turn", "Shift + right-drag to move", "wheel to zoom", with_key(Action::fit, "fits the body")};
     case Interaction::panning:

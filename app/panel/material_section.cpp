@@ -7,6 +7,7 @@
 #include <app/panel/tissue_choice.hpp>
 #include <cmath>
 #include <heml/materials/match_moduli.hpp>
+#include <utility>
 
 namespace heml::panel {
 namespace {
@@ -33,11 +34,27 @@ void MaterialSection::sync(const SetMaterial& command) {
   ++changes_;
 }
 
-bool MaterialSection::shows(const Command& command) const {
-  const auto* set = std::get_if<SetMaterial>(&command);
-  return set && std::any_of(materials_.begin(), materials_.end(), [&](const RegionMaterial& entry) {
-           return entry.region == set->region && entry.material == set->material;
-         });
+void MaterialSection::take(const std::vector<RegionMaterial>& materials, const std::map<int, std::string>& names) {
+  names_ = names;
+  std::vector<RegionMaterial> before = std::exchange(materials_, materials);
+  bool changed = before.size() != materials_.size();
+  for (RegionMaterial& entry : materials_) {
+    const auto old = std::find_if(before.begin(), before.end(),
+                                  [&](const RegionMaterial& other) { return other.region == entry.region; });
+    if (old == before.end()) {
+      chosen_ = static_cast<int>(&entry - materials_.data());
+      continue;
+    }
+    if (!entry.material.fields.empty() || !entry.material.fibre_field.empty()) entry.material = old->material;
+    changed |= !(entry.material == old->material);
+  }
+  if (chosen_ >= std::ssize(materials_)) chosen_ = 0;
+  if (changed) ++changes_;
+}
+
+void MaterialSection::show(int region) {
+  for (std::size_t k = 0; k < materials_.size(); ++k)
+    if (materials_[k].region == region) chosen_ = static_cast<int>(k);
 }
 
 void MaterialSection::draw(Rows& rows, double stretched, PanelActions& out) {

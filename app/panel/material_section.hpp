@@ -22,7 +22,10 @@ class MaterialSection {
 
   /// Updates the shown material after a command from elsewhere (a script).
   void sync(const SetMaterial& command);
-  bool shows(const Command& command) const;  ///< whether it sets a material to what is shown
+  /// Entries that there are now, of regions and their names. Those of fields keep what the scene says of them; the
+  /// newest one is shown.
+  void take(const std::vector<RegionMaterial>& materials, const std::map<int, std::string>& names);
+  void show(int region);  ///< the entry of a region, if it has one
 
   const std::vector<RegionMaterial>& materials() const { return materials_; }
   int changes() const { return changes_; }  ///< of materials(), counted

@@ -61,21 +61,6 @@ void MotionSection::sync(const SetRate& command) {
   step_given_ = false;
 }
 
-void MotionSection::add_method(std::vector<Command>& commands) const {
-  commands.emplace_back(SetIntegrator{integrator_});
-  commands.emplace_back(SetRate{rate_});
-  if (budget_ > 0) commands.emplace_back(SetBudget{budget_});
-}
-
-bool MotionSection::shows(const Command& command) const {
-  if (const auto* gravity = std::get_if<SetGravity>(&command)) return gravity->gravity.isApprox(strength_ * direction_);
-  if (const auto* damping = std::get_if<SetDamping>(&command)) return damping->damping == damping_;
-  if (const auto* integrator = std::get_if<SetIntegrator>(&command)) return integrator->integrator == integrator_;
-  if (const auto* rate = std::get_if<SetRate>(&command)) return rate->rate == rate_;
-  const auto* budget = std::get_if<SetBudget>(&command);
-  return budget && budget->iterations == budget_;
-}
-
 void MotionSection::draw(Rows& rows, PanelActions& out) {
   draw_gravity(rows, out);
   if (rows.slider({"Damping", "Mass-proportional damping, 1/s. 0: none."}, damping_, {0, 20, "%.2f 1/s", false}))
@@ -107,6 +92,13 @@ void MotionSection::draw_gravity(Rows& rows, PanelActions& out) {
   if (chosen == 6 && rows.vector({"Gravity x, y, z", "The same by its components, m/s²."}, typed_, "%.4g")) {
     sync(SetGravity{typed_});
     changed = true;
+  }
+  bool shown = has_arrow();
+  if (chosen == 6 && rows.check({"Arrow in the image", "Shows gravity as an arrow. Drag its tip to set direction and "
+                                                       "size; Shift keeps to an axis, Esc gives it back."},
+                                shown)) {
+    has_arrow_ = shown;
+    is_typed_ = true;
   }
   if (changed) out.commands.emplace_back(SetGravity{strength_ * direction_});
 }

@@ -12,9 +12,7 @@ class MotionSection {
 
   void draw(Rows& rows, PanelActions& out);
 
-  void write_into(Scene& scene) const;                    ///< the shown settings
-  void add_method(std::vector<Command>& commands) const;  ///< that set the shown integrator, rate and budget
-  bool shows(const Command& command) const;               ///< whether it is a setting of motion that is shown
+  void write_into(Scene& scene) const;  ///< the shown settings
 
   // Update the shown settings after a command from elsewhere (a script).
   void sync(const SetGravity& command);
@@ -24,6 +22,8 @@ class MotionSection {
   void sync(const SetBudget& command) { budget_ = command.iterations; }
 
   Integrator integrator() const { return integrator_; }
+  Vec3 gravity() const { return strength_ * direction_; }  ///< m/s²
+  bool has_arrow() const { return has_arrow_ && is_typed_; }  ///< gravity in the image, to be dragged
   int budget() const { return budget_; }  ///< iterations of an implicit stage; 0: to its tolerance
 
  private:
@@ -38,6 +38,7 @@ class MotionSection {
     out.commands.emplace_back(command);
   }
 
+  bool has_arrow_ = false;
   bool is_typed_ = false;      // by its components
   Vec3 typed_ = Vec3::Zero();  // m/s², gravity as its components are shown
   double strength_ = 0;              ///< of gravity, m/s²

@@ -62,11 +62,6 @@ Panel::Panel(const Scene& scene, const SurfaceMesh& surface_mesh, std::map<int, 
       regions_(std::move(regions), std::move(region_names), scene.view.hidden),
       motion_(scene.gravity, scene.solver),
       view_(scene.view, surface_mesh) {
-  for (const RegionMaterial& entry : scene.materials)
-    as_opened_.emplace_back(SetMaterial{entry.region, entry.material});
-  as_opened_.emplace_back(SetGravity{scene.gravity});
-  as_opened_.emplace_back(SetDamping{scene.solver.damping});
-  motion_.add_method(as_opened_);
   need_letters(title_ + description_);
   update_stretch_limits();
 }
@@ -111,6 +106,7 @@ void Panel::update(const Frame& frame, float seconds) {
   history_.add(frame, measure_.now());
   report_refusal(frame);
   update_settings(frame);
+  update_regions(frame);
   since_recovery_ += seconds;
   if (!frame.recovery) since_recovery_ = recovery_banner_time;
   if (frame.recovery && (!frame.recovery->ended || frame.recovery->tick != recovery_seen_)) {
@@ -136,6 +132,15 @@ void Panel::update_settings(const Frame& frame) {
   const long steps = list ? list->steps : 0;
   if (steps == std::exchange(undo_steps_, steps) || !list) return;
   for (const Command& command : list->settings) sync(command);
+}
+
+/// Regions that were made, or taken back, since they were last looked at.
+void Panel::update_regions(const Frame& frame) {
+  if (!frame.regions || frame.regions->version == seen_regions_) return;
+  seen_regions_ = frame.regions->version;
+  material_.take(frame.regions->materials, frame.regions->names);
+  regions_.take(frame.regions->numbers, frame.regions->names);
+  for (const auto& [region, name] : frame.regions->names) need_letters(name);
 }
 
 void Panel::report_refusal(const Frame& frame) {
@@ -309,6 +314,7 @@ void Panel::draw_controls(const Frame& frame, bool with_readings, PanelActions& 
       draw_measure(rows_, measure_, history_, out);
     if ((tool_.tool().tool == Tool::select || !selecting_.selection().is_empty()) && rows_.section("Selection"))
       selecting_.draw(rows_, frame, out);
+    if (const auto region = selecting_.take_region()) material_.show(*region);
     if (rows_.section("Material")) material_.draw(rows_, stretch_monitor_.share(), out);
     if (rows_.section("Motion")) motion_.draw(rows_, out);
     if (rows_.section("Tool")) tool_.draw(rows_, frame, out);
@@ -364,7 +370,8 @@ void Panel::draw_header(const Frame& frame) {
   button("Step", "One tick of the engine, then pause (. key).", false, Action::step, draw_step);
   button("Undo", undo_hint(frame, -1).c_str(), false, Action::undo, draw_undo);
   button("Redo", undo_hint(frame, 1).c_str(), false, Action::redo, draw_redo);
-  button("Reset", "Back to the initial state at time 0; settings stay (R). Shift+R resets the settings too.", false,
+  button("Reset", "Back to the initial state at time 0; all that was set stays (R). Shift+R: all of the scene as it was opened, "
+         "one step for undo.", false,
          Action::reset, draw_reset);
   button("Open", "Opens installed scenes, recent files, and files in folders (Ctrl+O).", false, Action::open,
          draw_folder);

@@ -72,6 +72,7 @@ class Panel {
   const Measure& measure() const { return measure_; }
   SelectionSection& selecting() { return selecting_; }
   const SelectionSection& selecting() const { return selecting_; }
+  const MotionSection& motion() const { return motion_; }
   ViewSection& view() { return view_; }
   const ViewSection& view() const { return view_; }
   /// What the mouse does, and whether the first end of a suture is set: for the hints.
@@ -102,7 +103,6 @@ class Panel {
  private:
   void carry_out(Action action, const Frame& frame, PanelActions& out);
   void perform_queued(const Frame& frame, PanelActions& out);
-  void reset_settings(PanelActions& out);
   float draw_edges(const Frame& frame, Area& free, PanelActions& out);
   Situation situation(const Frame& frame) const;
   void draw_controls(const Frame& frame, bool with_readings, PanelActions& out);
@@ -113,6 +113,7 @@ class Panel {
   void report_refusal(const Frame& frame);
   void update_surface(const Frame& frame);
   void update_settings(const Frame& frame);
+  void update_regions(const Frame& frame);
   void update_stretch_limits();
   std::optional<Banner> banner_for(const Frame& frame, const Area& free);
   Banner slow_banner(const Frame& frame, const Area& free);
@@ -121,11 +122,11 @@ class Panel {
   void record_window_rect();
 
   std::string title_, description_;  ///< of the scene
-  std::vector<Command> as_opened_;   ///< the settings of the scene
   Interaction interaction_ = Interaction::none;
   bool suture_begun_ = false;
   std::optional<long> filmed_frames_;
   long undo_steps_ = 0;  ///< UndoList::steps whose settings are shown
+  long seen_regions_ = -1;  ///< Regions::version that is shown
   ToolSection tool_;
   long refusals_ = 0;  ///< Frame::refusals that were shown
   MeshSection mesh_;

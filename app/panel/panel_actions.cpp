@@ -23,8 +23,8 @@ void Panel::carry_out(Action action, const Frame& frame, PanelActions& out) {
       out.commands.emplace_back(Reset{});
       return;
     case Action::reset_all:
-      out.commands.emplace_back(Reset{});
-      return reset_settings(out);
+      out.commands.emplace_back(Reset{true});
+      return;
     case Action::fit:
       return ask(Request::fit);
     case Action::wireframe:
@@ -107,6 +107,12 @@ void Panel::carry_out(Action action, const Frame& frame, PanelActions& out) {
     case Action::select_nodes:
       tool_.select(Tool::select);
       return;
+    case Action::pin_selected:
+      if (!selecting_.selection().is_empty()) out.commands.emplace_back(selecting_.pin());
+      return;
+    case Action::unpin_selected:
+      if (!selecting_.selection().is_empty()) out.commands.emplace_back(selecting_.unpin());
+      return;
     case Action::toggle_table:
       return tool_.toggle_table(frame, out);
     case Action::undo:
@@ -142,15 +148,6 @@ void Panel::carry_out(Action action, const Frame& frame, PanelActions& out) {
       return;
     case Action::quit:
       return ask(Request::quit);
-  }
-}
-
-/// Sets what differs from the scene as it was opened: each change is an action of the undo list.
-void Panel::reset_settings(PanelActions& out) {
-  for (const Command& command : as_opened_) {
-    if (material_.shows(command) || motion_.shows(command)) continue;
-    sync(command);
-    out.commands.push_back(command);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <app/panel/region_section.hpp>
 #include <app/render/palette.hpp>
 #include <iterator>
+#include <utility>
 
 namespace heml::panel {
 namespace {
@@ -19,7 +20,14 @@ ImU32 region_colour(int region) {
 }  // namespace
 
 RegionSection::RegionSection(std::vector<int> regions, std::map<int, std::string> names, const std::vector<int>& hidden)
-    : regions_(std::move(regions)), names_(std::move(names)) {
+    : hidden_(hidden) {
+  take(std::move(regions), std::move(names));
+}
+
+void RegionSection::take(std::vector<int> regions, std::map<int, std::string> names) {
+  regions_ = std::move(regions);
+  names_ = std::move(names);
+  const std::vector<int> hidden = std::exchange(hidden_, {});
   std::set_intersection(regions_.begin(), regions_.end(), hidden.begin(), hidden.end(), std::back_inserter(hidden_));
   if (hidden_.size() == regions_.size()) hidden_.clear();
 }

@@ -12,6 +12,9 @@ class RegionSection {
   /// hidden: regions, ascending; those that the mesh has not are forgotten.
   RegionSection(std::vector<int> regions, std::map<int, std::string> names, const std::vector<int>& hidden);
 
+  /// Those that there are now: hidden ones stay hidden.
+  void take(std::vector<int> regions, std::map<int, std::string> names);
+
   bool has_choice() const { return regions_.size() > 1; }  ///< otherwise there is nothing to draw
   void draw(Rows& rows);
   const std::vector<int>& hidden() const { return hidden_; }  ///< ascending; never all

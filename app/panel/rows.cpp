@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <utility>
+#include <vector>
 
 namespace heml::panel {
 namespace {
@@ -147,6 +148,14 @@ bool Rows::vector(const Label& label, Vec3& value, const char* format) {
   explain({label.text, label.hint + "\n\nClick one to type it."});
   if (!value.allFinite()) value = value.array().isFinite().select(value, 0.0);
   return done;
+}
+
+void Rows::text(const Label& label, std::string& value, std::size_t most) {
+  begin(label);
+  std::vector<char> typed(value.begin(), value.end());
+  typed.resize(most + 1);
+  if (ImGui::InputText(("##" + label.text).c_str(), typed.data(), typed.size())) value = typed.data();
+  explain(label);
 }
 
 /// ImGui changes a typed number at each keystroke. Here the last one counts when the typing ends, and none after Esc.

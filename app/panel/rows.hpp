@@ -33,6 +33,8 @@ class Rows {
   bool slider(const Label& label, double& value, const SliderRange& range);
   /// Three numbers to type. True when one was changed: on Enter, Tab, or a click elsewhere.
   bool vector(const Label& label, Vec3& value, const char* format);
+  /// A text to type, of at most so many bytes.
+  void text(const Label& label, std::string& value, std::size_t most);
   /// hints: a tooltip per name, or none. An index outside the names shows "–".
   bool choice(const Label& label, int& index, std::span<const std::string> names,
               std::span<const std::string> hints = {});

@@ -3,6 +3,7 @@
 #include <app/render/ray_triangle.hpp>
 #include <heml/math/closest.hpp>
 #include <limits>
+#include <ranges>
 
 namespace heml::render {
 
@@ -15,20 +16,19 @@ bool is_met_from_inside(const Hit& hit, const Frame& frame, const SurfaceMesh& s
   return normal.dot(ray.direction) > 0;
 }
 
-}  // namespace
-
-std::optional<Hit> pick(const Frame& frame, const SurfaceMesh& surface_mesh, const Ray& ray,
-                        const std::optional<SectionPlane>& section) {
+/// triangles: indices, ascending.
+std::optional<Hit> pick_among(const auto& triangles, const Frame& frame, const SurfaceMesh& surface_mesh,
+                              const Ray& ray, const std::optional<SectionPlane>& section) {
   float nearest = std::numeric_limits<float>::infinity();
   std::optional<Hit> hit;
-  for (std::size_t t = 0; t < surface_mesh.triangles.size(); ++t) {
-    const auto& [a, b, c] = surface_mesh.triangles[t];
+  for (const int t : triangles) {
+    const auto& [a, b, c] = surface_mesh.triangles[static_cast<std::size_t>(t)];
     const float distance =
         ray_meets(ray.origin, ray.direction, frame.positions[a], frame.positions[b], frame.positions[c]);
     if (!(distance < nearest)) continue;
     if (section && section->beyond(ray.origin + distance * ray.direction) > 0) continue;
     nearest = distance;
-    hit = Hit{static_cast<int>(t), a, ray.origin + distance * ray.direction};
+    hit = Hit{t, a, ray.origin + distance * ray.direction};
   }
   if (!hit) return hit;
   if (section && is_met_from_inside(*hit, frame, surface_mesh, ray)) return std::nullopt;
@@ -36,6 +36,19 @@ std::optional<Hit> pick(const Frame& frame, const SurfaceMesh& surface_mesh, con
     if ((frame.positions[node] - hit->point).squaredNorm() < (frame.positions[hit->node] - hit->point).squaredNorm())
       hit->node = node;
   return hit;
+}
+
+}  // namespace
+
+std::optional<Hit> pick(const Frame& frame, const SurfaceMesh& surface_mesh, const Ray& ray,
+                        const std::optional<SectionPlane>& section) {
+  return pick_among(std::views::iota(0, static_cast<int>(surface_mesh.triangles.size())), frame, surface_mesh, ray,
+                    section);
+}
+
+std::optional<Hit> pick(const Frame& frame, const SurfaceMesh& surface_mesh, std::span<const int> triangles,
+                        const Ray& ray, const std::optional<SectionPlane>& section) {
+  return pick_among(triangles, frame, surface_mesh, ray, section);
 }
 
 std::optional<float> value_at(const Hit& hit, const Frame& frame, const SurfaceMesh& surface_mesh) {

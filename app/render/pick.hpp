@@ -4,6 +4,7 @@
 #include <app/render/section.hpp>
 #include <heml/session/frame.hpp>
 #include <optional>
+#include <span>
 
 namespace heml::render {
 
@@ -18,6 +19,10 @@ struct Hit {
 /// section's cap hides it.
 std::optional<Hit> pick(const Frame& frame, const SurfaceMesh& surface_mesh, const Ray& ray,
                         const std::optional<SectionPlane>& section = std::nullopt);
+
+/// The same among some triangles: indices, ascending.
+std::optional<Hit> pick(const Frame& frame, const SurfaceMesh& surface_mesh, std::span<const int> triangles,
+                        const Ray& ray, const std::optional<SectionPlane>& section = std::nullopt);
 
 /// The field's value at a hit in the frame, interpolated linearly; none if the frame carries no field.
 std::optional<float> value_at(const Hit& hit, const Frame& frame, const SurfaceMesh& surface_mesh);

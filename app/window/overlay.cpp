@@ -186,35 +186,53 @@ void draw_nodes(const std::vector<int>& nodes, const Frame& frame, const Surface
   }
 }
 
-void draw_loads(const std::vector<Load>& loads, const Frame& frame, const SurfaceMesh& surface_mesh,
+std::optional<Vec3f> middle_of(const std::vector<int>& nodes, const Frame& frame, const SurfaceMesh& surface_mesh) {
+  Vec3f sum = Vec3f::Zero();
+  float count = 0;
+  for (const int node : nodes)
+    if (const auto index = render::surface_index(node, surface_mesh)) {
+      sum += frame.positions[*index];
+      ++count;
+    }
+  return count > 0 ? std::optional<Vec3f>(sum / count) : std::nullopt;
+}
+
+void draw_arrow(const Vec3f& from, const Vec3f& to, const std::string& text, std::uint32_t colour,
                 const panel::CameraController& controller) {
+  const render::Vec2f a = controller.pixel(from), b = controller.pixel(to);
+  if (!a.allFinite() || !b.allFinite()) return;
+  const render::Vec2f along = (b - a).normalized(), across(-along.y(), along.x());
+  const float head = panel::em(0.6f);
+  const render::Vec2f left = b - head * along + 0.5f * head * across, right = b - head * along - 0.5f * head * across;
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  list.AddLine({a.x(), a.y()}, {b.x(), b.y()}, colour, panel::em(0.14f));
+  if ((b - a).norm() > head)
+    list.AddTriangleFilled({b.x(), b.y()}, {left.x(), left.y()}, {right.x(), right.y()}, colour);
+  draw_label(to, text, colour, controller);
+}
+
+void draw_arrow_handle(const Vec3f& tip, bool hovered, const panel::CameraController& controller) {
+  const render::Vec2f at = controller.pixel(tip);
+  if (!at.allFinite()) return;
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  list.AddCircle({at.x(), at.y()}, panel::em(0.5f), hovered ? panel::colours::text : panel::colours::accent, 24,
+                 panel::em(hovered ? 0.2f : 0.14f));
+}
+
+void draw_loads(const std::vector<Load>& loads, const std::vector<int>& except, const Frame& frame,
+                const SurfaceMesh& surface_mesh, const panel::CameraController& controller) {
   constexpr double longest = 0.25;  // of the body's size
   double most = 0;
   for (const Load& load : loads)
     if (load.kind == Load::Kind::force) most = std::max(most, load.vector.norm());
   if (!(most > 0)) return;
   const double reach = longest * static_cast<double>(render::bounding_sphere(surface_mesh.rest).radius);
-  ImDrawList& list = *ImGui::GetBackgroundDrawList();
   for (const Load& load : loads) {
-    if (load.kind != Load::Kind::force || load.vector.norm() == 0) continue;
-    Vec3f sum = Vec3f::Zero();
-    float count = 0;
-    for (const int node : load.nodes)
-      if (const auto index = render::surface_index(node, surface_mesh)) {
-        sum += frame.positions[*index];
-        ++count;
-      }
-    if (count == 0) continue;
-    const Vec3f from = sum / count, to = from + (reach / most * load.vector).cast<float>();
-    const render::Vec2f a = controller.pixel(from), b = controller.pixel(to);
-    if (!a.allFinite() || !b.allFinite()) continue;
-    const render::Vec2f along = (b - a).normalized(), across(-along.y(), along.x());
-    const float head = panel::em(0.6f);
-    const render::Vec2f left = b - head * along + 0.5f * head * across, right = b - head * along - 0.5f * head * across;
-    list.AddLine({a.x(), a.y()}, {b.x(), b.y()}, panel::colours::warning, panel::em(0.14f));
-    if ((b - a).norm() > head)
-      list.AddTriangleFilled({b.x(), b.y()}, {left.x(), left.y()}, {right.x(), right.y()}, panel::colours::warning);
-    draw_label(to, panel::quantity(load.vector.norm(), "N"), panel::colours::warning, controller);
+    if (load.kind != Load::Kind::force || load.vector.norm() == 0 || load.nodes == except) continue;
+    const auto from = middle_of(load.nodes, frame, surface_mesh);
+    if (!from) continue;
+    draw_arrow(*from, *from + (reach / most * load.vector).cast<float>(), panel::quantity(load.vector.norm(), "N"),
+               panel::colours::warning, controller);
   }
 }
 

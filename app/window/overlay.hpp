@@ -5,6 +5,9 @@
 #include <app/render/field_colours.hpp>
 #include <app/render/grasp_pose.hpp>
 #include <app/render/pick.hpp>
+#include <cstdint>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace heml::window {
@@ -30,9 +33,22 @@ void draw_suture_end(int node, const Frame& frame, const SurfaceMesh& surface_me
 void draw_nodes(const std::vector<int>& nodes, const Frame& frame, const SurfaceMesh& surface_mesh,
                 const panel::CameraController& controller);
 
-/// The forces (N) of loads on nodes, as arrows from the middle of theirs, the longest a quarter of the body's radius.
-void draw_loads(const std::vector<Load>& loads, const Frame& frame, const SurfaceMesh& surface_mesh,
+/// The forces (N) of loads on nodes, as arrows from the middle of theirs, the longest a quarter of the body's radius;
+/// without those on `except`, which have an arrow of their own.
+void draw_loads(const std::vector<Load>& loads, const std::vector<int>& except, const Frame& frame, const SurfaceMesh& surface_mesh,
                 const panel::CameraController& controller);
+
+/// Mean place (m) of nodes (mesh-file numbers) that the surface has; none: it has none of them.
+std::optional<Vec3f> middle_of(const std::vector<int>& nodes, const Frame& frame, const SurfaceMesh& surface_mesh);
+
+/// A labelled arrow between two points, m.
+void draw_arrow(const Vec3f& from, const Vec3f& to, const std::string& text, std::uint32_t colour,
+                const panel::CameraController& controller);
+
+/// Radius of the handle at the tip of an arrow that can be dragged, em.
+inline constexpr float arrow_handle = 0.8f;
+
+void draw_arrow_handle(const Vec3f& tip, bool hovered, const panel::CameraController& controller);
 
 /// A closed line, pixels.
 void draw_outline(const std::vector<render::Vec2f>& outline);

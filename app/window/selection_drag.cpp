@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <app/render/pick_grid.hpp>
 #include <app/window/selection_drag.hpp>
 #include <iterator>
 #include <tuple>
@@ -20,13 +21,36 @@ bool holds(const std::vector<render::Vec2f>& polygon, const render::Vec2f& at) {
   return inside;
 }
 
-bool is_seen(int node, const render::Vec2f& at, const SelectionDrag::View& view) {
-  const render::Ray ray = view.controller.ray(at);
+/// picks: of the pane, whose corner is at `corner`, pixels.
+bool is_seen(int node, const render::Vec2f& corner, const render::PickGrid& picks, const SelectionDrag::View& view) {
   const Vec3f& place = view.frame.positions[static_cast<std::size_t>(node)];
-  const auto hit = render::pick(view.frame, view.surface_mesh, ray, view.section);
+  const render::Vec2f at = view.controller.pixel(place);
+  const render::Ray ray = view.controller.ray(at);
+  const auto hit = picks.pick(at - corner, view.section);
   if (!hit) return !view.section || view.section->beyond(place) <= 0;  // at the rim
   const float distance = (place - ray.origin).norm();
   return (hit->point - ray.origin).norm() > (1 - tolerance) * distance;
+}
+
+/// Adds nodes to a list; both ascend, as the result does.
+void add(const std::vector<int>& nodes, std::vector<int>& list) {
+  std::vector<int> all;
+  std::set_union(list.begin(), list.end(), nodes.begin(), nodes.end(), std::back_inserter(all));
+  list = std::move(all);
+}
+
+/// Corners of shown elements that are below the surface and that `takes(node)` is true of.
+template <class Takes>
+std::vector<int> inside_where(const SelectionDrag::View& view, const Takes& takes) {
+  if (!view.frame.solid) return {};
+  std::vector<bool> is_inside(view.frame.solid->rest.size(), false);
+  for (const Tet& tet : view.frame.solid->tets)
+    for (const int n : tet) is_inside[static_cast<std::size_t>(n)] = true;
+  for (const int n : view.surface_mesh.nodes) is_inside.at(static_cast<std::size_t>(n)) = false;
+  std::vector<int> nodes;
+  for (std::size_t n = 0; n < is_inside.size(); ++n)
+    if (is_inside[n] && takes(n)) nodes.push_back(static_cast<int>(n));
+  return nodes;
 }
 
 }  // namespace
@@ -35,7 +59,7 @@ void SelectionDrag::press(const render::Vec2f& at, const Settings& settings, con
   on_ = true;
   settings_ = settings;
   path_ = {at};
-  painted_.clear();
+  painted_ = {};
   if (settings_.drag == Drag::paint) paint(at, view);
 }
 
@@ -57,13 +81,12 @@ void SelectionDrag::paint(const render::Vec2f& at, const View& view) {
   if (!hit) return;
   const auto& [rest, nodes] = std::tie(view.surface_mesh.rest, view.surface_mesh.nodes);
   const Vec3f& centre = rest[static_cast<std::size_t>(hit->node)];
+  const auto is_near = [&](const Vec3f& place) { return static_cast<double>((place - centre).norm()) <= settings_.radius; };
   std::vector<int> near;
   for (std::size_t n = 0; n < nodes.size(); ++n)
-    if (static_cast<int>(n) == hit->node || static_cast<double>((rest[n] - centre).norm()) <= settings_.radius)
-      near.push_back(nodes[n]);
-  std::vector<int> all;
-  std::set_union(painted_.begin(), painted_.end(), near.begin(), near.end(), std::back_inserter(all));
-  painted_ = std::move(all);
+    if (static_cast<int>(n) == hit->node || is_near(rest[n])) near.push_back(nodes[n]);
+  add(near, painted_.surface);
+  add(inside_where(view, [&](std::size_t n) { return is_near(view.frame.solid->rest[n]); }), painted_.inside);
 }
 
 std::vector<render::Vec2f> SelectionDrag::outline() const {
@@ -73,20 +96,30 @@ std::vector<render::Vec2f> SelectionDrag::outline() const {
   return {a, {b.x(), a.y()}, b, {a.x(), b.y()}};
 }
 
-std::vector<int> SelectionDrag::release(const View& view) {
+SelectionDrag::Nodes SelectionDrag::release(const View& view) {
   const std::vector<render::Vec2f> polygon = outline();
   on_ = false;
   if (settings_.drag == Drag::paint) return painted_;
-  std::vector<int> found;
+  Nodes found;
   if (polygon.empty()) {
     const auto hit = render::pick(view.frame, view.surface_mesh, view.controller.ray(path_.front()), view.section);
-    if (hit) found.push_back(view.surface_mesh.nodes[static_cast<std::size_t>(hit->node)]);
+    if (hit) found.surface.push_back(view.surface_mesh.nodes[static_cast<std::size_t>(hit->node)]);
     return found;
   }
+  const auto is_within = [&](const Vec3f& place) {
+    const render::Vec2f at = view.controller.pixel(place);
+    return at.allFinite() && holds(polygon, at);
+  };
+  if (settings_.through)
+    found.inside = inside_where(view, [&](std::size_t n) { return is_within(view.frame.solid_positions[n]); });
+  const panel::Pane& pane = view.controller.pane();
+  const render::Vec2f corner(static_cast<float>(pane.left), static_cast<float>(pane.top));
+  std::optional<render::PickGrid> picks;
+  if (!settings_.through) picks.emplace(view.frame, view.surface_mesh, view.controller.camera(), pane.size);
   for (std::size_t n = 0; n < view.surface_mesh.nodes.size(); ++n) {
-    const render::Vec2f at = view.controller.pixel(view.frame.positions[n]);
-    if (!at.allFinite() || !holds(polygon, at)) continue;
-    if (settings_.through || is_seen(static_cast<int>(n), at, view)) found.push_back(view.surface_mesh.nodes[n]);
+    if (!is_within(view.frame.positions[n])) continue;
+    if (!picks || is_seen(static_cast<int>(n), corner, *picks, view))
+      found.surface.push_back(view.surface_mesh.nodes[n]);
   }
   return found;
 }

@@ -2,6 +2,8 @@
 // The left button with the select tool: a click takes the node under it, a drag those within a rectangle, within the
 // line drawn, or near where it passes.
 //
+// What goes through the body, and what is painted, takes nodes inside it too.
+//
 //    press ┌ ─ ─ ─ ─ ┐
 //          │ •  •  • │      pixels; nodes of the surface in a frame
 //          └ ─ ─ ─ ─ ┘ let go
@@ -29,16 +31,22 @@ class SelectionDrag {
     const std::optional<render::SectionPlane>& section;
   };
 
+  /// Mesh-file numbers of nodes, ascending.
+  struct Nodes {
+    std::vector<int> surface;
+    std::vector<int> inside;  ///< below it, where the frame has the solid
+  };
+
   bool is_on() const { return on_; }
   void cancel() { on_ = false; }
   void press(const render::Vec2f& at, const Settings& settings, const View& view);
   void move(const render::Vec2f& at, const View& view);
-  /// Ends it. Returns mesh-file numbers of nodes, ascending.
-  std::vector<int> release(const View& view);
+  /// Ends it.
+  Nodes release(const View& view);
   How how() const { return settings_.how; }
   /// What it encloses so far, pixels; empty while it paints.
   std::vector<render::Vec2f> outline() const;
-  const std::vector<int>& painted() const { return painted_; }  ///< so far: mesh-file numbers, ascending
+  const std::vector<int>& painted() const { return painted_.surface; }  ///< so far
 
  private:
   bool is_click() const;
@@ -47,7 +55,7 @@ class SelectionDrag {
   bool on_ = false;
   Settings settings_;
   std::vector<render::Vec2f> path_;  // pixels
-  std::vector<int> painted_;
+  Nodes painted_;
 };
 
 }  // namespace heml::window

@@ -41,6 +41,7 @@ void Viewer::adopt(OpenScene opened) {
     opened_conditions_ = frame_->conditions;
   }
   selection_drag_.cancel();
+  arrow_drag_.cancel();
   const panel::Measure measure = open_.resumed && panel_ ? panel_->measure() : panel::Measure();
   panel_.emplace(open_.scene, *frame_->surface_mesh, open_.session->region_names(),
                  open_.session->regions());
@@ -111,12 +112,15 @@ void Viewer::draw() {
   panel_->set_timeline(timeline);
   for (std::size_t view = 0; view < panel::CameraController::views; ++view)
     panel_->view().set_saved(view, controller_.has_view(view));
-  panel_->set_interaction(selection_drag_.is_on() ? panel::Interaction::selecting : mouse_tool_.interaction(),
+  panel_->set_interaction(selection_drag_.is_on() ? panel::Interaction::selecting
+                          : arrow_drag_.is_on()   ? panel::Interaction::aiming
+                                                  : mouse_tool_.interaction(),
                           mouse_tool_.first_end().has_value());
   panel_->update(*frame_, seconds);
   open_.session->enable_stretches(panel_->wants_stretches());
   open_.session->hide_regions(panel_->hidden_regions());
-  open_.session->enable_solid(panel_->view().section().is_on() || !panel_->measure().is_empty());
+  open_.session->enable_solid(panel_->view().section().is_on() || !panel_->measure().is_empty() ||
+                              panel_->tool().tool == panel::Tool::select);
   mouse_tool_.set_section(panel_->drawing().section);
   open_.session->enable_errors(panel_->wants_errors());
   const render::Size size = window_.size();
@@ -164,8 +168,10 @@ void Viewer::draw_marks() {
     if (pane == 0 && (panel_->tool().tool == panel::Tool::select || !panel_->selecting().selection().is_empty())) {
       draw_nodes(panel_->selecting().selection().nodes(), body, *body.surface_mesh, controller_);
       if (selection_drag_.is_on()) draw_nodes(selection_drag_.painted(), body, *body.surface_mesh, controller_);
-      draw_loads(body.conditions->loads, body, *body.surface_mesh, controller_);
+      draw_loads(body.conditions->loads, panel_->selecting().selection().nodes(), body, *body.surface_mesh,
+                 controller_);
     }
+    if (pane == 0) draw_arrows();
     if (pane == 0) draw_measured(panel_->measure().now(), controller_);
     draw_forces(body, mouse_tool_.hold(), controller_);
     if (mouse_tool_.first_end()) draw_suture_end(*mouse_tool_.first_end(), body, *body.surface_mesh, controller_);
@@ -179,7 +185,8 @@ void Viewer::draw_marks() {
       draw_section(*plane, section.handle(), section.radius(), drags_section_ || is_on_section_handle(), controller_);
     });
   if (mouse_tool_.pivot()) draw_pivot(*mouse_tool_.pivot(), controller_);
-  if (drags_section_ || is_on_section_handle()) return ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeAll);
+  if (drags_section_ || is_on_section_handle() || arrow_drag_.is_on() || arrow_at_mouse())
+    return ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeAll);
   if (mouse_tool_.interaction() == MouseTool::Interaction::grasping)
     return ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeAll);
   if (panel_->tool().tool == panel::Tool::grasper && is_on_clamp()) return ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);

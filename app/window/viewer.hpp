@@ -6,6 +6,7 @@
 #include <app/panel/comparison_view.hpp>
 #include <app/panel/interface.hpp>
 #include <app/panel/panel.hpp>
+#include <app/window/arrow_drag.hpp>
 #include <app/window/glfw_window.hpp>
 #include <app/window/library.hpp>
 #include <app/window/mouse_tool.hpp>
@@ -104,8 +105,15 @@ class Viewer final : public WindowEvents {
     return {seen(), *seen().surface_mesh, controller_, mouse_tool_.section()};
   }
   void end_selection();
+  enum class ArrowMeaning { force, gravity };
+  std::optional<Arrow> arrow_of(ArrowMeaning meaning) const;
+  std::optional<ArrowMeaning> arrow_at_mouse() const;
+  bool takes_arrow();
+  void end_arrow();
+  void draw_arrows() const;
   void forget_selection();
   void write_conditions(Scene& scene) const;
+  void write_regions(Scene& scene) const;
   void toggle_recording();
   void add_video_frame();
   void use_view(const panel::PanelActions& actions);
@@ -131,6 +139,8 @@ class Viewer final : public WindowEvents {
 
   InputQueue input_;
   SelectionDrag selection_drag_;
+  ArrowDrag arrow_drag_;
+  ArrowMeaning dragged_arrow_ = ArrowMeaning::force;
   std::array<bool, 3> panel_has_{};  ///< the press of a button, by number
   std::size_t next_event_ = 0;  ///< of the scene's script, that the panel does not show yet
   render::Vec2f mouse_{-1, -1};

@@ -213,6 +213,7 @@ void Viewer::save_scene() {
   scene.tables.clear();
   for (const TableState& state : tools_of<TableState>(frame_->tools)) scene.tables.push_back(state.table);
   write_conditions(scene);
+  write_regions(scene);
   try {
     const auto path = unused_path(scene.name, ".json");
     write_file(path, scene_text(scene, std::filesystem::current_path()));
@@ -240,6 +241,16 @@ void Viewer::write_conditions(Scene& scene) const {
   scene.loads.clear();
   for (const Load& entry : now.loads) scene.loads.push_back({of_scene(entry.nodes), entry});
   std::erase_if(scene.loads, is_empty);
+}
+
+/// Regions made since, by the elements that the scene's mesh has.
+void Viewer::write_regions(Scene& scene) const {
+  const auto count = static_cast<int>(live_->surface_mesh->uncut_elements);
+  for (const TaggedRegion& region : live_->regions->tagged) {
+    RegionTag tag{{}, {region.tets, {}, {}, {}}, region.name, region.number};
+    std::erase_if(tag.which.tets, [&](int t) { return t >= count; });
+    if (!tag.which.tets.empty()) scene.regions.push_back(std::move(tag));
+  }
 }
 
 void Viewer::save_measured() {

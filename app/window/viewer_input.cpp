@@ -66,6 +66,7 @@ int Viewer::apply(const ButtonInput& button) {
   if (button.button == MouseButton::left) {
     drags_section_ = false;
     end_selection();
+    end_arrow();
   }
   std::vector<Command> commands;
   mouse_tool_.release(button.button, seen(), *seen().surface_mesh, commands);
@@ -80,6 +81,7 @@ void Viewer::press(const ButtonInput& input) {
     drags_section_ = true;
     return;
   }
+  if (button == MouseButton::left && takes_arrow()) return;
   if (button == MouseButton::left && (measures_at_mouse() || selects_at_mouse(input))) return;
   if (playback_.active() && button == MouseButton::left && mouse_tool_.pick(mouse_, seen(), *seen().surface_mesh))
     panel_->notify(past_is_read_only);
@@ -134,13 +136,16 @@ bool Viewer::selects_at_mouse(const ButtonInput& input) {
 
 void Viewer::end_selection() {
   if (!selection_drag_.is_on()) return;
-  const std::vector<int> nodes = selection_drag_.release(selection_view());
-  panel_->selecting().selection().take(nodes, selection_drag_.how());
+  const SelectionDrag::Nodes nodes = selection_drag_.release(selection_view());
+  panel_->selecting().selection().take(nodes.surface, selection_drag_.how());
+  panel_->selecting().inside().take(nodes.inside, selection_drag_.how());
 }
 
+/// The arrow, the drag, or else the nodes.
 void Viewer::forget_selection() {
+  if (arrow_drag_.is_on()) return arrow_drag_.cancel();
   if (selection_drag_.is_on()) return selection_drag_.cancel();
-  if (panel_->tool().tool == panel::Tool::select) panel_->selecting().selection().clear();
+  if (panel_->tool().tool == panel::Tool::select) panel_->selecting().forget();
 }
 
 int Viewer::apply(const MotionInput& motion) {
@@ -149,6 +154,10 @@ int Viewer::apply(const MotionInput& motion) {
   if (drags_section_) return 0;
   if (selection_drag_.is_on()) {
     selection_drag_.move(mouse_, selection_view());
+    return 0;
+  }
+  if (arrow_drag_.is_on()) {
+    arrow_drag_.move(mouse_, ImGui::GetIO().KeyShift, controller_);
     return 0;
   }
   if (mouse_tool_.interaction() == MouseTool::Interaction::none) controller_.select_pane_at(mouse_);

@@ -1,5 +1,5 @@
-"""A scene set up by mouse in the window: nodes are selected, fixed and loaded, undone, recorded, and saved into a scene
-that gives the same bits."""
+"""A scene set up by mouse in the window: nodes are selected, fixed, loaded, pinned and tagged as a region, arrows are
+dragged; all is undone, recorded, and saved into a scene that gives the same bits."""
 import json
 import subprocess
 import unittest
@@ -48,6 +48,7 @@ class Setup(WindowCase):
         self.do("mousemove", 1276, 716)
 
     FIX, FREE, LOAD = (81, 228), (205, 228), (81, 298)  # in the panel
+    THROUGH, TAG = (33, 166), (81, 394)
 
     def test_selected_nodes_are_fixed_and_loaded_undone_and_saved_with_the_same_bits(self):
         before = self.begin_paused()
@@ -78,19 +79,113 @@ class Setup(WindowCase):
         self.assertEqual(self.seen("history"), [-1, -1, 1])
         self.verify()
 
-        [saved] = self.folder.glob("heml-light-*.json")
-        scene = json.loads(saved.read_text())
+        scene = self.saved()
         self.assertEqual([entry["nodes"] for entry in scene["boundary"]], [front["fixed"]])
         self.assertEqual([entry["force"] for entry in scene["loads"]], [[0, 0.1, 0]])
         self.assertEqual(scene.get("events", []), [])
+        self.solves_to_the_same(scene)
+
+    def saved(self):
+        [file] = self.folder.glob("heml-light-*.json")
+        return json.loads(file.read_text())
+
+    def solves_to_the_same(self, scene):
+        """Whether the scene, run for as long as the window did after the last change, ends in the recording's bits."""
         end = self.events()[-1]
-        ticks = end["step"] - max(event["step"] for event in self.events() if "history" in event or "loads" in event)
+        changes = ("history", "loads", "region", "reset", "gravity")
+        ticks = end["step"] - max(event["step"] for event in self.events() if any(key in event for key in changes))
         scene["solver"]["duration"] = 0.002 * ticks
-        saved.write_text(json.dumps(scene))
-        subprocess.run([BINARY, "solve", saved, "--out", "solved"], cwd=self.folder, check=True,
+        (self.folder / "again.json").write_text(json.dumps(scene))
+        subprocess.run([BINARY, "solve", "again.json", "--out", "solved"], cwd=self.folder, check=True,
                        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         report = json.loads((self.folder / "solved/report.json").read_text())
         self.assertEqual(report["state_hash"], end["hash"])
+
+    def save(self):
+        self.do("key", "ctrl+s")
+        self.wait_for("a saved scene", lambda: list(self.folder.glob("heml-light-*.json")))
+
+    def test_selected_tissue_is_a_region_that_is_undone_and_saved_with_the_same_bits(self):
+        self.begin_paused()
+        self.press(*self.THROUGH)
+        self.select((-0.05, 1.05), (0.55, -0.05))  # the left half, inside too
+        self.press(*self.TAG)
+        self.do("key", "ctrl+z", "key", "ctrl+shift+z")
+        self.do("key", "space")
+        self.play(30)
+        self.do("key", "space")
+        self.save()
+        self.quit()
+        [tag] = self.seen("region")
+        self.assertEqual(tag["name"], "part 1")
+        self.assertEqual(tag["nodes"], nodes(lambda x, y, z: x <= 2))
+        self.assertEqual(self.seen("history"), [-1, 1])
+        self.verify()
+        scene = self.saved()
+        [region] = scene["regions"]
+        self.assertEqual((region["name"], region["number"], len(region["tets"])), ("part 1", 1, 2 * 4 * 4 * 5))
+        self.assertEqual([entry.get("region") for entry in scene["materials"]], [None, 1])
+        self.solves_to_the_same(scene)
+
+    def test_selected_nodes_are_pinned_and_shift_r_puts_the_scene_back_in_one_step(self):
+        self.begin_paused()
+        self.select((-0.05, 1.05), (1.05, 0.9))
+        self.do("key", "shift+n", "key", "ctrl+n", "key", "ctrl+z")
+        self.press(*self.FIX)
+        self.press(*self.LOAD)
+        self.do("key", "shift+r", "key", "ctrl+z", "key", "shift+r")
+        self.do("key", "space")
+        self.play(30)
+        self.do("key", "space")
+        self.save()
+        self.quit()
+        top = nodes(lambda x, y, z: y == 4 and z == 4)
+        self.assertEqual([pin["nodes"] for pin in self.seen("pin")], [top])
+        self.assertEqual([pin["nodes"] for pin in self.seen("release") if isinstance(pin, dict)], [top])
+        self.assertEqual([reset for reset in self.seen("reset") if reset != True], ["scene", "scene"])
+        self.assertEqual(self.seen("history"), [-1, -1])
+        self.verify()
+        scene = self.saved()
+        self.assertEqual((scene["boundary"], scene["loads"]), ([], []))
+        self.solves_to_the_same(scene)
+
+    def test_arrows_of_force_and_gravity_are_dragged_given_back_and_undone(self):
+        self.begin_paused()
+        self.select((-0.05, 0.1), (1.05, -0.05))
+        middle, tip = self.at(0.5, 0), self.at(0.5, 0.4 * 3 ** 0.5 / 2)  # 0.4 of the body's radius
+        self.drag(tip, (0, middle[1] - tip[1]), steps=4, held=lambda: self.do("key", "Escape"))
+        self.assertEqual(self.seen("loads"), [])
+        self.drag(tip, (tip[1] - middle[1], 0), steps=4)  # to the upper left: 45 degrees
+        self.wait_for_event("loads")
+        self.do("key", "ctrl+z")
+        tip = self.at(0.5 - 0.4 * 3 ** 0.5 / 2 / 2 ** 0.5, 0.4 * 3 ** 0.5 / 2 / 2 ** 0.5)
+        self.do("mousemove", *tip)
+        self.do("mousedown", 1)
+        self.xdo("keydown", "Shift_L")
+        self.do("mousemove", tip[0] - 60, tip[1])
+        self.do("mouseup", 1)
+        self.xdo("keyup", "Shift_L")
+        self.wait_for_event("loads", 2)
+        self.do("key", "Escape", "key", "g")  # the section Selection goes
+        self.press(190, 368)
+        self.press(141, 518)  # Direction: x, y, z
+        self.press(33, 420)
+        self.xdo("keydown", "Shift_L")
+        self.drag(self.at(0.5, 0.5), (40, -100), steps=4)
+        self.xdo("keyup", "Shift_L")
+        self.wait_for_event("gravity")
+        self.do("key", "ctrl+z")
+        self.quit()
+        [gravity] = self.seen("gravity")
+        self.assertGreater(gravity[1], 1)
+        self.assertEqual((gravity[0], gravity[2]), (0, 0))
+        first, second = (loads[0]["force"] for loads in self.seen("loads"))
+        for value, expected in zip(first, (-0.1, 0.1, 0)):
+            self.assertAlmostEqual(value, expected, delta=0.01)
+        self.assertLess(second[0], -0.11)
+        self.assertEqual(second[1:], [0, 0])
+        self.assertEqual(self.seen("history"), [-1, -1])
+        self.verify()
 
 
 if __name__ == "__main__":

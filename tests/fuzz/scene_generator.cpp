@@ -335,6 +335,14 @@ class Generator {
     return json;
   }
 
+  Json region() {
+    Json json = elements();
+    json["name"] = dice_.chance(0.5) ? "a" : "b";
+    if (dice_.chance(0.3)) json["number"] = dice_.below(3);
+    if (dice_.chance(0.6)) json["material"] = material(std::nullopt);
+    return json;
+  }
+
   Json value_of(const CommandInfo& command) {
     if (command.key == "grasp" || command.key == "pin") return patch();
     if (command.key == "release") return release();
@@ -344,6 +352,8 @@ class Generator {
     if (command.key == "suture") return suture();
     if (command.key == "remove") return elements();
     if (command.key == "cut") return cut();
+    if (command.key == "region") return region();
+    if (command.key == "reset") return dice_.chance(0.5) ? Json("scene") : Json(true);
     if (command.key == "material") return material(dice_.chance(0.3) ? std::optional(1) : std::nullopt);
     if (command.key == "gravity") return vector(-20, 20);
     return command.form.kind == ValueForm::Kind::other ? Json::parse(command.example) : value_of(command.form);
@@ -371,6 +381,10 @@ class Generator {
     if (dice_.chance(0.2)) scene["materials"].push_back(material(2));
     scene["boundary"] = boundary();
     if (dice_.chance(0.4)) scene["loads"] = loads();
+    if (dice_.chance(0.2)) {
+      scene["regions"] = Json::array({region()});
+      scene["regions"][0].erase("material");
+    }
     if (dice_.chance(0.3)) scene["tables"] = tables();
     if (dice_.chance(0.3)) scene["self_contact"] = dice_.chance(0.5) ? Json(true) : Json{{"friction", 0.5}};
     if (dice_.chance(0.2)) scene["tearing"] = {{"stretch", 1 + dice_.magnitude(-3, 0)}};

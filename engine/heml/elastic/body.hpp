@@ -176,6 +176,9 @@ class ElasticBody {
   /// Replaces a material. Its elements lose their internal state and are taken as relaxed at x; those of other
   /// materials keep theirs. plastic_work() keeps the work done so far in all of them.
   void set_material(std::size_t index, const Material& material, const Real* x);
+  /// Elements have other materials: materials, those there are and more; material_of: #T. One that loses elements keeps
+  /// the internal state of the rest; one that gains some is taken as relaxed at x altogether.
+  void set_material_of(const std::vector<Material>& materials, const std::vector<int>& material_of, const Real* x);
 
   /// Removes all but the given elements (inner numbers, ascending; at least one) and renumbers those in that order.
   /// They keep their internal state. Forces equal those of a body built from these elements alone to round-off, since

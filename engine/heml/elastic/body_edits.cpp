@@ -4,6 +4,7 @@
 #include <heml/elastic/body.hpp>
 #include <heml/elastic/viscoelastic_term.hpp>
 #include <limits>
+#include <numeric>
 
 namespace heml {
 namespace {
@@ -83,6 +84,36 @@ void ElasticBody<Real>::set_material(std::size_t index, const Material& material
   }
   join_parts();
   if (!fans_.update_laws(fan_parts(), options_.continuation)) make_fans();
+}
+
+template <class Real>
+void ElasticBody<Real>::set_material_of(const std::vector<Material>& materials, const std::vector<int>& material_of,
+                                        const Real* x) {
+  update_slots();
+  const std::vector<int> before = layout_->material_of;
+  std::vector<int> now;
+  for (const int material : material_of) now.insert(now.end(), points_per_element(), material);
+  layout_.write().material_of = std::move(now);
+  materials_ = materials;
+  std::vector<int> same(before.size());
+  std::iota(same.begin(), same.end(), 0);
+  std::vector<Real> y;
+  x = inner_positions(x, y);
+  const std::vector<Part> old_parts = std::exchange(parts_, {});
+  make_parts();
+  for (Part& part : parts_) {
+    part.reset_history(x);
+    const auto old = std::find_if(old_parts.begin(), old_parts.end(),
+                                  [&](const Part& other) { return other.material == part.material; });
+    const auto& elements = part.group->element;
+    const bool gains = std::any_of(elements.begin(), elements.end(), [&](int element) {
+      return before[static_cast<std::size_t>(element)] != static_cast<int>(part.material);
+    });
+    if (!gains && old != old_parts.end() && materials_[part.material].has_internal_state())
+      transfer_slot_states(*old, layout_->mesh, same, {}, part);
+  }
+  make_pressure();
+  make_fans();
 }
 
 /// Renumbers the elements of a part and drops the removed ones. number: new number of each old element, −1 if removed.
@@ -225,6 +256,9 @@ template void ElasticBody<float>::set_mesh(const TetMesh&, const std::vector<int
 template void ElasticBody<double>::set_mesh(const TetMesh&, const std::vector<int>&);
 template void ElasticBody<float>::set_material(std::size_t, const Material&, const float*);
 template void ElasticBody<double>::set_material(std::size_t, const Material&, const double*);
+template void ElasticBody<float>::set_material_of(const std::vector<Material>&, const std::vector<int>&, const float*);
+template void ElasticBody<double>::set_material_of(const std::vector<Material>&, const std::vector<int>&,
+                                                   const double*);
 template void ElasticBody<float>::keep_elements(const std::vector<int>&);
 template void ElasticBody<double>::keep_elements(const std::vector<int>&);
 template void ElasticBody<float>::transfer_state(const TetMesh&, const std::vector<int>&, const std::vector<int>&,

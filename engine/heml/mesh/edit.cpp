@@ -84,8 +84,8 @@ void append(const MeshEdit& edit, TetMesh& mesh) {
         field.values.push_back(field.values[field.components * static_cast<std::size_t>(parent) + c]);
 }
 
-Status make_removal_edit(const ElementSelection& which, const TetMesh& mesh, const Topology& topology, MeshEdit& edit) {
-  std::vector<int> chosen;
+Status select_elements(const ElementSelection& which, const TetMesh& mesh, const Topology& topology,
+                       std::vector<int>& chosen) {
   if (which.region) {
     chosen =
         elements_where(topology, [&](int t) { return mesh.regions[static_cast<std::size_t>(t)] == *which.region; });
@@ -104,6 +104,12 @@ Status make_removal_edit(const ElementSelection& which, const TetMesh& mesh, con
     return known;
   }
   if (chosen.empty()) return nothing_chosen(which, mesh, topology);
+  return {};
+}
+
+Status make_removal_edit(const ElementSelection& which, const TetMesh& mesh, const Topology& topology, MeshEdit& edit) {
+  std::vector<int> chosen;
+  if (const Status selected = select_elements(which, mesh, topology, chosen); !selected.ok()) return selected;
   if (chosen.size() == topology.elements.size())
     return fmt::format("all {} elements that are left would go; a body needs one at least", chosen.size());
   edit.removed = std::move(chosen);

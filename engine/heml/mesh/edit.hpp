@@ -88,10 +88,16 @@ struct ElementSelection {
   std::optional<int> region;
   std::optional<std::array<Vec3, 2>> box;         ///< lower and upper corner, m
   std::optional<std::pair<Vec3, double>> sphere;  ///< centre and radius, m
+  bool operator==(const ElementSelection&) const = default;
 };
 
-/// Computes the edit that removes the selected elements of a topology. Returns a message if an element does not exist
-/// or was removed before, or if no element is selected or would be left. mesh: at rest.
+/// Finds the selected elements of a topology, ascending. Returns a message if an element does not exist or was removed
+/// before, or if none is selected. mesh: at rest.
+Status select_elements(const ElementSelection& which, const TetMesh& mesh, const Topology& topology,
+                       std::vector<int>& chosen);
+
+/// Computes the edit that removes the selected elements of a topology. Returns a message as select_elements(), or if no
+/// element would be left. mesh: at rest.
 Status make_removal_edit(const ElementSelection& which, const TetMesh& mesh, const Topology& topology, MeshEdit& edit);
 
 /// The mesh with the given elements only, in that order, and all nodes and fields.

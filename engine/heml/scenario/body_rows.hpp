@@ -25,6 +25,33 @@ struct Row<SetMaterial> : CommonRow {
 };
 
 template <>
+struct Row<TagRegion> : CommonRow {
+  static constexpr std::string_view key = "region",
+                                    example = R"({"tets": [3, 4], "name": "lesion"})",
+                                    meaning =
+                                        "makes elements a region with a material of its own; elements that get "
+                                        "another material begin relaxed in their present shape, and so do all of a "
+                                        "material that others join";
+  static constexpr ValueForm value_form = object_form;
+  static constexpr std::span<const KeyInfo> keys = scene_keys::region_event;
+  static Command read(const JsonCursor& value, Points&) {
+    TagRegion tag{region_tag_from(value, keys), {}};
+    const auto material = value.find("material");
+    if (!material) return tag;
+    const RegionMaterial entry = material_from(*material);
+    if (entry.region) material->fail("names a region", "the event's own is meant: leave it out");
+    if (uses_fields(entry.material)) material->fail("takes a field of the mesh", "give numbers");
+    tag.material = entry.material;
+    return tag;
+  }
+  static Json write(const TagRegion& tag) {
+    Json json = region_tag_json(tag.tag);
+    if (tag.material) json["material"] = material_json({std::nullopt, *tag.material});
+    return json;
+  }
+};
+
+template <>
 struct Row<SetDamping> : CommonRow {
   static constexpr std::string_view key = "damping", example = "2", unit = "1/s",
                                     meaning = "sets the damping proportional to mass";
@@ -182,9 +209,18 @@ struct Row<StepHistory> : CommonRow {
 };
 
 template <>
-struct Row<Reset> : PlainRow<Reset> {
-  static constexpr std::string_view key = "reset",
-                                    meaning = "puts the body back to its initial state; ticks go on counting";
+struct Row<Reset> : CommonRow {
+  static constexpr std::string_view key = "reset", example = "true",
+                                    meaning =
+                                        "puts the body back to its initial state; `\"scene\"`: materials, regions, "
+                                        "boundary, loads, gravity, tables and method too; ticks go on counting";
+  static constexpr ValueForm value_form = form::other("`true`, or `\"scene\"`");
+  static Command read(const JsonCursor& value, Points&) {
+    if (!value.json().is_string()) return expect_true(value), Reset{};
+    if (value.text() != "scene") value.refuse("must be true (the state), or \"scene\" (all of the scene)");
+    return Reset{true};
+  }
+  static Json write(const Reset& reset) { return reset.scene ? Json("scene") : Json(true); }
 };
 
 }  // namespace heml::command_rows

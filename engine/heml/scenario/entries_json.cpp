@@ -10,16 +10,6 @@
 namespace heml {
 namespace {
 
-/// what: "node" or "element".
-std::vector<int> numbers_from(const JsonCursor& key, const char* what) {
-  std::vector<int> numbers;
-  key.each([&](const JsonCursor& number) {
-    numbers.push_back(static_cast<int>(number.integer(0, std::numeric_limits<int>::max())));
-  });
-  if (numbers.empty()) key.fail("is empty", fmt::format("name at least one {}, from 0", what));
-  return numbers;
-}
-
 std::array<Vec3, 2> box_from(const JsonCursor& key) {
   if (key.size() != 2) key.refuse("must be two corners [[x, y, z], [x, y, z]]");
   const Vec3 low = key[0].vector(), high = key[1].vector();
@@ -51,9 +41,15 @@ Json selection_json(const Selection& where) {
   return {{"nodes", where.nodes}};
 }
 
-}  // namespace
-
-namespace {
+/// kind: the key that chooses.
+ElementSelection elements_by(const std::string& kind, const JsonCursor& key) {
+  ElementSelection which;
+  if (kind == "tets") which.tets = numbers_from(key["tets"], "element");
+  if (kind == "region") which.region = value_of<int>(key["region"], scene_keys::region);
+  if (kind == "box") which.box = box_from(key["box"]);
+  if (kind == "sphere") which.sphere = sphere_from(key["sphere"]);
+  return which;
+}
 
 AxisSet axes_from(const JsonCursor& key) {
   const auto text = key.text();
@@ -75,6 +71,35 @@ std::string axes_text(const AxisSet& axes) {
 }
 
 }  // namespace
+
+std::vector<int> numbers_from(const JsonCursor& key, const char* what) {
+  std::vector<int> numbers;
+  key.each([&](const JsonCursor& number) {
+    numbers.push_back(static_cast<int>(number.integer(0, std::numeric_limits<int>::max())));
+  });
+  if (numbers.empty()) key.fail("is empty", fmt::format("name at least one {}, from 0", what));
+  return numbers;
+}
+
+RegionTag region_tag_from(const JsonCursor& key, std::span<const KeyInfo> keys) {
+  const ObjectReader object(key, keys);
+  RegionTag tag;
+  const std::string kind = key.only_one_of({"nodes", "tets", "region", "box", "sphere"});
+  if (kind == "nodes")
+    tag.nodes = numbers_from(key["nodes"], "node");
+  else
+    tag.which = elements_by(kind, key);
+  tag.name = object.get<std::string>("name");
+  object.read("number", tag.number);
+  return tag;
+}
+
+Json region_tag_json(const RegionTag& tag) {
+  Json json = tag.nodes.empty() ? elements_json(tag.which) : Json{{"nodes", tag.nodes}};
+  json["name"] = tag.name;
+  if (tag.number) json["number"] = *tag.number;
+  return json;
+}
 
 BoundaryEntry boundary_from(const JsonCursor& key) {
   const ObjectReader object(key, keys_of("boundary[]"));
@@ -215,13 +240,7 @@ std::vector<int> regions_from(const JsonCursor& key) {
 
 ElementSelection elements_from(const JsonCursor& key) {
   const ObjectReader object(key, scene_keys::elements);
-  ElementSelection which;
-  const std::string kind = key.only_one_of({"tets", "region", "box", "sphere"});
-  if (kind == "tets") which.tets = numbers_from(key["tets"], "element");
-  object.read("region", which.region);
-  if (kind == "box") which.box = box_from(key["box"]);
-  if (kind == "sphere") which.sphere = sphere_from(key["sphere"]);
-  return which;
+  return elements_by(key.only_one_of({"tets", "region", "box", "sphere"}), key);
 }
 
 Json elements_json(const ElementSelection& which) {

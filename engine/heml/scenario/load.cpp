@@ -27,6 +27,17 @@ void expect_a_face(const std::vector<int>& nodes, const BoundaryFaces& faces, co
                      "select all three nodes of at least one boundary face");
 }
 
+void tag_regions(const Scene& scene, TetMesh& mesh) {
+  const Topology topology = scene.regions.empty() ? Topology() : full_topology(mesh);
+  for (std::size_t i = 0; i < scene.regions.size(); ++i) {
+    TaggedRegion region;
+    if (const Status status = resolve_region(scene.regions[i], mesh, topology, region); !status.ok())
+      throw InputError(scene.file, fmt::format("regions[{}]", i), status.message(),
+                       "choose elements of the mesh and a name for them");
+    tag_region(region, mesh);
+  }
+}
+
 WorldSetup refined_setup(const Scene& scene, WorldSetup setup) {
   Adaptation adapted = adapt(scene, std::move(setup), *scene.mesh.refine, {},
                              [](const AdaptedMesh& mesh) { log_info("refining the mesh: {}", text_of(mesh)); });
@@ -54,6 +65,7 @@ WorldSetup load_setup(const Scene& scene, TetMesh mesh, MidEdges midedges) {
   setup.mesh = std::move(mesh);
   setup.midedges = std::move(midedges);
   if (scene.solver.quadratic && setup.midedges.empty()) setup.midedges = add_midedge_nodes(setup.mesh);
+  tag_regions(scene, setup.mesh);
   setup.materials = scene.materials;
   resolve_fields(scene.file, setup);
   if (!scene.mesh.refine) check_recorded_mesh(scene, setup.mesh);

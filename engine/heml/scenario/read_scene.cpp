@@ -109,6 +109,10 @@ Scene scene_from(const JsonCursor& key, const fs::path& folder) {
   object.read("description", scene.description);
   scene.mesh = mesh_from(object["mesh"], folder);
   scene.materials = materials_from(object["materials"]);
+  if (const auto regions = object.find("regions"))
+    regions->each([&](const JsonCursor& entry) {
+      scene.regions.push_back(region_tag_from(entry, keys_of("regions[]")));
+    });
   if (const auto boundary = object.find("boundary"))
     boundary->each([&](const JsonCursor& entry) { scene.boundary.push_back(boundary_from(entry)); });
   if (const auto loads = object.find("loads"))

@@ -151,6 +151,7 @@ struct Scene {
   std::string name, title, description;
   MeshSpec mesh;
   std::vector<RegionMaterial> materials;
+  std::vector<RegionTag> regions;  ///< that load_setup() gives the mesh, in this order
   std::vector<BoundaryEntry> boundary;
   std::vector<LoadEntry> loads;
   std::vector<Table> tables;

@@ -51,6 +51,7 @@ inline constexpr KeyInfo scene[] = {
     {"description", form::text, "", none, "for the window's list of scenes"},
     {"mesh", object, "", required, "the body at rest"},
     {"materials", objects, "", required, "what it is made of, one or more"},
+    {"regions", objects, "", "`[]`", "elements that get other regions than the mesh gives them, in this order"},
     {"boundary", objects, "", "`[]`", "supports; of several on one coordinate of a node the last holds"},
     {"loads", objects, "", "`[]`", "forces and pressures; they add up"},
     {"tables", objects, "", "`[]`", "planes that the body cannot pass"},
@@ -160,6 +161,24 @@ inline constexpr KeyInfo elements[] = {
     {"box", box_row.form, "m", one_elements, "those whose centroid is in this box at rest"},
     {"sphere", sphere_row.form, "m", one_elements, "those whose centroid is in this sphere at rest"},
 };
+inline constexpr std::string_view one_region = "one of `nodes`, `tets`, `region`, `box`, `sphere`";
+inline constexpr KeyInfo region_nodes_row{"nodes", nodes_row.form, "", one_region,
+                                          "elements whose four corners are all among these"};
+inline constexpr KeyInfo region_tets_row{"tets", elements[0].form, "", one_region, elements[0].meaning};
+inline constexpr KeyInfo region_region_row{"region", region, "", one_region, elements[1].meaning};
+inline constexpr KeyInfo region_box_row{"box", box_row.form, "m", one_region, elements[2].meaning};
+inline constexpr KeyInfo region_sphere_row{"sphere", sphere_row.form, "m", one_region, elements[3].meaning};
+inline constexpr KeyInfo region_name_row{"name", form::text, "", required,
+                                         "of the region: that there is of this name, or a new one"};
+inline constexpr KeyInfo region_number_row{"number", region, "", "that of the name, or one more than the largest",
+                                           "its tag, by which `materials` name it"};
+inline constexpr KeyInfo regions[] = {region_nodes_row, region_tets_row,  region_region_row, region_box_row,
+                                      region_sphere_row, region_name_row, region_number_row};
+inline constexpr KeyInfo region_event[] = {
+    region_nodes_row,  region_tets_row, region_region_row, region_box_row,
+    region_sphere_row, region_name_row, region_number_row,
+    {"material", object, "", "as it is, or as its first element's",
+     "entry as of the scene's `materials`, without `region` and fields"}};
 inline constexpr KeyInfo tables[] = {
     {"point", form::vector, "m", required, "a point of the plane"},
     {"normal", form::direction, "", required, "towards the tissue; normalised when read"},
@@ -276,6 +295,8 @@ inline constexpr ObjectInfo scene_objects[] = {
      R"({"materials": [{"law": "neo_hookean_iso", "K1": 1, "kappa": 9, "plasticity": {"yield": 1}}]})"},
     {"materials[].young", "Numbers that differ from element to element; likewise `poisson`, `fibre` and parameters.",
      scene_keys::field, R"({"materials": [{"law": "stvk", "young": {"field": "E"}, "poisson": 0}]})"},
+    {"regions[]", "Elements that are a region by choice. Later entries win.", scene_keys::regions,
+     R"({"regions": [{"tets": [0], "name": "lesion"}]})"},
     {"boundary[]", "Nodes that are held, or moved to rotate(X − origin) + origin + translate.", scene_keys::boundary,
      R"({"boundary": [{"nodes": [0], "fix": true}]})"},
     {"loads[]", "Loads on nodes and faces. Faces that a cut lays bare carry none.", scene_keys::loads,

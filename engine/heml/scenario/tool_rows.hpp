@@ -100,9 +100,32 @@ struct Row<Release> : CommonRow {
   }
 };
 
+inline constexpr std::string_view one_pinned = "one of `node`, `point`, `nodes`";
+inline constexpr KeyInfo pin_nodes_row{"nodes", form::other("list of whole numbers ≥ 0"), "", one_pinned,
+                                       "these, in the order of the mesh file, inner ones too"};
+constexpr KeyInfo pinned_row(KeyInfo row) {
+  row.usual = one_pinned;
+  return row;
+}
+
 template <>
 struct Row<PinTissue> : PatchRow<PinTissue> {
   static constexpr std::string_view key = "pin", meaning = "holds surface nodes exactly where they are";
+  static constexpr KeyInfo pin_keys[] = {pinned_row(node_row), pinned_row(point_row), pin_nodes_row, radius_row,
+                                         hidden_row};
+  static constexpr std::span<const KeyInfo> keys = pin_keys;
+  static Command read(const JsonCursor& value, Points& points) {
+    const ObjectReader object(value, keys);
+    if (value.only_one_of({"node", "point", "nodes"}) != "nodes") return patch_from(object, points);
+    PinTissue pin;
+    pin.nodes = numbers_from(object["nodes"], "node");
+    for (const std::string_view of_patch : {"radius", "hidden"})
+      if (const auto given = object.find(of_patch)) given->fail("stands with `nodes`", "these are pinned as they are");
+    return pin;
+  }
+  static Json write(const PinTissue& pin) {
+    return pin.nodes.empty() ? PatchRow::write(pin) : Json{{"nodes", pin.nodes}};
+  }
   static constexpr std::optional<CommandTool> tool = CommandTool::pin;
   static References references(PinTissue& pin) { return {{node_kind, &pin.node, "pin.node"}}; }
 };
@@ -110,12 +133,23 @@ struct Row<PinTissue> : PatchRow<PinTissue> {
 template <>
 struct Row<Unpin> : CommonRow {
   static constexpr std::string_view key = "release", example = R"({"node": 3})",
-                                    meaning = "removes the pin that holds the node; `\"pins\"`: all pins";
+                                    meaning =
+                                        "removes the pin that holds the node; of `nodes`: pins let go of these; "
+                                        "`\"pins\"`: all pins";
   static constexpr ValueForm value_form = form::other("object, or `\"pins\"`");
-  static constexpr KeyInfo unpin_keys[] = {node_row, point_row};
+  static constexpr KeyInfo unpin_keys[] = {pinned_row(node_row), pinned_row(point_row), pin_nodes_row};
   static constexpr std::span<const KeyInfo> keys = unpin_keys;
   static constexpr std::optional<CommandTool> tool = CommandTool::pin;
-  static Json write(const Unpin& unpin) { return unpin.node ? Json{{"node", *unpin.node}} : Json("pins"); }
+  static Command read_object(const JsonCursor& value, Points& points) {
+    const ObjectReader object(value, keys);
+    if (!object.find("nodes")) return Unpin{node_from(object, points)};
+    value.only_one_of({"node", "point", "nodes"});
+    return Unpin{std::nullopt, numbers_from(object["nodes"], "node")};
+  }
+  static Json write(const Unpin& unpin) {
+    if (!unpin.nodes.empty()) return {{"nodes", unpin.nodes}};
+    return unpin.node ? Json{{"node", *unpin.node}} : Json("pins");
+  }
   static References references(Unpin& unpin) {
     return unpin.node ? References{{node_kind, &*unpin.node, "release.node"}} : References();
   }
@@ -286,7 +320,7 @@ struct Row<CutSutures> : CommonRow {
 inline Command Row<Release>::read(const JsonCursor& value, Points& points) {
   if (value.json().is_object() && value.json().contains("hand"))
     return Release{ObjectReader(value, Row<Release>::keys).get<int>("hand")};
-  if (value.json().is_object()) return Unpin{node_from(ObjectReader(value, Row<Unpin>::keys), points)};
+  if (value.json().is_object()) return Row<Unpin>::read_object(value, points);
   if (value.json().is_string()) {
     if (value.text() == "grasps") return Release{std::nullopt};
     if (value.text() == "pins") return Unpin{};

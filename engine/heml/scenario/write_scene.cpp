@@ -24,6 +24,7 @@ Json scene_json(const Scene& scene, const std::filesystem::path& folder) {
   json["mesh"] = mesh_json(scene.mesh, folder);
   json["materials"] = Json::array();
   for (const RegionMaterial& material : scene.materials) json["materials"].push_back(material_json(material));
+  for (const RegionTag& tag : scene.regions) json["regions"].push_back(region_tag_json(tag));
   json["boundary"] = Json::array();
   for (const BoundaryEntry& entry : scene.boundary) json["boundary"].push_back(boundary_json(entry));
   json["loads"] = Json::array();

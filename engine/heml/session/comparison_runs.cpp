@@ -18,6 +18,12 @@ bool concerns(const Command& command, const Variant& variant) {
   return !std::holds_alternative<AdoptPreconditioner>(command) && !std::holds_alternative<SetStepCost>(command);
 }
 
+/// What a command is to a variant: one of another law gives regions none of the body's.
+Command for_variant(Command command, const Variant& variant) {
+  if (auto* tag = std::get_if<TagRegion>(&command); tag && variant.has_law) tag->material.reset();
+  return command;
+}
+
 /// Distance between the nodes of two frames; none where the frames have different nodes.
 std::optional<Distance> distance_between(const Frame& a, const Frame& b) {
   if (a.surface_mesh->nodes != b.surface_mesh->nodes || a.positions.empty()) return std::nullopt;
@@ -49,7 +55,7 @@ ComparisonRuns::ComparisonRuns(const WorldSetup& setup, const std::vector<std::s
 void ComparisonRuns::apply(const Command& command) {
   for (ComparisonRun& run : comparison_runs_)
     if (concerns(command, run.variant))
-      if (const Status status = run.world->apply(command); !status.ok())
+      if (const Status status = run.world->apply(for_variant(command, run.variant)); !status.ok())
         warn("{}: {}", run.variant.name, status.message());
 }
 

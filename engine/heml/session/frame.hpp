@@ -3,6 +3,7 @@
 #include <array>
 #include <heml/world/command.hpp>
 #include <heml/world/step_doubling.hpp>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -52,7 +53,7 @@ struct Distance {
 struct UndoList {
   std::vector<std::string> past;    ///< names of the actions that can be undone, oldest first
   std::vector<std::string> future;  ///< of those that can be redone, next first
-  long steps = 0;                   ///< steps back and forth since the start
+  long steps = 0;                   ///< steps back and forth, and resets of the scene, since the start
   std::vector<Command> settings;    ///< after the last of them: commands that set what holds since
 };
 
@@ -62,6 +63,15 @@ struct Conditions {
   std::vector<Load> loads;
   std::size_t mesh_nodes = 0;  ///< of the mesh as it is now
   bool operator==(const Conditions&) const = default;
+};
+
+/// Regions of the elements there are, and materials. Immutable and shared by frames until they change.
+struct Regions {
+  long version = 0;                       ///< Topology::version
+  std::vector<int> numbers;               ///< ascending
+  std::map<int, std::string> names;       ///< of those that have one
+  std::vector<TaggedRegion> tagged;       ///< WorldSetup::tagged
+  std::vector<RegionMaterial> materials;  ///< WorldSetup::materials
 };
 
 /// The elements behind the surface, for pictures of the inside. Immutable and shared by frames.
@@ -90,6 +100,7 @@ struct Frame {
   std::optional<double> mesh_error;    ///< relative, in the energy norm, 0 to 1; empty unless asked for and known
   std::optional<TimeError> time_error;  ///< of the last interval estimated; empty unless asked for and known
   std::shared_ptr<const Conditions> conditions;
+  std::shared_ptr<const Regions> regions;
   Energies energies;
   double min_J = 1, max_J = 1;
   std::size_t elements = 0, removed = 0;  ///< elements of the mesh; of these, removed

@@ -225,7 +225,8 @@ class Session::Impl {
     }
     if (comparison_runs_) comparison_runs_->apply(command);
     if (step_doubling_scheduler_) step_doubling_scheduler_->carried_out(command);
-    if (std::holds_alternative<SetRate>(command) || std::holds_alternative<StepHistory>(command))
+    if (std::holds_alternative<SetRate>(command) || std::holds_alternative<StepHistory>(command) ||
+        std::holds_alternative<Reset>(command))
       pacer_.set_tick(world_->setup().solver.tick(), Pacer::Clock::now());
     record([&](Recorder& recorder) { recorder.command(*world_, command); });
     undo_list_ = updated(std::move(undo_list_), *world_, command);

@@ -44,6 +44,25 @@ std::shared_ptr<const SurfaceMesh> with_conditions(std::shared_ptr<const Surface
   return std::make_shared<const SurfaceMesh>(std::move(changed));
 }
 
+std::shared_ptr<const Regions> regions_of(const World& world) {
+  const WorldSetup& setup = world.setup();
+  const auto topology = world.topology();
+  Regions regions{topology->version, {}, setup.mesh.region_names, setup.tagged, setup.materials};
+  for (const int t : topology->elements) regions.numbers.push_back(setup.mesh.regions[static_cast<std::size_t>(t)]);
+  std::sort(regions.numbers.begin(), regions.numbers.end());
+  regions.numbers.erase(std::unique(regions.numbers.begin(), regions.numbers.end()), regions.numbers.end());
+  return std::make_shared<const Regions>(std::move(regions));
+}
+
+bool are_current(const Regions& regions, const World& world) {
+  const std::vector<RegionMaterial>& now = world.setup().materials;
+  return regions.version == world.topology()->version &&
+         std::equal(regions.materials.begin(), regions.materials.end(), now.begin(), now.end(),
+                    [](const RegionMaterial& a, const RegionMaterial& b) {
+                      return a.region == b.region && a.material == b.material;
+                    });
+}
+
 SurfaceMesh build_surface_mesh(const WorldSetup& setup, const Topology& all, const std::vector<int>& hidden) {
   SurfaceMesh surface_mesh;
   const Topology topology = without_hidden(setup.mesh, all, hidden);
@@ -108,6 +127,7 @@ void fill_frame(World& world, std::shared_ptr<const SurfaceMesh> surface_mesh, F
   Conditions conditions{setup.boundary, setup.loads, setup.mesh.nodes.size()};
   if (!frame.conditions || *frame.conditions != conditions)
     frame.conditions = std::make_shared<const Conditions>(std::move(conditions));
+  if (!frame.regions || !are_current(*frame.regions, world)) frame.regions = regions_of(world);
   frame.energies = world.energies();
   const std::vector<double> J = world.point_volume_ratios();
   const auto [low, high] = std::minmax_element(J.begin(), J.end());

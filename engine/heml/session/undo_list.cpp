@@ -26,7 +26,8 @@ std::vector<Command> settings_of(const WorldSetup& setup) {
 
 std::shared_ptr<const UndoList> updated(std::shared_ptr<const UndoList> last, const World& world,
                                         const Command& command) {
-  const bool is_step = std::holds_alternative<StepHistory>(command);
+  const auto* reset = std::get_if<Reset>(&command);
+  const bool is_step = std::holds_alternative<StepHistory>(command) || (reset && reset->scene);
   if (last && !is_step && !is_action(command)) return last;
   auto list = std::make_shared<UndoList>();
   const ActionList actions = world.actions();

@@ -5,6 +5,7 @@
 #include <heml/materials/material.hpp>
 #include <heml/math/types.hpp>
 #include <heml/mesh/edit.hpp>
+#include <heml/mesh/region_tag.hpp>
 #include <heml/mesh/sweep.hpp>
 #include <heml/tools/contact_surface.hpp>
 #include <heml/world/setup.hpp>
@@ -43,10 +44,12 @@ struct PinTissue {
   int node = 0;       ///< mesh-file order
   double radius = 0;  ///< m, rest shape; 0: that node alone
   std::vector<int> hidden = {};  ///< regions, ascending: the surface is that of the others
+  std::vector<int> nodes = {};   ///< mesh-file order: these, inner ones too, in place of a patch about `node`
 };
 /// Releases the pin that holds a node.
 struct Unpin {
-  std::optional<int> node;  ///< mesh-file order; none: all pins
+  std::optional<int> node;      ///< mesh-file order; none: all pins
+  std::vector<int> nodes = {};  ///< mesh-file order: pins let go of these, and hold the rest of theirs
 };
 /// The tables that there are from now on: these.
 struct SetTables {
@@ -83,6 +86,12 @@ struct CutSutures {};
 struct SetMaterial {
   std::optional<int> region;
   Material material;
+};
+/// Makes elements a region with a material of its own. Of a region that has none yet, without `material`: a copy of
+/// what its first element is made of.
+struct TagRegion {
+  RegionTag tag;
+  std::optional<Material> material;
 };
 struct SetDamping {
   double damping = 0;  ///< 1/s
@@ -134,11 +143,13 @@ struct StepHistory {
 struct AdoptPreconditioner {};
 /// Back to the initial state at time 0, with all elements there again; ticks go on counting. Materials, damping and the
 /// like stay as they are.
-struct Reset {};
+struct Reset {
+  bool scene = false;  ///< all else of the scene too: materials, regions, boundary, loads, gravity, method, tables
+};
 
 using Command =
     std::variant<Grasp, MoveTool, Release, PinTissue, Unpin, SetTables, SetBoundary, SetLoads, MoveProbe,
-                 WithdrawProbe, SutureTissue, CutSutures, SetMaterial, SetDamping, SetGravity, SetIntegrator,
+                 WithdrawProbe, SutureTissue, CutSutures, SetMaterial, TagRegion, SetDamping, SetGravity, SetIntegrator,
                  SetBudget, SetRate, SetStepCost, RemoveElements, CutTissue, Undo, StepHistory, AdoptPreconditioner,
                  Reset>;
 

@@ -292,7 +292,7 @@ template <class Real>
 void MeshEditor<Real>::restore_before_edit(const SimulationSnapshot<Real>& before) {
   const SimulationState<Real>& values = before.values;
   WorldSetup& setup = s_.setup.write();
-  setup.mesh = before.setup->mesh;
+  const TetMesh edited = std::exchange(setup.mesh, before.setup->mesh);
   setup.midedges = before.setup->midedges;
   s_.model = before.model;
   if (values.condition_changes == s_.condition_changes) {
@@ -310,6 +310,7 @@ void MeshEditor<Real>::restore_before_edit(const SimulationSnapshot<Real>& befor
   s_.pins = values.pins;
   s_.contacts.sutures = values.contacts.sutures;
   s_.body.restore(before.body, s_.state.x.data());
+  if (values.region_changes != s_.region_changes) keep_regions(edited);
   s_.implicit.reset();
   rebuild_after_edit();
 }
@@ -326,6 +327,17 @@ void MeshEditor<Real>::keep_conditions() {
   trim(setup.loads);
   set_boundary(setup, s_.model.write());
   set_loads(setup, s_.model.write());
+}
+
+/// Regions were chosen since: the elements that are left keep them. mesh: as it was until now.
+template <class Real>
+void MeshEditor<Real>::keep_regions(const TetMesh& mesh) {
+  WorldSetup& setup = s_.setup.write();
+  std::copy_n(mesh.regions.begin(), setup.mesh.regions.size(), setup.mesh.regions.begin());
+  setup.mesh.region_names = mesh.region_names;
+  const auto count = static_cast<int>(setup.mesh.tets.size());
+  for (TaggedRegion& region : setup.tagged) std::erase_if(region.tets, [&](int t) { return t >= count; });
+  s_.update_regions();
 }
 
 /// Restores the grasps that have been held ever since, by tools that are where they are now.

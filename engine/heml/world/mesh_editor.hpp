@@ -54,6 +54,7 @@ class MeshEditor {
   void undo_to(const SimulationSnapshot<Real>& before);
   void restore_before_edit(const SimulationSnapshot<Real>& before);
   void keep_conditions();
+  void keep_regions(const TetMesh& mesh);
   void restore_grasps(const SimulationSnapshot<Real>& before);
 
   Simulation<Real>& s_;

@@ -30,24 +30,28 @@ bool use_double_far_away(WorldSetup& setup) {
   return true;
 }
 
-std::vector<int> material_of_elements(const TetMesh& mesh, const std::vector<RegionMaterial>& materials) {
+int material_of_region(int region, const std::vector<RegionMaterial>& materials) {
   int fallback = -1;
   for (std::size_t m = 0; m < materials.size(); ++m) {
+    if (materials[m].region == region) return static_cast<int>(m);
     if (!materials[m].region) fallback = static_cast<int>(m);
+  }
+  return fallback;
+}
+
+std::vector<int> material_of_elements(const TetMesh& mesh, const std::vector<RegionMaterial>& materials) {
+  for (std::size_t m = 0; m < materials.size(); ++m)
     for (std::size_t other = 0; other < m; ++other)
       if (materials[other].region == materials[m].region)
         throw InputError(mesh.source, fmt::format("materials[{}]", m),
                          materials[m].region ? fmt::format("a second entry for region {}", *materials[m].region)
                                              : std::string("a second entry without region"),
                          fmt::format("the first is materials[{}]: one entry a region", other));
-  }
   const std::set<int> tags(mesh.regions.begin(), mesh.regions.end());
   std::vector<int> result(mesh.tets.size());
   std::vector<bool> used(materials.size(), false);
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-    const auto own = std::find_if(materials.begin(), materials.end(),
-                                  [&](const RegionMaterial& entry) { return entry.region == mesh.regions[t]; });
-    result[t] = own != materials.end() ? static_cast<int>(own - materials.begin()) : fallback;
+    result[t] = material_of_region(mesh.regions[t], materials);
     if (result[t] < 0)
       throw InputError(
           mesh.source, "materials",

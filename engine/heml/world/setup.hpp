@@ -7,6 +7,7 @@
 #include <heml/elastic/instruction_set.hpp>
 #include <heml/materials/material.hpp>
 #include <heml/mesh/quadratic.hpp>
+#include <heml/mesh/region_tag.hpp>
 #include <heml/tools/contact_surface.hpp>
 #include <heml/tools/settings.hpp>
 #include <optional>
@@ -93,6 +94,7 @@ struct WorldSetup {
   TetMesh mesh;       ///< checked by check_tets(): positive volumes
   MidEdges midedges;  ///< nodes of the mesh, of each element; empty unless solver.quadratic
   std::vector<RegionMaterial> materials;
+  std::vector<TaggedRegion> tagged;  ///< regions of the mesh that were chosen since it was made, in this order
   std::vector<Boundary> boundary;
   std::vector<Load> loads;
   std::vector<Table> tables;
@@ -113,6 +115,9 @@ bool fits_single_precision(const WorldSetup& setup);
 /// Computes in double what float does not resolve; the tolerance of solves stays that of float. Returns whether it
 /// changed the setup. make_world() does this too.
 bool use_double_far_away(WorldSetup& setup);
+
+/// The entry of `materials` for elements of a region: its own, or the default; −1: there is neither.
+int material_of_region(int region, const std::vector<RegionMaterial>& materials);
 
 /// One entry of `materials` per element: index into setup.materials.
 /// Throws InputError for a region without material and for two entries of one region; warns of an entry that matches

@@ -65,6 +65,17 @@ void Simulation<Real>::update_masses() {
 }
 
 template <class Real>
+void Simulation<Real>::update_regions() {
+  Model<Real>& inner = model.write();
+  inner.mesh.region_names = setup->mesh.region_names;
+  for (std::size_t t = 0; t < inner.mesh.tets.size(); ++t) {
+    inner.mesh.regions[t] = setup->mesh.regions[static_cast<std::size_t>(inner.order.file_tet[t])];
+    inner.material_of[t] = material_of_region(inner.mesh.regions[t], setup->materials);
+  }
+  body.set_material_of(materials_of(*setup), inner.material_of, state.x.data());
+}
+
+template <class Real>
 void Simulation<Real>::move_constrained() {
   for (const ConstrainedNode& constrained : model->constrained) {
     const PrescribedMotion::At at = prescribed_at(*model, constrained, state.time);

@@ -64,6 +64,7 @@ struct SimulationState {
   int substeps = 0;                ///< of the last tick
   long changes = 0;           ///< steps, loads and commands other than edits: unchanged, nothing but edits has happened
   long condition_changes = 0;  ///< commands that set boundary or loads
+  long region_changes = 0;     ///< commands that made elements a region
   bool is_evaluated = false;  ///< whether forces and stable step belong to the state (restored by an undo)
   std::optional<StopReason> halt;
   bool unfinished = false;
@@ -102,6 +103,7 @@ struct Simulation : SimulationState<Real> {
   std::vector<ConstrainedNode> constrained_nodes() const;
   std::vector<Vec3> in_file_order(const std::vector<Real>& values) const;
   std::vector<Vec3> positions() const { return in_file_order(state.x); }  ///< #V×3, metres, mesh-file order
+  std::size_t node_count() const { return masses->lumped.size(); }
   bool recovering() const { return recovery && recovery->surrogate; }
   /// The body that steps: the recovery surrogate while a recovery is under way.
   ElasticBody<Real>& acting_body() { return recovering() ? recovery->surrogate->body : body; }
@@ -113,6 +115,9 @@ struct Simulation : SimulationState<Real> {
 
   /// Makes the surrogate of a recovery for the present mesh, materials and constraints.
   void install_surrogate();
+
+  /// The elements take the regions of the setup's mesh, and their materials.
+  void update_regions();
 
   /// Rebuilds what depends on the list of contact surfaces or on the boundary of the mesh.
   void update_contact_surfaces();

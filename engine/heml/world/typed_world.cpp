@@ -36,14 +36,14 @@ bool same_body(const MeshSize& size, const WorldSetup& a, const WorldSetup& b) {
 
 template <class Real>
 TypedWorld<Real>::TypedWorld(WorldSetup setup)
-    : s_(std::move(setup)), at_start_{s_.setup->mesh.nodes.size(), s_.setup->mesh.tets.size()} {
+    : s_(std::move(setup)), opened_(s_.setup), at_start_{s_.setup->mesh.nodes.size(), s_.setup->mesh.tets.size()} {
   const FlushDenormals flush;
   start();
 }
 
 template <class Real>
 TypedWorld<Real>::TypedWorld(const TypedSnapshot<Real>& snapshot)
-    : s_(snapshot.simulation), at_start_(snapshot.at_start) {
+    : s_(snapshot.simulation), opened_(snapshot.opened), at_start_(snapshot.at_start) {
   editor_.restore_history(snapshot.edits);
   actions_.restore(snapshot.actions);
 }
@@ -127,7 +127,8 @@ Status TypedWorld<Real>::carry_out(const Command& command) {
   s_.is_evaluated = false;
   if (s_.implicit && s_.implicit->equilibrium) s_.implicit->equilibrium->invalidate();
   Status status;
-  if (std::holds_alternative<Reset>(command)) {
+  if (const auto* reset = std::get_if<Reset>(&command)) {
+    if (reset->scene) return reopen(), Status();
     editor_.undo_all();
     start();
   } else {
@@ -145,6 +146,25 @@ Status TypedWorld<Real>::carry_out(const Command& command) {
     find_stable_step(s_);
   }
   return status;
+}
+
+/// As a world made anew of the same scene, at its first tick. Ticks go on, and so does what was learnt of the clock.
+template <class Real>
+void TypedWorld<Real>::reopen() {
+  const long ticks = s_.ticks;
+  const double elapsed = s_.elapsed();
+  const std::optional<double> step_cost = s_.step_cost;
+  const std::optional<Budget> budget = s_.setup->solver.budget;
+  WorldSetup setup = *opened_;
+  if (setup.solver.budget && setup.solver.budget->milliseconds > 0 && budget)
+    setup.solver.budget->iterations = budget->iterations;
+  TypedWorld fresh(std::move(setup));
+  heml::restore(take_snapshot(fresh.s_), s_);
+  editor_.restore_history({});
+  s_.ticks = s_.origin_tick = s_.rate_tick = ticks;
+  s_.elapsed_before_rate = elapsed;
+  s_.step_cost = step_cost;
+  method_.choose();
 }
 
 /// Returns to the moment before the last action, or to the one that was left. Time goes back with the state; ticks, by
@@ -239,6 +259,7 @@ std::shared_ptr<const WorldSnapshot> TypedWorld<Real>::snapshot() {
   const FlushDenormals flush;
   auto snapshot = std::make_shared<TypedSnapshot<Real>>();
   snapshot->at_start = at_start_;
+  snapshot->opened = opened_;
   snapshot->simulation = take_snapshot(s_);
   snapshot->edits = editor_.history();
   snapshot->actions = actions_.lists();

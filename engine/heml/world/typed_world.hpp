@@ -23,6 +23,7 @@ struct MeshSize {
 template <class Real>
 struct TypedSnapshot final : WorldSnapshot {
   MeshSize at_start;
+  Shared<WorldSetup> opened;
   SimulationSnapshot<Real> simulation;
   EditHistory<Real> edits;
   ActionLists<Real> actions;
@@ -88,6 +89,7 @@ class TypedWorld final : public World {
 
  private:
   void start();
+  void reopen();
   Status carry_out(const Command& command);
   Status step_history(int by);
   std::shared_ptr<const Moment<Real>> moment();
@@ -97,7 +99,8 @@ class TypedWorld final : public World {
   void handle_implicit(const std::optional<StopReason>& failure, double until);
 
   Simulation<Real> s_;
-  const MeshSize at_start_;  ///< with the mesh itself it tells whose snapshots fit
+  const Shared<WorldSetup> opened_;  ///< as it was made
+  const MeshSize at_start_;          ///< with the mesh itself it tells whose snapshots fit
   ExplicitStepper<Real> explicit_{s_};
   ImplicitStepper<Real> implicit_{s_};
   StepRescue<Real> rescue_{s_, explicit_, implicit_};

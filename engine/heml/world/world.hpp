@@ -57,6 +57,7 @@ enum class Field {
   displacement_y,
   displacement_z,
   stress_max,  ///< Pa, principal Cauchy stress
+  stress_mid,
   stress_min,
   pressure,
   max_shear,
@@ -67,6 +68,7 @@ enum class Field {
   stress_yz,
   stress_zx,
   strain_max,  ///< principal Green–Lagrange strain
+  strain_mid,
   strain_min,
   strain_xx,
   strain_yy,

@@ -22,6 +22,8 @@ TEST_CASE("the hints follow the tool and what the mouse does") {
   now.interaction = Interaction::grasping;
   CHECK(says(now, "let go"));
   CHECK(says(now, "L leaves a clamp"));
+  now.interaction = Interaction::aiming;
+  CHECK(says(now, "Shift: along an axis"));
   now = {};
   now.tool = Tool::scalpel;
   CHECK(says(now, "G to grasp"));

@@ -25,6 +25,8 @@ TEST_CASE("keys mean what the help page says") {
   CHECK(action_of('G', false, true) == Action::select_grasper);  // Shift counts where it is bound
   CHECK(action_of('R', false, true) == Action::reset_all);
   CHECK(action_of('S', true, true) == Action::save);
+  CHECK(action_of('N', false, true) == Action::pin_selected);
+  CHECK(action_of('N', true) == Action::unpin_selected);
 }
 
 TEST_CASE("keys have names that people read") {

@@ -52,4 +52,15 @@ TEST_CASE("gravity is typed by components") {
   CHECK(std::get<SetGravity>(commands[0]).gravity.isApprox(Vec3(2.5, -9.81, 0)));
 }
 
+TEST_CASE("the arrow of gravity is offered where gravity is typed") {
+  Driver driver;
+  CHECK_FALSE(driver.panel.motion().has_arrow());
+  CHECK(driver.panel.motion().gravity().isApprox(Vec3(0, -9.81, 0)));
+  driver.choose("Direction", "x, y, z");
+  CHECK(driver.click("Arrow in the image", 30).commands.empty());
+  CHECK(driver.panel.motion().has_arrow());
+  driver.choose("Direction", "up (+y)");
+  CHECK_FALSE(driver.panel.motion().has_arrow());
+}
+
 }  // namespace heml::motion_section_test

@@ -221,19 +221,43 @@ TEST_CASE("the first click on a view saves it and the next restores it") {
   CHECK(after(driver, Action::view_1).view == 0u);
 }
 
-TEST_CASE("Shift+R resets the body and the settings that differ from the scene as opened") {
+TEST_CASE("R resets the state, Shift+R the whole scene, as one command") {
   Driver driver;
-  CHECK(after(driver, Action::reset_all).commands.size() == 1);
   driver.panel.sync(SetDamping{7});
-  driver.panel.sync(SetIntegrator{Integrator::tr_bdf2});
-  driver.panel.sync(SetRate{60});
-  const auto actions = after(driver, Action::reset_all);
-  REQUIRE(actions.commands.size() == 4);
-  CHECK(std::holds_alternative<Reset>(actions.commands[0]));
-  CHECK(std::get<SetDamping>(actions.commands[1]).damping == 0);
-  CHECK(std::get<SetIntegrator>(actions.commands[2]).integrator == Integrator::verlet);
-  CHECK(std::get<SetRate>(actions.commands[3]).rate == 1000);
-  CHECK(after(driver, Action::reset_all).commands.size() == 1);
+  const auto state = after(driver, Action::reset).commands, scene = after(driver, Action::reset_all).commands;
+  REQUIRE(state.size() == 1);
+  CHECK_FALSE(std::get<Reset>(state[0]).scene);
+  REQUIRE(scene.size() == 1);
+  CHECK(std::get<Reset>(scene[0]).scene);
+}
+
+TEST_CASE("regions that are made while it runs are shown, with their material, until they are taken back") {
+  Driver driver;
+  long version = 0;
+  const auto with = [&](std::vector<int> numbers, std::map<int, std::string> names,
+                        std::vector<RegionMaterial> materials) {
+    driver.frame.regions = std::make_shared<const Regions>(
+        Regions{++version, std::move(numbers), std::move(names), {}, std::move(materials)});
+    driver.draw();
+    Scene scene;
+    driver.panel.write_into(scene);
+    return scene.materials;
+  };
+  Scene scene;
+  driver.panel.write_into(scene);
+  const RegionMaterial whole = scene.materials.at(0);
+  RegionMaterial part = whole;
+  part.region = 1;
+  part.material.density = 1234;
+  const auto two = with({0, 1}, {{1, "lesion"}}, {whole, part});
+  REQUIRE(two.size() == 2);
+  CHECK(two[1].material.density == 1234);
+  driver.find("Region");  // of the section Material: the new one is chosen
+  driver.choose("Law", "Ogden");
+  driver.panel.write_into(scene);
+  CHECK(scene.materials[0].material == whole.material);
+  CHECK(scene.materials[1].material.law == "ogden");
+  CHECK(with({0}, {}, {whole}).size() == 1);
 }
 
 TEST_CASE("Esc closes an open choice and nothing else") {

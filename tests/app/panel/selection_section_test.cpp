@@ -61,4 +61,50 @@ TEST_CASE("selected nodes are fixed, freed, loaded and unloaded by buttons") {
   CHECK(driver.click("Free", 220).commands.empty());  // nothing holds it
 }
 
+TEST_CASE("selected nodes are pinned and unpinned by buttons and keys") {
+  Selecting driver;
+  PinState pin;
+  pin.nodes = {12};
+  driver.frame.tools = {pin};
+  driver.select({11, 12});
+  const auto pinned = driver.click("Pin", 60).commands, unpinned = driver.click("Unpin", 220).commands;
+  REQUIRE(pinned.size() == 1);
+  CHECK(std::get<PinTissue>(pinned[0]).nodes == std::vector{11, 12});
+  REQUIRE(unpinned.size() == 1);
+  CHECK(std::get<Unpin>(unpinned[0]).nodes == std::vector{11, 12});
+  driver.panel.perform(panel::Action::pin_selected);
+  driver.panel.perform(panel::Action::unpin_selected);
+  CHECK(driver.draw().commands.size() == 2);
+  driver.select({});
+  driver.panel.perform(panel::Action::pin_selected);
+  CHECK(driver.draw().commands.empty());
+}
+
+TEST_CASE("selected nodes and those inside are tagged as a region, whose material is shown") {
+  Selecting driver;
+  driver.select({11, 12});
+  driver.panel.selecting().inside().take({3}, panel::NodeSelection::How::add);
+  driver.draw();
+  const auto commands = driver.click("Tag as region", 60).commands;
+  REQUIRE(commands.size() == 1);
+  const TagRegion& tag = std::get<TagRegion>(commands[0]);
+  CHECK(tag.tag.nodes == std::vector{3, 11, 12});
+  CHECK(tag.tag.name == "part 1");
+  CHECK_FALSE(tag.material);
+  driver.click("Its material", 220);
+  CHECK_FALSE(driver.panel.selecting().take_region());  // there is none of this name
+  Scene scene;
+  driver.panel.write_into(scene);
+  RegionMaterial part = scene.materials.at(0), other = part;
+  part.region = 4;
+  other.region = 5;
+  driver.frame.regions = std::make_shared<const Regions>(
+      Regions{1, {4, 5}, {{4, "part 1"}, {5, "rest"}}, {}, {scene.materials[0], part, other}});
+  driver.draw();
+  driver.click("Its material", 220);
+  driver.choose("Law", "Ogden");
+  driver.panel.write_into(scene);
+  CHECK(scene.materials.at(1).material.law == "ogden");
+}
+
 }  // namespace heml::selection_section_test

@@ -19,6 +19,7 @@ struct Sheets {
   panel::CameraController controller;
   std::optional<render::SectionPlane> section;
   SelectionDrag drag;
+  std::vector<int> inside;  // of the last drag
 
   Sheets() {
     for (int sheet = 0; sheet < 2; ++sheet) {
@@ -47,7 +48,9 @@ struct Sheets {
   std::vector<int> along(const std::vector<render::Vec2f>& path, const SelectionDrag::Settings& settings) {
     drag.press(path.front(), settings, view());
     for (const render::Vec2f& at : path) drag.move(at, view());
-    return drag.release(view());
+    const SelectionDrag::Nodes nodes = drag.release(view());
+    inside = nodes.inside;
+    return nodes.surface;
   }
 };
 
@@ -88,6 +91,30 @@ TEST_CASE("paint selects the nodes within the radius of where the mouse passes")
   CHECK(sheets.along({sheets.pixel(-0.09f, -0.09f), sheets.pixel(0, -0.09f)}, paint) ==
         std::vector{100, 101, 102, 103, 105, 107});
   CHECK(sheets.drag.outline().empty());
+}
+
+TEST_CASE("nodes inside go with a drag through the body and with paint, not with what is seen") {
+  Sheets sheets;
+  Solid solid;  // nodes 0 to 99 lie nowhere, 100 to 149 on the sheets, 150 and 151 between them
+  solid.rest.assign(100, Vec3f(0, 0, 0));
+  solid.rest.insert(solid.rest.end(), sheets.surface_mesh.rest.begin(), sheets.surface_mesh.rest.end());
+  solid.rest.insert(solid.rest.end(), {{0.05f, 0.05f, -0.03f}, {-0.05f, 0, -0.05f}});
+  solid.tets = {{100, 101, 105, 150}, {100, 101, 105, 151}};
+  sheets.frame.solid_positions = solid.rest;
+  sheets.frame.solid_positions[151].x() = 0.03f;  // where it has moved to
+  sheets.frame.solid = std::make_shared<const Solid>(std::move(solid));
+  const std::vector path{sheets.pixel(0.02f, -0.02f), sheets.pixel(0.3f, 0.3f), sheets.pixel(0.07f, 0.07f)};
+  CHECK_FALSE(sheets.along(path, {}).empty());
+  CHECK(sheets.inside.empty());
+  SelectionDrag::Settings settings;
+  settings.through = true;
+  sheets.along(path, settings);
+  CHECK(sheets.inside == std::vector{150, 151});
+  settings = {};
+  settings.drag = Drag::paint;
+  settings.radius = 0.04;
+  sheets.along({sheets.pixel(0.05f, 0.05f)}, settings);
+  CHECK(sheets.inside == std::vector{150});
 }
 
 TEST_CASE("a cancelled drag selects nothing and has no outline") {

@@ -213,7 +213,36 @@ TEST_CASE("writes every kind of event so that it reads back bit for bit") {
   const SetIntegrator euler{Integrator::symplectic_euler};
   CHECK(reread<SetIntegrator>({5, euler}).integrator == Integrator::symplectic_euler);
   reread<Release>({5, Release{}});
-  reread<Reset>({5, Reset{}});
+  CHECK_FALSE(reread<Reset>({5, Reset{}}).scene);
+  CHECK(reread<Reset>({5, Reset{true}}).scene);
+  CHECK(reread<PinTissue>({5, PinTissue{0, 0, {}, {4, 1}}}).nodes == std::vector{4, 1});
+  CHECK(reread<Unpin>({5, Unpin{{}, {4, 1}}}).nodes == std::vector{4, 1});
+  for (const RegionTag& tag : {RegionTag{{0, 7}, {}, "a b", {}}, RegionTag{{}, {{3}, {}, {}, {}}, "c", -2},
+                               RegionTag{{}, {{}, {}, {}, std::pair(Vec3(0.1, 0, 0), 0.1 / 3)}, "d", {}}}) {
+    const TagRegion region = reread<TagRegion>({5, TagRegion{tag, Material{"stvk", {0.1 / 3, 0.2 / 3}, 0.7}}});
+    CHECK(region.tag == tag);
+    CHECK(region.material == Material{"stvk", {0.1 / 3, 0.2 / 3}, 0.7});
+    CHECK_FALSE(reread<TagRegion>({5, TagRegion{tag, {}}}).material);
+  }
+}
+
+TEST_CASE("regions of a scene read back, and the mesh has them") {
+  const Scene scene = test::small_scene_with(R"({"regions": [{"tets": [0, 3], "name": "lesion", "number": 7},
+                                                             {"sphere": [[0, 0, 0], 9], "name": "all"}],
+                                                 "materials": [{"law": "stvk", "young": 1, "poisson": 0},
+                                                               {"region": 8, "law": "stvk", "young": 2, "poisson": 0}]})");
+  CHECK(parse_scene(scene_text(scene), "folder/scene.json").regions == scene.regions);
+  const TetMesh mesh = load_setup(scene).mesh;
+  CHECK(mesh.regions == std::vector<int>(mesh.tets.size(), 8));  // the later entry wins
+  CHECK(mesh.region_names == std::map<int, std::string>{{7, "lesion"}, {8, "all"}});
+  const auto refused = [](const std::string& regions) {
+    return refusal([&] { load_setup(test::small_scene_with(R"({"regions": [)" + regions + "]}")); });
+  };
+  CHECK(says(refused(R"({"tets": [0], "name": "a", "number": 4}, {"tets": [1], "name": "b", "number": 4})"),
+             {"regions[1]", "region 4 is named 'a', not 'b'"}));
+  CHECK(says(refused(R"({"nodes": [0], "name": "a"})"), {"regions[0]", "no element has all its corners"}));
+  CHECK(says(refused(R"({"nodes": [0]})"), {"regions[0]", "name"}));
+  CHECK(says(refused(R"({"name": "a"})"), {"regions[0]", "nodes"}));
 }
 
 TEST_CASE("normals of tables read back bit for bit, of a scene and of an event") {

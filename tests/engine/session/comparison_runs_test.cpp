@@ -121,4 +121,19 @@ TEST_CASE("comparison runs: unknown words are refused with a list of the known o
   CHECK(variant_of(at_rest, "ogden+float").setup.solver.single_precision);
 }
 
+TEST_CASE("comparison runs: a region's material is the body's, and a copy of its own in a run of another law") {
+  const WorldSetup setup = cantilever();
+  const auto world = make_world(setup);
+  ComparisonRuns comparison_runs(setup, {"double", "stvk"});
+  Material stiff = soft("neo_hookean", 5e4);
+  const Command tag = TagRegion{{{}, {{0, 1, 2}, {}, {}, {}}, "lesion", {}}, stiff};
+  REQUIRE(world->apply(tag).ok());
+  comparison_runs.apply(tag);
+  const Frame frame = after(*world, comparison_runs, 20);
+  REQUIRE(frame.comparisons.size() == 2);
+  CHECK(frame.comparisons[0].positions == frame.positions);
+  CHECK(frame.comparisons[0].regions->materials[1].material == stiff);
+  CHECK(frame.comparisons[1].regions->materials[1].material.law == "stvk");
+}
+
 }  // namespace heml::comparison_runs_test

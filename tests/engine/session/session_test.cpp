@@ -420,6 +420,21 @@ TEST_CASE("a halted session reports why and can be reset") {
   CHECK(wait_for(session, [](const Frame& f) { return f.halted.empty(); }).time == 0);
 }
 
+TEST_CASE("a reset of the scene tells the settings that hold since, as a step of the history does") {
+  Session session(small_scene(), {});
+  session.post(SetDamping{7});
+  wait_for(session, [](const Frame& f) { return f.undo_list && f.undo_list->past.size() == 1; });
+  session.post(Reset{true});
+  const Frame& frame = wait_for(session, [](const Frame& f) { return f.undo_list && f.undo_list->past.size() == 2; });
+  CHECK(frame.undo_list->steps == 1);
+  const auto& settings = frame.undo_list->settings;
+  const auto damping = std::find_if(settings.begin(), settings.end(), [](const Command& command) {
+    return std::holds_alternative<SetDamping>(command);
+  });
+  REQUIRE(damping != settings.end());
+  CHECK(std::get<SetDamping>(*damping).damping == small_scene().solver.damping);
+}
+
 TEST_CASE("a recorded session that halted verifies, after more commands too") {
   const TemporaryFolder folder;
   Scene scene = small_scene();

@@ -73,6 +73,35 @@ TEST_CASE("a frame's solid leaves out the regions that its surface does") {
   }
 }
 
+TEST_CASE("a frame has the regions and materials that there are, shared until they change") {
+  const auto world = two_cubes();
+  Frame frame;
+  const auto fill = [&] {
+    fill_frame(*world, make_surface_mesh(*world), Field::none, 0, frame);
+    return frame.regions;
+  };
+  const auto first = fill();
+  CHECK(first->numbers == std::vector{1, 2});
+  CHECK(first->tagged.empty());
+  world->tick();
+  CHECK(fill() == first);
+  REQUIRE(world->apply(TagRegion{{{}, {{0, 1}, {}, {}, {}}, "lesion", {}}, {}}).ok());
+  const auto tagged = fill();
+  CHECK(tagged->numbers == std::vector{1, 2, 3});
+  CHECK(tagged->names.at(3) == "lesion");
+  CHECK(tagged->tagged == std::vector{TaggedRegion{3, "lesion", {0, 1}}});
+  CHECK(tagged->materials.size() == 2);
+  CHECK(frame.surface_mesh->version > 0);
+  Material other = tagged->materials[1].material;
+  other.density = 1200;
+  REQUIRE(world->apply(SetMaterial{3, other}).ok());
+  const auto changed = fill();
+  CHECK(changed->version == tagged->version);
+  CHECK(changed->materials[1].material == other);
+  REQUIRE(world->apply(Reset{true}).ok());
+  CHECK(fill()->numbers == first->numbers);
+}
+
 TEST_CASE("hiding a region of a cut body leaves the others cut, and knows their skin from before") {
   const auto world = two_cubes();
   const auto before = make_surface_mesh(*world);

@@ -70,6 +70,7 @@ TEST_CASE("components and principal values are those of the closed form at an af
     check_all(*world, Field::stress_yz, cauchy(1, 2), of_stress);
     check_all(*world, Field::stress_zx, cauchy(2, 0), of_stress);
     check_all(*world, Field::stress_max, stresses[2], of_stress);
+    check_all(*world, Field::stress_mid, stresses[1], of_stress);
     check_all(*world, Field::stress_min, stresses[0], of_stress);
     check_all(*world, Field::max_shear, (stresses[2] - stresses[0]) / 2, of_stress);
     check_all(*world, Field::pressure, -stresses.sum() / 3, of_stress);
@@ -80,6 +81,7 @@ TEST_CASE("components and principal values are those of the closed form at an af
     check_all(*world, Field::strain_yz, strain(1, 2), of_strain);
     check_all(*world, Field::strain_zx, strain(2, 0), of_strain);
     check_all(*world, Field::strain_max, strains[2], of_strain);
+    check_all(*world, Field::strain_mid, strains[1], of_strain);
     check_all(*world, Field::strain_min, strains[0], of_strain);
     const auto& rest = world->setup().mesh.nodes;
     const Field along[] = {Field::displacement_x, Field::displacement_y, Field::displacement_z};

@@ -1,6 +1,7 @@
 // Pins: what they hold stays, what they feel is told, and a release gives it back.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <heml/base/error.hpp>
 #include <limits>
 
@@ -139,6 +140,44 @@ TEST_CASE("pin: undoing a cut brings back the pins of then, and a reset takes al
   CHECK(tools_of<PinState>(world->tools())[0].nodes.size() == held);
   REQUIRE(world->apply(Reset{}).ok());
   CHECK(tools_of<PinState>(world->tools()).empty());
+}
+
+TEST_CASE("pin: a list of nodes is one pin, inner ones too, and one action") {
+  auto world = make_world(cantilever());
+  const TetMesh& mesh = world->setup().mesh;
+  const int inner = node_at(mesh, Vec3(0.05, 0.01, 0.01)), corner = node_at(mesh, Vec3(0.1, 0.02, 0.02)),
+            edge = node_at(mesh, Vec3(0.1, 0.02, 0)), fixed = node_at(mesh, Vec3(0, 0, 0));
+  REQUIRE(world->apply(PinTissue{0, 0, {}, {corner, fixed, inner, corner}}).ok());
+  REQUIRE(world->apply(PinTissue{edge, 0}).ok());
+  const auto nodes_of = [&](std::size_t pin) {
+    std::vector<int> nodes = tools_of<PinState>(world->tools()).at(pin).nodes;
+    std::sort(nodes.begin(), nodes.end());
+    return nodes;
+  };
+  std::vector<int> both{inner, corner};
+  std::sort(both.begin(), both.end());
+  CHECK(nodes_of(0) == both);  // fixed is constrained already
+  run_until(*world, 0.01);
+  for (const int n : {inner, corner, edge}) CHECK(world->positions()[std::size_t(n)] == mesh.nodes[std::size_t(n)]);
+
+  const auto hash = world->state_hash();
+  REQUIRE(world->apply(Unpin{{}, {corner, edge, 7}}).ok());  // of two pins
+  REQUIRE(tools_of<PinState>(world->tools()).size() == 1);
+  CHECK(nodes_of(0) == std::vector{inner});
+  CHECK(tools_of<PinState>(world->tools())[0].node == inner);
+  run_until(*world, 0.02);
+  CHECK(world->positions()[std::size_t(corner)] != mesh.nodes[std::size_t(corner)]);
+  CHECK(world->positions()[std::size_t(inner)] == mesh.nodes[std::size_t(inner)]);
+  REQUIRE(world->apply(StepHistory{-1}).ok());
+  CHECK(tools_of<PinState>(world->tools()).size() == 2);
+  CHECK(world->state_hash() == hash);
+  REQUIRE(world->apply(StepHistory{-1}).ok());
+  REQUIRE(world->apply(StepHistory{-1}).ok());
+  CHECK(tools_of<PinState>(world->tools()).empty());
+
+  CHECK_FALSE(world->apply(PinTissue{0, 0, {}, {fixed}}).ok());
+  CHECK_FALSE(world->apply(PinTissue{0, 0, {}, {corner, 1 << 20}}).ok());
+  CHECK_FALSE(world->apply(Unpin{{}, {corner}}).ok());
 }
 
 TEST_CASE("pin: wrong pins and releases are refused and change nothing") {

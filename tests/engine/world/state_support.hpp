@@ -87,6 +87,9 @@ inline Command example(const WithdrawProbe&) { return WithdrawProbe{}; }
 inline Command example(const SutureTissue&) { return SutureTissue{{1, 3}, 0.02, 0.05}; }
 inline Command example(const CutSutures&) { return CutSutures{}; }
 inline Command example(const SetMaterial&) { return SetMaterial{std::nullopt, sample_material("stvk")}; }
+inline Command example(const TagRegion&) {
+  return TagRegion{{{}, {{3, 4, 17, 30}, {}, {}, {}}, "lesion", {}}, sample_material("mooney_rivlin")};
+}
 inline Command example(const SetDamping&) { return SetDamping{3}; }
 inline Command example(const SetGravity&) { return SetGravity{Vec3(0, -5, 2)}; }
 inline Command example(const SetIntegrator&) { return SetIntegrator{Integrator::automatic}; }
