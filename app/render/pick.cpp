@@ -3,7 +3,6 @@
 #include <app/render/ray_triangle.hpp>
 #include <heml/math/closest.hpp>
 #include <limits>
-#include <ranges>
 
 namespace heml::render {
 
@@ -16,12 +15,14 @@ bool is_met_from_inside(const Hit& hit, const Frame& frame, const SurfaceMesh& s
   return normal.dot(ray.direction) > 0;
 }
 
-/// triangles: indices, ascending.
-std::optional<Hit> pick_among(const auto& triangles, const Frame& frame, const SurfaceMesh& surface_mesh,
-                              const Ray& ray, const std::optional<SectionPlane>& section) {
+/// number(k): index of the k-th triangle of `count`, ascending.
+std::optional<Hit> pick_among(std::size_t count, const auto& number, const Frame& frame,
+                              const SurfaceMesh& surface_mesh, const Ray& ray,
+                              const std::optional<SectionPlane>& section) {
   float nearest = std::numeric_limits<float>::infinity();
   std::optional<Hit> hit;
-  for (const int t : triangles) {
+  for (std::size_t k = 0; k < count; ++k) {
+    const int t = number(k);
     const auto& [a, b, c] = surface_mesh.triangles[static_cast<std::size_t>(t)];
     const float distance =
         ray_meets(ray.origin, ray.direction, frame.positions[a], frame.positions[b], frame.positions[c]);
@@ -42,13 +43,14 @@ std::optional<Hit> pick_among(const auto& triangles, const Frame& frame, const S
 
 std::optional<Hit> pick(const Frame& frame, const SurfaceMesh& surface_mesh, const Ray& ray,
                         const std::optional<SectionPlane>& section) {
-  return pick_among(std::views::iota(0, static_cast<int>(surface_mesh.triangles.size())), frame, surface_mesh, ray,
-                    section);
+  const auto same = [](std::size_t k) { return static_cast<int>(k); };
+  return pick_among(surface_mesh.triangles.size(), same, frame, surface_mesh, ray, section);
 }
 
 std::optional<Hit> pick(const Frame& frame, const SurfaceMesh& surface_mesh, std::span<const int> triangles,
                         const Ray& ray, const std::optional<SectionPlane>& section) {
-  return pick_among(triangles, frame, surface_mesh, ray, section);
+  const auto number = [&](std::size_t k) { return triangles[k]; };
+  return pick_among(triangles.size(), number, frame, surface_mesh, ray, section);
 }
 
 std::optional<float> value_at(const Hit& hit, const Frame& frame, const SurfaceMesh& surface_mesh) {

@@ -99,7 +99,7 @@ TEST_CASE("nodes inside go with a drag through the body and with paint, not with
   solid.rest.assign(100, Vec3f(0, 0, 0));
   solid.rest.insert(solid.rest.end(), sheets.surface_mesh.rest.begin(), sheets.surface_mesh.rest.end());
   solid.rest.insert(solid.rest.end(), {{0.05f, 0.05f, -0.03f}, {-0.05f, 0, -0.05f}});
-  solid.tets = {{100, 101, 105, 150}, {100, 101, 105, 151}};
+  solid.tets = {{118, 101, 105, 150}, {100, 118, 105, 151}};
   sheets.frame.solid_positions = solid.rest;
   sheets.frame.solid_positions[151].x() = 0.03f;  // where it has moved to
   sheets.frame.solid = std::make_shared<const Solid>(std::move(solid));
