@@ -49,7 +49,8 @@ struct Solved {
   double seconds = 0;
   std::string failed;  ///< empty: converged
 };
-Solved solve(const Trial& trial, WorldSetup setup, double tolerance = 1e-8);
+/// parts: of the load, solved one after the other, where the whole at once takes Newton's method longer.
+Solved solve(const Trial& trial, WorldSetup setup, double tolerance = 1e-8, int parts = 1);
 
 /// A row of a solve.
 Row row_of(const Solved& solved, const std::string& quantity, const std::string& unit, double ours, double reference,
