@@ -40,7 +40,8 @@ template <class Real, class Pressure>
     for (std::size_t l = 0; l < lanes; ++l) {
       const Corners<Real> at(packet.x, l);
       volume[l] = packet.volume[l] *
-                  element_kinematics<false, true, false, false>(at.x[0], at.x[1], at.x[2], at.x[3], packet.rest(l)).at.J;
+                  element_kinematics<false, true, false, false>(at.x[0], at.x[1], at.x[2], at.x[3], packet.rest(l))
+                      .at.J;
     }
     for (std::size_t first = 0; first < lanes; first += element_points) {
       Real rest = 0, deformed = 0;

@@ -30,7 +30,8 @@ HEML_WIDE void packet_volumes(const ElementGroup<Real>& group, const Real* x, st
     for (std::size_t l = 0; l < lanes; ++l) {
       const Corners<Real> at(packet.x, l);
       const RestShape<Real> rest = packet.rest(l);
-      to[l] = rest.volume * element_kinematics<false, true, false, false>(at.x[0], at.x[1], at.x[2], at.x[3], rest).at.J;
+      to[l] = rest.volume *
+              element_kinematics<false, true, false, false>(at.x[0], at.x[1], at.x[2], at.x[3], rest).at.J;
     }
   }
 }

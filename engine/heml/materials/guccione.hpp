@@ -30,7 +30,8 @@ struct Guccione {
       {&Guccione::bfs,
        {"bfs", "b_fs", "", "stiffness against shear along the fibres, over C", ParameterRange::positive, 4,
         ParameterKind::exponent}},
-      {&Guccione::kappa, {"kappa", "κ", "Pa", "bulk modulus: resistance to change of volume", ParameterRange::positive}},
+      {&Guccione::kappa,
+       {"kappa", "κ", "Pa", "bulk modulus: resistance to change of volume", ParameterRange::positive}},
   };
   static constexpr bool is_stress_free = true;
   static constexpr ForceCost cost = {26, 11};

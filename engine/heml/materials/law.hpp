@@ -3,12 +3,13 @@
 // Concepts distinguish two kinds of law:
 //
 //   edges ──► C = FᵀF ──► I1, I2, (I4, I5) ─┐
-//                                           ├─► InvariantLaw ──► W(I1, I2, J, I4, I5), first and second derivatives
+//                                           ├─► InvariantLaw ──► W(I1, I2, J, I4, I5), first, second derivatives
 //   triple product ──► J (signed) ──────────┤
-//                                           └─► PrincipalLaw ──► Σ h(c̄_i) + volume term, c̄_i: eigenvalues of J^(−2/3) C
+//                                           └─► PrincipalLaw ──► Σ h(c̄_i) + ψ(J), c̄_i: eigenvalues of J^(−2/3) C
 //
-// I1, I2, I4 and I5 are functions of squared edge lengths alone (paper, Appendix). J is the signed det F: squared lengths
-// do not distinguish an element from its mirror image. elastic/tension.hpp computes tensions from the derivatives.
+// I1, I2, I4 and I5 are functions of squared edge lengths alone (paper, Appendix). J is the signed det F: squared
+// lengths do not distinguish an element from its mirror image. elastic/tension.hpp computes tensions from the
+// derivatives.
 #include <array>
 #include <concepts>
 #include <heml/math/scalar.hpp>
@@ -18,8 +19,8 @@
 
 namespace heml {
 
-/// Invariants of C = FᵀF and the signed volume ratio: I1 = tr C, I2 = ½(tr²C − tr C²), J = det F, I4 = a0·C a0, I5 = a0·C² a0,
-/// where the unit vector a0 is the fibre direction at rest.
+/// Invariants of C = FᵀF and the signed volume ratio: I1 = tr C, I2 = ½(tr²C − tr C²), J = det F, I4 = a0·C a0 and
+/// I5 = a0·C² a0, where the unit vector a0 is the fibre direction at rest.
 template <class Real>
 struct Invariants {
   Real I1, I2, J, I4 = Real(1), I5 = Real(1);

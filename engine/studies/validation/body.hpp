@@ -17,8 +17,8 @@ TetMesh cubic_shell(int n, int layers, double inner, double outer);
 /// along z, from 0 to `height`.
 TetMesh square_tube(int n, int layers, double inner, double outer, int storeys, double height);
 
-/// A cup of cubes: the surface of the cube [−1, 1]³ without its top, in n × n squares at the bottom and n × `storeys` on
-/// each side, times `layers` of radius from `inner` to `outer`.
+/// A cup of cubes: the surface of the cube [−1, 1]³ without its top, in n × n squares at the bottom and n × `storeys`
+/// on each side, times `layers` of radius from `inner` to `outer`.
 TetMesh cubic_cup(int n, int storeys, int layers, double inner, double outer);
 
 /// Maps a shell of cubes to one of spheres, a tube of squares to a round one, of equal angles.
