@@ -53,8 +53,8 @@ class ElementMap {
   std::optional<std::array<double, 4>> place_of(const Vec3& point) const {
     const auto full = [](const Vec3& b) { return std::array{1 - b.sum(), b.x(), b.y(), b.z()}; };
     const auto corner = [&](std::size_t k) { return nodes_[static_cast<std::size_t>(node_[k])]; };
-    const double size =
-        (corner(1) - corner(0)).norm() + (corner(2) - corner(0)).norm() + (corner(3) - corner(0)).norm();
+    double size = 0;
+    for (const std::size_t k : {1, 2, 3}) size += (corner(k) - corner(0)).norm();
     if ((point - corner(0)).norm() > size) return std::nullopt;
     Vec3 b(0.25, 0.25, 0.25);
     for (int k = 0; k < 12; ++k) {
@@ -237,7 +237,7 @@ std::vector<Vec3> carried(const WorldSetup& setup, const std::vector<Vec3>& x, c
   return result;
 }
 
-Solved solve(const Trial& trial, WorldSetup setup, double tolerance) {
+Solved solve(const Trial& trial, WorldSetup setup, double tolerance, int parts) {
   setup.solver.integrator = Integrator::static_equilibrium;
   setup.solver.tolerance = tolerance;
   Solved solved;
@@ -245,7 +245,7 @@ Solved solve(const Trial& trial, WorldSetup setup, double tolerance) {
   for (const Boundary& boundary : setup.boundary) solved.unknowns -= 3 * boundary.nodes.size();
   const auto began = std::chrono::steady_clock::now();
   const auto world = trial.make(std::move(setup));
-  world->load_to(1);
+  for (int k = 1; k <= parts && !world->halt(); ++k) world->load_to(static_cast<double>(k) / parts);
   solved.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   solved.x = world->positions();
   solved.reactions = world->reactions();

@@ -17,8 +17,8 @@ TetMesh cubic_shell(int n, int layers, double inner, double outer);
 /// along z, from 0 to `height`.
 TetMesh square_tube(int n, int layers, double inner, double outer, int storeys, double height);
 
-/// A cup of cubes: the surface of the cube [−1, 1]³ without its top, in n × n squares below and n × `storeys` on
-/// each side, times `layers` of radius from `inner` to `outer`.
+/// A cup of cubes: the surface of the cube [−1, 1]³ without its top, in n × n squares at the bottom and n × `storeys`
+/// on each side, times `layers` of radius from `inner` to `outer`.
 TetMesh cubic_cup(int n, int storeys, int layers, double inner, double outer);
 
 /// Maps a shell of cubes to one of spheres, a tube of squares to a round one, of equal angles.
@@ -49,7 +49,8 @@ struct Solved {
   double seconds = 0;
   std::string failed;  ///< empty: converged
 };
-Solved solve(const Trial& trial, WorldSetup setup, double tolerance = 1e-8);
+/// parts: of the load, solved one after the other, where the whole at once takes Newton's method longer.
+Solved solve(const Trial& trial, WorldSetup setup, double tolerance = 1e-8, int parts = 1);
 
 /// A row of a solve.
 Row row_of(const Solved& solved, const std::string& quantity, const std::string& unit, double ours, double reference,

@@ -30,7 +30,8 @@ struct BeamCase {
 Finding land_beam(const Trial& trial) {
   constexpr double bulk = 1e6;  // Pa, 250 times the shear modulus along the fibre
   constexpr BeamCase cases[] = {
-      {"p2_pressure", 2, 0.01, true}, {"p2_pressure", 4, 0.01, false}, {"p2", 4, no_limit, false}};
+      {"p2_pressure", 2, no_limit, false}, {"p2_pressure", 3, 0.01, true},
+      {"p2_pressure", 4, 0.01, false},     {"p2", 4, no_limit, false}};
   Finding finding;
   finding.curves.push_back({"consensus", true, {{500, consensus}, {2e4, consensus}}});
   for (const auto& [element, cells, limit, quick] : cases) {
@@ -45,7 +46,7 @@ Finding land_beam(const Trial& trial) {
     load.nodes = nodes_where(setup, [](const Vec3& X) { return X.z() < 1e-9; });
     load.pressure = bottom_pressure;
     setup.loads = {load};
-    const Solved solved = solve(trial, setup);
+    const Solved solved = solve(trial, setup, 1e-8, 8);
     const Vec3 end = carried(setup, solved.x, {Vec3(length, width / 2, width)}).front();
     finding.rows.push_back(row_of(solved, fmt::format("z of the point (10, 0.5, 1) mm, {} cells across", cells), "m",
                                   end.z(), consensus,

@@ -10,12 +10,13 @@ namespace {
 
 constexpr double cavity_pressure = 10e3, bulk = 1e6, base = 5e-3;  // Pa, Pa, m
 constexpr double cap = 0.3;  // s of the wall where the bottom of the cup meets the middle of its sides
+constexpr const char* element = "p2_pressure";
+constexpr int load_parts = 16;
 constexpr std::size_t stations = 10;
 
 // Land et al. 2015, figure 6: z of the apex, m, read to about 0.2 mm.
 constexpr double apex_inside = -26.6e-3, apex_outside = -28.3e-3;
-// Figure 8, middle of the wall, %, read to about 2 of the stations' values by the authors of TorchCor
-// (github.com/sagebei/torchcor): around the axis, along the wall, across it.
+// Figure 8, middle of the wall, %: rounded readings by the authors of TorchCor (github.com/sagebei/torchcor).
 struct Reading {
   const char* direction;
   std::array<double, stations> strain;
@@ -41,12 +42,17 @@ Vec3 cup_to_wall(const Vec3& x) {
   return wall_point(radius - 1, from + (1 - from) * up, std::atan2(bottom.y(), bottom.x()));
 }
 
-WorldSetup ventricle(const std::string& element, int cells, int layers) {
+Material muscle(double bulk_modulus) {
   Material material;
   material.law = "guccione";
-  material.parameters = {10e3, 1, 1, 1, bulk};
+  material.parameters = {10e3, 1, 1, 1, bulk_modulus};
   material.fibre = Vec3::UnitZ();
-  WorldSetup setup = make_body(cubic_cup(cells, 3 * cells / 2, layers, 1, 2), element, material, cup_to_wall);
+  return material;
+}
+
+WorldSetup ventricle(int cells, int layers, double bulk_modulus) {
+  WorldSetup setup =
+      make_body(cubic_cup(cells, 3 * cells / 2, layers, 1, 2), element, muscle(bulk_modulus), cup_to_wall);
   Boundary held;
   held.nodes = nodes_where(setup, [](const Vec3& X) { return X.z() > base - 1e-9; });
   setup.boundary = {held};
@@ -79,39 +85,45 @@ std::array<std::array<double, stations>, 2> strains(const WorldSetup& setup, con
   return result;
 }
 
+/// The limit κ → ∞ of two solutions with κ and 2κ: what a finite κ adds falls with 1/κ.
+Solved incompressible(const Solved& soft, Solved stiff) {
+  for (std::size_t n = 0; n < stiff.x.size(); ++n) stiff.x[n] = 2 * stiff.x[n] - soft.x[n];
+  stiff.seconds += soft.seconds;
+  if (!soft.failed.empty()) stiff.failed = soft.failed;
+  return stiff;
+}
+
 struct VentricleCase {
-  const char* element;
-  int cells, layers;  ///< along a side of the bottom, through the wall
-  double limit;       ///< relative, of the apex
+  int cells, layers;   ///< along a side of the bottom, through the wall
+  double most_strain;  ///< limit, relative
   bool quick, drawn;
 };
-constexpr double strain_limit = 0.05;  // of readings to 2 in 57 and 33
+constexpr double apex_limit = 0.01, strain_limit = 0.05;  // strains are read to 2 in 57 and 33
 
 }  // namespace
 
 Finding land_ventricle(const Trial& trial) {
-  constexpr VentricleCase cases[] = {{"p2_pressure", 4, 1, 0.01, true, false},
-                                     {"p2_pressure", 6, 2, 0.01, false, true},
-                                     {"p2", 6, 2, no_limit, false, false}};
+  constexpr VentricleCase cases[] = {{4, 2, no_limit, true, false}, {6, 2, strain_limit, false, true}};
   Finding finding;
-  for (const auto& [element, cells, layers, limit, quick, drawn] : cases) {
+  for (const auto& [cells, layers, most_strain, quick, drawn] : cases) {
     if (trial.quick && !quick) continue;
-    const WorldSetup setup = ventricle(element, cells, layers);
-    const Solved solved = solve(trial, setup);
-    const std::string method = fmt::format("{}, {} in the wall", element, layers);
-    const auto add = [&, most = limit](const std::string& what, const char* unit, double ours, double reference,
-                                       const char* figure, double within) {
+    const WorldSetup setup = ventricle(cells, layers, bulk);
+    const Solved solved = incompressible(solve(trial, setup, 1e-8, load_parts),
+                                         solve(trial, ventricle(cells, layers, 2 * bulk), 1e-8, load_parts));
+    const std::string method = fmt::format("{}, {} in the wall, incompressible", element, layers);
+    const auto add = [&](const std::string& what, const char* unit, double ours, double reference, const char* figure,
+                         double limit) {
       finding.rows.push_back(row_of(solved, what, unit, ours, reference, fmt::format("Land et al. 2015, {}", figure),
-                                    std::isnan(most) ? no_limit : within, method));
+                                    limit, method));
     };
     const auto apex = carried(setup, solved.x, {wall_point(0, 0, 0), wall_point(1, 0, 0)});
-    add("z of the apex inside", "m", apex[0].z(), apex_inside, "figure 6", limit);
-    add("z of the apex outside", "m", apex[1].z(), apex_outside, "figure 6", limit);
+    add("z of the apex inside", "m", apex[0].z(), apex_inside, "figure 6", apex_limit);
+    add("z of the apex outside", "m", apex[1].z(), apex_outside, "figure 6", apex_limit);
     const auto strain = strains(setup, solved.x);
     for (std::size_t d = 0; d < std::size(readings); ++d) {
       const Reading& read = readings[d];
       add(fmt::format("strain {}, station 6", read.direction), "%", strain[d][middle], read.strain[middle], "figure 8",
-          strain_limit);
+          most_strain);
       if (!drawn && !trial.quick) continue;
       Curve reference{fmt::format("{}, figure 8", read.direction), true}, ours{method};
       for (std::size_t k = 0; k < stations; ++k) {
