@@ -47,8 +47,8 @@ class Setup(WindowCase):
         self.do("mousemove", x, y, "click", 1)
         self.do("mousemove", 1276, 716)
 
-    FIX, FREE, LOAD = (81, 228), (205, 228), (81, 298)  # in the panel
-    THROUGH, TAG = (33, 166), (81, 394)
+    FIX, FREE, LOAD = (81, 254), (205, 254), (81, 324)  # in the panel
+    THROUGH, ALONG, TAG = (33, 166), (191, 228), (81, 420)
 
     def test_selected_nodes_are_fixed_and_loaded_undone_and_saved_with_the_same_bits(self):
         before = self.begin_paused()
@@ -84,6 +84,23 @@ class Setup(WindowCase):
         self.assertEqual([entry["force"] for entry in scene["loads"]], [[0, 0.1, 0]])
         self.assertEqual(scene.get("events", []), [])
         self.solves_to_the_same(scene)
+
+    def test_nodes_are_fixed_in_one_direction_and_slide_in_the_others(self):
+        self.begin_paused()
+        self.select((-0.05, 1.05), (1.05, 0.9))
+        self.press(*self.ALONG)
+        self.press(141, 298)  # y
+        self.press(*self.FIX)
+        self.do("key", "space")
+        self.play(30)
+        self.do("key", "space")
+        self.save()
+        self.quit()
+        [fixed] = self.seen("boundary")
+        self.assertEqual([entry["axes"] for entry in fixed], ["y"])
+        self.verify()
+        scene = self.saved()
+        self.assertEqual([entry["axes"] for entry in scene["boundary"]], ["y"])
 
     def saved(self):
         [file] = self.folder.glob("heml-light-*.json")
