@@ -78,7 +78,8 @@ TEST_CASE("tools that cannot be meant are refused, with their place") {
   CHECK(says(refused(R"("pin": {"node": 1, "radius": -1})"), "pin.radius"));
   CHECK(says(refused(R"("pin": {"node": 1, "point": [0, 0, 0]})"), "pin"));
   CHECK(says(refused(R"("release": "pin")"), "\"pins\""));
-  CHECK(says(refused(R"("release": {"nodes": 3})"), "unknown key"));
+  CHECK(says(refused(R"("release": {"pins": 3})"), "unknown key"));
+  CHECK(says(refused(R"("release": {"nodes": 3})"), "release.nodes"));
   CHECK(says(refused(R"("tables": [{"point": [0, 0, 0]}])"), "normal"));
   CHECK(says(refused(R"("tables": [{"point": [0, 0, 0], "normal": [0, 0, 0]}])"), "must be a direction"));
   CHECK(says(refused(R"("tables": [{"point": [0, 0, 0], "normal": [0, 1, 0], "friction": -0.1}])"), "friction"));
