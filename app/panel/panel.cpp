@@ -370,9 +370,10 @@ void Panel::draw_header(const Frame& frame) {
   button("Step", "One tick of the engine, then pause (. key).", false, Action::step, draw_step);
   button("Undo", undo_hint(frame, -1).c_str(), false, Action::undo, draw_undo);
   button("Redo", undo_hint(frame, 1).c_str(), false, Action::redo, draw_redo);
-  button("Reset", "Back to the initial state at time 0; all that was set stays (R). Shift+R: all of the scene as it was opened, "
-         "one step for undo.", false,
-         Action::reset, draw_reset);
+  button("Reset",
+         "Back to the initial state at time 0; all that was set stays (R). Shift+R: all of the scene as it was opened, "
+         "one step for undo.",
+         false, Action::reset, draw_reset);
   button("Open", "Opens installed scenes, recent files, and files in folders (Ctrl+O).", false, Action::open,
          draw_folder);
   button("Help", "Mouse and keys (H).", false, Action::help, draw_question);

@@ -27,8 +27,10 @@ void SelectionSection::draw(Rows& rows, const Frame& frame, PanelActions& out) {
                            "within the tool's radius of where it passes. Shift adds, Ctrl takes away."},
                   chosen, names))
     drag_ = static_cast<Drag>(chosen);
-  rows.check({"Through the body", "Selects also what other tissue hides, and nodes inside the body. Paint selects those "
-                                  "inside within its radius, whatever is set here."}, through_);
+  rows.check({"Through the body",
+              "Selects also what other tissue hides, and nodes inside the body. Paint selects those inside within its "
+              "radius, whatever is set here."},
+             through_);
   if (selection_.is_empty() || !frame.conditions) {
     rows.value({"Selected", "Click or drag on the tissue: nodes of the surface, shown as dots."}, "nothing yet");
     return;
@@ -103,8 +105,10 @@ void SelectionSection::draw_loads(Rows& rows, const Conditions& conditions, Pane
   const std::vector<int>& nodes = selection_.nodes();
   rows.value({"Loaded", "How many of them a load of the scene pulls or presses."},
              share_text(count_in(conditions.loads, nodes), nodes.size()));
-  rows.vector({"Force", "x, y, z in N, in all: the selected nodes share it equally. The arrow in the image shows it: drag "
-                        "its tip to set direction and size, and to load; Shift keeps to an axis."}, force_, "%.3g");
+  rows.vector({"Force",
+               "x, y, z in N, in all: the selected nodes share it equally. The arrow in the image shows it: drag its "
+               "tip to set direction and size, and to load; Shift keeps to an axis."},
+              force_, "%.3g");
   const float half = half_row();
   if (rows.button({"Load", "Applies the force to the selected nodes from now on, in place of a force on the same "
                            "nodes. Saved with the scene."},
@@ -132,7 +136,8 @@ void SelectionSection::draw_region(Rows& rows, const Frame& frame, PanelActions&
     out.commands.emplace_back(TagRegion{std::move(tag), std::nullopt});
   }
   ImGui::SameLine(0, em(0.4f));
-  if (!rows.button({"Its material", "Shows the material of the region of this name in the section below."}, half)) return;
+  if (!rows.button({"Its material", "Shows the material of the region of this name in the section below."}, half))
+    return;
   if (!frame.regions) return;
   for (const auto& [number, name] : frame.regions->names)
     if (name == name_) region_ = number;

@@ -1,9 +1,9 @@
 #pragma once
 // An arrow in the picture that stands for a force or for gravity, and whose tip is dragged: its direction and size.
 //
-//              ● tip          the tip follows the mouse in the plane that faces the camera; value = (tip − from) · scale.
-//            ╱  0.12 N        When it is let go the arrow gets its usual length back, so that the next drag changes
-//    from ──╱                 it by as much again.
+//              ● tip       the tip follows the mouse in the plane that faces the camera; value = (tip − from) · scale.
+//            ╱  0.12 N     When it is let go the arrow gets its usual length back, so that the next drag changes it by
+//    from ──╱              as much again.
 #include <app/panel/camera_controller.hpp>
 #include <optional>
 

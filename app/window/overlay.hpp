@@ -35,8 +35,8 @@ void draw_nodes(const std::vector<int>& nodes, const Frame& frame, const Surface
 
 /// The forces (N) of loads on nodes, as arrows from the middle of theirs, the longest a quarter of the body's radius;
 /// without those on `except`, which have an arrow of their own.
-void draw_loads(const std::vector<Load>& loads, const std::vector<int>& except, const Frame& frame, const SurfaceMesh& surface_mesh,
-                const panel::CameraController& controller);
+void draw_loads(const std::vector<Load>& loads, const std::vector<int>& except, const Frame& frame,
+                const SurfaceMesh& surface_mesh, const panel::CameraController& controller);
 
 /// Mean place (m) of nodes (mesh-file numbers) that the surface has; none: it has none of them.
 std::optional<Vec3f> middle_of(const std::vector<int>& nodes, const Frame& frame, const SurfaceMesh& surface_mesh);

@@ -81,7 +81,9 @@ void SelectionDrag::paint(const render::Vec2f& at, const View& view) {
   if (!hit) return;
   const auto& [rest, nodes] = std::tie(view.surface_mesh.rest, view.surface_mesh.nodes);
   const Vec3f& centre = rest[static_cast<std::size_t>(hit->node)];
-  const auto is_near = [&](const Vec3f& place) { return static_cast<double>((place - centre).norm()) <= settings_.radius; };
+  const auto is_near = [&](const Vec3f& place) {
+    return static_cast<double>((place - centre).norm()) <= settings_.radius;
+  };
   std::vector<int> near;
   for (std::size_t n = 0; n < nodes.size(); ++n)
     if (static_cast<int>(n) == hit->node || is_near(rest[n])) near.push_back(nodes[n]);

@@ -1,6 +1,6 @@
 #pragma once
-// Entries of `regions`, `boundary`, `loads`, `tables`, `self_contact`, `tearing` and `outputs.markers`, and the selections in them
-// and in events, between JSON and data.
+// Entries of `regions`, `boundary`, `loads`, `tables`, `self_contact`, `tearing` and `outputs.markers`, and the
+// selections in them and in events, between JSON and data.
 #include <heml/scenario/json_cursor.hpp>
 #include <heml/scenario/key_table.hpp>
 #include <heml/scenario/scene.hpp>

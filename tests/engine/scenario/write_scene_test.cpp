@@ -227,10 +227,10 @@ TEST_CASE("writes every kind of event so that it reads back bit for bit") {
 }
 
 TEST_CASE("regions of a scene read back, and the mesh has them") {
-  const Scene scene = test::small_scene_with(R"({"regions": [{"tets": [0, 3], "name": "lesion", "number": 7},
-                                                             {"sphere": [[0, 0, 0], 9], "name": "all"}],
-                                                 "materials": [{"law": "stvk", "young": 1, "poisson": 0},
-                                                               {"region": 8, "law": "stvk", "young": 2, "poisson": 0}]})");
+  const Scene scene = test::small_scene_with(R"({
+    "regions": [{"tets": [0, 3], "name": "lesion", "number": 7}, {"sphere": [[0, 0, 0], 9], "name": "all"}],
+    "materials": [{"law": "stvk", "young": 1, "poisson": 0}, {"region": 8, "law": "stvk", "young": 2, "poisson": 0}]
+  })");
   CHECK(parse_scene(scene_text(scene), "folder/scene.json").regions == scene.regions);
   const TetMesh mesh = load_setup(scene).mesh;
   CHECK(mesh.regions == std::vector<int>(mesh.tets.size(), 8));  // the later entry wins
