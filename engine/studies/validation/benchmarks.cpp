@@ -53,16 +53,16 @@ std::span<const Benchmark> benchmarks() {
       {"land_beam", "Land's beam (problem 1)",
        "A beam of 10 × 1 × 1 mm of heart muscle, fibres along it (`guccione` with C 2 kPa, bf 8, bt 2, bfs 4), clamped "
        "at one end. A pressure of 4 Pa on its lower face follows the deformed face.",
-       "Land et al. 2015, problem 1: codes of eleven groups. The paper prints no table; the consensus, 4.17 mm, is "
-       "read from its figure 3, where the finest solutions lie between about 4.15 and 4.19 mm.",
+       "Land et al. 2015, problem 1: codes of eleven groups. The consensus, 4.17 mm, of solutions between 4.15 and "
+       "4.19 mm, is as others quote it, not read from the paper's own figure 3.",
        "Unknowns", "Height of the end", "m", land_beam},
       {"land_ventricle", "Land's ventricle (problem 2)",
        "An ellipsoid cut at the base, 3 mm thick, isotropic (`guccione` with C 10 kPa, bf = bt = bfs = 1), is held "
        "at its base and blown up by a pressure of 10 kPa inside, which follows the deformed wall. Ours is the limit of "
        "two solutions with κ 1 and 2 MPa, whose difference falls with 1/κ. Strains are changes of distances in the "
        "middle of the wall, as in the paper.",
-       "Land et al. 2015, problem 2: codes of eleven groups. The paper prints no table; the consensus is read from its "
-       "figures 6 (to about 0.2 mm) and 8 (to about 2 %).",
+       "Land et al. 2015, problem 2: codes of eleven groups. The consensus of its figures 6 (to about 0.2 mm) and "
+       "8 (to about 2 %) is as others quote it, the strains as TorchCor has them (github.com/sagebei/torchcor).",
        "Station from apex to base", "Strain", "%", land_ventricle},
   };
   return list;

@@ -14,7 +14,7 @@ constexpr const char* element = "p2_pressure";
 constexpr int load_parts = 16;
 constexpr std::size_t stations = 10;
 
-// Land et al. 2015, figure 6: z of the apex, m, read to about 0.2 mm.
+// Land et al. 2015, figure 6, as others quote it: z of the apex, m, to about 0.2 mm.
 constexpr double apex_inside = -26.6e-3, apex_outside = -28.3e-3;
 // Figure 8, middle of the wall, %: rounded readings by the authors of TorchCor (github.com/sagebei/torchcor).
 struct Reading {
@@ -113,7 +113,7 @@ Finding land_ventricle(const Trial& trial) {
     const std::string method = fmt::format("{}, {} in the wall, incompressible", element, layers);
     const auto add = [&](const std::string& what, const char* unit, double ours, double reference, const char* figure,
                          double limit) {
-      finding.rows.push_back(row_of(solved, what, unit, ours, reference, fmt::format("Land et al. 2015, {}", figure),
+      finding.rows.push_back(row_of(solved, what, unit, ours, reference, fmt::format("Land et al. 2015, {}, as quoted", figure),
                                     limit, method));
     };
     const auto apex = carried(setup, solved.x, {wall_point(0, 0, 0), wall_point(1, 0, 0)});
