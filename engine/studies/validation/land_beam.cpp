@@ -8,7 +8,7 @@ namespace heml::validation {
 namespace {
 
 constexpr double length = 0.01, width = 0.001, bottom_pressure = 4;  // m, m, Pa
-constexpr double consensus = 4.17e-3;                                // m, of z at the point, as others quote Land et al. 2015
+constexpr double consensus = 4.17e-3;  // m, of z at the point, as others quote Land et al. 2015
 
 Material beam_muscle(double bulk) {
   Material material;

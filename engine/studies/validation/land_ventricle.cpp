@@ -113,8 +113,8 @@ Finding land_ventricle(const Trial& trial) {
     const std::string method = fmt::format("{}, {} in the wall, incompressible", element, layers);
     const auto add = [&](const std::string& what, const char* unit, double ours, double reference, const char* figure,
                          double limit) {
-      finding.rows.push_back(row_of(solved, what, unit, ours, reference, fmt::format("Land et al. 2015, {}, as quoted", figure),
-                                    limit, method));
+      finding.rows.push_back(row_of(solved, what, unit, ours, reference,
+                                    fmt::format("Land et al. 2015, {}, as quoted", figure), limit, method));
     };
     const auto apex = carried(setup, solved.x, {wall_point(0, 0, 0), wall_point(1, 0, 0)});
     add("z of the apex inside", "m", apex[0].z(), apex_inside, "figure 6", apex_limit);
