@@ -171,6 +171,10 @@ TEST_CASE("snapshot: quadratic elements, every command, before the snapshot and 
       Command accepted = command;
       if (auto* change = std::get_if<SetMaterial>(&accepted)) change->material = sample_material("neo_hookean_iso");
       if (auto* removal = std::get_if<RemoveElements>(&accepted)) removal->which.tets = {3, 17};
+      if (auto* tag = std::get_if<TagRegion>(&accepted)) {
+        tag->tag.which.tets = {3, 17};
+        tag->material = sample_material("neo_hookean_iso");
+      }
       std::vector<Event> events;
       for (const Command& earlier : before(command)) events.push_back({is_implicit ? 3 : 1, earlier});
       events.push_back({1, accepted});
