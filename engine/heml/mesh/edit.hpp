@@ -91,6 +91,23 @@ struct ElementSelection {
   bool operator==(const ElementSelection&) const = default;
 };
 
+/// Elements that are to be a region. By nodes: those whose four corners are all among them.
+struct RegionTag {
+  std::vector<int> nodes;      ///< mesh-file order; empty: `which` chooses
+  ElementSelection which;
+  std::string name;            ///< of the region, which is there, or new
+  std::optional<int> number;   ///< its tag; none: that of the name, or one more than the largest there is
+  bool operator==(const RegionTag&) const = default;
+};
+
+/// A tag with its elements and number found.
+struct TaggedRegion {
+  int number = 0;
+  std::string name;
+  std::vector<int> tets;  ///< mesh-file order, ascending
+  bool operator==(const TaggedRegion&) const = default;
+};
+
 /// Finds the selected elements of a topology, ascending. Returns a message if an element does not exist or was removed
 /// before, or if none is selected. mesh: at rest.
 Status select_elements(const ElementSelection& which, const TetMesh& mesh, const Topology& topology,

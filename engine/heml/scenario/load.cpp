@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <heml/base/error.hpp>
 #include <heml/base/log.hpp>
+#include <heml/mesh/region_tag.hpp>
 #include <heml/mesh/surface.hpp>
 #include <heml/scenario/adapt.hpp>
 #include <heml/scenario/load_mesh.hpp>

@@ -5,7 +5,6 @@
 #include <heml/materials/material.hpp>
 #include <heml/math/types.hpp>
 #include <heml/mesh/edit.hpp>
-#include <heml/mesh/region_tag.hpp>
 #include <heml/mesh/sweep.hpp>
 #include <heml/tools/contact_surface.hpp>
 #include <heml/world/setup.hpp>

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <heml/materials/energy_law.hpp>
 #include <heml/materials/material.hpp>
+#include <heml/mesh/region_tag.hpp>
 #include <heml/world/command_executor.hpp>
 #include <heml/world/stable_step.hpp>
 

@@ -7,6 +7,7 @@
 #include <heml/mesh/reorder.hpp>
 #include <heml/mesh/surface.hpp>
 #include <heml/world/setup.hpp>
+#include <type_traits>
 #include <vector>
 
 namespace heml {
@@ -42,6 +43,15 @@ template <class Real>
 PrescribedMotion::At prescribed_at(const Model<Real>& model, const ConstrainedNode& constrained, double time) {
   return model.prescribed_motions[static_cast<std::size_t>(constrained.entry)](
       model.mesh.nodes[static_cast<std::size_t>(constrained.node)], time);
+}
+
+/// Writes these coordinates of a node's value to values, 3 #V.
+template <class Vector3, class Values>
+void set_along(const AxisSet& axes, int node, const Vector3& value, Values& values) {
+  using Scalar = std::remove_cvref_t<decltype(values[0])>;
+  for (int i = 0; i < 3; ++i)
+    if (axes.has[static_cast<std::size_t>(i)])
+      values[static_cast<decltype(values.size())>(3 * node + i)] = static_cast<Scalar>(value[i]);
 }
 
 /// Of each node, the coordinates that the boundary entries hold.

@@ -1,15 +1,15 @@
 #pragma once
 // All that makes a world, with every file read and every selection resolved to node numbers. Scenes become this
 // (scenario/), tests write it by hand; make_world() turns it into something that steps.
-#include <heml/dynamics/axis_set.hpp>
 #include <heml/dynamics/integrator.hpp>
 #include <heml/dynamics/solver_options.hpp>
 #include <heml/elastic/instruction_set.hpp>
 #include <heml/materials/material.hpp>
+#include <heml/mesh/edit.hpp>
 #include <heml/mesh/quadratic.hpp>
-#include <heml/mesh/region_tag.hpp>
 #include <heml/tools/contact_surface.hpp>
 #include <heml/tools/settings.hpp>
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -21,6 +21,19 @@ namespace heml {
 struct RegionMaterial {
   std::optional<int> region;
   Material material;
+};
+
+/// A set of coordinate axes: of a node, those in which it is held.
+struct AxisSet {
+  std::array<bool, 3> has{true, true, true};
+
+  static AxisSet none() { return {{false, false, false}}; }
+  bool are_all() const { return has[0] && has[1] && has[2]; }
+  bool are_none() const { return !has[0] && !has[1] && !has[2]; }
+  AxisSet with(const AxisSet& other) const {
+    return {{has[0] || other.has[0], has[1] || other.has[1], has[2] || other.has[2]}};
+  }
+  bool operator==(const AxisSet&) const = default;
 };
 
 /// Nodes held or moved. A moved node goes to rotate(X − origin) + origin + translate of its rest position X,
