@@ -1,5 +1,6 @@
 // Elements that become a region while a world runs: as if the mesh had had it, and taken back.
 #include <algorithm>
+#include <heml/mesh/region_tag.hpp>
 
 #include "messages.hpp"
 #include "state_support.hpp"
