@@ -110,6 +110,36 @@ TEST_CASE("rollers: every method that steps comes to the same rest, in float too
   }
 }
 
+TEST_CASE("rollers: quadratic elements, and L-BFGS, whose preconditioner works in double") {
+  for (const auto preconditioner : {Preconditioner::cholesky, Preconditioner::block_jacobi, Preconditioner::scalar,
+                                    Preconditioner::multilevel}) {
+    CAPTURE(static_cast<int>(preconditioner));
+    WorldSetup setup = pressed_block(Integrator::static_equilibrium, 2, 0);
+    for (Boundary& entry : setup.boundary) entry.nodes.clear();
+    setup.midedges = add_midedge_nodes(setup.mesh);
+    setup.solver.quadratic = true;
+    for (int k = 0; k < 4; ++k)
+      setup.boundary[static_cast<std::size_t>(k)].nodes = nodes_where(
+          setup.mesh, [&](const Vec3& X) { return k < 3 ? X[k] < 1e-9 : X.z() > side - 1e-9; });
+    setup.solver.preconditioner = preconditioner;
+    setup.solver.tolerance = 1e-9;
+    const auto world = make_world(setup);
+    world->load_to(1);
+    REQUIRE(!world->halt());
+    CHECK(largest_error(*world, setup) < 1e-9 * side);
+  }
+  WorldSetup setup = pressed_block(Integrator::backward_euler, 3, 0.2);
+  setup.solver.minimiser = Minimiser::lbfgs;
+  setup.solver.damping = 20;
+  setup.solver.rate = 60;
+  const auto world = make_world(setup);
+  while (world->time() < 2) {
+    world->tick();
+    REQUIRE(!world->halt());
+  }
+  CHECK(largest_error(*world, setup) < 1e-4 * side);
+}
+
 TEST_CASE("rollers: a block that is pushed along a plane slides off as a free body does") {
   for (const Integrator method : {Integrator::verlet, Integrator::backward_euler, Integrator::tr_bdf2}) {
     CAPTURE(static_cast<int>(method));
