@@ -317,7 +317,7 @@ WorldFacts TypedWorld<Real>::facts() {
   facts.nodes = s_.setup->mesh.nodes.size();
   facts.tets = s_.setup->mesh.tets.size();
   facts.live_tets = s_.topology->elements.size();
-  facts.constrained_nodes = s_.model->constrained.size();
+  for (const AxisSet& held : held_axes(*s_.model)) facts.constrained_nodes += held.are_none() ? 0 : 1;
   facts.faces = s_.model->loaded_faces.triangles.size();
   facts.threads = s_.team.size();
   facts.kernels = s_.body.kernels();
