@@ -2,6 +2,7 @@
 #include <heml/math/closest.hpp>
 #include <heml/mesh/blade_front.hpp>
 #include <heml/mesh/faces.hpp>
+#include <limits>
 #include <set>
 
 namespace heml {
@@ -49,7 +50,24 @@ BladeFront::BladeFront(const std::array<Vec3, 2>& blade, const TetMesh& mesh, co
           *std::min_element(weights.begin(), weights.end()) >= 0)
         points_.push_back({end, tet, weights});
   }
+  if (points_.empty()) attach_beside(x, topology, mesh);
   std::stable_sort(points_.begin(), points_.end(), [](const Point& a, const Point& b) { return a.along < b.along; });
+}
+
+void BladeFront::attach_beside(const std::vector<Vec3>& x, const Topology& topology, const TetMesh& mesh) {
+  const Vec3 along = path_.front()[1] - path_.front()[0];
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const int t : topology.elements)
+    for (const int n : mesh.tets[static_cast<std::size_t>(t)]) {
+      const Vec3 to_node = x[static_cast<std::size_t>(n)] - path_.front()[0];
+      const double length = along.squaredNorm();
+      const double where = length > 0 ? std::clamp(to_node.dot(along) / length, 0.0, 1.0) : 0;
+      const double distance = (to_node - where * along).squaredNorm();
+      if (distance >= nearest) continue;
+      nearest = distance;
+      beside_ = n;
+    }
+  if (beside_ >= 0) beside_place_ = x[static_cast<std::size_t>(beside_)];
 }
 
 /// Adds the point of the blade in or on an element with corners at the given places.
@@ -57,20 +75,27 @@ void BladeFront::add_point(double along, const Tet& tet, const std::array<Vec3, 
   points_.push_back({along, tet, barycentric(on_blade(path_.front(), along), corners)});
 }
 
-Sweep BladeFront::join(const Sweep& sweep, const std::vector<Vec3>& x, double tolerance) const {
-  if (path_.empty() || sweep.blades.empty()) return sweep;
+OrientedSweep BladeFront::join(const Sweep& sweep, const std::vector<Vec3>& x, double tolerance,
+                               const Heading& heading) const {
+  if (path_.empty() || sweep.blades.empty()) return oriented(sweep);
   const auto& last = path_.back();
   for (std::size_t end = 0; end < 2; ++end)
-    if ((sweep.blades.front()[end] - last[end]).norm() > tolerance) return sweep;
+    if ((sweep.blades.front()[end] - last[end]).norm() > tolerance) return oriented(sweep);
   std::vector<std::array<Vec3, 2>> blades = path_;
   blades.insert(blades.end(), sweep.blades.begin() + 1, sweep.blades.end());
-  if (!in_tissue() || blades.size() < 2) return {std::move(blades)};
+  if (!in_tissue() && beside_ >= 0) {
+    const Vec3 moved = x[static_cast<std::size_t>(beside_)] - beside_place_;
+    if (!moved.isZero(0)) blades.insert(blades.begin(), {blades.front()[0] + moved, blades.front()[1] + moved});
+  }
+  const OrientedSweep whole = oriented({blades}, heading);
+  if (!in_tissue() || blades.size() < 2) return whole;
 
   const std::vector<CurvePoint> curve = curve_now(x);
   std::size_t first = 1;
   while (first < blades.size() && !is_ahead(blades[first - 1], blades[first], curve)) ++first;
-  Sweep joined;
-  if (first == blades.size()) return joined;
+  OrientedSweep result{{}, {}, whole.heading};
+  if (first == blades.size()) return result;
+  Sweep& joined = result.sweep;
   // A strip of a short blade for each segment of the curve; between two strips the blade shrinks to a point, which
   // sweeps no area.
   const auto& next = blades[first];
@@ -82,8 +107,12 @@ Sweep BladeFront::join(const Sweep& sweep, const std::vector<Vec3>& x, double to
     joined.blades.push_back({curve[k].place, curve[k].place});
   }
   joined.blades.pop_back();
-  joined.blades.insert(joined.blades.end(), blades.begin() + static_cast<std::ptrdiff_t>(first), blades.end());
-  return joined;
+  const auto own = static_cast<std::ptrdiff_t>(first);
+  joined.blades.insert(joined.blades.end(), blades.begin() + own, blades.end());
+  // The strips go the way of the motion that ends at the next blade.
+  result.signs.assign(joined.blades.size() - blades.size() + first, whole.signs[first - 1]);
+  result.signs.insert(result.signs.end(), whole.signs.begin() + own, whole.signs.end());
+  return result;
 }
 
 /// The front as it lies now. Ends of the blade outside the tissue move with the nearest point of the front.

@@ -7,6 +7,9 @@
 //       ●      ╲       ╲             ●      the curve has its corners on the faces of the elements, so that it stays
 //       ●      ╱       ╱             ●      straight in each of them: no edge of an element passes it unnoticed
 //       ●─────┘       └──────────────●
+//
+// A blade that stopped outside the tissue starts from where it then was beside the nearest node, so that tissue which
+// has come upon the blade since is cut.
 #include <heml/mesh/edit.hpp>
 #include <heml/mesh/sweep.hpp>
 
@@ -24,8 +27,10 @@ class BladeFront {
 
   /// The sweep from the front, as it lies now, to the end of the given sweep, by way of those that passed. It starts
   /// with the first blade that is ahead of the whole front, so that it does not fold back over the cut; empty if none
-  /// is. The given sweep itself if it does not start within `tolerance`, m, of where the last one ended.
-  Sweep join(const Sweep& sweep, const std::vector<Vec3>& x, double tolerance) const;
+  /// is. The given sweep itself if it does not start within `tolerance`, m, of where the last one ended. heading: of
+  /// the blade at the front.
+  OrientedSweep join(const Sweep& sweep, const std::vector<Vec3>& x, double tolerance,
+                     const Heading& heading = {}) const;
 
   /// The blade moves on by a sweep that crosses no edge: the front stays.
   void pass(const Sweep& sweep);
@@ -46,10 +51,13 @@ class BladeFront {
   std::vector<CurvePoint> curve_now(const std::vector<Vec3>& x) const;
   static bool is_ahead(const std::array<Vec3, 2>& before, const std::array<Vec3, 2>& blade,
                        const std::vector<CurvePoint>& curve);
+  void attach_beside(const std::vector<Vec3>& x, const Topology& topology, const TetMesh& mesh);
   void add_point(double along, const Tet& tet, const std::array<Vec3, 4>& corners);
 
   std::vector<std::array<Vec3, 2>> path_;  ///< m, the blade at the front, then where it passed; empty: not begun
   std::vector<Point> points_;              ///< in the order of `along`
+  int beside_ = -1;                        ///< of a blade outside the tissue: the node nearest to it
+  Vec3 beside_place_ = Vec3::Zero();       ///< m, of that node when the blade stopped
 };
 
 }  // namespace heml

@@ -19,7 +19,7 @@ struct Stroke {
   std::vector<int> nodes;                   ///< nodes in the cut, ascending
   std::vector<std::array<int, 3>> closed;   ///< faces in the cut that no node could be copied at yet, sorted
   std::vector<std::pair<int, bool>> sides;  ///< nodes beside the cut, ascending, and whether on its upper side
-  Vec3 normal = Vec3::Zero();               ///< where the last sweep ended, to the upper side; zero: not begun
+  Heading heading;                          ///< where the last sweep ended
   BladeFront front;                         ///< where the last sweep ended
 };
 

@@ -195,7 +195,7 @@ TEST_CASE("cut: lies within the snapping distance of the sweep and leaves no sli
                      {Vec3(0.5, 0.5, -1), Vec3(0.5, 0.6, 2)},
                      {Vec3(1.2, 0.3, -1), Vec3(1.2, 0.8, 2)}}};
   REQUIRE(body.cut(sweep, made) == "");
-  const SweptSurface surface(sweep);
+  const SweptSurface surface(oriented(sweep));
   for (const int n : made.stroke.nodes)
     CHECK(surface.nearest(body.mesh.nodes[static_cast<std::size_t>(n)]).distance <= body.snap);
   CHECK(body.components() == 2);
@@ -307,15 +307,19 @@ TEST_CASE("cut: a stroke in 2, 10 or 100 sweeps severs what one sweep severs") {
     }
 }
 
-TEST_CASE("cut: a stroke goes on at its front in the tissue, which moves between the sweeps") {
-  for (unsigned seed = 1; seed <= 8; ++seed) {
-    CAPTURE(seed);
-    Body body = cube(5, seed);
-    cut_in_parts(body, random_stroke(seed), 100, sway);
-    CHECK(body.components() == 2);
-    CHECK(std::abs(body.volume() - 1) <= 1e-12);
-    body.closed_area();
-  }
+TEST_CASE("cut: a stroke goes on at its front in the tissue, which moves between the sweeps, by little or by a lot") {
+  for (const int cells : {4, 5, 6})
+    for (unsigned seed = 1; seed <= 12; ++seed)
+      for (const int parts : {2, 4, 10, 20, 100}) {
+        CAPTURE(cells);
+        CAPTURE(seed);
+        CAPTURE(parts);
+        Body body = cube(cells, seed);
+        cut_in_parts(body, random_stroke(seed), parts, sway);
+        CHECK(body.components() == 2);
+        CHECK(std::abs(body.volume() - 1) <= 1e-12);
+        body.closed_area();
+      }
 }
 
 TEST_CASE("cut: a stroke in parts that stops inside leaves one body") {
