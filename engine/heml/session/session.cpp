@@ -6,18 +6,13 @@
 #include <heml/base/error.hpp>
 #include <heml/base/log.hpp>
 #include <heml/scenario/recorder.hpp>
-#include <heml/scenario/recovery_monitor.hpp>
 #include <heml/scenario/schedule.hpp>
-#include <heml/scenario/skin.hpp>
 #include <heml/session/budget_controller.hpp>
-#include <heml/session/comparison_runs.hpp>
-#include <heml/session/mailbox.hpp>
-#include <heml/session/pacer.hpp>
+#include <heml/session/frame_publisher.hpp>
 #include <heml/session/preconditioner_updater.hpp>
+#include <heml/session/recovery_reporter.hpp>
 #include <heml/session/session.hpp>
 #include <heml/session/step_cost_estimator.hpp>
-#include <heml/session/step_doubling_scheduler.hpp>
-#include <heml/session/surface_mesh.hpp>
 #include <heml/session/thread_balance.hpp>
 #include <heml/session/undo_list.hpp>
 #include <mutex>
@@ -25,11 +20,6 @@
 #include <thread>
 
 namespace heml {
-namespace {
-constexpr auto frame_interval = std::chrono::milliseconds(8);    // between published frames
-constexpr auto error_interval = std::chrono::milliseconds(200);  // between estimates of the mesh error
-}  // namespace
-
 /// Whether `next` makes `command` redundant, as later mouse positions do between two ticks.
 static bool is_overtaken(const Command& command, const Command& next) {
   if (const auto* move = std::get_if<MoveTool>(&command)) {
@@ -52,18 +42,16 @@ class Session::Impl {
         world_(world_with_undo(scene)),
         regions_(regions_of(world_->setup().mesh)),
         region_names_(world_->setup().mesh.region_names),
-        skin_(load_skin(scene, world_->setup().mesh)),
+        publisher_(scene, world_->setup().mesh),
         scene_(without_events(scene)),
         schedule_(scene, world_->setup().mesh),
         recorded_ticks_(scene.recorded_ticks.value_or(0)),
-        hidden_(scene.view.hidden),
-        field_(scene.view.field),
+        recovery_reporter_(world_->setup().solver.recovery ? options_.recovery_file : std::filesystem::path()),
         playing_(!options_.start_paused),
         fast_forward_target_(options_.fast_forward_to),
         pacer_(world_->setup().solver.tick()) {
     if (!options_.comparisons.empty()) comparison_runs_.emplace(world_->setup(), options_.comparisons);
-    if (!world_->setup().solver.recovery) options_.recovery_file.clear();
-    if (!options_.recovery_file.empty()) scene_ = as_recorded(scene_, *world_);
+    if (recovery_reporter_.keeps_recording()) scene_ = as_recorded(scene_, *world_);
     if (options_.record) recorder_.emplace(*options_.record, scene_, *world_);
     const auto& budget = world_->setup().solver.budget;
     if (budget && budget->milliseconds > 0) budget_controller_.emplace(budget->milliseconds);
@@ -121,37 +109,13 @@ class Session::Impl {
     scene.recorded_ticks = moment.tick;
     return scene;
   }
-  void enable_stretches(bool wanted) {
-    if (stretches_.exchange(wanted) == wanted) return;
+  FramePublisher& frames() { return publisher_; }
+  /// asks_anew: whether frames are to be others than before.
+  void publish_soon(bool asks_anew) {
+    if (!asks_anew) return;
     show_now_ = true;
     wake_.notify_all();
   }
-  void enable_errors(bool wanted) {
-    if (errors_.exchange(wanted) == wanted) return;
-    show_now_ = true;
-    wake_.notify_all();
-  }
-  void enable_solid(bool wanted) {
-    if (solid_wanted_.exchange(wanted) == wanted) return;
-    show_now_ = true;
-    wake_.notify_all();
-  }
-  void hide_regions(const std::vector<int>& regions) {
-    {
-      std::lock_guard lock(mutex_);
-      if (hidden_ == regions) return;
-      hidden_ = regions;
-    }
-    show_now_ = true;
-    wake_.notify_all();
-  }
-  void show(Field field) {
-    field_ = field;
-    show_now_ = true;
-    wake_.notify_all();
-  }
-
-  Mailbox<Frame> frames_;
 
  private:
   // Called on the engine thread.
@@ -164,10 +128,7 @@ class Session::Impl {
       if (may_tick()) one_tick();
       if (balance_) balance_threads();
       if (fast_forward_target_ > 0 && (world_->ticks() >= fast_forward_target_ || world_->halt())) end_fast_forward();
-      const auto now = Pacer::Clock::now();
-      if (show_now_.exchange(false) ||
-          now - published_ >= std::max<Pacer::Clock::duration>(frame_interval, 4 * publish_cost_))
-        publish();
+      if (show_now_.exchange(false) || publisher_.is_due(Pacer::Clock::now())) publish();
     }
   }
 
@@ -224,7 +185,7 @@ class Session::Impl {
       return warn("{}", status.message());
     }
     if (comparison_runs_) comparison_runs_->apply(command);
-    if (step_doubling_scheduler_) step_doubling_scheduler_->carried_out(command);
+    publisher_.carried_out(command);
     if (std::holds_alternative<SetRate>(command) || std::holds_alternative<StepHistory>(command) ||
         std::holds_alternative<Reset>(command))
       pacer_.set_tick(world_->setup().solver.tick(), Pacer::Clock::now());
@@ -284,11 +245,10 @@ class Session::Impl {
     else
       world_->tick();
     record([this](Recorder& recorder) { recorder.ticked(*world_); });
-    if (step_doubling_scheduler_) step_doubling_scheduler_->ticked(*world_);
+    publisher_.ticked(*world_);
     if (!recorded) apply_clock_choices(std::chrono::duration<double>(Pacer::Clock::now() - began).count() - waited);
     if (world_->halt()) show_now_ = true;
-    report_recovery();
-    report_rescue();
+    recovery_reporter_.ticked(*world_, scene_, history_);
     if (fast_forward_target_ == 0) pacer_.book(began, Pacer::Clock::now());
   }
 
@@ -310,108 +270,40 @@ class Session::Impl {
         carry_out(SetStepCost{*nanoseconds});
   }
 
-  /// Logs a recovery when it begins and ends, and writes the recovery file.
-  void report_recovery() {
-    const auto news = recovery_monitor_.after_tick(*world_);
-    if (news == RecoveryMonitor::Change::none) return;
-    const Recovery& recovery = *world_->recovery();
-    if (news == RecoveryMonitor::Change::began)
-      warn("{}", recovery.message);
-    else
-      log_info("the body came back after {} steps, {:.3g} s", recovery.steps,
-               recovery.ended->time - recovery.begun.time);
-    write_recovery(news == RecoveryMonitor::Change::began);
-  }
-
-  /// Logs the first tick that did not converge; the panel counts them.
-  void report_rescue() {
-    if (rescue_reported_) return;
-    const std::string message = rescue_message(world_->solver_stats());
-    rescue_reported_ = !message.empty();
-    if (rescue_reported_) warn("{} at t = {:.6g} s (the panel counts them)", message, world_->time());
-  }
-
-  void write_recovery(bool say) try {
-    if (options_.recovery_file.empty() || world_->halt() || world_->unfinished()) return;
-    std::error_code ignored;
-    std::filesystem::create_directories(options_.recovery_file.parent_path(), ignored);
-    write_replay(options_.recovery_file, scene_, history_, *world_);
-    kept_recovery_ = options_.recovery_file.string();
-    if (say) log_info("{} shows it again", kept_recovery_);
-  } catch (const InputError& error) {
-    warn("{}", error.what());
-    options_.recovery_file.clear();
-  }
-
-  /// Fills the frame's mesh and time errors while they are enabled.
-  void find_errors(Frame& frame) {
-    if (errors_ != step_doubling_scheduler_.has_value()) {
-      mesh_error_.reset();
-      errors_at_ = {};
-      if (errors_)
-        step_doubling_scheduler_.emplace();
-      else
-        step_doubling_scheduler_.reset();
-    }
-    const auto now = Pacer::Clock::now();
-    if (step_doubling_scheduler_ && now - errors_at_ >= error_interval) {
-      const auto estimate = world_->error_estimate();
-      mesh_error_ = estimate ? std::optional(estimate->relative()) : std::nullopt;
-      errors_at_ = now;
-    }
-    frame.mesh_error = mesh_error_;
-    frame.time_error = step_doubling_scheduler_ ? step_doubling_scheduler_->latest() : std::nullopt;
-  }
-
   void publish() {
     const auto began = Pacer::Clock::now();
-    Frame& frame = frames_.back();
-    const std::vector<int> hidden = [&] {
-      std::lock_guard lock(mutex_);
-      return hidden_;
-    }();
-    surface_mesh_ = make_surface_mesh(*world_, std::move(surface_mesh_), hidden);
-    fill_frame(*world_, surface_mesh_, field_, 0, frame, stretches_);
-    if (solid_wanted_ || skin_.exists())
-      fill_solid(*world_, 0, solid_, frame);
-    else
-      clear_solid(frame);
-    skin_.attach(frame);
-    if (comparison_runs_) comparison_runs_->fill(*world_, frame);
-    find_errors(frame);
+    publisher_.publish(*world_, comparison_runs_ ? &*comparison_runs_ : nullptr,
+                       [&](Frame& frame) { complete(frame, began); });
+    if (options_.on_frame) options_.on_frame();
+  }
+
+  /// Adds to a frame what is not of the world.
+  void complete(Frame& frame, Pacer::Time began) const {
     frame.pace = pacer_.pace(began);
     frame.pace.threads = world_->threads();
     if (balance_) frame.pace.others = balance_->load_of_others();
     frame.commands = std::ssize(history_);
     frame.paused = !playing_;
     frame.fast_forward_target = fast_forward_target_;
-    frame.recovery_file = kept_recovery_;
+    frame.recovery_file = recovery_reporter_.written();
     frame.recording_problem = recording_problem_;
     frame.undo_list = undo_list_;
     frame.refusals = refusals_;
     frame.refusal = refusal_;
-    frames_.publish();
-    published_ = Pacer::Clock::now();
-    publish_cost_ = published_ - began;
-    if (options_.on_frame) options_.on_frame();
   }
 
   SessionOptions options_;
   std::unique_ptr<World> world_;
   const std::vector<int> regions_;
   const std::map<int, std::string> region_names_;
-  SkinAttachment skin_;
-  std::shared_ptr<const SurfaceMesh> surface_mesh_;  ///< of the last frame
-  std::shared_ptr<const Solid> solid_;               ///< of the last frame that had one
+  FramePublisher publisher_;
   std::optional<ComparisonRuns> comparison_runs_;
   std::optional<Recorder> recorder_;
   Scene scene_;          ///< without its events
   Schedule schedule_;    ///< of the scene's events
   long recorded_ticks_;  ///< of the scene if it is a recording, else 0
-  RecoveryMonitor recovery_monitor_;
-  std::vector<Event> history_;  ///< every command carried out; changed under mutex_
-  bool rescue_reported_ = false;
-  std::string kept_recovery_;                  ///< file of the last recovery
+  RecoveryReporter recovery_reporter_;
+  std::vector<Event> history_;                 ///< every command carried out; changed under mutex_
   std::string recording_problem_;              ///< why the recording ended early
   std::shared_ptr<const UndoList> undo_list_;  ///< null before the first action
   long refusals_ = 0;                          ///< number of refused commands
@@ -419,24 +311,16 @@ class Session::Impl {
   mutable std::mutex mutex_;  ///< of queue_, single_steps_ and history_; locked briefly, longest by until()
   std::condition_variable wake_;
   std::vector<Command> queue_, taken_;
-  std::vector<int> hidden_;  ///< regions, ascending; under mutex_
   long single_steps_ = 0;
-  std::atomic<Field> field_;
-  std::atomic<bool> playing_, stopping_{false}, finished_{false}, show_now_{false}, stretches_{false}, errors_{false};
-  std::atomic<bool> solid_wanted_{false};
+  std::atomic<bool> playing_, stopping_{false}, finished_{false}, show_now_{false};
   std::atomic<long> fast_forward_target_;  ///< the tick to fast-forward to; 0: none
 
   std::optional<BudgetController> budget_controller_;     ///< where the scene's budget is in milliseconds
   std::optional<StepCostEstimator> step_cost_estimator_;  ///< where the scene leaves the integrator to the engine
   std::optional<ThreadBalance> balance_;  ///< where the scene leaves the number of threads to the engine
   PreconditionerUpdater preconditioner_updater_;
-  std::optional<StepDoublingScheduler> step_doubling_scheduler_;  ///< while errors are enabled
-  std::optional<double> mesh_error_;                              ///< the last estimate
-  Pacer::Time errors_at_{};                                       ///< wall time of the last estimate
   Pacer pacer_;
   bool frames_published_since_pause_ = false;
-  Pacer::Time published_{};
-  Pacer::Clock::duration publish_cost_{};
   std::thread thread_;
 };
 
@@ -451,12 +335,20 @@ void Session::fast_forward_to(long tick) { impl_->fast_forward_to(tick); }
 const std::vector<int>& Session::regions() const { return impl_->regions(); }
 const std::map<int, std::string>& Session::region_names() const { return impl_->region_names(); }
 Scene Session::until(const Frame& moment) const { return impl_->until(moment); }
-void Session::show(Field field) { impl_->show(field); }
-void Session::hide_regions(const std::vector<int>& regions) { impl_->hide_regions(regions); }
-void Session::enable_stretches(bool wanted) { impl_->enable_stretches(wanted); }
-void Session::enable_errors(bool wanted) { impl_->enable_errors(wanted); }
-void Session::enable_solid(bool wanted) { impl_->enable_solid(wanted); }
-const Frame& Session::latest() { return impl_->frames_.front(); }
-bool Session::frame_waiting() const { return impl_->frames_.waiting(); }
+void Session::show(Field field) { impl_->publish_soon(impl_->frames().show(field)); }
+void Session::hide_regions(const std::vector<int>& regions) {
+  impl_->publish_soon(impl_->frames().hide_regions(regions));
+}
+void Session::enable_stretches(bool wanted) {
+  impl_->publish_soon(impl_->frames().carry(FramePublisher::Part::stretches, wanted));
+}
+void Session::enable_errors(bool wanted) {
+  impl_->publish_soon(impl_->frames().carry(FramePublisher::Part::errors, wanted));
+}
+void Session::enable_solid(bool wanted) {
+  impl_->publish_soon(impl_->frames().carry(FramePublisher::Part::solid, wanted));
+}
+const Frame& Session::latest() { return impl_->frames().latest(); }
+bool Session::frame_waiting() const { return impl_->frames().is_waiting(); }
 
 }  // namespace heml
