@@ -41,6 +41,10 @@ void print_body(const Explanation& explained) {
   print_line("shape", "edges {:.3g} to {:.3g} mm, min dihedral angle {:.3g}° (element {})", 1e3 * quality.shortest_edge,
              1e3 * quality.longest_edge, quality.worst_dihedral, quality.worst_tet);
   print_line("constrained", "{} nodes", world.constrained_nodes);
+  if (explained.regions.size() > 1)
+    for (const RegionFacts& region : explained.regions)
+      print_line(fmt::format("region {}", region.number), "{}{} tetrahedra, {:.4g} cm³",
+                 region.name.empty() ? "" : region.name + ": ", region.tets, 1e6 * region.volume);
 }
 
 std::string region_text(const TetMesh& mesh, int region) {

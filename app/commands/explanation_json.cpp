@@ -22,6 +22,16 @@ Json body_json(const Explanation& explained) {
           {"slivers", quality.slivers}};
 }
 
+Json regions_json(const Explanation& explained) {
+  Json list = Json::array();
+  for (const RegionFacts& region : explained.regions)
+    list.push_back({{"number", region.number},
+                    {"name", region.name.empty() ? Json() : Json(region.name)},
+                    {"tets", region.tets},
+                    {"volume", region.volume}});
+  return list;
+}
+
 Json materials_json(const Explanation& explained) {
   Json list = Json::array();
   for (const MaterialFacts& material : explained.materials) {
@@ -165,6 +175,7 @@ Json explanation_json(const Explanation& explained, const std::optional<Measurem
   Json json{{"scene", explained.file}, {"name", explained.name}};
   json["chosen"] = chosen_json(explained);
   json["body"] = body_json(explained);
+  json["regions"] = regions_json(explained);
   json["materials"] = materials_json(explained);
   json["method"] = method_json(explained);
   json["limit"] = limit_json(explained);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <heml/scenario/explain.hpp>
 #include <heml/scenario/load_mesh.hpp>
+#include <map>
 
 namespace heml {
 namespace {
@@ -60,6 +61,30 @@ std::vector<TermFacts> terms_of(const Material& material, const SolverSettings& 
   return terms;
 }
 
+std::array<Vec3, 4> corners(const TetMesh& mesh, std::size_t tet) {
+  std::array<Vec3, 4> x;
+  for (std::size_t c = 0; c < 4; ++c) x[c] = mesh.nodes[static_cast<std::size_t>(mesh.tets[tet][c])];
+  return x;
+}
+
+std::vector<RegionFacts> regions_of(const TetMesh& mesh) {
+  std::map<int, RegionFacts> regions;
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    RegionFacts& region = regions[mesh.regions[t]];
+    const std::array<Vec3, 4> x = corners(mesh, t);
+    ++region.tets;
+    region.volume += signed_volume(x[0], x[1], x[2], x[3]);
+  }
+  std::vector<RegionFacts> result;
+  for (auto& [number, region] : regions) {
+    const auto name = mesh.region_names.find(number);
+    region.number = number;
+    if (name != mesh.region_names.end()) region.name = name->second;
+    result.push_back(std::move(region));
+  }
+  return result;
+}
+
 std::vector<MaterialFacts> materials_of(const WorldSetup& setup, const WorldFacts& facts) {
   std::vector<MaterialFacts> result;
   for (const KernelInfo& kernel : facts.kernels) {
@@ -85,12 +110,6 @@ const Material& material_at(const WorldSetup& setup, std::size_t tet) {
   };
   const auto own = entry_of(setup.mesh.regions[tet]);
   return (own != setup.materials.end() ? own : entry_of(std::nullopt))->material;
-}
-
-std::array<Vec3, 4> corners(const TetMesh& mesh, std::size_t tet) {
-  std::array<Vec3, 4> x;
-  for (std::size_t c = 0; c < 4; ++c) x[c] = mesh.nodes[static_cast<std::size_t>(mesh.tets[tet][c])];
-  return x;
 }
 
 double min_height(const std::array<Vec3, 4>& x) {
@@ -168,6 +187,7 @@ Explanation explain(const Scene& scene) {
   TetMesh checked = setup.mesh;
   MidEdges checked_midedges = setup.midedges;
   result.quality = check_tets(checked, &checked_midedges);
+  result.regions = regions_of(setup.mesh);
   result.materials = materials_of(setup, result.world);
   result.limit = limit_of(setup, result.world.step);
   result.tools = tools_of(scene, setup);

@@ -13,6 +13,14 @@
 
 namespace heml {
 
+/// The elements of one region.
+struct RegionFacts {
+  int number = 0;
+  std::string name;  ///< empty: it has none
+  std::size_t tets = 0;
+  double volume = 0;  ///< m³, at rest
+};
+
 /// A term of a material's energy (elastic/group_term.hpp), or another contribution to its forces.
 struct TermFacts {
   std::string name;    ///< law, volume_term, viscosity, relaxation, plasticity, nodal_pressure, springs
@@ -71,6 +79,7 @@ struct Explanation {
   WorldSetup setup;
   QualityReport quality;
   WorldFacts world;
+  std::vector<RegionFacts> regions;  ///< by number
   std::vector<MaterialFacts> materials;
   LimitFacts limit;
   std::vector<ToolFacts> tools;

@@ -41,6 +41,21 @@ using Names = std::vector<std::string>;
 
 }  // namespace
 
+TEST_CASE("regions are told with name, elements and volume, also those without a material of their own") {
+  // A cube of 5 tetrahedra, the one in its middle a third of it.
+  const Explanation of = explained(R"({"mesh": {"box": {"size": [0.3, 0.3, 0.3], "cells": [1, 1, 1]}},
+    "boundary": [], "regions": [{"tets": [0], "name": "core", "number": 7}]})");
+  REQUIRE(of.regions.size() == 2);
+  CHECK(of.regions[0].number == 0);
+  CHECK(of.regions[0].name.empty());
+  CHECK(of.regions[0].tets == 4);
+  CHECK(of.regions[0].volume == doctest::Approx(0.018).epsilon(1e-12));
+  CHECK(of.regions[1].number == 7);
+  CHECK(of.regions[1].name == "core");
+  CHECK(of.regions[1].tets == 1);
+  CHECK(of.regions[1].volume == doctest::Approx(0.009).epsilon(1e-12));
+}
+
 TEST_CASE("an explicit scene is explained: body, kernel, steps, no solver") {
   const Explanation of = explained(R"({"solver": {"threads": 1}})");
   CHECK(of.world.nodes == 12);
