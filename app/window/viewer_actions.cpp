@@ -4,10 +4,8 @@
 #include <algorithm>
 #include <app/window/elements_around.hpp>
 #include <app/window/run_program.hpp>
-#include <app/window/screenshot.hpp>
 #include <app/window/viewer.hpp>
 #include <heml/base/error.hpp>
-#include <heml/base/write_file.hpp>
 #include <utility>
 
 namespace heml::window {
@@ -192,110 +190,10 @@ void Viewer::remove_tissue() {
   post(commands);
 }
 
-/// Says where something is, with a button that opens the folder where the system can.
-void Viewer::notify_saved(const std::string& text, const std::filesystem::path& folder) {
-  panel_->notify(text, find_program("xdg-open").empty() ? std::filesystem::path() : folder);
-}
-
-void Viewer::save_screenshot() {
-  try {
-    const auto path = save_image(render::read_pixels(controller_.size()), open_.scene.name);
-    notify_saved("Saved " + path.string(), path.parent_path());
-  } catch (const InputError& error) {
-    panel_->notify(error.what());
-  }
-}
-
-/// Writes the scene as opened, with the current settings. Tool actions are left to recordings.
-void Viewer::save_scene() {
-  Scene scene = as_opened_;
-  panel_->write_into(scene);
-  scene.tables.clear();
-  for (const TableState& state : tools_of<TableState>(frame_->tools)) scene.tables.push_back(state.table);
-  write_conditions(scene);
-  write_regions(scene);
-  try {
-    const auto path = unused_path(scene.name, ".json");
-    write_file(path, scene_text(scene, std::filesystem::current_path()));
-    unsaved_.scene_saved();
-    notify_saved("Saved " + path.string(), path.parent_path());
-  } catch (const InputError& error) {
-    panel_->notify(error.what());
-  }
-}
-
-/// Boundary and loads where they are not as opened; nodes that cuts have added are of no use to the scene.
-void Viewer::write_conditions(Scene& scene) const {
-  const auto of_scene = [&](std::vector<int> nodes) {
-    std::erase_if(nodes, [&](int node) { return static_cast<std::size_t>(node) >= opened_conditions_->mesh_nodes; });
-    return Selection{std::move(nodes), {}, {}};
-  };
-  const auto is_empty = [](const auto& entry) { return entry.where.nodes.empty(); };
-  const Conditions& now = *live_->conditions;
-  if (now.boundary != opened_conditions_->boundary) {
-    scene.boundary.clear();
-    for (const Boundary& entry : now.boundary) scene.boundary.push_back({of_scene(entry.nodes), entry});
-    std::erase_if(scene.boundary, is_empty);
-  }
-  if (now.loads == opened_conditions_->loads) return;
-  scene.loads.clear();
-  for (const Load& entry : now.loads) scene.loads.push_back({of_scene(entry.nodes), entry});
-  std::erase_if(scene.loads, is_empty);
-}
-
-/// Regions made since, by the elements that the scene's mesh has.
-void Viewer::write_regions(Scene& scene) const {
-  const auto count = static_cast<int>(live_->surface_mesh->uncut_elements);
-  for (const TaggedRegion& region : live_->regions->tagged) {
-    RegionTag tag{{}, {region.tets, {}, {}, {}}, region.name, region.number};
-    std::erase_if(tag.which.tets, [&](int t) { return t >= count; });
-    if (!tag.which.tets.empty()) scene.regions.push_back(std::move(tag));
-  }
-}
-
-void Viewer::save_measured() {
-  try {
-    const auto path = unused_path(open_.scene.name + "-measured", ".csv");
-    write_file(path, panel_->measure().csv());
-    notify_saved("Saved " + path.string(), path.parent_path());
-  } catch (const InputError& error) {
-    panel_->notify(error.what());
-  }
-}
-
-void Viewer::toggle_recording() {
-  if (video_recorder_ && video_recorder_->is_finishing())
-    return panel_->notify("The last video is still being encoded.");
-  if (video_recorder_) return video_recorder_->finish();
-  try {
-    video_recorder_ = std::make_unique<VideoRecorder>(open_.scene.name, controller_.size());
-    panel_->notify("Filming; V stops.");
-  } catch (const InputError& error) {
-    panel_->notify(error.what());
-  }
-}
-
-/// Adds the drawn image, panel included, to the video.
-void Viewer::add_video_frame() {
-  if (!video_recorder_) return panel_->set_filmed_frames(std::nullopt);
-  if (const auto outcome = video_recorder_->take_outcome()) {
-    video_recorder_.reset();
-    return notify_saved(*outcome, std::filesystem::current_path());
-  }
-  panel_->set_filmed_frames(video_recorder_->is_finishing() ? std::nullopt
-                                                            : std::optional(video_recorder_->frame_count()));
-  const double time = frame_->elapsed;
-  if (playback_.active() || !video_recorder_->due(time)) return;
-  if (video_recorder_->size() == controller_.size())
-    return video_recorder_->add_frame(render::read_pixels(controller_.size()), time);
-  panel_->notify("The window was resized: the film ends here.");
-  video_recorder_->finish();
-  update_title();
-}
-
 void Viewer::use_view(const panel::PanelActions& actions) {
   if (actions.save_view) {
     controller_.save_view(*actions.save_view);
+    remember_views(as_opened_.file, controller_.saved_views());
     panel_->notify(fmt::format("View {} saved: F{} restores it.", *actions.save_view + 1, *actions.save_view + 5));
   }
   if (actions.look) controller_.look(*actions.look);

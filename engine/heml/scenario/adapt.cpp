@@ -121,6 +121,7 @@ AdaptedScene adapted_scene(const Scene& scene, const Adaptation& adaptation, con
   Scene& finer = result.scene;
   finer.mesh = MeshSpec();
   finer.mesh.file = mesh_file;
+  finer.regions.clear();  // the mesh has them
   for (std::size_t k = 0; k < scene.boundary.size(); ++k)
     if (auto& nodes = finer.boundary[k].where.nodes; !nodes.empty()) nodes = corners.boundary[k].nodes;
   for (std::size_t k = 0; k < scene.loads.size(); ++k)
@@ -129,6 +130,12 @@ AdaptedScene adapted_scene(const Scene& scene, const Adaptation& adaptation, con
   finer.recorded_ticks.reset(), finer.recorded_end.reset(), finer.recorded_by = {}, finer.recorded_mesh.reset(),
                                                             finer.recorded_instructions.reset();
   return result;
+}
+
+AdaptedScene refined_scene(Scene scene, const std::filesystem::path& mesh_file) {
+  const RefineGoal goal = *scene.mesh.refine;
+  scene.mesh.refine.reset();
+  return adapted_scene(scene, adapt(scene, load_setup(scene), goal, {}), mesh_file);
 }
 
 std::string text_of(const AdaptedMesh& mesh) {

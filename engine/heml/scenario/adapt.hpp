@@ -34,13 +34,17 @@ struct Adaptation {
 Adaptation adapt(const Scene& scene, WorldSetup setup, const RefineGoal& goal, const std::optional<double>& time,
                  const std::function<void(const AdaptedMesh&)>& told = {});
 
-/// The scene on the last mesh, with the fields of the scene's own mesh. The caller writes `mesh` to mesh_file. Throws
-/// InputError where events remove elements by number.
+/// The scene on the last mesh, with the fields and regions of the scene's own mesh. The caller writes `mesh` to
+/// mesh_file. Throws InputError where events remove elements by number.
 struct AdaptedScene {
   Scene scene;
   TetMesh mesh;
 };
 AdaptedScene adapted_scene(const Scene& scene, const Adaptation& adaptation, const std::filesystem::path& mesh_file);
+
+/// A scene with `mesh.refine` on the mesh that it is refined to when it is opened, whose elements and nodes have the
+/// numbers that the open scene has. Solves the scene as opening it does; throws as the functions above.
+AdaptedScene refined_scene(Scene scene, const std::filesystem::path& mesh_file);
 
 /// "1,600 tetrahedra, estimated error 46.9 %".
 std::string text_of(const AdaptedMesh& mesh);

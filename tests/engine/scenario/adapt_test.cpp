@@ -220,6 +220,24 @@ TEST_CASE("the refined scene, written with its mesh and fields, moves as the ref
   CHECK(fine->state_hash() == direct->state_hash());
 }
 
+TEST_CASE("a scene that refines its mesh, written with that mesh, has its numbers, regions and motion") {
+  const TemporaryFolder folder;
+  const Scene scene = sagging(R"({"mesh": {"refine": {"error": 0.4, "tets": 5000}},
+    "regions": [{"tets": [3, 4, 5], "name": "hard", "number": 1}],
+    "materials": [{"law": "neo_hookean", "young": 1e4, "poisson": 0.3},
+                  {"region": 1, "law": "stvk", "young": 5e4, "poisson": 0.3}]})");
+  const AdaptedScene written = refined_scene(scene, folder / "fine.vtu");
+  write_tet_mesh(folder / "fine.vtu", written.mesh);
+  const auto fine = load_world(parse_scene(scene_text(written.scene), folder / "fine.json"));
+  const auto direct = load_world(scene);
+  CHECK(mesh_fingerprint(fine->setup().mesh) == mesh_fingerprint(direct->setup().mesh));
+  CHECK(fine->setup().mesh.regions == direct->setup().mesh.regions);
+  CHECK(fine->setup().mesh.region_names == direct->setup().mesh.region_names);
+  CHECK(fine->setup().boundary[0].nodes == direct->setup().boundary[0].nodes);
+  for (int k = 0; k < 5; ++k) fine->tick(), direct->tick();
+  CHECK(fine->state_hash() == direct->state_hash());
+}
+
 TEST_CASE("what cannot be refined is refused with what would do") {
   CHECK(says(refused(sagging(R"({"gravity": [0, 0, 0], "loads": []})")), "nothing deforms the body"));
   CHECK(says(refused(sagging(R"({"gravity": [0, 0, 0], "loads": []})")), "heml refine SCENE --at SECONDS"));
