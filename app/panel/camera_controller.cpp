@@ -67,7 +67,7 @@ void CameraController::pan(float right, float down) {
 void CameraController::zoom(float notches) { centred_.zoom(std::pow(0.9f, notches)); }
 
 bool CameraController::restore_view(std::size_t view) {
-  if (saved_[view]) centred_ = *saved_[view];
+  if (saved_[view]) centred_ = render::Camera(*saved_[view]);
   return has_view(view);
 }
 

@@ -43,10 +43,12 @@ class CameraController {
   bool is_orthographic() const { return centred_.is_orthographic(); }
 
   static constexpr std::size_t views = 4;
-  void save_view(std::size_t view) { saved_[view] = centred_; }  ///< saves the view
+  using SavedViews = std::array<std::optional<render::CameraPose>, views>;
+  void save_view(std::size_t view) { saved_[view] = centred_.pose(); }  ///< saves the view
   bool restore_view(std::size_t view);                           ///< restores it; false: none is saved
   bool has_view(std::size_t view) const { return saved_[view].has_value(); }
-  void clear_views() { saved_ = {}; }
+  const SavedViews& saved_views() const { return saved_; }
+  void set_saved_views(const SavedViews& saved) { saved_ = saved; }
 
   /// Makes the pane at a pixel the current one, to which the functions below refer.
   void select_pane_at(const render::Vec2f& at);
@@ -70,7 +72,7 @@ class CameraController {
   render::Size size_;       ///< pixels
   std::vector<Pane> panes_{Pane{}};
   std::size_t current_ = 0;
-  std::array<std::optional<render::Camera>, views> saved_;
+  SavedViews saved_;
 };
 
 }  // namespace heml::panel

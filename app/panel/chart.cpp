@@ -283,12 +283,14 @@ class Drawing {
 
 const ChartColours light_chart = {colours::rgba(0xfcfbf9), colours::rgba(0x1d2527, 26), colours::rgba(0x8d9494),
                                   colours::rgba(0x1d2527), colours::rgba(0x5a6567),     colours::rgba(0xdfeeeb)};
-const ChartColours dark_chart = {colours::rgba(0x0e1213, 150),
-                                 colours::rgba(0x566164, 60),
-                                 colours::rgba(0x566164, 140),
-                                 colours::text,
-                                 colours::faint,
-                                 colours::rgba(0x2f6660, 90)};
+ChartColours panel_chart() {
+  return {colours::chart,
+          (colours::faint & 0x00ffffff) | 0x3c000000,
+          (colours::faint & 0x00ffffff) | 0x8c000000,
+          colours::text,
+          colours::faint,
+          (colours::fill & 0x00ffffff) | 0x5a000000};
+}
 
 void draw_chart(ImDrawList& list, const Area& area, const Chart& chart, const ChartColours& colours) {
   Drawing(list, chart, colours).draw(area);

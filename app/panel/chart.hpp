@@ -48,7 +48,8 @@ struct Chart {
 struct ChartColours {
   ImU32 paper, grid, axis, text, muted, band;
 };
-extern const ChartColours light_chart, dark_chart;
+extern const ChartColours light_chart;  ///< of documents
+ChartColours panel_chart();             ///< of the panel, in its theme
 
 /// Draws into an area of the image, with the fonts of the current ImGui context. Points that are not finite are
 /// omitted.

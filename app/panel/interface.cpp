@@ -24,7 +24,7 @@ void upload_fonts(ImTextureID texture) {
 
 Interface::Interface(float scale) : renderer_(scale) {
   ImGui::GetIO().ConfigWindowsMoveFromTitleBarOnly = true;
-  set_scale(scale);
+  set_look(scale, Theme::dark);
 }
 
 float Interface::suitable_scale(render::Size size) {
@@ -32,11 +32,12 @@ float Interface::suitable_scale(render::Size size) {
   return std::clamp(ratio, 0.72f, 1.0f);
 }
 
-void Interface::set_scale(float scale) {
-  if (scale == scale_ && !has_new_letters()) return;
+void Interface::set_look(float scale, Theme theme) {
+  if (scale == scale_ && theme == theme_ && !has_new_letters()) return;
   scale_ = scale;
+  theme_ = theme;
   const ImTextureID texture = ImGui::GetIO().Fonts->TexID;
-  apply_theme(scale);
+  apply_theme(scale, theme);
   upload_fonts(texture);
 }
 

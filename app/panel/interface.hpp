@@ -1,5 +1,6 @@
 #pragma once
 // Dear ImGui with the panel's theme, on OpenGL. A frame: begin(), the panel's draw(), end().
+#include <app/panel/theme.hpp>
 #include <app/render/imgui_renderer.hpp>
 
 namespace heml::panel {
@@ -13,8 +14,8 @@ class Interface {
   /// The scale for an image of a size: 1 from 1280×720 up, down to 0.72 for smaller ones.
   static float suitable_scale(render::Size size);
 
-  /// Rebuilds the fonts if the scale changes or texts need further letters. Call between frames.
-  void set_scale(float scale);
+  /// Rebuilds the fonts if scale or theme change or texts need further letters. Call between frames.
+  void set_look(float scale, Theme theme);
 
   /// size: pixels. seconds: since the last frame.
   void begin(render::Size size, float seconds) { renderer_.begin_frame(size, seconds); }
@@ -24,6 +25,7 @@ class Interface {
  private:
   render::ImguiRenderer renderer_;
   float scale_ = 0;
+  Theme theme_ = Theme::dark;
 };
 
 }  // namespace heml::panel

@@ -40,7 +40,7 @@ void MaterialCurve::draw(const Material& material) {
   const ImVec2 from = ImGui::GetCursorScreenPos();
   const ImVec2 to(from.x + ImGui::GetContentRegionAvail().x, from.y + em(height));
   ImGui::InvisibleButton("material curve", {to.x - from.x, to.y - from.y});
-  if (ImGui::IsItemVisible()) draw_chart(*ImGui::GetWindowDrawList(), {from, to}, chart_, dark_chart);
+  if (ImGui::IsItemVisible()) draw_chart(*ImGui::GetWindowDrawList(), {from, to}, chart_, panel_chart());
 }
 
 }  // namespace heml::panel

@@ -9,7 +9,6 @@
 namespace heml::panel {
 namespace {
 
-constexpr ImU32 second_colour = colours::potential;
 
 std::string degrees(double angle) { return std::isfinite(angle) ? fmt::format("{:.1f}°", angle) : "–"; }
 
@@ -28,7 +27,7 @@ void draw_plot(std::size_t points, Field field, const History& history) {
     return plot("measure plot", history, curves, {info(field).unit, 0, 1e-9, 3.2f});
   }
   const Curve lengths[] = {{"1 to 2", colours::accent, [](const Reading& r) { return r.measured.distance; }},
-                           {"2 to 3", second_colour, [](const Reading& r) { return r.measured.second; }}};
+                           {"2 to 3", colours::potential, [](const Reading& r) { return r.measured.second; }}};
   plot("measure plot", history, std::span(lengths, points - 1), {"m", 0, 1e-6, 3.2f});
   if (points < 3) return;
   const Curve angle[] = {{"Angle", colours::warning, [](const Reading& r) { return r.measured.angle; }}};
@@ -59,7 +58,7 @@ void draw_measure(Rows& rows, Measure& measure, const History& history, PanelAct
                quantity(now.distance, "m"), colours::accent);
   if (points > 2) {
     rows.value({"Distance 2 to 3", "Straight, between the second and the third point (m)."}, quantity(now.second, "m"),
-               second_colour);
+               colours::potential);
     rows.value({"Angle", "Between the two lines, at the second point (°)."}, degrees(now.angle), colours::warning);
   }
   if (now.field != Field::none)

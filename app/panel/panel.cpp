@@ -6,6 +6,7 @@
 #include <app/panel/icons.hpp>
 #include <app/panel/keys.hpp>
 #include <app/panel/legend.hpp>
+#include <app/panel/look_section.hpp>
 #include <app/panel/measure_section.hpp>
 #include <app/panel/panel.hpp>
 #include <app/panel/readings.hpp>
@@ -82,8 +83,19 @@ void Panel::set_camera(const render::Camera& camera) {
 }
 
 void Panel::set_preferences(const Preferences& preferences) {
-  view_.set_hints(preferences.hints);
+  view_.keep(preferences);
+  tool_.keep(preferences.tools);
+  look_ = preferences.look;
   rows_.set_sections(preferences.sections);
+}
+
+Preferences Panel::preferences() const {
+  Preferences preferences;
+  view_.write_into(preferences);
+  preferences.tools = tool_.kept();
+  preferences.look = look_;
+  preferences.sections = rows_.sections();
+  return preferences;
 }
 
 void Panel::update_stretch_limits() {
@@ -329,6 +341,7 @@ void Panel::draw_controls(const Frame& frame, bool with_readings, PanelActions& 
     if (rows_.section("View")) view_.draw(rows_, pressed_, out);
     if (rows_.section("Compare", false)) comparisons_.draw(rows_, frame, out);
     if (rows_.section("Actions", false)) draw_undo_list(rows_, frame, out);
+    if (rows_.section("Window", false)) draw_look(rows_, look_);
     controls_height_ = header_height + ImGui::GetCursorPosY() + ImGui::GetStyle().WindowPadding.y;
     ImGui::EndChild();
   }

@@ -79,7 +79,7 @@ class Panel {
   void set_interaction(Interaction interaction, bool suture_begun);
   void set_filmed_frames(std::optional<long> count) { filmed_frames_ = count; }  ///< none: no film is made
   void set_preferences(const Preferences& preferences);
-  Preferences preferences() const { return {view_.hints(), rows_.sections()}; }
+  Preferences preferences() const;
   /// Asks in the middle of the image; PanelActions::answer has the answer. The last one is that of Esc.
   void ask(std::string title, std::string text, std::vector<std::string> answers) {
     question_.ask(std::move(title), std::move(text), std::move(answers));
@@ -140,6 +140,7 @@ class Panel {
   MotionSection motion_;
   ViewSection view_;
   CompareSection comparisons_;
+  Look look_;
   Notices notices_;
   OpenDialog dialog_;
   Question question_;

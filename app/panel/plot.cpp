@@ -93,14 +93,14 @@ void plot(const char* id, const History& history, std::span<const Curve> curves,
   if (!ImGui::IsItemVisible()) return;
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const float rounding = ImGui::GetStyle().FrameRounding;
-  list.AddRectFilled(from, to, colours::rgba(0x0e1213, 150), rounding);
+  list.AddRectFilled(from, to, colours::chart, rounding);
   if (readings.empty()) return;
 
   const float inset = em(0.35f);
   const PlotCanvas canvas{
       {from.x, from.y + inset}, {to.x, to.y - inset}, readings.back().time, axis_of(readings, curves, style)};
   const float base = canvas.at(canvas.latest, style.base).y;
-  list.AddLine({from.x, base}, {to.x, base}, colours::rgba(0x566164, 90));
+  list.AddLine({from.x, base}, {to.x, base}, (colours::faint & 0x00ffffff) | 0x5a000000);
   list.PushClipRect(from, to, true);
   for (const Curve& curve : curves) draw_curve(list, canvas, readings, curve);
   list.PopClipRect();

@@ -1,15 +1,51 @@
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <app/panel/preferences.hpp>
+#include <charconv>
+#include <cmath>
+#include <iterator>
 #include <sstream>
 
 namespace heml::panel {
 namespace {
-constexpr std::string_view no_hints = "hints off", open = "open ", closed = "closed ";
+
+struct Switch {
+  std::string_view off;  ///< the line
+  bool Preferences::*value;
+};
+constexpr Switch switches[] = {{"hints off", &Preferences::hints},
+                               {"ground off", &Preferences::ground},
+                               {"constraints off", &Preferences::constraints},
+                               {"full resolution off", &Preferences::full_resolution}};
+constexpr std::string_view light = "theme light", size = "size ", tool = "tool ", open = "open ", closed = "closed ";
+
+/// NaN: it is none.
+double number_from(std::string_view text) {
+  double number = std::nan("");
+  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return problem == std::errc() && end == text.data() + text.size() ? number : std::nan("");
 }
+
+/// Of "NAME NUMBER".
+void read_tool(std::string_view line, std::map<std::string, double>& tools) {
+  const std::size_t gap = line.rfind(' ');
+  if (gap == std::string_view::npos || gap == 0) return;
+  const double number = number_from(line.substr(gap + 1));
+  if (std::isfinite(number)) tools[std::string(line.substr(0, gap))] = number;
+}
+
+}  // namespace
 
 std::string to_text(const Preferences& preferences) {
   std::string text;
-  if (!preferences.hints) text += std::string(no_hints) + '\n';
-  for (const auto& [title, is_open] : preferences.sections) text += std::string(is_open ? open : closed) + title + '\n';
+  for (const auto& [off, value] : switches)
+    if (!(preferences.*value)) text += fmt::format("{}\n", off);
+  if (preferences.look.theme == Theme::light) text += fmt::format("{}\n", light);
+  if (preferences.look.size != 1) text += fmt::format("{}{}\n", size, preferences.look.size);
+  for (const auto& [name, value] : preferences.tools) text += fmt::format("{}{} {}\n", tool, name, value);
+  for (const auto& [title, is_open] : preferences.sections)
+    text += fmt::format("{}{}\n", is_open ? open : closed, title);
   return text;
 }
 
@@ -17,7 +53,15 @@ Preferences preferences_from(std::string_view text) {
   Preferences preferences;
   std::istringstream lines{std::string(text)};
   for (std::string line; std::getline(lines, line);) {
-    if (line == no_hints) preferences.hints = false;
+    for (const auto& [off, value] : switches)
+      if (line == off) preferences.*value = false;
+    if (line == light) preferences.look.theme = Theme::light;
+    if (line.starts_with(size)) {
+      const double given = number_from(std::string_view(line).substr(size.size()));
+      if (std::find(std::begin(interface_sizes), std::end(interface_sizes), given) != std::end(interface_sizes))
+        preferences.look.size = given;
+    }
+    if (line.starts_with(tool)) read_tool(std::string_view(line).substr(tool.size()), preferences.tools);
     if (line.starts_with(open)) preferences.sections[line.substr(open.size())] = true;
     if (line.starts_with(closed)) preferences.sections[line.substr(closed.size())] = false;
   }

@@ -8,7 +8,6 @@
 
 namespace heml::panel {
 namespace {
-constexpr ImU32 total_colour = colours::text;
 }
 
 void draw_force(Rows& rows, const Frame& frame, const History& history) {
@@ -61,9 +60,9 @@ void draw_energies(Rows& rows, const Frame& frame, const History& history) {
   rows.value({"Gravity energy", "Potential energy of gravity, J; 0 at the rest shape."}, quantity(now.potential, "J"),
              colours::potential);
   rows.value({"Total", "Sum of the three, J. Constant without damping and tools."},
-             quantity(now.kinetic + now.elastic + now.potential, "J"), total_colour);
+             quantity(now.kinetic + now.elastic + now.potential, "J"), colours::text);
   const Curve curves[] = {
-      {"Total", total_colour, [](const Reading& r) { return r.total(); }},
+      {"Total", colours::text, [](const Reading& r) { return r.total(); }},
       {"Gravity", colours::potential, [](const Reading& r) { return r.energies.potential; }},
       {"Elastic", colours::elastic, [](const Reading& r) { return r.energies.elastic; }},
       {"Kinetic", colours::kinetic, [](const Reading& r) { return r.energies.kinetic; }},
@@ -77,7 +76,7 @@ void draw_volume(Rows& rows, const Frame& frame, const History& history) {
     const double now = enclosed_volume(*frame.surface_mesh, frame.positions),
                  rest = enclosed_volume(*frame.surface_mesh);
     rows.value({"Body volume", "Volume of the shown regions, cm³, and relative to rest."},
-               fmt::format("{:.4g} cm³, {:.1f} %", now * 1e6, 100 * now / rest), total_colour);
+               fmt::format("{:.4g} cm³, {:.1f} %", now * 1e6, 100 * now / rest), colours::text);
   }
   rows.value({"Min J", "Smallest volume ratio of a tetrahedron; 0 or less: inverted."},
              fmt::format("{:.3f}", frame.min_J), colours::potential, inverted ? colours::danger : colours::text);
@@ -102,7 +101,7 @@ void draw_volume(Rows& rows, const Frame& frame, const History& history) {
   const Curve curves[] = {
       {"Min", colours::potential, [](const Reading& r) { return r.min_J; }},
       {"Max", colours::kinetic, [](const Reading& r) { return r.max_J; }},
-      {"Whole", total_colour, [](const Reading& r) { return r.volume; }},
+      {"Whole", colours::text, [](const Reading& r) { return r.volume; }},
   };
   plot("volume plot", history, curves, {"", 1, 0.01, 3.0f});
 }

@@ -255,7 +255,7 @@ bool Rows::icon_button(const Label& label, float size, bool strong, const Icon& 
   const bool hovered = ImGui::IsItemHovered(), held = ImGui::IsItemActive();
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImU32 calm = strong ? colours::fill : colours::track;
-  const ImU32 warm = strong ? colours::rgba(0x397a73) : colours::rgba(0x3b484c);
+  const ImU32 warm = strong ? colours::strong_hovered : colours::control_hovered;
   list.AddRectFilled(from, {from.x + size, from.y + size}, hovered || held ? warm : calm,
                      ImGui::GetStyle().FrameRounding * 1.4f);
   icon(list, {from.x + size / 2, from.y + size / 2}, size * 0.24f, held ? colours::accent : colours::text);

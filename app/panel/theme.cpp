@@ -89,32 +89,71 @@ void set_lengths(ImGuiStyle& style) {
   style.WindowTitleAlign = {0, 0.5f};
 }
 
-void set_colours(ImGuiStyle& style) {
+/// A colour and its value in each theme.
+struct ColourRow {
+  ImU32* colour;
+  ImU32 dark, light;
+};
+
+void set_colours(Theme theme) {
+  using colours::rgba;
+  static constexpr ColourRow rows[] = {
+      {&colours::background, rgba(0x15191b, 226), rgba(0xf6f7f6, 236)},
+      {&colours::popup, rgba(0x1c2224, 248), rgba(0xffffff, 250)},
+      {&colours::edge, rgba(0x3a4447, 150), rgba(0xb4bdbc, 190)},
+      {&colours::separator, rgba(0x3a4447, 110), rgba(0xb4bdbc, 150)},
+      {&colours::track, rgba(0x2a3235), rgba(0xdde3e2)},
+      {&colours::track_hovered, rgba(0x333d41), rgba(0xd0d8d7)},
+      {&colours::fill, rgba(0x2f6660), rgba(0x9fd3ca)},
+      {&colours::chart, rgba(0x0e1213, 150), rgba(0xffffff, 190)},
+      {&colours::control_hovered, rgba(0x3b484c), rgba(0xc6d0ce)},
+      {&colours::row_hovered, rgba(0x2f393c), rgba(0xe3e9e8)},
+      {&colours::row_pressed, rgba(0x38474a), rgba(0xd3dcda)},
+      {&colours::handle, rgba(0x459a8e), rgba(0x3f978b)},
+      {&colours::handle_pressed, rgba(0x6cc9bb), rgba(0x2a7c71)},
+      {&colours::strong_hovered, rgba(0x397a73), rgba(0x86c5ba)},
+      {&colours::scrollbar, rgba(0x475458, 190), rgba(0xaab4b3, 210)},
+      {&colours::scrollbar_hovered, rgba(0x5a6a6e), rgba(0x8d9998)},
+      {&colours::scrollbar_pressed, rgba(0x6a7c80), rgba(0x75827f)},
+      {&colours::text, rgba(0xdfe6e5), rgba(0x1b2324)},
+      {&colours::muted, rgba(0x8f9c9d), rgba(0x566263)},
+      {&colours::faint, rgba(0x566164), rgba(0x98a3a2)},
+      {&colours::accent, rgba(0x58b8a9), rgba(0x1a756a)},
+      {&colours::warning, rgba(0xe2ab5f), rgba(0x9a5c05)},
+      {&colours::danger, rgba(0xe4776c), rgba(0xb93a2e)},
+      {&colours::kinetic, rgba(0xe0b15c), rgba(0x8a5a08)},
+      {&colours::elastic, rgba(0x58b8a9), rgba(0x1a756a)},
+      {&colours::potential, rgba(0x86a3e0), rgba(0x3f62b0)},
+  };
+  for (const ColourRow& row : rows) *row.colour = theme == Theme::dark ? row.dark : row.light;
+}
+
+void set_colours_of(ImGuiStyle& style) {
   const auto set = [&](ImGuiCol which, ImU32 colour) { style.Colors[which] = ImGui::ColorConvertU32ToFloat4(colour); };
   const ImU32 nothing = colours::rgba(0, 0);
   set(ImGuiCol_Text, colours::text);
   set(ImGuiCol_TextDisabled, colours::muted);
   set(ImGuiCol_WindowBg, colours::background);
   set(ImGuiCol_ChildBg, nothing);
-  set(ImGuiCol_PopupBg, colours::rgba(0x1c2224, 248));
+  set(ImGuiCol_PopupBg, colours::popup);
   set(ImGuiCol_Border, colours::edge);
   set(ImGuiCol_FrameBg, colours::track);
   set(ImGuiCol_FrameBgHovered, colours::track_hovered);
   set(ImGuiCol_FrameBgActive, colours::track_hovered);
   set(ImGuiCol_CheckMark, colours::accent);
-  set(ImGuiCol_SliderGrab, colours::rgba(0x459a8e));
-  set(ImGuiCol_SliderGrabActive, colours::rgba(0x6cc9bb));
+  set(ImGuiCol_SliderGrab, colours::handle);
+  set(ImGuiCol_SliderGrabActive, colours::handle_pressed);
   set(ImGuiCol_Button, colours::track);
-  set(ImGuiCol_ButtonHovered, colours::rgba(0x3b484c));
+  set(ImGuiCol_ButtonHovered, colours::control_hovered);
   set(ImGuiCol_ButtonActive, colours::fill);
   set(ImGuiCol_Header, nothing);
-  set(ImGuiCol_HeaderHovered, colours::rgba(0x2f393c));
-  set(ImGuiCol_HeaderActive, colours::rgba(0x38474a));
-  set(ImGuiCol_Separator, colours::rgba(0x3a4447, 110));
+  set(ImGuiCol_HeaderHovered, colours::row_hovered);
+  set(ImGuiCol_HeaderActive, colours::row_pressed);
+  set(ImGuiCol_Separator, colours::separator);
   set(ImGuiCol_ScrollbarBg, nothing);
-  set(ImGuiCol_ScrollbarGrab, colours::rgba(0x475458, 190));
-  set(ImGuiCol_ScrollbarGrabHovered, colours::rgba(0x5a6a6e));
-  set(ImGuiCol_ScrollbarGrabActive, colours::rgba(0x6a7c80));
+  set(ImGuiCol_ScrollbarGrab, colours::scrollbar);
+  set(ImGuiCol_ScrollbarGrabHovered, colours::scrollbar_hovered);
+  set(ImGuiCol_ScrollbarGrabActive, colours::scrollbar_pressed);
   set(ImGuiCol_TextSelectedBg, colours::fill);
 }
 
@@ -141,11 +180,12 @@ ImFont* font(Font role) { return ImGui::GetIO().Fonts->Fonts[static_cast<int>(ro
 
 float em(float multiple) { return multiple * font(Font::text)->FontSize; }
 
-void apply_theme(float scale) {
+void apply_theme(float scale, Theme theme) {
+  set_colours(theme);
   load_fonts(scale);
   ImGuiStyle& style = ImGui::GetStyle();
   set_lengths(style);
-  set_colours(style);
+  set_colours_of(style);
   style.ScaleAllSizes(scale);
 }
 

@@ -6,25 +6,21 @@
 
 namespace heml::panel {
 
+/// Colours of the panel and of marks over the image: those of the theme that was last applied.
 namespace colours {
 constexpr ImU32 rgba(unsigned rgb, unsigned alpha = 255) {
   return (alpha << 24) | ((rgb & 0xff) << 16) | (rgb & 0xff00) | (rgb >> 16);
 }
-constexpr ImU32 background = rgba(0x15191b, 226);
-constexpr ImU32 edge = rgba(0x3a4447, 150);
-constexpr ImU32 track = rgba(0x2a3235);
-constexpr ImU32 track_hovered = rgba(0x333d41);
-constexpr ImU32 fill = rgba(0x2f6660);
-constexpr ImU32 text = rgba(0xdfe6e5);
-constexpr ImU32 muted = rgba(0x8f9c9d);
-constexpr ImU32 faint = rgba(0x566164);
-constexpr ImU32 accent = rgba(0x58b8a9);
-constexpr ImU32 warning = rgba(0xe2ab5f);
-constexpr ImU32 danger = rgba(0xe4776c);
-constexpr ImU32 kinetic = rgba(0xe0b15c);
-constexpr ImU32 elastic = accent;
-constexpr ImU32 potential = rgba(0x86a3e0);
+inline ImU32 background, popup, edge, separator;         // windows
+inline ImU32 track, track_hovered, fill, chart;          // bars, fields, boxes; behind a plot
+inline ImU32 control_hovered, row_hovered, row_pressed;  // buttons, sections and choices
+inline ImU32 handle, handle_pressed, strong_hovered;     // of sliders; a button of the accent's colour
+inline ImU32 scrollbar, scrollbar_hovered, scrollbar_pressed;
+inline ImU32 text, muted, faint, accent, warning, danger;
+inline ImU32 kinetic, elastic, potential;  // energies
 }  // namespace colours
+
+enum class Theme { dark, light };
 
 enum class Font { text, small, title, number };
 
@@ -47,7 +43,8 @@ class UseFont {
 void need_letters(std::string_view text);
 bool has_new_letters();  ///< apply_theme() is to be called for them
 
-/// Loads the fonts of the current ImGui context for a scale (1: 15 pixels of text) and sets its style.
-void apply_theme(float scale);
+/// Sets the colours, loads the fonts of the current ImGui context for a scale (1: 15 pixels of text) and sets its
+/// style.
+void apply_theme(float scale, Theme theme = Theme::dark);
 
 }  // namespace heml::panel

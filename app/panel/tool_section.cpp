@@ -2,16 +2,33 @@
 
 #include <algorithm>
 #include <app/panel/tool_section.hpp>
+#include <cmath>
 #include <limits>
+#include <string_view>
 
 namespace heml::panel {
 namespace {
 
-// Relative to the body's radius.
-constexpr double first_grasp = 0.12, max_grasp = 0.5, first_depth = 0.35, max_depth = 2;
-constexpr double first_probe = 0.08, max_probe = 0.4, first_indentation = 0.15, max_indentation = 0.6;
-constexpr double first_jaw = 0.3, min_jaw = 0.02, max_jaw = 1;
-constexpr double max_friction = 1.5, table_gap = 0.01;
+constexpr double max_friction = 1.5;
+constexpr double table_gap = 0.01;   // radii of the body
+constexpr double kept_digits = 1e4;  // of settings kept between runs: their last one is 1e-4
+
+/// A setting that is kept between runs by its name; lengths in radii of the body.
+struct Setting {
+  std::string_view name;
+  double ToolSettings::*value;
+  double first, least, most;  ///< most: of the slider; more can be typed
+  bool is_length = true;
+};
+constexpr Setting grasp{"grasp radius", &ToolSettings::radius, 0.12, 0, 0.5};
+constexpr Setting depth{"depth", &ToolSettings::depth, 0.35, 0, 2};
+constexpr Setting jaw_length{"jaw length", &ToolSettings::jaw_length, 0.3, 0.02, 1};
+constexpr Setting jaw_opening{"jaw opening", &ToolSettings::jaw_opening, 0.35, 0, 2};
+constexpr Setting jaw_direction{"jaw direction", &ToolSettings::jaw_direction, 90, 0, 360, false};
+constexpr Setting probe_radius{"probe radius", &ToolSettings::probe_radius, 0.08, 0.01, 0.4};
+constexpr Setting indentation{"indentation", &ToolSettings::indentation, 0.15, 0, 0.6};
+constexpr const Setting* settings[] = {&grasp,         &depth,        &jaw_length, &jaw_opening,
+                                       &jaw_direction, &probe_radius, &indentation};
 
 std::string several(std::size_t count, const char* what) {
   return fmt::format("Remove {} {}{}", count, what, count == 1 ? "" : "s");
@@ -20,14 +37,27 @@ std::string several(std::size_t count, const char* what) {
 }  // namespace
 
 ToolSection::ToolSection(double body_radius, const Vec3& gravity) : body_radius_(body_radius) {
-  tool_.radius = first_grasp * body_radius;
-  tool_.depth = first_depth * body_radius;
-  tool_.jaw_length = first_jaw * body_radius;
-  tool_.jaw_opening = first_depth * body_radius;
-  tool_.probe_radius = first_probe * body_radius;
-  tool_.indentation = first_indentation * body_radius;
+  keep({});
   tool_.shaft = 2 * body_radius;
   sync({gravity});
+}
+
+void ToolSection::keep(const std::map<std::string, double>& kept) {
+  for (const Setting* setting : settings) {
+    const auto found = kept.find(std::string(setting->name));
+    const bool usable = found != kept.end() && found->second >= setting->least && found->second <= 10 * setting->most;
+    tool_.*setting->value = (usable ? found->second : setting->first) * (setting->is_length ? body_radius_ : 1);
+  }
+}
+
+std::map<std::string, double> ToolSection::kept() const {
+  std::map<std::string, double> kept;
+  for (const Setting* setting : settings) {
+    const double value = tool_.*setting->value / (setting->is_length ? body_radius_ : 1);
+    const double rounded = std::round(value * kept_digits) / kept_digits;
+    if (rounded != setting->first) kept[std::string(setting->name)] = rounded;
+  }
+  return kept;
 }
 
 void ToolSection::sync(const SetGravity& command) {
@@ -47,35 +77,31 @@ void ToolSection::draw(Rows& rows, const Frame& frame, PanelActions& out) {
     out.commands.emplace_back(CutSutures{});
 }
 
-bool ToolSection::length(Rows& rows, const Label& label, double& metres, double most) {
-  double millimetres = metres * 1e3;
-  if (!rows.slider(label, millimetres, {0, most * body_radius_ * 1e3, "%.1f mm", false})) return false;
-  metres = millimetres * 1e-3;
-  return true;
-}
-
 void ToolSection::draw_settings(Rows& rows) {
+  const auto length = [&](const Label& label, const Setting& setting) {
+    double& metres = tool_.*setting.value;
+    double millimetres = metres * 1e3;
+    if (!rows.slider(label, millimetres, {0, setting.most * body_radius_ * 1e3, "%.1f mm", false})) return;
+    metres = std::max(millimetres * 1e-3, setting.least * body_radius_);
+  };
   switch (tool_.tool) {
     case Tool::scalpel:
-      length(rows, {"Depth", "How far the blade reaches below the surface, mm, along the line of sight."}, tool_.depth,
-             max_depth);
+      length({"Depth", "How far the blade reaches below the surface, mm, along the line of sight."}, depth);
       return;
     case Tool::scissors:
-      length(rows, {"Jaw length", "Length of a snip along the jaw line, mm."}, tool_.jaw_length, max_jaw);
-      tool_.jaw_length = std::max(tool_.jaw_length, min_jaw * body_radius_);
-      length(rows,
-             {"Opening", "How far the jaws open, mm: the lower one reaches so far below the surface, along the line of "
-                         "sight, and what is between them is cut."},
-             tool_.jaw_opening, max_depth);
-      rows.slider({"Direction", "Direction of the jaw line of a click, degrees from the right of the image, "
-                                "anticlockwise. A drag snips along its own way."},
-                  tool_.jaw_direction, {0, 360, "%.0f\u00b0", false});
+      length({"Jaw length", "Length of a snip along the jaw line, mm."}, jaw_length);
+      length({"Opening",
+              "How far the jaws open, mm: the lower one reaches so far below the surface, along the line of "
+              "sight, and what is between them is cut."},
+             jaw_opening);
+      rows.slider({"Direction",
+                   "Direction of the jaw line of a click, degrees from the right of the image, "
+                   "anticlockwise. A drag snips along its own way."},
+                  tool_.jaw_direction, {jaw_direction.least, jaw_direction.most, "%.0f\u00b0", false});
       return;
     case Tool::probe:
-      length(rows, {"Tip radius", "Radius of the probe's tip and shaft, mm."}, tool_.probe_radius, max_probe);
-      tool_.probe_radius = std::max(tool_.probe_radius, 0.01 * body_radius_);
-      length(rows, {"Indentation", "Depth of the tip below the undeformed surface, mm."}, tool_.indentation,
-             max_indentation);
+      length({"Tip radius", "Radius of the probe's tip and shaft, mm."}, probe_radius);
+      length({"Indentation", "Depth of the tip below the undeformed surface, mm."}, indentation);
       return;
     case Tool::suture:
       rows.value({"Suture", "A thread has no settings: it draws its ends together within half a second."},
@@ -88,15 +114,14 @@ void ToolSection::draw_settings(Rows& rows) {
     case Tool::pin:
     case Tool::remover:
     case Tool::select:
-      length(rows,
-             {tool_.tool == Tool::pin       ? "Pin radius"
+      length({tool_.tool == Tool::pin       ? "Pin radius"
               : tool_.tool == Tool::remover ? "Remover radius"
               : tool_.tool == Tool::select  ? "Paint radius"
                                             : "Grasp radius",
               "Surface nodes within this distance of the click follow the tool, or are fixed by a pin; mm, on the rest "
               "shape. 0: a single node. The remover, and Del, remove the tissue within it, one element deep; "
               "paint selects within it."},
-             tool_.radius, max_grasp);
+             grasp);
   }
 }
 

@@ -3,6 +3,8 @@
 #include <app/panel/actions.hpp>
 #include <app/panel/rows.hpp>
 #include <heml/session/frame.hpp>
+#include <map>
+#include <string>
 
 namespace heml::panel {
 
@@ -19,10 +21,14 @@ class ToolSection {
 
   const ToolSettings& tool() const { return tool_; }
 
+  /// Settings that differ from the first ones, by name; lengths in radii of the body, so that they suit another body.
+  std::map<std::string, double> kept() const;
+  /// Takes them; all others become the first ones, those of no use too.
+  void keep(const std::map<std::string, double>& kept);
+
  private:
   void draw_settings(Rows& rows);
   void draw_friction(Rows& rows, const Frame& frame, PanelActions& out);
-  bool length(Rows& rows, const Label& label, double& metres, double most);
 
   ToolSettings tool_;
   double body_radius_;

@@ -46,6 +46,20 @@ render::DrawOptions ViewSection::drawing() const {
   return options;
 }
 
+void ViewSection::keep(const Preferences& preferences) {
+  hints_ = preferences.hints;
+  drawing_.ground = preferences.ground;
+  drawing_.constrained = preferences.constraints;
+  drawing_.resolution = preferences.full_resolution ? 1 : half_resolution;
+}
+
+void ViewSection::write_into(Preferences& preferences) const {
+  preferences.hints = hints_;
+  preferences.ground = drawing_.ground;
+  preferences.constraints = drawing_.constrained;
+  preferences.full_resolution = drawing_.resolution == 1;
+}
+
 /// A fixed range is of one field: another unit, other values.
 void ViewSection::show(Field field, PanelActions& out) {
   if (field != field_) fixed_.reset();

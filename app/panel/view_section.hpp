@@ -2,6 +2,7 @@
 // The panel's section "View": field, drawing options, saved views.
 #include <app/panel/actions.hpp>
 #include <app/panel/camera_controller.hpp>
+#include <app/panel/preferences.hpp>
 #include <app/panel/rows.hpp>
 #include <app/panel/section_control.hpp>
 #include <app/render/renderer.hpp>
@@ -29,7 +30,8 @@ class ViewSection {
   void set_saved(std::size_t view, bool saved) { saved_[view] = saved; }  ///< whether a view is saved
   void set_orthographic(bool on) { orthographic_ = on; }  ///< as the camera is
   bool is_orthographic() const { return orthographic_; }
-  void set_hints(bool shown) { hints_ = shown; }
+  void keep(const Preferences& preferences);
+  void write_into(Preferences& preferences) const;
   bool hints() const { return hints_; }  ///< whether the hint line is shown
 
   Field field() const { return field_; }

@@ -15,48 +15,53 @@ constexpr float far_eye = 1000;               // distances from an orthographic 
 }  // namespace
 
 void Camera::fit(const Vec3f& centre, float radius, Size size) {
-  target_ = centre;
-  radius_ = std::max(radius, 1e-6f);
-  azimuth_ = 24 * degree;
-  elevation_ = 20 * degree;
+  pose_.target = centre;
+  pose_.radius = std::max(radius, 1e-6f);
+  pose_.azimuth = 24 * degree;
+  pose_.elevation = 20 * degree;
   const float half_height = std::tan(field_of_view / 2);
   const float half_angle = std::atan(half_height * std::min(1.0f, size.aspect()));
-  distance_ = margin * radius_ / std::sin(half_angle);
+  pose_.distance = margin * pose_.radius / std::sin(half_angle);
 }
 
 void Camera::look(float azimuth, float elevation) {
-  azimuth_ = elevation_ = 0;
+  pose_.azimuth = pose_.elevation = 0;
   orbit(azimuth, elevation);
 }
 
 void Camera::orbit(float azimuth, float elevation) {
-  azimuth_ = std::remainder(azimuth_ + azimuth, 360 * degree);
-  elevation_ = std::clamp(elevation_ + elevation, -90 * degree, 90 * degree);
+  pose_.azimuth = std::remainder(pose_.azimuth + azimuth, 360 * degree);
+  pose_.elevation = std::clamp(pose_.elevation + elevation, -90 * degree, 90 * degree);
 }
 
 void Camera::orbit(float azimuth, float elevation, const Vec3f& pivot) {
-  const Vec3f arm = target_ - pivot, seen(arm.dot(right()), arm.dot(up()), arm.dot(backward()));
+  const Vec3f arm = pose_.target - pivot, seen(arm.dot(right()), arm.dot(up()), arm.dot(backward()));
   orbit(azimuth, elevation);
-  target_ = pivot + seen.x() * right() + seen.y() * up() + seen.z() * backward();
+  pose_.target = pivot + seen.x() * right() + seen.y() * up() + seen.z() * backward();
 }
 
 void Camera::pan(float right_fraction, float up_fraction) {
-  const float visible_height = 2 * distance_ * std::tan(field_of_view / 2);
-  target_ += visible_height * (right_fraction * right() + up_fraction * up());
+  const float visible_height = 2 * pose_.distance * std::tan(field_of_view / 2);
+  pose_.target += visible_height * (right_fraction * right() + up_fraction * up());
 }
 
-void Camera::zoom(float factor) { distance_ = std::clamp(distance_ * factor, 0.2f * radius_, 50 * radius_); }
+void Camera::zoom(float factor) {
+  pose_.distance = std::clamp(pose_.distance * factor, 0.2f * pose_.radius, 50 * pose_.radius);
+}
 
 Vec3f Camera::backward() const {
-  return {std::cos(elevation_) * std::sin(azimuth_), std::sin(elevation_), std::cos(elevation_) * std::cos(azimuth_)};
+  return {std::cos(pose_.elevation) * std::sin(pose_.azimuth), std::sin(pose_.elevation),
+          std::cos(pose_.elevation) * std::cos(pose_.azimuth)};
 }
 
-Vec3f Camera::eye() const { return orthographic_ ? target_ + far_eye * distance_ * backward() : viewpoint(); }
+Vec3f Camera::eye() const {
+  return pose_.orthographic ? pose_.target + far_eye * pose_.distance * backward() : viewpoint();
+}
 
 // Wide enough for the ground; so wide that the depth offsets of lines and outlines are as long as in perspective.
-float Camera::half_depth() const { return 10 * distance_ + 12 * radius_; }
+float Camera::half_depth() const { return 10 * pose_.distance + 12 * pose_.radius; }
 
-Vec3f Camera::right() const { return {std::cos(azimuth_), 0, -std::sin(azimuth_)}; }
+Vec3f Camera::right() const { return {std::cos(pose_.azimuth), 0, -std::sin(pose_.azimuth)}; }
 
 Vec3f Camera::up() const { return backward().cross(right()); }
 
@@ -72,16 +77,16 @@ Mat4f Camera::view() const {
 Mat4f Camera::projection(Size size) const {
   const float cotangent = 1 / std::tan(field_of_view / 2);
   Mat4f matrix = Mat4f::Zero();
-  if (orthographic_) {
-    matrix(0, 0) = cotangent / distance_ / size.aspect();
-    matrix(1, 1) = cotangent / distance_;
+  if (pose_.orthographic) {
+    matrix(0, 0) = cotangent / pose_.distance / size.aspect();
+    matrix(1, 1) = cotangent / pose_.distance;
     matrix(2, 2) = -1 / half_depth();
-    matrix(2, 3) = -distance_ / half_depth();
+    matrix(2, 3) = -pose_.distance / half_depth();
     matrix(3, 3) = 1;
     return matrix;
   }
-  const float near = 0.05f * distance_;
-  const float far = distance_ + 40 * radius_;
+  const float near = 0.05f * pose_.distance;
+  const float far = pose_.distance + 40 * pose_.radius;
   matrix(0, 0) = cotangent / size.aspect();
   matrix(1, 1) = cotangent;
   matrix(2, 2) = (far + near) / (near - far);
@@ -94,8 +99,9 @@ Ray Camera::ray(float x, float y, Size size) const {
   const float half_height = std::tan(field_of_view / 2);
   const float across = (2 * x / static_cast<float>(size.width) - 1) * half_height * size.aspect();
   const float upward = (1 - 2 * y / static_cast<float>(size.height)) * half_height;
-  if (orthographic_)
-    return {target_ + distance_ * (across * right() + upward * up()) + half_depth() * backward(), -backward()};
+  if (pose_.orthographic)
+    return {pose_.target + pose_.distance * (across * right() + upward * up()) + half_depth() * backward(),
+            -backward()};
   return {viewpoint(), (across * right() + upward * up() - backward()).normalized()};
 }
 

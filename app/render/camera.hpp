@@ -14,8 +14,22 @@ struct Ray {
   Vec3f direction;  ///< unit
 };
 
+/// All that a camera is.
+struct CameraPose {
+  Vec3f target = Vec3f::Zero();      ///< m
+  float radius = 1;                  ///< of the ball last fitted, m
+  float distance = 4;                ///< eye to target, m
+  float azimuth = 0, elevation = 0;  ///< rad
+  bool orthographic = false;
+  bool operator==(const CameraPose&) const = default;
+};
+
 class Camera {
  public:
+  Camera() = default;
+  explicit Camera(const CameraPose& pose) : pose_(pose) {}
+  const CameraPose& pose() const { return pose_; }
+
   /// Looks at a ball (centre and radius in m) from the front and slightly above, so that it fills most of the view.
   void fit(const Vec3f& centre, float radius, Size size);
 
@@ -26,10 +40,10 @@ class Camera {
   void pan(float right, float up);             ///< moves eye and target by fractions of the visible height
   void zoom(float factor);                     ///< multiplies the distance; stays between 0.2 and 50 radii
 
-  void set_orthographic(bool on) { orthographic_ = on; }  ///< what lies at the target keeps its size
-  bool is_orthographic() const { return orthographic_; }
+  void set_orthographic(bool on) { pose_.orthographic = on; }  ///< what lies at the target keeps its size
+  bool is_orthographic() const { return pose_.orthographic; }
 
-  const Vec3f& target() const { return target_; }
+  const Vec3f& target() const { return pose_.target; }
   Vec3f backward() const;                            ///< unit, from the target to the eye
   Vec3f eye() const;                                 ///< m; of an orthographic camera: far away, for directions alone
   Vec3f right() const;                               ///< unit, along the picture's x axis
@@ -42,14 +56,10 @@ class Camera {
   Vec3f drag(float x, float y, Size size, const Vec3f& point) const;
 
  private:
-  Vec3f viewpoint() const { return target_ + distance_ * backward(); }
+  Vec3f viewpoint() const { return pose_.target + pose_.distance * backward(); }
   float half_depth() const;  // m, of what an orthographic camera shows before and behind the target
 
-  Vec3f target_ = Vec3f::Zero();
-  float radius_ = 1;    // of the ball last fitted, m
-  float distance_ = 4;  // eye to target, m
-  float azimuth_ = 0, elevation_ = 0;
-  bool orthographic_ = false;
+  CameraPose pose_;
 };
 
 /// Unit, from the body to the eye.

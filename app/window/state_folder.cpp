@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <app/window/state_folder.hpp>
 #include <cstdlib>
@@ -5,13 +7,14 @@
 #include <heml/base/error.hpp>
 #include <heml/base/write_file.hpp>
 #include <iterator>
+#include <sstream>
 #include <string>
 
 namespace heml::window {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr std::size_t max_recent_files = 20;
+constexpr std::size_t max_recent_files = 20, max_scenes_with_views = 100;
 
 /// A file of the state folder; empty: there is none.
 fs::path state_file(const char* name) {
@@ -22,6 +25,47 @@ fs::path state_file(const char* name) {
 /// The list of recent files, one path per line.
 fs::path list_file() { return state_file("recent"); }
 fs::path preferences_file() { return state_file("panel"); }
+fs::path views_file() { return state_file("views"); }
+
+struct ScenesViews {
+  std::string scene;  ///< its path
+  panel::CameraController::SavedViews views;
+};
+
+/// A line: number of the view, target, radius, distance, azimuth, elevation, whether it is orthographic, and the path.
+std::string line_of(std::size_t view, const render::CameraPose& pose, const std::string& scene) {
+  return fmt::format("{} {} {} {} {} {} {} {} {} {}\n", view + 1, pose.target.x(), pose.target.y(), pose.target.z(),
+                     pose.radius, pose.distance, pose.azimuth, pose.elevation, pose.orthographic ? 1 : 0, scene);
+}
+
+/// Adds what a line says; one that says nothing of use is skipped.
+void read_line(const std::string& line, std::vector<ScenesViews>& all) {
+  std::istringstream words(line);
+  std::size_t view = 0;
+  render::CameraPose pose;
+  std::string scene;
+  words >> view >> pose.target.x() >> pose.target.y() >> pose.target.z() >> pose.radius >> pose.distance >>
+      pose.azimuth >> pose.elevation >> pose.orthographic >> std::ws;
+  if (!std::getline(words, scene) || scene.empty() || view < 1 || view > panel::CameraController::views) return;
+  if (!(pose.radius > 0) || !(pose.distance > 0)) return;
+  if (all.empty() || all.back().scene != scene) all.push_back({scene, {}});
+  all.back().views[view - 1] = pose;
+}
+
+/// The scene written last comes first.
+std::vector<ScenesViews> read_all_views() {
+  std::vector<ScenesViews> all;
+  std::ifstream file(views_file());
+  for (std::string line; std::getline(file, line);) read_line(line, all);
+  return all;
+}
+
+/// Empty: it has none, or one that no line can hold.
+std::string whole_path(const fs::path& file) {
+  std::error_code failed;
+  const std::string whole = file.empty() ? std::string() : fs::weakly_canonical(fs::absolute(file), failed).string();
+  return failed || whole.find('\n') != std::string::npos ? std::string() : whole;
+}
 
 /// Writes a file that the program can do without.
 void write_optional(const fs::path& file, const std::string& text) {
@@ -51,9 +95,8 @@ std::vector<fs::path> recent_files() {
 }
 
 void remember_file(const fs::path& path) {
-  std::error_code failed;
-  const fs::path list = list_file(), whole = fs::weakly_canonical(path, failed);
-  if (failed || list.empty() || whole.string().find('\n') != std::string::npos) return;
+  const fs::path list = list_file(), whole = whole_path(path);
+  if (list.empty() || whole.empty()) return;
   std::vector<fs::path> files = recent_files();
   std::erase(files, whole);
   files.insert(files.begin(), whole);
@@ -61,6 +104,27 @@ void remember_file(const fs::path& path) {
   std::string text;
   for (const fs::path& file : files) text += file.string() + '\n';
   write_optional(list, text);
+}
+
+panel::CameraController::SavedViews saved_views(const fs::path& scene) {
+  const std::string path = whole_path(scene);
+  for (const auto& [of, views] : read_all_views())
+    if (of == path) return views;
+  return {};
+}
+
+void remember_views(const fs::path& scene, const panel::CameraController::SavedViews& views) {
+  const std::string path = whole_path(scene);
+  if (path.empty()) return;
+  std::vector<ScenesViews> all = read_all_views();
+  std::erase_if(all, [&](const ScenesViews& other) { return other.scene == path; });
+  all.insert(all.begin(), {path, views});
+  all.resize(std::min(all.size(), max_scenes_with_views));
+  std::string text;
+  for (const auto& [of, saved] : all)
+    for (std::size_t view = 0; view < saved.size(); ++view)
+      if (saved[view]) text += line_of(view, *saved[view], of);
+  write_optional(views_file(), text);
 }
 
 panel::Preferences read_preferences() {

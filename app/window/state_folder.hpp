@@ -1,5 +1,6 @@
 #pragma once
 // Files kept between runs of the program.
+#include <app/panel/camera_controller.hpp>
 #include <app/panel/preferences.hpp>
 #include <filesystem>
 #include <vector>
@@ -15,6 +16,11 @@ std::vector<std::filesystem::path> recent_files();
 
 /// Puts a file first in that list. Does nothing if the list cannot be written.
 void remember_file(const std::filesystem::path& path);
+
+/// The camera views saved with a scene file; none where nothing was written or can be read.
+panel::CameraController::SavedViews saved_views(const std::filesystem::path& scene);
+/// Writes them, with those of the 100 scenes written before. Does nothing if they cannot be written, or without a file.
+void remember_views(const std::filesystem::path& scene, const panel::CameraController::SavedViews& views);
 
 /// What the panel remembers; as at first where nothing was written or can be read.
 panel::Preferences read_preferences();

@@ -51,7 +51,7 @@ void Viewer::adopt(OpenScene opened) {
   next_event_ = 0;
   update_title();
   if (open_.resumed) return;
-  controller_.clear_views();
+  controller_.set_saved_views(saved_views(open_.scene.file));
   controller_.set_orthographic(open_.scene.view.orthographic);
   fit();
 }
@@ -124,7 +124,9 @@ void Viewer::draw() {
   mouse_tool_.set_section(panel_->drawing().section);
   open_.session->enable_errors(panel_->wants_errors());
   const render::Size size = window_.size();
-  interface_.set_scale(panel::Interface::suitable_scale(size) * window_.content_scale());
+  interface_.set_look(
+      panel::Interface::suitable_scale(size) * window_.content_scale() * static_cast<float>(preferences_.look.size),
+      preferences_.look.theme);
   controller_.resize(size, panel_->insets({static_cast<float>(size.width), static_cast<float>(size.height)}),
                      panel::body_count(*frame_));
   panel_->set_camera(controller_.camera());

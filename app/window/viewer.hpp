@@ -112,6 +112,7 @@ class Viewer final : public WindowEvents {
   void end_arrow();
   void draw_arrows() const;
   void forget_selection();
+  bool numbers_refined_mesh() const;
   void write_conditions(Scene& scene) const;
   void write_regions(Scene& scene) const;
   void toggle_recording();

@@ -41,6 +41,22 @@ class Views(WindowCase):
         changed = set(self.tissue(before)) ^ set(self.tissue(after))
         self.assertLess(len(changed), 0.01 * len(self.tissue(before)), message)
 
+    def test_a_saved_view_is_there_at_the_next_start(self):
+        self.start_still()
+        self.do("key", "KP_7")
+        self.do("key", "ctrl+F6")
+        top = self.steady()
+        self.do("key", "KP_1")
+        self.quit()
+        self.log.unlink()
+        self.begin(self.folder / "light.json", "--size", "1280x720")
+        self.xdo("mousemove", 1276, 716, "key", "space")
+        other = self.steady()
+        self.do("key", "F6")
+        again = self.steady()
+        self.assertGreater(len(set(self.tissue(other)) ^ set(self.tissue(top))), 0.1 * len(self.tissue(top)))
+        self.assert_same_tissue(top, again, "the view saved before")
+
     def test_numpad_turns_to_standard_views_and_to_an_orthographic_camera(self):
         first = self.start_still()
         self.do("key", "KP_1")

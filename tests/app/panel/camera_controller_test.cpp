@@ -98,7 +98,12 @@ TEST_CASE("a saved view is restored after the camera moved") {
   CHECK((controller.camera().pixel({0.1f, 0, 0}, size) - before).norm() > 10);
   CHECK(controller.restore_view(2));
   CHECK((controller.camera().pixel({0.1f, 0, 0}, size) - before).norm() < 1e-3);
-  controller.clear_views();
+  panel::CameraController another;
+  another.fit({}, surface_mesh, size, {});
+  another.set_saved_views(controller.saved_views());
+  CHECK(another.restore_view(2));
+  CHECK((another.camera().pixel({0.1f, 0, 0}, size) - before).norm() < 1e-3);
+  controller.set_saved_views({});
   CHECK_FALSE(controller.has_view(2));
 }
 

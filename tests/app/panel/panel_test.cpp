@@ -211,7 +211,7 @@ TEST_CASE("a fixed range of colours stays when the values grow, until another fi
 }
 
 TEST_CASE("the first click on a view saves it and the next restores it") {
-  Driver driver(small_scene(), 1280, 900);
+  Driver driver(small_scene(), 1280, 1000);
   CHECK(driver.click("2", 215).save_view == 1u);
   driver.panel.view().set_saved(1, true);
   const auto again = driver.click("2", 215);
@@ -288,6 +288,28 @@ TEST_CASE("sections that are closed by hand and hints that are switched off stay
     driver.draw();
     CHECK(driver.panel.hovered() != "Gravity");
   }
+}
+
+TEST_CASE("what was chosen of look and drawing stays so in another panel") {
+  panel::Preferences kept;
+  {
+    Driver driver(small_scene(), 1280, 1000);
+    driver.click("Ground", 40);
+    driver.click("Full resolution", 200);
+    driver.click("Window", 60);
+    driver.click("Light theme", 60);
+    driver.click("Text size", 200);
+    driver.click("125 %");
+    kept = driver.panel.preferences();
+  }
+  CHECK_FALSE(kept.ground);
+  CHECK_FALSE(kept.full_resolution);
+  CHECK(kept.look == panel::Look{1.25, panel::Theme::light});
+  Driver driver;
+  driver.panel.set_preferences(kept);
+  CHECK(driver.panel.preferences() == kept);
+  CHECK_FALSE(driver.panel.drawing().ground);
+  CHECK(driver.panel.drawing().resolution < 1);
 }
 
 TEST_CASE("every row of the panel is in a picture of 1280x720 without scrolling") {

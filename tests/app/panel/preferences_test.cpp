@@ -7,14 +7,21 @@ namespace heml::preferences_test {
 using namespace heml::panel;
 
 TEST_CASE("preferences come back from their text") {
-  const Preferences kept{false, {{"Tool force", true}, {"Motion", false}}};
+  Preferences kept;
+  kept.hints = kept.constraints = kept.full_resolution = false;
+  kept.look = {1.25, Theme::light};
+  kept.tools = {{"jaw length", 0.125}, {"depth", 0}};
+  kept.sections = {{"Tool force", true}, {"Motion", false}};
   CHECK(preferences_from(to_text(kept)) == kept);
   CHECK(preferences_from(to_text(Preferences{})) == Preferences{});
   CHECK(to_text(Preferences{}).empty());
 }
 
 TEST_CASE("lines that are not understood are skipped") {
-  CHECK(preferences_from("hints blue\n\nclosed Motion\nopened\n") == Preferences{true, {{"Motion", false}}});
+  Preferences closed;
+  closed.sections = {{"Motion", false}};
+  CHECK(preferences_from("hints blue\n\nclosed Motion\nopened\nsize 40\nsize nan\nsize 1.25x\ntheme pink\n"
+                         "tool\ntool 3\ntool depth\ntool depth inf\ntool depth 1e999\n") == closed);
 }
 
 }  // namespace heml::preferences_test
