@@ -27,8 +27,8 @@ struct HeldPatch {
   Vec3f pull = Vec3f::Zero();    ///< m, from there to where the tool pulls it
 };
 
-/// Whether a grasp is drawn as a clamp: forceps are those of hand 0.
-inline bool is_clamp(const GraspState& grasp) { return grasp.hand != 0; }
+/// Whether a grasp is drawn as a clamp: forceps are those of a person's hands.
+inline bool is_clamp(const GraspState& grasp) { return !is_persons_hand(grasp.hand); }
 
 /// The patch of a grasp: at the mouse's hold, else, where the script holds or a cut took that triangle, at the grasped
 /// node. A node that is not on the surface has the tool's own place and faces the eye.

@@ -38,7 +38,7 @@ std::optional<GraspState> clamp_at(const render::Vec2f& pixel, const Frame& fram
 }
 
 std::optional<int> free_hand(const Frame& frame) {
-  for (int hand = 1; hand < max_hands; ++hand)
+  for (int hand = 1; hand < first_device_hand; ++hand)
     if (!find_grasp(frame.tools, hand)) return hand;
   return std::nullopt;
 }

@@ -101,6 +101,7 @@ TEST_CASE("a clamp stands on the grasped node with its rings away from the skin"
     const Vec3 place = frame.positions[static_cast<std::size_t>(node)].cast<double>();
     const GraspState clamp{.hand = 3, .node = node, .target = place};
     CHECK(is_clamp(clamp));
+    for (const int person : {0, first_device_hand, max_hands - 1}) CHECK_FALSE(is_clamp({.hand = person}));
     const HeldPatch patch = held_patch(clamp, std::nullopt, frame, frame.surface_mesh.get(), camera.eye());
     CHECK(patch.place == frame.positions[static_cast<std::size_t>(node)]);
     float nearest = 1, to_node = 1, farthest = 0;
