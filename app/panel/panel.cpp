@@ -84,6 +84,7 @@ void Panel::set_camera(const render::Camera& camera) {
 void Panel::set_preferences(const Preferences& preferences) {
   view_.set_hints(preferences.hints);
   rows_.set_sections(preferences.sections);
+  tool_.set_device_moves_view(preferences.device_moves_view);
 }
 
 void Panel::update_stretch_limits() {
@@ -245,9 +246,15 @@ float Panel::draw_edges(const Frame& frame, Area& free, PanelActions& out) {
 }
 
 Situation Panel::situation(const Frame& frame) const {
-  return {tool_.tool().tool, interaction_,          suture_begun_,
-          frame.paused,      !frame.halted.empty(), timeline_ && timeline_->shown.has_value(),
-          !regions_.hidden().empty()};
+  Situation now{tool_.tool().tool, interaction_,          suture_begun_,
+                frame.paused,      !frame.halted.empty(), timeline_ && timeline_->shown.has_value(),
+                !regions_.hidden().empty()};
+  for (const DeviceInfo& device : tool_.devices())
+    if (device.is_new) {
+      now.device = device.controls;
+      now.device.front() = device.kind + ": " + now.device.front();
+    }
+  return now;
 }
 
 void Panel::record_window_rect() {

@@ -77,9 +77,13 @@ class Panel {
   const ViewSection& view() const { return view_; }
   /// What the mouse does, and whether the first end of a suture is set: for the hints.
   void set_interaction(Interaction interaction, bool suture_begun);
+  void set_devices(std::vector<DeviceInfo> devices) { tool_.set_devices(std::move(devices)); }
+  bool device_moves_view() const { return tool_.device_moves_view(); }
   void set_filmed_frames(std::optional<long> count) { filmed_frames_ = count; }  ///< none: no film is made
   void set_preferences(const Preferences& preferences);
-  Preferences preferences() const { return {view_.hints(), rows_.sections()}; }
+  Preferences preferences() const {
+    return {view_.hints(), rows_.sections(), tool_.device_moves_view()};
+  }
   /// Asks in the middle of the image; PanelActions::answer has the answer. The last one is that of Esc.
   void ask(std::string title, std::string text, std::vector<std::string> answers) {
     question_.ask(std::move(title), std::move(text), std::move(answers));

@@ -2,6 +2,7 @@
 // What the panel remembers between runs: a text of lines, in the user's state folder (window/state_folder.hpp).
 //
 //   hints off
+//   device moves view
 //   open Compare
 //   closed Motion
 #include <map>
@@ -13,6 +14,7 @@ namespace heml::panel {
 struct Preferences {
   bool hints = true;                     ///< the hint line is shown
   std::map<std::string, bool> sections;  ///< by title: opened (true) or closed by hand
+  bool device_moves_view = false;        ///< a SpaceMouse does, in place of a hand
   bool operator==(const Preferences&) const = default;
 };
 

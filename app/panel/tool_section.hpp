@@ -3,6 +3,7 @@
 #include <app/panel/actions.hpp>
 #include <app/panel/rows.hpp>
 #include <heml/session/frame.hpp>
+#include <vector>
 
 namespace heml::panel {
 
@@ -18,13 +19,21 @@ class ToolSection {
   void sync(const SetGravity& command);
 
   const ToolSettings& tool() const { return tool_; }
+  /// Tells of them from now on.
+  void set_devices(std::vector<DeviceInfo> devices) { devices_ = std::move(devices); }
+  const std::vector<DeviceInfo>& devices() const { return devices_; }
+  void set_device_moves_view(bool on) { device_moves_view_ = on; }
+  bool device_moves_view() const { return device_moves_view_; }  ///< those that may, in place of a hand
 
  private:
   void draw_settings(Rows& rows);
+  void draw_devices(Rows& rows);
   void draw_friction(Rows& rows, const Frame& frame, PanelActions& out);
   bool length(Rows& rows, const Label& label, double& metres, double most);
 
   ToolSettings tool_;
+  std::vector<DeviceInfo> devices_;
+  bool device_moves_view_ = false;
   double body_radius_;
   Vec3 up_ = Vec3::UnitY();
 };
