@@ -76,6 +76,7 @@ class SpaceMouse final : public HandDevice {
       // Without an event where there was something to read, the daemon has closed the connection.
       if (library().poll_event(&event) == 0) return std::nullopt;
       take(event);
+      if (event.type == SPNAV_EVENT_BUTTON) break;  // the next call reads on: a press that was short is seen too
     }
     return hand_state(state_);
   }
