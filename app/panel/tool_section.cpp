@@ -52,11 +52,10 @@ void ToolSection::draw(Rows& rows, const Frame& frame, PanelActions& out) {
 void ToolSection::draw_devices(Rows& rows) {
   for (const DeviceInfo& device : devices_) {
     if (device.may_move_view) {
-      static const std::vector<std::string> what{"instrument", "view"};
+      static const std::vector<std::string> what{"moves instrument", "moves view"};
       int chosen = device_moves_view_ ? 1 : 0;
-      if (rows.choice({device.kind + " moves", "What its translation moves: the instrument, or the view. " +
-                                                   device.name + "."},
-                      chosen, what))
+      if (rows.choice({device.kind, device.name + ". What its translation moves: a second hand, or the view."}, chosen,
+                      what))
         device_moves_view_ = chosen == 1;
     } else {
       rows.value({device.kind, "A second hand, at the same time as the mouse."}, device.name);

@@ -63,7 +63,7 @@ class SpaceMouse final : public HandDevice {
  public:
   ~SpaceMouse() override { library().close(); }
   panel::DeviceInfo info() const override {
-    return {"SpaceMouse", "By spacenavd",
+    return {"SpaceMouse", "Read from spacenavd",
             {"cap moves", "left button grasps, lets go", "right button leaves a clamp", "a twist turns the view"}, true};
   }
 

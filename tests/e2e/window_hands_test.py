@@ -98,15 +98,15 @@ class Hands(WindowCase):
         self.assertGreater(last[2], first[2])  # towards the eye, which looks along −z and a little down and aside
 
         # The mouse pulls at the same time.
-        place = self.display.picture().tissue(240, 420)
+        place = self.display.picture().tissue(240, 420)  # beside what the other hand holds
         self.do("mousemove", *place)
         self.do("mousedown", 1)
         self.play(3)
-        if self.of("grasp", 0):  # it did not hit what the other hand holds
-            self.do("mousemove", place[0] - 40, place[1])
-            self.pull(up=-0.5)
-            self.do("mousemove", place[0] - 60, place[1])
-            self.wait_for("moves of the mouse", lambda: len(self.of("move", 0)) >= 2)
+        self.assertEqual(len(self.of("grasp", 0)), 1)
+        self.do("mousemove", place[0] - 40, place[1])
+        self.pull(up=-0.5)
+        self.do("mousemove", place[0] - 60, place[1])
+        self.wait_for("moves of the mouse", lambda: len(self.of("move", 0)) >= 2)
         self.do("mouseup", 1)
         self.assertEqual(self.of("release"), [])
 
