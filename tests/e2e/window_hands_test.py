@@ -1,13 +1,12 @@
 """A SpaceMouse as a second hand: a daemon that speaks spacenavd's protocol on a socket moves the instrument, grasps, pulls,
 leaves clamps and goes, beside the mouse. Its events are recorded and replay to the same bits."""
-import os
 import socket
 import struct
 import threading
 import time
 import unittest
 
-from window_case import WindowCase
+from window_case import WindowCase, light_scene
 
 MOTION, PRESS, RELEASE = range(3)
 HAND = 15
@@ -49,7 +48,9 @@ class Hands(WindowCase):
         self.daemon = Daemon(path)
         self.addCleanup(self.daemon.close)
         self.environment["SPNAV_SOCKET"] = str(path)
-        self.begin_light("--record", "out.jsonl", size="{}x{}".format(*size))
+        scene = light_scene()
+        scene["mesh"]["box"]["cells"] = [4, 4, 4]
+        self.begin_light("--record", "out.jsonl", scene=scene, size="{}x{}".format(*size))
         self.wait_for("the window at the daemon's socket", lambda: self.daemon.client)
 
     def press(self, button):
@@ -98,7 +99,9 @@ class Hands(WindowCase):
         self.assertGreater(last[2], first[2])  # towards the eye, which looks along −z and a little down and aside
 
         # The mouse pulls at the same time.
-        place = self.display.picture().tissue(240, 420)  # beside what the other hand holds
+        picture = self.display.picture()
+        left = min(x for x, _ in picture.red(220, 640))
+        place = picture.tissue(left, left + 60)  # beside what the other hand holds
         self.do("mousemove", *place)
         self.do("mousedown", 1)
         self.play(3)
