@@ -7,6 +7,7 @@
 #include <poll.h>
 #include <spnav.h>
 
+#include <csignal>
 #include <thread>
 #endif
 
@@ -98,8 +99,15 @@ class SpaceMouse final : public HandDevice {
 }  // namespace
 
 SpaceMouseFinder::SpaceMouseFinder() : search_(std::make_shared<Search>()) {
-  // Detached: the end of the program does not wait for a daemon that never answers.
-  std::thread([search = search_] { search->found = library().is_there() && library().open() == 0; }).detach();
+  // Detached: the end of the program does not wait for a daemon that never answers. One that closes the connection at
+  // once would end the program by a signal.
+  std::thread([search = search_] {
+    sigset_t pipe;
+    sigemptyset(&pipe);
+    sigaddset(&pipe, SIGPIPE);
+    pthread_sigmask(SIG_BLOCK, &pipe, nullptr);
+    search->found = library().is_there() && library().open() == 0;
+  }).detach();
 }
 
 std::unique_ptr<HandDevice> SpaceMouseFinder::take() {

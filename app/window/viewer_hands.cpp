@@ -5,13 +5,14 @@
 
 namespace heml::window {
 
+/// They move hands of the window that has the keys: other programs read them too.
 bool Viewer::read_devices() {
   if (!gamepad_.device) gamepad_.device = find_gamepad();
   if (!spacemouse_.device) spacemouse_.device = spacemouse_finder_.take();
   for (PluggedHand* each : {&gamepad_, &spacemouse_}) {
     if (!each->device) continue;
     if (const auto state = each->device->read()) {
-      if (each->hand.adopt(*state)) changed();
+      if (each->hand.adopt(window_.focused() ? *state : HandState{})) changed();
       continue;
     }
     std::vector<Command> commands;

@@ -42,15 +42,15 @@ class Daemon:
 
 
 class Hands(WindowCase):
-    def begin_with_daemon(self, size=(640, 360)):
-        self.open_display(*size)
+    def begin_with_daemon(self):
+        self.open_display(640, 360)
         path = self.folder / "spnav.sock"
         self.daemon = Daemon(path)
         self.addCleanup(self.daemon.close)
         self.environment["SPNAV_SOCKET"] = str(path)
         scene = light_scene()
         scene["mesh"]["box"]["cells"] = [4, 4, 4]
-        self.begin_light("--record", "out.jsonl", scene=scene, size="{}x{}".format(*size))
+        self.begin_light("--record", "out.jsonl", scene=scene)
         self.wait_for("the window at the daemon's socket", lambda: self.daemon.client)
 
     def press(self, button):
@@ -152,20 +152,40 @@ class Hands(WindowCase):
         self.verify()
 
     def test_its_translation_moves_the_view_where_it_is_set_to(self):
-        self.open_display(640, 360)
         (self.folder / "state" / "heml").mkdir(parents=True)
         (self.folder / "state" / "heml" / "panel").write_text("device moves view\n")
-        path = self.folder / "spnav.sock"
-        self.daemon = Daemon(path)
-        self.addCleanup(self.daemon.close)
-        self.environment["SPNAV_SOCKET"] = str(path)
-        self.begin_light("--record", "out.jsonl")
-        self.wait_for("the window at the daemon's socket", lambda: self.daemon.client)
+        self.begin_with_daemon()
         self.xdo("key", "space")
+        self.xdo("mousemove", 320, 180, "windowfocus", 1)  # keys go to where the mouse is, not to a window
         before = self.steady()
+        self.move(0.3, right=1)
+        self.assertEqual(self.steady().change(before, 220, 640), 0)
+        self.xdo("search", "--class", "heml", "windowfocus", "--sync")
         self.move(0.3, right=1)
         self.wait_for("another view", lambda: self.display.picture().change(before, 220, 640) > 3)
         self.assertEqual(self.commands("out.jsonl"), [])
+        self.quit()
+
+    def test_a_daemon_that_hangs_up_does_no_harm(self):
+        self.open_display(640, 360)
+        path = self.folder / "spnav.sock"
+        server = socket.socket(socket.AF_UNIX)
+        self.addCleanup(server.close)
+        server.bind(str(path))
+        server.listen(1)
+        hung_up = threading.Event()
+
+        def hang_up():
+            client, _ = server.accept()
+            client.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
+            client.close()
+            hung_up.set()
+
+        threading.Thread(target=hang_up, daemon=True).start()
+        self.environment["SPNAV_SOCKET"] = str(path)
+        self.begin_light()
+        self.assertTrue(hung_up.wait(60))
+        self.settle()
         self.quit()
 
     def test_a_daemon_that_answers_nobody_delays_nothing(self):
