@@ -1,5 +1,5 @@
-"""A SpaceMouse as a second hand: a daemon that speaks spacenavd's protocol on a socket moves the instrument, grasps, pulls,
-leaves clamps and goes, beside the mouse. Its events are recorded and replay to the same bits."""
+"""A SpaceMouse as a second hand: a daemon that speaks spacenavd's protocol on a socket moves the instrument, grasps,
+pulls, leaves clamps and goes, beside the mouse. Its events are recorded and replay to the same bits."""
 import socket
 import struct
 import threading
