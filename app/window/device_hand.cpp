@@ -118,7 +118,8 @@ Status DeviceHand::grasp(const Scene& scene, std::vector<Command>& out) {
   return {};
 }
 
-/// Takes a clamp that holds tissue in reach into this hand, which moves it from where it is.
+/// Takes a clamp into this hand, which moves it from where it is. In reach is its tissue, or where it is pulled to:
+/// there the tips are that have just left it.
 bool DeviceHand::take_up_clamp(const Scene& scene, std::vector<Command>& out) {
   const Frame& frame = scene.frame;
   for (const GraspState& clamp : tools_of<GraspState>(frame.tools)) {
@@ -126,8 +127,9 @@ bool DeviceHand::take_up_clamp(const Scene& scene, std::vector<Command>& out) {
     if (!render::is_clamp(clamp) || !index) continue;
     const Vec3f& place = frame.positions[*index];
     const auto hit = render::nearest_surface(frame, scene.surface_mesh, place, 0);
-    if (!hit || (place - *tip_).norm() > reach(scene)) continue;
-    tip_ = clamp.target.cast<float>();
+    const Vec3f target = clamp.target.cast<float>();
+    if (!hit || std::min((place - *tip_).norm(), (target - *tip_).norm()) > reach(scene)) continue;
+    tip_ = target;
     held_ = Held{{clamp.node, clamp.radius, number_, scene.surface_mesh.hidden},
                  render::surface_point(*hit, frame, scene.surface_mesh), Vec3f::Zero(), frame.refusals};
     has_grasped_ = true;
