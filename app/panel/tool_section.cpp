@@ -58,7 +58,8 @@ void ToolSection::draw_devices(Rows& rows) {
                       what))
         device_moves_view_ = chosen == 1;
     } else {
-      rows.value({device.kind, "A second hand, at the same time as the mouse."}, device.name);
+      rows.value({device.kind, device.name + ". A second hand, at the same time as the mouse."},
+                 elided(device.name, em(11)));
     }
     const UseFont small(Font::small);
     ImGui::PushStyleColor(ImGuiCol_Text, ImGui::ColorConvertU32ToFloat4(colours::muted));

@@ -29,8 +29,13 @@ Status DeviceHand::act(float seconds, bool moves_view, const Scene& scene, std::
   const bool grasps = std::exchange(grasp_pressed_, false), leaves = std::exchange(clamp_pressed_, false);
   if (state_.is_idle() && !grasps && !leaves) return {};
   const float time = std::min(seconds, longest);
+  has_moved_ = true;
   turn_view(time);
   if (moves_view) move_view(time);
+  if (moves_view && !held_) {
+    tip_.reset();
+    return {};
+  }
   if (!tip_) appear(scene);
   if (!moves_view && move(time) && held_)
     out.emplace_back(MoveTool{(*tip_ + held_->tool_offset).cast<double>(), number_});
@@ -170,6 +175,7 @@ std::string DeviceHand::unplug(const Frame& frame, std::vector<Command>& out) {
   let_go(out);
   hide();
   state_ = {};
+  has_moved_ = false;
   return !held ? "" : is_clamp ? "what it held is left as a clamp." : "it let go, since there is no hand for a clamp.";
 }
 

@@ -34,8 +34,8 @@ class DeviceHand {
   /// What the device is made to do from now on; a button that goes down is remembered for the next act(). Returns
   /// whether there is anything to draw.
   bool adopt(const HandState& state);
-  /// Moves and grasps as the device was made to in the last `seconds`. moves_view: the view in place of the hand.
-  /// Returns why it cannot.
+  /// Moves and grasps as the device was made to in the last `seconds`. moves_view: the view in place of the hand, which
+  /// is hidden unless it holds something. Returns why it cannot.
   Status act(float seconds, bool moves_view, const Scene& scene, std::vector<Command>& out);
   /// Leaves what it holds where it is, as a clamp. Returns why it cannot.
   Status leave_clamp(const Frame& frame, std::vector<Command>& out);
@@ -48,6 +48,7 @@ class DeviceHand {
 
   int number() const { return number_; }
   bool is_shown() const { return tip_.has_value(); }
+  bool has_moved() const { return has_moved_; }  ///< the device, since it came
   bool holds() const { return held_.has_value(); }
   bool has_grasped() const { return has_grasped_; }
   std::optional<render::Hold> hold() const;
@@ -79,7 +80,7 @@ class DeviceHand {
   panel::CameraController& controller_;
   HandState state_;
   bool grasp_pressed_ = false, clamp_pressed_ = false;  // since the last act()
-  bool has_grasped_ = false;
+  bool has_grasped_ = false, has_moved_ = false;
   std::optional<Vec3f> tip_;  // m
   std::optional<Held> held_;
 };

@@ -14,7 +14,7 @@ bool joysticks_changed = true;  // since they were looked at; on the window's th
 
 class Gamepad final : public HandDevice {
  public:
-  explicit Gamepad(int joystick) : joystick_(joystick), name_(glfwGetGamepadName(joystick)) {}
+  Gamepad(int joystick, std::string name) : joystick_(joystick), name_(std::move(name)) {}
   panel::DeviceInfo info() const override {
     return {"Gamepad", name_,
             {"left stick moves", "right stick: depth", "A grasps, lets go", "B leaves a clamp", "pad turns the view"}};
@@ -55,7 +55,8 @@ std::unique_ptr<HandDevice> find_gamepad() {
   if (!std::exchange(joysticks_changed, false)) return nullptr;
   glfwSetJoystickCallback([](int, int) { joysticks_changed = true; });
   for (int joystick = GLFW_JOYSTICK_1; joystick <= GLFW_JOYSTICK_LAST; ++joystick)
-    if (glfwJoystickIsGamepad(joystick)) return std::make_unique<Gamepad>(joystick);
+    if (const char* name = glfwJoystickIsGamepad(joystick) ? glfwGetGamepadName(joystick) : nullptr)
+      return std::make_unique<Gamepad>(joystick, name);
   return nullptr;
 }
 

@@ -45,13 +45,13 @@ void Viewer::move_hands(float seconds) {
   panel_->set_devices(devices());
 }
 
-/// Those that have moved a hand.
+/// Those that have been moved.
 std::vector<panel::DeviceInfo> Viewer::devices() const {
   std::vector<panel::DeviceInfo> all;
   for (const PluggedHand* each : {&gamepad_, &spacemouse_}) {
-    if (!each->device || !each->hand.is_shown()) continue;
+    if (!each->device || !each->hand.has_moved()) continue;
     all.push_back(each->device->info());
-    all.back().is_new = !each->hand.has_grasped();
+    all.back().is_new = each->hand.is_shown() && !each->hand.has_grasped();
   }
   return all;
 }

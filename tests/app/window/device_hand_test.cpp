@@ -338,7 +338,7 @@ TEST_CASE("mouse and device hold at the same time, and neither takes the other's
   CHECK_FALSE(press({0.09f, -0.08f, 0}).ok());
 }
 
-TEST_CASE("a device turns the view, and moves it where it is set to: then its hand stays") {
+TEST_CASE("a device turns the view, and moves it where it is set to: then its hand hides, unless it holds something") {
   Sheet sheet;
   sheet.play({.move = {0.1f, 0, 0}});
   const Vec3f before = sheet.tip(), eye = sheet.controller.camera().eye();
@@ -351,11 +351,26 @@ TEST_CASE("a device turns the view, and moves it where it is set to: then its ha
   const render::Vec2f at = sheet.controller.pixel(Vec3f(0, 0, 0));
   sheet.play({.move = {1, 0, 0}}, 0.1f, 10);
   CHECK((sheet.controller.pixel(Vec3f(0, 0, 0)) - at - render::Vec2f(180, 0)).norm() < 1);
-  CHECK(sheet.tip() == before);
+  CHECK_FALSE(sheet.hand.is_shown());
+  CHECK(sheet.hand.has_moved());
   const float distance = (sheet.controller.camera().eye() - sheet.controller.camera().target()).norm();
   sheet.play({.move = {0, 0, 1}}, 0.1f, 5);
   CHECK((sheet.controller.camera().eye() - sheet.controller.camera().target()).norm() < 0.9f * distance);
+  sheet.grasp();
   CHECK(sheet.commands.empty());
+
+  Sheet holding;
+  holding.play({.move = {0.1f, 0, 0}});
+  holding.go_to({0.08f, -0.07f, 0.01f});
+  holding.grasp();
+  holding.moves_view = true;
+  holding.commands.clear();
+  const Vec3f held = holding.tip();
+  holding.play({.move = {1, 0, 0}});
+  CHECK(holding.tip() == held);
+  CHECK(holding.commands.empty());
+  holding.grasp();
+  CHECK(only<Release>(holding.commands).hand == first_device_hand);
 }
 
 }  // namespace heml::device_hand_test
