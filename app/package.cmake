@@ -13,6 +13,7 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME heml)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS libosmesa6)          # pictures without a display
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "libglfw3, libgl1, libgl1-mesa-dri")  # the window
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "libspnav0, spacenavd")  # its SpaceMouse
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "The heml program, its scenes, meshes and materials.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libheml-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)

@@ -8,6 +8,7 @@ build_packages=(
   libassimp-dev libtet1.5-dev                        # its helper for surfaces
   libcli11-dev libglfw3-dev libimgui-dev             # program
   libosmesa6-dev libpng-dev
+  libspnav-dev                                       # and its SpaceMouse, which may be left out
   doctest-dev                                        # tests
 )
 run_packages=(

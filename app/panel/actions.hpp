@@ -93,6 +93,14 @@ struct ToolSettings {
   double friction = 0.3;                                ///< Coulomb coefficient of the probe and of tables
 };
 
+/// A device beside the mouse that moves a hand (window/device_hand.hpp).
+struct DeviceInfo {
+  std::string kind, name;    ///< "Gamepad", and as its maker calls it
+  std::vector<std::string> controls;  ///< hints of what they do, most useful first
+  bool may_move_view = false;  ///< in place of the hand, where the person says so
+  bool is_new = false;         ///< it has not grasped anything yet
+};
+
 /// What the panel asks its owner for; previous_frame, next_frame, first_frame, live and resume are about the timeline.
 enum class Request {
   play,

@@ -18,6 +18,7 @@ constexpr std::pair<const char*, const char*> mouse[] = {
     {"Wheel", "zoom"},
     {"Double click on the background", "fit the body into view"},
     {"Drop a file", "open a scene, mesh or surface"},
+    {"Gamepad, SpaceMouse", "a second hand (section Tool)"},
 };
 
 /// A line of the page: a key or mouse button, and its meaning.

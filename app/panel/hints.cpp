@@ -47,6 +47,7 @@ std::vector<std::string> idle_hints(const Situation& now) {
   std::vector<std::string> hints = tool_hints(now);
   if (now.hides && (now.tool == Tool::scalpel || now.tool == Tool::scissors))
     hints.insert(hints.begin() + 1, "hidden tissue is cut too");
+  hints.insert(hints.begin(), now.device.begin(), now.device.end());
   if (now.paused) hints.insert(hints.begin(), "paused: Space runs");
   hints.push_back("H for help");
   return hints;

@@ -17,6 +17,7 @@ struct Situation {
   bool paused = false, halted = false;
   bool past = false;       ///< a past frame is shown
   bool hides = false;      ///< regions are hidden
+  std::vector<std::string> device = {};  ///< what the controls of one do that has not been used yet
 };
 
 /// The hints of a situation, most useful first: every hint there is.

@@ -1,9 +1,17 @@
 #include <algorithm>
 #include <app/panel/history.hpp>
 #include <app/panel/volume.hpp>
+#include <heml/world/command.hpp>
 #include <limits>
 
 namespace heml::panel {
+
+std::optional<double> force_of_hands(const std::vector<ToolState>& tools) {
+  std::optional<double> largest;
+  for (const GraspState& grasp : tools_of<GraspState>(tools))
+    if (is_persons_hand(grasp.hand)) largest = std::max(largest.value_or(0), grasp.force.norm());
+  return largest;
+}
 
 void History::add(const Frame& frame, const Measured& measured) {
   constexpr double spacing = span / 240;
@@ -14,7 +22,7 @@ void History::add(const Frame& frame, const Measured& measured) {
   Reading reading;
   reading.time = frame.time;
   reading.energies = frame.energies;
-  if (const GraspState* grasp = find_grasp(frame.tools, 0)) reading.force = grasp->force.norm();
+  reading.force = force_of_hands(frame.tools).value_or(0);
   reading.pins = force_of<PinState>(frame.tools).norm();
   reading.tables = force_of<TableState>(frame.tools).norm();
   reading.probe = force_of<ProbeState>(frame.tools).norm();

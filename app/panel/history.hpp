@@ -3,6 +3,8 @@
 #include <app/panel/measure.hpp>
 #include <deque>
 #include <heml/session/frame.hpp>
+#include <optional>
+#include <vector>
 
 namespace heml::panel {
 
@@ -10,7 +12,7 @@ namespace heml::panel {
 struct Reading {
   double time = 0;                         ///< s, simulated
   Energies energies;                       ///< J
-  double force = 0;                        ///< N, of the grasp
+  double force = 0;                        ///< N, force_of_hands()
   double pins = 0, tables = 0, probe = 0;  ///< N: sum over all pins, over all tables; probe
   double sutures = 0;                      ///< N, of the tightest suture
   double typical_tick = 0, slow_tick = 0;  ///< s of computing per tick: median and 99th percentile
@@ -21,6 +23,9 @@ struct Reading {
   Measured measured;                      ///< without its places
   double total() const { return energies.kinetic + energies.elastic + energies.potential; }
 };
+
+/// N, the largest force of a person's hands on the tissue; none: they hold nothing.
+std::optional<double> force_of_hands(const std::vector<ToolState>& tools);
 
 /// Readings over simulated time, at least `span`/240 apart. A reset (less time at a later tick) clears them; a frame of
 /// an earlier tick (the timeline shows the past) is ignored.

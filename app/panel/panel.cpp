@@ -87,6 +87,7 @@ void Panel::set_preferences(const Preferences& preferences) {
   tool_.keep(preferences.tools);
   look_ = preferences.look;
   rows_.set_sections(preferences.sections);
+  tool_.set_device_moves_view(preferences.device_moves_view);
 }
 
 Preferences Panel::preferences() const {
@@ -95,6 +96,7 @@ Preferences Panel::preferences() const {
   preferences.tools = tool_.kept();
   preferences.look = look_;
   preferences.sections = rows_.sections();
+  preferences.device_moves_view = tool_.device_moves_view();
   return preferences;
 }
 
@@ -257,9 +259,15 @@ float Panel::draw_edges(const Frame& frame, Area& free, PanelActions& out) {
 }
 
 Situation Panel::situation(const Frame& frame) const {
-  return {tool_.tool().tool, interaction_,          suture_begun_,
-          frame.paused,      !frame.halted.empty(), timeline_ && timeline_->shown.has_value(),
-          !regions_.hidden().empty()};
+  Situation now{tool_.tool().tool, interaction_,          suture_begun_,
+                frame.paused,      !frame.halted.empty(), timeline_ && timeline_->shown.has_value(),
+                !regions_.hidden().empty()};
+  for (const DeviceInfo& device : tool_.devices())
+    if (device.is_new) {
+      now.device = device.controls;
+      now.device.front() = device.kind + ": " + now.device.front();
+    }
+  return now;
 }
 
 void Panel::record_window_rect() {

@@ -77,6 +77,8 @@ class Panel {
   const ViewSection& view() const { return view_; }
   /// What the mouse does, and whether the first end of a suture is set: for the hints.
   void set_interaction(Interaction interaction, bool suture_begun);
+  void set_devices(std::vector<DeviceInfo> devices) { tool_.set_devices(std::move(devices)); }
+  bool device_moves_view() const { return tool_.device_moves_view(); }
   void set_filmed_frames(std::optional<long> count) { filmed_frames_ = count; }  ///< none: no film is made
   void set_preferences(const Preferences& preferences);
   Preferences preferences() const;

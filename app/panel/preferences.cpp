@@ -10,14 +10,17 @@
 namespace heml::panel {
 namespace {
 
+/// A line, and what it says.
 struct Switch {
-  std::string_view off;  ///< the line
+  std::string_view line;
   bool Preferences::*value;
+  bool is_on;
 };
-constexpr Switch switches[] = {{"hints off", &Preferences::hints},
-                               {"ground off", &Preferences::ground},
-                               {"constraints off", &Preferences::constraints},
-                               {"full resolution off", &Preferences::full_resolution}};
+constexpr Switch switches[] = {{"hints off", &Preferences::hints, false},
+                               {"ground off", &Preferences::ground, false},
+                               {"constraints off", &Preferences::constraints, false},
+                               {"full resolution off", &Preferences::full_resolution, false},
+                               {"device moves view", &Preferences::device_moves_view, true}};
 constexpr std::string_view light = "theme light", size = "size ", tool = "tool ", open = "open ", closed = "closed ";
 
 /// NaN: it is none.
@@ -39,8 +42,8 @@ void read_tool(std::string_view line, std::map<std::string, double>& tools) {
 
 std::string to_text(const Preferences& preferences) {
   std::string text;
-  for (const auto& [off, value] : switches)
-    if (!(preferences.*value)) text += fmt::format("{}\n", off);
+  for (const auto& [line, value, is_on] : switches)
+    if (preferences.*value == is_on) text += fmt::format("{}\n", line);
   if (preferences.look.theme == Theme::light) text += fmt::format("{}\n", light);
   if (preferences.look.size != 1) text += fmt::format("{}{}\n", size, preferences.look.size);
   for (const auto& [name, value] : preferences.tools) text += fmt::format("{}{} {}\n", tool, name, value);
@@ -53,8 +56,8 @@ Preferences preferences_from(std::string_view text) {
   Preferences preferences;
   std::istringstream lines{std::string(text)};
   for (std::string line; std::getline(lines, line);) {
-    for (const auto& [off, value] : switches)
-      if (line == off) preferences.*value = false;
+    for (const auto& [said, value, is_on] : switches)
+      if (line == said) preferences.*value = is_on;
     if (line == light) preferences.look.theme = Theme::light;
     if (line.starts_with(size)) {
       const double given = number_from(std::string_view(line).substr(size.size()));

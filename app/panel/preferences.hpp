@@ -6,6 +6,7 @@
 //   theme light
 //   size 1.25
 //   tool jaw length 0.12
+//   device moves view
 //   open Compare
 //   closed Motion
 #include <app/panel/theme.hpp>
@@ -31,6 +32,7 @@ struct Preferences {
   Look look;
   std::map<std::string, double> tools;   ///< settings by name (tool_section.cpp); lengths in radii of the body
   std::map<std::string, bool> sections;  ///< by title: opened (true) or closed by hand
+  bool device_moves_view = false;        ///< a SpaceMouse does, in place of a hand
   bool operator==(const Preferences&) const = default;
 };
 

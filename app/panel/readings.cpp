@@ -5,26 +5,27 @@
 #include <app/panel/quantity.hpp>
 #include <app/panel/readings.hpp>
 #include <app/panel/volume.hpp>
+#include <app/render/grasp_pose.hpp>
 
 namespace heml::panel {
 namespace {
 }
 
 void draw_force(Rows& rows, const Frame& frame, const History& history) {
-  const GraspState* grasp = find_grasp(frame.tools, 0);
+  const std::optional<double> force = force_of_hands(frame.tools);
   ImGui::BeginGroup();
   {
     const UseFont number(Font::number);
-    ImGui::PushStyleColor(ImGuiCol_Text, grasp ? colours::accent : colours::faint);
-    ImGui::TextUnformatted(newtons(grasp ? grasp->force.norm() : 0).c_str());
+    ImGui::PushStyleColor(ImGuiCol_Text, force ? colours::accent : colours::faint);
+    ImGui::TextUnformatted(newtons(force.value_or(0)).c_str());
     ImGui::PopStyleColor();
   }
   ImGui::EndGroup();
-  rows.explain({"Force", "Magnitude of the force between grasper and tissue, N."});
+  rows.explain({"Force", "Magnitude of the force between grasper and tissue, N; of the hand that pulls most."});
   double clamps = 0;
   std::size_t clamp_count = 0;
   for (const GraspState& clamp : tools_of<GraspState>(frame.tools))
-    if (clamp.hand != 0) clamps = std::max(clamps, clamp.force.norm()), ++clamp_count;
+    if (render::is_clamp(clamp)) clamps = std::max(clamps, clamp.force.norm()), ++clamp_count;
   if (clamp_count > 0)
     rows.value({"Clamps", "The largest force of a clamp on the tissue, N."}, newtons(clamps), colours::potential);
   if (find_tool<PinState>(frame.tools))

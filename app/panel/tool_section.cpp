@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <app/panel/tool_section.hpp>
+#include <app/render/grasp_pose.hpp>
 #include <cmath>
 #include <limits>
 #include <string_view>
@@ -67,14 +68,34 @@ void ToolSection::sync(const SetGravity& command) {
 void ToolSection::draw(Rows& rows, const Frame& frame, PanelActions& out) {
   draw_settings(rows);
   draw_friction(rows, frame, out);
+  draw_devices(rows);
   const std::size_t pins = tools_of<PinState>(frame.tools).size(), sutures = tools_of<SutureState>(frame.tools).size();
   if (pins > 0 && rows.button({several(pins, "pin"), "Removes all pins."})) out.commands.emplace_back(Unpin{});
   std::size_t clamps = 0;
-  for (const GraspState& grasp : tools_of<GraspState>(frame.tools)) clamps += grasp.hand != 0 ? 1 : 0;
+  for (const GraspState& grasp : tools_of<GraspState>(frame.tools)) clamps += render::is_clamp(grasp) ? 1 : 0;
   if (clamps > 0 && rows.button({several(clamps, "clamp"), "Removes all clamps, and ends a grasp."}))
     out.commands.emplace_back(Release{std::nullopt});
   if (sutures > 0 && rows.button({several(sutures, "suture"), "Cuts all threads."}))
     out.commands.emplace_back(CutSutures{});
+}
+
+void ToolSection::draw_devices(Rows& rows) {
+  for (const DeviceInfo& device : devices_) {
+    if (device.may_move_view) {
+      static const std::vector<std::string> what{"moves instrument", "moves view"};
+      int chosen = device_moves_view_ ? 1 : 0;
+      if (rows.choice({device.kind, device.name + ". What its translation moves: a second hand, or the view."}, chosen,
+                      what))
+        device_moves_view_ = chosen == 1;
+    } else {
+      rows.value({device.kind, device.name + ". A second hand, at the same time as the mouse."},
+                 elided(device.name, em(11)));
+    }
+    const UseFont small(Font::small);
+    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::ColorConvertU32ToFloat4(colours::muted));
+    ImGui::TextWrapped("%s", fmt::format("{}", fmt::join(device.controls, " · ")).c_str());
+    ImGui::PopStyleColor();
+  }
 }
 
 void ToolSection::draw_settings(Rows& rows) {

@@ -5,6 +5,7 @@
 #include <heml/session/frame.hpp>
 #include <map>
 #include <string>
+#include <vector>
 
 namespace heml::panel {
 
@@ -20,6 +21,11 @@ class ToolSection {
   void sync(const SetGravity& command);
 
   const ToolSettings& tool() const { return tool_; }
+  /// Tells of them from now on.
+  void set_devices(std::vector<DeviceInfo> devices) { devices_ = std::move(devices); }
+  const std::vector<DeviceInfo>& devices() const { return devices_; }
+  void set_device_moves_view(bool on) { device_moves_view_ = on; }
+  bool device_moves_view() const { return device_moves_view_; }  ///< those that may, in place of a hand
 
   /// Settings that differ from the first ones, by name; lengths in radii of the body, so that they suit another body.
   std::map<std::string, double> kept() const;
@@ -28,9 +34,12 @@ class ToolSection {
 
  private:
   void draw_settings(Rows& rows);
+  void draw_devices(Rows& rows);
   void draw_friction(Rows& rows, const Frame& frame, PanelActions& out);
 
   ToolSettings tool_;
+  std::vector<DeviceInfo> devices_;
+  bool device_moves_view_ = false;
   double body_radius_;
   Vec3 up_ = Vec3::UnitY();
 };

@@ -11,6 +11,7 @@ namespace {
 
 constexpr float jaw_length = 1.5f;      // of the forceps, in body radii
 constexpr float half_opening = 0.016f;  // between the tips, in lengths
+constexpr float open_jaws = 0.05f;      // the same of forceps that hold nothing
 constexpr float tip_height = 0.006f;    // of the tips' middle over the skin, in lengths
 constexpr float lean = 0.8f;            // of the handle to the hand's side, against its rise along the normal
 constexpr float full_pull = 0.4f;       // body radii from which the handle follows the pull most
@@ -93,6 +94,13 @@ HeldPatch held_patch(const GraspState& grasp, const std::optional<Hold>& hold, c
   return patch;
 }
 
+std::optional<Hold> HandDrawing::hold_of(int hand) const {
+  const auto found = std::find_if(holds.begin(), holds.end(), [&](const Hold& hold) { return hold.number == hand; });
+  return found != holds.end() ? std::optional(*found) : std::nullopt;
+}
+
+HeldPatch free_patch(const Vec3f& tip, const Camera& camera) { return {tip, camera.backward(), Vec3f::Zero()}; }
+
 Vec3f handle_axis(const HeldPatch& patch, const Camera& camera, float radius) {
   const Vec3f& n = patch.normal;
   const Vec3f hand = camera.up() + 0.55f * camera.right();
@@ -117,16 +125,17 @@ std::array<Mat4f, 2> clamp_models(const HeldPatch& patch, const Camera& camera, 
   return models;
 }
 
-std::array<Mat4f, 2> jaw_models(const HeldPatch& patch, const Camera& camera, float radius) {
+std::array<Mat4f, 2> jaw_models(const HeldPatch& patch, const Camera& camera, float radius, bool open) {
   const float length = jaw_length * radius;
   const Vec3f axis = handle_axis(patch, camera, radius);
   const Vec3f beside = unit_or(patch.normal.cross(axis), camera.right());  // in the skin: both tips touch it
   const Vec3f tips = patch.place + tip_height * length * patch.normal;
+  const float opening = open ? open_jaws : half_opening;
   std::array<Mat4f, 2> models;
   for (std::size_t k = 0; k < 2; ++k) {
     const Vec3f side = k == 0 ? beside : Vec3f(-beside);
     // Each jaw turns about the joint at the end of the handle until its tip stands beside the patch.
-    models[k] = place_along(tips, axis, side, length, length) * turned_about(Vec3f::UnitY(), half_opening);
+    models[k] = place_along(tips, axis, side, length, length) * turned_about(Vec3f::UnitY(), opening);
   }
   return models;
 }

@@ -15,6 +15,13 @@ bool is_met_from_inside(const Hit& hit, const Frame& frame, const SurfaceMesh& s
   return normal.dot(ray.direction) > 0;
 }
 
+Hit with_nearest_corner(Hit hit, const Frame& frame, const SurfaceMesh& surface_mesh) {
+  for (const int node : surface_mesh.triangles[hit.triangle])
+    if ((frame.positions[node] - hit.point).squaredNorm() < (frame.positions[hit.node] - hit.point).squaredNorm())
+      hit.node = node;
+  return hit;
+}
+
 /// number(k): index of the k-th triangle of `count`, ascending.
 std::optional<Hit> pick_among(std::size_t count, const auto& number, const Frame& frame,
                               const SurfaceMesh& surface_mesh, const Ray& ray,
@@ -33,10 +40,7 @@ std::optional<Hit> pick_among(std::size_t count, const auto& number, const Frame
   }
   if (!hit) return hit;
   if (section && is_met_from_inside(*hit, frame, surface_mesh, ray)) return std::nullopt;
-  for (const int node : surface_mesh.triangles[hit->triangle])
-    if ((frame.positions[node] - hit->point).squaredNorm() < (frame.positions[hit->node] - hit->point).squaredNorm())
-      hit->node = node;
-  return hit;
+  return with_nearest_corner(*hit, frame, surface_mesh);
 }
 
 }  // namespace
@@ -51,6 +55,27 @@ std::optional<Hit> pick(const Frame& frame, const SurfaceMesh& surface_mesh, std
                         const Ray& ray, const std::optional<SectionPlane>& section) {
   const auto number = [&](std::size_t k) { return triangles[k]; };
   return pick_among(triangles.size(), number, frame, surface_mesh, ray, section);
+}
+
+std::optional<Hit> nearest_surface(const Frame& frame, const SurfaceMesh& surface_mesh, const Vec3f& point, float reach,
+                                   const std::optional<SectionPlane>& section) {
+  float least = reach;
+  std::optional<Hit> hit;
+  for (std::size_t t = 0; t < surface_mesh.triangles.size(); ++t) {
+    const auto& [a, b, c] = surface_mesh.triangles[t];
+    const Vec3f &x = frame.positions[a], &y = frame.positions[b], &z = frame.positions[c];
+    if ((x.cwiseMin(y).cwiseMin(z) - point).maxCoeff() > least) continue;
+    if ((point - x.cwiseMax(y).cwiseMax(z)).maxCoeff() > least) continue;
+    const Vec3 p = x.cast<double>(), q = y.cast<double>(), r = z.cast<double>();
+    const auto weights = closest_point_weights(point.cast<double>(), p, q, r);
+    const Vec3f place = (weights[0] * p + weights[1] * q + weights[2] * r).cast<float>();
+    const float distance = (place - point).norm();
+    if (!(distance < least) && !(distance == least && !hit)) continue;
+    if (section && section->beyond(place) > 0) continue;
+    least = distance;
+    hit = with_nearest_corner({static_cast<int>(t), a, place}, frame, surface_mesh);
+  }
+  return hit;
 }
 
 std::optional<float> value_at(const Hit& hit, const Frame& frame, const SurfaceMesh& surface_mesh) {

@@ -24,6 +24,11 @@ std::optional<Hit> pick(const Frame& frame, const SurfaceMesh& surface_mesh, con
 std::optional<Hit> pick(const Frame& frame, const SurfaceMesh& surface_mesh, std::span<const int> triangles,
                         const Ray& ray, const std::optional<SectionPlane>& section = std::nullopt);
 
+/// The point of the surface nearest to a point (m), at most `reach` (m) away and not beyond the section plane; the first
+/// of equally near ones. None: there is no surface so near.
+std::optional<Hit> nearest_surface(const Frame& frame, const SurfaceMesh& surface_mesh, const Vec3f& point, float reach,
+                                   const std::optional<SectionPlane>& section = std::nullopt);
+
 /// The field's value at a hit in the frame, interpolated linearly; none if the frame carries no field.
 std::optional<float> value_at(const Hit& hit, const Frame& frame, const SurfaceMesh& surface_mesh);
 

@@ -155,7 +155,7 @@ void Renderer::Impl::draw(const Frame& frame, const Camera& camera, const DrawOp
   glDisable(GL_SCISSOR_TEST);
   glDisable(GL_CULL_FACE);
   glEnable(GL_PROGRAM_POINT_SIZE);
-  tool_.place(frame, options.hold, options.tool, shot);
+  tool_.place(frame, options.hands, options.tool, shot);
   if (options.tool) tool_.place_stroke(options.stroke, shot);
   if (body_) {
     const Range range = options.range.value_or(natural_range(frame.field, frame.values));

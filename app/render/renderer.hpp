@@ -20,7 +20,7 @@ struct DrawOptions {
   bool ground = true;              ///< the drape and the shadow on it
   bool constrained = true;         ///< beads on nodes with a boundary condition
   bool tool = true;                ///< forceps while something is grasped, pins, scalpel and the like
-  std::optional<Hold> hold;        ///< of the mouse; none: forceps are drawn at the grasped node
+  HandDrawing hands;               ///< of the mouse and of other devices
   StrokeDrawing stroke;            ///< of the scalpel
   std::optional<SectionPlane> section;  ///< leaves out what lies beyond; closed by a cap where the frame has a solid
   std::optional<Range> range;      ///< of the colour map; none: natural_range() of the frame's values

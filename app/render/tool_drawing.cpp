@@ -24,16 +24,17 @@ Vec3f tension_tint(float force) {
 
 }  // namespace
 
-void ToolDrawing::place(const Frame& frame, const std::optional<Hold>& hold, bool shown, const ViewContext& shot) {
+void ToolDrawing::place(const Frame& frame, const HandDrawing& hands, bool shown, const ViewContext& shot) {
   parts_.clear();
   shade_ = {};
   if (!shown) return;
-  const auto held = [&](const GraspState& grasp, const std::optional<Hold>& by) {
-    return held_patch(grasp, by, frame, frame.surface_mesh.get(), shot.camera.eye());
+  for (const Vec3f& tip : hands.free_tips) place_forceps(free_patch(tip, shot.camera), true, shot);
+  const auto held = [&](const GraspState& grasp) {
+    return held_patch(grasp, hands.hold_of(grasp.hand), frame, frame.surface_mesh.get(), shot.camera.eye());
   };
   const ByKind placing{[&](const GraspState& grasp) {
-                         if (is_clamp(grasp)) return place_clamp(held(grasp, std::nullopt), shot);
-                         place_grasp(grasp, held(grasp, hold), shot);
+                         if (is_clamp(grasp)) return place_clamp(held(grasp), shot);
+                         place_grasp(grasp, held(grasp), shot);
                        },
                        [&](const PinState& pin) { place_pin(pin, shot); },
                        [&](const TableState& state) { place_table(state.table, frame, shot); },
@@ -45,14 +46,18 @@ void ToolDrawing::place(const Frame& frame, const std::optional<Hold>& hold, boo
 
 void ToolDrawing::place_grasp(const GraspState& tool, const HeldPatch& patch, const ViewContext& shot) {
   if (!patch.place.allFinite() || !patch.normal.allFinite() || !patch.pull.allFinite()) return;
-  const auto jaws = jaw_models(patch, shot.camera, shot.radius);
-  for (const Mat4f& model : jaws) parts_.push_back({&jaw_, model, steel, 1, true, true});
-  const Vec3f end = (jaws[0] * Vec3f::UnitY().homogeneous()).head<3>();
-  shade_ = {patch.place, end, shade_width * shot.radius};
+  place_forceps(patch, false, shot);
   const float distance = patch.pull.norm();
   if (distance <= slack * shot.radius) return;
   parts_.push_back({&rod_, place_along(patch.place, patch.pull, across(patch.pull), distance, 0.004f * shot.radius),
                     tension_tint(static_cast<float>(tool.force.norm())), 0, false, true});
+}
+
+void ToolDrawing::place_forceps(const HeldPatch& patch, bool open, const ViewContext& shot) {
+  const auto jaws = jaw_models(patch, shot.camera, shot.radius, open);
+  for (const Mat4f& model : jaws) parts_.push_back({&jaw_, model, steel, 1, true, true});
+  const Vec3f end = (jaws[0] * Vec3f::UnitY().homogeneous()).head<3>();
+  shade_ = {patch.place, end, shade_width * shot.radius};
 }
 
 void ToolDrawing::place_probe(const ProbeState& probe) {

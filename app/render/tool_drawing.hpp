@@ -28,13 +28,13 @@ struct Shade {
 
 class ToolDrawing {
  public:
-  /// Places the tools of a frame, or none if not shown. Call this first.
-  void place(const Frame& frame, const std::optional<Hold>& hold, bool shown, const ViewContext& shot);
+  /// Places the tools of a frame and a person's hands, or none if not shown. Call this first.
+  void place(const Frame& frame, const HandDrawing& hands, bool shown, const ViewContext& shot);
 
   /// Adds scalpel or scissors and their line to them.
   void place_stroke(const StrokeDrawing& stroke, const ViewContext& shot);
 
-  /// Of the instrument in use: forceps, probe, scalpel or scissors.
+  /// Of the instrument in use, the last where there are several: forceps, probe, scalpel or scissors.
   const Shade& shade() const { return shade_; }
   void cast(const Program& program) const;  ///< draws the shadow casters; sets `model`
   std::vector<Eigen::AlignedBox3f> boxes() const;  ///< round every part, m
@@ -52,6 +52,7 @@ class ToolDrawing {
     bool shows_through = false;  // its part inside the tissue is drawn too, fainter
   };
   void place_grasp(const GraspState& tool, const HeldPatch& patch, const ViewContext& shot);
+  void place_forceps(const HeldPatch& patch, bool open, const ViewContext& shot);
   void place_probe(const ProbeState& probe);
   void place_table(const Table& table, const Frame& frame, const ViewContext& shot);
   void place_suture(const SutureState& suture, const ViewContext& shot);

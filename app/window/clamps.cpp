@@ -2,7 +2,6 @@
 #include <app/render/bounds.hpp>
 #include <app/render/grasp_pose.hpp>
 #include <app/window/clamps.hpp>
-#include <heml/world/command.hpp>
 
 namespace heml::window {
 namespace {
@@ -38,9 +37,16 @@ std::optional<GraspState> clamp_at(const render::Vec2f& pixel, const Frame& fram
 }
 
 std::optional<int> free_hand(const Frame& frame) {
-  for (int hand = 1; hand < max_hands; ++hand)
+  for (int hand = 1; hand < first_device_hand; ++hand)
     if (!find_grasp(frame.tools, hand)) return hand;
   return std::nullopt;
+}
+
+Status held_by_another(const Grasp& grasp, const Frame& frame) {
+  for (const GraspState& held : tools_of<GraspState>(frame.tools))
+    if (is_persons_hand(held.hand) && held.hand != grasp.hand && held.node == grasp.node && held.radius == grasp.radius)
+      return "Your other hand holds this tissue: take hold beside it.";
+  return {};
 }
 
 }  // namespace heml::window

@@ -1,7 +1,10 @@
 #pragma once
-// Clamps: grasps that were left in place. A person grasps with hand 0; what other hands hold is drawn as clamps.
+// Clamps: grasps that were left in place. A person grasps with hand 0, the mouse's, and with those of devices
+// (device_hand.hpp); what other hands hold is drawn as clamps.
 #include <app/panel/camera_controller.hpp>
+#include <heml/base/status.hpp>
 #include <heml/session/frame.hpp>
+#include <heml/world/command.hpp>
 #include <optional>
 
 namespace heml::window {
@@ -12,5 +15,9 @@ std::optional<GraspState> clamp_at(const render::Vec2f& pixel, const Frame& fram
 
 /// A hand for another clamp; none: all are in use.
 std::optional<int> free_hand(const Frame& frame);
+inline constexpr auto no_free_hand = "There are as many clamps as can be: Del over one removes it.";
+
+/// Why a person's hand may not take what it is about to: it would take it out of another hand of that person.
+Status held_by_another(const Grasp& grasp, const Frame& frame);
 
 }  // namespace heml::window

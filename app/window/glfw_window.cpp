@@ -159,6 +159,7 @@ void GlfwWindow::stay_open() { glfwSetWindowShouldClose(window_, GLFW_FALSE); }
 bool GlfwWindow::visible() const {
   return size().width > 0 && size().height > 0 && !glfwGetWindowAttrib(window_, GLFW_ICONIFIED);
 }
+bool GlfwWindow::focused() const { return glfwGetWindowAttrib(window_, GLFW_FOCUSED); }
 
 float GlfwWindow::content_scale() const {
   float x = 1, y = 1;

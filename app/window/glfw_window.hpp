@@ -50,6 +50,7 @@ class GlfwWindow final : public render::GraphicsContext {
   bool closed() const;          ///< the user asked to close it
   void stay_open();             ///< takes that request back
   bool visible() const;         ///< false while minimised
+  bool focused() const;         ///< it has the keys
   float content_scale() const;  ///< of the screen, 1 to 4
   float pixel_ratio() const;    ///< pixels per unit of mouse coordinates
 

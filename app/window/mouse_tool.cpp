@@ -83,12 +83,14 @@ Status MouseTool::grasp(const render::Hit& hit, const Frame& frame, const Surfac
   const auto nearest = free.nearest(hit, radius);
   if (!nearest) return free.why_none(hit);
   const int node = *nearest;
+  const Grasp grasp{surface_mesh.nodes[static_cast<std::size_t>(node)], radius, 0, surface_mesh.hidden};
+  if (const Status taken = held_by_another(grasp, frame); !taken.ok()) return taken;
   interaction_ = Interaction::grasping;
   anchor_ = hit.point;
   held_ = render::surface_point(hit, frame, surface_mesh);
   tool_offset_ = frame.positions[static_cast<std::size_t>(node)] - hit.point;
   hand_offset_.setZero();
-  grasp_ = {surface_mesh.nodes[static_cast<std::size_t>(node)], radius, 0, surface_mesh.hidden};
+  grasp_ = grasp;
   out.emplace_back(grasp_);
   return {};
 }
@@ -116,7 +118,7 @@ Status MouseTool::take_up(const GraspState& clamp, const render::Vec2f& at, cons
 Status MouseTool::leave_clamp(const Frame& frame, std::vector<Command>& out) {
   if (interaction_ != Interaction::grasping) return "Pull the tissue first: L then leaves the grasp there as a clamp.";
   const auto hand = free_hand(frame);
-  if (!hand) return "There are as many clamps as can be: Del over one removes it.";
+  if (!hand) return no_free_hand;
   out.emplace_back(Grasp{grasp_.node, grasp_.radius, *hand, grasp_.hidden});
   interaction_ = Interaction::none;
   return {};

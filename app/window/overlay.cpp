@@ -79,12 +79,11 @@ void draw_reading(const render::Hit& hit, const Frame& frame, const SurfaceMesh&
              panel::colours::text, controller);
 }
 
-void draw_forces(const Frame& frame, const std::optional<render::Hold>& hold,
-                 const panel::CameraController& controller) {
+void draw_forces(const Frame& frame, const render::HandDrawing& hands, const panel::CameraController& controller) {
   const auto label = [&](const Vec3& force, const Vec3& place) { draw_force(force, place, controller); };
   const auto held = [&](const GraspState& grasp) -> Vec3 {
-    const auto by = render::is_clamp(grasp) ? std::nullopt : hold;
-    return render::held_patch(grasp, by, frame, frame.surface_mesh.get(), controller.camera().eye())
+    const Vec3f eye = controller.camera().eye();
+    return render::held_patch(grasp, hands.hold_of(grasp.hand), frame, frame.surface_mesh.get(), eye)
         .place.cast<double>();
   };
   const ByKind labels{[&](const GraspState& grasp) { label(grasp.force, held(grasp)); },

@@ -21,9 +21,8 @@ void draw_ring(const render::Hit& hit, const Frame& frame, const SurfaceMesh& su
 void draw_reading(const render::Hit& hit, const Frame& frame, const SurfaceMesh& surface_mesh,
                   const panel::CameraController& controller, const render::Range& range);
 
-/// Forces (N) next to active grasp, pins, probe and sutures, kept beside the panel. hold: of the mouse.
-void draw_forces(const Frame& frame, const std::optional<render::Hold>& hold,
-                 const panel::CameraController& controller);
+/// Forces (N) next to active grasps, pins, probe and sutures, kept beside the panel.
+void draw_forces(const Frame& frame, const render::HandDrawing& hands, const panel::CameraController& controller);
 
 /// The first end of an unfinished suture. node: mesh-file number.
 void draw_suture_end(int node, const Frame& frame, const SurfaceMesh& surface_mesh,

@@ -30,6 +30,7 @@ Viewer::~Viewer() { window_.send_events_to(nullptr); }
 void Viewer::adopt(OpenScene opened) {
   std::vector<Command> last;
   mouse_tool_.cancel(last);
+  for (PluggedHand* each : {&gamepad_, &spacemouse_}) each->hand.hide();
   if (opened.resumed)
     playback_.resumed_at(*opened.resumed, opened.session->latest());
   else
@@ -129,9 +130,10 @@ void Viewer::draw() {
       preferences_.look.theme);
   controller_.resize(size, panel_->insets({static_cast<float>(size.width), static_cast<float>(size.height)}),
                      panel::body_count(*frame_));
+  move_hands(seconds);
   panel_->set_camera(controller_.camera());
   render::DrawOptions drawing = panel_->drawing();
-  drawing.hold = mouse_tool_.hold();
+  drawing.hands = hands();
   drawing.stroke = mouse_tool_.stroke(seen(), *seen().surface_mesh);
   if (const auto hit = hovered(); hit && panel_->tool().tool == panel::Tool::scissors && !playback_.active())
     drawing.stroke.scissors = mouse_tool_.scissors_over(*hit, panel_->tool());
@@ -175,7 +177,8 @@ void Viewer::draw_marks() {
     }
     if (pane == 0) draw_arrows();
     if (pane == 0) draw_measured(panel_->measure().now(), controller_);
-    draw_forces(body, mouse_tool_.hold(), controller_);
+    if (pane == 0) draw_reach();
+    draw_forces(body, hands(), controller_);
     if (mouse_tool_.first_end()) draw_suture_end(*mouse_tool_.first_end(), body, *body.surface_mesh, controller_);
     if (panel_->shows_recovery()) draw_bad_element(body, controller_);
   });

@@ -7,11 +7,13 @@
 #include <app/panel/interface.hpp>
 #include <app/panel/panel.hpp>
 #include <app/window/arrow_drag.hpp>
+#include <app/window/device_hand.hpp>
 #include <app/window/glfw_window.hpp>
 #include <app/window/library.hpp>
 #include <app/window/mouse_tool.hpp>
 #include <app/window/selection_drag.hpp>
 #include <app/window/session_loader.hpp>
+#include <app/window/spacemouse.hpp>
 #include <app/window/state_folder.hpp>
 #include <app/window/timeline_playback.hpp>
 #include <app/window/unsaved_work.hpp>
@@ -43,6 +45,9 @@ class Viewer final : public WindowEvents {
   long drawn() const { return drawn_; }           ///< images so far
   const Frame& frame() const { return *frame_; }  ///< the one drawn last
 
+  /// Looks for devices that move hands and reads those that are there. Returns whether there are any: they are read
+  /// again and again, since they send no events.
+  bool read_devices();
   void apply_input();  ///< what came since the last call, in its order; some of it after the next picture
   void came(Input input) override;
   void changed() override { frames_wanted_ = settling_frames; }
@@ -93,6 +98,14 @@ class Viewer final : public WindowEvents {
   void open_now(const std::filesystem::path& path, const BareMeshOptions& options = {},
                 const std::vector<std::string>& comparisons = {});
   void release_tool();
+  void release_hands();
+  void move_hands(float seconds);
+  void draw_reach();
+  std::vector<panel::DeviceInfo> devices() const;
+  render::HandDrawing hands() const;
+  DeviceHand::Scene hand_scene() const {
+    return {*frame_, *frame_->surface_mesh, mouse_tool_.section(), panel_->tool().radius};
+  }
   void leave_clamp();
   void remove_tissue();
   void notify_saved(const std::string& text, const std::filesystem::path& folder);
@@ -125,6 +138,13 @@ class Viewer final : public WindowEvents {
   panel::Interface interface_;
   panel::CameraController controller_;
   MouseTool mouse_tool_{controller_};
+  /// A hand, and what moves it; null: nothing does.
+  struct PluggedHand {
+    DeviceHand hand;
+    std::unique_ptr<HandDevice> device = nullptr;
+  };
+  PluggedHand gamepad_{{first_device_hand, controller_}}, spacemouse_{{first_device_hand + 1, controller_}};
+  SpaceMouseFinder spacemouse_finder_;
   SessionLoader session_loader_;
   Library library_;
   OpenScene open_;

@@ -22,18 +22,20 @@ void Viewer::carry_out(const panel::PanelActions& actions) {
     if (session_loader_.progress()) session_loader_.cancel();
     playback_.end(*open_.session);
   }
-  // Releases the mouse tool before a reset or an undo, which it would pull on, and a grasp that an undo restores: no
-  // mouse button holds it.
+  // Releases hands before a reset or an undo, which they would pull on, and grasps that an undo restores: no button
+  // holds them.
   const auto restores = [](const Command& command) { return std::holds_alternative<StepHistory>(command); };
   const bool has_undo = std::any_of(commands.begin(), commands.end(), restores);
   for (const Command& command : actions.commands)
-    if (std::holds_alternative<Reset>(command) || restores(command)) release_tool();
+    if (std::holds_alternative<Reset>(command) || restores(command)) release_hands();
   if (has_undo) commands.emplace_back(Release{});
+  for (const PluggedHand* each : {&gamepad_, &spacemouse_})
+    if (has_undo && each->hand.has_grasped()) commands.emplace_back(Release{each->hand.number()});
   post(commands);
   if (actions.show) open_.session->show(*actions.show);
   for (const panel::Request request : actions.requests) carry_out(request);
   if (actions.seek_to) {
-    release_tool();
+    release_hands();
     playback_.seek(*actions.seek_to, *open_.session);
   }
   use_view(actions);
@@ -150,7 +152,7 @@ void Viewer::compare(const std::vector<std::string>& variants) {
 }
 
 void Viewer::seek(panel::Request where) {
-  release_tool();
+  release_hands();
   switch (where) {
     case panel::Request::previous_frame:
       return playback_.step(-1, *open_.session);

@@ -24,8 +24,9 @@ class DrawingPace {
         began + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(std::max(shortest, taken)));
   }
 
+  static constexpr double shortest = 1.0 / 60;  ///< s
+
  private:
-  static constexpr double shortest = 1.0 / 60;  // s
   static constexpr double rest = 1.0 / 16;      // of the drawing time
   Clock::time_point next_{};
 };
@@ -40,11 +41,13 @@ void show(window::GlfwWindow& window, window::Viewer& viewer, const WindowOption
       viewer.ask_to_quit();
       continue;
     }
+    const bool has_devices = viewer.read_devices();
     const auto now = Clock::now();
     const double left = options.exit_after > 0 ? options.exit_after - seconds(now - began) : max_sleep;
     if (left <= 0) return;
     if (!viewer.wants_drawing() || !pace.due(now)) {
-      window.wait(std::min({left, max_sleep, viewer.wants_drawing() ? pace.until_due(now) : max_sleep}));
+      const double sleep = has_devices ? DrawingPace::shortest : max_sleep;
+      window.wait(std::min({left, sleep, viewer.wants_drawing() ? pace.until_due(now) : max_sleep}));
       viewer.apply_input();
       continue;
     }

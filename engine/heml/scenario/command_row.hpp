@@ -23,7 +23,7 @@ inline constexpr KeyInfo point_row{"point", form::vector, "m", "one of `node`, `
 inline constexpr KeyInfo radius_row{"radius", form::non_negative, "m", "",
                                     "surface nodes so near at rest belong to it; 0: that node alone"};
 inline constexpr KeyInfo hand_row{"hand", form::whole(0, max_hands - 1), "", "`0`",
-                                  "which: each holds one patch, and all hold at once"};
+                                  "which: each holds one patch, and all hold at once; 0, 14 and 15 are a person's"};
 inline constexpr KeyInfo hidden_row{"hidden", form::other("list of whole numbers"), "", "none",
                                     "regions that are left out: the surface is that of the others"};
 inline constexpr KeyInfo patch_keys[] = {node_row, point_row, radius_row, hidden_row};

@@ -16,9 +16,12 @@
 
 namespace heml {
 
-/// A body is held by at most so many hands at once. Hand 0 is that of a person at the window; others are second hands
-/// of scripts, and clamps that were left in place.
-inline constexpr int max_hands = 16;
+/// A body is held by at most so many hands at once. Hand 0 is a person's at the mouse, the last ones are that person's
+/// at other devices; those between are second hands of scripts, and clamps that were left in place.
+inline constexpr int max_hands = 16, first_device_hand = 14;
+
+/// Whether a person moves a hand: it is drawn as forceps, and letting go ends its grasp.
+constexpr bool is_persons_hand(int hand) { return hand == 0 || hand >= first_device_hand; }
 
 /// Takes hold of the surface nodes within `radius` of a node, by a critically damped spring to a tool that starts where
 /// the node is now. Replaces what this hand held before. What a hand holds already by this node and radius is handed
@@ -162,9 +165,10 @@ inline bool is_edit(const Command& command) {
 }
 
 /// Whether a command is an action of a person that StepHistory takes back. The rest goes on with an action, or is a
-/// choice made by the clock. Hand 0 letting go ends its grasp; that another does, which may be a clamp, is an action.
+/// choice made by the clock. A person's hand letting go ends its grasp; that another does, which may be a clamp, is an
+/// action.
 inline bool is_action(const Command& command) {
-  if (const auto* release = std::get_if<Release>(&command)) return release->hand != 0;
+  if (const auto* release = std::get_if<Release>(&command)) return !release->hand || !is_persons_hand(*release->hand);
   return std::visit(
       []<class C>(const C&) {
         return !(std::is_same_v<C, MoveTool> || std::is_same_v<C, SetBudget> ||

@@ -48,6 +48,19 @@ TEST_CASE("the hints follow the tool and what the mouse does") {
   CHECK(says(now, "the other end"));
 }
 
+TEST_CASE("what the controls of a new device do comes first, and a pause before it") {
+  Situation now;
+  now.device = {"Gamepad: left stick moves", "A grasps"};
+  CHECK(hints_for(now)[0] == "Gamepad: left stick moves");
+  CHECK(hints_for(now)[1] == "A grasps");
+  CHECK(says(now, "drag the tissue"));
+  now.paused = true;
+  CHECK(hints_for(now)[0] == "paused: Space runs");
+  now.paused = false;
+  now.interaction = Interaction::grasping;
+  CHECK_FALSE(says(now, "A grasps"));
+}
+
 TEST_CASE("a pause, a past frame and a stopped body have hints of their own") {
   Situation now;
   now.paused = true;

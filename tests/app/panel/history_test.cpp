@@ -35,6 +35,14 @@ TEST_CASE("history starts afresh after a reset") {
   CHECK(history.readings().front().energies.kinetic == 7);
 }
 
+TEST_CASE("the force of a person's hands is that of the hand that pulls most, clamps apart") {
+  CHECK_FALSE(panel::force_of_hands({}));
+  const auto of = [](int hand, double newtons) { return GraspState{.hand = hand, .force = Vec3(0, newtons, 0)}; };
+  CHECK_FALSE(panel::force_of_hands({of(1, 9)}));
+  CHECK(panel::force_of_hands({of(0, 2), of(1, 9), of(14, 3), of(15, 1)}) == 3);
+  CHECK(panel::force_of_hands({of(0, 2)}) == 2);
+}
+
 TEST_CASE("history records no force of an inactive tool") {
   History history;
   Frame frame = at(1);

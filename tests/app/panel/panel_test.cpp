@@ -354,6 +354,20 @@ TEST_CASE("the panel draws error and slowdown plots next to their values") {
   driver.find("Body volume", 1180);
 }
 
+TEST_CASE("devices that move a hand have rows, and what a SpaceMouse moves is chosen there and remembered") {
+  Driver driver;
+  driver.panel.set_devices({{"Gamepad", "Pad of a maker", {"left stick moves", "A grasps"}},
+                            {"SpaceMouse", "Read from spacenavd", {"cap moves"}, true}});
+  driver.find("Gamepad");
+  CHECK_FALSE(driver.panel.device_moves_view());
+  driver.choose("SpaceMouse", "moves view");
+  CHECK(driver.panel.device_moves_view());
+  CHECK(driver.panel.preferences().device_moves_view);
+  Driver next;
+  next.panel.set_preferences(driver.panel.preferences());
+  CHECK(next.panel.device_moves_view());
+}
+
 TEST_CASE("the grasp radius is a setting of the panel") {
   Driver driver;
   const double before = driver.panel.tool().radius;

@@ -15,6 +15,9 @@ TEST_CASE("preferences come back from their text") {
   CHECK(preferences_from(to_text(kept)) == kept);
   CHECK(preferences_from(to_text(Preferences{})) == Preferences{});
   CHECK(to_text(Preferences{}).empty());
+  Preferences device;
+  device.device_moves_view = true;
+  CHECK(preferences_from(to_text(device)) == device);
 }
 
 TEST_CASE("lines that are not understood are skipped") {

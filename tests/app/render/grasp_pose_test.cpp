@@ -76,6 +76,25 @@ TEST_CASE("jaws follow the tissue and not the hand, and the pull is what lies be
   CHECK((before.place + before.pull - hand).norm() < 1e-6f);
 }
 
+TEST_CASE("each hand has the hold of its number") {
+  const HandDrawing hands{{{{}, Vec3f(1, 0, 0), 0}, {{}, Vec3f(2, 0, 0), 14}}, {}};
+  REQUIRE(hands.hold_of(14));
+  CHECK(hands.hold_of(14)->hand.x() == 2);
+  CHECK(hands.hold_of(0)->hand.x() == 1);
+  CHECK_FALSE(hands.hold_of(1));
+}
+
+TEST_CASE("forceps that hold nothing are open, with their tips at the place and their handle towards the eye") {
+  const Camera camera = camera_on_ball();
+  const Vec3f tip(0.01f, -0.02f, 0.03f);
+  const HeldPatch patch = free_patch(tip, camera);
+  const auto free = jaw_models(patch, camera, radius, true), closed = jaw_models(patch, camera, radius);
+  const auto gap = [](const std::array<Mat4f, 2>& jaws) { return (tip_of(jaws[0]) - tip_of(jaws[1])).norm(); };
+  CHECK(gap(free) > 2 * gap(closed));
+  CHECK(((tip_of(free[0]) + tip_of(free[1])) / 2 - tip).norm() < 0.05f * radius);
+  CHECK(handle_axis(patch, camera, radius).dot(camera.backward()) > 0.3f);
+}
+
 TEST_CASE("without a mouse, or where its triangle is gone, the jaws hold the grasped node") {
   const Frame frame = frame_at_rest(ball_surface(2, radius));
   const Vec3f eye(0, 0, 1);
@@ -101,6 +120,7 @@ TEST_CASE("a clamp stands on the grasped node with its rings away from the skin"
     const Vec3 place = frame.positions[static_cast<std::size_t>(node)].cast<double>();
     const GraspState clamp{.hand = 3, .node = node, .target = place};
     CHECK(is_clamp(clamp));
+    for (const int person : {0, first_device_hand, max_hands - 1}) CHECK_FALSE(is_clamp({.hand = person}));
     const HeldPatch patch = held_patch(clamp, std::nullopt, frame, frame.surface_mesh.get(), camera.eye());
     CHECK(patch.place == frame.positions[static_cast<std::size_t>(node)]);
     float nearest = 1, to_node = 1, farthest = 0;

@@ -55,6 +55,32 @@ TEST_CASE("beyond a section plane nothing is picked, nor through its cap") {
   CHECK_FALSE(pick(frame, surface_mesh, from_front, SectionPlane{Vec3f::UnitX(), 0}));
 }
 
+TEST_CASE("the surface nearest to a point is found inside, outside and beside a square, within reach alone") {
+  SurfaceMesh surface_mesh;
+  surface_mesh.nodes = {20, 21, 22, 23};
+  surface_mesh.rest = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+  surface_mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  const Frame frame = frame_at_rest(surface_mesh);
+  const auto find = [&](const Vec3f& point, float reach) { return nearest_surface(frame, surface_mesh, point, reach); };
+  for (const float side : {1.0f, -1.0f}) {
+    const auto hit = find({-0.7f, 0.5f, side * 0.3f}, 0.31f);
+    REQUIRE(hit);
+    CHECK(hit->triangle == 1);
+    CHECK(hit->node == 3);
+    CHECK((hit->point - Vec3f(-0.7f, 0.5f, 0)).norm() < 1e-6f);
+    CHECK_FALSE(find({-0.7f, 0.5f, side * 0.3f}, 0.29f));
+  }
+  const auto corner = find({1.3f, -1.4f, 0}, 0.51f);
+  REQUIRE(corner);
+  CHECK((corner->point - Vec3f(1, -1, 0)).norm() < 1e-6f);
+  CHECK(corner->node == 1);
+  CHECK_FALSE(find({1.3f, -1.4f, 0}, 0.49f));
+  CHECK(find({1, 1, 0}, 0));  // on a node
+  const SectionPlane left_half{Vec3f::UnitX(), 0};
+  CHECK(nearest_surface(frame, surface_mesh, {-0.1f, 0, 0}, 0.2f, left_half));
+  CHECK_FALSE(nearest_surface(frame, surface_mesh, {0.3f, 0, 0}, 0.2f, left_half));
+}
+
 TEST_CASE("a field is interpolated between the nodes of the hit triangle if the frame has one") {
   const SurfaceMesh surface_mesh = ball_surface(2, 1);
   Frame frame = frame_at_rest(surface_mesh);

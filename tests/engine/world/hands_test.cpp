@@ -126,6 +126,24 @@ TEST_CASE("hands: a clamp that was removed comes back by undo, and a grasp with 
   CHECK_FALSE(find_grasp(world->tools(), 1));
 }
 
+TEST_CASE("hands: a grasp of a device with its moves and its release is one action, beside that of the mouse") {
+  const auto world = make_world(bar(sample_material("neo_hookean"), Integrator::verlet, false));
+  const auto start = world->positions();
+  for (const int hand : {first_device_hand, max_hands - 1, 0}) {
+    expect(world->apply(Grasp{tip, 0.01 + 1e-3 * hand, hand}));
+    expect(world->apply(MoveTool{Vec3(0.07, 0.01, 0.005), hand}));
+    tick(*world, 2);
+    expect(world->apply(Release{hand}));
+  }
+  CHECK(world->actions().past.size() == 3);
+  const auto left = world->positions();
+  for (int k = 0; k < 3; ++k) expect(world->apply(StepHistory{-1}));
+  CHECK(world->positions() == start);
+  expect(world->apply(Release{first_device_hand}));  // of what undo may have given back: redo stays
+  for (int k = 0; k < 3; ++k) expect(world->apply(StepHistory{1}));
+  CHECK(world->positions() == left);
+}
+
 TEST_CASE("hands: letting go of what undo gave back to hand 0 leaves redo as it is") {
   const auto world = make_world(bar(sample_material("neo_hookean"), Integrator::verlet, false));
   expect(world->apply(Grasp{tip, 0.012}));
