@@ -141,12 +141,13 @@ std::vector<std::vector<Fan>> greedy_fans(const std::vector<Tet>& tets) {
       waiting[rank].pop_back();
       const auto& chain = max_chain(&sectors[edges[e].first], sectors.data() + edges[e].second, taken);
       if (chain.empty()) continue;
-      if (const std::size_t found = rank_of(chain.size(), is_closed(chain)); found > rank) {
+      const std::size_t found = rank_of(chain.size(), is_closed(chain));
+      if (found > rank) {
         waiting[found].push_back(e);
         continue;
       }
       for (const Sector* s : chain) taken[s->tet] = 1;
-      fans[rank].push_back(fan_of(chain));
+      fans[found].push_back(fan_of(chain));  // a better rank than this one where tetrahedra overlap round an edge
       waiting[rank].push_back(e);
     }
   return fans;

@@ -49,7 +49,11 @@ void StepDoublingScheduler::ticked(const World& world) {
 }
 
 void StepDoublingScheduler::begin(const World& world) {
-  if (!estimator_ || outdated_) {
+  // Elements that edits have removed are in the setup's mesh too: no other world can be made of it.
+  if (world.topology()->elements.size() != world.setup().mesh.tets.size()) {
+    latest_.reset();
+    rested_at_ = world.time();
+  } else if (!estimator_ || outdated_) {
     outdated_ = false;
     doing_ = Doing::making;
     making_ = std::async(std::launch::async, [setup = world.setup()] {
