@@ -21,6 +21,7 @@ class ToolSection {
 
  private:
   void draw_settings(Rows& rows);
+  void draw_cautery(Rows& rows);
   void draw_friction(Rows& rows, const Frame& frame, PanelActions& out);
   bool length(Rows& rows, const Label& label, double& metres, double most);
 

@@ -123,16 +123,19 @@ void ElasticBody<Real>::set_burns(const std::vector<Burn>& burns) {
   std::vector<Burn>& now = layout_.write().mesh.burns;
   now.clear();
   for (const Burn& burn : burns) now.insert(now.end(), points_per_element(), burn);
+  bool changes = false;
   for (Part& part : parts_) {
     const std::size_t size = part.group->size();
     for (std::size_t s = 0; s < part.group->volume.size(); ++s) {
       const auto t = static_cast<std::size_t>(part.group->element[std::min(s, size - 1)]);
       const double factor = rest_scale(layout_->mesh, t) / rest_scale(before->mesh, t);
       if (factor == 1) continue;
+      changes = true;
       scale_rest_shape(part.group.write(), s, static_cast<Real>(factor));
       if (part.flow) part.flow->scale_rest_shape(s, static_cast<Real>(factor));
     }
   }
+  if (!changes) return;
   join_parts();
   std::vector<int> same(before->mesh.tets.size());
   std::iota(same.begin(), same.end(), 0);

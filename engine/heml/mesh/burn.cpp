@@ -62,9 +62,20 @@ std::vector<Burn> burns_after(const Heat& heat, const Sweep& sweep, const TetMes
     for (const auto& [a, b] : tet_edges) nearest = std::min(nearest, path.distance((at(a) + at(b)) / 2));
     const double level = burn_level(nearest, heat.radius);
     burns[t].level = std::max(burns[t].level, level);
-    burns[t].scale = std::min(burns[t].scale, 1 - heat.shrink * level);
+    burns[t].shrink = std::max(burns[t].shrink, heat.shrink * level);
   }
   return burns;
+}
+
+bool contract(std::vector<Burn>& burns, double by) {
+  bool changes = false;
+  for (Burn& burn : burns) {
+    const double end = 1 - burn.shrink;
+    if (!(burn.scale > end)) continue;
+    burn.scale = std::max(end, burn.scale - by);
+    changes = true;
+  }
+  return changes;
 }
 
 }  // namespace heml

@@ -9,6 +9,8 @@
 //                      ╲             and centroid; where paths lie beside each other the highest level holds, so that
 //           0           ╲────────    a path passed twice burns as one
 //             0     r/2      r  distance
+//
+// Rest shapes go there in time (contract()), since a sudden change would throw the tissue about.
 #include <heml/mesh/edit.hpp>
 #include <heml/mesh/sweep.hpp>
 
@@ -26,10 +28,14 @@ struct Heat {
 /// The level at a distance (m) from the path.
 double burn_level(double distance, double radius);
 
-/// The burns of a mesh, #T, after an electrode has gone along a sweep, whose blades may be points and one alone. x:
-/// deformed positions, #V×3, m, in whose space the sweep and the radius are. Elements that are not in the topology keep
-/// theirs.
+/// The burns of a mesh, #T, after an electrode has gone along a sweep, whose blades may be points and one alone; scales
+/// are as they were. x: deformed positions, #V×3, m, in whose space the sweep and the radius are. Elements that are not
+/// in the topology keep theirs.
 std::vector<Burn> burns_after(const Heat& heat, const Sweep& sweep, const TetMesh& mesh, const std::vector<Vec3>& x,
                               const Topology& topology);
+
+/// Lets rest shapes go on to their end, by at most so much of their first length; infinite: at once. Returns whether
+/// any has changed.
+bool contract(std::vector<Burn>& burns, double by);
 
 }  // namespace heml

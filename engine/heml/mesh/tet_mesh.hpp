@@ -26,8 +26,9 @@ struct ElementField {
 
 /// What heat has done to a tetrahedron (mesh/burn.hpp).
 struct Burn {
-  double level = 0;  ///< 0: nothing, 1: coagulated all through
-  double scale = 1;  ///< lengths of its rest shape over those of the mesh
+  double level = 0;   ///< 0: nothing, 1: coagulated all through
+  double shrink = 0;  ///< part that lengths of its rest shape lose in the end
+  double scale = 1;   ///< lengths of its rest shape now over those of the mesh
   bool operator==(const Burn&) const = default;
 };
 

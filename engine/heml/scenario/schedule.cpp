@@ -63,7 +63,7 @@ void Schedule::watch_stroke(const Event& event, bool met) {
 
 void Schedule::apply(World& world, const std::function<void(const Command&)>& applied) {
   const auto met = [&] {
-    std::size_t sum = 0;
+    std::size_t sum = world.edits().size();
     for (const EditReport& edit : world.edits()) sum += edit.split + edit.burnt;
     return sum;
   };

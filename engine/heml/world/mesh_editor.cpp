@@ -8,6 +8,7 @@
 #include <heml/world/mesh_editor.hpp>
 #include <heml/world/stable_step.hpp>
 #include <heml/world/world_queries.hpp>
+#include <limits>
 #include <numeric>
 #include <set>
 #include <utility>
@@ -16,6 +17,8 @@ namespace heml {
 namespace {
 
 constexpr std::size_t max_undo = 20;  // edits; of earlier states only the start is kept
+constexpr double contraction_rate = 2;      // 1/s, of first lengths: a fifth within 0.1 s, slower than waves pass
+constexpr double contraction_stage = 0.01;  // s
 
 /// Appends nodes that the edit inserts between nodes of the list, or copies from one.
 void update_after_edit(const MeshEdit& edit, int nodes, std::vector<int>& list) {
@@ -164,26 +167,44 @@ Status MeshEditor<Real>::part(const Sweep& sweep) {
   return {};
 }
 
-/// Coagulates the tissue about a sweep: rest shapes shrink, positions and masses stay.
+/// Coagulates the tissue about a sweep. Its rest shape shrinks in the ticks to come; where no time passes, at once.
 template <class Real>
 void MeshEditor<Real>::burn(const Heat& heat, const Sweep& sweep) {
   std::vector<Burn> burns = burns_after(heat, sweep, s_.setup->mesh, s_.positions(), *s_.topology);
   std::vector<Burn> before = s_.setup->mesh.burns;
   before.resize(burns.size());
-  std::size_t changed = 0;
-  for (std::size_t t = 0; t < burns.size(); ++t) changed += burns[t] != before[t] ? 1 : 0;
-  if (changed == 0) return;
+  if (burns == before) return;
   EditReport& report = stroke_report();
   for (std::size_t t = 0; t < burns.size(); ++t) report.burnt += burns[t].level > 0 && before[t].level == 0 ? 1 : 0;
+  if (s_.setup->solver.is_static()) heml::contract(burns, std::numeric_limits<double>::infinity());
+  set_burns(std::move(burns));
+  s_.topology = std::make_shared<const Topology>(Topology{s_.topology->version + 1, s_.topology->elements});
+  end_report(report);
+}
+
+/// By stages, since each one changes the layout of the forces.
+template <class Real>
+void MeshEditor<Real>::contract() {
+  if (s_.setup->mesh.burns.empty() || s_.setup->solver.is_static()) return;
+  const double tick = s_.setup->solver.tick(), ticks = static_cast<double>(s_.ticks);
+  const double stages = std::floor((ticks + 1) * tick / contraction_stage) - std::floor(ticks * tick / contraction_stage);
+  if (!(stages > 0)) return;
+  std::vector<Burn> burns = s_.setup->mesh.burns;
+  if (!heml::contract(burns, stages * contraction_stage * contraction_rate)) return;
+  set_burns(std::move(burns));
+  s_.evaluate_forces();
+  find_stable_step(s_);
+}
+
+template <class Real>
+void MeshEditor<Real>::set_burns(std::vector<Burn> burns) {
   std::vector<Burn>& inner = s_.model.write().mesh.burns;
   inner.clear();
   for (const int t : s_.model->order.file_tet) inner.push_back(burns[static_cast<std::size_t>(t)]);
   s_.body.set_burns(inner);
   s_.setup.write().mesh.burns = std::move(burns);
-  s_.topology = std::make_shared<const Topology>(Topology{s_.topology->version + 1, s_.topology->elements});
   s_.implicit.reset();
   follow_rest_shapes();
-  end_report(report);
 }
 
 /// Completes an edit of the corners where elements are quadratic.

@@ -30,6 +30,8 @@ class MeshEditor {
   Status remove(const RemoveElements& command);
   Status cut(const CutTissue& command);
   Status cauterize(const CauterizeTissue& command);
+  /// Rest shapes of burnt tissue go on shrinking, at the start of a tick.
+  void contract();
   Status undo();
   /// Back to the elements of the start; the list of edits is cleared.
   void undo_all();
@@ -49,6 +51,7 @@ class MeshEditor {
   void begin_stroke(std::string missed);
   Status part(const Sweep& sweep);
   void burn(const Heat& heat, const Sweep& sweep);
+  void set_burns(std::vector<Burn> burns);
   EditReport& stroke_report();
   EditReport begin_report();
   void end_report(EditReport& report);
