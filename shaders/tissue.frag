@@ -102,7 +102,7 @@ vec3 raw_tissue(vec3 tint, out vec3 slope) {
 vec3 burnt_tissue(vec3 fresh, out float dry, out vec3 slope) {
   vec4 coarse = noise(v_rest * 19.0 + 9.1), fine = noise(v_rest * 71.0 + 4.3);
   float level = v_burnt + smoothstep(0.0, 0.15, v_burnt) * (0.24 * (coarse.w - 0.5) + 0.12 * (fine.w - 0.5));
-  vec3 pale = vec3(0.52, 0.40, 0.30) * (0.84 + 0.32 * fine.w);
+  vec3 pale = vec3(0.37, 0.255, 0.175) * (0.84 + 0.32 * fine.w);
   vec3 brown = vec3(0.17, 0.080, 0.034) * (0.60 + 0.80 * fine.w);
   vec3 charred = vec3(0.020, 0.015, 0.012) * (0.50 + 1.00 * fine.w);
   float black = smoothstep(0.70, 0.95, level);

@@ -133,7 +133,7 @@ void ToolDrawing::place_electrode(const Electrode& electrode, const ViewContext&
   };
   add(0, 0.17f, 0.008f, steel, 1);
   add(0.15f, 0.10f, 0.017f, insulation, 0);
-  add(0.25f, 1.1f, 0.034f, electrode_handle, 0);
+  add(0.25f, 1.1f, 0.027f, electrode_handle, 0);
   shade_ = {electrode.tip, electrode.tip + 1.3f * r * axis, shade_width * r};
 }
 

@@ -78,7 +78,6 @@ TEST_CASE("cautery: a free block burnt all through rests at its size times the s
       for (const bool quadratic : {false, true})
         for (const bool single : {false, true}) {
           if (quadratic && !law.is_continuum) continue;
-          if (single && integrator == Integrator::static_equilibrium) continue;  // below
           if (!law.is_stress_free) continue;
           CAPTURE(std::string(law.name));
           CAPTURE(integrator_name(integrator));
@@ -99,7 +98,7 @@ TEST_CASE("cautery: a free block burnt all through rests at its size times the s
             }
           REQUIRE_MESSAGE(!world->halt(), world->halt()->message);
           CHECK(max_error(*world, 1 - shrink) <= (single ? 1e-5 : 1e-6) * 0.05);
-          if (elastic > 0) CHECK(std::abs(world->energies().elastic) <= 1e-4 * elastic);
+          if (elastic > 0) CHECK(std::abs(world->energies().elastic) <= (single ? 1e-3 : 1e-4) * elastic);
           for (const double J : world->volume_ratios()) CHECK(J == doctest::Approx(1).epsilon(1e-4));
         }
 }
