@@ -11,7 +11,7 @@ namespace {
 constexpr double first_grasp = 0.12, max_grasp = 0.5, first_depth = 0.35, max_depth = 2;
 constexpr double first_probe = 0.08, max_probe = 0.4, first_indentation = 0.15, max_indentation = 0.6;
 constexpr double first_jaw = 0.3, min_jaw = 0.02, max_jaw = 1;
-constexpr double first_burn = 0.1, min_burn = 0.01, max_burn = 0.4, first_burn_depth = 0.1, max_burn_depth = 0.6;
+constexpr double first_burn = 0.07, min_burn = 0.01, max_burn = 0.4, first_burn_depth = 0.08, max_burn_depth = 0.6;
 constexpr double max_friction = 1.5, table_gap = 0.01;
 
 std::string several(std::size_t count, const char* what) {
