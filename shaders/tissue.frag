@@ -1,5 +1,6 @@
 // Wet tissue; with WOUND the raw faces that a cut exposes, or with FIELD the same surface with a colour map; HATCH adds
-// stripes where v_beyond > 0; BURNT chars and dries it by v_burnt; PAINTED has colours of its own; OUTLINE draws the strip that fades the silhouette.
+// stripes where v_beyond > 0; BURNT chars and dries it by v_burnt; PAINTED has colours of its own; OUTLINE draws the
+// strip that fades the silhouette.
 in vec3 v_normal;
 in vec3 v_on_sphere;
 in vec3 v_slope;

@@ -1,6 +1,7 @@
 #pragma once
-// Draws the tools: forceps on the grasped tissue and the line of their pull, clamps, pins, the probe, a table under the body,
-// threads of sutures, scalpel or scissors and the line that they have cut, an electrode. Forceps and scalpel show through the tissue.
+// Draws the tools: forceps on the grasped tissue and the line of their pull, clamps, pins, the probe, a table under the
+// body, threads of sutures, scalpel or scissors and the line that they have cut, an electrode. Forceps and scalpel show
+// through the tissue.
 #include <app/render/camera.hpp>
 #include <app/render/grasp_pose.hpp>
 #include <app/render/solid_mesh.hpp>

@@ -216,8 +216,8 @@ class ElasticBody {
   void set_internal_state(const InternalState<Real>& state);
   double plastic_work() const { return plastic_work_; }  ///< J, of all elements since the last reset_history()
 
-  /// Lumped masses (#V, kg), which are positive: each tetrahedron's density × volume as meshed / 4 on its nodes; of quadratic
-  /// ones 1/36 on corners and 4/27 on mid-edge nodes.
+  /// Lumped masses (#V, kg), which are positive: each tetrahedron's density × volume as meshed / 4 on its nodes; of
+  /// quadratic ones 1/36 on corners and 4/27 on mid-edge nodes.
   std::vector<Real> masses() const;
   /// ∫ρN of each node (#V, kg), which gravity acts on: that of quadratic elements is negative on corners; of linear
   /// ones, masses().

@@ -186,8 +186,9 @@ void MeshEditor<Real>::burn(const Heat& heat, const Sweep& sweep) {
 template <class Real>
 void MeshEditor<Real>::contract() {
   if (s_.setup->mesh.burns.empty() || s_.setup->solver.is_static()) return;
-  const double tick = s_.setup->solver.tick(), ticks = static_cast<double>(s_.ticks);
-  const double stages = std::floor((ticks + 1) * tick / contraction_stage) - std::floor(ticks * tick / contraction_stage);
+  const double tick = s_.setup->solver.tick();
+  const auto stages_to = [&](long ticks) { return std::floor(static_cast<double>(ticks) * tick / contraction_stage); };
+  const double stages = stages_to(s_.ticks + 1) - stages_to(s_.ticks);
   if (!(stages > 0)) return;
   std::vector<Burn> burns = s_.setup->mesh.burns;
   if (!heml::contract(burns, stages * contraction_stage * contraction_rate)) return;

@@ -1,6 +1,6 @@
 #pragma once
-// Edits of the mesh of a running world: removal, cuts, burns, tears, undo. The inner layout is rebuilt; positions, velocities,
-// internal state of materials, constraints and tools carry over.
+// Edits of the mesh of a running world: removal, cuts, burns, tears, undo. The inner layout is rebuilt; positions,
+// velocities, internal state of materials, constraints and tools carry over.
 #include <heml/mesh/cut.hpp>
 #include <heml/tools/tearing.hpp>
 #include <heml/world/command.hpp>

@@ -353,7 +353,8 @@ TEST_CASE("burnt tissue is black at the path of the electrode, pale and without 
 TEST_CASE("an electrode is drawn on the skin, from its tip towards the eye") {
   Stage stage;
   const Image without = stage.draw();
-  stage.options.stroke.electrode = Electrode{stage.camera.target() + 0.05f * (stage.camera.eye() - stage.camera.target()).normalized()};
+  const Vec3f to_eye = (stage.camera.eye() - stage.camera.target()).normalized();
+  stage.options.stroke.electrode = Electrode{stage.camera.target() + 0.05f * to_eye};
   const Image with = stage.draw();
   CHECK(count_different(with, without) > 100);
   CHECK_FALSE(same(with, without, size.width / 2 + 2, size.height / 2 - 3));

@@ -207,7 +207,7 @@ TEST_CASE("cautery: a stroke twice burns as once, and what is cut from burnt tis
   const TetMesh& mesh = once->setup().mesh;
   REQUIRE(mesh.burns.size() == mesh.tets.size());
   const auto is_burnt = [](const Burn& burn) { return burn.level > 0; };
-  const auto of_pieces = mesh.burns.begin() + static_cast<std::ptrdiff_t>(setup.mesh.tets.size());  // after those of the file
+  const auto of_pieces = mesh.burns.begin() + static_cast<std::ptrdiff_t>(setup.mesh.tets.size());
   CHECK(std::any_of(of_pieces, mesh.burns.end(), is_burnt));
   // Pieces store the energy of the whole: their rest shapes have shrunk as it has.
   CHECK(once->energies().elastic == doctest::Approx(elastic).epsilon(1e-9));
