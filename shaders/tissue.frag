@@ -1,5 +1,6 @@
 // Wet tissue; with WOUND the raw faces that a cut exposes, or with FIELD the same surface with a colour map; HATCH adds
-// stripes where v_beyond > 0; PAINTED has colours of its own; OUTLINE draws the strip that fades the silhouette.
+// stripes where v_beyond > 0; BURNT chars and dries it by v_burnt; PAINTED has colours of its own; OUTLINE draws the
+// strip that fades the silhouette.
 in vec3 v_normal;
 in vec3 v_on_sphere;
 in vec3 v_slope;
@@ -8,9 +9,14 @@ in vec3 v_position;
 in vec4 v_surface;
 in float v_visible;
 in float v_value;
-#ifdef WOUND
+#if defined(WOUND) || defined(BURNT)
 in vec3 v_rest;
+#endif
+#ifdef WOUND
 in float v_depth;
+#endif
+#ifdef BURNT
+in float v_burnt;
 #endif
 #ifdef PAINTED
 in vec2 v_place;
@@ -91,6 +97,23 @@ vec3 raw_tissue(vec3 tint, out vec3 slope) {
 }
 #endif
 
+#ifdef BURNT
+// Tissue that heat has reached: coagulated it is pale, nearer to the electrode brown, and charred along its path, with
+// an uneven edge. dry: 1 where it has no gloss and lets no light through; slope: of the crust.
+vec3 burnt_tissue(vec3 fresh, out float dry, out vec3 slope) {
+  vec4 coarse = noise(v_rest * 19.0 + 9.1), fine = noise(v_rest * 71.0 + 4.3);
+  float level = v_burnt + smoothstep(0.0, 0.15, v_burnt) * (0.24 * (coarse.w - 0.5) + 0.12 * (fine.w - 0.5));
+  vec3 pale = vec3(0.37, 0.255, 0.175) * (0.84 + 0.32 * fine.w);
+  vec3 brown = vec3(0.17, 0.080, 0.034) * (0.60 + 0.80 * fine.w);
+  vec3 charred = vec3(0.020, 0.015, 0.012) * (0.50 + 1.00 * fine.w);
+  float black = smoothstep(0.70, 0.95, level);
+  slope = smoothstep(0.3, 0.9, level) * (0.20 * coarse.xyz + 0.14 * fine.xyz);
+  dry = smoothstep(0.02, 0.30, level);
+  vec3 result = mix(fresh, pale, 0.88 * smoothstep(0.03, 0.32, level));
+  return mix(mix(result, brown, smoothstep(0.38, 0.72, level)), charred, black);
+}
+#endif
+
 // Environment seen in direction r: a soft box at the key light, a strip light behind, a dim room.
 vec3 reflected(vec3 r) {
   float ahead = dot(r, key_direction);
@@ -156,11 +179,27 @@ void main() {
   vec3 shade = vec3(sqrt(v_visible), v_visible, v_visible);
 #endif
 
+#ifdef BURNT
+  float dry;
+  vec3 crust;
+  albedo = burnt_tissue(albedo, dry, crust);
+  crust -= dot(crust, smooth_n) * smooth_n;
+  n = normalize(n - crust);
+  wet_n = normalize(wet_n - crust);
+  hollow = mix(hollow, hollow.ggg, dry);
+  shade = mix(shade, shade.ggg, dry);
+  vec3 bleed = mix(wrap, vec3(0.12), dry);
+  float gloss = wet * (1.0 - 0.97 * dry);
+#else
+  vec3 bleed = wrap;
+  float gloss = wet;
+#endif
+
   float past = past_tool();
   shade *= past;
   // Subsurface scattering: wrapped diffuse light, widest in red, whose smooth normal ignores the bumps.
   vec3 facing = vec3(dot(smooth_n, key_direction), vec2(dot(n, key_direction)));
-  vec3 lit = clamp((facing + wrap) / (1.0 + wrap), 0.0, 1.0);
+  vec3 lit = clamp((facing + bleed) / (1.0 + bleed), 0.0, 1.0);
   vec3 ambient = mix(bounce_colour, sky_colour, 0.5 + 0.5 * n.y) * hollow;
 #ifdef OUTLINE
   float nv = 0.2;  // as in the pixels next to the strip, without the glare at grazing angles
@@ -174,7 +213,7 @@ void main() {
   float fresnel = 0.03 + 0.55 * grazing;
   float nh = clamp(dot(n, normalize(key_direction + v)), 0.0, 1.0);
   float broad = 0.05 * square(square(square(square(nh)))) * clamp(4.0 * facing.y, 0.0, 1.0) * v_visible * past;
-  radiance += wet * (fresnel * mix(0.35, 1.0, v_visible * past) * open * reflected(reflect(-v, wet_n)) +
+  radiance += gloss * (fresnel * mix(0.35, 1.0, v_visible * past) * open * reflected(reflect(-v, wet_n)) +
                      broad * vec3(1.0, 0.72, 0.66) * key_colour);
   colour = vec4(to_screen(radiance, gl_FragCoord.xy), v_cover);
 #ifdef HATCH

@@ -14,6 +14,9 @@ layout(location = 7) in float a_beyond;   // above 0: hatched
 layout(location = 9) in vec2 a_place;     // in the texture
 layout(location = 10) in vec4 a_colour;   // sRGB
 #endif
+#ifdef BURNT
+layout(location = 11) in float a_burnt;   // level of heat, 0..1
+#endif
 #ifdef OUTLINE
 layout(location = 6) in vec3 a_strip;     // xy: away from the shape in clip units, z: cover
 #endif
@@ -32,9 +35,14 @@ out vec3 v_view;      // unit, towards the eye
 out vec4 v_surface;
 out float v_visible;  // visible fraction of the key light
 out float v_value;
-#ifdef WOUND
+#if defined(WOUND) || defined(BURNT)
 out vec3 v_rest;
+#endif
+#ifdef WOUND
 out float v_depth;
+#endif
+#ifdef BURNT
+out float v_burnt;
 #endif
 #ifdef PAINTED
 out vec2 v_place;
@@ -80,9 +88,14 @@ void main() {
   v_visible = key_visibility();
 #endif
   v_value = a_value;
-#ifdef WOUND
+#if defined(WOUND) || defined(BURNT)
   v_rest = a_rest;
+#endif
+#ifdef WOUND
   v_depth = a_depth;
+#endif
+#ifdef BURNT
+  v_burnt = a_burnt;
 #endif
 #ifdef PAINTED
   v_place = a_place;

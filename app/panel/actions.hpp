@@ -37,6 +37,7 @@ enum class Action {
   select_grasper,
   select_scalpel,
   select_scissors,
+  select_cautery,
   select_pin,
   select_probe,
   select_suture,
@@ -77,10 +78,10 @@ enum class Action {
 };
 
 /// What the left mouse button does to the body.
-enum class Tool { grasper, scalpel, scissors, pin, probe, suture, remover, measure, select };
+enum class Tool { grasper, scalpel, scissors, cautery, pin, probe, suture, remover, measure, select };
 
 /// What the mouse is doing in the image while a button is down.
-enum class Interaction { none, grasping, cutting, snipping, probing, selecting, aiming, orbiting, panning };
+enum class Interaction { none, grasping, cutting, snipping, burning, probing, selecting, aiming, orbiting, panning };
 
 /// The selected tool and the settings of all tools.
 struct ToolSettings {
@@ -89,6 +90,8 @@ struct ToolSettings {
   double depth = 0;                                     ///< m, of the blade below the surface
   double jaw_length = 0, jaw_opening = 0;               ///< m, of scissors: length and depth of a snip
   double jaw_direction = 90;                            ///< degrees, of a click with them, from the picture's right
+  double burn_radius = 0, burn_depth = 0;               ///< m, of the electrode: reach of its heat, below the surface
+  double shrink = usual_shrink;                         ///< Heat::shrink
   double probe_radius = 0, indentation = 0, shaft = 0;  ///< m, of the probe: tip, indentation, shaft length
   double friction = 0.3;                                ///< Coulomb coefficient of the probe and of tables
 };

@@ -1,7 +1,7 @@
 #include <app/panel/camera_controller.hpp>
 #include <app/panel/frame_drawing.hpp>
 #include <app/panel/legend.hpp>
-#include <app/panel/scripted_blade.hpp>
+#include <app/panel/scripted_stroke.hpp>
 #include <app/panel/section_control.hpp>
 #include <heml/scenario/skin.hpp>
 
@@ -23,18 +23,18 @@ void FrameDrawing::show(const Scene& scene, const World& world, bool panel, bool
   colours_ = {};
   panel_.reset();
   interface_.reset();
-  cuts_.clear();
+  strokes_.clear();
   if (panel || comparisons || view_.field != Field::none) interface_.emplace(Interface::suitable_scale(size_));
   if (panel) panel_.emplace(scene, *surface_mesh_);
   if (view_.range)
     colours_.fix({static_cast<float>((*view_.range)[0]), static_cast<float>((*view_.range)[1])});
   for (const Event& event : scene.events)
-    if (std::holds_alternative<CutTissue>(event.command)) cuts_.push_back(event);
+    if (continues_stroke(event.command)) strokes_.push_back(event);
 }
 
 render::StrokeDrawing FrameDrawing::stroke() const {
   // An event of tick k takes effect at the start of that tick, so that frame k does not show it yet.
-  return {scripted_blade(cuts_, frame_.tick - 1, frame_.pace.rate), {}};
+  return scripted_stroke(strokes_, frame_.tick - 1, frame_.pace.rate);
 }
 
 render::Image FrameDrawing::draw(World& world, double ahead, double seconds, ComparisonRuns* comparison_runs) {

@@ -42,7 +42,7 @@ class FrameDrawing {
   std::shared_ptr<const Solid> solid_;                ///< of the last frame, for a section or a skin
   SkinAttachment skin_;
   View view_;
-  std::vector<Event> cuts_;  ///< of the scene, for the blade
+  std::vector<Event> strokes_;  ///< of the scene, for the blade or the electrode
   Frame frame_;
   render::ColourRange colours_;
   std::optional<Interface> interface_;  ///< none if only bodies are drawn

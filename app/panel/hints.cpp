@@ -21,6 +21,9 @@ std::vector<std::string> tool_hints(const Situation& now) {
     case Tool::scissors:
       return {"click to snip along the line, drag to snip on", "right-drag to turn",
               with_key(Action::select_grasper, "to grasp"), with_key(Action::undo, "takes snips back")};
+    case Tool::cautery:
+      return {"draw on the tissue to burn it", "right-drag to turn", with_key(Action::select_grasper, "to grasp"),
+              with_key(Action::undo, "takes a burn back")};
     case Tool::pin:
       return {"click the tissue to pin it, a pin to remove it", "right-drag to turn",
               with_key(Action::select_grasper, "to grasp")};
@@ -47,6 +50,7 @@ std::vector<std::string> idle_hints(const Situation& now) {
   std::vector<std::string> hints = tool_hints(now);
   if (now.hides && (now.tool == Tool::scalpel || now.tool == Tool::scissors))
     hints.insert(hints.begin() + 1, "hidden tissue is cut too");
+  if (now.hides && now.tool == Tool::cautery) hints.insert(hints.begin() + 1, "hidden tissue is burnt too");
   hints.insert(hints.begin(), now.device.begin(), now.device.end());
   if (now.paused) hints.insert(hints.begin(), "paused: Space runs");
   hints.push_back("H for help");
@@ -66,6 +70,8 @@ std::vector<std::string> hints_for(const Situation& now) {
       return {"draw across the tissue", "Esc leaves"};
     case Interaction::snipping:
       return {"drag to snip on", "let go to close the jaws", "Esc leaves"};
+    case Interaction::burning:
+      return {"draw on along the tissue", "Esc leaves"};
     case Interaction::probing:
       return {"move along the tissue", "the wheel pushes deeper", "let go to withdraw"};
     case Interaction::selecting:

@@ -19,6 +19,7 @@ void draw_eye(ImDrawList& list, ImVec2 centre, float half, ImU32 colour, bool op
 void draw_forceps(ImDrawList& list, ImVec2 centre, float half, ImU32 colour);
 void draw_scalpel(ImDrawList& list, ImVec2 centre, float half, ImU32 colour);
 void draw_scissors(ImDrawList& list, ImVec2 centre, float half, ImU32 colour);
+void draw_electrode(ImDrawList& list, ImVec2 centre, float half, ImU32 colour);
 void draw_pin(ImDrawList& list, ImVec2 centre, float half, ImU32 colour);
 void draw_probe(ImDrawList& list, ImVec2 centre, float half, ImU32 colour);
 void draw_needle(ImDrawList& list, ImVec2 centre, float half, ImU32 colour);

@@ -56,6 +56,7 @@ constexpr KeyBinding bindings[] = {
     {'G', none, Action::select_grasper, "G", "grasper"},
     {'C', none, Action::select_scalpel, "C", "scalpel"},
     {'I', none, Action::select_scissors, "I", "scissors: click to snip, drag to snip on"},
+    {'D', none, Action::select_cautery, "D", "cautery (diathermy): draw on the tissue to burn it"},
     {'N', none, Action::select_pin, "N", "pin (on a pin: remove it)"},
     {'O', none, Action::select_probe, "O", "probe"},
     {'S', none, Action::select_suture, "S", "suture: click both ends"},

@@ -27,6 +27,10 @@ constexpr ToolInfo tools[] = {
      "Closes the jaws on the tissue along the line at the mouse and cuts what is between them. Dragged, it snips on "
      "along the way.",
      Action::select_scissors, draw_scissors},
+    {Tool::cautery, "Cautery",
+     "An electrode that burns the tissue within the ring and along its way: it chars, pales and shrinks, and with a "
+     "depth comes apart.",
+     Action::select_cautery, draw_electrode},
     {Tool::pin, "Pin", "Fixes the tissue under the ring; a click on a pin removes it.", Action::select_pin, draw_pin},
     {Tool::probe, "Probe",
      "Pushes a rigid rod with a round tip into the body, along the line of sight; the wheel "

@@ -86,6 +86,9 @@ void Panel::carry_out(Action action, const Frame& frame, PanelActions& out) {
     case Action::select_scalpel:
       tool_.select(Tool::scalpel);
       return;
+    case Action::select_cautery:
+      tool_.select(Tool::cautery);
+      return;
     case Action::select_scissors:
       tool_.select(Tool::scissors);
       return;

@@ -70,6 +70,15 @@ void draw_scissors(ImDrawList& list, ImVec2 centre, float half, ImU32 colour) {
   pen.arc({0.55f, 0.65f}, 0.3f, 0, 2, 0.2f);
 }
 
+void draw_electrode(ImDrawList& list, ImVec2 centre, float half, ImU32 colour) {
+  const Pen pen(list, centre, half, colour);
+  pen.line({{1, -1}, {0.3f, -0.3f}}, 0.42f);
+  pen.line({{0.3f, -0.3f}, {-0.35f, 0.35f}}, 0.16f);
+  pen.line({{-0.62f, 0.1f}, {-0.95f, -0.2f}}, 0.15f);
+  pen.line({{-0.65f, 0.65f}, {-1, 1}}, 0.15f);
+  pen.line({{-0.1f, 0.62f}, {0.2f, 0.95f}}, 0.15f);
+}
+
 void draw_pin(ImDrawList& list, ImVec2 centre, float half, ImU32 colour) {
   const Pen pen(list, centre, half, colour);
   pen.disc({0.4f, -0.5f}, 0.5f);

@@ -8,28 +8,33 @@
 #include <string_view>
 
 namespace heml::panel {
+
+/// A setting that is kept between runs by its name; lengths in radii of the body.
+struct ToolSetting {
+  std::string_view name;
+  double ToolSettings::*value;
+  double first, least, most;  ///< most: of the slider; more can be typed
+  bool is_length = true;
+};
+
 namespace {
 
 constexpr double max_friction = 1.5;
 constexpr double table_gap = 0.01;   // radii of the body
 constexpr double kept_digits = 1e4;  // of settings kept between runs: their last one is 1e-4
 
-/// A setting that is kept between runs by its name; lengths in radii of the body.
-struct Setting {
-  std::string_view name;
-  double ToolSettings::*value;
-  double first, least, most;  ///< most: of the slider; more can be typed
-  bool is_length = true;
-};
-constexpr Setting grasp{"grasp radius", &ToolSettings::radius, 0.12, 0, 0.5};
-constexpr Setting depth{"depth", &ToolSettings::depth, 0.35, 0, 2};
-constexpr Setting jaw_length{"jaw length", &ToolSettings::jaw_length, 0.3, 0.02, 1};
-constexpr Setting jaw_opening{"jaw opening", &ToolSettings::jaw_opening, 0.35, 0, 2};
-constexpr Setting jaw_direction{"jaw direction", &ToolSettings::jaw_direction, 90, 0, 360, false};
-constexpr Setting probe_radius{"probe radius", &ToolSettings::probe_radius, 0.08, 0.01, 0.4};
-constexpr Setting indentation{"indentation", &ToolSettings::indentation, 0.15, 0, 0.6};
-constexpr const Setting* settings[] = {&grasp,         &depth,        &jaw_length, &jaw_opening,
-                                       &jaw_direction, &probe_radius, &indentation};
+constexpr ToolSetting grasp{"grasp radius", &ToolSettings::radius, 0.12, 0, 0.5};
+constexpr ToolSetting depth{"depth", &ToolSettings::depth, 0.35, 0, 2};
+constexpr ToolSetting jaw_length{"jaw length", &ToolSettings::jaw_length, 0.3, 0.02, 1};
+constexpr ToolSetting jaw_opening{"jaw opening", &ToolSettings::jaw_opening, 0.35, 0, 2};
+constexpr ToolSetting jaw_direction{"jaw direction", &ToolSettings::jaw_direction, 90, 0, 360, false};
+constexpr ToolSetting burn_radius{"burn radius", &ToolSettings::burn_radius, 0.07, 0.01, 0.4};
+constexpr ToolSetting burn_depth{"burn depth", &ToolSettings::burn_depth, 0.08, 0, 0.6};
+constexpr ToolSetting shrink{"shrink", &ToolSettings::shrink, usual_shrink, 0, max_shrink, false};
+constexpr ToolSetting probe_radius{"probe radius", &ToolSettings::probe_radius, 0.08, 0.01, 0.4};
+constexpr ToolSetting indentation{"indentation", &ToolSettings::indentation, 0.15, 0, 0.6};
+constexpr const ToolSetting* settings[] = {&grasp,       &depth,      &jaw_length, &jaw_opening,  &jaw_direction,
+                                           &burn_radius, &burn_depth, &shrink,     &probe_radius, &indentation};
 
 std::string several(std::size_t count, const char* what) {
   return fmt::format("Remove {} {}{}", count, what, count == 1 ? "" : "s");
@@ -44,7 +49,7 @@ ToolSection::ToolSection(double body_radius, const Vec3& gravity) : body_radius_
 }
 
 void ToolSection::keep(const std::map<std::string, double>& kept) {
-  for (const Setting* setting : settings) {
+  for (const ToolSetting* setting : settings) {
     const auto found = kept.find(std::string(setting->name));
     const bool usable = found != kept.end() && found->second >= setting->least && found->second <= 10 * setting->most;
     tool_.*setting->value = (usable ? found->second : setting->first) * (setting->is_length ? body_radius_ : 1);
@@ -53,7 +58,7 @@ void ToolSection::keep(const std::map<std::string, double>& kept) {
 
 std::map<std::string, double> ToolSection::kept() const {
   std::map<std::string, double> kept;
-  for (const Setting* setting : settings) {
+  for (const ToolSetting* setting : settings) {
     const double value = tool_.*setting->value / (setting->is_length ? body_radius_ : 1);
     const double rounded = std::round(value * kept_digits) / kept_digits;
     if (rounded != setting->first) kept[std::string(setting->name)] = rounded;
@@ -98,20 +103,23 @@ void ToolSection::draw_devices(Rows& rows) {
   }
 }
 
+/// A row for a setting that is a length.
+void ToolSection::length(Rows& rows, const Label& label, const ToolSetting& setting) {
+  double& metres = tool_.*setting.value;
+  double millimetres = metres * 1e3;
+  if (!rows.slider(label, millimetres, {0, setting.most * body_radius_ * 1e3, "%.1f mm", false})) return;
+  metres = std::max(millimetres * 1e-3, setting.least * body_radius_);
+}
+
 void ToolSection::draw_settings(Rows& rows) {
-  const auto length = [&](const Label& label, const Setting& setting) {
-    double& metres = tool_.*setting.value;
-    double millimetres = metres * 1e3;
-    if (!rows.slider(label, millimetres, {0, setting.most * body_radius_ * 1e3, "%.1f mm", false})) return;
-    metres = std::max(millimetres * 1e-3, setting.least * body_radius_);
-  };
   switch (tool_.tool) {
     case Tool::scalpel:
-      length({"Depth", "How far the blade reaches below the surface, mm, along the line of sight."}, depth);
+      length(rows, {"Depth", "How far the blade reaches below the surface, mm, along the line of sight."}, depth);
       return;
     case Tool::scissors:
-      length({"Jaw length", "Length of a snip along the jaw line, mm."}, jaw_length);
-      length({"Opening",
+      length(rows, {"Jaw length", "Length of a snip along the jaw line, mm."}, jaw_length);
+      length(rows,
+             {"Opening",
               "How far the jaws open, mm: the lower one reaches so far below the surface, along the line of "
               "sight, and what is between them is cut."},
              jaw_opening);
@@ -120,9 +128,12 @@ void ToolSection::draw_settings(Rows& rows) {
                    "anticlockwise. A drag snips along its own way."},
                   tool_.jaw_direction, {jaw_direction.least, jaw_direction.most, "%.0f\u00b0", false});
       return;
+    case Tool::cautery:
+      draw_cautery(rows);
+      return;
     case Tool::probe:
-      length({"Tip radius", "Radius of the probe's tip and shaft, mm."}, probe_radius);
-      length({"Indentation", "Depth of the tip below the undeformed surface, mm."}, indentation);
+      length(rows, {"Tip radius", "Radius of the probe's tip and shaft, mm."}, probe_radius);
+      length(rows, {"Indentation", "Depth of the tip below the undeformed surface, mm."}, indentation);
       return;
     case Tool::suture:
       rows.value({"Suture", "A thread has no settings: it draws its ends together within half a second."},
@@ -135,7 +146,8 @@ void ToolSection::draw_settings(Rows& rows) {
     case Tool::pin:
     case Tool::remover:
     case Tool::select:
-      length({tool_.tool == Tool::pin       ? "Pin radius"
+      length(rows,
+             {tool_.tool == Tool::pin       ? "Pin radius"
               : tool_.tool == Tool::remover ? "Remover radius"
               : tool_.tool == Tool::select  ? "Paint radius"
                                             : "Grasp radius",
@@ -144,6 +156,25 @@ void ToolSection::draw_settings(Rows& rows) {
               "paint selects within it."},
              grasp);
   }
+}
+
+void ToolSection::draw_cautery(Rows& rows) {
+  length(rows,
+         {"Burn depth",
+          "How far the electrode reaches below the surface, mm, along the line of sight: so deep the "
+          "tissue comes apart. 0: it burns the surface and parts nothing."},
+         burn_depth);
+  length(rows,
+         {"Burn radius",
+          "How far its heat reaches, mm: tissue up to half as far is coagulated, and less and less up "
+          "to the ring."},
+         burn_radius);
+  double percent = 100 * tool_.shrink;
+  if (rows.slider({"Shrink",
+                   "Part of their length that coagulated lengths lose, %: 12 to 22 in heated liver, up to "
+                   "43 under microwaves."},
+                  percent, {0, 100 * shrink.most, "%.0f %%", false}))
+    tool_.shrink = percent / 100;
 }
 
 void ToolSection::draw_friction(Rows& rows, const Frame& frame, PanelActions& out) {

@@ -9,6 +9,8 @@
 
 namespace heml::panel {
 
+struct ToolSetting;
+
 class ToolSection {
  public:
   /// body_radius: m, at rest; scales the settings. gravity: m/s²; tables are perpendicular to it.
@@ -35,7 +37,9 @@ class ToolSection {
  private:
   void draw_settings(Rows& rows);
   void draw_devices(Rows& rows);
+  void draw_cautery(Rows& rows);
   void draw_friction(Rows& rows, const Frame& frame, PanelActions& out);
+  void length(Rows& rows, const Label& label, const ToolSetting& setting);
 
   ToolSettings tool_;
   std::vector<DeviceInfo> devices_;

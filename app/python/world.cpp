@@ -175,6 +175,15 @@ void cut(LiveWorld& live, nb::object sweep) {
   apply_action(live, "cut", value);
 }
 
+void cauterize(LiveWorld& live, nb::object line, nb::object radius, nb::object shrink) {
+  if (nb::isinstance<nb::dict>(line)) return apply_action(live, "cauterize", line);
+  nb::dict value;
+  value["line"] = line;
+  value["radius"] = radius;
+  value["shrink"] = shrink;
+  apply_action(live, "cauterize", value);
+}
+
 std::shared_ptr<Snapshot> snapshot(LiveWorld& live) {
   const Use use(live);
   return live.snapshot();
@@ -271,12 +280,15 @@ void bind_actions(nb::class_<LiveWorld>& world) {
            "Cuts along what a blade sweeps: a list of lines, of two or more points (m) each, from its first place to "
            "its "
            "last; or the whole value of the event `cut`, a dict.")
+      .def("cauterize", &cauterize, "line"_a, nb::kw_only(), "radius"_a = 0.005, "shrink"_a = usual_shrink,
+           "Burns the tissue within radius (m) of a line of points (m), which loses the part `shrink` of its lengths "
+           "where it is coagulated; or the whole value of the event `cauterize`, a dict.")
       .def(
           "undo",
           [](LiveWorld& live) {
             apply_json(live, {{"undo", true}});
           },
-          "Takes back the last cut, tear or removal.")
+          "Takes back the last cut, burn, tear or removal.")
       .def("snapshot", &snapshot, "The whole state, for restore().")
       .def("restore", &restore, "snapshot"_a,
            "Returns to a snapshot of this world or of one of the same body. A recording ends before it.")

@@ -40,6 +40,7 @@ BodyMesh::BodyMesh(const SurfaceMesh& surface_mesh, const TissueLook& look, std:
                wound_ ? std::span<const char>(wound_->exposed()) : std::span<const char>()),
       nodes_(surface_mesh.rest.size()),
       rest_(bounding_sphere(uncut_surface(surface_mesh).rest)),
+      is_burnt_(!surface_mesh.burnt.empty()),
       bead_radius_(std::min(0.4f * mean_edge(uncut_surface(surface_mesh)), 0.022f * rest_.radius)),
       outline_(surface_.triangles(), surface_.joined_vertices()) {
   if (wound_) find_wound_vertices();
@@ -66,6 +67,7 @@ void BodyMesh::describe_vertices() {
     vertex_attribute(4, 3, GL_FLOAT, stride, offset + offsetof(Fixed, on_sphere));
     vertex_attribute(5, 4, GL_UNSIGNED_BYTE, stride, offset + offsetof(Fixed, surface));
     vertex_attribute(8, 1, GL_FLOAT, stride, offset + offsetof(Fixed, depth));
+    vertex_attribute(11, 1, GL_FLOAT, stride, offset + offsetof(Fixed, burnt));
   };
   glBindVertexArray(array_);
   glBindBuffer(GL_ARRAY_BUFFER, moving_buffer_);
@@ -105,10 +107,11 @@ void BodyMesh::upload_indices(const SurfaceMesh& surface_mesh) {
 void BodyMesh::upload_fixed(const SurfaceMesh& surface_mesh, const TissueLook& look) {
   const std::vector<Vec3f> tints = corner_tints(surface_mesh, surface_.topology());
   std::vector<Vec3f> rest, on_sphere;
-  std::vector<float> open;
+  std::vector<float> open, burnt;
   surface_.spread(std::span<const Vec3f>(surface_mesh.rest), rest);
   surface_.spread(std::span<const Vec3f>(look.on_sphere), on_sphere);
   surface_.spread(std::span<const float>(look.ambient_occlusion), open);
+  if (is_burnt_) surface_.spread(std::span<const float>(surface_mesh.burnt), burnt);
   fixed_.resize(rest.size());
   for (std::size_t p = 0; p < fixed_.size(); ++p) {
     const auto& [c, w] = surface_.blends()[p];
@@ -116,7 +119,8 @@ void BodyMesh::upload_fixed(const SurfaceMesh& surface_mesh, const TissueLook& l
     fixed_[p] = {(rest[p] - rest_.centre) / rest_.radius,
                  on_sphere[p],
                  {byte(tint.x()), byte(tint.y()), byte(tint.z()), byte(open[p])},
-                 wound_ && in_wound_[p] ? wound_->skin().nearest(rest[p]).depth / rest_.radius : 0};
+                 wound_ && in_wound_[p] ? wound_->skin().nearest(rest[p]).depth / rest_.radius : 0,
+                 is_burnt_ ? burnt[p] : 0};
   }
   upload(GL_ARRAY_BUFFER, fixed_buffer_, std::span<const Fixed>(fixed_), GL_STATIC_DRAW);
 }

@@ -37,6 +37,7 @@ class BodyMesh {
   /// At rest, of the uncut body, so that removals move neither ground nor light.
   const BoundingSphere& rest() const { return rest_; }
   float bead_radius() const { return bead_radius_; }  ///< m, for constrained nodes
+  bool is_burnt() const { return is_burnt_; }
   bool has_triangles() const { return !surface_.triangles().empty(); }
   std::size_t node_count() const { return nodes_; }
 
@@ -52,6 +53,7 @@ class BodyMesh {
     Vec3f on_sphere;  // sphere_map.hpp
     std::array<std::uint8_t, 4> surface;
     float depth = 0;  // of a wound, below the original skin, in body radii
+    float burnt = 0;  // SurfaceMesh::burnt
   };
   struct Strip {
     Moving moving;
@@ -74,6 +76,7 @@ class BodyMesh {
   SmoothSurface surface_;
   std::size_t nodes_;
   BoundingSphere rest_;
+  bool is_burnt_;
   float bead_radius_ = 0;
   std::vector<float> values_, beyond_;
   std::vector<char> in_wound_;  // #P; empty without a wound

@@ -96,6 +96,7 @@ void FineSkin::describe_vertices() {
     vertex_attribute(5, 4, GL_UNSIGNED_BYTE, stride, offset + offsetof(Fixed, surface));
     vertex_attribute(9, 2, GL_FLOAT, stride, offset + offsetof(Fixed, place));
     vertex_attribute(10, 4, GL_UNSIGNED_BYTE, stride, offset + offsetof(Fixed, colour));
+    vertex_attribute(11, 1, GL_FLOAT, stride, offset + offsetof(Fixed, burnt));
   };
   glBindVertexArray(array_);
   glBindBuffer(GL_ARRAY_BUFFER, moving_buffer_);
@@ -129,6 +130,14 @@ void FineSkin::upload_fixed(const TissueLook& look, const BoundingSphere& rest) 
         surface.colours.empty() || !surface.texture.empty() ? Vec3f(Vec3f::Ones()) : surface.colours[v];
     fixed.colour = {as_byte(colour.x()), as_byte(colour.y()), as_byte(colour.z()), 255};
   }
+  upload(GL_ARRAY_BUFFER, fixed_buffer_, std::span<const Fixed>(fixed_), GL_STATIC_DRAW);
+}
+
+void FineSkin::set_burnt(std::span<const float> burnt) {
+  if (burnt.empty() && !is_burnt_) return;
+  is_burnt_ = !burnt.empty();
+  for (std::size_t v = 0; v < fixed_.size(); ++v) fixed_[v].burnt = is_burnt_ ? value_at(v, burnt) : 0;
+  glBindVertexArray(array_);
   upload(GL_ARRAY_BUFFER, fixed_buffer_, std::span<const Fixed>(fixed_), GL_STATIC_DRAW);
 }
 

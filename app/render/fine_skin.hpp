@@ -24,6 +24,10 @@ class FineSkin {
   bool is_painted() const { return painted_; }  ///< with colours of its own
   const Texture& texture() const { return texture_; }
 
+  /// Takes what is burnt of the body's surface (SurfaceMesh::burnt).
+  void set_burnt(std::span<const float> burnt);
+  bool is_burnt() const { return is_burnt_; }
+
   /// Moves the surface with a frame that has a solid; values are scaled to a range.
   void update(const Frame& frame, const Range& range);
   /// As BodyMesh::update_hatching().
@@ -47,6 +51,7 @@ class FineSkin {
     std::array<std::uint8_t, 4> surface;  // as in BodyMesh
     Vec2f place;                          // in the texture
     std::array<std::uint8_t, 4> colour;
+    float burnt = 0;
   };
   struct Strip {
     Moving moving;
@@ -69,7 +74,7 @@ class FineSkin {
   float value_at(std::size_t vertex, std::span<const float> of_nodes) const;
 
   std::shared_ptr<const Skin> skin_;
-  bool painted_ = false;
+  bool painted_ = false, is_burnt_ = false;
   ThreadTeam team_;
   std::vector<Anchor> anchors_;           // #V
   std::vector<int> regions_;              // #V, of the body's surface below

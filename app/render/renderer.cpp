@@ -62,6 +62,7 @@ class Renderer::Impl {
   void draw_body(const ViewContext& shot, const DrawOptions& options, bool shows_field);
   void draw_cap(const ViewContext& shot, bool shows_field);
   void draw_body_outline(const ViewContext& shot, bool shows_field);
+  unsigned burns() const { return (shows_skin_ ? skin_->is_burnt() : body_->is_burnt()) ? as_burnt : 0u; }
   const Program& tissue_program(unsigned features);
   void prepare_body(const ViewContext& shot, const Program& program) const;
   void draw_casters(const Program& program) const;
@@ -76,9 +77,10 @@ class Renderer::Impl {
     as_outline = 4,
     as_wound = 8,
     as_cap = 16,
-    as_painted = 32
+    as_painted = 32,
+    as_burnt = 64
   };
-  std::array<std::optional<Program>, 64> tissue_;  // by features, compiled on first use
+  std::array<std::optional<Program>, 128> tissue_;  // by features, compiled on first use
   Program line_{"line.vert", "line.frag"};
   Program bead_{"bead.vert", "bead.frag"};
   Background background_;
@@ -91,6 +93,7 @@ class Renderer::Impl {
   std::optional<BodyMesh> body_;
   std::optional<FineSkin> skin_;  // in place of the body's surface; kept while a cut body has none
   bool shows_skin_ = false;
+  std::shared_ptr<const SurfaceMesh> burnt_;  // the mesh whose burns skin_ has
   std::optional<SectionCap> cap_;   // made on first use
   Vec4f section_ = Vec4f::UnitW();  // the product with a point is negative beyond the section plane
   ShadowMap shadow_map_;
@@ -135,7 +138,9 @@ void Renderer::Impl::update_skin(const Frame& frame) {
   if (!skin_ || skin_->source() != frame.skin) {
     skin_.reset();
     skin_.emplace(frame.skin, *whole_, whole_look_, body_->rest());
+    burnt_ = nullptr;
   }
+  if (std::exchange(burnt_, surface_mesh_) != surface_mesh_) skin_->set_burnt(surface_mesh_->burnt);
 }
 
 void Renderer::Impl::draw(const Frame& frame, const Camera& camera, const DrawOptions& options, Size size) {
@@ -231,13 +236,15 @@ void Renderer::Impl::update_section(const Frame& frame, const DrawOptions& optio
 void Renderer::Impl::draw_cap(const ViewContext& shot, bool shows_field) {
   // The cap lies in the plane itself, and OSMesa clips by the distance that a shader writes although clipping is off.
   const Vec4f plane = std::exchange(section_, Vec4f::UnitW());
-  prepare_body(shot, tissue_program(as_wound | as_cap | (shows_field ? with_field : 0u)));
+  prepare_body(shot, tissue_program(as_wound | as_cap | (shows_field ? with_field : 0u) |
+                                    (cap_->is_burnt() ? as_burnt : 0u)));
   cap_->draw();
   section_ = plane;
 }
 
 void Renderer::Impl::draw_body(const ViewContext& shot, const DrawOptions& options, bool shows_field) {
-  const unsigned features = (shows_field ? with_field : 0u) | (options.hatched.empty() ? 0u : with_hatching);
+  const unsigned features = (shows_field ? with_field : 0u) | (options.hatched.empty() ? 0u : with_hatching) |
+                            burns();
   const auto prepare = [&](const Program& program) {
     prepare_body(shot, program);
     program.set("hatch_period", hatch_period * static_cast<float>(shot.size.height) / 720);
@@ -254,7 +261,7 @@ void Renderer::Impl::draw_body(const ViewContext& shot, const DrawOptions& optio
 }
 
 void Renderer::Impl::draw_body_outline(const ViewContext& shot, bool shows_field) {
-  const unsigned features = as_outline | (shows_field ? with_field : 0u);
+  const unsigned features = as_outline | (shows_field ? with_field : 0u) | burns();
   if (shows_skin_) {
     prepare_body(shot, tissue_program(features | (skin_->is_painted() ? as_painted : 0u)));
     return skin_->draw_outline();
@@ -266,9 +273,9 @@ void Renderer::Impl::draw_body_outline(const ViewContext& shot, bool shows_field
   body_->draw_wound_outline();
 }
 
-/// A field is shown alike on skin and wounds, painted or not.
+/// A field is shown alike on skin and wounds, painted, burnt or not.
 const Program& Renderer::Impl::tissue_program(unsigned features) {
-  if (features & with_field) features &= ~(as_wound | as_painted);
+  if (features & with_field) features &= ~(as_wound | as_painted | as_burnt);
   std::optional<Program>& program = tissue_[features];
   if (program) return *program;
   std::vector<const char*> defines;
@@ -278,6 +285,7 @@ const Program& Renderer::Impl::tissue_program(unsigned features) {
   if (features & as_wound) defines.push_back("WOUND");
   if (features & as_cap) defines.push_back("CAP");
   if (features & as_painted) defines.push_back("PAINTED");
+  if (features & as_burnt) defines.push_back("BURNT");
   return program.emplace("tissue.vert", "tissue.frag", defines);
 }
 

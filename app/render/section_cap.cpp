@@ -50,7 +50,8 @@ void SectionCap::update(const Frame& frame, const SectionPlane& plane, const Ran
                            has_values ? (at_corner(corner, frame.solid_values) - range.low) * scale : 1,
                            (at_corner(corner, solid_->rest) - rest.centre) / rest.radius,
                            tint_bytes(solid_->regions[static_cast<std::size_t>(triangle.element)]),
-                           (near + corner.share * (far - near)) / rest.radius});
+                           (near + corner.share * (far - near)) / rest.radius,
+                           is_burnt() ? at_corner(corner, solid_->burnt) : 0});
     }
   glBindVertexArray(array_);
   upload(GL_ARRAY_BUFFER, buffer_, std::span<const Vertex>(vertices_), GL_STREAM_DRAW);
@@ -60,6 +61,7 @@ void SectionCap::update(const Frame& frame, const SectionPlane& plane, const Ran
   vertex_attribute(3, 3, GL_FLOAT, sizeof(Vertex), offsetof(Vertex, rest));
   vertex_attribute(5, 4, GL_UNSIGNED_BYTE, sizeof(Vertex), offsetof(Vertex, surface));
   vertex_attribute(8, 1, GL_FLOAT, sizeof(Vertex), offsetof(Vertex, depth));
+  vertex_attribute(11, 1, GL_FLOAT, sizeof(Vertex), offsetof(Vertex, burnt));
 }
 
 void SectionCap::draw() const {

@@ -11,6 +11,7 @@ class SectionCap {
   /// Cuts the frame's solid and uploads the face; empty for a frame without a solid. rest: of the uncut body.
   void update(const Frame& frame, const SectionPlane& plane, const Range& range, const BoundingSphere& rest);
   void draw() const;  ///< with tissue.vert and CAP
+  bool is_burnt() const { return solid_ && !solid_->burnt.empty(); }
 
  private:
   /// As BodyMesh: attributes of tissue.vert.
@@ -20,6 +21,7 @@ class SectionCap {
     Vec3f rest;   // in body radii about the body's centre
     std::array<std::uint8_t, 4> surface;
     float depth;  // below the original skin, in body radii
+    float burnt;  // Solid::burnt
   };
   void adopt(const Frame& frame);
   float depth_of(int node);

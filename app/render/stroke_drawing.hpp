@@ -1,5 +1,5 @@
 #pragma once
-// What is drawn of a stroke with scalpel or scissors.
+// What is drawn of a stroke with scalpel, scissors or electrode.
 #include <array>
 #include <heml/math/types.hpp>
 #include <optional>
@@ -19,10 +19,15 @@ struct Scissors {
   float closed = 0;                                ///< 0: open, 1: closed
 };
 
+struct Electrode {
+  Vec3f tip = Vec3f::Zero();  ///< m, on the skin
+};
+
 struct StrokeDrawing {
   std::optional<Blade> blade;              ///< none: no stroke is under way
   std::vector<std::array<Vec3f, 2>> line;  ///< m, segments of the incision line on the skin
   std::optional<Scissors> scissors = std::nullopt;
+  std::optional<Electrode> electrode = std::nullopt;
 };
 
 }  // namespace heml::render

@@ -11,6 +11,7 @@ const Vec3f steel(0.80f, 0.83f, 0.86f);
 const Vec3f incision(0.090f, 0.004f,
                      0.006f);         // drawn as metal, which has no gloss of its own: the pieces look like one line
 const Vec3f jaw_line(0.85f, 0.80f, 0.55f);
+const Vec3f insulation(0.52f, 0.30f, 0.03f), electrode_handle(0.03f, 0.10f, 0.22f);
 constexpr float along_sight = 0.8f;   // cosine
 constexpr float half_tension = 0.5f;  // N at which the line of a pull has its middle colour
 constexpr float shade_width = 0.035f;  // body radii
@@ -122,6 +123,23 @@ void ToolDrawing::place_stroke(const StrokeDrawing& stroke, const ViewContext& s
   }
   if (stroke.blade) place_blade(*stroke.blade, shot);
   if (stroke.scissors) place_scissors(*stroke.scissors, shot);
+  if (stroke.electrode) place_electrode(*stroke.electrode, shot);
+}
+
+/// A bare needle on the skin, its insulation and the handle, leaning as the scalpel does.
+void ToolDrawing::place_electrode(const Electrode& electrode, const ViewContext& shot) {
+  if (!electrode.tip.allFinite()) return;
+  const float r = shot.radius;
+  const Vec3f to_eye = (shot.camera.eye() - electrode.tip).normalized();
+  const Vec3f axis = (0.6f * to_eye + 0.9f * shot.camera.up() + 0.55f * shot.camera.right()).normalized();
+  const auto add = [&](float from, float length, float radius, const Vec3f& tint, float metal) {
+    parts_.push_back({&rod_, place_along(electrode.tip + from * r * axis, axis, across(axis), length * r, radius * r),
+                      tint, metal});
+  };
+  add(0, 0.17f, 0.008f, steel, 1);
+  add(0.15f, 0.10f, 0.017f, insulation, 0);
+  add(0.25f, 1.1f, 0.027f, electrode_handle, 0);
+  shade_ = {electrode.tip, electrode.tip + 1.3f * r * axis, shade_width * r};
 }
 
 /// Scissors lie over the jaw line with a blade on each side of it: along the line of sight, in which they cut, one would

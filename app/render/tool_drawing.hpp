@@ -1,6 +1,7 @@
 #pragma once
-// Draws the tools: forceps on the grasped tissue and the line of their pull, clamps, pins, the probe, a table under the body,
-// threads of sutures, scalpel or scissors, and the line that they have cut. Forceps and scalpel show through the tissue.
+// Draws the tools: forceps on the grasped tissue and the line of their pull, clamps, pins, the probe, a table under the
+// body, threads of sutures, scalpel or scissors and the line that they have cut, an electrode. Forceps and scalpel show
+// through the tissue.
 #include <app/render/camera.hpp>
 #include <app/render/grasp_pose.hpp>
 #include <app/render/solid_mesh.hpp>
@@ -31,10 +32,10 @@ class ToolDrawing {
   /// Places the tools of a frame and a person's hands, or none if not shown. Call this first.
   void place(const Frame& frame, const HandDrawing& hands, bool shown, const ViewContext& shot);
 
-  /// Adds scalpel or scissors and their line to them.
+  /// Adds scalpel or scissors and their line to them, or an electrode.
   void place_stroke(const StrokeDrawing& stroke, const ViewContext& shot);
 
-  /// Of the instrument in use, the last where there are several: forceps, probe, scalpel or scissors.
+  /// Of the instrument in use, the last where there are several: forceps, probe, scalpel, scissors or electrode.
   const Shade& shade() const { return shade_; }
   void cast(const Program& program) const;  ///< draws the shadow casters; sets `model`
   std::vector<Eigen::AlignedBox3f> boxes() const;  ///< round every part, m
@@ -58,6 +59,7 @@ class ToolDrawing {
   void place_suture(const SutureState& suture, const ViewContext& shot);
   void place_blade(const Blade& blade, const ViewContext& shot);
   void place_scissors(const Scissors& scissors, const ViewContext& shot);
+  void place_electrode(const Electrode& electrode, const ViewContext& shot);
   void draw_hidden(const ViewContext& shot) const;
   void place_pin(const PinState& pin, const ViewContext& shot);
   void place_clamp(const HeldPatch& patch, const ViewContext& shot);

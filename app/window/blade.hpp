@@ -1,5 +1,5 @@
 #pragma once
-// The cutting edge of scalpel and scissors at a pixel.
+// The cutting edge of scalpel, scissors and electrode at a pixel.
 #include <app/panel/camera_controller.hpp>
 #include <array>
 

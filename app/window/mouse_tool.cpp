@@ -34,6 +34,11 @@ Status MouseTool::press(MouseButton button, const render::Vec2f& at, bool shift,
         scissors_.press(*hit, at, tool, {frame, surface_mesh, section_});
         return {};
       }
+      if (tool.tool == panel::Tool::cautery) {
+        interaction_ = Interaction::burning;
+        cautery_.press(*hit, at, tool, out);
+        return {};
+      }
       begin_probing(*hit, tool, at, out);
       return {};
     }
@@ -229,6 +234,7 @@ void MouseTool::cut(const render::Vec2f& at, const Frame& frame, const SurfaceMe
 
 render::StrokeDrawing MouseTool::stroke(const Frame& frame, const SurfaceMesh& surface_mesh) const {
   if (interaction_ == Interaction::snipping) return scissors_.drawing(frame, surface_mesh);
+  if (interaction_ == Interaction::burning) return cautery_.drawing();
   if (interaction_ != Interaction::cutting || !has_entered_) return {};
   const std::array<Vec3, 2> now = blade_at(controller_, last_, anchor_, depth_);
   return {render::Blade{{now[0].cast<float>(), now[1].cast<float>()},
@@ -247,6 +253,7 @@ void MouseTool::move(const render::Vec2f& at, const Frame& frame, const SurfaceM
   if (interaction_ == Interaction::panning) controller_.pan(travel.x(), travel.y());
   if (interaction_ == Interaction::probing) out.emplace_back(probe_at(at));
   if (interaction_ == Interaction::snipping) scissors_.drag(at, {frame, surface_mesh, section_}, out);
+  if (interaction_ == Interaction::burning) cautery_.drag(at, pick(at, frame, surface_mesh), out);
   if (interaction_ == Interaction::cutting) cut(at, frame, surface_mesh, out);
   if (interaction_ == Interaction::grasping) {
     const Vec3f point = controller_.drag(at, anchor_);

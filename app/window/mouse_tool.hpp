@@ -4,6 +4,7 @@
 #include <app/panel/camera_controller.hpp>
 #include <app/render/grasp_pose.hpp>
 #include <app/render/stroke_drawing.hpp>
+#include <app/window/cautery.hpp>
 #include <app/window/clamps.hpp>
 #include <app/window/input_queue.hpp>
 #include <app/window/scissors.hpp>
@@ -63,7 +64,7 @@ class MouseTool {
   render::Scissors scissors_over(const render::Hit& hit, const panel::ToolSettings& tool) const {
     return scissors_.over(hit, tool);
   }
-  /// Scalpel or scissors and their line while they cut, as the tissue lies in a frame; empty otherwise.
+  /// Scalpel or scissors and their line while they cut, or the electrode, as the tissue lies in a frame; else empty.
   render::StrokeDrawing stroke(const Frame& frame, const SurfaceMesh& surface_mesh) const;
   /// What the camera turns about while it orbits, m; none: the middle of the view.
   std::optional<Vec3f> pivot() const { return interaction_ == Interaction::orbiting ? pivot_ : std::nullopt; }
@@ -103,6 +104,7 @@ class MouseTool {
   Vec3 heading_ = Vec3::Zero();                 // m, of the blade's last movement
   StrokeLine line_;
   Scissors scissors_{controller_};
+  Cautery cautery_{controller_};
   std::optional<render::SectionPlane> section_;
   render::Vec2f cut_to_ = render::Vec2f::Zero();  // the same, pixels
   panel::ToolSettings probe_;                     // of the active probe

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include <app/panel/scripted_blade.hpp>
+#include <app/panel/scripted_stroke.hpp>
 #include <app/window/overlay.hpp>
 #include <app/window/viewer.hpp>
 #include <thread>
@@ -137,8 +137,8 @@ void Viewer::draw() {
   drawing.stroke = mouse_tool_.stroke(seen(), *seen().surface_mesh);
   if (const auto hit = hovered(); hit && panel_->tool().tool == panel::Tool::scissors && !playback_.active())
     drawing.stroke.scissors = mouse_tool_.scissors_over(*hit, panel_->tool());
-  if (!drawing.stroke.blade && !drawing.stroke.scissors)
-    drawing.stroke.blade = panel::scripted_blade(open_.scene.events, frame_->tick - 1, frame_->pace.rate);
+  if (!drawing.stroke.blade && !drawing.stroke.scissors && !drawing.stroke.electrode)
+    drawing.stroke = panel::scripted_stroke(open_.scene.events, frame_->tick - 1, frame_->pace.rate);
   drawing.old_shadows = drawn_ % 2 == 1 && !is_paused();  // soft as they are, nobody sees it
   bodies_.draw(*frame_, controller_, drawing);
   draw_interface(seconds);
@@ -206,8 +206,9 @@ void Viewer::draw_marks() {
         tool.tool == panel::Tool::select && panel_->selecting().drag() == panel::SelectionSection::Drag::paint;
     draw_ring(*hit, seen(), *seen().surface_mesh, controller_,
               takes_patch || paints                       ? tool.radius
-              : tool.tool == panel::Tool::probe ? tool.probe_radius
-                                                : 0);
+              : tool.tool == panel::Tool::probe           ? tool.probe_radius
+              : tool.tool == panel::Tool::cautery         ? tool.burn_radius
+                                                          : 0);
     if (takes_patch) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
   }
 }

@@ -79,8 +79,9 @@ def draw():
     wide = 2 * COLUMN + GAP
     commands = Box("session", "apply commands", ["the events and commands due at this tick, recorded as they are applied"],
                    ["session/session.cpp", "world/command_executor.cpp"])
-    tear = Box("world", "tear", ["if the scene says tearing: elements beyond the limit open a node (not in static solves)"],
-               ["world/mesh_editor.cpp", "tools/tearing.cpp", "mesh/tear.cpp"])
+    tear = Box("world", "shrink and tear", ["burnt tissue contracts on",
+                                            "if the scene says tearing: elements beyond the limit open a node (not in static solves)"],
+               ["world/mesh_editor.cpp", "mesh/burn.cpp", "tools/tearing.cpp", "mesh/tear.cpp"])
     choose = Box("world", "choose method", ["the scene's integrator; auto: explicit where a cost model finds it fast enough, else implicit"],
                  ["world/method_choice.cpp", "world/step_cost.cpp"])
     methods = [

@@ -62,7 +62,7 @@ bool supports_quadratic(const Problem& problem) {
                      [&](const RegionMaterial& m) { return is_continuum(m.material); }) &&
          std::none_of(scene.events.begin(), scene.events.end(), [&](const Event& event) {
            const auto* change = std::get_if<SetMaterial>(&event.command);
-           return std::holds_alternative<CutTissue>(event.command) ||
+           return continues_stroke(event.command).has_value() ||
                   std::holds_alternative<RemoveElements>(event.command) || (change && !is_continuum(change->material));
          });
 }

@@ -242,6 +242,17 @@ std::size_t ElasticBody<Real>::bytes() const {
   return sum + fans_.bytes() + (pressure_ ? pressure_->bytes() : 0);
 }
 
+/// As meshed, m³: heat takes no mass.
+template <class Real>
+Real ElasticBody<Real>::meshed_volume(const ElementGroup<Real>& group, std::size_t s) const {
+  const auto t = static_cast<std::size_t>(group.element[s]);
+  if (rest_scale(layout_->mesh, t) == 1) return group.volume[s];
+  const std::vector<Vec3>& X = layout_->mesh.nodes;
+  const auto& [a, b, c, d] = layout_->mesh.tets[t];
+  return static_cast<Real>(signed_volume(X[static_cast<std::size_t>(a)], X[static_cast<std::size_t>(b)],
+                                         X[static_cast<std::size_t>(c)], X[static_cast<std::size_t>(d)]));
+}
+
 /// Of the integration points, in the order of layout_->mesh, kg.
 template <class Real>
 std::vector<double> ElasticBody<Real>::point_masses() const {
@@ -249,7 +260,7 @@ std::vector<double> ElasticBody<Real>::point_masses() const {
   for (const Part& part : parts_)
     for (std::size_t s = 0; s < part.group->size(); ++s)
       mass[static_cast<std::size_t>(part.group->element[s])] =
-          materials_[part.material].density * static_cast<double>(part.group->volume[s]);
+          materials_[part.material].density * static_cast<double>(meshed_volume(*part.group, s));
   return mass;
 }
 
@@ -271,7 +282,7 @@ std::vector<Real> ElasticBody<Real>::masses() const {
     for (std::size_t s = 0; s < part.group->size(); ++s)
       for (const auto& list : part.group->node)
         mass[static_cast<std::size_t>(list[s])] +=
-            static_cast<double>(part.group->density) * static_cast<double>(part.group->volume[s]) / 4;
+            static_cast<double>(part.group->density) * static_cast<double>(meshed_volume(*part.group, s)) / 4;
   return {mass.begin(), mass.end()};
 }
 

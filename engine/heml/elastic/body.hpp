@@ -180,6 +180,10 @@ class ElasticBody {
   /// the internal state of the rest; one that gains some is taken as relaxed at x altogether.
   void set_material_of(const std::vector<Material>& materials, const std::vector<int>& material_of, const Real* x);
 
+  /// Heat has changed rest shapes: burns, #T. Masses, positions and internal state stay, with the flow of plasticity.
+  /// Bounds of frequencies take an element's mass for ρ V of the smaller rest shape: steps are shorter than need be.
+  void set_burns(const std::vector<Burn>& burns);
+
   /// Removes all but the given elements (inner numbers, ascending; at least one) and renumbers those in that order.
   /// They keep their internal state. Forces equal those of a body built from these elements alone to round-off, since
   /// fan blocks that lose no element keep their layout (fan_layout.hpp).
@@ -212,8 +216,8 @@ class ElasticBody {
   void set_internal_state(const InternalState<Real>& state);
   double plastic_work() const { return plastic_work_; }  ///< J, of all elements since the last reset_history()
 
-  /// Lumped masses (#V, kg), which are positive: each tetrahedron's density × volume / 4 on its nodes; of quadratic
-  /// ones 1/36 on corners and 4/27 on mid-edge nodes.
+  /// Lumped masses (#V, kg), which are positive: each tetrahedron's density × volume as meshed / 4 on its nodes; of
+  /// quadratic ones 1/36 on corners and 4/27 on mid-edge nodes.
   std::vector<Real> masses() const;
   /// ∫ρN of each node (#V, kg), which gravity acts on: that of quadratic elements is negative on corners; of linear
   /// ones, masses().
@@ -310,6 +314,7 @@ class ElasticBody {
         team.parallel_for(part.group->packets(), grain_ / 4 / part.group->lanes,
                           [&](std::size_t begin, std::size_t end) { work(part, begin, end); });
   }
+  Real meshed_volume(const ElementGroup<Real>& group, std::size_t s) const;
   std::vector<double> point_masses() const;
   template <class Bound>
   Real max_bound(ThreadTeam& team, const Bound& bound) const;

@@ -116,6 +116,32 @@ void ElasticBody<Real>::set_material_of(const std::vector<Material>& materials, 
   make_fans();
 }
 
+template <class Real>
+void ElasticBody<Real>::set_burns(const std::vector<Burn>& burns) {
+  update_slots();
+  const Shared<BodyLayout<Real>> before = layout_;
+  std::vector<Burn>& now = layout_.write().mesh.burns;
+  now.clear();
+  for (const Burn& burn : burns) now.insert(now.end(), points_per_element(), burn);
+  bool changes = false;
+  for (Part& part : parts_) {
+    const std::size_t size = part.group->size();
+    for (std::size_t s = 0; s < part.group->volume.size(); ++s) {
+      const auto t = static_cast<std::size_t>(part.group->element[std::min(s, size - 1)]);
+      const double factor = rest_scale(layout_->mesh, t) / rest_scale(before->mesh, t);
+      if (factor == 1) continue;
+      changes = true;
+      scale_rest_shape(part.group.write(), s, static_cast<Real>(factor));
+      if (part.flow) part.flow->scale_rest_shape(s, static_cast<Real>(factor));
+    }
+  }
+  if (!changes) return;
+  join_parts();
+  std::vector<int> same(before->mesh.tets.size());
+  std::iota(same.begin(), same.end(), 0);
+  update_fans(before->mesh, same);
+}
+
 /// Renumbers the elements of a part and drops the removed ones. number: new number of each old element, −1 if removed.
 template <class Real>
 void ElasticBody<Real>::keep_numbered(Part& part, const std::vector<int>& number) {
@@ -259,6 +285,8 @@ template void ElasticBody<double>::set_material(std::size_t, const Material&, co
 template void ElasticBody<float>::set_material_of(const std::vector<Material>&, const std::vector<int>&, const float*);
 template void ElasticBody<double>::set_material_of(const std::vector<Material>&, const std::vector<int>&,
                                                    const double*);
+template void ElasticBody<float>::set_burns(const std::vector<Burn>&);
+template void ElasticBody<double>::set_burns(const std::vector<Burn>&);
 template void ElasticBody<float>::keep_elements(const std::vector<int>&);
 template void ElasticBody<double>::keep_elements(const std::vector<int>&);
 template void ElasticBody<float>::transfer_state(const TetMesh&, const std::vector<int>&, const std::vector<int>&,

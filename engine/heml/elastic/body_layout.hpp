@@ -26,7 +26,7 @@ struct BodyLayout {
 
   std::size_t nodes() const { return virtual_corners ? virtual_corners->nodes() : mesh.nodes.size(); }
   std::size_t bytes() const {
-    std::size_t sum = bytes_of(mesh.nodes, mesh.tets, mesh.regions, material_of) + joints.springs.bytes();
+    std::size_t sum = bytes_of(mesh.nodes, mesh.tets, mesh.regions, mesh.burns, material_of) + joints.springs.bytes();
     for (const ElementField& field : mesh.fields) sum += bytes_of(field.values);
     for (const CornerMap* map : {&joints.corners, &joints.force_corners}) sum += bytes_of(map->start, map->corners);
     return sum + (virtual_corners ? virtual_corners->bytes() : 0);

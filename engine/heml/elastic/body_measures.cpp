@@ -119,7 +119,8 @@ std::vector<Mat3> ElasticBody<Real>::stresses(const Real* x, ThreadTeam& team) {
       const auto X = [&](std::size_t a) {
         return layout_->mesh.nodes[static_cast<std::size_t>(part.group->node[a][s])];
       };
-      const double volume = signed_volume(X(0), X(1), X(2), X(3));
+      const double scale = rest_scale(layout_->mesh, t);  // of X; the volume's is its third power
+      const double volume = scale * scale * signed_volume(X(0), X(1), X(2), X(3));
       for (std::size_t a = 1; a < 4; ++a) {
         const Real* f = &corner[3 * (part.group->first_corner + 4 * s + a)];
         P[t] -= Vec3(f[0], f[1], f[2]) * (X(a) - X(0)).transpose() / volume;

@@ -41,6 +41,8 @@ ElementGroup<Real> make_group(const TetMesh& mesh, const std::vector<int>& eleme
     }
     Mat3 Dm;
     Dm << X[1] - X[0], X[2] - X[0], X[3] - X[0];
+    const double scale = rest_scale(mesh, element);
+    Dm *= scale;
     const Mat3 g = Dm.inverse();  // row a−1 is g_a, a = 1..3
     const Mat3 A = g * g.transpose();
     const double entries[6] = {A(0, 0), A(1, 1), A(2, 2), A(0, 1), A(0, 2), A(1, 2)};
@@ -52,13 +54,22 @@ ElementGroup<Real> make_group(const TetMesh& mesh, const std::vector<int>& eleme
     }
     for (std::size_t k = 0; k < material.fields.size(); ++k)
       group.parameters[k][s] = static_cast<Real>(field_values(mesh, material.fields[k].field, 1)[element]);
-    group.volume[s] = static_cast<Real>(signed_volume(X[0], X[1], X[2], X[3]));
+    group.volume[s] = static_cast<Real>(scale * scale * scale * signed_volume(X[0], X[1], X[2], X[3]));
     const Vec3 g0 = -g.colwise().sum().transpose();
     const Mat3 sum = g.transpose() * g + g0 * g0.transpose();
     group.gamma[s] =
         static_cast<Real>(Eigen::SelfAdjointEigenSolver<Mat3>(sum, Eigen::EigenvaluesOnly).eigenvalues()[2]);
   }
   return group;
+}
+
+template <class Real>
+void scale_rest_shape(ElementGroup<Real>& group, std::size_t s, Real factor) {
+  for (auto& list : group.A) list[s] /= factor * factor;
+  if (!group.fibre[0].empty())
+    for (auto& list : group.fibre) list[s] /= factor;
+  group.volume[s] *= factor * factor * factor;
+  group.gamma[s] /= factor * factor;
 }
 
 template <class Real>
@@ -97,6 +108,8 @@ template struct ElementGroup<float>;
 template struct ElementGroup<double>;
 template ElementGroup<float> make_group(const TetMesh&, const std::vector<int>&, const Material&);
 template ElementGroup<double> make_group(const TetMesh&, const std::vector<int>&, const Material&);
+template void scale_rest_shape(ElementGroup<float>&, std::size_t, float);
+template void scale_rest_shape(ElementGroup<double>&, std::size_t, double);
 template std::vector<std::size_t> keep_slots(ElementGroup<float>&, const std::vector<std::size_t>&);
 template std::vector<std::size_t> keep_slots(ElementGroup<double>&, const std::vector<std::size_t>&);
 template CornerMap map_corners(const std::vector<const ElementGroup<float>*>&, std::size_t);

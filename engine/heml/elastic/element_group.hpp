@@ -26,7 +26,7 @@ struct ElementGroup {
   std::vector<int> element;              ///< #S inner numbers of the elements, without padding
   std::array<std::vector<int>, 4> node;  ///< 4 × padded #S, inner numbers
   std::array<std::vector<Real>, 6> A;    ///< 6 × padded #S, 1/m²
-  std::vector<Real> volume;              ///< padded #S, m³, at rest
+  std::vector<Real> volume;              ///< padded #S, m³, of the rest shape
   std::vector<Real> gamma;  ///< padded #S, 1/m²: largest eigenvalue of Σ_a g_a g_aᵀ, for the stable step
   std::array<std::vector<Real>, 3> fibre;     ///< 3 × padded #S, 1/m, or empty
   std::vector<std::vector<Real>> parameters;  ///< of each FieldParameter of the material, padded #S
@@ -39,9 +39,13 @@ struct ElementGroup {
 };
 
 /// Builds the group of the given elements (inner numbers; at least one) of a mesh in inner order with positive volumes.
-/// The mesh must have the fields that the material names (asserted).
+/// The mesh must have the fields that the material names (asserted). Rest shapes are those of its burns.
 template <class Real>
 ElementGroup<Real> make_group(const TetMesh& mesh, const std::vector<int>& elements, const Material& material);
+
+/// Multiplies the lengths of a slot's rest shape.
+template <class Real>
+void scale_rest_shape(ElementGroup<Real>& group, std::size_t s, Real factor);
 
 /// Reorders a list with `each` values per slot: slot s takes the values of the old slot from[s]. Internal state thus
 /// stays with its element when others are removed.

@@ -19,7 +19,9 @@ Mat3 edges(const std::vector<Vec3>& x, const Tet& tet) {
   return D;
 }
 
-double volume_of(const TetMesh& mesh, std::size_t t) { return edges(mesh.nodes, mesh.tets[t]).determinant() / 6; }
+Mat3 rest_edges(const TetMesh& mesh, std::size_t t) { return rest_scale(mesh, t) * edges(mesh.nodes, mesh.tets[t]); }
+
+double volume_of(const TetMesh& mesh, std::size_t t) { return rest_edges(mesh, t).determinant() / 6; }
 
 Vec3 centroid(const TetMesh& mesh, std::size_t t) {
   const Tet& tet = mesh.tets[t];
@@ -109,7 +111,7 @@ std::vector<double> recovery_errors(const TetMesh& mesh, const std::vector<int>&
 
 std::vector<Mat3> deformation_gradients(const TetMesh& mesh, const std::vector<Vec3>& x) {
   std::vector<Mat3> F(mesh.tets.size());
-  for (std::size_t t = 0; t < F.size(); ++t) F[t] = edges(x, mesh.tets[t]) * edges(mesh.nodes, mesh.tets[t]).inverse();
+  for (std::size_t t = 0; t < F.size(); ++t) F[t] = edges(x, mesh.tets[t]) * rest_edges(mesh, t).inverse();
   return F;
 }
 

@@ -120,8 +120,9 @@ Groups<Real> groups_of(const TetMesh& mesh, const FanElements& part, const Chunk
       for (std::size_t i = 0; i < size.tets; ++i) {
         const bool has_fibre = part.shape == FanShape::fibre && !fan.tets.empty();
         const Vec3 fibre = has_fibre ? part.fibre(chunk.elements[fan.tets[i]]) : Vec3::UnitX();
-        const auto values =
-            constants_of(nodes.axis, nodes.spoke[i], nodes.spoke[(i + 1) % size.ring], part.shape, fibre);
+        const double scale = fan.tets.empty() ? 1 : rest_scale(mesh, at(chunk.elements[fan.tets[i]]));
+        const auto values = constants_of(scale * nodes.axis, scale * nodes.spoke[i],
+                                         scale * nodes.spoke[(i + 1) % size.ring], part.shape, fibre);
         for (std::size_t c = 0; c < constants; ++c)
           groups.shape[shape + (size.ring + i * constants + c) * lanes + l] = static_cast<Real>(values[c]);
       }
@@ -254,7 +255,8 @@ FanLayout<Real> FanLayout<Real>::after_edit(const TetMesh& before, const TetMesh
       const int origin = origins[at(t)];
       const std::size_t b = block_of[at(origin)];
       of_block[b].push_back(t);
-      if (mesh.tets[at(t)] != before.tets[at(origin)]) touched[b] = 1;
+      if (mesh.tets[at(t)] != before.tets[at(origin)] || rest_scale(mesh, at(t)) != rest_scale(before, at(origin)))
+        touched[b] = 1;
     }
   std::vector<Chunk> chunks;
   for (std::size_t b = 0; b < blocks.size(); ++b) {

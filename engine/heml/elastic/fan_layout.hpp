@@ -66,8 +66,9 @@ struct FanLayout {
   /// team.
   FanLayout(const TetMesh& mesh, const std::vector<FanElements>& parts, std::size_t lanes, ThreadTeam& team);
 
-  /// The layout after an edit of the mesh: element t is the old element origins[t], or a piece of it whose nodes are
-  /// those of the old element or new. The number of parts must not change. Other arguments as in the constructor.
+  /// The layout after an edit of the mesh: element t is the old element origins[t], which may have been burnt, or a
+  /// piece of it whose nodes are those of the old element or new. The number of parts must not change. Other arguments
+  /// as in the constructor.
   FanLayout after_edit(const TetMesh& before, const TetMesh& mesh, const std::vector<FanElements>& parts,
                        const std::vector<int>& origins, std::size_t lanes, ThreadTeam& team) const;
 

@@ -93,6 +93,12 @@ SlotStates<Real> PlasticFlow<Real>::slot_states(Group& group) {
 }
 
 template <class Real>
+void PlasticFlow<Real>::scale_rest_shape(std::size_t s, Real factor) {
+  for (auto& list : rest_A_) list[s] /= factor * factor;
+  rest_gamma_[s] /= factor * factor;
+}
+
+template <class Real>
 void PlasticFlow<Real>::gather_slots(std::span<const std::size_t> from) {
   for (auto& list : rest_A_) heml::gather_slots(list, from);
   heml::gather_slots(rest_gamma_, from);

@@ -25,6 +25,8 @@ class PlasticFlow {
   Group at_rest(Group group) const;
   /// Restores the initial rest shape.
   void reset(Group& group);
+  /// Multiplies the lengths of a slot's initial rest shape, as scale_rest_shape() does those of the group's.
+  void scale_rest_shape(std::size_t s, Real factor);
   /// After an edit of the group: slot s takes the state of the old slot from[s].
   void gather_slots(std::span<const std::size_t> from);
   /// Inherits the flow of another group and updates the rest shapes of `group`: slot s is a piece of slot from[s],

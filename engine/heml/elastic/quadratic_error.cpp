@@ -126,7 +126,9 @@ void add_errors(const TetMesh& mesh, const std::vector<std::size_t>& elements,
   for (std::size_t k = 0; k < elements.size(); ++k) {
     const auto X = corners_of(mesh, elements[k]);
     const std::size_t first = element_points * elements[k];
-    errors[elements[k]] = difference(smooth[k], &F[first], &P[first], signed_volume(X[0], X[1], X[2], X[3]));
+    const double scale = rest_scale(mesh, elements[k]);
+    errors[elements[k]] =
+        difference(smooth[k], &F[first], &P[first], scale * scale * scale * signed_volume(X[0], X[1], X[2], X[3]));
   }
 }
 

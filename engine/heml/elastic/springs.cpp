@@ -10,10 +10,11 @@ constexpr std::size_t grain = 2048;
 
 template <class Real>
 Springs<Real>::Springs(const TetMesh& mesh, const std::vector<double>& stiffness) {
-  // The distinct stiffnesses at each edge: the mean is over regions, not over elements.
+  // The distinct stiffnesses at each edge: the mean is over regions, not over elements. Likewise of scales of rest
+  // shapes, of which one stiffness may have several.
   struct Edge {
     int a, b;
-    double k;
+    double k, scale;
     auto operator<=>(const Edge&) const = default;
   };
   std::vector<Edge> edges;
@@ -21,7 +22,7 @@ Springs<Real>::Springs(const TetMesh& mesh, const std::vector<double>& stiffness
     if (stiffness[t] == 0) continue;
     for (const auto& ends : tet_edges) {
       const int p = mesh.tets[t][ends[0]], q = mesh.tets[t][ends[1]];
-      edges.push_back({std::min(p, q), std::max(p, q), stiffness[t]});
+      edges.push_back({std::min(p, q), std::max(p, q), stiffness[t], rest_scale(mesh, t)});
     }
   }
   std::sort(edges.begin(), edges.end());
@@ -30,11 +31,17 @@ Springs<Real>::Springs(const TetMesh& mesh, const std::vector<double>& stiffness
   for (auto first = edges.begin(); first != edges.end();) {
     const auto end =
         std::find_if(first, edges.end(), [&](const Edge& e) { return e.a != first->a || e.b != first->b; });
-    double mean = 0;
-    for (auto edge = first; edge != end; ++edge) mean += edge->k / static_cast<double>(end - first);
+    const auto is_first_of_k = [&](const Edge& e) { return &e == &*first || e.k != (&e)[-1].k; };
+    const auto count = static_cast<double>(std::count_if(first, end, is_first_of_k));
+    double mean = 0, scales = 0;
+    for (auto edge = first; edge != end; ++edge) {
+      if (is_first_of_k(*edge)) mean += edge->k / count;
+      scales += edge->scale;
+    }
+    const double scale = scales / static_cast<double>(end - first);
     const auto a = static_cast<std::size_t>(first->a), b = static_cast<std::size_t>(first->b);
-    springs_.push_back(
-        {first->a, first->b, static_cast<Real>(mean), static_cast<Real>((mesh.nodes[b] - mesh.nodes[a]).norm())});
+    springs_.push_back({first->a, first->b, static_cast<Real>(mean),
+                        static_cast<Real>(scale * (mesh.nodes[b] - mesh.nodes[a]).norm())});
     ++start_[a + 1];
     ++start_[b + 1];
     first = end;

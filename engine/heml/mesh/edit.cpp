@@ -82,6 +82,8 @@ void append(const MeshEdit& edit, TetMesh& mesh) {
     for (const int parent : edit.parents)
       for (std::size_t c = 0; c < field.components; ++c)
         field.values.push_back(field.values[field.components * static_cast<std::size_t>(parent) + c]);
+  if (mesh.burns.empty()) return;
+  for (const int parent : edit.parents) mesh.burns.push_back(mesh.burns[static_cast<std::size_t>(parent)]);
 }
 
 Status select_elements(const ElementSelection& which, const TetMesh& mesh, const Topology& topology,
@@ -119,6 +121,7 @@ Status make_removal_edit(const ElementSelection& which, const TetMesh& mesh, con
 TetMesh with_elements(const TetMesh& mesh, const std::vector<int>& elements) {
   TetMesh result{mesh.nodes, with_elements(mesh.tets, elements), with_elements(mesh.regions, elements), mesh.source};
   result.region_names = mesh.region_names;
+  result.burns = with_elements(mesh.burns, elements);
   for (const ElementField& field : mesh.fields)
     result.fields.push_back({field.name, field.components, with_elements(field.values, elements, field.components)});
   return result;

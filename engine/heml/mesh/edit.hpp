@@ -60,7 +60,7 @@ Topology full_topology(const TetMesh& mesh, long version = 0);
 /// The topology after an edit; elements: #T before it. All removed elements must exist.
 Topology apply_edit(const Topology& topology, const MeshEdit& edit, int elements);
 
-/// Appends an edit's nodes, interpolated at rest, and its elements, with the region and fields of their parents.
+/// Appends an edit's nodes, interpolated at rest, and its elements, with the region, fields and burns of their parents.
 /// Removed elements stay in the mesh; only the topology excludes them.
 void append(const MeshEdit& edit, TetMesh& mesh);
 

@@ -58,8 +58,9 @@ std::size_t count_nodes(const MidEdges& midedges) {
 
 namespace {
 
-/// Regions and fields of a mesh with `each` elements in the place of one.
+/// Regions, burns and fields of a mesh with `each` elements in the place of one.
 void repeat_values(const TetMesh& mesh, std::size_t each, TetMesh& result) {
+  for (const Burn& burn : mesh.burns) result.burns.insert(result.burns.end(), each, burn);
   for (const int region : mesh.regions) result.regions.insert(result.regions.end(), each, region);
   for (const ElementField& field : mesh.fields) {
     ElementField& finer = result.fields.emplace_back(ElementField{field.name, field.components, {}});

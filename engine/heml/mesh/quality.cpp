@@ -43,6 +43,9 @@ void check_indices(const TetMesh& mesh) {
       throw InputError(mesh.source, fmt::format("field '{}'", field.name),
                        fmt::format("has {} values of {} components for {} tetrahedra", field.values.size(),
                                    field.components, mesh.tets.size()));
+  if (!mesh.burns.empty() && mesh.burns.size() != mesh.tets.size())
+    throw InputError(mesh.source, "burns",
+                     fmt::format("has {} for {} tetrahedra", mesh.burns.size(), mesh.tets.size()));
   const int nodes = static_cast<int>(mesh.nodes.size());
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
     const Tet& tet = mesh.tets[t];

@@ -92,6 +92,9 @@ class Bisection {
     result_.mesh.region_names = mesh_.region_names;
     for (const int parent : result_.parents)
       result_.mesh.regions.push_back(mesh_.regions[static_cast<std::size_t>(parent)]);
+    if (!mesh_.burns.empty())
+      for (const int parent : result_.parents)
+        result_.mesh.burns.push_back(mesh_.burns[static_cast<std::size_t>(parent)]);
     for (const ElementField& field : mesh_.fields) {
       ElementField& finer = result_.mesh.fields.emplace_back(ElementField{field.name, field.components, {}});
       for (const int parent : result_.parents)

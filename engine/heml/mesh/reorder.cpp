@@ -99,6 +99,8 @@ TetMesh reordered(const TetMesh& mesh, const Reordering& order) {
     result.tets.push_back(tet);
     result.regions.push_back(mesh.regions[t]);
   }
+  if (!mesh.burns.empty())
+    for (int t : order.file_tet) result.burns.push_back(mesh.burns[t]);
   for (const ElementField& field : mesh.fields) {
     ElementField& inner = result.fields.emplace_back(ElementField{field.name, field.components, {}});
     inner.values.reserve(field.values.size());

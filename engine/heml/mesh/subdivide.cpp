@@ -71,6 +71,7 @@ Subdivision subdivide_uniformly(const TetMesh& mesh) {
     add_subdivision(tet, middle, result.mesh);
   }
   for (const int region : mesh.regions) result.mesh.regions.insert(result.mesh.regions.end(), 8, region);
+  for (const Burn& burn : mesh.burns) result.mesh.burns.insert(result.mesh.burns.end(), 8, burn);
   for (const ElementField& field : mesh.fields) {
     ElementField& finer = result.mesh.fields.emplace_back(ElementField{field.name, field.components, {}});
     for (std::size_t t = 0; t < mesh.tets.size(); ++t)

@@ -24,6 +24,14 @@ struct ElementField {
   std::vector<double> values;  ///< components × #T, contiguous per tetrahedron
 };
 
+/// What heat has done to a tetrahedron (mesh/burn.hpp).
+struct Burn {
+  double level = 0;   ///< 0: nothing, 1: coagulated all through
+  double shrink = 0;  ///< part that lengths of its rest shape lose in the end
+  double scale = 1;   ///< lengths of its rest shape now over those of the mesh
+  bool operator==(const Burn&) const = default;
+};
+
 /// A tetrahedral mesh as in its file.
 struct TetMesh {
   std::vector<Vec3> nodes;                       ///< #V×3, metres, in the file's order (orphans included)
@@ -32,7 +40,11 @@ struct TetMesh {
   std::string source;                            ///< file or generator, for messages
   std::vector<ElementField> fields = {};         ///< in the file's order
   std::map<int, std::string> region_names = {};  ///< where the file names regions
+  std::vector<Burn> burns = {};                  ///< #T; empty: nothing is burnt
 };
+
+/// Lengths of the rest shape of tetrahedron t over those between the nodes of the mesh.
+inline double rest_scale(const TetMesh& mesh, std::size_t t) { return mesh.burns.empty() ? 1 : mesh.burns[t].scale; }
 
 /// The field of that name; nullptr if there is none.
 inline const ElementField* find_field(const TetMesh& mesh, std::string_view name) {

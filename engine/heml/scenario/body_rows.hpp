@@ -1,5 +1,6 @@
 #pragma once
 // Rows of the table of commands: what changes the body, its material and how its motion is computed.
+#include <algorithm>
 #include <heml/scenario/command_row.hpp>
 #include <heml/scenario/entries_json.hpp>
 #include <heml/scenario/material_json.hpp>
@@ -130,6 +131,21 @@ struct Row<RemoveElements> : CommonRow {
   }
 };
 
+/// The two ends of a blade or an electrode at successive times.
+inline Sweep sweep_from(const JsonCursor& list, const char* what) {
+  Sweep sweep;
+  list.each([&](const JsonCursor& blade) {
+    if (blade.size() != 2) blade.refuse(fmt::format("must be the two ends of the {}, [[x, y, z], [x, y, z]]", what));
+    sweep.blades.push_back({blade[0].vector(), blade[1].vector()});
+  });
+  return sweep;
+}
+inline Json sweep_json(const Sweep& sweep) {
+  Json json = Json::array();
+  for (const auto& [tip, end] : sweep.blades) json.push_back({vector_json(tip), vector_json(end)});
+  return json;
+}
+
 template <>
 struct Row<CutTissue> : CommonRow {
   static constexpr std::string_view
@@ -146,20 +162,68 @@ struct Row<CutTissue> : CommonRow {
   static bool takes_up(const CutTissue& cut) { return !cut.continues_stroke; }
   static Command read(const JsonCursor& value, Points&) {
     const ObjectReader object(value, keys);
-    CutTissue cut;
-    object["sweep"].each([&](const JsonCursor& blade) {
-      if (blade.size() != 2) blade.refuse("must be the two ends of the blade, [[x, y, z], [x, y, z]]");
-      cut.sweep.blades.push_back({blade[0].vector(), blade[1].vector()});
-    });
+    CutTissue cut{sweep_from(object["sweep"], "blade")};
     if (cut.sweep.blades.size() < 2) object["sweep"].refuse("must have the blade at two times at least");
     object.read("goes_on", cut.continues_stroke);
     return cut;
   }
   static Json write(const CutTissue& cut) {
-    Json sweep = Json::array();
-    for (const auto& [tip, end] : cut.sweep.blades) sweep.push_back({vector_json(tip), vector_json(end)});
-    Json json = {{"sweep", std::move(sweep)}};
+    Json json = {{"sweep", sweep_json(cut.sweep)}};
     if (cut.continues_stroke) json["goes_on"] = true;
+    return json;
+  }
+};
+
+template <>
+struct Row<CauterizeTissue> : CommonRow {
+  static constexpr std::string_view
+      key = "cauterize",
+      example = R"({"line": [[0.02, 0.02, 0.01], [0.06, 0.02, 0.01]], "radius": 0.006})",
+      meaning =
+          "an electrode coagulates the tissue about its path, which shrinks at rest, and with a `sweep` parts it too";
+  static constexpr ValueForm value_form = object_form;
+  static constexpr std::string_view path = "one of `line`, `sweep`";
+  static constexpr KeyInfo cauterize_keys[] = {
+      {"line", form::other("list of `[x, y, z]`, one or more"), "m", path,
+       "where the tip of the electrode is at successive times: it burns and parts nothing"},
+      {"sweep", form::other("list of `[[x, y, z], [x, y, z]]`, one or more"), "m", path,
+       "the two ends of a long electrode, which cuts as a blade does"},
+      {"radius", form::positive, "m", required,
+       "about the path, as the tissue lies then: coagulated up to half of it, and less and less up to all of it"},
+      {"shrink", form::between(0, max_shrink), "", "", "part of their length that coagulated lengths lose"},
+      {"goes_on", form::flag, "", "`false`", "one stroke, and one edit to undo, with the one before"}};
+  static constexpr std::span<const KeyInfo> keys = cauterize_keys;
+  static constexpr std::optional<CommandTool> tool = CommandTool::cautery;
+  static bool takes_up(const CauterizeTissue& burn) { return !burn.continues_stroke; }
+  static Command read(const JsonCursor& value, Points&) {
+    const ObjectReader object(value, keys);
+    CauterizeTissue burn;
+    const std::string given = value.only_one_of({"line", "sweep"});
+    if (given == "sweep")
+      burn.sweep = sweep_from(object["sweep"], "electrode");
+    else
+      object["line"].each([&](const JsonCursor& place) {
+        const Vec3 tip = place.vector();
+        burn.sweep.blades.push_back({tip, tip});
+      });
+    if (burn.sweep.blades.empty()) object[given].fail("is empty", "give one place of the electrode or more");
+    burn.heat.radius = object.get<double>("radius");
+    object.read("shrink", burn.heat.shrink);
+    object.read("goes_on", burn.continues_stroke);
+    return burn;
+  }
+  static Json write(const CauterizeTissue& burn) {
+    Json json;
+    const auto& blades = burn.sweep.blades;
+    if (std::all_of(blades.begin(), blades.end(), [](const auto& blade) { return blade[0] == blade[1]; })) {
+      json["line"] = Json::array();
+      for (const auto& blade : blades) json["line"].push_back(vector_json(blade[0]));
+    } else {
+      json["sweep"] = sweep_json(burn.sweep);
+    }
+    json["radius"] = burn.heat.radius;
+    json["shrink"] = burn.heat.shrink;
+    if (burn.continues_stroke) json["goes_on"] = true;
     return json;
   }
 };

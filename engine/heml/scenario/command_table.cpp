@@ -94,6 +94,8 @@ constexpr ToolInfo tool_infos[] = {
     {CommandTool::suture, "suture", "a stiff link that is drawn in"},
     {CommandTool::tables, "tables", "other planes from then on"},
     {CommandTool::cut, "cut", "elements are split, and the layout of the body is rebuilt"},
+    {CommandTool::cautery, "cautery",
+     "elements are split as by a cut, and rest shapes shrink; the layout of the body is rebuilt there"},
     {CommandTool::removal, "removal", "loops ask which elements are there"},
     {CommandTool::undo, "undo",
      "the body as it was before the last cut or removal; the state before each action is kept for `history`"},

@@ -21,7 +21,7 @@ struct MeshReference {
 };
 
 /// What commands of a tool are for, in the order in which `heml explain` lists them.
-enum class CommandTool { grasp, probe, pin, suture, tables, cut, removal, undo };
+enum class CommandTool { grasp, probe, pin, suture, tables, cut, cautery, removal, undo };
 
 /// What `heml explain` says of a tool.
 struct ToolInfo {

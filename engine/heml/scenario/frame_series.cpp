@@ -36,6 +36,10 @@ void write_body(const fs::path& path, World& world) {
   for (std::size_t n = 0; n < displacement.size(); ++n) displacement[n] -= mesh.nodes[n];
   mesh.nodes = world.positions();
   mesh.fields.push_back({"J", 1, world.volume_ratios()});
+  if (!mesh.burns.empty()) {
+    ElementField& burnt = mesh.fields.emplace_back(ElementField{"burnt", 1, {}});
+    for (const Burn& burn : mesh.burns) burnt.values.push_back(burn.level);
+  }
   if (const std::vector<Mat3> stresses = world.stresses(); !stresses.empty()) {
     ElementField& field = mesh.fields.emplace_back(ElementField{"stress", 9, {}});
     for (const Mat3& sigma : stresses) field.values.insert(field.values.end(), sigma.data(), sigma.data() + 9);

@@ -37,6 +37,7 @@ Json edit_json(const EditReport& edit) {
     json["area"] = edit.area;
     json["smallest_angle"] = edit.min_angle;
   }
+  if (edit.burnt > 0) json["burnt"] = edit.burnt;
   if (edit.torn > 0) {
     json["torn"] = edit.torn;
     json["area"] = edit.area;

@@ -19,7 +19,7 @@ Schedule::Schedule(const Scene& scene, const TetMesh& mesh) : file_(scene.file),
   for (const auto& [index, points] : scene.points) set_nodes(events_.at(index).command, mesh, points);
   // Cuts add nodes and elements: the world tells whether those are there.
   const bool cuts = std::any_of(events_.begin(), events_.end(),
-                                [](const Event& event) { return std::holds_alternative<CutTissue>(event.command); });
+                                [](const Event& event) { return continues_stroke(event.command).has_value(); });
   if (cuts) return;
   for (Event& event : events_)
     for (const MeshReference& reference : info_of(event.command).references(event.command)) {
@@ -44,30 +44,34 @@ void Schedule::rewind(long tick) {
   due(tick - 1);
 }
 
-/// After a cut: whether its sweep has parted anything. A stroke is over where no later cut goes on with it.
-void Schedule::watch_stroke(const Event& event, bool parted) {
-  const auto* cut = std::get_if<CutTissue>(&event.command);
-  if (!cut) return;
-  parted_ = (cut->continues_stroke && parted_) || parted;
+/// After a part of a stroke: whether it has parted or burnt anything. A stroke is over where no later part goes on with
+/// it.
+void Schedule::watch_stroke(const Event& event, bool met) {
+  const auto continues = continues_stroke(event.command);
+  if (!continues) return;
+  met_ = (*continues && met_) || met;
   const auto next = std::find_if(events_.begin() + (&event - events_.data()) + 1, events_.end(),
-                                 [](const Event& later) { return std::holds_alternative<CutTissue>(later.command); });
-  const bool continues_stroke = next != events_.end() && std::get<CutTissue>(next->command).continues_stroke;
-  if (!parted_ && !continues_stroke)
+                                 [](const Event& later) { return continues_stroke(later.command).has_value(); });
+  if (met_ || (next != events_.end() && *continues_stroke(next->command))) return;
+  if (std::holds_alternative<CutTissue>(event.command))
     warn("{}: events: step {}: the cut parted nothing: its blade passes beside the body as it lies then", file_,
          event.tick);
+  else
+    warn("{}: events: step {}: the electrode burnt nothing: no tissue that it could still burn is within its radius",
+         file_, event.tick);
 }
 
 void Schedule::apply(World& world, const std::function<void(const Command&)>& applied) {
-  const auto split = [&] {
-    std::size_t sum = 0;
-    for (const EditReport& edit : world.edits()) sum += edit.split;
+  const auto met = [&] {
+    std::size_t sum = world.edits().size();
+    for (const EditReport& edit : world.edits()) sum += edit.split + edit.burnt;
     return sum;
   };
   for (const Event& event : due(world.ticks())) {
-    const std::size_t before = split();
+    const std::size_t before = met();
     if (const Status status = world.apply(event.command); !status.ok())
       throw InputError(file_, fmt::format("events: step {}", event.tick), status.message(), event_line(event));
-    watch_stroke(event, split() != before);
+    watch_stroke(event, met() != before);
     applied(event.command);
   }
 }

@@ -35,12 +35,12 @@ class Schedule {
       World& world, const std::function<void(const Command&)>& applied = [](const Command&) {});
 
  private:
-  void watch_stroke(const Event& event, bool parted);
+  void watch_stroke(const Event& event, bool met);
 
   std::string file_;
   std::vector<Event> events_;  ///< ascending in tick
   std::size_t next_ = 0;
-  bool parted_ = false;  ///< whether the stroke under way has parted anything
+  bool met_ = false;  ///< whether the stroke under way has parted or burnt anything
 };
 
 }  // namespace heml

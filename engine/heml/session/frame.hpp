@@ -24,6 +24,8 @@ struct SurfaceMesh {
   std::vector<int> constrained;                        ///< indices of nodes with a boundary condition
   std::shared_ptr<const SurfaceMesh> whole = nullptr;  ///< before any element was removed; null: this one
   std::size_t uncut_elements = 0;                      ///< of the mesh before any cut, shown or not
+  std::vector<float> burnt = {};                       ///< #S, 0 to 1: mean Burn::level of the elements behind the
+                                                       ///< triangles round a node; empty: nothing is burnt
 };
 
 inline const SurfaceMesh& uncut_surface(const SurfaceMesh& surface_mesh) {
@@ -81,6 +83,7 @@ struct Solid {
   std::vector<Vec3f> rest;   ///< #N×3, m, of all nodes of the mesh
   std::vector<Tet> tets;     ///< #T: corners of the present and shown elements, indices into `rest`
   std::vector<int> regions;  ///< #T
+  std::vector<float> burnt;  ///< #N, 0 to 1: mean Burn::level of the elements round a node; empty: nothing is burnt
 };
 
 struct Frame {

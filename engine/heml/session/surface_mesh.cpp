@@ -63,6 +63,22 @@ bool are_current(const Regions& regions, const World& world) {
                     });
 }
 
+/// The mean level of heat of the cells (triangles or tetrahedra) round each node; empty where nothing is burnt. element:
+/// of each cell, its mesh-file number.
+template <class Cell>
+std::vector<float> burnt_nodes(const TetMesh& mesh, std::size_t nodes, const std::vector<Cell>& cells,
+                               const std::vector<int>& element) {
+  if (mesh.burns.empty()) return {};
+  std::vector<float> sum(nodes, 0), count(nodes, 0);
+  for (std::size_t k = 0; k < cells.size(); ++k)
+    for (const int n : cells[k]) {
+      sum[static_cast<std::size_t>(n)] += static_cast<float>(mesh.burns[static_cast<std::size_t>(element[k])].level);
+      count[static_cast<std::size_t>(n)] += 1;
+    }
+  for (std::size_t n = 0; n < nodes; ++n) sum[n] = count[n] > 0 ? sum[n] / count[n] : 0;
+  return sum;
+}
+
 SurfaceMesh build_surface_mesh(const WorldSetup& setup, const Topology& all, const std::vector<int>& hidden) {
   SurfaceMesh surface_mesh;
   const Topology topology = without_hidden(setup.mesh, all, hidden);
@@ -86,6 +102,8 @@ SurfaceMesh build_surface_mesh(const WorldSetup& setup, const Topology& all, con
     surface_mesh.regions.push_back(setup.mesh.regions[static_cast<std::size_t>(surface_mesh.elements.back())]);
   }
   surface_mesh.constrained = constrained_of(setup.boundary, surface_mesh.nodes);
+  surface_mesh.burnt =
+      burnt_nodes(setup.mesh, surface_mesh.nodes.size(), surface_mesh.triangles, surface_mesh.elements);
   return surface_mesh;
 }
 
@@ -166,11 +184,14 @@ void fill_solid(World& world, double ahead, std::shared_ptr<const Solid>& last, 
     solid.version = topology->version;
     solid.hidden = hidden;
     for (const Vec3& x : mesh.nodes) solid.rest.push_back(x.cast<float>());
+    std::vector<int> shown;
     for (const int t : topology->elements) {
       if (is_hidden(mesh.regions[static_cast<std::size_t>(t)], hidden)) continue;
+      shown.push_back(t);
       solid.tets.push_back(mesh.tets[static_cast<std::size_t>(t)]);
       solid.regions.push_back(mesh.regions[static_cast<std::size_t>(t)]);
     }
+    solid.burnt = burnt_nodes(mesh, solid.rest.size(), solid.tets, shown);
     last = std::make_shared<const Solid>(std::move(solid));
   }
   frame.solid = last;

@@ -27,7 +27,8 @@ Tearing::Tearing(const TearingSettings& settings, const TetMesh& mesh, const Top
       around_(mesh, topology),
       elements_(topology.elements),
       is_overstretched_(elements_.size()) {
-  for (const int t : elements_) inverse_rest_.push_back(edges(mesh.tets[as_index(t)], mesh.nodes).inverse());
+  for (const int t : elements_)
+    inverse_rest_.push_back((rest_scale(mesh, as_index(t)) * edges(mesh.tets[as_index(t)], mesh.nodes)).inverse());
   on_surface_.assign(mesh.nodes.size(), false);
   for (const Triangle& face : extract_boundary(with_elements(mesh, elements_)).triangles)
     for (const int n : face) on_surface_[as_index(n)] = true;

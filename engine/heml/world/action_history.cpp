@@ -25,8 +25,7 @@ bool ActionHistory<Real>::begins_action(const Command& command, long tick, doubl
   if (!is_action(command)) return false;
   if (lists_.past.empty() || !lists_.last) return true;
   const Command& last = *lists_.last;
-  if (const auto* cut = std::get_if<CutTissue>(&command))
-    return !cut->continues_stroke || !std::holds_alternative<CutTissue>(last);
+  if (const auto continues = continues_stroke(command)) return !*continues || last.index() != command.index();
   if (std::holds_alternative<MoveProbe>(command)) return !has_probe || !std::holds_alternative<MoveProbe>(last);
   if (std::holds_alternative<SetRate>(command) && std::holds_alternative<SetIntegrator>(last) &&
       tick == lists_.last_tick)

@@ -4,6 +4,7 @@
 #include <array>
 #include <heml/materials/material.hpp>
 #include <heml/math/types.hpp>
+#include <heml/mesh/burn.hpp>
 #include <heml/mesh/edit.hpp>
 #include <heml/mesh/sweep.hpp>
 #include <heml/tools/contact_surface.hpp>
@@ -128,6 +129,13 @@ struct CutTissue {
   Sweep sweep;                    ///< where the blade is, m, in space as the tissue lies now
   bool continues_stroke = false;  ///< with the last cut: one stroke, and one edit to undo
 };
+/// An electrode goes along a sweep, whose blades may be points, and one alone: it cuts as a blade does and coagulates
+/// the tissue about it, which shrinks at rest (mesh/burn.hpp).
+struct CauterizeTissue {
+  Sweep sweep;                    ///< where the electrode is, m, in space as the tissue lies now
+  Heat heat;
+  bool continues_stroke = false;  ///< with the last one: one stroke, and one edit to undo
+};
 /// Takes back the last removal or stroke: elements and positions are what they were before it, and so is what they
 /// remember; what happened since is forgotten, time goes on. A stroke that parted nothing is none. What has been
 /// grasped ever since stays grasped. With nothing but edits since, the body goes on as if there had been none, to the
@@ -152,16 +160,23 @@ struct Reset {
 using Command =
     std::variant<Grasp, MoveTool, Release, PinTissue, Unpin, SetTables, SetBoundary, SetLoads, MoveProbe,
                  WithdrawProbe, SutureTissue, CutSutures, SetMaterial, TagRegion, SetDamping, SetGravity, SetIntegrator,
-                 SetBudget, SetRate, SetStepCost, RemoveElements, CutTissue, Undo, StepHistory, AdoptPreconditioner,
-                 Reset>;
+                 SetBudget, SetRate, SetStepCost, RemoveElements, CutTissue, CauterizeTissue, Undo, StepHistory,
+                 AdoptPreconditioner, Reset>;
 
-/// Whether a kind of command changes which elements there are, or takes such a change back.
+/// Whether a kind of command changes the elements that there are, or takes such a change back.
 template <class C>
-inline constexpr bool is_edit_command =
-    std::is_same_v<C, RemoveElements> || std::is_same_v<C, CutTissue> || std::is_same_v<C, Undo>;
+inline constexpr bool is_edit_command = std::is_same_v<C, RemoveElements> || std::is_same_v<C, CutTissue> ||
+                                        std::is_same_v<C, CauterizeTissue> || std::is_same_v<C, Undo>;
 
 inline bool is_edit(const Command& command) {
   return std::visit([]<class C>(const C&) { return is_edit_command<C>; }, command);
+}
+
+/// Of a part of a stroke, whether it goes on with the part before; none: it is no part of one.
+inline std::optional<bool> continues_stroke(const Command& command) {
+  if (const auto* cut = std::get_if<CutTissue>(&command)) return cut->continues_stroke;
+  if (const auto* burn = std::get_if<CauterizeTissue>(&command)) return burn->continues_stroke;
+  return std::nullopt;
 }
 
 /// Whether a command is an action of a person that StepHistory takes back. The rest goes on with an action, or is a

@@ -35,6 +35,7 @@ class CommandExecutor {
   Status execute(const AdoptPreconditioner& command);
   Status execute(const RemoveElements& command) { return editor_.remove(command); }
   Status execute(const CutTissue& command) { return editor_.cut(command); }
+  Status execute(const CauterizeTissue& command) { return editor_.cauterize(command); }
   Status execute(const Undo&) { return editor_.undo(); }
   Status execute(const SetBoundary& command);
   Status execute(const SetLoads& command);

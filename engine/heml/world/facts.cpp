@@ -6,7 +6,7 @@
 namespace heml {
 
 std::size_t bytes_of_mesh(const TetMesh& mesh) {
-  std::size_t sum = bytes_of(mesh.nodes, mesh.tets, mesh.regions);
+  std::size_t sum = bytes_of(mesh.nodes, mesh.tets, mesh.regions, mesh.burns);
   for (const ElementField& field : mesh.fields) sum += bytes_of(field.values);
   return sum;
 }

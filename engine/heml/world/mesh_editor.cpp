@@ -1,12 +1,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <heml/math/bytes.hpp>
 #include <heml/mesh/quadratic_edit.hpp>
 #include <heml/mesh/quality.hpp>
 #include <heml/world/mesh_editor.hpp>
 #include <heml/world/stable_step.hpp>
 #include <heml/world/world_queries.hpp>
+#include <limits>
 #include <numeric>
 #include <set>
 #include <utility>
@@ -15,6 +17,8 @@ namespace heml {
 namespace {
 
 constexpr std::size_t max_undo = 20;  // edits; of earlier states only the start is kept
+constexpr double contraction_rate = 2;      // 1/s, of first lengths: a fifth within 0.1 s, slower than waves pass
+constexpr double contraction_stage = 0.01;  // s
 
 /// Appends nodes that the edit inserts between nodes of the list, or copies from one.
 void update_after_edit(const MeshEdit& edit, int nodes, std::vector<int>& list) {
@@ -57,6 +61,12 @@ MeshEdit in_numbers(MeshEdit edit, const std::vector<int>& node, const std::vect
   return edit;
 }
 
+Status places_problem(const char* what, const Sweep& sweep) {
+  for (const auto& [tip, end] : sweep.blades)
+    if (!tip.allFinite() || !end.allFinite()) return fmt::format("{}: a place of the blade is not finite", what);
+  return {};
+}
+
 double worst_angle(const MeshEdit& edit, const TetMesh& mesh) {
   double worst = 180;
   for (const Tet& tet : edit.added) {
@@ -88,43 +98,114 @@ Status MeshEditor<Real>::remove(const RemoveElements& command) {
 
 template <class Real>
 Status MeshEditor<Real>::cut(const CutTissue& command) {
-  for (const auto& [tip, end] : command.sweep.blades)
-    if (!tip.allFinite() || !end.allFinite()) return "cut: a place of the blade is not finite";
+  if (const Status status = places_problem("cut", command.sweep); !status.ok()) return status;
   if (command.sweep.blades.size() < 2) return "cut: the sweep needs the blade at two times at least";
-  if (!command.continues_stroke) {
-    history_.stroke = {};
-    history_.in_stroke = false;
-    history_.missed = s_.ticks;
-  }
-  if (history_.snap == 0) history_.snap = snapping_distance(s_.setup->mesh);
-  Cut cut;
-  if (!make_cut(command.sweep, s_.setup->mesh, s_.positions(), *s_.topology, history_.snap, history_.stroke, cut)
-           .ok()) {
-    move_front(command.sweep);  // through the air, or within an element
-    return {};
-  }
-  if (const Status complete = add_midedge_nodes(cut.edit); !complete.ok()) return complete;
-  history_.stroke = cut.stroke;
-  if (cut.edit.removed.empty()) {
-    move_front(command.sweep);
-    return {};
-  }
-  history_.missed.reset();
+  if (!command.continues_stroke) begin_stroke(fmt::format("the cut of step {} parted nothing", s_.ticks));
+  return part(command.sweep);
+}
+
+template <class Real>
+Status MeshEditor<Real>::cauterize(const CauterizeTissue& command) {
+  const auto& [radius, shrink] = command.heat;
+  if (const Status status = places_problem("cauterize", command.sweep); !status.ok()) return status;
+  if (command.sweep.blades.empty()) return "cauterize: the electrode is nowhere; give it one place or more";
+  if (!(radius > 0) || !std::isfinite(radius))
+    return fmt::format("cauterize: the radius must be more than 0 m, is {}", radius);
+  if (!(shrink >= 0 && shrink <= max_shrink))
+    return fmt::format("cauterize: shrink must be 0 to {}, is {}", max_shrink, shrink);
+  if (!command.continues_stroke) begin_stroke(fmt::format("the electrode of step {} burnt nothing", s_.ticks));
+  if (command.sweep.blades.size() > 1)
+    if (const Status status = part(command.sweep); !status.ok()) return status;
+  burn(command.heat, command.sweep);
+  return {};
+}
+
+/// missed: what is to be told if it changes nothing.
+template <class Real>
+void MeshEditor<Real>::begin_stroke(std::string missed) {
+  history_.stroke = {};
+  history_.in_stroke = false;
+  history_.missed = std::move(missed);
+}
+
+/// The report of the stroke under way, which its first change begins.
+template <class Real>
+EditReport& MeshEditor<Real>::stroke_report() {
+  history_.missed.clear();
   if (!history_.in_stroke) {
     save();
     s_.edits.push_back(begin_report());
     s_.edits.back().min_angle = 180;
   }
   history_.in_stroke = true;
+  return s_.edits.back();
+}
+
+/// Parts the tissue along a sweep.
+template <class Real>
+Status MeshEditor<Real>::part(const Sweep& sweep) {
+  if (history_.snap == 0) history_.snap = snapping_distance(s_.setup->mesh);
+  Cut cut;
+  if (!make_cut(sweep, s_.setup->mesh, s_.positions(), *s_.topology, history_.snap, history_.stroke, cut).ok()) {
+    move_front(sweep);  // through the air, or within an element
+    return {};
+  }
+  if (const Status complete = add_midedge_nodes(cut.edit); !complete.ok()) return complete;
+  history_.stroke = cut.stroke;
+  if (cut.edit.removed.empty()) {
+    move_front(sweep);
+    return {};
+  }
+  EditReport& report = stroke_report();
   carry_out(cut.edit);
-  move_front(command.sweep);
-  EditReport& report = s_.edits.back();
+  move_front(sweep);
   report.split += cut.edit.removed.size();
   report.pieces += cut.edit.added.size();
   report.area += cut.area;
   report.min_angle = std::min(report.min_angle, worst_angle(cut.edit, s_.setup->mesh));
   end_report(report);
   return {};
+}
+
+/// Coagulates the tissue about a sweep. Its rest shape shrinks in the ticks to come; where no time passes, at once.
+template <class Real>
+void MeshEditor<Real>::burn(const Heat& heat, const Sweep& sweep) {
+  std::vector<Burn> burns = burns_after(heat, sweep, s_.setup->mesh, s_.positions(), *s_.topology);
+  std::vector<Burn> before = s_.setup->mesh.burns;
+  before.resize(burns.size());
+  if (burns == before) return;
+  EditReport& report = stroke_report();
+  for (std::size_t t = 0; t < burns.size(); ++t) report.burnt += burns[t].level > 0 && before[t].level == 0 ? 1 : 0;
+  if (s_.setup->solver.is_static()) heml::contract(burns, std::numeric_limits<double>::infinity());
+  set_burns(std::move(burns));
+  s_.topology = std::make_shared<const Topology>(Topology{s_.topology->version + 1, s_.topology->elements});
+  end_report(report);
+}
+
+/// By stages, since each one changes the layout of the forces.
+template <class Real>
+void MeshEditor<Real>::contract() {
+  if (s_.setup->mesh.burns.empty() || s_.setup->solver.is_static()) return;
+  const double tick = s_.setup->solver.tick();
+  const auto stages_to = [&](long ticks) { return std::floor(static_cast<double>(ticks) * tick / contraction_stage); };
+  const double stages = stages_to(s_.ticks + 1) - stages_to(s_.ticks);
+  if (!(stages > 0)) return;
+  std::vector<Burn> burns = s_.setup->mesh.burns;
+  if (!heml::contract(burns, stages * contraction_stage * contraction_rate)) return;
+  set_burns(std::move(burns));
+  s_.evaluate_forces();
+  find_stable_step(s_);
+}
+
+template <class Real>
+void MeshEditor<Real>::set_burns(std::vector<Burn> burns) {
+  std::vector<Burn>& inner = s_.model.write().mesh.burns;
+  inner.clear();
+  for (const int t : s_.model->order.file_tet) inner.push_back(burns[static_cast<std::size_t>(t)]);
+  s_.body.set_burns(inner);
+  s_.setup.write().mesh.burns = std::move(burns);
+  s_.implicit.reset();
+  follow_rest_shapes();
 }
 
 /// Completes an edit of the corners where elements are quadratic.
@@ -153,9 +234,9 @@ void MeshEditor<Real>::move_front(const Sweep& sweep) {
 
 template <class Real>
 Status MeshEditor<Real>::undo() {
-  if (s_.edits.empty() && history_.missed)
-    return fmt::format("undo: nothing was cut or removed; the cut of step {} parted nothing", *history_.missed);
-  if (s_.edits.empty()) return "undo: nothing was cut or removed";
+  if (s_.edits.empty() && !history_.missed.empty())
+    return "undo: nothing was cut, burnt or removed; " + history_.missed;
+  if (s_.edits.empty()) return "undo: nothing was cut, burnt or removed";
   if (history_.saved.empty()) return fmt::format("undo: only the last {} edits can be taken back", max_undo);
   s_.edits.pop_back();
   undo_to(*history_.saved.back());
@@ -262,12 +343,18 @@ void MeshEditor<Real>::carry_out(const MeshEdit& edit) {
 template <class Real>
 void MeshEditor<Real>::rebuild_after_edit() {
   s_.update_masses();
-  tearing_.reset();
   s_.update_self_contact();
   s_.update_contact_surfaces();
   for (std::size_t n = 0; n < s_.masses->lumped.size(); ++n)
     if (s_.masses->lumped[n] == 0) Eigen::Map<Vector3<Real>>(&s_.state.v[3 * n]).setZero();
   s_.move_constrained();  // nodes of no element too
+  follow_rest_shapes();
+}
+
+/// Updates what depends on rest shapes alone.
+template <class Real>
+void MeshEditor<Real>::follow_rest_shapes() {
+  tearing_.reset();
   if (s_.recovery) s_.recovery->reference = make_recovery_reference(*s_.model, s_.masses->lumped);
   recovery_.follow_change();
   s_.lowest_frequency.reset();

@@ -1,6 +1,6 @@
 #pragma once
-// Edits of the mesh of a running world: removal, cuts, tears, undo. The inner layout is rebuilt; positions, velocities,
-// internal state of materials, constraints and tools carry over.
+// Edits of the mesh of a running world: removal, cuts, burns, tears, undo. The inner layout is rebuilt; positions,
+// velocities, internal state of materials, constraints and tools carry over.
 #include <heml/mesh/cut.hpp>
 #include <heml/tools/tearing.hpp>
 #include <heml/world/command.hpp>
@@ -17,7 +17,7 @@ struct EditHistory {
   std::vector<Saved> saved;    ///< before each of the last edits
   Stroke stroke;               ///< what the last cut leaves to the next one, mesh-file order
   bool in_stroke = false;      ///< whether the current stroke has its state saved
-  std::optional<long> missed;  ///< tick of the last stroke that parted nothing
+  std::string missed;          ///< what the last stroke did not do, where it changed nothing
   double snap = 0;             ///< m, snapping distance of cuts; 0: not computed yet
 };
 
@@ -29,6 +29,9 @@ class MeshEditor {
   /// Each returns what is wrong with the command, or nothing; a wrong one changes nothing.
   Status remove(const RemoveElements& command);
   Status cut(const CutTissue& command);
+  Status cauterize(const CauterizeTissue& command);
+  /// Rest shapes of burnt tissue go on shrinking, at the start of a tick.
+  void contract();
   Status undo();
   /// Back to the elements of the start; the list of edits is cleared.
   void undo_all();
@@ -45,11 +48,17 @@ class MeshEditor {
 
  private:
   Status add_midedge_nodes(MeshEdit& edit) const;
+  void begin_stroke(std::string missed);
+  Status part(const Sweep& sweep);
+  void burn(const Heat& heat, const Sweep& sweep);
+  void set_burns(std::vector<Burn> burns);
+  EditReport& stroke_report();
   EditReport begin_report();
   void end_report(EditReport& report);
   void carry_out(const MeshEdit& edit);
   void move_front(const Sweep& sweep);
   void rebuild_after_edit();
+  void follow_rest_shapes();
   void save();
   void undo_to(const SimulationSnapshot<Real>& before);
   void restore_before_edit(const SimulationSnapshot<Real>& before);

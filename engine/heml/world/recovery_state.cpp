@@ -55,7 +55,10 @@ RecoveryReference make_recovery_reference(const Model<Real>& model, const std::v
   RecoveryReference rest;
   rest.extent = spread(masses, X).first;
   rest.volume.reserve(model.mesh.tets.size() * (model.midedges.empty() ? 1 : 4));
-  each_volume(model, X, [&](std::size_t, double volume) { rest.volume.push_back(volume); });
+  each_volume(model, X, [&](std::size_t t, double volume) {
+    const double scale = rest_scale(model.mesh, t);
+    rest.volume.push_back(scale * scale * scale * volume);
+  });
   if (model.midedges.empty()) return rest;
   rest.eighths = subdivided(model.mesh, model.midedges).tets;
   std::erase_if(rest.eighths, [&](const Tet& tet) { return !is_upright(tet, X); });

@@ -55,6 +55,7 @@ void TypedWorld<Real>::tick() {
   const FlushDenormals flush;
   s_.substeps = 0;
   s_.impulses.begin_tick();
+  editor_.contract();    // burnt tissue shrinks on
   editor_.tear();        // elements separate where they are overstretched
   method_.reconsider();  // "auto": explicit or implicit
   const double until = s_.origin_time + static_cast<double>(s_.ticks - s_.origin_tick + 1) * s_.setup->solver.tick();

@@ -21,7 +21,7 @@
 
 namespace heml {
 
-/// Effects of an edit of the mesh: a removal, the sweeps of a stroke, or a tear so far.
+/// Effects of an edit of the mesh: a removal, the sweeps of a stroke of a blade or an electrode, or a tear so far.
 struct EditReport {
   long tick = 0;                           ///< at whose start it began
   std::size_t removed = 0;                 ///< elements that are lost
@@ -34,6 +34,7 @@ struct EditReport {
   double area = 0;         ///< m², of one side of the cut or tear, in the deformed shape
   double min_angle = 0;    ///< degrees, dihedral, of the worst piece at rest
   std::size_t torn = 0;    ///< of a tear: faces that have come apart
+  std::size_t burnt = 0;   ///< of an electrode: elements that heat has reached
 };
 
 /// Why a world has stopped. Its state is the last valid one.

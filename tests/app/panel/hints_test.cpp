@@ -42,6 +42,14 @@ TEST_CASE("the hints follow the tool and what the mouse does") {
   now.interaction = Interaction::snipping;
   CHECK(says(now, "snip on"));
   now = {};
+  now.tool = Tool::cautery;
+  CHECK(says(now, "burn it"));
+  CHECK(says(now, "takes a burn back"));
+  now.hides = true;
+  CHECK(says(now, "hidden tissue is burnt too"));
+  now.interaction = Interaction::burning;
+  CHECK(says(now, "Esc leaves"));
+  now = {};
   now.tool = Tool::suture;
   CHECK(says(now, "one end"));
   now.suture_begun = true;

@@ -111,6 +111,24 @@ def test_a_cut_raises_the_topology_version_and_undo_takes_it_back(box, sweep):
     assert len(world.tets) == 80
 
 
+def test_a_burn_shrinks_the_tissue_as_its_event_does_and_undo_takes_it_back(box):
+    world, played, never = (heml.World(box(), threads=1) for _ in range(3))
+    line = [[0.04, 0.02, 0.01], [0.06, 0.02, 0.01]]
+    world.cauterize(line, radius=0.02, shrink=0.3)
+    played.apply({"cauterize": {"line": line, "radius": 0.02, "shrink": 0.3}})
+    world.step(20)
+    played.step(20)
+    never.step(20)
+    assert world.hash() == played.hash() != never.hash()
+    assert len(world.tets) == 80
+    world.undo()
+    world.cauterize({"sweep": [[p, p] for p in line], "radius": 0.02})
+    with pytest.raises(heml.InputError, match="radius"):
+        world.cauterize(line, radius=-1)
+    with pytest.raises(heml.InputError, match="shrink"):
+        world.cauterize(line, shrink=1)
+
+
 def test_snapshot_cut_thousand_steps_restore_and_again_is_the_same(box, sweep):
     world = heml.World(box(), threads=1)
     world.step(10)

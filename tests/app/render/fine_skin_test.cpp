@@ -146,6 +146,20 @@ TEST_CASE("the skin is drawn in place of the body's surface, while the body is w
   CHECK(stage.draw().pixels == box.pixels);
 }
 
+TEST_CASE("a fine skin has the burns of the body's surface, and loses them with it") {
+  Stage stage;
+  stage.frame.skin = ball_skin(stage.mesh, 4, 0.03f);
+  const Image fresh = stage.draw();
+  const auto surface = stage.frame.surface_mesh;
+  auto burnt = std::make_shared<SurfaceMesh>(*surface);
+  burnt->burnt.assign(burnt->nodes.size(), 1);
+  stage.frame.surface_mesh = burnt;
+  const Image charred = stage.draw();
+  CHECK(rms_difference(fresh, charred) > 5);
+  stage.frame.surface_mesh = surface;
+  CHECK(stage.draw().pixels == fresh.pixels);
+}
+
 TEST_CASE("a texture has its colours at its places, the first row on top") {
   const TemporaryFolder folder;
   Image halves(Size{8, 8});

@@ -8,6 +8,7 @@
 #include <app/render/pick.hpp>
 #include <app/render/wound.hpp>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <set>
 
@@ -300,6 +301,64 @@ TEST_CASE("a closed cut is a dark line along the blade's path, and a gaping one 
   frame.field = Field::von_mises;  // a field is drawn on wounds as on the skin
   frame.values.assign(frame.positions.size(), 0);
   CHECK_NOTHROW(draw());
+}
+
+TEST_CASE("burnt tissue is black at the path of the electrode, pale and without gloss about it, and else as it was") {
+  Stage stage;
+  stage.options.ground = false;
+  const Image fresh = stage.draw();
+  const auto draw = [&](const std::function<float(const Vec3f&)>& level) {
+    auto burnt = std::make_shared<SurfaceMesh>(stage.surface_mesh);
+    for (const Vec3f& X : burnt->rest) burnt->burnt.push_back(level(X));
+    stage.frame.surface_mesh = burnt;
+    return stage.draw();
+  };
+  const auto brightness = [&](const Image& image, int x, int y) {
+    const std::uint8_t* p = image.at(x, y);
+    return p[0] + p[1] + p[2];
+  };
+  const int x = size.width / 2, y = size.height / 2;
+  const auto sum = [&](const Image& image, int channel) {
+    int all = 0;
+    for (int i = -15; i <= 15; ++i)
+      for (int k = -15; k <= 15; ++k) all += image.at(x + i, y + k)[channel];
+    return all;
+  };
+  const Image charred = draw([](const Vec3f&) { return 1.0f; }), pale = draw([](const Vec3f&) { return 0.3f; });
+  CHECK(4 * sum(charred, 0) < sum(fresh, 0));
+  CHECK(sum(pale, 1) > 1.3 * sum(fresh, 1));                                          // greyer than red flesh
+  CHECK(sum(pale, 0) / double(sum(pale, 1)) < 0.7 * sum(fresh, 0) / sum(fresh, 1));
+  const auto brightest = [&](const Image& image) {
+    int most = 0;
+    for (int j = 0; j < size.height; ++j)
+      for (int i = 0; i < size.width; ++i)
+        if (from_middle(i, j) < stage.rim() - 2) most = std::max(most, brightness(image, i, j));
+    return most;
+  };
+  CHECK(2 * brightest(charred) < brightest(fresh));  // where the lamp is reflected
+  // One half burnt: the other half has the colours it had.
+  const Vec3f right = stage.camera.right();
+  const Image half = draw([&](const Vec3f& X) { return right.dot(X) < -0.01f ? 1.0f : 0.0f; });
+  const int reach = static_cast<int>(0.6 * stage.rim());
+  CHECK(brightness(half, x - reach, y) < brightness(fresh, x - reach, y) / 2);
+  CHECK(std::abs(brightness(half, x + reach, y) - brightness(fresh, x + reach, y)) <= 6);
+  // A field covers it.
+  stage.frame.field = Field::displacement;
+  stage.frame.values.assign(stage.surface_mesh.rest.size(), 0.5f);
+  const Image field = stage.draw();
+  stage.frame.surface_mesh = std::make_shared<SurfaceMesh>(stage.surface_mesh);
+  CHECK(count_different(field, stage.draw()) == 0);
+}
+
+TEST_CASE("an electrode is drawn on the skin, from its tip towards the eye") {
+  Stage stage;
+  const Image without = stage.draw();
+  const Vec3f to_eye = (stage.camera.eye() - stage.camera.target()).normalized();
+  stage.options.stroke.electrode = Electrode{stage.camera.target() + 0.05f * to_eye};
+  const Image with = stage.draw();
+  CHECK(count_different(with, without) > 100);
+  CHECK_FALSE(same(with, without, size.width / 2 + 2, size.height / 2 - 3));
+  CHECK(same(with, without, size.width / 2, size.height / 2 + 40));
 }
 
 TEST_CASE("nodes above their limit are hatched on tissue and on a colour map, and nothing else changes") {

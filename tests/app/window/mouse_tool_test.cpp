@@ -357,6 +357,24 @@ TEST_CASE("a probe moves in along the line of sight, deeper by the wheel, and wi
   CHECK(std::holds_alternative<WithdrawProbe>(sheet.commands.back()));
 }
 
+TEST_CASE("cautery burns from the press on, without end at the body's edge, and shows its electrode meanwhile") {
+  Sheet sheet;
+  sheet.tool.tool = panel::Tool::cautery;
+  sheet.tool.burn_radius = 0.01;
+  sheet.tool.burn_depth = 0;
+  sheet.press(MouseButton::left, sheet.pixel(Vec3f(-0.05f, 0, 0)));
+  REQUIRE(sheet.commands.size() == 1);
+  CHECK(sheet.mouse_tool.interaction() == panel::Interaction::burning);
+  CHECK(sheet.mouse_tool.acts());
+  CHECK(sheet.mouse_tool.stroke(sheet.frame, sheet.surface_mesh).electrode);
+  sheet.move(sheet.pixel(Vec3f(0.02f, 0, 0)));
+  REQUIRE(sheet.commands.size() == 2);
+  CHECK(std::get<CauterizeTissue>(sheet.commands[1]).continues_stroke);
+  sheet.mouse_tool.release(MouseButton::left, sheet.frame, sheet.surface_mesh, sheet.commands);
+  CHECK(sheet.commands.size() == 2);
+  CHECK_FALSE(sheet.mouse_tool.stroke(sheet.frame, sheet.surface_mesh).electrode);
+}
+
 TEST_CASE("a suture takes two presses, one per end") {
   Sheet sheet;
   sheet.tool.tool = panel::Tool::suture;

@@ -93,11 +93,11 @@ TEST_CASE("commands that name nodes take places for them") {
   }
 }
 
-TEST_CASE("edits are the commands that change which elements there are, and undo") {
+TEST_CASE("edits are the commands that change the elements that there are, and undo") {
   std::set<std::string_view> edits;
   for (const CommandInfo& row : command_table())
     if (row.is_edit) edits.insert(row.key);
-  CHECK(edits == std::set<std::string_view>{"remove", "cut", "undo"});
+  CHECK(edits == std::set<std::string_view>{"remove", "cut", "cauterize", "undo"});
 }
 
 TEST_CASE("tools are listed in the order of their enumeration, each with a command that takes it up") {

@@ -31,6 +31,7 @@ void record(const std::filesystem::path& path, const Scene& scene) {
     if (tick > 3 && tick < 30) command(MoveTool{Vec3(0.2 + 1e-3 * static_cast<double>(tick) / 3, 0.1, 0.1)});
     if (tick == 20) command(SetMaterial{std::nullopt, {"neo_hookean", {2e4, 1e4}, 1000}});
     if (tick == 25) command(SetDamping{0.3});
+    if (tick == 28) command(CauterizeTissue{{{{Vec3(0.1, 0.1, 0), Vec3(0.1, 0.1, 0)}}}, {0.08, 0.2}});
     if (tick == 30) command(Release{});
     if (tick == 35) command(SetIntegrator{Integrator::symplectic_euler});
     if (tick == 38) command(SetGravity{Vec3(1, 0, 0)});
@@ -64,7 +65,7 @@ TEST_CASE("replays a recorded session to the bit") {
   record(folder / "session.jsonl", session_scene());
   const Scene recording = read_scene(folder / "session.jsonl");
   CHECK(recording.recorded_ticks == 50);
-  CHECK(recording.events.size() == 36);
+  CHECK(recording.events.size() == 37);
   const std::unique_ptr<World> world = load_world(recording);
   long calls = 0;
   const ReplayResult result = replay(recording, *world, [&](World& at) { CHECK(at.ticks() == ++calls); });

@@ -121,4 +121,34 @@ TEST_CASE("hiding a region of a cut body leaves the others cut, and knows their 
   CHECK(make_surface_mesh(*world, cut_one)->whole->triangles == before->triangles);
 }
 
+TEST_CASE("a burn makes another surface, which has the mean level of the elements behind the triangles at a node") {
+  const auto world = two_cubes();
+  const auto before = make_surface_mesh(*world);
+  CHECK(before->burnt.empty());
+  REQUIRE(world->apply(CauterizeTissue{{{{Vec3(0.005, 0.01, 0.005), Vec3(0.005, 0.01, 0.005)}}}, {0.006, 0.2}}).ok());
+  const auto after = make_surface_mesh(*world, before);
+  CHECK(after->version > before->version);
+  CHECK(after->triangles == before->triangles);
+  CHECK_FALSE(after->whole);
+  const std::vector<Burn>& burns = world->setup().mesh.burns;
+  REQUIRE(after->burnt.size() == after->nodes.size());
+  for (std::size_t n = 0; n < after->nodes.size(); ++n) {
+    double sum = 0, count = 0;
+    for (std::size_t t = 0; t < after->triangles.size(); ++t)
+      for (const int corner : after->triangles[t])
+        if (corner == static_cast<int>(n)) sum += burns[static_cast<std::size_t>(after->elements[t])].level, ++count;
+    CHECK(after->burnt[n] == doctest::Approx(sum / count).epsilon(1e-6));
+  }
+  CHECK(*std::max_element(after->burnt.begin(), after->burnt.end()) > 0.9f);
+  CHECK(*std::min_element(after->burnt.begin(), after->burnt.end()) == 0);
+  Frame frame;
+  std::shared_ptr<const Solid> solid;
+  fill_frame(*world, after, Field::none, 0, frame);
+  fill_solid(*world, 0, solid, frame);
+  REQUIRE(solid->burnt.size() == solid->rest.size());
+  CHECK(*std::max_element(solid->burnt.begin(), solid->burnt.end()) > 0.5f);
+  REQUIRE(world->apply(Undo{}).ok());
+  CHECK(make_surface_mesh(*world, after)->burnt.empty());
+}
+
 }  // namespace heml::surface_mesh_test

@@ -98,6 +98,10 @@ inline Command example(const SetRate&) { return SetRate{150}; }
 inline Command example(const SetStepCost&) { return SetStepCost{500}; }
 inline Command example(const RemoveElements&) { return RemoveElements{{{3, 17, 30}, {}, {}, {}}}; }
 inline Command example(const CutTissue&) { return blade_at(0.034); }
+inline Command example(const CauterizeTissue&) {
+  const Vec3 down(0, -0.012, 0), from(0.034, 0.021, -0.01), to(0.034, 0.021, 0.03);
+  return CauterizeTissue{{{{from, from + down}, {to, to + down}}}, {0.008, 0.2}};
+}
 inline Command example(const Undo&) { return Undo{}; }
 inline Command example(const StepHistory&) { return StepHistory{-1}; }
 inline Command example(const AdoptPreconditioner&) { return AdoptPreconditioner{}; }
