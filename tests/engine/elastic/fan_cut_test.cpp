@@ -1,6 +1,7 @@
 // Removal and cutting of elements in bodies of several fan blocks: blocks that an edit does not touch are kept.
 #include <doctest/doctest.h>
 
+#include <heml/elastic/fan_cut.hpp>
 #include <heml/elastic/fan_layout.hpp>
 #include <heml/mesh/cut.hpp>
 #include <heml/mesh/reorder.hpp>
@@ -97,6 +98,32 @@ std::set<int> near(const TetMesh& mesh, const Vec3& place, double radius) {
 }
 
 }  // namespace
+
+TEST_CASE("overlapping tetrahedra are cut into groups of fans of one size, each in one of them") {
+  std::mt19937_64 random(5);
+  std::vector<Vec3> X(30);
+  for (Vec3& place : X) place = random_vector(random, 1);
+  std::uniform_int_distribution<int> any(0, 29);
+  std::vector<Tet> tets;
+  while (tets.size() < 2000) {
+    const Tet t{any(random), any(random), any(random), any(random)};
+    const auto at = [&](std::size_t c) { return X[static_cast<std::size_t>(t[c])]; };
+    if (signed_volume(at(0), at(1), at(2), at(3)) > 1e-3) tets.push_back(t);
+  }
+  for (const std::size_t lanes : {4, 8, 16}) {
+    const std::vector<Fan> fans = cut_into_fans(tets, lanes);
+    REQUIRE(fans.size() % lanes == 0);
+    std::vector<int> times(tets.size(), 0);
+    bool are_one_size = true;
+    for (std::size_t f = 0; f < fans.size(); ++f) {
+      const FanSize size = fans[f].size(), first = fans[f - f % lanes].size();
+      are_one_size &= size.tets == first.tets && size.ring == first.ring;
+      for (const std::size_t t : fans[f].tets) ++times[t];
+    }
+    CHECK(are_one_size);
+    CHECK(std::all_of(times.begin(), times.end(), [](int k) { return k == 1; }));
+  }
+}
 
 TEST_CASE("edited bodies have the forces of bodies built anew, for every layout") {
   Material soft = sample_material("neo_hookean"), stiff = sample_material("ogden"), fibres = sample_material("hgo");
