@@ -8,7 +8,7 @@ namespace {
 /// The path of an electrode: what it sweeps, and its edges, which are there where it is a point.
 class Path {
  public:
-  explicit Path(const Sweep& sweep) : surface_(sweep) {
+  explicit Path(const Sweep& sweep) : surface_(oriented(sweep)) {
     const auto& blades = sweep.blades;
     for (std::size_t k = 0; k < blades.size(); ++k) {
       add(blades[k][0], blades[k][1]);
