@@ -8,6 +8,7 @@
 #include <heml/scenario/player.hpp>
 #include <heml/world/finer_setup.hpp>
 #include <numeric>
+#include <set>
 
 namespace heml {
 namespace {
@@ -73,6 +74,16 @@ std::string grouped(std::size_t number) {
   return text;
 }
 
+/// Tags that name regions of a mesh whose file tells their numbers alone; of one name the first.
+std::vector<RegionTag> names_of_regions(const TetMesh& mesh) {
+  std::vector<RegionTag> tags;
+  std::set<std::string> named;
+  for (const auto& [region, name] : mesh.region_names)
+    if (std::find(mesh.regions.begin(), mesh.regions.end(), region) != mesh.regions.end() && named.insert(name).second)
+      tags.push_back({{}, {{}, region, {}, {}}, name, region});
+  return tags;
+}
+
 }  // namespace
 
 Adaptation adapt(const Scene& scene, WorldSetup setup, const RefineGoal& goal, const std::optional<double>& time,
@@ -121,7 +132,7 @@ AdaptedScene adapted_scene(const Scene& scene, const Adaptation& adaptation, con
   Scene& finer = result.scene;
   finer.mesh = MeshSpec();
   finer.mesh.file = mesh_file;
-  finer.regions.clear();  // the mesh has them
+  finer.regions = names_of_regions(corners.mesh);
   for (std::size_t k = 0; k < scene.boundary.size(); ++k)
     if (auto& nodes = finer.boundary[k].where.nodes; !nodes.empty()) nodes = corners.boundary[k].nodes;
   for (std::size_t k = 0; k < scene.loads.size(); ++k)
