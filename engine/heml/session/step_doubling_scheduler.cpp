@@ -37,6 +37,10 @@ void StepDoublingScheduler::ticked(const World& world) {
     estimator_->ticked(world);
     if (estimator_->elapsed() < stretch) return;
     rested_at_ = world.time();
+    if (burns_ != world.setup().mesh.burns) {  // rest shapes have gone on to shrink, those of the estimator not
+      doing_ = Doing::nothing;
+      return;
+    }
     doing_ = Doing::computing;
     computing_ = std::async(std::launch::async, [shadow = estimator_.get(), reached = world.positions()] {
       lower_priority();
@@ -53,8 +57,9 @@ void StepDoublingScheduler::begin(const World& world) {
   if (world.topology()->elements.size() != world.setup().mesh.tets.size()) {
     latest_.reset();
     rested_at_ = world.time();
-  } else if (!estimator_ || outdated_) {
+  } else if (!estimator_ || outdated_ || burns_ != world.setup().mesh.burns) {
     outdated_ = false;
+    burns_ = world.setup().mesh.burns;
     doing_ = Doing::making;
     making_ = std::async(std::launch::async, [setup = world.setup()] {
       lower_priority();

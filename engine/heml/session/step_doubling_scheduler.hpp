@@ -30,6 +30,7 @@ class StepDoublingScheduler {
   Doing doing_ = Doing::nothing;
   std::unique_ptr<StepDoublingEstimator> estimator_;  ///< null until the first is made
   bool outdated_ = false;                             ///< the body's setup has changed since estimator_ was made
+  std::vector<Burn> burns_;                           ///< of the body that estimator_ was made of
   double rested_at_ = -pause;                         ///< s of simulated time, end of the last stretch
   std::optional<TimeError> latest_;
   std::future<std::unique_ptr<StepDoublingEstimator>> making_;
