@@ -16,15 +16,6 @@
 
 namespace heml {
 
-inline constexpr double usual_shrink = 0.2;  ///< of liver
-inline constexpr double max_shrink = 0.5;    ///< beyond what tissue does
-
-/// What an electrode does at its path.
-struct Heat {
-  double radius = 0;             ///< m, about the path: tissue farther away stays as it is
-  double shrink = usual_shrink;  ///< part of their length that coagulated lengths lose, 0 to max_shrink
-};
-
 /// The level at a distance (m) from the path.
 double burn_level(double distance, double radius);
 

@@ -91,6 +91,15 @@ struct ElementSelection {
   bool operator==(const ElementSelection&) const = default;
 };
 
+inline constexpr double usual_shrink = 0.2;  ///< of liver
+inline constexpr double max_shrink = 0.5;    ///< beyond what tissue does
+
+/// What an electrode does at its path (mesh/burn.hpp).
+struct Heat {
+  double radius = 0;             ///< m, about the path: tissue farther away stays as it is
+  double shrink = usual_shrink;  ///< part of their length that coagulated lengths lose, 0 to max_shrink
+};
+
 /// Elements that are to be a region. By nodes: those whose four corners are all among them.
 struct RegionTag {
   std::vector<int> nodes;      ///< mesh-file order; empty: `which` chooses

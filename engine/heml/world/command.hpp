@@ -4,7 +4,6 @@
 #include <array>
 #include <heml/materials/material.hpp>
 #include <heml/math/types.hpp>
-#include <heml/mesh/burn.hpp>
 #include <heml/mesh/edit.hpp>
 #include <heml/mesh/sweep.hpp>
 #include <heml/tools/contact_surface.hpp>

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <heml/math/bytes.hpp>
+#include <heml/mesh/burn.hpp>
 #include <heml/mesh/quadratic_edit.hpp>
 #include <heml/mesh/quality.hpp>
 #include <heml/world/mesh_editor.hpp>
