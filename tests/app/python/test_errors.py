@@ -84,8 +84,8 @@ def test_every_use_of_a_closed_world_is_refused(box, sweep, tmp_path):
     world = heml.World(box(), threads=1)
     snapshot = world.snapshot()
     world.close()
-    arguments = {"apply": [{"gravity": [0, 0, 0]}], "move": [[0, 0, 0]], "cut": [sweep], "restore": [snapshot],
-                 "record": [tmp_path / "r.jsonl"]}
+    arguments = {"apply": [{"gravity": [0, 0, 0]}], "move": [[0, 0, 0]], "cut": [sweep], "cauterize": [[[0, 0, 0]]],
+                 "restore": [snapshot], "record": [tmp_path / "r.jsonl"]}
     # to_pyvista asks for its package first; it and the like go through those below.
     for name in set(dir(heml.World)) - {"close", "show", "to_meshio", "to_pyvista"}:
         if name.startswith("_"):
