@@ -32,13 +32,14 @@ void apply(World& world, StepDoublingScheduler& scheduler, const Command& comman
 }  // namespace
 
 TEST_CASE("a cut body has no time error, and has one again once the cut is undone") {
-  const auto world = make_world(cantilever());
+  WorldSetup setup = cantilever();
+  setup.gravity = Vec3::Zero();  // it stays where it is cut, however long the first error takes
+  const auto world = make_world(setup);
   StepDoublingScheduler scheduler;
   REQUIRE(tick_until(*world, scheduler, true));
   const std::size_t whole = world->topology()->elements.size();
-  const Vec3 tip = world->positions().back();
-  apply(*world, scheduler, CutTissue{{{{tip + Vec3(-0.03, -1, -1), tip + Vec3(-0.03, -1, 1)},
-                                       {tip + Vec3(-0.03, 1, -1), tip + Vec3(-0.03, 1, 1)}}}});
+  apply(*world, scheduler,
+        CutTissue{{{{Vec3(0.046, -1, -1), Vec3(0.046, -1, 1)}, {Vec3(0.046, 1, -1), Vec3(0.046, 1, 1)}}}});
   REQUIRE(world->topology()->elements.size() > whole);
   CHECK(tick_until(*world, scheduler, false));
   for (int k = 0; k < 2000; ++k) {
