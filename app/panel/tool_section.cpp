@@ -23,7 +23,7 @@ constexpr double max_friction = 1.5;
 constexpr double table_gap = 0.01;   // radii of the body
 constexpr double kept_digits = 1e4;  // of settings kept between runs: their last one is 1e-4
 
-constexpr ToolSetting grasp{"grasp radius", &ToolSettings::radius, 0.12, 0, 0.5};
+constexpr ToolSetting grasp_radius{"grasp radius", &ToolSettings::radius, 0.12, 0, 0.5};
 constexpr ToolSetting depth{"depth", &ToolSettings::depth, 0.35, 0, 2};
 constexpr ToolSetting jaw_length{"jaw length", &ToolSettings::jaw_length, 0.3, 0.02, 1};
 constexpr ToolSetting jaw_opening{"jaw opening", &ToolSettings::jaw_opening, 0.35, 0, 2};
@@ -33,8 +33,8 @@ constexpr ToolSetting burn_depth{"burn depth", &ToolSettings::burn_depth, 0.08, 
 constexpr ToolSetting shrink{"shrink", &ToolSettings::shrink, usual_shrink, 0, max_shrink, false};
 constexpr ToolSetting probe_radius{"probe radius", &ToolSettings::probe_radius, 0.08, 0.01, 0.4};
 constexpr ToolSetting indentation{"indentation", &ToolSettings::indentation, 0.15, 0, 0.6};
-constexpr const ToolSetting* settings[] = {&grasp,       &depth,      &jaw_length, &jaw_opening,  &jaw_direction,
-                                           &burn_radius, &burn_depth, &shrink,     &probe_radius, &indentation};
+constexpr const ToolSetting* settings[] = {&grasp_radius, &depth,      &jaw_length, &jaw_opening,  &jaw_direction,
+                                           &burn_radius,  &burn_depth, &shrink,     &probe_radius, &indentation};
 
 std::string several(std::size_t count, const char* what) {
   return fmt::format("Remove {} {}{}", count, what, count == 1 ? "" : "s");
@@ -154,7 +154,7 @@ void ToolSection::draw_settings(Rows& rows) {
               "Surface nodes within this distance of the click follow the tool, or are fixed by a pin; mm, on the rest "
               "shape. 0: a single node. The remover, and Del, remove the tissue within it, one element deep; "
               "paint selects within it."},
-             grasp);
+             grasp_radius);
   }
 }
 
