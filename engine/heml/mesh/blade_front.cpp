@@ -75,8 +75,8 @@ void BladeFront::add_point(double along, const Tet& tet, const std::array<Vec3, 
   points_.push_back({along, tet, barycentric(on_blade(path_.front(), along), corners)});
 }
 
-OrientedSweep BladeFront::join(const Sweep& sweep, const std::vector<Vec3>& x, double tolerance,
-                               const Heading& heading) const {
+OrientedSweep BladeFront::join(const Sweep& sweep, const TetMesh& mesh, const std::vector<Vec3>& x,
+                               const Topology& topology, double tolerance, const Heading& heading) const {
   if (path_.empty() || sweep.blades.empty()) return oriented(sweep);
   const auto& last = path_.back();
   for (std::size_t end = 0; end < 2; ++end)
@@ -85,7 +85,8 @@ OrientedSweep BladeFront::join(const Sweep& sweep, const std::vector<Vec3>& x, d
   blades.insert(blades.end(), sweep.blades.begin() + 1, sweep.blades.end());
   if (!in_tissue() && beside_ >= 0) {
     const Vec3 moved = x[static_cast<std::size_t>(beside_)] - beside_place_;
-    if (!moved.isZero(0)) blades.insert(blades.begin(), {blades.front()[0] + moved, blades.front()[1] + moved});
+    if (!moved.isZero(0) && BladeFront(path_.front(), mesh, x, topology).in_tissue())
+      blades.insert(blades.begin(), {blades.front()[0] + moved, blades.front()[1] + moved});
   }
   const OrientedSweep whole = oriented({blades}, heading);
   if (!in_tissue() || blades.size() < 2) return whole;

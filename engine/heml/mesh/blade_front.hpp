@@ -8,8 +8,8 @@
 //       ●      ╱       ╱             ●      straight in each of them: no edge of an element passes it unnoticed
 //       ●─────┘       └──────────────●
 //
-// A blade that stopped outside the tissue starts from where it then was beside the nearest node, so that tissue which
-// has come upon the blade since is cut.
+// Tissue that has come upon a blade since it stopped outside is cut too: the blade starts from where it then was beside
+// the nearest node.
 #include <heml/mesh/edit.hpp>
 #include <heml/mesh/sweep.hpp>
 
@@ -29,8 +29,8 @@ class BladeFront {
   /// with the first blade that is ahead of the whole front, so that it does not fold back over the cut; empty if none
   /// is. The given sweep itself if it does not start within `tolerance`, m, of where the last one ended. heading: of
   /// the blade at the front.
-  OrientedSweep join(const Sweep& sweep, const std::vector<Vec3>& x, double tolerance,
-                     const Heading& heading = {}) const;
+  OrientedSweep join(const Sweep& sweep, const TetMesh& mesh, const std::vector<Vec3>& x, const Topology& topology,
+                     double tolerance, const Heading& heading = {}) const;
 
   /// The blade moves on by a sweep that crosses no edge: the front stays.
   void pass(const Sweep& sweep);

@@ -164,8 +164,9 @@ class Separator {
     }
   }
 
-  /// Whether a face lies in the cut, with its two pieces on different sides. Where a piece's nodes do not say, the plane
-  /// of the sweep decides, unless all nodes of the face are of earlier sweeps of the stroke, which have decided about it.
+  /// Whether a face lies in the cut, with its two pieces on different sides. Where a piece's nodes do not say, the
+  /// plane of the sweep decides, unless all nodes of the face are of earlier sweeps of the stroke, which have decided
+  /// about it.
   bool is_separated(const CutPiece& piece, std::size_t f) const {
     const std::array<int, 3> nodes = face(piece, f);
     if (!std::all_of(nodes.begin(), nodes.end(), [this](int n) { return is_in_cut(n); })) return false;
@@ -262,7 +263,7 @@ class Separator {
 
 Status make_cut(const Sweep& sweep, const TetMesh& mesh, const std::vector<Vec3>& x, const Topology& topology,
                 double snap, const Stroke& stroke, Cut& cut) {
-  const OrientedSweep joined = stroke.front.join(sweep, x, snap, stroke.heading);
+  const OrientedSweep joined = stroke.front.join(sweep, mesh, x, topology, snap, stroke.heading);
   const SweptSurface surface(joined);
   if (surface.empty()) return "the blade sweeps no area; give its two ends at two or more moments, in different places";
   auto split = split_elements(surface, mesh, x, topology, snap, stroke);

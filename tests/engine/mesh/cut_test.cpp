@@ -204,6 +204,17 @@ TEST_CASE("cut: tissue that swings upon a blade beside it is cut from its surfac
   CHECK(body.components() == 2);
 }
 
+TEST_CASE("cut: a blade in the air cuts nothing where tissue beside it swings away and other tissue stays") {
+  Body body = cube(5);
+  const Sweep beside = along(Vec3(-0.3, 0.5, 0), Vec3(-0.05, 0.5, 0));
+  Stroke stroke;
+  stroke.front = BladeFront(beside.blades.back(), body.mesh, body.x, body.topology);
+  for (Vec3& x : body.x) x.x() += 0.3 * (1 - x.z());
+  Cut made;
+  CHECK(body.cut(along(Vec3(-0.05, 0.5, 0), Vec3(-0.2, 0.5, 0)), made, stroke).find("meets no edge") !=
+        std::string::npos);
+}
+
 TEST_CASE("cut: a stroke in parts that stops inside leaves one body") {
   Body body = cube(6);
   Sweep stroke = random_stroke(1);
