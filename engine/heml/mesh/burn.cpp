@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <heml/math/closest.hpp>
 #include <heml/mesh/burn.hpp>
 #include <limits>
@@ -67,15 +68,13 @@ std::vector<Burn> burns_after(const Heat& heat, const Sweep& sweep, const TetMes
   return burns;
 }
 
-bool contract(std::vector<Burn>& burns, double by) {
-  bool changes = false;
-  for (Burn& burn : burns) {
-    const double end = 1 - burn.shrink;
-    if (!(burn.scale > end)) continue;
-    burn.scale = std::max(end, burn.scale - by);
-    changes = true;
-  }
-  return changes;
+bool are_contracting(const std::vector<Burn>& burns) {
+  return std::any_of(burns.begin(), burns.end(), [](const Burn& burn) { return burn.scale > 1 - burn.shrink; });
+}
+
+void contract(std::vector<Burn>& burns, double by) {
+  for (Burn& burn : burns)
+    if (const double end = 1 - burn.shrink; burn.scale > end) burn.scale = std::max(end, burn.scale - by);
 }
 
 }  // namespace heml

@@ -25,8 +25,10 @@ double burn_level(double distance, double radius);
 std::vector<Burn> burns_after(const Heat& heat, const Sweep& sweep, const TetMesh& mesh, const std::vector<Vec3>& x,
                               const Topology& topology);
 
-/// Lets rest shapes go on to their end, by at most so much of their first length; infinite: at once. Returns whether
-/// any has changed.
-bool contract(std::vector<Burn>& burns, double by);
+/// Whether any rest shape is not at its end yet.
+bool are_contracting(const std::vector<Burn>& burns);
+
+/// Lets rest shapes go on to their end, by at most so much of their first length; infinite: at once.
+void contract(std::vector<Burn>& burns, double by);
 
 }  // namespace heml

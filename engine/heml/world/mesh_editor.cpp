@@ -191,8 +191,9 @@ void MeshEditor<Real>::contract() {
   const auto stages_to = [&](long ticks) { return std::floor(static_cast<double>(ticks) * tick / contraction_stage); };
   const double stages = stages_to(s_.ticks + 1) - stages_to(s_.ticks);
   if (!(stages > 0)) return;
+  if (!are_contracting(s_.setup->mesh.burns)) return;
   std::vector<Burn> burns = s_.setup->mesh.burns;
-  if (!heml::contract(burns, stages * contraction_stage * contraction_rate)) return;
+  heml::contract(burns, stages * contraction_stage * contraction_rate);
   set_burns(std::move(burns));
   s_.evaluate_forces();
   find_stable_step(s_);

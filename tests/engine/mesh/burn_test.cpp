@@ -95,16 +95,20 @@ TEST_CASE("burn: a long electrode burns about all that it sweeps, a single place
 
 TEST_CASE("burn: rest shapes go on to their end by equal parts of their first length, and no further") {
   std::vector<Burn> burns{{1, 0.2, 1}, {0.25, 0.05, 1}, {}};
-  CHECK(contract(burns, 0.06));
+  CHECK(are_contracting(burns));
+  contract(burns, 0.06);
   CHECK(burns[0].scale == doctest::Approx(0.94));
   CHECK(burns[1].scale == 0.95);
   CHECK(burns[2] == Burn{});
-  CHECK(contract(burns, 0.06));
-  CHECK(contract(burns, 1));
+  CHECK(are_contracting(burns));
+  contract(burns, 0.06);
+  CHECK(are_contracting(burns));
+  contract(burns, 1);
   CHECK(burns[0].scale == 0.8);
-  CHECK_FALSE(contract(burns, 1));
+  CHECK_FALSE(are_contracting(burns));
   burns[0].shrink = 0.3;
-  CHECK(contract(burns, std::numeric_limits<double>::infinity()));
+  CHECK(are_contracting(burns));
+  contract(burns, std::numeric_limits<double>::infinity());
   CHECK(burns[0].scale == 0.7);
 }
 
