@@ -112,13 +112,17 @@ Adaptation adapt(const Scene& scene, WorldSetup setup, const RefineGoal& goal, c
   return result;
 }
 
-AdaptedScene adapted_scene(const Scene& scene, const Adaptation& adaptation, const std::filesystem::path& mesh_file) {
-  for (const Event& event : scene.events)
-    if (const auto* remove = std::get_if<RemoveElements>(&event.command); remove && !remove->which.tets.empty())
-      throw InputError(
-          scene.file, "events",
-          fmt::format("step {} removes tetrahedra by numbers, which a finer mesh has others for", event.tick),
-          "give it a region, a box or a sphere");
+namespace {
+
+/// What a command does to elements that it has by their numbers; null: it has none.
+const char* deed_by_numbers(const Command& command) {
+  if (const auto* remove = std::get_if<RemoveElements>(&command))
+    return remove->which.tets.empty() ? nullptr : "removes";
+  if (const auto* tag = std::get_if<TagRegion>(&command)) return tag->tag.which.tets.empty() ? nullptr : "tags";
+  return nullptr;
+}
+
+AdaptedScene on_last_mesh(const Scene& scene, const Adaptation& adaptation, const std::filesystem::path& mesh_file) {
   const WorldSetup corners = corners_of(adaptation.setup);  // middles of edges are made on reading
   AdaptedScene result{scene, corners.mesh};
   result.mesh.fields.clear();
@@ -143,10 +147,22 @@ AdaptedScene adapted_scene(const Scene& scene, const Adaptation& adaptation, con
   return result;
 }
 
+}  // namespace
+
+AdaptedScene adapted_scene(const Scene& scene, const Adaptation& adaptation, const std::filesystem::path& mesh_file) {
+  for (const Event& event : scene.events)
+    if (const char* deed = deed_by_numbers(event.command))
+      throw InputError(
+          scene.file, "events",
+          fmt::format("step {} {} tetrahedra by numbers, which a finer mesh has others for", event.tick, deed),
+          "give it a region, a box or a sphere");
+  return on_last_mesh(scene, adaptation, mesh_file);
+}
+
 AdaptedScene refined_scene(Scene scene, const std::filesystem::path& mesh_file) {
   const RefineGoal goal = *scene.mesh.refine;
   scene.mesh.refine.reset();
-  return adapted_scene(scene, adapt(scene, load_setup(scene), goal, {}), mesh_file);
+  return on_last_mesh(scene, adapt(scene, load_setup(scene), goal, {}), mesh_file);
 }
 
 std::string text_of(const AdaptedMesh& mesh) {

@@ -35,7 +35,7 @@ Adaptation adapt(const Scene& scene, WorldSetup setup, const RefineGoal& goal, c
                  const std::function<void(const AdaptedMesh&)>& told = {});
 
 /// The scene on the last mesh, with the fields and regions of the scene's own mesh. The caller writes `mesh` to
-/// mesh_file. Throws InputError where events remove elements by number.
+/// mesh_file. Throws InputError where events have elements by their numbers.
 struct AdaptedScene {
   Scene scene;
   TetMesh mesh;
@@ -43,7 +43,7 @@ struct AdaptedScene {
 AdaptedScene adapted_scene(const Scene& scene, const Adaptation& adaptation, const std::filesystem::path& mesh_file);
 
 /// A scene with `mesh.refine` on the mesh that it is refined to when it is opened, whose elements and nodes have the
-/// numbers that the open scene has. Solves the scene as opening it does; throws as the functions above.
+/// numbers that the open scene, and so its events, have. Solves the scene as opening it does; throws as the functions above.
 AdaptedScene refined_scene(Scene scene, const std::filesystem::path& mesh_file);
 
 /// "1,600 tetrahedra, estimated error 46.9 %".

@@ -253,6 +253,20 @@ TEST_CASE("what cannot be refined is refused with what would do") {
                      adapted_scene(removing, adapt(removing, load_setup(removing), RefineGoal{0.9, 500}, {}), "m.vtu");
                    }),
                    "step 1 removes tetrahedra by numbers"));
+  Scene tagging = sagging();
+  tagging.events.push_back({2, TagRegion{{{}, {{3}, {}, {}, {}}, "hard", {}}, {}}});
+  CHECK(says(refusal([&] {
+                     adapted_scene(tagging, adapt(tagging, load_setup(tagging), RefineGoal{0.9, 500}, {}), "m.vtu");
+                   }),
+                   "step 2 tags tetrahedra by numbers"));
+}
+
+TEST_CASE("events of a scene that refines its mesh keep their numbers, which are of that mesh") {
+  Scene scene = sagging(R"({"mesh": {"refine": {"error": 0.9, "tets": 500}}})");
+  scene.events.push_back({1, RemoveElements{{{3}, {}, {}, {}}}});
+  const AdaptedScene written = refined_scene(scene, "m.vtu");
+  REQUIRE(written.scene.events.size() == 1);
+  CHECK(std::get<RemoveElements>(written.scene.events[0].command).which.tets == std::vector<int>{3});
 }
 
 }  // namespace heml::adapt_test
