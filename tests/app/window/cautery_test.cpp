@@ -2,31 +2,21 @@
 
 #include <doctest/doctest.h>
 
+#include "sheet.hpp"
+
 namespace heml::cautery_test {
 
 using namespace heml::window;
 
 namespace {
 
-const render::Size size{640, 360};
-
 /// A square sheet in z = 0 that faces the camera at +z.
-struct Bench {
-  SurfaceMesh surface_mesh;
-  Frame frame;
-  panel::CameraController controller;
+struct Bench : test::Sheet {
   Cautery cautery{controller};
   panel::ToolSettings tool;
   std::vector<Command> commands;
 
   Bench() {
-    surface_mesh.nodes = {20, 21, 22, 23};
-    surface_mesh.rest = {{-0.1f, -0.1f, 0}, {0.1f, -0.1f, 0}, {0.1f, 0.1f, 0}, {-0.1f, 0.1f, 0}};
-    surface_mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
-    frame.positions = surface_mesh.rest;
-    View view;
-    view.azimuth = view.elevation = 0;
-    controller.fit(view, surface_mesh, size, {});
     tool.burn_radius = 0.01;
     tool.burn_depth = 0.02;
     tool.shrink = 0.3;

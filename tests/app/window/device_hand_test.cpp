@@ -3,20 +3,18 @@
 #include <app/window/device_hand.hpp>
 #include <app/window/mouse_tool.hpp>
 
+#include "sheet.hpp"
+
 namespace heml::device_hand_test {
 
 using namespace heml::window;
 
 namespace {
 
-const render::Size size{640, 360};
 constexpr float picture = 1.0f / 60;  // s
 
 /// A square of two triangles that faces the camera at +z; node 3 is constrained.
-struct Sheet {
-  SurfaceMesh surface_mesh;
-  Frame frame;
-  panel::CameraController controller;
+struct Sheet : test::Sheet {
   DeviceHand hand{first_device_hand, controller};
   std::vector<Command> commands;
   std::optional<render::SectionPlane> section;
@@ -24,16 +22,7 @@ struct Sheet {
   double radius = 0.02;
   bool moves_view = false;
 
-  Sheet() {
-    surface_mesh.nodes = {20, 21, 22, 23};
-    surface_mesh.rest = {{-0.1f, -0.1f, 0}, {0.1f, -0.1f, 0}, {0.1f, 0.1f, 0}, {-0.1f, 0.1f, 0}};
-    surface_mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
-    surface_mesh.constrained = {3};
-    frame.positions = surface_mesh.rest;
-    View view;
-    view.azimuth = view.elevation = 0;
-    controller.fit(view, surface_mesh, size, {});
-  }
+  Sheet() { surface_mesh.constrained = {3}; }
   DeviceHand::Scene scene() const { return {frame, surface_mesh, section, radius}; }
   void play(const HandState& state, float seconds = picture, int pictures = 1) {
     for (int k = 0; k < pictures; ++k) {
@@ -61,8 +50,8 @@ struct Sheet {
   }
   /// Shows the grasp in the frame, as the session does after some ticks.
   void show(const Grasp& grasp, const Vec3& target) {
-    frame.tools.emplace_back(GraspState{.hand = grasp.hand, .serial = 1, .node = grasp.node, .radius = grasp.radius,
-                                        .target = target});
+    frame.tools.emplace_back(
+        GraspState{.hand = grasp.hand, .serial = 1, .node = grasp.node, .radius = grasp.radius, .target = target});
   }
 };
 

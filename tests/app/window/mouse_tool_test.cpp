@@ -2,35 +2,23 @@
 
 #include <app/window/mouse_tool.hpp>
 
+#include "sheet.hpp"
+
 namespace heml::mouse_tool_test {
 
 using namespace heml::window;
 
 namespace {
 
-const render::Size size{640, 360};
-
 /// A square of two triangles that faces the camera at +z; node 3 is constrained.
-struct Sheet {
-  SurfaceMesh surface_mesh;
-  Frame frame;
-  panel::CameraController controller;
+struct Sheet : test::Sheet {
   MouseTool mouse_tool{controller};
   std::vector<Command> commands;
   panel::ToolSettings tool{panel::Tool::grasper, 0.01, 0.02};
 
   void move(const render::Vec2f& at) { mouse_tool.move(at, frame, surface_mesh, commands); }
 
-  Sheet() {
-    surface_mesh.nodes = {20, 21, 22, 23};
-    surface_mesh.rest = {{-0.1f, -0.1f, 0}, {0.1f, -0.1f, 0}, {0.1f, 0.1f, 0}, {-0.1f, 0.1f, 0}};
-    surface_mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
-    surface_mesh.constrained = {3};
-    frame.positions = surface_mesh.rest;
-    View view;
-    view.azimuth = view.elevation = 0;
-    controller.fit(view, surface_mesh, size, {});
-  }
+  Sheet() { surface_mesh.constrained = {3}; }
   render::Vec2f pixel(const Vec3f& point) const { return controller.camera().pixel(point, size); }
   /// Whether the tool cannot act there.
   bool press(MouseButton button, const render::Vec2f& at, bool shift = false) {
@@ -122,8 +110,8 @@ TEST_CASE("a grasp is left as a clamp, taken up again by a press on it, and remo
                        PinState{.node = 22, .nodes = {22}}};
 
   const render::Vec2f on_clamp = sheet.pixel(sheet.frame.positions[1]) + render::Vec2f(2, -2);
-  CHECK_FALSE(sheet.mouse_tool.remove_clamp(sheet.pixel({-0.05f, 0, 0}), sheet.frame, sheet.surface_mesh,
-                                            sheet.commands));
+  CHECK_FALSE(
+      sheet.mouse_tool.remove_clamp(sheet.pixel({-0.05f, 0, 0}), sheet.frame, sheet.surface_mesh, sheet.commands));
   CHECK(sheet.mouse_tool.remove_clamp(on_clamp, sheet.frame, sheet.surface_mesh, sheet.commands));
   CHECK(std::get<Release>(sheet.commands.at(0)).hand == 2);
 

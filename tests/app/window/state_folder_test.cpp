@@ -1,9 +1,8 @@
 #include <doctest/doctest.h>
-#include <unistd.h>
 
-#include <app/window/state_folder.hpp>
-#include <cstdlib>
 #include <fstream>
+
+#include "temporary_state.hpp"
 
 namespace heml::state_folder_test {
 
@@ -13,13 +12,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-struct StateFolder {
-  fs::path folder = fs::temp_directory_path() / ("heml-state-" + std::to_string(getpid()));
-  StateFolder() { setenv("XDG_STATE_HOME", folder.c_str(), 1); }
-  ~StateFolder() {
-    unsetenv("XDG_STATE_HOME");
-    fs::remove_all(folder);
-  }
+struct StateFolder : test::StateFolder {
   void write(const char* name, const std::string& text) const {
     fs::create_directories(state_folder());
     std::ofstream(state_folder() / name) << text;

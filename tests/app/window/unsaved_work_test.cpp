@@ -1,11 +1,10 @@
 #include <doctest/doctest.h>
-#include <unistd.h>
 
-#include <app/window/state_folder.hpp>
 #include <app/window/unsaved_work.hpp>
-#include <cstdlib>
 #include <fstream>
 #include <thread>
+
+#include "temporary_state.hpp"
 
 namespace heml::unsaved_work_test {
 
@@ -14,13 +13,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-struct StateFolder {
-  fs::path folder = fs::temp_directory_path() / ("heml-unsaved-" + std::to_string(getpid()));
-  StateFolder() { setenv("XDG_STATE_HOME", folder.c_str(), 1); }
-  ~StateFolder() {
-    unsetenv("XDG_STATE_HOME");
-    fs::remove_all(folder);
-  }
+struct StateFolder : test::StateFolder {
   std::size_t files() const {
     std::error_code failed;
     return static_cast<std::size_t>(std::distance(fs::directory_iterator(state_folder(), failed), {}));
