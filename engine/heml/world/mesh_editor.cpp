@@ -2,65 +2,24 @@
 
 #include <algorithm>
 #include <cmath>
-#include <heml/math/bytes.hpp>
 #include <heml/mesh/burn.hpp>
 #include <heml/mesh/quadratic_edit.hpp>
 #include <heml/mesh/quality.hpp>
+#include <heml/world/edit_transfer.hpp>
+#include <heml/world/edit_undo.hpp>
 #include <heml/world/mesh_editor.hpp>
 #include <heml/world/stable_step.hpp>
 #include <heml/world/world_queries.hpp>
 #include <limits>
 #include <numeric>
-#include <set>
 #include <utility>
 
 namespace heml {
 namespace {
 
-constexpr std::size_t max_undo = 20;  // edits; of earlier states only the start is kept
+constexpr std::size_t max_undo = 20;        // edits; of earlier states only the start is kept
 constexpr double contraction_rate = 2;      // 1/s, of first lengths: a fifth within 0.1 s, slower than waves pass
 constexpr double contraction_stage = 0.01;  // s
-
-/// Appends nodes that the edit inserts between nodes of the list, or copies from one.
-void update_after_edit(const MeshEdit& edit, int nodes, std::vector<int>& list) {
-  std::vector<int> sorted = list;
-  std::sort(sorted.begin(), sorted.end());
-  const auto has = [&](int n) { return std::binary_search(sorted.begin(), sorted.end(), n); };
-  for (std::size_t k = 0; k < edit.nodes.size(); ++k)
-    if (edit.nodes[k].lies_among(has)) list.push_back(nodes + static_cast<int>(k));
-}
-
-/// Appends the middles of an edit's edges whose ends are in the list: a load acts on faces whatever is said of these.
-void add_middles(const MeshEdit& edit, const WorldSetup& setup, std::vector<int>& list) {
-  if (setup.midedges.empty()) return;
-  std::set<int> has(list.begin(), list.end());
-  for (const int t : edit.removed)
-    for (std::size_t e = 0; e < 6; ++e) {
-      const Tet& tet = setup.mesh.tets[static_cast<std::size_t>(t)];
-      const int middle = setup.midedges[static_cast<std::size_t>(t)][e];
-      if (has.contains(tet[tet_edges[e][0]]) && has.contains(tet[tet_edges[e][1]]) && has.insert(middle).second)
-        list.push_back(middle);
-    }
-}
-
-/// Renumbers an edit by maps of nodes and elements; new ones keep their order, after all old ones.
-MeshEdit in_numbers(MeshEdit edit, const std::vector<int>& node, const std::vector<int>& tet) {
-  for (int& t : edit.removed) t = tet[static_cast<std::size_t>(t)];
-  for (int& t : edit.parents) t = tet[static_cast<std::size_t>(t)];
-  const auto renumber = [&](int& n) {
-    if (n < static_cast<int>(node.size())) n = node[static_cast<std::size_t>(n)];
-  };
-  for (InsertedNode& inserted : edit.nodes) {
-    renumber(inserted.from);
-    renumber(inserted.to);
-    for (NodeShare& share : inserted.sum) renumber(share.node);
-  }
-  for (Tet& added : edit.added)
-    for (int& n : added) renumber(n);
-  for (auto& of_element : edit.midedges)
-    for (int& n : of_element) renumber(n);
-  return edit;
-}
 
 Status places_problem(const char* what, const Sweep& sweep) {
   for (const auto& [tip, end] : sweep.blades)
@@ -294,54 +253,16 @@ void MeshEditor<Real>::save() {
   history_.in_stroke = false;
 }
 
-/// Positions and velocities carry over to the nodes that a cut inserts; nodes of no element come to rest.
 template <class Real>
 void MeshEditor<Real>::carry_out(const MeshEdit& edit) {
-  const auto file_nodes = static_cast<int>(s_.setup->mesh.nodes.size()),
-             file_tets = static_cast<int>(s_.setup->mesh.tets.size());
-  const MeshEdit inner = in_numbers(edit, s_.model->order.new_node, s_.model->order.new_tet);
-  s_.topology = std::make_shared<const Topology>(apply_edit(*s_.topology, edit, file_tets));
-  const std::size_t before = s_.model->mesh.tets.size();
-  if (!edit.added.empty()) {
-    WorldSetup& setup = s_.setup.write();
-    append(edit, setup.mesh);
-    setup.midedges.insert(setup.midedges.end(), edit.midedges.begin(), edit.midedges.end());
-    for (Boundary& entry : setup.boundary) update_after_edit(edit, file_nodes, entry.nodes);
-    for (Load& load : setup.loads) {
-      add_middles(edit, setup, load.nodes);
-      update_after_edit(edit, file_nodes, load.nodes);
-    }
-    for (PinnedPatch& pin : s_.pins) update_after_edit(inner, static_cast<int>(s_.masses->lumped.size()), pin.nodes);
-    append(setup, inner, s_.model.write());
-    for (auto* values : {&s_.state.x, &s_.state.v, &s_.last_valid.x, &s_.last_valid.v}) append(inner, *values, 3);
-    s_.state.f.resize(s_.state.x.size());
-    if (s_.recovery) s_.recovery->append(inner);
-    for (PinnedPatch& pin : s_.pins)
-      for (std::size_t k = pin.positions.size(); k < pin.nodes.size(); ++k)
-        pin.positions.emplace_back(
-            Eigen::Map<const Vector3<Real>>(&s_.state.x[3 * static_cast<std::size_t>(pin.nodes[k])])
-                .template cast<double>());
-  }
-  std::vector<bool> stays(s_.model->mesh.tets.size(), true);
-  for (const int t : inner.removed) stays[static_cast<std::size_t>(t)] = false;
-  std::vector<int> elements, origins;
-  for (std::size_t t = 0; t < stays.size(); ++t) {
-    if (!stays[t]) continue;
-    elements.push_back(static_cast<int>(t));
-    origins.push_back(t < before ? static_cast<int>(t) : inner.parents[t - before]);
-  }
-  keep_elements(*s_.setup, elements, s_.model.write());
-  const bool closes_up = edit.added.empty() && s_.model->midedges.empty();
-  if (closes_up)
-    s_.body.keep_elements(elements);
-  else
-    s_.body.transfer_state(s_.model->mesh, s_.model->material_of, origins, s_.model->midedges, s_.state.x.data());
+  const EditTransfer kept = transfer_edit(edit, s_);
   rebuild_after_edit();
-  if (s_.implicit && !(closes_up && s_.implicit->keep_elements(s_.model->mesh, elements, s_.masses->lumped)))
+  if (s_.implicit &&
+      !(kept.only_removes && s_.implicit->keep_elements(s_.model->mesh, kept.elements, s_.masses->lumped)))
     s_.implicit.reset();
 }
 
-/// Updates what depends on the set of elements.
+/// Updates what depends on the set of elements. Nodes of no element come to rest.
 template <class Real>
 void MeshEditor<Real>::rebuild_after_edit() {
   s_.update_masses();
@@ -370,83 +291,20 @@ void MeshEditor<Real>::undo_to(const SimulationSnapshot<Real>& before) {
     s_.is_evaluated = true;
     tearing_.reset();
   } else {
-    restore_before_edit(before);
+    restore_before_edit(before, s_);
+    rebuild_after_edit();
   }
   history_.stroke = {};
   history_.in_stroke = false;
-}
-
-/// Mesh, motion, internal state, pins and sutures of before the edit; time, loads and all else as they are now.
-template <class Real>
-void MeshEditor<Real>::restore_before_edit(const SimulationSnapshot<Real>& before) {
-  const SimulationState<Real>& values = before.values;
-  WorldSetup& setup = s_.setup.write();
-  const TetMesh edited = std::exchange(setup.mesh, before.setup->mesh);
-  setup.midedges = before.setup->midedges;
-  s_.model = before.model;
-  if (values.condition_changes == s_.condition_changes) {
-    setup.boundary = before.setup->boundary;
-    setup.loads = before.setup->loads;
-  } else {
-    keep_conditions();
-  }
-  s_.topology = std::make_shared<const Topology>(Topology{s_.topology->version + 1, before.topology->elements});
-  s_.state.x = s_.last_valid.x = values.state.x;
-  s_.state.v = s_.last_valid.v = values.state.v;
-  s_.state.f = values.state.f;
-  if (s_.recovery) s_.recovery->last_good = s_.state;
-  restore_grasps(before);
-  s_.pins = values.pins;
-  s_.contacts.sutures = values.contacts.sutures;
-  s_.body.restore(before.body, s_.state.x.data());
-  if (values.region_changes != s_.region_changes) keep_regions(edited);
-  s_.implicit.reset();
-  rebuild_after_edit();
-}
-
-/// Boundary and loads were set since: they stay, without nodes that the mesh has no more.
-template <class Real>
-void MeshEditor<Real>::keep_conditions() {
-  WorldSetup& setup = s_.setup.write();
-  const auto nodes = static_cast<int>(setup.mesh.nodes.size());
-  const auto trim = [&](auto& entries) {
-    for (auto& entry : entries) std::erase_if(entry.nodes, [&](int n) { return n >= nodes; });
-  };
-  trim(setup.boundary);
-  trim(setup.loads);
-  set_boundary(setup, s_.model.write());
-  set_loads(setup, s_.model.write());
-}
-
-/// Regions were chosen since: the elements that are left keep them. mesh: as it was until now.
-template <class Real>
-void MeshEditor<Real>::keep_regions(const TetMesh& mesh) {
-  WorldSetup& setup = s_.setup.write();
-  std::copy_n(mesh.regions.begin(), setup.mesh.regions.size(), setup.mesh.regions.begin());
-  setup.mesh.region_names = mesh.region_names;
-  const auto count = static_cast<int>(setup.mesh.tets.size());
-  for (TaggedRegion& region : setup.tagged) std::erase_if(region.tets, [&](int t) { return t >= count; });
-  s_.update_regions();
-}
-
-/// Restores the grasps that have been held ever since, by tools that are where they are now.
-template <class Real>
-void MeshEditor<Real>::restore_grasps(const SimulationSnapshot<Real>& before) {
-  const std::vector<GraspSpring<Real>> now = std::exchange(s_.grasps, {});
-  for (const auto& grasp : now)
-    for (const auto& held : before.values.grasps) {
-      if (held.id().serial != grasp.id().serial) continue;
-      s_.grasps.push_back(held);
-      s_.grasps.back().hand_over(grasp.id().hand);
-      s_.grasps.back().move(grasp.target());
-    }
 }
 
 template <class Real>
 void MeshEditor<Real>::undo_all() {
   s_.edits.clear();
   const auto whole = std::exchange(history_, {}).whole;
-  if (whole) restore_before_edit(*whole);
+  if (!whole) return;
+  restore_before_edit(*whole, s_);
+  rebuild_after_edit();
 }
 
 template <class Real>
