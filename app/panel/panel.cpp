@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <app/panel/axes.hpp>
+#include <app/panel/film_sign.hpp>
+#include <app/panel/header.hpp>
 #include <app/panel/help.hpp>
-#include <app/panel/icons.hpp>
 #include <app/panel/keys.hpp>
 #include <app/panel/legend.hpp>
 #include <app/panel/look_section.hpp>
@@ -12,7 +13,6 @@
 #include <app/panel/readings.hpp>
 #include <app/panel/undo_section.hpp>
 #include <app/render/bounds.hpp>
-#include <cctype>
 
 namespace heml::panel {
 namespace {
@@ -20,31 +20,10 @@ namespace {
 constexpr float controls_width = 18.5f, readings_width = 16.0f, margin = 0.7f, two_columns_from = 66;  // em
 
 constexpr float variant_labels_height = 3.4f;  // em
-constexpr float late_delay = 1;                // s of being late before the banner
-constexpr float recovery_banner_time = 5;      // s that the banner stays after a recovery
 
 constexpr ImGuiWindowFlags column_flags =
     ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
     ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoBringToFrontOnFocus;
-
-std::string capitalised(std::string text) {
-  if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
-  return text;
-}
-
-/// "● Filming, 36 frames · V stops" in the upper right corner. Returns its lower edge, pixels.
-float draw_film_sign(const Area& free, long frames) {
-  const std::string text = fmt::format("Filming, {} frames  ·  {} stops", frames, key_name(Action::record_video));
-  const ImVec2 size = ImGui::CalcTextSize(text.c_str());
-  const ImVec2 to(free.to.x - em(margin), em(margin) + size.y + em(0.7f));
-  const ImVec2 from(to.x - size.x - em(2.6f), em(margin));
-  ImDrawList& list = *ImGui::GetForegroundDrawList();
-  list.AddRectFilled(from, to, colours::background, em(0.5f));
-  list.AddRect(from, to, (colours::danger & 0x00ffffff) | 0x90000000, em(0.5f));
-  list.AddCircleFilled({from.x + em(0.95f), (from.y + to.y) / 2}, em(0.36f), colours::danger, 20);
-  list.AddText({from.x + em(1.7f), from.y + em(0.35f)}, colours::text, text.c_str());
-  return to.y;
-}
 
 bool two_columns(ImVec2 picture) { return picture.x >= em(two_columns_from); }
 
@@ -121,13 +100,7 @@ void Panel::update(const Frame& frame, float seconds) {
   report_refusal(frame);
   update_settings(frame);
   update_regions(frame);
-  since_recovery_ += seconds;
-  if (!frame.recovery) since_recovery_ = recovery_banner_time;
-  if (frame.recovery && (!frame.recovery->ended || frame.recovery->tick != recovery_seen_)) {
-    recovery_seen_ = frame.recovery->tick;
-    since_recovery_ = 0;
-  }
-  late_for_ = frame.paused || frame.pace.keeping_up ? 0 : late_for_ + seconds;
+  state_banner_.update(frame, seconds);
   if (view_.fixed_range())
     colour_range_.fix(*view_.fixed_range());
   else
@@ -162,8 +135,6 @@ void Panel::report_refusal(const Frame& frame) {
   refusals_ = frame.refusals;
   notify(capitalised(frame.refusal) + ".");
 }
-
-bool Panel::shows_recovery() const { return since_recovery_ < recovery_banner_time; }
 
 void Panel::perform(Action action) { pressed_.push_back(action); }
 
@@ -213,11 +184,12 @@ PanelActions Panel::draw(const Frame& frame) {
   draw_legend(frame.field, range_, free, !(frame.min_J > 0));
   if (!hidden_) {
     draw_controls(frame, !two_columns(picture), out);
-    if (two_columns(picture)) draw_readings(frame);
+    if (two_columns(picture)) draw_readings_column(frame);
   }
   const float labels = frame.comparisons.empty() ? 0 : em(variant_labels_height);  // of comparison runs, at the top
   const Area between{{free.from.x + palette, free.from.y + labels}, {free.to.x - palette, free.to.y}};
-  take_press(notices_.draw(rows_, between, banner_for(frame, free), ImGui::GetIO().DeltaTime), frame, out);
+  const auto banner = state_banner_.choose(frame, motion_.integrator(), motion_.budget(), beside_body(free, picture));
+  take_press(notices_.draw(rows_, between, banner, ImGui::GetIO().DeltaTime), frame, out);
   out.open_folder = notices_.take_folder();
   if (help_open_) {
     Area place;
@@ -259,8 +231,12 @@ float Panel::draw_edges(const Frame& frame, Area& free, PanelActions& out) {
 }
 
 Situation Panel::situation(const Frame& frame) const {
-  Situation now{tool_.tool().tool, interaction_,          suture_begun_,
-                frame.paused,      !frame.halted.empty(), timeline_ && timeline_->shown.has_value(),
+  Situation now{tool_.tool().tool,
+                interaction_,
+                suture_begun_,
+                frame.paused,
+                !frame.halted.empty(),
+                timeline_ && timeline_->shown.has_value(),
                 !regions_.hidden().empty()};
   for (const DeviceInfo& device : tool_.devices())
     if (device.is_new) {
@@ -275,48 +251,19 @@ void Panel::record_window_rect() {
   rects_.push_back({from, {from.x + size.x, from.y + size.y}});
 }
 
-std::optional<Banner> Panel::banner_for(const Frame& frame, const Area& free) {
-  if (!frame.halted.empty())
-    return Banner{
-        "The simulation stopped",
-        frame.halted +
-            "\nReset returns to the initial state. Undo (Ctrl+Z) returns to the state before the last action. "
-            "Smaller tool motions or more damping may avoid this.",
-        "Reset (R)", colours::danger};
-  if (frame.recovery && shows_recovery())
-    return Banner{frame.recovery->ended ? "Tissue recovered" : "Recovering the tissue",
-                  capitalised(frame.recovery->message) + "." +
-                      (frame.recovery_file.empty() ? "" : "\nReplay: heml run " + frame.recovery_file),
-                  "", colours::warning};
-  if (late_for_ > late_delay && !slow_dismissed_) return slow_banner(frame, free);
-  return std::nullopt;
+/// The lower corner of the right column, where a banner does not cover the body; none where there is no such column.
+std::optional<Area> Panel::beside_body(const Area& free, ImVec2 picture) const {
+  if (!two_columns(picture) || hidden_) return std::nullopt;
+  return Area{{free.to.x + em(margin), 0}, {picture.x - em(margin), picture.y - em(margin)}};
 }
 
-/// Beside the body: in the corner of the right column, or at the top where there is none.
-Banner Panel::slow_banner(const Frame& frame, const Area& free) {
-  cure_ = cure_for(frame, motion_.integrator(), motion_.budget());
-  Banner banner{fmt::format("{:.1f}× slower than real time", frame.pace.slowdown),
-                cure_ ? cure_->cost
-                      : "A coarser or better mesh would help: slivers and small elements cost the most "
-                        "(heml explain names the worst).",
-                cure_ ? cure_->button : "", colours::warning, "Dismiss"};
-  const ImVec2 picture = ImGui::GetIO().DisplaySize;
-  if (two_columns(picture) && !hidden_)
-    banner.beside = Area{{free.to.x + em(margin), 0}, {picture.x - em(margin), picture.y - em(margin)}};
-  return banner;
-}
-
-/// The banner's button resets a halted body and cures a slow one.
 void Panel::take_press(BannerPress press, const Frame& frame, PanelActions& out) {
-  if (press == BannerPress::close) slow_dismissed_ = true;
-  if (press != BannerPress::button) return;
-  if (!frame.halted.empty()) return pressed_.push_back(Action::reset);
-  if (!cure_) return;
-  for (const Command& command : cure_->commands()) {
+  const StateBanner::Request request = state_banner_.take(press, frame);
+  if (request.action) pressed_.push_back(*request.action);
+  for (const Command& command : request.commands) {
     sync(command);
     out.commands.push_back(command);
   }
-  late_for_ = 0;
 }
 
 void Panel::draw_controls(const Frame& frame, bool with_readings, PanelActions& out) {
@@ -326,7 +273,7 @@ void Panel::draw_controls(const Frame& frame, bool with_readings, PanelActions& 
   if (ImGui::Begin("controls", nullptr,
                    column_flags | ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse)) {
     record_window_rect();
-    draw_header(frame);
+    draw_header(rows_, title_, description_, frame, pressed_);
     const float header_height = ImGui::GetCursorPosY();
     ImGui::BeginChild("sections", {0, 0}, false, ImGuiWindowFlags_NoNav);
     if (mesh_.is_shown() || !findings_.empty()) draw_findings(out);
@@ -338,13 +285,7 @@ void Panel::draw_controls(const Frame& frame, bool with_readings, PanelActions& 
     if (rows_.section("Material")) material_.draw(rows_, stretch_monitor_.share(), out);
     if (rows_.section("Motion")) motion_.draw(rows_, out);
     if (rows_.section("Tool")) tool_.draw(rows_, frame, out);
-    if (with_readings) {
-      if (rows_.section("Tool force")) draw_force(rows_, frame, history_);
-      if (rows_.section("Energy")) draw_energies(rows_, frame, history_);
-      if (rows_.section("Volume")) draw_volume(rows_, frame, history_);
-      if (rows_.section("Engine")) draw_engine(rows_, frame, history_);
-      draw_accuracy(frame);
-    }
+    if (with_readings) errors_open_ = draw_readings(rows_, frame, history_);
     if (regions_.has_choice() && rows_.section("Regions", false)) regions_.draw(rows_);
     if (rows_.section("View")) view_.draw(rows_, pressed_, out);
     if (rows_.section("Compare", false)) comparisons_.draw(rows_, frame, out);
@@ -367,57 +308,7 @@ void Panel::draw_findings(PanelActions& out) {
   if (rows_.button({"Dismiss", "Hides this text."})) findings_.clear();
 }
 
-void Panel::draw_header(const Frame& frame) {
-  const std::string time = fmt::format("{:.2f} s", frame.time);
-  const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(time.c_str()).x - em(0.8f);
-  {
-    const UseFont large(Font::title);
-    ImGui::TextUnformatted(elided(title_, room).c_str());
-  }
-  rows_.explain({"Title", description_.empty() ? title_ : title_ + "\n\n" + description_});
-  ImGui::SameLine();
-  text_at_right(time, colours::text);
-  rows_.explain(
-      {"Time", fmt::format("Simulated time since the start or the last reset; tick {} of the engine.", frame.tick)});
-  const float size = em(1.95f);
-  const auto button = [&](const char* name, const char* hint, bool strong, Action action, const Rows::Icon& icon) {
-    if (rows_.icon_button({name, hint}, size, strong, icon)) pressed_.push_back(action);
-    ImGui::SameLine(0, em(0.3f));
-  };
-  if (frame.paused)
-    button("Play", "Runs the simulation (Space).", true, Action::toggle_play, draw_play);
-  else
-    button("Pause", "Pauses the simulation (Space).", true, Action::toggle_play, draw_pause);
-  button("Step", "One tick of the engine, then pause (. key).", false, Action::step, draw_step);
-  button("Undo", undo_hint(frame, -1).c_str(), false, Action::undo, draw_undo);
-  button("Redo", undo_hint(frame, 1).c_str(), false, Action::redo, draw_redo);
-  button("Reset",
-         "Back to the initial state at time 0; all that was set stays (R). Shift+R: all of the scene as it was opened, "
-         "one step for undo.",
-         false, Action::reset, draw_reset);
-  button("Open", "Opens installed scenes, recent files, and files in folders (Ctrl+O).", false, Action::open,
-         draw_folder);
-  button("Help", "Mouse and keys (H).", false, Action::help, draw_question);
-  ImGui::NewLine();
-  draw_pace(frame);
-  ImGui::Separator();
-}
-
-void Panel::draw_pace(const Frame& frame) {
-  const bool halted = !frame.halted.empty(), late = !frame.pace.keeping_up && !frame.paused;
-  const ImU32 colour = halted         ? colours::danger
-                       : late         ? colours::warning
-                       : frame.paused ? colours::muted
-                                      : colours::accent;
-  const std::string text = halted         ? "stopped"
-                           : frame.paused ? "paused"
-                           : late         ? fmt::format("{:.1f}× slower than real time", frame.pace.slowdown)
-                                          : "real time";
-  const UseFont small(Font::small);
-  rows_.value({"Speed", "Whether simulated time keeps up with wall-clock time."}, text, colour, colour);
-}
-
-void Panel::draw_readings(const Frame& frame) {
+void Panel::draw_readings_column(const Frame& frame) {
   const ImVec2 picture = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({picture.x - em(margin), em(margin)}, ImGuiCond_Always, {1, 0});
   const float banner = notices_.height_beside() > 0 ? notices_.height_beside() + em(margin) : 0;
@@ -425,18 +316,9 @@ void Panel::draw_readings(const Frame& frame) {
                                       {em(readings_width), picture.y - em(2 * margin) - banner});
   if (ImGui::Begin("readings", nullptr, column_flags | ImGuiWindowFlags_AlwaysAutoResize)) {
     record_window_rect();
-    if (rows_.section("Tool force")) draw_force(rows_, frame, history_);
-    if (rows_.section("Energy")) draw_energies(rows_, frame, history_);
-    if (rows_.section("Volume")) draw_volume(rows_, frame, history_);
-    if (rows_.section("Engine")) draw_engine(rows_, frame, history_);
-    draw_accuracy(frame);
+    errors_open_ = draw_readings(rows_, frame, history_);
   }
   ImGui::End();
-}
-
-void Panel::draw_accuracy(const Frame& frame) {
-  errors_open_ = rows_.section("Accuracy", false);
-  if (errors_open_) draw_errors(rows_, frame, history_);
 }
 
 }  // namespace heml::panel

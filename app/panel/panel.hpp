@@ -27,7 +27,7 @@
 #include <app/panel/question.hpp>
 #include <app/panel/region_section.hpp>
 #include <app/panel/selection_section.hpp>
-#include <app/panel/slow_body.hpp>
+#include <app/panel/state_banner.hpp>
 #include <app/panel/stretch_monitor.hpp>
 #include <app/panel/timeline.hpp>
 #include <app/panel/tool_section.hpp>
@@ -51,9 +51,9 @@ class Panel {
   /// keys.
   PanelActions draw(const Frame& frame);
 
-  void perform(Action action);        ///< queued for the next draw() or perform_now()
+  void perform(Action action);                   ///< queued for the next draw() or perform_now()
   PanelActions perform_now(const Frame& frame);  ///< performs what is queued, and returns what draw() would
-  void sync(const Command& command);  ///< updates the shown settings after a command from elsewhere
+  void sync(const Command& command);             ///< updates the shown settings after a command from elsewhere
   /// For some seconds. folder: that a button offers to open; empty: none.
   void notify(std::string text, std::filesystem::path folder = {}) {
     notices_.notify(std::move(text), std::move(folder));
@@ -96,8 +96,8 @@ class Panel {
   Insets insets(ImVec2 picture) const;  ///< that draw() covers of an image of a size, pixels
   /// Whether a point (pixels) is on the panel as last drawn.
   bool covers(float x, float y) const;
-  bool shows_recovery() const;                             ///< whether one is running or ended a few seconds ago
-  bool animating() const { return notices_.animating(); }  ///< whether it changes without input
+  bool shows_recovery() const { return state_banner_.shows_recovery(); }  ///< StateBanner::shows_recovery()
+  bool animating() const { return notices_.animating(); }                 ///< whether it changes without input
   /// Writes the shown materials, motion settings and view options into a scene.
   void write_into(Scene& scene) const;
   const std::string& hovered() const { return rows_.hovered(); }  ///< label of the row under the mouse; empty: none
@@ -108,17 +108,13 @@ class Panel {
   float draw_edges(const Frame& frame, Area& free, PanelActions& out);
   Situation situation(const Frame& frame) const;
   void draw_controls(const Frame& frame, bool with_readings, PanelActions& out);
-  void draw_header(const Frame& frame);
-  void draw_pace(const Frame& frame);
-  void draw_readings(const Frame& frame);
-  void draw_accuracy(const Frame& frame);
+  void draw_readings_column(const Frame& frame);
   void report_refusal(const Frame& frame);
   void update_surface(const Frame& frame);
   void update_settings(const Frame& frame);
   void update_regions(const Frame& frame);
   void update_stretch_limits();
-  std::optional<Banner> banner_for(const Frame& frame, const Area& free);
-  Banner slow_banner(const Frame& frame, const Area& free);
+  std::optional<Area> beside_body(const Area& free, ImVec2 picture) const;
   void take_press(BannerPress press, const Frame& frame, PanelActions& out);
   void draw_findings(PanelActions& out);
   void record_window_rect();
@@ -127,15 +123,15 @@ class Panel {
   Interaction interaction_ = Interaction::none;
   bool suture_begun_ = false;
   std::optional<long> filmed_frames_;
-  long undo_steps_ = 0;  ///< UndoList::steps whose settings are shown
+  long undo_steps_ = 0;     ///< UndoList::steps whose settings are shown
   long seen_regions_ = -1;  ///< Regions::version that is shown
   ToolSection tool_;
   long refusals_ = 0;  ///< Frame::refusals that were shown
   MeshSection mesh_;
   MaterialSection material_;
   StretchMonitor stretch_monitor_;
-  long surface_version_;      ///< SurfaceMesh::version that stretch_monitor_ is of
-  int limited_changes_ = -1;  ///< MaterialSection::changes() that stretch_monitor_ is of
+  long surface_version_;             ///< SurfaceMesh::version that stretch_monitor_ is of
+  int limited_changes_ = -1;         ///< MaterialSection::changes() that stretch_monitor_ is of
   std::vector<int> surface_hidden_;  ///< SurfaceMesh::hidden that it is of
   RegionSection regions_;
   SelectionSection selecting_;
@@ -157,11 +153,7 @@ class Panel {
   std::vector<Area> rects_;       ///< of ImGui windows in the last draw()
   float controls_height_ = 1e9f;  ///< pixels, of the header and all open sections, as last drawn
   std::vector<std::string> findings_;
-  std::optional<Cure> cure_;     ///< that the banner of a slow body offers
-  bool slow_dismissed_ = false;  ///< that banner was
-  float late_for_ = 0;           ///< s of wall time since the engine last kept up
-  long recovery_seen_ = -1;      ///< Recovery::tick of the last recovery
-  float since_recovery_ = 1e9f;  ///< s of wall time since a recovery was running
+  StateBanner state_banner_;
   bool hidden_ = false, help_open_ = false;
   bool errors_open_ = false;  ///< the section "Accuracy" is open
 };

@@ -9,7 +9,6 @@
 
 namespace heml::panel {
 namespace {
-}
 
 void draw_force(Rows& rows, const Frame& frame, const History& history) {
   const std::optional<double> force = force_of_hands(frame.tools);
@@ -171,6 +170,18 @@ void draw_engine(Rows& rows, const Frame& frame, const History& history) {
              pace.slowdown < 1e8 ? fmt::format("{:.2f} ×", pace.slowdown) : "–", colours::potential);
   const Curve late[] = {{"Slowdown", colours::potential, [](const Reading& r) { return std::min(r.slowdown, 100.0); }}};
   plot("lateness plot", history, late, {"×", 1, 0.5, 2.2f});
+}
+
+}  // namespace
+
+bool draw_readings(Rows& rows, const Frame& frame, const History& history) {
+  if (rows.section("Tool force")) draw_force(rows, frame, history);
+  if (rows.section("Energy")) draw_energies(rows, frame, history);
+  if (rows.section("Volume")) draw_volume(rows, frame, history);
+  if (rows.section("Engine")) draw_engine(rows, frame, history);
+  const bool shows_errors = rows.section("Accuracy", false);
+  if (shows_errors) draw_errors(rows, frame, history);
+  return shows_errors;
 }
 
 }  // namespace heml::panel

@@ -5,10 +5,7 @@
 
 namespace heml::panel {
 
-void draw_force(Rows& rows, const Frame& frame, const History& history);
-void draw_energies(Rows& rows, const Frame& frame, const History& history);
-void draw_volume(Rows& rows, const Frame& frame, const History& history);
-void draw_errors(Rows& rows, const Frame& frame, const History& history);
-void draw_engine(Rows& rows, const Frame& frame, const History& history);
+/// Draws the sections. Returns whether that of errors is open.
+bool draw_readings(Rows& rows, const Frame& frame, const History& history);
 
 }  // namespace heml::panel

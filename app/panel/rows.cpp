@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <app/panel/rows.hpp>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <utility>
@@ -58,6 +59,11 @@ void draw_chevron(ImVec2 at, bool down, ImU32 colour) {
 }
 
 }  // namespace
+
+std::string capitalised(std::string text) {
+  if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text;
+}
 
 std::string elided(const std::string& text, float width) {
   if (ImGui::CalcTextSize(text.c_str()).x <= width) return text;

@@ -86,6 +86,8 @@ class Rows {
 /// Text aligned with the right edge of the window, on the current line.
 void text_at_right(const std::string& text, ImU32 colour);
 
+std::string capitalised(std::string text);  ///< the first letter, where it is of ASCII
+
 /// The text, cut to `width` pixels with an ellipsis.
 std::string elided(const std::string& text, float width);
 
