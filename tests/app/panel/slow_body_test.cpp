@@ -59,6 +59,14 @@ TEST_CASE("an implicit body that is slow is offered fewer iterations or a lower 
   CHECK_FALSE(panel::cure_for(slow_frame(4000, 10, 0.3), Integrator::backward_euler, 1));
 }
 
+TEST_CASE("an implicit body that keeps its steps is told what fewer iterations cost") {
+  const auto fewer = panel::cure_for(slow_frame(4000, 60, 0.03), Integrator::backward_euler, 0);
+  REQUIRE(fewer);
+  CHECK(fewer->method.rate == 60);
+  CHECK(fewer->button == "Use 1 iteration a step: real time");
+  CHECK(fewer->cost.find("wobble") == std::string::npos);
+}
+
 TEST_CASE("the banner of a slow body stands off the body and its button sends the cure") {
   Driver driver(explicit_scene());
   make_slow(driver);
